@@ -1,0 +1,18 @@
+# C++17, Release unless told otherwise, warnings as errors only where -DWARNINGS_AS_ERRORS=ON.
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+# No -march=native and no fast-math: results are the same on every x86-64 machine.
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+
+option(WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
+add_compile_options(-Wall -Wextra)
+if(WARNINGS_AS_ERRORS)
+  add_compile_options(-Werror)
+endif()

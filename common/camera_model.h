@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plm_vins {
+
+// Calibration of one camera, as read from the configuration.
+struct CameraParameters {
+  enum class Model { kPinholeRadtan, kPinholeEquidistant, kMei };
+  Model model = Model::kPinholeRadtan;
+  int width = 0;   // [px]
+  int height = 0;  // [px]
+  double fx = 0, fy = 0, cx = 0, cy = 0;  // [px]; for MEI gamma1, gamma2, u0, v0
+  // Radtan and MEI: k1, k2, p1, p2. Equidistant (Kannala-Brandt): k1, k2, k3, k4 of
+  // theta_d = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8).
+  Eigen::Vector4d distortion = Eigen::Vector4d::Zero();
+  double xi = 0;  // MEI only: distance of the unit sphere's centre from the projection centre
+};
+
+// A calibrated camera: rays of the camera frame C (x right, y down, z forward) to raw pixels and back.
+// Immutable after construction; safe to share between threads.
+class CameraModel {
+ public:
+  // Throws std::invalid_argument where a parameter is not finite or a focal length not positive.
+  static std::unique_ptr<const CameraModel> Create(const CameraParameters& parameters);
+
+  virtual ~CameraModel() = default;
+
+  // Pixel of the point p_C [m]. `d_pixel_d_point` is 2x3. Nothing where the point cannot be seen by
+  // this model (for a pinhole: not in front of the camera).
+  virtual std::optional<Eigen::Vector2d> Project(
+      const Eigen::Vector3d& p_C, Eigen::Matrix<double, 2, 3>* d_pixel_d_point = nullptr) const = 0;
+
+  // Normalised image point (x, y) of the ray (x, y, 1) through the pixel, undistorted.
+  // `d_xy_d_pixel` is 2x2. Nothing where the model has no ray in front of the camera for it.
+  virtual std::optional<Eigen::Vector2d> Unproject(
+      const Eigen::Vector2d& pixel, Eigen::Matrix2d* d_xy_d_pixel = nullptr) const = 0;
+
+  const CameraParameters& parameters() const { return parameters_; }
+
+  // Pixels per radian at the image centre (mean of both axes): turns normalised errors into pixels.
+  virtual double FocalLength() const = 0;
+
+  bool IsInImage(const Eigen::Vector2d& pixel, double border_px = 0) const {
+    return pixel.x() >= border_px && pixel.y() >= border_px &&
+           pixel.x() <= parameters_.width - 1 - border_px &&
+           pixel.y() <= parameters_.height - 1 - border_px;
+  }
+
+ protected:
+  explicit CameraModel(const CameraParameters& parameters) : parameters_(parameters) {}
+
+ private:
+  CameraParameters parameters_;
+};
+
+}  // namespace plm_vins

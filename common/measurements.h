@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All data that flows between the modules. Read this file first.
+//
+// Stamps are int64 nanoseconds; data of one image share its stamp exactly. Image coordinates "_px" are
+// pixels of the raw image; all others are normalised and undistorted: (x, y) of a ray (x, y, 1) in C.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+namespace plm_vins {
+
+constexpr double kNanosecondsPerSecond = 1e9;
+
+inline double ToSeconds(int64_t t_ns) { return static_cast<double>(t_ns) / kNanosecondsPerSecond; }
+inline int64_t ToNanoseconds(double seconds) {
+  return static_cast<int64_t>(seconds * kNanosecondsPerSecond + (seconds < 0 ? -0.5 : 0.5));
+}
+
+// One grey image (CV_8UC1) as the camera delivered it, with lens distortion.
+struct ImageSample {
+  int64_t t_ns = 0;
+  cv::Mat gray;
+};
+
+// One IMU reading in the body frame B.
+struct ImuSample {
+  int64_t t_ns = 0;
+  Eigen::Vector3d gyro = Eigen::Vector3d::Zero();   // angular rate [rad/s]
+  Eigen::Vector3d accel = Eigen::Vector3d::Zero();  // specific force [m/s^2]
+};
+
+// One tracked corner in one image.
+struct PointObservation {
+  int64_t id = -1;                                     // stable along the track, never reused
+  Eigen::Vector2d xy = Eigen::Vector2d::Zero();        // normalised, undistorted
+  Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();     // raw pixel
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // d(xy)/dt [1/s]; zero in a track's first image
+};
+
+// All corners of one image, in the order of the tracker. May be empty (a blind image).
+struct PointFrame {
+  int64_t t_ns = 0;
+  std::vector<PointObservation> points;
+};
+
+// One tracked line segment in one image.
+struct LineObservation {
+  int64_t id = -1;                                  // stable along the track, never reused
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();  // normalised, undistorted
+  Eigen::Vector2d end = Eigen::Vector2d::Zero();    // normalised, undistorted
+};
+
+// All line segments of one image. May be empty.
+struct LineFrame {
+  int64_t t_ns = 0;
+  std::vector<LineObservation> lines;
+};
+
+// What the estimator takes per image: its features and the IMU samples that lead to it.
+//
+// `imu` holds the samples in (t_previous, t_this], both shifted by the time offset td, closed by a
+// sample interpolated at exactly t_this + td, where t_previous is the frame handed out before.
+struct FrameMeasurement {
+  int64_t t_ns = 0;                // image stamp
+  double time_offset = 0.0;        // td [s] with which the IMU samples were cut
+  PointFrame points;
+  std::optional<LineFrame> lines;  // absent where no line front end is at work
+  std::vector<ImuSample> imu;
+};
+
+}  // namespace plm_vins

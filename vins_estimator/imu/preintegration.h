@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "common/imu_noise.h"
+#include "common/measurements.h"
+#include "vins_estimator/window/frame_state.h"
+
+namespace plm_vins {
+
+using Matrix15d = Eigen::Matrix<double, 15, 15>;
+using Vector15d = Eigen::Matrix<double, 15, 1>;
+
+// Rows of the 15-dimensional error state of two frames joined by IMU samples.
+struct ImuErrorIndex {
+  static constexpr int kPosition = 0, kRotation = 3, kVelocity = 6, kAccelBias = 9, kGyroBias = 12;
+};
+
+// IMU samples between two images folded into one relative motion that does not depend on the state
+// (midpoint rule). [Forster2017], [Qin2018] section IV.B. All deltas are in the body frame B0 at the start:
+//   delta_p  position change without gravity and start velocity [m]
+//   delta_q  R_B0_B1
+//   delta_v  velocity change without gravity [m/s]
+class Preintegration {
+ public:
+  Preintegration(const ImuNoise& noise, const ImuBias& linearization_bias);
+
+  // The first sample only sets the start; each further one integrates the interval that it closes.
+  // Samples must be in strictly increasing order of time (std::invalid_argument otherwise).
+  void Append(const ImuSample& sample);
+
+  // Integrates the same samples anew about another bias.
+  void Repropagate(const ImuBias& linearization_bias);
+
+  // Deltas corrected to first order for the change of bias.
+  Eigen::Vector3d DeltaP(const ImuBias& bias) const;
+  Eigen::Quaterniond DeltaQ(const ImuBias& bias) const;
+  Eigen::Vector3d DeltaV(const ImuBias& bias) const;
+
+  // State at the end of the interval from the state at its start. `gravity_W` is (0, 0, -g).
+  FrameState Predict(const FrameState& start, const Eigen::Vector3d& gravity_W) const;
+
+  double duration() const { return duration_; }  // [s]
+  const std::vector<ImuSample>& samples() const { return samples_; }
+  const ImuBias& linearization_bias() const { return bias_; }
+  const ImuNoise& noise() const { return noise_; }
+  const Eigen::Vector3d& delta_p() const { return delta_p_; }
+  const Eigen::Quaterniond& delta_q() const { return delta_q_; }
+  const Eigen::Vector3d& delta_v() const { return delta_v_; }
+  // d(error state at the end)/d(error state at the start), rows and columns as ImuErrorIndex.
+  const Matrix15d& jacobian() const { return jacobian_; }
+  const Matrix15d& covariance() const { return covariance_; }
+  // Upper triangular U with U^T U = covariance^-1.
+  const Matrix15d& SqrtInformation() const;
+
+ private:
+  void IntegrateInterval(const ImuSample& begin, const ImuSample& end);
+  void Restart();
+
+  ImuNoise noise_;
+  ImuBias bias_;
+  std::vector<ImuSample> samples_;
+  double duration_ = 0;
+  Eigen::Vector3d delta_p_ = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond delta_q_ = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d delta_v_ = Eigen::Vector3d::Zero();
+  Matrix15d jacobian_ = Matrix15d::Identity();
+  Matrix15d covariance_ = Matrix15d::Zero();
+  mutable Matrix15d sqrt_information_ = Matrix15d::Zero();
+  mutable bool sqrt_information_valid_ = false;
+};
+
+}  // namespace plm_vins

@@ -20,7 +20,9 @@ struct ImuErrorIndex {
 };
 
 // IMU samples between two images folded into one relative motion that does not depend on the state
-// (midpoint rule). [Forster2017], [Qin2018] section IV.B. All deltas are in the body frame B0 at the start:
+// (midpoint rule). [Forster2017], [Qin2018] section IV.B. A gap in the samples (over 50 ms) is
+// bridged the same way, with the noise grown by what a vehicle's motion may do meanwhile. Rotation
+// errors are perturbations on the right. All deltas are in the body frame B0 at the start:
 //   delta_p  position change without gravity and start velocity [m]
 //   delta_q  R_B0_B1
 //   delta_v  velocity change without gravity [m/s]
@@ -53,7 +55,9 @@ class Preintegration {
   // d(error state at the end)/d(error state at the start), rows and columns as ImuErrorIndex.
   const Matrix15d& jacobian() const { return jacobian_; }
   const Matrix15d& covariance() const { return covariance_; }
-  // Upper triangular U with U^T U = covariance^-1.
+  // Upper triangular U with U^T U = covariance^-1. Computed at the first call and kept, so that
+  // this first call must not run in several threads. std::logic_error where no interval is
+  // integrated yet.
   const Matrix15d& SqrtInformation() const;
 
  private:

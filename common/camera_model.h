@@ -13,8 +13,8 @@ namespace plm_vins {
 struct CameraParameters {
   enum class Model { kPinholeRadtan, kPinholeEquidistant, kMei };
   Model model = Model::kPinholeRadtan;
-  int width = 0;   // [px]
-  int height = 0;  // [px]
+  int width = 0;                          // [px]
+  int height = 0;                         // [px]
   double fx = 0, fy = 0, cx = 0, cy = 0;  // [px]; for MEI gamma1, gamma2, u0, v0
   // Radtan and MEI: k1, k2, p1, p2. Equidistant (Kannala-Brandt): k1, k2, k3, k4 of
   // theta_d = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8).
@@ -22,22 +22,25 @@ struct CameraParameters {
   double xi = 0;  // MEI only: distance of the unit sphere's centre from the projection centre
 };
 
-// A calibrated camera: rays of the camera frame C (x right, y down, z forward) to raw pixels and back.
-// Immutable after construction; safe to share between threads.
+// A calibrated camera: rays of the camera frame C (x right, y down, z forward) to raw pixels and
+// back. Immutable after construction; safe to share between threads.
 class CameraModel {
  public:
-  // Throws std::invalid_argument where a parameter is not finite or a focal length not positive.
+  // Throws std::invalid_argument where a parameter is not finite, a focal length not positive or xi
+  // negative.
   static std::unique_ptr<const CameraModel> Create(const CameraParameters& parameters);
 
   virtual ~CameraModel() = default;
 
-  // Pixel of the point p_C [m]. `d_pixel_d_point` is 2x3. Nothing where the point cannot be seen by
-  // this model (for a pinhole: not in front of the camera).
+  // Pixel of the point p_C [m], in or outside the image. `d_pixel_d_point` is 2x3. Nothing where
+  // the point cannot be seen by this model: a pinhole sees only what is in front of it, and no
+  // model sees rays beyond the radius up to which its distortion is invertible.
   virtual std::optional<Eigen::Vector2d> Project(
       const Eigen::Vector3d& p_C, Eigen::Matrix<double, 2, 3>* d_pixel_d_point = nullptr) const = 0;
 
   // Normalised image point (x, y) of the ray (x, y, 1) through the pixel, undistorted.
   // `d_xy_d_pixel` is 2x2. Nothing where the model has no ray in front of the camera for it.
+  // Inverts Project() to machine precision.
   virtual std::optional<Eigen::Vector2d> Unproject(
       const Eigen::Vector2d& pixel, Eigen::Matrix2d* d_xy_d_pixel = nullptr) const = 0;
 
@@ -54,6 +57,17 @@ class CameraModel {
 
  protected:
   explicit CameraModel(const CameraParameters& parameters) : parameters_(parameters) {}
+
+  // The last step of every model: the distorted point of the model's image plane to pixels, and
+  // back.
+  Eigen::Vector2d PlaneToPixel(const Eigen::Vector2d& point) const {
+    return focal().cwiseProduct(point) + center();
+  }
+  Eigen::Vector2d PixelToPlane(const Eigen::Vector2d& pixel) const {
+    return (pixel - center()).cwiseQuotient(focal());
+  }
+  Eigen::Vector2d focal() const { return {parameters_.fx, parameters_.fy}; }   // [px]
+  Eigen::Vector2d center() const { return {parameters_.cx, parameters_.cy}; }  // [px]
 
  private:
   CameraParameters parameters_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole configuration of the suite. One YAML file serves all nodes, so every node checks all of it.
-// Keys, units, ranges: config/reference.yaml.
+// The whole configuration of the suite. One YAML file serves all nodes, so every node checks all of
+// it. Keys, units, ranges: config/reference.yaml.
 #pragma once
 
 #include <map>
@@ -19,39 +19,40 @@ struct SensorConfig {
   std::string image_topic = "/cam0/image_raw";
   std::string imu_topic = "/imu0";
   CameraParameters camera;
-  Rigid3d T_B_C;                       // camera in the body (IMU) frame
+  Rigid3d T_B_C;  // camera in the body (IMU) frame
   enum class ExtrinsicMode { kFixed = 0, kRefine = 1, kCalibrateRotation = 2 };
   ExtrinsicMode estimate_extrinsic = ExtrinsicMode::kFixed;
-  double td = 0.0;                     // t_imu = t_image + td [s]
+  double td = 0.0;  // t_imu = t_image + td [s]
   bool estimate_td = false;
   ImuNoise imu_noise;
-  double gravity_norm = 9.81;          // [m/s^2]
+  double gravity_norm = 9.81;  // [m/s^2]
 };
 
 enum class CornerDetectorType { kShiTomasi, kHarris };
 
 struct PointTrackerConfig {
   CornerDetectorType corner_detector = CornerDetectorType::kShiTomasi;
-  bool corner_subpixel = true;         // refine corners to subpixel (the paper, section III.A)
-  int max_cnt = 150;                   // corners per image
-  double min_dist = 30;                // least distance between corners [px]
-  double publish_rate = 0;             // features handed to the estimator at most this often [Hz]; 0: every image
-  double f_threshold = 1.0;            // epipolar RANSAC threshold [px]
-  bool equalize = true;                // CLAHE
-  bool show_track = true;              // publish the annotated image
-  std::string fisheye_mask;            // image file, non-zero where corners are allowed; empty: everywhere
-  double quality_level = 0.01;         // corner response relative to the image's best
-  int klt_window = 21;                 // [px]
-  int klt_levels = 3;                  // pyramid levels above the image itself
-  double forward_backward = 0.5;       // KLT there and back must return this close [px]
+  bool corner_subpixel = true;  // refine corners to subpixel (the paper, section III.A)
+  int max_cnt = 150;            // corners per image
+  double min_dist = 30;         // least distance between corners [px]
+  double publish_rate =
+      0;  // features handed to the estimator at most this often [Hz]; 0: every image
+  double f_threshold = 1.0;     // epipolar RANSAC threshold [px]
+  bool equalize = true;         // CLAHE
+  bool show_track = true;       // publish the annotated image
+  std::string fisheye_mask;     // image file, non-zero where corners are allowed; empty: everywhere
+  double quality_level = 0.01;  // corner response relative to the image's best
+  int klt_window = 21;          // [px]
+  int klt_levels = 3;           // pyramid levels above the image itself
+  double forward_backward = 0.5;  // KLT there and back must return this close [px]
 };
 
 struct EstimatorConfig {
-  int window_size = 10;                // keyframes kept beside the newest frame
-  double keyframe_parallax = 10.0;     // mean parallax that makes a keyframe [px]
-  int max_num_iterations = 8;          // of the window optimisation
-  double max_solver_time = 0;          // accepted for VINS files, not used: iterations bound the work [s]
-  double point_noise = 1.0;            // standard deviation of a corner [px]
+  int window_size = 10;             // keyframes kept beside the newest frame
+  double keyframe_parallax = 10.0;  // mean parallax that makes a keyframe [px]
+  int max_num_iterations = 8;       // of the window optimisation
+  double max_solver_time = 0;  // accepted for VINS files, not used: iterations bound the work [s]
+  double point_noise = 1.0;    // standard deviation of a corner [px]
   bool zero_velocity_update = true;
   bool verbose = false;
 };
@@ -64,7 +65,7 @@ struct OutputConfig {
 };
 
 struct Config {
-  std::string file;                    // where it was read from, for messages
+  std::string file;  // where it was read from, for messages
   SensorConfig sensor;
   PointTrackerConfig points;
   EstimatorConfig estimator;
@@ -84,6 +85,7 @@ class ConfigError : public std::runtime_error {
 // Reads a VINS-format YAML file ("%YAML:1.0"); `overrides` replace scalar keys by their text.
 // Throws ConfigError with *all* problems: missing, unknown (with the nearest known key), of a wrong
 // type, out of range, contradictory.
-Config LoadConfig(const std::string& file, const std::map<std::string, std::string>& overrides = {});
+Config LoadConfig(const std::string& file,
+                  const std::map<std::string, std::string>& overrides = {});
 
 }  // namespace plm_vins

@@ -3,7 +3,8 @@
 
 namespace plm_vins {
 
-// Noise of an IMU as continuous-time densities, equal on all axes (as Kalibr and data sheets give them).
+// Noise of an IMU as continuous-time densities, equal on all axes (as Kalibr and data sheets give
+// them).
 struct ImuNoise {
   double gyro_density = 1.7e-4;   // [rad/s/sqrt(Hz)]
   double accel_density = 2.0e-3;  // [m/s^2/sqrt(Hz)]

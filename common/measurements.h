@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // All data that flows between the modules. Read this file first.
 //
-// Stamps are int64 nanoseconds; data of one image share its stamp exactly. Image coordinates "_px" are
-// pixels of the raw image; all others are normalised and undistorted: (x, y) of a ray (x, y, 1) in C.
+// Stamps are int64 nanoseconds; data of one image share its stamp exactly. Image coordinates "_px"
+// are pixels of the raw image; all others are normalised and undistorted: (x, y) of a ray (x, y, 1)
+// in C.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,10 +36,11 @@ struct ImuSample {
 
 // One tracked corner in one image.
 struct PointObservation {
-  int64_t id = -1;                                     // stable along the track, never reused
-  Eigen::Vector2d xy = Eigen::Vector2d::Zero();        // normalised, undistorted
-  Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();     // raw pixel
-  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // d(xy)/dt [1/s]; zero in a track's first image
+  int64_t id = -1;                                  // stable along the track, never reused
+  Eigen::Vector2d xy = Eigen::Vector2d::Zero();     // normalised, undistorted
+  Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();  // raw pixel
+  Eigen::Vector2d velocity =
+      Eigen::Vector2d::Zero();  // d(xy)/dt [1/s]; zero in a track's first image
 };
 
 // All corners of one image, in the order of the tracker. May be empty (a blind image).
@@ -65,8 +67,8 @@ struct LineFrame {
 // `imu` holds the samples in (t_previous, t_this], both shifted by the time offset td, closed by a
 // sample interpolated at exactly t_this + td, where t_previous is the frame handed out before.
 struct FrameMeasurement {
-  int64_t t_ns = 0;                // image stamp
-  double time_offset = 0.0;        // td [s] with which the IMU samples were cut
+  int64_t t_ns = 0;          // image stamp
+  double time_offset = 0.0;  // td [s] with which the IMU samples were cut
   PointFrame points;
   std::optional<LineFrame> lines;  // absent where no line front end is at work
   std::vector<ImuSample> imu;

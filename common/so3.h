@@ -53,8 +53,8 @@ inline Eigen::Matrix3d SO3RightJacobianInverse(const Eigen::Vector3d& phi) {
   const Eigen::Matrix3d K = Skew(phi);
   if (angle_squared < 1e-10) return Eigen::Matrix3d::Identity() + 0.5 * K + K * K / 12.0;
   const double angle = std::sqrt(angle_squared);
-  const double cotangent_term = 1.0 / angle_squared - (1.0 + std::cos(angle)) /
-                                                          (2.0 * angle * std::sin(angle));
+  const double cotangent_term =
+      1.0 / angle_squared - (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
   return Eigen::Matrix3d::Identity() + 0.5 * K + cotangent_term * K * K;
 }
 

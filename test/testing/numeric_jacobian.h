@@ -10,7 +10,7 @@ namespace plm_vins::testing {
 
 // Central differences of `function` (Point -> Eigen vector) at `x` in the tangent space of `plus`
 // (Point, Eigen::VectorXd of length `tangent_size` -> Point). The result has one column per tangent
-// direction. With values of order one the error is about 1e-10 / step + step^2.
+// direction. With values of order one the error is about 1e-16 / step + step^2.
 template <typename Function, typename Point, typename Plus>
 Eigen::MatrixXd NumericJacobian(const Function& function, const Point& x, int tangent_size,
                                 const Plus& plus, double step = 1e-6) {

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "common/camera_model.h"
+#include "common/camera_models/radtan_distortion.h"
+
+namespace plm_vins {
+
+// Pinhole camera with radial and tangential distortion: (X / Z, Y / Z), distorted, scaled to
+// pixels.
+class PinholeRadtan final : public CameraModel {
+ public:
+  explicit PinholeRadtan(const CameraParameters& parameters);
+
+  std::optional<Eigen::Vector2d> Project(
+      const Eigen::Vector3d& p_C, Eigen::Matrix<double, 2, 3>* d_pixel_d_point) const override;
+  std::optional<Eigen::Vector2d> Unproject(const Eigen::Vector2d& pixel,
+                                           Eigen::Matrix2d* d_xy_d_pixel) const override;
+  double FocalLength() const override;
+
+ private:
+  RadtanDistortion distortion_;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator/feature_simulator.h"
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "common/camera_model.h"
+#include "simulator/random.h"
+#include "simulator/track_selector.h"
+
+namespace plm_vins::simulator {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kNearest = 0.2;  // [m]; nothing is seen closer than this
+
+// Independent random streams of one seed.
+enum Stream : uint64_t { kWorld, kImu, kPointTracks, kLineTracks, kPointNoise, kLineNoise };
+
+uint64_t StreamSeed(uint64_t seed, Stream stream) { return seed * 64 + stream; }
+
+TrajectoryOptions WithForwardCamera(const FeatureSimulationOptions& options) {
+  TrajectoryOptions trajectory = options.trajectory;
+  trajectory.R_V_B = ForwardLookingBody(options.sensors.T_B_C);
+  return trajectory;
+}
+
+ImuSimulationOptions ImuOptions(const FeatureSimulationOptions& options) {
+  ImuSimulationOptions imu;
+  imu.noise = options.sensors.imu_noise;
+  imu.add_noise = options.add_imu_noise;
+  imu.gravity_norm = options.sensors.gravity_norm;
+  imu.rate_hz = options.imu_rate_hz;
+  imu.start_ns = options.start_ns;
+  imu.initial_bias = options.initial_bias;
+  imu.seed = StreamSeed(options.seed, kImu);
+  return imu;
+}
+
+// The front ends on the flight: each call adds one image to the dataset.
+class FeatureCamera {
+ public:
+  FeatureCamera(const FeatureSimulationOptions& options, FeatureDataset* dataset)
+      : options_(options),
+        dataset_(dataset),
+        camera_(CameraModel::Create(options.sensors.camera)),
+        point_tracks_(options.max_points, options.point_break_probability,
+                      StreamSeed(options.seed, kPointTracks)),
+        line_tracks_(options.max_lines, options.line_break_probability,
+                     StreamSeed(options.seed, kLineTracks)),
+        point_random_(StreamSeed(options.seed, kPointNoise)),
+        line_random_(StreamSeed(options.seed, kLineNoise)) {}
+
+  void Expose(int64_t t_ns, const Rigid3d& T_W_B) {
+    T_C_W_ = (T_W_B * options_.sensors.T_B_C).Inverse();
+    dataset_->points.push_back(ObservePoints(t_ns));
+    dataset_->lines.push_back(ObserveLines(t_ns));
+  }
+
+  const TrackSelector& point_tracks() const { return point_tracks_; }
+  const TrackSelector& line_tracks() const { return line_tracks_; }
+
+ private:
+  // Raw pixel of a point of W, where it is in view.
+  std::optional<Vector2d> Project(const Vector3d& p_W) const {
+    const Vector3d p_C = T_C_W_ * p_W;
+    if (p_C.z() < kNearest) return std::nullopt;
+    const auto pixel = camera_->Project(p_C);
+    if (!pixel || !camera_->IsInImage(*pixel)) return std::nullopt;
+    // Beyond its field of view a distortion polynomial folds back into the image.
+    const auto xy = camera_->Unproject(*pixel);
+    if (!xy || (*xy - p_C.head<2>() / p_C.z()).norm() > 1e-4) return std::nullopt;
+    return pixel;
+  }
+
+  PointFrame ObservePoints(int64_t t_ns) {
+    std::map<int, Vector2d> pixels;
+    std::vector<int> visible;
+    for (size_t i = 0; i < dataset_->world.points.size(); ++i) {
+      const auto pixel = Project(dataset_->world.points[i]);
+      if (!pixel) continue;
+      pixels[static_cast<int>(i)] = *pixel;
+      visible.push_back(static_cast<int>(i));
+    }
+    PointFrame frame;
+    frame.t_ns = t_ns;
+    for (const auto& track : point_tracks_.Update(visible)) {
+      PointObservation observation;
+      observation.id = track.id;
+      observation.uv_px = Disturb(pixels.at(track.landmark));
+      const auto xy = camera_->Unproject(observation.uv_px);
+      if (!xy) continue;
+      observation.xy = *xy;
+      frame.points.push_back(observation);
+    }
+    FillVelocities(&frame);
+    return frame;
+  }
+
+  Vector2d Disturb(const Vector2d& pixel) {
+    const double u = point_random_.Normal(), v = point_random_.Normal();
+    if (point_random_.Uniform() >= options_.point_outlier_ratio) {
+      return pixel + options_.point_noise_px * Vector2d(u, v);
+    }
+    const double limit = options_.outlier_px;
+    const double du = point_random_.Uniform(-limit, limit);
+    const double dv = point_random_.Uniform(-limit, limit);
+    return pixel + Vector2d(du, dv);
+  }
+
+  void FillVelocities(PointFrame* frame) {
+    std::map<int64_t, Vector2d> current_xy;
+    const double interval = ToSeconds(frame->t_ns - previous_t_ns_);
+    for (PointObservation& point : frame->points) {
+      const auto previous = previous_xy_.find(point.id);
+      if (previous != previous_xy_.end()) point.velocity = (point.xy - previous->second) / interval;
+      current_xy[point.id] = point.xy;
+    }
+    previous_xy_ = std::move(current_xy);
+    previous_t_ns_ = frame->t_ns;
+  }
+
+  struct PixelSegment {
+    Vector2d start, end;
+  };
+
+  // The longest piece of a line in view, between the first and last visible of its samples.
+  std::optional<PixelSegment> ProjectLine(const LineSegment3d& line) const {
+    constexpr int kSamples = 50;
+    std::optional<PixelSegment> longest, piece;
+    for (int i = 0; i <= kSamples; ++i) {
+      const auto pixel = Project(line.start + i / double(kSamples) * (line.end - line.start));
+      if (!pixel) {
+        piece.reset();
+        continue;
+      }
+      piece = piece ? PixelSegment{piece->start, *pixel} : PixelSegment{*pixel, *pixel};
+      if (!longest || Length(*piece) > Length(*longest)) longest = piece;
+    }
+    if (!longest || Length(*longest) < options_.min_line_length_px) return std::nullopt;
+    return longest;
+  }
+
+  static double Length(const PixelSegment& segment) { return (segment.end - segment.start).norm(); }
+
+  LineFrame ObserveLines(int64_t t_ns) {
+    std::map<int, PixelSegment> segments;
+    std::vector<int> visible;
+    for (size_t i = 0; i < dataset_->world.lines.size(); ++i) {
+      const auto segment = ProjectLine(dataset_->world.lines[i]);
+      if (!segment) continue;
+      segments[static_cast<int>(i)] = *segment;
+      visible.push_back(static_cast<int>(i));
+    }
+    LineFrame frame;
+    frame.t_ns = t_ns;
+    for (const auto& track : line_tracks_.Update(visible)) {
+      const auto observation = ObserveSegment(segments.at(track.landmark));
+      if (!observation) continue;
+      frame.lines.push_back(*observation);
+      frame.lines.back().id = track.id;
+    }
+    return frame;
+  }
+
+  // The ends slide along the straight (undistorted) line, then noise is added in raw pixels.
+  std::optional<LineObservation> ObserveSegment(const PixelSegment& segment) {
+    const auto start = camera_->Unproject(segment.start), end = camera_->Unproject(segment.end);
+    if (!start || !end) return std::nullopt;
+    const Vector2d along = *end - *start;
+    const auto noisy_start = DisturbEnd(*start + Slide() * along);
+    const auto noisy_end = DisturbEnd(*end - Slide() * along);
+    if (!noisy_start || !noisy_end) return std::nullopt;
+    return LineObservation{-1, *noisy_start, *noisy_end};
+  }
+
+  double Slide() { return line_random_.Uniform(0, options_.line_end_slide); }
+
+  std::optional<Vector2d> DisturbEnd(const Vector2d& xy) {
+    const double u = line_random_.Normal(), v = line_random_.Normal();
+    const auto pixel = camera_->Project(xy.homogeneous());
+    if (!pixel) return std::nullopt;
+    return camera_->Unproject(*pixel + options_.line_noise_px * Vector2d(u, v));
+  }
+
+  const FeatureSimulationOptions& options_;
+  FeatureDataset* dataset_;
+  std::unique_ptr<const CameraModel> camera_;
+  TrackSelector point_tracks_, line_tracks_;
+  Random point_random_, line_random_;
+  Rigid3d T_C_W_;
+  std::map<int64_t, Vector2d> previous_xy_;
+  int64_t previous_t_ns_ = 0;
+};
+
+FrameState TrueState(int64_t t_ns, const BodyState& body, const ImuBias& bias) {
+  FrameState state;
+  state.t_ns = t_ns;
+  state.SetPose(body.T_W_B);
+  state.velocity() = body.v_W;
+  state.SetBias(bias);
+  return state;
+}
+
+}  // namespace
+
+FeatureDataset SimulateFeatures(const FeatureSimulationOptions& options) {
+  const Trajectory trajectory(WithForwardCamera(options));
+  const ImuSimulation imu = SimulateImu(trajectory, ImuOptions(options));
+  FeatureDataset dataset;
+  dataset.imu = imu.samples;
+  dataset.world = MakeFeatureRoom(options.room, StreamSeed(options.seed, kWorld));
+
+  FeatureCamera camera(options, &dataset);
+  const int64_t td_ns = ToNanoseconds(options.sensors.td);
+  for (int i = 1;; ++i) {  // the first image has IMU samples before it
+    const int64_t exposure_ns = ToNanoseconds(i / options.frame_rate_hz);  // since the start
+    if (ToSeconds(exposure_ns) > trajectory.duration()) break;
+    const int64_t t_ns = options.start_ns + exposure_ns - td_ns;
+    const BodyState body = trajectory.At(ToSeconds(exposure_ns));
+    camera.Expose(t_ns, body.T_W_B);
+    dataset.truth.push_back(TrueState(t_ns, body, imu.BiasAt(t_ns + td_ns)));
+  }
+  dataset.point_landmark = camera.point_tracks().landmark_of_id();
+  dataset.line_landmark = camera.line_tracks().landmark_of_id();
+  return dataset;
+}
+
+}  // namespace plm_vins::simulator

@@ -1,0 +1,127 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compares a trajectory with ground truth: APE and RPE as evo computes them, and coverage."""
+
+import argparse
+import json
+import sys
+
+from evaluation import evo_backend, metrics
+from evaluation.trajectory import TrajectoryError, read_trajectory
+
+FIGURES = ("rmse", "mean", "median", "std", "min", "max")
+LABELS = {
+    "ape_m": "APE [m]",
+    "ape_rotation_deg": "APE rotation [deg]",
+    "ape_yaw_deg": "APE yaw [deg]",
+    "rpe_1m_m": "RPE over 1 m [m]",
+    "rpe_1m_deg": "RPE over 1 m [deg]",
+    "rpe_1s_m": "RPE over 1 s [m]",
+    "rpe_1s_deg": "RPE over 1 s [deg]",
+}
+
+
+def evaluate(estimate, truth, align="se3", max_diff=0.01, max_gap=0.5):
+    """Returns the paired trajectories (the estimate aligned) and a dictionary of all figures."""
+    paired_estimate, paired_truth = metrics.associate(estimate, truth, max_diff)
+    rotation, translation = metrics.alignment(paired_estimate, paired_truth, align)
+    paired_estimate = paired_estimate.transformed(rotation, translation)
+    result = {
+        "poses": len(estimate),
+        "ground_truth_poses": len(truth),
+        "pairs": len(paired_estimate),
+        "alignment": align,
+        "coverage": metrics.coverage(estimate, truth, max_gap),
+        "first_pose_delay_s": float(estimate.stamps[0] - truth.stamps[0]),
+        "ground_truth_duration_s": float(truth.duration),
+        "ground_truth_path_m": truth.path_length,
+        "estimate_path_m": estimate.path_length,
+        "computed_by": "numpy",
+    }
+    result.update(error_statistics(paired_estimate, paired_truth))
+    _replace_by_evo(result, paired_estimate, paired_truth)
+    return paired_estimate, paired_truth, result
+
+
+def error_statistics(estimate, truth):
+    """Statistics of all errors in LABELS, of paired and aligned trajectories."""
+    path_errors = metrics.relative_errors(estimate, truth, metrics.pairs_by_path(estimate, 1.0))
+    time_errors = metrics.relative_errors(estimate, truth, metrics.pairs_by_time(estimate, 1.0))
+    errors = (metrics.position_errors(estimate, truth), metrics.rotation_errors(estimate, truth),
+              metrics.yaw_errors(estimate, truth), *path_errors, *time_errors)
+    return {name: metrics.statistics(values) for name, values in zip(LABELS, errors)}
+
+
+def _replace_by_evo(result, estimate, truth):
+    if not evo_backend.is_available():
+        return
+    try:
+        result.update(evo_backend.evo_statistics(estimate, truth))
+        result["computed_by"] = "evo"
+    except Exception as error:  # evo's own exceptions change between versions
+        print(f"evaluate.py: evo failed ({error}), figures are from numpy", file=sys.stderr)
+
+
+def format_report(result):
+    """The figures as a text table, coverage beside the APE."""
+    lines = [
+        f"ground truth  {result['ground_truth_poses']} poses, path"
+        f" {result['ground_truth_path_m']:.2f} m in {result['ground_truth_duration_s']:.1f} s",
+        f"estimate      {result['poses']} poses, path {result['estimate_path_m']:.2f} m, first pose"
+        f" {result['first_pose_delay_s']:.2f} s after the ground truth begins",
+        f"{result['pairs']} pairs, alignment {result['alignment']}, by {result['computed_by']};"
+        " RPE over 1 m of the estimate's path (evo_rpe -d 1 -u m) and over 1 s",
+        f"{'':20}" + "".join(f"{name:>9}" for name in FIGURES),
+    ]
+    for name, label in LABELS.items():
+        lines.append(f"{label:20}" + _format_row(result[name]))
+        if name == "ape_m":
+            lines[-1] += f"   coverage {100 * result['coverage']:.1f} %"
+    return "\n".join(lines)
+
+
+def _format_row(figures):
+    if figures is None:
+        return "   no pair of poses is that far apart"
+    return "".join(f"{figures[name]:9.4f}" for name in FIGURES)
+
+
+def parse_arguments(arguments):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("estimate", help="trajectory in TUM format")
+    parser.add_argument("ground_truth", help="TUM file or EuRoC csv (.../data.csv)")
+    parser.add_argument("--plots", metavar="DIR", help="write PNG figures there")
+    parser.add_argument("--json", metavar="FILE", help="write all figures there")
+    parser.add_argument("--align", choices=metrics.ALIGNMENTS, default="se3",
+                        help="alignment without scale before the errors are taken (default: se3)")
+    parser.add_argument("--max-diff", type=float, default=0.01, metavar="S",
+                        help="largest difference between paired stamps [s] (default: 0.01)")
+    parser.add_argument("--t-offset", type=float, default=0.0, metavar="S",
+                        help="added to the stamps of the estimate [s] (default: 0)")
+    parser.add_argument("--max-gap", type=float, default=0.5, metavar="S",
+                        help="longer gaps between poses count as not covered [s] (default: 0.5)")
+    return parser.parse_args(arguments)
+
+
+def main(arguments=None):
+    options = parse_arguments(arguments)
+    try:
+        estimate = read_trajectory(options.estimate).shifted(options.t_offset)
+        truth = read_trajectory(options.ground_truth)
+        paired_estimate, paired_truth, result = evaluate(estimate, truth, options.align,
+                                                         options.max_diff, options.max_gap)
+        print(format_report(result))
+        if options.json:
+            with open(options.json, "w", encoding="utf-8") as file:
+                json.dump(result, file, indent=2)
+        if options.plots:
+            from evaluation import plots  # matplotlib is needed for plots only
+            print(*plots.write_plots(options.plots, paired_estimate, paired_truth), sep="\n")
+    except (TrajectoryError, OSError, ImportError) as error:
+        print(f"evaluate.py: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Absolute and relative pose errors with the definitions of evo (github.com/MichaelGrupp/evo)."""
+
+import numpy as np
+
+from .trajectory import TrajectoryError
+
+ALIGNMENTS = ("se3", "yaw", "none")
+
+
+def associate(estimate, truth, max_difference):
+    """Pairs of poses with the nearest stamps, as evo does: each pose of the shorter trajectory
+    takes the nearest one of the longer, if that is at most `max_difference` [s] away.
+
+    Returns the two trajectories reduced to the pairs.
+    """
+    swapped = len(estimate) <= len(truth)
+    shorter, longer = (estimate, truth) if swapped else (truth, estimate)
+    nearest = _nearest(longer.stamps, shorter.stamps)
+    near = np.abs(longer.stamps[nearest] - shorter.stamps) <= max_difference
+    shorter, longer = shorter.select(near), longer.select(nearest[near])
+    if len(shorter) < 3:
+        raise TrajectoryError(
+            f"{len(shorter)} poses have a partner within {max_difference} s, no overlap in time"
+            f" (estimate {_span(estimate)}, ground truth {_span(truth)})")
+    return (shorter, longer) if swapped else (longer, shorter)
+
+
+def _nearest(sorted_stamps, queries):
+    right = np.clip(np.searchsorted(sorted_stamps, queries), 1, len(sorted_stamps) - 1)
+    left_is_nearer = queries - sorted_stamps[right - 1] <= sorted_stamps[right] - queries
+    return right - left_is_nearer
+
+
+def _span(trajectory):
+    return f"{trajectory.stamps[0]:.3f} to {trajectory.stamps[-1]:.3f} s"
+
+
+def alignment(estimate, truth, kind):
+    """Rotation and translation that bring `estimate` onto `truth` in the least-squares sense.
+
+    `se3`: Umeyama's closed form without scale; `yaw`: rotation about z only, the gauge freedom of
+    visual-inertial odometry; `none`: identity.
+    """
+    if kind == "none":
+        return np.eye(3), np.zeros(3)
+    mean_estimate, mean_truth = estimate.positions.mean(axis=0), truth.positions.mean(axis=0)
+    covariance = (truth.positions - mean_truth).T @ (estimate.positions - mean_estimate)
+    rotation = _best_yaw(covariance) if kind == "yaw" else _best_rotation(covariance)
+    return rotation, mean_truth - rotation @ mean_estimate
+
+
+def _best_rotation(covariance):
+    u, singular_values, v_transposed = np.linalg.svd(covariance)
+    if singular_values[1] <= 1e-12 * max(singular_values[0], 1e-12):
+        raise TrajectoryError("the positions lie on one line or point, which leaves the rotation of"
+                              " the alignment open; use --align yaw or none")
+    sign = np.sign(np.linalg.det(u) * np.linalg.det(v_transposed))
+    return u @ np.diag([1.0, 1.0, sign]) @ v_transposed
+
+
+def _best_yaw(covariance):
+    angle = np.arctan2(covariance[1, 0] - covariance[0, 1], covariance[0, 0] + covariance[1, 1])
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+
+
+def position_errors(estimate, truth):
+    """Distances [m] of paired, aligned poses."""
+    return np.linalg.norm(estimate.positions - truth.positions, axis=1)
+
+
+def rotation_errors(estimate, truth):
+    """Angles [deg] between paired, aligned poses."""
+    return _angles(_transposed(truth.rotations) @ estimate.rotations)
+
+
+def yaw_errors(estimate, truth):
+    """Absolute heading errors [deg] about the vertical axis of the ground truth's world."""
+    error = estimate.rotations @ _transposed(truth.rotations)
+    yaw = np.arctan2(error[:, 1, 0] - error[:, 0, 1], error[:, 0, 0] + error[:, 1, 1])
+    return np.abs(np.degrees(yaw))
+
+
+def pairs_by_path(trajectory, metres):
+    """Consecutive index pairs, `metres` of the trajectory's own path apart (evo_rpe -d 1 -u m)."""
+    steps = np.linalg.norm(np.diff(trajectory.positions, axis=0, prepend=trajectory.positions[:1]),
+                           axis=1)
+    marks, walked = [], 0.0
+    for index, step in enumerate(steps):
+        walked += step
+        if walked >= metres:
+            marks.append(index)
+            walked = 0.0
+    return np.array(marks[:-1], dtype=int), np.array(marks[1:], dtype=int)
+
+
+def pairs_by_time(trajectory, seconds, tolerance=0.01):
+    """All index pairs that are `seconds` apart, to within `tolerance` [s]."""
+    nearest = _nearest(trajectory.stamps, trajectory.stamps + seconds)
+    difference = trajectory.stamps[nearest] - trajectory.stamps
+    first = np.flatnonzero(np.abs(difference - seconds) <= tolerance)
+    return first, nearest[first]
+
+
+def relative_errors(estimate, truth, pairs):
+    """Errors of the motion between the poses of each pair: translation [m] and rotation [deg]."""
+    estimated_rotation, estimated_translation = _relative_motion(estimate, *pairs)
+    true_rotation, true_translation = _relative_motion(truth, *pairs)
+    return (np.linalg.norm(estimated_translation - true_translation, axis=1),
+            _angles(_transposed(true_rotation) @ estimated_rotation))
+
+
+def _relative_motion(trajectory, first, second):
+    to_first = _transposed(trajectory.rotations[first])
+    step = trajectory.positions[second] - trajectory.positions[first]
+    return to_first @ trajectory.rotations[second], np.einsum("nij,nj->ni", to_first, step)
+
+
+def coverage(estimate, truth, max_gap):
+    """Share of the ground truth's time span with a pose; longer gaps than `max_gap` [s] count as
+    without."""
+    begin = np.clip(estimate.stamps[:-1], truth.stamps[0], truth.stamps[-1])
+    end = np.clip(estimate.stamps[1:], truth.stamps[0], truth.stamps[-1])
+    return float((end - begin)[np.diff(estimate.stamps) <= max_gap].sum() / truth.duration)
+
+
+def statistics(errors):
+    """The figures that evo prints, or None where there are no errors."""
+    if len(errors) == 0:
+        return None
+    return {
+        "rmse": float(np.sqrt(np.mean(np.square(errors)))),
+        "mean": float(np.mean(errors)),
+        "median": float(np.median(errors)),
+        "std": float(np.std(errors)),
+        "min": float(np.min(errors)),
+        "max": float(np.max(errors)),
+        "count": len(errors),
+    }
+
+
+def _transposed(matrices):
+    return np.swapaxes(matrices, 1, 2)
+
+
+def _angles(rotations):
+    """Rotation angles [deg], exact for small ones too."""
+    twice_sine = np.linalg.norm(np.stack([rotations[:, 2, 1] - rotations[:, 1, 2],
+                                          rotations[:, 0, 2] - rotations[:, 2, 0],
+                                          rotations[:, 1, 0] - rotations[:, 0, 1]], axis=1), axis=1)
+    twice_cosine = np.trace(rotations, axis1=1, axis2=2) - 1.0
+    return np.degrees(np.arctan2(twice_sine, twice_cosine))

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A trajectory and its two file formats, TUM and EuRoC csv."""
+
+import os
+from dataclasses import dataclass
+
+import numpy as np
+
+
+class TrajectoryError(Exception):
+    """A file or a pair of trajectories that cannot be evaluated; the text is one clear line."""
+
+
+@dataclass
+class Trajectory:
+    """Poses of the body in a world frame, in the order of time."""
+
+    stamps: np.ndarray  # (n,) [s], strictly increasing
+    positions: np.ndarray  # (n, 3) [m]
+    rotations: np.ndarray  # (n, 3, 3) body to world
+
+    def __len__(self):
+        return len(self.stamps)
+
+    @property
+    def duration(self):
+        return self.stamps[-1] - self.stamps[0]
+
+    @property
+    def path_length(self):
+        return float(np.linalg.norm(np.diff(self.positions, axis=0), axis=1).sum())
+
+    def select(self, indices):
+        return Trajectory(self.stamps[indices], self.positions[indices], self.rotations[indices])
+
+    def shifted(self, seconds):
+        return Trajectory(self.stamps + seconds, self.positions, self.rotations)
+
+    def transformed(self, rotation, translation):
+        """The same motion seen from another world frame: p' = rotation * p + translation."""
+        return Trajectory(self.stamps, self.positions @ rotation.T + translation,
+                          rotation @ self.rotations)
+
+
+def read_trajectory(path):
+    """Reads `stamp[s] x y z qx qy qz qw` (TUM) or `stamp[ns],x,y,z,qw,qx,qy,qz,...` (EuRoC csv)."""
+    if not os.path.isfile(path):
+        raise TrajectoryError(f"{path}: no such file")
+    rows = []
+    with open(path, encoding="utf-8", errors="replace") as file:
+        for number, line in enumerate(file, start=1):
+            if line.strip() and not line.lstrip().startswith("#"):
+                rows.append(_parse_row(line, f"{path}:{number}", rows[-1][0] if rows else None))
+    if len(rows) < 3:
+        raise TrajectoryError(f"{path}: {len(rows)} poses, at least 3 are needed")
+    table = np.array(rows)
+    return Trajectory(table[:, 0], table[:, 1:4], _rotations(table[:, 4:8]))
+
+
+def _parse_row(line, where, previous_stamp):
+    """One row as [stamp, x, y, z, qx, qy, qz, qw]; `where` names it in error messages."""
+    is_csv = "," in line
+    words = line.split(",") if is_csv else line.split()
+    if len(words) < 8 or (not is_csv and len(words) != 8):
+        expected = "at least 8 columns (EuRoC csv)" if is_csv else "8 columns (TUM)"
+        raise TrajectoryError(f"{where}: {len(words)} columns, expected {expected}")
+    try:
+        row = [float(word) for word in words[:8]]
+    except ValueError as error:
+        raise TrajectoryError(f"{where}: not a number ({error})") from None
+    if is_csv:
+        row = [row[0] * 1e-9, *row[1:4], *row[5:8], row[4]]
+    if not np.all(np.isfinite(row)):
+        raise TrajectoryError(f"{where}: NaN or infinite value")
+    if np.linalg.norm(row[4:8]) < 1e-6:
+        raise TrajectoryError(f"{where}: the quaternion is zero")
+    if previous_stamp is not None and row[0] <= previous_stamp:
+        raise TrajectoryError(f"{where}: the stamp does not increase")
+    return row
+
+
+def _rotations(quaternions):
+    """Rotation matrices (n, 3, 3) of quaternions (n, 4) in the order x y z w, of any length."""
+    x, y, z, w = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T
+    return np.stack([
+        1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),
+        2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
+        2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y),
+    ], axis=1).reshape(-1, 3, 3)

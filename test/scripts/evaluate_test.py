@@ -1,0 +1,272 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""scripts/evaluate.py against cases whose numbers are known by hand."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
+sys.path.insert(0, SCRIPTS)
+from evaluate import error_statistics, evaluate, format_report  # noqa: E402
+from evaluation import evo_backend, metrics  # noqa: E402
+from evaluation.trajectory import Trajectory, TrajectoryError, read_trajectory  # noqa: E402
+
+START = 1403636580.0  # [s], as large as real stamps are
+
+
+def rotation(axis, degrees):
+    x, y, z = axis
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    angle = np.radians(degrees)
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+def flight(rate=20.0, seconds=10.0):
+    """A curved motion in all axes while the body turns."""
+    t = np.arange(0.0, seconds + 1e-9, 1.0 / rate)
+    positions = np.stack([2 * np.cos(t), 3 * np.sin(0.7 * t), 0.5 * np.sin(1.3 * t)], axis=1)
+    rotations = np.array([rotation((0, 0, 1), 20 * s) @ rotation((1, 0, 0), 5 * s) for s in t])
+    return Trajectory(START + t, positions, rotations)
+
+
+def moved(trajectory, offsets):
+    return Trajectory(trajectory.stamps, trajectory.positions + offsets, trajectory.rotations)
+
+
+class AbsoluteError(unittest.TestCase):
+    def test_rigidly_moved_trajectory_has_no_error(self):
+        truth = flight()
+        estimate = truth.transformed(rotation((0.6, 0.0, 0.8), 70), np.array([5.0, -3.0, 2.0]))
+        _, _, result = evaluate(estimate, truth)
+        for name in ("ape_m", "ape_rotation_deg", "ape_yaw_deg", "rpe_1m_m", "rpe_1s_m"):
+            self.assertLess(result[name]["max"], 1e-5, name)
+
+    def test_alternating_offset_without_alignment(self):
+        truth = flight(rate=20.0, seconds=9.95)  # 200 poses
+        offsets = np.zeros((200, 3))
+        offsets[0::2, 0], offsets[1::2, 1] = 0.3, 0.4
+        figures = evaluate(moved(truth, offsets), truth, align="none")[2]["ape_m"]
+        self.assertAlmostEqual(figures["rmse"], np.sqrt((0.09 + 0.16) / 2), 9)
+        self.assertAlmostEqual(figures["mean"], 0.35, 9)
+        self.assertAlmostEqual(figures["median"], 0.35, 9)
+        self.assertAlmostEqual(figures["std"], 0.05, 9)
+        self.assertAlmostEqual(figures["min"], 0.3, 9)
+        self.assertAlmostEqual(figures["max"], 0.4, 9)
+        self.assertEqual(figures["count"], 200)
+
+    def test_constant_offset_disappears_by_alignment(self):
+        truth = flight()
+        estimate = moved(truth, np.array([1.0, 2.0, 3.0]))
+        rmse = {kind: evaluate(estimate, truth, kind)[2]["ape_m"]["rmse"]
+                for kind in metrics.ALIGNMENTS}
+        self.assertAlmostEqual(rmse["none"], np.sqrt(14), 6)
+        self.assertLess(rmse["se3"], 1e-9)
+        self.assertLess(rmse["yaw"], 1e-9)
+
+    def test_scale_is_not_corrected(self):
+        # Scaling about the mean by 1.1 leaves 0.1 times the standard deviation of the positions.
+        truth = flight()
+        centred = truth.positions - truth.positions.mean(axis=0)
+        estimate = Trajectory(truth.stamps, 1.1 * truth.positions, truth.rotations)
+        expected = 0.1 * np.sqrt(np.mean(np.sum(centred ** 2, axis=1)))
+        self.assertAlmostEqual(evaluate(estimate, truth)[2]["ape_m"]["rmse"], expected, 9)
+
+    def test_mirrored_trajectory_is_not_aligned_by_a_reflection(self):
+        truth = flight()
+        mirrored = Trajectory(truth.stamps, truth.positions * [1, 1, -1], truth.rotations)
+        self.assertGreater(evaluate(mirrored, truth)[2]["ape_m"]["rmse"], 0.1)
+
+    def test_yaw_alignment_keeps_a_wrong_tilt(self):
+        truth = flight()
+        estimate = truth.transformed(rotation((1, 0, 0), 4), np.zeros(3))
+        result = evaluate(estimate, truth, align="yaw")[2]
+        self.assertAlmostEqual(result["ape_rotation_deg"]["mean"], 4.0, 1)
+        self.assertGreater(result["ape_m"]["rmse"], 0.05)
+
+    def test_wrong_heading_of_the_body_only(self):
+        truth = flight()
+        turned = Trajectory(truth.stamps, truth.positions,
+                            rotation((0, 0, 1), -2.5) @ truth.rotations)
+        result = evaluate(turned, truth)[2]
+        self.assertLess(result["ape_m"]["rmse"], 1e-9)
+        self.assertAlmostEqual(result["ape_rotation_deg"]["rmse"], 2.5, 6)
+        self.assertAlmostEqual(result["ape_yaw_deg"]["rmse"], 2.5, 6)
+
+    def test_straight_line_leaves_the_alignment_open(self):
+        truth = flight()
+        truth.positions[:, 1:] = 0.0
+        with self.assertRaisesRegex(TrajectoryError, "--align"):
+            evaluate(truth, truth)
+        self.assertEqual(evaluate(truth, truth, align="none")[2]["ape_m"]["max"], 0.0)
+
+
+class RelativeError(unittest.TestCase):
+    def straight(self, speed):
+        t = np.arange(0.0, 10.0, 0.125)  # steps that binary fractions express
+        positions = np.stack([speed * t, np.zeros_like(t), np.zeros_like(t)], axis=1)
+        return Trajectory(START + t, positions, np.tile(rotation((0, 0, 1), 90), (len(t), 1, 1)))
+
+    def test_drift_per_metre_and_per_second(self):
+        # The estimate advances 2 m/s, the truth 1.5 m/s: 0.25 m per metre, 0.5 m per second.
+        result = evaluate(self.straight(2.0), self.straight(1.5), align="none")[2]
+        self.assertAlmostEqual(result["rpe_1m_m"]["max"], 0.25, 9)
+        self.assertAlmostEqual(result["rpe_1m_m"]["min"], 0.25, 9)
+        self.assertAlmostEqual(result["rpe_1s_m"]["rmse"], 0.5, 9)
+        self.assertEqual(result["rpe_1s_m"]["count"], 72)
+        self.assertEqual(result["rpe_1m_deg"]["max"], 0.0)
+
+    def test_pairs_are_consecutive_and_start_at_the_first_full_metre(self):
+        first, second = metrics.pairs_by_path(self.straight(2.0), 1.0)
+        np.testing.assert_array_equal(first, np.arange(4, 76, 4))
+        np.testing.assert_array_equal(second, np.arange(8, 80, 4))
+
+    def test_standstill_has_no_error_per_metre(self):
+        still = self.straight(0.0)
+        result = evaluate(still, still, align="none")[2]
+        self.assertIsNone(result["rpe_1m_m"])
+        self.assertIn("no pair", format_report(result))
+
+
+class Association(unittest.TestCase):
+    def test_nearest_partner_in_denser_ground_truth(self):
+        truth, estimate = flight(rate=200.0), flight(rate=20.0)
+        pairs = metrics.associate(estimate.shifted(0.002), truth, 0.01)
+        self.assertEqual(len(pairs[0]), len(estimate))
+        np.testing.assert_allclose(pairs[1].stamps, estimate.stamps, atol=1e-6)
+
+    def test_partners_beyond_the_limit_are_left_out(self):
+        truth = flight(rate=20.0)
+        estimate = truth.shifted(0.0)
+        estimate.stamps[::2] += 0.02
+        self.assertEqual(len(metrics.associate(estimate, truth, 0.01)[0]), len(truth) // 2)
+
+    def test_no_overlap_is_an_error(self):
+        with self.assertRaisesRegex(TrajectoryError, "no overlap"):
+            evaluate(flight().shifted(1000.0), flight())
+
+
+class Coverage(unittest.TestCase):
+    def coverage(self, keep):
+        truth = flight(seconds=10.0)
+        result = evaluate(truth.select(keep(truth.stamps - START)), truth)[2]
+        self.assertIn(f"coverage {100 * result['coverage']:.1f} %", format_report(result))
+        return result["coverage"]
+
+    def test_all(self):
+        self.assertAlmostEqual(self.coverage(lambda t: t >= 0), 1.0, 6)
+
+    def test_missing_first_half(self):
+        self.assertAlmostEqual(self.coverage(lambda t: t > 4.99), 0.5, 6)
+
+    def test_long_gap_counts_as_missing(self):
+        self.assertAlmostEqual(self.coverage(lambda t: (t < 4.01) | (t > 5.99)), 0.8, 6)
+
+    def test_short_gap_does_not(self):
+        self.assertAlmostEqual(self.coverage(lambda t: (t < 4.01) | (t > 4.39)), 1.0, 6)
+
+    def test_poses_outside_of_the_ground_truth_do_not_count(self):
+        truth = flight(seconds=10.0)
+        inner = truth.select(truth.stamps > START + 4.99)
+        self.assertAlmostEqual(metrics.coverage(truth, inner, 0.5), 1.0, 6)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def write(self, name, text):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    def spiral(self, separator, rows=100, stamp_unit=1.0):
+        """Rows of a rising spiral with the attitude 90 degrees about z, in TUM or csv order."""
+        quaternion = [0, 0, 0.5, 0.5] if separator == " " else [0.5, 0, 0, 0.5]
+        text = "# a comment\n"
+        for i in range(rows):
+            stamp = f"{(1403636580 + 0.05 * i) * stamp_unit:.{2 if stamp_unit == 1 else 0}f}"
+            numbers = [np.cos(0.1 * i), np.sin(0.1 * i), 0.01 * i, *quaternion]
+            extra = [1, 2, 3] if separator == "," else []
+            text += separator.join([stamp] + [f"{v:.12f}" for v in numbers + extra]) + "\n"
+        return text
+
+    def run_script(self, *arguments):
+        command = [sys.executable, "-B", os.path.join(SCRIPTS, "evaluate.py"), *arguments]
+        return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              encoding="utf-8", check=False)
+
+    def assert_fails(self, message, *arguments):
+        result = self.run_script(*arguments)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(message, result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+
+    def test_tum_against_euroc_csv_with_plots_and_json(self):
+        estimate = self.write("estimate.tum", self.spiral(" "))
+        truth = self.write("data.csv", self.spiral(",", stamp_unit=1e9))
+        report = os.path.join(self.folder.name, "report.json")
+        plots = os.path.join(self.folder.name, "plots")
+        result = self.run_script(estimate, truth, "--json", report, "--plots", plots)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("coverage 100.0 %", result.stdout)
+        with open(report, encoding="utf-8") as file:
+            figures = json.load(file)
+        self.assertEqual(figures["pairs"], 100)
+        self.assertLess(figures["ape_m"]["rmse"], 1e-6)
+        self.assertLess(figures["ape_rotation_deg"]["rmse"], 1e-4)
+        self.assertEqual(sorted(os.listdir(plots)),
+                         ["ape.png", "trajectory.png", "translation.png"])
+
+    def test_time_offset(self):
+        truth = self.write("truth.tum", self.spiral(" "))
+        late = self.write("late.tum", self.spiral(" ").replace("14036365", "14036366"))
+        self.assert_fails("no overlap", late, truth)
+        self.assertEqual(self.run_script(late, truth, "--t-offset", "-100").returncode, 0)
+
+    def test_attitude_of_both_formats(self):
+        tum = read_trajectory(self.write("truth.tum", self.spiral(" ")))
+        csv = read_trajectory(self.write("data.csv", self.spiral(",", stamp_unit=1e9)))
+        for trajectory in (tum, csv):
+            np.testing.assert_allclose(trajectory.rotations[7] @ [1, 0, 0], [0, 1, 0], atol=1e-12)
+
+    def test_bad_files(self):
+        good = self.write("good.tum", self.spiral(" "))
+        row = "1403636580.0 1 2 3 0 0 0 "
+        bad = {
+            "columns": row,
+            "NaN": row.replace("2", "nan") + "1",
+            "not a number": row.replace("2", "two") + "1",
+            "quaternion": row + "0",
+            "does not increase": row + "1\n" + row + "1",
+            "at least 3": row + "1",
+        }
+        self.assert_fails("no such file", os.path.join(self.folder.name, "missing.tum"), good)
+        for message, text in bad.items():
+            path = self.write("bad.tum", text + "\n")
+            self.assert_fails(message, path, good)
+            self.assert_fails(path, path, good)
+
+
+class Evo(unittest.TestCase):
+    @unittest.skipUnless(evo_backend.is_available(), "evo is not installed")
+    def test_same_numbers_as_numpy(self):
+        truth, generator = flight(rate=200.0), np.random.default_rng(1)
+        estimate = flight(rate=20.0)
+        estimate = moved(estimate, np.cumsum(generator.normal(0, 0.01, (len(estimate), 3)), axis=0))
+        estimate, truth, result = evaluate(estimate, truth)
+        self.assertEqual(result["computed_by"], "evo")
+        for name, figures in error_statistics(estimate, truth).items():
+            for key, value in (figures or {}).items():
+                self.assertAlmostEqual(value, result[name][key], 7, name)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -28,7 +28,7 @@ MotionProfile ProfileOf(Motion motion) {
   const Vector3d everywhere = Vector3d::Constant(kWholeBox);
   switch (motion) {
     case Motion::kGentle:
-      return {everywhere, {0.15, 0.2, 0.4}, 0.15, false};
+      return {everywhere, {0.25, 0.25, 0.4}, 0.15, false};
     case Motion::kFast:
       return {everywhere, {0.4, 0.4, 0.6}, 0.3, false};
     case Motion::kHover:

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator/imu_simulator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/so3.h"
+
+namespace plm_vins::simulator {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+Trajectory MakeTrajectory(Motion motion, double duration) {
+  TrajectoryOptions options;
+  options.motion = motion;
+  options.duration = duration;
+  return Trajectory(options);
+}
+
+ImuSimulationOptions NoiseFree(double rate_hz) {
+  ImuSimulationOptions options;
+  options.add_noise = false;
+  options.rate_hz = rate_hz;
+  return options;
+}
+
+// Midpoint integration from the true start.
+BodyState Integrate(const BodyState& start, const std::vector<ImuSample>& imu, double gravity) {
+  BodyState state = start;
+  for (size_t i = 1; i < imu.size(); ++i) {
+    const double dt = ToSeconds(imu[i].t_ns - imu[i - 1].t_ns);
+    const Quaterniond R0 = state.T_W_B.rotation;
+    const Quaterniond R1 = R0 * SO3Exp(0.5 * dt * (imu[i - 1].gyro + imu[i].gyro));
+    const Vector3d a_W =
+        0.5 * (R0 * imu[i - 1].accel + R1 * imu[i].accel) - Vector3d(0, 0, gravity);
+    state.T_W_B = {R1, state.T_W_B.translation + dt * state.v_W + 0.5 * dt * dt * a_W};
+    state.v_W += dt * a_W;
+  }
+  return state;
+}
+
+TEST(ImuSimulator, IntegratingNoiseFreeSamplesReproducesTheTrajectory) {
+  for (Motion motion : {Motion::kGentle, Motion::kFast}) {
+    const Trajectory trajectory = MakeTrajectory(motion, 10.0);
+    const auto imu = SimulateImu(trajectory, NoiseFree(2000.0));
+    const BodyState end = Integrate(trajectory.At(0), imu.samples, 9.81);
+    const BodyState truth = trajectory.At(ToSeconds(imu.samples.back().t_ns));
+    EXPECT_LT((end.T_W_B.translation - truth.T_W_B.translation).norm(), 2e-4);
+    EXPECT_LT((end.v_W - truth.v_W).norm(), 1e-4);
+    EXPECT_LT(end.T_W_B.rotation.angularDistance(truth.T_W_B.rotation), 1e-5);
+  }
+}
+
+TEST(ImuSimulator, AtRestFeelsTheReactionToGravity) {
+  const auto imu = SimulateImu(MakeTrajectory(Motion::kStill, 1.0), NoiseFree(200.0));
+  ASSERT_EQ(imu.samples.size(), 201u);
+  EXPECT_EQ(imu.samples[1].t_ns, 5'000'000);
+  EXPECT_TRUE(imu.samples.back().accel.isApprox(Vector3d(0, 0, 9.81), 1e-12));
+  EXPECT_LT(imu.samples.back().gyro.norm(), 1e-12);
+}
+
+TEST(ImuSimulator, NoiseHasTheRequestedDensity) {
+  ImuSimulationOptions options;
+  options.noise.gyro_walk = options.noise.accel_walk = 0;
+  options.initial_bias = {Vector3d(0.1, -0.2, 0.3), Vector3d(0.01, 0.02, -0.03)};
+  const auto imu = SimulateImu(MakeTrajectory(Motion::kStill, 100.0), options);
+  Vector3d gyro_squared = Vector3d::Zero(), accel_squared = Vector3d::Zero();
+  for (const ImuSample& sample : imu.samples) {
+    gyro_squared += (sample.gyro - options.initial_bias.gyro).cwiseAbs2();
+    accel_squared += (sample.accel - options.initial_bias.accel - Vector3d(0, 0, 9.81)).cwiseAbs2();
+  }
+  const double count = static_cast<double>(imu.samples.size());
+  for (int axis = 0; axis < 3; ++axis) {  // 20000 samples: 0.5 % standard deviation
+    EXPECT_NEAR(std::sqrt(gyro_squared[axis] / count / 200) / options.noise.gyro_density, 1, 0.02);
+    EXPECT_NEAR(std::sqrt(accel_squared[axis] / count / 200) / options.noise.accel_density, 1,
+                0.02);
+  }
+}
+
+TEST(ImuSimulator, BiasesWalkWithTheRequestedDensity) {
+  ImuSimulationOptions options;
+  const auto imu = SimulateImu(MakeTrajectory(Motion::kStill, 100.0), options);
+  Vector3d gyro_squared = Vector3d::Zero(), accel_squared = Vector3d::Zero();
+  for (size_t i = 1; i < imu.biases.size(); ++i) {
+    gyro_squared += (imu.biases[i].gyro - imu.biases[i - 1].gyro).cwiseAbs2();
+    accel_squared += (imu.biases[i].accel - imu.biases[i - 1].accel).cwiseAbs2();
+  }
+  const double duration = 100.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(std::sqrt(gyro_squared[axis] / duration) / options.noise.gyro_walk, 1, 0.02);
+    EXPECT_NEAR(std::sqrt(accel_squared[axis] / duration) / options.noise.accel_walk, 1, 0.02);
+  }
+  EXPECT_EQ(imu.BiasAt(-1).gyro, imu.biases.front().gyro);
+  EXPECT_EQ(imu.BiasAt(7'000'000).gyro, imu.biases[1].gyro);
+}
+
+}  // namespace
+}  // namespace plm_vins::simulator

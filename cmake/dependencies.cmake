@@ -8,8 +8,14 @@ if(NOT TARGET yaml-cpp::yaml-cpp)  # yaml-cpp before 0.8 exports a bare name
   target_link_libraries(yaml-cpp::yaml-cpp INTERFACE yaml-cpp)
 endif()
 find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
 
 if(BUILD_ROS)
+  # ROS packages of a distribution live in its own Python, not in a pyenv or conda found in PATH.
+  if(EXISTS /usr/bin/python3)
+    set(PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python of catkin")
+    set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python of ament")
+  endif()
   find_package(catkin REQUIRED COMPONENTS
     cv_bridge diagnostic_updater geometry_msgs image_transport nav_msgs rosbag roscpp sensor_msgs
     std_msgs std_srvs tf2_ros visualization_msgs)

@@ -1,0 +1,125 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks what CONTRIBUTING.md asks for and a script can see: layers, ROS, sizes, headers, paths.
+
+Usage: check_structure.py [ROOT]. Prints one line per problem; exit code 1 if there are any.
+"""
+
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+# What each folder may include; the longest matching folder counts. Tests may include anything.
+LAYERS = {
+    "common": {"common"},
+    "feature_tracker": {"common", "feature_tracker"},
+    "linefeature_tracker": {"common", "linefeature_tracker"},
+    "vins_estimator": {"common", "vins_estimator"},
+    "vins_estimator/offline": {"common", "feature_tracker", "linefeature_tracker",
+                               "vins_estimator"},
+    "simulator": {"common", "simulator", "vins_estimator"},
+}
+CODE_FOLDERS = sorted({folder.split("/")[0] for folder in LAYERS} | {"test", "testing"})
+TEXT_FOLDERS = CODE_FOLDERS + [".ci", "cmake", "config", "docs", "launch", "scripts"]
+TEXT_SUFFIXES = {".cpp", ".h", ".py", ".sh", ".txt", ".cmake", ".md", ".yaml", ".launch", ".test",
+                 ".rviz", ".xml", ""}
+
+ROS_INCLUDE = re.compile(
+    r'#include\s*[<"](ros|rosbag|cv_bridge|image_transport|diagnostic_updater|nodelet|pluginlib'
+    r'|message_filters|tf2\w*|tf|std_srvs|\w+_msgs)/')
+INCLUDE = re.compile(r'#include\s*"([^"]+)"')
+HOME_PATH = re.compile(r"(?<![\w./~$}{-])/(home|root|work|Users)/\w")
+SPDX = "// SPDX-License-Identifier: BSD-3-Clause"
+MAX_FILE_LINES = 400
+MAX_FUNCTION_LINES = 60
+
+
+def main(root):
+    problems = [problem for path in code_files(root) for problem in check_code(root, path)]
+    problems += [problem for path in text_files(root) for problem in check_paths(root, path)]
+    problems += check_functions(root)
+    print(*problems, sep="\n", end="\n" if problems else "")
+    print(f"{len(code_files(root))} source files, {len(problems)} problems")
+    return 1 if problems else 0
+
+
+def code_files(root):
+    return files_below(root, CODE_FOLDERS, {".h", ".cpp"})
+
+
+def text_files(root):
+    top = sorted(path for path in root.iterdir()
+                 if path.is_file() and path.suffix in TEXT_SUFFIXES and path.name[0] != ".")
+    return top + files_below(root, TEXT_FOLDERS, TEXT_SUFFIXES)
+
+
+def files_below(root, folders, suffixes):
+    return sorted(path for folder in folders for path in (root / folder).rglob("*")
+                  if path.is_file() and path.suffix in suffixes and "__pycache__" not in path.parts)
+
+
+def check_code(root, path):
+    name = path.relative_to(root)
+    lines = path.read_text(encoding="utf-8").splitlines()
+    if not lines or lines[0] != SPDX:
+        yield f"{name}:1: the first line is not '{SPDX}'"
+    if len(lines) > MAX_FILE_LINES:
+        yield f"{name}: {len(lines)} lines, at most {MAX_FILE_LINES}"
+    allowed = allowed_layers(name)
+    for number, line in enumerate(lines, start=1):
+        if ROS_INCLUDE.match(line) and "ros" not in name.parts[:-1]:
+            yield f"{name}:{number}: ROS outside of a folder named ros/"
+        if path.suffix == ".h" and line.lstrip().startswith("using namespace"):
+            yield f"{name}:{number}: 'using namespace' in a header"
+        include = INCLUDE.match(line)
+        layer = include.group(1).split("/")[0] if include else None
+        if layer in CODE_FOLDERS and allowed is not None and layer not in allowed:
+            yield f"{name}:{number}: this layer must not know {include.group(1)}"
+
+
+def allowed_layers(name):
+    """The folders that this file may include, or None for all of them."""
+    folders = [folder for folder in LAYERS if pathlib.PurePath(folder) in name.parents]
+    return LAYERS[max(folders, key=len)] if folders else None
+
+
+def check_paths(root, path):
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        if HOME_PATH.search(line):
+            yield f"{path.relative_to(root)}:{number}: absolute path of one machine"
+
+
+def check_functions(root):
+    """Function lengths by universal-ctags; not checked where that is missing."""
+    ctags, files = find_ctags(), code_files(root)
+    if ctags is None or not files:
+        return []
+    output = run(ctags, "--languages=C++", "--kinds-C++=f", "--fields=+ne", "--output-format=json",
+                 "-f", "-", *map(str, files))
+    tags = [json.loads(line) for line in output.splitlines() if line.startswith("{")]
+    problems = []
+    for tag in tags:
+        length = tag.get("end", tag["line"]) - tag["line"] + 1
+        if length > MAX_FUNCTION_LINES:
+            name = pathlib.Path(tag["path"]).relative_to(root)
+            problems.append(f"{name}:{tag['line']}: {tag['name']}() has {length} lines,"
+                            f" at most {MAX_FUNCTION_LINES}")
+    return problems
+
+
+def find_ctags():
+    """The ctags program if it is the universal one, which knows where a function ends."""
+    ctags = shutil.which("ctags")
+    return ctags if ctags and "Universal Ctags" in run(ctags, "--version") else None
+
+
+def run(*command):
+    return subprocess.run(command, stdout=subprocess.PIPE, encoding="utf-8", check=True).stdout
+
+
+if __name__ == "__main__":
+    default = pathlib.Path(__file__).resolve().parent.parent
+    sys.exit(main(pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else default))

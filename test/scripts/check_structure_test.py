@@ -1,0 +1,81 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+""".ci/check_structure.py finds what it is there to find, and nothing in clean code."""
+
+import contextlib
+import io
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+REPOSITORY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(REPOSITORY, ".ci"))
+import check_structure  # noqa: E402
+
+HEADER = check_structure.SPDX + "\n#pragma once\n"
+
+
+class CheckStructure(unittest.TestCase):
+    def check(self, name, text):
+        """Exit code and output for a tree with this one file."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / name
+            path.parent.mkdir(parents=True)
+            path.write_text(text, encoding="utf-8")
+            with contextlib.redirect_stdout(io.StringIO()) as output:
+                code = check_structure.main(pathlib.Path(folder))
+        return code, output.getvalue()
+
+    def assert_clean(self, name, text):
+        self.assertEqual(self.check(name, text)[0], 0, self.check(name, text)[1])
+
+    def assert_problem(self, name, text, message):
+        code, output = self.check(name, text)
+        self.assertEqual(code, 1)
+        self.assertIn(message, output)
+        self.assertIn(name, output)
+
+    def test_clean_files(self):
+        self.assert_clean("common/a.h", HEADER + '#include "common/b.h"\n#include <vector>\n')
+        self.assert_clean("common/ros/a.h", HEADER + "#include <ros/ros.h>\n")
+        self.assert_clean("test/common/a_test.cpp", HEADER + '#include "simulator/b.h"\n')
+        self.assert_clean("scripts/a.sh", 'ls "$root/work/file" build/home/x ~/work/x\n')
+
+    def test_ros_outside_of_its_folders(self):
+        for include in ("<ros/ros.h>", "<sensor_msgs/Imu.h>", '"cv_bridge/cv_bridge.h"'):
+            self.assert_problem("common/a.h", HEADER + f"#include {include}\n", "ROS outside")
+
+    def test_layers(self):
+        for name, include in [("common/a.h", "feature_tracker/b.h"),
+                              ("feature_tracker/a.h", "linefeature_tracker/b.h"),
+                              ("linefeature_tracker/ros/a.h", "vins_estimator/b.h"),
+                              ("vins_estimator/a.h", "feature_tracker/b.h"),
+                              ("vins_estimator/a.h", "simulator/b.h")]:
+            self.assert_problem(name, HEADER + f'#include "{include}"\n', "must not know")
+        self.assert_clean("vins_estimator/offline/a.h",
+                          HEADER + '#include "feature_tracker/b.h"\n')
+
+    def test_header_rules(self):
+        self.assert_problem("common/a.h", "#pragma once\n", "first line")
+        self.assert_problem("common/a.h", HEADER + "using namespace std;\n", "using namespace")
+        self.assert_clean("common/a.cpp", HEADER + "using namespace std::literals;\n")
+
+    def test_sizes(self):
+        self.assert_clean("common/a.cpp", HEADER + "\n" * 398)
+        self.assert_problem("common/a.cpp", HEADER + "\n" * 399, "401 lines")
+
+    @unittest.skipUnless(check_structure.find_ctags(), "universal-ctags is not installed")
+    def test_function_lengths(self):
+        self.assert_clean("common/a.cpp", HEADER + "void F() {\n" + "  G();\n" * 58 + "}\n")
+        self.assert_problem("common/a.cpp", HEADER + "void F() {\n" + "  G();\n" * 59 + "}\n",
+                            "F() has 61 lines")
+
+    def test_absolute_paths(self):
+        for text in ('"/' + 'home/me/data"', "cd /" + "work/main", "path: /" + "Users/me"):
+            self.assert_problem("config/a.yaml", text + "\n", "absolute path")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -64,8 +64,11 @@ struct LineFrame {
 
 // What the estimator takes per image: its features and the IMU samples that lead to it.
 //
-// `imu` holds the samples in (t_previous, t_this], both shifted by the time offset td, closed by a
-// sample interpolated at exactly t_this + td, where t_previous is the frame handed out before.
+// `imu` leads from the frame handed out before to this one, ready to be integrated as it is: it
+// opens with the sample interpolated at the time of that frame (the last of that frame's `imu`, bit
+// by bit), continues with the samples between, and closes with the one interpolated at exactly t_ns
+// + time_offset. The first frame's opens with the first sample there is and may be that one sample
+// only.
 struct FrameMeasurement {
   int64_t t_ns = 0;          // image stamp
   double time_offset = 0.0;  // td [s] with which the IMU samples were cut

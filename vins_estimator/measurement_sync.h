@@ -4,63 +4,94 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <string>
+#include <vector>
 
 #include "common/measurements.h"
 
 namespace plm_vins {
 
-// Samples that could not be used, by cause. All counts are since construction.
+// What came in and what could not be used, by cause. All counts are since construction.
 struct SyncStatistics {
   int64_t imu_samples = 0;
-  int64_t imu_not_finite = 0;        // NaN or infinity
-  int64_t imu_out_of_order = 0;      // stamp not after the one before (repeated or backwards)
-  int64_t imu_gaps = 0;              // intervals longer than the allowed gap, bridged
+  int64_t imu_not_finite = 0;    // NaN or infinity
+  int64_t imu_out_of_order = 0;  // stamp not after the one before (repeated or backwards)
+  int64_t imu_gaps = 0;          // intervals longer than the allowed gap, bridged
+  int64_t imu_dropped_full = 0;  // no image came for long: oldest dropped
   int64_t frames = 0;
-  int64_t frames_out_of_order = 0;
-  int64_t frames_without_imu = 0;    // no IMU sample at or before the image
-  int64_t lines_without_points = 0;  // line frame whose point frame never came
+  int64_t frames_out_of_order = 0;  // stamp not after the one before (repeated or backwards)
+  int64_t frames_without_imu =
+      0;  // no IMU sample at or before the image, or none after it at the end
+  int64_t frames_in_imu_gap = 0;     // the IMU says nothing at the time of the image
+  int64_t frames_too_close = 0;      // under 1 ms of IMU time after the frame before
   int64_t frames_dropped_full = 0;   // queue full: oldest dropped
+  int64_t frames_without_lines = 0;  // handed out without the line frame that was expected
+  int64_t line_frames = 0;
+  int64_t lines_out_of_order = 0;    // stamp not after the one before (repeated or backwards)
+  int64_t lines_late = 0;            // came after a frame of that time or later had been handed out
+  int64_t lines_without_points = 0;  // line frame whose point frame never came
 };
 
 // Pairs point and line features by equal stamp and cuts the IMU stream at the image times.
-// Synchronous, single-threaded; the caller feeds in order of arrival and pops until nothing is ready.
+// Synchronous, single-threaded; the caller feeds in order of arrival and pops until nothing is
+// ready.
 //
 // A frame is ready when the IMU reaches t_image + td and, where lines are expected, when its line
-// frame is there, a later line frame is there, or a newer point frame `max_line_lag` images ahead is there.
+// frame is there, a later line frame is there, or a newer point frame `max_line_lag` images ahead
+// is there. A frame that cannot be used is dropped and counted; the IMU samples before it then lead
+// to the next one: of the samples between the first and the last frame none is lost or used twice,
+// also when td changes.
 class MeasurementSync {
  public:
   struct Options {
     double td = 0;              // t_imu = t_image + td [s]
     bool expect_lines = false;  // wait (a little) for the line frame of each image
     int max_line_lag = 3;       // images to wait for a line frame
-    double max_imu_gap = 0.05;  // a longer interval between samples is counted as a gap [s]
-    int max_frames = 200;       // queued images; beyond, the oldest is dropped
+    double max_imu_gap =
+        0.05;  // a longer interval between samples is a gap: images in it are dropped [s]
+    int max_frames = 200;         // queued images and line frames; beyond, the oldest is dropped
+    int max_imu_samples = 50000;  // queued samples; beyond, the oldest is dropped
   };
 
-  explicit MeasurementSync(const Options& options);
+  explicit MeasurementSync(const Options& options) : options_(options) {}
 
   void AddImu(const ImuSample& sample);
   void AddPoints(PointFrame frame);
   void AddLines(LineFrame frame);
   void SetTimeOffset(double td) { options_.td = td; }
-  void Clear();  // forgets all queued data, keeps the statistics
+  void Clear();  // forgets all queued data and stamps, keeps the statistics
 
   // The next frame in order of time, or nothing yet. See FrameMeasurement for how the IMU is cut.
   std::optional<FrameMeasurement> Pop();
 
   // No more input: hands out what is left as far as the IMU reaches, without waiting for lines.
+  // Frames beyond are dropped and counted.
   std::optional<FrameMeasurement> Flush();
 
   size_t queued_frames() const { return points_.size(); }
   const SyncStatistics& statistics() const { return statistics_; }
 
  private:
+  int64_t CutTime() const;  // of the oldest queued frame, in IMU time
+  // Index of the first IMU sample at or after the time.
+  size_t FirstImuNotBefore(int64_t t_ns) const;
+  bool LinesAreDecided() const;
+  void DropUnusableFrames();
+  // Why the oldest queued frame cannot be used, as the statistic that counts it; null: it can.
+  // The IMU must reach it.
+  int64_t* FindDefect();
+  FrameMeasurement TakeFrame();
+  std::vector<ImuSample> CutImu(int64_t cut_ns);
+  std::optional<LineFrame> TakeLines(int64_t t_ns);
+
   Options options_;
   SyncStatistics statistics_;
-  std::deque<ImuSample> imu_;
+  std::deque<ImuSample> imu_;  // the front is the boundary of the last cut, once there was one
   std::deque<PointFrame> points_;
   std::deque<LineFrame> lines_;
+  std::optional<int64_t> last_cut_ns_;     // IMU time
+  std::optional<int64_t> last_points_ns_;  // stamps of the last frames accepted and handed out
+  std::optional<int64_t> last_lines_ns_;
+  std::optional<int64_t> last_popped_ns_;
 };
 
 }  // namespace plm_vins

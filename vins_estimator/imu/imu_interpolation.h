@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "common/measurements.h"
+
+namespace plm_vins {
+
+// The reading at `t_ns` on the straight line between two; `a` must be before `b`. At the stamp of
+// one of them it is that one, bit by bit.
+inline ImuSample InterpolateImu(const ImuSample& a, const ImuSample& b, int64_t t_ns) {
+  if (t_ns == a.t_ns) return a;
+  if (t_ns == b.t_ns) return b;
+  const double fraction = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
+  return {t_ns, a.gyro + fraction * (b.gyro - a.gyro), a.accel + fraction * (b.accel - a.accel)};
+}
+
+}  // namespace plm_vins

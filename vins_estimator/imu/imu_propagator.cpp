@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/imu/imu_propagator.h"
+
+#include "vins_estimator/imu/imu_interpolation.h"
+#include "vins_estimator/imu/preintegration.h"
+
+namespace plm_vins {
+namespace {
+
+const int64_t kHorizon_ns = ToNanoseconds(ImuPropagator::kHorizonSeconds);
+
+}  // namespace
+
+void ImuPropagator::Reset(const FrameState& state, int64_t t_imu_ns) {
+  state_ = state;
+  state_->t_ns = t_imu_ns;
+  t_reset_ns_ = t_imu_ns;
+  // The last sample at or before the state stays: the first interval starts on the line from it.
+  while (samples_.size() > 1 && samples_[1].t_ns <= t_imu_ns) samples_.pop_front();
+  for (size_t i = 0; i < samples_.size(); ++i) Advance(i);
+}
+
+std::optional<FrameState> ImuPropagator::Add(const ImuSample& sample) {
+  if (!sample.gyro.allFinite() || !sample.accel.allFinite()) return std::nullopt;
+  if (!samples_.empty() && sample.t_ns <= samples_.back().t_ns) return std::nullopt;
+  samples_.push_back(sample);
+  while (samples_.front().t_ns < sample.t_ns - kHorizon_ns) samples_.pop_front();
+
+  if (state_ && sample.t_ns > t_reset_ns_ + kHorizon_ns) state_.reset();
+  if (!state_ || sample.t_ns < state_->t_ns) return std::nullopt;
+  Advance(samples_.size() - 1);
+  return state_;
+}
+
+void ImuPropagator::Clear() {
+  samples_.clear();
+  state_.reset();
+}
+
+void ImuPropagator::Advance(size_t index) {
+  const ImuSample& end = samples_[index];
+  if (end.t_ns <= state_->t_ns) return;
+  // Without a sample before the state, the first one is held back to its time.
+  ImuSample begin = end;
+  begin.t_ns = state_->t_ns;
+  if (index > 0) begin = InterpolateImu(samples_[index - 1], end, state_->t_ns);
+
+  Preintegration interval(ImuNoise(), state_->bias());  // the noise is not used here
+  interval.Append(begin);
+  interval.Append(end);
+  *state_ = interval.Predict(*state_, gravity_W_);
+}
+
+}  // namespace plm_vins

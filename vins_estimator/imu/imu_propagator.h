@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <optional>
+
+#include "common/imu_noise.h"
+#include "common/measurements.h"
+#include "vins_estimator/window/frame_state.h"
+
+namespace plm_vins {
+
+// The state at IMU rate: takes the latest optimised state forward through the IMU samples after it.
+// A new state arrives late, so the newer samples are kept and applied to it again.
+//
+// It never reaches further than kHorizonSeconds past the optimised state, nor keeps older samples;
+// beyond, it says nothing until the next Reset().
+class ImuPropagator {
+ public:
+  static constexpr double kHorizonSeconds = 2.0;
+
+  explicit ImuPropagator(const Eigen::Vector3d& gravity_W) : gravity_W_(gravity_W) {}
+
+  // Starts from `state`, valid at `t_imu_ns` of the IMU clock (image stamp + td).
+  void Reset(const FrameState& state, int64_t t_imu_ns);
+
+  // The state at this sample, its t_ns being the sample's stamp. Nothing without a state to start
+  // from (none yet, too old, or newer than the sample) or where the sample is not finite or out of
+  // order.
+  std::optional<FrameState> Add(const ImuSample& sample);
+
+  // Forgets the state and the samples.
+  void Clear();
+
+ private:
+  // Takes state_ from its own time to that of samples_[index], which closes the interval.
+  void Advance(size_t index);
+
+  Eigen::Vector3d gravity_W_;
+  std::deque<ImuSample> samples_;    // increasing stamps
+  std::optional<FrameState> state_;  // t_ns in IMU time
+  int64_t t_reset_ns_ = 0;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+
+#include "common/imu_noise.h"
+#include "common/measurements.h"
+
+namespace plm_vins {
+
+// Says whether the body stands still, from the last half second of IMU samples and tracked corners.
+// Both must agree: a smooth flight can fool the IMU, a view of the far horizon the camera.
+//
+//  - IMU: angular rate and specific force, averaged over each image interval, hardly vary.
+//  Averages,
+//    because propellers shake a vehicle on the ground as strongly as a flying one (up to 1 m/s^2),
+//    but about zero. Constant biases drop out, so they need not be known.
+//  - Camera: the median corner is where it was at the start of the window.
+class StandstillDetector {
+ public:
+  struct Options {
+    double window = 0.5;        // [s] looked back; image rates below 10 / window are not decided
+    double noise_factor = 3.0;  // allowed deviation, in standard deviations of the sensor noise
+    double min_gyro_deviation = 0.025;  // [rad/s] always allowed: a vehicle with running propellers
+    double min_accel_deviation = 0.2;   // [m/s^2] the same
+    double max_motion_px = 1.0;         // median corner motion over the window [px]
+    int min_points = 10;                // corners that must be tracked through the window
+    int min_intervals = 4;              // image intervals that must be in the window
+  };
+
+  StandstillDetector(const ImuNoise& noise, const Options& options);
+  explicit StandstillDetector(const ImuNoise& noise) : StandstillDetector(noise, Options()) {}
+
+  // Takes the next image with the IMU samples that lead to it; true where the body stood still from
+  // the start of the window to this image. False until the window is full.
+  bool Add(const FrameMeasurement& measurement);
+
+  void Reset() { intervals_.clear(); }
+
+ private:
+  struct Interval {
+    int64_t t_ns = 0;                                 // image that closes it
+    Eigen::Vector3d gyro = Eigen::Vector3d::Zero();   // mean [rad/s]
+    Eigen::Vector3d accel = Eigen::Vector3d::Zero();  // mean [m/s^2]
+    PointFrame points;                                // of the image that closes it
+  };
+
+  bool ImuIsQuiet() const;
+  bool PointsStay() const;
+
+  ImuNoise noise_;
+  Options options_;
+  std::deque<Interval> intervals_;
+};
+
+}  // namespace plm_vins

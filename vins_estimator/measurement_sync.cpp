@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/measurement_sync.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "vins_estimator/imu/imu_interpolation.h"
+
+namespace plm_vins {
+namespace {
+
+// Images of which the IMU cuts are closer than this hold no motion that could be told from noise.
+constexpr int64_t kMinInterval_ns = 1'000'000;
+
+}  // namespace
+
+void MeasurementSync::AddImu(const ImuSample& sample) {
+  ++statistics_.imu_samples;
+  if (!sample.gyro.allFinite() || !sample.accel.allFinite()) {
+    ++statistics_.imu_not_finite;
+    return;
+  }
+  if (!imu_.empty() && sample.t_ns <= imu_.back().t_ns) {
+    ++statistics_.imu_out_of_order;
+    return;
+  }
+  if (!imu_.empty() && ToSeconds(sample.t_ns - imu_.back().t_ns) > options_.max_imu_gap) {
+    ++statistics_.imu_gaps;
+  }
+  imu_.push_back(sample);
+  if (static_cast<int>(imu_.size()) > options_.max_imu_samples) {
+    // The boundary of the last cut stays, so that the next interval keeps its length.
+    imu_.erase(imu_.begin() + (last_cut_ns_ ? 1 : 0));
+    ++statistics_.imu_dropped_full;
+  }
+}
+
+void MeasurementSync::AddPoints(PointFrame frame) {
+  ++statistics_.frames;
+  if (last_points_ns_ && frame.t_ns <= *last_points_ns_) {
+    ++statistics_.frames_out_of_order;
+    return;
+  }
+  last_points_ns_ = frame.t_ns;
+  points_.push_back(std::move(frame));
+  if (static_cast<int>(points_.size()) > options_.max_frames) {
+    points_.pop_front();
+    ++statistics_.frames_dropped_full;
+  }
+}
+
+void MeasurementSync::AddLines(LineFrame frame) {
+  ++statistics_.line_frames;
+  if (last_lines_ns_ && frame.t_ns <= *last_lines_ns_) {
+    ++statistics_.lines_out_of_order;
+    return;
+  }
+  last_lines_ns_ = frame.t_ns;
+  if (last_popped_ns_ && frame.t_ns <= *last_popped_ns_) {
+    ++statistics_.lines_late;
+    return;
+  }
+  lines_.push_back(std::move(frame));
+  if (static_cast<int>(lines_.size()) > options_.max_frames) {
+    lines_.pop_front();
+    ++statistics_.lines_without_points;
+  }
+}
+
+void MeasurementSync::Clear() {
+  imu_.clear();
+  points_.clear();
+  lines_.clear();
+  last_cut_ns_.reset();
+  last_points_ns_.reset();
+  last_lines_ns_.reset();
+  last_popped_ns_.reset();
+}
+
+std::optional<FrameMeasurement> MeasurementSync::Pop() {
+  DropUnusableFrames();
+  if (points_.empty() || imu_.empty() || imu_.back().t_ns < CutTime()) return std::nullopt;
+  if (!LinesAreDecided()) return std::nullopt;
+  return TakeFrame();
+}
+
+std::optional<FrameMeasurement> MeasurementSync::Flush() {
+  DropUnusableFrames();
+  if (!points_.empty() && !imu_.empty() && imu_.back().t_ns >= CutTime()) return TakeFrame();
+  statistics_.frames_without_imu += static_cast<int64_t>(points_.size());
+  points_.clear();
+  return std::nullopt;
+}
+
+int64_t MeasurementSync::CutTime() const {
+  return points_.front().t_ns + ToNanoseconds(options_.td);
+}
+
+size_t MeasurementSync::FirstImuNotBefore(int64_t t_ns) const {
+  const auto first =
+      std::lower_bound(imu_.begin(), imu_.end(), t_ns,
+                       [](const ImuSample& sample, int64_t t) { return sample.t_ns < t; });
+  return static_cast<size_t>(std::distance(imu_.begin(), first));
+}
+
+bool MeasurementSync::LinesAreDecided() const {
+  if (!options_.expect_lines) return true;
+  const bool there_or_passed = !lines_.empty() && lines_.back().t_ns >= points_.front().t_ns;
+  return there_or_passed || static_cast<int>(points_.size()) > options_.max_line_lag;
+}
+
+void MeasurementSync::DropUnusableFrames() {
+  while (!points_.empty() && !imu_.empty() && imu_.back().t_ns >= CutTime()) {
+    int64_t* const defect = FindDefect();
+    if (defect == nullptr) return;
+    ++*defect;
+    points_.pop_front();
+  }
+}
+
+int64_t* MeasurementSync::FindDefect() {
+  const int64_t cut_ns = CutTime();
+  if (last_cut_ns_ && cut_ns - *last_cut_ns_ < kMinInterval_ns) {
+    return &statistics_.frames_too_close;
+  }
+  if (cut_ns < imu_.front().t_ns) return &statistics_.frames_without_imu;
+  const size_t next = FirstImuNotBefore(cut_ns);
+  const bool between_samples = imu_[next].t_ns > cut_ns;
+  if (between_samples && ToSeconds(imu_[next].t_ns - imu_[next - 1].t_ns) > options_.max_imu_gap) {
+    return &statistics_.frames_in_imu_gap;
+  }
+  return nullptr;
+}
+
+FrameMeasurement MeasurementSync::TakeFrame() {
+  FrameMeasurement measurement;
+  measurement.t_ns = points_.front().t_ns;
+  measurement.time_offset = options_.td;
+  measurement.imu = CutImu(CutTime());
+  measurement.lines = TakeLines(measurement.t_ns);
+  measurement.points = std::move(points_.front());
+  points_.pop_front();
+  last_popped_ns_ = measurement.t_ns;
+  return measurement;
+}
+
+std::vector<ImuSample> MeasurementSync::CutImu(int64_t cut_ns) {
+  const size_t next = FirstImuNotBefore(cut_ns);
+  const ImuSample boundary =
+      next == 0 ? imu_.front() : InterpolateImu(imu_[next - 1], imu_[next], cut_ns);
+  const auto end = imu_.begin() + static_cast<std::ptrdiff_t>(next);
+  std::vector<ImuSample> samples(imu_.begin(), end);
+  samples.push_back(boundary);
+
+  // The boundary takes the place of all that was handed out: it opens the next interval.
+  const bool on_sample = imu_[next].t_ns == cut_ns;
+  imu_.erase(imu_.begin(), on_sample ? std::next(end) : end);
+  imu_.push_front(boundary);
+  last_cut_ns_ = cut_ns;
+  return samples;
+}
+
+std::optional<LineFrame> MeasurementSync::TakeLines(int64_t t_ns) {
+  while (!lines_.empty() && lines_.front().t_ns < t_ns) {
+    lines_.pop_front();
+    ++statistics_.lines_without_points;
+  }
+  if (lines_.empty() || lines_.front().t_ns != t_ns) {
+    if (options_.expect_lines) ++statistics_.frames_without_lines;
+    return std::nullopt;
+  }
+  LineFrame lines = std::move(lines_.front());
+  lines_.pop_front();
+  return lines;
+}
+
+}  // namespace plm_vins

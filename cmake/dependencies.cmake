@@ -7,7 +7,7 @@ if(NOT TARGET yaml-cpp::yaml-cpp)  # yaml-cpp before 0.8 exports a bare name
   add_library(yaml-cpp::yaml-cpp INTERFACE IMPORTED)
   target_link_libraries(yaml-cpp::yaml-cpp INTERFACE yaml-cpp)
 endif()
-find_package(CLI11 REQUIRED)
+find_package(CLI11 REQUIRED HINTS ${PROJECT_SOURCE_DIR}/build/deps)  # see scripts/setup.sh
 find_package(nlohmann_json REQUIRED)
 
 if(BUILD_ROS)

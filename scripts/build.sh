@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Builds this checkout in Release into build/. Usage: build.sh [-DOPTION=VALUE ...]
+# JOBS limits the parallel compilers; by default one per core and 1.5 GB of free memory.
+set -euo pipefail
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+
+if [[ -z "${ROS_DISTRO:-}" && -f /opt/ros/noetic/setup.bash ]]; then
+  set +u  # ROS's script reads variables that are not set
+  # shellcheck disable=SC1091
+  source /opt/ros/noetic/setup.bash
+  set -u
+fi
+
+cores="$(nproc)"
+by_memory="$(awk '/MemAvailable/ {print int($2 / 1572864) + 1}' /proc/meminfo)"
+jobs="${JOBS:-$((cores < by_memory ? cores : by_memory))}"
+
+cmake -S "$root" -B "$root/build" -DCMAKE_BUILD_TYPE=Release "$@"
+cmake --build "$root/build" -j "$jobs"

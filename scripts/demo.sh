@@ -1,0 +1,120 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, runs the odometry on a recording and shows the result.
+set -euo pipefail
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+programs="$root/build/devel/lib/plm_vins"
+
+usage() {
+  cat <<EOF
+Usage: demo.sh [--bag FILE | --asl DIR] [--config FILE] [--groundtruth FILE] [--output DIR] [--rviz]
+  --bag FILE          a ROS bag with the config's image and IMU topics
+  --asl DIR           an EuRoC ASL folder (the one with mav0/ inside)
+                      without either: a simulated recording, made once
+  --config FILE       camera, IMU and options (default: config/euroc.yaml)
+  --groundtruth FILE  TUM file or EuRoC csv to compare with (default: FILE.tum beside FILE.bag,
+                      or the one in the ASL folder)
+  --output DIR        where results go (default: output/demo)
+  --rviz              run the three nodes, rosbag play and rviz instead of the offline runner
+EOF
+}
+
+fail() {
+  echo "demo.sh: $*" >&2
+  exit 1
+}
+
+bag='' asl='' config="$root/config/euroc.yaml" truth='' output="$root/output/demo" rviz=false
+while (($#)); do
+  case "$1" in
+    --rviz) rviz=true; shift; continue ;;
+    -h | --help) usage; exit 0 ;;
+    --bag | --asl | --config | --groundtruth | --output) (($# > 1)) || fail "$1 needs a value" ;;
+    *) usage >&2; fail "unknown option $1" ;;
+  esac
+  case "$1" in
+    --bag) bag="$2" ;;
+    --asl) asl="$2" ;;
+    --config) config="$2" ;;
+    --groundtruth) truth="$2" ;;
+    --output) output="$2" ;;
+  esac
+  shift 2
+done
+[[ -z "$bag" || -z "$asl" ]] || fail "give either --bag or --asl"
+[[ -z "$bag" || -f "$bag" ]] || fail "$bag: no such bag"
+[[ -z "$asl" || -d "$asl" ]] || fail "$asl: no such folder"
+[[ -z "$truth" || -f "$truth" ]] || fail "$truth: no such ground truth"
+[[ -f "$config" ]] || fail "$config: no such config"
+[[ "$rviz" == false || -z "$asl" ]] || fail "--rviz plays bags, not ASL folders"
+
+# A recording of 30 s with its ground truth; complete once the folder has its final name.
+simulate() {
+  local folder="$root/output/simulated"
+  if [[ ! -d "$folder" ]]; then
+    echo "== Simulate a recording"
+    rm -rf "$folder.part"
+    mkdir -p "$folder.part"
+    "$programs/simulate" --config "$root/config/euroc.yaml" --duration 30 --seed 1 \
+      --output "$folder.part/demo.bag"
+    mv "$folder.part" "$folder"
+  fi
+  bag="$folder/demo.bag"
+}
+
+config_value() {
+  sed -n "s/^$1: *\"\\?\\([^\"# ]*\\).*/\\1/p" "$config"
+}
+
+run_online() {
+  set +u  # ROS's script reads variables that are not set
+  # shellcheck disable=SC1091
+  source "$root/build/devel/setup.bash"
+  set -u
+  roslaunch plm_vins euroc.launch config_file:="$(realpath "$config")" rviz:=true &
+  local launch=$!
+  trap 'kill -INT $launch; wait $launch || true' EXIT
+  rosbag play --wait-for-subscribers "$bag" \
+    --topics "$(config_value image_topic)" "$(config_value imu_topic)"
+  read -r -p "The bag has ended; press Enter to close rviz. "
+}
+
+find_truth() {
+  if [[ -n "$truth" ]]; then
+    echo "$truth"
+  elif [[ -n "$asl" ]]; then
+    find "$asl" -path '*/state_groundtruth_estimate0/data.csv' -print -quit
+  else
+    find "$(dirname "$bag")" -maxdepth 1 -name "$(basename "$bag" .bag).tum"
+  fi
+}
+
+run_offline() {
+  local input=(--bag "$bag")
+  if [[ -n "$asl" ]]; then
+    input=(--asl "$asl")
+  fi
+  truth="$(find_truth)"
+  mkdir -p "$output"
+  rm -f "$output/evaluation.json"
+  echo "== Run offline"
+  "$programs/run_offline" --config "$config" "${input[@]}" --output "$output"
+  if [[ -n "$truth" ]]; then
+    echo "== Compare with the ground truth"
+    "$root/scripts/evaluate.py" "$output/trajectory.tum" "$truth" --plots "$output/plots" \
+      --json "$output/evaluation.json" || echo "not comparable, see above"
+  fi
+  echo "== Result"
+  "$root/scripts/show_result.py" "$output"
+}
+
+echo "== Set up and build"
+"$root/scripts/setup.sh"
+"$root/scripts/build.sh"
+if [[ -z "$bag" && -z "$asl" ]]; then
+  simulate
+fi
+if [[ "$rviz" == true ]]; then
+  run_online
+else
+  run_offline
+fi

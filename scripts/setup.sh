@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Installs with apt what is missing to build, test and run: Debian 12, or Ubuntu 20.04 with ROS
+# Noetic. Usage: setup.sh [further package ...]
+set -euo pipefail
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+
+common_packages=(
+  build-essential cmake libboost-dev libceres-dev libeigen3-dev libgtest-dev libopencv-contrib-dev
+  libopencv-dev libyaml-cpp-dev nlohmann-json3-dev python3-matplotlib python3-numpy)
+debian_packages=(
+  catkin libcli11-dev libcv-bridge-dev libdiagnostic-updater-dev libgeometry-msgs-dev
+  libimage-transport-dev libnav-msgs-dev librosbag-dev libroscpp-dev librostest-dev
+  libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-ros-dev libvisualization-msgs-dev
+  python3-rosbag python3-roslaunch python3-rostest rosbash rosout rviz)
+noetic_packages=(
+  ros-noetic-catkin ros-noetic-cv-bridge ros-noetic-diagnostic-updater ros-noetic-geometry-msgs
+  ros-noetic-image-transport ros-noetic-nav-msgs ros-noetic-rosbag ros-noetic-roscpp
+  ros-noetic-roslaunch ros-noetic-rostest ros-noetic-rviz ros-noetic-sensor-msgs
+  ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2-ros ros-noetic-visualization-msgs)
+
+install_packages() {
+  local missing=() as_root=() package status
+  for package in "$@"; do
+    status="$(dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null || true)"
+    grep -qx installed <<<"$status" || missing+=("$package")
+  done
+  ((${#missing[@]})) || return 0
+  echo "Installing with apt: ${missing[*]}"
+  ((EUID == 0)) || as_root=(sudo)
+  "${as_root[@]}" apt-get -o Acquire::Retries=3 update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o Acquire::Retries=3 \
+    -o Dpkg::Use-Pty=0 install -qq -y --no-install-recommends "${missing[@]}"
+}
+
+# CLI11 into build/deps, where CMake looks for it too: Ubuntu 20.04 has no package of it.
+install_cli11() {
+  [[ ! -d "$root/build/deps" ]] || return 0
+  rm -rf "$root/build/cli11"
+  git clone -q --depth 1 --branch v2.3.2 https://github.com/CLIUtils/CLI11 "$root/build/cli11"
+  cmake -S "$root/build/cli11" -B "$root/build/cli11/build" -DCLI11_BUILD_TESTS=OFF \
+    -DCLI11_BUILD_EXAMPLES=OFF -DCLI11_BUILD_DOCS=OFF -DCMAKE_INSTALL_PREFIX="$root/build/deps"
+  cmake --build "$root/build/cli11/build" --target install
+}
+
+if [[ -d /opt/ros/noetic ]]; then
+  install_packages "${common_packages[@]}" "${noetic_packages[@]}" git "$@"
+  install_cli11
+else
+  install_packages "${common_packages[@]}" "${debian_packages[@]}" "$@"
+fi

@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds in Release and runs every test.
+# Usage: test.sh [ctest option ...], for instance: test.sh -R preintegration
+set -euo pipefail
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+
+"$root/scripts/setup.sh"
+"$root/scripts/build.sh" -DBUILD_TESTING=ON
+cd "$root/build"
+ctest --output-on-failure -j2 "$@"

@@ -33,10 +33,10 @@ double KannalaBrandt::DistortDerivative(double theta) const {
   return 1 + t * (3 * k_[0] + t * (5 * k_[1] + t * (7 * k_[2] + t * 9 * k_[3])));
 }
 
-// Walks outwards to the first step that does not grow, then halves the step down to rounding.
+// Walks outwards as long as theta_d grows, then on with ever smaller steps.
 double KannalaBrandt::FindMaxTheta() const {
   double theta = 0;
-  for (double step = 1e-3; step > 1e-16; step *= 0.5) {
+  for (double step = 1e-3; step > 1e-12; step *= 0.5) {
     while (theta + step < kPi && DistortDerivative(theta + step) > 0) theta += step;
   }
   return theta;

@@ -56,6 +56,7 @@ std::optional<Eigen::Vector2d> RadtanDistortion::Distort(
 // Newton's method; a step that leaves the invertible disc or does not improve is halved.
 std::optional<Eigen::Vector2d> RadtanDistortion::Undistort(
     const Eigen::Vector2d& distorted, Eigen::Matrix2d* d_point_d_distorted) const {
+  if (!distorted.allFinite()) return std::nullopt;
   Eigen::Vector2d point = Eigen::Vector2d::Zero();
   Eigen::Matrix2d jacobian = Eigen::Matrix2d::Identity();
   Eigen::Vector2d error = distorted;

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/initialization/global_sfm.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "vins_estimator/initialization/relative_pose.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr size_t kMinCommonPoints = 20;  // of the pair that starts
+constexpr int kMinPointsToResect = 10;
+constexpr int kMinPoints = 20;                   // of the whole structure
+constexpr double kParallaxCap = 0.2;             // more of it makes a pair no better [rad]
+constexpr double kMinTriangulationSigmas = 4.0;  // angle between rays of a point, in noise
+constexpr double kMaxReprojectionSigmas = 3.0;
+constexpr int kBundleIterations = 12;
+constexpr int kIntersectionIterations = 4;
+
+// A line in G: all points origin + depth * direction (unit length).
+struct Line {
+  Eigen::Vector3d origin, direction;
+};
+
+// The point that the lines see under the smallest angles, robustly. It is the position of a point
+// from several cameras, and just as well the position of a camera from several points.
+std::optional<Eigen::Vector3d> IntersectLines(const std::vector<Line>& lines, double noise) {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (int iteration = 0; iteration < kIntersectionIterations; ++iteration) {
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    for (const Line& line : lines) {
+      const Eigen::Matrix3d across =
+          Eigen::Matrix3d::Identity() - line.direction * line.direction.transpose();
+      double weight = 1;
+      if (iteration > 0) {
+        const Eigen::Vector3d offset = point - line.origin;
+        const double sigma = noise * std::max(offset.norm(), 1e-3);
+        weight = 1 / (sigma * sigma + (across * offset).squaredNorm());
+      }
+      A += weight * across;
+      b += weight * across * line.origin;
+    }
+    const Eigen::LDLT<Eigen::Matrix3d> ldlt(A);
+    if (ldlt.rcond() < 1e-9) return std::nullopt;
+    point = ldlt.solve(b);
+  }
+  return point;
+}
+
+// Reprojection of a point into a view of known rotation. Blocks: p_G_C, p_G.
+class PositionCost {
+ public:
+  PositionCost(const Eigen::Quaterniond& R_G_C, const Eigen::Vector2d& xy, double noise)
+      : R_C_G_(R_G_C.conjugate()), xy_(xy), noise_(noise) {}
+
+  template <typename T>
+  bool operator()(const T* p_G_C, const T* p_G, T* residual) const {
+    using Vector3 = Eigen::Matrix<T, 3, 1>;
+    const Vector3 offset = Eigen::Map<const Vector3>(p_G) - Eigen::Map<const Vector3>(p_G_C);
+    const Vector3 p_C = R_C_G_.cast<T>() * offset;
+    if (p_C.z() < T(1e-6)) return false;
+    residual[0] = (p_C.x() / p_C.z() - xy_.x()) / noise_;
+    residual[1] = (p_C.y() / p_C.z() - xy_.y()) / noise_;
+    return true;
+  }
+
+ private:
+  Eigen::Quaterniond R_C_G_;
+  Eigen::Vector2d xy_;
+  double noise_;
+};
+
+// The growing reconstruction.
+class Builder {
+ public:
+  Builder(const std::vector<Track>& tracks, const std::vector<Eigen::Quaterniond>& R_G_C,
+          const GlobalSfmOptions& options)
+      : tracks_(tracks),
+        R_G_C_(R_G_C),
+        options_(options),
+        noise_(options.noise_px / options.focal_length),
+        posed_(R_G_C.size(), false) {
+    structure_.p_G_C.assign(R_G_C.size(), Eigen::Vector3d::Zero());
+    structure_.p_G.resize(tracks.size());
+  }
+
+  std::optional<Structure> Build(std::string* reason);
+
+ private:
+  Eigen::Vector3d Ray(const ViewObservation& o) const {
+    return R_G_C_[o.view] * o.xy.homogeneous().normalized();
+  }
+  Eigen::Vector3d InCamera(int view, const Eigen::Vector3d& p_G) const {
+    return R_G_C_[view].conjugate() * (p_G - structure_.p_G_C[view]);
+  }
+  bool Start(std::string* reason);
+  std::pair<int, int> BestPair() const;
+  void Triangulate();
+  std::optional<Eigen::Vector3d> TriangulateTrack(const Track& track) const;
+  int NextView() const;
+  bool Resect(int view);
+  bool AdjustBundle();
+  void RemoveOutliers();
+  bool Fits(const Track& track, const Eigen::Vector3d& p_G, double* squared_sum) const;
+  void MoveOriginToFirstView();
+
+  const std::vector<Track>& tracks_;
+  const std::vector<Eigen::Quaterniond>& R_G_C_;
+  GlobalSfmOptions options_;
+  double noise_;  // of a normalised coordinate
+  std::vector<bool> posed_;
+  Structure structure_;
+};
+
+// The pair with the largest sum of (capped) parallax angles over its common points.
+std::pair<int, int> Builder::BestPair() const {
+  const int n = static_cast<int>(R_G_C_.size());
+  Eigen::MatrixXd score = Eigen::MatrixXd::Zero(n, n);
+  for (const Track& track : tracks_) {
+    for (size_t i = 0; i < track.observations.size(); ++i) {
+      for (size_t j = i + 1; j < track.observations.size(); ++j) {
+        const ViewObservation &a = track.observations[i], &b = track.observations[j];
+        score(a.view, b.view) += std::min(Ray(a).cross(Ray(b)).norm(), kParallaxCap);
+      }
+    }
+  }
+  int first = 0, second = 0;
+  score.maxCoeff(&first, &second);
+  return {first, second};
+}
+
+bool Builder::Start(std::string* reason) {
+  const auto [first, second] = BestPair();
+  const auto correspondences = FindCorrespondences(tracks_, first, second);
+  if (first == second || correspondences.size() < kMinCommonPoints) {
+    *reason = "too few common points: " + std::to_string(correspondences.size()) + " of " +
+              std::to_string(kMinCommonPoints);
+    return false;
+  }
+  const Eigen::Quaterniond R_C1_C0 = R_G_C_[second].conjugate() * R_G_C_[first];
+  const double parallax_px = options_.focal_length * MedianParallax(correspondences, R_C1_C0);
+  if (parallax_px < options_.min_parallax_px) {
+    char text[80];
+    std::snprintf(text, sizeof(text), "too little parallax: %.1f px of %.1f px", parallax_px,
+                  options_.min_parallax_px);
+    *reason = text;
+    return false;
+  }
+  const auto pose = EstimateRelativePose(correspondences, R_C1_C0, noise_, reason);
+  if (!pose) return false;
+  structure_.p_G_C[second] = -(R_G_C_[second] * pose->t_C1_C0);
+  posed_[first] = posed_[second] = true;
+  return true;
+}
+
+std::optional<Eigen::Vector3d> Builder::TriangulateTrack(const Track& track) const {
+  std::vector<Line> lines;
+  double widest = 0;
+  for (const ViewObservation& o : track.observations) {
+    if (!posed_[o.view]) continue;
+    lines.push_back({structure_.p_G_C[o.view], Ray(o)});
+    for (const Line& line : lines) {
+      widest = std::max(widest, line.direction.cross(lines.back().direction).norm());
+    }
+  }
+  if (widest < kMinTriangulationSigmas * noise_) return std::nullopt;
+  const auto point = IntersectLines(lines, noise_);
+  if (!point) return std::nullopt;
+  for (const Line& line : lines) {
+    if (line.direction.dot(*point - line.origin) <= 0) return std::nullopt;
+  }
+  return point;
+}
+
+void Builder::Triangulate() {
+  for (size_t i = 0; i < tracks_.size(); ++i) structure_.p_G[i] = TriangulateTrack(tracks_[i]);
+}
+
+// The view without position that sees most of the points; -1 where none sees enough.
+int Builder::NextView() const {
+  std::vector<int> seen(posed_.size(), 0);
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    if (!structure_.p_G[i]) continue;
+    for (const ViewObservation& o : tracks_[i].observations) seen[o.view] += !posed_[o.view];
+  }
+  const auto most = std::max_element(seen.begin(), seen.end());
+  return *most < kMinPointsToResect ? -1 : static_cast<int>(most - seen.begin());
+}
+
+bool Builder::Resect(int view) {
+  std::vector<Line> lines;
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    if (!structure_.p_G[i]) continue;
+    for (const ViewObservation& o : tracks_[i].observations) {
+      if (o.view == view) lines.push_back({*structure_.p_G[i], Ray(o)});
+    }
+  }
+  const auto position = IntersectLines(lines, noise_);
+  if (!position) return false;
+  structure_.p_G_C[view] = *position;
+  posed_[view] = true;
+  return true;
+}
+
+bool Builder::AdjustBundle() {
+  ceres::Problem problem;
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    if (!structure_.p_G[i]) continue;
+    for (const ViewObservation& o : tracks_[i].observations) {
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PositionCost, 2, 3, 3>(
+                                   new PositionCost(R_G_C_[o.view], o.xy, noise_)),
+                               new ceres::CauchyLoss(1.0), structure_.p_G_C[o.view].data(),
+                               structure_.p_G[i]->data());
+    }
+  }
+  // The scale and the origin stay free: the damping of the solver keeps them where they are.
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.max_num_iterations = kBundleIterations;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return summary.IsSolutionUsable();
+}
+
+// True where all observations of the track agree with the point; adds their squared errors.
+bool Builder::Fits(const Track& track, const Eigen::Vector3d& p_G, double* squared_sum) const {
+  double sum = 0;
+  for (const ViewObservation& o : track.observations) {
+    const Eigen::Vector3d p_C = InCamera(o.view, p_G);
+    if (p_C.z() <= 0) return false;
+    const double squared = (p_C.hnormalized() - o.xy).squaredNorm();
+    if (squared > std::pow(kMaxReprojectionSigmas * noise_, 2)) return false;
+    sum += squared;
+  }
+  *squared_sum += sum;
+  return true;
+}
+
+void Builder::RemoveOutliers() {
+  double squared_sum = 0;
+  int coordinates = 0;
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    if (!structure_.p_G[i]) continue;
+    if (Fits(tracks_[i], *structure_.p_G[i], &squared_sum)) {
+      coordinates += 2 * static_cast<int>(tracks_[i].observations.size());
+      ++structure_.num_points;
+    } else {
+      structure_.p_G[i].reset();
+    }
+  }
+  structure_.rms = coordinates > 0 ? std::sqrt(squared_sum / coordinates) : 0;
+}
+
+void Builder::MoveOriginToFirstView() {
+  const Eigen::Vector3d origin = structure_.p_G_C[0];
+  for (Eigen::Vector3d& position : structure_.p_G_C) position -= origin;
+  for (auto& point : structure_.p_G) {
+    if (point) *point -= origin;
+  }
+}
+
+std::optional<Structure> Builder::Build(std::string* reason) {
+  if (!Start(reason)) return std::nullopt;
+  Triangulate();
+  while (!std::all_of(posed_.begin(), posed_.end(), [](bool posed) { return posed; })) {
+    const int view = NextView();
+    if (view < 0 || !Resect(view)) {
+      *reason = "a view shares too few points with the others";
+      return std::nullopt;
+    }
+    Triangulate();
+  }
+  if (!AdjustBundle()) {
+    *reason = "the bundle adjustment of the structure failed";
+    return std::nullopt;
+  }
+  RemoveOutliers();
+  if (structure_.num_points < kMinPoints) {
+    *reason = "too few points in the structure: " + std::to_string(structure_.num_points) + " of " +
+              std::to_string(kMinPoints);
+    return std::nullopt;
+  }
+  MoveOriginToFirstView();
+  return structure_;
+}
+
+}  // namespace
+
+std::optional<Structure> ReconstructStructure(const std::vector<Track>& tracks,
+                                              const std::vector<Eigen::Quaterniond>& R_G_C,
+                                              const GlobalSfmOptions& options,
+                                              std::string* reason) {
+  return Builder(tracks, R_G_C, options).Build(reason);
+}
+
+}  // namespace plm_vins

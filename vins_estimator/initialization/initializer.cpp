@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/initialization/initializer.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "vins_estimator/initialization/frame_selection.h"
+#include "vins_estimator/initialization/motion_initializer.h"
+#include "vins_estimator/initialization/static_initializer.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kStandstillDuration = 0.75;  // [s]
+constexpr double kMinMotionDuration = 1.0;    // [s]
+constexpr double kMaxDuration = 3.0;          // of the buffer [s]
+constexpr double kMaxImuInterval = 0.05;      // between samples [s]
+constexpr int kMinCommonPoints = 12;          // of neighbouring images
+constexpr size_t kMinFrames = 6;
+constexpr size_t kMaxFrames = 11;
+constexpr int kImagesPerAttempt = 5;
+
+StandstillDetector::Options StandstillOptions() {
+  StandstillDetector::Options options;
+  options.window = kStandstillDuration;
+  return options;
+}
+
+// True where the samples are finite, in order and dense from `last` (of the image before) onwards.
+bool IsContinuous(ImuSample last, const std::vector<ImuSample>& samples) {
+  for (const ImuSample& sample : samples) {
+    if (!sample.gyro.allFinite() || !sample.accel.allFinite()) return false;
+    if (sample.t_ns <= last.t_ns || ToSeconds(sample.t_ns - last.t_ns) > kMaxImuInterval) {
+      return false;
+    }
+    last = sample;
+  }
+  return true;
+}
+
+}  // namespace
+
+Initializer::Initializer(const Config& config)
+    : sensor_(config.sensor),
+      point_noise_px_(config.estimator.point_noise),
+      max_frames_(std::min<size_t>(kMaxFrames, config.estimator.window_size + 1)),
+      standstill_(config.sensor.imu_noise, StandstillOptions()) {
+  Reset();
+}
+
+void Initializer::Reset() {
+  buffer_.clear();
+  standstill_.Reset();
+  images_since_attempt_ = 0;
+  reason_ = "waiting for images";
+}
+
+// Adds an image; forgets the older ones where IMU samples or tracks do not lead to it.
+void Initializer::Append(const FrameMeasurement& measurement) {
+  if (measurement.imu.empty()) {
+    buffer_.clear();
+    standstill_.Reset();
+    reason_ = "no IMU samples before the image";
+    return;
+  }
+  if (!buffer_.empty() && !IsContinuous(buffer_.back().imu.back(), measurement.imu)) {
+    buffer_.clear();
+    standstill_.Reset();
+    reason_ = "gap in the IMU samples";
+  }
+  if (!buffer_.empty()) {
+    const int common = CountCommonPoints(buffer_.back().points, measurement.points);
+    if (common < kMinCommonPoints) {
+      buffer_.clear();
+      reason_ = "too few points followed from the last image: " + std::to_string(common) + " of " +
+                std::to_string(kMinCommonPoints);
+    }
+  }
+  buffer_.push_back(measurement);
+  while (ToSeconds(buffer_.back().t_ns - buffer_.front().t_ns) > kMaxDuration) buffer_.pop_front();
+}
+
+std::optional<InitializationResult> Initializer::Add(const FrameMeasurement& measurement) {
+  Append(measurement);
+  ++images_since_attempt_;
+  if (buffer_.empty()) return std::nullopt;
+  if (standstill_.Add(measurement)) return TryStandstill();
+  return TryMotion();
+}
+
+std::optional<InitializationResult> Initializer::TryStandstill() {
+  std::vector<ImuSample> samples;
+  for (const FrameMeasurement& frame : buffer_) {
+    if (ToSeconds(buffer_.back().t_ns - frame.t_ns) < kStandstillDuration) {
+      samples.insert(samples.end(), frame.imu.begin(), frame.imu.end());
+    }
+  }
+  auto state = InitializeFromStandstill(samples, sensor_.gravity_norm, &reason_);
+  if (!state) return std::nullopt;
+  state->t_ns = buffer_.back().t_ns;
+  reason_.clear();
+  return InitializationResult{{{buffer_.back(), *state}}, true};
+}
+
+std::optional<InitializationResult> Initializer::TryMotion() {
+  const double duration = ToSeconds(buffer_.back().t_ns - buffer_.front().t_ns);
+  if (duration < kMinMotionDuration || buffer_.size() < kMinFrames) {
+    if (buffer_.size() > 1) {
+      char text[80];
+      std::snprintf(text, sizeof(text), "collecting images: %.1f s of %.1f s", duration,
+                    kMinMotionDuration);
+      reason_ = text;
+    }
+    return std::nullopt;
+  }
+  if (images_since_attempt_ < kImagesPerAttempt) return std::nullopt;
+  images_since_attempt_ = 0;
+  std::vector<FrameMeasurement> frames = JoinFrames(buffer_, SelectFrames(buffer_, max_frames_));
+  const auto states =
+      InitializeFromMotion(frames, sensor_, point_noise_px_, MotionInitializerOptions(), &reason_);
+  if (!states) return std::nullopt;
+  reason_.clear();
+  InitializationResult result;
+  for (size_t i = 0; i < frames.size(); ++i) {
+    result.frames.push_back({std::move(frames[i]), (*states)[i]});
+  }
+  return result;
+}
+
+}  // namespace plm_vins

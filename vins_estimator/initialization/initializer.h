@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config.h"
+#include "common/measurements.h"
+#include "vins_estimator/imu/standstill_detector.h"
+#include "vins_estimator/window/frame_state.h"
+
+namespace plm_vins {
+
+// One image with its state. Its IMU samples lead from the *previous* InitialFrame to it, in
+// (t_previous, t_this], as if the images between had never been; those of the first one lead from
+// the image before it.
+struct InitialFrame {
+  FrameMeasurement measurement;
+  FrameState state;
+};
+
+struct InitializationResult {
+  std::vector<InitialFrame> frames;  // oldest first, the last one is the newest image
+  bool from_standstill = false;
+};
+
+// Finds the first states of the estimator: from standstill as soon as the body has stood still for
+// three quarters of a second, else from motion as soon as a second or more of images determines
+// gravity, velocity and scale. World: z up, origin and heading 0 at the first frame of the result.
+// Rather waits than guesses, and says why. Keeps at most three seconds of images. Deterministic.
+class Initializer {
+ public:
+  explicit Initializer(const Config& config);
+
+  // Takes the next image; at most window_size + 1 frames as soon as their states can be determined.
+  std::optional<InitializationResult> Add(const FrameMeasurement& measurement);
+
+  // Why there is no result yet, e.g. "too little parallax: 4.2 px of 15.0 px".
+  const std::string& reason() const { return reason_; }
+
+  void Reset();
+
+ private:
+  void Append(const FrameMeasurement& measurement);
+  std::optional<InitializationResult> TryStandstill();
+  std::optional<InitializationResult> TryMotion();
+
+  SensorConfig sensor_;
+  double point_noise_px_;
+  size_t max_frames_;
+  StandstillDetector standstill_;
+  std::deque<FrameMeasurement> buffer_;  // without gap in IMU samples and tracks
+  int images_since_attempt_ = 0;
+  std::string reason_;
+};
+
+}  // namespace plm_vins

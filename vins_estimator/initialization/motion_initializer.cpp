@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/initialization/motion_initializer.h"
+
+#include <cstdio>
+
+#include "common/so3.h"
+#include "vins_estimator/imu/preintegration.h"
+#include "vins_estimator/initialization/global_sfm.h"
+#include "vins_estimator/initialization/relative_pose.h"
+#include "vins_estimator/initialization/tracks.h"
+#include "vins_estimator/initialization/visual_inertial_alignment.h"
+#include "vins_estimator/initialization/visual_inertial_bundle.h"
+
+namespace plm_vins {
+namespace {
+
+// "text: 4.2 of 15.0"; the format takes both numbers.
+std::string Describe(const char* format, double value, double limit) {
+  char text[120];
+  std::snprintf(text, sizeof(text), format, value, limit);
+  return text;
+}
+
+// One attempt; the members are filled step by step.
+class Attempt {
+ public:
+  Attempt(const std::vector<FrameMeasurement>& frames, const SensorConfig& sensor,
+          double point_noise_px, const MotionInitializerOptions& options, std::string* reason);
+
+  std::optional<std::vector<FrameState>> Run();
+
+ private:
+  bool EstimateBias();
+  std::optional<RotationMeasurement> MeasureRotation(int interval) const;
+  void ChainRotations();
+  bool Reconstruct();
+  bool Align();
+  void SetStates();
+  bool Adjust();
+  bool CheckBiases();
+  bool CheckAdjustment(const VisualInertialBundle& bundle);
+  void MoveWorldToFirstFrame();
+
+  const std::vector<FrameMeasurement>& frames_;
+  const SensorConfig& sensor_;
+  double focal_length_;
+  double noise_px_;
+  MotionInitializerOptions options_;
+  std::string* reason_;
+
+  std::vector<Track> tracks_;
+  std::vector<Preintegration> preintegrations_;      // interval i leads from frame i to i + 1
+  std::vector<Eigen::Quaterniond> R_G_B_;            // G: body frame of the first image
+  Structure structure_;                              // in G
+  Alignment alignment_;                              // in G
+  std::vector<std::optional<Eigen::Vector3d>> p_W_;  // per track
+  std::vector<FrameState> states_;
+};
+
+Attempt::Attempt(const std::vector<FrameMeasurement>& frames, const SensorConfig& sensor,
+                 double point_noise_px, const MotionInitializerOptions& options,
+                 std::string* reason)
+    : frames_(frames),
+      sensor_(sensor),
+      focal_length_(CameraModel::Create(sensor.camera)->FocalLength()),
+      noise_px_(point_noise_px),
+      options_(options),
+      reason_(reason) {
+  std::vector<const PointFrame*> views;
+  for (const FrameMeasurement& frame : frames) views.push_back(&frame.points);
+  tracks_ = CollectTracks(views);
+  for (size_t i = 0; i + 1 < frames.size(); ++i) {
+    preintegrations_.emplace_back(sensor.imu_noise, ImuBias{});
+    preintegrations_.back().Append(frames[i].imu.back());
+    for (const ImuSample& sample : frames[i + 1].imu) preintegrations_.back().Append(sample);
+  }
+}
+
+// Rotation of the body over the interval as the camera sees it.
+std::optional<RotationMeasurement> Attempt::MeasureRotation(int interval) const {
+  const Preintegration& imu = preintegrations_[interval];
+  const Eigen::Quaterniond R_B_C = sensor_.T_B_C.rotation;
+  const Eigen::Quaterniond R_C1_C0 = R_B_C.conjugate() * imu.delta_q().conjugate() * R_B_C;
+  const auto pose = EstimateRelativePose(FindCorrespondences(tracks_, interval, interval + 1),
+                                         R_C1_C0, noise_px_ / focal_length_, reason_);
+  if (!pose) return std::nullopt;
+  const Eigen::Matrix3d R = R_B_C.toRotationMatrix();
+  return RotationMeasurement{&imu, R_B_C * pose->R_C1_C0.conjugate() * R_B_C.conjugate(),
+                             R * pose->rotation_information * R.transpose()};
+}
+
+bool Attempt::EstimateBias() {
+  std::vector<RotationMeasurement> rotations;
+  for (size_t i = 0; i < preintegrations_.size(); ++i) {
+    const auto rotation = MeasureRotation(static_cast<int>(i));
+    if (rotation) rotations.push_back(*rotation);
+  }
+  if (2 * rotations.size() < preintegrations_.size()) return false;  // the last pair's reason
+  const auto gyro = EstimateGyroBias(rotations, reason_);
+  if (!gyro) return false;
+  for (Preintegration& imu : preintegrations_) {
+    imu.Repropagate({Eigen::Vector3d::Zero(), gyro->bias});
+  }
+  return true;
+}
+
+void Attempt::ChainRotations() {
+  R_G_B_.assign(1, Eigen::Quaterniond::Identity());
+  for (const Preintegration& imu : preintegrations_) {
+    R_G_B_.push_back((R_G_B_.back() * imu.delta_q()).normalized());
+  }
+}
+
+bool Attempt::Reconstruct() {
+  std::vector<Eigen::Quaterniond> R_G_C;
+  for (const Eigen::Quaterniond& R_G_B : R_G_B_) R_G_C.push_back(R_G_B * sensor_.T_B_C.rotation);
+  const GlobalSfmOptions options{focal_length_, noise_px_, options_.min_parallax_px};
+  const auto structure = ReconstructStructure(tracks_, R_G_C, options, reason_);
+  if (structure) structure_ = *structure;
+  return structure.has_value();
+}
+
+bool Attempt::Align() {
+  std::vector<AlignmentView> views;
+  for (size_t i = 0; i < R_G_B_.size(); ++i) views.push_back({R_G_B_[i], structure_.p_G_C[i]});
+  std::vector<const Preintegration*> preintegrations;
+  for (const Preintegration& imu : preintegrations_) preintegrations.push_back(&imu);
+  const auto alignment =
+      AlignVisualInertial(views, preintegrations, sensor_.T_B_C, sensor_.gravity_norm, reason_);
+  if (alignment) alignment_ = *alignment;
+  return alignment.has_value();
+}
+
+// The aligned states and points in a world with gravity along -z.
+void Attempt::SetStates() {
+  const Eigen::Quaterniond R_W_G =
+      ShortestRotation(-alignment_.gravity_G, Eigen::Vector3d::UnitZ());
+  const ImuBias bias{alignment_.accel_bias, preintegrations_.front().linearization_bias().gyro};
+  states_.resize(frames_.size());
+  for (size_t i = 0; i < frames_.size(); ++i) {
+    const Eigen::Quaterniond R_G_C = R_G_B_[i] * sensor_.T_B_C.rotation;
+    const Rigid3d T_W_C(R_W_G * R_G_C, R_W_G * (alignment_.scale * structure_.p_G_C[i]));
+    states_[i].t_ns = frames_[i].t_ns;
+    states_[i].SetPose(T_W_C * sensor_.T_B_C.Inverse());
+    states_[i].velocity() = R_W_G * alignment_.velocity_G[i];
+    states_[i].SetBias(bias);
+  }
+  p_W_.resize(tracks_.size());
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    if (structure_.p_G[i]) p_W_[i] = R_W_G * (alignment_.scale * *structure_.p_G[i]);
+  }
+}
+
+bool Attempt::CheckBiases() {
+  const double accel = states_.back().accel_bias().norm();
+  const double gyro = states_.back().gyro_bias().norm();
+  if (accel > options_.max_accel_bias) {
+    *reason_ = Describe("implausible accelerometer bias: %.2f m/s^2 of at most %.2f", accel,
+                        options_.max_accel_bias);
+    return false;
+  }
+  if (gyro > options_.max_gyro_bias) {
+    *reason_ =
+        Describe("implausible gyro bias: %.3f rad/s of at most %.3f", gyro, options_.max_gyro_bias);
+    return false;
+  }
+  return true;
+}
+
+bool Attempt::CheckAdjustment(const VisualInertialBundle& bundle) {
+  if (bundle.reprojection_rms > options_.max_reprojection_rms) {
+    *reason_ = Describe("points do not fit: %.1f sigma of at most %.1f", bundle.reprojection_rms,
+                        options_.max_reprojection_rms);
+    return false;
+  }
+  if (bundle.imu_rms > options_.max_imu_rms) {
+    *reason_ = Describe("camera and IMU disagree: %.1f sigma of at most %.1f", bundle.imu_rms,
+                        options_.max_imu_rms);
+    return false;
+  }
+  if (bundle.relative_scale_deviation > options_.max_scale_deviation) {
+    *reason_ = Describe("scale not observable yet: uncertain by %.1f %% of at most %.1f %%",
+                        100 * bundle.relative_scale_deviation, 100 * options_.max_scale_deviation);
+    return false;
+  }
+  return true;
+}
+
+bool Attempt::Adjust() {
+  VisualInertialBundleOptions options;
+  options.T_B_C = sensor_.T_B_C;
+  options.gravity_norm = sensor_.gravity_norm;
+  options.noise = noise_px_ / focal_length_;
+  const auto bundle =
+      AdjustVisualInertialBundle(tracks_, p_W_, preintegrations_, options, &states_, reason_);
+  return bundle && CheckAdjustment(*bundle) && CheckBiases();
+}
+
+void Attempt::MoveWorldToFirstFrame() {
+  const Eigen::Quaterniond heading(Eigen::AngleAxisd(
+      -Yaw(Eigen::Quaterniond(states_.front().rotation())), Eigen::Vector3d::UnitZ()));
+  const Rigid3d T_new_old(heading, -(heading * states_.front().position()));
+  for (FrameState& state : states_) {
+    state.SetPose(T_new_old * state.T_W_B());
+    state.velocity() = heading * state.velocity().eval();
+  }
+}
+
+std::optional<std::vector<FrameState>> Attempt::Run() {
+  if (!EstimateBias()) return std::nullopt;
+  ChainRotations();
+  if (!Reconstruct() || !Align()) return std::nullopt;
+  SetStates();
+  if (!Adjust()) return std::nullopt;
+  MoveWorldToFirstFrame();
+  return states_;
+}
+
+}  // namespace
+
+std::optional<std::vector<FrameState>> InitializeFromMotion(
+    const std::vector<FrameMeasurement>& frames, const SensorConfig& sensor, double point_noise_px,
+    const MotionInitializerOptions& options, std::string* reason) {
+  return Attempt(frames, sensor, point_noise_px, options, reason).Run();
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config.h"
+#include "common/measurements.h"
+#include "vins_estimator/window/frame_state.h"
+
+namespace plm_vins {
+
+struct MotionInitializerOptions {
+  double min_parallax_px = 15;        // median over the points of the best pair of images
+  double max_scale_deviation = 0.05;  // relative, of the adjusted states
+  double max_reprojection_rms = 2;    // in standard deviations of a corner
+  double max_imu_rms = 5;             // in standard deviations of the preintegrated motion
+  double max_accel_bias = 1.0;        // [m/s^2]
+  double max_gyro_bias = 0.5;         // [rad/s]
+};
+
+// The states of a few images in motion, from nothing but their points and IMU samples: gyro bias
+// from relative poses, structure up to scale, alignment (velocities, gravity, scale),
+// visual-inertial bundle adjustment, checks. `frames[i + 1].imu` leads from frame i to frame i + 1;
+// of `frames[0].imu` only the last sample, at the image, is used. World: origin and heading 0 at
+// the first frame. Nothing, and the reason in words, where any step or check fails.
+std::optional<std::vector<FrameState>> InitializeFromMotion(
+    const std::vector<FrameMeasurement>& frames, const SensorConfig& sensor, double point_noise_px,
+    const MotionInitializerOptions& options, std::string* reason);
+
+}  // namespace plm_vins

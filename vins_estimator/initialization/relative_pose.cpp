@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/initialization/relative_pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+
+#include "common/so3.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr size_t kMinCorrespondences = 15;
+constexpr int kMinInliers = 12;
+constexpr double kConfidence = 0.999;
+constexpr double kInlierSigmas = 3.0;  // distance to the epipolar line, in standard deviations
+constexpr int kRefinements = 6;
+
+using Vector5d = Eigen::Matrix<double, 5, 1>;
+using Matrix5d = Eigen::Matrix<double, 5, 5>;
+
+Eigen::Matrix3d ToEigen(const cv::Mat& m) {
+  Eigen::Matrix3d result;
+  for (int row = 0; row < 3; ++row) {
+    for (int col = 0; col < 3; ++col) result(row, col) = m.at<double>(row, col);
+  }
+  return result;
+}
+
+// First-order distance of a correspondence to the epipolar constraint f1 . (t x R f0) = 0, and its
+// derivative for R <- Exp(theta) R and t <- t + B eta, the weight of the constraint held constant.
+struct EpipolarResidual {
+  double distance;
+  Vector5d gradient;
+};
+
+EpipolarResidual Evaluate(const Correspondence& c, const Eigen::Matrix3d& R,
+                          const Eigen::Vector3d& t, const Eigen::Matrix<double, 3, 2>& B) {
+  const Eigen::Vector3d f1 = c.xy1.homogeneous();
+  const Eigen::Vector3d rotated = R * c.xy0.homogeneous();
+  const Eigen::Vector3d line1 = t.cross(rotated);
+  const Eigen::Vector3d line0 = R.transpose() * f1.cross(t);
+  const double scale =
+      1.0 / std::sqrt(line0.head<2>().squaredNorm() + line1.head<2>().squaredNorm() + 1e-18);
+  EpipolarResidual residual;
+  residual.distance = scale * f1.dot(line1);
+  residual.gradient.head<3>() = scale * rotated.cross(f1.cross(t));
+  residual.gradient.tail<2>() = scale * B.transpose() * rotated.cross(f1);
+  return residual;
+}
+
+// Two directions that span the plane orthogonal to the unit vector t.
+Eigen::Matrix<double, 3, 2> TangentBasis(const Eigen::Vector3d& t) {
+  Eigen::Matrix<double, 3, 2> basis;
+  basis.col(0) = t.unitOrthogonal();
+  basis.col(1) = t.cross(basis.col(0));
+  return basis;
+}
+
+// Takes over the decomposition of E that is nearest to the gyro's rotation.
+void DecomposeNear(const cv::Mat& E, const Eigen::Quaterniond& R_C1_C0_gyro, RelativePose* pose) {
+  cv::Mat R_a, R_b, t;
+  cv::decomposeEssentialMat(E, R_a, R_b, t);
+  const Eigen::Quaterniond a(ToEigen(R_a)), b(ToEigen(R_b));
+  const bool a_is_nearer = a.angularDistance(R_C1_C0_gyro) <= b.angularDistance(R_C1_C0_gyro);
+  pose->R_C1_C0 = a_is_nearer ? a : b;
+  pose->t_C1_C0 = Eigen::Vector3d(t.at<double>(0), t.at<double>(1), t.at<double>(2)).normalized();
+}
+
+// Marks who agrees within the gate.
+void Classify(const std::vector<Correspondence>& correspondences, double noise,
+              RelativePose* pose) {
+  const Eigen::Matrix3d R = pose->R_C1_C0.toRotationMatrix();
+  const Eigen::Matrix<double, 3, 2> B = TangentBasis(pose->t_C1_C0);
+  pose->inliers.assign(correspondences.size(), false);
+  pose->num_inliers = 0;
+  for (size_t i = 0; i < correspondences.size(); ++i) {
+    const double distance = Evaluate(correspondences[i], R, pose->t_C1_C0, B).distance;
+    pose->inliers[i] = std::abs(distance) < kInlierSigmas * noise;
+    pose->num_inliers += pose->inliers[i];
+  }
+}
+
+// One Gauss-Newton step over all correspondences with Cauchy weights; also sets the information.
+void Refine(const std::vector<Correspondence>& correspondences, double noise, RelativePose* pose) {
+  const Eigen::Matrix3d R = pose->R_C1_C0.toRotationMatrix();
+  const Eigen::Matrix<double, 3, 2> B = TangentBasis(pose->t_C1_C0);
+  Matrix5d H = Matrix5d::Zero();
+  Vector5d g = Vector5d::Zero();
+  for (const Correspondence& c : correspondences) {
+    EpipolarResidual r = Evaluate(c, R, pose->t_C1_C0, B);
+    const double whitened = r.distance / noise;
+    const double weight = 1.0 / (1.0 + whitened * whitened);
+    r.gradient /= noise;
+    H += weight * r.gradient * r.gradient.transpose();
+    g += weight * whitened * r.gradient;
+  }
+  // The direction is never trusted to less than nothing: one radian keeps pure rotation solvable.
+  H.bottomRightCorner<2, 2>() += Eigen::Matrix2d::Identity();
+  const Vector5d step = -H.ldlt().solve(g);
+  pose->R_C1_C0 = (SO3Exp(step.head<3>()) * pose->R_C1_C0).normalized();
+  pose->t_C1_C0 = (pose->t_C1_C0 + B * step.tail<2>()).normalized();
+  pose->rotation_information = H.topLeftCorner<3, 3>() - H.topRightCorner<3, 2>() *
+                                                             H.bottomRightCorner<2, 2>().inverse() *
+                                                             H.bottomLeftCorner<2, 3>();
+}
+
+// Turns the translation so that most inliers have positive depth.
+void ChooseTranslationSign(const std::vector<Correspondence>& correspondences, RelativePose* pose) {
+  int votes = 0;
+  for (size_t i = 0; i < correspondences.size(); ++i) {
+    if (!pose->inliers[i]) continue;
+    const Eigen::Vector3d f1 = correspondences[i].xy1.homogeneous();
+    const Eigen::Vector3d rotated = pose->R_C1_C0 * correspondences[i].xy0.homogeneous();
+    // depth1 f1 = depth0 R f0 + t, multiplied by f1 x: depth0 (f1 x R f0) = -f1 x t.
+    votes += f1.cross(rotated).dot(f1.cross(pose->t_C1_C0)) < 0 ? 1 : -1;
+  }
+  if (votes < 0) pose->t_C1_C0 = -pose->t_C1_C0;
+}
+
+}  // namespace
+
+std::optional<RelativePose> EstimateRelativePose(const std::vector<Correspondence>& correspondences,
+                                                 const Eigen::Quaterniond& R_C1_C0_gyro,
+                                                 double noise, std::string* reason) {
+  if (correspondences.size() < kMinCorrespondences) {
+    *reason = "too few common points: " + std::to_string(correspondences.size()) + " of " +
+              std::to_string(kMinCorrespondences);
+    return std::nullopt;
+  }
+  std::vector<cv::Point2d> points0, points1;
+  for (const Correspondence& c : correspondences) {
+    points0.emplace_back(c.xy0.x(), c.xy0.y());
+    points1.emplace_back(c.xy1.x(), c.xy1.y());
+  }
+  const cv::Mat E = cv::findEssentialMat(points0, points1, cv::Mat::eye(3, 3, CV_64F), cv::RANSAC,
+                                         kConfidence, kInlierSigmas * noise, cv::noArray());
+  if (E.rows != 3 || E.cols != 3) {
+    *reason = "no epipolar geometry agrees with the points";
+    return std::nullopt;
+  }
+  RelativePose pose;
+  DecomposeNear(E, R_C1_C0_gyro, &pose);
+  for (int i = 0; i < kRefinements; ++i) Refine(correspondences, noise, &pose);
+  Classify(correspondences, noise, &pose);
+  if (pose.num_inliers < std::max<int>(kMinInliers, correspondences.size() / 2)) {
+    *reason = "epipolar geometry has too few inliers: " + std::to_string(pose.num_inliers) +
+              " of " + std::to_string(correspondences.size());
+    return std::nullopt;
+  }
+  ChooseTranslationSign(correspondences, &pose);
+  return pose;
+}
+
+double MedianParallax(const std::vector<Correspondence>& correspondences,
+                      const Eigen::Quaterniond& R_C1_C0) {
+  if (correspondences.empty()) return 0;
+  std::vector<double> angles;
+  for (const Correspondence& c : correspondences) {
+    const Eigen::Vector3d rotated = R_C1_C0 * c.xy0.homogeneous().eval();
+    const Eigen::Vector3d f1 = c.xy1.homogeneous();
+    angles.push_back(std::atan2(rotated.cross(f1).norm(), rotated.dot(f1)));
+  }
+  const auto middle = angles.begin() + angles.size() / 2;
+  std::nth_element(angles.begin(), middle, angles.end());
+  return *middle;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/initialization/static_initializer.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "common/so3.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kMaxGyroMean = 0.5;      // larger is no bias [rad/s]
+constexpr double kMaxGravityError = 1.0;  // of the mean specific force's norm [m/s^2]
+
+}  // namespace
+
+std::optional<FrameState> InitializeFromStandstill(const std::vector<ImuSample>& samples,
+                                                   double gravity_norm, std::string* reason) {
+  Eigen::Vector3d gyro = Eigen::Vector3d::Zero(), accel = Eigen::Vector3d::Zero();
+  for (const ImuSample& sample : samples) {
+    gyro += sample.gyro / samples.size();
+    accel += sample.accel / samples.size();
+  }
+  char text[120];
+  if (!(std::abs(accel.norm() - gravity_norm) < kMaxGravityError)) {
+    std::snprintf(text, sizeof(text),
+                  "standing still, but gravity reads %.2f m/s^2 instead of %.2f", accel.norm(),
+                  gravity_norm);
+    *reason = text;
+    return std::nullopt;
+  }
+  if (!(gyro.norm() < kMaxGyroMean)) {
+    std::snprintf(text, sizeof(text), "standing still, but the gyro reads %.2f rad/s", gyro.norm());
+    *reason = text;
+    return std::nullopt;
+  }
+  const Eigen::Quaterniond R_W_B = ShortestRotation(accel, Eigen::Vector3d::UnitZ());
+  const Eigen::AngleAxisd heading(-Yaw(R_W_B), Eigen::Vector3d::UnitZ());
+  FrameState state;
+  state.SetPose({heading * R_W_B, Eigen::Vector3d::Zero()});
+  state.SetBias({Eigen::Vector3d::Zero(), gyro});
+  return state;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/rigid3.h"
+#include "vins_estimator/imu/preintegration.h"
+#include "vins_estimator/initialization/tracks.h"
+#include "vins_estimator/window/frame_state.h"
+
+namespace plm_vins {
+
+struct VisualInertialBundleOptions {
+  Rigid3d T_B_C;
+  double gravity_norm = 9.81;     // [m/s^2]
+  double noise = 1.0 / 460;       // standard deviation of a normalised coordinate
+  double accel_bias_prior = 0.1;  // standard deviation of the accelerometer bias about 0 [m/s^2]
+  double gyro_bias_prior = 0.05;  // of the gyro bias about its initial value [rad/s]
+};
+
+// How well the adjusted states explain the measurements, in standard deviations (1 is ideal).
+struct VisualInertialBundle {
+  double reprojection_rms = 0;
+  double imu_rms = 0;
+  double relative_scale_deviation = 0;  // of the trajectory's size, from the covariance
+};
+
+// Refines poses, velocities and biases of a few frames together with their points, over IMU and
+// reprojection errors. Position and heading of the first frame stay. `p_W` has one entry per track;
+// tracks without are left out. `preintegrations[i]` leads from state i to state i + 1.
+// Nothing, and the reason in words, where the solver fails.
+std::optional<VisualInertialBundle> AdjustVisualInertialBundle(
+    const std::vector<Track>& tracks, const std::vector<std::optional<Eigen::Vector3d>>& p_W,
+    const std::vector<Preintegration>& preintegrations, const VisualInertialBundleOptions& options,
+    std::vector<FrameState>* states, std::string* reason);
+
+}  // namespace plm_vins

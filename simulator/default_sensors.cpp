@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulator/default_sensors.h"
 
-#include <cmath>
-
-#include "common/so3.h"
-
 namespace plm_vins::simulator {
 
 SensorConfig DefaultSensors() {
@@ -12,14 +8,17 @@ SensorConfig DefaultSensors() {
   CameraParameters& camera = sensors.camera;
   camera.width = 752;
   camera.height = 480;
-  camera.fx = 460.0;
-  camera.fy = 459.0;
-  camera.cx = 370.0;
-  camera.cy = 245.0;
-  camera.distortion = {-0.28, 0.07, 2e-4, 2e-5};
-  const Eigen::Quaterniond quarter_turn = SO3Exp({0, 0, M_PI / 2});
-  const Eigen::Quaterniond mounting_error = SO3Exp({0.005, -0.02, 0.01});
-  sensors.T_B_C = {quarter_turn * mounting_error, {-0.02, -0.065, 0.01}};
+  camera.fx = 458.654;
+  camera.fy = 457.296;
+  camera.cx = 367.215;
+  camera.cy = 248.375;
+  camera.distortion = {-0.28340811, 0.07395907, 0.00019359, 1.76187114e-5};
+  Eigen::Matrix3d R_B_C;
+  R_B_C << 0.0148655429818, -0.999880929698, 0.00414029679422,  //
+      0.999557249008, 0.0149672133247, 0.025715529948,          //
+      -0.0257744366974, 0.00375618835797, 0.999660727178;
+  sensors.T_B_C = {Eigen::Quaterniond(R_B_C).normalized(),
+                   {-0.0216401454975, -0.064676986768, 0.00981073058949}};
   return sensors;
 }
 

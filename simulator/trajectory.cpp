@@ -65,7 +65,7 @@ class ControlGenerator {
     return controls;
   }
 
-  static double KnotSpacing(Motion motion) { return motion == Motion::kFast ? 0.5 : 0.9; }
+  static double KnotSpacing(Motion motion) { return motion == Motion::kFast ? 0.6 : 1.2; }
 
  private:
   Control First() {

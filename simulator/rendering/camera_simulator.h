@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "common/config.h"
+#include "simulator/rendering/renderer.h"
+#include "simulator/trajectory.h"
+
+namespace plm_vins::simulator {
+
+struct ImagingOptions {
+  double exposure = 0.006;   // [s]
+  double full_scale = 0.85;  // brightness that saturates a pixel
+  double vignetting = 0.35;  // light lost in the image corners
+  double read_noise = 1.2;   // standard deviation [grey levels]
+  double shot_noise = 0.25;  // standard deviation at one grey level, grows with its root
+  bool add_noise = true;
+  uint64_t seed = 1;
+};
+
+// A camera on the trajectory: lens distortion, blur over the exposure, vignetting and sensor noise.
+class CameraSimulator {
+ public:
+  // The trajectory and the scene must outlive the camera.
+  CameraSimulator(const Trajectory& trajectory, const Scene& scene, const CameraParameters& camera,
+                  const Rigid3d& T_B_C, const ImagingOptions& options);
+
+  // Image `index` (it seeds the noise), whose exposure is centred `t` seconds after the start.
+  cv::Mat Expose(double t, uint64_t index) const;
+
+ private:
+  int ExposureSteps(double t) const;
+  cv::Mat1f VignettingGain() const;
+  cv::Mat Digitize(const cv::Mat1f& brightness, uint64_t index) const;
+
+  const Trajectory& trajectory_;
+  std::shared_ptr<const CameraModel> camera_;
+  Rigid3d T_B_C_;
+  ImagingOptions options_;
+  Renderer renderer_;
+  cv::Mat1f gain_;  // grey levels per brightness
+};
+
+}  // namespace plm_vins::simulator

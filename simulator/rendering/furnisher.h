@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "common/rigid3.h"
+#include "simulator/rendering/scene.h"
+#include "simulator/rendering/texture_painter.h"
+
+namespace plm_vins::simulator {
+
+enum class TextureStyle { kRich, kWeak };
+
+// A wall with a frame F of its own: origin in its lower left corner seen from the room, x to the
+// right, y upwards, z into the room.
+struct Wall {
+  Rigid3d T_W_F;
+  double width, height;  // [m]
+};
+
+// The materials that objects of a scene share.
+struct Materials {
+  int wood, dark_wood, metal, white, black, cardboard;
+};
+
+// Puts things into a scene. Places on walls are coordinates of the wall's frame [m].
+class Furnisher {
+ public:
+  // `texel`: size of the finest detail on the walls [m].
+  Furnisher(Scene* scene, TextureStyle style, double texel, uint64_t seed);
+
+  enum class Surface { kPlaster, kBricks, kTiles, kPanels };
+
+  // The six inner faces of a room centred in x and y with its floor at z = 0. Walls by the
+  // direction that they lie in: +x, +y, -x, -y.
+  struct Room {
+    Wall walls[4];
+  };
+  Room AddRoom(const Eigen::Vector3d& size, const Surface (&walls)[4], Surface ceiling);
+
+  void AddBoxOnWall(const Wall& wall, const Eigen::Vector3d& corner, const Eigen::Vector3d& size,
+                    int texture);
+  void AddFrame(const Wall& wall, double x, double y, double width, double height, int texture);
+  void AddDoor(const Wall& wall, double x);
+  void AddWindow(const Wall& wall, double x, double y, double width, double height);
+  // `tilt`: turned about the wall's normal [rad].
+  void AddPoster(const Wall& wall, double x, double y, double width, double height, double tilt);
+  void AddShelf(const Wall& wall, double x, double width, double height);
+  void AddPipe(const Wall& wall, const Eigen::Vector3d& start, const Eigen::Vector3d& end,
+               double radius);
+  void AddSkirting(const Wall& wall);
+  void AddLamp(const Eigen::Vector3d& center, double length, double yaw);
+
+  void AddTable(const Eigen::Vector3d& floor_center, double yaw);
+  void AddCrate(const Eigen::Vector3d& floor_center, double size, double yaw);
+  void AddPillar(const Eigen::Vector3d& floor_center, double width, double height);
+  // A plank that leans against something.
+  void AddPlank(const Eigen::Vector3d& foot, const Eigen::Vector3d& head, double width);
+
+  bool rich() const { return rich_; }
+  const Materials& materials() const { return materials_; }
+  Random& random() { return random_; }
+
+ private:
+  int Paint(Surface surface, double width, double height, double brightness);
+  void AddPicture(const Wall& wall, const Eigen::Vector3d& center, double width, double height,
+                  double tilt, int texture, double glow = 0);
+
+  Scene* scene_;
+  bool rich_;
+  Random random_;
+  TexturePainter walls_, objects_;
+  Materials materials_;
+};
+
+}  // namespace plm_vins::simulator

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+#include "simulator/random.h"
+
+namespace plm_vins::simulator {
+
+// Paints pictures of materials. Sizes in metres, brightness from 0 (black) to 1 (white).
+// `detail` scales all contrast: 1 is a lively surface, 0 a perfectly plain one.
+class TexturePainter {
+ public:
+  TexturePainter(double texel, double detail, uint64_t seed)
+      : texel_(texel), detail_(detail), random_(seed) {}
+
+  cv::Mat1b Plain(double width, double height, double brightness);
+  // Blotches of all sizes, stains and scratches; darker towards the edges.
+  cv::Mat1b Plaster(double width, double height, double brightness);
+  // Plaster joints around bricks.
+  cv::Mat1b Bricks(double width, double height, double brightness);
+  cv::Mat1b Tiles(double width, double height, double brightness, double tile_size);
+  // Grain along the height.
+  cv::Mat1b Wood(double width, double height, double brightness);
+  cv::Mat1b Panels(double width, double height, double brightness, double panel_size);
+  // A print with a light margin: a diagram, a picture or a text.
+  cv::Mat1b Poster(double width, double height);
+  // Spines of books.
+  cv::Mat1b Books(double width, double height);
+  // A landscape behind glass.
+  cv::Mat1b View(double width, double height);
+
+ private:
+  cv::Mat1f Canvas(double width, double height, double brightness) const;
+  cv::Mat1f FractalNoise(const cv::Size& size, double coarsest, double finest, double stretch);
+  void AddStains(cv::Mat1f* canvas);
+  void DarkenEdges(cv::Mat1f* canvas) const;
+  void DrawGrid(cv::Mat1f* canvas, double step_x, double step_y, double joint, bool running_bond,
+                double joint_brightness, double variation);
+  void DrawShapes(cv::Mat1f* canvas, int count);
+  void DrawText(cv::Mat1f* canvas);
+  int Pixels(double metres) const;
+
+  double texel_;  // [m]
+  double detail_;
+  Random random_;
+};
+
+}  // namespace plm_vins::simulator

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator/rendering/world.h"
+
+#include <cmath>
+
+namespace plm_vins::simulator {
+namespace {
+
+using Eigen::Vector3d;
+using Surface = Furnisher::Surface;
+
+// Posters side by side along a wall, at uneven heights, some hung askew.
+void HangPosters(Furnisher* furnisher, const Wall& wall, double from, double to, double height) {
+  Random& random = furnisher->random();
+  for (double x = from; x < to - 0.5;) {
+    const double width = random.Uniform(0.35, 0.9), poster_height = random.Uniform(0.4, 0.9);
+    const double tilt = random.Uniform() < 0.3 ? random.Uniform(-0.4, 0.4) : 0.0;
+    if (x + width > to) return;
+    furnisher->AddPoster(wall, x, height + random.Uniform(-0.2, 0.3), width, poster_height, tilt);
+    x += width + random.Uniform(0.15, 0.6);
+  }
+}
+
+// A pipe along the whole wall with branches down to the floor.
+void RunPipe(Furnisher* furnisher, const Wall& wall, double height, double radius, double spacing) {
+  const double out = 0.12;
+  furnisher->AddPipe(wall, {0, height, out}, {wall.width, height, out}, radius);
+  for (double x = 0.4 * spacing; x < wall.width; x += spacing) {
+    furnisher->AddPipe(wall, {x, 0, out}, {x, height, out}, 0.7 * radius);
+  }
+}
+
+World MakeRoom(TextureStyle style, uint64_t seed) {
+  World world;
+  world.flight_center = {0, 0, 1.6};
+  world.flight_extent = {1.8, 1.2, 0.5};
+  const Vector3d size(8, 6.4, 3.2);
+  Furnisher furnisher(&world.scene, style, 0.003, seed);
+  const auto room = furnisher.AddRoom(
+      size, {Surface::kPlaster, Surface::kPlaster, Surface::kBricks, Surface::kPlaster},
+      Surface::kPanels);
+  const Wall &front = room.walls[0], &left = room.walls[1], &back = room.walls[2],
+             &right = room.walls[3];
+
+  furnisher.AddWindow(front, 0.7, 0.95, 1.5, 1.3);
+  furnisher.AddWindow(front, 4.0, 0.95, 1.5, 1.3);
+  HangPosters(&furnisher, front, 2.45, 3.85, 1.2);
+  furnisher.AddDoor(left, 0.8);
+  furnisher.AddShelf(left, 2.4, 1.6, 2.1);
+  HangPosters(&furnisher, left, 4.3, 7.8, 1.3);
+  RunPipe(&furnisher, back, 2.75, 0.05, 2.9);
+  HangPosters(&furnisher, back, 1.5, 4.0, 1.2);
+  furnisher.AddShelf(back, 4.6, 1.2, 1.8);
+  furnisher.AddDoor(right, 6.2);
+  furnisher.AddShelf(right, 0.6, 1.0, 2.3);
+  HangPosters(&furnisher, right, 2.0, 5.9, 1.35);
+
+  furnisher.AddTable({2.6, -2.1, 0}, 0.3);
+  furnisher.AddTable({-2.4, 2.0, 0}, -0.2);
+  furnisher.AddCrate({3.3, 2.5, 0}, 0.7, 0.5);
+  furnisher.AddCrate({-3.2, -2.5, 0}, 0.8, 0.9);
+  furnisher.AddPlank({-1.6, -2.5, 0}, {-2.4, -3.15, 2.4}, 0.15);
+  furnisher.AddPlank({3.5, 1.2, 0}, {3.95, 0.6, 2.6}, 0.12);
+  furnisher.AddLamp({-1.5, 0, size.z() - 0.1}, 2.0, M_PI / 2);
+  furnisher.AddLamp({1.8, 0, size.z() - 0.1}, 2.0, M_PI / 2);
+  return world;
+}
+
+World MakeCorridor(TextureStyle style, uint64_t seed) {
+  World world;
+  world.flight_center = {-2, 0, 1.5};
+  world.flight_extent = {16, 0.6, 0.4};
+  const Vector3d size(40, 3, 2.9);
+  Furnisher furnisher(&world.scene, style, 0.003, seed);
+  const auto room = furnisher.AddRoom(
+      size, {Surface::kPlaster, Surface::kPlaster, Surface::kBricks, Surface::kPlaster},
+      Surface::kPanels);
+  for (const Wall* wall : {&room.walls[1], &room.walls[3]}) {
+    for (double x = 1.2; x < size.x() - 3.5; x += 4.0) {
+      furnisher.AddDoor(*wall, x + furnisher.random().Uniform(0, 0.4));
+      HangPosters(&furnisher, *wall, x + 1.7, x + 3.7, 1.2);
+    }
+  }
+  RunPipe(&furnisher, room.walls[1], 2.6, 0.06, 40);
+  RunPipe(&furnisher, room.walls[3], 2.65, 0.04, 6.15);
+  furnisher.AddDoor(room.walls[0], 1.0);
+  furnisher.AddWindow(room.walls[2], 0.8, 0.9, 1.4, 1.2);
+  for (double x = -18; x < 20; x += 4) {
+    furnisher.AddLamp({x, 0, size.z() - 0.08}, 1.2, 0);
+    const double side = std::fmod(x + 18, 8) < 1 ? 1.15 : -1.15;
+    furnisher.AddCrate({x + 1.7, side, 0}, furnisher.random().Uniform(0.35, 0.55),
+                       furnisher.random().Uniform(0, 1.5));
+  }
+  return world;
+}
+
+void AddRoof(Furnisher* furnisher, Scene* scene, const Vector3d& size) {
+  for (double x = -10; x <= 10; x += 4) {
+    const Rigid3d T_W_O(Eigen::Quaterniond::Identity(), {x, 0, size.z() - 0.3});
+    scene->AddBox(T_W_O, {0.3, size.y() - 0.02, 0.6}, furnisher->materials().metal);
+    furnisher->AddLamp({x + 2, 0, size.z() - 0.7}, 3.0, M_PI / 2);
+    // Diagonal struts between the beams.
+    scene->AddPipe({x, -4, size.z() - 0.5}, {x + 4, 4, size.z() - 0.5}, 0.08,
+                   furnisher->materials().metal);
+  }
+}
+
+World MakeHall(TextureStyle style, uint64_t seed) {
+  World world;
+  world.flight_center = {0, 0, 2.2};
+  world.flight_extent = {6, 3.5, 0.9};
+  const Vector3d size(24, 16, 7);
+  Furnisher furnisher(&world.scene, style, 0.006, seed);
+  const auto room = furnisher.AddRoom(
+      size, {Surface::kBricks, Surface::kPanels, Surface::kPlaster, Surface::kBricks},
+      Surface::kPanels);
+  for (const Wall& wall : room.walls) {
+    for (double x = 1.5; x < wall.width - 4; x += 5) {
+      furnisher.AddWindow(wall, x, 3.6, 2.4, 1.8);
+      furnisher.AddDoor(wall, x + 2.8);
+      furnisher.AddShelf(wall, x - 0.8, 1.8, 2.4);
+    }
+    HangPosters(&furnisher, wall, 1.0, wall.width - 1, 2.6);
+    RunPipe(&furnisher, wall, 6.0, 0.12, 5.3);
+  }
+  for (double x = -9; x <= 9; x += 6) {
+    for (const double y : {-5.5, 5.5}) furnisher.AddPillar({x, y, 0}, 0.45, size.z() - 0.6);
+  }
+  Random& random = furnisher.random();
+  for (int i = 0; i < 14; ++i) {
+    const double side = i % 2 == 0 ? 1 : -1, edge = random.Uniform(0.6, 1.3);
+    const Vector3d place(random.Uniform(-10, 10), side * random.Uniform(4.6, 6.8), 0);
+    furnisher.AddCrate(place, edge, random.Uniform(0, 1.5));
+  }
+  for (const double side : {-1.0, 1.0}) {
+    furnisher.AddCrate({side * 8.5, side * 1.0, 0}, 1.4, 0.4);
+    furnisher.AddCrate({side * 8.5, side * 1.0, 1.4}, 0.9, 0.9);
+    furnisher.AddTable({side * 9, -2.5 * side, 0}, 0.7);
+    furnisher.AddPlank({side * 10.6, side * 3, 0}, {side * 11.8, side * 4, 3.2}, 0.25);
+  }
+  AddRoof(&furnisher, &world.scene, size);
+  return world;
+}
+
+}  // namespace
+
+World MakeWorld(WorldKind kind, TextureStyle style, uint64_t seed) {
+  switch (kind) {
+    case WorldKind::kCorridor:
+      return MakeCorridor(style, seed);
+    case WorldKind::kHall:
+      return MakeHall(style, seed);
+    default:
+      return MakeRoom(style, seed);
+  }
+}
+
+}  // namespace plm_vins::simulator

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "simulator/rendering/furnisher.h"
+#include "simulator/rendering/scene.h"
+
+namespace plm_vins::simulator {
+
+enum class WorldKind { kRoom, kCorridor, kHall };
+
+// A scene and the box within it that is free to fly in.
+struct World {
+  Scene scene;
+  Eigen::Vector3d flight_center, flight_extent;  // [m]
+};
+
+World MakeWorld(WorldKind kind, TextureStyle style, uint64_t seed);
+
+}  // namespace plm_vins::simulator

@@ -44,8 +44,8 @@ done
 [[ -z "$bag" || -f "$bag" ]] || fail "$bag: no such bag"
 [[ -z "$asl" || -d "$asl" ]] || fail "$asl: no such folder"
 [[ -z "$truth" || -f "$truth" ]] || fail "$truth: no such ground truth"
-[[ -f "$config" ]] || fail "$config: no such config"
 [[ "$rviz" == false || -z "$asl" ]] || fail "--rviz plays bags, not ASL folders"
+[[ -f "$config" ]] || fail "$config: no such config"
 
 # A recording of 30 s with its ground truth; complete once the folder has its final name.
 simulate() {

@@ -1,0 +1,54 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Prints a short table of a results folder: summary.json and, where present, evaluation.json."""
+
+import json
+import os
+import sys
+
+
+def rows(summary, evaluation):
+    """Pairs of label and text; `evaluation` is None without ground truth."""
+    def number(key, text):
+        value = summary.get(key)
+        return "-" if value is None else text.format(value)
+
+    table = [
+        ("poses", number("poses", "{} of ") + number("images", "{} images")),
+        ("first pose", number("init_time_s", "{:.2f} s after the first image")),
+        ("path", number("path_length_m", "{:.2f} m")),
+        ("speed", number("real_time_factor", "{:.1f} x real time")),
+        ("points", number("points", "{}")),
+        ("lines", number("lines", "{}")),
+        ("restarts", number("resets", "{}")),
+    ]
+    if evaluation:
+        table.insert(2, ("APE", f"{evaluation['ape_m']['rmse']:.4f} m rmse"))
+        table.insert(3, ("coverage", f"{100 * evaluation['coverage']:.1f} % of the ground truth"))
+    return table
+
+
+def read_json(path):
+    if not os.path.isfile(path):
+        return None
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def main(folder):
+    summary = read_json(os.path.join(folder, "summary.json"))
+    if summary is None:
+        print(f"show_result.py: {folder}: no summary.json", file=sys.stderr)
+        return 1
+    for label, text in rows(summary, read_json(os.path.join(folder, "evaluation.json"))):
+        print(f"{label:12}{text}")
+    for parent, _, names in sorted(os.walk(folder)):
+        for name in sorted(names):
+            print(f"{'':12}{os.path.join(parent, name)}")
+    return 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("usage: show_result.py FOLDER")
+    sys.exit(main(sys.argv[1]))

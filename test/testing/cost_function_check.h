@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checks a cost function's Jacobians against the convention of factors/manifolds.h.
+#pragma once
+
+#include <ceres/cost_function.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "test/testing/numeric_jacobian.h"
+#include "vins_estimator/factors/manifolds.h"
+
+namespace plm_vins::testing {
+
+using Block =
+    Eigen::VectorXd;  // one parameter block; 7 numbers are a pose, all others a vector space
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+inline int TangentSize(const Block& block) {
+  return static_cast<int>(block.size()) == kPoseSize ? kPoseTangentSize
+                                                     : static_cast<int>(block.size());
+}
+
+inline Block BlockPlus(const Block& block, const Eigen::VectorXd& delta) {
+  if (block.size() != kPoseSize) return block + delta;
+  Block moved(kPoseSize);
+  PosePlus(block.data(), delta.data(), moved.data());
+  return moved;
+}
+
+inline std::vector<const double*> Pointers(const std::vector<Block>& blocks) {
+  std::vector<const double*> pointers;
+  for (const Block& block : blocks) pointers.push_back(block.data());
+  return pointers;
+}
+
+inline Eigen::VectorXd Residual(const ceres::CostFunction& cost, const std::vector<Block>& blocks) {
+  Eigen::VectorXd residual(cost.num_residuals());
+  EXPECT_TRUE(cost.Evaluate(Pointers(blocks).data(), residual.data(), nullptr));
+  return residual;
+}
+
+// Every Jacobian of `cost`, asked for together and alone, is the derivative through Plus, padded
+// with zeros. `tolerance` is per entry.
+inline void ExpectTangentJacobians(const ceres::CostFunction& cost,
+                                   const std::vector<Block>& blocks, double tolerance,
+                                   double step = 1e-6) {
+  const int rows = cost.num_residuals();
+  std::vector<RowMajorMatrix> jacobians;
+  std::vector<double*> all;
+  for (const Block& block : blocks) jacobians.emplace_back(rows, block.size());
+  for (RowMajorMatrix& jacobian : jacobians) all.push_back(jacobian.data());
+  Eigen::VectorXd residual(rows);
+  ASSERT_TRUE(cost.Evaluate(Pointers(blocks).data(), residual.data(), all.data()));
+  EXPECT_MATRIX_NEAR(residual, Residual(cost, blocks), 0.0);
+
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    SCOPED_TRACE("parameter block " + std::to_string(i));
+    const auto function = [&](const Block& block) {
+      std::vector<Block> moved = blocks;
+      moved[i] = block;
+      return Residual(cost, moved);
+    };
+    const int tangent = TangentSize(blocks[i]);
+    const Eigen::MatrixXd numeric = NumericJacobian(function, blocks[i], tangent, &BlockPlus, step);
+    EXPECT_MATRIX_NEAR(jacobians[i].leftCols(tangent), numeric, tolerance);
+    EXPECT_TRUE(jacobians[i].rightCols(blocks[i].size() - tangent).isZero(0.0));
+
+    RowMajorMatrix alone(rows, blocks[i].size());
+    std::vector<double*> only(blocks.size(), nullptr);
+    only[i] = alone.data();
+    ASSERT_TRUE(cost.Evaluate(Pointers(blocks).data(), residual.data(), only.data()));
+    EXPECT_MATRIX_NEAR(alone, jacobians[i], 0.0);
+  }
+}
+
+}  // namespace plm_vins::testing

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/imu/imu_propagator.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "simulator/imu_simulator.h"
+#include "test/testing/numeric_jacobian.h"
+#include "vins_estimator/imu/imu_interpolation.h"
+#include "vins_estimator/imu/preintegration.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Vector3d;
+
+const Vector3d kGravity_W(0, 0, -9.81);
+constexpr int64_t kMillisecond = 1'000'000;
+
+class ImuPropagatorTest : public ::testing::Test {
+ protected:
+  ImuPropagatorTest() {
+    simulator::TrajectoryOptions options;
+    options.motion = simulator::Motion::kFast;
+    options.duration = 8.0;
+    samples_ = simulator::SimulateImu(simulator::Trajectory(options), {}).samples;
+    start_.SetPose({Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {1, 2, 3}});
+    start_.velocity() = Vector3d(0.5, -1, 0.2);
+    start_.SetBias({{0.1, 0.05, -0.1}, {0.01, 0, -0.02}});
+  }
+
+  // Prediction by one preintegration from time `t_ns` to the sample `last`.
+  FrameState Predict(int64_t t_ns, size_t last) const {
+    Preintegration preintegration(ImuNoise(), start_.bias());
+    size_t i = 0;
+    while (samples_[i + 1].t_ns <= t_ns) ++i;
+    preintegration.Append(InterpolateImu(samples_[i], samples_[i + 1], t_ns));
+    for (++i; i <= last; ++i) preintegration.Append(samples_[i]);
+    return preintegration.Predict(start_, kGravity_W);
+  }
+
+  static void ExpectSame(const std::optional<FrameState>& actual, const FrameState& expected) {
+    ASSERT_TRUE(actual.has_value());
+    EXPECT_MATRIX_NEAR(actual->position(), expected.position(), 1e-11);
+    EXPECT_MATRIX_NEAR(actual->rotation().coeffs(), expected.rotation().coeffs(), 1e-11);
+    EXPECT_MATRIX_NEAR(actual->velocity(), expected.velocity(), 1e-11);
+    EXPECT_MATRIX_NEAR(actual->accel_bias(), expected.accel_bias(), 0.0);
+  }
+
+  std::vector<ImuSample> samples_;  // 200 Hz from 0
+  FrameState start_;
+  ImuPropagator propagator_{kGravity_W};
+};
+
+TEST_F(ImuPropagatorTest, SaysNothingWithoutAState) {
+  EXPECT_FALSE(propagator_.Add(samples_[0]).has_value());
+  EXPECT_FALSE(propagator_.Add(samples_[1]).has_value());
+}
+
+TEST_F(ImuPropagatorTest, EqualsThePreintegratedPrediction) {
+  const int64_t t_ns = 502 * kMillisecond;  // between two samples
+  for (size_t i = 0; i <= 100; ++i) propagator_.Add(samples_[i]);
+  propagator_.Reset(start_, t_ns);
+  for (size_t i = 101; i <= 300; ++i) {
+    const auto state = propagator_.Add(samples_[i]);
+    ExpectSame(state, Predict(t_ns, i));
+    EXPECT_EQ(state->t_ns, samples_[i].t_ns);
+  }
+}
+
+TEST_F(ImuPropagatorTest, ALateStateIsTakenThroughTheNewerSamples) {
+  const int64_t t_ns = 502 * kMillisecond;
+  propagator_.Reset(FrameState(), 0);  // another one before
+  for (size_t i = 0; i <= 150; ++i) propagator_.Add(samples_[i]);
+  propagator_.Reset(start_, t_ns);
+  ExpectSame(propagator_.Add(samples_[151]), Predict(t_ns, 151));
+}
+
+TEST_F(ImuPropagatorTest, ResetOnASampleStartsThere) {
+  for (size_t i = 0; i <= 100; ++i) propagator_.Add(samples_[i]);
+  propagator_.Reset(start_, samples_[100].t_ns);
+  ExpectSame(propagator_.Add(samples_[101]), Predict(samples_[100].t_ns, 101));
+}
+
+TEST_F(ImuPropagatorTest, IgnoresBadSamples) {
+  for (size_t i = 0; i <= 100; ++i) propagator_.Add(samples_[i]);
+  propagator_.Reset(start_, samples_[100].t_ns);
+  ImuSample bad = samples_[101];
+  bad.accel.y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(propagator_.Add(bad).has_value());
+  EXPECT_FALSE(propagator_.Add(samples_[100]).has_value());  // repeated
+  EXPECT_FALSE(propagator_.Add(samples_[50]).has_value());   // backwards
+  ExpectSame(propagator_.Add(samples_[101]), Predict(samples_[100].t_ns, 101));
+}
+
+TEST_F(ImuPropagatorTest, WaitsForSamplesAfterAStateThatIsAhead) {
+  propagator_.Add(samples_[0]);
+  propagator_.Reset(start_, samples_[2].t_ns);
+  EXPECT_FALSE(propagator_.Add(samples_[1]).has_value());
+  propagator_.Add(samples_[2]);
+  ExpectSame(propagator_.Add(samples_[3]), Predict(samples_[2].t_ns, 3));
+}
+
+TEST_F(ImuPropagatorTest, FallsSilentBeyondItsHorizonUntilTheNextState) {
+  propagator_.Reset(start_, 0);
+  size_t answered = 0;
+  for (size_t i = 0; i < 1200; ++i) answered += propagator_.Add(samples_[i]).has_value();
+  EXPECT_EQ(answered, 401u);  // 0 to 2 s at 200 Hz
+  propagator_.Reset(start_, samples_[1190].t_ns);
+  ExpectSame(propagator_.Add(samples_[1200]), Predict(samples_[1190].t_ns, 1200));
+}
+
+TEST_F(ImuPropagatorTest, SaysNothingAfterClear) {
+  propagator_.Add(samples_[0]);
+  propagator_.Reset(start_, samples_[0].t_ns);
+  propagator_.Clear();
+  EXPECT_FALSE(propagator_.Add(samples_[1]).has_value());
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/imu/standstill_detector.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulator/imu_simulator.h"
+#include "simulator/random.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int64_t kFrame_ns = 50'000'000;  // 20 Hz
+constexpr int64_t kSample_ns = 5'000'000;  // 200 Hz
+
+// A made-up sensor: IMU readings and corner positions as functions of time.
+class StandstillDetectorTest : public ::testing::Test {
+ protected:
+  // The next image, by what the body does at time t [s].
+  template <typename Gyro, typename Accel, typename Shift>
+  FrameMeasurement Next(const Gyro& gyro, const Accel& accel, const Shift& shift_px) {
+    FrameMeasurement frame;
+    frame.t_ns = t_ns_ + kFrame_ns;
+    for (int64_t t = t_ns_; t <= frame.t_ns; t += kSample_ns) {
+      const Vector3d gyro_noise = noise_.gyro_density / std::sqrt(0.005) * random_.NormalVector3();
+      const Vector3d accel_noise =
+          noise_.accel_density / std::sqrt(0.005) * random_.NormalVector3();
+      frame.imu.push_back({t, bias_.gyro + gyro(ToSeconds(t)) + gyro_noise,
+                           bias_.accel + Vector3d(0, 0, 9.81) + accel(ToSeconds(t)) + accel_noise});
+    }
+    t_ns_ = frame.t_ns;
+    frame.points.t_ns = frame.t_ns;
+    for (int id = 0; id < points_; ++id) {
+      PointObservation point;
+      point.id = first_id_ + id;
+      point.uv_px = Eigen::Vector2d(10.0 * id + shift_px(ToSeconds(frame.t_ns)), 5.0 * id) +
+                    0.1 * Eigen::Vector2d(random_.Normal(), random_.Normal());
+      frame.points.points.push_back(point);
+    }
+    return frame;
+  }
+
+  // How many of `count` images in this motion are taken as standing still.
+  template <typename Gyro, typename Accel, typename Shift>
+  int CountStill(int count, const Gyro& gyro, const Accel& accel, const Shift& shift_px) {
+    int still = 0;
+    for (int i = 0; i < count; ++i) still += detector_.Add(Next(gyro, accel, shift_px));
+    return still;
+  }
+
+  static Vector3d Nothing(double) { return Vector3d::Zero(); }
+  static double NoShift(double) { return 0; }
+
+  ImuNoise noise_;
+  ImuBias bias_{{0.3, -0.2, 0.1}, {0.08, -0.03, 0.02}};
+  StandstillDetector detector_{noise_};
+  simulator::Random random_{3};
+  int64_t t_ns_ = 0;
+  int points_ = 60;
+  int first_id_ = 0;
+};
+
+TEST_F(StandstillDetectorTest, RecognisesStandstillOnceTheWindowIsFull) {
+  EXPECT_EQ(CountStill(10, Nothing, Nothing, NoShift), 0);
+  EXPECT_EQ(CountStill(50, Nothing, Nothing, NoShift), 50);
+}
+
+TEST_F(StandstillDetectorTest, PropellersMayShakeTheBodyOnTheGround) {
+  const auto gyro = [](double t) { return Vector3d(0.05 * std::sin(2 * M_PI * 80 * t), 0, 0); };
+  const auto accel = [](double t) { return Vector3d(0, 0, 1.0 * std::sin(2 * M_PI * 80 * t)); };
+  EXPECT_EQ(CountStill(60, gyro, accel, NoShift), 50);
+}
+
+TEST_F(StandstillDetectorTest, HoveringIsNotStandingEvenWhereTheImageHoldsStill) {
+  const auto gyro = [](double t) { return Vector3d(0.1 * std::sin(2 * M_PI * 1.5 * t), 0, 0); };
+  EXPECT_EQ(CountStill(200, gyro, Nothing, NoShift), 0);
+  const auto accel = [](double t) { return Vector3d(0.5 * std::sin(2 * M_PI * 1.5 * t), 0, 0); };
+  EXPECT_EQ(CountStill(200, Nothing, accel, NoShift), 0);
+}
+
+TEST_F(StandstillDetectorTest, GlidingIsNotStandingEvenWhereTheImuFeelsNothing) {
+  // 5 cm/s at 5 m distance and 460 px focal length.
+  const auto shift = [](double t) { return 460 * 0.05 * t / 5.0; };
+  EXPECT_EQ(CountStill(200, Nothing, Nothing, shift), 0);
+}
+
+TEST_F(StandstillDetectorTest, NoticesTheTakeOffWithinTwoImages) {
+  EXPECT_GT(CountStill(40, Nothing, Nothing, NoShift), 0);
+  const double start = ToSeconds(t_ns_);
+  const auto accel = [](double) { return Vector3d(0, 0, 2.0); };
+  const auto shift = [start](double t) { return 460 * (t - start) * (t - start) / 3.0; };
+  CountStill(1, Nothing, accel, shift);
+  EXPECT_EQ(CountStill(40, Nothing, accel, shift), 0);
+}
+
+TEST_F(StandstillDetectorTest, BlindOrWithNewTracksItDoesNotDecide) {
+  points_ = 5;
+  EXPECT_EQ(CountStill(30, Nothing, Nothing, NoShift), 0);
+  points_ = 60;
+  EXPECT_GT(CountStill(30, Nothing, Nothing, NoShift), 0);
+  first_id_ = 1000;
+  EXPECT_EQ(CountStill(10, Nothing, Nothing, NoShift), 0);
+  EXPECT_GT(CountStill(5, Nothing, Nothing, NoShift), 0);
+}
+
+TEST_F(StandstillDetectorTest, WithoutImuOrAfterResetItStartsOver) {
+  EXPECT_GT(CountStill(30, Nothing, Nothing, NoShift), 0);
+  FrameMeasurement blind = Next(Nothing, Nothing, NoShift);
+  blind.imu.clear();
+  EXPECT_FALSE(detector_.Add(blind));
+  EXPECT_EQ(CountStill(10, Nothing, Nothing, NoShift), 0);
+  EXPECT_EQ(CountStill(5, Nothing, Nothing, NoShift), 5);
+  detector_.Reset();
+  EXPECT_EQ(CountStill(10, Nothing, Nothing, NoShift), 0);
+}
+
+// The IMU of simulated flights, with an image that never moves: the worst case for the IMU part.
+TEST_F(StandstillDetectorTest, SimulatedFlightIsNeverStill) {
+  simulator::TrajectoryOptions options;
+  options.motion = simulator::Motion::kFast;
+  options.duration = 30.0;
+  options.rest = 0.0;
+  const auto imu = simulator::SimulateImu(simulator::Trajectory(options), {}).samples;
+  int still = 0;
+  for (size_t i = 200; i + 10 < imu.size(); i += 10) {
+    FrameMeasurement frame = Next(Nothing, Nothing, NoShift);
+    frame.imu.assign(imu.begin() + static_cast<std::ptrdiff_t>(i),
+                     imu.begin() + static_cast<std::ptrdiff_t>(i) + 11);
+    still += detector_.Add(frame);
+  }
+  EXPECT_EQ(still, 0);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/ros/msg_conversion.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <geometry_msgs/Point32.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <array>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <string>
+
+namespace plm_vins {
+namespace {
+
+// Drivers that do not care announce grey images by their OpenCV type, which cv_bridge converts only
+// to itself.
+cv::Mat ToGrey(const sensor_msgs::Image& message) {
+  namespace encodings = sensor_msgs::image_encodings;
+  const auto view = [&](const std::string& encoding) {
+    return cv_bridge::toCvShare(message, nullptr, encoding)->image.clone();
+  };
+  if (message.encoding == encodings::TYPE_8UC1) return view(encodings::TYPE_8UC1);
+  if (message.encoding != encodings::TYPE_16UC1) return view(encodings::MONO8);
+  cv::Mat gray;
+  view(encodings::TYPE_16UC1).convertTo(gray, CV_8U, 255.0 / 65535.0);
+  return gray;
+}
+
+void AddChannel(const std::string& name, size_t size, sensor_msgs::PointCloud* cloud) {
+  cloud->channels.emplace_back();
+  cloud->channels.back().name = name;
+  cloud->channels.back().values.reserve(size);
+}
+
+geometry_msgs::Point32 ToImagePoint(const Eigen::Vector2d& xy) {
+  geometry_msgs::Point32 point;
+  point.x = static_cast<float>(xy.x());
+  point.y = static_cast<float>(xy.y());
+  point.z = 1;
+  return point;
+}
+
+template <size_t kSize>
+sensor_msgs::PointCloud EmptyCloud(int64_t t_ns, const std::string& frame_id, size_t size,
+                                   const std::array<const char*, kSize>& channels) {
+  sensor_msgs::PointCloud cloud;
+  cloud.header.stamp = ToRosTime(t_ns);
+  cloud.header.frame_id = frame_id;
+  cloud.points.reserve(size);
+  for (const char* name : channels) AddChannel(name, size, &cloud);
+  return cloud;
+}
+
+template <size_t kSize>
+void Append(const Eigen::Vector2d& xy, const std::array<double, kSize>& values,
+            sensor_msgs::PointCloud* cloud) {
+  cloud->points.push_back(ToImagePoint(xy));
+  for (size_t i = 0; i < kSize; ++i) {
+    cloud->channels[i].values.push_back(static_cast<float>(values[i]));
+  }
+}
+
+void CheckChannels(const sensor_msgs::PointCloud& cloud, size_t count, const char* expected) {
+  bool valid = cloud.channels.size() >= count;
+  for (size_t i = 0; valid && i < count; ++i) {
+    valid = cloud.channels[i].values.size() == cloud.points.size();
+  }
+  if (!valid) {
+    throw std::invalid_argument(std::string("feature message without the channels ") + expected);
+  }
+}
+
+}  // namespace
+
+ros::Time ToRosTime(int64_t t_ns) {
+  ros::Time stamp;
+  stamp.fromNSec(static_cast<uint64_t>(t_ns));
+  return stamp;
+}
+
+ImageSample ToImageSample(const sensor_msgs::Image& message) {
+  try {
+    return {ToNanoseconds(message.header.stamp), ToGrey(message)};
+  } catch (const std::exception& error) {  // cv_bridge::Exception or cv::Exception
+    throw std::invalid_argument("image of encoding '" + message.encoding +
+                                "' cannot be made grey: " + error.what());
+  }
+}
+
+ImageSample ToImageSample(const sensor_msgs::CompressedImage& message) {
+  cv::Mat gray;
+  if (!message.data.empty()) gray = cv::imdecode(message.data, cv::IMREAD_GRAYSCALE);
+  if (gray.empty()) {
+    throw std::invalid_argument("compressed image of format '" + message.format +
+                                "' cannot be decoded");
+  }
+  return {ToNanoseconds(message.header.stamp), gray};
+}
+
+ImuSample ToImuSample(const sensor_msgs::Imu& message) {
+  const auto& w = message.angular_velocity;
+  const auto& a = message.linear_acceleration;
+  return {ToNanoseconds(message.header.stamp), {w.x, w.y, w.z}, {a.x, a.y, a.z}};
+}
+
+sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& frame_id) {
+  const std::array<const char*, 5> channels = {"id", "u", "v", "vx", "vy"};
+  sensor_msgs::PointCloud cloud = EmptyCloud(frame.t_ns, frame_id, frame.points.size(), channels);
+  for (const PointObservation& point : frame.points) {
+    const std::array<double, 5> values = {static_cast<double>(point.id), point.uv_px.x(),
+                                          point.uv_px.y(), point.velocity.x(), point.velocity.y()};
+    Append(point.xy, values, &cloud);
+  }
+  return cloud;
+}
+
+PointFrame ToPointFrame(const sensor_msgs::PointCloud& message) {
+  CheckChannels(message, 5, "id, u, v, vx, vy");
+  PointFrame frame;
+  frame.t_ns = ToNanoseconds(message.header.stamp);
+  frame.points.resize(message.points.size());
+  const auto value = [&](int channel, size_t i) { return message.channels[channel].values[i]; };
+  for (size_t i = 0; i < frame.points.size(); ++i) {
+    frame.points[i].id = std::llround(value(0, i));
+    frame.points[i].xy = {message.points[i].x, message.points[i].y};
+    frame.points[i].uv_px = {value(1, i), value(2, i)};
+    frame.points[i].velocity = {value(3, i), value(4, i)};
+  }
+  return frame;
+}
+
+sensor_msgs::PointCloud ToMessage(const LineFrame& frame, const std::string& frame_id) {
+  const std::array<const char*, 3> channels = {"id", "x_end", "y_end"};
+  sensor_msgs::PointCloud cloud = EmptyCloud(frame.t_ns, frame_id, frame.lines.size(), channels);
+  for (const LineObservation& line : frame.lines) {
+    const std::array<double, 3> values = {static_cast<double>(line.id), line.end.x(), line.end.y()};
+    Append(line.start, values, &cloud);
+  }
+  return cloud;
+}
+
+LineFrame ToLineFrame(const sensor_msgs::PointCloud& message) {
+  CheckChannels(message, 3, "id, x_end, y_end");
+  LineFrame frame;
+  frame.t_ns = ToNanoseconds(message.header.stamp);
+  frame.lines.resize(message.points.size());
+  const auto value = [&](int channel, size_t i) { return message.channels[channel].values[i]; };
+  for (size_t i = 0; i < frame.lines.size(); ++i) {
+    frame.lines[i].id = std::llround(value(0, i));
+    frame.lines[i].start = {message.points[i].x, message.points[i].y};
+    frame.lines[i].end = {value(1, i), value(2, i)};
+  }
+  return frame;
+}
+
+geometry_msgs::Point ToPoint(const Eigen::Vector3d& p) {
+  geometry_msgs::Point point;
+  point.x = p.x();
+  point.y = p.y();
+  point.z = p.z();
+  return point;
+}
+
+geometry_msgs::Vector3 ToVector3(const Eigen::Vector3d& v) {
+  geometry_msgs::Vector3 vector;
+  vector.x = v.x();
+  vector.y = v.y();
+  vector.z = v.z();
+  return vector;
+}
+
+geometry_msgs::Quaternion ToQuaternion(const Eigen::Quaterniond& q) {
+  geometry_msgs::Quaternion quaternion;
+  quaternion.x = q.x();
+  quaternion.y = q.y();
+  quaternion.z = q.z();
+  quaternion.w = q.w();
+  return quaternion;
+}
+
+geometry_msgs::Pose ToPose(const Rigid3d& T) {
+  geometry_msgs::Pose pose;
+  pose.position = ToPoint(T.translation);
+  pose.orientation = ToQuaternion(T.rotation);
+  return pose;
+}
+
+geometry_msgs::Transform ToTransform(const Rigid3d& T) {
+  geometry_msgs::Transform transform;
+  transform.translation = ToVector3(T.translation);
+  transform.rotation = ToQuaternion(T.rotation);
+  return transform;
+}
+
+}  // namespace plm_vins

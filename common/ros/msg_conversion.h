@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Measurements and transforms to ROS messages and back: the only place that knows their layout.
+#pragma once
+
+#include <geometry_msgs/Point.h>
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Quaternion.h>
+#include <geometry_msgs/Transform.h>
+#include <geometry_msgs/Vector3.h>
+#include <ros/time.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/PointCloud.h>
+
+#include <string>
+
+#include "common/measurements.h"
+#include "common/rigid3.h"
+
+namespace plm_vins {
+
+inline int64_t ToNanoseconds(const ros::Time& stamp) {
+  return static_cast<int64_t>(stamp.sec) * 1'000'000'000 + stamp.nsec;
+}
+ros::Time ToRosTime(int64_t t_ns);
+
+// Grey image of any encoding that cv_bridge can turn into one (mono8, mono16, bgr8, rgb8, Bayer,
+// ...). Throws std::invalid_argument that names the encoding where there is no way.
+ImageSample ToImageSample(const sensor_msgs::Image& message);
+ImageSample ToImageSample(const sensor_msgs::CompressedImage& message);
+
+ImuSample ToImuSample(const sensor_msgs::Imu& message);
+
+// /feature_tracker/feature as in VINS-Mono: points (x, y, 1), channels id, u, v, vx, vy. Ids travel
+// as float32 and are exact up to 2^24. Reading throws std::invalid_argument where channels are
+// missing.
+sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& frame_id);
+PointFrame ToPointFrame(const sensor_msgs::PointCloud& message);
+
+// /linefeature_tracker/linefeature as in PL-VINS: points are starts (x, y, 1), channels id, x_end,
+// y_end.
+sensor_msgs::PointCloud ToMessage(const LineFrame& frame, const std::string& frame_id);
+LineFrame ToLineFrame(const sensor_msgs::PointCloud& message);
+
+geometry_msgs::Point ToPoint(const Eigen::Vector3d& p);
+geometry_msgs::Vector3 ToVector3(const Eigen::Vector3d& v);
+geometry_msgs::Quaternion ToQuaternion(const Eigen::Quaterniond& q);
+geometry_msgs::Pose ToPose(const Rigid3d& T);
+geometry_msgs::Transform ToTransform(const Rigid3d& T);
+
+}  // namespace plm_vins

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <set>
+#include <string>
+
+#include "common/config.h"
+#include "common/drop_counts.h"
+
+namespace plm_vins {
+
+// main() of every node: starts ROS under `name`, loads the file of ~config_file and runs `body`
+// until shutdown. Returns the exit code: 0 after SIGINT; 1 where the configuration has problems
+// (each a fatal log line) or `body` threw.
+int RunNode(int argc, char** argv, const std::string& name,
+            const std::function<void(const Config&)>& body);
+
+// Warns when a kind of unusable input turns up for the first time.
+class DropWarner {
+ public:
+  void Check(const DropCounts& counts);
+
+ private:
+  std::set<std::string> warned_;
+};
+
+}  // namespace plm_vins

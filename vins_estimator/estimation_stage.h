@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <utility>
+
+#include "common/config.h"
+#include "common/drop_counts.h"
+#include "common/measurements.h"
+#include "vins_estimator/estimator.h"
+#include "vins_estimator/measurement_sync.h"
+
+namespace plm_vins {
+
+DropCounts ToDropCounts(const SyncStatistics& statistics);
+
+// What the estimator says about an image, and what else there is to publish.
+struct EstimatedFrame {
+  EstimatorOutput output;
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // of B, bias removed [rad/s]
+};
+
+// The back end as the node and the offline runner use it: pairs features with IMU samples and hands
+// them to the estimator. Synchronous; feed in order of arrival and pop until nothing is ready.
+class EstimationStage {
+ public:
+  explicit EstimationStage(const Config& config);
+
+  void AddImu(const ImuSample& sample) { sync_.AddImu(sample); }
+  void AddPoints(PointFrame frame) { sync_.AddPoints(std::move(frame)); }
+  void AddLines(LineFrame frame) { sync_.AddLines(std::move(frame)); }
+
+  // The estimate for the next image, or nothing yet.
+  std::optional<EstimatedFrame> Pop() { return Process(sync_.Pop()); }
+
+  // The same when no more input comes.
+  std::optional<EstimatedFrame> Flush() { return Process(sync_.Flush()); }
+
+  // Starts over: queued data and the state are forgotten, statistics go on.
+  void Reset();
+
+  const SyncStatistics& statistics() const { return sync_.statistics(); }
+
+ private:
+  std::optional<EstimatedFrame> Process(const std::optional<FrameMeasurement>& measurement);
+
+  Estimator estimator_;
+  MeasurementSync sync_;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plm_vins {
+
+// One line of an ASL csv file: the stamp and the texts after it.
+struct CsvRow {
+  int64_t t_ns = 0;
+  std::vector<std::string> values;
+};
+
+// Reads "stamp,value,..." lines one by one. Comments (#) and empty lines are passed over; a line
+// that is not of this form is counted and passed over.
+class CsvReader {
+ public:
+  // Throws std::runtime_error that names the file where it cannot be opened.
+  CsvReader(const std::string& file, size_t values_per_row);
+
+  std::optional<CsvRow> Next();
+
+  int64_t bad_lines() const { return bad_lines_; }
+  const std::string& first_bad_line() const { return first_bad_line_; }  // "FILE:LINE"
+
+ private:
+  std::optional<CsvRow> Parse(const std::string& line) const;
+
+  std::string file_;
+  size_t values_per_row_;
+  std::ifstream stream_;
+  int64_t line_number_ = 0;
+  int64_t bad_lines_ = 0;
+  std::string first_bad_line_;
+};
+
+}  // namespace plm_vins

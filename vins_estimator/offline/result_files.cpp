@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/offline/result_files.h"
+
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "vins_estimator/output/config_json.h"
+#include "vins_estimator/output/frame_timings.h"
+#include "vins_estimator/output/tum_format.h"
+
+namespace plm_vins {
+namespace {
+
+namespace fs = std::filesystem;
+
+FrameTimings MakeTimings(const PipelineFrame& frame) {
+  const EstimatorTimings& estimator = frame.output.timings;
+  FrameTimings timings{};
+  timings[kPointTracking] = frame.point_tracking_ms;
+  timings[kInitialization] = estimator.initialization;
+  timings[kOptimization] = estimator.optimization;
+  timings[kMarginalization] = estimator.marginalization;
+  timings[kEstimator] = estimator.total;
+  timings[kTotal] = frame.point_tracking_ms + estimator.total;
+  return timings;
+}
+
+std::string MakeFolder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw std::runtime_error("cannot make the output folder " + folder + ": " +
+                             (error ? error.message() : "not a folder"));
+  }
+  return folder;
+}
+
+}  // namespace
+
+ResultFiles::ResultFiles(const std::string& folder)
+    : folder_(MakeFolder(folder)),
+      trajectory_(Open("trajectory.tum")),
+      timing_(Open("timing.csv")),
+      map_(Open("map.ply")) {
+  WriteTimingHeader(&timing_);
+}
+
+std::ofstream ResultFiles::Open(const std::string& name) const {
+  const fs::path file = fs::path(folder_) / name;
+  std::ofstream stream(file);
+  if (!stream) throw std::runtime_error("cannot write " + file.string());
+  return stream;
+}
+
+void ResultFiles::Add(const PipelineFrame& frame) {
+  const EstimatorOutput& output = frame.output;
+  const FrameTimings timings = MakeTimings(frame);
+  WriteTimingRow(output.t_ns, timings, &timing_);
+  summary_.Add(output, timings);
+  AddMapPoints(output.departed_points);
+  if (!output.has_pose) return;
+  trajectory_ << FormatTumRow(output.t_ns, output.state.T_W_B());
+  window_points_ = output.points;
+}
+
+void ResultFiles::AddMapPoints(const std::vector<MapPoint>& points) {
+  for (const MapPoint& point : points) map_.Add(point.p_W);
+}
+
+void ResultFiles::Finish(RunSummary::Run run, const Config& config) {
+  AddMapPoints(window_points_);
+  map_.Finish();
+  trajectory_.close();
+  timing_.close();
+  std::ofstream ply = Open("lines.ply");
+  WriteSegmentsPly({}, &ply);
+  std::ofstream obj = Open("lines.obj");
+  WriteSegmentsObj({}, &obj);
+  run.map_points = map_.size();
+  nlohmann::ordered_json summary = summary_.ToJson(run);
+  summary["version"] = PLM_VINS_VERSION;
+  summary["config"] = ToJson(config);
+  Open("summary.json") << summary.dump(2) << "\n";
+}
+
+}  // namespace plm_vins

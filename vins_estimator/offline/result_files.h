@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config.h"
+#include "vins_estimator/offline/odometry_pipeline.h"
+#include "vins_estimator/output/ply_writer.h"
+#include "vins_estimator/output/run_summary.h"
+
+namespace plm_vins {
+
+// The folder of results of an offline run: trajectory.tum, timing.csv, summary.json, map.ply,
+// lines.ply, lines.obj. Rows are written as frames come; memory stays small.
+class ResultFiles {
+ public:
+  // Makes the folder and opens the files. Throws std::runtime_error where that is not possible.
+  explicit ResultFiles(const std::string& folder);
+
+  void Add(const PipelineFrame& frame);
+
+  // Completes all files; `run.map_points` is filled in here.
+  void Finish(RunSummary::Run run, const Config& config);
+
+  const RunSummary& summary() const { return summary_; }
+
+ private:
+  std::ofstream Open(const std::string& name) const;
+  void AddMapPoints(const std::vector<MapPoint>& points);
+
+  std::string folder_;
+  std::ofstream trajectory_;
+  std::ofstream timing_;
+  PlyPointWriter map_;
+  std::vector<MapPoint> window_points_;  // of the newest frame with a pose: not in the map yet
+  RunSummary summary_;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/drop_counts.h"
+
+namespace plm_vins {
+
+// One serialised message of a bag.
+struct BagMessage {
+  std::string topic;
+  std::vector<uint8_t> data;
+};
+
+// The messages of a bag in the order of their time of recording.
+class BagMessageSource {
+ public:
+  virtual ~BagMessageSource() = default;
+
+  virtual std::map<std::string, std::string> topics() const = 0;  // topic -> message type
+
+  // Chooses what Next() gives; before the first Next().
+  virtual void Select(const std::set<std::string>& topics) = 0;
+
+  virtual std::optional<BagMessage> Next() = 0;
+
+  virtual std::optional<int64_t> end_ns() const = 0;  // time of the last selected message
+  virtual DropCounts problems() const = 0;
+};
+
+// Reads by the index at the bag's end. Throws rosbag::BagException where that is not possible.
+std::unique_ptr<BagMessageSource> OpenIndexedBag(const std::string& file);
+
+// Reads the intact records of a bag without (usable) index. Throws std::runtime_error where the
+// file is no bag of format 2.0.
+std::unique_ptr<BagMessageSource> OpenDamagedBag(const std::string& file);
+
+}  // namespace plm_vins

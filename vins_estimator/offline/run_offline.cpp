@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs the odometry over a recording without a ROS master, as fast as the machine goes.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/config.h"
+#include "common/stopwatch.h"
+#include "vins_estimator/offline/asl_recording.h"
+#include "vins_estimator/offline/bag_recording.h"
+#include "vins_estimator/offline/odometry_pipeline.h"
+#include "vins_estimator/offline/progress_display.h"
+#include "vins_estimator/offline/result_files.h"
+
+namespace plm_vins {
+namespace {
+
+struct Arguments {
+  std::string config;
+  std::string bag;
+  std::string asl;
+  std::string output;
+  double start = 0;                                           // [s]
+  double duration = std::numeric_limits<double>::infinity();  // [s]
+  std::vector<std::string> overrides;                         // "key=value"
+  bool one_thread = false;
+};
+
+void Declare(Arguments* arguments, CLI::App* app) {
+  app->add_option("--config", arguments->config, "configuration file (VINS YAML)")->required();
+  auto* source = app->add_option_group("input");
+  source->add_option("--bag", arguments->bag, "ROS bag");
+  source->add_option("--asl", arguments->asl, "folder in ASL format (EuRoC)");
+  source->require_option(1);
+  app->add_option("--output", arguments->output, "folder for the results, made where missing")
+      ->required();
+  app->add_option("--start", arguments->start, "skip this much after the first image [s]")
+      ->check(CLI::NonNegativeNumber);
+  app->add_option("--duration", arguments->duration, "process this much [s]")
+      ->check(CLI::PositiveNumber);
+  app->add_option("--set", arguments->overrides, "replace a value of the configuration: key=value")
+      ->allow_extra_args(false);
+  app->add_flag("--one-thread", arguments->one_thread,
+                "front end and back end in turn; the results are the same");
+}
+
+std::map<std::string, std::string> ParseOverrides(const std::vector<std::string>& texts) {
+  std::map<std::string, std::string> overrides;
+  std::vector<std::string> problems;
+  for (const std::string& text : texts) {
+    const size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+      problems.push_back("--set " + text + ": expected key=value");
+    } else {
+      overrides[text.substr(0, equals)] = text.substr(equals + 1);
+    }
+  }
+  if (!problems.empty()) throw ConfigError(problems);
+  return overrides;
+}
+
+std::unique_ptr<Recording> Open(const Arguments& arguments, const SensorConfig& sensor) {
+  if (!arguments.asl.empty()) return OpenAslFolder(arguments.asl);
+  return OpenBag(arguments.bag, sensor.image_topic, sensor.imu_topic);
+}
+
+void Warn(const DropCounts& drops) {
+  for (const DropCount& drop : drops) {
+    if (drop.count > 0) std::fprintf(stderr, "warning: %s\n", ToString(drop).c_str());
+  }
+}
+
+// Exit code: 0 where there is a trajectory.
+int Run(const Arguments& arguments) {
+  const Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
+  const std::unique_ptr<Recording> recording = Open(arguments, config.sensor);
+  ResultFiles results(arguments.output);
+  ProgressDisplay progress(recording->end_ns());
+  OdometryPipeline pipeline(config);
+  const Stopwatch stopwatch;
+  pipeline.Run(
+      recording.get(), RecordingInterval(arguments.start, arguments.duration),
+      arguments.one_thread ? OdometryPipeline::Threads::kOne : OdometryPipeline::Threads::kTwo,
+      [&](const PipelineFrame& frame) {
+        results.Add(frame);
+        progress.Update(frame.output.t_ns);
+      });
+  progress.Finish();
+
+  RunSummary::Run run;
+  run.input = recording->name();
+  run.images = pipeline.images();
+  run.first_image_ns = pipeline.first_image_ns();
+  run.wall_time = 1e-3 * stopwatch.Milliseconds();
+  run.drops = recording->problems();
+  Append(pipeline.drops(), &run.drops);
+  results.Finish(run, config);
+  Warn(run.drops);
+  if (results.summary().poses() > 0) return 0;
+  const std::string& reason = results.summary().last_reason();
+  std::fprintf(stderr, "run_offline: no trajectory from %ld images: %s\n",
+               static_cast<long>(run.images), reason.empty() ? "no usable frame" : reason.c_str());
+  return 1;
+}
+
+}  // namespace
+}  // namespace plm_vins
+
+int main(int argc, char** argv) {
+  CLI::App app("Visual-inertial odometry over a recording");
+  plm_vins::Arguments arguments;
+  plm_vins::Declare(&arguments, &app);
+  try {
+    app.parse(argc, argv);
+    return plm_vins::Run(arguments);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "run_offline: %s (--help lists the options)\n", error.what());
+  } catch (const plm_vins::ConfigError& error) {
+    for (const std::string& problem : error.problems()) {
+      std::fprintf(stderr, "run_offline: %s\n", problem.c_str());
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "run_offline: %s\n", error.what());
+  }
+  return 1;
+}

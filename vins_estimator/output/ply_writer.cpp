@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/output/ply_writer.h"
+
+#include <cstdio>
+#include <string>
+#include <utility>
+
+namespace plm_vins {
+namespace {
+
+constexpr int kCountWidth = 12;  // room for the number of points, padded with blanks
+
+std::string FormatPoint(const Eigen::Vector3d& p) {
+  char text[128];
+  std::snprintf(text, sizeof(text), "%.4f %.4f %.4f\n", p.x(), p.y(), p.z());
+  return text;
+}
+
+constexpr char kFormat[] = "ply\nformat ascii 1.0\n";
+constexpr char kCoordinates[] = "property float x\nproperty float y\nproperty float z\n";
+
+}  // namespace
+
+PlyPointWriter::PlyPointWriter(std::ofstream stream) : stream_(std::move(stream)) {
+  stream_ << kFormat << "element vertex ";
+  count_position_ = stream_.tellp();
+  stream_ << std::string(kCountWidth, ' ') << "\n" << kCoordinates << "end_header\n";
+}
+
+void PlyPointWriter::Add(const Eigen::Vector3d& p_W) {
+  stream_ << FormatPoint(p_W);
+  ++size_;
+}
+
+void PlyPointWriter::Finish() {
+  stream_.seekp(count_position_);
+  stream_ << size_;
+  stream_.close();
+}
+
+void WriteSegmentsPly(const std::vector<Segment>& segments, std::ostream* stream) {
+  *stream << kFormat << "element vertex " << 2 * segments.size() << "\n"
+          << kCoordinates << "element edge " << segments.size() << "\n"
+          << "property int vertex1\nproperty int vertex2\nend_header\n";
+  for (const Segment& segment : segments) {
+    *stream << FormatPoint(segment.start) << FormatPoint(segment.end);
+  }
+  for (size_t i = 0; i < segments.size(); ++i) *stream << 2 * i << " " << 2 * i + 1 << "\n";
+}
+
+void WriteSegmentsObj(const std::vector<Segment>& segments, std::ostream* stream) {
+  for (const Segment& segment : segments) {
+    *stream << "v " << FormatPoint(segment.start) << "v " << FormatPoint(segment.end);
+  }
+  for (size_t i = 0; i < segments.size(); ++i) {
+    *stream << "l " << 2 * i + 1 << " " << 2 * i + 2 << "\n";
+  }
+}
+
+}  // namespace plm_vins

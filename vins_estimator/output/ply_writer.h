@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <fstream>
+#include <ostream>
+#include <vector>
+
+namespace plm_vins {
+
+// A point cloud as ASCII PLY, written point by point, so that a long run needs no memory for it.
+// The file is complete after Finish().
+class PlyPointWriter {
+ public:
+  explicit PlyPointWriter(std::ofstream stream);
+
+  void Add(const Eigen::Vector3d& p_W);
+  void Finish();
+
+  int64_t size() const { return size_; }
+
+ private:
+  std::ofstream stream_;
+  std::streampos count_position_;
+  int64_t size_ = 0;
+};
+
+// A line segment in the world [m].
+struct Segment {
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  Eigen::Vector3d end = Eigen::Vector3d::Zero();
+};
+
+// Segments as edges between vertices (ASCII PLY), and as Wavefront OBJ.
+void WriteSegmentsPly(const std::vector<Segment>& segments, std::ostream* stream);
+void WriteSegmentsObj(const std::vector<Segment>& segments, std::ostream* stream);
+
+}  // namespace plm_vins

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/output/run_summary.h"
+
+#include "common/measurements.h"
+
+namespace plm_vins {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double Ratio(double numerator, double denominator) {
+  return denominator > 0 ? numerator / denominator : 0.0;
+}
+
+Json DropsToJson(const DropCounts& drops) {
+  Json json = Json::object();
+  for (const DropCount& drop : drops) json[drop.cause] = drop.count;
+  return json;
+}
+
+Json TimingsToJson(const std::vector<FrameTimings>& frames) {
+  Json json;
+  for (size_t stage = 0; stage < kTimingStages; ++stage) {
+    const TimingSummary summary = Summarize(frames, static_cast<TimingStage>(stage));
+    json[kTimingNames[stage]] = {{"mean", summary.mean}, {"p95", summary.p95}};
+  }
+  return json;
+}
+
+}  // namespace
+
+void RunSummary::Add(const EstimatorOutput& output, const FrameTimings& timings) {
+  ++frames_;
+  timings_.push_back(timings);
+  if (!first_frame_ns_) first_frame_ns_ = output.t_ns;
+  last_frame_ns_ = output.t_ns;
+  points_observed_ += output.counts.points_observed;
+  if (!output.reason.empty()) last_reason_ = output.reason;
+  if (output.restarted) {
+    ++resets_;
+    last_position_.reset();  // the way does not go on in another world frame
+  }
+  if (output.has_pose) AddPose(output);
+}
+
+void RunSummary::AddPose(const EstimatorOutput& output) {
+  ++poses_;
+  stationary_ += output.stationary ? 1 : 0;
+  keyframes_ += output.keyframe ? 1 : 0;
+  if (!first_pose_ns_) first_pose_ns_ = output.t_ns;
+  const Eigen::Vector3d position = output.state.position();
+  if (last_position_) path_length_ += (position - *last_position_).norm();
+  last_position_ = position;
+}
+
+Json RunSummary::ToJson(const Run& run) const {
+  const double duration = first_frame_ns_ ? ToSeconds(last_frame_ns_ - *first_frame_ns_) : 0.0;
+  Json json;
+  json["input"] = run.input;
+  json["images"] = run.images;
+  json["frames"] = frames_;
+  json["poses"] = poses_;
+  json["keyframes"] = keyframes_;
+  json["init_time_s"] = nullptr;
+  if (first_pose_ns_ && run.first_image_ns) {
+    json["init_time_s"] = ToSeconds(*first_pose_ns_ - *run.first_image_ns);
+  }
+  json["duration_s"] = duration;
+  json["wall_time_s"] = run.wall_time;
+  json["real_time_factor"] = Ratio(duration, run.wall_time);
+  json["path_length_m"] = path_length_;
+  json["standstill_share"] = Ratio(static_cast<double>(stationary_), static_cast<double>(poses_));
+  json["points"] = run.map_points;
+  json["points_per_frame"] =
+      Ratio(static_cast<double>(points_observed_), static_cast<double>(frames_));
+  json["lines"] = 0;
+  json["merged_lines"] = 0;
+  json["resets"] = resets_;
+  json["timing_ms"] = TimingsToJson(timings_);
+  json["dropped"] = DropsToJson(run.drops);
+  return json;
+}
+
+}  // namespace plm_vins

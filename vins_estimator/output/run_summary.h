@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/drop_counts.h"
+#include "vins_estimator/estimator_output.h"
+#include "vins_estimator/output/frame_timings.h"
+
+namespace plm_vins {
+
+// Adds up a run, frame by frame, to summary.json. Keeps only the timings of each frame.
+class RunSummary {
+ public:
+  // Frames in order of time.
+  void Add(const EstimatorOutput& output, const FrameTimings& timings);
+
+  int64_t frames() const { return frames_; }
+  int64_t poses() const { return poses_; }
+  const std::string& last_reason() const { return last_reason_; }  // why there was no pose
+
+  // What the run knows beside its frames.
+  struct Run {
+    std::string input;
+    int64_t images = 0;  // read, whether usable or not
+    std::optional<int64_t> first_image_ns;
+    double wall_time = 0;    // [s]
+    int64_t map_points = 0;  // landmarks written to the map
+    DropCounts drops;
+  };
+  nlohmann::ordered_json ToJson(const Run& run) const;
+
+ private:
+  void AddPose(const EstimatorOutput& output);
+
+  int64_t frames_ = 0;
+  int64_t poses_ = 0;
+  int64_t stationary_ = 0;
+  int64_t keyframes_ = 0;
+  int64_t resets_ = 0;
+  int64_t points_observed_ = 0;
+  double path_length_ = 0;  // [m]
+  std::optional<Eigen::Vector3d> last_position_;
+  std::optional<int64_t> first_frame_ns_;
+  std::optional<int64_t> first_pose_ns_;
+  int64_t last_frame_ns_ = 0;
+  std::string last_reason_;
+  std::vector<FrameTimings> timings_;
+};
+
+}  // namespace plm_vins

@@ -51,8 +51,7 @@ struct EstimatorConfig {
   int window_size = 10;             // keyframes kept beside the newest frame
   double keyframe_parallax = 10.0;  // mean parallax that makes a keyframe [px]
   int max_num_iterations = 8;       // of the window optimisation
-  double max_solver_time = 0;  // accepted for VINS files, not used: iterations bound the work [s]
-  double point_noise = 1.0;    // standard deviation of a corner [px]
+  double point_noise = 1.0;         // standard deviation of a corner [px]
   bool zero_velocity_update = true;
   bool verbose = false;
 };
@@ -65,7 +64,8 @@ struct OutputConfig {
 };
 
 struct Config {
-  std::string file;  // where it was read from, for messages
+  std::string file;                       // where it was read from, for messages
+  std::vector<std::string> ignored_keys;  // accepted from VINS files, without effect here
   SensorConfig sensor;
   PointTrackerConfig points;
   EstimatorConfig estimator;

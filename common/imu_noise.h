@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+
 namespace plm_vins {
 
 // Noise of an IMU as continuous-time densities, equal on all axes (as Kalibr and data sheets give
@@ -11,5 +13,17 @@ struct ImuNoise {
   double gyro_walk = 2.0e-5;      // bias random walk [rad/s^2/sqrt(Hz)]
   double accel_walk = 3.0e-3;     // bias random walk [m/s^3/sqrt(Hz)]
 };
+
+// Densities from the numbers of the VINS family, which belong to one sample interval dt = 1 / rate:
+// a sample has standard deviation n [rad/s, m/s^2], so that one step adds n^2 dt^2 to the integral,
+// and a bias changes by w dt per step, so that one step adds w^2 dt^2 to its variance. A density d
+// adds d^2 dt in both cases; hence d = n sqrt(dt), and for the walk w sqrt(dt).
+// (VINS-Mono's midpoint step, taking the noise of its two samples as independent, counts half of
+// n^2 dt^2; we take the number for what it is called, the deviation of a sample.)
+inline ImuNoise DensitiesFromSamples(const ImuNoise& per_sample, double rate_hz) {
+  const double scale = std::sqrt(1.0 / rate_hz);
+  return {per_sample.gyro_density * scale, per_sample.accel_density * scale,
+          per_sample.gyro_walk * scale, per_sample.accel_walk * scale};
+}
 
 }  // namespace plm_vins

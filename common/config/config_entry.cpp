@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/config/config_entry.h"
+
+#include <fstream>
+#include <sstream>
+
+namespace plm_vins {
+namespace {
+
+std::string Location(const std::string& file, const YAML::Mark& mark) {
+  return mark.is_null() ? file : file + ":" + std::to_string(mark.line + 1);
+}
+
+std::optional<std::string> ReadText(const std::string& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  if (!stream || !(text << stream.rdbuf())) return std::nullopt;
+  return text.str();
+}
+
+// OpenCV's "%YAML:1.0" is no directive of the YAML standard: blanked, so that line numbers stay.
+std::string WithoutDirective(std::string text) {
+  if (text.rfind("%YAML", 0) == 0) text.erase(0, text.find('\n'));
+  return text;
+}
+
+// An OpenCV matrix is one value; any other map is a group of keys.
+bool IsGroup(const YAML::Node& node) { return node.IsMap() && !node["data"]; }
+
+void Flatten(const YAML::Node& map, const std::string& prefix, const std::string& file,
+             ConfigEntries* entries, std::vector<std::string>* problems) {
+  for (const auto& item : map) {
+    const YAML::Node key_node = item.first, value = item.second;
+    const std::string key = prefix + (key_node.IsScalar() ? key_node.Scalar() : "?");
+    if (IsGroup(value)) {
+      Flatten(value, key + ".", file, entries, problems);
+      continue;
+    }
+    const std::string location = Location(file, key_node.Mark());
+    const auto [entry, is_new] = entries->insert({key, ConfigEntry{value, location}});
+    if (!is_new) {
+      problems->push_back(location + ": " + key + ": appears twice (first at " +
+                          entry->second.location + "); remove one");
+    }
+  }
+}
+
+// The top-level map of the file, or nothing and a problem.
+std::optional<YAML::Node> ReadRoot(const std::string& file, std::vector<std::string>* problems) {
+  const auto text = ReadText(file);
+  if (!text) {
+    problems->push_back(file + ": cannot be read; check the path of the configuration file");
+    return std::nullopt;
+  }
+  try {
+    const YAML::Node root = YAML::Load(WithoutDirective(*text));
+    if (root.IsMap()) return root;
+    problems->push_back(file + ": has no \"key: value\" lines; is this a configuration file?");
+  } catch (const YAML::Exception& error) {
+    problems->push_back(Location(file, error.mark) + ": not valid YAML: " + error.msg);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<ConfigEntries> ReadConfigEntries(const std::string& file,
+                                               const std::map<std::string, std::string>& overrides,
+                                               std::vector<std::string>* problems) {
+  const auto root = ReadRoot(file, problems);
+  if (!root) return std::nullopt;
+  ConfigEntries entries;
+  Flatten(*root, "", file, &entries, problems);
+  for (const auto& [key, text] : overrides) {
+    entries[key] = {YAML::Node(text), file + " (override)"};
+  }
+  return entries;
+}
+
+}  // namespace plm_vins

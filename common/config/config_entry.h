@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plm_vins {
+
+// One key with its value, as written.
+struct ConfigEntry {
+  YAML::Node value;
+  std::string location;  // "FILE:LINE" or "FILE (override)", for messages
+};
+
+// Keys of nested maps are joined by a dot: "projection_parameters.fx".
+using ConfigEntries = std::map<std::string, ConfigEntry>;
+
+// Reads the file into entries and replaces or adds the overrides. Adds duplicate keys to
+// `problems`; where there is no such file or it is not YAML, adds that and returns nothing.
+std::optional<ConfigEntries> ReadConfigEntries(const std::string& file,
+                                               const std::map<std::string, std::string>& overrides,
+                                               std::vector<std::string>* problems);
+
+}  // namespace plm_vins

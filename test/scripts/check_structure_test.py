@@ -40,7 +40,8 @@ class CheckStructure(unittest.TestCase):
     def test_clean_files(self):
         self.assert_clean("common/a.h", HEADER + '#include "common/b.h"\n#include <vector>\n')
         self.assert_clean("common/ros/a.h", HEADER + "#include <ros/ros.h>\n")
-        self.assert_clean("test/common/a_test.cpp", HEADER + '#include "simulator/b.h"\n')
+        self.assert_clean("test/common/a_test.cpp",
+                          HEADER + '#include "simulator/b.h"\n#include <ros/time.h>\n')
         self.assert_clean("scripts/a.sh", 'ls "$root/work/file" build/home/x ~/work/x\n')
 
     def test_ros_outside_of_its_folders(self):

@@ -20,3 +20,9 @@ function(plm_add_test path)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND ${name})
 endfunction()
+
+# plm_add_executable(NAME SOURCES...): a program that rosrun and roslaunch find.
+function(plm_add_executable name)
+  add_executable(${name} ${ARGN})
+  install(TARGETS ${name} RUNTIME DESTINATION lib/${PROJECT_NAME})
+endfunction()

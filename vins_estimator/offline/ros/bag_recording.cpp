@@ -4,6 +4,7 @@
 #include <ros/serialization.h>
 #include <rosbag/exceptions.h>
 
+#include <filesystem>
 #include <stdexcept>
 
 #include "common/ros/msg_conversion.h"
@@ -19,6 +20,7 @@ constexpr char kImu[] = "sensor_msgs/Imu";
 using Topics = std::map<std::string, std::string>;  // topic -> message type
 
 std::unique_ptr<BagMessageSource> OpenSource(const std::string& file) {
+  if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("no such file: " + file);
   try {
     return OpenIndexedBag(file);
   } catch (const rosbag::BagException&) {

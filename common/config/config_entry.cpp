@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/config/config_entry.h"
 
+#include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 namespace plm_vins {
 namespace {
@@ -13,9 +14,8 @@ std::string Location(const std::string& file, const YAML::Mark& mark) {
 
 std::optional<std::string> ReadText(const std::string& file) {
   std::ifstream stream(file);
-  std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf())) return std::nullopt;
-  return text.str();
+  if (!stream || std::filesystem::is_directory(file)) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
 // OpenCV's "%YAML:1.0" is no directive of the YAML standard: blanked, so that line numbers stay.

@@ -125,26 +125,8 @@ std::vector<ConfigKey> OptionalCameraKeys(Model type) {
   return {};
 }
 
-}  // namespace
-
-ConfigKey ModelTypeKey() {
-  return Required(ChoiceKey<std::optional<Model>>("model_type",
-                                                  {{"PINHOLE", Model::kPinhole},
-                                                   {"EQUIDISTANT", Model::kEquidistant},
-                                                   {"KANNALA_BRANDT", Model::kKannalaBrandt},
-                                                   {"MEI", Model::kMei}},
-                                                  Draft(&D::model_type)));
-}
-
-std::vector<ConfigKey> CameraKeys(Model type) {
-  std::vector<ConfigKey> keys = OptionalCameraKeys(type);
-  for (ConfigKey& key : keys) key.required = true;
-  return keys;
-}
-
-std::vector<ConfigKey> GeneralKeys() {
+std::vector<ConfigKey> SensorKeys() {
   return {
-      // Sensors.
       Required(TextKey("image_topic", Sensor(&S::image_topic))),
       Required(TextKey("imu_topic", Sensor(&S::imu_topic))),
       Required(IntegerKey("image_width", "px", {32, 16384}, Camera(&C::width))),
@@ -169,7 +151,11 @@ std::vector<ConfigKey> GeneralKeys() {
       NumberKey("acc_w", "", {1e-9, 1}, Noise(&N::accel_walk)),
       NumberKey("gyr_w", "", {1e-10, 1}, Noise(&N::gyro_walk)),
       NumberKey("g_norm", "m/s^2", {9, 10.5}, Sensor(&S::gravity_norm)),
-      // Point tracker.
+  };
+}
+
+std::vector<ConfigKey> PointTrackerKeys() {
+  return {
       ChoiceKey<CornerDetectorType>(
           "corner_detector",
           {{"shi_tomasi", CornerDetectorType::kShiTomasi}, {"harris", CornerDetectorType::kHarris}},
@@ -187,19 +173,48 @@ std::vector<ConfigKey> GeneralKeys() {
       IntegerKey("klt_window", "px", {5, 101}, Points(&P::klt_window)),
       IntegerKey("klt_levels", "", {0, 8}, Points(&P::klt_levels)),
       NumberKey("forward_backward", "px", {0.01, 20}, Points(&P::forward_backward)),
-      // Estimator.
+  };
+}
+
+std::vector<ConfigKey> EstimatorKeys() {
+  return {
       IntegerKey("window_size", "keyframes", {4, 50}, Estimator(&E::window_size)),
       NumberKey("keyframe_parallax", "px", {0.1, 200}, Estimator(&E::keyframe_parallax)),
       IntegerKey("max_num_iterations", "", {1, 100}, Estimator(&E::max_num_iterations)),
       NumberKey("point_noise", "px", {0.01, 20}, Estimator(&E::point_noise)),
       FlagKey("zero_velocity_update", Estimator(&E::zero_velocity_update)),
       FlagKey("verbose", Estimator(&E::verbose)),
-      // Output.
+  };
+}
+
+std::vector<ConfigKey> OutputKeys() {
+  return {
       TextKey("world_frame", Output(&O::world_frame)),
       TextKey("body_frame", Output(&O::body_frame)),
       TextKey("camera_frame", Output(&O::camera_frame)),
       FlagKey("publish_tf", Output(&O::publish_tf)),
   };
+}
+
+}  // namespace
+
+ConfigKey ModelTypeKey() {
+  return Required(ChoiceKey<std::optional<Model>>("model_type",
+                                                  {{"PINHOLE", Model::kPinhole},
+                                                   {"EQUIDISTANT", Model::kEquidistant},
+                                                   {"KANNALA_BRANDT", Model::kKannalaBrandt},
+                                                   {"MEI", Model::kMei}},
+                                                  Draft(&D::model_type)));
+}
+
+std::vector<ConfigKey> CameraKeys(Model type) {
+  std::vector<ConfigKey> keys = OptionalCameraKeys(type);
+  for (ConfigKey& key : keys) key.required = true;
+  return keys;
+}
+
+std::vector<ConfigKey> GeneralKeys() {
+  return Join(Join(SensorKeys(), PointTrackerKeys()), Join(EstimatorKeys(), OutputKeys()));
 }
 
 const std::vector<std::string>& IgnoredKeys() {

@@ -11,8 +11,8 @@ namespace plm_vins {
 // The key that decides which camera keys there are.
 ConfigKey ModelTypeKey();
 
-// Every key but those of the camera model. To add a key, add a line here and one to
-// config/reference.yaml.
+// Every key but those of the camera model. To add a key, add a line to its group in
+// config_keys.cpp and one to config/reference.yaml.
 std::vector<ConfigKey> GeneralKeys();
 
 // The calibration keys of one camera model, all required.

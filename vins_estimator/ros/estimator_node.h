@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/PointCloud.h>
+#include <std_msgs/Bool.h>
+#include <std_srvs/Trigger.h>
+
+#include <mutex>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "common/bounded_queue.h"
+#include "common/config.h"
+#include "common/ros/node_setup.h"
+#include "vins_estimator/estimation_stage.h"
+#include "vins_estimator/ros/output_publisher.h"
+#include "vins_estimator/ros/propagation_publisher.h"
+#include "vins_estimator/ros/trajectory_log.h"
+
+namespace plm_vins {
+
+// The back end as a node. The callbacks only queue what comes in and publish the state at IMU rate;
+// a thread of its own takes everything from the queue, in order of arrival, through the synchronous
+// core. Nothing is dropped as long as that thread keeps up on average.
+//
+// Services: ~reset starts over; ~save_trajectory writes the poses so far to ~trajectory_file
+// (default trajectory.tum in the node's working folder).
+class EstimatorNode {
+ public:
+  explicit EstimatorNode(const Config& config);
+  ~EstimatorNode();
+
+ private:
+  struct ResetCommand {};
+  using Input = std::variant<ImuSample, PointFrame, ResetCommand>;
+
+  // What ~diagnostics tells, as of the last image.
+  struct Status {
+    EstimatorStatus status = EstimatorStatus::kInitializing;
+    std::string reason;
+    EstimatorCounts counts;
+    double estimator_ms = 0;
+    int64_t frames = 0;
+    DropCounts drops;
+  };
+
+  // In the thread of the callbacks.
+  void AddImu(const sensor_msgs::Imu& message);
+  void AddPoints(const sensor_msgs::PointCloud& message);
+  void Restart(const std_msgs::Bool& message);
+  bool Reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool SaveTrajectory(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  // In the worker thread.
+  void Work();
+  void Process(Input input);
+  void Handle(const EstimatedFrame& frame);
+  void LogChanges(const EstimatorOutput& output);
+  void UpdateStatus(const EstimatorOutput& output);
+
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_{"~"};
+  Config config_;
+
+  BoundedQueue<Input> queue_;
+  PropagationPublisher propagation_;
+  TrajectoryLog trajectory_;
+  mutable std::mutex status_mutex_;
+  Status status_;  // guarded by status_mutex_
+  int64_t malformed_messages_ = 0;
+  DropWarner callback_warner_;
+
+  // Only for the worker.
+  EstimationStage stage_;
+  OutputPublisher publisher_;
+  DropWarner worker_warner_;
+  EstimatorStatus last_status_ = EstimatorStatus::kInitializing;
+  std::string last_reason_;
+
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::WallTimer diagnostics_timer_;
+  std::thread worker_;
+};
+
+}  // namespace plm_vins

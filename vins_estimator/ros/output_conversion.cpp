@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/ros/output_conversion.h"
+
+#include <geometry_msgs/Point32.h>
+
+#include "common/ros/msg_conversion.h"
+
+namespace plm_vins {
+namespace {
+
+using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+std_msgs::Header MakeHeader(int64_t t_ns, const std::string& frame_id) {
+  std_msgs::Header header;
+  header.stamp = ToRosTime(t_ns);
+  header.frame_id = frame_id;
+  return header;
+}
+
+// The message wants the rotation's covariance about the axes of the world: Exp(theta_W) R_W_B =
+// R_W_B Exp(theta_B) with theta_W = R_W_B theta_B.
+Matrix6d RotationToWorld(const Matrix6d& covariance, const Eigen::Matrix3d& R_W_B) {
+  Matrix6d J = Matrix6d::Identity();
+  J.bottomRightCorner<3, 3>() = R_W_B;
+  return J * covariance * J.transpose();
+}
+
+visualization_msgs::Marker MakeMarker(int64_t t_ns, const std::string& frame_id,
+                                      const std::string& name, int type, double scale) {
+  visualization_msgs::Marker marker;
+  marker.header = MakeHeader(t_ns, frame_id);
+  marker.ns = name;
+  marker.type = type;
+  marker.action = visualization_msgs::Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = marker.scale.y = marker.scale.z = scale;
+  marker.color.a = 1.0;
+  return marker;
+}
+
+}  // namespace
+
+nav_msgs::Odometry ToOdometry(const FrameState& state, const StateCovariance& covariance,
+                              const Eigen::Vector3d& angular_velocity, const OutputConfig& frames) {
+  nav_msgs::Odometry odometry =
+      ToOdometry(state.t_ns, state.T_W_B(), frames.world_frame, frames.body_frame);
+  const Eigen::Matrix3d R_W_B = state.T_W_B().R();
+  Eigen::Map<RowMajor6d>(odometry.pose.covariance.data()) = RotationToWorld(covariance.pose, R_W_B);
+  odometry.twist.twist.linear = ToVector3(R_W_B.transpose() * state.velocity());
+  odometry.twist.twist.angular = ToVector3(angular_velocity);
+  Eigen::Map<RowMajor6d>(odometry.twist.covariance.data()).topLeftCorner<3, 3>() =
+      R_W_B.transpose() * covariance.velocity * R_W_B;
+  return odometry;
+}
+
+nav_msgs::Odometry ToOdometry(int64_t t_ns, const Rigid3d& T_parent_child,
+                              const std::string& parent, const std::string& child) {
+  nav_msgs::Odometry odometry;
+  odometry.header = MakeHeader(t_ns, parent);
+  odometry.child_frame_id = child;
+  odometry.pose.pose = ToPose(T_parent_child);
+  return odometry;
+}
+
+sensor_msgs::PointCloud ToPointCloud(const std::vector<MapPoint>& points, int64_t t_ns,
+                                     const std::string& frame_id) {
+  sensor_msgs::PointCloud cloud;
+  cloud.header = MakeHeader(t_ns, frame_id);
+  cloud.points.reserve(points.size());
+  for (const MapPoint& point : points) {
+    geometry_msgs::Point32 p;
+    p.x = static_cast<float>(point.p_W.x());
+    p.y = static_cast<float>(point.p_W.y());
+    p.z = static_cast<float>(point.p_W.z());
+    cloud.points.push_back(p);
+  }
+  return cloud;
+}
+
+visualization_msgs::Marker ToKeyPoses(const std::vector<FrameState>& window, int64_t t_ns,
+                                      const std::string& frame_id) {
+  visualization_msgs::Marker marker =
+      MakeMarker(t_ns, frame_id, "key_poses", visualization_msgs::Marker::SPHERE_LIST, 0.05);
+  marker.color.r = 1.0;
+  for (const FrameState& state : window) marker.points.push_back(ToPoint(state.position()));
+  return marker;
+}
+
+visualization_msgs::MarkerArray ToCameraVisual(const Rigid3d& T_W_C, int64_t t_ns,
+                                               const std::string& frame_id) {
+  constexpr double kWidth = 0.2, kHeight = 0.13, kDepth = 0.15;  // [m]
+  visualization_msgs::Marker marker =
+      MakeMarker(t_ns, frame_id, "camera_pose_visual", visualization_msgs::Marker::LINE_LIST, 0.01);
+  marker.color.g = 1.0;
+  marker.pose = ToPose(T_W_C);
+  const Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d corners[4] = {{-kWidth, -kHeight, kDepth},
+                                      {kWidth, -kHeight, kDepth},
+                                      {kWidth, kHeight, kDepth},
+                                      {-kWidth, kHeight, kDepth}};
+  for (int i = 0; i < 4; ++i) {
+    for (const Eigen::Vector3d& p : {center, corners[i], corners[i], corners[(i + 1) % 4]}) {
+      marker.points.push_back(ToPoint(p));
+    }
+  }
+  visualization_msgs::MarkerArray markers;
+  markers.markers.push_back(marker);
+  return markers;
+}
+
+}  // namespace plm_vins

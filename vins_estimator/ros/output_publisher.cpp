@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/ros/output_publisher.h"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+
+#include <string>
+#include <vector>
+
+#include "common/ros/msg_conversion.h"
+#include "vins_estimator/ros/output_conversion.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int kQueue = 1000;
+constexpr double kPathStep = 0.02;      // [m] between the poses of the path
+constexpr size_t kMaxPathPoses = 5000;  // then every second one goes: the path gets coarser
+
+void RemoveEverySecond(std::vector<geometry_msgs::PoseStamped>* poses) {
+  for (size_t i = 0; 2 * i < poses->size(); ++i) (*poses)[i] = (*poses)[2 * i];
+  poses->resize((poses->size() + 1) / 2);
+}
+
+double Distance(const geometry_msgs::Point& a, const geometry_msgs::Point& b) {
+  return Eigen::Vector3d(a.x - b.x, a.y - b.y, a.z - b.z).norm();
+}
+
+// Makes and sends a message where somebody listens.
+template <typename MakeMessage>
+void PublishIfWanted(const ros::Publisher& publisher, const MakeMessage& make_message) {
+  if (publisher.getNumSubscribers() > 0) publisher.publish(make_message());
+}
+
+geometry_msgs::TransformStamped ToStamped(int64_t t_ns, const Rigid3d& T_parent_child,
+                                          const std::string& parent, const std::string& child) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = ToRosTime(t_ns);
+  transform.header.frame_id = parent;
+  transform.child_frame_id = child;
+  transform.transform = ToTransform(T_parent_child);
+  return transform;
+}
+
+}  // namespace
+
+OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle private_node)
+    : frames_(frames),
+      odometry_(private_node.advertise<nav_msgs::Odometry>("odometry", kQueue)),
+      path_publisher_(private_node.advertise<nav_msgs::Path>("path", 10)),
+      camera_pose_(private_node.advertise<nav_msgs::Odometry>("camera_pose", kQueue)),
+      key_poses_(private_node.advertise<visualization_msgs::Marker>("key_poses", kQueue)),
+      point_cloud_(private_node.advertise<sensor_msgs::PointCloud>("point_cloud", kQueue)),
+      history_cloud_(private_node.advertise<sensor_msgs::PointCloud>("history_cloud", kQueue)),
+      camera_pose_visual_(
+          private_node.advertise<visualization_msgs::MarkerArray>("camera_pose_visual", kQueue)),
+      extrinsic_(private_node.advertise<nav_msgs::Odometry>("extrinsic", kQueue)) {
+  path_.header.frame_id = frames_.world_frame;
+}
+
+void OutputPublisher::Publish(const EstimatedFrame& frame) {
+  const EstimatorOutput& output = frame.output;
+  if (output.restarted) path_.poses.clear();
+  if (!output.has_pose) return;
+
+  const int64_t t_ns = output.t_ns;
+  const std::string& world = frames_.world_frame;
+  const Rigid3d T_W_C = output.state.T_W_B() * output.T_B_C;
+  odometry_.publish(ToOdometry(output.state, {output.pose_covariance, output.velocity_covariance},
+                               frame.angular_velocity, frames_));
+  PublishPath(output.state);
+  PublishTransforms(output);
+  PublishIfWanted(camera_pose_,
+                  [&] { return ToOdometry(t_ns, T_W_C, world, frames_.camera_frame); });
+  PublishIfWanted(extrinsic_, [&] {
+    return ToOdometry(t_ns, output.T_B_C, frames_.body_frame, frames_.camera_frame);
+  });
+  PublishIfWanted(key_poses_, [&] { return ToKeyPoses(output.window, t_ns, world); });
+  PublishIfWanted(history_cloud_,
+                  [&] { return ToPointCloud(output.departed_points, t_ns, world); });
+  PublishIfWanted(point_cloud_, [&] { return ToPointCloud(output.points, t_ns, world); });
+  PublishIfWanted(camera_pose_visual_, [&] { return ToCameraVisual(T_W_C, t_ns, world); });
+}
+
+void OutputPublisher::PublishPath(const FrameState& state) {
+  geometry_msgs::PoseStamped pose;
+  pose.header.stamp = ToRosTime(state.t_ns);
+  pose.header.frame_id = frames_.world_frame;
+  pose.pose = ToPose(state.T_W_B());
+  const bool moved = path_.poses.empty() ||
+                     Distance(path_.poses.back().pose.position, pose.pose.position) > kPathStep;
+  if (!moved) return;
+  if (path_.poses.size() == kMaxPathPoses) RemoveEverySecond(&path_.poses);
+  path_.poses.push_back(pose);
+  path_.header.stamp = pose.header.stamp;
+  PublishIfWanted(path_publisher_, [&] { return path_; });
+}
+
+void OutputPublisher::PublishTransforms(const EstimatorOutput& output) {
+  if (!frames_.publish_tf) return;
+  const std::string& body = frames_.body_frame;
+  broadcaster_.sendTransform(std::vector<geometry_msgs::TransformStamped>{
+      ToStamped(output.t_ns, output.state.T_W_B(), frames_.world_frame, body),
+      ToStamped(output.t_ns, output.T_B_C, body, frames_.camera_frame)});
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/ros/propagation_publisher.h"
+
+#include "common/measurements.h"
+
+namespace plm_vins {
+
+PropagationPublisher::PropagationPublisher(const Config& config, ros::NodeHandle private_node)
+    : frames_(config.output),
+      publisher_(private_node.advertise<nav_msgs::Odometry>("imu_propagate", 1000)),
+      propagator_(Eigen::Vector3d(0, 0, -config.sensor.gravity_norm)) {}
+
+void PropagationPublisher::AddImu(const ImuSample& sample) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto state = propagator_.Add(sample);
+  if (!state) return;
+  const Eigen::Vector3d angular_velocity = sample.gyro - state->gyro_bias();
+  publisher_.publish(ToOdometry(*state, covariance_, angular_velocity, frames_));
+}
+
+void PropagationPublisher::SetEstimate(const EstimatorOutput& output) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!output.has_pose) return propagator_.Clear();
+  propagator_.Reset(output.state, output.t_ns + ToNanoseconds(output.td));
+  covariance_ = {output.pose_covariance, output.velocity_covariance};
+}
+
+void PropagationPublisher::Clear() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  propagator_.Clear();
+}
+
+}  // namespace plm_vins

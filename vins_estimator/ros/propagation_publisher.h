@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <mutex>
+
+#include "common/config.h"
+#include "vins_estimator/estimator_output.h"
+#include "vins_estimator/imu/imu_propagator.h"
+#include "vins_estimator/ros/output_conversion.h"
+
+namespace plm_vins {
+
+// ~imu_propagate: the newest state taken forward to each IMU sample, at once. Its covariance is
+// that of the image it started from. IMU samples and estimates may come from different threads.
+class PropagationPublisher {
+ public:
+  PropagationPublisher(const Config& config, ros::NodeHandle private_node);
+
+  void AddImu(const ImuSample& sample);
+  void SetEstimate(const EstimatorOutput& output);
+  void Clear();
+
+ private:
+  OutputConfig frames_;
+  ros::Publisher publisher_;
+  std::mutex mutex_;
+  ImuPropagator propagator_;  // guarded by mutex_, as what follows
+  StateCovariance covariance_;
+};
+
+}  // namespace plm_vins

@@ -18,6 +18,7 @@ constexpr int kMinPoints = 20;                   // of the whole structure
 constexpr double kParallaxCap = 0.2;             // more of it makes a pair no better [rad]
 constexpr double kMinTriangulationSigmas = 4.0;  // angle between rays of a point, in noise
 constexpr double kMaxReprojectionSigmas = 3.0;
+constexpr double kMinDepth = 1e-3;  // in units of the first baseline
 constexpr int kBundleIterations = 12;
 constexpr int kIntersectionIterations = 4;
 
@@ -63,7 +64,7 @@ class PositionCost {
     using Vector3 = Eigen::Matrix<T, 3, 1>;
     const Vector3 offset = Eigen::Map<const Vector3>(p_G) - Eigen::Map<const Vector3>(p_G_C);
     const Vector3 p_C = R_C_G_.cast<T>() * offset;
-    if (p_C.z() < T(1e-6)) return false;
+    if (p_C.z() < T(kMinDepth)) return false;
     residual[0] = (p_C.x() / p_C.z() - xy_.x()) / noise_;
     residual[1] = (p_C.y() / p_C.z() - xy_.y()) / noise_;
     return true;
@@ -171,8 +172,8 @@ std::optional<Eigen::Vector3d> Builder::TriangulateTrack(const Track& track) con
   if (widest < kMinTriangulationSigmas * noise_) return std::nullopt;
   const auto point = IntersectLines(lines, noise_);
   if (!point) return std::nullopt;
-  for (const Line& line : lines) {
-    if (line.direction.dot(*point - line.origin) <= 0) return std::nullopt;
+  for (const ViewObservation& o : track.observations) {
+    if (posed_[o.view] && InCamera(o.view, *point).z() <= kMinDepth) return std::nullopt;
   }
   return point;
 }

@@ -12,13 +12,17 @@ namespace plm_vins {
 namespace {
 
 constexpr double kStandstillDuration = 0.75;  // [s]
-constexpr double kMinMotionDuration = 1.0;    // [s]
+constexpr double kMinMotionDuration = 1.5;    // [s]
 constexpr double kMaxDuration = 3.0;          // of the buffer [s]
 constexpr double kMaxImuInterval = 0.05;      // between samples [s]
 constexpr int kMinCommonPoints = 12;          // of neighbouring images
 constexpr size_t kMinFrames = 6;
 constexpr size_t kMaxFrames = 11;
 constexpr int kImagesPerAttempt = 5;
+// The longer the wait, the less certain a scale will do: what a vehicle does not do for seconds, it
+// may not do for long. The stated uncertainty is half the true one where propellers shake the IMU.
+constexpr double kScaleDeviationPerSecond = 0.015;  // relative [1/s]
+constexpr double kMaxScaleDeviation = 0.075;
 
 StandstillDetector::Options StandstillOptions() {
   StandstillDetector::Options options;
@@ -51,6 +55,7 @@ Initializer::Initializer(const Config& config)
 void Initializer::Reset() {
   buffer_.clear();
   standstill_.Reset();
+  start_ns_.reset();
   images_since_attempt_ = 0;
   reason_ = "waiting for images";
 }
@@ -81,6 +86,7 @@ void Initializer::Append(const FrameMeasurement& measurement) {
 }
 
 std::optional<InitializationResult> Initializer::Add(const FrameMeasurement& measurement) {
+  if (!start_ns_) start_ns_ = measurement.t_ns;
   Append(measurement);
   ++images_since_attempt_;
   if (buffer_.empty()) return std::nullopt;
@@ -115,9 +121,11 @@ std::optional<InitializationResult> Initializer::TryMotion() {
   }
   if (images_since_attempt_ < kImagesPerAttempt) return std::nullopt;
   images_since_attempt_ = 0;
+  MotionInitializerOptions options;
+  options.max_scale_deviation = std::min(
+      kMaxScaleDeviation, kScaleDeviationPerSecond * ToSeconds(buffer_.back().t_ns - *start_ns_));
   std::vector<FrameMeasurement> frames = JoinFrames(buffer_, SelectFrames(buffer_, max_frames_));
-  const auto states =
-      InitializeFromMotion(frames, sensor_, point_noise_px_, MotionInitializerOptions(), &reason_);
+  const auto states = InitializeFromMotion(frames, sensor_, point_noise_px_, options, &reason_);
   if (!states) return std::nullopt;
   reason_.clear();
   InitializationResult result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
@@ -52,6 +53,7 @@ class Initializer {
   size_t max_frames_;
   StandstillDetector standstill_;
   std::deque<FrameMeasurement> buffer_;  // without gap in IMU samples and tracks
+  std::optional<int64_t> start_ns_;      // of the first image since the reset
   int images_since_attempt_ = 0;
   std::string reason_;
 };

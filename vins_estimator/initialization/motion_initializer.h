@@ -15,7 +15,7 @@ struct MotionInitializerOptions {
   double min_parallax_px = 15;        // median over the points of the best pair of images
   double max_scale_deviation = 0.05;  // relative, of the adjusted states
   double max_reprojection_rms = 2;    // in standard deviations of a corner
-  double max_imu_rms = 5;             // in standard deviations of the preintegrated motion
+  double max_imu_rms = 3;             // in standard deviations of the preintegrated motion
   double max_accel_bias = 1.0;        // [m/s^2]
   double max_gyro_bias = 0.5;         // [rad/s]
 };

@@ -17,6 +17,7 @@ namespace plm_vins {
 namespace {
 
 constexpr int kIterations = 12;
+constexpr double kMinDepth = 0.05;        // [m]
 constexpr double kGaugeDeviation = 1e-3;  // [m] and [rad]; any small value will do
 
 // Holds position and heading of a pose: [p - p0, angle about the world's z] / deviation.
@@ -83,13 +84,16 @@ class Bundle {
 
   bool Solve();
   double Rms(const std::vector<ceres::ResidualBlockId>& blocks, int freedom);
-  double ReprojectionRms() { return Rms(point_blocks_, static_cast<int>(inverse_depths_.size())); }
+  double ReprojectionRms() {
+    return Rms(point_blocks_, kPointSize * static_cast<int>(points_.size()));
+  }
   double ImuRms() { return Rms(imu_blocks_, 0); }
   std::optional<double> RelativeScaleDeviation();
 
  private:
   void AddImu(const std::vector<Preintegration>& preintegrations);
   void AddPriors();
+  Eigen::Vector3d InCamera(int view, const Eigen::Vector3d& p_W) const;
   void AddTrack(const Track& track, const Eigen::Vector3d& p_W);
   Eigen::SparseMatrix<double> Hessian();
   Eigen::VectorXd ScaleDirection(int size) const;
@@ -98,7 +102,7 @@ class Bundle {
   std::vector<FrameState>& states_;
   std::array<double, kPoseSize> extrinsics_;
   double time_offset_ = 0;
-  std::vector<double> inverse_depths_;
+  std::vector<std::array<double, kPointSize>> points_;  // image point and inverse depth in the host
   ceres::Problem problem_;
   std::vector<ceres::ResidualBlockId> point_blocks_, imu_blocks_;
 };
@@ -111,7 +115,7 @@ Bundle::Bundle(const std::vector<Track>& tracks,
   FrameState extrinsics;
   extrinsics.SetPose(options.T_B_C);
   extrinsics_ = extrinsics.pose;
-  inverse_depths_.reserve(tracks.size());  // the solver holds pointers to the elements
+  points_.reserve(tracks.size());  // the solver holds pointers to the elements
   for (FrameState& state : states_) {
     problem_.AddParameterBlock(state.pose.data(), kPoseSize);
     SetPoseManifold(&problem_, state.pose.data());
@@ -147,23 +151,29 @@ void Bundle::AddPriors() {
       first.motion.data());
 }
 
-// Inverse depth in the first view of the track; one factor per further view.
+Eigen::Vector3d Bundle::InCamera(int view, const Eigen::Vector3d& p_W) const {
+  return (states_[view].T_W_B() * options_.T_B_C).Inverse() * p_W;
+}
+
+// The point in the first view of the track; one factor per view.
 void Bundle::AddTrack(const Track& track, const Eigen::Vector3d& p_W) {
   const ViewObservation& host = track.observations.front();
-  const Rigid3d T_C_W = (states_[host.view].T_W_B() * options_.T_B_C).Inverse();
-  const double depth = (T_C_W * p_W).z();
-  if (depth <= 0) return;
-  inverse_depths_.push_back(1 / depth);
+  for (const ViewObservation& o : track.observations) {
+    if (InCamera(o.view, p_W).z() < kMinDepth) return;
+  }
+  const Eigen::Vector3d p_C = InCamera(host.view, p_W);
+  points_.push_back({p_C.x() / p_C.z(), p_C.y() / p_C.z(), 1 / p_C.z()});
+  double* point = points_.back().data();
+  const double weight = 1 / options_.noise;
+  point_blocks_.push_back(
+      problem_.AddResidualBlock(new PointHostFactor({host.xy, Eigen::Vector2d::Zero(), 0}, weight),
+                                new ceres::CauchyLoss(1.0), &time_offset_, point));
   for (size_t i = 1; i < track.observations.size(); ++i) {
     const ViewObservation& target = track.observations[i];
-    TimedBearing host_bearing, target_bearing;
-    host_bearing.xy = host.xy;
-    target_bearing.xy = target.xy;
-    point_blocks_.push_back(
-        problem_.AddResidualBlock(new PointFactor(host_bearing, target_bearing, 1 / options_.noise),
-                                  new ceres::CauchyLoss(1.0), states_[host.view].pose.data(),
-                                  states_[target.view].pose.data(), extrinsics_.data(),
-                                  &time_offset_, &inverse_depths_.back()));
+    point_blocks_.push_back(problem_.AddResidualBlock(
+        new PointFactor({target.xy, Eigen::Vector2d::Zero(), 0}, weight),
+        new ceres::CauchyLoss(1.0), states_[host.view].pose.data(),
+        states_[target.view].pose.data(), extrinsics_.data(), &time_offset_, point));
   }
 }
 
@@ -174,8 +184,8 @@ bool Bundle::Solve() {
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-  for (double& inverse_depth : inverse_depths_) {
-    options.linear_solver_ordering->AddElementToGroup(&inverse_depth, 0);
+  for (auto& point : points_) {
+    options.linear_solver_ordering->AddElementToGroup(point.data(), 0);
   }
   for (FrameState& state : states_) {
     options.linear_solver_ordering->AddElementToGroup(state.pose.data(), 1);
@@ -199,12 +209,12 @@ double Bundle::Rms(const std::vector<ceres::ResidualBlockId>& blocks, int freedo
   return std::sqrt(squared_sum / std::max(1, static_cast<int>(residuals.size()) - freedom));
 }
 
-// Gauss-Newton Hessian in the order: poses, motions, inverse depths.
+// Gauss-Newton Hessian in the order: poses, motions, points.
 Eigen::SparseMatrix<double> Bundle::Hessian() {
   ceres::Problem::EvaluateOptions options;
   for (FrameState& state : states_) options.parameter_blocks.push_back(state.pose.data());
   for (FrameState& state : states_) options.parameter_blocks.push_back(state.motion.data());
-  for (double& inverse_depth : inverse_depths_) options.parameter_blocks.push_back(&inverse_depth);
+  for (auto& point : points_) options.parameter_blocks.push_back(point.data());
   ceres::CRSMatrix crs;
   problem_.Evaluate(options, nullptr, nullptr, nullptr, &crs);
   const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> rows(

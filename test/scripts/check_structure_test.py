@@ -76,6 +76,7 @@ class CheckStructure(unittest.TestCase):
     def test_absolute_paths(self):
         for text in ('"/' + 'home/me/data"', "cd /" + "work/main", "path: /" + "Users/me"):
             self.assert_problem("config/a.yaml", text + "\n", "absolute path")
+        self.assert_clean("test/a.h", HEADER + "// /home/somebody/output\n")
 
 
 if __name__ == "__main__":

@@ -32,7 +32,8 @@ ROS_INCLUDE = re.compile(
     r'#include\s*[<"](ros|rosbag|cv_bridge|image_transport|diagnostic_updater|nodelet|pluginlib'
     r'|message_filters|tf2\w*|tf|std_srvs|\w+_msgs)/')
 INCLUDE = re.compile(r'#include\s*"([^"]+)"')
-HOME_PATH = re.compile(r"(?<![\w./~$}{-])/(home|root|work|Users)/(?!somebody/)\w")  # but in examples
+# "somebody" stands for a user in examples.
+HOME_PATH = re.compile(r"(?<![\w./~$}{-])/(home|root|work|Users)/(?!somebody/)\w")
 SPDX = "// SPDX-License-Identifier: BSD-3-Clause"
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60

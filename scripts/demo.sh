@@ -14,7 +14,7 @@ Usage: demo.sh [--bag FILE | --asl DIR] [--config FILE] [--groundtruth FILE] [--
   --groundtruth FILE  TUM file or EuRoC csv to compare with (default: FILE.tum beside FILE.bag,
                       or the one in the ASL folder)
   --output DIR        where results go (default: output/demo)
-  --rviz              run the three nodes, rosbag play and rviz instead of the offline runner
+  --rviz              run the nodes, rosbag play and rviz instead of the offline runner
 EOF
 }
 
@@ -61,21 +61,13 @@ simulate() {
   bag="$folder/demo.bag"
 }
 
-config_value() {
-  sed -n "s/^$1: *\"\\?\\([^\"# ]*\\).*/\\1/p" "$config"
-}
-
 run_online() {
   set +u  # ROS's script reads variables that are not set
   # shellcheck disable=SC1091
   source "$root/build/devel/setup.bash"
   set -u
-  roslaunch plm_vins euroc.launch config_file:="$(realpath "$config")" rviz:=true &
-  local launch=$!
-  trap 'kill -INT $launch; wait $launch || true' EXIT
-  rosbag play --wait-for-subscribers "$bag" \
-    --topics "$(config_value image_topic)" "$(config_value imu_topic)"
-  read -r -p "The bag has ended; press Enter to close rviz. "
+  roslaunch plm_vins euroc.launch config_file:="$(realpath "$config")" bag:="$(realpath "$bag")" \
+    rviz:=true
 }
 
 find_truth() {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/rate_limiter.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace plm_vins {
+namespace {
+
+constexpr int64_t kMillisecond = 1'000'000;
+
+// Which of the stamps [ms] are taken at `rate` [Hz].
+std::vector<int> Take(double rate, const std::vector<int>& stamps) {
+  RateLimiter limiter(rate);
+  std::vector<int> taken;
+  for (const int t : stamps) {
+    if (limiter.Take(t * kMillisecond)) taken.push_back(t);
+  }
+  return taken;
+}
+
+TEST(RateLimiter, ZeroTakesEverything) {
+  EXPECT_EQ(Take(0, {0, 1, 2, 50}), (std::vector<int>{0, 1, 2, 50}));
+}
+
+TEST(RateLimiter, TakesEverySecondOfTwiceTheRate) {
+  EXPECT_EQ(Take(10, {0, 50, 100, 150, 200, 250}), (std::vector<int>{0, 100, 200}));
+}
+
+TEST(RateLimiter, TakesAllOfAStreamAtItsRateDespiteJitter) {
+  const std::vector<int> stamps = {0, 52, 99, 148, 203, 250, 297};
+  EXPECT_EQ(Take(20, stamps), stamps);
+}
+
+TEST(RateLimiter, KeepsTheMeanRateOfAnOddStream) {
+  std::vector<int> stamps;  // 30 Hz for 10 s
+  for (int i = 0; i < 300; ++i) stamps.push_back(i * 100 / 3);
+  EXPECT_NEAR(static_cast<double>(Take(20, stamps).size()), 200, 3);
+}
+
+TEST(RateLimiter, DoesNotCatchUpAfterAGap) {
+  EXPECT_EQ(Take(10, {0, 1000, 1020, 1040, 1100}), (std::vector<int>{0, 1000, 1100}));
+}
+
+}  // namespace
+}  // namespace plm_vins

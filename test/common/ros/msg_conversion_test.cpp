@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/ros/msg_conversion.h"
+
+#include <gtest/gtest.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace plm_vins {
+namespace {
+
+namespace encodings = sensor_msgs::image_encodings;
+
+constexpr int64_t kStamp = 1403636579763555584;  // of EuRoC; a double cannot hold it
+
+// A 6 x 4 image of which every pixel has the bytes `pixel`.
+sensor_msgs::Image MakeImage(const std::string& encoding, const std::vector<uint8_t>& pixel) {
+  sensor_msgs::Image image;
+  image.header.stamp = ToRosTime(kStamp);
+  image.encoding = encoding;
+  image.width = 6;
+  image.height = 4;
+  image.step = static_cast<uint32_t>(6 * pixel.size());
+  for (int i = 0; i < 24; ++i) image.data.insert(image.data.end(), pixel.begin(), pixel.end());
+  return image;
+}
+
+struct EncodingCase {
+  std::string encoding;
+  std::vector<uint8_t> pixel;
+  double grey;
+};
+
+class ImageEncodings : public ::testing::TestWithParam<EncodingCase> {};
+
+TEST_P(ImageEncodings, BecomeGrey) {
+  const ImageSample sample = ToImageSample(MakeImage(GetParam().encoding, GetParam().pixel));
+  EXPECT_EQ(sample.t_ns, kStamp);
+  ASSERT_EQ(sample.gray.type(), CV_8UC1);
+  ASSERT_EQ(sample.gray.size(), cv::Size(6, 4));
+  EXPECT_NEAR(sample.gray.at<uint8_t>(2, 3), GetParam().grey, 1);
+}
+
+// Luma: 0.299 R + 0.587 G + 0.114 B. 16-bit pixels are little endian.
+INSTANTIATE_TEST_SUITE_P(Encodings, ImageEncodings,
+                         ::testing::Values(EncodingCase{encodings::MONO8, {90}, 90},
+                                           EncodingCase{encodings::TYPE_8UC1, {90}, 90},
+                                           EncodingCase{encodings::BGR8, {10, 100, 200}, 119.6},
+                                           EncodingCase{encodings::RGB8, {10, 100, 200}, 84.5},
+                                           EncodingCase{
+                                               encodings::BGRA8, {10, 100, 200, 255}, 119.6},
+                                           EncodingCase{encodings::MONO16, {0x00, 0x80}, 127.5},
+                                           EncodingCase{encodings::TYPE_16UC1, {0x00, 0x80}, 127.5},
+                                           EncodingCase{encodings::BAYER_RGGB8, {60}, 60}));
+
+TEST(ImageConversion, NamesAnEncodingThatIsNoPicture) {
+  try {
+    ToImageSample(MakeImage("32SC1", {0, 0, 0, 0}));
+    FAIL() << "no exception";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("32SC1"), std::string::npos) << error.what();
+  }
+}
+
+TEST(ImageConversion, RefusesTooFewBytes) {
+  sensor_msgs::Image image = MakeImage(encodings::MONO8, {90});
+  image.data.resize(10);
+  EXPECT_THROW(ToImageSample(image), std::invalid_argument);
+}
+
+TEST(ImageConversion, DecodesCompressedImages) {
+  sensor_msgs::CompressedImage image;
+  image.header.stamp = ToRosTime(kStamp);
+  image.format = "png";
+  cv::imencode(".png", cv::Mat(4, 6, CV_8UC1, cv::Scalar(77)), image.data);
+  const ImageSample sample = ToImageSample(image);
+  EXPECT_EQ(sample.t_ns, kStamp);
+  EXPECT_EQ(sample.gray.at<uint8_t>(1, 1), 77);
+  image.data.resize(20);
+  EXPECT_THROW(ToImageSample(image), std::invalid_argument);
+  image.data.clear();
+  EXPECT_THROW(ToImageSample(image), std::invalid_argument);
+}
+
+TEST(FeatureMessage, PointsHaveTheLayoutOfVins) {
+  PointFrame frame;
+  frame.t_ns = kStamp;
+  frame.points.push_back({42, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
+  const sensor_msgs::PointCloud message = ToMessage(frame, "camera");
+  EXPECT_EQ(message.header.frame_id, "camera");
+  ASSERT_EQ(message.points.size(), 1u);
+  EXPECT_EQ(message.points[0].x, 0.25f);
+  EXPECT_EQ(message.points[0].y, -0.5f);
+  EXPECT_EQ(message.points[0].z, 1.0f);
+  ASSERT_EQ(message.channels.size(), 5u);
+  const std::vector<float> values = {42, 300.5f, 200.25f, 0.125f, -2};
+  for (size_t i = 0; i < 5; ++i) EXPECT_EQ(message.channels[i].values[0], values[i]);
+}
+
+TEST(FeatureMessage, PointsComeBack) {
+  PointFrame frame;
+  frame.t_ns = kStamp;
+  frame.points.push_back({16'777'216, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
+  frame.points.push_back({3, {-0.75, 0.5}, {1, 2}, {0, 0}});
+  const PointFrame back = ToPointFrame(ToMessage(frame, "camera"));
+  EXPECT_EQ(back.t_ns, kStamp);
+  ASSERT_EQ(back.points.size(), 2u);
+  EXPECT_EQ(back.points[0].id, 16'777'216);
+  EXPECT_EQ(back.points[0].xy, frame.points[0].xy);
+  EXPECT_EQ(back.points[0].uv_px, frame.points[0].uv_px);
+  EXPECT_EQ(back.points[0].velocity, frame.points[0].velocity);
+  EXPECT_EQ(back.points[1].id, 3);
+}
+
+TEST(FeatureMessage, AnEmptyFrameComesBack) {
+  EXPECT_TRUE(ToPointFrame(ToMessage(PointFrame{kStamp, {}}, "camera")).points.empty());
+}
+
+TEST(FeatureMessage, LinesComeBack) {
+  LineFrame frame;
+  frame.t_ns = kStamp;
+  frame.lines.push_back({7, {0.25, -0.5}, {0.5, 0.125}});
+  const LineFrame back = ToLineFrame(ToMessage(frame, "camera"));
+  EXPECT_EQ(back.t_ns, kStamp);
+  ASSERT_EQ(back.lines.size(), 1u);
+  EXPECT_EQ(back.lines[0].id, 7);
+  EXPECT_EQ(back.lines[0].start, frame.lines[0].start);
+  EXPECT_EQ(back.lines[0].end, frame.lines[0].end);
+}
+
+TEST(FeatureMessage, MissingChannelsAreRefused) {
+  PointFrame frame;
+  frame.points.resize(2);
+  sensor_msgs::PointCloud message = ToMessage(frame, "camera");
+  message.channels[3].values.pop_back();
+  EXPECT_THROW(ToPointFrame(message), std::invalid_argument);
+  message.channels.resize(3);
+  EXPECT_THROW(ToPointFrame(message), std::invalid_argument);
+  message.channels.clear();
+  EXPECT_THROW(ToLineFrame(message), std::invalid_argument);
+}
+
+TEST(PoseMessage, HasTheTransform) {
+  const Rigid3d T(Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), Eigen::Vector3d(1, 2, 3));
+  const geometry_msgs::Pose pose = ToPose(T);
+  EXPECT_EQ(pose.position.y, 2);
+  EXPECT_EQ(pose.orientation.w, 0.5);
+  EXPECT_EQ(pose.orientation.y, -0.5);
+  EXPECT_EQ(ToTransform(T).translation.z, 3);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -17,6 +17,7 @@ struct PointTrackerStatistics {
   int flow_lost = 0;          // KLT failed or left the image
   int forward_backward = 0;   // did not come back
   int epipolar_outliers = 0;  // against the epipolar geometry
+  int crowded = 0;            // came too close to an older one, or under the mask
   int detected = 0;           // new corners
 };
 
@@ -27,9 +28,10 @@ class PointTracker {
   PointTracker(const PointTrackerConfig& config, std::shared_ptr<const CameraModel> camera);
   ~PointTracker();
 
-  // `R_C1_C0` takes directions of the previous camera frame C0 to the current one C1 (from the gyro);
-  // without it the corners' own motion predicts. Throws std::invalid_argument where the image is not
-  // CV_8UC1 of the calibrated size; the tracker is then unchanged.
+  // `R_C1_C0` takes directions of the previous camera frame C0 to the current one C1 (from the
+  // gyro); without it the corners' own motion predicts. Throws std::invalid_argument where the
+  // image is not CV_8UC1 of the calibrated size or its stamp not after the one before; the tracker
+  // is then unchanged.
   PointFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0);
 
   void Reset();  // forgets all tracks; ids go on

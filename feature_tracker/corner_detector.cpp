@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "feature_tracker/corner_detector.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "feature_tracker/corner_refinement.h"
+#include "feature_tracker/region_queue.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int kBlockSize = 3;  // of the gradient covariance, in pixels of the half image
+constexpr double kHarrisK = 0.04;
+constexpr float kMinEigenvalue = 1e-4F;  // less is noise, however dark the rest of the image
+constexpr int kCornersPerRegion = 8;     // on average, of the regions that they are spread over
+
+}  // namespace
+
+CornerDetector::CornerDetector(const PointTrackerConfig& config, cv::Mat mask)
+    : config_(config), mask_(std::move(mask)) {}
+
+std::vector<cv::Point2f> CornerDetector::Detect(const cv::Mat& image,
+                                                const std::vector<cv::Point2f>& existing,
+                                                int max_count) const {
+  if (max_count <= 0) return {};
+  SpacingGrid occupied(image.size(), config_.min_dist);
+  RegionQueue queue(image.size(), config_.max_cnt / kCornersPerRegion + 1);
+  for (const cv::Point2f& point : existing) {
+    occupied.Add(point);
+    queue.CountPoint(point);
+  }
+  for (const Candidate& candidate : FindCandidates(image, occupied)) {
+    queue.AddCandidate(candidate.position);
+  }
+  std::vector<cv::Point2f> corners;
+  while (static_cast<int>(corners.size()) < max_count) {
+    const auto candidate = queue.Pop();
+    if (!candidate) break;
+    if (!occupied.IsFree(*candidate)) continue;
+    const auto corner = config_.corner_subpixel ? RefineCorner(image, *candidate) : candidate;
+    if (!corner || !IsAllowed(*corner, image.size()) || !occupied.IsFree(*corner)) continue;
+    occupied.Add(*corner);
+    queue.CountPoint(*corner);
+    corners.push_back(*corner);
+  }
+  return corners;
+}
+
+// Local maxima of the response, best first; equal ones in order of position.
+std::vector<CornerDetector::Candidate> CornerDetector::FindCandidates(
+    const cv::Mat& image, const SpacingGrid& occupied) const {
+  cv::Mat half_image, local_maximum;
+  cv::pyrDown(image, half_image);
+  const cv::Mat response = Response(half_image);
+  cv::dilate(response, local_maximum, cv::Mat());
+  const float min_response = MinResponse(response);
+
+  std::vector<Candidate> candidates;
+  for (int y = 0; y < response.rows; ++y) {
+    const auto* values = response.ptr<float>(y);
+    const auto* maxima = local_maximum.ptr<float>(y);
+    for (int x = 0; x < response.cols; ++x) {
+      if (values[x] < min_response || values[x] < maxima[x]) continue;
+      const cv::Point2f position(2.0F * static_cast<float>(x), 2.0F * static_cast<float>(y));
+      if (!IsAllowed(position, image.size()) || !occupied.IsFree(position)) continue;
+      candidates.push_back({position, values[x]});
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.response > b.response; });
+  return candidates;
+}
+
+cv::Mat CornerDetector::Response(const cv::Mat& half_image) const {
+  constexpr int kSobelSize = 3;
+  cv::Mat response;
+  if (config_.corner_detector == CornerDetectorType::kHarris) {
+    cv::cornerHarris(half_image, response, kBlockSize, kSobelSize, kHarrisK);
+  } else {
+    cv::cornerMinEigenVal(half_image, response, kBlockSize, kSobelSize);
+  }
+  return response;
+}
+
+float CornerDetector::MinResponse(const cv::Mat& response) const {
+  const bool is_harris = config_.corner_detector == CornerDetectorType::kHarris;
+  const float floor = is_harris ? kMinEigenvalue * kMinEigenvalue : kMinEigenvalue;
+  double best = 0;
+  cv::minMaxLoc(response, nullptr, &best);
+  return std::max(floor, static_cast<float>(config_.quality_level * best));
+}
+
+bool CornerDetector::IsAllowed(const cv::Point2f& position, const cv::Size& image_size) const {
+  if (!IsRefinementWindowInside(image_size, position)) return false;
+  return mask_.empty() || mask_.at<uint8_t>(cv::Point(position)) != 0;
+}
+
+}  // namespace plm_vins

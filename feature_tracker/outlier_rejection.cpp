@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "feature_tracker/outlier_rejection.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "common/so3.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr size_t kMinPairs = 8;
+constexpr int kHypotheses = 100;       // (1 - 0.5^2)^100 = 3e-13: never misses with half outliers
+constexpr double kCoarseFactor = 3.0;  // of the threshold, while the rotation is only guessed
+constexpr int kRefinements = 5;
+constexpr int kRotationIterations = 10;
+
+// Motion of the camera up to scale: p_C1 ~ R p_C0 + s t.
+struct EpipolarGeometry {
+  Eigen::Quaterniond R_C1_C0 = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d t_C1 = Eigen::Vector3d::UnitZ();  // unit length
+};
+
+// The pair's epipolar constraint t . (a x b) = 0 with a = R ray_C0, b = ray_C1, over its noise in
+// units of the angular error of either ray (first-order or Sampson error): [rad].
+struct EpipolarResidual {
+  EpipolarResidual(const EpipolarGeometry& geometry, const RayPair& pair)
+      : a(geometry.R_C1_C0 * pair.ray_C0),
+        b(pair.ray_C1),
+        weight(1.0 / std::sqrt(0.5 * (geometry.t_C1.cross(a).squaredNorm() +
+                                      geometry.t_C1.cross(b).squaredNorm()) +
+                               kEpipole)),
+        error(weight * geometry.t_C1.dot(a.cross(b))) {}
+
+  static constexpr double kEpipole = 1e-9;  // keeps rays along t from dividing by zero
+  Eigen::Vector3d a, b;
+  double weight;
+  double error;  // [rad]
+};
+
+// Truncated squared errors (MSAC), smaller is better.
+double Cost(const std::vector<RayPair>& pairs, const EpipolarGeometry& geometry, double threshold) {
+  double cost = 0;
+  for (const RayPair& pair : pairs) {
+    const double error = EpipolarResidual(geometry, pair).error;
+    cost += std::min(error * error, threshold * threshold);
+  }
+  return cost;
+}
+
+// Weight of the Cauchy loss.
+double RobustWeight(double error, double scale) {
+  return 1.0 / (1.0 + error * error / (scale * scale));
+}
+
+// The rotation alone that takes most rays of C0 to those of C1: Gauss-Newton on b - R a.
+Eigen::Quaterniond FitRotation(const std::vector<RayPair>& pairs, double scale) {
+  Eigen::Quaterniond R = Eigen::Quaterniond::Identity();
+  for (int i = 0; i < kRotationIterations; ++i) {
+    Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d g = Eigen::Vector3d::Zero();
+    for (const RayPair& pair : pairs) {
+      const Eigen::Vector3d a = R * pair.ray_C0;
+      const Eigen::Vector3d error = pair.ray_C1 - a;
+      const double weight = RobustWeight(error.norm(), scale);
+      H += weight * (Eigen::Matrix3d::Identity() - a * a.transpose());
+      g += weight * a.cross(error);
+    }
+    const Eigen::Vector3d step = H.ldlt().solve(g);
+    if (!step.allFinite()) break;
+    R = (SO3Exp(step) * R).normalized();
+  }
+  return R;
+}
+
+// The direction of translation that two pairs leave: t . (a x b) = 0 for both.
+std::optional<Eigen::Vector3d> TranslationOfTwo(const Eigen::Vector3d& normal0,
+                                                const Eigen::Vector3d& normal1) {
+  const Eigen::Vector3d t = normal0.cross(normal1);
+  const double length = t.norm();
+  if (!(length > 0)) return std::nullopt;
+  return t / length;
+}
+
+EpipolarGeometry FindTranslation(const std::vector<RayPair>& pairs, const Eigen::Quaterniond& R,
+                                 double threshold) {
+  std::mt19937 random;  // default seed: same input, same result
+  const auto draw_normal = [&] {
+    const RayPair& pair = pairs[random() % pairs.size()];
+    return (R * pair.ray_C0).cross(pair.ray_C1);
+  };
+  EpipolarGeometry best{R, Eigen::Vector3d::UnitZ()};
+  double best_cost = Cost(pairs, best, threshold);
+  for (int i = 0; i < kHypotheses; ++i) {
+    const Eigen::Vector3d normal = draw_normal();
+    const auto t = TranslationOfTwo(normal, draw_normal());
+    if (!t) continue;
+    const double cost = Cost(pairs, {R, *t}, threshold);
+    if (cost < best_cost) {
+      best = {R, *t};
+      best_cost = cost;
+    }
+  }
+  return best;
+}
+
+// Two columns that span the plane normal to the unit vector t.
+Eigen::Matrix<double, 3, 2> TangentBasis(const Eigen::Vector3d& t) {
+  Eigen::Matrix<double, 3, 2> basis;
+  basis.col(0) = t.unitOrthogonal();
+  basis.col(1) = t.cross(basis.col(0));
+  return basis;
+}
+
+// One robust Gauss-Newton step on rotation (R <- Exp(w) R) and direction of translation. Damped,
+// as without parallax the latter is free.
+EpipolarGeometry Refine(const std::vector<RayPair>& pairs, const EpipolarGeometry& geometry,
+                        double scale) {
+  using Matrix5d = Eigen::Matrix<double, 5, 5>;
+  using Vector5d = Eigen::Matrix<double, 5, 1>;
+  constexpr double kDamping = 1e-4;
+  const Eigen::Matrix<double, 3, 2> basis = TangentBasis(geometry.t_C1);
+  Matrix5d H = kDamping * Matrix5d::Identity();
+  Vector5d g = Vector5d::Zero();
+  for (const RayPair& pair : pairs) {
+    const EpipolarResidual r(geometry, pair);
+    Vector5d J;
+    J << r.weight * r.a.cross(r.b.cross(geometry.t_C1)),
+        r.weight * basis.transpose() * r.a.cross(r.b);
+    const double weight = RobustWeight(r.error, scale);
+    H.noalias() += weight * J * J.transpose();
+    g.noalias() -= weight * r.error * J;
+  }
+  const Vector5d step = H.ldlt().solve(g);
+  if (!step.allFinite()) return geometry;
+  return {(SO3Exp(step.head<3>()) * geometry.R_C1_C0).normalized(),
+          (geometry.t_C1 + basis * step.tail<2>()).normalized()};
+}
+
+}  // namespace
+
+std::vector<bool> FindEpipolarInliers(const std::vector<RayPair>& pairs,
+                                      const std::optional<Eigen::Quaterniond>& R_C1_C0,
+                                      double threshold) {
+  std::vector<bool> inliers(pairs.size(), true);
+  if (pairs.size() < kMinPairs) return inliers;
+  const double coarse = kCoarseFactor * threshold;
+  const Eigen::Quaterniond R = R_C1_C0 ? *R_C1_C0 : FitRotation(pairs, coarse);
+  EpipolarGeometry geometry = FindTranslation(pairs, R, coarse);
+  for (int i = 0; i < kRefinements; ++i) geometry = Refine(pairs, geometry, threshold);
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    inliers[i] = std::abs(EpipolarResidual(geometry, pairs[i]).error) <= threshold;
+  }
+  return inliers;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "feature_tracker/point_tracker.h"
+
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "feature_tracker/corner_detector.h"
+#include "feature_tracker/optical_flow.h"
+#include "feature_tracker/outlier_rejection.h"
+#include "feature_tracker/point_track.h"
+#include "feature_tracker/spacing_grid.h"
+#include "feature_tracker/track_drawing.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kClaheClipLimit = 3.0;
+constexpr int kClaheTiles = 8;
+
+Eigen::Vector2d ToEigen(const cv::Point2f& point) { return {point.x, point.y}; }
+cv::Point2f ToOpenCv(const Eigen::Vector2d& point) {
+  return {static_cast<float>(point.x()), static_cast<float>(point.y())};
+}
+
+cv::Mat ReadMask(const std::string& file, const cv::Size& image_size) {
+  if (file.empty()) return {};
+  cv::Mat mask = cv::imread(file, cv::IMREAD_GRAYSCALE);
+  if (mask.empty()) throw std::invalid_argument("fisheye_mask: cannot read the image " + file);
+  if (mask.size() != image_size) {
+    throw std::invalid_argument("fisheye_mask: " + file + " is not of the camera's image size");
+  }
+  return mask;
+}
+
+// Throws std::invalid_argument where the image cannot follow the one at `previous_ns`.
+void CheckImage(const ImageSample& image, const CameraParameters& camera,
+                const std::optional<int64_t>& previous_ns) {
+  if (image.gray.type() != CV_8UC1) {
+    throw std::invalid_argument("image is not 8-bit grey (CV_8UC1)");
+  }
+  if (image.gray.cols != camera.width || image.gray.rows != camera.height) {
+    throw std::invalid_argument("image is " + std::to_string(image.gray.cols) + " x " +
+                                std::to_string(image.gray.rows) + " px, the calibration is for " +
+                                std::to_string(camera.width) + " x " +
+                                std::to_string(camera.height));
+  }
+  if (previous_ns && image.t_ns <= *previous_ns) {
+    throw std::invalid_argument("image stamp " + std::to_string(image.t_ns) +
+                                " ns is not after the one before, " + std::to_string(*previous_ns) +
+                                " ns");
+  }
+}
+
+// Removes the tracks of which `keep` is false; returns how many.
+int RemoveTracks(const std::vector<bool>& keep, std::vector<PointTrack>* tracks) {
+  size_t kept = 0;
+  for (size_t i = 0; i < tracks->size(); ++i) {
+    if (keep[i]) (*tracks)[kept++] = (*tracks)[i];
+  }
+  const size_t removed = tracks->size() - kept;
+  tracks->resize(kept);
+  return static_cast<int>(removed);
+}
+
+}  // namespace
+
+class PointTracker::Implementation {
+ public:
+  Implementation(const PointTrackerConfig& config, std::shared_ptr<const CameraModel> camera)
+      : config_(config),
+        camera_(std::move(camera)),
+        image_size_(camera_->parameters().width, camera_->parameters().height),
+        mask_(ReadMask(config.fisheye_mask, image_size_)),
+        detector_(config, mask_),
+        flow_(config),
+        clahe_(cv::createCLAHE(kClaheClipLimit, {kClaheTiles, kClaheTiles})) {}
+
+  PointFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+    CheckImage(sample, camera_->parameters(), t_ns_);
+    const cv::Mat image = Equalize(sample.gray);
+    OpticalFlow::Pyramid pyramid = flow_.BuildPyramid(image);
+    statistics_ = {};
+    statistics_.previous = static_cast<int>(tracks_.size());
+    if (!tracks_.empty()) {
+      Follow(pyramid, ToSeconds(sample.t_ns - *t_ns_), R_C1_C0);
+      Spread();
+    }
+    Refill(image);
+    raw_image_ = sample.gray;
+    pyramid_ = std::move(pyramid);
+    t_ns_ = sample.t_ns;
+    return MakeFrame();
+  }
+
+  void Reset() {
+    tracks_.clear();
+    pyramid_.clear();
+    t_ns_.reset();
+    statistics_ = {};
+  }
+
+  const PointTrackerStatistics& statistics() const { return statistics_; }
+  cv::Mat DrawTracks() const { return DrawPointTracks(raw_image_, tracks_); }
+
+ private:
+  cv::Mat Equalize(const cv::Mat& gray) const {
+    if (!config_.equalize) return gray;
+    cv::Mat equalized;
+    clahe_->apply(gray, equalized);
+    return equalized;
+  }
+
+  // Takes the tracks to the image of `pyramid`, `dt` seconds later, and drops those that got lost.
+  void Follow(const OpticalFlow::Pyramid& pyramid, double dt,
+              const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+    std::vector<cv::Point2f> points, turned, predicted;
+    const auto dt_ratio = static_cast<float>(previous_dt_ > 0 ? dt / previous_dt_ : 0);
+    for (const PointTrack& track : tracks_) {
+      points.push_back(track.uv_px);
+      turned.push_back(R_C1_C0 ? Turn(track, *R_C1_C0) : track.uv_px);
+      predicted.push_back(turned.back() + dt_ratio * track.parallax_px);
+    }
+    previous_dt_ = dt;
+    const std::vector<FlowResult> flow = flow_.Track(pyramid_, pyramid, points, predicted);
+
+    std::vector<RayPair> pairs;
+    std::vector<bool> keep(tracks_.size(), false);
+    for (size_t i = 0; i < tracks_.size(); ++i) {
+      if (flow[i].status == FlowResult::Status::kInconsistent) ++statistics_.forward_backward;
+      if (flow[i].status == FlowResult::Status::kLost) ++statistics_.flow_lost;
+      if (flow[i].status != FlowResult::Status::kTracked) continue;
+      const Eigen::Vector2d xy_C0 = tracks_[i].xy;
+      keep[i] = Advance(flow[i].position, turned[i], dt, &tracks_[i]);
+      if (!keep[i]) {
+        ++statistics_.flow_lost;
+        continue;
+      }
+      pairs.push_back({xy_C0.homogeneous().normalized(), tracks_[i].xy.homogeneous().normalized()});
+    }
+    RemoveTracks(keep, &tracks_);
+    const double threshold = config_.f_threshold / camera_->FocalLength();
+    statistics_.epipolar_outliers =
+        RemoveTracks(FindEpipolarInliers(pairs, R_C1_C0, threshold), &tracks_);
+  }
+
+  // Where the track's pixel goes when the camera only turns; it stays where the model cannot tell.
+  cv::Point2f Turn(const PointTrack& track, const Eigen::Quaterniond& R_C1_C0) const {
+    const auto pixel = camera_->Project(R_C1_C0 * track.xy.homogeneous());
+    return pixel ? ToOpenCv(*pixel) : track.uv_px;
+  }
+
+  // False where the camera model has no ray for the new position.
+  bool Advance(const cv::Point2f& uv_px, const cv::Point2f& turned_px, double dt,
+               PointTrack* track) const {
+    const auto xy = camera_->Unproject(ToEigen(uv_px));
+    if (!xy) return false;
+    track->motion_px = uv_px - track->uv_px;
+    track->parallax_px = uv_px - turned_px;
+    track->velocity = (*xy - track->xy) / dt;
+    track->xy = *xy;
+    track->uv_px = uv_px;
+    ++track->length;
+    return true;
+  }
+
+  // Drops tracks that came too close to an older one, or under the mask.
+  void Spread() {
+    std::stable_sort(tracks_.begin(), tracks_.end(),
+                     [](const auto& a, const auto& b) { return a.length > b.length; });
+    SpacingGrid occupied(image_size_, config_.min_dist);
+    std::vector<bool> keep;
+    for (const PointTrack& track : tracks_) {
+      const bool is_visible = mask_.empty() || mask_.at<uint8_t>(cv::Point(track.uv_px)) != 0;
+      keep.push_back(is_visible && occupied.IsFree(track.uv_px));
+      if (keep.back()) occupied.Add(track.uv_px);
+    }
+    statistics_.crowded = RemoveTracks(keep, &tracks_);
+  }
+
+  void Refill(const cv::Mat& image) {
+    std::vector<cv::Point2f> existing;
+    for (const PointTrack& track : tracks_) existing.push_back(track.uv_px);
+    const int missing = config_.max_cnt - static_cast<int>(tracks_.size());
+    for (const cv::Point2f& corner : detector_.Detect(image, existing, missing)) {
+      const auto xy = camera_->Unproject(ToEigen(corner));
+      if (!xy) continue;
+      PointTrack track;
+      track.id = next_id_++;
+      track.uv_px = corner;
+      track.xy = *xy;
+      tracks_.push_back(track);
+      ++statistics_.detected;
+    }
+  }
+
+  PointFrame MakeFrame() const {
+    PointFrame frame;
+    frame.t_ns = *t_ns_;
+    for (const PointTrack& track : tracks_) {
+      frame.points.push_back({track.id, track.xy, ToEigen(track.uv_px), track.velocity});
+    }
+    return frame;
+  }
+
+  // Read-only after construction.
+  PointTrackerConfig config_;
+  std::shared_ptr<const CameraModel> camera_;
+  cv::Size image_size_;
+  cv::Mat mask_;
+  CornerDetector detector_;
+  OpticalFlow flow_;
+  cv::Ptr<cv::CLAHE> clahe_;
+
+  // As of the newest image.
+  std::optional<int64_t> t_ns_;
+  double previous_dt_ = 0;  // between the two newest images [s]
+  cv::Mat raw_image_;
+  OpticalFlow::Pyramid pyramid_;
+  std::vector<PointTrack> tracks_;
+  PointTrackerStatistics statistics_;
+  int64_t next_id_ = 0;
+};
+
+PointTracker::PointTracker(const PointTrackerConfig& config,
+                           std::shared_ptr<const CameraModel> camera)
+    : implementation_(std::make_unique<Implementation>(config, std::move(camera))) {}
+
+PointTracker::~PointTracker() = default;
+
+PointFrame PointTracker::Track(const ImageSample& image,
+                               const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+  return implementation_->Track(image, R_C1_C0);
+}
+
+void PointTracker::Reset() { implementation_->Reset(); }
+
+const PointTrackerStatistics& PointTracker::statistics() const {
+  return implementation_->statistics();
+}
+
+cv::Mat PointTracker::DrawTracks() const { return implementation_->DrawTracks(); }
+
+}  // namespace plm_vins

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "feature_tracker/track_drawing.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+namespace plm_vins {
+namespace {
+
+constexpr int kOldLength = 20;  // images after which a track is fully red
+constexpr int kDiscRadius_px = 3;
+constexpr float kMotionScale = 4;  // motions between images are short
+
+cv::Scalar AgeColor(int length) {
+  const double age = std::min(1.0, static_cast<double>(length) / kOldLength);
+  return {255 * (1 - age), 0, 255 * age};
+}
+
+}  // namespace
+
+cv::Mat DrawPointTracks(const cv::Mat& gray, const std::vector<PointTrack>& tracks) {
+  cv::Mat image;
+  cv::cvtColor(gray, image, cv::COLOR_GRAY2BGR);
+  for (const PointTrack& track : tracks) {
+    const cv::Scalar color = AgeColor(track.length);
+    cv::circle(image, track.uv_px, kDiscRadius_px, color, cv::FILLED, cv::LINE_AA);
+    cv::line(image, track.uv_px, track.uv_px + kMotionScale * track.motion_px, color, 1,
+             cv::LINE_AA);
+  }
+  return image;
+}
+
+}  // namespace plm_vins

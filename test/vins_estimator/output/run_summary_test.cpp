@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/output/run_summary.h"
+
+#include <gtest/gtest.h>
+
+namespace plm_vins {
+namespace {
+
+constexpr int64_t kStart = 1'000'000'000'000;
+constexpr int64_t kFrame = 50'000'000;  // 20 Hz
+
+EstimatorOutput Pose(int frame, double x) {
+  EstimatorOutput output;
+  output.t_ns = kStart + frame * kFrame;
+  output.has_pose = true;
+  output.state.position().x() = x;
+  output.counts.points_observed = 100;
+  return output;
+}
+
+EstimatorOutput NoPose(int frame, const std::string& reason) {
+  EstimatorOutput output;
+  output.t_ns = kStart + frame * kFrame;
+  output.reason = reason;
+  return output;
+}
+
+TEST(RunSummary, AddsUpARun) {
+  RunSummary summary;
+  summary.Add(NoPose(0, "too little parallax"), {});
+  summary.Add(Pose(1, 0.0), {});
+  summary.Add(Pose(2, 0.3), {});
+  EstimatorOutput standing = Pose(4, -0.1);
+  standing.stationary = true;
+  summary.Add(standing, {});
+
+  RunSummary::Run run;
+  run.input = "flight.bag";
+  run.images = 6;
+  run.first_image_ns = kStart - kFrame;
+  run.wall_time = 0.1;
+  run.map_points = 12;
+  run.drops = {{"images_unreadable", 2, "a.png"}, {"imu_gaps", 0, ""}};
+  const auto json = summary.ToJson(run);
+  EXPECT_EQ(json["input"], "flight.bag");
+  EXPECT_EQ(json["images"], 6);
+  EXPECT_EQ(json["frames"], 4);
+  EXPECT_EQ(json["poses"], 3);
+  EXPECT_EQ(json["points"], 12);
+  EXPECT_EQ(json["resets"], 0);
+  EXPECT_NEAR(json["init_time_s"].get<double>(), 0.1, 1e-9);
+  EXPECT_NEAR(json["path_length_m"].get<double>(), 0.7, 1e-12);
+  EXPECT_NEAR(json["real_time_factor"].get<double>(), 2.0, 1e-9);
+  EXPECT_NEAR(json["standstill_share"].get<double>(), 1.0 / 3, 1e-12);
+  EXPECT_EQ(json["dropped"]["images_unreadable"], 2);
+  EXPECT_EQ(json["dropped"]["imu_gaps"], 0);
+}
+
+TEST(RunSummary, TheJumpToANewWorldFrameIsNoWay) {
+  RunSummary summary;
+  summary.Add(Pose(0, 0.0), {});
+  summary.Add(Pose(1, 1.0), {});
+  EstimatorOutput restarted = Pose(2, 50.0);
+  restarted.restarted = true;
+  summary.Add(restarted, {});
+  summary.Add(Pose(3, 50.5), {});
+  const auto json = summary.ToJson({});
+  EXPECT_NEAR(json["path_length_m"].get<double>(), 1.5, 1e-12);
+  EXPECT_EQ(json["resets"], 1);
+}
+
+TEST(RunSummary, WithoutAPoseItSaysWhy) {
+  RunSummary summary;
+  summary.Add(NoPose(0, "too little parallax"), {});
+  EXPECT_EQ(summary.poses(), 0);
+  EXPECT_EQ(summary.last_reason(), "too little parallax");
+  EXPECT_TRUE(summary.ToJson({})["init_time_s"].is_null());
+  EXPECT_EQ(RunSummary().ToJson({})["real_time_factor"], 0.0);
+}
+
+TEST(RunSummary, HasMeanAndPercentileOfEachStage) {
+  RunSummary summary;
+  summary.Add(Pose(0, 0), {1, 0, 0, 0, 0, 0, 0, 4});
+  summary.Add(Pose(1, 0), {3, 0, 0, 0, 0, 0, 0, 6});
+  const auto timing = summary.ToJson({})["timing_ms"];
+  EXPECT_EQ(timing.size(), kTimingStages);
+  EXPECT_EQ(timing["point_tracking"]["mean"], 2.0);
+  EXPECT_EQ(timing["total"]["p95"], 6.0);
+}
+
+}  // namespace
+}  // namespace plm_vins

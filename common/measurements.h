@@ -77,4 +77,11 @@ struct FrameMeasurement {
   std::vector<ImuSample> imu;
 };
 
+// Appends samples that continue `joined`, without repeating the sample that they share.
+inline void JoinImu(const std::vector<ImuSample>& next, std::vector<ImuSample>* joined) {
+  for (const ImuSample& sample : next) {
+    if (joined->empty() || sample.t_ns > joined->back().t_ns) joined->push_back(sample);
+  }
+}
+
 }  // namespace plm_vins

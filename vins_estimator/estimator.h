@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
+#include <string>
 
 #include "common/config.h"
 #include "common/measurements.h"
 #include "vins_estimator/estimator_output.h"
+#include "vins_estimator/failure_detector.h"
+#include "vins_estimator/imu/standstill_detector.h"
+#include "vins_estimator/initialization/initializer.h"
+#include "vins_estimator/marginalization/marginalization_prior.h"
+#include "vins_estimator/marginalization/window_marginalizer.h"
+#include "vins_estimator/optimization/levenberg_marquardt.h"
+#include "vins_estimator/optimization/problem_builder.h"
+#include "vins_estimator/points/point_map.h"
+#include "vins_estimator/window/keyframe_policy.h"
+#include "vins_estimator/window/sliding_window.h"
 
 namespace plm_vins {
 
-// Visual-inertial odometry in a sliding window: one call per image, one stage per line of Process().
+// Visual-inertial odometry in a sliding window: one call per image, one stage per line of Track().
 // Synchronous and deterministic: the same measurements give the same output, bit by bit.
 class Estimator {
  public:
   explicit Estimator(const Config& config);
-  ~Estimator();
 
   // Takes the next image's features and IMU samples; stamps must increase.
   EstimatorOutput Process(const FrameMeasurement& measurement);
@@ -23,11 +32,33 @@ class Estimator {
   void Reset();
 
   // Time offset td as estimated so far [s]: what MeasurementSync should cut the IMU with.
-  double time_offset() const;
+  double time_offset() const { return window_.td; }
 
  private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  void Initialize(const FrameMeasurement& measurement, EstimatorOutput* output);
+  void Track(const FrameMeasurement& measurement, EstimatorOutput* output);
+
+  void StartWindow(const InitializationResult& result);
+  void AddFrame(const FrameMeasurement& measurement);
+  bool StandsStill(const FrameMeasurement& measurement);
+  void Optimize(int max_iterations, EstimatorOutput* output);
+  void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
+  void MarginalizeOldestFrame(EstimatorOutput* output);
+  void DropSecondNewestFrame();
+  void Describe(EstimatorOutput* output) const;
+
+  const Config config_;
+  const double focal_length_;  // [px]
+  const ProblemOptions problem_options_;
+  const KeyframePolicyOptions keyframe_options_;
+
+  bool initialized_ = false;
+  Initializer initializer_;
+  StandstillDetector standstill_detector_;
+  SlidingWindow window_;
+  PointMap points_;
+  MarginalizationPrior prior_;
+  FrameState predicted_;  // of the newest image, from the IMU alone
 };
 
 }  // namespace plm_vins

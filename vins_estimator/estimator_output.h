@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/rigid3.h"
+#include "vins_estimator/points/point_map.h"
 #include "vins_estimator/window/frame_state.h"
 
 namespace plm_vins {
@@ -18,16 +19,14 @@ enum class EstimatorStatus { kInitializing, kTracking, kLost };
 
 inline const char* ToString(EstimatorStatus status) {
   switch (status) {
-    case EstimatorStatus::kInitializing: return "initializing";
-    case EstimatorStatus::kTracking: return "tracking";
-    default: return "lost";
+    case EstimatorStatus::kInitializing:
+      return "initializing";
+    case EstimatorStatus::kTracking:
+      return "tracking";
+    default:
+      return "lost";
   }
 }
-
-struct MapPoint {
-  int64_t id = -1;
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // [m]
-};
 
 // Milliseconds that the stages of one frame took.
 struct EstimatorTimings {
@@ -44,23 +43,24 @@ struct EstimatorCounts {
   int points_rejected = 0;   // landmarks or observations thrown out in this frame
 };
 
-// Everything the estimator says about one image. The state is that of this image, as known at this time.
+// Everything the estimator says about one image. The state is that of this image, as known at this
+// time.
 struct EstimatorOutput {
   int64_t t_ns = 0;
   EstimatorStatus status = EstimatorStatus::kInitializing;
-  std::string reason;               // why not tracking, or why restarted; empty otherwise
-  bool has_pose = false;            // `state` and covariances are valid
+  std::string reason;     // why not tracking, or why restarted; empty otherwise
+  bool has_pose = false;  // `state` and covariances are valid
   FrameState state;
   // Covariance of (p_W [m], rotation in B [rad]), right perturbation R_W_B Exp(theta).
   Matrix6d pose_covariance = Matrix6d::Zero();
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // of v_W [m/s]
   Rigid3d T_B_C;
-  double td = 0;                    // [s]
+  double td = 0;  // [s]
   bool keyframe = false;
-  bool stationary = false;          // standing still was recognised
-  bool restarted = false;           // the world frame is a new one from here on
-  std::vector<FrameState> window;   // states of the sliding window, oldest first
-  std::vector<MapPoint> points;     // landmarks in the window
+  bool stationary = false;                // standing still was recognised
+  bool restarted = false;                 // the world frame is a new one from here on
+  std::vector<FrameState> window;         // states of the sliding window, oldest first
+  std::vector<MapPoint> points;           // landmarks in the window
   std::vector<MapPoint> departed_points;  // landmarks that left the window with this frame
   EstimatorCounts counts;
   EstimatorTimings timings;

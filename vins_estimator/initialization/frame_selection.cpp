@@ -64,9 +64,7 @@ std::vector<FrameMeasurement> JoinFrames(const std::deque<FrameMeasurement>& fra
   size_t next = indices.front();
   for (const size_t index : indices) {
     std::vector<ImuSample> imu;
-    for (; next <= index; ++next) {
-      imu.insert(imu.end(), frames[next].imu.begin(), frames[next].imu.end());
-    }
+    for (; next <= index; ++next) JoinImu(frames[next].imu, &imu);
     joined.push_back(frames[index]);
     joined.back().imu = std::move(imu);
   }

@@ -30,11 +30,17 @@ StandstillDetector::Options StandstillOptions() {
   return options;
 }
 
-// True where the samples are finite, in order and dense from `last` (of the image before) onwards.
+bool IsFinite(const ImuSample& sample) {
+  return sample.gyro.allFinite() && sample.accel.allFinite();
+}
+
+// True where the samples go on from `last` (of the image before), finite, in order and dense.
 bool IsContinuous(ImuSample last, const std::vector<ImuSample>& samples) {
-  for (const ImuSample& sample : samples) {
-    if (!sample.gyro.allFinite() || !sample.accel.allFinite()) return false;
-    if (sample.t_ns <= last.t_ns || ToSeconds(sample.t_ns - last.t_ns) > kMaxImuInterval) {
+  if (samples.front().t_ns != last.t_ns) return false;
+  for (size_t i = 1; i < samples.size(); ++i) {
+    const ImuSample& sample = samples[i];
+    if (!IsFinite(sample) || sample.t_ns <= last.t_ns ||
+        ToSeconds(sample.t_ns - last.t_ns) > kMaxImuInterval) {
       return false;
     }
     last = sample;
@@ -60,28 +66,31 @@ void Initializer::Reset() {
   reason_ = "waiting for images";
 }
 
-// Adds an image; forgets the older ones where IMU samples or tracks do not lead to it.
+void Initializer::StartOver(const std::string& reason) {
+  buffer_.clear();
+  standstill_.Reset();
+  reason_ = reason;
+}
+
+// Adds an image; forgets the older ones where IMU samples or tracks do not lead to it. Of the first
+// image's samples only the last one, at the image itself, counts.
 void Initializer::Append(const FrameMeasurement& measurement) {
-  if (measurement.imu.empty()) {
-    buffer_.clear();
-    standstill_.Reset();
-    reason_ = "no IMU samples before the image";
+  if (measurement.imu.empty() || !IsFinite(measurement.imu.back())) {
+    StartOver("no IMU samples before the image");
     return;
   }
   if (!buffer_.empty() && !IsContinuous(buffer_.back().imu.back(), measurement.imu)) {
-    buffer_.clear();
-    standstill_.Reset();
-    reason_ = "gap in the IMU samples";
+    StartOver("gap in the IMU samples");
   }
   if (!buffer_.empty()) {
     const int common = CountCommonPoints(buffer_.back().points, measurement.points);
     if (common < kMinCommonPoints) {
-      buffer_.clear();
-      reason_ = "too few points followed from the last image: " + std::to_string(common) + " of " +
-                std::to_string(kMinCommonPoints);
+      StartOver("too few points followed from the last image: " + std::to_string(common) + " of " +
+                std::to_string(kMinCommonPoints));
     }
   }
   buffer_.push_back(measurement);
+  if (buffer_.size() == 1) buffer_.front().imu = {measurement.imu.back()};
   while (ToSeconds(buffer_.back().t_ns - buffer_.front().t_ns) > kMaxDuration) buffer_.pop_front();
 }
 
@@ -90,7 +99,7 @@ std::optional<InitializationResult> Initializer::Add(const FrameMeasurement& mea
   Append(measurement);
   ++images_since_attempt_;
   if (buffer_.empty()) return std::nullopt;
-  if (standstill_.Add(measurement)) return TryStandstill();
+  if (standstill_.Add(buffer_.back())) return TryStandstill();
   return TryMotion();
 }
 
@@ -98,7 +107,7 @@ std::optional<InitializationResult> Initializer::TryStandstill() {
   std::vector<ImuSample> samples;
   for (const FrameMeasurement& frame : buffer_) {
     if (ToSeconds(buffer_.back().t_ns - frame.t_ns) < kStandstillDuration) {
-      samples.insert(samples.end(), frame.imu.begin(), frame.imu.end());
+      JoinImu(frame.imu, &samples);
     }
   }
   auto state = InitializeFromStandstill(samples, sensor_.gravity_norm, &reason_);

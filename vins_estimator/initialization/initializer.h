@@ -14,9 +14,9 @@
 
 namespace plm_vins {
 
-// One image with its state. Its IMU samples lead from the *previous* InitialFrame to it, in
-// (t_previous, t_this], as if the images between had never been; those of the first one lead from
-// the image before it.
+// One image with its state. Its IMU samples lead from the *previous* InitialFrame to it (both
+// images' times included), as if the images between had never been; those of the first one lead
+// from the image before it.
 struct InitialFrame {
   FrameMeasurement measurement;
   FrameState state;
@@ -28,7 +28,7 @@ struct InitializationResult {
 };
 
 // Finds the first states of the estimator: from standstill as soon as the body has stood still for
-// three quarters of a second, else from motion as soon as a second or more of images determines
+// three quarters of a second, else from motion as soon as 1.5 s of images or more determine
 // gravity, velocity and scale. World: z up, origin and heading 0 at the first frame of the result.
 // Rather waits than guesses, and says why. Keeps at most three seconds of images. Deterministic.
 class Initializer {
@@ -44,6 +44,7 @@ class Initializer {
   void Reset();
 
  private:
+  void StartOver(const std::string& reason);
   void Append(const FrameMeasurement& measurement);
   std::optional<InitializationResult> TryStandstill();
   std::optional<InitializationResult> TryMotion();

@@ -71,7 +71,6 @@ Attempt::Attempt(const std::vector<FrameMeasurement>& frames, const SensorConfig
   tracks_ = CollectTracks(views);
   for (size_t i = 0; i + 1 < frames.size(); ++i) {
     preintegrations_.emplace_back(sensor.imu_noise, ImuBias{});
-    preintegrations_.back().Append(frames[i].imu.back());
     for (const ImuSample& sample : frames[i + 1].imu) preintegrations_.back().Append(sample);
   }
 }

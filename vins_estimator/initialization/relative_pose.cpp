@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/relative_pose.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
@@ -14,7 +15,10 @@ constexpr size_t kMinCorrespondences = 15;
 constexpr int kMinInliers = 12;
 constexpr double kConfidence = 0.999;
 constexpr double kInlierSigmas = 3.0;  // distance to the epipolar line, in standard deviations
-constexpr int kRefinements = 6;
+constexpr int kRefinements = 8;
+// How far the gyro's rotation may be off, before its bias is known: decides between the two
+// solutions of a plane and weighs next to nothing elsewhere [rad].
+constexpr double kGyroDeviation = 0.05;
 
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
@@ -57,14 +61,102 @@ Eigen::Matrix<double, 3, 2> TangentBasis(const Eigen::Vector3d& t) {
   return basis;
 }
 
-// Takes over the decomposition of E that is nearest to the gyro's rotation.
-void DecomposeNear(const cv::Mat& E, const Eigen::Quaterniond& R_C1_C0_gyro, RelativePose* pose) {
+// A pose to refine, and the gyro's rotation that holds it loosely.
+class PoseRefiner {
+ public:
+  PoseRefiner(const std::vector<Correspondence>& correspondences,
+              const Eigen::Quaterniond& R_C1_C0_gyro, double noise)
+      : correspondences_(correspondences), R_C1_C0_gyro_(R_C1_C0_gyro), noise_(noise) {}
+
+  void Refine(RelativePose* pose) const {
+    for (int i = 0; i < kRefinements; ++i) Step(pose);
+  }
+
+  double Cost(const RelativePose& pose) const;
+
+ private:
+  void Step(RelativePose* pose) const;
+  Eigen::Vector3d GyroError(const RelativePose& pose) const {
+    return SO3Log(pose.R_C1_C0 * R_C1_C0_gyro_.conjugate()) / kGyroDeviation;
+  }
+
+  const std::vector<Correspondence>& correspondences_;
+  Eigen::Quaterniond R_C1_C0_gyro_;
+  double noise_;
+};
+
+// Cauchy cost of the whitened distances and squared error of the gyro.
+double PoseRefiner::Cost(const RelativePose& pose) const {
+  const Eigen::Matrix3d R = pose.R_C1_C0.toRotationMatrix();
+  const Eigen::Matrix<double, 3, 2> B = TangentBasis(pose.t_C1_C0);
+  double cost = GyroError(pose).squaredNorm();
+  for (const Correspondence& c : correspondences_) {
+    const double whitened = Evaluate(c, R, pose.t_C1_C0, B).distance / noise_;
+    cost += std::log1p(whitened * whitened);
+  }
+  return cost;
+}
+
+// One Gauss-Newton step over all correspondences with Cauchy weights; also sets the information.
+void PoseRefiner::Step(RelativePose* pose) const {
+  const Eigen::Matrix3d R = pose->R_C1_C0.toRotationMatrix();
+  const Eigen::Matrix<double, 3, 2> B = TangentBasis(pose->t_C1_C0);
+  Matrix5d H = Matrix5d::Zero();
+  Vector5d g = Vector5d::Zero();
+  for (const Correspondence& c : correspondences_) {
+    EpipolarResidual r = Evaluate(c, R, pose->t_C1_C0, B);
+    const double whitened = r.distance / noise_;
+    const double weight = 1.0 / (1.0 + whitened * whitened);
+    r.gradient /= noise_;
+    H += weight * r.gradient * r.gradient.transpose();
+    g += weight * whitened * r.gradient;
+  }
+  // The direction is never trusted to less than nothing: one radian keeps pure rotation solvable.
+  H.bottomRightCorner<2, 2>() += Eigen::Matrix2d::Identity();
+  pose->rotation_information = H.topLeftCorner<3, 3>() - H.topRightCorner<3, 2>() *
+                                                             H.bottomRightCorner<2, 2>().inverse() *
+                                                             H.bottomLeftCorner<2, 3>();
+  H.topLeftCorner<3, 3>() += Eigen::Matrix3d::Identity() / (kGyroDeviation * kGyroDeviation);
+  g.head<3>() += GyroError(*pose) / kGyroDeviation;
+  const Vector5d step = -H.ldlt().solve(g);
+  pose->R_C1_C0 = (SO3Exp(step.head<3>()) * pose->R_C1_C0).normalized();
+  pose->t_C1_C0 = (pose->t_C1_C0 + B * step.tail<2>()).normalized();
+}
+
+// The pose of the five-point consensus: of the decompositions of E, the one nearest to the gyro.
+std::optional<RelativePose> FivePointPose(const std::vector<Correspondence>& correspondences,
+                                          const Eigen::Quaterniond& R_C1_C0_gyro, double noise) {
+  std::vector<cv::Point2d> points0, points1;
+  for (const Correspondence& c : correspondences) {
+    points0.emplace_back(c.xy0.x(), c.xy0.y());
+    points1.emplace_back(c.xy1.x(), c.xy1.y());
+  }
+  const cv::Mat E = cv::findEssentialMat(points0, points1, cv::Mat::eye(3, 3, CV_64F), cv::RANSAC,
+                                         kConfidence, kInlierSigmas * noise, cv::noArray());
+  if (E.rows != 3 || E.cols != 3) return std::nullopt;
   cv::Mat R_a, R_b, t;
   cv::decomposeEssentialMat(E, R_a, R_b, t);
   const Eigen::Quaterniond a(ToEigen(R_a)), b(ToEigen(R_b));
   const bool a_is_nearer = a.angularDistance(R_C1_C0_gyro) <= b.angularDistance(R_C1_C0_gyro);
-  pose->R_C1_C0 = a_is_nearer ? a : b;
-  pose->t_C1_C0 = Eigen::Vector3d(t.at<double>(0), t.at<double>(1), t.at<double>(2)).normalized();
+  RelativePose pose;
+  pose.R_C1_C0 = a_is_nearer ? a : b;
+  pose.t_C1_C0 = Eigen::Vector3d(t.at<double>(0), t.at<double>(1), t.at<double>(2)).normalized();
+  return pose;
+}
+
+// The gyro's rotation and the direction nearest to the epipolar planes of all points under it.
+RelativePose GyroPose(const std::vector<Correspondence>& correspondences,
+                      const Eigen::Quaterniond& R_C1_C0_gyro) {
+  Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
+  for (const Correspondence& c : correspondences) {
+    const Eigen::Vector3d rotated = R_C1_C0_gyro * c.xy0.homogeneous().eval();
+    const Eigen::Vector3d normal = rotated.cross(c.xy1.homogeneous().eval());
+    normals += normal * normal.transpose();
+  }
+  RelativePose pose;
+  pose.R_C1_C0 = R_C1_C0_gyro;
+  pose.t_C1_C0 = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(normals).eigenvectors().col(0);
+  return pose;
 }
 
 // Marks who agrees within the gate.
@@ -79,30 +171,6 @@ void Classify(const std::vector<Correspondence>& correspondences, double noise,
     pose->inliers[i] = std::abs(distance) < kInlierSigmas * noise;
     pose->num_inliers += pose->inliers[i];
   }
-}
-
-// One Gauss-Newton step over all correspondences with Cauchy weights; also sets the information.
-void Refine(const std::vector<Correspondence>& correspondences, double noise, RelativePose* pose) {
-  const Eigen::Matrix3d R = pose->R_C1_C0.toRotationMatrix();
-  const Eigen::Matrix<double, 3, 2> B = TangentBasis(pose->t_C1_C0);
-  Matrix5d H = Matrix5d::Zero();
-  Vector5d g = Vector5d::Zero();
-  for (const Correspondence& c : correspondences) {
-    EpipolarResidual r = Evaluate(c, R, pose->t_C1_C0, B);
-    const double whitened = r.distance / noise;
-    const double weight = 1.0 / (1.0 + whitened * whitened);
-    r.gradient /= noise;
-    H += weight * r.gradient * r.gradient.transpose();
-    g += weight * whitened * r.gradient;
-  }
-  // The direction is never trusted to less than nothing: one radian keeps pure rotation solvable.
-  H.bottomRightCorner<2, 2>() += Eigen::Matrix2d::Identity();
-  const Vector5d step = -H.ldlt().solve(g);
-  pose->R_C1_C0 = (SO3Exp(step.head<3>()) * pose->R_C1_C0).normalized();
-  pose->t_C1_C0 = (pose->t_C1_C0 + B * step.tail<2>()).normalized();
-  pose->rotation_information = H.topLeftCorner<3, 3>() - H.topRightCorner<3, 2>() *
-                                                             H.bottomRightCorner<2, 2>().inverse() *
-                                                             H.bottomLeftCorner<2, 3>();
 }
 
 // Turns the translation so that most inliers have positive depth.
@@ -128,20 +196,13 @@ std::optional<RelativePose> EstimateRelativePose(const std::vector<Correspondenc
               std::to_string(kMinCorrespondences);
     return std::nullopt;
   }
-  std::vector<cv::Point2d> points0, points1;
-  for (const Correspondence& c : correspondences) {
-    points0.emplace_back(c.xy0.x(), c.xy0.y());
-    points1.emplace_back(c.xy1.x(), c.xy1.y());
+  const PoseRefiner refiner(correspondences, R_C1_C0_gyro, noise);
+  RelativePose pose = GyroPose(correspondences, R_C1_C0_gyro);
+  refiner.Refine(&pose);
+  if (auto candidate = FivePointPose(correspondences, R_C1_C0_gyro, noise)) {
+    refiner.Refine(&*candidate);
+    if (refiner.Cost(*candidate) < refiner.Cost(pose)) pose = *candidate;
   }
-  const cv::Mat E = cv::findEssentialMat(points0, points1, cv::Mat::eye(3, 3, CV_64F), cv::RANSAC,
-                                         kConfidence, kInlierSigmas * noise, cv::noArray());
-  if (E.rows != 3 || E.cols != 3) {
-    *reason = "no epipolar geometry agrees with the points";
-    return std::nullopt;
-  }
-  RelativePose pose;
-  DecomposeNear(E, R_C1_C0_gyro, &pose);
-  for (int i = 0; i < kRefinements; ++i) Refine(correspondences, noise, &pose);
   Classify(correspondences, noise, &pose);
   if (pose.num_inliers < std::max<int>(kMinInliers, correspondences.size() / 2)) {
     *reason = "epipolar geometry has too few inliers: " + std::to_string(pose.num_inliers) +

@@ -27,7 +27,9 @@ struct FrameState {
   Eigen::Map<const Eigen::Vector3d> position() const {
     return Eigen::Map<const Eigen::Vector3d>(pose.data());
   }
-  Eigen::Map<Eigen::Quaterniond> rotation() { return Eigen::Map<Eigen::Quaterniond>(pose.data() + 3); }
+  Eigen::Map<Eigen::Quaterniond> rotation() {
+    return Eigen::Map<Eigen::Quaterniond>(pose.data() + 3);
+  }
   Eigen::Map<const Eigen::Quaterniond> rotation() const {
     return Eigen::Map<const Eigen::Quaterniond>(pose.data() + 3);
   }
@@ -35,7 +37,9 @@ struct FrameState {
   Eigen::Map<const Eigen::Vector3d> velocity() const {
     return Eigen::Map<const Eigen::Vector3d>(motion.data());
   }
-  Eigen::Map<Eigen::Vector3d> accel_bias() { return Eigen::Map<Eigen::Vector3d>(motion.data() + 3); }
+  Eigen::Map<Eigen::Vector3d> accel_bias() {
+    return Eigen::Map<Eigen::Vector3d>(motion.data() + 3);
+  }
   Eigen::Map<const Eigen::Vector3d> accel_bias() const {
     return Eigen::Map<const Eigen::Vector3d>(motion.data() + 3);
   }

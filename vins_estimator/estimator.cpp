@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/estimator.h"
+
+#include <memory>
+#include <utility>
+
+#include "common/stopwatch.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kMinTriangulationAngle_px = 2.0;  // in pixels of motion: well above corner noise
+constexpr double kMaxReprojectionError_px = 3.0;   // mean over a landmark's views
+constexpr int kInitialIterations = 20;
+constexpr size_t kMinViewsToOptimize = 3;
+
+ProblemOptions MakeProblemOptions(const Config& config, double focal_length) {
+  ProblemOptions options;
+  options.point_weight = focal_length / config.estimator.point_noise;
+  options.estimate_extrinsic =
+      config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed;
+  options.estimate_td = config.sensor.estimate_td;
+  return options;
+}
+
+KeyframePolicyOptions MakeKeyframeOptions(const Config& config, double focal_length) {
+  KeyframePolicyOptions options;
+  options.min_parallax = config.estimator.keyframe_parallax / focal_length;
+  return options;
+}
+
+}  // namespace
+
+Estimator::Estimator(const Config& config)
+    : config_(config),
+      focal_length_(CameraModel::Create(config.sensor.camera)->FocalLength()),
+      problem_options_(MakeProblemOptions(config, focal_length_)),
+      keyframe_options_(MakeKeyframeOptions(config, focal_length_)),
+      initializer_(config),
+      standstill_detector_(config.sensor.imu_noise) {
+  Reset();
+}
+
+void Estimator::Reset() {
+  initialized_ = false;
+  initializer_.Reset();
+  standstill_detector_.Reset();
+  window_ = SlidingWindow();
+  window_.SetExtrinsic(config_.sensor.T_B_C);
+  window_.td = config_.sensor.td;
+  window_.gravity_W = Eigen::Vector3d(0, 0, -config_.sensor.gravity_norm);
+  points_.Clear();
+  prior_ = MarginalizationPrior();
+}
+
+EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
+  const Stopwatch stopwatch;
+  EstimatorOutput output;
+  output.t_ns = measurement.t_ns;
+  output.counts.points_observed = static_cast<int>(measurement.points.points.size());
+  if (initialized_) {
+    Track(measurement, &output);
+  } else {
+    Initialize(measurement, &output);
+  }
+  output.timings.total = stopwatch.Milliseconds();
+  return output;
+}
+
+void Estimator::Initialize(const FrameMeasurement& measurement, EstimatorOutput* output) {
+  const Stopwatch stopwatch;
+  const auto result = initializer_.Add(measurement);
+  output->timings.initialization = stopwatch.Milliseconds();
+  output->reason = initializer_.reason();
+  if (!result) return;
+
+  StartWindow(*result);
+  Optimize(kInitialIterations, output);
+  initialized_ = true;
+  output->reason.clear();
+  Describe(output);
+}
+
+void Estimator::StartWindow(const InitializationResult& result) {
+  for (const InitialFrame& frame : result.frames) {
+    AddFrame(frame.measurement);
+    window_.newest().state = frame.state;
+  }
+  prior_ = InitialPrior(InitialUncertainty(), problem_options_, window_);
+  points_.Triangulate(window_, kMinTriangulationAngle_px / focal_length_);
+}
+
+void Estimator::Track(const FrameMeasurement& measurement, EstimatorOutput* output) {
+  const bool keep_second_newest = IsKeyframe(keyframe_options_, window_, points_);
+  AddFrame(measurement);
+  window_.newest().stationary = StandsStill(measurement);
+  points_.Triangulate(window_, kMinTriangulationAngle_px / focal_length_);
+  Optimize(config_.estimator.max_num_iterations, output);
+  output->counts.points_rejected =
+      points_.RemoveOutliers(window_, kMaxReprojectionError_px / focal_length_);
+  if (const auto failure = DetectFailure(FailureLimits(), predicted_, window_.newest().state)) {
+    Reset();
+    output->status = EstimatorStatus::kLost;
+    output->reason = *failure;
+    output->restarted = true;
+    return;
+  }
+  output->keyframe = keep_second_newest;
+  Describe(output);
+  SlideWindow(keep_second_newest, output);
+}
+
+bool Estimator::StandsStill(const FrameMeasurement& measurement) {
+  return config_.estimator.zero_velocity_update && standstill_detector_.Add(measurement);
+}
+
+void Estimator::AddFrame(const FrameMeasurement& measurement) {
+  WindowFrame frame;
+  frame.state.t_ns = measurement.t_ns;
+  frame.cut_time_offset = measurement.time_offset;
+  if (!window_.frames.empty()) {
+    const FrameState& before = window_.newest().state;
+    frame.motion_since_previous =
+        std::make_shared<Preintegration>(config_.sensor.imu_noise, before.bias());
+    for (const ImuSample& sample : measurement.imu) frame.motion_since_previous->Append(sample);
+    frame.state = frame.motion_since_previous->Predict(before, window_.gravity_W);
+    frame.state.t_ns = measurement.t_ns;
+  }
+  predicted_ = frame.state;
+  window_.frames.push_back(std::move(frame));
+  points_.AddFrame(measurement.points, measurement.time_offset);
+}
+
+void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
+  const Stopwatch stopwatch;
+  ProblemBuilder builder(problem_options_, &window_, &prior_);
+  builder.AddPrior();
+  for (size_t i = 1; i < window_.frames.size(); ++i) builder.AddMotion(i);
+  for (auto& [id, landmark] : points_.landmarks()) {
+    if (!landmark.triangulated || landmark.views.size() < kMinViewsToOptimize) continue;
+    builder.AddPoint(&landmark);
+    ++output->counts.points_in_window;
+  }
+  NormalEquations equations(builder.problem());
+  SolverOptions options;
+  options.max_iterations = max_iterations;
+  Solve(options, builder.problem(), &equations);
+
+  const int64_t newest_ns = window_.newest().state.t_ns;
+  const Eigen::MatrixXd covariance =
+      equations.Covariance({{BlockKind::kPose, newest_ns}, {BlockKind::kMotion, newest_ns}});
+  if (covariance.size() > 0) {
+    output->pose_covariance = covariance.topLeftCorner<6, 6>();
+    output->velocity_covariance = covariance.block<3, 3>(6, 6);
+  }
+  output->timings.optimization = stopwatch.Milliseconds();
+}
+
+void Estimator::SlideWindow(bool keep_second_newest, EstimatorOutput* output) {
+  const Stopwatch stopwatch;
+  if (!keep_second_newest) {
+    DropSecondNewestFrame();
+  } else if (static_cast<int>(window_.frames.size()) > config_.estimator.window_size) {
+    MarginalizeOldestFrame(output);
+  }
+  output->timings.marginalization = stopwatch.Milliseconds();
+}
+
+void Estimator::MarginalizeOldestFrame(EstimatorOutput* output) {
+  prior_ = MarginalizeOldest(problem_options_, prior_, &window_, &points_);
+  const int64_t oldest_ns = window_.frames.front().state.t_ns;
+  for (const MapPoint& point : points_.StartAnew(window_, oldest_ns)) {
+    output->departed_points.push_back(point);
+  }
+  points_.RemoveFrame(window_, oldest_ns);
+  window_.RemoveOldest();
+}
+
+void Estimator::DropSecondNewestFrame() {
+  const int64_t dropped_ns = window_.frames[window_.frames.size() - 2].state.t_ns;
+  prior_ = prior_.Marginalize([dropped_ns](const BlockId& id) {
+    return (id.kind == BlockKind::kPose || id.kind == BlockKind::kMotion) && id.key == dropped_ns;
+  });
+  points_.RemoveFrame(window_, dropped_ns);
+  window_.RemoveSecondNewest();
+}
+
+void Estimator::Describe(EstimatorOutput* output) const {
+  output->status = EstimatorStatus::kTracking;
+  output->has_pose = true;
+  output->state = window_.newest().state;
+  output->T_B_C = window_.T_B_C();
+  output->td = window_.td;
+  output->stationary = window_.newest().stationary;
+  for (const WindowFrame& frame : window_.frames) output->window.push_back(frame.state);
+  for (const auto& [id, landmark] : points_.landmarks()) {
+    if (!landmark.triangulated || landmark.views.size() < kMinViewsToOptimize) continue;
+    output->points.push_back({id, PositionInWorld(landmark, window_)});
+  }
+}
+
+}  // namespace plm_vins

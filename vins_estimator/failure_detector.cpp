@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/failure_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace plm_vins {
+namespace {
+
+bool IsFinite(const FrameState& state) {
+  const auto finite = [](double value) { return std::isfinite(value); };
+  return std::all_of(state.pose.begin(), state.pose.end(), finite) &&
+         std::all_of(state.motion.begin(), state.motion.end(), finite);
+}
+
+std::optional<std::string> Exceeds(const char* what, double value, double limit, const char* unit) {
+  if (value <= limit) return std::nullopt;
+  char text[128];
+  std::snprintf(text, sizeof(text), "%s is %.2f %s, more than %.2f", what, value, unit, limit);
+  return std::string(text);
+}
+
+}  // namespace
+
+std::optional<std::string> DetectFailure(const FailureLimits& limits, const FrameState& predicted,
+                                         const FrameState& optimized) {
+  if (!IsFinite(optimized)) return "the optimisation gave values that are not finite";
+  const double turn = predicted.rotation().angularDistance(optimized.rotation());
+  const std::optional<std::string> causes[] = {
+      Exceeds("accelerometer bias", optimized.accel_bias().norm(), limits.accel_bias, "m/s^2"),
+      Exceeds("gyro bias", optimized.gyro_bias().norm(), limits.gyro_bias, "rad/s"),
+      Exceeds("velocity", optimized.velocity().norm(), limits.velocity, "m/s"),
+      Exceeds("correction of velocity", (optimized.velocity() - predicted.velocity()).norm(),
+              limits.velocity_jump, "m/s"),
+      Exceeds("correction of position", (optimized.position() - predicted.position()).norm(),
+              limits.position_jump, "m"),
+      Exceeds("correction of rotation", turn, limits.rotation_jump, "rad"),
+  };
+  for (const auto& cause : causes) {
+    if (cause) return cause;
+  }
+  return std::nullopt;
+}
+
+}  // namespace plm_vins

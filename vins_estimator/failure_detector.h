@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "vins_estimator/window/frame_state.h"
+
+namespace plm_vins {
+
+// Bounds beyond which an estimate cannot be right for a robot with a working IMU.
+struct FailureLimits {
+  double accel_bias = 3.0;     // [m/s^2]
+  double gyro_bias = 0.5;      // [rad/s]
+  double velocity = 50.0;      // [m/s]
+  double velocity_jump = 3.0;  // correction of the velocity by one image [m/s]
+  double position_jump = 2.0;  // correction of the position by one image [m]
+  double rotation_jump = 0.7;  // correction of the rotation by one image [rad]
+};
+
+// Why the newest state, optimised, cannot be believed, given what the IMU predicted; nothing where
+// it can.
+std::optional<std::string> DetectFailure(const FailureLimits& limits, const FrameState& predicted,
+                                         const FrameState& optimized);
+
+}  // namespace plm_vins

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/marginalization/window_marginalizer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "vins_estimator/optimization/normal_equations.h"
+
+namespace plm_vins {
+namespace {
+
+MarginalizationPrior::Block MakeBlock(const BlockId& id, int offset, const double* values) {
+  MarginalizationPrior::Block block;
+  block.id = id;
+  block.offset = offset;
+  std::copy(values, values + VariableTypeOf(id.kind).ambient_size, block.linearization.begin());
+  return block;
+}
+
+void SetInformation(int offset, int size, double sigma, Eigen::MatrixXd* H) {
+  H->diagonal().segment(offset, size).setConstant(1.0 / (sigma * sigma));
+}
+
+// Information on the rotation of a body, given as uncertainty of heading and inclination in the
+// world.
+Eigen::Matrix3d RotationInformation(const Eigen::Matrix3d& R_W_B, double inclination,
+                                    double heading) {
+  const Eigen::Vector3d sigma(inclination, inclination, heading);
+  return R_W_B.transpose() * sigma.cwiseAbs2().cwiseInverse().asDiagonal() * R_W_B;
+}
+
+}  // namespace
+
+MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
+                                  const ProblemOptions& options, const SlidingWindow& window) {
+  const FrameState& state = window.frames.front().state;
+  int size = 15;
+  const int extrinsic = options.estimate_extrinsic ? std::exchange(size, size + 6) : -1;
+  const int td = options.estimate_td ? std::exchange(size, size + 1) : -1;
+  Quadratic quadratic{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
+  std::vector<MarginalizationPrior::Block> blocks;
+
+  blocks.push_back(MakeBlock({BlockKind::kPose, state.t_ns}, 0, state.pose.data()));
+  SetInformation(0, 3, uncertainty.position, &quadratic.H);
+  quadratic.H.block<3, 3>(3, 3) = RotationInformation(state.rotation().toRotationMatrix(),
+                                                      uncertainty.inclination, uncertainty.heading);
+  blocks.push_back(MakeBlock({BlockKind::kMotion, state.t_ns}, 6, state.motion.data()));
+  SetInformation(6, 3, uncertainty.velocity, &quadratic.H);
+  SetInformation(9, 3, uncertainty.accel_bias, &quadratic.H);
+  SetInformation(12, 3, uncertainty.gyro_bias, &quadratic.H);
+  if (extrinsic >= 0) {
+    blocks.push_back(MakeBlock({BlockKind::kExtrinsic, 0}, extrinsic, window.extrinsic.data()));
+    SetInformation(extrinsic, 3, uncertainty.extrinsic_position, &quadratic.H);
+    SetInformation(extrinsic + 3, 3, uncertainty.extrinsic_rotation, &quadratic.H);
+  }
+  if (td >= 0) {
+    blocks.push_back(MakeBlock({BlockKind::kTimeOffset, 0}, td, &window.td));
+    SetInformation(td, 1, uncertainty.td, &quadratic.H);
+  }
+  return {std::move(blocks), std::move(quadratic)};
+}
+
+MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
+                                       const MarginalizationPrior& prior, SlidingWindow* window,
+                                       PointMap* points) {
+  const int64_t oldest_ns = window->frames.front().state.t_ns;
+  ProblemBuilder builder(options, window, &prior);
+  builder.AddPrior();
+  builder.AddMotion(1);
+  for (auto& [id, landmark] : points->landmarks()) {
+    const bool leaves = landmark.triangulated && landmark.host().t_ns == oldest_ns;
+    if (leaves && landmark.views.size() > 1) builder.AddPoint(&landmark);
+  }
+
+  const WindowProblem& problem = builder.problem();
+  NormalEquations equations(problem);
+  equations.Linearize();
+  Quadratic all;
+  equations.Reduce(0, &all.H, &all.b);
+
+  // Oldest frame first, then what stays.
+  const auto leaves = [oldest_ns](const BlockId& id) {
+    return (id.kind == BlockKind::kPose || id.kind == BlockKind::kMotion) && id.key == oldest_ns;
+  };
+  constexpr int kLeavingSize = 15;
+  std::vector<MarginalizationPrior::Block> blocks;
+  std::vector<int> new_position(all.b.size());
+  int next_leaving = 0, next_kept = 0;
+  Eigen::VectorXd delta(all.b.size() - kLeavingSize);
+  for (size_t i = 0; i < problem.variables().size(); ++i) {
+    const Variable& variable = problem.variables()[i];
+    const int offset = equations.DenseOffset(static_cast<int>(i));
+    if (offset < 0) continue;
+    const VariableType& type = variable.type();
+    const bool is_leaving = leaves(variable.id);
+    if (!is_leaving) {
+      const double* x0 = variable.linearization ? variable.linearization : variable.values;
+      blocks.push_back(MakeBlock(variable.id, next_kept, x0));
+      type.minus(variable.values, x0, &delta[next_kept]);
+    }
+    for (int k = 0; k < type.tangent_size; ++k) {
+      new_position[offset + k] = is_leaving ? next_leaving++ : kLeavingSize + next_kept++;
+    }
+  }
+  Quadratic kept = MarginalizeFirst(Permute(all, new_position), kLeavingSize);
+  // b is the gradient at the current values; the prior counts from the linearisation points.
+  kept.b -= kept.H * delta;
+  return {std::move(blocks), std::move(kept)};
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "vins_estimator/marginalization/marginalization_prior.h"
+#include "vins_estimator/optimization/problem_builder.h"
+#include "vins_estimator/points/point_map.h"
+#include "vins_estimator/window/sliding_window.h"
+
+namespace plm_vins {
+
+// Standard deviations of the first state of a window.
+struct InitialUncertainty {
+  double position = 1e-3;     // the world's origin is where the body is: fixed by definition [m]
+  double heading = 1e-3;      // so is its heading [rad]
+  double inclination = 0.03;  // roll and pitch [rad]
+  double velocity = 0.3;      // [m/s]
+  double accel_bias = 0.1;    // [m/s^2]
+  double gyro_bias = 0.02;    // [rad/s]
+  double extrinsic_position = 0.02;  // [m]
+  double extrinsic_rotation = 0.02;  // [rad]
+  double td = 0.01;                  // [s]
+};
+
+// The prior of a new window: its first frame is where it was put, and the calibration about right.
+MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
+                                  const ProblemOptions& options, const SlidingWindow& window);
+
+// Folds the oldest frame into a new prior: its motion to the next frame, the old prior, and every
+// landmark that it hosts with all views. `window` and `points` stay as they are; what was folded in
+// must not be used again: see ForgetFolded().
+MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
+                                       const MarginalizationPrior& prior, SlidingWindow* window,
+                                       PointMap* points);
+
+}  // namespace plm_vins

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+namespace plm_vins {
+
+enum class BlockKind : uint8_t { kPose, kMotion, kExtrinsic, kTimeOffset, kPoint, kLine };
+
+// Names one variable of the estimator for good, wherever its values are stored: a frame's pose or
+// motion by the frame's stamp, a landmark by its id, extrinsics and time offset by 0.
+struct BlockId {
+  BlockKind kind = BlockKind::kPose;
+  int64_t key = 0;
+
+  bool operator==(const BlockId& other) const { return kind == other.kind && key == other.key; }
+};
+
+struct BlockIdHash {
+  size_t operator()(const BlockId& id) const {
+    return std::hash<int64_t>()(id.key) * 31 + static_cast<size_t>(id.kind);
+  }
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vins_estimator/optimization/normal_equations.h"
+#include "vins_estimator/optimization/window_problem.h"
+
+namespace plm_vins {
+
+struct SolverOptions {
+  int max_iterations = 8;
+  double initial_damping = 1e-5;
+  double cost_tolerance = 1e-3;  // stop when an iteration gains less than this share of the cost
+  double step_tolerance = 1e-6;  // stop when no component of the step is longer [m, rad, ...]
+};
+
+struct SolverSummary {
+  double initial_cost = 0;
+  double final_cost = 0;
+  int iterations = 0;
+  bool solved =
+      false;  // false: the equations could not be solved, or gave values that are not finite
+};
+
+// Minimises the problem's cost from the current values of its variables, which are replaced by the
+// result (Levenberg-Marquardt; never ends above the initial cost). Work is bounded by iterations,
+// not by time. `equations` are those of the problem; they stay linearised one step before the
+// result at most.
+SolverSummary Solve(const SolverOptions& options, const WindowProblem& problem,
+                    NormalEquations* equations);
+
+}  // namespace plm_vins

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ceres/loss_function.h>
+
+#include <memory>
+
+#include "vins_estimator/marginalization/marginalization_prior.h"
+#include "vins_estimator/optimization/window_problem.h"
+#include "vins_estimator/points/point_landmark.h"
+#include "vins_estimator/window/sliding_window.h"
+
+namespace plm_vins {
+
+// What weighs the terms of the window problem, and which calibration it estimates.
+struct ProblemOptions {
+  double point_weight = 460.0;          // focal length over corner noise
+  double point_loss_scale = 1.0;        // Cauchy loss, in standard deviations
+  double standstill_velocity = 0.005;   // standard deviation while standing still [m/s]
+  double standstill_position = 0.001;   // ... of the position between two frames [m]
+  double standstill_rotation = 0.0005;  // ... of the rotation between two frames [rad]
+  bool estimate_extrinsic = false;
+  bool estimate_td = false;
+  bool first_estimate_jacobians = true;
+};
+
+// Puts the parts of the window into a WindowProblem: one place that knows which variables and
+// factors belong together, for the optimisation (all parts) and the marginalisation (those that
+// leave).
+class ProblemBuilder {
+ public:
+  // All must outlive the problem.
+  ProblemBuilder(const ProblemOptions& options, SlidingWindow* window,
+                 const MarginalizationPrior* prior);
+
+  void AddPrior();
+  // The IMU between frame `index` - 1 and `index`, and that they stood still where they did.
+  void AddMotion(size_t index);
+  // All views of a triangulated landmark.
+  void AddPoint(PointLandmark* landmark);
+
+  const WindowProblem& problem() const { return problem_; }
+
+ private:
+  int AddVariable(const BlockId& id);
+  double* Values(const BlockId& id);
+  int Pose(int64_t t_ns) { return AddVariable({BlockKind::kPose, t_ns}); }
+  int Motion(int64_t t_ns) { return AddVariable({BlockKind::kMotion, t_ns}); }
+
+  const ProblemOptions options_;
+  SlidingWindow* window_;
+  const MarginalizationPrior* prior_;
+  ceres::CauchyLoss point_loss_;
+  WindowProblem problem_;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/window/sliding_window.h"
+
+#include <algorithm>
+
+namespace plm_vins {
+
+void SlidingWindow::SetExtrinsic(const Rigid3d& T_B_C) {
+  Eigen::Map<Eigen::Vector3d>(extrinsic.data()) = T_B_C.translation;
+  Eigen::Map<Eigen::Quaterniond>(extrinsic.data() + 3) = T_B_C.rotation.normalized();
+}
+
+const WindowFrame* SlidingWindow::Find(int64_t t_ns) const {
+  const auto found = std::find_if(frames.begin(), frames.end(), [t_ns](const WindowFrame& frame) {
+    return frame.state.t_ns == t_ns;
+  });
+  return found == frames.end() ? nullptr : &*found;
+}
+
+WindowFrame* SlidingWindow::Find(int64_t t_ns) {
+  return const_cast<WindowFrame*>(static_cast<const SlidingWindow*>(this)->Find(t_ns));
+}
+
+void SlidingWindow::RemoveSecondNewest() {
+  WindowFrame& second = frames[frames.size() - 2];
+  if (second.motion_since_previous == nullptr) {
+    newest().motion_since_previous = nullptr;
+  } else {
+    const auto joined = second.motion_since_previous;
+    for (const ImuSample& sample : newest().motion_since_previous->samples()) {
+      if (sample.t_ns > joined->samples().back().t_ns) joined->Append(sample);
+    }
+    newest().motion_since_previous = joined;
+  }
+  newest().stationary = newest().stationary && second.stationary;
+  frames.erase(frames.end() - 2);
+}
+
+void SlidingWindow::RemoveOldest() {
+  frames.erase(frames.begin());
+  frames.front().motion_since_previous = nullptr;
+}
+
+}  // namespace plm_vins

@@ -196,15 +196,6 @@ class FeatureCamera {
   int64_t previous_t_ns_ = 0;
 };
 
-FrameState TrueState(int64_t t_ns, const BodyState& body, const ImuBias& bias) {
-  FrameState state;
-  state.t_ns = t_ns;
-  state.SetPose(body.T_W_B);
-  state.velocity() = body.v_W;
-  state.SetBias(bias);
-  return state;
-}
-
 }  // namespace
 
 FeatureDataset SimulateFeatures(const FeatureSimulationOptions& options) {

@@ -50,4 +50,13 @@ ImuSimulation SimulateImu(const Trajectory& trajectory, const ImuSimulationOptio
   return result;
 }
 
+FrameState TrueState(int64_t t_ns, const BodyState& body, const ImuBias& bias) {
+  FrameState state;
+  state.t_ns = t_ns;
+  state.SetPose(body.T_W_B);
+  state.velocity() = body.v_W;
+  state.SetBias(bias);
+  return state;
+}
+
 }  // namespace plm_vins::simulator

@@ -33,4 +33,7 @@ struct ImuSimulation {
 // gyro = omega_B + b_g + n_g, accel = R_B_W (a_W + (0, 0, g)) + b_a + n_a.
 ImuSimulation SimulateImu(const Trajectory& trajectory, const ImuSimulationOptions& options);
 
+// The true state of the body, stamped `t_ns`.
+FrameState TrueState(int64_t t_ns, const BodyState& body, const ImuBias& bias);
+
 }  // namespace plm_vins::simulator

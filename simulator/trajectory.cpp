@@ -17,28 +17,26 @@ using Control = QuinticSpline<6>::Vector;
 // How the random controls of one kind of motion are drawn.
 struct MotionProfile {
   Vector3d sway;     // of the position about its anchor [m]; never beyond the extent
+  double patrol;     // speed of the anchor where the extent leaves it room beside the sway [m/s]
   Vector3d tilt;     // of roll, pitch and yaw [rad]
   double yaw_rate;   // steady turn [rad/s]
   bool holds_place;  // anchored where the lead-in ended instead of at the centre
 };
 
-constexpr double kWholeBox = 1e3;  // a sway that the extent bounds
-
 MotionProfile ProfileOf(Motion motion) {
-  const Vector3d everywhere = Vector3d::Constant(kWholeBox);
   switch (motion) {
     case Motion::kGentle:
-      return {everywhere, {0.25, 0.25, 0.4}, 0.15, false};
+      return {{2.0, 1.5, 0.6}, 0.5, {0.3, 0.3, 0.4}, 0.15, false};
     case Motion::kFast:
-      return {everywhere, {0.4, 0.4, 0.6}, 0.3, false};
+      return {{2.2, 1.8, 0.8}, 1.0, {0.4, 0.4, 0.6}, 0.3, false};
     case Motion::kHover:
-      return {Vector3d::Constant(0.04), {0.04, 0.04, 0.06}, 0.0, true};
+      return {{0.04, 0.04, 0.04}, 0.0, {0.04, 0.04, 0.06}, 0.0, true};
     case Motion::kPureRotation:
-      return {Vector3d::Zero(), {0.25, 0.3, 0.8}, 0.15, true};
+      return {Vector3d::Zero(), 0.0, {0.25, 0.3, 0.8}, 0.15, true};
     case Motion::kCorridor:
-      return {{0.1, 0.35, 0.3}, {0.08, 0.08, 0.12}, 0.0, false};
+      return {{0.1, 0.35, 0.3}, 0.0, {0.08, 0.08, 0.12}, 0.0, false};
     default:
-      return {Vector3d::Zero(), Vector3d::Zero(), 0.0, true};
+      return {Vector3d::Zero(), 0.0, Vector3d::Zero(), 0.0, true};
   }
 }
 
@@ -65,7 +63,7 @@ class ControlGenerator {
     return controls;
   }
 
-  static double KnotSpacing(Motion motion) { return motion == Motion::kFast ? 0.6 : 1.2; }
+  static double KnotSpacing(Motion motion) { return motion == Motion::kFast ? 0.6 : 1.0; }
 
  private:
   Control First() {
@@ -79,7 +77,7 @@ class ControlGenerator {
     const bool leading_in = HasLeadIn(options_.motion) && t < options_.rest + options_.lead_in;
     const MotionProfile profile = ProfileOf(leading_in ? Motion::kGentle : options_.motion);
     if (!profile.holds_place) {
-      anchor_ = options_.center;
+      anchor_ = options_.center + Patrol(profile, t);
     } else if (was_leading_in_) {
       anchor_ = previous.head<3>();
     }
@@ -94,6 +92,17 @@ class ControlGenerator {
                             .cwiseMax(options_.center - options_.extent)
                             .cwiseMin(options_.center + options_.extent);
     return control;
+  }
+
+  // To and fro through what the sway leaves of the box, on each axis with a period of its own.
+  Vector3d Patrol(const MotionProfile& profile, double t) const {
+    const Vector3d amplitude = (options_.extent - profile.sway).cwiseMax(0.0);
+    Vector3d offset = Vector3d::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (amplitude[axis] == 0.0) continue;
+      offset[axis] = amplitude[axis] * std::sin(profile.patrol * t / amplitude[axis]);
+    }
+    return offset;
   }
 
   // Way along the corridor at time t, relative to its middle.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "simulator/random.h"
 
@@ -24,6 +25,9 @@ cv::Mat CameraSimulator::Expose(double t, uint64_t index) const {
   for (int i = 0; i < steps; ++i) {
     const double offset = ((i + 0.5) / steps - 0.5) * options_.exposure;
     renderer_.Accumulate(trajectory_.At(t + offset).T_W_B * T_B_C_, i % Renderer::kSubpixels, &sum);
+  }
+  if (options_.lens_blur_px > 0) {
+    cv::GaussianBlur(sum, sum, cv::Size(5, 5), options_.lens_blur_px, 0, cv::BORDER_REPLICATE);
   }
   return Digitize(sum.mul(gain_, 1.0 / steps), index);
 }

@@ -12,11 +12,12 @@
 namespace plm_vins::simulator {
 
 struct ImagingOptions {
-  double exposure = 0.006;   // [s]
-  double full_scale = 0.85;  // brightness that saturates a pixel
-  double vignetting = 0.35;  // light lost in the image corners
-  double read_noise = 1.2;   // standard deviation [grey levels]
-  double shot_noise = 0.25;  // standard deviation at one grey level, grows with its root
+  double exposure = 0.006;    // [s]
+  double full_scale = 0.78;   // brightness that saturates a pixel
+  double lens_blur_px = 0.6;  // standard deviation of a point's image
+  double vignetting = 0.35;   // light lost in the image corners
+  double read_noise = 1.2;    // standard deviation [grey levels]
+  double shot_noise = 0.25;   // standard deviation at one grey level, grows with its root
   bool add_noise = true;
   uint64_t seed = 1;
 };

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulator/random.h"
+
 namespace plm_vins::simulator {
 namespace {
 
@@ -16,12 +18,25 @@ using Eigen::Vector3f;
 
 constexpr double kNearPlane = 0.05;  // [m]
 
-// A rotated grid, a little wider than the pixel: a lens is not perfectly sharp.
-Vector2d SubpixelOffset(int subpixel) {
-  constexpr double kSpread = 1.2;
-  const std::array<Vector2d, Renderer::kSubpixels> grid{
-      {{-0.125, -0.375}, {0.375, -0.125}, {-0.375, 0.125}, {0.125, 0.375}}};
-  return kSpread * grid[subpixel];
+using PixelOffsets = std::array<std::array<Vector2d, Renderer::kRays>, Renderer::kSubpixels>;
+
+// Where a pixel is sampled. Each sixteenth of its columns and of its rows is hit once, at random,
+// so that an edge in any direction covers the right share of the samples; opposite subpixels mirror
+// each other, so that they are centred.
+PixelOffsets DrawOffsets(Random* random) {
+  constexpr std::array<int, Renderer::kRays> kOrder = {1, 3, 0, 2};
+  const double sign = random->Uniform() < 0.5 ? -1.0 : 1.0;
+  const auto near = [&](int step) { return (step + random->Uniform()) / 16; };  // within 0 ... 0.25
+  PixelOffsets offsets;
+  for (int k = 0; k < Renderer::kRays; ++k) {
+    const double far_x = 0.25 + near(k), near_y = near(kOrder[k]);
+    const double near_x = near(kOrder[k]), far_y = 0.25 + near(k);
+    offsets[0][k] = {far_x, sign * near_y};
+    offsets[1][k] = {-sign * near_x, far_y};
+    offsets[2][k] = -offsets[0][k];
+    offsets[3][k] = -offsets[1][k];
+  }
+  return offsets;
 }
 
 }  // namespace
@@ -63,32 +78,38 @@ bool ProjectedBounds(const std::array<Vector3d, 4>& corners, Vector2f* min, Vect
 Renderer::Renderer(const Scene& scene, std::shared_ptr<const CameraModel> camera)
     : scene_(scene), camera_(std::move(camera)) {
   const cv::Rect image(0, 0, camera_->parameters().width, camera_->parameters().height);
-  for (int subpixel = 0; subpixel < kSubpixels; ++subpixel) {
-    for (int y = 0; y < image.height; y += kTileSize) {
-      for (int x = 0; x < image.width; x += kTileSize) {
-        const cv::Rect pixels = cv::Rect(x, y, kTileSize, kTileSize) & image;
-        tiles_[subpixel].push_back(MakeTile(pixels, SubpixelOffset(subpixel)));
-      }
+  for (int y = 0; y < image.height; y += kTileSize) {
+    for (int x = 0; x < image.width; x += kTileSize) {
+      AddTile(cv::Rect(x, y, kTileSize, kTileSize) & image);
     }
   }
 }
 
-Renderer::RayTile Renderer::MakeTile(const cv::Rect& pixels, const Vector2d& offset_px) const {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  RayTile tile{pixels, Vector2f::Constant(kInfinity), Vector2f::Constant(-kInfinity), {}, {}};
-  for (int row = pixels.y; row < pixels.br().y; ++row) {
-    for (int column = pixels.x; column < pixels.br().x; ++column) {
-      const auto xy = camera_->Unproject(Vector2d(column, row) + offset_px);
-      const Vector2f ray = xy ? Vector2f(xy->cast<float>())
-                              : Vector2f::Constant(std::numeric_limits<float>::quiet_NaN());
-      tile.x.push_back(ray.x());
-      tile.y.push_back(ray.y());
-      if (!xy) continue;
-      tile.min = tile.min.cwiseMin(ray);
-      tile.max = tile.max.cwiseMax(ray);
+void Renderer::AddTile(const cv::Rect& pixels) {
+  Random random(tiles_[0].size());
+  std::array<RayTile, kSubpixels> tiles;
+  for (RayTile& tile : tiles) tile.pixels = pixels;
+  for (int i = 0; i < pixels.area(); ++i) {
+    const Vector2d pixel(pixels.x + i % pixels.width, pixels.y + i / pixels.width);
+    Eigen::Matrix2d d_xy_d_pixel;
+    const auto xy = camera_->Unproject(pixel, &d_xy_d_pixel);
+    const PixelOffsets offsets = DrawOffsets(&random);
+    for (int subpixel = 0; subpixel < kSubpixels; ++subpixel) {
+      for (int k = 0; k < kRays; ++k) {
+        const int index = k * pixels.area() + i;
+        if (xy) tiles[subpixel].SetRay(index, *xy + d_xy_d_pixel * offsets[subpixel][k]);
+      }
     }
   }
-  return tile;
+  for (int i = 0; i < kSubpixels; ++i) tiles_[i].push_back(tiles[i]);
+}
+
+void Renderer::RayTile::SetRay(int index, const Vector2d& xy) {
+  const Vector2f ray = xy.cast<float>();
+  x[index] = ray.x();
+  y[index] = ray.y();
+  min = min.cwiseMin(ray);
+  max = max.cwiseMax(ray);
 }
 
 void Renderer::Accumulate(const Rigid3d& T_W_C, int subpixel, cv::Mat1f* sum) const {
@@ -140,16 +161,15 @@ bool Renderer::Overlaps(const RayTile& tile, const VisibleRectangle& r) {
 
 void Renderer::RenderTile(const RayTile& tile, const std::vector<VisibleRectangle>& visible,
                           cv::Mat1f* sum) const {
-  const int count = static_cast<int>(tile.x.size());
-  std::array<float, kTileSize * kTileSize> nearest{};  // inverse depth
-  std::array<int, kTileSize * kTileSize> surface;
+  const int pixels = tile.pixels.area(), rays = kRays * pixels;
+  std::array<float, kRaysPerTile> nearest{};  // inverse depth
+  std::array<int, kRaysPerTile> surface;
   surface.fill(-1);
   for (size_t k = 0; k < visible.size(); ++k) {
     const VisibleRectangle& r = visible[k];
-    if ((r.min.array() > tile.max.array()).any() || (r.max.array() < tile.min.array()).any())
-      continue;
+    if (!Overlaps(tile, r)) continue;
     const float width = r.width(), height = r.height();
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < rays; ++i) {
       const float x = tile.x[i], y = tile.y[i];
       const float w = r.n.x() * x + r.n.y() * y + r.n.z();
       const float a = r.p.x() * x + r.p.y() * y + r.p.z();
@@ -160,18 +180,41 @@ void Renderer::RenderTile(const RayTile& tile, const std::vector<VisibleRectangl
       surface[i] = hit ? static_cast<int>(k) : surface[i];
     }
   }
-  for (int i = 0; i < count; ++i) {
-    if (surface[i] < 0) continue;
+  for (int i = 0; i < pixels; ++i) {
     (*sum)(tile.pixels.y + i / tile.pixels.width, tile.pixels.x + i % tile.pixels.width) +=
-        Shade(visible[surface[i]], tile.x[i], tile.y[i]);
+        ShadePixel(tile, visible, surface, i);
   }
+}
+
+// Each surface is shaded once, in the middle of the rays that hit it.
+float Renderer::ShadePixel(const RayTile& tile, const std::vector<VisibleRectangle>& visible,
+                           const std::array<int, kRaysPerTile>& surface, int pixel) const {
+  const int pixels = tile.pixels.area();
+  float brightness = 0;
+  std::array<bool, kRays> done{};
+  for (int k = 0; k < kRays; ++k) {
+    const int hit = surface[k * pixels + pixel];
+    if (done[k] || hit < 0) continue;
+    Vector2f sum(0, 0);
+    int count = 0;
+    for (int other = k; other < kRays; ++other) {
+      const int index = other * pixels + pixel;
+      if (surface[index] != hit) continue;
+      done[other] = true;
+      sum += Vector2f(tile.x[index], tile.y[index]);
+      ++count;
+    }
+    const Vector2f ray = sum / static_cast<float>(count);
+    brightness += static_cast<float>(count) / kRays * Shade(visible[hit], ray.x(), ray.y());
+  }
+  return brightness;
 }
 
 float Renderer::Shade(const VisibleRectangle& surface, float x, float y) const {
   const Vector3f ray(x, y, 1.0f);
   const float depth = 1.0f / surface.n.dot(ray);
   const float a = depth * surface.p.dot(ray), b = depth * surface.q.dot(ray);
-  // Area on the rectangle per area of the image; each of the subpixels stands for its share.
+  // Area on the rectangle per area of the image; each subpixel stands for its share.
   const Vector2f d_a = depth * (surface.p.head<2>() - a * surface.n.head<2>());
   const Vector2f d_b = depth * (surface.q.head<2>() - b * surface.n.head<2>());
   const float area = std::abs(d_a.x() * d_b.y() - d_a.y() * d_b.x());

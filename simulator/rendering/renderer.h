@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <limits>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <vector>
@@ -12,36 +14,47 @@
 
 namespace plm_vins::simulator {
 
-// Draws a scene through a calibrated lens: a ray per image sample, tabulated once, against the
-// rectangles whose bounds overlap the sample's tile. The number of threads does not change a bit.
+// Draws a scene through a calibrated lens: rays through each pixel, tabulated once, against the
+// rectangles whose bounds overlap the pixel's tile. The number of threads does not change a bit.
 class Renderer {
  public:
-  // Sample positions within a pixel, taken in turn; together they smooth edges.
+  // Parts of each pixel, to be taken in turn; together they cover it.
   static constexpr int kSubpixels = 4;
+  // Rays of each part that look for surfaces; what they find is shaded once.
+  static constexpr int kRays = 4;
 
   // The scene must outlive the renderer.
   Renderer(const Scene& scene, std::shared_ptr<const CameraModel> camera);
 
-  // Adds the brightness (1 is a white wall in full light) of one sample per pixel to `sum`
+  // Adds the brightness (1 is a white wall in full light) of one part of each pixel to `sum`
   // (CV_32F).
   void Accumulate(const Rigid3d& T_W_C, int subpixel, cv::Mat1f* sum) const;
 
  private:
   static constexpr int kTileSize = 16;  // [px]
+  static constexpr int kRaysPerTile = kRays * kTileSize * kTileSize;
 
-  // Rays (x, y, 1) of a tile's pixels; NaN where the lens has none.
+  // Rays (x, y, 1) of one part of a tile's pixels: the first ray of all pixels, the second, ... NaN
+  // where the lens has none.
   struct RayTile {
+    RayTile() { x.fill(std::numeric_limits<float>::quiet_NaN()); }
+    void SetRay(int index, const Eigen::Vector2d& xy);
+
     cv::Rect pixels;
-    Eigen::Vector2f min, max;  // bounds of the rays
-    std::vector<float> x, y;
+    std::array<float, kRaysPerTile> x, y{};
+    // Bounds of the rays.
+    Eigen::Vector2f min = Eigen::Vector2f::Constant(std::numeric_limits<float>::infinity());
+    Eigen::Vector2f max = -min;
   };
   struct VisibleRectangle;
 
-  RayTile MakeTile(const cv::Rect& pixels, const Eigen::Vector2d& offset_px) const;
+  void AddTile(const cv::Rect& pixels);
   std::vector<VisibleRectangle> FindVisible(const Rigid3d& T_W_C) const;
   static bool Overlaps(const RayTile& tile, const VisibleRectangle& rectangle);
   void RenderTile(const RayTile& tile, const std::vector<VisibleRectangle>& visible,
                   cv::Mat1f* sum) const;
+  float ShadePixel(const RayTile& tile, const std::vector<VisibleRectangle>& visible,
+                   const std::array<int, kRaysPerTile>& surface, int pixel) const;
   float Shade(const VisibleRectangle& surface, float x, float y) const;
 
   const Scene& scene_;

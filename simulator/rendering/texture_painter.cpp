@@ -61,15 +61,16 @@ void TexturePainter::AddStains(cv::Mat1f* canvas) {
 // Less light reaches the corners of a room.
 void TexturePainter::DarkenEdges(cv::Mat1f* canvas) const {
   constexpr double kReach = 0.5, kDepth = 0.22;  // [m], share of the light
-  const auto loss = [&](int index, int count) {
-    return kDepth * std::exp(-texel_ * std::min(index, count - 1 - index) / kReach);
-  };
-  for (int y = 0; y < canvas->rows; ++y) {
-    for (int x = 0; x < canvas->cols; ++x) {
-      (*canvas)(y, x) *=
-          static_cast<float>((1.0 - loss(x, canvas->cols)) * (1.0 - loss(y, canvas->rows)));
+  const auto remaining = [&](int count) {
+    cv::Mat1f light(1, count);
+    for (int i = 0; i < count; ++i) {
+      const double distance = texel_ * std::min(i, count - 1 - i);
+      light(0, i) = static_cast<float>(1.0 - kDepth * std::exp(-distance / kReach));
     }
-  }
+    return light;
+  };
+  const cv::Mat1f across = remaining(canvas->cols), down = remaining(canvas->rows);
+  for (int y = 0; y < canvas->rows; ++y) canvas->row(y) = canvas->row(y).mul(across, down(0, y));
 }
 
 void TexturePainter::DrawGrid(cv::Mat1f* canvas, double step_x, double step_y, double joint,
@@ -113,9 +114,9 @@ cv::Mat1b TexturePainter::Bricks(double width, double height, double brightness)
 cv::Mat1b TexturePainter::Tiles(double width, double height, double brightness, double tile_size) {
   cv::Mat1f canvas = Canvas(width, height, brightness);
   canvas += 0.12 * detail_ * FractalNoise(canvas.size(), 0.3, 0.01, 1.0);
+  AddStains(&canvas);
   // The joints are lines: they stay visible where there is no other detail.
   DrawGrid(&canvas, tile_size, tile_size, 0.012, false, 0.55 * brightness, 0.08 * detail_);
-  AddStains(&canvas);
   DarkenEdges(&canvas);
   return ToGrey(canvas);
 }

@@ -102,7 +102,7 @@ TEST(Trajectory, FlightsExciteAllAxes) {
       acceleration = acceleration.cwiseMax(trajectory.At(t).a_W.cwiseAbs());
       rate = rate.cwiseMax(trajectory.At(t).gyro_B.cwiseAbs());
     }
-    EXPECT_GT(acceleration.minCoeff(), 0.3);
+    EXPECT_GT(acceleration.minCoeff(), 0.2);
     EXPECT_GT(rate.minCoeff(), 0.1);
   }
 }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "simulator/recording/output_file.h"
+#include "simulator/recording/recorder.h"
+
+namespace plm_vins::simulator {
+
+// Writes the folders of the EuRoC data set: DIR/mav0/cam0 and imu0. DIR must not hold a recording
+// yet.
+class AslRecorder : public Recorder {
+ public:
+  explicit AslRecorder(const std::string& folder);
+
+  void Write(const ImuSample& sample) override;
+  void Write(const ImageSample& image) override;
+
+  // Where the ground truth of this recording belongs; the folder exists.
+  static std::string GroundTruthFile(const std::string& folder);
+
+ private:
+  std::string image_folder_;
+  OutputFile image_list_, imu_list_;
+};
+
+}  // namespace plm_vins::simulator

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator/recording/bag_recorder.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <rosbag/bag.h>
+#include <rosbag/exceptions.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+
+#include <stdexcept>
+
+#include "common/ros/msg_conversion.h"
+
+namespace plm_vins::simulator {
+namespace {
+
+class BagRecorder : public Recorder {
+ public:
+  BagRecorder(const std::string& file, const SensorConfig& sensors)
+      : file_(file), sensors_(sensors) {
+    Guard([&] { bag_.open(file, rosbag::bagmode::Write); });
+  }
+
+  void Write(const ImuSample& sample) override {
+    sensor_msgs::Imu message;
+    message.header = NextHeader(sample.t_ns, "imu0", &imu_count_);
+    message.orientation_covariance[0] = -1;  // there is no orientation in here
+    message.angular_velocity = ToVector3(sample.gyro);
+    message.linear_acceleration = ToVector3(sample.accel);
+    Guard([&] { bag_.write(sensors_.imu_topic, message.header.stamp, message); });
+  }
+
+  void Write(const ImageSample& image) override {
+    const auto header = NextHeader(image.t_ns, "cam0", &image_count_);
+    const auto message = cv_bridge::CvImage(header, "mono8", image.gray).toImageMsg();
+    Guard([&] { bag_.write(sensors_.image_topic, header.stamp, message); });
+  }
+
+ private:
+  static std_msgs::Header NextHeader(int64_t t_ns, const std::string& frame_id, uint32_t* count) {
+    std_msgs::Header header;
+    header.seq = (*count)++;
+    header.stamp = ToRosTime(t_ns);
+    header.frame_id = frame_id;
+    return header;
+  }
+
+  template <typename Action>
+  void Guard(Action action) const {
+    try {
+      action();
+    } catch (const rosbag::BagException& error) {
+      throw std::runtime_error("cannot write " + file_ + ": " + error.what());
+    }
+  }
+
+  std::string file_;
+  SensorConfig sensors_;
+  rosbag::Bag bag_;
+  uint32_t imu_count_ = 0, image_count_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Recorder> MakeBagRecorder(const std::string& file, const SensorConfig& sensors) {
+  return std::make_unique<BagRecorder>(file, sensors);
+}
+
+}  // namespace plm_vins::simulator

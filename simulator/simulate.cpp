@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Renders a flight through a simulated world: images, IMU and exact ground truth.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/config.h"
+#include "simulator/recording/asl_recorder.h"
+#include "simulator/recording/bag_recorder.h"
+#include "simulator/recording/flight.h"
+#include "simulator/recording/ground_truth.h"
+#include "vins_estimator/offline/progress_display.h"
+
+namespace plm_vins::simulator {
+namespace {
+
+struct Arguments {
+  std::string output;
+  std::string asl;
+  std::string config;
+  FlightOptions flight;
+};
+
+template <typename T>
+CLI::Option* AddChoice(CLI::App* app, const std::string& name, T* value, const std::string& help,
+                       const std::map<std::string, T>& choices) {
+  return app->add_option(name, *value, help)
+      ->transform(CLI::CheckedTransformer(choices, CLI::ignore_case));
+}
+
+void Declare(Arguments* arguments, CLI::App* app) {
+  FlightOptions& flight = arguments->flight;
+  auto* output = app->add_option_group("output");
+  output->add_option("--output", arguments->output,
+                     "ROS bag; the ground truth goes beside it as .tum and .csv");
+  output->add_option("--asl", arguments->asl, "folder in ASL format (EuRoC), new");
+  output->require_option(1, 2);
+  app->add_option("--config", arguments->config,
+                  "sensors: topics, camera, extrinsics, IMU noise, td (default: EuRoC's)");
+  AddChoice<WorldKind>(
+      app, "--world", &flight.world, "where to fly (default: room)",
+      {{"room", WorldKind::kRoom}, {"corridor", WorldKind::kCorridor}, {"hall", WorldKind::kHall}});
+  AddChoice<TextureStyle>(app, "--texture", &flight.texture,
+                          "weak leaves almost only lines (default: rich)",
+                          {{"rich", TextureStyle::kRich}, {"weak", TextureStyle::kWeak}});
+  AddChoice<Motion>(app, "--motion", &flight.motion, "how to fly (default: gentle)",
+                    {{"gentle", Motion::kGentle},
+                     {"fast", Motion::kFast},
+                     {"hover", Motion::kHover},
+                     {"rotation", Motion::kPureRotation},
+                     {"straight", Motion::kCorridor},
+                     {"still", Motion::kStill}});
+  app->add_option("--duration", flight.duration, "length of the flight [s]")
+      ->check(CLI::Range(2.0, 3600.0))
+      ->capture_default_str();
+  app->add_option("--frame-rate", flight.frame_rate_hz, "images per second [Hz]")
+      ->check(CLI::Range(1.0, 200.0))
+      ->capture_default_str();
+  app->add_option("--exposure", flight.imaging.exposure, "of an image [s]")
+      ->check(CLI::Range(0.0, 0.05))
+      ->capture_default_str();
+  app->add_option("--seed", flight.seed, "same seed, same recording")->capture_default_str();
+}
+
+std::vector<std::unique_ptr<Recorder>> OpenRecorders(const Arguments& arguments) {
+  std::vector<std::unique_ptr<Recorder>> recorders;
+  if (!arguments.output.empty()) {
+    recorders.push_back(MakeBagRecorder(arguments.output, arguments.flight.sensors));
+  }
+  if (!arguments.asl.empty()) recorders.push_back(std::make_unique<AslRecorder>(arguments.asl));
+  return recorders;
+}
+
+void WriteGroundTruth(const Arguments& arguments, const std::vector<FrameState>& states) {
+  if (!arguments.output.empty()) {
+    const std::filesystem::path bag = arguments.output;
+    WriteTum(std::filesystem::path(bag).replace_extension(".tum"), states);
+    WriteEurocCsv(std::filesystem::path(bag).replace_extension(".csv"), states);
+  }
+  if (!arguments.asl.empty()) {
+    WriteEurocCsv(AslRecorder::GroundTruthFile(arguments.asl), states);
+    WriteTum(arguments.asl + "/groundtruth.tum", states);
+  }
+}
+
+void Run(Arguments arguments) {
+  FlightOptions& options = arguments.flight;
+  if (!arguments.config.empty()) options.sensors = LoadConfig(arguments.config).sensor;
+  const auto owned = OpenRecorders(arguments);
+  std::vector<Recorder*> recorders;
+  for (const auto& recorder : owned) recorders.push_back(recorder.get());
+
+  const Flight flight(options);
+  WriteGroundTruth(arguments, flight.GroundTruth());
+  ProgressDisplay progress(flight.imu().samples.back().t_ns);
+  flight.Record(recorders, [&](int64_t t_ns) { progress.Update(t_ns); });
+  progress.Finish();
+}
+
+}  // namespace
+}  // namespace plm_vins::simulator
+
+int main(int argc, char** argv) {
+  CLI::App app("Renders a flight through a simulated world");
+  plm_vins::simulator::Arguments arguments;
+  plm_vins::simulator::Declare(&arguments, &app);
+  try {
+    app.parse(argc, argv);
+    plm_vins::simulator::Run(arguments);
+    return 0;
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "simulate: %s (--help lists the options)\n", error.what());
+  } catch (const plm_vins::ConfigError& error) {
+    for (const std::string& problem : error.problems()) {
+      std::fprintf(stderr, "simulate: %s\n", problem.c_str());
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "simulate: %s\n", error.what());
+  }
+  return 1;
+}

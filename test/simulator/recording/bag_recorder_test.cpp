@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator/recording/bag_recorder.h"
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/ros/msg_conversion.h"
+
+namespace plm_vins::simulator {
+namespace {
+
+constexpr int64_t kStart = 1'600'000'000'000'000'000;
+
+std::string WriteBag(const std::string& name) {
+  const std::string file = testing::TempDir() + name;
+  SensorConfig sensors;
+  sensors.image_topic = "/camera/image";
+  sensors.imu_topic = "/camera/imu";
+  const auto recorder = MakeBagRecorder(file, sensors);
+  recorder->Write(ImuSample{kStart, {0.1, 0.2, 0.3}, {1, 2, 9.8}});
+  recorder->Write(ImageSample{kStart + 5'000'000, cv::Mat1b(6, 8, uchar(77))});
+  recorder->Write(ImuSample{kStart + 7'000'000, {0.4, 0.5, 0.6}, {1, 2, 9.9}});
+  return file;
+}
+
+std::string Bytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream bytes;
+  bytes << file.rdbuf();
+  return bytes.str();
+}
+
+TEST(BagRecorder, WritesTheTopicsOfTheConfiguration) {
+  const std::string file = WriteBag("plm_vins_bag_recorder_test.bag");
+  {
+    rosbag::Bag bag(file);
+    std::vector<ImuSample> imu;
+    std::vector<ImageSample> images;
+    for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+      if (message.getTopic() == "/camera/imu") {
+        imu.push_back(ToImuSample(*message.instantiate<sensor_msgs::Imu>()));
+      } else if (message.getTopic() == "/camera/image") {
+        images.push_back(ToImageSample(*message.instantiate<sensor_msgs::Image>()));
+      }
+    }
+    ASSERT_EQ(imu.size(), 2u);
+    ASSERT_EQ(images.size(), 1u);
+    EXPECT_EQ(imu[1].t_ns, kStart + 7'000'000);
+    EXPECT_EQ(imu[1].gyro, Eigen::Vector3d(0.4, 0.5, 0.6));
+    EXPECT_EQ(images[0].t_ns, kStart + 5'000'000);
+    EXPECT_EQ(images[0].gray.at<uchar>(5, 7), 77);
+  }
+  std::filesystem::remove(file);
+}
+
+TEST(BagRecorder, SameSamplesSameBytes) {
+  const std::string a = WriteBag("plm_vins_bag_a.bag"), b = WriteBag("plm_vins_bag_b.bag");
+  EXPECT_FALSE(Bytes(a).empty());
+  EXPECT_EQ(Bytes(a), Bytes(b));
+  std::filesystem::remove(a);
+  std::filesystem::remove(b);
+}
+
+TEST(BagRecorder, NamesAFileThatCannotBeWritten) {
+  try {
+    MakeBagRecorder("/nowhere/a.bag", SensorConfig());
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("/nowhere/a.bag"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace plm_vins::simulator

@@ -118,7 +118,8 @@ class Builder {
   Structure structure_;
 };
 
-// The pair with the largest sum of (capped) parallax angles over its common points.
+// The pair with the largest sum of (capped) parallax angles over its common points; without any
+// parallax, the one with most points.
 std::pair<int, int> Builder::BestPair() const {
   const int n = static_cast<int>(R_G_C_.size());
   Eigen::MatrixXd score = Eigen::MatrixXd::Zero(n, n);
@@ -126,7 +127,7 @@ std::pair<int, int> Builder::BestPair() const {
     for (size_t i = 0; i < track.observations.size(); ++i) {
       for (size_t j = i + 1; j < track.observations.size(); ++j) {
         const ViewObservation &a = track.observations[i], &b = track.observations[j];
-        score(a.view, b.view) += std::min(Ray(a).cross(Ray(b)).norm(), kParallaxCap);
+        score(a.view, b.view) += std::min(1e-9 + Ray(a).cross(Ray(b)).norm(), kParallaxCap);
       }
     }
   }

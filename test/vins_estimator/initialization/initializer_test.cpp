@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/initialization/initializer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/so3.h"
+#include "test/vins_estimator/initialization/simulated_frames.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::FlightOptions;
+using testing::SimulatedFlight;
+using testing::SimulateFlight;
+
+Config ConfigFor(const SimulatedFlight& flight) {
+  Config config;
+  config.sensor = flight.sensor;
+  return config;
+}
+
+struct Start {
+  InitializationResult result;
+  size_t index;  // of the image that brought it
+};
+
+std::optional<Start> Feed(const SimulatedFlight& flight, Initializer* initializer) {
+  for (size_t i = 0; i < flight.frames.size(); ++i) {
+    auto result = initializer->Add(flight.frames[i]);
+    if (result) return Start{*result, i};
+  }
+  return std::nullopt;
+}
+
+const FrameState& TruthAt(const SimulatedFlight& flight, int64_t t_ns) {
+  return *std::find_if(flight.truth.begin(), flight.truth.end(),
+                       [t_ns](const FrameState& state) { return state.t_ns == t_ns; });
+}
+
+double ScaleError(const Start& start, const SimulatedFlight& flight) {
+  std::vector<Eigen::Vector3d> estimate, truth;
+  for (const InitialFrame& frame : start.result.frames) {
+    estimate.push_back(frame.state.position());
+    truth.push_back(TruthAt(flight, frame.state.t_ns).position());
+  }
+  return testing::SizeOf(estimate) / testing::SizeOf(truth) - 1;
+}
+
+// Many starts in mid-flight: none is far off, the typical one is good.
+TEST(InitializerTest, StartsInFlight) {
+  for (const auto motion : {simulator::Motion::kGentle, simulator::Motion::kFast}) {
+    double squared_scale_error = 0;
+    constexpr int kSeeds = 10;
+    for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      auto options = FlightOptions(motion, seed);
+      options.point_outlier_ratio = 0.02;
+      const SimulatedFlight flight = SimulateFlight(options, /*skip=*/4);
+      Initializer initializer(ConfigFor(flight));
+      const auto start = Feed(flight, &initializer);
+      ASSERT_TRUE(start) << "seed " << seed << ": " << initializer.reason();
+      EXPECT_LE(start->index, 60u) << "seed " << seed;
+      EXPECT_FALSE(start->result.from_standstill);
+      EXPECT_TRUE(initializer.reason().empty());
+      const double scale_error = ScaleError(*start, flight);
+      squared_scale_error += scale_error * scale_error / kSeeds;
+      const FrameState& newest = start->result.frames.back().state;
+      const FrameState& truth = flight.truth[start->index];
+      EXPECT_EQ(newest.t_ns, truth.t_ns);
+      EXPECT_LT(std::abs(scale_error), 0.1) << "seed " << seed;
+      EXPECT_LT(testing::GravityError(newest, truth), 0.025) << "seed " << seed;
+      EXPECT_LT(testing::VelocityError(newest, truth), 0.1) << "seed " << seed;
+      EXPECT_LT((newest.gyro_bias() - truth.gyro_bias()).norm(), 0.006) << "seed " << seed;
+    }
+    EXPECT_LT(std::sqrt(squared_scale_error), 0.04);
+  }
+}
+
+TEST(InitializerTest, FramesAreLinkedByTheirImuSamples) {
+  const SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kFast, 1), 4);
+  Initializer initializer(ConfigFor(flight));
+  const auto start = Feed(flight, &initializer);
+  ASSERT_TRUE(start);
+  const auto& frames = start->result.frames;
+  EXPECT_EQ(frames.size(), 11u);
+  for (size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_EQ(frames[i].measurement.t_ns, frames[i].state.t_ns);
+    EXPECT_EQ(frames[i].measurement.imu.back().t_ns, frames[i].state.t_ns);
+    if (i == 0) continue;
+    EXPECT_EQ(frames[i].measurement.imu.front().t_ns, frames[i - 1].state.t_ns);
+  }
+}
+
+TEST(InitializerTest, SameInputGivesTheSameBits) {
+  const SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kGentle, 3), 4);
+  Initializer initializer(ConfigFor(flight));
+  const auto first = Feed(flight, &initializer);
+  initializer.Reset();
+  const auto second = Feed(flight, &initializer);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->index, second->index);
+  EXPECT_EQ(first->result.frames.back().state.pose, second->result.frames.back().state.pose);
+  EXPECT_EQ(first->result.frames.back().state.motion, second->result.frames.back().state.motion);
+}
+
+TEST(InitializerTest, SmallWindowGetsFewFrames) {
+  const SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kFast, 1), 4);
+  Config config = ConfigFor(flight);
+  config.estimator.window_size = 6;
+  Initializer initializer(config);
+  const auto start = Feed(flight, &initializer);
+  ASSERT_TRUE(start) << initializer.reason();
+  EXPECT_EQ(start->result.frames.size(), 7u);
+  EXPECT_EQ(start->result.frames.back().state.t_ns, flight.truth[start->index].t_ns);
+}
+
+TEST(InitializerTest, StandstillIsEnough) {
+  auto options = FlightOptions(simulator::Motion::kStill, 1);
+  const SimulatedFlight flight = SimulateFlight(options);
+  Initializer initializer(ConfigFor(flight));
+  const auto start = Feed(flight, &initializer);
+  ASSERT_TRUE(start) << initializer.reason();
+  EXPECT_TRUE(start->result.from_standstill);
+  EXPECT_LE(start->index, 20u);
+  const FrameState& state = start->result.frames.back().state;
+  EXPECT_EQ(state.t_ns, flight.truth[start->index].t_ns);
+  EXPECT_EQ(state.velocity(), Eigen::Vector3d::Zero());
+  EXPECT_LT((state.gyro_bias() - options.initial_bias.gyro).norm(), 1e-3);
+  // An accelerometer bias of 0.09 m/s^2 tilts by half a degree.
+  EXPECT_LT(testing::GravityError(state, flight.truth[start->index]), 0.012);
+}
+
+// Half a second on the ground is too short for a start from standstill and must not harm the other.
+TEST(InitializerTest, StartsFromMotionAfterAStillPart) {
+  for (uint64_t seed = 1; seed <= 5; ++seed) {
+    auto options = FlightOptions(simulator::Motion::kFast, seed);
+    options.trajectory.rest = 1.0;
+    const SimulatedFlight flight = SimulateFlight(options, /*skip=*/0.9);
+    Initializer initializer(ConfigFor(flight));
+    const auto start = Feed(flight, &initializer);
+    ASSERT_TRUE(start) << "seed " << seed << ": " << initializer.reason();
+    if (start->result.from_standstill) continue;  // a slow lift-off
+    EXPECT_LT(std::abs(ScaleError(*start, flight)), 0.15) << "seed " << seed;
+  }
+}
+
+TEST(InitializerTest, RefusesPureRotation) {
+  const SimulatedFlight flight =
+      SimulateFlight(FlightOptions(simulator::Motion::kPureRotation, 1), 4);
+  Initializer initializer(ConfigFor(flight));
+  EXPECT_FALSE(Feed(flight, &initializer));
+  EXPECT_EQ(initializer.reason().rfind("too little parallax: ", 0), 0u) << initializer.reason();
+}
+
+TEST(InitializerTest, RefusesBlindImages) {
+  SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kFast, 1), 4);
+  for (FrameMeasurement& frame : flight.frames) frame.points.points.clear();
+  Initializer initializer(ConfigFor(flight));
+  EXPECT_FALSE(Feed(flight, &initializer));
+  EXPECT_EQ(initializer.reason(), "too few points followed from the last image: 0 of 12");
+}
+
+TEST(InitializerTest, RefusesImagesWithoutImu) {
+  SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kFast, 1), 4);
+  for (FrameMeasurement& frame : flight.frames) frame.imu.clear();
+  Initializer initializer(ConfigFor(flight));
+  EXPECT_FALSE(Feed(flight, &initializer));
+  EXPECT_EQ(initializer.reason(), "no IMU samples before the image");
+}
+
+TEST(InitializerTest, GapInTheImuStartsOver) {
+  SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kFast, 1), 4);
+  constexpr size_t kGap = 20;  // the samples that lead to this image are lost
+  auto& imu = flight.frames[kGap].imu;
+  imu.erase(imu.begin(), imu.end() - 1);
+  Initializer initializer(ConfigFor(flight));
+  const auto start = Feed(flight, &initializer);
+  ASSERT_TRUE(start) << initializer.reason();
+  EXPECT_GE(start->result.frames.front().state.t_ns, flight.frames[kGap].t_ns);
+}
+
+TEST(InitializerTest, NotANumberStartsOver) {
+  SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kFast, 1), 4);
+  flight.frames[20].imu[3].accel.y() = std::nan("");
+  Initializer initializer(ConfigFor(flight));
+  const auto start = Feed(flight, &initializer);
+  ASSERT_TRUE(start) << initializer.reason();
+  EXPECT_GE(start->result.frames.front().state.t_ns, flight.frames[20].t_ns);
+}
+
+}  // namespace
+}  // namespace plm_vins

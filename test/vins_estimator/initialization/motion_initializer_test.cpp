@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/initialization/motion_initializer.h"
+
+#include <gtest/gtest.h>
+
+#include "common/so3.h"
+#include "simulator/random.h"
+#include "test/vins_estimator/initialization/simulated_frames.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kFrames = 11;
+
+// A body that glides without rotation at constant velocity, level, before a wall of points; exact
+// data.
+std::vector<FrameMeasurement> Glide(const SensorConfig& sensor, const Vector3d& velocity) {
+  simulator::Random random(7);
+  const Eigen::Quaterniond R_W_B = simulator::ForwardLookingBody(sensor.T_B_C);
+  std::vector<Vector3d> landmarks;
+  for (int i = 0; i < 100; ++i) {
+    landmarks.push_back({random.Uniform(3, 8), random.Uniform(-2, 2), random.Uniform(-1, 1)});
+  }
+  std::vector<FrameMeasurement> frames(kFrames);
+  for (int i = 0; i < kFrames; ++i) {
+    FrameMeasurement& frame = frames[i];
+    frame.t_ns = i * 200'000'000;
+    const Rigid3d T_W_C = Rigid3d(R_W_B, velocity * ToSeconds(frame.t_ns)) * sensor.T_B_C;
+    for (size_t id = 0; id < landmarks.size(); ++id) {
+      PointObservation point;
+      point.id = static_cast<int64_t>(id);
+      point.xy = (T_W_C.Inverse() * landmarks[id]).hnormalized();
+      frame.points.points.push_back(point);
+    }
+    for (int64_t t = frame.t_ns - 200'000'000; t <= frame.t_ns; t += 5'000'000) {
+      frame.imu.push_back({t, Vector3d::Zero(), R_W_B.conjugate() * Vector3d(0, 0, 9.81)});
+    }
+  }
+  return frames;
+}
+
+class MotionInitializerTest : public ::testing::Test {
+ protected:
+  std::optional<std::vector<FrameState>> Run(const std::vector<FrameMeasurement>& frames) {
+    return InitializeFromMotion(frames, simulator::DefaultSensors(), 0.5, {}, &reason_);
+  }
+
+  // Every fifth frame of a flight, its IMU samples joined.
+  void Thin(const testing::SimulatedFlight& flight) {
+    std::vector<ImuSample> imu;
+    for (size_t i = 0; i < 5 * kFrames; ++i) {
+      JoinImu(flight.frames[i].imu, &imu);
+      if (i % 5 != 0) continue;
+      frames_.push_back(flight.frames[i]);
+      frames_.back().imu = imu;
+      truth_.push_back(flight.truth[i]);
+      imu = {imu.back()};
+    }
+  }
+
+  std::vector<FrameMeasurement> frames_;
+  std::vector<FrameState> truth_;
+  std::string reason_;
+};
+
+TEST_F(MotionInitializerTest, StatesStartAtTheOriginWithoutHeading) {
+  Thin(testing::SimulateFlight(testing::FlightOptions(simulator::Motion::kFast, 1), 3));
+  const auto states = Run(frames_);
+  ASSERT_TRUE(states) << reason_;
+  ASSERT_EQ(states->size(), frames_.size());
+  EXPECT_LT(states->front().position().norm(), 1e-9);
+  EXPECT_NEAR(Yaw(Eigen::Quaterniond(states->front().rotation())), 0, 1e-9);
+  for (size_t i = 0; i < frames_.size(); ++i) {
+    EXPECT_EQ((*states)[i].t_ns, frames_[i].t_ns);
+    EXPECT_LT(testing::GravityError((*states)[i], truth_[i]), 0.02);
+    EXPECT_LT(testing::VelocityError((*states)[i], truth_[i]), 0.1);
+  }
+}
+
+TEST_F(MotionInitializerTest, RefusesConstantVelocity) {
+  EXPECT_FALSE(Run(Glide(simulator::DefaultSensors(), {0.1, 0.5, 0.1})));
+  EXPECT_NE(reason_.find("scale"), std::string::npos) << reason_;
+}
+
+TEST_F(MotionInitializerTest, RefusesStandstill) {
+  EXPECT_FALSE(Run(Glide(simulator::DefaultSensors(), Vector3d::Zero())));
+  EXPECT_EQ(reason_, "too little parallax: 0.0 px of 15.0 px");
+}
+
+TEST_F(MotionInitializerTest, RefusesWithoutPoints) {
+  Thin(testing::SimulateFlight(testing::FlightOptions(simulator::Motion::kFast, 1), 3));
+  for (FrameMeasurement& frame : frames_) frame.points.points.clear();
+  EXPECT_FALSE(Run(frames_));
+  EXPECT_EQ(reason_, "too few common points: 0 of 15");
+}
+
+TEST_F(MotionInitializerTest, RefusesAnImuThatDisagreesWithTheCamera) {
+  Thin(testing::SimulateFlight(testing::FlightOptions(simulator::Motion::kFast, 1), 3));
+  for (FrameMeasurement& frame : frames_) {
+    for (ImuSample& sample : frame.imu)
+      sample.accel = {sample.accel.x(), -sample.accel.z(), sample.accel.y()};
+  }
+  EXPECT_FALSE(Run(frames_));
+  EXPECT_FALSE(reason_.empty());
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Simulated flights as the estimator receives them, for the tests of initialisation.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <vector>
+
+#include "simulator/feature_simulator.h"
+#include "vins_estimator/measurement_sync.h"
+
+namespace plm_vins::testing {
+
+struct SimulatedFlight {
+  SensorConfig sensor;
+  std::vector<FrameMeasurement> frames;
+  std::vector<FrameState> truth;  // one per frame
+};
+
+// From `skip` seconds after the start on, so that a flight can begin in motion.
+inline SimulatedFlight SimulateFlight(const simulator::FeatureSimulationOptions& options,
+                                      double skip = 0) {
+  const simulator::FeatureDataset data = simulator::SimulateFeatures(options);
+  MeasurementSync::Options sync_options;
+  sync_options.max_frames = static_cast<int>(data.points.size());
+  MeasurementSync sync(sync_options);
+  for (const ImuSample& sample : data.imu) sync.AddImu(sample);
+  for (const PointFrame& points : data.points) sync.AddPoints(points);
+  SimulatedFlight flight;
+  flight.sensor = options.sensors;
+  while (const auto frame = sync.Flush()) {
+    if (ToSeconds(frame->t_ns - data.points.front().t_ns) < skip) continue;
+    flight.frames.push_back(*frame);
+  }
+  for (const FrameState& state : data.truth) {
+    if (state.t_ns >= flight.frames.front().t_ns) flight.truth.push_back(state);
+  }
+  flight.truth.resize(flight.frames.size());
+  return flight;
+}
+
+// A flight with EuRoC-like biases and no rest.
+inline simulator::FeatureSimulationOptions FlightOptions(simulator::Motion motion, uint64_t seed) {
+  simulator::FeatureSimulationOptions options;
+  options.trajectory.motion = motion;
+  options.trajectory.seed = seed;
+  options.trajectory.rest = 0;
+  options.trajectory.lead_in = 0.5;
+  options.trajectory.duration = 8;
+  options.initial_bias.gyro = Eigen::Vector3d(-0.003, 0.021, 0.078);
+  options.initial_bias.accel = Eigen::Vector3d(-0.025, 0.08, 0.04);
+  options.seed = seed;
+  return options;
+}
+
+// Size of a set of positions: root mean square distance from their mean [m].
+inline double SizeOf(const std::vector<Eigen::Vector3d>& positions) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : positions) mean += p / positions.size();
+  double sum = 0;
+  for (const Eigen::Vector3d& p : positions) sum += (p - mean).squaredNorm();
+  return std::sqrt(sum / positions.size());
+}
+
+// Angle between two directions [rad].
+inline double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+// Angle between the directions of gravity that two states see in the body [rad].
+inline double GravityError(const FrameState& a, const FrameState& b) {
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  return AngleBetween(a.rotation().conjugate() * z, b.rotation().conjugate() * z);
+}
+
+// Difference of the velocities in the body frame, which does not depend on the heading [m/s].
+inline double VelocityError(const FrameState& a, const FrameState& b) {
+  const Eigen::Vector3d v_a = a.rotation().conjugate() * a.velocity();
+  const Eigen::Vector3d v_b = b.rotation().conjugate() * b.velocity();
+  return (v_a - v_b).norm();
+}
+
+}  // namespace plm_vins::testing

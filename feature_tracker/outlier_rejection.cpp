@@ -16,6 +16,8 @@ constexpr int kHypotheses = 100;       // (1 - 0.5^2)^100 = 3e-13: never misses 
 constexpr double kCoarseFactor = 3.0;  // of the threshold, while the rotation is only guessed
 constexpr int kRefinements = 5;
 constexpr int kRotationIterations = 10;
+constexpr int kSolverIterations = 4;
+constexpr double kNotRobust = 1.0;  // [rad], larger than any error
 
 // Motion of the camera up to scale: p_C1 ~ R p_C0 + s t.
 struct EpipolarGeometry {
@@ -76,34 +78,14 @@ Eigen::Quaterniond FitRotation(const std::vector<RayPair>& pairs, double scale) 
 }
 
 // The direction of translation that two pairs leave: t . (a x b) = 0 for both.
-std::optional<Eigen::Vector3d> TranslationOfTwo(const Eigen::Vector3d& normal0,
-                                                const Eigen::Vector3d& normal1) {
+std::optional<Eigen::Vector3d> TranslationOfTwo(const Eigen::Quaterniond& R_C1_C0,
+                                                const RayPair& pair0, const RayPair& pair1) {
+  const Eigen::Vector3d normal0 = (R_C1_C0 * pair0.ray_C0).cross(pair0.ray_C1);
+  const Eigen::Vector3d normal1 = (R_C1_C0 * pair1.ray_C0).cross(pair1.ray_C1);
   const Eigen::Vector3d t = normal0.cross(normal1);
   const double length = t.norm();
   if (!(length > 0)) return std::nullopt;
   return t / length;
-}
-
-EpipolarGeometry FindTranslation(const std::vector<RayPair>& pairs, const Eigen::Quaterniond& R,
-                                 double threshold) {
-  std::mt19937 random;  // default seed: same input, same result
-  const auto draw_normal = [&] {
-    const RayPair& pair = pairs[random() % pairs.size()];
-    return (R * pair.ray_C0).cross(pair.ray_C1);
-  };
-  EpipolarGeometry best{R, Eigen::Vector3d::UnitZ()};
-  double best_cost = Cost(pairs, best, threshold);
-  for (int i = 0; i < kHypotheses; ++i) {
-    const Eigen::Vector3d normal = draw_normal();
-    const auto t = TranslationOfTwo(normal, draw_normal());
-    if (!t) continue;
-    const double cost = Cost(pairs, {R, *t}, threshold);
-    if (cost < best_cost) {
-      best = {R, *t};
-      best_cost = cost;
-    }
-  }
-  return best;
 }
 
 // Two columns that span the plane normal to the unit vector t.
@@ -139,6 +121,37 @@ EpipolarGeometry Refine(const std::vector<RayPair>& pairs, const EpipolarGeometr
           (geometry.t_C1 + basis * step.tail<2>()).normalized()};
 }
 
+// `count` pairs, drawn with repetition.
+std::vector<RayPair> Draw(const std::vector<RayPair>& pairs, size_t count, std::mt19937* random) {
+  std::vector<RayPair> sample;
+  while (sample.size() < count) sample.push_back(pairs[(*random)() % pairs.size()]);
+  return sample;
+}
+
+// RANSAC. The translation comes from two pairs and the given rotation; a rotation that is not known
+// is then solved for together with the translation from all pairs of the (larger) sample.
+EpipolarGeometry FindGeometry(const std::vector<RayPair>& pairs, const Eigen::Quaterniond& R,
+                              bool is_rotation_known, double threshold) {
+  std::mt19937 random;  // default seed: same input, same result
+  EpipolarGeometry best{R, Eigen::Vector3d::UnitZ()};
+  double best_cost = Cost(pairs, best, threshold);
+  for (int i = 0; i < kHypotheses; ++i) {
+    const auto sample = Draw(pairs, is_rotation_known ? 2 : 5, &random);
+    const auto t = TranslationOfTwo(R, sample[0], sample[1]);
+    if (!t) continue;
+    EpipolarGeometry geometry{R, *t};
+    for (int k = 0; !is_rotation_known && k < kSolverIterations; ++k) {
+      geometry = Refine(sample, geometry, kNotRobust);
+    }
+    const double cost = Cost(pairs, geometry, threshold);
+    if (cost < best_cost) {
+      best = geometry;
+      best_cost = cost;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<bool> FindEpipolarInliers(const std::vector<RayPair>& pairs,
@@ -148,7 +161,7 @@ std::vector<bool> FindEpipolarInliers(const std::vector<RayPair>& pairs,
   if (pairs.size() < kMinPairs) return inliers;
   const double coarse = kCoarseFactor * threshold;
   const Eigen::Quaterniond R = R_C1_C0 ? *R_C1_C0 : FitRotation(pairs, coarse);
-  EpipolarGeometry geometry = FindTranslation(pairs, R, coarse);
+  EpipolarGeometry geometry = FindGeometry(pairs, R, R_C1_C0.has_value(), coarse);
   for (int i = 0; i < kRefinements; ++i) geometry = Refine(pairs, geometry, threshold);
   for (size_t i = 0; i < pairs.size(); ++i) {
     inliers[i] = std::abs(EpipolarResidual(geometry, pairs[i]).error) <= threshold;

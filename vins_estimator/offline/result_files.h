@@ -25,6 +25,7 @@ class ResultFiles {
   // Completes all files; `run.map_points` is filled in here.
   void Finish(RunSummary::Run run, const Config& config);
 
+  const std::string& folder() const { return folder_; }
   const RunSummary& summary() const { return summary_; }
 
  private:

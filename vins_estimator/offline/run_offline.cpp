@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs the odometry over a recording without a ROS master, as fast as the machine goes.
 #include <CLI/CLI.hpp>
+#include <cinttypes>
 #include <cstdio>
 #include <exception>
 #include <limits>
@@ -31,6 +32,13 @@ struct Arguments {
   bool one_thread = false;
 };
 
+// The message of what is wrong with the argument of --set; empty where nothing is.
+std::string CheckOverride(const std::string& text) {
+  const size_t equals = text.find('=');
+  const bool valid = equals != 0 && equals != std::string::npos;
+  return valid ? "" : "expected key=value instead of " + text;
+}
+
 void Declare(Arguments* arguments, CLI::App* app) {
   app->add_option("--config", arguments->config, "configuration file (VINS YAML)")->required();
   auto* source = app->add_option_group("input");
@@ -44,23 +52,18 @@ void Declare(Arguments* arguments, CLI::App* app) {
   app->add_option("--duration", arguments->duration, "process this much [s]")
       ->check(CLI::PositiveNumber);
   app->add_option("--set", arguments->overrides, "replace a value of the configuration: key=value")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->check(CheckOverride);
   app->add_flag("--one-thread", arguments->one_thread,
                 "front end and back end in turn; the results are the same");
 }
 
 std::map<std::string, std::string> ParseOverrides(const std::vector<std::string>& texts) {
   std::map<std::string, std::string> overrides;
-  std::vector<std::string> problems;
   for (const std::string& text : texts) {
     const size_t equals = text.find('=');
-    if (equals == 0 || equals == std::string::npos) {
-      problems.push_back("--set " + text + ": expected key=value");
-    } else {
-      overrides[text.substr(0, equals)] = text.substr(equals + 1);
-    }
+    overrides[text.substr(0, equals)] = text.substr(equals + 1);
   }
-  if (!problems.empty()) throw ConfigError(problems);
   return overrides;
 }
 
@@ -75,7 +78,21 @@ void Warn(const DropCounts& drops) {
   }
 }
 
-// Exit code: 0 where there is a trajectory.
+// Says how it went. Exit code: 0 where there is a trajectory.
+int Report(const RunSummary::Run& run, const ResultFiles& results) {
+  const RunSummary& summary = results.summary();
+  Warn(run.drops);
+  if (summary.poses() == 0) {
+    const std::string& reason = summary.last_reason();
+    std::fprintf(stderr, "run_offline: no trajectory from %" PRId64 " images: %s\n", run.images,
+                 reason.empty() ? "none was usable" : reason.c_str());
+    return 1;
+  }
+  std::fprintf(stderr, "%" PRId64 " images, %" PRId64 " poses in %.1f s; results in %s\n",
+               run.images, summary.poses(), run.wall_time, results.folder().c_str());
+  return 0;
+}
+
 int Run(const Arguments& arguments) {
   const Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
   const std::unique_ptr<Recording> recording = Open(arguments, config.sensor);
@@ -100,12 +117,7 @@ int Run(const Arguments& arguments) {
   run.drops = recording->problems();
   Append(pipeline.drops(), &run.drops);
   results.Finish(run, config);
-  Warn(run.drops);
-  if (results.summary().poses() > 0) return 0;
-  const std::string& reason = results.summary().last_reason();
-  std::fprintf(stderr, "run_offline: no trajectory from %ld images: %s\n",
-               static_cast<long>(run.images), reason.empty() ? "no usable frame" : reason.c_str());
-  return 1;
+  return Report(run, results);
 }
 
 }  // namespace

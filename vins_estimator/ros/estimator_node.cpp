@@ -105,13 +105,20 @@ void EstimatorNode::Work() {
 void EstimatorNode::Process(Input input) {
   std::visit(Overloaded{[&](const ImuSample& sample) { stage_.AddImu(sample); },
                         [&](PointFrame& points) { stage_.AddPoints(std::move(points)); },
-                        [&](const ResetCommand&) {
-                          stage_.Reset();
-                          propagation_.Clear();
-                          trajectory_.Clear();
-                        }},
+                        [&](const ResetCommand&) { StartOver(); }},
              input);
   while (const auto frame = stage_.Pop()) Handle(*frame);
+}
+
+void EstimatorNode::StartOver() {
+  stage_.Reset();
+  propagation_.Clear();
+  trajectory_.Clear();
+  publisher_.Clear();
+  EstimatorOutput output;
+  output.reason = "reset, waiting for images";
+  LogChanges(output);
+  UpdateStatus(output);
 }
 
 void EstimatorNode::Handle(const EstimatedFrame& frame) {
@@ -121,6 +128,7 @@ void EstimatorNode::Handle(const EstimatedFrame& frame) {
   if (output.restarted) trajectory_.Clear();
   if (output.has_pose) trajectory_.Add(output.t_ns, output.state.T_W_B());
   LogChanges(output);
+  ++frames_;
   UpdateStatus(output);
 }
 
@@ -141,8 +149,8 @@ void EstimatorNode::UpdateStatus(const EstimatorOutput& output) {
   DropCounts drops = ToDropCounts(stage_.statistics());
   worker_warner_.Check(drops);
   const std::lock_guard<std::mutex> lock(status_mutex_);
-  status_ = {output.status,        output.reason,      output.counts,
-             output.timings.total, status_.frames + 1, std::move(drops)};
+  status_ = {output.status,        output.reason, output.counts,
+             output.timings.total, frames_,       std::move(drops)};
 }
 
 void EstimatorNode::ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -60,6 +60,7 @@ class EstimatorNode {
   // In the worker thread.
   void Work();
   void Process(Input input);
+  void StartOver();
   void Handle(const EstimatedFrame& frame);
   void LogChanges(const EstimatorOutput& output);
   void UpdateStatus(const EstimatorOutput& output);
@@ -82,6 +83,7 @@ class EstimatorNode {
   DropWarner worker_warner_;
   EstimatorStatus last_status_ = EstimatorStatus::kInitializing;
   std::string last_reason_;
+  int64_t frames_ = 0;
 
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;

@@ -60,7 +60,7 @@ OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle pri
 
 void OutputPublisher::Publish(const EstimatedFrame& frame) {
   const EstimatorOutput& output = frame.output;
-  if (output.restarted) path_.poses.clear();
+  if (output.restarted) Clear();
   if (!output.has_pose) return;
 
   const int64_t t_ns = output.t_ns;

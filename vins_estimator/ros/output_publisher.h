@@ -20,6 +20,9 @@ class OutputPublisher {
 
   void Publish(const EstimatedFrame& frame);
 
+  // Forgets the path: another world frame begins.
+  void Clear() { path_.poses.clear(); }
+
  private:
   void PublishPath(const FrameState& state);
   void PublishTransforms(const EstimatorOutput& output);

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Listens to the nodes while a short bag is played, and judges what came. Run by nodes.test.
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
+#include <ros/ros.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/PointCloud.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+#include <visualization_msgs/Marker.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string program_folder;  // where this program and the nodes are
+
+// All messages of a topic.
+template <typename Message>
+class Listener {
+ public:
+  explicit Listener(const std::string& topic)
+      : subscriber_(ros::NodeHandle().subscribe(topic, 100000, &Listener::Add, this)) {}
+
+  std::vector<Message> messages;
+
+  std::vector<ros::Time> Stamps() const {
+    std::vector<ros::Time> stamps;
+    for (const Message& message : messages) stamps.push_back(message.header.stamp);
+    return stamps;
+  }
+
+ private:
+  void Add(const Message& message) { messages.push_back(message); }
+
+  ros::Subscriber subscriber_;
+};
+
+struct Listeners {
+  Listener<sensor_msgs::Image> image{"/cam0/image_raw"};
+  Listener<sensor_msgs::Imu> imu{"/imu0"};
+  Listener<sensor_msgs::PointCloud> feature{"/feature_tracker/feature"};
+  Listener<sensor_msgs::Image> feature_img{"/feature_tracker/feature_img"};
+  Listener<nav_msgs::Odometry> odometry{"/vins_estimator/odometry"};
+  Listener<nav_msgs::Odometry> imu_propagate{"/vins_estimator/imu_propagate"};
+  Listener<nav_msgs::Path> path{"/vins_estimator/path"};
+  Listener<nav_msgs::Odometry> camera_pose{"/vins_estimator/camera_pose"};
+  Listener<nav_msgs::Odometry> extrinsic{"/vins_estimator/extrinsic"};
+  Listener<sensor_msgs::PointCloud> point_cloud{"/vins_estimator/point_cloud"};
+  Listener<sensor_msgs::PointCloud> history_cloud{"/vins_estimator/history_cloud"};
+  Listener<visualization_msgs::Marker> key_poses{"/vins_estimator/key_poses"};
+  Listener<diagnostic_msgs::DiagnosticArray> diagnostics{"/diagnostics"};
+  tf2_ros::Buffer tf_buffer{ros::Duration(1000)};
+  tf2_ros::TransformListener tf_listener{tf_buffer};
+};
+
+void Spin(double seconds) {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+  while (ros::ok() && ros::WallTime::now() < end) {
+    ros::spinOnce();
+    ros::WallDuration(0.005).sleep();
+  }
+}
+
+// The last status of this name, as "message" and values.
+std::map<std::string, std::string> LastStatus(const Listener<diagnostic_msgs::DiagnosticArray>& log,
+                                              const std::string& name) {
+  std::map<std::string, std::string> values;
+  for (const auto& array : log.messages) {
+    for (const auto& status : array.status) {
+      if (status.name != name) continue;
+      values = {{"message", status.message}};
+      for (const auto& value : status.values) values[value.key] = value.value;
+    }
+  }
+  return values;
+}
+
+// The tests look at one and the same run of the nodes.
+class Nodes : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    log_ = std::make_unique<Listeners>();
+    for (int i = 0; i < 60 && log_->image.messages.empty(); ++i) Spin(1.0);
+    size_t seen = 0;
+    while (seen < log_->odometry.messages.size() + log_->feature.messages.size()) {
+      seen = log_->odometry.messages.size() + log_->feature.messages.size();
+      Spin(3.0);
+    }
+  }
+  static void TearDownTestSuite() { log_.reset(); }
+
+  static std::unique_ptr<Listeners> log_;
+};
+std::unique_ptr<Listeners> Nodes::log_;
+
+TEST_F(Nodes, TrackEveryImage) {
+  ASSERT_GT(log_->image.messages.size(), 100u);
+  EXPECT_EQ(log_->feature.Stamps(), log_->image.Stamps());
+  for (const auto& frame : log_->feature.messages) {
+    ASSERT_EQ(frame.channels.size(), 5u);
+    EXPECT_GT(frame.points.size(), 20u);
+  }
+  EXPECT_FALSE(log_->feature_img.messages.empty());
+  EXPECT_EQ(log_->feature_img.messages.back().encoding, "bgr8");
+}
+
+TEST_F(Nodes, GiveAPoseForEveryImageFromTheFirstOn) {
+  const std::vector<ros::Time> images = log_->image.Stamps();
+  const std::vector<ros::Time> poses = log_->odometry.Stamps();
+  ASSERT_FALSE(poses.empty());
+  EXPECT_LT((poses.front() - images.front()).toSec(), 4.0);
+  const auto first = std::find(images.begin(), images.end(), poses.front());
+  const auto missing = std::distance(first, images.end()) - static_cast<int>(poses.size());
+  EXPECT_LE(missing, 1) << "only the last image may wait for an IMU sample that never comes";
+  EXPECT_TRUE(std::equal(poses.begin(), poses.end(), first));
+}
+
+TEST_F(Nodes, GivePlausiblePosesWithCovariance) {
+  for (const auto& odometry : log_->odometry.messages) {
+    EXPECT_EQ(odometry.header.frame_id, "world");
+    EXPECT_EQ(odometry.child_frame_id, "body");
+    const auto& q = odometry.pose.pose.orientation;
+    EXPECT_NEAR(Eigen::Vector4d(q.x, q.y, q.z, q.w).norm(), 1.0, 1e-6);
+    const Eigen::Matrix<double, 6, 6> covariance =
+        Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(
+            odometry.pose.covariance.data());
+    EXPECT_TRUE((covariance.llt().info() == Eigen::Success)) << covariance;
+    EXPECT_GT(odometry.twist.covariance[0], 0);
+  }
+}
+
+TEST_F(Nodes, PropagateAtTheRateOfTheImu) {
+  ASSERT_FALSE(log_->odometry.messages.empty());
+  const ros::Time first_pose = log_->odometry.Stamps().front();
+  const std::vector<ros::Time> imu = log_->imu.Stamps();
+  const std::vector<ros::Time> propagated = log_->imu_propagate.Stamps();
+  const auto after =
+      std::count_if(imu.begin(), imu.end(), [&](const ros::Time& t) { return t > first_pose; });
+  EXPECT_GT(static_cast<double>(propagated.size()), 0.8 * static_cast<double>(after));
+  EXPECT_TRUE(std::is_sorted(propagated.begin(), propagated.end()));
+  EXPECT_GT(log_->imu_propagate.messages.back().pose.covariance[0], 0);
+}
+
+TEST_F(Nodes, PublishPathCameraAndMap) {
+  EXPECT_FALSE(log_->path.messages.empty());
+  EXPECT_FALSE(log_->key_poses.messages.empty());
+  EXPECT_FALSE(log_->history_cloud.messages.empty());
+  ASSERT_FALSE(log_->point_cloud.messages.empty());
+  EXPECT_GT(log_->point_cloud.messages.back().points.size(), 10u);
+  ASSERT_FALSE(log_->camera_pose.messages.empty());
+  EXPECT_EQ(log_->camera_pose.messages.back().child_frame_id, "camera");
+  ASSERT_FALSE(log_->extrinsic.messages.empty());
+  EXPECT_NEAR(log_->extrinsic.messages.back().pose.pose.position.y, -0.0647, 0.02);
+}
+
+TEST_F(Nodes, PublishTransformsFromWorldToCamera) {
+  ASSERT_FALSE(log_->camera_pose.messages.empty());
+  const auto& camera = log_->camera_pose.messages.back();
+  const auto transform = log_->tf_buffer.lookupTransform("world", "camera", camera.header.stamp);
+  EXPECT_NEAR(transform.transform.translation.x, camera.pose.pose.position.x, 1e-6);
+  EXPECT_TRUE(log_->tf_buffer.canTransform("world", "body", camera.header.stamp));
+}
+
+TEST_F(Nodes, ReportDiagnostics) {
+  auto estimator = LastStatus(log_->diagnostics, "vins_estimator: odometry");
+  EXPECT_EQ(estimator["message"], "tracking");
+  EXPECT_EQ(estimator["frames_dropped_full"], "0");
+  auto tracker = LastStatus(log_->diagnostics, "feature_tracker: point tracking");
+  EXPECT_EQ(tracker["images"], std::to_string(log_->image.messages.size()));
+}
+
+// Last, as it ends the run.
+TEST_F(Nodes, SaveTheTrajectoryAndResetByService) {
+  std_srvs::Trigger save;
+  ASSERT_TRUE(ros::service::call("/vins_estimator/save_trajectory", save));
+  EXPECT_TRUE(save.response.success) << save.response.message;
+  std::string file;
+  ros::param::get("/vins_estimator/trajectory_file", file);
+  std::ifstream stream(file);
+  const auto rows = std::count(std::istreambuf_iterator<char>(stream), {}, '\n');
+  EXPECT_EQ(static_cast<size_t>(rows), log_->odometry.messages.size());
+
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(ros::service::call("/vins_estimator/reset", reset));
+  EXPECT_TRUE(reset.response.success);
+  Spin(2.5);
+  auto status = LastStatus(log_->diagnostics, "vins_estimator: odometry");
+  EXPECT_EQ(status["message"], "initializing: reset, waiting for images");
+}
+
+class Node : public ::testing::TestWithParam<const char*> {
+ protected:
+  // Exit code of a second node of this kind, which gets SIGINT after two seconds.
+  static int Run(const std::string& config) {
+    const std::string command = "timeout --preserve-status -s INT 2 " + program_folder + "/" +
+                                GetParam() + " __name:=another _config_file:=" + config +
+                                " >/dev/null 2>&1";
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+};
+
+TEST_P(Node, EndsCleanlyOnInterrupt) {
+  std::string config;
+  ros::param::get(std::string("/") + GetParam() + "/config_file", config);
+  EXPECT_EQ(Run(config), 0);
+}
+
+TEST_P(Node, RefusesToStartWithoutConfiguration) { EXPECT_EQ(Run("/no/such/file.yaml"), 1); }
+
+INSTANTIATE_TEST_SUITE_P(Both, Node, ::testing::Values("feature_tracker", "vins_estimator"));
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "nodes_test");
+  program_folder = fs::read_symlink("/proc/self/exe").parent_path().string();
+  const ros::NodeHandle keeps_ros_running;
+  return RUN_ALL_TESTS();
+}

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/optimization/variable.h"
 
+#include <algorithm>
+
 #include "vins_estimator/factors/manifolds.h"
 
 namespace plm_vins {
@@ -14,6 +16,13 @@ void VectorPlus(const double* x, const double* delta, double* x_plus_delta) {
 template <int kSize>
 void VectorMinus(const double* y, const double* x, double* y_minus_x) {
   for (int i = 0; i < kSize; ++i) y_minus_x[i] = y[i] - x[i];
+}
+
+// A point stays in front of its host: steps towards and beyond infinity end far away.
+void PointPlus(const double* x, const double* delta, double* x_plus_delta) {
+  constexpr double kMinInverseDepth = 1e-3;  // [1/m]
+  VectorPlus<3>(x, delta, x_plus_delta);
+  x_plus_delta[2] = std::max(x_plus_delta[2], kMinInverseDepth);
 }
 
 template <int kSize>
@@ -39,7 +48,7 @@ const VariableType& ScalarVariable() {
 }
 
 const VariableType& PointVariable() {
-  static const VariableType type = VectorVariable<3>();
+  static const VariableType type{3, 3, &PointPlus, &VectorMinus<3>};
   return type;
 }
 

@@ -27,10 +27,11 @@ struct Arguments {
 };
 
 template <typename T>
-CLI::Option* AddChoice(CLI::App* app, const std::string& name, T* value, const std::string& help,
-                       const std::map<std::string, T>& choices) {
-  return app->add_option(name, *value, help)
-      ->transform(CLI::CheckedTransformer(choices, CLI::ignore_case));
+void AddChoice(CLI::App* app, const std::string& name, T* value, const std::string& help,
+               const std::map<std::string, T>& choices) {
+  app->add_option_function<std::string>(
+         name, [=](const std::string& choice) { *value = choices.at(choice); }, help)
+      ->check(CLI::IsMember(choices));
 }
 
 void Declare(Arguments* arguments, CLI::App* app) {

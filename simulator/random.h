@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <random>
 
 namespace plm_vins::simulator {
@@ -23,10 +24,17 @@ class Random {
   // Uniform in 0 ... count - 1.
   int Index(int count) { return static_cast<int>(Uniform(0.0, count)); }
 
-  // Standard normal (Box-Muller).
+  // Standard normal (Box-Muller, which makes two at a time).
   double Normal() {
+    if (spare_normal_) {
+      const double spare = *spare_normal_;
+      spare_normal_.reset();
+      return spare;
+    }
     const double radius = std::sqrt(-2.0 * std::log(1.0 - Uniform()));
-    return radius * std::cos(2.0 * M_PI * Uniform());
+    const double angle = 2.0 * M_PI * Uniform();
+    spare_normal_ = radius * std::sin(angle);
+    return radius * std::cos(angle);
   }
 
   // Each coordinate uniform in +-limit.
@@ -50,6 +58,7 @@ class Random {
   }
 
   std::mt19937_64 engine_;
+  std::optional<double> spare_normal_;
 };
 
 }  // namespace plm_vins::simulator

@@ -19,8 +19,8 @@ struct BodyState {
 };
 
 enum class Motion {
-  kGentle,        // about 0.5 m/s and 0.4 rad/s, all axes
-  kFast,          // about 2 m/s and 1 rad/s, all axes
+  kGentle,        // 0.7 m/s and 0.25 rad/s on average, all axes
+  kFast,          // 1.3 m/s and 0.5 rad/s on average, peaks of 3 m/s and 1.2 rad/s
   kHover,         // in one place but for a few centimetres, after the lead-in
   kPureRotation,  // B turns about its origin, after the lead-in
   kCorridor,      // straight along x with a little sway

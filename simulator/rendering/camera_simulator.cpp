@@ -32,10 +32,10 @@ cv::Mat CameraSimulator::Expose(double t, uint64_t index) const {
   return Digitize(sum.mul(gain_, 1.0 / steps), index);
 }
 
-// Enough for a step of about a pixel; a multiple of the subpixel pattern.
+// Enough for a step of about a pixel; whole rounds of the subpixels.
 int CameraSimulator::ExposureSteps(double t) const {
   constexpr double kTypicalDistance = 3.0;  // [m]
-  constexpr int kMaxRounds = 3;
+  constexpr int kMaxRounds = 6;
   const BodyState state = trajectory_.At(t);
   const double rate = state.gyro_B.norm() + state.v_W.norm() / kTypicalDistance;
   const double blur_px = rate * options_.exposure * camera_->FocalLength();

@@ -29,8 +29,8 @@ float Mix(float a, float b, float weight) { return a + weight * (b - a); }
 }  // namespace
 
 MipTexture::MipTexture(const cv::Mat& image, double width, double height)
-    : width_(static_cast<float>(width)),
-      height_(static_cast<float>(height)),
+    : per_width_(static_cast<float>(1.0 / width)),
+      per_height_(static_cast<float>(1.0 / height)),
       texel_(static_cast<float>(height / image.rows)) {
   if (image.empty() || image.type() != CV_8UC1) throw std::invalid_argument("texture is not grey");
   levels_.emplace_back();
@@ -56,13 +56,13 @@ float MipTexture::Sample(float u, float v, float footprint) const {
 
 float MipTexture::SampleLevel(int level, float u, float v) const {
   const cv::Mat1b& image = levels_[level];
-  const TexelPair x = Locate(u / width_, image.cols);
-  const TexelPair y = Locate(v / height_, image.rows);
+  const TexelPair x = Locate(u * per_width_, image.cols);
+  const TexelPair y = Locate(v * per_height_, image.rows);
   const uchar* lower = image[y.first];
   const uchar* upper = image[y.second];
   return Mix(Mix(lower[x.first], lower[x.second], x.weight),
-             Mix(upper[x.first], upper[x.second], x.weight), y.weight) /
-         255.0f;
+             Mix(upper[x.first], upper[x.second], x.weight), y.weight) *
+         (1.0f / 255.0f);
 }
 
 }  // namespace plm_vins::simulator

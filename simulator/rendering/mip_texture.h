@@ -20,8 +20,8 @@ class MipTexture {
  private:
   float SampleLevel(int level, float u, float v) const;
 
-  float width_, height_;  // [m]
-  float texel_;           // of the full picture [m]
+  float per_width_, per_height_;  // repetitions per metre
+  float texel_;                   // of the full picture [m]
   std::vector<cv::Mat1b> levels_;
 };
 

@@ -21,21 +21,20 @@ constexpr double kNearPlane = 0.05;  // [m]
 using PixelOffsets = std::array<std::array<Vector2d, Renderer::kRays>, Renderer::kSubpixels>;
 
 // Where a pixel is sampled. Each sixteenth of its columns and of its rows is hit once, at random,
-// so that an edge in any direction covers the right share of the samples; opposite subpixels mirror
-// each other, so that they are centred.
+// so that an edge in any direction covers the right share of the samples; the second half mirrors
+// the first, so that they are centred.
 PixelOffsets DrawOffsets(Random* random) {
-  constexpr std::array<int, Renderer::kRays> kOrder = {1, 3, 0, 2};
+  constexpr std::array<int, 4> kOrder = {1, 3, 0, 2};
   const double sign = random->Uniform() < 0.5 ? -1.0 : 1.0;
   const auto near = [&](int step) { return (step + random->Uniform()) / 16; };  // within 0 ... 0.25
   PixelOffsets offsets;
-  for (int k = 0; k < Renderer::kRays; ++k) {
+  for (int k = 0; k < 4; ++k) {
     const double far_x = 0.25 + near(k), near_y = near(kOrder[k]);
     const double near_x = near(kOrder[k]), far_y = 0.25 + near(k);
     offsets[0][k] = {far_x, sign * near_y};
-    offsets[1][k] = {-sign * near_x, far_y};
-    offsets[2][k] = -offsets[0][k];
-    offsets[3][k] = -offsets[1][k];
+    offsets[0][k + 4] = {-sign * near_x, far_y};
   }
+  for (int k = 0; k < Renderer::kRays; ++k) offsets[1][k] = -offsets[0][k];
   return offsets;
 }
 

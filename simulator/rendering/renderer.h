@@ -18,15 +18,15 @@ namespace plm_vins::simulator {
 // rectangles whose bounds overlap the pixel's tile. The number of threads does not change a bit.
 class Renderer {
  public:
-  // Parts of each pixel, to be taken in turn; together they cover it.
-  static constexpr int kSubpixels = 4;
-  // Rays of each part that look for surfaces; what they find is shaded once.
-  static constexpr int kRays = 4;
+  // Halves of each pixel's samples, to be taken in turn; together they cover it.
+  static constexpr int kSubpixels = 2;
+  // Rays of each half that look for surfaces; what they find is shaded once.
+  static constexpr int kRays = 8;
 
   // The scene must outlive the renderer.
   Renderer(const Scene& scene, std::shared_ptr<const CameraModel> camera);
 
-  // Adds the brightness (1 is a white wall in full light) of one part of each pixel to `sum`
+  // Adds the brightness (1 is a white wall in full light) of one half of each pixel to `sum`
   // (CV_32F).
   void Accumulate(const Rigid3d& T_W_C, int subpixel, cv::Mat1f* sum) const;
 
@@ -34,8 +34,8 @@ class Renderer {
   static constexpr int kTileSize = 16;  // [px]
   static constexpr int kRaysPerTile = kRays * kTileSize * kTileSize;
 
-  // Rays (x, y, 1) of one part of a tile's pixels: the first ray of all pixels, the second, ... NaN
-  // where the lens has none.
+  // Rays (x, y, 1) of one half of a tile's samples: the first ray of all pixels, the second, ...
+  // NaN where the lens has none.
   struct RayTile {
     RayTile() { x.fill(std::numeric_limits<float>::quiet_NaN()); }
     void SetRay(int index, const Eigen::Vector2d& xy);

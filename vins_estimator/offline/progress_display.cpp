@@ -22,8 +22,8 @@ double Seconds(std::chrono::steady_clock::duration duration) {
 
 }  // namespace
 
-ProgressDisplay::ProgressDisplay(std::optional<int64_t> end_ns)
-    : end_ns_(end_ns), terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressDisplay::ProgressDisplay(std::optional<int64_t> end_ns, double duration)
+    : end_ns_(end_ns), duration_(duration), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void ProgressDisplay::Update(int64_t t_ns) {
   if (!first_ns_) first_ns_ = t_ns;
@@ -32,9 +32,15 @@ void ProgressDisplay::Update(int64_t t_ns) {
   last_shown_ = now;
   const double seconds = ToSeconds(t_ns - *first_ns_);
   const double speed = seconds / Seconds(now - start_);
-  const double length = end_ns_ ? ToSeconds(*end_ns_ - *first_ns_) : 0;
-  const double share = length > 0 ? std::clamp(seconds / length, 0.0, 1.0) : 0;
+  const double share = Share(seconds);
   terminal_ ? DrawBar(seconds, share, speed) : PrintLine(seconds, share, speed);
+}
+
+// Of the run, zero where its length is not known.
+double ProgressDisplay::Share(double seconds) const {
+  const double left = end_ns_ ? ToSeconds(*end_ns_ - *first_ns_) : duration_;
+  const double length = std::min(left, duration_);
+  return length > 0 ? std::clamp(seconds / length, 0.0, 1.0) : 0.0;
 }
 
 void ProgressDisplay::DrawBar(double seconds, double share, double speed) const {

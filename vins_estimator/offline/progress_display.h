@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 namespace plm_vins {
@@ -11,8 +12,10 @@ namespace plm_vins {
 // now and then.
 class ProgressDisplay {
  public:
-  // `end_ns`: stamp at which the run will end, where that is known.
-  explicit ProgressDisplay(std::optional<int64_t> end_ns);
+  // `end_ns`: stamp at which the recording ends, where that is known; `duration`: after which the
+  // run does [s], may be infinite.
+  explicit ProgressDisplay(std::optional<int64_t> end_ns,
+                           double duration = std::numeric_limits<double>::infinity());
 
   // A frame of this stamp is done.
   void Update(int64_t t_ns);
@@ -26,7 +29,10 @@ class ProgressDisplay {
   void DrawBar(double seconds, double share, double speed) const;
   void PrintLine(double seconds, double share, double speed) const;
 
+  double Share(double seconds) const;
+
   std::optional<int64_t> end_ns_;
+  double duration_;
   bool terminal_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_shown_ = start_;

@@ -73,6 +73,8 @@ void ResultFiles::Finish(RunSummary::Run run, const Config& config) {
   map_.Finish();
   trajectory_.close();
   timing_.close();
+  if (!trajectory_ || !timing_)
+    throw std::runtime_error("cannot write to " + folder_ + ": disk full?");
   std::ofstream ply = Open("lines.ply");
   WriteSegmentsPly({}, &ply);
   std::ofstream obj = Open("lines.obj");

@@ -97,7 +97,7 @@ int Run(const Arguments& arguments) {
   const Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
   const std::unique_ptr<Recording> recording = Open(arguments, config.sensor);
   ResultFiles results(arguments.output);
-  ProgressDisplay progress(recording->end_ns());
+  ProgressDisplay progress(recording->end_ns(), arguments.duration);
   OdometryPipeline pipeline(config);
   const Stopwatch stopwatch;
   pipeline.Run(

@@ -34,15 +34,15 @@ struct PointTrackerConfig {
   CornerDetectorType corner_detector = CornerDetectorType::kShiTomasi;
   bool corner_subpixel = true;  // refine corners to subpixel (the paper, section III.A)
   int max_cnt = 150;            // corners per image
-  double min_dist = 30;         // least distance between corners [px]
+  double min_dist = 20;         // least distance between corners [px]
   double publish_rate =
       0;  // features handed to the estimator at most this often [Hz]; 0: every image
   double f_threshold = 1.0;     // epipolar RANSAC threshold [px]
   bool equalize = true;         // CLAHE
   bool show_track = true;       // publish the annotated image
   std::string fisheye_mask;     // image file, non-zero where corners are allowed; empty: everywhere
-  double quality_level = 0.01;  // corner response relative to the image's best
-  int klt_window = 21;          // [px]
+  double quality_level = 0.03;  // corner response relative to the image's best
+  int klt_window = 16;          // [px]
   int klt_levels = 3;           // pyramid levels above the image itself
   double forward_backward = 0.5;  // KLT there and back must return this close [px]
 };

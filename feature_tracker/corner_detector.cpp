@@ -84,12 +84,16 @@ cv::Mat CornerDetector::Response(const cv::Mat& half_image) const {
   return response;
 }
 
+// Harris' response is a product of two eigenvalues, so its thresholds are squares.
 float CornerDetector::MinResponse(const cv::Mat& response) const {
-  const bool is_harris = config_.corner_detector == CornerDetectorType::kHarris;
-  const float floor = is_harris ? kMinEigenvalue * kMinEigenvalue : kMinEigenvalue;
   double best = 0;
   cv::minMaxLoc(response, nullptr, &best);
-  return std::max(floor, static_cast<float>(config_.quality_level * best));
+  const auto quality = static_cast<float>(config_.quality_level);
+  const auto best_response = static_cast<float>(best);
+  if (config_.corner_detector == CornerDetectorType::kHarris) {
+    return std::max(kMinEigenvalue * kMinEigenvalue, quality * quality * best_response);
+  }
+  return std::max(kMinEigenvalue, quality * best_response);
 }
 
 bool CornerDetector::IsAllowed(const cv::Point2f& position, const cv::Size& image_size) const {

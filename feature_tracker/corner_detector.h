@@ -11,7 +11,7 @@ namespace plm_vins {
 
 // Finds new corners where there are none yet, spread evenly over the image.
 //
-// The Shi-Tomasi [Shi1994] or Harris [Harris1988] response is taken at half resolution: that costs
+// The Shi-Tomasi [Shi1994] or Harris response is taken at half resolution: that costs
 // a quarter, and corners that only the full resolution shows are poor ones to follow. Refinement
 // then places them at full resolution.
 class CornerDetector {

@@ -12,16 +12,16 @@ namespace plm_vins {
 namespace {
 
 constexpr size_t kMinPairs = 8;
-constexpr int kHypotheses = 100;       // (1 - 0.5^2)^100 = 3e-13: never misses with half outliers
-constexpr double kCoarseFactor = 3.0;  // of the threshold, while the rotation is only guessed
-constexpr int kRefinements = 5;
+constexpr int kHypothesesOfTwo = 40;    // (1 - 0.5^2)^40 = 1e-5: half may be outliers
+constexpr int kHypothesesOfFive = 100;  // (1 - 0.6^5)^100 = 3e-4: 40 % may be outliers
+constexpr double kCoarseFactor = 3.0;   // of the threshold, while the rotation is only guessed
 constexpr int kRotationIterations = 10;
 constexpr int kSolverIterations = 4;
 constexpr double kNotRobust = 1.0;  // [rad], larger than any error
 
 // Motion of the camera up to scale: p_C1 ~ R p_C0 + s t.
 struct EpipolarGeometry {
-  Eigen::Quaterniond R_C1_C0 = Eigen::Quaterniond::Identity();
+  Eigen::Matrix3d R_C1_C0 = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t_C1 = Eigen::Vector3d::UnitZ();  // unit length
 };
 
@@ -52,14 +52,15 @@ double Cost(const std::vector<RayPair>& pairs, const EpipolarGeometry& geometry,
   return cost;
 }
 
-// Weight of the Cauchy loss.
+// Weight of the Geman-McClure loss, which all but ignores errors of several times `scale`.
 double RobustWeight(double error, double scale) {
-  return 1.0 / (1.0 + error * error / (scale * scale));
+  const double root = 1.0 / (1.0 + error * error / (scale * scale));
+  return root * root;
 }
 
 // The rotation alone that takes most rays of C0 to those of C1: Gauss-Newton on b - R a.
-Eigen::Quaterniond FitRotation(const std::vector<RayPair>& pairs, double scale) {
-  Eigen::Quaterniond R = Eigen::Quaterniond::Identity();
+Eigen::Matrix3d FitRotation(const std::vector<RayPair>& pairs, double scale) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   for (int i = 0; i < kRotationIterations; ++i) {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
@@ -72,13 +73,13 @@ Eigen::Quaterniond FitRotation(const std::vector<RayPair>& pairs, double scale) 
     }
     const Eigen::Vector3d step = H.ldlt().solve(g);
     if (!step.allFinite()) break;
-    R = (SO3Exp(step) * R).normalized();
+    R = SO3Exp(step) * R;
   }
   return R;
 }
 
 // The direction of translation that two pairs leave: t . (a x b) = 0 for both.
-std::optional<Eigen::Vector3d> TranslationOfTwo(const Eigen::Quaterniond& R_C1_C0,
+std::optional<Eigen::Vector3d> TranslationOfTwo(const Eigen::Matrix3d& R_C1_C0,
                                                 const RayPair& pair0, const RayPair& pair1) {
   const Eigen::Vector3d normal0 = (R_C1_C0 * pair0.ray_C0).cross(pair0.ray_C1);
   const Eigen::Vector3d normal1 = (R_C1_C0 * pair1.ray_C0).cross(pair1.ray_C1);
@@ -117,7 +118,7 @@ EpipolarGeometry Refine(const std::vector<RayPair>& pairs, const EpipolarGeometr
   }
   const Vector5d step = H.ldlt().solve(g);
   if (!step.allFinite()) return geometry;
-  return {(SO3Exp(step.head<3>()) * geometry.R_C1_C0).normalized(),
+  return {SO3Exp(step.head<3>()) * geometry.R_C1_C0,
           (geometry.t_C1 + basis * step.tail<2>()).normalized()};
 }
 
@@ -130,12 +131,13 @@ std::vector<RayPair> Draw(const std::vector<RayPair>& pairs, size_t count, std::
 
 // RANSAC. The translation comes from two pairs and the given rotation; a rotation that is not known
 // is then solved for together with the translation from all pairs of the (larger) sample.
-EpipolarGeometry FindGeometry(const std::vector<RayPair>& pairs, const Eigen::Quaterniond& R,
+EpipolarGeometry FindGeometry(const std::vector<RayPair>& pairs, const Eigen::Matrix3d& R,
                               bool is_rotation_known, double threshold) {
   std::mt19937 random;  // default seed: same input, same result
   EpipolarGeometry best{R, Eigen::Vector3d::UnitZ()};
   double best_cost = Cost(pairs, best, threshold);
-  for (int i = 0; i < kHypotheses; ++i) {
+  const int hypotheses = is_rotation_known ? kHypothesesOfTwo : kHypothesesOfFive;
+  for (int i = 0; i < hypotheses; ++i) {
     const auto sample = Draw(pairs, is_rotation_known ? 2 : 5, &random);
     const auto t = TranslationOfTwo(R, sample[0], sample[1]);
     if (!t) continue;
@@ -160,9 +162,11 @@ std::vector<bool> FindEpipolarInliers(const std::vector<RayPair>& pairs,
   std::vector<bool> inliers(pairs.size(), true);
   if (pairs.size() < kMinPairs) return inliers;
   const double coarse = kCoarseFactor * threshold;
-  const Eigen::Quaterniond R = R_C1_C0 ? *R_C1_C0 : FitRotation(pairs, coarse);
+  const Eigen::Matrix3d R = R_C1_C0 ? R_C1_C0->toRotationMatrix() : FitRotation(pairs, coarse);
   EpipolarGeometry geometry = FindGeometry(pairs, R, R_C1_C0.has_value(), coarse);
-  for (int i = 0; i < kRefinements; ++i) geometry = Refine(pairs, geometry, threshold);
+  for (const double scale : {coarse, coarse, threshold, threshold, threshold}) {
+    geometry = Refine(pairs, geometry, scale);
+  }
   for (size_t i = 0; i < pairs.size(); ++i) {
     inliers[i] = std::abs(EpipolarResidual(geometry, pairs[i]).error) <= threshold;
   }

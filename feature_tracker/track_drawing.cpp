@@ -19,6 +19,7 @@ cv::Scalar AgeColor(int length) {
 }  // namespace
 
 cv::Mat DrawPointTracks(const cv::Mat& gray, const std::vector<PointTrack>& tracks) {
+  if (gray.empty()) return {};
   cv::Mat image;
   cv::cvtColor(gray, image, cv::COLOR_GRAY2BGR);
   for (const PointTrack& track : tracks) {

@@ -9,7 +9,7 @@
 namespace plm_vins {
 
 // The grey image as CV_8UC3 with a disc on each corner, from blue (new) to red (long followed), and
-// a line that shows where it is going.
+// a line that shows where it is going. Empty where there is no image.
 cv::Mat DrawPointTracks(const cv::Mat& gray, const std::vector<PointTrack>& tracks);
 
 }  // namespace plm_vins

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Time of the point front end per image, as a whole and stage by stage, on one thread.
+// Usage: point_tracker_benchmark CONFIG IMAGE_FOLDER [--benchmark_...]
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "common/config.h"
+#include "feature_tracker/corner_detector.h"
+#include "feature_tracker/optical_flow.h"
+#include "feature_tracker/outlier_rejection.h"
+#include "feature_tracker/point_tracker.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr size_t kMaxImages = 400;
+constexpr int64_t kFrame_ns = 50'000'000;
+
+struct Input {
+  Config config;
+  std::vector<cv::Mat> images;
+
+  const cv::Mat& Image(size_t i) const { return images[i % images.size()]; }
+};
+
+Input ReadInput(const std::string& config_file, const std::string& folder) {
+  Input input{LoadConfig(config_file), {}};
+  std::vector<cv::String> files;
+  cv::glob(folder + "/*.png", files);
+  files.resize(std::min(files.size(), kMaxImages));
+  for (const cv::String& file : files)
+    input.images.push_back(cv::imread(file, cv::IMREAD_GRAYSCALE));
+  if (input.images.size() < 2) throw std::invalid_argument("fewer than two images in " + folder);
+  return input;
+}
+
+cv::Mat Equalized(const cv::Mat& image) {
+  cv::Mat equalized;
+  cv::createCLAHE(3.0, {8, 8})->apply(image, equalized);
+  return equalized;
+}
+
+void TrackWhole(benchmark::State& state, const Input& input) {
+  PointTracker tracker(input.config.points, CameraModel::Create(input.config.sensor.camera));
+  size_t i = 0;
+  for (auto _ : state) {
+    if (i % input.images.size() == 0) tracker.Reset();
+    benchmark::DoNotOptimize(
+        tracker.Track({static_cast<int64_t>(i) * kFrame_ns, input.Image(i)}, std::nullopt));
+    ++i;
+  }
+}
+
+void Equalize(benchmark::State& state, const Input& input) {
+  size_t i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(Equalized(input.Image(i++)));
+}
+
+void BuildPyramid(benchmark::State& state, const Input& input) {
+  const OpticalFlow flow(input.config.points);
+  size_t i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(flow.BuildPyramid(input.Image(i++)));
+}
+
+void Detect(benchmark::State& state, const Input& input) {
+  const CornerDetector detector(input.config.points, {});
+  const cv::Mat image = Equalized(input.Image(0));
+  const auto count = static_cast<int>(state.range(0));
+  auto existing = detector.Detect(image, {}, input.config.points.max_cnt);
+  existing.resize(existing.size() - std::min<size_t>(existing.size(), count));
+  for (auto _ : state) benchmark::DoNotOptimize(detector.Detect(image, existing, count));
+}
+
+void Flow(benchmark::State& state, const Input& input) {
+  const OpticalFlow flow(input.config.points);
+  const cv::Mat image0 = Equalized(input.Image(0));
+  const auto pyramid0 = flow.BuildPyramid(image0);
+  const auto pyramid1 = flow.BuildPyramid(Equalized(input.Image(1)));
+  const auto points =
+      CornerDetector(input.config.points, {}).Detect(image0, {}, input.config.points.max_cnt);
+  for (auto _ : state) benchmark::DoNotOptimize(flow.Track(pyramid0, pyramid1, points, points));
+}
+
+void RejectOutliers(benchmark::State& state) {
+  const bool has_gyro = state.range(0) != 0;
+  const auto rotation =
+      has_gyro ? std::make_optional(Eigen::Quaterniond::Identity()) : std::nullopt;
+  cv::RNG random(1);
+  std::vector<RayPair> pairs;
+  for (int i = 0; i < 150; ++i) {
+    const Eigen::Vector3d p_C0(random.uniform(-3., 3.), random.uniform(-2., 2.),
+                               random.uniform(2., 9.));
+    pairs.push_back({p_C0.normalized(), (p_C0 + Eigen::Vector3d(0.05, 0, 0)).normalized()});
+  }
+  for (auto _ : state) benchmark::DoNotOptimize(FindEpipolarInliers(pairs, rotation, 1.0 / 460));
+}
+
+void Register(const Input& input) {
+  const auto add = [&input](const char* name, void (*run)(benchmark::State&, const Input&)) {
+    return benchmark::RegisterBenchmark(
+               name, [run, &input](benchmark::State& state) { run(state, input); })
+        ->Unit(benchmark::kMicrosecond);
+  };
+  add("whole", TrackWhole)->Iterations(static_cast<int64_t>(input.images.size()));
+  add("equalize", Equalize);
+  add("pyramid", BuildPyramid);
+  add("detect_missing", Detect)->Arg(10)->Arg(150);
+  add("flow_150_points", Flow);
+  benchmark::RegisterBenchmark("reject_outliers_gyro", RejectOutliers)
+      ->Arg(1)
+      ->Arg(0)
+      ->Unit(benchmark::kMicrosecond);
+}
+
+}  // namespace
+}  // namespace plm_vins
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (argc != 3) {
+    std::cerr << "usage: point_tracker_benchmark CONFIG IMAGE_FOLDER [--benchmark_...]\n";
+    return 1;
+  }
+  cv::setNumThreads(1);
+  try {
+    const plm_vins::Input input = plm_vins::ReadInput(argv[1], argv[2]);
+    plm_vins::Register(input);
+    benchmark::RunSpecifiedBenchmarks();
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "feature_tracker/point_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "common/so3.h"
+#include "test/feature_tracker/textured_scene.h"
+
+namespace plm_vins {
+namespace {
+
+PointTrackerConfig TestConfig() {
+  PointTrackerConfig config;
+  config.max_cnt = 80;
+  config.min_dist = 14;
+  return config;
+}
+
+cv::Point2d Pixel(const PointObservation& point) { return {point.uv_px.x(), point.uv_px.y()}; }
+
+std::map<int64_t, PointObservation> ById(const PointFrame& frame) {
+  std::map<int64_t, PointObservation> points;
+  for (const PointObservation& point : frame.points) points[point.id] = point;
+  return points;
+}
+
+// Distances between where points common to both frames were seen and where H took them, sorted.
+std::vector<double> TrackErrors(const PointFrame& frame0, const PointFrame& frame1,
+                                const cv::Matx33d& H) {
+  std::vector<double> errors;
+  const auto before = ById(frame0);
+  for (const PointObservation& point : frame1.points) {
+    const auto it = before.find(point.id);
+    if (it == before.end()) continue;
+    errors.push_back(cv::norm(Pixel(point) - Move(H, Pixel(it->second))));
+  }
+  std::sort(errors.begin(), errors.end());
+  return errors;
+}
+
+class PointTrackerTest : public testing::Test {
+ protected:
+  PointFrame Track(const cv::Mat& image,
+                   const std::optional<Eigen::Quaterniond>& R_C1_C0 = std::nullopt) {
+    t_ns_ += kFrame_ns;
+    return tracker_->Track({t_ns_, image}, R_C1_C0);
+  }
+
+  void Configure(const PointTrackerConfig& config) {
+    tracker_ = std::make_unique<PointTracker>(config, camera_);
+  }
+
+  std::shared_ptr<const CameraModel> camera_ = TestCamera();
+  TexturedScene scene_;
+  std::unique_ptr<PointTracker> tracker_ = std::make_unique<PointTracker>(TestConfig(), camera_);
+  int64_t t_ns_ = 0;
+};
+
+TEST_F(PointTrackerTest, FirstImageGivesNewPoints) {
+  const PointFrame frame = Track(scene_.View());
+  EXPECT_EQ(frame.t_ns, t_ns_);
+  EXPECT_EQ(frame.points.size(), 80U);
+  for (const PointObservation& point : frame.points) {
+    EXPECT_EQ(point.velocity, Eigen::Vector2d::Zero());
+    const auto xy = camera_->Unproject(point.uv_px);
+    ASSERT_TRUE(xy);
+    EXPECT_LT((point.xy - *xy).norm(), 1e-12);
+  }
+  EXPECT_EQ(tracker_->statistics().detected, 80);
+}
+
+TEST_F(PointTrackerTest, FollowsAHomographyToSubpixels) {
+  const cv::Matx33d step(1.004, 0.01, 2.2, -0.012, 1.006, -1.4, 1e-5, -2e-5, 1);
+  cv::Matx33d H = cv::Matx33d::eye();
+  PointFrame before = Track(scene_.View());
+  for (int i = 0; i < 5; ++i) {
+    H = step * H;
+    const PointFrame after = Track(scene_.View(H));
+    const auto errors = TrackErrors(before, after, step);
+    ASSERT_GT(errors.size(), 60U);
+    EXPECT_LT(errors[errors.size() / 2], 0.1);
+    before = after;
+  }
+}
+
+TEST_F(PointTrackerTest, HardlyDriftsUnderTranslation) {
+  const PointFrame first = Track(scene_.View());
+  PointFrame last;
+  for (int i = 1; i <= 20; ++i) last = Track(scene_.View(Translation(2.3 * i, -0.7 * i)));
+  const auto errors = TrackErrors(first, last, Translation(46, -14));
+  ASSERT_GT(errors.size(), 40U);
+  EXPECT_LT(errors[errors.size() / 2], 0.1);
+}
+
+TEST_F(PointTrackerTest, VelocityIsTheMotionOfNormalisedPoints) {
+  const PointFrame first = Track(scene_.View());
+  const PointFrame second = Track(scene_.View(Translation(3, -2)));
+  const auto before = ById(first);
+  int tracked = 0;
+  for (const PointObservation& point : second.points) {
+    const auto it = before.find(point.id);
+    if (it == before.end()) continue;
+    ++tracked;
+    const Eigen::Vector2d expected = (point.xy - it->second.xy) / ToSeconds(kFrame_ns);
+    EXPECT_LT((point.velocity - expected).norm(), 1e-9);
+    EXPECT_NEAR(point.velocity.x(), 3 / kFocal / ToSeconds(kFrame_ns), 0.05);
+  }
+  EXPECT_GT(tracked, 60);
+}
+
+TEST_F(PointTrackerTest, NeverReusesIds) {
+  std::set<int64_t> ids, previous;
+  for (int i = 0; i < 12; ++i) {
+    const PointFrame frame = Track(scene_.View(Translation(12 * i, 0)));
+    std::set<int64_t> current;
+    for (const PointObservation& point : frame.points) {
+      EXPECT_TRUE(current.insert(point.id).second);
+      const bool is_known = ids.count(point.id) > 0;
+      EXPECT_EQ(is_known, previous.count(point.id) > 0) << "a lost point came back";
+    }
+    ids.insert(current.begin(), current.end());
+    previous = current;
+    if (i == 6) {
+      tracker_->Reset();
+      previous.clear();
+    }
+  }
+  EXPECT_GT(ids.size(), 120U);
+}
+
+TEST_F(PointTrackerTest, KeepsTheMinimumDistance) {
+  for (int i = 0; i < 8; ++i) {  // the scene shrinks: points come closer
+    const double scale = 1 - 0.04 * i;
+    const cv::Matx33d H(scale, 0, (1 - scale) * 188, 0, scale, (1 - scale) * 120, 0, 0, 1);
+    const PointFrame frame = Track(scene_.View(H));
+    for (const PointObservation& a : frame.points) {
+      for (const PointObservation& b : frame.points) {
+        if (a.id >= b.id) continue;
+        EXPECT_GE((a.uv_px - b.uv_px).norm(), TestConfig().min_dist - 1e-4);
+      }
+    }
+  }
+}
+
+TEST_F(PointTrackerTest, RotationPredictsLargeTurns) {
+  const Eigen::Quaterniond R = SO3Exp({0.02, 0.4, 0});  // 23 degrees, about 100 px
+  const cv::Matx33d H = RotationHomography(R);
+  const auto tracked_well = [&](const std::optional<Eigen::Quaterniond>& prediction) {
+    tracker_->Reset();
+    const PointFrame first = Track(scene_.View());
+    const auto errors = TrackErrors(first, Track(scene_.View(H), prediction), H);
+    return std::count_if(errors.begin(), errors.end(), [](double error) { return error < 0.3; });
+  };
+  EXPECT_GT(tracked_well(R), 25);
+  EXPECT_LT(tracked_well(std::nullopt), 10);
+}
+
+TEST_F(PointTrackerTest, OwnMotionPredictsConstantMotion) {
+  PointFrame before, last;
+  cv::Matx33d H;
+  for (int i = 0; i <= 12; ++i) {  // accelerates to 36 px per image, gently at each step
+    H = Translation(-0.5 * 3 * i * (i - 1) + 150, 0);
+    before = last;
+    last = Track(scene_.View(H));
+  }
+  const auto errors = TrackErrors(before, last, Translation(-33, 0));
+  ASSERT_GT(errors.size(), 40U);
+  EXPECT_LT(errors[errors.size() / 2], 0.1);
+}
+
+TEST_F(PointTrackerTest, PureRotationAndStandstillKeepPoints) {
+  const Eigen::Quaterniond R = SO3Exp({0.01, -0.015, 0.02});
+  for (const bool has_gyro : {true, false}) {
+    tracker_->Reset();
+    Track(scene_.View());
+    Track(scene_.View(RotationHomography(R)),
+          has_gyro ? std::optional<Eigen::Quaterniond>(R) : std::nullopt);
+    EXPECT_LE(tracker_->statistics().epipolar_outliers, 1);
+    EXPECT_LE(tracker_->statistics().flow_lost + tracker_->statistics().forward_backward, 12);
+    Track(scene_.View(RotationHomography(R)));
+    EXPECT_EQ(tracker_->statistics().epipolar_outliers, 0);
+    EXPECT_LE(tracker_->statistics().flow_lost + tracker_->statistics().forward_backward, 2);
+  }
+}
+
+TEST_F(PointTrackerTest, RejectsAPatchThatMovesOnItsOwn) {
+  // The background moves sideways, a patch also upwards: off its epipolar lines.
+  const TexturedScene other(77);
+  const cv::Rect patch0(150, 60, 110, 110);
+  const cv::Point motion(2, -5);
+  cv::Mat image0 = scene_.View();
+  cv::Mat image1 = scene_.View(Translation(5, 0));
+  const cv::Mat content = other.View()(patch0);
+  content.copyTo(image0(patch0));
+  content.copyTo(image1(patch0 + motion));
+
+  const PointFrame first = Track(image0);
+  const auto after = ById(Track(image1, Eigen::Quaterniond::Identity()));
+  int on_patch = 0, kept_on_patch = 0, on_background = 0, kept_on_background = 0;
+  for (const PointObservation& point : first.points) {
+    const bool kept = after.count(point.id) > 0;
+    const cv::Point pixel(Pixel(point));
+    const cv::Rect inner(patch0.x + 10, patch0.y + 10, 90, 90);
+    const cv::Rect outer(patch0.x - 20, patch0.y - 20, 150, 150);
+    if (inner.contains(pixel)) {
+      ++on_patch;
+      kept_on_patch += kept ? 1 : 0;
+    } else if (!outer.contains(pixel)) {
+      ++on_background;
+      kept_on_background += kept ? 1 : 0;
+    }
+  }
+  EXPECT_GT(on_patch, 3);
+  EXPECT_EQ(kept_on_patch, 0);
+  EXPECT_GT(kept_on_background, 0.85 * on_background);
+}
+
+TEST_F(PointTrackerTest, BlindImagesEndTracksAndSightBeginsNewOnes) {
+  const PointFrame first = Track(scene_.View());
+  const int64_t last_id = first.points.back().id;
+  for (const int gray : {0, 255, 0}) {
+    EXPECT_TRUE(Track(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(gray))).points.empty());
+  }
+  const PointFrame frame = Track(scene_.View());
+  EXPECT_EQ(frame.points.size(), 80U);
+  for (const PointObservation& point : frame.points) EXPECT_GT(point.id, last_id);
+}
+
+TEST_F(PointTrackerTest, SurvivesASuddenChangeOfBrightness) {
+  Track(scene_.View());
+  cv::Mat bright;
+  scene_.View().convertTo(bright, CV_8U, 0.5, 120);
+  EXPECT_EQ(Track(bright).points.size(), 80U);
+}
+
+TEST_F(PointTrackerTest, RefusesWrongImagesAndStaysAsItWas) {
+  const cv::Mat view = scene_.View();
+  const PointFrame first = Track(view);
+  cv::Mat color;
+  cv::cvtColor(view, color, cv::COLOR_GRAY2BGR);
+  EXPECT_THROW(Track(color), std::invalid_argument);
+  EXPECT_THROW(Track(view.rowRange(0, kHeight - 1)), std::invalid_argument);
+  EXPECT_THROW(Track(cv::Mat()), std::invalid_argument);
+  EXPECT_THROW(tracker_->Track({first.t_ns, view}, std::nullopt), std::invalid_argument);
+  EXPECT_THROW(tracker_->Track({first.t_ns - 1, view}, std::nullopt), std::invalid_argument);
+  const PointFrame second = Track(view);
+  EXPECT_GT(TrackErrors(first, second, cv::Matx33d::eye()).size(), 75U);
+}
+
+TEST_F(PointTrackerTest, ResetAllowsEarlierStamps) {
+  Track(scene_.View());
+  tracker_->Reset();
+  EXPECT_EQ(tracker_->Track({1, scene_.View()}, std::nullopt).points.size(), 80U);
+}
+
+TEST_F(PointTrackerTest, DrawsTracksInColour) {
+  EXPECT_TRUE(tracker_->DrawTracks().empty());
+  const PointFrame frame = Track(scene_.View());
+  const cv::Mat drawing = tracker_->DrawTracks();
+  ASSERT_EQ(drawing.type(), CV_8UC3);
+  ASSERT_EQ(drawing.size(), cv::Size(kWidth, kHeight));
+  const auto color = drawing.at<cv::Vec3b>(cv::Point(Pixel(frame.points.front())));
+  EXPECT_GT(color[0], color[2]);  // new: blue
+}
+
+class MaskTest : public PointTrackerTest {
+ protected:
+  void SetUp() override {
+    cv::Mat mask(kHeight, kWidth, CV_8UC1, cv::Scalar(0));
+    mask.colRange(0, kWidth / 2).setTo(255);
+    cv::imwrite(file_, mask);
+  }
+  void TearDown() override { std::remove(file_.c_str()); }
+
+  const std::string file_ = testing::TempDir() + "point_tracker_test_mask.png";
+};
+
+TEST_F(MaskTest, KeepsPointsWhereTheMaskAllowsThem) {
+  PointTrackerConfig config = TestConfig();
+  config.fisheye_mask = file_;
+  Configure(config);
+  for (int i = 0; i < 5; ++i) {  // points move out of the allowed half
+    const PointFrame frame = Track(scene_.View(Translation(10 * i, 0)));
+    EXPECT_GT(frame.points.size(), 20U);
+    for (const PointObservation& point : frame.points) EXPECT_LT(point.uv_px.x(), kWidth / 2);
+  }
+}
+
+TEST_F(MaskTest, RefusesAMaskThatDoesNotFit) {
+  PointTrackerConfig config = TestConfig();
+  config.fisheye_mask = "no_such_file.png";
+  EXPECT_THROW(Configure(config), std::invalid_argument);
+  cv::imwrite(file_, cv::Mat(10, 10, CV_8UC1, cv::Scalar(255)));
+  config.fisheye_mask = file_;
+  EXPECT_THROW(Configure(config), std::invalid_argument);
+}
+
+TEST(PointTracker, IsDeterministicWhateverTheNumberOfThreads) {
+  const TexturedScene scene;
+  const auto run = [&](int threads) {
+    cv::setNumThreads(threads);
+    PointTracker tracker(TestConfig(), TestCamera());
+    std::vector<double> numbers;
+    for (int i = 0; i < 8; ++i) {
+      const cv::Mat view = scene.View(Translation(7 * i, -3 * i));
+      const PointFrame frame = tracker.Track({i * kFrame_ns, view}, std::nullopt);
+      for (const PointObservation& p : frame.points) {
+        numbers.insert(numbers.end(), {static_cast<double>(p.id), p.xy.x(), p.xy.y(), p.uv_px.x(),
+                                       p.uv_px.y(), p.velocity.x(), p.velocity.y()});
+      }
+    }
+    return numbers;
+  };
+  const auto numbers = run(1);
+  EXPECT_EQ(numbers, run(1));
+  EXPECT_EQ(numbers, run(4));
+}
+
+}  // namespace
+}  // namespace plm_vins

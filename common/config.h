@@ -49,7 +49,7 @@ struct PointTrackerConfig {
 
 struct EstimatorConfig {
   int window_size = 10;             // keyframes kept beside the newest frame
-  double keyframe_parallax = 10.0;  // mean parallax that makes a keyframe [px]
+  double keyframe_parallax = 20.0;  // mean parallax that makes a keyframe [px]
   int max_num_iterations = 8;       // of the window optimisation
   double point_noise = 1.0;         // standard deviation of a corner [px]
   bool zero_velocity_update = true;

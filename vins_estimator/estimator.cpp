@@ -58,8 +58,9 @@ EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
   EstimatorOutput output;
   output.t_ns = measurement.t_ns;
   output.counts.points_observed = static_cast<int>(measurement.points.points.size());
+  const bool stands_still = StandsStill(measurement);
   if (initialized_) {
-    Track(measurement, &output);
+    Track(measurement, stands_still, &output);
   } else {
     Initialize(measurement, &output);
   }
@@ -90,10 +91,11 @@ void Estimator::StartWindow(const InitializationResult& result) {
   points_.Triangulate(window_, kMinTriangulationAngle_px / focal_length_);
 }
 
-void Estimator::Track(const FrameMeasurement& measurement, EstimatorOutput* output) {
+void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
+                      EstimatorOutput* output) {
   const bool keep_second_newest = IsKeyframe(keyframe_options_, window_, points_);
   AddFrame(measurement);
-  window_.newest().stationary = StandsStill(measurement);
+  window_.newest().stationary = stands_still;
   points_.Triangulate(window_, kMinTriangulationAngle_px / focal_length_);
   Optimize(config_.estimator.max_num_iterations, output);
   output->counts.points_rejected =

@@ -36,7 +36,7 @@ class Estimator {
 
  private:
   void Initialize(const FrameMeasurement& measurement, EstimatorOutput* output);
-  void Track(const FrameMeasurement& measurement, EstimatorOutput* output);
+  void Track(const FrameMeasurement& measurement, bool stands_still, EstimatorOutput* output);
 
   void StartWindow(const InitializationResult& result);
   void AddFrame(const FrameMeasurement& measurement);

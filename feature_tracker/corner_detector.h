@@ -11,9 +11,9 @@ namespace plm_vins {
 
 // Finds new corners where there are none yet, spread evenly over the image.
 //
-// The Shi-Tomasi [Shi1994] or Harris response is taken at half resolution: that costs a quarter, and
-// corners that only the full resolution shows are poor ones to follow. Refinement then places them
-// at full resolution.
+// The Shi-Tomasi [Shi1994] or Harris response is taken at half resolution: that costs a quarter,
+// and corners that only the full resolution shows are poor ones to follow. Refinement then places
+// them at full resolution.
 class CornerDetector {
  public:
   // `mask` (CV_8UC1, of the images' size, non-zero where corners are allowed) may be empty.

@@ -234,6 +234,15 @@ TEST_F(PointTrackerTest, BlindImagesEndTracksAndSightBeginsNewOnes) {
   for (const PointObservation& point : frame.points) EXPECT_GT(point.id, last_id);
 }
 
+TEST_F(PointTrackerTest, SeesNothingInTheNoiseOfADarkImage) {
+  cv::RNG random(3);
+  for (int i = 0; i < 4; ++i) {
+    cv::Mat noise(kHeight, kWidth, CV_8UC1);
+    random.fill(noise, cv::RNG::NORMAL, 8, 1.8);
+    EXPECT_LE(Track(noise).points.size(), 1U);
+  }
+}
+
 TEST_F(PointTrackerTest, SurvivesASuddenChangeOfBrightness) {
   Track(scene_.View());
   cv::Mat bright;

@@ -51,7 +51,7 @@ struct EstimatorConfig {
   int window_size = 10;             // keyframes kept beside the newest frame
   double keyframe_parallax = 20.0;  // mean parallax that makes a keyframe [px]
   int max_num_iterations = 8;       // of the window optimisation
-  double point_noise = 1.0;         // standard deviation of a corner [px]
+  double point_noise = 0.7;         // standard deviation of a corner [px]
   bool zero_velocity_update = true;
   bool verbose = false;
 };

@@ -66,11 +66,12 @@ bool EvaluateTerm(const ResidualTerm& term, const std::vector<Variable>& variabl
     jacobians[i] = constant ? nullptr : evaluation->jacobians[i].data();
   }
   evaluation->rows = term.cost->num_residuals();
-  evaluation->cost = kInvalidTermCost;
   double* residual = evaluation->residual.data();
-  if (!term.cost->Evaluate(linearization.data(), residual, jacobians.data())) return false;
-  if (linearized_elsewhere && !term.cost->Evaluate(values.data(), residual, nullptr)) return false;
-
+  if (!term.cost->Evaluate(linearization.data(), residual, jacobians.data()) ||
+      (linearized_elsewhere && !term.cost->Evaluate(values.data(), residual, nullptr))) {
+    evaluation->cost = EvaluateTermCost(term, variables);
+    return false;
+  }
   const auto [cost, weight] = Robustify(term.loss, SquaredNorm(residual, evaluation->rows));
   evaluation->cost = 0.5 * cost;
   if (weight != 1.0) ScaleBy(std::sqrt(weight), term, variables, evaluation);

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/optimization/levenberg_marquardt.h"
+
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "test/testing/numeric_jacobian.h"
+#include "test/vins_estimator/simulated_window.h"
+#include "vins_estimator/factors/imu_factor.h"
+#include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/factors/zero_velocity_factor.h"
+
+namespace plm_vins {
+namespace {
+
+// Five frames with IMU and points; the first pose, extrinsics and time offset are known.
+class LevenbergMarquardtTest : public ::testing::Test {
+ protected:
+  LevenbergMarquardtTest() : simulated_(testing::SimulateWindow(5)), loss_(1.0) {
+    auto& frames = simulated_.window.frames;
+    SlidingWindow& window = simulated_.window;
+    const int extrinsic =
+        problem_.AddVariable({BlockKind::kExtrinsic, 0}, window.extrinsic.data(), true);
+    const int td = problem_.AddVariable({BlockKind::kTimeOffset, 0}, &window.td, true);
+    for (WindowFrame& frame : frames) {
+      FrameState& state = frame.state;
+      problem_.AddVariable({BlockKind::kPose, state.t_ns}, state.pose.data(), &frame == &frames[0]);
+      problem_.AddVariable({BlockKind::kMotion, state.t_ns}, state.motion.data());
+    }
+    for (size_t i = 1; i < frames.size(); ++i) {
+      problem_.AddTerm(
+          std::make_unique<ImuFactor>(frames[i].motion_since_previous.get(), window.gravity_W),
+          nullptr, {Pose(i - 1), Motion(i - 1), Pose(i), Motion(i)});
+    }
+    for (auto& [id, landmark] : simulated_.points.landmarks()) {
+      if (landmark.triangulated) AddPoint(extrinsic, td, &landmark);
+    }
+    equations_.emplace(problem_);
+    thorough_.max_iterations = 100;
+    thorough_.cost_tolerance = 1e-13;
+    thorough_.step_tolerance = 1e-12;
+  }
+
+  int Pose(size_t i) const { return 2 + 2 * static_cast<int>(i); }
+  int Motion(size_t i) const { return Pose(i) + 1; }
+  int PoseAt(int64_t t_ns) const { return problem_.Find({BlockKind::kPose, t_ns}); }
+
+  void AddPoint(int extrinsic, int td, PointLandmark* landmark) {
+    constexpr double kWeight = 460 / 0.5;
+    const BlockId id{BlockKind::kPoint, landmark->id};
+    const int index = problem_.AddLandmark(id, landmark->coordinates.data());
+    const int point = problem_.Find(id);
+    const PointView& host = landmark->host();
+    problem_.AddLandmarkTerm(index, std::make_unique<PointHostFactor>(host.bearing, kWeight),
+                             &loss_, {td, point});
+    for (size_t i = 1; i < landmark->views.size(); ++i) {
+      const PointView& view = landmark->views[i];
+      problem_.AddLandmarkTerm(index, std::make_unique<PointFactor>(view.bearing, kWeight), &loss_,
+                               {PoseAt(host.t_ns), PoseAt(view.t_ns), extrinsic, td, point});
+    }
+  }
+
+  std::vector<double> Values() const {
+    std::vector<double> values;
+    for (const Variable& variable : problem_.variables()) {
+      values.insert(values.end(), variable.values, variable.values + variable.type().ambient_size);
+    }
+    return values;
+  }
+
+  void SetValues(const std::vector<double>& values) {
+    const double* next = values.data();
+    for (const Variable& variable : problem_.variables()) {
+      std::copy(next, next + variable.type().ambient_size, variable.values);
+      next += variable.type().ambient_size;
+    }
+  }
+
+  // All states but the first pose, and the depths.
+  void Disturb(double scale, uint64_t seed) {
+    simulator::Random random(seed);
+    const auto first_pose = simulated_.window.frames.front().state.pose;
+    testing::Disturb(scale, &random, &simulated_.window);
+    simulated_.window.frames.front().state.pose = first_pose;
+    for (auto& [id, landmark] : simulated_.points.landmarks()) {
+      landmark.coordinates[2] *= std::exp(scale * random.Normal());
+    }
+  }
+
+  void AddToCeres(const ResidualTerm& term, ceres::Problem* problem) const {
+    std::vector<double*> blocks;
+    for (int k = 0; k < term.variable_count; ++k) {
+      blocks.push_back(problem_.variables()[term.variables[k]].values);
+    }
+    problem->AddResidualBlock(const_cast<ceres::CostFunction*>(term.cost.get()),
+                              const_cast<ceres::LossFunction*>(term.loss), blocks);
+  }
+
+  // The same problem, solved by Ceres. Returns the final cost.
+  double SolveByCeres() const {
+    ceres::Problem::Options ownership;
+    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem problem(ownership);
+    for (const ResidualTerm& term : problem_.terms()) AddToCeres(term, &problem);
+    for (const LandmarkTerms& landmark : problem_.landmarks()) {
+      for (const ResidualTerm& term : landmark.terms) AddToCeres(term, &problem);
+    }
+    for (const Variable& variable : problem_.variables()) {
+      if (!problem.HasParameterBlock(variable.values)) continue;
+      if (variable.type().ambient_size == kPoseSize) SetPoseManifold(&problem, variable.values);
+      if (variable.constant) problem.SetParameterBlockConstant(variable.values);
+    }
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.max_num_iterations = 200;
+    options.function_tolerance = options.parameter_tolerance = options.gradient_tolerance = 1e-14;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    return summary.final_cost;
+  }
+
+  testing::SimulatedWindow simulated_;
+  ceres::CauchyLoss loss_;
+  WindowProblem problem_;
+  std::optional<NormalEquations> equations_;
+  SolverOptions thorough_;
+};
+
+TEST_F(LevenbergMarquardtTest, FindsTheMinimumThatCeresFinds) {
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    Disturb(0.02, seed);
+    const std::vector<double> start = Values();
+    const SolverSummary summary = Solve(thorough_, problem_, &*equations_);
+    const std::vector<double> result = Values();
+    ASSERT_TRUE(summary.solved);
+    EXPECT_LT(summary.final_cost, summary.initial_cost);
+    SetValues(start);
+    EXPECT_NEAR(summary.final_cost / SolveByCeres(), 1, 1e-6);
+    const std::vector<double> expected = Values();
+    EXPECT_MATRIX_NEAR(Eigen::Map<const Eigen::VectorXd>(result.data(), result.size()),
+                       Eigen::Map<const Eigen::VectorXd>(expected.data(), expected.size()), 1e-4);
+  }
+}
+
+TEST_F(LevenbergMarquardtTest, FewDefaultIterationsAreEnoughFromAPrediction) {
+  const double lowest = Solve(thorough_, problem_, &*equations_).final_cost;
+  Disturb(0.003, 1);
+  EXPECT_LT(Solve(SolverOptions(), problem_, &*equations_).final_cost, 1.01 * lowest);
+}
+
+TEST_F(LevenbergMarquardtTest, NeverEndsAboveTheInitialCost) {
+  const std::vector<double> truth = Values();
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    SetValues(truth);
+    Disturb(0.02 * static_cast<double>(seed), seed);  // up to 0.4 m, 0.4 rad, a depth of 1.5
+    for (const int iterations : {1, 2, 8}) {
+      SolverOptions options;
+      options.max_iterations = iterations;
+      const SolverSummary summary = Solve(options, problem_, &*equations_);
+      EXPECT_LE(summary.final_cost, summary.initial_cost) << seed;
+      EXPECT_LE(summary.iterations, iterations);
+      EXPECT_NEAR(equations_->Cost() / summary.final_cost, 1, 1e-12) << "values and cost differ";
+    }
+  }
+}
+
+TEST_F(LevenbergMarquardtTest, ReachesTheMinimumFromABadStart) {
+  const SolverSummary from_truth = Solve(thorough_, problem_, &*equations_);
+  Disturb(0.1, 3);
+  const SolverSummary summary = Solve(thorough_, problem_, &*equations_);
+  EXPECT_GT(summary.initial_cost, 10 * from_truth.final_cost);
+  // The loss may leave a point or two in a minimum of their own.
+  EXPECT_LT(summary.final_cost, 1.02 * from_truth.final_cost);
+}
+
+TEST_F(LevenbergMarquardtTest, RefusesValuesThatAreNotFinite) {
+  simulated_.window.frames[2].state.velocity().x() = std::numeric_limits<double>::quiet_NaN();
+  const auto pose = simulated_.window.newest().state.pose;
+  EXPECT_FALSE(Solve(SolverOptions(), problem_, &*equations_).solved);
+  EXPECT_EQ(simulated_.window.newest().state.pose, pose);
+}
+
+TEST(LevenbergMarquardt, LeavesWhatCannotBeSolvedAsItIs) {
+  WindowProblem problem;
+  std::array<double, 9> motion = {1, 2, 3, 4, 5, 6, 7, 8, 9};  // nothing is known of the biases
+  const int index = problem.AddVariable({BlockKind::kMotion, 1}, motion.data());
+  problem.AddTerm(std::make_unique<ZeroVelocityFactor>(1.0), nullptr, {index});
+  NormalEquations equations(problem);
+  const SolverSummary summary = Solve(SolverOptions(), problem, &equations);
+  EXPECT_FALSE(summary.solved);
+  EXPECT_EQ(summary.final_cost, 7.0);
+  EXPECT_EQ(motion, (std::array<double, 9>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+}
+
+}  // namespace
+}  // namespace plm_vins

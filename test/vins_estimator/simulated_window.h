@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A sliding window in mid-flight with known truth, for the tests of optimisation and
+// marginalisation.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "simulator/random.h"
+#include "test/vins_estimator/initialization/simulated_frames.h"
+#include "vins_estimator/factors/manifolds.h"
+#include "vins_estimator/points/point_map.h"
+#include "vins_estimator/window/sliding_window.h"
+
+namespace plm_vins::testing {
+
+struct SimulatedWindow {
+  SlidingWindow window;  // at the truth
+  PointMap points;       // triangulated there
+};
+
+// `frame_count` keyframes, `stride` images of 20 Hz apart, that follow up to `max_points` corners.
+inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, size_t stride = 5,
+                                      int max_points = 25) {
+  simulator::FeatureSimulationOptions options = FlightOptions(simulator::Motion::kFast, seed);
+  options.max_points = max_points;
+  options.trajectory.duration = 3.5 + static_cast<double>(frame_count * stride) / 20.0;
+  const SimulatedFlight flight = SimulateFlight(options, /*skip=*/3);
+  SimulatedWindow result;
+  SlidingWindow& window = result.window;
+  window.SetExtrinsic(flight.sensor.T_B_C);
+  std::vector<ImuSample> imu;
+  for (size_t i = 0; i <= (frame_count - 1) * stride; ++i) {
+    JoinImu(flight.frames[i].imu, &imu);
+    if (i % stride != 0) continue;
+    WindowFrame frame;
+    frame.state = flight.truth[i];
+    if (i > 0) {
+      frame.motion_since_previous =
+          std::make_shared<Preintegration>(flight.sensor.imu_noise, window.newest().state.bias());
+      for (const ImuSample& sample : imu) frame.motion_since_previous->Append(sample);
+    }
+    imu = {flight.frames[i].imu.back()};
+    window.frames.push_back(frame);
+    result.points.AddFrame(flight.frames[i].points, 0);
+  }
+  result.points.Triangulate(window, /*min_angle=*/0.02);
+  return result;
+}
+
+inline Eigen::VectorXd NormalVector(Eigen::Index size, simulator::Random* random) {
+  Eigen::VectorXd result(size);
+  for (Eigen::Index i = 0; i < size; ++i) result[i] = random->Normal();
+  return result;
+}
+
+// Moves the state by normal noise: [m], [rad], [m/s] times `scale`; biases by a tenth of it.
+inline void Disturb(double scale, simulator::Random* random, FrameState* state) {
+  const Eigen::VectorXd delta = scale * NormalVector(6, random);
+  PosePlus(state->pose.data(), delta.data(), state->pose.data());
+  state->velocity() += scale * random->NormalVector3();
+  state->accel_bias() += 0.1 * scale * random->NormalVector3();
+  state->gyro_bias() += 0.1 * scale * random->NormalVector3();
+}
+
+inline void Disturb(double scale, simulator::Random* random, SlidingWindow* window) {
+  for (WindowFrame& frame : window->frames) Disturb(scale, random, &frame.state);
+}
+
+}  // namespace plm_vins::testing

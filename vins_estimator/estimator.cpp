@@ -180,9 +180,7 @@ void Estimator::MarginalizeOldestFrame(EstimatorOutput* output) {
 
 void Estimator::DropSecondNewestFrame() {
   const int64_t dropped_ns = window_.frames[window_.frames.size() - 2].state.t_ns;
-  prior_ = prior_.Marginalize([dropped_ns](const BlockId& id) {
-    return (id.kind == BlockKind::kPose || id.kind == BlockKind::kMotion) && id.key == dropped_ns;
-  });
+  prior_ = prior_.Marginalize(IsOfFrame(dropped_ns));
   points_.RemoveFrame(window_, dropped_ns);
   window_.RemoveSecondNewest();
 }

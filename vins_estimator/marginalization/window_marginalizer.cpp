@@ -29,7 +29,35 @@ Eigen::Matrix3d RotationInformation(const Eigen::Matrix3d& R_W_B, double inclina
   return R_W_B.transpose() * sigma.cwiseAbs2().cwiseInverse().asDiagonal() * R_W_B;
 }
 
+// All that a problem says about its frame variables, as a prior on them.
+MarginalizationPrior Summarize(const WindowProblem& problem) {
+  NormalEquations equations(problem);
+  equations.Linearize();
+  Quadratic quadratic;
+  equations.Reduce(0, &quadratic.H, &quadratic.b);
+
+  std::vector<MarginalizationPrior::Block> blocks;
+  Eigen::VectorXd delta(quadratic.b.size());
+  for (size_t i = 0; i < problem.variables().size(); ++i) {
+    const Variable& variable = problem.variables()[i];
+    const int offset = equations.DenseOffset(static_cast<int>(i));
+    if (offset < 0) continue;
+    const double* x0 = variable.linearization ? variable.linearization : variable.values;
+    blocks.push_back(MakeBlock(variable.id, offset, x0));
+    variable.type().minus(variable.values, x0, &delta[offset]);
+  }
+  // The equations' b is the gradient at the values; the prior counts from the linearisation points.
+  quadratic.b -= quadratic.H * delta;
+  return {std::move(blocks), std::move(quadratic)};
+}
+
 }  // namespace
+
+std::function<bool(const BlockId&)> IsOfFrame(int64_t t_ns) {
+  return [t_ns](const BlockId& id) {
+    return (id.kind == BlockKind::kPose || id.kind == BlockKind::kMotion) && id.key == t_ns;
+  };
+}
 
 MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
                                   const ProblemOptions& options, const SlidingWindow& window) {
@@ -71,41 +99,7 @@ MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
     const bool leaves = landmark.triangulated && landmark.host().t_ns == oldest_ns;
     if (leaves && landmark.views.size() > 1) builder.AddPoint(&landmark);
   }
-
-  const WindowProblem& problem = builder.problem();
-  NormalEquations equations(problem);
-  equations.Linearize();
-  Quadratic all;
-  equations.Reduce(0, &all.H, &all.b);
-
-  // Oldest frame first, then what stays.
-  const auto leaves = [oldest_ns](const BlockId& id) {
-    return (id.kind == BlockKind::kPose || id.kind == BlockKind::kMotion) && id.key == oldest_ns;
-  };
-  constexpr int kLeavingSize = 15;
-  std::vector<MarginalizationPrior::Block> blocks;
-  std::vector<int> new_position(all.b.size());
-  int next_leaving = 0, next_kept = 0;
-  Eigen::VectorXd delta(all.b.size() - kLeavingSize);
-  for (size_t i = 0; i < problem.variables().size(); ++i) {
-    const Variable& variable = problem.variables()[i];
-    const int offset = equations.DenseOffset(static_cast<int>(i));
-    if (offset < 0) continue;
-    const VariableType& type = variable.type();
-    const bool is_leaving = leaves(variable.id);
-    if (!is_leaving) {
-      const double* x0 = variable.linearization ? variable.linearization : variable.values;
-      blocks.push_back(MakeBlock(variable.id, next_kept, x0));
-      type.minus(variable.values, x0, &delta[next_kept]);
-    }
-    for (int k = 0; k < type.tangent_size; ++k) {
-      new_position[offset + k] = is_leaving ? next_leaving++ : kLeavingSize + next_kept++;
-    }
-  }
-  Quadratic kept = MarginalizeFirst(Permute(all, new_position), kLeavingSize);
-  // b is the gradient at the current values; the prior counts from the linearisation points.
-  kept.b -= kept.H * delta;
-  return {std::move(blocks), std::move(kept)};
+  return Summarize(builder.problem()).Marginalize(IsOfFrame(oldest_ns));
 }
 
 }  // namespace plm_vins

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
+#include <cstdint>
+#include <functional>
 
 #include "vins_estimator/marginalization/marginalization_prior.h"
 #include "vins_estimator/optimization/problem_builder.h"
@@ -26,6 +27,9 @@ struct InitialUncertainty {
 // The prior of a new window: its first frame is where it was put, and the calibration about right.
 MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
                                   const ProblemOptions& options, const SlidingWindow& window);
+
+// Selects the variables of one frame.
+std::function<bool(const BlockId&)> IsOfFrame(int64_t t_ns);
 
 // Folds the oldest frame into a new prior: its motion to the next frame, the old prior, and every
 // landmark that it hosts with all views. `window` and `points` stay as they are; what was folded in

@@ -22,16 +22,12 @@ WindowFrame* SlidingWindow::Find(int64_t t_ns) {
 }
 
 void SlidingWindow::RemoveSecondNewest() {
-  WindowFrame& second = frames[frames.size() - 2];
-  if (second.motion_since_previous == nullptr) {
-    newest().motion_since_previous = nullptr;
-  } else {
-    const auto joined = second.motion_since_previous;
-    for (const ImuSample& sample : newest().motion_since_previous->samples()) {
-      if (sample.t_ns > joined->samples().back().t_ns) joined->Append(sample);
-    }
-    newest().motion_since_previous = joined;
+  const WindowFrame& second = frames[frames.size() - 2];
+  const std::shared_ptr<Preintegration> joined = second.motion_since_previous;
+  for (const ImuSample& sample : newest().motion_since_previous->samples()) {
+    if (sample.t_ns > joined->samples().back().t_ns) joined->Append(sample);
   }
+  newest().motion_since_previous = joined;
   newest().stationary = newest().stationary && second.stationary;
   frames.erase(frames.end() - 2);
 }

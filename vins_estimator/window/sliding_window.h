@@ -16,7 +16,7 @@ namespace plm_vins {
 struct WindowFrame {
   FrameState state;
   double cut_time_offset = 0;  // td with which the IMU was cut at this image [s]
-  // Motion since the frame before in the window; null in the very first frame.
+  // Motion since the frame before in the window; null in the first frame.
   std::shared_ptr<Preintegration> motion_since_previous;
   bool stationary = false;  // stood still ever since the frame before
 };

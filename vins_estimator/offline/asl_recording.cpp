@@ -48,6 +48,7 @@ class AslRecording : public Recording {
     next_image_ = image_rows_.Next();
     next_imu_ = NextImu();
     if (!next_image_) throw std::runtime_error("no image listed in " + folder + " (cam0/data.csv)");
+    if (!next_imu_) throw std::runtime_error("no IMU sample in " + folder + " (imu0/data.csv)");
   }
 
   std::optional<RecordingEvent> Next() override {
@@ -80,8 +81,7 @@ class AslRecording : public Recording {
   DropCounts problems() const override {
     return {{"images_unreadable", unreadable_images_, first_unreadable_},
             {"image_csv_lines_bad", image_rows_.bad_lines(), image_rows_.first_bad_line()},
-            {"imu_csv_lines_bad", imu_rows_.bad_lines() + imu_not_numeric_,
-             imu_rows_.bad_lines() > 0 ? imu_rows_.first_bad_line() : ""}};
+            {"imu_csv_lines_bad", imu_rows_.bad_lines(), imu_rows_.first_bad_line()}};
   }
 
  private:
@@ -95,7 +95,7 @@ class AslRecording : public Recording {
   std::optional<ImuSample> NextImu() {
     while (const auto row = imu_rows_.Next()) {
       if (auto sample = ToImuSample(*row)) return sample;
-      ++imu_not_numeric_;
+      imu_rows_.Reject();
     }
     return std::nullopt;
   }
@@ -109,7 +109,6 @@ class AslRecording : public Recording {
   std::optional<ImuSample> next_imu_;
   fs::path current_image_;
   int64_t unreadable_images_ = 0;
-  int64_t imu_not_numeric_ = 0;
   std::string first_unreadable_;
 };
 

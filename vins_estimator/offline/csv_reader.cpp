@@ -30,9 +30,13 @@ std::optional<CsvRow> CsvReader::Next() {
     line = Trim(line);
     if (line.empty() || line.front() == '#') continue;
     if (auto row = Parse(line)) return row;
-    if (bad_lines_++ == 0) first_bad_line_ = file_ + ":" + std::to_string(line_number_);
+    Reject();
   }
   return std::nullopt;
+}
+
+void CsvReader::Reject() {
+  if (bad_lines_++ == 0) first_bad_line_ = file_ + ":" + std::to_string(line_number_);
 }
 
 std::optional<CsvRow> CsvReader::Parse(const std::string& line) const {

@@ -24,6 +24,9 @@ class CsvReader {
 
   std::optional<CsvRow> Next();
 
+  // Counts the line that Next() gave last among the bad ones: its values are of no use.
+  void Reject();
+
   int64_t bad_lines() const { return bad_lines_; }
   const std::string& first_bad_line() const { return first_bad_line_; }  // "FILE:LINE"
 

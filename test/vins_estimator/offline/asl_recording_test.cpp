@@ -76,6 +76,13 @@ TEST_F(AslRecording, CountsBadCsvLinesAndGoesOn) {
   EXPECT_EQ(contents.problems.at("image_csv_lines_bad"), 1);
 }
 
+TEST_F(AslRecording, NamesTheLineOfTheFirstImuSampleThatIsNotNumeric) {
+  folder_.Write("mav0/imu0/data.csv", "5,0,0,0,0,0,9\n7,0,0,zero,0,0,9\n8,0,0\n");
+  const auto recording = OpenAslFolder(folder_.path());
+  ReadAll(recording.get());
+  EXPECT_THAT(recording->problems()[2].detail, HasSubstr("imu0/data.csv:2"));
+}
+
 TEST_F(AslRecording, SaysWhichPartIsMissing) {
   std::filesystem::remove(folder_.File("mav0/imu0/data.csv"));
   EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path()); }), HasSubstr("imu0/data.csv"));
@@ -85,6 +92,11 @@ TEST_F(AslRecording, SaysWhichPartIsMissing) {
 TEST_F(AslRecording, RefusesAFolderWithoutImages) {
   folder_.Write("mav0/cam0/data.csv", "#timestamp [ns],filename\n");
   EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path()); }), HasSubstr("no image"));
+}
+
+TEST_F(AslRecording, RefusesAFolderWithoutImuSamples) {
+  folder_.Write("mav0/imu0/data.csv", "#timestamp [ns],wx,wy,wz,ax,ay,az\n");
+  EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path()); }), HasSubstr("no IMU sample"));
 }
 
 }  // namespace

@@ -28,9 +28,10 @@ class RecordingInterval {
     if (!first_image_ns_) return start_ > 0 ? Part::kSkip : Part::kUse;
     const double margin = is_image ? 0 : kImuMargin;
     const double t = ToSeconds(event.t_ns - *first_image_ns_) - start_;
-    if (t > duration_ + kImuMargin) return Part::kEnd;
+    if (is_image && t > duration_ + kImuMargin) return Part::kEnd;
     if (t > duration_ + margin) return Part::kSkip;
-    return t >= -margin ? Part::kUse : Part::kSkip;
+    begun_ = begun_ || t >= 0;
+    return begun_ || t >= -margin ? Part::kUse : Part::kSkip;
   }
 
  private:
@@ -39,6 +40,7 @@ class RecordingInterval {
   double start_;
   double duration_;
   std::optional<int64_t> first_image_ns_;
+  bool begun_ = false;  // from here on, stamps may jump back: that is for the next stages to judge
 };
 
 }  // namespace plm_vins

@@ -39,7 +39,22 @@ TEST(RecordingInterval, TakesImuSamplesAroundTheImages) {
   EXPECT_EQ(interval.Locate(Imu(1.7)), Part::kSkip);
   EXPECT_EQ(interval.Locate(Imu(1.9)), Part::kUse);
   EXPECT_EQ(interval.Locate(Imu(5.1)), Part::kUse);
-  EXPECT_EQ(interval.Locate(Imu(5.3)), Part::kEnd);
+  EXPECT_EQ(interval.Locate(Imu(5.3)), Part::kSkip);
+  EXPECT_EQ(interval.Locate(Image(5.3)), Part::kEnd);
+}
+
+TEST(RecordingInterval, UsesWhatJumpsBackInTime) {
+  RecordingInterval interval;
+  interval.Locate(Image(0));
+  EXPECT_EQ(interval.Locate(Image(-100)), Part::kUse);
+  EXPECT_EQ(interval.Locate(Imu(-100)), Part::kUse);
+}
+
+TEST(RecordingInterval, AnImuSampleFromTheFutureDoesNotEndIt) {
+  RecordingInterval interval(0, 3);
+  interval.Locate(Image(0));
+  EXPECT_EQ(interval.Locate(Imu(1000)), Part::kSkip);
+  EXPECT_EQ(interval.Locate(Imu(0.1)), Part::kUse);
 }
 
 }  // namespace

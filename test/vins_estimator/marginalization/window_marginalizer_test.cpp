@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/marginalization/window_marginalizer.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "test/testing/numeric_jacobian.h"
+#include "test/vins_estimator/simulated_window.h"
+#include "vins_estimator/optimization/normal_equations.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using testing::SimulatedWindow;
+
+// All that is left in the window, and the prior.
+ProblemBuilder BuildProblem(const ProblemOptions& options, const MarginalizationPrior& prior,
+                            SimulatedWindow* simulated) {
+  ProblemBuilder builder(options, &simulated->window, &prior);
+  builder.AddPrior();
+  for (size_t i = 1; i < simulated->window.frames.size(); ++i) builder.AddMotion(i);
+  for (auto& [id, landmark] : simulated->points.landmarks()) {
+    if (landmark.triangulated && landmark.views.size() > 1) builder.AddPoint(&landmark);
+  }
+  return builder;
+}
+
+struct Step {
+  std::vector<BlockId> ids;
+  std::vector<VectorXd> deltas;  // of each
+
+  const VectorXd* Find(const BlockId& id) const {
+    const auto found = std::find(ids.begin(), ids.end(), id);
+    return found == ids.end() ? nullptr : &deltas[found - ids.begin()];
+  }
+};
+
+// The Gauss-Newton step of the frame variables at the current values.
+Step GaussNewtonStep(const WindowProblem& problem) {
+  NormalEquations equations(problem);
+  equations.Linearize();
+  MatrixXd S;
+  VectorXd g;
+  equations.Reduce(0, &S, &g);
+  const VectorXd scale = S.diagonal().cwiseSqrt().cwiseInverse();
+  const MatrixXd scaled_S = scale.asDiagonal() * S * scale.asDiagonal();
+  const VectorXd step = -(scale.asDiagonal() * scaled_S.ldlt().solve(scale.cwiseProduct(g)));
+  Step result;
+  for (size_t i = 0; i < problem.variables().size(); ++i) {
+    const int offset = equations.DenseOffset(static_cast<int>(i));
+    if (offset < 0) continue;
+    result.ids.push_back(problem.variables()[i].id);
+    result.deltas.push_back(step.segment(offset, problem.variables()[i].type().tangent_size));
+  }
+  return result;
+}
+
+// Folds the oldest frame into the prior and takes out what was folded in.
+void Slide(const ProblemOptions& options, SimulatedWindow* simulated, MarginalizationPrior* prior) {
+  const int64_t oldest_ns = simulated->window.frames.front().state.t_ns;
+  *prior = MarginalizeOldest(options, *prior, &simulated->window, &simulated->points);
+  simulated->points.RemoveIf([oldest_ns](const PointLandmark& landmark) {
+    return landmark.triangulated && landmark.host().t_ns == oldest_ns;
+  });
+  simulated->points.RemoveFrame(simulated->window, oldest_ns);
+  simulated->window.RemoveOldest();
+}
+
+void ExpectSameStep(const Step& kept, const Step& full) {
+  for (size_t i = 0; i < kept.ids.size(); ++i) {
+    const VectorXd* expected = full.Find(kept.ids[i]);
+    ASSERT_NE(expected, nullptr);
+    EXPECT_MATRIX_NEAR(kept.deltas[i], *expected, 1e-7 + 1e-5 * expected->norm());
+  }
+}
+
+TEST(InitialPrior, IsTheStatedUncertaintyOfTheFirstState) {
+  SimulatedWindow simulated = testing::SimulateWindow(2);
+  const InitialUncertainty uncertainty;
+  ProblemOptions options;
+  const MarginalizationPrior prior = InitialPrior(uncertainty, options, simulated.window);
+  const MatrixXd covariance = prior.quadratic().H.inverse();
+  ASSERT_EQ(covariance.rows(), 15);
+  EXPECT_TRUE(prior.quadratic().b.isZero(0));
+  EXPECT_NEAR(std::sqrt(covariance(0, 0)), uncertainty.position, 1e-9);
+  const Eigen::Matrix3d R_W_B = simulated.window.frames[0].state.T_W_B().R();
+  const Eigen::Matrix3d in_world = R_W_B * covariance.block<3, 3>(3, 3) * R_W_B.transpose();
+  EXPECT_NEAR(std::sqrt(in_world(0, 0)), uncertainty.inclination, 1e-9);
+  EXPECT_NEAR(std::sqrt(in_world(2, 2)), uncertainty.heading, 1e-9);
+  EXPECT_NEAR(std::sqrt(covariance(8, 8)), uncertainty.velocity, 1e-9);
+  EXPECT_NEAR(std::sqrt(covariance(11, 11)), uncertainty.accel_bias, 1e-9);
+  EXPECT_NEAR(std::sqrt(covariance(14, 14)), uncertainty.gyro_bias, 1e-9);
+
+  options.estimate_extrinsic = options.estimate_td = true;
+  const MarginalizationPrior all = InitialPrior(uncertainty, options, simulated.window);
+  const MatrixXd all_covariance = all.quadratic().H.inverse();
+  ASSERT_EQ(all_covariance.rows(), 22);
+  EXPECT_NEAR(std::sqrt(all_covariance(20, 20)), uncertainty.extrinsic_rotation, 1e-9);
+  EXPECT_NEAR(std::sqrt(all_covariance(21, 21)), uncertainty.td, 1e-9);
+}
+
+// One Gauss-Newton step of the reduced window is the step of the whole, at the same linearisation.
+class MarginalizeOldestTest : public ::testing::TestWithParam<bool> {
+ protected:
+  MarginalizeOldestTest() : simulated_(testing::SimulateWindow(6)), random_(1) {
+    options_.first_estimate_jacobians = GetParam();
+    options_.estimate_extrinsic = options_.estimate_td = true;
+    testing::Disturb(0.003, &random_, &simulated_.window);
+    prior_ = InitialPrior(InitialUncertainty(), options_, simulated_.window);
+    testing::Disturb(0.001, &random_, &simulated_.window);
+  }
+
+  SimulatedWindow simulated_;
+  simulator::Random random_;
+  ProblemOptions options_;
+  MarginalizationPrior prior_;
+};
+
+TEST_P(MarginalizeOldestTest, LeavesTheGaussNewtonStepAsItWas) {
+  for (int round = 0; round < 3; ++round) {
+    const Step full = GaussNewtonStep(BuildProblem(options_, prior_, &simulated_).problem());
+    Slide(options_, &simulated_, &prior_);
+    const Step kept = GaussNewtonStep(BuildProblem(options_, prior_, &simulated_).problem());
+    EXPECT_EQ(kept.ids.size() + 2, full.ids.size());
+    ExpectSameStep(kept, full);
+    testing::Disturb(0.0005, &random_, &simulated_.window);  // as an optimisation would
+  }
+}
+
+TEST_P(MarginalizeOldestTest, KeepsLinearisationPointsOnlyForFirstEstimates) {
+  Slide(options_, &simulated_, &prior_);
+  const FrameState& state = simulated_.window.frames[1].state;
+  const BlockId id{BlockKind::kPose, state.t_ns};
+  ASSERT_NE(prior_.Linearization(id), nullptr);
+  const double before = prior_.Linearization(id)[0];
+  testing::Disturb(0.001, &random_, &simulated_.window);
+  Slide(options_, &simulated_, &prior_);
+  ASSERT_NE(prior_.Linearization(id), nullptr);
+  EXPECT_EQ(prior_.Linearization(id)[0],
+            GetParam() ? before : simulated_.window.frames[0].state.position().x());
+}
+
+TEST_P(MarginalizeOldestTest, ForgetsTheOldestFrame) {
+  const int64_t oldest_ns = simulated_.window.frames.front().state.t_ns;
+  Slide(options_, &simulated_, &prior_);
+  EXPECT_EQ(prior_.Linearization({BlockKind::kPose, oldest_ns}), nullptr);
+  EXPECT_EQ(prior_.Linearization({BlockKind::kMotion, oldest_ns}), nullptr);
+}
+
+INSTANTIATE_TEST_SUITE_P(FirstEstimateJacobians, MarginalizeOldestTest, ::testing::Bool());
+
+// Vectors along which all states move as one: world translation and rotation about an axis of W.
+VectorXd Motion(const MarginalizationPrior& prior, const Vector3d& translation,
+                const Vector3d& axis) {
+  VectorXd direction = VectorXd::Zero(prior.quadratic().b.size());
+  for (const MarginalizationPrior::Block& block : prior.blocks()) {
+    const double* x = block.linearization.data();
+    if (block.id.kind == BlockKind::kPose) {
+      const Eigen::Quaterniond q_W_B(Eigen::Map<const Eigen::Quaterniond>(x + 3));
+      direction.segment<3>(block.offset) = translation + axis.cross(Vector3d(x));
+      direction.segment<3>(block.offset + 3) = q_W_B.conjugate() * axis;
+    } else if (block.id.kind == BlockKind::kMotion) {
+      direction.segment<3>(block.offset) = axis.cross(Vector3d(x));
+    }
+  }
+  return direction;
+}
+
+// Information along a direction of length one (position in metres, rotation in radians).
+double Information(const MarginalizationPrior& prior, const Vector3d& translation,
+                   const Vector3d& axis) {
+  const VectorXd direction = Motion(prior, translation, axis);
+  return direction.dot(prior.quadratic().H * direction);
+}
+
+struct GaugeInformation {
+  double position, heading, inclination;
+};
+
+// Information of the prior about the four unobservable directions and the observable inclination
+// after some marginalisations without anchor; the states are off the truth and move in between.
+GaugeInformation SlideWithoutAnchor(bool first_estimate_jacobians, int rounds) {
+  SimulatedWindow simulated = testing::SimulateWindow(8);
+  ProblemOptions options;
+  options.first_estimate_jacobians = first_estimate_jacobians;
+  MarginalizationPrior prior;
+  simulator::Random random(1);
+  for (int round = 0; round < rounds; ++round) {
+    testing::Disturb(0.01, &random, &simulated.window);
+    Slide(options, &simulated, &prior);
+  }
+  const auto along = [&prior](const Vector3d& translation, const Vector3d& axis) {
+    return std::abs(Information(prior, translation, axis));
+  };
+  const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ();
+  const Vector3d none = Vector3d::Zero();
+  return {std::max({along(x, none), along(y, none), along(z, none)}), along(none, z),
+          std::min(along(none, x), along(none, y))};
+}
+
+TEST(UnobservableDirections, StayWithoutInformation) {
+  for (const int rounds : {1, 2, 5}) {
+    const GaugeInformation information = SlideWithoutAnchor(true, rounds);
+    EXPECT_LT(information.position, 1e-4) << rounds;    // known to 100 m at best
+    EXPECT_LT(information.heading, 1e-4) << rounds;     // ... 100 rad
+    EXPECT_GT(information.inclination, 100) << rounds;  // known to 0.1 rad and better
+  }
+}
+
+TEST(UnobservableDirections, WouldGainInformationWithoutFirstEstimates) {
+  const GaugeInformation information = SlideWithoutAnchor(false, 5);
+  // known to 0.1 rad, by mistake
+  EXPECT_GT(information.heading, 100);
+}
+
+}  // namespace
+}  // namespace plm_vins

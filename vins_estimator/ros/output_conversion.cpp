@@ -90,7 +90,7 @@ visualization_msgs::MarkerArray ToCameraVisual(const Rigid3d& T_W_C, int64_t t_n
                                                const std::string& frame_id) {
   constexpr double kWidth = 0.2, kHeight = 0.13, kDepth = 0.15;  // [m]
   visualization_msgs::Marker marker =
-      MakeMarker(t_ns, frame_id, "camera_pose_visual", visualization_msgs::Marker::LINE_LIST, 0.01);
+      MakeMarker(t_ns, frame_id, "camera_pose_visual", visualization_msgs::Marker::LINE_LIST, 0.02);
   marker.color.g = 1.0;
   marker.pose = ToPose(T_W_C);
   const Eigen::Vector3d center = Eigen::Vector3d::Zero();

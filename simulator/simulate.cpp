@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "common/config.h"
+#include "common/progress_display.h"
 #include "simulator/recording/asl_recorder.h"
 #include "simulator/recording/bag_recorder.h"
 #include "simulator/recording/flight.h"
 #include "simulator/recording/ground_truth.h"
-#include "vins_estimator/offline/progress_display.h"
 
 namespace plm_vins::simulator {
 namespace {

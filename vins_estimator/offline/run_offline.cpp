@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "common/config.h"
+#include "common/progress_display.h"
 #include "common/stopwatch.h"
 #include "vins_estimator/offline/asl_recording.h"
 #include "vins_estimator/offline/bag_recording.h"
 #include "vins_estimator/offline/odometry_pipeline.h"
-#include "vins_estimator/offline/progress_display.h"
 #include "vins_estimator/offline/result_files.h"
 
 namespace plm_vins {
@@ -85,7 +85,7 @@ int Report(const RunSummary::Run& run, const ResultFiles& results) {
   if (summary.poses() == 0) {
     const std::string& reason = summary.last_reason();
     std::fprintf(stderr, "run_offline: no trajectory from %" PRId64 " images: %s\n", run.images,
-                 reason.empty() ? "none was usable" : reason.c_str());
+                 reason.empty() ? "none was usable, see the warnings" : reason.c_str());
     return 1;
   }
   std::fprintf(stderr, "%" PRId64 " images, %" PRId64 " poses in %.1f s; results in %s\n",
@@ -116,6 +116,7 @@ int Run(const Arguments& arguments) {
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
   run.drops = recording->problems();
   Append(pipeline.drops(), &run.drops);
+  results.WriteAnnotatedImage(pipeline.annotated_image());
   results.Finish(run, config);
   return Report(run, results);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/offline/progress_display.h"
+#include "common/progress_display.h"
 
 #include <unistd.h>
 

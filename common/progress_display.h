@@ -8,8 +8,8 @@
 
 namespace plm_vins {
 
-// Progress of an offline run on stderr: a bar that is redrawn where that is a terminal, else a line
-// now and then.
+// Progress through a recording on stderr: a bar that is redrawn where that is a terminal, else a
+// line now and then.
 class ProgressDisplay {
  public:
   // `end_ns`: stamp at which the recording ends, where that is known; `duration`: after which the

@@ -12,6 +12,8 @@ namespace {
 
 constexpr size_t kQueueCapacity = 200;  // items, most of them IMU samples: about a second
 
+bool IsPowerOfTwo(int64_t count) { return (count & (count - 1)) == 0; }
+
 }  // namespace
 
 OdometryPipeline::OdometryPipeline(const Config& config) : front_end_(config), back_end_(config) {}
@@ -67,7 +69,7 @@ void OdometryPipeline::RunFrontEnd(Recording* recording, RecordingInterval inter
     if (part == RecordingInterval::Part::kUse && !Feed(*event, recording, emit)) return;
   }
   while (auto frame = front_end_.Flush()) {
-    if (!emit({std::move(frame), {}})) return;
+    if (!EmitTracked(std::move(*frame), emit)) return;
   }
 }
 
@@ -81,9 +83,15 @@ bool OdometryPipeline::Feed(const RecordingEvent& event, Recording* recording,
     front_end_.AddImage({event.t_ns, *image});
   }
   while (auto frame = front_end_.Pop()) {
-    if (!emit({std::move(frame), {}})) return false;
+    if (!EmitTracked(std::move(*frame), emit)) return false;
   }
   return true;
+}
+
+bool OdometryPipeline::EmitTracked(TrackedFrame frame, const ItemCallback& emit) {
+  // The last power of two lies in the second half of any run, however long it turns out to be.
+  if (IsPowerOfTwo(++tracked_images_)) annotated_image_ = front_end_.tracker().DrawTracks();
+  return emit({std::move(frame), {}});
 }
 
 void OdometryPipeline::Consume(Item item, const FrameCallback& on_frame) {

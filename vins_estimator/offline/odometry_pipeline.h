@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <opencv2/core.hpp>
 #include <optional>
 
 #include "common/config.h"
@@ -41,6 +42,9 @@ class OdometryPipeline {
   std::optional<int64_t> first_image_ns() const { return first_image_ns_; }
   DropCounts drops() const;
 
+  // An image of the second half of the run with its tracks drawn (CV_8UC3); empty without images.
+  const cv::Mat& annotated_image() const { return annotated_image_; }
+
  private:
   // What flows from the front end to the back end, in order.
   struct Item {
@@ -51,6 +55,7 @@ class OdometryPipeline {
 
   void RunFrontEnd(Recording* recording, RecordingInterval interval, const ItemCallback& emit);
   bool Feed(const RecordingEvent& event, Recording* recording, const ItemCallback& emit);
+  bool EmitTracked(TrackedFrame frame, const ItemCallback& emit);
   void RunInTwoThreads(Recording* recording, const RecordingInterval& interval,
                        const FrameCallback& on_frame);
   void Consume(Item item, const FrameCallback& on_frame);
@@ -59,6 +64,8 @@ class OdometryPipeline {
   PointTrackingStage front_end_;
   EstimationStage back_end_;
   std::optional<int64_t> first_image_ns_;
+  int64_t tracked_images_ = 0;
+  cv::Mat annotated_image_;
   std::map<int64_t, double> tracking_ms_;  // by stamp, of frames that the back end has not finished
 };
 

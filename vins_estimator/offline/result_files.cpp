@@ -2,6 +2,7 @@
 #include "vins_estimator/offline/result_files.h"
 
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -66,6 +67,13 @@ void ResultFiles::Add(const PipelineFrame& frame) {
 
 void ResultFiles::AddMapPoints(const std::vector<MapPoint>& points) {
   for (const MapPoint& point : points) map_.Add(point.p_W);
+}
+
+void ResultFiles::WriteAnnotatedImage(const cv::Mat& image) const {
+  const fs::path file = fs::path(folder_) / "tracks.png";
+  if (!image.empty() && !cv::imwrite(file.string(), image)) {
+    throw std::runtime_error("cannot write " + file.string());
+  }
 }
 
 void ResultFiles::Finish(RunSummary::Run run, const Config& config) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fstream>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,13 +15,16 @@
 namespace plm_vins {
 
 // The folder of results of an offline run: trajectory.tum, timing.csv, summary.json, map.ply,
-// lines.ply, lines.obj. Rows are written as frames come; memory stays small.
+// lines.ply, lines.obj, tracks.png. Rows are written as frames come; memory stays small.
 class ResultFiles {
  public:
   // Makes the folder and opens the files. Throws std::runtime_error where that is not possible.
   explicit ResultFiles(const std::string& folder);
 
   void Add(const PipelineFrame& frame);
+
+  // tracks.png; nothing where the image is empty.
+  void WriteAnnotatedImage(const cv::Mat& image) const;
 
   // Completes all files; `run.map_points` is filled in here.
   void Finish(RunSummary::Run run, const Config& config);

@@ -18,6 +18,14 @@ Json DropsToJson(const DropCounts& drops) {
   return json;
 }
 
+Json CalibrationToJson(const Rigid3d& T_B_C, double td) {
+  const Eigen::Quaterniond& q = T_B_C.rotation;
+  const Eigen::Vector3d& p = T_B_C.translation;
+  return {{"q_B_C_xyzw", {q.x(), q.y(), q.z(), q.w()}},
+          {"p_B_C_m", {p.x(), p.y(), p.z()}},
+          {"td_s", td}};
+}
+
 Json TimingsToJson(const std::vector<FrameTimings>& frames) {
   Json json;
   for (size_t stage = 0; stage < kTimingStages; ++stage) {
@@ -51,6 +59,8 @@ void RunSummary::AddPose(const EstimatorOutput& output) {
   const Eigen::Vector3d position = output.state.position();
   if (last_position_) path_length_ += (position - *last_position_).norm();
   last_position_ = position;
+  T_B_C_ = output.T_B_C;
+  td_ = output.td;
 }
 
 Json RunSummary::ToJson(const Run& run) const {
@@ -76,6 +86,7 @@ Json RunSummary::ToJson(const Run& run) const {
   json["lines"] = 0;
   json["merged_lines"] = 0;
   json["resets"] = resets_;
+  json["calibration"] = poses_ > 0 ? CalibrationToJson(T_B_C_, td_) : Json(nullptr);
   json["timing_ms"] = TimingsToJson(timings_);
   json["dropped"] = DropsToJson(run.drops);
   return json;

@@ -95,6 +95,15 @@ std::vector<int64_t> Steps(int64_t first, int64_t last) {
   return stamps;
 }
 
+TEST(OdometryPipeline, DrawsTheTracksOfOneImage) {
+  MemoryRecording recording = StillRecording(400);
+  OdometryPipeline pipeline(StillConfig());
+  EXPECT_TRUE(pipeline.annotated_image().empty());
+  pipeline.Run(&recording, {}, Threads::kTwo, [](const PipelineFrame&) {});
+  EXPECT_EQ(pipeline.annotated_image().size(), StillPicture().size());
+  EXPECT_EQ(pipeline.annotated_image().type(), CV_8UC3);
+}
+
 TEST(OdometryPipeline, GivesEveryImageItsResult) {
   const Result result = RunPipeline(StillRecording(3000));
   EXPECT_EQ(result.frames, Steps(10, 2960));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <opencv2/imgcodecs.hpp>
 
 #include "test/testing/temporary_folder.h"
 #include "test/vins_estimator/offline/recording_contents.h"
@@ -52,6 +53,15 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
   EXPECT_EQ(summary["points"], 2);
   EXPECT_EQ(summary["config"]["estimator"]["window_size"], EstimatorConfig().window_size);
   EXPECT_FALSE(summary["version"].get<std::string>().empty());
+}
+
+TEST(ResultFiles, HoldAnAnnotatedImageWhereThereIsOne) {
+  const testing::TemporaryFolder folder;
+  const ResultFiles results(folder.File("results"));
+  results.WriteAnnotatedImage(cv::Mat());
+  EXPECT_TRUE(cv::imread(folder.File("results/tracks.png")).empty());
+  results.WriteAnnotatedImage(cv::Mat(20, 30, CV_8UC3, cv::Scalar(0, 0, 255)));
+  EXPECT_EQ(cv::imread(folder.File("results/tracks.png")).size(), cv::Size(30, 20));
 }
 
 TEST(ResultFiles, NameAFolderThatCannotBeMade) {

@@ -69,6 +69,23 @@ TEST(RunSummary, TheJumpToANewWorldFrameIsNoWay) {
   EXPECT_EQ(json["resets"], 1);
 }
 
+TEST(RunSummary, TellsTheLastCalibration) {
+  RunSummary summary;
+  summary.Add(Pose(0, 0), {});
+  EstimatorOutput refined = Pose(1, 0);
+  refined.T_B_C = {Eigen::Quaterniond(0, 1, 0, 0), {0.1, 0.2, 0.3}};
+  refined.td = 0.004;
+  summary.Add(refined, {});
+  summary.Add(NoPose(2, "lost"), {});
+  const auto calibration = summary.ToJson({})["calibration"];
+  EXPECT_EQ(calibration["q_B_C_xyzw"].get<std::vector<double>>(),
+            (std::vector<double>{1, 0, 0, 0}));
+  EXPECT_EQ(calibration["p_B_C_m"].get<std::vector<double>>(),
+            (std::vector<double>{0.1, 0.2, 0.3}));
+  EXPECT_EQ(calibration["td_s"], 0.004);
+  EXPECT_TRUE(RunSummary().ToJson({})["calibration"].is_null());
+}
+
 TEST(RunSummary, WithoutAPoseItSaysWhy) {
   RunSummary summary;
   summary.Add(NoPose(0, "too little parallax"), {});

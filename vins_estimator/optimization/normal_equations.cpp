@@ -11,6 +11,8 @@
 namespace plm_vins {
 namespace {
 
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 constexpr int kMaxTermColumns = ResidualTerm::kMaxVariables * kMaxTangentSize;
 
 // Keeps the equations of an unobserved landmark solvable; far below any real information.
@@ -30,22 +32,90 @@ inline double Dot(const double* a, const double* b, int rows) {
   return sum;
 }
 
+// Adds J^T J to the upper triangle of H and J^T r to b. Two rows, as corners have, are worth their
+// own code: most of the terms are corners.
+template <int kRows>
+void Accumulate(const PackedJacobian& J, const double* residual, int dynamic_rows,
+                Eigen::MatrixXd* H, Eigen::VectorXd* b) {
+  const int rows = kRows > 0 ? kRows : dynamic_rows;
+  for (int j = 0; j < J.columns; ++j) {
+    const double* column = &J.values[j * rows];
+    double* target = &(*H)(0, J.dense_column[j]);
+    for (int i = 0; i <= j; ++i) {
+      target[J.dense_column[i]] += Dot(&J.values[i * rows], column, rows);
+    }
+    (*b)[J.dense_column[j]] += Dot(column, residual, rows);
+  }
+}
+
+// S -= W^T W, upper triangle, for W of kRows rows whose columns belong to `runs` of columns of S.
+template <int kRows, typename ColumnRuns>
+void SubtractGramOfRows(const RowMajorMatrix& W, const ColumnRuns& runs, Eigen::MatrixXd* S) {
+  for (auto right = runs.begin(); right != runs.end(); ++right) {
+    for (int j = 0; j < right->size; ++j) {
+      const Eigen::Matrix<double, kRows, 1> factor = W.col(right->local + j);
+      for (auto left = runs.begin(); left <= right; ++left) {
+        const int size = left == right ? j + 1 : left->size;
+        const double* __restrict__ row = &W(0, left->local);
+        double* __restrict__ target = &(*S)(left->dense, right->dense + j);
+        for (int i = 0; i < size; ++i) {
+          double sum = 0;
+          for (int l = 0; l < kRows; ++l) sum += factor[l] * row[l * W.cols() + i];
+          target[i] -= sum;
+        }
+      }
+    }
+  }
+}
+
+template <typename ColumnRuns>
+void SubtractGram(const RowMajorMatrix& W, const ColumnRuns& runs, Eigen::MatrixXd* S) {
+  switch (W.rows()) {
+    case 1:
+      return SubtractGramOfRows<1>(W, runs, S);
+    case 2:
+      return SubtractGramOfRows<2>(W, runs, S);
+    case 3:
+      return SubtractGramOfRows<3>(W, runs, S);
+    default:
+      return SubtractGramOfRows<NormalEquations::kMaxLandmarkSize>(W, runs, S);
+  }
+}
+
+// The damped H_ll as L L^T.
+template <typename LandmarkMatrix>
+Eigen::LLT<LandmarkMatrix> Factor(const LandmarkMatrix& H_ll, double damping) {
+  LandmarkMatrix H = H_ll;
+  H.diagonal() *= 1.0 + damping;
+  H.diagonal().array() += kMinLandmarkInformation;
+  return Eigen::LLT<LandmarkMatrix>(H);
+}
+
 }  // namespace
 
 NormalEquations::NormalEquations(const WindowProblem& problem) : problem_(problem) {
-  std::vector<bool> is_landmark(problem.variables().size(), false);
-  for (const LandmarkTerms& landmark : problem.landmarks()) is_landmark[landmark.variable] = true;
-  for (size_t i = 0; i < problem.variables().size(); ++i) {
-    const Variable& variable = problem.variables()[i];
-    const bool dense = !variable.constant && !is_landmark[i];
-    dense_offset_.push_back(dense ? dense_size_ : -1);
-    if (dense) dense_size_ += variable.type().tangent_size;
-  }
+  LayOutFrameVariables();
   for (const ResidualTerm& term : problem.terms()) layouts_.push_back(LayOut(term, -1));
   landmarks_.resize(problem.landmarks().size());
   for (size_t i = 0; i < landmarks_.size(); ++i) LayOutLandmark(static_cast<int>(i));
   H_dd_.resize(dense_size_, dense_size_);
   b_d_.resize(dense_size_);
+}
+
+// Poses first, so that the frames of a landmark are neighbours in the equations.
+void NormalEquations::LayOutFrameVariables() {
+  const std::vector<Variable>& variables = problem_.variables();
+  std::vector<bool> is_dense(variables.size());
+  for (size_t i = 0; i < variables.size(); ++i) is_dense[i] = !variables[i].constant;
+  for (const LandmarkTerms& landmark : problem_.landmarks()) is_dense[landmark.variable] = false;
+  dense_offset_.assign(variables.size(), -1);
+  for (const bool poses : {true, false}) {
+    for (size_t i = 0; i < variables.size(); ++i) {
+      if (!is_dense[i] || (variables[i].id.kind == BlockKind::kPose) != poses) continue;
+      dense_offset_[i] = dense_size_;
+      dense_size_ += variables[i].type().tangent_size;
+    }
+  }
 }
 
 NormalEquations::TermLayout NormalEquations::LayOut(const ResidualTerm& term, int landmark) const {
@@ -80,9 +150,14 @@ void NormalEquations::LayOutLandmark(int index) {
   std::sort(blocks.begin(), blocks.end());
   blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
   std::vector<int> local_offset(dense_size_, 0);
+  int columns = 0;
   for (const auto& [offset, size] : blocks) {
-    local_offset[offset] = static_cast<int>(equations.dense_columns.size());
-    for (int i = 0; i < size; ++i) equations.dense_columns.push_back(offset + i);
+    local_offset[offset] = columns;
+    const bool continues = !equations.runs.empty() &&
+                           equations.runs.back().dense + equations.runs.back().size == offset;
+    if (!continues) equations.runs.push_back({columns, offset, 0});
+    equations.runs.back().size += size;
+    columns += size;
   }
   for (size_t i = first; i < layouts_.size(); ++i) {
     for (Slot& slot : layouts_[i].slots) slot.local_offset = local_offset[slot.dense_offset];
@@ -90,7 +165,7 @@ void NormalEquations::LayOutLandmark(int index) {
   const int size = problem_.variables()[landmark.variable].type().tangent_size;
   equations.H_ll.resize(size, size);
   equations.b_l.resize(size);
-  equations.H_ld.resize(size, equations.dense_columns.size());
+  equations.H_ld.resize(size, columns);
 }
 
 double NormalEquations::Linearize() {
@@ -132,13 +207,10 @@ double NormalEquations::AddTerm(const TermLayout& layout) {
     }
   }
   const double* residual = evaluation.residual.data();
-  for (int j = 0; j < J.columns; ++j) {
-    const double* column = &J.values[j * rows];
-    double* target = &H_dd_(0, J.dense_column[j]);
-    for (int i = 0; i <= j; ++i) {
-      target[J.dense_column[i]] += Dot(&J.values[i * rows], column, rows);
-    }
-    b_d_[J.dense_column[j]] += Dot(column, residual, rows);
+  if (rows == 2) {
+    Accumulate<2>(J, residual, rows, &H_dd_, &b_d_);
+  } else {
+    Accumulate<0>(J, residual, rows, &H_dd_, &b_d_);
   }
   if (layout.landmark < 0) return evaluation.cost;
 
@@ -166,30 +238,22 @@ double NormalEquations::AddPrior() {
   return problem_.prior()->AddTo(problem_, dense_offset_, &H_dd_, &b_d_);
 }
 
-NormalEquations::LandmarkMatrix NormalEquations::DampedInverse(const LandmarkEquations& equations,
-                                                               double damping) const {
-  LandmarkMatrix H = equations.H_ll;
-  H.diagonal() *= 1.0 + damping;
-  H.diagonal().array() += kMinLandmarkInformation;
-  return H.llt().solve(LandmarkMatrix::Identity(H.rows(), H.rows()));
-}
-
 void NormalEquations::Reduce(double damping, Eigen::MatrixXd* S, Eigen::VectorXd* g) const {
   *S = H_dd_;
   S->diagonal() *= 1.0 + damping;
   *g = b_d_;
+  RowMajorMatrix W;
   for (const LandmarkEquations& equations : landmarks_) {
-    const LandmarkMatrix inverse = DampedInverse(equations, damping);
-    const int columns = static_cast<int>(equations.dense_columns.size());
-    for (int l = 0; l < inverse.rows(); ++l) {
-      Eigen::RowVectorXd scaled = inverse.row(l) * equations.H_ld;
-      for (int j = 0; j < columns; ++j) {
-        double* target = &(*S)(0, equations.dense_columns[j]);
-        const double factor = equations.H_ld(l, j);
-        for (int i = 0; i <= j; ++i) target[equations.dense_columns[i]] -= scaled[i] * factor;
-        (*g)[equations.dense_columns[j]] -= scaled[j] * equations.b_l[l];
-      }
+    // H_dl H_ll^-1 H_ld = W^T W with W = L^-1 H_ld.
+    const auto factor = Factor(equations.H_ll, damping);
+    W = equations.H_ld;
+    factor.matrixL().solveInPlace(W);
+    const LandmarkVector w_b = factor.matrixL().solve(equations.b_l);
+    for (const ColumnRun& run : equations.runs) {
+      const auto W_run = W.middleCols(run.local, run.size);
+      g->segment(run.dense, run.size).noalias() -= W_run.transpose() * w_b;
     }
+    SubtractGram(W, equations.runs, S);
   }
   S->triangularView<Eigen::StrictlyLower>() = S->transpose();
 }
@@ -199,10 +263,11 @@ NormalEquations::LandmarkVector NormalEquations::LandmarkStep(int index,
                                                               double damping) const {
   const LandmarkEquations& equations = landmarks_[index];
   LandmarkVector right = -equations.b_l;
-  for (size_t j = 0; j < equations.dense_columns.size(); ++j) {
-    right -= equations.H_ld.col(j) * dense_step[equations.dense_columns[j]];
+  for (const ColumnRun& run : equations.runs) {
+    right.noalias() -=
+        equations.H_ld.middleCols(run.local, run.size) * dense_step.segment(run.dense, run.size);
   }
-  return DampedInverse(equations, damping) * right;
+  return Factor(equations.H_ll, damping).solve(right);
 }
 
 Eigen::MatrixXd NormalEquations::Covariance(const std::vector<BlockId>& ids) const {

@@ -48,9 +48,16 @@ class NormalEquations {
   int dense_size() const { return dense_size_; }
 
  private:
+  // Neighbouring columns of H_ld that are neighbours in the dense equations as well.
+  struct ColumnRun {
+    int local = 0;
+    int dense = 0;
+    int size = 0;
+  };
+
   // One landmark's share of the equations, over the dense columns that its terms touch.
   struct LandmarkEquations {
-    std::vector<int> dense_columns;  // of the columns of H_ld
+    std::vector<ColumnRun> runs;
     LandmarkMatrix H_ll;
     LandmarkVector b_l;
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> H_ld;
@@ -72,11 +79,11 @@ class NormalEquations {
     int landmark_block = -1;  // position of the landmark among the term's variables
   };
 
+  void LayOutFrameVariables();
   TermLayout LayOut(const ResidualTerm& term, int landmark) const;
   void LayOutLandmark(int landmark);
   double AddTerm(const TermLayout& layout);
   double AddPrior();
-  LandmarkMatrix DampedInverse(const LandmarkEquations& equations, double damping) const;
 
   const WindowProblem& problem_;
   std::vector<int> dense_offset_;  // by variable

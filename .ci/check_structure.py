@@ -12,8 +12,8 @@ import shutil
 import subprocess
 import sys
 
-# What each folder may include; the longest matching folder counts. Tests may include anything,
-# ROS too.
+# What each folder may include; the longest matching folder counts. Tests and benchmarks may include
+# anything, ROS too.
 LAYERS = {
     "common": {"common"},
     "feature_tracker": {"common", "feature_tracker"},
@@ -23,7 +23,7 @@ LAYERS = {
                                "vins_estimator"},
     "simulator": {"common", "simulator", "vins_estimator"},
 }
-CODE_FOLDERS = sorted({folder.split("/")[0] for folder in LAYERS} | {"test", "testing"})
+CODE_FOLDERS = sorted({folder.split("/")[0] for folder in LAYERS} | {"benchmark", "test"})
 TEXT_FOLDERS = CODE_FOLDERS + [".ci", "cmake", "config", "docs", "launch", "scripts"]
 TEXT_SUFFIXES = {".cpp", ".h", ".py", ".sh", ".txt", ".cmake", ".md", ".yaml", ".launch", ".test",
                  ".rviz", ".xml", ""}

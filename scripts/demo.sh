@@ -101,7 +101,7 @@ run_offline() {
 
 echo "== Set up and build"
 "$root/scripts/setup.sh"
-"$root/scripts/build.sh"
+"$root/scripts/build.sh" -DBUILD_TESTING=OFF
 if [[ -z "$bag" && -z "$asl" ]]; then
   simulate
 fi

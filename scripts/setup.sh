@@ -11,7 +11,9 @@ debian_packages=(
   catkin libcli11-dev libcv-bridge-dev libdiagnostic-updater-dev libgeometry-msgs-dev
   libimage-transport-dev libnav-msgs-dev librosbag-dev libroscpp-dev librostest-dev
   libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-ros-dev libvisualization-msgs-dev
-  python3-rosbag python3-roslaunch python3-rostest rosbash rosout rviz)
+  python3-diagnostic-msgs python3-nav-msgs python3-rosbag python3-roslaunch python3-rosservice
+  python3-rostest python3-rostopic python3-sensor-msgs python3-std-srvs python3-tf2-msgs
+  python3-visualization-msgs rosbash rosout rviz)
 noetic_packages=(
   ros-noetic-catkin ros-noetic-cv-bridge ros-noetic-diagnostic-updater ros-noetic-geometry-msgs
   ros-noetic-image-transport ros-noetic-nav-msgs ros-noetic-rosbag ros-noetic-roscpp

@@ -13,10 +13,11 @@ namespace plm_vins {
 
 // The second camera C1 relative to the first C0; the length of the translation is not observable.
 struct RelativePose {
-  Eigen::Quaterniond R_C1_C0;
-  Eigen::Vector3d t_C1_C0;  // unit length: a point p_C0 is seen at R_C1_C0 p_C0 + s t_C1_C0, s > 0
+  Eigen::Quaterniond R_C1_C0 = Eigen::Quaterniond::Identity();
+  // Unit length: a point p_C0 is seen at R_C1_C0 p_C0 + s t_C1_C0, s > 0.
+  Eigen::Vector3d t_C1_C0 = Eigen::Vector3d::Zero();
   // Inverse covariance of theta in Exp(theta) R_C1_C0, the translation not known [1/rad^2].
-  Eigen::Matrix3d rotation_information;
+  Eigen::Matrix3d rotation_information = Eigen::Matrix3d::Zero();
   std::vector<bool> inliers;
   int num_inliers = 0;
 };

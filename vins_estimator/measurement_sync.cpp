@@ -13,6 +13,17 @@ namespace {
 // Images of which the IMU cuts are closer than this hold no motion that could be told from noise.
 constexpr int64_t kMinInterval_ns = 1'000'000;
 
+// Beyond what the inertial sensors of vehicles and hands can measure.
+constexpr double kMaxGyro = 100.0;   // [rad/s]
+constexpr double kMaxAccel = 500.0;  // [m/s^2]
+
+// False also for zeros throughout, which drivers give where they could not read the sensor.
+bool IsPlausible(const ImuSample& sample) {
+  return sample.gyro.cwiseAbs().maxCoeff() <= kMaxGyro &&
+         sample.accel.cwiseAbs().maxCoeff() <= kMaxAccel &&
+         !(sample.gyro.isZero(0.0) && sample.accel.isZero(0.0));
+}
+
 }  // namespace
 
 void MeasurementSync::AddImu(const ImuSample& sample) {
@@ -21,13 +32,34 @@ void MeasurementSync::AddImu(const ImuSample& sample) {
     ++statistics_.imu_not_finite;
     return;
   }
+  if (!IsPlausible(sample)) {
+    ++statistics_.imu_implausible;
+    return;
+  }
   if (!imu_.empty() && sample.t_ns <= imu_.back().t_ns) {
     ++statistics_.imu_out_of_order;
     return;
   }
+  JudgeImuAfterGap(sample.t_ns);
   if (!imu_.empty() && ToSeconds(sample.t_ns - imu_.back().t_ns) > options_.max_imu_gap) {
-    ++statistics_.imu_gaps;
+    imu_after_gap_ = sample;
+  } else {
+    TakeImu(sample);
   }
+}
+
+void MeasurementSync::JudgeImuAfterGap(int64_t next_ns) {
+  if (!imu_after_gap_) return;
+  if (next_ns > imu_after_gap_->t_ns) {
+    ++statistics_.imu_gaps;
+    TakeImu(*imu_after_gap_);
+  } else {
+    ++statistics_.imu_out_of_order;
+  }
+  imu_after_gap_.reset();
+}
+
+void MeasurementSync::TakeImu(const ImuSample& sample) {
   imu_.push_back(sample);
   if (static_cast<int>(imu_.size()) > options_.max_imu_samples) {
     // The boundary of the last cut stays, so that the next interval keeps its length.
@@ -70,6 +102,7 @@ void MeasurementSync::AddLines(LineFrame frame) {
 
 void MeasurementSync::Clear() {
   imu_.clear();
+  imu_after_gap_.reset();
   points_.clear();
   lines_.clear();
   last_cut_ns_.reset();

@@ -14,7 +14,8 @@ namespace plm_vins {
 struct SyncStatistics {
   int64_t imu_samples = 0;
   int64_t imu_not_finite = 0;    // NaN or infinity
-  int64_t imu_out_of_order = 0;  // stamp not after the one before (repeated or backwards)
+  int64_t imu_implausible = 0;   // beyond any sensor's range, or zeros throughout
+  int64_t imu_out_of_order = 0;  // stamp not after the one before, or alone in the future
   int64_t imu_gaps = 0;          // intervals longer than the allowed gap, bridged
   int64_t imu_dropped_full = 0;  // no image came for long: oldest dropped
   int64_t frames = 0;
@@ -71,6 +72,9 @@ class MeasurementSync {
   const SyncStatistics& statistics() const { return statistics_; }
 
  private:
+  // Decides on the sample after a gap, now that the stamp of the next one is known.
+  void JudgeImuAfterGap(int64_t next_ns);
+  void TakeImu(const ImuSample& sample);
   int64_t CutTime() const;  // of the oldest queued frame, in IMU time
   // Index of the first IMU sample at or after the time.
   size_t FirstImuNotBefore(int64_t t_ns) const;
@@ -86,6 +90,8 @@ class MeasurementSync {
   Options options_;
   SyncStatistics statistics_;
   std::deque<ImuSample> imu_;  // the front is the boundary of the last cut, once there was one
+  // After a gap a sample waits for the next one: a single wrong stamp must not void what follows.
+  std::optional<ImuSample> imu_after_gap_;
   std::deque<PointFrame> points_;
   std::deque<LineFrame> lines_;
   std::optional<int64_t> last_cut_ns_;     // IMU time

@@ -186,6 +186,35 @@ TEST(MeasurementSync, BadImuSamplesAreDroppedAndCounted) {
   EXPECT_EQ(sync.statistics().imu_gaps, 0);
 }
 
+TEST(MeasurementSync, SamplesThatNoSensorGivesAreDroppedAndCounted) {
+  MeasurementSync sync({});
+  AddImu(&sync, 0, 20);
+  sync.AddImu({25 * kMs, {0, -1000, 0}, {0, 9.81, 0}});
+  sync.AddImu({30 * kMs, {0, 0, 0}, {0, 0, 2000}});
+  sync.AddImu({35 * kMs, {0, 0, 0}, {0, 0, 0}});
+  AddImu(&sync, 40, 60);
+  sync.AddPoints(Points(50 * kMs));
+  const auto frames = PopAll(&sync);
+  ASSERT_EQ(frames.size(), 1u);
+  for (const ImuSample& sample : frames[0].imu) ExpectOnTheLine(sample);
+  EXPECT_EQ(sync.statistics().imu_implausible, 3);
+}
+
+TEST(MeasurementSync, ASampleAloneInTheFutureIsDropped) {
+  MeasurementSync sync({});
+  AddImu(&sync, 0, 20);
+  ImuSample wrong = Sample(22 * kMs);
+  wrong.t_ns = 100'000 * kMs;
+  sync.AddImu(wrong);
+  AddImu(&sync, 25, 60);
+  sync.AddPoints(Points(50 * kMs));
+  const auto frames = PopAll(&sync);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].imu.size(), 11u);  // 0 ... 50
+  EXPECT_EQ(sync.statistics().imu_out_of_order, 1);
+  EXPECT_EQ(sync.statistics().imu_gaps, 0);
+}
+
 TEST(MeasurementSync, AnImuGapIsCountedAndBridgedByTheNextFrameWithSamples) {
   MeasurementSync sync({});
   AddImu(&sync, 0, 100);

@@ -12,6 +12,7 @@ namespace {
 constexpr size_t kMaxWaiting = 2;  // newer images that an image lets pass for the gyro
 constexpr int64_t kImageGap_ns = 1'000'000'000;
 constexpr int kRefusedUntilRestart = 10;  // images from the past in a row
+constexpr size_t kFewPoints = 10;         // too few to tell the motion of the camera from
 
 }  // namespace
 
@@ -20,6 +21,7 @@ DropCounts ToDropCounts(const PointTrackingCounts& counts) {
           {"images_wrong_format", counts.wrong_format, counts.wrong_format_detail},
           {"image_gaps", counts.gaps, ""},
           {"image_restarts", counts.restarts, ""},
+          {"images_with_few_points", counts.few_points, ""},
           {"images_without_gyro", counts.without_gyro, ""}};
 }
 
@@ -86,6 +88,7 @@ TrackedFrame PointTrackingStage::TrackFront() {
   TrackedFrame frame;
   frame.points = tracker_.Track(front.image, PredictRotation(front.image.t_ns));
   frame.tracking_ms = stopwatch.Milliseconds();
+  if (frame.points.points.size() < kFewPoints) ++counts_.few_points;
   frame.restart = std::exchange(restart_pending_, false);
   frame.publish = rate_limiter_.Take(front.image.t_ns);
   tracked_ns_ = front.image.t_ns;

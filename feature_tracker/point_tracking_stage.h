@@ -30,6 +30,7 @@ struct PointTrackingCounts {
   int64_t restarts = 0;      // stamps jumped back for good: a new recording
   int64_t wrong_format = 0;  // not grey or not of the calibrated size
   int64_t gaps = 0;          // more than a second since the image before; nothing is lost by it
+  int64_t few_points = 0;    // under ten: dark, blank or blurred; the IMU alone carries on
   int64_t without_gyro = 0;  // predicted from the corners' own motion, as the gyro did not cover it
   std::string wrong_format_detail;
 };

@@ -98,6 +98,13 @@ TEST_F(PointTrackingStageTest, DropsStampsThatRepeatOrGoBack) {
   EXPECT_EQ(stage_.counts().restarts, 0);
 }
 
+TEST_F(PointTrackingStageTest, CountsImagesThatShowHardlyAnything) {
+  AddImage(0);
+  for (const int t : {50, 100}) AddImage(t, cv::Mat::zeros(picture_.size(), CV_8UC1));
+  EXPECT_EQ(Flush(), (std::vector<int>{0, 50, 100}));
+  EXPECT_EQ(stage_.counts().few_points, 2);
+}
+
 TEST_F(PointTrackingStageTest, BeginsAnewWhenTheRecordingDoes) {
   for (int t = 5000; t < 5500; t += 50) AddImage(t);
   EXPECT_EQ(Flush().size(), 10u);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs the odometry over a recording without a ROS master, as fast as the machine goes.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <limits>
 #include <map>
@@ -39,6 +42,15 @@ std::string CheckOverride(const std::string& text) {
   return valid ? "" : "expected key=value instead of " + text;
 }
 
+// The same of a time span.
+std::string CheckSeconds(const std::string& text) {
+  char* end = nullptr;
+  const double seconds = std::strtod(text.c_str(), &end);
+  const bool is_number = end != text.c_str() && *end == '\0';
+  const bool valid = is_number && std::isfinite(seconds) && seconds >= 0;
+  return valid ? "" : "expected seconds, zero or more, instead of " + text;
+}
+
 void Declare(Arguments* arguments, CLI::App* app) {
   app->add_option("--config", arguments->config, "configuration file (VINS YAML)")->required();
   auto* source = app->add_option_group("input");
@@ -48,9 +60,8 @@ void Declare(Arguments* arguments, CLI::App* app) {
   app->add_option("--output", arguments->output, "folder for the results, made where missing")
       ->required();
   app->add_option("--start", arguments->start, "skip this much after the first image [s]")
-      ->check(CLI::NonNegativeNumber);
-  app->add_option("--duration", arguments->duration, "process this much [s]")
-      ->check(CLI::PositiveNumber);
+      ->check(CheckSeconds);
+  app->add_option("--duration", arguments->duration, "process this much [s]")->check(CheckSeconds);
   app->add_option("--set", arguments->overrides, "replace a value of the configuration: key=value")
       ->allow_extra_args(false)
       ->check(CheckOverride);
@@ -78,14 +89,20 @@ void Warn(const DropCounts& drops) {
   }
 }
 
+std::string WhyNone(const RunSummary::Run& run, const RunSummary& summary) {
+  if (!summary.last_reason().empty()) return summary.last_reason();
+  const bool dropped = std::any_of(run.drops.begin(), run.drops.end(),
+                                   [](const DropCount& drop) { return drop.count > 0; });
+  return dropped ? "none was usable, see the warnings" : "none between --start and --duration";
+}
+
 // Says how it went. Exit code: 0 where there is a trajectory.
 int Report(const RunSummary::Run& run, const ResultFiles& results) {
   const RunSummary& summary = results.summary();
   Warn(run.drops);
   if (summary.poses() == 0) {
-    const std::string& reason = summary.last_reason();
     std::fprintf(stderr, "run_offline: no trajectory from %" PRId64 " images: %s\n", run.images,
-                 reason.empty() ? "none was usable, see the warnings" : reason.c_str());
+                 WhyNone(run, summary).c_str());
     return 1;
   }
   std::fprintf(stderr, "%" PRId64 " images, %" PRId64 " poses in %.1f s; results in %s\n",

@@ -1,0 +1,68 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What run_offline says where it cannot give a trajectory.
+
+Usage: run_offline_test.py RUN_OFFLINE [unittest option ...]
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+CONFIG = ROOT / "config" / "euroc.yaml"
+RUN_OFFLINE = sys.argv[1] if len(sys.argv) > 1 else sys.exit(__doc__)
+
+
+class RunOffline(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.asl = self.folder / "asl"
+        self.write("cam0/data.csv", "100000000,missing.png\n")
+        self.write("imu0/data.csv", "100000000,0,0,0,0,0,9.81\n200000000,0,0,0,0,0,9.81\n")
+
+    def write(self, name, text):
+        path = self.asl / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+    def assert_refuses(self, message, *options, config=CONFIG, output="results"):
+        """The program exits with 1 and one of its lines holds `message`."""
+        command = [RUN_OFFLINE, "--config", config, "--asl", self.asl,
+                   "--output", self.folder / output, *options]
+        result = subprocess.run([str(word) for word in command], stderr=subprocess.PIPE,
+                                encoding="utf-8", check=False)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn(message, result.stderr)
+
+    def test_bad_options(self):
+        self.assert_refuses("expected seconds, zero or more, instead of nan", "--start", "nan")
+        self.assert_refuses("expected seconds, zero or more, instead of -2", "--duration", "-2")
+        self.assert_refuses("expected key=value instead of freq", "--set", "freq")
+        self.assert_refuses("[--bag,--asl]", "--bag", "flight.bag")
+
+    def test_bad_config(self):
+        self.assert_refuses("nothing.yaml", config=self.folder / "nothing.yaml")
+        self.assert_refuses("frequ: unknown key; did you mean freq?", "--set", "frequ=3")
+
+    def test_output_that_cannot_be_written(self):
+        self.assert_refuses("cannot make the output folder", output="asl/imu0/data.csv")
+
+    def test_input_that_is_incomplete(self):
+        self.write("imu0/data.csv", "")
+        self.assert_refuses("no IMU sample")
+        (self.asl / "imu0" / "data.csv").unlink()
+        self.assert_refuses("imu0/data.csv is missing")
+
+    def test_no_usable_image(self):
+        self.assert_refuses("images_unreadable: 1 (first: ")
+        self.assert_refuses("none was usable, see the warnings")
+        self.assert_refuses("none between --start and --duration", "--start", "40")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])

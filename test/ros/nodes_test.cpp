@@ -66,6 +66,8 @@ struct Listeners {
   Listener<sensor_msgs::PointCloud> point_cloud{"/vins_estimator/point_cloud"};
   Listener<sensor_msgs::PointCloud> history_cloud{"/vins_estimator/history_cloud"};
   Listener<visualization_msgs::Marker> key_poses{"/vins_estimator/key_poses"};
+  Listener<visualization_msgs::MarkerArray> camera_pose_visual{
+      "/vins_estimator/camera_pose_visual"};
   Listener<diagnostic_msgs::DiagnosticArray> diagnostics{"/diagnostics"};
   tf2_ros::Buffer tf_buffer{ros::Duration(1000)};
   tf2_ros::TransformListener tf_listener{tf_buffer};
@@ -163,6 +165,8 @@ TEST_F(Nodes, PublishPathCameraAndMap) {
   EXPECT_FALSE(log_->path.messages.empty());
   EXPECT_FALSE(log_->key_poses.messages.empty());
   EXPECT_FALSE(log_->history_cloud.messages.empty());
+  ASSERT_FALSE(log_->camera_pose_visual.messages.empty());
+  EXPECT_EQ(log_->camera_pose_visual.messages.back().markers.size(), 1u);
   ASSERT_FALSE(log_->point_cloud.messages.empty());
   EXPECT_GT(log_->point_cloud.messages.back().points.size(), 10u);
   ASSERT_FALSE(log_->camera_pose.messages.empty());

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The estimator on simulated flights, and how good it is there.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "common/so3.h"
+#include "test/vins_estimator/initialization/simulated_frames.h"
+#include "vins_estimator/estimator.h"
+
+namespace plm_vins::testing {
+
+inline Config ConfigFor(const SimulatedFlight& flight) {
+  Config config;
+  config.sensor = flight.sensor;
+  config.estimator.point_noise = simulator::FeatureSimulationOptions().point_noise_px;
+  return config;
+}
+
+struct EstimatedFlight {
+  std::vector<EstimatorOutput> outputs;  // of images with a pose
+  std::vector<FrameState> truth;         // of the same images
+  FrameState anchor, true_anchor;        // oldest state of the first window, which fixes the world
+  std::vector<std::string> restarts;     // their reasons
+  double path = 0;                       // length of the true path [m]
+};
+
+inline EstimatedFlight Estimate(const SimulatedFlight& flight, Estimator* estimator) {
+  EstimatedFlight result;
+  for (size_t i = 0; i < flight.frames.size(); ++i) {
+    const EstimatorOutput output = estimator->Process(flight.frames[i]);
+    if (output.restarted) result.restarts.push_back(output.reason);
+    if (!output.has_pose) continue;
+    if (!result.truth.empty()) {
+      result.path += (flight.truth[i].position() - result.truth.back().position()).norm();
+    }
+    if (result.truth.empty()) {
+      result.anchor = output.window.front();
+      result.true_anchor =
+          *std::find_if(flight.truth.begin(), flight.truth.end(),
+                        [&](const FrameState& state) { return state.t_ns == result.anchor.t_ns; });
+    }
+    result.outputs.push_back(output);
+    result.truth.push_back(flight.truth[i]);
+  }
+  return result;
+}
+
+inline EstimatedFlight Estimate(const SimulatedFlight& flight) {
+  Estimator estimator(ConfigFor(flight));
+  return Estimate(flight, &estimator);
+}
+
+// Root mean square distance of the positions after the best rigid alignment of `flight` [m].
+inline double AbsoluteError(const EstimatedFlight& flight) {
+  const Eigen::Index count = static_cast<Eigen::Index>(flight.truth.size());
+  Eigen::Matrix3Xd estimate(3, count), truth(3, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    estimate.col(i) = flight.outputs[i].state.position();
+    truth.col(i) = flight.truth[i].position();
+  }
+  const Eigen::Matrix4d T = Eigen::umeyama(estimate, truth, /*with_scaling=*/false);
+  const Eigen::Matrix3Xd aligned = (T * estimate.colwise().homogeneous()).topRows<3>();
+  return std::sqrt((aligned - truth).squaredNorm() / static_cast<double>(count));
+}
+
+// The pose that moves the estimate's world onto the true one, by position and heading of one state.
+inline Rigid3d AlignHeading(const FrameState& estimate, const FrameState& truth) {
+  const Eigen::Matrix3d difference =
+      (truth.rotation() * estimate.rotation().conjugate()).toRotationMatrix();
+  const double heading =
+      std::atan2(difference(1, 0) - difference(0, 1), difference(0, 0) + difference(1, 1));
+  const Eigen::Quaterniond R(Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()));
+  return {R, truth.position() - R * estimate.position()};
+}
+
+// Greatest distance of the estimated position from the truth, aligned at one image, from there
+// on [m].
+inline double GreatestError(const EstimatedFlight& flight, size_t aligned_at) {
+  const Rigid3d T = AlignHeading(flight.outputs[aligned_at].state, flight.truth[aligned_at]);
+  double greatest = 0;
+  for (size_t i = aligned_at; i < flight.truth.size(); ++i) {
+    const Eigen::Vector3d p = T * Eigen::Vector3d(flight.outputs[i].state.position());
+    greatest = std::max(greatest, (p - flight.truth[i].position()).norm());
+  }
+  return greatest;
+}
+
+// Mean normalised squared errors: of the pose (6 where the covariance is right) and the velocity
+// (3).
+struct Consistency {
+  double pose = 0, velocity = 0;
+};
+
+inline Consistency MeasureConsistency(const EstimatedFlight& flight) {
+  const Rigid3d T = AlignHeading(flight.anchor, flight.true_anchor);
+  const Eigen::Quaterniond R_inverse = T.rotation.conjugate();
+  Consistency result;
+  const double share = 1.0 / static_cast<double>(flight.truth.size());
+  for (size_t i = 0; i < flight.truth.size(); ++i) {
+    const EstimatorOutput& output = flight.outputs[i];
+    const Rigid3d truth = T.Inverse() * flight.truth[i].T_W_B();
+    Eigen::Matrix<double, 6, 1> error;
+    error << truth.translation - output.state.position(),
+        SO3Log(output.state.rotation().conjugate() * truth.rotation);
+    result.pose += share * error.dot(output.pose_covariance.ldlt().solve(error));
+    const Eigen::Vector3d v = R_inverse * flight.truth[i].velocity() - output.state.velocity();
+    result.velocity += share * v.dot(output.velocity_covariance.ldlt().solve(v));
+  }
+  return result;
+}
+
+}  // namespace plm_vins::testing

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The estimator when things go wrong, and that the same input always gives the same output.
+#include <gtest/gtest.h>
+
+#include "test/vins_estimator/estimated_flight.h"
+#include "vins_estimator/estimator.h"
+
+namespace plm_vins {
+namespace {
+
+using simulator::Motion;
+using testing::EstimatedFlight;
+using testing::SimulatedFlight;
+
+SimulatedFlight Simulate(Motion motion, uint64_t seed, double duration) {
+  auto options = testing::FlightOptions(motion, seed);
+  options.trajectory.duration = duration;
+  options.max_points = 80;
+  return testing::SimulateFlight(options);
+}
+
+void ExpectSameBits(const EstimatedFlight& a, const EstimatedFlight& b) {
+  ASSERT_EQ(a.outputs.size(), b.outputs.size());
+  for (size_t i = 0; i < a.outputs.size(); ++i) {
+    ASSERT_EQ(a.outputs[i].t_ns, b.outputs[i].t_ns);
+    ASSERT_EQ(a.outputs[i].state.pose, b.outputs[i].state.pose) << i;
+    ASSERT_EQ(a.outputs[i].state.motion, b.outputs[i].state.motion) << i;
+    ASSERT_EQ(a.outputs[i].pose_covariance, b.outputs[i].pose_covariance) << i;
+  }
+}
+
+TEST(EstimatorRobustness, SameInputGivesTheSameBits) {
+  const SimulatedFlight flight = Simulate(Motion::kFast, 1, 8);
+  const EstimatedFlight first = testing::Estimate(flight);
+  EXPECT_GT(first.outputs.size(), 100u);
+  ExpectSameBits(first, testing::Estimate(flight));
+}
+
+TEST(EstimatorRobustness, ResetForgetsEverything) {
+  const SimulatedFlight flight = Simulate(Motion::kFast, 1, 8);
+  SimulatedFlight before = Simulate(Motion::kGentle, 2, 6);
+  Config config = testing::ConfigFor(flight);
+  config.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kRefine;
+  config.sensor.estimate_td = true;
+  Estimator used(config), fresh(config);
+  EXPECT_GT(testing::Estimate(before, &used).outputs.size(), 50u);
+  EXPECT_NE(used.time_offset(), 0);
+  used.Reset();
+  EXPECT_EQ(used.time_offset(), 0);
+  ExpectSameBits(testing::Estimate(flight, &used), testing::Estimate(flight, &fresh));
+}
+
+TEST(EstimatorRobustness, ASecondWithoutPointsCostsCentimetres) {
+  for (const Motion motion : {Motion::kGentle, Motion::kFast}) {
+    for (uint64_t seed = 1; seed <= 2; ++seed) {
+      SimulatedFlight simulated = Simulate(motion, seed, 15);
+      for (size_t i = 180; i < 200; ++i) simulated.frames[i].points.points.clear();
+      const EstimatedFlight flight = testing::Estimate(simulated);
+      EXPECT_TRUE(flight.restarts.empty());
+      ASSERT_GT(flight.truth.size(), 200u);
+      EXPECT_LT(testing::AbsoluteError(flight), 0.1);
+      const size_t first_blind = flight.truth.size() - (simulated.frames.size() - 180);
+      EXPECT_LT(testing::GreatestError(flight, first_blind - 1), 0.1);
+    }
+  }
+}
+
+TEST(EstimatorRobustness, AbsurdImuRestartsWithAReasonAndTracksAgain) {
+  SimulatedFlight flight = Simulate(Motion::kFast, 1, 15);
+  for (size_t i = 120; i < 130; ++i) {
+    for (ImuSample& sample : flight.frames[i].imu) {
+      sample.gyro *= 10;
+      sample.accel *= 10;
+    }
+  }
+  Estimator estimator(testing::ConfigFor(flight));
+  std::vector<EstimatorOutput> outputs;
+  for (const FrameMeasurement& frame : flight.frames) outputs.push_back(estimator.Process(frame));
+  EXPECT_TRUE(outputs[119].has_pose);
+  size_t restarts = 0;
+  for (const EstimatorOutput& output : outputs) {
+    if (!output.restarted) continue;
+    ++restarts;
+    EXPECT_EQ(output.status, EstimatorStatus::kLost);
+    EXPECT_FALSE(output.has_pose);
+    EXPECT_NE(output.reason.find(", more than "), std::string::npos) << output.reason;
+    EXPECT_LT(output.t_ns, flight.frames[150].t_ns);  // within a second and a half
+  }
+  EXPECT_GE(restarts, 1u);
+  EXPECT_EQ(outputs.back().status, EstimatorStatus::kTracking);
+  EXPECT_TRUE(outputs[200].has_pose) << outputs[200].reason;
+}
+
+TEST(EstimatorRobustness, WithoutPointsItNeverStartsAndSaysWhy) {
+  SimulatedFlight flight = Simulate(Motion::kFast, 1, 6);
+  Estimator estimator(testing::ConfigFor(flight));
+  for (FrameMeasurement& frame : flight.frames) {
+    frame.points.points.clear();
+    const EstimatorOutput output = estimator.Process(frame);
+    EXPECT_EQ(output.status, EstimatorStatus::kInitializing);
+    EXPECT_FALSE(output.has_pose);
+    EXPECT_FALSE(output.restarted);
+    if (&frame != &flight.frames.front()) {
+      EXPECT_EQ(output.reason, "too few points followed from the last image: 0 of 12");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linefeature_tracker/line_detector.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/ximgproc/edge_drawing.hpp>
+#include <opencv2/ximgproc/fast_line_detector.hpp>
+#include <stdexcept>
+
+namespace plm_vins {
+namespace {
+
+std::vector<LineSegment> LongerThan(double min_length_px, const std::vector<cv::Vec4f>& lines) {
+  std::vector<LineSegment> segments;
+  for (const cv::Vec4f& line : lines) {
+    const LineSegment segment{{line[0], line[1]}, {line[2], line[3]}};
+    if (segment.Length() >= min_length_px) segments.push_back(segment);
+  }
+  return segments;
+}
+
+class FldDetector : public LineDetector {
+ public:
+  std::vector<LineSegment> Detect(const cv::Mat& image, double min_length_px) override {
+    const int threshold = std::max(static_cast<int>(min_length_px), 1);
+    if (threshold != threshold_) {
+      // Merging stays off: OpenCV's takes time with the square of the number of lines.
+      detector_ = cv::ximgproc::createFastLineDetector(threshold, kMaxDeviation_px, kCannyLow,
+                                                       kCannyHigh, kCannyAperture, false);
+      threshold_ = threshold;
+    }
+    std::vector<cv::Vec4f> lines;
+    detector_->detect(image, lines);
+    return LongerThan(min_length_px, lines);
+  }
+
+ private:
+  static constexpr float kMaxDeviation_px = 1.414F;
+  static constexpr double kCannyLow = 50;
+  static constexpr double kCannyHigh = 100;
+  static constexpr int kCannyAperture = 3;
+
+  int threshold_ = 0;
+  cv::Ptr<cv::ximgproc::FastLineDetector> detector_;
+};
+
+class LsdDetector : public LineDetector {
+ public:
+  std::vector<LineSegment> Detect(const cv::Mat& image, double min_length_px) override {
+    std::vector<cv::Vec4f> lines;
+    detector_->detect(image, lines);
+    return LongerThan(min_length_px, lines);
+  }
+
+ private:
+  // The image is already scaled by the caller.
+  cv::Ptr<cv::LineSegmentDetector> detector_ =
+      cv::createLineSegmentDetector(cv::LSD_REFINE_STD, 1.0);
+};
+
+class EdLinesDetector : public LineDetector {
+ public:
+  std::vector<LineSegment> Detect(const cv::Mat& image, double min_length_px) override {
+    cv::ximgproc::EdgeDrawing::Params params;
+    params.MinLineLength = std::max(static_cast<int>(min_length_px), 1);
+    detector_->setParams(params);
+    std::vector<cv::Vec4f> lines;
+    detector_->detectEdges(image);
+    detector_->detectLines(lines);
+    return LongerThan(min_length_px, lines);
+  }
+
+ private:
+  cv::Ptr<cv::ximgproc::EdgeDrawing> detector_ = cv::ximgproc::createEdgeDrawing();
+};
+
+}  // namespace
+
+std::unique_ptr<LineDetector> LineDetector::Create(LineDetectorType type) {
+  switch (type) {
+    case LineDetectorType::kFld:
+      return std::make_unique<FldDetector>();
+    case LineDetectorType::kLsd:
+      return std::make_unique<LsdDetector>();
+    case LineDetectorType::kEdLines:
+      return std::make_unique<EdLinesDetector>();
+  }
+  throw std::invalid_argument("unknown line detector");
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+namespace plm_vins {
+
+// A directed segment of a plane: of the raw image [px] or of the normalised, undistorted one; names
+// of the former end in _px.
+struct LineSegment {
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();
+  Eigen::Vector2d end = Eigen::Vector2d::Zero();
+
+  double Length() const { return (end - start).norm(); }
+  Eigen::Vector2d Direction() const { return (end - start).normalized(); }
+  Eigen::Vector2d Normal() const {
+    const Eigen::Vector2d direction = Direction();
+    return {-direction.y(), direction.x()};
+  }
+  Eigen::Vector2d Midpoint() const { return 0.5 * (start + end); }
+
+  // Distance of the point from the infinite line, positive on the side of Normal().
+  double Distance(const Eigen::Vector2d& point) const { return Normal().dot(point - start); }
+  // How far along the line the foot of the point lies; `start` is 0, `end` is Length().
+  double Along(const Eigen::Vector2d& point) const { return Direction().dot(point - start); }
+
+  LineSegment Reversed() const { return {end, start}; }
+};
+
+// Angle between the directions, 0 to pi: pi where they point opposite ways.
+inline double DirectedAngle(const LineSegment& a, const LineSegment& b) {
+  const Eigen::Vector2d u = a.end - a.start;
+  const Eigen::Vector2d v = b.end - b.start;
+  return std::abs(std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)));
+}
+
+// Angle between the infinite lines, 0 to pi / 2.
+inline double UndirectedAngle(const LineSegment& a, const LineSegment& b) {
+  const double angle = DirectedAngle(a, b);
+  return std::min(angle, M_PI - angle);
+}
+
+// How two segments lie to each other, seen along the first.
+struct SegmentRelation {
+  double overlap = 0;   // length that they share as a part of the shorter one; negative: a gap
+  double distance = 0;  // across the first, in the middle of what they share
+};
+
+inline SegmentRelation Relate(const LineSegment& a, const LineSegment& b) {
+  double from = a.Along(b.start);
+  double to = a.Along(b.end);
+  double distance_from = a.Distance(b.start);
+  double distance_to = a.Distance(b.end);
+  if (from > to) {
+    std::swap(from, to);
+    std::swap(distance_from, distance_to);
+  }
+  const double low = std::max(from, 0.0);
+  const double high = std::min(to, a.Length());
+  const double span = std::max(to - from, 1e-12);
+  const double middle = std::clamp((0.5 * (low + high) - from) / span, 0.0, 1.0);
+  return {(high - low) / std::max(std::min(to - from, a.Length()), 1e-12),
+          std::abs(distance_from + middle * (distance_to - distance_from))};
+}
+
+}  // namespace plm_vins

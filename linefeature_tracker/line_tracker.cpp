@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linefeature_tracker/line_tracker.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/stopwatch.h"
+#include "linefeature_tracker/lbd_matcher.h"
+#include "linefeature_tracker/line_drawing.h"
+#include "linefeature_tracker/line_finder.h"
+#include "linefeature_tracker/line_flow.h"
+#include "linefeature_tracker/line_gate.h"
+#include "linefeature_tracker/line_occupancy.h"
+#include "linefeature_tracker/line_queue.h"
+#include "linefeature_tracker/line_refinement.h"
+#include "linefeature_tracker/line_track.h"
+#include "linefeature_tracker/segment_sampler.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int kSearchAfterFlow_px = 2;
+constexpr int kSearchAfterDetection_px = 4;
+constexpr int kLbdChoice = 2;  // lines described per line wanted
+
+// Throws std::invalid_argument where the image cannot follow the one at `previous_ns`.
+void CheckImage(const ImageSample& image, const CameraParameters& camera,
+                const std::optional<int64_t>& previous_ns) {
+  if (image.gray.type() != CV_8UC1) {
+    throw std::invalid_argument("image is not 8-bit grey (CV_8UC1)");
+  }
+  if (image.gray.cols != camera.width || image.gray.rows != camera.height) {
+    throw std::invalid_argument("image is " + std::to_string(image.gray.cols) + " x " +
+                                std::to_string(image.gray.rows) + " px, the calibration is for " +
+                                std::to_string(camera.width) + " x " +
+                                std::to_string(camera.height));
+  }
+  if (previous_ns && image.t_ns <= *previous_ns) {
+    throw std::invalid_argument("image stamp " + std::to_string(image.t_ns) +
+                                " ns is not after the one before, " + std::to_string(*previous_ns) +
+                                " ns");
+  }
+}
+
+// Where the camera's turn takes the segment; it stays where an end would get behind the camera.
+LineSegment Turn(const LineSegment& segment, const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+  if (!R_C1_C0) return segment;
+  const Eigen::Vector3d start = *R_C1_C0 * segment.start.homogeneous();
+  const Eigen::Vector3d end = *R_C1_C0 * segment.end.homogeneous();
+  if (start.z() <= 0 || end.z() <= 0) return segment;
+  return {start.hnormalized(), end.hnormalized()};
+}
+
+LineSegment Moved(const LineSegment& segment, const Eigen::Vector2d& motion) {
+  return {segment.start + motion, segment.end + motion};
+}
+
+// The part of the motion that shows: across the line.
+Eigen::Vector2d MotionAcross(const LineSegment& from, const LineSegment& to) {
+  return from.Distance(to.Midpoint()) * from.Normal();
+}
+
+}  // namespace
+
+class LineTracker::Implementation {
+ public:
+  Implementation(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera)
+      : config_(config),
+        camera_(std::move(camera)),
+        image_size_(camera_->parameters().width, camera_->parameters().height),
+        finder_(config, camera_),
+        refinement_(config, camera_),
+        flow_(camera_),
+        gate_(config, camera_->FocalLength()),
+        lbd_(config, camera_->FocalLength()) {}
+
+  LineFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+    CheckImage(sample, camera_->parameters(), t_ns_);
+    LineFlow::Pyramid pyramid = LineFlow::BuildPyramid(sample.gray);
+    statistics_ = {};
+    statistics_.previous = static_cast<int>(tracks_.size());
+    const double dt = t_ns_ ? ToSeconds(sample.t_ns - *t_ns_) : 0;
+    const double dt_ratio = previous_dt_ > 0 ? dt / previous_dt_ : 0;
+    if (config_.line_matcher == LineMatcherType::kFlow) {
+      FollowByFlow(pyramid, dt_ratio, R_C1_C0);
+      if (IsRefillDue()) Refill(sample.gray, FindLines(pyramid));
+    } else {
+      FollowByLbd(pyramid, dt_ratio, R_C1_C0);
+    }
+    previous_dt_ = dt;
+    image_ = sample.gray;
+    pyramid_ = std::move(pyramid);
+    t_ns_ = sample.t_ns;
+    return MakeFrame();
+  }
+
+  void Reset() {
+    tracks_.clear();
+    pyramid_.clear();
+    t_ns_.reset();
+    previous_dt_ = 0;
+    images_since_detection_.reset();
+    statistics_ = {};
+  }
+
+  const LineTrackerStatistics& statistics() const { return statistics_; }
+  cv::Mat DrawLines() const { return DrawLineTracks(image_, tracks_); }
+
+ private:
+  // Takes the tracks to the image of `pyramid` and drops those that got lost.
+  void FollowByFlow(const LineFlow::Pyramid& pyramid, double dt_ratio,
+                    const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+    std::vector<LineTrack> followed;
+    for (LineTrack& track : tracks_) {
+      const LineSegment turned = Turn(track.segment, R_C1_C0);
+      const LineSegment predicted = Moved(turned, dt_ratio * track.parallax);
+      const auto found = FollowOne(pyramid, track.segment, predicted);
+      if (found && Advance(*found, turned, &track)) followed.push_back(std::move(track));
+    }
+    tracks_ = std::move(followed);
+    DropDuplicates();
+  }
+
+  std::optional<LineSegment> FollowOne(const LineFlow::Pyramid& pyramid, const LineSegment& segment,
+                                       const LineSegment& predicted) {
+    const auto flow = flow_.Track(pyramid_, pyramid, segment, predicted);
+    if (!flow || flow->correlation < config_.min_correlation) {
+      ++statistics_.match_lost;
+      return std::nullopt;
+    }
+    if (!gate_.Accepts(predicted, flow->segment)) {
+      ++statistics_.inconsistent;
+      return std::nullopt;
+    }
+    const auto refined = refinement_.Refine(pyramid.front(), flow->segment, kSearchAfterFlow_px);
+    if (!refined) ++statistics_.edge_lost;
+    return refined;
+  }
+
+  // Detects all lines and gives those that match a track its id.
+  void FollowByLbd(const LineFlow::Pyramid& pyramid, double dt_ratio,
+                   const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+    std::vector<FoundLine> lines = DescribedLines(pyramid);
+    std::vector<LineSegment> turned;
+    std::vector<LbdMatcher::Line> older, newer;
+    for (const LineTrack& track : tracks_) {
+      turned.push_back(Turn(track.segment, R_C1_C0));
+      older.push_back({Moved(turned.back(), dt_ratio * track.parallax), track.descriptor});
+    }
+    for (const FoundLine& line : lines) newer.push_back({line.segment, line.descriptor});
+    const std::vector<int> matches = lbd_.Match(older, newer);
+    std::vector<LineTrack> followed;
+    for (size_t i = 0; i < tracks_.size(); ++i) {
+      if (matches[i] < 0) {
+        ++statistics_.match_lost;
+        continue;
+      }
+      const FoundLine& line = lines[matches[i]];
+      tracks_[i].descriptor = line.descriptor;
+      if (Advance(line.segment, turned[i], &tracks_[i])) followed.push_back(std::move(tracks_[i]));
+    }
+    tracks_ = std::move(followed);
+    Refill(pyramid.front(), lines);
+  }
+
+  // All lines of the image that an edge confirms, longest first, with their descriptors.
+  std::vector<FoundLine> DescribedLines(const LineFlow::Pyramid& pyramid) {
+    const cv::Mat& image = pyramid.front();
+    LineOccupancy occupied(config_.spacing);
+    std::vector<FoundLine> lines;
+    std::vector<LineSegment> segments_px;
+    for (const FoundLine& found : FindLines(pyramid)) {
+      if (static_cast<int>(lines.size()) == kLbdChoice * config_.max_lines) break;
+      const auto track = MakeTrack(image, found);
+      if (!track || occupied.IsTaken(track->segment_px)) continue;
+      occupied.Add(track->segment_px);
+      lines.push_back({track->segment, track->segment_px, {}});
+      segments_px.push_back(track->segment_px);
+    }
+    const cv::Mat descriptors = lbd_.Describe(image, segments_px);
+    for (size_t i = 0; i < lines.size(); ++i)
+      lines[i].descriptor = descriptors.row(static_cast<int>(i));
+    return lines;
+  }
+
+  // `turned` is where the track would be by rotation alone. False where the camera does not see it.
+  bool Advance(const LineSegment& segment, const LineSegment& turned, LineTrack* track) {
+    const auto segment_px = ProjectSegment(*camera_, segment);
+    if (!segment_px) return false;
+    track->parallax = MotionAcross(turned, segment);
+    track->segment = segment;
+    track->segment_px = *segment_px;
+    ++track->length;
+    return true;
+  }
+
+  // Keeps the older of two tracks that came to lie on one line.
+  void DropDuplicates() {
+    std::stable_sort(tracks_.begin(), tracks_.end(),
+                     [](const auto& a, const auto& b) { return a.length > b.length; });
+    LineOccupancy occupied(config_.spacing);
+    std::vector<LineTrack> kept;
+    for (LineTrack& track : tracks_) {
+      if (occupied.IsTaken(track.segment_px)) continue;
+      occupied.Add(track.segment_px);
+      kept.push_back(std::move(track));
+    }
+    statistics_.duplicates = static_cast<int>(tracks_.size() - kept.size());
+    tracks_ = std::move(kept);
+  }
+
+  bool IsRefillDue() {
+    if (images_since_detection_) ++*images_since_detection_;
+    const bool is_short =
+        static_cast<double>(tracks_.size()) < config_.refill_below * config_.max_lines;
+    const bool has_waited =
+        !images_since_detection_ || *images_since_detection_ >= config_.refill_interval;
+    return is_short && has_waited;
+  }
+
+  std::vector<FoundLine> FindLines(const LineFlow::Pyramid& pyramid) {
+    const Stopwatch stopwatch;
+    std::vector<FoundLine> lines = finder_.Find(pyramid, &statistics_.fragments);
+    images_since_detection_ = 0;
+    statistics_.detected = true;
+    statistics_.candidates = static_cast<int>(lines.size());
+    statistics_.detection_ms = stopwatch.Milliseconds();
+    return lines;
+  }
+
+  // Adds lines where there are none yet.
+  void Refill(const cv::Mat& image, const std::vector<FoundLine>& lines) {
+    LineOccupancy occupied(config_.spacing);
+    LineQueue queue(image_size_);
+    for (const LineTrack& track : tracks_) {
+      occupied.Add(track.segment_px);
+      queue.CountLine(track.segment_px);
+    }
+    for (size_t i = 0; i < lines.size(); ++i) queue.AddCandidate(lines[i].segment_px, i);
+    while (static_cast<int>(tracks_.size()) < config_.max_lines) {
+      const auto i = queue.Pop();
+      if (!i) break;
+      if (occupied.IsTaken(lines[*i].segment_px)) continue;
+      const auto track = MakeTrack(image, lines[*i]);
+      if (!track || occupied.IsTaken(track->segment_px)) continue;
+      occupied.Add(track->segment_px);
+      queue.CountLine(track->segment_px);
+      tracks_.push_back(*track);
+      tracks_.back().id = next_id_++;
+      ++statistics_.added;
+    }
+  }
+
+  // A track without an id yet; nothing where no edge confirms the line.
+  std::optional<LineTrack> MakeTrack(const cv::Mat& image, const FoundLine& line) const {
+    const auto refined = refinement_.Refine(image, line.segment, kSearchAfterDetection_px);
+    if (!refined) return std::nullopt;
+    const auto segment_px = ProjectSegment(*camera_, *refined);
+    if (!segment_px) return std::nullopt;
+    LineTrack track;
+    track.segment = *refined;
+    track.segment_px = *segment_px;
+    track.descriptor = line.descriptor;
+    return track;
+  }
+
+  LineFrame MakeFrame() const {
+    LineFrame frame;
+    frame.t_ns = *t_ns_;
+    for (const LineTrack& track : tracks_)
+      frame.lines.push_back({track.id, track.segment.start, track.segment.end});
+    return frame;
+  }
+
+  // Read-only after construction, but for the detector's buffers.
+  LineTrackerConfig config_;
+  std::shared_ptr<const CameraModel> camera_;
+  cv::Size image_size_;
+  LineFinder finder_;
+  LineRefinement refinement_;
+  LineFlow flow_;
+  LineGate gate_;
+  LbdMatcher lbd_;
+
+  // As of the newest image.
+  std::optional<int64_t> t_ns_;
+  double previous_dt_ = 0;  // between the two newest images [s]
+  cv::Mat image_;
+  LineFlow::Pyramid pyramid_;
+  std::vector<LineTrack> tracks_;
+  std::optional<int> images_since_detection_;
+  LineTrackerStatistics statistics_;
+  int64_t next_id_ = 0;
+};
+
+LineTracker::LineTracker(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera)
+    : implementation_(std::make_unique<Implementation>(config, std::move(camera))) {}
+
+LineTracker::~LineTracker() = default;
+
+LineFrame LineTracker::Track(const ImageSample& image,
+                             const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+  return implementation_->Track(image, R_C1_C0);
+}
+
+void LineTracker::Reset() { implementation_->Reset(); }
+
+const LineTrackerStatistics& LineTracker::statistics() const {
+  return implementation_->statistics();
+}
+
+cv::Mat LineTracker::DrawLines() const { return implementation_->DrawLines(); }
+
+}  // namespace plm_vins

@@ -95,9 +95,17 @@ std::optional<LineSegment> LineRefinement::Refine(const cv::Mat& image, const Li
   }
   const auto part = SupportedPart(rough, step, points);
   if (!part) return std::nullopt;
+  // Once more without what lies beyond the ends, which may belong to another edge.
+  const double first = rough.Along(part->start);
+  const double last = rough.Along(part->end);
+  const auto is_beyond = [&](const EdgePoint& point) {
+    return !point.found || point.sample.along <= first || point.sample.along >= last;
+  };
+  points.erase(std::remove_if(points.begin(), points.end(), is_beyond), points.end());
+  const LineOffset final_fit = FitOffset(points);
   const Eigen::Vector2d normal = rough.Normal();
   const auto on_line = [&](const Eigen::Vector2d& xy) -> Eigen::Vector2d {
-    return xy + (fit.at_start + fit.slope * rough.Along(xy)) * normal;
+    return xy + (final_fit.at_start + final_fit.slope * rough.Along(xy)) * normal;
   };
   return LineSegment{on_line(part->start), on_line(part->end)};
 }

@@ -57,10 +57,14 @@ bool PointTrackingStage::IsNewRecording(int64_t refused_ns) {
   return refused_in_a_row_ > kRefusedUntilRestart;
 }
 
+bool PointTrackingStage::UsesGyro() const {
+  return config_.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kCalibrateRotation;
+}
+
 std::optional<TrackedFrame> PointTrackingStage::Pop() {
   if (images_.empty()) return std::nullopt;
-  if (!gyro_.Covers(images_.front().image.t_ns) && images_.size() <= kMaxWaiting)
-    return std::nullopt;
+  const bool wait = UsesGyro() && images_.size() <= kMaxWaiting;
+  if (wait && !gyro_.Covers(images_.front().image.t_ns)) return std::nullopt;
   return Flush();
 }
 
@@ -97,7 +101,7 @@ TrackedFrame PointTrackingStage::TrackFront() {
 }
 
 std::optional<Eigen::Quaterniond> PointTrackingStage::PredictRotation(int64_t t_ns) {
-  if (!tracked_ns_) return std::nullopt;
+  if (!tracked_ns_ || !UsesGyro()) return std::nullopt;
   const auto R_C1_C0 = gyro_.Rotation(*tracked_ns_, t_ns);
   if (!R_C1_C0) ++counts_.without_gyro;
   return R_C1_C0;

@@ -68,6 +68,8 @@ class PointTrackingStage {
     bool restart = false;
   };
 
+  // Not where the rotation between camera and gyro is yet to be calibrated, by the estimator.
+  bool UsesGyro() const;
   bool IsNewRecording(int64_t refused_ns);
   TrackedFrame TrackFront();
   std::optional<Eigen::Quaterniond> PredictRotation(int64_t t_ns);

@@ -23,6 +23,15 @@ ProblemOptions MakeProblemOptions(const Config& config, double focal_length) {
   return options;
 }
 
+InitialUncertainty UncertaintyOf(const SensorConfig& sensor) {
+  InitialUncertainty uncertainty;
+  if (sensor.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {
+    uncertainty.extrinsic_rotation = 0.1;
+    uncertainty.extrinsic_position = 0.1;
+  }
+  return uncertainty;
+}
+
 KeyframePolicyOptions MakeKeyframeOptions(const Config& config, double focal_length) {
   KeyframePolicyOptions options;
   options.min_parallax = config.estimator.keyframe_parallax / focal_length;
@@ -83,11 +92,12 @@ void Estimator::Initialize(const FrameMeasurement& measurement, EstimatorOutput*
 }
 
 void Estimator::StartWindow(const InitializationResult& result) {
+  window_.SetExtrinsic(result.T_B_C);
   for (const InitialFrame& frame : result.frames) {
     AddFrame(frame.measurement);
     window_.newest().state = frame.state;
   }
-  prior_ = InitialPrior(InitialUncertainty(), problem_options_, window_);
+  prior_ = InitialPrior(UncertaintyOf(config_.sensor), problem_options_, window_);
   points_.Triangulate(window_, kMinTriangulationAngle_px / focal_length_);
 }
 

@@ -149,5 +149,28 @@ TEST(PointTrackingStage, ThinsToThePublishRateButTracksAll) {
   EXPECT_EQ(published, (std::vector<bool>{true, false, true, false, true}));
 }
 
+// The gyro says nothing about the images while the camera's rotation is unknown.
+TEST(PointTrackingStage, DoesWithoutTheGyroWhereTheCameraRotationIsUnknown) {
+  Config config = StillConfig();
+  config.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kCalibrateRotation;
+  PointTrackingStage stage(config);
+  PointFrame first;
+  for (const int t : {0, 50}) {
+    for (int imu = t - 50; imu <= t; imu += 5) {  // turns fast; the picture does not
+      ImuSample sample = StillImu(kStart + imu * kMillisecond);
+      sample.gyro = Eigen::Vector3d(0, 0, 5);
+      stage.AddImu(sample);
+    }
+    stage.AddImage({kStart + t * kMillisecond, StillPicture()});
+    const auto frame = stage.Pop();
+    ASSERT_TRUE(frame);
+    if (t == 0) first = frame->points;
+    EXPECT_EQ(frame->points.points.size(), first.points.size());
+  }
+  stage.AddImage({kStart + 100 * kMillisecond, StillPicture()});
+  EXPECT_TRUE(stage.Pop()) << "waits for the gyro";
+  EXPECT_EQ(stage.counts().without_gyro, 0);
+}
+
 }  // namespace
 }  // namespace plm_vins

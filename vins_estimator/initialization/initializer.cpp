@@ -51,8 +51,7 @@ bool IsContinuous(ImuSample last, const std::vector<ImuSample>& samples) {
 }  // namespace
 
 Initializer::Initializer(const Config& config)
-    : sensor_(config.sensor),
-      point_noise_px_(config.estimator.point_noise),
+    : config_(config),
       max_frames_(std::min<size_t>(kMaxFrames, config.estimator.window_size + 1)),
       standstill_(config.sensor.imu_noise, StandstillOptions()) {
   Reset();
@@ -61,6 +60,12 @@ Initializer::Initializer(const Config& config)
 void Initializer::Reset() {
   buffer_.clear();
   standstill_.Reset();
+  sensor_ = config_.sensor;
+  calibrator_.reset();
+  if (sensor_.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {
+    const double focal_length = CameraModel::Create(sensor_.camera)->FocalLength();
+    calibrator_.emplace(sensor_.imu_noise, config_.estimator.point_noise / focal_length);
+  }
   start_ns_.reset();
   images_since_attempt_ = 0;
   reason_ = "waiting for images";
@@ -99,8 +104,17 @@ std::optional<InitializationResult> Initializer::Add(const FrameMeasurement& mea
   Append(measurement);
   ++images_since_attempt_;
   if (buffer_.empty()) return std::nullopt;
-  if (standstill_.Add(buffer_.back())) return TryStandstill();
-  return TryMotion();
+  const bool stands_still = standstill_.Add(buffer_.back());
+  if (calibrator_) CalibrateRotation();
+  if (calibrator_) return std::nullopt;
+  return stands_still ? TryStandstill() : TryMotion();
+}
+
+void Initializer::CalibrateRotation() {
+  const auto R_B_C = calibrator_->Add(buffer_, &reason_);
+  if (!R_B_C) return;
+  sensor_.T_B_C.rotation = *R_B_C;
+  calibrator_.reset();
 }
 
 std::optional<InitializationResult> Initializer::TryStandstill() {
@@ -114,7 +128,7 @@ std::optional<InitializationResult> Initializer::TryStandstill() {
   if (!state) return std::nullopt;
   state->t_ns = buffer_.back().t_ns;
   reason_.clear();
-  return InitializationResult{{{buffer_.back(), *state}}, true};
+  return InitializationResult{{{buffer_.back(), *state}}, true, sensor_.T_B_C};
 }
 
 std::optional<InitializationResult> Initializer::TryMotion() {
@@ -134,10 +148,12 @@ std::optional<InitializationResult> Initializer::TryMotion() {
   options.max_scale_deviation = std::min(
       kMaxScaleDeviation, kScaleDeviationPerSecond * ToSeconds(buffer_.back().t_ns - *start_ns_));
   std::vector<FrameMeasurement> frames = JoinFrames(buffer_, SelectFrames(buffer_, max_frames_));
-  const auto states = InitializeFromMotion(frames, sensor_, point_noise_px_, options, &reason_);
+  const auto states =
+      InitializeFromMotion(frames, sensor_, config_.estimator.point_noise, options, &reason_);
   if (!states) return std::nullopt;
   reason_.clear();
   InitializationResult result;
+  result.T_B_C = sensor_.T_B_C;
   for (size_t i = 0; i < frames.size(); ++i) {
     result.frames.push_back({std::move(frames[i]), (*states)[i]});
   }

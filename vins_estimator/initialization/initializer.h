@@ -10,6 +10,7 @@
 #include "common/config.h"
 #include "common/measurements.h"
 #include "vins_estimator/imu/standstill_detector.h"
+#include "vins_estimator/initialization/extrinsic_calibrator.h"
 #include "vins_estimator/window/frame_state.h"
 
 namespace plm_vins {
@@ -25,12 +26,15 @@ struct InitialFrame {
 struct InitializationResult {
   std::vector<InitialFrame> frames;  // oldest first, the last one is the newest image
   bool from_standstill = false;
+  Rigid3d T_B_C;  // as calibrated before or as configured
 };
 
 // Finds the first states of the estimator: from standstill as soon as the body has stood still for
 // three quarters of a second, else from motion as soon as 1.5 s of images or more determine
 // gravity, velocity and scale. World: z up, origin and heading 0 at the first frame of the result.
-// Rather waits than guesses, and says why. Keeps at most three seconds of images. Deterministic.
+// Where the camera's rotation is to be calibrated, this comes first, and takes turns about at least
+// two axes. Rather waits than guesses, and says why. Keeps at most three seconds of images.
+// Deterministic.
 class Initializer {
  public:
   explicit Initializer(const Config& config);
@@ -46,15 +50,17 @@ class Initializer {
  private:
   void StartOver(const std::string& reason);
   void Append(const FrameMeasurement& measurement);
+  void CalibrateRotation();
   std::optional<InitializationResult> TryStandstill();
   std::optional<InitializationResult> TryMotion();
 
-  SensorConfig sensor_;
-  double point_noise_px_;
+  const Config config_;
+  SensorConfig sensor_;  // with the rotation of the camera as calibrated
   size_t max_frames_;
   StandstillDetector standstill_;
-  std::deque<FrameMeasurement> buffer_;  // without gap in IMU samples and tracks
-  std::optional<int64_t> start_ns_;      // of the first image since the reset
+  std::optional<ExtrinsicCalibrator> calibrator_;  // until the rotation is known
+  std::deque<FrameMeasurement> buffer_;            // without gap in IMU samples and tracks
+  std::optional<int64_t> start_ns_;                // of the first image since the reset
   int images_since_attempt_ = 0;
   std::string reason_;
 };

@@ -190,5 +190,54 @@ TEST(InitializerTest, NotANumberStartsOver) {
   EXPECT_GE(start->result.frames.front().state.t_ns, flight.frames[20].t_ns);
 }
 
+SimulatedFlight ForgetTheCameraPose(SimulatedFlight flight) {
+  flight.sensor.T_B_C = Rigid3d();
+  flight.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kCalibrateRotation;
+  return flight;
+}
+
+TEST(InitializerTest, CalibratesTheRotationOfTheCameraFirst) {
+  for (const auto motion : {simulator::Motion::kGentle, simulator::Motion::kFast}) {
+    for (uint64_t seed = 1; seed <= 3; ++seed) {
+      auto options = FlightOptions(motion, seed);
+      options.trajectory.duration = 12;
+      options.point_outlier_ratio = 0.02;
+      const SimulatedFlight truth = SimulateFlight(options);
+      const SimulatedFlight flight = ForgetTheCameraPose(truth);
+      Initializer initializer(ConfigFor(flight));
+      const auto start = Feed(flight, &initializer);
+      ASSERT_TRUE(start) << "seed " << seed << ": " << initializer.reason();
+      const Rigid3d& T_B_C = start->result.T_B_C;
+      EXPECT_LT(T_B_C.rotation.angularDistance(truth.sensor.T_B_C.rotation), 0.04)
+          << "seed " << seed;
+      EXPECT_EQ(T_B_C.translation, Eigen::Vector3d::Zero());
+      EXPECT_LT(std::abs(ScaleError(*start, flight)), 0.25) << "seed " << seed;
+    }
+  }
+}
+
+// Neither rest nor a flight without turns tells the rotation, and without it there is no start.
+TEST(InitializerTest, WaitsForTurnsWhereTheCameraRotationIsUnknown) {
+  const SimulatedFlight still =
+      ForgetTheCameraPose(SimulateFlight(FlightOptions(simulator::Motion::kStill, 1)));
+  Initializer initializer(ConfigFor(still));
+  EXPECT_FALSE(Feed(still, &initializer));
+  EXPECT_NE(initializer.reason().find("calibrating the camera's rotation"), std::string::npos)
+      << initializer.reason();
+}
+
+// A reset forgets what was calibrated; the same images bring the same result again.
+TEST(InitializerTest, CalibratesAnewAfterReset) {
+  const SimulatedFlight flight =
+      ForgetTheCameraPose(SimulateFlight(FlightOptions(simulator::Motion::kFast, 1)));
+  Initializer initializer(ConfigFor(flight));
+  const auto first = Feed(flight, &initializer);
+  initializer.Reset();
+  const auto second = Feed(flight, &initializer);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->index, second->index);
+  EXPECT_EQ(first->result.T_B_C.rotation.coeffs(), second->result.T_B_C.rotation.coeffs());
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/initialization/extrinsic_rotation.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "common/so3.h"
+
+namespace plm_vins {
+namespace {
+
+// What a pair may disagree by while the gyro bias is not known yet [rad].
+constexpr double kLinearTolerance = 0.03;
+constexpr int kLinearIterations = 10;
+constexpr int kRefinements = 8;
+constexpr double kInlierSigmas = 4.0;
+constexpr double kMinInlierShare = 0.6;
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+// Geman-McClure: an outlier has no say at all.
+double RobustWeight(double error, double scale) {
+  const double ratio = error / scale;
+  return 1 / ((1 + ratio * ratio) * (1 + ratio * ratio));
+}
+
+double Angle(const Eigen::Quaterniond& q) { return SO3Log(q).norm(); }
+
+// The matrix M with M q = R_B0_B1 q - q R_C0_C1, quaternions as (x, y, z, w).
+Eigen::Matrix4d Constraint(const RotationPair& pair) {
+  // Both with w >= 0, as turns are below half a turn: else one is the other's negative.
+  const auto positive = [](Eigen::Quaterniond q) {
+    if (q.w() < 0) q.coeffs() = -q.coeffs();
+    return q;
+  };
+  const Eigen::Quaterniond b = positive(pair.R_B0_B1), c = positive(pair.R_C0_C1);
+  const Eigen::Vector3d sum = b.vec() + c.vec(), difference = b.vec() - c.vec();
+  Eigen::Matrix4d M = (b.w() - c.w()) * Eigen::Matrix4d::Identity();
+  M.topLeftCorner<3, 3>() += Skew(sum);
+  M.topRightCorner<3, 1>() = difference;
+  M.bottomLeftCorner<1, 3>() = -difference.transpose();
+  return M;
+}
+
+struct LinearSolution {
+  Eigen::Quaterniond R_B_C;
+  // Second smallest singular value over the root of the weights. With the true R_B_C, M^T M of a
+  // pair that turns by alpha about a is 4 sin^2(alpha / 2) (I - a a^T) across q and 0 along q: the
+  // value is the rms of the turns about axes other than the main one [rad].
+  double second_turn = 0;
+};
+
+LinearSolution SolveLinear(const std::vector<RotationPair>& pairs,
+                           const std::vector<double>& weights) {
+  Eigen::Matrix4d squares = Eigen::Matrix4d::Zero();
+  double sum = 0;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const Eigen::Matrix4d M = Constraint(pairs[i]);
+    squares += weights[i] * M.transpose() * M;
+    sum += weights[i];
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(squares);
+  LinearSolution solution;
+  solution.R_B_C = Eigen::Quaterniond(Eigen::Vector4d(solver.eigenvectors().col(0)));
+  solution.second_turn = std::sqrt(std::max(0.0, solver.eigenvalues()(1)) / sum);
+  return solution;
+}
+
+LinearSolution SolveLinear(const std::vector<RotationPair>& pairs) {
+  // The angles of both rotations are equal whatever R_B_C is, so that most outliers show at once.
+  std::vector<double> weights;
+  for (const RotationPair& pair : pairs) {
+    weights.push_back(RobustWeight(Angle(pair.R_B0_B1) - Angle(pair.R_C0_C1), kLinearTolerance));
+  }
+  LinearSolution solution = SolveLinear(pairs, weights);
+  for (int k = 0; k < kLinearIterations; ++k) {
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      const Eigen::Quaterniond seen =
+          solution.R_B_C * pairs[i].R_C0_C1 * solution.R_B_C.conjugate();
+      weights[i] = RobustWeight(Angle(pairs[i].R_B0_B1.conjugate() * seen), kLinearTolerance);
+    }
+    solution = SolveLinear(pairs, weights);
+  }
+  return solution;
+}
+
+// R_B_C and gyro bias together, by Gauss-Newton.
+class Refiner {
+ public:
+  Refiner(const std::vector<RotationPair>& pairs, const Eigen::Quaterniond& R_B_C,
+          double bias_deviation)
+      : pairs_(pairs), R_B_C_(R_B_C), bias_deviation_(bias_deviation) {}
+
+  // Lenient at first, while the bias is not known.
+  void Run() {
+    for (int k = 0; k < kRefinements; ++k) Step(kLinearTolerance);
+    for (int k = 0; k < kRefinements; ++k) Step(0);
+  }
+  const Eigen::Quaterniond& R_B_C() const { return R_B_C_; }
+  double inlier_share() const { return inlier_share_; }
+  double Deviation() const;
+
+ private:
+  void Step(double tolerance);
+
+  const std::vector<RotationPair>& pairs_;
+  Eigen::Quaterniond R_B_C_;
+  Eigen::Vector3d bias_ = Eigen::Vector3d::Zero();
+  double bias_deviation_;
+  Matrix6d information_ = Matrix6d::Zero();
+  double inlier_share_ = 0;
+};
+
+// One step over R_B_C <- Exp(theta) R_B_C and the bias. A bias b turns R_B0_B1 into
+// R_B0_B1 Exp(-Jr(phi) b duration) where phi, its logarithm, was turned at a steady rate.
+// `tolerance`: what a pair may disagree by at least [rad].
+void Refiner::Step(double tolerance) {
+  information_.setZero();
+  Vector6d gradient = Vector6d::Zero();
+  information_.bottomRightCorner<3, 3>().diagonal().setConstant(
+      1 / (bias_deviation_ * bias_deviation_));
+  gradient.tail<3>() = bias_ / (bias_deviation_ * bias_deviation_);
+  int inliers = 0;
+  for (const RotationPair& pair : pairs_) {
+    const Eigen::Matrix3d d_turn_d_bias = pair.duration * SO3RightJacobian(SO3Log(pair.R_B0_B1));
+    const Eigen::Quaterniond R_B0_B1 = pair.R_B0_B1 * SO3Exp(-d_turn_d_bias * bias_);
+    const Eigen::Quaterniond seen = R_B_C_ * pair.R_C0_C1 * R_B_C_.conjugate();
+    const Eigen::Vector3d residual = SO3Log(R_B0_B1.conjugate() * seen) / pair.deviation;
+    Eigen::Matrix<double, 3, 6> J;
+    J << seen.toRotationMatrix().transpose() - Eigen::Matrix3d::Identity(), d_turn_d_bias;
+    J /= pair.deviation;
+    const double weight =
+        RobustWeight(residual.norm(), std::max(kInlierSigmas, tolerance / pair.deviation));
+    information_ += weight * J.transpose() * J;
+    gradient += weight * J.transpose() * residual;
+    inliers += residual.norm() < kInlierSigmas;
+  }
+  inlier_share_ = static_cast<double>(inliers) / static_cast<double>(pairs_.size());
+  // A turn about one axis leaves theta open along it; the floor of ten radians keeps it solvable.
+  information_.topLeftCorner<3, 3>().diagonal().array() += 0.01;
+  const Vector6d step = -information_.ldlt().solve(gradient);
+  R_B_C_ = (SO3Exp(step.head<3>()) * R_B_C_).normalized();
+  bias_ += step.tail<3>();
+}
+
+// Standard deviation of R_B_C about its worst axis, the bias not known [rad].
+double Refiner::Deviation() const {
+  const Eigen::Matrix3d covariance = information_.inverse().topLeftCorner<3, 3>();
+  return std::sqrt(
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues().maxCoeff());
+}
+
+std::string Describe(const char* format, double value, double limit) {
+  char text[120];
+  std::snprintf(text, sizeof(text), format, value, limit);
+  return text;
+}
+
+double Degrees(double radians) { return radians * 180 / M_PI; }
+
+}  // namespace
+
+std::optional<Eigen::Quaterniond> CalibrateExtrinsicRotation(
+    const std::vector<RotationPair>& pairs, const ExtrinsicRotationOptions& options,
+    std::string* reason) {
+  if (pairs.empty() || pairs.size() < options.min_pairs) {
+    *reason = "turn the camera about all axes: " + std::to_string(pairs.size()) + " of " +
+              std::to_string(options.min_pairs) + " image pairs";
+    return std::nullopt;
+  }
+  const LinearSolution linear = SolveLinear(pairs);
+  if (linear.second_turn < options.min_second_turn) {
+    *reason = Describe("turn about a second axis: %.1f deg of %.1f deg per image pair",
+                       Degrees(linear.second_turn), Degrees(options.min_second_turn));
+    return std::nullopt;
+  }
+  Refiner refiner(pairs, linear.R_B_C, options.gyro_bias_deviation);
+  refiner.Run();
+  if (refiner.inlier_share() < kMinInlierShare) {
+    *reason = Describe("camera and gyro disagree: %.0f %% of %.0f %% of the image pairs fit",
+                       100 * refiner.inlier_share(), 100 * kMinInlierShare);
+    return std::nullopt;
+  }
+  if (refiner.Deviation() > options.max_deviation) {
+    *reason = Describe("turn more: uncertain by %.1f deg of at most %.1f deg",
+                       Degrees(refiner.Deviation()), Degrees(options.max_deviation));
+    return std::nullopt;
+  }
+  return refiner.R_B_C();
+}
+
+}  // namespace plm_vins

@@ -23,8 +23,12 @@ ProblemOptions MakeProblemOptions(const Config& config, double focal_length) {
   return options;
 }
 
-InitialUncertainty UncertaintyOf(const SensorConfig& sensor) {
+InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstill) {
   InitialUncertainty uncertainty;
+  if (from_standstill) {
+    uncertainty.velocity = 0.01;
+    uncertainty.gyro_bias = 0.003;
+  }
   if (sensor.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {
     uncertainty.extrinsic_rotation = 0.1;
     uncertainty.extrinsic_position = 0.1;
@@ -54,6 +58,7 @@ void Estimator::Reset() {
   initialized_ = false;
   initializer_.Reset();
   standstill_detector_.Reset();
+  contradiction_monitor_.Reset();
   window_ = SlidingWindow();
   window_.SetExtrinsic(config_.sensor.T_B_C);
   window_.td = config_.sensor.td;
@@ -97,7 +102,8 @@ void Estimator::StartWindow(const InitializationResult& result) {
     AddFrame(frame.measurement);
     window_.newest().state = frame.state;
   }
-  prior_ = InitialPrior(UncertaintyOf(config_.sensor), problem_options_, window_);
+  prior_ = InitialPrior(UncertaintyOf(config_.sensor, result.from_standstill), problem_options_,
+                        window_);
   points_.Triangulate(window_, kMinTriangulationAngle_px / focal_length_);
 }
 
@@ -110,7 +116,7 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   Optimize(config_.estimator.max_num_iterations, output);
   output->counts.points_rejected =
       points_.RemoveOutliers(window_, kMaxReprojectionError_px / focal_length_);
-  if (const auto failure = DetectFailure(FailureLimits(), predicted_, window_.newest().state)) {
+  if (const auto failure = FindFailure(*output)) {
     Reset();
     output->status = EstimatorStatus::kLost;
     output->reason = *failure;
@@ -120,6 +126,13 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   output->keyframe = keep_second_newest;
   Describe(output);
   SlideWindow(keep_second_newest, output);
+}
+
+std::optional<std::string> Estimator::FindFailure(const EstimatorOutput& output) {
+  const auto contradiction = contradiction_monitor_.Add(output.t_ns, output.counts.points_in_window,
+                                                        output.counts.points_rejected);
+  return contradiction ? contradiction
+                       : DetectFailure(FailureLimits(), predicted_, window_.newest().state);
 }
 
 bool Estimator::StandsStill(const FrameMeasurement& measurement) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/config.h"
@@ -40,6 +41,7 @@ class Estimator {
 
   void StartWindow(const InitializationResult& result);
   void AddFrame(const FrameMeasurement& measurement);
+  std::optional<std::string> FindFailure(const EstimatorOutput& output);
   bool StandsStill(const FrameMeasurement& measurement);
   void Optimize(int max_iterations, EstimatorOutput* output);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
@@ -55,6 +57,7 @@ class Estimator {
   bool initialized_ = false;
   Initializer initializer_;
   StandstillDetector standstill_detector_;
+  ContradictionMonitor contradiction_monitor_;
   SlidingWindow window_;
   PointMap points_;
   MarginalizationPrior prior_;

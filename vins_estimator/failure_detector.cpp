@@ -5,8 +5,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/measurements.h"
+
 namespace plm_vins {
 namespace {
+
+constexpr int kMinLandmarks = 20;           // fewer cannot contradict
+constexpr double kMaxRejectedShare = 0.25;  // a few per cent in flight
+constexpr double kMaxContradiction = 1.0;   // [s]
 
 bool IsFinite(const FrameState& state) {
   const auto finite = [](double value) { return std::isfinite(value); };
@@ -41,6 +47,20 @@ std::optional<std::string> DetectFailure(const FailureLimits& limits, const Fram
     if (cause) return cause;
   }
   return std::nullopt;
+}
+
+std::optional<std::string> ContradictionMonitor::Add(int64_t t_ns, int landmarks, int rejected) {
+  if (landmarks < kMinLandmarks || rejected < kMaxRejectedShare * landmarks) {
+    since_ns_.reset();
+    return std::nullopt;
+  }
+  if (!since_ns_) since_ns_ = t_ns;
+  if (ToSeconds(t_ns - *since_ns_) < kMaxContradiction) return std::nullopt;
+  char text[128];
+  std::snprintf(text, sizeof(text),
+                "the camera contradicts the state: %d of %d landmarks rejected, for %.1f s",
+                rejected, landmarks, ToSeconds(t_ns - *since_ns_));
+  return std::string(text);
 }
 
 }  // namespace plm_vins

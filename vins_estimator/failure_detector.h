@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -22,5 +23,19 @@ struct FailureLimits {
 // it can.
 std::optional<std::string> DetectFailure(const FailureLimits& limits, const FrameState& predicted,
                                          const FrameState& optimized);
+
+// Notices when the camera goes on contradicting the state: image after image, a large share of the
+// landmarks does not fit. A single bad IMU sample can do that, and no other limit need see it.
+class ContradictionMonitor {
+ public:
+  // Takes an image's landmarks in the optimisation and how many were rejected after it. The reason
+  // once the contradiction has lasted too long; nothing before.
+  std::optional<std::string> Add(int64_t t_ns, int landmarks, int rejected);
+
+  void Reset() { since_ns_.reset(); }
+
+ private:
+  std::optional<int64_t> since_ns_;  // stamp of the first image that contradicted
+};
 
 }  // namespace plm_vins

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "common/measurements.h"
 #include "common/so3.h"
 
 namespace plm_vins {
@@ -73,6 +74,42 @@ TEST_F(FailureDetectorTest, NamesValuesThatAreNotFinite) {
     optimized_ = FrameState();
     optimized_.motion[8] = value;
     EXPECT_EQ(Detect(), "the optimisation gave values that are not finite");
+  }
+}
+
+// Images at 20 Hz from 0 s on, all with the same counts; the stamp [s] of the first alarm, or -1.
+double FirstAlarm(ContradictionMonitor* monitor, int landmarks, int rejected, int images) {
+  for (int i = 0; i < images; ++i) {
+    if (monitor->Add(ToNanoseconds(0.05 * i), landmarks, rejected)) return 0.05 * i;
+  }
+  return -1;
+}
+
+TEST(ContradictionMonitor, AlarmsAfterASecondOfContradiction) {
+  ContradictionMonitor monitor;
+  EXPECT_DOUBLE_EQ(FirstAlarm(&monitor, 100, 25, 40), 1.0);
+  monitor.Reset();
+  EXPECT_EQ(FirstAlarm(&monitor, 100, 25, 20), -1);
+}
+
+TEST(ContradictionMonitor, SaysHowMuchContradicts) {
+  ContradictionMonitor monitor;
+  monitor.Add(0, 100, 60);
+  EXPECT_EQ(monitor.Add(ToNanoseconds(1.2), 80, 40).value_or(""),
+            "the camera contradicts the state: 40 of 80 landmarks rejected, for 1.2 s");
+}
+
+TEST(ContradictionMonitor, ToleratesOutliersAndFewLandmarks) {
+  ContradictionMonitor monitor;
+  EXPECT_EQ(FirstAlarm(&monitor, 100, 24, 100), -1);
+  EXPECT_EQ(FirstAlarm(&monitor, 19, 19, 100), -1);
+}
+
+TEST(ContradictionMonitor, StartsOverWithAnImageThatFits) {
+  ContradictionMonitor monitor;
+  for (int i = 0; i < 200; ++i) {
+    const int rejected = i % 15 == 0 ? 0 : 50;
+    EXPECT_FALSE(monitor.Add(ToNanoseconds(0.05 * i), 100, rejected)) << i;
   }
 }
 

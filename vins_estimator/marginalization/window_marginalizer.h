@@ -33,7 +33,7 @@ std::function<bool(const BlockId&)> IsOfFrame(int64_t t_ns);
 
 // Folds the oldest frame into a new prior: its motion to the next frame, the old prior, and every
 // landmark that it hosts with all views. `window` and `points` stay as they are; what was folded in
-// must not be used again: see ForgetFolded().
+// must not be used again: see PointMap::StartAnew().
 MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
                                        const MarginalizationPrior& prior, SlidingWindow* window,
                                        PointMap* points);

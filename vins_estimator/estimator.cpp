@@ -26,7 +26,7 @@ ProblemOptions MakeProblemOptions(const Config& config, double focal_length) {
 InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstill) {
   InitialUncertainty uncertainty;
   if (from_standstill) {
-    uncertainty.velocity = 0.01;
+    uncertainty.velocity = 0.03;
     uncertainty.gyro_bias = 0.003;
   }
   if (sensor.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {

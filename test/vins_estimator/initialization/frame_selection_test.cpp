@@ -22,7 +22,10 @@ std::deque<FrameMeasurement> MakeFrames(const std::vector<double>& shifts) {
       point.xy = {0.05 * id + shifts[i], 0.1};
       frame.points.points.push_back(point);
     }
-    for (int k = 2; k >= 0; --k) frame.imu.push_back({frame.t_ns - k * kFrame_ns / 2, {}, {}});
+    for (int k = 2; k >= 0; --k) {
+      frame.imu.emplace_back();
+      frame.imu.back().t_ns = frame.t_ns - k * kFrame_ns / 2;
+    }
     frames.push_back(frame);
   }
   return frames;

@@ -92,12 +92,19 @@ TEST(RelativePoseTest, PureRotationStillGivesTheRotation) {
   EXPECT_LT(pose->R_C1_C0.angularDistance(turning.R_C1_C0), 0.005);
 }
 
+// A plane has two solutions, and noise alone can make the wrong one fit better: the gyro decides
+// for the right one nearly always.
 TEST(RelativePoseTest, GyroDecidesBetweenTheSolutionsOfAPlane) {
-  std::string reason;
-  const auto pose = EstimateRelativePose(kViews.Observe(120, kNoise, 0, 3, /*planar=*/true), kGyro,
-                                         kNoise, &reason);
-  ASSERT_TRUE(pose) << reason;
-  EXPECT_LT(pose->R_C1_C0.angularDistance(kViews.R_C1_C0), 0.03);
+  constexpr int kRuns = 40;
+  int right = 0;
+  for (int seed = 1; seed <= kRuns; ++seed) {
+    std::string reason;
+    const auto pose = EstimateRelativePose(kViews.Observe(120, kNoise, 0, seed, /*planar=*/true),
+                                           kGyro, kNoise, &reason);
+    ASSERT_TRUE(pose) << reason;
+    right += pose->R_C1_C0.angularDistance(kViews.R_C1_C0) < 0.03;
+  }
+  EXPECT_GE(right, kRuns * 3 / 4) << right << " of " << kRuns;
 }
 
 TEST(RelativePoseTest, RefusesFewOrUnrelatedPointsWithReason) {

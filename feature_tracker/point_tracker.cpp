@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/image_check.h"
 #include "feature_tracker/corner_detector.h"
 #include "feature_tracker/optical_flow.h"
 #include "feature_tracker/outlier_rejection.h"
@@ -35,25 +36,6 @@ cv::Mat ReadMask(const std::string& file, const cv::Size& image_size) {
     throw std::invalid_argument("fisheye_mask: " + file + " is not of the camera's image size");
   }
   return mask;
-}
-
-// Throws std::invalid_argument where the image cannot follow the one at `previous_ns`.
-void CheckImage(const ImageSample& image, const CameraParameters& camera,
-                const std::optional<int64_t>& previous_ns) {
-  if (image.gray.type() != CV_8UC1) {
-    throw std::invalid_argument("image is not 8-bit grey (CV_8UC1)");
-  }
-  if (image.gray.cols != camera.width || image.gray.rows != camera.height) {
-    throw std::invalid_argument("image is " + std::to_string(image.gray.cols) + " x " +
-                                std::to_string(image.gray.rows) + " px, the calibration is for " +
-                                std::to_string(camera.width) + " x " +
-                                std::to_string(camera.height));
-  }
-  if (previous_ns && image.t_ns <= *previous_ns) {
-    throw std::invalid_argument("image stamp " + std::to_string(image.t_ns) +
-                                " ns is not after the one before, " + std::to_string(*previous_ns) +
-                                " ns");
-  }
 }
 
 // Removes the tracks of which `keep` is false; returns how many.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/image_check.h"
 #include "common/stopwatch.h"
 #include "linefeature_tracker/lbd_matcher.h"
 #include "linefeature_tracker/line_drawing.h"
@@ -25,25 +26,6 @@ namespace {
 constexpr int kSearchAfterFlow_px = 2;
 constexpr int kSearchAfterDetection_px = 4;
 constexpr int kLbdChoice = 2;  // lines described per line wanted
-
-// Throws std::invalid_argument where the image cannot follow the one at `previous_ns`.
-void CheckImage(const ImageSample& image, const CameraParameters& camera,
-                const std::optional<int64_t>& previous_ns) {
-  if (image.gray.type() != CV_8UC1) {
-    throw std::invalid_argument("image is not 8-bit grey (CV_8UC1)");
-  }
-  if (image.gray.cols != camera.width || image.gray.rows != camera.height) {
-    throw std::invalid_argument("image is " + std::to_string(image.gray.cols) + " x " +
-                                std::to_string(image.gray.rows) + " px, the calibration is for " +
-                                std::to_string(camera.width) + " x " +
-                                std::to_string(camera.height));
-  }
-  if (previous_ns && image.t_ns <= *previous_ns) {
-    throw std::invalid_argument("image stamp " + std::to_string(image.t_ns) +
-                                " ns is not after the one before, " + std::to_string(*previous_ns) +
-                                " ns");
-  }
-}
 
 // Where the camera's turn takes the segment; it stays where an end would get behind the camera.
 LineSegment Turn(const LineSegment& segment, const std::optional<Eigen::Quaterniond>& R_C1_C0) {

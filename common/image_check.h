@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "common/camera_model.h"
+#include "common/measurements.h"
+
+namespace plm_vins {
+
+// Throws std::invalid_argument where the image is not grey, not of the calibrated size, or cannot
+// follow the one at `previous_ns`.
+void CheckImage(const ImageSample& image, const CameraParameters& camera,
+                const std::optional<int64_t>& previous_ns);
+
+}  // namespace plm_vins

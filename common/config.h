@@ -47,11 +47,43 @@ struct PointTrackerConfig {
   double forward_backward = 0.5;  // KLT there and back must return this close [px]
 };
 
+enum class LineDetectorType { kFld, kLsd, kEdLines };
+enum class LineMatcherType { kFlow, kLbd };
+
+struct LineTrackerConfig {
+  LineDetectorType line_detector = LineDetectorType::kFld;
+  LineMatcherType line_matcher = LineMatcherType::kFlow;
+  bool half_resolution = true;       // detect at half resolution; lines are refined at the full one
+  bool join_fragments = true;        // join collinear fragments of one image
+  int max_lines = 60;                // lines per image
+  double min_length = 0.08;          // shortest line, as a share of the image's short side
+  double border = 4;                 // lines keep this far from the image's edge [px]
+  double min_gradient = 5;           // least slope across a line [grey levels/px]
+  double spacing = 5;                // least distance between parallel lines side by side [px]
+  double refill_below = 0.9;         // detect where fewer than this share of max_lines is tracked
+  int refill_interval = 3;           // and at most every so many images
+  double max_angle = 10;             // between where a line is predicted and found [deg]
+  double max_distance = 40;          // the same, across the line [px]
+  double min_overlap = 0.5;          // the same, as a share of the shorter one
+  double min_correlation = 0.6;      // of the brightness around a line from image to image
+  int max_descriptor_distance = 50;  // LBD: differing bits of 256
+};
+
 struct EstimatorConfig {
   int window_size = 10;             // keyframes kept beside the newest frame
   double keyframe_parallax = 20.0;  // mean parallax that makes a keyframe [px]
   int max_num_iterations = 8;       // of the window optimisation
   double point_noise = 0.7;         // standard deviation of a corner [px]
+  double line_noise = 1.0;          // standard deviation of a line's end across the line [px]
+
+  double line_outlier_distance = 10.0;     // longest line that is believed [m]
+  bool line_merging = true;                // one landmark for what is one line
+  double line_merge_distance = 0.1;        // between lines that are merged, in space [m]
+  double line_merge_image_distance = 5.0;  // the same, in the image [px]
+  double line_merge_angle = 3.0;           // between their directions [deg]
+  bool manhattan_constraints = true;       // lines on a Manhattan axis hold the heading
+  double manhattan_noise = 1.0;            // of a line's direction from its axis [deg]
+
   bool zero_velocity_update = true;
   bool verbose = false;
 };
@@ -68,6 +100,8 @@ struct Config {
   std::vector<std::string> ignored_keys;  // accepted from VINS files, without effect here
   SensorConfig sensor;
   PointTrackerConfig points;
+  bool use_lines = true;  // beside the points
+  LineTrackerConfig lines;
   EstimatorConfig estimator;
   OutputConfig output;
 };

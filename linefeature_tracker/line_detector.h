@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "linefeature_tracker/config.h"
+#include "common/config.h"
 #include "linefeature_tracker/line_segment.h"
 
 namespace plm_vins {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/camera_model.h"
-#include "linefeature_tracker/config.h"
+#include "common/config.h"
 #include "linefeature_tracker/line_detector.h"
 #include "linefeature_tracker/line_segment.h"
 

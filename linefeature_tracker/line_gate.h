@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "linefeature_tracker/config.h"
+#include "common/config.h"
 #include "linefeature_tracker/line_segment.h"
 
 namespace plm_vins {

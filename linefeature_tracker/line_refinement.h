@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/camera_model.h"
-#include "linefeature_tracker/config.h"
+#include "common/config.h"
 #include "linefeature_tracker/line_segment.h"
 #include "linefeature_tracker/segment_sampler.h"
 

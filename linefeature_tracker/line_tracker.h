@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "common/camera_model.h"
+#include "common/config.h"
 #include "common/measurements.h"
-#include "linefeature_tracker/config.h"
 
 namespace plm_vins {
 

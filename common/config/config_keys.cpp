@@ -11,6 +11,7 @@ using Extrinsic = SensorConfig::ExtrinsicMode;
 using C = CameraParameters;
 using D = ConfigDraft;
 using E = EstimatorConfig;
+using L = LineTrackerConfig;
 using N = ImuNoise;
 using O = OutputConfig;
 using P = PointTrackerConfig;
@@ -41,6 +42,10 @@ Field<T> Noise(T N::*member) {
 template <typename T>
 Field<T> Points(T P::*member) {
   return At(&Config::points, member);
+}
+template <typename T>
+Field<T> Lines(T L::*member) {
+  return At(&Config::lines, member);
 }
 template <typename T>
 Field<T> Estimator(T E::*member) {
@@ -176,12 +181,50 @@ std::vector<ConfigKey> PointTrackerKeys() {
   };
 }
 
+std::vector<ConfigKey> LineTrackerKeys() {
+  return {
+      FlagKey("use_lines", At(&Config::use_lines)),
+      ChoiceKey<LineDetectorType>("line_detector",
+                                  {{"fld", LineDetectorType::kFld},
+                                   {"lsd", LineDetectorType::kLsd},
+                                   {"edlines", LineDetectorType::kEdLines}},
+                                  Lines(&L::line_detector)),
+      ChoiceKey<LineMatcherType>("line_matcher",
+                                 {{"flow", LineMatcherType::kFlow}, {"lbd", LineMatcherType::kLbd}},
+                                 Lines(&L::line_matcher)),
+      IntegerKey("max_line_cnt", "lines", {1, 5000}, Lines(&L::max_lines)),
+      NumberKey("line_min_length", "", {0.01, 1}, Lines(&L::min_length)),
+      NumberKey("line_min_dist", "px", {0, 100}, Lines(&L::spacing)),
+      NumberKey("line_min_gradient", "grey levels/px", {0.1, 255}, Lines(&L::min_gradient)),
+      NumberKey("line_border", "px", {1, 500}, Lines(&L::border)),
+      FlagKey("line_half_resolution", Lines(&L::half_resolution)),
+      FlagKey("line_join_fragments", Lines(&L::join_fragments)),
+      NumberKey("line_refill_below", "", {0, 1}, Lines(&L::refill_below)),
+      IntegerKey("line_refill_interval", "images", {1, 1000}, Lines(&L::refill_interval)),
+      NumberKey("line_max_angle", "deg", {0.1, 90}, Lines(&L::max_angle)),
+      NumberKey("line_max_distance", "px", {1, 500}, Lines(&L::max_distance)),
+      NumberKey("line_min_overlap", "", {0, 1}, Lines(&L::min_overlap)),
+      NumberKey("line_min_correlation", "", {0, 1}, Lines(&L::min_correlation)),
+      IntegerKey("line_max_descriptor_distance", "bits", {0, 256},
+                 Lines(&L::max_descriptor_distance)),
+  };
+}
+
 std::vector<ConfigKey> EstimatorKeys() {
   return {
       IntegerKey("window_size", "keyframes", {4, 50}, Estimator(&E::window_size)),
       NumberKey("keyframe_parallax", "px", {0.1, 200}, Estimator(&E::keyframe_parallax)),
       IntegerKey("max_num_iterations", "", {1, 100}, Estimator(&E::max_num_iterations)),
       NumberKey("point_noise", "px", {0.01, 20}, Estimator(&E::point_noise)),
+      NumberKey("line_noise", "px", {0.01, 20}, Estimator(&E::line_noise)),
+      NumberKey("line_outlier_distance", "m", {0.1, 1000}, Estimator(&E::line_outlier_distance)),
+      FlagKey("line_merging", Estimator(&E::line_merging)),
+      NumberKey("line_merge_distance", "m", {0.001, 10}, Estimator(&E::line_merge_distance)),
+      NumberKey("line_merge_image_distance", "px", {0.1, 100},
+                Estimator(&E::line_merge_image_distance)),
+      NumberKey("line_merge_angle", "deg", {0.1, 45}, Estimator(&E::line_merge_angle)),
+      FlagKey("manhattan_constraints", Estimator(&E::manhattan_constraints)),
+      NumberKey("manhattan_noise", "deg", {0.01, 20}, Estimator(&E::manhattan_noise)),
       FlagKey("zero_velocity_update", Estimator(&E::zero_velocity_update)),
       FlagKey("verbose", Estimator(&E::verbose)),
   };
@@ -214,7 +257,8 @@ std::vector<ConfigKey> CameraKeys(Model type) {
 }
 
 std::vector<ConfigKey> GeneralKeys() {
-  return Join(Join(SensorKeys(), PointTrackerKeys()), Join(EstimatorKeys(), OutputKeys()));
+  return Join(Join(SensorKeys(), Join(PointTrackerKeys(), LineTrackerKeys())),
+              Join(EstimatorKeys(), OutputKeys()));
 }
 
 const std::vector<std::string>& IgnoredKeys() {

@@ -164,6 +164,23 @@ TEST_F(ConfigTest, OverridesReplaceScalars) {
   EXPECT_FALSE(config.estimator.zero_velocity_update);
 }
 
+TEST_F(ConfigTest, LinesHaveTheirKeys) {
+  const Config config = Load(kPlVinsFile, {{"line_detector", "edlines"},
+                                           {"line_matcher", "lbd"},
+                                           {"max_line_cnt", "80"},
+                                           {"line_min_length", "0.125"},
+                                           {"line_outlier_distance", "20"},
+                                           {"line_merging", "0"}});
+  EXPECT_TRUE(config.use_lines);
+  EXPECT_EQ(config.lines.line_detector, LineDetectorType::kEdLines);
+  EXPECT_EQ(config.lines.line_matcher, LineMatcherType::kLbd);
+  EXPECT_EQ(config.lines.max_lines, 80);
+  EXPECT_EQ(config.lines.min_length, 0.125);
+  EXPECT_EQ(config.estimator.line_outlier_distance, 20);
+  EXPECT_FALSE(config.estimator.line_merging);
+  EXPECT_FALSE(Load(kPlVinsFile, {{"use_lines", "0"}}).use_lines);
+}
+
 TEST_F(ConfigTest, AnOverrideCanRepairAValue) {
   EXPECT_EQ(Load(kShortFile + std::string("max_cnt: many\n"), {{"max_cnt", "70"}}).points.max_cnt,
             70);
@@ -222,6 +239,7 @@ TEST_F(ConfigTest, WrongType) {
   ExpectProblem("min_dist:", {"min_dist: is not a number"});
   ExpectProblem("equalize: 2", {"\"2\" must be 0 or 1", "default 1"});
   ExpectProblem("corner_detector: fast", {"must be one of shi_tomasi, harris"});
+  ExpectProblem("line_detector: hough", {"must be one of fld, lsd, edlines"});
   ExpectProblem("world_frame: [a]", {"world_frame: must be one text"});
 }
 
@@ -229,6 +247,7 @@ TEST_F(ConfigTest, OutOfRange) {
   ExpectProblem("max_cnt: 0", {"\"0\" out of range, must be 20 to 5000 [corners] (default 150)"});
   ExpectProblem("td: -1.5", {"must be -1 to 1 [s]"});
   ExpectProblem("g_norm: 981", {"must be 9 to 10.5 [m/s^2]"});
+  ExpectProblem("max_line_cnt: 0", {"must be 1 to 5000 [lines] (default 60)"});
 }
 
 TEST_F(ConfigTest, NotFinite) {

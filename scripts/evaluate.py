@@ -36,6 +36,7 @@ def evaluate(estimate, truth, align="se3", max_diff=0.01, max_gap=0.5):
         "ground_truth_duration_s": float(truth.duration),
         "ground_truth_path_m": truth.path_length,
         "estimate_path_m": estimate.path_length,
+        "yaw_drift_deg": metrics.yaw_drift(paired_estimate, paired_truth),
         "computed_by": "numpy",
     }
     result.update(error_statistics(paired_estimate, paired_truth))
@@ -77,6 +78,8 @@ def format_report(result):
         lines.append(f"{label:20}" + _format_row(result[name]))
         if name == "ape_m":
             lines[-1] += f"   coverage {100 * result['coverage']:.1f} %"
+    lines.append(f"yaw error at the end {result['yaw_drift_deg']:.3f} deg,"
+                 " with none at the beginning")
     return "\n".join(lines)
 
 

@@ -77,9 +77,23 @@ def rotation_errors(estimate, truth):
 
 def yaw_errors(estimate, truth):
     """Absolute heading errors [deg] about the vertical axis of the ground truth's world."""
+    return np.abs(np.degrees(_signed_yaw_errors(estimate, truth)))
+
+
+def yaw_drift(estimate, truth, seconds=1.0):
+    """Absolute heading error [deg] at the end, once the heading at the beginning agrees; beginning
+    and end are the means of the first and the last `seconds`. The paired trajectories may be
+    aligned in any way that keeps the vertical."""
+    unit = np.exp(1j * _signed_yaw_errors(estimate, truth))
+    first = unit[truth.stamps <= truth.stamps[0] + seconds].mean()
+    last = unit[truth.stamps >= truth.stamps[-1] - seconds].mean()
+    return float(np.abs(np.degrees(np.angle(last * np.conj(first)))))
+
+
+def _signed_yaw_errors(estimate, truth):
+    """Heading errors [rad] in (-pi, pi]."""
     error = estimate.rotations @ _transposed(truth.rotations)
-    yaw = np.arctan2(error[:, 1, 0] - error[:, 0, 1], error[:, 0, 0] + error[:, 1, 1])
-    return np.abs(np.degrees(yaw))
+    return np.arctan2(error[:, 1, 0] - error[:, 0, 1], error[:, 0, 0] + error[:, 1, 1])
 
 
 def pairs_by_path(trajectory, metres):

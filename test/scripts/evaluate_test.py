@@ -98,6 +98,15 @@ class AbsoluteError(unittest.TestCase):
         self.assertAlmostEqual(result["ape_rotation_deg"]["rmse"], 2.5, 6)
         self.assertAlmostEqual(result["ape_yaw_deg"]["rmse"], 2.5, 6)
 
+    def test_yaw_drift_is_the_change_from_the_beginning_to_the_end(self):
+        truth = flight()
+        for before, after in ((0.0, 3.0), (170.0, 173.0), (178.5, -178.5), (-2.0, -5.0)):
+            turns = [rotation((0, 0, 1), before if t < 5.0 else after) for t in truth.stamps - START]
+            estimate = Trajectory(truth.stamps, truth.positions, turns @ truth.rotations)
+            result = evaluate(estimate, truth, align="none")[2]
+            self.assertAlmostEqual(result["yaw_drift_deg"], 3.0, 6)
+        self.assertIn("yaw error at the end 3.000 deg", format_report(result))
+
     def test_straight_line_leaves_the_alignment_open(self):
         truth = flight()
         truth.positions[:, 1:] = 0.0

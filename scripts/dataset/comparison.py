@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables and figures of all results in the output folder."""
+
+import os
+
+from . import report
+from .results import METRIC
+
+
+def write_comparison(output, results, evaluator, facts, with_plots):
+    """Writes report.md, runs.csv, table.csv and plots/; returns the paths of the first three."""
+    pictures = _write_pictures(output, results, evaluator) if with_plots else {}
+    path = os.path.join(output, "report.md")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(report.markdown_report(results, facts, pictures))
+    return [path, *report.write_csv(output, results)]
+
+
+def _write_pictures(output, results, evaluator):
+    """Paths relative to `output`, by heading."""
+    from evaluation import comparison_plots  # takes a second to load, and only here
+    pictures = {}
+    overview = _overview(results)
+    if overview:
+        paths = comparison_plots.write_overview(os.path.join(output, "plots"), "ape.png", overview,
+                                                METRIC["ape_m"].title)
+        pictures["All sequences"] = paths
+    for sequence in results.sequences:
+        typical = {v: results.typical(sequence, v) for v in results.variants}
+        pairs = {variant: evaluator.compare(result.run, result.summary)[:2]
+                 for variant, result in typical.items() if result}
+        if pairs:
+            folder = os.path.join(output, "plots", sequence)
+            pictures[sequence] = comparison_plots.write_comparison(folder, pairs)
+    return {heading: [os.path.relpath(path, output) for path in paths]
+            for heading, paths in pictures.items()}
+
+
+def _overview(results):
+    """Median APE by variant and sequence, of those that have any."""
+    ape = METRIC["ape_m"]
+    figures = {variant: {sequence: spread.median if spread else None
+                         for sequence in results.sequences
+                         for spread in [results.spread(ape, sequence, variant)]}
+               for variant in results.variants}
+    sequences = [s for s in results.sequences
+                 if any(by_sequence[s] is not None for by_sequence in figures.values())]
+    return sequences and {variant: {s: by_sequence[s] for s in sequences}
+                          for variant, by_sequence in figures.items()}

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The tables of the paper with our figures beside."""
+
+import statistics
+from dataclasses import dataclass
+from typing import Callable, Optional
+
+from . import cells
+from .markdown import Table
+from .paper import SEQUENCES, paper_sequence
+from .results import METRIC
+
+
+@dataclass
+class _Column:
+    """`value` and `text` take the paper's name of a sequence and the one of our recording, which
+    may be None."""
+
+    heading: str
+    value: Callable[[str, Optional[str]], Optional[float]]
+    text: Callable[[str, Optional[str]], str]
+    decimals: int = 2
+
+
+def paper_table(table, results):
+    """One table of the paper as markdown: its columns, then ours. A recording of ours belongs to
+    the sequence whose name it contains; sequences without one have a line too."""
+    lines = [(sequence, name) for sequence in SEQUENCES
+             for name in [n for n in results.sequences if paper_sequence(n) == sequence] or [None]]
+    paper, ours = _paper_columns(table), _our_columns(table, results)
+    rows = [[sequence] + [column.text(sequence, name) for column in paper]
+            + [name or cells.NONE] + [column.text(sequence, name) for column in ours]
+            for sequence, name in lines]
+    if table.with_differences:
+        rows += _averages(lines, paper, ours)
+    heading = ["sequence", *(c.heading for c in paper), "recording", *(c.heading for c in ours)]
+    return f"### Table {table.number}. {table.title}\n\n{Table(heading, rows)}"
+
+
+def _paper_columns(table):
+    def column(heading, value):
+        return _Column(heading, value, lambda sequence, name: f"{value(sequence, name):.2f}")
+
+    columns = [column(heading, lambda sequence, name, figures=figures: figures[sequence])
+               for heading, figures in table.columns.items()]
+    if table.with_differences:
+        first, second = columns
+        columns.append(column("difference", lambda *line: first.value(*line) - second.value(*line)))
+    return columns
+
+
+def _our_columns(table, results):
+    metric = METRIC[table.metric]
+
+    def column(variant):
+        def value(_, name):
+            spread = name and results.spread(metric, name, variant)
+            return spread.median if spread else None
+
+        def text(_, name):
+            return cells.figure(results, metric, name, variant) if name else cells.NONE
+
+        return _Column(f"ours: {variant}", value, text, metric.decimals)
+
+    columns = [column(variant) for variant in table.variants]
+    return columns + [_our_difference(table, columns)] if table.with_differences else columns
+
+
+def _our_difference(table, ours):
+    """Of our two variants, or of the paper's first column and our only variant."""
+    heading, first = "ours: difference", ours[0].value
+    if len(ours) == 1:
+        name, figures = next(iter(table.columns.items()))
+        heading, first = f"{name} - ours", lambda sequence, _: figures[sequence]
+
+    def value(*line):
+        before, after = first(*line), ours[-1].value(*line)
+        return None if before is None or after is None else before - after
+
+    decimals = ours[0].decimals
+    return _Column(heading, value, lambda *line: cells.number(value(*line), decimals), decimals)
+
+
+def _averages(lines, paper, ours):
+    """Rows of averages over all sequences, and over those of which every column of ours has a
+    figure where these are fewer."""
+    complete = [line for line in lines if all(c.value(*line) is not None for c in ours)]
+    every = [(sequence, None) for sequence in SEQUENCES]
+    have_all = {sequence for sequence, _ in complete} == set(SEQUENCES)
+    rows = [["average"] + _means(paper, every) + [cells.NONE]
+            + (_means(ours, complete) if have_all else [cells.NONE] * len(ours))]
+    if complete and not have_all:
+        rows.append(["average of ours"] + _means(paper, complete)
+                    + [f"{len(complete)} recordings"] + _means(ours, complete))
+    return rows
+
+
+def _means(columns, lines):
+    return [cells.number(statistics.mean(c.value(*line) for line in lines), c.decimals)
+            for c in columns]

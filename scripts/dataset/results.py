@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The figures of runs, and their medians and spread over repetitions."""
+
+import csv
+import json
+import os
+import statistics
+from dataclasses import dataclass
+from typing import Callable, Optional
+
+from evaluate import evaluate
+from evaluation.trajectory import TrajectoryError, read_trajectory
+
+from .run import Run
+
+
+@dataclass
+class RunResult:
+    """What came of a run: `failure` or a summary; `evaluation` or the reason for `not_compared`."""
+
+    run: Run
+    failure: Optional[str] = None
+    summary: Optional[dict] = None  # summary.json
+    line_extraction_ms: Optional[float] = None
+    evaluation: Optional[dict] = None  # as of evaluate.py
+    not_compared: Optional[str] = None
+
+
+@dataclass(frozen=True)
+class Metric:
+    """A figure of a run. `of(result)` may raise KeyError or TypeError where there is none."""
+
+    name: str
+    title: str
+    decimals: int
+    of: Callable[[RunResult], float]
+    is_error: bool = False  # against ground truth, the smaller the better
+
+    def value(self, result):
+        """The figure, or None where the run has none."""
+        try:
+            value = self.of(result)
+        except (KeyError, TypeError):
+            return None
+        return None if value is None else float(value)
+
+
+def _error(name, title, decimals, figure):
+    return Metric(name, title, decimals, lambda r: r.evaluation[figure]["rmse"], is_error=True)
+
+
+def _summary(name, title, decimals, *keys):
+    def value(result):
+        figure = result.summary
+        for key in keys:
+            figure = figure[key]
+        return figure
+    return Metric(name, title, decimals, value)
+
+
+METRICS = (
+    _error("ape_m", "APE RMSE [m]", 4, "ape_m"),
+    Metric("coverage_percent", "Coverage: share of the ground truth's time with a pose [%]", 1,
+           lambda r: 100 * r.evaluation["coverage"]),
+    _error("ape_rotation_deg", "APE of the rotation, RMSE [deg]", 3, "ape_rotation_deg"),
+    _error("rpe_1m_m", "RPE over 1 m of the path, RMSE [m]", 4, "rpe_1m_m"),
+    _error("rpe_1s_m", "RPE over 1 s, RMSE [m]", 4, "rpe_1s_m"),
+    _error("rpe_1s_deg", "RPE over 1 s, RMSE [deg]", 3, "rpe_1s_deg"),
+    Metric("yaw_drift_deg", "Yaw error at the end, where there is none at the beginning [deg]", 2,
+           lambda r: r.evaluation["yaw_drift_deg"], is_error=True),
+    _summary("init_time_s", "Time from the first image to the first pose [s]", 2, "init_time_s"),
+    _summary("resets", "Restarts", 0, "resets"),
+    _summary("real_time_factor", "Real-time factor", 1, "real_time_factor"),
+    _summary("frame_ms", "All of a frame, mean [ms]", 2, "timing_ms", "total", "mean"),
+    _summary("line_front_end_ms", "Line front end, mean per frame [ms]", 2, "timing_ms",
+             "line_tracking", "mean"),
+    Metric("line_extraction_ms", "Line extraction, mean per extraction [ms]", 2,
+           lambda r: r.line_extraction_ms),
+    _summary("lines", "Line landmarks", 0, "lines"),
+    _summary("merged_lines", "Merged line landmarks", 0, "merged_lines"),
+)
+METRIC = {metric.name: metric for metric in METRICS}
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Of a figure over repetitions."""
+
+    median: float
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, values):
+        """None where no repetition has the figure."""
+        known = [value for value in values if value is not None]
+        return cls(statistics.median(known), min(known), max(known)) if known else None
+
+
+class Results:
+    """The results of all runs, by sequence and variant."""
+
+    def __init__(self, results):
+        self._cells = {}
+        for result in results:
+            key = (result.run.sequence.name, result.run.variant)
+            self._cells.setdefault(key, []).append(result)
+        self.sequences = list(dict.fromkeys(sequence for sequence, _ in self._cells))
+        self.variants = list(dict.fromkeys(variant for _, variant in self._cells))
+
+    def repetitions(self, sequence, variant):
+        return self._cells.get((sequence, variant), [])
+
+    def all(self):
+        return [result for cell in self._cells.values() for result in cell]
+
+    def spread(self, metric, sequence, variant):
+        return Spread.of(metric.value(r) for r in self.repetitions(sequence, variant))
+
+    def means(self, metric):
+        """The mean over sequences of each variant's medians, of the sequences for which every
+        variant has the figure; with these sequences. Variants without any figure are left out."""
+        medians = {variant: {sequence: spread.median for sequence in self.sequences
+                             for spread in [self.spread(metric, sequence, variant)] if spread}
+                   for variant in self.variants}
+        medians = {variant: by_sequence for variant, by_sequence in medians.items() if by_sequence}
+        common = [s for s in self.sequences if medians and all(s in m for m in medians.values())]
+        if not common:
+            return {}, []
+        return {variant: statistics.mean(by_sequence[s] for s in common)
+                for variant, by_sequence in medians.items()}, common
+
+    def typical(self, sequence, variant):
+        """The repetition with the (lower) median APE, or None where none could be compared."""
+        ape = METRIC["ape_m"]
+        compared = [r for r in self.repetitions(sequence, variant) if ape.value(r) is not None]
+        compared.sort(key=ape.value)
+        return compared[(len(compared) - 1) // 2] if compared else None
+
+
+class Evaluator:
+    """Reads the results of runs and compares them with the ground truth of their sequences.
+
+    Raises TrajectoryError at once if a ground truth is not readable.
+    """
+
+    def __init__(self, sequences, start=None, duration=None):
+        self._truths = {s.name: read_trajectory(s.truth) for s in sequences if s.truth}
+        self._is_part = bool(start) or duration is not None
+        self._duration = float("inf") if duration is None else duration
+
+    def result(self, run):
+        outcome = run.outcome()
+        if outcome["failure"] is not None:
+            return RunResult(run, failure=outcome["failure"])
+        try:
+            result = RunResult(run, summary=_read_json(os.path.join(run.folder, "summary.json")),
+                               line_extraction_ms=_mean_line_extraction(run.folder))
+        except (KeyError, ValueError) as error:
+            return RunResult(run, failure=f"damaged results ({error}); remove {run.folder} and run"
+                                          " again")
+        if run.sequence.truth is None:
+            result.not_compared = "no ground truth"
+            return result
+        try:
+            result.evaluation = self.compare(run, result.summary)[2]
+        except TrajectoryError as error:
+            result.not_compared = str(error)
+        return result
+
+    def compare(self, run, summary):
+        """As evaluate(): the paired trajectories and their figures. Raises TrajectoryError."""
+        estimate = read_trajectory(os.path.join(run.folder, "trajectory.tum"))
+        truth = self._truths[run.sequence.name]
+        if self._is_part:
+            truth = self._during_run(truth, estimate.stamps[0] - summary["init_time_s"])
+        return evaluate(estimate, truth)
+
+    def _during_run(self, truth, begin):
+        """The part of the ground truth that a run of a part of the recording could cover."""
+        inside = (truth.stamps >= begin) & (truth.stamps <= begin + self._duration)
+        if inside.sum() < 3:
+            raise TrajectoryError("no ground truth in the part of the recording that was run")
+        return truth.select(inside)
+
+
+def _mean_line_extraction(folder):
+    """Mean over the frames that extract lines [ms], or None: not every frame does."""
+    with open(os.path.join(folder, "timing.csv"), encoding="utf-8") as file:
+        values = [float(row["line_detection"]) for row in csv.DictReader(file)]
+    values = [value for value in values if value > 0]
+    return statistics.mean(values) if values else None
+
+
+def _read_json(path):
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Finds recordings and their ground truth in folders as they are downloaded."""
+
+import fnmatch
+import os
+from dataclasses import dataclass
+from typing import Optional
+
+from .errors import DatasetError
+
+ASL_TRUTH = os.path.join("mav0", "state_groundtruth_estimate0", "data.csv")
+ASL_IMAGES = os.path.join("mav0", "cam0", "data.csv")
+
+
+@dataclass(frozen=True)
+class Sequence:
+    """A recording: a ROS bag, or an ASL folder (the one with mav0/ inside)."""
+
+    name: str
+    path: str
+    truth: Optional[str]  # TUM file or EuRoC csv
+
+    @property
+    def is_bag(self):
+        return self.path.endswith(".bag")
+
+    @property
+    def content_file(self):
+        """The file that tells whether the recording is still the same one."""
+        return self.path if self.is_bag else os.path.join(self.path, ASL_IMAGES)
+
+
+def find_sequences(places):
+    """All sequences below `places` (folders, or single bags), sorted by name.
+
+    An ASL folder goes before a bag of the same name. Raises DatasetError where there is nothing,
+    or where two recordings have the same name.
+    """
+    found = {}
+    for path in (path for place in places for path in _recordings_at(place)):
+        name = _name(path)
+        known = found.get(name)
+        if known is not None and _is_bag(known) == _is_bag(path):
+            raise DatasetError(f"two recordings are called {name}: {known} and {path};"
+                               " rename one or give one folder at a time")
+        if known is None or _is_bag(known):
+            found[name] = path
+    if not found:
+        raise DatasetError(_nothing_found(places))
+    return [Sequence(name, path, find_truth(path)) for name, path in sorted(found.items())]
+
+
+def find_truth(path):
+    """The ground truth of a recording, or None: inside of its ASL folder, or beside the recording
+    with the same name."""
+    stem = path[:-len(".bag")] if _is_bag(path) else path
+    candidates = [os.path.join(stem, ASL_TRUTH), stem + ".tum", stem + ".csv"]
+    if _is_bag(path):
+        candidates.append(os.path.join(os.path.dirname(path), ASL_TRUTH))
+    return next((file for file in candidates if os.path.isfile(file)), None)
+
+
+def select_sequences(sequences, patterns):
+    """Those whose name matches one of `patterns`: a name, its beginning, or with wildcards.
+
+    Raises DatasetError for a pattern that matches none.
+    """
+    chosen = set()
+    for pattern in patterns:
+        matches = [s for s in sequences if fnmatch.fnmatchcase(s.name, pattern + "*")]
+        exact = [s for s in matches if s.name == pattern]
+        if not matches:
+            raise DatasetError(f"--sequences {pattern}: no such sequence; there are "
+                               + ", ".join(s.name for s in sequences))
+        chosen.update(exact or matches)
+    return [s for s in sequences if s in chosen]
+
+
+def _recordings_at(place):
+    place = os.path.abspath(place)
+    if os.path.isfile(place) and _is_bag(place):
+        return [place]
+    if not os.path.isdir(place):
+        raise DatasetError(f"{place}: no such folder or bag")
+    return list(_recordings_below(os.path.dirname(place) if os.path.basename(place) == "mav0"
+                                  else place))
+
+
+def _recordings_below(folder):
+    visited = set()
+    for parent, folders, files in os.walk(folder, followlinks=True):
+        real = os.path.realpath(parent)
+        if real in visited:
+            folders.clear()
+            continue
+        visited.add(real)
+        folders.sort()
+        if os.path.isfile(os.path.join(parent, ASL_IMAGES)):
+            folders.remove("mav0")
+            yield parent
+        yield from (os.path.join(parent, name) for name in sorted(files) if _is_bag(name))
+
+
+def _nothing_found(places):
+    message = f"{', '.join(places)}: no *.bag and no ASL folder (mav0/cam0/data.csv)"
+    archives = [os.path.join(parent, name) for place in places
+                for parent, _, names in os.walk(place) for name in names if name.endswith(".zip")]
+    return message + (f"; extract {archives[0]} first" if archives else "")
+
+
+def _is_bag(path):
+    return path.endswith(".bag")
+
+
+def _name(path):
+    name = os.path.basename(path)
+    return name[:-len(".bag")] if _is_bag(path) else name

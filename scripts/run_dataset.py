@@ -1,0 +1,181 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the odometry over many recordings, in several variants, and compares the results.
+
+Writes to the output folder: report.md, runs.csv, table.csv, plots/ and runs/ with the results of
+every run. The same command again carries out only what is missing; Ctrl-C stops it."""
+
+import argparse
+import contextlib
+import datetime
+import fcntl
+import math
+import os
+import sys
+
+from dataset.comparison import write_comparison
+from dataset.environment import find_config, find_program, machine, usable_cores
+from dataset.errors import DatasetError
+from dataset.progress import Progress
+from dataset.results import METRIC, Evaluator, Results
+from dataset.run import Run, Settings
+from dataset.run_queue import carry_out
+from dataset.sequences import find_sequences, select_sequences
+from dataset.variants import VARIANTS, describe_variants, select_variants
+from evaluation.trajectory import TrajectoryError
+
+INTERRUPTED = 130  # exit code, as shells have it
+THREADS_PER_RUN = 2  # of run_offline
+
+
+def parse_arguments(arguments):
+    parser = argparse.ArgumentParser(
+        description=__doc__, epilog="variants:\n" + describe_variants(),
+        formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("recordings", nargs="+", metavar="FOLDER",
+                        help="folders with ROS bags or EuRoC ASL folders at any depth, or single"
+                        " bags; ground truth inside of X or beside it as X.tum or X.csv")
+    parser.add_argument("--sequences", nargs="+", metavar="NAME",
+                        help="only these: names, their beginnings, or with wildcards")
+    parser.add_argument("--variants", nargs="+", metavar="NAME", default=list(VARIANTS),
+                        help="only these (default: all)")
+    parser.add_argument("--repetitions", type=_positive, default=1, metavar="N",
+                        help="runs of each sequence and variant (default: 1; trajectories repeat"
+                        " exactly, times do not)")
+    parser.add_argument("--start", type=_seconds, metavar="S",
+                        help="skip this much after the first image [s]")
+    parser.add_argument("--duration", type=_seconds, metavar="S", help="process this much [s]")
+    parser.add_argument("--config", metavar="FILE", help="configuration (default: euroc.yaml)")
+    parser.add_argument("--set", action="append", default=[], type=_override, metavar="KEY=VALUE",
+                        help="a change to the configuration of all variants, which go before it")
+    parser.add_argument("--output", default=os.path.join("output", "dataset"), metavar="DIR",
+                        help="folder for everything (default: output/dataset)")
+    parser.add_argument("--jobs", type=_positive, metavar="N",
+                        default=max(1, usable_cores() // THREADS_PER_RUN),
+                        help="runs at the same time (default: %(default)s, one per"
+                        f" {THREADS_PER_RUN} cores; more of them disturb the times)")
+    parser.add_argument("--no-plots", action="store_true", help="tables only")
+    parser.add_argument("--run-offline", metavar="FILE", help="the program, where it is not found")
+    return parser.parse_args(arguments)
+
+
+def _positive(text):
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"expected a number from 1 on instead of {text}")
+    return int(text)
+
+
+def _seconds(text):
+    with contextlib.suppress(ValueError):
+        if math.isfinite(float(text)) and float(text) >= 0:
+            return float(text)
+    raise argparse.ArgumentTypeError(f"expected seconds, zero or more, instead of {text}")
+
+
+def _override(text):
+    key, equals, value = text.partition("=")
+    if not key or not equals:
+        raise argparse.ArgumentTypeError(f"expected key=value instead of {text}")
+    return key, value
+
+
+def plan(options):
+    """The settings and all runs, finished or not."""
+    sequences = find_sequences(options.recordings)
+    if options.sequences:
+        sequences = select_sequences(sequences, options.sequences)
+    settings = Settings(find_program(options.run_offline), find_config(options.config),
+                        os.path.abspath(options.output), options.start, options.duration,
+                        dict(options.set))
+    fingerprint = settings.fingerprint()
+    runs = [Run(settings, fingerprint, sequence, variant, VARIANTS[variant], repetition)
+            for repetition in range(1, options.repetitions + 1)
+            for sequence in sequences for variant in select_variants(options.variants)]
+    return settings, sequences, runs
+
+
+@contextlib.contextmanager
+def locked(folder):
+    """Makes the folder and keeps other calls of this program out of it."""
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, ".lock"), "w", encoding="utf-8") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise DatasetError(f"{folder}: another run_dataset.py works there; wait for it or give"
+                               " another --output") from None
+        yield
+
+
+def announce(sequences, runs, unfinished, jobs):
+    for sequence in sequences:
+        truth = sequence.truth or "none, so no APE (put it beside the recording as"\
+            f" {sequence.name}.tum or .csv)"
+        print(f"{sequence.name}: {sequence.path}; ground truth: {truth}")
+    print(f"{len(runs)} runs, {len(runs) - len(unfinished)} of them finished before;"
+          f" {jobs} at a time", flush=True)
+
+
+def describe(result):
+    """How a run went, in one line."""
+    if result.failure is not None:
+        return f"FAILED: {result.failure}"
+    speed = f"{result.summary['real_time_factor']:.1f} x real time"
+    if result.evaluation is None:
+        return f"{result.not_compared}, {speed}"
+    return (f"APE {METRIC['ape_m'].value(result):.4f} m, coverage"
+            f" {METRIC['coverage_percent'].value(result):.0f} %, {speed}")
+
+
+def facts(options, settings, fingerprint):
+    """What the report says about the whole."""
+    part = "all" if options.start is None and options.duration is None else (
+        f"from {options.start or 0:g} s on" + ("" if options.duration is None
+                                               else f", {options.duration:g} s"))
+    overrides = " ".join(f"{key}={value}" for key, value in settings.overrides.items())
+    return [("recordings", ", ".join(options.recordings)),
+            ("part of each", part),
+            ("configuration", settings.config + (f" with {overrides}" if overrides else "")),
+            ("program", f"{settings.program}, SHA-256 {fingerprint['program_sha256'][:12]}"),
+            ("machine", f"{machine()}; {options.jobs} runs at a time"),
+            ("repetitions", str(options.repetitions)),
+            ("written", datetime.datetime.now().strftime("%Y-%m-%d %H:%M"))]
+
+
+def run_dataset(options):
+    settings, sequences, runs = plan(options)
+    evaluator = Evaluator(sequences, options.start, options.duration)
+    with locked(settings.output):
+        unfinished = [run for run in runs if not run.is_finished()]
+        announce(sequences, runs, unfinished, options.jobs)
+        progress = Progress(len(unfinished), lambda run: describe(evaluator.result(run)))
+        if not carry_out(unfinished, options.jobs, progress):
+            left = sum(not run.is_finished() for run in runs)
+            print(f"run_dataset.py: interrupted with {left} of {len(runs)} runs left; the same"
+                  " command goes on from here", file=sys.stderr)
+            return INTERRUPTED
+        results = Results(evaluator.result(run) for run in runs)
+        about = facts(options, settings, settings.fingerprint())
+        print(*write_comparison(settings.output, results, evaluator, about,
+                                not options.no_plots), sep="\n")
+    failures = sum(result.failure is not None for result in results.all())
+    if failures:
+        print(f"run_dataset.py: {failures} of {len(runs)} runs failed, see the report",
+              file=sys.stderr)
+    return 1 if failures else 0
+
+
+def main(arguments=None):
+    options = parse_arguments(arguments)
+    try:
+        return run_dataset(options)
+    except (DatasetError, TrajectoryError, OSError) as error:
+        print(f"run_dataset.py: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("run_dataset.py: interrupted; the same command goes on from here", file=sys.stderr)
+        return INTERRUPTED
+
+
+if __name__ == "__main__":
+    sys.exit(main())

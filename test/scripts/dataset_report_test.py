@@ -1,0 +1,163 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""scripts/dataset: medians, means and the tables of the report, from results given here."""
+
+import os
+import sys
+import unittest
+from types import SimpleNamespace
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
+from dataset import cells  # noqa: E402
+from dataset.markdown import Table  # noqa: E402
+from dataset.paper import SEQUENCES, TABLES  # noqa: E402
+from dataset.paper_tables import paper_table  # noqa: E402
+from dataset.report import markdown_report  # noqa: E402
+from dataset.results import METRIC, Results, RunResult  # noqa: E402
+from dataset.variants import DESCRIPTIONS, VARIANTS  # noqa: E402
+
+APE = METRIC["ape_m"]
+
+
+def result(sequence, variant, ape=None, repetition=1, failure=None, extraction=None):
+    run = SimpleNamespace(sequence=SimpleNamespace(name=sequence), variant=variant,
+                          repetition=repetition)
+    if failure:
+        return RunResult(run, failure=failure)
+    evaluation = None if ape is None else {"ape_m": {"rmse": ape}, "coverage": 0.975}
+    return RunResult(run, summary={}, evaluation=evaluation, line_extraction_ms=extraction,
+                     not_compared=None if evaluation else "no ground truth")
+
+
+def cells_of(markdown):
+    """The cells of the rows of a table, stripped."""
+    return [[cell.strip() for cell in line.strip("|").split(" | ")]
+            for line in markdown.splitlines() if line.startswith("| ")]
+
+
+def row(markdown, *beginning):
+    return next(r for r in cells_of(markdown) if r[:len(beginning)] == list(beginning))
+
+
+class Figures(unittest.TestCase):
+    def test_median_and_spread_over_repetitions(self):
+        results = Results([result("hall", "points", ape, n)
+                           for n, ape in enumerate((0.3, 0.1, 0.12), start=1)])
+        self.assertEqual(cells.figure(results, APE, "hall", "points"),
+                         "0.1200 [0.1000, 0.3000] (98 %)")
+        self.assertEqual(results.typical("hall", "points").run.repetition, 3)
+
+    def test_failed_repetitions_are_counted(self):
+        results = Results([result("hall", "points", 0.1), result("hall", "points", repetition=2,
+                                                                 failure="too dark"),
+                           result("hall", "lines", failure="too dark")])
+        self.assertTrue(cells.figure(results, APE, "hall", "points").endswith(", 1 of 2 failed"))
+        self.assertEqual(cells.figure(results, APE, "hall", "lines"), "**failed**")
+
+    def test_without_ground_truth_there_is_no_figure(self):
+        results = Results([result("hall", "points")])
+        self.assertEqual(cells.figure(results, APE, "hall", "points"), cells.NONE)
+        self.assertIsNone(results.typical("hall", "points"))
+
+    def test_means_compare_the_same_sequences(self):
+        results = Results([result("a", "points", 0.1), result("a", "lines", 0.05),
+                           result("b", "points", 0.9), result("b", "lines", failure="lost"),
+                           result("c", "points", 0.3), result("c", "lines", 0.35)])
+        means, common = results.means(APE)
+        self.assertEqual(common, ["a", "c"])
+        self.assertAlmostEqual(means["points"], 0.2)
+        self.assertAlmostEqual(means["lines"], 0.2)
+
+    def test_variant_without_any_figure_does_not_take_the_others_means(self):
+        results = Results([result("a", "points", 0.1), result("a", "lines", failure="lost")])
+        self.assertEqual(results.means(APE), ({"points": 0.1}, ["a"]))
+
+
+class PaperTables(unittest.TestCase):
+    def table(self, number, results):
+        return paper_table(TABLES[number - 1], Results(results))
+
+    def test_numbers_are_in_order(self):
+        self.assertEqual([table.number for table in TABLES], [1, 2, 3, 4, 5, 6])
+
+    def test_columns_of_the_paper_and_of_ours(self):
+        ours = [result("MH_05_difficult-weak-s1", "baseline", 0.1767),
+                result("MH_05_difficult-weak-s1", "improved", 0.1234)]
+        text = self.table(1, ours)
+        self.assertIn("PL-VINS", text.splitlines()[2])
+        self.assertEqual(row(text, "MH_05_difficult"),
+                         ["MH_05_difficult", "0.38", "0.31", "MH_05_difficult-weak-s1",
+                          "0.1767 (98 %)", "0.1234 (98 %)"])
+        self.assertEqual(row(text, "V2_01_easy"), ["V2_01_easy", "0.12", "0.12"] + 3 * ["–"])
+        self.assertEqual(len(cells_of(text)), 1 + len(SEQUENCES))
+        self.assertEqual(row(self.table(4, ours), "MH_05_difficult")[3::4], ["0.07", "0.0533"])
+        self.assertEqual(row(self.table(5, ours), "MH_05_difficult"),
+                         ["MH_05_difficult", "0.35", "0.31", "0.04", "MH_05_difficult-weak-s1",
+                          "0.1234 (98 %)", "0.2266"])
+
+    def test_averages_are_those_that_the_paper_prints(self):
+        for number, difference in ((4, "0.04"), (5, "0.02"), (6, "1.49")):  # 1.5 in the paper
+            average = row(self.table(number, [result("hall", "points", 1)]), "average")
+            self.assertEqual(average[3], difference)
+            self.assertEqual(set(average[4:]), {"–"})
+
+    def test_average_of_some_sequences_is_said_to_be_one(self):
+        ours = [result(sequence, variant, ape) for sequence in ("MH_01_easy", "MH_04_difficult")
+                for variant, ape in (("baseline", 0.2), ("improved", 0.1))]
+        self.assertEqual(row(self.table(4, ours), "average of ours")[1:],
+                         ["0.27", "0.22", "0.05", "2 recordings", "0.2000", "0.1000", "0.1000"])
+
+    def test_average_of_all_sequences(self):
+        ours = [result(s, v, ape) for s in SEQUENCES
+                for v, ape in (("baseline", 0.2), ("improved", 0.1))]
+        text = self.table(4, ours)
+        self.assertEqual(row(text, "average")[1:3], ["0.25", "0.21"])
+        self.assertEqual(row(text, "average")[5:], ["0.2000", "0.1000", "0.1000"])
+        self.assertNotIn("average of ours", text)
+
+    def test_line_extraction_times(self):
+        ours = [result("V1_01_easy", "baseline", extraction=8.0),
+                result("V1_01_easy", "improved", extraction=2.5)]
+        self.assertEqual(row(self.table(6, ours), "V1_01_easy"),
+                         ["V1_01_easy", "4.33", "5.82", "-1.49", "V1_01_easy", "8.00", "2.50",
+                          "5.50"])
+
+    def test_failed_runs_are_shown(self):
+        ours = [result("V1_01_easy", "baseline", 0.1), result("V1_01_easy", "improved",
+                                                              failure="lost")]
+        self.assertEqual(row(self.table(4, ours), "V1_01_easy")[-3:],
+                         ["0.1000 (98 %)", "**failed**", "–"])
+
+
+class Report(unittest.TestCase):
+    def test_failures_missing_truth_and_variants_are_told(self):
+        text = markdown_report(Results([result("a", "points", failure="lost | found"),
+                                        result("b", "points")]), [("machine", "this one")],
+                               {"b": ["plots/b/ape.png"]})
+        self.assertIn("1 of 2:", text)
+        self.assertIn("lost \\| found", text)
+        self.assertEqual(row(text, "b", "points", "1"), ["b", "points", "1", "no ground truth"])
+        self.assertEqual(row(text, "points"), ["points", DESCRIPTIONS["points"]])
+        self.assertIn("None of the sequences is one of the paper's", text)
+        self.assertIn("![ape.png](plots/b/ape.png)", text)
+        self.assertNotIn("| lines ", text)
+
+    def test_table_is_aligned(self):
+        self.assertEqual(str(Table(["a", "long"], [["b", "c"]])).splitlines(),
+                         ["| a   | long |", "|-----|------|", "| b   | c    |"])
+
+
+class Variants(unittest.TestCase):
+    def test_each_change_alone_makes_the_improved_one_together(self):
+        together = dict(VARIANTS["baseline"])
+        for name in ("subpixel", "fld", "merging"):
+            change = {key: value for key, value in VARIANTS[name].items()
+                      if VARIANTS["baseline"].get(key) != value}
+            self.assertTrue(change)
+            together.update(change)
+        self.assertEqual(together, VARIANTS["improved"])
+        self.assertEqual(list(VARIANTS), list(DESCRIPTIONS))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,307 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""scripts/run_dataset.py as it is called, with fake_run_offline.py in the place of run_offline."""
+
+import csv
+import os
+import pty
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from fake_run_offline import flight, write_tum
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+RUN_DATASET = os.path.join(HERE, "..", "..", "scripts", "run_dataset.py")
+
+
+class DatasetTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.output = self.path("output")
+        self.program = self.path("run_offline")
+        shutil.copy(os.path.join(HERE, "fake_run_offline.py"), self.program)
+        self.write("config.yaml", "%YAML:1.0\n")
+        os.mkdir(self.path("bags"))
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def add(self, name, words="fly", truth=True):
+        """A recording that does as the words say, with its ground truth."""
+        self.write(os.path.join("bags", name + ".bag"), words)
+        if truth:
+            write_tum(self.path("bags", name + ".tum"), *flight(rate=100.0))
+
+    def command(self, *arguments):
+        return [sys.executable, "-B", RUN_DATASET, self.path("bags"), "--output", self.output,
+                "--run-offline", self.program, "--config", self.path("config.yaml"), *arguments]
+
+    def call(self, *arguments, exit_code=0):
+        result = subprocess.run(self.command(*arguments), stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, encoding="utf-8", check=False)
+        self.assertEqual(result.returncode, exit_code, result.stderr)
+        self.assertNotIn("Traceback", result.stderr)
+        return result
+
+    def calls(self):
+        """The arguments of every run so far."""
+        try:
+            with open(self.path("calls.txt"), encoding="utf-8") as file:
+                return file.read().splitlines()
+        except FileNotFoundError:
+            return []
+
+    def report(self):
+        with open(os.path.join(self.output, "report.md"), encoding="utf-8") as file:
+            return file.read()
+
+    def rows(self, name="runs.csv"):
+        with open(os.path.join(self.output, name), encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+
+class Results(DatasetTest):
+    def test_sequences_by_variants_by_repetitions(self):
+        self.add("MH_01_easy")
+        self.add("hall")
+        result = self.call("--variants", "baseline", "improved", "--repetitions", "2",
+                           "--set", "max_cnt=99")
+        self.assertEqual(len(self.calls()), 8)
+        self.assertTrue(all("--set max_cnt=99" in call for call in self.calls()))
+        self.assertIn("[8/8]", result.stderr)
+        self.assertNotIn("\r", result.stderr)
+        self.assertEqual(len(self.rows()), 8)
+        for row in self.rows():
+            self.assertAlmostEqual(float(row["ape_m"]),
+                                   0.2 if row["variant"] == "baseline" else 0.1, 3)
+            self.assertAlmostEqual(float(row["coverage_percent"]), 95.0, 3)
+            self.assertEqual(float(row["line_extraction_ms"]),
+                             8.0 if row["variant"] == "baseline" else 2.0)
+            self.assertEqual(row["status"], "compared")
+        table = self.rows("table.csv")
+        self.assertEqual([row["repetitions"] for row in table], ["2"] * 4)
+        self.assertEqual(table[0]["ape_m_min"], table[0]["ape_m_max"])
+        report = self.report()
+        self.assertRegex(report, r"MH_01_easy +\| 0\.18 +\| 0\.14 +\| MH_01_easy +"
+                                 r"\| 0\.2\d+ \[0\.2\d+, 0\.2\d+\] \(95 %\) +\| 0\.1")
+        self.assertIn("All 8 runs ended with a trajectory", report)
+        for name in ("ape.png", "hall/trajectories.png", "hall/trajectory_errors.png",
+                     "hall/ape.png", "hall/translation.png"):
+            self.assertIn(f"(plots/{name})", report)
+            self.assertTrue(os.path.isfile(os.path.join(self.output, "plots", name)))
+
+    def test_coverage_of_a_part_counts_that_part_only(self):
+        self.add("hall")
+        self.call("--no-plots", "--variants", "improved", "--start", "5", "--duration", "10")
+        self.assertIn("--start 5.0 --duration 10.0", self.calls()[0])
+        self.assertAlmostEqual(float(self.rows()[0]["coverage_percent"]), 90.0, 0)
+
+    def test_without_ground_truth(self):
+        self.add("hall", truth=False)
+        result = self.call("--variants", "points", "improved")
+        self.assertIn("ground truth: none", result.stdout)
+        self.assertIn("hall.tum", result.stdout)
+        self.assertEqual({row["status"] for row in self.rows()}, {"no ground truth"})
+        self.assertEqual(float(self.rows()[0]["real_time_factor"]), 5.0)
+        self.assertIn("Not compared", self.report())
+        self.assertNotIn(".png", self.report())
+
+    def test_ground_truth_of_another_time(self):
+        self.add("hall")
+        stamps, positions = flight()
+        write_tum(self.path("bags", "hall.tum"), stamps + 1000, positions)
+        self.call("--no-plots", "--variants", "improved")
+        self.assertIn("no overlap in time", self.rows()[0]["status"])
+        self.assertIn("no overlap in time", self.report())
+
+
+class Failures(DatasetTest):
+    def test_are_shown_with_their_reason_and_tried_again(self):
+        self.add("a_good")
+        self.add("b_fails", "fail")
+        self.add("c_crashes", "crash")
+        self.add("d_loses", "lose")
+        result = self.call("--no-plots", "--variants", "improved", exit_code=1)
+        self.assertIn("3 of 4 runs failed", result.stderr)
+        self.assertIn("b_fails improved 1: FAILED: no trajectory from 400 images", result.stderr)
+        statuses = {row["sequence"]: row["status"] for row in self.rows()}
+        self.assertEqual(statuses["a_good"], "compared")
+        self.assertEqual(statuses["b_fails"],
+                         "no trajectory from 400 images: too little motion")
+        self.assertIn("SIGKILL", statuses["c_crashes"])
+        self.assertIn("no trajectory.tum", statuses["d_loses"])
+        self.assertIn("run.log", statuses["d_loses"])
+        report = self.report()
+        for reason in list(statuses.values())[1:]:
+            self.assertIn(reason, report)
+        self.assertRegex(report, r"b_fails +\| \*\*failed\*\*")
+        self.add("b_fails")
+        self.call("--no-plots", "--variants", "improved", exit_code=1)
+        self.assertEqual(len(self.calls()), 4 + 3)
+        self.assertEqual({row["sequence"]: row["status"] for row in self.rows()}["b_fails"],
+                         "compared")
+
+    def test_mean_is_of_sequences_that_all_variants_have(self):
+        self.add("a_good")
+        self.add("b_fails", "fail")
+        self.call("--no-plots", "--variants", "baseline", "improved", exit_code=1)
+        self.assertRegex(self.report(), r"\*\*mean\*\* of the 1 that .*\| 0\.20\d+ +\| 0\.10\d+")
+        self.assertRegex(self.report(), r"against baseline +\| \+0 % +\| -50 %")
+
+
+class Resuming(DatasetTest):
+    def test_finished_runs_are_not_repeated(self):
+        self.add("hall")
+        arguments = ("--no-plots", "--variants", "baseline", "improved")
+        self.call(*arguments)
+        before = self.report().split("##", 1)[1]  # without the time of writing
+        result = self.call(*arguments)
+        self.assertEqual(len(self.calls()), 2)
+        self.assertIn("2 runs, 2 of them finished before", result.stdout)
+        self.assertEqual(before, self.report().split("##", 1)[1])
+        self.call(*arguments, "merging")
+        self.assertEqual(len(self.calls()), 3)
+
+    def assert_repeated(self, *arguments):
+        count = len(self.calls())
+        self.call("--no-plots", "--variants", "improved", *arguments)
+        self.assertEqual(len(self.calls()), count + 1)
+
+    def test_whatever_changes_the_result_repeats_the_run(self):
+        self.add("hall")
+        self.assert_repeated()
+        self.write("config.yaml", "%YAML:1.0\nmax_cnt: 99\n")
+        self.assert_repeated()
+        self.assert_repeated("--set", "max_cnt=98")
+        self.assert_repeated("--duration", "10")
+        self.write(os.path.join("bags", "hall.bag"), "fly again")
+        self.assert_repeated("--duration", "10")
+        with open(self.program, "a", encoding="utf-8") as file:
+            file.write("# another version\n")
+        self.assert_repeated("--duration", "10")
+
+    def test_incomplete_results_are_repeated(self):
+        self.add("hall")
+        self.assert_repeated()
+        folder = os.path.join(self.output, "runs", "hall", "improved", "1")
+        for name in ("run.json", "trajectory.tum", "summary.json"):
+            os.remove(os.path.join(folder, name))
+            self.assert_repeated()
+        with open(os.path.join(folder, "run.json"), "w", encoding="utf-8") as file:
+            file.write("{")
+        self.assert_repeated()
+
+    def interrupt(self, number):
+        """Starts all runs, waits for the one that hangs and sends the signal."""
+        shutil.rmtree(os.path.join(self.output, "runs", "b_hangs"), ignore_errors=True)
+        with subprocess.Popen(self.command("--variants", "improved"), stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, encoding="utf-8") as process:
+            pid_file = os.path.join(self.output, "runs", "b_hangs", "improved", "1", "pid")
+            deadline = time.monotonic() + 30
+            pid = ""
+            while not pid.endswith("\n"):
+                self.assertLess(time.monotonic(), deadline)
+                time.sleep(0.02)
+                if os.path.isfile(pid_file):
+                    with open(pid_file, encoding="utf-8") as file:
+                        pid = file.read()
+            process.send_signal(number)
+            _, messages = process.communicate(timeout=30)
+        with self.assertRaises(ProcessLookupError):
+            os.kill(int(pid), 0)
+        return process.returncode, messages
+
+    def test_interruption_leaves_no_process_and_is_resumed(self):
+        self.add("a_flies")
+        self.add("b_hangs", "hang")
+        self.add("c_flies")
+        for number in (signal.SIGINT, signal.SIGTERM):
+            exit_code, messages = self.interrupt(number)
+            self.assertEqual(exit_code, 130)
+            self.assertIn("2 of 3 runs left", messages)
+            self.assertNotIn("Traceback", messages)
+        self.assertEqual(len(self.calls()), 1 + 2)
+        self.add("b_hangs", "fly")
+        self.call("--no-plots", "--variants", "improved")
+        self.assertEqual(len(self.calls()), 1 + 2 + 2)
+        self.assertEqual([row["status"] for row in self.rows()], ["compared"] * 3)
+
+
+class Parallel(DatasetTest):
+    def test_runs_are_under_way_at_the_same_time(self):
+        self.add("hall", "fly meet")
+        self.call("--no-plots", "--variants", "improved", "--repetitions", "2", "--jobs", "2")
+        self.assertEqual([row["status"] for row in self.rows()], ["compared"] * 2)
+
+    def test_two_calls_do_not_share_an_output(self):
+        self.add("b_hangs", "hang")
+        with subprocess.Popen(self.command("--variants", "improved"), stdout=subprocess.PIPE,
+                              stderr=subprocess.DEVNULL) as process:
+            process.stdout.readline()  # it has begun
+            result = self.call("--variants", "improved", exit_code=1)
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=30)
+        self.assertIn("another run_dataset.py works there", result.stderr)
+
+
+class Terminal(DatasetTest):
+    def test_bar(self):
+        self.add("hall")
+        self.add("room")
+        master, slave = pty.openpty()
+        self.addCleanup(os.close, master)
+        with subprocess.Popen(self.command("--no-plots", "--variants", "improved"),
+                              stdout=subprocess.DEVNULL,
+                              stderr=slave) as process:
+            process.wait(60)
+        os.close(slave)
+        text = os.read(master, 1 << 16).decode()
+        self.assertIn("\r\033[K[........................] 0/2  hall improved 1", text)
+        self.assertIn("] 1/2, 0:0", text)
+        self.assertIn("[2/2] room improved 1: APE 0.1", text)
+
+
+class BadCalls(DatasetTest):
+    def assert_refused(self, message, *arguments, exit_code=1):
+        result = self.call(*arguments, exit_code=exit_code)
+        self.assertIn(message, result.stderr)
+        self.assertEqual(self.calls(), [])
+
+    def test_say_what_to_do(self):
+        self.assert_refused("no *.bag and no ASL folder")
+        self.write(os.path.join("bags", "MH_01_easy.zip"), "")
+        self.assert_refused("MH_01_easy.zip first")
+        self.add("hall")
+        self.assert_refused("there are hall", "--sequences", "MH_01")
+        self.assert_refused("there are points, baseline", "--variants", "best")
+        self.assert_refused("missing.yaml: no such file", "--config", "missing.yaml")
+        self.assert_refused("missing: no such program", "--run-offline", "missing")
+        self.assert_refused("from 1 on instead of 0", "--jobs", "0", exit_code=2)
+        self.assert_refused("zero or more, instead of nan", "--start", "nan", exit_code=2)
+        self.assert_refused("key=value instead of max_cnt", "--set", "max_cnt", exit_code=2)
+        self.write(os.path.join("bags", "hall.tum"), "1 2 3\n")
+        self.assert_refused("hall.tum:1: 3 columns, expected 8")
+
+    def test_damaged_summary(self):
+        self.add("hall")
+        self.call("--no-plots", "--variants", "improved")
+        summary = os.path.join(self.output, "runs", "hall", "improved", "1", "summary.json")
+        with open(summary, "w", encoding="utf-8") as file:
+            file.write("{")
+        self.call("--no-plots", "--variants", "improved", exit_code=1)
+        self.assertIn("damaged results", self.rows()[0]["status"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -14,9 +14,15 @@ constexpr double kMaxReprojectionError_px = 3.0;   // mean over a landmark's vie
 constexpr int kInitialIterations = 20;
 constexpr size_t kMinViewsToOptimize = 3;
 
+template <typename Landmark>
+bool IsOptimized(const Landmark& landmark) {
+  return landmark.triangulated && landmark.views.size() >= kMinViewsToOptimize;
+}
+
 ProblemOptions MakeProblemOptions(const Config& config, double focal_length) {
   ProblemOptions options;
   options.point_weight = focal_length / config.estimator.point_noise;
+  options.line_weight = focal_length / config.estimator.line_noise;
   options.estimate_extrinsic =
       config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed;
   options.estimate_td = config.sensor.estimate_td;
@@ -36,6 +42,19 @@ InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstil
   return uncertainty;
 }
 
+LineTriangulationOptions MakeLineTriangulationOptions(const Config& config, double focal_length) {
+  LineTriangulationOptions options;
+  options.noise = config.estimator.line_noise / focal_length;
+  return options;
+}
+
+LineLimits MakeLineLimits(const Config& config, double focal_length) {
+  LineLimits limits;
+  limits.noise = config.estimator.line_noise / focal_length;
+  limits.max_length = config.estimator.line_outlier_distance;
+  return limits;
+}
+
 KeyframePolicyOptions MakeKeyframeOptions(const Config& config, double focal_length) {
   KeyframePolicyOptions options;
   options.min_parallax = config.estimator.keyframe_parallax / focal_length;
@@ -48,6 +67,8 @@ Estimator::Estimator(const Config& config)
     : config_(config),
       focal_length_(CameraModel::Create(config.sensor.camera)->FocalLength()),
       problem_options_(MakeProblemOptions(config, focal_length_)),
+      line_triangulation_options_(MakeLineTriangulationOptions(config, focal_length_)),
+      line_limits_(MakeLineLimits(config, focal_length_)),
       keyframe_options_(MakeKeyframeOptions(config, focal_length_)),
       initializer_(config),
       standstill_detector_(config.sensor.imu_noise) {
@@ -64,6 +85,7 @@ void Estimator::Reset() {
   window_.td = config_.sensor.td;
   window_.gravity_W = Eigen::Vector3d(0, 0, -config_.sensor.gravity_norm);
   points_.Clear();
+  lines_.Clear();
   prior_ = MarginalizationPrior();
 }
 
@@ -72,6 +94,9 @@ EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
   EstimatorOutput output;
   output.t_ns = measurement.t_ns;
   output.counts.points_observed = static_cast<int>(measurement.points.points.size());
+  if (measurement.lines) {
+    output.counts.lines_observed = static_cast<int>(measurement.lines->lines.size());
+  }
   const bool stands_still = StandsStill(measurement);
   if (initialized_) {
     Track(measurement, stands_still, &output);
@@ -90,6 +115,7 @@ void Estimator::Initialize(const FrameMeasurement& measurement, EstimatorOutput*
   if (!result) return;
 
   StartWindow(*result);
+  Triangulate(output);
   Optimize(kInitialIterations, output);
   initialized_ = true;
   output->reason.clear();
@@ -104,7 +130,6 @@ void Estimator::StartWindow(const InitializationResult& result) {
   }
   prior_ = InitialPrior(UncertaintyOf(config_.sensor, result.from_standstill), problem_options_,
                         window_);
-  points_.Triangulate(window_, kMinTriangulationAngle_px / focal_length_);
 }
 
 void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
@@ -112,10 +137,9 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   const bool keep_second_newest = IsKeyframe(keyframe_options_, window_, points_);
   AddFrame(measurement);
   window_.newest().stationary = stands_still;
-  points_.Triangulate(window_, kMinTriangulationAngle_px / focal_length_);
+  Triangulate(output);
   Optimize(config_.estimator.max_num_iterations, output);
-  output->counts.points_rejected =
-      points_.RemoveOutliers(window_, kMaxReprojectionError_px / focal_length_);
+  RemoveOutliers(output);
   if (const auto failure = FindFailure(*output)) {
     Reset();
     output->status = EstimatorStatus::kLost;
@@ -154,6 +178,19 @@ void Estimator::AddFrame(const FrameMeasurement& measurement) {
   predicted_ = frame.state;
   window_.frames.push_back(std::move(frame));
   points_.AddFrame(measurement.points, measurement.time_offset);
+  if (measurement.lines) lines_.AddFrame(*measurement.lines);
+}
+
+void Estimator::Triangulate(EstimatorOutput* output) {
+  points_.Triangulate(window_, kMinTriangulationAngle_px / focal_length_);
+  output->counts.line_triangulation =
+      lines_.Triangulate(window_, line_triangulation_options_, line_limits_.max_length);
+}
+
+void Estimator::RemoveOutliers(EstimatorOutput* output) {
+  output->counts.points_rejected =
+      points_.RemoveOutliers(window_, kMaxReprojectionError_px / focal_length_);
+  output->counts.lines_rejected = lines_.RemoveOutliers(window_, line_limits_);
 }
 
 void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
@@ -162,9 +199,14 @@ void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
   builder.AddPrior();
   for (size_t i = 1; i < window_.frames.size(); ++i) builder.AddMotion(i);
   for (auto& [id, landmark] : points_.landmarks()) {
-    if (!landmark.triangulated || landmark.views.size() < kMinViewsToOptimize) continue;
+    if (!IsOptimized(landmark)) continue;
     builder.AddPoint(&landmark);
     ++output->counts.points_in_window;
+  }
+  for (auto& [id, landmark] : lines_.landmarks()) {
+    if (!IsOptimized(landmark)) continue;
+    builder.AddLine(&landmark);
+    ++output->counts.lines_in_window;
   }
   NormalEquations equations(builder.problem());
   SolverOptions options;
@@ -192,12 +234,18 @@ void Estimator::SlideWindow(bool keep_second_newest, EstimatorOutput* output) {
 }
 
 void Estimator::MarginalizeOldestFrame(EstimatorOutput* output) {
-  prior_ = MarginalizeOldest(problem_options_, prior_, &window_, &points_);
+  prior_ = MarginalizeOldest(problem_options_, prior_, &window_, &points_, &lines_);
   const int64_t oldest_ns = window_.frames.front().state.t_ns;
-  for (const MapPoint& point : points_.StartAnew(window_, oldest_ns)) {
-    output->departed_points.push_back(point);
-  }
+  points_.StartAnew(window_, oldest_ns, [&](const PointLandmark& point) {
+    output->departed_points.push_back({point.id, PositionInWorld(point, window_)});
+  });
+  lines_.StartAnew(window_, oldest_ns, [&](const LineLandmark& line) {
+    if (const auto segment = ObservedSegment(line, window_)) {
+      output->departed_lines.push_back(*segment);
+    }
+  });
   points_.RemoveFrame(window_, oldest_ns);
+  lines_.RemoveFrame(window_, oldest_ns);
   window_.RemoveOldest();
 }
 
@@ -205,6 +253,7 @@ void Estimator::DropSecondNewestFrame() {
   const int64_t dropped_ns = window_.frames[window_.frames.size() - 2].state.t_ns;
   prior_ = prior_.Marginalize(IsOfFrame(dropped_ns));
   points_.RemoveFrame(window_, dropped_ns);
+  lines_.RemoveFrame(window_, dropped_ns);
   window_.RemoveSecondNewest();
 }
 
@@ -217,8 +266,11 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->stationary = window_.newest().stationary;
   for (const WindowFrame& frame : window_.frames) output->window.push_back(frame.state);
   for (const auto& [id, landmark] : points_.landmarks()) {
-    if (!landmark.triangulated || landmark.views.size() < kMinViewsToOptimize) continue;
-    output->points.push_back({id, PositionInWorld(landmark, window_)});
+    if (IsOptimized(landmark)) output->points.push_back({id, PositionInWorld(landmark, window_)});
+  }
+  for (const auto& [id, landmark] : lines_.landmarks()) {
+    if (!IsOptimized(landmark)) continue;
+    if (const auto segment = ObservedSegment(landmark, window_)) output->lines.push_back(*segment);
   }
 }
 

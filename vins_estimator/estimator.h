@@ -10,6 +10,7 @@
 #include "vins_estimator/failure_detector.h"
 #include "vins_estimator/imu/standstill_detector.h"
 #include "vins_estimator/initialization/initializer.h"
+#include "vins_estimator/lines/line_map.h"
 #include "vins_estimator/marginalization/marginalization_prior.h"
 #include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/optimization/levenberg_marquardt.h"
@@ -41,6 +42,8 @@ class Estimator {
 
   void StartWindow(const InitializationResult& result);
   void AddFrame(const FrameMeasurement& measurement);
+  void Triangulate(EstimatorOutput* output);
+  void RemoveOutliers(EstimatorOutput* output);
   std::optional<std::string> FindFailure(const EstimatorOutput& output);
   bool StandsStill(const FrameMeasurement& measurement);
   void Optimize(int max_iterations, EstimatorOutput* output);
@@ -52,6 +55,8 @@ class Estimator {
   const Config config_;
   const double focal_length_;  // [px]
   const ProblemOptions problem_options_;
+  const LineTriangulationOptions line_triangulation_options_;
+  const LineLimits line_limits_;
   const KeyframePolicyOptions keyframe_options_;
 
   bool initialized_ = false;
@@ -60,6 +65,7 @@ class Estimator {
   ContradictionMonitor contradiction_monitor_;
   SlidingWindow window_;
   PointMap points_;
+  LineMap lines_;
   MarginalizationPrior prior_;
   FrameState predicted_;  // of the newest image, from the IMU alone
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/rigid3.h"
+#include "vins_estimator/lines/line_map.h"
 #include "vins_estimator/points/point_map.h"
 #include "vins_estimator/window/frame_state.h"
 
@@ -41,6 +42,10 @@ struct EstimatorCounts {
   int points_observed = 0;   // in this image
   int points_in_window = 0;  // landmarks in the optimisation
   int points_rejected = 0;   // landmarks or observations thrown out in this frame
+  int lines_observed = 0;    // in this image
+  int lines_in_window = 0;   // landmarks in the optimisation
+  int lines_rejected = 0;    // landmarks or observations thrown out in this frame
+  LineTriangulationCounts line_triangulation;
 };
 
 // Everything the estimator says about one image. The state is that of this image, as known at this
@@ -62,6 +67,8 @@ struct EstimatorOutput {
   std::vector<FrameState> window;         // states of the sliding window, oldest first
   std::vector<MapPoint> points;           // landmarks in the window
   std::vector<MapPoint> departed_points;  // landmarks that left the window with this frame
+  std::vector<MapLine> lines;             // the same for lines
+  std::vector<MapLine> departed_lines;
   EstimatorCounts counts;
   EstimatorTimings timings;
 };

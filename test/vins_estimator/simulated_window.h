@@ -9,6 +9,7 @@
 #include "simulator/random.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 #include "vins_estimator/factors/manifolds.h"
+#include "vins_estimator/lines/line_map.h"
 #include "vins_estimator/points/point_map.h"
 #include "vins_estimator/window/sliding_window.h"
 
@@ -17,6 +18,7 @@ namespace plm_vins::testing {
 struct SimulatedWindow {
   SlidingWindow window;  // at the truth
   PointMap points;       // triangulated there
+  LineMap lines;
 };
 
 // `frame_count` keyframes, `stride` images of 20 Hz apart, that follow up to `max_points` corners.
@@ -43,8 +45,10 @@ inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, siz
     imu = {flight.frames[i].imu.back()};
     window.frames.push_back(frame);
     result.points.AddFrame(flight.frames[i].points, 0);
+    result.lines.AddFrame(*flight.frames[i].lines);
   }
   result.points.Triangulate(window, /*min_angle=*/0.02);
+  result.lines.Triangulate(window, LineTriangulationOptions(), /*max_length=*/10);
   return result;
 }
 

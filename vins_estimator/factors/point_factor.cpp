@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "common/so3.h"
+#include "vins_estimator/factors/pose_block.h"
 
 namespace plm_vins {
 namespace {
@@ -12,28 +13,12 @@ constexpr double kMinDepth = 0.01;  // [m]
 
 using Matrix23d = Eigen::Matrix<double, 2, 3>;
 using Vector2Map = Eigen::Map<Eigen::Vector2d>;
-using PoseJacobian = Eigen::Map<Eigen::Matrix<double, 2, 7, Eigen::RowMajor>>;
-
-struct PoseView {
-  explicit PoseView(const double* values)
-      : p(values), R(Eigen::Map<const Eigen::Quaterniond>(values + 3).toRotationMatrix()) {}
-
-  Eigen::Map<const Eigen::Vector3d> p;
-  Eigen::Matrix3d R;
-};
-
-void SetPoseJacobian(const Matrix23d& d_r_d_p, const Matrix23d& d_r_d_theta, double* values) {
-  PoseJacobian J(values);
-  J.leftCols<3>() = d_r_d_p;
-  J.middleCols<3>(3) = d_r_d_theta;
-  J.col(6).setZero();
-}
 
 }  // namespace
 
 bool PointFactor::Evaluate(double const* const* parameters, double* residuals,
                            double** jacobians) const {
-  const PoseView T_W_Bh(parameters[0]), T_W_Bt(parameters[1]), T_B_C(parameters[2]);
+  const PoseBlock T_W_Bh(parameters[0]), T_W_Bt(parameters[1]), T_B_C(parameters[2]);
   const double td = parameters[3][0];
 
   const Eigen::Vector3d p_Ch = PointInHost(parameters[4]);

@@ -2,7 +2,6 @@
 #include "vins_estimator/lines/manhattan_frame.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "common/measurements.h"
 
@@ -13,8 +12,6 @@ namespace {
 double AngleBetween(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis) {
   return std::atan2(direction.cross(axis).norm(), std::abs(direction.dot(axis)));
 }
-
-Eigen::Vector3d HorizontalUnit(double heading) { return {std::cos(heading), std::sin(heading), 0}; }
 
 }  // namespace
 
@@ -35,7 +32,7 @@ void ManhattanFrame::Vote(const std::vector<LineDirection>& lines, double elapse
     const Eigen::Vector3d& d = line.direction_W;
     const double horizontal_part = d.head<2>().norm();
     const double elevation = std::atan2(std::abs(d.z()), horizontal_part);
-    if (line.sigma > options_.max_line_sigma || elevation > Tolerance(line.sigma)) continue;
+    if (!IsKnownWell(line) || elevation > Tolerance(line.sigma)) continue;
     votes_.Cast(line.id, std::atan2(d.y(), d.x()), line.sigma, elapsed);
   }
 }
@@ -100,27 +97,18 @@ std::optional<Eigen::Quaterniond> ManhattanFrame::R_W_M() const {
   return Eigen::Quaterniond(Eigen::AngleAxisd(heading_, Eigen::Vector3d::UnitZ()));
 }
 
-LineAxis ManhattanFrame::AxisOf(const Eigen::Vector3d& direction_W, double sigma) const {
-  if (sigma > options_.max_line_sigma) return LineAxis::kFree;
-  const double tolerance = Tolerance(sigma);
+LineAxis ManhattanFrame::AxisOf(const LineDirection& line) const {
+  if (!IsKnownWell(line)) return LineAxis::kFree;
+  const double tolerance = Tolerance(line.sigma);
   for (const LineAxis axis : {LineAxis::kZ, LineAxis::kX, LineAxis::kY}) {
     if (axis != LineAxis::kZ && state_ != ManhattanState::kLocked) break;
-    if (AngleBetween(direction_W, AxisInWorld(axis)) < tolerance) return axis;
+    if (AngleBetween(line.direction_W, AxisInWorld(axis)) < tolerance) return axis;
   }
   return LineAxis::kFree;
 }
 
 Eigen::Vector3d ManhattanFrame::AxisInWorld(LineAxis axis) const {
-  switch (axis) {
-    case LineAxis::kX:
-      return HorizontalUnit(heading_);
-    case LineAxis::kY:
-      return HorizontalUnit(heading_ + M_PI / 2);
-    case LineAxis::kZ:
-      return Eigen::Vector3d::UnitZ();
-    default:
-      throw std::logic_error("a free line has no axis");
-  }
+  return Eigen::AngleAxisd(heading_, Eigen::Vector3d::UnitZ()) * UnitVector(axis);
 }
 
 }  // namespace plm_vins

@@ -9,24 +9,9 @@
 #include <vector>
 
 #include "vins_estimator/lines/heading_votes.h"
+#include "vins_estimator/lines/line_axis.h"
 
 namespace plm_vins {
-
-// The axis of the Manhattan frame that a line runs along; free where it runs along none.
-enum class LineAxis { kFree, kX, kY, kZ };
-
-inline const char* ToString(LineAxis axis) {
-  switch (axis) {
-    case LineAxis::kX:
-      return "x";
-    case LineAxis::kY:
-      return "y";
-    case LineAxis::kZ:
-      return "z";
-    default:
-      return "free";
-  }
-}
 
 // A triangulated line's direction in W.
 struct LineDirection {

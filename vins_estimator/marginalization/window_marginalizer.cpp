@@ -51,6 +51,12 @@ MarginalizationPrior Summarize(const WindowProblem& problem) {
   return {std::move(blocks), std::move(quadratic)};
 }
 
+// The landmark is known from this frame on, and from others as well.
+template <typename Landmark>
+bool IsHostedBy(int64_t t_ns, const Landmark& landmark) {
+  return landmark.triangulated && landmark.host().t_ns == t_ns && landmark.views.size() > 1;
+}
+
 }  // namespace
 
 std::function<bool(const BlockId&)> IsOfFrame(int64_t t_ns) {
@@ -90,14 +96,16 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
 
 MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
                                        const MarginalizationPrior& prior, SlidingWindow* window,
-                                       PointMap* points) {
+                                       PointMap* points, LineMap* lines) {
   const int64_t oldest_ns = window->frames.front().state.t_ns;
   ProblemBuilder builder(options, window, &prior);
   builder.AddPrior();
   builder.AddMotion(1);
   for (auto& [id, landmark] : points->landmarks()) {
-    const bool leaves = landmark.triangulated && landmark.host().t_ns == oldest_ns;
-    if (leaves && landmark.views.size() > 1) builder.AddPoint(&landmark);
+    if (IsHostedBy(oldest_ns, landmark)) builder.AddPoint(&landmark);
+  }
+  for (auto& [id, landmark] : lines->landmarks()) {
+    if (IsHostedBy(oldest_ns, landmark)) builder.AddLine(&landmark);
   }
   return Summarize(builder.problem()).Marginalize(IsOfFrame(oldest_ns));
 }

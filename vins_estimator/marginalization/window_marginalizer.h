@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "vins_estimator/lines/line_map.h"
 #include "vins_estimator/marginalization/marginalization_prior.h"
 #include "vins_estimator/optimization/problem_builder.h"
 #include "vins_estimator/points/point_map.h"
@@ -32,10 +33,10 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
 std::function<bool(const BlockId&)> IsOfFrame(int64_t t_ns);
 
 // Folds the oldest frame into a new prior: its motion to the next frame, the old prior, and every
-// landmark that it hosts with all views. `window` and `points` stay as they are; what was folded in
-// must not be used again: see PointMap::StartAnew().
+// landmark that it hosts with all views. Window and landmarks stay as they are; what was folded in
+// must not be used again: see LandmarkMap::StartAnew().
 MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
                                        const MarginalizationPrior& prior, SlidingWindow* window,
-                                       PointMap* points);
+                                       PointMap* points, LineMap* lines);
 
 }  // namespace plm_vins

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "vins_estimator/factors/imu_factor.h"
+#include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
 
@@ -11,7 +12,11 @@ namespace plm_vins {
 
 ProblemBuilder::ProblemBuilder(const ProblemOptions& options, SlidingWindow* window,
                                const MarginalizationPrior* prior)
-    : options_(options), window_(window), prior_(prior), point_loss_(options.point_loss_scale) {}
+    : options_(options),
+      window_(window),
+      prior_(prior),
+      point_loss_(options.point_loss_scale),
+      line_loss_(options.line_loss_scale) {}
 
 double* ProblemBuilder::Values(const BlockId& id) {
   switch (id.kind) {
@@ -77,6 +82,25 @@ void ProblemBuilder::AddPoint(PointLandmark* landmark) {
     problem_.AddLandmarkTerm(index,
                              std::make_unique<PointFactor>(view.bearing, options_.point_weight),
                              &point_loss_, {host_pose, Pose(view.t_ns), extrinsic, td, point});
+  }
+}
+
+void ProblemBuilder::AddLine(LineLandmark* landmark) {
+  const BlockId id{BlockKind::kLine, landmark->id};
+  const int index = problem_.AddLandmark(id, landmark->coordinates.data());
+  const int line = problem_.Find(id);
+  const int extrinsic = AddVariable({BlockKind::kExtrinsic, 0});
+  const LineView& host = landmark->host();
+  const int host_pose = Pose(host.t_ns);
+  problem_.ReserveLandmarkTerms(index, landmark->views.size());
+  problem_.AddLandmarkTerm(index,
+                           std::make_unique<LineHostFactor>(host.segment, options_.line_weight),
+                           &line_loss_, {line});
+  for (size_t i = 1; i < landmark->views.size(); ++i) {
+    const LineView& view = landmark->views[i];
+    problem_.AddLandmarkTerm(index,
+                             std::make_unique<LineFactor>(view.segment, options_.line_weight),
+                             &line_loss_, {host_pose, Pose(view.t_ns), extrinsic, line});
   }
 }
 

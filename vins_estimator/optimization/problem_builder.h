@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "vins_estimator/lines/line_landmark.h"
 #include "vins_estimator/marginalization/marginalization_prior.h"
 #include "vins_estimator/optimization/window_problem.h"
 #include "vins_estimator/points/point_landmark.h"
@@ -16,6 +17,8 @@ namespace plm_vins {
 struct ProblemOptions {
   double point_weight = 460.0;          // focal length over corner noise
   double point_loss_scale = 1.0;        // Cauchy loss, in standard deviations
+  double line_weight = 460.0;           // focal length over the noise of a line's ends across it
+  double line_loss_scale = 1.0;         // Cauchy loss, in standard deviations
   double standstill_velocity = 0.005;   // standard deviation while standing still [m/s]
   double standstill_position = 0.001;   // ... of the position between two frames [m]
   double standstill_rotation = 0.0005;  // ... of the rotation between two frames [rad]
@@ -38,6 +41,7 @@ class ProblemBuilder {
   void AddMotion(size_t index);
   // All views of a triangulated landmark.
   void AddPoint(PointLandmark* landmark);
+  void AddLine(LineLandmark* landmark);
 
   const WindowProblem& problem() const { return problem_; }
 
@@ -51,6 +55,7 @@ class ProblemBuilder {
   SlidingWindow* window_;
   const MarginalizationPrior* prior_;
   ceres::CauchyLoss point_loss_;
+  ceres::CauchyLoss line_loss_;
   WindowProblem problem_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "vins_estimator/factors/manifolds.h"
+#include "vins_estimator/lines/plucker.h"
 
 namespace plm_vins {
 namespace {
@@ -52,6 +53,11 @@ const VariableType& PointVariable() {
   return type;
 }
 
+const VariableType& LineVariable() {
+  static const VariableType type{kLineSize, kLineTangentSize, &LinePlus, &LineMinus};
+  return type;
+}
+
 const VariableType& VariableTypeOf(BlockKind kind) {
   switch (kind) {
     case BlockKind::kPose:
@@ -61,6 +67,8 @@ const VariableType& VariableTypeOf(BlockKind kind) {
       return MotionVariable();
     case BlockKind::kPoint:
       return PointVariable();
+    case BlockKind::kLine:
+      return LineVariable();
     default:
       return ScalarVariable();
   }

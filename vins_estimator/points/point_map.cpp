@@ -15,34 +15,30 @@ PointSighting SightingOf(const PointView& view, const SlidingWindow& window) {
   return {window.T_W_C(*window.Find(view.t_ns)), view.bearing.At(window.td)};
 }
 
+// Expresses a point in the camera of one of the landmark's views; not triangulated where it is not
+// in front of it.
+void SetPosition(const Eigen::Vector3d& p_W, const SlidingWindow& window, const PointView& view,
+                 PointLandmark* landmark) {
+  const Rigid3d T_W_C = window.T_W_C(*window.Find(view.t_ns));
+  const Eigen::Vector3d p_C = T_W_C.Inverse() * p_W;
+  landmark->triangulated = p_C.z() > kMinDepth;
+  if (landmark->triangulated) {
+    landmark->coordinates = {p_C.x() / p_C.z(), p_C.y() / p_C.z(), 1.0 / p_C.z()};
+  }
+}
+
 void TriangulateLandmark(const SlidingWindow& window, double min_angle, PointLandmark* landmark) {
   std::vector<PointSighting> sightings;
   sightings.reserve(landmark->views.size());
   for (const PointView& view : landmark->views) sightings.push_back(SightingOf(view, window));
   const auto p_W = TriangulatePoint(sightings, min_angle);
-  if (p_W) SetPosition(*p_W, window, landmark);
-}
-
-// Takes out the view in a frame; where it is the host, the depth moves on to the next view.
-void RemoveView(const SlidingWindow& window, size_t index, PointLandmark* landmark) {
-  if (index == 0 && landmark->triangulated && landmark->views.size() > 1) {
-    const Eigen::Vector3d p_W = PositionInWorld(*landmark, window);
-    landmark->views.erase(landmark->views.begin());
-    SetPosition(p_W, window, landmark);
-  } else {
-    landmark->views.erase(landmark->views.begin() + index);
-  }
+  if (p_W) SetPosition(*p_W, window, landmark->host(), landmark);
 }
 
 }  // namespace
 
-void SetPosition(const Eigen::Vector3d& p_W, const SlidingWindow& window, PointLandmark* landmark) {
-  const Rigid3d T_W_Ch = window.T_W_C(*window.Find(landmark->host().t_ns));
-  const Eigen::Vector3d p_C = T_W_Ch.Inverse() * p_W;
-  landmark->triangulated = p_C.z() > kMinDepth;
-  if (landmark->triangulated) {
-    landmark->coordinates = {p_C.x() / p_C.z(), p_C.y() / p_C.z(), 1.0 / p_C.z()};
-  }
+void MoveHost(const SlidingWindow& window, size_t view, PointLandmark* landmark) {
+  SetPosition(PositionInWorld(*landmark, window), window, landmark->views[view], landmark);
 }
 
 Eigen::Vector3d PositionInWorld(const PointLandmark& landmark, const SlidingWindow& window) {
@@ -64,38 +60,6 @@ void PointMap::AddFrame(const PointFrame& frame, double cut_time_offset) {
     landmark.id = point.id;
     landmark.views.push_back({frame.t_ns, {point.xy, point.velocity, cut_time_offset}});
   }
-}
-
-void PointMap::RemoveFrame(const SlidingWindow& window, int64_t t_ns) {
-  for (auto& [id, landmark] : landmarks_) {
-    const auto view = std::find_if(landmark.views.begin(), landmark.views.end(),
-                                   [t_ns](const PointView& v) { return v.t_ns == t_ns; });
-    if (view == landmark.views.end()) continue;
-    RemoveView(window, view - landmark.views.begin(), &landmark);
-  }
-  RemoveIf([](const PointLandmark& landmark) { return landmark.views.empty(); });
-}
-
-std::vector<MapPoint> PointMap::StartAnew(const SlidingWindow& window, int64_t host_ns) {
-  const int64_t newest_ns = window.newest().state.t_ns;
-  std::vector<MapPoint> removed;
-  for (auto it = landmarks_.begin(); it != landmarks_.end();) {
-    PointLandmark& landmark = it->second;
-    if (landmark.host().t_ns != host_ns || !landmark.triangulated || landmark.views.size() < 2) {
-      ++it;
-      continue;
-    }
-    const Eigen::Vector3d p_W = PositionInWorld(landmark, window);
-    if (landmark.views.back().t_ns == newest_ns) {
-      landmark.views.erase(landmark.views.begin(), landmark.views.end() - 1);
-      SetPosition(p_W, window, &landmark);
-      ++it;
-    } else {
-      removed.push_back({landmark.id, p_W});
-      it = landmarks_.erase(it);
-    }
-  }
-  return removed;
 }
 
 void PointMap::Triangulate(const SlidingWindow& window, double min_angle) {
@@ -134,12 +98,6 @@ int PointMap::RemoveOutliers(const SlidingWindow& window, double max_error) {
     it = bad ? landmarks_.erase(it) : std::next(it);
   }
   return removed;
-}
-
-void PointMap::RemoveIf(const std::function<bool(const PointLandmark&)>& condition) {
-  for (auto it = landmarks_.begin(); it != landmarks_.end();) {
-    it = condition(it->second) ? landmarks_.erase(it) : std::next(it);
-  }
 }
 
 }  // namespace plm_vins

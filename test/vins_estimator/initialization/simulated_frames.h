@@ -26,6 +26,7 @@ inline SimulatedFlight SimulateFlight(const simulator::FeatureSimulationOptions&
   MeasurementSync sync(sync_options);
   for (const ImuSample& sample : data.imu) sync.AddImu(sample);
   for (const PointFrame& points : data.points) sync.AddPoints(points);
+  for (const LineFrame& lines : data.lines) sync.AddLines(lines);
   SimulatedFlight flight;
   flight.sensor = options.sensors;
   while (const auto frame = sync.Flush()) {

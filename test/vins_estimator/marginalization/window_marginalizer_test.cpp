@@ -27,6 +27,9 @@ ProblemBuilder BuildProblem(const ProblemOptions& options, const Marginalization
   for (auto& [id, landmark] : simulated->points.landmarks()) {
     if (landmark.triangulated && landmark.views.size() > 1) builder.AddPoint(&landmark);
   }
+  for (auto& [id, landmark] : simulated->lines.landmarks()) {
+    if (landmark.triangulated && landmark.views.size() > 1) builder.AddLine(&landmark);
+  }
   return builder;
 }
 
@@ -63,11 +66,16 @@ Step GaussNewtonStep(const WindowProblem& problem) {
 // Folds the oldest frame into the prior and takes out what was folded in.
 void Slide(const ProblemOptions& options, SimulatedWindow* simulated, MarginalizationPrior* prior) {
   const int64_t oldest_ns = simulated->window.frames.front().state.t_ns;
-  *prior = MarginalizeOldest(options, *prior, &simulated->window, &simulated->points);
+  *prior =
+      MarginalizeOldest(options, *prior, &simulated->window, &simulated->points, &simulated->lines);
   simulated->points.RemoveIf([oldest_ns](const PointLandmark& landmark) {
     return landmark.triangulated && landmark.host().t_ns == oldest_ns;
   });
+  simulated->lines.RemoveIf([oldest_ns](const LineLandmark& landmark) {
+    return landmark.triangulated && landmark.host().t_ns == oldest_ns;
+  });
   simulated->points.RemoveFrame(simulated->window, oldest_ns);
+  simulated->lines.RemoveFrame(simulated->window, oldest_ns);
   simulated->window.RemoveOldest();
 }
 

@@ -109,15 +109,18 @@ TEST_F(PointMapTest, HostsPassTheirPointsOn) {
 TEST_F(PointMapTest, StartAnewKeepsPlaceAndNewestView) {
   map_.Triangulate(window_, kMinAngle);
   Landmark(7).views.pop_back();                        // not seen any more
-  Landmark(8).views.erase(Landmark(8).views.begin());  // has another host
+  MoveHost(window_, 1, &Landmark(8));                  // has another host
+  Landmark(8).views.erase(Landmark(8).views.begin());
   map_.RemoveFrame(window_, -1);                       // of no frame: changes nothing
   const Vector3d departed_W = PositionInWorld(Landmark(7), window_);
-  SetPosition(points_W_[8], window_, &Landmark(8));
 
-  const std::vector<MapPoint> departed = map_.StartAnew(window_, Stamp(0));
-  ASSERT_EQ(departed.size(), 1u);
-  EXPECT_EQ(departed[0].id, 7);
-  EXPECT_MATRIX_NEAR(departed[0].p_W, departed_W, 1e-12);
+  int departures = 0;
+  map_.StartAnew(window_, Stamp(0), [&](const PointLandmark& landmark) {
+    ++departures;
+    EXPECT_EQ(landmark.id, 7);
+    EXPECT_MATRIX_NEAR(PositionInWorld(landmark, window_), departed_W, 1e-12);
+  });
+  EXPECT_EQ(departures, 1);
   EXPECT_EQ(map_.landmarks().count(7), 0u);
   EXPECT_EQ(Landmark(8).views.size(), 3u);
   EXPECT_EQ(Landmark(9).views.size(), 1u);
@@ -126,7 +129,7 @@ TEST_F(PointMapTest, StartAnewKeepsPlaceAndNewestView) {
 }
 
 TEST_F(PointMapTest, StartAnewLeavesWhatHasNoPlaceYet) {
-  EXPECT_TRUE(map_.StartAnew(window_, Stamp(0)).empty());
+  map_.StartAnew(window_, Stamp(0), [](const PointLandmark&) { FAIL(); });
   EXPECT_EQ(Landmark(9).views.size(), 4u);
 }
 

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/factors/manhattan_factor.h"
+
+#include <Eigen/Geometry>
+
+#include "common/so3.h"
+#include "vins_estimator/factors/pose_block.h"
+
+namespace plm_vins {
+namespace {
+
+using Matrix23d = Eigen::Matrix<double, 2, 3>;
+using Vector2Map = Eigen::Map<Eigen::Vector2d>;
+using LineJacobian = Eigen::Map<Eigen::Matrix<double, 2, kLineSize, Eigen::RowMajor>>;
+
+}  // namespace
+
+ManhattanFactor::ManhattanFactor(const Eigen::Vector3d& axis_W, double weight) {
+  const Eigen::Vector3d first = axis_W.unitOrthogonal();
+  across_ << weight * first.transpose(), weight * axis_W.cross(first).transpose();
+}
+
+bool ManhattanFactor::Evaluate(double const* const* parameters, double* residuals,
+                               double** jacobians) const {
+  const PoseBlock T_W_B(parameters[0]), T_B_C(parameters[1]);
+  const Eigen::Matrix3d U = Eigen::Map<const Eigen::Quaterniond>(parameters[2]).toRotationMatrix();
+  const Eigen::Vector3d d_C = U.col(1);  // ToPlucker(), of length 1
+  const Eigen::Vector3d d_B = T_B_C.R * d_C;
+  const Matrix23d d_r_d_dB = across_ * T_W_B.R;
+  Vector2Map{residuals} = d_r_d_dB * d_B;
+  if (jacobians == nullptr) return true;
+
+  const Matrix23d d_r_d_dC = d_r_d_dB * T_B_C.R;
+  if (jacobians[0]) SetPoseJacobian(Matrix23d::Zero(), -d_r_d_dB * Skew(d_B), jacobians[0]);
+  if (jacobians[1]) SetPoseJacobian(Matrix23d::Zero(), -d_r_d_dC * Skew(d_C), jacobians[1]);
+  if (jacobians[2]) {
+    LineJacobian J(jacobians[2]);
+    J.setZero();
+    J.leftCols<3>() = -d_r_d_dC * U * Skew(Eigen::Vector3d::UnitY());
+  }
+  return true;
+}
+
+}  // namespace plm_vins

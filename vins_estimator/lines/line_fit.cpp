@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/lines/line_fit.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "common/so3.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int kMaxIterations = 5;
+constexpr double kConverged = 1e-6;  // relative decrease of the cost
+
+using LineJacobian = Eigen::Matrix<double, 2, kLineTangentSize>;
+
+// Derivative of the distances in one camera by the line's tangent.
+LineJacobian ByTangent(const Rigid3d& T_C_C0, const PluckerJacobian& plucker,
+                       const Eigen::Matrix<double, 2, 3>& d_distances_d_moment) {
+  const Eigen::Matrix3d R = T_C_C0.R();
+  const Eigen::Matrix<double, 2, 3> by_moment = d_distances_d_moment * R;
+  const Eigen::Matrix<double, 2, 3> by_direction =
+      d_distances_d_moment * Skew(T_C_C0.translation) * R;
+  return by_moment * plucker.d_moment + by_direction * plucker.d_direction;
+}
+
+}  // namespace
+
+std::optional<LineFit> EvaluateLine(const std::vector<LineSighting>& sightings, double noise,
+                                    const OrthonormalLine& line) {
+  LineFit fit;
+  fit.line = line;
+  const Rigid3d T_C0_W = sightings.front().T_W_C.Inverse();
+  const PluckerLine line_C0 = ToPlucker(line.data());
+  const PluckerJacobian plucker = ToPluckerJacobian(line.data());
+  for (const LineSighting& sighting : sightings) {
+    const Rigid3d T_C_C0 = (T_C0_W * sighting.T_W_C).Inverse();
+    Eigen::Vector2d distances;
+    Eigen::Matrix<double, 2, 3> d_distances;
+    const Eigen::Vector3d moment = (T_C_C0 * line_C0).moment;
+    if (!EndPointDistances(sighting.segment, moment, &distances, &d_distances)) return std::nullopt;
+    const LineJacobian J = ByTangent(T_C_C0, plucker, d_distances) / noise;
+    fit.information += J.transpose() * J;
+    fit.gradient += J.transpose() * distances / noise;
+    fit.cost += distances.squaredNorm() / (noise * noise);
+  }
+  return fit;
+}
+
+// Gauss-Newton with a little damping; stops where a step makes it worse.
+std::optional<LineFit> FitLine(const std::vector<LineSighting>& sightings, double noise,
+                               const OrthonormalLine& initial) {
+  auto fit = EvaluateLine(sightings, noise, initial);
+  for (int i = 0; fit && i < kMaxIterations; ++i) {
+    Eigen::Matrix4d H = fit->information;
+    H.diagonal() *= 1.0 + 1e-6;
+    const Eigen::Vector4d step = -H.ldlt().solve(fit->gradient);
+    if (!step.allFinite()) return std::nullopt;
+    OrthonormalLine moved;
+    LinePlus(fit->line.data(), step.data(), moved.data());
+    const auto next = EvaluateLine(sightings, noise, moved);
+    if (!next || next->cost > fit->cost) break;
+    const bool converged = fit->cost - next->cost <= kConverged * fit->cost;
+    fit = next;
+    if (converged) break;
+  }
+  return fit;
+}
+
+double DirectionDeviation(const LineFit& fit) {
+  // Nothing turns by more than a radian without being told so: keeps the inverse finite.
+  const Eigen::Matrix4d covariance =
+      (fit.information + Eigen::Matrix4d::Identity()).ldlt().solve(Eigen::Matrix4d::Identity());
+  // The direction U e2 moves by dtheta_x U e3 - dtheta_z U e1.
+  const double a = covariance(0, 0), b = covariance(0, 2), c = covariance(2, 2);
+  return std::sqrt(0.5 * (a + c) + std::hypot(0.5 * (a - c), b));
+}
+
+}  // namespace plm_vins

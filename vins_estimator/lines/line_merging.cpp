@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/lines/line_merging.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include "vins_estimator/lines/line_fit.h"
+#include "vins_estimator/lines/line_pairs.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Vector2d;
+
+SeenLine ToFrame(const Eigen::Quaterniond& R_F_W, const MapLine& segment, LineAxis axis) {
+  return {R_F_W * segment.start_W, R_F_W * segment.end_W, axis};
+}
+
+// How far the ends of a seen segment are from the image of a line, at most; normalised.
+double DistanceInImage(const SlidingWindow& window, const PluckerLine& line_W,
+                       const LineView& view) {
+  const Rigid3d T_C_W = window.T_W_C(*window.Find(view.t_ns)).Inverse();
+  Vector2d distances;
+  if (!EndPointDistances(view.segment, (T_C_W * line_W).moment, &distances, nullptr)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return distances.cwiseAbs().maxCoeff();
+}
+
+// Each line's newest segment from the image of the other line.
+double DistanceInImages(const SlidingWindow& window, const LineLandmark& a, const LineLandmark& b) {
+  return std::max(DistanceInImage(window, LineInWorld(a, window), b.views.back()),
+                  DistanceInImage(window, LineInWorld(b, window), a.views.back()));
+}
+
+// Two segments of one image that run beside each other, further apart than their noise.
+bool AreSideBySide(const LineSegmentView& a, const LineSegmentView& b, double noise) {
+  constexpr double kNoiseFactor = 3.0;
+  constexpr double kLeastOverlap = 0.2;  // of the shorter
+  const Vector2d along = (a.end - a.start).normalized();
+  const auto [a_low, a_high] = std::minmax({along.dot(a.start), along.dot(a.end)});
+  const auto [b_low, b_high] = std::minmax({along.dot(b.start), along.dot(b.end)});
+  const double overlap = std::min(a_high, b_high) - std::max(a_low, b_low);
+  if (overlap < kLeastOverlap * std::min(a_high - a_low, b_high - b_low)) return false;
+  const Vector2d between = 0.5 * (b.start + b.end) - a.start;
+  return std::abs(along.x() * between.y() - along.y() * between.x()) > kNoiseFactor * noise;
+}
+
+bool AreSeenSideBySide(const LineLandmark& a, const LineLandmark& b, double noise) {
+  auto other = b.views.begin();
+  for (const LineView& view : a.views) {
+    while (other != b.views.end() && other->t_ns < view.t_ns) ++other;
+    if (other == b.views.end()) return false;
+    if (other->t_ns == view.t_ns && AreSideBySide(view.segment, other->segment, noise)) return true;
+  }
+  return false;
+}
+
+double Length(const LineView& view) { return (view.segment.end - view.segment.start).norm(); }
+
+// The views of both by time; where one image shows both, the longer segment.
+std::vector<LineView> JoinViews(const LineLandmark& a, const LineLandmark& b) {
+  std::vector<LineView> views;
+  std::merge(
+      a.views.begin(), a.views.end(), b.views.begin(), b.views.end(), std::back_inserter(views),
+      [](const LineView& first, const LineView& second) { return first.t_ns < second.t_ns; });
+  size_t last = 0;
+  for (size_t i = 1; i < views.size(); ++i) {
+    if (views[i].t_ns != views[last].t_ns) {
+      views[++last] = views[i];
+    } else if (Length(views[i]) > Length(views[last])) {
+      views[last] = views[i];
+    }
+  }
+  views.resize(last + 1);
+  return views;
+}
+
+// What a chi-square variable exceeds once in a thousand times ([Wilson1931]).
+double ChiSquareLimit(int degrees_of_freedom) {
+  constexpr double kNormalLimit = 3.09;
+  const double v = 2.0 / (9.0 * degrees_of_freedom);
+  return degrees_of_freedom * std::pow(1.0 - v + kNormalLimit * std::sqrt(v), 3);
+}
+
+// The older line with the views of both, where these agree on one line.
+std::optional<LineLandmark> Join(const SlidingWindow& window, double noise,
+                                 const LineLandmark& older, const LineLandmark& newer) {
+  LineLandmark joint = older;
+  joint.views = JoinViews(older, newer);
+  std::vector<LineSighting> sightings;
+  for (const LineView& view : joint.views) {
+    sightings.push_back({window.T_W_C(*window.Find(view.t_ns)), view.segment});
+  }
+  const PluckerLine initial = sightings.front().T_W_C.Inverse() * LineInWorld(older, window);
+  const auto fit = FitLine(sightings, noise, ToOrthonormal(initial));
+  const int degrees_of_freedom = 2 * static_cast<int>(sightings.size()) - kLineTangentSize;
+  if (!fit || degrees_of_freedom <= 0 || fit->cost > ChiSquareLimit(degrees_of_freedom)) {
+    return std::nullopt;
+  }
+  joint.coordinates = fit->line;
+  if (!ObservedSegment(joint, window)) return std::nullopt;
+  return joint;
+}
+
+// The landmarks that may be merged, by ascending id, and their seen parts.
+struct Candidates {
+  std::vector<LineLandmark*> landmarks;
+  std::vector<SeenLine> seen;
+};
+
+Candidates Collect(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W, LineMap* lines) {
+  Candidates candidates;
+  for (auto& [id, landmark] : lines->landmarks()) {
+    if (!landmark.triangulated) continue;
+    const auto segment = ObservedSegment(landmark, window);
+    if (!segment) continue;
+    candidates.landmarks.push_back(&landmark);
+    candidates.seen.push_back(ToFrame(R_F_W, *segment, landmark.axis));
+  }
+  return candidates;
+}
+
+// The count of the first condition that two lines fail; null where they keep all.
+int LineMergingCounts::*FindRefusal(const LineMergingOptions& options, const SlidingWindow& window,
+                                    const LineLandmark& a, const LineLandmark& b,
+                                    const LinePairGeometry& pair) {
+  if (pair.angle > options.angle) return &LineMergingCounts::other_direction;
+  if (pair.distance > options.distance) return &LineMergingCounts::distant;
+  if (pair.gap > options.distance) return &LineMergingCounts::apart;
+  if (AreSeenSideBySide(a, b, options.noise)) return &LineMergingCounts::seen_side_by_side;
+  if (DistanceInImages(window, a, b) > options.image_distance) {
+    return &LineMergingCounts::distant_in_image;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+LineMergingCounts LineMerging::Merge(const SlidingWindow& window, LineMap* lines,
+                                     ManhattanFrame* manhattan) {
+  const Eigen::Quaterniond R_F_W =
+      manhattan->R_W_M().value_or(Eigen::Quaterniond::Identity()).conjugate();
+  auto [landmarks, seen] = Collect(window, R_F_W, lines);
+  LineMergingCounts counts;
+  for (const auto& [newer, older] : FindNearPairs(seen, options_.distance)) {
+    if (landmarks[newer] == nullptr || landmarks[older] == nullptr) continue;  // gone already
+    ++counts.candidates;
+    const auto refusal = FindRefusal(options_, window, *landmarks[older], *landmarks[newer],
+                                     Compare(seen[older], seen[newer]));
+    if (refusal != nullptr) {
+      ++(counts.*refusal);
+      continue;
+    }
+    const auto joint = Join(window, options_.noise, *landmarks[older], *landmarks[newer]);
+    if (!joint) {
+      ++counts.inconsistent;
+      continue;
+    }
+    *landmarks[older] = *joint;
+    seen[older] = ToFrame(R_F_W, *ObservedSegment(*joint, window), joint->axis);
+    Absorb(landmarks[newer]->id, joint->id, lines, manhattan);
+    landmarks[newer] = nullptr;
+    ++counts.merged;
+  }
+  aliases_.RemoveUnless(
+      [lines](int64_t id) { return lines->landmarks().find(id) != lines->landmarks().end(); });
+  return counts;
+}
+
+void LineMerging::Absorb(int64_t newer, int64_t older, LineMap* lines, ManhattanFrame* manhattan) {
+  aliases_.Add(newer, older);
+  manhattan->Remove(newer);
+  lines->landmarks().erase(newer);
+}
+
+}  // namespace plm_vins

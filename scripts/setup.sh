@@ -5,8 +5,9 @@ set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
 common_packages=(
-  build-essential cmake libboost-dev libceres-dev libeigen3-dev libgtest-dev libopencv-contrib-dev
-  libopencv-dev libyaml-cpp-dev nlohmann-json3-dev python3-matplotlib python3-numpy)
+  build-essential cmake libboost-dev libceres-dev libeigen3-dev libgmock-dev libgtest-dev
+  libopencv-contrib-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev python3-matplotlib
+  python3-numpy python3-yaml)
 debian_packages=(
   catkin libcli11-dev libcv-bridge-dev libdiagnostic-updater-dev libgeometry-msgs-dev
   libimage-transport-dev libnav-msgs-dev librosbag-dev libroscpp-dev librostest-dev
@@ -45,7 +46,7 @@ install_cli11() {
 }
 
 if [[ -d /opt/ros/noetic ]]; then
-  install_packages "${common_packages[@]}" "${noetic_packages[@]}" git "$@"
+  install_packages "${common_packages[@]}" "${noetic_packages[@]}" ca-certificates git "$@"
   install_cli11
 else
   install_packages "${common_packages[@]}" "${debian_packages[@]}" "$@"

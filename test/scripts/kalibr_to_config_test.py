@@ -1,0 +1,228 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""scripts/kalibr_to_config.py on files as Kalibr writes them, read back by run_offline.
+
+Usage: kalibr_to_config_test.py RUN_OFFLINE [unittest option ...]
+"""
+
+import copy
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import yaml
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "kalibr_to_config.py"
+RUN_OFFLINE = sys.argv[1] if len(sys.argv) > 1 else sys.exit(__doc__)
+
+# The IMU frame is the camera frame turned by 90 degrees about z; the IMU sits 1 m right of the
+# camera, 2 m below and 3 m before it. So the camera is at (-2, 1, -3) of the IMU frame.
+CAMERA = {
+    "T_cam_imu": [[0.0, -1.0, 0.0, 1.0], [1.0, 0.0, 0.0, 2.0], [0.0, 0.0, 1.0, 3.0],
+                  [0.0, 0.0, 0.0, 1.0]],
+    "cam_overlaps": [],
+    "camera_model": "pinhole",
+    "distortion_coeffs": [-0.28, 0.07, 1e-4, 2e-5],
+    "distortion_model": "radtan",
+    "intrinsics": [458.5, 457.5, 367.5, 248.5],
+    "resolution": [752, 480],
+    "rostopic": "/left/image_raw",
+    "timeshift_cam_imu": 0.0125,
+}
+P_B_C = [-2.0, 1.0, -3.0]
+Q_B_C = [0.0, 0.0, -math.sqrt(0.5), math.sqrt(0.5)]  # x y z w
+IMU = {
+    "accelerometer_noise_density": 0.002,
+    "accelerometer_random_walk": 0.003,
+    "gyroscope_noise_density": 0.0002,
+    "gyroscope_random_walk": 2.5e-05,
+    "rostopic": "/imu/data",
+    "update_rate": 200.0,
+}
+
+
+def edited(values, **changes):
+    """A copy with other values; None removes a key."""
+    result = copy.deepcopy(values)
+    result.update(changes)
+    return {key: value for key, value in result.items() if value is not None}
+
+
+def run(*command):
+    return subprocess.run([str(word) for word in command], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, encoding="utf-8", check=False)
+
+
+class Kalibr(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def convert(self, *options, chain=None, imu=None):
+        """Runs the script on two maps."""
+        return run(SCRIPT, self.write("chain.yaml", yaml.safe_dump(chain or {"cam0": CAMERA})),
+                   self.write("imu.yaml", yaml.safe_dump(imu or IMU)), *options)
+
+    def load(self, **inputs):
+        """The configuration as run_offline understands it; its folder has no image."""
+        config = self.folder / "config.yaml"
+        result = self.convert("--output", config, *inputs.pop("options", []), **inputs)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.write("asl/cam0/data.csv", "100000000,missing.png\n")
+        self.write("asl/imu0/data.csv", "100000000,0,0,0,0,0,9.81\n200000000,0,0,0,0,0,9.81\n")
+        result = run(RUN_OFFLINE, "--config", config, "--asl", self.folder / "asl", "--output",
+                     self.folder / "results")
+        self.assertIn("no trajectory", result.stderr)
+        summary = (self.folder / "results" / "summary.json").read_text(encoding="utf-8")
+        return json.loads(summary)["config"]["sensor"]
+
+    def assert_all_close(self, values, expected):
+        self.assertEqual(len(values), len(expected))
+        for value, wanted in zip(values, expected):
+            self.assertAlmostEqual(value, wanted, 12)
+
+
+class RoundTrip(Kalibr):
+    def test_pinhole_radtan(self):
+        sensor = self.load()
+        self.assertEqual(sensor["image_topic"], "/left/image_raw")
+        self.assertEqual(sensor["imu_topic"], "/imu/data")
+        camera = sensor["camera"]
+        self.assertEqual(camera["model_type"], "PINHOLE")
+        self.assertEqual((camera["image_width"], camera["image_height"]), (752, 480))
+        self.assertEqual(camera["projection_parameters"], CAMERA["intrinsics"])
+        self.assertEqual(camera["distortion_parameters"], CAMERA["distortion_coeffs"])
+        self.assert_all_close(sensor["T_B_C"]["p"], P_B_C)
+        self.assert_all_close(sensor["T_B_C"]["q_xyzw"], Q_B_C)
+        self.assertEqual(sensor["td"], 0.0125)
+        self.assertEqual((sensor["estimate_extrinsic"], sensor["estimate_td"]), (0, False))
+        for key, value in {"accel_density": 0.002, "gyro_density": 0.0002, "accel_walk": 0.003,
+                           "gyro_walk": 2.5e-05}.items():
+            self.assertEqual(sensor[key], value)
+
+    def test_pinhole_equidistant(self):
+        coefficients = [0.0035, 0.0007, -0.0021, 0.0002]
+        camera = self.load(chain={"cam0": edited(
+            CAMERA, distortion_model="equidistant", distortion_coeffs=coefficients)})["camera"]
+        self.assertEqual(camera["model_type"], "KANNALA_BRANDT")
+        self.assertEqual(camera["projection_parameters"], CAMERA["intrinsics"])
+        self.assertEqual(camera["distortion_parameters"], coefficients)
+
+    def test_omni_radtan(self):
+        camera = self.load(chain={"cam0": edited(
+            CAMERA, camera_model="omni", intrinsics=[0.9, 833.0, 830.0, 373.0, 253.0])})["camera"]
+        self.assertEqual(camera["model_type"], "MEI")
+        self.assertEqual(camera["xi"], 0.9)
+        self.assertEqual(camera["projection_parameters"], [833.0, 830.0, 373.0, 253.0])
+        self.assertEqual(camera["distortion_parameters"], CAMERA["distortion_coeffs"])
+
+    def test_no_distortion_and_no_time_shift(self):
+        sensor = self.load(chain={"cam0": edited(CAMERA, distortion_model="none",
+                                                 distortion_coeffs=[], timeshift_cam_imu=None)})
+        self.assertEqual(sensor["camera"]["distortion_parameters"], [0, 0, 0, 0])
+        self.assertEqual(sensor["td"], 0)
+
+    def test_second_camera_and_the_imu_file_that_kalibr_writes(self):
+        chain = {"cam0": CAMERA, "cam1": edited(CAMERA, rostopic="/right/image_raw")}
+        imu = {"imu0": edited(IMU, model="calibrated", time_offset=0.0)}
+        sensor = self.load(chain=chain, imu=imu, options=["--cam", "cam1"])
+        self.assertEqual(sensor["image_topic"], "/right/image_raw")
+        self.assertEqual(sensor["imu_topic"], "/imu/data")
+
+    def test_numbers_that_yaml_takes_for_text(self):
+        imu = self.write("imu.yaml", "accelerometer_noise_density: 2e-3\n"
+                         "accelerometer_random_walk: 3e-3\ngyroscope_noise_density: 2e-4\n"
+                         "gyroscope_random_walk: 2e-5\nrostopic: /imu\n")
+        chain = self.write("chain.yaml", "%YAML:1.0\n" + yaml.safe_dump({"cam0": CAMERA}))
+        result = run(SCRIPT, chain, imu)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(yaml.safe_load(result.stdout.split("imu_noise_model")[1].partition(
+            "\n")[2]), {"acc_n": 0.002, "gyr_n": 0.0002, "acc_w": 0.003, "gyr_w": "2e-05"})
+
+
+class BadInput(Kalibr):
+    def assert_refused(self, file, key, problem, **inputs):
+        """One line on stderr with the file, the key and the problem; nothing is written."""
+        output = self.folder / "config.yaml"
+        result = self.convert("--output", output, *inputs.pop("options", []), **inputs)
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertIn(f"{self.folder / file}: {key}: ", result.stderr)
+        self.assertIn(problem, result.stderr)
+        self.assertFalse(output.exists())
+
+    def assert_camera_refused(self, key, problem, **changes):
+        self.assert_refused("chain.yaml", "cam0." + key, problem,
+                            chain={"cam0": edited(CAMERA, **changes)})
+
+    def test_unsupported_models(self):
+        for model, distortion in (("pinhole", "fov"), ("eucm", "none"), ("ds", "none"),
+                                  ("omni", "equidistant"), ("pinhole-rs", "radtan")):
+            self.assert_camera_refused("camera_model", f"{model}-{distortion} is not supported",
+                                       camera_model=model, distortion_model=distortion)
+        self.assert_camera_refused("line_delay", "rolling-shutter", line_delay=3e-5)
+        self.assert_refused("imu.yaml", "imu0.model", "scale-misalignment",
+                            imu={"imu0": edited(IMU, model="scale-misalignment")})
+
+    def test_missing_keys(self):
+        self.assert_camera_refused("T_cam_imu", "camchain-imucam", T_cam_imu=None)
+        self.assert_camera_refused("intrinsics", "is missing", intrinsics=None)
+        self.assert_refused("imu.yaml", "gyroscope_random_walk", "is missing",
+                            imu=edited(IMU, gyroscope_random_walk=None))
+        self.assert_refused("chain.yaml", "cam1", "there is cam0", options=["--cam", "cam1"])
+
+    def test_bad_values(self):
+        self.assert_camera_refused("intrinsics", "a list of 4 numbers", intrinsics=[1.0, 2.0])
+        self.assert_camera_refused("intrinsics", "'x'", intrinsics=["x", 1.0, 2.0, 3.0])
+        self.assert_camera_refused("resolution", "a list of 2 numbers", resolution=752)
+        self.assert_camera_refused("distortion_coeffs", "nan",
+                                   distortion_coeffs=[0.1, math.nan, 0.0, 0.0])
+        self.assert_camera_refused("rostopic", "must be a name", rostopic=5)
+        self.assert_refused("imu.yaml", "accelerometer_random_walk", "must be positive",
+                            imu=edited(IMU, accelerometer_random_walk=0))
+        self.assert_refused("chain.yaml", "cam0", "is not a map", chain={"cam0": [1, 2]})
+
+    def test_bad_transforms(self):
+        def rows(*changes):
+            matrix = copy.deepcopy(CAMERA["T_cam_imu"])
+            for row, column, value in changes:
+                matrix[row][column] = value
+            return matrix
+
+        self.assert_camera_refused("T_cam_imu", "must have 4 rows", T_cam_imu=rows()[:3])
+        self.assert_camera_refused("T_cam_imu", "4 numbers", T_cam_imu=[[1, 0, 0]] * 4)
+        self.assert_camera_refused("T_cam_imu", "not a rotation", T_cam_imu=rows((2, 2, -1.0)))
+        self.assert_camera_refused("T_cam_imu", "not a rotation", T_cam_imu=rows((2, 2, 1.01)))
+        self.assert_camera_refused("T_cam_imu", "last row", T_cam_imu=rows((3, 0, 1.0)))
+
+    def test_files(self):
+        imu = self.write("imu.yaml", yaml.safe_dump(IMU))
+        for text, problem in (("cam0: [", "is not YAML"), ("", "is not a map"),
+                              ("[1, 2]", "is not a map")):
+            result = run(SCRIPT, self.write("bad.yaml", text), imu)
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
+            self.assertIn(f"bad.yaml: {problem}", result.stderr)
+        result = run(SCRIPT, self.folder / "none.yaml", imu)
+        self.assertIn("none.yaml: No such file", result.stderr)
+
+    def test_an_existing_output_is_kept(self):
+        output = self.write("mine.yaml", "precious")
+        result = self.convert("--output", output)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("mine.yaml: File exists", result.stderr)
+        self.assertEqual(output.read_text(encoding="utf-8"), "precious")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])

@@ -88,7 +88,7 @@ void ResultFiles::Finish(RunSummary::Run run, const Config& config) {
   std::ofstream obj = Open("lines.obj");
   WriteSegmentsObj({}, &obj);
   run.map_points = map_.size();
-  nlohmann::ordered_json summary = summary_.ToJson(run);
+  Json summary = summary_.ToJson(run);
   summary["version"] = PLM_VINS_VERSION;
   summary["config"] = ToJson(config);
   Open("summary.json") << summary.dump(2) << "\n";

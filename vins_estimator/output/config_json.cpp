@@ -4,8 +4,6 @@
 namespace plm_vins {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::string ModelName(CameraParameters::Model model) {
   switch (model) {
     case CameraParameters::Model::kPinholeRadtan:

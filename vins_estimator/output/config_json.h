@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "common/config.h"
+#include "vins_estimator/output/json.h"
 
 namespace plm_vins {
 
 // The effective configuration, defaults and overrides included, for reports.
-nlohmann::ordered_json ToJson(const Config& config);
+Json ToJson(const Config& config);
 
 }  // namespace plm_vins

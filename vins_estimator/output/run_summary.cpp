@@ -6,8 +6,6 @@
 namespace plm_vins {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 double Ratio(double numerator, double denominator) {
   return denominator > 0 ? numerator / denominator : 0.0;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "common/drop_counts.h"
 #include "vins_estimator/estimator_output.h"
 #include "vins_estimator/output/frame_timings.h"
+#include "vins_estimator/output/json.h"
 
 namespace plm_vins {
 
@@ -32,7 +32,7 @@ class RunSummary {
     int64_t map_points = 0;  // landmarks written to the map
     DropCounts drops;
   };
-  nlohmann::ordered_json ToJson(const Run& run) const;
+  Json ToJson(const Run& run) const;
 
  private:
   void AddPose(const EstimatorOutput& output);

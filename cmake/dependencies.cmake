@@ -40,6 +40,10 @@ endif()
 
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
+  if(NOT TARGET GTest::gmock)  # CMake before 3.23 does not look for it
+    add_library(GTest::gmock INTERFACE IMPORTED)
+    target_link_libraries(GTest::gmock INTERFACE gmock GTest::GTest)
+  endif()
 endif()
 if(BUILD_BENCHMARKS)
   find_package(benchmark REQUIRED)

@@ -2,10 +2,17 @@
 #include "linefeature_tracker/line_detector.h"
 
 #include <algorithm>
+#include <opencv2/core/version.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/ximgproc/edge_drawing.hpp>
 #include <opencv2/ximgproc/fast_line_detector.hpp>
 #include <stdexcept>
+
+// OpenCV 4.1 to 4.5.3 have neither LSD nor EDLines.
+#define HAS_LSD_AND_EDLINES \
+  (CV_VERSION_MAJOR * 10000 + CV_VERSION_MINOR * 100 + CV_VERSION_REVISION >= 40504)
+#if HAS_LSD_AND_EDLINES
+#include <opencv2/ximgproc/edge_drawing.hpp>
+#endif
 
 namespace plm_vins {
 namespace {
@@ -44,6 +51,7 @@ class FldDetector : public LineDetector {
   cv::Ptr<cv::ximgproc::FastLineDetector> detector_;
 };
 
+#if HAS_LSD_AND_EDLINES
 class LsdDetector : public LineDetector {
  public:
   std::vector<LineSegment> Detect(const cv::Mat& image, double min_length_px) override {
@@ -73,19 +81,23 @@ class EdLinesDetector : public LineDetector {
  private:
   cv::Ptr<cv::ximgproc::EdgeDrawing> detector_ = cv::ximgproc::createEdgeDrawing();
 };
+#endif
 
 }  // namespace
 
+bool LineDetector::IsAvailable(LineDetectorType type) {
+  return type == LineDetectorType::kFld || HAS_LSD_AND_EDLINES;
+}
+
 std::unique_ptr<LineDetector> LineDetector::Create(LineDetectorType type) {
-  switch (type) {
-    case LineDetectorType::kFld:
-      return std::make_unique<FldDetector>();
-    case LineDetectorType::kLsd:
-      return std::make_unique<LsdDetector>();
-    case LineDetectorType::kEdLines:
-      return std::make_unique<EdLinesDetector>();
-  }
-  throw std::invalid_argument("unknown line detector");
+  if (type == LineDetectorType::kFld) return std::make_unique<FldDetector>();
+#if HAS_LSD_AND_EDLINES
+  if (type == LineDetectorType::kLsd) return std::make_unique<LsdDetector>();
+  return std::make_unique<EdLinesDetector>();
+#else
+  throw std::runtime_error("line_detector: OpenCV " CV_VERSION
+                           " has neither lsd nor edlines (4.5.4 and later do); use fld");
+#endif
 }
 
 }  // namespace plm_vins

@@ -14,8 +14,10 @@ namespace plm_vins {
 // keep buffers.
 class LineDetector {
  public:
-  // FLD [Lee2014], LSD [Gioi2010] or EDLines [Akinlar2011].
+  // FLD [Lee2014], LSD [Gioi2010] or EDLines [Akinlar2011]. Throws std::runtime_error where the
+  // version of OpenCV lacks it.
   static std::unique_ptr<LineDetector> Create(LineDetectorType type);
+  static bool IsAvailable(LineDetectorType type);
 
   virtual ~LineDetector() = default;
 

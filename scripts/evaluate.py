@@ -24,6 +24,7 @@ LABELS = {
 def evaluate(estimate, truth, align="se3", max_diff=0.01, max_gap=0.5):
     """Returns the paired trajectories (the estimate aligned) and a dictionary of all figures."""
     paired_estimate, paired_truth = metrics.associate(estimate, truth, max_diff)
+    yaw_drift = metrics.yaw_drift(paired_estimate, paired_truth)
     rotation, translation = metrics.alignment(paired_estimate, paired_truth, align)
     paired_estimate = paired_estimate.transformed(rotation, translation)
     result = {
@@ -36,7 +37,7 @@ def evaluate(estimate, truth, align="se3", max_diff=0.01, max_gap=0.5):
         "ground_truth_duration_s": float(truth.duration),
         "ground_truth_path_m": truth.path_length,
         "estimate_path_m": estimate.path_length,
-        "yaw_drift_deg": metrics.yaw_drift(paired_estimate, paired_truth),
+        "yaw_drift_deg": yaw_drift,
         "computed_by": "numpy",
     }
     result.update(error_statistics(paired_estimate, paired_truth))

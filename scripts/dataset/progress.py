@@ -18,6 +18,7 @@ class Progress:
         self._describe = describe
         self._ended = 0
         self._started = time.monotonic()
+        self._expected_end = None
 
     def show(self, running):
         """Redraws the bar; `running` are the names of the runs under way."""
@@ -32,6 +33,9 @@ class Progress:
 
     def ended(self, run, seconds):
         self._ended += 1
+        now = time.monotonic()
+        per_run = (now - self._started) / self._ended
+        self._expected_end = now + per_run * (self._total - self._ended)
         self.clear()
         width = len(str(self._total))
         self._stream.write(f"[{self._ended:>{width}}/{self._total}] {run.name}:"
@@ -45,8 +49,7 @@ class Progress:
             self._stream.flush()
 
     def _time_left(self):
-        if self._ended == 0:
+        if self._expected_end is None:
             return ""
-        per_run = (time.monotonic() - self._started) / self._ended
-        minutes, seconds = divmod(round(per_run * (self._total - self._ended)), 60)
+        minutes, seconds = divmod(max(0, round(self._expected_end - time.monotonic())), 60)
         return f", {minutes}:{seconds:02} left"

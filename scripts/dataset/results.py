@@ -62,7 +62,6 @@ METRICS = (
     _error("ape_m", "APE RMSE [m]", 4, "ape_m"),
     Metric("coverage_percent", "Coverage: share of the ground truth's time with a pose [%]", 1,
            lambda r: 100 * r.evaluation["coverage"]),
-    _error("ape_rotation_deg", "APE of the rotation, RMSE [deg]", 3, "ape_rotation_deg"),
     _error("rpe_1m_m", "RPE over 1 m of the path, RMSE [m]", 4, "rpe_1m_m"),
     _error("rpe_1s_m", "RPE over 1 s, RMSE [m]", 4, "rpe_1s_m"),
     _error("rpe_1s_deg", "RPE over 1 s, RMSE [deg]", 3, "rpe_1s_deg"),

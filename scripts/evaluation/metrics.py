@@ -82,8 +82,8 @@ def yaw_errors(estimate, truth):
 
 def yaw_drift(estimate, truth, seconds=1.0):
     """Absolute heading error [deg] at the end, once the heading at the beginning agrees; beginning
-    and end are the means of the first and the last `seconds`. The paired trajectories may be
-    aligned in any way that keeps the vertical."""
+    and end are the means of the first and the last `seconds`. Of paired trajectories in worlds with
+    z up, not aligned: the alignment of a short path tilts them."""
     unit = np.exp(1j * _signed_yaw_errors(estimate, truth))
     first = unit[truth.stamps <= truth.stamps[0] + seconds].mean()
     last = unit[truth.stamps >= truth.stamps[-1] - seconds].mean()

@@ -103,9 +103,17 @@ class AbsoluteError(unittest.TestCase):
         for before, after in ((0.0, 3.0), (170.0, 173.0), (178.5, -178.5), (-2.0, -5.0)):
             turns = [rotation((0, 0, 1), before if t < 5.0 else after) for t in truth.stamps - START]
             estimate = Trajectory(truth.stamps, truth.positions, turns @ truth.rotations)
-            result = evaluate(estimate, truth, align="none")[2]
+            result = evaluate(estimate, truth)[2]
             self.assertAlmostEqual(result["yaw_drift_deg"], 3.0, 6)
         self.assertIn("yaw error at the end 3.000 deg", format_report(result))
+
+    def test_yaw_drift_of_a_standstill_does_not_depend_on_the_alignment(self):
+        truth, generator = flight(), np.random.default_rng(1)
+        truth.positions[:] = generator.normal(0, 1e-3, truth.positions.shape)
+        turns = [rotation((0, 0, 1), 0.0 if t < 5.0 else 3.0) for t in truth.stamps - START]
+        estimate = Trajectory(truth.stamps, generator.normal(0, 1e-3, truth.positions.shape),
+                              turns @ truth.rotations)
+        self.assertAlmostEqual(evaluate(estimate, truth)[2]["yaw_drift_deg"], 3.0, 6)
 
     def test_straight_line_leaves_the_alignment_open(self):
         truth = flight()

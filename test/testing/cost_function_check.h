@@ -11,22 +11,29 @@
 
 #include "test/testing/numeric_jacobian.h"
 #include "vins_estimator/factors/manifolds.h"
+#include "vins_estimator/lines/plucker.h"
 
 namespace plm_vins::testing {
 
-using Block =
-    Eigen::VectorXd;  // one parameter block; 7 numbers are a pose, all others a vector space
+// One parameter block: 7 numbers are a pose, 5 a line, all others a vector space.
+using Block = Eigen::VectorXd;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 inline int TangentSize(const Block& block) {
-  return static_cast<int>(block.size()) == kPoseSize ? kPoseTangentSize
-                                                     : static_cast<int>(block.size());
+  if (block.size() == kPoseSize) return kPoseTangentSize;
+  if (block.size() == kLineSize) return kLineTangentSize;
+  return static_cast<int>(block.size());
 }
 
 inline Block BlockPlus(const Block& block, const Eigen::VectorXd& delta) {
-  if (block.size() != kPoseSize) return block + delta;
-  Block moved(kPoseSize);
-  PosePlus(block.data(), delta.data(), moved.data());
+  Block moved = block;
+  if (block.size() == kPoseSize) {
+    PosePlus(block.data(), delta.data(), moved.data());
+  } else if (block.size() == kLineSize) {
+    LinePlus(block.data(), delta.data(), moved.data());
+  } else {
+    moved += delta;
+  }
   return moved;
 }
 

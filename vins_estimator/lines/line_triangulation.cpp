@@ -12,7 +12,6 @@ using Matrix4d = Eigen::Matrix4d;
 using Matrix34d = Eigen::Matrix<double, 3, kLineTangentSize>;
 
 constexpr double kMinDepth = 0.1;  // [m]
-constexpr int kRefinements = 5;
 
 // The plane through a camera and the segment that it sees, normal . (x - camera) = 0, in the frame
 // of the first camera.
@@ -50,57 +49,6 @@ std::optional<OrthonormalLine> BestIntersection(const std::vector<ViewingPlane>&
   return ToOrthonormal(best);
 }
 
-// The least-squares problem of one line in all views, in units of the noise.
-struct LineEquations {
-  Matrix4d H = Matrix4d::Zero();
-  Eigen::Vector4d g = Eigen::Vector4d::Zero();
-  double cost = 0;  // sum of squares
-};
-
-std::optional<LineEquations> Linearize(const std::vector<LineSighting>& sightings,
-                                       const Rigid3d& T_C0_W, double noise,
-                                       const OrthonormalLine& line) {
-  LineEquations equations;
-  const PluckerLine line_C0 = ToPlucker(line.data());
-  const PluckerJacobian plucker = ToPluckerJacobian(line.data());
-  for (const LineSighting& sighting : sightings) {
-    const Rigid3d T_C_C0 = (T_C0_W * sighting.T_W_C).Inverse();
-    Eigen::Vector2d distances;
-    Eigen::Matrix<double, 2, 3> d_distances;
-    const Eigen::Vector3d moment = (T_C_C0 * line_C0).moment;
-    if (!EndPointDistances(sighting.segment, moment, &distances, &d_distances)) return std::nullopt;
-    Matrix34d d_moment;
-    for (int k = 0; k < kLineTangentSize; ++k) {
-      const PluckerLine column{plucker.d_moment.col(k), plucker.d_direction.col(k)};
-      d_moment.col(k) = (T_C_C0 * column).moment;
-    }
-    const Eigen::Matrix<double, 2, kLineTangentSize> J = d_distances * d_moment / noise;
-    equations.H += J.transpose() * J;
-    equations.g += J.transpose() * distances / noise;
-    equations.cost += distances.squaredNorm() / (noise * noise);
-  }
-  return equations;
-}
-
-// Gauss-Newton with a little damping; stops where a step makes it worse.
-std::optional<LineEquations> Refine(const std::vector<LineSighting>& sightings,
-                                    const Rigid3d& T_C0_W, double noise, OrthonormalLine* line) {
-  auto equations = Linearize(sightings, T_C0_W, noise, *line);
-  for (int i = 0; equations && i < kRefinements; ++i) {
-    Matrix4d H = equations->H;
-    H.diagonal() *= 1.0 + 1e-6;
-    const Eigen::Vector4d step = -H.ldlt().solve(equations->g);
-    if (!step.allFinite()) return std::nullopt;
-    OrthonormalLine moved;
-    LinePlus(line->data(), step.data(), moved.data());
-    const auto next = Linearize(sightings, T_C0_W, noise, moved);
-    if (!next || next->cost > equations->cost) break;
-    *line = moved;
-    equations = next;
-  }
-  return equations;
-}
-
 // Relative deviation of an end's depth in the camera of the line's frame.
 double DepthDeviation(const Matrix4d& covariance, const OrthonormalLine& line,
                       const Eigen::Vector3d& across, const Eigen::Vector3d& end) {
@@ -121,13 +69,14 @@ Eigen::Vector3d PlaneAcross(const Eigen::Vector2d& end_point, const LineSegmentV
   return end_point.homogeneous().cross(across);
 }
 
-bool IsDepthKnown(const LineTriangulationOptions& options, const Matrix4d& H,
-                  const OrthonormalLine& line, const LineSegmentView& segment) {
-  const LineEnds ends = EndsOf(ToPlucker(line.data()), segment);
-  const Matrix4d covariance = H.ldlt().solve(Matrix4d::Identity());
+bool IsDepthKnown(const LineTriangulationOptions& options, const LineFit& fit,
+                  const LineSegmentView& segment) {
+  const LineEnds ends = EndsOf(ToPlucker(fit.line.data()), segment);
+  const Matrix4d covariance = fit.information.ldlt().solve(Matrix4d::Identity());
   const double start =
-      DepthDeviation(covariance, line, PlaneAcross(segment.start, segment), ends.start);
-  const double end = DepthDeviation(covariance, line, PlaneAcross(segment.end, segment), ends.end);
+      DepthDeviation(covariance, fit.line, PlaneAcross(segment.start, segment), ends.start);
+  const double end =
+      DepthDeviation(covariance, fit.line, PlaneAcross(segment.end, segment), ends.end);
   return start < options.max_depth_deviation && end < options.max_depth_deviation;
 }
 
@@ -160,15 +109,15 @@ TriangulatedLine TriangulateLine(const LineTriangulationOptions& options,
   std::vector<ViewingPlane> planes;
   planes.reserve(sightings.size());
   for (const LineSighting& sighting : sightings) planes.push_back(PlaneOf(sighting, T_C0_W));
-  auto line = BestIntersection(planes);
-  if (!line) return triangulated;
-  const auto equations = Refine(sightings, T_C0_W, options.noise, &*line);
-  if (!equations || !IsDepthKnown(options, equations->H, *line, sightings.front().segment)) {
+  const auto initial = BestIntersection(planes);
+  if (!initial) return triangulated;
+  const auto fit = FitLine(sightings, options.noise, *initial);
+  if (!fit || !IsDepthKnown(options, *fit, sightings.front().segment)) {
     return triangulated;
   }
-  triangulated.line = *line;
-  const double mean_square = equations->cost / (2.0 * static_cast<double>(sightings.size()));
-  if (!IsInFrontOfAll(sightings, T_C0_W, *line)) {
+  triangulated.line = fit->line;
+  const double mean_square = fit->cost / (2.0 * static_cast<double>(sightings.size()));
+  if (!IsInFrontOfAll(sightings, T_C0_W, fit->line)) {
     triangulated.result = LineTriangulationResult::kBehind;
   } else if (mean_square > options.max_mean_error * options.max_mean_error) {
     triangulated.result = LineTriangulationResult::kInconsistent;

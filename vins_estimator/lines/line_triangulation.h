@@ -6,16 +6,10 @@
 #include <vector>
 
 #include "common/rigid3.h"
-#include "vins_estimator/factors/line_factor.h"
+#include "vins_estimator/lines/line_fit.h"
 #include "vins_estimator/lines/plucker.h"
 
 namespace plm_vins {
-
-// A camera that sees a segment of a line.
-struct LineSighting {
-  Rigid3d T_W_C;
-  LineSegmentView segment;
-};
 
 struct LineTriangulationOptions {
   double noise = 1.0 / 460.0;        // deviation of an end point across the line, normalised

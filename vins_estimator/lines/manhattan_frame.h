@@ -85,9 +85,12 @@ class ManhattanFrame {
   // best one.
   const HeadingSupport& support() const { return support_; }
 
-  // The axis that a direction of W (unit, standard deviation `sigma` [rad]) runs along. Only z
-  // while not locked.
-  LineAxis AxisOf(const Eigen::Vector3d& direction_W, double sigma) const;
+  // Accurate enough to be asked for its heading or its axis.
+  bool IsKnownWell(const LineDirection& line) const { return line.sigma < options_.max_line_sigma; }
+
+  // The axis that a line runs along, as far as its standard deviation tells. Only z while not
+  // locked.
+  LineAxis AxisOf(const LineDirection& line) const;
 
   // Unit vector of an axis in W; not for kFree, and only z while not locked.
   Eigen::Vector3d AxisInWorld(LineAxis axis) const;

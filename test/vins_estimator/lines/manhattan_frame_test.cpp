@@ -163,7 +163,7 @@ TEST(ManhattanFrame, StaysAbsentAmongVerticalLines) {
       .Feed(
           20, [](Random*) { return Vector3d(0, 0, -1); }, &frame);
   EXPECT_EQ(frame.state(), ManhattanState::kAbsent);
-  EXPECT_EQ(frame.AxisOf(-Vector3d::UnitZ(), 0), LineAxis::kZ);
+  EXPECT_EQ(frame.AxisOf({1, -Vector3d::UnitZ(), 0}), LineAxis::kZ);
 }
 
 TEST(ManhattanFrame, NeedsSeveralLines) {
@@ -180,7 +180,7 @@ TEST(ManhattanFrame, DoesNotAskInaccurateLines) {
   ManhattanFrame frame;
   LineStream(1, 5 * kDegree).Feed(20, Built(0.3, 0), &frame);
   EXPECT_EQ(frame.support().total, 0);
-  EXPECT_EQ(frame.AxisOf(Vector3d::UnitZ(), 5 * kDegree), LineAxis::kFree);
+  EXPECT_EQ(frame.AxisOf({1, Vector3d::UnitZ(), 5 * kDegree}), LineAxis::kFree);
 }
 
 TEST(ManhattanFrame, IsTheStrongerOfTwo) {
@@ -264,24 +264,24 @@ TEST(ManhattanFrame, FollowsIntoAnotherBuilding) {
 
 TEST(ManhattanFrame, NamesTheAxisOfALine) {
   ManhattanFrame frame;
-  EXPECT_EQ(frame.AxisOf(Vector3d::UnitX(), 0), LineAxis::kFree);
-  EXPECT_EQ(frame.AxisOf(Vector3d::UnitZ(), 0), LineAxis::kZ);
+  EXPECT_EQ(frame.AxisOf({1, Vector3d::UnitX(), 0}), LineAxis::kFree);
+  EXPECT_EQ(frame.AxisOf({1, Vector3d::UnitZ(), 0}), LineAxis::kZ);
   LineStream(1, 0.1 * kDegree).Feed(15, Built(0.3, 0.2), &frame);
   ASSERT_EQ(frame.state(), ManhattanState::kLocked);
   const Eigen::Quaterniond R_W_M = *frame.R_W_M();
-  EXPECT_EQ(frame.AxisOf(R_W_M * Vector3d::UnitX(), 0), LineAxis::kX);
-  EXPECT_EQ(frame.AxisOf(-(R_W_M * Vector3d::UnitY()), 0), LineAxis::kY);
-  EXPECT_EQ(frame.AxisOf(Horizontal(0.3 + M_PI / 4), 0), LineAxis::kFree);
+  EXPECT_EQ(frame.AxisOf({1, R_W_M * Vector3d::UnitX(), 0}), LineAxis::kX);
+  EXPECT_EQ(frame.AxisOf({1, -(R_W_M * Vector3d::UnitY()), 0}), LineAxis::kY);
+  EXPECT_EQ(frame.AxisOf({1, Horizontal(0.3 + M_PI / 4), 0}), LineAxis::kFree);
   for (const LineAxis axis : {LineAxis::kX, LineAxis::kY, LineAxis::kZ}) {
-    EXPECT_EQ(frame.AxisOf(frame.AxisInWorld(axis), 0), axis);
+    EXPECT_EQ(frame.AxisOf({1, frame.AxisInWorld(axis), 0}), axis);
   }
 }
 
 TEST(ManhattanFrame, AllowsForTheUncertaintyOfALine) {
   const ManhattanFrame frame;
   const Vector3d tilted(std::sin(3.5 * kDegree), 0, std::cos(3.5 * kDegree));
-  EXPECT_EQ(frame.AxisOf(tilted, 0.1 * kDegree), LineAxis::kFree);
-  EXPECT_EQ(frame.AxisOf(tilted, 1.0 * kDegree), LineAxis::kZ);
+  EXPECT_EQ(frame.AxisOf({1, tilted, 0.1 * kDegree}), LineAxis::kFree);
+  EXPECT_EQ(frame.AxisOf({1, tilted, 1.0 * kDegree}), LineAxis::kZ);
 }
 
 }  // namespace

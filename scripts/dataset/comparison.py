@@ -3,7 +3,8 @@
 
 import os
 
-from . import report
+from .csv_files import write_csv
+from .report import markdown_report
 from .results import METRIC
 
 
@@ -12,8 +13,8 @@ def write_comparison(output, results, evaluator, facts, with_plots):
     pictures = _write_pictures(output, results, evaluator) if with_plots else {}
     path = os.path.join(output, "report.md")
     with open(path, "w", encoding="utf-8") as file:
-        file.write(report.markdown_report(results, facts, pictures))
-    return [path, *report.write_csv(output, results)]
+        file.write(markdown_report(results, facts, pictures))
+    return [path, *write_csv(output, results)]
 
 
 def _write_pictures(output, results, evaluator):

@@ -1,37 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the results down: report.md, runs.csv (every run) and table.csv (over repetitions)."""
+"""The report on all results, in markdown."""
 
-import csv
 import os
 
 from . import cells
 from .markdown import Table
 from .paper import TABLES, paper_sequence
 from .paper_tables import paper_table
-from .results import METRIC, METRICS, Spread
+from .results import METRIC, METRICS
 from .variants import DESCRIPTIONS
 
 COVERAGE = METRIC["coverage_percent"]
-
-
-def write_csv(folder, results):
-    """Returns the paths of both files."""
-    names = [metric.name for metric in METRICS]
-    runs = [[r.run.sequence.name, r.run.variant, r.run.repetition, _status(r)]
-            + [_plain(metric.value(r)) for metric in METRICS] for r in results.all()]
-    table = []
-    for sequence in results.sequences:
-        for variant in results.variants:
-            repetitions = results.repetitions(sequence, variant)
-            spreads = [results.spread(metric, sequence, variant) for metric in METRICS]
-            table.append([sequence, variant, len(repetitions),
-                          sum(r.failure is not None for r in repetitions)]
-                         + [_plain(figure) for spread in spreads for figure in _figures(spread)])
-    spread_names = [f"{name}_{part}" for name in names for part in ("median", "min", "max")]
-    return [_write_rows(os.path.join(folder, "runs.csv"),
-                        ["sequence", "variant", "repetition", "status"] + names, runs),
-            _write_rows(os.path.join(folder, "table.csv"),
-                        ["sequence", "variant", "repetitions", "failed"] + spread_names, table)]
 
 
 def markdown_report(results, facts, figures):
@@ -40,11 +19,12 @@ def markdown_report(results, facts, figures):
     facts: pairs of a label and a text about the whole; figures: paths of pictures, relative to the
     report, by heading.
     """
+    errors = [metric for metric in METRICS if metric.is_error]
+    others = [metric for metric in METRICS if not metric.is_error and metric is not COVERAGE]
     parts = ["# Odometry over a dataset", _facts(facts), _variants(results), _failures(results),
              _not_compared(results), "## Accuracy", _ape_notes(results),
-             *(_metric_table(results, metric) for metric in METRICS if metric.is_error),
-             "## Start, speed and lines", *(_metric_table(results, metric) for metric in METRICS
-                                            if not metric.is_error and metric.name != COVERAGE.name),
+             *(_metric_table(results, metric) for metric in errors), "## Start, speed and lines",
+             *(_metric_table(results, metric) for metric in others),
              _paper_part(results), _pictures(figures)]
     return "\n\n".join(part for part in parts if part) + "\n"
 
@@ -111,9 +91,9 @@ def _paper_part(results):
         return "## Beside the paper\n\nNone of the sequences is one of the paper's."
     return ("## Beside the paper\n\nThe paper's figures, and ours of the recordings whose name has"
             " the name of its sequence: a part of a sequence or a recording made after it is"
-            " another task. The paper gives no coverage; its times are of another computer. Our line"
-            " extraction is the mean per extraction; images between extractions follow lines"
-            " only.\n\n" + "\n\n".join(tables))
+            " another task. The paper gives no coverage; its times are of another computer. Ours"
+            " are means over the images that lines are extracted from; in the others they are only"
+            " followed.\n\n" + "\n\n".join(tables))
 
 
 def _pictures(figures):
@@ -129,24 +109,3 @@ def _pictures(figures):
 
 def _change(value, reference):
     return cells.NONE if value is None else f"{100 * (value / reference - 1):+.0f} %"
-
-
-def _status(result):
-    return result.failure or result.not_compared or "compared"
-
-
-def _figures(spread):
-    spread = spread or Spread(None, None, None)
-    return spread.median, spread.low, spread.high
-
-
-def _plain(value):
-    return "" if value is None else f"{value:.10g}"
-
-
-def _write_rows(path, heading, rows):
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(heading)
-        writer.writerows(rows)
-    return path

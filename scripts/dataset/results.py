@@ -75,8 +75,10 @@ METRICS = (
              "line_tracking", "mean"),
     Metric("line_extraction_ms", "Line extraction, mean per extraction [ms]", 2,
            lambda r: r.line_extraction_ms),
-    _summary("lines", "Line landmarks", 0, "lines"),
-    _summary("merged_lines", "Merged line landmarks", 0, "merged_lines"),
+    _summary("lines_in_window", "Line landmarks in the window, median over the frames", 0,
+             "counts_per_frame", "lines_in_window", "median"),
+    _summary("lines", "Line landmarks of the whole run", 0, "lines"),
+    _summary("merged_lines", "Merged line landmarks of the whole run", 0, "merged_lines"),
 )
 METRIC = {metric.name: metric for metric in METRICS}
 

@@ -101,7 +101,8 @@ class AbsoluteError(unittest.TestCase):
     def test_yaw_drift_is_the_change_from_the_beginning_to_the_end(self):
         truth = flight()
         for before, after in ((0.0, 3.0), (170.0, 173.0), (178.5, -178.5), (-2.0, -5.0)):
-            turns = [rotation((0, 0, 1), before if t < 5.0 else after) for t in truth.stamps - START]
+            turns = [rotation((0, 0, 1), before if stamp < START + 5.0 else after)
+                     for stamp in truth.stamps]
             estimate = Trajectory(truth.stamps, truth.positions, turns @ truth.rotations)
             result = evaluate(estimate, truth)[2]
             self.assertAlmostEqual(result["yaw_drift_deg"], 3.0, 6)
@@ -110,7 +111,8 @@ class AbsoluteError(unittest.TestCase):
     def test_yaw_drift_of_a_standstill_does_not_depend_on_the_alignment(self):
         truth, generator = flight(), np.random.default_rng(1)
         truth.positions[:] = generator.normal(0, 1e-3, truth.positions.shape)
-        turns = [rotation((0, 0, 1), 0.0 if t < 5.0 else 3.0) for t in truth.stamps - START]
+        turns = [rotation((0, 0, 1), 0.0 if stamp < START + 5.0 else 3.0)
+                 for stamp in truth.stamps]
         estimate = Trajectory(truth.stamps, generator.normal(0, 1e-3, truth.positions.shape),
                               turns @ truth.rotations)
         self.assertAlmostEqual(evaluate(estimate, truth)[2]["yaw_drift_deg"], 3.0, 6)

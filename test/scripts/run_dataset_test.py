@@ -89,6 +89,8 @@ class Results(DatasetTest):
             self.assertEqual(float(row["line_extraction_ms"]),
                              8.0 if row["variant"] == "baseline" else 2.0)
             self.assertEqual(row["status"], "compared")
+            self.assertEqual((row["lines"], row["lines_in_window"], row["frame_ms"]),
+                             ("30", "18", "10"))
         table = self.rows("table.csv")
         self.assertEqual([row["repetitions"] for row in table], ["2"] * 4)
         self.assertEqual(table[0]["ape_m_min"], table[0]["ape_m_max"])
@@ -262,14 +264,22 @@ class Terminal(DatasetTest):
         master, slave = pty.openpty()
         self.addCleanup(os.close, master)
         with subprocess.Popen(self.command("--no-plots", "--variants", "improved"),
-                              stdout=subprocess.DEVNULL,
-                              stderr=slave) as process:
-            process.wait(60)
-        os.close(slave)
-        text = os.read(master, 1 << 16).decode()
+                              stdout=subprocess.DEVNULL, stderr=slave):
+            os.close(slave)
+            text = self.read_all(master)
         self.assertIn("\r\033[K[........................] 0/2  hall improved 1", text)
         self.assertIn("] 1/2, 0:0", text)
         self.assertIn("[2/2] room improved 1: APE 0.1", text)
+
+    @staticmethod
+    def read_all(terminal):
+        """What is written there until nobody has its other side open any more."""
+        text = b""
+        while True:
+            try:
+                text += os.read(terminal, 4096)
+            except OSError:
+                return text.decode()
 
 
 class BadCalls(DatasetTest):

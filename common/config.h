@@ -35,11 +35,8 @@ struct PointTrackerConfig {
   bool corner_subpixel = true;  // refine corners to subpixel (the paper, section III.A)
   int max_cnt = 150;            // corners per image
   double min_dist = 20;         // least distance between corners [px]
-  double publish_rate =
-      0;  // features handed to the estimator at most this often [Hz]; 0: every image
   double f_threshold = 1.0;     // epipolar RANSAC threshold [px]
   bool equalize = true;         // CLAHE
-  bool show_track = true;       // publish the annotated image
   std::string fisheye_mask;     // image file, non-zero where corners are allowed; empty: everywhere
   double quality_level = 0.03;  // corner response relative to the image's best
   int klt_window = 16;          // [px]
@@ -99,6 +96,8 @@ struct Config {
   std::string file;                       // where it was read from, for messages
   std::vector<std::string> ignored_keys;  // accepted from VINS files, without effect here
   SensorConfig sensor;
+  double publish_rate = 0;  // images whose features the estimator gets [Hz]; 0: all
+  bool show_track = true;   // publish annotated images
   PointTrackerConfig points;
   bool use_lines = true;  // beside the points
   LineTrackerConfig lines;

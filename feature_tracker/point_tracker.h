@@ -25,6 +25,9 @@ struct PointTrackerStatistics {
 // CLAHE -> KLT with prediction -> forward-backward check -> epipolar RANSAC -> spread -> refill.
 class PointTracker {
  public:
+  using Features = PointFrame;
+  using Statistics = PointTrackerStatistics;
+
   PointTracker(const PointTrackerConfig& config, std::shared_ptr<const CameraModel> camera);
   ~PointTracker();
 

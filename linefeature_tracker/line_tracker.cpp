@@ -89,7 +89,7 @@ class LineTracker::Implementation {
   }
 
   const LineTrackerStatistics& statistics() const { return statistics_; }
-  cv::Mat DrawLines() const { return DrawLineTracks(image_, tracks_); }
+  cv::Mat DrawTracks() const { return DrawLineTracks(image_, tracks_); }
 
  private:
   // Takes the tracks to the image of `pyramid` and drops those that got lost.
@@ -171,7 +171,10 @@ class LineTracker::Implementation {
   // `turned` is where the track would be by rotation alone. False where the camera does not see it.
   bool Advance(const LineSegment& segment, const LineSegment& turned, LineTrack* track) {
     const auto segment_px = ProjectSegment(*camera_, segment);
-    if (!segment_px) return false;
+    if (!segment_px) {
+      ++statistics_.edge_lost;
+      return false;
+    }
     track->parallax = MotionAcross(turned, segment);
     track->segment = segment;
     track->segment_px = *segment_px;
@@ -294,6 +297,6 @@ const LineTrackerStatistics& LineTracker::statistics() const {
   return implementation_->statistics();
 }
 
-cv::Mat LineTracker::DrawLines() const { return implementation_->DrawLines(); }
+cv::Mat LineTracker::DrawTracks() const { return implementation_->DrawTracks(); }
 
 }  // namespace plm_vins

@@ -16,7 +16,7 @@ struct LineTrackerStatistics {
   int previous = 0;         // lines to follow
   int match_lost = 0;       // flow failed or looks different; LBD: no match
   int inconsistent = 0;     // too far from the prediction
-  int edge_lost = 0;        // no edge, or too short a one, where the flow led
+  int edge_lost = 0;        // no edge, too short a one or out of sight, where the flow led
   int duplicates = 0;       // came to lie on an older one
   bool detected = false;    // this image was searched for new lines
   int fragments = 0;        // found by the detector
@@ -32,6 +32,9 @@ struct LineTrackerStatistics {
 // A line's direction start -> end is fixed by its brighter side and never flips along a track.
 class LineTracker {
  public:
+  using Features = LineFrame;
+  using Statistics = LineTrackerStatistics;
+
   LineTracker(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera);
   ~LineTracker();
 
@@ -46,7 +49,7 @@ class LineTracker {
   const LineTrackerStatistics& statistics() const;
 
   // The last image with its lines drawn (CV_8UC3), coloured by age.
-  cv::Mat DrawLines() const;
+  cv::Mat DrawTracks() const;
 
  private:
   class Implementation;

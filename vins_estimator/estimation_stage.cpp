@@ -7,6 +7,7 @@ namespace {
 MeasurementSync::Options MakeSyncOptions(const Config& config) {
   MeasurementSync::Options options;
   options.td = config.sensor.td;
+  options.expect_lines = config.use_lines;
   return options;
 }
 
@@ -22,7 +23,10 @@ DropCounts ToDropCounts(const SyncStatistics& statistics) {
           {"frames_without_imu", statistics.frames_without_imu, ""},
           {"frames_in_imu_gap", statistics.frames_in_imu_gap, ""},
           {"frames_too_close", statistics.frames_too_close, ""},
-          {"frames_dropped_full", statistics.frames_dropped_full, ""}};
+          {"frames_dropped_full", statistics.frames_dropped_full, ""},
+          {"frames_with_few_points", statistics.frames_with_few_points, ""},
+          {"lines_out_of_order", statistics.lines_out_of_order, ""},
+          {"lines_late", statistics.lines_late, ""}};
 }
 
 EstimationStage::EstimationStage(const Config& config)

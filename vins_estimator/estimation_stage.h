@@ -40,6 +40,7 @@ class EstimationStage {
   // Starts over: queued data and the state are forgotten, statistics go on.
   void Reset();
 
+  bool lines_are_missing() const { return sync_.lines_are_missing(); }
   const SyncStatistics& statistics() const { return sync_.statistics(); }
 
  private:

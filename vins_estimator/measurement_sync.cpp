@@ -13,6 +13,8 @@ namespace {
 // Images of which the IMU cuts are closer than this hold no motion that could be told from noise.
 constexpr int64_t kMinInterval_ns = 1'000'000;
 
+constexpr size_t kFewPoints = 10;  // too few to tell the motion of the camera from
+
 // Beyond what the inertial sensors of vehicles and hands can measure.
 constexpr double kMaxGyro = 100.0;   // [rad/s]
 constexpr double kMaxAccel = 500.0;  // [m/s^2]
@@ -75,6 +77,7 @@ void MeasurementSync::AddPoints(PointFrame frame) {
     return;
   }
   last_points_ns_ = frame.t_ns;
+  if (frame.points.size() < kFewPoints) ++statistics_.frames_with_few_points;
   points_.push_back(std::move(frame));
   if (static_cast<int>(points_.size()) > options_.max_frames) {
     points_.pop_front();
@@ -86,10 +89,13 @@ void MeasurementSync::AddLines(LineFrame frame) {
   ++statistics_.line_frames;
   if (last_lines_ns_ && frame.t_ns <= *last_lines_ns_) {
     ++statistics_.lines_out_of_order;
-    return;
+    if (frame.t_ns == *last_lines_ns_) return;
+    // The tracker started over: what it said of later times is not of this recording.
+    while (!lines_.empty() && lines_.back().t_ns >= frame.t_ns) lines_.pop_back();
   }
   last_lines_ns_ = frame.t_ns;
-  if (last_popped_ns_ && frame.t_ns <= *last_popped_ns_) {
+  if (lines_are_missing() && IsInTime(frame.t_ns)) frames_without_lines_in_a_row_ = 0;
+  if (!last_popped_ns_.empty() && frame.t_ns <= last_popped_ns_.back()) {
     ++statistics_.lines_late;
     return;
   }
@@ -108,7 +114,7 @@ void MeasurementSync::Clear() {
   last_cut_ns_.reset();
   last_points_ns_.reset();
   last_lines_ns_.reset();
-  last_popped_ns_.reset();
+  last_popped_ns_.clear();
 }
 
 std::optional<FrameMeasurement> MeasurementSync::Pop() {
@@ -138,9 +144,13 @@ size_t MeasurementSync::FirstImuNotBefore(int64_t t_ns) const {
 }
 
 bool MeasurementSync::LinesAreDecided() const {
-  if (!options_.expect_lines) return true;
+  if (!options_.expect_lines || lines_are_missing()) return true;
   const bool there_or_passed = !lines_.empty() && lines_.back().t_ns >= points_.front().t_ns;
   return there_or_passed || static_cast<int>(points_.size()) > options_.max_line_lag;
+}
+
+bool MeasurementSync::IsInTime(int64_t lines_ns) const {
+  return !last_popped_ns_.empty() && lines_ns >= last_popped_ns_.front();
 }
 
 void MeasurementSync::DropUnusableFrames() {
@@ -174,7 +184,8 @@ FrameMeasurement MeasurementSync::TakeFrame() {
   measurement.lines = TakeLines(measurement.t_ns);
   measurement.points = std::move(points_.front());
   points_.pop_front();
-  last_popped_ns_ = measurement.t_ns;
+  last_popped_ns_.push_back(measurement.t_ns);
+  if (static_cast<int>(last_popped_ns_.size()) > options_.max_line_lag) last_popped_ns_.pop_front();
   return measurement;
 }
 
@@ -200,9 +211,13 @@ std::optional<LineFrame> MeasurementSync::TakeLines(int64_t t_ns) {
     ++statistics_.lines_without_points;
   }
   if (lines_.empty() || lines_.front().t_ns != t_ns) {
-    if (options_.expect_lines) ++statistics_.frames_without_lines;
+    if (options_.expect_lines) {
+      ++statistics_.frames_without_lines;
+      ++frames_without_lines_in_a_row_;
+    }
     return std::nullopt;
   }
+  frames_without_lines_in_a_row_ = 0;
   LineFrame lines = std::move(lines_.front());
   lines_.pop_front();
   return lines;

@@ -22,12 +22,13 @@ struct SyncStatistics {
   int64_t frames_out_of_order = 0;  // stamp not after the one before (repeated or backwards)
   int64_t frames_without_imu =
       0;  // no IMU sample at or before the image, or none after it at the end
-  int64_t frames_in_imu_gap = 0;     // the IMU says nothing at the time of the image
-  int64_t frames_too_close = 0;      // under 1 ms of IMU time after the frame before
-  int64_t frames_dropped_full = 0;   // queue full: oldest dropped
-  int64_t frames_without_lines = 0;  // handed out without the line frame that was expected
+  int64_t frames_in_imu_gap = 0;       // the IMU says nothing at the time of the image
+  int64_t frames_too_close = 0;        // under 1 ms of IMU time after the frame before
+  int64_t frames_dropped_full = 0;     // queue full: oldest dropped
+  int64_t frames_with_few_points = 0;  // under ten: dark, blank or blurred; the IMU carries on
+  int64_t frames_without_lines = 0;    // handed out without the line frame that was expected
   int64_t line_frames = 0;
-  int64_t lines_out_of_order = 0;    // stamp not after the one before (repeated or backwards)
+  int64_t lines_out_of_order = 0;    // stamp not after the one before
   int64_t lines_late = 0;            // came after a frame of that time or later had been handed out
   int64_t lines_without_points = 0;  // line frame whose point frame never came
 };
@@ -38,15 +39,17 @@ struct SyncStatistics {
 //
 // A frame is ready when the IMU reaches t_image + td and, where lines are expected, when its line
 // frame is there, a later line frame is there, or a newer point frame `max_line_lag` images ahead
-// is there. A frame that cannot be used is dropped and counted; the IMU samples before it then lead
-// to the next one: of the samples between the first and the last frame none is lost or used twice,
-// also when td changes.
+// is there. Where line frames fail to come at all, frames no longer wait for them, until one comes
+// in time again. A frame that cannot be used is dropped and counted; the IMU samples before it then
+// lead to the next one: of the samples between the first and the last frame none is lost or used
+// twice, also when td changes.
 class MeasurementSync {
  public:
   struct Options {
     double td = 0;              // t_imu = t_image + td [s]
     bool expect_lines = false;  // wait (a little) for the line frame of each image
     int max_line_lag = 3;       // images to wait for a line frame
+    int line_patience = 10;     // frames in a row without lines until the lines count as missing
     double max_imu_gap =
         0.05;  // a longer interval between samples is a gap: images in it are dropped [s]
     int max_frames = 200;         // queued images and line frames; beyond, the oldest is dropped
@@ -68,6 +71,11 @@ class MeasurementSync {
   // Frames beyond are dropped and counted.
   std::optional<FrameMeasurement> Flush();
 
+  // Lines are expected but fail to come: frames are handed out without.
+  bool lines_are_missing() const {
+    return options_.expect_lines && frames_without_lines_in_a_row_ >= options_.line_patience;
+  }
+
   size_t queued_frames() const { return points_.size(); }
   const SyncStatistics& statistics() const { return statistics_; }
 
@@ -79,6 +87,8 @@ class MeasurementSync {
   // Index of the first IMU sample at or after the time.
   size_t FirstImuNotBefore(int64_t t_ns) const;
   bool LinesAreDecided() const;
+  // While frames do not wait for lines: the one of that time would still wait if they did.
+  bool IsInTime(int64_t lines_ns) const;
   void DropUnusableFrames();
   // Why the oldest queued frame cannot be used, as the statistic that counts it; null: it can.
   // The IMU must reach it.
@@ -97,7 +107,8 @@ class MeasurementSync {
   std::optional<int64_t> last_cut_ns_;     // IMU time
   std::optional<int64_t> last_points_ns_;  // stamps of the last frames accepted and handed out
   std::optional<int64_t> last_lines_ns_;
-  std::optional<int64_t> last_popped_ns_;
+  std::deque<int64_t> last_popped_ns_;  // as many as a line frame may lag behind, oldest first
+  int frames_without_lines_in_a_row_ = 0;
 };
 
 }  // namespace plm_vins

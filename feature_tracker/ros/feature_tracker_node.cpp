@@ -76,17 +76,17 @@ void FeatureTrackerNode::FlushLateImages() {
   while (const auto frame = stage_.Flush()) Publish(*frame);
 }
 
-void FeatureTrackerNode::Publish(const TrackedFrame& frame) {
+void FeatureTrackerNode::Publish(const TrackedPoints& frame) {
   if (frame.restart) {
     std_msgs::Bool restart;
     restart.data = true;
     restart_publisher_.publish(restart);
   }
-  points_in_last_frame_ = frame.points.points.size();
+  points_in_last_frame_ = frame.features.points.size();
   if (!frame.publish) return;
-  feature_publisher_.publish(ToMessage(frame.points, config_.output.camera_frame));
-  if (config_.points.show_track && track_image_publisher_.getNumSubscribers() > 0) {
-    PublishTrackImage(frame.points.t_ns);
+  feature_publisher_.publish(ToMessage(frame.features, config_.output.camera_frame));
+  if (config_.show_track && track_image_publisher_.getNumSubscribers() > 0) {
+    PublishTrackImage(frame.features.t_ns);
   }
 }
 

@@ -32,7 +32,7 @@ class FeatureTrackerNode {
   template <typename Image>
   void AddImage(const Image& message);
   void FlushLateImages();
-  void Publish(const TrackedFrame& frame);
+  void Publish(const TrackedPoints& frame);
   void PublishTrackImage(int64_t t_ns);
   void ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status);
 

@@ -94,7 +94,7 @@ TEST_F(ConfigTest, VinsMonoFileLoadsAsItIs) {
   const Eigen::Vector3d optical_axis(0.00414029679422, 0.025715529948, 0.999660727178);
   EXPECT_MATRIX_NEAR(config.sensor.T_B_C.R().col(2), optical_axis, 1e-9);
   EXPECT_EQ(config.sensor.T_B_C.translation.y(), -0.064676986768);
-  EXPECT_EQ(config.points.publish_rate, 10);
+  EXPECT_EQ(config.publish_rate, 10);
   EXPECT_EQ(config.sensor.td, 0.005);
   EXPECT_TRUE(config.sensor.estimate_td);
   EXPECT_NEAR(config.sensor.imu_noise.gyro_density, 0.004 / std::sqrt(200), 1e-15);
@@ -368,7 +368,7 @@ TEST(ShippedConfig, EurocHasTheCalibrationOfTheDataset) {
   EXPECT_EQ(config.sensor.camera.fx, 458.654);
   EXPECT_EQ(config.sensor.T_B_C.translation.x(), -0.0216401454975);
   EXPECT_EQ(config.sensor.imu_noise.accel_walk, 3.0e-3);
-  EXPECT_EQ(config.points.publish_rate, 0);
+  EXPECT_EQ(config.publish_rate, 0);
 }
 
 TEST(ShippedConfig, ReferenceNamesEveryKeyWithItsDefault) {

@@ -43,5 +43,18 @@ TEST(RateLimiter, DoesNotCatchUpAfterAGap) {
   EXPECT_EQ(Take(10, {0, 1000, 1020, 1040, 1100}), (std::vector<int>{0, 1000, 1100}));
 }
 
+// A tracker that is started again, or later than the other, must not choose the images in between.
+TEST(RateLimiter, TwoThatBeginAtDifferentItemsComeToChooseTheSame) {
+  for (int phase = 0; phase < 100; phase += 7) {
+    std::vector<int> stamps;
+    for (int i = 0; i < 20; ++i) stamps.push_back(1'000'000 + phase + 50 * i + i % 2);
+    const std::vector<int> all = Take(10, stamps);
+    for (int start = 1; start < 4; ++start) {
+      const std::vector<int> later = Take(10, {stamps.begin() + start, stamps.end()});
+      EXPECT_TRUE(std::equal(all.rbegin(), all.rbegin() + 7, later.rbegin())) << phase;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plm_vins

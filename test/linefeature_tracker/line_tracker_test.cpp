@@ -261,9 +261,9 @@ TEST_P(LineTrackerTest, StatisticsAddUp) {
 
 TEST_P(LineTrackerTest, DrawsTheNewestImage) {
   Show(BarScene(PlainParameters()));
-  EXPECT_TRUE(tracker_->DrawLines().empty());
+  EXPECT_TRUE(tracker_->DrawTracks().empty());
   Track(scene_->View());
-  const cv::Mat drawing = tracker_->DrawLines();
+  const cv::Mat drawing = tracker_->DrawTracks();
   EXPECT_EQ(drawing.type(), CV_8UC3);
   EXPECT_EQ(drawing.size(), cv::Size(752, 480));
 }

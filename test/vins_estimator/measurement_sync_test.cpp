@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -301,6 +302,86 @@ TEST(MeasurementSync, MissingLinesDelayNoLongerThanTheLag) {
   sync.AddLines(Lines(50 * kMs));  // too late
   EXPECT_FALSE(sync.Pop().has_value());
   EXPECT_EQ(sync.statistics().lines_late, 1);
+}
+
+// Feeds images from..to every 50 ms, with lines that arrive `lag` images late (none: negative).
+// Returns how many images ahead of each frame handed out the newest one was.
+std::vector<int> FeedWithLines(int64_t from, int64_t to, int lag, MeasurementSync* sync) {
+  std::vector<int> delays;
+  for (int64_t t = from; t <= to; t += 50) {
+    AddImu(sync, t - 45, t);
+    sync->AddPoints(Points(t * kMs));
+    if (lag >= 0) sync->AddLines(Lines((t - 50 * lag) * kMs));
+    for (const FrameMeasurement& frame : PopAll(sync)) {
+      delays.push_back(static_cast<int>((t * kMs - frame.t_ns) / (50 * kMs)));
+    }
+  }
+  return delays;
+}
+
+TEST(MeasurementSync, ADeadLineTrackerDelaysNoLongerThanItsPatience) {
+  MeasurementSync sync(WithLines());
+  FeedWithLines(50, 1000, 0, &sync);
+  EXPECT_EQ(sync.statistics().frames_without_lines, 0);
+  const std::vector<int> delays = FeedWithLines(1050, 3000, -1, &sync);
+  EXPECT_EQ(delays.front(), 3);
+  EXPECT_EQ(delays.back(), 0);
+  EXPECT_EQ(std::count(delays.begin(), delays.end(), 3), 10);
+  EXPECT_EQ(delays.size(), 40u) << "every image is handed out";
+  EXPECT_TRUE(sync.lines_are_missing());
+}
+
+TEST(MeasurementSync, LinesThatComeBackAreUsedAgain) {
+  for (const int lag : {0, 1, 2}) {
+    MeasurementSync sync(WithLines());
+    FeedWithLines(50, 1000, -1, &sync);
+    EXPECT_TRUE(sync.lines_are_missing());
+    FeedWithLines(1050, 2000, lag, &sync);
+    EXPECT_FALSE(sync.lines_are_missing());
+    EXPECT_LE(sync.statistics().frames_without_lines, 20 + lag);
+  }
+}
+
+TEST(MeasurementSync, AHopelesslySlowLineTrackerDelaysNothing) {
+  MeasurementSync sync(WithLines());
+  const std::vector<int> delays = FeedWithLines(50, 3000, 6, &sync);
+  EXPECT_EQ(delays.back(), 0);
+  EXPECT_TRUE(sync.lines_are_missing());
+  EXPECT_GT(sync.statistics().lines_late, 40);
+}
+
+TEST(MeasurementSync, LinesOfAnEarlierRecordingDoNotBlockThoseOfThisOne) {
+  MeasurementSync sync(WithLines());
+  sync.AddLines(Lines(90000 * kMs));  // left over, arrives after the restart
+  FeedWithLines(50, 1000, 0, &sync);
+  EXPECT_EQ(sync.statistics().frames_without_lines, 0);
+  EXPECT_EQ(sync.statistics().lines_out_of_order, 1);
+}
+
+TEST(MeasurementSync, NoLinesAndAThousandLinesAreFramesLikeOthers) {
+  MeasurementSync sync(WithLines());
+  AddImu(&sync, 0, 200);
+  for (const size_t count : {0, 1000}) {
+    const int64_t t = count == 0 ? 50 : 100;
+    LineFrame lines = Lines(t * kMs);
+    lines.lines.resize(count);
+    sync.AddPoints(Points(t * kMs));
+    sync.AddLines(lines);
+    const auto frame = sync.Pop();
+    ASSERT_TRUE(frame && frame->lines);
+    EXPECT_EQ(frame->lines->lines.size(), count);
+  }
+}
+
+TEST(MeasurementSync, FramesWithFewPointsAreCounted) {
+  MeasurementSync sync({});
+  PointFrame frame = Points(50 * kMs);
+  frame.points.resize(9);
+  sync.AddPoints(frame);
+  frame.t_ns = 100 * kMs;
+  frame.points.resize(10);
+  sync.AddPoints(frame);
+  EXPECT_EQ(sync.statistics().frames_with_few_points, 1);
 }
 
 TEST(MeasurementSync, LinesWithoutPointsAndOutOfOrderAreCounted) {

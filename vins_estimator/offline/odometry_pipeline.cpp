@@ -2,6 +2,7 @@
 #include "vins_estimator/offline/odometry_pipeline.h"
 
 #include <exception>
+#include <iterator>
 #include <thread>
 #include <utility>
 
@@ -19,7 +20,7 @@ bool IsPowerOfTwo(int64_t count) { return (count & (count - 1)) == 0; }
 OdometryPipeline::OdometryPipeline(const Config& config) : front_end_(config), back_end_(config) {}
 
 DropCounts OdometryPipeline::drops() const {
-  DropCounts counts = ToDropCounts(front_end_.counts());
+  DropCounts counts = ToDropCounts(front_end_.image_counts());
   Append(ToDropCounts(back_end_.statistics()), &counts);
   return counts;
 }
@@ -77,7 +78,7 @@ bool OdometryPipeline::Feed(const RecordingEvent& event, Recording* recording,
                             const ItemCallback& emit) {
   if (event.kind == RecordingEvent::Kind::kImu) {
     front_end_.AddImu(event.imu);
-    if (!emit({std::nullopt, event.imu})) return false;
+    if (!emit({event.imu, nullptr})) return false;
   } else if (const auto image = recording->LoadImage()) {
     if (!first_image_ns_) first_image_ns_ = event.t_ns;
     front_end_.AddImage({event.t_ns, *image});
@@ -88,29 +89,41 @@ bool OdometryPipeline::Feed(const RecordingEvent& event, Recording* recording,
   return true;
 }
 
-bool OdometryPipeline::EmitTracked(TrackedFrame frame, const ItemCallback& emit) {
+bool OdometryPipeline::EmitTracked(FrontEndFrame frame, const ItemCallback& emit) {
   // The last power of two lies in the second half of any run, however long it turns out to be.
-  if (IsPowerOfTwo(++tracked_images_)) annotated_image_ = front_end_.tracker().DrawTracks();
-  return emit({std::move(frame), {}});
+  if (IsPowerOfTwo(++tracked_images_)) {
+    points_image_ = front_end_.DrawPoints();
+    lines_image_ = front_end_.DrawLines();
+  }
+  return emit({{}, std::make_unique<FrontEndFrame>(std::move(frame))});
 }
 
 void OdometryPipeline::Consume(Item item, const FrameCallback& on_frame) {
-  if (!item.frame) {
-    back_end_.AddImu(item.imu);
+  if (item.frame) {
+    AddFeatures(std::move(*item.frame));
   } else {
-    if (item.frame->restart) back_end_.Reset();
-    if (item.frame->publish) {
-      tracking_ms_[item.frame->points.t_ns] = item.frame->tracking_ms;
-      back_end_.AddPoints(std::move(item.frame->points));
-    }
+    back_end_.AddImu(item.imu);
   }
   while (auto estimated = back_end_.Pop()) Report(std::move(*estimated), on_frame);
 }
 
+void OdometryPipeline::AddFeatures(FrontEndFrame tracked) {
+  if (tracked.points.restart) back_end_.Reset();
+  if (!tracked.points.publish) return;
+  PipelineFrame& frame = unfinished_[tracked.points.features.t_ns];
+  frame.point_tracking_ms = tracked.points.tracking_ms;
+  back_end_.AddPoints(std::move(tracked.points.features));
+  if (!tracked.lines) return;
+  frame.line_tracking_ms = tracked.lines->tracking_ms;
+  frame.line_tracking = tracked.lines->statistics;
+  back_end_.AddLines(std::move(tracked.lines->features));
+}
+
 void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_frame) {
-  const int64_t t_ns = estimated.output.t_ns;
-  const PipelineFrame frame{std::move(estimated.output), tracking_ms_[t_ns]};
-  tracking_ms_.erase(tracking_ms_.begin(), tracking_ms_.upper_bound(t_ns));
+  const auto unfinished = unfinished_.find(estimated.output.t_ns);
+  PipelineFrame frame = std::move(unfinished->second);
+  frame.output = std::move(estimated.output);
+  unfinished_.erase(unfinished_.begin(), std::next(unfinished));
   on_frame(frame);
 }
 

@@ -4,13 +4,14 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 
 #include "common/config.h"
 #include "common/drop_counts.h"
-#include "feature_tracker/point_tracking_stage.h"
 #include "vins_estimator/estimation_stage.h"
+#include "vins_estimator/offline/front_end.h"
 #include "vins_estimator/offline/recording.h"
 #include "vins_estimator/offline/recording_interval.h"
 
@@ -20,12 +21,14 @@ namespace plm_vins {
 struct PipelineFrame {
   EstimatorOutput output;
   double point_tracking_ms = 0;
+  double line_tracking_ms = 0;  // detection included
+  LineTrackerStatistics line_tracking;
 };
 
-// Front end and back end in a row, fed from a recording.
+// Front ends and back end in a row, fed from a recording.
 //
-// The two may run in threads of their own, the front end ahead by a few images. What each is given,
-// and in which order, does not depend on that, so the results are the same bit by bit.
+// Front and back may run in threads of their own, the front ahead by a few images. What each is
+// given, and in which order, does not depend on that, so the results are the same bit by bit.
 class OdometryPipeline {
  public:
   enum class Threads { kOne, kTwo };
@@ -38,35 +41,39 @@ class OdometryPipeline {
            const FrameCallback& on_frame);
 
   // After Run().
-  int64_t images() const { return front_end_.counts().images; }
+  int64_t images() const { return front_end_.image_counts().images; }
   std::optional<int64_t> first_image_ns() const { return first_image_ns_; }
   DropCounts drops() const;
 
-  // An image of the second half of the run with its tracks drawn (CV_8UC3); empty without images.
-  const cv::Mat& annotated_image() const { return annotated_image_; }
+  // An image of the second half of the run with its points or lines drawn (CV_8UC3); empty without
+  // images, or where lines are not used.
+  const cv::Mat& points_image() const { return points_image_; }
+  const cv::Mat& lines_image() const { return lines_image_; }
 
  private:
   // What flows from the front end to the back end, in order.
   struct Item {
-    std::optional<TrackedFrame> frame;
-    ImuSample imu;  // where there is no frame
+    ImuSample imu;
+    std::unique_ptr<FrontEndFrame> frame;  // instead of `imu`
   };
   using ItemCallback = std::function<bool(Item)>;  // false: no more are wanted
 
   void RunFrontEnd(Recording* recording, RecordingInterval interval, const ItemCallback& emit);
   bool Feed(const RecordingEvent& event, Recording* recording, const ItemCallback& emit);
-  bool EmitTracked(TrackedFrame frame, const ItemCallback& emit);
+  bool EmitTracked(FrontEndFrame frame, const ItemCallback& emit);
   void RunInTwoThreads(Recording* recording, const RecordingInterval& interval,
                        const FrameCallback& on_frame);
   void Consume(Item item, const FrameCallback& on_frame);
+  void AddFeatures(FrontEndFrame tracked);
   void Report(EstimatedFrame estimated, const FrameCallback& on_frame);
 
-  PointTrackingStage front_end_;
+  FrontEnd front_end_;
   EstimationStage back_end_;
   std::optional<int64_t> first_image_ns_;
   int64_t tracked_images_ = 0;
-  cv::Mat annotated_image_;
-  std::map<int64_t, double> tracking_ms_;  // by stamp, of frames that the back end has not finished
+  cv::Mat points_image_;
+  cv::Mat lines_image_;
+  std::map<int64_t, PipelineFrame> unfinished_;  // by stamp: what the back end has yet to add to
 };
 
 }  // namespace plm_vins

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "vins_estimator/output/config_json.h"
-#include "vins_estimator/output/frame_timings.h"
+#include "vins_estimator/output/frame_table.h"
 #include "vins_estimator/output/tum_format.h"
 
 namespace plm_vins {
@@ -19,12 +19,40 @@ FrameTimings MakeTimings(const PipelineFrame& frame) {
   const EstimatorTimings& estimator = frame.output.timings;
   FrameTimings timings{};
   timings[kPointTracking] = frame.point_tracking_ms;
+  timings[kLineDetection] = frame.line_tracking.detection_ms;
+  timings[kLineTracking] = frame.line_tracking_ms;
   timings[kInitialization] = estimator.initialization;
   timings[kOptimization] = estimator.optimization;
   timings[kMarginalization] = estimator.marginalization;
   timings[kEstimator] = estimator.total;
-  timings[kTotal] = frame.point_tracking_ms + estimator.total;
+  timings[kTotal] = frame.point_tracking_ms + frame.line_tracking_ms + estimator.total;
   return timings;
+}
+
+FrameCounts MakeCounts(const PipelineFrame& frame) {
+  const EstimatorCounts& estimator = frame.output.counts;
+  const LineTrackerStatistics& lines = frame.line_tracking;
+  FrameCounts counts{};
+  counts[kPointsObserved] = estimator.points_observed;
+  counts[kPointsInWindow] = estimator.points_in_window;
+  counts[kPointsRejected] = estimator.points_rejected;
+  counts[kLinesFollowed] =
+      lines.previous - lines.match_lost - lines.inconsistent - lines.edge_lost - lines.duplicates;
+  counts[kLinesUnmatched] = lines.match_lost;
+  counts[kLinesOffCourse] = lines.inconsistent;
+  counts[kLinesEdgeLost] = lines.edge_lost;
+  counts[kLinesDuplicate] = lines.duplicates;
+  counts[kLinesDetected] = lines.candidates;
+  counts[kLinesAdded] = lines.added;
+  counts[kLinesObserved] = estimator.lines_observed;
+  counts[kLinesTriangulated] = estimator.line_triangulation.triangulated;
+  counts[kLinesDegenerate] = estimator.line_triangulation.degenerate;
+  counts[kLinesBehind] = estimator.line_triangulation.behind;
+  counts[kLinesInconsistent] = estimator.line_triangulation.inconsistent;
+  counts[kLinesTooLong] = estimator.line_triangulation.too_long;
+  counts[kLinesInWindow] = estimator.lines_in_window;
+  counts[kLinesRejected] = estimator.lines_rejected;
+  return counts;
 }
 
 std::string MakeFolder(const std::string& folder) {
@@ -44,7 +72,7 @@ ResultFiles::ResultFiles(const std::string& folder)
       trajectory_(Open("trajectory.tum")),
       timing_(Open("timing.csv")),
       map_(Open("map.ply")) {
-  WriteTimingHeader(&timing_);
+  WriteFrameHeader(&timing_);
 }
 
 std::ofstream ResultFiles::Open(const std::string& name) const {
@@ -57,20 +85,27 @@ std::ofstream ResultFiles::Open(const std::string& name) const {
 void ResultFiles::Add(const PipelineFrame& frame) {
   const EstimatorOutput& output = frame.output;
   const FrameTimings timings = MakeTimings(frame);
-  WriteTimingRow(output.t_ns, timings, &timing_);
-  summary_.Add(output, timings);
+  const FrameCounts counts = MakeCounts(frame);
+  WriteFrameRow(output.t_ns, timings, counts, &timing_);
+  summary_.Add(output, timings, counts);
   AddMapPoints(output.departed_points);
+  AddMapLines(output.departed_lines);
   if (!output.has_pose) return;
   trajectory_ << FormatTumRow(output.t_ns, output.state.T_W_B());
   window_points_ = output.points;
+  window_lines_ = output.lines;
 }
 
 void ResultFiles::AddMapPoints(const std::vector<MapPoint>& points) {
   for (const MapPoint& point : points) map_.Add(point.p_W);
 }
 
-void ResultFiles::WriteAnnotatedImage(const cv::Mat& image) const {
-  const fs::path file = fs::path(folder_) / "tracks.png";
+void ResultFiles::AddMapLines(const std::vector<MapLine>& lines) {
+  for (const MapLine& line : lines) lines_.push_back({line.start_W, line.end_W});
+}
+
+void ResultFiles::WriteAnnotatedImage(const std::string& name, const cv::Mat& image) const {
+  const fs::path file = fs::path(folder_) / name;
   if (!image.empty() && !cv::imwrite(file.string(), image)) {
     throw std::runtime_error("cannot write " + file.string());
   }
@@ -78,16 +113,18 @@ void ResultFiles::WriteAnnotatedImage(const cv::Mat& image) const {
 
 void ResultFiles::Finish(RunSummary::Run run, const Config& config) {
   AddMapPoints(window_points_);
+  AddMapLines(window_lines_);
   map_.Finish();
   trajectory_.close();
   timing_.close();
   if (!trajectory_ || !timing_)
     throw std::runtime_error("cannot write to " + folder_ + ": disk full?");
   std::ofstream ply = Open("lines.ply");
-  WriteSegmentsPly({}, &ply);
+  WriteSegmentsPly(lines_, &ply);
   std::ofstream obj = Open("lines.obj");
-  WriteSegmentsObj({}, &obj);
+  WriteSegmentsObj(lines_, &obj);
   run.map_points = map_.size();
+  run.map_lines = static_cast<int64_t>(lines_.size());
   Json summary = summary_.ToJson(run);
   summary["version"] = PLM_VINS_VERSION;
   summary["config"] = ToJson(config);

@@ -15,7 +15,8 @@
 namespace plm_vins {
 
 // The folder of results of an offline run: trajectory.tum, timing.csv, summary.json, map.ply,
-// lines.ply, lines.obj, tracks.png. Rows are written as frames come; memory stays small.
+// lines.ply, lines.obj, tracks.png, line_tracks.png. Rows are written as frames come; memory stays
+// small.
 class ResultFiles {
  public:
   // Makes the folder and opens the files. Throws std::runtime_error where that is not possible.
@@ -23,10 +24,10 @@ class ResultFiles {
 
   void Add(const PipelineFrame& frame);
 
-  // tracks.png; nothing where the image is empty.
-  void WriteAnnotatedImage(const cv::Mat& image) const;
+  // Nothing where the image is empty.
+  void WriteAnnotatedImage(const std::string& name, const cv::Mat& image) const;
 
-  // Completes all files; `run.map_points` is filled in here.
+  // Completes all files; the counts of the map in `run` are filled in here.
   void Finish(RunSummary::Run run, const Config& config);
 
   const std::string& folder() const { return folder_; }
@@ -35,12 +36,15 @@ class ResultFiles {
  private:
   std::ofstream Open(const std::string& name) const;
   void AddMapPoints(const std::vector<MapPoint>& points);
+  void AddMapLines(const std::vector<MapLine>& lines);
 
   std::string folder_;
   std::ofstream trajectory_;
   std::ofstream timing_;
   PlyPointWriter map_;
+  std::vector<Segment> lines_;
   std::vector<MapPoint> window_points_;  // of the newest frame with a pose: not in the map yet
+  std::vector<MapLine> window_lines_;
   RunSummary summary_;
 };
 

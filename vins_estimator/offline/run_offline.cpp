@@ -133,7 +133,8 @@ int Run(const Arguments& arguments) {
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
   run.drops = recording->problems();
   Append(pipeline.drops(), &run.drops);
-  results.WriteAnnotatedImage(pipeline.annotated_image());
+  results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
+  results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());
   results.Finish(run, config);
   return Report(run, results);
 }

@@ -52,7 +52,6 @@ Json PointsToJson(const PointTrackerConfig& points) {
           {"corner_subpixel", points.corner_subpixel},
           {"max_cnt", points.max_cnt},
           {"min_dist", points.min_dist},
-          {"publish_rate", points.publish_rate},
           {"f_threshold", points.f_threshold},
           {"equalize", points.equalize},
           {"fisheye_mask", points.fisheye_mask},
@@ -62,11 +61,50 @@ Json PointsToJson(const PointTrackerConfig& points) {
           {"forward_backward", points.forward_backward}};
 }
 
+const char* Name(LineDetectorType type) {
+  switch (type) {
+    case LineDetectorType::kFld:
+      return "fld";
+    case LineDetectorType::kLsd:
+      return "lsd";
+    default:
+      return "edlines";
+  }
+}
+
+Json LinesToJson(const LineTrackerConfig& lines) {
+  const bool lbd = lines.line_matcher == LineMatcherType::kLbd;
+  return {{"line_detector", Name(lines.line_detector)},
+          {"line_matcher", lbd ? "lbd" : "flow"},
+          {"half_resolution", lines.half_resolution},
+          {"join_fragments", lines.join_fragments},
+          {"max_lines", lines.max_lines},
+          {"min_length", lines.min_length},
+          {"border", lines.border},
+          {"min_gradient", lines.min_gradient},
+          {"spacing", lines.spacing},
+          {"refill_below", lines.refill_below},
+          {"refill_interval", lines.refill_interval},
+          {"max_angle", lines.max_angle},
+          {"max_distance", lines.max_distance},
+          {"min_overlap", lines.min_overlap},
+          {"min_correlation", lines.min_correlation},
+          {"max_descriptor_distance", lines.max_descriptor_distance}};
+}
+
 Json EstimatorToJson(const EstimatorConfig& estimator) {
   return {{"window_size", estimator.window_size},
           {"keyframe_parallax", estimator.keyframe_parallax},
           {"max_num_iterations", estimator.max_num_iterations},
           {"point_noise", estimator.point_noise},
+          {"line_noise", estimator.line_noise},
+          {"line_outlier_distance", estimator.line_outlier_distance},
+          {"line_merging", estimator.line_merging},
+          {"line_merge_distance", estimator.line_merge_distance},
+          {"line_merge_image_distance", estimator.line_merge_image_distance},
+          {"line_merge_angle", estimator.line_merge_angle},
+          {"manhattan_constraints", estimator.manhattan_constraints},
+          {"manhattan_noise", estimator.manhattan_noise},
           {"zero_velocity_update", estimator.zero_velocity_update}};
 }
 
@@ -75,7 +113,10 @@ Json EstimatorToJson(const EstimatorConfig& estimator) {
 Json ToJson(const Config& config) {
   return {{"file", config.file},
           {"sensor", SensorToJson(config.sensor)},
+          {"publish_rate", config.publish_rate},
           {"points", PointsToJson(config.points)},
+          {"use_lines", config.use_lines},
+          {"lines", LinesToJson(config.lines)},
           {"estimator", EstimatorToJson(config.estimator)}};
 }
 

@@ -3,9 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <ostream>
-#include <vector>
 
 namespace plm_vins {
 
@@ -28,16 +25,5 @@ constexpr std::array<const char*, kTimingStages> kTimingNames = {
 
 // What the stages of one frame took [ms].
 using FrameTimings = std::array<double, kTimingStages>;
-
-// timing.csv: a line of names, then one row per frame, milliseconds with four decimals.
-void WriteTimingHeader(std::ostream* stream);
-void WriteTimingRow(int64_t t_ns, const FrameTimings& timings, std::ostream* stream);
-
-// Mean and 95th percentile (nearest rank) of a stage [ms]; zeros for no frames.
-struct TimingSummary {
-  double mean = 0;
-  double p95 = 0;
-};
-TimingSummary Summarize(const std::vector<FrameTimings>& frames, TimingStage stage);
 
 }  // namespace plm_vins

@@ -2,6 +2,7 @@
 #include "vins_estimator/output/run_summary.h"
 
 #include "common/measurements.h"
+#include "vins_estimator/output/series_summary.h"
 
 namespace plm_vins {
 namespace {
@@ -27,20 +28,30 @@ Json CalibrationToJson(const Rigid3d& T_B_C, double td) {
 Json TimingsToJson(const std::vector<FrameTimings>& frames) {
   Json json;
   for (size_t stage = 0; stage < kTimingStages; ++stage) {
-    const TimingSummary summary = Summarize(frames, static_cast<TimingStage>(stage));
+    const SeriesSummary summary = Summarize(frames, stage);
     json[kTimingNames[stage]] = {{"mean", summary.mean}, {"p95", summary.p95}};
+  }
+  return json;
+}
+
+Json CountsToJson(const std::vector<FrameCounts>& frames) {
+  Json json;
+  for (size_t count = 0; count < kFrameCounts; ++count) {
+    const SeriesSummary summary = Summarize(frames, count);
+    json[kCountNames[count]] = {{"mean", summary.mean}, {"median", summary.median}};
   }
   return json;
 }
 
 }  // namespace
 
-void RunSummary::Add(const EstimatorOutput& output, const FrameTimings& timings) {
+void RunSummary::Add(const EstimatorOutput& output, const FrameTimings& timings,
+                     const FrameCounts& counts) {
   ++frames_;
   timings_.push_back(timings);
+  counts_.push_back(counts);
   if (!first_frame_ns_) first_frame_ns_ = output.t_ns;
   last_frame_ns_ = output.t_ns;
-  points_observed_ += output.counts.points_observed;
   if (!output.reason.empty()) last_reason_ = output.reason;
   if (output.restarted) {
     ++resets_;
@@ -79,13 +90,13 @@ Json RunSummary::ToJson(const Run& run) const {
   json["path_length_m"] = path_length_;
   json["standstill_share"] = Ratio(static_cast<double>(stationary_), static_cast<double>(poses_));
   json["points"] = run.map_points;
-  json["points_per_frame"] =
-      Ratio(static_cast<double>(points_observed_), static_cast<double>(frames_));
-  json["lines"] = 0;
+  json["points_per_frame"] = Summarize(counts_, kPointsObserved).mean;
+  json["lines"] = run.map_lines;
   json["merged_lines"] = 0;
   json["resets"] = resets_;
   json["calibration"] = poses_ > 0 ? CalibrationToJson(T_B_C_, td_) : Json(nullptr);
   json["timing_ms"] = TimingsToJson(timings_);
+  json["counts_per_frame"] = CountsToJson(counts_);
   json["dropped"] = DropsToJson(run.drops);
   return json;
 }

@@ -8,16 +8,17 @@
 
 #include "common/drop_counts.h"
 #include "vins_estimator/estimator_output.h"
+#include "vins_estimator/output/frame_counts.h"
 #include "vins_estimator/output/frame_timings.h"
 #include "vins_estimator/output/json.h"
 
 namespace plm_vins {
 
-// Adds up a run, frame by frame, to summary.json. Keeps only the timings of each frame.
+// Adds up a run, frame by frame, to summary.json. Keeps only the timings and counts of each frame.
 class RunSummary {
  public:
   // Frames in order of time.
-  void Add(const EstimatorOutput& output, const FrameTimings& timings);
+  void Add(const EstimatorOutput& output, const FrameTimings& timings, const FrameCounts& counts);
 
   int64_t frames() const { return frames_; }
   int64_t poses() const { return poses_; }
@@ -30,6 +31,7 @@ class RunSummary {
     std::optional<int64_t> first_image_ns;
     double wall_time = 0;    // [s]
     int64_t map_points = 0;  // landmarks written to the map
+    int64_t map_lines = 0;   // the same
     DropCounts drops;
   };
   Json ToJson(const Run& run) const;
@@ -42,7 +44,6 @@ class RunSummary {
   int64_t stationary_ = 0;
   int64_t keyframes_ = 0;
   int64_t resets_ = 0;
-  int64_t points_observed_ = 0;
   double path_length_ = 0;  // [m]
   std::optional<Eigen::Vector3d> last_position_;
   Rigid3d T_B_C_;  // as of the last pose
@@ -52,6 +53,7 @@ class RunSummary {
   int64_t last_frame_ns_ = 0;
   std::string last_reason_;
   std::vector<FrameTimings> timings_;
+  std::vector<FrameCounts> counts_;
 };
 
 }  // namespace plm_vins

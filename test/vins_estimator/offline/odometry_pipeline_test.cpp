@@ -95,13 +95,29 @@ std::vector<int64_t> Steps(int64_t first, int64_t last) {
   return stamps;
 }
 
-TEST(OdometryPipeline, DrawsTheTracksOfOneImage) {
+TEST(OdometryPipeline, DrawsPointsAndLinesOfOneImage) {
   MemoryRecording recording = StillRecording(400);
   OdometryPipeline pipeline(StillConfig());
-  EXPECT_TRUE(pipeline.annotated_image().empty());
+  EXPECT_TRUE(pipeline.points_image().empty());
   pipeline.Run(&recording, {}, Threads::kTwo, [](const PipelineFrame&) {});
-  EXPECT_EQ(pipeline.annotated_image().size(), StillPicture().size());
-  EXPECT_EQ(pipeline.annotated_image().type(), CV_8UC3);
+  for (const cv::Mat& image : {pipeline.points_image(), pipeline.lines_image()}) {
+    EXPECT_EQ(image.size(), StillPicture().size());
+    EXPECT_EQ(image.type(), CV_8UC3);
+  }
+}
+
+TEST(OdometryPipeline, FollowsLinesOnlyWhereTheyAreUsed) {
+  for (const bool use_lines : {false, true}) {
+    MemoryRecording recording = StillRecording(400);
+    Config config = StillConfig();
+    config.use_lines = use_lines;
+    OdometryPipeline pipeline(config);
+    pipeline.Run(&recording, {}, Threads::kOne, [&](const PipelineFrame& frame) {
+      EXPECT_EQ(frame.line_tracking_ms > 0, use_lines);
+      EXPECT_LE(frame.line_tracking.detection_ms, frame.line_tracking_ms);
+    });
+    EXPECT_EQ(pipeline.lines_image().empty(), !use_lines);
+  }
 }
 
 TEST(OdometryPipeline, GivesEveryImageItsResult) {

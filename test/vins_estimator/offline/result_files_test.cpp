@@ -20,7 +20,23 @@ PipelineFrame MakeFrame(int64_t t_ns, bool has_pose) {
   frame.output.t_ns = t_ns;
   frame.output.has_pose = has_pose;
   frame.output.timings = {1, 2, 4, 8};
+  frame.output.counts.points_observed = 7;
+  frame.output.counts.points_in_window = 6;
+  frame.output.counts.points_rejected = 5;
+  frame.output.counts.lines_observed = 53;
+  frame.output.counts.line_triangulation = {3, 10, 11, 12, 13};
+  frame.output.counts.lines_in_window = 40;
+  frame.output.counts.lines_rejected = 14;
   frame.point_tracking_ms = 16;
+  frame.line_tracking_ms = 64;
+  frame.line_tracking.detection_ms = 32;
+  frame.line_tracking.previous = 59;
+  frame.line_tracking.match_lost = 1;
+  frame.line_tracking.inconsistent = 2;
+  frame.line_tracking.edge_lost = 4;
+  frame.line_tracking.duplicates = 8;
+  frame.line_tracking.candidates = 30;
+  frame.line_tracking.added = 9;
   return frame;
 }
 
@@ -34,18 +50,20 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
   frame = MakeFrame(3'000'000'000, true);
   frame.output.points = {{2, {2, 2, 2}}};
   frame.output.departed_points = {{1, {1, 1, 1}}};
+  frame.output.departed_lines = {{1, {1, 1, 1}, {1, 2, 1}}};
+  frame.output.lines = {{2, {1, 0, 0}, {2, 0, 0}}, {3, {0, 1, 0}, {0, 2, 0}}};
   results.Add(frame);
   results.Finish(RunSummary::Run(), Config());
 
   const std::string trajectory = folder.Read("new/folder/trajectory.tum");
   EXPECT_EQ(trajectory.substr(0, 12), "2.000000000 ");
   EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 2);
-  EXPECT_THAT(
-      folder.Read("new/folder/timing.csv"),
-      HasSubstr("\n1000000000,16.0000,0.0000,0.0000,1.0000,2.0000,4.0000,8.0000,24.0000\n"));
+  EXPECT_THAT(folder.Read("new/folder/timing.csv"),
+              HasSubstr("\n1000000000,16.0000,32.0000,64.0000,1.0000,2.0000,4.0000,8.0000,88.0000,"
+                        "7,6,5,44,1,2,4,8,30,9,53,3,10,11,12,13,40,14\n"));
   EXPECT_THAT(folder.Read("new/folder/map.ply"), HasSubstr("element vertex 2 "));
-  EXPECT_THAT(folder.Read("new/folder/lines.ply"), HasSubstr("element edge 0\n"));
-  EXPECT_EQ(folder.Read("new/folder/lines.obj"), "");
+  EXPECT_THAT(folder.Read("new/folder/lines.ply"), HasSubstr("element edge 3\n"));
+  EXPECT_THAT(folder.Read("new/folder/lines.obj"), HasSubstr("v 1.0000 2.0000 1.0000\n"));
 
   const auto summary = nlohmann::json::parse(folder.Read("new/folder/summary.json"));
   EXPECT_EQ(summary["frames"], 3);
@@ -58,9 +76,9 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
 TEST(ResultFiles, HoldAnAnnotatedImageWhereThereIsOne) {
   const testing::TemporaryFolder folder;
   const ResultFiles results(folder.File("results"));
-  results.WriteAnnotatedImage(cv::Mat());
+  results.WriteAnnotatedImage("tracks.png", cv::Mat());
   EXPECT_TRUE(cv::imread(folder.File("results/tracks.png")).empty());
-  results.WriteAnnotatedImage(cv::Mat(20, 30, CV_8UC3, cv::Scalar(0, 0, 255)));
+  results.WriteAnnotatedImage("tracks.png", cv::Mat(20, 30, CV_8UC3, cv::Scalar(0, 0, 255)));
   EXPECT_EQ(cv::imread(folder.File("results/tracks.png")).size(), cv::Size(30, 20));
 }
 

@@ -14,7 +14,6 @@ EstimatorOutput Pose(int frame, double x) {
   output.t_ns = kStart + frame * kFrame;
   output.has_pose = true;
   output.state.position().x() = x;
-  output.counts.points_observed = 100;
   return output;
 }
 
@@ -27,12 +26,12 @@ EstimatorOutput NoPose(int frame, const std::string& reason) {
 
 TEST(RunSummary, AddsUpARun) {
   RunSummary summary;
-  summary.Add(NoPose(0, "too little parallax"), {});
-  summary.Add(Pose(1, 0.0), {});
-  summary.Add(Pose(2, 0.3), {});
+  summary.Add(NoPose(0, "too little parallax"), {}, {});
+  summary.Add(Pose(1, 0.0), {}, {});
+  summary.Add(Pose(2, 0.3), {}, {});
   EstimatorOutput standing = Pose(4, -0.1);
   standing.stationary = true;
-  summary.Add(standing, {});
+  summary.Add(standing, {}, {});
 
   RunSummary::Run run;
   run.input = "flight.bag";
@@ -40,6 +39,7 @@ TEST(RunSummary, AddsUpARun) {
   run.first_image_ns = kStart - kFrame;
   run.wall_time = 0.1;
   run.map_points = 12;
+  run.map_lines = 7;
   run.drops = {{"images_unreadable", 2, "a.png"}, {"imu_gaps", 0, ""}};
   const auto json = summary.ToJson(run);
   EXPECT_EQ(json["input"], "flight.bag");
@@ -47,6 +47,7 @@ TEST(RunSummary, AddsUpARun) {
   EXPECT_EQ(json["frames"], 4);
   EXPECT_EQ(json["poses"], 3);
   EXPECT_EQ(json["points"], 12);
+  EXPECT_EQ(json["lines"], 7);
   EXPECT_EQ(json["resets"], 0);
   EXPECT_NEAR(json["init_time_s"].get<double>(), 0.1, 1e-9);
   EXPECT_NEAR(json["path_length_m"].get<double>(), 0.7, 1e-12);
@@ -58,12 +59,12 @@ TEST(RunSummary, AddsUpARun) {
 
 TEST(RunSummary, TheJumpToANewWorldFrameIsNoWay) {
   RunSummary summary;
-  summary.Add(Pose(0, 0.0), {});
-  summary.Add(Pose(1, 1.0), {});
+  summary.Add(Pose(0, 0.0), {}, {});
+  summary.Add(Pose(1, 1.0), {}, {});
   EstimatorOutput restarted = Pose(2, 50.0);
   restarted.restarted = true;
-  summary.Add(restarted, {});
-  summary.Add(Pose(3, 50.5), {});
+  summary.Add(restarted, {}, {});
+  summary.Add(Pose(3, 50.5), {}, {});
   const auto json = summary.ToJson({});
   EXPECT_NEAR(json["path_length_m"].get<double>(), 1.5, 1e-12);
   EXPECT_EQ(json["resets"], 1);
@@ -71,12 +72,12 @@ TEST(RunSummary, TheJumpToANewWorldFrameIsNoWay) {
 
 TEST(RunSummary, TellsTheLastCalibration) {
   RunSummary summary;
-  summary.Add(Pose(0, 0), {});
+  summary.Add(Pose(0, 0), {}, {});
   EstimatorOutput refined = Pose(1, 0);
   refined.T_B_C = {Eigen::Quaterniond(0, 1, 0, 0), {0.1, 0.2, 0.3}};
   refined.td = 0.004;
-  summary.Add(refined, {});
-  summary.Add(NoPose(2, "lost"), {});
+  summary.Add(refined, {}, {});
+  summary.Add(NoPose(2, "lost"), {}, {});
   const auto calibration = summary.ToJson({})["calibration"];
   EXPECT_EQ(calibration["q_B_C_xyzw"].get<std::vector<double>>(),
             (std::vector<double>{1, 0, 0, 0}));
@@ -88,7 +89,7 @@ TEST(RunSummary, TellsTheLastCalibration) {
 
 TEST(RunSummary, WithoutAPoseItSaysWhy) {
   RunSummary summary;
-  summary.Add(NoPose(0, "too little parallax"), {});
+  summary.Add(NoPose(0, "too little parallax"), {}, {});
   EXPECT_EQ(summary.poses(), 0);
   EXPECT_EQ(summary.last_reason(), "too little parallax");
   EXPECT_TRUE(summary.ToJson({})["init_time_s"].is_null());
@@ -97,12 +98,27 @@ TEST(RunSummary, WithoutAPoseItSaysWhy) {
 
 TEST(RunSummary, HasMeanAndPercentileOfEachStage) {
   RunSummary summary;
-  summary.Add(Pose(0, 0), {1, 0, 0, 0, 0, 0, 0, 4});
-  summary.Add(Pose(1, 0), {3, 0, 0, 0, 0, 0, 0, 6});
+  summary.Add(Pose(0, 0), {1, 0, 0, 0, 0, 0, 0, 4}, {});
+  summary.Add(Pose(1, 0), {3, 0, 0, 0, 0, 0, 0, 6}, {});
   const auto timing = summary.ToJson({})["timing_ms"];
   EXPECT_EQ(timing.size(), kTimingStages);
   EXPECT_EQ(timing["point_tracking"]["mean"], 2.0);
   EXPECT_EQ(timing["total"]["p95"], 6.0);
+}
+
+TEST(RunSummary, HasMeanAndMedianOfEachCount) {
+  RunSummary summary;
+  FrameCounts counts{};
+  for (const int lines : {30, 50, 10}) {
+    counts[kPointsObserved] = 100;
+    counts[kLinesFollowed] = lines;
+    summary.Add(Pose(0, 0), {}, counts);
+  }
+  const auto json = summary.ToJson({});
+  EXPECT_EQ(json["points_per_frame"], 100.0);
+  EXPECT_EQ(json["counts_per_frame"].size(), kFrameCounts);
+  EXPECT_EQ(json["counts_per_frame"]["lines_followed"]["mean"], 30.0);
+  EXPECT_EQ(json["counts_per_frame"]["lines_followed"]["median"], 30.0);
 }
 
 }  // namespace

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "common/tracking_stage.h"
+#include "linefeature_tracker/line_tracker.h"
+
+namespace plm_vins {
+
+// The line front end as the node and the offline runner use it.
+using LineTrackingStage = TrackingStage<LineTracker, &Config::lines>;
+using TrackedLines = LineTrackingStage::Frame;
+
+}  // namespace plm_vins

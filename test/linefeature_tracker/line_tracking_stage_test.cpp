@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linefeature_tracker/line_tracking_stage.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "test/linefeature_tracker/bar_scene.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int64_t kMillisecond = 1'000'000;
+
+std::set<int64_t> Ids(const LineFrame& frame) {
+  std::set<int64_t> ids;
+  for (const LineObservation& line : frame.lines) ids.insert(line.id);
+  return ids;
+}
+
+class LineTrackingStageTest : public ::testing::Test {
+ protected:
+  LineTrackingStageTest() { MakeStage(60); }
+
+  void MakeStage(int max_lines) {
+    Config config;
+    config.sensor.camera = PlainParameters();
+    config.lines.max_lines = max_lines;
+    config.lines.half_resolution = false;
+    config.lines.spacing = 2;
+    config.lines.min_length = 0.05;
+    stage_ = std::make_unique<LineTrackingStage>(config);
+  }
+
+  TrackedLines Track(int milliseconds, const cv::Mat& picture) {
+    stage_->AddImage({milliseconds * kMillisecond, picture});
+    return stage_->Flush().value();
+  }
+
+  const cv::Mat bars_ = BarScene(PlainParameters()).View();
+  std::unique_ptr<LineTrackingStage> stage_;
+};
+
+TEST_F(LineTrackingStageTest, KeepsTheIdsOfAStillScene) {
+  const TrackedLines first = Track(1000, bars_);
+  EXPECT_EQ(first.features.t_ns, 1000 * kMillisecond);
+  EXPECT_GT(first.features.lines.size(), 30u);
+  EXPECT_EQ(first.statistics.added, static_cast<int>(first.features.lines.size()));
+  EXPECT_GT(first.statistics.detection_ms, 0);
+  EXPECT_GT(first.tracking_ms, first.statistics.detection_ms);
+  const TrackedLines second = Track(1050, bars_);
+  EXPECT_EQ(Ids(second.features), Ids(first.features));
+  EXPECT_EQ(second.statistics.previous, first.statistics.added);
+}
+
+TEST_F(LineTrackingStageTest, ForgetsItsTracksWithANewRecording) {
+  const TrackedLines before = Track(5000, bars_);
+  for (int t = 0; t < 500; t += 50) stage_->AddImage({t * kMillisecond, bars_});
+  const TrackedLines after = Track(500, bars_);
+  EXPECT_TRUE(after.restart);
+  EXPECT_GT(*Ids(after.features).begin(), *Ids(before.features).rbegin());
+}
+
+TEST_F(LineTrackingStageTest, AnImageWithoutLinesGivesAnEmptyFrame) {
+  const cv::Mat blank(bars_.size(), CV_8UC1, cv::Scalar(100));
+  EXPECT_FALSE(Track(0, bars_).features.lines.empty());
+  const TrackedLines lost = Track(50, blank);
+  EXPECT_TRUE(lost.features.lines.empty());
+  EXPECT_EQ(lost.features.t_ns, 50 * kMillisecond);
+  for (const int t : {100, 150, 200}) stage_->AddImage({t * kMillisecond, bars_});
+  TrackedLines found;
+  while (auto frame = stage_->Flush()) found = *frame;
+  EXPECT_FALSE(found.features.lines.empty());
+}
+
+TEST_F(LineTrackingStageTest, FollowsAThousandLines) {
+  cv::Mat grid(bars_.size(), CV_8UC1, cv::Scalar(60));
+  for (int y = 12; y + 30 < grid.rows; y += 48) {
+    for (int x = 12; x + 6 < grid.cols; x += 11) {
+      cv::rectangle(grid, {x, y, 6, 30}, cv::Scalar(200), cv::FILLED);
+    }
+  }
+  MakeStage(2000);
+  const TrackedLines first = Track(0, grid);
+  EXPECT_GT(first.features.lines.size(), 1000u);
+  const TrackedLines second = Track(50, grid);
+  EXPECT_GT(second.features.lines.size(), 1000u);
+  EXPECT_EQ(Ids(second.features).size(), second.features.lines.size());
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/output/frame_table.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace plm_vins {
+namespace {
+
+TEST(FrameTable, HasTheAgreedColumns) {
+  std::ostringstream stream;
+  WriteFrameHeader(&stream);
+  WriteFrameRow(1403636579763555584, {1, 2, 3, 4, 5, 6, 7, 8.25},
+                {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18}, &stream);
+  EXPECT_EQ(stream.str(),
+            "stamp_ns,point_tracking,line_detection,line_tracking,initialization,optimization,"
+            "marginalization,estimator,total,points_observed,points_in_window,points_rejected,"
+            "lines_followed,lines_unmatched,lines_off_course,lines_edge_lost,lines_duplicate,"
+            "lines_detected,lines_added,lines_observed,lines_triangulated,lines_degenerate,"
+            "lines_behind,lines_inconsistent,lines_too_long,lines_in_window,lines_rejected\n"
+            "1403636579763555584,1.0000,2.0000,3.0000,4.0000,5.0000,6.0000,7.0000,8.2500,"
+            "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18\n");
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "common/config.h"
+#include "common/measurements.h"
+#include "feature_tracker/point_tracking_stage.h"
+#include "linefeature_tracker/line_tracking_stage.h"
+
+namespace plm_vins {
+
+// The features of one image. Points and lines have the same stamp and agree on what ReadyImage
+// tells.
+struct FrontEndFrame {
+  TrackedPoints points;
+  std::optional<TrackedLines> lines;  // absent where lines are not used
+};
+
+// The front ends of points and, where they are used, lines, fed with the same images.
+class FrontEnd {
+ public:
+  explicit FrontEnd(const Config& config);
+
+  void AddImu(const ImuSample& sample);
+  void AddImage(const ImageSample& image);
+  std::optional<FrontEndFrame> Pop();
+  std::optional<FrontEndFrame> Flush();
+
+  const ImageCounts& image_counts() const { return points_.counts(); }
+
+  // The newest image with its points or lines drawn (CV_8UC3); empty where there are none.
+  cv::Mat DrawPoints() const { return points_.tracker().DrawTracks(); }
+  cv::Mat DrawLines() const { return lines_ ? lines_->tracker().DrawTracks() : cv::Mat(); }
+
+ private:
+  PointTrackingStage points_;
+  std::optional<LineTrackingStage> lines_;
+};
+
+}  // namespace plm_vins

@@ -137,7 +137,8 @@ def facts(options, settings, fingerprint):
             ("part of each", part),
             ("configuration", settings.config + (f" with {overrides}" if overrides else "")),
             ("program", f"{settings.program}, SHA-256 {fingerprint['program_sha256'][:12]}"),
-            ("machine", f"{machine()}; runs at a time: {options.jobs}"),
+            ("machine", f"{machine()}; runs at a time: {options.jobs}; load average of the last"
+                        f" 15 minutes: {os.getloadavg()[2]:.1f}"),
             ("repetitions", str(options.repetitions)),
             ("written", datetime.datetime.now().strftime("%Y-%m-%d %H:%M"))]
 

@@ -71,7 +71,7 @@ def meet(folder):
     """Waits until another run is under way; says whether one came."""
     with open(os.path.join(folder, f"{os.getpid()}.here"), "w", encoding="utf-8"):
         pass
-    deadline = time.monotonic() + 20
+    deadline = time.monotonic() + 60
     while time.monotonic() < deadline:
         if len(glob.glob(os.path.join(folder, "*.here"))) > 1:
             return True

@@ -210,7 +210,7 @@ class Resuming(DatasetTest):
         with subprocess.Popen(self.command("--variants", "improved"), stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, encoding="utf-8") as process:
             pid_file = os.path.join(self.output, "runs", "b_hangs", "improved", "1", "pid")
-            deadline = time.monotonic() + 30
+            deadline = time.monotonic() + 120
             pid = ""
             while not pid.endswith("\n"):
                 self.assertLess(time.monotonic(), deadline)
@@ -219,7 +219,7 @@ class Resuming(DatasetTest):
                     with open(pid_file, encoding="utf-8") as file:
                         pid = file.read()
             process.send_signal(number)
-            _, messages = process.communicate(timeout=30)
+            _, messages = process.communicate(timeout=120)
         with self.assertRaises(ProcessLookupError):
             os.kill(int(pid), 0)
         return process.returncode, messages
@@ -253,7 +253,7 @@ class Parallel(DatasetTest):
             process.stdout.readline()  # it has begun
             result = self.call("--variants", "improved", exit_code=1)
             process.send_signal(signal.SIGINT)
-            process.communicate(timeout=30)
+            process.communicate(timeout=120)
         self.assertIn("another run_dataset.py works there", result.stderr)
 
 

@@ -105,7 +105,7 @@ std::optional<MapLine> ObservedSegment(const LineLandmark& landmark, const Slidi
       last = std::max(last, place);
     }
   }
-  return MapLine{landmark.id, foot + first * along, foot + last * along};
+  return MapLine{landmark.id, foot + first * along, foot + last * along, LineAxis::kFree};
 }
 
 void LineMap::AddFrame(const LineFrame& frame) {

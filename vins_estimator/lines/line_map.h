@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/measurements.h"
+#include "vins_estimator/lines/line_axis.h"
 #include "vins_estimator/lines/line_landmark.h"
 #include "vins_estimator/lines/line_triangulation.h"
 #include "vins_estimator/window/landmark_map.h"
@@ -18,6 +19,7 @@ struct MapLine {
   int64_t id = -1;
   Eigen::Vector3d start_W = Eigen::Vector3d::Zero();  // [m]
   Eigen::Vector3d end_W = Eigen::Vector3d::Zero();    // [m]
+  LineAxis axis = LineAxis::kFree;                    // of the Manhattan frame, that it runs along
 };
 
 // What happened to the lines that were to be triangulated in one frame.

@@ -52,9 +52,13 @@ OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle pri
       key_poses_(private_node.advertise<visualization_msgs::Marker>("key_poses", kQueue)),
       point_cloud_(private_node.advertise<sensor_msgs::PointCloud>("point_cloud", kQueue)),
       history_cloud_(private_node.advertise<sensor_msgs::PointCloud>("history_cloud", kQueue)),
+      lines_cloud_(private_node.advertise<visualization_msgs::Marker>("lines_cloud", kQueue)),
+      history_lines_cloud_(
+          private_node.advertise<visualization_msgs::Marker>("history_lines_cloud", kQueue)),
       camera_pose_visual_(
           private_node.advertise<visualization_msgs::MarkerArray>("camera_pose_visual", kQueue)),
-      extrinsic_(private_node.advertise<nav_msgs::Odometry>("extrinsic", kQueue)) {
+      extrinsic_(private_node.advertise<nav_msgs::Odometry>("extrinsic", kQueue)),
+      line_history_(frames.world_frame) {
   path_.header.frame_id = frames_.world_frame;
 }
 
@@ -79,7 +83,22 @@ void OutputPublisher::Publish(const EstimatedFrame& frame) {
   PublishIfWanted(history_cloud_,
                   [&] { return ToPointCloud(output.departed_points, t_ns, world); });
   PublishIfWanted(point_cloud_, [&] { return ToPointCloud(output.points, t_ns, world); });
+  PublishLines(output);
   PublishIfWanted(camera_pose_visual_, [&] { return ToCameraVisual(T_W_C, t_ns, world); });
+}
+
+void OutputPublisher::Clear() {
+  path_.poses.clear();
+  history_lines_cloud_.publish(line_history_.Clear());
+}
+
+void OutputPublisher::PublishLines(const EstimatorOutput& output) {
+  PublishIfWanted(lines_cloud_, [&] {
+    return ToLineMarker(output.lines, output.t_ns, frames_.world_frame, "lines");
+  });
+  for (const auto& marker : line_history_.Add(output.departed_lines, output.t_ns)) {
+    history_lines_cloud_.publish(marker);
+  }
 }
 
 void OutputPublisher::PublishPath(const FrameState& state) {

@@ -7,24 +7,27 @@
 
 #include "common/config.h"
 #include "vins_estimator/estimation_stage.h"
+#include "vins_estimator/ros/line_markers.h"
 
 namespace plm_vins {
 
 // Publishes what the estimator says about an image, under the node's private namespace: odometry,
-// path, camera_pose, key_poses, point_cloud, history_cloud, camera_pose_visual, extrinsic, and tf2
-// world -> body -> camera. history_cloud has, as in VINS-Mono, the landmarks that leave the window
-// with this image. Messages that nobody listens to are not made. For one thread.
+// path, camera_pose, key_poses, point_cloud, history_cloud, lines_cloud, history_lines_cloud,
+// camera_pose_visual, extrinsic, and tf2 world -> body -> camera. The histories have, as in
+// VINS-Mono and PL-VINS, the landmarks that leave the window with this image. Messages that nobody
+// listens to are not made. For one thread.
 class OutputPublisher {
  public:
   OutputPublisher(const OutputConfig& frames, ros::NodeHandle private_node);
 
   void Publish(const EstimatedFrame& frame);
 
-  // Forgets the path: another world frame begins.
-  void Clear() { path_.poses.clear(); }
+  // Forgets path and lines: another world frame begins.
+  void Clear();
 
  private:
   void PublishPath(const FrameState& state);
+  void PublishLines(const EstimatorOutput& output);
   void PublishTransforms(const EstimatorOutput& output);
 
   OutputConfig frames_;
@@ -34,10 +37,13 @@ class OutputPublisher {
   ros::Publisher key_poses_;
   ros::Publisher point_cloud_;
   ros::Publisher history_cloud_;
+  ros::Publisher lines_cloud_;
+  ros::Publisher history_lines_cloud_;
   ros::Publisher camera_pose_visual_;
   ros::Publisher extrinsic_;
   tf2_ros::TransformBroadcaster broadcaster_;
   nav_msgs::Path path_;
+  LineHistory line_history_;
 };
 
 }  // namespace plm_vins

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <set>
 
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/optimization/dense_equations.h"
@@ -16,7 +17,8 @@ namespace {
 
 using testing::DenseEquations;
 
-// A window of four frames with IMU, points, prior and calibration to estimate, off the truth.
+// A window of four frames with IMU, points, lines, prior and calibration to estimate, off the
+// truth.
 class NormalEquationsTest : public ::testing::Test {
  protected:
   NormalEquationsTest() : simulated_(testing::SimulateWindow(4)) {
@@ -35,6 +37,9 @@ class NormalEquationsTest : public ::testing::Test {
     for (size_t i = 1; i < simulated_.window.frames.size(); ++i) builder_->AddMotion(i);
     for (auto& [id, landmark] : simulated_.points.landmarks()) {
       if (landmark.triangulated) builder_->AddPoint(&landmark);
+    }
+    for (auto& [id, landmark] : simulated_.lines.landmarks()) {
+      if (landmark.triangulated) builder_->AddLine(&landmark);
     }
     equations_.emplace(problem());
   }
@@ -90,11 +95,15 @@ TEST_F(NormalEquationsTest, StepsSolveTheFullSystem) {
     dense.H.diagonal() *= 1 + damping;
     const Eigen::VectorXd expected = -testing::SolveScaled(dense.H, dense.b);
     EXPECT_MATRIX_NEAR(step, expected.head(step.size()), 1e-6);
+    std::set<int> sizes;
     for (size_t i = 0; i < problem().landmarks().size(); ++i) {
-      const int offset = dense.offset[problem().landmarks()[i].variable];
+      const int variable = problem().landmarks()[i].variable;
+      const int size = problem().variables()[variable].type().tangent_size;
       EXPECT_MATRIX_NEAR(equations_->LandmarkStep(static_cast<int>(i), step, damping),
-                         expected.segment(offset, 3), 1e-6);
+                         expected.segment(dense.offset[variable], size), 1e-6);
+      sizes.insert(size);
     }
+    EXPECT_EQ(sizes, (std::set<int>{kPointSize, kLineTangentSize}));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "test/vins_estimator/simulated_window.h"
 #include "vins_estimator/marginalization/window_marginalizer.h"
@@ -18,10 +19,13 @@ class ProblemBuilderTest : public ::testing::Test {
 
   SlidingWindow& window() { return simulated_.window; }
   int64_t Stamp(size_t frame) { return window().frames[frame].state.t_ns; }
-  PointLandmark* LongestTrack() {
-    auto& landmarks = simulated_.points.landmarks();
+  PointLandmark* LongestTrack() { return LongestTrackOf(&simulated_.points.landmarks()); }
+  LineLandmark* LongestLineTrack() { return LongestTrackOf(&simulated_.lines.landmarks()); }
+
+  template <typename Landmark>
+  static Landmark* LongestTrackOf(std::map<int64_t, Landmark>* landmarks) {
     const auto longest = std::max_element(
-        landmarks.begin(), landmarks.end(),
+        landmarks->begin(), landmarks->end(),
         [](const auto& a, const auto& b) { return a.second.views.size() < b.second.views.size(); });
     return &longest->second;
   }
@@ -75,6 +79,37 @@ TEST_F(ProblemBuilderTest, PointHasATermForEveryView) {
   EXPECT_EQ(problem.variables().size(), 6u);  // three poses, point, extrinsics, time offset
 }
 
+TEST_F(ProblemBuilderTest, LineHasATermForEveryView) {
+  LineLandmark* landmark = LongestLineTrack();
+  ASSERT_EQ(landmark->views.size(), 3u);
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  builder.AddLine(landmark);
+  const WindowProblem& problem = builder.problem();
+  ASSERT_EQ(problem.landmarks().size(), 1u);
+  const LandmarkTerms& line = problem.landmarks()[0];
+  ASSERT_EQ(line.terms.size(), 3u);
+  EXPECT_EQ(line.terms[0].variable_count, 1);  // the host's own view
+  EXPECT_EQ(line.variable, problem.Find({BlockKind::kLine, landmark->id}));
+  EXPECT_EQ(problem.variables()[line.variable].values, landmark->coordinates.data());
+  EXPECT_EQ(problem.variables().size(), 5u);  // three poses, line, extrinsics
+  for (size_t i = 1; i < 3; ++i) {
+    ASSERT_EQ(line.terms[i].variable_count, 4);
+    EXPECT_EQ(line.terms[i].variables[0], problem.Find({BlockKind::kPose, Stamp(0)}));
+    EXPECT_EQ(line.terms[i].variables[1], problem.Find({BlockKind::kPose, Stamp(i)}));
+  }
+}
+
+TEST_F(ProblemBuilderTest, APointAndALineMayHaveTheSameId) {
+  PointLandmark* point = LongestTrack();
+  LineLandmark* line = LongestLineTrack();
+  point->id = line->id = 5;
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  builder.AddPoint(point);
+  builder.AddLine(line);
+  EXPECT_EQ(builder.problem().landmarks().size(), 2u);
+  EXPECT_EQ(builder.problem().variables().size(), 7u);
+}
+
 TEST_F(ProblemBuilderTest, CalibrationIsConstantUnlessItIsEstimated) {
   for (const bool extrinsic : {false, true}) {
     for (const bool td : {false, true}) {
@@ -114,6 +149,11 @@ TEST_F(ProblemBuilderTest, ConsistentDataCostsLittleAtTheTruth) {
   for (auto& [id, landmark] : simulated_.points.landmarks()) {
     if (!landmark.triangulated) continue;
     builder.AddPoint(&landmark);
+    rows += 2 * static_cast<int>(landmark.views.size());
+  }
+  for (auto& [id, landmark] : simulated_.lines.landmarks()) {
+    if (!landmark.triangulated) continue;
+    builder.AddLine(&landmark);
     rows += 2 * static_cast<int>(landmark.views.size());
   }
   EXPECT_LT(NormalEquations(builder.problem()).Cost(), 0.5 * rows);

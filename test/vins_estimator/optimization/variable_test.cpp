@@ -11,14 +11,18 @@
 namespace plm_vins {
 namespace {
 
-constexpr BlockKind kKinds[] = {BlockKind::kPose, BlockKind::kMotion, BlockKind::kExtrinsic,
-                                BlockKind::kTimeOffset, BlockKind::kPoint};
+constexpr BlockKind kKinds[] = {BlockKind::kPose,       BlockKind::kMotion, BlockKind::kExtrinsic,
+                                BlockKind::kTimeOffset, BlockKind::kPoint,  BlockKind::kLine};
 
 // Values that are well inside the domain of every kind.
 Eigen::VectorXd SomeValues(BlockKind kind, simulator::Random* random) {
   Eigen::VectorXd values = testing::NormalVector(VariableTypeOf(kind).ambient_size, random);
   if (values.size() == 7) values.tail<4>().normalize();
   if (kind == BlockKind::kPoint) values[2] = 5.0;
+  if (kind == BlockKind::kLine) {
+    values.head<4>().normalize();
+    values[4] = 0.5;
+  }
   return values;
 }
 
@@ -51,6 +55,12 @@ TEST(Variable, PlusMayWriteOverItsInput) {
     type.plus(x.data(), delta.data(), x.data());
     EXPECT_MATRIX_NEAR(x, expected, 0.0);
   }
+}
+
+TEST(Variable, LinesHaveFourDegreesOfFreedom) {
+  EXPECT_EQ(&VariableTypeOf(BlockKind::kLine), &LineVariable());
+  EXPECT_EQ(LineVariable().ambient_size, 5);
+  EXPECT_EQ(LineVariable().tangent_size, 4);
 }
 
 TEST(Variable, PointsStayInFrontOfTheirHost) {

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/feature_ids.h"
+
 namespace plm_vins {
 namespace {
 
@@ -72,6 +74,16 @@ void CheckChannels(const sensor_msgs::PointCloud& cloud, size_t count, const cha
   }
 }
 
+// From kTransportableIds on, a float32 is taken for its neighbours.
+int64_t ToId(float value) {
+  if (!(value >= 0 && value < static_cast<float>(kTransportableIds)) ||
+      value != std::floor(value)) {
+    throw std::invalid_argument("feature message with the id " + std::to_string(value) +
+                                ": not a whole number from 0 to 2^24 - 1");
+  }
+  return static_cast<int64_t>(value);
+}
+
 }  // namespace
 
 ros::Time ToRosTime(int64_t t_ns) {
@@ -105,11 +117,18 @@ ImuSample ToImuSample(const sensor_msgs::Imu& message) {
   return {ToNanoseconds(message.header.stamp), {w.x, w.y, w.z}, {a.x, a.y, a.z}};
 }
 
+sensor_msgs::ImagePtr ToMessage(const cv::Mat& bgr, int64_t t_ns, const std::string& frame_id) {
+  std_msgs::Header header;
+  header.stamp = ToRosTime(t_ns);
+  header.frame_id = frame_id;
+  return cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, bgr).toImageMsg();
+}
+
 sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& frame_id) {
   const std::array<const char*, 5> channels = {"id", "u", "v", "vx", "vy"};
   sensor_msgs::PointCloud cloud = EmptyCloud(frame.t_ns, frame_id, frame.points.size(), channels);
   for (const PointObservation& point : frame.points) {
-    const std::array<double, 5> values = {static_cast<double>(point.id), point.uv_px.x(),
+    const std::array<double, 5> values = {static_cast<double>(WrapId(point.id)), point.uv_px.x(),
                                           point.uv_px.y(), point.velocity.x(), point.velocity.y()};
     Append(point.xy, values, &cloud);
   }
@@ -123,7 +142,7 @@ PointFrame ToPointFrame(const sensor_msgs::PointCloud& message) {
   frame.points.resize(message.points.size());
   const auto value = [&](int channel, size_t i) { return message.channels[channel].values[i]; };
   for (size_t i = 0; i < frame.points.size(); ++i) {
-    frame.points[i].id = std::llround(value(0, i));
+    frame.points[i].id = ToId(value(0, i));
     frame.points[i].xy = {message.points[i].x, message.points[i].y};
     frame.points[i].uv_px = {value(1, i), value(2, i)};
     frame.points[i].velocity = {value(3, i), value(4, i)};
@@ -135,7 +154,8 @@ sensor_msgs::PointCloud ToMessage(const LineFrame& frame, const std::string& fra
   const std::array<const char*, 3> channels = {"id", "x_end", "y_end"};
   sensor_msgs::PointCloud cloud = EmptyCloud(frame.t_ns, frame_id, frame.lines.size(), channels);
   for (const LineObservation& line : frame.lines) {
-    const std::array<double, 3> values = {static_cast<double>(line.id), line.end.x(), line.end.y()};
+    const std::array<double, 3> values = {static_cast<double>(WrapId(line.id)), line.end.x(),
+                                          line.end.y()};
     Append(line.start, values, &cloud);
   }
   return cloud;
@@ -148,7 +168,7 @@ LineFrame ToLineFrame(const sensor_msgs::PointCloud& message) {
   frame.lines.resize(message.points.size());
   const auto value = [&](int channel, size_t i) { return message.channels[channel].values[i]; };
   for (size_t i = 0; i < frame.lines.size(); ++i) {
-    frame.lines[i].id = std::llround(value(0, i));
+    frame.lines[i].id = ToId(value(0, i));
     frame.lines[i].start = {message.points[i].x, message.points[i].y};
     frame.lines[i].end = {value(1, i), value(2, i)};
   }

@@ -32,9 +32,12 @@ ImageSample ToImageSample(const sensor_msgs::CompressedImage& message);
 
 ImuSample ToImuSample(const sensor_msgs::Imu& message);
 
+// A picture of type CV_8UC3 (BGR).
+sensor_msgs::ImagePtr ToMessage(const cv::Mat& bgr, int64_t t_ns, const std::string& frame_id);
+
 // /feature_tracker/feature as in VINS-Mono: points (x, y, 1), channels id, u, v, vx, vy. Ids travel
-// as float32 and are exact up to 2^24. Reading throws std::invalid_argument where channels are
-// missing.
+// modulo kTransportableIds; IdRestorer takes that back. Reading throws std::invalid_argument where
+// channels are missing and where an id is none that travels.
 sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& frame_id);
 PointFrame ToPointFrame(const sensor_msgs::PointCloud& message);
 

@@ -5,6 +5,7 @@
 #include <ros/init.h>
 
 #include <exception>
+#include <map>
 
 namespace plm_vins {
 namespace {
@@ -14,7 +15,12 @@ Config LoadNodeConfig() {
   if (!ros::NodeHandle("~").getParam("config_file", file)) {
     throw ConfigError({"parameter ~config_file is not set: give the path of a configuration file"});
   }
-  return LoadConfig(file);
+  std::map<std::string, std::string> overrides;
+  const ros::NodeHandle node("~");
+  if (node.hasParam("set") && !node.getParam("set", overrides)) {
+    throw ConfigError({"parameters ~set/KEY must be texts (in a launch file: type=\"str\")"});
+  }
+  return LoadConfig(file, overrides);
 }
 
 }  // namespace

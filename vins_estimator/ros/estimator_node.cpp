@@ -13,6 +13,7 @@ namespace plm_vins {
 namespace {
 
 constexpr int kSubscriberQueue = 2000;
+constexpr char kLineTopic[] = "/linefeature_tracker/linefeature";
 constexpr size_t kQueueCapacity = 5000;  // about 25 s of input; then the subscribers' queues fill
 
 template <typename... Handlers>
@@ -37,6 +38,10 @@ EstimatorNode::EstimatorNode(const Config& config)
       node_.subscribe("/feature_tracker/feature", kSubscriberQueue, &EstimatorNode::AddPoints, this,
                       no_delay),
       node_.subscribe("/feature_tracker/restart", 10, &EstimatorNode::Restart, this, no_delay)};
+  if (config_.use_lines) {
+    subscribers_.push_back(
+        node_.subscribe(kLineTopic, kSubscriberQueue, &EstimatorNode::AddLines, this, no_delay));
+  }
   services_ = {
       private_node_.advertiseService("reset", &EstimatorNode::Reset, this),
       private_node_.advertiseService("save_trajectory", &EstimatorNode::SaveTrajectory, this)};
@@ -58,12 +63,41 @@ void EstimatorNode::AddImu(const sensor_msgs::Imu& message) {
   queue_.Push(sample);
 }
 
-void EstimatorNode::AddPoints(const sensor_msgs::PointCloud& message) {
+void EstimatorNode::AddPoints(const FeatureEvent& event) {
   try {
-    queue_.Push(ToPointFrame(message));
+    PointFrame frame = ToPointFrame(*event.getMessage());
+    RestoreIds(event.getConnectionHeaderPtr(), &frame.points, &point_source_);
+    queue_.Push(std::move(frame));
   } catch (const std::invalid_argument& error) {
-    callback_warner_.Check({{"feature_messages_malformed", ++malformed_messages_, error.what()}});
+    CountMalformed(error.what());
   }
+}
+
+void EstimatorNode::AddLines(const FeatureEvent& event) {
+  try {
+    LineFrame frame = ToLineFrame(*event.getMessage());
+    RestoreIds(event.getConnectionHeaderPtr(), &frame.lines, &line_source_);
+    queue_.Push(std::move(frame));
+  } catch (const std::invalid_argument& error) {
+    CountMalformed(error.what());
+  }
+}
+
+// A tracker that was started again comes with a connection of its own.
+template <typename Observation>
+void EstimatorNode::RestoreIds(const boost::shared_ptr<ros::M_string>& connection,
+                               std::vector<Observation>* observations, FeatureSource* source) {
+  if (source->connection != connection) {
+    source->connection = connection;
+    source->ids.BeginTracker();
+  }
+  for (Observation& observation : *observations) {
+    observation.id = source->ids.Restore(observation.id);
+  }
+}
+
+void EstimatorNode::CountMalformed(const std::string& what) {
+  callback_warner_.Check({{"feature_messages_malformed", ++malformed_messages_, what}});
 }
 
 void EstimatorNode::Restart(const std_msgs::Bool& message) {
@@ -105,6 +139,7 @@ void EstimatorNode::Work() {
 void EstimatorNode::Process(Input input) {
   std::visit(Overloaded{[&](const ImuSample& sample) { stage_.AddImu(sample); },
                         [&](PointFrame& points) { stage_.AddPoints(std::move(points)); },
+                        [&](LineFrame& lines) { stage_.AddLines(std::move(lines)); },
                         [&](const ResetCommand&) { StartOver(); }},
              input);
   while (const auto frame = stage_.Pop()) Handle(*frame);
@@ -128,6 +163,7 @@ void EstimatorNode::Handle(const EstimatedFrame& frame) {
   if (output.restarted) trajectory_.Clear();
   if (output.has_pose) trajectory_.Add(output.t_ns, output.state.T_W_B());
   LogChanges(output);
+  LogLines();
   ++frames_;
   UpdateStatus(output);
 }
@@ -145,12 +181,22 @@ void EstimatorNode::LogChanges(const EstimatorOutput& output) {
   last_reason_ = output.reason;
 }
 
+void EstimatorNode::LogLines() {
+  const bool missing = stage_.lines_are_missing();
+  if (missing && !lines_were_missing_) {
+    ROS_WARN("no lines come in time on %s: going on with points alone", kLineTopic);
+  } else if (!missing && lines_were_missing_) {
+    ROS_INFO("lines come in time again on %s", kLineTopic);
+  }
+  lines_were_missing_ = missing;
+}
+
 void EstimatorNode::UpdateStatus(const EstimatorOutput& output) {
-  DropCounts drops = ToDropCounts(stage_.statistics());
-  worker_warner_.Check(drops);
+  worker_warner_.Check(ToDropCounts(stage_.statistics()));
   const std::lock_guard<std::mutex> lock(status_mutex_);
   status_ = {output.status,        output.reason, output.counts,
-             output.timings.total, frames_,       std::move(drops)};
+             output.timings.total, frames_,       stage_.lines_are_missing(),
+             stage_.statistics()};
 }
 
 void EstimatorNode::ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -160,13 +206,21 @@ void EstimatorNode::ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& st
   const std::string why = status_.reason.empty() ? "" : ": " + status_.reason;
   status.summary(tracking ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                  status_.frames == 0 ? "no usable image yet" : ToString(status_.status) + why);
+  if (status_.lines_are_missing) {
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        std::string("points alone: no lines come in time on ") + kLineTopic);
+  }
   status.add("frames", status_.frames);
   status.add("points_observed", status_.counts.points_observed);
   status.add("points_in_window", status_.counts.points_in_window);
+  status.add("lines_observed", status_.counts.lines_observed);
+  status.add("lines_in_window", status_.counts.lines_in_window);
+  status.add("frames_without_lines", status_.sync.frames_without_lines);
+  status.add("lines_without_points", status_.sync.lines_without_points);
   status.add("estimator_ms", status_.estimator_ms);
   status.add("queued", queue_.size());
   status.add("feature_messages_malformed", malformed_messages_);
-  for (const DropCount& drop : status_.drops) status.add(drop.cause, drop.count);
+  for (const DropCount& drop : ToDropCounts(status_.sync)) status.add(drop.cause, drop.count);
 }
 
 }  // namespace plm_vins

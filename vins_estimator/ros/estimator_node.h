@@ -2,6 +2,7 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/message_event.h>
 #include <ros/node_handle.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/PointCloud.h>
@@ -16,6 +17,7 @@
 
 #include "common/bounded_queue.h"
 #include "common/config.h"
+#include "common/feature_ids.h"
 #include "common/ros/node_setup.h"
 #include "vins_estimator/estimation_stage.h"
 #include "vins_estimator/ros/output_publisher.h"
@@ -37,7 +39,14 @@ class EstimatorNode {
 
  private:
   struct ResetCommand {};
-  using Input = std::variant<ImuSample, PointFrame, ResetCommand>;
+  using Input = std::variant<ImuSample, PointFrame, LineFrame, ResetCommand>;
+  using FeatureEvent = ros::MessageEvent<const sensor_msgs::PointCloud>;
+
+  // Ids of one tracker's messages, as long as it is connected.
+  struct FeatureSource {
+    boost::shared_ptr<ros::M_string> connection;
+    IdRestorer ids;
+  };
 
   // What ~diagnostics tells, as of the last image.
   struct Status {
@@ -46,12 +55,18 @@ class EstimatorNode {
     EstimatorCounts counts;
     double estimator_ms = 0;
     int64_t frames = 0;
-    DropCounts drops;
+    bool lines_are_missing = false;
+    SyncStatistics sync;
   };
 
   // In the thread of the callbacks.
   void AddImu(const sensor_msgs::Imu& message);
-  void AddPoints(const sensor_msgs::PointCloud& message);
+  void AddPoints(const FeatureEvent& event);
+  void AddLines(const FeatureEvent& event);
+  template <typename Observation>
+  static void RestoreIds(const boost::shared_ptr<ros::M_string>& connection,
+                         std::vector<Observation>* observations, FeatureSource* source);
+  void CountMalformed(const std::string& what);
   void Restart(const std_msgs::Bool& message);
   bool Reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool SaveTrajectory(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -63,6 +78,7 @@ class EstimatorNode {
   void StartOver();
   void Handle(const EstimatedFrame& frame);
   void LogChanges(const EstimatorOutput& output);
+  void LogLines();
   void UpdateStatus(const EstimatorOutput& output);
 
   ros::NodeHandle node_;
@@ -75,6 +91,8 @@ class EstimatorNode {
   mutable std::mutex status_mutex_;
   Status status_;  // guarded by status_mutex_
   int64_t malformed_messages_ = 0;
+  FeatureSource point_source_;
+  FeatureSource line_source_;
   DropWarner callback_warner_;
 
   // Only for the worker.
@@ -83,6 +101,7 @@ class EstimatorNode {
   DropWarner worker_warner_;
   EstimatorStatus last_status_ = EstimatorStatus::kInitializing;
   std::string last_reason_;
+  bool lines_were_missing_ = false;
   int64_t frames_ = 0;
 
   std::vector<ros::Subscriber> subscribers_;

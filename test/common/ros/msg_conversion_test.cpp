@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/image_encodings.h>
 
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
@@ -103,12 +104,12 @@ TEST(FeatureMessage, PointsHaveTheLayoutOfVins) {
 TEST(FeatureMessage, PointsComeBack) {
   PointFrame frame;
   frame.t_ns = kStamp;
-  frame.points.push_back({16'777'216, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
+  frame.points.push_back({16'777'215, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
   frame.points.push_back({3, {-0.75, 0.5}, {1, 2}, {0, 0}});
   const PointFrame back = ToPointFrame(ToMessage(frame, "camera"));
   EXPECT_EQ(back.t_ns, kStamp);
   ASSERT_EQ(back.points.size(), 2u);
-  EXPECT_EQ(back.points[0].id, 16'777'216);
+  EXPECT_EQ(back.points[0].id, 16'777'215);
   EXPECT_EQ(back.points[0].xy, frame.points[0].xy);
   EXPECT_EQ(back.points[0].uv_px, frame.points[0].uv_px);
   EXPECT_EQ(back.points[0].velocity, frame.points[0].velocity);
@@ -129,6 +130,46 @@ TEST(FeatureMessage, LinesComeBack) {
   EXPECT_EQ(back.lines[0].id, 7);
   EXPECT_EQ(back.lines[0].start, frame.lines[0].start);
   EXPECT_EQ(back.lines[0].end, frame.lines[0].end);
+}
+
+TEST(FeatureMessage, LinesHaveTheLayoutOfPlVins) {
+  LineFrame frame;
+  frame.t_ns = kStamp;
+  frame.lines.push_back({42, {0.25, -0.5}, {0.5, 0.125}});
+  const sensor_msgs::PointCloud message = ToMessage(frame, "camera");
+  ASSERT_EQ(message.points.size(), 1u);
+  EXPECT_EQ(message.points[0].x, 0.25f);
+  EXPECT_EQ(message.points[0].y, -0.5f);
+  EXPECT_EQ(message.points[0].z, 1.0f);
+  ASSERT_EQ(message.channels.size(), 3u);
+  const std::vector<float> values = {42, 0.5f, 0.125f};
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(message.channels[i].values[0], values[i]);
+}
+
+TEST(FeatureMessage, NoLinesAndAThousandLinesComeBack) {
+  for (const int count : {0, 1000}) {
+    LineFrame frame;
+    frame.t_ns = kStamp;
+    for (int i = 0; i < count; ++i) frame.lines.push_back({i, {0.25, -0.5}, {0.5, 0.125}});
+    const LineFrame back = ToLineFrame(ToMessage(frame, "camera"));
+    EXPECT_EQ(back.lines.size(), frame.lines.size());
+  }
+}
+
+TEST(FeatureMessage, IdsTravelModulo24Bits) {
+  LineFrame frame;
+  frame.lines.push_back({(int64_t{1} << 24) + 1, {0, 0}, {1, 1}});  // no float32 is this number
+  EXPECT_EQ(ToLineFrame(ToMessage(frame, "camera")).lines[0].id, 1);
+}
+
+TEST(FeatureMessage, IdsThatCannotBeToldApartAreRefused) {
+  LineFrame frame;
+  frame.lines.push_back({7, {0, 0}, {1, 1}});
+  for (const float id : {16'777'216.0f, -1.0f, 0.5f, std::numeric_limits<float>::quiet_NaN()}) {
+    sensor_msgs::PointCloud message = ToMessage(frame, "camera");
+    message.channels[0].values[0] = id;
+    EXPECT_THROW(ToLineFrame(message), std::invalid_argument) << id;
+  }
 }
 
 TEST(FeatureMessage, MissingChannelsAreRefused) {

@@ -66,7 +66,7 @@ run_online() {
   # shellcheck disable=SC1091
   source "$root/build/devel/setup.bash"
   set -u
-  roslaunch plm_vins euroc.launch config_file:="$(realpath "$config")" bag:="$(realpath "$bag")" \
+  roslaunch plm_vins euroc.launch config:="$(realpath "$config")" bag:="$(realpath "$bag")" \
     rviz:=true
 }
 

@@ -1,0 +1,141 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the launch files of the package plm_vins would start, without starting it.
+
+The environment of ROS decides which one: that of the build or an installed one.
+"""
+
+import os
+import pathlib
+import shlex
+import subprocess
+import tempfile
+import unittest
+
+import roslaunch
+import roslib.packages
+import rospkg
+
+LAUNCH = pathlib.Path(rospkg.RosPack().get_path("plm_vins")) / "launch"
+# Files with a configuration of their own, and those that ask for one.
+SENSORS = {"euroc.launch": "euroc.yaml", "realsense_d435i.launch": "realsense_d435i.yaml",
+           "tum_vi.launch": "tum_vi.yaml"}
+TEMPLATES = ("own_sensor.launch", "plm_vins.launch")
+ALL = (*SENSORS, *TEMPLATES)
+
+# Of rs_camera.launch in the driver, realsense2_camera 2.3.
+DRIVER_ARGUMENTS = ("enable_infra1", "enable_depth", "enable_color", "infra_width", "infra_height",
+                    "infra_fps", "enable_gyro", "enable_accel", "gyro_fps", "unite_imu_method",
+                    "enable_sync")
+
+
+PACKAGE_PATH = os.environ["ROS_PACKAGE_PATH"]
+
+
+def setUpModule():
+    """A package in place of the camera's driver, for all tests: ROS caches what it finds."""
+    folder = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(folder.cleanup)
+    package = pathlib.Path(folder.name) / "realsense2_camera"
+    (package / "launch").mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>realsense2_camera</name></package>")
+    arguments = "".join(f'<arg name="{name}" default=""/><param name="/driver/{name}"'
+                        f' value="$(arg {name})"/>' for name in DRIVER_ARGUMENTS)
+    (package / "launch" / "rs_camera.launch").write_text(f"<launch>{arguments}</launch>")
+    os.environ["ROS_PACKAGE_PATH"] = f"{folder.name}:{PACKAGE_PATH}"
+
+
+def load(name, **arguments):
+    """The nodes by name, and the parameters, that a launch file gives with these arguments."""
+    words = [f"{key}:={value}" for key, value in arguments.items()]
+    config = roslaunch.config.load_config_default([(str(LAUNCH / name), words)], None,
+                                                  verbose=False, assign_machines=False)
+    return ({node.name: node for node in config.nodes},
+            {key: parameter.value for key, parameter in config.params.items()})
+
+
+def player_words(**arguments):
+    return shlex.split(load("plm_vins.launch", config="c.yaml", **arguments)[0]["player"].args)
+
+
+class LaunchFiles(unittest.TestCase):
+    def test_every_file_is_known_here(self):
+        self.assertEqual(sorted(ALL), sorted(path.name for path in LAUNCH.glob("*.launch")))
+
+    def test_programs_exist_and_share_one_configuration(self):
+        for name in ALL:
+            with self.subTest(name):
+                nodes, parameters = load(name, config="/mine.yaml", bag="/a.bag")
+                ours = [node for node in nodes.values() if node.package == "plm_vins"]
+                self.assertEqual(sorted(node.name for node in ours),
+                                 ["feature_tracker", "linefeature_tracker", "vins_estimator"])
+                for node in ours:
+                    self.assertEqual(parameters[f"/{node.name}/config_file"], "/mine.yaml")
+                    self.assertTrue(roslib.packages.find_node(
+                        "plm_vins", node.type), node.type)
+
+    def test_sensors_have_a_configuration(self):
+        for name, config in SENSORS.items():
+            file = pathlib.Path(load(name, bag="/a.bag")[1]["/vins_estimator/config_file"])
+            self.assertEqual(file.name, config)
+            self.assertTrue(file.is_file(), file)
+
+    def test_without_lines(self):
+        nodes, parameters = load("euroc.launch", lines="false")
+        self.assertNotIn("linefeature_tracker", nodes)
+        self.assertEqual(parameters["/vins_estimator/set/use_lines"], "0")
+
+    def test_templates_ask_for_a_configuration(self):
+        for name in TEMPLATES:
+            with self.assertRaisesRegex(Exception, "config"):
+                load(name)
+
+    def test_live_sensors_keep_their_clock(self):
+        nodes, parameters = load("plm_vins.launch", config="c.yaml")
+        self.assertNotIn("player", nodes)
+        self.assertNotIn("rviz", nodes)
+        self.assertNotIn("/use_sim_time", parameters)
+
+    def test_bag(self):
+        words = player_words(bag="/data/my flight.bag", start=5, duration=2.5, rate=0.5)
+        self.assertEqual(words[-1], "/data/my flight.bag")
+        for option, value in (("--start", "5"), ("--duration", "2.5"), ("--rate", "0.5")):
+            self.assertEqual(words[words.index(option) + 1], value)
+        self.assertIn("--clock", words)
+        self.assertNotIn("--duration", player_words(bag="/a.bag"))
+        for name in ALL:
+            self.assertTrue(load(name, config="c.yaml", bag="/a.bag")[1]["/use_sim_time"])
+
+    def test_options_reach_the_nodes(self):
+        nodes, parameters = load("tum_vi.launch", rviz="true", image_transport="compressed",
+                                 output="/results")
+        self.assertEqual(parameters["/feature_tracker/image_transport"], "compressed")
+        self.assertEqual(parameters["/vins_estimator/trajectory_file"], "/results/trajectory.tum")
+        self.assertTrue(os.path.isfile(shlex.split(nodes["rviz"].args)[1]))
+
+
+class RealSense(unittest.TestCase):
+    def test_camera(self):
+        parameters = load("realsense_d435i.launch")[1]
+        self.assertEqual(parameters["/driver/unite_imu_method"], "linear_interpolation")
+        self.assertEqual(parameters["/camera/stereo_module/emitter_enabled"], 0)
+        config = pathlib.Path(parameters["/vins_estimator/config_file"]).read_text(encoding="utf-8")
+        for side in ("width", "height"):
+            self.assertIn(f"image_{side}: {parameters['/driver/infra_' + side]} ", config)
+
+    def test_bag_instead_of_the_camera(self):
+        self.assertNotIn("/driver/enable_gyro", load("realsense_d435i.launch", bag="/a.bag")[1])
+
+    def test_a_missing_driver_is_named(self):
+        if "realsense2_camera" in rospkg.RosPack(PACKAGE_PATH.split(":")).list():
+            self.skipTest("the driver is installed")
+        result = subprocess.run(["roslaunch", "--nodes", LAUNCH / "realsense_d435i.launch"],
+                                env=dict(os.environ, ROS_PACKAGE_PATH=PACKAGE_PATH),
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
+                                check=False)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("realsense2_camera", result.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -9,7 +9,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMaxIterations = 5;
+constexpr int kMaxIterations = 20;
+constexpr double kInitialDamping = 1e-4;
 constexpr double kConverged = 1e-6;  // relative decrease of the cost
 
 using LineJacobian = Eigen::Matrix<double, 2, kLineTangentSize>;
@@ -47,20 +48,25 @@ std::optional<LineFit> EvaluateLine(const std::vector<LineSighting>& sightings, 
   return fit;
 }
 
-// Gauss-Newton with a little damping; stops where a step makes it worse.
+// Levenberg-Marquardt: from a poor start, a full step may lead astray.
 std::optional<LineFit> FitLine(const std::vector<LineSighting>& sightings, double noise,
                                const OrthonormalLine& initial) {
   auto fit = EvaluateLine(sightings, noise, initial);
+  double damping = kInitialDamping;
   for (int i = 0; fit && i < kMaxIterations; ++i) {
     Eigen::Matrix4d H = fit->information;
-    H.diagonal() *= 1.0 + 1e-6;
+    H.diagonal() *= 1.0 + damping;
     const Eigen::Vector4d step = -H.ldlt().solve(fit->gradient);
     if (!step.allFinite()) return std::nullopt;
     OrthonormalLine moved;
     LinePlus(fit->line.data(), step.data(), moved.data());
     const auto next = EvaluateLine(sightings, noise, moved);
-    if (!next || next->cost > fit->cost) break;
+    if (!next || next->cost > fit->cost) {
+      damping *= 10;
+      continue;
+    }
     const bool converged = fit->cost - next->cost <= kConverged * fit->cost;
+    damping *= 0.1;
     fit = next;
     if (converged) break;
   }

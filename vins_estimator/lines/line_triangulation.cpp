@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace plm_vins {
@@ -16,6 +17,7 @@ constexpr double kMinDepth = 0.1;  // [m]
 // The plane through a camera and the segment that it sees, normal . (x - camera) = 0, in the frame
 // of the first camera.
 struct ViewingPlane {
+  Eigen::Vector3d camera = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // of length 1
   double offset = 0;                                 // normal . camera
   double deviation = 0;  // of the normal's angle about the line of sight, for unit noise
@@ -27,19 +29,27 @@ ViewingPlane PlaneOf(const LineSighting& sighting, const Rigid3d& T_C0_W) {
   ViewingPlane plane;
   plane.normal =
       (T_C0_C.rotation * segment.start.homogeneous().cross(segment.end.homogeneous())).normalized();
-  plane.offset = plane.normal.dot(T_C0_C.translation);
+  plane.camera = T_C0_C.translation;
+  plane.offset = plane.normal.dot(plane.camera);
   plane.deviation = M_SQRT2 / (segment.end - segment.start).norm();
   return plane;
 }
 
-// The intersection of the two planes at the widest angle in terms of their noise.
+// How far each camera is off the other's plane: what makes the angle between them. The angle itself
+// would be the noise's, where segments are short.
+double BaselineAcross(const ViewingPlane& a, const ViewingPlane& b) {
+  const Eigen::Vector3d baseline = b.camera - a.camera;
+  return std::min(std::abs(a.normal.dot(baseline)), std::abs(b.normal.dot(baseline)));
+}
+
+// The intersection of the two planes with the widest baseline in terms of their noise.
 std::optional<OrthonormalLine> BestIntersection(const std::vector<ViewingPlane>& planes) {
   double widest = 0;
   PluckerLine best;
   for (size_t i = 0; i < planes.size(); ++i) {
     for (size_t j = i + 1; j < planes.size(); ++j) {
-      const double sine = planes[i].normal.cross(planes[j].normal).norm();
-      const double width = sine / std::hypot(planes[i].deviation, planes[j].deviation);
+      const double width = BaselineAcross(planes[i], planes[j]) /
+                           std::hypot(planes[i].deviation, planes[j].deviation);
       if (!(width > widest)) continue;
       widest = width;
       best = Intersection(planes[i].normal, planes[i].offset, planes[j].normal, planes[j].offset);

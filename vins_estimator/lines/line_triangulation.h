@@ -32,8 +32,8 @@ struct TriangulatedLine {
   OrthonormalLine line = {0, 0, 0, 1, 0};  // valid where the result is kOk
 };
 
-// The line that all sightings agree on best: from the pair of views whose planes (through camera
-// and segment) meet at the widest angle in terms of their noise, refined on the end points'
+// The line that all sightings agree on best: from the pair of views whose cameras are farthest off
+// each other's plane (through camera and segment) in terms of its noise, refined on the end points'
 // distances in all images ([Bartoli2005]). Degenerate geometry (planes nearly alike: no baseline,
 // or a motion in the plane, such as along the line) is told by the deviation that `noise` causes in
 // the depths of the ends.

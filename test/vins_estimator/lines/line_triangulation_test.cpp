@@ -42,13 +42,14 @@ LineSighting See(const Segment& segment, const Rigid3d& T_W_C, double noise = 0,
 }
 
 // Ten views from cameras that move by `travel` on the whole and turn a little.
-std::vector<LineSighting> SeeOnTheWay(const Vector3d& travel, double noise, uint64_t seed) {
+std::vector<LineSighting> SeeOnTheWay(const Vector3d& travel, double noise, uint64_t seed,
+                                      const Segment& segment = {}) {
   constexpr int kViews = 10;
   simulator::Random random(seed);
   std::vector<LineSighting> sightings;
   for (int i = 0; i < kViews; ++i) {
     const Rigid3d T_W_C(SO3Exp(0.05 * random.NormalVector3()), i / (kViews - 1.0) * travel);
-    sightings.push_back(See({}, T_W_C, noise, &random));
+    sightings.push_back(See(segment, T_W_C, noise, &random));
   }
   return sightings;
 }
@@ -175,6 +176,15 @@ TEST(TriangulateLine, AcceptsTheSameTravelAcrossTheLine) {
   constexpr int kTrials = 300;
   EXPECT_EQ(CountAccepted(0.5 * kAcross, kTrials), kTrials);
   EXPECT_EQ(CountAccepted(0.5 * kAcross + kAlong, kTrials), kTrials);
+}
+
+// The planes of short segments turn about the line of sight by noise, more than by parallax.
+TEST(TriangulateLine, AcceptsShortLines) {
+  const Segment segment{{-0.2, 0.1, 4}, {0.1, -0.1, 4.1}};  // 45 pixels
+  for (int seed = 1; seed <= 300; ++seed) {
+    const auto sightings = SeeOnTheWay(0.3 * kAcross, kNoise, seed, segment);
+    EXPECT_EQ(ResultOf(sightings), Result::kOk) << seed;
+  }
 }
 
 TEST(TriangulateLine, WaitsForABaselineThatRisesAboveTheNoise) {

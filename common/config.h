@@ -71,7 +71,7 @@ struct EstimatorConfig {
   double keyframe_parallax = 20.0;  // mean parallax that makes a keyframe [px]
   int max_num_iterations = 8;       // of the window optimisation
   double point_noise = 0.7;         // standard deviation of a corner [px]
-  double line_noise = 1.0;          // standard deviation of a line's end across the line [px]
+  double line_noise = 0.5;          // standard deviation of a line's end across the line [px]
 
   double line_outlier_distance = 10.0;     // longest line that is believed [m]
   bool line_merging = true;                // one landmark for what is one line

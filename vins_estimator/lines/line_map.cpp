@@ -10,7 +10,8 @@ namespace plm_vins {
 namespace {
 
 constexpr size_t kMinViewsToTriangulate = 3;
-constexpr double kMinSegment = 1e-3;  // normalised
+constexpr double kMinSegment = 1e-3;   // normalised
+constexpr double kMinDistance = 1e-6;  // of a line from its host's camera [m]
 
 LineSighting SightingOf(const LineView& view, const SlidingWindow& window) {
   return {window.T_W_C(*window.Find(view.t_ns)), view.segment};
@@ -81,7 +82,8 @@ int RemoveBadViews(const SlidingWindow& window, const LineLimits& limits, LineLa
 void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark) {
   const Rigid3d T_W_C = window.T_W_C(*window.Find(landmark->views[view].t_ns));
   const PluckerLine line_C = T_W_C.Inverse() * LineInWorld(*landmark, window);
-  landmark->triangulated = line_C.moment.norm() > 0 && line_C.direction.norm() > 0;
+  const double direction = line_C.direction.norm();
+  landmark->triangulated = direction > 0 && line_C.moment.norm() > kMinDistance * direction;
   if (landmark->triangulated) landmark->coordinates = ToOrthonormal(line_C);
 }
 

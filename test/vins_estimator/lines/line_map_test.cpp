@@ -206,6 +206,17 @@ TEST_F(LineMapTest, HostsPassTheirLinesOn) {
   EXPECT_TRUE(map_.landmarks().empty());
 }
 
+TEST_F(LineMapTest, AHostInTheLineCannotHoldIt) {
+  Triangulate();
+  const Segment& segment = segments_W_[7];
+  const Vector3d on_the_line = 0.5 * (segment.start + segment.end);
+  WindowFrame& next = window_.frames[1];
+  const Rigid3d T_W_C(window_.T_W_C(next).rotation, on_the_line);
+  next.state.SetPose(T_W_C * window_.T_B_C().Inverse());
+  MoveHost(window_, 1, &Landmark(7));
+  EXPECT_FALSE(Landmark(7).triangulated);
+}
+
 TEST_F(LineMapTest, StartAnewKeepsPlaceAndNewestView) {
   Triangulate();
   Landmark(7).views.pop_back();        // not seen any more

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks what CONTRIBUTING.md asks for and a script can see: layers, ROS, sizes, headers, paths.
+"""Checks what CONTRIBUTING.md asks for and a script can see: layers, ROS, sizes, headers, paths and
+links.
 
 Usage: check_structure.py [ROOT]. Prints one line per problem; exit code 1 if there are any.
 """
@@ -34,6 +35,7 @@ ROS_INCLUDE = re.compile(
 INCLUDE = re.compile(r'#include\s*"([^"]+)"')
 # "somebody" stands for a user in examples.
 HOME_PATH = re.compile(r"(?<![\w./~$}{-])/(home|root|work|Users)/(?!somebody/)\w")
+LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)(?:#([^)\s]+))?\)")
 SPDX = "// SPDX-License-Identifier: BSD-3-Clause"
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60
@@ -42,6 +44,8 @@ MAX_FUNCTION_LINES = 60
 def main(root):
     problems = [problem for path in code_files(root) for problem in check_code(root, path)]
     problems += [problem for path in text_files(root) for problem in check_paths(root, path)]
+    problems += [problem for path in text_files(root) if path.suffix == ".md"
+                 for problem in check_links(root, path)]
     problems += check_functions(root)
     print(*problems, sep="\n", end="\n" if problems else "")
     print(f"{len(code_files(root))} source files, {len(problems)} problems")
@@ -92,6 +96,23 @@ def check_paths(root, path):
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
         if HOME_PATH.search(line):
             yield f"{path.relative_to(root)}:{number}: absolute path of one machine"
+
+
+def check_links(root, path):
+    """Links of a page to files and headings of this repository."""
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        for file, anchor in LINK.findall(line):
+            target = path.parent / file if file else path
+            if not target.exists():
+                yield f"{path.relative_to(root)}:{number}: no such file {file}"
+            elif anchor and anchor not in headings(target):
+                yield f"{path.relative_to(root)}:{number}: no such heading {file}#{anchor}"
+
+
+def headings(page):
+    """The anchors that the headings of a Markdown page get."""
+    titles = re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
 
 
 def check_functions(root):

@@ -78,6 +78,12 @@ class CheckStructure(unittest.TestCase):
             self.assert_problem("config/a.yaml", text + "\n", "absolute path")
         self.assert_clean("test/a.h", HEADER + "// /home/somebody/output\n")
 
+    def test_links(self):
+        page = "# One & two\n[a](#one--two) [b](other.md) ![c](https://example.org/x.png)\n"
+        self.assert_problem("docs/a.md", page, "no such file other.md")
+        self.assert_clean("docs/a.md", page.replace("other.md", "../docs/a.md#one--two"))
+        self.assert_problem("docs/a.md", page.replace("#one", "#two"), "no such heading #two--two")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -58,6 +58,8 @@ struct Listeners {
   Listener<sensor_msgs::Imu> imu{"/imu0"};
   Listener<sensor_msgs::PointCloud> feature{"/feature_tracker/feature"};
   Listener<sensor_msgs::Image> feature_img{"/feature_tracker/feature_img"};
+  Listener<sensor_msgs::PointCloud> linefeature{"/linefeature_tracker/linefeature"};
+  Listener<sensor_msgs::Image> linefeature_img{"/linefeature_tracker/linefeature_img"};
   Listener<nav_msgs::Odometry> odometry{"/vins_estimator/odometry"};
   Listener<nav_msgs::Odometry> imu_propagate{"/vins_estimator/imu_propagate"};
   Listener<nav_msgs::Path> path{"/vins_estimator/path"};
@@ -122,6 +124,22 @@ TEST_F(Nodes, TrackEveryImage) {
   }
   EXPECT_FALSE(log_->feature_img.messages.empty());
   EXPECT_EQ(log_->feature_img.messages.back().encoding, "bgr8");
+}
+
+// A line tracker that is too slow may leave out images, but only whole ones.
+TEST_F(Nodes, FollowLines) {
+  const std::vector<ros::Time> images = log_->image.Stamps();
+  const std::vector<ros::Time> lines = log_->linefeature.Stamps();
+  EXPECT_GT(2 * lines.size(), images.size());
+  EXPECT_TRUE(std::includes(images.begin(), images.end(), lines.begin(), lines.end()));
+  for (const auto& frame : log_->linefeature.messages) {
+    ASSERT_EQ(frame.channels.size(), 3u);
+    EXPECT_EQ(frame.channels[0].name, "id");
+    EXPECT_EQ(frame.channels[1].name, "x_end");
+    EXPECT_EQ(frame.channels[2].name, "y_end");
+    EXPECT_GT(frame.points.size(), 5u);
+  }
+  EXPECT_FALSE(log_->linefeature_img.messages.empty());
 }
 
 TEST_F(Nodes, GiveAPoseForEveryImageFromTheFirstOn) {
@@ -229,7 +247,9 @@ TEST_P(Node, EndsCleanlyOnInterrupt) {
 
 TEST_P(Node, RefusesToStartWithoutConfiguration) { EXPECT_EQ(Run("/no/such/file.yaml"), 1); }
 
-INSTANTIATE_TEST_SUITE_P(Both, Node, ::testing::Values("feature_tracker", "vins_estimator"));
+INSTANTIATE_TEST_SUITE_P(All, Node,
+                         ::testing::Values("feature_tracker", "linefeature_tracker",
+                                           "vins_estimator"));
 
 }  // namespace
 

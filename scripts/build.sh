@@ -4,7 +4,7 @@
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
-if [[ -z "${ROS_DISTRO:-}" && -f /opt/ros/noetic/setup.bash ]]; then
+if [[ -z "${ROS_PACKAGE_PATH:-}" && -f /opt/ros/noetic/setup.bash ]]; then
   set +u  # ROS's script reads variables that are not set
   # shellcheck disable=SC1091
   source /opt/ros/noetic/setup.bash

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/estimator.h"
 
+#include <cmath>
 #include <memory>
 #include <utility>
 
 #include "common/stopwatch.h"
+#include "vins_estimator/lines/line_directions.h"
 
 namespace plm_vins {
 namespace {
@@ -23,6 +25,7 @@ ProblemOptions MakeProblemOptions(const Config& config, double focal_length) {
   ProblemOptions options;
   options.point_weight = focal_length / config.estimator.point_noise;
   options.line_weight = focal_length / config.estimator.line_noise;
+  options.manhattan_weight = 180 / (M_PI * config.estimator.manhattan_noise);
   options.estimate_extrinsic =
       config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed;
   options.estimate_td = config.sensor.estimate_td;
@@ -55,6 +58,15 @@ LineLimits MakeLineLimits(const Config& config, double focal_length) {
   return limits;
 }
 
+LineMergingOptions MakeLineMergingOptions(const Config& config, double focal_length) {
+  LineMergingOptions options;
+  options.distance = config.estimator.line_merge_distance;
+  options.image_distance = config.estimator.line_merge_image_distance / focal_length;
+  options.angle = config.estimator.line_merge_angle * M_PI / 180;
+  options.noise = config.estimator.line_noise / focal_length;
+  return options;
+}
+
 KeyframePolicyOptions MakeKeyframeOptions(const Config& config, double focal_length) {
   KeyframePolicyOptions options;
   options.min_parallax = config.estimator.keyframe_parallax / focal_length;
@@ -66,12 +78,12 @@ KeyframePolicyOptions MakeKeyframeOptions(const Config& config, double focal_len
 Estimator::Estimator(const Config& config)
     : config_(config),
       focal_length_(CameraModel::Create(config.sensor.camera)->FocalLength()),
-      problem_options_(MakeProblemOptions(config, focal_length_)),
       line_triangulation_options_(MakeLineTriangulationOptions(config, focal_length_)),
       line_limits_(MakeLineLimits(config, focal_length_)),
       keyframe_options_(MakeKeyframeOptions(config, focal_length_)),
       initializer_(config),
-      standstill_detector_(config.sensor.imu_noise) {
+      standstill_detector_(config.sensor.imu_noise),
+      line_merging_(MakeLineMergingOptions(config, focal_length_)) {
   Reset();
 }
 
@@ -86,6 +98,9 @@ void Estimator::Reset() {
   window_.gravity_W = Eigen::Vector3d(0, 0, -config_.sensor.gravity_norm);
   points_.Clear();
   lines_.Clear();
+  manhattan_ = ManhattanFrame();
+  line_merging_.Clear();
+  problem_options_ = MakeProblemOptions(config_, focal_length_);
   prior_ = MarginalizationPrior();
 }
 
@@ -138,6 +153,7 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   AddFrame(measurement);
   window_.newest().stationary = stands_still;
   Triangulate(output);
+  FindStructure(output);
   Optimize(config_.estimator.max_num_iterations, output);
   RemoveOutliers(output);
   if (const auto failure = FindFailure(*output)) {
@@ -178,13 +194,26 @@ void Estimator::AddFrame(const FrameMeasurement& measurement) {
   predicted_ = frame.state;
   window_.frames.push_back(std::move(frame));
   points_.AddFrame(measurement.points, measurement.time_offset);
-  if (measurement.lines) lines_.AddFrame(*measurement.lines);
+  if (measurement.lines) lines_.AddFrame(line_merging_.Redirect(*measurement.lines));
 }
 
 void Estimator::Triangulate(EstimatorOutput* output) {
   points_.Triangulate(window_, kMinTriangulationAngle_px / focal_length_);
   output->counts.line_triangulation =
       lines_.Triangulate(window_, line_triangulation_options_, line_limits_.max_length);
+}
+
+// The Manhattan frame of the lines, and which of them are one.
+void Estimator::FindStructure(EstimatorOutput* output) {
+  const Stopwatch stopwatch;
+  const auto directions = LineDirections(window_, lines_, line_limits_.noise);
+  manhattan_.Update(window_.newest().state.t_ns, directions);
+  NameAxes(manhattan_, directions, &lines_);
+  if (config_.estimator.manhattan_constraints) problem_options_.R_W_M = manhattan_.R_W_M();
+  if (config_.estimator.line_merging) {
+    output->counts.line_merging = line_merging_.Merge(window_, &lines_, &manhattan_);
+  }
+  output->timings.line_merging = stopwatch.Milliseconds();
 }
 
 void Estimator::RemoveOutliers(EstimatorOutput* output) {
@@ -263,6 +292,7 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->state = window_.newest().state;
   output->T_B_C = window_.T_B_C();
   output->td = window_.td;
+  output->R_W_M = manhattan_.R_W_M();
   output->stationary = window_.newest().stationary;
   for (const WindowFrame& frame : window_.frames) output->window.push_back(frame.state);
   for (const auto& [id, landmark] : points_.landmarks()) {

@@ -11,6 +11,8 @@
 #include "vins_estimator/imu/standstill_detector.h"
 #include "vins_estimator/initialization/initializer.h"
 #include "vins_estimator/lines/line_map.h"
+#include "vins_estimator/lines/line_merging.h"
+#include "vins_estimator/lines/manhattan_frame.h"
 #include "vins_estimator/marginalization/marginalization_prior.h"
 #include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/optimization/levenberg_marquardt.h"
@@ -43,6 +45,7 @@ class Estimator {
   void StartWindow(const InitializationResult& result);
   void AddFrame(const FrameMeasurement& measurement);
   void Triangulate(EstimatorOutput* output);
+  void FindStructure(EstimatorOutput* output);
   void RemoveOutliers(EstimatorOutput* output);
   std::optional<std::string> FindFailure(const EstimatorOutput& output);
   bool StandsStill(const FrameMeasurement& measurement);
@@ -54,18 +57,20 @@ class Estimator {
 
   const Config config_;
   const double focal_length_;  // [px]
-  const ProblemOptions problem_options_;
   const LineTriangulationOptions line_triangulation_options_;
   const LineLimits line_limits_;
   const KeyframePolicyOptions keyframe_options_;
 
   bool initialized_ = false;
+  ProblemOptions problem_options_;  // changes with the Manhattan frame only
   Initializer initializer_;
   StandstillDetector standstill_detector_;
   ContradictionMonitor contradiction_monitor_;
   SlidingWindow window_;
   PointMap points_;
   LineMap lines_;
+  ManhattanFrame manhattan_;
+  LineMerging line_merging_;
   MarginalizationPrior prior_;
   FrameState predicted_;  // of the newest image, from the IMU alone
 };

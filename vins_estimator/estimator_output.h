@@ -4,11 +4,13 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/rigid3.h"
 #include "vins_estimator/lines/line_map.h"
+#include "vins_estimator/lines/line_merging.h"
 #include "vins_estimator/points/point_map.h"
 #include "vins_estimator/window/frame_state.h"
 
@@ -32,6 +34,7 @@ inline const char* ToString(EstimatorStatus status) {
 // Milliseconds that the stages of one frame took.
 struct EstimatorTimings {
   double initialization = 0;
+  double line_merging = 0;  // with the search for the Manhattan frame
   double optimization = 0;
   double marginalization = 0;
   double total = 0;
@@ -46,6 +49,7 @@ struct EstimatorCounts {
   int lines_in_window = 0;   // landmarks in the optimisation
   int lines_rejected = 0;    // landmarks or observations thrown out in this frame
   LineTriangulationCounts line_triangulation;
+  LineMergingCounts line_merging;
 };
 
 // Everything the estimator says about one image. The state is that of this image, as known at this
@@ -60,7 +64,8 @@ struct EstimatorOutput {
   Matrix6d pose_covariance = Matrix6d::Zero();
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // of v_W [m/s]
   Rigid3d T_B_C;
-  double td = 0;  // [s]
+  double td = 0;                            // [s]
+  std::optional<Eigen::Quaterniond> R_W_M;  // the Manhattan frame, where the scene has one
   bool keyframe = false;
   bool stationary = false;                // standing still was recognised
   bool restarted = false;                 // the world frame is a new one from here on

@@ -2,6 +2,7 @@
 #include "vins_estimator/lines/line_fit.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "common/so3.h"
@@ -23,6 +24,12 @@ LineJacobian ByTangent(const Rigid3d& T_C_C0, const PluckerJacobian& plucker,
   const Eigen::Matrix<double, 2, 3> by_direction =
       d_distances_d_moment * Skew(T_C_C0.translation) * R;
   return by_moment * plucker.d_moment + by_direction * plucker.d_direction;
+}
+
+// Nothing turns by more than a radian without being told so: keeps the inverse finite.
+Eigen::Matrix4d Covariance(const LineFit& fit) {
+  const Eigen::Matrix4d information = fit.information + Eigen::Matrix4d::Identity();
+  return information.ldlt().solve(Eigen::Matrix4d::Identity());
 }
 
 }  // namespace
@@ -74,12 +81,23 @@ std::optional<LineFit> FitLine(const std::vector<LineSighting>& sightings, doubl
 }
 
 double DirectionDeviation(const LineFit& fit) {
-  // Nothing turns by more than a radian without being told so: keeps the inverse finite.
-  const Eigen::Matrix4d covariance =
-      (fit.information + Eigen::Matrix4d::Identity()).ldlt().solve(Eigen::Matrix4d::Identity());
+  const Eigen::Matrix4d covariance = Covariance(fit);
   // The direction U e2 moves by dtheta_x U e3 - dtheta_z U e1.
   const double a = covariance(0, 0), b = covariance(0, 2), c = covariance(2, 2);
   return std::sqrt(0.5 * (a + c) + std::hypot(0.5 * (a - c), b));
+}
+
+double PlaceDeviation(const LineFit& fit, const Eigen::Vector3d& p_C0) {
+  const PluckerLine line = ToPlucker(fit.line.data());
+  const PluckerJacobian J = ToPluckerJacobian(fit.line.data());
+  // The line nears p where moment = p x direction; across it, it is off by
+  // direction x (moment - p x direction) / |direction|^2.
+  const Eigen::Matrix<double, 3, kLineTangentSize> d_place =
+      Skew(line.direction) * (J.d_moment - Skew(p_C0) * J.d_direction) /
+      line.direction.squaredNorm();
+  const Eigen::Matrix3d covariance = d_place * Covariance(fit) * d_place.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(solver.eigenvalues().maxCoeff());
 }
 
 }  // namespace plm_vins

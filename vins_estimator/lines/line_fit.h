@@ -38,4 +38,8 @@ std::optional<LineFit> FitLine(const std::vector<LineSighting>& sightings, doubl
 // Standard deviation of the line's direction where it is known least [rad]; 1 at most.
 double DirectionDeviation(const LineFit& fit);
 
+// Standard deviation of the line's place across itself, near its point `p_C0`, where it is known
+// least [m].
+double PlaceDeviation(const LineFit& fit, const Eigen::Vector3d& p_C0);
+
 }  // namespace plm_vins

@@ -107,7 +107,7 @@ std::optional<MapLine> ObservedSegment(const LineLandmark& landmark, const Slidi
       last = std::max(last, place);
     }
   }
-  return MapLine{landmark.id, foot + first * along, foot + last * along, LineAxis::kFree};
+  return MapLine{landmark.id, foot + first * along, foot + last * along, landmark.axis};
 }
 
 void LineMap::AddFrame(const LineFrame& frame) {

@@ -15,8 +15,34 @@ namespace {
 
 using Eigen::Vector2d;
 
-SeenLine ToFrame(const Eigen::Quaterniond& R_F_W, const MapLine& segment, LineAxis axis) {
-  return {R_F_W * segment.start_W, R_F_W * segment.end_W, axis};
+std::vector<LineSighting> SightingsOf(const SlidingWindow& window,
+                                      const std::vector<LineView>& views) {
+  std::vector<LineSighting> sightings;
+  sightings.reserve(views.size());
+  for (const LineView& view : views) {
+    sightings.push_back({window.T_W_C(*window.Find(view.t_ns)), view.segment});
+  }
+  return sightings;
+}
+
+// The seen part of a line, and how well its views tell its place. Few views are left of a line that
+// started anew, but many have put it where it is.
+std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W,
+                            double noise, const LineLandmark& landmark) {
+  constexpr size_t kLeastViews = 3;
+  constexpr double kGreatestSigma = 0.5;  // [rad], [m]: beyond it, nothing is told apart anyway
+  const auto segment = ObservedSegment(landmark, window);
+  if (!segment) return std::nullopt;
+  SeenLine seen{R_F_W * segment->start_W, R_F_W * segment->end_W, landmark.axis};
+  if (landmark.views.size() < kLeastViews) return seen;
+  const auto sightings = SightingsOf(window, landmark.views);
+  const auto fit = EvaluateLine(sightings, noise, landmark.coordinates);
+  if (!fit) return std::nullopt;
+  const Eigen::Vector3d middle_W = 0.5 * (segment->start_W + segment->end_W);
+  const Eigen::Vector3d middle_C0 = sightings.front().T_W_C.Inverse() * middle_W;
+  seen.direction_sigma = std::min(DirectionDeviation(*fit), kGreatestSigma);
+  seen.place_sigma = std::min(PlaceDeviation(*fit, middle_C0), kGreatestSigma);
+  return seen;
 }
 
 // How far the ends of a seen segment are from the image of a line, at most; normalised.
@@ -86,22 +112,31 @@ double ChiSquareLimit(int degrees_of_freedom) {
   return degrees_of_freedom * std::pow(1.0 - v + kNormalLimit * std::sqrt(v), 3);
 }
 
-// The older line with the views of both, where these agree on one line.
+// The best fit to the views of a line whose coordinates are about `line_W`.
+std::optional<LineFit> Fit(const SlidingWindow& window, double noise,
+                           const std::vector<LineView>& views, const PluckerLine& line_W) {
+  const auto sightings = SightingsOf(window, views);
+  const PluckerLine initial = sightings.front().T_W_C.Inverse() * line_W;
+  return FitLine(sightings, noise, ToOrthonormal(initial));
+}
+
+// The older line with the views of both, where one line fits all of them, and not significantly
+// worse than two lines do.
 std::optional<LineLandmark> Join(const SlidingWindow& window, double noise,
                                  const LineLandmark& older, const LineLandmark& newer) {
   LineLandmark joint = older;
   joint.views = JoinViews(older, newer);
-  std::vector<LineSighting> sightings;
-  for (const LineView& view : joint.views) {
-    sightings.push_back({window.T_W_C(*window.Find(view.t_ns)), view.segment});
-  }
-  const PluckerLine initial = sightings.front().T_W_C.Inverse() * LineInWorld(older, window);
-  const auto fit = FitLine(sightings, noise, ToOrthonormal(initial));
-  const int degrees_of_freedom = 2 * static_cast<int>(sightings.size()) - kLineTangentSize;
-  if (!fit || degrees_of_freedom <= 0 || fit->cost > ChiSquareLimit(degrees_of_freedom)) {
+  const auto joint_fit = Fit(window, noise, joint.views, LineInWorld(older, window));
+  const auto older_fit = Fit(window, noise, older.views, LineInWorld(older, window));
+  const auto newer_fit = Fit(window, noise, newer.views, LineInWorld(newer, window));
+  if (!joint_fit || !older_fit || !newer_fit) return std::nullopt;
+  const int degrees_of_freedom = 2 * static_cast<int>(joint.views.size()) - kLineTangentSize;
+  const double rise = joint_fit->cost - older_fit->cost - newer_fit->cost;
+  if (degrees_of_freedom <= 0 || joint_fit->cost > ChiSquareLimit(degrees_of_freedom) ||
+      rise > ChiSquareLimit(kLineTangentSize)) {
     return std::nullopt;
   }
-  joint.coordinates = fit->line;
+  joint.coordinates = joint_fit->line;
   if (!ObservedSegment(joint, window)) return std::nullopt;
   return joint;
 }
@@ -112,14 +147,15 @@ struct Candidates {
   std::vector<SeenLine> seen;
 };
 
-Candidates Collect(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W, LineMap* lines) {
+Candidates Collect(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W, double noise,
+                   LineMap* lines) {
   Candidates candidates;
   for (auto& [id, landmark] : lines->landmarks()) {
     if (!landmark.triangulated) continue;
-    const auto segment = ObservedSegment(landmark, window);
-    if (!segment) continue;
+    const auto seen = See(window, R_F_W, noise, landmark);
+    if (!seen) continue;
     candidates.landmarks.push_back(&landmark);
-    candidates.seen.push_back(ToFrame(R_F_W, *segment, landmark.axis));
+    candidates.seen.push_back(*seen);
   }
   return candidates;
 }
@@ -128,8 +164,13 @@ Candidates Collect(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W,
 int LineMergingCounts::*FindRefusal(const LineMergingOptions& options, const SlidingWindow& window,
                                     const LineLandmark& a, const LineLandmark& b,
                                     const LinePairGeometry& pair) {
-  if (pair.angle > options.angle) return &LineMergingCounts::other_direction;
-  if (pair.distance > options.distance) return &LineMergingCounts::distant;
+  constexpr double kDeviations = 3.0;
+  if (pair.angle > std::max(options.angle, kDeviations * pair.angle_sigma)) {
+    return &LineMergingCounts::other_direction;
+  }
+  if (pair.distance > std::max(options.distance, kDeviations * pair.distance_sigma)) {
+    return &LineMergingCounts::distant;
+  }
   if (pair.gap > options.distance) return &LineMergingCounts::apart;
   if (AreSeenSideBySide(a, b, options.noise)) return &LineMergingCounts::seen_side_by_side;
   if (DistanceInImages(window, a, b) > options.image_distance) {
@@ -144,7 +185,7 @@ LineMergingCounts LineMerging::Merge(const SlidingWindow& window, LineMap* lines
                                      ManhattanFrame* manhattan) {
   const Eigen::Quaterniond R_F_W =
       manhattan->R_W_M().value_or(Eigen::Quaterniond::Identity()).conjugate();
-  auto [landmarks, seen] = Collect(window, R_F_W, lines);
+  auto [landmarks, seen] = Collect(window, R_F_W, options_.noise, lines);
   LineMergingCounts counts;
   for (const auto& [newer, older] : FindNearPairs(seen, options_.distance)) {
     if (landmarks[newer] == nullptr || landmarks[older] == nullptr) continue;  // gone already
@@ -161,7 +202,7 @@ LineMergingCounts LineMerging::Merge(const SlidingWindow& window, LineMap* lines
       continue;
     }
     *landmarks[older] = *joint;
-    seen[older] = ToFrame(R_F_W, *ObservedSegment(*joint, window), joint->axis);
+    seen[older] = See(window, R_F_W, options_.noise, *joint).value_or(seen[older]);
     Absorb(landmarks[newer]->id, joint->id, lines, manhattan);
     landmarks[newer] = nullptr;
     ++counts.merged;

@@ -36,7 +36,9 @@ struct LineMergingCounts {
 // an older one where, in the Manhattan frame, they are less than `distance` apart, and where in the
 // images, too, each lies on the other. Beyond the paper, they must have the same direction, and
 // overlap or touch along it; no image may show them side by side; and the views of both must fit
-// one line. The views of the newer go to the older, and later ones follow by way of its alias.
+// one line. Where the views tell direction or place less well than the limits, three standard
+// deviations take their place, and the fit decides. The views of the newer go to the older, and
+// later ones follow by way of its alias.
 class LineMerging {
  public:
   explicit LineMerging(const LineMergingOptions& options) : options_(options) {}

@@ -10,6 +10,8 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
+constexpr double kDeviations = 3.0;
+
 AlignedBox3d BoxAround(const SeenLine& line, double margin) {
   const Vector3d margins = Vector3d::Constant(margin);
   return {line.start_F.cwiseMin(line.end_F) - margins, line.start_F.cwiseMax(line.end_F) + margins};
@@ -30,7 +32,7 @@ std::vector<std::pair<size_t, size_t>> FindNearPairs(const std::vector<SeenLine>
   std::vector<size_t> upwards;  // by the lower side
   for (const SeenLine& line : lines) {
     upwards.push_back(boxes.size());
-    boxes.push_back(BoxAround(line, 0.5 * distance));
+    boxes.push_back(BoxAround(line, 0.5 * distance + kDeviations * line.place_sigma));
   }
   std::stable_sort(upwards.begin(), upwards.end(), [&boxes](size_t a, size_t b) {
     return boxes[a].min().z() < boxes[b].min().z();
@@ -61,6 +63,8 @@ LinePairGeometry Compare(const SeenLine& a, const SeenLine& b) {
       std::atan2(direction_a.cross(direction_b).norm(), std::abs(direction_a.dot(direction_b)));
   geometry.distance = (between - along * along.dot(between)).norm();
   geometry.gap = std::max(a_low, b_low) - std::min(a_high, b_high);
+  geometry.angle_sigma = std::hypot(a.direction_sigma, b.direction_sigma);
+  geometry.distance_sigma = std::hypot(a.place_sigma, b.place_sigma);
   return geometry;
 }
 

@@ -22,6 +22,7 @@ FrameTimings MakeTimings(const PipelineFrame& frame) {
   timings[kLineDetection] = frame.line_tracking.detection_ms;
   timings[kLineTracking] = frame.line_tracking_ms;
   timings[kInitialization] = estimator.initialization;
+  timings[kLineMerging] = estimator.line_merging;
   timings[kOptimization] = estimator.optimization;
   timings[kMarginalization] = estimator.marginalization;
   timings[kEstimator] = estimator.total;
@@ -50,6 +51,7 @@ FrameCounts MakeCounts(const PipelineFrame& frame) {
   counts[kLinesBehind] = estimator.line_triangulation.behind;
   counts[kLinesInconsistent] = estimator.line_triangulation.inconsistent;
   counts[kLinesTooLong] = estimator.line_triangulation.too_long;
+  counts[kLinesMerged] = estimator.line_merging.merged;
   counts[kLinesInWindow] = estimator.lines_in_window;
   counts[kLinesRejected] = estimator.lines_rejected;
   return counts;

@@ -5,6 +5,7 @@
 
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/line_factor.h"
+#include "vins_estimator/factors/manhattan_factor.h"
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
 
@@ -16,7 +17,8 @@ ProblemBuilder::ProblemBuilder(const ProblemOptions& options, SlidingWindow* win
       window_(window),
       prior_(prior),
       point_loss_(options.point_loss_scale),
-      line_loss_(options.line_loss_scale) {}
+      line_loss_(options.line_loss_scale),
+      manhattan_loss_(options.manhattan_loss_scale) {}
 
 double* ProblemBuilder::Values(const BlockId& id) {
   switch (id.kind) {
@@ -92,7 +94,7 @@ void ProblemBuilder::AddLine(LineLandmark* landmark) {
   const int extrinsic = AddVariable({BlockKind::kExtrinsic, 0});
   const LineView& host = landmark->host();
   const int host_pose = Pose(host.t_ns);
-  problem_.ReserveLandmarkTerms(index, landmark->views.size());
+  problem_.ReserveLandmarkTerms(index, landmark->views.size() + 1);
   problem_.AddLandmarkTerm(index,
                            std::make_unique<LineHostFactor>(host.segment, options_.line_weight),
                            &line_loss_, {line});
@@ -102,6 +104,11 @@ void ProblemBuilder::AddLine(LineLandmark* landmark) {
                              std::make_unique<LineFactor>(view.segment, options_.line_weight),
                              &line_loss_, {host_pose, Pose(view.t_ns), extrinsic, line});
   }
+  if (!options_.R_W_M || landmark->axis == LineAxis::kFree) return;
+  const Eigen::Vector3d axis_W = *options_.R_W_M * UnitVector(landmark->axis);
+  problem_.AddLandmarkTerm(index,
+                           std::make_unique<ManhattanFactor>(axis_W, options_.manhattan_weight),
+                           &manhattan_loss_, {host_pose, extrinsic, line});
 }
 
 }  // namespace plm_vins

@@ -3,7 +3,9 @@
 
 #include <ceres/loss_function.h>
 
+#include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 
 #include "vins_estimator/lines/line_landmark.h"
 #include "vins_estimator/marginalization/marginalization_prior.h"
@@ -19,12 +21,16 @@ struct ProblemOptions {
   double point_loss_scale = 1.0;        // Cauchy loss, in standard deviations
   double line_weight = 460.0;           // focal length over the noise of a line's ends across it
   double line_loss_scale = 1.0;         // Cauchy loss, in standard deviations
+  double manhattan_weight = 57.3;       // one over the deviation of a line from its axis [1/rad]
+  double manhattan_loss_scale = 3.0;    // Tukey loss, in standard deviations
   double standstill_velocity = 0.005;   // standard deviation while standing still [m/s]
   double standstill_position = 0.001;   // ... of the position between two frames [m]
   double standstill_rotation = 0.0005;  // ... of the rotation between two frames [rad]
   bool estimate_extrinsic = false;
   bool estimate_td = false;
   bool first_estimate_jacobians = true;
+  // Lines on its axes are held to them; none where there is no such frame.
+  std::optional<Eigen::Quaterniond> R_W_M;
 };
 
 // Puts the parts of the window into a WindowProblem: one place that knows which variables and
@@ -41,6 +47,7 @@ class ProblemBuilder {
   void AddMotion(size_t index);
   // All views of a triangulated landmark.
   void AddPoint(PointLandmark* landmark);
+  // The same, and that it runs along its Manhattan axis, if any.
   void AddLine(LineLandmark* landmark);
 
   const WindowProblem& problem() const { return problem_; }
@@ -56,6 +63,7 @@ class ProblemBuilder {
   const MarginalizationPrior* prior_;
   ceres::CauchyLoss point_loss_;
   ceres::CauchyLoss line_loss_;
+  ceres::TukeyLoss manhattan_loss_;
   WindowProblem problem_;
 };
 

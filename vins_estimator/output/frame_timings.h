@@ -12,6 +12,7 @@ enum TimingStage : size_t {
   kLineDetection,
   kLineTracking,  // all of the line front end, detection included
   kInitialization,
+  kLineMerging,  // with the search for the Manhattan frame
   kOptimization,
   kMarginalization,
   kEstimator,  // all of the back end
@@ -20,7 +21,7 @@ enum TimingStage : size_t {
 };
 
 constexpr std::array<const char*, kTimingStages> kTimingNames = {
-    "point_tracking", "line_detection",  "line_tracking", "initialization",
+    "point_tracking", "line_detection",  "line_tracking", "initialization", "line_merging",
     "optimization",   "marginalization", "estimator",     "total"};
 
 // What the stages of one frame took [ms].

@@ -64,6 +64,8 @@ void RunSummary::AddPose(const EstimatorOutput& output) {
   ++poses_;
   stationary_ += output.stationary ? 1 : 0;
   keyframes_ += output.keyframe ? 1 : 0;
+  merged_lines_ += output.counts.line_merging.merged;
+  manhattan_ += output.R_W_M ? 1 : 0;
   if (!first_pose_ns_) first_pose_ns_ = output.t_ns;
   const Eigen::Vector3d position = output.state.position();
   if (last_position_) path_length_ += (position - *last_position_).norm();
@@ -92,7 +94,8 @@ Json RunSummary::ToJson(const Run& run) const {
   json["points"] = run.map_points;
   json["points_per_frame"] = Summarize(counts_, kPointsObserved).mean;
   json["lines"] = run.map_lines;
-  json["merged_lines"] = 0;
+  json["merged_lines"] = merged_lines_;
+  json["manhattan_share"] = Ratio(static_cast<double>(manhattan_), static_cast<double>(poses_));
   json["resets"] = resets_;
   json["calibration"] = poses_ > 0 ? CalibrationToJson(T_B_C_, td_) : Json(nullptr);
   json["timing_ms"] = TimingsToJson(timings_);

@@ -44,6 +44,8 @@ class RunSummary {
   int64_t stationary_ = 0;
   int64_t keyframes_ = 0;
   int64_t resets_ = 0;
+  int64_t merged_lines_ = 0;
+  int64_t manhattan_ = 0;   // poses with a Manhattan frame
   double path_length_ = 0;  // [m]
   std::optional<Eigen::Vector3d> last_position_;
   Rigid3d T_B_C_;  // as of the last pose

@@ -31,6 +31,8 @@ TEST(RunSummary, AddsUpARun) {
   summary.Add(Pose(2, 0.3), {}, {});
   EstimatorOutput standing = Pose(4, -0.1);
   standing.stationary = true;
+  standing.counts.line_merging.merged = 2;
+  standing.R_W_M = Eigen::Quaterniond::Identity();
   summary.Add(standing, {}, {});
 
   RunSummary::Run run;
@@ -48,6 +50,8 @@ TEST(RunSummary, AddsUpARun) {
   EXPECT_EQ(json["poses"], 3);
   EXPECT_EQ(json["points"], 12);
   EXPECT_EQ(json["lines"], 7);
+  EXPECT_EQ(json["merged_lines"], 2);
+  EXPECT_NEAR(json["manhattan_share"].get<double>(), 1.0 / 3, 1e-12);
   EXPECT_EQ(json["resets"], 0);
   EXPECT_NEAR(json["init_time_s"].get<double>(), 0.1, 1e-9);
   EXPECT_NEAR(json["path_length_m"].get<double>(), 0.7, 1e-12);
@@ -98,8 +102,8 @@ TEST(RunSummary, WithoutAPoseItSaysWhy) {
 
 TEST(RunSummary, HasMeanAndPercentileOfEachStage) {
   RunSummary summary;
-  summary.Add(Pose(0, 0), {1, 0, 0, 0, 0, 0, 0, 4}, {});
-  summary.Add(Pose(1, 0), {3, 0, 0, 0, 0, 0, 0, 6}, {});
+  summary.Add(Pose(0, 0), {1, 0, 0, 0, 0, 0, 0, 0, 4}, {});
+  summary.Add(Pose(1, 0), {3, 0, 0, 0, 0, 0, 0, 0, 6}, {});
   const auto timing = summary.ToJson({})["timing_ms"];
   EXPECT_EQ(timing.size(), kTimingStages);
   EXPECT_EQ(timing["point_tracking"]["mean"], 2.0);

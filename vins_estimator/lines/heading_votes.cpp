@@ -37,8 +37,10 @@ void HeadingVotes::Fade(double elapsed) {
 
 void HeadingVotes::Cast(int64_t id, double heading, double sigma, double elapsed) {
   Vote& vote = votes_[id];
-  vote.heading = WrapQuarterTurn(heading);
-  vote.sigma = sigma;
+  if (vote.followed == 0 || sigma <= vote.sigma) {
+    vote.heading = WrapQuarterTurn(heading);
+    vote.sigma = sigma;
+  }
   vote.followed += elapsed;
   vote.freshness = 1;
 }

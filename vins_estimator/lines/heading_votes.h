@@ -11,10 +11,10 @@ namespace plm_vins {
 double WrapQuarterTurn(double angle);
 
 struct HeadingVotesOptions {
-  double half_width = M_PI / 60;        // a vote this near supports a heading (3 deg) [rad]
-  double memory = 10.0;                 // the vote of a line out of sight fades to 1/e in this [s]
-  double maturity = 1.0;                // a line followed for so long has a full vote [s]
-  double reference_sigma = M_PI / 180;  // a line of this standard deviation has half a vote [rad]
+  double half_width = M_PI / 60;       // a vote this near supports a heading (3 deg) [rad]
+  double memory = 15.0;                // the vote of a line out of sight fades to 1/e in this [s]
+  double maturity = 0.5;               // a line followed for so long has a full vote [s]
+  double reference_sigma = M_PI / 90;  // a line of this deviation (2 deg) has half a vote [rad]
 };
 
 // What the votes say of one heading.
@@ -43,7 +43,8 @@ class HeadingVotes {
   void Fade(double elapsed);
 
   // A line's heading as it is now, with its standard deviation [rad], `elapsed` [s] since the frame
-  // before. It replaces the line's last vote.
+  // before. It replaces the line's last vote unless that was more certain: a landmark that starts
+  // anew knows less than it did.
   void Cast(int64_t id, double heading, double sigma, double elapsed);
 
   void Remove(int64_t id) { votes_.erase(id); }

@@ -48,10 +48,10 @@ struct ManhattanOptions {
   double max_tolerance = M_PI / 45;      // between a line and its axis, at most (4 deg) [rad]
   double lock_false_alarms = 1e-5;       // a heading is significant below this expectation ...
   double keep_false_alarms = 1.0;        // ... and no more than chance above this one
-  double lock_share = 0.3;               // of the horizontal lines
-  double lock_sigma = 0.5 * M_PI / 180;  // standard error of the heading [rad]
-  int lock_lines = 5;                    // distinct lines that support it
-  double lock_after = 3.0;               // it must have been a candidate for so long [s]
+  double lock_share = 0.45;              // of the horizontal lines
+  double lock_sigma = 0.2 * M_PI / 180;  // standard error of the heading [rad]
+  int lock_lines = 15;                   // distinct lines that support it
+  double lock_after = 5.0;               // it must have been a candidate for so long [s]
   double candidate_shift = M_PI / 90;    // a candidate that moves by more is another one [rad]
   double revoke_after = 3.0;             // of contradiction [s]
   double revoke_shift = M_PI / 180;      // of the lines' mean heading, that contradicts [rad]

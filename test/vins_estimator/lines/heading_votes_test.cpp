@@ -48,22 +48,32 @@ TEST(HeadingVotes, CountLongFollowedLinesMore) {
   HeadingVotes brief, lasting;
   Poll(&brief, 1, 1, 0.1, 0, 0.2);
   Poll(&lasting, 1, 1, 0.1, 0, 2.0);
-  EXPECT_NEAR(brief.Best().total, 0.2, 1e-9);
+  EXPECT_NEAR(brief.Best().total, 0.2 / HeadingVotesOptions().maturity, 1e-9);
   EXPECT_NEAR(lasting.Best().total, 1, 1e-9);
 }
 
 TEST(HeadingVotes, CountAccurateLinesMore) {
   HeadingVotes votes;
-  votes.Cast(1, 0.1, /*sigma=*/kDegree, 1.0);
+  votes.Cast(1, 0.1, HeadingVotesOptions().reference_sigma, 1.0);
   EXPECT_NEAR(votes.Best().total, 0.5, 1e-9);
+}
+
+TEST(HeadingVotes, KeepTheMostCertainVoteOfALine) {
+  HeadingVotes votes;
+  votes.Cast(1, 0.1, kDegree, 1.0);
+  votes.Cast(1, 0.2, 3 * kDegree, 1.0);  // started anew
+  EXPECT_NEAR(votes.Best().heading, 0.1, 1e-9);
+  votes.Cast(1, 0.12, 0.5 * kDegree, 1.0);
+  EXPECT_NEAR(votes.Best().heading, 0.12, 1e-9);
 }
 
 TEST(HeadingVotes, FadeAndAreForgotten) {
   HeadingVotes votes;
   Poll(&votes, 1, 10, 0.1, 0, 2);
-  votes.Fade(10);
+  const double memory = HeadingVotesOptions().memory;
+  votes.Fade(memory);
   EXPECT_NEAR(votes.Best().total, 10 * std::exp(-1), 1e-6);
-  votes.Fade(40);
+  votes.Fade(4 * memory);
   EXPECT_EQ(votes.size(), 0u);
 }
 

@@ -382,8 +382,7 @@ TEST(ShippedConfig, ReferenceNamesEveryKeyWithItsDefault) {
     const std::string standard = key.print(defaults);
     if (key.required || standard.empty()) continue;
     EXPECT_NE(rest.find("default " + standard), std::string::npos) << rest;
-    if (key.name == "imu_noise_model")
-      continue;  // VINS files decide the default, not good practice
+    if (key.name == "imu_noise_model") continue;  // the default is that of VINS files
     EXPECT_EQ(rest.rfind(key.name + ": " + standard + " ", 0), 0u) << rest;
   }
   EXPECT_NE(text.find("mirror_parameters"), std::string::npos);

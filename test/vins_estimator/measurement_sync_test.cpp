@@ -7,18 +7,19 @@
 #include <limits>
 #include <vector>
 
+#include "test/vins_estimator/sync_input.h"
 #include "vins_estimator/imu/preintegration.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr int64_t kMs = 1'000'000;
-
-// A sample whose values are linear in time, so that interpolated ones are known.
-ImuSample Sample(int64_t t_ns) {
-  const double t = ToSeconds(t_ns);
-  return {t_ns, {t, 2 * t, 3 * t}, {-t, 9.81, 5 * t}};
-}
+using testing::AddImu;
+using testing::kMs;
+using testing::Lines;
+using testing::Points;
+using testing::PopAll;
+using testing::Sample;
+using testing::WithLines;
 
 void ExpectOnTheLine(const ImuSample& sample) {
   EXPECT_TRUE(sample.gyro.isApprox(Sample(sample.t_ns).gyro, 1e-9));
@@ -27,37 +28,6 @@ void ExpectOnTheLine(const ImuSample& sample) {
 
 bool SameSample(const ImuSample& a, const ImuSample& b) {
   return a.t_ns == b.t_ns && a.gyro == b.gyro && a.accel == b.accel;
-}
-
-PointFrame Points(int64_t t_ns) {
-  PointFrame frame;
-  frame.t_ns = t_ns;
-  frame.points.resize(3);
-  return frame;
-}
-
-LineFrame Lines(int64_t t_ns) {
-  LineFrame frame;
-  frame.t_ns = t_ns;
-  frame.lines.resize(2);
-  return frame;
-}
-
-// Adds samples every 5 ms over [begin, end] (ms).
-void AddImu(MeasurementSync* sync, int64_t begin_ms, int64_t end_ms) {
-  for (int64_t t = begin_ms; t <= end_ms; t += 5) sync->AddImu(Sample(t * kMs));
-}
-
-std::vector<FrameMeasurement> PopAll(MeasurementSync* sync) {
-  std::vector<FrameMeasurement> frames;
-  while (auto frame = sync->Pop()) frames.push_back(std::move(*frame));
-  return frames;
-}
-
-MeasurementSync::Options WithLines() {
-  MeasurementSync::Options options;
-  options.expect_lines = true;
-  return options;
 }
 
 // The IMU of the frames joins without hole or overlap: increasing stamps, each frame opening with
@@ -257,122 +227,6 @@ TEST(MeasurementSync, RepeatedAndBackwardImagesAreDropped) {
   EXPECT_EQ(sync.statistics().frames_out_of_order, 3);
 }
 
-TEST(MeasurementSync, PairsLinesByEqualStamp) {
-  MeasurementSync sync(WithLines());
-  AddImu(&sync, 0, 200);
-  sync.AddLines(Lines(50 * kMs));  // before its points
-  sync.AddPoints(Points(50 * kMs));
-  auto frame = sync.Pop();
-  ASSERT_TRUE(frame && frame->lines);
-  EXPECT_EQ(frame->lines->t_ns, 50 * kMs);
-
-  sync.AddPoints(Points(100 * kMs));
-  EXPECT_FALSE(sync.Pop().has_value());  // waits
-  sync.AddLines(Lines(100 * kMs));
-  frame = sync.Pop();
-  ASSERT_TRUE(frame && frame->lines);
-  EXPECT_EQ(frame->lines->lines.size(), 2u);
-  EXPECT_EQ(sync.statistics().frames_without_lines, 0);
-  EXPECT_EQ(sync.statistics().line_frames, 2);
-}
-
-TEST(MeasurementSync, ALaterLineFrameTellsThatOneIsLost) {
-  MeasurementSync sync(WithLines());
-  AddImu(&sync, 0, 200);
-  sync.AddPoints(Points(50 * kMs));
-  sync.AddPoints(Points(100 * kMs));
-  sync.AddLines(Lines(100 * kMs));
-  const auto frames = PopAll(&sync);
-  ASSERT_EQ(frames.size(), 2u);
-  EXPECT_FALSE(frames[0].lines.has_value());
-  EXPECT_TRUE(frames[1].lines.has_value());
-  EXPECT_EQ(sync.statistics().frames_without_lines, 1);
-}
-
-TEST(MeasurementSync, MissingLinesDelayNoLongerThanTheLag) {
-  MeasurementSync sync(WithLines());
-  AddImu(&sync, 0, 400);
-  for (int64_t t : {50, 100, 150}) sync.AddPoints(Points(t * kMs));
-  EXPECT_FALSE(sync.Pop().has_value());
-  sync.AddPoints(Points(200 * kMs));  // three images ahead of the first
-  const auto frames = PopAll(&sync);
-  ASSERT_EQ(frames.size(), 1u);
-  EXPECT_FALSE(frames[0].lines.has_value());
-
-  sync.AddLines(Lines(50 * kMs));  // too late
-  EXPECT_FALSE(sync.Pop().has_value());
-  EXPECT_EQ(sync.statistics().lines_late, 1);
-}
-
-// Feeds images from..to every 50 ms, with lines that arrive `lag` images late (none: negative).
-// Returns how many images ahead of each frame handed out the newest one was.
-std::vector<int> FeedWithLines(int64_t from, int64_t to, int lag, MeasurementSync* sync) {
-  std::vector<int> delays;
-  for (int64_t t = from; t <= to; t += 50) {
-    AddImu(sync, t - 45, t);
-    sync->AddPoints(Points(t * kMs));
-    if (lag >= 0) sync->AddLines(Lines((t - 50 * lag) * kMs));
-    for (const FrameMeasurement& frame : PopAll(sync)) {
-      delays.push_back(static_cast<int>((t * kMs - frame.t_ns) / (50 * kMs)));
-    }
-  }
-  return delays;
-}
-
-TEST(MeasurementSync, ADeadLineTrackerDelaysNoLongerThanItsPatience) {
-  MeasurementSync sync(WithLines());
-  FeedWithLines(50, 1000, 0, &sync);
-  EXPECT_EQ(sync.statistics().frames_without_lines, 0);
-  const std::vector<int> delays = FeedWithLines(1050, 3000, -1, &sync);
-  EXPECT_EQ(delays.front(), 3);
-  EXPECT_EQ(delays.back(), 0);
-  EXPECT_EQ(std::count(delays.begin(), delays.end(), 3), 10);
-  EXPECT_EQ(delays.size(), 40u) << "every image is handed out";
-  EXPECT_TRUE(sync.lines_are_missing());
-}
-
-TEST(MeasurementSync, LinesThatComeBackAreUsedAgain) {
-  for (const int lag : {0, 1, 2}) {
-    MeasurementSync sync(WithLines());
-    FeedWithLines(50, 1000, -1, &sync);
-    EXPECT_TRUE(sync.lines_are_missing());
-    FeedWithLines(1050, 2000, lag, &sync);
-    EXPECT_FALSE(sync.lines_are_missing());
-    EXPECT_LE(sync.statistics().frames_without_lines, 20 + lag);
-  }
-}
-
-TEST(MeasurementSync, AHopelesslySlowLineTrackerDelaysNothing) {
-  MeasurementSync sync(WithLines());
-  const std::vector<int> delays = FeedWithLines(50, 3000, 6, &sync);
-  EXPECT_EQ(delays.back(), 0);
-  EXPECT_TRUE(sync.lines_are_missing());
-  EXPECT_GT(sync.statistics().lines_late, 40);
-}
-
-TEST(MeasurementSync, LinesOfAnEarlierRecordingDoNotBlockThoseOfThisOne) {
-  MeasurementSync sync(WithLines());
-  sync.AddLines(Lines(90000 * kMs));  // left over, arrives after the restart
-  FeedWithLines(50, 1000, 0, &sync);
-  EXPECT_EQ(sync.statistics().frames_without_lines, 0);
-  EXPECT_EQ(sync.statistics().lines_out_of_order, 1);
-}
-
-TEST(MeasurementSync, NoLinesAndAThousandLinesAreFramesLikeOthers) {
-  MeasurementSync sync(WithLines());
-  AddImu(&sync, 0, 200);
-  for (const size_t count : {0, 1000}) {
-    const int64_t t = count == 0 ? 50 : 100;
-    LineFrame lines = Lines(t * kMs);
-    lines.lines.resize(count);
-    sync.AddPoints(Points(t * kMs));
-    sync.AddLines(lines);
-    const auto frame = sync.Pop();
-    ASSERT_TRUE(frame && frame->lines);
-    EXPECT_EQ(frame->lines->lines.size(), count);
-  }
-}
-
 TEST(MeasurementSync, FramesWithFewPointsAreCounted) {
   MeasurementSync sync({});
   PointFrame frame = Points(50 * kMs);
@@ -382,19 +236,6 @@ TEST(MeasurementSync, FramesWithFewPointsAreCounted) {
   frame.points.resize(10);
   sync.AddPoints(frame);
   EXPECT_EQ(sync.statistics().frames_with_few_points, 1);
-}
-
-TEST(MeasurementSync, LinesWithoutPointsAndOutOfOrderAreCounted) {
-  MeasurementSync sync(WithLines());
-  AddImu(&sync, 0, 200);
-  sync.AddLines(Lines(25 * kMs));  // its points never come
-  sync.AddLines(Lines(50 * kMs));
-  sync.AddLines(Lines(50 * kMs));
-  sync.AddPoints(Points(50 * kMs));
-  const auto frame = sync.Pop();
-  ASSERT_TRUE(frame && frame->lines);
-  EXPECT_EQ(sync.statistics().lines_without_points, 1);
-  EXPECT_EQ(sync.statistics().lines_out_of_order, 1);
 }
 
 TEST(MeasurementSync, QueuesAreBounded) {

@@ -108,10 +108,10 @@ TEST_F(PointMapTest, HostsPassTheirPointsOn) {
 
 TEST_F(PointMapTest, StartAnewKeepsPlaceAndNewestView) {
   map_.Triangulate(window_, kMinAngle);
-  Landmark(7).views.pop_back();                        // not seen any more
-  MoveHost(window_, 1, &Landmark(8));                  // has another host
+  Landmark(7).views.pop_back();        // not seen any more
+  MoveHost(window_, 1, &Landmark(8));  // has another host
   Landmark(8).views.erase(Landmark(8).views.begin());
-  map_.RemoveFrame(window_, -1);                       // of no frame: changes nothing
+  map_.RemoveFrame(window_, -1);  // of no frame: changes nothing
   const Vector3d departed_W = PositionInWorld(Landmark(7), window_);
 
   int departures = 0;

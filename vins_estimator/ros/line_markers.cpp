@@ -8,7 +8,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kWidth = 0.02;  // [m]
+constexpr double kWidth = 0.02;          // [m]
+constexpr double kHistoryWidth = 0.007;  // [m]: lines in use stand out
 constexpr char kHistoryName[] = "history_lines";
 
 std_msgs::ColorRGBA MakeColor(float r, float g, float b) {
@@ -85,6 +86,7 @@ visualization_msgs::Marker LineHistory::Clear() {
 visualization_msgs::Marker LineHistory::MakeMarker(int64_t t_ns) const {
   visualization_msgs::Marker marker = ToLineMarker(lines_, t_ns, frame_id_, kHistoryName);
   marker.id = marker_id_;
+  marker.scale.x = kHistoryWidth;
   return marker;
 }
 

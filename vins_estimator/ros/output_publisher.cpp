@@ -14,6 +14,7 @@ namespace plm_vins {
 namespace {
 
 constexpr int kQueue = 1000;
+constexpr char kManhattanFrame[] = "manhattan";
 constexpr double kPathStep = 0.02;      // [m] between the poses of the path
 constexpr size_t kMaxPathPoses = 5000;  // then every second one goes: the path gets coarser
 
@@ -118,9 +119,14 @@ void OutputPublisher::PublishPath(const FrameState& state) {
 void OutputPublisher::PublishTransforms(const EstimatorOutput& output) {
   if (!frames_.publish_tf) return;
   const std::string& body = frames_.body_frame;
-  broadcaster_.sendTransform(std::vector<geometry_msgs::TransformStamped>{
+  std::vector<geometry_msgs::TransformStamped> transforms = {
       ToStamped(output.t_ns, output.state.T_W_B(), frames_.world_frame, body),
-      ToStamped(output.t_ns, output.T_B_C, body, frames_.camera_frame)});
+      ToStamped(output.t_ns, output.T_B_C, body, frames_.camera_frame)};
+  if (output.R_W_M) {
+    const Rigid3d T_W_M(*output.R_W_M, Eigen::Vector3d::Zero());
+    transforms.push_back(ToStamped(output.t_ns, T_W_M, frames_.world_frame, kManhattanFrame));
+  }
+  broadcaster_.sendTransform(transforms);
 }
 
 }  // namespace plm_vins

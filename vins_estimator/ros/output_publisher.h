@@ -13,9 +13,9 @@ namespace plm_vins {
 
 // Publishes what the estimator says about an image, under the node's private namespace: odometry,
 // path, camera_pose, key_poses, point_cloud, history_cloud, lines_cloud, history_lines_cloud,
-// camera_pose_visual, extrinsic, and tf2 world -> body -> camera. The histories have, as in
-// VINS-Mono and PL-VINS, the landmarks that leave the window with this image. Messages that nobody
-// listens to are not made. For one thread.
+// camera_pose_visual, extrinsic, and tf2 world -> body -> camera, world -> manhattan once known.
+// The histories have, as in VINS-Mono and PL-VINS, the landmarks that leave the window with this
+// image. Messages that nobody listens to are not made. For one thread.
 class OutputPublisher {
  public:
   OutputPublisher(const OutputConfig& frames, ros::NodeHandle private_node);

@@ -5,17 +5,16 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <iostream>
 #include <map>
 #include <memory>
 #include <opencv2/features2d.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/line_descriptor.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "benchmark/image_benchmark.h"
 #include "common/config.h"
 #include "linefeature_tracker/line_finder.h"
 #include "linefeature_tracker/line_flow.h"
@@ -37,14 +36,8 @@ struct Input {
 };
 
 Input ReadInput(const std::string& config_file, const std::string& folder) {
-  Input input{CameraModel::Create(LoadConfig(config_file).sensor.camera), {}};
-  std::vector<cv::String> files;
-  cv::glob(folder + "/*.png", files);
-  files.resize(std::min(files.size(), kMaxImages));
-  for (const cv::String& file : files)
-    input.images.push_back(cv::imread(file, cv::IMREAD_GRAYSCALE));
-  if (input.images.size() < 2) throw std::invalid_argument("fewer than two images in " + folder);
-  return input;
+  return {CameraModel::Create(LoadConfig(config_file).sensor.camera),
+          ReadImages(folder, kMaxImages)};
 }
 
 // What both pipelines have in common here: lines of one image after the other, normalised.
@@ -349,18 +342,6 @@ void Register(const Input& input) {
 }  // namespace plm_vins
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (argc != 3) {
-    std::cerr << "usage: line_frontend_benchmark CONFIG IMAGE_FOLDER [--benchmark_...]\n";
-    return 1;
-  }
-  cv::setNumThreads(1);
-  try {
-    const plm_vins::Input input = plm_vins::ReadInput(argv[1], argv[2]);
-    plm_vins::Register(input);
-    benchmark::RunSpecifiedBenchmarks();
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
+  return plm_vins::RunImageBenchmark(argc, argv, "line_frontend_benchmark", plm_vins::ReadInput,
+                                     plm_vins::Register);
 }

@@ -4,13 +4,12 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <iostream>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmark/image_benchmark.h"
 #include "common/config.h"
 #include "feature_tracker/corner_detector.h"
 #include "feature_tracker/optical_flow.h"
@@ -31,14 +30,7 @@ struct Input {
 };
 
 Input ReadInput(const std::string& config_file, const std::string& folder) {
-  Input input{LoadConfig(config_file), {}};
-  std::vector<cv::String> files;
-  cv::glob(folder + "/*.png", files);
-  files.resize(std::min(files.size(), kMaxImages));
-  for (const cv::String& file : files)
-    input.images.push_back(cv::imread(file, cv::IMREAD_GRAYSCALE));
-  if (input.images.size() < 2) throw std::invalid_argument("fewer than two images in " + folder);
-  return input;
+  return {LoadConfig(config_file), ReadImages(folder, kMaxImages)};
 }
 
 cv::Mat Equalized(const cv::Mat& image) {
@@ -123,18 +115,6 @@ void Register(const Input& input) {
 }  // namespace plm_vins
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (argc != 3) {
-    std::cerr << "usage: point_tracker_benchmark CONFIG IMAGE_FOLDER [--benchmark_...]\n";
-    return 1;
-  }
-  cv::setNumThreads(1);
-  try {
-    const plm_vins::Input input = plm_vins::ReadInput(argv[1], argv[2]);
-    plm_vins::Register(input);
-    benchmark::RunSpecifiedBenchmarks();
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
+  return plm_vins::RunImageBenchmark(argc, argv, "point_tracker_benchmark", plm_vins::ReadInput,
+                                     plm_vins::Register);
 }

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "feature_tracker/track_drawing.h"
 
-#include <algorithm>
 #include <opencv2/imgproc.hpp>
+
+#include "common/age_color.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr int kOldLength = 20;  // images after which a track is fully red
 constexpr int kDiscRadius_px = 3;
 constexpr float kMotionScale = 4;  // motions between images are short
-
-cv::Scalar AgeColor(int length) {
-  const double age = std::min(1.0, static_cast<double>(length) / kOldLength);
-  return {255 * (1 - age), 0, 255 * age};
-}
 
 }  // namespace
 

@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linefeature_tracker/line_drawing.h"
 
-#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <string>
+
+#include "common/age_color.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr int kOldLength = 20;  // images after which a track is fully red
 constexpr int kThickness_px = 2;
 constexpr double kFontScale = 0.35;
-
-cv::Scalar AgeColor(int length) {
-  const double age = std::min(1.0, static_cast<double>(length) / kOldLength);
-  return {255 * (1 - age), 0, 255 * age};
-}
 
 cv::Point2d ToOpenCv(const Eigen::Vector2d& point) { return {point.x(), point.y()}; }
 

@@ -10,11 +10,7 @@ std::vector<LineDirection> LineDirections(const SlidingWindow& window, const Lin
   std::vector<LineDirection> directions;
   for (const auto& [id, landmark] : lines.landmarks()) {
     if (!landmark.triangulated) continue;
-    std::vector<LineSighting> sightings;
-    for (const LineView& view : landmark.views) {
-      sightings.push_back({window.T_W_C(*window.Find(view.t_ns)), view.segment});
-    }
-    const auto fit = EvaluateLine(sightings, noise, landmark.coordinates);
+    const auto fit = EvaluateLine(SightingsOf(landmark.views, window), noise, landmark.coordinates);
     if (!fit) continue;
     const PluckerLine line_W = LineInWorld(landmark, window);
     directions.push_back({id, line_W.direction.normalized(), DirectionDeviation(*fit)});

@@ -13,17 +13,11 @@ constexpr size_t kMinViewsToTriangulate = 3;
 constexpr double kMinSegment = 1e-3;   // normalised
 constexpr double kMinDistance = 1e-6;  // of a line from its host's camera [m]
 
-LineSighting SightingOf(const LineView& view, const SlidingWindow& window) {
-  return {window.T_W_C(*window.Find(view.t_ns)), view.segment};
-}
-
 LineTriangulationResult TriangulateLandmark(const SlidingWindow& window,
                                             const LineTriangulationOptions& options,
                                             LineLandmark* landmark) {
-  std::vector<LineSighting> sightings;
-  sightings.reserve(landmark->views.size());
-  for (const LineView& view : landmark->views) sightings.push_back(SightingOf(view, window));
-  const TriangulatedLine triangulated = TriangulateLine(options, sightings);
+  const TriangulatedLine triangulated =
+      TriangulateLine(options, SightingsOf(landmark->views, window));
   landmark->triangulated = triangulated.result == LineTriangulationResult::kOk;
   if (landmark->triangulated) landmark->coordinates = triangulated.line;
   return triangulated.result;
@@ -85,6 +79,18 @@ void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark) 
   const double direction = line_C.direction.norm();
   landmark->triangulated = direction > 0 && line_C.moment.norm() > kMinDistance * direction;
   if (landmark->triangulated) landmark->coordinates = ToOrthonormal(line_C);
+}
+
+LineSighting SightingOf(const LineView& view, const SlidingWindow& window) {
+  return {window.T_W_C(*window.Find(view.t_ns)), view.segment};
+}
+
+std::vector<LineSighting> SightingsOf(const std::vector<LineView>& views,
+                                      const SlidingWindow& window) {
+  std::vector<LineSighting> sightings;
+  sightings.reserve(views.size());
+  for (const LineView& view : views) sightings.push_back(SightingOf(view, window));
+  return sightings;
 }
 
 PluckerLine LineInWorld(const LineLandmark& landmark, const SlidingWindow& window) {

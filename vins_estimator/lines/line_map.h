@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "common/measurements.h"
 #include "vins_estimator/lines/line_axis.h"
@@ -59,6 +60,11 @@ class LineMap : public LandmarkMap<LineLandmark> {
 // Expresses a triangulated line in the camera of another of its views; not triangulated where it
 // passes through that camera.
 void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark);
+
+// A view, and views, of a line with the cameras' poses.
+LineSighting SightingOf(const LineView& view, const SlidingWindow& window);
+std::vector<LineSighting> SightingsOf(const std::vector<LineView>& views,
+                                      const SlidingWindow& window);
 
 // A triangulated line in the world.
 PluckerLine LineInWorld(const LineLandmark& landmark, const SlidingWindow& window);

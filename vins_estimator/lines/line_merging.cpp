@@ -15,16 +15,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-std::vector<LineSighting> SightingsOf(const SlidingWindow& window,
-                                      const std::vector<LineView>& views) {
-  std::vector<LineSighting> sightings;
-  sightings.reserve(views.size());
-  for (const LineView& view : views) {
-    sightings.push_back({window.T_W_C(*window.Find(view.t_ns)), view.segment});
-  }
-  return sightings;
-}
-
 // The seen part of a line, and how well its views tell its place. Few views are left of a line that
 // started anew, but many have put it where it is.
 std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W,
@@ -35,7 +25,7 @@ std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaternion
   if (!segment) return std::nullopt;
   SeenLine seen{R_F_W * segment->start_W, R_F_W * segment->end_W, landmark.axis};
   if (landmark.views.size() < kLeastViews) return seen;
-  const auto sightings = SightingsOf(window, landmark.views);
+  const auto sightings = SightingsOf(landmark.views, window);
   const auto fit = EvaluateLine(sightings, noise, landmark.coordinates);
   if (!fit) return std::nullopt;
   const Eigen::Vector3d middle_W = 0.5 * (segment->start_W + segment->end_W);
@@ -115,7 +105,7 @@ double ChiSquareLimit(int degrees_of_freedom) {
 // The best fit to the views of a line whose coordinates are about `line_W`.
 std::optional<LineFit> Fit(const SlidingWindow& window, double noise,
                            const std::vector<LineView>& views, const PluckerLine& line_W) {
-  const auto sightings = SightingsOf(window, views);
+  const auto sightings = SightingsOf(views, window);
   const PluckerLine initial = sightings.front().T_W_C.Inverse() * line_W;
   return FitLine(sightings, noise, ToOrthonormal(initial));
 }

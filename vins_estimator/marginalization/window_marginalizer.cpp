@@ -51,12 +51,6 @@ MarginalizationPrior Summarize(const WindowProblem& problem) {
   return {std::move(blocks), std::move(quadratic)};
 }
 
-// The landmark is known from this frame on, and from others as well.
-template <typename Landmark>
-bool IsHostedBy(int64_t t_ns, const Landmark& landmark) {
-  return landmark.triangulated && landmark.host().t_ns == t_ns && landmark.views.size() > 1;
-}
-
 }  // namespace
 
 std::function<bool(const BlockId&)> IsOfFrame(int64_t t_ns) {
@@ -102,10 +96,10 @@ MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
   builder.AddPrior();
   builder.AddMotion(1);
   for (auto& [id, landmark] : points->landmarks()) {
-    if (IsHostedBy(oldest_ns, landmark)) builder.AddPoint(&landmark);
+    if (LeavesWith(oldest_ns, landmark)) builder.AddPoint(&landmark);
   }
   for (auto& [id, landmark] : lines->landmarks()) {
-    if (IsHostedBy(oldest_ns, landmark)) builder.AddLine(&landmark);
+    if (LeavesWith(oldest_ns, landmark)) builder.AddLine(&landmark);
   }
   return Summarize(builder.problem()).Marginalize(IsOfFrame(oldest_ns));
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/optimization/levenberg_marquardt.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "vins_estimator/optimization/scaled_cholesky.h"
 
 namespace plm_vins {
 namespace {
@@ -52,10 +54,9 @@ double TakeStep(const WindowProblem& problem, const NormalEquations& equations, 
   Eigen::MatrixXd S;
   Eigen::VectorXd g;
   equations.Reduce(damping, &S, &g);
-  const Eigen::VectorXd scale = S.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * S * scale.asDiagonal());
-  if (factor.info() != Eigen::Success) return -1;
-  const Eigen::VectorXd step = -(scale.asDiagonal() * factor.solve(scale.asDiagonal() * g)).eval();
+  const ScaledCholesky factors(S);
+  if (!factors.success()) return -1;
+  const Eigen::VectorXd step = -factors.Solve(g);
   if (!step.allFinite()) return -1;
 
   for (size_t i = 0; i < problem.landmarks().size(); ++i) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "vins_estimator/marginalization/marginalization_prior.h"
+#include "vins_estimator/optimization/scaled_cholesky.h"
 #include "vins_estimator/optimization/term_evaluation.h"
 
 namespace plm_vins {
@@ -274,9 +275,8 @@ Eigen::MatrixXd NormalEquations::Covariance(const std::vector<BlockId>& ids) con
   Eigen::MatrixXd S;
   Eigen::VectorXd g;
   Reduce(0, &S, &g);
-  const Eigen::VectorXd scale = S.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * S * scale.asDiagonal());
-  if (factor.info() != Eigen::Success) return {};
+  const ScaledCholesky factors(S);
+  if (!factors.success()) return {};
 
   std::vector<int> rows;
   for (const BlockId& id : ids) {
@@ -284,10 +284,7 @@ Eigen::MatrixXd NormalEquations::Covariance(const std::vector<BlockId>& ids) con
     const int size = problem_.variables()[variable].type().tangent_size;
     for (int i = 0; i < size; ++i) rows.push_back(dense_offset_[variable] + i);
   }
-  Eigen::MatrixXd selection = Eigen::MatrixXd::Zero(dense_size_, rows.size());
-  for (size_t i = 0; i < rows.size(); ++i) selection(rows[i], i) = scale[rows[i]];
-  const Eigen::MatrixXd half = factor.matrixL().solve(selection);
-  return half.transpose() * half;
+  return factors.InverseBlock(rows);
 }
 
 }  // namespace plm_vins

@@ -25,9 +25,9 @@ class LandmarkMap {
   // coordinates move to the next view.
   void RemoveFrame(const SlidingWindow& window, int64_t t_ns);
 
-  // For the landmarks hosted by a frame, whose views have gone into the prior and must not count
-  // again: those still seen keep only their newest view, as host of a fresh start at the same
-  // place; the others are removed, after `on_departure` had a look at them.
+  // For the landmarks that go into the prior with a frame (LeavesWith) and must not count again:
+  // those still seen keep only their newest view, as host of a fresh start at the same place; the
+  // others are removed, after `on_departure` had a look at them.
   void StartAnew(const SlidingWindow& window, int64_t host_ns,
                  const std::function<void(const Landmark&)>& on_departure);
 
@@ -42,6 +42,12 @@ class LandmarkMap {
  protected:
   Landmarks landmarks_;
 };
+
+// The landmark goes into the prior with the frame that hosts it: other frames know it as well.
+template <typename Landmark>
+bool LeavesWith(int64_t host_ns, const Landmark& landmark) {
+  return landmark.triangulated && landmark.host().t_ns == host_ns && landmark.views.size() > 1;
+}
 
 // Takes out one view of a landmark.
 template <typename Landmark>
@@ -69,8 +75,7 @@ void LandmarkMap<Landmark>::StartAnew(const SlidingWindow& window, int64_t host_
   const int64_t newest_ns = window.newest().state.t_ns;
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {
     Landmark& landmark = it->second;
-    const bool has_gone =
-        landmark.host().t_ns == host_ns && landmark.triangulated && landmark.views.size() > 1;
+    const bool has_gone = LeavesWith(host_ns, landmark);
     if (has_gone && landmark.views.back().t_ns != newest_ns) {
       on_departure(landmark);
       it = landmarks_.erase(it);

@@ -12,6 +12,13 @@ function(plm_add_ros_library name)
   target_link_libraries(${name} PUBLIC ${ROS_LIBRARIES})
 endfunction()
 
+# plm_add_nodelet(NAME SOURCES...): a library of nodelets, named in nodelet_plugins.xml.
+function(plm_add_nodelet name)
+  add_library(${name} SHARED ${ARGN})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  install(TARGETS ${name} LIBRARY DESTINATION lib)
+endfunction()
+
 # plm_add_test(NAME LIBRARIES...): builds NAME_test.cpp of this folder as one GoogleTest program.
 function(plm_add_test path)
   set(name ${path}_test)

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -24,7 +25,8 @@ inline int64_t ToNanoseconds(double seconds) {
 // One grey image (CV_8UC1) as the camera delivered it, with lens distortion.
 struct ImageSample {
   int64_t t_ns = 0;
-  cv::Mat gray;
+  cv::Mat gray;                            // read only: others may look at the same pixels
+  std::shared_ptr<const void> owner = {};  // of the pixels, where `gray` is not: keep both
 };
 
 // One IMU reading in the body frame B.

@@ -46,6 +46,7 @@ class TrackingStage {
   std::optional<Frame> Flush() { return Track(queue_.Flush()); }
 
   const Tracker& tracker() const { return tracker_; }
+  Tracker& tracker() { return tracker_; }
 
  private:
   std::optional<Frame> Track(const std::optional<ReadyImage>& next) {

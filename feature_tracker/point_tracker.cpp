@@ -73,7 +73,7 @@ class PointTracker::Implementation {
       Spread();
     }
     Refill(image);
-    raw_image_ = sample.gray;
+    sample_ = sample;
     pyramid_ = std::move(pyramid);
     t_ns_ = sample.t_ns;
     return MakeFrame();
@@ -86,8 +86,15 @@ class PointTracker::Implementation {
     statistics_ = {};
   }
 
+  // The youngest tracks are at the end.
+  void SetMaxCorners(int count) {
+    config_.max_cnt = count;
+    detector_ = CornerDetector(config_, mask_);
+    tracks_.resize(std::min(tracks_.size(), static_cast<size_t>(count)));
+  }
+
   const PointTrackerStatistics& statistics() const { return statistics_; }
-  cv::Mat DrawTracks() const { return DrawPointTracks(raw_image_, tracks_); }
+  cv::Mat DrawTracks() const { return DrawPointTracks(sample_.gray, tracks_); }
 
  private:
   cv::Mat Equalize(const cv::Mat& gray) const {
@@ -189,7 +196,7 @@ class PointTracker::Implementation {
     return frame;
   }
 
-  // Read-only after construction.
+  // Read-only after construction, but for SetMaxCorners.
   PointTrackerConfig config_;
   std::shared_ptr<const CameraModel> camera_;
   cv::Size image_size_;
@@ -201,7 +208,7 @@ class PointTracker::Implementation {
   // As of the newest image.
   std::optional<int64_t> t_ns_;
   double previous_dt_ = 0;  // between the two newest images [s]
-  cv::Mat raw_image_;
+  ImageSample sample_;      // the pyramid may look at its pixels
   OpticalFlow::Pyramid pyramid_;
   std::vector<PointTrack> tracks_;
   PointTrackerStatistics statistics_;
@@ -220,6 +227,8 @@ PointFrame PointTracker::Track(const ImageSample& image,
 }
 
 void PointTracker::Reset() { implementation_->Reset(); }
+
+void PointTracker::SetMaxCorners(int count) { implementation_->SetMaxCorners(count); }
 
 const PointTrackerStatistics& PointTracker::statistics() const {
   return implementation_->statistics();

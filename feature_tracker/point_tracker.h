@@ -39,6 +39,9 @@ class PointTracker {
 
   void Reset();  // forgets all tracks; ids go on
 
+  // Replaces max_cnt from the next image on; of too many tracks the oldest stay.
+  void SetMaxCorners(int count);
+
   const PointTrackerStatistics& statistics() const;
 
   // The last image with its tracks drawn (CV_8UC3), coloured by age.

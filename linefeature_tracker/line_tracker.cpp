@@ -73,7 +73,7 @@ class LineTracker::Implementation {
       FollowByLbd(pyramid, dt_ratio, R_C1_C0);
     }
     previous_dt_ = dt;
-    image_ = sample.gray;
+    sample_ = sample;
     pyramid_ = std::move(pyramid);
     t_ns_ = sample.t_ns;
     return MakeFrame();
@@ -88,8 +88,14 @@ class LineTracker::Implementation {
     statistics_ = {};
   }
 
+  // The youngest lines are at the end.
+  void SetMaxLines(int count) {
+    config_.max_lines = count;
+    tracks_.resize(std::min(tracks_.size(), static_cast<size_t>(count)));
+  }
+
   const LineTrackerStatistics& statistics() const { return statistics_; }
-  cv::Mat DrawTracks() const { return DrawLineTracks(image_, tracks_); }
+  cv::Mat DrawTracks() const { return DrawLineTracks(sample_.gray, tracks_); }
 
  private:
   // Takes the tracks to the image of `pyramid` and drops those that got lost.
@@ -260,7 +266,7 @@ class LineTracker::Implementation {
     return frame;
   }
 
-  // Read-only after construction, but for the detector's buffers.
+  // Read-only after construction, but for the detector's buffers and SetMaxLines.
   LineTrackerConfig config_;
   std::shared_ptr<const CameraModel> camera_;
   cv::Size image_size_;
@@ -273,7 +279,7 @@ class LineTracker::Implementation {
   // As of the newest image.
   std::optional<int64_t> t_ns_;
   double previous_dt_ = 0;  // between the two newest images [s]
-  cv::Mat image_;
+  ImageSample sample_;      // the pyramid may look at its pixels
   LineFlow::Pyramid pyramid_;
   std::vector<LineTrack> tracks_;
   std::optional<int> images_since_detection_;
@@ -292,6 +298,8 @@ LineFrame LineTracker::Track(const ImageSample& image,
 }
 
 void LineTracker::Reset() { implementation_->Reset(); }
+
+void LineTracker::SetMaxLines(int count) { implementation_->SetMaxLines(count); }
 
 const LineTrackerStatistics& LineTracker::statistics() const {
   return implementation_->statistics();

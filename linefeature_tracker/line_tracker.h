@@ -46,6 +46,9 @@ class LineTracker {
 
   void Reset();  // forgets all lines; ids go on
 
+  // Replaces max_line_cnt from the next image on; of too many lines the oldest stay.
+  void SetMaxLines(int count);
+
   const LineTrackerStatistics& statistics() const;
 
   // The last image with its lines drawn (CV_8UC3), coloured by age.

@@ -4,9 +4,11 @@
 #include <cv_bridge/cv_bridge.h>
 #include <geometry_msgs/Point32.h>
 #include <sensor_msgs/image_encodings.h>
+#include <boost/make_shared.hpp>
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
@@ -16,17 +18,15 @@
 namespace plm_vins {
 namespace {
 
-// Drivers that do not care announce grey images by their OpenCV type, which cv_bridge converts only
-// to itself.
-cv::Mat ToGrey(const sensor_msgs::Image& message) {
+// Shares the message's pixels where they are grey. Drivers that do not care announce grey images by
+// their OpenCV type, which cv_bridge converts only to itself.
+cv_bridge::CvImageConstPtr ToGrey(const sensor_msgs::ImageConstPtr& message) {
   namespace encodings = sensor_msgs::image_encodings;
-  const auto view = [&](const std::string& encoding) {
-    return cv_bridge::toCvShare(message, nullptr, encoding)->image.clone();
-  };
-  if (message.encoding == encodings::TYPE_8UC1) return view(encodings::TYPE_8UC1);
-  if (message.encoding != encodings::TYPE_16UC1) return view(encodings::MONO8);
-  cv::Mat gray;
-  view(encodings::TYPE_16UC1).convertTo(gray, CV_8U, 255.0 / 65535.0);
+  const std::string& encoding = message->encoding;
+  if (encoding == encodings::TYPE_8UC1) return cv_bridge::toCvShare(message, encoding);
+  if (encoding != encodings::TYPE_16UC1) return cv_bridge::toCvShare(message, encodings::MONO8);
+  const auto gray = boost::make_shared<cv_bridge::CvImage>();
+  cv_bridge::toCvShare(message, encoding)->image.convertTo(gray->image, CV_8U, 255.0 / 65535.0);
   return gray;
 }
 
@@ -92,13 +92,21 @@ ros::Time ToRosTime(int64_t t_ns) {
   return stamp;
 }
 
-ImageSample ToImageSample(const sensor_msgs::Image& message) {
+ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message) {
   try {
-    return {ToNanoseconds(message.header.stamp), ToGrey(message)};
+    const cv_bridge::CvImageConstPtr gray = ToGrey(message);
+    return {ToNanoseconds(message->header.stamp), gray->image,
+            std::make_shared<cv_bridge::CvImageConstPtr>(gray)};
   } catch (const std::exception& error) {  // cv_bridge::Exception or cv::Exception
-    throw std::invalid_argument("image of encoding '" + message.encoding +
+    throw std::invalid_argument("image of encoding '" + message->encoding +
                                 "' cannot be made grey: " + error.what());
   }
+}
+
+ImageSample ToImageSample(const sensor_msgs::Image& message) {
+  const sensor_msgs::ImageConstPtr borrowed(&message, [](const sensor_msgs::Image*) {});
+  const ImageSample sample = ToImageSample(borrowed);
+  return {sample.t_ns, sample.gray.clone(), nullptr};
 }
 
 ImageSample ToImageSample(const sensor_msgs::CompressedImage& message) {
@@ -108,7 +116,7 @@ ImageSample ToImageSample(const sensor_msgs::CompressedImage& message) {
     throw std::invalid_argument("compressed image of format '" + message.format +
                                 "' cannot be decoded");
   }
-  return {ToNanoseconds(message.header.stamp), gray};
+  return {ToNanoseconds(message.header.stamp), gray, nullptr};
 }
 
 ImuSample ToImuSample(const sensor_msgs::Imu& message) {
@@ -212,6 +220,12 @@ geometry_msgs::Transform ToTransform(const Rigid3d& T) {
   transform.translation = ToVector3(T.translation);
   transform.rotation = ToQuaternion(T.rotation);
   return transform;
+}
+
+Rigid3d ToRigid(const geometry_msgs::Transform& transform) {
+  const auto& p = transform.translation;
+  const auto& q = transform.rotation;
+  return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), {p.x, p.y, p.z}};
 }
 
 }  // namespace plm_vins

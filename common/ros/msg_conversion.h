@@ -26,7 +26,10 @@ inline int64_t ToNanoseconds(const ros::Time& stamp) {
 ros::Time ToRosTime(int64_t t_ns);
 
 // Grey image of any encoding that cv_bridge can turn into one (mono8, mono16, bgr8, rgb8, Bayer,
-// ...). Throws std::invalid_argument that names the encoding where there is no way.
+// ...). Throws std::invalid_argument that names the encoding where there is no way. Pixels that are
+// grey already stay where they are: the sample then owns a share of the message.
+ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message);
+// The same from a message that may go: with pixels of its own.
 ImageSample ToImageSample(const sensor_msgs::Image& message);
 ImageSample ToImageSample(const sensor_msgs::CompressedImage& message);
 
@@ -51,5 +54,6 @@ geometry_msgs::Vector3 ToVector3(const Eigen::Vector3d& v);
 geometry_msgs::Quaternion ToQuaternion(const Eigen::Quaterniond& q);
 geometry_msgs::Pose ToPose(const Rigid3d& T);
 geometry_msgs::Transform ToTransform(const Rigid3d& T);
+Rigid3d ToRigid(const geometry_msgs::Transform& transform);
 
 }  // namespace plm_vins

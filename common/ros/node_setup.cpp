@@ -5,37 +5,19 @@
 #include <ros/init.h>
 
 #include <exception>
-#include <map>
+
+#include "common/ros/node_config.h"
 
 namespace plm_vins {
-namespace {
-
-Config LoadNodeConfig() {
-  std::string file;
-  if (!ros::NodeHandle("~").getParam("config_file", file)) {
-    throw ConfigError({"parameter ~config_file is not set: give the path of a configuration file"});
-  }
-  std::map<std::string, std::string> overrides;
-  const ros::NodeHandle node("~");
-  if (node.hasParam("set") && !node.getParam("set", overrides)) {
-    throw ConfigError({"parameters ~set/KEY must be texts (in a launch file: type=\"str\")"});
-  }
-  return LoadConfig(file, overrides);
-}
-
-}  // namespace
 
 int RunNode(int argc, char** argv, const std::string& name,
             const std::function<void(const Config&)>& body) {
   ros::init(argc, argv, name);
   const ros::NodeHandle keeps_ros_running;
   try {
-    body(LoadNodeConfig());
-  } catch (const ConfigError& error) {
-    for (const std::string& problem : error.problems()) ROS_FATAL_STREAM(problem);
-    return 1;
+    body(LoadNodeConfig(ros::NodeHandle("~")));
   } catch (const std::exception& error) {
-    ROS_FATAL_STREAM(error.what());
+    LogFatal(error);
     return 1;
   }
   return 0;

@@ -17,35 +17,41 @@
 #include "common/config.h"
 #include "common/ros/msg_conversion.h"
 #include "common/ros/node_setup.h"
+#include "common/ros/run_time_settings.h"
 
 namespace plm_vins {
 
-// What is particular to the node of one front end.
-struct TrackerNodeOptions {
-  std::string feature_topic;      // private, as is the topic of the annotated image
-  std::string annotated_topic;    //
-  std::string diagnostics;        // name of the status
-  uint32_t image_queue_size = 1;  // images that wait while one is tracked; beyond, the oldest goes
-};
-
-// A front end as a node: images (and the IMU, where it comes) in; features, annotated image and
-// ~restart out. One thread: images queue in their subscriber while one is tracked.
+// A front end under ROS, as a node or in a nodelet: images (and the IMU, where it comes) in;
+// features, annotated image and ~restart out. All callbacks come from the queue of the two node
+// handles, one at a time: images queue in their subscriber while one is tracked.
 //
 // ~image_transport: raw (default), compressed (decoded here, no plugin needed) or any plugin's
-// name. `Stage` is a TrackingStage.
-template <typename Stage>
+// name.
+//
+// `FrontEnd` says what is particular to a front end: the types Stage (a TrackingStage) and Settings
+// (of dynamic_reconfigure, with show_track), ToSettings(config) and Apply(settings, tracker), the
+// private topics kFeatureTopic and kAnnotatedTopic, the status kDiagnostics, and kImageQueue, how
+// many images wait while one is tracked; beyond, the oldest goes.
+template <typename FrontEnd>
 class TrackerNode {
  public:
-  TrackerNode(const Config& config, const TrackerNodeOptions& options)
-      : config_(config), options_(options), stage_(config) {
+  TrackerNode(const Config& config, const ros::NodeHandle& node,
+              const ros::NodeHandle& private_node)
+      : node_(node),
+        private_node_(private_node),
+        config_(config),
+        stage_(config),
+        diagnostics_(node, private_node, private_node.getNamespace()),
+        settings_(FrontEnd::ToSettings(config), private_node,
+                  [this](const Settings& settings) { Apply(settings); }) {
     feature_publisher_ =
-        private_node_.advertise<sensor_msgs::PointCloud>(options.feature_topic, kOutputQueue);
+        private_node_.advertise<sensor_msgs::PointCloud>(FrontEnd::kFeatureTopic, kOutputQueue);
     restart_publisher_ = private_node_.advertise<std_msgs::Bool>("restart", 10);
-    annotated_publisher_ = private_transport_.advertise(options.annotated_topic, 10);
+    annotated_publisher_ = private_transport_.advertise(FrontEnd::kAnnotatedTopic, 10);
     flush_timer_ = node_.createWallTimer(ros::WallDuration(0.5 * kMaxWaitForImu),
                                          [this](const ros::WallTimerEvent&) { FlushLateImages(); });
     diagnostics_.setHardwareID("none");
-    diagnostics_.add(options.diagnostics, this, &TrackerNode::ReportStatus);
+    diagnostics_.add(FrontEnd::kDiagnostics, this, &TrackerNode::ReportStatus);
     diagnostics_timer_ =
         node_.createWallTimer(ros::WallDuration(1.0),
                               [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
@@ -53,23 +59,30 @@ class TrackerNode {
   }
 
  private:
+  using Stage = typename FrontEnd::Stage;
+  using Settings = typename FrontEnd::Settings;
+
   static constexpr uint32_t kOutputQueue = 200;
   static constexpr uint32_t kImuQueue = 2000;
   // [s] of wall time: then an image is tracked without the gyro.
   static constexpr double kMaxWaitForImu = 0.1;
 
+  void Apply(const Settings& settings) {
+    show_track_ = settings.show_track;
+    FrontEnd::Apply(settings, &stage_.tracker());
+  }
+
   void Subscribe() {
     const std::string topic = config_.sensor.image_topic;
     const auto transport = private_node_.param<std::string>("image_transport", "raw");
     if (transport == "compressed") {
-      compressed_subscriber_ =
-          node_.subscribe(topic + "/compressed", options_.image_queue_size,
-                          &TrackerNode::AddImage<sensor_msgs::CompressedImage>, this);
+      compressed_subscriber_ = node_.subscribe(topic + "/compressed", FrontEnd::kImageQueue,
+                                               &TrackerNode::AddCompressedImage, this);
     } else {
       image_subscriber_ = transport_.subscribe(
-          topic, options_.image_queue_size,
-          [this](const sensor_msgs::ImageConstPtr& message) { AddImage(*message); }, nullptr,
-          image_transport::TransportHints(transport));
+          topic, FrontEnd::kImageQueue,
+          [this](const sensor_msgs::ImageConstPtr& message) { AddImage(message); }, nullptr,
+          image_transport::TransportHints(transport, ros::TransportHints(), private_node_));
     }
     imu_subscriber_ = node_.subscribe(config_.sensor.imu_topic, kImuQueue, &TrackerNode::AddImu,
                                       this, ros::TransportHints().tcpNoDelay());
@@ -80,6 +93,9 @@ class TrackerNode {
     while (const auto frame = stage_.Pop()) Publish(*frame);
   }
 
+  void AddCompressedImage(const sensor_msgs::CompressedImage& message) { AddImage(message); }
+
+  // A message, or a pointer to one that may be shared.
   template <typename Image>
   void AddImage(const Image& message) {
     last_image_arrival_ = ros::WallTime::now();
@@ -107,7 +123,7 @@ class TrackerNode {
     features_in_last_image_ = message.points.size();
     if (!frame.publish) return;
     feature_publisher_.publish(message);
-    if (config_.show_track && annotated_publisher_.getNumSubscribers() > 0) {
+    if (show_track_ && annotated_publisher_.getNumSubscribers() > 0) {
       annotated_publisher_.publish(ToMessage(stage_.tracker().DrawTracks(), frame.features.t_ns,
                                              config_.output.camera_frame));
     }
@@ -132,28 +148,32 @@ class TrackerNode {
   }
 
   ros::NodeHandle node_;
-  ros::NodeHandle private_node_{"~"};
+  ros::NodeHandle private_node_;
   image_transport::ImageTransport transport_{node_};
   image_transport::ImageTransport private_transport_{private_node_};
 
   const Config config_;
-  const TrackerNodeOptions options_;
   Stage stage_;
+  bool show_track_ = true;
   DropWarner drop_warner_;
   int64_t unreadable_images_ = 0;
   std::string first_unreadable_;
   size_t features_in_last_image_ = 0;
 
-  image_transport::Subscriber image_subscriber_;
-  ros::Subscriber compressed_subscriber_;
-  ros::Subscriber imu_subscriber_;
+  ros::WallTime last_image_arrival_;
   ros::Publisher feature_publisher_;
   ros::Publisher restart_publisher_;
   image_transport::Publisher annotated_publisher_;
-  ros::WallTimer flush_timer_;
-  ros::WallTime last_image_arrival_;
-  ros::WallTimer diagnostics_timer_;
   diagnostic_updater::Updater diagnostics_;
+  RunTimeSettings<Settings> settings_;
+
+  // Last, so that they end first: a nodelet is unloaded while callbacks run in other threads, and
+  // each of these waits for its own to return.
+  image_transport::Subscriber image_subscriber_;
+  ros::Subscriber compressed_subscriber_;
+  ros::Subscriber imu_subscriber_;
+  ros::WallTimer flush_timer_;
+  ros::WallTimer diagnostics_timer_;
 };
 
 }  // namespace plm_vins

@@ -11,6 +11,7 @@ import shlex
 import subprocess
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 import roslaunch
 import roslib.packages
@@ -22,6 +23,8 @@ SENSORS = {"euroc.launch": "euroc.yaml", "realsense_d435i.launch": "realsense_d4
            "tum_vi.launch": "tum_vi.yaml"}
 TEMPLATES = ("own_sensor.launch", "plm_vins.launch")
 ALL = (*SENSORS, *TEMPLATES)
+NODELETS = {"feature_tracker": "plm_vins/FeatureTracker",
+            "linefeature_tracker": "plm_vins/LineFeatureTracker"}
 
 # Of rs_camera.launch in the driver, realsense2_camera 2.3.
 DRIVER_ARGUMENTS = ("enable_infra1", "enable_depth", "enable_color", "infra_width", "infra_height",
@@ -84,6 +87,34 @@ class LaunchFiles(unittest.TestCase):
         nodes, parameters = load("euroc.launch", lines="false")
         self.assertNotIn("linefeature_tracker", nodes)
         self.assertEqual(parameters["/vins_estimator/set/use_lines"], "0")
+
+    def test_nodelets_instead_of_nodes(self):
+        for name in ALL:
+            with self.subTest(name):
+                nodes, parameters = load(name, config="/mine.yaml", bag="/a.bag", nodelets="true")
+                self.assertEqual(nodes["tracker_manager"].args, "manager")
+                for tracker, nodelet in NODELETS.items():
+                    self.assertEqual(nodes[tracker].package, "nodelet")
+                    self.assertEqual(nodes[tracker].args, f"load {nodelet} tracker_manager")
+                    self.assertEqual(parameters[f"/{tracker}/config_file"], "/mine.yaml")
+                self.assertEqual(nodes["vins_estimator"].package, "plm_vins")
+
+    def test_nodelets_join_the_manager_of_a_driver(self):
+        nodes = load("euroc.launch", nodelets="true", manager="/camera/manager")[0]
+        self.assertEqual(nodes["feature_tracker"].args,
+                         "load plm_vins/FeatureTracker /camera/manager")
+        self.assertFalse([node for node in nodes.values() if node.args == "manager"])
+
+    def test_nodelets_are_described_where_the_manager_looks(self):
+        package = rospkg.RosPack().get_path("plm_vins")
+        file = rospkg.RosPack().get_manifest("plm_vins").get_export("nodelet", "plugin")[0]
+        description = xml.etree.ElementTree.parse(file.replace("${prefix}", package))
+        for library in description.iter("library"):
+            self.assertTrue(any((pathlib.Path(prefix) / f"{library.get('path')}.so").is_file()
+                                for prefix in os.environ["CMAKE_PREFIX_PATH"].split(":")),
+                            library.get("path"))
+        self.assertEqual(sorted(entry.get("name") for entry in description.iter("class")),
+                         sorted(NODELETS.values()))
 
     def test_templates_ask_for_a_configuration(self):
         for name in TEMPLATES:

@@ -259,6 +259,17 @@ TEST_P(LineTrackerTest, StatisticsAddUp) {
   }
 }
 
+TEST_P(LineTrackerTest, KeepsTheOldestOfTooManyLines) {
+  Show(ConfusingScene());
+  const cv::Mat image = scene_->View(Eigen::Matrix3d::Identity());
+  ASSERT_GT(Track(image).lines.size(), 10U);
+  tracker_->SetMaxLines(6);
+  const LineFrame fewer = Track(image);
+  ASSERT_EQ(fewer.lines.size(), 6U);
+  if (GetParam() == LineMatcherType::kLbd) return;  // describes, so matches, fewer lines, too
+  for (const LineObservation& line : fewer.lines) EXPECT_LT(line.id, 6);
+}
+
 TEST_P(LineTrackerTest, DrawsTheNewestImage) {
   Show(BarScene(PlainParameters()));
   EXPECT_TRUE(tracker_->DrawTracks().empty());

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 #include <sensor_msgs/image_encodings.h>
+#include <boost/make_shared.hpp>
+#include <boost/weak_ptr.hpp>
 
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
@@ -56,6 +58,24 @@ INSTANTIATE_TEST_SUITE_P(Encodings, ImageEncodings,
                                            EncodingCase{encodings::MONO16, {0x00, 0x80}, 127.5},
                                            EncodingCase{encodings::TYPE_16UC1, {0x00, 0x80}, 127.5},
                                            EncodingCase{encodings::BAYER_RGGB8, {60}, 60}));
+
+TEST(ImageConversion, SharesGreyPixelsAndKeepsThem) {
+  for (const std::string& encoding : {encodings::MONO8, encodings::TYPE_8UC1}) {
+    auto message = boost::make_shared<const sensor_msgs::Image>(MakeImage(encoding, {90}));
+    const boost::weak_ptr<const sensor_msgs::Image> watched = message;
+    ImageSample sample = ToImageSample(sensor_msgs::ImageConstPtr(message));
+    EXPECT_EQ(sample.gray.data, message->data.data()) << encoding;
+    message.reset();
+    EXPECT_FALSE(watched.expired()) << encoding;
+    sample = {};
+    EXPECT_TRUE(watched.expired()) << encoding;
+  }
+}
+
+TEST(ImageConversion, CopiesThePixelsOfAMessageThatMayGo) {
+  const sensor_msgs::Image message = MakeImage(encodings::MONO8, {90});
+  EXPECT_NE(ToImageSample(message).gray.data, message.data.data());
+}
 
 TEST(ImageConversion, NamesAnEncodingThatIsNoPicture) {
   try {
@@ -191,6 +211,9 @@ TEST(PoseMessage, HasTheTransform) {
   EXPECT_EQ(pose.orientation.w, 0.5);
   EXPECT_EQ(pose.orientation.y, -0.5);
   EXPECT_EQ(ToTransform(T).translation.z, 3);
+  const Rigid3d same = ToRigid(ToTransform(T));
+  EXPECT_EQ(same.translation, T.translation);
+  EXPECT_TRUE(same.rotation.isApprox(T.rotation));
 }
 
 }  // namespace

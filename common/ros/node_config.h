@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <exception>
+
+#include "common/config.h"
+
+namespace plm_vins {
+
+// The configuration of the file ~config_file, in which texts ~set/KEY replace scalar keys. Throws
+// ConfigError.
+Config LoadNodeConfig(const ros::NodeHandle& private_node);
+
+// One fatal log line per line of the error's text: one per problem of a configuration.
+void LogFatal(const std::exception& error);
+
+}  // namespace plm_vins

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <dynamic_reconfigure/server.h>
+#include <ros/node_handle.h>
+
+#include <boost/thread/recursive_mutex.hpp>
+#include <functional>
+
+namespace plm_vins {
+
+// What rqt_reconfigure and dynparam may change while a node runs. `Settings` is generated from a
+// file of cfg/. They begin with `initial`, the values of the configuration file: what an earlier
+// run left on the parameter server does not count. `apply` gets them at once and with each change,
+// as a callback of `private_node`'s queue.
+template <typename Settings>
+class RunTimeSettings {
+ public:
+  RunTimeSettings(const Settings& initial, const ros::NodeHandle& private_node,
+                  const std::function<void(const Settings&)>& apply)
+      : server_(mutex_, private_node) {
+    server_.setConfigDefault(initial);
+    server_.updateConfig(initial);
+    server_.setCallback([apply](const Settings& settings, uint32_t) { apply(settings); });
+  }
+
+ private:
+  boost::recursive_mutex mutex_;  // of server_
+  dynamic_reconfigure::Server<Settings> server_;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The point front end as the nodelet plm_vins/FeatureTracker.
+#include <pluginlib/class_list_macros.hpp>
+
+#include "common/ros/tracker_nodelet.h"
+#include "feature_tracker/ros/point_front_end.h"
+
+namespace plm_vins {
+using FeatureTrackerNodelet = TrackerNodelet<PointFrontEnd>;
+}  // namespace plm_vins
+
+PLUGINLIB_EXPORT_CLASS(plm_vins::FeatureTrackerNodelet, nodelet::Nodelet)

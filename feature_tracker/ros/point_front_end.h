@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <plm_vins/FeatureTrackerConfig.h>
+
+#include <cstdint>
+
+#include "common/config.h"
+#include "feature_tracker/point_tracking_stage.h"
+
+namespace plm_vins {
+
+// The point front end as TrackerNode describes it.
+struct PointFrontEnd {
+  using Stage = PointTrackingStage;
+  using Settings = FeatureTrackerConfig;
+
+  static constexpr char kFeatureTopic[] = "feature";
+  static constexpr char kAnnotatedTopic[] = "feature_img";
+  static constexpr char kDiagnostics[] = "point tracking";
+  // No image is dropped as long as tracking keeps up on average.
+  static constexpr uint32_t kImageQueue = 200;
+
+  static Settings ToSettings(const Config& config) {
+    Settings settings;
+    settings.max_cnt = config.points.max_cnt;
+    settings.show_track = config.show_track;
+    return settings;
+  }
+  static void Apply(const Settings& settings, PointTracker* tracker) {
+    tracker->SetMaxCorners(settings.max_cnt);
+  }
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <plm_vins/LineFeatureTrackerConfig.h>
+
+#include <cstdint>
+
+#include "common/config.h"
+#include "linefeature_tracker/line_tracking_stage.h"
+
+namespace plm_vins {
+
+// The line front end as TrackerNode describes it.
+struct LineFrontEnd {
+  using Stage = LineTrackingStage;
+  using Settings = LineFeatureTrackerConfig;
+
+  static constexpr char kFeatureTopic[] = "linefeature";
+  static constexpr char kAnnotatedTopic[] = "linefeature_img";
+  static constexpr char kDiagnostics[] = "line tracking";
+  // The estimator waits for lines for three images at most, so a tracker that cannot keep up leaves
+  // out images instead of falling back further.
+  static constexpr uint32_t kImageQueue = 3;
+
+  static Settings ToSettings(const Config& config) {
+    Settings settings;
+    settings.max_line_cnt = config.lines.max_lines;
+    settings.show_track = config.show_track;
+    return settings;
+  }
+  static void Apply(const Settings& settings, LineTracker* tracker) {
+    tracker->SetMaxLines(settings.max_line_cnt);
+  }
+};
+
+}  // namespace plm_vins

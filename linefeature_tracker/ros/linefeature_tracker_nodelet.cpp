@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The line front end as the nodelet plm_vins/LineFeatureTracker.
+#include <pluginlib/class_list_macros.hpp>
+
+#include "common/ros/tracker_nodelet.h"
+#include "linefeature_tracker/ros/line_front_end.h"
+
+namespace plm_vins {
+using LineFeatureTrackerNodelet = TrackerNodelet<LineFrontEnd>;
+}  // namespace plm_vins
+
+PLUGINLIB_EXPORT_CLASS(plm_vins::LineFeatureTrackerNodelet, nodelet::Nodelet)

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace plm_vins {
 namespace {
@@ -47,24 +51,34 @@ void CheckImage(const ConfigDraft& draft, const Report& report) {
   }
 }
 
-void CheckNames(const ConfigDraft& draft, const Report& report) {
-  const OutputConfig& output = draft.output;
-  const auto check_name = [&](const char* key, const std::string& name) {
-    if (name.empty() || name.find_first_of(" \t") != std::string::npos) {
-      report(key, "must be a name without spaces");
-    }
-  };
-  check_name("image_topic", draft.sensor.image_topic);
-  check_name("imu_topic", draft.sensor.imu_topic);
-  check_name("world_frame", output.world_frame);
-  check_name("body_frame", output.body_frame);
-  check_name("camera_frame", output.camera_frame);
-  if (draft.sensor.image_topic == draft.sensor.imu_topic) {
-    report("imu_topic", "is the same as image_topic");
+bool IsName(const std::string& text) {
+  return !text.empty() && text.find_first_of(" \t") == std::string::npos;
+}
+
+void CheckTopics(const SensorConfig& sensor, const Report& report) {
+  const std::pair<const char*, std::string> topics[] = {{"image_topic", sensor.image_topic},
+                                                        {"imu_topic", sensor.imu_topic}};
+  for (const auto& [key, topic] : topics) {
+    if (!IsName(topic)) report(key, "must be a name without spaces");
   }
-  if (output.body_frame == output.world_frame) report("body_frame", "is the same as world_frame");
-  if (output.camera_frame == output.world_frame || output.camera_frame == output.body_frame) {
-    report("camera_frame", "is the same as another frame");
+  if (sensor.image_topic == sensor.imu_topic) report("imu_topic", "is the same as image_topic");
+}
+
+// tf2 refuses names with a leading slash, and each frame has one parent.
+void CheckFrames(const OutputConfig& output, const Report& report) {
+  std::vector<std::pair<const char*, std::string>> frames = {{"world_frame", output.world_frame},
+                                                             {"body_frame", output.body_frame},
+                                                             {"camera_frame", output.camera_frame}};
+  if (!output.base_frame.empty()) frames.emplace_back("base_frame", output.base_frame);
+  std::map<std::string, std::string> key_of_name;
+  for (const auto& [key, name] : frames) {
+    if (!IsName(name)) {
+      report(key, "must be a name without spaces");
+    } else if (name.front() == '/') {
+      report(key, "must not begin with a slash: tf2 refuses it");
+    }
+    const auto [other, is_new] = key_of_name.emplace(name, key);
+    if (!is_new) report(key, "is the same as " + other->second);
   }
 }
 
@@ -95,7 +109,8 @@ void CheckTogether(const ConfigEntries& entries, const ConfigDraft& draft, const
   CheckExtrinsics(entries, draft, report);
   CheckNoise(entries, report);
   CheckImage(draft, report);
-  CheckNames(draft, report);
+  CheckTopics(draft.sensor, report);
+  CheckFrames(draft.output, report);
   CheckMask(draft, report);
 }
 

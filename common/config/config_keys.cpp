@@ -235,6 +235,7 @@ std::vector<ConfigKey> OutputKeys() {
       TextKey("world_frame", Output(&O::world_frame)),
       TextKey("body_frame", Output(&O::body_frame)),
       TextKey("camera_frame", Output(&O::camera_frame)),
+      TextKey("base_frame", Output(&O::base_frame)),
       FlagKey("publish_tf", Output(&O::publish_tf)),
   };
 }

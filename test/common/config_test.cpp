@@ -310,9 +310,9 @@ TEST_F(ConfigTest, BadExtrinsics) {
 TEST_F(ConfigTest, Contradictions) {
   ExpectProblem("rolling_shutter: 1", {"rolling_shutter: \"1\" must be 0", "not supported"});
   ExpectProblem("acc_n: 0.1\ngyr_n: 0.1\nacc_w: 0.1", {"gyr_w: is missing; give all of"});
-  ExpectProblem("camera_frame: body", {"camera_frame: is the same as another frame"});
-  ExpectProblem("body_frame: world", {"body_frame: is the same as world_frame"});
-  ExpectProblem("world_frame: my world", {"must be a name without spaces"});
+  ExpectProblem("base_frame: camera", {"base_frame: is the same as camera_frame"});
+  ExpectProblem("world_frame: my world", {"world_frame: must be a name without spaces"});
+  ExpectProblem("world_frame: /map", {"world_frame: must not begin with a slash"});
   ExpectProblem("min_dist: 490", {"min_dist: must be smaller than the image"});
   ExpectProblem("fisheye: 1", {"fisheye_mask: is missing; name an image file"});
   ExpectProblem("fisheye_mask: no.png", {"fisheye_mask: there is no file", "no.png"});

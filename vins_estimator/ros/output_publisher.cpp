@@ -2,10 +2,8 @@
 #include "vins_estimator/ros/output_publisher.h"
 
 #include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/TransformStamped.h>
 
 #include <string>
-#include <vector>
 
 #include "common/ros/msg_conversion.h"
 #include "vins_estimator/ros/output_conversion.h"
@@ -17,6 +15,10 @@ constexpr int kQueue = 1000;
 constexpr char kManhattanFrame[] = "manhattan";
 constexpr double kPathStep = 0.02;      // [m] between the poses of the path
 constexpr size_t kMaxPathPoses = 5000;  // then every second one goes: the path gets coarser
+// The path is sent again when so many poses are new, which shows no lag where all of it is in view,
+// and takes the same bandwidth however long it gets.
+constexpr double kNewPathShare = 0.01;
+constexpr int64_t kHistoryInterval_ns = 1'000'000'000;
 
 void RemoveEverySecond(std::vector<geometry_msgs::PoseStamped>* poses) {
   for (size_t i = 0; 2 * i < poses->size(); ++i) (*poses)[i] = (*poses)[2 * i];
@@ -61,6 +63,9 @@ OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle pri
       extrinsic_(private_node.advertise<nav_msgs::Odometry>("extrinsic", kQueue)),
       line_history_(frames.world_frame) {
   path_.header.frame_id = frames_.world_frame;
+  if (frames.publish_tf && !frames.base_frame.empty()) {
+    base_.emplace(frames.body_frame, frames.base_frame);
+  }
 }
 
 void OutputPublisher::Publish(const EstimatedFrame& frame) {
@@ -81,25 +86,37 @@ void OutputPublisher::Publish(const EstimatedFrame& frame) {
     return ToOdometry(t_ns, output.T_B_C, frames_.body_frame, frames_.camera_frame);
   });
   PublishIfWanted(key_poses_, [&] { return ToKeyPoses(output.window, t_ns, world); });
-  PublishIfWanted(history_cloud_,
-                  [&] { return ToPointCloud(output.departed_points, t_ns, world); });
   PublishIfWanted(point_cloud_, [&] { return ToPointCloud(output.points, t_ns, world); });
-  PublishLines(output);
+  PublishIfWanted(lines_cloud_, [&] { return ToLineMarker(output.lines, t_ns, world, "lines"); });
+  PublishHistory(output);
   PublishIfWanted(camera_pose_visual_, [&] { return ToCameraVisual(T_W_C, t_ns, world); });
 }
 
 void OutputPublisher::Clear() {
   path_.poses.clear();
+  new_path_poses_ = 0;
+  departed_points_.clear();
+  departed_lines_.clear();
+  history_ns_ = 0;
   history_lines_cloud_.publish(line_history_.Clear());
 }
 
-void OutputPublisher::PublishLines(const EstimatorOutput& output) {
-  PublishIfWanted(lines_cloud_, [&] {
-    return ToLineMarker(output.lines, output.t_ns, frames_.world_frame, "lines");
-  });
-  for (const auto& marker : line_history_.Add(output.departed_lines, output.t_ns)) {
+// In one message per interval: a display keeps each message as an object of its own.
+void OutputPublisher::PublishHistory(const EstimatorOutput& output) {
+  const auto append = [](const auto& departed, auto* all) {
+    all->insert(all->end(), departed.begin(), departed.end());
+  };
+  append(output.departed_points, &departed_points_);
+  append(output.departed_lines, &departed_lines_);
+  if (output.t_ns - history_ns_ < kHistoryInterval_ns) return;
+  history_ns_ = output.t_ns;
+  PublishIfWanted(history_cloud_,
+                  [&] { return ToPointCloud(departed_points_, output.t_ns, frames_.world_frame); });
+  for (const auto& marker : line_history_.Add(departed_lines_, output.t_ns)) {
     history_lines_cloud_.publish(marker);
   }
+  departed_points_.clear();
+  departed_lines_.clear();
 }
 
 void OutputPublisher::PublishPath(const FrameState& state) {
@@ -113,20 +130,33 @@ void OutputPublisher::PublishPath(const FrameState& state) {
   if (path_.poses.size() == kMaxPathPoses) RemoveEverySecond(&path_.poses);
   path_.poses.push_back(pose);
   path_.header.stamp = pose.header.stamp;
+  if (++new_path_poses_ < kNewPathShare * static_cast<double>(path_.poses.size())) return;
+  new_path_poses_ = 0;
   PublishIfWanted(path_publisher_, [&] { return path_; });
 }
 
 void OutputPublisher::PublishTransforms(const EstimatorOutput& output) {
   if (!frames_.publish_tf) return;
-  const std::string& body = frames_.body_frame;
-  std::vector<geometry_msgs::TransformStamped> transforms = {
-      ToStamped(output.t_ns, output.state.T_W_B(), frames_.world_frame, body),
-      ToStamped(output.t_ns, output.T_B_C, body, frames_.camera_frame)};
+  std::vector<geometry_msgs::TransformStamped> transforms = BodyTransforms(output);
   if (output.R_W_M) {
     const Rigid3d T_W_M(*output.R_W_M, Eigen::Vector3d::Zero());
     transforms.push_back(ToStamped(output.t_ns, T_W_M, frames_.world_frame, kManhattanFrame));
   }
   broadcaster_.sendTransform(transforms);
+}
+
+std::vector<geometry_msgs::TransformStamped> OutputPublisher::BodyTransforms(
+    const EstimatorOutput& output) {
+  const std::string& world = frames_.world_frame;
+  const std::string& body = frames_.body_frame;
+  const Rigid3d T_W_B = output.state.T_W_B();
+  if (!base_) {
+    return {ToStamped(output.t_ns, T_W_B, world, body),
+            ToStamped(output.t_ns, output.T_B_C, body, frames_.camera_frame)};
+  }
+  const auto T_body_base = base_->Locate();
+  if (!T_body_base) return {};
+  return {ToStamped(output.t_ns, T_W_B * *T_body_base, world, frames_.base_frame)};
 }
 
 }  // namespace plm_vins

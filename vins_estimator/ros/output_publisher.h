@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Path.h>
 #include <ros/node_handle.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <optional>
+#include <vector>
+
 #include "common/config.h"
 #include "vins_estimator/estimation_stage.h"
 #include "vins_estimator/ros/line_markers.h"
+#include "vins_estimator/ros/robot_base.h"
 
 namespace plm_vins {
 
 // Publishes what the estimator says about an image, under the node's private namespace: odometry,
 // path, camera_pose, key_poses, point_cloud, history_cloud, lines_cloud, history_lines_cloud,
-// camera_pose_visual, extrinsic, and tf2 world -> body -> camera, world -> manhattan once known.
-// The histories have, as in VINS-Mono and PL-VINS, the landmarks that leave the window with this
-// image. Messages that nobody listens to are not made. For one thread.
+// camera_pose_visual, extrinsic, and tf2 world -> body -> camera, world -> manhattan once known. In
+// a robot's own tree, which base_frame names, tf2 has world -> base instead of body and camera.
+// The histories have, as in VINS-Mono and PL-VINS, the landmarks that leave the window, those of
+// one second in a message. Messages that nobody listens to are not made. For one thread.
 class OutputPublisher {
  public:
   OutputPublisher(const OutputConfig& frames, ros::NodeHandle private_node);
@@ -27,8 +33,9 @@ class OutputPublisher {
 
  private:
   void PublishPath(const FrameState& state);
-  void PublishLines(const EstimatorOutput& output);
+  void PublishHistory(const EstimatorOutput& output);
   void PublishTransforms(const EstimatorOutput& output);
+  std::vector<geometry_msgs::TransformStamped> BodyTransforms(const EstimatorOutput& output);
 
   OutputConfig frames_;
   ros::Publisher odometry_;
@@ -42,8 +49,13 @@ class OutputPublisher {
   ros::Publisher camera_pose_visual_;
   ros::Publisher extrinsic_;
   tf2_ros::TransformBroadcaster broadcaster_;
+  std::optional<RobotBase> base_;
   nav_msgs::Path path_;
+  int new_path_poses_ = 0;  // since it was published
   LineHistory line_history_;
+  std::vector<MapPoint> departed_points_;  // since history_ns_, when the histories were published
+  std::vector<MapLine> departed_lines_;
+  int64_t history_ns_ = 0;
 };
 
 }  // namespace plm_vins

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loads the trackers as nodelets beside the same trackers as nodes, and feeds both with one bag.
+// Run by nodelets.test.
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <gtest/gtest.h>
+#include <nodelet/NodeletList.h>
+#include <nodelet/NodeletLoad.h>
+#include <nodelet/NodeletUnload.h>
+#include <ros/ros.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <rosgraph_msgs/Log.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/PointCloud.h>
+
+#include <algorithm>
+#include <atomic>
+#include <deque>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "test/ros/estimator_log.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::SpinUntil;
+
+constexpr double kTimeout = 20;  // [s]
+
+// The newest features of one tracker.
+struct Features {
+  explicit Features(const std::string& topic)
+      : subscriber(ros::NodeHandle().subscribe(topic, 1000, &Features::Add, this)) {}
+  void Add(const sensor_msgs::PointCloudConstPtr& message) { newest = message; }
+
+  bool Has(const ros::Time& stamp) const { return newest && newest->header.stamp == stamp; }
+
+  ros::Subscriber subscriber;
+  sensor_msgs::PointCloudConstPtr newest;
+};
+
+// The two nodelets of the manager.
+class Nodelets {
+ public:
+  static bool Load(const std::string& name, const std::string& type) {
+    nodelet::NodeletLoad load;
+    load.request.name = name;
+    load.request.type = type;
+    return ros::service::call("/manager/load_nodelet", load) && load.response.success;
+  }
+  static bool Unload(const std::string& name) {
+    nodelet::NodeletUnload unload;
+    unload.request.name = name;
+    return ros::service::call("/manager/unload_nodelet", unload) && unload.response.success;
+  }
+  static std::vector<std::string> List() {
+    nodelet::NodeletList list;
+    ros::service::call("/manager/list", list);
+    std::sort(list.response.nodelets.begin(), list.response.nodelets.end());
+    return list.response.nodelets;
+  }
+  static void LoadBoth() {
+    ASSERT_TRUE(Load("/feature_tracker", "plm_vins/FeatureTracker"));
+    ASSERT_TRUE(Load("/linefeature_tracker", "plm_vins/LineFeatureTracker"));
+  }
+};
+
+// The messages of the bag, one image after the other.
+class Feed {
+ public:
+  explicit Feed(const std::string& file) : bag_(file), view_(bag_), next_(view_.begin()) {}
+
+  void WaitForSubscribers(uint32_t count) {
+    ASSERT_TRUE(SpinUntil(kTimeout, [&] {
+      return images_.getNumSubscribers() == count && imu_.getNumSubscribers() == count;
+    }));
+  }
+
+  // Publishes an image after the IMU samples that reach beyond it. Returns its stamp.
+  ros::Time PublishImage() {
+    constexpr size_t kSamplesBeyond = 4;
+    size_t beyond = 0;
+    while (waiting_.empty() || beyond < kSamplesBeyond) {
+      if (const auto image = next_->instantiate<sensor_msgs::Image>()) {
+        waiting_.push_back(image);
+      } else if (const auto sample = next_->instantiate<sensor_msgs::Imu>()) {
+        imu_.publish(sample);
+        if (!waiting_.empty() && sample->header.stamp > waiting_.front()->header.stamp) ++beyond;
+      }
+      ++next_;
+    }
+    const sensor_msgs::ImageConstPtr image = waiting_.front();
+    waiting_.pop_front();
+    images_.publish(image);
+    return image->header.stamp;
+  }
+
+ private:
+  rosbag::Bag bag_;
+  rosbag::View view_;
+  rosbag::View::iterator next_;
+  std::deque<sensor_msgs::ImageConstPtr> waiting_;
+  ros::NodeHandle node_;
+  ros::Publisher images_ = node_.advertise<sensor_msgs::Image>("/cam0/image_raw", 100);
+  ros::Publisher imu_ = node_.advertise<sensor_msgs::Imu>("/imu0", 1000);
+};
+
+class TrackerNodelets : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const ros::NodeHandle parameters("~");
+    const auto config = parameters.param<std::string>("config_file", "");
+    ros::param::set("/feature_tracker/config_file", config);
+    ros::param::set("/linefeature_tracker/config_file", config);
+    ASSERT_TRUE(ros::service::waitForService("/manager/load_nodelet", ros::Duration(kTimeout)));
+    Nodelets::LoadBoth();
+    feed_ = std::make_unique<Feed>(parameters.param<std::string>("bag", ""));
+    feed_->WaitForSubscribers(kProcesses);
+  }
+  static void TearDownTestSuite() { feed_.reset(); }
+
+  // Images and IMU go to the manager, once for both nodelets, and to the two nodes.
+  static constexpr uint32_t kProcesses = 3;
+  static std::unique_ptr<Feed> feed_;
+};
+std::unique_ptr<Feed> TrackerNodelets::feed_;
+
+TEST_F(TrackerNodelets, GiveTheSameFeaturesAsTheNodes) {
+  const Features points("/feature_tracker/feature");
+  const Features node_points("/nodes/feature_tracker/feature");
+  const Features lines("/linefeature_tracker/linefeature");
+  const Features node_lines("/nodes/linefeature_tracker/linefeature");
+  ASSERT_TRUE(SpinUntil(kTimeout, [&] {
+    return points.subscriber.getNumPublishers() && node_points.subscriber.getNumPublishers() &&
+           lines.subscriber.getNumPublishers() && node_lines.subscriber.getNumPublishers();
+  }));
+  for (int i = 0; i < 40; ++i) {
+    const ros::Time stamp = feed_->PublishImage();
+    ASSERT_TRUE(SpinUntil(kTimeout,
+                          [&] {
+                            return points.Has(stamp) && node_points.Has(stamp) &&
+                                   lines.Has(stamp) && node_lines.Has(stamp);
+                          }))
+        << "image " << i;
+    EXPECT_EQ(points.newest->points, node_points.newest->points) << "image " << i;
+    EXPECT_EQ(points.newest->channels, node_points.newest->channels) << "image " << i;
+    EXPECT_EQ(lines.newest->points, node_lines.newest->points) << "image " << i;
+    EXPECT_EQ(lines.newest->channels, node_lines.newest->channels) << "image " << i;
+  }
+  EXPECT_GT(points.newest->points.size(), 50U);
+  EXPECT_GT(lines.newest->points.size(), 5U);
+}
+
+TEST_F(TrackerNodelets, ReportUnderTheirOwnNames) {
+  std::string names;
+  const auto add_names = [&](const diagnostic_msgs::DiagnosticArray& array) {
+    for (const auto& status : array.status) names += status.name + "\n";
+  };
+  const ros::Subscriber subscriber = ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>(
+      "/diagnostics", 100, [&](const auto& array) { add_names(*array); });
+  for (const std::string name :
+       {"\nfeature_tracker: point tracking\n", "\nlinefeature_tracker: line tracking\n"}) {
+    EXPECT_TRUE(SpinUntil(kTimeout, [&] { return ("\n" + names).find(name) != std::string::npos; }))
+        << name << " is not among\n"
+        << names;
+  }
+}
+
+TEST_F(TrackerNodelets, ChangeTheNumberOfFeaturesWhileTheyRun) {
+  dynamic_reconfigure::Reconfigure change;
+  change.request.config.ints.resize(1);
+  change.request.config.ints[0].name = "max_cnt";
+  const Features points("/feature_tracker/feature");
+  ASSERT_TRUE(SpinUntil(kTimeout, [&] { return points.subscriber.getNumPublishers() > 0; }));
+  for (const int value : {30, 100}) {
+    change.request.config.ints[0].value = value;
+    ASSERT_TRUE(ros::service::call("/feature_tracker/set_parameters", change));
+    const ros::Time stamp = feed_->PublishImage();
+    ASSERT_TRUE(SpinUntil(kTimeout, [&] { return points.Has(stamp); }));
+    EXPECT_LE(points.newest->points.size(), static_cast<size_t>(value));
+    EXPECT_GT(points.newest->points.size(), 0.8 * value);
+  }
+}
+
+TEST_F(TrackerNodelets, AreUnloadedWhileImagesArriveAndLoadedAgain) {
+  std::atomic<bool> stop = false;
+  std::thread images([&] {
+    for (int i = 0; i < 80 && !stop; ++i) {  // the bag has twice as many
+      feed_->PublishImage();
+      ros::WallDuration(0.03).sleep();
+    }
+  });
+  for (int i = 0; i < 4; ++i) {
+    ros::WallDuration(0.1).sleep();
+    EXPECT_TRUE(Nodelets::Unload("/feature_tracker"));
+    EXPECT_TRUE(Nodelets::Unload("/linefeature_tracker"));
+    Nodelets::LoadBoth();
+  }
+  stop = true;
+  images.join();
+  EXPECT_EQ(Nodelets::List(),
+            (std::vector<std::string>{"/feature_tracker", "/linefeature_tracker"}));
+
+  feed_->WaitForSubscribers(kProcesses);
+  const Features points("/feature_tracker/feature");
+  ASSERT_TRUE(SpinUntil(kTimeout, [&] { return points.subscriber.getNumPublishers() > 0; }));
+  const ros::Time stamp = feed_->PublishImage();
+  EXPECT_TRUE(SpinUntil(kTimeout, [&] { return points.Has(stamp); }));
+}
+
+TEST_F(TrackerNodelets, WithAFaultyConfigurationAreNotLoadedAndSayWhy) {
+  std::string log;
+  const ros::Subscriber subscriber = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
+      "/rosout", 1000, [&](const rosgraph_msgs::LogConstPtr& line) {
+        if (line->level == rosgraph_msgs::Log::FATAL) log += line->msg + "\n";
+      });
+  ASSERT_TRUE(SpinUntil(kTimeout, [&] { return subscriber.getNumPublishers() >= kProcesses; }));
+  ros::param::set("/faulty/config_file", "/no/such/file.yaml");
+  EXPECT_FALSE(Nodelets::Load("/faulty", "plm_vins/FeatureTracker"));
+  EXPECT_FALSE(Nodelets::Load("/without_file", "plm_vins/LineFeatureTracker"));
+  const auto says = [&](const char* text) {
+    return SpinUntil(kTimeout, [&] { return log.find(text) != std::string::npos; });
+  };
+  EXPECT_TRUE(says("/no/such/file.yaml")) << log;
+  EXPECT_TRUE(says("/without_file/config_file")) << log;
+  EXPECT_EQ(Nodelets::List().size(), 2U) << "the others go on";
+}
+
+}  // namespace
+}  // namespace plm_vins
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "nodelets_test");
+  const ros::NodeHandle keeps_ros_running;
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <optional>
+#include <string>
+
+#include "common/rigid3.h"
+
+namespace plm_vins {
+
+// Where the base of a robot is on the body (IMU), as the robot's own tf tree tells, in which the
+// two are rigidly connected. For one thread.
+class RobotBase {
+ public:
+  RobotBase(const std::string& body_frame, const std::string& base_frame);
+
+  // The base in the body frame; nothing, with a warning now and then, until tf knows. Looked up
+  // once.
+  std::optional<Rigid3d> Locate();
+
+ private:
+  std::string body_frame_;
+  std::string base_frame_;
+  tf2_ros::Buffer buffer_;
+  std::optional<tf2_ros::TransformListener> listener_;
+  std::optional<Rigid3d> T_body_base_;
+};
+
+}  // namespace plm_vins

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "common/so3.h"
 #include "simulator/random.h"
 
 namespace plm_vins::simulator {
@@ -11,6 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kMinLineLength = 0.6, kMaxLineLength = 2.5;  // [m]
+constexpr double kMaxLean = 0.3;                              // of irregular lines, per axis [rad]
 
 // A random wall of the room, chosen by area, as the axis normal to it and the side (+-1).
 struct Wall {
@@ -47,6 +49,19 @@ LineSegment3d LineOnWall(const Vector3d& size, double oblique_share, Random& ran
   return {center - half, center + half};
 }
 
+// What turns a line of the room into one of the layout.
+Eigen::Quaterniond TurnFor(LineLayout layout, Random& random) {
+  const bool chosen = layout != LineLayout::kManhattan && random.Uniform() < 0.5;
+  if (layout != LineLayout::kIrregular) return SO3Exp({0, 0, chosen ? kAtlantaTurn : 0.0});
+  const double lean = chosen ? kMaxLean : 0.0;
+  return SO3Exp(random.UniformInBox({0, 0, M_PI})) * SO3Exp(random.UniformInBox({lean, lean, 0}));
+}
+
+LineSegment3d Turned(const LineSegment3d& line, const Eigen::Quaterniond& turn) {
+  const Vector3d center = 0.5 * (line.start + line.end), half = turn * (line.end - center);
+  return {center - half, center + half};
+}
+
 void AddRoomEdges(const Vector3d& size, std::vector<LineSegment3d>* lines) {
   for (int axis = 0; axis < 3; ++axis) {
     for (int corner = 0; corner < 4; ++corner) {
@@ -71,9 +86,10 @@ FeatureWorld MakeFeatureRoom(const FeatureRoomOptions& options, uint64_t seed) {
     point[wall.axis] -= wall.side * random.Uniform(0, options.relief);
     world.points.push_back(point);
   }
-  AddRoomEdges(options.size, &world.lines);
+  if (options.layout != LineLayout::kIrregular) AddRoomEdges(options.size, &world.lines);
   for (int i = 0; i < options.lines; ++i) {
-    world.lines.push_back(LineOnWall(options.size, options.oblique_share, random));
+    const LineSegment3d line = LineOnWall(options.size, options.oblique_share, random);
+    world.lines.push_back(Turned(line, TurnFor(options.layout, random)));
   }
   const Vector3d room_center(0, 0, 0.5 * options.size.z());
   for (Vector3d& point : world.points) point += room_center;

@@ -44,8 +44,13 @@ void Declare(Arguments* arguments, CLI::App* app) {
   app->add_option("--config", arguments->config,
                   "sensors: topics, camera, extrinsics, IMU noise, td (default: EuRoC's)");
   AddChoice<WorldKind>(
-      app, "--world", &flight.world, "where to fly (default: room)",
-      {{"room", WorldKind::kRoom}, {"corridor", WorldKind::kCorridor}, {"hall", WorldKind::kHall}});
+      app, "--world", &flight.world,
+      "where to fly; atlanta: a room of two frames, irregular: one without (default: room)",
+      {{"room", WorldKind::kRoom},
+       {"corridor", WorldKind::kCorridor},
+       {"hall", WorldKind::kHall},
+       {"atlanta", WorldKind::kAtlanta},
+       {"irregular", WorldKind::kIrregular}});
   AddChoice<TextureStyle>(app, "--texture", &flight.texture,
                           "weak leaves almost only lines (default: rich)",
                           {{"rich", TextureStyle::kRich}, {"weak", TextureStyle::kWeak}});

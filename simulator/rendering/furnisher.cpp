@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulator/rendering/furnisher.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -19,13 +20,14 @@ double Detail(TextureStyle style) { return style == TextureStyle::kRich ? 1.0 : 
 
 Rigid3d Upright(const Vector3d& origin, double yaw) { return {SO3Exp({0, 0, yaw}), origin}; }
 
-// The wall that lies in direction `normal_outwards` of a room's centre.
-Wall MakeWall(const Vector3d& corner, const Vector3d& inwards, double width, double height) {
+// The wall above an edge of a floor that lies to the left of the way from `from` to `to`.
+Wall MakeWall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double height) {
+  const Eigen::Vector2d along = (to - from).normalized();
   Eigen::Matrix3d R_W_F;
+  R_W_F.col(0) << -along, 0;
   R_W_F.col(1) = Vector3d::UnitZ();
-  R_W_F.col(2) = inwards;
-  R_W_F.col(0) = R_W_F.col(1).cross(inwards);
-  return {{Eigen::Quaterniond(R_W_F), corner}, width, height};
+  R_W_F.col(2) = R_W_F.col(0).cross(R_W_F.col(1));
+  return {{Eigen::Quaterniond(R_W_F), {to.x(), to.y(), 0}}, (to - from).norm(), height};
 }
 
 }  // namespace
@@ -58,33 +60,35 @@ int Furnisher::Paint(Surface surface, double width, double height, double bright
   }
 }
 
-Furnisher::Room Furnisher::AddRoom(const Vector3d& size, const Surface (&surfaces)[4],
-                                   Surface ceiling) {
-  const double x = 0.5 * size.x(), y = 0.5 * size.y(), z = size.z();
-  Room room{{MakeWall({x, y, 0}, -Vector3d::UnitX(), size.y(), z),
-             MakeWall({-x, y, 0}, -Vector3d::UnitY(), size.x(), z),
-             MakeWall({-x, -y, 0}, Vector3d::UnitX(), size.y(), z),
-             MakeWall({x, -y, 0}, Vector3d::UnitY(), size.x(), z)}};
-  for (int i = 0; i < 4; ++i) {
-    const Wall& wall = room.walls[i];
+std::vector<Wall> Furnisher::AddRoom(const std::vector<Eigen::Vector2d>& corners, double height,
+                                     const std::vector<Surface>& surfaces, Surface floor,
+                                     Surface ceiling) {
+  std::vector<Wall> walls;
+  Eigen::AlignedBox2d box;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Wall wall = MakeWall(corners[i], corners[(i + 1) % corners.size()], height);
     scene_->AddRectangle({wall.T_W_F.translation, wall.T_W_F.rotation * Vector3d::UnitX(),
                           Vector3d::UnitZ(), wall.width, wall.height,
-                          Paint(surfaces[i], wall.width, wall.height, 0.66)});
+                          Paint(surfaces[i % surfaces.size()], wall.width, wall.height, 0.66)});
     AddSkirting(wall);
+    walls.push_back(wall);
+    box.extend(corners[i]);
   }
-  scene_->AddRectangle({{-x, -y, 0},
+  // What of these is outside is behind the walls.
+  const Eigen::Vector2d low = box.min(), high = box.max(), size = box.sizes();
+  scene_->AddRectangle({{low.x(), low.y(), 0},
                         Vector3d::UnitX(),
                         Vector3d::UnitY(),
                         size.x(),
                         size.y(),
-                        Paint(Surface::kTiles, size.x(), size.y(), 0.42)});
-  scene_->AddRectangle({{-x, y, z},
+                        Paint(floor, size.x(), size.y(), 0.42)});
+  scene_->AddRectangle({{low.x(), high.y(), height},
                         Vector3d::UnitX(),
                         -Vector3d::UnitY(),
                         size.x(),
                         size.y(),
                         Paint(ceiling, size.x(), size.y(), 0.95)});
-  return room;
+  return walls;
 }
 
 void Furnisher::AddBoxOnWall(const Wall& wall, const Vector3d& corner, const Vector3d& size,

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
 
 #include "common/rigid3.h"
 #include "simulator/rendering/scene.h"
@@ -32,12 +33,10 @@ class Furnisher {
 
   enum class Surface { kPlaster, kBricks, kTiles, kPanels };
 
-  // The six inner faces of a room centred in x and y with its floor at z = 0. Walls by the
-  // direction that they lie in: +x, +y, -x, -y.
-  struct Room {
-    Wall walls[4];
-  };
-  Room AddRoom(const Eigen::Vector3d& size, const Surface (&walls)[4], Surface ceiling);
+  // The inner faces of a room with upright walls and its floor at z = 0. `corners`: of the floor,
+  // convex, counterclockwise [m]; wall i runs from corner i to the next one.
+  std::vector<Wall> AddRoom(const std::vector<Eigen::Vector2d>& corners, double height,
+                            const std::vector<Surface>& walls, Surface floor, Surface ceiling);
 
   void AddBoxOnWall(const Wall& wall, const Eigen::Vector3d& corner, const Eigen::Vector3d& size,
                     int texture);

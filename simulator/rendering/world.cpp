@@ -2,19 +2,45 @@
 #include "simulator/rendering/world.h"
 
 #include <cmath>
+#include <functional>
+#include <vector>
 
 namespace plm_vins::simulator {
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Surface = Furnisher::Surface;
 
-// Posters side by side along a wall, at uneven heights, some hung askew.
-void HangPosters(Furnisher* furnisher, const Wall& wall, double from, double to, double height) {
+constexpr double kSomeAskew = 0.3;
+
+// The floor of a box-shaped room centred in x and y. Its walls lie towards +x, +y, -x, -y.
+std::vector<Vector2d> BoxFloor(const Vector3d& size) {
+  const double x = 0.5 * size.x(), y = 0.5 * size.y();
+  return {{x, -y}, {x, y}, {-x, y}, {-x, -y}};
+}
+
+// The floor of a room whose walls touch a circle about the origin. `headings`: where the walls lie,
+// increasing by less than pi each [rad].
+std::vector<Vector2d> FloorAroundCircle(double radius, const std::vector<double>& headings) {
+  std::vector<Vector2d> corners;
+  double previous = headings.back() - 2 * M_PI;
+  for (const double heading : headings) {
+    const double middle = 0.5 * (previous + heading);
+    corners.push_back(radius / std::cos(heading - middle) *
+                      Vector2d(std::cos(middle), std::sin(middle)));
+    previous = heading;
+  }
+  return corners;
+}
+
+// Posters side by side along a wall, at uneven heights, a share of them hung askew.
+void HangPosters(Furnisher* furnisher, const Wall& wall, double from, double to, double height,
+                 double askew = kSomeAskew) {
   Random& random = furnisher->random();
   for (double x = from; x < to - 0.5;) {
     const double width = random.Uniform(0.35, 0.9), poster_height = random.Uniform(0.4, 0.9);
-    const double tilt = random.Uniform() < 0.3 ? random.Uniform(-0.4, 0.4) : 0.0;
+    const double tilt = random.Uniform() < askew ? random.Uniform(-0.4, 0.4) : 0.0;
     if (x + width > to) return;
     furnisher->AddPoster(wall, x, height + random.Uniform(-0.2, 0.3), width, poster_height, tilt);
     x += width + random.Uniform(0.15, 0.6);
@@ -36,11 +62,11 @@ World MakeRoom(TextureStyle style, uint64_t seed) {
   world.flight_extent = {1.8, 1.2, 0.5};
   const Vector3d size(8, 6.4, 3.2);
   Furnisher furnisher(&world.scene, style, 0.003, seed);
-  const auto room = furnisher.AddRoom(
-      size, {Surface::kPlaster, Surface::kPlaster, Surface::kBricks, Surface::kPlaster},
-      Surface::kPanels);
-  const Wall &front = room.walls[0], &left = room.walls[1], &back = room.walls[2],
-             &right = room.walls[3];
+  const auto walls =
+      furnisher.AddRoom(BoxFloor(size), size.z(),
+                        {Surface::kPlaster, Surface::kPlaster, Surface::kBricks, Surface::kPlaster},
+                        Surface::kTiles, Surface::kPanels);
+  const Wall &front = walls[0], &left = walls[1], &back = walls[2], &right = walls[3];
 
   furnisher.AddWindow(front, 0.7, 0.95, 1.5, 1.3);
   furnisher.AddWindow(front, 4.0, 0.95, 1.5, 1.3);
@@ -72,19 +98,20 @@ World MakeCorridor(TextureStyle style, uint64_t seed) {
   world.flight_extent = {16, 0.6, 0.4};
   const Vector3d size(40, 3, 2.9);
   Furnisher furnisher(&world.scene, style, 0.003, seed);
-  const auto room = furnisher.AddRoom(
-      size, {Surface::kPlaster, Surface::kPlaster, Surface::kBricks, Surface::kPlaster},
-      Surface::kPanels);
-  for (const Wall* wall : {&room.walls[1], &room.walls[3]}) {
+  const auto walls =
+      furnisher.AddRoom(BoxFloor(size), size.z(),
+                        {Surface::kPlaster, Surface::kPlaster, Surface::kBricks, Surface::kPlaster},
+                        Surface::kTiles, Surface::kPanels);
+  for (const Wall* wall : {&walls[1], &walls[3]}) {
     for (double x = 1.2; x < size.x() - 3.5; x += 4.0) {
       furnisher.AddDoor(*wall, x + furnisher.random().Uniform(0, 0.4));
       HangPosters(&furnisher, *wall, x + 1.7, x + 3.7, 1.2);
     }
   }
-  RunPipe(&furnisher, room.walls[1], 2.6, 0.06, 40);
-  RunPipe(&furnisher, room.walls[3], 2.65, 0.04, 6.15);
-  furnisher.AddDoor(room.walls[0], 1.0);
-  furnisher.AddWindow(room.walls[2], 0.8, 0.9, 1.4, 1.2);
+  RunPipe(&furnisher, walls[1], 2.6, 0.06, 40);
+  RunPipe(&furnisher, walls[3], 2.65, 0.04, 6.15);
+  furnisher.AddDoor(walls[0], 1.0);
+  furnisher.AddWindow(walls[2], 0.8, 0.9, 1.4, 1.2);
   for (double x = -18; x < 20; x += 4) {
     furnisher.AddLamp({x, 0, size.z() - 0.08}, 1.2, 0);
     const double side = std::fmod(x + 18, 8) < 1 ? 1.15 : -1.15;
@@ -111,10 +138,11 @@ World MakeHall(TextureStyle style, uint64_t seed) {
   world.flight_extent = {6, 3.5, 0.9};
   const Vector3d size(24, 16, 7);
   Furnisher furnisher(&world.scene, style, 0.006, seed);
-  const auto room = furnisher.AddRoom(
-      size, {Surface::kBricks, Surface::kPanels, Surface::kPlaster, Surface::kBricks},
-      Surface::kPanels);
-  for (const Wall& wall : room.walls) {
+  const auto walls =
+      furnisher.AddRoom(BoxFloor(size), size.z(),
+                        {Surface::kBricks, Surface::kPanels, Surface::kPlaster, Surface::kBricks},
+                        Surface::kTiles, Surface::kPanels);
+  for (const Wall& wall : walls) {
     for (double x = 1.5; x < wall.width - 4; x += 5) {
       furnisher.AddWindow(wall, x, 3.6, 2.4, 1.8);
       furnisher.AddDoor(wall, x + 2.8);
@@ -142,6 +170,77 @@ World MakeHall(TextureStyle style, uint64_t seed) {
   return world;
 }
 
+// One kind of things per wall, in turn.
+void FurnishWall(Furnisher* furnisher, const Wall& wall, size_t index, double askew) {
+  switch (index % 3) {
+    case 0:
+      furnisher->AddWindow(wall, 0.6, 0.95, 1.2, 1.3);
+      HangPosters(furnisher, wall, 2.0, wall.width - 0.1, 1.2, askew);
+      break;
+    case 1:
+      furnisher->AddShelf(wall, 0.4, 1.1, 2.1);
+      HangPosters(furnisher, wall, 1.7, wall.width - 0.1, 1.3, askew);
+      break;
+    default:
+      furnisher->AddDoor(wall, 0.4);
+      HangPosters(furnisher, wall, 1.6, wall.width - 0.1, 1.3, askew);
+  }
+}
+
+// A room as large as MakeRoom's whose walls lie towards `headings` [rad]. `turn` draws how a thing
+// stands on the floor, `askew` is the share of askew posters.
+World MakePolygonalRoom(const std::vector<double>& headings, double askew,
+                        const std::function<double(Random&)>& turn, TextureStyle style,
+                        uint64_t seed) {
+  constexpr double kRadius = 3.7, kHeight = 3.2;
+  World world;
+  world.flight_center = {0, 0, 1.6};
+  world.flight_extent = {1.6, 1.2, 0.5};
+  Furnisher furnisher(&world.scene, style, 0.003, seed);
+  const auto walls = furnisher.AddRoom(FloorAroundCircle(kRadius, headings), kHeight,
+                                       {Surface::kPlaster}, Surface::kPlaster, Surface::kPlaster);
+  for (size_t i = 0; i < walls.size(); ++i) FurnishWall(&furnisher, walls[i], i, askew);
+
+  Random& random = furnisher.random();
+  for (int i = 0; i < 8; ++i) {
+    const double place = random.Uniform(i, i + 0.5) * M_PI / 4;
+    const Vector3d towards(std::cos(place), std::sin(place), 0);
+    const double heading = turn(random);
+    if (i % 4 == 0) {
+      furnisher.AddTable(2.75 * towards, heading);
+    } else if (i % 4 == 1) {
+      const Vector3d aside(random.Uniform(-0.8, 0.8), random.Uniform(-0.8, 0.8), 2.4);
+      furnisher.AddPlank(2.9 * towards, 3.1 * towards + aside, 0.14);
+    } else {
+      furnisher.AddCrate(2.9 * towards, random.Uniform(0.3, 0.7), heading);
+    }
+  }
+  for (const double x : {-1.6, 0.0, 1.6})
+    furnisher.AddLamp({x, 0, kHeight - 0.1}, 1.4, turn(random));
+  return world;
+}
+
+World MakeAtlanta(TextureStyle style, uint64_t seed) {
+  const double other = Random(seed, 1).Uniform(25, 40) * M_PI / 180;
+  std::vector<double> walls;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    for (const double frame : {0.0, other}) walls.push_back(frame + quarter * M_PI / 2);
+  }
+  const auto turn = [other](Random& random) { return random.Uniform() < 0.5 ? 0.0 : other; };
+  return MakePolygonalRoom(walls, kSomeAskew, turn, style, seed);
+}
+
+World MakeIrregular(TextureStyle style, uint64_t seed) {
+  constexpr int kWalls = 7;  // no two of them at a right angle
+  Random random(seed, 1);
+  std::vector<double> walls;
+  for (int i = 0; i < kWalls; ++i) {
+    walls.push_back((i + random.Uniform(-0.1, 0.1)) * 2 * M_PI / kWalls);
+  }
+  const auto turn = [](Random& random) { return random.Uniform(0, 2 * M_PI); };
+  return MakePolygonalRoom(walls, /*askew=*/1, turn, style, seed);
+}
+
 }  // namespace
 
 World MakeWorld(WorldKind kind, TextureStyle style, uint64_t seed) {
@@ -150,6 +249,10 @@ World MakeWorld(WorldKind kind, TextureStyle style, uint64_t seed) {
       return MakeCorridor(style, seed);
     case WorldKind::kHall:
       return MakeHall(style, seed);
+    case WorldKind::kAtlanta:
+      return MakeAtlanta(style, seed);
+    case WorldKind::kIrregular:
+      return MakeIrregular(style, seed);
     default:
       return MakeRoom(style, seed);
   }

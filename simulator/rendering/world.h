@@ -9,7 +9,13 @@
 
 namespace plm_vins::simulator {
 
-enum class WorldKind { kRoom, kCorridor, kHall };
+enum class WorldKind {
+  kRoom,
+  kCorridor,
+  kHall,
+  kAtlanta,   // a room of two frames: half of its walls and things are turned against the others
+  kIrregular  // a room of walls and things that stand anyhow
+};
 
 // A scene and the box within it that is free to fly in.
 struct World {

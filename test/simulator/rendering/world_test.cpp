@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace plm_vins::simulator {
 namespace {
@@ -27,26 +29,73 @@ double DistanceFromBox(const Rectangle& r, const Vector3d& center, const Vector3
   return least;
 }
 
-TEST_P(EachWorld, LeavesTheFlightBoxFreeAndSurroundsIt) {
+// Whether a ray meets the front of the rectangle.
+bool Meets(const Vector3d& origin, const Vector3d& direction, const Rectangle& r) {
+  const double approach = -direction.dot(r.Normal());
+  if (approach <= 0) return false;
+  const double distance = (origin - r.corner).dot(r.Normal()) / approach;
+  const Vector3d hit = origin + distance * direction - r.corner;
+  const double a = hit.dot(r.u), b = hit.dot(r.v);
+  return distance > 0 && a >= 0 && a <= r.width && b >= 0 && b <= r.height;
+}
+
+// Directions over the whole sphere, 5 degrees or less apart.
+std::vector<Vector3d> AllDirections() {
+  std::vector<Vector3d> directions;
+  for (double elevation = -90; elevation <= 90; elevation += 5) {
+    for (double azimuth = 1; azimuth < 360; azimuth += 5) {
+      const double e = elevation * M_PI / 180, a = azimuth * M_PI / 180;
+      directions.emplace_back(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
+    }
+  }
+  return directions;
+}
+
+TEST_P(EachWorld, LeavesTheFlightBoxFreeAndSurroundsItWithoutAHole) {
   const World world = MakeWorld(GetParam(), TextureStyle::kWeak, 3);
-  for (const Rectangle& rectangle : world.scene.rectangles()) {
+  const auto& rectangles = world.scene.rectangles();
+  for (const Rectangle& rectangle : rectangles) {
     const double distance = DistanceFromBox(rectangle, world.flight_center, world.flight_extent);
     EXPECT_GT(distance, 0.1) << "at " << rectangle.corner.transpose();
   }
-  for (int axis = 0; axis < 3; ++axis) {
-    for (double side : {-1.0, 1.0}) {
-      double farthest = 0;
-      for (const Rectangle& r : world.scene.rectangles()) {
-        const bool faces_box = r.Normal()[axis] * side < -0.99;
-        if (faces_box) farthest = std::max(farthest, side * (r.corner - world.flight_center)[axis]);
-      }
-      EXPECT_GT(farthest, world.flight_extent[axis]);
-    }
+  for (const Vector3d& direction : AllDirections()) {
+    EXPECT_TRUE(
+        std::any_of(rectangles.begin(), rectangles.end(),
+                    [&](const Rectangle& r) { return Meets(world.flight_center, direction, r); }))
+        << "towards " << direction.transpose();
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Worlds, EachWorld,
-                         testing::Values(WorldKind::kRoom, WorldKind::kCorridor, WorldKind::kHall));
+                         testing::Values(WorldKind::kRoom, WorldKind::kCorridor, WorldKind::kHall,
+                                         WorldKind::kAtlanta, WorldKind::kIrregular));
+
+// By heading modulo 90 deg, in bins of 1 deg: the length of all level edges of upright rectangles,
+// as shares of their sum.
+std::vector<double> LevelEdges(WorldKind kind, uint64_t seed) {
+  std::vector<double> shares(90, 0.0);
+  double sum = 0;
+  const World world = MakeWorld(kind, TextureStyle::kWeak, seed);
+  for (const Rectangle& r : world.scene.rectangles()) {
+    if (std::abs(r.Normal().z()) > 0.01 || std::abs(r.u.z()) > 0.01) continue;
+    const double heading = std::atan2(r.u.y(), r.u.x()) * 180 / M_PI;
+    shares[static_cast<int>(std::lround(heading) + 360) % 90] += r.width;
+    sum += r.width;
+  }
+  for (double& share : shares) share /= sum;
+  std::sort(shares.rbegin(), shares.rend());
+  return shares;
+}
+
+TEST(World, HasAsManyHorizontalFramesAsItsKindSays) {
+  for (uint64_t seed : {1, 2}) {
+    EXPECT_GT(LevelEdges(WorldKind::kRoom, seed)[0], 0.8);
+    const auto atlanta = LevelEdges(WorldKind::kAtlanta, seed);
+    EXPECT_GT(atlanta[1], 0.35);
+    EXPECT_NEAR(atlanta[0] + atlanta[1], 1.0, 1e-9);
+    EXPECT_LT(LevelEdges(WorldKind::kIrregular, seed)[0], 0.3);
+  }
+}
 
 TEST(World, SeedDecidesWhatItLooksLike) {
   const auto look = [](uint64_t seed) {

@@ -170,8 +170,12 @@ def main(arguments=None):
     options = parse_arguments(arguments)
     try:
         return run_dataset(options)
-    except (DatasetError, TrajectoryError, OSError) as error:
+    except (DatasetError, TrajectoryError) as error:
         print(f"run_dataset.py: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"run_dataset.py: {error.filename or options.output}: {error.strerror or error}",
+              file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("run_dataset.py: interrupted; the same command goes on from here", file=sys.stderr)

@@ -4,6 +4,7 @@
 import os
 
 from .csv_files import write_csv
+from .environment import usable_cores
 from .report import markdown_report
 from .results import METRIC
 
@@ -13,7 +14,7 @@ def write_comparison(output, results, evaluator, facts, with_plots):
     pictures = _write_pictures(output, results, evaluator) if with_plots else {}
     path = os.path.join(output, "report.md")
     with open(path, "w", encoding="utf-8") as file:
-        file.write(markdown_report(results, facts, pictures))
+        file.write(markdown_report(results, facts, pictures, usable_cores()))
     return [path, *write_csv(output, results)]
 
 

@@ -91,7 +91,7 @@ def _averages(lines, paper, ours):
             + (_means(ours, complete) if have_all else [cells.NONE] * len(ours))]
     if complete and not have_all:
         rows.append(["average of ours"] + _means(paper, complete)
-                    + [f"{len(complete)} recordings"] + _means(ours, complete))
+                    + [f"of {len(complete)}"] + _means(ours, complete))
     return rows
 
 

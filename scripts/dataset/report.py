@@ -13,19 +13,19 @@ from .variants import DESCRIPTIONS
 COVERAGE = METRIC["coverage_percent"]
 
 
-def markdown_report(results, facts, figures):
+def markdown_report(results, facts, figures, cores):
     """The report's text.
 
     facts: pairs of a label and a text about the whole; figures: paths of pictures, relative to the
-    report, by heading.
+    report, by heading; cores: that the runs could use.
     """
     errors = [metric for metric in METRICS if metric.is_error]
     others = [metric for metric in METRICS if not metric.is_error and metric is not COVERAGE]
     parts = ["# Odometry over a dataset", _facts(facts), _variants(results), _failures(results),
              _not_compared(results), "## Accuracy", _ape_notes(results),
-             *(_metric_table(results, metric) for metric in errors), "## Start, speed and lines",
+             *(_metric_table(results, metric) for metric in errors), "## Start, speed and lines", _time_notes(results, cores),
              *(_metric_table(results, metric) for metric in others),
-             _paper_part(results), _pictures(figures)]
+             _paper_part(results, _time_notes(results, cores)), _pictures(figures)]
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
@@ -85,7 +85,17 @@ def _ape_notes(results):
     return note
 
 
-def _paper_part(results):
+def _time_notes(results, cores):
+    """A warning where other work made the runs slower."""
+    loads = [load for load in map(METRIC["load"].value, results.all()) if load is not None]
+    busy = [load for load in loads if load > cores + 1]
+    if not busy:
+        return ""
+    return (f"**The times are too long:** {len(busy)} of {len(loads)} runs shared the machine with"
+            f" other work (load average up to {max(busy):.0f} on {cores} cores).")
+
+
+def _paper_part(results, time_notes):
     tables = [paper_table(table, results) for table in TABLES]
     if not any(paper_sequence(name) for name in results.sequences):
         return "## Beside the paper\n\nNone of the sequences is one of the paper's."
@@ -93,7 +103,7 @@ def _paper_part(results):
             " the name of its sequence: a part of a sequence or a recording made after it is"
             " another task. The paper gives no coverage; its times are of another computer. Ours"
             " are means over the images that lines are extracted from; in the others they are only"
-            " followed.\n\n" + "\n\n".join(tables))
+            " followed.\n\n" + "\n\n".join([time_notes] * bool(time_notes) + tables))
 
 
 def _pictures(figures):

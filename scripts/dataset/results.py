@@ -24,6 +24,7 @@ class RunResult:
     line_extraction_ms: Optional[float] = None
     evaluation: Optional[dict] = None  # as of evaluate.py
     not_compared: Optional[str] = None
+    load: Optional[float] = None  # of the machine, in the run's last minute
 
 
 @dataclass(frozen=True)
@@ -79,6 +80,10 @@ METRICS = (
              "counts_per_frame", "lines_in_window", "median"),
     _summary("lines", "Line landmarks of the whole run", 0, "lines"),
     _summary("merged_lines", "Merged line landmarks of the whole run", 0, "merged_lines"),
+    Metric("manhattan_percent", "Share of the poses with a Manhattan frame [%]", 0,
+           lambda r: 100 * r.summary["manhattan_share"]),
+    Metric("load", "Load average of the machine in the last minute of the run", 1,
+           lambda r: r.load),
 )
 METRIC = {metric.name: metric for metric in METRICS}
 
@@ -155,7 +160,7 @@ class Evaluator:
         if outcome["failure"] is not None:
             return RunResult(run, failure=outcome["failure"])
         try:
-            result = RunResult(run, summary=_read_json(os.path.join(run.folder, "summary.json")),
+            result = RunResult(run, load=outcome.get("load_average"), summary=_read_json(os.path.join(run.folder, "summary.json")),
                                line_extraction_ms=_mean_line_extraction(run.folder))
         except (KeyError, ValueError) as error:
             return RunResult(run, failure=f"damaged results ({error}); remove {run.folder} and run"

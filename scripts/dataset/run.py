@@ -97,7 +97,8 @@ class Run:
         failure = self._failure(exit_code)
         outcome = {"sequence": self.sequence.name, "variant": self.variant,
                    "repetition": self.repetition, "failure": failure, "exit_code": exit_code,
-                   "wall_time_s": seconds, "command": self.command(), "identity": self._identity}
+                   "wall_time_s": seconds, "load_average": os.getloadavg()[0],
+                   "command": self.command(), "identity": self._identity}
         path = os.path.join(self.folder, OUTCOME)
         with open(path + ".part", "w", encoding="utf-8") as file:
             json.dump(outcome, file, indent=2)

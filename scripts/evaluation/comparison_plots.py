@@ -37,7 +37,7 @@ def write_overview(folder, name, values, label):
     axis.set_xticklabels(sequences, rotation=20, ha="right")
     axis.set_ylabel(label)
     axis.grid(axis="y", alpha=0.3)
-    axis.legend(ncol=4, fontsize="small")
+    axis.legend(ncol=4, fontsize="small", loc="lower center", bbox_to_anchor=(0.5, 1.0))
     return save_figures(folder, {name: figure})
 
 

@@ -105,7 +105,7 @@ class PaperTables(unittest.TestCase):
         ours = [result(sequence, variant, ape) for sequence in ("MH_01_easy", "MH_04_difficult")
                 for variant, ape in (("baseline", 0.2), ("improved", 0.1))]
         self.assertEqual(row(self.table(4, ours), "average of ours")[1:],
-                         ["0.27", "0.22", "0.05", "2 recordings", "0.2000", "0.1000", "0.1000"])
+                         ["0.27", "0.22", "0.05", "of 2", "0.2000", "0.1000", "0.1000"])
 
     def test_average_of_all_sequences(self):
         ours = [result(s, v, ape) for s in SEQUENCES
@@ -133,7 +133,7 @@ class Report(unittest.TestCase):
     def test_failures_missing_truth_and_variants_are_told(self):
         text = markdown_report(Results([result("a", "points", failure="lost | found"),
                                         result("b", "points")]), [("machine", "this one")],
-                               {"b": ["plots/b/ape.png"]})
+                               {"b": ["plots/b/ape.png"]}, cores=2)
         self.assertIn("1 of 2:", text)
         self.assertIn("lost \\| found", text)
         self.assertEqual(row(text, "b", "points", "1"), ["b", "points", "1", "no ground truth"])
@@ -141,6 +141,15 @@ class Report(unittest.TestCase):
         self.assertIn("None of the sequences is one of the paper's", text)
         self.assertIn("![ape.png](plots/b/ape.png)", text)
         self.assertNotIn("| lines ", text)
+
+    def test_times_beside_other_work_are_not_passed_over(self):
+        quiet, busy = result("MH_01_easy", "points", 0.1), result("MH_02_easy", "points", 0.1)
+        quiet.load, busy.load = 1.4, 7.2
+        warning = "1 of 2 runs shared the machine with other work (load average up to 7 on 2 cores)"
+        text = markdown_report(Results([quiet, busy]), [], {}, cores=2)
+        self.assertEqual(text.count(warning), 2)  # at our times, and beside the paper's
+        text = markdown_report(Results([quiet, busy]), [], {}, cores=8)
+        self.assertNotIn("shared the machine", text)
 
     def test_table_is_aligned(self):
         self.assertEqual(str(Table(["a", "long"], [["b", "c"]])).splitlines(),

@@ -302,6 +302,8 @@ class BadCalls(DatasetTest):
         self.assert_refused("key=value instead of max_cnt", "--set", "max_cnt", exit_code=2)
         self.write(os.path.join("bags", "hall.tum"), "1 2 3\n")
         self.assert_refused("hall.tum:1: 3 columns, expected 8")
+        os.symlink(self.path("nowhere"), self.path("bags", "gone.bag"))
+        self.assert_refused("gone.bag: No such file", "--sequences", "gone")
 
     def test_damaged_summary(self):
         self.add("hall")

@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t kMaxWaiting = 2;  // newer images that an image lets pass for the gyro
 constexpr int64_t kImageGap_ns = 1'000'000'000;
-constexpr int kRefusedUntilRestart = 10;  // images from the past in a row
+constexpr int kJumpPatience = 10;  // images
 
 }  // namespace
 
@@ -28,7 +28,8 @@ ImageQueue::ImageQueue(const Config& config)
     : sensor_(config.sensor),
       uses_gyro_(sensor_.estimate_extrinsic != SensorConfig::ExtrinsicMode::kCalibrateRotation),
       gyro_(sensor_.T_B_C, sensor_.td),
-      rate_limiter_(config.publish_rate) {}
+      rate_limiter_(config.publish_rate),
+      jump_(kJumpPatience) {}
 
 void ImageQueue::AddImage(ImageSample image) {
   ++counts_.images;
@@ -37,14 +38,14 @@ void ImageQueue::AddImage(ImageSample image) {
   bool restart = false;
   if (accepted_ns_ && t_ns <= *accepted_ns_) {
     ++counts_.out_of_order;
-    if (!IsNewRecording(t_ns)) return;
+    if (!jump_.Refuse(t_ns)) return;
     restart = true;
     ++counts_.restarts;
     gyro_ = GyroPredictor(sensor_.T_B_C, sensor_.td);
   } else if (accepted_ns_ && t_ns - *accepted_ns_ > kImageGap_ns) {
     ++counts_.gaps;
   }
-  refused_in_a_row_ = 0;
+  jump_.Accept();
   accepted_ns_ = t_ns;
   images_.push_back({std::move(image), restart});
 }
@@ -57,12 +58,6 @@ bool ImageQueue::HasTheFormat(const ImageSample& image) {
     if (counts_.wrong_format++ == 0) counts_.wrong_format_detail = error.what();
     return false;
   }
-}
-
-bool ImageQueue::IsNewRecording(int64_t refused_ns) {
-  refused_in_a_row_ = refused_ns > refused_ns_ ? refused_in_a_row_ + 1 : 1;
-  refused_ns_ = refused_ns;
-  return refused_in_a_row_ > kRefusedUntilRestart;
 }
 
 std::optional<ReadyImage> ImageQueue::Pop() {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "common/backward_jump.h"
 #include "common/config.h"
 #include "common/drop_counts.h"
 #include "common/gyro_predictor.h"
@@ -69,7 +70,6 @@ class ImageQueue {
   };
 
   bool HasTheFormat(const ImageSample& image);
-  bool IsNewRecording(int64_t refused_ns);
   std::optional<Eigen::Quaterniond> PredictRotation(int64_t t_ns);
 
   SensorConfig sensor_;
@@ -80,8 +80,7 @@ class ImageQueue {
   std::deque<WaitingImage> images_;
   std::optional<int64_t> accepted_ns_;    // stamp of the last image taken in
   std::optional<int64_t> handed_out_ns_;  // stamp of the last image handed out
-  int64_t refused_ns_ = 0;                // stamp of the last image refused for its stamp
-  int refused_in_a_row_ = 0;
+  BackwardJumpDetector jump_;
 };
 
 }  // namespace plm_vins

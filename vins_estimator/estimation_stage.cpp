@@ -26,23 +26,44 @@ DropCounts ToDropCounts(const SyncStatistics& statistics) {
           {"frames_dropped_full", statistics.frames_dropped_full, ""},
           {"frames_with_few_points", statistics.frames_with_few_points, ""},
           {"lines_out_of_order", statistics.lines_out_of_order, ""},
-          {"lines_late", statistics.lines_late, ""}};
+          {"lines_late", statistics.lines_late, ""},
+          {"jumps_back", statistics.jumps_back, ""}};
 }
 
 EstimationStage::EstimationStage(const Config& config)
     : estimator_(config), sync_(MakeSyncOptions(config)) {}
 
-void EstimationStage::Reset() {
+void EstimationStage::Reset(const std::string& reason) {
   sync_.Clear();
+  StartOver(reason);
+}
+
+// What has said nothing since it began has nothing to take back.
+void EstimationStage::StartOver(const std::string& reason) {
   estimator_.Reset();
   sync_.SetTimeOffset(estimator_.time_offset());
+  if (anew_) return;
+  ++resets_;
+  restart_reason_ = reason;
+  anew_ = true;
 }
 
 std::optional<EstimatedFrame> EstimationStage::Process(
     const std::optional<FrameMeasurement>& measurement) {
   if (!measurement) return std::nullopt;
+  if (sync_.statistics().jumps_back > jumps_back_) {
+    jumps_back_ = sync_.statistics().jumps_back;
+    StartOver("stamps jumped back");
+  }
   EstimatedFrame frame;
   frame.output = estimator_.Process(*measurement);
+  ++frames_;
+  if (frame.output.restarted) ++resets_;
+  anew_ = false;
+  if (restart_reason_) {
+    frame.output.restarted = true;
+    frame.output.reason = *std::exchange(restart_reason_, std::nullopt);
+  }
   sync_.SetTimeOffset(estimator_.time_offset());
   if (!measurement->imu.empty()) {
     frame.angular_velocity = measurement->imu.back().gyro - frame.output.state.gyro_bias();

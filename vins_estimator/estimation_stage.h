@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "common/config.h"
@@ -37,17 +38,27 @@ class EstimationStage {
   // The same when no more input comes.
   std::optional<EstimatedFrame> Flush() { return Process(sync_.Flush()); }
 
-  // Starts over: queued data and the state are forgotten, statistics go on.
-  void Reset();
+  // Starts over: queued data and the state are forgotten, statistics go on. `reason` is that of the
+  // next output, which tells of the new world frame.
+  void Reset(const std::string& reason);
 
+  int64_t frames() const { return frames_; }  // estimated so far
+  int64_t resets() const { return resets_; }  // times that a world frame was given up
+  size_t queued_frames() const { return sync_.queued_frames(); }
   bool lines_are_missing() const { return sync_.lines_are_missing(); }
   const SyncStatistics& statistics() const { return sync_.statistics(); }
 
  private:
   std::optional<EstimatedFrame> Process(const std::optional<FrameMeasurement>& measurement);
+  void StartOver(const std::string& reason);
 
   Estimator estimator_;
   MeasurementSync sync_;
+  int64_t frames_ = 0;
+  int64_t resets_ = 0;
+  int64_t jumps_back_ = 0;                     // followed so far
+  bool anew_ = true;                           // no image since the start or since starting over
+  std::optional<std::string> restart_reason_;  // for the next output
 };
 
 }  // namespace plm_vins

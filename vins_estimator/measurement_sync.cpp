@@ -13,6 +13,11 @@ namespace {
 // Images of which the IMU cuts are closer than this hold no motion that could be told from noise.
 constexpr int64_t kMinInterval_ns = 1'000'000;
 
+// Stamps in a row that go back until a new recording begins. Trackers look at stamps, too, and
+// their word should come first.
+constexpr int kImuJumpPatience = 1000;
+constexpr int kPointsJumpPatience = 10;
+
 constexpr size_t kFewPoints = 10;  // too few to tell the motion of the camera from
 
 // Beyond what the inertial sensors of vehicles and hands can measure.
@@ -28,6 +33,9 @@ bool IsPlausible(const ImuSample& sample) {
 
 }  // namespace
 
+MeasurementSync::MeasurementSync(const Options& options)
+    : options_(options), imu_jump_(kImuJumpPatience), points_jump_(kPointsJumpPatience) {}
+
 void MeasurementSync::AddImu(const ImuSample& sample) {
   ++statistics_.imu_samples;
   if (!sample.gyro.allFinite() || !sample.accel.allFinite()) {
@@ -40,8 +48,10 @@ void MeasurementSync::AddImu(const ImuSample& sample) {
   }
   if (!imu_.empty() && sample.t_ns <= imu_.back().t_ns) {
     ++statistics_.imu_out_of_order;
-    return;
+    if (!imu_jump_.Refuse(sample.t_ns)) return;
+    BeginRecording();
   }
+  imu_jump_.Accept();
   JudgeImuAfterGap(sample.t_ns);
   if (!imu_.empty() && ToSeconds(sample.t_ns - imu_.back().t_ns) > options_.max_imu_gap) {
     imu_after_gap_ = sample;
@@ -74,8 +84,10 @@ void MeasurementSync::AddPoints(PointFrame frame) {
   ++statistics_.frames;
   if (last_points_ns_ && frame.t_ns <= *last_points_ns_) {
     ++statistics_.frames_out_of_order;
-    return;
+    if (!points_jump_.Refuse(frame.t_ns)) return;
+    BeginRecording();
   }
+  points_jump_.Accept();
   last_points_ns_ = frame.t_ns;
   if (frame.points.size() < kFewPoints) ++statistics_.frames_with_few_points;
   points_.push_back(std::move(frame));
@@ -104,6 +116,11 @@ void MeasurementSync::AddLines(LineFrame frame) {
     lines_.pop_front();
     ++statistics_.lines_without_points;
   }
+}
+
+void MeasurementSync::BeginRecording() {
+  ++statistics_.jumps_back;
+  Clear();
 }
 
 void MeasurementSync::Clear() {

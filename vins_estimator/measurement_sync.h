@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/backward_jump.h"
 #include "common/measurements.h"
 
 namespace plm_vins {
@@ -31,6 +32,7 @@ struct SyncStatistics {
   int64_t lines_out_of_order = 0;    // stamp not after the one before
   int64_t lines_late = 0;            // came after a frame of that time or later had been handed out
   int64_t lines_without_points = 0;  // line frame whose point frame never came
+  int64_t jumps_back = 0;            // IMU or images went back in time for good: all was forgotten
 };
 
 // Pairs point and line features by equal stamp and cuts the IMU stream at the image times.
@@ -43,6 +45,9 @@ struct SyncStatistics {
 // in time again. A frame that cannot be used is dropped and counted; the IMU samples before it then
 // lead to the next one: of the samples between the first and the last frame none is lost or used
 // twice, also when td changes.
+//
+// Where the IMU or the images go back in time for good (a bag played again, a clock set back), all
+// is forgotten but the statistics, and a new recording begins.
 class MeasurementSync {
  public:
   struct Options {
@@ -56,13 +61,14 @@ class MeasurementSync {
     int max_imu_samples = 50000;  // queued samples; beyond, the oldest is dropped
   };
 
-  explicit MeasurementSync(const Options& options) : options_(options) {}
+  explicit MeasurementSync(const Options& options);
 
   void AddImu(const ImuSample& sample);
   void AddPoints(PointFrame frame);
   void AddLines(LineFrame frame);
   void SetTimeOffset(double td) { options_.td = td; }
-  void Clear();  // forgets all queued data and stamps, keeps the statistics
+  // Forgets all queued data and stamps, keeps the statistics.
+  void Clear();
 
   // The next frame in order of time, or nothing yet. See FrameMeasurement for how the IMU is cut.
   std::optional<FrameMeasurement> Pop();
@@ -80,6 +86,7 @@ class MeasurementSync {
   const SyncStatistics& statistics() const { return statistics_; }
 
  private:
+  void BeginRecording();
   // Decides on the sample after a gap, now that the stamp of the next one is known.
   void JudgeImuAfterGap(int64_t next_ns);
   void TakeImu(const ImuSample& sample);
@@ -109,6 +116,8 @@ class MeasurementSync {
   std::optional<int64_t> last_lines_ns_;
   std::deque<int64_t> last_popped_ns_;  // as many as a line frame may lag behind, oldest first
   int frames_without_lines_in_a_row_ = 0;
+  BackwardJumpDetector imu_jump_;
+  BackwardJumpDetector points_jump_;
 };
 
 }  // namespace plm_vins

@@ -4,6 +4,8 @@
 #include <ros/console.h>
 #include <ros/init.h>
 
+#include <csignal>
+#include <cstdlib>
 #include <exception>
 
 #include "common/ros/node_config.h"
@@ -12,6 +14,8 @@ namespace plm_vins {
 
 int RunNode(int argc, char** argv, const std::string& name,
             const std::function<void(const Config&)>& body) {
+  // Until ROS runs, and handles it, there is nothing to save.
+  std::signal(SIGINT, [](int) { std::_Exit(0); });
   ros::init(argc, argv, name);
   const ros::NodeHandle keeps_ros_running;
   try {

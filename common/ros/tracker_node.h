@@ -13,11 +13,13 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "common/config.h"
 #include "common/ros/msg_conversion.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/run_time_settings.h"
+#include "common/ros/stream_monitor.h"
 
 namespace plm_vins {
 
@@ -89,6 +91,7 @@ class TrackerNode {
   }
 
   void AddImu(const sensor_msgs::Imu& message) {
+    imu_stream_.Add(message.header.stamp);
     stage_.AddImu(ToImuSample(message));
     while (const auto frame = stage_.Pop()) Publish(*frame);
   }
@@ -100,7 +103,9 @@ class TrackerNode {
   void AddImage(const Image& message) {
     last_image_arrival_ = ros::WallTime::now();
     try {
-      stage_.AddImage(ToImageSample(message));
+      ImageSample image = ToImageSample(message);
+      image_stream_.Add(ToRosTime(image.t_ns));
+      stage_.AddImage(std::move(image));
     } catch (const std::invalid_argument& error) {
       if (unreadable_images_++ == 0) first_unreadable_ = error.what();
     }
@@ -115,14 +120,17 @@ class TrackerNode {
 
   void Publish(const typename Stage::Frame& frame) {
     if (frame.restart) {
+      ROS_WARN("stamps of the images jumped back: tracking starts anew");
       std_msgs::Bool restart;
       restart.data = true;
       restart_publisher_.publish(restart);
     }
     const sensor_msgs::PointCloud message = ToMessage(frame.features, config_.output.camera_frame);
     features_in_last_image_ = message.points.size();
+    tracking_ms_ = frame.tracking_ms;
     if (!frame.publish) return;
     feature_publisher_.publish(message);
+    feature_stream_.Add(message.header.stamp);
     if (show_track_ && annotated_publisher_.getNumSubscribers() > 0) {
       annotated_publisher_.publish(ToMessage(stage_.tracker().DrawTracks(), frame.features.t_ns,
                                              config_.output.camera_frame));
@@ -137,13 +145,20 @@ class TrackerNode {
 
   void ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
-    if (stage_.counts().images == 0) {
-      status.summary(DiagnosticStatus::WARN, "no image on " + config_.sensor.image_topic + " yet");
+    if (image_stream_.Silence() > StreamMonitor::kSilence) {
+      status.summary(DiagnosticStatus::WARN,
+                     "waiting: nothing comes on " + config_.sensor.image_topic);
+    } else if (features_in_last_image_ == 0) {
+      status.summary(DiagnosticStatus::WARN, "lost: nothing to follow in the last image");
     } else {
       status.summary(DiagnosticStatus::OK, "tracking");
     }
     status.add("images", stage_.counts().images);
     status.add("features", features_in_last_image_);
+    status.add("tracking_ms", tracking_ms_);
+    for (StreamMonitor* stream : {&image_stream_, &imu_stream_, &feature_stream_}) {
+      stream->Report(&status);
+    }
     for (const DropCount& drop : Drops()) status.add(drop.cause, drop.count);
   }
 
@@ -159,6 +174,10 @@ class TrackerNode {
   int64_t unreadable_images_ = 0;
   std::string first_unreadable_;
   size_t features_in_last_image_ = 0;
+  double tracking_ms_ = 0;  // of the last image [ms]
+  StreamMonitor image_stream_{"images"};
+  StreamMonitor imu_stream_{"imu"};
+  StreamMonitor feature_stream_{"features"};
 
   ros::WallTime last_image_arrival_;
   ros::Publisher feature_publisher_;

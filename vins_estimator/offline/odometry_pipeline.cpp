@@ -108,7 +108,7 @@ void OdometryPipeline::Consume(Item item, const FrameCallback& on_frame) {
 }
 
 void OdometryPipeline::AddFeatures(FrontEndFrame tracked) {
-  if (tracked.points.restart) back_end_.Reset();
+  if (tracked.points.restart) back_end_.Reset("stamps jumped back");
   if (!tracked.points.publish) return;
   PipelineFrame& frame = unfinished_[tracked.points.features.t_ns];
   frame.point_tracking_ms = tracked.points.tracking_ms;

@@ -92,6 +92,7 @@ void ResultFiles::Add(const PipelineFrame& frame) {
   summary_.Add(output, timings, counts);
   AddMapPoints(output.departed_points);
   AddMapLines(output.departed_lines);
+  if (output.restarted) trajectory_ << FormatTumRestart(output.reason);
   if (!output.has_pose) return;
   trajectory_ << FormatTumRow(output.t_ns, output.state.T_W_B());
   window_points_ = output.points;

@@ -17,4 +17,8 @@ std::string FormatTumRow(int64_t t_ns, const Rigid3d& T_W_B) {
   return row;
 }
 
+std::string FormatTumRestart(const std::string& reason) {
+  return "# the world frame starts anew: " + reason + "\n";
+}
+
 }  // namespace plm_vins

@@ -12,4 +12,7 @@ namespace plm_vins {
 // in seconds, exact to the nanosecond.
 std::string FormatTumRow(int64_t t_ns, const Rigid3d& T_W_B);
 
+// A comment between rows: the world frame of the next one is another than that of those before.
+std::string FormatTumRestart(const std::string& reason);
+
 }  // namespace plm_vins

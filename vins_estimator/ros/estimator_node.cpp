@@ -13,7 +13,9 @@ namespace plm_vins {
 namespace {
 
 constexpr int kSubscriberQueue = 2000;
+constexpr char kPointTopic[] = "/feature_tracker/feature";
 constexpr char kLineTopic[] = "/linefeature_tracker/linefeature";
+constexpr char kRestartTopic[] = "/feature_tracker/restart";
 constexpr size_t kQueueCapacity = 5000;  // about 25 s of input; then the subscribers' queues fill
 
 template <typename... Handlers>
@@ -29,15 +31,16 @@ EstimatorNode::EstimatorNode(const Config& config)
     : config_(config),
       queue_(kQueueCapacity),
       propagation_(config, private_node_),
+      file_at_end_(private_node_.hasParam("trajectory_file") ? TrajectoryFile() : ""),
+      diagnostics_(config, kPointTopic, kLineTopic),
       stage_(config),
       publisher_(config.output, private_node_) {
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {
       node_.subscribe(config_.sensor.imu_topic, kSubscriberQueue, &EstimatorNode::AddImu, this,
                       no_delay),
-      node_.subscribe("/feature_tracker/feature", kSubscriberQueue, &EstimatorNode::AddPoints, this,
-                      no_delay),
-      node_.subscribe("/feature_tracker/restart", 10, &EstimatorNode::Restart, this, no_delay)};
+      node_.subscribe(kPointTopic, kSubscriberQueue, &EstimatorNode::AddPoints, this, no_delay),
+      node_.subscribe(kRestartTopic, 10, &EstimatorNode::Restart, this, no_delay)};
   if (config_.use_lines) {
     subscribers_.push_back(
         node_.subscribe(kLineTopic, kSubscriberQueue, &EstimatorNode::AddLines, this, no_delay));
@@ -45,25 +48,36 @@ EstimatorNode::EstimatorNode(const Config& config)
   services_ = {
       private_node_.advertiseService("reset", &EstimatorNode::Reset, this),
       private_node_.advertiseService("save_trajectory", &EstimatorNode::SaveTrajectory, this)};
-  diagnostics_.setHardwareID("none");
-  diagnostics_.add("odometry", this, &EstimatorNode::ReportStatus);
+  diagnostics_updater_.setHardwareID("none");
+  diagnostics_updater_.add("odometry", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    diagnostics_.Report(queue_.size(), &status);
+  });
   diagnostics_timer_ = node_.createWallTimer(
-      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+      ros::WallDuration(1.0),
+      [this](const ros::WallTimerEvent&) { diagnostics_updater_.force_update(); });
   worker_ = std::thread(&EstimatorNode::Work, this);
 }
 
 EstimatorNode::~EstimatorNode() {
   queue_.Close();
   worker_.join();
+  if (file_at_end_.empty() || trajectory_.empty()) return;
+  try {
+    trajectory_.Save(file_at_end_);
+  } catch (const std::runtime_error& error) {
+    ROS_ERROR_STREAM(error.what());
+  }
 }
 
 void EstimatorNode::AddImu(const sensor_msgs::Imu& message) {
+  diagnostics_.imu().Add(message.header.stamp);
   const ImuSample sample = ToImuSample(message);
   propagation_.AddImu(sample);
   queue_.Push(sample);
 }
 
 void EstimatorNode::AddPoints(const FeatureEvent& event) {
+  diagnostics_.points().Add(event.getMessage()->header.stamp);
   try {
     PointFrame frame = ToPointFrame(*event.getMessage());
     RestoreIds(event.getConnectionHeaderPtr(), &frame.points, &point_source_);
@@ -74,6 +88,7 @@ void EstimatorNode::AddPoints(const FeatureEvent& event) {
 }
 
 void EstimatorNode::AddLines(const FeatureEvent& event) {
+  diagnostics_.lines().Add(event.getMessage()->header.stamp);
   try {
     LineFrame frame = ToLineFrame(*event.getMessage());
     RestoreIds(event.getConnectionHeaderPtr(), &frame.lines, &line_source_);
@@ -97,18 +112,16 @@ void EstimatorNode::RestoreIds(const boost::shared_ptr<ros::M_string>& connectio
 }
 
 void EstimatorNode::CountMalformed(const std::string& what) {
-  callback_warner_.Check({{"feature_messages_malformed", ++malformed_messages_, what}});
+  diagnostics_.CountMalformed();
+  callback_warner_.Check({{"feature_messages_malformed", diagnostics_.malformed_messages(), what}});
 }
 
 void EstimatorNode::Restart(const std_msgs::Bool& message) {
-  if (!message.data) return;
-  ROS_WARN("restart: the images' stamps jumped back");
-  queue_.Push(ResetCommand());
+  if (message.data) queue_.Push(ResetCommand{std::string("asked for on ") + kRestartTopic});
 }
 
 bool EstimatorNode::Reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  ROS_INFO("reset by service");
-  queue_.Push(ResetCommand());
+  queue_.Push(ResetCommand{"reset by service"});
   response.success = true;
   response.message = "starting over with the next image";
   return true;
@@ -116,12 +129,11 @@ bool EstimatorNode::Reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Respon
 
 bool EstimatorNode::SaveTrajectory(std_srvs::Trigger::Request&,
                                    std_srvs::Trigger::Response& response) {
-  const auto file = std::filesystem::absolute(
-      private_node_.param<std::string>("trajectory_file", "trajectory.tum"));
+  const std::string file = TrajectoryFile();
   try {
-    const size_t poses = trajectory_.Save(file.string());
+    const size_t poses = trajectory_.Save(file);
     response.success = true;
-    response.message = std::to_string(poses) + " poses saved to " + file.string();
+    response.message = std::to_string(poses) + " poses saved to " + file;
   } catch (const std::runtime_error& error) {
     response.success = false;
     response.message = error.what();
@@ -129,9 +141,14 @@ bool EstimatorNode::SaveTrajectory(std_srvs::Trigger::Request&,
   return true;
 }
 
+std::string EstimatorNode::TrajectoryFile() const {
+  const auto file = private_node_.param<std::string>("trajectory_file", "trajectory.tum");
+  return std::filesystem::absolute(file).string();
+}
+
 void EstimatorNode::Work() {
   while (auto input = queue_.Pop()) {
-    if (!ros::ok()) return;
+    if (!ros::ok()) return queue_.Close();  // a callback may wait for room in it
     Process(std::move(*input));
   }
 }
@@ -140,32 +157,30 @@ void EstimatorNode::Process(Input input) {
   std::visit(Overloaded{[&](const ImuSample& sample) { stage_.AddImu(sample); },
                         [&](PointFrame& points) { stage_.AddPoints(std::move(points)); },
                         [&](LineFrame& lines) { stage_.AddLines(std::move(lines)); },
-                        [&](const ResetCommand&) { StartOver(); }},
+                        [&](const ResetCommand& reset) { StartOver(reset.reason); }},
              input);
   while (const auto frame = stage_.Pop()) Handle(*frame);
 }
 
-void EstimatorNode::StartOver() {
-  stage_.Reset();
+// The next image's output tells of the new world frame.
+void EstimatorNode::StartOver(const std::string& reason) {
+  stage_.Reset(reason);
   propagation_.Clear();
-  trajectory_.Clear();
-  publisher_.Clear();
   EstimatorOutput output;
-  output.reason = "reset, waiting for images";
-  LogChanges(output);
-  UpdateStatus(output);
+  output.reason = reason;
+  diagnostics_.Update(output, stage_);
 }
 
 void EstimatorNode::Handle(const EstimatedFrame& frame) {
   const EstimatorOutput& output = frame.output;
   propagation_.SetEstimate(output);
   publisher_.Publish(frame);
-  if (output.restarted) trajectory_.Clear();
+  if (output.restarted) trajectory_.BeginWorld(output.reason);
   if (output.has_pose) trajectory_.Add(output.t_ns, output.state.T_W_B());
   LogChanges(output);
   LogLines();
-  ++frames_;
-  UpdateStatus(output);
+  worker_warner_.Check(ToDropCounts(stage_.statistics()));
+  diagnostics_.Update(output, stage_);
 }
 
 void EstimatorNode::LogChanges(const EstimatorOutput& output) {
@@ -189,38 +204,6 @@ void EstimatorNode::LogLines() {
     ROS_INFO("lines come in time again on %s", kLineTopic);
   }
   lines_were_missing_ = missing;
-}
-
-void EstimatorNode::UpdateStatus(const EstimatorOutput& output) {
-  worker_warner_.Check(ToDropCounts(stage_.statistics()));
-  const std::lock_guard<std::mutex> lock(status_mutex_);
-  status_ = {output.status,        output.reason, output.counts,
-             output.timings.total, frames_,       stage_.lines_are_missing(),
-             stage_.statistics()};
-}
-
-void EstimatorNode::ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  using diagnostic_msgs::DiagnosticStatus;
-  const std::lock_guard<std::mutex> lock(status_mutex_);
-  const bool tracking = status_.status == EstimatorStatus::kTracking;
-  const std::string why = status_.reason.empty() ? "" : ": " + status_.reason;
-  status.summary(tracking ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
-                 status_.frames == 0 ? "no usable image yet" : ToString(status_.status) + why);
-  if (status_.lines_are_missing) {
-    status.mergeSummary(DiagnosticStatus::WARN,
-                        std::string("points alone: no lines come in time on ") + kLineTopic);
-  }
-  status.add("frames", status_.frames);
-  status.add("points_observed", status_.counts.points_observed);
-  status.add("points_in_window", status_.counts.points_in_window);
-  status.add("lines_observed", status_.counts.lines_observed);
-  status.add("lines_in_window", status_.counts.lines_in_window);
-  status.add("frames_without_lines", status_.sync.frames_without_lines);
-  status.add("lines_without_points", status_.sync.lines_without_points);
-  status.add("estimator_ms", status_.estimator_ms);
-  status.add("queued", queue_.size());
-  status.add("feature_messages_malformed", malformed_messages_);
-  for (const DropCount& drop : ToDropCounts(status_.sync)) status.add(drop.cause, drop.count);
 }
 
 }  // namespace plm_vins

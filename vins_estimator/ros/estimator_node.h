@@ -9,7 +9,6 @@
 #include <std_msgs/Bool.h>
 #include <std_srvs/Trigger.h>
 
-#include <mutex>
 #include <string>
 #include <thread>
 #include <variant>
@@ -20,6 +19,7 @@
 #include "common/feature_ids.h"
 #include "common/ros/node_setup.h"
 #include "vins_estimator/estimation_stage.h"
+#include "vins_estimator/ros/estimator_diagnostics.h"
 #include "vins_estimator/ros/output_publisher.h"
 #include "vins_estimator/ros/propagation_publisher.h"
 #include "vins_estimator/ros/trajectory_log.h"
@@ -31,14 +31,17 @@ namespace plm_vins {
 // core. Nothing is dropped as long as that thread keeps up on average.
 //
 // Services: ~reset starts over; ~save_trajectory writes the poses so far to ~trajectory_file
-// (default trajectory.tum in the node's working folder).
+// (default trajectory.tum in the node's working folder), as the end of the node does where that
+// parameter is set.
 class EstimatorNode {
  public:
   explicit EstimatorNode(const Config& config);
   ~EstimatorNode();
 
  private:
-  struct ResetCommand {};
+  struct ResetCommand {
+    std::string reason;
+  };
   using Input = std::variant<ImuSample, PointFrame, LineFrame, ResetCommand>;
   using FeatureEvent = ros::MessageEvent<const sensor_msgs::PointCloud>;
 
@@ -46,17 +49,6 @@ class EstimatorNode {
   struct FeatureSource {
     boost::shared_ptr<ros::M_string> connection;
     IdRestorer ids;
-  };
-
-  // What ~diagnostics tells, as of the last image.
-  struct Status {
-    EstimatorStatus status = EstimatorStatus::kInitializing;
-    std::string reason;
-    EstimatorCounts counts;
-    double estimator_ms = 0;
-    int64_t frames = 0;
-    bool lines_are_missing = false;
-    SyncStatistics sync;
   };
 
   // In the thread of the callbacks.
@@ -70,16 +62,15 @@ class EstimatorNode {
   void Restart(const std_msgs::Bool& message);
   bool Reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool SaveTrajectory(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  void ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status);
+  std::string TrajectoryFile() const;
 
   // In the worker thread.
   void Work();
   void Process(Input input);
-  void StartOver();
+  void StartOver(const std::string& reason);
   void Handle(const EstimatedFrame& frame);
   void LogChanges(const EstimatorOutput& output);
   void LogLines();
-  void UpdateStatus(const EstimatorOutput& output);
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_{"~"};
@@ -88,9 +79,8 @@ class EstimatorNode {
   BoundedQueue<Input> queue_;
   PropagationPublisher propagation_;
   TrajectoryLog trajectory_;
-  mutable std::mutex status_mutex_;
-  Status status_;  // guarded by status_mutex_
-  int64_t malformed_messages_ = 0;
+  std::string file_at_end_;  // empty: none
+  EstimatorDiagnostics diagnostics_;
   FeatureSource point_source_;
   FeatureSource line_source_;
   DropWarner callback_warner_;
@@ -102,11 +92,10 @@ class EstimatorNode {
   EstimatorStatus last_status_ = EstimatorStatus::kInitializing;
   std::string last_reason_;
   bool lines_were_missing_ = false;
-  int64_t frames_ = 0;
 
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
-  diagnostic_updater::Updater diagnostics_;
+  diagnostic_updater::Updater diagnostics_updater_;
   ros::WallTimer diagnostics_timer_;
   std::thread worker_;
 };

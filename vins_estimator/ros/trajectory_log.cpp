@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/ros/trajectory_log.h"
 
+#include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include "vins_estimator/output/tum_format.h"
 
@@ -15,21 +19,37 @@ constexpr size_t kMaxPoses = 1'000'000;
 
 void TrajectoryLog::Add(int64_t t_ns, const Rigid3d& T_W_B) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (!poses_.empty() && t_ns <= poses_.back().t_ns) poses_.clear();
   if (poses_.size() == kMaxPoses) poses_.pop_front();
-  poses_.emplace_back(t_ns, T_W_B);
+  poses_.push_back({t_ns, T_W_B, std::exchange(new_world_, "")});
 }
 
-void TrajectoryLog::Clear() {
+void TrajectoryLog::BeginWorld(const std::string& reason) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  poses_.clear();
+  new_world_ = reason;
+}
+
+bool TrajectoryLog::empty() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return poses_.empty();
 }
 
 size_t TrajectoryLog::Save(const std::string& file) const {
   const std::lock_guard<std::mutex> lock(mutex_);
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
   std::ofstream stream(file);
-  for (const auto& [t_ns, T_W_B] : poses_) stream << FormatTumRow(t_ns, T_W_B);
+  if (!stream) {
+    throw std::runtime_error(
+        "cannot write " + file + ": " +
+        (error ? error : std::error_code(errno, std::generic_category())).message());
+  }
+  for (const Pose& pose : poses_) {
+    if (!pose.new_world.empty()) stream << FormatTumRestart(pose.new_world);
+    stream << FormatTumRow(pose.t_ns, pose.T_W_B);
+  }
   stream.close();
-  if (!stream) throw std::runtime_error("cannot write " + file);
+  if (!stream) throw std::runtime_error("cannot write " + file + ": disk full?");
   return poses_.size();
 }
 

@@ -5,26 +5,36 @@
 #include <deque>
 #include <mutex>
 #include <string>
-#include <utility>
 
 #include "common/rigid3.h"
 
 namespace plm_vins {
 
-// The poses of the current world frame, to be saved on request. Keeps the newest million (14 hours
-// at 20 Hz). For several threads.
+// The poses so far, to be saved on request. Keeps the newest million (14 hours at 20 Hz), and none
+// from before their stamps jumped back: time runs forward in a file. For several threads.
 class TrajectoryLog {
  public:
   void Add(int64_t t_ns, const Rigid3d& T_W_B);
-  void Clear();
 
-  // Writes a TUM file. Returns the number of poses; throws std::runtime_error where the file cannot
-  // be written.
+  // The next pose is in another world frame than those before: a comment in the file says why.
+  void BeginWorld(const std::string& reason);
+
+  bool empty() const;
+
+  // Writes a TUM file, and its folder where it is missing. Returns the number of poses; throws
+  // std::runtime_error, which says why, where the file cannot be written.
   size_t Save(const std::string& file) const;
 
  private:
+  struct Pose {
+    int64_t t_ns = 0;
+    Rigid3d T_W_B;
+    std::string new_world;  // why its world frame is a new one; empty: it is not
+  };
+
   mutable std::mutex mutex_;
-  std::deque<std::pair<int64_t, Rigid3d>> poses_;
+  std::deque<Pose> poses_;
+  std::string new_world_;  // of the next pose
 };
 
 }  // namespace plm_vins

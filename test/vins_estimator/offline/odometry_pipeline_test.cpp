@@ -156,6 +156,24 @@ TEST(OdometryPipeline, GoesOnPastUnreadableAndUnfitImages) {
   EXPECT_EQ(result.drops.at("images_out_of_order"), 1);
 }
 
+TEST(OdometryPipeline, StartsOverOnceWhereTheRecordingBeginsAnew) {
+  MemoryRecording recording = StillRecording(2000);
+  for (int t = -4000; t <= -1000; t += 5) {
+    recording.AddImu(t);
+    if (t % 50 == -40) recording.AddImage(t);
+  }
+  std::vector<std::string> restarts;
+  int poses_before = 0, poses_after = 0;
+  OdometryPipeline pipeline(StillConfig());
+  pipeline.Run(&recording, {}, Threads::kOne, [&](const PipelineFrame& frame) {
+    if (frame.output.restarted) restarts.push_back(frame.output.reason);
+    if (frame.output.has_pose) ++(restarts.empty() ? poses_before : poses_after);
+  });
+  EXPECT_EQ(restarts, (std::vector<std::string>{"stamps jumped back"}));
+  EXPECT_GT(poses_before, 20);
+  EXPECT_GT(poses_after, 20);
+}
+
 TEST(OdometryPipeline, GoesOnPastBadImuSamples) {
   MemoryRecording recording = StillRecording(1000);
   recording.events()[20].imu.gyro.x() = std::numeric_limits<double>::quiet_NaN();

@@ -74,6 +74,20 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
   EXPECT_FALSE(summary["version"].get<std::string>().empty());
 }
 
+TEST(ResultFiles, TellOfANewWorldFrameBetweenTheRows) {
+  const testing::TemporaryFolder folder;
+  ResultFiles results(folder.path());
+  results.Add(MakeFrame(1'000'000'000, true));
+  PipelineFrame restart = MakeFrame(2'000'000'000, false);
+  restart.output.restarted = true;
+  restart.output.reason = "it flew away";
+  results.Add(restart);
+  results.Add(MakeFrame(3'000'000'000, true));
+  results.Finish(RunSummary::Run(), Config());
+  EXPECT_THAT(folder.Read("trajectory.tum"),
+              HasSubstr("\n# the world frame starts anew: it flew away\n3.000000000 "));
+}
+
 TEST(ResultFiles, HoldAnAnnotatedImageWhereThereIsOne) {
   const testing::TemporaryFolder folder;
   const ResultFiles results(folder.File("results"));

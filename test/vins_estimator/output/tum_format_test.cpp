@@ -17,5 +17,9 @@ TEST(TumFormat, PadsTheFractionOfTheStamp) {
   EXPECT_EQ(FormatTumRow(5'000'000'007, Rigid3d()).substr(0, 12), "5.000000007 ");
 }
 
+TEST(TumFormat, TellsOfANewWorldFrameInAComment) {
+  EXPECT_EQ(FormatTumRestart("why"), "# the world frame starts anew: why\n");
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/ros/stream_monitor.h"
+
+namespace plm_vins {
+
+void StreamMonitor::Add(const ros::Time& stamp) {
+  last_arrival_ = ros::WallTime::now();
+  ++messages_;
+  summed_delay_ += (ros::Time::now() - stamp).toSec();
+}
+
+void StreamMonitor::Report(diagnostic_updater::DiagnosticStatusWrapper* status) {
+  const ros::WallTime now = ros::WallTime::now();
+  const double seconds = (now - last_report_).toSec();
+  status->addf(name_ + "_rate_hz", "%.1f", seconds > 0 ? messages_ / seconds : 0.0);
+  if (messages_ > 0) status->addf(name_ + "_delay_ms", "%.1f", 1e3 * summed_delay_ / messages_);
+  last_report_ = now;
+  messages_ = 0;
+  summed_delay_ = 0;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <ros/time.h>
+
+#include <string>
+
+namespace plm_vins {
+
+// How the messages of one topic come along, for diagnostics: rate, age, silence. For one thread.
+class StreamMonitor {
+ public:
+  static constexpr double kSilence = 1.0;  // [s] without a message: the topic is waited for
+
+  explicit StreamMonitor(const std::string& name) : name_(name) {}
+
+  // A message came, or was sent, now.
+  void Add(const ros::Time& stamp);
+
+  // Wall time since the last message, or since construction where there was none [s].
+  double Silence() const { return (ros::WallTime::now() - last_arrival_).toSec(); }
+
+  // Adds NAME_rate_hz and, where messages came, NAME_delay_ms, the mean age of their stamps on
+  // arrival. Both are of the messages since the last call.
+  void Report(diagnostic_updater::DiagnosticStatusWrapper* status);
+
+ private:
+  std::string name_;
+  ros::WallTime last_arrival_ = ros::WallTime::now();
+  ros::WallTime last_report_ = ros::WallTime::now();
+  int messages_ = 0;         // since the last report
+  double summed_delay_ = 0;  // of these [s]
+};
+
+}  // namespace plm_vins

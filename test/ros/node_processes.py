@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A ROS master and nodes as processes of a test, and what the nodes say."""
+
+import contextlib
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import time
+
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import PointCloud
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CONFIG = ROOT / "config" / "euroc.yaml"
+PATIENCE = 60  # [s], generous for a machine that is busy
+
+
+def wait_until(condition, what, seconds=PATIENCE):
+    """Returns what `condition` does as soon as that is true; AssertionError where it never is."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        result = condition()
+        if result:
+            return result
+        time.sleep(0.05)
+    raise AssertionError(f"not within {seconds} s: {what() if callable(what) else what}")
+
+
+def free_port():
+    with contextlib.closing(socket.socket()) as listener:
+        listener.bind(("", 0))
+        return listener.getsockname()[1]
+
+
+class Processes:
+    """Starts programs; close() ends those that still run. Their output is in FOLDER/NAME.log."""
+
+    def __init__(self, folder, master_uri):
+        self.folder = pathlib.Path(folder)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        for log in self.folder.glob("*.log"):
+            log.unlink()
+        self.environment = {**os.environ, "ROS_MASTER_URI": master_uri,
+                            "ROS_HOME": str(self.folder / "ros_home")}
+        self._running = []
+
+    def start(self, name, command, **environment):
+        with open(self.folder / f"{name}.log", "a", encoding="utf-8") as log:
+            process = subprocess.Popen([str(word) for word in command], stdout=log,
+                                       stderr=subprocess.STDOUT, start_new_session=True,
+                                       env={**self.environment, **environment})
+        self._running.append(process)
+        return process
+
+    def start_node(self, program, *arguments, prefix=(), **environment):
+        """One of the package's nodes, by the path of its program."""
+        return self.start(pathlib.Path(program).name,
+                          [*prefix, program, f"_config_file:={CONFIG}", *arguments], **environment)
+
+    def log(self, name):
+        return (self.folder / f"{name}.log").read_text(encoding="utf-8")
+
+    def close(self):
+        for process in self._running:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+
+
+class Listener:
+    """Stamps [s] of odometry and features as they come, and the last status of each node."""
+
+    def __init__(self):
+        self.odometry = []
+        self.features = []
+        self._statuses = {}
+        rospy.Subscriber("/vins_estimator/odometry", Odometry,
+                         lambda message: self.odometry.append(message.header.stamp.to_sec()))
+        rospy.Subscriber("/feature_tracker/feature", PointCloud,
+                         lambda message: self.features.append(message.header.stamp.to_sec()))
+        rospy.Subscriber("/diagnostics", DiagnosticArray, self._add)
+
+    def _add(self, array):
+        for status in array.status:
+            values = {value.key: value.value for value in status.values}
+            self._statuses[status.name.split(":")[0]] = {"message": status.message, **values}
+
+    def value(self, node, key):
+        return self._statuses.get(node, {}).get(key, "")
+
+    def wait_for_value(self, node, key, condition):
+        wait_until(lambda: condition(self.value(node, key)),
+                   lambda: f"{key} of {node} is '{self.value(node, key)}'")
+
+    def wait_for_message(self, node, part):
+        self.wait_for_value(node, "message", lambda message: message and part in message)
+
+    def wait_for_odometry(self, count=10):
+        """So many more poses than now; returns their stamps."""
+        before = len(self.odometry)
+        wait_until(lambda: len(self.odometry) >= before + count,
+                   lambda: "odometry: " + self.value("vins_estimator", "message"))
+        return self.odometry[before:]

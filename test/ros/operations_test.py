@@ -1,0 +1,182 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The nodes when bags are played again, when one of them dies, and when they are told to end.
+
+Usage: operations_test.py NODES BAG FOLDER [unittest option ...]
+NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs and results.
+"""
+
+import os
+import pathlib
+import signal
+import sys
+import time
+import unittest
+
+import rosgraph
+import rospy
+from std_srvs.srv import Trigger
+
+from node_processes import Listener, Processes, free_port, wait_until
+
+if len(sys.argv) < 4:
+    sys.exit(__doc__)
+NODES = pathlib.Path(sys.argv[1])
+BAG = sys.argv[2]
+FOLDER = pathlib.Path(sys.argv[3])
+NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator")
+END_LIMIT = 5  # [s] from SIGINT to the end; takes well below one where the machine is not busy
+
+
+def setUpModule():
+    os.environ["ROS_MASTER_URI"] = f"http://localhost:{free_port()}"
+    master = Processes(FOLDER / "master", os.environ["ROS_MASTER_URI"])
+    unittest.addModuleCleanup(master.close)
+    port = os.environ["ROS_MASTER_URI"].rsplit(":", 1)[1]
+    master.start("master", ["rosmaster", "--core", "-p", port])
+    wait_until(rosgraph.is_master_online, "the master")
+    rospy.init_node("operations_test", disable_signals=True)
+
+
+class OperationsTest(unittest.TestCase):
+    def setUp(self):
+        self.trajectory = FOLDER / f"{self._testMethodName}.tum"
+        self.trajectory.unlink(missing_ok=True)
+        self.processes = Processes(FOLDER / self._testMethodName, os.environ["ROS_MASTER_URI"])
+        self.addCleanup(self.processes.close)
+
+    def start_node(self, name, **environment):
+        return self.processes.start_node(NODES / name, f"_trajectory_file:={self.trajectory}",
+                                         **environment)
+
+    def start_all(self):
+        self.listener = Listener()
+        self.nodes = {name: self.start_node(name) for name in NAMES}
+        for name in NAMES:
+            self.listener.wait_for_message(name, "")
+
+    def play(self, *options):
+        return self.processes.start("player", ["rosbag", "play", "--delay", "1", *options, BAG])
+
+    def assert_end_on_interrupt(self, nodes):
+        for node in nodes.values():
+            node.send_signal(signal.SIGINT)
+        begin = time.monotonic()
+        for name, node in nodes.items():
+            self.assertEqual(node.wait(END_LIMIT), 0, self.processes.log(name))
+        self.assertLess(time.monotonic() - begin, END_LIMIT)
+
+    def stamps_in_file(self):
+        """Those of the trajectory in the file, which run forward."""
+        rows = [line for line in self.trajectory.read_text(encoding="utf-8").splitlines()
+                if not line.startswith("#")]
+        stamps = [float(row.split()[0]) for row in rows]
+        self.assertEqual(stamps, sorted(set(stamps)))
+        return stamps
+
+
+class Restart(OperationsTest):
+    def check(self, *player_options):
+        self.start_all()
+        stamps = self.listener.odometry
+        for _ in range(2):
+            before = len(stamps)
+            player = self.play("--duration", "6", *player_options)
+            wait_until(lambda: player.poll() == 0, "end of the recording")
+            wait_until(lambda: len(stamps) > before, lambda: "poses of " + self.trajectory.name)
+        self.listener.wait_for_value("vins_estimator", "resets", lambda resets: resets == "1")
+        for tracker in NAMES[:2]:
+            self.listener.wait_for_value(tracker, "image_restarts", lambda count: count == "1")
+        restart = self.listener.value("vins_estimator", "last_restart")
+        self.assertIn(restart, ("asked for on /feature_tracker/restart", "stamps jumped back"))
+        log = self.processes.log("vins_estimator")
+        self.assertEqual(log.count("the world frame starts anew"), 1, log)
+
+        self.listener.wait_for_message("vins_estimator", "waiting: nothing comes on")
+        self.listener.wait_for_value("vins_estimator", "queued", lambda queued: queued == "0")
+        self.check_save()
+        jump, = [i for i in range(1, len(stamps)) if stamps[i] < stamps[i - 1]]
+        wait_until(lambda: stamps[jump:] == self.stamps_in_file(),
+                   lambda: f"in the file what was published: {stamps[jump:]}")
+        self.trajectory.unlink()
+        self.assert_end_on_interrupt(self.nodes)
+        self.assertEqual(stamps[jump:], self.stamps_in_file()[:len(stamps) - jump])
+
+    def check_save(self):
+        save = rospy.ServiceProxy("/vins_estimator/save_trajectory", Trigger)
+        parameter = "/vins_estimator/trajectory_file"
+        rospy.set_param(parameter, "/dev/null/a.tum")
+        response = save()
+        self.assertFalse(response.success)
+        self.assertEqual(response.message, "cannot write /dev/null/a.tum: Not a directory")
+        rospy.set_param(parameter, str(self.trajectory))
+        for _ in range(2):  # the second takes the place of the first
+            response = save()
+            self.assertTrue(response.success, response.message)
+            self.assertEqual(response.message,
+                             f"{len(self.stamps_in_file())} poses saved to {self.trajectory}")
+
+    def test_in_time_of_the_machine(self):
+        self.check()
+
+    def test_in_time_of_the_bag(self):
+        rospy.set_param("/use_sim_time", True)
+        self.addCleanup(rospy.delete_param, "/use_sim_time")
+        self.check("--clock")
+
+
+class Death(OperationsTest):
+    def kill(self, name):
+        self.nodes[name].kill()
+        self.nodes[name].wait()
+
+    def revive(self, name):
+        self.nodes[name] = self.start_node(name)
+
+    def test_of_any_node_leaves_the_others_and_is_survived(self):
+        self.start_all()
+        listener = self.listener
+        self.play("--loop")
+        listener.wait_for_odometry()
+
+        self.kill("linefeature_tracker")
+        listener.wait_for_message("vins_estimator", "points alone")
+        listener.wait_for_odometry()
+        self.revive("linefeature_tracker")
+        listener.wait_for_value("vins_estimator", "message",
+                                lambda message: "points alone" not in message)
+
+        self.kill("feature_tracker")
+        listener.wait_for_message("vins_estimator",
+                                  "waiting: nothing comes on /feature_tracker/feature")
+        self.revive("feature_tracker")
+        listener.wait_for_odometry()
+
+        self.kill("vins_estimator")
+        tracked = len(listener.features)
+        wait_until(lambda: len(listener.features) > tracked + 20, "features without estimator")
+        self.revive("vins_estimator")
+        listener.wait_for_odometry()
+        listener.wait_for_message("vins_estimator", "tracking")
+        self.assert_end_on_interrupt(self.nodes)
+
+
+class Interrupt(OperationsTest):
+    def check(self, started, **environment):
+        nodes = {name: self.start_node(name, **environment) for name in NAMES}
+        for name in NAMES:
+            wait_until(lambda: started(name), f"start of {name}")
+        self.assert_end_on_interrupt(nodes)
+        self.assertFalse(self.trajectory.exists(), "there was no pose")
+
+    def test_without_a_master(self):
+        self.check(lambda name: "Failed to contact master" in self.processes.log(name),
+                   ROS_MASTER_URI=f"http://localhost:{free_port()}")
+
+    def test_before_any_data(self):
+        self.listener = Listener()
+        self.check(lambda name: self.listener.value(name, "message") != "")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]], warnings="ignore")

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The estimator's node fed by the trackers of VINS-Mono and PL-VINS: messages in their layouts, in
+// any order, late, missing; restarts with and without notice. Run by peers.test.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <random>
+
+#include "test/ros/estimator_log.h"
+#include "test/ros/peer_trackers.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::EstimatorLog;
+using testing::ImageMessages;
+using testing::PeerTrackers;
+using Kind = ImageMessages::Kind;
+
+constexpr double kPeriod = 0.025;  // [s] of wall time per image: twice as fast as they are stamped
+constexpr double kPatience = 60;   // [s]
+
+simulator::FeatureDataset MakeFlight() {
+  simulator::FeatureSimulationOptions options;
+  options.trajectory.duration = 8;
+  options.trajectory.motion = simulator::Motion::kFast;
+  options.trajectory.rest = 1.5;
+  options.trajectory.lead_in = 1;
+  options.max_points = 80;
+  return simulator::SimulateFeatures(options);
+}
+
+ImageMessages PointsThenLines(size_t image) {
+  return {{{Kind::kPoints, image}, {Kind::kLines, image}}};
+}
+
+// The tests are parts of one run of the estimator.
+class Peers : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    flight_ = std::make_unique<simulator::FeatureDataset>(MakeFlight());
+    trackers_ = std::make_unique<PeerTrackers>(*flight_);
+    log_ = std::make_unique<EstimatorLog>();
+    trackers_->WaitForEstimator();
+  }
+  static void TearDownTestSuite() {
+    log_.reset();
+    trackers_.reset();
+    flight_.reset();
+  }
+
+  void SetUp() override {
+    ASSERT_TRUE(log_->NextStatus());
+    log_->odometry.clear();
+  }
+
+  // Until the estimator has done with all that was published: the counts stand still.
+  static void WaitUntilDone() {
+    int64_t before = -1;
+    do {
+      before = log_->Count("frames");
+      ASSERT_TRUE(log_->NextStatus() && log_->NextStatus());
+    } while (log_->Count("frames") != before || log_->Count("queued") > 0);
+  }
+
+  // Root mean square distance from the truth after the best alignment of all poses [m].
+  static double Error() {
+    std::map<int64_t, Eigen::Vector3d> truth;
+    for (const FrameState& state : flight_->truth) truth[state.t_ns] = state.position();
+    const auto count = static_cast<Eigen::Index>(log_->odometry.size());
+    Eigen::Matrix3Xd estimate(3, count), expected(3, count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const nav_msgs::Odometry& odometry = log_->odometry[i];
+      const auto& p = odometry.pose.pose.position;
+      estimate.col(i) = Eigen::Vector3d(p.x, p.y, p.z);
+      expected.col(i) = truth.at(ToNanoseconds(odometry.header.stamp));
+    }
+    const Eigen::Matrix4d T = Eigen::umeyama(estimate, expected, /*with_scaling=*/false);
+    const Eigen::Matrix3Xd aligned = (T * estimate.colwise().homogeneous()).topRows<3>();
+    return std::sqrt((aligned - expected).squaredNorm() / static_cast<double>(count));
+  }
+
+  static bool TimeRunsForward() {
+    return std::is_sorted(log_->odometry.begin(), log_->odometry.end(),
+                          [](const nav_msgs::Odometry& a, const nav_msgs::Odometry& b) {
+                            return a.header.stamp < b.header.stamp;
+                          });
+  }
+
+  static std::unique_ptr<simulator::FeatureDataset> flight_;
+  static std::unique_ptr<PeerTrackers> trackers_;
+  static std::unique_ptr<EstimatorLog> log_;
+};
+std::unique_ptr<simulator::FeatureDataset> Peers::flight_;
+std::unique_ptr<PeerTrackers> Peers::trackers_;
+std::unique_ptr<EstimatorLog> Peers::log_;
+
+// VINS-Mono's tracker leaves out the first image, which has no velocities.
+TEST_F(Peers, AreUnderstood) {
+  trackers_->Play(1, trackers_->images(), kPeriod, PointsThenLines);
+  WaitUntilDone();
+  EXPECT_GT(log_->odometry.size(), 0.8 * static_cast<double>(trackers_->images()));
+  EXPECT_LT(Error(), 0.03);
+  EXPECT_TRUE(TimeRunsForward());
+  EXPECT_EQ(log_->Count("feature_messages_malformed"), 0);
+  EXPECT_EQ(log_->Count("resets"), 0);
+  EXPECT_LE(log_->Count("frames_without_lines"), 3);
+  EXPECT_GT(log_->Count("lines_in_window"), 10);
+}
+
+// The recording begins anew, with notice; lines come up to three images late, some messages never.
+TEST_F(Peers, MayBeLateOutOfStepAndIncomplete) {
+  trackers_->PublishRestart();
+  std::mt19937 random(1);
+  size_t images_with_points = 0;
+  trackers_->Play(0, trackers_->images(), kPeriod, [&](size_t image) {
+    ImageMessages all;
+    const size_t lag = random() % 4;
+    const bool lines_come = image >= lag && random() % 5 != 0;
+    const bool lines_first = random() % 2 == 0;
+    if (lines_come && lines_first) all.messages.push_back({Kind::kLines, image - lag});
+    if (random() % 10 != 0) {
+      all.messages.push_back({Kind::kPoints, image});
+      ++images_with_points;
+    }
+    if (lines_come && !lines_first) all.messages.push_back({Kind::kLines, image - lag});
+    return all;
+  });
+  WaitUntilDone();
+  EXPECT_EQ(log_->Count("resets"), 1);
+  EXPECT_EQ(log_->Value("last_restart"), "asked for on /feature_tracker/restart");
+  EXPECT_GT(log_->odometry.size(), 0.7 * static_cast<double>(images_with_points));
+  EXPECT_LT(Error(), 0.05);
+  EXPECT_TRUE(TimeRunsForward());
+}
+
+// Without notice, as from a tracker that does not look at stamps.
+TEST_F(Peers, MayJumpBackInTimeWithoutAWord) {
+  trackers_->Play(0, trackers_->images(), kPeriod, PointsThenLines);
+  WaitUntilDone();
+  EXPECT_EQ(log_->Count("resets"), 2);
+  EXPECT_EQ(log_->Count("jumps_back"), 1);
+  EXPECT_EQ(log_->Value("last_restart"), "stamps jumped back");
+  EXPECT_GT(log_->odometry.size(), 0.7 * static_cast<double>(trackers_->images()));
+  EXPECT_LT(Error(), 0.05);
+  EXPECT_TRUE(TimeRunsForward());
+}
+
+TEST_F(Peers, MayFallSilentForAWhile) {
+  trackers_->PublishRestart();
+  const size_t silence = 60;  // from this image on
+  trackers_->Play(0, silence, kPeriod, PointsThenLines);
+  trackers_->Play(silence, silence + 20, kPeriod, [](size_t) { return ImageMessages(); });
+  trackers_->Play(silence + 20, silence + 40, kPeriod, PointsThenLines);
+  trackers_->Play(silence + 40, silence + 46, kPeriod, [](size_t image) {
+    ImageMessages without_imu = PointsThenLines(image);
+    without_imu.with_imu = false;
+    return without_imu;
+  });
+  trackers_->Play(silence + 46, trackers_->images(), kPeriod, PointsThenLines);
+  WaitUntilDone();
+  EXPECT_GE(log_->Count("imu_gaps"), 1);
+  ASSERT_FALSE(log_->odometry.empty());
+  EXPECT_GE(ToNanoseconds(log_->odometry.back().header.stamp),
+            flight_->points[trackers_->images() - 3].t_ns);
+  EXPECT_TRUE(TimeRunsForward());
+  EXPECT_EQ(log_->Value("message").rfind("waiting: nothing comes on /imu0", 0), 0u)
+      << log_->Value("message");
+}
+
+TEST_F(Peers, OfAnotherLayoutAreRefusedWithoutHarm) {
+  const int64_t frames = log_->Count("frames");
+  ros::NodeHandle node;
+  ros::Publisher points = node.advertise<sensor_msgs::PointCloud>("/feature_tracker/feature", 10);
+  testing::SpinUntil(kPatience, [&] { return points.getNumSubscribers() > 0; });
+  sensor_msgs::PointCloud message = PeerTrackers::ToVinsMono(flight_->points.back());
+  message.channels.resize(3);  // as of the first versions, without velocities
+  points.publish(message);
+  EXPECT_TRUE(log_->WaitForStatus(kPatience, [](const EstimatorLog& log) {
+    return log.Count("feature_messages_malformed") == 1;
+  }));
+  EXPECT_EQ(log_->Count("frames"), frames);
+}
+
+}  // namespace
+}  // namespace plm_vins
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "peers_test");
+  const ros::NodeHandle keeps_ros_running;
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the back end starts over: on demand, and where stamps go back.
+#include "vins_estimator/estimation_stage.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "test/testing/still_scene.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int64_t kMillisecond = 1'000'000;
+
+class EstimationStageTest : public ::testing::Test {
+ protected:
+  EstimationStageTest() {
+    Config config = testing::StillConfig();
+    config.use_lines = false;
+    stage_.emplace(config);
+  }
+
+  void AddImu(int milliseconds) { stage_->AddImu(testing::StillImu(milliseconds * kMillisecond)); }
+  void AddPoints(int milliseconds) {
+    PointFrame frame;
+    frame.t_ns = milliseconds * kMillisecond;
+    for (int i = 0; i < 20; ++i) {
+      PointObservation point;
+      point.id = i;
+      point.xy = {0.1 * (i % 5 - 2), 0.1 * (i / 5 - 2)};
+      point.uv_px = {160 + 200 * point.xy.x(), 120 + 200 * point.xy.y()};
+      frame.points.push_back(point);
+    }
+    stage_->AddPoints(frame);
+  }
+
+  // At rest from `begin` to `end` [ms]: IMU samples at 200 Hz, images at 20 Hz.
+  void Rest(int begin, int end) {
+    for (int t = begin; t <= end; t += 5) {
+      AddImu(t);
+      if (t % 50 == 0) AddPoints(t);
+      Take();
+    }
+  }
+
+  void Take() {
+    while (const auto frame = stage_->Pop()) outputs_.push_back(frame->output);
+  }
+
+  std::vector<std::string> Restarts() const {
+    std::vector<std::string> reasons;
+    for (const EstimatorOutput& output : outputs_) {
+      if (output.restarted) reasons.push_back(output.reason);
+    }
+    return reasons;
+  }
+
+  std::optional<EstimationStage> stage_;
+  std::vector<EstimatorOutput> outputs_;
+};
+
+TEST_F(EstimationStageTest, AResetIsCountedAndToldWithTheNextImage) {
+  Rest(5000, 7000);
+  ASSERT_TRUE(outputs_.back().has_pose);
+  stage_->Reset("why");
+  EXPECT_EQ(stage_->resets(), 1);
+  EXPECT_TRUE(Restarts().empty());
+  Rest(7005, 9000);
+  EXPECT_EQ(Restarts(), (std::vector<std::string>{"why"}));
+  EXPECT_TRUE(outputs_.back().has_pose);
+  EXPECT_EQ(stage_->resets(), 1);
+}
+
+TEST_F(EstimationStageTest, WhatHasNotBegunNeedNotStartOver) {
+  stage_->Reset("before the first image");
+  Rest(0, 500);
+  stage_->Reset("why");
+  stage_->Reset("again");
+  Rest(505, 1000);
+  EXPECT_EQ(Restarts(), (std::vector<std::string>{"why"}));
+  EXPECT_EQ(stage_->resets(), 1);
+}
+
+TEST_F(EstimationStageTest, StartsOverWhereAllStampsJumpBack) {
+  Rest(5000, 7000);
+  Rest(0, 3000);
+  EXPECT_EQ(Restarts(), (std::vector<std::string>{"stamps jumped back"}));
+  EXPECT_EQ(stage_->resets(), 1);
+  EXPECT_TRUE(outputs_.back().has_pose);
+  EXPECT_EQ(outputs_.back().t_ns, 3000 * kMillisecond);
+}
+
+// The clock of one sensor alone was set back, and that of the other follows.
+TEST_F(EstimationStageTest, StartsOverWhereTheImuAloneJumpsBack) {
+  Rest(5000, 6000);
+  for (int t = 0; t <= 5500; t += 5) AddImu(t);
+  EXPECT_EQ(stage_->statistics().jumps_back, 1);
+  Rest(5505, 7500);
+  EXPECT_EQ(Restarts(), (std::vector<std::string>{"stamps jumped back"}));
+  EXPECT_TRUE(outputs_.back().has_pose);
+}
+
+TEST_F(EstimationStageTest, StartsOverWhereImagesAloneJumpBack) {
+  Rest(5000, 6000);
+  for (int t = 0; t <= 1000; t += 50) AddPoints(t);
+  EXPECT_EQ(stage_->statistics().jumps_back, 1);
+  Rest(1005, 3000);
+  EXPECT_EQ(Restarts(), (std::vector<std::string>{"stamps jumped back"}));
+  EXPECT_TRUE(outputs_.back().has_pose);
+}
+
+TEST_F(EstimationStageTest, StraysAndAClockThatStandsStillAreNoJump) {
+  Rest(5000, 6000);
+  for (int i = 0; i < 200; ++i) {
+    AddImu(3000 + i % 50);  // some stale messages, again and again
+    AddPoints(4000);
+    Take();
+  }
+  Rest(6005, 7000);
+  EXPECT_EQ(stage_->resets(), 0);
+  EXPECT_EQ(stage_->statistics().jumps_back, 0);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+#include "common/config.h"
+#include "common/drop_counts.h"
+#include "common/ros/stream_monitor.h"
+#include "vins_estimator/estimation_stage.h"
+
+namespace plm_vins {
+
+// What /diagnostics says of the estimator: waiting (for what), initializing (why not yet), tracking
+// or lost; rates and delays of what comes in and goes out; counts. The inputs' monitors are for the
+// thread that reports, Update for the one that estimates.
+class EstimatorDiagnostics {
+ public:
+  EstimatorDiagnostics(const Config& config, const std::string& points_topic,
+                       const std::string& lines_topic);
+
+  StreamMonitor& imu() { return imu_; }
+  StreamMonitor& points() { return points_; }
+  StreamMonitor& lines() { return lines_; }
+  void CountMalformed() { ++malformed_messages_; }
+  int64_t malformed_messages() const { return malformed_messages_; }
+
+  // After each image, and with an output that only says why when all starts over.
+  void Update(const EstimatorOutput& output, const EstimationStage& stage);
+
+  // `queued`: inputs that wait for the estimator.
+  void Report(size_t queued, diagnostic_updater::DiagnosticStatusWrapper* status);
+
+ private:
+  void ReportState(diagnostic_updater::DiagnosticStatusWrapper* status);
+  std::string State() const;     // and the reason for it
+  std::string WaitsFor() const;  // the silent topics; empty: none
+
+  const std::string imu_topic_, points_topic_, lines_topic_;
+  StreamMonitor imu_{"imu"};
+  StreamMonitor points_{"points"};
+  StreamMonitor lines_{"lines"};
+  int64_t malformed_messages_ = 0;
+
+  std::mutex mutex_;  // guards what follows
+  StreamMonitor poses_{"odometry"};
+  EstimatorStatus state_ = EstimatorStatus::kInitializing;
+  std::string reason_;
+  std::string last_restart_;  // why
+  EstimatorCounts counts_;
+  double estimator_ms_ = 0;
+  int64_t frames_ = 0;
+  ros::WallTime last_frame_;
+  int64_t resets_ = 0;
+  size_t queued_frames_ = 0;
+  bool lines_are_missing_ = false;
+  SyncStatistics sync_;
+};
+
+}  // namespace plm_vins

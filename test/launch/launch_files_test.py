@@ -88,6 +88,15 @@ class LaunchFiles(unittest.TestCase):
         self.assertNotIn("linefeature_tracker", nodes)
         self.assertEqual(parameters["/vins_estimator/set/use_lines"], "0")
 
+    def test_nodes_that_end_take_all_with_them_or_come_back(self):
+        for respawn in (False, True):
+            for nodelets in (False, True):
+                nodes, _ = load("plm_vins.launch", config="c.yaml", nodelets=nodelets,
+                                **({"respawn": True} if respawn else {}))
+                self.assertTrue(nodes.pop("linefeature_tracker").respawn, "lines are no must")
+                for node in nodes.values():
+                    self.assertEqual((node.respawn, node.required), (respawn, not respawn), node.name)
+
     def test_nodelets_instead_of_nodes(self):
         for name in ALL:
             with self.subTest(name):

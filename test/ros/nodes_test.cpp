@@ -115,7 +115,7 @@ class Nodes : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     log_ = std::make_unique<Listeners>();
-    for (int i = 0; i < 30 && log_->image.messages.empty(); ++i) Spin(1.0);
+    for (int i = 0; i < 60 && log_->odometry.messages.empty(); ++i) Spin(1.0);
     size_t seen = 0;
     while (seen < log_->odometry.messages.size() + log_->feature.messages.size()) {
       seen = log_->odometry.messages.size() + log_->feature.messages.size();

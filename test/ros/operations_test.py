@@ -25,7 +25,7 @@ NODES = pathlib.Path(sys.argv[1])
 BAG = sys.argv[2]
 FOLDER = pathlib.Path(sys.argv[3])
 NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator")
-END_LIMIT = 5  # [s] from SIGINT to the end; takes well below one where the machine is not busy
+END_LIMIT = 20  # [s] from SIGINT to the end; takes well below one where the machine is not busy
 
 
 def setUpModule():

@@ -15,6 +15,9 @@ constexpr double kMinTriangulationAngle_px = 2.0;  // in pixels of motion: well 
 constexpr double kMaxReprojectionError_px = 3.0;   // mean over a landmark's views
 constexpr int kInitialIterations = 20;
 constexpr size_t kMinViewsToOptimize = 3;
+// What an anchor has seen of a line that comes back is part of the prior already, and the line may
+// be another one that looks the same; so it counts less.
+constexpr double kAnchorNoise = 5.0;  // in units of the noise of lines
 
 template <typename Landmark>
 bool IsOptimized(const Landmark& landmark) {
@@ -25,6 +28,7 @@ ProblemOptions MakeProblemOptions(const Config& config, double focal_length) {
   ProblemOptions options;
   options.point_weight = focal_length / config.estimator.point_noise;
   options.line_weight = focal_length / config.estimator.line_noise;
+  options.anchor_weight = options.line_weight / kAnchorNoise;
   options.manhattan_weight = 180 / (M_PI * config.estimator.manhattan_noise);
   options.estimate_extrinsic =
       config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed;
@@ -73,6 +77,12 @@ KeyframePolicyOptions MakeKeyframeOptions(const Config& config, double focal_len
   return options;
 }
 
+AnchorPolicyOptions MakeAnchorOptions(const EstimatorConfig& config) {
+  AnchorPolicyOptions options;
+  options.max_anchors = config.line_merging ? static_cast<size_t>(config.line_anchors) : 0;
+  return options;
+}
+
 }  // namespace
 
 Estimator::Estimator(const Config& config)
@@ -81,6 +91,7 @@ Estimator::Estimator(const Config& config)
       line_triangulation_options_(MakeLineTriangulationOptions(config, focal_length_)),
       line_limits_(MakeLineLimits(config, focal_length_)),
       keyframe_options_(MakeKeyframeOptions(config, focal_length_)),
+      anchor_options_(MakeAnchorOptions(config.estimator)),
       initializer_(config),
       standstill_detector_(config.sensor.imu_noise),
       line_merging_(MakeLineMergingOptions(config, focal_length_)) {
@@ -212,6 +223,7 @@ void Estimator::FindStructure(EstimatorOutput* output) {
   if (config_.estimator.manhattan_constraints) problem_options_.R_W_M = manhattan_.R_W_M();
   if (config_.estimator.line_merging) {
     output->counts.line_merging = line_merging_.Merge(window_, &lines_, &manhattan_);
+    NoteUse(lines_, &window_);
   }
   output->timings.line_merging = stopwatch.Milliseconds();
 }
@@ -263,19 +275,40 @@ void Estimator::SlideWindow(bool keep_second_newest, EstimatorOutput* output) {
 }
 
 void Estimator::MarginalizeOldestFrame(EstimatorOutput* output) {
-  prior_ = MarginalizeOldest(problem_options_, prior_, &window_, &points_, &lines_);
   const int64_t oldest_ns = window_.frames.front().state.t_ns;
+  const bool stays = StaysAsAnchor(anchor_options_, window_, lines_);
+  if (stays) MakeRoomForAnchor();
+  prior_ = MarginalizeOldest(problem_options_, prior_, &window_, &points_, &lines_, stays);
+  if (config_.estimator.line_merging) line_merging_.Remember(window_, lines_, stays);
   points_.StartAnew(window_, oldest_ns, [&](const PointLandmark& point) {
     output->departed_points.push_back({point.id, PositionInWorld(point, window_)});
   });
   lines_.StartAnew(window_, oldest_ns, [&](const LineLandmark& line) {
-    if (const auto segment = ObservedSegment(line, window_)) {
-      output->departed_lines.push_back(*segment);
-    }
+    if (const auto segment = DepartingSegment(line)) output->departed_lines.push_back(*segment);
   });
   points_.RemoveFrame(window_, oldest_ns);
   lines_.RemoveFrame(window_, oldest_ns);
-  window_.RemoveOldest();
+  if (stays) {
+    window_.TurnOldestIntoAnchor();
+  } else {
+    window_.RemoveOldest();
+  }
+}
+
+void Estimator::MakeRoomForAnchor() {
+  const auto replaced_ns = AnchorToReplace(anchor_options_, window_);
+  if (!replaced_ns) return;
+  prior_ = prior_.Marginalize(IsOfFrame(*replaced_ns));
+  lines_.RemoveAnchor(*replaced_ns);
+  line_merging_.RemoveAnchor(*replaced_ns);
+  window_.RemoveAnchor(*replaced_ns);
+}
+
+// All that was seen of a line, from its first view on.
+std::optional<MapLine> Estimator::DepartingSegment(const LineLandmark& line) const {
+  const RememberedLine* known = line_merging_.memory().Find(line.id);
+  if (known == nullptr) return ObservedSegment(line, window_);
+  return MapLine{line.id, known->seen_W.start_F, known->seen_W.end_F, line.axis};
 }
 
 void Estimator::DropSecondNewestFrame() {

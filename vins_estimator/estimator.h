@@ -18,6 +18,7 @@
 #include "vins_estimator/optimization/levenberg_marquardt.h"
 #include "vins_estimator/optimization/problem_builder.h"
 #include "vins_estimator/points/point_map.h"
+#include "vins_estimator/window/anchor_policy.h"
 #include "vins_estimator/window/keyframe_policy.h"
 #include "vins_estimator/window/sliding_window.h"
 
@@ -52,6 +53,8 @@ class Estimator {
   void Optimize(int max_iterations, EstimatorOutput* output);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
   void MarginalizeOldestFrame(EstimatorOutput* output);
+  void MakeRoomForAnchor();
+  std::optional<MapLine> DepartingSegment(const LineLandmark& line) const;
   void DropSecondNewestFrame();
   void Describe(EstimatorOutput* output) const;
 
@@ -60,6 +63,7 @@ class Estimator {
   const LineTriangulationOptions line_triangulation_options_;
   const LineLimits line_limits_;
   const KeyframePolicyOptions keyframe_options_;
+  const AnchorPolicyOptions anchor_options_;
 
   bool initialized_ = false;
   ProblemOptions problem_options_;  // changes with the Manhattan frame only

@@ -223,6 +223,7 @@ std::vector<ConfigKey> EstimatorKeys() {
       NumberKey("line_merge_image_distance", "px", {0.1, 100},
                 Estimator(&E::line_merge_image_distance)),
       NumberKey("line_merge_angle", "deg", {0.1, 45}, Estimator(&E::line_merge_angle)),
+      IntegerKey("line_anchors", "", {0, 100}, Estimator(&E::line_anchors)),
       FlagKey("manhattan_constraints", Estimator(&E::manhattan_constraints)),
       NumberKey("manhattan_noise", "deg", {0.01, 20}, Estimator(&E::manhattan_noise)),
       FlagKey("zero_velocity_update", Estimator(&E::zero_velocity_update)),

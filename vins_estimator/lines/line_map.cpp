@@ -50,6 +50,21 @@ double MeanSquareError(const PluckerLine& line_W, const LineView& view, double n
   return 0.5 * distances.squaredNorm() / (noise * noise);
 }
 
+// Takes out what anchors have seen and does not fit. Returns how many views went.
+int RemoveBadAnchorViews(const SlidingWindow& window, const LineLimits& limits,
+                         LineLandmark* landmark) {
+  const PluckerLine line_W = LineInWorld(*landmark, window);
+  const double limit = limits.max_view_error * limits.max_view_error;
+  std::vector<LineView>& views = landmark->anchor_views;
+  const size_t before = views.size();
+  views.erase(std::remove_if(views.begin(), views.end(),
+                             [&](const LineView& view) {
+                               return MeanSquareError(line_W, view, limits.noise, window) > limit;
+                             }),
+              views.end());
+  return static_cast<int>(before - views.size());
+}
+
 // Takes out views that do not fit, but the host's. Returns how many went and the mean square error
 // of those that stay.
 int RemoveBadViews(const SlidingWindow& window, const LineLimits& limits, LineLandmark* landmark,
@@ -81,8 +96,13 @@ void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark) 
   if (landmark->triangulated) landmark->coordinates = ToOrthonormal(line_C);
 }
 
+void KeepOnlyView(const SlidingWindow& window, size_t view, LineLandmark* landmark) {
+  KeepOnlyView<LineLandmark>(window, view, landmark);
+  landmark->anchor_views.clear();
+}
+
 LineSighting SightingOf(const LineView& view, const SlidingWindow& window) {
-  return {window.T_W_C(*window.Find(view.t_ns)), view.segment};
+  return {window.T_W_C(*window.FindState(view.t_ns)), view.segment};
 }
 
 std::vector<LineSighting> SightingsOf(const std::vector<LineView>& views,
@@ -156,6 +176,7 @@ int LineMap::RemoveOutliers(const SlidingWindow& window, const LineLimits& limit
       continue;
     }
     double mean_square = 0;
+    removed += RemoveBadAnchorViews(window, limits, &landmark);
     removed += RemoveBadViews(window, limits, &landmark, &mean_square);
     const auto segment = ObservedSegment(landmark, window);
     const bool bad = !segment || Length(*segment) > limits.max_length ||
@@ -165,6 +186,10 @@ int LineMap::RemoveOutliers(const SlidingWindow& window, const LineLimits& limit
     it = bad ? landmarks_.erase(it) : std::next(it);
   }
   return removed;
+}
+
+void LineMap::RemoveAnchor(int64_t t_ns) {
+  for (auto& [id, landmark] : landmarks_) RemoveViewsOf(t_ns, &landmark.anchor_views);
 }
 
 }  // namespace plm_vins

@@ -55,11 +55,17 @@ class LineMap : public LandmarkMap<LineLandmark> {
   // behind a camera, longer than allowed or with too large a mean error. Returns how many lines
   // and views went.
   int RemoveOutliers(const SlidingWindow& window, const LineLimits& limits);
+
+  // Removes what an anchor has seen.
+  void RemoveAnchor(int64_t t_ns);
 };
 
 // Expresses a triangulated line in the camera of another of its views; not triangulated where it
 // passes through that camera.
 void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark);
+
+// Leaves one view of a line, as its host.
+void KeepOnlyView(const SlidingWindow& window, size_t view, LineLandmark* landmark);
 
 // A view, and views, of a line with the cameras' poses.
 LineSighting SightingOf(const LineView& view, const SlidingWindow& window);

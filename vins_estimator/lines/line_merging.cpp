@@ -15,16 +15,17 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr size_t kViewsThatTell = 3;  // how well a line is known
+
 // The seen part of a line, and how well its views tell its place. Few views are left of a line that
 // started anew, but many have put it where it is.
 std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W,
                             double noise, const LineLandmark& landmark) {
-  constexpr size_t kLeastViews = 3;
   constexpr double kGreatestSigma = 0.5;  // [rad], [m]: beyond it, nothing is told apart anyway
   const auto segment = ObservedSegment(landmark, window);
   if (!segment) return std::nullopt;
   SeenLine seen{R_F_W * segment->start_W, R_F_W * segment->end_W, landmark.axis};
-  if (landmark.views.size() < kLeastViews) return seen;
+  if (landmark.views.size() < kViewsThatTell) return seen;
   const auto sightings = SightingsOf(landmark.views, window);
   const auto fit = EvaluateLine(sightings, noise, landmark.coordinates);
   if (!fit) return std::nullopt;
@@ -150,9 +151,8 @@ Candidates Collect(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W,
   return candidates;
 }
 
-// The count of the first condition that two lines fail; null where they keep all.
-int LineMergingCounts::*FindRefusal(const LineMergingOptions& options, const SlidingWindow& window,
-                                    const LineLandmark& a, const LineLandmark& b,
+// The count of the first condition that two lines fail in space; null where they keep all.
+int LineMergingCounts::*FindRefusal(const LineMergingOptions& options,
                                     const LinePairGeometry& pair) {
   constexpr double kDeviations = 3.0;
   if (pair.angle > std::max(options.angle, kDeviations * pair.angle_sigma)) {
@@ -161,12 +161,36 @@ int LineMergingCounts::*FindRefusal(const LineMergingOptions& options, const Sli
   if (pair.distance > std::max(options.distance, kDeviations * pair.distance_sigma)) {
     return &LineMergingCounts::distant;
   }
-  if (pair.gap > options.distance) return &LineMergingCounts::apart;
+  return pair.gap > options.distance ? &LineMergingCounts::apart : nullptr;
+}
+
+// The same in space and in the images.
+int LineMergingCounts::*FindRefusal(const LineMergingOptions& options, const SlidingWindow& window,
+                                    const LineLandmark& a, const LineLandmark& b,
+                                    const LinePairGeometry& pair) {
+  if (const auto refusal = FindRefusal(options, pair)) return refusal;
   if (AreSeenSideBySide(a, b, options.noise)) return &LineMergingCounts::seen_side_by_side;
   if (DistanceInImages(window, a, b) > options.image_distance) {
     return &LineMergingCounts::distant_in_image;
   }
   return nullptr;
+}
+
+SeenLine Rotated(const Eigen::Quaterniond& R_F_W, const SeenLine& line_W) {
+  SeenLine line_F = line_W;
+  line_F.start_F = R_F_W * line_W.start_F;
+  line_F.end_F = R_F_W * line_W.end_F;
+  return line_F;
+}
+
+// How far the views of a landmark are from the image of another line, at most.
+double DistanceInImages(const SlidingWindow& window, const PluckerLine& line_W,
+                        const std::vector<LineView>& views) {
+  double farthest = 0;
+  for (const LineView& view : views) {
+    farthest = std::max(farthest, DistanceInImage(window, line_W, view));
+  }
+  return farthest;
 }
 
 }  // namespace
@@ -197,6 +221,13 @@ LineMergingCounts LineMerging::Merge(const SlidingWindow& window, LineMap* lines
     landmarks[newer] = nullptr;
     ++counts.merged;
   }
+  for (size_t i = 0; i < landmarks.size(); ++i) {
+    if (landmarks[i] == nullptr) continue;
+    const auto older = Recognise(window, R_F_W, *landmarks[i], seen[i], *lines);
+    if (!older) continue;
+    Revive(landmarks[i]->id, *older, lines, manhattan);
+    ++counts.recognised;
+  }
   aliases_.RemoveUnless(
       [lines](int64_t id) { return lines->landmarks().find(id) != lines->landmarks().end(); });
   return counts;
@@ -205,7 +236,57 @@ LineMergingCounts LineMerging::Merge(const SlidingWindow& window, LineMap* lines
 void LineMerging::Absorb(int64_t newer, int64_t older, LineMap* lines, ManhattanFrame* manhattan) {
   aliases_.Add(newer, older);
   manhattan->Remove(newer);
+  memory_.Join(newer, older);
   lines->landmarks().erase(newer);
+}
+
+// The remembered line that a landmark is, the nearest where several could be. All views of the
+// landmark must show it where that line is: the images tell more than a first triangulation does.
+std::optional<int64_t> LineMerging::Recognise(const SlidingWindow& window,
+                                              const Eigen::Quaterniond& R_F_W,
+                                              const LineLandmark& landmark, const SeenLine& seen_F,
+                                              const LineMap& lines) const {
+  if (landmark.views.size() < kViewsThatTell || memory_.Find(landmark.id)) return std::nullopt;
+  std::optional<int64_t> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [id, line] : memory_.lines()) {
+    if (id > landmark.id || lines.landmarks().count(id) > 0) continue;
+    const LinePairGeometry pair = Compare(Rotated(R_F_W, line.seen_W), seen_F);
+    if (pair.distance >= least || FindRefusal(options_, pair)) continue;
+    const PluckerLine line_W = LineThrough(line.seen_W.start_F, line.seen_W.end_F);
+    if (DistanceInImages(window, line_W, landmark.views) > options_.image_distance) continue;
+    nearest = id;
+    least = pair.distance;
+  }
+  return nearest;
+}
+
+// The landmark goes on under the id of the line that it is.
+void LineMerging::Revive(int64_t newer, int64_t older, LineMap* lines, ManhattanFrame* manhattan) {
+  auto landmark = lines->landmarks().extract(newer);
+  landmark.key() = landmark.mapped().id = older;
+  landmark.mapped().anchor_views = memory_.Find(older)->anchor_views;
+  lines->landmarks().insert(std::move(landmark));
+  aliases_.Add(newer, older);
+  manhattan->Remove(newer);
+}
+
+void LineMerging::Remember(const SlidingWindow& window, const LineMap& lines, bool oldest_stays) {
+  constexpr double kGreatestSigma = 0.2;  // [m]: a line known less well would not be recognised
+  const int64_t oldest_ns = window.frames.front().state.t_ns;
+  for (const auto& [id, landmark] : lines.landmarks()) {
+    if (!LeavesWith(oldest_ns, landmark)) continue;
+    const auto seen_W = See(window, Eigen::Quaterniond::Identity(), options_.noise, landmark);
+    if (seen_W && landmark.views.size() >= kViewsThatTell && seen_W->place_sigma < kGreatestSigma) {
+      memory_.Keep(id, *seen_W);
+    }
+    if (oldest_stays) memory_.KeepView(id, landmark.host());
+  }
+}
+
+void LineMerging::Clear() {
+  aliases_.Clear();
+  memory_.Clear();
 }
 
 }  // namespace plm_vins

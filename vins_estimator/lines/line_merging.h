@@ -7,6 +7,7 @@
 
 #include "vins_estimator/lines/line_aliases.h"
 #include "vins_estimator/lines/line_map.h"
+#include "vins_estimator/lines/line_memory.h"
 #include "vins_estimator/lines/manhattan_frame.h"
 #include "vins_estimator/window/sliding_window.h"
 
@@ -23,6 +24,7 @@ struct LineMergingOptions {
 struct LineMergingCounts {
   int candidates = 0;  // pairs looked at
   int merged = 0;      // landmarks absorbed
+  int recognised = 0;  // landmarks that turned out to be a line which had left the window
   int other_direction = 0;
   int distant = 0;  // beside each other in space
   int apart = 0;    // one behind the other, with a gap
@@ -39,6 +41,9 @@ struct LineMergingCounts {
 // one line. Where the views tell direction or place less well than the limits, three standard
 // deviations take their place, and the fit decides. The views of the newer go to the older, and
 // later ones follow by way of its alias.
+//
+// The older line may have left the window before. Then the newer becomes that line, and what
+// anchors have seen of it counts as well: this ties the window to where the line was seen first.
 class LineMerging {
  public:
   explicit LineMerging(const LineMergingOptions& options) : options_(options) {}
@@ -51,14 +56,27 @@ class LineMerging {
   // where there is no Manhattan frame. The merged lines lose their vote on the frame.
   LineMergingCounts Merge(const SlidingWindow& window, LineMap* lines, ManhattanFrame* manhattan);
 
+  // Takes note of the lines that go into the prior with the oldest frame and, where it stays as an
+  // anchor, of what it has seen of them.
+  void Remember(const SlidingWindow& window, const LineMap& lines, bool oldest_stays);
+
+  // An anchor is no more.
+  void RemoveAnchor(int64_t t_ns) { memory_.RemoveAnchor(t_ns); }
+
   const LineAliases& aliases() const { return aliases_; }
-  void Clear() { aliases_.Clear(); }
+  const LineMemory& memory() const { return memory_; }
+  void Clear();
 
  private:
+  std::optional<int64_t> Recognise(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W,
+                                   const LineLandmark& landmark, const SeenLine& seen_F,
+                                   const LineMap& lines) const;
+  void Revive(int64_t newer, int64_t older, LineMap* lines, ManhattanFrame* manhattan);
   void Absorb(int64_t newer, int64_t older, LineMap* lines, ManhattanFrame* manhattan);
 
   LineMergingOptions options_;
   LineAliases aliases_;
+  LineMemory memory_;
 };
 
 }  // namespace plm_vins

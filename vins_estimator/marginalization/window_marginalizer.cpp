@@ -59,6 +59,10 @@ std::function<bool(const BlockId&)> IsOfFrame(int64_t t_ns) {
   };
 }
 
+std::function<bool(const BlockId&)> IsMotionOfFrame(int64_t t_ns) {
+  return [t_ns](const BlockId& id) { return id.kind == BlockKind::kMotion && id.key == t_ns; };
+}
+
 MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
                                   const ProblemOptions& options, const SlidingWindow& window) {
   const FrameState& state = window.frames.front().state;
@@ -90,7 +94,7 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
 
 MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
                                        const MarginalizationPrior& prior, SlidingWindow* window,
-                                       PointMap* points, LineMap* lines) {
+                                       PointMap* points, LineMap* lines, bool keep_pose) {
   const int64_t oldest_ns = window->frames.front().state.t_ns;
   ProblemBuilder builder(options, window, &prior);
   builder.AddPrior();
@@ -101,7 +105,8 @@ MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
   for (auto& [id, landmark] : lines->landmarks()) {
     if (LeavesWith(oldest_ns, landmark)) builder.AddLine(&landmark);
   }
-  return Summarize(builder.problem()).Marginalize(IsOfFrame(oldest_ns));
+  return Summarize(builder.problem())
+      .Marginalize(keep_pose ? IsMotionOfFrame(oldest_ns) : IsOfFrame(oldest_ns));
 }
 
 }  // namespace plm_vins

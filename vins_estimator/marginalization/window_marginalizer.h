@@ -32,11 +32,15 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
 // Selects the variables of one frame.
 std::function<bool(const BlockId&)> IsOfFrame(int64_t t_ns);
 
+// Selects the velocity and biases of one frame.
+std::function<bool(const BlockId&)> IsMotionOfFrame(int64_t t_ns);
+
 // Folds the oldest frame into a new prior: its motion to the next frame, the old prior, and every
-// landmark that it hosts with all views. Window and landmarks stay as they are; what was folded in
+// landmark that it hosts with all views. Its pose stays a variable of the prior where `keep_pose`
+// says so. Window and landmarks stay as they are; what was folded in
 // must not be used again: see LandmarkMap::StartAnew().
 MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
                                        const MarginalizationPrior& prior, SlidingWindow* window,
-                                       PointMap* points, LineMap* lines);
+                                       PointMap* points, LineMap* lines, bool keep_pose = false);
 
 }  // namespace plm_vins

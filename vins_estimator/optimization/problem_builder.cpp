@@ -29,8 +29,11 @@ double* ProblemBuilder::Values(const BlockId& id) {
     case BlockKind::kPose:
     case BlockKind::kMotion: {
       WindowFrame* frame = window_->Find(id.key);
-      if (frame == nullptr) throw std::logic_error("variable of a frame that left the window");
-      return id.kind == BlockKind::kPose ? frame->state.pose.data() : frame->state.motion.data();
+      AnchorFrame* anchor = window_->FindAnchor(id.key);
+      if (frame && id.kind == BlockKind::kMotion) return frame->state.motion.data();
+      if (frame) return frame->state.pose.data();
+      if (anchor && id.kind == BlockKind::kPose) return anchor->state.pose.data();
+      throw std::logic_error("variable of a frame that left the window");
     }
     default:
       throw std::logic_error("landmarks are added with their terms");
@@ -94,16 +97,18 @@ void ProblemBuilder::AddLine(LineLandmark* landmark) {
   const int extrinsic = AddVariable({BlockKind::kExtrinsic, 0});
   const LineView& host = landmark->host();
   const int host_pose = Pose(host.t_ns);
-  problem_.ReserveLandmarkTerms(index, landmark->views.size() + 1);
+  problem_.ReserveLandmarkTerms(index, landmark->views.size() + landmark->anchor_views.size() + 1);
   problem_.AddLandmarkTerm(index,
                            std::make_unique<LineHostFactor>(host.segment, options_.line_weight),
                            &line_loss_, {line});
+  const auto add_view = [&](const LineView& view, double weight) {
+    problem_.AddLandmarkTerm(index, std::make_unique<LineFactor>(view.segment, weight), &line_loss_,
+                             {host_pose, Pose(view.t_ns), extrinsic, line});
+  };
   for (size_t i = 1; i < landmark->views.size(); ++i) {
-    const LineView& view = landmark->views[i];
-    problem_.AddLandmarkTerm(index,
-                             std::make_unique<LineFactor>(view.segment, options_.line_weight),
-                             &line_loss_, {host_pose, Pose(view.t_ns), extrinsic, line});
+    add_view(landmark->views[i], options_.line_weight);
   }
+  for (const LineView& view : landmark->anchor_views) add_view(view, options_.anchor_weight);
   if (!options_.R_W_M || landmark->axis == LineAxis::kFree) return;
   const Eigen::Vector3d axis_W = *options_.R_W_M * UnitVector(landmark->axis);
   problem_.AddLandmarkTerm(index,

@@ -21,6 +21,7 @@ struct ProblemOptions {
   double point_loss_scale = 1.0;        // Cauchy loss, in standard deviations
   double line_weight = 460.0;           // focal length over the noise of a line's ends across it
   double line_loss_scale = 1.0;         // Cauchy loss, in standard deviations
+  double anchor_weight = 92.0;          // the same, of what anchors have seen
   double manhattan_weight = 57.3;       // one over the deviation of a line from its axis [1/rad]
   double manhattan_loss_scale = 3.0;    // Tukey loss, in standard deviations
   double standstill_velocity = 0.005;   // standard deviation while standing still [m/s]
@@ -47,7 +48,7 @@ class ProblemBuilder {
   void AddMotion(size_t index);
   // All views of a triangulated landmark.
   void AddPoint(PointLandmark* landmark);
-  // The same, and that it runs along its Manhattan axis, if any.
+  // The same, with what anchors have seen of it, and that it runs along its Manhattan axis, if any.
   void AddLine(LineLandmark* landmark);
 
   const WindowProblem& problem() const { return problem_; }

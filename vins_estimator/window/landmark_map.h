@@ -49,6 +49,13 @@ bool LeavesWith(int64_t host_ns, const Landmark& landmark) {
   return landmark.triangulated && landmark.host().t_ns == host_ns && landmark.views.size() > 1;
 }
 
+// Leaves one view of a landmark, as its host.
+template <typename Landmark>
+void KeepOnlyView(const SlidingWindow& window, size_t view, Landmark* landmark) {
+  MoveHost(window, view, landmark);
+  landmark->views = {landmark->views[view]};
+}
+
 // Takes out one view of a landmark.
 template <typename Landmark>
 void RemoveView(const SlidingWindow& window, size_t index, Landmark* landmark) {
@@ -81,10 +88,7 @@ void LandmarkMap<Landmark>::StartAnew(const SlidingWindow& window, int64_t host_
       it = landmarks_.erase(it);
       continue;
     }
-    if (has_gone) {
-      MoveHost(window, landmark.views.size() - 1, &landmark);
-      landmark.views.erase(landmark.views.begin(), landmark.views.end() - 1);
-    }
+    if (has_gone) KeepOnlyView(window, landmark.views.size() - 1, &landmark);
     ++it;
   }
 }

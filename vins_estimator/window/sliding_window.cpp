@@ -21,6 +21,23 @@ WindowFrame* SlidingWindow::Find(int64_t t_ns) {
   return const_cast<WindowFrame*>(static_cast<const SlidingWindow*>(this)->Find(t_ns));
 }
 
+const AnchorFrame* SlidingWindow::FindAnchor(int64_t t_ns) const {
+  const auto found =
+      std::find_if(anchors.begin(), anchors.end(),
+                   [t_ns](const AnchorFrame& anchor) { return anchor.state.t_ns == t_ns; });
+  return found == anchors.end() ? nullptr : &*found;
+}
+
+AnchorFrame* SlidingWindow::FindAnchor(int64_t t_ns) {
+  return const_cast<AnchorFrame*>(static_cast<const SlidingWindow*>(this)->FindAnchor(t_ns));
+}
+
+const FrameState* SlidingWindow::FindState(int64_t t_ns) const {
+  if (const WindowFrame* frame = Find(t_ns)) return &frame->state;
+  const AnchorFrame* anchor = FindAnchor(t_ns);
+  return anchor ? &anchor->state : nullptr;
+}
+
 void SlidingWindow::RemoveSecondNewest() {
   const WindowFrame& second = frames[frames.size() - 2];
   const std::shared_ptr<Preintegration> joined = second.motion_since_previous;
@@ -35,6 +52,17 @@ void SlidingWindow::RemoveSecondNewest() {
 void SlidingWindow::RemoveOldest() {
   frames.erase(frames.begin());
   frames.front().motion_since_previous = nullptr;
+}
+
+void SlidingWindow::TurnOldestIntoAnchor() {
+  anchors.push_back({frames.front().state, newest().state.t_ns});
+  RemoveOldest();
+}
+
+void SlidingWindow::RemoveAnchor(int64_t t_ns) {
+  anchors.erase(std::remove_if(anchors.begin(), anchors.end(),
+                               [t_ns](const AnchorFrame& a) { return a.state.t_ns == t_ns; }),
+                anchors.end());
 }
 
 }  // namespace plm_vins

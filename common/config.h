@@ -78,7 +78,7 @@ struct EstimatorConfig {
   double line_merge_distance = 0.1;        // between lines that are merged, in space [m]
   double line_merge_image_distance = 5.0;  // the same, in the image [px]
   double line_merge_angle = 3.0;           // between their directions [deg]
-  int line_anchors = 16;                   // frames kept for the sake of lines that come back
+  int line_anchors = 24;                   // frames kept for the sake of lines that come back
   bool manhattan_constraints = true;       // lines on a Manhattan axis hold the heading
   double manhattan_noise = 1.0;            // of a line's direction from its axis [deg]
 

@@ -183,6 +183,14 @@ SeenLine Rotated(const Eigen::Quaterniond& R_F_W, const SeenLine& line_W) {
   return line_F;
 }
 
+// Whether two lines could be near each other: the spheres around them touch.
+bool MayTouch(const SeenLine& a, const SeenLine& b, double distance) {
+  constexpr double kDeviations = 3.0;
+  const double between = (a.start_F + a.end_F - b.start_F - b.end_F).norm();  // twice
+  const double lengths = (a.end_F - a.start_F).norm() + (b.end_F - b.start_F).norm();
+  return between < lengths + 2 * (distance + kDeviations * (a.place_sigma + b.place_sigma));
+}
+
 // How far the views of a landmark are from the image of another line, at most.
 double DistanceInImages(const SlidingWindow& window, const PluckerLine& line_W,
                         const std::vector<LineView>& views) {
@@ -247,10 +255,12 @@ std::optional<int64_t> LineMerging::Recognise(const SlidingWindow& window,
                                               const LineLandmark& landmark, const SeenLine& seen_F,
                                               const LineMap& lines) const {
   if (landmark.views.size() < kViewsThatTell || memory_.Find(landmark.id)) return std::nullopt;
+  const SeenLine seen_W = Rotated(R_F_W.conjugate(), seen_F);
   std::optional<int64_t> nearest;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [id, line] : memory_.lines()) {
-    if (id > landmark.id || lines.landmarks().count(id) > 0) continue;
+    if (id > landmark.id) break;
+    if (!MayTouch(line.seen_W, seen_W, options_.distance) || lines.landmarks().count(id)) continue;
     const LinePairGeometry pair = Compare(Rotated(R_F_W, line.seen_W), seen_F);
     if (pair.distance >= least || FindRefusal(options_, pair)) continue;
     const PluckerLine line_W = LineThrough(line.seen_W.start_F, line.seen_W.end_F);

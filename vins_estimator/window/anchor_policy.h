@@ -12,7 +12,7 @@
 namespace plm_vins {
 
 struct AnchorPolicyOptions {
-  size_t max_anchors = 16;
+  size_t max_anchors = 24;
   double max_distance = 0.7;    // an anchor in use serves frames this near ... [m]
   double max_angle = M_PI / 7;  // ... and so little turned (26 deg) [rad]
   double max_idle = 3.0;        // an anchor without use for so long is not in use [s]

@@ -98,5 +98,39 @@ TEST(SlidingWindow, FirstFrameHasNoMotionBeforeIt) {
   EXPECT_NE(window.newest().motion_since_previous, nullptr);
 }
 
+TEST(SlidingWindow, TheOldestFrameMayStayAsAnAnchor) {
+  SlidingWindow window = MakeWindow(3);
+  window.frames[0].state.SetPose({SO3Exp({0.3, -0.2, 1}), {4, 5, 6}});
+  const FrameState oldest = window.frames[0].state;
+  window.TurnOldestIntoAnchor();
+  EXPECT_EQ(window.frames.size(), 2u);
+  EXPECT_EQ(window.frames.front().motion_since_previous, nullptr);
+  ASSERT_EQ(window.anchors.size(), 1u);
+  EXPECT_EQ(window.anchors[0].state.t_ns, oldest.t_ns);
+  EXPECT_EQ(window.anchors[0].state.pose, oldest.pose);
+  EXPECT_EQ(window.anchors[0].last_use_ns, 2 * kInterval);
+}
+
+TEST(SlidingWindow, FindsAnchorsApartFromFrames) {
+  SlidingWindow window = MakeWindow(3);
+  window.TurnOldestIntoAnchor();
+  EXPECT_EQ(window.FindAnchor(0), &window.anchors[0]);
+  EXPECT_EQ(window.Find(0), nullptr);
+  EXPECT_EQ(window.FindAnchor(kInterval), nullptr);
+  EXPECT_EQ(window.FindState(0), &window.anchors[0].state);
+  EXPECT_EQ(window.FindState(kInterval), &window.frames[0].state);
+  EXPECT_EQ(window.FindState(kInterval + 1), nullptr);
+}
+
+TEST(SlidingWindow, RemovesTheAnchorWithAStamp) {
+  SlidingWindow window = MakeWindow(4);
+  for (int i = 0; i < 2; ++i) window.TurnOldestIntoAnchor();
+  window.RemoveAnchor(0);
+  window.RemoveAnchor(2 * kInterval);  // of a frame
+  ASSERT_EQ(window.anchors.size(), 1u);
+  EXPECT_EQ(window.anchors[0].state.t_ns, kInterval);
+  EXPECT_EQ(window.frames.size(), 2u);
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -31,7 +31,9 @@ DropCounts ToDropCounts(const SyncStatistics& statistics) {
 }
 
 EstimationStage::EstimationStage(const Config& config)
-    : estimator_(config), sync_(MakeSyncOptions(config)) {}
+    : gyro_density_(config.sensor.imu_noise.gyro_density),
+      estimator_(config),
+      sync_(MakeSyncOptions(config)) {}
 
 void EstimationStage::Reset(const std::string& reason) {
   sync_.Clear();
@@ -65,8 +67,12 @@ std::optional<EstimatedFrame> EstimationStage::Process(
     frame.output.reason = *std::exchange(restart_reason_, std::nullopt);
   }
   sync_.SetTimeOffset(estimator_.time_offset());
-  if (!measurement->imu.empty()) {
-    frame.angular_velocity = measurement->imu.back().gyro - frame.output.state.gyro_bias();
+  const std::vector<ImuSample>& imu = measurement->imu;
+  if (imu.size() > 1) {
+    const double interval =
+        ToSeconds(imu.back().t_ns - imu.front().t_ns) / static_cast<double>(imu.size() - 1);
+    frame.angular_velocity = imu.back().gyro - frame.output.state.gyro_bias();
+    frame.angular_velocity_variance = gyro_density_ * gyro_density_ / interval;
   }
   return frame;
 }

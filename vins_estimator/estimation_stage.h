@@ -20,6 +20,8 @@ DropCounts ToDropCounts(const SyncStatistics& statistics);
 struct EstimatedFrame {
   EstimatorOutput output;
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // of B, bias removed [rad/s]
+  // Of each of its components, by the noise of one gyro sample [rad^2/s^2].
+  double angular_velocity_variance = 0;
 };
 
 // The back end as the node and the offline runner use it: pairs features with IMU samples and hands
@@ -52,6 +54,7 @@ class EstimationStage {
   std::optional<EstimatedFrame> Process(const std::optional<FrameMeasurement>& measurement);
   void StartOver(const std::string& reason);
 
+  const double gyro_density_;  // [rad/s/sqrt(Hz)]
   Estimator estimator_;
   MeasurementSync sync_;
   int64_t frames_ = 0;

@@ -61,6 +61,21 @@ class EstimationStageTest : public ::testing::Test {
   std::vector<EstimatorOutput> outputs_;
 };
 
+TEST_F(EstimationStageTest, TellsHowWellTheGyroKnowsTheAngularVelocity) {
+  Config config = testing::StillConfig();
+  config.use_lines = false;
+  config.sensor.imu_noise.gyro_density = 0.01;
+  stage_.emplace(config);
+  std::optional<EstimatedFrame> last;
+  for (int t = 0; t <= 1000; t += 5) {
+    AddImu(t);
+    if (t % 50 == 0) AddPoints(t);
+    while (const auto frame = stage_->Pop()) last = frame;
+  }
+  ASSERT_TRUE(last);
+  EXPECT_NEAR(last->angular_velocity_variance, 0.01 * 0.01 / 0.005, 1e-9);
+}
+
 TEST_F(EstimationStageTest, AResetIsCountedAndToldWithTheNextImage) {
   Rest(5000, 7000);
   ASSERT_TRUE(outputs_.back().has_pose);

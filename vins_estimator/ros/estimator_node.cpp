@@ -173,12 +173,13 @@ void EstimatorNode::StartOver(const std::string& reason) {
 
 void EstimatorNode::Handle(const EstimatedFrame& frame) {
   const EstimatorOutput& output = frame.output;
-  propagation_.SetEstimate(output);
+  propagation_.SetEstimate(frame);
   publisher_.Publish(frame);
   if (output.restarted) trajectory_.BeginWorld(output.reason);
   if (output.has_pose) trajectory_.Add(output.t_ns, output.state.T_W_B());
   LogChanges(output);
   LogLines();
+  if (config_.estimator.verbose) LogFrame(output);
   worker_warner_.Check(ToDropCounts(stage_.statistics()));
   diagnostics_.Update(output, stage_);
 }
@@ -194,6 +195,13 @@ void EstimatorNode::LogChanges(const EstimatorOutput& output) {
   }
   last_status_ = output.status;
   last_reason_ = output.reason;
+}
+
+void EstimatorNode::LogFrame(const EstimatorOutput& output) const {
+  const EstimatorCounts& counts = output.counts;
+  ROS_INFO("%.3f s %s: %d points, %d lines, optimisation %.1f ms, estimator %.1f ms",
+           ToSeconds(output.t_ns), ToString(output.status), counts.points_in_window,
+           counts.lines_in_window, output.timings.optimization, output.timings.total);
 }
 
 void EstimatorNode::LogLines() {

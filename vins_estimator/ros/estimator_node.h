@@ -70,6 +70,7 @@ class EstimatorNode {
   void StartOver(const std::string& reason);
   void Handle(const EstimatedFrame& frame);
   void LogChanges(const EstimatorOutput& output);
+  void LogFrame(const EstimatorOutput& output) const;
   void LogLines();
 
   ros::NodeHandle node_;

@@ -40,6 +40,11 @@ visualization_msgs::Marker MakeMarker(int64_t t_ns, const std::string& frame_id,
 
 }  // namespace
 
+StateCovariance CovarianceOf(const EstimatedFrame& frame) {
+  return {frame.output.pose_covariance, frame.output.velocity_covariance,
+          frame.angular_velocity_variance};
+}
+
 nav_msgs::Odometry ToOdometry(const FrameState& state, const StateCovariance& covariance,
                               const Eigen::Vector3d& angular_velocity, const OutputConfig& frames) {
   nav_msgs::Odometry odometry =
@@ -48,8 +53,9 @@ nav_msgs::Odometry ToOdometry(const FrameState& state, const StateCovariance& co
   Eigen::Map<RowMajor6d>(odometry.pose.covariance.data()) = RotationToWorld(covariance.pose, R_W_B);
   odometry.twist.twist.linear = ToVector3(R_W_B.transpose() * state.velocity());
   odometry.twist.twist.angular = ToVector3(angular_velocity);
-  Eigen::Map<RowMajor6d>(odometry.twist.covariance.data()).topLeftCorner<3, 3>() =
-      R_W_B.transpose() * covariance.velocity * R_W_B;
+  Eigen::Map<RowMajor6d> twist(odometry.twist.covariance.data());
+  twist.topLeftCorner<3, 3>() = R_W_B.transpose() * covariance.velocity * R_W_B;
+  twist.diagonal().tail<3>().setConstant(covariance.angular_velocity);
   return odometry;
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "common/config.h"
-#include "vins_estimator/estimator_output.h"
+#include "vins_estimator/estimation_stage.h"
 
 namespace plm_vins {
 
@@ -19,7 +19,10 @@ namespace plm_vins {
 struct StateCovariance {
   Matrix6d pose = Matrix6d::Zero();                    // p_W, rotation in B (right perturbation)
   Eigen::Matrix3d velocity = Eigen::Matrix3d::Zero();  // v_W
+  double angular_velocity = 0;                         // of each component, in B
 };
+
+StateCovariance CovarianceOf(const EstimatedFrame& frame);
 
 // The pose of the body in the world and, as the message demands, its twist in the body frame; both
 // covariances in the frames of the message. `angular_velocity` is that of B in B [rad/s].

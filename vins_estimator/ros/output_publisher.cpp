@@ -76,8 +76,7 @@ void OutputPublisher::Publish(const EstimatedFrame& frame) {
   const int64_t t_ns = output.t_ns;
   const std::string& world = frames_.world_frame;
   const Rigid3d T_W_C = output.state.T_W_B() * output.T_B_C;
-  odometry_.publish(ToOdometry(output.state, {output.pose_covariance, output.velocity_covariance},
-                               frame.angular_velocity, frames_));
+  odometry_.publish(ToOdometry(output.state, CovarianceOf(frame), frame.angular_velocity, frames_));
   PublishPath(output.state);
   PublishTransforms(output);
   PublishIfWanted(camera_pose_,

@@ -18,11 +18,12 @@ void PropagationPublisher::AddImu(const ImuSample& sample) {
   publisher_.publish(ToOdometry(*state, covariance_, angular_velocity, frames_));
 }
 
-void PropagationPublisher::SetEstimate(const EstimatorOutput& output) {
+void PropagationPublisher::SetEstimate(const EstimatedFrame& frame) {
+  const EstimatorOutput& output = frame.output;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!output.has_pose) return propagator_.Clear();
   propagator_.Reset(output.state, output.t_ns + ToNanoseconds(output.td));
-  covariance_ = {output.pose_covariance, output.velocity_covariance};
+  covariance_ = CovarianceOf(frame);
 }
 
 void PropagationPublisher::Clear() {

@@ -6,7 +6,7 @@
 #include <mutex>
 
 #include "common/config.h"
-#include "vins_estimator/estimator_output.h"
+#include "vins_estimator/estimation_stage.h"
 #include "vins_estimator/imu/imu_propagator.h"
 #include "vins_estimator/ros/output_conversion.h"
 
@@ -19,7 +19,7 @@ class PropagationPublisher {
   PropagationPublisher(const Config& config, ros::NodeHandle private_node);
 
   void AddImu(const ImuSample& sample);
-  void SetEstimate(const EstimatorOutput& output);
+  void SetEstimate(const EstimatedFrame& frame);
   void Clear();
 
  private:

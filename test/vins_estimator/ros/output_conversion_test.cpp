@@ -59,6 +59,7 @@ TEST(OdometryMessage, CovariancesAreAboutTheAxesOfTheMessage) {
   StateCovariance covariance;
   covariance.pose = MakeCovariance<6>();
   covariance.velocity = MakeCovariance<3>();
+  covariance.angular_velocity = 0.04;
   const nav_msgs::Odometry odometry = ToOdometry(MakeState(), covariance, {}, {});
 
   // Central differences of (p, Log(R' R^T)) at R' = R Exp(theta), which is what rotates about the
@@ -78,6 +79,7 @@ TEST(OdometryMessage, CovariancesAreAboutTheAxesOfTheMessage) {
   const Matrix6d twist = Eigen::Map<const RowMajor6d>(odometry.twist.covariance.data());
   EXPECT_MATRIX_NEAR((twist.topLeftCorner<3, 3>()), R_B_W * covariance.velocity * R_B_W.transpose(),
                      1e-12);
+  EXPECT_EQ(twist.diagonal().tail<3>(), Eigen::Vector3d::Constant(0.04));
 }
 
 TEST(CloudMessage, HasThePoints) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/offline/result_files.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <utility>
@@ -52,9 +54,24 @@ FrameCounts MakeCounts(const PipelineFrame& frame) {
   counts[kLinesInconsistent] = estimator.line_triangulation.inconsistent;
   counts[kLinesTooLong] = estimator.line_triangulation.too_long;
   counts[kLinesMerged] = estimator.line_merging.merged;
+  counts[kLinesRecognised] = estimator.line_merging.recognised;
   counts[kLinesInWindow] = estimator.lines_in_window;
   counts[kLinesRejected] = estimator.lines_rejected;
   return counts;
+}
+
+// The landmarks that stay in the window. Those that leave it with a frame are part of that frame,
+// too.
+template <typename Landmark>
+std::vector<Landmark> Staying(const std::vector<Landmark>& in_window,
+                              const std::vector<Landmark>& departed) {
+  std::vector<Landmark> staying;
+  std::copy_if(in_window.begin(), in_window.end(), std::back_inserter(staying),
+               [&](const Landmark& landmark) {
+                 return std::none_of(departed.begin(), departed.end(),
+                                     [&](const Landmark& gone) { return gone.id == landmark.id; });
+               });
+  return staying;
 }
 
 std::string MakeFolder(const std::string& folder) {
@@ -90,13 +107,16 @@ void ResultFiles::Add(const PipelineFrame& frame) {
   const FrameCounts counts = MakeCounts(frame);
   WriteFrameRow(output.t_ns, timings, counts, &timing_);
   summary_.Add(output, timings, counts);
+  if (output.restarted) {
+    trajectory_ << FormatTumRestart(output.reason);
+    EndWorld();
+  }
   AddMapPoints(output.departed_points);
   AddMapLines(output.departed_lines);
-  if (output.restarted) trajectory_ << FormatTumRestart(output.reason);
   if (!output.has_pose) return;
   trajectory_ << FormatTumRow(output.t_ns, output.state.T_W_B());
-  window_points_ = output.points;
-  window_lines_ = output.lines;
+  window_points_ = Staying(output.points, output.departed_points);
+  window_lines_ = Staying(output.lines, output.departed_lines);
 }
 
 void ResultFiles::AddMapPoints(const std::vector<MapPoint>& points) {
@@ -104,7 +124,19 @@ void ResultFiles::AddMapPoints(const std::vector<MapPoint>& points) {
 }
 
 void ResultFiles::AddMapLines(const std::vector<MapLine>& lines) {
-  for (const MapLine& line : lines) lines_.push_back({line.start_W, line.end_W});
+  for (const MapLine& line : lines) {
+    const auto [place, is_new] = line_places_.try_emplace(line.id, lines_.size());
+    if (is_new) lines_.emplace_back();
+    lines_[place->second] = {line.start_W, line.end_W};
+  }
+}
+
+void ResultFiles::EndWorld() {
+  AddMapPoints(window_points_);
+  AddMapLines(window_lines_);
+  window_points_.clear();
+  window_lines_.clear();
+  line_places_.clear();
 }
 
 void ResultFiles::WriteAnnotatedImage(const std::string& name, const cv::Mat& image) const {
@@ -115,8 +147,7 @@ void ResultFiles::WriteAnnotatedImage(const std::string& name, const cv::Mat& im
 }
 
 void ResultFiles::Finish(RunSummary::Run run, const Config& config) {
-  AddMapPoints(window_points_);
-  AddMapLines(window_lines_);
+  EndWorld();
   map_.Finish();
   trajectory_.close();
   timing_.close();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "common/config.h"
@@ -36,13 +38,17 @@ class ResultFiles {
  private:
   std::ofstream Open(const std::string& name) const;
   void AddMapPoints(const std::vector<MapPoint>& points);
+  // A line that is there already, since it came back into view, is replaced.
   void AddMapLines(const std::vector<MapLine>& lines);
+  // The landmarks in the window go into the map; ids start over.
+  void EndWorld();
 
   std::string folder_;
   std::ofstream trajectory_;
   std::ofstream timing_;
   PlyPointWriter map_;
   std::vector<Segment> lines_;
+  std::unordered_map<int64_t, size_t> line_places_;  // in lines_, by id in this world frame
   std::vector<MapPoint> window_points_;  // of the newest frame with a pose: not in the map yet
   std::vector<MapLine> window_lines_;
   RunSummary summary_;

@@ -25,6 +25,7 @@ enum FrameCount : size_t {
   kLinesInconsistent,  // not triangulated, removed: views contradict each other
   kLinesTooLong,       // not triangulated, removed: longer than line_outlier_distance
   kLinesMerged,        // landmarks absorbed by an older one
+  kLinesRecognised,    // landmarks that are a line which had left the window
   kLinesInWindow,      // landmarks in the optimisation
   kLinesRejected,      // landmarks or observations thrown out after it
   kFrameCounts
@@ -35,7 +36,7 @@ constexpr std::array<const char*, kFrameCounts> kCountNames = {
     "lines_unmatched",  "lines_off_course", "lines_edge_lost",    "lines_duplicate",
     "lines_detected",   "lines_added",      "lines_observed",     "lines_triangulated",
     "lines_degenerate", "lines_behind",     "lines_inconsistent", "lines_too_long",
-    "lines_merged",     "lines_in_window",  "lines_rejected"};
+    "lines_merged",     "lines_recognised", "lines_in_window",    "lines_rejected"};
 
 using FrameCounts = std::array<int, kFrameCounts>;
 

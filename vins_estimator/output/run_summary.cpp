@@ -65,6 +65,7 @@ void RunSummary::AddPose(const EstimatorOutput& output) {
   stationary_ += output.stationary ? 1 : 0;
   keyframes_ += output.keyframe ? 1 : 0;
   merged_lines_ += output.counts.line_merging.merged;
+  recognised_lines_ += output.counts.line_merging.recognised;
   manhattan_ += output.R_W_M ? 1 : 0;
   if (!first_pose_ns_) first_pose_ns_ = output.t_ns;
   const Eigen::Vector3d position = output.state.position();
@@ -95,6 +96,7 @@ Json RunSummary::ToJson(const Run& run) const {
   json["points_per_frame"] = Summarize(counts_, kPointsObserved).mean;
   json["lines"] = run.map_lines;
   json["merged_lines"] = merged_lines_;
+  json["recognised_lines"] = recognised_lines_;
   json["manhattan_share"] = Ratio(static_cast<double>(manhattan_), static_cast<double>(poses_));
   json["resets"] = resets_;
   json["calibration"] = poses_ > 0 ? CalibrationToJson(T_B_C_, td_) : Json(nullptr);

@@ -45,6 +45,7 @@ class RunSummary {
   int64_t keyframes_ = 0;
   int64_t resets_ = 0;
   int64_t merged_lines_ = 0;
+  int64_t recognised_lines_ = 0;
   int64_t manhattan_ = 0;   // poses with a Manhattan frame
   double path_length_ = 0;  // [m]
   std::optional<Eigen::Vector3d> last_position_;

@@ -26,6 +26,7 @@ PipelineFrame MakeFrame(int64_t t_ns, bool has_pose) {
   frame.output.counts.lines_observed = 53;
   frame.output.counts.line_triangulation = {3, 10, 11, 12, 13};
   frame.output.counts.line_merging.merged = 15;
+  frame.output.counts.line_merging.recognised = 16;
   frame.output.counts.lines_in_window = 40;
   frame.output.counts.lines_rejected = 14;
   frame.point_tracking_ms = 16;
@@ -61,7 +62,7 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
   EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 2);
   EXPECT_THAT(folder.Read("new/folder/timing.csv"),
               HasSubstr("\n1000000000,16.0000,32.0000,64.0000,1.0000,128.0000,2.0000,4.0000,8.0000,"
-                        "88.0000,7,6,5,44,1,2,4,8,30,9,53,3,10,11,12,13,15,40,14\n"));
+                        "88.0000,7,6,5,44,1,2,4,8,30,9,53,3,10,11,12,13,15,16,40,14\n"));
   EXPECT_THAT(folder.Read("new/folder/map.ply"), HasSubstr("element vertex 2 "));
   EXPECT_THAT(folder.Read("new/folder/lines.ply"), HasSubstr("element edge 3\n"));
   EXPECT_THAT(folder.Read("new/folder/lines.obj"), HasSubstr("v 1.0000 2.0000 1.0000\n"));
@@ -86,6 +87,62 @@ TEST(ResultFiles, TellOfANewWorldFrameBetweenTheRows) {
   results.Finish(RunSummary::Run(), Config());
   EXPECT_THAT(folder.Read("trajectory.tum"),
               HasSubstr("\n# the world frame starts anew: it flew away\n3.000000000 "));
+}
+
+TEST(ResultFiles, HoldALineThatCameBackOnceAsKnownLast) {
+  const testing::TemporaryFolder folder;
+  ResultFiles results(folder.path());
+  PipelineFrame frame = MakeFrame(1'000'000'000, true);
+  frame.output.departed_lines = {{7, {1, 0, 0}, {1, 0, 1}}, {8, {2, 0, 0}, {2, 0, 1}}};
+  results.Add(frame);
+  frame = MakeFrame(2'000'000'000, true);
+  frame.output.departed_lines = {{7, {3, 0, 0}, {3, 0, 1}}};
+  results.Add(frame);
+  frame = MakeFrame(3'000'000'000, true);
+  frame.output.lines = {{8, {4, 0, 0}, {4, 0, 1}}};
+  results.Add(frame);
+  results.Finish(RunSummary::Run(), Config());
+  EXPECT_EQ(nlohmann::json::parse(folder.Read("summary.json"))["lines"], 2);
+  EXPECT_THAT(folder.Read("lines.ply"), HasSubstr("element edge 2\n"));
+  const std::string lines = folder.Read("lines.obj");
+  EXPECT_THAT(lines, HasSubstr("v 3.0000 0.0000 1.0000\n"));
+  EXPECT_THAT(lines, HasSubstr("v 4.0000 0.0000 1.0000\n"));
+}
+
+TEST(ResultFiles, HoldWhatLeavesWithTheLastFrameOnceAndInFull) {
+  const testing::TemporaryFolder folder;
+  ResultFiles results(folder.path());
+  PipelineFrame frame = MakeFrame(1'000'000'000, true);
+  frame.output.points = frame.output.departed_points = {{1, {1, 1, 1}}};
+  frame.output.lines = {{7, {1, 0, 0}, {1, 0, 1}}};
+  frame.output.departed_lines = {{7, {1, 0, 0}, {1, 0, 5}}};
+  results.Add(frame);
+  results.Finish(RunSummary::Run(), Config());
+  EXPECT_THAT(folder.Read("map.ply"), HasSubstr("element vertex 1 "));
+  EXPECT_THAT(folder.Read("lines.ply"), HasSubstr("element edge 1\n"));
+  EXPECT_THAT(folder.Read("lines.obj"), HasSubstr("v 1.0000 0.0000 5.0000\n"));
+}
+
+TEST(ResultFiles, LeaveTheLinesOfAFormerWorldFrameAsTheyWere) {
+  const testing::TemporaryFolder folder;
+  ResultFiles results(folder.path());
+  PipelineFrame frame = MakeFrame(1'000'000'000, true);
+  frame.output.departed_lines = {{7, {1, 0, 0}, {1, 0, 1}}};
+  frame.output.lines = {{8, {2, 0, 0}, {2, 0, 1}}};
+  results.Add(frame);
+  frame = MakeFrame(2'000'000'000, false);
+  frame.output.restarted = true;
+  results.Add(frame);
+  frame = MakeFrame(3'000'000'000, true);
+  frame.output.departed_lines = {{7, {3, 0, 0}, {3, 0, 1}}};
+  frame.output.lines = {{8, {4, 0, 0}, {4, 0, 1}}};
+  results.Add(frame);
+  results.Finish(RunSummary::Run(), Config());
+  EXPECT_EQ(nlohmann::json::parse(folder.Read("summary.json"))["lines"], 4);
+  const std::string lines = folder.Read("lines.obj");
+  for (const std::string x : {"1", "2", "3", "4"}) {
+    EXPECT_THAT(lines, HasSubstr("v " + x + ".0000 0.0000 1.0000\n"));
+  }
 }
 
 TEST(ResultFiles, HoldAnAnnotatedImageWhereThereIsOne) {

@@ -12,17 +12,17 @@ TEST(FrameTable, HasTheAgreedColumns) {
   std::ostringstream stream;
   WriteFrameHeader(&stream);
   WriteFrameRow(1403636579763555584, {1, 2, 3, 4, 5, 6, 7, 8, 9.25},
-                {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19}, &stream);
+                {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20}, &stream);
   EXPECT_EQ(stream.str(),
             "stamp_ns,point_tracking,line_detection,line_tracking,initialization,line_merging,"
             "optimization,marginalization,estimator,total,points_observed,points_in_window,"
-            "points_rejected,lines_followed,lines_unmatched,lines_off_course,lines_edge_lost,lines_"
-            "duplicate,"
-            "lines_detected,lines_added,lines_observed,lines_triangulated,lines_degenerate,"
-            "lines_behind,lines_inconsistent,lines_too_long,lines_merged,lines_in_window,"
-            "lines_rejected\n"
+            "points_rejected,lines_followed,lines_unmatched,lines_off_course,lines_edge_lost,"
+            "lines_duplicate,lines_detected,lines_added,lines_observed,lines_triangulated,lines_"
+            "degenerate,"
+            "lines_behind,lines_inconsistent,lines_too_long,lines_merged,lines_recognised,"
+            "lines_in_window,lines_rejected\n"
             "1403636579763555584,1.0000,2.0000,3.0000,4.0000,5.0000,6.0000,7.0000,8.0000,9.2500,"
-            "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19\n");
+            "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20\n");
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <std_msgs/ColorRGBA.h>
 
+#include <set>
+
 #include "common/ros/msg_conversion.h"
 
 namespace plm_vins {
@@ -62,30 +64,45 @@ visualization_msgs::Marker ToLineMarker(const std::vector<MapLine>& lines, int64
 
 std::vector<visualization_msgs::Marker> LineHistory::Add(const std::vector<MapLine>& lines,
                                                          int64_t t_ns) {
-  std::vector<visualization_msgs::Marker> changed;
+  std::set<size_t> changed;
   for (const MapLine& line : lines) {
-    if (lines_.size() == kLinesPerMarker) {
-      changed.push_back(MakeMarker(t_ns));
-      lines_.clear();
-      marker_id_ = (marker_id_ + 1) % kMaxMarkers;
-    }
-    lines_.push_back(line);
+    const Place place = PlaceOf(line.id);
+    parts_[place.part][place.line] = line;
+    changed.insert(place.part);
   }
-  if (!lines.empty()) changed.push_back(MakeMarker(t_ns));
-  return changed;
+  std::vector<visualization_msgs::Marker> markers;
+  for (const size_t part : changed) markers.push_back(MakeMarker(part, t_ns));
+  return markers;
 }
 
 visualization_msgs::Marker LineHistory::Clear() {
-  lines_.clear();
-  marker_id_ = 0;
+  for (auto& part : parts_) part.clear();
+  newest_part_ = 0;
+  places_.clear();
   visualization_msgs::Marker marker = EmptyMarker(0, frame_id_, kHistoryName);
   marker.action = visualization_msgs::Marker::DELETEALL;
   return marker;
 }
 
-visualization_msgs::Marker LineHistory::MakeMarker(int64_t t_ns) const {
-  visualization_msgs::Marker marker = ToLineMarker(lines_, t_ns, frame_id_, kHistoryName);
-  marker.id = marker_id_;
+// Where the line is, or where there is room for it.
+LineHistory::Place LineHistory::PlaceOf(int64_t id) {
+  const auto known = places_.find(id);
+  if (known != places_.end()) return known->second;
+  if (parts_[newest_part_].size() == kLinesPerMarker) StartNextPart();
+  std::vector<MapLine>& newest = parts_[newest_part_];
+  newest.emplace_back();
+  return places_[id] = {newest_part_, newest.size() - 1};
+}
+
+void LineHistory::StartNextPart() {
+  newest_part_ = (newest_part_ + 1) % kMaxMarkers;
+  for (const MapLine& line : parts_[newest_part_]) places_.erase(line.id);
+  parts_[newest_part_].clear();
+}
+
+visualization_msgs::Marker LineHistory::MakeMarker(size_t part, int64_t t_ns) const {
+  visualization_msgs::Marker marker = ToLineMarker(parts_[part], t_ns, frame_id_, kHistoryName);
+  marker.id = static_cast<int>(part);
   marker.scale.x = kHistoryWidth;
   return marker;
 }

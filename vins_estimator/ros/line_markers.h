@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "vins_estimator/lines/line_map.h"
@@ -17,26 +18,35 @@ visualization_msgs::Marker ToLineMarker(const std::vector<MapLine>& lines, int64
 
 // The lines that have left the window, for display. Each marker holds a part of them under an id of
 // its own, so a message is small however long the run; beyond kMaxMarkers the oldest part is
-// overwritten, so the display stays small, too.
+// overwritten, so the display stays small, too. A line that came back into view and leaves again
+// replaces what it was before.
 class LineHistory {
  public:
-  static constexpr size_t kLinesPerMarker = 200;
-  static constexpr int kMaxMarkers = 100;
+  static constexpr size_t kLinesPerMarker = 50;
+  static constexpr size_t kMaxMarkers = 400;
 
-  explicit LineHistory(const std::string& frame_id) : frame_id_(frame_id) {}
+  explicit LineHistory(const std::string& frame_id) : frame_id_(frame_id), parts_(kMaxMarkers) {}
 
-  // Adds lines; returns the markers that changed.
+  // Adds lines; returns the markers that changed, each once.
   std::vector<visualization_msgs::Marker> Add(const std::vector<MapLine>& lines, int64_t t_ns);
 
   // Forgets all lines; the marker that tells the display to do so.
   visualization_msgs::Marker Clear();
 
  private:
-  visualization_msgs::Marker MakeMarker(int64_t t_ns) const;
+  struct Place {
+    size_t part = 0;
+    size_t line = 0;  // in that part
+  };
+
+  Place PlaceOf(int64_t id);
+  void StartNextPart();
+  visualization_msgs::Marker MakeMarker(size_t part, int64_t t_ns) const;
 
   std::string frame_id_;
-  std::vector<MapLine> lines_;  // of the newest marker
-  int marker_id_ = 0;           // of the same
+  std::vector<std::vector<MapLine>> parts_;  // by id of their marker
+  size_t newest_part_ = 0;
+  std::unordered_map<int64_t, Place> places_;  // of all lines, by id
 };
 
 }  // namespace plm_vins

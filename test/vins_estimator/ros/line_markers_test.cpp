@@ -10,9 +10,13 @@ namespace {
 
 using visualization_msgs::Marker;
 
-std::vector<MapLine> MakeLines(size_t count) {
+// With the ids from `first` on; each begins at x = its id.
+std::vector<MapLine> MakeLines(int64_t first, size_t count) {
   std::vector<MapLine> lines(count);
-  for (size_t i = 0; i < count; ++i) lines[i].start_W = Eigen::Vector3d(i, 0, 0);
+  for (size_t i = 0; i < count; ++i) {
+    lines[i].id = first + static_cast<int64_t>(i);
+    lines[i].start_W.x() = static_cast<double>(lines[i].id);
+  }
   return lines;
 }
 
@@ -37,7 +41,8 @@ TEST(LineMarker, JoinsTheEndsOfEachLine) {
 TEST(LineMarker, ShowsTheAxesInDifferentColours) {
   std::set<std::vector<float>> colors;
   for (const LineAxis axis : {LineAxis::kFree, LineAxis::kX, LineAxis::kY, LineAxis::kZ}) {
-    const auto color = ToLineMarker({{1, {}, {}, axis}}, 0, "world", "lines").colors.at(0);
+    const auto color =
+        ToLineMarker({{1, {0, 0, 0}, {1, 0, 0}, axis}}, 0, "world", "lines").colors.at(0);
     colors.insert({color.r, color.g, color.b});
   }
   EXPECT_EQ(colors.size(), 4u);
@@ -48,36 +53,72 @@ TEST(LineHistory, HasNothingToSayWithoutLines) {
 }
 
 TEST(LineHistory, GrowsOneMarkerThenTheNext) {
+  constexpr size_t kFull = LineHistory::kLinesPerMarker;
   LineHistory history("world");
-  auto changed = history.Add(MakeLines(LineHistory::kLinesPerMarker - 1), 1);
+  auto changed = history.Add(MakeLines(0, kFull - 1), 1);
   ASSERT_EQ(changed.size(), 1u);
   EXPECT_EQ(changed[0].id, 0);
-  changed = history.Add(MakeLines(3), 2);
+  changed = history.Add(MakeLines(kFull - 1, 3), 2);
   ASSERT_EQ(changed.size(), 2u);
   EXPECT_EQ(changed[0].id, 0);
-  EXPECT_EQ(changed[0].points.size(), 2 * LineHistory::kLinesPerMarker);
+  EXPECT_EQ(changed[0].points.size(), 2 * kFull);
   EXPECT_EQ(changed[1].id, 1);
   EXPECT_EQ(changed[1].points.size(), 4u);
-  EXPECT_EQ(changed[1].points[0].x, 1);
+  EXPECT_EQ(changed[1].points[0].x, kFull);
+}
+
+TEST(LineHistory, ReplacesALineThatLeavesAgain) {
+  constexpr size_t kFull = LineHistory::kLinesPerMarker;
+  LineHistory history("world");
+  std::vector<MapLine> known = MakeLines(0, 2 * kFull + 1);
+  history.Add(known, 1);
+  for (MapLine& line : known) line.start_W.x() *= -1;
+  const auto changed = history.Add({known[3], known[4], known[2 * kFull]}, 2);
+  ASSERT_EQ(changed.size(), 2u);
+  EXPECT_EQ(changed[0].id, 0);
+  EXPECT_EQ(changed[0].points.size(), 2 * kFull);
+  EXPECT_EQ(changed[0].points[2 * 2].x, 2);
+  EXPECT_EQ(changed[0].points[2 * 3].x, -3);
+  EXPECT_EQ(changed[0].points[2 * 4].x, -4);
+  EXPECT_EQ(changed[1].id, 2);
+  EXPECT_EQ(changed[1].points.size(), 2u);
+  EXPECT_EQ(changed[1].points[0].x, -2.0 * kFull);
 }
 
 TEST(LineHistory, StaysBoundedInALongRun) {
+  constexpr size_t kFull = LineHistory::kLinesPerMarker;
   LineHistory history("world");
   std::set<int> ids;
-  for (int i = 0; i < 3 * LineHistory::kMaxMarkers; ++i) {
-    for (const Marker& marker : history.Add(MakeLines(LineHistory::kLinesPerMarker), i)) {
-      EXPECT_LE(marker.points.size(), 2 * LineHistory::kLinesPerMarker);
+  for (size_t i = 0; i < 3 * LineHistory::kMaxMarkers; ++i) {
+    for (const Marker& marker : history.Add(MakeLines(i * kFull, kFull), 1)) {
+      EXPECT_LE(marker.points.size(), 2 * kFull);
       ids.insert(marker.id);
     }
   }
-  EXPECT_EQ(ids.size(), static_cast<size_t>(LineHistory::kMaxMarkers));
+  EXPECT_EQ(ids.size(), LineHistory::kMaxMarkers);
+}
+
+TEST(LineHistory, AddsALineAnewWhoseMarkerWasOverwritten) {
+  constexpr size_t kFull = LineHistory::kLinesPerMarker;
+  constexpr size_t kAll = kFull * LineHistory::kMaxMarkers;
+  LineHistory history("world");
+  history.Add(MakeLines(0, kAll), 1);
+  auto changed = history.Add(MakeLines(kAll, 1), 2);  // overwrites the first marker
+  ASSERT_EQ(changed.size(), 1u);
+  EXPECT_EQ(changed[0].id, 0);
+  EXPECT_EQ(changed[0].points.size(), 2u);
+  changed = history.Add(MakeLines(1, 1), 3);
+  ASSERT_EQ(changed.size(), 1u);
+  ASSERT_EQ(changed[0].points.size(), 4u);
+  EXPECT_EQ(changed[0].points[0].x, kAll);
+  EXPECT_EQ(changed[0].points[2].x, 1);
 }
 
 TEST(LineHistory, ClearStartsAgain) {
   LineHistory history("world");
-  history.Add(MakeLines(250), 1);
+  history.Add(MakeLines(0, LineHistory::kLinesPerMarker + 10), 1);
   EXPECT_EQ(history.Clear().action, Marker::DELETEALL);
-  const auto changed = history.Add(MakeLines(1), 2);
+  const auto changed = history.Add(MakeLines(LineHistory::kLinesPerMarker, 1), 2);
   ASSERT_EQ(changed.size(), 1u);
   EXPECT_EQ(changed[0].id, 0);
   EXPECT_EQ(changed[0].points.size(), 2u);

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 #include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "common/so3.h"
@@ -14,6 +17,7 @@
 #include "vins_estimator/lines/line_directions.h"
 #include "vins_estimator/lines/line_fit.h"
 #include "vins_estimator/lines/line_pairs.h"
+#include "vins_estimator/window/anchor_policy.h"
 
 namespace plm_vins {
 namespace {
@@ -50,7 +54,9 @@ class LineWindow {
     const auto directions = LineDirections(window_, lines_, kNoise);
     manhattan_.Update(window_.newest().state.t_ns, directions);
     NameAxes(manhattan_, directions, &lines_);
-    return merging_.Merge(window_, &lines_, &manhattan_);
+    const LineMergingCounts counts = merging_.Merge(window_, &lines_, &manhattan_);
+    NoteUse(lines_, &window_);
+    return counts;
   }
 
   // As the estimator does: drops the frame before the newest, or else the oldest.
@@ -59,19 +65,36 @@ class LineWindow {
       lines_.RemoveFrame(window_, window_.frames[window_.frames.size() - 2].state.t_ns);
       window_.frames.erase(window_.frames.end() - 2);
     } else if (window_.frames.size() > size) {
-      const int64_t oldest_ns = window_.frames.front().state.t_ns;
-      lines_.StartAnew(window_, oldest_ns, [](const LineLandmark&) {});
-      lines_.RemoveFrame(window_, oldest_ns);
-      window_.frames.erase(window_.frames.begin());
+      RemoveOldest();
     }
   }
 
   SlidingWindow& window() { return window_; }
   LineMap& lines() { return lines_; }
   const LineAliases& aliases() const { return merging_.aliases(); }
+  const LineMemory& memory() const { return merging_.memory(); }
   const ManhattanFrame& manhattan() const { return manhattan_; }
 
  private:
+  void RemoveOldest() {
+    const AnchorPolicyOptions options;
+    const int64_t oldest_ns = window_.frames.front().state.t_ns;
+    const bool stays = StaysAsAnchor(options, window_, lines_);
+    if (const auto replaced_ns = AnchorToReplace(options, window_); stays && replaced_ns) {
+      lines_.RemoveAnchor(*replaced_ns);
+      merging_.RemoveAnchor(*replaced_ns);
+      window_.RemoveAnchor(*replaced_ns);
+    }
+    merging_.Remember(window_, lines_, stays);
+    lines_.StartAnew(window_, oldest_ns, [](const LineLandmark&) {});
+    lines_.RemoveFrame(window_, oldest_ns);
+    if (stays) {
+      window_.TurnOldestIntoAnchor();
+    } else {
+      window_.RemoveOldest();
+    }
+  }
+
   // Stands for the optimisation.
   void Refit() {
     for (auto& [id, landmark] : lines_.landmarks()) {
@@ -99,6 +122,8 @@ struct WallLine {
   int first_frame = 0, last_frame = 100;  // that show it
 };
 
+constexpr size_t kWindowSize = 10;
+
 LineMergingCounts MergeOnWall(const std::vector<WallLine>& lines, LineWindow* window,
                               int frames = 10) {
   LineMergingCounts counts;
@@ -115,9 +140,11 @@ LineMergingCounts MergeOnWall(const std::vector<WallLine>& lines, LineWindow* wi
       if (i < line.first_frame || i > line.last_frame) continue;
       frame.lines.push_back({line.id, see(line.start), see(line.end)});
     }
+    window->Slide(/*keep_second_newest=*/true, kWindowSize);
     window->AddFrame(state, frame);
     const LineMergingCounts now = window->Merge();
     counts.merged += now.merged;
+    counts.recognised += now.recognised;
     counts.apart += now.apart;
     counts.seen_side_by_side += now.seen_side_by_side;
     counts.distant += now.distant;
@@ -208,13 +235,83 @@ TEST(LineMerging, LetsGoOfTheTracksOfALineThatWasRemoved) {
   EXPECT_EQ(window.aliases().Resolve(9), 9);
 }
 
+// A line that leaves the window, and another of a new track once it has left.
+constexpr int64_t kGone = 4, kComeBack = 9;
+constexpr int kFramesAndBack = 30;
+
+LineMergingCounts ComeBack(const Vector2d& start, const Vector2d& end, LineWindow* window) {
+  return MergeOnWall({{kGone, {-1, 0.5}, {1, 0.5}, 0, 7}, {kComeBack, start, end, 20}}, window,
+                     kFramesAndBack);
+}
+
+TEST(LineMerging, RecognisesALineThatComesBack) {
+  LineWindow window;
+  const auto counts = ComeBack({-1, 0.5}, {1, 0.5}, &window);
+  EXPECT_EQ(counts.recognised, 1);
+  EXPECT_EQ(counts.merged, 0);
+  EXPECT_EQ(window.aliases().Resolve(kComeBack), kGone);
+  ASSERT_EQ(window.lines().landmarks().size(), 1u);
+  const LineLandmark& line = window.lines().landmarks().at(kGone);
+  EXPECT_EQ(line.id, kGone);
+  EXPECT_EQ(line.views.size(), 10u);  // later ones of the new track, too
+  ASSERT_EQ(line.anchor_views.size(), 1u);
+  EXPECT_EQ(line.anchor_views[0].t_ns, 100'000'000);
+  const AnchorFrame* anchor = window.window().FindAnchor(line.anchor_views[0].t_ns);
+  ASSERT_NE(anchor, nullptr);
+  EXPECT_EQ(anchor->last_use_ns, window.window().newest().state.t_ns);
+}
+
+TEST(LineMerging, RecognisesAnotherPartOfALine) {
+  LineWindow window;
+  EXPECT_EQ(ComeBack({1.05, 0.5}, {2, 0.5}, &window).recognised, 1);
+  EXPECT_EQ(window.lines().landmarks().count(kGone), 1u);
+}
+
+TEST(LineMerging, DoesNotTakeAnotherLineForOneThatLeft) {
+  const std::map<std::string, std::pair<Vector2d, Vector2d>> others = {
+      {"parallel", {{-1, 0.7}, {1, 0.7}}},
+      {"crossing", {{-1, 0.4}, {1, 0.6}}},
+      {"collinear with a gap", {{1.3, 0.5}, {3, 0.5}}}};
+  for (const auto& [name, ends] : others) {
+    LineWindow window;
+    EXPECT_EQ(ComeBack(ends.first, ends.second, &window).recognised, 0) << name;
+    EXPECT_NE(window.memory().Find(kGone), nullptr);
+    ASSERT_EQ(window.lines().landmarks().size(), 1u);
+    const LineLandmark& line = window.lines().landmarks().at(kComeBack);
+    EXPECT_TRUE(line.triangulated);
+    EXPECT_TRUE(line.anchor_views.empty());
+  }
+}
+
+// The two are nearer than the limits, but images show them side by side.
+TEST(LineMerging, DoesNotRecogniseALineThatIsStillThere) {
+  LineWindow window;
+  const auto counts = MergeOnWall(
+      {{kGone, {-1, 0.5}, {1, 0.5}}, {kComeBack, {-1, 0.54}, {1, 0.54}, 14}}, &window, 22);
+  EXPECT_NE(window.memory().Find(kGone), nullptr);
+  EXPECT_EQ(counts.recognised, 0);
+  EXPECT_EQ(window.lines().landmarks().size(), 2u);
+}
+
+TEST(LineMerging, MergesTheNextTrackIntoALineThatCameBack) {
+  LineWindow window;
+  const auto counts = MergeOnWall({{kGone, {-1, 0.5}, {1, 0.5}, 0, 7},
+                                   {kComeBack, {-1, 0.5}, {1, 0.5}, 20, 24},
+                                   {kComeBack + 1, {-1, 0.5}, {1, 0.5}, 25}},
+                                  &window, kFramesAndBack);
+  EXPECT_EQ(counts.recognised, 1);
+  EXPECT_EQ(counts.merged, 1);
+  EXPECT_EQ(window.aliases().Resolve(kComeBack + 1), kGone);
+}
+
 // Merging on a simulated flight through a room, judged by the true identity of each line.
 struct FlightScore {
-  int merged = 0, wrong = 0;
-  int redundant = 0, absorbed = 0;         // landmarks beside an older one of their line
-  double landmarks = 0, lines_in_map = 0;  // triangulated, summed over the frames
+  int merged = 0, recognised = 0, wrong = 0;
+  int redundant = 0, absorbed = 0;            // landmarks beside an older one of their line
+  double landmarks = 0, lines_in_map = 0;     // triangulated, summed over the frames
+  int whole_map = 0, whole_map_unmerged = 0;  // landmarks of the whole flight
 
-  double precision() const { return 1.0 - wrong / double(merged); }
+  double precision() const { return 1.0 - wrong / double(merged + recognised); }
   double recall() const { return absorbed / double(redundant); }
 };
 
@@ -242,32 +339,58 @@ bool IsOneLine(const simulator::LineSegment3d& a, const simulator::LineSegment3d
   return pair.angle < 0.01 && pair.distance < kIndistinguishable && pair.gap < kIndistinguishable;
 }
 
-FlightScore MergeOnFlight(uint64_t seed) {
+simulator::FeatureDataset Fly(uint64_t seed, double duration) {
   auto options = testing::FlightOptions(simulator::Motion::kFast, seed);
   options.max_points = 1;
   options.line_break_probability = 0.03;  // half of the tracks break within 23 images
-  options.trajectory.duration = 12;
-  const auto data = simulator::SimulateFeatures(options);
+  options.trajectory.duration = duration;
+  return simulator::SimulateFeatures(options);
+}
+
+// Calls `at_frame` with the window at each image of a flight, before anything is merged.
+void FlyThrough(const simulator::FeatureDataset& data,
+                const std::function<void(LineWindow*)>& at_frame) {
   LineWindow window;
-  window.window().SetExtrinsic(options.sensors.T_B_C);
-  FlightScore score;
-  std::set<int64_t> redundant, absorbed;
+  window.window().SetExtrinsic(simulator::DefaultSensors().T_B_C);
   for (size_t i = 0; i < data.lines.size(); ++i) {
-    window.Slide(/*keep_second_newest=*/i % 4 == 0, /*size=*/10);
+    window.Slide(/*keep_second_newest=*/i % 4 == 0, kWindowSize);
     window.AddFrame(data.truth[i], data.lines[i]);
-    const LineMap before = window.lines();
+    at_frame(&window);
+  }
+}
+
+void CollectTriangulated(const LineMap& lines, std::set<int64_t>* ids) {
+  for (const auto& [id, landmark] : lines.landmarks()) {
+    if (landmark.triangulated) ids->insert(id);
+  }
+}
+
+FlightScore MergeOnFlight(uint64_t seed) {
+  const auto data = Fly(seed, /*duration=*/12);
+  FlightScore score;
+  std::set<int64_t> redundant, absorbed, whole_map, whole_map_unmerged;
+  FlyThrough(data, [&](LineWindow* window) {
+    const LineMap before = window->lines();
     redundant.merge(FindRedundant(before, data.line_landmark, &score));
-    score.merged += window.Merge().merged;
+    const LineMergingCounts counts = window->Merge();
+    score.merged += counts.merged;
+    score.recognised += counts.recognised;
+    CollectTriangulated(window->lines(), &whole_map);
     for (const auto& [id, landmark] : before.landmarks()) {
-      if (window.lines().landmarks().count(id)) continue;
+      if (window->lines().landmarks().count(id)) continue;
       absorbed.insert(id);
+      whole_map.erase(id);
       const int line = data.line_landmark.at(id);
-      const int older = data.line_landmark.at(window.aliases().Resolve(id));
+      const int older = data.line_landmark.at(window->aliases().Resolve(id));
       score.wrong += !IsOneLine(data.world.lines[line], data.world.lines[older]);
     }
-  }
+  });
+  FlyThrough(
+      data, [&](LineWindow* window) { CollectTriangulated(window->lines(), &whole_map_unmerged); });
   score.redundant = static_cast<int>(redundant.size());
   for (const int64_t id : redundant) score.absorbed += static_cast<int>(absorbed.count(id));
+  score.whole_map = static_cast<int>(whole_map.size());
+  score.whole_map_unmerged = static_cast<int>(whole_map_unmerged.size());
   return score;
 }
 
@@ -276,15 +399,20 @@ TEST(LineMerging, FindsTheTracksOfOneLineAndOnlyThose) {
   for (uint64_t seed = 1; seed <= 3; ++seed) {
     const FlightScore score = MergeOnFlight(seed);
     sum.merged += score.merged;
+    sum.recognised += score.recognised;
     sum.wrong += score.wrong;
     sum.redundant += score.redundant;
     sum.absorbed += score.absorbed;
     sum.landmarks += score.landmarks;
     sum.lines_in_map += score.lines_in_map;
+    sum.whole_map += score.whole_map;
+    sum.whole_map_unmerged += score.whole_map_unmerged;
   }
+  EXPECT_GT(sum.recognised, 0);
   EXPECT_GE(sum.precision(), 0.98);
   EXPECT_GE(sum.recall(), 0.8);
   EXPECT_LT(sum.landmarks, 1.1 * sum.lines_in_map);
+  EXPECT_LE(sum.whole_map, 0.5 * sum.whole_map_unmerged);
 }
 
 }  // namespace

@@ -94,6 +94,16 @@ class LineMapTest : public ::testing::Test {
 
   LineLandmark& Landmark(int64_t id) { return map_.landmarks().at(id); }
 
+  // The first frame leaves the window; what it has seen stays.
+  void TurnOldestIntoAnchor() {
+    for (auto& [id, landmark] : map_.landmarks()) {
+      MoveHost(window_, 1, &landmark);
+      landmark.anchor_views = {landmark.views.front()};
+      landmark.views.erase(landmark.views.begin());
+    }
+    window_.TurnOldestIntoAnchor();
+  }
+
   // Moves a view across itself.
   static void Shift(double distance, LineView* view) {
     const Vector2d along = (view->segment.end - view->segment.start).normalized();
@@ -318,6 +328,44 @@ TEST_F(LineMapTest, DoesNotJudgeWhatHasNoPlaceOrOneView) {
   Shift(0.1, &Landmark(3).views[0]);
   EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits()), 0);
   EXPECT_EQ(map_.landmarks().count(3), 1u);
+}
+
+TEST_F(LineMapTest, RemovesAnchorViewsThatContradictTheLine) {
+  const LineLimits limits;
+  Triangulate();
+  TurnOldestIntoAnchor();
+  Shift(4 * limits.noise, &Landmark(1).anchor_views[0]);
+  EXPECT_EQ(map_.RemoveOutliers(window_, limits), 0);
+  Shift(2 * limits.noise, &Landmark(1).anchor_views[0]);
+  EXPECT_EQ(map_.RemoveOutliers(window_, limits), 1);
+  EXPECT_TRUE(Landmark(1).anchor_views.empty());
+  EXPECT_EQ(Landmark(1).views.size(), 3u);
+  EXPECT_EQ(Landmark(2).anchor_views.size(), 1u);
+  ExpectAllInPlace();
+}
+
+TEST_F(LineMapTest, ForgetsWhatARemovedAnchorHasSeen) {
+  Triangulate();
+  TurnOldestIntoAnchor();
+  LineView of_another;
+  of_another.t_ns = 50;
+  Landmark(1).anchor_views.push_back(of_another);
+  map_.RemoveAnchor(Stamp(0));
+  ASSERT_EQ(Landmark(1).anchor_views.size(), 1u);
+  EXPECT_EQ(Landmark(1).anchor_views[0].t_ns, 50);
+  EXPECT_TRUE(Landmark(2).anchor_views.empty());
+  EXPECT_EQ(Landmark(1).views.size(), 3u);
+}
+
+TEST_F(LineMapTest, StartAnewLeavesNoAnchorViews) {
+  Triangulate();
+  TurnOldestIntoAnchor();
+  Landmark(8).views.erase(Landmark(8).views.begin() + 1, Landmark(8).views.end());
+  map_.StartAnew(window_, Stamp(1), [](const LineLandmark&) { FAIL(); });
+  EXPECT_EQ(Landmark(7).views.size(), 1u);
+  EXPECT_TRUE(Landmark(7).anchor_views.empty());
+  EXPECT_EQ(Landmark(8).anchor_views.size(), 1u);  // did not go into the prior
+  ExpectInPlace(Landmark(7));
 }
 
 TEST_F(LineMapTest, TakesAThousandLinesInAFrame) {

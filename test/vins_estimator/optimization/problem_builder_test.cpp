@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "test/vins_estimator/simulated_window.h"
 #include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/optimization/normal_equations.h"
+#include "vins_estimator/optimization/term_evaluation.h"
 
 namespace plm_vins {
 namespace {
@@ -97,6 +100,38 @@ TEST_F(ProblemBuilderTest, LineHasATermForEveryView) {
     EXPECT_EQ(line.terms[i].variables[0], problem.Find({BlockKind::kPose, Stamp(0)}));
     EXPECT_EQ(line.terms[i].variables[1], problem.Find({BlockKind::kPose, Stamp(i)}));
   }
+}
+
+TEST_F(ProblemBuilderTest, AnchorsSeeALineWithTheirOwnWeight) {
+  LineLandmark* landmark = LongestLineTrack();
+  ASSERT_EQ(landmark->views.size(), 3u);
+  MoveHost(window(), 1, landmark);
+  landmark->anchor_views = {landmark->views[0]};
+  landmark->views.erase(landmark->views.begin());
+  const BlockId anchor_pose{BlockKind::kPose, Stamp(0)};
+  window().TurnOldestIntoAnchor();
+  const auto cost_of_views = [&] {
+    options_.line_loss_scale = 1e6;  // as good as none
+    ProblemBuilder builder(options_, &window(), &no_prior_);
+    builder.AddLine(landmark);
+    const WindowProblem& problem = builder.problem();
+    const std::vector<ResidualTerm>& terms = problem.landmarks()[0].terms;
+    EXPECT_EQ(terms.size(), 3u);
+    const ResidualTerm& of_anchor = terms.back();
+    EXPECT_EQ(of_anchor.variables[0], problem.Find({BlockKind::kPose, Stamp(0)}));  // the host
+    EXPECT_EQ(of_anchor.variables[1], problem.Find(anchor_pose));
+    EXPECT_EQ(problem.variables()[of_anchor.variables[1]].values,
+              window().anchors[0].state.pose.data());
+    return std::make_pair(EvaluateTermCost(terms[1], problem.variables()),
+                          EvaluateTermCost(of_anchor, problem.variables()));
+  };
+  options_.anchor_weight = 50;
+  const auto [view, anchor_view] = cost_of_views();
+  options_.anchor_weight = 150;
+  const auto [same_view, heavier_anchor_view] = cost_of_views();
+  EXPECT_GT(anchor_view, 0);
+  EXPECT_NEAR(heavier_anchor_view, 9 * anchor_view, 1e-6 * heavier_anchor_view);
+  EXPECT_EQ(same_view, view);
 }
 
 TEST_F(ProblemBuilderTest, APointAndALineMayHaveTheSameId) {

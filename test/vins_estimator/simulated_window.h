@@ -69,6 +69,7 @@ inline void Disturb(double scale, simulator::Random* random, FrameState* state) 
 
 inline void Disturb(double scale, simulator::Random* random, SlidingWindow* window) {
   for (WindowFrame& frame : window->frames) Disturb(scale, random, &frame.state);
+  for (AnchorFrame& anchor : window->anchors) Disturb(scale, random, &anchor.state);
 }
 
 }  // namespace plm_vins::testing

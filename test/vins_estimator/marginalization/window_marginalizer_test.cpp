@@ -64,10 +64,11 @@ Step GaussNewtonStep(const WindowProblem& problem) {
 }
 
 // Folds the oldest frame into the prior and takes out what was folded in.
-void Slide(const ProblemOptions& options, SimulatedWindow* simulated, MarginalizationPrior* prior) {
+void Slide(const ProblemOptions& options, SimulatedWindow* simulated, MarginalizationPrior* prior,
+           bool keep_pose = false) {
   const int64_t oldest_ns = simulated->window.frames.front().state.t_ns;
-  *prior =
-      MarginalizeOldest(options, *prior, &simulated->window, &simulated->points, &simulated->lines);
+  *prior = MarginalizeOldest(options, *prior, &simulated->window, &simulated->points,
+                             &simulated->lines, keep_pose);
   simulated->points.RemoveIf([oldest_ns](const PointLandmark& landmark) {
     return landmark.triangulated && landmark.host().t_ns == oldest_ns;
   });
@@ -76,7 +77,11 @@ void Slide(const ProblemOptions& options, SimulatedWindow* simulated, Marginaliz
   });
   simulated->points.RemoveFrame(simulated->window, oldest_ns);
   simulated->lines.RemoveFrame(simulated->window, oldest_ns);
-  simulated->window.RemoveOldest();
+  if (keep_pose) {
+    simulated->window.TurnOldestIntoAnchor();
+  } else {
+    simulated->window.RemoveOldest();
+  }
 }
 
 void ExpectSameStep(const Step& kept, const Step& full) {
@@ -85,6 +90,21 @@ void ExpectSameStep(const Step& kept, const Step& full) {
     ASSERT_NE(expected, nullptr);
     EXPECT_MATRIX_NEAR(kept.deltas[i], *expected, 1e-7 + 1e-5 * expected->norm());
   }
+}
+
+// Up to rounding, on the scale of each variable's own information.
+void ExpectSamePrior(const MarginalizationPrior& a, const MarginalizationPrior& b) {
+  ASSERT_EQ(a.blocks().size(), b.blocks().size());
+  for (size_t i = 0; i < a.blocks().size(); ++i) {
+    EXPECT_EQ(a.blocks()[i].id, b.blocks()[i].id);
+    EXPECT_EQ(a.blocks()[i].linearization, b.blocks()[i].linearization);
+  }
+  const VectorXd scale = b.quadratic().H.diagonal().cwiseSqrt().cwiseInverse();
+  EXPECT_MATRIX_NEAR(MatrixXd(scale.asDiagonal() * a.quadratic().H * scale.asDiagonal()),
+                     MatrixXd(scale.asDiagonal() * b.quadratic().H * scale.asDiagonal()), 1e-7);
+  const VectorXd scaled_b = scale.cwiseProduct(b.quadratic().b);
+  EXPECT_MATRIX_NEAR(VectorXd(scale.cwiseProduct(a.quadratic().b)), scaled_b,
+                     1e-7 * scaled_b.norm());
 }
 
 TEST(InitialPrior, IsTheStatedUncertaintyOfTheFirstState) {
@@ -130,14 +150,39 @@ class MarginalizeOldestTest : public ::testing::TestWithParam<bool> {
 };
 
 TEST_P(MarginalizeOldestTest, LeavesTheGaussNewtonStepAsItWas) {
-  for (int round = 0; round < 3; ++round) {
+  for (const bool keep_pose : {false, true, false}) {
     const Step full = GaussNewtonStep(BuildProblem(options_, prior_, &simulated_).problem());
-    Slide(options_, &simulated_, &prior_);
+    Slide(options_, &simulated_, &prior_, keep_pose);
     const Step kept = GaussNewtonStep(BuildProblem(options_, prior_, &simulated_).problem());
-    EXPECT_EQ(kept.ids.size() + 2, full.ids.size());
+    EXPECT_EQ(kept.ids.size() + (keep_pose ? 1 : 2), full.ids.size());
     ExpectSameStep(kept, full);
     testing::Disturb(0.0005, &random_, &simulated_.window);  // as an optimisation would
   }
+}
+
+TEST_P(MarginalizeOldestTest, KeepsThePoseOfAnAnchorWithoutItsMotion) {
+  const int64_t oldest_ns = simulated_.window.frames.front().state.t_ns;
+  Slide(options_, &simulated_, &prior_, /*keep_pose=*/true);
+  EXPECT_EQ(prior_.Linearization({BlockKind::kMotion, oldest_ns}), nullptr);
+  EXPECT_NE(prior_.Linearization({BlockKind::kPose, oldest_ns}), nullptr);
+  const ProblemBuilder builder = BuildProblem(options_, prior_, &simulated_);
+  const int pose = builder.problem().Find({BlockKind::kPose, oldest_ns});
+  ASSERT_GE(pose, 0);
+  EXPECT_EQ(builder.problem().variables()[pose].values,
+            simulated_.window.anchors[0].state.pose.data());
+}
+
+TEST_P(MarginalizeOldestTest, AnAnchorThatGoesIsAsIfNeverKept) {
+  Slide(options_, &simulated_, &prior_);
+  const int64_t oldest_ns = simulated_.window.frames.front().state.t_ns;
+  const auto marginalize = [this](bool keep_pose) {
+    return MarginalizeOldest(options_, prior_, &simulated_.window, &simulated_.points,
+                             &simulated_.lines, keep_pose);
+  };
+  const MarginalizationPrior never_kept = marginalize(false);
+  const MarginalizationPrior kept = marginalize(true);
+  EXPECT_EQ(kept.quadratic().b.size(), never_kept.quadratic().b.size() + 6);
+  ExpectSamePrior(kept.Marginalize(IsOfFrame(oldest_ns)), never_kept);
 }
 
 TEST_P(MarginalizeOldestTest, KeepsLinearisationPointsOnlyForFirstEstimates) {

@@ -4,115 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <map>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "common/so3.h"
-#include "simulator/feature_simulator.h"
 #include "test/testing/numeric_jacobian.h"
-#include "test/vins_estimator/initialization/simulated_frames.h"
-#include "vins_estimator/lines/line_directions.h"
-#include "vins_estimator/lines/line_fit.h"
-#include "vins_estimator/lines/line_pairs.h"
-#include "vins_estimator/window/anchor_policy.h"
+#include "test/vins_estimator/lines/line_window.h"
 
 namespace plm_vins {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double kFocalLength = 460.0;
-constexpr double kNoise = 1.0 / kFocalLength;
-
-// Frames of known pose, and the lines that they see, as the estimator would have them.
-class LineWindow {
- public:
-  LineWindow() : merging_(MergingOptions()) {}
-
-  static LineMergingOptions MergingOptions() {
-    LineMergingOptions options;
-    options.noise = kNoise;
-    return options;
-  }
-
-  void AddFrame(const FrameState& state, const LineFrame& frame) {
-    WindowFrame window_frame;
-    window_frame.state = state;
-    window_.frames.push_back(window_frame);
-    lines_.AddFrame(merging_.Redirect(frame));
-    LineTriangulationOptions options;
-    options.noise = kNoise;
-    lines_.Triangulate(window_, options, /*max_length=*/20);
-    Refit();
-  }
-
-  LineMergingCounts Merge() {
-    const auto directions = LineDirections(window_, lines_, kNoise);
-    manhattan_.Update(window_.newest().state.t_ns, directions);
-    NameAxes(manhattan_, directions, &lines_);
-    const LineMergingCounts counts = merging_.Merge(window_, &lines_, &manhattan_);
-    NoteUse(lines_, &window_);
-    return counts;
-  }
-
-  // As the estimator does: drops the frame before the newest, or else the oldest.
-  void Slide(bool keep_second_newest, size_t size) {
-    if (!keep_second_newest && window_.frames.size() > 1) {
-      lines_.RemoveFrame(window_, window_.frames[window_.frames.size() - 2].state.t_ns);
-      window_.frames.erase(window_.frames.end() - 2);
-    } else if (window_.frames.size() > size) {
-      RemoveOldest();
-    }
-  }
-
-  SlidingWindow& window() { return window_; }
-  LineMap& lines() { return lines_; }
-  const LineAliases& aliases() const { return merging_.aliases(); }
-  const LineMemory& memory() const { return merging_.memory(); }
-  const ManhattanFrame& manhattan() const { return manhattan_; }
-
- private:
-  void RemoveOldest() {
-    const AnchorPolicyOptions options;
-    const int64_t oldest_ns = window_.frames.front().state.t_ns;
-    const bool stays = StaysAsAnchor(options, window_, lines_);
-    if (const auto replaced_ns = AnchorToReplace(options, window_); stays && replaced_ns) {
-      lines_.RemoveAnchor(*replaced_ns);
-      merging_.RemoveAnchor(*replaced_ns);
-      window_.RemoveAnchor(*replaced_ns);
-    }
-    merging_.Remember(window_, lines_, stays);
-    lines_.StartAnew(window_, oldest_ns, [](const LineLandmark&) {});
-    lines_.RemoveFrame(window_, oldest_ns);
-    if (stays) {
-      window_.TurnOldestIntoAnchor();
-    } else {
-      window_.RemoveOldest();
-    }
-  }
-
-  // Stands for the optimisation.
-  void Refit() {
-    for (auto& [id, landmark] : lines_.landmarks()) {
-      if (!landmark.triangulated || landmark.views.size() < 3) continue;
-      std::vector<LineSighting> sightings;
-      for (const LineView& view : landmark.views) {
-        sightings.push_back({window_.T_W_C(*window_.Find(view.t_ns)), view.segment});
-      }
-      const auto fit = FitLine(sightings, kNoise, landmark.coordinates);
-      if (fit) landmark.coordinates = fit->line;
-    }
-  }
-
-  SlidingWindow window_;
-  LineMap lines_;
-  ManhattanFrame manhattan_;
-  LineMerging merging_;
-};
+using testing::kWindowSize;
+using testing::LineWindow;
 
 // A wall five metres ahead of a camera that moves sideways and up. Lines lie on the wall, in metres
 // right and down from the point ahead.
@@ -121,8 +26,6 @@ struct WallLine {
   Vector2d start, end;
   int first_frame = 0, last_frame = 100;  // that show it
 };
-
-constexpr size_t kWindowSize = 10;
 
 LineMergingCounts MergeOnWall(const std::vector<WallLine>& lines, LineWindow* window,
                               int frames = 10) {
@@ -302,117 +205,6 @@ TEST(LineMerging, MergesTheNextTrackIntoALineThatCameBack) {
   EXPECT_EQ(counts.recognised, 1);
   EXPECT_EQ(counts.merged, 1);
   EXPECT_EQ(window.aliases().Resolve(kComeBack + 1), kGone);
-}
-
-// Merging on a simulated flight through a room, judged by the true identity of each line.
-struct FlightScore {
-  int merged = 0, recognised = 0, wrong = 0;
-  int redundant = 0, absorbed = 0;            // landmarks beside an older one of their line
-  double landmarks = 0, lines_in_map = 0;     // triangulated, summed over the frames
-  int whole_map = 0, whole_map_unmerged = 0;  // landmarks of the whole flight
-
-  double precision() const { return 1.0 - wrong / double(merged + recognised); }
-  double recall() const { return absorbed / double(redundant); }
-};
-
-using Identities = std::map<int64_t, int>;  // track to line of the world
-
-// The landmarks beside an older one of the same line.
-std::set<int64_t> FindRedundant(const LineMap& lines, const Identities& identities,
-                                FlightScore* score) {
-  std::set<int> seen;
-  std::set<int64_t> redundant;
-  for (const auto& [id, landmark] : lines.landmarks()) {
-    if (!landmark.triangulated) continue;
-    ++score->landmarks;
-    if (!seen.insert(identities.at(id)).second) redundant.insert(id);
-  }
-  score->lines_in_map += double(seen.size());
-  return redundant;
-}
-
-// Lines nearer than this cannot be told apart: it is their noise in the image, some metres away.
-constexpr double kIndistinguishable = 0.05;  // [m]
-
-bool IsOneLine(const simulator::LineSegment3d& a, const simulator::LineSegment3d& b) {
-  const LinePairGeometry pair = Compare({a.start, a.end}, {b.start, b.end});
-  return pair.angle < 0.01 && pair.distance < kIndistinguishable && pair.gap < kIndistinguishable;
-}
-
-simulator::FeatureDataset Fly(uint64_t seed, double duration) {
-  auto options = testing::FlightOptions(simulator::Motion::kFast, seed);
-  options.max_points = 1;
-  options.line_break_probability = 0.03;  // half of the tracks break within 23 images
-  options.trajectory.duration = duration;
-  return simulator::SimulateFeatures(options);
-}
-
-// Calls `at_frame` with the window at each image of a flight, before anything is merged.
-void FlyThrough(const simulator::FeatureDataset& data,
-                const std::function<void(LineWindow*)>& at_frame) {
-  LineWindow window;
-  window.window().SetExtrinsic(simulator::DefaultSensors().T_B_C);
-  for (size_t i = 0; i < data.lines.size(); ++i) {
-    window.Slide(/*keep_second_newest=*/i % 4 == 0, kWindowSize);
-    window.AddFrame(data.truth[i], data.lines[i]);
-    at_frame(&window);
-  }
-}
-
-void CollectTriangulated(const LineMap& lines, std::set<int64_t>* ids) {
-  for (const auto& [id, landmark] : lines.landmarks()) {
-    if (landmark.triangulated) ids->insert(id);
-  }
-}
-
-FlightScore MergeOnFlight(uint64_t seed) {
-  const auto data = Fly(seed, /*duration=*/12);
-  FlightScore score;
-  std::set<int64_t> redundant, absorbed, whole_map, whole_map_unmerged;
-  FlyThrough(data, [&](LineWindow* window) {
-    const LineMap before = window->lines();
-    redundant.merge(FindRedundant(before, data.line_landmark, &score));
-    const LineMergingCounts counts = window->Merge();
-    score.merged += counts.merged;
-    score.recognised += counts.recognised;
-    CollectTriangulated(window->lines(), &whole_map);
-    for (const auto& [id, landmark] : before.landmarks()) {
-      if (window->lines().landmarks().count(id)) continue;
-      absorbed.insert(id);
-      whole_map.erase(id);
-      const int line = data.line_landmark.at(id);
-      const int older = data.line_landmark.at(window->aliases().Resolve(id));
-      score.wrong += !IsOneLine(data.world.lines[line], data.world.lines[older]);
-    }
-  });
-  FlyThrough(
-      data, [&](LineWindow* window) { CollectTriangulated(window->lines(), &whole_map_unmerged); });
-  score.redundant = static_cast<int>(redundant.size());
-  for (const int64_t id : redundant) score.absorbed += static_cast<int>(absorbed.count(id));
-  score.whole_map = static_cast<int>(whole_map.size());
-  score.whole_map_unmerged = static_cast<int>(whole_map_unmerged.size());
-  return score;
-}
-
-TEST(LineMerging, FindsTheTracksOfOneLineAndOnlyThose) {
-  FlightScore sum;
-  for (uint64_t seed = 1; seed <= 3; ++seed) {
-    const FlightScore score = MergeOnFlight(seed);
-    sum.merged += score.merged;
-    sum.recognised += score.recognised;
-    sum.wrong += score.wrong;
-    sum.redundant += score.redundant;
-    sum.absorbed += score.absorbed;
-    sum.landmarks += score.landmarks;
-    sum.lines_in_map += score.lines_in_map;
-    sum.whole_map += score.whole_map;
-    sum.whole_map_unmerged += score.whole_map_unmerged;
-  }
-  EXPECT_GT(sum.recognised, 0);
-  EXPECT_GE(sum.precision(), 0.98);
-  EXPECT_GE(sum.recall(), 0.8);
-  EXPECT_LT(sum.landmarks, 1.1 * sum.lines_in_map);
-  EXPECT_LE(sum.whole_map, 0.5 * sum.whole_map_unmerged);
 }
 
 }  // namespace

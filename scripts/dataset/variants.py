@@ -5,11 +5,13 @@ from .errors import DatasetError
 
 # What the paper improves: PL-VINS's corners and lines, without merging.
 _BASELINE = {"use_lines": "1", "corner_detector": "harris", "corner_subpixel": "0",
-             "line_detector": "lsd", "line_merging": "0", "manhattan_constraints": "0"}
+             "line_detector": "lsd", "line_merging": "0", "line_anchors": "0",
+             "manhattan_constraints": "0"}
 _SUBPIXEL = {"corner_detector": "shi_tomasi", "corner_subpixel": "1"}
 _FLD = {"line_detector": "fld"}
 _MERGING = {"line_merging": "1"}
 _IMPROVED = {**_BASELINE, **_SUBPIXEL, **_FLD, **_MERGING}
+_MANHATTAN = {**_IMPROVED, "manhattan_constraints": "1"}
 
 VARIANTS = {
     "points": {**_SUBPIXEL, "use_lines": "0"},
@@ -19,7 +21,8 @@ VARIANTS = {
     "merging": {**_BASELINE, **_MERGING},
     "lines": {**_IMPROVED, "line_merging": "0"},
     "improved": _IMPROVED,
-    "manhattan": {**_IMPROVED, "manhattan_constraints": "1"},
+    "manhattan": _MANHATTAN,
+    "anchors": {key: value for key, value in _MANHATTAN.items() if key != "line_anchors"},
 }
 
 DESCRIPTIONS = {
@@ -31,6 +34,7 @@ DESCRIPTIONS = {
     "lines": "improved without merging",
     "improved": "all three changes of the paper: subpixel corners, FLD lines, merging",
     "manhattan": "improved with constraints from the Manhattan frame",
+    "anchors": "manhattan, and frames kept for lines that come back",
 }
 
 

@@ -17,11 +17,12 @@ import sys
 # anything, ROS too.
 LAYERS = {
     "common": {"common"},
-    "feature_tracker": {"common", "feature_tracker"},
-    "linefeature_tracker": {"common", "linefeature_tracker"},
+    "tracking": {"common", "tracking"},
+    "feature_tracker": {"common", "tracking", "feature_tracker"},
+    "linefeature_tracker": {"common", "tracking", "linefeature_tracker"},
     "vins_estimator": {"common", "vins_estimator"},
-    "vins_estimator/offline": {"common", "feature_tracker", "linefeature_tracker",
-                               "vins_estimator"},
+    "offline": {"common", "tracking", "feature_tracker", "linefeature_tracker", "vins_estimator",
+                "offline"},
     "simulator": {"common", "simulator", "vins_estimator"},
 }
 CODE_FOLDERS = sorted({folder.split("/")[0] for folder in LAYERS} | {"benchmark", "test"})

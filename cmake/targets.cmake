@@ -19,13 +19,30 @@ function(plm_add_nodelet name)
   install(TARGETS ${name} LIBRARY DESTINATION lib)
 endfunction()
 
-# plm_add_test(NAME LIBRARIES...): builds NAME_test.cpp of this folder as one GoogleTest program.
-function(plm_add_test path)
-  set(name ${path}_test)
-  add_executable(${name} ${path}_test.cpp)
-  target_link_libraries(${name} PRIVATE ${ARGN} GTest::GTest GTest::Main)
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  add_test(NAME ${name} COMMAND ${name})
+# plm_add_tests(PROGRAM TESTS NAME... LIBRARIES LIBRARY...): builds the NAME_test.cpp of this folder
+# into one GoogleTest program, which ctest runs file by file, as NAME_test.
+function(plm_add_tests program)
+  cmake_parse_arguments(ARG "" "" "TESTS;LIBRARIES" ${ARGN})
+  list(TRANSFORM ARG_TESTS APPEND _test.cpp OUTPUT_VARIABLE sources)
+  add_executable(${program} ${sources})
+  target_link_libraries(${program} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::GTest GTest::Main)
+  set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  foreach(name ${ARG_TESTS})
+    plm_test_suites(${name}_test.cpp suites)
+    add_test(NAME ${name}_test COMMAND ${program} --gtest_filter=${suites})
+  endforeach()
+endfunction()
+
+# plm_test_suites(FILE OUT): the GoogleTest filter of all suites in a file; those with parameters
+# have a prefix.
+function(plm_test_suites file out)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(STRINGS ${file} tests REGEX "^TEST(_F|_P)?\\(")
+  list(TRANSFORM tests REPLACE "^TEST[_FP]*\\(([A-Za-z0-9_]+),.*" "\\1")
+  list(REMOVE_DUPLICATES tests)
+  list(TRANSFORM tests REPLACE "(.+)" "\\1.*:*/\\1.*")
+  list(JOIN tests ":" filter)
+  set(${out} ${filter} PARENT_SCOPE)
 endfunction()
 
 # plm_add_executable(NAME SOURCES...): a program that rosrun and roslaunch find.

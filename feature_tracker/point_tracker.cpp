@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/image_check.h"
+#include "tracking/image_check.h"
 #include "feature_tracker/corner_detector.h"
 #include "feature_tracker/optical_flow.h"
 #include "feature_tracker/outlier_rejection.h"

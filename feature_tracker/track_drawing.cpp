@@ -3,7 +3,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "common/age_color.h"
+#include "tracking/age_color.h"
 
 namespace plm_vins {
 namespace {

@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "common/age_color.h"
+#include "tracking/age_color.h"
 
 namespace plm_vins {
 namespace {

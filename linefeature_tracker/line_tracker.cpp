@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/image_check.h"
+#include "tracking/image_check.h"
 #include "common/stopwatch.h"
 #include "linefeature_tracker/lbd_matcher.h"
 #include "linefeature_tracker/line_drawing.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/tracking_stage.h"
+#include "tracking/tracking_stage.h"
 #include "linefeature_tracker/line_tracker.h"
 
 namespace plm_vins {

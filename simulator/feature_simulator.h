@@ -11,7 +11,7 @@
 #include "simulator/feature_world.h"
 #include "simulator/imu_simulator.h"
 #include "simulator/trajectory.h"
-#include "vins_estimator/window/frame_state.h"
+#include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins::simulator {
 

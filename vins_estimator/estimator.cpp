@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/stopwatch.h"
-#include "vins_estimator/lines/line_directions.h"
+#include "vins_estimator/manhattan/line_directions.h"
 
 namespace plm_vins {
 namespace {

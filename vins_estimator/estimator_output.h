@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "common/rigid3.h"
-#include "vins_estimator/lines/line_map.h"
-#include "vins_estimator/lines/line_merging.h"
-#include "vins_estimator/points/point_map.h"
-#include "vins_estimator/window/frame_state.h"
+#include "vins_estimator/map/line_map.h"
+#include "vins_estimator/merging/line_merging.h"
+#include "vins_estimator/map/point_map.h"
+#include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {
 

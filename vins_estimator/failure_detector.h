@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "vins_estimator/window/frame_state.h"
+#include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {
 

@@ -2,7 +2,7 @@
 // The point front end as a node: ~feature, ~feature_img and ~restart out.
 #include <ros/spinner.h>
 
-#include "common/ros/tracker_node.h"
+#include "tracking/ros/tracker_node.h"
 #include "feature_tracker/ros/point_front_end.h"
 
 int main(int argc, char** argv) {

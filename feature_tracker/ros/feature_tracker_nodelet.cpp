@@ -2,7 +2,7 @@
 // The point front end as the nodelet plm_vins/FeatureTracker.
 #include <pluginlib/class_list_macros.hpp>
 
-#include "common/ros/tracker_nodelet.h"
+#include "tracking/ros/tracker_nodelet.h"
 #include "feature_tracker/ros/point_front_end.h"
 
 namespace plm_vins {

@@ -2,7 +2,7 @@
 // The line front end as a node: ~linefeature, ~linefeature_img and ~restart out.
 #include <ros/spinner.h>
 
-#include "common/ros/tracker_node.h"
+#include "tracking/ros/tracker_node.h"
 #include "linefeature_tracker/ros/line_front_end.h"
 
 int main(int argc, char** argv) {

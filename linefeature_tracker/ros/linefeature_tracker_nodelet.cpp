@@ -2,7 +2,7 @@
 // The line front end as the nodelet plm_vins/LineFeatureTracker.
 #include <pluginlib/class_list_macros.hpp>
 
-#include "common/ros/tracker_nodelet.h"
+#include "tracking/ros/tracker_nodelet.h"
 #include "linefeature_tracker/ros/line_front_end.h"
 
 namespace plm_vins {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "vins_estimator/window/frame_state.h"
+#include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins::simulator {
 

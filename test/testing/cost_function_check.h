@@ -11,7 +11,7 @@
 
 #include "test/testing/numeric_jacobian.h"
 #include "vins_estimator/factors/manifolds.h"
-#include "vins_estimator/lines/plucker.h"
+#include "vins_estimator/geometry/plucker.h"
 
 namespace plm_vins::testing {
 

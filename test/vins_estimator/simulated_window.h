@@ -9,9 +9,9 @@
 #include "simulator/random.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 #include "vins_estimator/factors/manifolds.h"
-#include "vins_estimator/lines/line_map.h"
-#include "vins_estimator/points/point_map.h"
-#include "vins_estimator/window/sliding_window.h"
+#include "vins_estimator/map/line_map.h"
+#include "vins_estimator/map/point_map.h"
+#include "vins_estimator/map/sliding_window.h"
 
 namespace plm_vins::testing {
 

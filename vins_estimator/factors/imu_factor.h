@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "vins_estimator/imu/preintegration.h"
-#include "vins_estimator/window/frame_state.h"
+#include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "vins_estimator/lines/plucker.h"
+#include "vins_estimator/geometry/plucker.h"
 
 namespace plm_vins {
 

@@ -11,7 +11,7 @@
 #include "common/measurements.h"
 #include "vins_estimator/imu/standstill_detector.h"
 #include "vins_estimator/initialization/extrinsic_calibrator.h"
-#include "vins_estimator/window/frame_state.h"
+#include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {
 

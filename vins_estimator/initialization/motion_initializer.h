@@ -7,7 +7,7 @@
 
 #include "common/config.h"
 #include "common/measurements.h"
-#include "vins_estimator/window/frame_state.h"
+#include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {
 

@@ -9,7 +9,7 @@
 #include "common/rigid3.h"
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/initialization/tracks.h"
-#include "vins_estimator/window/frame_state.h"
+#include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {
 

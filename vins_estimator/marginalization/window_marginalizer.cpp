@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "vins_estimator/optimization/normal_equations.h"
+#include "vins_estimator/problem/normal_equations.h"
 
 namespace plm_vins {
 namespace {

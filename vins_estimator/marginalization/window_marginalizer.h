@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <functional>
 
-#include "vins_estimator/lines/line_map.h"
-#include "vins_estimator/marginalization/marginalization_prior.h"
-#include "vins_estimator/optimization/problem_builder.h"
-#include "vins_estimator/points/point_map.h"
-#include "vins_estimator/window/sliding_window.h"
+#include "vins_estimator/map/line_map.h"
+#include "vins_estimator/problem/marginalization_prior.h"
+#include "vins_estimator/problem/problem_builder.h"
+#include "vins_estimator/map/point_map.h"
+#include "vins_estimator/map/sliding_window.h"
 
 namespace plm_vins {
 

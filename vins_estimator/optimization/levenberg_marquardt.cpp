@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vins_estimator/optimization/scaled_cholesky.h"
+#include "vins_estimator/problem/scaled_cholesky.h"
 
 namespace plm_vins {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_window.h"
-#include "vins_estimator/optimization/normal_equations.h"
+#include "vins_estimator/problem/normal_equations.h"
 
 namespace plm_vins {
 namespace {

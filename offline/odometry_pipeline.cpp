@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline/odometry_pipeline.h"
+
+#include <exception>
+#include <iterator>
+#include <thread>
+#include <utility>
+
+#include "common/bounded_queue.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr size_t kQueueCapacity = 200;  // items, most of them IMU samples: about a second
+
+bool IsPowerOfTwo(int64_t count) { return (count & (count - 1)) == 0; }
+
+}  // namespace
+
+OdometryPipeline::OdometryPipeline(const Config& config) : front_end_(config), back_end_(config) {}
+
+DropCounts OdometryPipeline::drops() const {
+  DropCounts counts = ToDropCounts(front_end_.image_counts());
+  Append(ToDropCounts(back_end_.statistics()), &counts);
+  return counts;
+}
+
+void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, Threads threads,
+                           const FrameCallback& on_frame) {
+  if (threads == Threads::kTwo) {
+    RunInTwoThreads(recording, interval, on_frame);
+  } else {
+    RunFrontEnd(recording, interval, [&](Item item) {
+      Consume(std::move(item), on_frame);
+      return true;
+    });
+  }
+  while (auto estimated = back_end_.Flush()) Report(std::move(*estimated), on_frame);
+}
+
+void OdometryPipeline::RunInTwoThreads(Recording* recording, const RecordingInterval& interval,
+                                       const FrameCallback& on_frame) {
+  BoundedQueue<Item> queue(kQueueCapacity);
+  std::exception_ptr front_end_error;
+  std::thread front_end([&] {
+    try {
+      RunFrontEnd(recording, interval, [&](Item item) { return queue.Push(std::move(item)); });
+    } catch (...) {
+      front_end_error = std::current_exception();
+    }
+    queue.Close();
+  });
+  std::exception_ptr back_end_error;
+  try {
+    while (auto item = queue.Pop()) Consume(std::move(*item), on_frame);
+  } catch (...) {
+    back_end_error = std::current_exception();
+    queue.Close();
+  }
+  front_end.join();
+  if (front_end_error) std::rethrow_exception(front_end_error);
+  if (back_end_error) std::rethrow_exception(back_end_error);
+}
+
+void OdometryPipeline::RunFrontEnd(Recording* recording, RecordingInterval interval,
+                                   const ItemCallback& emit) {
+  while (const auto event = recording->Next()) {
+    const RecordingInterval::Part part = interval.Locate(*event);
+    if (part == RecordingInterval::Part::kEnd) break;
+    if (part == RecordingInterval::Part::kUse && !Feed(*event, recording, emit)) return;
+  }
+  while (auto frame = front_end_.Flush()) {
+    if (!EmitTracked(std::move(*frame), emit)) return;
+  }
+}
+
+bool OdometryPipeline::Feed(const RecordingEvent& event, Recording* recording,
+                            const ItemCallback& emit) {
+  if (event.kind == RecordingEvent::Kind::kImu) {
+    front_end_.AddImu(event.imu);
+    if (!emit({event.imu, nullptr})) return false;
+  } else if (const auto image = recording->LoadImage()) {
+    if (!first_image_ns_) first_image_ns_ = event.t_ns;
+    front_end_.AddImage({event.t_ns, *image});
+  }
+  while (auto frame = front_end_.Pop()) {
+    if (!EmitTracked(std::move(*frame), emit)) return false;
+  }
+  return true;
+}
+
+bool OdometryPipeline::EmitTracked(FrontEndFrame frame, const ItemCallback& emit) {
+  // The last power of two lies in the second half of any run, however long it turns out to be.
+  if (IsPowerOfTwo(++tracked_images_)) {
+    points_image_ = front_end_.DrawPoints();
+    lines_image_ = front_end_.DrawLines();
+  }
+  return emit({{}, std::make_unique<FrontEndFrame>(std::move(frame))});
+}
+
+void OdometryPipeline::Consume(Item item, const FrameCallback& on_frame) {
+  if (item.frame) {
+    AddFeatures(std::move(*item.frame));
+  } else {
+    back_end_.AddImu(item.imu);
+  }
+  while (auto estimated = back_end_.Pop()) Report(std::move(*estimated), on_frame);
+}
+
+void OdometryPipeline::AddFeatures(FrontEndFrame tracked) {
+  if (tracked.points.restart) back_end_.Reset("stamps jumped back");
+  if (!tracked.points.publish) return;
+  PipelineFrame& frame = unfinished_[tracked.points.features.t_ns];
+  frame.point_tracking_ms = tracked.points.tracking_ms;
+  back_end_.AddPoints(std::move(tracked.points.features));
+  if (!tracked.lines) return;
+  frame.line_tracking_ms = tracked.lines->tracking_ms;
+  frame.line_tracking = tracked.lines->statistics;
+  back_end_.AddLines(std::move(tracked.lines->features));
+}
+
+void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_frame) {
+  const auto unfinished = unfinished_.find(estimated.output.t_ns);
+  PipelineFrame frame = std::move(unfinished->second);
+  frame.output = std::move(estimated.output);
+  unfinished_.erase(unfinished_.begin(), std::next(unfinished));
+  on_frame(frame);
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "common/config.h"
+#include "common/drop_counts.h"
+#include "vins_estimator/estimation_stage.h"
+#include "offline/front_end.h"
+#include "offline/recording.h"
+#include "offline/recording_interval.h"
+
+namespace plm_vins {
+
+// What the pipeline says about one image.
+struct PipelineFrame {
+  EstimatorOutput output;
+  double point_tracking_ms = 0;
+  double line_tracking_ms = 0;  // detection included
+  LineTrackerStatistics line_tracking;
+};
+
+// Front ends and back end in a row, fed from a recording.
+//
+// Front and back may run in threads of their own, the front ahead by a few images. What each is
+// given, and in which order, does not depend on that, so the results are the same bit by bit.
+class OdometryPipeline {
+ public:
+  enum class Threads { kOne, kTwo };
+  using FrameCallback = std::function<void(const PipelineFrame&)>;
+
+  explicit OdometryPipeline(const Config& config);
+
+  // Processes the recording; `on_frame` is called in the caller's thread, in order of time.
+  void Run(Recording* recording, RecordingInterval interval, Threads threads,
+           const FrameCallback& on_frame);
+
+  // After Run().
+  int64_t images() const { return front_end_.image_counts().images; }
+  std::optional<int64_t> first_image_ns() const { return first_image_ns_; }
+  DropCounts drops() const;
+
+  // An image of the second half of the run with its points or lines drawn (CV_8UC3); empty without
+  // images, or where lines are not used.
+  const cv::Mat& points_image() const { return points_image_; }
+  const cv::Mat& lines_image() const { return lines_image_; }
+
+ private:
+  // What flows from the front end to the back end, in order.
+  struct Item {
+    ImuSample imu;
+    std::unique_ptr<FrontEndFrame> frame;  // instead of `imu`
+  };
+  using ItemCallback = std::function<bool(Item)>;  // false: no more are wanted
+
+  void RunFrontEnd(Recording* recording, RecordingInterval interval, const ItemCallback& emit);
+  bool Feed(const RecordingEvent& event, Recording* recording, const ItemCallback& emit);
+  bool EmitTracked(FrontEndFrame frame, const ItemCallback& emit);
+  void RunInTwoThreads(Recording* recording, const RecordingInterval& interval,
+                       const FrameCallback& on_frame);
+  void Consume(Item item, const FrameCallback& on_frame);
+  void AddFeatures(FrontEndFrame tracked);
+  void Report(EstimatedFrame estimated, const FrameCallback& on_frame);
+
+  FrontEnd front_end_;
+  EstimationStage back_end_;
+  std::optional<int64_t> first_image_ns_;
+  int64_t tracked_images_ = 0;
+  cv::Mat points_image_;
+  cv::Mat lines_image_;
+  std::map<int64_t, PipelineFrame> unfinished_;  // by stamp: what the back end has yet to add to
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline/result_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "vins_estimator/output/config_json.h"
+#include "vins_estimator/output/frame_table.h"
+#include "vins_estimator/output/tum_format.h"
+
+namespace plm_vins {
+namespace {
+
+namespace fs = std::filesystem;
+
+FrameTimings MakeTimings(const PipelineFrame& frame) {
+  const EstimatorTimings& estimator = frame.output.timings;
+  FrameTimings timings{};
+  timings[kPointTracking] = frame.point_tracking_ms;
+  timings[kLineDetection] = frame.line_tracking.detection_ms;
+  timings[kLineTracking] = frame.line_tracking_ms;
+  timings[kInitialization] = estimator.initialization;
+  timings[kLineMerging] = estimator.line_merging;
+  timings[kOptimization] = estimator.optimization;
+  timings[kMarginalization] = estimator.marginalization;
+  timings[kEstimator] = estimator.total;
+  timings[kTotal] = frame.point_tracking_ms + frame.line_tracking_ms + estimator.total;
+  return timings;
+}
+
+FrameCounts MakeCounts(const PipelineFrame& frame) {
+  const EstimatorCounts& estimator = frame.output.counts;
+  const LineTrackerStatistics& lines = frame.line_tracking;
+  FrameCounts counts{};
+  counts[kPointsObserved] = estimator.points_observed;
+  counts[kPointsInWindow] = estimator.points_in_window;
+  counts[kPointsRejected] = estimator.points_rejected;
+  counts[kLinesFollowed] =
+      lines.previous - lines.match_lost - lines.inconsistent - lines.edge_lost - lines.duplicates;
+  counts[kLinesUnmatched] = lines.match_lost;
+  counts[kLinesOffCourse] = lines.inconsistent;
+  counts[kLinesEdgeLost] = lines.edge_lost;
+  counts[kLinesDuplicate] = lines.duplicates;
+  counts[kLinesDetected] = lines.candidates;
+  counts[kLinesAdded] = lines.added;
+  counts[kLinesObserved] = estimator.lines_observed;
+  counts[kLinesTriangulated] = estimator.line_triangulation.triangulated;
+  counts[kLinesDegenerate] = estimator.line_triangulation.degenerate;
+  counts[kLinesBehind] = estimator.line_triangulation.behind;
+  counts[kLinesInconsistent] = estimator.line_triangulation.inconsistent;
+  counts[kLinesTooLong] = estimator.line_triangulation.too_long;
+  counts[kLinesMerged] = estimator.line_merging.merged;
+  counts[kLinesRecognised] = estimator.line_merging.recognised;
+  counts[kLinesInWindow] = estimator.lines_in_window;
+  counts[kLinesRejected] = estimator.lines_rejected;
+  return counts;
+}
+
+// The landmarks that stay in the window. Those that leave it with a frame are part of that frame,
+// too.
+template <typename Landmark>
+std::vector<Landmark> Staying(const std::vector<Landmark>& in_window,
+                              const std::vector<Landmark>& departed) {
+  std::vector<Landmark> staying;
+  std::copy_if(in_window.begin(), in_window.end(), std::back_inserter(staying),
+               [&](const Landmark& landmark) {
+                 return std::none_of(departed.begin(), departed.end(),
+                                     [&](const Landmark& gone) { return gone.id == landmark.id; });
+               });
+  return staying;
+}
+
+std::string MakeFolder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw std::runtime_error("cannot make the output folder " + folder + ": " +
+                             (error ? error.message() : "not a folder"));
+  }
+  return folder;
+}
+
+}  // namespace
+
+ResultFiles::ResultFiles(const std::string& folder)
+    : folder_(MakeFolder(folder)),
+      trajectory_(Open("trajectory.tum")),
+      timing_(Open("timing.csv")),
+      map_(Open("map.ply")) {
+  WriteFrameHeader(&timing_);
+}
+
+std::ofstream ResultFiles::Open(const std::string& name) const {
+  const fs::path file = fs::path(folder_) / name;
+  std::ofstream stream(file);
+  if (!stream) throw std::runtime_error("cannot write " + file.string());
+  return stream;
+}
+
+void ResultFiles::Add(const PipelineFrame& frame) {
+  const EstimatorOutput& output = frame.output;
+  const FrameTimings timings = MakeTimings(frame);
+  const FrameCounts counts = MakeCounts(frame);
+  WriteFrameRow(output.t_ns, timings, counts, &timing_);
+  summary_.Add(output, timings, counts);
+  if (output.restarted) {
+    trajectory_ << FormatTumRestart(output.reason);
+    EndWorld();
+  }
+  AddMapPoints(output.departed_points);
+  AddMapLines(output.departed_lines);
+  if (!output.has_pose) return;
+  trajectory_ << FormatTumRow(output.t_ns, output.state.T_W_B());
+  window_points_ = Staying(output.points, output.departed_points);
+  window_lines_ = Staying(output.lines, output.departed_lines);
+}
+
+void ResultFiles::AddMapPoints(const std::vector<MapPoint>& points) {
+  for (const MapPoint& point : points) map_.Add(point.p_W);
+}
+
+void ResultFiles::AddMapLines(const std::vector<MapLine>& lines) {
+  for (const MapLine& line : lines) {
+    const auto [place, is_new] = line_places_.try_emplace(line.id, lines_.size());
+    if (is_new) lines_.emplace_back();
+    lines_[place->second] = {line.start_W, line.end_W};
+  }
+}
+
+void ResultFiles::EndWorld() {
+  AddMapPoints(window_points_);
+  AddMapLines(window_lines_);
+  window_points_.clear();
+  window_lines_.clear();
+  line_places_.clear();
+}
+
+void ResultFiles::WriteAnnotatedImage(const std::string& name, const cv::Mat& image) const {
+  const fs::path file = fs::path(folder_) / name;
+  if (!image.empty() && !cv::imwrite(file.string(), image)) {
+    throw std::runtime_error("cannot write " + file.string());
+  }
+}
+
+void ResultFiles::Finish(RunSummary::Run run, const Config& config) {
+  EndWorld();
+  map_.Finish();
+  trajectory_.close();
+  timing_.close();
+  if (!trajectory_ || !timing_)
+    throw std::runtime_error("cannot write to " + folder_ + ": disk full?");
+  std::ofstream ply = Open("lines.ply");
+  WriteSegmentsPly(lines_, &ply);
+  std::ofstream obj = Open("lines.obj");
+  WriteSegmentsObj(lines_, &obj);
+  run.map_points = map_.size();
+  run.map_lines = static_cast<int64_t>(lines_.size());
+  Json summary = summary_.ToJson(run);
+  summary["version"] = PLM_VINS_VERSION;
+  summary["config"] = ToJson(config);
+  Open("summary.json") << summary.dump(2) << "\n";
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "common/config.h"
+#include "offline/odometry_pipeline.h"
+#include "vins_estimator/output/ply_writer.h"
+#include "vins_estimator/output/run_summary.h"
+
+namespace plm_vins {
+
+// The folder of results of an offline run: trajectory.tum, timing.csv, summary.json, map.ply,
+// lines.ply, lines.obj, tracks.png, line_tracks.png. Rows are written as frames come; memory stays
+// small.
+class ResultFiles {
+ public:
+  // Makes the folder and opens the files. Throws std::runtime_error where that is not possible.
+  explicit ResultFiles(const std::string& folder);
+
+  void Add(const PipelineFrame& frame);
+
+  // Nothing where the image is empty.
+  void WriteAnnotatedImage(const std::string& name, const cv::Mat& image) const;
+
+  // Completes all files; the counts of the map in `run` are filled in here.
+  void Finish(RunSummary::Run run, const Config& config);
+
+  const std::string& folder() const { return folder_; }
+  const RunSummary& summary() const { return summary_; }
+
+ private:
+  std::ofstream Open(const std::string& name) const;
+  void AddMapPoints(const std::vector<MapPoint>& points);
+  // A line that is there already, since it came back into view, is replaced.
+  void AddMapLines(const std::vector<MapLine>& lines);
+  // The landmarks in the window go into the map; ids start over.
+  void EndWorld();
+
+  std::string folder_;
+  std::ofstream trajectory_;
+  std::ofstream timing_;
+  PlyPointWriter map_;
+  std::vector<Segment> lines_;
+  std::unordered_map<int64_t, size_t> line_places_;  // in lines_, by id in this world frame
+  std::vector<MapPoint> window_points_;  // of the newest frame with a pose: not in the map yet
+  std::vector<MapLine> window_lines_;
+  RunSummary summary_;
+};
+
+}  // namespace plm_vins

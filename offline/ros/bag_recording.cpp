@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline/bag_recording.h"
+
+#include <ros/serialization.h>
+#include <rosbag/exceptions.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "common/ros/msg_conversion.h"
+#include "offline/ros/bag_message_source.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr char kRaw[] = "sensor_msgs/Image";
+constexpr char kCompressed[] = "sensor_msgs/CompressedImage";
+constexpr char kImu[] = "sensor_msgs/Imu";
+
+using Topics = std::map<std::string, std::string>;  // topic -> message type
+
+std::unique_ptr<BagMessageSource> OpenSource(const std::string& file) {
+  if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("no such file: " + file);
+  try {
+    return OpenIndexedBag(file);
+  } catch (const rosbag::BagException&) {
+    return OpenDamagedBag(file);
+  }
+}
+
+std::string Absolute(const std::string& topic) {
+  return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
+}
+
+bool Has(const Topics& topics, const std::string& topic, const std::string& type) {
+  const auto entry = topics.find(topic);
+  return entry != topics.end() && entry->second == type;
+}
+
+std::string Missing(const std::string& file, const std::string& wanted, const Topics& topics) {
+  std::string text = file + " has no " + wanted + "; its topics:";
+  if (topics.empty()) text += " none";
+  for (const auto& [topic, type] : topics) text += " " + topic + " (" + type + ")";
+  return text;
+}
+
+template <typename Message>
+Message Deserialize(const BagMessage& message) {
+  Message result;
+  auto* bytes = const_cast<uint8_t*>(message.data.data());  // only read; the stream wants it so
+  ros::serialization::IStream stream(bytes, static_cast<uint32_t>(message.data.size()));
+  ros::serialization::deserialize(stream, result);
+  return result;
+}
+
+class BagRecording : public Recording {
+ public:
+  BagRecording(const std::string& file, const std::string& image_topic,
+               const std::string& imu_topic)
+      : file_(file), source_(OpenSource(file)), imu_topic_(Absolute(imu_topic)) {
+    const Topics topics = source_->topics();
+    ChooseImageTopic(Absolute(image_topic), topics);
+    if (!Has(topics, imu_topic_, kImu)) {
+      throw std::runtime_error(Missing(file, "topic " + imu_topic_ + " (" + kImu + ")", topics));
+    }
+    source_->Select({image_topic_, imu_topic_});
+  }
+
+  std::optional<RecordingEvent> Next() override {
+    while (const auto message = source_->Next()) {
+      try {
+        return message->topic == imu_topic_ ? ImuEvent(*message) : ImageEvent(*message);
+      } catch (const ros::serialization::StreamOverrunException&) {
+        ++malformed_;
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::optional<cv::Mat> LoadImage() override {
+    try {
+      return compressed_ ? ToImageSample(compressed_image_).gray : ToImageSample(raw_image_).gray;
+    } catch (const std::invalid_argument& error) {
+      if (unreadable_images_++ == 0) first_unreadable_ = error.what();
+      return std::nullopt;
+    }
+  }
+
+  std::string name() const override { return file_; }
+  std::optional<int64_t> end_ns() const override { return source_->end_ns(); }
+
+  DropCounts problems() const override {
+    DropCounts counts = source_->problems();
+    counts.push_back({"images_unreadable", unreadable_images_, first_unreadable_});
+    counts.push_back({"messages_malformed", malformed_, ""});
+    return counts;
+  }
+
+ private:
+  void ChooseImageTopic(const std::string& topic, const Topics& topics) {
+    const std::string compressed_topic = topic + "/compressed";
+    image_topic_ = topic;
+    if (Has(topics, topic, kRaw)) return;
+    compressed_ = true;
+    if (Has(topics, topic, kCompressed)) return;
+    image_topic_ = compressed_topic;
+    if (Has(topics, compressed_topic, kCompressed)) return;
+    throw std::runtime_error(
+        Missing(file_, "topic " + topic + " (" + kRaw + " or " + kCompressed + ")", topics));
+  }
+
+  RecordingEvent ImuEvent(const BagMessage& message) const {
+    const ImuSample sample = ToImuSample(Deserialize<sensor_msgs::Imu>(message));
+    return {RecordingEvent::Kind::kImu, sample.t_ns, sample};
+  }
+
+  RecordingEvent ImageEvent(const BagMessage& message) {
+    ros::Time stamp;
+    if (compressed_) {
+      compressed_image_ = Deserialize<sensor_msgs::CompressedImage>(message);
+      stamp = compressed_image_.header.stamp;
+    } else {
+      raw_image_ = Deserialize<sensor_msgs::Image>(message);
+      stamp = raw_image_.header.stamp;
+    }
+    return {RecordingEvent::Kind::kImage, ToNanoseconds(stamp), {}};
+  }
+
+  std::string file_;
+  std::unique_ptr<BagMessageSource> source_;
+  std::string image_topic_;
+  std::string imu_topic_;
+  bool compressed_ = false;
+  sensor_msgs::Image raw_image_;
+  sensor_msgs::CompressedImage compressed_image_;
+  int64_t unreadable_images_ = 0;
+  int64_t malformed_ = 0;
+  std::string first_unreadable_;
+};
+
+}  // namespace
+
+std::unique_ptr<Recording> OpenBag(const std::string& file, const std::string& image_topic,
+                                   const std::string& imu_topic) {
+  return std::make_unique<BagRecording>(file, image_topic, imu_topic);
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs the odometry over a recording without a ROS master, as fast as the machine goes.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/config.h"
+#include "common/progress_display.h"
+#include "common/stopwatch.h"
+#include "offline/asl_recording.h"
+#include "offline/bag_recording.h"
+#include "offline/odometry_pipeline.h"
+#include "offline/result_files.h"
+
+namespace plm_vins {
+namespace {
+
+struct Arguments {
+  std::string config;
+  std::string bag;
+  std::string asl;
+  std::string output;
+  double start = 0;                                           // [s]
+  double duration = std::numeric_limits<double>::infinity();  // [s]
+  std::vector<std::string> overrides;                         // "key=value"
+  bool one_thread = false;
+};
+
+// The message of what is wrong with the argument of --set; empty where nothing is.
+std::string CheckOverride(const std::string& text) {
+  const size_t equals = text.find('=');
+  const bool valid = equals != 0 && equals != std::string::npos;
+  return valid ? "" : "expected key=value instead of " + text;
+}
+
+// The same of a time span.
+std::string CheckSeconds(const std::string& text) {
+  char* end = nullptr;
+  const double seconds = std::strtod(text.c_str(), &end);
+  const bool is_number = end != text.c_str() && *end == '\0';
+  const bool valid = is_number && std::isfinite(seconds) && seconds >= 0;
+  return valid ? "" : "expected seconds, zero or more, instead of " + text;
+}
+
+void Declare(Arguments* arguments, CLI::App* app) {
+  app->add_option("--config", arguments->config, "configuration file (VINS YAML)")->required();
+  auto* source = app->add_option_group("input");
+  source->add_option("--bag", arguments->bag, "ROS bag");
+  source->add_option("--asl", arguments->asl, "folder in ASL format (EuRoC)");
+  source->require_option(1);
+  app->add_option("--output", arguments->output, "folder for the results, made where missing")
+      ->required();
+  app->add_option("--start", arguments->start, "skip this much after the first image [s]")
+      ->check(CheckSeconds);
+  app->add_option("--duration", arguments->duration, "process this much [s]")->check(CheckSeconds);
+  app->add_option("--set", arguments->overrides, "replace a value of the configuration: key=value")
+      ->allow_extra_args(false)
+      ->check(CheckOverride);
+  app->add_flag("--one-thread", arguments->one_thread,
+                "front end and back end in turn; the results are the same");
+}
+
+std::map<std::string, std::string> ParseOverrides(const std::vector<std::string>& texts) {
+  std::map<std::string, std::string> overrides;
+  for (const std::string& text : texts) {
+    const size_t equals = text.find('=');
+    overrides[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+  return overrides;
+}
+
+std::unique_ptr<Recording> Open(const Arguments& arguments, const SensorConfig& sensor) {
+  if (!arguments.asl.empty()) return OpenAslFolder(arguments.asl);
+  return OpenBag(arguments.bag, sensor.image_topic, sensor.imu_topic);
+}
+
+void Warn(const DropCounts& drops) {
+  for (const DropCount& drop : drops) {
+    if (drop.count > 0) std::fprintf(stderr, "warning: %s\n", ToString(drop).c_str());
+  }
+}
+
+std::string WhyNone(const RunSummary::Run& run, const RunSummary& summary) {
+  if (!summary.last_reason().empty()) return summary.last_reason();
+  const bool dropped = std::any_of(run.drops.begin(), run.drops.end(),
+                                   [](const DropCount& drop) { return drop.count > 0; });
+  return dropped ? "none was usable, see the warnings" : "none between --start and --duration";
+}
+
+// Says how it went. Exit code: 0 where there is a trajectory.
+int Report(const RunSummary::Run& run, const ResultFiles& results) {
+  const RunSummary& summary = results.summary();
+  Warn(run.drops);
+  if (summary.poses() == 0) {
+    std::fprintf(stderr, "run_offline: no trajectory from %" PRId64 " images: %s\n", run.images,
+                 WhyNone(run, summary).c_str());
+    return 1;
+  }
+  std::fprintf(stderr, "%" PRId64 " images, %" PRId64 " poses in %.1f s; results in %s\n",
+               run.images, summary.poses(), run.wall_time, results.folder().c_str());
+  return 0;
+}
+
+int Run(const Arguments& arguments) {
+  const Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
+  const std::unique_ptr<Recording> recording = Open(arguments, config.sensor);
+  ResultFiles results(arguments.output);
+  ProgressDisplay progress(recording->end_ns(), arguments.duration);
+  OdometryPipeline pipeline(config);
+  const Stopwatch stopwatch;
+  pipeline.Run(
+      recording.get(), RecordingInterval(arguments.start, arguments.duration),
+      arguments.one_thread ? OdometryPipeline::Threads::kOne : OdometryPipeline::Threads::kTwo,
+      [&](const PipelineFrame& frame) {
+        results.Add(frame);
+        progress.Update(frame.output.t_ns);
+      });
+  progress.Finish();
+
+  RunSummary::Run run;
+  run.input = recording->name();
+  run.images = pipeline.images();
+  run.first_image_ns = pipeline.first_image_ns();
+  run.wall_time = 1e-3 * stopwatch.Milliseconds();
+  run.drops = recording->problems();
+  Append(pipeline.drops(), &run.drops);
+  results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
+  results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());
+  results.Finish(run, config);
+  return Report(run, results);
+}
+
+}  // namespace
+}  // namespace plm_vins
+
+int main(int argc, char** argv) {
+  CLI::App app("Visual-inertial odometry over a recording");
+  plm_vins::Arguments arguments;
+  plm_vins::Declare(&arguments, &app);
+  try {
+    app.parse(argc, argv);
+    return plm_vins::Run(arguments);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "run_offline: %s (--help lists the options)\n", error.what());
+  } catch (const plm_vins::ConfigError& error) {
+    for (const std::string& problem : error.problems()) {
+      std::fprintf(stderr, "run_offline: %s\n", problem.c_str());
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "run_offline: %s\n", error.what());
+  }
+  return 1;
+}

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline/bag_recording.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <std_msgs/Bool.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "common/ros/msg_conversion.h"
+#include "test/testing/temporary_folder.h"
+#include "test/offline/recording_contents.h"
+
+namespace plm_vins {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::MessageOf;
+using testing::ReadAll;
+using testing::RecordingContents;
+
+constexpr int64_t kStart = 1'500'000'000'000'000'000;
+constexpr int64_t kStep = 10'000'000;  // IMU at 100 Hz, every fifth time an image
+constexpr int kSamples = 200;
+constexpr int kImages = 40;
+
+ros::Time Stamp(int i) { return ToRosTime(kStart + i * kStep); }
+
+// A picture that does not compress to nothing, and that tells its number in the first pixel.
+cv::Mat Picture(int i) {
+  cv::Mat picture(48, 64, CV_8UC1);
+  cv::randu(picture, 0, 256);
+  picture.at<uint8_t>(0, 0) = static_cast<uint8_t>(i);
+  return picture;
+}
+
+sensor_msgs::Image RawImage(int i) {
+  const cv::Mat picture = Picture(i);
+  sensor_msgs::Image image;
+  image.header.stamp = Stamp(i);
+  image.encoding = "mono8";
+  image.width = picture.cols;
+  image.height = picture.rows;
+  image.step = picture.cols;
+  image.data.assign(picture.data, picture.data + picture.total());
+  return image;
+}
+
+sensor_msgs::CompressedImage CompressedImage(int i) {
+  sensor_msgs::CompressedImage image;
+  image.header.stamp = Stamp(i);
+  image.format = "mono8; png compressed";
+  cv::imencode(".png", Picture(i), image.data);
+  return image;
+}
+
+sensor_msgs::Imu Imu(int i) {
+  sensor_msgs::Imu imu;
+  imu.header.stamp = Stamp(i);
+  imu.angular_velocity.x = i;
+  imu.linear_acceleration.z = 9.81;
+  return imu;
+}
+
+class BagRecording : public ::testing::Test {
+ protected:
+  template <typename MakeImage>
+  void WriteBag(const std::string& image_topic, const MakeImage& make_image,
+                rosbag::CompressionType compression = rosbag::compression::Uncompressed) {
+    rosbag::Bag bag(file_, rosbag::bagmode::Write);
+    bag.setCompression(compression);
+    bag.setChunkThreshold(20000);  // several chunks in a small bag
+    bag.write("/other", Stamp(0), std_msgs::Bool());
+    for (int i = 0; i < kSamples; ++i) {
+      bag.write("/imu0", Stamp(i), Imu(i));
+      if (i % 5 == 0) bag.write(image_topic, Stamp(i), make_image(i));
+    }
+  }
+
+  void Truncate(double share) {
+    const auto size = static_cast<double>(std::filesystem::file_size(file_));
+    std::filesystem::resize_file(file_, static_cast<uintmax_t>(share * size));
+  }
+
+  RecordingContents Read() { return ReadAll(OpenBag(file_, "/cam0/image_raw", "/imu0").get()); }
+
+  void ExpectComplete(const RecordingContents& contents) {
+    EXPECT_EQ(contents.imu.size(), static_cast<size_t>(kSamples));
+    ASSERT_EQ(contents.images.size(), static_cast<size_t>(kImages));
+    for (int i = 0; i < kImages; ++i) EXPECT_EQ(contents.images[i].at<uint8_t>(0, 0), 5 * i);
+    EXPECT_EQ(contents.stamps.front(), kStart);
+    EXPECT_EQ(contents.stamps.back(), kStart + (kSamples - 1) * kStep);
+  }
+
+  // What is left is in order and whole; nothing but the end is missing.
+  void ExpectBeginning(const RecordingContents& contents, double least_share) {
+    EXPECT_EQ(contents.problems.at("bag_damaged"), 1);
+    EXPECT_GE(static_cast<double>(contents.imu.size()), least_share * kSamples);
+    EXPECT_LT(contents.imu.size(), static_cast<size_t>(kSamples));
+    EXPECT_NEAR(5.0 * static_cast<double>(contents.images.size()),
+                static_cast<double>(contents.imu.size()), 5);
+    for (size_t i = 0; i < contents.imu.size(); ++i) EXPECT_EQ(contents.imu[i].gyro.x(), i);
+    for (size_t i = 0; i < contents.images.size(); ++i) {
+      EXPECT_EQ(contents.images[i].at<uint8_t>(0, 0), 5 * i);
+    }
+  }
+
+  testing::TemporaryFolder folder_;
+  std::string file_ = folder_.File("test.bag");
+};
+
+TEST_F(BagRecording, ReadsRawImages) {
+  WriteBag("/cam0/image_raw", RawImage);
+  const auto recording = OpenBag(file_, "/cam0/image_raw", "/imu0");
+  EXPECT_EQ(recording->end_ns(), kStart + (kSamples - 1) * kStep);
+  const RecordingContents contents = ReadAll(recording.get());
+  ExpectComplete(contents);
+  EXPECT_EQ(contents.problems.at("bag_damaged"), 0);
+}
+
+TEST_F(BagRecording, ReadsCompressedImagesBesideTheTopic) {
+  WriteBag("/cam0/image_raw/compressed", CompressedImage);
+  ExpectComplete(Read());
+}
+
+TEST_F(BagRecording, ReadsCompressedImagesOnTheTopicItself) {
+  WriteBag("/cam0/image_raw", CompressedImage);
+  ExpectComplete(Read());
+}
+
+TEST_F(BagRecording, NamesTheTopicsThatThereAre) {
+  WriteBag("/camera/left", RawImage);
+  EXPECT_THAT(MessageOf([&] { Read(); }),
+              AllOf(HasSubstr(file_ + " has no topic /cam0/image_raw (sensor_msgs/Image"),
+                    HasSubstr("/camera/left (sensor_msgs/Image)"),
+                    HasSubstr("/imu0 (sensor_msgs/Imu)"), HasSubstr("/other (std_msgs/Bool)")));
+}
+
+TEST_F(BagRecording, RefusesATopicOfAnotherType) {
+  WriteBag("/cam0/image_raw", RawImage);
+  EXPECT_THAT(MessageOf([&] { OpenBag(file_, "/cam0/image_raw", "/other"); }),
+              HasSubstr("no topic /other (sensor_msgs/Imu)"));
+}
+
+TEST_F(BagRecording, UsesTheBeginningOfATruncatedBag) {
+  WriteBag("/cam0/image_raw", RawImage);
+  Truncate(0.7);
+  ExpectBeginning(Read(), 0.6);
+}
+
+TEST_F(BagRecording, UsesTheBeginningOfATruncatedCompressedBag) {
+  for (const auto compression : {rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    WriteBag("/cam0/image_raw", RawImage, compression);
+    ExpectComplete(Read());
+    Truncate(0.7);
+    ExpectBeginning(Read(), 0.5);
+  }
+}
+
+TEST_F(BagRecording, ReadsABagThatWasNeverClosed) {
+  WriteBag("/cam0/image_raw", RawImage);
+  rosbag::Bag bag(folder_.File("open.bag"), rosbag::bagmode::Write);
+  for (int i = 0; i < kSamples; ++i) {
+    bag.write("/imu0", Stamp(i), Imu(i));
+    if (i % 5 == 0) bag.write("/cam0/image_raw", Stamp(i), RawImage(i));
+  }
+  file_ = folder_.File("copy.bag");  // as after a crash of the recorder
+  std::filesystem::copy_file(folder_.File("open.bag"), file_);
+  ExpectBeginning(Read(), 0.5);
+}
+
+TEST_F(BagRecording, EveryTruncationIsReadOrRefusedWithoutACrash) {
+  WriteBag("/cam0/image_raw", RawImage);
+  for (double share = 0.99; share > 0; share -= 0.07) {
+    Truncate(share);
+    const std::string message = MessageOf([&] { Read(); });
+    EXPECT_THAT(message, AnyOf(IsEmpty(), HasSubstr(file_)));
+  }
+}
+
+TEST_F(BagRecording, RefusesWhatIsNoBag) {
+  folder_.Write("test.bag", "PNG or whatever\n");
+  EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("is not a ROS bag"));
+  folder_.Write("test.bag", "");
+  EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("is not a ROS bag"));
+  file_ = folder_.File("missing.bag");
+  EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("no such file"));
+}
+
+TEST_F(BagRecording, CountsImagesOfUnknownEncodingAndGoesOn) {
+  WriteBag("/cam0/image_raw", [](int i) {
+    sensor_msgs::Image image = RawImage(i);
+    if (i == 10) image.encoding = "secret";
+    return image;
+  });
+  const auto recording = OpenBag(file_, "/cam0/image_raw", "/imu0");
+  const RecordingContents contents = ReadAll(recording.get());
+  EXPECT_EQ(contents.images.size(), static_cast<size_t>(kImages - 1));
+  EXPECT_EQ(contents.problems.at("images_unreadable"), 1);
+}
+
+}  // namespace
+}  // namespace plm_vins

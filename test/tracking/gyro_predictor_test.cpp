@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/gyro_predictor.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "common/so3.h"
+#include "test/testing/numeric_jacobian.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int64_t kStart = 1'403'636'579'000'000'000;  // as large as real stamps are
+constexpr int64_t kPeriod = 5'000'000;                 // 200 Hz
+const Rigid3d T_B_C(SO3Exp({0.4, -1.3, 0.8}), {0.1, 0.2, 0.3});
+
+ImuSample Sample(int64_t t_ns, const Eigen::Vector3d& gyro) {
+  return {t_ns, gyro, Eigen::Vector3d::Zero()};
+}
+
+// Samples of `rate`(seconds since start) over `seconds`.
+template <typename Rate>
+void Feed(GyroPredictor* predictor, double seconds, const Rate& rate) {
+  for (int64_t t = 0; t <= ToNanoseconds(seconds); t += kPeriod) {
+    predictor->AddImu(Sample(kStart + t, rate(ToSeconds(t))));
+  }
+}
+
+TEST(GyroPredictor, ConstantRateBetweenArbitraryTimes) {
+  const Eigen::Vector3d rate(0.5, -1.0, 2.0);
+  GyroPredictor predictor(T_B_C, 0);
+  Feed(&predictor, 0.5, [&](double) { return rate; });
+  const int64_t t0 = kStart + 12'345'678, t1 = t0 + 50'000'000;
+  // A direction fixed in the world: d_C1 = R_C_B Exp(-rate dt) R_B_C d_C0.
+  const Eigen::Quaterniond R_B_C = T_B_C.rotation;
+  const Eigen::Quaterniond expected = R_B_C.conjugate() * SO3Exp(-0.05 * rate) * R_B_C;
+  const auto rotation = predictor.Rotation(t0, t1);
+  ASSERT_TRUE(rotation);
+  EXPECT_LT(rotation->angularDistance(expected), 1e-9);
+}
+
+TEST(GyroPredictor, ChangingRateAboutOneAxisIntegratesExactly) {
+  GyroPredictor predictor(Rigid3d(), 0);
+  Feed(&predictor, 0.5, [](double t) { return Eigen::Vector3d(0, 0, 3 * t); });
+  const auto rotation = predictor.Rotation(kStart + 101'000'000, kStart + 203'000'000);
+  ASSERT_TRUE(rotation);
+  const double angle = 1.5 * (0.203 * 0.203 - 0.101 * 0.101);
+  EXPECT_MATRIX_NEAR(SO3Log(*rotation), Eigen::Vector3d(0, 0, -angle), 1e-9);
+}
+
+TEST(GyroPredictor, TimeOffsetShiftsTheSamples) {
+  constexpr double kOffset = 0.05;
+  GyroPredictor predictor(Rigid3d(), kOffset);
+  Feed(&predictor, 0.5, [](double t) { return Eigen::Vector3d(0, 0, 3 * t); });
+  const auto rotation = predictor.Rotation(kStart + 100'000'000, kStart + 200'000'000);
+  ASSERT_TRUE(rotation);
+  EXPECT_NEAR(SO3Log(*rotation).z(), -1.5 * (0.25 * 0.25 - 0.15 * 0.15), 1e-9);
+}
+
+TEST(GyroPredictor, CoversUpToTheLastSample) {
+  GyroPredictor predictor(Rigid3d(), 0.1);
+  EXPECT_FALSE(predictor.Covers(kStart));
+  predictor.AddImu(Sample(kStart + 100'000'000, Eigen::Vector3d::Zero()));
+  EXPECT_TRUE(predictor.Covers(kStart));
+  EXPECT_FALSE(predictor.Covers(kStart + 1));
+}
+
+TEST(GyroPredictor, RefusesIntervalsItDoesNotCover) {
+  GyroPredictor predictor(Rigid3d(), 0);
+  EXPECT_FALSE(predictor.Rotation(kStart, kStart));
+  Feed(&predictor, 0.2, [](double) { return Eigen::Vector3d::Zero(); });
+  EXPECT_FALSE(predictor.Rotation(kStart - 1, kStart + 1));
+  EXPECT_FALSE(predictor.Rotation(kStart, kStart + 200'000'001));
+  EXPECT_FALSE(predictor.Rotation(kStart + 2, kStart + 1));
+  EXPECT_TRUE(predictor.Rotation(kStart, kStart + 200'000'000));
+  EXPECT_TRUE(predictor.Rotation(kStart + 100, kStart + 100));
+}
+
+TEST(GyroPredictor, RefusesAGapInside) {
+  GyroPredictor predictor(Rigid3d(), 0);
+  Feed(&predictor, 0.1, [](double) { return Eigen::Vector3d::Zero(); });
+  predictor.AddImu(Sample(kStart + 300'000'000, Eigen::Vector3d::Zero()));
+  predictor.AddImu(Sample(kStart + 305'000'000, Eigen::Vector3d::Zero()));
+  EXPECT_TRUE(predictor.Rotation(kStart, kStart + 90'000'000));
+  EXPECT_FALSE(predictor.Rotation(kStart, kStart + 200'000'000));
+  EXPECT_FALSE(predictor.Rotation(kStart + 90'000'000, kStart + 305'000'000));
+  EXPECT_TRUE(predictor.Rotation(kStart + 300'000'000, kStart + 305'000'000));
+}
+
+TEST(GyroPredictor, IgnoresBadSamples) {
+  const Eigen::Vector3d rate(0.3, 0.2, 0.1);
+  GyroPredictor predictor(Rigid3d(), 0);
+  for (int64_t t = kStart; t <= kStart + 100'000'000; t += kPeriod) {
+    predictor.AddImu(Sample(t, rate));
+    predictor.AddImu(Sample(t, 100 * rate));            // repeated stamp
+    predictor.AddImu(Sample(t - kPeriod, 100 * rate));  // backwards
+    predictor.AddImu(
+        Sample(t + 1, Eigen::Vector3d(0, std::numeric_limits<double>::quiet_NaN(), 0)));
+  }
+  const auto rotation = predictor.Rotation(kStart, kStart + 100'000'000);
+  ASSERT_TRUE(rotation);
+  EXPECT_MATRIX_NEAR(SO3Log(*rotation), -0.1 * rate, 1e-12);
+}
+
+TEST(GyroPredictor, ForgetsWhatIsOld) {
+  GyroPredictor predictor(Rigid3d(), 0);
+  Feed(&predictor, 20, [](double) { return Eigen::Vector3d::Zero(); });
+  EXPECT_FALSE(predictor.Rotation(kStart, kStart + 50'000'000));
+  EXPECT_TRUE(predictor.Rotation(kStart + 19'000'000'000, kStart + 20'000'000'000));
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/image_queue.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <vector>
+
+#include "common/so3.h"
+#include "test/testing/still_scene.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::StillConfig;
+using testing::StillImu;
+using testing::StillPicture;
+
+constexpr int64_t kMillisecond = 1'000'000;
+constexpr int64_t kStart = 1403636579763555584;
+
+class ImageQueueTest : public ::testing::Test {
+ protected:
+  void AddImage(int milliseconds) { AddImage(milliseconds, picture_); }
+  void AddImage(int milliseconds, const cv::Mat& picture) {
+    queue_.AddImage({kStart + milliseconds * kMillisecond, picture});
+  }
+
+  // IMU samples every 5 ms.
+  void AddImu(int from, int to, const Eigen::Vector3d& gyro = Eigen::Vector3d::Zero()) {
+    for (int t = from; t <= to; t += 5) {
+      ImuSample sample = StillImu(kStart + t * kMillisecond);
+      sample.gyro = gyro;
+      queue_.AddImu(sample);
+    }
+  }
+
+  // Stamps of what is ready [ms].
+  std::vector<int> Pop() {
+    return Take([this] { return queue_.Pop(); });
+  }
+  std::vector<int> Flush() {
+    return Take([this] { return queue_.Flush(); });
+  }
+
+  template <typename Next>
+  std::vector<int> Take(const Next& next) {
+    std::vector<int> stamps;
+    while (const auto ready = next()) {
+      stamps.push_back(static_cast<int>((ready->image.t_ns - kStart) / kMillisecond));
+      last_ = *ready;
+    }
+    return stamps;
+  }
+
+  const cv::Mat picture_ = StillPicture();
+  ImageQueue queue_{StillConfig()};
+  ReadyImage last_;
+};
+
+TEST_F(ImageQueueTest, AnImageWaitsForTheGyro) {
+  AddImu(-10, 40);
+  AddImage(0);
+  EXPECT_EQ(Pop(), (std::vector<int>{0}));
+  EXPECT_FALSE(last_.R_C1_C0) << "there is no image before";
+  AddImage(50);
+  EXPECT_TRUE(Pop().empty());
+  AddImu(45, 50);
+  EXPECT_EQ(Pop(), (std::vector<int>{50}));
+  EXPECT_TRUE(last_.R_C1_C0);
+  EXPECT_EQ(queue_.counts().without_gyro, 0);
+}
+
+TEST_F(ImageQueueTest, TellsTheTurnSinceTheImageBefore) {
+  AddImu(-10, 100, {0, 0, 1});
+  AddImage(0);
+  AddImage(50);
+  EXPECT_EQ(Pop().size(), 2u);
+  const Eigen::Vector3d turn = SO3Log(*last_.R_C1_C0);
+  EXPECT_NEAR(turn.z(), -0.05, 1e-9) << "the image turns against the camera";
+  EXPECT_NEAR(turn.norm(), 0.05, 1e-9);
+}
+
+TEST_F(ImageQueueTest, AnImageWaitsForTwoNewerOnesAtMost) {
+  AddImage(0);
+  AddImage(50);
+  EXPECT_TRUE(Pop().empty());
+  AddImage(100);
+  EXPECT_EQ(Pop(), (std::vector<int>{0}));
+  EXPECT_FALSE(queue_.empty());
+  EXPECT_EQ(Flush(), (std::vector<int>{50, 100}));
+  EXPECT_TRUE(queue_.empty());
+  EXPECT_EQ(queue_.counts().without_gyro, 2);
+}
+
+TEST_F(ImageQueueTest, DropsStampsThatRepeatOrGoBack) {
+  for (const int t : {0, 50, 50, 20, 100}) AddImage(t);
+  EXPECT_EQ(Flush(), (std::vector<int>{0, 50, 100}));
+  EXPECT_EQ(queue_.counts().images, 5);
+  EXPECT_EQ(queue_.counts().out_of_order, 2);
+  EXPECT_EQ(queue_.counts().restarts, 0);
+}
+
+TEST_F(ImageQueueTest, BeginsAnewWhenTheRecordingDoes) {
+  for (int t = 5000; t < 5500; t += 50) AddImage(t);
+  EXPECT_EQ(Flush().size(), 10u);
+  EXPECT_FALSE(last_.restart);
+  for (int t = 0; t < 550; t += 50) AddImage(t);  // ten are refused, the next begins anew
+  EXPECT_EQ(Flush(), (std::vector<int>{500}));
+  EXPECT_TRUE(last_.restart);
+  EXPECT_EQ(queue_.counts().restarts, 1);
+  AddImu(500, 600);  // the gyro's history begins anew, too
+  AddImage(550);
+  EXPECT_EQ(Pop(), (std::vector<int>{550}));
+  EXPECT_FALSE(last_.restart);
+  EXPECT_TRUE(last_.R_C1_C0);
+}
+
+TEST_F(ImageQueueTest, DropsImagesOfAnotherSizeAndSaysWhichSize) {
+  AddImage(0);
+  AddImage(50, StillPicture({160, 120}));
+  AddImage(100, cv::Mat(240, 320, CV_8UC3));
+  AddImage(150, cv::Mat());
+  AddImage(200);
+  EXPECT_EQ(Flush(), (std::vector<int>{0, 200}));
+  EXPECT_EQ(queue_.counts().wrong_format, 3);
+  EXPECT_NE(queue_.counts().wrong_format_detail.find("160"), std::string::npos)
+      << queue_.counts().wrong_format_detail;
+}
+
+TEST_F(ImageQueueTest, CountsGapsButLosesNothingByThem) {
+  for (const int t : {0, 50, 1200, 1250}) AddImage(t);
+  EXPECT_EQ(Flush().size(), 4u);
+  EXPECT_EQ(queue_.counts().gaps, 1);
+}
+
+TEST(ImageQueue, ThinsToTheRateButHandsOutAll) {
+  Config config = StillConfig();
+  config.publish_rate = 10;
+  ImageQueue queue(config);
+  std::vector<bool> published;
+  for (int i = 0; i < 10; ++i) {
+    queue.AddImage({kStart + i * 50 * kMillisecond, StillPicture()});
+    published.push_back(queue.Flush()->publish);
+  }
+  EXPECT_TRUE(published[0]);
+  for (int i = 3; i < 10; ++i) EXPECT_NE(published[i], published[i - 1]) << i;
+}
+
+// The gyro says nothing about the images while the camera's rotation is unknown.
+TEST(ImageQueue, DoesWithoutTheGyroWhereTheCameraRotationIsUnknown) {
+  Config config = StillConfig();
+  config.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kCalibrateRotation;
+  ImageQueue queue(config);
+  for (int t = -50; t <= 50; t += 5) queue.AddImu(StillImu(kStart + t * kMillisecond));
+  for (const int t : {0, 50, 100}) {
+    queue.AddImage({kStart + t * kMillisecond, StillPicture()});
+    const auto ready = queue.Pop();
+    ASSERT_TRUE(ready) << "waits for the gyro";
+    EXPECT_FALSE(ready->R_C1_C0);
+  }
+  EXPECT_EQ(queue.counts().without_gyro, 0);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/geometry/line_triangulation.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "common/so3.h"
+#include "simulator/random.h"
+#include "test/testing/numeric_jacobian.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Result = LineTriangulationResult;
+
+constexpr double kNoise = 1.0 / 460.0;
+
+const Vector3d kAlong = Vector3d::UnitX();  // of the line of most tests
+const Vector3d kAcross = Vector3d::UnitY();
+const Vector3d kTowards = Vector3d::UnitZ();
+
+struct Segment {
+  Vector3d start{-1, 0, 4}, end{1, 0, 4};  // four metres ahead of a camera at the origin
+};
+
+// What a camera sees of a segment, with `noise` at its ends.
+LineSighting See(const Segment& segment, const Rigid3d& T_W_C, double noise = 0,
+                 simulator::Random* random = nullptr) {
+  const auto see = [&](const Vector3d& p_W) -> Vector2d {
+    const Vector2d xy = (T_W_C.Inverse() * p_W).hnormalized();
+    if (random == nullptr) return xy;
+    const double u = random->Normal(), v = random->Normal();
+    return xy + noise * Vector2d(u, v);
+  };
+  return {T_W_C, {see(segment.start), see(segment.end)}};
+}
+
+// Ten views from cameras that move by `travel` on the whole and turn a little.
+std::vector<LineSighting> SeeOnTheWay(const Vector3d& travel, double noise, uint64_t seed,
+                                      const Segment& segment = {}) {
+  constexpr int kViews = 10;
+  simulator::Random random(seed);
+  std::vector<LineSighting> sightings;
+  for (int i = 0; i < kViews; ++i) {
+    const Rigid3d T_W_C(SO3Exp(0.05 * random.NormalVector3()), i / (kViews - 1.0) * travel);
+    sightings.push_back(See(segment, T_W_C, noise, &random));
+  }
+  return sightings;
+}
+
+// Distance of a point of the world from the line found in the first camera.
+double Distance(const Vector3d& p_W, const TriangulatedLine& found,
+                const std::vector<LineSighting>& sightings) {
+  const PluckerLine line_W = sightings.front().T_W_C * ToPlucker(found.line.data());
+  return (p_W.cross(line_W.direction) - line_W.moment).norm() / line_W.direction.norm();
+}
+
+LineTriangulationOptions WithNoise(double noise) {
+  LineTriangulationOptions options;
+  options.noise = noise;
+  return options;
+}
+
+Result ResultOf(const std::vector<LineSighting>& sightings, double noise = kNoise) {
+  return TriangulateLine(WithNoise(noise), sightings).result;
+}
+
+// How many of `trials` noisy flights of the kind give a line.
+int CountAccepted(const Vector3d& travel, int trials) {
+  int accepted = 0;
+  for (int seed = 1; seed <= trials; ++seed) {
+    accepted += ResultOf(SeeOnTheWay(travel, kNoise, seed)) == Result::kOk;
+  }
+  return accepted;
+}
+
+TEST(TriangulateLine, IsExactWithoutNoise) {
+  simulator::Random random(1);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Rigid3d T_W_A(SO3Exp(random.NormalVector3()), random.NormalVector3());
+    const auto point = [&] {
+      const double x = random.Normal(), y = random.Normal();
+      return T_W_A * Vector3d(x, y, random.Uniform(4, 8));
+    };
+    const Segment segment{point(), point()};
+    std::vector<LineSighting> sightings;
+    for (int i = 0; i < 5; ++i) {
+      const Rigid3d T_A_C(SO3Exp(0.1 * random.NormalVector3()), 0.5 * random.NormalVector3());
+      sightings.push_back(See(segment, T_W_A * T_A_C));
+    }
+    const TriangulatedLine found = TriangulateLine(WithNoise(1e-4), sightings);
+    ASSERT_EQ(found.result, Result::kOk) << trial;
+    EXPECT_LT(Distance(segment.start, found, sightings), 1e-5);
+    EXPECT_LT(Distance(segment.end, found, sightings), 1e-5);
+  }
+}
+
+TEST(TriangulateLine, ViewsMayShowDifferentPartsEitherWayRound) {
+  const Segment whole{{-2, 0, 4}, {2, 1, 5}};
+  const auto part = [&](double from, double to) -> Segment {
+    return {whole.start + from * (whole.end - whole.start),
+            whole.start + to * (whole.end - whole.start)};
+  };
+  const std::vector<LineSighting> sightings = {
+      See(part(0.0, 0.4), {SO3Exp({0, 0, 0}), {0, 0, 0}}),
+      See(part(0.9, 0.5), {SO3Exp({0, 0.1, 0}), {0, 0.5, 0}}),
+      See(part(0.2, 0.3), {SO3Exp({0.1, 0, 0}), {0, 1, 0}}),
+  };
+  const TriangulatedLine found = TriangulateLine(WithNoise(1e-4), sightings);
+  ASSERT_EQ(found.result, Result::kOk);
+  EXPECT_LT(Distance(whole.start, found, sightings), 1e-6);
+  EXPECT_LT(Distance(whole.end, found, sightings), 1e-6);
+}
+
+// The error is the one that the propagation of the noise predicts: no estimator does better.
+TEST(TriangulateLine, NoiseCostsWhatItMust) {
+  constexpr int kTrials = 400;
+  double nees = 0;
+  for (int seed = 1; seed <= kTrials; ++seed) {
+    const auto sightings = SeeOnTheWay({0.2, 0.8, 0.1}, kNoise, seed);
+    const TriangulatedLine found = TriangulateLine(WithNoise(kNoise), sightings);
+    ASSERT_EQ(found.result, Result::kOk);
+    const auto fit = EvaluateLine(sightings, kNoise, found.line);
+    ASSERT_TRUE(fit);
+    const Rigid3d T_C0_W = sightings.front().T_W_C.Inverse();
+    const OrthonormalLine truth =
+        ToOrthonormal(T_C0_W * LineThrough(Segment().start, Segment().end));
+    Eigen::Vector4d error;
+    LineMinus(truth.data(), found.line.data(), error.data());
+    nees += error.dot(fit->information * error) / kTrials;
+  }
+  EXPECT_NEAR(nees, 4.0, 0.6);  // four standard deviations of the mean
+}
+
+TEST(TriangulateLine, NeedsTwoViews) {
+  EXPECT_EQ(ResultOf({}), Result::kDegenerate);
+  EXPECT_EQ(ResultOf({See({}, Rigid3d())}), Result::kDegenerate);
+  EXPECT_EQ(ResultOf({See({}, Rigid3d()), See({}, {SO3Exp({0, 0, 0}), kAcross})}), Result::kOk);
+}
+
+// The same view again and again, turns about the camera, and motions in the plane of camera and
+// line: exactly, where a division by zero threatens.
+TEST(TriangulateLine, RefusesExactDegeneracy) {
+  for (const Vector3d& travel :
+       {Vector3d(0, 0, 0), kAlong, kTowards, Vector3d(kAlong + kTowards), Vector3d(-kAlong)}) {
+    for (const bool turns : {false, true}) {
+      std::vector<LineSighting> sightings;
+      for (int i = 0; i < 4; ++i) {
+        const Vector3d turn = turns ? Vector3d(0.02 * i, -0.01 * i, 0.03 * i) : Vector3d(0, 0, 0);
+        sightings.push_back(See({}, {SO3Exp(turn), 0.2 * i * travel}));
+      }
+      for (const double noise : {1e-6, kNoise}) {
+        EXPECT_EQ(ResultOf(sightings, noise), Result::kDegenerate)
+            << travel.transpose() << (turns ? " with turns" : "");
+      }
+    }
+  }
+}
+
+// Noise makes up angles between planes that are one: it must not be taken for depth.
+TEST(TriangulateLine, IsNotFooledByNoiseInDegeneracy) {
+  constexpr int kTrials = 300;
+  EXPECT_EQ(CountAccepted(Vector3d::Zero(), kTrials), 0);
+  EXPECT_LE(CountAccepted(kAlong, kTrials), kTrials / 100);
+  EXPECT_LE(CountAccepted(kTowards, kTrials), kTrials / 100);
+  EXPECT_LE(CountAccepted(kAlong + kTowards, kTrials), kTrials / 100);
+}
+
+TEST(TriangulateLine, AcceptsTheSameTravelAcrossTheLine) {
+  constexpr int kTrials = 300;
+  EXPECT_EQ(CountAccepted(0.5 * kAcross, kTrials), kTrials);
+  EXPECT_EQ(CountAccepted(0.5 * kAcross + kAlong, kTrials), kTrials);
+}
+
+// The planes of short segments turn about the line of sight by noise, more than by parallax.
+TEST(TriangulateLine, AcceptsShortLines) {
+  const Segment segment{{-0.2, 0.1, 4}, {0.1, -0.1, 4.1}};  // 45 pixels
+  for (int seed = 1; seed <= 300; ++seed) {
+    const auto sightings = SeeOnTheWay(0.3 * kAcross, kNoise, seed, segment);
+    EXPECT_EQ(ResultOf(sightings), Result::kOk) << seed;
+  }
+}
+
+TEST(TriangulateLine, WaitsForABaselineThatRisesAboveTheNoise) {
+  // Parallax of the whole travel in units of the noise: 4.6, 460.
+  for (const double noise : {0.1 * kNoise, kNoise}) {
+    EXPECT_EQ(ResultOf(SeeOnTheWay(2 * noise * kAcross, 0, 1), noise), Result::kDegenerate);
+    EXPECT_EQ(ResultOf(SeeOnTheWay(200 * noise * kAcross, 0, 1), noise), Result::kOk);
+  }
+}
+
+TEST(TriangulateLine, RefusesTheSameGeometryWithMoreNoise) {
+  const auto sightings = SeeOnTheWay(0.2 * kAcross, 0, 1);
+  EXPECT_EQ(ResultOf(sightings, 0.3 * kNoise), Result::kOk);
+  EXPECT_EQ(ResultOf(sightings, 10 * kNoise), Result::kDegenerate);
+  // The deviation of the depth is proportional to the noise.
+  LineTriangulationOptions options;
+  const auto is_known = [&](double max_deviation, double noise) {
+    options.max_depth_deviation = max_deviation;
+    options.noise = noise;
+    return TriangulateLine(options, sightings).result == Result::kOk;
+  };
+  double limit = 1e-4;
+  while (!is_known(limit, kNoise)) limit *= 1.01;
+  EXPECT_TRUE(is_known(10.2 * limit, 10 * kNoise));
+  EXPECT_FALSE(is_known(9.8 * limit, 10 * kNoise));
+}
+
+// Of lines just known well enough, the depths are about as good as was asked for.
+TEST(TriangulateLine, KnowsHowGoodItsDepthIs) {
+  constexpr int kTrials = 400;
+  const Vector3d travel = 0.06 * kAcross;
+  LineTriangulationOptions options;
+  while (TriangulateLine(options, SeeOnTheWay(travel, 0, 1)).result == Result::kOk) {
+    options.max_depth_deviation *= 0.99;
+  }
+  const double expected = options.max_depth_deviation;
+  options.max_depth_deviation = 10;
+  std::vector<double> errors;
+  for (int seed = 1; seed <= kTrials; ++seed) {
+    const auto sightings = SeeOnTheWay(travel, kNoise, seed);
+    const TriangulatedLine found = TriangulateLine(options, sightings);
+    const LineEnds ends = EndsOf(ToPlucker(found.line.data()), sightings.front().segment);
+    const double start = (sightings.front().T_W_C.Inverse() * Segment().start).z();
+    // In inverse depth, whose errors are symmetric.
+    errors.push_back(std::abs(start / ends.start.z() - 1));
+  }
+  std::sort(errors.begin(), errors.end());
+  const double deviation = errors[static_cast<size_t>(0.683 * kTrials)];
+  EXPECT_GT(deviation, 0.75 * expected);
+  EXPECT_LT(deviation, 1.33 * expected);
+}
+
+TEST(TriangulateLine, RefusesLinesBehindACamera) {
+  // Vertical lines whose planes meet five metres behind both cameras.
+  const auto upright = [](double x) { return LineSegmentView{{x, -0.3}, {x, 0.3}}; };
+  EXPECT_EQ(ResultOf({{Rigid3d(), upright(-0.1)}, {{SO3Exp({0, 0, 0}), kAlong}, upright(0.1)}}),
+            Result::kBehind);
+  // A third camera looks the other way: the plane through it is right all the same.
+  const Rigid3d turned(SO3Exp({0, M_PI, 0}), 2 * kAcross);
+  EXPECT_EQ(ResultOf({See({}, Rigid3d()), See({}, {SO3Exp({0, 0, 0}), kAcross}), See({}, turned)}),
+            Result::kBehind);
+}
+
+TEST(TriangulateLine, RefusesViewsThatContradictEachOther) {
+  auto sightings = SeeOnTheWay(kAcross, kNoise, 1);
+  EXPECT_EQ(ResultOf(sightings), Result::kOk);
+  // Half of the views show another line, parallel to the first.
+  const Segment other{Segment().start + 0.3 * kAcross, Segment().end + 0.3 * kAcross};
+  for (size_t i = 0; i < sightings.size(); i += 2) {
+    sightings[i] = See(other, sightings[i].T_W_C);
+  }
+  EXPECT_EQ(ResultOf(sightings), Result::kInconsistent);
+}
+
+TEST(TriangulateLine, SurvivesSegmentsWithoutLengthOrNumbers) {
+  const double nan = std::nan("");
+  const auto sightings = SeeOnTheWay(kAcross, kNoise, 1);
+  for (const LineSegmentView& bad :
+       {LineSegmentView{{0.1, 0.2}, {0.1, 0.2}}, LineSegmentView{{nan, 0}, {1, 0}}}) {
+    for (const size_t place : {size_t{0}, size_t{4}}) {
+      auto with_bad = sightings;
+      with_bad[place].segment = bad;
+      const TriangulatedLine found = TriangulateLine(WithNoise(kNoise), with_bad);
+      if (found.result != Result::kOk) continue;
+      for (const double value : found.line) EXPECT_TRUE(std::isfinite(value));
+    }
+    EXPECT_NE(ResultOf(std::vector<LineSighting>(3, {Rigid3d(), bad})), Result::kOk);
+  }
+}
+
+TEST(EndsOf, AreThePointsSeen) {
+  simulator::Random random(1);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Vector3d start(random.Normal(), random.Normal(), random.Uniform(3, 8));
+    const Vector3d end(random.Normal(), random.Normal(), random.Uniform(3, 8));
+    const LineEnds ends = EndsOf(LineThrough(start, end), {start.hnormalized(), end.hnormalized()});
+    EXPECT_MATRIX_NEAR(ends.start, start, 1e-9);
+    EXPECT_MATRIX_NEAR(ends.end, end, 1e-9);
+    EXPECT_TRUE(IsInFront(ends));
+    EXPECT_FALSE(IsInFront({-start, end}));
+    EXPECT_FALSE(IsInFront({start, -end}));
+  }
+}
+
+TEST(EndsOf, DropPerpendicularsInTheImage) {
+  const PluckerLine line = LineThrough({0, 0, 2}, {1, 0, 2});  // y = 0 in the image
+  const LineEnds ends = EndsOf(line, {{0.1, 0.01}, {0.4, 0.01}});
+  EXPECT_MATRIX_NEAR(ends.start, Vector3d(0.2, 0, 2), 1e-9);
+  EXPECT_MATRIX_NEAR(ends.end, Vector3d(0.8, 0, 2), 1e-9);
+}
+
+TEST(IsInFront, IsFalseWithoutNumbers) {
+  const Vector3d seen(0, 0, 2), unknown = Vector3d::Constant(std::nan(""));
+  EXPECT_FALSE(IsInFront({seen, unknown}));
+  EXPECT_FALSE(IsInFront({unknown, seen}));
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/map/keyframe_policy.h"
+
+#include <gtest/gtest.h>
+
+namespace plm_vins {
+namespace {
+
+// Two frames; the newest has `tracked` corners of the first, moved by `parallax`, and `fresh` new
+// ones.
+struct Case {
+  double interval = 0.1;  // [s]
+  int tracked = 100;
+  int fresh = 0;
+  double parallax = 0.0;  // normalised
+};
+
+void AddPoints(int64_t first_id, int count, double x, PointFrame* frame) {
+  for (int i = 0; i < count; ++i) {
+    frame->points.emplace_back();
+    frame->points.back().id = first_id + i;
+    frame->points.back().xy.x() = x;
+  }
+}
+
+bool Keyframe(const Case& c, size_t frame_count = 2) {
+  SlidingWindow window;
+  PointMap points;
+  for (size_t i = 0; i < frame_count; ++i) {
+    WindowFrame frame;
+    frame.state.t_ns = ToNanoseconds(static_cast<double>(i) * c.interval);
+    window.frames.push_back(frame);
+  }
+  PointFrame before, newest;
+  newest.t_ns = window.newest().state.t_ns;
+  AddPoints(0, 150, 0.1, &before);
+  AddPoints(0, c.tracked, 0.1 + c.parallax, &newest);
+  AddPoints(1000, c.fresh, 0, &newest);
+  if (frame_count > 1) points.AddFrame(before, 0);
+  points.AddFrame(newest, 0);
+  return IsKeyframe(KeyframePolicyOptions(), window, points);
+}
+
+TEST(KeyframePolicy, FirstFrameIsOne) { EXPECT_TRUE(Keyframe({}, 1)); }
+
+TEST(KeyframePolicy, ParallaxMakesOne) {
+  EXPECT_FALSE(Keyframe({}));
+  EXPECT_FALSE(Keyframe({0.1, 100, 0, 0.9 * 10 / 460}));
+  EXPECT_TRUE(Keyframe({0.1, 100, 0, 1.1 * 10 / 460}));
+}
+
+TEST(KeyframePolicy, LostTracksMakeOne) {
+  EXPECT_FALSE(Keyframe({0.1, 20}));
+  EXPECT_TRUE(Keyframe({0.1, 19}));
+  EXPECT_FALSE(Keyframe({0.1, 60, 60}));
+  EXPECT_TRUE(Keyframe({0.1, 60, 61}));
+}
+
+TEST(KeyframePolicy, TimeMakesOne) {
+  EXPECT_FALSE(Keyframe({0.95}));
+  EXPECT_TRUE(Keyframe({1.05}));
+}
+
+TEST(KeyframePolicy, BlindImagesAreNone) {
+  EXPECT_FALSE(Keyframe({0.1, 0}));
+  EXPECT_FALSE(Keyframe({1.05, 0}));
+  EXPECT_FALSE(Keyframe({1.05, 9}));
+  EXPECT_TRUE(Keyframe({1.05, 10}));
+  EXPECT_TRUE(Keyframe({3.1, 0}));  // the IMU alone must not be integrated for ever
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/map/point_map.h"
+
+#include <gtest/gtest.h>
+
+#include "common/so3.h"
+#include "simulator/random.h"
+#include "test/testing/numeric_jacobian.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kMinAngle = 0.01;
+
+// Four frames side by side that all look at the same twenty points, without noise.
+class PointMapTest : public ::testing::Test {
+ protected:
+  PointMapTest() {
+    simulator::Random random(1);
+    window_.SetExtrinsic({SO3Exp({0.1, 0.2, -0.1}), {0.05, -0.02, 0.01}});
+    for (int i = 0; i < 20; ++i) {
+      points_W_.emplace_back(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(4, 7));
+    }
+    for (int i = 0; i < 4; ++i) AddFrame(i);
+  }
+
+  static int64_t Stamp(int frame) { return 100 + frame; }
+
+  void AddFrame(int index) {
+    WindowFrame frame;
+    frame.state.t_ns = Stamp(index);
+    const Rigid3d T_W_C(SO3Exp({0, -0.05 * index, 0}), {0.3 * index, 0, 0});
+    frame.state.SetPose(T_W_C * window_.T_B_C().Inverse());
+    window_.frames.push_back(frame);
+    PointFrame points;
+    points.t_ns = Stamp(index);
+    for (size_t id = 0; id < points_W_.size(); ++id) {
+      PointObservation point;
+      point.id = static_cast<int64_t>(id);
+      point.xy = (T_W_C.Inverse() * points_W_[id]).hnormalized();
+      points.points.push_back(point);
+    }
+    map_.AddFrame(points, 0.0);
+  }
+
+  void ExpectAllInPlace() const {
+    for (const auto& [id, landmark] : map_.landmarks()) {
+      ASSERT_TRUE(landmark.triangulated) << id;
+      EXPECT_MATRIX_NEAR(PositionInWorld(landmark, window_), points_W_[id], 1e-6);
+    }
+  }
+
+  PointLandmark& Landmark(int64_t id) { return map_.landmarks().at(id); }
+
+  std::vector<Vector3d> points_W_;
+  SlidingWindow window_;
+  PointMap map_;
+};
+
+TEST_F(PointMapTest, CollectsViewsByTime) {
+  PointFrame frame;
+  frame.t_ns = 200;
+  frame.points.resize(2);
+  frame.points[0].id = 3;
+  frame.points[0].xy = Vector2d(0.1, 0.2);
+  frame.points[0].velocity = Vector2d(1, 2);
+  frame.points[1].id = 77;
+  map_.AddFrame(frame, 0.01);
+  EXPECT_EQ(map_.landmarks().size(), 21u);
+  const PointView& view = Landmark(3).views.back();
+  EXPECT_EQ(Landmark(3).views.size(), 5u);
+  EXPECT_EQ(view.t_ns, 200);
+  EXPECT_EQ(view.bearing.xy, Vector2d(0.1, 0.2));
+  EXPECT_EQ(view.bearing.velocity, Vector2d(1, 2));
+  EXPECT_EQ(view.bearing.cut_time_offset, 0.01);
+  EXPECT_EQ(Landmark(77).host().t_ns, 200);
+  EXPECT_EQ(Landmark(77).id, 77);
+  EXPECT_FALSE(Landmark(77).triangulated);
+}
+
+TEST_F(PointMapTest, TriangulatesInTheHost) {
+  map_.Triangulate(window_, kMinAngle);
+  ExpectAllInPlace();
+  const Vector3d p_C = window_.T_W_C(window_.frames[0]).Inverse() * points_W_[5];
+  EXPECT_MATRIX_NEAR(PointInHost(Landmark(5).coordinates.data()), p_C, 1e-6);
+}
+
+TEST_F(PointMapTest, WaitsForAnAngleBetweenTheRays) {
+  map_.Triangulate(window_, 0.5);
+  for (const auto& [id, landmark] : map_.landmarks()) EXPECT_FALSE(landmark.triangulated);
+}
+
+TEST_F(PointMapTest, HostsPassTheirPointsOn) {
+  map_.Triangulate(window_, kMinAngle);
+  for (const int frame : {0, 2, 1}) {
+    map_.RemoveFrame(window_, Stamp(frame));
+    ExpectAllInPlace();
+  }
+  EXPECT_EQ(Landmark(0).views.size(), 1u);
+  EXPECT_EQ(Landmark(0).host().t_ns, Stamp(3));
+  map_.RemoveFrame(window_, Stamp(3));
+  EXPECT_TRUE(map_.landmarks().empty());
+}
+
+TEST_F(PointMapTest, StartAnewKeepsPlaceAndNewestView) {
+  map_.Triangulate(window_, kMinAngle);
+  Landmark(7).views.pop_back();        // not seen any more
+  MoveHost(window_, 1, &Landmark(8));  // has another host
+  Landmark(8).views.erase(Landmark(8).views.begin());
+  map_.RemoveFrame(window_, -1);  // of no frame: changes nothing
+  const Vector3d departed_W = PositionInWorld(Landmark(7), window_);
+
+  int departures = 0;
+  map_.StartAnew(window_, Stamp(0), [&](const PointLandmark& landmark) {
+    ++departures;
+    EXPECT_EQ(landmark.id, 7);
+    EXPECT_MATRIX_NEAR(PositionInWorld(landmark, window_), departed_W, 1e-12);
+  });
+  EXPECT_EQ(departures, 1);
+  EXPECT_EQ(map_.landmarks().count(7), 0u);
+  EXPECT_EQ(Landmark(8).views.size(), 3u);
+  EXPECT_EQ(Landmark(9).views.size(), 1u);
+  EXPECT_EQ(Landmark(9).host().t_ns, Stamp(3));
+  ExpectAllInPlace();
+}
+
+TEST_F(PointMapTest, StartAnewLeavesWhatHasNoPlaceYet) {
+  map_.StartAnew(window_, Stamp(0), [](const PointLandmark&) { FAIL(); });
+  EXPECT_EQ(Landmark(9).views.size(), 4u);
+}
+
+TEST_F(PointMapTest, ReprojectionErrorIsTheDistanceInTheImage) {
+  PointView view = Landmark(4).views[2];
+  view.bearing.xy += Vector2d(0.003, 0.004);
+  const auto error = ReprojectionError(points_W_[4], view, window_);
+  ASSERT_TRUE(error);
+  EXPECT_NEAR(*error, 0.005, 1e-9);
+  EXPECT_FALSE(ReprojectionError({0, 0, -5}, view, window_));
+}
+
+TEST_F(PointMapTest, ReprojectionErrorHeedsTheTimeOffset) {
+  PointView view = Landmark(4).views[2];
+  view.bearing.velocity = Vector2d(0.3, 0.4);
+  window_.td = 0.01;
+  EXPECT_NEAR(ReprojectionError(points_W_[4], view, window_).value(), 0.005, 1e-9);
+  view.bearing.cut_time_offset = 0.01;
+  EXPECT_NEAR(ReprojectionError(points_W_[4], view, window_).value(), 0, 1e-9);
+}
+
+TEST_F(PointMapTest, RemovesOutlyingViewsAndPoints) {
+  constexpr double kMaxError = 0.01;
+  map_.Triangulate(window_, kMinAngle);
+  Landmark(1).views[2].bearing.xy.x() += 0.03;                               // one bad view
+  for (int i = 1; i < 4; ++i) Landmark(2).views[i].bearing.xy.y() += 0.015;  // bad on average
+  Landmark(3).coordinates[2] *= -1;                                          // behind its host
+  Landmark(4).views.resize(2);
+  Landmark(4).views[1].bearing.xy.x() += 0.03;            // no good view beside the host's
+  Landmark(5).views[2].bearing.xy.x() += 0.015;           // the mean is still good
+  EXPECT_EQ(map_.RemoveOutliers(window_, kMaxError), 5);  // views of 1 and 4; points 2, 3 and 4
+  EXPECT_EQ(Landmark(1).views.size(), 3u);
+  EXPECT_EQ(Landmark(5).views.size(), 4u);
+  EXPECT_EQ(map_.landmarks().size(), 17u);
+  for (const int64_t id : {2, 3, 4}) EXPECT_EQ(map_.landmarks().count(id), 0u);
+  EXPECT_EQ(map_.RemoveOutliers(window_, kMaxError), 0);
+}
+
+TEST_F(PointMapTest, RemovesByCondition) {
+  map_.RemoveIf([](const PointLandmark& landmark) { return landmark.id % 2 == 0; });
+  EXPECT_EQ(map_.landmarks().size(), 10u);
+  EXPECT_EQ(map_.landmarks().count(2), 0u);
+  map_.Clear();
+  EXPECT_TRUE(map_.landmarks().empty());
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/problem/problem_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "test/vins_estimator/simulated_window.h"
+#include "vins_estimator/marginalization/window_marginalizer.h"
+#include "vins_estimator/problem/normal_equations.h"
+#include "vins_estimator/problem/term_evaluation.h"
+
+namespace plm_vins {
+namespace {
+
+class ProblemBuilderTest : public ::testing::Test {
+ protected:
+  ProblemBuilderTest() : simulated_(testing::SimulateWindow(3)) {}
+
+  SlidingWindow& window() { return simulated_.window; }
+  int64_t Stamp(size_t frame) { return window().frames[frame].state.t_ns; }
+  PointLandmark* LongestTrack() { return LongestTrackOf(&simulated_.points.landmarks()); }
+  LineLandmark* LongestLineTrack() { return LongestTrackOf(&simulated_.lines.landmarks()); }
+
+  template <typename Landmark>
+  static Landmark* LongestTrackOf(std::map<int64_t, Landmark>* landmarks) {
+    const auto longest = std::max_element(
+        landmarks->begin(), landmarks->end(),
+        [](const auto& a, const auto& b) { return a.second.views.size() < b.second.views.size(); });
+    return &longest->second;
+  }
+
+  testing::SimulatedWindow simulated_;
+  MarginalizationPrior no_prior_;
+  ProblemOptions options_;
+};
+
+TEST_F(ProblemBuilderTest, MotionJoinsTwoFrames) {
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  builder.AddMotion(1);
+  const WindowProblem& problem = builder.problem();
+  ASSERT_EQ(problem.variables().size(), 4u);
+  ASSERT_EQ(problem.terms().size(), 1u);
+  for (const size_t frame : {0, 1}) {
+    FrameState& state = window().frames[frame].state;
+    const int pose = problem.Find({BlockKind::kPose, state.t_ns});
+    const int motion = problem.Find({BlockKind::kMotion, state.t_ns});
+    ASSERT_TRUE(pose >= 0 && motion >= 0);
+    EXPECT_EQ(problem.variables()[pose].values, state.pose.data());
+    EXPECT_EQ(problem.variables()[motion].values, state.motion.data());
+  }
+  EXPECT_EQ(problem.Find({BlockKind::kPose, Stamp(2)}), -1);
+}
+
+TEST_F(ProblemBuilderTest, StandstillAddsZeroVelocityAndSamePose) {
+  window().frames[2].stationary = true;
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  builder.AddMotion(2);
+  const auto& terms = builder.problem().terms();
+  ASSERT_EQ(terms.size(), 3u);
+  EXPECT_EQ(terms[1].cost->num_residuals(), 3);
+  EXPECT_EQ(terms[1].variables[0], builder.problem().Find({BlockKind::kMotion, Stamp(2)}));
+  EXPECT_EQ(terms[2].cost->num_residuals(), 6);
+  EXPECT_EQ(terms[2].variables[0], builder.problem().Find({BlockKind::kPose, Stamp(1)}));
+  EXPECT_EQ(terms[2].variables[1], builder.problem().Find({BlockKind::kPose, Stamp(2)}));
+}
+
+TEST_F(ProblemBuilderTest, PointHasATermForEveryView) {
+  PointLandmark* landmark = LongestTrack();
+  ASSERT_EQ(landmark->views.size(), 3u);
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  builder.AddPoint(landmark);
+  const WindowProblem& problem = builder.problem();
+  ASSERT_EQ(problem.landmarks().size(), 1u);
+  EXPECT_EQ(problem.landmarks()[0].terms.size(), 3u);
+  EXPECT_EQ(problem.landmarks()[0].terms[0].variable_count, 2);  // the host's own view
+  EXPECT_EQ(problem.variables()[problem.landmarks()[0].variable].values,
+            landmark->coordinates.data());
+  EXPECT_EQ(problem.variables().size(), 6u);  // three poses, point, extrinsics, time offset
+}
+
+TEST_F(ProblemBuilderTest, LineHasATermForEveryView) {
+  LineLandmark* landmark = LongestLineTrack();
+  ASSERT_EQ(landmark->views.size(), 3u);
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  builder.AddLine(landmark);
+  const WindowProblem& problem = builder.problem();
+  ASSERT_EQ(problem.landmarks().size(), 1u);
+  const LandmarkTerms& line = problem.landmarks()[0];
+  ASSERT_EQ(line.terms.size(), 3u);
+  EXPECT_EQ(line.terms[0].variable_count, 1);  // the host's own view
+  EXPECT_EQ(line.variable, problem.Find({BlockKind::kLine, landmark->id}));
+  EXPECT_EQ(problem.variables()[line.variable].values, landmark->coordinates.data());
+  EXPECT_EQ(problem.variables().size(), 5u);  // three poses, line, extrinsics
+  for (size_t i = 1; i < 3; ++i) {
+    ASSERT_EQ(line.terms[i].variable_count, 4);
+    EXPECT_EQ(line.terms[i].variables[0], problem.Find({BlockKind::kPose, Stamp(0)}));
+    EXPECT_EQ(line.terms[i].variables[1], problem.Find({BlockKind::kPose, Stamp(i)}));
+  }
+}
+
+TEST_F(ProblemBuilderTest, AnchorsSeeALineWithTheirOwnWeight) {
+  LineLandmark* landmark = LongestLineTrack();
+  ASSERT_EQ(landmark->views.size(), 3u);
+  MoveHost(window(), 1, landmark);
+  landmark->anchor_views = {landmark->views[0]};
+  landmark->views.erase(landmark->views.begin());
+  const BlockId anchor_pose{BlockKind::kPose, Stamp(0)};
+  window().TurnOldestIntoAnchor();
+  const auto cost_of_views = [&] {
+    options_.line_loss_scale = 1e6;  // as good as none
+    ProblemBuilder builder(options_, &window(), &no_prior_);
+    builder.AddLine(landmark);
+    const WindowProblem& problem = builder.problem();
+    const std::vector<ResidualTerm>& terms = problem.landmarks()[0].terms;
+    EXPECT_EQ(terms.size(), 3u);
+    const ResidualTerm& of_anchor = terms.back();
+    EXPECT_EQ(of_anchor.variables[0], problem.Find({BlockKind::kPose, Stamp(0)}));  // the host
+    EXPECT_EQ(of_anchor.variables[1], problem.Find(anchor_pose));
+    EXPECT_EQ(problem.variables()[of_anchor.variables[1]].values,
+              window().anchors[0].state.pose.data());
+    return std::make_pair(EvaluateTermCost(terms[1], problem.variables()),
+                          EvaluateTermCost(of_anchor, problem.variables()));
+  };
+  options_.anchor_weight = 50;
+  const auto [view, anchor_view] = cost_of_views();
+  options_.anchor_weight = 150;
+  const auto [same_view, heavier_anchor_view] = cost_of_views();
+  EXPECT_GT(anchor_view, 0);
+  EXPECT_NEAR(heavier_anchor_view, 9 * anchor_view, 1e-6 * heavier_anchor_view);
+  EXPECT_EQ(same_view, view);
+}
+
+TEST_F(ProblemBuilderTest, APointAndALineMayHaveTheSameId) {
+  PointLandmark* point = LongestTrack();
+  LineLandmark* line = LongestLineTrack();
+  point->id = line->id = 5;
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  builder.AddPoint(point);
+  builder.AddLine(line);
+  EXPECT_EQ(builder.problem().landmarks().size(), 2u);
+  EXPECT_EQ(builder.problem().variables().size(), 7u);
+}
+
+TEST_F(ProblemBuilderTest, CalibrationIsConstantUnlessItIsEstimated) {
+  for (const bool extrinsic : {false, true}) {
+    for (const bool td : {false, true}) {
+      options_.estimate_extrinsic = extrinsic;
+      options_.estimate_td = td;
+      ProblemBuilder builder(options_, &window(), &no_prior_);
+      builder.AddPoint(LongestTrack());
+      const WindowProblem& problem = builder.problem();
+      const auto& variables = problem.variables();
+      EXPECT_EQ(variables[problem.Find({BlockKind::kExtrinsic, 0})].constant, !extrinsic);
+      EXPECT_EQ(variables[problem.Find({BlockKind::kTimeOffset, 0})].constant, !td);
+      EXPECT_EQ(NormalEquations(problem).dense_size(), 18 + 6 * extrinsic + td);
+    }
+  }
+}
+
+TEST_F(ProblemBuilderTest, VariablesOfThePriorAreLinearisedThere) {
+  const MarginalizationPrior prior = InitialPrior(InitialUncertainty(), options_, window());
+  for (const bool first_estimates : {true, false}) {
+    options_.first_estimate_jacobians = first_estimates;
+    ProblemBuilder builder(options_, &window(), &prior);
+    builder.AddPrior();
+    builder.AddMotion(1);
+    const WindowProblem& problem = builder.problem();
+    EXPECT_EQ(problem.prior(), &prior);
+    const BlockId first{BlockKind::kPose, Stamp(0)}, second{BlockKind::kPose, Stamp(1)};
+    EXPECT_EQ(problem.variables()[problem.Find(first)].linearization,
+              first_estimates ? prior.Linearization(first) : nullptr);
+    EXPECT_EQ(problem.variables()[problem.Find(second)].linearization, nullptr);
+  }
+}
+
+TEST_F(ProblemBuilderTest, ConsistentDataCostsLittleAtTheTruth) {
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  for (size_t i = 1; i < window().frames.size(); ++i) builder.AddMotion(i);
+  int rows = 30;
+  for (auto& [id, landmark] : simulated_.points.landmarks()) {
+    if (!landmark.triangulated) continue;
+    builder.AddPoint(&landmark);
+    rows += 2 * static_cast<int>(landmark.views.size());
+  }
+  for (auto& [id, landmark] : simulated_.lines.landmarks()) {
+    if (!landmark.triangulated) continue;
+    builder.AddLine(&landmark);
+    rows += 2 * static_cast<int>(landmark.views.size());
+  }
+  EXPECT_LT(NormalEquations(builder.problem()).Cost(), 0.5 * rows);
+}
+
+}  // namespace
+}  // namespace plm_vins

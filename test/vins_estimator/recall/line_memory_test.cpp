@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/recall/line_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "test/testing/numeric_jacobian.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Vector3d;
+
+// Along x at a height, from `start` to `end`.
+SeenLine LineAlongX(double start, double end, double height = 0, double sigma = 0.02) {
+  SeenLine line;
+  line.start_F = {start, 0, height};
+  line.end_F = {end, 0, height};
+  line.place_sigma = sigma;
+  return line;
+}
+
+LineView ViewAt(int64_t t_ns) {
+  LineView view;
+  view.t_ns = t_ns;
+  return view;
+}
+
+std::vector<int64_t> StampsOf(const RememberedLine& line) {
+  std::vector<int64_t> stamps;
+  for (const LineView& view : line.anchor_views) stamps.push_back(view.t_ns);
+  return stamps;
+}
+
+using Stamps = std::vector<int64_t>;
+
+class LineMemoryTest : public ::testing::Test {
+ protected:
+  void ExpectSeen(int64_t id, const Vector3d& start, const Vector3d& end) const {
+    const RememberedLine* line = memory_.Find(id);
+    ASSERT_NE(line, nullptr);
+    EXPECT_MATRIX_NEAR(line->seen_W.start_F, start, 1e-12);
+    EXPECT_MATRIX_NEAR(line->seen_W.end_F, end, 1e-12);
+  }
+
+  LineMemory memory_;
+};
+
+TEST_F(LineMemoryTest, KnowsWhatItWasToldAlone) {
+  memory_.Keep(3, LineAlongX(1, 2));
+  ExpectSeen(3, {1, 0, 0}, {2, 0, 0});
+  EXPECT_TRUE(memory_.Find(3)->anchor_views.empty());
+  EXPECT_EQ(memory_.Find(4), nullptr);
+}
+
+TEST_F(LineMemoryTest, JoinsThePartsThatWereSeen) {
+  memory_.Keep(3, LineAlongX(1, 2));
+  memory_.Keep(3, LineAlongX(1.5, 3));
+  ExpectSeen(3, {1, 0, 0}, {3, 0, 0});
+  memory_.Keep(3, LineAlongX(2.5, 0));  // the other way round
+  ExpectSeen(3, {3, 0, 0}, {0, 0, 0});
+  memory_.Keep(3, LineAlongX(1, 2));
+  ExpectSeen(3, {0, 0, 0}, {3, 0, 0});
+}
+
+TEST_F(LineMemoryTest, TheNewerPlaceStays) {
+  memory_.Keep(3, LineAlongX(1, 2, 0, 0.02));
+  memory_.Keep(3, LineAlongX(1, 3, 0.1, 0.039));
+  ExpectSeen(3, {1, 0, 0.1}, {3, 0, 0.1});
+  EXPECT_EQ(memory_.Find(3)->seen_W.place_sigma, 0.039);
+}
+
+TEST_F(LineMemoryTest, UnlessTheNewerIsMuchLessCertain) {
+  memory_.Keep(3, LineAlongX(1, 2, 0, 0.02));
+  memory_.Keep(3, LineAlongX(1, 3, 0.1, 0.041));
+  ExpectSeen(3, {1, 0, 0}, {3, 0, 0});
+  EXPECT_EQ(memory_.Find(3)->seen_W.place_sigma, 0.02);
+}
+
+TEST_F(LineMemoryTest, KeepsViewsOfKnownLinesOnly) {
+  memory_.KeepView(3, ViewAt(10));
+  EXPECT_EQ(memory_.Find(3), nullptr);
+  memory_.Keep(3, LineAlongX(1, 2));
+  memory_.KeepView(3, ViewAt(20));
+  EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({20}));
+}
+
+TEST_F(LineMemoryTest, KeepsTheFirstViewAndTheNewest) {
+  static_assert(LineMemory::kMaxAnchorViews == 4);
+  memory_.Keep(3, LineAlongX(1, 2));
+  for (const int64_t t_ns : {10, 20, 30, 40}) memory_.KeepView(3, ViewAt(t_ns));
+  EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10, 20, 30, 40}));
+  for (const int64_t t_ns : {50, 60}) memory_.KeepView(3, ViewAt(t_ns));
+  EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10, 40, 50, 60}));
+}
+
+TEST_F(LineMemoryTest, NewsOfALineLeaveItsViews) {
+  memory_.Keep(3, LineAlongX(1, 2));
+  memory_.KeepView(3, ViewAt(10));
+  memory_.Keep(3, LineAlongX(1, 3));
+  EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10}));
+}
+
+TEST_F(LineMemoryTest, JoinedLinesAreOne) {
+  memory_.Keep(3, LineAlongX(1, 2));
+  memory_.KeepView(3, ViewAt(10));
+  memory_.Keep(7, LineAlongX(2, 4));
+  memory_.KeepView(7, ViewAt(20));
+  memory_.Join(7, 3);
+  EXPECT_EQ(memory_.Find(7), nullptr);
+  ExpectSeen(3, {1, 0, 0}, {4, 0, 0});
+  EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10, 20}));
+}
+
+TEST_F(LineMemoryTest, JoinTakesOverWhatTheOlderLineDidNotKnow) {
+  memory_.Keep(7, LineAlongX(2, 4));
+  memory_.KeepView(7, ViewAt(20));
+  memory_.Join(7, 3);
+  ExpectSeen(3, {2, 0, 0}, {4, 0, 0});
+  EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({20}));
+}
+
+TEST_F(LineMemoryTest, JoinOfAnUnknownLineChangesNothing) {
+  memory_.Keep(3, LineAlongX(1, 2));
+  memory_.Join(7, 3);
+  memory_.Join(8, 9);
+  EXPECT_EQ(memory_.lines().size(), 1u);
+  ExpectSeen(3, {1, 0, 0}, {2, 0, 0});
+}
+
+TEST_F(LineMemoryTest, ForgetsWhatARemovedAnchorHasSeen) {
+  for (const int64_t id : {3, 7}) {
+    memory_.Keep(id, LineAlongX(1, 2));
+    for (const int64_t t_ns : {10, 20}) memory_.KeepView(id, ViewAt(t_ns));
+  }
+  memory_.RemoveAnchor(10);
+  memory_.RemoveAnchor(99);
+  for (const int64_t id : {3, 7}) EXPECT_EQ(StampsOf(*memory_.Find(id)), Stamps({20}));
+}
+
+TEST_F(LineMemoryTest, ForgetsTheLineWithoutNewsForLongest) {
+  const auto capacity = static_cast<int64_t>(LineMemory::kCapacity);
+  for (int64_t id = 0; id < capacity; ++id) memory_.Keep(id, LineAlongX(1, 2));
+  memory_.Keep(0, LineAlongX(1, 3));
+  EXPECT_EQ(memory_.lines().size(), LineMemory::kCapacity);
+  memory_.Keep(capacity, LineAlongX(4, 5));
+  EXPECT_EQ(memory_.lines().size(), LineMemory::kCapacity);
+  EXPECT_EQ(memory_.Find(1), nullptr);
+  ExpectSeen(0, {1, 0, 0}, {3, 0, 0});
+  ExpectSeen(capacity, {4, 0, 0}, {5, 0, 0});
+}
+
+TEST_F(LineMemoryTest, IsEmptyOnceCleared) {
+  memory_.Keep(3, LineAlongX(1, 2));
+  memory_.Clear();
+  EXPECT_TRUE(memory_.lines().empty());
+  EXPECT_EQ(memory_.Find(3), nullptr);
+}
+
+}  // namespace
+}  // namespace plm_vins

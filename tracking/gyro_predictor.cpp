@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/gyro_predictor.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "common/so3.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int64_t kHistory_ns = 5'000'000'000;  // longer than any image waits
+constexpr int64_t kMaxGap_ns = 100'000'000;     // rotation inside a longer gap is anybody's guess
+
+Eigen::Vector3d InterpolateGyro(const ImuSample& a, const ImuSample& b, int64_t t_ns) {
+  const double fraction = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
+  return a.gyro + fraction * (b.gyro - a.gyro);
+}
+
+}  // namespace
+
+GyroPredictor::GyroPredictor(const Rigid3d& T_B_C, double td)
+    : R_B_C_(T_B_C.rotation), td_ns_(ToNanoseconds(td)) {}
+
+void GyroPredictor::AddImu(const ImuSample& sample) {
+  if (!sample.gyro.allFinite()) return;
+  if (!samples_.empty() && sample.t_ns <= samples_.back().t_ns) return;
+  samples_.push_back(sample);
+  while (samples_.front().t_ns < sample.t_ns - kHistory_ns) samples_.pop_front();
+}
+
+bool GyroPredictor::Covers(int64_t t_image_ns) const {
+  return !samples_.empty() && samples_.back().t_ns >= t_image_ns + td_ns_;
+}
+
+std::optional<Eigen::Quaterniond> GyroPredictor::Rotation(int64_t t0_ns, int64_t t1_ns) const {
+  const int64_t begin = t0_ns + td_ns_;
+  const int64_t end = t1_ns + td_ns_;
+  if (end < begin || !Covers(t1_ns) || samples_.front().t_ns > begin) return std::nullopt;
+
+  Eigen::Quaterniond R_B0_B1 = Eigen::Quaterniond::Identity();
+  auto right = std::upper_bound(samples_.begin(), samples_.end(), begin,
+                                [](int64_t t, const ImuSample& s) { return t < s.t_ns; });
+  for (; right != samples_.end() && std::prev(right)->t_ns < end; ++right) {
+    const ImuSample& a = *std::prev(right);
+    const ImuSample& b = *right;
+    if (b.t_ns - a.t_ns > kMaxGap_ns) return std::nullopt;
+    const int64_t from = std::max(a.t_ns, begin);
+    const int64_t to = std::min(b.t_ns, end);
+    const Eigen::Vector3d rate = InterpolateGyro(a, b, from + (to - from) / 2);
+    R_B0_B1 = R_B0_B1 * SO3Exp(rate * ToSeconds(to - from));
+  }
+  return (R_B_C_.conjugate() * R_B0_B1.conjugate() * R_B_C_).normalized();
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/image_queue.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "tracking/image_check.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr size_t kMaxWaiting = 2;  // newer images that an image lets pass for the gyro
+constexpr int64_t kImageGap_ns = 1'000'000'000;
+constexpr int kJumpPatience = 10;  // images
+
+}  // namespace
+
+DropCounts ToDropCounts(const ImageCounts& counts) {
+  return {{"images_out_of_order", counts.out_of_order, ""},
+          {"images_wrong_format", counts.wrong_format, counts.wrong_format_detail},
+          {"image_gaps", counts.gaps, ""},
+          {"image_restarts", counts.restarts, ""},
+          {"images_without_gyro", counts.without_gyro, ""}};
+}
+
+// The gyro says nothing about images while the rotation between the two is yet to be calibrated.
+ImageQueue::ImageQueue(const Config& config)
+    : sensor_(config.sensor),
+      uses_gyro_(sensor_.estimate_extrinsic != SensorConfig::ExtrinsicMode::kCalibrateRotation),
+      gyro_(sensor_.T_B_C, sensor_.td),
+      rate_limiter_(config.publish_rate),
+      jump_(kJumpPatience) {}
+
+void ImageQueue::AddImage(ImageSample image) {
+  ++counts_.images;
+  if (!HasTheFormat(image)) return;
+  const int64_t t_ns = image.t_ns;
+  bool restart = false;
+  if (accepted_ns_ && t_ns <= *accepted_ns_) {
+    ++counts_.out_of_order;
+    if (!jump_.Refuse(t_ns)) return;
+    restart = true;
+    ++counts_.restarts;
+    gyro_ = GyroPredictor(sensor_.T_B_C, sensor_.td);
+  } else if (accepted_ns_ && t_ns - *accepted_ns_ > kImageGap_ns) {
+    ++counts_.gaps;
+  }
+  jump_.Accept();
+  accepted_ns_ = t_ns;
+  images_.push_back({std::move(image), restart});
+}
+
+bool ImageQueue::HasTheFormat(const ImageSample& image) {
+  try {
+    CheckImage(image, sensor_.camera, std::nullopt);
+    return true;
+  } catch (const std::invalid_argument& error) {
+    if (counts_.wrong_format++ == 0) counts_.wrong_format_detail = error.what();
+    return false;
+  }
+}
+
+std::optional<ReadyImage> ImageQueue::Pop() {
+  if (images_.empty()) return std::nullopt;
+  const bool wait = uses_gyro_ && images_.size() <= kMaxWaiting;
+  if (wait && !gyro_.Covers(images_.front().image.t_ns)) return std::nullopt;
+  return Flush();
+}
+
+std::optional<ReadyImage> ImageQueue::Flush() {
+  if (images_.empty()) return std::nullopt;
+  ReadyImage ready;
+  ready.image = std::move(images_.front().image);
+  ready.restart = images_.front().restart;
+  images_.pop_front();
+  if (ready.restart) {
+    rate_limiter_.Reset();
+    handed_out_ns_.reset();
+  }
+  ready.R_C1_C0 = PredictRotation(ready.image.t_ns);
+  ready.publish = rate_limiter_.Take(ready.image.t_ns);
+  handed_out_ns_ = ready.image.t_ns;
+  return ready;
+}
+
+std::optional<Eigen::Quaterniond> ImageQueue::PredictRotation(int64_t t_ns) {
+  if (!handed_out_ns_ || !uses_gyro_) return std::nullopt;
+  const auto R_C1_C0 = gyro_.Rotation(*handed_out_ns_, t_ns);
+  if (!R_C1_C0) ++counts_.without_gyro;
+  return R_C1_C0;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <image_transport/image_transport.h>
+#include <ros/node_handle.h>
+#include <ros/wall_timer.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/PointCloud.h>
+#include <std_msgs/Bool.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "common/config.h"
+#include "common/ros/msg_conversion.h"
+#include "common/ros/node_setup.h"
+#include "tracking/ros/run_time_settings.h"
+#include "common/ros/stream_monitor.h"
+
+namespace plm_vins {
+
+// A front end under ROS, as a node or in a nodelet: images (and the IMU, where it comes) in;
+// features, annotated image and ~restart out. All callbacks come from the queue of the two node
+// handles, one at a time: images queue in their subscriber while one is tracked.
+//
+// ~image_transport: raw (default), compressed (decoded here, no plugin needed) or any plugin's
+// name.
+//
+// `FrontEnd` says what is particular to a front end: the types Stage (a TrackingStage) and Settings
+// (of dynamic_reconfigure, with show_track), ToSettings(config) and Apply(settings, tracker), the
+// private topics kFeatureTopic and kAnnotatedTopic, the status kDiagnostics, and kImageQueue, how
+// many images wait while one is tracked; beyond, the oldest goes.
+template <typename FrontEnd>
+class TrackerNode {
+ public:
+  TrackerNode(const Config& config, const ros::NodeHandle& node,
+              const ros::NodeHandle& private_node)
+      : node_(node),
+        private_node_(private_node),
+        config_(config),
+        stage_(config),
+        diagnostics_(node, private_node, private_node.getNamespace()),
+        settings_(FrontEnd::ToSettings(config), private_node,
+                  [this](const Settings& settings) { Apply(settings); }) {
+    feature_publisher_ =
+        private_node_.advertise<sensor_msgs::PointCloud>(FrontEnd::kFeatureTopic, kOutputQueue);
+    restart_publisher_ = private_node_.advertise<std_msgs::Bool>("restart", 10);
+    annotated_publisher_ = private_transport_.advertise(FrontEnd::kAnnotatedTopic, 10);
+    flush_timer_ = node_.createWallTimer(ros::WallDuration(0.5 * kMaxWaitForImu),
+                                         [this](const ros::WallTimerEvent&) { FlushLateImages(); });
+    diagnostics_.setHardwareID("none");
+    diagnostics_.add(FrontEnd::kDiagnostics, this, &TrackerNode::ReportStatus);
+    diagnostics_timer_ =
+        node_.createWallTimer(ros::WallDuration(1.0),
+                              [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+    Subscribe();
+  }
+
+ private:
+  using Stage = typename FrontEnd::Stage;
+  using Settings = typename FrontEnd::Settings;
+
+  static constexpr uint32_t kOutputQueue = 200;
+  static constexpr uint32_t kImuQueue = 2000;
+  // [s] of wall time: then an image is tracked without the gyro.
+  static constexpr double kMaxWaitForImu = 0.1;
+
+  void Apply(const Settings& settings) {
+    show_track_ = settings.show_track;
+    FrontEnd::Apply(settings, &stage_.tracker());
+  }
+
+  void Subscribe() {
+    const std::string topic = config_.sensor.image_topic;
+    const auto transport = private_node_.param<std::string>("image_transport", "raw");
+    if (transport == "compressed") {
+      compressed_subscriber_ = node_.subscribe(topic + "/compressed", FrontEnd::kImageQueue,
+                                               &TrackerNode::AddCompressedImage, this);
+    } else {
+      image_subscriber_ = transport_.subscribe(
+          topic, FrontEnd::kImageQueue,
+          [this](const sensor_msgs::ImageConstPtr& message) { AddImage(message); }, nullptr,
+          image_transport::TransportHints(transport, ros::TransportHints(), private_node_));
+    }
+    imu_subscriber_ = node_.subscribe(config_.sensor.imu_topic, kImuQueue, &TrackerNode::AddImu,
+                                      this, ros::TransportHints().tcpNoDelay());
+  }
+
+  void AddImu(const sensor_msgs::Imu& message) {
+    imu_stream_.Add(message.header.stamp);
+    stage_.AddImu(ToImuSample(message));
+    while (const auto frame = stage_.Pop()) Publish(*frame);
+  }
+
+  void AddCompressedImage(const sensor_msgs::CompressedImage& message) { AddImage(message); }
+
+  // A message, or a pointer to one that may be shared.
+  template <typename Image>
+  void AddImage(const Image& message) {
+    last_image_arrival_ = ros::WallTime::now();
+    try {
+      ImageSample image = ToImageSample(message);
+      image_stream_.Add(ToRosTime(image.t_ns));
+      stage_.AddImage(std::move(image));
+    } catch (const std::invalid_argument& error) {
+      if (unreadable_images_++ == 0) first_unreadable_ = error.what();
+    }
+    while (const auto frame = stage_.Pop()) Publish(*frame);
+    drop_warner_.Check(Drops());
+  }
+
+  void FlushLateImages() {
+    if (ros::WallTime::now() - last_image_arrival_ < ros::WallDuration(kMaxWaitForImu)) return;
+    while (const auto frame = stage_.Flush()) Publish(*frame);
+  }
+
+  void Publish(const typename Stage::Frame& frame) {
+    if (frame.restart) {
+      ROS_WARN("stamps of the images jumped back: tracking starts anew");
+      std_msgs::Bool restart;
+      restart.data = true;
+      restart_publisher_.publish(restart);
+    }
+    const sensor_msgs::PointCloud message = ToMessage(frame.features, config_.output.camera_frame);
+    features_in_last_image_ = message.points.size();
+    tracking_ms_ = frame.tracking_ms;
+    if (!frame.publish) return;
+    feature_publisher_.publish(message);
+    feature_stream_.Add(message.header.stamp);
+    if (show_track_ && annotated_publisher_.getNumSubscribers() > 0) {
+      annotated_publisher_.publish(ToMessage(stage_.tracker().DrawTracks(), frame.features.t_ns,
+                                             config_.output.camera_frame));
+    }
+  }
+
+  DropCounts Drops() const {
+    DropCounts drops = {{"images_unreadable", unreadable_images_, first_unreadable_}};
+    Append(ToDropCounts(stage_.counts()), &drops);
+    return drops;
+  }
+
+  void ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    if (image_stream_.Silence() > StreamMonitor::kSilence) {
+      status.summary(DiagnosticStatus::WARN,
+                     "waiting: nothing comes on " + config_.sensor.image_topic);
+    } else if (features_in_last_image_ == 0) {
+      status.summary(DiagnosticStatus::WARN, "lost: nothing to follow in the last image");
+    } else {
+      status.summary(DiagnosticStatus::OK, "tracking");
+    }
+    status.add("images", stage_.counts().images);
+    status.add("features", features_in_last_image_);
+    status.add("tracking_ms", tracking_ms_);
+    for (StreamMonitor* stream : {&image_stream_, &imu_stream_, &feature_stream_}) {
+      stream->Report(&status);
+    }
+    for (const DropCount& drop : Drops()) status.add(drop.cause, drop.count);
+  }
+
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_;
+  image_transport::ImageTransport transport_{node_};
+  image_transport::ImageTransport private_transport_{private_node_};
+
+  const Config config_;
+  Stage stage_;
+  bool show_track_ = true;
+  DropWarner drop_warner_;
+  int64_t unreadable_images_ = 0;
+  std::string first_unreadable_;
+  size_t features_in_last_image_ = 0;
+  double tracking_ms_ = 0;  // of the last image [ms]
+  StreamMonitor image_stream_{"images"};
+  StreamMonitor imu_stream_{"imu"};
+  StreamMonitor feature_stream_{"features"};
+
+  ros::WallTime last_image_arrival_;
+  ros::Publisher feature_publisher_;
+  ros::Publisher restart_publisher_;
+  image_transport::Publisher annotated_publisher_;
+  diagnostic_updater::Updater diagnostics_;
+  RunTimeSettings<Settings> settings_;
+
+  // Last, so that they end first: a nodelet is unloaded while callbacks run in other threads, and
+  // each of these waits for its own to return.
+  image_transport::Subscriber image_subscriber_;
+  ros::Subscriber compressed_subscriber_;
+  ros::Subscriber imu_subscriber_;
+  ros::WallTimer flush_timer_;
+  ros::WallTimer diagnostics_timer_;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "common/camera_model.h"
+#include "common/config.h"
+#include "tracking/image_queue.h"
+#include "common/measurements.h"
+#include "common/stopwatch.h"
+
+namespace plm_vins {
+
+// The features of one image, how the tracker came to them, and what they cost.
+template <typename Tracker>
+struct Tracked {
+  typename Tracker::Features features;
+  typename Tracker::Statistics statistics;
+  bool restart = false;    // as of ReadyImage
+  bool publish = true;     // as of ReadyImage
+  double tracking_ms = 0;  // [ms]
+};
+
+// A front end as nodes and the offline runner use it: images wait their turn, then are tracked.
+// `kSection` is the tracker's part of the configuration. Synchronous; feed in order of arrival and
+// pop until nothing is ready.
+template <typename Tracker, auto kSection>
+class TrackingStage {
+ public:
+  using Frame = Tracked<Tracker>;
+
+  explicit TrackingStage(const Config& config)
+      : queue_(config), tracker_(config.*kSection, CameraModel::Create(config.sensor.camera)) {}
+
+  // As of ImageQueue.
+  void AddImu(const ImuSample& sample) { queue_.AddImu(sample); }
+  void AddImage(ImageSample image) { queue_.AddImage(std::move(image)); }
+  bool waiting() const { return !queue_.empty(); }
+  const ImageCounts& counts() const { return queue_.counts(); }
+
+  // Features of the next image in order of time, or nothing yet.
+  std::optional<Frame> Pop() { return Track(queue_.Pop()); }
+
+  // The same without waiting for the gyro.
+  std::optional<Frame> Flush() { return Track(queue_.Flush()); }
+
+  const Tracker& tracker() const { return tracker_; }
+  Tracker& tracker() { return tracker_; }
+
+ private:
+  std::optional<Frame> Track(const std::optional<ReadyImage>& next) {
+    if (!next) return std::nullopt;
+    if (next->restart) tracker_.Reset();
+    const Stopwatch stopwatch;
+    Frame frame;
+    frame.features = tracker_.Track(next->image, next->R_C1_C0);
+    frame.tracking_ms = stopwatch.Milliseconds();
+    frame.statistics = tracker_.statistics();
+    frame.restart = next->restart;
+    frame.publish = next->publish;
+    return frame;
+  }
+
+  ImageQueue queue_;
+  Tracker tracker_;
+};
+
+}  // namespace plm_vins

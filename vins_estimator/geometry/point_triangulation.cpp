@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/geometry/point_triangulation.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace plm_vins {
+namespace {
+
+constexpr double kMinDepth = 0.1;  // [m]
+
+Eigen::Vector3d RayInWorld(const PointSighting& sighting) {
+  return (sighting.T_W_C.rotation * sighting.xy.homogeneous()).normalized();
+}
+
+// The greatest angle between the first ray and any other.
+double GreatestAngle(const std::vector<PointSighting>& sightings) {
+  const Eigen::Vector3d first = RayInWorld(sightings.front());
+  double greatest = 0;
+  for (const PointSighting& sighting : sightings) {
+    greatest = std::max(greatest, first.cross(RayInWorld(sighting)).norm());
+  }
+  return std::asin(std::min(1.0, greatest));
+}
+
+// The point with the least sum of squared distances to all rays.
+Eigen::Vector3d ClosestPoint(const std::vector<PointSighting>& sightings) {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  for (const PointSighting& sighting : sightings) {
+    const Eigen::Vector3d ray = RayInWorld(sighting);
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - ray * ray.transpose();
+    A += across;
+    b += across * sighting.T_W_C.translation;
+  }
+  return A.ldlt().solve(b);
+}
+
+// One Gauss-Newton step sequence on the image errors.
+Eigen::Vector3d RefineOnImages(const std::vector<PointSighting>& sightings, Eigen::Vector3d p_W) {
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d g = Eigen::Vector3d::Zero();
+    for (const PointSighting& sighting : sightings) {
+      const Eigen::Matrix3d R_C_W = sighting.T_W_C.R().transpose();
+      const Eigen::Vector3d p_C = R_C_W * (p_W - sighting.T_W_C.translation);
+      if (p_C.z() < kMinDepth) return p_W;
+      Eigen::Matrix<double, 2, 3> J;
+      J << 1, 0, -p_C.x() / p_C.z(), 0, 1, -p_C.y() / p_C.z();
+      J = J * R_C_W / p_C.z();
+      H += J.transpose() * J;
+      g += J.transpose() * (p_C.hnormalized() - sighting.xy);
+    }
+    p_W -= H.ldlt().solve(g);
+  }
+  return p_W;
+}
+
+bool IsInFrontOfAll(const std::vector<PointSighting>& sightings, const Eigen::Vector3d& p_W) {
+  return std::all_of(sightings.begin(), sightings.end(), [&p_W](const PointSighting& sighting) {
+    return (sighting.T_W_C.Inverse() * p_W).z() > kMinDepth;
+  });
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector3d> TriangulatePoint(const std::vector<PointSighting>& sightings,
+                                                double min_angle) {
+  if (sightings.size() < 2 || GreatestAngle(sightings) < min_angle) return std::nullopt;
+  const Eigen::Vector3d p_W = RefineOnImages(sightings, ClosestPoint(sightings));
+  if (!p_W.allFinite() || !IsInFrontOfAll(sightings, p_W)) return std::nullopt;
+  return p_W;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/manhattan/manhattan_frame.h"
+
+#include <algorithm>
+
+#include "common/measurements.h"
+
+namespace plm_vins {
+namespace {
+
+// How far the direction of a line is from an axis [rad].
+double AngleBetween(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis) {
+  return std::atan2(direction.cross(axis).norm(), std::abs(direction.dot(axis)));
+}
+
+}  // namespace
+
+void ManhattanFrame::Update(int64_t t_ns, const std::vector<LineDirection>& lines) {
+  const double elapsed = last_ns_ ? ToSeconds(t_ns - *last_ns_) : 0;
+  last_ns_ = t_ns;
+  Vote(lines, elapsed);
+  if (state_ == ManhattanState::kLocked) {
+    Check(t_ns);
+  } else {
+    Search(t_ns);
+  }
+}
+
+void ManhattanFrame::Vote(const std::vector<LineDirection>& lines, double elapsed) {
+  votes_.Fade(elapsed);
+  for (const LineDirection& line : lines) {
+    const Eigen::Vector3d& d = line.direction_W;
+    const double horizontal_part = d.head<2>().norm();
+    const double elevation = std::atan2(std::abs(d.z()), horizontal_part);
+    if (!IsKnownWell(line) || elevation > Tolerance(line.sigma)) continue;
+    votes_.Cast(line.id, std::atan2(d.y(), d.x()), line.sigma, elapsed);
+  }
+}
+
+// Follows the heading with most support until it has had enough of it for long enough.
+void ManhattanFrame::Search(int64_t t_ns) {
+  support_ = votes_.Best();
+  const bool goes_on =
+      state_ == ManhattanState::kCandidate &&
+      std::abs(WrapQuarterTurn(support_.heading - heading_)) < options_.candidate_shift &&
+      support_.log_false_alarms < std::log(options_.keep_false_alarms);
+  if (!goes_on) {
+    if (!Significant(support_)) {
+      if (state_ == ManhattanState::kCandidate) state_ = ManhattanState::kAbsent;
+      return;
+    }
+    state_ = ManhattanState::kCandidate;
+    heading_ = support_.heading;
+    since_ns_ = t_ns;
+  }
+  if (ToSeconds(t_ns - *since_ns_) < options_.lock_after || !Significant(support_)) return;
+  state_ = ManhattanState::kLocked;
+  heading_ = support_.heading;
+  since_ns_.reset();
+}
+
+// Holds the heading unless the lines contradict it for some time.
+void ManhattanFrame::Check(int64_t t_ns) {
+  support_ = votes_.At(heading_);
+  if (!Contradicted()) {
+    since_ns_.reset();
+    return;
+  }
+  if (!since_ns_) since_ns_ = t_ns;
+  if (ToSeconds(t_ns - *since_ns_) < options_.revoke_after) return;
+  state_ = ManhattanState::kRevoked;
+  votes_.Clear();
+  since_ns_.reset();
+}
+
+bool ManhattanFrame::Significant(const HeadingSupport& support) const {
+  return support.log_false_alarms < std::log(options_.lock_false_alarms) &&
+         support.share() > options_.lock_share && support.lines >= options_.lock_lines &&
+         support.sigma < options_.lock_sigma;
+}
+
+// The lines follow another heading, or one beside it.
+bool ManhattanFrame::Contradicted() const {
+  if (support_.log_false_alarms > std::log(options_.keep_false_alarms)) {
+    return Significant(votes_.Best());
+  }
+  const double shift = std::abs(WrapQuarterTurn(support_.heading - heading_));
+  return shift > options_.revoke_shift + 3 * support_.sigma;
+}
+
+double ManhattanFrame::Tolerance(double sigma) const {
+  return std::min(options_.max_tolerance, 3 * std::hypot(sigma, options_.axis_sigma));
+}
+
+std::optional<Eigen::Quaterniond> ManhattanFrame::R_W_M() const {
+  if (state_ != ManhattanState::kLocked) return std::nullopt;
+  return Eigen::Quaterniond(Eigen::AngleAxisd(heading_, Eigen::Vector3d::UnitZ()));
+}
+
+LineAxis ManhattanFrame::AxisOf(const LineDirection& line) const {
+  if (!IsKnownWell(line)) return LineAxis::kFree;
+  const double tolerance = Tolerance(line.sigma);
+  for (const LineAxis axis : {LineAxis::kZ, LineAxis::kX, LineAxis::kY}) {
+    if (axis != LineAxis::kZ && state_ != ManhattanState::kLocked) break;
+    if (AngleBetween(line.direction_W, AxisInWorld(axis)) < tolerance) return axis;
+  }
+  return LineAxis::kFree;
+}
+
+Eigen::Vector3d ManhattanFrame::AxisInWorld(LineAxis axis) const {
+  return Eigen::AngleAxisd(heading_, Eigen::Vector3d::UnitZ()) * UnitVector(axis);
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/map/keyframe_policy.h"
+
+namespace plm_vins {
+namespace {
+
+struct TrackedPoints {
+  int in_newest = 0;
+  int in_both = 0;
+  double mean_parallax = 0;
+};
+
+const PointView* FindView(const PointLandmark& landmark, int64_t t_ns) {
+  for (auto view = landmark.views.rbegin(); view != landmark.views.rend(); ++view) {
+    if (view->t_ns == t_ns) return &*view;
+  }
+  return nullptr;
+}
+
+TrackedPoints Compare(const PointMap& points, int64_t before_ns, int64_t newest_ns) {
+  TrackedPoints result;
+  double sum = 0;
+  for (const auto& [id, landmark] : points.landmarks()) {
+    if (landmark.views.back().t_ns != newest_ns) continue;
+    ++result.in_newest;
+    const PointView* before = FindView(landmark, before_ns);
+    if (before == nullptr) continue;
+    ++result.in_both;
+    sum += (landmark.views.back().bearing.xy - before->bearing.xy).norm();
+  }
+  if (result.in_both > 0) result.mean_parallax = sum / result.in_both;
+  return result;
+}
+
+}  // namespace
+
+bool IsKeyframe(const KeyframePolicyOptions& options, const SlidingWindow& window,
+                const PointMap& points) {
+  if (window.frames.size() < 2) return true;
+  const int64_t newest_ns = window.newest().state.t_ns;
+  const int64_t before_ns = window.frames[window.frames.size() - 2].state.t_ns;
+  const double interval = ToSeconds(newest_ns - before_ns);
+  const TrackedPoints tracked = Compare(points, before_ns, newest_ns);
+  if (tracked.in_newest < options.min_points_to_see) return interval > options.max_blind_interval;
+  return interval > options.max_interval || tracked.in_both < options.min_tracked ||
+         tracked.in_both < options.min_tracked_share * tracked.in_newest ||
+         tracked.mean_parallax > options.min_parallax;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <map>
+
+#include "vins_estimator/map/sliding_window.h"
+
+namespace plm_vins {
+
+// What points and lines have in common: tracks with views in frames of the window, the oldest of
+// which hosts the landmark's coordinates. A Landmark has `id`, `views` (by time, each with t_ns),
+// `triangulated`, host(), and
+//   void MoveHost(const SlidingWindow&, size_t view, Landmark*)
+// that expresses its coordinates in the camera of another of its views, or declares them void.
+template <typename Landmark>
+class LandmarkMap {
+ public:
+  // Ordered by id, so that every sum over landmarks is the same in every run.
+  using Landmarks = std::map<int64_t, Landmark>;
+
+  // Removes all views in a frame, and landmarks without views. Where it was the host, the
+  // coordinates move to the next view.
+  void RemoveFrame(const SlidingWindow& window, int64_t t_ns);
+
+  // For the landmarks that go into the prior with a frame (LeavesWith) and must not count again:
+  // those still seen keep only their newest view, as host of a fresh start at the same place; the
+  // others are removed, after `on_departure` had a look at them.
+  void StartAnew(const SlidingWindow& window, int64_t host_ns,
+                 const std::function<void(const Landmark&)>& on_departure);
+
+  // Removes the landmarks that `condition` selects.
+  void RemoveIf(const std::function<bool(const Landmark&)>& condition);
+
+  void Clear() { landmarks_.clear(); }
+
+  Landmarks& landmarks() { return landmarks_; }
+  const Landmarks& landmarks() const { return landmarks_; }
+
+ protected:
+  Landmarks landmarks_;
+};
+
+// The landmark goes into the prior with the frame that hosts it: other frames know it as well.
+template <typename Landmark>
+bool LeavesWith(int64_t host_ns, const Landmark& landmark) {
+  return landmark.triangulated && landmark.host().t_ns == host_ns && landmark.views.size() > 1;
+}
+
+// Leaves one view of a landmark, as its host.
+template <typename Landmark>
+void KeepOnlyView(const SlidingWindow& window, size_t view, Landmark* landmark) {
+  MoveHost(window, view, landmark);
+  landmark->views = {landmark->views[view]};
+}
+
+// Takes out one view of a landmark.
+template <typename Landmark>
+void RemoveView(const SlidingWindow& window, size_t index, Landmark* landmark) {
+  const bool is_host = index == 0 && landmark->triangulated && landmark->views.size() > 1;
+  if (is_host) MoveHost(window, 1, landmark);
+  landmark->views.erase(landmark->views.begin() + index);
+}
+
+template <typename Landmark>
+void LandmarkMap<Landmark>::RemoveFrame(const SlidingWindow& window, int64_t t_ns) {
+  for (auto& [id, landmark] : landmarks_) {
+    const auto view = std::find_if(landmark.views.begin(), landmark.views.end(),
+                                   [t_ns](const auto& v) { return v.t_ns == t_ns; });
+    if (view != landmark.views.end()) {
+      RemoveView(window, view - landmark.views.begin(), &landmark);
+    }
+  }
+  RemoveIf([](const Landmark& landmark) { return landmark.views.empty(); });
+}
+
+template <typename Landmark>
+void LandmarkMap<Landmark>::StartAnew(const SlidingWindow& window, int64_t host_ns,
+                                      const std::function<void(const Landmark&)>& on_departure) {
+  const int64_t newest_ns = window.newest().state.t_ns;
+  for (auto it = landmarks_.begin(); it != landmarks_.end();) {
+    Landmark& landmark = it->second;
+    const bool has_gone = LeavesWith(host_ns, landmark);
+    if (has_gone && landmark.views.back().t_ns != newest_ns) {
+      on_departure(landmark);
+      it = landmarks_.erase(it);
+      continue;
+    }
+    if (has_gone) KeepOnlyView(window, landmark.views.size() - 1, &landmark);
+    ++it;
+  }
+}
+
+template <typename Landmark>
+void LandmarkMap<Landmark>::RemoveIf(const std::function<bool(const Landmark&)>& condition) {
+  for (auto it = landmarks_.begin(); it != landmarks_.end();) {
+    it = condition(it->second) ? landmarks_.erase(it) : std::next(it);
+  }
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "vins_estimator/factors/line_factor.h"
+#include "vins_estimator/geometry/line_axis.h"
+#include "vins_estimator/geometry/plucker.h"
+
+namespace plm_vins {
+
+// One image's view of a line.
+struct LineView {
+  int64_t t_ns = 0;  // names the frame
+  LineSegmentView segment;
+};
+
+// A line track over the frames of the window, and the line in space behind it. The first view is
+// the host whose camera frame the coordinates refer to.
+struct LineLandmark {
+  int64_t id = -1;
+  std::vector<LineView> views;  // by time
+  // By anchors, of a line that was recognised; they count together with `views`.
+  std::vector<LineView> anchor_views;
+  OrthonormalLine coordinates = {0, 0, 0, 1, 0};
+  bool triangulated = false;
+  LineAxis axis = LineAxis::kFree;  // as known from the views so far
+
+  const LineView& host() const { return views.front(); }
+};
+
+// Takes out the view of one frame.
+inline void RemoveViewsOf(int64_t t_ns, std::vector<LineView>* views) {
+  const auto is_of_frame = [t_ns](const LineView& view) { return view.t_ns == t_ns; };
+  views->erase(std::remove_if(views->begin(), views->end(), is_of_frame), views->end());
+}
+
+}  // namespace plm_vins

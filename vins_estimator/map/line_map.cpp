@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/map/line_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace plm_vins {
+namespace {
+
+constexpr size_t kMinViewsToTriangulate = 3;
+constexpr double kMinSegment = 1e-3;   // normalised
+constexpr double kMinDistance = 1e-6;  // of a line from its host's camera [m]
+
+LineTriangulationResult TriangulateLandmark(const SlidingWindow& window,
+                                            const LineTriangulationOptions& options,
+                                            LineLandmark* landmark) {
+  const TriangulatedLine triangulated =
+      TriangulateLine(options, SightingsOf(landmark->views, window));
+  landmark->triangulated = triangulated.result == LineTriangulationResult::kOk;
+  if (landmark->triangulated) landmark->coordinates = triangulated.line;
+  return triangulated.result;
+}
+
+void Count(LineTriangulationResult result, LineTriangulationCounts* counts) {
+  counts->triangulated += result == LineTriangulationResult::kOk;
+  counts->degenerate += result == LineTriangulationResult::kDegenerate;
+  counts->behind += result == LineTriangulationResult::kBehind;
+  counts->inconsistent += result == LineTriangulationResult::kInconsistent;
+  counts->too_long += result == LineTriangulationResult::kTooLong;
+}
+
+double Length(const MapLine& line) { return (line.end_W - line.start_W).norm(); }
+
+bool IsTooLong(const LineLandmark& landmark, const SlidingWindow& window, double max_length) {
+  const auto segment = ObservedSegment(landmark, window);
+  return segment && Length(*segment) > max_length;
+}
+
+// Mean square of a view's two residuals in units of the noise; infinite where it has no image.
+double MeanSquareError(const PluckerLine& line_W, const LineView& view, double noise,
+                       const SlidingWindow& window) {
+  const LineSighting sighting = SightingOf(view, window);
+  Eigen::Vector2d distances;
+  const Eigen::Vector3d moment = (sighting.T_W_C.Inverse() * line_W).moment;
+  if (!EndPointDistances(view.segment, moment, &distances, nullptr)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return 0.5 * distances.squaredNorm() / (noise * noise);
+}
+
+// Takes out what anchors have seen and does not fit. Returns how many views went.
+int RemoveBadAnchorViews(const SlidingWindow& window, const LineLimits& limits,
+                         LineLandmark* landmark) {
+  const PluckerLine line_W = LineInWorld(*landmark, window);
+  const double limit = limits.max_view_error * limits.max_view_error;
+  std::vector<LineView>& views = landmark->anchor_views;
+  const size_t before = views.size();
+  views.erase(std::remove_if(views.begin(), views.end(),
+                             [&](const LineView& view) {
+                               return MeanSquareError(line_W, view, limits.noise, window) > limit;
+                             }),
+              views.end());
+  return static_cast<int>(before - views.size());
+}
+
+// Takes out views that do not fit, but the host's. Returns how many went and the mean square error
+// of those that stay.
+int RemoveBadViews(const SlidingWindow& window, const LineLimits& limits, LineLandmark* landmark,
+                   double* mean_square) {
+  const PluckerLine line_W = LineInWorld(*landmark, window);
+  const double limit = limits.max_view_error * limits.max_view_error;
+  const size_t before = landmark->views.size();
+  double sum = 0;
+  for (size_t i = 0; i < landmark->views.size();) {
+    const double error = MeanSquareError(line_W, landmark->views[i], limits.noise, window);
+    if (i > 0 && error > limit) {
+      landmark->views.erase(landmark->views.begin() + i);
+    } else {
+      sum += error;
+      ++i;
+    }
+  }
+  *mean_square = sum / static_cast<double>(landmark->views.size());
+  return static_cast<int>(before - landmark->views.size());
+}
+
+}  // namespace
+
+void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark) {
+  const Rigid3d T_W_C = window.T_W_C(*window.Find(landmark->views[view].t_ns));
+  const PluckerLine line_C = T_W_C.Inverse() * LineInWorld(*landmark, window);
+  const double direction = line_C.direction.norm();
+  landmark->triangulated = direction > 0 && line_C.moment.norm() > kMinDistance * direction;
+  if (landmark->triangulated) landmark->coordinates = ToOrthonormal(line_C);
+}
+
+void KeepOnlyView(const SlidingWindow& window, size_t view, LineLandmark* landmark) {
+  KeepOnlyView<LineLandmark>(window, view, landmark);
+  landmark->anchor_views.clear();
+}
+
+LineSighting SightingOf(const LineView& view, const SlidingWindow& window) {
+  return {window.T_W_C(*window.FindState(view.t_ns)), view.segment};
+}
+
+std::vector<LineSighting> SightingsOf(const std::vector<LineView>& views,
+                                      const SlidingWindow& window) {
+  std::vector<LineSighting> sightings;
+  sightings.reserve(views.size());
+  for (const LineView& view : views) sightings.push_back(SightingOf(view, window));
+  return sightings;
+}
+
+PluckerLine LineInWorld(const LineLandmark& landmark, const SlidingWindow& window) {
+  const Rigid3d T_W_Ch = window.T_W_C(*window.Find(landmark.host().t_ns));
+  return T_W_Ch * ToPlucker(landmark.coordinates.data());
+}
+
+std::optional<MapLine> ObservedSegment(const LineLandmark& landmark, const SlidingWindow& window) {
+  const PluckerLine line_W = LineInWorld(landmark, window);
+  const Eigen::Vector3d foot = NearestToOrigin(line_W);
+  const Eigen::Vector3d along = line_W.direction.normalized();
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  for (const LineView& view : landmark.views) {
+    const Rigid3d T_W_C = window.T_W_C(*window.Find(view.t_ns));
+    const LineEnds ends_C = EndsOf(T_W_C.Inverse() * line_W, view.segment);
+    if (!IsInFront(ends_C)) return std::nullopt;
+    for (const Eigen::Vector3d& end_C : {ends_C.start, ends_C.end}) {
+      const double place = along.dot(T_W_C * end_C - foot);
+      first = std::min(first, place);
+      last = std::max(last, place);
+    }
+  }
+  return MapLine{landmark.id, foot + first * along, foot + last * along, landmark.axis};
+}
+
+void LineMap::AddFrame(const LineFrame& frame) {
+  for (const LineObservation& line : frame.lines) {
+    if (!((line.end - line.start).norm() > kMinSegment)) continue;
+    LineLandmark& landmark = landmarks_[line.id];
+    landmark.id = line.id;
+    landmark.views.push_back({frame.t_ns, {line.start, line.end}});
+  }
+}
+
+LineTriangulationCounts LineMap::Triangulate(const SlidingWindow& window,
+                                             const LineTriangulationOptions& options,
+                                             double max_length) {
+  LineTriangulationCounts counts;
+  for (auto it = landmarks_.begin(); it != landmarks_.end();) {
+    LineLandmark& landmark = it->second;
+    if (landmark.triangulated || landmark.views.size() < kMinViewsToTriangulate) {
+      ++it;
+      continue;
+    }
+    LineTriangulationResult result = TriangulateLandmark(window, options, &landmark);
+    if (landmark.triangulated && IsTooLong(landmark, window, max_length)) {
+      result = LineTriangulationResult::kTooLong;
+    }
+    Count(result, &counts);
+    const bool stays =
+        result == LineTriangulationResult::kOk || result == LineTriangulationResult::kDegenerate;
+    it = stays ? std::next(it) : landmarks_.erase(it);
+  }
+  return counts;
+}
+
+int LineMap::RemoveOutliers(const SlidingWindow& window, const LineLimits& limits) {
+  int removed = 0;
+  for (auto it = landmarks_.begin(); it != landmarks_.end();) {
+    LineLandmark& landmark = it->second;
+    if (!landmark.triangulated || landmark.views.size() < 2) {
+      ++it;
+      continue;
+    }
+    double mean_square = 0;
+    removed += RemoveBadAnchorViews(window, limits, &landmark);
+    removed += RemoveBadViews(window, limits, &landmark, &mean_square);
+    const auto segment = ObservedSegment(landmark, window);
+    const bool bad = !segment || Length(*segment) > limits.max_length ||
+                     landmark.views.size() < 2 ||
+                     mean_square > limits.max_mean_error * limits.max_mean_error;
+    removed += bad;
+    it = bad ? landmarks_.erase(it) : std::next(it);
+  }
+  return removed;
+}
+
+void LineMap::RemoveAnchor(int64_t t_ns) {
+  for (auto& [id, landmark] : landmarks_) RemoveViewsOf(t_ns, &landmark.anchor_views);
+}
+
+}  // namespace plm_vins

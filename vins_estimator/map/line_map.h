@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/measurements.h"
+#include "vins_estimator/geometry/line_axis.h"
+#include "vins_estimator/map/line_landmark.h"
+#include "vins_estimator/geometry/line_triangulation.h"
+#include "vins_estimator/map/landmark_map.h"
+#include "vins_estimator/map/sliding_window.h"
+
+namespace plm_vins {
+
+// A line landmark in the world, cut to the part that was seen, for output.
+struct MapLine {
+  int64_t id = -1;
+  Eigen::Vector3d start_W = Eigen::Vector3d::Zero();  // [m]
+  Eigen::Vector3d end_W = Eigen::Vector3d::Zero();    // [m]
+  LineAxis axis = LineAxis::kFree;                    // of the Manhattan frame, that it runs along
+};
+
+// What happened to the lines that were to be triangulated in one frame.
+struct LineTriangulationCounts {
+  int triangulated = 0;
+  int degenerate = 0;    // wait for more baseline
+  int behind = 0;        // removed
+  int inconsistent = 0;  // removed
+  int too_long = 0;      // removed
+};
+
+// What a triangulated line must keep to.
+struct LineLimits {
+  double noise = 1.0 / 460.0;   // deviation of an end point across the line, normalised
+  double max_view_error = 5.0;  // of one view, root mean square in units of `noise`
+  double max_mean_error = 2.5;  // of all views
+  double max_length = 10.0;     // between the ends [m]
+};
+
+// All line tracks with views in the window. Every view belongs to a frame of the window.
+class LineMap : public LandmarkMap<LineLandmark> {
+ public:
+  // Adds one image's lines as views. A segment without length is left out.
+  void AddFrame(const LineFrame& frame);
+
+  // Triangulates what can be. Lines whose sightings contradict each other are removed, those with
+  // too little baseline wait.
+  LineTriangulationCounts Triangulate(const SlidingWindow& window,
+                                      const LineTriangulationOptions& options, double max_length);
+
+  // Judges the triangulated lines by all their views: removes single views that do not fit, lines
+  // behind a camera, longer than allowed or with too large a mean error. Returns how many lines
+  // and views went.
+  int RemoveOutliers(const SlidingWindow& window, const LineLimits& limits);
+
+  // Removes what an anchor has seen.
+  void RemoveAnchor(int64_t t_ns);
+};
+
+// Expresses a triangulated line in the camera of another of its views; not triangulated where it
+// passes through that camera.
+void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark);
+
+// Leaves one view of a line, as its host.
+void KeepOnlyView(const SlidingWindow& window, size_t view, LineLandmark* landmark);
+
+// A view, and views, of a line with the cameras' poses.
+LineSighting SightingOf(const LineView& view, const SlidingWindow& window);
+std::vector<LineSighting> SightingsOf(const std::vector<LineView>& views,
+                                      const SlidingWindow& window);
+
+// A triangulated line in the world.
+PluckerLine LineInWorld(const LineLandmark& landmark, const SlidingWindow& window);
+
+// The part of a triangulated line that its views have seen together, in the world. Nothing where
+// an end is not in front of a camera that saw it.
+std::optional<MapLine> ObservedSegment(const LineLandmark& landmark, const SlidingWindow& window);
+
+}  // namespace plm_vins

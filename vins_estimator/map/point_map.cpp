@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/map/point_map.h"
+
+#include <algorithm>
+
+#include "vins_estimator/geometry/point_triangulation.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kMinDepth = 0.05;  // [m]
+constexpr size_t kMinViewsToTriangulate = 2;
+
+PointSighting SightingOf(const PointView& view, const SlidingWindow& window) {
+  return {window.T_W_C(*window.Find(view.t_ns)), view.bearing.At(window.td)};
+}
+
+// Expresses a point in the camera of one of the landmark's views; not triangulated where it is not
+// in front of it.
+void SetPosition(const Eigen::Vector3d& p_W, const SlidingWindow& window, const PointView& view,
+                 PointLandmark* landmark) {
+  const Rigid3d T_W_C = window.T_W_C(*window.Find(view.t_ns));
+  const Eigen::Vector3d p_C = T_W_C.Inverse() * p_W;
+  landmark->triangulated = p_C.z() > kMinDepth;
+  if (landmark->triangulated) {
+    landmark->coordinates = {p_C.x() / p_C.z(), p_C.y() / p_C.z(), 1.0 / p_C.z()};
+  }
+}
+
+void TriangulateLandmark(const SlidingWindow& window, double min_angle, PointLandmark* landmark) {
+  std::vector<PointSighting> sightings;
+  sightings.reserve(landmark->views.size());
+  for (const PointView& view : landmark->views) sightings.push_back(SightingOf(view, window));
+  const auto p_W = TriangulatePoint(sightings, min_angle);
+  if (p_W) SetPosition(*p_W, window, landmark->host(), landmark);
+}
+
+}  // namespace
+
+void MoveHost(const SlidingWindow& window, size_t view, PointLandmark* landmark) {
+  SetPosition(PositionInWorld(*landmark, window), window, landmark->views[view], landmark);
+}
+
+Eigen::Vector3d PositionInWorld(const PointLandmark& landmark, const SlidingWindow& window) {
+  const Rigid3d T_W_Ch = window.T_W_C(*window.Find(landmark.host().t_ns));
+  return T_W_Ch * PointInHost(landmark.coordinates.data());
+}
+
+std::optional<double> ReprojectionError(const Eigen::Vector3d& p_W, const PointView& view,
+                                        const SlidingWindow& window) {
+  const PointSighting sighting = SightingOf(view, window);
+  const Eigen::Vector3d p_C = sighting.T_W_C.Inverse() * p_W;
+  if (p_C.z() < kMinDepth) return std::nullopt;
+  return (p_C.hnormalized() - sighting.xy).norm();
+}
+
+void PointMap::AddFrame(const PointFrame& frame, double cut_time_offset) {
+  for (const PointObservation& point : frame.points) {
+    PointLandmark& landmark = landmarks_[point.id];
+    landmark.id = point.id;
+    landmark.views.push_back({frame.t_ns, {point.xy, point.velocity, cut_time_offset}});
+  }
+}
+
+void PointMap::Triangulate(const SlidingWindow& window, double min_angle) {
+  for (auto& [id, landmark] : landmarks_) {
+    if (landmark.triangulated || landmark.views.size() < kMinViewsToTriangulate) continue;
+    TriangulateLandmark(window, min_angle, &landmark);
+  }
+}
+
+int PointMap::RemoveOutliers(const SlidingWindow& window, double max_error) {
+  int removed = 0;
+  for (auto it = landmarks_.begin(); it != landmarks_.end();) {
+    PointLandmark& landmark = it->second;
+    if (!landmark.triangulated || landmark.views.size() < 2) {
+      ++it;
+      continue;
+    }
+    const Eigen::Vector3d p_W = PositionInWorld(landmark, window);
+    const double inverse_depth = landmark.coordinates[2];
+    bool bad = inverse_depth <= 0 || inverse_depth > 1.0 / kMinDepth;
+    double sum = 0;
+    for (size_t i = 1; i < landmark.views.size() && !bad;) {
+      const auto error = ReprojectionError(p_W, landmark.views[i], window);
+      bad = !error;
+      if (error && *error > 2 * max_error) {
+        landmark.views.erase(landmark.views.begin() + i);
+        ++removed;
+        continue;
+      }
+      sum += error.value_or(0);
+      ++i;
+    }
+    const size_t count = landmark.views.size() - 1;
+    bad = bad || count == 0 || sum / count > max_error;
+    removed += bad;
+    it = bad ? landmarks_.erase(it) : std::next(it);
+  }
+  return removed;
+}
+
+}  // namespace plm_vins

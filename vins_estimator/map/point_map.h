@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "common/measurements.h"
+#include "vins_estimator/map/point_landmark.h"
+#include "vins_estimator/map/landmark_map.h"
+#include "vins_estimator/map/sliding_window.h"
+
+namespace plm_vins {
+
+// A landmark's place in the world, for output.
+struct MapPoint {
+  int64_t id = -1;
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // [m]
+};
+
+// All corner tracks with views in the window. Every view belongs to a frame of the window.
+class PointMap : public LandmarkMap<PointLandmark> {
+ public:
+  // Adds one image's corners as views. `cut_time_offset`: see TimedBearing.
+  void AddFrame(const PointFrame& frame, double cut_time_offset);
+
+  // Triangulates what can be; `min_angle` [rad] is the least angle between rays.
+  void Triangulate(const SlidingWindow& window, double min_angle);
+
+  // Removes landmarks behind a camera or with a mean reprojection error above `max_error`, and
+  // single views above twice that (normalised image units). Returns how many landmarks and views
+  // went.
+  int RemoveOutliers(const SlidingWindow& window, double max_error);
+};
+
+// Expresses a landmark's coordinates in the camera of another of its views; not triangulated where
+// it is not in front of that.
+void MoveHost(const SlidingWindow& window, size_t view, PointLandmark* landmark);
+
+// Position of a triangulated landmark in the world.
+Eigen::Vector3d PositionInWorld(const PointLandmark& landmark, const SlidingWindow& window);
+
+// Reprojection error of a triangulated landmark in one of its views, in normalised image units.
+// Nothing where it is behind that camera.
+std::optional<double> ReprojectionError(const Eigen::Vector3d& p_W, const PointView& view,
+                                        const SlidingWindow& window);
+
+}  // namespace plm_vins

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "common/rigid3.h"
+#include "vins_estimator/imu/preintegration.h"
+#include "vins_estimator/state/frame_state.h"
+
+namespace plm_vins {
+
+// One image's place in the window.
+struct WindowFrame {
+  FrameState state;
+  double cut_time_offset = 0;  // td with which the IMU was cut at this image [s]
+  // Motion since the frame before in the window; null in the first frame.
+  std::shared_ptr<Preintegration> motion_since_previous;
+  bool stationary = false;  // stood still ever since the frame before
+};
+
+// A frame that has left the window while its pose stays in the estimate, for what it has seen of
+// lines that may come back.
+struct AnchorFrame {
+  FrameState state;         // its pose; the motion is what it was then
+  int64_t last_use_ns = 0;  // the newest frame with a line that this one has seen
+};
+
+// The variables of the estimator that are not landmarks: keyframes, oldest first, then the newest
+// image.
+struct SlidingWindow {
+  std::vector<WindowFrame> frames;
+  std::vector<AnchorFrame> anchors;
+  std::array<double, 7> extrinsic = {0, 0, 0, 0, 0, 0, 1};  // T_B_C, laid out like FrameState::pose
+  double td = 0;                                            // t_imu = t_image + td [s]
+  Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  // [m/s^2]
+
+  WindowFrame& newest() { return frames.back(); }
+  const WindowFrame& newest() const { return frames.back(); }
+
+  Rigid3d T_B_C() const {
+    return {Eigen::Quaterniond(Eigen::Map<const Eigen::Quaterniond>(extrinsic.data() + 3)),
+            Eigen::Map<const Eigen::Vector3d>(extrinsic.data())};
+  }
+  void SetExtrinsic(const Rigid3d& T_B_C);
+
+  // Camera pose of a frame.
+  Rigid3d T_W_C(const FrameState& state) const { return state.T_W_B() * T_B_C(); }
+  Rigid3d T_W_C(const WindowFrame& frame) const { return T_W_C(frame.state); }
+
+  // The frame of the image with this stamp; null where it is not in the window.
+  WindowFrame* Find(int64_t t_ns);
+  const WindowFrame* Find(int64_t t_ns) const;
+
+  // The same among the anchors.
+  AnchorFrame* FindAnchor(int64_t t_ns);
+  const AnchorFrame* FindAnchor(int64_t t_ns) const;
+
+  // The state of a frame or an anchor.
+  const FrameState* FindState(int64_t t_ns) const;
+
+  // Takes out the frame before the newest; the newest frame's motion then starts one frame earlier.
+  void RemoveSecondNewest();
+  void RemoveOldest();
+
+  // The oldest frame leaves the window and becomes an anchor.
+  void TurnOldestIntoAnchor();
+  void RemoveAnchor(int64_t t_ns);
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/problem/problem_builder.h"
+
+#include <stdexcept>
+
+#include "vins_estimator/factors/imu_factor.h"
+#include "vins_estimator/factors/line_factor.h"
+#include "vins_estimator/factors/manhattan_factor.h"
+#include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/factors/zero_velocity_factor.h"
+
+namespace plm_vins {
+
+ProblemBuilder::ProblemBuilder(const ProblemOptions& options, SlidingWindow* window,
+                               const MarginalizationPrior* prior)
+    : options_(options),
+      window_(window),
+      prior_(prior),
+      point_loss_(options.point_loss_scale),
+      line_loss_(options.line_loss_scale),
+      manhattan_loss_(options.manhattan_loss_scale) {}
+
+double* ProblemBuilder::Values(const BlockId& id) {
+  switch (id.kind) {
+    case BlockKind::kExtrinsic:
+      return window_->extrinsic.data();
+    case BlockKind::kTimeOffset:
+      return &window_->td;
+    case BlockKind::kPose:
+    case BlockKind::kMotion: {
+      WindowFrame* frame = window_->Find(id.key);
+      AnchorFrame* anchor = window_->FindAnchor(id.key);
+      if (frame && id.kind == BlockKind::kMotion) return frame->state.motion.data();
+      if (frame) return frame->state.pose.data();
+      if (anchor && id.kind == BlockKind::kPose) return anchor->state.pose.data();
+      throw std::logic_error("variable of a frame that left the window");
+    }
+    default:
+      throw std::logic_error("landmarks are added with their terms");
+  }
+}
+
+int ProblemBuilder::AddVariable(const BlockId& id) {
+  const int known = problem_.Find(id);
+  if (known >= 0) return known;
+  const bool constant = (id.kind == BlockKind::kExtrinsic && !options_.estimate_extrinsic) ||
+                        (id.kind == BlockKind::kTimeOffset && !options_.estimate_td);
+  const double* linearization =
+      options_.first_estimate_jacobians ? prior_->Linearization(id) : nullptr;
+  return problem_.AddVariable(id, Values(id), constant, linearization);
+}
+
+void ProblemBuilder::AddPrior() {
+  for (const MarginalizationPrior::Block& block : prior_->blocks()) AddVariable(block.id);
+  problem_.SetPrior(prior_);
+}
+
+void ProblemBuilder::AddMotion(size_t index) {
+  const WindowFrame& from = window_->frames[index - 1];
+  const WindowFrame& to = window_->frames[index];
+  const int pose_i = Pose(from.state.t_ns), motion_i = Motion(from.state.t_ns);
+  const int pose_j = Pose(to.state.t_ns), motion_j = Motion(to.state.t_ns);
+  problem_.AddTerm(std::make_unique<ImuFactor>(to.motion_since_previous.get(), window_->gravity_W),
+                   nullptr, {pose_i, motion_i, pose_j, motion_j});
+  if (!to.stationary) return;
+  problem_.AddTerm(std::make_unique<ZeroVelocityFactor>(options_.standstill_velocity), nullptr,
+                   {motion_j});
+  problem_.AddTerm(
+      std::make_unique<SamePoseFactor>(options_.standstill_position, options_.standstill_rotation),
+      nullptr, {pose_i, pose_j});
+}
+
+void ProblemBuilder::AddPoint(PointLandmark* landmark) {
+  const BlockId id{BlockKind::kPoint, landmark->id};
+  const int index = problem_.AddLandmark(id, landmark->coordinates.data());
+  const int point = problem_.Find(id);
+  const int extrinsic = AddVariable({BlockKind::kExtrinsic, 0});
+  const int td = AddVariable({BlockKind::kTimeOffset, 0});
+  const PointView& host = landmark->host();
+  const int host_pose = Pose(host.t_ns);
+  problem_.ReserveLandmarkTerms(index, landmark->views.size());
+  problem_.AddLandmarkTerm(index,
+                           std::make_unique<PointHostFactor>(host.bearing, options_.point_weight),
+                           &point_loss_, {td, point});
+  for (size_t i = 1; i < landmark->views.size(); ++i) {
+    const PointView& view = landmark->views[i];
+    problem_.AddLandmarkTerm(index,
+                             std::make_unique<PointFactor>(view.bearing, options_.point_weight),
+                             &point_loss_, {host_pose, Pose(view.t_ns), extrinsic, td, point});
+  }
+}
+
+void ProblemBuilder::AddLine(LineLandmark* landmark) {
+  const BlockId id{BlockKind::kLine, landmark->id};
+  const int index = problem_.AddLandmark(id, landmark->coordinates.data());
+  const int line = problem_.Find(id);
+  const int extrinsic = AddVariable({BlockKind::kExtrinsic, 0});
+  const LineView& host = landmark->host();
+  const int host_pose = Pose(host.t_ns);
+  problem_.ReserveLandmarkTerms(index, landmark->views.size() + landmark->anchor_views.size() + 1);
+  problem_.AddLandmarkTerm(index,
+                           std::make_unique<LineHostFactor>(host.segment, options_.line_weight),
+                           &line_loss_, {line});
+  const auto add_view = [&](const LineView& view, double weight) {
+    problem_.AddLandmarkTerm(index, std::make_unique<LineFactor>(view.segment, weight), &line_loss_,
+                             {host_pose, Pose(view.t_ns), extrinsic, line});
+  };
+  for (size_t i = 1; i < landmark->views.size(); ++i) {
+    add_view(landmark->views[i], options_.line_weight);
+  }
+  for (const LineView& view : landmark->anchor_views) add_view(view, options_.anchor_weight);
+  if (!options_.R_W_M || landmark->axis == LineAxis::kFree) return;
+  const Eigen::Vector3d axis_W = *options_.R_W_M * UnitVector(landmark->axis);
+  problem_.AddLandmarkTerm(index,
+                           std::make_unique<ManhattanFactor>(axis_W, options_.manhattan_weight),
+                           &manhattan_loss_, {host_pose, extrinsic, line});
+}
+
+}  // namespace plm_vins

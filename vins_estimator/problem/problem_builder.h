@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ceres/loss_function.h>
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+
+#include "vins_estimator/map/line_landmark.h"
+#include "vins_estimator/problem/marginalization_prior.h"
+#include "vins_estimator/problem/window_problem.h"
+#include "vins_estimator/map/point_landmark.h"
+#include "vins_estimator/map/sliding_window.h"
+
+namespace plm_vins {
+
+// What weighs the terms of the window problem, and which calibration it estimates.
+struct ProblemOptions {
+  double point_weight = 460.0;          // focal length over corner noise
+  double point_loss_scale = 1.0;        // Cauchy loss, in standard deviations
+  double line_weight = 460.0;           // focal length over the noise of a line's ends across it
+  double line_loss_scale = 1.0;         // Cauchy loss, in standard deviations
+  double anchor_weight = 92.0;          // the same, of what anchors have seen
+  double manhattan_weight = 57.3;       // one over the deviation of a line from its axis [1/rad]
+  double manhattan_loss_scale = 3.0;    // Tukey loss, in standard deviations
+  double standstill_velocity = 0.005;   // standard deviation while standing still [m/s]
+  double standstill_position = 0.001;   // ... of the position between two frames [m]
+  double standstill_rotation = 0.0005;  // ... of the rotation between two frames [rad]
+  bool estimate_extrinsic = false;
+  bool estimate_td = false;
+  bool first_estimate_jacobians = true;
+  // Lines on its axes are held to them; none where there is no such frame.
+  std::optional<Eigen::Quaterniond> R_W_M;
+};
+
+// Puts the parts of the window into a WindowProblem: one place that knows which variables and
+// factors belong together, for the optimisation (all parts) and the marginalisation (those that
+// leave).
+class ProblemBuilder {
+ public:
+  // All must outlive the problem.
+  ProblemBuilder(const ProblemOptions& options, SlidingWindow* window,
+                 const MarginalizationPrior* prior);
+
+  void AddPrior();
+  // The IMU between frame `index` - 1 and `index`, and that they stood still where they did.
+  void AddMotion(size_t index);
+  // All views of a triangulated landmark.
+  void AddPoint(PointLandmark* landmark);
+  // The same, with what anchors have seen of it, and that it runs along its Manhattan axis, if any.
+  void AddLine(LineLandmark* landmark);
+
+  const WindowProblem& problem() const { return problem_; }
+
+ private:
+  int AddVariable(const BlockId& id);
+  double* Values(const BlockId& id);
+  int Pose(int64_t t_ns) { return AddVariable({BlockKind::kPose, t_ns}); }
+  int Motion(int64_t t_ns) { return AddVariable({BlockKind::kMotion, t_ns}); }
+
+  const ProblemOptions options_;
+  SlidingWindow* window_;
+  const MarginalizationPrior* prior_;
+  ceres::CauchyLoss point_loss_;
+  ceres::CauchyLoss line_loss_;
+  ceres::TukeyLoss manhattan_loss_;
+  WindowProblem problem_;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vins_estimator/problem/block_id.h"
+
+namespace plm_vins {
+
+// How a variable's values change by a tangent vector.
+struct VariableType {
+  int ambient_size = 0;
+  int tangent_size = 0;
+  void (*plus)(const double* x, const double* delta, double* x_plus_delta) = nullptr;
+  void (*minus)(const double* y, const double* x, double* y_minus_x) = nullptr;
+};
+
+constexpr int kMaxAmbientSize = 9;
+constexpr int kMaxTangentSize = 9;
+
+const VariableType& PoseVariable();    // 7 -> 6
+const VariableType& MotionVariable();  // 9, vector space
+const VariableType& ScalarVariable();  // 1, vector space: time offset
+const VariableType& PointVariable();   // 3, vector space: image point and inverse depth in a host
+const VariableType& LineVariable();    // 5 -> 4: orthonormal representation (geometry/plucker.h)
+
+const VariableType& VariableTypeOf(BlockKind kind);
+
+// One variable of an optimisation problem. The values belong to the caller.
+struct Variable {
+  BlockId id;
+  double* values = nullptr;
+  bool constant = false;
+  // Where Jacobians are taken (first-estimate Jacobians, [Huang2010]); null: at the values
+  // themselves.
+  const double* linearization = nullptr;
+
+  const VariableType& type() const { return VariableTypeOf(id.kind); }
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/recall/line_memory.h"
+
+#include <algorithm>
+
+namespace plm_vins {
+namespace {
+
+constexpr double kMuchLessCertain = 2.0;  // ratio of standard deviations
+
+// `line`, prolonged to where `other` ends.
+SeenLine Prolonged(const SeenLine& line, const SeenLine& other) {
+  const Eigen::Vector3d along = line.Direction();
+  const auto place = [&](const Eigen::Vector3d& end) { return along.dot(end - line.start_F); };
+  const auto [low, high] =
+      std::minmax({0.0, place(line.end_F), place(other.start_F), place(other.end_F)});
+  SeenLine prolonged = line;
+  prolonged.start_F = line.start_F + low * along;
+  prolonged.end_F = line.start_F + high * along;
+  return prolonged;
+}
+
+}  // namespace
+
+void LineMemory::Keep(int64_t id, const SeenLine& line_W) {
+  const auto [place, is_new] = lines_.try_emplace(id);
+  RememberedLine& known = place->second;
+  known.note = ++notes_;
+  if (is_new) {
+    known.seen_W = line_W;
+    if (lines_.size() > kCapacity) ForgetLeastRecent();
+  } else if (line_W.place_sigma > kMuchLessCertain * known.seen_W.place_sigma) {
+    known.seen_W = Prolonged(known.seen_W, line_W);
+  } else {
+    known.seen_W = Prolonged(line_W, known.seen_W);
+  }
+}
+
+void LineMemory::KeepView(int64_t id, const LineView& anchor_view) {
+  const auto line = lines_.find(id);
+  if (line == lines_.end()) return;
+  std::vector<LineView>& views = line->second.anchor_views;
+  views.insert(
+      std::upper_bound(views.begin(), views.end(), anchor_view,
+                       [](const LineView& a, const LineView& b) { return a.t_ns < b.t_ns; }),
+      anchor_view);
+  if (views.size() > kMaxAnchorViews) views.erase(views.begin() + 1);
+}
+
+void LineMemory::Join(int64_t newer, int64_t older) {
+  const auto joined = lines_.extract(newer);
+  if (joined.empty()) return;
+  Keep(older, joined.mapped().seen_W);
+  for (const LineView& view : joined.mapped().anchor_views) KeepView(older, view);
+}
+
+void LineMemory::RemoveAnchor(int64_t t_ns) {
+  for (auto& [id, line] : lines_) RemoveViewsOf(t_ns, &line.anchor_views);
+}
+
+const RememberedLine* LineMemory::Find(int64_t id) const {
+  const auto line = lines_.find(id);
+  return line == lines_.end() ? nullptr : &line->second;
+}
+
+void LineMemory::ForgetLeastRecent() {
+  lines_.erase(std::min_element(lines_.begin(), lines_.end(), [](const auto& a, const auto& b) {
+    return a.second.note < b.second.note;
+  }));
+}
+
+}  // namespace plm_vins

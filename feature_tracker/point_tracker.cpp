@@ -9,13 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "tracking/image_check.h"
 #include "feature_tracker/corner_detector.h"
 #include "feature_tracker/optical_flow.h"
 #include "feature_tracker/outlier_rejection.h"
 #include "feature_tracker/point_track.h"
 #include "feature_tracker/spacing_grid.h"
 #include "feature_tracker/track_drawing.h"
+#include "tracking/image_check.h"
 
 namespace plm_vins {
 namespace {

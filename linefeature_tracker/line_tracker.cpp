@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "tracking/image_check.h"
 #include "common/stopwatch.h"
 #include "linefeature_tracker/lbd_matcher.h"
 #include "linefeature_tracker/line_drawing.h"
@@ -19,6 +18,7 @@
 #include "linefeature_tracker/line_refinement.h"
 #include "linefeature_tracker/line_track.h"
 #include "linefeature_tracker/segment_sampler.h"
+#include "tracking/image_check.h"
 
 namespace plm_vins {
 namespace {

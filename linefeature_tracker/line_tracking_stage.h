@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tracking/tracking_stage.h"
 #include "linefeature_tracker/line_tracker.h"
+#include "tracking/tracking_stage.h"
 
 namespace plm_vins {
 

@@ -10,10 +10,10 @@
 
 #include "common/config.h"
 #include "common/drop_counts.h"
-#include "vins_estimator/estimation_stage.h"
 #include "offline/front_end.h"
 #include "offline/recording.h"
 #include "offline/recording_interval.h"
+#include "vins_estimator/estimation_stage.h"
 
 namespace plm_vins {
 

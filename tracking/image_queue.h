@@ -10,8 +10,8 @@
 #include "common/backward_jump.h"
 #include "common/config.h"
 #include "common/drop_counts.h"
-#include "tracking/gyro_predictor.h"
 #include "common/measurements.h"
+#include "tracking/gyro_predictor.h"
 #include "tracking/rate_limiter.h"
 
 namespace plm_vins {

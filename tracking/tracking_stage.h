@@ -6,9 +6,9 @@
 
 #include "common/camera_model.h"
 #include "common/config.h"
-#include "tracking/image_queue.h"
 #include "common/measurements.h"
 #include "common/stopwatch.h"
+#include "tracking/image_queue.h"
 
 namespace plm_vins {
 

@@ -10,8 +10,8 @@
 
 #include "common/rigid3.h"
 #include "vins_estimator/map/line_map.h"
-#include "vins_estimator/merging/line_merging.h"
 #include "vins_estimator/map/point_map.h"
+#include "vins_estimator/merging/line_merging.h"
 #include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {

@@ -2,8 +2,8 @@
 // The point front end as a node: ~feature, ~feature_img and ~restart out.
 #include <ros/spinner.h>
 
-#include "tracking/ros/tracker_node.h"
 #include "feature_tracker/ros/point_front_end.h"
+#include "tracking/ros/tracker_node.h"
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "feature_tracker", [](const plm_vins::Config& config) {

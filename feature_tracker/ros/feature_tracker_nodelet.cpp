@@ -2,8 +2,8 @@
 // The point front end as the nodelet plm_vins/FeatureTracker.
 #include <pluginlib/class_list_macros.hpp>
 
-#include "tracking/ros/tracker_nodelet.h"
 #include "feature_tracker/ros/point_front_end.h"
+#include "tracking/ros/tracker_nodelet.h"
 
 namespace plm_vins {
 using FeatureTrackerNodelet = TrackerNodelet<PointFrontEnd>;

@@ -2,8 +2,8 @@
 // The line front end as a node: ~linefeature, ~linefeature_img and ~restart out.
 #include <ros/spinner.h>
 
-#include "tracking/ros/tracker_node.h"
 #include "linefeature_tracker/ros/line_front_end.h"
+#include "tracking/ros/tracker_node.h"
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "linefeature_tracker", [](const plm_vins::Config& config) {

@@ -2,8 +2,8 @@
 // The line front end as the nodelet plm_vins/LineFeatureTracker.
 #include <pluginlib/class_list_macros.hpp>
 
-#include "tracking/ros/tracker_nodelet.h"
 #include "linefeature_tracker/ros/line_front_end.h"
+#include "tracking/ros/tracker_nodelet.h"
 
 namespace plm_vins {
 using LineFeatureTrackerNodelet = TrackerNodelet<LineFrontEnd>;

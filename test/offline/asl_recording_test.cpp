@@ -6,8 +6,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "test/testing/temporary_folder.h"
 #include "test/offline/recording_contents.h"
+#include "test/testing/temporary_folder.h"
 
 namespace plm_vins {
 namespace {

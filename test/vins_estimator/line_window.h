@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "vins_estimator/manhattan/line_directions.h"
 #include "vins_estimator/geometry/line_fit.h"
+#include "vins_estimator/manhattan/line_directions.h"
 #include "vins_estimator/merging/line_merging.h"
 #include "vins_estimator/recall/anchor_policy.h"
 

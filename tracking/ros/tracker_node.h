@@ -18,8 +18,8 @@
 #include "common/config.h"
 #include "common/ros/msg_conversion.h"
 #include "common/ros/node_setup.h"
-#include "tracking/ros/run_time_settings.h"
 #include "common/ros/stream_monitor.h"
+#include "tracking/ros/run_time_settings.h"
 
 namespace plm_vins {
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "vins_estimator/map/line_map.h"
 #include "vins_estimator/manhattan/manhattan_frame.h"
+#include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/sliding_window.h"
 
 namespace plm_vins {

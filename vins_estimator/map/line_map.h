@@ -8,9 +8,9 @@
 
 #include "common/measurements.h"
 #include "vins_estimator/geometry/line_axis.h"
-#include "vins_estimator/map/line_landmark.h"
 #include "vins_estimator/geometry/line_triangulation.h"
 #include "vins_estimator/map/landmark_map.h"
+#include "vins_estimator/map/line_landmark.h"
 #include "vins_estimator/map/sliding_window.h"
 
 namespace plm_vins {

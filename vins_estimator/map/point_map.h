@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "common/measurements.h"
-#include "vins_estimator/map/point_landmark.h"
 #include "vins_estimator/map/landmark_map.h"
+#include "vins_estimator/map/point_landmark.h"
 #include "vins_estimator/map/sliding_window.h"
 
 namespace plm_vins {

@@ -5,10 +5,10 @@
 #include <functional>
 
 #include "vins_estimator/map/line_map.h"
-#include "vins_estimator/problem/marginalization_prior.h"
-#include "vins_estimator/problem/problem_builder.h"
 #include "vins_estimator/map/point_map.h"
 #include "vins_estimator/map/sliding_window.h"
+#include "vins_estimator/problem/marginalization_prior.h"
+#include "vins_estimator/problem/problem_builder.h"
 
 namespace plm_vins {
 

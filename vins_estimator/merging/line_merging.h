@@ -5,11 +5,11 @@
 #include <cmath>
 #include <optional>
 
-#include "vins_estimator/merging/line_aliases.h"
-#include "vins_estimator/map/line_map.h"
-#include "vins_estimator/recall/line_memory.h"
 #include "vins_estimator/manhattan/manhattan_frame.h"
+#include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/sliding_window.h"
+#include "vins_estimator/merging/line_aliases.h"
+#include "vins_estimator/recall/line_memory.h"
 
 namespace plm_vins {
 

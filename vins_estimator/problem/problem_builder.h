@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "vins_estimator/map/line_landmark.h"
-#include "vins_estimator/problem/marginalization_prior.h"
-#include "vins_estimator/problem/window_problem.h"
 #include "vins_estimator/map/point_landmark.h"
 #include "vins_estimator/map/sliding_window.h"
+#include "vins_estimator/problem/marginalization_prior.h"
+#include "vins_estimator/problem/window_problem.h"
 
 namespace plm_vins {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
-#include "vins_estimator/map/line_landmark.h"
 #include "vins_estimator/geometry/line_pairs.h"
+#include "vins_estimator/map/line_landmark.h"
 
 namespace plm_vins {
 

@@ -10,8 +10,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/ros/msg_conversion.h"
-#include "test/testing/temporary_folder.h"
 #include "test/offline/recording_contents.h"
+#include "test/testing/temporary_folder.h"
 
 namespace plm_vins {
 namespace {

@@ -8,8 +8,8 @@
 #include "simulator/feature_simulator.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 #include "test/vins_estimator/line_window.h"
-#include "vins_estimator/merging/line_merging.h"
 #include "vins_estimator/geometry/line_pairs.h"
+#include "vins_estimator/merging/line_merging.h"
 
 namespace plm_vins {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/config/camera_keys.h"
 #include "common/config/config_checks.h"
 #include "common/config/config_entry.h"
 #include "common/config/config_keys.h"
@@ -11,9 +12,13 @@
 namespace plm_vins {
 namespace {
 
-std::string JoinLines(const std::vector<std::string>& lines) {
+bool Contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::string Join(const std::vector<std::string>& words, const std::string& separator) {
   std::string text;
-  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
   return text;
 }
 
@@ -21,73 +26,89 @@ std::string JoinLines(const std::vector<std::string>& lines) {
 class Loader {
  public:
   Loader(const std::string& file, const std::map<std::string, std::string>& overrides) {
-    draft_.file = file;
+    config_.file = file;
     const auto entries = ReadConfigEntries(file, overrides, &problems_);
     if (!entries) throw ConfigError(problems_);
     entries_ = *entries;
+    keys_ = AllKeys(ModelTypeAsWritten());
+    for (const ConfigKey<Config>& key : keys_) known_.push_back(key.name);
   }
 
   Config Load() {
-    Read(ModelTypeKey());
-    for (const ConfigKey& key : GeneralKeys()) Read(key);
-    if (draft_.model_type) {
-      for (const ConfigKey& key : CameraKeys(*draft_.model_type)) Read(key);
-    }
+    for (const ConfigKey<Config>& key : keys_) Read(key);
     for (const auto& [name, entry] : entries_) CheckKnown(name);
-    CheckTogether(entries_, draft_, [this](const auto& key, const auto& text) { Add(key, text); });
+    CheckTogether(entries_, config_, [this](const auto& key, const auto& text) { Add(key, text); });
     if (!problems_.empty()) throw ConfigError(problems_);
-    return FinishConfig(entries_, draft_);
+    FinishConfig(entries_, &config_);
+    return config_;
   }
 
  private:
-  void Read(const ConfigKey& key) {
-    known_.push_back(key.name);
+  std::string ModelTypeAsWritten() const {
+    const auto entry = entries_.find("model_type");
+    return entry == entries_.end() ? "" : ScalarText(entry->second.value).value_or("");
+  }
+
+  void Read(const ConfigKey<Config>& key) {
     const auto entry = entries_.find(key.name);
     if (entry == entries_.end()) {
       if (key.required) Add(key.name, "is missing; add it (config/reference.yaml explains it)");
       return;
     }
-    ConfigDraft defaults;
     const auto text = ScalarText(entry->second.value);
-    if (const Problem problem = key.read(entry->second.value, draft_)) {
-      const std::string standard = key.required ? "" : key.print(defaults);
+    if (const Problem problem = key.read(entry->second.value, config_)) {
+      const std::string standard = ToText(key.value(Config()));
       Add(key.name, (text ? "\"" + *text + "\" " : "") + *problem +
-                        (standard.empty() ? "" : " (default " + standard + ")"));
+                        (key.has_default ? " (default " + standard + ")" : ""));
     }
   }
 
   void CheckKnown(const std::string& name) {
-    if (std::find(known_.begin(), known_.end(), name) != known_.end()) return;
-    const auto& ignored = IgnoredKeys();
-    if (std::find(ignored.begin(), ignored.end(), name) != ignored.end()) {
-      draft_.ignored_keys.push_back(name);
+    if (Contains(known_, name)) return;
+    if (Contains(IgnoredKeys(), name)) {
+      config_.ignored_keys.push_back(name);
       return;
     }
     // Without a model it is not known which calibration keys there should be.
-    if (!draft_.model_type && name.find("_parameters.") != std::string::npos) return;
+    const bool of_camera = name.find("_parameters.") != std::string::npos;
+    if (of_camera && !IsModelType(ModelTypeAsWritten())) return;
     const auto nearest = NearestWord(name, known_);
     Add(name, "unknown key" + (nearest ? "; did you mean " + *nearest + "?" : "; remove it"));
   }
 
   void Add(const std::string& key, const std::string& problem) {
     const auto entry = entries_.find(key);
-    const std::string location = entry == entries_.end() ? draft_.file : entry->second.location;
+    const std::string location = entry == entries_.end() ? config_.file : entry->second.location;
     problems_.push_back(location + ": " + key + ": " + problem);
   }
 
-  ConfigDraft draft_;
+  Config config_;
   ConfigEntries entries_;
-  std::vector<std::string> known_;
+  ConfigKeys<Config> keys_;
+  std::vector<std::string> known_;  // names of the keys
   std::vector<std::string> problems_;
 };
 
 }  // namespace
 
 ConfigError::ConfigError(const std::vector<std::string>& problems)
-    : std::runtime_error(JoinLines(problems)), problems_(problems) {}
+    : std::runtime_error(Join(problems, "\n")), problems_(problems) {}
 
 Config LoadConfig(const std::string& file, const std::map<std::string, std::string>& overrides) {
   return Loader(file, overrides).Load();
+}
+
+std::vector<std::pair<std::string, ConfigValue>> EffectiveValues(const Config& config) {
+  std::vector<std::pair<std::string, ConfigValue>> values;
+  for (const ConfigKey<Config>& key : AllKeys(ModelType(config.sensor.camera.model))) {
+    values.emplace_back(key.name, key.value(config));
+  }
+  return values;
+}
+
+std::string IgnoredKeysWarning(const Config& config) {
+  if (config.ignored_keys.empty()) return "";
+  return config.file + ": without effect here: " + Join(config.ignored_keys, ", ");
 }
 
 }  // namespace plm_vins

@@ -83,9 +83,13 @@ std::unique_ptr<Recording> Open(const Arguments& arguments, const SensorConfig& 
   return OpenBag(arguments.bag, sensor.image_topic, sensor.imu_topic);
 }
 
+void Warn(const std::string& text) {
+  if (!text.empty()) std::fprintf(stderr, "warning: %s\n", text.c_str());
+}
+
 void Warn(const DropCounts& drops) {
   for (const DropCount& drop : drops) {
-    if (drop.count > 0) std::fprintf(stderr, "warning: %s\n", ToString(drop).c_str());
+    if (drop.count > 0) Warn(ToString(drop));
   }
 }
 
@@ -112,6 +116,7 @@ int Report(const RunSummary::Run& run, const ResultFiles& results) {
 
 int Run(const Arguments& arguments) {
   const Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
+  Warn(IgnoredKeysWarning(config));
   const std::unique_ptr<Recording> recording = Open(arguments, config.sensor);
   ResultFiles results(arguments.output);
   ProgressDisplay progress(recording->end_ns(), arguments.duration);

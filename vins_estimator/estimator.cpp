@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/estimator.h"
 
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -15,25 +14,10 @@ constexpr double kMinTriangulationAngle_px = 2.0;  // in pixels of motion: well 
 constexpr double kMaxReprojectionError_px = 3.0;   // mean over a landmark's views
 constexpr int kInitialIterations = 20;
 constexpr size_t kMinViewsToOptimize = 3;
-// What an anchor has seen of a line that comes back is part of the prior already, and the line may
-// be another one that looks the same; so it counts less.
-constexpr double kAnchorNoise = 5.0;  // in units of the noise of lines
 
 template <typename Landmark>
 bool IsOptimized(const Landmark& landmark) {
   return landmark.triangulated && landmark.views.size() >= kMinViewsToOptimize;
-}
-
-ProblemOptions MakeProblemOptions(const Config& config, double focal_length) {
-  ProblemOptions options;
-  options.point_weight = focal_length / config.estimator.point_noise;
-  options.line_weight = focal_length / config.estimator.line_noise;
-  options.anchor_weight = options.line_weight / kAnchorNoise;
-  options.manhattan_weight = 180 / (M_PI * config.estimator.manhattan_noise);
-  options.estimate_extrinsic =
-      config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed;
-  options.estimate_td = config.sensor.estimate_td;
-  return options;
 }
 
 InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstill) {
@@ -49,52 +33,19 @@ InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstil
   return uncertainty;
 }
 
-LineTriangulationOptions MakeLineTriangulationOptions(const Config& config, double focal_length) {
-  LineTriangulationOptions options;
-  options.noise = config.estimator.line_noise / focal_length;
-  return options;
-}
-
-LineLimits MakeLineLimits(const Config& config, double focal_length) {
-  LineLimits limits;
-  limits.noise = config.estimator.line_noise / focal_length;
-  limits.max_length = config.estimator.line_outlier_distance;
-  return limits;
-}
-
-LineMergingOptions MakeLineMergingOptions(const Config& config, double focal_length) {
-  LineMergingOptions options;
-  options.distance = config.estimator.line_merge_distance;
-  options.image_distance = config.estimator.line_merge_image_distance / focal_length;
-  options.angle = config.estimator.line_merge_angle * M_PI / 180;
-  options.noise = config.estimator.line_noise / focal_length;
-  return options;
-}
-
-KeyframePolicyOptions MakeKeyframeOptions(const Config& config, double focal_length) {
-  KeyframePolicyOptions options;
-  options.min_parallax = config.estimator.keyframe_parallax / focal_length;
-  return options;
-}
-
-AnchorPolicyOptions MakeAnchorOptions(const EstimatorConfig& config) {
-  AnchorPolicyOptions options;
-  options.max_anchors = config.line_merging ? static_cast<size_t>(config.line_anchors) : 0;
-  return options;
-}
-
 }  // namespace
 
 Estimator::Estimator(const Config& config)
     : config_(config),
       focal_length_(CameraModel::Create(config.sensor.camera)->FocalLength()),
-      line_triangulation_options_(MakeLineTriangulationOptions(config, focal_length_)),
-      line_limits_(MakeLineLimits(config, focal_length_)),
-      keyframe_options_(MakeKeyframeOptions(config, focal_length_)),
-      anchor_options_(MakeAnchorOptions(config.estimator)),
+      line_triangulation_options_(config.estimator.line_noise / focal_length_),
+      line_limits_(line_triangulation_options_.noise, config.estimator.line_outlier_distance),
+      keyframe_options_(config.estimator, focal_length_),
+      anchor_options_(config.estimator),
+      problem_options_(config, focal_length_),
       initializer_(config),
       standstill_detector_(config.sensor.imu_noise),
-      line_merging_(MakeLineMergingOptions(config, focal_length_)) {
+      line_merging_(LineMergingOptions(config.estimator, focal_length_)) {
   Reset();
 }
 
@@ -111,7 +62,7 @@ void Estimator::Reset() {
   lines_.Clear();
   manhattan_ = ManhattanFrame();
   line_merging_.Clear();
-  problem_options_ = MakeProblemOptions(config_, focal_length_);
+  problem_options_ = ProblemOptions(config_, focal_length_);
   prior_ = MarginalizationPrior();
 }
 

@@ -21,14 +21,14 @@ bool HasNoise(const ConfigEntries& entries) {
 }
 
 // A mask is named relative to the configuration file. Empty where none is to be used.
-std::string MaskPath(const ConfigDraft& draft) {
-  const std::string& mask = draft.points.fisheye_mask;
-  if (mask.empty() || draft.fisheye == false) return "";
-  return (std::filesystem::path(draft.file).parent_path() / mask).string();
+std::string MaskPath(const Config& config) {
+  const std::string& mask = config.points.fisheye_mask;
+  if (mask.empty() || !config.points.fisheye) return "";
+  return (std::filesystem::path(config.file).parent_path() / mask).string();
 }
 
-void CheckExtrinsics(const ConfigEntries& entries, const ConfigDraft& draft, const Report& report) {
-  if (draft.sensor.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) return;
+void CheckExtrinsics(const ConfigEntries& entries, const Config& config, const Report& report) {
+  if (config.sensor.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) return;
   for (const char* key : {"extrinsicRotation", "extrinsicTranslation"}) {
     if (!Has(entries, key)) report(key, "is missing; add it, or set estimate_extrinsic: 2");
   }
@@ -41,12 +41,12 @@ void CheckNoise(const ConfigEntries& entries, const Report& report) {
   }
 }
 
-void CheckImage(const ConfigDraft& draft, const Report& report) {
-  const CameraParameters& camera = draft.sensor.camera;
+void CheckImage(const Config& config, const Report& report) {
+  const CameraParameters& camera = config.sensor.camera;
   if (camera.width == 0 || camera.height == 0) return;  // reported on their own
   if (camera.cx > camera.width) report("image_width", "the principal point is right of the image");
   if (camera.cy > camera.height) report("image_height", "the principal point is below the image");
-  if (draft.points.min_dist >= std::min(camera.width, camera.height)) {
+  if (config.points.min_dist >= std::min(camera.width, camera.height)) {
     report("min_dist", "must be smaller than the image");
   }
 }
@@ -82,9 +82,9 @@ void CheckFrames(const OutputConfig& output, const Report& report) {
   }
 }
 
-void CheckMask(const ConfigDraft& draft, const Report& report) {
-  const std::string mask = MaskPath(draft);
-  if (draft.fisheye == true && mask.empty()) {
+void CheckMask(const ConfigEntries& entries, const Config& config, const Report& report) {
+  const std::string mask = MaskPath(config);
+  if (Has(entries, "fisheye") && config.points.fisheye && mask.empty()) {
     report("fisheye_mask", "is missing; name an image file, or set fisheye: 0");
   }
   if (!mask.empty() && !std::filesystem::is_regular_file(mask)) {
@@ -92,36 +92,25 @@ void CheckMask(const ConfigDraft& draft, const Report& report) {
   }
 }
 
-CameraParameters::Model CameraModelOf(ConfigDraft::ModelType type) {
-  switch (type) {
-    case ConfigDraft::ModelType::kMei:
-      return CameraParameters::Model::kMei;
-    case ConfigDraft::ModelType::kPinhole:
-      return CameraParameters::Model::kPinholeRadtan;
-    default:
-      return CameraParameters::Model::kPinholeEquidistant;
-  }
-}
-
 }  // namespace
 
-void CheckTogether(const ConfigEntries& entries, const ConfigDraft& draft, const Report& report) {
-  CheckExtrinsics(entries, draft, report);
+void CheckTogether(const ConfigEntries& entries, const Config& config, const Report& report) {
+  CheckExtrinsics(entries, config, report);
   CheckNoise(entries, report);
-  CheckImage(draft, report);
-  CheckTopics(draft.sensor, report);
-  CheckFrames(draft.output, report);
-  CheckMask(draft, report);
+  CheckImage(config, report);
+  CheckTopics(config.sensor, report);
+  CheckFrames(config.output, report);
+  CheckMask(entries, config, report);
 }
 
-Config FinishConfig(const ConfigEntries& entries, const ConfigDraft& draft) {
-  Config config = draft;
-  config.sensor.camera.model = CameraModelOf(*draft.model_type);
-  config.points.fisheye_mask = MaskPath(draft);
-  if (HasNoise(entries) && draft.imu_noise_model == ConfigDraft::ImuNoiseModel::kVins) {
-    config.sensor.imu_noise = DensitiesFromSamples(draft.sensor.imu_noise, draft.imu_rate);
+void FinishConfig(const ConfigEntries& entries, Config* config) {
+  config->points.fisheye_mask = MaskPath(*config);
+  config->points.fisheye = !config->points.fisheye_mask.empty();
+  SensorConfig& sensor = config->sensor;
+  if (HasNoise(entries) && sensor.imu_noise_model == SensorConfig::ImuNoiseModel::kVins) {
+    sensor.imu_noise = DensitiesFromSamples(sensor.imu_noise, sensor.imu_rate);
   }
-  return config;
+  sensor.imu_noise_model = SensorConfig::ImuNoiseModel::kContinuous;
 }
 
 }  // namespace plm_vins

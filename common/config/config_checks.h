@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "common/config.h"
 #include "common/config/config_entry.h"
-#include "common/config/config_key.h"
 
 namespace plm_vins {
 
@@ -13,10 +13,9 @@ namespace plm_vins {
 using Report = std::function<void(const std::string& key, const std::string& problem)>;
 
 // Reports values that are fine alone but not together, and keys that others make necessary.
-void CheckTogether(const ConfigEntries& entries, const ConfigDraft& draft, const Report& report);
+void CheckTogether(const ConfigEntries& entries, const Config& config, const Report& report);
 
-// Turns what is written into what the modules take: camera model, noise densities, path of the
-// mask.
-Config FinishConfig(const ConfigEntries& entries, const ConfigDraft& draft);
+// Turns what is written into what the modules take: noise densities, path of the mask.
+void FinishConfig(const ConfigEntries& entries, Config* config);
 
 }  // namespace plm_vins

@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/config/config_key.h"
 
+#include <yaml-cpp/yaml.h>
+
 #include <cmath>
-#include <sstream>
 
 namespace plm_vins {
 namespace {
 
-std::string ToText(double number) {
-  std::ostringstream text;
-  text.precision(12);
-  text << number;
-  return text.str();
-}
-
 // "must be 1 to 500 [px]".
 std::string MustBeIn(Range range, const std::string& unit) {
-  return "must be " + ToText(range.min) + " to " + ToText(range.max) +
-         (unit.empty() ? "" : " [" + unit + "]");
+  return "must be " + ToText(range) + (unit.empty() ? "" : " [" + unit + "]");
 }
 
 std::optional<double> ToNumber(const YAML::Node& value) {
@@ -26,7 +19,15 @@ std::optional<double> ToNumber(const YAML::Node& value) {
   return number;
 }
 
-// Reads a number in the range, or tells what is wrong with it.
+}  // namespace
+
+std::string ToText(Range range) { return ToText(range.min) + " to " + ToText(range.max); }
+
+std::optional<std::string> ScalarText(const YAML::Node& value) {
+  if (!value.IsScalar()) return std::nullopt;
+  return value.Scalar();
+}
+
 Problem ReadNumber(const YAML::Node& value, const std::string& unit, Range range, double* number) {
   const auto parsed = ToNumber(value);
   if (!parsed) return "is not a number; " + MustBeIn(range, unit);
@@ -36,7 +37,30 @@ Problem ReadNumber(const YAML::Node& value, const std::string& unit, Range range
   return std::nullopt;
 }
 
-// The entries of an OpenCV matrix node, or what is wrong with it.
+Problem ReadInteger(const YAML::Node& value, const std::string& unit, Range range, int* number) {
+  double parsed = 0;
+  if (const Problem problem = ReadNumber(value, unit, range, &parsed)) return problem;
+  if (parsed != std::floor(parsed)) return "is not a whole number; " + MustBeIn(range, unit);
+  *number = static_cast<int>(parsed);
+  return std::nullopt;
+}
+
+Problem ReadFlag(const YAML::Node& value, bool* flag) {
+  const auto text = ScalarText(value);
+  if (text != "0" && text != "1" && text != "true" && text != "false") {
+    return "must be 0 or 1 (false or true)";
+  }
+  *flag = text == "1" || text == "true";
+  return std::nullopt;
+}
+
+Problem ReadText(const YAML::Node& value, std::string* text) {
+  const auto scalar = ScalarText(value);
+  if (!scalar) return "must be one text";
+  *text = *scalar;
+  return std::nullopt;
+}
+
 Problem ReadMatrix(const YAML::Node& node, Eigen::MatrixXd* matrix) {
   const std::string size = std::to_string(matrix->rows()) + "x" + std::to_string(matrix->cols());
   const std::string advice = "must be an !!opencv-matrix of size " + size;
@@ -57,70 +81,6 @@ Problem ReadMatrix(const YAML::Node& node, Eigen::MatrixXd* matrix) {
     (*matrix)(i / matrix->cols(), i % matrix->cols()) = *number;
   }
   return std::nullopt;
-}
-
-}  // namespace
-
-std::optional<std::string> ScalarText(const YAML::Node& value) {
-  if (!value.IsScalar()) return std::nullopt;
-  return value.Scalar();
-}
-
-ConfigKey NumberKey(const std::string& name, const std::string& unit, Range range,
-                    Field<double> field) {
-  const auto read = [=](const YAML::Node& value, ConfigDraft& draft) {
-    return ReadNumber(value, unit, range, &field(draft));
-  };
-  return {name, false, read, [field](ConfigDraft& draft) { return ToText(field(draft)); }};
-}
-
-ConfigKey IntegerKey(const std::string& name, const std::string& unit, Range range,
-                     Field<int> field) {
-  const auto read = [=](const YAML::Node& value, ConfigDraft& draft) -> Problem {
-    double number = 0;
-    if (const Problem problem = ReadNumber(value, unit, range, &number)) return problem;
-    if (number != std::floor(number)) return "is not a whole number; " + MustBeIn(range, unit);
-    field(draft) = static_cast<int>(number);
-    return std::nullopt;
-  };
-  return {name, false, read, [field](ConfigDraft& draft) { return ToText(field(draft)); }};
-}
-
-ConfigKey FlagKey(const std::string& name, Field<bool> field) {
-  const auto read = [field](const YAML::Node& value, ConfigDraft& draft) -> Problem {
-    const auto text = ScalarText(value);
-    if (text != "0" && text != "1" && text != "true" && text != "false") {
-      return "must be 0 or 1 (false or true)";
-    }
-    field(draft) = text == "1" || text == "true";
-    return std::nullopt;
-  };
-  return {name, false, read, [field](ConfigDraft& draft) { return field(draft) ? "1" : "0"; }};
-}
-
-ConfigKey TextKey(const std::string& name, Field<std::string> field) {
-  const auto read = [field](const YAML::Node& value, ConfigDraft& draft) -> Problem {
-    const auto text = ScalarText(value);
-    if (!text) return "must be one text";
-    field(draft) = *text;
-    return std::nullopt;
-  };
-  return {name, false, read, field};
-}
-
-ConfigKey MatrixKey(const std::string& name, int rows, int cols,
-                    std::function<Problem(const Eigen::MatrixXd&, ConfigDraft&)> set) {
-  const auto read = [=](const YAML::Node& value, ConfigDraft& draft) {
-    Eigen::MatrixXd matrix(rows, cols);
-    const Problem problem = ReadMatrix(value, &matrix);
-    return problem ? problem : set(matrix, draft);
-  };
-  return {name, false, read, [](ConfigDraft&) { return std::string(); }};
-}
-
-ConfigKey Required(ConfigKey key) {
-  key.required = true;
-  return key;
 }
 
 }  // namespace plm_vins

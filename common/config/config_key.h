@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kinds of configuration keys: each knows how to read its value into a field and to print it.
+// The kinds of configuration keys. A key knows all that is to know about a value: its name in the
+// file, its unit and range, how to read it into a field and how to tell it from there.
 #pragma once
-
-#include <yaml-cpp/yaml.h>
 
 #include <Eigen/Core>
 #include <functional>
@@ -11,78 +10,161 @@
 #include <utility>
 #include <vector>
 
-#include "common/config.h"
+#include "common/config/config_value.h"
+
+namespace YAML {
+class Node;
+}
 
 namespace plm_vins {
 
-// A configuration in the making: what the keys say, where that is not a field of Config itself.
-struct ConfigDraft : Config {
-  enum class ModelType { kPinhole, kEquidistant, kKannalaBrandt, kMei };
-  enum class ImuNoiseModel { kVins, kContinuous };
-  std::optional<ModelType> model_type;
-  ImuNoiseModel imu_noise_model = ImuNoiseModel::kVins;
-  double imu_rate = 200;  // [Hz]
-  std::optional<bool> fisheye;
-};
-
 // What is wrong with a value, as the end of the sentence "KEY: ..."; nothing where it is fine.
 using Problem = std::optional<std::string>;
-
-template <typename T>
-using Field = std::function<T&(ConfigDraft&)>;
-
-struct ConfigKey {
-  std::string name;
-  bool required = false;
-  std::function<Problem(const YAML::Node& value, ConfigDraft& draft)> read;
-  std::function<std::string(ConfigDraft& draft)> print;
-};
 
 struct Range {
   double min;
   double max;
 };
 
-ConfigKey NumberKey(const std::string& name, const std::string& unit, Range range,
-                    Field<double> field);
-ConfigKey IntegerKey(const std::string& name, const std::string& unit, Range range,
-                     Field<int> field);
-ConfigKey FlagKey(const std::string& name, Field<bool> field);
-ConfigKey TextKey(const std::string& name, Field<std::string> field);
-// An OpenCV matrix of the given size; `set` may refuse it.
-ConfigKey MatrixKey(const std::string& name, int rows, int cols,
-                    std::function<Problem(const Eigen::MatrixXd&, ConfigDraft&)> set);
-// One of several words.
-template <typename T>
-ConfigKey ChoiceKey(const std::string& name, std::vector<std::pair<std::string, T>> choices,
-                    Field<T> field);
-
-ConfigKey Required(ConfigKey key);
+// "2 to 500".
+std::string ToText(Range range);
 
 // The text of a scalar, or nothing for a list, a map or an empty value.
 std::optional<std::string> ScalarText(const YAML::Node& value);
 
-template <typename T>
-ConfigKey ChoiceKey(const std::string& name, std::vector<std::pair<std::string, T>> choices,
-                    Field<T> field) {
-  const auto read = [choices, field](const YAML::Node& value, ConfigDraft& draft) -> Problem {
-    std::string words;
-    for (const auto& [word, choice] : choices) {
-      if (ScalarText(value) == word) {
-        field(draft) = choice;
+// Each reads a value of one kind; where it is refused, the last argument stays as it was.
+Problem ReadNumber(const YAML::Node& value, const std::string& unit, Range range, double* number);
+Problem ReadInteger(const YAML::Node& value, const std::string& unit, Range range, int* number);
+Problem ReadFlag(const YAML::Node& value, bool* flag);
+Problem ReadText(const YAML::Node& value, std::string* text);
+// The matrix has the size that is expected.
+Problem ReadMatrix(const YAML::Node& value, Eigen::MatrixXd* matrix);
+
+// A key of the struct `Section`. A `field` is a pointer to a member or a function that takes the
+// struct and returns a reference into it.
+template <typename Section>
+struct ConfigKey {
+  std::string name;     // "td", or "group.name"
+  std::string unit;     // "px"; empty: none
+  std::string allowed;  // "2 to 500", "one of fld, lsd, edlines"; empty: whatever `read` takes
+  std::function<Problem(const YAML::Node& value, Section& section)> read;
+  std::function<ConfigValue(const Section& section)> value;
+  bool required = false;
+  bool has_default = true;
+
+  template <typename Field>
+  static ConfigKey Number(const std::string& name, const std::string& unit, Range range,
+                          Field field) {
+    const auto read = [=](const YAML::Node& value, Section& section) {
+      return ReadNumber(value, unit, range, &std::invoke(field, section));
+    };
+    return {name, unit, ToText(range), read, ValueOf(field)};
+  }
+
+  template <typename Field>
+  static ConfigKey Integer(const std::string& name, const std::string& unit, Range range,
+                           Field field) {
+    const auto read = [=](const YAML::Node& value, Section& section) {
+      return ReadInteger(value, unit, range, &std::invoke(field, section));
+    };
+    return {name, unit, ToText(range), read, ValueOf(field)};
+  }
+
+  template <typename Field>
+  static ConfigKey Flag(const std::string& name, Field field) {
+    const auto read = [=](const YAML::Node& value, Section& section) {
+      return ReadFlag(value, &std::invoke(field, section));
+    };
+    return {name, "", "0 or 1", read, ValueOf(field)};
+  }
+
+  template <typename Field>
+  static ConfigKey Text(const std::string& name, Field field) {
+    const auto read = [=](const YAML::Node& value, Section& section) {
+      return ReadText(value, &std::invoke(field, section));
+    };
+    return {name, "", "", read, ValueOf(field)};
+  }
+
+  // One of several words; two may mean the same, which is then told by the first.
+  template <typename T>
+  static ConfigKey Choice(const std::string& name, std::vector<std::pair<std::string, T>> choices,
+                          T Section::*field) {
+    std::string allowed;
+    for (const auto& [word, choice] : choices) allowed += (allowed.empty() ? "" : ", ") + word;
+    allowed = "one of " + allowed;
+    const auto read = [=](const YAML::Node& value, Section& section) -> Problem {
+      for (const auto& [word, choice] : choices) {
+        if (ScalarText(value) != word) continue;
+        section.*field = choice;
         return std::nullopt;
       }
-      words += (words.empty() ? "" : ", ") + word;
-    }
-    return "must be one of " + words;
-  };
-  const auto print = [choices, field](ConfigDraft& draft) {
-    for (const auto& [word, choice] : choices) {
-      if (field(draft) == choice) return word;
-    }
-    return std::string();
-  };
-  return {name, false, read, print};
+      return "must be " + allowed;
+    };
+    const auto value = [=](const Section& section) {
+      for (const auto& [word, choice] : choices) {
+        if (section.*field == choice) return ConfigValue(word);
+      }
+      return ConfigValue(std::string());
+    };
+    return {name, "", allowed, read, value};
+  }
+
+  // An OpenCV matrix of the size of `get`'s, which `set` may refuse.
+  static ConfigKey Matrix(const std::string& name,
+                          std::function<Eigen::MatrixXd(const Section& section)> get,
+                          std::function<Problem(const Eigen::MatrixXd&, Section& section)> set) {
+    const auto read = [=](const YAML::Node& value, Section& section) {
+      Eigen::MatrixXd matrix = get(section);
+      const Problem problem = ReadMatrix(value, &matrix);
+      return problem ? problem : set(matrix, section);
+    };
+    const auto value = [=](const Section& section) {
+      const Eigen::MatrixXd by_column = get(section).transpose();
+      return ConfigValue(
+          std::vector<double>(by_column.data(), by_column.data() + by_column.size()));
+    };
+    return {name, "", "", read, value, /*required=*/false, /*has_default=*/false};
+  }
+
+ private:
+  template <typename Field>
+  static std::function<ConfigValue(const Section&)> ValueOf(Field field) {
+    return [=](const Section& section) { return ConfigValue(std::invoke(field, section)); };
+  }
+};
+
+template <typename Section>
+using ConfigKeys = std::vector<ConfigKey<Section>>;
+
+template <typename Section>
+ConfigKeys<Section> Required(ConfigKeys<Section> keys) {
+  for (auto& key : keys) {
+    key.required = true;
+    key.has_default = false;
+  }
+  return keys;
+}
+
+// The keys of a part as those of the whole.
+template <typename Whole, typename Part>
+ConfigKeys<Whole> Within(Part Whole::*part, const ConfigKeys<Part>& keys) {
+  ConfigKeys<Whole> result;
+  for (const ConfigKey<Part>& key : keys) {
+    const auto read = [part, key](const YAML::Node& value, Whole& whole) {
+      return key.read(value, whole.*part);
+    };
+    const auto value = [part, key](const Whole& whole) { return key.value(whole.*part); };
+    result.push_back({key.name, key.unit, key.allowed, read, value, key.required, key.has_default});
+  }
+  return result;
+}
+
+template <typename Section>
+ConfigKeys<Section> Join(const std::vector<ConfigKeys<Section>>& lists) {
+  ConfigKeys<Section> keys;
+  for (const ConfigKeys<Section>& list : lists) keys.insert(keys.end(), list.begin(), list.end());
+  return keys;
 }
 
 }  // namespace plm_vins

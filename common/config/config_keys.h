@@ -4,19 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "common/config.h"
 #include "common/config/config_key.h"
 
 namespace plm_vins {
 
-// The key that decides which camera keys there are.
-ConfigKey ModelTypeKey();
-
-// Every key but those of the camera model. To add a key, add a line to its group in
-// config_keys.cpp and one to config/reference.yaml.
-std::vector<ConfigKey> GeneralKeys();
-
-// The calibration keys of one camera model, all required.
-std::vector<ConfigKey> CameraKeys(ConfigDraft::ModelType type);
+// Every key of a file whose camera is of this `model_type`: those of all modules. To add one, add
+// a line to the list of its module and one to config/reference.yaml.
+ConfigKeys<Config> AllKeys(const std::string& model_type);
 
 // Keys of the VINS family that have no meaning here (loop closure, output paths, wall-clock
 // limits).

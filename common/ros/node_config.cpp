@@ -20,7 +20,10 @@ Config LoadNodeConfig(const ros::NodeHandle& private_node) {
     throw ConfigError({"parameters " + private_node.resolveName("set") +
                        "/KEY must be texts (in a launch file: type=\"str\")"});
   }
-  return LoadConfig(file, overrides);
+  const Config config = LoadConfig(file, overrides);
+  const std::string warning = IgnoredKeysWarning(config);
+  if (!warning.empty()) ROS_WARN_STREAM_ONCE(warning);
+  return config;
 }
 
 void LogFatal(const std::exception& error) {

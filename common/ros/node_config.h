@@ -9,8 +9,8 @@
 
 namespace plm_vins {
 
-// The configuration of the file ~config_file, in which texts ~set/KEY replace scalar keys. Throws
-// ConfigError.
+// The configuration of the file ~config_file, in which texts ~set/KEY replace scalar keys. Warns of
+// keys without effect, once per process. Throws ConfigError.
 Config LoadNodeConfig(const ros::NodeHandle& private_node);
 
 // One fatal log line per line of the error's text: one per problem of a configuration.

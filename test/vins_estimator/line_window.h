@@ -22,9 +22,9 @@ class LineWindow {
   LineWindow() : merging_(MergingOptions()) {}
 
   static LineMergingOptions MergingOptions() {
-    LineMergingOptions options;
-    options.noise = kNoise;
-    return options;
+    EstimatorConfig config;
+    config.line_noise = kNoise * kFocalLength;
+    return {config, kFocalLength};
   }
 
   void AddFrame(const FrameState& state, const LineFrame& frame) {
@@ -32,9 +32,7 @@ class LineWindow {
     window_frame.state = state;
     window_.frames.push_back(window_frame);
     lines_.AddFrame(merging_.Redirect(frame));
-    LineTriangulationOptions options;
-    options.noise = kNoise;
-    lines_.Triangulate(window_, options, /*max_length=*/20);
+    lines_.Triangulate(window_, LineTriangulationOptions(kNoise), /*max_length=*/20);
     Refit();
   }
 
@@ -65,7 +63,7 @@ class LineWindow {
 
  private:
   void RemoveOldest() {
-    const AnchorPolicyOptions options;
+    const AnchorPolicyOptions options{EstimatorConfig()};
     const int64_t oldest_ns = window_.frames.front().state.t_ns;
     const bool stays = StaysAsAnchor(options, window_, lines_);
     if (const auto replaced_ns = AnchorToReplace(options, window_); stays && replaced_ns) {

@@ -6,14 +6,25 @@
 #include <memory>
 #include <vector>
 
+#include "common/config.h"
 #include "simulator/random.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 #include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/point_map.h"
 #include "vins_estimator/map/sliding_window.h"
+#include "vins_estimator/problem/problem_builder.h"
 
 namespace plm_vins::testing {
+
+constexpr double kSimulatedFocalLength = 460;  // [px]
+
+// Corners and lines with a standard deviation of one pixel; fixed calibration.
+inline ProblemOptions OnePixelOptions() {
+  Config config;
+  config.estimator.point_noise = config.estimator.line_noise = 1;
+  return {config, kSimulatedFocalLength};
+}
 
 struct SimulatedWindow {
   SlidingWindow window;  // at the truth
@@ -48,7 +59,8 @@ inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, siz
     result.lines.AddFrame(*flight.frames[i].lines);
   }
   result.points.Triangulate(window, /*min_angle=*/0.02);
-  result.lines.Triangulate(window, LineTriangulationOptions(), /*max_length=*/10);
+  result.lines.Triangulate(window, LineTriangulationOptions(1 / kSimulatedFocalLength),
+                           /*max_length=*/10);
   return result;
 }
 

@@ -12,7 +12,9 @@
 namespace plm_vins {
 
 struct LineTriangulationOptions {
-  double noise = 1.0 / 460.0;        // deviation of an end point across the line, normalised
+  explicit LineTriangulationOptions(double noise) : noise(noise) {}
+
+  double noise;                      // deviation of an end point across the line, normalised
   double max_depth_deviation = 0.2;  // of the ends' depths in the first camera, relative to them
   double max_mean_error = 2.5;       // root mean square of the residuals, in units of `noise`
 };

@@ -12,9 +12,9 @@
 namespace plm_vins {
 
 struct GlobalSfmOptions {
-  double focal_length = 460;    // [px]
-  double noise_px = 1.0;        // standard deviation of a corner
-  double min_parallax_px = 15;  // median over the points of the best pair of views
+  double focal_length;     // [px]
+  double noise_px;         // standard deviation of a corner
+  double min_parallax_px;  // median over the points of the best pair of views
 };
 
 // Camera centres and points in a frame G, up to one unknown scale.

@@ -186,10 +186,8 @@ bool Attempt::CheckAdjustment(const VisualInertialBundle& bundle) {
 }
 
 bool Attempt::Adjust() {
-  VisualInertialBundleOptions options;
-  options.T_B_C = sensor_.T_B_C;
-  options.gravity_norm = sensor_.gravity_norm;
-  options.noise = noise_px_ / focal_length_;
+  const VisualInertialBundleOptions options{sensor_.T_B_C, sensor_.gravity_norm,
+                                            noise_px_ / focal_length_};
   const auto bundle =
       AdjustVisualInertialBundle(tracks_, p_W_, preintegrations_, options, &states_, reason_);
   return bundle && CheckAdjustment(*bundle) && CheckBiases();

@@ -15,8 +15,8 @@ namespace plm_vins {
 
 struct VisualInertialBundleOptions {
   Rigid3d T_B_C;
-  double gravity_norm = 9.81;     // [m/s^2]
-  double noise = 1.0 / 460;       // standard deviation of a normalised coordinate
+  double gravity_norm;            // [m/s^2]
+  double noise;                   // standard deviation of a normalised coordinate
   double accel_bias_prior = 0.1;  // standard deviation of the accelerometer bias about 0 [m/s^2]
   double gyro_bias_prior = 0.05;  // of the gyro bias about its initial value [rad/s]
 };

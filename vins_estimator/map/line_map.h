@@ -34,10 +34,12 @@ struct LineTriangulationCounts {
 
 // What a triangulated line must keep to.
 struct LineLimits {
-  double noise = 1.0 / 460.0;   // deviation of an end point across the line, normalised
+  LineLimits(double noise, double max_length) : noise(noise), max_length(max_length) {}
+
+  double noise;                 // deviation of an end point across the line, normalised
   double max_view_error = 5.0;  // of one view, root mean square in units of `noise`
   double max_mean_error = 2.5;  // of all views
-  double max_length = 10.0;     // between the ends [m]
+  double max_length;            // between the ends [m]
 };
 
 // All line tracks with views in the window. Every view belongs to a frame of the window.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/config/estimator_config.h"
 #include "vins_estimator/manhattan/manhattan_frame.h"
 #include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/sliding_window.h"
@@ -14,10 +15,17 @@
 namespace plm_vins {
 
 struct LineMergingOptions {
-  double distance = 0.1;                // between the lines in space, and between their ends [m]
-  double image_distance = 5.0 / 460.0;  // between line and segment in an image, normalised
-  double angle = M_PI / 60;             // between the directions (3 deg) [rad]
-  double noise = 1.0 / 460.0;           // deviation of an end point across the line, normalised
+  // `focal_length` [px] turns pixels into normalised coordinates.
+  LineMergingOptions(const EstimatorConfig& config, double focal_length)
+      : distance(config.line_merge_distance),
+        image_distance(config.line_merge_image_distance / focal_length),
+        angle(config.line_merge_angle * M_PI / 180),
+        noise(config.line_noise / focal_length) {}
+
+  double distance;        // between the lines in space, and between their ends [m]
+  double image_distance;  // between line and segment in an image, normalised
+  double angle;           // between the directions [rad]
+  double noise;           // deviation of an end point across the line, normalised
 };
 
 // What became of the pairs of lines that are near each other, in one frame.

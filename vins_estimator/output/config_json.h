@@ -6,7 +6,9 @@
 
 namespace plm_vins {
 
-// The effective configuration, defaults and overrides included, for reports.
+// The values in effect, defaults and overrides included, under the names and in the groups of the
+// configuration file; beside them, under "file", its path. A matrix is the list of its entries, row
+// by row.
 Json ToJson(const Config& config);
 
 }  // namespace plm_vins

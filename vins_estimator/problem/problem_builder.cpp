@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/problem/problem_builder.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "vins_estimator/factors/imu_factor.h"
@@ -10,6 +11,21 @@
 #include "vins_estimator/factors/zero_velocity_factor.h"
 
 namespace plm_vins {
+namespace {
+
+// What an anchor has seen of a line that comes back is part of the prior already, and the line may
+// be another one that looks the same; so it counts less.
+constexpr double kAnchorNoise = 5.0;  // in units of the noise of lines
+
+}  // namespace
+
+ProblemOptions::ProblemOptions(const Config& config, double focal_length)
+    : point_weight(focal_length / config.estimator.point_noise),
+      line_weight(focal_length / config.estimator.line_noise),
+      anchor_weight(line_weight / kAnchorNoise),
+      manhattan_weight(180 / (M_PI * config.estimator.manhattan_noise)),
+      estimate_extrinsic(config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed),
+      estimate_td(config.sensor.estimate_td) {}
 
 ProblemBuilder::ProblemBuilder(const ProblemOptions& options, SlidingWindow* window,
                                const MarginalizationPrior* prior)

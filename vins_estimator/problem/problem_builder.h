@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "common/config.h"
 #include "vins_estimator/map/line_landmark.h"
 #include "vins_estimator/map/point_landmark.h"
 #include "vins_estimator/map/sliding_window.h"
@@ -17,18 +18,21 @@ namespace plm_vins {
 
 // What weighs the terms of the window problem, and which calibration it estimates.
 struct ProblemOptions {
-  double point_weight = 460.0;          // focal length over corner noise
+  // `focal_length` [px] turns pixels into normalised coordinates.
+  ProblemOptions(const Config& config, double focal_length);
+
+  double point_weight;                  // focal length over corner noise
   double point_loss_scale = 1.0;        // Cauchy loss, in standard deviations
-  double line_weight = 460.0;           // focal length over the noise of a line's ends across it
+  double line_weight;                   // focal length over the noise of a line's ends across it
   double line_loss_scale = 1.0;         // Cauchy loss, in standard deviations
-  double anchor_weight = 92.0;          // the same, of what anchors have seen
-  double manhattan_weight = 57.3;       // one over the deviation of a line from its axis [1/rad]
+  double anchor_weight;                 // the same, of what anchors have seen
+  double manhattan_weight;              // one over the deviation of a line from its axis [1/rad]
   double manhattan_loss_scale = 3.0;    // Tukey loss, in standard deviations
   double standstill_velocity = 0.005;   // standard deviation while standing still [m/s]
   double standstill_position = 0.001;   // ... of the position between two frames [m]
   double standstill_rotation = 0.0005;  // ... of the rotation between two frames [rad]
-  bool estimate_extrinsic = false;
-  bool estimate_td = false;
+  bool estimate_extrinsic;
+  bool estimate_td;
   bool first_estimate_jacobians = true;
   // Lines on its axes are held to them; none where there is no such frame.
   std::optional<Eigen::Quaterniond> R_W_M;

@@ -6,13 +6,18 @@
 #include <cstdint>
 #include <optional>
 
+#include "common/config/estimator_config.h"
 #include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/sliding_window.h"
 
 namespace plm_vins {
 
 struct AnchorPolicyOptions {
-  size_t max_anchors = 24;
+  // Without merging no line comes back, so that none needs an anchor.
+  explicit AnchorPolicyOptions(const EstimatorConfig& config)
+      : max_anchors(config.line_merging ? static_cast<size_t>(config.line_anchors) : 0) {}
+
+  size_t max_anchors;
   double max_distance = 0.7;    // an anchor in use serves frames this near ... [m]
   double max_angle = M_PI / 7;  // ... and so little turned (26 deg) [rad]
   double max_idle = 3.0;        // an anchor without use for so long is not in use [s]

@@ -61,14 +61,8 @@ double Distance(const Vector3d& p_W, const TriangulatedLine& found,
   return (p_W.cross(line_W.direction) - line_W.moment).norm() / line_W.direction.norm();
 }
 
-LineTriangulationOptions WithNoise(double noise) {
-  LineTriangulationOptions options;
-  options.noise = noise;
-  return options;
-}
-
 Result ResultOf(const std::vector<LineSighting>& sightings, double noise = kNoise) {
-  return TriangulateLine(WithNoise(noise), sightings).result;
+  return TriangulateLine(LineTriangulationOptions(noise), sightings).result;
 }
 
 // How many of `trials` noisy flights of the kind give a line.
@@ -124,7 +118,7 @@ TEST(TriangulateLine, NoiseCostsWhatItMust) {
   double nees = 0;
   for (int seed = 1; seed <= kTrials; ++seed) {
     const auto sightings = SeeOnTheWay({0.2, 0.8, 0.1}, kNoise, seed);
-    const TriangulatedLine found = TriangulateLine(WithNoise(kNoise), sightings);
+    const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(kNoise), sightings);
     ASSERT_EQ(found.result, Result::kOk);
     const auto fit = EvaluateLine(sightings, kNoise, found.line);
     ASSERT_TRUE(fit);
@@ -200,10 +194,9 @@ TEST(TriangulateLine, RefusesTheSameGeometryWithMoreNoise) {
   EXPECT_EQ(ResultOf(sightings, 0.3 * kNoise), Result::kOk);
   EXPECT_EQ(ResultOf(sightings, 10 * kNoise), Result::kDegenerate);
   // The deviation of the depth is proportional to the noise.
-  LineTriangulationOptions options;
   const auto is_known = [&](double max_deviation, double noise) {
+    LineTriangulationOptions options(noise);
     options.max_depth_deviation = max_deviation;
-    options.noise = noise;
     return TriangulateLine(options, sightings).result == Result::kOk;
   };
   double limit = 1e-4;
@@ -216,7 +209,7 @@ TEST(TriangulateLine, RefusesTheSameGeometryWithMoreNoise) {
 TEST(TriangulateLine, KnowsHowGoodItsDepthIs) {
   constexpr int kTrials = 400;
   const Vector3d travel = 0.06 * kAcross;
-  LineTriangulationOptions options;
+  LineTriangulationOptions options(kNoise);
   while (TriangulateLine(options, SeeOnTheWay(travel, 0, 1)).result == Result::kOk) {
     options.max_depth_deviation *= 0.99;
   }
@@ -267,7 +260,7 @@ TEST(TriangulateLine, SurvivesSegmentsWithoutLengthOrNumbers) {
     for (const size_t place : {size_t{0}, size_t{4}}) {
       auto with_bad = sightings;
       with_bad[place].segment = bad;
-      const TriangulatedLine found = TriangulateLine(WithNoise(kNoise), with_bad);
+      const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(kNoise), with_bad);
       if (found.result != Result::kOk) continue;
       for (const double value : found.line) EXPECT_TRUE(std::isfinite(value));
     }

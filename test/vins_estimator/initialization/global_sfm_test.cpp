@@ -13,6 +13,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
+const GlobalSfmOptions kOptions = {/*focal_length=*/460, /*noise_px=*/1, /*min_parallax_px=*/15};
 constexpr int kViews = 8;
 
 // Cameras on an arc before a cloud of points; each point is seen by four views in a row, so that
@@ -68,7 +69,7 @@ double RelativeError(const Structure& structure, const Scene& scene) {
 TEST(GlobalSfmTest, ExactTracksGiveTheExactStructureUpToScale) {
   const Scene scene(0.1, 0, 0, 20, 1);
   std::string reason;
-  const auto structure = ReconstructStructure(scene.tracks, scene.R_G_C, {}, &reason);
+  const auto structure = ReconstructStructure(scene.tracks, scene.R_G_C, kOptions, &reason);
   ASSERT_TRUE(structure) << reason;
   EXPECT_LT(RelativeError(*structure, scene), 1e-6);
   EXPECT_LT(structure->rms, 1e-8);
@@ -79,7 +80,7 @@ TEST(GlobalSfmTest, NoiseAndOutliersCostLittle) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     const Scene scene(0.1, 0.5 / 460, 0.03, 25, seed);
     std::string reason;
-    const auto structure = ReconstructStructure(scene.tracks, scene.R_G_C, {}, &reason);
+    const auto structure = ReconstructStructure(scene.tracks, scene.R_G_C, kOptions, &reason);
     ASSERT_TRUE(structure) << "seed " << seed << ": " << reason;
     EXPECT_LT(RelativeError(*structure, scene), 0.08) << "seed " << seed;
     EXPECT_GT(structure->num_points, 100) << "seed " << seed;
@@ -90,14 +91,14 @@ TEST(GlobalSfmTest, NoiseAndOutliersCostLittle) {
 TEST(GlobalSfmTest, RefusesWithoutTranslation) {
   const Scene scene(0, 0.5 / 460, 0, 25, 1);
   std::string reason;
-  EXPECT_FALSE(ReconstructStructure(scene.tracks, scene.R_G_C, {}, &reason));
+  EXPECT_FALSE(ReconstructStructure(scene.tracks, scene.R_G_C, kOptions, &reason));
   EXPECT_EQ(reason.rfind("too little parallax: ", 0), 0u) << reason;
 }
 
 TEST(GlobalSfmTest, RefusesFewPoints) {
   const Scene scene(0.1, 0, 0, 4, 1);
   std::string reason;
-  EXPECT_FALSE(ReconstructStructure(scene.tracks, scene.R_G_C, {}, &reason));
+  EXPECT_FALSE(ReconstructStructure(scene.tracks, scene.R_G_C, kOptions, &reason));
   EXPECT_EQ(reason.rfind("too few common points: ", 0), 0u) << reason;
 }
 
@@ -105,7 +106,7 @@ TEST(GlobalSfmTest, RefusesAViewThatSeesNothing) {
   Scene scene(0.1, 0, 0, 20, 1);
   scene.R_G_C.push_back(Quaterniond::Identity());
   std::string reason;
-  EXPECT_FALSE(ReconstructStructure(scene.tracks, scene.R_G_C, {}, &reason));
+  EXPECT_FALSE(ReconstructStructure(scene.tracks, scene.R_G_C, kOptions, &reason));
   EXPECT_EQ(reason, "a view shares too few points with the others");
 }
 

@@ -6,6 +6,8 @@
 namespace plm_vins {
 namespace {
 
+constexpr double kFocalLength = 400;  // [px]
+
 // Two frames; the newest has `tracked` corners of the first, moved by `parallax`, and `fresh` new
 // ones.
 struct Case {
@@ -38,15 +40,16 @@ bool Keyframe(const Case& c, size_t frame_count = 2) {
   AddPoints(1000, c.fresh, 0, &newest);
   if (frame_count > 1) points.AddFrame(before, 0);
   points.AddFrame(newest, 0);
-  return IsKeyframe(KeyframePolicyOptions(), window, points);
+  return IsKeyframe(KeyframePolicyOptions(EstimatorConfig(), kFocalLength), window, points);
 }
 
 TEST(KeyframePolicy, FirstFrameIsOne) { EXPECT_TRUE(Keyframe({}, 1)); }
 
 TEST(KeyframePolicy, ParallaxMakesOne) {
   EXPECT_FALSE(Keyframe({}));
-  EXPECT_FALSE(Keyframe({0.1, 100, 0, 0.9 * 10 / 460}));
-  EXPECT_TRUE(Keyframe({0.1, 100, 0, 1.1 * 10 / 460}));
+  const double limit = EstimatorConfig().keyframe_parallax / kFocalLength;
+  EXPECT_FALSE(Keyframe({0.1, 100, 0, 0.9 * limit}));
+  EXPECT_TRUE(Keyframe({0.1, 100, 0, 1.1 * limit}));
 }
 
 TEST(KeyframePolicy, LostTracksMakeOne) {

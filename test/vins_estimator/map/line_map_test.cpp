@@ -17,6 +17,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kMaxLength = 10;
+constexpr double kNoise = 1.0 / 460;  // normalised
 constexpr int kLines = 20;
 
 struct Segment {
@@ -75,7 +76,7 @@ class LineMapTest : public ::testing::Test {
   }
 
   LineTriangulationCounts Triangulate(double max_length = kMaxLength) {
-    return map_.Triangulate(window_, LineTriangulationOptions(), max_length);
+    return map_.Triangulate(window_, LineTriangulationOptions(kNoise), max_length);
   }
 
   void ExpectInPlace(const LineLandmark& landmark) const {
@@ -150,8 +151,9 @@ TEST_F(LineMapTest, AFrameMayHaveNoLines) {
   LineMap empty;
   empty.AddFrame(LineFrame());
   EXPECT_TRUE(empty.landmarks().empty());
-  EXPECT_EQ(empty.Triangulate(window_, LineTriangulationOptions(), kMaxLength).triangulated, 0);
-  EXPECT_EQ(empty.RemoveOutliers(window_, LineLimits()), 0);
+  EXPECT_EQ(empty.Triangulate(window_, LineTriangulationOptions(kNoise), kMaxLength).triangulated,
+            0);
+  EXPECT_EQ(empty.RemoveOutliers(window_, LineLimits(kNoise, kMaxLength)), 0);
   empty.RemoveFrame(window_, Stamp(0));
   empty.StartAnew(window_, Stamp(0), [](const LineLandmark&) { FAIL(); });
 }
@@ -281,7 +283,7 @@ TEST_F(LineMapTest, ObservedSegmentIsInFrontOfItsCameras) {
 }
 
 TEST_F(LineMapTest, RemovesOutlyingViewsAndLines) {
-  const LineLimits limits;
+  const LineLimits limits(kNoise, kMaxLength);
   Triangulate();
   Shift(6 * limits.noise, &Landmark(1).views[2]);                              // one bad view
   for (int i = 0; i < 4; ++i) Shift(4 * limits.noise, &Landmark(2).views[i]);  // on average
@@ -305,11 +307,10 @@ TEST_F(LineMapTest, RemovesLinesBehindTheirCamerasAndLinesTooLong) {
       ToOrthonormal(LineThrough(-(T_C_W0 * segment.start), -(T_C_W0 * segment.end)));
   Landmark(4).views.resize(1);
   Landmark(4).views.push_back(Landmark(4).views[0]);
-  EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits()), 1);
+  EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits(kNoise, kMaxLength)), 1);
   EXPECT_EQ(map_.landmarks().count(4), 0u);
 
-  LineLimits limits;
-  limits.max_length = 2;
+  const LineLimits limits(kNoise, /*max_length=*/2);
   const auto is_short = [](const Segment& s) { return s.length() <= 2; };
   segments_W_[4] = {Vector3d::Zero(), 3 * Vector3d::UnitX()};  // gone already
   const auto expected = std::count_if(segments_W_.begin(), segments_W_.end(), is_short);
@@ -321,17 +322,17 @@ TEST_F(LineMapTest, RemovesLinesBehindTheirCamerasAndLinesTooLong) {
 
 TEST_F(LineMapTest, DoesNotJudgeWhatHasNoPlaceOrOneView) {
   for (LineView& view : Landmark(2).views) Shift(view.t_ns == Stamp(1) ? 0.1 : 0, &view);
-  EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits()), 0);
+  EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits(kNoise, kMaxLength)), 0);
   EXPECT_EQ(Landmark(2).views.size(), 4u);
   Triangulate();
   Landmark(3).views.resize(1);
   Shift(0.1, &Landmark(3).views[0]);
-  EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits()), 0);
+  EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits(kNoise, kMaxLength)), 0);
   EXPECT_EQ(map_.landmarks().count(3), 1u);
 }
 
 TEST_F(LineMapTest, RemovesAnchorViewsThatContradictTheLine) {
-  const LineLimits limits;
+  const LineLimits limits(kNoise, kMaxLength);
   Triangulate();
   TurnOldestIntoAnchor();
   Shift(4 * limits.noise, &Landmark(1).anchor_views[0]);
@@ -380,7 +381,7 @@ TEST_F(LineMapTest, TakesAThousandLinesInAFrame) {
   const LineTriangulationCounts counts = Triangulate();
   EXPECT_EQ(counts.triangulated + counts.degenerate, 1000);
   EXPECT_GT(counts.triangulated, 900);
-  EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits()), 0);
+  EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits(kNoise, kMaxLength)), 0);
   map_.RemoveIf([](const LineLandmark& landmark) { return !landmark.triangulated; });
   ExpectAllInPlace();
 }

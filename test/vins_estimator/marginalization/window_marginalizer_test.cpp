@@ -110,7 +110,7 @@ void ExpectSamePrior(const MarginalizationPrior& a, const MarginalizationPrior& 
 TEST(InitialPrior, IsTheStatedUncertaintyOfTheFirstState) {
   SimulatedWindow simulated = testing::SimulateWindow(2);
   const InitialUncertainty uncertainty;
-  ProblemOptions options;
+  ProblemOptions options = testing::OnePixelOptions();
   const MarginalizationPrior prior = InitialPrior(uncertainty, options, simulated.window);
   const MatrixXd covariance = prior.quadratic().H.inverse();
   ASSERT_EQ(covariance.rows(), 15);
@@ -145,7 +145,7 @@ class MarginalizeOldestTest : public ::testing::TestWithParam<bool> {
 
   SimulatedWindow simulated_;
   simulator::Random random_;
-  ProblemOptions options_;
+  ProblemOptions options_ = testing::OnePixelOptions();
   MarginalizationPrior prior_;
 };
 
@@ -239,7 +239,7 @@ struct GaugeInformation {
 // after some marginalisations without anchor; the states are off the truth and move in between.
 GaugeInformation SlideWithoutAnchor(bool first_estimate_jacobians, int rounds) {
   SimulatedWindow simulated = testing::SimulateWindow(8);
-  ProblemOptions options;
+  ProblemOptions options = testing::OnePixelOptions();
   options.first_estimate_jacobians = first_estimate_jacobians;
   MarginalizationPrior prior;
   simulator::Random random(1);

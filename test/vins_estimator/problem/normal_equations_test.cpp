@@ -47,7 +47,7 @@ class NormalEquationsTest : public ::testing::Test {
   const WindowProblem& problem() const { return builder_->problem(); }
 
   testing::SimulatedWindow simulated_;
-  ProblemOptions options_;
+  ProblemOptions options_ = testing::OnePixelOptions();
   MarginalizationPrior prior_;
   std::optional<ProblemBuilder> builder_;
   std::optional<NormalEquations> equations_;

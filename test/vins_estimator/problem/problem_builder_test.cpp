@@ -35,7 +35,7 @@ class ProblemBuilderTest : public ::testing::Test {
 
   testing::SimulatedWindow simulated_;
   MarginalizationPrior no_prior_;
-  ProblemOptions options_;
+  ProblemOptions options_ = testing::OnePixelOptions();
 };
 
 TEST_F(ProblemBuilderTest, MotionJoinsTwoFrames) {

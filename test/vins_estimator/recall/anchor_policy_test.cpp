@@ -47,7 +47,7 @@ class AnchorPolicyTest : public ::testing::Test {
   LineLandmark& Line() { return lines_.landmarks().at(kLine); }
   bool Stays() const { return StaysAsAnchor(options_, window_, lines_); }
 
-  AnchorPolicyOptions options_;
+  AnchorPolicyOptions options_{EstimatorConfig()};
   SlidingWindow window_;
   LineMap lines_;
 };

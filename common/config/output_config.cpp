@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/config/output_config.h"
+
+namespace plm_vins {
+
+ConfigKeys<OutputConfig> OutputKeys() {
+  using Key = ConfigKey<OutputConfig>;
+  using O = OutputConfig;
+  return {
+      Key::Text("world_frame", &O::world_frame),   Key::Text("body_frame", &O::body_frame),
+      Key::Text("camera_frame", &O::camera_frame), Key::Text("base_frame", &O::base_frame),
+      Key::Flag("publish_tf", &O::publish_tf),
+  };
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "common/config/config_key.h"
+
+namespace plm_vins {
+
+// The frames of tf.
+struct OutputConfig {
+  std::string world_frame = "world";
+  std::string body_frame = "body";
+  std::string camera_frame = "camera";
+  std::string base_frame;  // of a robot whose own tree leads to the body; empty: none
+  bool publish_tf = true;
+};
+
+ConfigKeys<OutputConfig> OutputKeys();
+
+}  // namespace plm_vins

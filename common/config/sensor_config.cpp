@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/config/sensor_config.h"
+
+#include <Eigen/Geometry>
+
+#include "common/config/camera_keys.h"
+
+namespace plm_vins {
+namespace {
+
+using S = SensorConfig;
+using Key = ConfigKey<S>;
+
+Problem SetRotation(const Eigen::MatrixXd& R_B_C, SensorConfig& sensor) {
+  constexpr double kTolerance = 5e-3;  // three decimals are enough
+  const Eigen::Matrix3d error = R_B_C * R_B_C.transpose() - Eigen::Matrix3d::Identity();
+  if (error.cwiseAbs().maxCoeff() > kTolerance || R_B_C.determinant() < 0) {
+    return "is not a rotation (its rows must be of length 1, at right angles, right-handed)";
+  }
+  sensor.T_B_C.rotation = Eigen::Quaterniond(Eigen::Matrix3d(R_B_C)).normalized();
+  return std::nullopt;
+}
+
+Problem SetTranslation(const Eigen::MatrixXd& p_B_C, SensorConfig& sensor) {
+  if (p_B_C.cwiseAbs().maxCoeff() > 10) return "out of range, must be within 10 m";
+  sensor.T_B_C.translation = p_B_C;
+  return std::nullopt;
+}
+
+ConfigKeys<S> ExtrinsicKeys() {
+  using Mode = S::ExtrinsicMode;
+  Key mode = Key::Choice<Mode>(
+      "estimate_extrinsic",
+      {{"0", Mode::kFixed}, {"1", Mode::kRefine}, {"2", Mode::kCalibrateRotation}},
+      &S::estimate_extrinsic);
+  mode.value = [](const S& sensor) { return static_cast<int>(sensor.estimate_extrinsic); };
+  const auto rotation = [](const S& sensor) { return sensor.T_B_C.R(); };
+  const auto translation = [](const S& sensor) { return sensor.T_B_C.translation; };
+  return {mode, Key::Matrix("extrinsicRotation", rotation, SetRotation),
+          Key::Matrix("extrinsicTranslation", translation, SetTranslation)};
+}
+
+Key RollingShutterKey() {
+  const auto read = [](const YAML::Node& value, S&) -> Problem {
+    if (ScalarText(value) == "0") return std::nullopt;
+    return "must be 0: rolling-shutter cameras are not supported, use a global-shutter camera";
+  };
+  return {"rolling_shutter", "", "must be 0", read, [](const S&) { return 0; }};
+}
+
+ConfigKeys<ImuNoise> ImuNoiseKeys() {
+  using Key = ConfigKey<ImuNoise>;
+  using N = ImuNoise;
+  return {
+      Key::Number("acc_n", "m/s^2/sqrt(Hz); vins: m/s^2", {1e-6, 10}, &N::accel_density),
+      Key::Number("gyr_n", "rad/s/sqrt(Hz); vins: rad/s", {1e-7, 1}, &N::gyro_density),
+      Key::Number("acc_w", "m/s^3/sqrt(Hz); vins: m/s^3", {1e-9, 1}, &N::accel_walk),
+      Key::Number("gyr_w", "rad/s^2/sqrt(Hz); vins: rad/s^2", {1e-10, 1}, &N::gyro_walk),
+  };
+}
+
+}  // namespace
+
+ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type) {
+  const ConfigKeys<S> topics = {
+      Key::Text("image_topic", &S::image_topic),
+      Key::Text("imu_topic", &S::imu_topic),
+  };
+  const ConfigKeys<S> timing = {
+      Key::Number("td", "s", {-1, 1}, &S::td),
+      Key::Flag("estimate_td", &S::estimate_td),
+      RollingShutterKey(),
+  };
+  const ConfigKeys<S> noise = {
+      Key::Choice<S::ImuNoiseModel>(
+          "imu_noise_model",
+          {{"vins", S::ImuNoiseModel::kVins}, {"continuous", S::ImuNoiseModel::kContinuous}},
+          &S::imu_noise_model),
+      Key::Number("imu_rate", "Hz", {10, 10000}, &S::imu_rate),
+      Key::Number("g_norm", "m/s^2", {9, 10.5}, &S::gravity_norm),
+  };
+  return Join<S>({Required(topics), Within(&S::camera, CameraKeys(model_type)), ExtrinsicKeys(),
+                  timing, noise, Within(&S::imu_noise, ImuNoiseKeys())});
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "common/camera_model.h"
+#include "common/config/config_key.h"
+#include "common/imu_noise.h"
+#include "common/rigid3.h"
+
+namespace plm_vins {
+
+// The sensors: topics, calibration, noise.
+struct SensorConfig {
+  std::string image_topic = "/cam0/image_raw";
+  std::string imu_topic = "/imu0";
+  CameraParameters camera;
+  Rigid3d T_B_C;  // camera in the body (IMU) frame
+  enum class ExtrinsicMode { kFixed = 0, kRefine = 1, kCalibrateRotation = 2 };
+  ExtrinsicMode estimate_extrinsic = ExtrinsicMode::kFixed;
+  double td = 0.0;  // t_imu = t_image + td [s]
+  bool estimate_td = false;
+  // How a file means its noise, and the rate [Hz] that kVins refers to. Once loaded: kContinuous.
+  enum class ImuNoiseModel { kVins, kContinuous };
+  ImuNoiseModel imu_noise_model = ImuNoiseModel::kVins;
+  double imu_rate = 200;
+  ImuNoise imu_noise;
+  double gravity_norm = 9.81;  // [m/s^2]
+};
+
+// All keys, where the camera is of this `model_type`.
+ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type);
+
+}  // namespace plm_vins

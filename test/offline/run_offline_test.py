@@ -11,7 +11,7 @@ import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 CONFIG = ROOT / "config" / "euroc.yaml"
 RUN_OFFLINE = sys.argv[1] if len(sys.argv) > 1 else sys.exit(__doc__)
 
@@ -48,6 +48,13 @@ class RunOffline(unittest.TestCase):
     def test_bad_config(self):
         self.assert_refuses("nothing.yaml", config=self.folder / "nothing.yaml")
         self.assert_refuses("frequ: unknown key; did you mean freq?", "--set", "frequ=3")
+
+    def test_keys_without_effect(self):
+        config = self.folder / "vins.yaml"
+        config.write_text(CONFIG.read_text(encoding="utf-8") + "\nloop_closure: 1\nvoc_file: x\n",
+                          encoding="utf-8")
+        self.assert_refuses(f"warning: {config}: without effect here: loop_closure, voc_file\n",
+                            config=config)
 
     def test_output_that_cannot_be_written(self):
         self.assert_refuses("cannot make the output folder", output="asl/imu0/data.csv")

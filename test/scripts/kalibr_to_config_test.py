@@ -34,7 +34,7 @@ CAMERA = {
     "timeshift_cam_imu": 0.0125,
 }
 P_B_C = [-2.0, 1.0, -3.0]
-Q_B_C = [0.0, 0.0, -math.sqrt(0.5), math.sqrt(0.5)]  # x y z w
+R_B_C = [0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0]  # row by row
 IMU = {
     "accelerometer_noise_density": 0.002,
     "accelerometer_random_walk": 0.003,
@@ -50,6 +50,11 @@ def edited(values, **changes):
     result = copy.deepcopy(values)
     result.update(changes)
     return {key: value for key, value in result.items() if value is not None}
+
+
+def named(names, values):
+    """The values under the names that the configuration gives them."""
+    return dict(zip(names.split(), values))
 
 
 def run(*command):
@@ -85,7 +90,7 @@ class Kalibr(unittest.TestCase):
                      self.folder / "results")
         self.assertIn("no trajectory", result.stderr)
         summary = (self.folder / "results" / "summary.json").read_text(encoding="utf-8")
-        return json.loads(summary)["config"]["sensor"]
+        return json.loads(summary)["config"]
 
     def assert_all_close(self, values, expected):
         self.assertEqual(len(values), len(expected))
@@ -98,39 +103,43 @@ class RoundTrip(Kalibr):
         sensor = self.load()
         self.assertEqual(sensor["image_topic"], "/left/image_raw")
         self.assertEqual(sensor["imu_topic"], "/imu/data")
-        camera = sensor["camera"]
-        self.assertEqual(camera["model_type"], "PINHOLE")
-        self.assertEqual((camera["image_width"], camera["image_height"]), (752, 480))
-        self.assertEqual(camera["projection_parameters"], CAMERA["intrinsics"])
-        self.assertEqual(camera["distortion_parameters"], CAMERA["distortion_coeffs"])
-        self.assert_all_close(sensor["T_B_C"]["p"], P_B_C)
-        self.assert_all_close(sensor["T_B_C"]["q_xyzw"], Q_B_C)
+        self.assertEqual(sensor["model_type"], "PINHOLE")
+        self.assertEqual((sensor["image_width"], sensor["image_height"]), (752, 480))
+        self.assertEqual(sensor["projection_parameters"],
+                         named("fx fy cx cy", CAMERA["intrinsics"]))
+        self.assertEqual(sensor["distortion_parameters"],
+                         named("k1 k2 p1 p2", CAMERA["distortion_coeffs"]))
+        self.assert_all_close(sensor["extrinsicTranslation"], P_B_C)
+        self.assert_all_close(sensor["extrinsicRotation"], R_B_C)
         self.assertEqual(sensor["td"], 0.0125)
         self.assertEqual((sensor["estimate_extrinsic"], sensor["estimate_td"]), (0, False))
-        for key, value in {"accel_density": 0.002, "gyro_density": 0.0002, "accel_walk": 0.003,
-                           "gyro_walk": 2.5e-05}.items():
+        for key, value in {"acc_n": 0.002, "gyr_n": 0.0002, "acc_w": 0.003,
+                           "gyr_w": 2.5e-05}.items():
             self.assertEqual(sensor[key], value)
 
     def test_pinhole_equidistant(self):
         coefficients = [0.0035, 0.0007, -0.0021, 0.0002]
         camera = self.load(chain={"cam0": edited(
-            CAMERA, distortion_model="equidistant", distortion_coeffs=coefficients)})["camera"]
-        self.assertEqual(camera["model_type"], "KANNALA_BRANDT")
-        self.assertEqual(camera["projection_parameters"], CAMERA["intrinsics"])
-        self.assertEqual(camera["distortion_parameters"], coefficients)
+            CAMERA, distortion_model="equidistant", distortion_coeffs=coefficients)})
+        self.assertEqual(camera["model_type"], "EQUIDISTANT")
+        self.assertEqual(camera["projection_parameters"],
+                         named("fx fy cx cy", CAMERA["intrinsics"]))
+        self.assertEqual(camera["distortion_parameters"], named("k1 k2 k3 k4", coefficients))
 
     def test_omni_radtan(self):
         camera = self.load(chain={"cam0": edited(
-            CAMERA, camera_model="omni", intrinsics=[0.9, 833.0, 830.0, 373.0, 253.0])})["camera"]
+            CAMERA, camera_model="omni", intrinsics=[0.9, 833.0, 830.0, 373.0, 253.0])})
         self.assertEqual(camera["model_type"], "MEI")
-        self.assertEqual(camera["xi"], 0.9)
-        self.assertEqual(camera["projection_parameters"], [833.0, 830.0, 373.0, 253.0])
-        self.assertEqual(camera["distortion_parameters"], CAMERA["distortion_coeffs"])
+        self.assertEqual(camera["mirror_parameters"], {"xi": 0.9})
+        self.assertEqual(camera["projection_parameters"],
+                         named("gamma1 gamma2 u0 v0", [833.0, 830.0, 373.0, 253.0]))
+        self.assertEqual(camera["distortion_parameters"],
+                         named("k1 k2 p1 p2", CAMERA["distortion_coeffs"]))
 
     def test_no_distortion_and_no_time_shift(self):
         sensor = self.load(chain={"cam0": edited(CAMERA, distortion_model="none",
                                                  distortion_coeffs=[], timeshift_cam_imu=None)})
-        self.assertEqual(sensor["camera"]["distortion_parameters"], [0, 0, 0, 0])
+        self.assertEqual(sensor["distortion_parameters"], named("k1 k2 p1 p2", [0, 0, 0, 0]))
         self.assertEqual(sensor["td"], 0)
 
     def test_second_camera_and_the_imu_file_that_kalibr_writes(self):

@@ -11,10 +11,12 @@ namespace {
 using S = SensorConfig;
 using Key = ConfigKey<S>;
 
+constexpr double kRotationTolerance = 5e-3;     // three decimals are enough
+constexpr Range kTranslationRange = {-10, 10};  // [m]
+
 Problem SetRotation(const Eigen::MatrixXd& R_B_C, SensorConfig& sensor) {
-  constexpr double kTolerance = 5e-3;  // three decimals are enough
   const Eigen::Matrix3d error = R_B_C * R_B_C.transpose() - Eigen::Matrix3d::Identity();
-  if (error.cwiseAbs().maxCoeff() > kTolerance || R_B_C.determinant() < 0) {
+  if (error.cwiseAbs().maxCoeff() > kRotationTolerance || R_B_C.determinant() < 0) {
     return "is not a rotation (its rows must be of length 1, at right angles, right-handed)";
   }
   sensor.T_B_C.rotation = Eigen::Quaterniond(Eigen::Matrix3d(R_B_C)).normalized();
@@ -22,7 +24,9 @@ Problem SetRotation(const Eigen::MatrixXd& R_B_C, SensorConfig& sensor) {
 }
 
 Problem SetTranslation(const Eigen::MatrixXd& p_B_C, SensorConfig& sensor) {
-  if (p_B_C.cwiseAbs().maxCoeff() > 10) return "out of range, must be within 10 m";
+  if (p_B_C.minCoeff() < kTranslationRange.min || p_B_C.maxCoeff() > kTranslationRange.max) {
+    return "out of range, each must be " + ToText(kTranslationRange) + " [m]";
+  }
   sensor.T_B_C.translation = p_B_C;
   return std::nullopt;
 }
@@ -34,10 +38,15 @@ ConfigKeys<S> ExtrinsicKeys() {
       {{"0", Mode::kFixed}, {"1", Mode::kRefine}, {"2", Mode::kCalibrateRotation}},
       &S::estimate_extrinsic);
   mode.value = [](const S& sensor) { return static_cast<int>(sensor.estimate_extrinsic); };
-  const auto rotation = [](const S& sensor) { return sensor.T_B_C.R(); };
-  const auto translation = [](const S& sensor) { return sensor.T_B_C.translation; };
-  return {mode, Key::Matrix("extrinsicRotation", rotation, SetRotation),
-          Key::Matrix("extrinsicTranslation", translation, SetTranslation)};
+  Key rotation = Key::Matrix(
+      "extrinsicRotation", [](const S& sensor) { return sensor.T_B_C.R(); }, SetRotation);
+  rotation.allowed = "orthonormal within " + ToText(kRotationTolerance);
+  Key translation = Key::Matrix(
+      "extrinsicTranslation", [](const S& sensor) { return sensor.T_B_C.translation; },
+      SetTranslation);
+  translation.unit = "m";
+  translation.allowed = "each " + ToText(kTranslationRange);
+  return {mode, rotation, translation};
 }
 
 Key RollingShutterKey() {

@@ -2,7 +2,18 @@
 // Configuration files in the manner of VINS-Mono and PL-VINS, with the keys that those have.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <string>
+
 namespace plm_vins {
+
+// The file with one of its texts replaced.
+inline std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  const size_t position = text.find(from);
+  EXPECT_NE(position, std::string::npos) << from;
+  return text.replace(position, from.size(), to);
+}
 
 inline constexpr const char* kVinsMonoFile = R"(%YAML:1.0
 

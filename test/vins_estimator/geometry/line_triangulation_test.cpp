@@ -88,7 +88,7 @@ TEST(TriangulateLine, IsExactWithoutNoise) {
       const Rigid3d T_A_C(SO3Exp(0.1 * random.NormalVector3()), 0.5 * random.NormalVector3());
       sightings.push_back(See(segment, T_W_A * T_A_C));
     }
-    const TriangulatedLine found = TriangulateLine(WithNoise(1e-4), sightings);
+    const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(1e-4), sightings);
     ASSERT_EQ(found.result, Result::kOk) << trial;
     EXPECT_LT(Distance(segment.start, found, sightings), 1e-5);
     EXPECT_LT(Distance(segment.end, found, sightings), 1e-5);
@@ -106,7 +106,7 @@ TEST(TriangulateLine, ViewsMayShowDifferentPartsEitherWayRound) {
       See(part(0.9, 0.5), {SO3Exp({0, 0.1, 0}), {0, 0.5, 0}}),
       See(part(0.2, 0.3), {SO3Exp({0.1, 0, 0}), {0, 1, 0}}),
   };
-  const TriangulatedLine found = TriangulateLine(WithNoise(1e-4), sightings);
+  const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(1e-4), sightings);
   ASSERT_EQ(found.result, Result::kOk);
   EXPECT_LT(Distance(whole.start, found, sightings), 1e-6);
   EXPECT_LT(Distance(whole.end, found, sightings), 1e-6);

@@ -71,7 +71,7 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
   EXPECT_EQ(summary["frames"], 3);
   EXPECT_EQ(summary["poses"], 2);
   EXPECT_EQ(summary["points"], 2);
-  EXPECT_EQ(summary["config"]["estimator"]["window_size"], EstimatorConfig().window_size);
+  EXPECT_EQ(summary["config"]["window_size"], EstimatorConfig().window_size);
   EXPECT_FALSE(summary["version"].get<std::string>().empty());
 }
 

@@ -9,17 +9,12 @@
 #include "simulator/random.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 #include "vins_estimator/factors/manifolds.h"
-#include "vins_estimator/map/line_map.h"
-#include "vins_estimator/map/point_map.h"
-#include "vins_estimator/map/sliding_window.h"
+#include "vins_estimator/map/local_map.h"
 
 namespace plm_vins::testing {
 
-struct SimulatedWindow {
-  SlidingWindow window;  // at the truth
-  PointMap points;       // triangulated there
-  LineMap lines;
-};
+// At the truth; landmarks are triangulated there.
+using SimulatedWindow = LocalMap;
 
 // `frame_count` keyframes, `stride` images of 20 Hz apart, that follow up to `max_points` corners.
 inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, size_t stride = 5,
@@ -43,9 +38,7 @@ inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, siz
       for (const ImuSample& sample : imu) frame.motion_since_previous->Append(sample);
     }
     imu = {flight.frames[i].imu.back()};
-    window.frames.push_back(frame);
-    result.points.AddFrame(flight.frames[i].points, 0);
-    result.lines.AddFrame(*flight.frames[i].lines);
+    result.AddFrame(frame, flight.frames[i].points, flight.frames[i].lines);
   }
   result.points.Triangulate(window, /*min_angle=*/0.02);
   result.lines.Triangulate(window, LineTriangulationOptions(), /*max_length=*/10);

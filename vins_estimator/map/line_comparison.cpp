@@ -28,7 +28,7 @@ std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaternion
   const auto segment = ObservedSegment(line, window);
   if (!segment) return std::nullopt;
   SeenLine seen{R_F_W * segment->start_W, R_F_W * segment->end_W, line.axis};
-  if (!IsKnownWell(line)) return seen;
+  if (!HasEnoughViews(line)) return seen;
   const auto sightings = SightingsOf(line.views, window);
   const auto fit = EvaluateLine(sightings, noise, line.coordinates);
   if (!fit) return std::nullopt;

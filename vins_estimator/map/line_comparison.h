@@ -28,7 +28,7 @@ enum class LineDifference { kNone, kDirection, kDistance, kGap };
 LineDifference FindDifference(const SameLineLimits& limits, const LinePairGeometry& pair);
 
 // Enough views to tell how well a line is known.
-inline bool IsKnownWell(const LineLandmark& line) { return line.views.size() >= 3; }
+inline bool HasEnoughViews(const LineLandmark& line) { return line.views.size() >= 3; }
 
 // The seen part of a triangulated line in a frame F, and how well its views tell its place where
 // there are enough. Nothing where it has no image in a camera that saw it.

@@ -76,7 +76,7 @@ void LocalMap::RememberDeparting(int64_t frame_ns, bool stays_as_anchor) {
   for (const auto& [id, landmark] : lines.landmarks()) {
     if (!LeavesWith(frame_ns, landmark)) continue;
     const auto seen_W = See(window, Eigen::Quaterniond::Identity(), options.line_noise, landmark);
-    if (seen_W && IsKnownWell(landmark) && seen_W->place_sigma < kMaxPlaceSigma) {
+    if (seen_W && HasEnoughViews(landmark) && seen_W->place_sigma < kMaxPlaceSigma) {
       memory.Keep(id, *seen_W);
     }
     if (stays_as_anchor) memory.KeepView(id, landmark.host());

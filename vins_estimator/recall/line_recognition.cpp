@@ -55,13 +55,13 @@ std::optional<int64_t> Recognise(const SameLineLimits& limits, const Eigen::Quat
   return nearest;
 }
 
-// The lines that may be ones of the memory, by ascending id. They are known well, but only since
-// they came.
+// The lines that may be ones of the memory, by ascending id: those with enough views to tell that
+// are not in the memory themselves.
 std::vector<int64_t> CollectCandidates(const LocalMap& map) {
   std::vector<int64_t> candidates;
   for (const auto& [id, landmark] : map.lines.landmarks()) {
     const bool is_known = map.memory.Find(id) != nullptr;
-    if (landmark.triangulated && IsKnownWell(landmark) && !is_known) candidates.push_back(id);
+    if (landmark.triangulated && HasEnoughViews(landmark) && !is_known) candidates.push_back(id);
   }
   return candidates;
 }

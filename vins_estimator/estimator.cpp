@@ -103,10 +103,10 @@ void Estimator::StartWindow(const InitializationResult& result) {
 
 void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
                       EstimatorOutput* output) {
-  const LocalMap& map = state_.estimate.map;
+  LocalMap& map = state_.estimate.map;
   const bool keep_second_newest = IsKeyframe(options_.keyframes, map.window, map.points);
   AddFrame(measurement);
-  state_.estimate.map.window.newest().stationary = stands_still;
+  map.window.newest().stationary = stands_still;
   Triangulate(output);
   FindStructure(output);
   Optimize(config_.estimator.max_num_iterations, output);

@@ -13,18 +13,51 @@ import shutil
 import subprocess
 import sys
 
-# What each folder may include; the longest matching folder counts. Tests and benchmarks may include
-# anything, ROS too.
-LAYERS = {
-    "common": {"common"},
-    "tracking": {"common", "tracking"},
-    "feature_tracker": {"common", "tracking", "feature_tracker"},
-    "linefeature_tracker": {"common", "tracking", "linefeature_tracker"},
-    "vins_estimator": {"common", "vins_estimator"},
-    "offline": {"common", "tracking", "feature_tracker", "linefeature_tracker", "vins_estimator",
-                "offline"},
-    "simulator": {"common", "simulator", "vins_estimator"},
+# The layers of the estimator, from the bottom to the top, each with those that it may include beside
+# common/ and itself. estimator_output.h is one of its own: plain data, for those who only read it.
+ESTIMATOR_LAYERS = {
+    "state": "",
+    "geometry": "state",
+    "imu": "state",
+    "map": "state geometry imu",
+    "factors": "state geometry imu",
+    "problem": "state geometry map factors",
+    "optimization": "problem",
+    "marginalization": "state map problem",
+    "manhattan": "state geometry map",
+    "merging": "state geometry map",
+    "recall": "state geometry map",
+    "initialization": "state geometry imu factors",
+    "estimator_output.h": "state",
+    "output": "state estimator_output.h",
 }
+ESTIMATOR_CORE = " ".join(layer for layer in ESTIMATOR_LAYERS if layer != "output")
+
+
+def inside_estimator(layers):
+    return {"vins_estimator/" + layer for layer in layers.split()}
+
+
+# What each layer, a folder or a file, may include beside itself; the longest match counts. Tests
+# and benchmarks may include anything, ROS too.
+LAYERS = {
+    "common": set(),
+    "tracking": {"common"},
+    "feature_tracker": {"common", "tracking"},
+    "linefeature_tracker": {"common", "tracking"},
+    **{"vins_estimator/" + layer: {"common"} | inside_estimator(below)
+       for layer, below in ESTIMATOR_LAYERS.items()},
+    "vins_estimator": {"common"} | inside_estimator(ESTIMATOR_CORE),
+    "vins_estimator/ros": {"common", "vins_estimator"} | inside_estimator(
+        "state imu estimator_output.h output"),
+    "offline": {"common", "tracking", "feature_tracker", "linefeature_tracker", "vins_estimator"}
+               | inside_estimator("state estimator_output.h output"),
+    "simulator": {"common"} | inside_estimator("state output"),
+}
+# Who only reads what the estimator says gets by without the solver, however far the includes lead.
+WITHOUT_CERES = ["common", "tracking", "feature_tracker", "linefeature_tracker",
+                 "vins_estimator/state", "vins_estimator/map", "vins_estimator/output",
+                 "vins_estimator/ros", "offline", "simulator"]
 CODE_FOLDERS = sorted({folder.split("/")[0] for folder in LAYERS} | {"benchmark", "test"})
 TEXT_FOLDERS = CODE_FOLDERS + [".ci", "cmake", "config", "docs", "launch", "scripts"]
 TEXT_SUFFIXES = {".cpp", ".h", ".py", ".sh", ".txt", ".cmake", ".md", ".yaml", ".launch", ".test",
@@ -33,7 +66,8 @@ TEXT_SUFFIXES = {".cpp", ".h", ".py", ".sh", ".txt", ".cmake", ".md", ".yaml", "
 ROS_INCLUDE = re.compile(
     r'#include\s*[<"](ros|rosbag|cv_bridge|image_transport|diagnostic_updater|nodelet|pluginlib'
     r'|message_filters|tf2\w*|tf|std_srvs|\w+_msgs)/')
-INCLUDE = re.compile(r'#include\s*"([^"]+)"')
+INCLUDE = re.compile(r'^#include\s*"([^"]+)"', re.MULTILINE)
+CERES_INCLUDE = re.compile(r"^#include\s*<ceres/", re.MULTILINE)
 # "somebody" stands for a user in examples.
 HOME_PATH = re.compile(r"(?<![\w./~$}{-])/(home|root|work|Users)/(?!somebody/)\w")
 LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)(?:#([^)\s]+))?\)")
@@ -47,6 +81,8 @@ def main(root):
     problems += [problem for path in text_files(root) for problem in check_paths(root, path)]
     problems += [problem for path in text_files(root) if path.suffix == ".md"
                  for problem in check_links(root, path)]
+    problems += check_circles(root)
+    problems += check_ceres(root)
     problems += check_functions(root)
     print(*problems, sep="\n", end="\n" if problems else "")
     print(f"{len(code_files(root))} source files, {len(problems)} problems")
@@ -75,22 +111,70 @@ def check_code(root, path):
         yield f"{name}:1: the first line is not '{SPDX}'"
     if len(lines) > MAX_FILE_LINES:
         yield f"{name}: {len(lines)} lines, at most {MAX_FILE_LINES}"
-    allowed = allowed_layers(name)
     for number, line in enumerate(lines, start=1):
-        if ROS_INCLUDE.match(line) and "ros" not in name.parts[:-1] and allowed is not None:
+        if ROS_INCLUDE.match(line) and "ros" not in name.parts[:-1] and layer_of(name):
             yield f"{name}:{number}: ROS outside of a folder named ros/"
         if path.suffix == ".h" and line.lstrip().startswith("using namespace"):
             yield f"{name}:{number}: 'using namespace' in a header"
         include = INCLUDE.match(line)
-        layer = include.group(1).split("/")[0] if include else None
-        if layer in CODE_FOLDERS and allowed is not None and layer not in allowed:
+        if include and not may_include(name, include.group(1)):
             yield f"{name}:{number}: this layer must not know {include.group(1)}"
 
 
-def allowed_layers(name):
-    """The folders that this file may include, or None for all of them."""
-    folders = [folder for folder in LAYERS if pathlib.PurePath(folder) in name.parents]
-    return LAYERS[max(folders, key=len)] if folders else None
+def layer_of(name):
+    """The layer that a file belongs to, or None for a file of no layer."""
+    layers = [layer for layer in LAYERS if is_inside(name, layer)]
+    return max(layers, key=len) if layers else None
+
+
+def is_inside(name, folder):
+    """Also true where `folder` is the file itself."""
+    path = pathlib.PurePath(name)
+    return pathlib.PurePath(folder) in (path, *path.parents)
+
+
+def may_include(name, included):
+    layer, target = layer_of(name), layer_of(included)
+    if layer is None:
+        return True  # a test
+    if target is None:
+        return included.split("/")[0] not in CODE_FOLDERS  # a library, but no test
+    return target == layer or target in LAYERS[layer]
+
+
+def check_circles(root):
+    """Pairs of layers that include each other."""
+    includes = {}  # by the two layers: an example
+    for path in code_files(root):
+        name = path.relative_to(root)
+        for included in INCLUDE.findall(path.read_text(encoding="utf-8")):
+            includes.setdefault((layer_of(name), layer_of(included)), f"{name} {included}")
+    for (layer, target), example in sorted(includes.items(), key=str):
+        if layer and target and layer < target and (target, layer) in includes:
+            yield f"{layer} and {target} include each other: {example}; {includes[target, layer]}"
+
+
+def check_ceres(root):
+    """Headers and sources that get Ceres by their includes, directly or not, and must not."""
+    for path in code_files(root):
+        name = path.relative_to(root)
+        if any(is_inside(name, folder) for folder in WITHOUT_CERES):
+            way = way_to_ceres(root, name, set())
+            if way:
+                yield f"{name}: includes Ceres by way of {' '.join(way)}"
+
+
+def way_to_ceres(root, name, seen):
+    """The includes that lead from a file to Ceres; nothing where none do."""
+    seen.add(str(name))
+    text = (root / name).read_text(encoding="utf-8") if (root / name).is_file() else ""
+    if CERES_INCLUDE.search(text):
+        return [str(name)]
+    for included in INCLUDE.findall(text):
+        way = way_to_ceres(root, included, seen) if included not in seen else None
+        if way:
+            return [str(name)] + way
+    return None
 
 
 def check_paths(root, path):

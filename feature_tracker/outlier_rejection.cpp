@@ -6,6 +6,9 @@
 #include <cmath>
 #include <random>
 
+#include "common/geometry/epipolar_constraint.h"
+#include "common/geometry/robust_weight.h"
+#include "common/geometry/tangent_basis.h"
 #include "common/so3.h"
 
 namespace plm_vins {
@@ -52,12 +55,6 @@ double Cost(const std::vector<RayPair>& pairs, const EpipolarGeometry& geometry,
   return cost;
 }
 
-// Weight of the Geman-McClure loss, which all but ignores errors of several times `scale`.
-double RobustWeight(double error, double scale) {
-  const double root = 1.0 / (1.0 + error * error / (scale * scale));
-  return root * root;
-}
-
 // The rotation alone that takes most rays of C0 to those of C1: Gauss-Newton on b - R a.
 Eigen::Matrix3d FitRotation(const std::vector<RayPair>& pairs, double scale) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
@@ -67,7 +64,7 @@ Eigen::Matrix3d FitRotation(const std::vector<RayPair>& pairs, double scale) {
     for (const RayPair& pair : pairs) {
       const Eigen::Vector3d a = R * pair.ray_C0;
       const Eigen::Vector3d error = pair.ray_C1 - a;
-      const double weight = RobustWeight(error.norm(), scale);
+      const double weight = GemanMcClureWeight(error.norm(), scale);
       H += weight * (Eigen::Matrix3d::Identity() - a * a.transpose());
       g += weight * a.cross(error);
     }
@@ -89,14 +86,6 @@ std::optional<Eigen::Vector3d> TranslationOfTwo(const Eigen::Matrix3d& R_C1_C0,
   return t / length;
 }
 
-// Two columns that span the plane normal to the unit vector t.
-Eigen::Matrix<double, 3, 2> TangentBasis(const Eigen::Vector3d& t) {
-  Eigen::Matrix<double, 3, 2> basis;
-  basis.col(0) = t.unitOrthogonal();
-  basis.col(1) = t.cross(basis.col(0));
-  return basis;
-}
-
 // One robust Gauss-Newton step on rotation (R <- Exp(w) R) and direction of translation. Damped,
 // as without parallax the latter is free.
 EpipolarGeometry Refine(const std::vector<RayPair>& pairs, const EpipolarGeometry& geometry,
@@ -109,10 +98,8 @@ EpipolarGeometry Refine(const std::vector<RayPair>& pairs, const EpipolarGeometr
   Vector5d g = Vector5d::Zero();
   for (const RayPair& pair : pairs) {
     const EpipolarResidual r(geometry, pair);
-    Vector5d J;
-    J << r.weight * r.a.cross(r.b.cross(geometry.t_C1)),
-        r.weight * basis.transpose() * r.a.cross(r.b);
-    const double weight = RobustWeight(r.error, scale);
+    const Vector5d J = EpipolarGradient(r.weight, r.a, r.b, geometry.t_C1, basis);
+    const double weight = GemanMcClureWeight(r.error, scale);
     H.noalias() += weight * J * J.transpose();
     g.noalias() -= weight * r.error * J;
   }

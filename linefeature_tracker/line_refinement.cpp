@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "common/geometry/robust_weight.h"
 #include "linefeature_tracker/image_sampling.h"
 
 namespace plm_vins {
@@ -51,8 +52,7 @@ LineOffset FitOffset(const std::vector<EdgePoint>& points) {
     for (const EdgePoint& point : points) {
       const double pixels = 1 / point.sample.offset_per_pixel;
       const double residual_px = point.offset_px - fit.At(point.sample) * pixels;
-      const double ratio = residual_px / scale_px;
-      const double weight = 1 / ((1 + ratio * ratio) * (1 + ratio * ratio));
+      const double weight = GemanMcClureWeight(residual_px, scale_px);
       const Eigen::Vector2d J(pixels, point.sample.along * pixels);
       H += weight * J * J.transpose();
       b += weight * J * point.offset_px;

@@ -17,10 +17,10 @@ bool IsPowerOfTwo(int64_t count) { return (count & (count - 1)) == 0; }
 
 }  // namespace
 
-OdometryPipeline::OdometryPipeline(const Config& config) : front_end_(config), back_end_(config) {}
+OdometryPipeline::OdometryPipeline(const Config& config) : trackers_(config), back_end_(config) {}
 
 DropCounts OdometryPipeline::drops() const {
-  DropCounts counts = ToDropCounts(front_end_.image_counts());
+  DropCounts counts = ToDropCounts(trackers_.image_counts());
   Append(ToDropCounts(back_end_.statistics()), &counts);
   return counts;
 }
@@ -30,7 +30,7 @@ void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, Thr
   if (threads == Threads::kTwo) {
     RunInTwoThreads(recording, interval, on_frame);
   } else {
-    RunFrontEnd(recording, interval, [&](Item item) {
+    RunTrackers(recording, interval, [&](Item item) {
       Consume(std::move(item), on_frame);
       return true;
     });
@@ -41,12 +41,12 @@ void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, Thr
 void OdometryPipeline::RunInTwoThreads(Recording* recording, const RecordingInterval& interval,
                                        const FrameCallback& on_frame) {
   BoundedQueue<Item> queue(kQueueCapacity);
-  std::exception_ptr front_end_error;
-  std::thread front_end([&] {
+  std::exception_ptr tracking_error;
+  std::thread tracking([&] {
     try {
-      RunFrontEnd(recording, interval, [&](Item item) { return queue.Push(std::move(item)); });
+      RunTrackers(recording, interval, [&](Item item) { return queue.Push(std::move(item)); });
     } catch (...) {
-      front_end_error = std::current_exception();
+      tracking_error = std::current_exception();
     }
     queue.Close();
   });
@@ -57,19 +57,19 @@ void OdometryPipeline::RunInTwoThreads(Recording* recording, const RecordingInte
     back_end_error = std::current_exception();
     queue.Close();
   }
-  front_end.join();
-  if (front_end_error) std::rethrow_exception(front_end_error);
+  tracking.join();
+  if (tracking_error) std::rethrow_exception(tracking_error);
   if (back_end_error) std::rethrow_exception(back_end_error);
 }
 
-void OdometryPipeline::RunFrontEnd(Recording* recording, RecordingInterval interval,
+void OdometryPipeline::RunTrackers(Recording* recording, RecordingInterval interval,
                                    const ItemCallback& emit) {
   while (const auto event = recording->Next()) {
     const RecordingInterval::Part part = interval.Locate(*event);
     if (part == RecordingInterval::Part::kEnd) break;
     if (part == RecordingInterval::Part::kUse && !Feed(*event, recording, emit)) return;
   }
-  while (auto frame = front_end_.Flush()) {
+  while (auto frame = trackers_.Flush()) {
     if (!EmitTracked(std::move(*frame), emit)) return;
   }
 }
@@ -77,25 +77,25 @@ void OdometryPipeline::RunFrontEnd(Recording* recording, RecordingInterval inter
 bool OdometryPipeline::Feed(const RecordingEvent& event, Recording* recording,
                             const ItemCallback& emit) {
   if (event.kind == RecordingEvent::Kind::kImu) {
-    front_end_.AddImu(event.imu);
+    trackers_.AddImu(event.imu);
     if (!emit({event.imu, nullptr})) return false;
   } else if (const auto image = recording->LoadImage()) {
     if (!first_image_ns_) first_image_ns_ = event.t_ns;
-    front_end_.AddImage({event.t_ns, *image});
+    trackers_.AddImage({event.t_ns, *image});
   }
-  while (auto frame = front_end_.Pop()) {
+  while (auto frame = trackers_.Pop()) {
     if (!EmitTracked(std::move(*frame), emit)) return false;
   }
   return true;
 }
 
-bool OdometryPipeline::EmitTracked(FrontEndFrame frame, const ItemCallback& emit) {
+bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const ItemCallback& emit) {
   // The last power of two lies in the second half of any run, however long it turns out to be.
   if (IsPowerOfTwo(++tracked_images_)) {
-    points_image_ = front_end_.DrawPoints();
-    lines_image_ = front_end_.DrawLines();
+    points_image_ = trackers_.DrawPoints();
+    lines_image_ = trackers_.DrawLines();
   }
-  return emit({{}, std::make_unique<FrontEndFrame>(std::move(frame))});
+  return emit({{}, std::make_unique<TrackedFeatures>(std::move(frame))});
 }
 
 void OdometryPipeline::Consume(Item item, const FrameCallback& on_frame) {
@@ -107,7 +107,7 @@ void OdometryPipeline::Consume(Item item, const FrameCallback& on_frame) {
   while (auto estimated = back_end_.Pop()) Report(std::move(*estimated), on_frame);
 }
 
-void OdometryPipeline::AddFeatures(FrontEndFrame tracked) {
+void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
   if (tracked.points.restart) back_end_.Reset("stamps jumped back");
   if (!tracked.points.publish) return;
   PipelineFrame& frame = unfinished_[tracked.points.features.t_ns];

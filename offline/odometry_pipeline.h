@@ -10,7 +10,7 @@
 
 #include "common/config.h"
 #include "common/drop_counts.h"
-#include "offline/front_end.h"
+#include "offline/feature_trackers.h"
 #include "offline/recording.h"
 #include "offline/recording_interval.h"
 #include "vins_estimator/estimation_stage.h"
@@ -41,7 +41,7 @@ class OdometryPipeline {
            const FrameCallback& on_frame);
 
   // After Run().
-  int64_t images() const { return front_end_.image_counts().images; }
+  int64_t images() const { return trackers_.image_counts().images; }
   std::optional<int64_t> first_image_ns() const { return first_image_ns_; }
   DropCounts drops() const;
 
@@ -54,20 +54,20 @@ class OdometryPipeline {
   // What flows from the front end to the back end, in order.
   struct Item {
     ImuSample imu;
-    std::unique_ptr<FrontEndFrame> frame;  // instead of `imu`
+    std::unique_ptr<TrackedFeatures> frame;  // instead of `imu`
   };
   using ItemCallback = std::function<bool(Item)>;  // false: no more are wanted
 
-  void RunFrontEnd(Recording* recording, RecordingInterval interval, const ItemCallback& emit);
+  void RunTrackers(Recording* recording, RecordingInterval interval, const ItemCallback& emit);
   bool Feed(const RecordingEvent& event, Recording* recording, const ItemCallback& emit);
-  bool EmitTracked(FrontEndFrame frame, const ItemCallback& emit);
+  bool EmitTracked(TrackedFeatures frame, const ItemCallback& emit);
   void RunInTwoThreads(Recording* recording, const RecordingInterval& interval,
                        const FrameCallback& on_frame);
   void Consume(Item item, const FrameCallback& on_frame);
-  void AddFeatures(FrontEndFrame tracked);
+  void AddFeatures(TrackedFeatures tracked);
   void Report(EstimatedFrame estimated, const FrameCallback& on_frame);
 
-  FrontEnd front_end_;
+  FeatureTrackers trackers_;
   EstimationStage back_end_;
   std::optional<int64_t> first_image_ns_;
   int64_t tracked_images_ = 0;

@@ -54,7 +54,7 @@ FrameCounts MakeCounts(const PipelineFrame& frame) {
   counts[kLinesInconsistent] = estimator.line_triangulation.inconsistent;
   counts[kLinesTooLong] = estimator.line_triangulation.too_long;
   counts[kLinesMerged] = estimator.line_merging.merged;
-  counts[kLinesRecognised] = estimator.line_merging.recognised;
+  counts[kLinesRecognised] = estimator.lines_recognised;
   counts[kLinesInWindow] = estimator.lines_in_window;
   counts[kLinesRejected] = estimator.lines_rejected;
   return counts;

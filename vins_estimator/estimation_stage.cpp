@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/estimation_stage.h"
 
+#include "vins_estimator/estimator.h"
+
 namespace plm_vins {
 namespace {
 
@@ -32,8 +34,10 @@ DropCounts ToDropCounts(const SyncStatistics& statistics) {
 
 EstimationStage::EstimationStage(const Config& config)
     : gyro_density_(config.sensor.imu_noise.gyro_density),
-      estimator_(config),
+      estimator_(std::make_unique<Estimator>(config)),
       sync_(MakeSyncOptions(config)) {}
+
+EstimationStage::~EstimationStage() = default;
 
 void EstimationStage::Reset(const std::string& reason) {
   sync_.Clear();
@@ -42,8 +46,8 @@ void EstimationStage::Reset(const std::string& reason) {
 
 // What has said nothing since it began has nothing to take back.
 void EstimationStage::StartOver(const std::string& reason) {
-  estimator_.Reset();
-  sync_.SetTimeOffset(estimator_.time_offset());
+  estimator_->Reset();
+  sync_.SetTimeOffset(estimator_->time_offset());
   if (anew_) return;
   ++resets_;
   restart_reason_ = reason;
@@ -58,7 +62,7 @@ std::optional<EstimatedFrame> EstimationStage::Process(
     StartOver("stamps jumped back");
   }
   EstimatedFrame frame;
-  frame.output = estimator_.Process(*measurement);
+  frame.output = estimator_->Process(*measurement);
   ++frames_;
   if (frame.output.restarted) ++resets_;
   anew_ = false;
@@ -66,7 +70,7 @@ std::optional<EstimatedFrame> EstimationStage::Process(
     frame.output.restarted = true;
     frame.output.reason = *std::exchange(restart_reason_, std::nullopt);
   }
-  sync_.SetTimeOffset(estimator_.time_offset());
+  sync_.SetTimeOffset(estimator_->time_offset());
   const std::vector<ImuSample>& imu = measurement->imu;
   if (imu.size() > 1) {
     const double interval =

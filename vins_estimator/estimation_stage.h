@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,10 +11,12 @@
 #include "common/config.h"
 #include "common/drop_counts.h"
 #include "common/measurements.h"
-#include "vins_estimator/estimator.h"
+#include "vins_estimator/estimator_output.h"
 #include "vins_estimator/measurement_sync.h"
 
 namespace plm_vins {
+
+class Estimator;
 
 DropCounts ToDropCounts(const SyncStatistics& statistics);
 
@@ -29,6 +33,7 @@ struct EstimatedFrame {
 class EstimationStage {
  public:
   explicit EstimationStage(const Config& config);
+  ~EstimationStage();
 
   void AddImu(const ImuSample& sample) { sync_.AddImu(sample); }
   void AddPoints(PointFrame frame) { sync_.AddPoints(std::move(frame)); }
@@ -54,8 +59,8 @@ class EstimationStage {
   std::optional<EstimatedFrame> Process(const std::optional<FrameMeasurement>& measurement);
   void StartOver(const std::string& reason);
 
-  const double gyro_density_;  // [rad/s/sqrt(Hz)]
-  Estimator estimator_;
+  const double gyro_density_;                   // [rad/s/sqrt(Hz)]
+  const std::unique_ptr<Estimator> estimator_;  // so that users do not see the solver
   MeasurementSync sync_;
   int64_t frames_ = 0;
   int64_t resets_ = 0;

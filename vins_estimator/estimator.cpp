@@ -3,15 +3,18 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "common/stopwatch.h"
 #include "vins_estimator/manhattan/line_directions.h"
+#include "vins_estimator/marginalization/window_marginalizer.h"
+#include "vins_estimator/merging/line_merging.h"
+#include "vins_estimator/optimization/levenberg_marquardt.h"
+#include "vins_estimator/recall/line_recognition.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr double kMinTriangulationAngle_px = 2.0;  // in pixels of motion: well above corner noise
-constexpr double kMaxReprojectionError_px = 3.0;   // mean over a landmark's views
 constexpr int kInitialIterations = 20;
 constexpr size_t kMinViewsToOptimize = 3;
 
@@ -33,38 +36,26 @@ InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstil
   return uncertainty;
 }
 
+WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& options) {
+  WindowEstimate estimate{LocalMap(options)};
+  SlidingWindow& window = estimate.map.window;
+  window.SetExtrinsic(sensor.T_B_C);
+  window.td = sensor.td;
+  window.gravity_W = Eigen::Vector3d(0, 0, -sensor.gravity_norm);
+  return estimate;
+}
+
 }  // namespace
 
-Estimator::Estimator(const Config& config)
-    : config_(config),
-      focal_length_(CameraModel::Create(config.sensor.camera)->FocalLength()),
-      line_triangulation_options_(config.estimator.line_noise / focal_length_),
-      line_limits_(line_triangulation_options_.noise, config.estimator.line_outlier_distance),
-      keyframe_options_(config.estimator, focal_length_),
-      anchor_options_(config.estimator),
-      problem_options_(config, focal_length_),
-      initializer_(config),
-      standstill_detector_(config.sensor.imu_noise),
-      line_merging_(LineMergingOptions(config.estimator, focal_length_)) {
-  Reset();
-}
+Estimator::State::State(const Config& config, const EstimatorOptions& options)
+    : initializer(config),
+      standstill_detector(config.sensor.imu_noise),
+      estimate(EmptyWindow(config.sensor, options.map)) {}
 
-void Estimator::Reset() {
-  initialized_ = false;
-  initializer_.Reset();
-  standstill_detector_.Reset();
-  contradiction_monitor_.Reset();
-  window_ = SlidingWindow();
-  window_.SetExtrinsic(config_.sensor.T_B_C);
-  window_.td = config_.sensor.td;
-  window_.gravity_W = Eigen::Vector3d(0, 0, -config_.sensor.gravity_norm);
-  points_.Clear();
-  lines_.Clear();
-  manhattan_ = ManhattanFrame();
-  line_merging_.Clear();
-  problem_options_ = ProblemOptions(config_, focal_length_);
-  prior_ = MarginalizationPrior();
-}
+Estimator::Estimator(const Config& config)
+    : config_(config), options_(config), state_(config, options_) {}
+
+void Estimator::Reset() { state_ = State(config_, options_); }
 
 EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
   const Stopwatch stopwatch;
@@ -75,7 +66,7 @@ EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
     output.counts.lines_observed = static_cast<int>(measurement.lines->lines.size());
   }
   const bool stands_still = StandsStill(measurement);
-  if (initialized_) {
+  if (state_.initialized) {
     Track(measurement, stands_still, &output);
   } else {
     Initialize(measurement, &output);
@@ -86,34 +77,36 @@ EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
 
 void Estimator::Initialize(const FrameMeasurement& measurement, EstimatorOutput* output) {
   const Stopwatch stopwatch;
-  const auto result = initializer_.Add(measurement);
+  const auto result = state_.initializer.Add(measurement);
   output->timings.initialization = stopwatch.Milliseconds();
-  output->reason = initializer_.reason();
+  output->reason = state_.initializer.reason();
   if (!result) return;
 
   StartWindow(*result);
   Triangulate(output);
   Optimize(kInitialIterations, output);
-  initialized_ = true;
+  state_.initialized = true;
   output->reason.clear();
   Describe(output);
 }
 
 void Estimator::StartWindow(const InitializationResult& result) {
-  window_.SetExtrinsic(result.T_B_C);
+  SlidingWindow& window = state_.estimate.map.window;
+  window.SetExtrinsic(result.T_B_C);
   for (const InitialFrame& frame : result.frames) {
     AddFrame(frame.measurement);
-    window_.newest().state = frame.state;
+    window.newest().state = frame.state;
   }
-  prior_ = InitialPrior(UncertaintyOf(config_.sensor, result.from_standstill), problem_options_,
-                        window_);
+  state_.estimate.prior =
+      InitialPrior(UncertaintyOf(config_.sensor, result.from_standstill), options_.problem, window);
 }
 
 void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
                       EstimatorOutput* output) {
-  const bool keep_second_newest = IsKeyframe(keyframe_options_, window_, points_);
+  LocalMap& map = state_.estimate.map;
+  const bool keep_second_newest = IsKeyframe(options_.keyframes, map.window, map.points);
   AddFrame(measurement);
-  window_.newest().stationary = stands_still;
+  map.window.newest().stationary = stands_still;
   Triangulate(output);
   FindStructure(output);
   Optimize(config_.estimator.max_num_iterations, output);
@@ -131,71 +124,91 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
 }
 
 std::optional<std::string> Estimator::FindFailure(const EstimatorOutput& output) {
-  const auto contradiction = contradiction_monitor_.Add(output.t_ns, output.counts.points_in_window,
-                                                        output.counts.points_rejected);
-  return contradiction ? contradiction
-                       : DetectFailure(FailureLimits(), predicted_, window_.newest().state);
+  const auto contradiction = state_.contradiction_monitor.Add(
+      output.t_ns, output.counts.points_in_window, output.counts.points_rejected);
+  if (contradiction) return contradiction;
+  return DetectFailure(FailureLimits(), state_.predicted,
+                       state_.estimate.map.window.newest().state);
 }
 
 bool Estimator::StandsStill(const FrameMeasurement& measurement) {
-  return config_.estimator.zero_velocity_update && standstill_detector_.Add(measurement);
+  return config_.estimator.zero_velocity_update && state_.standstill_detector.Add(measurement);
 }
 
 void Estimator::AddFrame(const FrameMeasurement& measurement) {
+  LocalMap& map = state_.estimate.map;
   WindowFrame frame;
-  frame.state.t_ns = measurement.t_ns;
   frame.cut_time_offset = measurement.time_offset;
-  if (!window_.frames.empty()) {
-    const FrameState& before = window_.newest().state;
+  if (!map.window.frames.empty()) {
+    const FrameState& before = map.window.newest().state;
     frame.motion_since_previous =
         std::make_shared<Preintegration>(config_.sensor.imu_noise, before.bias());
     for (const ImuSample& sample : measurement.imu) frame.motion_since_previous->Append(sample);
-    frame.state = frame.motion_since_previous->Predict(before, window_.gravity_W);
-    frame.state.t_ns = measurement.t_ns;
+    frame.state = frame.motion_since_previous->Predict(before, map.window.gravity_W);
   }
-  predicted_ = frame.state;
-  window_.frames.push_back(std::move(frame));
-  points_.AddFrame(measurement.points, measurement.time_offset);
-  if (measurement.lines) lines_.AddFrame(line_merging_.Redirect(*measurement.lines));
+  frame.state.t_ns = measurement.t_ns;
+  state_.predicted = frame.state;
+  map.AddFrame(std::move(frame), measurement.points, measurement.lines);
 }
 
 void Estimator::Triangulate(EstimatorOutput* output) {
-  points_.Triangulate(window_, kMinTriangulationAngle_px / focal_length_);
-  output->counts.line_triangulation =
-      lines_.Triangulate(window_, line_triangulation_options_, line_limits_.max_length);
+  LocalMap& map = state_.estimate.map;
+  map.points.Triangulate(map.window, options_.min_triangulation_angle);
+  output->counts.line_triangulation = map.lines.Triangulate(map.window, options_.line_triangulation,
+                                                            options_.line_limits.max_length);
 }
 
 // The Manhattan frame of the lines, and which of them are one.
 void Estimator::FindStructure(EstimatorOutput* output) {
   const Stopwatch stopwatch;
-  const auto directions = LineDirections(window_, lines_, line_limits_.noise);
-  manhattan_.Update(window_.newest().state.t_ns, directions);
-  NameAxes(manhattan_, directions, &lines_);
-  if (config_.estimator.manhattan_constraints) problem_options_.R_W_M = manhattan_.R_W_M();
-  if (config_.estimator.line_merging) {
-    output->counts.line_merging = line_merging_.Merge(window_, &lines_, &manhattan_);
-    NoteUse(lines_, &window_);
-  }
+  LocalMap& map = state_.estimate.map;
+  const auto directions = LineDirections(map.window, map.lines, options_.line_limits.noise);
+  state_.manhattan.Update(map.window.newest().state.t_ns, directions);
+  NameAxes(state_.manhattan, directions, &map.lines);
+  if (config_.estimator.line_merging) UniteLines(output);
   output->timings.line_merging = stopwatch.Milliseconds();
 }
 
+// Lines that are one go on as one, and have one vote on the Manhattan frame.
+void Estimator::UniteLines(EstimatorOutput* output) {
+  LocalMap& map = state_.estimate.map;
+  const Eigen::Quaterniond R_M_W =
+      state_.manhattan.R_W_M().value_or(Eigen::Quaterniond::Identity()).conjugate();
+  const MergedLines merged = MergeLines(options_.same_line, R_M_W, &map);
+  const std::vector<int64_t> recognised = RecogniseLines(options_.same_line, R_M_W, &map);
+  map.ForgetIdleAliases();
+  for (const int64_t id : merged.absorbed) state_.manhattan.Remove(id);
+  for (const int64_t id : recognised) state_.manhattan.Remove(id);
+  NoteUse(map.lines, &map.window);
+  output->counts.line_merging = merged.counts;
+  output->counts.lines_recognised = static_cast<int>(recognised.size());
+}
+
 void Estimator::RemoveOutliers(EstimatorOutput* output) {
+  LocalMap& map = state_.estimate.map;
   output->counts.points_rejected =
-      points_.RemoveOutliers(window_, kMaxReprojectionError_px / focal_length_);
-  output->counts.lines_rejected = lines_.RemoveOutliers(window_, line_limits_);
+      map.points.RemoveOutliers(map.window, options_.max_reprojection_error);
+  output->counts.lines_rejected = map.lines.RemoveOutliers(map.window, options_.line_limits);
+}
+
+ProblemOptions Estimator::CurrentProblem() const {
+  ProblemOptions options = options_.problem;
+  if (config_.estimator.manhattan_constraints) options.R_W_M = state_.manhattan.R_W_M();
+  return options;
 }
 
 void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
   const Stopwatch stopwatch;
-  ProblemBuilder builder(problem_options_, &window_, &prior_);
+  LocalMap& map = state_.estimate.map;
+  ProblemBuilder builder(CurrentProblem(), &map.window, &state_.estimate.prior);
   builder.AddPrior();
-  for (size_t i = 1; i < window_.frames.size(); ++i) builder.AddMotion(i);
-  for (auto& [id, landmark] : points_.landmarks()) {
+  for (size_t i = 1; i < map.window.frames.size(); ++i) builder.AddMotion(i);
+  for (auto& [id, landmark] : map.points.landmarks()) {
     if (!IsOptimized(landmark)) continue;
     builder.AddPoint(&landmark);
     ++output->counts.points_in_window;
   }
-  for (auto& [id, landmark] : lines_.landmarks()) {
+  for (auto& [id, landmark] : map.lines.landmarks()) {
     if (!IsOptimized(landmark)) continue;
     builder.AddLine(&landmark);
     ++output->counts.lines_in_window;
@@ -205,7 +218,7 @@ void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
   options.max_iterations = max_iterations;
   Solve(options, builder.problem(), &equations);
 
-  const int64_t newest_ns = window_.newest().state.t_ns;
+  const int64_t newest_ns = map.window.newest().state.t_ns;
   const Eigen::MatrixXd covariance =
       equations.Covariance({{BlockKind::kPose, newest_ns}, {BlockKind::kMotion, newest_ns}});
   if (covariance.size() > 0) {
@@ -217,74 +230,44 @@ void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
 
 void Estimator::SlideWindow(bool keep_second_newest, EstimatorOutput* output) {
   const Stopwatch stopwatch;
+  const size_t frame_count = state_.estimate.map.window.frames.size();
   if (!keep_second_newest) {
-    DropSecondNewestFrame();
-  } else if (static_cast<int>(window_.frames.size()) > config_.estimator.window_size) {
-    MarginalizeOldestFrame(output);
+    state_.estimate.DropSecondNewest();
+  } else if (static_cast<int>(frame_count) > config_.estimator.window_size) {
+    SlideOldest(output);
   }
   output->timings.marginalization = stopwatch.Milliseconds();
 }
 
-void Estimator::MarginalizeOldestFrame(EstimatorOutput* output) {
-  const int64_t oldest_ns = window_.frames.front().state.t_ns;
-  const bool stays = StaysAsAnchor(anchor_options_, window_, lines_);
-  if (stays) MakeRoomForAnchor();
-  prior_ = MarginalizeOldest(problem_options_, prior_, &window_, &points_, &lines_, stays);
-  if (config_.estimator.line_merging) line_merging_.Remember(window_, lines_, stays);
-  points_.StartAnew(window_, oldest_ns, [&](const PointLandmark& point) {
-    output->departed_points.push_back({point.id, PositionInWorld(point, window_)});
-  });
-  lines_.StartAnew(window_, oldest_ns, [&](const LineLandmark& line) {
-    if (const auto segment = DepartingSegment(line)) output->departed_lines.push_back(*segment);
-  });
-  points_.RemoveFrame(window_, oldest_ns);
-  lines_.RemoveFrame(window_, oldest_ns);
+void Estimator::SlideOldest(EstimatorOutput* output) {
+  WindowEstimate& estimate = state_.estimate;
+  const bool stays = StaysAsAnchor(options_.anchors, estimate.map.window, estimate.map.lines);
   if (stays) {
-    window_.TurnOldestIntoAnchor();
-  } else {
-    window_.RemoveOldest();
+    const auto replaced_ns = AnchorToReplace(options_.anchors, estimate.map.window);
+    if (replaced_ns) estimate.RemoveAnchor(*replaced_ns);
   }
-}
-
-void Estimator::MakeRoomForAnchor() {
-  const auto replaced_ns = AnchorToReplace(anchor_options_, window_);
-  if (!replaced_ns) return;
-  prior_ = prior_.Marginalize(IsOfFrame(*replaced_ns));
-  lines_.RemoveAnchor(*replaced_ns);
-  line_merging_.RemoveAnchor(*replaced_ns);
-  window_.RemoveAnchor(*replaced_ns);
-}
-
-// All that was seen of a line, from its first view on.
-std::optional<MapLine> Estimator::DepartingSegment(const LineLandmark& line) const {
-  const RememberedLine* known = line_merging_.memory().Find(line.id);
-  if (known == nullptr) return ObservedSegment(line, window_);
-  return MapLine{line.id, known->seen_W.start_F, known->seen_W.end_F, line.axis};
-}
-
-void Estimator::DropSecondNewestFrame() {
-  const int64_t dropped_ns = window_.frames[window_.frames.size() - 2].state.t_ns;
-  prior_ = prior_.Marginalize(IsOfFrame(dropped_ns));
-  points_.RemoveFrame(window_, dropped_ns);
-  lines_.RemoveFrame(window_, dropped_ns);
-  window_.RemoveSecondNewest();
+  DepartedLandmarks departed = estimate.SlideOldest(CurrentProblem(), stays);
+  output->departed_points = std::move(departed.points);
+  output->departed_lines = std::move(departed.lines);
 }
 
 void Estimator::Describe(EstimatorOutput* output) const {
+  const LocalMap& map = state_.estimate.map;
+  const SlidingWindow& window = map.window;
   output->status = EstimatorStatus::kTracking;
   output->has_pose = true;
-  output->state = window_.newest().state;
-  output->T_B_C = window_.T_B_C();
-  output->td = window_.td;
-  output->R_W_M = manhattan_.R_W_M();
-  output->stationary = window_.newest().stationary;
-  for (const WindowFrame& frame : window_.frames) output->window.push_back(frame.state);
-  for (const auto& [id, landmark] : points_.landmarks()) {
-    if (IsOptimized(landmark)) output->points.push_back({id, PositionInWorld(landmark, window_)});
+  output->state = window.newest().state;
+  output->T_B_C = window.T_B_C();
+  output->td = window.td;
+  output->R_W_M = state_.manhattan.R_W_M();
+  output->stationary = window.newest().stationary;
+  for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
+  for (const auto& [id, landmark] : map.points.landmarks()) {
+    if (IsOptimized(landmark)) output->points.push_back({id, PositionInWorld(landmark, window)});
   }
-  for (const auto& [id, landmark] : lines_.landmarks()) {
+  for (const auto& [id, landmark] : map.lines.landmarks()) {
     if (!IsOptimized(landmark)) continue;
-    if (const auto segment = ObservedSegment(landmark, window_)) output->lines.push_back(*segment);
+    if (const auto segment = ObservedSegment(landmark, window)) output->lines.push_back(*segment);
   }
 }
 

@@ -6,21 +6,13 @@
 
 #include "common/config.h"
 #include "common/measurements.h"
+#include "vins_estimator/estimator_options.h"
 #include "vins_estimator/estimator_output.h"
 #include "vins_estimator/failure_detector.h"
 #include "vins_estimator/imu/standstill_detector.h"
 #include "vins_estimator/initialization/initializer.h"
 #include "vins_estimator/manhattan/manhattan_frame.h"
-#include "vins_estimator/map/keyframe_policy.h"
-#include "vins_estimator/map/line_map.h"
-#include "vins_estimator/map/point_map.h"
-#include "vins_estimator/map/sliding_window.h"
-#include "vins_estimator/marginalization/window_marginalizer.h"
-#include "vins_estimator/merging/line_merging.h"
-#include "vins_estimator/optimization/levenberg_marquardt.h"
-#include "vins_estimator/problem/marginalization_prior.h"
-#include "vins_estimator/problem/problem_builder.h"
-#include "vins_estimator/recall/anchor_policy.h"
+#include "vins_estimator/marginalization/window_estimate.h"
 
 namespace plm_vins {
 
@@ -37,9 +29,22 @@ class Estimator {
   void Reset();
 
   // Time offset td as estimated so far [s]: what MeasurementSync should cut the IMU with.
-  double time_offset() const { return window_.td; }
+  double time_offset() const { return state_.estimate.map.window.td; }
 
  private:
+  // All that an image leaves behind for the next.
+  struct State {
+    State(const Config& config, const EstimatorOptions& options);
+
+    bool initialized = false;
+    Initializer initializer;
+    StandstillDetector standstill_detector;
+    ContradictionMonitor contradiction_monitor;
+    ManhattanFrame manhattan;
+    WindowEstimate estimate;
+    FrameState predicted;  // of the newest image, from the IMU alone
+  };
+
   void Initialize(const FrameMeasurement& measurement, EstimatorOutput* output);
   void Track(const FrameMeasurement& measurement, bool stands_still, EstimatorOutput* output);
 
@@ -47,36 +52,21 @@ class Estimator {
   void AddFrame(const FrameMeasurement& measurement);
   void Triangulate(EstimatorOutput* output);
   void FindStructure(EstimatorOutput* output);
+  void UniteLines(EstimatorOutput* output);
   void RemoveOutliers(EstimatorOutput* output);
   std::optional<std::string> FindFailure(const EstimatorOutput& output);
   bool StandsStill(const FrameMeasurement& measurement);
   void Optimize(int max_iterations, EstimatorOutput* output);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
-  void MarginalizeOldestFrame(EstimatorOutput* output);
-  void MakeRoomForAnchor();
-  std::optional<MapLine> DepartingSegment(const LineLandmark& line) const;
-  void DropSecondNewestFrame();
+  void SlideOldest(EstimatorOutput* output);
   void Describe(EstimatorOutput* output) const;
 
-  const Config config_;
-  const double focal_length_;  // [px]
-  const LineTriangulationOptions line_triangulation_options_;
-  const LineLimits line_limits_;
-  const KeyframePolicyOptions keyframe_options_;
-  const AnchorPolicyOptions anchor_options_;
+  // The problem's options with the Manhattan frame as it is now.
+  ProblemOptions CurrentProblem() const;
 
-  bool initialized_ = false;
-  ProblemOptions problem_options_;  // changes with the Manhattan frame only
-  Initializer initializer_;
-  StandstillDetector standstill_detector_;
-  ContradictionMonitor contradiction_monitor_;
-  SlidingWindow window_;
-  PointMap points_;
-  LineMap lines_;
-  ManhattanFrame manhattan_;
-  LineMerging line_merging_;
-  MarginalizationPrior prior_;
-  FrameState predicted_;  // of the newest image, from the IMU alone
+  const Config config_;
+  const EstimatorOptions options_;
+  State state_;
 };
 
 }  // namespace plm_vins

@@ -3,16 +3,14 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/rigid3.h"
-#include "vins_estimator/map/line_map.h"
-#include "vins_estimator/map/point_map.h"
-#include "vins_estimator/merging/line_merging.h"
+#include "vins_estimator/state/estimate_counts.h"
 #include "vins_estimator/state/frame_state.h"
+#include "vins_estimator/state/map_elements.h"
 
 namespace plm_vins {
 
@@ -38,18 +36,6 @@ struct EstimatorTimings {
   double optimization = 0;
   double marginalization = 0;
   double total = 0;
-};
-
-// Feature counts of one frame.
-struct EstimatorCounts {
-  int points_observed = 0;   // in this image
-  int points_in_window = 0;  // landmarks in the optimisation
-  int points_rejected = 0;   // landmarks or observations thrown out in this frame
-  int lines_observed = 0;    // in this image
-  int lines_in_window = 0;   // landmarks in the optimisation
-  int lines_rejected = 0;    // landmarks or observations thrown out in this frame
-  LineTriangulationCounts line_triangulation;
-  LineMergingCounts line_merging;
 };
 
 // Everything the estimator says about one image. The state is that of this image, as known at this

@@ -32,8 +32,6 @@ class ContradictionMonitor {
   // once the contradiction has lasted too long; nothing before.
   std::optional<std::string> Add(int64_t t_ns, int landmarks, int rejected);
 
-  void Reset() { since_ns_.reset(); }
-
  private:
   std::optional<int64_t> since_ns_;  // stamp of the first image that contradicted
 };

@@ -8,6 +8,7 @@
 
 #include "common/backward_jump.h"
 #include "common/measurements.h"
+#include "vins_estimator/imu/imu_gap.h"
 
 namespace plm_vins {
 
@@ -55,8 +56,7 @@ class MeasurementSync {
     bool expect_lines = false;  // wait (a little) for the line frame of each image
     int max_line_lag = 3;       // images to wait for a line frame
     int line_patience = 10;     // frames in a row without lines until the lines count as missing
-    double max_imu_gap =
-        0.05;  // a longer interval between samples is a gap: images in it are dropped [s]
+    double max_imu_gap = kMaxImuInterval;  // images in a longer one are dropped [s]
     int max_frames = 200;         // queued images and line frames; beyond, the oldest is dropped
     int max_imu_samples = 50000;  // queued samples; beyond, the oldest is dropped
   };

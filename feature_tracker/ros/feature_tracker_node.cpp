@@ -2,13 +2,13 @@
 // The point front end as a node: ~feature, ~feature_img and ~restart out.
 #include <ros/spinner.h>
 
-#include "feature_tracker/ros/point_front_end.h"
+#include "feature_tracker/ros/point_node_traits.h"
 #include "tracking/ros/tracker_node.h"
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "feature_tracker", [](const plm_vins::Config& config) {
-    const plm_vins::TrackerNode<plm_vins::PointFrontEnd> node(config, ros::NodeHandle(),
-                                                              ros::NodeHandle("~"));
+    const plm_vins::TrackerNode<plm_vins::PointNodeTraits> node(config, ros::NodeHandle(),
+                                                                ros::NodeHandle("~"));
     ros::spin();
   });
 }

@@ -2,11 +2,11 @@
 // The point front end as the nodelet plm_vins/FeatureTracker.
 #include <pluginlib/class_list_macros.hpp>
 
-#include "feature_tracker/ros/point_front_end.h"
+#include "feature_tracker/ros/point_node_traits.h"
 #include "tracking/ros/tracker_nodelet.h"
 
 namespace plm_vins {
-using FeatureTrackerNodelet = TrackerNodelet<PointFrontEnd>;
+using FeatureTrackerNodelet = TrackerNodelet<PointNodeTraits>;
 }  // namespace plm_vins
 
 PLUGINLIB_EXPORT_CLASS(plm_vins::FeatureTrackerNodelet, nodelet::Nodelet)

@@ -2,13 +2,13 @@
 // The line front end as a node: ~linefeature, ~linefeature_img and ~restart out.
 #include <ros/spinner.h>
 
-#include "linefeature_tracker/ros/line_front_end.h"
+#include "linefeature_tracker/ros/line_node_traits.h"
 #include "tracking/ros/tracker_node.h"
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "linefeature_tracker", [](const plm_vins::Config& config) {
-    const plm_vins::TrackerNode<plm_vins::LineFrontEnd> node(config, ros::NodeHandle(),
-                                                             ros::NodeHandle("~"));
+    const plm_vins::TrackerNode<plm_vins::LineNodeTraits> node(config, ros::NodeHandle(),
+                                                               ros::NodeHandle("~"));
     ros::spin();
   });
 }

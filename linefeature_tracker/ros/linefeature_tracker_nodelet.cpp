@@ -2,11 +2,11 @@
 // The line front end as the nodelet plm_vins/LineFeatureTracker.
 #include <pluginlib/class_list_macros.hpp>
 
-#include "linefeature_tracker/ros/line_front_end.h"
+#include "linefeature_tracker/ros/line_node_traits.h"
 #include "tracking/ros/tracker_nodelet.h"
 
 namespace plm_vins {
-using LineFeatureTrackerNodelet = TrackerNodelet<LineFrontEnd>;
+using LineFeatureTrackerNodelet = TrackerNodelet<LineNodeTraits>;
 }  // namespace plm_vins
 
 PLUGINLIB_EXPORT_CLASS(plm_vins::LineFeatureTrackerNodelet, nodelet::Nodelet)

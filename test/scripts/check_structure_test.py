@@ -9,6 +9,7 @@ import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 REPOSITORY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path.insert(0, os.path.join(REPOSITORY, ".ci"))
@@ -20,10 +21,14 @@ HEADER = check_structure.SPDX + "\n#pragma once\n"
 class CheckStructure(unittest.TestCase):
     def check(self, name, text):
         """Exit code and output for a tree with this one file."""
+        return self.check_tree({name: text})
+
+    def check_tree(self, texts):
         with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / name
-            path.parent.mkdir(parents=True)
-            path.write_text(text, encoding="utf-8")
+            for name, text in texts.items():
+                path = pathlib.Path(folder) / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text, encoding="utf-8")
             with contextlib.redirect_stdout(io.StringIO()) as output:
                 code = check_structure.main(pathlib.Path(folder))
         return code, output.getvalue()
@@ -53,10 +58,43 @@ class CheckStructure(unittest.TestCase):
                               ("feature_tracker/a.h", "linefeature_tracker/b.h"),
                               ("linefeature_tracker/ros/a.h", "vins_estimator/b.h"),
                               ("vins_estimator/a.h", "feature_tracker/b.h"),
-                              ("vins_estimator/a.h", "simulator/b.h")]:
+                              ("vins_estimator/a.h", "simulator/b.h"),
+                              ("vins_estimator/a.h", "vins_estimator/output/b.h"),
+                              ("vins_estimator/state/a.h", "vins_estimator/geometry/b.h"),
+                              ("vins_estimator/map/a.h", "vins_estimator/factors/b.h"),
+                              ("vins_estimator/merging/a.h", "vins_estimator/recall/b.h"),
+                              ("vins_estimator/recall/a.h", "vins_estimator/estimator.h"),
+                              ("vins_estimator/output/a.h", "vins_estimator/estimator.h"),
+                              ("vins_estimator/estimator_output.h", "vins_estimator/map/b.h"),
+                              ("offline/a.h", "vins_estimator/problem/b.h"),
+                              ("simulator/a.h", "vins_estimator/imu/b.h"),
+                              ("common/a.h", "test/testing/b.h")]:
             self.assert_problem(name, HEADER + f'#include "{include}"\n', "must not know")
-        self.assert_clean("offline/a.h",
-                          HEADER + '#include "feature_tracker/b.h"\n')
+        for name, include in [("offline/a.h", "feature_tracker/b.h"),
+                              ("vins_estimator/output/a.h", "vins_estimator/estimator_output.h"),
+                              ("vins_estimator/recall/a.h", "vins_estimator/map/b.h"),
+                              ("simulator/a.h", "vins_estimator/state/b.h")]:
+            self.assert_clean(name, HEADER + f'#include "{include}"\n')
+
+    def test_layers_that_include_each_other(self):
+        files = {"common/a.h": HEADER + '#include "tracking/b.h"\n',
+                 "tracking/b.h": HEADER + '#include "common/c.h"\n'}
+        with unittest.mock.patch.dict(check_structure.LAYERS, {"common": {"tracking"}}):
+            code, output = self.check_tree(files)
+            self.assertEqual(code, 1)
+            self.assertIn("common and tracking include each other", output)
+            del files["tracking/b.h"]
+            self.assertEqual(self.check_tree(files)[0], 0)
+
+    def test_ceres_by_a_detour(self):
+        files = {"vins_estimator/ros/a.cpp": HEADER + '#include "vins_estimator/b.h"\n',
+                 "vins_estimator/b.h": HEADER + '#include "vins_estimator/problem/c.h"\n',
+                 "vins_estimator/problem/c.h": HEADER + "#include <ceres/problem.h>\n"}
+        code, output = self.check_tree(files)
+        self.assertEqual(code, 1)
+        self.assertIn("vins_estimator/ros/a.cpp: includes Ceres by way of", output)
+        files["vins_estimator/b.h"] = HEADER + '#include "vins_estimator/map/c.h"\n'
+        self.assertEqual(self.check_tree(files)[0], 0)
 
     def test_header_rules(self):
         self.assert_problem("common/a.h", "#pragma once\n", "first line")

@@ -88,7 +88,7 @@ double FirstAlarm(ContradictionMonitor* monitor, int landmarks, int rejected, in
 TEST(ContradictionMonitor, AlarmsAfterASecondOfContradiction) {
   ContradictionMonitor monitor;
   EXPECT_DOUBLE_EQ(FirstAlarm(&monitor, 100, 25, 40), 1.0);
-  monitor.Reset();
+  monitor = ContradictionMonitor();
   EXPECT_EQ(FirstAlarm(&monitor, 100, 25, 20), -1);
 }
 

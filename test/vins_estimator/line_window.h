@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames of known pose and the lines that they see, for the tests of merging.
+// Frames of known pose and the lines that they see, for the tests of merging and recognition.
 #pragma once
 
+#include <memory>
 #include <utility>
-#include <vector>
 
 #include "vins_estimator/geometry/line_fit.h"
 #include "vins_estimator/manhattan/line_directions.h"
+#include "vins_estimator/map/local_map.h"
 #include "vins_estimator/merging/line_merging.h"
 #include "vins_estimator/recall/anchor_policy.h"
+#include "vins_estimator/recall/line_recognition.h"
 
 namespace plm_vins::testing {
 
@@ -16,12 +18,16 @@ constexpr double kFocalLength = 460.0;
 constexpr double kNoise = 1.0 / kFocalLength;
 constexpr size_t kWindowSize = 10;
 
+// What one image brought.
+struct UnitedLines {
+  LineMergingCounts merging;
+  int recognised = 0;
+};
+
 // Frames of known pose, and the lines that they see, as the estimator would have them.
 class LineWindow {
  public:
-  LineWindow() : merging_(MergingOptions()) {}
-
-  static LineMergingOptions MergingOptions() {
+  static SameLineLimits Limits() {
     EstimatorConfig config;
     config.line_noise = kNoise * kFocalLength;
     return {config, kFocalLength};
@@ -30,74 +36,57 @@ class LineWindow {
   void AddFrame(const FrameState& state, const LineFrame& frame) {
     WindowFrame window_frame;
     window_frame.state = state;
-    window_.frames.push_back(window_frame);
-    lines_.AddFrame(merging_.Redirect(frame));
-    lines_.Triangulate(window_, LineTriangulationOptions(kNoise), /*max_length=*/20);
+    window_frame.motion_since_previous = std::make_shared<Preintegration>(ImuNoise(), ImuBias());
+    map_.AddFrame(std::move(window_frame), PointFrame(), frame);
+    map_.lines.Triangulate(map_.window, LineTriangulationOptions(kNoise), /*max_length=*/20);
     Refit();
   }
 
-  LineMergingCounts Merge() {
-    const auto directions = LineDirections(window_, lines_, kNoise);
-    manhattan_.Update(window_.newest().state.t_ns, directions);
-    NameAxes(manhattan_, directions, &lines_);
-    const LineMergingCounts counts = merging_.Merge(window_, &lines_, &manhattan_);
-    NoteUse(lines_, &window_);
-    return counts;
+  UnitedLines Unite() {
+    const auto directions = LineDirections(map_.window, map_.lines, kNoise);
+    manhattan_.Update(map_.window.newest().state.t_ns, directions);
+    NameAxes(manhattan_, directions, &map_.lines);
+    const Eigen::Quaterniond R_M_W =
+        manhattan_.R_W_M().value_or(Eigen::Quaterniond::Identity()).conjugate();
+    const MergedLines merged = MergeLines(Limits(), R_M_W, &map_);
+    const auto recognised = RecogniseLines(Limits(), R_M_W, &map_);
+    map_.ForgetIdleAliases();
+    NoteUse(map_.lines, &map_.window);
+    return {merged.counts, static_cast<int>(recognised.size())};
   }
 
   // As the estimator does: drops the frame before the newest, or else the oldest.
   void Slide(bool keep_second_newest, size_t size) {
-    if (!keep_second_newest && window_.frames.size() > 1) {
-      lines_.RemoveFrame(window_, window_.frames[window_.frames.size() - 2].state.t_ns);
-      window_.frames.erase(window_.frames.end() - 2);
-    } else if (window_.frames.size() > size) {
-      RemoveOldest();
+    if (!keep_second_newest && map_.window.frames.size() > 1) {
+      map_.DropSecondNewest();
+    } else if (map_.window.frames.size() > size) {
+      SlideOldest();
     }
   }
 
-  SlidingWindow& window() { return window_; }
-  LineMap& lines() { return lines_; }
-  const LineAliases& aliases() const { return merging_.aliases(); }
-  const LineMemory& memory() const { return merging_.memory(); }
-  const ManhattanFrame& manhattan() const { return manhattan_; }
+  LocalMap& map() { return map_; }
 
  private:
-  void RemoveOldest() {
+  void SlideOldest() {
     const AnchorPolicyOptions options{EstimatorConfig()};
-    const int64_t oldest_ns = window_.frames.front().state.t_ns;
-    const bool stays = StaysAsAnchor(options, window_, lines_);
-    if (const auto replaced_ns = AnchorToReplace(options, window_); stays && replaced_ns) {
-      lines_.RemoveAnchor(*replaced_ns);
-      merging_.RemoveAnchor(*replaced_ns);
-      window_.RemoveAnchor(*replaced_ns);
-    }
-    merging_.Remember(window_, lines_, stays);
-    lines_.StartAnew(window_, oldest_ns, [](const LineLandmark&) {});
-    lines_.RemoveFrame(window_, oldest_ns);
-    if (stays) {
-      window_.TurnOldestIntoAnchor();
-    } else {
-      window_.RemoveOldest();
-    }
+    const bool stays = StaysAsAnchor(options, map_.window, map_.lines);
+    const auto replaced_ns = AnchorToReplace(options, map_.window);
+    if (stays && replaced_ns) map_.RemoveAnchor(*replaced_ns);
+    map_.SlideOldest(stays);
   }
 
   // Stands for the optimisation.
   void Refit() {
-    for (auto& [id, landmark] : lines_.landmarks()) {
+    for (auto& [id, landmark] : map_.lines.landmarks()) {
       if (!landmark.triangulated || landmark.views.size() < 3) continue;
-      std::vector<LineSighting> sightings;
-      for (const LineView& view : landmark.views) {
-        sightings.push_back({window_.T_W_C(*window_.Find(view.t_ns)), view.segment});
-      }
+      const auto sightings = SightingsOf(landmark.views, map_.window);
       const auto fit = FitLine(sightings, kNoise, landmark.coordinates);
       if (fit) landmark.coordinates = fit->line;
     }
   }
 
-  SlidingWindow window_;
-  LineMap lines_;
+  LocalMap map_{LocalMapOptions(kNoise, /*remember_lines=*/true)};
   ManhattanFrame manhattan_;
-  LineMerging merging_;
 };
 
 }  // namespace plm_vins::testing

@@ -10,9 +10,7 @@
 #include "simulator/random.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 #include "vins_estimator/factors/manifolds.h"
-#include "vins_estimator/map/line_map.h"
-#include "vins_estimator/map/point_map.h"
-#include "vins_estimator/map/sliding_window.h"
+#include "vins_estimator/map/local_map.h"
 #include "vins_estimator/problem/problem_builder.h"
 
 namespace plm_vins::testing {
@@ -26,11 +24,8 @@ inline ProblemOptions OnePixelOptions() {
   return {config, kSimulatedFocalLength};
 }
 
-struct SimulatedWindow {
-  SlidingWindow window;  // at the truth
-  PointMap points;       // triangulated there
-  LineMap lines;
-};
+// At the truth; landmarks are triangulated there.
+using SimulatedWindow = LocalMap;
 
 // `frame_count` keyframes, `stride` images of 20 Hz apart, that follow up to `max_points` corners.
 inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, size_t stride = 5,
@@ -39,7 +34,8 @@ inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, siz
   options.max_points = max_points;
   options.trajectory.duration = 3.5 + static_cast<double>(frame_count * stride) / 20.0;
   const SimulatedFlight flight = SimulateFlight(options, /*skip=*/3);
-  SimulatedWindow result;
+  constexpr double kLineNoise = 1 / kSimulatedFocalLength;
+  SimulatedWindow result(LocalMapOptions(kLineNoise, /*remember_lines=*/true));
   SlidingWindow& window = result.window;
   window.SetExtrinsic(flight.sensor.T_B_C);
   std::vector<ImuSample> imu;
@@ -54,13 +50,10 @@ inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, siz
       for (const ImuSample& sample : imu) frame.motion_since_previous->Append(sample);
     }
     imu = {flight.frames[i].imu.back()};
-    window.frames.push_back(frame);
-    result.points.AddFrame(flight.frames[i].points, 0);
-    result.lines.AddFrame(*flight.frames[i].lines);
+    result.AddFrame(frame, flight.frames[i].points, flight.frames[i].lines);
   }
   result.points.Triangulate(window, /*min_angle=*/0.02);
-  result.lines.Triangulate(window, LineTriangulationOptions(1 / kSimulatedFocalLength),
-                           /*max_length=*/10);
+  result.lines.Triangulate(window, LineTriangulationOptions(kLineNoise), /*max_length=*/10);
   return result;
 }
 

@@ -23,18 +23,18 @@
 
 namespace plm_vins {
 
-// A front end under ROS, as a node or in a nodelet: images (and the IMU, where it comes) in;
+// A tracker under ROS, as a node or in a nodelet: images (and the IMU, where it comes) in;
 // features, annotated image and ~restart out. All callbacks come from the queue of the two node
 // handles, one at a time: images queue in their subscriber while one is tracked.
 //
 // ~image_transport: raw (default), compressed (decoded here, no plugin needed) or any plugin's
 // name.
 //
-// `FrontEnd` says what is particular to a front end: the types Stage (a TrackingStage) and Settings
+// `Traits` says what is particular to a tracker: the types Stage (a TrackingStage) and Settings
 // (of dynamic_reconfigure, with show_track), ToSettings(config) and Apply(settings, tracker), the
 // private topics kFeatureTopic and kAnnotatedTopic, the status kDiagnostics, and kImageQueue, how
 // many images wait while one is tracked; beyond, the oldest goes.
-template <typename FrontEnd>
+template <typename Traits>
 class TrackerNode {
  public:
   TrackerNode(const Config& config, const ros::NodeHandle& node,
@@ -44,16 +44,16 @@ class TrackerNode {
         config_(config),
         stage_(config),
         diagnostics_(node, private_node, private_node.getNamespace()),
-        settings_(FrontEnd::ToSettings(config), private_node,
+        settings_(Traits::ToSettings(config), private_node,
                   [this](const Settings& settings) { Apply(settings); }) {
     feature_publisher_ =
-        private_node_.advertise<sensor_msgs::PointCloud>(FrontEnd::kFeatureTopic, kOutputQueue);
+        private_node_.advertise<sensor_msgs::PointCloud>(Traits::kFeatureTopic, kOutputQueue);
     restart_publisher_ = private_node_.advertise<std_msgs::Bool>("restart", 10);
-    annotated_publisher_ = private_transport_.advertise(FrontEnd::kAnnotatedTopic, 10);
+    annotated_publisher_ = private_transport_.advertise(Traits::kAnnotatedTopic, 10);
     flush_timer_ = node_.createWallTimer(ros::WallDuration(0.5 * kMaxWaitForImu),
                                          [this](const ros::WallTimerEvent&) { FlushLateImages(); });
     diagnostics_.setHardwareID("none");
-    diagnostics_.add(FrontEnd::kDiagnostics, this, &TrackerNode::ReportStatus);
+    diagnostics_.add(Traits::kDiagnostics, this, &TrackerNode::ReportStatus);
     diagnostics_timer_ =
         node_.createWallTimer(ros::WallDuration(1.0),
                               [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
@@ -61,8 +61,8 @@ class TrackerNode {
   }
 
  private:
-  using Stage = typename FrontEnd::Stage;
-  using Settings = typename FrontEnd::Settings;
+  using Stage = typename Traits::Stage;
+  using Settings = typename Traits::Settings;
 
   static constexpr uint32_t kOutputQueue = 200;
   static constexpr uint32_t kImuQueue = 2000;
@@ -71,18 +71,18 @@ class TrackerNode {
 
   void Apply(const Settings& settings) {
     show_track_ = settings.show_track;
-    FrontEnd::Apply(settings, &stage_.tracker());
+    Traits::Apply(settings, &stage_.tracker());
   }
 
   void Subscribe() {
     const std::string topic = config_.sensor.image_topic;
     const auto transport = private_node_.param<std::string>("image_transport", "raw");
     if (transport == "compressed") {
-      compressed_subscriber_ = node_.subscribe(topic + "/compressed", FrontEnd::kImageQueue,
+      compressed_subscriber_ = node_.subscribe(topic + "/compressed", Traits::kImageQueue,
                                                &TrackerNode::AddCompressedImage, this);
     } else {
       image_subscriber_ = transport_.subscribe(
-          topic, FrontEnd::kImageQueue,
+          topic, Traits::kImageQueue,
           [this](const sensor_msgs::ImageConstPtr& message) { AddImage(message); }, nullptr,
           image_transport::TransportHints(transport, ros::TransportHints(), private_node_));
     }

@@ -14,7 +14,7 @@ namespace plm_vins {
 // A TrackerNode as a nodelet: images come from another nodelet of the same manager without a copy.
 // Where the configuration has problems they are logged as by the node, and loading fails; the
 // manager goes on.
-template <typename FrontEnd>
+template <typename Traits>
 class TrackerNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -28,7 +28,7 @@ class TrackerNodelet : public nodelet::Nodelet {
     }
   }
 
-  std::optional<TrackerNode<FrontEnd>> tracker_;
+  std::optional<TrackerNode<Traits>> tracker_;
 };
 
 }  // namespace plm_vins

@@ -13,8 +13,6 @@ using Matrix23d = Eigen::Matrix<double, 2, 3>;
 using Vector2Map = Eigen::Map<Eigen::Vector2d>;
 using LineJacobian = Eigen::Map<Eigen::Matrix<double, 2, kLineSize, Eigen::RowMajor>>;
 
-constexpr double kMinMoment = 1e-9;
-
 // A line of the frame that the pose belongs to, in its parent frame.
 PluckerLine ToParent(const PoseBlock& pose, const PluckerLine& line) {
   const Eigen::Vector3d direction = pose.R * line.direction;
@@ -37,20 +35,6 @@ void SetLineJacobian(const Matrix23d& d_r_d_moment, const Matrix23d& d_r_d_direc
 }
 
 }  // namespace
-
-bool EndPointDistances(const LineSegmentView& view, const Eigen::Vector3d& moment_C,
-                       Eigen::Vector2d* distances, Matrix23d* d_distances_d_moment) {
-  const double norm = moment_C.head<2>().norm();
-  if (!(norm > kMinMoment)) return false;
-  Matrix23d ends;
-  ends << view.start.transpose(), 1, view.end.transpose(), 1;
-  *distances = ends * moment_C / norm;
-  if (d_distances_d_moment == nullptr) return true;
-  *d_distances_d_moment = ends / norm;
-  d_distances_d_moment->leftCols<2>() -=
-      *distances * moment_C.head<2>().transpose() / (norm * norm);
-  return true;
-}
 
 bool LineFactor::Evaluate(double const* const* parameters, double* residuals,
                           double** jacobians) const {

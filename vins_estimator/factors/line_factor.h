@@ -3,25 +3,10 @@
 
 #include <ceres/sized_cost_function.h>
 
-#include <Eigen/Core>
-
+#include "vins_estimator/geometry/line_segment_view.h"
 #include "vins_estimator/geometry/plucker.h"
 
 namespace plm_vins {
-
-// The end points of a line in one image, normalised and undistorted. Only their distances from the
-// projected line count: along the line they may be anywhere (aperture problem).
-struct LineSegmentView {
-  Eigen::Vector2d start = Eigen::Vector2d::Zero();
-  Eigen::Vector2d end = Eigen::Vector2d::Zero();
-};
-
-// Distances of both end points from the image of a line with this moment in the camera frame,
-//   d = x~ . m / |(m_x, m_y)|   ([He2018], Eq. (20)), and their derivative by the moment.
-// False where the line has no image: it passes through the camera or lies at infinity behind.
-bool EndPointDistances(const LineSegmentView& view, const Eigen::Vector3d& moment_C,
-                       Eigen::Vector2d* distances,
-                       Eigen::Matrix<double, 2, 3>* d_distances_d_moment);
 
 // A line, given in its host camera, seen from another frame:
 //   r = weight * EndPointDistances(view, moment of T_B_C^-1 T_W_Bt^-1 T_W_Bh T_B_C L_Ch)

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "common/geometry/tangent_basis.h"
 #include "common/so3.h"
 #include "vins_estimator/factors/pose_block.h"
 
@@ -15,10 +16,8 @@ using LineJacobian = Eigen::Map<Eigen::Matrix<double, 2, kLineSize, Eigen::RowMa
 
 }  // namespace
 
-ManhattanFactor::ManhattanFactor(const Eigen::Vector3d& axis_W, double weight) {
-  const Eigen::Vector3d first = axis_W.unitOrthogonal();
-  across_ << weight * first.transpose(), weight * axis_W.cross(first).transpose();
-}
+ManhattanFactor::ManhattanFactor(const Eigen::Vector3d& axis_W, double weight)
+    : across_(weight * TangentBasis(axis_W).transpose()) {}
 
 bool ManhattanFactor::Evaluate(double const* const* parameters, double* residuals,
                                double** jacobians) const {

@@ -5,11 +5,10 @@
 
 #include "common/so3.h"
 #include "vins_estimator/factors/pose_block.h"
+#include "vins_estimator/geometry/depth_limits.h"
 
 namespace plm_vins {
 namespace {
-
-constexpr double kMinDepth = 0.01;  // [m]
 
 using Matrix23d = Eigen::Matrix<double, 2, 3>;
 using Vector2Map = Eigen::Map<Eigen::Vector2d>;
@@ -26,7 +25,7 @@ bool PointFactor::Evaluate(double const* const* parameters, double* residuals,
   const Eigen::Vector3d p_W = T_W_Bh.R * p_Bh + T_W_Bh.p;
   const Eigen::Vector3d p_Bt = T_W_Bt.R.transpose() * (p_W - T_W_Bt.p);
   const Eigen::Vector3d p_Ct = T_B_C.R.transpose() * (p_Bt - T_B_C.p);
-  if (!(p_Ct.z() > kMinDepth)) return false;
+  if (!(p_Ct.z() > kMinProjectedDepth)) return false;
 
   const Eigen::Vector2d m_t = p_Ct.hnormalized();
   Vector2Map{residuals} = weight_ * (m_t - target_.At(td));

@@ -3,30 +3,10 @@
 
 #include <ceres/sized_cost_function.h>
 
-#include <Eigen/Core>
+#include "vins_estimator/geometry/point_in_host.h"
+#include "vins_estimator/geometry/timed_bearing.h"
 
 namespace plm_vins {
-
-// One corner in one image, moved along its velocity v to the time that the frame's state stands
-// for: the state was cut at t_image + cut_time_offset, the image was taken at t_image + td, so at
-// the state's time the corner is at xy - (td - cut_time_offset) v.
-struct TimedBearing {
-  Eigen::Vector2d xy = Eigen::Vector2d::Zero();        // normalised, undistorted
-  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // [1/s]
-  double cut_time_offset = 0;                          // [s]
-
-  Eigen::Vector2d At(double td) const { return xy - (td - cut_time_offset) * velocity; }
-};
-
-// A point is given by its normalised image point and inverse depth in a host camera, (x, y, lambda
-// [1/m]):
-//   p_Ch = (x, y, 1) / lambda   ([Civera2008], with the host's own noise estimated as well).
-constexpr int kPointSize = 3;
-
-// Position in the host camera [m].
-inline Eigen::Vector3d PointInHost(const double* point) {
-  return Eigen::Vector3d(point[0], point[1], 1.0) / point[2];
-}
 
 // Reprojection of a point into a frame other than its host:
 //   r = weight * ( pi(T_B_C^-1 T_W_Bt^-1 T_W_Bh T_B_C p_Ch) - m_t(td) )

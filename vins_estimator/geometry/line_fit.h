@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/rigid3.h"
-#include "vins_estimator/factors/line_factor.h"
+#include "vins_estimator/geometry/line_segment_view.h"
 #include "vins_estimator/geometry/plucker.h"
 
 namespace plm_vins {

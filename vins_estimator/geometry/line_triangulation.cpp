@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vins_estimator/geometry/depth_limits.h"
+
 namespace plm_vins {
 namespace {
 
 using Matrix4d = Eigen::Matrix4d;
 using Matrix34d = Eigen::Matrix<double, 3, kLineTangentSize>;
-
-constexpr double kMinDepth = 0.1;  // [m]
 
 // The plane through a camera and the segment that it sees, normal . (x - camera) = 0, in the frame
 // of the first camera.
@@ -108,7 +108,7 @@ LineEnds EndsOf(const PluckerLine& line_C, const LineSegmentView& segment) {
 }
 
 bool IsInFront(const LineEnds& ends_C) {
-  return ends_C.start.z() > kMinDepth && ends_C.end.z() > kMinDepth;
+  return ends_C.start.z() > kMinTriangulatedDepth && ends_C.end.z() > kMinTriangulatedDepth;
 }
 
 TriangulatedLine TriangulateLine(const LineTriangulationOptions& options,

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vins_estimator/geometry/depth_limits.h"
+
 namespace plm_vins {
 namespace {
-
-constexpr double kMinDepth = 0.1;  // [m]
 
 Eigen::Vector3d RayInWorld(const PointSighting& sighting) {
   return (sighting.T_W_C.rotation * sighting.xy.homogeneous()).normalized();
@@ -45,7 +45,7 @@ Eigen::Vector3d RefineOnImages(const std::vector<PointSighting>& sightings, Eige
     for (const PointSighting& sighting : sightings) {
       const Eigen::Matrix3d R_C_W = sighting.T_W_C.R().transpose();
       const Eigen::Vector3d p_C = R_C_W * (p_W - sighting.T_W_C.translation);
-      if (p_C.z() < kMinDepth) return p_W;
+      if (p_C.z() < kMinTriangulatedDepth) return p_W;
       Eigen::Matrix<double, 2, 3> J;
       J << 1, 0, -p_C.x() / p_C.z(), 0, 1, -p_C.y() / p_C.z();
       J = J * R_C_W / p_C.z();
@@ -59,7 +59,7 @@ Eigen::Vector3d RefineOnImages(const std::vector<PointSighting>& sightings, Eige
 
 bool IsInFrontOfAll(const std::vector<PointSighting>& sightings, const Eigen::Vector3d& p_W) {
   return std::all_of(sightings.begin(), sightings.end(), [&p_W](const PointSighting& sighting) {
-    return (sighting.T_W_C.Inverse() * p_W).z() > kMinDepth;
+    return (sighting.T_W_C.Inverse() * p_W).z() > kMinTriangulatedDepth;
   });
 }
 

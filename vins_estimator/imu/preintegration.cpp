@@ -7,16 +7,14 @@
 #include <string>
 
 #include "common/so3.h"
+#include "vins_estimator/imu/imu_gap.h"
 
 namespace plm_vins {
 namespace {
 
 using Index = ImuErrorIndex;
 
-// Where samples are further apart than this [s], the motion between them is unknown, not just
-// noisy.
-constexpr double kMaxInterval = 0.05;
-// How a vehicle's motion wanders meanwhile: random walks of angular rate and specific force.
+// How a vehicle's motion wanders in a gap: random walks of angular rate and specific force.
 // Bridging 0.2 s of EuRoC's flights errs like walks of 0.2 ... 0.7 and 1 ... 10.
 constexpr double kRateWalk = 1.0;   // [rad/s/sqrt(s)]
 constexpr double kForceWalk = 5.0;  // [m/s^2/sqrt(s)]
@@ -26,7 +24,7 @@ constexpr double kForceWalk = 5.0;  // [m/s^2/sqrt(s)]
 // / 12.
 double EffectiveDensitySquared(double density, double walk, double dt) {
   const double sensor = density * density;
-  return dt <= kMaxInterval ? sensor : sensor + walk * walk * dt * dt / 12.0;
+  return dt <= kMaxImuInterval ? sensor : sensor + walk * walk * dt * dt / 12.0;
 }
 
 // Linearised error propagation over one interval: the blocks of F in error' = F error that are

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/geometry/robust_weight.h"
 #include "common/so3.h"
 
 namespace plm_vins {
@@ -21,12 +22,6 @@ constexpr double kMinInlierShare = 0.6;
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-
-// Geman-McClure: an outlier has no say at all.
-double RobustWeight(double error, double scale) {
-  const double ratio = error / scale;
-  return 1 / ((1 + ratio * ratio) * (1 + ratio * ratio));
-}
 
 double Angle(const Eigen::Quaterniond& q) { return SO3Log(q).norm(); }
 
@@ -74,14 +69,15 @@ LinearSolution SolveLinear(const std::vector<RotationPair>& pairs) {
   // The angles of both rotations are equal whatever R_B_C is, so that most outliers show at once.
   std::vector<double> weights;
   for (const RotationPair& pair : pairs) {
-    weights.push_back(RobustWeight(Angle(pair.R_B0_B1) - Angle(pair.R_C0_C1), kLinearTolerance));
+    weights.push_back(
+        GemanMcClureWeight(Angle(pair.R_B0_B1) - Angle(pair.R_C0_C1), kLinearTolerance));
   }
   LinearSolution solution = SolveLinear(pairs, weights);
   for (int k = 0; k < kLinearIterations; ++k) {
     for (size_t i = 0; i < pairs.size(); ++i) {
       const Eigen::Quaterniond seen =
           solution.R_B_C * pairs[i].R_C0_C1 * solution.R_B_C.conjugate();
-      weights[i] = RobustWeight(Angle(pairs[i].R_B0_B1.conjugate() * seen), kLinearTolerance);
+      weights[i] = GemanMcClureWeight(Angle(pairs[i].R_B0_B1.conjugate() * seen), kLinearTolerance);
     }
     solution = SolveLinear(pairs, weights);
   }
@@ -134,7 +130,7 @@ void Refiner::Step(double tolerance) {
     J << seen.toRotationMatrix().transpose() - Eigen::Matrix3d::Identity(), d_turn_d_bias;
     J /= pair.deviation;
     const double weight =
-        RobustWeight(residual.norm(), std::max(kInlierSigmas, tolerance / pair.deviation));
+        GemanMcClureWeight(residual.norm(), std::max(kInlierSigmas, tolerance / pair.deviation));
     information_ += weight * J.transpose() * J;
     gradient += weight * J.transpose() * residual;
     inliers += residual.norm() < kInlierSigmas;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/initialization/frame_selection.h"
 #include "vins_estimator/initialization/motion_initializer.h"
 #include "vins_estimator/initialization/static_initializer.h"
@@ -14,7 +15,6 @@ namespace {
 constexpr double kStandstillDuration = 0.75;  // [s]
 constexpr double kMinMotionDuration = 1.5;    // [s]
 constexpr double kMaxDuration = 3.0;          // of the buffer [s]
-constexpr double kMaxImuInterval = 0.05;      // between samples [s]
 constexpr int kMinCommonPoints = 12;          // of neighbouring images
 constexpr size_t kMinFrames = 6;
 constexpr size_t kMaxFrames = 11;
@@ -52,23 +52,13 @@ bool IsContinuous(ImuSample last, const std::vector<ImuSample>& samples) {
 
 Initializer::Initializer(const Config& config)
     : config_(config),
+      sensor_(config.sensor),
       max_frames_(std::min<size_t>(kMaxFrames, config.estimator.window_size + 1)),
       standstill_(config.sensor.imu_noise, StandstillOptions()) {
-  Reset();
-}
-
-void Initializer::Reset() {
-  buffer_.clear();
-  standstill_.Reset();
-  sensor_ = config_.sensor;
-  calibrator_.reset();
   if (sensor_.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {
     const double focal_length = CameraModel::Create(sensor_.camera)->FocalLength();
     calibrator_.emplace(sensor_.imu_noise, config_.estimator.point_noise / focal_length);
   }
-  start_ns_.reset();
-  images_since_attempt_ = 0;
-  reason_ = "waiting for images";
 }
 
 void Initializer::StartOver(const std::string& reason) {

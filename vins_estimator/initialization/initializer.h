@@ -45,8 +45,6 @@ class Initializer {
   // Why there is no result yet, e.g. "too little parallax: 4.2 px of 15.0 px".
   const std::string& reason() const { return reason_; }
 
-  void Reset();
-
  private:
   void StartOver(const std::string& reason);
   void Append(const FrameMeasurement& measurement);
@@ -54,7 +52,7 @@ class Initializer {
   std::optional<InitializationResult> TryStandstill();
   std::optional<InitializationResult> TryMotion();
 
-  const Config config_;
+  Config config_;
   SensorConfig sensor_;  // with the rotation of the camera as calibrated
   size_t max_frames_;
   StandstillDetector standstill_;
@@ -62,7 +60,7 @@ class Initializer {
   std::deque<FrameMeasurement> buffer_;            // without gap in IMU samples and tracks
   std::optional<int64_t> start_ns_;                // of the first image since the reset
   int images_since_attempt_ = 0;
-  std::string reason_;
+  std::string reason_ = "waiting for images";
 };
 
 }  // namespace plm_vins

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "common/geometry/epipolar_constraint.h"
+#include "common/geometry/tangent_basis.h"
 #include "common/so3.h"
 
 namespace plm_vins {
@@ -48,17 +50,8 @@ EpipolarResidual Evaluate(const Correspondence& c, const Eigen::Matrix3d& R,
       1.0 / std::sqrt(line0.head<2>().squaredNorm() + line1.head<2>().squaredNorm() + 1e-18);
   EpipolarResidual residual;
   residual.distance = scale * f1.dot(line1);
-  residual.gradient.head<3>() = scale * rotated.cross(f1.cross(t));
-  residual.gradient.tail<2>() = scale * B.transpose() * rotated.cross(f1);
+  residual.gradient = EpipolarGradient(scale, rotated, f1, t, B);
   return residual;
-}
-
-// Two directions that span the plane orthogonal to the unit vector t.
-Eigen::Matrix<double, 3, 2> TangentBasis(const Eigen::Vector3d& t) {
-  Eigen::Matrix<double, 3, 2> basis;
-  basis.col(0) = t.unitOrthogonal();
-  basis.col(1) = t.cross(basis.col(0));
-  return basis;
 }
 
 // A pose to refine, and the gyro's rotation that holds it loosely.

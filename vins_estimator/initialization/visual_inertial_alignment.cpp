@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/geometry/tangent_basis.h"
 #include "common/so3.h"
 
 namespace plm_vins {
@@ -159,10 +160,7 @@ std::optional<Alignment> AlignVisualInertial(
   }
   for (int iteration = 0; iteration < kGravityIterations; ++iteration) {
     const Eigen::Vector3d direction = result.gravity_G.normalized();
-    const Eigen::Vector3d tangent = direction.unitOrthogonal();
-    Eigen::MatrixXd basis(3, 2);
-    basis << tangent, direction.cross(tangent);
-    if (!system.Solve(gravity_norm * direction, basis, &result)) {
+    if (!system.Solve(gravity_norm * direction, TangentBasis(direction), &result)) {
       *reason = "velocities, gravity and scale are not determined";
       return std::nullopt;
     }

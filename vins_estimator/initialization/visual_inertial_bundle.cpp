@@ -12,12 +12,12 @@
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/geometry/depth_limits.h"
 
 namespace plm_vins {
 namespace {
 
 constexpr int kIterations = 12;
-constexpr double kMinDepth = 0.05;        // [m]
 constexpr double kGaugeDeviation = 1e-3;  // [m] and [rad]; any small value will do
 
 // Holds position and heading of a pose: [p - p0, angle about the world's z] / deviation.
@@ -159,7 +159,7 @@ Eigen::Vector3d Bundle::InCamera(int view, const Eigen::Vector3d& p_W) const {
 void Bundle::AddTrack(const Track& track, const Eigen::Vector3d& p_W) {
   const ViewObservation& host = track.observations.front();
   for (const ViewObservation& o : track.observations) {
-    if (InCamera(o.view, p_W).z() < kMinDepth) return;
+    if (InCamera(o.view, p_W).z() < kMinLandmarkDepth) return;
   }
   const Eigen::Vector3d p_C = InCamera(host.view, p_W);
   points_.push_back({p_C.x() / p_C.z(), p_C.y() / p_C.z(), 1 / p_C.z()});

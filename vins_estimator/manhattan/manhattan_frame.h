@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "vins_estimator/geometry/line_axis.h"
 #include "vins_estimator/manhattan/heading_votes.h"
+#include "vins_estimator/state/line_axis.h"
 
 namespace plm_vins {
 

@@ -38,7 +38,7 @@ bool IsKeyframe(const KeyframePolicyOptions& options, const SlidingWindow& windo
                 const PointMap& points) {
   if (window.frames.size() < 2) return true;
   const int64_t newest_ns = window.newest().state.t_ns;
-  const int64_t before_ns = window.frames[window.frames.size() - 2].state.t_ns;
+  const int64_t before_ns = window.second_newest().state.t_ns;
   const double interval = ToSeconds(newest_ns - before_ns);
   const TrackedPoints tracked = Compare(points, before_ns, newest_ns);
   if (tracked.in_newest < options.min_points_to_see) return interval > options.max_blind_interval;

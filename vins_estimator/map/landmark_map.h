@@ -34,8 +34,6 @@ class LandmarkMap {
   // Removes the landmarks that `condition` selects.
   void RemoveIf(const std::function<bool(const Landmark&)>& condition);
 
-  void Clear() { landmarks_.clear(); }
-
   Landmarks& landmarks() { return landmarks_; }
   const Landmarks& landmarks() const { return landmarks_; }
 

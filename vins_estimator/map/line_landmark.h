@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "vins_estimator/factors/line_factor.h"
-#include "vins_estimator/geometry/line_axis.h"
+#include "vins_estimator/geometry/line_segment_view.h"
 #include "vins_estimator/geometry/plucker.h"
+#include "vins_estimator/state/line_axis.h"
 
 namespace plm_vins {
 

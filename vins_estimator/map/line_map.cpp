@@ -89,7 +89,7 @@ int RemoveBadViews(const SlidingWindow& window, const LineLimits& limits, LineLa
 }  // namespace
 
 void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark) {
-  const Rigid3d T_W_C = window.T_W_C(*window.Find(landmark->views[view].t_ns));
+  const Rigid3d T_W_C = window.T_W_C(landmark->views[view].t_ns);
   const PluckerLine line_C = T_W_C.Inverse() * LineInWorld(*landmark, window);
   const double direction = line_C.direction.norm();
   landmark->triangulated = direction > 0 && line_C.moment.norm() > kMinDistance * direction;
@@ -102,7 +102,7 @@ void KeepOnlyView(const SlidingWindow& window, size_t view, LineLandmark* landma
 }
 
 LineSighting SightingOf(const LineView& view, const SlidingWindow& window) {
-  return {window.T_W_C(*window.FindState(view.t_ns)), view.segment};
+  return {window.T_W_C(view.t_ns), view.segment};
 }
 
 std::vector<LineSighting> SightingsOf(const std::vector<LineView>& views,
@@ -114,7 +114,7 @@ std::vector<LineSighting> SightingsOf(const std::vector<LineView>& views,
 }
 
 PluckerLine LineInWorld(const LineLandmark& landmark, const SlidingWindow& window) {
-  const Rigid3d T_W_Ch = window.T_W_C(*window.Find(landmark.host().t_ns));
+  const Rigid3d T_W_Ch = window.T_W_C(landmark.host().t_ns);
   return T_W_Ch * ToPlucker(landmark.coordinates.data());
 }
 
@@ -124,7 +124,7 @@ std::optional<MapLine> ObservedSegment(const LineLandmark& landmark, const Slidi
   const Eigen::Vector3d along = line_W.direction.normalized();
   double first = std::numeric_limits<double>::infinity(), last = -first;
   for (const LineView& view : landmark.views) {
-    const Rigid3d T_W_C = window.T_W_C(*window.Find(view.t_ns));
+    const Rigid3d T_W_C = window.T_W_C(view.t_ns);
     const LineEnds ends_C = EndsOf(T_W_C.Inverse() * line_W, view.segment);
     if (!IsInFront(ends_C)) return std::nullopt;
     for (const Eigen::Vector3d& end_C : {ends_C.start, ends_C.end}) {

@@ -1,36 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "common/measurements.h"
-#include "vins_estimator/geometry/line_axis.h"
 #include "vins_estimator/geometry/line_triangulation.h"
 #include "vins_estimator/map/landmark_map.h"
 #include "vins_estimator/map/line_landmark.h"
 #include "vins_estimator/map/sliding_window.h"
+#include "vins_estimator/state/estimate_counts.h"
+#include "vins_estimator/state/map_elements.h"
 
 namespace plm_vins {
-
-// A line landmark in the world, cut to the part that was seen, for output.
-struct MapLine {
-  int64_t id = -1;
-  Eigen::Vector3d start_W = Eigen::Vector3d::Zero();  // [m]
-  Eigen::Vector3d end_W = Eigen::Vector3d::Zero();    // [m]
-  LineAxis axis = LineAxis::kFree;                    // of the Manhattan frame, that it runs along
-};
-
-// What happened to the lines that were to be triangulated in one frame.
-struct LineTriangulationCounts {
-  int triangulated = 0;
-  int degenerate = 0;    // wait for more baseline
-  int behind = 0;        // removed
-  int inconsistent = 0;  // removed
-  int too_long = 0;      // removed
-};
 
 // What a triangulated line must keep to.
 struct LineLimits {

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/geometry/point_in_host.h"
+#include "vins_estimator/geometry/timed_bearing.h"
 
 namespace plm_vins {
 
@@ -20,7 +21,7 @@ struct PointView {
 struct PointLandmark {
   int64_t id = -1;
   std::vector<PointView> views;  // by time
-  // Normalised image point and inverse depth [1/m] in the host camera, as PointFactor takes them.
+  // Normalised image point and inverse depth [1/m] in the host camera, see PointInHost.
   std::array<double, kPointSize> coordinates = {0, 0, 0};
   bool triangulated = false;
 

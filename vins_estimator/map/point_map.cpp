@@ -3,25 +3,25 @@
 
 #include <algorithm>
 
+#include "vins_estimator/geometry/depth_limits.h"
 #include "vins_estimator/geometry/point_triangulation.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr double kMinDepth = 0.05;  // [m]
 constexpr size_t kMinViewsToTriangulate = 2;
 
 PointSighting SightingOf(const PointView& view, const SlidingWindow& window) {
-  return {window.T_W_C(*window.Find(view.t_ns)), view.bearing.At(window.td)};
+  return {window.T_W_C(view.t_ns), view.bearing.At(window.td)};
 }
 
 // Expresses a point in the camera of one of the landmark's views; not triangulated where it is not
 // in front of it.
 void SetPosition(const Eigen::Vector3d& p_W, const SlidingWindow& window, const PointView& view,
                  PointLandmark* landmark) {
-  const Rigid3d T_W_C = window.T_W_C(*window.Find(view.t_ns));
+  const Rigid3d T_W_C = window.T_W_C(view.t_ns);
   const Eigen::Vector3d p_C = T_W_C.Inverse() * p_W;
-  landmark->triangulated = p_C.z() > kMinDepth;
+  landmark->triangulated = p_C.z() > kMinLandmarkDepth;
   if (landmark->triangulated) {
     landmark->coordinates = {p_C.x() / p_C.z(), p_C.y() / p_C.z(), 1.0 / p_C.z()};
   }
@@ -42,7 +42,7 @@ void MoveHost(const SlidingWindow& window, size_t view, PointLandmark* landmark)
 }
 
 Eigen::Vector3d PositionInWorld(const PointLandmark& landmark, const SlidingWindow& window) {
-  const Rigid3d T_W_Ch = window.T_W_C(*window.Find(landmark.host().t_ns));
+  const Rigid3d T_W_Ch = window.T_W_C(landmark.host().t_ns);
   return T_W_Ch * PointInHost(landmark.coordinates.data());
 }
 
@@ -50,7 +50,7 @@ std::optional<double> ReprojectionError(const Eigen::Vector3d& p_W, const PointV
                                         const SlidingWindow& window) {
   const PointSighting sighting = SightingOf(view, window);
   const Eigen::Vector3d p_C = sighting.T_W_C.Inverse() * p_W;
-  if (p_C.z() < kMinDepth) return std::nullopt;
+  if (p_C.z() < kMinLandmarkDepth) return std::nullopt;
   return (p_C.hnormalized() - sighting.xy).norm();
 }
 
@@ -79,7 +79,7 @@ int PointMap::RemoveOutliers(const SlidingWindow& window, double max_error) {
     }
     const Eigen::Vector3d p_W = PositionInWorld(landmark, window);
     const double inverse_depth = landmark.coordinates[2];
-    bool bad = inverse_depth <= 0 || inverse_depth > 1.0 / kMinDepth;
+    bool bad = inverse_depth <= 0 || inverse_depth > 1.0 / kMinLandmarkDepth;
     double sum = 0;
     for (size_t i = 1; i < landmark.views.size() && !bad;) {
       const auto error = ReprojectionError(p_W, landmark.views[i], window);

@@ -11,12 +11,6 @@
 
 namespace plm_vins {
 
-// A landmark's place in the world, for output.
-struct MapPoint {
-  int64_t id = -1;
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // [m]
-};
-
 // All corner tracks with views in the window. Every view belongs to a frame of the window.
 class PointMap : public LandmarkMap<PointLandmark> {
  public:

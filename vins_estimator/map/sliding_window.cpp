@@ -2,44 +2,50 @@
 #include "vins_estimator/map/sliding_window.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 namespace plm_vins {
+namespace {
+
+// Null where no frame has this stamp.
+template <typename Frames>
+auto FindIn(Frames* frames, int64_t t_ns) {
+  const auto found = std::find_if(frames->begin(), frames->end(),
+                                  [t_ns](const auto& frame) { return frame.state.t_ns == t_ns; });
+  return found == frames->end() ? nullptr : &*found;
+}
+
+template <typename Frame>
+Frame& Found(Frame* frame, int64_t t_ns) {
+  if (frame == nullptr) {
+    throw std::logic_error("no frame with stamp " + std::to_string(t_ns) + " in the window");
+  }
+  return *frame;
+}
+
+}  // namespace
 
 void SlidingWindow::SetExtrinsic(const Rigid3d& T_B_C) {
   Eigen::Map<Eigen::Vector3d>(extrinsic.data()) = T_B_C.translation;
   Eigen::Map<Eigen::Quaterniond>(extrinsic.data() + 3) = T_B_C.rotation.normalized();
 }
 
-const WindowFrame* SlidingWindow::Find(int64_t t_ns) const {
-  const auto found = std::find_if(frames.begin(), frames.end(), [t_ns](const WindowFrame& frame) {
-    return frame.state.t_ns == t_ns;
-  });
-  return found == frames.end() ? nullptr : &*found;
+WindowFrame& SlidingWindow::FrameAt(int64_t t_ns) { return Found(FindIn(&frames, t_ns), t_ns); }
+
+AnchorFrame& SlidingWindow::AnchorAt(int64_t t_ns) { return Found(FindIn(&anchors, t_ns), t_ns); }
+
+const FrameState& SlidingWindow::StateAt(int64_t t_ns) const {
+  if (const WindowFrame* frame = FindIn(&frames, t_ns)) return frame->state;
+  return Found(FindIn(&anchors, t_ns), t_ns).state;
 }
 
-WindowFrame* SlidingWindow::Find(int64_t t_ns) {
-  return const_cast<WindowFrame*>(static_cast<const SlidingWindow*>(this)->Find(t_ns));
-}
-
-const AnchorFrame* SlidingWindow::FindAnchor(int64_t t_ns) const {
-  const auto found =
-      std::find_if(anchors.begin(), anchors.end(),
-                   [t_ns](const AnchorFrame& anchor) { return anchor.state.t_ns == t_ns; });
-  return found == anchors.end() ? nullptr : &*found;
-}
-
-AnchorFrame* SlidingWindow::FindAnchor(int64_t t_ns) {
-  return const_cast<AnchorFrame*>(static_cast<const SlidingWindow*>(this)->FindAnchor(t_ns));
-}
-
-const FrameState* SlidingWindow::FindState(int64_t t_ns) const {
-  if (const WindowFrame* frame = Find(t_ns)) return &frame->state;
-  const AnchorFrame* anchor = FindAnchor(t_ns);
-  return anchor ? &anchor->state : nullptr;
+FrameState& SlidingWindow::StateAt(int64_t t_ns) {
+  return const_cast<FrameState&>(static_cast<const SlidingWindow*>(this)->StateAt(t_ns));
 }
 
 void SlidingWindow::RemoveSecondNewest() {
-  const WindowFrame& second = frames[frames.size() - 2];
+  const WindowFrame& second = second_newest();
   const std::shared_ptr<Preintegration> joined = second.motion_since_previous;
   for (const ImuSample& sample : newest().motion_since_previous->samples()) {
     if (sample.t_ns > joined->samples().back().t_ns) joined->Append(sample);

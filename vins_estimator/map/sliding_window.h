@@ -39,6 +39,8 @@ struct SlidingWindow {
 
   WindowFrame& newest() { return frames.back(); }
   const WindowFrame& newest() const { return frames.back(); }
+  WindowFrame& second_newest() { return frames[frames.size() - 2]; }
+  const WindowFrame& second_newest() const { return frames[frames.size() - 2]; }
 
   Rigid3d T_B_C() const {
     return {Eigen::Quaterniond(Eigen::Map<const Eigen::Quaterniond>(extrinsic.data() + 3)),
@@ -46,20 +48,17 @@ struct SlidingWindow {
   }
   void SetExtrinsic(const Rigid3d& T_B_C);
 
-  // Camera pose of a frame.
+  // By stamp; std::logic_error where there is none: what refers to a frame must go before it does.
+  WindowFrame& FrameAt(int64_t t_ns);
+  AnchorFrame& AnchorAt(int64_t t_ns);
+  // The state of a frame or an anchor.
+  FrameState& StateAt(int64_t t_ns);
+  const FrameState& StateAt(int64_t t_ns) const;
+
+  // Camera pose of a frame or an anchor.
   Rigid3d T_W_C(const FrameState& state) const { return state.T_W_B() * T_B_C(); }
   Rigid3d T_W_C(const WindowFrame& frame) const { return T_W_C(frame.state); }
-
-  // The frame of the image with this stamp; null where it is not in the window.
-  WindowFrame* Find(int64_t t_ns);
-  const WindowFrame* Find(int64_t t_ns) const;
-
-  // The same among the anchors.
-  AnchorFrame* FindAnchor(int64_t t_ns);
-  const AnchorFrame* FindAnchor(int64_t t_ns) const;
-
-  // The state of a frame or an anchor.
-  const FrameState* FindState(int64_t t_ns) const;
+  Rigid3d T_W_C(int64_t t_ns) const { return T_W_C(StateAt(t_ns)); }
 
   // Takes out the frame before the newest; the newest frame's motion then starts one frame earlier.
   void RemoveSecondNewest();

@@ -93,16 +93,16 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
 }
 
 MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
-                                       const MarginalizationPrior& prior, SlidingWindow* window,
-                                       PointMap* points, LineMap* lines, bool keep_pose) {
-  const int64_t oldest_ns = window->frames.front().state.t_ns;
-  ProblemBuilder builder(options, window, &prior);
+                                       const MarginalizationPrior& prior, LocalMap* map,
+                                       bool keep_pose) {
+  const int64_t oldest_ns = map->window.frames.front().state.t_ns;
+  ProblemBuilder builder(options, &map->window, &prior);
   builder.AddPrior();
   builder.AddMotion(1);
-  for (auto& [id, landmark] : points->landmarks()) {
+  for (auto& [id, landmark] : map->points.landmarks()) {
     if (LeavesWith(oldest_ns, landmark)) builder.AddPoint(&landmark);
   }
-  for (auto& [id, landmark] : lines->landmarks()) {
+  for (auto& [id, landmark] : map->lines.landmarks()) {
     if (LeavesWith(oldest_ns, landmark)) builder.AddLine(&landmark);
   }
   return Summarize(builder.problem())

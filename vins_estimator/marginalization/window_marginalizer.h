@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "vins_estimator/map/line_map.h"
-#include "vins_estimator/map/point_map.h"
+#include "vins_estimator/map/local_map.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/problem/marginalization_prior.h"
 #include "vins_estimator/problem/problem_builder.h"
@@ -35,12 +34,11 @@ std::function<bool(const BlockId&)> IsOfFrame(int64_t t_ns);
 // Selects the velocity and biases of one frame.
 std::function<bool(const BlockId&)> IsMotionOfFrame(int64_t t_ns);
 
-// Folds the oldest frame into a new prior: its motion to the next frame, the old prior, and every
-// landmark that it hosts with all views. Its pose stays a variable of the prior where `keep_pose`
-// says so. Window and landmarks stay as they are; what was folded in
-// must not be used again: see LandmarkMap::StartAnew().
+// The prior with the oldest frame folded in: its motion to the next frame, and every landmark that
+// it hosts with all views. Its pose stays a variable of the prior where `keep_pose` says so. The
+// map stays as it is; what was folded in must not be used again (WindowEstimate sees to it).
 MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
-                                       const MarginalizationPrior& prior, SlidingWindow* window,
-                                       PointMap* points, LineMap* lines, bool keep_pose = false);
+                                       const MarginalizationPrior& prior, LocalMap* map,
+                                       bool keep_pose);
 
 }  // namespace plm_vins

@@ -65,7 +65,7 @@ void RunSummary::AddPose(const EstimatorOutput& output) {
   stationary_ += output.stationary ? 1 : 0;
   keyframes_ += output.keyframe ? 1 : 0;
   merged_lines_ += output.counts.line_merging.merged;
-  recognised_lines_ += output.counts.line_merging.recognised;
+  recognised_lines_ += output.counts.lines_recognised;
   manhattan_ += output.R_W_M ? 1 : 0;
   if (!first_pose_ns_) first_pose_ns_ = output.t_ns;
   const Eigen::Vector3d position = output.state.position();

@@ -43,14 +43,9 @@ double* ProblemBuilder::Values(const BlockId& id) {
     case BlockKind::kTimeOffset:
       return &window_->td;
     case BlockKind::kPose:
-    case BlockKind::kMotion: {
-      WindowFrame* frame = window_->Find(id.key);
-      AnchorFrame* anchor = window_->FindAnchor(id.key);
-      if (frame && id.kind == BlockKind::kMotion) return frame->state.motion.data();
-      if (frame) return frame->state.pose.data();
-      if (anchor && id.kind == BlockKind::kPose) return anchor->state.pose.data();
-      throw std::logic_error("variable of a frame that left the window");
-    }
+      return window_->StateAt(id.key).pose.data();
+    case BlockKind::kMotion:
+      return window_->FrameAt(id.key).state.motion.data();
     default:
       throw std::logic_error("landmarks are added with their terms");
   }

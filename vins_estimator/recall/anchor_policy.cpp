@@ -47,7 +47,7 @@ std::optional<int64_t> AnchorToReplace(const AnchorPolicyOptions& options,
 void NoteUse(const LineMap& lines, SlidingWindow* window) {
   for (const auto& [id, landmark] : lines.landmarks()) {
     for (const LineView& view : landmark.anchor_views) {
-      window->FindAnchor(view.t_ns)->last_use_ns = window->newest().state.t_ns;
+      window->AnchorAt(view.t_ns).last_use_ns = window->newest().state.t_ns;
     }
   }
 }

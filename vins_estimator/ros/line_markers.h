@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "vins_estimator/map/line_map.h"
+#include "vins_estimator/state/map_elements.h"
 
 namespace plm_vins {
 

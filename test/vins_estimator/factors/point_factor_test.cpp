@@ -46,12 +46,6 @@ struct Scene {
   Vector3d p_Ch, p_Ct;
 };
 
-TEST(TimedBearing, MovesAlongItsVelocityWithTheTimeOffset) {
-  const TimedBearing bearing{{0.1, 0.2}, {1, -2}, 0.01};
-  EXPECT_MATRIX_NEAR(bearing.At(0.01), Vector2d(0.1, 0.2), 1e-15);
-  EXPECT_MATRIX_NEAR(bearing.At(0.03), Vector2d(0.08, 0.24), 1e-15);
-}
-
 TEST(PointFactor, VanishesAtTheTruth) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     const Scene scene(seed);

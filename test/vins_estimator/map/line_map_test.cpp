@@ -170,7 +170,7 @@ TEST_F(LineMapTest, TriangulatesInTheHost) {
 }
 
 TEST_F(LineMapTest, WaitsForViews) {
-  map_.Clear();
+  map_ = LineMap();
   for (const int frame : {0, 3}) map_.AddFrame(Observe(segments_W_, frame));
   const LineTriangulationCounts counts = Triangulate();
   EXPECT_EQ(counts.triangulated + counts.degenerate, 0);
@@ -376,7 +376,7 @@ TEST_F(LineMapTest, TakesAThousandLinesInAFrame) {
     const Segment segment{RandomPoint(&random), RandomPoint(&random)};
     if (segment.length() > 1) segments_W_.push_back(segment);
   }
-  map_.Clear();
+  map_ = LineMap();
   for (int i = 0; i < 4; ++i) map_.AddFrame(Observe(segments_W_, i));
   const LineTriangulationCounts counts = Triangulate();
   EXPECT_EQ(counts.triangulated + counts.degenerate, 1000);

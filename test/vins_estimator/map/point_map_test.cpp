@@ -172,7 +172,7 @@ TEST_F(PointMapTest, RemovesByCondition) {
   map_.RemoveIf([](const PointLandmark& landmark) { return landmark.id % 2 == 0; });
   EXPECT_EQ(map_.landmarks().size(), 10u);
   EXPECT_EQ(map_.landmarks().count(2), 0u);
-  map_.Clear();
+  map_ = PointMap();
   EXPECT_TRUE(map_.landmarks().empty());
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "common/so3.h"
 #include "test/testing/numeric_jacobian.h"
@@ -43,9 +44,22 @@ SlidingWindow MakeWindow(int frames) {
 
 TEST(SlidingWindow, FindsFramesByTheirStamp) {
   SlidingWindow window = MakeWindow(3);
-  EXPECT_EQ(window.Find(kInterval), &window.frames[1]);
-  EXPECT_EQ(window.Find(kInterval + 1), nullptr);
+  EXPECT_EQ(&window.FrameAt(kInterval), &window.frames[1]);
+  EXPECT_EQ(&window.StateAt(kInterval), &window.frames[1].state);
   EXPECT_EQ(&window.newest(), &window.frames[2]);
+  EXPECT_EQ(&window.second_newest(), &window.frames[1]);
+}
+
+TEST(SlidingWindow, SaysWhichFrameIsNotThere) {
+  SlidingWindow window = MakeWindow(3);
+  EXPECT_THROW(window.FrameAt(7), std::logic_error);
+  EXPECT_THROW(window.AnchorAt(kInterval), std::logic_error);
+  try {
+    window.T_W_C(7);
+    FAIL();
+  } catch (const std::logic_error& error) {
+    EXPECT_STREQ(error.what(), "no frame with stamp 7 in the window");
+  }
 }
 
 TEST(SlidingWindow, CameraPoseIsBodyPoseTimesExtrinsics) {
@@ -114,12 +128,10 @@ TEST(SlidingWindow, TheOldestFrameMayStayAsAnAnchor) {
 TEST(SlidingWindow, FindsAnchorsApartFromFrames) {
   SlidingWindow window = MakeWindow(3);
   window.TurnOldestIntoAnchor();
-  EXPECT_EQ(window.FindAnchor(0), &window.anchors[0]);
-  EXPECT_EQ(window.Find(0), nullptr);
-  EXPECT_EQ(window.FindAnchor(kInterval), nullptr);
-  EXPECT_EQ(window.FindState(0), &window.anchors[0].state);
-  EXPECT_EQ(window.FindState(kInterval), &window.frames[0].state);
-  EXPECT_EQ(window.FindState(kInterval + 1), nullptr);
+  EXPECT_EQ(&window.AnchorAt(0), &window.anchors[0]);
+  EXPECT_THROW(window.FrameAt(0), std::logic_error);
+  EXPECT_EQ(&window.StateAt(0), &window.anchors[0].state);
+  EXPECT_EQ(&window.StateAt(kInterval), &window.frames[0].state);
 }
 
 TEST(SlidingWindow, RemovesTheAnchorWithAStamp) {

@@ -8,6 +8,7 @@
 
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_window.h"
+#include "vins_estimator/marginalization/window_estimate.h"
 #include "vins_estimator/problem/normal_equations.h"
 
 namespace plm_vins {
@@ -19,15 +20,14 @@ using Eigen::VectorXd;
 using testing::SimulatedWindow;
 
 // All that is left in the window, and the prior.
-ProblemBuilder BuildProblem(const ProblemOptions& options, const MarginalizationPrior& prior,
-                            SimulatedWindow* simulated) {
-  ProblemBuilder builder(options, &simulated->window, &prior);
+ProblemBuilder BuildProblem(const ProblemOptions& options, WindowEstimate* estimate) {
+  ProblemBuilder builder(options, &estimate->map.window, &estimate->prior);
   builder.AddPrior();
-  for (size_t i = 1; i < simulated->window.frames.size(); ++i) builder.AddMotion(i);
-  for (auto& [id, landmark] : simulated->points.landmarks()) {
+  for (size_t i = 1; i < estimate->map.window.frames.size(); ++i) builder.AddMotion(i);
+  for (auto& [id, landmark] : estimate->map.points.landmarks()) {
     if (landmark.triangulated && landmark.views.size() > 1) builder.AddPoint(&landmark);
   }
-  for (auto& [id, landmark] : simulated->lines.landmarks()) {
+  for (auto& [id, landmark] : estimate->map.lines.landmarks()) {
     if (landmark.triangulated && landmark.views.size() > 1) builder.AddLine(&landmark);
   }
   return builder;
@@ -61,27 +61,6 @@ Step GaussNewtonStep(const WindowProblem& problem) {
     result.deltas.push_back(step.segment(offset, problem.variables()[i].type().tangent_size));
   }
   return result;
-}
-
-// Folds the oldest frame into the prior and takes out what was folded in.
-void Slide(const ProblemOptions& options, SimulatedWindow* simulated, MarginalizationPrior* prior,
-           bool keep_pose = false) {
-  const int64_t oldest_ns = simulated->window.frames.front().state.t_ns;
-  *prior = MarginalizeOldest(options, *prior, &simulated->window, &simulated->points,
-                             &simulated->lines, keep_pose);
-  simulated->points.RemoveIf([oldest_ns](const PointLandmark& landmark) {
-    return landmark.triangulated && landmark.host().t_ns == oldest_ns;
-  });
-  simulated->lines.RemoveIf([oldest_ns](const LineLandmark& landmark) {
-    return landmark.triangulated && landmark.host().t_ns == oldest_ns;
-  });
-  simulated->points.RemoveFrame(simulated->window, oldest_ns);
-  simulated->lines.RemoveFrame(simulated->window, oldest_ns);
-  if (keep_pose) {
-    simulated->window.TurnOldestIntoAnchor();
-  } else {
-    simulated->window.RemoveOldest();
-  }
 }
 
 void ExpectSameStep(const Step& kept, const Step& full) {
@@ -135,49 +114,47 @@ TEST(InitialPrior, IsTheStatedUncertaintyOfTheFirstState) {
 // One Gauss-Newton step of the reduced window is the step of the whole, at the same linearisation.
 class MarginalizeOldestTest : public ::testing::TestWithParam<bool> {
  protected:
-  MarginalizeOldestTest() : simulated_(testing::SimulateWindow(6)), random_(1) {
+  MarginalizeOldestTest() : estimate_(testing::SimulateWindow(6)), random_(1) {
     options_.first_estimate_jacobians = GetParam();
     options_.estimate_extrinsic = options_.estimate_td = true;
-    testing::Disturb(0.003, &random_, &simulated_.window);
-    prior_ = InitialPrior(InitialUncertainty(), options_, simulated_.window);
-    testing::Disturb(0.001, &random_, &simulated_.window);
+    testing::Disturb(0.003, &random_, &estimate_.map.window);
+    estimate_.prior = InitialPrior(InitialUncertainty(), options_, estimate_.map.window);
+    testing::Disturb(0.001, &random_, &estimate_.map.window);
   }
 
-  SimulatedWindow simulated_;
+  WindowEstimate estimate_;
   simulator::Random random_;
   ProblemOptions options_ = testing::OnePixelOptions();
-  MarginalizationPrior prior_;
 };
 
 TEST_P(MarginalizeOldestTest, LeavesTheGaussNewtonStepAsItWas) {
   for (const bool keep_pose : {false, true, false}) {
-    const Step full = GaussNewtonStep(BuildProblem(options_, prior_, &simulated_).problem());
-    Slide(options_, &simulated_, &prior_, keep_pose);
-    const Step kept = GaussNewtonStep(BuildProblem(options_, prior_, &simulated_).problem());
+    const Step full = GaussNewtonStep(BuildProblem(options_, &estimate_).problem());
+    estimate_.SlideOldest(options_, keep_pose);
+    const Step kept = GaussNewtonStep(BuildProblem(options_, &estimate_).problem());
     EXPECT_EQ(kept.ids.size() + (keep_pose ? 1 : 2), full.ids.size());
     ExpectSameStep(kept, full);
-    testing::Disturb(0.0005, &random_, &simulated_.window);  // as an optimisation would
+    testing::Disturb(0.0005, &random_, &estimate_.map.window);  // as an optimisation would
   }
 }
 
 TEST_P(MarginalizeOldestTest, KeepsThePoseOfAnAnchorWithoutItsMotion) {
-  const int64_t oldest_ns = simulated_.window.frames.front().state.t_ns;
-  Slide(options_, &simulated_, &prior_, /*keep_pose=*/true);
-  EXPECT_EQ(prior_.Linearization({BlockKind::kMotion, oldest_ns}), nullptr);
-  EXPECT_NE(prior_.Linearization({BlockKind::kPose, oldest_ns}), nullptr);
-  const ProblemBuilder builder = BuildProblem(options_, prior_, &simulated_);
+  const int64_t oldest_ns = estimate_.map.window.frames.front().state.t_ns;
+  estimate_.SlideOldest(options_, /*stays_as_anchor=*/true);
+  EXPECT_EQ(estimate_.prior.Linearization({BlockKind::kMotion, oldest_ns}), nullptr);
+  EXPECT_NE(estimate_.prior.Linearization({BlockKind::kPose, oldest_ns}), nullptr);
+  const ProblemBuilder builder = BuildProblem(options_, &estimate_);
   const int pose = builder.problem().Find({BlockKind::kPose, oldest_ns});
   ASSERT_GE(pose, 0);
   EXPECT_EQ(builder.problem().variables()[pose].values,
-            simulated_.window.anchors[0].state.pose.data());
+            estimate_.map.window.anchors[0].state.pose.data());
 }
 
 TEST_P(MarginalizeOldestTest, AnAnchorThatGoesIsAsIfNeverKept) {
-  Slide(options_, &simulated_, &prior_);
-  const int64_t oldest_ns = simulated_.window.frames.front().state.t_ns;
+  estimate_.SlideOldest(options_, /*stays_as_anchor=*/false);
+  const int64_t oldest_ns = estimate_.map.window.frames.front().state.t_ns;
   const auto marginalize = [this](bool keep_pose) {
-    return MarginalizeOldest(options_, prior_, &simulated_.window, &simulated_.points,
-                             &simulated_.lines, keep_pose);
+    return MarginalizeOldest(options_, estimate_.prior, &estimate_.map, keep_pose);
   };
   const MarginalizationPrior never_kept = marginalize(false);
   const MarginalizationPrior kept = marginalize(true);
@@ -186,23 +163,23 @@ TEST_P(MarginalizeOldestTest, AnAnchorThatGoesIsAsIfNeverKept) {
 }
 
 TEST_P(MarginalizeOldestTest, KeepsLinearisationPointsOnlyForFirstEstimates) {
-  Slide(options_, &simulated_, &prior_);
-  const FrameState& state = simulated_.window.frames[1].state;
+  estimate_.SlideOldest(options_, /*stays_as_anchor=*/false);
+  const FrameState& state = estimate_.map.window.frames[1].state;
   const BlockId id{BlockKind::kPose, state.t_ns};
-  ASSERT_NE(prior_.Linearization(id), nullptr);
-  const double before = prior_.Linearization(id)[0];
-  testing::Disturb(0.001, &random_, &simulated_.window);
-  Slide(options_, &simulated_, &prior_);
-  ASSERT_NE(prior_.Linearization(id), nullptr);
-  EXPECT_EQ(prior_.Linearization(id)[0],
-            GetParam() ? before : simulated_.window.frames[0].state.position().x());
+  ASSERT_NE(estimate_.prior.Linearization(id), nullptr);
+  const double before = estimate_.prior.Linearization(id)[0];
+  testing::Disturb(0.001, &random_, &estimate_.map.window);
+  estimate_.SlideOldest(options_, /*stays_as_anchor=*/false);
+  ASSERT_NE(estimate_.prior.Linearization(id), nullptr);
+  EXPECT_EQ(estimate_.prior.Linearization(id)[0],
+            GetParam() ? before : estimate_.map.window.frames[0].state.position().x());
 }
 
 TEST_P(MarginalizeOldestTest, ForgetsTheOldestFrame) {
-  const int64_t oldest_ns = simulated_.window.frames.front().state.t_ns;
-  Slide(options_, &simulated_, &prior_);
-  EXPECT_EQ(prior_.Linearization({BlockKind::kPose, oldest_ns}), nullptr);
-  EXPECT_EQ(prior_.Linearization({BlockKind::kMotion, oldest_ns}), nullptr);
+  const int64_t oldest_ns = estimate_.map.window.frames.front().state.t_ns;
+  estimate_.SlideOldest(options_, /*stays_as_anchor=*/false);
+  EXPECT_EQ(estimate_.prior.Linearization({BlockKind::kPose, oldest_ns}), nullptr);
+  EXPECT_EQ(estimate_.prior.Linearization({BlockKind::kMotion, oldest_ns}), nullptr);
 }
 
 INSTANTIATE_TEST_SUITE_P(FirstEstimateJacobians, MarginalizeOldestTest, ::testing::Bool());
@@ -238,17 +215,16 @@ struct GaugeInformation {
 // Information of the prior about the four unobservable directions and the observable inclination
 // after some marginalisations without anchor; the states are off the truth and move in between.
 GaugeInformation SlideWithoutAnchor(bool first_estimate_jacobians, int rounds) {
-  SimulatedWindow simulated = testing::SimulateWindow(8);
+  WindowEstimate estimate(testing::SimulateWindow(8));
   ProblemOptions options = testing::OnePixelOptions();
   options.first_estimate_jacobians = first_estimate_jacobians;
-  MarginalizationPrior prior;
   simulator::Random random(1);
   for (int round = 0; round < rounds; ++round) {
-    testing::Disturb(0.01, &random, &simulated.window);
-    Slide(options, &simulated, &prior);
+    testing::Disturb(0.01, &random, &estimate.map.window);
+    estimate.SlideOldest(options, /*stays_as_anchor=*/false);
   }
-  const auto along = [&prior](const Vector3d& translation, const Vector3d& axis) {
-    return std::abs(Information(prior, translation, axis));
+  const auto along = [&estimate](const Vector3d& translation, const Vector3d& axis) {
+    return std::abs(Information(estimate.prior, translation, axis));
   };
   const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ();
   const Vector3d none = Vector3d::Zero();

@@ -64,7 +64,7 @@ simulator::FeatureDataset Fly(uint64_t seed, double duration) {
 void FlyThrough(const simulator::FeatureDataset& data,
                 const std::function<void(LineWindow*)>& at_frame) {
   LineWindow window;
-  window.window().SetExtrinsic(simulator::DefaultSensors().T_B_C);
+  window.map().window.SetExtrinsic(simulator::DefaultSensors().T_B_C);
   for (size_t i = 0; i < data.lines.size(); ++i) {
     window.Slide(/*keep_second_newest=*/i % 4 == 0, kWindowSize);
     window.AddFrame(data.truth[i], data.lines[i]);
@@ -83,23 +83,24 @@ FlightScore MergeOnFlight(uint64_t seed) {
   FlightScore score;
   std::set<int64_t> redundant, absorbed, whole_map, whole_map_unmerged;
   FlyThrough(data, [&](LineWindow* window) {
-    const LineMap before = window->lines();
+    const LineMap before = window->map().lines;
     redundant.merge(FindRedundant(before, data.line_landmark, &score));
-    const LineMergingCounts counts = window->Merge();
-    score.merged += counts.merged;
-    score.recognised += counts.recognised;
-    CollectTriangulated(window->lines(), &whole_map);
+    const auto [merging, recognised] = window->Unite();
+    score.merged += merging.merged;
+    score.recognised += recognised;
+    CollectTriangulated(window->map().lines, &whole_map);
     for (const auto& [id, landmark] : before.landmarks()) {
-      if (window->lines().landmarks().count(id)) continue;
+      if (window->map().lines.landmarks().count(id)) continue;
       absorbed.insert(id);
       whole_map.erase(id);
       const int line = data.line_landmark.at(id);
-      const int older = data.line_landmark.at(window->aliases().Resolve(id));
+      const int older = data.line_landmark.at(window->map().aliases.Resolve(id));
       score.wrong += !IsOneLine(data.world.lines[line], data.world.lines[older]);
     }
   });
-  FlyThrough(
-      data, [&](LineWindow* window) { CollectTriangulated(window->lines(), &whole_map_unmerged); });
+  FlyThrough(data, [&](LineWindow* window) {
+    CollectTriangulated(window->map().lines, &whole_map_unmerged);
+  });
   score.redundant = static_cast<int>(redundant.size());
   for (const int64_t id : redundant) score.absorbed += static_cast<int>(absorbed.count(id));
   score.whole_map = static_cast<int>(whole_map.size());

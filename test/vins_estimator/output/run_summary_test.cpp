@@ -32,7 +32,7 @@ TEST(RunSummary, AddsUpARun) {
   EstimatorOutput standing = Pose(4, -0.1);
   standing.stationary = true;
   standing.counts.line_merging.merged = 2;
-  standing.counts.line_merging.recognised = 3;
+  standing.counts.lines_recognised = 3;
   standing.R_W_M = Eigen::Quaterniond::Identity();
   summary.Add(standing, {}, {});
 

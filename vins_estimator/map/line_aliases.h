@@ -31,7 +31,6 @@ class LineAliases {
   // Drops the aliases that lead to landmarks that are no more.
   void RemoveUnless(const std::function<bool(int64_t)>& landmark_exists);
 
-  void Clear() { aliases_.clear(); }
   size_t size() const { return aliases_.size(); }
 
  private:

@@ -13,20 +13,20 @@ namespace plm_vins {
 
 // The features of one image. Points and lines have the same stamp and agree on what ReadyImage
 // tells.
-struct FrontEndFrame {
+struct TrackedFeatures {
   TrackedPoints points;
   std::optional<TrackedLines> lines;  // absent where lines are not used
 };
 
-// The front ends of points and, where they are used, lines, fed with the same images.
-class FrontEnd {
+// The trackers of points and, where they are used, lines, fed with the same images.
+class FeatureTrackers {
  public:
-  explicit FrontEnd(const Config& config);
+  explicit FeatureTrackers(const Config& config);
 
   void AddImu(const ImuSample& sample);
   void AddImage(const ImageSample& image);
-  std::optional<FrontEndFrame> Pop();
-  std::optional<FrontEndFrame> Flush();
+  std::optional<TrackedFeatures> Pop();
+  std::optional<TrackedFeatures> Flush();
 
   const ImageCounts& image_counts() const { return points_.counts(); }
 

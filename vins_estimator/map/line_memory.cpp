@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/recall/line_memory.h"
+#include "vins_estimator/map/line_memory.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "offline/front_end.h"
+#include "offline/feature_trackers.h"
 
 #include <gtest/gtest.h>
 
@@ -16,34 +16,34 @@ constexpr int64_t kMillisecond = 1'000'000;
 
 // All that is awkward: a repeated image, one of another size, a gap in the gyro, a gap between
 // images, stamps that start over.
-std::vector<FrontEndFrame> AwkwardRun(FrontEnd* front_end) {
-  std::vector<FrontEndFrame> frames;
+std::vector<TrackedFeatures> AwkwardRun(FeatureTrackers* trackers) {
+  std::vector<TrackedFeatures> frames;
   const auto add = [&](int t, const cv::Mat& picture) {
     const bool gyro = t < 1000 || t > 1500;
     for (int imu = t - 45; gyro && imu <= t; imu += 5)
-      front_end->AddImu(StillImu((10'000 + imu) * kMillisecond));
-    front_end->AddImage({(10'000 + t) * kMillisecond, picture});
-    while (auto frame = front_end->Pop()) frames.push_back(std::move(*frame));
+      trackers->AddImu(StillImu((10'000 + imu) * kMillisecond));
+    trackers->AddImage({(10'000 + t) * kMillisecond, picture});
+    while (auto frame = trackers->Pop()) frames.push_back(std::move(*frame));
   };
   for (int t = 0; t < 2000; t += 50) add(t, StillPicture());
   add(1950, StillPicture());
   add(2000, StillPicture({160, 120}));
   for (int t = 4025; t < 6000; t += 33) add(t, StillPicture());
   for (int t = -5000; t < -3000; t += 50) add(t, StillPicture());
-  while (auto frame = front_end->Flush()) frames.push_back(std::move(*frame));
+  while (auto frame = trackers->Flush()) frames.push_back(std::move(*frame));
   return frames;
 }
 
-TEST(FrontEnd, PointsAndLinesAgreeOnEveryImage) {
+TEST(FeatureTrackers, PointsAndLinesAgreeOnEveryImage) {
   for (const double rate : {0, 10, 15}) {
     Config config = StillConfig();
     config.publish_rate = rate;
-    FrontEnd front_end(config);
-    const auto frames = AwkwardRun(&front_end);
+    FeatureTrackers trackers(config);
+    const auto frames = AwkwardRun(&trackers);
     EXPECT_GT(frames.size(), 120u);
     int restarts = 0;
     int published = 0;
-    for (const FrontEndFrame& frame : frames) {
+    for (const TrackedFeatures& frame : frames) {
       ASSERT_TRUE(frame.lines);
       EXPECT_EQ(frame.lines->features.t_ns, frame.points.features.t_ns);
       EXPECT_EQ(frame.lines->restart, frame.points.restart);
@@ -56,13 +56,13 @@ TEST(FrontEnd, PointsAndLinesAgreeOnEveryImage) {
   }
 }
 
-TEST(FrontEnd, LinesCanBeSwitchedOff) {
+TEST(FeatureTrackers, LinesCanBeSwitchedOff) {
   Config config = StillConfig();
   config.use_lines = false;
-  FrontEnd front_end(config);
-  for (const FrontEndFrame& frame : AwkwardRun(&front_end)) EXPECT_FALSE(frame.lines);
-  EXPECT_TRUE(front_end.DrawLines().empty());
-  EXPECT_FALSE(front_end.DrawPoints().empty());
+  FeatureTrackers trackers(config);
+  for (const TrackedFeatures& frame : AwkwardRun(&trackers)) EXPECT_FALSE(frame.lines);
+  EXPECT_TRUE(trackers.DrawLines().empty());
+  EXPECT_FALSE(trackers.DrawPoints().empty());
 }
 
 }  // namespace

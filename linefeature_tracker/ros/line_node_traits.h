@@ -10,8 +10,8 @@
 
 namespace plm_vins {
 
-// The line front end as TrackerNode describes it.
-struct LineFrontEnd {
+// What is particular to the line tracker under ROS, as TrackerNode describes it.
+struct LineNodeTraits {
   using Stage = LineTrackingStage;
   using Settings = LineFeatureTrackerConfig;
 

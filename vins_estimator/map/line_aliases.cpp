@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/merging/line_aliases.h"
+#include "vins_estimator/map/line_aliases.h"
 
 #include <stdexcept>
 

@@ -10,8 +10,8 @@
 
 namespace plm_vins {
 
-// The point front end as TrackerNode describes it.
-struct PointFrontEnd {
+// What is particular to the point tracker under ROS, as TrackerNode describes it.
+struct PointNodeTraits {
   using Stage = PointTrackingStage;
   using Settings = FeatureTrackerConfig;
 

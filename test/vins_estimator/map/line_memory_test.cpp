@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/recall/line_memory.h"
+#include "vins_estimator/map/line_memory.h"
 
 #include <gtest/gtest.h>
 
@@ -149,13 +149,6 @@ TEST_F(LineMemoryTest, ForgetsTheLineWithoutNewsForLongest) {
   EXPECT_EQ(memory_.Find(1), nullptr);
   ExpectSeen(0, {1, 0, 0}, {3, 0, 0});
   ExpectSeen(capacity, {4, 0, 0}, {5, 0, 0});
-}
-
-TEST_F(LineMemoryTest, IsEmptyOnceCleared) {
-  memory_.Keep(3, LineAlongX(1, 2));
-  memory_.Clear();
-  EXPECT_TRUE(memory_.lines().empty());
-  EXPECT_EQ(memory_.Find(3), nullptr);
 }
 
 }  // namespace

@@ -42,7 +42,6 @@ class LineMemory {
   const RememberedLine* Find(int64_t id) const;
 
   const std::map<int64_t, RememberedLine>& lines() const { return lines_; }
-  void Clear() { lines_.clear(); }
 
  private:
   void ForgetLeastRecent();

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/marginalization/window_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include "test/vins_estimator/simulated_window.h"
+#include "vins_estimator/marginalization/window_marginalizer.h"
+
+namespace plm_vins {
+namespace {
+
+// Six keyframes whose oldest has become an anchor.
+class WindowEstimateTest : public ::testing::Test {
+ protected:
+  WindowEstimateTest() : estimate_(testing::SimulateWindow(7)) {
+    estimate_.prior = InitialPrior(InitialUncertainty(), options_, estimate_.map.window);
+    anchor_ns_ = estimate_.map.window.frames.front().state.t_ns;
+    estimate_.SlideOldest(options_, /*stays_as_anchor=*/true);
+  }
+
+  // Every variable of the prior is in the map: else the problem cannot be built.
+  void ExpectInStep() {
+    ProblemBuilder builder(options_, &estimate_.map.window, &estimate_.prior);
+    EXPECT_NO_THROW(builder.AddPrior());
+  }
+
+  bool PriorHoldsPoseOf(int64_t t_ns) const {
+    return estimate_.prior.Linearization({BlockKind::kPose, t_ns}) != nullptr;
+  }
+
+  const ProblemOptions options_ = testing::OnePixelOptions();
+  WindowEstimate estimate_;
+  int64_t anchor_ns_ = 0;
+};
+
+TEST_F(WindowEstimateTest, AnAnchorStaysInMapAndPrior) {
+  EXPECT_EQ(estimate_.map.window.frames.size(), 6u);
+  EXPECT_TRUE(PriorHoldsPoseOf(anchor_ns_));
+  EXPECT_NO_THROW(estimate_.map.window.AnchorAt(anchor_ns_));
+  ExpectInStep();
+}
+
+TEST_F(WindowEstimateTest, ARemovedAnchorLeavesBoth) {
+  estimate_.RemoveAnchor(anchor_ns_);
+  EXPECT_FALSE(PriorHoldsPoseOf(anchor_ns_));
+  EXPECT_TRUE(estimate_.map.window.anchors.empty());
+  ExpectInStep();
+}
+
+TEST_F(WindowEstimateTest, ADroppedFrameLeavesBoth) {
+  const int64_t next_ns = estimate_.map.window.frames[1].state.t_ns;
+  ASSERT_TRUE(PriorHoldsPoseOf(next_ns));
+  while (estimate_.map.window.frames.size() > 2) estimate_.DropSecondNewest();
+  EXPECT_FALSE(PriorHoldsPoseOf(next_ns));
+  ExpectInStep();
+}
+
+TEST_F(WindowEstimateTest, TheOldestFrameLeavesTheMapForThePrior) {
+  const int64_t oldest_ns = estimate_.map.window.frames.front().state.t_ns;
+  estimate_.SlideOldest(options_, /*stays_as_anchor=*/false);
+  EXPECT_FALSE(PriorHoldsPoseOf(oldest_ns));
+  EXPECT_THROW(estimate_.map.window.StateAt(oldest_ns), std::logic_error);
+  EXPECT_TRUE(PriorHoldsPoseOf(estimate_.map.window.frames.front().state.t_ns));
+  ExpectInStep();
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/recall/line_recognition.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "test/vins_estimator/wall_scene.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Vector2d;
+using testing::LineWindow;
+using testing::UnitedLines;
+using testing::UniteOnWall;
+
+// A line that leaves the window, and another of a new track once it has left.
+constexpr int64_t kGone = 4, kComeBack = 9;
+constexpr int kFramesAndBack = 30;
+
+UnitedLines ComeBack(const Vector2d& start, const Vector2d& end, LineWindow* window) {
+  return UniteOnWall({{kGone, {-1, 0.5}, {1, 0.5}, 0, 7}, {kComeBack, start, end, 20}}, window,
+                     kFramesAndBack);
+}
+
+TEST(LineRecognition, RecognisesALineThatComesBack) {
+  LineWindow window;
+  const auto counts = ComeBack({-1, 0.5}, {1, 0.5}, &window);
+  EXPECT_EQ(counts.recognised, 1);
+  EXPECT_EQ(counts.merging.merged, 0);
+  EXPECT_EQ(window.map().aliases.Resolve(kComeBack), kGone);
+  ASSERT_EQ(window.map().lines.landmarks().size(), 1u);
+  const LineLandmark& line = window.map().lines.landmarks().at(kGone);
+  EXPECT_EQ(line.id, kGone);
+  EXPECT_EQ(line.views.size(), 10u);  // later ones of the new track, too
+  ASSERT_EQ(line.anchor_views.size(), 1u);
+  EXPECT_EQ(line.anchor_views[0].t_ns, 100'000'000);
+  const AnchorFrame& anchor = window.map().window.AnchorAt(line.anchor_views[0].t_ns);
+  EXPECT_EQ(anchor.last_use_ns, window.map().window.newest().state.t_ns);
+}
+
+TEST(LineRecognition, RecognisesAnotherPartOfALine) {
+  LineWindow window;
+  EXPECT_EQ(ComeBack({1.05, 0.5}, {2, 0.5}, &window).recognised, 1);
+  EXPECT_EQ(window.map().lines.landmarks().count(kGone), 1u);
+}
+
+TEST(LineRecognition, DoesNotTakeAnotherLineForOneThatLeft) {
+  const std::map<std::string, std::pair<Vector2d, Vector2d>> others = {
+      {"parallel", {{-1, 0.7}, {1, 0.7}}},
+      {"crossing", {{-1, 0.4}, {1, 0.6}}},
+      {"collinear with a gap", {{1.3, 0.5}, {3, 0.5}}}};
+  for (const auto& [name, ends] : others) {
+    LineWindow window;
+    EXPECT_EQ(ComeBack(ends.first, ends.second, &window).recognised, 0) << name;
+    EXPECT_NE(window.map().memory.Find(kGone), nullptr);
+    ASSERT_EQ(window.map().lines.landmarks().size(), 1u);
+    const LineLandmark& line = window.map().lines.landmarks().at(kComeBack);
+    EXPECT_TRUE(line.triangulated);
+    EXPECT_TRUE(line.anchor_views.empty());
+  }
+}
+
+// The two are nearer than the limits, but images show them side by side.
+TEST(LineRecognition, DoesNotRecogniseALineThatIsStillThere) {
+  LineWindow window;
+  const auto counts = UniteOnWall(
+      {{kGone, {-1, 0.5}, {1, 0.5}}, {kComeBack, {-1, 0.54}, {1, 0.54}, 14}}, &window, 22);
+  EXPECT_NE(window.map().memory.Find(kGone), nullptr);
+  EXPECT_EQ(counts.recognised, 0);
+  EXPECT_EQ(window.map().lines.landmarks().size(), 2u);
+}
+
+TEST(LineRecognition, MergesTheNextTrackIntoALineThatCameBack) {
+  LineWindow window;
+  const auto counts = UniteOnWall({{kGone, {-1, 0.5}, {1, 0.5}, 0, 7},
+                                   {kComeBack, {-1, 0.5}, {1, 0.5}, 20, 24},
+                                   {kComeBack + 1, {-1, 0.5}, {1, 0.5}, 25}},
+                                  &window, kFramesAndBack);
+  EXPECT_EQ(counts.recognised, 1);
+  EXPECT_EQ(counts.merging.merged, 1);
+  EXPECT_EQ(window.map().aliases.Resolve(kComeBack + 1), kGone);
+}
+
+}  // namespace
+}  // namespace plm_vins

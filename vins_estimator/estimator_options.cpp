@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/estimator_options.h"
+
+#include "common/camera_model.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kMinTriangulationAngle_px = 2.0;  // in pixels of motion: well above corner noise
+constexpr double kMaxReprojectionError_px = 3.0;
+
+}  // namespace
+
+EstimatorOptions::EstimatorOptions(const Config& config)
+    : EstimatorOptions(config, CameraModel::Create(config.sensor.camera)->FocalLength()) {}
+
+EstimatorOptions::EstimatorOptions(const Config& config, double focal_length)
+    : map(config.estimator.line_noise / focal_length, config.estimator.line_merging),
+      keyframes(config.estimator, focal_length),
+      min_triangulation_angle(kMinTriangulationAngle_px / focal_length),
+      max_reprojection_error(kMaxReprojectionError_px / focal_length),
+      line_triangulation(config.estimator.line_noise / focal_length),
+      line_limits(line_triangulation.noise, config.estimator.line_outlier_distance),
+      same_line(config.estimator, focal_length),
+      anchors(config.estimator),
+      problem(config, focal_length) {}
+
+}  // namespace plm_vins

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "common/config.h"
+#include "vins_estimator/geometry/line_triangulation.h"
+#include "vins_estimator/map/keyframe_policy.h"
+#include "vins_estimator/map/line_comparison.h"
+#include "vins_estimator/map/line_map.h"
+#include "vins_estimator/map/local_map.h"
+#include "vins_estimator/problem/problem_builder.h"
+#include "vins_estimator/recall/anchor_policy.h"
+
+namespace plm_vins {
+
+// What the configuration asks of each part of the estimator, in the part's own units: image
+// distances and noise divided by the focal length.
+struct EstimatorOptions {
+  explicit EstimatorOptions(const Config& config);
+
+  LocalMapOptions map;
+  KeyframePolicyOptions keyframes;
+  double min_triangulation_angle;  // between the rays of a point [rad]
+  double max_reprojection_error;   // of a point, mean over its views, normalised
+  LineTriangulationOptions line_triangulation;
+  LineLimits line_limits;
+  SameLineLimits same_line;
+  AnchorPolicyOptions anchors;
+  ProblemOptions problem;
+
+ private:
+  EstimatorOptions(const Config& config, double focal_length);  // [px]
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/map/line_comparison.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "vins_estimator/geometry/line_fit.h"
+#include "vins_estimator/map/line_map.h"
+
+namespace plm_vins {
+
+LineDifference FindDifference(const SameLineLimits& limits, const LinePairGeometry& pair) {
+  constexpr double kDeviations = 3.0;
+  if (pair.angle > std::max(limits.angle, kDeviations * pair.angle_sigma)) {
+    return LineDifference::kDirection;
+  }
+  if (pair.distance > std::max(limits.distance, kDeviations * pair.distance_sigma)) {
+    return LineDifference::kDistance;
+  }
+  return pair.gap > limits.distance ? LineDifference::kGap : LineDifference::kNone;
+}
+
+// Few views are left of a line that started anew, but many have put it where it is: its standard
+// deviations stay zero then.
+std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W,
+                            double noise, const LineLandmark& line) {
+  constexpr double kGreatestSigma = 0.5;  // [rad], [m]: beyond it, nothing is told apart anyway
+  const auto segment = ObservedSegment(line, window);
+  if (!segment) return std::nullopt;
+  SeenLine seen{R_F_W * segment->start_W, R_F_W * segment->end_W, line.axis};
+  if (!HasEnoughViews(line)) return seen;
+  const auto sightings = SightingsOf(line.views, window);
+  const auto fit = EvaluateLine(sightings, noise, line.coordinates);
+  if (!fit) return std::nullopt;
+  const Eigen::Vector3d middle_W = 0.5 * (segment->start_W + segment->end_W);
+  const Eigen::Vector3d middle_C0 = sightings.front().T_W_C.Inverse() * middle_W;
+  seen.direction_sigma = std::min(DirectionDeviation(*fit), kGreatestSigma);
+  seen.place_sigma = std::min(PlaceDeviation(*fit, middle_C0), kGreatestSigma);
+  return seen;
+}
+
+double DistanceInImage(const SlidingWindow& window, const PluckerLine& line_W,
+                       const LineView& view) {
+  const Rigid3d T_C_W = window.T_W_C(view.t_ns).Inverse();
+  Eigen::Vector2d distances;
+  if (!EndPointDistances(view.segment, (T_C_W * line_W).moment, &distances, nullptr)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return distances.cwiseAbs().maxCoeff();
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+#include "vins_estimator/map/local_map.h"
+#include "vins_estimator/problem/marginalization_prior.h"
+#include "vins_estimator/problem/problem_builder.h"
+
+namespace plm_vins {
+
+// The local map, and the prior in which all that left it lives on. Both move in step: what is taken
+// out of the map is folded into the prior, never used twice and never lost.
+struct WindowEstimate {
+  explicit WindowEstimate(LocalMap local_map) : map(std::move(local_map)) {}
+
+  // Marginalises the frame before the newest, which is no keyframe: what it has seen is given up.
+  void DropSecondNewest();
+
+  // Marginalises the oldest frame with the landmarks that it hosts; see LocalMap::SlideOldest().
+  DepartedLandmarks SlideOldest(const ProblemOptions& options, bool stays_as_anchor);
+
+  void RemoveAnchor(int64_t t_ns);
+
+  LocalMap map;
+  MarginalizationPrior prior;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/recall/line_recognition.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace plm_vins {
+namespace {
+
+SeenLine Rotated(const Eigen::Quaterniond& R_F_W, const SeenLine& line_W) {
+  SeenLine line_F = line_W;
+  line_F.start_F = R_F_W * line_W.start_F;
+  line_F.end_F = R_F_W * line_W.end_F;
+  return line_F;
+}
+
+// Whether two lines could be near each other: the spheres around them touch.
+bool MayTouch(const SeenLine& a, const SeenLine& b, double distance) {
+  constexpr double kDeviations = 3.0;
+  const double between = (a.start_F + a.end_F - b.start_F - b.end_F).norm();  // twice
+  const double lengths = (a.end_F - a.start_F).norm() + (b.end_F - b.start_F).norm();
+  return between < lengths + 2 * (distance + kDeviations * (a.place_sigma + b.place_sigma));
+}
+
+// How far the views of a landmark are from the image of another line, at most.
+double DistanceInImages(const SlidingWindow& window, const PluckerLine& line_W,
+                        const std::vector<LineView>& views) {
+  double farthest = 0;
+  for (const LineView& view : views) {
+    farthest = std::max(farthest, DistanceInImage(window, line_W, view));
+  }
+  return farthest;
+}
+
+// The remembered line that a landmark is, the nearest where several could be. All views of the
+// landmark must show it where that line is: the images tell more than a first triangulation does.
+std::optional<int64_t> Recognise(const SameLineLimits& limits, const Eigen::Quaterniond& R_F_W,
+                                 const LocalMap& map, const LineLandmark& landmark,
+                                 const SeenLine& seen_F) {
+  const SeenLine seen_W = Rotated(R_F_W.conjugate(), seen_F);
+  std::optional<int64_t> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [id, line] : map.memory.lines()) {
+    if (id > landmark.id) break;
+    if (!MayTouch(line.seen_W, seen_W, limits.distance) || map.lines.landmarks().count(id))
+      continue;
+    const LinePairGeometry pair = Compare(Rotated(R_F_W, line.seen_W), seen_F);
+    if (pair.distance >= least || FindDifference(limits, pair) != LineDifference::kNone) continue;
+    const PluckerLine line_W = LineThrough(line.seen_W.start_F, line.seen_W.end_F);
+    if (DistanceInImages(map.window, line_W, landmark.views) > limits.image_distance) continue;
+    nearest = id;
+    least = pair.distance;
+  }
+  return nearest;
+}
+
+// The lines that may be ones of the memory, by ascending id: those with enough views to tell that
+// are not in the memory themselves.
+std::vector<int64_t> CollectCandidates(const LocalMap& map) {
+  std::vector<int64_t> candidates;
+  for (const auto& [id, landmark] : map.lines.landmarks()) {
+    const bool is_known = map.memory.Find(id) != nullptr;
+    if (landmark.triangulated && HasEnoughViews(landmark) && !is_known) candidates.push_back(id);
+  }
+  return candidates;
+}
+
+}  // namespace
+
+std::vector<int64_t> RecogniseLines(const SameLineLimits& limits, const Eigen::Quaterniond& R_F_W,
+                                    LocalMap* map) {
+  std::vector<int64_t> recognised;
+  for (const int64_t id : CollectCandidates(*map)) {
+    const LineLandmark& landmark = map->lines.landmarks().at(id);
+    const auto seen_F = See(map->window, R_F_W, limits.noise, landmark);
+    if (!seen_F) continue;
+    const auto older = Recognise(limits, R_F_W, *map, landmark, *seen_F);
+    if (!older) continue;
+    map->ReviveLine(id, *older);
+    recognised.push_back(id);
+  }
+  return recognised;
+}
+
+}  // namespace plm_vins

@@ -7,6 +7,7 @@
 
 #include "common/stopwatch.h"
 #include "vins_estimator/manhattan/line_directions.h"
+#include "vins_estimator/optimization/ceres_solver.h"
 
 namespace plm_vins {
 namespace {
@@ -252,7 +253,12 @@ void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
   NormalEquations equations(builder.problem());
   SolverOptions options;
   options.max_iterations = max_iterations;
-  Solve(options, builder.problem(), &equations);
+  if (config_.estimator.solver == SolverType::kCeres) {
+    SolveByCeres(options, builder.problem());
+    equations.Linearize();
+  } else {
+    Solve(options, builder.problem(), &equations);
+  }
 
   const int64_t newest_ns = window_.newest().state.t_ns;
   const Eigen::MatrixXd covariance =

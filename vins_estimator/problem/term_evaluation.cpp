@@ -56,6 +56,14 @@ double EvaluateTermCost(const ResidualTerm& term, const std::vector<Variable>& v
   return 0.5 * Robustify(term.loss, SquaredNorm(residual, term.cost->num_residuals()))[0];
 }
 
+bool CanBeEvaluated(const ResidualTerm& term, const std::vector<Variable>& variables) {
+  ParameterPointers values = {}, linearization = {};
+  const bool linearized_elsewhere = GatherParameters(term, variables, &values, &linearization);
+  double residual[TermEvaluation::kMaxRows];
+  return term.cost->Evaluate(values.data(), residual, nullptr) &&
+         (!linearized_elsewhere || term.cost->Evaluate(linearization.data(), residual, nullptr));
+}
+
 bool EvaluateTerm(const ResidualTerm& term, const std::vector<Variable>& variables,
                   TermEvaluation* evaluation) {
   ParameterPointers values = {}, linearization = {};

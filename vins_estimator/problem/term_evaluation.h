@@ -26,6 +26,10 @@ constexpr double kInvalidTermCost = 50.0;
 // The cost 0.5 rho(|r|^2) of a term at the current values.
 double EvaluateTermCost(const ResidualTerm& term, const std::vector<Variable>& variables);
 
+// Whether the residual can be evaluated, both at the current values and at the linearisation
+// points.
+bool CanBeEvaluated(const ResidualTerm& term, const std::vector<Variable>& variables);
+
 // Residual and cost at the current values, Jacobians at the linearisation points. False where
 // either cannot be evaluated; the term then has its cost but no say in the equations.
 bool EvaluateTerm(const ResidualTerm& term, const std::vector<Variable>& variables,

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "test/testing/numeric_jacobian.h"
-#include "test/vins_estimator/simulated_window.h"
+#include "test/vins_estimator/simulated_problem.h"
 #include "vins_estimator/problem/normal_equations.h"
 
 namespace plm_vins {
@@ -17,19 +17,12 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using testing::SimulatedWindow;
+using testing::Slide;
 
-// All that is left in the window, and the prior.
 ProblemBuilder BuildProblem(const ProblemOptions& options, const MarginalizationPrior& prior,
                             SimulatedWindow* simulated) {
   ProblemBuilder builder(options, &simulated->window, &prior);
-  builder.AddPrior();
-  for (size_t i = 1; i < simulated->window.frames.size(); ++i) builder.AddMotion(i);
-  for (auto& [id, landmark] : simulated->points.landmarks()) {
-    if (landmark.triangulated && landmark.views.size() > 1) builder.AddPoint(&landmark);
-  }
-  for (auto& [id, landmark] : simulated->lines.landmarks()) {
-    if (landmark.triangulated && landmark.views.size() > 1) builder.AddLine(&landmark);
-  }
+  testing::AddAll(simulated, &builder);
   return builder;
 }
 
@@ -61,27 +54,6 @@ Step GaussNewtonStep(const WindowProblem& problem) {
     result.deltas.push_back(step.segment(offset, problem.variables()[i].type().tangent_size));
   }
   return result;
-}
-
-// Folds the oldest frame into the prior and takes out what was folded in.
-void Slide(const ProblemOptions& options, SimulatedWindow* simulated, MarginalizationPrior* prior,
-           bool keep_pose = false) {
-  const int64_t oldest_ns = simulated->window.frames.front().state.t_ns;
-  *prior = MarginalizeOldest(options, *prior, &simulated->window, &simulated->points,
-                             &simulated->lines, keep_pose);
-  simulated->points.RemoveIf([oldest_ns](const PointLandmark& landmark) {
-    return landmark.triangulated && landmark.host().t_ns == oldest_ns;
-  });
-  simulated->lines.RemoveIf([oldest_ns](const LineLandmark& landmark) {
-    return landmark.triangulated && landmark.host().t_ns == oldest_ns;
-  });
-  simulated->points.RemoveFrame(simulated->window, oldest_ns);
-  simulated->lines.RemoveFrame(simulated->window, oldest_ns);
-  if (keep_pose) {
-    simulated->window.TurnOldestIntoAnchor();
-  } else {
-    simulated->window.RemoveOldest();
-  }
 }
 
 void ExpectSameStep(const Step& kept, const Step& full) {

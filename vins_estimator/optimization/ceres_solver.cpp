@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/optimization/ceres_solver.h"
+
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "vins_estimator/factors/manifolds.h"
+#include "vins_estimator/optimization/first_estimate_cost.h"
+#include "vins_estimator/optimization/prior_cost.h"
+#include "vins_estimator/problem/term_evaluation.h"
+
+namespace plm_vins {
+namespace {
+
+ceres::Problem::Options BorrowedCosts() {
+  ceres::Problem::Options options;
+  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  return options;
+}
+
+// A WindowProblem in Ceres' terms, over the same memory.
+class CeresProblem {
+ public:
+  explicit CeresProblem(const WindowProblem& window) : window_(window), problem_(BorrowedCosts()) {
+    for (const Variable& variable : window.variables()) AddVariable(variable);
+    for (const ResidualTerm& term : window.terms()) AddTerm(term);
+    for (const LandmarkTerms& landmark : window.landmarks()) {
+      for (const ResidualTerm& term : landmark.terms) AddTerm(term);
+    }
+    if (window.prior() != nullptr && !window.prior()->empty()) AddPrior(*window.prior());
+  }
+
+  ceres::Problem* problem() { return &problem_; }
+
+  // What the costs of Ceres have more than those of the window.
+  double constant() const { return prior_ ? prior_->constant() : 0; }
+
+  // Landmarks first, then the frames.
+  std::shared_ptr<ceres::ParameterBlockOrdering> Ordering() const {
+    auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    for (const Variable& variable : window_.variables()) {
+      ordering->AddElementToGroup(variable.values, 1);
+    }
+    for (const LandmarkTerms& landmark : window_.landmarks()) {
+      ordering->AddElementToGroup(window_.variables()[landmark.variable].values, 0);
+    }
+    return ordering;
+  }
+
+ private:
+  void AddVariable(const Variable& variable) {
+    const VariableType& type = variable.type();
+    problem_.AddParameterBlock(variable.values, type.ambient_size);
+    SetManifold(&problem_, variable.values,
+                {type.ambient_size, type.tangent_size, type.plus, type.minus});
+    if (variable.constant) problem_.SetParameterBlockConstant(variable.values);
+  }
+
+  void AddTerm(const ResidualTerm& term) {
+    std::vector<double*> values;
+    std::vector<const double*> linearization;
+    for (int k = 0; k < term.variable_count; ++k) {
+      const Variable& variable = window_.variables()[term.variables[k]];
+      values.push_back(variable.values);
+      linearization.push_back(variable.linearization);
+    }
+    const ceres::CostFunction* cost = term.cost.get();
+    const bool linearized_elsewhere =
+        std::any_of(linearization.begin(), linearization.end(),
+                    [](const double* point) { return point != nullptr; });
+    if (linearized_elsewhere) {
+      first_estimate_costs_.push_back(
+          std::make_unique<FirstEstimateCost>(cost, std::move(linearization)));
+      cost = first_estimate_costs_.back().get();
+    }
+    if (CanBeEvaluated(term, window_.variables())) Add(cost, term.loss, values);
+  }
+
+  void AddPrior(const MarginalizationPrior& prior) {
+    std::vector<double*> values;
+    for (const MarginalizationPrior::Block& block : prior.blocks()) {
+      values.push_back(window_.variables()[window_.Find(block.id)].values);
+    }
+    prior_ = std::make_unique<PriorCost>(prior);
+    Add(prior_.get(), nullptr, values);
+  }
+
+  // Ceres asks for more than it needs: neither cost nor loss has anything to change.
+  void Add(const ceres::CostFunction* cost, const ceres::LossFunction* loss,
+           const std::vector<double*>& values) {
+    problem_.AddResidualBlock(const_cast<ceres::CostFunction*>(cost),
+                              const_cast<ceres::LossFunction*>(loss), values);
+  }
+
+  const WindowProblem& window_;
+  std::vector<std::unique_ptr<const FirstEstimateCost>> first_estimate_costs_;
+  std::unique_ptr<const PriorCost> prior_;
+  ceres::Problem problem_;  // last: refers to the costs
+};
+
+ceres::Solver::Options ToCeres(const SolverOptions& options) {
+  ceres::Solver::Options result;
+  result.linear_solver_type = ceres::DENSE_SCHUR;
+  result.num_threads = 1;
+  result.logging_type = ceres::SILENT;
+  result.max_num_iterations = options.max_iterations;
+  result.initial_trust_region_radius = 1 / options.initial_damping;
+  result.function_tolerance = options.cost_tolerance;
+  result.parameter_tolerance = options.step_tolerance;
+  result.gradient_tolerance = 0;
+  return result;
+}
+
+}  // namespace
+
+SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& window) {
+  CeresProblem problem(window);
+  ceres::Solver::Options ceres_options = ToCeres(options);
+  ceres_options.linear_solver_ordering = problem.Ordering();
+  ceres::Solver::Summary ceres_summary;
+  ceres::Solve(ceres_options, problem.problem(), &ceres_summary);
+
+  SolverSummary summary;
+  summary.initial_cost = ceres_summary.initial_cost - problem.constant();
+  summary.final_cost = ceres_summary.final_cost - problem.constant();
+  // The first entry is the evaluation at the start.
+  summary.iterations = std::max(static_cast<int>(ceres_summary.iterations.size()) - 1, 0);
+  summary.solved = ceres_summary.IsSolutionUsable();
+  return summary;
+}
+
+}  // namespace plm_vins

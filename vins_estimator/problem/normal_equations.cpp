@@ -11,6 +11,7 @@ namespace plm_vins {
 NormalEquations::NormalEquations(const WindowProblem& problem)
     : problem_(problem),
       layout_(problem),
+      left_out_(layout_.terms().size(), false),
       H_dd_(layout_.dense_size(), layout_.dense_size()),
       b_d_(layout_.dense_size()) {
   landmarks_.reserve(problem.landmarks().size());
@@ -25,26 +26,31 @@ double NormalEquations::Linearize() {
   b_d_.setZero();
   for (LandmarkEquations& equations : landmarks_) equations.SetZero();
   double cost = AddPrior();
-  for (const TermLayout& layout : layout_.terms()) cost += AddTerm(layout);
+  for (size_t i = 0; i < left_out_.size(); ++i) {
+    left_out_[i] = left_out_[i] || !AddTerm(layout_.terms()[i], &cost);
+  }
   return cost;
 }
 
 double NormalEquations::Cost() const {
   double cost = 0;
   if (problem_.prior() != nullptr) cost += problem_.prior()->Cost(problem_);
-  for (const TermLayout& layout : layout_.terms()) {
-    cost += EvaluateTermCost(*layout.term, problem_.variables());
+  for (size_t i = 0; i < left_out_.size(); ++i) {
+    if (left_out_[i]) continue;
+    cost += EvaluateTermCost(*layout_.terms()[i].term, problem_.variables());
   }
   return cost;
 }
 
-double NormalEquations::AddTerm(const TermLayout& layout) {
+// False where the term cannot be evaluated.
+bool NormalEquations::AddTerm(const TermLayout& layout, double* cost) {
   TermEvaluation evaluation;
-  if (!EvaluateTerm(*layout.term, problem_.variables(), &evaluation)) return evaluation.cost;
+  if (!EvaluateTerm(*layout.term, problem_.variables(), &evaluation)) return false;
   const PackedJacobian J(layout, evaluation);
   AddToDense(J, evaluation, &H_dd_, &b_d_);
   if (layout.landmark >= 0) AddToLandmark(layout, J, evaluation, &landmarks_[layout.landmark]);
-  return evaluation.cost;
+  *cost += evaluation.cost;
+  return true;
 }
 
 double NormalEquations::AddPrior() {

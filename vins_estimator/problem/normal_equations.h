@@ -17,7 +17,8 @@ namespace plm_vins {
 //
 // with H = J^T W J, b = J^T W r, W = rho' (robust weight of each term). Landmarks are eliminated
 // one by one (Schur complement). Where a variable has a linearisation point, J is taken there and r
-// at the values.
+// at the values. A term that cannot be evaluated when the equations are first linearised (a
+// landmark behind a camera) is left out for good.
 class NormalEquations {
  public:
   // `problem` must outlive this object and keep its structure; its values may change.
@@ -26,7 +27,8 @@ class NormalEquations {
   // Fills the equations at the current values. Returns the cost.
   double Linearize();
 
-  // The cost alone.
+  // The cost alone. Infinite where a term that is not left out cannot be evaluated: no step may go
+  // there.
   double Cost() const;
 
   // The dense equations with all landmarks eliminated: S step_d = -g. Diagonals are scaled by
@@ -45,11 +47,12 @@ class NormalEquations {
   int dense_size() const { return layout_.dense_size(); }
 
  private:
-  double AddTerm(const TermLayout& layout);
+  bool AddTerm(const TermLayout& layout, double* cost);
   double AddPrior();
 
   const WindowProblem& problem_;
   const EquationLayout layout_;
+  std::vector<bool> left_out_;  // by term
   std::vector<LandmarkEquations> landmarks_;
   Eigen::MatrixXd H_dd_;  // upper triangle
   Eigen::VectorXd b_d_;

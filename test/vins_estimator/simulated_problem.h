@@ -22,8 +22,8 @@ inline void AddAll(SimulatedWindow* simulated, ProblemBuilder* builder) {
 }
 
 // Folds the oldest frame into the prior and takes out what was folded in.
-inline void Slide(const ProblemOptions& options, SimulatedWindow* simulated, MarginalizationPrior* prior,
-           bool keep_pose = false) {
+inline void Slide(const ProblemOptions& options, SimulatedWindow* simulated,
+                  MarginalizationPrior* prior, bool keep_pose = false) {
   const int64_t oldest_ns = simulated->window.frames.front().state.t_ns;
   *prior = MarginalizeOldest(options, *prior, &simulated->window, &simulated->points,
                              &simulated->lines, keep_pose);

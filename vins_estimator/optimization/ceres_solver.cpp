@@ -5,7 +5,6 @@
 #include <ceres/solver.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -64,23 +63,23 @@ class CeresProblem {
   }
 
   void AddTerm(const ResidualTerm& term) {
+    if (!CanBeEvaluated(term, window_.variables())) return;
     std::vector<double*> values;
     std::vector<const double*> linearization;
+    bool linearized_elsewhere = false;
     for (int k = 0; k < term.variable_count; ++k) {
       const Variable& variable = window_.variables()[term.variables[k]];
       values.push_back(variable.values);
       linearization.push_back(variable.linearization);
+      linearized_elsewhere |= variable.linearization != nullptr;
     }
     const ceres::CostFunction* cost = term.cost.get();
-    const bool linearized_elsewhere =
-        std::any_of(linearization.begin(), linearization.end(),
-                    [](const double* point) { return point != nullptr; });
     if (linearized_elsewhere) {
       first_estimate_costs_.push_back(
           std::make_unique<FirstEstimateCost>(cost, std::move(linearization)));
       cost = first_estimate_costs_.back().get();
     }
-    if (CanBeEvaluated(term, window_.variables())) Add(cost, term.loss, values);
+    Add(cost, term.loss, values);
   }
 
   void AddPrior(const MarginalizationPrior& prior) {

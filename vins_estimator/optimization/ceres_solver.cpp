@@ -24,11 +24,13 @@ ceres::Problem::Options BorrowedCosts() {
   return options;
 }
 
-// A WindowProblem in Ceres' terms, over the same memory.
+// A WindowProblem in Ceres' terms, over a copy of its values: Ceres eliminates in order of
+// addresses, and in one array that is the order of the variables, so that the result has the same
+// bytes wherever the window is in memory.
 class CeresProblem {
  public:
   explicit CeresProblem(const WindowProblem& window) : window_(window), problem_(BorrowedCosts()) {
-    for (const Variable& variable : window.variables()) AddVariable(variable);
+    AddVariables();
     for (const ResidualTerm& term : window.terms()) AddTerm(term);
     for (const LandmarkTerms& landmark : window.landmarks()) {
       for (const ResidualTerm& term : landmark.terms) AddTerm(term);
@@ -44,32 +46,43 @@ class CeresProblem {
   // Landmarks first, then the frames.
   std::shared_ptr<ceres::ParameterBlockOrdering> Ordering() const {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-    for (const Variable& variable : window_.variables()) {
-      ordering->AddElementToGroup(variable.values, 1);
-    }
+    for (double* block : blocks_) ordering->AddElementToGroup(block, 1);
     for (const LandmarkTerms& landmark : window_.landmarks()) {
-      ordering->AddElementToGroup(window_.variables()[landmark.variable].values, 0);
+      ordering->AddElementToGroup(blocks_[landmark.variable], 0);
     }
     return ordering;
   }
 
+  void CopyValuesToWindow() const {
+    for (size_t i = 0; i < blocks_.size(); ++i) {
+      const Variable& variable = window_.variables()[i];
+      std::copy(blocks_[i], blocks_[i] + variable.type().ambient_size, variable.values);
+    }
+  }
+
  private:
-  void AddVariable(const Variable& variable) {
-    const VariableType& type = variable.type();
-    problem_.AddParameterBlock(variable.values, type.ambient_size);
-    SetManifold(&problem_, variable.values,
-                {type.ambient_size, type.tangent_size, type.plus, type.minus});
-    if (variable.constant) problem_.SetParameterBlockConstant(variable.values);
+  void AddVariables() {
+    values_.resize(window_.variables().size() * kMaxAmbientSize);
+    double* block = values_.data();
+    for (const Variable& variable : window_.variables()) {
+      const VariableType& type = variable.type();
+      std::copy(variable.values, variable.values + type.ambient_size, block);
+      problem_.AddParameterBlock(block, type.ambient_size);
+      SetManifold(&problem_, block, {type.ambient_size, type.tangent_size, type.plus, type.minus});
+      if (variable.constant) problem_.SetParameterBlockConstant(block);
+      blocks_.push_back(block);
+      block += kMaxAmbientSize;
+    }
   }
 
   void AddTerm(const ResidualTerm& term) {
     if (!CanBeEvaluated(term, window_.variables())) return;
-    std::vector<double*> values;
+    std::vector<double*> blocks;
     std::vector<const double*> linearization;
     bool linearized_elsewhere = false;
     for (int k = 0; k < term.variable_count; ++k) {
       const Variable& variable = window_.variables()[term.variables[k]];
-      values.push_back(variable.values);
+      blocks.push_back(blocks_[term.variables[k]]);
       linearization.push_back(variable.linearization);
       linearized_elsewhere |= variable.linearization != nullptr;
     }
@@ -79,29 +92,31 @@ class CeresProblem {
           std::make_unique<FirstEstimateCost>(cost, std::move(linearization)));
       cost = first_estimate_costs_.back().get();
     }
-    Add(cost, term.loss, values);
+    Add(cost, term.loss, blocks);
   }
 
   void AddPrior(const MarginalizationPrior& prior) {
-    std::vector<double*> values;
+    std::vector<double*> blocks;
     for (const MarginalizationPrior::Block& block : prior.blocks()) {
-      values.push_back(window_.variables()[window_.Find(block.id)].values);
+      blocks.push_back(blocks_[window_.Find(block.id)]);
     }
     prior_ = std::make_unique<PriorCost>(prior);
-    Add(prior_.get(), nullptr, values);
+    Add(prior_.get(), nullptr, blocks);
   }
 
   // Ceres asks for more than it needs: neither cost nor loss has anything to change.
   void Add(const ceres::CostFunction* cost, const ceres::LossFunction* loss,
-           const std::vector<double*>& values) {
+           const std::vector<double*>& blocks) {
     problem_.AddResidualBlock(const_cast<ceres::CostFunction*>(cost),
-                              const_cast<ceres::LossFunction*>(loss), values);
+                              const_cast<ceres::LossFunction*>(loss), blocks);
   }
 
   const WindowProblem& window_;
+  std::vector<double> values_;
+  std::vector<double*> blocks_;  // of the values, by variable
   std::vector<std::unique_ptr<const FirstEstimateCost>> first_estimate_costs_;
   std::unique_ptr<const PriorCost> prior_;
-  ceres::Problem problem_;  // last: refers to the costs
+  ceres::Problem problem_;  // last: refers to all the others
 };
 
 ceres::Solver::Options ToCeres(const SolverOptions& options) {
@@ -132,6 +147,7 @@ SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& wi
   // The first entry is the evaluation at the start.
   summary.iterations = std::max(static_cast<int>(ceres_summary.iterations.size()) - 1, 0);
   summary.solved = ceres_summary.IsSolutionUsable();
+  if (summary.solved) problem.CopyValuesToWindow();
   return summary;
 }
 

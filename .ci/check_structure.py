@@ -22,7 +22,7 @@ ESTIMATOR_LAYERS = {
     "map": "state geometry imu",
     "factors": "state geometry imu",
     "problem": "state geometry map factors",
-    "optimization": "problem",
+    "optimization": "factors problem",
     "marginalization": "state map problem",
     "manhattan": "state geometry map",
     "merging": "state geometry map",

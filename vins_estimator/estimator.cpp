@@ -9,6 +9,7 @@
 #include "vins_estimator/manhattan/line_directions.h"
 #include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/merging/line_merging.h"
+#include "vins_estimator/optimization/ceres_solver.h"
 #include "vins_estimator/optimization/levenberg_marquardt.h"
 #include "vins_estimator/recall/line_recognition.h"
 
@@ -216,7 +217,12 @@ void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
   NormalEquations equations(builder.problem());
   SolverOptions options;
   options.max_iterations = max_iterations;
-  Solve(options, builder.problem(), &equations);
+  if (config_.estimator.solver == SolverType::kCeres) {
+    SolveByCeres(options, builder.problem());
+    equations.Linearize();
+  } else {
+    Solve(options, builder.problem(), &equations);
+  }
 
   const int64_t newest_ns = map.window.newest().state.t_ns;
   const Eigen::MatrixXd covariance =

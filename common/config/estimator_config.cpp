@@ -10,6 +10,8 @@ ConfigKeys<EstimatorConfig> EstimatorKeys() {
       Key::Integer("window_size", "keyframes", {4, 50}, &E::window_size),
       Key::Number("keyframe_parallax", "px", {0.1, 200}, &E::keyframe_parallax),
       Key::Integer("max_num_iterations", "", {1, 100}, &E::max_num_iterations),
+      Key::Choice<SolverType>(
+          "solver", {{"schur", SolverType::kSchur}, {"ceres", SolverType::kCeres}}, &E::solver),
       Key::Number("point_noise", "px", {0.01, 20}, &E::point_noise),
       Key::Number("line_noise", "px", {0.01, 20}, &E::line_noise),
       Key::Number("line_outlier_distance", "m", {0.1, 1000}, &E::line_outlier_distance),

@@ -5,12 +5,16 @@
 
 namespace plm_vins {
 
+// Of the window; see docs/solver.md.
+enum class SolverType { kSchur, kCeres };
+
 struct EstimatorConfig {
   int window_size = 10;             // keyframes kept beside the newest frame
   double keyframe_parallax = 20.0;  // mean parallax that makes a keyframe [px]
   int max_num_iterations = 8;       // of the window optimisation
-  double point_noise = 0.7;         // standard deviation of a corner [px]
-  double line_noise = 0.5;          // standard deviation of a line's end across the line [px]
+  SolverType solver = SolverType::kSchur;
+  double point_noise = 0.7;  // standard deviation of a corner [px]
+  double line_noise = 0.5;   // standard deviation of a line's end across the line [px]
 
   double line_outlier_distance = 10.0;     // longest line that is believed [m]
   bool line_merging = true;                // one landmark for what is one line

@@ -33,39 +33,43 @@ void PoseMinus(const double* y, const double* x, double* y_minus_x) {
   rotation = SO3Log(ConstQuaternion(x + 3).conjugate() * ConstQuaternion(y + 3));
 }
 
-bool PoseManifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
-  PosePlus(x, delta, x_plus_delta);
+bool TangentManifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
+  plus_(x, delta, x_plus_delta);
   return true;
 }
 
 #if PLM_CERES_HAS_MANIFOLD
-bool PoseManifold::PlusJacobian(const double* /*x*/, double* jacobian) const {
-  SetIdentity(kPoseSize, kPoseTangentSize, jacobian);
+bool TangentManifold::PlusJacobian(const double* /*x*/, double* jacobian) const {
+  SetIdentity(ambient_size_, tangent_size_, jacobian);
   return true;
 }
 
-bool PoseManifold::Minus(const double* y, const double* x, double* y_minus_x) const {
-  PoseMinus(y, x, y_minus_x);
+bool TangentManifold::Minus(const double* y, const double* x, double* y_minus_x) const {
+  minus_(y, x, y_minus_x);
   return true;
 }
 
-bool PoseManifold::MinusJacobian(const double* /*x*/, double* jacobian) const {
-  SetIdentity(kPoseTangentSize, kPoseSize, jacobian);
+bool TangentManifold::MinusJacobian(const double* /*x*/, double* jacobian) const {
+  SetIdentity(tangent_size_, ambient_size_, jacobian);
   return true;
 }
 
-void SetPoseManifold(ceres::Problem* problem, double* pose) {
-  problem->SetManifold(pose, new PoseManifold());  // the problem takes ownership
+void SetManifold(ceres::Problem* problem, double* values, const TangentManifold& manifold) {
+  problem->SetManifold(values, new TangentManifold(manifold));  // the problem takes ownership
 }
 #else
-bool PoseManifold::ComputeJacobian(const double* /*x*/, double* jacobian) const {
-  SetIdentity(kPoseSize, kPoseTangentSize, jacobian);
+bool TangentManifold::ComputeJacobian(const double* /*x*/, double* jacobian) const {
+  SetIdentity(ambient_size_, tangent_size_, jacobian);
   return true;
 }
 
-void SetPoseManifold(ceres::Problem* problem, double* pose) {
-  problem->SetParameterization(pose, new PoseManifold());  // the problem takes ownership
+void SetManifold(ceres::Problem* problem, double* values, const TangentManifold& manifold) {
+  problem->SetParameterization(values, new TangentManifold(manifold));  // ... takes ownership
 }
 #endif
+
+void SetPoseManifold(ceres::Problem* problem, double* pose) {
+  SetManifold(problem, pose, {kPoseSize, kPoseTangentSize, &PosePlus, &PoseMinus});
+}
 
 }  // namespace plm_vins

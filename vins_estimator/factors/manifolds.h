@@ -8,7 +8,7 @@
 // Convention for every cost function of this project: the Jacobian with respect to a pose is the
 // derivative by the tangent of Plus at zero, 6 columns, followed by one column of zeros. To match,
 // PlusJacobian() is [I; 0], so that Ceres' product of both is the tangent Jacobian itself. The 7
-// columns are *not* derivatives by the 7 numbers of the pose.
+// columns are *not* derivatives by the 7 numbers of the pose. The same holds for lines (5 -> 4).
 #pragma once
 
 #include <ceres/problem.h>
@@ -33,27 +33,50 @@ void PosePlus(const double* x, const double* delta, double* x_plus_delta);
 // The delta with y = x [+] delta; its rotation is at most pi long.
 void PoseMinus(const double* y, const double* x, double* y_minus_x);
 
+using PlusFunction = void (*)(const double* x, const double* delta, double* x_plus_delta);
+using MinusFunction = void (*)(const double* y, const double* x, double* y_minus_x);
+
+// What Plus and Minus do, as Ceres wants it.
 #if PLM_CERES_HAS_MANIFOLD
-class PoseManifold final : public ceres::Manifold {
+class TangentManifold final : public ceres::Manifold {
  public:
-  int AmbientSize() const override { return kPoseSize; }
-  int TangentSize() const override { return kPoseTangentSize; }
+  TangentManifold(int ambient_size, int tangent_size, PlusFunction plus, MinusFunction minus)
+      : ambient_size_(ambient_size), tangent_size_(tangent_size), plus_(plus), minus_(minus) {}
+
+  int AmbientSize() const override { return ambient_size_; }
+  int TangentSize() const override { return tangent_size_; }
   bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
   bool PlusJacobian(const double* x, double* jacobian) const override;  // [I; 0], see above
   bool Minus(const double* y, const double* x, double* y_minus_x) const override;
   bool MinusJacobian(const double* x, double* jacobian) const override;  // [I, 0]
+
+ private:
+  int ambient_size_, tangent_size_;
+  PlusFunction plus_;
+  MinusFunction minus_;
 };
 #else
-class PoseManifold final : public ceres::LocalParameterization {
+class TangentManifold final : public ceres::LocalParameterization {
  public:
-  int GlobalSize() const override { return kPoseSize; }
-  int LocalSize() const override { return kPoseTangentSize; }
+  // There is no Minus in this interface.
+  TangentManifold(int ambient_size, int tangent_size, PlusFunction plus, MinusFunction /*minus*/)
+      : ambient_size_(ambient_size), tangent_size_(tangent_size), plus_(plus) {}
+
+  int GlobalSize() const override { return ambient_size_; }
+  int LocalSize() const override { return tangent_size_; }
   bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
   bool ComputeJacobian(const double* x, double* jacobian) const override;  // [I; 0], see above
+
+ private:
+  int ambient_size_, tangent_size_;
+  PlusFunction plus_;
 };
 #endif
 
-// Declares `pose`, a parameter block that `problem` has already, to live on the manifold.
+// Declares `values`, a parameter block that `problem` has already, to live on a manifold.
+void SetManifold(ceres::Problem* problem, double* values, const TangentManifold& manifold);
+
+// The same for a pose.
 void SetPoseManifold(ceres::Problem* problem, double* pose);
 
 }  // namespace plm_vins

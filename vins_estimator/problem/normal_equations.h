@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "vins_estimator/problem/equation_layout.h"
+#include "vins_estimator/problem/landmark_equations.h"
 #include "vins_estimator/problem/window_problem.h"
 
 namespace plm_vins {
@@ -15,21 +17,18 @@ namespace plm_vins {
 //
 // with H = J^T W J, b = J^T W r, W = rho' (robust weight of each term). Landmarks are eliminated
 // one by one (Schur complement). Where a variable has a linearisation point, J is taken there and r
-// at the values.
+// at the values. A term that cannot be evaluated when the equations are first linearised (a
+// landmark behind a camera) is left out for good.
 class NormalEquations {
  public:
-  static constexpr int kMaxLandmarkSize = 4;
-  using LandmarkMatrix =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxLandmarkSize, kMaxLandmarkSize>;
-  using LandmarkVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxLandmarkSize, 1>;
-
   // `problem` must outlive this object and keep its structure; its values may change.
   explicit NormalEquations(const WindowProblem& problem);
 
   // Fills the equations at the current values. Returns the cost.
   double Linearize();
 
-  // The cost alone.
+  // The cost alone. Infinite where a term that is not left out cannot be evaluated: no step may go
+  // there.
   double Cost() const;
 
   // The dense equations with all landmarks eliminated: S step_d = -g. Diagonals are scaled by
@@ -44,51 +43,16 @@ class NormalEquations {
   Eigen::MatrixXd Covariance(const std::vector<BlockId>& ids) const;
 
   // First row of a variable in the dense equations; -1 for constants and landmarks.
-  int DenseOffset(int variable) const { return dense_offset_[variable]; }
-  int dense_size() const { return dense_size_; }
+  int DenseOffset(int variable) const { return layout_.dense_offset()[variable]; }
+  int dense_size() const { return layout_.dense_size(); }
 
  private:
-  // Neighbouring columns of H_ld that are neighbours in the dense equations as well.
-  struct ColumnRun {
-    int local = 0;
-    int dense = 0;
-    int size = 0;
-  };
-
-  // One landmark's share of the equations, over the dense columns that its terms touch.
-  struct LandmarkEquations {
-    std::vector<ColumnRun> runs;
-    LandmarkMatrix H_ll;
-    LandmarkVector b_l;
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> H_ld;
-  };
-
-  // Where one variable of a term goes: columns of J to rows of the equations.
-  struct Slot {
-    int block = 0;         // position among the term's variables
-    int size = 0;          // tangent size
-    int dense_offset = 0;  // first dense column
-    int local_offset = 0;  // first column in its landmark's H_ld
-  };
-
-  // A term together with its slots in order of dense columns.
-  struct TermLayout {
-    const ResidualTerm* term = nullptr;
-    std::vector<Slot> slots;
-    int landmark = -1;        // index, or -1
-    int landmark_block = -1;  // position of the landmark among the term's variables
-  };
-
-  void LayOutFrameVariables();
-  TermLayout LayOut(const ResidualTerm& term, int landmark) const;
-  void LayOutLandmark(int landmark);
-  double AddTerm(const TermLayout& layout);
+  bool AddTerm(const TermLayout& layout, double* cost);
   double AddPrior();
 
   const WindowProblem& problem_;
-  std::vector<int> dense_offset_;  // by variable
-  int dense_size_ = 0;
-  std::vector<TermLayout> layouts_;
+  const EquationLayout layout_;
+  std::vector<bool> left_out_;  // by term
   std::vector<LandmarkEquations> landmarks_;
   Eigen::MatrixXd H_dd_;  // upper triangle
   Eigen::VectorXd b_d_;

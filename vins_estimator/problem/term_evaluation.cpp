@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 
 namespace plm_vins {
 namespace {
@@ -52,8 +53,18 @@ double EvaluateTermCost(const ResidualTerm& term, const std::vector<Variable>& v
   ParameterPointers values;
   for (int i = 0; i < term.variable_count; ++i) values[i] = variables[term.variables[i]].values;
   double residual[TermEvaluation::kMaxRows];
-  if (!term.cost->Evaluate(values.data(), residual, nullptr)) return kInvalidTermCost;
+  if (!term.cost->Evaluate(values.data(), residual, nullptr)) {
+    return std::numeric_limits<double>::infinity();
+  }
   return 0.5 * Robustify(term.loss, SquaredNorm(residual, term.cost->num_residuals()))[0];
+}
+
+bool CanBeEvaluated(const ResidualTerm& term, const std::vector<Variable>& variables) {
+  ParameterPointers values = {}, linearization = {};
+  const bool linearized_elsewhere = GatherParameters(term, variables, &values, &linearization);
+  double residual[TermEvaluation::kMaxRows];
+  return term.cost->Evaluate(values.data(), residual, nullptr) &&
+         (!linearized_elsewhere || term.cost->Evaluate(linearization.data(), residual, nullptr));
 }
 
 bool EvaluateTerm(const ResidualTerm& term, const std::vector<Variable>& variables,
@@ -69,7 +80,6 @@ bool EvaluateTerm(const ResidualTerm& term, const std::vector<Variable>& variabl
   double* residual = evaluation->residual.data();
   if (!term.cost->Evaluate(linearization.data(), residual, jacobians.data()) ||
       (linearized_elsewhere && !term.cost->Evaluate(values.data(), residual, nullptr))) {
-    evaluation->cost = EvaluateTermCost(term, variables);
     return false;
   }
   const auto [cost, weight] = Robustify(term.loss, SquaredNorm(residual, evaluation->rows));

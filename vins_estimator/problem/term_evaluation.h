@@ -19,15 +19,16 @@ struct TermEvaluation {
   std::array<std::array<double, kMaxRows * kMaxAmbientSize>, ResidualTerm::kMaxVariables> jacobians;
 };
 
-// Cost charged for a term that cannot be evaluated (a landmark behind a camera): more than an
-// outlier costs, so that no step goes there for gain.
-constexpr double kInvalidTermCost = 50.0;
-
-// The cost 0.5 rho(|r|^2) of a term at the current values.
+// The cost 0.5 rho(|r|^2) of a term at the current values; infinite where it cannot be evaluated (a
+// landmark behind a camera).
 double EvaluateTermCost(const ResidualTerm& term, const std::vector<Variable>& variables);
 
+// Whether the residual can be evaluated, both at the current values and at the linearisation
+// points.
+bool CanBeEvaluated(const ResidualTerm& term, const std::vector<Variable>& variables);
+
 // Residual and cost at the current values, Jacobians at the linearisation points. False where
-// either cannot be evaluated; the term then has its cost but no say in the equations.
+// either cannot be evaluated; `evaluation` then means nothing.
 bool EvaluateTerm(const ResidualTerm& term, const std::vector<Variable>& variables,
                   TermEvaluation* evaluation);
 

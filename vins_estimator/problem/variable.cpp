@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/geometry/plucker.h"
 
 namespace plm_vins {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/problem/block_id.h"
 
 namespace plm_vins {
@@ -9,8 +10,8 @@ namespace plm_vins {
 struct VariableType {
   int ambient_size = 0;
   int tangent_size = 0;
-  void (*plus)(const double* x, const double* delta, double* x_plus_delta) = nullptr;
-  void (*minus)(const double* y, const double* x, double* y_minus_x) = nullptr;
+  PlusFunction plus = nullptr;
+  MinusFunction minus = nullptr;
 };
 
 constexpr int kMaxAmbientSize = 9;

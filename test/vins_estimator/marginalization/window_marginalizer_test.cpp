@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "test/testing/numeric_jacobian.h"
-#include "test/vins_estimator/simulated_window.h"
+#include "test/vins_estimator/simulated_problem.h"
 #include "vins_estimator/marginalization/window_estimate.h"
 #include "vins_estimator/problem/normal_equations.h"
 
@@ -19,17 +19,9 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using testing::SimulatedWindow;
 
-// All that is left in the window, and the prior.
 ProblemBuilder BuildProblem(const ProblemOptions& options, WindowEstimate* estimate) {
   ProblemBuilder builder(options, &estimate->map.window, &estimate->prior);
-  builder.AddPrior();
-  for (size_t i = 1; i < estimate->map.window.frames.size(); ++i) builder.AddMotion(i);
-  for (auto& [id, landmark] : estimate->map.points.landmarks()) {
-    if (landmark.triangulated && landmark.views.size() > 1) builder.AddPoint(&landmark);
-  }
-  for (auto& [id, landmark] : estimate->map.lines.landmarks()) {
-    if (landmark.triangulated && landmark.views.size() > 1) builder.AddLine(&landmark);
-  }
+  testing::AddAll(&estimate->map, &builder);
   return builder;
 }
 

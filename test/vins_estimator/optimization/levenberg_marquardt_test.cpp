@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/optimization/levenberg_marquardt.h"
 
-#include <ceres/problem.h>
-#include <ceres/solver.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -91,61 +89,12 @@ class LevenbergMarquardtTest : public ::testing::Test {
     }
   }
 
-  void AddToCeres(const ResidualTerm& term, ceres::Problem* problem) const {
-    std::vector<double*> blocks;
-    for (int k = 0; k < term.variable_count; ++k) {
-      blocks.push_back(problem_.variables()[term.variables[k]].values);
-    }
-    problem->AddResidualBlock(const_cast<ceres::CostFunction*>(term.cost.get()),
-                              const_cast<ceres::LossFunction*>(term.loss), blocks);
-  }
-
-  // The same problem, solved by Ceres. Returns the final cost.
-  double SolveByCeres() const {
-    ceres::Problem::Options ownership;
-    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ceres::Problem problem(ownership);
-    for (const ResidualTerm& term : problem_.terms()) AddToCeres(term, &problem);
-    for (const LandmarkTerms& landmark : problem_.landmarks()) {
-      for (const ResidualTerm& term : landmark.terms) AddToCeres(term, &problem);
-    }
-    for (const Variable& variable : problem_.variables()) {
-      if (!problem.HasParameterBlock(variable.values)) continue;
-      if (variable.type().ambient_size == kPoseSize) SetPoseManifold(&problem, variable.values);
-      if (variable.constant) problem.SetParameterBlockConstant(variable.values);
-    }
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.max_num_iterations = 200;
-    options.function_tolerance = options.parameter_tolerance = options.gradient_tolerance = 1e-14;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-    return summary.final_cost;
-  }
-
   testing::SimulatedWindow simulated_;
   ceres::CauchyLoss loss_;
   WindowProblem problem_;
   std::optional<NormalEquations> equations_;
   SolverOptions thorough_;
 };
-
-TEST_F(LevenbergMarquardtTest, FindsTheMinimumThatCeresFinds) {
-  for (uint64_t seed = 1; seed <= 3; ++seed) {
-    Disturb(0.02, seed);
-    const std::vector<double> start = Values();
-    const SolverSummary summary = Solve(thorough_, problem_, &*equations_);
-    const std::vector<double> result = Values();
-    ASSERT_TRUE(summary.solved);
-    EXPECT_LT(summary.final_cost, summary.initial_cost);
-    SetValues(start);
-    EXPECT_NEAR(summary.final_cost / SolveByCeres(), 1, 1e-6);
-    const std::vector<double> expected = Values();
-    EXPECT_MATRIX_NEAR(Eigen::Map<const Eigen::VectorXd>(result.data(), result.size()),
-                       Eigen::Map<const Eigen::VectorXd>(expected.data(), expected.size()), 1e-4);
-  }
-}
 
 TEST_F(LevenbergMarquardtTest, FewDefaultIterationsAreEnoughFromAPrediction) {
   const double lowest = Solve(thorough_, problem_, &*equations_).final_cost;

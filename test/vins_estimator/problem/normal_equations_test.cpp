@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <limits>
 #include <set>
 
 #include "test/testing/numeric_jacobian.h"
@@ -134,6 +135,26 @@ TEST_F(NormalEquationsTest, WithoutAnchorThereIsNoCovariance) {
   NormalEquations equations(problem);
   EXPECT_EQ(equations.Linearize(), 0);
   EXPECT_EQ(equations.Covariance({{BlockKind::kMotion, 1}}).size(), 0);
+}
+
+TEST_F(NormalEquationsTest, TermsThatCannotBeEvaluatedAtFirstAreLeftOutForGood) {
+  const Variable& point = problem().variables()[problem().landmarks()[0].variable];
+  ASSERT_EQ(point.id.kind, BlockKind::kPoint);
+  const double all = equations_->Cost();
+  point.values[2] = -point.values[2];  // behind its host
+  const double rest = equations_->Linearize();
+  EXPECT_LT(rest, all);
+  EXPECT_NEAR(equations_->Cost() / rest, 1, 1e-12);
+  point.values[2] = -point.values[2];
+  EXPECT_NEAR(equations_->Cost() / rest, 1, 1e-12);
+  EXPECT_NEAR(equations_->Linearize() / rest, 1, 1e-12);
+}
+
+TEST_F(NormalEquationsTest, ATermThatCanNoLongerBeEvaluatedMakesTheCostInfinite) {
+  equations_->Linearize();
+  const Variable& point = problem().variables()[problem().landmarks()[0].variable];
+  point.values[2] = -point.values[2];
+  EXPECT_EQ(equations_->Cost(), std::numeric_limits<double>::infinity());
 }
 
 TEST_F(NormalEquationsTest, GradientIsTheDerivativeOfTheCost) {

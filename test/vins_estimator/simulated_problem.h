@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The least-squares problem of a simulated window, for the tests of solving and marginalising.
+#pragma once
+
+#include "test/vins_estimator/simulated_window.h"
+#include "vins_estimator/problem/problem_builder.h"
+
+namespace plm_vins::testing {
+
+// All that is in the window, and the prior.
+inline void AddAll(SimulatedWindow* simulated, ProblemBuilder* builder) {
+  builder->AddPrior();
+  for (size_t i = 1; i < simulated->window.frames.size(); ++i) builder->AddMotion(i);
+  for (auto& [id, landmark] : simulated->points.landmarks()) {
+    if (landmark.triangulated && landmark.views.size() > 1) builder->AddPoint(&landmark);
+  }
+  for (auto& [id, landmark] : simulated->lines.landmarks()) {
+    if (landmark.triangulated && landmark.views.size() > 1) builder->AddLine(&landmark);
+  }
+}
+
+}  // namespace plm_vins::testing

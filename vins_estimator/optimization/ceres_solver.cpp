@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/optimization/ceres_solver.h"
+
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "vins_estimator/factors/manifolds.h"
+#include "vins_estimator/optimization/first_estimate_cost.h"
+#include "vins_estimator/optimization/prior_cost.h"
+#include "vins_estimator/problem/term_evaluation.h"
+
+namespace plm_vins {
+namespace {
+
+ceres::Problem::Options BorrowedCosts() {
+  ceres::Problem::Options options;
+  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  return options;
+}
+
+// A WindowProblem in Ceres' terms, over a copy of its values: Ceres eliminates in order of
+// addresses, and in one array that is the order of the variables, so that the result has the same
+// bytes wherever the window is in memory.
+class CeresProblem {
+ public:
+  explicit CeresProblem(const WindowProblem& window) : window_(window), problem_(BorrowedCosts()) {
+    AddVariables();
+    for (const ResidualTerm& term : window.terms()) AddTerm(term);
+    for (const LandmarkTerms& landmark : window.landmarks()) {
+      for (const ResidualTerm& term : landmark.terms) AddTerm(term);
+    }
+    if (window.prior() != nullptr && !window.prior()->empty()) AddPrior(*window.prior());
+  }
+
+  ceres::Problem* problem() { return &problem_; }
+
+  // What the costs of Ceres have more than those of the window.
+  double constant() const { return prior_ ? prior_->constant() : 0; }
+
+  // Landmarks first, then the frames.
+  std::shared_ptr<ceres::ParameterBlockOrdering> Ordering() const {
+    auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    for (double* block : blocks_) ordering->AddElementToGroup(block, 1);
+    for (const LandmarkTerms& landmark : window_.landmarks()) {
+      ordering->AddElementToGroup(blocks_[landmark.variable], 0);
+    }
+    return ordering;
+  }
+
+  void CopyValuesToWindow() const {
+    for (size_t i = 0; i < blocks_.size(); ++i) {
+      const Variable& variable = window_.variables()[i];
+      std::copy(blocks_[i], blocks_[i] + variable.type().ambient_size, variable.values);
+    }
+  }
+
+ private:
+  void AddVariables() {
+    values_.resize(window_.variables().size() * kMaxAmbientSize);
+    double* block = values_.data();
+    for (const Variable& variable : window_.variables()) {
+      const VariableType& type = variable.type();
+      std::copy(variable.values, variable.values + type.ambient_size, block);
+      problem_.AddParameterBlock(block, type.ambient_size);
+      SetManifold(&problem_, block, {type.ambient_size, type.tangent_size, type.plus, type.minus});
+      if (variable.constant) problem_.SetParameterBlockConstant(block);
+      blocks_.push_back(block);
+      block += kMaxAmbientSize;
+    }
+  }
+
+  void AddTerm(const ResidualTerm& term) {
+    if (!CanBeEvaluated(term, window_.variables())) return;
+    std::vector<double*> blocks;
+    std::vector<const double*> linearization;
+    bool linearized_elsewhere = false;
+    for (int k = 0; k < term.variable_count; ++k) {
+      const Variable& variable = window_.variables()[term.variables[k]];
+      blocks.push_back(blocks_[term.variables[k]]);
+      linearization.push_back(variable.linearization);
+      linearized_elsewhere |= variable.linearization != nullptr;
+    }
+    const ceres::CostFunction* cost = term.cost.get();
+    if (linearized_elsewhere) {
+      first_estimate_costs_.push_back(
+          std::make_unique<FirstEstimateCost>(cost, std::move(linearization)));
+      cost = first_estimate_costs_.back().get();
+    }
+    Add(cost, term.loss, blocks);
+  }
+
+  void AddPrior(const MarginalizationPrior& prior) {
+    std::vector<double*> blocks;
+    for (const MarginalizationPrior::Block& block : prior.blocks()) {
+      blocks.push_back(blocks_[window_.Find(block.id)]);
+    }
+    prior_ = std::make_unique<PriorCost>(prior);
+    Add(prior_.get(), nullptr, blocks);
+  }
+
+  // Ceres asks for more than it needs: neither cost nor loss has anything to change.
+  void Add(const ceres::CostFunction* cost, const ceres::LossFunction* loss,
+           const std::vector<double*>& blocks) {
+    problem_.AddResidualBlock(const_cast<ceres::CostFunction*>(cost),
+                              const_cast<ceres::LossFunction*>(loss), blocks);
+  }
+
+  const WindowProblem& window_;
+  std::vector<double> values_;
+  std::vector<double*> blocks_;  // of the values, by variable
+  std::vector<std::unique_ptr<const FirstEstimateCost>> first_estimate_costs_;
+  std::unique_ptr<const PriorCost> prior_;
+  ceres::Problem problem_;  // last: refers to all the others
+};
+
+ceres::Solver::Options ToCeres(const SolverOptions& options) {
+  ceres::Solver::Options result;
+  result.linear_solver_type = ceres::DENSE_SCHUR;
+  result.num_threads = 1;
+  result.logging_type = ceres::SILENT;
+  result.max_num_iterations = options.max_iterations;
+  result.initial_trust_region_radius = 1 / options.initial_damping;
+  result.function_tolerance = options.cost_tolerance;
+  result.parameter_tolerance = options.step_tolerance;
+  result.gradient_tolerance = 0;
+  return result;
+}
+
+}  // namespace
+
+SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& window) {
+  CeresProblem problem(window);
+  ceres::Solver::Options ceres_options = ToCeres(options);
+  ceres_options.linear_solver_ordering = problem.Ordering();
+  ceres::Solver::Summary ceres_summary;
+  ceres::Solve(ceres_options, problem.problem(), &ceres_summary);
+
+  SolverSummary summary;
+  summary.initial_cost = ceres_summary.initial_cost - problem.constant();
+  summary.final_cost = ceres_summary.final_cost - problem.constant();
+  // The first entry is the evaluation at the start.
+  summary.iterations = std::max(static_cast<int>(ceres_summary.iterations.size()) - 1, 0);
+  summary.solved = ceres_summary.IsSolutionUsable();
+  if (summary.solved) problem.CopyValuesToWindow();
+  return summary;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vins_estimator/optimization/levenberg_marquardt.h"
+#include "vins_estimator/problem/window_problem.h"
+
+namespace plm_vins {
+
+// The same as Solve(), by ceres::Solve: the same terms and prior, Jacobians at the same points, the
+// same limits, one thread; landmarks are eliminated first. A term that cannot be evaluated at the
+// start (a landmark behind a camera) is left out, since Ceres solves nothing then.
+//
+// Both end where the gradient by the Jacobians vanishes, if they are given the iterations. On the
+// way they differ: in the damping, and in the tolerances, which Ceres takes relative to a cost that
+// has a constant more (see PriorCost) and to the length of all values.
+SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& problem);
+
+}  // namespace plm_vins

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "vins_estimator/problem/window_problem.h"
+
+namespace plm_vins {
+
+// Where one variable of a term goes: columns of its Jacobian to columns of the equations.
+struct Slot {
+  int block = 0;         // position among the term's variables
+  int size = 0;          // tangent size
+  int stride = 0;        // columns of its Jacobian: ambient size
+  int dense_offset = 0;  // first dense column
+  int local_offset = 0;  // first column in its landmark's H_ld
+};
+
+// A term together with its dense variables, in order of their columns.
+struct TermLayout {
+  const ResidualTerm* term = nullptr;
+  std::array<Slot, ResidualTerm::kMaxVariables> slots;
+  int slot_count = 0;
+  int landmark = -1;        // index, or -1
+  int landmark_block = -1;  // its position among the term's variables
+  int landmark_stride = 0;  // columns of its Jacobian
+
+  const Slot* begin() const { return slots.data(); }
+  const Slot* end() const { return slots.data() + slot_count; }
+};
+
+// Neighbouring columns of a landmark's H_ld that are neighbours in the dense equations as well.
+struct ColumnRun {
+  int local = 0;
+  int dense = 0;
+  int size = 0;
+};
+
+// The dense columns that the terms of a landmark touch, as few runs as possible.
+struct LandmarkLayout {
+  std::vector<ColumnRun> runs;
+  int columns = 0;  // of all runs
+};
+
+// Where the variables of a problem are in its equations (see NormalEquations): frame variables in
+// dense columns, poses first, so that the frames of a landmark are neighbours; each landmark in
+// equations of its own; constants nowhere.
+class EquationLayout {
+ public:
+  // `problem` must outlive this object and keep its structure.
+  explicit EquationLayout(const WindowProblem& problem);
+
+  // First dense column by variable; -1 for constants and landmarks.
+  const std::vector<int>& dense_offset() const { return dense_offset_; }
+  int dense_size() const { return dense_size_; }
+
+  // The terms among frames, then those of each landmark.
+  const std::vector<TermLayout>& terms() const { return terms_; }
+  const std::vector<LandmarkLayout>& landmarks() const { return landmarks_; }
+
+ private:
+  void LayOutFrameVariables();
+  TermLayout LayOut(const ResidualTerm& term, int landmark) const;
+  void LayOutLandmark(int landmark);
+
+  const WindowProblem& problem_;
+  std::vector<int> dense_offset_;
+  int dense_size_ = 0;
+  std::vector<TermLayout> terms_;
+  std::vector<LandmarkLayout> landmarks_;
+};
+
+}  // namespace plm_vins

@@ -40,11 +40,14 @@ LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)(?:#([^)\s]+))?\)")
 SPDX = "// SPDX-License-Identifier: BSD-3-Clause"
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60
+MAX_COLUMNS = 100
 
 
 def main(root):
     problems = [problem for path in code_files(root) for problem in check_code(root, path)]
     problems += [problem for path in text_files(root) for problem in check_paths(root, path)]
+    problems += [problem for path in text_files(root) if path.suffix == ".py"
+                 for problem in check_columns(root, path)]
     problems += [problem for path in text_files(root) if path.suffix == ".md"
                  for problem in check_links(root, path)]
     problems += check_functions(root)
@@ -97,6 +100,13 @@ def check_paths(root, path):
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
         if HOME_PATH.search(line):
             yield f"{path.relative_to(root)}:{number}: absolute path of one machine"
+
+
+def check_columns(root, path):
+    """Python; the columns of C++ are clang-format's business."""
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        if len(line) > MAX_COLUMNS:
+            yield f"{path.relative_to(root)}:{number}: {len(line)} columns, at most {MAX_COLUMNS}"
 
 
 def check_links(root, path):

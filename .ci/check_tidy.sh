@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Runs clang-tidy on the sources that were changed last: on a branch since it left main, else in the
-# last 20 commits; at most 12 of them, the newest. Usage: check_tidy.sh [SOURCE ...]
+# last 20 commits; at most 20 of them, the newest. Usage: check_tidy.sh [SOURCE ...]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=build/tidy
-limit=12
+limit=20
 
 # Newest first; a header stands for the source of its name.
 changed_sources() {

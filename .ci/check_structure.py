@@ -13,8 +13,9 @@ import shutil
 import subprocess
 import sys
 
-# The layers of the estimator, from the bottom to the top, each with those that it may include beside
-# common/ and itself. estimator_output.h is one of its own: plain data, for those who only read it.
+# The layers of the estimator, from the bottom to the top, each with those that it may include
+# beside common/ and itself. estimator_output.h is one of its own: plain data, for those who only
+# read it.
 ESTIMATOR_LAYERS = {
     "state": "",
     "geometry": "state",
@@ -74,11 +75,14 @@ LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)(?:#([^)\s]+))?\)")
 SPDX = "// SPDX-License-Identifier: BSD-3-Clause"
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60
+MAX_COLUMNS = 100
 
 
 def main(root):
     problems = [problem for path in code_files(root) for problem in check_code(root, path)]
     problems += [problem for path in text_files(root) for problem in check_paths(root, path)]
+    problems += [problem for path in text_files(root) if path.suffix == ".py"
+                 for problem in check_columns(root, path)]
     problems += [problem for path in text_files(root) if path.suffix == ".md"
                  for problem in check_links(root, path)]
     problems += check_circles(root)
@@ -181,6 +185,13 @@ def check_paths(root, path):
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
         if HOME_PATH.search(line):
             yield f"{path.relative_to(root)}:{number}: absolute path of one machine"
+
+
+def check_columns(root, path):
+    """Python; the columns of C++ are clang-format's business."""
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        if len(line) > MAX_COLUMNS:
+            yield f"{path.relative_to(root)}:{number}: {len(line)} columns, at most {MAX_COLUMNS}"
 
 
 def check_links(root, path):

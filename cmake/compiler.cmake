@@ -2,7 +2,6 @@
 set(CMAKE_CXX_STANDARD 17)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 if(NOT CMAKE_BUILD_TYPE)
@@ -13,6 +12,8 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 
 option(WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 add_compile_options(-Wall -Wextra)
+# Libraries need it; programs have it too, to share their precompiled headers.
+add_compile_options(-fPIC)
 if(WARNINGS_AS_ERRORS)
   # GCC 12 takes members of Eigen matrices in optionals for uninitialised when it inlines them.
   add_compile_options(-Werror -Wno-error=maybe-uninitialized)

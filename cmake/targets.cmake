@@ -1,21 +1,29 @@
 # plm_add_library(NAME SOURCES... ): a core library; included from the package root.
 function(plm_add_library name)
-  add_library(${name} STATIC ${ARGN})
-  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
-  target_include_directories(${name} SYSTEM PUBLIC ${EIGEN3_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
+  plm_add_static_library(${name} ${ARGN})
+  plm_use_header_set(core ${name})
 endfunction()
 
 # plm_add_ros_library(NAME SOURCES...): a library of a ros/ folder, the only kind that sees ROS.
 function(plm_add_ros_library name)
-  plm_add_library(${name} ${ARGN})
+  plm_add_static_library(${name} ${ARGN})
   target_include_directories(${name} SYSTEM PUBLIC ${ROS_INCLUDE_DIRS})
   target_link_libraries(${name} PUBLIC ${ROS_LIBRARIES})
+  plm_use_header_set(ros ${name})
+endfunction()
+
+# What both have in common.
+function(plm_add_static_library name)
+  add_library(${name} STATIC ${ARGN})
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_include_directories(${name} SYSTEM PUBLIC ${EIGEN3_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
 endfunction()
 
 # plm_add_nodelet(NAME SOURCES...): a library of nodelets, named in nodelet_plugins.xml.
 function(plm_add_nodelet name)
   add_library(${name} SHARED ${ARGN})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  plm_use_header_set(ros ${name})
   install(TARGETS ${name} LIBRARY DESTINATION lib)
 endfunction()
 
@@ -25,6 +33,7 @@ function(plm_add_tests program)
   cmake_parse_arguments(ARG "" "" "TESTS;LIBRARIES" ${ARGN})
   list(TRANSFORM ARG_TESTS APPEND _test.cpp OUTPUT_VARIABLE sources)
   add_executable(${program} ${sources})
+  plm_use_header_set(test ${program})
   target_link_libraries(${program} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::GTest GTest::Main)
   set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   foreach(name ${ARG_TESTS})
@@ -48,5 +57,13 @@ endfunction()
 # plm_add_executable(NAME SOURCES...): a program that rosrun and roslaunch find.
 function(plm_add_executable name)
   add_executable(${name} ${ARGN})
+  plm_use_header_set(core ${name})
+  install(TARGETS ${name} RUNTIME DESTINATION lib/${PROJECT_NAME})
+endfunction()
+
+# plm_add_node(NAME SOURCES...): the same, for a ROS node.
+function(plm_add_node name)
+  add_executable(${name} ${ARGN})
+  plm_use_header_set(ros ${name})
   install(TARGETS ${name} RUNTIME DESTINATION lib/${PROJECT_NAME})
 endfunction()

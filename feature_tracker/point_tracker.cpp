@@ -83,6 +83,7 @@ class PointTracker::Implementation {
     tracks_.clear();
     pyramid_.clear();
     t_ns_.reset();
+    previous_dt_ = 0;
     statistics_ = {};
   }
 

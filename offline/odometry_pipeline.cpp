@@ -112,6 +112,7 @@ void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
   if (!tracked.points.publish) return;
   PipelineFrame& frame = unfinished_[tracked.points.features.t_ns];
   frame.point_tracking_ms = tracked.points.tracking_ms;
+  frame.point_tracking = tracked.points.statistics;
   back_end_.AddPoints(std::move(tracked.points.features));
   if (!tracked.lines) return;
   frame.line_tracking_ms = tracked.lines->tracking_ms;

@@ -22,6 +22,7 @@ struct PipelineFrame {
   EstimatorOutput output;
   double point_tracking_ms = 0;
   double line_tracking_ms = 0;  // detection included
+  PointTrackerStatistics point_tracking;
   LineTrackerStatistics line_tracking;
 };
 

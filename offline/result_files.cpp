@@ -32,10 +32,32 @@ FrameTimings MakeTimings(const PipelineFrame& frame) {
   return timings;
 }
 
+void SetPointTracking(const PointTrackerStatistics& points, FrameCounts* counts) {
+  (*counts)[kPointsFollowed] = points.previous - points.flow_lost - points.forward_backward -
+                               points.epipolar_outliers - points.crowded;
+  (*counts)[kPointsFlowLost] = points.flow_lost;
+  (*counts)[kPointsNotBack] = points.forward_backward;
+  (*counts)[kPointsEpipolar] = points.epipolar_outliers;
+  (*counts)[kPointsCrowded] = points.crowded;
+  (*counts)[kPointsAdded] = points.detected;
+}
+
+void SetMerging(const LineMergingCounts& merging, FrameCounts* counts) {
+  (*counts)[kLinesMerged] = merging.merged;
+  (*counts)[kMergeCandidates] = merging.candidates;
+  (*counts)[kMergeOtherDirection] = merging.other_direction;
+  (*counts)[kMergeDistant] = merging.distant;
+  (*counts)[kMergeApart] = merging.apart;
+  (*counts)[kMergeDistantInImage] = merging.distant_in_image;
+  (*counts)[kMergeSideBySide] = merging.seen_side_by_side;
+  (*counts)[kMergeInconsistent] = merging.inconsistent;
+}
+
 FrameCounts MakeCounts(const PipelineFrame& frame) {
   const EstimatorCounts& estimator = frame.output.counts;
   const LineTrackerStatistics& lines = frame.line_tracking;
   FrameCounts counts{};
+  SetPointTracking(frame.point_tracking, &counts);
   counts[kPointsObserved] = estimator.points_observed;
   counts[kPointsInWindow] = estimator.points_in_window;
   counts[kPointsRejected] = estimator.points_rejected;
@@ -53,7 +75,7 @@ FrameCounts MakeCounts(const PipelineFrame& frame) {
   counts[kLinesBehind] = estimator.line_triangulation.behind;
   counts[kLinesInconsistent] = estimator.line_triangulation.inconsistent;
   counts[kLinesTooLong] = estimator.line_triangulation.too_long;
-  counts[kLinesMerged] = estimator.line_merging.merged;
+  SetMerging(estimator.line_merging, &counts);
   counts[kLinesRecognised] = estimator.lines_recognised;
   counts[kLinesInWindow] = estimator.lines_in_window;
   counts[kLinesRejected] = estimator.lines_rejected;

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Builds this checkout in Release into build/. Usage: build.sh [-DOPTION=VALUE ...]
+# TARGETS, names with spaces between, builds these only.
 # JOBS limits the parallel compilers; by default one per core and 1.5 GB of free memory.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
@@ -16,4 +17,5 @@ by_memory="$(awk '/MemAvailable/ {print int($2 / 1572864) + 1}' /proc/meminfo)"
 jobs="${JOBS:-$((cores < by_memory ? cores : by_memory))}"
 
 cmake -S "$root" -B "$root/build" -DCMAKE_BUILD_TYPE=Release "$@"
-cmake --build "$root/build" -j "$jobs"
+read -ra targets <<<"${TARGETS:-all}"
+cmake --build "$root/build" -j "$jobs" --target "${targets[@]}"

@@ -101,7 +101,11 @@ run_offline() {
 
 echo "== Set up and build"
 "$root/scripts/setup.sh"
-"$root/scripts/build.sh" -DBUILD_TESTING=OFF
+targets='run_offline simulate'
+if [[ "$rviz" == true ]]; then
+  targets=all
+fi
+TARGETS="$targets" "$root/scripts/build.sh" -DBUILD_TESTING=OFF
 if [[ -z "$bag" && -z "$asl" ]]; then
   simulate
 fi

@@ -23,7 +23,8 @@ def markdown_report(results, facts, figures, cores):
     others = [metric for metric in METRICS if not metric.is_error and metric is not COVERAGE]
     parts = ["# Odometry over a dataset", _facts(facts), _variants(results), _failures(results),
              _not_compared(results), "## Accuracy", _ape_notes(results),
-             *(_metric_table(results, metric) for metric in errors), "## Start, speed and lines", _time_notes(results, cores),
+             *(_metric_table(results, metric) for metric in errors), "## Start, speed and lines",
+             _time_notes(results, cores),
              *(_metric_table(results, metric) for metric in others),
              _paper_part(results, _time_notes(results, cores)), _pictures(figures)]
     return "\n\n".join(part for part in parts if part) + "\n"

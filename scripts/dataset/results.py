@@ -162,7 +162,8 @@ class Evaluator:
         if outcome["failure"] is not None:
             return RunResult(run, failure=outcome["failure"])
         try:
-            result = RunResult(run, load=outcome.get("load_average"), summary=_read_json(os.path.join(run.folder, "summary.json")),
+            result = RunResult(run, load=outcome.get("load_average"),
+                               summary=_read_json(os.path.join(run.folder, "summary.json")),
                                line_extraction_ms=_mean_line_extraction(run.folder))
         except (KeyError, ValueError) as error:
             return RunResult(run, failure=f"damaged results ({error}); remove {run.folder} and run"

@@ -95,7 +95,8 @@ class LaunchFiles(unittest.TestCase):
                                 **({"respawn": True} if respawn else {}))
                 self.assertTrue(nodes.pop("linefeature_tracker").respawn, "lines are no must")
                 for node in nodes.values():
-                    self.assertEqual((node.respawn, node.required), (respawn, not respawn), node.name)
+                    self.assertEqual((node.respawn, node.required), (respawn, not respawn),
+                                     node.name)
 
     def test_nodelets_instead_of_nodes(self):
         for name in ALL:

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Camera, IMU, trackers and master on one host, the estimator on another; the link fails for a while.
+"""Camera, IMU, trackers and master on one host, the estimator on another; the link fails for
+a while.
 
 The hosts are network namespaces, which only root can make; else the test is skipped (exit code 77).
 

@@ -49,6 +49,10 @@ class CheckStructure(unittest.TestCase):
                           HEADER + '#include "simulator/b.h"\n#include <ros/time.h>\n')
         self.assert_clean("scripts/a.sh", 'ls "$root/work/file" build/home/x ~/work/x\n')
 
+    def test_columns_of_python(self):
+        self.assert_clean("scripts/a.py", "#" * 100 + "\n")
+        self.assert_problem("scripts/a.py", "#" * 101 + "\n", "101 columns")
+
     def test_ros_outside_of_its_folders(self):
         for include in ("<ros/ros.h>", "<sensor_msgs/Imu.h>", '"cv_bridge/cv_bridge.h"'):
             self.assert_problem("common/a.h", HEADER + f"#include {include}\n", "ROS outside")

@@ -20,13 +20,13 @@ namespace plm_vins {
 class StandstillDetector {
  public:
   struct Options {
-    double window = 0.5;        // [s] looked back; image rates below 10 / window are not decided
+    double window = 0.5;        // [s] looked back
     double noise_factor = 3.0;  // allowed deviation, in standard deviations of the sensor noise
     double min_gyro_deviation = 0.025;  // [rad/s] always allowed: a vehicle with running propellers
     double min_accel_deviation = 0.2;   // [m/s^2] the same
     double max_motion_px = 1.0;         // median corner motion over the window [px]
     int min_points = 10;                // corners that must be tracked through the window
-    int min_intervals = 4;              // image intervals that must be in the window
+    int min_intervals = 4;  // image intervals since the window's start: needs more than 6 Hz
   };
 
   StandstillDetector(const ImuNoise& noise, const Options& options);

@@ -107,7 +107,7 @@ class Builder {
   bool Resect(int view);
   bool AdjustBundle();
   void RemoveOutliers();
-  bool Fits(const Track& track, const Eigen::Vector3d& p_G, double* squared_sum) const;
+  bool Fits(const Track& track, const Eigen::Vector3d& p_G) const;
   void MoveOriginToFirstView();
 
   const std::vector<Track>& tracks_;
@@ -231,33 +231,26 @@ bool Builder::AdjustBundle() {
   return summary.IsSolutionUsable();
 }
 
-// True where all observations of the track agree with the point; adds their squared errors.
-bool Builder::Fits(const Track& track, const Eigen::Vector3d& p_G, double* squared_sum) const {
-  double sum = 0;
+// True where all observations of the track agree with the point.
+bool Builder::Fits(const Track& track, const Eigen::Vector3d& p_G) const {
   for (const ViewObservation& o : track.observations) {
     const Eigen::Vector3d p_C = InCamera(o.view, p_G);
     if (p_C.z() <= 0) return false;
     const double squared = (p_C.hnormalized() - o.xy).squaredNorm();
     if (squared > std::pow(kMaxReprojectionSigmas * noise_, 2)) return false;
-    sum += squared;
   }
-  *squared_sum += sum;
   return true;
 }
 
 void Builder::RemoveOutliers() {
-  double squared_sum = 0;
-  int coordinates = 0;
   for (size_t i = 0; i < tracks_.size(); ++i) {
     if (!structure_.p_G[i]) continue;
-    if (Fits(tracks_[i], *structure_.p_G[i], &squared_sum)) {
-      coordinates += 2 * static_cast<int>(tracks_[i].observations.size());
+    if (Fits(tracks_[i], *structure_.p_G[i])) {
       ++structure_.num_points;
     } else {
       structure_.p_G[i].reset();
     }
   }
-  structure_.rms = coordinates > 0 ? std::sqrt(squared_sum / coordinates) : 0;
 }
 
 void Builder::MoveOriginToFirstView() {

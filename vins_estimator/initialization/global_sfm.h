@@ -22,7 +22,6 @@ struct Structure {
   std::vector<Eigen::Vector3d> p_G_C;               // one per view, the first at the origin
   std::vector<std::optional<Eigen::Vector3d>> p_G;  // one per track; nothing where not reliable
   int num_points = 0;
-  double rms = 0;  // of a normalised coordinate over all used observations
 };
 
 // Structure from motion for views whose rotations R_G_C are known (from the gyro): positions are

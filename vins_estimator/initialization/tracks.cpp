@@ -23,10 +23,10 @@ std::vector<Track> CollectTracks(const std::vector<const PointFrame*>& views) {
 }
 
 std::vector<Correspondence> FindCorrespondences(const std::vector<Track>& tracks, int view0,
-                                                int view1, std::vector<size_t>* track_indices) {
+                                                int view1) {
   std::vector<Correspondence> correspondences;
-  for (size_t i = 0; i < tracks.size(); ++i) {
-    const auto& seen = tracks[i].observations;
+  for (const Track& track : tracks) {
+    const auto& seen = track.observations;
     const auto find = [&seen](int view) {
       return std::find_if(seen.begin(), seen.end(),
                           [view](const ViewObservation& o) { return o.view == view; });
@@ -34,7 +34,6 @@ std::vector<Correspondence> FindCorrespondences(const std::vector<Track>& tracks
     const auto first = find(view0), second = find(view1);
     if (first == seen.end() || second == seen.end()) continue;
     correspondences.push_back({first->xy, second->xy});
-    if (track_indices) track_indices->push_back(i);
   }
   return correspondences;
 }

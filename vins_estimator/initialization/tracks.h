@@ -29,10 +29,8 @@ struct Correspondence {
 // All points seen in at least two of the views, by ascending id.
 std::vector<Track> CollectTracks(const std::vector<const PointFrame*>& views);
 
-// The points that both views saw, in the order of the tracks. `track_indices`, where given, tells
-// which.
+// The points that both views saw, in the order of the tracks.
 std::vector<Correspondence> FindCorrespondences(const std::vector<Track>& tracks, int view0,
-                                                int view1,
-                                                std::vector<size_t>* track_indices = nullptr);
+                                                int view1);
 
 }  // namespace plm_vins

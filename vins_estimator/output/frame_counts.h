@@ -8,7 +8,13 @@ namespace plm_vins {
 
 // What is counted in one frame, in the order of the columns of timing.csv.
 enum FrameCount : size_t {
-  kPointsObserved,  // in this image
+  kPointsFollowed,  // from the image before to this one
+  kPointsFlowLost,  // lost: flow failed or left the image
+  kPointsNotBack,   // lost: followed back, it did not return
+  kPointsEpipolar,  // lost: against the epipolar geometry
+  kPointsCrowded,   // dropped: too near an older one, or under the mask
+  kPointsAdded,     // new in this image
+  kPointsObserved,  // that the estimator got
   kPointsInWindow,  // landmarks in the optimisation
   kPointsRejected,  // landmarks or observations thrown out
   kLinesFollowed,   // from the image before to this one
@@ -26,17 +32,28 @@ enum FrameCount : size_t {
   kLinesTooLong,       // not triangulated, removed: longer than line_outlier_distance
   kLinesMerged,        // landmarks absorbed by an older one
   kLinesRecognised,    // landmarks that are a line which had left the window
-  kLinesInWindow,      // landmarks in the optimisation
-  kLinesRejected,      // landmarks or observations thrown out after it
+  kMergeCandidates,    // pairs of lines looked at, and why some were not merged:
+  kMergeOtherDirection,
+  kMergeDistant,         // beside each other in space
+  kMergeApart,           // one behind the other, with a gap
+  kMergeDistantInImage,  // beside each other in an image
+  kMergeSideBySide,      // one image shows both
+  kMergeInconsistent,    // the views do not fit one line
+  kLinesInWindow,        // landmarks in the optimisation
+  kLinesRejected,        // landmarks or observations thrown out after it
   kFrameCounts
 };
 
 constexpr std::array<const char*, kFrameCounts> kCountNames = {
-    "points_observed",  "points_in_window", "points_rejected",    "lines_followed",
-    "lines_unmatched",  "lines_off_course", "lines_edge_lost",    "lines_duplicate",
-    "lines_detected",   "lines_added",      "lines_observed",     "lines_triangulated",
-    "lines_degenerate", "lines_behind",     "lines_inconsistent", "lines_too_long",
-    "lines_merged",     "lines_recognised", "lines_in_window",    "lines_rejected"};
+    "points_followed",        "points_flow_lost",      "points_not_back",    "points_epipolar",
+    "points_crowded",         "points_added",          "points_observed",    "points_in_window",
+    "points_rejected",        "lines_followed",        "lines_unmatched",    "lines_off_course",
+    "lines_edge_lost",        "lines_duplicate",       "lines_detected",     "lines_added",
+    "lines_observed",         "lines_triangulated",    "lines_degenerate",   "lines_behind",
+    "lines_inconsistent",     "lines_too_long",        "lines_merged",       "lines_recognised",
+    "merge_candidates",       "merge_other_direction", "merge_distant",      "merge_apart",
+    "merge_distant_in_image", "merge_side_by_side",    "merge_inconsistent", "lines_in_window",
+    "lines_rejected"};
 
 using FrameCounts = std::array<int, kFrameCounts>;
 

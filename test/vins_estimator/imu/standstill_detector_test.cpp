@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int64_t kFrame_ns = 50'000'000;  // 20 Hz
 constexpr int64_t kSample_ns = 5'000'000;  // 200 Hz
 
 // A made-up sensor: IMU readings and corner positions as functions of time.
@@ -23,7 +22,7 @@ class StandstillDetectorTest : public ::testing::Test {
   template <typename Gyro, typename Accel, typename Shift>
   FrameMeasurement Next(const Gyro& gyro, const Accel& accel, const Shift& shift_px) {
     FrameMeasurement frame;
-    frame.t_ns = t_ns_ + kFrame_ns;
+    frame.t_ns = t_ns_ + frame_ns_;
     for (int64_t t = t_ns_; t <= frame.t_ns; t += kSample_ns) {
       const Vector3d gyro_noise = noise_.gyro_density / std::sqrt(0.005) * random_.NormalVector3();
       const Vector3d accel_noise =
@@ -59,6 +58,7 @@ class StandstillDetectorTest : public ::testing::Test {
   StandstillDetector detector_{noise_};
   simulator::Random random_{3};
   int64_t t_ns_ = 0;
+  int64_t frame_ns_ = 50'000'000;  // 20 Hz
   int points_ = 60;
   int first_id_ = 0;
 };
@@ -66,6 +66,14 @@ class StandstillDetectorTest : public ::testing::Test {
 TEST_F(StandstillDetectorTest, RecognisesStandstillOnceTheWindowIsFull) {
   EXPECT_EQ(CountStill(10, Nothing, Nothing, NoShift), 0);
   EXPECT_EQ(CountStill(50, Nothing, Nothing, NoShift), 50);
+}
+
+TEST_F(StandstillDetectorTest, DecidesAbove6Hz) {
+  frame_ns_ = 150'000'000;
+  EXPECT_GT(CountStill(30, Nothing, Nothing, NoShift), 0);
+  detector_.Reset();
+  frame_ns_ = 170'000'000;
+  EXPECT_EQ(CountStill(30, Nothing, Nothing, NoShift), 0);
 }
 
 TEST_F(StandstillDetectorTest, PropellersMayShakeTheBodyOnTheGround) {

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Runs clang-tidy on the sources that were changed last: on a branch since it left main, else in the
+# last 20 commits; at most 20 of them, the newest. Usage: check_tidy.sh [SOURCE ...]
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+build=build/tidy
+limit=20
+
+# Newest first; a header stands for the source of its name.
+changed_sources() {
+  local range=(-n 20) base
+  base="$(git merge-base origin/main HEAD 2>/dev/null || true)"
+  if [[ -n "$base" && "$base" != "$(git rev-parse HEAD)" ]]; then
+    range=("$base..HEAD")
+  fi
+  git log "${range[@]}" --name-only --format= -- '*.cpp' '*.h' ':!benchmark' |
+    sed 's/\.h$/.cpp/' | awk '!seen[$0]++' | while read -r source; do
+      if [[ -f "$source" ]]; then
+        echo "$source"
+      fi
+    done
+}
+
+sources=("$@")
+if ((!$#)); then
+  mapfile -t sources < <(changed_sources)
+fi
+echo "clang-tidy: ${#sources[@]} changed sources, at most $limit checked"
+((${#sources[@]})) || exit 0
+
+# The commands of a full build; clang cannot read the precompiled headers of GCC.
+cmake -S . -B "$build" -DPLM_PRECOMPILED_HEADERS=OFF >/dev/null
+cmake --build "$build" --target plm_vins_gencfg >/dev/null
+printf '%s\n' "${sources[@]:0:limit}" |
+  xargs -P "$(nproc)" -n 1 clang-tidy-14 -p "$build" --quiet --warnings-as-errors='*' \
+    --extra-arg=-Wno-unknown-warning-option

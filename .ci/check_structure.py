@@ -51,8 +51,8 @@ LAYERS = {
     "vins_estimator": {"common"} | inside_estimator(ESTIMATOR_CORE),
     "vins_estimator/ros": {"common", "vins_estimator"} | inside_estimator(
         "state imu estimator_output.h output"),
-    "offline": {"common", "tracking", "feature_tracker", "linefeature_tracker", "vins_estimator"}
-               | inside_estimator("state estimator_output.h output"),
+    "offline": {"common", "tracking", "feature_tracker", "linefeature_tracker",
+                "vins_estimator"} | inside_estimator("state estimator_output.h output"),
     "simulator": {"common"} | inside_estimator("state output"),
 }
 # Who only reads what the estimator says gets by without the solver, however far the includes lead.

@@ -15,9 +15,15 @@ constexpr size_t kQueueCapacity = 200;  // items, most of them IMU samples: abou
 
 bool IsPowerOfTwo(int64_t count) { return (count & (count - 1)) == 0; }
 
+RecordingEvent EventOf(const TrackedItem& item) {
+  using Kind = RecordingEvent::Kind;
+  return {item.frame ? Kind::kImage : Kind::kImu, item.t_ns(), item.imu};
+}
+
 }  // namespace
 
-OdometryPipeline::OdometryPipeline(const Config& config) : trackers_(config), back_end_(config) {}
+OdometryPipeline::OdometryPipeline(const Config& config)
+    : use_lines_(config.use_lines), trackers_(config), back_end_(config) {}
 
 DropCounts OdometryPipeline::drops() const {
   DropCounts counts = ToDropCounts(trackers_.image_counts());
@@ -30,21 +36,39 @@ void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, Thr
   if (threads == Threads::kTwo) {
     RunInTwoThreads(recording, interval, on_frame);
   } else {
-    RunTrackers(recording, interval, [&](Item item) {
+    RunTrackers(recording, interval, [&](TrackedItem item) {
       Consume(std::move(item), on_frame);
       return true;
     });
+  }
+  images_ = trackers_.image_counts().images;
+  while (auto estimated = back_end_.Flush()) Report(std::move(*estimated), on_frame);
+}
+
+void OdometryPipeline::Run(FeatureFileReader* features, RecordingInterval interval,
+                           const FrameCallback& on_frame) {
+  while (auto item = features->Next()) {
+    const RecordingInterval::Part part = interval.Locate(EventOf(*item));
+    if (part == RecordingInterval::Part::kEnd) break;
+    if (part == RecordingInterval::Part::kSkip) continue;
+    if (item->frame) {
+      if (!use_lines_) item->frame->lines.reset();
+      if (!first_image_ns_) first_image_ns_ = item->t_ns();
+      ++images_;
+    }
+    Consume(std::move(*item), on_frame);
   }
   while (auto estimated = back_end_.Flush()) Report(std::move(*estimated), on_frame);
 }
 
 void OdometryPipeline::RunInTwoThreads(Recording* recording, const RecordingInterval& interval,
                                        const FrameCallback& on_frame) {
-  BoundedQueue<Item> queue(kQueueCapacity);
+  BoundedQueue<TrackedItem> queue(kQueueCapacity);
   std::exception_ptr tracking_error;
   std::thread tracking([&] {
     try {
-      RunTrackers(recording, interval, [&](Item item) { return queue.Push(std::move(item)); });
+      RunTrackers(recording, interval,
+                  [&](TrackedItem item) { return queue.Push(std::move(item)); });
     } catch (...) {
       tracking_error = std::current_exception();
     }
@@ -98,7 +122,8 @@ bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const ItemCallback& em
   return emit({{}, std::make_unique<TrackedFeatures>(std::move(frame))});
 }
 
-void OdometryPipeline::Consume(Item item, const FrameCallback& on_frame) {
+void OdometryPipeline::Consume(TrackedItem item, const FrameCallback& on_frame) {
+  if (saved_features_ != nullptr) saved_features_->Add(item);
   if (item.frame) {
     AddFeatures(std::move(*item.frame));
   } else {

@@ -10,6 +10,7 @@
 
 #include "common/config.h"
 #include "common/drop_counts.h"
+#include "offline/feature_file.h"
 #include "offline/feature_trackers.h"
 #include "offline/recording.h"
 #include "offline/recording_interval.h"
@@ -37,12 +38,19 @@ class OdometryPipeline {
 
   explicit OdometryPipeline(const Config& config);
 
+  // What the trackers find from here on goes to this file as well; null: nowhere.
+  void SaveFeatures(FeatureFileWriter* file) { saved_features_ = file; }
+
   // Processes the recording; `on_frame` is called in the caller's thread, in order of time.
   void Run(Recording* recording, RecordingInterval interval, Threads threads,
            const FrameCallback& on_frame);
 
+  // The same from saved features instead of images: the results are those of the run that saved
+  // them, bit by bit, where the configuration of the estimator is the same.
+  void Run(FeatureFileReader* features, RecordingInterval interval, const FrameCallback& on_frame);
+
   // After Run().
-  int64_t images() const { return trackers_.image_counts().images; }
+  int64_t images() const { return images_; }
   std::optional<int64_t> first_image_ns() const { return first_image_ns_; }
   DropCounts drops() const;
 
@@ -52,26 +60,24 @@ class OdometryPipeline {
   const cv::Mat& lines_image() const { return lines_image_; }
 
  private:
-  // What flows from the front end to the back end, in order.
-  struct Item {
-    ImuSample imu;
-    std::unique_ptr<TrackedFeatures> frame;  // instead of `imu`
-  };
-  using ItemCallback = std::function<bool(Item)>;  // false: no more are wanted
+  using ItemCallback = std::function<bool(TrackedItem)>;  // false: no more are wanted
 
   void RunTrackers(Recording* recording, RecordingInterval interval, const ItemCallback& emit);
   bool Feed(const RecordingEvent& event, Recording* recording, const ItemCallback& emit);
   bool EmitTracked(TrackedFeatures frame, const ItemCallback& emit);
   void RunInTwoThreads(Recording* recording, const RecordingInterval& interval,
                        const FrameCallback& on_frame);
-  void Consume(Item item, const FrameCallback& on_frame);
+  void Consume(TrackedItem item, const FrameCallback& on_frame);
   void AddFeatures(TrackedFeatures tracked);
   void Report(EstimatedFrame estimated, const FrameCallback& on_frame);
 
+  const bool use_lines_;
   FeatureTrackers trackers_;
   EstimationStage back_end_;
   std::optional<int64_t> first_image_ns_;
+  int64_t images_ = 0;
   int64_t tracked_images_ = 0;
+  FeatureFileWriter* saved_features_ = nullptr;
   cv::Mat points_image_;
   cv::Mat lines_image_;
   std::map<int64_t, PipelineFrame> unfinished_;  // by stamp: what the back end has yet to add to

@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,9 @@ struct Arguments {
   std::string config;
   std::string bag;
   std::string asl;
+  std::string features;
   std::string output;
+  std::string saved_features;
   double start = 0;                                           // [s]
   double duration = std::numeric_limits<double>::infinity();  // [s]
   std::vector<std::string> overrides;                         // "key=value"
@@ -56,12 +59,16 @@ void Declare(Arguments* arguments, CLI::App* app) {
   auto* source = app->add_option_group("input");
   source->add_option("--bag", arguments->bag, "ROS bag");
   source->add_option("--asl", arguments->asl, "folder in ASL format (EuRoC)");
+  source->add_option("--features", arguments->features,
+                     "features that --save-features wrote, instead of images");
   source->require_option(1);
   app->add_option("--output", arguments->output, "folder for the results, made where missing")
       ->required();
   app->add_option("--start", arguments->start, "skip this much after the first image [s]")
       ->check(CheckSeconds);
   app->add_option("--duration", arguments->duration, "process this much [s]")->check(CheckSeconds);
+  app->add_option("--save-features", arguments->saved_features,
+                  "write the tracked features to this file, for runs without images");
   app->add_option("--set", arguments->overrides, "replace a value of the configuration: key=value")
       ->allow_extra_args(false)
       ->check(CheckOverride);
@@ -114,32 +121,59 @@ int Report(const RunSummary::Run& run, const ResultFiles& results) {
   return 0;
 }
 
-int Run(const Arguments& arguments) {
-  const Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
-  Warn(IgnoredKeysWarning(config));
-  const std::unique_ptr<Recording> recording = Open(arguments, config.sensor);
-  ResultFiles results(arguments.output);
+// What was run, as far as its source knows.
+struct Source {
+  std::string name;
+  DropCounts problems;
+};
+
+Source RunFromImages(const Arguments& arguments, const SensorConfig& sensor, ResultFiles* results,
+                     OdometryPipeline* pipeline) {
+  const std::unique_ptr<Recording> recording = Open(arguments, sensor);
   ProgressDisplay progress(recording->end_ns(), arguments.duration);
-  OdometryPipeline pipeline(config);
-  const Stopwatch stopwatch;
-  pipeline.Run(
+  pipeline->Run(
       recording.get(), RecordingInterval(arguments.start, arguments.duration),
       arguments.one_thread ? OdometryPipeline::Threads::kOne : OdometryPipeline::Threads::kTwo,
       [&](const PipelineFrame& frame) {
-        results.Add(frame);
+        results->Add(frame);
         progress.Update(frame.output.t_ns);
       });
   progress.Finish();
+  results->WriteAnnotatedImage("tracks.png", pipeline->points_image());
+  results->WriteAnnotatedImage("line_tracks.png", pipeline->lines_image());
+  return {recording->name(), recording->problems()};
+}
+
+Source RunFromFeatures(const Arguments& arguments, ResultFiles* results,
+                       OdometryPipeline* pipeline) {
+  FeatureFileReader features(arguments.features);
+  pipeline->Run(&features, RecordingInterval(arguments.start, arguments.duration),
+                [&](const PipelineFrame& frame) { results->Add(frame); });
+  return {arguments.features, {}};
+}
+
+int Run(const Arguments& arguments) {
+  const Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
+  Warn(IgnoredKeysWarning(config));
+  ResultFiles results(arguments.output);
+  OdometryPipeline pipeline(config);
+  std::optional<FeatureFileWriter> saved_features;
+  if (!arguments.saved_features.empty()) {
+    pipeline.SaveFeatures(&saved_features.emplace(arguments.saved_features));
+  }
+  const Stopwatch stopwatch;
+  const Source source = arguments.features.empty()
+                            ? RunFromImages(arguments, config.sensor, &results, &pipeline)
+                            : RunFromFeatures(arguments, &results, &pipeline);
+  if (saved_features) saved_features->Close();
 
   RunSummary::Run run;
-  run.input = recording->name();
+  run.input = source.name;
   run.images = pipeline.images();
   run.first_image_ns = pipeline.first_image_ns();
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
-  run.drops = recording->problems();
+  run.drops = source.problems;
   Append(pipeline.drops(), &run.drops);
-  results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
-  results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());
   results.Finish(run, config);
   return Report(run, results);
 }

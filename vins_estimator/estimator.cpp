@@ -51,7 +51,8 @@ WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& op
 Estimator::State::State(const Config& config, const EstimatorOptions& options)
     : initializer(config),
       standstill_detector(config.sensor.imu_noise),
-      estimate(EmptyWindow(config.sensor, options.map)) {}
+      estimate(EmptyWindow(config.sensor, options.map)),
+      noise(1 / options.problem.point_weight, 1 / options.problem.line_weight) {}
 
 Estimator::Estimator(const Config& config)
     : config_(config), options_(config), state_(config, options_) {}
@@ -111,6 +112,7 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   Triangulate(output);
   FindStructure(output);
   Optimize(config_.estimator.max_num_iterations, output);
+  if (config_.estimator.adapt_noise) state_.noise.Update(map);
   RemoveOutliers(output);
   if (const auto failure = FindFailure(*output)) {
     Reset();
@@ -195,6 +197,7 @@ void Estimator::RemoveOutliers(EstimatorOutput* output) {
 ProblemOptions Estimator::CurrentProblem() const {
   ProblemOptions options = options_.problem;
   if (config_.estimator.manhattan_constraints) options.R_W_M = state_.manhattan.R_W_M();
+  options.SetNoise(state_.noise.point(), state_.noise.line());
   return options;
 }
 

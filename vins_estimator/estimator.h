@@ -12,6 +12,7 @@
 #include "vins_estimator/imu/standstill_detector.h"
 #include "vins_estimator/initialization/initializer.h"
 #include "vins_estimator/manhattan/manhattan_frame.h"
+#include "vins_estimator/map/view_noise.h"
 #include "vins_estimator/marginalization/window_estimate.h"
 
 namespace plm_vins {
@@ -42,6 +43,7 @@ class Estimator {
     ContradictionMonitor contradiction_monitor;
     ManhattanFrame manhattan;
     WindowEstimate estimate;
+    ViewNoise noise;
     FrameState predicted;  // of the newest image, from the IMU alone
   };
 
@@ -61,7 +63,7 @@ class Estimator {
   void SlideOldest(EstimatorOutput* output);
   void Describe(EstimatorOutput* output) const;
 
-  // The problem's options with the Manhattan frame as it is now.
+  // The problem's options with Manhattan frame and noise as they are now.
   ProblemOptions CurrentProblem() const;
 
   const Config config_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "test/testing/still_scene.h"
+#include "test/testing/temporary_folder.h"
 #include "vins_estimator/output/tum_format.h"
 
 namespace plm_vins {
@@ -74,16 +75,21 @@ struct Result {
   std::map<std::string, int64_t> drops;
 };
 
+void AddFrame(const PipelineFrame& frame, Result* result) {
+  result->frames.push_back((frame.output.t_ns - kStart) / kMillisecond);
+  if (!frame.output.has_pose) return;
+  result->trajectory += FormatTumRow(frame.output.t_ns, frame.output.state.T_W_B());
+}
+
 Result RunPipeline(MemoryRecording recording, Threads threads = Threads::kOne,
-                   RecordingInterval interval = RecordingInterval()) {
+                   RecordingInterval interval = RecordingInterval(),
+                   FeatureFileWriter* saved_features = nullptr) {
   Result result;
   OdometryPipeline pipeline(StillConfig());
+  pipeline.SaveFeatures(saved_features);
   pipeline.Run(&recording, interval, threads, [&](const PipelineFrame& frame) {
-    result.frames.push_back((frame.output.t_ns - kStart) / kMillisecond);
+    AddFrame(frame, &result);
     EXPECT_GT(frame.point_tracking_ms, 0);
-    if (frame.output.has_pose) {
-      result.trajectory += FormatTumRow(frame.output.t_ns, frame.output.state.T_W_B());
-    }
   });
   for (const DropCount& drop : pipeline.drops()) result.drops[drop.cause] = drop.count;
   return result;
@@ -133,6 +139,25 @@ TEST(OdometryPipeline, TwoThreadsGiveTheSameBytesAsOne) {
   EXPECT_EQ(one.frames, two.frames);
   EXPECT_EQ(one.trajectory, two.trajectory);
   EXPECT_EQ(one.drops, two.drops);
+}
+
+TEST(OdometryPipeline, SavedFeaturesGiveTheSameBytesAsTheImages) {
+  const testing::TemporaryFolder folder;
+  const std::string file = folder.File("flight.features");
+  const Result images = [&] {
+    FeatureFileWriter writer(file);
+    const Result result = RunPipeline(StillRecording(3000), Threads::kTwo, {}, &writer);
+    writer.Close();
+    return result;
+  }();
+  Result features;
+  OdometryPipeline pipeline(StillConfig());
+  FeatureFileReader reader(file);
+  pipeline.Run(&reader, {}, [&](const PipelineFrame& frame) { AddFrame(frame, &features); });
+  EXPECT_FALSE(images.trajectory.empty());
+  EXPECT_EQ(features.frames, images.frames);
+  EXPECT_EQ(features.trajectory, images.trajectory);
+  EXPECT_EQ(pipeline.images(), 60);
 }
 
 TEST(OdometryPipeline, ProcessesTheInterval) {

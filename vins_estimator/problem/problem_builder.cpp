@@ -20,12 +20,17 @@ constexpr double kAnchorNoise = 5.0;  // in units of the noise of lines
 }  // namespace
 
 ProblemOptions::ProblemOptions(const Config& config, double focal_length)
-    : point_weight(focal_length / config.estimator.point_noise),
-      line_weight(focal_length / config.estimator.line_noise),
-      anchor_weight(line_weight / kAnchorNoise),
-      manhattan_weight(180 / (M_PI * config.estimator.manhattan_noise)),
+    : manhattan_weight(180 / (M_PI * config.estimator.manhattan_noise)),
       estimate_extrinsic(config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed),
-      estimate_td(config.sensor.estimate_td) {}
+      estimate_td(config.sensor.estimate_td) {
+  SetNoise(config.estimator.point_noise / focal_length, config.estimator.line_noise / focal_length);
+}
+
+void ProblemOptions::SetNoise(double point_noise, double line_noise) {
+  point_weight = 1 / point_noise;
+  line_weight = 1 / line_noise;
+  anchor_weight = line_weight / kAnchorNoise;
+}
 
 ProblemBuilder::ProblemBuilder(const ProblemOptions& options, SlidingWindow* window,
                                const MarginalizationPrior* prior)

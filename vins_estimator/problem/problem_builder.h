@@ -21,9 +21,12 @@ struct ProblemOptions {
   // `focal_length` [px] turns pixels into normalised coordinates.
   ProblemOptions(const Config& config, double focal_length);
 
-  double point_weight;                  // focal length over corner noise
+  // Weighs the views of points and lines by their noise, normalised.
+  void SetNoise(double point_noise, double line_noise);
+
+  double point_weight;                  // one over the noise of a corner, normalised
   double point_loss_scale = 1.0;        // Cauchy loss, in standard deviations
-  double line_weight;                   // focal length over the noise of a line's ends across it
+  double line_weight;                   // ... of a line's ends across it
   double line_loss_scale = 1.0;         // Cauchy loss, in standard deviations
   double anchor_weight;                 // the same, of what anchors have seen
   double manhattan_weight;              // one over the deviation of a line from its axis [1/rad]

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/map/view_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace plm_vins {
+namespace {
+
+constexpr double kSigma = 0.002;
+constexpr int kViews = 10;
+constexpr int kLandmarks = 4000;
+
+// Residuals of many landmarks whose errors follow on from view to view with this correlation,
+// after `parameters` = 2 (their mean) were fitted to them.
+std::vector<ViewSpread> Simulate(double correlation, int landmarks = kLandmarks) {
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal(0, kSigma);
+  const auto draw = [&] { return Eigen::Vector2d(normal(generator), normal(generator)); };
+  std::vector<ViewSpread> spreads;
+  for (int i = 0; i < landmarks; ++i) {
+    std::vector<Eigen::Vector2d> residuals = {draw()};
+    while (residuals.size() < kViews) {
+      residuals.push_back(correlation * residuals.back() +
+                          std::sqrt(1 - correlation * correlation) * draw());
+    }
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& residual : residuals) mean += residual / kViews;
+    for (Eigen::Vector2d& residual : residuals) residual -= mean;
+    spreads.push_back(SpreadOf(residuals, 2));
+  }
+  return spreads;
+}
+
+TEST(EffectiveNoise, IsTheDeviationWhereViewsAreIndependent) {
+  EXPECT_NEAR(EffectiveNoise(Simulate(0)).value(), kSigma, 0.03 * kSigma);
+}
+
+TEST(EffectiveNoise, GrowsWhereErrorsFollowOnEachOther) {
+  const double independent = EffectiveNoise(Simulate(0)).value();
+  double before = independent;
+  for (const double correlation : {0.3, 0.6, 0.9}) {
+    const double noise = EffectiveNoise(Simulate(correlation)).value();
+    EXPECT_GT(noise, 1.05 * before) << correlation;
+    before = noise;
+  }
+  // The mean of correlated views is less certain by this; part of it is lost with the fit.
+  const double expected = std::sqrt((1 + 0.3) / (1 - 0.3));
+  EXPECT_NEAR(EffectiveNoise(Simulate(0.3)).value() / independent, expected, 0.15 * expected);
+}
+
+TEST(EffectiveNoise, IsNotLedAstrayByAFewLandmarks) {
+  std::vector<ViewSpread> spreads = Simulate(0);
+  const double clean = EffectiveNoise(spreads).value();
+  for (size_t i = 0; i < spreads.size() / 50; ++i) spreads[i] = {1.0, 1.0};
+  EXPECT_LT(EffectiveNoise(spreads).value(), 1.15 * clean);
+}
+
+TEST(EffectiveNoise, IsUnknownOfTooFewLandmarksAndOfExactOnes) {
+  EXPECT_FALSE(EffectiveNoise(Simulate(0, 5)));
+  EXPECT_FALSE(EffectiveNoise({}));
+  EXPECT_FALSE(EffectiveNoise(std::vector<ViewSpread>(20)));
+}
+
+}  // namespace
+}  // namespace plm_vins

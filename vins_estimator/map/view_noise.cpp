@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/map/view_noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/measurements.h"
+#include "vins_estimator/geometry/line_segment_view.h"
+#include "vins_estimator/geometry/plucker.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr size_t kMinViews = 6;         // fewer hardly show how their errors follow on each other
+constexpr size_t kMinLandmarks = 8;     // fewer are no sample
+constexpr double kGreatestRatio = 9.0;  // of variances, to the median landmark's
+constexpr double kGreatestCorrelation = 0.8;
+constexpr double kTimeConstant = 2.5;        // [s]
+constexpr double kLeast = 0.5, kMost = 4.0;  // of what is assumed at first
+constexpr int kPointParameters = 3, kLineParameters = 4;
+
+std::vector<Eigen::Vector2d> ResidualsOf(const PointLandmark& point, const SlidingWindow& window) {
+  const Eigen::Vector3d p_W = PositionInWorld(point, window);
+  std::vector<Eigen::Vector2d> residuals;
+  for (const PointView& view : point.views) {
+    const Eigen::Vector3d p_C = window.T_W_C(view.t_ns).Inverse() * p_W;
+    residuals.push_back(p_C.hnormalized() - view.bearing.At(window.td));
+  }
+  return residuals;
+}
+
+std::vector<Eigen::Vector2d> ResidualsOf(const LineLandmark& line, const SlidingWindow& window) {
+  const PluckerLine line_W = LineInWorld(line, window);
+  std::vector<Eigen::Vector2d> residuals;
+  for (const LineView& view : line.views) {
+    const PluckerLine line_C = window.T_W_C(view.t_ns).Inverse() * line_W;
+    Eigen::Vector2d distances;
+    if (EndPointDistances(view.segment, line_C.moment, &distances, nullptr)) {
+      residuals.push_back(distances);
+    }
+  }
+  return residuals;
+}
+
+template <typename Landmarks>
+std::vector<ViewSpread> CollectSpreads(const Landmarks& landmarks, const SlidingWindow& window,
+                                       int parameters) {
+  std::vector<ViewSpread> spreads;
+  for (const auto& [id, landmark] : landmarks) {
+    if (!landmark.triangulated || landmark.views.size() < kMinViews) continue;
+    const auto residuals = ResidualsOf(landmark, window);
+    if (residuals.size() >= kMinViews) spreads.push_back(SpreadOf(residuals, parameters));
+  }
+  return spreads;
+}
+
+// The median, by variance.
+double MedianVariance(std::vector<ViewSpread> spreads) {
+  const auto middle = spreads.begin() + spreads.size() / 2;
+  std::nth_element(
+      spreads.begin(), middle, spreads.end(),
+      [](const ViewSpread& a, const ViewSpread& b) { return a.variance < b.variance; });
+  return middle->variance;
+}
+
+// Moves `noise` towards what was seen, by ratios.
+void Follow(std::optional<double> seen, double first, double share, double* noise) {
+  if (!seen) return;
+  const double goal = std::clamp(*seen, kLeast * first, kMost * first);
+  *noise *= std::pow(goal / *noise, share);
+}
+
+}  // namespace
+
+ViewSpread SpreadOf(const std::vector<Eigen::Vector2d>& residuals, int parameters) {
+  const double count = static_cast<double>(residuals.size());
+  ViewSpread spread;
+  for (size_t i = 0; i < residuals.size(); ++i) {
+    spread.variance += residuals[i].squaredNorm() / (2 * count - parameters);
+    if (i == 0) continue;
+    spread.difference += (residuals[i] - residuals[i - 1]).squaredNorm() / (4 * (count - 1));
+  }
+  return spread;
+}
+
+std::optional<double> EffectiveNoise(const std::vector<ViewSpread>& spreads) {
+  if (spreads.size() < kMinLandmarks) return std::nullopt;
+  const double limit = kGreatestRatio * MedianVariance(spreads);
+  double variance = 0, difference = 0;
+  for (const ViewSpread& spread : spreads) {
+    const double share = spread.variance > limit ? limit / spread.variance : 1.0;
+    variance += share * spread.variance;
+    difference += share * spread.difference;
+  }
+  if (!(variance > 0) || !std::isfinite(variance)) return std::nullopt;
+  const double correlation = std::clamp(1 - difference / variance, 0.0, kGreatestCorrelation);
+  variance /= static_cast<double>(spreads.size());
+  return std::sqrt(variance * (1 + correlation) / (1 - correlation));
+}
+
+void ViewNoise::Update(const LocalMap& map) {
+  const SlidingWindow& window = map.window;
+  const int64_t newest_ns = window.newest().state.t_ns;
+  const double dt = newest_ns_ ? ToSeconds(newest_ns - *newest_ns_) : 0;
+  newest_ns_ = newest_ns;
+  if (window.newest().stationary) return;
+  const double share = 1 - std::exp(-dt / kTimeConstant);
+  const auto points = CollectSpreads(map.points.landmarks(), window, kPointParameters);
+  const auto lines = CollectSpreads(map.lines.landmarks(), window, kLineParameters);
+  Follow(EffectiveNoise(points), first_point_, share, &point_);
+  Follow(EffectiveNoise(lines), first_line_, share, &line_);
+}
+
+}  // namespace plm_vins

@@ -40,10 +40,14 @@ def parse_arguments(arguments):
     parser.add_argument("--variants", nargs="+", metavar="NAME", default=list(VARIANTS),
                         help="only these (default: all)")
     parser.add_argument("--repetitions", type=_positive, default=1, metavar="N",
-                        help="runs of each sequence and variant (default: 1; trajectories repeat"
-                        " exactly, times do not)")
-    parser.add_argument("--start", type=_seconds, metavar="S",
-                        help="skip this much after the first image [s]")
+                        help="runs of each sequence, variant and start (default: 1; trajectories"
+                        " repeat exactly, times do not)")
+    start = parser.add_mutually_exclusive_group()
+    start.add_argument("--start", dest="starts", type=_seconds, nargs=1, metavar="S",
+                       help="skip this much after the first image [s]")
+    start.add_argument("--starts", type=_seconds, nargs="+", metavar="S",
+                       help="run each sequence and variant from each of these [s after the first"
+                       " image]: the tables have means and spreads over them")
     parser.add_argument("--duration", type=_seconds, metavar="S", help="process this much [s]")
     parser.add_argument("--config", metavar="FILE", help="configuration (default: euroc.yaml)")
     parser.add_argument("--set", action="append", default=[], type=_override, metavar="KEY=VALUE",
@@ -56,7 +60,10 @@ def parse_arguments(arguments):
                         f" {THREADS_PER_RUN} cores; more of them disturb the times)")
     parser.add_argument("--no-plots", action="store_true", help="tables only")
     parser.add_argument("--run-offline", metavar="FILE", help="the program, where it is not found")
-    return parser.parse_args(arguments)
+    parser.set_defaults(starts=[0.0])
+    options = parser.parse_args(arguments)
+    options.starts = sorted(set(options.starts))
+    return options
 
 
 def _positive(text):
@@ -85,11 +92,11 @@ def plan(options):
     if options.sequences:
         sequences = select_sequences(sequences, options.sequences)
     settings = Settings(find_program(options.run_offline), find_config(options.config),
-                        os.path.abspath(options.output), options.start, options.duration,
-                        dict(options.set))
+                        os.path.abspath(options.output), options.duration, dict(options.set))
     fingerprint = settings.fingerprint()
-    runs = [Run(settings, fingerprint, sequence, variant, VARIANTS[variant], repetition)
+    runs = [Run(settings, fingerprint, sequence, variant, VARIANTS[variant], start, repetition)
             for repetition in range(1, options.repetitions + 1)
+            for start in options.starts
             for sequence in sequences for variant in select_variants(options.variants)]
     return settings, sequences, runs
 
@@ -129,9 +136,9 @@ def describe(result):
 
 def facts(options, settings, fingerprint):
     """What the report says about the whole."""
-    part = "all" if options.start is None and options.duration is None else (
-        f"from {options.start or 0:g} s on" + ("" if options.duration is None
-                                               else f", {options.duration:g} s"))
+    starts = ", ".join(f"{start:g}" for start in options.starts)
+    part = "all" if starts == "0" and options.duration is None else (
+        f"from {starts} s on" + ("" if options.duration is None else f", {options.duration:g} s"))
     overrides = " ".join(f"{key}={value}" for key, value in settings.overrides.items())
     return [("recordings", ", ".join(options.recordings)),
             ("part of each", part),
@@ -145,7 +152,7 @@ def facts(options, settings, fingerprint):
 
 def run_dataset(options):
     settings, sequences, runs = plan(options)
-    evaluator = Evaluator(sequences, options.start, options.duration)
+    evaluator = Evaluator(sequences, options.duration)
     with locked(settings.output):
         unfinished = [run for run in runs if not run.is_finished()]
         announce(sequences, runs, unfinished, options.jobs)

@@ -12,24 +12,30 @@ def number(value, decimals):
 
 
 def figure(results, metric, sequence, variant):
-    """A median with its spread over repetitions, the coverage beside the APE, and failures."""
-    repetitions = results.repetitions(sequence, variant)
-    failed = sum(r.failure is not None for r in repetitions)
-    if not repetitions:
+    """A mean with its spread over the starts, the coverage beside the APE, over how many of
+    several starts it is, and failures."""
+    runs = results.runs(sequence, variant)
+    failed = sum(r.failure is not None for r in runs)
+    if not runs:
         return NONE
-    if failed == len(repetitions):
+    if failed == len(runs):
         return FAILED
-    text = _median(results.spread(metric, sequence, variant), metric.decimals, len(repetitions))
+    spread = results.spread(metric, sequence, variant)
+    text = _mean(spread, metric.decimals, len(runs))
     coverage = results.spread(METRIC["coverage_percent"], sequence, variant)
     if metric.name == "ape_m" and coverage is not None:
-        text += f" ({coverage.median:.0f} %)"
-    return text + (f", {failed} of {len(repetitions)} failed" if failed else "")
+        text += f" ({coverage.mean:.0f} %)"
+    if spread is not None and len(results.starts) > 1:
+        text += f" over {spread.starts} start" + "s" * (spread.starts > 1)
+    return text + (f", {failed} of {len(runs)} failed" if failed else "")
 
 
-def _median(spread, decimals, repetitions):
+def _mean(spread, decimals, runs):
     if spread is None:
         return NONE
-    text = number(spread.median, decimals)
-    if repetitions > 1:
+    text = number(spread.mean, decimals)
+    if spread.deviation is not None:
+        text += f" ± {number(spread.deviation, decimals)}"
+    if runs > 1:
         text += f" [{number(spread.low, decimals)}, {number(spread.high, decimals)}]"
     return text

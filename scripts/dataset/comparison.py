@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables and figures of all results in the output folder."""
 
+import math
 import os
 
 from .csv_files import write_csv
@@ -39,13 +40,15 @@ def _write_pictures(output, results, evaluator):
 
 
 def _overview(results):
-    """Median APE by variant and sequence, of those that have any."""
-    ape = METRIC["ape_m"]
-    figures = {variant: {sequence: spread.median if spread else None
-                         for sequence in results.sequences
-                         for spread in [results.spread(ape, sequence, variant)]}
-               for variant in results.variants}
+    """Mean APE and its deviation by variant and sequence, of those that have any."""
+    spreads = {variant: {sequence: results.spread(METRIC["ape_m"], sequence, variant)
+                         for sequence in results.sequences} for variant in results.variants}
     sequences = [s for s in results.sequences
-                 if any(by_sequence[s] is not None for by_sequence in figures.values())]
-    return sequences and {variant: {s: by_sequence[s] for s in sequences}
-                          for variant, by_sequence in figures.items()}
+                 if any(by_sequence[s] is not None for by_sequence in spreads.values())]
+    return sequences and {variant: {s: _bar(by_sequence[s]) for s in sequences}
+                          for variant, by_sequence in spreads.items()}
+
+
+def _bar(spread):
+    """Its height and deviation."""
+    return (spread.mean, spread.deviation or 0.0) if spread else (math.nan, 0.0)

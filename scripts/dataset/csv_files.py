@@ -1,39 +1,46 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The results for spreadsheets: every run, and medians over repetitions."""
+"""The results for spreadsheets: every run, and means and spread over starts."""
 
 import csv
 import os
 
-from .results import METRICS, Spread
+from .results import METRICS
 
 
 def write_csv(folder, results):
     """Returns the paths of both files."""
+    runs = [_run_row(result) for result in results.all()]
+    table = [_table_row(results, sequence, variant)
+             for sequence in results.sequences for variant in results.variants]
     names = [metric.name for metric in METRICS]
-    runs = [[r.run.sequence.name, r.run.variant, r.run.repetition, _status(r)]
-            + [_plain(metric.value(r)) for metric in METRICS] for r in results.all()]
-    table = []
-    for sequence in results.sequences:
-        for variant in results.variants:
-            repetitions = results.repetitions(sequence, variant)
-            spreads = [results.spread(metric, sequence, variant) for metric in METRICS]
-            table.append([sequence, variant, len(repetitions),
-                          sum(r.failure is not None for r in repetitions)]
-                         + [_plain(figure) for spread in spreads for figure in _figures(spread)])
-    spread_names = [f"{name}_{part}" for name in names for part in ("median", "min", "max")]
+    spread_names = [f"{name}_{part}" for name in names
+                    for part in ("mean", "std", "min", "max", "starts")]
     return [_write_rows(os.path.join(folder, "runs.csv"),
-                        ["sequence", "variant", "repetition", "status"] + names, runs),
+                        ["sequence", "variant", "start_s", "repetition", "status"] + names, runs),
             _write_rows(os.path.join(folder, "table.csv"),
-                        ["sequence", "variant", "repetitions", "failed"] + spread_names, table)]
+                        ["sequence", "variant", "starts", "starts_without_trajectory", "runs",
+                         "failed"] + spread_names, table)]
 
 
-def _status(result):
-    return result.failure or result.not_compared or "compared"
+def _run_row(result):
+    run, status = result.run, result.failure or result.not_compared or "compared"
+    return ([run.sequence.name, run.variant, _plain(run.start), run.repetition, status]
+            + [_plain(metric.value(result)) for metric in METRICS])
+
+
+def _table_row(results, sequence, variant):
+    runs = results.runs(sequence, variant)
+    failed = sum(r.failure is not None for r in runs)
+    spreads = [results.spread(metric, sequence, variant) for metric in METRICS]
+    return ([sequence, variant, len({r.run.start for r in runs}),
+             len(results.lost_starts(sequence, variant)), len(runs), failed]
+            + [_plain(figure) for spread in spreads for figure in _figures(spread)])
 
 
 def _figures(spread):
-    spread = spread or Spread(None, None, None)
-    return spread.median, spread.low, spread.high
+    if spread is None:
+        return [None, None, None, None, 0]
+    return [spread.mean, spread.deviation, spread.low, spread.high, spread.starts]
 
 
 def _plain(value):

@@ -55,7 +55,7 @@ def _our_columns(table, results):
     def column(variant):
         def value(_, name):
             spread = name and results.spread(metric, name, variant)
-            return spread.median if spread else None
+            return spread.mean if spread else None
 
         def text(_, name):
             return cells.figure(results, metric, name, variant) if name else cells.NONE

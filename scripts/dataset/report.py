@@ -37,8 +37,8 @@ def _metric_table(results, metric):
         return f"### {metric.title}\n\nNo run has this figure."
     table = Table(["sequence"] + results.variants, rows)
     means, common = results.means(metric)
-    if len(results.sequences) > 1 and common:
-        table.rows.append([_mean_label(common, results.sequences)]
+    if len(results.cases()) > 1 and common:
+        table.rows.append([_mean_label(common, results)]
                           + [cells.number(means.get(v), metric.decimals) for v in results.variants])
         first = results.variants[0]
         if metric.is_error and means.get(first):
@@ -47,10 +47,11 @@ def _metric_table(results, metric):
     return f"### {metric.title}\n\n{table}"
 
 
-def _mean_label(common, sequences):
-    if len(common) == len(sequences):
+def _mean_label(common, results):
+    if len(common) == len(results.cases()):
         return "**mean**"
-    return f"**mean** of the {len(common)} that all variants have"
+    starts = " starts" if len(results.starts) > 1 else ""
+    return f"**mean** of the {len(common)}{starts} that all variants have"
 
 
 def _facts(facts):
@@ -65,24 +66,31 @@ def _failures(results):
     failed = [r for r in results.all() if r.failure is not None]
     if not failed:
         return f"All {len(results.all())} runs ended with a trajectory."
-    rows = [[r.run.sequence.name, r.run.variant, str(r.run.repetition), r.failure] for r in failed]
     return (f"## Failed runs\n\n{len(failed)} of {len(results.all())}:\n\n"
-            + str(Table(["sequence", "variant", "repetition", "reason"], rows)))
+            + _reasons([(r.run, r.failure) for r in failed]))
 
 
 def _not_compared(results):
-    rows = [[r.run.sequence.name, r.run.variant, str(r.run.repetition), r.not_compared]
-            for r in results.all() if r.not_compared is not None]
-    return rows and ("## Not compared with ground truth\n\n"
-                     + str(Table(["sequence", "variant", "repetition", "reason"], rows)))
+    reasons = [(r.run, r.not_compared) for r in results.all() if r.not_compared is not None]
+    return reasons and "## Not compared with ground truth\n\n" + _reasons(reasons)
+
+
+def _reasons(reasons):
+    rows = [[run.sequence.name, run.variant, f"{run.start:g}", str(run.repetition), reason]
+            for run, reason in reasons]
+    return str(Table(["sequence", "variant", "start [s]", "repetition", "reason"], rows))
 
 
 def _ape_notes(results):
     note = ("Poses as estimated at their time, no loop closure. APE after SE3 alignment without"
             " scale, with the coverage in brackets: the share of the ground truth's time that has a"
             " pose (a late start flatters the APE).")
-    if max(len(results.repetitions(s, v)) for s in results.sequences for v in results.variants) > 1:
-        note += " Figures are medians over the repetitions, with minimum and maximum."
+    if len(results.starts) > 1:
+        note += (" Figures are mean ± standard deviation [minimum, maximum] over those of"
+                 f" {len(results.starts)} starts that have them.")
+    if max(r.run.repetition for r in results.all()) > 1:
+        note += (" Repetitions count with their median, and in brackets with their minimum and"
+                 " maximum.")
     return note
 
 
@@ -114,8 +122,8 @@ def _pictures(figures):
              for heading, paths in figures.items()]
     return ("## Figures\n\nOf each sequence: the trajectories coloured by their error; the APE over"
             " time with its RMSE, mean, median and standard deviation; the paths from above; the"
-            " translation per axis and its error. Of repetitions, the one with the median APE is"
-            " drawn.\n\n" + "\n\n".join(parts))
+            " translation per axis and its error. Of starts and repetitions, the one with the"
+            " median APE is drawn.\n\n" + "\n\n".join(parts))
 
 
 def _change(value, reference):

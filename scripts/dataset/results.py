@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of runs, and their medians and spread over repetitions."""
+"""The figures of runs, and their means and spread over starts and repetitions."""
 
 import csv
 import json
@@ -92,17 +92,27 @@ METRIC = {metric.name: metric for metric in METRICS}
 
 @dataclass(frozen=True)
 class Spread:
-    """Of a figure over repetitions."""
+    """Of a figure over starts.
 
-    median: float
-    low: float
+    Each start counts once, with the median of its repetitions: these repeat the trajectory, and a
+    disturbed one says nothing of the time.
+    """
+
+    mean: float
+    deviation: Optional[float]  # of the sample, over starts; None of a single one
+    low: float  # of all runs
     high: float
+    starts: int  # that have the figure
 
     @classmethod
-    def of(cls, values):
-        """None where no repetition has the figure."""
-        known = [value for value in values if value is not None]
-        return cls(statistics.median(known), min(known), max(known)) if known else None
+    def of(cls, values_by_start):
+        """None where no start has the figure."""
+        if not values_by_start:
+            return None
+        medians = [statistics.median(values) for values in values_by_start.values()]
+        every = [value for values in values_by_start.values() for value in values]
+        deviation = statistics.stdev(medians) if len(medians) > 1 else None
+        return cls(statistics.mean(medians), deviation, min(every), max(every), len(medians))
 
 
 class Results:
@@ -115,33 +125,55 @@ class Results:
             self._cells.setdefault(key, []).append(result)
         self.sequences = list(dict.fromkeys(sequence for sequence, _ in self._cells))
         self.variants = list(dict.fromkeys(variant for _, variant in self._cells))
+        self.starts = sorted({result.run.start for result in self.all()})
 
-    def repetitions(self, sequence, variant):
+    def runs(self, sequence, variant):
+        """From every start, with every repetition."""
         return self._cells.get((sequence, variant), [])
+
+    def lost_starts(self, sequence, variant):
+        """Those from which no run gave a trajectory."""
+        runs = self.runs(sequence, variant)
+        return sorted({r.run.start for r in runs}
+                      - {r.run.start for r in runs if r.failure is None})
 
     def all(self):
         return [result for cell in self._cells.values() for result in cell]
 
     def spread(self, metric, sequence, variant):
-        return Spread.of(metric.value(r) for r in self.repetitions(sequence, variant))
+        return Spread.of(self._values_by_start(metric, sequence, variant))
+
+    def cases(self):
+        """What every variant has been tried on: pairs of a sequence and a start."""
+        return [(sequence, start) for sequence in self.sequences for start in self.starts]
 
     def means(self, metric):
-        """The mean over sequences of each variant's medians, of the sequences for which every
-        variant has the figure; with these sequences. Variants without any figure are left out."""
-        medians = {variant: {sequence: spread.median for sequence in self.sequences
-                             for spread in [self.spread(metric, sequence, variant)] if spread}
+        """The mean over cases of each variant's medians over repetitions, of the cases for which
+        every variant has the figure; with these cases. Variants without any figure are left out."""
+        medians = {variant: {(sequence, start): statistics.median(values)
+                             for sequence in self.sequences for start, values in
+                             self._values_by_start(metric, sequence, variant).items()}
                    for variant in self.variants}
-        medians = {variant: by_sequence for variant, by_sequence in medians.items() if by_sequence}
-        common = [s for s in self.sequences if medians and all(s in m for m in medians.values())]
+        medians = {variant: by_case for variant, by_case in medians.items() if by_case}
+        common = [c for c in self.cases() if medians and all(c in m for m in medians.values())]
         if not common:
             return {}, []
-        return {variant: statistics.mean(by_sequence[s] for s in common)
-                for variant, by_sequence in medians.items()}, common
+        return {variant: statistics.mean(by_case[c] for c in common)
+                for variant, by_case in medians.items()}, common
+
+    def _values_by_start(self, metric, sequence, variant):
+        """Of the repetitions that have the figure; starts without any are left out."""
+        values = {}
+        for result in self.runs(sequence, variant):
+            value = metric.value(result)
+            if value is not None:
+                values.setdefault(result.run.start, []).append(value)
+        return values
 
     def typical(self, sequence, variant):
-        """The repetition with the (lower) median APE, or None where none could be compared."""
+        """The run with the (lower) median APE, or None where none could be compared."""
         ape = METRIC["ape_m"]
-        compared = [r for r in self.repetitions(sequence, variant) if ape.value(r) is not None]
+        compared = [r for r in self.runs(sequence, variant) if ape.value(r) is not None]
         compared.sort(key=ape.value)
         return compared[(len(compared) - 1) // 2] if compared else None
 
@@ -152,9 +184,8 @@ class Evaluator:
     Raises TrajectoryError at once if a ground truth is not readable.
     """
 
-    def __init__(self, sequences, start=None, duration=None):
+    def __init__(self, sequences, duration=None):
         self._truths = {s.name: read_trajectory(s.truth) for s in sequences if s.truth}
-        self._is_part = bool(start) or duration is not None
         self._duration = float("inf") if duration is None else duration
 
     def result(self, run):
@@ -181,7 +212,7 @@ class Evaluator:
         """As evaluate(): the paired trajectories and their figures. Raises TrajectoryError."""
         estimate = read_trajectory(os.path.join(run.folder, "trajectory.tum"))
         truth = self._truths[run.sequence.name]
-        if self._is_part:
+        if run.start or self._duration < float("inf"):
             truth = self._during_run(truth, estimate.stamps[0] - summary["init_time_s"])
         return evaluate(estimate, truth)
 

@@ -26,37 +26,40 @@ class Settings:
     program: str  # run_offline
     config: str
     output: str
-    start: Optional[float] = None  # [s]
     duration: Optional[float] = None  # [s]
     overrides: Dict[str, str] = dataclasses.field(default_factory=dict)
 
     def fingerprint(self):
         """Changes whenever a run may end differently; of program and config the content counts."""
         return {"program_sha256": _sha256(self.program), "config_sha256": _sha256(self.config),
-                "start": self.start, "duration": self.duration}
+                "duration": self.duration}
 
 
 class Run:
-    """A sequence with a variant of the configuration, for the n-th time.
+    """A sequence with a variant of the configuration from a start on [s], for the n-th time.
 
-    The folder OUTPUT/runs/SEQUENCE/VARIANT/REPETITION has what run_offline writes, its messages
-    (run.log) and, once it has ended, run.json.
+    The folder OUTPUT/runs/SEQUENCE/VARIANT/REPETITION, or .../VARIANT/from_STARTs/REPETITION where
+    the run does not start with the recording, has what run_offline writes, its messages (run.log)
+    and, once it has ended, run.json.
     """
 
     def __init__(self, settings, fingerprint, sequence: Sequence, variant: str,
-                 overrides: Dict[str, str], repetition: int):
+                 overrides: Dict[str, str], start: float, repetition: int):
         self.sequence = sequence
         self.variant = variant
+        self.start = start
         self.repetition = repetition
-        self.folder = os.path.join(settings.output, "runs", sequence.name, variant, str(repetition))
+        self._labels = [sequence.name, variant, *([f"from_{start}s"] if start else []),
+                        str(repetition)]
+        self.folder = os.path.join(settings.output, "runs", *self._labels)
         self._settings = settings
         self._overrides = {**settings.overrides, **overrides}
-        self._identity = {**fingerprint, "recording": _content(sequence),
+        self._identity = {**fingerprint, "start": start, "recording": _content(sequence),
                           "overrides": self._overrides}
 
     @property
     def name(self):
-        return f"{self.sequence.name} {self.variant} {self.repetition}"
+        return " ".join(self._labels)
 
     def is_finished(self):
         """Whether an earlier run with the same settings left complete results."""
@@ -76,9 +79,10 @@ class Run:
         settings, input_option = self._settings, "--bag" if self.sequence.is_bag else "--asl"
         command = [settings.program, "--config", settings.config, input_option, self.sequence.path,
                    "--output", self.folder]
-        for option in ("start", "duration"):
-            seconds = getattr(settings, option)
-            command += [] if seconds is None else [f"--{option}", repr(seconds)]
+        if self.start:
+            command += ["--start", repr(self.start)]
+        if settings.duration is not None:
+            command += ["--duration", repr(settings.duration)]
         for key, value in self._overrides.items():
             command += ["--set", f"{key}={value}"]
         return command
@@ -96,9 +100,10 @@ class Run:
     def save_outcome(self, exit_code, seconds):
         failure = self._failure(exit_code)
         outcome = {"sequence": self.sequence.name, "variant": self.variant,
-                   "repetition": self.repetition, "failure": failure, "exit_code": exit_code,
-                   "wall_time_s": seconds, "load_average": os.getloadavg()[0],
-                   "command": self.command(), "identity": self._identity}
+                   "start": self.start, "repetition": self.repetition, "failure": failure,
+                   "exit_code": exit_code, "wall_time_s": seconds,
+                   "load_average": os.getloadavg()[0], "command": self.command(),
+                   "identity": self._identity}
         path = os.path.join(self.folder, OUTCOME)
         with open(path + ".part", "w", encoding="utf-8") as file:
             json.dump(outcome, file, indent=2)

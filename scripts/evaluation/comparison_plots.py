@@ -23,16 +23,16 @@ def write_comparison(folder, pairs):
 
 
 def write_overview(folder, name, values, label):
-    """A bar per sequence and variant. `values`: variant -> sequence -> figure, the same sequences
-    for all, None where there is none. Returns the file names."""
+    """A bar per sequence and variant. `values`: variant -> sequence -> figure and its standard
+    deviation, the same sequences for all, NaN and 0 where there is none. Returns the file names."""
     sequences = list(next(iter(values.values())))
     figure, axis = pyplot.subplots(figsize=(max(6, 1 + 1.6 * len(sequences)), 4.5),
                                    constrained_layout=True)
     width, places = 0.85 / len(values), np.arange(len(sequences))
     for index, (variant, figures) in enumerate(values.items()):
-        heights = [math.nan if figures[s] is None else figures[s] for s in sequences]
+        heights, deviations = zip(*(figures[s] for s in sequences))
         axis.bar(places + (index - (len(values) - 1) / 2) * width, heights, width, label=variant,
-                 color=COLOURS[index % len(COLOURS)])
+                 color=COLOURS[index % len(COLOURS)], yerr=deviations)
     axis.set_xticks(places)
     axis.set_xticklabels(sequences, rotation=20, ha="right")
     axis.set_ylabel(label)

@@ -19,8 +19,8 @@ from dataset.variants import DESCRIPTIONS, VARIANTS  # noqa: E402
 APE = METRIC["ape_m"]
 
 
-def result(sequence, variant, ape=None, repetition=1, failure=None, extraction=None):
-    run = SimpleNamespace(sequence=SimpleNamespace(name=sequence), variant=variant,
+def result(sequence, variant, ape=None, repetition=1, failure=None, extraction=None, start=0.0):
+    run = SimpleNamespace(sequence=SimpleNamespace(name=sequence), variant=variant, start=start,
                           repetition=repetition)
     if failure:
         return RunResult(run, failure=failure)
@@ -47,6 +47,33 @@ class Figures(unittest.TestCase):
                          "0.1200 [0.1000, 0.3000] (98 %)")
         self.assertEqual(results.typical("hall", "points").run.repetition, 3)
 
+    def test_mean_and_spread_over_starts(self):
+        results = Results([result("hall", "points", ape, start=start)
+                           for start, ape in enumerate((0.1, 0.2, 0.6))])
+        self.assertEqual(cells.figure(results, APE, "hall", "points"),
+                         "0.3000 ± 0.2646 [0.1000, 0.6000] (98 %) over 3 starts")
+        self.assertEqual(results.typical("hall", "points").run.start, 1)
+
+    def test_a_start_counts_once_with_the_median_of_its_repetitions(self):
+        results = Results([result("hall", "points", ape, n, start=0.0)
+                           for n, ape in enumerate((0.1, 0.2, 0.9), start=1)]
+                          + [result("hall", "points", 0.4, start=1.0)])
+        spread = results.spread(APE, "hall", "points")
+        self.assertAlmostEqual(spread.mean, 0.3)
+        self.assertAlmostEqual(spread.deviation, 0.1 * 2 ** 0.5)
+        self.assertEqual((spread.low, spread.high, spread.starts), (0.1, 0.9, 2))
+
+    def test_starts_without_trajectory_are_counted(self):
+        results = Results([result("hall", "points", 0.1),
+                           result("hall", "points", start=1.0, failure="lost"),
+                           result("hall", "lines", failure="lost"),
+                           result("hall", "lines", 0.1, repetition=2),
+                           result("hall", "lines", 0.1, start=1.0)])
+        self.assertEqual(cells.figure(results, APE, "hall", "points"),
+                         "0.1000 [0.1000, 0.1000] (98 %) over 1 start, 1 of 2 failed")
+        self.assertEqual(results.lost_starts("hall", "points"), [1.0])
+        self.assertEqual(results.lost_starts("hall", "lines"), [])
+
     def test_failed_repetitions_are_counted(self):
         results = Results([result("hall", "points", 0.1), result("hall", "points", repetition=2,
                                                                  failure="too dark"),
@@ -64,13 +91,19 @@ class Figures(unittest.TestCase):
                            result("b", "points", 0.9), result("b", "lines", failure="lost"),
                            result("c", "points", 0.3), result("c", "lines", 0.35)])
         means, common = results.means(APE)
-        self.assertEqual(common, ["a", "c"])
+        self.assertEqual(common, [("a", 0.0), ("c", 0.0)])
         self.assertAlmostEqual(means["points"], 0.2)
         self.assertAlmostEqual(means["lines"], 0.2)
 
     def test_variant_without_any_figure_does_not_take_the_others_means(self):
         results = Results([result("a", "points", 0.1), result("a", "lines", failure="lost")])
-        self.assertEqual(results.means(APE), ({"points": 0.1}, ["a"]))
+        self.assertEqual(results.means(APE), ({"points": 0.1}, [("a", 0.0)]))
+
+    def test_means_compare_the_same_starts(self):
+        results = Results([result("hall", "points", 0.1), result("hall", "lines", 0.2),
+                           result("hall", "points", 0.9, start=1.0),
+                           result("hall", "lines", start=1.0, failure="lost")])
+        self.assertEqual(results.means(APE), ({"points": 0.1, "lines": 0.2}, [("hall", 0.0)]))
 
 
 class PaperTables(unittest.TestCase):
@@ -136,11 +169,19 @@ class Report(unittest.TestCase):
                                {"b": ["plots/b/ape.png"]}, cores=2)
         self.assertIn("1 of 2:", text)
         self.assertIn("lost \\| found", text)
-        self.assertEqual(row(text, "b", "points", "1"), ["b", "points", "1", "no ground truth"])
+        self.assertEqual(row(text, "b", "points"), ["b", "points", "0", "1", "no ground truth"])
         self.assertEqual(row(text, "points"), ["points", DESCRIPTIONS["points"]])
         self.assertIn("None of the sequences is one of the paper's", text)
         self.assertIn("![ape.png](plots/b/ape.png)", text)
         self.assertNotIn("| lines ", text)
+
+    def test_starts_are_explained_and_variants_compared_over_those_of_one_sequence(self):
+        text = markdown_report(Results([result("hall", variant, ape, start=start)
+                                        for variant, ape in (("points", 0.2), ("lines", 0.1))
+                                        for start in (0.0, 1.0)]), [], {}, cores=2)
+        self.assertIn("over those of 2 starts that have them", text)
+        self.assertEqual(row(text, "**mean**"), ["**mean**", "0.2000", "0.1000"])
+        self.assertEqual(row(text, "against points")[2], "-50 %")
 
     def test_times_beside_other_work_are_not_passed_over(self):
         quiet, busy = result("MH_01_easy", "points", 0.1), result("MH_02_easy", "points", 0.1)

@@ -3,9 +3,10 @@
 """Stands in for run_offline in tests of run_dataset.py.
 
 The "recording" is a text file whose words say what happens: `fly` gives results, `fail`, `crash`,
-`hang`, `lose` (ends well without results), `meet` (flies once another run is under way too). The
-estimate is FLIGHT with offsets of alternating sign, so that the APE is known: OFFSETS. Every
-call leaves a line in calls.txt beside the program.
+`hang`, `lose` (ends well without results), `meet` (flies once another run is under way too),
+`stumble` (fails from STUMBLE on). The estimate is FLIGHT with offsets of alternating sign, so that
+the APE is known: OFFSETS, and with `drift` DRIFT more for every second that is skipped. Every call
+leaves a line in calls.txt beside the program.
 """
 
 import argparse
@@ -22,6 +23,8 @@ START = 1403636580.0  # [s]
 RATE, SECONDS = 20.0, 20.0
 LATE = 1.0  # the first pose comes this much after the first image [s]
 OFFSETS = {"harris": 0.2, "shi_tomasi": 0.1}  # by corner detector [m]
+DRIFT = 0.01  # [m/s]
+STUMBLE = 8.0  # [s]
 EXTRACTION_MS = {"lsd": 8.0, "fld": 2.0}  # in every second frame
 
 
@@ -46,13 +49,14 @@ def parse_arguments():
     return parser.parse_args()
 
 
-def write_results(options, settings):
+def write_results(options, settings, drift):
     stamps, positions = flight()
     begin = START + options.start
     inside = (stamps >= begin + LATE) & (stamps <= begin + options.duration + 1e-6)
     stamps, positions = stamps[inside], positions[inside]
-    positions[::2, 2] += OFFSETS[settings["corner_detector"]]
-    positions[1::2, 2] -= OFFSETS[settings["corner_detector"]]
+    offset = OFFSETS[settings["corner_detector"]] + drift * options.start
+    positions[::2, 2] += offset
+    positions[1::2, 2] -= offset
     write_tum(os.path.join(options.output, "trajectory.tum"), stamps, positions)
     extraction = EXTRACTION_MS.get(settings.get("line_detector"), 0.0)
     with open(os.path.join(options.output, "timing.csv"), "w", encoding="utf-8") as file:
@@ -89,7 +93,7 @@ def main():
     recording = options.bag or os.path.join(options.asl, "mav0", "cam0", "data.csv")
     with open(recording, encoding="utf-8") as file:
         words = file.read().split()
-    if "fail" in words:
+    if "fail" in words or ("stumble" in words and options.start >= STUMBLE):
         sys.exit("run_offline: no trajectory from 400 images: too little motion")
     if "crash" in words:
         os.kill(os.getpid(), signal.SIGKILL)
@@ -100,7 +104,7 @@ def main():
     if "meet" in words and not meet(folder):
         sys.exit("run_offline: nobody came")
     if "lose" not in words:
-        write_results(options, settings)
+        write_results(options, settings, DRIFT if "drift" in words else 0.0)
 
 
 if __name__ == "__main__":

@@ -92,7 +92,8 @@ class Results(DatasetTest):
             self.assertEqual((row["lines"], row["lines_in_window"], row["frame_ms"]),
                              ("30", "18", "10"))
         table = self.rows("table.csv")
-        self.assertEqual([row["repetitions"] for row in table], ["2"] * 4)
+        self.assertEqual([row["runs"] for row in table], ["2"] * 4)
+        self.assertEqual([row["starts"] for row in table], ["1"] * 4)
         self.assertEqual(table[0]["ape_m_min"], table[0]["ape_m_max"])
         report = self.report()
         self.assertRegex(report, r"MH_01_easy +\| 0\.18 +\| 0\.14 +\| MH_01_easy +"
@@ -108,6 +109,28 @@ class Results(DatasetTest):
         self.call("--no-plots", "--variants", "improved", "--start", "5", "--duration", "10")
         self.assertIn("--start 5.0 --duration 10.0", self.calls()[0])
         self.assertAlmostEqual(float(self.rows()[0]["coverage_percent"]), 90.0, 0)
+
+    def test_starts(self):
+        self.add("hall", "fly drift stumble")
+        result = self.call("--variants", "baseline", "improved", "--starts", "5", "0", "10",
+                           "--repetitions", "2", exit_code=1)
+        self.assertEqual(len(self.calls()), 12)
+        self.assertIn("hall improved from_10.0s 2: FAILED: no trajectory", result.stderr)
+        self.assertIn("from 0, 5, 10 s on", self.report())
+        rows = [r for r in self.rows() if r["variant"] == "improved" and r["repetition"] == "1"]
+        self.assertEqual([row["start_s"] for row in rows], ["0", "5", "10"])
+        for row, ape, coverage in zip(rows, (0.1, 0.15), (95, 100 * 14 / 15)):
+            self.assertAlmostEqual(float(row["ape_m"]), ape, 3)
+            self.assertAlmostEqual(float(row["coverage_percent"]), coverage, 0)
+        row = self.rows("table.csv")[1]
+        self.assertEqual((row["starts"], row["starts_without_trajectory"], row["runs"],
+                          row["failed"], row["ape_m_starts"]), ("3", "1", "6", "2", "2"))
+        for part, ape in (("mean", 0.125), ("std", 0.05 / 2 ** 0.5), ("min", 0.1), ("max", 0.15)):
+            self.assertAlmostEqual(float(row["ape_m_" + part]), ape, 3)
+        self.assertRegex(self.report(), r"\| 0\.12\d+ ± 0\.03\d+ \[0\.1\d+, 0\.15\d+\] \(94 %\)"
+                                        r" over 2 starts, 2 of 6 failed")
+        self.assertRegex(self.report(), r"\*\*mean\*\* of the 2 starts that all variants have")
+        self.assertRegex(self.report(), r"\| hall +\| improved +\| 10 +\| 2 +\| no trajectory")
 
     def test_without_ground_truth(self):
         self.add("hall", truth=False)
@@ -204,6 +227,16 @@ class Resuming(DatasetTest):
             file.write("{")
         self.assert_repeated()
 
+    def test_starts_are_added(self):
+        self.add("hall")
+        self.assert_repeated()
+        self.assert_repeated("--start", "5")
+        self.assert_repeated("--starts", "0", "2.5", "5")
+        self.assertIn("--start 2.5", self.calls()[-1])
+        self.call("--no-plots", "--variants", "improved", "--starts", "0", "2.5", "5")
+        self.assertEqual(len(self.calls()), 3)
+        self.assertEqual([row["start_s"] for row in self.rows()], ["0", "2.5", "5"])
+
     def interrupt(self, number):
         """Starts all runs, waits for the one that hangs and sends the signal."""
         shutil.rmtree(os.path.join(self.output, "runs", "b_hangs"), ignore_errors=True)
@@ -299,6 +332,9 @@ class BadCalls(DatasetTest):
         self.assert_refused("missing: no such program", "--run-offline", "missing")
         self.assert_refused("from 1 on instead of 0", "--jobs", "0", exit_code=2)
         self.assert_refused("zero or more, instead of nan", "--start", "nan", exit_code=2)
+        self.assert_refused("zero or more, instead of -1", "--starts=-1", exit_code=2)
+        self.assert_refused("--starts: not allowed with argument --start", "--start", "1",
+                            "--starts", "1", "2", exit_code=2)
         self.assert_refused("key=value instead of max_cnt", "--set", "max_cnt", exit_code=2)
         self.write(os.path.join("bags", "hall.tum"), "1 2 3\n")
         self.assert_refused("hall.tum:1: 3 columns, expected 8")

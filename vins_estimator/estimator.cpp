@@ -128,8 +128,8 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
 }
 
 std::optional<std::string> Estimator::FindFailure(const EstimatorOutput& output) {
-  const auto contradiction = state_.contradiction_monitor.Add(
-      output.t_ns, output.counts.points_in_window, output.counts.points_rejected);
+  auto contradiction = state_.contradiction_monitor.Add(output.t_ns, output.counts.points_in_window,
+                                                        output.counts.points_rejected);
   if (contradiction) return contradiction;
   return DetectFailure(FailureLimits(), state_.predicted,
                        state_.estimate.map.window.newest().state);

@@ -2,6 +2,9 @@
 // The least-squares problem of a simulated window, for the tests of solving and marginalising.
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include "test/vins_estimator/simulated_window.h"
 #include "vins_estimator/problem/problem_builder.h"
 
@@ -16,6 +19,23 @@ inline void AddAll(SimulatedWindow* simulated, ProblemBuilder* builder) {
   }
   for (auto& [id, landmark] : simulated->lines.landmarks()) {
     if (landmark.triangulated && landmark.views.size() > 1) builder->AddLine(&landmark);
+  }
+}
+
+// The values of all variables, in their order.
+inline std::vector<double> CopyValues(const WindowProblem& problem) {
+  std::vector<double> values;
+  for (const Variable& variable : problem.variables()) {
+    values.insert(values.end(), variable.values, variable.values + variable.type().ambient_size);
+  }
+  return values;
+}
+
+inline void RestoreValues(const std::vector<double>& values, const WindowProblem& problem) {
+  const double* next = values.data();
+  for (const Variable& variable : problem.variables()) {
+    std::copy(next, next + variable.type().ambient_size, variable.values);
+    next += variable.type().ambient_size;
   }
 }
 

@@ -171,7 +171,7 @@ std::optional<Eigen::Vector3d> Builder::TriangulateTrack(const Track& track) con
     }
   }
   if (widest < kMinTriangulationSigmas * noise_) return std::nullopt;
-  const auto point = IntersectLines(lines, noise_);
+  auto point = IntersectLines(lines, noise_);
   if (!point) return std::nullopt;
   for (const ViewObservation& o : track.observations) {
     if (posed_[o.view] && InCamera(o.view, *point).z() <= kMinDepth) return std::nullopt;

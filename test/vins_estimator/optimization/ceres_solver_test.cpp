@@ -59,22 +59,6 @@ class CeresSolverTest : public ::testing::TestWithParam<bool> {
 
   const WindowProblem& problem() const { return builder_->problem(); }
 
-  std::vector<double> Values() const {
-    std::vector<double> values;
-    for (const Variable& variable : problem().variables()) {
-      values.insert(values.end(), variable.values, variable.values + variable.type().ambient_size);
-    }
-    return values;
-  }
-
-  void SetValues(const std::vector<double>& values) {
-    const double* next = values.data();
-    for (const Variable& variable : problem().variables()) {
-      std::copy(next, next + variable.type().ambient_size, variable.values);
-      next += variable.type().ambient_size;
-    }
-  }
-
   SolverSummary SolveByOurs(const SolverOptions& options) const {
     NormalEquations equations(problem());
     return Solve(options, problem(), &equations);
@@ -108,11 +92,11 @@ TEST_P(CeresSolverTest, WindowHasAllKindsOfTerms) {
 TEST_P(CeresSolverTest, ReachesTheMinimumOfOurSolver) {
   for (int start = 0; start < 3; ++start) {
     Disturb(0.003);
-    const std::vector<double> values = Values();
+    const std::vector<double> values = testing::CopyValues(problem());
     const SolverSummary ours = SolveByOurs(thorough_);
     const std::vector<WindowFrame> expected(estimate_.map.window.frames.begin(),
                                             estimate_.map.window.frames.end());
-    SetValues(values);
+    testing::RestoreValues(values, problem());
     const SolverSummary ceres = SolveByCeres(thorough_, problem());
     ASSERT_TRUE(ours.solved && ceres.solved);
     EXPECT_NEAR(ceres.initial_cost / ours.initial_cost, 1, 1e-9);
@@ -139,18 +123,18 @@ TEST_P(CeresSolverTest, IsBoundedByIterations) {
 // Ceres orders by address what it is told to eliminate.
 TEST_P(CeresSolverTest, GivesTheSameBytesWhereverTheValuesAre) {
   Disturb(0.01);
-  const std::vector<double> start = Values();
+  const std::vector<double> start = testing::CopyValues(problem());
   SolveByCeres(SolverOptions(), problem());
-  const std::vector<double> expected = Values();
+  const std::vector<double> expected = testing::CopyValues(problem());
 
   auto& landmarks = estimate_.map.points.landmarks();
   std::remove_reference_t<decltype(landmarks)> moved;
   for (auto it = landmarks.rbegin(); it != landmarks.rend(); ++it) moved.insert(*it);
   landmarks.swap(moved);
   Build();
-  SetValues(start);
+  testing::RestoreValues(start, problem());
   SolveByCeres(SolverOptions(), problem());
-  EXPECT_EQ(Values(), expected);
+  EXPECT_EQ(testing::CopyValues(problem()), expected);
 }
 
 TEST_P(CeresSolverTest, MovesNoConstants) {

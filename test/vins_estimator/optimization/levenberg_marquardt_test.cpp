@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "test/testing/numeric_jacobian.h"
-#include "test/vins_estimator/simulated_window.h"
+#include "test/vins_estimator/simulated_problem.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
@@ -62,22 +62,6 @@ class LevenbergMarquardtTest : public ::testing::Test {
     }
   }
 
-  std::vector<double> Values() const {
-    std::vector<double> values;
-    for (const Variable& variable : problem_.variables()) {
-      values.insert(values.end(), variable.values, variable.values + variable.type().ambient_size);
-    }
-    return values;
-  }
-
-  void SetValues(const std::vector<double>& values) {
-    const double* next = values.data();
-    for (const Variable& variable : problem_.variables()) {
-      std::copy(next, next + variable.type().ambient_size, variable.values);
-      next += variable.type().ambient_size;
-    }
-  }
-
   // All states but the first pose, and the depths.
   void Disturb(double scale, uint64_t seed) {
     simulator::Random random(seed);
@@ -103,9 +87,9 @@ TEST_F(LevenbergMarquardtTest, FewDefaultIterationsAreEnoughFromAPrediction) {
 }
 
 TEST_F(LevenbergMarquardtTest, NeverEndsAboveTheInitialCost) {
-  const std::vector<double> truth = Values();
+  const std::vector<double> truth = testing::CopyValues(problem_);
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    SetValues(truth);
+    testing::RestoreValues(truth, problem_);
     Disturb(0.02 * static_cast<double>(seed), seed);  // up to 0.4 m, 0.4 rad, a depth of 1.5
     for (const int iterations : {1, 2, 8}) {
       SolverOptions options;

@@ -66,6 +66,7 @@ class DenseEquationsBuilder {
       points.push_back(variable.linearization ? variable.linearization : variable.values);
       blocks.emplace_back(rows, variable.type().ambient_size);
     }
+    jacobians.reserve(blocks.size());
     for (RowMajor& block : blocks) jacobians.push_back(block.data());
     Eigen::VectorXd r(rows);
     ASSERT_TRUE(term.cost->Evaluate(points.data(), r.data(), jacobians.data()));

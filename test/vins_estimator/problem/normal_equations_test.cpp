@@ -9,7 +9,7 @@
 
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/problem/dense_equations.h"
-#include "test/vins_estimator/simulated_window.h"
+#include "test/vins_estimator/simulated_problem.h"
 #include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/problem/problem_builder.h"
 
@@ -34,14 +34,7 @@ class NormalEquationsTest : public ::testing::Test {
 
   void Build() {
     builder_.emplace(options_, &simulated_.window, &prior_);
-    builder_->AddPrior();
-    for (size_t i = 1; i < simulated_.window.frames.size(); ++i) builder_->AddMotion(i);
-    for (auto& [id, landmark] : simulated_.points.landmarks()) {
-      if (landmark.triangulated) builder_->AddPoint(&landmark);
-    }
-    for (auto& [id, landmark] : simulated_.lines.landmarks()) {
-      if (landmark.triangulated) builder_->AddLine(&landmark);
-    }
+    testing::AddAll(&simulated_, &*builder_);
     equations_.emplace(problem());
   }
 

@@ -22,6 +22,11 @@ inline int64_t ToNanoseconds(double seconds) {
   return static_cast<int64_t>(seconds * kNanosecondsPerSecond + (seconds < 0 ? -0.5 : 0.5));
 }
 
+// Stamps are from zero to before kEndOfTime_ns, which is what ROS can write: then differences of
+// any two, and sums with a time offset, are numbers, too.
+constexpr int64_t kEndOfTime_ns = (int64_t{1} << 32) * 1'000'000'000;
+inline bool IsStamp(int64_t t_ns) { return t_ns >= 0 && t_ns < kEndOfTime_ns; }
+
 // One grey image (CV_8UC1) as the camera delivered it, with lens distortion.
 struct ImageSample {
   int64_t t_ns = 0;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "offline/csv_reader.h"
+#include "offline/ordered_rows.h"
 
 namespace plm_vins {
 namespace {
@@ -45,8 +46,8 @@ class AslRecording : public Recording {
         image_rows_(Require(SensorRoot(folder) / "cam0" / "data.csv"), 1),
         imu_rows_(Require(SensorRoot(folder) / "imu0" / "data.csv"), 6),
         end_ns_(LastStamp(SensorRoot(folder) / "cam0" / "data.csv")) {
-    next_image_ = image_rows_.Next();
-    next_imu_ = NextImu();
+    next_image_ = ordered_images_.Next();
+    next_imu_ = ordered_imu_.Next();
     if (!next_image_) throw std::runtime_error("no image listed in " + folder + " (cam0/data.csv)");
     if (!next_imu_) throw std::runtime_error("no IMU sample in " + folder + " (imu0/data.csv)");
   }
@@ -55,11 +56,11 @@ class AslRecording : public Recording {
     RecordingEvent event;
     if (next_imu_ && (!next_image_ || next_imu_->t_ns <= next_image_->t_ns)) {
       event = {RecordingEvent::Kind::kImu, next_imu_->t_ns, *next_imu_};
-      next_imu_ = NextImu();
+      next_imu_ = ordered_imu_.Next();
     } else if (next_image_) {
       event = {RecordingEvent::Kind::kImage, next_image_->t_ns, {}};
       current_image_ = image_folder_ / next_image_->values[0];
-      next_image_ = image_rows_.Next();
+      next_image_ = ordered_images_.Next();
     } else {
       return std::nullopt;
     }
@@ -81,14 +82,17 @@ class AslRecording : public Recording {
   DropCounts problems() const override {
     return {{"images_unreadable", unreadable_images_, first_unreadable_},
             {"image_csv_lines_bad", image_rows_.bad_lines(), image_rows_.first_bad_line()},
-            {"imu_csv_lines_bad", imu_rows_.bad_lines(), imu_rows_.first_bad_line()}};
+            {"imu_csv_lines_bad", imu_rows_.bad_lines(), imu_rows_.first_bad_line()},
+            {"image_stamps_ahead_of_time", ordered_images_.dropped(), ""},
+            {"imu_stamps_ahead_of_time", ordered_imu_.dropped(), ""}};
   }
 
  private:
   static std::optional<int64_t> LastStamp(const fs::path& file) {
     CsvReader reader(file.string(), 1);
+    OrderedRows<CsvRow> rows([&reader] { return reader.Next(); });
     std::optional<int64_t> last;
-    while (const auto row = reader.Next()) last = row->t_ns;
+    while (const auto row = rows.Next()) last = row->t_ns;
     return last;
   }
 
@@ -104,6 +108,8 @@ class AslRecording : public Recording {
   fs::path image_folder_;
   CsvReader image_rows_;
   CsvReader imu_rows_;
+  OrderedRows<CsvRow> ordered_images_{[this] { return image_rows_.Next(); }};
+  OrderedRows<ImuSample> ordered_imu_{[this] { return NextImu(); }};
   std::optional<int64_t> end_ns_;
   std::optional<CsvRow> next_image_;
   std::optional<ImuSample> next_imu_;

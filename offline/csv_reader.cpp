@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/measurements.h"
+
 namespace plm_vins {
 namespace {
 
@@ -47,7 +49,7 @@ std::optional<CsvRow> CsvReader::Parse(const std::string& line) const {
   field = Trim(field);
   const char* end = field.data() + field.size();
   const auto parsed = std::from_chars(field.data(), end, row.t_ns);
-  if (parsed.ec != std::errc() || parsed.ptr != end) return std::nullopt;
+  if (parsed.ec != std::errc() || parsed.ptr != end || !IsStamp(row.t_ns)) return std::nullopt;
   while (std::getline(stream, field, ',')) row.values.push_back(Trim(field));
   if (row.values.size() < values_per_row_) return std::nullopt;
   return row;

@@ -16,7 +16,7 @@ struct CsvRow {
 };
 
 // Reads "stamp,value,..." lines one by one. Comments (#) and empty lines are passed over; a line
-// that is not of this form is counted and passed over.
+// that is not of this form, or whose stamp is no IsStamp(), is counted and passed over.
 class CsvReader {
  public:
   // Throws std::runtime_error that names the file where it cannot be opened.

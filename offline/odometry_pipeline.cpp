@@ -134,7 +134,10 @@ void OdometryPipeline::Consume(TrackedItem item, const FrameCallback& on_frame) 
 
 void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
   if (tracked.points.restart) back_end_.Reset("stamps jumped back");
-  if (!tracked.points.publish) return;
+  if (!tracked.points.publish) {
+    ++thinned_images_;
+    return;
+  }
   PipelineFrame& frame = unfinished_[tracked.points.features.t_ns];
   frame.point_tracking_ms = tracked.points.tracking_ms;
   frame.point_tracking = tracked.points.statistics;
@@ -146,6 +149,7 @@ void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
 }
 
 void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_frame) {
+  ++estimated_images_;
   const auto unfinished = unfinished_.find(estimated.output.t_ns);
   PipelineFrame frame = std::move(unfinished->second);
   frame.output = std::move(estimated.output);

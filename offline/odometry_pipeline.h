@@ -51,6 +51,8 @@ class OdometryPipeline {
 
   // After Run().
   int64_t images() const { return images_; }
+  // Images that should have come to the estimator and did not.
+  int64_t unused_images() const { return images() - thinned_images_ - estimated_images_; }
   std::optional<int64_t> first_image_ns() const { return first_image_ns_; }
   DropCounts drops() const;
 
@@ -77,6 +79,8 @@ class OdometryPipeline {
   std::optional<int64_t> first_image_ns_;
   int64_t images_ = 0;
   int64_t tracked_images_ = 0;
+  int64_t thinned_images_ = 0;  // left out for the sake of the rate `freq`
+  int64_t estimated_images_ = 0;
   FeatureFileWriter* saved_features_ = nullptr;
   cv::Mat points_image_;
   cv::Mat lines_image_;

@@ -28,7 +28,11 @@ class RecordingInterval {
     if (!first_image_ns_) return start_ > 0 ? Part::kSkip : Part::kUse;
     const double margin = is_image ? 0 : kImuMargin;
     const double t = ToSeconds(event.t_ns - *first_image_ns_) - start_;
-    if (is_image && t > duration_ + kImuMargin) return Part::kEnd;
+    if (is_image) {
+      const bool beyond = t > duration_ + kImuMargin;
+      if (beyond && beyond_) return Part::kEnd;
+      beyond_ = beyond;
+    }
     if (t > duration_ + margin) return Part::kSkip;
     begun_ = begun_ || t >= 0;
     return begun_ || t >= -margin ? Part::kUse : Part::kSkip;
@@ -40,7 +44,8 @@ class RecordingInterval {
   double start_;
   double duration_;
   std::optional<int64_t> first_image_ns_;
-  bool begun_ = false;  // from here on, stamps may jump back: that is for the next stages to judge
+  bool beyond_ = false;  // the end, the last image; one alone may have a wrong stamp
+  bool begun_ = false;   // from here on, stamps may jump back: that is for the next stages to judge
 };
 
 }  // namespace plm_vins

@@ -107,10 +107,17 @@ std::string WhyNone(const RunSummary::Run& run, const RunSummary& summary) {
   return dropped ? "none was usable, see the warnings" : "none between --start and --duration";
 }
 
+// The warning where most of a recording was of no use; empty where it was not.
+std::string UnusedWarning(int64_t unused, int64_t images) {
+  if (2 * unused <= images) return "";
+  return std::to_string(unused) + " of " + std::to_string(images) + " images were not used";
+}
+
 // Says how it went. Exit code: 0 where there is a trajectory.
-int Report(const RunSummary::Run& run, const ResultFiles& results) {
+int Report(const RunSummary::Run& run, int64_t unused_images, const ResultFiles& results) {
   const RunSummary& summary = results.summary();
   Warn(run.drops);
+  Warn(UnusedWarning(unused_images, run.images));
   if (summary.poses() == 0) {
     std::fprintf(stderr, "run_offline: no trajectory from %" PRId64 " images: %s\n", run.images,
                  WhyNone(run, summary).c_str());
@@ -175,7 +182,7 @@ int Run(const Arguments& arguments) {
   run.drops = source.problems;
   Append(pipeline.drops(), &run.drops);
   results.Finish(run, config);
-  return Report(run, results);
+  return Report(run, pipeline.unused_images(), results);
 }
 
 }  // namespace

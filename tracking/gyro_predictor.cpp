@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "common/imu_range.h"
 #include "common/so3.h"
 
 namespace plm_vins {
@@ -11,6 +12,7 @@ namespace {
 
 constexpr int64_t kHistory_ns = 5'000'000'000;  // longer than any image waits
 constexpr int64_t kMaxGap_ns = 100'000'000;     // rotation inside a longer gap is anybody's guess
+constexpr int kJumpPatience = 100;              // samples
 
 Eigen::Vector3d InterpolateGyro(const ImuSample& a, const ImuSample& b, int64_t t_ns) {
   const double fraction = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
@@ -20,11 +22,16 @@ Eigen::Vector3d InterpolateGyro(const ImuSample& a, const ImuSample& b, int64_t 
 }  // namespace
 
 GyroPredictor::GyroPredictor(const Rigid3d& T_B_C, double td)
-    : R_B_C_(T_B_C.rotation), td_ns_(ToNanoseconds(td)) {}
+    : R_B_C_(T_B_C.rotation), td_ns_(ToNanoseconds(td)), leap_(kMaxGap_ns), jump_(kJumpPatience) {}
 
 void GyroPredictor::AddImu(const ImuSample& sample) {
-  if (!sample.gyro.allFinite()) return;
-  if (!samples_.empty() && sample.t_ns <= samples_.back().t_ns) return;
+  if (!IsInRange(sample)) return;
+  if (!samples_.empty() && sample.t_ns <= samples_.back().t_ns) {
+    if (!jump_.Refuse(sample.t_ns)) return;
+    samples_.clear();
+  }
+  jump_.Accept();
+  if (!samples_.empty() && !leap_.Accept(samples_.back().t_ns, sample.t_ns)) return;
   samples_.push_back(sample);
   while (samples_.front().t_ns < sample.t_ns - kHistory_ns) samples_.pop_front();
 }

@@ -6,13 +6,16 @@
 #include <deque>
 #include <optional>
 
+#include "common/backward_jump.h"
+#include "common/forward_jump.h"
 #include "common/measurements.h"
 #include "common/rigid3.h"
 
 namespace plm_vins {
 
 // The camera's rotation between two images from the gyro alone, to predict where features move.
-// Keeps a bounded history; samples that are not finite or out of order are ignored.
+// Keeps a bounded history; samples that no sensor gives, out of order, or the first after a leap in
+// time are ignored; where all stamps go back, the history begins anew.
 class GyroPredictor {
  public:
   // `td`: t_imu = t_image + td [s].
@@ -31,6 +34,8 @@ class GyroPredictor {
   Eigen::Quaterniond R_B_C_;
   int64_t td_ns_;
   std::deque<ImuSample> samples_;
+  ForwardJumpDetector leap_;
+  BackwardJumpDetector jump_;
 };
 
 }  // namespace plm_vins

@@ -17,6 +17,7 @@ constexpr int kJumpPatience = 10;  // images
 
 DropCounts ToDropCounts(const ImageCounts& counts) {
   return {{"images_out_of_order", counts.out_of_order, ""},
+          {"images_ahead_of_time", counts.ahead, ""},
           {"images_wrong_format", counts.wrong_format, counts.wrong_format_detail},
           {"image_gaps", counts.gaps, ""},
           {"image_restarts", counts.restarts, ""},
@@ -29,7 +30,8 @@ ImageQueue::ImageQueue(const Config& config)
       uses_gyro_(sensor_.estimate_extrinsic != SensorConfig::ExtrinsicMode::kCalibrateRotation),
       gyro_(sensor_.T_B_C, sensor_.td),
       rate_limiter_(config.publish_rate),
-      jump_(kJumpPatience) {}
+      jump_(kJumpPatience),
+      leap_(kImageGap_ns) {}
 
 void ImageQueue::AddImage(ImageSample image) {
   ++counts_.images;
@@ -42,8 +44,12 @@ void ImageQueue::AddImage(ImageSample image) {
     restart = true;
     ++counts_.restarts;
     gyro_ = GyroPredictor(sensor_.T_B_C, sensor_.td);
-  } else if (accepted_ns_ && t_ns - *accepted_ns_ > kImageGap_ns) {
-    ++counts_.gaps;
+  } else if (accepted_ns_) {
+    if (!leap_.Accept(*accepted_ns_, t_ns)) {
+      ++counts_.ahead;
+      return;
+    }
+    if (t_ns - *accepted_ns_ > kImageGap_ns) ++counts_.gaps;
   }
   jump_.Accept();
   accepted_ns_ = t_ns;

@@ -10,6 +10,7 @@
 #include "common/backward_jump.h"
 #include "common/config.h"
 #include "common/drop_counts.h"
+#include "common/forward_jump.h"
 #include "common/measurements.h"
 #include "tracking/gyro_predictor.h"
 #include "tracking/rate_limiter.h"
@@ -30,9 +31,10 @@ struct ReadyImage {
 struct ImageCounts {
   int64_t images = 0;
   int64_t out_of_order = 0;  // stamp not after the one before (repeated or backwards)
+  int64_t ahead = 0;         // more than a second after the one before, and alone there so far
   int64_t restarts = 0;      // stamps jumped back for good: a new recording
   int64_t wrong_format = 0;  // not grey or not of the calibrated size
-  int64_t gaps = 0;          // more than a second since the image before; nothing is lost by it
+  int64_t gaps = 0;          // more than a second without images
   int64_t without_gyro = 0;  // handed out without R_C1_C0, as the gyro did not cover it
   std::string wrong_format_detail;
 };
@@ -50,7 +52,8 @@ class ImageQueue {
   void AddImu(const ImuSample& sample) { gyro_.AddImu(sample); }
 
   // Stamps must increase; an image that goes back in time is dropped, unless more and more of them
-  // follow: then it is a new recording.
+  // follow: then it is a new recording. So is one that leaps ahead, unless the next one confirms
+  // it.
   void AddImage(ImageSample image);
 
   // The next image in order of time, or nothing yet. An image waits for the gyro until two newer
@@ -81,6 +84,7 @@ class ImageQueue {
   std::optional<int64_t> accepted_ns_;    // stamp of the last image taken in
   std::optional<int64_t> handed_out_ns_;  // stamp of the last image handed out
   BackwardJumpDetector jump_;
+  ForwardJumpDetector leap_;
 };
 
 }  // namespace plm_vins

@@ -3,48 +3,56 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
+
+#include "common/measurements.h"
 
 namespace plm_vins {
 
-// Thins a stream of increasing stamps to a mean rate, by the stamps alone.
+// Thins a stream of images to a mean rate, by the stamps alone.
 //
-// The rhythm begins with the first item of a period of absolute time, not with the first item seen:
-// two limiters that begin at different items of one regular stream come to choose the same ones.
+// It takes the same images as the trackers of VINS-Mono and PL-VINS, so that features of theirs and
+// ours can be paired: of the first image, and the first after a gap or a jump back, only the stamp
+// is used; a later one is taken where the count since then (of which that first one is one) is not
+// above the rate, to the nearest whole number; once it is the rate within 1 %, the count begins
+// anew at this image.
 class RateLimiter {
  public:
   // `rate` [Hz]; zero or less lets everything through.
-  explicit RateLimiter(double rate)
-      : period_ns_(rate > 0 ? static_cast<int64_t>(std::llround(1e9 / rate)) : 0),
-        tolerance_ns_(period_ns_ / 10) {}
+  explicit RateLimiter(double rate) : rate_(rate) {}
 
-  // True where the item of this time is to be used.
+  // True where the image of this time is to be used.
   bool Take(int64_t t_ns) {
-    if (period_ns_ == 0) return true;
-    const bool has_begun = rhythm_ != Rhythm::kNone;
-    if (has_begun && t_ns < due_ns_ - tolerance_ns_) return false;
-    const bool on_schedule = has_begun && t_ns < due_ns_ + period_ns_;
-    if (!on_schedule) {
-      due_ns_ = NextPeriod(t_ns);
-    } else {
-      due_ns_ = (rhythm_ == Rhythm::kOfStream ? due_ns_ : t_ns) + period_ns_;
+    if (rate_ <= 0) return true;
+    const bool continues = last_ns_ && t_ns > *last_ns_ && t_ns - *last_ns_ <= kGap_ns;
+    last_ns_ = t_ns;
+    if (!continues) {
+      Begin(t_ns);
+      ++count_;
+      return false;
     }
-    rhythm_ = on_schedule ? Rhythm::kOfStream : Rhythm::kOfPeriods;
+    const double rate_so_far = count_ / ToSeconds(t_ns - begin_ns_);
+    if (std::round(rate_so_far) > rate_) return false;
+    if (std::abs(rate_so_far - rate_) < kTolerance * rate_) Begin(t_ns);
+    ++count_;
     return true;
   }
 
-  void Reset() { rhythm_ = Rhythm::kNone; }
+  void Reset() { last_ns_.reset(); }
 
  private:
-  enum class Rhythm { kNone, kOfPeriods, kOfStream };
+  static constexpr int64_t kGap_ns = 1'000'000'000;
+  static constexpr double kTolerance = 0.01;
 
-  int64_t NextPeriod(int64_t t_ns) const {
-    return ((t_ns + tolerance_ns_) / period_ns_ + 1) * period_ns_;
+  void Begin(int64_t t_ns) {
+    begin_ns_ = t_ns;
+    count_ = 0;
   }
 
-  int64_t period_ns_;
-  int64_t tolerance_ns_;  // of jittery stamps that come too early
-  Rhythm rhythm_ = Rhythm::kNone;
-  int64_t due_ns_ = 0;  // when the next item is wanted
+  double rate_;
+  std::optional<int64_t> last_ns_;
+  int64_t begin_ns_ = 0;  // since when it is counted
+  double count_ = 0;
 };
 
 }  // namespace plm_vins

@@ -6,10 +6,11 @@
 namespace plm_vins {
 namespace {
 
-MeasurementSync::Options MakeSyncOptions(const Config& config) {
+MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) {
   MeasurementSync::Options options;
   options.td = config.sensor.td;
   options.expect_lines = config.use_lines;
+  options.max_wait = max_wait;
   return options;
 }
 
@@ -22,6 +23,8 @@ DropCounts ToDropCounts(const SyncStatistics& statistics) {
           {"imu_gaps", statistics.imu_gaps, ""},
           {"imu_dropped_full", statistics.imu_dropped_full, ""},
           {"frames_out_of_order", statistics.frames_out_of_order, ""},
+          {"frames_ahead_of_time", statistics.frames_ahead_of_time, ""},
+          {"frames_too_late", statistics.frames_too_late, ""},
           {"frames_without_imu", statistics.frames_without_imu, ""},
           {"frames_in_imu_gap", statistics.frames_in_imu_gap, ""},
           {"frames_too_close", statistics.frames_too_close, ""},
@@ -32,10 +35,10 @@ DropCounts ToDropCounts(const SyncStatistics& statistics) {
           {"jumps_back", statistics.jumps_back, ""}};
 }
 
-EstimationStage::EstimationStage(const Config& config)
+EstimationStage::EstimationStage(const Config& config, double max_wait)
     : gyro_density_(config.sensor.imu_noise.gyro_density),
       estimator_(std::make_unique<Estimator>(config)),
-      sync_(MakeSyncOptions(config)) {}
+      sync_(MakeSyncOptions(config, max_wait)) {}
 
 EstimationStage::~EstimationStage() = default;
 

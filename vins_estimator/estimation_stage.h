@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,7 +33,9 @@ struct EstimatedFrame {
 // them to the estimator. Synchronous; feed in order of arrival and pop until nothing is ready.
 class EstimationStage {
  public:
-  explicit EstimationStage(const Config& config);
+  // `max_wait` [s]: images that wait for longer are left out (MeasurementSync::Options).
+  explicit EstimationStage(const Config& config,
+                           double max_wait = std::numeric_limits<double>::infinity());
   ~EstimationStage();
 
   void AddImu(const ImuSample& sample) { sync_.AddImu(sample); }
@@ -53,6 +56,7 @@ class EstimationStage {
   int64_t resets() const { return resets_; }  // times that a world frame was given up
   size_t queued_frames() const { return sync_.queued_frames(); }
   bool lines_are_missing() const { return sync_.lines_are_missing(); }
+  bool lines_are_of_other_images() const { return sync_.lines_are_of_other_images(); }
   const SyncStatistics& statistics() const { return sync_.statistics(); }
 
  private:

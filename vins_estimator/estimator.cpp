@@ -8,6 +8,7 @@
 #include "common/stopwatch.h"
 #include "vins_estimator/manhattan/line_directions.h"
 #include "vins_estimator/marginalization/window_marginalizer.h"
+#include "vins_estimator/measurement_check.h"
 #include "vins_estimator/merging/line_merging.h"
 #include "vins_estimator/optimization/ceres_solver.h"
 #include "vins_estimator/optimization/levenberg_marquardt.h"
@@ -60,6 +61,8 @@ Estimator::Estimator(const Config& config)
 void Estimator::Reset() { state_ = State(config_, options_); }
 
 EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
+  CheckMeasurement(measurement, state_.newest_ns);
+  state_.newest_ns = measurement.t_ns;
   const Stopwatch stopwatch;
   EstimatorOutput output;
   output.t_ns = measurement.t_ns;

@@ -23,7 +23,8 @@ class Estimator {
  public:
   explicit Estimator(const Config& config);
 
-  // Takes the next image's features and IMU samples; stamps must increase.
+  // Takes the next image's features and IMU samples. Throws std::invalid_argument, and is as
+  // before, where CheckMeasurement() refuses them.
   EstimatorOutput Process(const FrameMeasurement& measurement);
 
   // Forgets everything but the configuration and starts over with initialisation.
@@ -38,6 +39,7 @@ class Estimator {
     State(const Config& config, const EstimatorOptions& options);
 
     bool initialized = false;
+    std::optional<int64_t> newest_ns;  // stamp of the last measurement
     Initializer initializer;
     StandstillDetector standstill_detector;
     ContradictionMonitor contradiction_monitor;

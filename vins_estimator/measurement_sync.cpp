@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "common/imu_range.h"
 #include "vins_estimator/imu/imu_interpolation.h"
 
 namespace plm_vins {
@@ -18,23 +19,23 @@ constexpr int64_t kMinInterval_ns = 1'000'000;
 constexpr int kImuJumpPatience = 1000;
 constexpr int kPointsJumpPatience = 10;
 
-constexpr size_t kFewPoints = 10;  // too few to tell the motion of the camera from
+// Trackers are stricter; here it is for those of others.
+constexpr int64_t kPointsLeap_ns = 10'000'000'000;
 
-// Beyond what the inertial sensors of vehicles and hands can measure.
-constexpr double kMaxGyro = 100.0;   // [rad/s]
-constexpr double kMaxAccel = 500.0;  // [m/s^2]
+constexpr size_t kFewPoints = 10;  // too few to tell the motion of the camera from
 
 // False also for zeros throughout, which drivers give where they could not read the sensor.
 bool IsPlausible(const ImuSample& sample) {
-  return sample.gyro.cwiseAbs().maxCoeff() <= kMaxGyro &&
-         sample.accel.cwiseAbs().maxCoeff() <= kMaxAccel &&
-         !(sample.gyro.isZero(0.0) && sample.accel.isZero(0.0));
+  return IsInRange(sample) && !(sample.gyro.isZero(0.0) && sample.accel.isZero(0.0));
 }
 
 }  // namespace
 
 MeasurementSync::MeasurementSync(const Options& options)
-    : options_(options), imu_jump_(kImuJumpPatience), points_jump_(kPointsJumpPatience) {}
+    : options_(options),
+      imu_jump_(kImuJumpPatience),
+      points_jump_(kPointsJumpPatience),
+      points_leap_(kPointsLeap_ns) {}
 
 void MeasurementSync::AddImu(const ImuSample& sample) {
   ++statistics_.imu_samples;
@@ -86,6 +87,9 @@ void MeasurementSync::AddPoints(PointFrame frame) {
     ++statistics_.frames_out_of_order;
     if (!points_jump_.Refuse(frame.t_ns)) return;
     BeginRecording();
+  } else if (last_points_ns_ && !points_leap_.Accept(*last_points_ns_, frame.t_ns)) {
+    ++statistics_.frames_ahead_of_time;
+    return;
   }
   points_jump_.Accept();
   last_points_ns_ = frame.t_ns;
@@ -167,7 +171,10 @@ bool MeasurementSync::LinesAreDecided() const {
 }
 
 bool MeasurementSync::IsInTime(int64_t lines_ns) const {
-  return !last_popped_ns_.empty() && lines_ns >= last_popped_ns_.front();
+  const auto& popped = last_popped_ns_;
+  return std::find(popped.begin(), popped.end(), lines_ns) != popped.end() ||
+         std::any_of(points_.begin(), points_.end(),
+                     [&](const PointFrame& points) { return points.t_ns == lines_ns; });
 }
 
 void MeasurementSync::DropUnusableFrames() {
@@ -190,7 +197,13 @@ int64_t* MeasurementSync::FindDefect() {
   if (between_samples && ToSeconds(imu_[next].t_ns - imu_[next - 1].t_ns) > options_.max_imu_gap) {
     return &statistics_.frames_in_imu_gap;
   }
-  return nullptr;
+  return IsTooLate() ? &statistics_.frames_too_late : nullptr;
+}
+
+bool MeasurementSync::IsTooLate() const {
+  const int64_t newest_ns = imu_.back().t_ns;
+  return points_.size() > 1 && ToSeconds(newest_ns - CutTime()) > options_.max_wait &&
+         newest_ns >= points_[1].t_ns + ToNanoseconds(options_.td);
 }
 
 FrameMeasurement MeasurementSync::TakeFrame() {
@@ -226,6 +239,7 @@ std::optional<LineFrame> MeasurementSync::TakeLines(int64_t t_ns) {
   while (!lines_.empty() && lines_.front().t_ns < t_ns) {
     lines_.pop_front();
     ++statistics_.lines_without_points;
+    ++unpaired_lines_in_a_row_;
   }
   if (lines_.empty() || lines_.front().t_ns != t_ns) {
     if (options_.expect_lines) {
@@ -235,6 +249,7 @@ std::optional<LineFrame> MeasurementSync::TakeLines(int64_t t_ns) {
     return std::nullopt;
   }
   frames_without_lines_in_a_row_ = 0;
+  unpaired_lines_in_a_row_ = 0;
   LineFrame lines = std::move(lines_.front());
   lines_.pop_front();
   return lines;

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "common/backward_jump.h"
+#include "common/forward_jump.h"
 #include "common/measurements.h"
 #include "vins_estimator/imu/imu_gap.h"
 
@@ -21,7 +23,9 @@ struct SyncStatistics {
   int64_t imu_gaps = 0;          // intervals longer than the allowed gap, bridged
   int64_t imu_dropped_full = 0;  // no image came for long: oldest dropped
   int64_t frames = 0;
-  int64_t frames_out_of_order = 0;  // stamp not after the one before (repeated or backwards)
+  int64_t frames_out_of_order = 0;   // stamp not after the one before (repeated or backwards)
+  int64_t frames_ahead_of_time = 0;  // leaped ahead, and alone there so far
+  int64_t frames_too_late = 0;       // waited for longer than allowed
   int64_t frames_without_imu =
       0;  // no IMU sample at or before the image, or none after it at the end
   int64_t frames_in_imu_gap = 0;       // the IMU says nothing at the time of the image
@@ -42,10 +46,10 @@ struct SyncStatistics {
 //
 // A frame is ready when the IMU reaches t_image + td and, where lines are expected, when its line
 // frame is there, a later line frame is there, or a newer point frame `max_line_lag` images ahead
-// is there. Where line frames fail to come at all, frames no longer wait for them, until one comes
-// in time again. A frame that cannot be used is dropped and counted; the IMU samples before it then
-// lead to the next one: of the samples between the first and the last frame none is lost or used
-// twice, also when td changes.
+// is there. Where line frames fail to come at all, frames no longer wait for them, until one of
+// an image that has points comes in time again. A frame that cannot be used is dropped and counted;
+// the IMU samples before it then lead to the next one: of the samples between the first and the
+// last frame none is lost or used twice, also when td changes.
 //
 // Where the IMU or the images go back in time for good (a bag played again, a clock set back), all
 // is forgotten but the statistics, and a new recording begins.
@@ -57,6 +61,9 @@ class MeasurementSync {
     int max_line_lag = 3;       // images to wait for a line frame
     int line_patience = 10;     // frames in a row without lines until the lines count as missing
     double max_imu_gap = kMaxImuInterval;  // images in a longer one are dropped [s]
+    // Frames of which the IMU is further ahead than this [s] are dropped as long as newer ones
+    // could be used: what an estimator that cannot keep up leaves out.
+    double max_wait = std::numeric_limits<double>::infinity();
     int max_frames = 200;         // queued images and line frames; beyond, the oldest is dropped
     int max_imu_samples = 50000;  // queued samples; beyond, the oldest is dropped
   };
@@ -82,6 +89,11 @@ class MeasurementSync {
     return options_.expect_lines && frames_without_lines_in_a_row_ >= options_.line_patience;
   }
 
+  // The lines that are missing do come, but of images of which no points come.
+  bool lines_are_of_other_images() const {
+    return lines_are_missing() && 2 * unpaired_lines_in_a_row_ >= options_.line_patience;
+  }
+
   size_t queued_frames() const { return points_.size(); }
   const SyncStatistics& statistics() const { return statistics_; }
 
@@ -94,12 +106,13 @@ class MeasurementSync {
   // Index of the first IMU sample at or after the time.
   size_t FirstImuNotBefore(int64_t t_ns) const;
   bool LinesAreDecided() const;
-  // While frames do not wait for lines: the one of that time would still wait if they did.
+  // While frames do not wait for lines: the one of that image would still wait if they did.
   bool IsInTime(int64_t lines_ns) const;
   void DropUnusableFrames();
   // Why the oldest queued frame cannot be used, as the statistic that counts it; null: it can.
   // The IMU must reach it.
   int64_t* FindDefect();
+  bool IsTooLate() const;
   FrameMeasurement TakeFrame();
   std::vector<ImuSample> CutImu(int64_t cut_ns);
   std::optional<LineFrame> TakeLines(int64_t t_ns);
@@ -116,8 +129,10 @@ class MeasurementSync {
   std::optional<int64_t> last_lines_ns_;
   std::deque<int64_t> last_popped_ns_;  // as many as a line frame may lag behind, oldest first
   int frames_without_lines_in_a_row_ = 0;
+  int unpaired_lines_in_a_row_ = 0;
   BackwardJumpDetector imu_jump_;
   BackwardJumpDetector points_jump_;
+  ForwardJumpDetector points_leap_;
 };
 
 }  // namespace plm_vins

@@ -12,10 +12,20 @@ std::string Location(const std::string& file, const YAML::Mark& mark) {
   return mark.is_null() ? file : file + ":" + std::to_string(mark.line + 1);
 }
 
+// A configuration has some 100 lines. The limits end what would otherwise never end: a device, an
+// alias that leads back to itself, aliases of aliases of aliases.
+constexpr std::streamsize kMaxBytes = 1 << 20;
+constexpr size_t kMaxEntries = 1000;
+constexpr int kMaxDepth = 2;  // keys and groups of keys
+
+// Not more than one byte beyond kMaxBytes.
 std::optional<std::string> ReadText(const std::string& file) {
   std::ifstream stream(file);
   if (!stream || std::filesystem::is_directory(file)) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(stream), {});
+  std::string text(kMaxBytes + 1, '\0');
+  stream.read(text.data(), kMaxBytes + 1);
+  text.resize(static_cast<size_t>(stream.gcount()));
+  return text;
 }
 
 // OpenCV's "%YAML:1.0" is no directive of the YAML standard: blanked, so that line numbers stay.
@@ -27,22 +37,32 @@ std::string WithoutDirective(std::string text) {
 // An OpenCV matrix is one value; any other map is a group of keys.
 bool IsGroup(const YAML::Node& node) { return node.IsMap() && !node["data"]; }
 
-void Flatten(const YAML::Node& map, const std::string& prefix, const std::string& file,
+// Stops at the first problem of size.
+bool Flatten(const YAML::Node& map, const std::string& prefix, int depth, const std::string& file,
              ConfigEntries* entries, std::vector<std::string>* problems) {
   for (const auto& item : map) {
     const YAML::Node key_node = item.first, value = item.second;
     const std::string key = prefix + (key_node.IsScalar() ? key_node.Scalar() : "?");
-    if (IsGroup(value)) {
-      Flatten(value, key + ".", file, entries, problems);
+    const std::string location = Location(file, key_node.Mark());
+    const bool is_group = IsGroup(value);
+    if (entries->size() == kMaxEntries || (is_group && depth == kMaxDepth)) {
+      problems->push_back(location + ": " + key + ": " +
+                          (is_group ? "is a group within a group"
+                                    : "too many keys, more than " + std::to_string(kMaxEntries)) +
+                          "; is this a configuration file?");
+      return false;
+    }
+    if (is_group) {
+      if (!Flatten(value, key + ".", depth + 1, file, entries, problems)) return false;
       continue;
     }
-    const std::string location = Location(file, key_node.Mark());
     const auto [entry, is_new] = entries->insert({key, ConfigEntry{value, location}});
     if (!is_new) {
       problems->push_back(location + ": " + key + ": appears twice (first at " +
                           entry->second.location + "); remove one");
     }
   }
+  return true;
 }
 
 // The top-level map of the file, or nothing and a problem.
@@ -50,6 +70,10 @@ std::optional<YAML::Node> ReadRoot(const std::string& file, std::vector<std::str
   const auto text = ReadText(file);
   if (!text) {
     problems->push_back(file + ": cannot be read; check the path of the configuration file");
+    return std::nullopt;
+  }
+  if (static_cast<std::streamsize>(text->size()) > kMaxBytes) {
+    problems->push_back(file + ": longer than 1 MiB; is this a configuration file?");
     return std::nullopt;
   }
   try {
@@ -70,7 +94,7 @@ std::optional<ConfigEntries> ReadConfigEntries(const std::string& file,
   const auto root = ReadRoot(file, problems);
   if (!root) return std::nullopt;
   ConfigEntries entries;
-  Flatten(*root, "", file, &entries, problems);
+  if (!Flatten(*root, "", 1, file, &entries, problems)) return std::nullopt;
   for (const auto& [key, text] : overrides) {
     entries[key] = {YAML::Node(text), file + " (override)"};
   }

@@ -12,7 +12,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "common/feature_checks.h"
 #include "common/feature_ids.h"
 
 namespace plm_vins {
@@ -28,6 +30,16 @@ cv_bridge::CvImageConstPtr ToGrey(const sensor_msgs::ImageConstPtr& message) {
   const auto gray = boost::make_shared<cv_bridge::CvImage>();
   cv_bridge::toCvShare(message, encoding)->image.convertTo(gray->image, CV_8U, 255.0 / 65535.0);
   return gray;
+}
+
+// Empty where that fails. OpenCV throws where the header claims too large an image.
+cv::Mat Decode(const std::vector<uint8_t>& bytes) {
+  if (bytes.empty()) return {};
+  try {
+    return cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+  } catch (const std::exception&) {  // cv::Exception or std::bad_alloc
+    return {};
+  }
 }
 
 void AddChannel(const std::string& name, size_t size, sensor_msgs::PointCloud* cloud) {
@@ -110,8 +122,7 @@ ImageSample ToImageSample(const sensor_msgs::Image& message) {
 }
 
 ImageSample ToImageSample(const sensor_msgs::CompressedImage& message) {
-  cv::Mat gray;
-  if (!message.data.empty()) gray = cv::imdecode(message.data, cv::IMREAD_GRAYSCALE);
+  const cv::Mat gray = Decode(message.data);
   if (gray.empty()) {
     throw std::invalid_argument("compressed image of format '" + message.format +
                                 "' cannot be decoded");
@@ -143,8 +154,9 @@ sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& fr
   return cloud;
 }
 
-PointFrame ToPointFrame(const sensor_msgs::PointCloud& message) {
-  CheckChannels(message, 5, "id, u, v, vx, vy");
+PointFrame ToPointFrame(const sensor_msgs::PointCloud& message, int64_t* left_out) {
+  const bool has_velocities = HasVelocities(message);
+  CheckChannels(message, has_velocities ? 5 : 3, "id, u, v (, vx, vy)");
   PointFrame frame;
   frame.t_ns = ToNanoseconds(message.header.stamp);
   frame.points.resize(message.points.size());
@@ -153,8 +165,9 @@ PointFrame ToPointFrame(const sensor_msgs::PointCloud& message) {
     frame.points[i].id = ToId(value(0, i));
     frame.points[i].xy = {message.points[i].x, message.points[i].y};
     frame.points[i].uv_px = {value(1, i), value(2, i)};
-    frame.points[i].velocity = {value(3, i), value(4, i)};
+    if (has_velocities) frame.points[i].velocity = {value(3, i), value(4, i)};
   }
+  *left_out += RemoveImpossible(&frame.points);
   return frame;
 }
 
@@ -169,7 +182,7 @@ sensor_msgs::PointCloud ToMessage(const LineFrame& frame, const std::string& fra
   return cloud;
 }
 
-LineFrame ToLineFrame(const sensor_msgs::PointCloud& message) {
+LineFrame ToLineFrame(const sensor_msgs::PointCloud& message, int64_t* left_out) {
   CheckChannels(message, 3, "id, x_end, y_end");
   LineFrame frame;
   frame.t_ns = ToNanoseconds(message.header.stamp);
@@ -180,6 +193,7 @@ LineFrame ToLineFrame(const sensor_msgs::PointCloud& message) {
     frame.lines[i].start = {message.points[i].x, message.points[i].y};
     frame.lines[i].end = {value(1, i), value(2, i)};
   }
+  *left_out += RemoveImpossible(&frame.lines);
   return frame;
 }
 

@@ -40,14 +40,21 @@ sensor_msgs::ImagePtr ToMessage(const cv::Mat& bgr, int64_t t_ns, const std::str
 
 // /feature_tracker/feature as in VINS-Mono: points (x, y, 1), channels id, u, v, vx, vy. Ids travel
 // modulo kTransportableIds; IdRestorer takes that back. Reading throws std::invalid_argument where
-// channels are missing and where an id is none that travels.
+// channels are missing and where an id is none that travels; what RemoveImpossible() would remove
+// is left out, and `left_out` grows by its number.
 sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& frame_id);
-PointFrame ToPointFrame(const sensor_msgs::PointCloud& message);
+PointFrame ToPointFrame(const sensor_msgs::PointCloud& message, int64_t* left_out);
+
+// False for the messages of PL-VINS, which end with the channel v: ToPointFrame() leaves the
+// velocities zero.
+inline bool HasVelocities(const sensor_msgs::PointCloud& points) {
+  return points.channels.size() >= 5;
+}
 
 // /linefeature_tracker/linefeature as in PL-VINS: points are starts (x, y, 1), channels id, x_end,
 // y_end.
 sensor_msgs::PointCloud ToMessage(const LineFrame& frame, const std::string& frame_id);
-LineFrame ToLineFrame(const sensor_msgs::PointCloud& message);
+LineFrame ToLineFrame(const sensor_msgs::PointCloud& message, int64_t* left_out);
 
 geometry_msgs::Point ToPoint(const Eigen::Vector3d& p);
 geometry_msgs::Vector3 ToVector3(const Eigen::Vector3d& v);

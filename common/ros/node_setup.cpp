@@ -27,6 +27,17 @@ int RunNode(int argc, char** argv, const std::string& name,
   return 0;
 }
 
+bool ErrorCounter::Run(const std::function<void()>& body) {
+  try {
+    body();
+    return true;
+  } catch (const std::exception& error) {
+    ROS_ERROR_STREAM_THROTTLE(10.0, "going on after an internal error: " << error.what());
+    if (errors_++ == 0) first_error_ = error.what();
+    return false;
+  }
+}
+
 void DropWarner::Check(const DropCounts& counts) {
   for (const DropCount& drop : counts) {
     if (drop.count > 0 && warned_.insert(drop.cause).second) {

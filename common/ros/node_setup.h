@@ -3,6 +3,7 @@
 
 #include <ros/node_handle.h>
 
+#include <cstdint>
 #include <functional>
 #include <set>
 #include <string>
@@ -18,6 +19,20 @@ namespace plm_vins {
 // line) or `body` threw.
 int RunNode(int argc, char** argv, const std::string& name,
             const std::function<void(const Config&)>& body);
+
+// Runs what must not end a node, whatever came in: an exception is logged (not all of them where
+// there are many) and counted. For one thread.
+class ErrorCounter {
+ public:
+  // False where `body` threw.
+  bool Run(const std::function<void()>& body);
+
+  DropCount count() const { return {"internal_errors", errors_, first_error_}; }
+
+ private:
+  int64_t errors_ = 0;
+  std::string first_error_;
+};
 
 // Warns when a kind of unusable input turns up for the first time.
 class DropWarner {

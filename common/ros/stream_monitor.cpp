@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/ros/stream_monitor.h"
 
+#include "common/measurements.h"
+#include "common/ros/msg_conversion.h"
+
 namespace plm_vins {
 
-void StreamMonitor::Add(const ros::Time& stamp) {
+// Not by ros::Duration, which throws beyond 68 years: a stamp may be anything.
+void StreamMonitor::Add(int64_t t_ns) {
   last_arrival_ = ros::WallTime::now();
   ++messages_;
-  summed_delay_ += (ros::Time::now() - stamp).toSec();
+  summed_delay_ += ToSeconds(ToNanoseconds(ros::Time::now()) - t_ns);
 }
 
 void StreamMonitor::Report(diagnostic_updater::DiagnosticStatusWrapper* status) {

@@ -4,6 +4,7 @@
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/time.h>
 
+#include <cstdint>
 #include <string>
 
 namespace plm_vins {
@@ -15,8 +16,8 @@ class StreamMonitor {
 
   explicit StreamMonitor(const std::string& name) : name_(name) {}
 
-  // A message came, or was sent, now.
-  void Add(const ros::Time& stamp);
+  // A message of this stamp came, or was sent, now.
+  void Add(int64_t t_ns);
 
   // Wall time since the last message, or since construction where there was none [s].
   double Silence() const { return (ros::WallTime::now() - last_arrival_).toSec(); }

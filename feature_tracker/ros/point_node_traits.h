@@ -18,8 +18,9 @@ struct PointNodeTraits {
   static constexpr char kFeatureTopic[] = "feature";
   static constexpr char kAnnotatedTopic[] = "feature_img";
   static constexpr char kDiagnostics[] = "point tracking";
-  // No image is dropped as long as tracking keeps up on average.
-  static constexpr uint32_t kImageQueue = 200;
+  static constexpr bool kEveryImage = false;
+  // Enough to get over a short delay without a loss; then the newest images are wanted.
+  static constexpr uint32_t kImageQueue = 10;
 
   static Settings ToSettings(const Config& config) {
     Settings settings;

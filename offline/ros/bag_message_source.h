@@ -37,9 +37,4 @@ class BagMessageSource {
 
 // Reads by the index at the bag's end. Throws rosbag::BagException where that is not possible.
 std::unique_ptr<BagMessageSource> OpenIndexedBag(const std::string& file);
-
-// Reads the intact records of a bag without (usable) index. Throws std::runtime_error where the
-// file is no bag of format 2.0.
-std::unique_ptr<BagMessageSource> OpenDamagedBag(const std::string& file);
-
 }  // namespace plm_vins

@@ -2,10 +2,11 @@
 #include "offline/bag_recording.h"
 
 #include <ros/serialization.h>
-#include <rosbag/exceptions.h>
 
+#include <exception>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 #include "common/ros/msg_conversion.h"
 #include "offline/ros/bag_message_source.h"
@@ -20,11 +21,16 @@ constexpr char kImu[] = "sensor_msgs/Imu";
 using Topics = std::map<std::string, std::string>;  // topic -> message type
 
 std::unique_ptr<BagMessageSource> OpenSource(const std::string& file) {
-  if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("no such file: " + file);
+  std::error_code unused;
+  if (!std::filesystem::is_regular_file(file, unused)) {
+    throw std::runtime_error("no such file: " + file);
+  }
   try {
     return OpenIndexedBag(file);
-  } catch (const rosbag::BagException&) {
-    return OpenDamagedBag(file);
+  } catch (const std::exception& error) {  // rosbag::BagException, std::bad_alloc
+    throw std::runtime_error(
+        file + " is not a ROS bag of format 2.0, or it was cut off or never closed (" +
+        error.what() + "); then \"rosbag reindex " + file + "\" makes it whole");
   }
 }
 

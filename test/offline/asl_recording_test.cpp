@@ -45,6 +45,27 @@ TEST_F(AslRecording, MergesByTimeWithTheImuFirst) {
   EXPECT_EQ(contents.imu[1].accel, Eigen::Vector3d(4, 5, 6));
 }
 
+// Merged by time, each would hold up all that follows.
+TEST_F(AslRecording, DropsStampsAloneInTheFuture) {
+  const std::string hour = "3600000000000";
+  folder_.Write("mav0/cam0/data.csv", "10,a.png\n" + hour + ",b.png\n20,b.png\n30,c.png\n");
+  folder_.Write("mav0/imu0/data.csv",
+                hour + ",0,0,0,4,5,6\n10,0,0,0,4,5,6\n" + hour + ",0,0,0,7,8,9\n25,0,0,0,1,1,1\n");
+  const auto recording = OpenAslFolder(folder_.path());
+  EXPECT_EQ(recording->end_ns(), 30);
+  const auto contents = ReadAll(recording.get());
+  EXPECT_THAT(contents.stamps, ElementsAre(10, 10, 20, 25, 30));
+  EXPECT_EQ(contents.order, "miimi");
+  EXPECT_EQ(contents.problems.at("image_stamps_ahead_of_time"), 1);
+  EXPECT_EQ(contents.problems.at("imu_stamps_ahead_of_time"), 2);
+}
+
+TEST_F(AslRecording, KeepsWhatFollowsAGapAndWhatJumpsBack) {
+  folder_.Write("mav0/cam0/data.csv", "10,a.png\n5000000000,b.png\n5000000010,c.png\n5,a.png\n");
+  const auto contents = ReadAll(OpenAslFolder(folder_.path()).get());
+  EXPECT_EQ(contents.images.size(), 4u);
+}
+
 TEST_F(AslRecording, TakesTheInnerFolderToo) {
   EXPECT_EQ(ReadAll(OpenAslFolder(folder_.File("mav0")).get()).order, "mmimimi");
 }

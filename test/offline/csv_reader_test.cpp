@@ -32,6 +32,16 @@ TEST(CsvReader, PassesOverBadLinesAndSaysWhereTheFirstWas) {
   EXPECT_EQ(reader.first_bad_line(), folder.File("data.csv") + ":3");
 }
 
+TEST(CsvReader, PassesOverStampsThatNoClockHas) {
+  const testing::TemporaryFolder folder;
+  folder.Write("data.csv",
+               "-1,a\n9223372036854775807,a\n4294967296000000000,a\n"
+               "4294967295999999999,a\n");
+  CsvReader reader(folder.File("data.csv"), 1);
+  EXPECT_EQ(reader.Next()->t_ns, 4294967295999999999);
+  EXPECT_EQ(reader.bad_lines(), 3);
+}
+
 TEST(CsvReader, NamesTheFileThatIsMissing) {
   try {
     CsvReader reader("no/such/data.csv", 1);

@@ -209,6 +209,34 @@ TEST(OdometryPipeline, GoesOnPastBadImuSamples) {
   EXPECT_EQ(result.drops.at("imu_out_of_order"), 1);
 }
 
+TEST(OdometryPipeline, GoesOnPastStampsInTheFuture) {
+  MemoryRecording recording = StillRecording(1000);
+  int64_t images = 0;
+  for (RecordingEvent& event : recording.events()) {
+    if (event.kind == RecordingEvent::Kind::kImage && ++images == 5)
+      event.t_ns += 3'600'000'000'000;
+  }
+  recording.events()[40].imu.t_ns += 3'600'000'000'000;
+  const Result result = RunPipeline(std::move(recording));
+  EXPECT_EQ(result.frames.size(), Steps(10, 960).size() - 1);
+  EXPECT_EQ(result.drops.at("images_ahead_of_time"), 1);
+  EXPECT_EQ(result.drops.at("image_restarts"), 0);
+}
+
+TEST(OdometryPipeline, CountsTheImagesThatItDidNotUse) {
+  Config config = StillConfig();
+  config.publish_rate = 10;  // what is left out for that is no loss
+  OdometryPipeline pipeline(config);
+  MemoryRecording recording = StillRecording(1000);
+  int64_t images = 0;
+  for (RecordingEvent& event : recording.events()) {
+    if (event.kind == RecordingEvent::Kind::kImage && ++images > 15) event.t_ns = kStart;
+  }
+  pipeline.Run(&recording, {}, Threads::kOne, [](const PipelineFrame&) {});
+  EXPECT_EQ(pipeline.images(), images);
+  EXPECT_EQ(pipeline.unused_images(), images - 15);
+}
+
 TEST(OdometryPipeline, WithoutImuItGivesNothingAndSaysWhy) {
   MemoryRecording recording;
   for (int t = 0; t < 500; t += 50) recording.AddImage(t);

@@ -40,7 +40,8 @@ TEST(RecordingInterval, TakesImuSamplesAroundTheImages) {
   EXPECT_EQ(interval.Locate(Imu(1.9)), Part::kUse);
   EXPECT_EQ(interval.Locate(Imu(5.1)), Part::kUse);
   EXPECT_EQ(interval.Locate(Imu(5.3)), Part::kSkip);
-  EXPECT_EQ(interval.Locate(Image(5.3)), Part::kEnd);
+  EXPECT_EQ(interval.Locate(Image(5.3)), Part::kSkip);
+  EXPECT_EQ(interval.Locate(Image(5.35)), Part::kEnd);
 }
 
 TEST(RecordingInterval, UsesWhatJumpsBackInTime) {
@@ -55,6 +56,15 @@ TEST(RecordingInterval, AnImuSampleFromTheFutureDoesNotEndIt) {
   interval.Locate(Image(0));
   EXPECT_EQ(interval.Locate(Imu(1000)), Part::kSkip);
   EXPECT_EQ(interval.Locate(Imu(0.1)), Part::kUse);
+}
+
+TEST(RecordingInterval, AnImageFromTheFutureDoesNotEndIt) {
+  RecordingInterval interval(0, 3);
+  interval.Locate(Image(0));
+  for (const double t : {0.1, 0.2}) {
+    EXPECT_EQ(interval.Locate(Image(1000)), Part::kSkip);
+    EXPECT_EQ(interval.Locate(Image(t)), Part::kUse);
+  }
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ struct ImageMessages {
     size_t image;
   };
   std::vector<Message> messages;
-  bool with_imu = true;  // the samples up to this image
+  bool with_imu = true;         // the samples up to this image
+  bool with_velocities = true;  // false: as from the point tracker of PL-VINS
 };
 
 class PeerTrackers {
@@ -54,7 +55,9 @@ class PeerTrackers {
       if (image.with_imu) PublishImu(i);
       for (const auto& message : image.messages) {
         if (message.kind == ImageMessages::Kind::kPoints) {
-          points_.publish(ToVinsMono(flight_.points[message.image]));
+          sensor_msgs::PointCloud points = ToVinsMono(flight_.points[message.image]);
+          if (!image.with_velocities) points.channels.resize(3);
+          points_.publish(points);
         } else {
           lines_.publish(ToPlVins(flight_.lines[message.image]));
         }

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <random>
@@ -172,13 +173,57 @@ TEST_F(Peers, MayFallSilentForAWhile) {
       << log_->Value("message");
 }
 
+TEST_F(Peers, OfPlVinsSendNoVelocities) {
+  trackers_->PublishRestart();
+  trackers_->Play(0, trackers_->images(), kPeriod, [](size_t image) {
+    ImageMessages without = PointsThenLines(image);
+    without.with_velocities = false;
+    return without;
+  });
+  WaitUntilDone();
+  EXPECT_GT(log_->odometry.size(), 0.7 * static_cast<double>(trackers_->images()));
+  EXPECT_LT(Error(), 0.05);
+  EXPECT_EQ(log_->Count("feature_messages_malformed"), 0);
+}
+
+// Stamps of any time, ids that are there twice, numbers that are none.
+TEST_F(Peers, MaySendWhatTheyLikeAndEndNothing) {
+  ros::NodeHandle node;
+  ros::Publisher imu = node.advertise<sensor_msgs::Imu>("/imu0", 10);
+  ros::Publisher points = node.advertise<sensor_msgs::PointCloud>("/feature_tracker/feature", 10);
+  testing::SpinUntil(kPatience,
+                     [&] { return points.getNumSubscribers() > 0 && imu.getNumSubscribers() > 0; });
+  trackers_->PublishRestart();
+  sensor_msgs::Imu sample;
+  sample.angular_velocity.x = 0.1;
+  trackers_->Play(0, trackers_->images(), kPeriod, [&](size_t image) {
+    if (image == 60 || image == 80) {
+      sample.header.stamp = ros::Time(4'294'967'295, 0);
+      imu.publish(sample);
+      sensor_msgs::PointCloud twice = PeerTrackers::ToVinsMono(flight_->points[image - 1]);
+      twice.header.stamp = sample.header.stamp;
+      points.publish(twice);
+      for (float& id : twice.channels[0].values) id = twice.channels[0].values[0];
+      twice.points[0].x = std::numeric_limits<float>::quiet_NaN();
+      twice.header.stamp = ros::Time(0, 1);
+      points.publish(twice);
+    }
+    return PointsThenLines(image);
+  });
+  WaitUntilDone();
+  EXPECT_GT(log_->odometry.size(), 0.7 * static_cast<double>(trackers_->images()));
+  EXPECT_GT(log_->Count("features_impossible"), 50);
+  EXPECT_EQ(log_->Count("internal_errors"), 0);
+  EXPECT_GE(log_->Count("frames_ahead_of_time"), 1);
+}
+
 TEST_F(Peers, OfAnotherLayoutAreRefusedWithoutHarm) {
   const int64_t frames = log_->Count("frames");
   ros::NodeHandle node;
   ros::Publisher points = node.advertise<sensor_msgs::PointCloud>("/feature_tracker/feature", 10);
   testing::SpinUntil(kPatience, [&] { return points.getNumSubscribers() > 0; });
   sensor_msgs::PointCloud message = PeerTrackers::ToVinsMono(flight_->points.back());
-  message.channels.resize(3);  // as of the first versions, without velocities
+  message.channels.resize(2);
   points.publish(message);
   EXPECT_TRUE(log_->WaitForStatus(kPatience, [](const EstimatorLog& log) {
     return log.Count("feature_messages_malformed") == 1;

@@ -82,10 +82,11 @@ TEST(GyroPredictor, RefusesAGapInside) {
   Feed(&predictor, 0.1, [](double) { return Eigen::Vector3d::Zero(); });
   predictor.AddImu(Sample(kStart + 300'000'000, Eigen::Vector3d::Zero()));
   predictor.AddImu(Sample(kStart + 305'000'000, Eigen::Vector3d::Zero()));
+  predictor.AddImu(Sample(kStart + 310'000'000, Eigen::Vector3d::Zero()));
   EXPECT_TRUE(predictor.Rotation(kStart, kStart + 90'000'000));
   EXPECT_FALSE(predictor.Rotation(kStart, kStart + 200'000'000));
   EXPECT_FALSE(predictor.Rotation(kStart + 90'000'000, kStart + 305'000'000));
-  EXPECT_TRUE(predictor.Rotation(kStart + 300'000'000, kStart + 305'000'000));
+  EXPECT_TRUE(predictor.Rotation(kStart + 305'000'000, kStart + 310'000'000));
 }
 
 TEST(GyroPredictor, IgnoresBadSamples) {
@@ -108,6 +109,17 @@ TEST(GyroPredictor, ForgetsWhatIsOld) {
   Feed(&predictor, 20, [](double) { return Eigen::Vector3d::Zero(); });
   EXPECT_FALSE(predictor.Rotation(kStart, kStart + 50'000'000));
   EXPECT_TRUE(predictor.Rotation(kStart + 19'000'000'000, kStart + 20'000'000'000));
+}
+
+// As from a clock that was wrong for a moment.
+TEST(GyroPredictor, BeginsAnewWhereAllStampsGoBack) {
+  GyroPredictor predictor(Rigid3d(), 0);
+  for (const int64_t t : {0, 1, 2}) {
+    predictor.AddImu(Sample(kStart + 3'600'000'000'000 + t * kPeriod, Eigen::Vector3d::Zero()));
+  }
+  Feed(&predictor, 1, [](double) { return Eigen::Vector3d(0, 0, 1); });
+  EXPECT_FALSE(predictor.Rotation(kStart + 100'000'000, kStart + 150'000'000)) << "refused";
+  EXPECT_TRUE(predictor.Rotation(kStart + 800'000'000, kStart + 850'000'000));
 }
 
 }  // namespace

@@ -111,6 +111,50 @@ TEST(LinePairing, AHopelesslySlowLineTrackerDelaysNothing) {
   EXPECT_GT(sync.statistics().lines_late, 40);
 }
 
+// As of two trackers that use every second image, each the other ones.
+TEST(LinePairing, LinesOfOtherImagesAreMissingForGood) {
+  MeasurementSync sync(WithLines());
+  AddImu(&sync, 0, 6000);
+  size_t frames = 0;
+  int changes = 0;
+  bool missing = false;
+  for (int64_t t = 100; t <= 5000; t += 50) {
+    if (t % 100 == 0) {
+      sync.AddPoints(Points(t * kMs));
+    } else {
+      sync.AddLines(Lines(t * kMs));
+    }
+    frames += testing::PopAll(&sync).size();
+    if (sync.lines_are_missing() != missing) ++changes;
+    missing = sync.lines_are_missing();
+  }
+  EXPECT_EQ(frames, 50u);
+  EXPECT_EQ(changes, 1);
+  EXPECT_TRUE(sync.lines_are_of_other_images());
+}
+
+TEST(LinePairing, LateLinesAreNotOfOtherImages) {
+  MeasurementSync sync(WithLines());
+  FeedWithLines(50, 3000, 6, &sync);
+  EXPECT_TRUE(sync.lines_are_missing());
+  EXPECT_FALSE(sync.lines_are_of_other_images());
+}
+
+// The line tracker does not know which images the tracker of points uses.
+TEST(LinePairing, LinesOfEveryImagePairWithPointsOfSome) {
+  for (const int64_t phase : {0, 50}) {
+    MeasurementSync sync(WithLines());
+    AddImu(&sync, 0, 3000);
+    for (int64_t t = 100; t <= 2000; t += 50) {
+      sync.AddLines(Lines(t * kMs));
+      if (t % 100 == phase) sync.AddPoints(Points(t * kMs));
+      for (const FrameMeasurement& frame : testing::PopAll(&sync)) EXPECT_TRUE(frame.lines);
+    }
+    EXPECT_EQ(sync.statistics().frames_without_lines, 0);
+    EXPECT_FALSE(sync.lines_are_missing());
+  }
+}
+
 TEST(LinePairing, LinesOfAnEarlierRecordingDoNotBlockThoseOfThisOne) {
   MeasurementSync sync(WithLines());
   sync.AddLines(Lines(90000 * kMs));  // left over, arrives after the restart

@@ -227,6 +227,40 @@ TEST(MeasurementSync, RepeatedAndBackwardImagesAreDropped) {
   EXPECT_EQ(sync.statistics().frames_out_of_order, 3);
 }
 
+TEST(MeasurementSync, AFrameAloneInTheFutureIsDropped) {
+  MeasurementSync sync({});
+  AddImu(&sync, 0, 300);
+  for (const int64_t t : {50, 3'600'000, 100, 150}) sync.AddPoints(Points(t * kMs));
+  EXPECT_EQ(PopAll(&sync).size(), 3u);
+  EXPECT_EQ(sync.statistics().frames_ahead_of_time, 1);
+  EXPECT_EQ(sync.statistics().frames_out_of_order, 0);
+}
+
+TEST(MeasurementSync, FramesThatWaitedForTooLongAreLeftOut) {
+  MeasurementSync::Options options;
+  options.max_wait = 0.2;
+  MeasurementSync sync(options);
+  AddImu(&sync, 0, 1000);
+  for (int64_t t = 50; t <= 1000; t += 50) sync.AddPoints(Points(t * kMs));
+  const auto frames = PopAll(&sync);
+  ASSERT_EQ(frames.size(), 5u);
+  EXPECT_EQ(frames.front().t_ns, 800 * kMs);
+  EXPECT_EQ(frames.front().imu.front().t_ns, 0) << "their samples lead to the next one";
+  EXPECT_EQ(sync.statistics().frames_too_late, 15);
+}
+
+// A slow camera, or a slow network: there is nothing newer.
+TEST(MeasurementSync, TheNewestFrameIsUsedHoweverLate) {
+  MeasurementSync::Options options;
+  options.max_wait = 0.2;
+  MeasurementSync sync(options);
+  for (int64_t t = 50; t <= 1000; t += 50) {
+    AddImu(&sync, t - 50, t + 950);
+    sync.AddPoints(Points(t * kMs));
+    EXPECT_EQ(PopAll(&sync).size(), 1u);
+  }
+}
+
 TEST(MeasurementSync, FramesWithFewPointsAreCounted) {
   MeasurementSync sync({});
   PointFrame frame = Points(50 * kMs);

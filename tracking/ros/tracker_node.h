@@ -11,11 +11,12 @@
 #include <sensor_msgs/PointCloud.h>
 #include <std_msgs/Bool.h>
 
-#include <stdexcept>
+#include <exception>
 #include <string>
 #include <utility>
 
 #include "common/config.h"
+#include "common/drop_counts.h"
 #include "common/ros/msg_conversion.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/stream_monitor.h"
@@ -32,8 +33,9 @@ namespace plm_vins {
 //
 // `Traits` says what is particular to a tracker: the types Stage (a TrackingStage) and Settings
 // (of dynamic_reconfigure, with show_track), ToSettings(config) and Apply(settings, tracker), the
-// private topics kFeatureTopic and kAnnotatedTopic, the status kDiagnostics, and kImageQueue, how
-// many images wait while one is tracked; beyond, the oldest goes.
+// private topics kFeatureTopic and kAnnotatedTopic, the status kDiagnostics, kImageQueue, how many
+// images wait while one is tracked (beyond, the oldest goes), and kEveryImage, whether the features
+// of all images are published or only at the rate `freq`.
 template <typename Traits>
 class TrackerNode {
  public:
@@ -91,9 +93,10 @@ class TrackerNode {
   }
 
   void AddImu(const sensor_msgs::Imu& message) {
-    imu_stream_.Add(message.header.stamp);
-    stage_.AddImu(ToImuSample(message));
-    while (const auto frame = stage_.Pop()) Publish(*frame);
+    const ImuSample sample = ToImuSample(message);
+    imu_stream_.Add(sample.t_ns);
+    stage_.AddImu(sample);
+    Track([this] { return stage_.Pop(); });
   }
 
   void AddCompressedImage(const sensor_msgs::CompressedImage& message) { AddImage(message); }
@@ -104,18 +107,27 @@ class TrackerNode {
     last_image_arrival_ = ros::WallTime::now();
     try {
       ImageSample image = ToImageSample(message);
-      image_stream_.Add(ToRosTime(image.t_ns));
+      image_stream_.Add(image.t_ns);
       stage_.AddImage(std::move(image));
-    } catch (const std::invalid_argument& error) {
+    } catch (const std::exception& error) {
       if (unreadable_images_++ == 0) first_unreadable_ = error.what();
     }
-    while (const auto frame = stage_.Pop()) Publish(*frame);
+    Track([this] { return stage_.Pop(); });
     drop_warner_.Check(Drops());
+  }
+
+  // Publishes the frames that `next` gives. After an error the tracks may contradict each other.
+  template <typename NextFrame>
+  void Track(const NextFrame& next) {
+    const bool done = errors_.Run([&] {
+      while (const auto frame = next()) Publish(*frame);
+    });
+    if (!done) stage_.tracker().Reset();
   }
 
   void FlushLateImages() {
     if (ros::WallTime::now() - last_image_arrival_ < ros::WallDuration(kMaxWaitForImu)) return;
-    while (const auto frame = stage_.Flush()) Publish(*frame);
+    Track([this] { return stage_.Flush(); });
   }
 
   void Publish(const typename Stage::Frame& frame) {
@@ -127,10 +139,11 @@ class TrackerNode {
     }
     const sensor_msgs::PointCloud message = ToMessage(frame.features, config_.output.camera_frame);
     features_in_last_image_ = message.points.size();
+    last_tracked_ = ros::WallTime::now();
     tracking_ms_ = frame.tracking_ms;
-    if (!frame.publish) return;
+    if (!frame.publish && !Traits::kEveryImage) return;
     feature_publisher_.publish(message);
-    feature_stream_.Add(message.header.stamp);
+    feature_stream_.Add(frame.features.t_ns);
     if (show_track_ && annotated_publisher_.getNumSubscribers() > 0) {
       annotated_publisher_.publish(ToMessage(stage_.tracker().DrawTracks(), frame.features.t_ns,
                                              config_.output.camera_frame));
@@ -138,7 +151,8 @@ class TrackerNode {
   }
 
   DropCounts Drops() const {
-    DropCounts drops = {{"images_unreadable", unreadable_images_, first_unreadable_}};
+    DropCounts drops = {{"images_unreadable", unreadable_images_, first_unreadable_},
+                        errors_.count()};
     Append(ToDropCounts(stage_.counts()), &drops);
     return drops;
   }
@@ -148,6 +162,8 @@ class TrackerNode {
     if (image_stream_.Silence() > StreamMonitor::kSilence) {
       status.summary(DiagnosticStatus::WARN,
                      "waiting: nothing comes on " + config_.sensor.image_topic);
+    } else if ((ros::WallTime::now() - last_tracked_).toSec() > StreamMonitor::kSilence) {
+      status.summary(DiagnosticStatus::WARN, "waiting: no usable image any more");
     } else if (features_in_last_image_ == 0) {
       status.summary(DiagnosticStatus::WARN, "lost: nothing to follow in the last image");
     } else {
@@ -171,6 +187,7 @@ class TrackerNode {
   Stage stage_;
   bool show_track_ = true;
   DropWarner drop_warner_;
+  ErrorCounter errors_;
   int64_t unreadable_images_ = 0;
   std::string first_unreadable_;
   size_t features_in_last_image_ = 0;
@@ -180,6 +197,7 @@ class TrackerNode {
   StreamMonitor feature_stream_{"features"};
 
   ros::WallTime last_image_arrival_;
+  ros::WallTime last_tracked_ = ros::WallTime::now();
   ros::Publisher feature_publisher_;
   ros::Publisher restart_publisher_;
   image_transport::Publisher annotated_publisher_;

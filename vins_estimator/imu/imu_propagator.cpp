@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/imu/imu_propagator.h"
 
+#include "common/imu_range.h"
+#include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/imu/imu_interpolation.h"
 #include "vins_estimator/imu/preintegration.h"
 
@@ -10,6 +12,9 @@ namespace {
 const int64_t kHorizon_ns = ToNanoseconds(ImuPropagator::kHorizonSeconds);
 
 }  // namespace
+
+ImuPropagator::ImuPropagator(const Eigen::Vector3d& gravity_W)
+    : gravity_W_(gravity_W), leap_(ToNanoseconds(kMaxImuInterval)) {}
 
 void ImuPropagator::Reset(const FrameState& state, int64_t t_imu_ns) {
   state_ = state;
@@ -21,8 +26,9 @@ void ImuPropagator::Reset(const FrameState& state, int64_t t_imu_ns) {
 }
 
 std::optional<FrameState> ImuPropagator::Add(const ImuSample& sample) {
-  if (!sample.gyro.allFinite() || !sample.accel.allFinite()) return std::nullopt;
+  if (!IsInRange(sample)) return std::nullopt;
   if (!samples_.empty() && sample.t_ns <= samples_.back().t_ns) return std::nullopt;
+  if (!samples_.empty() && !leap_.Accept(samples_.back().t_ns, sample.t_ns)) return std::nullopt;
   samples_.push_back(sample);
   while (samples_.front().t_ns < sample.t_ns - kHorizon_ns) samples_.pop_front();
 
@@ -30,6 +36,11 @@ std::optional<FrameState> ImuPropagator::Add(const ImuSample& sample) {
   if (!state_ || sample.t_ns < state_->t_ns) return std::nullopt;
   Advance(samples_.size() - 1);
   return state_;
+}
+
+std::optional<int64_t> ImuPropagator::newest_ns() const {
+  if (samples_.empty()) return std::nullopt;
+  return samples_.back().t_ns;
 }
 
 void ImuPropagator::Clear() {

@@ -5,6 +5,7 @@
 #include <deque>
 #include <optional>
 
+#include "common/forward_jump.h"
 #include "common/imu_noise.h"
 #include "common/measurements.h"
 #include "vins_estimator/state/frame_state.h"
@@ -20,15 +21,18 @@ class ImuPropagator {
  public:
   static constexpr double kHorizonSeconds = 2.0;
 
-  explicit ImuPropagator(const Eigen::Vector3d& gravity_W) : gravity_W_(gravity_W) {}
+  explicit ImuPropagator(const Eigen::Vector3d& gravity_W);
 
   // Starts from `state`, valid at `t_imu_ns` of the IMU clock (image stamp + td).
   void Reset(const FrameState& state, int64_t t_imu_ns);
 
   // The state at this sample, its t_ns being the sample's stamp. Nothing without a state to start
-  // from (none yet, too old, or newer than the sample) or where the sample is not finite or out of
-  // order.
+  // from (none yet, too old, or newer than the sample) or where the sample is beyond any range, out
+  // of order, or the first after a leap in time.
   std::optional<FrameState> Add(const ImuSample& sample);
+
+  // Stamp of the newest sample; nothing without one.
+  std::optional<int64_t> newest_ns() const;
 
   // Forgets the state and the samples.
   void Clear();
@@ -41,6 +45,7 @@ class ImuPropagator {
   std::deque<ImuSample> samples_;    // increasing stamps
   std::optional<FrameState> state_;  // t_ns in IMU time
   int64_t t_reset_ns_ = 0;
+  ForwardJumpDetector leap_;
 };
 
 }  // namespace plm_vins

@@ -1,30 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/ros/estimator_diagnostics.h"
 
-#include "common/ros/msg_conversion.h"
+#include <cmath>
 
 namespace plm_vins {
 
 using diagnostic_msgs::DiagnosticStatus;
 
+namespace {
+
+constexpr double kMaxPoseAge = 0.5;  // [s], beyond it is worth a warning
+
+}  // namespace
+
 EstimatorDiagnostics::EstimatorDiagnostics(const Config& config, const std::string& points_topic,
                                            const std::string& lines_topic)
     : imu_topic_(config.sensor.imu_topic), points_topic_(points_topic), lines_topic_(lines_topic) {}
 
-void EstimatorDiagnostics::Update(const EstimatorOutput& output, const EstimationStage& stage) {
+void EstimatorDiagnostics::Update(const EstimatorOutput& output, int64_t frames, double age) {
   const std::lock_guard<std::mutex> lock(mutex_);
   state_ = output.status;
   reason_ = output.reason;
+  pose_age_ = age;
   if (output.restarted) last_restart_ = output.reason;
-  if (output.has_pose) poses_.Add(ToRosTime(output.t_ns));
+  if (output.has_pose) poses_.Add(output.t_ns);
   counts_ = output.counts;
   estimator_ms_ = output.timings.total;
-  if (stage.frames() > frames_) last_frame_ = ros::WallTime::now();
-  frames_ = stage.frames();
+  if (frames > frames_) last_frame_ = ros::WallTime::now();
+  frames_ = frames;
+}
+
+void EstimatorDiagnostics::UpdateCounts(const EstimationStage& stage, const DropCounts& drops) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   resets_ = stage.resets();
   queued_frames_ = stage.queued_frames();
   lines_are_missing_ = stage.lines_are_missing();
-  sync_ = stage.statistics();
+  frames_without_lines_ = stage.statistics().frames_without_lines;
+  lines_without_points_ = stage.statistics().lines_without_points;
+  drops_ = drops;
 }
 
 void EstimatorDiagnostics::Report(size_t queued,
@@ -35,6 +48,7 @@ void EstimatorDiagnostics::Report(size_t queued,
   status->add("resets", resets_);
   status->add("last_restart", last_restart_);
   for (StreamMonitor* stream : {&imu_, &points_, &lines_, &poses_}) stream->Report(status);
+  status->addf("pose_age_ms", "%.0f", 1e3 * pose_age_);
   status->add("queued", queued);
   status->add("queued_frames", queued_frames_);
   status->add("estimator_ms", estimator_ms_);
@@ -42,17 +56,21 @@ void EstimatorDiagnostics::Report(size_t queued,
   status->add("points_in_window", counts_.points_in_window);
   status->add("lines_observed", counts_.lines_observed);
   status->add("lines_in_window", counts_.lines_in_window);
-  status->add("frames_without_lines", sync_.frames_without_lines);
-  status->add("lines_without_points", sync_.lines_without_points);
-  status->add("feature_messages_malformed", malformed_messages_);
-  for (const DropCount& drop : ToDropCounts(sync_)) status->add(drop.cause, drop.count);
+  status->add("frames_without_lines", frames_without_lines_);
+  status->add("lines_without_points", lines_without_points_);
+  DropCounts drops = input_.Drops();
+  Append(drops_, &drops);
+  for (const DropCount& drop : drops) status->add(drop.cause, drop.count);
 }
 
 void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapper* status) {
   std::string state = State();
   const bool tracking = state == ToString(EstimatorStatus::kTracking);
   if (lines_are_missing_) state += "; points alone: no lines come in time on " + lines_topic_;
-  const bool fine = tracking && !lines_are_missing_;
+  const bool late = tracking && pose_age_ > kMaxPoseAge;
+  if (late)
+    state += "; late: poses are " + std::to_string(std::lround(1e3 * pose_age_)) + " ms old";
+  const bool fine = tracking && !lines_are_missing_ && !late;
   status->summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN, state);
 }
 

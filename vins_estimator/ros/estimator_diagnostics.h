@@ -14,6 +14,21 @@
 
 namespace plm_vins {
 
+// What was the matter with the messages of features.
+struct FeatureMessageCounts {
+  int64_t malformed = 0;        // messages of another layout
+  std::string first_malformed;  // what was wrong
+  int64_t left_out = 0;         // impossible features, ids that were there twice
+
+  void CountMalformed(const std::string& what) {
+    if (malformed++ == 0) first_malformed = what;
+  }
+  DropCounts Drops() const {
+    return {{"feature_messages_malformed", malformed, first_malformed},
+            {"features_impossible", left_out, ""}};
+  }
+};
+
 // What /diagnostics says of the estimator: waiting (for what), initializing (why not yet), tracking
 // or lost; rates and delays of what comes in and goes out; counts. The inputs' monitors are for the
 // thread that reports, Update for the one that estimates.
@@ -25,11 +40,14 @@ class EstimatorDiagnostics {
   StreamMonitor& imu() { return imu_; }
   StreamMonitor& points() { return points_; }
   StreamMonitor& lines() { return lines_; }
-  void CountMalformed() { ++malformed_messages_; }
-  int64_t malformed_messages() const { return malformed_messages_; }
+  FeatureMessageCounts& input() { return input_; }
 
-  // After each image, and with an output that only says why when all starts over.
-  void Update(const EstimatorOutput& output, const EstimationStage& stage);
+  // After each image, and with an output that only says why when all starts over. `frames`:
+  // estimated so far; `age`: of the image when its pose came [s].
+  void Update(const EstimatorOutput& output, int64_t frames, double age);
+
+  // After each input, whether or not an image came of it.
+  void UpdateCounts(const EstimationStage& stage, const DropCounts& drops);
 
   // `queued`: inputs that wait for the estimator.
   void Report(size_t queued, diagnostic_updater::DiagnosticStatusWrapper* status);
@@ -43,12 +61,13 @@ class EstimatorDiagnostics {
   StreamMonitor imu_{"imu"};
   StreamMonitor points_{"points"};
   StreamMonitor lines_{"lines"};
-  int64_t malformed_messages_ = 0;
+  FeatureMessageCounts input_;
 
   std::mutex mutex_;  // guards what follows
   StreamMonitor poses_{"odometry"};
   EstimatorStatus state_ = EstimatorStatus::kInitializing;
   std::string reason_;
+  double pose_age_ = 0;       // [s]
   std::string last_restart_;  // why
   EstimatorCounts counts_;
   double estimator_ms_ = 0;
@@ -57,7 +76,9 @@ class EstimatorDiagnostics {
   int64_t resets_ = 0;
   size_t queued_frames_ = 0;
   bool lines_are_missing_ = false;
-  SyncStatistics sync_;
+  int64_t frames_without_lines_ = 0;
+  int64_t lines_without_points_ = 0;
+  DropCounts drops_;  // of the thread that estimates
 };
 
 }  // namespace plm_vins

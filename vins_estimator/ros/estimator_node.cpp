@@ -3,6 +3,7 @@
 
 #include <ros/spinner.h>
 
+#include <exception>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -15,8 +16,10 @@ namespace {
 constexpr int kSubscriberQueue = 2000;
 constexpr char kPointTopic[] = "/feature_tracker/feature";
 constexpr char kLineTopic[] = "/linefeature_tracker/linefeature";
+constexpr char kInternalError[] = "internal error, see the log";
 constexpr char kRestartTopic[] = "/feature_tracker/restart";
-constexpr size_t kQueueCapacity = 5000;  // about 25 s of input; then the subscribers' queues fill
+constexpr size_t kQueueCapacity = 5000;  // inputs, most of them IMU samples
+constexpr double kMaxWait = 0.5;         // [s]: images that wait for longer are left out
 
 template <typename... Handlers>
 struct Overloaded : Handlers... {
@@ -33,7 +36,7 @@ EstimatorNode::EstimatorNode(const Config& config)
       propagation_(config, private_node_),
       file_at_end_(private_node_.hasParam("trajectory_file") ? TrajectoryFile() : ""),
       diagnostics_(config, kPointTopic, kLineTopic),
-      stage_(config),
+      stage_(config, kMaxWait),
       publisher_(config.output, private_node_) {
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {
@@ -70,32 +73,35 @@ EstimatorNode::~EstimatorNode() {
 }
 
 void EstimatorNode::AddImu(const sensor_msgs::Imu& message) {
-  diagnostics_.imu().Add(message.header.stamp);
   const ImuSample sample = ToImuSample(message);
+  diagnostics_.imu().Add(sample.t_ns);
   propagation_.AddImu(sample);
   queue_.Push(sample);
 }
 
 void EstimatorNode::AddPoints(const FeatureEvent& event) {
-  diagnostics_.points().Add(event.getMessage()->header.stamp);
+  diagnostics_.points().Add(ToNanoseconds(event.getMessage()->header.stamp));
   try {
-    PointFrame frame = ToPointFrame(*event.getMessage());
+    PointFrame frame = ToPointFrame(*event.getMessage(), &diagnostics_.input().left_out);
     RestoreIds(event.getConnectionHeaderPtr(), &frame.points, &point_source_);
+    if (!HasVelocities(*event.getMessage())) velocities_.Fill(&frame);
     queue_.Push(std::move(frame));
-  } catch (const std::invalid_argument& error) {
-    CountMalformed(error.what());
+  } catch (const std::exception& error) {
+    diagnostics_.input().CountMalformed(error.what());
   }
+  callback_warner_.Check(diagnostics_.input().Drops());
 }
 
 void EstimatorNode::AddLines(const FeatureEvent& event) {
-  diagnostics_.lines().Add(event.getMessage()->header.stamp);
+  diagnostics_.lines().Add(ToNanoseconds(event.getMessage()->header.stamp));
   try {
-    LineFrame frame = ToLineFrame(*event.getMessage());
+    LineFrame frame = ToLineFrame(*event.getMessage(), &diagnostics_.input().left_out);
     RestoreIds(event.getConnectionHeaderPtr(), &frame.lines, &line_source_);
     queue_.Push(std::move(frame));
-  } catch (const std::invalid_argument& error) {
-    CountMalformed(error.what());
+  } catch (const std::exception& error) {
+    diagnostics_.input().CountMalformed(error.what());
   }
+  callback_warner_.Check(diagnostics_.input().Drops());
 }
 
 // A tracker that was started again comes with a connection of its own.
@@ -109,11 +115,6 @@ void EstimatorNode::RestoreIds(const boost::shared_ptr<ros::M_string>& connectio
   for (Observation& observation : *observations) {
     observation.id = source->ids.Restore(observation.id);
   }
-}
-
-void EstimatorNode::CountMalformed(const std::string& what) {
-  diagnostics_.CountMalformed();
-  callback_warner_.Check({{"feature_messages_malformed", diagnostics_.malformed_messages(), what}});
 }
 
 void EstimatorNode::Restart(const std_msgs::Bool& message) {
@@ -149,17 +150,39 @@ std::string EstimatorNode::TrajectoryFile() const {
 void EstimatorNode::Work() {
   while (auto input = queue_.Pop()) {
     if (!ros::ok()) return queue_.Close();  // a callback may wait for room in it
-    Process(std::move(*input));
+    const bool done = worker_errors_.Run([&] {
+      Take(std::move(*input));
+      for (auto frame = stage_.Pop(); frame && ros::ok(); frame = stage_.Pop()) {
+        Handle(*frame);
+        ReportDrops();
+        TakeAllThatWaits();
+      }
+    });
+    if (!done) StartOver(kInternalError);
+    ReportDrops();
   }
 }
 
-void EstimatorNode::Process(Input input) {
+// What came while an image was estimated decides which one is next.
+void EstimatorNode::TakeAllThatWaits() {
+  for (size_t waiting = queue_.size(); waiting > 0; --waiting) {
+    if (auto input = queue_.Pop()) Take(std::move(*input));
+  }
+}
+
+void EstimatorNode::Take(Input input) {
   std::visit(Overloaded{[&](const ImuSample& sample) { stage_.AddImu(sample); },
                         [&](PointFrame& points) { stage_.AddPoints(std::move(points)); },
                         [&](LineFrame& lines) { stage_.AddLines(std::move(lines)); },
                         [&](const ResetCommand& reset) { StartOver(reset.reason); }},
              input);
-  while (const auto frame = stage_.Pop()) Handle(*frame);
+}
+
+void EstimatorNode::ReportDrops() {
+  DropCounts drops = ToDropCounts(stage_.statistics());
+  drops.push_back(worker_errors_.count());
+  worker_warner_.Check(drops);
+  diagnostics_.UpdateCounts(stage_, drops);
 }
 
 // The next image's output tells of the new world frame.
@@ -168,7 +191,7 @@ void EstimatorNode::StartOver(const std::string& reason) {
   propagation_.Clear();
   EstimatorOutput output;
   output.reason = reason;
-  diagnostics_.Update(output, stage_);
+  diagnostics_.Update(output, stage_.frames(), 0);
 }
 
 void EstimatorNode::Handle(const EstimatedFrame& frame) {
@@ -180,8 +203,7 @@ void EstimatorNode::Handle(const EstimatedFrame& frame) {
   LogChanges(output);
   LogLines();
   if (config_.estimator.verbose) LogFrame(output);
-  worker_warner_.Check(ToDropCounts(stage_.statistics()));
-  diagnostics_.Update(output, stage_);
+  diagnostics_.Update(output, stage_.frames(), propagation_.Age(output));
 }
 
 void EstimatorNode::LogChanges(const EstimatorOutput& output) {
@@ -207,7 +229,10 @@ void EstimatorNode::LogFrame(const EstimatorOutput& output) const {
 void EstimatorNode::LogLines() {
   const bool missing = stage_.lines_are_missing();
   if (missing && !lines_were_missing_) {
-    ROS_WARN("no lines come in time on %s: going on with points alone", kLineTopic);
+    ROS_WARN("%s on %s: going on with points alone",
+             stage_.lines_are_of_other_images() ? "all lines are of other images than the points"
+                                                : "no lines come in time",
+             kLineTopic);
   } else if (!missing && lines_were_missing_) {
     ROS_INFO("lines come in time again on %s", kLineTopic);
   }

@@ -23,12 +23,14 @@
 #include "vins_estimator/ros/output_publisher.h"
 #include "vins_estimator/ros/propagation_publisher.h"
 #include "vins_estimator/ros/trajectory_log.h"
+#include "vins_estimator/track_velocities.h"
 
 namespace plm_vins {
 
 // The back end as a node. The callbacks only queue what comes in and publish the state at IMU rate;
 // a thread of its own takes everything from the queue, in order of arrival, through the synchronous
-// core. Nothing is dropped as long as that thread keeps up on average.
+// core. Where that thread cannot keep up, images that have waited for too long are left out, so
+// that the newest one has its turn.
 //
 // Services: ~reset starts over; ~save_trajectory writes the poses so far to ~trajectory_file
 // (default trajectory.tum in the node's working folder), as the end of the node does where that
@@ -58,7 +60,6 @@ class EstimatorNode {
   template <typename Observation>
   static void RestoreIds(const boost::shared_ptr<ros::M_string>& connection,
                          std::vector<Observation>* observations, FeatureSource* source);
-  void CountMalformed(const std::string& what);
   void Restart(const std_msgs::Bool& message);
   bool Reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool SaveTrajectory(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -66,7 +67,9 @@ class EstimatorNode {
 
   // In the worker thread.
   void Work();
-  void Process(Input input);
+  void Take(Input input);
+  void TakeAllThatWaits();
+  void ReportDrops();
   void StartOver(const std::string& reason);
   void Handle(const EstimatedFrame& frame);
   void LogChanges(const EstimatorOutput& output);
@@ -84,12 +87,14 @@ class EstimatorNode {
   EstimatorDiagnostics diagnostics_;
   FeatureSource point_source_;
   FeatureSource line_source_;
+  TrackVelocities velocities_;
   DropWarner callback_warner_;
 
   // Only for the worker.
   EstimationStage stage_;
   OutputPublisher publisher_;
   DropWarner worker_warner_;
+  ErrorCounter worker_errors_;
   EstimatorStatus last_status_ = EstimatorStatus::kInitializing;
   std::string last_reason_;
   bool lines_were_missing_ = false;

@@ -3,6 +3,8 @@
 
 #include <geometry_msgs/Point32.h>
 
+#include <cmath>
+
 #include "common/ros/msg_conversion.h"
 
 namespace plm_vins {
@@ -25,6 +27,15 @@ Matrix6d RotationToWorld(const Matrix6d& covariance, const Eigen::Matrix3d& R_W_
   return J * covariance * J.transpose();
 }
 
+constexpr double kUnknown = 1e6;  // variance of what is not known, in SI units
+
+// `covariance`; where that is none, a diagonal of `variance`.
+template <typename Matrix>
+Matrix KnownOr(double variance, const Matrix& covariance) {
+  const bool known = covariance.allFinite() && covariance.diagonal().minCoeff() > 0;
+  return known ? covariance : Matrix(variance * Matrix::Identity());
+}
+
 visualization_msgs::Marker MakeMarker(int64_t t_ns, const std::string& frame_id,
                                       const std::string& name, int type, double scale) {
   visualization_msgs::Marker marker;
@@ -41,8 +52,10 @@ visualization_msgs::Marker MakeMarker(int64_t t_ns, const std::string& frame_id,
 }  // namespace
 
 StateCovariance CovarianceOf(const EstimatedFrame& frame) {
-  return {frame.output.pose_covariance, frame.output.velocity_covariance,
-          frame.angular_velocity_variance};
+  const double rate_variance = frame.angular_velocity_variance;
+  return {KnownOr(kUnknown, frame.output.pose_covariance),
+          KnownOr(kUnknown, frame.output.velocity_covariance),
+          std::isfinite(rate_variance) && rate_variance > 0 ? rate_variance : kUnknown};
 }
 
 nav_msgs::Odometry ToOdometry(const FrameState& state, const StateCovariance& covariance,

@@ -31,4 +31,10 @@ void PropagationPublisher::Clear() {
   propagator_.Clear();
 }
 
+double PropagationPublisher::Age(const EstimatorOutput& output) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto newest_ns = propagator_.newest_ns();
+  return newest_ns ? ToSeconds(*newest_ns - output.t_ns) - output.td : 0;
+}
+
 }  // namespace plm_vins

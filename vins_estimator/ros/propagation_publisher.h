@@ -22,10 +22,13 @@ class PropagationPublisher {
   void SetEstimate(const EstimatedFrame& frame);
   void Clear();
 
+  // How far the IMU is ahead of the image of `output` [s]; zero without samples.
+  double Age(const EstimatorOutput& output) const;
+
  private:
   OutputConfig frames_;
   ros::Publisher publisher_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   ImuPropagator propagator_;  // guarded by mutex_, as what follows
   StateCovariance covariance_;
 };

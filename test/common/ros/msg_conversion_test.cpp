@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plm_vins {
@@ -30,6 +31,19 @@ sensor_msgs::Image MakeImage(const std::string& encoding, const std::vector<uint
   for (int i = 0; i < 24; ++i) image.data.insert(image.data.end(), pixel.begin(), pixel.end());
   return image;
 }
+
+PointFrame ReadPoints(const sensor_msgs::PointCloud& message) {
+  int64_t left_out = 0;
+  return ToPointFrame(message, &left_out);
+}
+
+LineFrame ReadLines(const sensor_msgs::PointCloud& message) {
+  int64_t left_out = 0;
+  return ToLineFrame(message, &left_out);
+}
+
+PointFrame ReadBack(const PointFrame& frame) { return ReadPoints(ToMessage(frame, "camera")); }
+LineFrame ReadBack(const LineFrame& frame) { return ReadLines(ToMessage(frame, "camera")); }
 
 struct EncodingCase {
   std::string encoding;
@@ -106,6 +120,17 @@ TEST(ImageConversion, DecodesCompressedImages) {
   EXPECT_THROW(ToImageSample(image), std::invalid_argument);
 }
 
+// Headers alone: OpenCV throws on them before it looks for pixels.
+TEST(ImageConversion, RefusesCompressedImagesThatClaimAbsurdSizes) {
+  for (const auto& [width, height] : {std::pair(40000, 40000), std::pair((1 << 20) + 1, 1)}) {
+    sensor_msgs::CompressedImage image;
+    const std::string header = "P5 " + std::to_string(width) + " " + std::to_string(height);
+    const std::string text = header + " 255\n" + std::string(100, 'x');
+    image.data.assign(text.begin(), text.end());
+    EXPECT_THROW(ToImageSample(image), std::invalid_argument) << header;
+  }
+}
+
 TEST(FeatureMessage, PointsHaveTheLayoutOfVins) {
   PointFrame frame;
   frame.t_ns = kStamp;
@@ -126,7 +151,7 @@ TEST(FeatureMessage, PointsComeBack) {
   frame.t_ns = kStamp;
   frame.points.push_back({16'777'215, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
   frame.points.push_back({3, {-0.75, 0.5}, {1, 2}, {0, 0}});
-  const PointFrame back = ToPointFrame(ToMessage(frame, "camera"));
+  const PointFrame back = ReadBack(frame);
   EXPECT_EQ(back.t_ns, kStamp);
   ASSERT_EQ(back.points.size(), 2u);
   EXPECT_EQ(back.points[0].id, 16'777'215);
@@ -136,15 +161,28 @@ TEST(FeatureMessage, PointsComeBack) {
   EXPECT_EQ(back.points[1].id, 3);
 }
 
+TEST(FeatureMessage, PointsOfPlVinsComeWithoutVelocities) {
+  PointFrame frame;
+  frame.points.push_back({3, {-0.75, 0.5}, {1, 2}, {0.5, 0.5}});
+  sensor_msgs::PointCloud message = ToMessage(frame, "camera");
+  EXPECT_TRUE(HasVelocities(message));
+  message.channels.resize(3);
+  EXPECT_FALSE(HasVelocities(message));
+  const PointFrame read = ReadPoints(message);
+  ASSERT_EQ(read.points.size(), 1u);
+  EXPECT_EQ(read.points[0].uv_px, frame.points[0].uv_px);
+  EXPECT_TRUE(read.points[0].velocity.isZero(0));
+}
+
 TEST(FeatureMessage, AnEmptyFrameComesBack) {
-  EXPECT_TRUE(ToPointFrame(ToMessage(PointFrame{kStamp, {}}, "camera")).points.empty());
+  EXPECT_TRUE(ReadBack(PointFrame{kStamp, {}}).points.empty());
 }
 
 TEST(FeatureMessage, LinesComeBack) {
   LineFrame frame;
   frame.t_ns = kStamp;
   frame.lines.push_back({7, {0.25, -0.5}, {0.5, 0.125}});
-  const LineFrame back = ToLineFrame(ToMessage(frame, "camera"));
+  const LineFrame back = ReadBack(frame);
   EXPECT_EQ(back.t_ns, kStamp);
   ASSERT_EQ(back.lines.size(), 1u);
   EXPECT_EQ(back.lines[0].id, 7);
@@ -171,7 +209,7 @@ TEST(FeatureMessage, NoLinesAndAThousandLinesComeBack) {
     LineFrame frame;
     frame.t_ns = kStamp;
     for (int i = 0; i < count; ++i) frame.lines.push_back({i, {0.25, -0.5}, {0.5, 0.125}});
-    const LineFrame back = ToLineFrame(ToMessage(frame, "camera"));
+    const LineFrame back = ReadBack(frame);
     EXPECT_EQ(back.lines.size(), frame.lines.size());
   }
 }
@@ -179,7 +217,7 @@ TEST(FeatureMessage, NoLinesAndAThousandLinesComeBack) {
 TEST(FeatureMessage, IdsTravelModulo24Bits) {
   LineFrame frame;
   frame.lines.push_back({(int64_t{1} << 24) + 1, {0, 0}, {1, 1}});  // no float32 is this number
-  EXPECT_EQ(ToLineFrame(ToMessage(frame, "camera")).lines[0].id, 1);
+  EXPECT_EQ(ReadBack(frame).lines[0].id, 1);
 }
 
 TEST(FeatureMessage, IdsThatCannotBeToldApartAreRefused) {
@@ -188,7 +226,7 @@ TEST(FeatureMessage, IdsThatCannotBeToldApartAreRefused) {
   for (const float id : {16'777'216.0f, -1.0f, 0.5f, std::numeric_limits<float>::quiet_NaN()}) {
     sensor_msgs::PointCloud message = ToMessage(frame, "camera");
     message.channels[0].values[0] = id;
-    EXPECT_THROW(ToLineFrame(message), std::invalid_argument) << id;
+    EXPECT_THROW(ReadLines(message), std::invalid_argument) << id;
   }
 }
 
@@ -197,11 +235,41 @@ TEST(FeatureMessage, MissingChannelsAreRefused) {
   frame.points.resize(2);
   sensor_msgs::PointCloud message = ToMessage(frame, "camera");
   message.channels[3].values.pop_back();
-  EXPECT_THROW(ToPointFrame(message), std::invalid_argument);
-  message.channels.resize(3);
-  EXPECT_THROW(ToPointFrame(message), std::invalid_argument);
+  EXPECT_THROW(ReadPoints(message), std::invalid_argument);
+  message.channels.resize(2);
+  EXPECT_THROW(ReadPoints(message), std::invalid_argument);
   message.channels.clear();
-  EXPECT_THROW(ToLineFrame(message), std::invalid_argument);
+  EXPECT_THROW(ReadLines(message), std::invalid_argument);
+}
+
+TEST(FeatureMessage, ImpossiblePointsAndRepeatedIdsAreLeftOutAndCounted) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  PointFrame frame;
+  frame.points.push_back({1, {0.25, -0.5}, {0, 0}, {0, 0}});
+  frame.points.push_back({1, {0.75, -0.5}, {0, 0}, {0, 0}});
+  frame.points.push_back({2, {nan, 0}, {0, 0}, {0, 0}});
+  frame.points.push_back({3, {0, 1e30}, {0, 0}, {0, 0}});
+  frame.points.push_back({4, {0, 0}, {0, 0}, {0, -1.0 / 0.0}});
+  frame.points.push_back({2, {0, 0}, {0, 0}, {0, 0}});
+  int64_t left_out = 5;
+  const PointFrame back = ToPointFrame(ToMessage(frame, "camera"), &left_out);
+  EXPECT_EQ(left_out, 5 + 4);
+  ASSERT_EQ(back.points.size(), 2u);
+  EXPECT_EQ(back.points[0].xy.x(), 0.25);
+  EXPECT_EQ(back.points[1].id, 2);
+}
+
+TEST(FeatureMessage, ImpossibleLinesAndRepeatedIdsAreLeftOutAndCounted) {
+  LineFrame frame;
+  frame.lines.push_back({1, {0.25, -0.5}, {0.5, 0.125}});
+  frame.lines.push_back({2, {0.25, -0.5}, {0.5, std::numeric_limits<double>::quiet_NaN()}});
+  frame.lines.push_back({3, {-1e4, -0.5}, {0.5, 0}});
+  frame.lines.push_back({1, {0.25, -0.5}, {0.75, 0.125}});
+  int64_t left_out = 0;
+  const LineFrame back = ToLineFrame(ToMessage(frame, "camera"), &left_out);
+  EXPECT_EQ(left_out, 3);
+  ASSERT_EQ(back.lines.size(), 1u);
+  EXPECT_EQ(back.lines[0].end.x(), 0.5);
 }
 
 TEST(PoseMessage, HasTheTransform) {

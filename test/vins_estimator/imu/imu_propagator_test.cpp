@@ -119,5 +119,27 @@ TEST_F(ImuPropagatorTest, SaysNothingAfterClear) {
   EXPECT_FALSE(propagator_.Add(samples_[1]).has_value());
 }
 
+TEST_F(ImuPropagatorTest, ASampleThatNoSensorGivesIsIgnored) {
+  ImuPropagator propagator(kGravity_W);
+  for (size_t i = 0; i <= 200; ++i) propagator.Add(samples_[i]);
+  propagator.Reset(start_, samples_[100].t_ns);
+  ImuSample absurd = samples_[200];
+  absurd.t_ns += kMillisecond;
+  absurd.accel.x() = 1e6;
+  EXPECT_FALSE(propagator.Add(absurd));
+  ExpectSame(propagator.Add(samples_[201]), Predict(samples_[100].t_ns, 201));
+}
+
+TEST_F(ImuPropagatorTest, ASampleAloneInTheFutureIsIgnored) {
+  ImuPropagator propagator(kGravity_W);
+  for (size_t i = 0; i <= 200; ++i) propagator.Add(samples_[i]);
+  propagator.Reset(start_, samples_[100].t_ns);
+  ImuSample future = samples_[201];
+  future.t_ns += 3600 * 1000 * kMillisecond;
+  EXPECT_FALSE(propagator.Add(future));
+  EXPECT_EQ(propagator.newest_ns(), samples_[200].t_ns);
+  ExpectSame(propagator.Add(samples_[201]), Predict(samples_[100].t_ns, 201));
+}
+
 }  // namespace
 }  // namespace plm_vins

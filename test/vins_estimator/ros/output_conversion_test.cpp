@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "common/so3.h"
@@ -52,6 +53,27 @@ TEST(OdometryMessage, TwistIsInTheBody) {
   EXPECT_MATRIX_NEAR(kRotation * Eigen::Vector3d(v.x, v.y, v.z), Eigen::Vector3d(0.5, -1, 2),
                      1e-12);
   EXPECT_EQ(odometry.twist.twist.angular.y, 0.2);
+}
+
+TEST(OdometryMessage, ACovarianceThatIsNoneIsVeryLarge) {
+  EstimatedFrame good;
+  good.output.pose_covariance = MakeCovariance<6>();
+  good.output.velocity_covariance = MakeCovariance<3>();
+  good.angular_velocity_variance = 0.1;
+  EXPECT_EQ(CovarianceOf(good).pose, good.output.pose_covariance);
+  EXPECT_EQ(CovarianceOf(good).velocity, good.output.velocity_covariance);
+  EXPECT_EQ(CovarianceOf(good).angular_velocity, 0.1);
+  EstimatedFrame bad;
+  for (const double value : {0.0, std::numeric_limits<double>::quiet_NaN(), 1.0 / 0.0}) {
+    bad.output.pose_covariance.setConstant(value);
+    bad.output.velocity_covariance.setConstant(value);
+    bad.angular_velocity_variance = value;
+    const StateCovariance covariance = CovarianceOf(bad);
+    EXPECT_TRUE(covariance.pose.allFinite() && covariance.velocity.allFinite());
+    EXPECT_GE(covariance.pose.diagonal().minCoeff(), 1e6);
+    EXPECT_GE(covariance.velocity.diagonal().minCoeff(), 1e6);
+    EXPECT_GE(covariance.angular_velocity, 1e6);
+  }
 }
 
 // Draws errors of the state and compares their covariance, expressed as the message wants it.

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which features can be true, for those who take them from elsewhere.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <unordered_set>
+#include <vector>
+
+#include "common/measurements.h"
+
+namespace plm_vins {
+
+constexpr double kMaxImageCoordinate = 100;  // normalised: half a degree from the image plane
+constexpr double kMaxImageVelocity = 1e4;    // [1/s], at that place where the camera spins
+
+// False for what is not finite, too.
+inline bool IsWithin(const Eigen::Vector2d& xy, double limit) {
+  return xy.allFinite() && xy.cwiseAbs().maxCoeff() <= limit;
+}
+
+inline bool IsPossible(const PointObservation& point) {
+  return IsWithin(point.xy, kMaxImageCoordinate) && IsWithin(point.velocity, kMaxImageVelocity);
+}
+
+inline bool IsPossible(const LineObservation& line) {
+  return IsWithin(line.start, kMaxImageCoordinate) && IsWithin(line.end, kMaxImageCoordinate);
+}
+
+// Removes impossible observations, and those of an id that is in the image already. Returns how
+// many went.
+template <typename Observation>
+int64_t RemoveImpossible(std::vector<Observation>* observations) {
+  std::unordered_set<int64_t> ids;
+  std::vector<Observation> possible;
+  possible.reserve(observations->size());
+  for (const Observation& observation : *observations) {
+    if (IsPossible(observation) && ids.insert(observation.id).second) {
+      possible.push_back(observation);
+    }
+  }
+  const size_t removed = observations->size() - possible.size();
+  observations->swap(possible);
+  return static_cast<int64_t>(removed);
+}
+
+}  // namespace plm_vins

@@ -115,7 +115,6 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   Triangulate(output);
   FindStructure(output);
   Optimize(config_.estimator.max_num_iterations, output);
-  if (config_.estimator.adapt_noise) state_.noise.Update(map);
   RemoveOutliers(output);
   if (const auto failure = FindFailure(*output)) {
     Reset();
@@ -124,6 +123,7 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
     output->restarted = true;
     return;
   }
+  if (config_.estimator.adapt_noise) state_.noise.Update(map);
   output->keyframe = keep_second_newest;
   Describe(output);
   SlideWindow(keep_second_newest, output);

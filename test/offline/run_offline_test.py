@@ -43,7 +43,7 @@ class RunOffline(unittest.TestCase):
         self.assert_refuses("expected seconds, zero or more, instead of nan", "--start", "nan")
         self.assert_refuses("expected seconds, zero or more, instead of -2", "--duration", "-2")
         self.assert_refuses("expected key=value instead of freq", "--set", "freq")
-        self.assert_refuses("[--bag,--asl]", "--bag", "flight.bag")
+        self.assert_refuses("[--bag,--asl,--features]", "--bag", "flight.bag")
 
     def test_bad_config(self):
         self.assert_refuses("nothing.yaml", config=self.folder / "nothing.yaml")

@@ -11,12 +11,16 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMinViews = 6;         // fewer hardly show how their errors follow on each other
-constexpr size_t kMinLandmarks = 8;     // fewer are no sample
-constexpr double kGreatestRatio = 9.0;  // of variances, to the median landmark's
+constexpr size_t kMinViews = 6;          // fewer hardly show how their errors follow on each other
+constexpr size_t kMinLandmarks = 12;     // fewer are no sample
+constexpr double kGreatestRatio = 9.0;   // of variances, to the median landmark's
+constexpr double kGreatestLength = 3.0;  // of one view's residual, to the median view's
 constexpr double kGreatestCorrelation = 0.8;
-constexpr double kTimeConstant = 2.5;        // [s]
-constexpr double kLeast = 0.5, kMost = 4.0;  // of what is assumed at first
+constexpr double kTimeConstant = 2.5;  // [s]
+constexpr double kMost = 4.0;          // times what is assumed at first, and never less than that
+// In simulated windows, where the errors are independent, the estimate is up to this much too
+// large: the solver stops short of the minimum, and that looks like errors in common.
+constexpr double kOverestimate = 1.35;
 constexpr int kPointParameters = 3, kLineParameters = 4;
 
 std::vector<Eigen::Vector2d> ResidualsOf(const PointLandmark& point, const SlidingWindow& window) {
@@ -54,6 +58,19 @@ std::vector<ViewSpread> CollectSpreads(const Landmarks& landmarks, const Sliding
   return spreads;
 }
 
+// Makes a view that is another thing altogether count as one that is just far off.
+void ShortenOutliers(std::vector<Eigen::Vector2d>* residuals) {
+  std::vector<double> lengths;
+  for (const Eigen::Vector2d& residual : *residuals) lengths.push_back(residual.norm());
+  const auto middle = lengths.begin() + lengths.size() / 2;
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  const double limit = kGreatestLength * *middle;
+  for (Eigen::Vector2d& residual : *residuals) {
+    const double length = residual.norm();
+    if (length > limit) residual *= limit / length;
+  }
+}
+
 // The median, by variance.
 double MedianVariance(std::vector<ViewSpread> spreads) {
   const auto middle = spreads.begin() + spreads.size() / 2;
@@ -66,13 +83,14 @@ double MedianVariance(std::vector<ViewSpread> spreads) {
 // Moves `noise` towards what was seen, by ratios.
 void Follow(std::optional<double> seen, double first, double share, double* noise) {
   if (!seen) return;
-  const double goal = std::clamp(*seen, kLeast * first, kMost * first);
+  const double goal = std::clamp(*seen / kOverestimate, first, kMost * first);
   *noise *= std::pow(goal / *noise, share);
 }
 
 }  // namespace
 
-ViewSpread SpreadOf(const std::vector<Eigen::Vector2d>& residuals, int parameters) {
+ViewSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters) {
+  ShortenOutliers(&residuals);
   const double count = static_cast<double>(residuals.size());
   ViewSpread spread;
   for (size_t i = 0; i < residuals.size(); ++i) {

@@ -18,7 +18,8 @@ struct ViewSpread {
 };
 
 // `residuals` by time, at least two, of a landmark with so many parameters.
-ViewSpread SpreadOf(const std::vector<Eigen::Vector2d>& residuals, int parameters);
+// Single views far off count as three times the median one.
+ViewSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters);
 
 // The standard deviation with which independent views would tell as much as these do. Errors of a
 // track are not independent: a template drifts, an outline wanders with the viewpoint. The share
@@ -29,8 +30,9 @@ ViewSpread SpreadOf(const std::vector<Eigen::Vector2d>& residuals, int parameter
 std::optional<double> EffectiveNoise(const std::vector<ViewSpread>& spreads);
 
 // Noise of corners and of lines' ends, as the optimised window shows it rather than as configured:
-// texture, blur, compression and calibration make it differ by more than two from camera to camera.
-// Follows slowly and within bounds, so that no single window decides on its own weight.
+// texture, blur, compression and calibration make it differ from camera to camera. Follows slowly
+// and within bounds, so that no single window decides on its own weight, and never below what is
+// assumed at first: a window that fits too well must not make itself certain.
 class ViewNoise {
  public:
   // What is assumed at first, normalised.

@@ -5,8 +5,8 @@
 
 namespace plm_vins {
 
-// Tells a stream of stamps that begins anew (a bag played again, a clock set back) from single
-// stamps out of order: more than `patience` in a row are refused, each after the one before.
+// Distinguishes a stream of stamps that begins anew (a bag played again, a clock set back) from
+// single stamps out of order: more than `patience` in a row are refused, each after the one before.
 class BackwardJumpDetector {
  public:
   explicit BackwardJumpDetector(int patience) : patience_(patience) {}

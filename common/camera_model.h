@@ -26,8 +26,8 @@ struct CameraParameters {
 // back. Immutable after construction; safe to share between threads.
 class CameraModel {
  public:
-  // Throws std::invalid_argument where a parameter is not finite, a focal length not positive or xi
-  // negative.
+  // Throws std::invalid_argument where a parameter is not finite, a focal length is not positive or
+  // xi is negative.
   static std::unique_ptr<const CameraModel> Create(const CameraParameters& parameters);
 
   virtual ~CameraModel() = default;
@@ -58,8 +58,7 @@ class CameraModel {
  protected:
   explicit CameraModel(const CameraParameters& parameters) : parameters_(parameters) {}
 
-  // The last step of every model: the distorted point of the model's image plane to pixels, and
-  // back.
+  // The last step of every model: from the distorted point of its image plane to pixels, and back.
   Eigen::Vector2d PlaneToPixel(const Eigen::Vector2d& point) const {
     return focal().cwiseProduct(point) + center();
   }

@@ -6,7 +6,7 @@
 
 namespace plm_vins {
 
-// Feature messages carry ids as float32, which tells whole numbers apart up to here.
+// Feature messages carry ids as float32, which is exact for whole numbers up to here.
 constexpr int64_t kTransportableIds = int64_t{1} << 24;
 
 // An id as it travels: modulo kTransportableIds.

@@ -6,8 +6,9 @@
 
 namespace plm_vins {
 
-// Tells a gap in a stream of stamps from a single wrong stamp in the future, which would make all
-// that follow look late: the first stamp after a leap is refused, the next one confirms the leap.
+// Distinguishes a gap in a stream of stamps from a single wrong stamp in the future, which would
+// make all that follow look late: the first stamp after a leap is refused, the next one confirms
+// the leap.
 class ForwardJumpDetector {
  public:
   // More than `limit_ns` from one stamp to the next is a leap.

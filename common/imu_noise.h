@@ -5,8 +5,7 @@
 
 namespace plm_vins {
 
-// Noise of an IMU as continuous-time densities, equal on all axes (as Kalibr and data sheets give
-// them).
+// Noise of an IMU as continuous-time densities (as in Kalibr and data sheets), equal on all axes.
 struct ImuNoise {
   double gyro_density = 1.7e-4;   // [rad/s/sqrt(Hz)]
   double accel_density = 2.0e-3;  // [m/s^2/sqrt(Hz)]

@@ -43,11 +43,10 @@ struct ImuSample {
 
 // One tracked corner in one image.
 struct PointObservation {
-  int64_t id = -1;                                  // stable along the track, never reused
-  Eigen::Vector2d xy = Eigen::Vector2d::Zero();     // normalised, undistorted
-  Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();  // raw pixel
-  Eigen::Vector2d velocity =
-      Eigen::Vector2d::Zero();  // d(xy)/dt [1/s]; zero in a track's first image
+  int64_t id = -1;                                     // stable along the track, never reused
+  Eigen::Vector2d xy = Eigen::Vector2d::Zero();        // normalised, undistorted
+  Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();     // raw pixel
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // d(xy)/dt [1/s]; zero when new
 };
 
 // All corners of one image, in the order of the tracker. May be empty (a blind image).
@@ -74,8 +73,7 @@ struct LineFrame {
 // `imu` leads from the frame handed out before to this one, ready to be integrated as it is: it
 // opens with the sample interpolated at the time of that frame (the last of that frame's `imu`, bit
 // by bit), continues with the samples between, and closes with the one interpolated at exactly t_ns
-// + time_offset. The first frame's opens with the first sample there is and may be that one sample
-// only.
+// + time_offset. The first frame's opens with the first sample there is and may hold only that one.
 struct FrameMeasurement {
   int64_t t_ns = 0;          // image stamp
   double time_offset = 0.0;  // td [s] with which the IMU samples were cut

@@ -6,8 +6,8 @@
 
 namespace plm_vins {
 
-// A rigid transform T_A_B: takes points of frame B to frame A, p_A = T_A_B * p_B = R_A_B p_B +
-// p_A_B.
+// A rigid transform T_A_B, which takes points of frame B to frame A: p_A = T_A_B * p_B = R_A_B p_B
+// + p_A_B.
 struct Rigid3d {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  // origin of B in A [m]

@@ -15,7 +15,7 @@ constexpr int kRefinementRadius_px = 5;  // the window is a square of 2 * 5 + 1 
 // the window around `start`; nothing either where the gradients fix no point.
 //
 // cv::cornerSubPix solves the same equations but hands a corner that left its window back
-// unrefined, so that it cannot be told from a good one.
+// unrefined, so that it looks like a good one.
 std::optional<cv::Point2f> RefineCorner(const cv::Mat& image, const cv::Point2f& start);
 
 // True where the refinement window around the point is inside of the image.

@@ -138,7 +138,7 @@ class PointTracker::Implementation {
         RemoveTracks(FindEpipolarInliers(pairs, R_C1_C0, threshold), &tracks_);
   }
 
-  // Where the track's pixel goes when the camera only turns; it stays where the model cannot tell.
+  // Where the track's pixel goes when the camera only turns; unchanged if not projectable.
   cv::Point2f Turn(const PointTrack& track, const Eigen::Quaterniond& R_C1_C0) const {
     const auto pixel = camera_->Project(R_C1_C0 * track.xy.homogeneous());
     return pixel ? ToOpenCv(*pixel) : track.uv_px;

@@ -7,7 +7,7 @@
 
 namespace plm_vins {
 
-// The lines of an image, to tell whether another one would be a second copy of one of them.
+// The lines of an image, to check whether another line would be a second copy of one of them.
 class LineOccupancy {
  public:
   explicit LineOccupancy(double spacing_px) : spacing_px_(spacing_px) {}

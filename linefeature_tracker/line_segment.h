@@ -42,7 +42,7 @@ inline double UndirectedAngle(const LineSegment& a, const LineSegment& b) {
   return std::min(angle, M_PI - angle);
 }
 
-// How two segments lie to each other, seen along the first.
+// The position of two segments relative to each other, seen along the first.
 struct SegmentRelation {
   double overlap = 0;   // length that they share as a part of the shorter one; negative: a gap
   double distance = 0;  // across the first, in the middle of what they share

@@ -16,7 +16,7 @@ constexpr uint32_t kMostFeatures = 1 << 20;  // of one image: more are no featur
 
 enum class ItemKind : uint8_t { kImu = 1, kPoints = 2, kPointsAndLines = 3 };
 
-// Both archives have the same face, so that one function below tells the layout of each struct.
+// Both archives have the same interface, so that one function per struct below defines its layout.
 class Output {
  public:
   explicit Output(std::ostream* stream) : stream_(stream) {}

@@ -11,8 +11,7 @@
 
 namespace plm_vins {
 
-// The features of one image. Points and lines have the same stamp and agree on what ReadyImage
-// tells.
+// The features of one image. Points and lines share its stamp and the flags of ReadyImage.
 struct TrackedFeatures {
   TrackedPoints points;
   std::optional<TrackedLines> lines;  // absent where lines are not used

@@ -82,8 +82,7 @@ FrameCounts MakeCounts(const PipelineFrame& frame) {
   return counts;
 }
 
-// The landmarks that stay in the window. Those that leave it with a frame are part of that frame,
-// too.
+// The landmarks that stay in the window. Those that leave belong to the frame that they leave with.
 template <typename Landmark>
 std::vector<Landmark> Staying(const std::vector<Landmark>& in_window,
                               const std::vector<Landmark>& departed) {

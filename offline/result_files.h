@@ -17,8 +17,8 @@
 namespace plm_vins {
 
 // The folder of results of an offline run: trajectory.tum, timing.csv, summary.json, map.ply,
-// lines.ply, lines.obj, tracks.png, line_tracks.png. Rows are written as frames come; memory stays
-// small.
+// lines.ply, lines.obj, tracks.png, line_tracks.png. Rows are written as frames come, which keeps
+// memory small.
 class ResultFiles {
  public:
   // Makes the folder and opens the files. Throws std::runtime_error where that is not possible.

@@ -10,8 +10,8 @@
 namespace plm_vins::simulator {
 
 // Seeded random numbers that are the same with every standard library: the distributions of
-// <random> are not specified bit by bit, so the transforms are our own. Each `stream` of a seed is
-// independent.
+// <random> are not specified bit by bit, so the transforms are our own. The `stream`s of a seed are
+// independent of each other.
 class Random {
  public:
   explicit Random(uint64_t seed, uint64_t stream = 0) : engine_(Mix(seed ^ Mix(stream + 1))) {}

@@ -21,13 +21,13 @@ namespace plm_vins {
 struct ReadyImage {
   ImageSample image;
   // Takes directions of the camera at the image before to this one. Nothing where the gyro does not
-  // tell.
+  // provide it.
   std::optional<Eigen::Quaterniond> R_C1_C0;
   bool restart = false;  // stamps jumped back: a new recording begins here, what was before is void
   bool publish = true;   // false: the features of this image are not for the estimator (`freq`)
 };
 
-// Images that came in and what was the matter with them. All counts are since construction.
+// Images that came in and what was wrong with them. All counts are since construction.
 struct ImageCounts {
   int64_t images = 0;
   int64_t out_of_order = 0;  // stamp not after the one before (repeated or backwards)
@@ -52,8 +52,8 @@ class ImageQueue {
   void AddImu(const ImuSample& sample) { gyro_.AddImu(sample); }
 
   // Stamps must increase; an image that goes back in time is dropped, unless more and more of them
-  // follow: then it is a new recording. So is one that leaps ahead, unless the next one confirms
-  // it.
+  // follow: then it is a new recording. An image that leaps ahead is dropped, too, unless the next
+  // one confirms the leap.
   void AddImage(ImageSample image);
 
   // The next image in order of time, or nothing yet. An image waits for the gyro until two newer

@@ -47,7 +47,7 @@ void EstimationStage::Reset(const std::string& reason) {
   StartOver(reason);
 }
 
-// What has said nothing since it began has nothing to take back.
+// Without an output since the last start no world frame is given up, so none is announced.
 void EstimationStage::StartOver(const std::string& reason) {
   estimator_->Reset();
   sync_.SetTimeOffset(estimator_->time_offset());

@@ -49,7 +49,7 @@ class EstimationStage {
   std::optional<EstimatedFrame> Flush() { return Process(sync_.Flush()); }
 
   // Starts over: queued data and the state are forgotten, statistics go on. `reason` is that of the
-  // next output, which tells of the new world frame.
+  // next output, which announces the new world frame.
   void Reset(const std::string& reason);
 
   int64_t frames() const { return frames_; }  // estimated so far

@@ -175,7 +175,7 @@ void Estimator::FindStructure(EstimatorOutput* output) {
   output->timings.line_merging = stopwatch.Milliseconds();
 }
 
-// Lines that are one go on as one, and have one vote on the Manhattan frame.
+// Merged lines continue as one line, with one vote on the Manhattan frame.
 void Estimator::UniteLines(EstimatorOutput* output) {
   LocalMap& map = state_.estimate.map;
   const Eigen::Quaterniond R_M_W =

@@ -38,8 +38,8 @@ struct EstimatorTimings {
   double total = 0;
 };
 
-// Everything the estimator says about one image. The state is that of this image, as known at this
-// time.
+// Everything the estimator says about one image. The state is that of this image, as far as it is
+// known when the image has been processed.
 struct EstimatorOutput {
   int64_t t_ns = 0;
   EstimatorStatus status = EstimatorStatus::kInitializing;

@@ -10,7 +10,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMinLandmarks = 20;           // fewer cannot contradict
+constexpr int kMinLandmarks = 20;           // fewer are no evidence
 constexpr double kMaxRejectedShare = 0.25;  // a few per cent in flight
 constexpr double kMaxContradiction = 1.0;   // [s]
 

@@ -20,7 +20,7 @@ struct FailureLimits {
 };
 
 // Why the newest state, optimised, cannot be believed, given what the IMU predicted; nothing where
-// it can.
+// it can be believed.
 std::optional<std::string> DetectFailure(const FailureLimits& limits, const FrameState& predicted,
                                          const FrameState& optimized);
 

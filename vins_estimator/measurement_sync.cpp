@@ -11,18 +11,18 @@
 namespace plm_vins {
 namespace {
 
-// Images of which the IMU cuts are closer than this hold no motion that could be told from noise.
+// Between images whose IMU cuts are closer than this, motion is lost in the noise.
 constexpr int64_t kMinInterval_ns = 1'000'000;
 
-// Stamps in a row that go back until a new recording begins. Trackers look at stamps, too, and
-// their word should come first.
+// Stamps in a row that go back until a new recording begins. Trackers check stamps, too, and should
+// be the first to decide.
 constexpr int kImuJumpPatience = 1000;
 constexpr int kPointsJumpPatience = 10;
 
-// Trackers are stricter; here it is for those of others.
+// Our trackers are stricter; this check is for those of others.
 constexpr int64_t kPointsLeap_ns = 10'000'000'000;
 
-constexpr size_t kFewPoints = 10;  // too few to tell the motion of the camera from
+constexpr size_t kFewPoints = 10;  // too few to estimate the motion of the camera
 
 // False also for zeros throughout, which drivers give where they could not read the sensor.
 bool IsPlausible(const ImuSample& sample) {

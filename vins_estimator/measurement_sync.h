@@ -23,11 +23,10 @@ struct SyncStatistics {
   int64_t imu_gaps = 0;          // intervals longer than the allowed gap, bridged
   int64_t imu_dropped_full = 0;  // no image came for long: oldest dropped
   int64_t frames = 0;
-  int64_t frames_out_of_order = 0;   // stamp not after the one before (repeated or backwards)
-  int64_t frames_ahead_of_time = 0;  // leaped ahead, and alone there so far
-  int64_t frames_too_late = 0;       // waited for longer than allowed
-  int64_t frames_without_imu =
-      0;  // no IMU sample at or before the image, or none after it at the end
+  int64_t frames_out_of_order = 0;     // stamp not after the one before (repeated or backwards)
+  int64_t frames_ahead_of_time = 0;    // leaped ahead, and alone there so far
+  int64_t frames_too_late = 0;         // waited for longer than allowed
+  int64_t frames_without_imu = 0;      // no IMU sample up to it, or at the end none after it
   int64_t frames_in_imu_gap = 0;       // the IMU says nothing at the time of the image
   int64_t frames_too_close = 0;        // under 1 ms of IMU time after the frame before
   int64_t frames_dropped_full = 0;     // queue full: oldest dropped
@@ -41,7 +40,7 @@ struct SyncStatistics {
 };
 
 // Pairs point and line features by equal stamp and cuts the IMU stream at the image times.
-// Synchronous, single-threaded; the caller feeds in order of arrival and pops until nothing is
+// Synchronous and single-threaded: the caller feeds in order of arrival and pops until nothing is
 // ready.
 //
 // A frame is ready when the IMU reaches t_image + td and, where lines are expected, when its line

@@ -6,8 +6,7 @@
 
 namespace plm_vins {
 
-// Pinhole camera with radial and tangential distortion: (X / Z, Y / Z), distorted, scaled to
-// pixels.
+// A pinhole with radial and tangential distortion: (X / Z, Y / Z), distorted, in pixels.
 class PinholeRadtan final : public CameraModel {
  public:
   explicit PinholeRadtan(const CameraParameters& parameters);

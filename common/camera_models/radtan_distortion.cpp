@@ -18,8 +18,8 @@ double FoldRadiusSquared(double k1, double k2) {
   const double b = 3 * k1;
   const double discriminant = b * b - 4 * a;
   if (discriminant < 0) return std::numeric_limits<double>::infinity();
-  // This form of the root stays exact as a goes to zero; it is the smallest positive one, if any
-  // is.
+  // This form of the root stays exact as a goes to zero. It is the smallest positive root, if there
+  // is one.
   const double denominator = -b + std::sqrt(discriminant);
   return denominator > 0 ? 2 / denominator : std::numeric_limits<double>::infinity();
 }

@@ -15,8 +15,8 @@ ConfigKeys<CameraParameters> CameraKeys(const std::string& model_type);
 // Whether there is such a `model_type`.
 bool IsModelType(const std::string& model_type);
 
-// The `model_type` of a model; of a fisheye EQUIDISTANT, though a file may have said
-// KANNALA_BRANDT.
+// The `model_type` of a model. A fisheye is EQUIDISTANT, even where the file uses its other name,
+// which is KANNALA_BRANDT.
 std::string ModelType(CameraParameters::Model model);
 
 }  // namespace plm_vins

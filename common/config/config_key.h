@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kinds of configuration keys. A key knows all that is to know about a value: its name in the
-// file, its unit and range, how to read it into a field and how to tell it from there.
+// file, its unit and range, how to read it into a field and how to write it from there.
 #pragma once
 
 #include <Eigen/Core>
@@ -86,7 +86,7 @@ struct ConfigKey {
     return {name, "", "", read, ValueOf(field)};
   }
 
-  // One of several words; two may mean the same, which is then told by the first.
+  // One of several words; two may mean the same, which is then written as the first.
   template <typename T>
   static ConfigKey Choice(const std::string& name, std::vector<std::pair<std::string, T>> choices,
                           T Section::*field) {

@@ -51,8 +51,8 @@ inline bool HasVelocities(const sensor_msgs::PointCloud& points) {
   return points.channels.size() >= 5;
 }
 
-// /linefeature_tracker/linefeature as in PL-VINS: points are starts (x, y, 1), channels id, x_end,
-// y_end.
+// /linefeature_tracker/linefeature as in PL-VINS: points are the starts (x, y, 1) of the lines,
+// channels id, x_end, y_end.
 sensor_msgs::PointCloud ToMessage(const LineFrame& frame, const std::string& frame_id);
 LineFrame ToLineFrame(const sensor_msgs::PointCloud& message, int64_t* left_out);
 

@@ -14,7 +14,7 @@ namespace plm_vins {
 
 int RunNode(int argc, char** argv, const std::string& name,
             const std::function<void(const Config&)>& body) {
-  // Until ROS runs, and handles it, there is nothing to save.
+  // Until ROS runs and handles the signal, there is nothing to save.
   std::signal(SIGINT, [](int) { std::_Exit(0); });
   ros::init(argc, argv, name);
   const ros::NodeHandle keeps_ros_running;

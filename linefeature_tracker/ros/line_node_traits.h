@@ -18,7 +18,7 @@ struct LineNodeTraits {
   static constexpr char kFeatureTopic[] = "linefeature";
   static constexpr char kAnnotatedTopic[] = "linefeature_img";
   static constexpr char kDiagnostics[] = "line tracking";
-  // The points decide which images are used, and whose tracker they are of is not known here.
+  // The points decide which images are used, and which tracker sends the points is not known here.
   static constexpr bool kEveryImage = true;
   // The estimator waits for lines for three images at most, so a tracker that cannot keep up leaves
   // out images instead of falling back further.

@@ -157,7 +157,7 @@ class RunningRun:
 
 
 def _content(sequence):
-    """What tells a recording from another one of the same name without reading all of it."""
+    """What distinguishes a recording from one of the same name, without reading all of it."""
     status = os.stat(sequence.content_file)
     return {"bytes": status.st_size, "modified_ns": status.st_mtime_ns}
 

@@ -8,7 +8,7 @@ PERIOD = 0.1  # between two looks at the processes [s]
 
 
 def carry_out(runs, jobs, progress):
-    """Carries out all runs, at most `jobs` at once, and tells `progress` of each.
+    """Carries out all runs, at most `jobs` at once, and reports each to `progress`.
 
     Returns False where SIGINT or SIGTERM ended it early. However it ends, no process stays behind,
     and runs that had not ended are left without an outcome.

@@ -26,7 +26,7 @@ class Sequence:
 
     @property
     def content_file(self):
-        """The file that tells whether the recording is still the same one."""
+        """The file that shows whether the recording is still the same one."""
         return self.path if self.is_bag else os.path.join(self.path, ASL_IMAGES)
 
 

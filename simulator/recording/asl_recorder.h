@@ -8,8 +8,8 @@
 
 namespace plm_vins::simulator {
 
-// Writes the folders of the EuRoC data set: DIR/mav0/cam0 and imu0. DIR must not hold a recording
-// yet.
+// Writes the folders of the EuRoC data set: DIR/mav0/cam0 and imu0. DIR must not contain a
+// recording yet.
 class AslRecorder : public Recorder {
  public:
   explicit AslRecorder(const std::string& folder);

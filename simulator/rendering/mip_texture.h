@@ -13,8 +13,8 @@ class MipTexture {
   // `image` is CV_8UC1, its row 0 at the top (largest v).
   MipTexture(const cv::Mat& image, double width, double height);
 
-  // Brightness, 0 to 1, at (u, v) [m] from the lower left corner, averaged over about `footprint`
-  // [m].
+  // Brightness, 0 to 1, at (u, v) from the lower left corner, averaged over about `footprint`; all
+  // lengths in [m].
   float Sample(float u, float v, float footprint) const;
 
  private:

@@ -26,8 +26,8 @@ class Renderer {
   // The scene must outlive the renderer.
   Renderer(const Scene& scene, std::shared_ptr<const CameraModel> camera);
 
-  // Adds the brightness (1 is a white wall in full light) of one half of each pixel to `sum`
-  // (CV_32F).
+  // Adds the brightness of one half of each pixel to `sum` (CV_32F). A white wall in full light has
+  // a brightness of 1.
   void Accumulate(const Rigid3d& T_W_C, int subpixel, cv::Mat1f* sum) const;
 
  private:

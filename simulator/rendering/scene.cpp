@@ -8,8 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Diffuse sky from above plus a distant lamp: walls of each direction get a brightness of their
-// own.
+// Diffuse sky from above plus a distant lamp: the brightness of a wall depends on its direction.
 double LightOn(const Vector3d& normal) {
   const Vector3d towards_lamp = Vector3d(0.45, 0.25, 0.6).normalized();
   return 0.72 + 0.08 * normal.z() + 0.22 * normal.dot(towards_lamp);

@@ -47,8 +47,7 @@ TEST(EffectiveValues, HoldEveryKey) {
   EXPECT_NEAR(R_B_C[3], 0.999557249008, 1e-9);
 }
 
-// As a file of VINS has it: noise of samples, a mask without folder, the fisheye under its old
-// name.
+// As in a file of VINS: noise of samples, a mask without folder, the fisheye under its old name.
 TEST(EffectiveValues, AsAFileSayTheSame) {
   const testing::TemporaryFolder folder;
   folder.Write("mask.png", "x");

@@ -83,8 +83,8 @@ class EndToEnd(unittest.TestCase):
         self.assertGreater(evaluation["coverage"], 0.9)
 
     # Each bound is about twice what was measured or more: 0.3 % of the path in the gentle flight,
-    # 0.2 % in the fast one, 0.4 % in the hover, 0.8 % in the corridor (steady speed shows scale
-    # badly).
+    # 0.2 % in the fast one, 0.4 % in the hover, 0.8 % in the corridor (where the steady speed
+    # hardly shows the scale).
 
     def test_gentle_flight_through_a_room(self):
         with Flight("--world", "room", "--motion", "gentle") as flight:

@@ -248,7 +248,7 @@ TEST_F(Nodes, SayWhatTheyDoAndWhatTheyWaitFor) {
   EXPECT_EQ(end["images"], std::to_string(log_->image.messages.size()));
 }
 
-// The bag is played in its own time, by which delays are told.
+// The bag is played in its own time, against which delays are measured.
 TEST_F(Nodes, TellRatesAndDelays) {
   const auto statuses = Statuses(log_->diagnostics, "vins_estimator: odometry");
   std::map<std::string, double> greatest;

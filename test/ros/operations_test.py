@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The nodes when bags are played again, when one of them dies, and when they are told to end.
+"""The nodes when bags are played again, when one of them dies, and when they are asked to end.
 
 Usage: operations_test.py NODES BAG FOLDER [unittest option ...]
 NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs and results.

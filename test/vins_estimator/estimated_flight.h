@@ -91,8 +91,7 @@ inline double GreatestError(const EstimatedFlight& flight, size_t aligned_at) {
   return greatest;
 }
 
-// Mean normalised squared errors: of the pose (6 where the covariance is right) and the velocity
-// (3).
+// Mean normalised squared errors: with the right covariance, 6 for the pose and 3 for the velocity.
 struct Consistency {
   double pose = 0, velocity = 0;
 };

@@ -23,8 +23,8 @@ FrameState MakeState(const double* pose, const double* motion) {
   return state;
 }
 
-// Rows of position and velocity. `p_Bi` and `v_Bi` are the changes without gravity, seen from frame
-// i.
+// Rows of position and velocity. `p_Bi` and `v_Bi` are the changes without gravity, in the
+// coordinates of frame i.
 void SetTranslationRows(const Preintegration& preintegration, const Matrix3d& R_Bi_W,
                         const Vector3d& p_Bi, const Vector3d& v_Bi, ImuResidualJacobians* J) {
   J->d_residual_d_pose_i.block<3, 3>(Index::kPosition, kPosition) = -R_Bi_W;

@@ -10,8 +10,8 @@ namespace plm_vins {
 
 // A line, given in its host camera, seen from another frame:
 //   r = weight * EndPointDistances(view, moment of T_B_C^-1 T_W_Bt^-1 T_W_Bh T_B_C L_Ch)
-// Blocks: pose of host (7), pose of target (7), extrinsics T_B_C (7), line (5). Jacobians follow
-// factors/manifolds.h.
+// Blocks: pose of host (7), pose of target (7), extrinsics T_B_C (7), line (5). Jacobians are taken
+// as factors/manifolds.h defines them.
 class LineFactor final : public ceres::SizedCostFunction<2, 7, 7, 7, kLineSize> {
  public:
   // `weight`: focal length over the standard deviation of an end point across the line, in pixels.

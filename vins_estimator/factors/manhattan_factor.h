@@ -14,7 +14,7 @@ namespace plm_vins {
 // with the line's unit direction d and the two columns of E perpendicular to the axis. |r| / weight
 // is the sine of the angle between line and axis, whichever way the line points. Blocks: pose of
 // host (7), extrinsics T_B_C (7), line (5). Jacobians follow factors/manifolds.h. A vertical axis
-// tells of roll and pitch, a horizontal one of the heading as well.
+// constrains roll and pitch, a horizontal one the heading as well.
 class ManhattanFactor final : public ceres::SizedCostFunction<2, 7, 7, kLineSize> {
  public:
   // `axis_W` of length 1; `weight`: one over the standard deviation of that angle [1/rad].

@@ -26,7 +26,7 @@ LineJacobian ByTangent(const Rigid3d& T_C_C0, const PluckerJacobian& plucker,
   return by_moment * plucker.d_moment + by_direction * plucker.d_direction;
 }
 
-// Nothing turns by more than a radian without being told so: keeps the inverse finite.
+// A prior of one radian on each coordinate of the tangent keeps the inverse finite.
 Eigen::Matrix4d Covariance(const LineFit& fit) {
   const Eigen::Matrix4d information = fit.information + Eigen::Matrix4d::Identity();
   return information.ldlt().solve(Eigen::Matrix4d::Identity());

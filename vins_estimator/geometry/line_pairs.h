@@ -29,7 +29,7 @@ struct SeenLine {
 std::vector<std::pair<size_t, size_t>> FindNearPairs(const std::vector<SeenLine>& lines,
                                                      double distance);
 
-// How two lines lie to each other.
+// The position of two lines relative to each other.
 struct LinePairGeometry {
   double angle = 0;        // between the directions, whichever way they point [rad]
   double distance = 0;     // beside each other, from middle to middle [m]

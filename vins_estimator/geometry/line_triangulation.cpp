@@ -36,7 +36,7 @@ ViewingPlane PlaneOf(const LineSighting& sighting, const Rigid3d& T_C0_W) {
 }
 
 // How far each camera is off the other's plane: what makes the angle between them. The angle itself
-// would be the noise's, where segments are short.
+// would be mostly noise where segments are short.
 double BaselineAcross(const ViewingPlane& a, const ViewingPlane& b) {
   const Eigen::Vector3d baseline = b.camera - a.camera;
   return std::min(std::abs(a.normal.dot(baseline)), std::abs(b.normal.dot(baseline)));

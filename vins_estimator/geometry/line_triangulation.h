@@ -22,7 +22,7 @@ struct LineTriangulationOptions {
 // Why a line was refused, or kOk.
 enum class LineTriangulationResult {
   kOk,
-  kDegenerate,    // the geometry does not tell the depth: little baseline, or along the line
+  kDegenerate,    // the geometry leaves the depth open: little baseline, or along the line
   kBehind,        // an end is not in front of a camera that sees it
   kInconsistent,  // the sightings disagree: not one line
   kTooLong,       // its ends are farther apart than allowed
@@ -37,8 +37,8 @@ struct TriangulatedLine {
 // The line that all sightings agree on best: from the pair of views whose cameras are farthest off
 // each other's plane (through camera and segment) in terms of its noise, refined on the end points'
 // distances in all images ([Bartoli2005]). Degenerate geometry (planes nearly alike: no baseline,
-// or a motion in the plane, such as along the line) is told by the deviation that `noise` causes in
-// the depths of the ends.
+// or a motion in the plane, such as along the line) is recognised by the deviation that `noise`
+// causes in the depths of the ends.
 TriangulatedLine TriangulateLine(const LineTriangulationOptions& options,
                                  const std::vector<LineSighting>& sightings);
 

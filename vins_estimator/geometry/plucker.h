@@ -22,8 +22,8 @@ struct PluckerLine {
 // The line through two points.
 PluckerLine LineThrough(const Eigen::Vector3d& start, const Eigen::Vector3d& end);
 
-// The line where the planes a . x = alpha and b . x = beta meet; no direction where they are
-// parallel.
+// The line in which the planes a . x = alpha and b . x = beta meet. Where these are parallel, it
+// has no direction.
 PluckerLine Intersection(const Eigen::Vector3d& a, double alpha, const Eigen::Vector3d& b,
                          double beta);
 

@@ -12,10 +12,9 @@ namespace plm_vins {
 // Says whether the body stands still, from the last half second of IMU samples and tracked corners.
 // Both must agree: a smooth flight can fool the IMU, a view of the far horizon the camera.
 //
-//  - IMU: angular rate and specific force, averaged over each image interval, hardly vary.
-//  Averages,
-//    because propellers shake a vehicle on the ground as strongly as a flying one (up to 1 m/s^2),
-//    but about zero. Constant biases drop out, so they need not be known.
+//  - IMU: angular rate and specific force, averaged over each image interval, hardly vary. They are
+//    averaged because propellers shake a vehicle on the ground as strongly as a flying one (up to
+//    1 m/s^2), but about zero. Constant biases drop out, so they need not be known.
 //  - Camera: the median corner is where it was at the start of the window.
 class StandstillDetector {
  public:

@@ -14,8 +14,8 @@
 
 namespace plm_vins {
 
-// Collects turns of the rig, image after image, until they tell the camera's rotation in the body.
-// Nothing about it need be known. Bounded memory; deterministic.
+// Collects turns of the rig, image after image, until they determine the camera's rotation in the
+// body. No initial guess is needed. Bounded memory; deterministic.
 class ExtrinsicCalibrator {
  public:
   // `noise`: standard deviation of a normalised coordinate.

@@ -12,8 +12,8 @@ std::vector<Correspondence> CommonPoints(const PointFrame& first, const PointFra
   return FindCorrespondences(CollectTracks({&first, &second}), 0, 1);
 }
 
-// How far each frame is along the sequence, 0 to 1: the mean of its shares of time and image
-// motion.
+// How far each frame is along the sequence, 0 to 1: the mean of its share of the time and its share
+// of the image motion.
 std::vector<double> Progress(const std::deque<FrameMeasurement>& frames) {
   std::vector<double> flow(frames.size(), 0.0);
   for (size_t i = 1; i < frames.size(); ++i) {

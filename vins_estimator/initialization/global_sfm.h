@@ -27,8 +27,8 @@ struct Structure {
 // Structure from motion for views whose rotations R_G_C are known (from the gyro): positions are
 // left, which makes every step linear. The pair of views with the most parallax starts; the other
 // views are resected and further points triangulated in turn; a bundle adjustment over positions
-// and points ends it. Nothing, and the reason in words, where parallax or common points do not
-// suffice.
+// and points ends it. Nothing, and the reason in words, where there is too little parallax or there
+// are too few common points.
 std::optional<Structure> ReconstructStructure(const std::vector<Track>& tracks,
                                               const std::vector<Eigen::Quaterniond>& R_G_C,
                                               const GlobalSfmOptions& options, std::string* reason);

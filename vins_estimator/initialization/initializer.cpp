@@ -19,8 +19,9 @@ constexpr int kMinCommonPoints = 12;          // of neighbouring images
 constexpr size_t kMinFrames = 6;
 constexpr size_t kMaxFrames = 11;
 constexpr int kImagesPerAttempt = 5;
-// The longer the wait, the less certain a scale will do: what a vehicle does not do for seconds, it
-// may not do for long. The stated uncertainty is half the true one where propellers shake the IMU.
+// The longer the wait, the larger the scale uncertainty that is accepted: a vehicle that has not
+// moved enough for seconds may not do so soon. Where propellers shake the IMU, the estimated
+// uncertainty is half the true one.
 constexpr double kScaleDeviationPerSecond = 0.015;  // relative [1/s]
 constexpr double kMaxScaleDeviation = 0.075;
 

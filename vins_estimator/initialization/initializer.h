@@ -33,8 +33,8 @@ struct InitializationResult {
 // three quarters of a second, else from motion as soon as 1.5 s of images or more determine
 // gravity, velocity and scale. World: z up, origin and heading 0 at the first frame of the result.
 // Where the camera's rotation is to be calibrated, this comes first, and takes turns about at least
-// two axes. Rather waits than guesses, and says why. Keeps at most three seconds of images.
-// Deterministic.
+// two axes. Waits rather than guesses, and says why. Keeps at most three seconds of images. Its
+// result is deterministic.
 class Initializer {
  public:
   explicit Initializer(const Config& config);

@@ -23,8 +23,8 @@ struct MotionInitializerOptions {
 // The states of a few images in motion, from nothing but their points and IMU samples: gyro bias
 // from relative poses, structure up to scale, alignment (velocities, gravity, scale),
 // visual-inertial bundle adjustment, checks. `frames[i + 1].imu` leads from frame i to frame i + 1;
-// `frames[0].imu` is not used. World: origin and heading 0 at
-// the first frame. Nothing, and the reason in words, where any step or check fails.
+// `frames[0].imu` is not used. World: origin and heading 0 at the first frame. Nothing, and the
+// reason in words, where any step or check fails.
 std::optional<std::vector<FrameState>> InitializeFromMotion(
     const std::vector<FrameMeasurement>& frames, const SensorConfig& sensor, double point_noise_px,
     const MotionInitializerOptions& options, std::string* reason);

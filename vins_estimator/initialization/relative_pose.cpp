@@ -104,7 +104,7 @@ void PoseRefiner::Step(RelativePose* pose) const {
     H += weight * r.gradient * r.gradient.transpose();
     g += weight * whitened * r.gradient;
   }
-  // The direction is never trusted to less than nothing: one radian keeps pure rotation solvable.
+  // A prior of one radian on the direction keeps the equations solvable under pure rotation.
   H.bottomRightCorner<2, 2>() += Eigen::Matrix2d::Identity();
   pose->rotation_information = H.topLeftCorner<3, 3>() - H.topRightCorner<3, 2>() *
                                                              H.bottomRightCorner<2, 2>().inverse() *

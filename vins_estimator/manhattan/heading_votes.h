@@ -23,18 +23,18 @@ struct HeadingSupport {
   double sigma = 0;    // standard error of that mean, from the spread of the votes [rad]
   double weight = 0;   // of the votes in its favour
   double total = 0;    // weight of all votes
-  int lines = 0;       // that have a vote in its favour
-  // Logarithm of the number of headings with so much support to be expected among as many lines of
-  // random heading, or above.
+  int lines = 0;       // lines that voted in its favour
+  // Logarithm of the expected number of headings with at least this much support if as many lines
+  // had random headings; an upper bound.
   double log_false_alarms = 0;
 
   double share() const { return total > 0 ? weight / total : 0; }
 };
 
-// A poll of horizontal lines on the heading that man built along, modulo 90 deg. One line has one
+// Horizontal lines vote on the heading of the buildings around, modulo 90 deg. One line has one
 // vote, however often it is seen: of weight 1 at most, growing with the time that the line was
-// followed and with its accuracy, fading once it is out of sight. Whether a heading has more
-// support than chance gives is told by the expected number of false alarms [Desolneux2000].
+// followed and with its accuracy, fading once it is out of sight. The expected number of false
+// alarms [Desolneux2000] decides whether a heading has more support than chance would give it.
 class HeadingVotes {
  public:
   explicit HeadingVotes(const HeadingVotesOptions& options = {}) : options_(options) {}

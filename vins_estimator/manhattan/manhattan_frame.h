@@ -88,8 +88,7 @@ class ManhattanFrame {
   // Accurate enough to be asked for its heading or its axis.
   bool IsKnownWell(const LineDirection& line) const { return line.sigma < options_.max_line_sigma; }
 
-  // The axis that a line runs along, as far as its standard deviation tells. Only z while not
-  // locked.
+  // The axis that a line runs along, within its standard deviation. Only z while not locked.
   LineAxis AxisOf(const LineDirection& line) const;
 
   // Unit vector of an axis in W; not for kFree, and only z while not locked.

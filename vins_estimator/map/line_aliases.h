@@ -11,8 +11,7 @@ namespace plm_vins {
 
 // Which landmark the observations of a track belong to, after several tracks turned out to be one
 // line. An alias always leads from a newer to an older id, in one step. It is dropped when its
-// track has not been seen for kMemory images, so the table holds at most the tracks of so many
-// images.
+// track has not been seen for kMemory images, which bounds the table.
 class LineAliases {
  public:
   static constexpr int64_t kMemory = 100;  // [images]

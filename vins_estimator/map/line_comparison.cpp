@@ -24,7 +24,7 @@ LineDifference FindDifference(const SameLineLimits& limits, const LinePairGeomet
 // deviations stay zero then.
 std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W,
                             double noise, const LineLandmark& line) {
-  constexpr double kGreatestSigma = 0.5;  // [rad], [m]: beyond it, nothing is told apart anyway
+  constexpr double kGreatestSigma = 0.5;  // [rad], [m]: beyond it, all lines look alike anyway
   const auto segment = ObservedSegment(line, window);
   if (!segment) return std::nullopt;
   SeenLine seen{R_F_W * segment->start_W, R_F_W * segment->end_W, line.axis};

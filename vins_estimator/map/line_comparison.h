@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What tells whether two lines of the map are one, for merging and recognition.
+// Whether two lines of the map are one, for merging and recognition.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,7 +15,7 @@
 
 namespace plm_vins {
 
-// What one line must keep to in order to be another.
+// Limits within which two lines are taken for one.
 struct SameLineLimits {
   // `focal_length` [px] turns pixels into normalised coordinates.
   SameLineLimits(const EstimatorConfig& config, double focal_length)
@@ -30,16 +30,16 @@ struct SameLineLimits {
   double noise;           // deviation of an end point across the line, normalised
 };
 
-// The condition in space that two lines fail; kNone where they keep all. Where direction or place
+// The condition in space that two lines fail; kNone where they meet all. Where direction or place
 // are known less well than the limits, three standard deviations take their place.
 enum class LineDifference { kNone, kDirection, kDistance, kGap };
 LineDifference FindDifference(const SameLineLimits& limits, const LinePairGeometry& pair);
 
-// Enough views to tell how well a line is known.
+// Enough views to estimate how well a line is known.
 inline bool HasEnoughViews(const LineLandmark& line) { return line.views.size() >= 3; }
 
-// The seen part of a triangulated line in a frame F, and how well its views tell its place where
-// there are enough. Nothing where it has no image in a camera that saw it.
+// The seen part of a triangulated line in a frame F, and how well its views determine its place,
+// where there are enough. Nothing where it has no image in a camera that saw it.
 std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W,
                             double noise, const LineLandmark& line);
 

@@ -15,7 +15,7 @@
 
 namespace plm_vins {
 
-// What a triangulated line must keep to.
+// Limits that a triangulated line must meet.
 struct LineLimits {
   LineLimits(double noise, double max_length) : noise(noise), max_length(max_length) {}
 
@@ -37,8 +37,8 @@ class LineMap : public LandmarkMap<LineLandmark> {
                                       const LineTriangulationOptions& options, double max_length);
 
   // Judges the triangulated lines by all their views: removes single views that do not fit, lines
-  // behind a camera, longer than allowed or with too large a mean error. Returns how many lines
-  // and views went.
+  // behind a camera, longer than allowed or with too large a mean error. Returns how many lines and
+  // views were removed.
   int RemoveOutliers(const SlidingWindow& window, const LineLimits& limits);
 
   // Removes what an anchor has seen.

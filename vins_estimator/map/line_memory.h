@@ -18,8 +18,8 @@ struct RememberedLine {
   int64_t note = 0;                    // number of the last note on it
 };
 
-// The lines that have been in the window, so that one which comes into view again is known for what
-// it is. Holds at most kCapacity lines; beyond, the one without news for longest is forgotten.
+// The lines that have been in the window, so that one which comes into view again is recognised.
+// Holds at most kCapacity lines; beyond, the one without news for longest is forgotten.
 class LineMemory {
  public:
   static constexpr size_t kCapacity = 1000;

@@ -22,7 +22,7 @@ class PointMap : public LandmarkMap<PointLandmark> {
 
   // Removes landmarks behind a camera or with a mean reprojection error above `max_error`, and
   // single views above twice that (normalised image units). Returns how many landmarks and views
-  // went.
+  // were removed.
   int RemoveOutliers(const SlidingWindow& window, double max_error);
 };
 

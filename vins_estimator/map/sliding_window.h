@@ -28,8 +28,8 @@ struct AnchorFrame {
   int64_t last_use_ns = 0;  // the newest frame with a line that this one has seen
 };
 
-// The variables of the estimator that are not landmarks: keyframes, oldest first, then the newest
-// image.
+// The variables of the estimator other than landmarks. Frames: keyframes, oldest first, then the
+// newest image.
 struct SlidingWindow {
   std::vector<WindowFrame> frames;
   std::vector<AnchorFrame> anchors;
@@ -48,7 +48,8 @@ struct SlidingWindow {
   }
   void SetExtrinsic(const Rigid3d& T_B_C);
 
-  // By stamp; std::logic_error where there is none: what refers to a frame must go before it does.
+  // By stamp; std::logic_error where there is none: whatever refers to a frame must be removed
+  // before the frame.
   WindowFrame& FrameAt(int64_t t_ns);
   AnchorFrame& AnchorAt(int64_t t_ns);
   // The state of a frame or an anchor.

@@ -21,12 +21,11 @@ struct ViewSpread {
 // Single views far off count as three times the median one.
 ViewSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters);
 
-// The standard deviation with which independent views would tell as much as these do. Errors of a
-// track are not independent: a template drifts, an outline wanders with the viewpoint. The share
-// that follows on from view to view, rho = 1 - difference / variance, makes n views worth
-// n (1 - rho) / (1 + rho) independent ones (autoregression of first order, [Bayley1946]).
-// Landmarks that stand out count as much as three times the median one. Nothing where there are
-// too few to tell.
+// The standard deviation with which independent views would contain as much information as these.
+// Errors of a track are not independent: a template drifts, an outline wanders with the viewpoint.
+// The share that follows on from view to view, rho = 1 - difference / variance, makes n views worth
+// n (1 - rho) / (1 + rho) independent ones (autoregression of first order, [Bayley1946]). Landmarks
+// that stand out count as much as three times the median one. Nothing for too few landmarks.
 std::optional<double> EffectiveNoise(const std::vector<ViewSpread>& spreads);
 
 // Noise of corners and of lines' ends, as the optimised window shows it rather than as configured:
@@ -42,8 +41,8 @@ class ViewNoise {
         point_(first_point_),
         line_(first_line_) {}
 
-  // Learns from a window that was just optimised. Standing still tells nothing: there, errors are
-  // the same in all views.
+  // Learns from a window that was just optimised. Ignores windows of standing still: there, errors
+  // are the same in all views.
   void Update(const LocalMap& map);
 
   double point() const { return point_; }

@@ -21,8 +21,8 @@ void SetInformation(int offset, int size, double sigma, Eigen::MatrixXd* H) {
   H->diagonal().segment(offset, size).setConstant(1.0 / (sigma * sigma));
 }
 
-// Information on the rotation of a body, given as uncertainty of heading and inclination in the
-// world.
+// Information on the rotation of a body, from the uncertainty of its heading and its inclination in
+// the world.
 Eigen::Matrix3d RotationInformation(const Eigen::Matrix3d& R_W_B, double inclination,
                                     double heading) {
   const Eigen::Vector3d sigma(inclination, inclination, heading);

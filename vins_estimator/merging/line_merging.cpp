@@ -115,7 +115,7 @@ Candidates Collect(const Eigen::Quaterniond& R_F_W, double noise, LocalMap* map)
   return candidates;
 }
 
-// What counts the pairs that differ so; null for those that do not.
+// The counter of pairs that differ in this way; null for those that do not differ.
 int LineMergingCounts::*CountOf(LineDifference difference) {
   switch (difference) {
     case LineDifference::kDirection:
@@ -129,8 +129,8 @@ int LineMergingCounts::*CountOf(LineDifference difference) {
   }
 }
 
-// The count of the first condition that two lines fail, in space or in the images; null where they
-// keep all.
+// The counter of the first condition that two lines fail, in space or in the images; null where
+// they meet all.
 int LineMergingCounts::*FindRefusal(const SameLineLimits& limits, const SlidingWindow& window,
                                     const LineLandmark& a, const LineLandmark& b,
                                     const LinePairGeometry& pair) {

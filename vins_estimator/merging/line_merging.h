@@ -21,8 +21,8 @@ struct MergedLines {
 // an older one where, in the Manhattan frame, they are less than `limits.distance` apart, and where
 // in the images, too, each lies on the other. Beyond the paper, they must have the same direction,
 // and overlap or touch along it; no image may show them side by side; and the views of both must
-// fit one line. Where the views tell direction or place less well than the limits, the fit decides.
-// The views of the newer go to the older, and later ones follow by way of its alias.
+// fit one line. Where the views determine direction or place less well than the limits, the fit
+// decides. The views of the newer go to the older, and later ones follow by way of its alias.
 //
 // Pairs are found by boxes along the axes of F: the Manhattan frame, or W where there is none.
 MergedLines MergeLines(const SameLineLimits& limits, const Eigen::Quaterniond& R_F_W,

@@ -40,7 +40,7 @@ class CeresProblem {
 
   ceres::Problem* problem() { return &problem_; }
 
-  // What the costs of Ceres have more than those of the window.
+  // The constant by which the costs of Ceres exceed those of the window.
   double constant() const { return prior_ ? prior_->constant() : 0; }
 
   // Landmarks first, then the frames.

@@ -17,8 +17,7 @@ struct SolverSummary {
   double initial_cost = 0;
   double final_cost = 0;
   int iterations = 0;
-  bool solved =
-      false;  // false: the equations could not be solved, or gave values that are not finite
+  bool solved = false;  // the equations could be solved, and gave finite values
 };
 
 // Minimises the problem's cost from the current values of its variables, which are replaced by the

@@ -7,8 +7,7 @@
 namespace plm_vins {
 
 // The values in effect, defaults and overrides included, under the names and in the groups of the
-// configuration file; beside them, under "file", its path. A matrix is the list of its entries, row
-// by row.
+// configuration file; beside them, under "file", its path. Matrices are row-major lists.
 Json ToJson(const Config& config);
 
 }  // namespace plm_vins

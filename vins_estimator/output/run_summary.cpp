@@ -55,7 +55,7 @@ void RunSummary::Add(const EstimatorOutput& output, const FrameTimings& timings,
   if (!output.reason.empty()) last_reason_ = output.reason;
   if (output.restarted) {
     ++resets_;
-    last_position_.reset();  // the way does not go on in another world frame
+    last_position_.reset();  // the path does not continue across world frames
   }
   if (output.has_pose) AddPose(output);
 }

@@ -27,8 +27,8 @@ class NormalEquations {
   // Fills the equations at the current values. Returns the cost.
   double Linearize();
 
-  // The cost alone. Infinite where a term that is not left out cannot be evaluated: no step may go
-  // there.
+  // The cost alone. Infinite where a term that is not left out cannot be evaluated, so that no step
+  // goes there.
   double Cost() const;
 
   // The dense equations with all landmarks eliminated: S step_d = -g. Diagonals are scaled by
@@ -39,7 +39,7 @@ class NormalEquations {
   LandmarkVector LandmarkStep(int index, const Eigen::VectorXd& dense_step, double damping) const;
 
   // Joint covariance of some dense variables, in the order given, at the last linearisation. Empty
-  // where the equations determine them not at all.
+  // where the equations do not determine them.
   Eigen::MatrixXd Covariance(const std::vector<BlockId>& ids) const;
 
   // First row of a variable in the dense equations; -1 for constants and landmarks.

@@ -42,8 +42,8 @@ struct ProblemOptions {
 };
 
 // Puts the parts of the window into a WindowProblem: one place that knows which variables and
-// factors belong together, for the optimisation (all parts) and the marginalisation (those that
-// leave).
+// factors belong together, for the optimisation (all parts) and the marginalisation (the parts that
+// leave the window).
 class ProblemBuilder {
  public:
   // All must outlive the problem.

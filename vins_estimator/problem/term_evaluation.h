@@ -23,8 +23,7 @@ struct TermEvaluation {
 // landmark behind a camera).
 double EvaluateTermCost(const ResidualTerm& term, const std::vector<Variable>& variables);
 
-// Whether the residual can be evaluated, both at the current values and at the linearisation
-// points.
+// Whether the residual can be evaluated at the current values and at the linearisation points.
 bool CanBeEvaluated(const ResidualTerm& term, const std::vector<Variable>& variables);
 
 // Residual and cost at the current values, Jacobians at the linearisation points. False where

@@ -30,8 +30,7 @@ struct Variable {
   BlockId id;
   double* values = nullptr;
   bool constant = false;
-  // Where Jacobians are taken (first-estimate Jacobians, [Huang2010]); null: at the values
-  // themselves.
+  // Where Jacobians are taken (first-estimate Jacobians, [Huang2010]); null: at the current values.
   const double* linearization = nullptr;
 
   const VariableType& type() const { return VariableTypeOf(id.kind); }

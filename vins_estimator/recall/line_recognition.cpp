@@ -34,7 +34,7 @@ double DistanceInImages(const SlidingWindow& window, const PluckerLine& line_W,
 }
 
 // The remembered line that a landmark is, the nearest where several could be. All views of the
-// landmark must show it where that line is: the images tell more than a first triangulation does.
+// landmark must show it where that line is: the images are more precise than a first triangulation.
 std::optional<int64_t> Recognise(const SameLineLimits& limits, const Eigen::Quaterniond& R_F_W,
                                  const LocalMap& map, const LineLandmark& landmark,
                                  const SeenLine& seen_F) {
@@ -55,8 +55,8 @@ std::optional<int64_t> Recognise(const SameLineLimits& limits, const Eigen::Quat
   return nearest;
 }
 
-// The lines that may be ones of the memory, by ascending id: those with enough views to tell that
-// are not in the memory themselves.
+// The lines to look for in the memory, by ascending id: those with enough views that are not in the
+// memory themselves.
 std::vector<int64_t> CollectCandidates(const LocalMap& map) {
   std::vector<int64_t> candidates;
   for (const auto& [id, landmark] : map.lines.landmarks()) {

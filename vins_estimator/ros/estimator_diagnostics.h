@@ -14,7 +14,7 @@
 
 namespace plm_vins {
 
-// What was the matter with the messages of features.
+// What was wrong with the messages of features.
 struct FeatureMessageCounts {
   int64_t malformed = 0;        // messages of another layout
   std::string first_malformed;  // what was wrong

@@ -185,7 +185,7 @@ void EstimatorNode::ReportDrops() {
   diagnostics_.UpdateCounts(stage_, drops);
 }
 
-// The next image's output tells of the new world frame.
+// The next image's output announces the new world frame.
 void EstimatorNode::StartOver(const std::string& reason) {
   stage_.Reset(reason);
   propagation_.Clear();

@@ -30,7 +30,7 @@ class LineHistory {
   // Adds lines; returns the markers that changed, each once.
   std::vector<visualization_msgs::Marker> Add(const std::vector<MapLine>& lines, int64_t t_ns);
 
-  // Forgets all lines; the marker that tells the display to do so.
+  // Forgets all lines; returns the marker that makes the display forget them, too.
   visualization_msgs::Marker Clear();
 
  private:

@@ -22,7 +22,7 @@ struct StateCovariance {
   double angular_velocity = 0;                         // of each component, in B
 };
 
-// Very large where the estimator could not tell it: zeros would mean perfect knowledge.
+// Very large where the estimator has none: zeros would mean perfect knowledge.
 StateCovariance CovarianceOf(const EstimatedFrame& frame);
 
 // The pose of the body in the world and, as the message demands, its twist in the body frame; both

@@ -11,14 +11,13 @@
 
 namespace plm_vins {
 
-// Where the base of a robot is on the body (IMU), as the robot's own tf tree tells, in which the
-// two are rigidly connected. For one thread.
+// Where the base of a robot is relative to the body (IMU), from the robot's own tf tree, in which
+// the two are rigidly connected. For one thread.
 class RobotBase {
  public:
   RobotBase(const std::string& body_frame, const std::string& base_frame);
 
-  // The base in the body frame; nothing, with a warning now and then, until tf knows. Looked up
-  // once.
+  // The base in the body frame, looked up once. Until tf has it: nothing, with a rare warning.
   std::optional<Rigid3d> Locate();
 
  private:

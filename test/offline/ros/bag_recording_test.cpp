@@ -31,7 +31,7 @@ constexpr int kImages = 40;
 
 ros::Time Stamp(int i) { return ToRosTime(kStart + i * kStep); }
 
-// A picture that does not compress to nothing, and that tells its number in the first pixel.
+// A picture that does not compress to nothing, and that has its number in the first pixel.
 cv::Mat Picture(int i) {
   cv::Mat picture(48, 64, CV_8UC1);
   cv::randu(picture, 0, 256);

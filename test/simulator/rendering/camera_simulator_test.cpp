@@ -50,8 +50,7 @@ ImagingOptions Ideal() {
   return imaging;
 }
 
-// Column at which the rows about the middle one pass from bright to dark, from their total
-// brightness.
+// Column where the rows about the middle one pass from bright to dark, from their total brightness.
 double EdgeColumn(const cv::Mat& image) {
   const cv::Mat rows = image.rowRange(kMiddleRow - 4, kMiddleRow + 5);
   const double bright = rows.at<uchar>(0, 0), dark = rows.at<uchar>(0, rows.cols - 1);

@@ -95,8 +95,8 @@ TEST(PoseManifold, PlusMayWriteOverItsInput) {
   EXPECT_MATRIX_NEAR(x, expected, 0.0);
 }
 
-// Ceres multiplies a cost function's padded Jacobian with PlusJacobian: the tangent part must
-// remain.
+// Ceres multiplies a cost function's padded Jacobian by PlusJacobian, which must leave the tangent
+// part as it is.
 TEST(PoseManifold, CeresSolvesWithTangentJacobians) {
   simulator::Random random(6);
   Pose fixed = RandomPose(&random);

@@ -74,7 +74,7 @@ double AbsoluteError(const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& t
   return std::sqrt((aligned - truth).squaredNorm() / static_cast<double>(truth.cols()));
 }
 
-// The whole estimator, told nothing of the camera's pose in the body.
+// The whole estimator, without any knowledge of the camera's pose in the body.
 TEST(ExtrinsicCalibratorTest, EstimatorStartsWithoutAnyCameraPose) {
   auto options = FlightOptions(Motion::kGentle, 1);
   options.trajectory.duration = 15;

@@ -216,7 +216,7 @@ TEST(InitializerTest, CalibratesTheRotationOfTheCameraFirst) {
   }
 }
 
-// Neither rest nor a flight without turns tells the rotation, and without it there is no start.
+// Neither rest nor a flight without turns determines the rotation; without it there is no start.
 TEST(InitializerTest, WaitsForTurnsWhereTheCameraRotationIsUnknown) {
   const SimulatedFlight still =
       ForgetTheCameraPose(SimulateFlight(FlightOptions(simulator::Motion::kStill, 1)));

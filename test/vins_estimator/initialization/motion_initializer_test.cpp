@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 
 constexpr int kFrames = 11;
 
-// A body that glides without rotation at constant velocity, level, before a wall of points; exact
-// data.
+// A body that glides level, without rotation and at constant velocity, before a wall of points.
+// Exact data.
 std::vector<FrameMeasurement> Glide(const SensorConfig& sensor, const Vector3d& velocity) {
   simulator::Random random(7);
   const Eigen::Quaterniond R_W_B = simulator::ForwardLookingBody(sensor.T_B_C);

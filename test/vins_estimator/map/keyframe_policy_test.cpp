@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kFocalLength = 400;  // [px]
 
-// Two frames; the newest has `tracked` corners of the first, moved by `parallax`, and `fresh` new
-// ones.
+// Two frames. The newest has `tracked` corners of the first, moved by `parallax`, and as many new
+// ones as `fresh` says.
 struct Case {
   double interval = 0.1;  // [s]
   int tracked = 100;

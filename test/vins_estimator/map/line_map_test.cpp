@@ -31,8 +31,7 @@ Vector3d RandomPoint(simulator::Random* random) {
   return {x, y, random->Uniform(4, 7)};
 }
 
-// Four frames, each to the side of and above the one before, that see the same twenty lines without
-// noise.
+// Four frames, each beside and above the one before, that see the same twenty lines without noise.
 class LineMapTest : public ::testing::Test {
  protected:
   LineMapTest() {

@@ -44,7 +44,7 @@ std::set<int64_t> FindRedundant(const LineMap& lines, const Identities& identiti
   return redundant;
 }
 
-// Lines nearer than this cannot be told apart: it is their noise in the image, some metres away.
+// Lines nearer than this look like one: their noise in the image is as large, some metres away.
 constexpr double kIndistinguishable = 0.05;  // [m]
 
 bool IsOneLine(const simulator::LineSegment3d& a, const simulator::LineSegment3d& b) {

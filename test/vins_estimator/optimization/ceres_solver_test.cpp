@@ -120,7 +120,7 @@ TEST_P(CeresSolverTest, IsBoundedByIterations) {
   EXPECT_NEAR(NormalEquations(problem()).Cost() / summary.final_cost, 1, 1e-9);
 }
 
-// Ceres orders by address what it is told to eliminate.
+// Ceres orders the variables to eliminate by their addresses.
 TEST_P(CeresSolverTest, GivesTheSameBytesWhereverTheValuesAre) {
   Disturb(0.01);
   const std::vector<double> start = testing::CopyValues(problem());

@@ -18,8 +18,8 @@ namespace {
 
 using testing::DenseEquations;
 
-// A window of four frames with IMU, points, lines, prior and calibration to estimate, off the
-// truth.
+// A window of four frames with IMU, points, lines, prior and calibration to estimate, away from the
+// true values.
 class NormalEquationsTest : public ::testing::Test {
  protected:
   NormalEquationsTest() : simulated_(testing::SimulateWindow(4)) {

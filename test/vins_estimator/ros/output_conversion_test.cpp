@@ -84,8 +84,7 @@ TEST(OdometryMessage, CovariancesAreAboutTheAxesOfTheMessage) {
   covariance.angular_velocity = 0.04;
   const nav_msgs::Odometry odometry = ToOdometry(MakeState(), covariance, {}, {});
 
-  // Central differences of (p, Log(R' R^T)) at R' = R Exp(theta), which is what rotates about the
-  // world.
+  // Central differences of (p, Log(R' R^T)) at R' = R Exp(theta): rotation about world axes.
   const auto in_message = [](const Eigen::Matrix<double, 6, 1>& error) {
     Eigen::VectorXd result(6);
     const Eigen::Quaterniond moved = kRotation * SO3Exp(error.tail<3>());

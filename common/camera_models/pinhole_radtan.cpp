@@ -28,7 +28,7 @@ std::optional<Eigen::Vector2d> PinholeRadtan::Project(
 
 std::optional<Eigen::Vector2d> PinholeRadtan::Unproject(const Eigen::Vector2d& pixel,
                                                         Eigen::Matrix2d* d_xy_d_pixel) const {
-  const auto xy = distortion_.Undistort(PixelToPlane(pixel), d_xy_d_pixel);
+  auto xy = distortion_.Undistort(PixelToPlane(pixel), d_xy_d_pixel);
   if (xy && d_xy_d_pixel) *d_xy_d_pixel *= focal().cwiseInverse().asDiagonal();
   return xy;
 }

@@ -12,15 +12,12 @@ namespace plm_vins {
 namespace {
 
 constexpr size_t kMinViews = 6;          // fewer hardly show how their errors follow on each other
-constexpr size_t kMinLandmarks = 12;     // fewer are no sample
+constexpr size_t kMinLandmarks = 24;     // fewer are no sample
 constexpr double kGreatestRatio = 9.0;   // of variances, to the median landmark's
 constexpr double kGreatestLength = 3.0;  // of one view's residual, to the median view's
 constexpr double kGreatestCorrelation = 0.8;
-constexpr double kTimeConstant = 2.5;  // [s]
-constexpr double kMost = 4.0;          // times what is assumed at first, and never less than that
-// In simulated windows, where the errors are independent, the estimate is up to this much too
-// large: the solver stops short of the minimum, and that looks like errors in common.
-constexpr double kOverestimate = 1.35;
+constexpr double kTimeConstant = 2.5;        // [s]
+constexpr double kLeast = 0.5, kMost = 4.0;  // times what is assumed at first
 constexpr int kPointParameters = 3, kLineParameters = 4;
 
 std::vector<Eigen::Vector2d> ResidualsOf(const PointLandmark& point, const SlidingWindow& window) {
@@ -83,7 +80,7 @@ double MedianVariance(std::vector<ViewSpread> spreads) {
 // Moves `noise` towards what was seen, by ratios.
 void Follow(std::optional<double> seen, double first, double share, double* noise) {
   if (!seen) return;
-  const double goal = std::clamp(*seen / kOverestimate, first, kMost * first);
+  const double goal = std::clamp(*seen, kLeast * first, kMost * first);
   *noise *= std::pow(goal / *noise, share);
 }
 

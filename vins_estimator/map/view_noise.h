@@ -30,8 +30,7 @@ std::optional<double> EffectiveNoise(const std::vector<ViewSpread>& spreads);
 
 // Noise of corners and of lines' ends, as the optimised window shows it rather than as configured:
 // texture, blur, compression and calibration make it differ from camera to camera. Follows slowly
-// and within bounds, so that no single window decides on its own weight, and never below what is
-// assumed at first: a window that fits too well must not make itself certain.
+// and within bounds, so that no single window decides on its own weight.
 class ViewNoise {
  public:
   // What is assumed at first, normalised.

@@ -19,8 +19,10 @@ constexpr int kFrames = 11;
 std::vector<FrameMeasurement> Glide(const SensorConfig& sensor, const Vector3d& velocity) {
   simulator::Random random(7);
   const Eigen::Quaterniond R_W_B = simulator::ForwardLookingBody(sensor.T_B_C);
+  constexpr int kLandmarks = 100;
   std::vector<Vector3d> landmarks;
-  for (int i = 0; i < 100; ++i) {
+  landmarks.reserve(kLandmarks);
+  for (int i = 0; i < kLandmarks; ++i) {
     landmarks.push_back({random.Uniform(3, 8), random.Uniform(-2, 2), random.Uniform(-1, 1)});
   }
   std::vector<FrameMeasurement> frames(kFrames);

@@ -134,12 +134,11 @@ struct Source {
   DropCounts problems;
 };
 
-Source RunFromImages(const Arguments& arguments, const SensorConfig& sensor, ResultFiles* results,
+Source RunFromImages(const Arguments& arguments, Recording* recording, ResultFiles* results,
                      OdometryPipeline* pipeline) {
-  const std::unique_ptr<Recording> recording = Open(arguments, sensor);
   ProgressDisplay progress(recording->end_ns(), arguments.duration);
   pipeline->Run(
-      recording.get(), RecordingInterval(arguments.start, arguments.duration),
+      recording, RecordingInterval(arguments.start, arguments.duration),
       arguments.one_thread ? OdometryPipeline::Threads::kOne : OdometryPipeline::Threads::kTwo,
       [&](const PipelineFrame& frame) {
         results->Add(frame);
@@ -151,10 +150,9 @@ Source RunFromImages(const Arguments& arguments, const SensorConfig& sensor, Res
   return {recording->name(), recording->problems()};
 }
 
-Source RunFromFeatures(const Arguments& arguments, ResultFiles* results,
-                       OdometryPipeline* pipeline) {
-  FeatureFileReader features(arguments.features);
-  pipeline->Run(&features, RecordingInterval(arguments.start, arguments.duration),
+Source RunFromFeatures(const Arguments& arguments, FeatureFileReader* features,
+                       ResultFiles* results, OdometryPipeline* pipeline) {
+  pipeline->Run(features, RecordingInterval(arguments.start, arguments.duration),
                 [&](const PipelineFrame& frame) { results->Add(frame); });
   return {arguments.features, {}};
 }
@@ -162,6 +160,14 @@ Source RunFromFeatures(const Arguments& arguments, ResultFiles* results,
 int Run(const Arguments& arguments) {
   const Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
   Warn(IgnoredKeysWarning(config));
+  // The input first: where there is none, earlier results in the folder stay as they are.
+  std::unique_ptr<Recording> recording;
+  std::optional<FeatureFileReader> features;
+  if (arguments.features.empty()) {
+    recording = Open(arguments, config.sensor);
+  } else {
+    features.emplace(arguments.features);
+  }
   ResultFiles results(arguments.output);
   OdometryPipeline pipeline(config);
   std::optional<FeatureFileWriter> saved_features;
@@ -169,9 +175,8 @@ int Run(const Arguments& arguments) {
     pipeline.SaveFeatures(&saved_features.emplace(arguments.saved_features));
   }
   const Stopwatch stopwatch;
-  const Source source = arguments.features.empty()
-                            ? RunFromImages(arguments, config.sensor, &results, &pipeline)
-                            : RunFromFeatures(arguments, &results, &pipeline);
+  const Source source = features ? RunFromFeatures(arguments, &*features, &results, &pipeline)
+                                 : RunFromImages(arguments, recording.get(), &results, &pipeline);
   if (saved_features) saved_features->Close();
 
   RunSummary::Run run;

@@ -193,7 +193,7 @@ int Run(const Arguments& arguments) {
 }  // namespace
 }  // namespace plm_vins
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app("Visual-inertial odometry over a recording");
   plm_vins::Arguments arguments;
   plm_vins::Declare(&arguments, &app);
@@ -211,5 +211,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     std::fprintf(stderr, "run_offline: %s\n", error.what());
   }
+  return 1;
+} catch (...) {  // of the handlers above
   return 1;
 }

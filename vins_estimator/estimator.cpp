@@ -17,7 +17,6 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kInitialIterations = 20;
 constexpr size_t kMinViewsToOptimize = 3;
 
 template <typename Landmark>
@@ -89,7 +88,7 @@ void Estimator::Initialize(const FrameMeasurement& measurement, EstimatorOutput*
 
   StartWindow(*result);
   Triangulate(output);
-  Optimize(kInitialIterations, output);
+  Optimize(options_.first_solution, output);
   state_.initialized = true;
   output->reason.clear();
   Describe(output);
@@ -114,7 +113,7 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   map.window.newest().stationary = stands_still;
   Triangulate(output);
   FindStructure(output);
-  Optimize(config_.estimator.max_num_iterations, output);
+  Optimize(options_.solution, output);
   RemoveOutliers(output);
   if (const auto failure = FindFailure(*output)) {
     Reset();
@@ -204,7 +203,7 @@ ProblemOptions Estimator::CurrentProblem() const {
   return options;
 }
 
-void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
+void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = state_.estimate.map;
   ProblemBuilder builder(CurrentProblem(), &map.window, &state_.estimate.prior);
@@ -221,8 +220,6 @@ void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
     ++output->counts.lines_in_window;
   }
   NormalEquations equations(builder.problem());
-  SolverOptions options;
-  options.max_iterations = max_iterations;
   if (config_.estimator.solver == SolverType::kCeres) {
     SolveByCeres(options, builder.problem());
     equations.Linearize();

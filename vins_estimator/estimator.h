@@ -60,7 +60,7 @@ class Estimator {
   void RemoveOutliers(EstimatorOutput* output);
   std::optional<std::string> FindFailure(const EstimatorOutput& output);
   bool StandsStill(const FrameMeasurement& measurement);
-  void Optimize(int max_iterations, EstimatorOutput* output);
+  void Optimize(const SolverOptions& options, EstimatorOutput* output);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
   void SlideOldest(EstimatorOutput* output);
   void Describe(EstimatorOutput* output) const;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kMinTriangulationAngle_px = 2.0;  // in pixels of motion: well above corner noise
 constexpr double kMaxReprojectionError_px = 3.0;
+constexpr SolverOptions kFirstSolution = {20, 1e-3};
 
 }  // namespace
 
@@ -23,6 +24,9 @@ EstimatorOptions::EstimatorOptions(const Config& config, double focal_length)
       line_limits(line_triangulation.noise, config.estimator.line_outlier_distance),
       same_line(config.estimator, focal_length),
       anchors(config.estimator),
-      problem(config, focal_length) {}
+      problem(config, focal_length),
+      first_solution(kFirstSolution) {
+  solution.max_iterations = config.estimator.max_num_iterations;
+}
 
 }  // namespace plm_vins

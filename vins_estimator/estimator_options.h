@@ -7,6 +7,7 @@
 #include "vins_estimator/map/line_comparison.h"
 #include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/local_map.h"
+#include "vins_estimator/optimization/levenberg_marquardt.h"
 #include "vins_estimator/problem/problem_builder.h"
 #include "vins_estimator/recall/anchor_policy.h"
 
@@ -26,6 +27,8 @@ struct EstimatorOptions {
   SameLineLimits same_line;
   AnchorPolicyOptions anchors;
   ProblemOptions problem;
+  SolverOptions first_solution;  // of the window that was just initialised
+  SolverOptions solution;
 
  private:
   EstimatorOptions(const Config& config, double focal_length);  // [px]

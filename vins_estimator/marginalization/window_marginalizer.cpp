@@ -35,6 +35,7 @@ MarginalizationPrior Summarize(const WindowProblem& problem) {
   equations.Linearize();
   Quadratic quadratic;
   equations.Reduce(0, &quadratic.H, &quadratic.b);
+  quadratic.H.triangularView<Eigen::StrictlyLower>() = quadratic.H.transpose();
 
   std::vector<MarginalizationPrior::Block> blocks;
   Eigen::VectorXd delta(quadratic.b.size());

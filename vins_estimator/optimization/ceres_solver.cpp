@@ -119,13 +119,16 @@ class CeresProblem {
   ceres::Problem problem_;  // last: refers to all the others
 };
 
+// Of the trust region: as good as none.
+constexpr double kInitialRadius = 1e5;
+
 ceres::Solver::Options ToCeres(const SolverOptions& options) {
   ceres::Solver::Options result;
   result.linear_solver_type = ceres::DENSE_SCHUR;
   result.num_threads = 1;
   result.logging_type = ceres::SILENT;
   result.max_num_iterations = options.max_iterations;
-  result.initial_trust_region_radius = 1 / options.initial_damping;
+  result.initial_trust_region_radius = kInitialRadius;
   result.function_tolerance = options.cost_tolerance;
   result.parameter_tolerance = options.step_tolerance;
   result.gradient_tolerance = 0;

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vins_estimator/problem/scaled_cholesky.h"
-
 namespace plm_vins {
 namespace {
 
+constexpr double kFirstDamping = 1e-5;  // none is needed until a step goes wrong
 constexpr double kDampingIncrease = 10.0;
-constexpr double kDampingDecrease = 0.3;
-constexpr double kMinDamping = 1e-9;
+constexpr double kDampingDecrease = 0.1;
+constexpr double kMinDamping = 1e-7;  // below that, none
 constexpr double kMaxDamping = 1e3;
 
 // The values of all variables, to go back to after a step that did not help.
@@ -50,21 +49,16 @@ void Move(const Variable& variable, const double* step) {
 
 // Moves every variable along the solution of the damped equations. Returns the largest component of
 // the dense step; negative where there is no solution (nothing is moved then).
-double TakeStep(const WindowProblem& problem, const NormalEquations& equations, double damping) {
-  Eigen::MatrixXd S;
-  Eigen::VectorXd g;
-  equations.Reduce(damping, &S, &g);
-  const ScaledCholesky factors(S);
-  if (!factors.success()) return -1;
-  const Eigen::VectorXd step = -factors.Solve(g);
-  if (!step.allFinite()) return -1;
+double TakeStep(const WindowProblem& problem, double damping, NormalEquations* equations) {
+  const Eigen::VectorXd step = equations->DenseStep(damping);
+  if (step.size() != equations->dense_size() || !step.allFinite()) return -1;
 
   for (size_t i = 0; i < problem.landmarks().size(); ++i) {
-    const auto landmark_step = equations.LandmarkStep(static_cast<int>(i), step, damping);
+    const auto landmark_step = equations->LandmarkStep(static_cast<int>(i), step, damping);
     Move(problem.variables()[problem.landmarks()[i].variable], landmark_step.data());
   }
   for (size_t i = 0; i < problem.variables().size(); ++i) {
-    const int offset = equations.DenseOffset(static_cast<int>(i));
+    const int offset = equations->DenseOffset(static_cast<int>(i));
     if (offset >= 0) Move(problem.variables()[i], &step[offset]);
   }
   return step.size() == 0 ? 0.0 : step.lpNorm<Eigen::Infinity>();
@@ -80,15 +74,15 @@ SolverSummary Solve(const SolverOptions& options, const WindowProblem& problem,
   summary.initial_cost = summary.final_cost = cost;
   if (!std::isfinite(cost)) return summary;
 
-  double damping = options.initial_damping;
+  double damping = 0;
   while (summary.iterations < options.max_iterations && damping < kMaxDamping) {
     ++summary.iterations;
-    const double step_size = TakeStep(problem, *equations, damping);
+    const double step_size = TakeStep(problem, damping, equations);
     const double new_cost = step_size < 0 ? cost : equations->Cost();
     const bool accepted = step_size >= 0 && std::isfinite(new_cost) && new_cost <= cost;
     if (!accepted) {
       snapshot.Restore();
-      damping = std::max(damping * kDampingIncrease, kMinDamping);
+      damping = std::max(damping * kDampingIncrease, kFirstDamping);
       continue;
     }
     summary.solved = true;
@@ -97,7 +91,8 @@ SolverSummary Solve(const SolverOptions& options, const WindowProblem& problem,
     if (gain <= options.cost_tolerance * std::abs(cost) || step_size < options.step_tolerance)
       break;
     snapshot.Take();
-    damping = std::max(damping * kDampingDecrease, kMinDamping);
+    damping *= kDampingDecrease;
+    if (damping < kMinDamping) damping = 0;
     if (summary.iterations < options.max_iterations) equations->Linearize();
   }
   return summary;

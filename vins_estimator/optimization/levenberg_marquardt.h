@@ -8,8 +8,7 @@ namespace plm_vins {
 
 struct SolverOptions {
   int max_iterations = 8;
-  double initial_damping = 1e-5;
-  double cost_tolerance = 1e-3;  // stop when an iteration gains less than this share of the cost
+  double cost_tolerance = 1e-2;  // stop when an iteration gains less than this share of the cost
   double step_tolerance = 1e-6;  // stop when no component of the step is longer [m, rad, ...]
 };
 

@@ -67,12 +67,23 @@ void EquationLayout::LayOutFrameVariables() {
   for (size_t i = 0; i < variables.size(); ++i) is_dense[i] = !variables[i].constant;
   for (const LandmarkTerms& landmark : problem_.landmarks()) is_dense[landmark.variable] = false;
   dense_offset_.assign(variables.size(), -1);
-  for (const bool poses : {true, false}) {
-    for (size_t i = 0; i < variables.size(); ++i) {
-      if (!is_dense[i] || (variables[i].id.kind == BlockKind::kPose) != poses) continue;
-      dense_offset_[i] = dense_size_;
-      dense_size_ += variables[i].type().tangent_size;
-    }
+  std::vector<int> motions, others;
+  for (size_t i = 0; i < variables.size(); ++i) {
+    if (!is_dense[i]) continue;
+    (variables[i].id.kind == BlockKind::kMotion ? motions : others).push_back(static_cast<int>(i));
+  }
+  std::sort(motions.begin(), motions.end(),
+            [&](int a, int b) { return variables[a].id.key < variables[b].id.key; });
+  AppendColumnsOf(others);
+  const int before = dense_size_;
+  AppendColumnsOf(motions);
+  motion_size_ = dense_size_ - before;
+}
+
+void EquationLayout::AppendColumnsOf(const std::vector<int>& variables) {
+  for (const int variable : variables) {
+    dense_offset_[variable] = dense_size_;
+    dense_size_ += problem_.variables()[variable].type().tangent_size;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "vins_estimator/problem/gram.h"
 #include "vins_estimator/problem/window_problem.h"
 
 namespace plm_vins {
@@ -30,13 +31,6 @@ struct TermLayout {
   const Slot* end() const { return slots.data() + slot_count; }
 };
 
-// Neighbouring columns of a landmark's H_ld that are neighbours in the dense equations as well.
-struct ColumnRun {
-  int local = 0;
-  int dense = 0;
-  int size = 0;
-};
-
 // The dense columns that the terms of a landmark touch, as few runs as possible.
 struct LandmarkLayout {
   std::vector<ColumnRun> runs;
@@ -44,8 +38,8 @@ struct LandmarkLayout {
 };
 
 // Where the variables of a problem are in its equations (see NormalEquations): frame variables in
-// dense columns, poses first, so that the frames of a landmark are neighbours; each landmark in
-// equations of its own; constants nowhere.
+// dense columns, motions last and by time, as BlockCholesky likes them (each knows its neighbours,
+// and only the oldest is in the prior); each landmark in equations of its own; constants nowhere.
 class EquationLayout {
  public:
   // `problem` must outlive this object and keep its structure.
@@ -54,6 +48,7 @@ class EquationLayout {
   // First dense column by variable; -1 for constants and landmarks.
   const std::vector<int>& dense_offset() const { return dense_offset_; }
   int dense_size() const { return dense_size_; }
+  int motion_size() const { return motion_size_; }  // the columns of all motions
 
   // The terms among frames, then those of each landmark.
   const std::vector<TermLayout>& terms() const { return terms_; }
@@ -61,12 +56,14 @@ class EquationLayout {
 
  private:
   void LayOutFrameVariables();
+  void AppendColumnsOf(const std::vector<int>& variables);
   TermLayout LayOut(const ResidualTerm& term, int landmark) const;
   void LayOutLandmark(int landmark);
 
   const WindowProblem& problem_;
   std::vector<int> dense_offset_;
   int dense_size_ = 0;
+  int motion_size_ = 0;
   std::vector<TermLayout> terms_;
   std::vector<LandmarkLayout> landmarks_;
 };

@@ -2,7 +2,6 @@
 #include "vins_estimator/problem/normal_equations.h"
 
 #include "vins_estimator/problem/marginalization_prior.h"
-#include "vins_estimator/problem/scaled_cholesky.h"
 #include "vins_estimator/problem/term_accumulation.h"
 #include "vins_estimator/problem/term_evaluation.h"
 
@@ -22,6 +21,7 @@ NormalEquations::NormalEquations(const WindowProblem& problem)
 }
 
 double NormalEquations::Linearize() {
+  factor_.reset();
   H_dd_.setZero();
   b_d_.setZero();
   for (LandmarkEquations& equations : landmarks_) equations.SetZero();
@@ -46,9 +46,8 @@ double NormalEquations::Cost() const {
 bool NormalEquations::AddTerm(const TermLayout& layout, double* cost) {
   TermEvaluation evaluation;
   if (!EvaluateTerm(*layout.term, problem_.variables(), &evaluation)) return false;
-  const PackedJacobian J(layout, evaluation);
-  AddToDense(J, evaluation, &H_dd_, &b_d_);
-  if (layout.landmark >= 0) AddToLandmark(layout, J, evaluation, &landmarks_[layout.landmark]);
+  AddToDense(layout, evaluation, &H_dd_, &b_d_);
+  if (layout.landmark >= 0) AddToLandmark(layout, evaluation, &landmarks_[layout.landmark]);
   *cost += evaluation.cost;
   return true;
 }
@@ -63,7 +62,20 @@ void NormalEquations::Reduce(double damping, Eigen::MatrixXd* S, Eigen::VectorXd
   S->diagonal() *= 1.0 + damping;
   *g = b_d_;
   EliminateLandmarks(landmarks_, damping, S, g);
-  S->triangularView<Eigen::StrictlyLower>() = S->transpose();
+}
+
+bool NormalEquations::Factor(double damping) {
+  if (!factor_ || factor_damping_ != damping) {
+    Reduce(damping, &S_, &g_);
+    factor_.emplace(layout_.motion_size(), &S_);
+    factor_damping_ = damping;
+  }
+  return factor_->success();
+}
+
+Eigen::VectorXd NormalEquations::DenseStep(double damping) {
+  if (!Factor(damping)) return {};
+  return -factor_->Solve(g_);
 }
 
 LandmarkVector NormalEquations::LandmarkStep(int index, const Eigen::VectorXd& dense_step,
@@ -71,12 +83,8 @@ LandmarkVector NormalEquations::LandmarkStep(int index, const Eigen::VectorXd& d
   return SolveLandmark(landmarks_[index], dense_step, damping);
 }
 
-Eigen::MatrixXd NormalEquations::Covariance(const std::vector<BlockId>& ids) const {
-  Eigen::MatrixXd S;
-  Eigen::VectorXd g;
-  Reduce(0, &S, &g);
-  const ScaledCholesky factors(S);
-  if (!factors.success()) return {};
+Eigen::MatrixXd NormalEquations::Covariance(const std::vector<BlockId>& ids) {
+  if (!Factor(0)) return {};
 
   std::vector<int> rows;
   for (const BlockId& id : ids) {
@@ -84,7 +92,7 @@ Eigen::MatrixXd NormalEquations::Covariance(const std::vector<BlockId>& ids) con
     const int size = problem_.variables()[variable].type().tangent_size;
     for (int i = 0; i < size; ++i) rows.push_back(DenseOffset(variable) + i);
   }
-  return factors.InverseBlock(rows);
+  return factor_->InverseBlock(rows);
 }
 
 }  // namespace plm_vins

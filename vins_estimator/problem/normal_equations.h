@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
+#include "vins_estimator/problem/block_cholesky.h"
 #include "vins_estimator/problem/equation_layout.h"
 #include "vins_estimator/problem/landmark_equations.h"
 #include "vins_estimator/problem/window_problem.h"
@@ -31,22 +33,26 @@ class NormalEquations {
   // goes there.
   double Cost() const;
 
-  // The dense equations with all landmarks eliminated: S step_d = -g. Diagonals are scaled by
-  // 1 + `damping` before. S is full and symmetric.
+  // The dense equations with all landmarks eliminated: S step_d = -g, S upper triangle. Diagonals
+  // are scaled by 1 + `damping` before.
   void Reduce(double damping, Eigen::MatrixXd* S, Eigen::VectorXd* g) const;
+
+  // step_d of the equations with the same damping; empty where they do not determine it.
+  Eigen::VectorXd DenseStep(double damping);
 
   // step_l of landmark `index` that belongs to `dense_step`, with the same damping.
   LandmarkVector LandmarkStep(int index, const Eigen::VectorXd& dense_step, double damping) const;
 
   // Joint covariance of some dense variables, in the order given, at the last linearisation. Empty
   // where the equations do not determine them.
-  Eigen::MatrixXd Covariance(const std::vector<BlockId>& ids) const;
+  Eigen::MatrixXd Covariance(const std::vector<BlockId>& ids);
 
   // First row of a variable in the dense equations; -1 for constants and landmarks.
   int DenseOffset(int variable) const { return layout_.dense_offset()[variable]; }
   int dense_size() const { return layout_.dense_size(); }
 
  private:
+  bool Factor(double damping);
   bool AddTerm(const TermLayout& layout, double* cost);
   double AddPrior();
 
@@ -56,6 +62,10 @@ class NormalEquations {
   std::vector<LandmarkEquations> landmarks_;
   Eigen::MatrixXd H_dd_;  // upper triangle
   Eigen::VectorXd b_d_;
+  Eigen::MatrixXd S_;  // reduced, with g_
+  Eigen::VectorXd g_;
+  std::optional<BlockCholesky> factor_;  // of S_
+  double factor_damping_ = 0;            // the damping of S_, where there is a factor
 };
 
 }  // namespace plm_vins

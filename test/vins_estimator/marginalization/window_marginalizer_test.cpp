@@ -42,6 +42,7 @@ Step GaussNewtonStep(const WindowProblem& problem) {
   MatrixXd S;
   VectorXd g;
   equations.Reduce(0, &S, &g);
+  S = MatrixXd(S.selfadjointView<Eigen::Upper>());
   const VectorXd scale = S.diagonal().cwiseSqrt().cwiseInverse();
   const MatrixXd scaled_S = scale.asDiagonal() * S * scale.asDiagonal();
   const VectorXd step = -(scale.asDiagonal() * scaled_S.ldlt().solve(scale.cwiseProduct(g)));

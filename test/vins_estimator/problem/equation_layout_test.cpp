@@ -22,6 +22,7 @@ class EquationLayoutTest : public ::testing::Test {
     td_ = Add(BlockKind::kTimeOffset, 0);
     for (const int64_t frame : {1, 2, 3}) poses_[frame - 1] = Add(BlockKind::kPose, frame);
     motion_ = Add(BlockKind::kMotion, 3);
+    earlier_motion_ = Add(BlockKind::kMotion, 2);
     extrinsic_ = problem_.AddVariable({BlockKind::kExtrinsic, 0}, values_.data(), true);
     problem_.AddTerm(std::make_unique<ZeroVelocityFactor>(1.0), nullptr, {motion_});
     const int landmark = problem_.AddLandmark({BlockKind::kPoint, 7}, values_.data());
@@ -35,17 +36,19 @@ class EquationLayoutTest : public ::testing::Test {
   std::array<double, 9> values_ = {};
   WindowProblem problem_;
   std::array<int, 3> poses_;
-  int td_, motion_, extrinsic_, point_;
+  int td_, motion_, earlier_motion_, extrinsic_, point_;
 };
 
-TEST_F(EquationLayoutTest, PosesComeFirstConstantsAndLandmarksNowhere) {
+TEST_F(EquationLayoutTest, MotionsComeLastByTimeConstantsAndLandmarksNowhere) {
   const EquationLayout layout(problem_);
-  EXPECT_EQ(layout.dense_size(), 3 * 6 + 9 + 1);
+  EXPECT_EQ(layout.dense_size(), 3 * 6 + 2 * 9 + 1);
+  EXPECT_EQ(layout.motion_size(), 2 * 9);
   const std::vector<int>& offset = layout.dense_offset();
   EXPECT_THAT((std::array{offset[poses_[0]], offset[poses_[1]], offset[poses_[2]]}),
-              ElementsAre(0, 6, 12));
-  EXPECT_EQ(offset[td_], 18);
-  EXPECT_EQ(offset[motion_], 19);
+              ElementsAre(1, 7, 13));
+  EXPECT_EQ(offset[td_], 0);
+  EXPECT_EQ(offset[earlier_motion_], 19);
+  EXPECT_EQ(offset[motion_], 28);
   EXPECT_EQ(offset[extrinsic_], -1);
   EXPECT_EQ(offset[point_], -1);
 }
@@ -59,25 +62,25 @@ TEST_F(EquationLayoutTest, TermsHaveTheirVariablesInOrderOfColumns) {
   EXPECT_EQ(seen.landmark_block, 4);
   ASSERT_EQ(seen.slot_count, 3);
   EXPECT_THAT((std::array{seen.slots[0].block, seen.slots[1].block, seen.slots[2].block}),
-              ElementsAre(1, 0, 3));
+              ElementsAre(3, 1, 0));
   EXPECT_THAT((std::array{seen.slots[0].dense_offset, seen.slots[1].dense_offset,
                           seen.slots[2].dense_offset}),
-              ElementsAre(0, 12, 18));
+              ElementsAre(0, 1, 13));
 }
 
 TEST_F(EquationLayoutTest, LandmarksHaveTheColumnsOfTheirTermsInRuns) {
   const EquationLayout layout(problem_);
   const LandmarkLayout& landmark = layout.landmarks()[0];
   EXPECT_EQ(landmark.columns, 13);
-  ASSERT_EQ(landmark.runs.size(), 2u);  // the last pose and the time offset are neighbours
-  EXPECT_EQ(landmark.runs[0].size, 6);
-  EXPECT_EQ(landmark.runs[1].dense, 12);
-  EXPECT_EQ(landmark.runs[1].local, 6);
-  EXPECT_EQ(landmark.runs[1].size, 7);
+  ASSERT_EQ(landmark.runs.size(), 2u);  // the time offset and the first pose are neighbours
+  EXPECT_EQ(landmark.runs[0].size, 7);
+  EXPECT_EQ(landmark.runs[1].dense, 13);
+  EXPECT_EQ(landmark.runs[1].local, 7);
+  EXPECT_EQ(landmark.runs[1].size, 6);
   const TermLayout& seen = layout.terms()[1];
   EXPECT_THAT((std::array{seen.slots[0].local_offset, seen.slots[1].local_offset,
                           seen.slots[2].local_offset}),
-              ElementsAre(0, 6, 12));
+              ElementsAre(0, 1, 7));
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ TEST_F(NormalEquationsTest, ReducedEquationsAreTheSchurComplementOfAllJacobians)
     Eigen::MatrixXd S;
     Eigen::VectorXd g;
     equations_->Reduce(damping, &S, &g);
+    S = Eigen::MatrixXd(S.selfadjointView<Eigen::Upper>());
     DenseEquations dense = testing::BuildDenseEquations(problem(), *equations_);
     dense.H.diagonal() *= 1 + damping;
     const int size = equations_->dense_size(), rest = static_cast<int>(dense.b.size()) - size;
@@ -81,10 +82,7 @@ TEST_F(NormalEquationsTest, ReducedEquationsAreTheSchurComplementOfAllJacobians)
 TEST_F(NormalEquationsTest, StepsSolveTheFullSystem) {
   equations_->Linearize();
   for (const double damping : {0.0, 0.1}) {
-    Eigen::MatrixXd S;
-    Eigen::VectorXd g;
-    equations_->Reduce(damping, &S, &g);
-    const Eigen::VectorXd step = -testing::SolveScaled(S, g);
+    const Eigen::VectorXd step = equations_->DenseStep(damping);
     DenseEquations dense = testing::BuildDenseEquations(problem(), *equations_);
     dense.H.diagonal() *= 1 + damping;
     const Eigen::VectorXd expected = -testing::SolveScaled(dense.H, dense.b);
@@ -121,6 +119,18 @@ TEST_F(NormalEquationsTest, CovarianceIsTheInverseOfTheFullInformation) {
                      testing::ScaleBothSides(expected, scale), 1e-6);
 }
 
+TEST_F(NormalEquationsTest, CovarianceIsThatOfTheUndampedEquationsWhateverWasSolvedBefore) {
+  const int64_t newest = simulated_.window.newest().state.t_ns;
+  const auto covariance = [&] { return equations_->Covariance({{BlockKind::kPose, newest}}); };
+  equations_->Linearize();
+  const Eigen::MatrixXd expected = covariance();
+  ASSERT_GT(equations_->DenseStep(0.1).size(), 0);
+  EXPECT_EQ(covariance(), expected);
+  simulated_.window.frames.back().state.pose[0] += 0.1;
+  equations_->Linearize();
+  EXPECT_NE(covariance(), expected);
+}
+
 TEST_F(NormalEquationsTest, WithoutAnchorThereIsNoCovariance) {
   WindowProblem problem;
   std::array<double, 9> motion = {};
@@ -128,6 +138,7 @@ TEST_F(NormalEquationsTest, WithoutAnchorThereIsNoCovariance) {
   NormalEquations equations(problem);
   EXPECT_EQ(equations.Linearize(), 0);
   EXPECT_EQ(equations.Covariance({{BlockKind::kMotion, 1}}).size(), 0);
+  EXPECT_EQ(equations.DenseStep(0).size(), 0);
 }
 
 TEST_F(NormalEquationsTest, TermsThatCannotBeEvaluatedAtFirstAreLeftOutForGood) {

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace plm_vins {
+
+// Neighbouring columns of a narrow matrix that are neighbours in a wide one as well.
+struct ColumnRun {
+  int local = 0;
+  int dense = 0;
+  int size = 0;
+};
+
+// Some rows over the columns of a few runs, each row in one piece.
+template <int kRows>
+using Rows = Eigen::Matrix<double, kRows, Eigen::Dynamic, Eigen::RowMajor>;
+
+// S -= W^T W, upper triangle, for W whose columns belong to `runs` of columns of S.
+template <int kRows>
+void SubtractGram(const Rows<kRows>& W, const std::vector<ColumnRun>& runs, Eigen::MatrixXd* S) {
+  for (auto right = runs.begin(); right != runs.end(); ++right) {
+    for (int j = 0; j < right->size; ++j) {
+      const Eigen::Matrix<double, kRows, 1> factor = W.col(right->local + j);
+      for (auto left = runs.begin(); left <= right; ++left) {
+        const int size = left == right ? j + 1 : left->size;
+        const double* __restrict__ row = W.data() + left->local;
+        double* __restrict__ target = &(*S)(left->dense, right->dense + j);
+        for (int i = 0; i < size; ++i) {
+          double sum = 0;
+          for (int l = 0; l < kRows; ++l) sum += factor[l] * row[l * W.cols() + i];
+          target[i] -= sum;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace plm_vins

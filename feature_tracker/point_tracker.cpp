@@ -22,6 +22,8 @@ namespace {
 
 constexpr double kClaheClipLimit = 3.0;
 constexpr int kClaheTiles = 8;
+// Corners are searched for once this share is missing: a search takes as long as following many.
+constexpr double kRefillShare = 0.1;
 
 Eigen::Vector2d ToEigen(const cv::Point2f& point) { return {point.x, point.y}; }
 cv::Point2f ToOpenCv(const Eigen::Vector2d& point) {
@@ -72,7 +74,7 @@ class PointTracker::Implementation {
       Follow(pyramid, ToSeconds(sample.t_ns - *t_ns_), R_C1_C0);
       Spread();
     }
-    Refill(image);
+    if (IsRefillDue()) Refill(image);
     sample_ = sample;
     pyramid_ = std::move(pyramid);
     t_ns_ = sample.t_ns;
@@ -172,11 +174,13 @@ class PointTracker::Implementation {
     statistics_.crowded = RemoveTracks(keep, &tracks_);
   }
 
+  int MissingTracks() const { return config_.max_cnt - static_cast<int>(tracks_.size()); }
+  bool IsRefillDue() const { return MissingTracks() > kRefillShare * config_.max_cnt; }
+
   void Refill(const cv::Mat& image) {
     std::vector<cv::Point2f> existing;
     for (const PointTrack& track : tracks_) existing.push_back(track.uv_px);
-    const int missing = config_.max_cnt - static_cast<int>(tracks_.size());
-    for (const cv::Point2f& corner : detector_.Detect(image, existing, missing)) {
+    for (const cv::Point2f& corner : detector_.Detect(image, existing, MissingTracks())) {
       const auto xy = camera_->Unproject(ToEigen(corner));
       if (!xy) continue;
       PointTrack track;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "offline/feature_trackers.h"
 
+#include <future>
 #include <utility>
 
 namespace plm_vins {
@@ -19,16 +20,25 @@ void FeatureTrackers::AddImage(const ImageSample& image) {
   if (lines_) lines_->AddImage(image);
 }
 
-std::optional<TrackedFeatures> FeatureTrackers::Pop() {
-  auto points = points_.Pop();
+template <typename TrackOne>
+std::optional<TrackedFeatures> FeatureTrackers::TrackBoth(const TrackOne& track) {
+  if (!points_.waiting()) return std::nullopt;
+  std::future<std::optional<TrackedLines>> lines;
+  if (lines_) {
+    const auto when = side_by_side_ ? std::launch::async : std::launch::deferred;
+    lines = std::async(when, [&] { return track(&*lines_); });
+  }
+  auto points = track(&points_);
   if (!points) return std::nullopt;
-  return TrackedFeatures{std::move(*points), lines_ ? lines_->Pop() : std::nullopt};
+  return TrackedFeatures{std::move(*points), lines_ ? lines.get() : std::nullopt};
+}
+
+std::optional<TrackedFeatures> FeatureTrackers::Pop() {
+  return TrackBoth([](auto* stage) { return stage->Pop(); });
 }
 
 std::optional<TrackedFeatures> FeatureTrackers::Flush() {
-  auto points = points_.Flush();
-  if (!points) return std::nullopt;
-  return TrackedFeatures{std::move(*points), lines_ ? lines_->Flush() : std::nullopt};
+  return TrackBoth([](auto* stage) { return stage->Flush(); });
 }
 
 }  // namespace plm_vins

@@ -22,6 +22,10 @@ class FeatureTrackers {
  public:
   explicit FeatureTrackers(const Config& config);
 
+  // Whether the lines of an image are tracked in a thread of their own, beside its points. The
+  // results are the same.
+  void TrackSideBySide(bool side_by_side) { side_by_side_ = side_by_side; }
+
   void AddImu(const ImuSample& sample);
   void AddImage(const ImageSample& image);
   std::optional<TrackedFeatures> Pop();
@@ -34,8 +38,12 @@ class FeatureTrackers {
   cv::Mat DrawLines() const { return lines_ ? lines_->tracker().DrawTracks() : cv::Mat(); }
 
  private:
+  template <typename TrackOne>
+  std::optional<TrackedFeatures> TrackBoth(const TrackOne& track);
+
   PointTrackingStage points_;
   std::optional<LineTrackingStage> lines_;
+  bool side_by_side_ = false;
 };
 
 }  // namespace plm_vins

@@ -31,9 +31,10 @@ DropCounts OdometryPipeline::drops() const {
   return counts;
 }
 
-void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, Threads threads,
+void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, int threads,
                            const FrameCallback& on_frame) {
-  if (threads == Threads::kTwo) {
+  trackers_.TrackSideBySide(threads > 2);
+  if (threads > 1) {
     RunInTwoThreads(recording, interval, on_frame);
   } else {
     RunTrackers(recording, interval, [&](TrackedItem item) {

@@ -29,11 +29,11 @@ struct PipelineFrame {
 
 // Front ends and back end in a row, fed from a recording.
 //
-// Front and back may run in threads of their own, the front ahead by a few images. What each is
-// given, and in which order, does not depend on that, so the results are the same bit by bit.
+// With two threads the front runs ahead of the back by a few images; from three on, points and
+// lines are tracked side by side as well. What each is given, and in which order, does not depend
+// on that, so the results are the same bit by bit.
 class OdometryPipeline {
  public:
-  enum class Threads { kOne, kTwo };
   using FrameCallback = std::function<void(const PipelineFrame&)>;
 
   explicit OdometryPipeline(const Config& config);
@@ -42,7 +42,7 @@ class OdometryPipeline {
   void SaveFeatures(FeatureFileWriter* file) { saved_features_ = file; }
 
   // Processes the recording; `on_frame` is called in the caller's thread, in order of time.
-  void Run(Recording* recording, RecordingInterval interval, Threads threads,
+  void Run(Recording* recording, RecordingInterval interval, int threads,
            const FrameCallback& on_frame);
 
   // The same from saved features instead of images: the results are those of the run that saved

@@ -35,7 +35,7 @@ struct Arguments {
   double start = 0;                                           // [s]
   double duration = std::numeric_limits<double>::infinity();  // [s]
   std::vector<std::string> overrides;                         // "key=value"
-  bool one_thread = false;
+  int threads = 3;
 };
 
 // The message of what is wrong with the argument of --set; empty where nothing is.
@@ -72,8 +72,11 @@ void Declare(Arguments* arguments, CLI::App* app) {
   app->add_option("--set", arguments->overrides, "replace a value of the configuration: key=value")
       ->allow_extra_args(false)
       ->check(CheckOverride);
-  app->add_flag("--one-thread", arguments->one_thread,
-                "front end and back end in turn; the results are the same");
+  app->add_option("--threads", arguments->threads,
+                  "1: all in turn, 2: trackers beside the estimator, 3: and beside each other; the "
+                  "results are the same")
+      ->check(CLI::Range(1, 3))
+      ->capture_default_str();
 }
 
 std::map<std::string, std::string> ParseOverrides(const std::vector<std::string>& texts) {
@@ -137,13 +140,11 @@ struct Source {
 Source RunFromImages(const Arguments& arguments, Recording* recording, ResultFiles* results,
                      OdometryPipeline* pipeline) {
   ProgressDisplay progress(recording->end_ns(), arguments.duration);
-  pipeline->Run(
-      recording, RecordingInterval(arguments.start, arguments.duration),
-      arguments.one_thread ? OdometryPipeline::Threads::kOne : OdometryPipeline::Threads::kTwo,
-      [&](const PipelineFrame& frame) {
-        results->Add(frame);
-        progress.Update(frame.output.t_ns);
-      });
+  pipeline->Run(recording, RecordingInterval(arguments.start, arguments.duration),
+                arguments.threads, [&](const PipelineFrame& frame) {
+                  results->Add(frame);
+                  progress.Update(frame.output.t_ns);
+                });
   progress.Finish();
   results->WriteAnnotatedImage("tracks.png", pipeline->points_image());
   results->WriteAnnotatedImage("line_tracks.png", pipeline->lines_image());

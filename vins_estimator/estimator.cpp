@@ -112,7 +112,7 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   AddFrame(measurement);
   map.window.newest().stationary = stands_still;
   Triangulate(output);
-  FindStructure(output);
+  FindStructure(keep_second_newest, output);
   Optimize(options_.solution, output);
   RemoveOutliers(output);
   if (const auto failure = FindFailure(*output)) {
@@ -163,14 +163,15 @@ void Estimator::Triangulate(EstimatorOutput* output) {
                                                             options_.line_limits.max_length);
 }
 
-// The Manhattan frame of the lines, and which of them are one.
-void Estimator::FindStructure(EstimatorOutput* output) {
+// The Manhattan frame of the lines, and which of them are one: that only changes with the frames
+// that are kept.
+void Estimator::FindStructure(bool keep_second_newest, EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = state_.estimate.map;
   const auto directions = LineDirections(map.window, map.lines, options_.line_limits.noise);
   state_.manhattan.Update(map.window.newest().state.t_ns, directions);
   NameAxes(state_.manhattan, directions, &map.lines);
-  if (config_.estimator.line_merging) UniteLines(output);
+  if (config_.estimator.line_merging && keep_second_newest) UniteLines(output);
   output->timings.line_merging = stopwatch.Milliseconds();
 }
 

@@ -55,7 +55,7 @@ class Estimator {
   void StartWindow(const InitializationResult& result);
   void AddFrame(const FrameMeasurement& measurement);
   void Triangulate(EstimatorOutput* output);
-  void FindStructure(EstimatorOutput* output);
+  void FindStructure(bool keep_second_newest, EstimatorOutput* output);
   void UniteLines(EstimatorOutput* output);
   void RemoveOutliers(EstimatorOutput* output);
   std::optional<std::string> FindFailure(const EstimatorOutput& output);

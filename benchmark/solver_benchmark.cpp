@@ -14,14 +14,14 @@
 
 #include "common/config.h"
 #include "offline/asl_recording.h"
-#include "offline/front_end.h"
+#include "offline/feature_trackers.h"
 #include "vins_estimator/estimator.h"
 #include "vins_estimator/measurement_sync.h"
 
 namespace plm_vins {
 namespace {
 
-void Take(FrontEndFrame frame, MeasurementSync* sync) {
+void Take(TrackedFeatures frame, MeasurementSync* sync) {
   if (!frame.points.publish) return;
   sync->AddPoints(std::move(frame.points.features));
   if (frame.lines) sync->AddLines(std::move(frame.lines->features));
@@ -29,7 +29,7 @@ void Take(FrontEndFrame frame, MeasurementSync* sync) {
 
 // What the estimator is given over the whole recording.
 std::vector<FrameMeasurement> Measure(const Config& config, Recording* recording) {
-  FrontEnd front_end(config);
+  FeatureTrackers trackers(config);
   MeasurementSync::Options options;
   options.td = config.sensor.td;
   options.expect_lines = config.use_lines;
@@ -37,15 +37,15 @@ std::vector<FrameMeasurement> Measure(const Config& config, Recording* recording
   std::vector<FrameMeasurement> measurements;
   while (const auto event = recording->Next()) {
     if (event->kind == RecordingEvent::Kind::kImu) {
-      front_end.AddImu(event->imu);
+      trackers.AddImu(event->imu);
       sync.AddImu(event->imu);
     } else if (const auto image = recording->LoadImage()) {
-      front_end.AddImage({event->t_ns, *image});
+      trackers.AddImage({event->t_ns, *image});
     }
-    while (auto frame = front_end.Pop()) Take(std::move(*frame), &sync);
+    while (auto frame = trackers.Pop()) Take(std::move(*frame), &sync);
     while (auto measurement = sync.Pop()) measurements.push_back(std::move(*measurement));
   }
-  while (auto frame = front_end.Flush()) Take(std::move(*frame), &sync);
+  while (auto frame = trackers.Flush()) Take(std::move(*frame), &sync);
   while (auto measurement = sync.Flush()) measurements.push_back(std::move(*measurement));
   return measurements;
 }

@@ -7,8 +7,12 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
-# No -march=native and no fast-math: results are the same on every x86-64 machine.
+# No fast-math, and no -march=native unless asked for: results are the same on every x86-64 machine.
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+option(PLM_NATIVE "Use all that this machine's processor can do; results differ in last bits" OFF)
+if(PLM_NATIVE)
+  add_compile_options(-march=native)
+endif()
 
 option(WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 add_compile_options(-Wall -Wextra)

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "offline/pipeline_timings.h"
 #include "vins_estimator/output/config_json.h"
 #include "vins_estimator/output/frame_table.h"
 #include "vins_estimator/output/tum_format.h"
@@ -16,21 +17,6 @@ namespace plm_vins {
 namespace {
 
 namespace fs = std::filesystem;
-
-FrameTimings MakeTimings(const PipelineFrame& frame) {
-  const EstimatorTimings& estimator = frame.output.timings;
-  FrameTimings timings{};
-  timings[kPointTracking] = frame.point_tracking_ms;
-  timings[kLineDetection] = frame.line_tracking.detection_ms;
-  timings[kLineTracking] = frame.line_tracking_ms;
-  timings[kInitialization] = estimator.initialization;
-  timings[kLineMerging] = estimator.line_merging;
-  timings[kOptimization] = estimator.optimization;
-  timings[kMarginalization] = estimator.marginalization;
-  timings[kEstimator] = estimator.total;
-  timings[kTotal] = frame.point_tracking_ms + frame.line_tracking_ms + estimator.total;
-  return timings;
-}
 
 void SetPointTracking(const PointTrackerStatistics& points, FrameCounts* counts) {
   (*counts)[kPointsFollowed] = points.previous - points.flow_lost - points.forward_backward -
@@ -124,7 +110,7 @@ std::ofstream ResultFiles::Open(const std::string& name) const {
 
 void ResultFiles::Add(const PipelineFrame& frame) {
   const EstimatorOutput& output = frame.output;
-  const FrameTimings timings = MakeTimings(frame);
+  const FrameTimings timings = TimingsOf(frame);
   const FrameCounts counts = MakeCounts(frame);
   WriteFrameRow(output.t_ns, timings, counts, &timing_);
   summary_.Add(output, timings, counts);

@@ -29,7 +29,8 @@ Json TimingsToJson(const std::vector<FrameTimings>& frames) {
   Json json;
   for (size_t stage = 0; stage < kTimingStages; ++stage) {
     const SeriesSummary summary = Summarize(frames, stage);
-    json[kTimingNames[stage]] = {{"mean", summary.mean}, {"p95", summary.p95}};
+    json[kTimingNames[stage]] = {
+        {"mean", summary.mean}, {"p95", summary.p95}, {"p99", summary.p99}};
   }
   return json;
 }

@@ -9,11 +9,12 @@
 
 namespace plm_vins {
 
-// Mean, median and 95th percentile (nearest rank) of values; zeros for none.
+// Mean, median, 95th and 99th percentile (nearest rank) of values; zeros for none.
 struct SeriesSummary {
   double mean = 0;
   double median = 0;
   double p95 = 0;
+  double p99 = 0;
 };
 
 // Of entry `index` of each frame's values.
@@ -28,7 +29,7 @@ SeriesSummary Summarize(const std::vector<std::array<T, kSize>>& frames, size_t 
     return values[static_cast<size_t>(std::ceil(share * count)) - 1];
   };
   return {std::accumulate(values.begin(), values.end(), 0.0) / count, quantile(0.5),
-          quantile(0.95)};
+          quantile(0.95), quantile(0.99)};
 }
 
 }  // namespace plm_vins

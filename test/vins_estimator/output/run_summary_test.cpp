@@ -110,6 +110,7 @@ TEST(RunSummary, HasMeanAndPercentileOfEachStage) {
   EXPECT_EQ(timing.size(), kTimingStages);
   EXPECT_EQ(timing["point_tracking"]["mean"], 2.0);
   EXPECT_EQ(timing["total"]["p95"], 6.0);
+  EXPECT_EQ(timing["total"]["p99"], 6.0);
 }
 
 TEST(RunSummary, HasMeanAndMedianOfEachCount) {

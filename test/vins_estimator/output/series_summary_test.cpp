@@ -16,6 +16,7 @@ TEST(SeriesSummary, IsOfOneEntryOfTheFrames) {
   EXPECT_DOUBLE_EQ(summary.mean, 50.5);
   EXPECT_DOUBLE_EQ(summary.median, 50);
   EXPECT_DOUBLE_EQ(summary.p95, 95);
+  EXPECT_DOUBLE_EQ(summary.p99, 99);
 }
 
 TEST(SeriesSummary, OneFrameAndNone) {

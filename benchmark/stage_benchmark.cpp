@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Time of every stage per image, all in one thread, over the images of a recording: mean, median,
+// 95th and 99th percentile, and each stage's share. Last, the processor's time of the whole run,
+// decoding included.
+// Usage: stage_benchmark CONFIG ASL_FOLDER
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "common/config.h"
+#include "offline/asl_recording.h"
+#include "offline/odometry_pipeline.h"
+#include "offline/pipeline_timings.h"
+#include "vins_estimator/output/series_summary.h"
+
+namespace plm_vins {
+namespace {
+
+double ProcessorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+void Print(const std::vector<FrameTimings>& frames) {
+  const double total = Summarize(frames, kTotal).mean;
+  std::printf("%-16s %8s %8s %8s %8s %7s\n", "stage [ms]", "mean", "p50", "p95", "p99", "share");
+  for (size_t stage = 0; stage < kTimingStages; ++stage) {
+    const SeriesSummary summary = Summarize(frames, stage);
+    std::printf("%-16s %8.2f %8.2f %8.2f %8.2f %6.0f%%\n", kTimingNames[stage], summary.mean,
+                summary.median, summary.p95, summary.p99, 100 * summary.mean / total);
+  }
+}
+
+void Run(const std::string& config_file, const std::string& folder) {
+  OdometryPipeline pipeline(LoadConfig(config_file));
+  std::vector<FrameTimings> frames;
+  const double start = ProcessorSeconds();
+  pipeline.Run(OpenAslFolder(folder).get(), RecordingInterval(), 1,
+               [&](const PipelineFrame& frame) { frames.push_back(TimingsOf(frame)); });
+  if (frames.empty()) throw std::invalid_argument("no frame in " + folder);
+  Print(frames);
+  std::printf("processor: %.2f ms per image\n",
+              1e3 * (ProcessorSeconds() - start) / static_cast<double>(pipeline.images()));
+}
+
+}  // namespace
+}  // namespace plm_vins
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: stage_benchmark CONFIG ASL_FOLDER\n");
+    return 1;
+  }
+  try {
+    plm_vins::Run(argv[1], argv[2]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

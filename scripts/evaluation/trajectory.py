@@ -105,8 +105,8 @@ def _rotations(quaternions):
 def _quaternions(rotations):
     """Unit quaternions (n, 4) in the order x y z w, with w >= 0, of rotation matrices (n, 3, 3).
 
-    A quaternion is the eigenvector to the largest eigenvalue of a symmetric matrix [BarItzhack2000]:
-    exact for all angles, where formulas with the trace need cases.
+    It is the eigenvector to the largest eigenvalue of a symmetric matrix [BarItzhack2000], which is
+    exact for all angles; formulas with the trace need cases.
     """
     trace = np.trace(rotations, axis1=1, axis2=2)
     matrices = np.empty((len(rotations), 4, 4))

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -16,6 +17,9 @@ namespace plm_vins {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr char kTrackImages[] = "tracks";
+constexpr int kTrackImageQuality = 70;  // of JPEG: a few ten kB per image
 
 FrameTimings MakeTimings(const PipelineFrame& frame) {
   const EstimatorTimings& estimator = frame.output.timings;
@@ -112,6 +116,7 @@ ResultFiles::ResultFiles(const std::string& folder)
       trajectory_(Open("trajectory.tum")),
       timing_(Open("timing.csv")),
       map_(Open("map.ply")) {
+  fs::remove_all(fs::path(folder_) / kTrackImages);  // of an earlier run
   WriteFrameHeader(&timing_);
 }
 
@@ -148,7 +153,7 @@ void ResultFiles::AddMapLines(const std::vector<MapLine>& lines) {
   for (const MapLine& line : lines) {
     const auto [place, is_new] = line_places_.try_emplace(line.id, lines_.size());
     if (is_new) lines_.emplace_back();
-    lines_[place->second] = {line.start_W, line.end_W};
+    lines_[place->second] = {line.start_W, line.end_W, line.axis};
   }
 }
 
@@ -160,11 +165,22 @@ void ResultFiles::EndWorld() {
   line_places_.clear();
 }
 
-void ResultFiles::WriteAnnotatedImage(const std::string& name, const cv::Mat& image) const {
+void ResultFiles::WriteAnnotatedImage(const std::string& name, const cv::Mat& image,
+                                      const std::vector<int>& format) const {
   const fs::path file = fs::path(folder_) / name;
-  if (!image.empty() && !cv::imwrite(file.string(), image)) {
+  if (!image.empty() && !cv::imwrite(file.string(), image, format)) {
     throw std::runtime_error("cannot write " + file.string());
   }
+}
+
+void ResultFiles::WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) const {
+  if (points.empty()) return;
+  cv::Mat image = points;
+  if (!lines.empty()) cv::hconcat(points, lines, image);
+  cv::resize(image, image, {}, 0.5, 0.5, cv::INTER_AREA);
+  MakeFolder((fs::path(folder_) / kTrackImages).string());
+  WriteAnnotatedImage(fs::path(kTrackImages) / (std::to_string(t_ns) + ".jpg"), image,
+                      {cv::IMWRITE_JPEG_QUALITY, kTrackImageQuality});
 }
 
 void ResultFiles::Finish(RunSummary::Run run, const Config& config) {

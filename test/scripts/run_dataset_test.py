@@ -7,6 +7,7 @@ import glob
 import importlib.util
 import os
 import pty
+import re
 import shutil
 import signal
 import subprocess
@@ -118,6 +119,23 @@ class Results(DatasetTest):
                      "hall/ape.png", "hall/translation.png"):
             self.assertIn(f"(plots/{name})", report)
             self.assertTrue(os.path.isfile(os.path.join(self.output, "plots", name)))
+        self.assert_pages_are_linked(result.stdout)
+
+    def assert_pages_are_linked(self, messages):
+        if importlib.util.find_spec("plotly") is None:
+            self.assertIn("install python3-plotly", messages)
+            return
+        with open(os.path.join(self.output, "index.html"), encoding="utf-8") as file:
+            index = file.read()
+        pages = re.findall(r"href='(runs/[^']*)'", index)
+        self.assertEqual(len(pages), 8)
+        for page in pages:
+            path = os.path.join(self.output, page)
+            with open(path, encoding="utf-8") as file:
+                library, = re.findall(r"src='([^']*plotly.js)'", file.read())
+            self.assertTrue(os.path.isfile(os.path.join(os.path.dirname(path), library)))
+        for figure in ("scene0", "error0", "scene1", "error1"):
+            self.assertIn(f"newPlot('{figure}'", index)
 
     def test_coverage_of_a_part_counts_that_part_only(self):
         self.add("hall")

@@ -48,10 +48,10 @@ def error_figure(pairs):
     """The APE over time. `pairs`, by name: an aligned estimate and the truth at its poses."""
     begin = min(truth.stamps[0] for _, truth in pairs.values())
     data = []
-    for name, (estimate, truth) in pairs.items():
+    for (name, (estimate, truth)), colour in zip(pairs.items(), itertools.cycle(PATH_COLOURS)):
         errors = position_errors(estimate, truth)
         label = f"{name}, RMSE {np.sqrt(np.mean(errors ** 2)):.4f} m"
-        data.append(_curve(label, estimate.stamps - begin, errors))
+        data.append(_curve(label, estimate.stamps - begin, errors, colour))
     return _over_time(data, "APE [m]")
 
 
@@ -90,9 +90,10 @@ def _segments(name, ends, colour, width):
                     line={"color": colour, "width": width})
 
 
-def _curve(name, seconds, values):
+def _curve(name, seconds, values, colour=None):
+    """`colour`: plotly's own choice where there is none."""
     return {"type": "scatter", "mode": "lines", "name": name, "x": _plain(seconds),
-            "y": _plain(values), "line": {"width": 1.2}}
+            "y": _plain(values), "line": {"width": 1.2, "color": colour}}
 
 
 def _over_time(data, title):

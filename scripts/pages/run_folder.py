@@ -101,7 +101,7 @@ def _find_images(path, first_stamp):
     files = {int(os.path.basename(file)[:-4]): file
              for file in glob.glob(os.path.join(glob.escape(path), "tracks", "*.jpg"))}
     if files:
-        return {f"{1e-9 * stamp - first_stamp:.2f} s after the first pose": files[stamp]
+        return {f"{1e-9 * stamp - first_stamp:+.2f} s from the first pose": files[stamp]
                 for stamp in sorted(files)}
     names = {"points": "tracks.png", "lines": "line_tracks.png"}
     return {caption: os.path.join(path, name) for caption, name in names.items()

@@ -117,8 +117,8 @@ class Folder(ShowRun):
                          {"along x": 1, "along y": 0, "along z": 1, "free": 1})
         np.testing.assert_array_equal(run.lines["along z"], [[[5, 5, 8.5], [5, 5, 9.5]]])
         np.testing.assert_allclose(run.loops - run.trajectory.stamps[0], [[15.0, 0.5]], atol=1e-6)
-        self.assertEqual(list(run.images), ["2.00 s after the first pose",
-                                            "10.00 s after the first pose"])
+        self.assertEqual(list(run.images), ["+2.00 s from the first pose",
+                                            "+10.00 s from the first pose"])
 
     def test_what_need_not_be_there(self):
         for name in ("map.ply", "lines.ply", "loops.csv"):

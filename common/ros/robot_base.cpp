@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/ros/robot_base.h"
+#include "common/ros/robot_base.h"
 
 #include <ros/console.h>
 

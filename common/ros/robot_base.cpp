@@ -8,9 +8,9 @@
 namespace plm_vins {
 
 RobotBase::RobotBase(const std::string& body_frame, const std::string& base_frame)
-    : body_frame_(body_frame), base_frame_(base_frame) {
-  listener_.emplace(buffer_);
-}
+    : body_frame_(body_frame),
+      base_frame_(base_frame),
+      listener_(std::make_unique<tf2_ros::TransformListener>(buffer_)) {}
 
 std::optional<Rigid3d> RobotBase::Locate() {
   if (T_body_base_) return T_body_base_;

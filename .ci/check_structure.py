@@ -53,12 +53,13 @@ LAYERS = {
         "state imu estimator_output.h output"),
     "offline": {"common", "tracking", "feature_tracker", "linefeature_tracker",
                 "vins_estimator"} | inside_estimator("state estimator_output.h output"),
+    "mavros_relay": {"common"},
     "simulator": {"common"} | inside_estimator("state output"),
 }
 # Who only reads what the estimator says gets by without the solver, however far the includes lead.
 WITHOUT_CERES = ["common", "tracking", "feature_tracker", "linefeature_tracker",
                  "vins_estimator/state", "vins_estimator/map", "vins_estimator/output",
-                 "vins_estimator/ros", "offline", "simulator"]
+                 "vins_estimator/ros", "offline", "mavros_relay", "simulator"]
 CODE_FOLDERS = sorted({folder.split("/")[0] for folder in LAYERS} | {"benchmark", "test"})
 TEXT_FOLDERS = CODE_FOLDERS + [".ci", "cmake", "config", "docs", "launch", "scripts"]
 TEXT_SUFFIXES = {".cpp", ".h", ".py", ".sh", ".txt", ".cmake", ".md", ".yaml", ".launch", ".test",

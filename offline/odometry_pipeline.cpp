@@ -31,6 +31,11 @@ DropCounts OdometryPipeline::drops() const {
   return counts;
 }
 
+void OdometryPipeline::ShowTracks(double interval, TrackImageCallback on_images) {
+  track_image_interval_ns_ = ToNanoseconds(interval);
+  on_track_images_ = std::move(on_images);
+}
+
 void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, int threads,
                            const FrameCallback& on_frame) {
   trackers_.TrackSideBySide(threads > 2);
@@ -120,7 +125,16 @@ bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const ItemCallback& em
     points_image_ = trackers_.DrawPoints();
     lines_image_ = trackers_.DrawLines();
   }
+  if (on_track_images_) ShowTracks(frame.points.features.t_ns);
   return emit({{}, std::make_unique<TrackedFeatures>(std::move(frame))});
+}
+
+void OdometryPipeline::ShowTracks(int64_t t_ns) {
+  const bool is_due = !last_track_image_ns_ || t_ns < *last_track_image_ns_ ||
+                      t_ns - *last_track_image_ns_ >= track_image_interval_ns_;
+  if (!is_due) return;
+  last_track_image_ns_ = t_ns;
+  on_track_images_(t_ns, trackers_.DrawPoints(), trackers_.DrawLines());
 }
 
 void OdometryPipeline::Consume(TrackedItem item, const FrameCallback& on_frame) {

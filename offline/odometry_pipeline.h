@@ -35,11 +35,17 @@ struct PipelineFrame {
 class OdometryPipeline {
  public:
   using FrameCallback = std::function<void(const PipelineFrame&)>;
+  // An image with its points, and with its lines (CV_8UC3; empty where lines are not used).
+  using TrackImageCallback =
+      std::function<void(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines)>;
 
   explicit OdometryPipeline(const Config& config);
 
   // What the trackers find from here on goes to this file as well; null: nowhere.
   void SaveFeatures(FeatureFileWriter* file) { saved_features_ = file; }
+
+  // Calls back about every `interval` [s] of the recording, in the thread of the trackers.
+  void ShowTracks(double interval, TrackImageCallback on_images);
 
   // Processes the recording; `on_frame` is called in the caller's thread, in order of time.
   void Run(Recording* recording, RecordingInterval interval, int threads,
@@ -67,6 +73,7 @@ class OdometryPipeline {
   void RunTrackers(Recording* recording, RecordingInterval interval, const ItemCallback& emit);
   bool Feed(const RecordingEvent& event, Recording* recording, const ItemCallback& emit);
   bool EmitTracked(TrackedFeatures frame, const ItemCallback& emit);
+  void ShowTracks(int64_t t_ns);
   void RunInTwoThreads(Recording* recording, const RecordingInterval& interval,
                        const FrameCallback& on_frame);
   void Consume(TrackedItem item, const FrameCallback& on_frame);
@@ -82,6 +89,9 @@ class OdometryPipeline {
   int64_t thinned_images_ = 0;  // left out for the sake of the rate `freq`
   int64_t estimated_images_ = 0;
   FeatureFileWriter* saved_features_ = nullptr;
+  TrackImageCallback on_track_images_;
+  int64_t track_image_interval_ns_ = 0;
+  std::optional<int64_t> last_track_image_ns_;
   cv::Mat points_image_;
   cv::Mat lines_image_;
   std::map<int64_t, PipelineFrame> unfinished_;  // by stamp: what the back end has yet to add to

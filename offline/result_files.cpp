@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -17,6 +18,9 @@ namespace plm_vins {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr char kTrackImages[] = "tracks";
+constexpr int kTrackImageQuality = 70;  // of JPEG: a few ten kB per image
 
 void SetPointTracking(const PointTrackerStatistics& points, FrameCounts* counts) {
   (*counts)[kPointsFollowed] = points.previous - points.flow_lost - points.forward_backward -
@@ -98,6 +102,7 @@ ResultFiles::ResultFiles(const std::string& folder)
       trajectory_(Open("trajectory.tum")),
       timing_(Open("timing.csv")),
       map_(Open("map.ply")) {
+  fs::remove_all(fs::path(folder_) / kTrackImages);  // of an earlier run
   WriteFrameHeader(&timing_);
 }
 
@@ -134,7 +139,7 @@ void ResultFiles::AddMapLines(const std::vector<MapLine>& lines) {
   for (const MapLine& line : lines) {
     const auto [place, is_new] = line_places_.try_emplace(line.id, lines_.size());
     if (is_new) lines_.emplace_back();
-    lines_[place->second] = {line.start_W, line.end_W};
+    lines_[place->second] = {line.start_W, line.end_W, line.axis};
   }
 }
 
@@ -146,11 +151,22 @@ void ResultFiles::EndWorld() {
   line_places_.clear();
 }
 
-void ResultFiles::WriteAnnotatedImage(const std::string& name, const cv::Mat& image) const {
+void ResultFiles::WriteAnnotatedImage(const std::string& name, const cv::Mat& image,
+                                      const std::vector<int>& format) const {
   const fs::path file = fs::path(folder_) / name;
-  if (!image.empty() && !cv::imwrite(file.string(), image)) {
+  if (!image.empty() && !cv::imwrite(file.string(), image, format)) {
     throw std::runtime_error("cannot write " + file.string());
   }
+}
+
+void ResultFiles::WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) const {
+  if (points.empty()) return;
+  cv::Mat image = points;
+  if (!lines.empty()) cv::hconcat(points, lines, image);
+  cv::resize(image, image, {}, 0.5, 0.5, cv::INTER_AREA);
+  MakeFolder((fs::path(folder_) / kTrackImages).string());
+  WriteAnnotatedImage(fs::path(kTrackImages) / (std::to_string(t_ns) + ".jpg"), image,
+                      {cv::IMWRITE_JPEG_QUALITY, kTrackImageQuality});
 }
 
 void ResultFiles::Finish(RunSummary::Run run, const Config& config) {

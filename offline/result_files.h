@@ -17,8 +17,8 @@
 namespace plm_vins {
 
 // The folder of results of an offline run: trajectory.tum, timing.csv, summary.json, map.ply,
-// lines.ply, lines.obj, tracks.png, line_tracks.png. Rows are written as frames come, which keeps
-// memory small.
+// lines.ply, lines.obj, tracks.png, line_tracks.png, tracks/. Rows are written as frames come,
+// which keeps memory small.
 class ResultFiles {
  public:
   // Makes the folder and opens the files. Throws std::runtime_error where that is not possible.
@@ -27,7 +27,11 @@ class ResultFiles {
   void Add(const PipelineFrame& frame);
 
   // Nothing where the image is empty.
-  void WriteAnnotatedImage(const std::string& name, const cv::Mat& image) const;
+  void WriteAnnotatedImage(const std::string& name, const cv::Mat& image,
+                           const std::vector<int>& format = {}) const;
+
+  // tracks/STAMP_NS.jpg: points and lines side by side, in half the size.
+  void WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) const;
 
   // Completes all files; the counts of the map in `run` are filled in here.
   void Finish(RunSummary::Run run, const Config& config);

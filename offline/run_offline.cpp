@@ -35,6 +35,7 @@ struct Arguments {
   double start = 0;                                           // [s]
   double duration = std::numeric_limits<double>::infinity();  // [s]
   std::vector<std::string> overrides;                         // "key=value"
+  double track_image_interval = 0;                            // [s]; 0: none
   int threads = 3;
 };
 
@@ -69,6 +70,9 @@ void Declare(Arguments* arguments, CLI::App* app) {
   app->add_option("--duration", arguments->duration, "process this much [s]")->check(CheckSeconds);
   app->add_option("--save-features", arguments->saved_features,
                   "write the tracked features to this file, for runs without images");
+  app->add_option("--save-track-images", arguments->track_image_interval,
+                  "write a small image with its points and lines to tracks/ every so often [s]")
+      ->check(CheckSeconds);
   app->add_option("--set", arguments->overrides, "replace a value of the configuration: key=value")
       ->allow_extra_args(false)
       ->check(CheckOverride);
@@ -140,6 +144,12 @@ struct Source {
 Source RunFromImages(const Arguments& arguments, Recording* recording, ResultFiles* results,
                      OdometryPipeline* pipeline) {
   ProgressDisplay progress(recording->end_ns(), arguments.duration);
+  if (arguments.track_image_interval > 0) {
+    pipeline->ShowTracks(arguments.track_image_interval,
+                         [&](int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) {
+                           results->WriteTrackImage(t_ns, points, lines);
+                         });
+  }
   pipeline->Run(recording, RecordingInterval(arguments.start, arguments.duration),
                 arguments.threads, [&](const PipelineFrame& frame) {
                   results->Add(frame);

@@ -16,6 +16,7 @@ import sys
 from dataset.comparison import write_comparison
 from dataset.environment import find_config, find_program, machine, usable_cores
 from dataset.errors import DatasetError
+from dataset.executors import open_executor
 from dataset.progress import Progress
 from dataset.results import METRIC, Evaluator, Results
 from dataset.run import Run, Settings
@@ -58,6 +59,9 @@ def parse_arguments(arguments):
                         default=max(1, usable_cores() // THREADS_PER_RUN),
                         help="runs at the same time (default: %(default)s, one per"
                         f" {THREADS_PER_RUN} cores; more of them disturb the times)")
+    parser.add_argument("--scheduler", metavar="ADDRESS",
+                        help="hand the runs to the workers of this Dask scheduler, such as"
+                        " tcp://HOST:8786; they share all folders with this machine")
     parser.add_argument("--no-plots", action="store_true", help="tables only")
     parser.add_argument("--run-offline", metavar="FILE", help="the program, where it is not found")
     parser.set_defaults(starts=[0.0])
@@ -114,13 +118,13 @@ def locked(folder):
         yield
 
 
-def announce(sequences, runs, unfinished, jobs):
+def announce(sequences, runs, unfinished, where):
     for sequence in sequences:
         truth = sequence.truth or "none, so no APE (put it beside the recording as"\
             f" {sequence.name}.tum or .csv)"
         print(f"{sequence.name}: {sequence.path}; ground truth: {truth}")
-    print(f"{len(runs)} runs, {len(runs) - len(unfinished)} of them finished before;"
-          f" {jobs} at a time", flush=True)
+    print(f"{len(runs)} runs, {len(runs) - len(unfinished)} of them finished before; {where}",
+          flush=True)
 
 
 def describe(result):
@@ -134,7 +138,7 @@ def describe(result):
             f" {METRIC['coverage_percent'].value(result):.0f} %, {speed}")
 
 
-def facts(options, settings, fingerprint):
+def facts(options, settings, fingerprint, where):
     """What the report says about the whole."""
     starts = ", ".join(f"{start:g}" for start in options.starts)
     part = "all" if starts == "0" and options.duration is None else (
@@ -144,8 +148,8 @@ def facts(options, settings, fingerprint):
             ("part of each", part),
             ("configuration", settings.config + (f" with {overrides}" if overrides else "")),
             ("program", f"{settings.program}, SHA-256 {fingerprint['program_sha256'][:12]}"),
-            ("machine", f"{machine()}; runs at a time: {options.jobs}; load average of the last"
-                        f" 15 minutes: {os.getloadavg()[2]:.1f}"),
+            ("machine", f"{machine()}; runs: {where}; load average of the last 15 minutes:"
+                        f" {os.getloadavg()[2]:.1f}"),
             ("repetitions", str(options.repetitions)),
             ("written", datetime.datetime.now().strftime("%Y-%m-%d %H:%M"))]
 
@@ -153,17 +157,18 @@ def facts(options, settings, fingerprint):
 def run_dataset(options):
     settings, sequences, runs = plan(options)
     evaluator = Evaluator(sequences, options.duration)
-    with locked(settings.output):
+    with locked(settings.output), open_executor(
+            options.scheduler, options.jobs) as (executor, where):
         unfinished = [run for run in runs if not run.is_finished()]
-        announce(sequences, runs, unfinished, options.jobs)
+        announce(sequences, runs, unfinished, where)
         progress = Progress(len(unfinished), lambda run: describe(evaluator.result(run)))
-        if not carry_out(unfinished, options.jobs, progress):
+        if not carry_out(unfinished, executor, settings.output, progress):
             left = sum(not run.is_finished() for run in runs)
             print(f"run_dataset.py: interrupted with {left} of {len(runs)} runs left; the same"
                   " command goes on from here", file=sys.stderr)
             return INTERRUPTED
         results = Results(evaluator.result(run) for run in runs)
-        about = facts(options, settings, settings.fingerprint())
+        about = facts(options, settings, settings.fingerprint(), where)
         print(*write_comparison(settings.output, results, evaluator, about,
                                 not options.no_plots), sep="\n")
     failures = sum(result.failure is not None for result in results.all())

@@ -6,8 +6,9 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
 common_packages=(
   build-essential cmake libboost-dev libceres-dev libeigen3-dev libgmock-dev libgtest-dev
-  libopencv-contrib-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev python3-matplotlib
-  python3-numpy python3-yaml)
+  libopencv-contrib-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev
+  python3-distributed python3-matplotlib python3-numpy python3-plotly python3-tqdm
+  python3-yaml)
 debian_packages=(
   catkin libcli11-dev libcv-bridge-dev libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev libimage-transport-dev

@@ -6,17 +6,28 @@ import os
 
 from .csv_files import write_csv
 from .environment import usable_cores
+from .pages import write_pages
 from .report import markdown_report
 from .results import METRIC
 
 
 def write_comparison(output, results, evaluator, facts, with_plots):
-    """Writes report.md, runs.csv, table.csv and plots/; returns the paths of the first three."""
+    """Writes report.md, runs.csv, table.csv, plots/ and pages for the browser; returns the paths of
+    what to look at first."""
     pictures = _write_pictures(output, results, evaluator) if with_plots else {}
     path = os.path.join(output, "report.md")
     with open(path, "w", encoding="utf-8") as file:
         file.write(markdown_report(results, facts, pictures, usable_cores()))
-    return [path, *write_csv(output, results)]
+    pages = _write_pages(output, results, evaluator, facts) if with_plots else []
+    return [path, *write_csv(output, results), *pages]
+
+
+def _write_pages(output, results, evaluator, facts):
+    """What to look at first, or why there is nothing."""
+    try:
+        return [write_pages(output, results, evaluator, facts)]
+    except ImportError as error:
+        return [f"no pages for the browser ({error}): install python3-plotly"]
 
 
 def _write_pictures(output, results, evaluator):

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Shows how far the runs are: a bar on a terminal, a line per run in a log."""
 
-import shutil
 import sys
-import time
 
-BAR_WIDTH = 24
+import tqdm
 
 
 class Progress:
@@ -13,43 +11,24 @@ class Progress:
 
     def __init__(self, total, describe, stream=None):
         self._stream = stream or sys.stderr
-        self._is_terminal = self._stream.isatty()
-        self._total = total
         self._describe = describe
+        self._total = total
         self._ended = 0
-        self._started = time.monotonic()
-        self._expected_end = None
+        self._bar = tqdm.tqdm(total=total, unit="run", file=self._stream, dynamic_ncols=True,
+                              disable=not self._stream.isatty(), leave=False)
 
     def show(self, running):
-        """Redraws the bar; `running` are the names of the runs under way."""
-        if not self._is_terminal:
-            return
-        filled = BAR_WIDTH * self._ended // max(self._total, 1)
-        bar = "#" * filled + "." * (BAR_WIDTH - filled)
-        text = f"[{bar}] {self._ended}/{self._total}{self._time_left()}  {', '.join(running)}"
-        width = shutil.get_terminal_size().columns - 1
-        self._stream.write("\r\033[K" + text[:width])
-        self._stream.flush()
+        """Refreshes the bar; `running` are the names of the runs under way, as far as known."""
+        self._bar.set_postfix_str(", ".join(running))
 
     def ended(self, run, seconds):
         self._ended += 1
-        now = time.monotonic()
-        per_run = (now - self._started) / self._ended
-        self._expected_end = now + per_run * (self._total - self._ended)
-        self.clear()
         width = len(str(self._total))
-        self._stream.write(f"[{self._ended:>{width}}/{self._total}] {run.name}:"
-                           f" {self._describe(run)} ({seconds:.0f} s)\n")
+        tqdm.tqdm.write(f"[{self._ended:>{width}}/{self._total}] {run.name}:"
+                        f" {self._describe(run)} ({seconds:.0f} s)", file=self._stream)
         self._stream.flush()
+        self._bar.update()
 
-    def clear(self):
+    def close(self):
         """Takes the bar away."""
-        if self._is_terminal:
-            self._stream.write("\r\033[K")
-            self._stream.flush()
-
-    def _time_left(self):
-        if self._expected_end is None:
-            return ""
-        minutes, seconds = divmod(max(0, round(self._expected_end - time.monotonic())), 60)
-        return f", {minutes}:{seconds:02} left"
+        self._bar.close()

@@ -211,10 +211,14 @@ class Evaluator:
     def compare(self, run, summary):
         """As evaluate(): the paired trajectories and their figures. Raises TrajectoryError."""
         estimate = read_trajectory(os.path.join(run.folder, "trajectory.tum"))
-        truth = self._truths[run.sequence.name]
-        if run.start or self._duration < float("inf"):
-            truth = self._during_run(truth, estimate.stamps[0] - summary["init_time_s"])
-        return evaluate(estimate, truth)
+        return evaluate(estimate, self.truth(run, summary, estimate))
+
+    def truth(self, run, summary, estimate):
+        """The ground truth of the part that was run, or None. Raises TrajectoryError."""
+        truth = self._truths.get(run.sequence.name)
+        if truth is None or (not run.start and self._duration == float("inf")):
+            return truth
+        return self._during_run(truth, estimate.stamps[0] - summary["init_time_s"])
 
     def _during_run(self, truth, begin):
         """The part of the ground truth that a run of a part of the recording could cover."""

@@ -1,22 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One run of run_offline: what it is given, its folder, and how it ended."""
 
+import contextlib
 import dataclasses
+import glob
 import hashlib
 import json
 import os
+import platform
 import re
 import shutil
 import signal
 import subprocess
 import time
+import uuid
 from typing import Dict, Optional
 
 from .sequences import Sequence
 
 RESULTS = ("trajectory.tum", "timing.csv", "summary.json")
-OUTCOME = "run.json"  # written last: a folder without it is of an interrupted run
+OUTCOME = "run.json"
 LOG = "run.log"
+PERIOD = 0.1  # between two looks whether the run is still wanted [s]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -40,7 +45,7 @@ class Run:
 
     The folder OUTPUT/runs/SEQUENCE/VARIANT/REPETITION, or .../VARIANT/from_STARTs/REPETITION where
     the run does not start with the recording, has what run_offline writes, its messages (run.log)
-    and, once it has ended, run.json.
+    and how it ended (run.json). A run under way has a folder beside it, whose name has an ending.
     """
 
     def __init__(self, settings, fingerprint, sequence: Sequence, variant: str,
@@ -65,7 +70,7 @@ class Run:
         """Whether an earlier run with the same settings left complete results."""
         outcome = self.outcome()
         return (outcome is not None and outcome["identity"] == self._identity
-                and outcome["failure"] is None and self._missing_result() is None)
+                and outcome["failure"] is None and _missing_result(self.folder) is None)
 
     def outcome(self):
         """What run.json says, or None."""
@@ -75,10 +80,51 @@ class Run:
         except (FileNotFoundError, json.JSONDecodeError):
             return None
 
-    def command(self):
+    def carry_out(self, session):
+        """Runs to the end; returns how long that took [s], with the outcome on disk.
+
+        Returns None, without an outcome, as soon as the file `session` is gone. Whoever else began
+        this run and was lost may still write: nobody reads it, as each attempt has a folder of its
+        own, which gets its name when it is complete.
+        """
+        for abandoned in glob.glob(glob.escape(self.folder) + ".*"):
+            shutil.rmtree(abandoned, ignore_errors=True)
+        if not os.path.exists(session):
+            return None
+        attempt = f"{self.folder}.{uuid.uuid4().hex[:8]}"
+        os.makedirs(attempt)
+        started = time.monotonic()
+        exit_code = self._run_program(attempt, session)
+        seconds = time.monotonic() - started
+        if exit_code is None:
+            shutil.rmtree(attempt, ignore_errors=True)
+            return None
+        self._save_outcome(attempt, self._failure(attempt, exit_code), exit_code, seconds)
+        shutil.rmtree(self.folder, ignore_errors=True)
+        os.rename(attempt, self.folder)
+        return seconds
+
+    def save_failure(self, reason):
+        """The outcome of a run that nobody could carry out."""
+        os.makedirs(self.folder, exist_ok=True)
+        self._save_outcome(self.folder, reason, None, 0.0)
+
+    def _run_program(self, folder, session):
+        """Its exit code, or None where it was stopped since `session` is gone."""
+        with open(os.path.join(folder, LOG), "wb") as log:
+            # In a session of its own: Ctrl-C reaches it through this program only.
+            process = subprocess.Popen(self._command(folder), stdin=subprocess.DEVNULL, stdout=log,
+                                       stderr=subprocess.STDOUT, start_new_session=True)
+        while os.path.exists(session):
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                return process.wait(PERIOD)
+        _stop(process)
+        return None
+
+    def _command(self, folder):
         settings, input_option = self._settings, "--bag" if self.sequence.is_bag else "--asl"
         command = [settings.program, "--config", settings.config, input_option, self.sequence.path,
-                   "--output", self.folder]
+                   "--output", folder]
         if self.start:
             command += ["--start", repr(self.start)]
         if settings.duration is not None:
@@ -87,73 +133,38 @@ class Run:
             command += ["--set", f"{key}={value}"]
         return command
 
-    def launch(self):
-        """Starts the run in an empty folder; returns the running process."""
-        shutil.rmtree(self.folder, ignore_errors=True)
-        os.makedirs(self.folder)
-        with open(os.path.join(self.folder, LOG), "wb") as log:
-            # In a session of its own: Ctrl-C reaches it through this program only.
-            process = subprocess.Popen(self.command(), stdin=subprocess.DEVNULL, stdout=log,
-                                       stderr=subprocess.STDOUT, start_new_session=True)
-        return RunningRun(self, process)
-
-    def save_outcome(self, exit_code, seconds):
-        failure = self._failure(exit_code)
+    def _save_outcome(self, folder, failure, exit_code, seconds):
         outcome = {"sequence": self.sequence.name, "variant": self.variant,
                    "start": self.start, "repetition": self.repetition, "failure": failure,
-                   "exit_code": exit_code, "wall_time_s": seconds,
-                   "load_average": os.getloadavg()[0], "command": self.command(),
+                   "exit_code": exit_code, "wall_time_s": seconds, "machine": platform.node(),
+                   "load_average": os.getloadavg()[0], "command": self._command(self.folder),
                    "identity": self._identity}
-        path = os.path.join(self.folder, OUTCOME)
-        with open(path + ".part", "w", encoding="utf-8") as file:
+        with open(os.path.join(folder, OUTCOME), "w", encoding="utf-8") as file:
             json.dump(outcome, file, indent=2)
-        os.replace(path + ".part", path)
 
-    def _failure(self, exit_code):
+    def _failure(self, folder, exit_code):
         """Why there is no complete result, or None where there is one."""
+        log = os.path.join(self.folder, LOG)  # where it will be
         if exit_code < 0:
-            return f"ended by {_signal_name(-exit_code)}; see {self._log()}"
+            return f"ended by {_signal_name(-exit_code)}; see {log}"
         if exit_code > 0:
-            return _last_error(self._log()) or f"exit code {exit_code}; see {self._log()}"
-        missing = self._missing_result()
-        return missing and f"no {missing} although it ended well; see {self._log()}"
-
-    def _log(self):
-        return os.path.join(self.folder, LOG)
-
-    def _missing_result(self):
-        return next((name for name in RESULTS
-                     if not os.path.isfile(os.path.join(self.folder, name))), None)
+            return (_last_error(os.path.join(folder, LOG))
+                    or f"exit code {exit_code}; see {log}")
+        missing = _missing_result(folder)
+        return missing and f"no {missing} although it ended well; see {log}"
 
 
-class RunningRun:
-    """A run whose process has been started."""
+def _missing_result(folder):
+    return next((name for name in RESULTS if not os.path.isfile(os.path.join(folder, name))), None)
 
-    def __init__(self, run, process):
-        self.run = run
-        self._process = process
-        self._started = time.monotonic()
 
-    @property
-    def seconds(self):
-        return time.monotonic() - self._started
-
-    def has_ended(self):
-        """Whether it has; if so, its outcome is on disk."""
-        exit_code = self._process.poll()
-        if exit_code is None:
-            return False
-        self.run.save_outcome(exit_code, self.seconds)
-        return True
-
-    def stop(self, patience=5.0):
-        """Ends the process and leaves no outcome, so that the run is repeated."""
-        self._process.terminate()
-        try:
-            self._process.wait(patience)
-        except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
+def _stop(process, patience=5.0):
+    process.terminate()
+    try:
+        process.wait(patience)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
 
 
 def _content(sequence):

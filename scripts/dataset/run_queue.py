@@ -1,34 +1,80 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Carries out runs, several at a time."""
 
+import concurrent.futures
+import os
 import signal
-import time
+import uuid
 
-PERIOD = 0.1  # between two looks at the processes [s]
+from .errors import DatasetError
+
+PERIOD = 0.1  # between two looks at signals and at the display [s]
+PATIENCE = 10.0  # with runs that are to stop [s]
 
 
-def carry_out(runs, jobs, progress):
-    """Carries out all runs, at most `jobs` at once, and reports each to `progress`.
+def carry_out(runs, executor, output, progress):
+    """Carries out all runs in the executor's threads, on whatever machines these are, and reports
+    each to `progress`.
 
     Returns False where SIGINT or SIGTERM ended it early. However it ends, no process stays behind,
-    and runs that had not ended are left without an outcome.
+    and runs that had not ended are left without an outcome. Raises DatasetError where the executor
+    cannot do its work.
     """
-    waiting, running = list(reversed(runs)), []
-    with _Interruption() as interruption:
+    with _Interruption() as interruption, _Session(output) as session:
+        pending = {executor.submit(run.carry_out, session.path): run for run in runs}
         try:
-            while (waiting or running) and not interruption.requested:
-                while waiting and len(running) < jobs:
-                    running.append(waiting.pop().launch())
-                progress.show([r.run.name for r in running])
-                time.sleep(PERIOD)
-                for ended in [r for r in running if r.has_ended()]:
-                    running.remove(ended)
-                    progress.ended(ended.run, ended.seconds)
+            while pending and not interruption.requested:
+                progress.show([run.name for future, run in pending.items() if future.running()])
+                done, _ = concurrent.futures.wait(pending, PERIOD,
+                                                  concurrent.futures.FIRST_COMPLETED)
+                for future in done:
+                    run = pending.pop(future)
+                    progress.ended(run, _seconds(future, run, output))
         finally:
-            for unfinished in running:
-                unfinished.stop()
-            progress.clear()
-    return not (waiting or running)
+            session.end()
+            for future in pending:
+                future.cancel()
+            concurrent.futures.wait(pending, PATIENCE)
+            progress.close()
+    return not pending
+
+
+def _seconds(future, run, output):
+    """How long the run took; a run that could not be carried out gets its outcome here."""
+    try:
+        seconds = future.result()
+    except concurrent.futures.CancelledError:
+        raise DatasetError("the connection to the scheduler is lost; the same command goes on from"
+                           " here") from None
+    except ModuleNotFoundError as error:
+        raise DatasetError(f"a worker lacks {error.name}; start the workers with this checkout's"
+                           " scripts/ in PYTHONPATH") from None
+    except Exception as error:  # whatever the executor or the other machine comes up with
+        run.save_failure(f"not carried out: {type(error).__name__}: {error}")
+        return 0.0
+    if seconds is None:
+        raise DatasetError(f"{output}: a worker does not see this folder; all machines need it,"
+                           " recordings, configuration and program under the same paths")
+    return seconds
+
+
+class _Session:
+    """A file in the output folder that is there as long as runs are wanted: whoever carries one out
+    sees it go, on this machine or another."""
+
+    def __init__(self, output):
+        self.path = os.path.join(output, f".session-{uuid.uuid4().hex}")
+
+    def __enter__(self):
+        with open(self.path, "w", encoding="utf-8"):
+            return self
+
+    def end(self):
+        if os.path.exists(self.path):
+            os.remove(self.path)
+
+    def __exit__(self, *_):
+        self.end()
 
 
 class _Interruption:

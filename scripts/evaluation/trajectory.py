@@ -27,8 +27,14 @@ class Trajectory:
         return self.stamps[-1] - self.stamps[0]
 
     @property
+    def distances(self):
+        """Length of the path up to each pose (n,) [m]."""
+        steps = np.linalg.norm(np.diff(self.positions, axis=0), axis=1)
+        return np.concatenate([[0.0], np.cumsum(steps)])
+
+    @property
     def path_length(self):
-        return float(np.linalg.norm(np.diff(self.positions, axis=0), axis=1).sum())
+        return float(self.distances[-1])
 
     def select(self, indices):
         return Trajectory(self.stamps[indices], self.positions[indices], self.rotations[indices])
@@ -55,6 +61,13 @@ def read_trajectory(path):
         raise TrajectoryError(f"{path}: {len(rows)} poses, at least 3 are needed")
     table = np.array(rows)
     return Trajectory(table[:, 0], table[:, 1:4], _rotations(table[:, 4:8]))
+
+
+def format_tum(trajectory):
+    """The trajectory as the text of a TUM file, stamps to the nanosecond."""
+    rows = np.column_stack([trajectory.positions, _quaternions(trajectory.rotations)])
+    return "".join(f"{stamp:.9f} " + " ".join(f"{value:.9f}" for value in row) + "\n"
+                   for stamp, row in zip(trajectory.stamps, rows))
 
 
 def _parse_row(line, where, previous_stamp):
@@ -87,3 +100,21 @@ def _rotations(quaternions):
         2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
         2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y),
     ], axis=1).reshape(-1, 3, 3)
+
+
+def _quaternions(rotations):
+    """Unit quaternions (n, 4) in the order x y z w, with w >= 0, of rotation matrices (n, 3, 3).
+
+    It is the eigenvector to the largest eigenvalue of a symmetric matrix [BarItzhack2000], which is
+    exact for all angles; formulas with the trace need cases.
+    """
+    trace = np.trace(rotations, axis1=1, axis2=2)
+    matrices = np.empty((len(rotations), 4, 4))
+    matrices[:, :3, :3] = rotations + np.swapaxes(rotations, 1, 2) \
+        - trace[:, None, None] * np.eye(3)
+    matrices[:, :3, 3] = matrices[:, 3, :3] = np.stack(
+        [rotations[:, 2, 1] - rotations[:, 1, 2], rotations[:, 0, 2] - rotations[:, 2, 0],
+         rotations[:, 1, 0] - rotations[:, 0, 1]], axis=1)
+    matrices[:, 3, 3] = trace
+    quaternions = np.linalg.eigh(matrices)[1][:, :, -1]
+    return quaternions * np.where(quaternions[:, 3:] < 0, -1.0, 1.0)

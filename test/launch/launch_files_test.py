@@ -21,7 +21,7 @@ LAUNCH = pathlib.Path(rospkg.RosPack().get_path("plm_vins")) / "launch"
 # Files with a configuration of their own, and those that ask for one.
 SENSORS = {"euroc.launch": "euroc.yaml", "realsense_d435i.launch": "realsense_d435i.yaml",
            "tum_vi.launch": "tum_vi.yaml"}
-TEMPLATES = ("own_sensor.launch", "plm_vins.launch")
+TEMPLATES = ("own_sensor.launch", "plm_vins.launch", "px4.launch")
 ALL = (*SENSORS, *TEMPLATES)
 NODELETS = {"feature_tracker": "plm_vins/FeatureTracker",
             "linefeature_tracker": "plm_vins/LineFeatureTracker"}
@@ -36,16 +36,23 @@ PACKAGE_PATH = os.environ["ROS_PACKAGE_PATH"]
 
 
 def setUpModule():
-    """A package in place of the camera's driver, for all tests: ROS caches what it finds."""
+    """Packages in place of the camera's driver and of mavros, for all tests: ROS caches what it
+    finds."""
     folder = tempfile.TemporaryDirectory()
     unittest.addModuleCleanup(folder.cleanup)
-    package = pathlib.Path(folder.name) / "realsense2_camera"
-    (package / "launch").mkdir(parents=True)
-    (package / "package.xml").write_text("<package><name>realsense2_camera</name></package>")
-    arguments = "".join(f'<arg name="{name}" default=""/><param name="/driver/{name}"'
-                        f' value="$(arg {name})"/>' for name in DRIVER_ARGUMENTS)
-    (package / "launch" / "rs_camera.launch").write_text(f"<launch>{arguments}</launch>")
+    make_package(folder.name, "realsense2_camera", "rs_camera.launch", "driver", DRIVER_ARGUMENTS)
+    make_package(folder.name, "mavros", "px4.launch", "mavros", ("fcu_url",))
     os.environ["ROS_PACKAGE_PATH"] = f"{folder.name}:{PACKAGE_PATH}"
+
+
+def make_package(folder, name, launch_file, namespace, arguments):
+    """A package whose launch file makes parameters of its arguments."""
+    package = pathlib.Path(folder) / name
+    (package / "launch").mkdir(parents=True)
+    (package / "package.xml").write_text(f"<package><name>{name}</name></package>")
+    text = "".join(f'<arg name="{argument}" default=""/><param name="/{namespace}/{argument}"'
+                   f' value="$(arg {argument})"/>' for argument in arguments)
+    (package / "launch" / launch_file).write_text(f"<launch>{text}</launch>")
 
 
 def load(name, **arguments):
@@ -69,13 +76,15 @@ class LaunchFiles(unittest.TestCase):
         for name in ALL:
             with self.subTest(name):
                 nodes, parameters = load(name, config="/mine.yaml", bag="/a.bag")
-                ours = [node for node in nodes.values() if node.package == "plm_vins"]
-                self.assertEqual(sorted(node.name for node in ours),
-                                 ["feature_tracker", "linefeature_tracker", "vins_estimator"])
-                for node in ours:
-                    self.assertEqual(parameters[f"/{node.name}/config_file"], "/mine.yaml")
+                ours = {node.name: node for node in nodes.values() if node.package == "plm_vins"}
+                for node in ours.values():
                     self.assertTrue(roslib.packages.find_node(
                         "plm_vins", node.type), node.type)
+                ours.pop("mavros_relay", None)  # it needs no configuration
+                self.assertEqual(sorted(ours),
+                                 ["feature_tracker", "linefeature_tracker", "vins_estimator"])
+                for node_name in ours:
+                    self.assertEqual(parameters[f"/{node_name}/config_file"], "/mine.yaml")
 
     def test_sensors_have_a_configuration(self):
         for name, config in SENSORS.items():
@@ -176,6 +185,25 @@ class RealSense(unittest.TestCase):
                                 check=False)
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("realsense2_camera", result.stdout)
+
+
+class Px4(unittest.TestCase):
+    def test_relay(self):
+        nodes, parameters = load("px4.launch", config="c.yaml", rate="50",
+                                 imu_to_base="-0.1 0 0 0 0 3.14")
+        self.assertEqual((parameters["/mavros_relay/rate"], parameters["/mavros_relay/base_frame"]),
+                         (50, "base_link"))
+        self.assertEqual(parameters["/mavros_relay/imu_to_base"], "-0.1 0 0 0 0 3.14")
+        self.assertTrue(all(nodes[name].respawn for name in ("vins_estimator", "mavros_relay")))
+        self.assertNotIn("/mavros/fcu_url", parameters)
+
+    def test_base_that_tf_has(self):
+        parameters = load("px4.launch", config="c.yaml", imu_to_base="tf")[1]
+        self.assertNotIn("/mavros_relay/imu_to_base", parameters)
+
+    def test_mavros(self):
+        parameters = load("px4.launch", config="c.yaml", fcu_url="/dev/ttyACM0:921600")[1]
+        self.assertEqual(parameters["/mavros/fcu_url"], "/dev/ttyACM0:921600")
 
 
 if __name__ == "__main__":

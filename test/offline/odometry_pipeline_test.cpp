@@ -111,6 +111,24 @@ TEST(OdometryPipeline, DrawsPointsAndLinesOfOneImage) {
   }
 }
 
+TEST(OdometryPipeline, ShowsTracksEverySoOften) {
+  MemoryRecording recording = StillRecording(400);  // an image every 50 ms
+  OdometryPipeline pipeline(StillConfig());
+  std::vector<int64_t> stamps_ns;
+  pipeline.ShowTracks(0.1, [&](int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) {
+    stamps_ns.push_back(t_ns);
+    for (const cv::Mat& image : {points, lines}) {
+      EXPECT_EQ(image.size(), StillPicture().size());
+      EXPECT_EQ(image.type(), CV_8UC3);
+    }
+  });
+  pipeline.Run(&recording, {}, 2, [](const PipelineFrame&) {});
+  ASSERT_GE(stamps_ns.size(), 3u);
+  for (size_t i = 1; i < stamps_ns.size(); ++i) {
+    EXPECT_EQ(stamps_ns[i] - stamps_ns[i - 1], 100'000'000);
+  }
+}
+
 TEST(OdometryPipeline, FollowsLinesOnlyWhereTheyAreUsed) {
   for (const bool use_lines : {false, true}) {
     MemoryRecording recording = StillRecording(400);

@@ -43,6 +43,26 @@ PipelineFrame MakeFrame(int64_t t_ns, bool has_pose) {
   return frame;
 }
 
+TEST(ResultFiles, ATrackImageHasPointsAndLinesSideBySide) {
+  const testing::TemporaryFolder folder;
+  const cv::Mat blue(40, 60, CV_8UC3, cv::Scalar(255, 0, 0));
+  const cv::Mat red(40, 60, CV_8UC3, cv::Scalar(0, 0, 255));
+  {
+    const ResultFiles results(folder.File("run"));
+    results.WriteTrackImage(7, blue, red);
+    results.WriteTrackImage(8, blue, {});
+    results.WriteTrackImage(9, {}, {});
+  }
+  const cv::Mat both = cv::imread(folder.File("run/tracks/7.jpg"));
+  ASSERT_EQ(both.size(), cv::Size(60, 20));
+  EXPECT_GT(both.at<cv::Vec3b>(10, 10)[0], 200);
+  EXPECT_GT(both.at<cv::Vec3b>(10, 50)[2], 200);
+  EXPECT_EQ(cv::imread(folder.File("run/tracks/8.jpg")).size(), cv::Size(30, 20));
+  EXPECT_TRUE(cv::imread(folder.File("run/tracks/9.jpg")).empty());
+  const ResultFiles next_run(folder.File("run"));
+  EXPECT_TRUE(cv::imread(folder.File("run/tracks/7.jpg")).empty());
+}
+
 TEST(ResultFiles, AreWrittenFrameByFrame) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.File("new/folder"));

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """scripts/evaluate.py against cases whose numbers are known by hand."""
 
+import io
 import json
 import os
 import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 
 import numpy as np
 
@@ -15,7 +17,8 @@ SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "
 sys.path.insert(0, SCRIPTS)
 from evaluate import error_statistics, evaluate, format_report  # noqa: E402
 from evaluation import evo_backend, metrics  # noqa: E402
-from evaluation.trajectory import Trajectory, TrajectoryError, read_trajectory  # noqa: E402
+from evaluation.trajectory import (  # noqa: E402
+    Trajectory, TrajectoryError, format_tum, read_trajectory)
 
 START = 1403636580.0  # [s], as large as real stamps are
 
@@ -170,6 +173,21 @@ class Association(unittest.TestCase):
             evaluate(flight().shifted(1000.0), flight())
 
 
+class TumFormat(unittest.TestCase):
+    def test_poses_come_back_for_all_angles(self):
+        turns = np.array([rotation(axis, angle) for angle in (0, 1e-7, 90, 179.9999, 180)
+                          for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (0.6, 0, -0.8))])
+        poses = Trajectory(START + np.arange(len(turns)), np.arange(3 * len(turns)).reshape(-1, 3),
+                           turns)
+        with tempfile.NamedTemporaryFile("w+", suffix=".tum") as file:
+            file.write(format_tum(poses))
+            file.flush()
+            read = read_trajectory(file.name)
+        np.testing.assert_allclose(read.stamps, poses.stamps, atol=1e-6)
+        np.testing.assert_allclose(read.positions, poses.positions, atol=1e-9)
+        np.testing.assert_allclose(read.rotations, poses.rotations, atol=1e-8)
+
+
 class Coverage(unittest.TestCase):
     def coverage(self, keep):
         truth = flight(seconds=10.0)
@@ -243,6 +261,55 @@ class CommandLine(unittest.TestCase):
         self.assertLess(figures["ape_rotation_deg"]["rmse"], 1e-4)
         self.assertEqual(sorted(os.listdir(plots)),
                          ["ape.png", "trajectory.png", "translation.png"])
+
+    def evo_zip(self, *options):
+        """The parts of a result file of an estimate that is 0.3 m off, now here, now there."""
+        estimate = self.write("estimate.tum", "".join(
+            line if i % 2 else line.replace(" 0.", " 0.3", 1)
+            for i, line in enumerate(self.spiral(" ").splitlines(keepends=True))))
+        truth = self.write("truth.tum", self.spiral(" "))
+        path = os.path.join(self.folder.name, "points.zip")
+        result = self.run_script(estimate, truth, "--evo-zip", path, "--json",
+                                 os.path.join(self.folder.name, "figures.json"), *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with zipfile.ZipFile(path) as archive:
+            parts = {name: archive.read(name) for name in archive.namelist()}
+        return path, parts
+
+    def test_evo_zip_has_what_evo_res_reads(self):
+        _, parts = self.evo_zip()
+        info, stats = json.loads(parts["info.json"]), json.loads(parts["stats.json"])
+        self.assertEqual((info["est_name"], info["ref_name"]), ("points", "reference"))
+        self.assertEqual(info["title"], "APE w.r.t. translation part (m)\n"
+                                        "(with SE(3) Umeyama alignment)")
+        with open(os.path.join(self.folder.name, "figures.json"), encoding="utf-8") as file:
+            figures = json.load(file)["ape_m"]
+        arrays = {name[:-4]: np.load(io.BytesIO(data)) for name, data in parts.items()
+                  if name.endswith(".npz")}
+        self.assertGreater(figures["rmse"], 0.01)
+        for name in ("rmse", "mean", "median", "std", "min", "max"):
+            self.assertAlmostEqual(stats[name], figures[name], 12)
+        self.assertAlmostEqual(stats["sse"], 100 * stats["rmse"] ** 2, 9)
+        self.assertAlmostEqual(arrays["error_array"].max(), stats["max"], 12)
+        self.assertAlmostEqual(arrays["timestamps"][99], 1403636584.95, 6)
+        self.assertAlmostEqual(arrays["seconds_from_start"][99], 4.95, 6)
+        self.assertAlmostEqual(arrays["distances_from_start"][99], 99 * np.hypot(
+            2 * np.sin(0.05), 0.01), 6)
+        poses = read_trajectory(self.write("poses.tum", parts["points.tum"].decode()))
+        truth = read_trajectory(self.write("poses.tum", parts["reference.tum"].decode()))
+        np.testing.assert_allclose(metrics.position_errors(poses, truth), arrays["error_array"],
+                                   atol=1e-8)
+
+    def test_evo_zip_tells_the_alignment(self):
+        self.assertIn("not aligned", json.loads(self.evo_zip("--align", "none")[1]["info.json"])[
+            "title"])
+
+    @unittest.skipUnless(evo_backend.is_available(), "evo is not installed")
+    def test_evo_reads_the_zip(self):
+        from evo.tools import file_interface
+        result = file_interface.load_res_file(self.evo_zip()[0], load_trajectories=True)
+        self.assertEqual(len(result.np_arrays["error_array"]), 100)
+        self.assertEqual(result.trajectories["points"].num_poses, 100)
 
     def test_time_offset(self):
         truth = self.write("truth.tum", self.spiral(" "))

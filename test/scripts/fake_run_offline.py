@@ -3,10 +3,10 @@
 """Stands in for run_offline in tests of run_dataset.py.
 
 The "recording" is a text file whose words say what happens: `fly` gives results, `fail`, `crash`,
-`hang`, `lose` (ends well without results), `meet` (flies once another run is under way too),
-`stumble` (fails from STUMBLE on). The estimate is FLIGHT with offsets of alternating sign, so that
-the APE is known: OFFSETS, and with `drift` DRIFT more for every second that is skipped. Every call
-leaves a line in calls.txt beside the program.
+`hang`, `hang_once` (the first run only), `lose` (ends well without results), `meet` (flies once
+another run is under way too), `stumble` (fails from STUMBLE on). The estimate is FLIGHT with
+offsets of alternating sign, so that the APE is known: OFFSETS, and with `drift` DRIFT more for
+every second that is skipped. Every call leaves a line in calls.txt beside the program.
 """
 
 import argparse
@@ -84,6 +84,14 @@ def meet(folder):
     return False
 
 
+def is_first(folder):
+    try:
+        os.mkdir(os.path.join(folder, "hung_once"))
+    except FileExistsError:
+        return False
+    return True
+
+
 def main():
     options = parse_arguments()
     settings = dict(text.split("=", 1) for text in options.set)
@@ -97,9 +105,9 @@ def main():
         sys.exit("run_offline: no trajectory from 400 images: too little motion")
     if "crash" in words:
         os.kill(os.getpid(), signal.SIGKILL)
-    if "hang" in words:
+    if "hang" in words or ("hang_once" in words and is_first(folder)):
         with open(os.path.join(options.output, "pid"), "w", encoding="utf-8") as file:
-            file.write(f"{os.getpid()}\n")
+            file.write(f"{os.getpid()} {os.getppid()}\n")
         time.sleep(600)
     if "meet" in words and not meet(folder):
         sys.exit("run_offline: nobody came")

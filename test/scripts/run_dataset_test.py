@@ -3,8 +3,11 @@
 """scripts/run_dataset.py as it is called, with fake_run_offline.py in the place of run_offline."""
 
 import csv
+import glob
+import importlib.util
 import os
 import pty
+import re
 import shutil
 import signal
 import subprocess
@@ -62,6 +65,19 @@ class DatasetTest(unittest.TestCase):
         except FileNotFoundError:
             return []
 
+    def hanging_run(self):
+        """Waits until a run hangs; returns the ids of its process and of that which started it."""
+        deadline = time.monotonic() + 120
+        while time.monotonic() < deadline:
+            for path in glob.glob(os.path.join(self.output, "runs", "*", "*", "*", "pid")):
+                with open(path, encoding="utf-8") as file:
+                    text = file.read()
+                if text.endswith("\n"):
+                    return [int(word) for word in text.split()]
+            time.sleep(0.02)
+        self.fail("no run hangs")
+        return None
+
     def report(self):
         with open(os.path.join(self.output, "report.md"), encoding="utf-8") as file:
             return file.read()
@@ -103,6 +119,23 @@ class Results(DatasetTest):
                      "hall/ape.png", "hall/translation.png"):
             self.assertIn(f"(plots/{name})", report)
             self.assertTrue(os.path.isfile(os.path.join(self.output, "plots", name)))
+        self.assert_pages_are_linked(result.stdout)
+
+    def assert_pages_are_linked(self, messages):
+        if importlib.util.find_spec("plotly") is None:
+            self.assertIn("install python3-plotly", messages)
+            return
+        with open(os.path.join(self.output, "index.html"), encoding="utf-8") as file:
+            index = file.read()
+        pages = re.findall(r"href='(runs/[^']*)'", index)
+        self.assertEqual(len(pages), 8)
+        for page in pages:
+            path = os.path.join(self.output, page)
+            with open(path, encoding="utf-8") as file:
+                library, = re.findall(r"src='([^']*plotly.js)'", file.read())
+            self.assertTrue(os.path.isfile(os.path.join(os.path.dirname(path), library)))
+        for figure in ("scene0", "error0", "scene1", "error1"):
+            self.assertIn(f"newPlot('{figure}'", index)
 
     def test_coverage_of_a_part_counts_that_part_only(self):
         self.add("hall")
@@ -242,19 +275,12 @@ class Resuming(DatasetTest):
         shutil.rmtree(os.path.join(self.output, "runs", "b_hangs"), ignore_errors=True)
         with subprocess.Popen(self.command("--variants", "improved"), stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, encoding="utf-8") as process:
-            pid_file = os.path.join(self.output, "runs", "b_hangs", "improved", "1", "pid")
-            deadline = time.monotonic() + 120
-            pid = ""
-            while not pid.endswith("\n"):
-                self.assertLess(time.monotonic(), deadline)
-                time.sleep(0.02)
-                if os.path.isfile(pid_file):
-                    with open(pid_file, encoding="utf-8") as file:
-                        pid = file.read()
+            pid, _ = self.hanging_run()
             process.send_signal(number)
             _, messages = process.communicate(timeout=120)
         with self.assertRaises(ProcessLookupError):
-            os.kill(int(pid), 0)
+            os.kill(pid, 0)
+        self.assertEqual(os.listdir(os.path.join(self.output, "runs", "b_hangs", "improved")), [])
         return process.returncode, messages
 
     def test_interruption_leaves_no_process_and_is_resumed(self):
@@ -300,8 +326,8 @@ class Terminal(DatasetTest):
                               stdout=subprocess.DEVNULL, stderr=slave):
             os.close(slave)
             text = self.read_all(master)
-        self.assertIn("\r\033[K[........................] 0/2  hall improved 1", text)
-        self.assertIn("] 1/2, 0:0", text)
+        self.assertRegex(text, r"\r +0%.* 0/2 .*hall improved 1")
+        self.assertRegex(text, r"\r +50%.* 1/2 .*room improved 1")
         self.assertIn("[2/2] room improved 1: APE 0.1", text)
 
     @staticmethod
@@ -313,6 +339,82 @@ class Terminal(DatasetTest):
                 text += os.read(terminal, 4096)
             except OSError:
                 return text.decode()
+
+
+@unittest.skipUnless(importlib.util.find_spec("distributed"), "Dask is not installed")
+class Cluster(DatasetTest):
+    """A Dask scheduler and two workers, as on three machines that share a folder."""
+
+    def setUp(self):
+        super().setUp()
+        self.scheduler_file = self.path("scheduler.json")
+        self.start("scheduler", "--port", "0", "--no-dashboard")
+        scripts = os.path.dirname(os.path.abspath(RUN_DATASET))
+        self.workers = [self.start("worker", "--nthreads", "1", "--no-nanny", "--no-dashboard",
+                                   PYTHONPATH=scripts) for _ in range(2)]
+        self.address = self.wait_for_workers(2)
+
+    def start(self, kind, *options, **environment):
+        """A process of Dask's, ended with the test."""
+        process = subprocess.Popen(
+            [sys.executable, "-B", "-m", f"distributed.cli.dask_{kind}", "--scheduler-file",
+             self.scheduler_file, *options], cwd=self.folder, env=dict(os.environ, **environment),
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def wait_for_workers(self, count):
+        import distributed
+        deadline = time.monotonic() + 60
+        while not os.path.isfile(self.scheduler_file):
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.05)
+        with distributed.Client(scheduler_file=self.scheduler_file, timeout=60) as client:
+            client.wait_for_workers(count, timeout=60)
+            return client.scheduler.address
+
+    def test_runs_are_under_way_at_the_same_time(self):
+        self.add("hall", "fly meet")
+        result = self.call("--no-plots", "--variants", "improved", "--repetitions", "2",
+                           "--jobs", "1", "--scheduler", self.address)
+        self.assertIn(f"by 2 workers of {self.address}", result.stdout)
+        self.assertEqual([row["status"] for row in self.rows()], ["compared"] * 2)
+        result = self.call("--no-plots", "--variants", "improved", "--repetitions", "2",
+                           "--scheduler", self.address)
+        self.assertIn("2 of them finished before", result.stdout)
+        self.assertEqual(len(self.calls()), 2)
+
+    def test_the_run_of_a_lost_worker_is_done_again(self):
+        self.add("a_flies")
+        self.add("b_hangs", "fly hang_once")
+        self.add("c_flies")
+        with subprocess.Popen(self.command("--no-plots", "--variants", "improved", "--scheduler",
+                                           self.address), stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, encoding="utf-8") as process:
+            orphan, worker = self.hanging_run()
+            self.addCleanup(os.kill, orphan, signal.SIGKILL)
+            self.assertIn(worker, [w.pid for w in self.workers])
+            os.kill(worker, signal.SIGKILL)
+            _, messages = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 0, messages)
+        self.assertEqual([row["status"] for row in self.rows()], ["compared"] * 3)
+        self.assertEqual(sum("b_hangs" in call for call in self.calls()), 2)
+        self.assertEqual(os.listdir(os.path.join(self.output, "runs", "b_hangs", "improved")),
+                         ["1"])
+
+    def test_interruption_leaves_no_process(self):
+        self.add("b_hangs", "hang")
+        with subprocess.Popen(self.command("--variants", "improved", "--scheduler", self.address),
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                              encoding="utf-8") as process:
+            pid, _ = self.hanging_run()
+            process.send_signal(signal.SIGINT)
+            _, messages = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130, messages)
+        self.assertIn("1 of 1 runs left", messages)
+        with self.assertRaises(ProcessLookupError):
+            os.kill(pid, 0)
 
 
 class BadCalls(DatasetTest):
@@ -331,6 +433,8 @@ class BadCalls(DatasetTest):
         self.assert_refused("missing.yaml: no such file", "--config", "missing.yaml")
         self.assert_refused("missing: no such program", "--run-offline", "missing")
         self.assert_refused("from 1 on instead of 0", "--jobs", "0", exit_code=2)
+        if importlib.util.find_spec("distributed"):
+            self.assert_refused("no Dask scheduler there", "--scheduler", "nonsense://here")
         self.assert_refused("zero or more, instead of nan", "--start", "nan", exit_code=2)
         self.assert_refused("zero or more, instead of -1", "--starts=-1", exit_code=2)
         self.assert_refused("--starts: not allowed with argument --start", "--start", "1",

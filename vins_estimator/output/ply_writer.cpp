@@ -16,6 +16,19 @@ std::string FormatPoint(const Eigen::Vector3d& p) {
   return text;
 }
 
+const char* Color(LineAxis axis) {
+  switch (axis) {
+    case LineAxis::kX:
+      return "220 40 40";
+    case LineAxis::kY:
+      return "40 160 40";
+    case LineAxis::kZ:
+      return "50 90 230";
+    default:
+      return "140 140 140";
+  }
+}
+
 constexpr char kFormat[] = "ply\nformat ascii 1.0\n";
 constexpr char kCoordinates[] = "property float x\nproperty float y\nproperty float z\n";
 
@@ -41,11 +54,14 @@ void PlyPointWriter::Finish() {
 void WriteSegmentsPly(const std::vector<Segment>& segments, std::ostream* stream) {
   *stream << kFormat << "element vertex " << 2 * segments.size() << "\n"
           << kCoordinates << "element edge " << segments.size() << "\n"
-          << "property int vertex1\nproperty int vertex2\nend_header\n";
+          << "property int vertex1\nproperty int vertex2\n"
+          << "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
   for (const Segment& segment : segments) {
     *stream << FormatPoint(segment.start) << FormatPoint(segment.end);
   }
-  for (size_t i = 0; i < segments.size(); ++i) *stream << 2 * i << " " << 2 * i + 1 << "\n";
+  for (size_t i = 0; i < segments.size(); ++i) {
+    *stream << 2 * i << " " << 2 * i + 1 << " " << Color(segments[i].axis) << "\n";
+  }
 }
 
 void WriteSegmentsObj(const std::vector<Segment>& segments, std::ostream* stream) {

@@ -7,6 +7,8 @@
 #include <ostream>
 #include <vector>
 
+#include "vins_estimator/state/line_axis.h"
+
 namespace plm_vins {
 
 // A point cloud as ASCII PLY, written point by point, so that a long run needs no memory for it.
@@ -26,13 +28,15 @@ class PlyPointWriter {
   int64_t size_ = 0;
 };
 
-// A line segment in the world [m].
+// A line segment in the world [m], and the axis of the Manhattan frame that it runs along.
 struct Segment {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d end = Eigen::Vector3d::Zero();
+  LineAxis axis = LineAxis::kFree;
 };
 
-// Segments as edges between vertices (ASCII PLY), and as Wavefront OBJ.
+// Segments as edges between vertices (ASCII PLY), red, green and blue along the axes x, y and z,
+// grey where free; and as Wavefront OBJ, without.
 void WriteSegmentsPly(const std::vector<Segment>& segments, std::ostream* stream);
 void WriteSegmentsObj(const std::vector<Segment>& segments, std::ostream* stream);
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "common/config.h"
+#include "common/ros/robot_base.h"
 #include "vins_estimator/estimation_stage.h"
 #include "vins_estimator/ros/line_markers.h"
-#include "vins_estimator/ros/robot_base.h"
 
 namespace plm_vins {
 

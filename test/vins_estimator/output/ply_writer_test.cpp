@@ -29,16 +29,17 @@ TEST(PlyPointWriter, AnEmptyMapIsValid) {
                 kVertexProperties + "end_header\n");
 }
 
-TEST(Segments, PlyJoinsVerticesByEdges) {
+TEST(Segments, PlyJoinsVerticesByEdgesInTheColorsOfTheirAxes) {
   std::ostringstream stream;
-  WriteSegmentsPly({{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 2}}}, &stream);
+  WriteSegmentsPly({{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 2}, LineAxis::kZ}}, &stream);
   EXPECT_EQ(stream.str(), std::string("ply\nformat ascii 1.0\nelement vertex 4\n") +
                               kVertexProperties +
                               "element edge 2\nproperty int vertex1\nproperty int vertex2\n"
+                              "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                               "end_header\n"
                               "0.0000 0.0000 0.0000\n1.0000 0.0000 0.0000\n"
                               "0.0000 1.0000 0.0000\n0.0000 1.0000 2.0000\n"
-                              "0 1\n2 3\n");
+                              "0 1 140 140 140\n2 3 50 90 230\n");
 }
 
 TEST(Segments, ObjCountsFromOne) {

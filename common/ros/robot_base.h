@@ -4,6 +4,7 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -24,7 +25,7 @@ class RobotBase {
   std::string body_frame_;
   std::string base_frame_;
   tf2_ros::Buffer buffer_;
-  std::optional<tf2_ros::TransformListener> listener_;
+  std::unique_ptr<tf2_ros::TransformListener> listener_;  // until it is known
   std::optional<Rigid3d> T_body_base_;
 };
 

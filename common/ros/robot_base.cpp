@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/ros/robot_base.h"
+#include "common/ros/robot_base.h"
 
 #include <ros/console.h>
 
@@ -8,9 +8,9 @@
 namespace plm_vins {
 
 RobotBase::RobotBase(const std::string& body_frame, const std::string& base_frame)
-    : body_frame_(body_frame), base_frame_(base_frame) {
-  listener_.emplace(buffer_);
-}
+    : body_frame_(body_frame),
+      base_frame_(base_frame),
+      listener_(std::make_unique<tf2_ros::TransformListener>(buffer_)) {}
 
 std::optional<Rigid3d> RobotBase::Locate() {
   if (T_body_base_) return T_body_base_;

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Relays the estimate to an autopilot by way of mavros; see docs/px4.md.
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <std_msgs/UInt8.h>
+
+#include <cstdint>
+#include <exception>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "common/ros/msg_conversion.h"
+#include "common/ros/robot_base.h"
+#include "mavros_relay/body_odometry.h"
+#include "mavros_relay/relay_gate.h"
+#include "mavros_relay/transform_text.h"
+
+namespace plm_vins {
+namespace {
+
+using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+BodyOdometry ToBodyOdometry(const nav_msgs::Odometry& message) {
+  const auto& q = message.pose.pose.orientation;
+  const auto& p = message.pose.pose.position;
+  const auto& twist = message.twist.twist;
+  BodyOdometry odometry;
+  odometry.T_W_B = {Eigen::Quaterniond(q.w, q.x, q.y, q.z), Eigen::Vector3d(p.x, p.y, p.z)};
+  odometry.v_B = {twist.linear.x, twist.linear.y, twist.linear.z};
+  odometry.omega_B = {twist.angular.x, twist.angular.y, twist.angular.z};
+  odometry.pose_covariance = Eigen::Map<const RowMajor6d>(message.pose.covariance.data());
+  odometry.twist_covariance = Eigen::Map<const RowMajor6d>(message.twist.covariance.data());
+  return odometry;
+}
+
+nav_msgs::Odometry ToMessage(const BodyOdometry& odometry) {
+  nav_msgs::Odometry message;
+  message.pose.pose = ToPose(odometry.T_W_B);
+  message.twist.twist.linear = ToVector3(odometry.v_B);
+  message.twist.twist.angular = ToVector3(odometry.omega_B);
+  Eigen::Map<RowMajor6d>(message.pose.covariance.data()) = odometry.pose_covariance;
+  Eigen::Map<RowMajor6d>(message.twist.covariance.data()) = odometry.twist_covariance;
+  return message;
+}
+
+// Parameters: ~rate [Hz], ~max_age [s] and ~min_pause [s] as in RelayGate; ~odom_frame and
+// ~base_frame, names that mavros has in its tf tree; ~imu_to_base, the base on the IMU, as
+// ParseTransform() reads it, or else tf is asked. ~reset_counter (latched) counts, modulo 256,
+// after how many interruptions the estimate went on.
+class MavrosRelayNode {
+ public:
+  MavrosRelayNode();
+
+ private:
+  void AddImage(const nav_msgs::Odometry& odometry);
+  void AddState(const nav_msgs::Odometry& odometry);
+  // The base in the body frame; none as long as tf does not know it.
+  std::optional<Rigid3d> LocateBase(const std::string& body_frame);
+  void ReportChange();
+  RelayGate::Options ReadOptions() const;
+
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_{"~"};
+  const std::string odom_frame_ = private_node_.param<std::string>("odom_frame", "odom");
+  const std::string base_frame_ = private_node_.param<std::string>("base_frame", "base_link");
+  RelayGate gate_{ReadOptions()};
+  bool was_interrupted_ = true;
+  std::optional<Rigid3d> T_body_base_;
+  std::optional<RobotBase> base_;  // where that is not given
+  ros::Publisher publisher_ = node_.advertise<nav_msgs::Odometry>("/mavros/odometry/out", 10);
+  ros::Publisher counter_ = private_node_.advertise<std_msgs::UInt8>("reset_counter", 1, true);
+  ros::Subscriber images_;
+  ros::Subscriber states_;
+};
+
+MavrosRelayNode::MavrosRelayNode() {
+  const auto no_delay = ros::TransportHints().tcpNoDelay();
+  std::string imu_to_base;
+  if (private_node_.getParam("imu_to_base", imu_to_base)) {
+    T_body_base_ = ParseTransform(imu_to_base);
+  }
+  counter_.publish(std_msgs::UInt8());
+  images_ =
+      node_.subscribe("/vins_estimator/odometry", 100, &MavrosRelayNode::AddImage, this, no_delay);
+  states_ = node_.subscribe("/vins_estimator/imu_propagate", 100, &MavrosRelayNode::AddState, this,
+                            no_delay);
+}
+
+RelayGate::Options MavrosRelayNode::ReadOptions() const {
+  RelayGate::Options options;
+  const auto read = [&](const std::string& name, double* value) {
+    *value = private_node_.param(name, *value);
+    if (!(*value > 0)) throw std::invalid_argument("~" + name + " must be above zero");
+  };
+  read("rate", &options.rate);
+  read("max_age", &options.max_age);
+  read("min_pause", &options.min_pause);
+  return options;
+}
+
+void MavrosRelayNode::AddImage(const nav_msgs::Odometry& odometry) {
+  gate_.AddImage(ToNanoseconds(odometry.header.stamp));
+}
+
+void MavrosRelayNode::AddState(const nav_msgs::Odometry& odometry) {
+  const BodyOdometry body = ToBodyOdometry(odometry);
+  const auto T_body_base = LocateBase(odometry.child_frame_id);
+  const bool passes =
+      T_body_base && body.IsFinite() && gate_.Pass(ToNanoseconds(odometry.header.stamp));
+  ReportChange();
+  if (!passes) return;
+  nav_msgs::Odometry message = ToMessage(MoveTo(*T_body_base, body));
+  message.header.stamp = odometry.header.stamp;
+  message.header.frame_id = odom_frame_;
+  message.child_frame_id = base_frame_;
+  publisher_.publish(message);
+}
+
+std::optional<Rigid3d> MavrosRelayNode::LocateBase(const std::string& body_frame) {
+  if (T_body_base_) return T_body_base_;
+  if (!base_) base_.emplace(body_frame, base_frame_);
+  return base_->Locate();
+}
+
+void MavrosRelayNode::ReportChange() {
+  if (gate_.is_interrupted() == was_interrupted_) return;
+  was_interrupted_ = gate_.is_interrupted();
+  if (was_interrupted_) {
+    ROS_WARN("the estimate is not relayed: there was a gap, or images no longer support it");
+    return;
+  }
+  std_msgs::UInt8 count;
+  count.data = static_cast<uint8_t>(gate_.resets());
+  counter_.publish(count);
+  ROS_INFO("the estimate is relayed, reset counter %d", count.data);
+}
+
+}  // namespace
+}  // namespace plm_vins
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "mavros_relay");
+  const ros::NodeHandle keeps_ros_running;
+  try {
+    const plm_vins::MavrosRelayNode node;
+    ros::spin();
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM(error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mavros_relay/transform_text.h"
+
+#include <sstream>
+#include <stdexcept>
+
+namespace plm_vins {
+
+Rigid3d ParseTransform(const std::string& text) {
+  std::istringstream stream(text);
+  Eigen::Vector3d p;
+  double yaw = 0, pitch = 0, roll = 0;
+  stream >> p.x() >> p.y() >> p.z() >> yaw >> pitch >> roll;
+  if (!stream || !(stream >> std::ws).eof()) {
+    throw std::invalid_argument("expected x y z yaw pitch roll [m, rad] instead of " + text);
+  }
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+                             Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+                             Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX())),
+          p};
+}
+
+}  // namespace plm_vins

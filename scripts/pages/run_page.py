@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page of one run."""
+
+import base64
+import os
+
+import numpy as np
+
+from evaluate import evaluate, format_report
+from evaluation.metrics import alignment, associate
+from evaluation.trajectory import TrajectoryError
+from show_result import rows
+
+from . import html, run_figures
+
+MAX_TIME_DIFFERENCE = 0.01  # of paired poses [s]
+MIME_TYPES = {".jpg": "image/jpeg", ".png": "image/png"}
+
+SLIDER = """<input type='range' id='slider' min='0' max='%(last)d' value='0'>
+<div id='caption'></div><img id='image' alt='tracks'>
+<script>
+const images = %(images)s;
+function show(index) {
+  document.getElementById('image').src = images[index][1];
+  document.getElementById('caption').textContent = images[index][0];
+}
+document.getElementById('slider').addEventListener('input', event => show(event.target.value));
+show(0);
+</script>"""
+
+
+def run_page(run, truth, script):
+    """The text of the page. run: a RunFolder; truth: a Trajectory or None; script: see html.page().
+    Where the two cannot be compared, the page says why and goes without the truth."""
+    pair, figures, note = _compare(run, truth)
+    table = html.table([[html.text(cell) for cell in row] for row in rows(run.summary, figures)])
+    sections = [("Run", table + (f"<p>{html.text(note)}</p>" if note else "")),
+                ("Trajectory and map", html.figure("scene", _scene(run, truth, pair), 650))]
+    if pair:
+        sections.append(("Error", html.figure("error", run_figures.error_figure({"APE": pair}))
+                         + f"<pre>{html.text(format_report(figures))}</pre>"))
+    for name, columns, title in (("counts", run_figures.COUNTS, "count"),
+                                 ("timings", run_figures.STAGES, "time [ms]")):
+        contents = run_figures.columns_figure(run.frames, columns, title)
+        sections.append((name.capitalize(), html.figure(name, contents)))
+    if run.images:
+        sections.append(("Tracks", _slider(run.images)))
+    return html.page(os.path.basename(os.path.abspath(run.path)), sections, script)
+
+
+def _compare(run, truth):
+    """The aligned estimate and the truth at its poses, their figures, and why there are none."""
+    if truth is None:
+        return None, None, "No ground truth."
+    try:
+        *pair, figures = evaluate(run.trajectory, truth, max_diff=MAX_TIME_DIFFERENCE)
+        return pair, figures, ""
+    except TrajectoryError as error:
+        return None, None, f"Not compared with the ground truth: {error}"
+
+
+def _scene(run, truth, pair):
+    """Everything in the world of the truth, where there is one to compare with."""
+    rotation, translation = np.eye(3), np.zeros(3)
+    if pair:
+        partners = associate(run.trajectory, truth, MAX_TIME_DIFFERENCE)
+        rotation, translation = alignment(*partners, "se3")
+    estimate = run.trajectory.transformed(rotation, translation)
+    trajectories = {"estimate": estimate.positions}
+    if pair:
+        during = ((truth.stamps >= estimate.stamps[0]) & (truth.stamps <= estimate.stamps[-1]))
+        trajectories[run_figures.TRUTH] = truth.positions[during]
+    lines = {axis: ends @ rotation.T + translation for axis, ends in run.lines.items()}
+    return run_figures.scene_figure(trajectories, run.points @ rotation.T + translation, lines,
+                                    _loops(run.loops, estimate))
+
+
+def _loops(stamps, estimate):
+    """The positions (n, 2, 3) at pairs of stamps (n, 2) [s]."""
+    if stamps is None:
+        return np.empty((0, 2, 3))
+    nearest = np.clip(np.searchsorted(estimate.stamps, stamps), 0, len(estimate) - 1)
+    return estimate.positions[nearest]
+
+
+def _slider(images):
+    contents = [[caption, _data_url(path)] for caption, path in images.items()]
+    return SLIDER % {"last": len(contents) - 1, "images": html.as_json(contents)}
+
+
+def _data_url(path):
+    with open(path, "rb") as file:
+        encoded = base64.b64encode(file.read()).decode("ascii")
+    return f"data:{MIME_TYPES[os.path.splitext(path)[1]]};base64,{encoded}"

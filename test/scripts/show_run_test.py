@@ -1,0 +1,223 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""scripts/show_run.py on a run with a known map; Chromium opens its page where it is installed."""
+
+import importlib.util
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import matplotlib.image
+import numpy as np
+
+from fake_run_offline import flight, write_tum
+
+SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
+sys.path.insert(0, SCRIPTS)
+from evaluation.trajectory import TrajectoryError  # noqa: E402
+from pages import run_figures  # noqa: E402
+from pages.html import as_json, page, plotly_source  # noqa: E402
+from pages.run_folder import RunFolder  # noqa: E402
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))),
+                None)
+# Of WebGL in software; plotly asks for pixels, which is slow but right.
+HARMLESS = "Canvas2D: Multiple readback operations"
+
+POINTS = "ply\nformat ascii 1.0\nelement vertex 400 \nproperty float x\nproperty float y\n" \
+         "property float z\nend_header\n"
+LINES = """ply
+format ascii 1.0
+element vertex 6
+property float x
+property float y
+property float z
+element edge 3
+property int vertex1
+property int vertex2
+property uchar red
+property uchar green
+property uchar blue
+end_header
+5 11 9
+9 11 9
+5 5 8.5
+5 5 9.5
+7 8 9
+8 9 9
+0 1 220 40 40
+2 3 50 90 230
+4 5 140 140 140
+"""
+
+
+def make_run(folder):
+    """A run of FLIGHT without errors, in a world that is turned by 90 degrees and moved."""
+    stamps, positions = flight()
+    turned = np.stack([-positions[:, 1], positions[:, 0], positions[:, 2]], axis=1) + [7, 8, 9]
+    write_tum(os.path.join(folder, "trajectory.tum"), stamps, turned)
+    texts = {"summary.json": json.dumps({"input": "gone.bag", "poses": len(stamps), "images": 410}),
+             "map.ply": POINTS + "".join(f"{7 + x} {8 + y} 9.5\n" for x in np.linspace(-2, 2, 20)
+                                         for y in np.linspace(-3, 3, 20)),
+             "lines.ply": LINES,
+             "loops.csv": "id,query_ns,match_ns,accepted\n"
+                          f"1,{round(stamps[300] * 1e9)},{round(stamps[10] * 1e9)},1\n"
+                          f"2,{round(stamps[200] * 1e9)},{round(stamps[20] * 1e9)},0\n",
+             "timing.csv": "stamp_ns,total,points_observed\n" + "".join(
+                 f"{round(stamp * 1e9)},{10 + i % 3},{100 + i % 50}\n"
+                 for i, stamp in enumerate(stamps))}
+    for name, text in texts.items():
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+            file.write(text)
+    os.mkdir(os.path.join(folder, "tracks"))
+    for seconds in (2, 10):
+        name = f"{round((stamps[0] + seconds) * 1e9)}.jpg"
+        matplotlib.image.imsave(os.path.join(folder, "tracks", name),
+                                np.full((60, 80, 3), 20 * seconds, np.uint8))
+
+
+class ShowRun(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.run_folder = os.path.join(self.folder, "run")
+        os.mkdir(self.run_folder)
+        make_run(self.run_folder)
+
+    def call(self, *options):
+        command = [sys.executable, "-B", os.path.join(SCRIPTS, "show_run.py"), self.run_folder]
+        return subprocess.run([*command, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              encoding="utf-8", check=False)
+
+    def truth(self):
+        path = os.path.join(self.folder, "truth.tum")
+        write_tum(path, *flight(rate=100.0))
+        return path
+
+    def write_page(self, *options):
+        if importlib.util.find_spec("plotly") is None:
+            self.skipTest("plotly is not installed")
+        result = self.call(*options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(result.stdout.strip(), encoding="utf-8") as file:
+            return result.stdout.strip(), file.read()
+
+
+class Folder(ShowRun):
+    def test_contents(self):
+        run = RunFolder.read(self.run_folder)
+        self.assertEqual(len(run.points), 400)
+        self.assertEqual({axis: len(ends) for axis, ends in run.lines.items()},
+                         {"along x": 1, "along y": 0, "along z": 1, "free": 1})
+        np.testing.assert_array_equal(run.lines["along z"], [[[5, 5, 8.5], [5, 5, 9.5]]])
+        np.testing.assert_allclose(run.loops - run.trajectory.stamps[0], [[15.0, 0.5]], atol=1e-6)
+        self.assertEqual(list(run.images), ["+2.00 s from the first pose",
+                                            "+10.00 s from the first pose"])
+
+    def test_what_need_not_be_there(self):
+        for name in ("map.ply", "lines.ply", "loops.csv"):
+            os.remove(os.path.join(self.run_folder, name))
+        shutil.rmtree(os.path.join(self.run_folder, "tracks"))
+        run = RunFolder.read(self.run_folder)
+        self.assertEqual((len(run.points), run.loops, run.images), (0, None, {}))
+        self.assertEqual(sum(map(len, run.lines.values())), 0)
+        self.write_page()
+
+    def test_no_run(self):
+        os.remove(os.path.join(self.run_folder, "timing.csv"))
+        with self.assertRaisesRegex(TrajectoryError, "not the folder of a run"):
+            RunFolder.read(self.run_folder)
+        result = self.call()
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("timing.csv", result.stderr)
+
+
+class Figures(unittest.TestCase):
+    def test_far_points_do_not_make_the_scene_small(self):
+        path = np.array([[0.0, 0, 0], [10, 10, 1]])
+        points = np.concatenate([np.random.default_rng(1).uniform(0, 10, (100, 3)),
+                                 [[1e5, 0, 0]]])
+        figure = run_figures.scene_figure({"estimate": path}, points)
+        traces = {trace["name"]: trace for trace in figure["data"]}
+        self.assertEqual(list(traces), ["points", "estimate"])
+        self.assertLess(max(traces["points"]["x"]), 20)
+        self.assertGreater(len(traces["points"]["x"]), 50)
+
+    def test_segments_are_apart(self):
+        lines = {"free": np.array([[[0.0, 0, 0], [1, 0, 0]], [[0, 1, 0], [1, 1, 0]]])}
+        figure = run_figures.scene_figure({"estimate": np.array([[0.0, 0, 0], [1, 1, 1]])},
+                                          lines=lines)
+        self.assertEqual(figure["data"][0]["x"], [0.0, 1.0, None, 0.0, 1.0, None])
+
+
+class Page(ShowRun):
+    def test_is_self_contained(self):
+        _, text = self.write_page("--groundtruth", self.truth())
+        own = text.replace(plotly_source(), "")
+        self.assertEqual(re.findall(r"\b(?:src|href)\s*=\s*'[^']*|url\([^)]*", own), [])
+        self.assertEqual(own.count("data:image/jpeg;base64,"), 2)
+
+    def test_map_is_in_the_world_of_the_truth(self):
+        _, text = self.write_page("--groundtruth", self.truth())
+        start = text.index("Plotly.newPlot('scene', ") + len("Plotly.newPlot('scene', ")
+        traces = {trace["name"]: trace
+                  for trace in json.JSONDecoder().raw_decode(text, start)[0]}
+
+        def positions(name):
+            return np.transpose([traces[name][axis] for axis in "xyz"])
+
+        np.testing.assert_allclose(positions("estimate"), flight()[1], atol=2e-4)
+        self.assertEqual(len(positions("ground truth")), 2001)
+        np.testing.assert_allclose(positions("loops")[:2].astype(float), flight()[1][[300, 10]],
+                                   atol=2e-4)
+        self.assertTrue("coverage 100.0 %" in text)
+
+    def test_without_ground_truth(self):
+        _, text = self.write_page("--output", os.path.join(self.folder, "page.html"))
+        self.assertTrue("No ground truth." in text)
+        self.assertFalse("Plotly.newPlot('error'" in text)
+
+    def test_ground_truth_of_another_time(self):
+        path = os.path.join(self.folder, "truth.tum")
+        stamps, positions = flight()
+        write_tum(path, stamps + 1000, positions)
+        self.assertTrue("no overlap in time" in self.write_page("--groundtruth", path)[1])
+
+    def test_text_cannot_end_a_script(self):
+        self.assertNotIn("</script>", as_json("</script>"))
+        self.assertIn("a&lt;b", page("a<b", [], ""))
+
+    @unittest.skipIf(CHROMIUM is None, "no Chromium is installed")
+    def test_in_a_browser(self):
+        path, _ = self.write_page("--groundtruth", self.truth())
+        picture = os.path.join(self.folder, "page.png")
+        result = subprocess.run(
+            [CHROMIUM, "--headless", "--no-sandbox", "--disable-dev-shm-usage",
+             "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1000,2600",
+             "--virtual-time-budget=20000", "--enable-logging=stderr", f"--screenshot={picture}",
+             f"--user-data-dir={os.path.join(self.folder, 'profile')}", f"file://{path}"],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", check=False,
+            timeout=120)
+        messages = [line for line in result.stdout.splitlines() if ":CONSOLE" in line]
+        self.assertEqual([m for m in messages if HARMLESS not in m], [])
+        pixels = np.round(255 * matplotlib.image.imread(picture)[..., :3]).astype(int)
+        scene = pixels[200:850]
+        for colour in (run_figures.ESTIMATE_COLOUR, run_figures.LINE_COLOURS["along z"],
+                       run_figures.POINT_COLOUR, run_figures.LOOP_COLOUR):
+            self.assertGreater(self.count(scene, colour), 30, colour)
+        self.assertGreater(self.count(pixels[850:], "#1f77b4"), 300, "curves over time")
+
+    @staticmethod
+    def count(pixels, colour):
+        wanted = [int(colour[i:i + 2], 16) for i in (1, 3, 5)]
+        return int((np.abs(pixels - wanted).max(axis=-1) < 25).sum())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -234,6 +234,7 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
   if (covariance.size() > 0) {
     output->pose_covariance = covariance.topLeftCorner<6, 6>();
     output->velocity_covariance = covariance.block<3, 3>(6, 6);
+    output->bias_covariance = covariance.bottomRightCorner<6, 6>();
   }
   output->timings.optimization = stopwatch.Milliseconds();
 }

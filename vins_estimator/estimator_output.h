@@ -49,6 +49,7 @@ struct EstimatorOutput {
   // Covariance of (p_W [m], rotation in B [rad]), right perturbation R_W_B Exp(theta).
   Matrix6d pose_covariance = Matrix6d::Zero();
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // of v_W [m/s]
+  Matrix6d bias_covariance = Matrix6d::Zero();  // of the accelerometer [m/s^2] and gyro [rad/s]
   Rigid3d T_B_C;
   double td = 0;                            // [s]
   std::optional<Eigen::Quaterniond> R_W_M;  // the Manhattan frame, where the scene has one

@@ -91,27 +91,40 @@ inline double GreatestError(const EstimatedFlight& flight, size_t aligned_at) {
   return greatest;
 }
 
-// Mean normalised squared errors: with the right covariance, 6 for the pose and 3 for the velocity.
+// Normalised squared errors: with the right covariances, 6 for the pose, 3 for the velocity and 6 for
+// the biases in the mean.
 struct Consistency {
-  double pose = 0, velocity = 0;
+  double pose = 0, velocity = 0, biases = 0;
 };
 
-inline Consistency MeasureConsistency(const EstimatedFlight& flight) {
+inline Consistency MeasureConsistencyAt(const EstimatedFlight& flight, size_t index) {
   const Rigid3d T = AlignHeading(flight.anchor, flight.true_anchor);
-  const Eigen::Quaterniond R_inverse = T.rotation.conjugate();
-  Consistency result;
+  const EstimatorOutput& output = flight.outputs[index];
+  const FrameState& true_state = flight.truth[index];
+  const Rigid3d truth = T.Inverse() * true_state.T_W_B();
+  Eigen::Matrix<double, 6, 1> pose, biases;
+  pose << truth.translation - output.state.position(),
+      SO3Log(output.state.rotation().conjugate() * truth.rotation);
+  const Eigen::Vector3d velocity =
+      T.rotation.conjugate() * true_state.velocity() - output.state.velocity();
+  biases << true_state.bias().accel - output.state.bias().accel,
+      true_state.bias().gyro - output.state.bias().gyro;
+  return {pose.dot(output.pose_covariance.ldlt().solve(pose)),
+          velocity.dot(output.velocity_covariance.ldlt().solve(velocity)),
+          biases.dot(output.bias_covariance.ldlt().solve(biases))};
+}
+
+// The means over a flight.
+inline Consistency MeasureConsistency(const EstimatedFlight& flight) {
+  Consistency mean;
   const double share = 1.0 / static_cast<double>(flight.truth.size());
   for (size_t i = 0; i < flight.truth.size(); ++i) {
-    const EstimatorOutput& output = flight.outputs[i];
-    const Rigid3d truth = T.Inverse() * flight.truth[i].T_W_B();
-    Eigen::Matrix<double, 6, 1> error;
-    error << truth.translation - output.state.position(),
-        SO3Log(output.state.rotation().conjugate() * truth.rotation);
-    result.pose += share * error.dot(output.pose_covariance.ldlt().solve(error));
-    const Eigen::Vector3d v = R_inverse * flight.truth[i].velocity() - output.state.velocity();
-    result.velocity += share * v.dot(output.velocity_covariance.ldlt().solve(v));
+    const Consistency consistency = MeasureConsistencyAt(flight, i);
+    mean.pose += share * consistency.pose;
+    mean.velocity += share * consistency.velocity;
+    mean.biases += share * consistency.biases;
   }
-  return result;
+  return mean;
 }
 
 }  // namespace plm_vins::testing

@@ -1,0 +1,158 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Plays a bag to the nodes and measures what they cost: the time from an image's arrival to the
+odometry of that image, and the processor's time of each node."""
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+import time
+import xmlrpc.client
+
+import numpy as np
+import rosgraph
+import rosnode
+import rospy
+import yaml
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Image
+
+QUANTILES = (50, 95, 99, 100)
+NODES = ("/feature_tracker", "/linefeature_tracker", "/tracker_manager", "/vins_estimator")
+START_TIMEOUT = 30  # [s]
+SECONDS_PER_TICK = 1 / os.sysconf("SC_CLK_TCK")
+
+
+class Latencies:
+    """Time from the arrival of an image to the arrival of its odometry, both seen from here."""
+
+    def __init__(self):
+        self._arrivals = {}  # by stamp
+        self.seconds = []
+
+    def add_image(self, message):
+        self._arrivals[message.header.stamp.to_nsec()] = time.monotonic()
+
+    def add_odometry(self, message):
+        arrival = self._arrivals.pop(message.header.stamp.to_nsec(), None)
+        if arrival is not None:
+            self.seconds.append(time.monotonic() - arrival)
+
+    @property
+    def images(self):
+        """Those that came, answered or not."""
+        return len(self._arrivals) + len(self.seconds)
+
+
+def process_of(node):
+    """The id of a node's process, or None where it does not run."""
+    try:
+        uri = rosnode.get_api_uri(rosgraph.Master("/measure_latency"), node)
+        return uri and xmlrpc.client.ServerProxy(uri).getPid("/measure_latency")[2]
+    except (OSError, rosnode.ROSNodeIOException):
+        return None
+
+
+def processor_seconds(process):
+    with open(f"/proc/{process}/stat", encoding="ascii") as file:
+        fields = file.read().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) * SECONDS_PER_TICK
+
+
+def image_topic(config):
+    with open(config, encoding="utf-8") as file:
+        text = file.read()
+    # OpenCV begins its YAML with a directive that is none.
+    lines = [line for line in text.splitlines() if not line.startswith("%YAML")]
+    return yaml.safe_load("\n".join(lines).replace("!!opencv-matrix", ""))["image_topic"]
+
+
+def launch(options, output):
+    command = ["roslaunch", "plm_vins", "plm_vins.launch", f"bag:={os.path.abspath(options.bag)}",
+               f"config:={os.path.abspath(options.config)}", f"rate:={options.rate}",
+               f"nodelets:={str(options.nodelets).lower()}", f"output:={output}",
+               f"image_transport:={options.image_transport}"]
+    if options.duration:
+        command.append(f"duration:={options.duration}")
+    return subprocess.Popen(command, stdout=subprocess.DEVNULL)
+
+
+def wait_for_master(process):
+    deadline = time.monotonic() + START_TIMEOUT
+    while not rosgraph.is_master_online():
+        if process.poll() is not None or time.monotonic() > deadline:
+            raise RuntimeError("roslaunch did not start")
+        time.sleep(0.1)
+
+
+def measure(options, output):
+    """Latencies and the processor's seconds by node."""
+    latencies, costs = Latencies(), {}
+    process = launch(options, output)
+    try:
+        wait_for_master(process)
+        rospy.init_node("measure_latency", anonymous=True, disable_signals=True)
+        rospy.Subscriber(image_topic(options.config), Image, latencies.add_image,
+                         queue_size=100, buff_size=1 << 24)
+        rospy.Subscriber("/vins_estimator/odometry", Odometry, latencies.add_odometry,
+                         queue_size=100)
+        processes = {}
+        while process.poll() is None:
+            for node in NODES:
+                if node not in processes and (found := process_of(node)):
+                    processes[node] = found
+                if node in processes and os.path.exists(f"/proc/{processes[node]}"):
+                    costs[node] = processor_seconds(processes[node])
+            time.sleep(0.2)
+    finally:
+        process.terminate()
+        process.wait()
+    return latencies, costs
+
+
+def report(latencies, costs):
+    lines = [f"{len(latencies.seconds)} poses of {latencies.images} images"]
+    if latencies.seconds:
+        values = np.percentile(1e3 * np.array(latencies.seconds), QUANTILES)
+        lines.append("image to odometry [ms]: " + ", ".join(
+            f"p{quantile} {value:.1f}" for quantile, value in zip(QUANTILES, values)))
+    for node, seconds in costs.items():
+        lines.append(f"{node[1:]:20s} {seconds:7.2f} s of CPU, "
+                     f"{1e3 * seconds / max(latencies.images, 1):6.2f} ms per image")
+    total = sum(costs.values())
+    lines.append(f"{'all':20s} {total:7.2f} s of CPU, "
+                 f"{1e3 * total / max(latencies.images, 1):6.2f} ms per image")
+    return "\n".join(lines)
+
+
+def parse_arguments(arguments):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("bag", help="ROS bag")
+    parser.add_argument("--config", required=True, help="of the sensors in the bag")
+    parser.add_argument("--duration", type=float, help="play this much [s] (default: all)")
+    parser.add_argument("--rate", type=float, default=1, help="of playing (default: 1)")
+    parser.add_argument("--nodelets", action="store_true", help="trackers as nodelets")
+    parser.add_argument("--image-transport", default="raw", help="raw (default), compressed, ...")
+    return parser.parse_args(arguments)
+
+
+def main(arguments=None):
+    options = parse_arguments(arguments)
+    for file in (options.bag, options.config):
+        if not os.path.isfile(file):
+            print(f"measure_latency.py: {file}: no such file", file=sys.stderr)
+            return 1
+    try:
+        with tempfile.TemporaryDirectory() as output:
+            latencies, costs = measure(options, output)
+    except (RuntimeError, OSError, KeyError, yaml.YAMLError) as error:
+        print(f"measure_latency.py: {error}", file=sys.stderr)
+        return 1
+    print(report(latencies, costs))
+    return 0 if latencies.seconds else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

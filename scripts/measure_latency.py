@@ -5,6 +5,7 @@ odometry of that image, and the processor's time of each node."""
 
 import argparse
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -13,7 +14,6 @@ import xmlrpc.client
 
 import numpy as np
 import rosgraph
-import rosnode
 import rospy
 import yaml
 from nav_msgs.msg import Odometry
@@ -22,6 +22,7 @@ from sensor_msgs.msg import Image
 QUANTILES = (50, 95, 99, 100)
 NODES = ("/feature_tracker", "/linefeature_tracker", "/tracker_manager", "/vins_estimator")
 START_TIMEOUT = 30  # [s]
+END_AFTER = 3  # [s] without images
 SECONDS_PER_TICK = 1 / os.sysconf("SC_CLK_TCK")
 
 
@@ -30,15 +31,22 @@ class Latencies:
 
     def __init__(self):
         self._arrivals = {}  # by stamp
+        self._last_arrival = None
         self.seconds = []
 
     def add_image(self, message):
-        self._arrivals[message.header.stamp.to_nsec()] = time.monotonic()
+        self._last_arrival = time.monotonic()
+        self._arrivals[message.header.stamp.to_nsec()] = self._last_arrival
 
     def add_odometry(self, message):
         arrival = self._arrivals.pop(message.header.stamp.to_nsec(), None)
         if arrival is not None:
             self.seconds.append(time.monotonic() - arrival)
+
+    @property
+    def ended(self):
+        """Images came, and come no more."""
+        return self._last_arrival and time.monotonic() - self._last_arrival > END_AFTER
 
     @property
     def images(self):
@@ -49,9 +57,9 @@ class Latencies:
 def process_of(node):
     """The id of a node's process, or None where it does not run."""
     try:
-        uri = rosnode.get_api_uri(rosgraph.Master("/measure_latency"), node)
-        return uri and xmlrpc.client.ServerProxy(uri).getPid("/measure_latency")[2]
-    except (OSError, rosnode.ROSNodeIOException):
+        uri = rosgraph.Master("/measure_latency").lookupNode(node)
+        return xmlrpc.client.ServerProxy(uri).getPid("/measure_latency")[2]
+    except (OSError, rosgraph.MasterException):
         return None
 
 
@@ -99,7 +107,7 @@ def measure(options, output):
         rospy.Subscriber("/vins_estimator/odometry", Odometry, latencies.add_odometry,
                          queue_size=100)
         processes = {}
-        while process.poll() is None:
+        while process.poll() is None and not latencies.ended:
             for node in NODES:
                 if node not in processes and (found := process_of(node)):
                     processes[node] = found
@@ -107,7 +115,7 @@ def measure(options, output):
                     costs[node] = processor_seconds(processes[node])
             time.sleep(0.2)
     finally:
-        process.terminate()
+        process.send_signal(signal.SIGINT)
         process.wait()
     return latencies, costs
 

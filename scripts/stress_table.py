@@ -19,7 +19,7 @@ RUN_OFFLINE = os.path.join(ROOT, "build", "devel", "lib", "plm_vins", "run_offli
 CONFIG = os.path.join(ROOT, "config", "euroc.yaml")
 HEAD = "| fault | APE [m] | largest error [m] | restarts after [s] | coverage | noticed |\n" + 6 * "|---" + "|"
 # Counts in summary.json that name a fault.
-NAMED = ("imu_implausible", "imu_gated", "imu_gaps")
+NAMED = ("imu_implausible", "imu_replaced", "imu_gaps")
 
 
 def parse_arguments(arguments):

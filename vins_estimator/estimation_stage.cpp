@@ -9,6 +9,7 @@ namespace {
 MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) {
   MeasurementSync::Options options;
   options.td = config.sensor.td;
+  options.imu_range = config.sensor.imu_range;
   options.expect_lines = config.use_lines;
   options.max_wait = max_wait;
   return options;
@@ -19,6 +20,7 @@ MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) 
 DropCounts ToDropCounts(const SyncStatistics& statistics) {
   return {{"imu_not_finite", statistics.imu_not_finite, ""},
           {"imu_implausible", statistics.imu_implausible, ""},
+          {"imu_replaced", statistics.imu_replaced, ""},
           {"imu_out_of_order", statistics.imu_out_of_order, ""},
           {"imu_gaps", statistics.imu_gaps, ""},
           {"imu_dropped_full", statistics.imu_dropped_full, ""},

@@ -27,6 +27,11 @@ double EffectiveDensitySquared(double density, double walk, double dt) {
   return dt <= kMaxImuInterval ? sensor : sensor + walk * walk * dt * dt / 12.0;
 }
 
+// The same of the doubt about the readings at both ends: the interval takes their mean.
+double DoubtSquared(double begin, double end, double dt) {
+  return (begin * begin + end * end) / 4 * dt;
+}
+
 // Linearised error propagation over one interval: the blocks of F in error' = F error that are
 // neither zero nor identity. Rows of position follow from those of velocity: dp' = dp + dt dv +
 // dt/2 (dv' - dv).
@@ -61,15 +66,18 @@ struct Transition {
 // Covariance that white noise on rate, force and the bias derivatives adds within one interval. The
 // gyro noise acts like a gyro bias of that interval; the force noise is doubly integrated exactly,
 // so that a single interval already gives full rank.
-void AddNoise(const ImuNoise& noise, const Transition& transition, Matrix15d* covariance) {
+void AddNoise(const ImuNoise& noise, const ImuSample& begin, const ImuSample& end,
+              const Transition& transition, Matrix15d* covariance) {
   const double dt = transition.dt;
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   Eigen::Matrix<double, 9, 3> d_gyro;
   d_gyro << 0.5 * dt * transition.velocity_gyro, transition.rotation_gyro, transition.velocity_gyro;
-  const double gyro = EffectiveDensitySquared(noise.gyro_density, kRateWalk, dt);
+  const double gyro = EffectiveDensitySquared(noise.gyro_density, kRateWalk, dt) +
+                      DoubtSquared(begin.gyro_doubt, end.gyro_doubt, dt);
   covariance->topLeftCorner<9, 9>() += gyro / dt * d_gyro * d_gyro.transpose();
 
-  const double accel = EffectiveDensitySquared(noise.accel_density, kForceWalk, dt);
+  const double accel = EffectiveDensitySquared(noise.accel_density, kForceWalk, dt) +
+                       DoubtSquared(begin.accel_doubt, end.accel_doubt, dt);
   const auto block = [covariance](int row, int column) {
     return covariance->block<3, 3>(row, column);
   };
@@ -136,7 +144,7 @@ void Preintegration::IntegrateInterval(const ImuSample& begin, const ImuSample& 
   transition.velocity_accel = -0.5 * dt * (R_begin + R_end);
   transition.Apply(&jacobian_);
   transition.Propagate(&covariance_);
-  AddNoise(noise_, transition, &covariance_);
+  AddNoise(noise_, begin, end, transition, &covariance_);
 
   delta_p_ += delta_v_ * dt + 0.5 * accel * dt * dt;
   delta_v_ += accel * dt;

@@ -281,6 +281,20 @@ TEST(Preintegration, AGapAddsTheUncertaintyOfARandomWalkBetweenItsEnds) {
             100 * sampled(Index::kPosition, Index::kPosition));
 }
 
+TEST(Preintegration, ADoubtfulReadingAddsItsDoubtOverTheTimeThatItStandsFor) {
+  std::vector<ImuSample> samples = ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.1, 200);
+  const Matrix15d sure = Integrate(samples).covariance();
+  samples[10].gyro_doubt = 4;
+  samples[10].accel_doubt = 20;
+  const Matrix15d doubtful = Integrate(samples).covariance();
+  // Half of the reading counts in either interval beside it, of 5 ms each.
+  const double share = 2 * std::pow(0.5 * 0.005, 2);
+  const Matrix15d added = doubtful - sure;
+  EXPECT_NEAR(added(Index::kRotation, Index::kRotation), 16 * share, 0.01 * 16 * share);
+  EXPECT_NEAR(added(Index::kVelocity, Index::kVelocity), 400 * share, 0.01 * 400 * share);
+  EXPECT_NEAR(added(Index::kGyroBias, Index::kGyroBias), 0, 1e-15);
+}
+
 TEST(Preintegration, CovarianceHardlyDependsOnTheSampleRate) {
   const Matrix15d slow = Integrate(Flight(3.0, 3.5, 100)).covariance();
   const Matrix15d fast = Integrate(Flight(3.0, 3.5, 1000)).covariance();

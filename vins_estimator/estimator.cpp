@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/stopwatch.h"
+#include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/manhattan/line_directions.h"
 #include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/measurement_check.h"
@@ -19,6 +20,9 @@ namespace {
 
 constexpr int kInitialIterations = 20;
 constexpr size_t kMinViewsToOptimize = 3;
+
+// What a shock, or a sensor that is heated or fails, may do to the biases.
+constexpr BiasStep kBiasStep = {0.1, 1.0};  // [rad/s], [m/s^2]
 
 template <typename Landmark>
 bool IsOptimized(const Landmark& landmark) {
@@ -115,6 +119,10 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   Triangulate(output);
   FindStructure(output);
   Optimize(config_.estimator.max_num_iterations, output);
+  if (ImuIsContradicted()) {
+    DoubtNewestMotion();
+    Optimize(config_.estimator.max_num_iterations, output);
+  }
   RemoveOutliers(output);
   if (const auto failure = FindFailure(*output)) {
     Reset();
@@ -147,8 +155,8 @@ void Estimator::AddFrame(const FrameMeasurement& measurement) {
   frame.cut_time_offset = measurement.time_offset;
   if (!map.window.frames.empty()) {
     const FrameState& before = map.window.newest().state;
-    frame.motion_since_previous =
-        std::make_shared<Preintegration>(config_.sensor.imu_noise, before.bias());
+    const ImuNoise noise = Scaled(config_.sensor.imu_noise, state_.imu_monitor.noise_scale());
+    frame.motion_since_previous = std::make_shared<Preintegration>(noise, before.bias());
     for (const ImuSample& sample : measurement.imu) frame.motion_since_previous->Append(sample);
     frame.state = frame.motion_since_previous->Predict(before, map.window.gravity_W);
   }
@@ -207,6 +215,7 @@ ProblemOptions Estimator::CurrentProblem() const {
 void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = state_.estimate.map;
+  output->counts.points_in_window = output->counts.lines_in_window = 0;
   ProblemBuilder builder(CurrentProblem(), &map.window, &state_.estimate.prior);
   builder.AddPrior();
   for (size_t i = 1; i < map.window.frames.size(); ++i) builder.AddMotion(i);
@@ -238,6 +247,29 @@ void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
     output->velocity_covariance = covariance.block<3, 3>(6, 6);
   }
   output->timings.optimization = stopwatch.Milliseconds();
+}
+
+bool Estimator::ImuIsContradicted() {
+  const LocalMap& map = state_.estimate.map;
+  const WindowFrame& newest = map.window.newest();
+  ImuMonitor::Evidence evidence;
+  evidence.t_ns = newest.state.t_ns;
+  evidence.chi_square = ImuChiSquare(*newest.motion_since_previous, map.window.gravity_W,
+                                     map.window.second_newest().state, newest.state);
+  const PointMap::Fit fit = map.points.FitOfNewest(map.window, options_.max_reprojection_error);
+  evidence.points = fit.seen;
+  evidence.contradicted = fit.contradicted;
+  return state_.imu_monitor.Add(evidence);
+}
+
+void Estimator::DoubtNewestMotion() {
+  WindowFrame& newest = state_.estimate.map.window.newest();
+  const Preintegration& before = *newest.motion_since_previous;
+  const ImuNoise noise = Scaled(config_.sensor.imu_noise, state_.imu_monitor.noise_scale());
+  auto doubted = std::make_shared<Preintegration>(noise, before.linearization_bias());
+  for (const ImuSample& sample : before.samples()) doubted->Append(sample);
+  doubted->AllowBiasStep(kBiasStep);
+  newest.motion_since_previous = doubted;
 }
 
 void Estimator::SlideWindow(bool keep_second_newest, EstimatorOutput* output) {

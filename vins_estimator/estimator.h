@@ -10,6 +10,7 @@
 #include "vins_estimator/estimator_output.h"
 #include "vins_estimator/failure_detector.h"
 #include "vins_estimator/imu/standstill_detector.h"
+#include "vins_estimator/imu_monitor.h"
 #include "vins_estimator/initialization/initializer.h"
 #include "vins_estimator/manhattan/manhattan_frame.h"
 #include "vins_estimator/map/view_noise.h"
@@ -43,6 +44,7 @@ class Estimator {
     Initializer initializer;
     StandstillDetector standstill_detector;
     ContradictionMonitor contradiction_monitor;
+    ImuMonitor imu_monitor;
     ManhattanFrame manhattan;
     WindowEstimate estimate;
     ViewNoise noise;
@@ -60,6 +62,8 @@ class Estimator {
   void RemoveOutliers(EstimatorOutput* output);
   std::optional<std::string> FindFailure(const EstimatorOutput& output);
   bool StandsStill(const FrameMeasurement& measurement);
+  bool ImuIsContradicted();
+  void DoubtNewestMotion();
   void Optimize(int max_iterations, EstimatorOutput* output);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
   void SlideOldest(EstimatorOutput* output);

@@ -2,6 +2,7 @@
 #include "vins_estimator/imu/preintegration.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -106,10 +107,33 @@ void Preintegration::Append(const ImuSample& sample) {
   samples_.push_back(sample);
 }
 
+void Preintegration::Join(const Preintegration& next) {
+  noise_ = next.noise_;
+  bias_step_ = {std::max(bias_step_.gyro, next.bias_step_.gyro),
+                std::max(bias_step_.accel, next.bias_step_.accel)};
+  for (const ImuSample& sample : next.samples_) {
+    if (sample.t_ns > samples_.back().t_ns) Append(sample);
+  }
+}
+
 void Preintegration::Repropagate(const ImuBias& linearization_bias) {
   bias_ = linearization_bias;
   Restart();
   for (size_t i = 1; i < samples_.size(); ++i) IntegrateInterval(samples_[i - 1], samples_[i]);
+}
+
+void Preintegration::AllowBiasStep(const BiasStep& step) {
+  bias_step_ = step;
+  sqrt_information_valid_ = false;
+}
+
+// A step at the start of the interval acts on all of it.
+Matrix15d Preintegration::covariance() const {
+  if (bias_step_.gyro == 0 && bias_step_.accel == 0) return covariance_;
+  const Eigen::Matrix<double, 15, 3> accel = jacobian_.middleCols<3>(Index::kAccelBias);
+  const Eigen::Matrix<double, 15, 3> gyro = jacobian_.middleCols<3>(Index::kGyroBias);
+  return covariance_ + bias_step_.accel * bias_step_.accel * accel * accel.transpose() +
+         bias_step_.gyro * bias_step_.gyro * gyro * gyro.transpose();
 }
 
 void Preintegration::Restart() {
@@ -186,7 +210,7 @@ FrameState Preintegration::Predict(const FrameState& start,
 const Matrix15d& Preintegration::SqrtInformation() const {
   if (sqrt_information_valid_) return sqrt_information_;
   // Cholesky from the last row up: covariance = V V^T with V upper triangular, hence U = V^-1.
-  const Matrix15d reversed = covariance_.reverse();
+  const Matrix15d reversed = covariance().reverse();
   const Eigen::LLT<Matrix15d> llt(reversed);
   if (llt.info() != Eigen::Success) {
     throw std::logic_error(

@@ -19,7 +19,7 @@ RUN_OFFLINE = os.path.join(ROOT, "build", "devel", "lib", "plm_vins", "run_offli
 CONFIG = os.path.join(ROOT, "config", "euroc.yaml")
 HEAD = "| fault | APE [m] | largest error [m] | restarts after [s] | coverage | noticed |\n" + 6 * "|---" + "|"
 # Counts in summary.json that name a fault.
-NAMED = ("imu_implausible", "imu_replaced", "imu_gaps")
+NAMED = ("imu_implausible", "imu_replaced", "imu_gaps", "imu_doubts")
 
 
 def parse_arguments(arguments):
@@ -53,8 +53,12 @@ def row(name, options, truth, folder):
 
 def _noticed(output):
     with open(os.path.join(output, "summary.json"), encoding="utf-8") as file:
-        dropped = json.load(file)["dropped"]
-    return ", ".join(f"{name} {dropped[name]}" for name in NAMED if dropped.get(name)) or "-"
+        summary = json.load(file)
+    counts = {**summary["dropped"], "imu_doubts": summary["imu_doubts"]}
+    noticed = [f"{name} {counts[name]}" for name in NAMED if counts.get(name)]
+    if summary["imu_noisy_share"] > 0:
+        noticed.append(f"IMU noisy {100 * summary['imu_noisy_share']:.0f} %")
+    return ", ".join(noticed) or "-"
 
 
 def main(arguments=None):

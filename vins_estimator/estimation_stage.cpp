@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/estimation_stage.h"
 
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
 #include "vins_estimator/estimator.h"
 
 namespace plm_vins {
 namespace {
+
+constexpr double kRateTolerance = 0.2;  // share of the configured rate
+constexpr double kMaxJitter_ms = 1.0;  // a turn of 1 rad/s moves a corner by half a pixel meanwhile
 
 MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) {
   MeasurementSync::Options options;
@@ -38,11 +45,44 @@ DropCounts ToDropCounts(const SyncStatistics& statistics) {
 }
 
 EstimationStage::EstimationStage(const Config& config, double max_wait)
-    : gyro_density_(config.sensor.imu_noise.gyro_density),
+    : imu_rate_(config.sensor.imu_rate),
+      gyro_density_(config.sensor.imu_noise.gyro_density),
       estimator_(std::make_unique<Estimator>(config)),
       sync_(MakeSyncOptions(config, max_wait)) {}
 
 EstimationStage::~EstimationStage() = default;
+
+void EstimationStage::AddImu(const ImuSample& sample) {
+  imu_rhythm_.Add(sample.t_ns);
+  sync_.AddImu(sample);
+}
+
+void EstimationStage::AddPoints(PointFrame frame) {
+  image_rhythm_.Add(frame.t_ns);
+  sync_.AddPoints(std::move(frame));
+}
+
+std::string EstimationStage::ImuContradiction() const {
+  if (imu_noise_scale_ <= 1) return "";
+  char text[256];
+  std::snprintf(text, sizeof(text),
+                "the camera contradicts the IMU, which counts as %.0f times noisier",
+                std::sqrt(imu_noise_scale_));
+  std::string why;
+  const double rate = imu_rhythm_.Interval() > 0 ? 1 / imu_rhythm_.Interval() : imu_rate_;
+  if (std::abs(rate / imu_rate_ - 1) > kRateTolerance) {
+    why += "; the IMU comes at " + std::to_string(std::lround(rate)) + " Hz, imu_rate is " +
+           std::to_string(std::lround(imu_rate_));
+  }
+  for (const auto& [name, rhythm] : {std::pair{"IMU", &imu_rhythm_}, {"images", &image_rhythm_}}) {
+    const double jitter = 1e3 * rhythm->Jitter();
+    if (jitter < kMaxJitter_ms) continue;
+    char jitters[128];
+    std::snprintf(jitters, sizeof(jitters), "; stamps of the %s jitter by %.1f ms", name, jitter);
+    why += jitters;
+  }
+  return text + (why.empty() ? "; td, the extrinsics or the noise may be wrong" : why);
+}
 
 void EstimationStage::Reset(const std::string& reason) {
   sync_.Clear();
@@ -69,6 +109,7 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   EstimatedFrame frame;
   frame.output = estimator_->Process(*measurement);
   ++frames_;
+  imu_noise_scale_ = frame.output.imu_noise_scale;
   if (frame.output.restarted) ++resets_;
   anew_ = false;
   if (restart_reason_) {

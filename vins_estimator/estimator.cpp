@@ -22,7 +22,7 @@ constexpr int kInitialIterations = 20;
 constexpr size_t kMinViewsToOptimize = 3;
 
 // What a shock, or a sensor that is heated or fails, may do to the biases.
-constexpr BiasStep kBiasStep = {0.1, 1.0};  // [rad/s], [m/s^2]
+constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]
 
 template <typename Landmark>
 bool IsOptimized(const Landmark& landmark) {
@@ -119,8 +119,9 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   Triangulate(output);
   FindStructure(output);
   Optimize(config_.estimator.max_num_iterations, output);
-  if (ImuIsContradicted()) {
-    DoubtNewestMotion();
+  if (const auto noise_scale = FindImuDoubt()) {
+    DoubtNewestMotion(*noise_scale);
+    output->imu_doubted = true;
     Optimize(config_.estimator.max_num_iterations, output);
   }
   RemoveOutliers(output);
@@ -141,6 +142,10 @@ std::optional<std::string> Estimator::FindFailure(const EstimatorOutput& output)
   auto contradiction = state_.contradiction_monitor.Add(output.t_ns, output.counts.points_in_window,
                                                         output.counts.points_rejected);
   if (contradiction) return contradiction;
+  const auto blindness = state_.blindness_monitor.Add(
+      output.t_ns, output.counts.points_observed + output.counts.lines_observed,
+      output.pose_covariance.topLeftCorner<3, 3>());
+  if (blindness) return blindness;
   return DetectFailure(FailureLimits(), state_.predicted,
                        state_.estimate.map.window.newest().state);
 }
@@ -249,7 +254,7 @@ void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
   output->timings.optimization = stopwatch.Milliseconds();
 }
 
-bool Estimator::ImuIsContradicted() {
+std::optional<double> Estimator::FindImuDoubt() {
   const LocalMap& map = state_.estimate.map;
   const WindowFrame& newest = map.window.newest();
   ImuMonitor::Evidence evidence;
@@ -262,10 +267,10 @@ bool Estimator::ImuIsContradicted() {
   return state_.imu_monitor.Add(evidence);
 }
 
-void Estimator::DoubtNewestMotion() {
+void Estimator::DoubtNewestMotion(double noise_scale) {
   WindowFrame& newest = state_.estimate.map.window.newest();
   const Preintegration& before = *newest.motion_since_previous;
-  const ImuNoise noise = Scaled(config_.sensor.imu_noise, state_.imu_monitor.noise_scale());
+  const ImuNoise noise = Scaled(config_.sensor.imu_noise, noise_scale);
   auto doubted = std::make_shared<Preintegration>(noise, before.linearization_bias());
   for (const ImuSample& sample : before.samples()) doubted->Append(sample);
   doubted->AllowBiasStep(kBiasStep);
@@ -304,6 +309,7 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->T_B_C = window.T_B_C();
   output->td = window.td;
   output->R_W_M = state_.manhattan.R_W_M();
+  output->imu_noise_scale = state_.imu_monitor.noise_scale();
   output->stationary = window.newest().stationary;
   for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
   for (const auto& [id, landmark] : map.points.landmarks()) {

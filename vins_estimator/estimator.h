@@ -6,6 +6,7 @@
 
 #include "common/config.h"
 #include "common/measurements.h"
+#include "vins_estimator/blindness_monitor.h"
 #include "vins_estimator/estimator_options.h"
 #include "vins_estimator/estimator_output.h"
 #include "vins_estimator/failure_detector.h"
@@ -44,6 +45,7 @@ class Estimator {
     Initializer initializer;
     StandstillDetector standstill_detector;
     ContradictionMonitor contradiction_monitor;
+    BlindnessMonitor blindness_monitor;
     ImuMonitor imu_monitor;
     ManhattanFrame manhattan;
     WindowEstimate estimate;
@@ -62,8 +64,8 @@ class Estimator {
   void RemoveOutliers(EstimatorOutput* output);
   std::optional<std::string> FindFailure(const EstimatorOutput& output);
   bool StandsStill(const FrameMeasurement& measurement);
-  bool ImuIsContradicted();
-  void DoubtNewestMotion();
+  std::optional<double> FindImuDoubt();
+  void DoubtNewestMotion(double noise_scale);
   void Optimize(int max_iterations, EstimatorOutput* output);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
   void SlideOldest(EstimatorOutput* output);

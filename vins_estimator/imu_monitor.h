@@ -25,15 +25,15 @@ class ImuMonitor {
     int contradicted = 0;  // of them: not where they should be
   };
 
-  // True where the newest interval is to be weighed anew, with noise_scale() and free biases.
-  bool Add(const Evidence& evidence);
+  // Where the newest interval is to be weighed anew, with free biases: by how much to scale the
+  // variance of its noise.
+  std::optional<double> Add(const Evidence& evidence);
 
-  // The variance of the IMU's noise in units of the configured one; 1 where that fits.
+  // By how much to scale it in the next interval; 1 where the configured noise fits.
   double noise_scale() const;
 
  private:
   void FollowNoise(double chi_square);
-  bool Contradicts(const Evidence& evidence);
 
   double followed_scale_ = 1;
   double excess_ = 0;                  // of chi_square over what is normal, added up

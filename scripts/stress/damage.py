@@ -21,7 +21,7 @@ class Damage:
 
 
 def read_worlds(path):
-    """The trajectories between restarts, those without a comparable number of poses left out."""
+    """The trajectories between restarts, and the stamp of the last pose before each of these."""
     poses = read_trajectory(path)
     starts, row = [0], 0
     with open(path, encoding="utf-8") as file:
@@ -31,19 +31,19 @@ def read_worlds(path):
             elif not line.startswith("#"):
                 row += 1
     ends = starts[1:] + [len(poses)]
-    return [poses.select(np.arange(start, end)) for start, end in zip(starts, ends) if end > start]
+    worlds = [poses.select(np.arange(start, end)) for start, end in zip(starts, ends) if end > start]
+    return worlds, [poses.stamps[end - 1] for end in starts[1:]]
 
 
 def assess(path, truth, fault_at):
     """`fault_at` [s] on the clock of the stamps. TrajectoryError where nothing can be compared."""
-    worlds = read_worlds(path)
+    worlds, restarts = read_worlds(path)
     poses = read_trajectory(path)
     squares = np.concatenate([_squared_errors(world, truth) for world in worlds])
     if not len(squares):
         raise TrajectoryError(f"{path}: no world frame is long enough")
-    restarts = [world.stamps[-1] - fault_at for world in worlds[:-1]]
-    return Damage(float(np.sqrt(squares.mean())), _jump(worlds, truth, fault_at), restarts,
-                  metrics.coverage(poses, truth, 0.5))
+    return Damage(float(np.sqrt(squares.mean())), _jump(worlds, truth, fault_at),
+                  [stamp - fault_at for stamp in restarts], metrics.coverage(poses, truth, 0.5))
 
 
 def _squared_errors(world, truth):

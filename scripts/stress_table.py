@@ -17,7 +17,8 @@ from stress.faults import FAULTS
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 RUN_OFFLINE = os.path.join(ROOT, "build", "devel", "lib", "plm_vins", "run_offline")
 CONFIG = os.path.join(ROOT, "config", "euroc.yaml")
-HEAD = "| fault | APE [m] | largest error [m] | restarts after [s] | coverage | noticed |\n" + 6 * "|---" + "|"
+HEAD = ("| fault | APE [m] | largest error [m] | restarts after [s] | coverage | noticed |\n"
+        + 6 * "|---" + "|")
 # Counts in summary.json that name a fault.
 NAMED = ("imu_implausible", "imu_replaced", "imu_gaps", "imu_doubts")
 

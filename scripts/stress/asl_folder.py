@@ -23,9 +23,8 @@ def make_faulty(source, target, apply, begin):
     apply(measurements, begin)
     _link_the_rest(source, target)
     _write(os.path.join(target, IMU), imu_head,
-           [[t_ns, *gyro, *accel] for t_ns, gyro, accel, kept
-            in zip(measurements.imu_ns, measurements.gyro, measurements.accel, measurements.imu_kept)
-            if kept])
+           [[measurements.imu_ns[i], *measurements.gyro[i], *measurements.accel[i]]
+            for i in np.flatnonzero(measurements.imu_kept)])
     _write(os.path.join(target, IMAGES), image_head,
            [[t_ns, *row[1:]] for t_ns, row in zip(measurements.image_ns, images)])
 

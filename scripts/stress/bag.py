@@ -14,7 +14,8 @@ IMAGE_TYPES = ("sensor_msgs/Image", "sensor_msgs/CompressedImage")
 def make_faulty(source, target, apply, begin):
     """Every topic of these types is taken for the one of its kind; other messages are copied."""
     with rosbag.Bag(source) as bag:
-        types = {name: topic.msg_type for name, topic in bag.get_type_and_topic_info().topics.items()}
+        topics = bag.get_type_and_topic_info().topics
+        types = {name: topic.msg_type for name, topic in topics.items()}
         imu_topics = [name for name, kind in types.items() if kind == IMU_TYPE]
         image_topics = [name for name, kind in types.items() if kind in IMAGE_TYPES]
         measurements = _measurements(bag, imu_topics, image_topics)

@@ -31,7 +31,8 @@ def read_worlds(path):
             elif not line.startswith("#"):
                 row += 1
     ends = starts[1:] + [len(poses)]
-    worlds = [poses.select(np.arange(start, end)) for start, end in zip(starts, ends) if end > start]
+    worlds = [poses.select(np.arange(start, end)) for start, end in zip(starts, ends)
+              if end > start]
     return worlds, [poses.stamps[end - 1] for end in starts[1:]]
 
 

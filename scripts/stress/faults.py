@@ -13,7 +13,7 @@ SEED = 1  # of the jitter
 
 @dataclass
 class Fault:
-    """`apply(measurements, begin)`; `needs_features` where images themselves would have to change."""
+    """`apply(measurements, begin)`; `needs_features` where images would have to change."""
 
     what: str
     apply: Callable
@@ -62,7 +62,8 @@ def _decimate(factor):
 
 def _lose_imu(seconds):
     def apply(measurements, begin):
-        measurements.imu_kept[measurements.imu_at(begin):measurements.imu_at(begin + seconds)] = False
+        first, last = measurements.imu_at(begin), measurements.imu_at(begin + seconds)
+        measurements.imu_kept[first:last] = False
     return apply
 
 

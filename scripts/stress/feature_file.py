@@ -31,7 +31,8 @@ class Features:
         self._split()
 
     def measurements(self):
-        samples = np.array([IMU_LAYOUT.unpack_from(self._bytes, at) for at in self._imu], dtype=object)
+        samples = np.array([IMU_LAYOUT.unpack_from(self._bytes, at) for at in self._imu],
+                           dtype=object)
         stamps = [TRACKING.unpack_from(self._bytes, at)[0] for at in self._images]
         values = samples[:, 1:].astype(float)
         return Measurements(samples[:, 0].astype(np.int64), values[:, :3].copy(),

@@ -87,7 +87,7 @@ TEST(ImuGate, BelievesALeapThatLasts) {
 
 TEST(ImuGate, YieldsToShakingThatGoesOn) {
   std::vector<ImuSample> samples = Flight(1000);
-  for (size_t i = 100; i < samples.size(); ++i) samples[i].accel.x() = i % 2 == 0 ? 20 : -20;
+  for (size_t i = 100; i < samples.size(); ++i) samples[i].accel.x() = i % 2 == 0 ? 30 : -30;
   const Decided decided = Pass(samples);
   EXPECT_GT(decided.replaced, 0);
   EXPECT_LT(decided.replaced, 50);  // for half a second at most

@@ -13,6 +13,12 @@ namespace {
 constexpr double kRateTolerance = 0.2;  // share of the configured rate
 constexpr double kMaxJitter_ms = 1.0;  // a turn of 1 rad/s moves a corner by half a pixel meanwhile
 
+std::string Format(const char* format, double value) {
+  char text[128];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
 MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) {
   MeasurementSync::Options options;
   options.td = config.sensor.td;
@@ -63,25 +69,25 @@ void EstimationStage::AddPoints(PointFrame frame) {
 }
 
 std::string EstimationStage::ImuContradiction() const {
-  if (imu_noise_scale_ <= 1) return "";
-  char text[256];
-  std::snprintf(text, sizeof(text),
-                "the camera contradicts the IMU, which counts as %.0f times noisier",
-                std::sqrt(imu_noise_scale_));
-  std::string why;
-  const double rate = imu_rhythm_.Interval() > 0 ? 1 / imu_rhythm_.Interval() : imu_rate_;
+  if (imu_noise_scale_ <= 1 && !delay_) return "";
+  const double imu_interval = imu_rhythm_.Interval();
+  const double rate = imu_interval > 0 ? 1 / imu_interval : imu_rate_;
+  const double imu_jitter_ms = 1e3 * imu_rhythm_.Jitter();
+  const double image_jitter_ms = 1e3 * image_rhythm_.Jitter();
+  std::string text = "the camera contradicts the IMU";
+  if (imu_noise_scale_ > 1) {
+    text += Format(", which counts as %.0f times noisier", std::sqrt(imu_noise_scale_));
+  }
   if (std::abs(rate / imu_rate_ - 1) > kRateTolerance) {
-    why += "; the IMU comes at " + std::to_string(std::lround(rate)) + " Hz, imu_rate is " +
-           std::to_string(std::lround(imu_rate_));
+    text += Format("; the IMU comes at %.0f Hz", rate) + Format(", imu_rate is %.0f", imu_rate_);
   }
-  for (const auto& [name, rhythm] : {std::pair{"IMU", &imu_rhythm_}, {"images", &image_rhythm_}}) {
-    const double jitter = 1e3 * rhythm->Jitter();
-    if (jitter < kMaxJitter_ms) continue;
-    char jitters[128];
-    std::snprintf(jitters, sizeof(jitters), "; stamps of the %s jitter by %.1f ms", name, jitter);
-    why += jitters;
+  if (imu_jitter_ms > kMaxJitter_ms)
+    text += Format("; its stamps jitter by %.1f ms", imu_jitter_ms);
+  if (image_jitter_ms > kMaxJitter_ms) {
+    text += Format("; stamps of the images jitter by %.1f ms", image_jitter_ms);
   }
-  return text + (why.empty() ? "; td, the extrinsics or the noise may be wrong" : why);
+  if (delay_) text += Format("; td seems to be wrong by %+.0f ms or more", 1e3 * *delay_);
+  return text;
 }
 
 void EstimationStage::Reset(const std::string& reason) {
@@ -110,6 +116,7 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   frame.output = estimator_->Process(*measurement);
   ++frames_;
   imu_noise_scale_ = frame.output.imu_noise_scale;
+  delay_ = frame.output.delay;
   if (frame.output.restarted) ++resets_;
   anew_ = false;
   if (restart_reason_) {

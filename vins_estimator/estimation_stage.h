@@ -74,6 +74,7 @@ class EstimationStage {
   MeasurementSync sync_;
   StreamRhythm imu_rhythm_, image_rhythm_;
   double imu_noise_scale_ = 1;
+  std::optional<double> delay_;  // [s]
   int64_t frames_ = 0;
   int64_t resets_ = 0;
   int64_t jumps_back_ = 0;                     // followed so far

@@ -119,6 +119,7 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   Triangulate(output);
   FindStructure(output);
   Optimize(config_.estimator.max_num_iterations, output);
+  CheckTiming();
   if (const auto noise_scale = FindImuDoubt()) {
     DoubtNewestMotion(*noise_scale);
     output->imu_doubted = true;
@@ -254,6 +255,15 @@ void Estimator::Optimize(int max_iterations, EstimatorOutput* output) {
   output->timings.optimization = stopwatch.Milliseconds();
 }
 
+void Estimator::CheckTiming() {
+  const SlidingWindow& window = state_.estimate.map.window;
+  const Preintegration& motion = *window.newest().motion_since_previous;
+  const Vector15d residual = ImuResidual(motion, window.gravity_W, window.second_newest().state,
+                                         window.newest().state, nullptr);
+  state_.delay_monitor.Add(residual.segment<3>(ImuErrorIndex::kRotation),
+                           motion.samples().back().gyro - motion.samples().front().gyro);
+}
+
 std::optional<double> Estimator::FindImuDoubt() {
   const LocalMap& map = state_.estimate.map;
   const WindowFrame& newest = map.window.newest();
@@ -310,6 +320,7 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->td = window.td;
   output->R_W_M = state_.manhattan.R_W_M();
   output->imu_noise_scale = state_.imu_monitor.noise_scale();
+  output->delay = state_.delay_monitor.delay();
   output->stationary = window.newest().stationary;
   for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
   for (const auto& [id, landmark] : map.points.landmarks()) {

@@ -7,6 +7,7 @@
 #include "common/config.h"
 #include "common/measurements.h"
 #include "vins_estimator/blindness_monitor.h"
+#include "vins_estimator/delay_monitor.h"
 #include "vins_estimator/estimator_options.h"
 #include "vins_estimator/estimator_output.h"
 #include "vins_estimator/failure_detector.h"
@@ -47,6 +48,7 @@ class Estimator {
     ContradictionMonitor contradiction_monitor;
     BlindnessMonitor blindness_monitor;
     ImuMonitor imu_monitor;
+    DelayMonitor delay_monitor;
     ManhattanFrame manhattan;
     WindowEstimate estimate;
     ViewNoise noise;
@@ -64,6 +66,7 @@ class Estimator {
   void RemoveOutliers(EstimatorOutput* output);
   std::optional<std::string> FindFailure(const EstimatorOutput& output);
   bool StandsStill(const FrameMeasurement& measurement);
+  void CheckTiming();
   std::optional<double> FindImuDoubt();
   void DoubtNewestMotion(double noise_scale);
   void Optimize(int max_iterations, EstimatorOutput* output);

@@ -106,6 +106,8 @@ FAULTS = {
     "imu_halved": Fault("every second IMU sample is missing", _decimate(2)),
     "image_jitter": Fault("stamps of images jitter by +-5 ms", _jitter_images(0.005)),
     "image_step": Fault("stamps of images + 20 ms", _shift_images(0.02)),
+    "image_delay": Fault("stamps of images + 30 ms, from the first one on",
+                         lambda measurements, begin: _shift_images(0.03)(measurements, 0)),
     "points_gone_10s": Fault("no points for 10 s", _blind(10, "points_kept"), True),
     "blind_10s": Fault("neither points nor lines for 10 s",
                        _blind(10, "points_kept", "lines_kept"), True),

@@ -35,7 +35,7 @@ class Faults(unittest.TestCase):
         return measurements
 
     def test_nothing_changes_before_the_fault(self):
-        for name in FAULTS:
+        for name in set(FAULTS) - {"image_delay"}:
             good, bad = flight(), self.damaged(name, begin=2.0)
             for field in ("imu_ns", "gyro", "accel", "imu_kept"):
                 np.testing.assert_array_equal(getattr(bad, field)[:400], getattr(good, field)[:400],

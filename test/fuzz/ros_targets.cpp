@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <ros/serialization.h>
 #include <rosbag/bag.h>
 #include <unistd.h>
 
@@ -46,34 +45,38 @@ Bytes SmallBag(rosbag::compression::CompressionType compression) {
   return ToBytes(text.str());
 }
 
-template <typename Message>
-Bytes Serialize(const Message& message) {
-  Bytes bytes(ros::serialization::serializationLength(message));
-  ros::serialization::OStream stream(bytes.data(), static_cast<uint32_t>(bytes.size()));
-  ros::serialization::serialize(stream, message);
-  return bytes;
+// Messages of any content, as a node's callback may get them; roscpp has read their lengths.
+sensor_msgs::PointCloud AnyCloud(Reader* reader) {
+  sensor_msgs::PointCloud cloud;
+  cloud.header.stamp.sec = reader->Value<uint32_t>();
+  cloud.points.resize(reader->Byte());
+  cloud.channels.resize(reader->Byte() % 8);
+  for (geometry_msgs::Point32& point : cloud.points) {
+    point.x = reader->Value<float>();
+    point.y = reader->Value<float>();
+  }
+  for (sensor_msgs::ChannelFloat32& channel : cloud.channels) {
+    const bool fits = reader->Byte() % 8 != 0;
+    channel.values.resize(fits ? cloud.points.size() : reader->Byte());
+    for (float& value : channel.values) {
+      value = reader->Byte() % 8 != 0 ? reader->Byte() : reader->Value<float>();
+    }
+  }
+  return cloud;
 }
 
-template <typename Message>
-Message Deserialize(Bytes bytes) {
-  Message message;
-  ros::serialization::IStream stream(bytes.data(), static_cast<uint32_t>(bytes.size()));
-  ros::serialization::deserialize(stream, message);
-  return message;
-}
-
-sensor_msgs::PointCloud Points() {
-  PointFrame frame;
-  frame.t_ns = 1'500'000'000'000'000'000;
-  for (int i = 0; i < 5; ++i) frame.points.push_back({i, {0.1 * i, 0.2}, {10, 20}, {1, -1}});
-  return ToMessage(frame, "camera");
-}
-
-sensor_msgs::PointCloud Lines() {
-  LineFrame frame;
-  frame.t_ns = 1'500'000'000'000'000'000;
-  for (int i = 0; i < 5; ++i) frame.lines.push_back({i, {0.1 * i, 0.2}, {0.1, -0.4}});
-  return ToMessage(frame, "camera");
+sensor_msgs::Image AnyImage(Reader* reader) {
+  static const char* const encodings[] = {"mono8", "mono16", "bgr8",  "rgba8", "bayer_rggb8",
+                                          "32FC1", "",       "8UC99", "yuv422"};
+  sensor_msgs::Image image;
+  image.encoding = encodings[reader->Byte() % std::size(encodings)];
+  const bool small = reader->Byte() % 4 != 0;
+  image.width = small ? reader->Byte() : reader->Value<uint32_t>();
+  image.height = small ? reader->Byte() : reader->Value<uint32_t>();
+  image.step = small ? image.width * (1 + reader->Byte() % 8) : reader->Value<uint32_t>();
+  const size_t whole = size_t{image.step} * image.height;
+  image.data.resize(std::min<size_t>(small ? whole : reader->Value<uint16_t>(), 1 << 20));
+  return image;
 }
 
 // One conversion after the other, whatever the one before says.
@@ -101,17 +104,18 @@ Target BagTarget() {
 }
 
 Target MessagesTarget() {
-  const std::vector<Bytes> seeds = {Serialize(Points()), Serialize(Lines()),
-                                    Serialize(Image(1'500'000'000'000'000'000)),
-                                    Serialize(sensor_msgs::Imu())};
-  return {"messages", seeds, [](const Bytes& bytes) {
-            int64_t left_out = 0;
-            Try([&] { ToPointFrame(Deserialize<sensor_msgs::PointCloud>(bytes), &left_out); });
-            Try([&] { ToLineFrame(Deserialize<sensor_msgs::PointCloud>(bytes), &left_out); });
-            Try([&] { ToImuSample(Deserialize<sensor_msgs::Imu>(bytes)); });
-            Try([&] { ToImageSample(Deserialize<sensor_msgs::Image>(bytes)); });
-            Try([&] { ToImageSample(Deserialize<sensor_msgs::CompressedImage>(bytes)); });
-          }};
+  Bytes seed;
+  for (int i = 0; i < 600; ++i) seed.push_back(static_cast<uint8_t>(7 * i));
+  return {
+      "messages", {seed}, [](const Bytes& bytes) {
+        int64_t left_out = 0;
+        Try([&, reader = Reader(bytes)]() mutable { ToPointFrame(AnyCloud(&reader), &left_out); });
+        Try([&, reader = Reader(bytes)]() mutable { ToLineFrame(AnyCloud(&reader), &left_out); });
+        Try([&, reader = Reader(bytes)]() mutable { ToImageSample(AnyImage(&reader)); });
+        sensor_msgs::CompressedImage compressed;
+        compressed.data = bytes;
+        Try([&] { ToImageSample(compressed); });
+      }};
 }
 
 }  // namespace plm_vins::fuzz

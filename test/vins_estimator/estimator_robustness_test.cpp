@@ -129,7 +129,10 @@ TEST(EstimatorRobustness, AGoodImuIsNeverDoubted) {
 
 TEST(EstimatorRobustness, TenSecondsOfBlindnessEndInARestart) {
   SimulatedFlight simulated = Simulate(Motion::kFast, 1, 20);
-  for (size_t i = 180; i < 380; ++i) simulated.frames[i].points.points.clear();
+  for (size_t i = 180; i < 380; ++i) {
+    simulated.frames[i].points.points.clear();
+    simulated.frames[i].lines.reset();
+  }
   Config config = testing::ConfigFor(simulated);
   config.sensor.imu_noise.accel_density = 0.03;  // a shaking vehicle: it drifts by metres
   config.sensor.imu_noise.gyro_density = 0.001;

@@ -4,7 +4,7 @@
 # the index of the input, which run it again.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
-seconds="${1:-514}"
+seconds="${1:-600}"
 
 cmake -S "$root" -B "$root/build/fuzz" -DCMAKE_BUILD_TYPE=Release -DSANITIZE=ON -DBUILD_TESTING=OFF \
   -DBUILD_FUZZ=ON

@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
+#include "common/imu_interpolation.h"
 #include "simulator/imu_simulator.h"
 #include "test/testing/numeric_jacobian.h"
-#include "common/imu_interpolation.h"
 #include "vins_estimator/imu/preintegration.h"
 
 namespace plm_vins {

@@ -14,6 +14,14 @@ if(PLM_NATIVE)
   add_compile_options(-march=native)
 endif()
 
+# Findings end the program. -O1 keeps them readable and compiles in half the time.
+option(SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+if(SANITIZE)
+  add_compile_options(-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined
+                      -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
 option(WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 add_compile_options(-Wall -Wextra)
 # Libraries need it; programs have it too, to share their precompiled headers.

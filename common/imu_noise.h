@@ -13,6 +13,13 @@ struct ImuNoise {
   double accel_walk = 3.0e-3;     // bias random walk [m/s^3/sqrt(Hz)]
 };
 
+// The noise with the variance of its readings scaled; the biases wander as before.
+inline ImuNoise Scaled(const ImuNoise& noise, double variance_scale) {
+  const double scale = std::sqrt(variance_scale);
+  return {noise.gyro_density * scale, noise.accel_density * scale, noise.gyro_walk,
+          noise.accel_walk};
+}
+
 // Densities from the numbers of the VINS family, which belong to one sample interval dt = 1 / rate:
 // a sample has standard deviation n [rad/s, m/s^2], so that one step adds n^2 dt^2 to the integral,
 // and a bias changes by w dt per step, so that one step adds w^2 dt^2 to its variance. A density d

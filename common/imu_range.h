@@ -5,13 +5,20 @@
 
 namespace plm_vins {
 
-// False for what is not finite and what is beyond the inertial sensors of vehicles and hands.
-inline bool IsInRange(const ImuSample& sample) {
-  constexpr double kMaxGyro = 100.0;   // [rad/s]
-  constexpr double kMaxAccel = 500.0;  // [m/s^2]
+// Largest reading of any axis of an IMU.
+struct ImuRange {
+  double gyro = 35.0;    // [rad/s], 2000 deg/s
+  double accel = 160.0;  // [m/s^2], 16 g
+};
+
+// Beyond the inertial sensors of vehicles and hands.
+constexpr ImuRange kAnyImuRange = {100.0, 500.0};
+
+// False for what is not finite, too.
+inline bool IsInRange(const ImuSample& sample, const ImuRange& range = kAnyImuRange) {
   return sample.gyro.allFinite() && sample.accel.allFinite() &&
-         sample.gyro.cwiseAbs().maxCoeff() <= kMaxGyro &&
-         sample.accel.cwiseAbs().maxCoeff() <= kMaxAccel;
+         sample.gyro.cwiseAbs().maxCoeff() <= range.gyro &&
+         sample.accel.cwiseAbs().maxCoeff() <= range.accel;
 }
 
 }  // namespace plm_vins

@@ -39,6 +39,9 @@ struct ImuSample {
   int64_t t_ns = 0;
   Eigen::Vector3d gyro = Eigen::Vector3d::Zero();   // angular rate [rad/s]
   Eigen::Vector3d accel = Eigen::Vector3d::Zero();  // specific force [m/s^2]
+  // Standard deviations on top of the sensor's noise, where the reading is not the sensor's own.
+  double gyro_doubt = 0;   // [rad/s]
+  double accel_doubt = 0;  // [m/s^2]
 };
 
 // One tracked corner in one image.

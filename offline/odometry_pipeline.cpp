@@ -165,6 +165,8 @@ void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
 
 void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_frame) {
   ++estimated_images_;
+  const std::string contradiction = back_end_.ImuContradiction();
+  if (!contradiction.empty()) imu_contradiction_ = contradiction;
   const auto unfinished = unfinished_.find(estimated.output.t_ns);
   PipelineFrame frame = std::move(unfinished->second);
   frame.output = std::move(estimated.output);

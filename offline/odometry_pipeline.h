@@ -61,6 +61,8 @@ class OdometryPipeline {
   int64_t unused_images() const { return images() - thinned_images_ - estimated_images_; }
   std::optional<int64_t> first_image_ns() const { return first_image_ns_; }
   DropCounts drops() const;
+  // The last EstimationStage::ImuContradiction() that was not empty.
+  const std::string& imu_contradiction() const { return imu_contradiction_; }
 
   // An image of the second half of the run with its points or lines drawn (CV_8UC3); empty without
   // images, or where lines are not used.
@@ -84,6 +86,7 @@ class OdometryPipeline {
   FeatureTrackers trackers_;
   EstimationStage back_end_;
   std::optional<int64_t> first_image_ns_;
+  std::string imu_contradiction_;
   int64_t images_ = 0;
   int64_t tracked_images_ = 0;
   int64_t thinned_images_ = 0;  // left out for the sake of the rate `freq`

@@ -197,6 +197,7 @@ int Run(const Arguments& arguments) {
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
   run.drops = source.problems;
   Append(pipeline.drops(), &run.drops);
+  Warn(pipeline.imu_contradiction());
   results.Finish(run, config);
   return Report(run, pipeline.unused_images(), results);
 }

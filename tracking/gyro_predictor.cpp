@@ -21,19 +21,32 @@ Eigen::Vector3d InterpolateGyro(const ImuSample& a, const ImuSample& b, int64_t 
 
 }  // namespace
 
-GyroPredictor::GyroPredictor(const Rigid3d& T_B_C, double td)
-    : R_B_C_(T_B_C.rotation), td_ns_(ToNanoseconds(td)), leap_(kMaxGap_ns), jump_(kJumpPatience) {}
+GyroPredictor::GyroPredictor(const Rigid3d& T_B_C, double td, const ImuRange& imu_range)
+    : R_B_C_(T_B_C.rotation),
+      td_ns_(ToNanoseconds(td)),
+      gate_(imu_range),
+      leap_(kMaxGap_ns),
+      jump_(kJumpPatience) {}
 
 void GyroPredictor::AddImu(const ImuSample& sample) {
   if (!IsInRange(sample)) return;
-  if (!samples_.empty() && sample.t_ns <= samples_.back().t_ns) {
+  if (last_ns_ && sample.t_ns <= *last_ns_) {
     if (!jump_.Refuse(sample.t_ns)) return;
-    samples_.clear();
+    Clear();
   }
   jump_.Accept();
-  if (!samples_.empty() && !leap_.Accept(samples_.back().t_ns, sample.t_ns)) return;
-  samples_.push_back(sample);
-  while (samples_.front().t_ns < sample.t_ns - kHistory_ns) samples_.pop_front();
+  if (last_ns_ && !leap_.Accept(*last_ns_, sample.t_ns)) return;
+  last_ns_ = sample.t_ns;
+  for (const ImuSample& decided : gate_.Add(sample)) samples_.push_back(decided);
+  while (!samples_.empty() && samples_.front().t_ns < sample.t_ns - kHistory_ns) {
+    samples_.pop_front();
+  }
+}
+
+void GyroPredictor::Clear() {
+  samples_.clear();
+  last_ns_.reset();
+  gate_.Clear();
 }
 
 bool GyroPredictor::Covers(int64_t t_image_ns) const {

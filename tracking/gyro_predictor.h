@@ -8,6 +8,7 @@
 
 #include "common/backward_jump.h"
 #include "common/forward_jump.h"
+#include "common/imu_gate.h"
 #include "common/measurements.h"
 #include "common/rigid3.h"
 
@@ -15,11 +16,12 @@ namespace plm_vins {
 
 // The camera's rotation between two images from the gyro alone, to predict where features move.
 // Keeps a bounded history; samples that no sensor gives, out of order, or the first after a leap in
-// time are ignored; where all stamps go back, the history begins anew.
+// time are ignored, those that do not fit the others replaced (ImuGate); where all stamps go back,
+// the history begins anew.
 class GyroPredictor {
  public:
   // `td`: t_imu = t_image + td [s].
-  GyroPredictor(const Rigid3d& T_B_C, double td);
+  GyroPredictor(const Rigid3d& T_B_C, double td, const ImuRange& imu_range = ImuRange());
 
   void AddImu(const ImuSample& sample);
 
@@ -31,9 +33,13 @@ class GyroPredictor {
   std::optional<Eigen::Quaterniond> Rotation(int64_t t0_ns, int64_t t1_ns) const;
 
  private:
+  void Clear();
+
   Eigen::Quaterniond R_B_C_;
   int64_t td_ns_;
   std::deque<ImuSample> samples_;
+  std::optional<int64_t> last_ns_;  // of the newest sample that went to the gate
+  ImuGate gate_;
   ForwardJumpDetector leap_;
   BackwardJumpDetector jump_;
 };

@@ -1,14 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/estimation_stage.h"
 
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
 #include "vins_estimator/estimator.h"
 
 namespace plm_vins {
 namespace {
 
+constexpr double kRateTolerance = 0.2;  // share of the configured rate
+constexpr double kMaxJitter_ms = 1.0;  // a turn of 1 rad/s moves a corner by half a pixel meanwhile
+
+std::string Format(const char* format, double value) {
+  char text[128];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
 MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) {
   MeasurementSync::Options options;
   options.td = config.sensor.td;
+  options.imu_range = config.sensor.imu_range;
   options.expect_lines = config.use_lines;
   options.max_wait = max_wait;
   return options;
@@ -19,6 +33,7 @@ MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) 
 DropCounts ToDropCounts(const SyncStatistics& statistics) {
   return {{"imu_not_finite", statistics.imu_not_finite, ""},
           {"imu_implausible", statistics.imu_implausible, ""},
+          {"imu_replaced", statistics.imu_replaced, ""},
           {"imu_out_of_order", statistics.imu_out_of_order, ""},
           {"imu_gaps", statistics.imu_gaps, ""},
           {"imu_dropped_full", statistics.imu_dropped_full, ""},
@@ -36,11 +51,44 @@ DropCounts ToDropCounts(const SyncStatistics& statistics) {
 }
 
 EstimationStage::EstimationStage(const Config& config, double max_wait)
-    : gyro_density_(config.sensor.imu_noise.gyro_density),
+    : imu_rate_(config.sensor.imu_rate),
+      gyro_density_(config.sensor.imu_noise.gyro_density),
       estimator_(std::make_unique<Estimator>(config)),
       sync_(MakeSyncOptions(config, max_wait)) {}
 
 EstimationStage::~EstimationStage() = default;
+
+void EstimationStage::AddImu(const ImuSample& sample) {
+  imu_rhythm_.Add(sample.t_ns);
+  sync_.AddImu(sample);
+}
+
+void EstimationStage::AddPoints(PointFrame frame) {
+  image_rhythm_.Add(frame.t_ns);
+  sync_.AddPoints(std::move(frame));
+}
+
+std::string EstimationStage::ImuContradiction() const {
+  if (imu_noise_scale_ <= 1 && !delay_) return "";
+  const double imu_interval = imu_rhythm_.Interval();
+  const double rate = imu_interval > 0 ? 1 / imu_interval : imu_rate_;
+  const double imu_jitter_ms = 1e3 * imu_rhythm_.Jitter();
+  const double image_jitter_ms = 1e3 * image_rhythm_.Jitter();
+  std::string text = "the camera contradicts the IMU";
+  if (imu_noise_scale_ > 1) {
+    text += Format(", which counts as %.0f times noisier", std::sqrt(imu_noise_scale_));
+  }
+  if (std::abs(rate / imu_rate_ - 1) > kRateTolerance) {
+    text += Format("; the IMU comes at %.0f Hz", rate) + Format(", imu_rate is %.0f", imu_rate_);
+  }
+  if (imu_jitter_ms > kMaxJitter_ms)
+    text += Format("; its stamps jitter by %.1f ms", imu_jitter_ms);
+  if (image_jitter_ms > kMaxJitter_ms) {
+    text += Format("; stamps of the images jitter by %.1f ms", image_jitter_ms);
+  }
+  if (delay_) text += Format("; td seems to be wrong by %+.0f ms or more", 1e3 * *delay_);
+  return text;
+}
 
 void EstimationStage::Reset(const std::string& reason) {
   sync_.Clear();
@@ -67,6 +115,8 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   EstimatedFrame frame;
   frame.output = estimator_->Process(*measurement);
   ++frames_;
+  imu_noise_scale_ = frame.output.imu_noise_scale;
+  delay_ = frame.output.delay;
   if (frame.output.restarted) ++resets_;
   anew_ = false;
   if (restart_reason_) {

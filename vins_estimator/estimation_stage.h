@@ -12,6 +12,7 @@
 #include "common/config.h"
 #include "common/drop_counts.h"
 #include "common/measurements.h"
+#include "common/stream_rhythm.h"
 #include "vins_estimator/estimator_output.h"
 #include "vins_estimator/measurement_sync.h"
 
@@ -38,8 +39,8 @@ class EstimationStage {
                            double max_wait = std::numeric_limits<double>::infinity());
   ~EstimationStage();
 
-  void AddImu(const ImuSample& sample) { sync_.AddImu(sample); }
-  void AddPoints(PointFrame frame) { sync_.AddPoints(std::move(frame)); }
+  void AddImu(const ImuSample& sample);
+  void AddPoints(PointFrame frame);
   void AddLines(LineFrame frame) { sync_.AddLines(std::move(frame)); }
 
   // The estimate for the next image, or nothing yet.
@@ -52,6 +53,10 @@ class EstimationStage {
   // next output, which announces the new world frame.
   void Reset(const std::string& reason);
 
+  // Where the camera contradicts the IMU lastingly: by how much, and what in the stamps may be the
+  // cause. Empty where they fit.
+  std::string ImuContradiction() const;
+
   int64_t frames() const { return frames_; }  // estimated so far
   int64_t resets() const { return resets_; }  // times that a world frame was given up
   size_t queued_frames() const { return sync_.queued_frames(); }
@@ -63,9 +68,13 @@ class EstimationStage {
   std::optional<EstimatedFrame> Process(const std::optional<FrameMeasurement>& measurement);
   void StartOver(const std::string& reason);
 
+  const double imu_rate_;                       // as configured [Hz]
   const double gyro_density_;                   // [rad/s/sqrt(Hz)]
   const std::unique_ptr<Estimator> estimator_;  // so that users do not see the solver
   MeasurementSync sync_;
+  StreamRhythm imu_rhythm_, image_rhythm_;
+  double imu_noise_scale_ = 1;
+  std::optional<double> delay_;  // [s]
   int64_t frames_ = 0;
   int64_t resets_ = 0;
   int64_t jumps_back_ = 0;                     // followed so far

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/stopwatch.h"
+#include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/manhattan/line_directions.h"
 #include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/measurement_check.h"
@@ -18,6 +19,9 @@ namespace plm_vins {
 namespace {
 
 constexpr size_t kMinViewsToOptimize = 3;
+
+// What a shock, or a sensor that is heated or fails, may do to the biases.
+constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]
 
 template <typename Landmark>
 bool IsOptimized(const Landmark& landmark) {
@@ -114,6 +118,12 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   Triangulate(output);
   FindStructure(keep_second_newest, output);
   Optimize(options_.solution, output);
+  CheckTiming();
+  if (const auto noise_scale = FindImuDoubt()) {
+    DoubtNewestMotion(*noise_scale);
+    output->imu_doubted = true;
+    Optimize(options_.solution, output);
+  }
   RemoveOutliers(output);
   if (const auto failure = FindFailure(*output)) {
     Reset();
@@ -132,6 +142,10 @@ std::optional<std::string> Estimator::FindFailure(const EstimatorOutput& output)
   auto contradiction = state_.contradiction_monitor.Add(output.t_ns, output.counts.points_in_window,
                                                         output.counts.points_rejected);
   if (contradiction) return contradiction;
+  const auto blindness = state_.blindness_monitor.Add(
+      output.t_ns, output.counts.points_observed + output.counts.lines_observed,
+      output.pose_covariance.topLeftCorner<3, 3>());
+  if (blindness) return blindness;
   return DetectFailure(FailureLimits(), state_.predicted,
                        state_.estimate.map.window.newest().state);
 }
@@ -146,8 +160,8 @@ void Estimator::AddFrame(const FrameMeasurement& measurement) {
   frame.cut_time_offset = measurement.time_offset;
   if (!map.window.frames.empty()) {
     const FrameState& before = map.window.newest().state;
-    frame.motion_since_previous =
-        std::make_shared<Preintegration>(config_.sensor.imu_noise, before.bias());
+    const ImuNoise noise = Scaled(config_.sensor.imu_noise, state_.imu_monitor.noise_scale());
+    frame.motion_since_previous = std::make_shared<Preintegration>(noise, before.bias());
     for (const ImuSample& sample : measurement.imu) frame.motion_since_previous->Append(sample);
     frame.state = frame.motion_since_previous->Predict(before, map.window.gravity_W);
   }
@@ -207,6 +221,7 @@ ProblemOptions Estimator::CurrentProblem() const {
 void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = state_.estimate.map;
+  output->counts.points_in_window = output->counts.lines_in_window = 0;
   ProblemBuilder builder(CurrentProblem(), &map.window, &state_.estimate.prior);
   builder.AddPrior();
   for (size_t i = 1; i < map.window.frames.size(); ++i) builder.AddMotion(i);
@@ -237,6 +252,38 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
     output->bias_covariance = covariance.bottomRightCorner<6, 6>();
   }
   output->timings.optimization = stopwatch.Milliseconds();
+}
+
+void Estimator::CheckTiming() {
+  const SlidingWindow& window = state_.estimate.map.window;
+  const Preintegration& motion = *window.newest().motion_since_previous;
+  const Vector15d residual = ImuResidual(motion, window.gravity_W, window.second_newest().state,
+                                         window.newest().state, nullptr);
+  state_.delay_monitor.Add(residual.segment<3>(ImuErrorIndex::kRotation),
+                           motion.samples().back().gyro - motion.samples().front().gyro);
+}
+
+std::optional<double> Estimator::FindImuDoubt() {
+  const LocalMap& map = state_.estimate.map;
+  const WindowFrame& newest = map.window.newest();
+  ImuMonitor::Evidence evidence;
+  evidence.t_ns = newest.state.t_ns;
+  evidence.chi_square = ImuChiSquare(*newest.motion_since_previous, map.window.gravity_W,
+                                     map.window.second_newest().state, newest.state);
+  const PointMap::Fit fit = map.points.FitOfNewest(map.window, options_.max_reprojection_error);
+  evidence.points = fit.seen;
+  evidence.contradicted = fit.contradicted;
+  return state_.imu_monitor.Add(evidence);
+}
+
+void Estimator::DoubtNewestMotion(double noise_scale) {
+  WindowFrame& newest = state_.estimate.map.window.newest();
+  const Preintegration& before = *newest.motion_since_previous;
+  const ImuNoise noise = Scaled(config_.sensor.imu_noise, noise_scale);
+  auto doubted = std::make_shared<Preintegration>(noise, before.linearization_bias());
+  for (const ImuSample& sample : before.samples()) doubted->Append(sample);
+  doubted->AllowBiasStep(kBiasStep);
+  newest.motion_since_previous = doubted;
 }
 
 void Estimator::SlideWindow(bool keep_second_newest, EstimatorOutput* output) {
@@ -271,6 +318,8 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->T_B_C = window.T_B_C();
   output->td = window.td;
   output->R_W_M = state_.manhattan.R_W_M();
+  output->imu_noise_scale = state_.imu_monitor.noise_scale();
+  output->delay = state_.delay_monitor.delay();
   output->stationary = window.newest().stationary;
   for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
   for (const auto& [id, landmark] : map.points.landmarks()) {

@@ -6,10 +6,13 @@
 
 #include "common/config.h"
 #include "common/measurements.h"
+#include "vins_estimator/blindness_monitor.h"
+#include "vins_estimator/delay_monitor.h"
 #include "vins_estimator/estimator_options.h"
 #include "vins_estimator/estimator_output.h"
 #include "vins_estimator/failure_detector.h"
 #include "vins_estimator/imu/standstill_detector.h"
+#include "vins_estimator/imu_monitor.h"
 #include "vins_estimator/initialization/initializer.h"
 #include "vins_estimator/manhattan/manhattan_frame.h"
 #include "vins_estimator/map/view_noise.h"
@@ -43,6 +46,9 @@ class Estimator {
     Initializer initializer;
     StandstillDetector standstill_detector;
     ContradictionMonitor contradiction_monitor;
+    BlindnessMonitor blindness_monitor;
+    ImuMonitor imu_monitor;
+    DelayMonitor delay_monitor;
     ManhattanFrame manhattan;
     WindowEstimate estimate;
     ViewNoise noise;
@@ -60,6 +66,9 @@ class Estimator {
   void RemoveOutliers(EstimatorOutput* output);
   std::optional<std::string> FindFailure(const EstimatorOutput& output);
   bool StandsStill(const FrameMeasurement& measurement);
+  void CheckTiming();
+  std::optional<double> FindImuDoubt();
+  void DoubtNewestMotion(double noise_scale);
   void Optimize(const SolverOptions& options, EstimatorOutput* output);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
   void SlideOldest(EstimatorOutput* output);

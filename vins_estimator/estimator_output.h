@@ -53,6 +53,9 @@ struct EstimatorOutput {
   Rigid3d T_B_C;
   double td = 0;                            // [s]
   std::optional<Eigen::Quaterniond> R_W_M;  // the Manhattan frame, where the scene has one
+  double imu_noise_scale = 1;               // of its variance, as the camera shows it (ImuMonitor)
+  bool imu_doubted = false;                 // in this image, at once
+  std::optional<double> delay;              // error of td that shows, roughly [s] (DelayMonitor)
   bool keyframe = false;
   bool stationary = false;                // standing still was recognised
   bool restarted = false;                 // the world frame is a new one from here on

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMinLandmarks = 20;           // fewer are no evidence
 constexpr double kMaxRejectedShare = 0.25;  // a few per cent in flight
-constexpr double kMaxContradiction = 1.0;   // [s]
+constexpr double kMaxContradiction = 0.5;   // [s]
 
 bool IsFinite(const FrameState& state) {
   const auto finite = [](double value) { return std::isfinite(value); };

@@ -5,8 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "common/imu_interpolation.h"
 #include "common/imu_range.h"
-#include "vins_estimator/imu/imu_interpolation.h"
 
 namespace plm_vins {
 namespace {
@@ -33,6 +33,7 @@ bool IsPlausible(const ImuSample& sample) {
 
 MeasurementSync::MeasurementSync(const Options& options)
     : options_(options),
+      imu_gate_(options.imu_range),
       imu_jump_(kImuJumpPatience),
       points_jump_(kPointsJumpPatience),
       points_leap_(kPointsLeap_ns) {}
@@ -47,14 +48,14 @@ void MeasurementSync::AddImu(const ImuSample& sample) {
     ++statistics_.imu_implausible;
     return;
   }
-  if (!imu_.empty() && sample.t_ns <= imu_.back().t_ns) {
+  if (last_imu_ns_ && sample.t_ns <= *last_imu_ns_) {
     ++statistics_.imu_out_of_order;
     if (!imu_jump_.Refuse(sample.t_ns)) return;
     BeginRecording();
   }
   imu_jump_.Accept();
   JudgeImuAfterGap(sample.t_ns);
-  if (!imu_.empty() && ToSeconds(sample.t_ns - imu_.back().t_ns) > options_.max_imu_gap) {
+  if (last_imu_ns_ && ToSeconds(sample.t_ns - *last_imu_ns_) > options_.max_imu_gap) {
     imu_after_gap_ = sample;
   } else {
     TakeImu(sample);
@@ -73,6 +74,12 @@ void MeasurementSync::JudgeImuAfterGap(int64_t next_ns) {
 }
 
 void MeasurementSync::TakeImu(const ImuSample& sample) {
+  last_imu_ns_ = sample.t_ns;
+  for (const ImuSample& decided : imu_gate_.Add(sample)) QueueImu(decided);
+  statistics_.imu_replaced = imu_gate_.replaced();
+}
+
+void MeasurementSync::QueueImu(const ImuSample& sample) {
   imu_.push_back(sample);
   if (static_cast<int>(imu_.size()) > options_.max_imu_samples) {
     // The boundary of the last cut stays, so that the next interval keeps its length.
@@ -129,6 +136,8 @@ void MeasurementSync::BeginRecording() {
 
 void MeasurementSync::Clear() {
   imu_.clear();
+  imu_gate_.Clear();
+  last_imu_ns_.reset();
   imu_after_gap_.reset();
   points_.clear();
   lines_.clear();

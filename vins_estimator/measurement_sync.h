@@ -9,6 +9,7 @@
 
 #include "common/backward_jump.h"
 #include "common/forward_jump.h"
+#include "common/imu_gate.h"
 #include "common/measurements.h"
 #include "vins_estimator/imu/imu_gap.h"
 
@@ -19,6 +20,7 @@ struct SyncStatistics {
   int64_t imu_samples = 0;
   int64_t imu_not_finite = 0;    // NaN or infinity
   int64_t imu_implausible = 0;   // beyond any sensor's range, or zeros throughout
+  int64_t imu_replaced = 0;      // did not fit the samples around them (ImuGate)
   int64_t imu_out_of_order = 0;  // stamp not after the one before, or alone in the future
   int64_t imu_gaps = 0;          // intervals longer than the allowed gap, bridged
   int64_t imu_dropped_full = 0;  // no image came for long: oldest dropped
@@ -55,7 +57,8 @@ struct SyncStatistics {
 class MeasurementSync {
  public:
   struct Options {
-    double td = 0;              // t_imu = t_image + td [s]
+    double td = 0;  // t_imu = t_image + td [s]
+    ImuRange imu_range;
     bool expect_lines = false;  // wait (a little) for the line frame of each image
     int max_line_lag = 3;       // images to wait for a line frame
     int line_patience = 10;     // frames in a row without lines until the lines count as missing
@@ -101,6 +104,7 @@ class MeasurementSync {
   // Decides on the sample after a gap, now that the stamp of the next one is known.
   void JudgeImuAfterGap(int64_t next_ns);
   void TakeImu(const ImuSample& sample);
+  void QueueImu(const ImuSample& sample);
   int64_t CutTime() const;  // of the oldest queued frame, in IMU time
   // Index of the first IMU sample at or after the time.
   size_t FirstImuNotBefore(int64_t t_ns) const;
@@ -119,6 +123,8 @@ class MeasurementSync {
   Options options_;
   SyncStatistics statistics_;
   std::deque<ImuSample> imu_;  // the front is the boundary of the last cut, once there was one
+  ImuGate imu_gate_;
+  std::optional<int64_t> last_imu_ns_;  // of the newest sample that went to the gate
   // After a gap a sample waits for the next one: a single wrong stamp must not void what follows.
   std::optional<ImuSample> imu_after_gap_;
   std::deque<PointFrame> points_;

@@ -68,6 +68,14 @@ ConfigKeys<ImuNoise> ImuNoiseKeys() {
   };
 }
 
+ConfigKeys<ImuRange> ImuRangeKeys() {
+  using Key = ConfigKey<ImuRange>;
+  return {
+      Key::Number("acc_range", "m/s^2", {15, 500}, &ImuRange::accel),
+      Key::Number("gyr_range", "rad/s", {0.5, 100}, &ImuRange::gyro),
+  };
+}
+
 }  // namespace
 
 ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type) {
@@ -89,7 +97,8 @@ ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type) {
       Key::Number("g_norm", "m/s^2", {9, 10.5}, &S::gravity_norm),
   };
   return Join<S>({Required(topics), Within(&S::camera, CameraKeys(model_type)), ExtrinsicKeys(),
-                  timing, noise, Within(&S::imu_noise, ImuNoiseKeys())});
+                  timing, noise, Within(&S::imu_noise, ImuNoiseKeys()),
+                  Within(&S::imu_range, ImuRangeKeys())});
 }
 
 }  // namespace plm_vins

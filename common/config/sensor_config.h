@@ -6,6 +6,7 @@
 #include "common/camera_model.h"
 #include "common/config/config_key.h"
 #include "common/imu_noise.h"
+#include "common/imu_range.h"
 #include "common/rigid3.h"
 
 namespace plm_vins {
@@ -25,6 +26,7 @@ struct SensorConfig {
   ImuNoiseModel imu_noise_model = ImuNoiseModel::kVins;
   double imu_rate = 200;
   ImuNoise imu_noise;
+  ImuRange imu_range;
   double gravity_norm = 9.81;  // [m/s^2]
 };
 

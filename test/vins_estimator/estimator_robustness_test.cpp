@@ -93,6 +93,59 @@ TEST(EstimatorRobustness, AbsurdImuRestartsWithAReasonAndTracksAgain) {
   EXPECT_TRUE(outputs[200].has_pose) << outputs[200].reason;
 }
 
+// Adds to all IMU readings from an image on, as a bias does.
+void AddBias(const ImuBias& bias, size_t first, SimulatedFlight* flight) {
+  for (size_t i = first; i < flight->frames.size(); ++i) {
+    for (ImuSample& sample : flight->frames[i].imu) {
+      sample.gyro += bias.gyro;
+      sample.accel += bias.accel;
+    }
+  }
+}
+
+TEST(EstimatorRobustness, AStepOfTheGyroBiasIsAbsorbed) {
+  SimulatedFlight simulated = Simulate(Motion::kFast, 1, 15);
+  AddBias({Eigen::Vector3d::Zero(), {0.05, 0, 0}}, 180, &simulated);
+  const EstimatedFlight flight = testing::Estimate(simulated);
+  EXPECT_TRUE(flight.restarts.empty());
+  int doubts = 0;
+  for (const EstimatorOutput& output : flight.outputs) doubts += output.imu_doubted ? 1 : 0;
+  EXPECT_GE(doubts, 1);
+  EXPECT_LE(doubts, 3);
+  EXPECT_LT(testing::AbsoluteError(flight), 0.1);
+  const FrameState& last = flight.outputs.back().state;
+  const FrameState& truth = flight.truth.back();
+  EXPECT_LT((last.gyro_bias() - truth.gyro_bias() - Eigen::Vector3d(0.05, 0, 0)).norm(), 0.005);
+}
+
+TEST(EstimatorRobustness, AGoodImuIsNeverDoubted) {
+  for (const Motion motion : {Motion::kGentle, Motion::kFast}) {
+    for (const EstimatorOutput& output : testing::Estimate(Simulate(motion, 3, 15)).outputs) {
+      EXPECT_FALSE(output.imu_doubted);
+      EXPECT_EQ(output.imu_noise_scale, 1);
+    }
+  }
+}
+
+TEST(EstimatorRobustness, TenSecondsOfBlindnessEndInARestart) {
+  SimulatedFlight simulated = Simulate(Motion::kFast, 1, 20);
+  for (size_t i = 180; i < 380; ++i) {
+    simulated.frames[i].points.points.clear();
+    simulated.frames[i].lines.reset();
+  }
+  Config config = testing::ConfigFor(simulated);
+  config.sensor.imu_noise.accel_density = 0.03;  // a shaking vehicle: it drifts by metres
+  config.sensor.imu_noise.gyro_density = 0.001;
+  Estimator estimator(config);
+  std::vector<std::string> reasons;
+  for (size_t i = 0; i < 380; ++i) {
+    const EstimatorOutput output = estimator.Process(simulated.frames[i]);
+    if (output.restarted) reasons.push_back(output.reason);
+  }
+  ASSERT_EQ(reasons.size(), 1u);
+  EXPECT_NE(reasons[0].find("nothing was seen for"), std::string::npos) << reasons[0];
+}
+
 TEST(EstimatorRobustness, WithoutPointsItNeverStartsAndSaysWhy) {
   SimulatedFlight flight = Simulate(Motion::kFast, 1, 6);
   Estimator estimator(testing::ConfigFor(flight));

@@ -85,11 +85,11 @@ double FirstAlarm(ContradictionMonitor* monitor, int landmarks, int rejected, in
   return -1;
 }
 
-TEST(ContradictionMonitor, AlarmsAfterASecondOfContradiction) {
+TEST(ContradictionMonitor, AlarmsAfterHalfASecondOfContradiction) {
   ContradictionMonitor monitor;
-  EXPECT_DOUBLE_EQ(FirstAlarm(&monitor, 100, 25, 40), 1.0);
+  EXPECT_DOUBLE_EQ(FirstAlarm(&monitor, 100, 25, 40), 0.5);
   monitor = ContradictionMonitor();
-  EXPECT_EQ(FirstAlarm(&monitor, 100, 25, 20), -1);
+  EXPECT_EQ(FirstAlarm(&monitor, 100, 25, 10), -1);
 }
 
 TEST(ContradictionMonitor, SaysHowMuchContradicts) {
@@ -108,7 +108,7 @@ TEST(ContradictionMonitor, ToleratesOutliersAndFewLandmarks) {
 TEST(ContradictionMonitor, StartsOverWithAnImageThatFits) {
   ContradictionMonitor monitor;
   for (int i = 0; i < 200; ++i) {
-    const int rejected = i % 15 == 0 ? 0 : 50;
+    const int rejected = i % 10 == 0 ? 0 : 50;
     EXPECT_FALSE(monitor.Add(ToNanoseconds(0.05 * i), 100, rejected)) << i;
   }
 }

@@ -171,6 +171,23 @@ TEST(MeasurementSync, SamplesThatNoSensorGivesAreDroppedAndCounted) {
   EXPECT_EQ(sync.statistics().imu_implausible, 3);
 }
 
+TEST(MeasurementSync, ASampleThatDoesNotFitTheOthersIsReplacedAndCounted) {
+  MeasurementSync sync({});
+  for (int64_t t = 0; t <= 200; t += 5) {
+    ImuSample sample = Sample(t * kMs);
+    if (t == 60) sample.accel.z() += 150;
+    sync.AddImu(sample);
+  }
+  sync.AddPoints(Points(100 * kMs));
+  const auto frames = PopAll(&sync);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(sync.statistics().imu_replaced, 1);
+  for (const ImuSample& sample : frames[0].imu) {
+    ExpectOnTheLine(sample);
+    EXPECT_NEAR(sample.accel_doubt, sample.t_ns == 60 * kMs ? 150 : 0, 1e-9);
+  }
+}
+
 TEST(MeasurementSync, ASampleAloneInTheFutureIsDropped) {
   MeasurementSync sync({});
   AddImu(&sync, 0, 20);

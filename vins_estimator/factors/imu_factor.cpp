@@ -107,6 +107,14 @@ Vector15d ImuResidual(const Preintegration& preintegration, const Vector3d& grav
   return residual;
 }
 
+double ImuChiSquare(const Preintegration& preintegration, const Vector3d& gravity_W,
+                    const FrameState& state_i, const FrameState& state_j) {
+  const Vector15d residual = ImuResidual(preintegration, gravity_W, state_i, state_j, nullptr);
+  const Vector15d whitened =
+      preintegration.SqrtInformation().triangularView<Eigen::Upper>() * residual;
+  return whitened.squaredNorm();
+}
+
 bool ImuFactor::Evaluate(double const* const* parameters, double* residuals,
                          double** jacobians) const {
   const FrameState state_i = MakeState(parameters[0], parameters[1]);

@@ -27,6 +27,10 @@ Vector15d ImuResidual(const Preintegration& preintegration, const Eigen::Vector3
                       const FrameState& state_i, const FrameState& state_j,
                       ImuResidualJacobians* jacobians);
 
+// Squared norm of the whitened residual.
+double ImuChiSquare(const Preintegration& preintegration, const Eigen::Vector3d& gravity_W,
+                    const FrameState& state_i, const FrameState& state_j);
+
 // ImuResidual, whitened, as cost function of pose_i, motion_i, pose_j, motion_j. The preintegration
 // belongs to the window: it must outlive the factor and not change while the factor is in use.
 class ImuFactor final : public ceres::SizedCostFunction<15, 7, 9, 7, 9> {

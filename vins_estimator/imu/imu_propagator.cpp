@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/imu/imu_propagator.h"
 
+#include "common/imu_interpolation.h"
 #include "common/imu_range.h"
 #include "vins_estimator/imu/imu_gap.h"
-#include "vins_estimator/imu/imu_interpolation.h"
 #include "vins_estimator/imu/preintegration.h"
 
 namespace plm_vins {
@@ -13,8 +13,8 @@ const int64_t kHorizon_ns = ToNanoseconds(ImuPropagator::kHorizonSeconds);
 
 }  // namespace
 
-ImuPropagator::ImuPropagator(const Eigen::Vector3d& gravity_W)
-    : gravity_W_(gravity_W), leap_(ToNanoseconds(kMaxImuInterval)) {}
+ImuPropagator::ImuPropagator(const Eigen::Vector3d& gravity_W, const ImuRange& imu_range)
+    : gravity_W_(gravity_W), leap_(ToNanoseconds(kMaxImuInterval)), gate_(imu_range) {}
 
 void ImuPropagator::Reset(const FrameState& state, int64_t t_imu_ns) {
   state_ = state;
@@ -27,24 +27,28 @@ void ImuPropagator::Reset(const FrameState& state, int64_t t_imu_ns) {
 
 std::optional<FrameState> ImuPropagator::Add(const ImuSample& sample) {
   if (!IsInRange(sample)) return std::nullopt;
-  if (!samples_.empty() && sample.t_ns <= samples_.back().t_ns) return std::nullopt;
-  if (!samples_.empty() && !leap_.Accept(samples_.back().t_ns, sample.t_ns)) return std::nullopt;
+  if (last_ns_ && sample.t_ns <= *last_ns_) return std::nullopt;
+  if (last_ns_ && !leap_.Accept(*last_ns_, sample.t_ns)) return std::nullopt;
+  last_ns_ = sample.t_ns;
+  const std::vector<ImuSample> decided = gate_.Add(sample);
+  for (const ImuSample& next : decided) Take(next);
+  const bool reaches_sample = state_ && !decided.empty() && state_->t_ns == sample.t_ns;
+  return reaches_sample ? state_ : std::nullopt;
+}
+
+void ImuPropagator::Take(const ImuSample& sample) {
   samples_.push_back(sample);
   while (samples_.front().t_ns < sample.t_ns - kHorizon_ns) samples_.pop_front();
-
   if (state_ && sample.t_ns > t_reset_ns_ + kHorizon_ns) state_.reset();
-  if (!state_ || sample.t_ns < state_->t_ns) return std::nullopt;
-  Advance(samples_.size() - 1);
-  return state_;
+  if (state_) Advance(samples_.size() - 1);
 }
 
-std::optional<int64_t> ImuPropagator::newest_ns() const {
-  if (samples_.empty()) return std::nullopt;
-  return samples_.back().t_ns;
-}
+std::optional<int64_t> ImuPropagator::newest_ns() const { return last_ns_; }
 
 void ImuPropagator::Clear() {
   samples_.clear();
+  gate_.Clear();
+  last_ns_.reset();
   state_.reset();
 }
 

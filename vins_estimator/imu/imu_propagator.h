@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/forward_jump.h"
+#include "common/imu_gate.h"
 #include "common/imu_noise.h"
 #include "common/measurements.h"
 #include "vins_estimator/state/frame_state.h"
@@ -21,14 +22,14 @@ class ImuPropagator {
  public:
   static constexpr double kHorizonSeconds = 2.0;
 
-  explicit ImuPropagator(const Eigen::Vector3d& gravity_W);
+  explicit ImuPropagator(const Eigen::Vector3d& gravity_W, const ImuRange& imu_range = ImuRange());
 
   // Starts from `state`, valid at `t_imu_ns` of the IMU clock (image stamp + td).
   void Reset(const FrameState& state, int64_t t_imu_ns);
 
   // The state at this sample, its t_ns being the sample's stamp. Nothing without a state to start
   // from (none yet, too old, or newer than the sample) or where the sample is beyond any range, out
-  // of order, or the first after a leap in time.
+  // of order, the first after a leap in time, or waits for others to confirm it (ImuGate).
   std::optional<FrameState> Add(const ImuSample& sample);
 
   // Stamp of the newest sample; nothing without one.
@@ -38,6 +39,7 @@ class ImuPropagator {
   void Clear();
 
  private:
+  void Take(const ImuSample& sample);
   // Takes state_ from its own time to that of samples_[index], which closes the interval.
   void Advance(size_t index);
 
@@ -46,6 +48,8 @@ class ImuPropagator {
   std::optional<FrameState> state_;  // t_ns in IMU time
   int64_t t_reset_ns_ = 0;
   ForwardJumpDetector leap_;
+  ImuGate gate_;
+  std::optional<int64_t> last_ns_;  // of the newest sample that went to the gate
 };
 
 }  // namespace plm_vins

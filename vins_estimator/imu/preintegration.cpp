@@ -2,6 +2,7 @@
 #include "vins_estimator/imu/preintegration.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -25,6 +26,11 @@ constexpr double kForceWalk = 5.0;  // [m/s^2/sqrt(s)]
 double EffectiveDensitySquared(double density, double walk, double dt) {
   const double sensor = density * density;
   return dt <= kMaxImuInterval ? sensor : sensor + walk * walk * dt * dt / 12.0;
+}
+
+// The same of the doubt about the readings at both ends: the interval takes their mean.
+double DoubtSquared(double begin, double end, double dt) {
+  return (begin * begin + end * end) / 4 * dt;
 }
 
 // Linearised error propagation over one interval: the blocks of F in error' = F error that are
@@ -61,15 +67,18 @@ struct Transition {
 // Covariance that white noise on rate, force and the bias derivatives adds within one interval. The
 // gyro noise acts like a gyro bias of that interval; the force noise is doubly integrated exactly,
 // so that a single interval already gives full rank.
-void AddNoise(const ImuNoise& noise, const Transition& transition, Matrix15d* covariance) {
+void AddNoise(const ImuNoise& noise, const ImuSample& begin, const ImuSample& end,
+              const Transition& transition, Matrix15d* covariance) {
   const double dt = transition.dt;
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   Eigen::Matrix<double, 9, 3> d_gyro;
   d_gyro << 0.5 * dt * transition.velocity_gyro, transition.rotation_gyro, transition.velocity_gyro;
-  const double gyro = EffectiveDensitySquared(noise.gyro_density, kRateWalk, dt);
+  const double gyro = EffectiveDensitySquared(noise.gyro_density, kRateWalk, dt) +
+                      DoubtSquared(begin.gyro_doubt, end.gyro_doubt, dt);
   covariance->topLeftCorner<9, 9>() += gyro / dt * d_gyro * d_gyro.transpose();
 
-  const double accel = EffectiveDensitySquared(noise.accel_density, kForceWalk, dt);
+  const double accel = EffectiveDensitySquared(noise.accel_density, kForceWalk, dt) +
+                       DoubtSquared(begin.accel_doubt, end.accel_doubt, dt);
   const auto block = [covariance](int row, int column) {
     return covariance->block<3, 3>(row, column);
   };
@@ -98,10 +107,33 @@ void Preintegration::Append(const ImuSample& sample) {
   samples_.push_back(sample);
 }
 
+void Preintegration::Join(const Preintegration& next) {
+  noise_ = next.noise_;
+  bias_step_ = {std::max(bias_step_.gyro, next.bias_step_.gyro),
+                std::max(bias_step_.accel, next.bias_step_.accel)};
+  for (const ImuSample& sample : next.samples_) {
+    if (sample.t_ns > samples_.back().t_ns) Append(sample);
+  }
+}
+
 void Preintegration::Repropagate(const ImuBias& linearization_bias) {
   bias_ = linearization_bias;
   Restart();
   for (size_t i = 1; i < samples_.size(); ++i) IntegrateInterval(samples_[i - 1], samples_[i]);
+}
+
+void Preintegration::AllowBiasStep(const BiasStep& step) {
+  bias_step_ = step;
+  sqrt_information_valid_ = false;
+}
+
+// A step at the start of the interval acts on all of it.
+Matrix15d Preintegration::covariance() const {
+  if (bias_step_.gyro == 0 && bias_step_.accel == 0) return covariance_;
+  const Eigen::Matrix<double, 15, 3> accel = jacobian_.middleCols<3>(Index::kAccelBias);
+  const Eigen::Matrix<double, 15, 3> gyro = jacobian_.middleCols<3>(Index::kGyroBias);
+  return covariance_ + bias_step_.accel * bias_step_.accel * accel * accel.transpose() +
+         bias_step_.gyro * bias_step_.gyro * gyro * gyro.transpose();
 }
 
 void Preintegration::Restart() {
@@ -136,7 +168,7 @@ void Preintegration::IntegrateInterval(const ImuSample& begin, const ImuSample& 
   transition.velocity_accel = -0.5 * dt * (R_begin + R_end);
   transition.Apply(&jacobian_);
   transition.Propagate(&covariance_);
-  AddNoise(noise_, transition, &covariance_);
+  AddNoise(noise_, begin, end, transition, &covariance_);
 
   delta_p_ += delta_v_ * dt + 0.5 * accel * dt * dt;
   delta_v_ += accel * dt;
@@ -178,7 +210,7 @@ FrameState Preintegration::Predict(const FrameState& start,
 const Matrix15d& Preintegration::SqrtInformation() const {
   if (sqrt_information_valid_) return sqrt_information_;
   // Cholesky from the last row up: covariance = V V^T with V upper triangular, hence U = V^-1.
-  const Matrix15d reversed = covariance_.reverse();
+  const Matrix15d reversed = covariance().reverse();
   const Eigen::LLT<Matrix15d> llt(reversed);
   if (llt.info() != Eigen::Success) {
     throw std::logic_error(

@@ -19,6 +19,12 @@ struct ImuErrorIndex {
   static constexpr int kPosition = 0, kRotation = 3, kVelocity = 6, kAccelBias = 9, kGyroBias = 12;
 };
 
+// Deviations of a bias, on top of its random walk.
+struct BiasStep {
+  double gyro = 0;   // [rad/s]
+  double accel = 0;  // [m/s^2]
+};
+
 // IMU samples between two images folded into one relative motion that does not depend on the state
 // (midpoint rule). [Forster2017], [Qin2018] section IV.B. A gap in the samples (over 50 ms) is
 // bridged the same way, with the noise grown by what a vehicle's motion may do meanwhile. Rotation
@@ -34,8 +40,14 @@ class Preintegration {
   // Samples must be in strictly increasing order of time (std::invalid_argument otherwise).
   void Append(const ImuSample& sample);
 
+  // Appends the interval that follows this one, with the noise and the steps of bias of its own.
+  void Join(const Preintegration& next);
+
   // Integrates the same samples anew about another bias.
   void Repropagate(const ImuBias& linearization_bias);
+
+  // Lets the biases differ from those before the interval by steps of these deviations.
+  void AllowBiasStep(const BiasStep& step);
 
   // Deltas corrected to first order for the change of bias.
   Eigen::Vector3d DeltaP(const ImuBias& bias) const;
@@ -49,12 +61,13 @@ class Preintegration {
   const std::vector<ImuSample>& samples() const { return samples_; }
   const ImuBias& linearization_bias() const { return bias_; }
   const ImuNoise& noise() const { return noise_; }
+  const BiasStep& bias_step() const { return bias_step_; }
   const Eigen::Vector3d& delta_p() const { return delta_p_; }
   const Eigen::Quaterniond& delta_q() const { return delta_q_; }
   const Eigen::Vector3d& delta_v() const { return delta_v_; }
   // d(error state at the end)/d(error state at the start), rows and columns as ImuErrorIndex.
   const Matrix15d& jacobian() const { return jacobian_; }
-  const Matrix15d& covariance() const { return covariance_; }
+  Matrix15d covariance() const;
   // Upper triangular U with U^T U = covariance^-1. Computed at the first call and kept, so that
   // this first call must not run in several threads. std::logic_error where no interval is
   // integrated yet.
@@ -66,13 +79,14 @@ class Preintegration {
 
   ImuNoise noise_;
   ImuBias bias_;
+  BiasStep bias_step_;
   std::vector<ImuSample> samples_;
   double duration_ = 0;
   Eigen::Vector3d delta_p_ = Eigen::Vector3d::Zero();
   Eigen::Quaterniond delta_q_ = Eigen::Quaterniond::Identity();
   Eigen::Vector3d delta_v_ = Eigen::Vector3d::Zero();
   Matrix15d jacobian_ = Matrix15d::Identity();
-  Matrix15d covariance_ = Matrix15d::Zero();
+  Matrix15d covariance_ = Matrix15d::Zero();  // without that of the step
   mutable Matrix15d sqrt_information_ = Matrix15d::Zero();
   mutable bool sqrt_information_valid_ = false;
 };

@@ -69,6 +69,21 @@ void PointMap::Triangulate(const SlidingWindow& window, double min_angle) {
   }
 }
 
+PointMap::Fit PointMap::FitOfNewest(const SlidingWindow& window, double max_error) const {
+  Fit fit;
+  for (const auto& [id, landmark] : landmarks()) {
+    const PointView& newest = landmark.views.back();
+    if (!landmark.triangulated || landmark.views.size() < 3 ||
+        newest.t_ns != window.newest().state.t_ns) {
+      continue;
+    }
+    const auto error = ReprojectionError(PositionInWorld(landmark, window), newest, window);
+    ++fit.seen;
+    fit.contradicted += !error || *error > max_error ? 1 : 0;
+  }
+  return fit;
+}
+
 int PointMap::RemoveOutliers(const SlidingWindow& window, double max_error) {
   int removed = 0;
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {

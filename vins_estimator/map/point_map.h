@@ -20,6 +20,13 @@ class PointMap : public LandmarkMap<PointLandmark> {
   // Triangulates what can be; `min_angle` [rad] is the least angle between rays.
   void Triangulate(const SlidingWindow& window, double min_angle);
 
+  // How many triangulated landmarks of three views and more the newest image shows, and how many of
+  // them further than `max_error` from where they should be.
+  struct Fit {
+    int seen = 0, contradicted = 0;
+  };
+  Fit FitOfNewest(const SlidingWindow& window, double max_error) const;
+
   // Removes landmarks behind a camera or with a mean reprojection error above `max_error`, and
   // single views above twice that (normalised image units). Returns how many landmarks and views
   // were removed.

@@ -47,9 +47,7 @@ FrameState& SlidingWindow::StateAt(int64_t t_ns) {
 void SlidingWindow::RemoveSecondNewest() {
   const WindowFrame& second = second_newest();
   const std::shared_ptr<Preintegration> joined = second.motion_since_previous;
-  for (const ImuSample& sample : newest().motion_since_previous->samples()) {
-    if (sample.t_ns > joined->samples().back().t_ns) joined->Append(sample);
-  }
+  joined->Join(*newest().motion_since_previous);
   newest().motion_since_previous = joined;
   newest().stationary = newest().stationary && second.stationary;
   frames.erase(frames.end() - 2);

@@ -44,6 +44,8 @@ class RunSummary {
   int64_t stationary_ = 0;
   int64_t keyframes_ = 0;
   int64_t resets_ = 0;
+  int64_t imu_doubts_ = 0;
+  int64_t imu_noisy_ = 0;  // poses with a noise of the IMU beyond the configured one
   int64_t merged_lines_ = 0;
   int64_t recognised_lines_ = 0;
   int64_t manhattan_ = 0;   // poses with a Manhattan frame

@@ -22,6 +22,8 @@ void EstimatorDiagnostics::Update(const EstimatorOutput& output, int64_t frames,
   state_ = output.status;
   reason_ = output.reason;
   pose_age_ = age;
+  imu_noise_scale_ = output.imu_noise_scale;
+  imu_doubts_ += output.imu_doubted ? 1 : 0;
   if (output.restarted) last_restart_ = output.reason;
   if (output.has_pose) poses_.Add(output.t_ns);
   counts_ = output.counts;
@@ -33,6 +35,7 @@ void EstimatorDiagnostics::Update(const EstimatorOutput& output, int64_t frames,
 void EstimatorDiagnostics::UpdateCounts(const EstimationStage& stage, const DropCounts& drops) {
   const std::lock_guard<std::mutex> lock(mutex_);
   resets_ = stage.resets();
+  imu_contradiction_ = stage.ImuContradiction();
   queued_frames_ = stage.queued_frames();
   lines_are_missing_ = stage.lines_are_missing();
   frames_without_lines_ = stage.statistics().frames_without_lines;
@@ -49,6 +52,8 @@ void EstimatorDiagnostics::Report(size_t queued,
   status->add("last_restart", last_restart_);
   for (StreamMonitor* stream : {&imu_, &points_, &lines_, &poses_}) stream->Report(status);
   status->addf("pose_age_ms", "%.0f", 1e3 * pose_age_);
+  status->addf("imu_noise_scale", "%.1f", imu_noise_scale_);
+  status->add("imu_doubts", imu_doubts_);
   status->add("queued", queued);
   status->add("queued_frames", queued_frames_);
   status->add("estimator_ms", estimator_ms_);
@@ -70,7 +75,8 @@ void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapp
   const bool late = tracking && pose_age_ > kMaxPoseAge;
   if (late)
     state += "; late: poses are " + std::to_string(std::lround(1e3 * pose_age_)) + " ms old";
-  const bool fine = tracking && !lines_are_missing_ && !late;
+  if (!imu_contradiction_.empty()) state += "; " + imu_contradiction_;
+  const bool fine = tracking && !lines_are_missing_ && !late && imu_contradiction_.empty();
   status->summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN, state);
 }
 

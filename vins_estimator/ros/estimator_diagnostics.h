@@ -67,6 +67,9 @@ class EstimatorDiagnostics {
   StreamMonitor poses_{"odometry"};
   EstimatorStatus state_ = EstimatorStatus::kInitializing;
   std::string reason_;
+  double imu_noise_scale_ = 1;
+  int64_t imu_doubts_ = 0;
+  std::string imu_contradiction_;
   double pose_age_ = 0;       // [s]
   std::string last_restart_;  // why
   EstimatorCounts counts_;

@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
+#include "common/imu_interpolation.h"
 #include "simulator/imu_simulator.h"
 #include "test/testing/numeric_jacobian.h"
-#include "vins_estimator/imu/imu_interpolation.h"
 #include "vins_estimator/imu/preintegration.h"
 
 namespace plm_vins {
@@ -128,6 +128,18 @@ TEST_F(ImuPropagatorTest, ASampleThatNoSensorGivesIsIgnored) {
   absurd.accel.x() = 1e6;
   EXPECT_FALSE(propagator.Add(absurd));
   ExpectSame(propagator.Add(samples_[201]), Predict(samples_[100].t_ns, 201));
+}
+
+TEST_F(ImuPropagatorTest, ASpikeIsHeldBackAndReplaced) {
+  for (size_t i = 0; i <= 200; ++i) propagator_.Add(samples_[i]);
+  propagator_.Reset(start_, samples_[100].t_ns);
+  ImuSample spike = samples_[201];
+  spike.accel.x() = 150;
+  EXPECT_FALSE(propagator_.Add(spike));
+  const auto state = propagator_.Add(samples_[202]);
+  ASSERT_TRUE(state.has_value());
+  EXPECT_EQ(state->t_ns, samples_[202].t_ns);
+  EXPECT_MATRIX_NEAR(state->position(), Predict(samples_[100].t_ns, 202).position(), 1e-3);
 }
 
 TEST_F(ImuPropagatorTest, ASampleAloneInTheFutureIsIgnored) {

@@ -281,6 +281,50 @@ TEST(Preintegration, AGapAddsTheUncertaintyOfARandomWalkBetweenItsEnds) {
             100 * sampled(Index::kPosition, Index::kPosition));
 }
 
+TEST(Preintegration, ADoubtfulReadingAddsItsDoubtOverTheTimeThatItStandsFor) {
+  std::vector<ImuSample> samples = ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.1, 200);
+  const Matrix15d sure = Integrate(samples).covariance();
+  samples[10].gyro_doubt = 4;
+  samples[10].accel_doubt = 20;
+  const Matrix15d doubtful = Integrate(samples).covariance();
+  // Half of the reading counts in either interval beside it, of 5 ms each.
+  const double share = 2 * std::pow(0.5 * 0.005, 2);
+  const Matrix15d added = doubtful - sure;
+  EXPECT_NEAR(added(Index::kRotation, Index::kRotation), 16 * share, 0.01 * 16 * share);
+  EXPECT_NEAR(added(Index::kVelocity, Index::kVelocity), 400 * share, 0.01 * 400 * share);
+  EXPECT_NEAR(added(Index::kGyroBias, Index::kGyroBias), 0, 1e-15);
+}
+
+TEST(Preintegration, ABiasStepActsFromTheStartOfTheInterval) {
+  Preintegration motion = Integrate(ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.1, 200));
+  const Matrix15d before = motion.covariance();
+  motion.AllowBiasStep({0.2, 0.5});
+  const Matrix15d added = motion.covariance() - before;
+  EXPECT_NEAR(added(Index::kGyroBias, Index::kGyroBias), 0.04, 1e-12);
+  EXPECT_NEAR(added(Index::kAccelBias, Index::kAccelBias), 0.25, 1e-12);
+  EXPECT_NEAR(added(Index::kRotation, Index::kRotation), 0.04 * 0.01, 1e-9);
+  EXPECT_NEAR(added(Index::kVelocity, Index::kVelocity), 0.25 * 0.01, 1e-9);
+  const Matrix15d whitened =
+      motion.SqrtInformation() * motion.covariance() * motion.SqrtInformation().transpose();
+  EXPECT_MATRIX_NEAR(whitened, Matrix15d::Identity(), 1e-6);
+}
+
+TEST(Preintegration, JoinedIntervalsKeepTheirNoiseAndSteps) {
+  const auto samples = ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.1, 200);
+  const std::vector<ImuSample> first(samples.begin(), samples.begin() + 11);
+  const std::vector<ImuSample> second(samples.begin() + 10, samples.end());
+  Preintegration joined = Integrate(first);
+  const double alone = joined.covariance()(Index::kVelocity, Index::kVelocity);
+  Preintegration noisy(Scaled(joined.noise(), 9), {});
+  for (const ImuSample& sample : second) noisy.Append(sample);
+  noisy.AllowBiasStep({0.1, 0});
+  joined.Join(noisy);
+  EXPECT_EQ(joined.samples().size(), samples.size());
+  EXPECT_EQ(joined.bias_step().gyro, 0.1);
+  EXPECT_NEAR(joined.covariance()(Index::kVelocity, Index::kVelocity), (1 + 9) * alone,
+              0.05 * alone);
+}
+
 TEST(Preintegration, CovarianceHardlyDependsOnTheSampleRate) {
   const Matrix15d slow = Integrate(Flight(3.0, 3.5, 100)).covariance();
   const Matrix15d fast = Integrate(Flight(3.0, 3.5, 1000)).covariance();

@@ -13,7 +13,9 @@ inline ImuSample InterpolateImu(const ImuSample& a, const ImuSample& b, int64_t 
   if (t_ns == a.t_ns) return a;
   if (t_ns == b.t_ns) return b;
   const double fraction = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
-  return {t_ns, a.gyro + fraction * (b.gyro - a.gyro), a.accel + fraction * (b.accel - a.accel)};
+  return {t_ns, a.gyro + fraction * (b.gyro - a.gyro), a.accel + fraction * (b.accel - a.accel),
+          a.gyro_doubt + fraction * (b.gyro_doubt - a.gyro_doubt),
+          a.accel_doubt + fraction * (b.accel_doubt - a.accel_doubt)};
 }
 
 }  // namespace plm_vins

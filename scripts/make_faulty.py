@@ -1,0 +1,51 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Makes a faulty recording of a good one: of a bag, an ASL folder or a file of features."""
+
+import argparse
+import os
+import sys
+
+from stress.faults import FAULTS
+
+
+def parse_arguments(arguments):
+    faults = "\n".join(f"  {name:18} {fault.what}" for name, fault in FAULTS.items())
+    parser = argparse.ArgumentParser(description=__doc__, epilog="faults:\n" + faults,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("source", help="a .bag, an ASL folder, or what --save-features wrote")
+    parser.add_argument("target", help="the same kind, with the fault; written anew")
+    parser.add_argument("--fault", required=True, choices=FAULTS, metavar="NAME")
+    parser.add_argument("--begin", type=float, default=24.0, metavar="S",
+                        help="when it begins, since the first image [s] (default: 24)")
+    return parser.parse_args(arguments)
+
+
+def adapter_of(source):
+    """The module that can make `source` faulty."""
+    if os.path.isdir(source):
+        from stress import asl_folder
+        return asl_folder
+    if source.endswith(".bag"):
+        from stress import bag  # needs ROS, the others do not
+        return bag
+    from stress import feature_file
+    return feature_file
+
+
+def main(arguments=None):
+    options = parse_arguments(arguments)
+    fault = FAULTS[options.fault]
+    try:
+        adapter = adapter_of(options.source)
+        if fault.needs_features and not adapter.__name__.endswith("feature_file"):
+            raise ValueError(f"{options.fault} can be made of a file of features only")
+        adapter.make_faulty(options.source, options.target, fault.apply, options.begin)
+    except (OSError, ValueError, ImportError) as error:
+        print(f"make_faulty.py: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a fault did to a trajectory."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from evaluation import metrics
+from evaluation.trajectory import Trajectory, TrajectoryError, read_trajectory
+
+RESTART = "# the world frame starts anew"
+MAX_DIFFERENCE = 0.01  # between paired stamps [s]
+
+
+@dataclass
+class Damage:
+    ape: float  # RMSE [m]; each world frame is aligned on its own
+    jump: float  # largest position error before a restart, aligned up to the fault [m]
+    restarts: list  # when, since the fault [s]
+    coverage: float  # share of the true time with a pose
+
+
+def read_worlds(path):
+    """The trajectories between restarts, and the stamp of the last pose before each of these."""
+    poses = read_trajectory(path)
+    starts, row = [0], 0
+    with open(path, encoding="utf-8") as file:
+        for line in file:
+            if line.startswith(RESTART):
+                starts.append(row)
+            elif not line.startswith("#"):
+                row += 1
+    ends = starts[1:] + [len(poses)]
+    worlds = [poses.select(np.arange(start, end)) for start, end in zip(starts, ends)
+              if end > start]
+    return worlds, [poses.stamps[end - 1] for end in starts[1:]]
+
+
+def assess(path, truth, fault_at):
+    """`fault_at` [s] on the clock of the stamps. TrajectoryError where nothing can be compared."""
+    worlds, restarts = read_worlds(path)
+    poses = read_trajectory(path)
+    squares = np.concatenate([_squared_errors(world, truth) for world in worlds])
+    if not len(squares):
+        raise TrajectoryError(f"{path}: no world frame is long enough")
+    return Damage(float(np.sqrt(squares.mean())), _jump(worlds, truth, fault_at),
+                  [stamp - fault_at for stamp in restarts], metrics.coverage(poses, truth, 0.5))
+
+
+def _squared_errors(world, truth):
+    try:
+        estimate, true = metrics.associate(world, truth, MAX_DIFFERENCE)
+        rotation, translation = metrics.alignment(estimate, true, "se3")
+    except TrajectoryError:
+        return np.zeros(0)
+    return metrics.position_errors(estimate.transformed(rotation, translation), true) ** 2
+
+
+def _jump(worlds, truth, fault_at):
+    for world in worlds:
+        if world.stamps[0] < fault_at < world.stamps[-1]:
+            return _error_after(world, truth, fault_at)
+    return 0.0
+
+
+def _error_after(world: Trajectory, truth, fault_at):
+    estimate, true = metrics.associate(world, truth, MAX_DIFFERENCE)
+    before = estimate.stamps <= fault_at
+    if before.sum() < 3:
+        return 0.0
+    rotation, translation = metrics.alignment(estimate.select(before), true.select(before), "yaw")
+    errors = metrics.position_errors(estimate.transformed(rotation, translation), true)
+    return float(errors[~before].max(initial=0.0))

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The files of run_offline --save-features (offline/feature_file.cpp has their layout)."""
+
+import struct
+
+import numpy as np
+
+from .measurements import Measurements
+
+SIGNATURE = b"plm_features v1\n"
+IMU, POINTS, POINTS_AND_LINES = 1, 2, 3
+IMU_LAYOUT = struct.Struct("<q6d")
+TRACKING = struct.Struct("<q2?d")  # stamp, restart, publish, milliseconds
+POINT_STATISTICS_SIZE = 6 * 4
+LINE_STATISTICS_SIZE = 5 * 4 + 1 + 3 * 4 + 8
+SIZE = struct.Struct("<I")
+POINT = np.dtype([("id", "<i8"), ("xy", "<f8", 2), ("uv", "<f8", 2), ("velocity", "<f8", 2)])
+LINE_SIZE = 8 + 4 * 8
+
+
+class Features:
+    """A file of features in memory, item by item as it lies on disk."""
+
+    def __init__(self, path):
+        with open(path, "rb") as file:
+            self._bytes = file.read()
+        if not self._bytes.startswith(SIGNATURE):
+            raise ValueError(f"{path}: no features of this version")
+        self._imu, self._images = [], []  # of each: where it begins in the file
+        self._items = []  # (kind, index, begin, end)
+        self._split()
+
+    def measurements(self):
+        samples = np.array([IMU_LAYOUT.unpack_from(self._bytes, at) for at in self._imu],
+                           dtype=object)
+        stamps = [TRACKING.unpack_from(self._bytes, at)[0] for at in self._images]
+        values = samples[:, 1:].astype(float)
+        return Measurements(samples[:, 0].astype(np.int64), values[:, :3].copy(),
+                            values[:, 3:].copy(), np.array(stamps, dtype=np.int64))
+
+    def write(self, path, measurements):
+        was_ns = self.measurements().image_ns
+        with open(path, "wb") as file:
+            file.write(SIGNATURE)
+            for kind, index, begin, end in self._items:
+                if kind == IMU:
+                    file.write(_imu_item(measurements, index))
+                else:
+                    file.write(self._image_item(measurements, was_ns, index, begin, end))
+
+    def _split(self):
+        at = len(SIGNATURE)
+        while at < len(self._bytes):
+            kind, begin = self._bytes[at], at
+            places = self._imu if kind == IMU else self._images
+            places.append(at + 1)
+            at = at + 1 + IMU_LAYOUT.size if kind == IMU else self._end_of_image(at)
+            self._items.append((kind, len(places) - 1, begin, at))
+
+    def _end_of_points(self, begin):
+        size_at = begin + 1 + TRACKING.size + POINT_STATISTICS_SIZE
+        return size_at + SIZE.size + SIZE.unpack_from(self._bytes, size_at)[0] * POINT.itemsize
+
+    def _end_of_image(self, begin):
+        end = self._end_of_points(begin)
+        if self._bytes[begin] == POINTS:
+            return end
+        size_at = end + TRACKING.size + LINE_STATISTICS_SIZE
+        return size_at + SIZE.size + SIZE.unpack_from(self._bytes, size_at)[0] * LINE_SIZE
+
+    def _image_item(self, measurements, was_ns, index, begin, end):
+        t_ns, end_of_points = int(measurements.image_ns[index]), self._end_of_points(begin)
+        head_end = begin + 1 + TRACKING.size + POINT_STATISTICS_SIZE
+        points = np.frombuffer(self._bytes[head_end + SIZE.size:end_of_points], dtype=POINT).copy()
+        points["velocity"] *= _stretch(was_ns, measurements.image_ns, index)
+        if not measurements.points_kept[index]:
+            points = points[:0]
+        item = bytearray(self._bytes[begin:head_end] + SIZE.pack(len(points)) + points.tobytes())
+        struct.pack_into("<q", item, 1, t_ns)
+        if self._bytes[begin] == POINTS:
+            return bytes(item)
+        lines = bytearray(self._bytes[end_of_points:end])
+        struct.pack_into("<q", lines, 0, t_ns)
+        if not measurements.lines_kept[index]:
+            lines = lines[:TRACKING.size + LINE_STATISTICS_SIZE] + SIZE.pack(0)
+        return bytes(item + lines)
+
+
+def _imu_item(measurements, index):
+    if not measurements.imu_kept[index]:
+        return b""
+    return bytes([IMU]) + IMU_LAYOUT.pack(int(measurements.imu_ns[index]),
+                                          *measurements.gyro[index], *measurements.accel[index])
+
+
+def _stretch(was_ns, is_ns, index):
+    """Velocities are differences over the interval of the stamps."""
+    if index == 0:
+        return 1.0
+    return (was_ns[index] - was_ns[index - 1]) / (is_ns[index] - is_ns[index - 1])
+
+
+def make_faulty(source, target, apply, begin):
+    features = Features(source)
+    measurements = features.measurements()
+    apply(measurements, begin)
+    features.write(target, measurements)

@@ -1,0 +1,80 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the odometry on saved features with each fault in turn, and prints what each costs."""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+from evaluation.trajectory import TrajectoryError, read_trajectory
+from stress import feature_file
+from stress.damage import assess
+from stress.faults import FAULTS
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+RUN_OFFLINE = os.path.join(ROOT, "build", "devel", "lib", "plm_vins", "run_offline")
+CONFIG = os.path.join(ROOT, "config", "euroc.yaml")
+HEAD = ("| fault | APE [m] | largest error [m] | restarts after [s] | coverage | noticed |\n"
+        + 6 * "|---" + "|")
+# Counts in summary.json that name a fault.
+NAMED = ("imu_implausible", "imu_replaced", "imu_gaps", "imu_doubts")
+
+
+def parse_arguments(arguments):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("features", help="what run_offline --save-features wrote")
+    parser.add_argument("ground_truth", help="TUM file or EuRoC csv")
+    parser.add_argument("--begin", type=float, default=24.0, metavar="S",
+                        help="when the faults begin, since the first image [s] (default: 24)")
+    parser.add_argument("--faults", nargs="+", choices=FAULTS, default=list(FAULTS), metavar="NAME")
+    parser.add_argument("--config", default=CONFIG)
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
+    parser.add_argument("--run-offline", default=RUN_OFFLINE, metavar="PROGRAM")
+    return parser.parse_args(arguments)
+
+
+def row(name, options, truth, folder):
+    faulty, output = os.path.join(folder, "faulty.feat"), os.path.join(folder, name)
+    feature_file.make_faulty(options.features, faulty, FAULTS[name].apply, options.begin)
+    command = [options.run_offline, "--config", options.config, "--features", faulty,
+               "--output", output]
+    for override in options.set:
+        command += ["--set", override]
+    if subprocess.run(command, stderr=subprocess.DEVNULL, check=False).returncode != 0:
+        return f"| {name} | no trajectory |"
+    start = feature_file.Features(options.features).measurements().image_ns[0] * 1e-9
+    damage = assess(os.path.join(output, "trajectory.tum"), truth, start + options.begin)
+    restarts = " ".join(f"{time:.1f}" for time in damage.restarts) or "-"
+    return (f"| {name} | {damage.ape:.3f} | {damage.jump:.2f} | {restarts} |"
+            f" {100 * damage.coverage:.0f} % | {_noticed(output)} |")
+
+
+def _noticed(output):
+    with open(os.path.join(output, "summary.json"), encoding="utf-8") as file:
+        summary = json.load(file)
+    counts = {**summary["dropped"], "imu_doubts": summary["imu_doubts"]}
+    noticed = [f"{name} {counts[name]}" for name in NAMED if counts.get(name)]
+    if summary["imu_noisy_share"] > 0:
+        noticed.append(f"IMU noisy {100 * summary['imu_noisy_share']:.0f} %")
+    return ", ".join(noticed) or "-"
+
+
+def main(arguments=None):
+    options = parse_arguments(arguments)
+    try:
+        truth = read_trajectory(options.ground_truth)
+        print(HEAD)
+        with tempfile.TemporaryDirectory() as folder:
+            for name in options.faults:
+                print(row(name, options, truth, folder), flush=True)
+    except (TrajectoryError, OSError, ValueError) as error:
+        print(f"stress_table.py: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

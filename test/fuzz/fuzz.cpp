@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Gives damaged inputs to what takes input from outside, for some seconds each. The input of an
+// index is always the same, so that a finding can be run again alone: fuzz TARGET SECONDS INDEX.
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "common/stopwatch.h"
+#include "test/fuzz/target.h"
+
+namespace plm_vins::fuzz {
+namespace {
+
+// Only where it is asked for: rosbag itself reads past its buffer where an index is damaged, and
+// leaves its users no way to check that before.
+constexpr char kOnDemand[] = "bag";
+
+constexpr double kSlow_ms = 10'000;  // one input: that is a hang
+
+std::vector<Target> Targets() {
+  std::vector<Target> targets = {ConfigTarget(), AslTarget(), StageTarget(), PointTrackerTarget(),
+                                 LineTrackerTarget()};
+#ifdef WITH_ROS
+  targets.push_back(MessagesTarget());
+  targets.push_back(BagTarget());
+#endif
+  return targets;
+}
+
+const char* current_target = "";
+volatile unsigned long long current_index = 0;
+
+// Where a finding ends the program: which input it was. The sanitizers must abort for that.
+void NameInput(int signal) {
+  std::fprintf(stderr, "fuzz: %s, input %llu\n", current_target, current_index);
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+Bytes Input(const Target& target, uint64_t index) {
+  Mutator mutator(index);
+  const Bytes& seed = target.seeds[mutator.Below(target.seeds.size())];
+  return index == 0 ? seed : mutator.Mutate(seed);
+}
+
+void RunOne(const Target& target, uint64_t index) {
+  current_index = index;
+  const Stopwatch stopwatch;
+  try {
+    target.run(Input(target, index));
+  } catch (const std::exception&) {  // callers do catch these
+  }
+  if (stopwatch.Milliseconds() > kSlow_ms) {
+    std::fprintf(stderr, "fuzz: took %.1f s\n", 1e-3 * stopwatch.Milliseconds());
+    std::abort();
+  }
+}
+
+void RunTarget(const Target& target, double seconds, uint64_t first) {
+  current_target = target.name.c_str();
+  const Stopwatch stopwatch;
+  uint64_t index = first;
+  do {
+    RunOne(target, index++);
+  } while (stopwatch.Milliseconds() < 1e3 * seconds);
+  std::fprintf(stderr, "fuzz: %s, %llu inputs, no finding\n", current_target,
+               static_cast<unsigned long long>(index - first));
+}
+
+// False where there is no such target.
+bool RunTargets(const std::string& name, double seconds, uint64_t first) {
+  bool found = false;
+  for (const Target& target : Targets()) {
+    const bool wanted = name == "all" ? target.name != kOnDemand : name == target.name;
+    if (!wanted) continue;
+    found = true;
+    RunTarget(target, seconds, first);
+  }
+  return found;
+}
+
+}  // namespace
+}  // namespace plm_vins::fuzz
+
+int main(int argc, char** argv) {
+  const std::string name = argc > 1 ? argv[1] : "all";
+  const double seconds = argc > 2 ? std::atof(argv[2]) : 5;
+  const uint64_t first = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 0;
+  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE}) {
+    std::signal(signal, plm_vins::fuzz::NameInput);
+  }
+  const bool found = plm_vins::fuzz::RunTargets(name, seconds, first);
+  if (!found) std::fprintf(stderr, "fuzz: no target %s\n", name.c_str());
+  return found ? 0 : 1;
+}

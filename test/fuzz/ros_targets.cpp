@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <rosbag/bag.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/ros/msg_conversion.h"
+#include "offline/bag_recording.h"
+#include "test/fuzz/target.h"
+
+namespace plm_vins::fuzz {
+namespace {
+
+std::string BagFile() {
+  const auto name = "plm_vins_fuzz_" + std::to_string(getpid()) + ".bag";
+  return (std::filesystem::temp_directory_path() / name).string();
+}
+
+sensor_msgs::Image Image(int64_t t_ns) {
+  sensor_msgs::Image image;
+  image.header.stamp = ToRosTime(t_ns);
+  image.encoding = "mono8";
+  image.width = image.step = 16;
+  image.height = 12;
+  image.data.assign(16 * 12, 100);
+  return image;
+}
+
+Bytes SmallBag(rosbag::compression::CompressionType compression) {
+  rosbag::Bag bag(BagFile(), rosbag::bagmode::Write);
+  bag.setCompression(compression);
+  for (int i = 0; i < 20; ++i) {
+    const int64_t t_ns = 1'500'000'000'000'000'000 + 5'000'000 * i;
+    sensor_msgs::Imu imu;
+    imu.header.stamp = ToRosTime(t_ns);
+    imu.linear_acceleration.z = 9.81;
+    bag.write("/imu0", imu.header.stamp, imu);
+    if (i % 10 == 0) bag.write("/cam0/image_raw", imu.header.stamp, Image(t_ns));
+  }
+  bag.close();
+  std::ostringstream text;
+  text << std::ifstream(BagFile(), std::ios::binary).rdbuf();
+  return ToBytes(text.str());
+}
+
+// Messages of any content, as a node's callback may get them; roscpp has read their lengths.
+sensor_msgs::PointCloud AnyCloud(Reader* reader) {
+  sensor_msgs::PointCloud cloud;
+  cloud.header.stamp.sec = reader->Value<uint32_t>();
+  cloud.points.resize(reader->Byte());
+  cloud.channels.resize(reader->Byte() % 8);
+  for (geometry_msgs::Point32& point : cloud.points) {
+    point.x = reader->Value<float>();
+    point.y = reader->Value<float>();
+  }
+  for (sensor_msgs::ChannelFloat32& channel : cloud.channels) {
+    const bool fits = reader->Byte() % 8 != 0;
+    channel.values.resize(fits ? cloud.points.size() : reader->Byte());
+    for (float& value : channel.values) {
+      value = reader->Byte() % 8 != 0 ? reader->Byte() : reader->Value<float>();
+    }
+  }
+  return cloud;
+}
+
+sensor_msgs::Image AnyImage(Reader* reader) {
+  static const char* const encodings[] = {"mono8", "mono16", "bgr8",  "rgba8", "bayer_rggb8",
+                                          "32FC1", "",       "8UC99", "yuv422"};
+  sensor_msgs::Image image;
+  image.encoding = encodings[reader->Byte() % std::size(encodings)];
+  const bool small = reader->Byte() % 4 != 0;
+  image.width = small ? reader->Byte() : reader->Value<uint32_t>();
+  image.height = small ? reader->Byte() : reader->Value<uint32_t>();
+  image.step = small ? image.width * (1 + reader->Byte() % 8) : reader->Value<uint32_t>();
+  const size_t whole = size_t{image.step} * image.height;
+  image.data.resize(std::min<size_t>(small ? whole : reader->Value<uint16_t>(), 1 << 20));
+  return image;
+}
+
+// One conversion after the other, whatever the one before says.
+template <typename Conversion>
+void Try(Conversion conversion) {
+  try {
+    conversion();
+  } catch (const std::exception&) {
+  }
+}
+
+}  // namespace
+
+Target BagTarget() {
+  const std::vector<Bytes> seeds = {SmallBag(rosbag::compression::Uncompressed),
+                                    SmallBag(rosbag::compression::BZ2),
+                                    SmallBag(rosbag::compression::LZ4)};
+  return {"bag", seeds, [](const Bytes& bytes) {
+            std::ofstream(BagFile(), std::ios::binary) << ToText(bytes);
+            const auto recording = OpenBag(BagFile(), "/cam0/image_raw", "/imu0");
+            while (const auto event = recording->Next()) {
+              if (event->kind == RecordingEvent::Kind::kImage) recording->LoadImage();
+            }
+          }};
+}
+
+Target MessagesTarget() {
+  Bytes seed;
+  for (int i = 0; i < 600; ++i) seed.push_back(static_cast<uint8_t>(7 * i));
+  return {
+      "messages", {seed}, [](const Bytes& bytes) {
+        int64_t left_out = 0;
+        Try([&, reader = Reader(bytes)]() mutable { ToPointFrame(AnyCloud(&reader), &left_out); });
+        Try([&, reader = Reader(bytes)]() mutable { ToLineFrame(AnyCloud(&reader), &left_out); });
+        Try([&, reader = Reader(bytes)]() mutable { ToImageSample(AnyImage(&reader)); });
+        sensor_msgs::CompressedImage compressed;
+        compressed.data = bytes;
+        Try([&] { ToImageSample(compressed); });
+      }};
+}
+
+}  // namespace plm_vins::fuzz

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+
+#include "common/feature_checks.h"
+#include "simulator/feature_simulator.h"
+#include "test/fuzz/target.h"
+#include "vins_estimator/estimation_stage.h"
+
+namespace plm_vins::fuzz {
+namespace {
+
+constexpr double kMaxFrame_ms = 1000;  // of processor time, sanitizers included
+
+const simulator::FeatureDataset& Flight() {
+  static const simulator::FeatureDataset flight = [] {
+    simulator::FeatureSimulationOptions options;
+    options.trajectory.motion = simulator::Motion::kFast;
+    options.trajectory.rest = 0;
+    options.trajectory.lead_in = 0.5;
+    options.trajectory.duration = 4;
+    options.max_points = 40;
+    options.max_lines = 8;
+    return simulator::SimulateFeatures(options);
+  }();
+  return flight;
+}
+
+// A number of any size, most often of an everyday one.
+double Size(Reader* reader) {
+  const int8_t exponent = static_cast<int8_t>(reader->Byte());
+  const double sign = exponent % 2 == 0 ? 1 : -1;
+  return exponent == -128 ? std::nan("") : sign * std::pow(10.0, exponent / 16.0);
+}
+
+// Faults as an input describes them: nine bytes each, the kind, the sample or image that it begins
+// with, how many it takes, how large it is.
+void Damage(const Bytes& bytes, simulator::FeatureDataset* flight) {
+  for (Reader reader(bytes); !reader.empty();) {
+    const uint8_t kind = reader.Byte();
+    const size_t begin = reader.Value<uint16_t>(), count = reader.Byte();
+    const double size = Size(&reader);
+    const auto imu = [&](const auto& change) {
+      const size_t first = begin % flight->imu.size();
+      for (size_t i = first; i < std::min(first + count, flight->imu.size()); ++i) {
+        change(&flight->imu[i]);
+      }
+    };
+    const auto images = [&](const auto& change) {
+      const size_t first = begin % flight->points.size();
+      for (size_t i = first; i < std::min(first + count, flight->points.size()); ++i) change(i);
+    };
+    switch (kind % 8) {
+      case 0:
+        imu([&](ImuSample* sample) { sample->gyro[kind % 3] += size; });
+        break;
+      case 1:
+        imu([&](ImuSample* sample) { sample->accel[kind % 3] += size; });
+        break;
+      case 2:
+        imu([&](ImuSample* sample) { sample->t_ns += static_cast<int64_t>(1e6 * size); });
+        break;
+      case 3:
+        images([&](size_t i) { flight->points[i].t_ns += static_cast<int64_t>(1e6 * size); });
+        break;
+      case 4:
+        images([&](size_t i) { flight->points[i].points.clear(); });
+        break;
+      case 5:
+        images([&](size_t i) { flight->lines[i].lines.clear(); });
+        break;
+      case 6:
+        images([&](size_t i) {
+          for (PointObservation& point : flight->points[i].points) point.xy.x() += 0.01 * size;
+        });
+        break;
+      default:
+        images([&](size_t i) {
+          for (PointObservation& point : flight->points[i].points) point.id %= 7 + kind;
+        });
+    }
+  }
+}
+
+void Check(const EstimatedFrame& frame, double milliseconds) {
+  const FrameState& state = frame.output.state;
+  const bool finite = state.position().allFinite() && state.velocity().allFinite() &&
+                      state.rotation().coeffs().allFinite() &&
+                      frame.output.pose_covariance.allFinite();
+  if (frame.output.has_pose && !finite) {
+    std::fprintf(stderr, "stage: a pose is not finite\n");
+    std::abort();
+  }
+  if (milliseconds > kMaxFrame_ms) {
+    std::fprintf(stderr, "stage: a frame took %.0f ms\n", milliseconds);
+    std::abort();
+  }
+}
+
+// Duplicate ids and absurd coordinates are left out where messages are converted.
+PointFrame Converted(PointFrame frame) {
+  RemoveImpossible(&frame.points);
+  return frame;
+}
+
+void Fly(const simulator::FeatureDataset& flight) {
+  Config config;
+  config.sensor = simulator::FeatureSimulationOptions().sensors;
+  EstimationStage stage(config);
+  size_t sample = 0;
+  for (size_t i = 0; i < flight.points.size(); ++i) {
+    stage.AddPoints(Converted(flight.points[i]));
+    stage.AddLines(flight.lines[i]);
+    for (size_t end = (i + 1) * flight.imu.size() / flight.points.size(); sample < end; ++sample) {
+      if (IsStamp(flight.imu[sample].t_ns)) stage.AddImu(flight.imu[sample]);
+    }
+    std::clock_t begin = std::clock();
+    while (const auto frame = stage.Pop()) {
+      Check(*frame, 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+      begin = std::clock();
+    }
+  }
+}
+
+}  // namespace
+
+Target StageTarget() {
+  Bytes seed;
+  for (uint8_t i = 0; i < 40; ++i) seed.push_back(static_cast<uint8_t>(37 * i));
+  return {"stage", {seed}, [](const Bytes& bytes) {
+            simulator::FeatureDataset flight = Flight();
+            Damage(bytes, &flight);
+            Fly(flight);
+          }};
+}
+
+}  // namespace plm_vins::fuzz

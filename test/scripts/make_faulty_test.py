@@ -1,0 +1,130 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""scripts/make_faulty.py: what becomes of recordings, and what does not."""
+
+import os
+import struct
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
+from make_faulty import main  # noqa: E402
+from stress.faults import FAULTS  # noqa: E402
+from stress.feature_file import (IMU, IMU_LAYOUT, POINT_STATISTICS_SIZE, POINTS,  # noqa: E402
+                                 SIGNATURE, SIZE, TRACKING, POINT, Features)
+from stress.measurements import Measurements  # noqa: E402
+
+START_NS = 1403636579758555392
+
+
+def flight(seconds=4):
+    """IMU at 200 Hz, images at 20 Hz."""
+    samples, images = 200 * seconds, 20 * seconds
+    values = np.tile([0.1, 0.2, 0.3], (samples, 1))
+    return Measurements(START_NS + 5_000_000 * np.arange(samples), values.copy(), 9 + values,
+                        START_NS + 50_000_000 * np.arange(images))
+
+
+class Faults(unittest.TestCase):
+    def damaged(self, name, begin=1.0):
+        measurements = flight()
+        FAULTS[name].apply(measurements, begin)
+        return measurements
+
+    def test_nothing_changes_before_the_fault(self):
+        for name in set(FAULTS) - {"image_delay"}:
+            good, bad = flight(), self.damaged(name, begin=2.0)
+            for field in ("imu_ns", "gyro", "accel", "imu_kept"):
+                np.testing.assert_array_equal(getattr(bad, field)[:400], getattr(good, field)[:400],
+                                              f"{name} {field}")
+            np.testing.assert_array_equal(bad.image_ns[:40], good.image_ns[:40], name)
+
+    def test_every_fault_but_none_changes_something(self):
+        for name in FAULTS:
+            good, bad = flight(), self.damaged(name)
+            same = all(np.array_equal(getattr(good, field), getattr(bad, field))
+                       for field in vars(good))
+            # The flight is still and so far from the limits of a sensor.
+            self.assertEqual(same, name in ("none", "imu_saturated", "imu_held_100ms"), name)
+
+    def test_sizes(self):
+        self.assertAlmostEqual(
+            np.linalg.norm(self.damaged("gyro_bias_step").gyro[-1] - flight().gyro[-1]), 0.05)
+        self.assertEqual((self.damaged("accel_spike").accel == 150).sum(), 1)
+        self.assertEqual((self.damaged("gyro_three").gyro == 40).sum(), 3)
+        self.assertEqual((self.damaged("accel_spikes_1hz").accel == 150).sum(), 3)
+        self.assertEqual(self.damaged("imu_halved").imu_kept.sum(), 200 + 300)
+        jitter = self.damaged("image_jitter").image_ns - flight().image_ns
+        self.assertLessEqual(abs(jitter).max(), 5_000_000)
+        self.assertGreater(abs(jitter).max(), 4_000_000)
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def write(self, name, content):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), "wb") as file:
+            file.write(content)
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def features(self):
+        """Twenty samples, with an image of two points after every tenth."""
+        content = SIGNATURE
+        for i in range(20):
+            content += bytes([IMU]) + IMU_LAYOUT.pack(START_NS + 5_000_000 * i, *range(6))
+            if i % 10 == 0:
+                content += bytes([POINTS]) + TRACKING.pack(START_NS + 5_000_000 * i, False, True, 1)
+                content += bytes(POINT_STATISTICS_SIZE) + SIZE.pack(2) + bytes(2 * POINT.itemsize)
+        self.write("good.feat", content)
+        return self.path("good.feat")
+
+    def test_features_without_a_fault_are_the_same_bytes(self):
+        self.assertEqual(main([self.features(), self.path("bad.feat"), "--fault", "none"]), 0)
+        self.assertEqual(self.read("bad.feat"), self.read("good.feat"))
+
+    def test_features_with_faults(self):
+        for fault, size in (("imu_halved", -10 * (1 + IMU_LAYOUT.size)),
+                            ("points_gone_10s", -4 * POINT.itemsize), ("accel_spike", 0)):
+            self.assertEqual(main([self.features(), self.path("bad.feat"), "--fault", fault,
+                                   "--begin", "0"]), 0)
+            self.assertEqual(len(self.read("bad.feat")) - len(self.read("good.feat")), size, fault)
+        self.assertEqual(Features(self.path("bad.feat")).measurements().accel[0, 0], 150)
+
+    def test_asl_folder(self):
+        imu = "".join(f"{START_NS + 5_000_000 * i},0,0,0,0,0,9.81\n" for i in range(20))
+        self.write("good/mav0/imu0/data.csv", b"#timestamp [ns],w,w,w,a,a,a\n" + imu.encode())
+        images = f"#timestamp [ns],filename\n{START_NS},a.png\n"
+        self.write("good/mav0/cam0/data.csv", images.encode())
+        self.write("good/mav0/cam0/data/a.png", b"picture")
+        self.assertEqual(main([self.path("good"), self.path("bad"), "--fault", "gyro_spike",
+                               "--begin", "0.05"]), 0)
+        rows = self.read("bad/imu0/data.csv").decode().splitlines()
+        self.assertEqual(len(rows), 21)
+        self.assertEqual([row.split(",")[1] for row in rows].count("40.0"), 1)
+        self.assertEqual(self.read("bad/cam0/data/a.png"), b"picture")
+        self.assertIn("a.png", self.read("bad/cam0/data.csv").decode())
+
+    def test_what_needs_features_says_so(self):
+        os.makedirs(self.path("folder"))
+        self.assertEqual(main([self.path("folder"), self.path("bad"), "--fault", "blind_10s"]), 1)
+
+    def test_a_file_that_is_none(self):
+        self.write("other.feat", struct.pack("<q", 1))
+        self.assertEqual(main([self.path("other.feat"), self.path("x"), "--fault", "none"]), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

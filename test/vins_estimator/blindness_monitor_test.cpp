@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/blindness_monitor.h"
+
+#include <gtest/gtest.h>
+
+#include "common/measurements.h"
+
+namespace plm_vins {
+namespace {
+
+// Of a position known to this deviation, in all directions together.
+Eigen::Matrix3d Known(double deviation) {
+  return deviation * deviation / 3 * Eigen::Matrix3d::Identity();
+}
+
+TEST(BlindnessMonitor, BearsDriftWhileSomethingIsSeen) {
+  BlindnessMonitor monitor;
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(monitor.Add(i, 6, Known(0.1 * i)));
+}
+
+TEST(BlindnessMonitor, EndsWhatBlindnessHasMadeTooUncertain) {
+  BlindnessMonitor monitor;
+  monitor.Add(0, 100, Known(3.0));
+  EXPECT_FALSE(monitor.Add(ToNanoseconds(0.5), 0, Known(3.0)));
+  EXPECT_FALSE(monitor.Add(ToNanoseconds(1.5), 5, Known(3.02)));
+  EXPECT_EQ(monitor.Add(ToNanoseconds(3.5), 5, Known(3.06)).value_or(""),
+            "nothing was seen for 3.0 s, which leaves the position open by 0.60 m");
+}
+
+TEST(BlindnessMonitor, SightStartsItOver) {
+  BlindnessMonitor monitor;
+  monitor.Add(0, 0, Known(0.4));
+  monitor.Add(1, 50, Known(0.4));
+  EXPECT_FALSE(monitor.Add(2, 0, Known(0.6)));
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/imu_monitor.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "common/measurements.h"
+
+namespace plm_vins {
+namespace {
+
+ImuMonitor::Evidence At(double t, double chi_square) {
+  return {ToNanoseconds(t), chi_square, 100, 2};
+}
+
+TEST(ImuMonitor, TrustsTheConfiguredNoiseWhereItFits) {
+  ImuMonitor monitor;
+  std::mt19937 random(1);
+  std::chi_squared_distribution<double> chi_square(0.5);
+  for (int i = 0; i < 2000; ++i) {
+    EXPECT_FALSE(monitor.Add(At(0.05 * i, chi_square(random))));
+    EXPECT_EQ(monitor.noise_scale(), 1);
+  }
+}
+
+TEST(ImuMonitor, DoubtsAtOnceWhereAnImageContradicts) {
+  ImuMonitor monitor;
+  EXPECT_FALSE(monitor.Add(At(0, 0.5)));
+  const auto scale = monitor.Add(At(0.05, 90));
+  ASSERT_TRUE(scale.has_value());
+  EXPECT_DOUBLE_EQ(*scale, 30);
+  EXPECT_EQ(monitor.noise_scale(), 1);  // one image may be an outlier
+}
+
+TEST(ImuMonitor, DoubtsWhereSeveralImagesContradictALittle) {
+  ImuMonitor monitor;
+  int images = 1;
+  while (images < 100 && !monitor.Add(At(0.05 * images, 9))) ++images;
+  EXPECT_EQ(images, 5);  // 5 x (9 - 3) > 24
+}
+
+TEST(ImuMonitor, LeavesTheBiasesASecondToSettle) {
+  ImuMonitor monitor;
+  int doubts = 0;
+  for (int i = 0; i < 40; ++i) doubts += monitor.Add(At(0.05 * i, 60)) ? 1 : 0;
+  EXPECT_EQ(doubts, 2);
+}
+
+TEST(ImuMonitor, DoubtsStronglyWhereThePointsAreElsewhere) {
+  ImuMonitor monitor;
+  EXPECT_FALSE(monitor.Add({0, 0.5, 100, 50}));
+  EXPECT_FALSE(monitor.Add({50'000'000, 0.5, 19, 19}));
+  EXPECT_GE(monitor.Add({100'000'000, 0.5, 100, 51}).value_or(0), 1e3);
+}
+
+TEST(ImuMonitor, FollowsNoiseThatGoesOnAndForgetsIt) {
+  ImuMonitor monitor;
+  const double true_scale = 50;
+  int i = 0;
+  for (; i < 200; ++i) monitor.Add(At(0.05 * i, true_scale / monitor.noise_scale()));
+  EXPECT_NEAR(monitor.noise_scale(), true_scale, 0.1 * true_scale);
+  for (; i < 400; ++i) monitor.Add(At(0.05 * i, 0.5 / monitor.noise_scale()));
+  EXPECT_EQ(monitor.noise_scale(), 1);
+}
+
+}  // namespace
+}  // namespace plm_vins

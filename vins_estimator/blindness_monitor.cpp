@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/blindness_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "common/measurements.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int kFewFeatures = 6;  // fewer do not fix a pose
+// Standard deviation that blindness may add [m]: with errors of three of them, the pose is still
+// good for a vehicle to stop by.
+constexpr double kMaxDeviation = 0.5;
+
+}  // namespace
+
+std::optional<std::string> BlindnessMonitor::Add(int64_t t_ns, int features_seen,
+                                                 const Eigen::Matrix3d& position_covariance) {
+  const double variance = position_covariance.trace();
+  if (features_seen >= kFewFeatures) {
+    since_ns_.reset();
+    variance_before_ = variance;
+    return std::nullopt;
+  }
+  if (!since_ns_) since_ns_ = t_ns;
+  const double added = std::sqrt(std::max(0.0, variance - variance_before_));
+  if (added <= kMaxDeviation) return std::nullopt;
+  char text[128];
+  std::snprintf(text, sizeof(text),
+                "nothing was seen for %.1f s, which leaves the position open by %.2f m",
+                ToSeconds(t_ns - *since_ns_), added);
+  return std::string(text);
+}
+
+}  // namespace plm_vins

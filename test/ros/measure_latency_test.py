@@ -1,0 +1,51 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What measure_latency.py says of the nodes, also where a bag is played too fast for them.
+
+Usage: measure_latency_test.py NODES BAG FOLDER [unittest option ...]
+NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs.
+"""
+
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+from node_processes import CONFIG, ROOT, free_port
+
+if len(sys.argv) < 4:
+    sys.exit(__doc__)
+BAG = sys.argv[2]
+FOLDER = sys.argv[3]
+SCRIPT = ROOT / "scripts" / "measure_latency.py"
+BOUND_MS = 1000  # under overload: the queues are short, and what is late is dropped
+LEAST_SHARE = 0.3  # of the images with a pose: the rest is initialisation and overload
+
+
+def measure(*options):
+    environment = {**os.environ, "ROS_MASTER_URI": f"http://localhost:{free_port()}",
+                   "ROS_HOME": FOLDER}
+    return subprocess.run(["/usr/bin/python3", "-B", SCRIPT, "--config", CONFIG, *options],
+                          env=environment, capture_output=True, text=True, check=False,
+                          timeout=120)
+
+
+class MeasureLatencyTest(unittest.TestCase):
+    def test_bag_that_is_not_there(self):
+        run = measure("/nowhere.bag")
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual(run.stderr, "measure_latency.py: /nowhere.bag: no such file\n")
+
+    def test_latency_stays_bounded_where_images_come_too_fast(self):
+        run = measure(BAG, "--rate", "3")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        poses, images = map(int, re.match(r"(\d+) poses of (\d+) images\n", run.stdout).groups())
+        self.assertGreater(poses, LEAST_SHARE * images)
+        self.assertLess(float(re.search(r"p99 ([\d.]+)", run.stdout)[1]), BOUND_MS)
+        for node in ("feature_tracker", "linefeature_tracker", "vins_estimator", "all"):
+            self.assertRegex(run.stdout, rf"\n{node} +[\d.]+ s of CPU, +[\d.]+ ms per image")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]])

@@ -141,10 +141,13 @@ void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
   PipelineFrame& frame = unfinished_[tracked.points.features.t_ns];
   frame.point_tracking_ms = tracked.points.tracking_ms;
   frame.point_tracking = tracked.points.statistics;
+  frame.image = std::move(tracked.points.image);
+  frame.points = tracked.points.features;
   back_end_.AddPoints(std::move(tracked.points.features));
   if (!tracked.lines) return;
   frame.line_tracking_ms = tracked.lines->tracking_ms;
   frame.line_tracking = tracked.lines->statistics;
+  frame.lines = tracked.lines->features;
   back_end_.AddLines(std::move(tracked.lines->features));
 }
 

@@ -29,8 +29,9 @@ class ResultFiles {
   // Nothing where the image is empty.
   void WriteAnnotatedImage(const std::string& name, const cv::Mat& image) const;
 
-  // Completes all files; the counts of the map in `run` are filled in here.
-  void Finish(RunSummary::Run run, const Config& config);
+  // Completes all files; the counts of the map in `run` are filled in here. `loops` goes into
+  // summary.json as it is; null: no loops were looked for.
+  void Finish(RunSummary::Run run, const Config& config, const Json& loops);
 
   const std::string& folder() const { return folder_; }
   const RunSummary& summary() const { return summary_; }

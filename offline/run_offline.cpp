@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "common/stopwatch.h"
 #include "offline/asl_recording.h"
 #include "offline/bag_recording.h"
+#include "offline/loop_results.h"
 #include "offline/odometry_pipeline.h"
 #include "offline/result_files.h"
 
@@ -32,6 +34,8 @@ struct Arguments {
   std::string features;
   std::string output;
   std::string saved_features;
+  std::string map_in;
+  std::string map_out;
   double start = 0;                                           // [s]
   double duration = std::numeric_limits<double>::infinity();  // [s]
   std::vector<std::string> overrides;                         // "key=value"
@@ -69,6 +73,10 @@ void Declare(Arguments* arguments, CLI::App* app) {
   app->add_option("--duration", arguments->duration, "process this much [s]")->check(CheckSeconds);
   app->add_option("--save-features", arguments->saved_features,
                   "write the tracked features to this file, for runs without images");
+  app->add_option("--map-in", arguments->map_in,
+                  "start in this map (--map-out of another run); switches loop_closure on");
+  app->add_option("--map-out", arguments->map_out,
+                  "save the map to this file in the end; switches loop_closure on");
   app->add_option("--set", arguments->overrides, "replace a value of the configuration: key=value")
       ->allow_extra_args(false)
       ->check(CheckOverride);
@@ -128,37 +136,55 @@ int Report(const RunSummary::Run& run, int64_t unused_images, const ResultFiles&
   return 0;
 }
 
+using FrameCallback = OdometryPipeline::FrameCallback;
+
 // What was run, as far as its source knows.
 struct Source {
   std::string name;
   DropCounts problems;
 };
 
-Source RunFromImages(const Arguments& arguments, Recording* recording, ResultFiles* results,
-                     OdometryPipeline* pipeline) {
+Source RunFromImages(const Arguments& arguments, Recording* recording,
+                     const FrameCallback& on_frame, OdometryPipeline* pipeline) {
   ProgressDisplay progress(recording->end_ns(), arguments.duration);
   pipeline->Run(
       recording, RecordingInterval(arguments.start, arguments.duration),
       arguments.one_thread ? OdometryPipeline::Threads::kOne : OdometryPipeline::Threads::kTwo,
       [&](const PipelineFrame& frame) {
-        results->Add(frame);
+        on_frame(frame);
         progress.Update(frame.output.t_ns);
       });
   progress.Finish();
-  results->WriteAnnotatedImage("tracks.png", pipeline->points_image());
-  results->WriteAnnotatedImage("line_tracks.png", pipeline->lines_image());
   return {recording->name(), recording->problems()};
 }
 
 Source RunFromFeatures(const Arguments& arguments, FeatureFileReader* features,
-                       ResultFiles* results, OdometryPipeline* pipeline) {
-  pipeline->Run(features, RecordingInterval(arguments.start, arguments.duration),
-                [&](const PipelineFrame& frame) { results->Add(frame); });
+                       const FrameCallback& on_frame, OdometryPipeline* pipeline) {
+  pipeline->Run(features, RecordingInterval(arguments.start, arguments.duration), on_frame);
   return {arguments.features, {}};
 }
 
+// The configuration as the arguments change it.
+Config Configure(const Arguments& arguments) {
+  Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
+  PoseGraphConfig& pose_graph = config.pose_graph;
+  if (!arguments.map_in.empty() || !arguments.map_out.empty()) pose_graph.loop_closure = true;
+  if (pose_graph.loop_closure && !arguments.features.empty()) {
+    throw std::runtime_error(
+        "loop closure needs images: run it without --features, or with "
+        "--set loop_closure=0");
+  }
+  return config;
+}
+
+// The map to start in; empty: none.
+std::string MapToStartIn(const Arguments& arguments, const PoseGraphConfig& config) {
+  if (!arguments.map_in.empty()) return arguments.map_in;
+  return config.load_previous ? config.MapFile() : "";
+}
+
 int Run(const Arguments& arguments) {
-  const Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
+  const Config config = Configure(arguments);
   Warn(IgnoredKeysWarning(config));
   // The input first: where there is none, earlier results in the folder stay as they are.
   std::unique_ptr<Recording> recording;
@@ -174,10 +200,21 @@ int Run(const Arguments& arguments) {
   if (!arguments.saved_features.empty()) {
     pipeline.SaveFeatures(&saved_features.emplace(arguments.saved_features));
   }
+  std::optional<LoopResults> loops;
+  if (config.pose_graph.loop_closure) {
+    loops.emplace(config, arguments.output, MapToStartIn(arguments, config.pose_graph));
+  }
+  const auto on_frame = [&](const PipelineFrame& frame) {
+    results.Add(frame);
+    if (loops) loops->Add(frame);
+  };
   const Stopwatch stopwatch;
-  const Source source = features ? RunFromFeatures(arguments, &*features, &results, &pipeline)
-                                 : RunFromImages(arguments, recording.get(), &results, &pipeline);
+  const Source source = features ? RunFromFeatures(arguments, &*features, on_frame, &pipeline)
+                                 : RunFromImages(arguments, recording.get(), on_frame, &pipeline);
+  results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
+  results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());
   if (saved_features) saved_features->Close();
+  if (loops) loops->Finish(arguments.map_out);
 
   RunSummary::Run run;
   run.input = source.name;
@@ -186,7 +223,7 @@ int Run(const Arguments& arguments) {
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
   run.drops = source.problems;
   Append(pipeline.drops(), &run.drops);
-  results.Finish(run, config);
+  results.Finish(run, config, loops ? loops->Summary() : Json());
   return Report(run, pipeline.unused_images(), results);
 }
 

@@ -67,7 +67,8 @@ void CheckTopics(const SensorConfig& sensor, const Report& report) {
 
 // tf2 refuses names with a leading slash, and each frame has one parent.
 void CheckFrames(const OutputConfig& output, const Report& report) {
-  std::vector<std::pair<const char*, std::string>> frames = {{"world_frame", output.world_frame},
+  std::vector<std::pair<const char*, std::string>> frames = {{"map_frame", output.map_frame},
+                                                             {"world_frame", output.world_frame},
                                                              {"body_frame", output.body_frame},
                                                              {"camera_frame", output.camera_frame}};
   if (!output.base_frame.empty()) frames.emplace_back("base_frame", output.base_frame);

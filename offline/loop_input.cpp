@@ -21,9 +21,9 @@ std::vector<TrackedCorner> ToCorners(const PipelineFrame& frame) {
 }
 
 std::vector<TrackedSegment> ToSegments(const PipelineFrame& frame) {
-  std::unordered_map<int64_t, LineEnds> places;
+  std::unordered_map<int64_t, SpaceSegment> places;
   for (const MapLine& line : frame.output.lines) {
-    places.emplace(line.id, LineEnds{line.start_W, line.end_W});
+    places.emplace(line.id, SpaceSegment{line.start_W, line.end_W});
   }
   std::vector<TrackedSegment> segments;
   for (const LineObservation& observation : frame.lines.lines) {

@@ -14,9 +14,9 @@ enum class LoopGate {
   kRepeated,    // an image before led to the same place
   kApart,       // no track is seen in both: it is another visit
   kMatches,     // corners have a like among the landmarks
-  kPose,        // there is a pose from which they are seen
+  kPose,        // there is a pose from which some of them are seen
   kManhattan,   // the Manhattan frames agree on the heading
-  kInliers,     // enough matches agree on it, and enough of all
+  kInliers,     // looked for around their images, enough landmarks are just there
   kSpread,      // they lie all over the image
   kBackwards,   // the earlier image sees the later landmarks, too
   kRefinement,  // the pose can be refined
@@ -42,6 +42,7 @@ struct LoopCandidate {
   bool repeated = false;
   std::optional<int> common_tracks;
   std::optional<int> matches;
+  std::optional<int> pose_inliers;
   std::optional<int> inliers;
   std::optional<double> inlier_share;
   std::optional<double> manhattan_error;  // [rad]

@@ -20,7 +20,7 @@ struct TrackedCorner {
 };
 
 // The two ends of a line in space.
-struct LineEnds {
+struct SpaceSegment {
   Eigen::Vector3d start_O = Eigen::Vector3d::Zero();  // [m]
   Eigen::Vector3d end_O = Eigen::Vector3d::Zero();    // [m]
 };
@@ -28,7 +28,7 @@ struct LineEnds {
 // The same of a line.
 struct TrackedSegment {
   LineObservation observation;
-  std::optional<LineEnds> landmark;
+  std::optional<SpaceSegment> landmark;
 };
 
 // One image with what odometry says about it: all that loop closure takes. O is the odometry's

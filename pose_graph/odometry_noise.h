@@ -11,8 +11,8 @@ namespace plm_vins {
 struct OdometryNoise {
   double position_floor = 0.002;         // [m]
   double position_rate = 0.01;           // of the step [1]
-  double yaw_floor = 0.02 * M_PI / 180;  // [rad]
-  double yaw_rate = 0.05 * M_PI / 180;   // [rad/m]
+  double yaw_floor = 0.003 * M_PI / 180;  // [rad]
+  double yaw_rate = 0.02 * M_PI / 180;   // [rad/m]
 };
 
 // Covariance of the step from a keyframe to the next: by how much that of the pose grew, which is

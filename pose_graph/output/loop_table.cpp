@@ -33,7 +33,8 @@ void WriteValue(const std::optional<double>& value, std::ostream* stream, double
 
 void WriteLoopHeader(std::ostream* stream) {
   *stream
-      << "later_ns,earlier_ns,later,earlier,result,score_share,repeated,common_tracks,matches,"
+      << "later_ns,earlier_ns,later,earlier,result,score_share,repeated,common_tracks,matches,pose_"
+         "inliers,"
          "inliers,inlier_share,manhattan_error_deg,cells,backward_inliers,backward_share,"
          "visible_lines,line_share,odometry_error_sigma,graph_error_sigma,x_m,y_m,z_m,yaw_deg\n";
 }
@@ -46,6 +47,7 @@ void WriteLoopRow(const LoopCandidate& candidate, std::ostream* stream) {
   *stream << ',' << candidate.repeated;
   WriteCount(candidate.common_tracks, stream);
   WriteCount(candidate.matches, stream);
+  WriteCount(candidate.pose_inliers, stream);
   WriteCount(candidate.inliers, stream);
   WriteValue(candidate.inlier_share, stream);
   WriteValue(candidate.manhattan_error, stream, kDegreesPerRadian);

@@ -52,7 +52,7 @@ class MapReader {
   void Resize(std::vector<T>& values) {
     uint32_t size = 0;
     Value(size);
-    if (size > bytes_.size()) throw std::runtime_error("is damaged");
+    if (size > bytes_.size() - next_) throw std::runtime_error("is damaged");
     values.resize(size);
   }
   template <typename T>

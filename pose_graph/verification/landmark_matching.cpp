@@ -34,6 +34,32 @@ struct Nearest {
   }
 };
 
+// Of each corner the nearest landmark, and the other way round.
+class NearestTable {
+ public:
+  NearestTable(size_t corners, size_t landmarks) : of_corner_(corners), of_landmark_(landmarks) {}
+
+  void Offer(size_t corner, size_t landmark, int distance) {
+    of_corner_[corner].Offer(landmark, distance);
+    of_landmark_[landmark].Offer(corner, distance);
+  }
+
+  std::vector<LandmarkMatch> Matches(const MatchingOptions& options) const {
+    std::vector<LandmarkMatch> matches;
+    for (size_t i = 0; i < of_corner_.size(); ++i) {
+      const Nearest& nearest = of_corner_[i];
+      if (nearest.distance > options.max_distance) continue;
+      if (nearest.distance > options.max_ratio * nearest.next_distance) continue;
+      if (of_landmark_[nearest.index].index == i) matches.push_back({i, nearest.index});
+    }
+    return matches;
+  }
+
+ private:
+  std::vector<Nearest> of_corner_;
+  std::vector<Nearest> of_landmark_;
+};
+
 }  // namespace
 
 std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>& island) {
@@ -54,23 +80,33 @@ std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>
 std::vector<LandmarkMatch> MatchLandmarks(const MatchingOptions& options,
                                           const std::vector<DescribedCorner>& corners,
                                           const std::vector<DescribedLandmark>& landmarks) {
-  std::vector<Nearest> of_corner(corners.size());
-  std::vector<Nearest> of_landmark(landmarks.size());
+  NearestTable nearest(corners.size(), landmarks.size());
   for (size_t i = 0; i < corners.size(); ++i) {
     for (size_t j = 0; j < landmarks.size(); ++j) {
-      const int distance = Distance(corners[i].descriptor, landmarks[j]);
-      of_corner[i].Offer(j, distance);
-      of_landmark[j].Offer(i, distance);
+      nearest.Offer(i, j, Distance(corners[i].descriptor, landmarks[j]));
     }
   }
-  std::vector<LandmarkMatch> matches;
-  for (size_t i = 0; i < corners.size(); ++i) {
-    const Nearest& nearest = of_corner[i];
-    if (nearest.distance > options.max_distance) continue;
-    if (nearest.distance > options.max_ratio * nearest.next_distance) continue;
-    if (of_landmark[nearest.index].index == i) matches.push_back({i, nearest.index});
+  return nearest.Matches(options);
+}
+
+std::vector<LandmarkMatch> MatchAroundImages(const MatchingOptions& options,
+                                             const std::vector<DescribedCorner>& corners,
+                                             const std::vector<DescribedLandmark>& landmarks,
+                                             const LevelTransform& T_O_G,
+                                             const Eigen::Quaterniond& R_G_C) {
+  const LevelTransform T_G_O = T_O_G.Inverse();
+  const auto radius = static_cast<float>(options.search_radius);
+  NearestTable nearest(corners.size(), landmarks.size());
+  for (size_t j = 0; j < landmarks.size(); ++j) {
+    const Eigen::Vector3d p_C = R_G_C.conjugate() * (T_G_O * landmarks[j].p_O);
+    if (p_C.z() <= 0) continue;
+    const Eigen::Vector2f image = p_C.hnormalized().cast<float>();
+    for (size_t i = 0; i < corners.size(); ++i) {
+      if ((corners[i].xy - image).squaredNorm() > radius * radius) continue;
+      nearest.Offer(i, j, Distance(corners[i].descriptor, landmarks[j]));
+    }
   }
-  return matches;
+  return nearest.Matches(options);
 }
 
 }  // namespace plm_vins

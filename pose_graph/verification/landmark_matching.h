@@ -19,8 +19,9 @@ struct DescribedLandmark {
 std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>& island);
 
 struct MatchingOptions {
-  int max_distance = 64;    // [bits]
-  double max_ratio = 0.85;  // of the distances of the best and the second best landmark
+  int max_distance = 64;         // [bits]
+  double max_ratio = 0.85;       // of the distances of the best and the second best landmark
+  double search_radius = 0.085;  // around where a landmark should be seen (normalised)
 };
 
 struct LandmarkMatch {
@@ -32,5 +33,13 @@ struct LandmarkMatch {
 std::vector<LandmarkMatch> MatchLandmarks(const MatchingOptions& options,
                                           const std::vector<DescribedCorner>& corners,
                                           const std::vector<DescribedLandmark>& landmarks);
+
+// The same where a pose is known already: each landmark among the corners around its image, but
+// those far from it, too, so that the pose can still turn out to be wrong. `R_G_C` is level.
+std::vector<LandmarkMatch> MatchAroundImages(const MatchingOptions& options,
+                                             const std::vector<DescribedCorner>& corners,
+                                             const std::vector<DescribedLandmark>& landmarks,
+                                             const LevelTransform& T_O_G,
+                                             const Eigen::Quaterniond& R_G_C);
 
 }  // namespace plm_vins

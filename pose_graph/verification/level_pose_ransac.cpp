@@ -19,8 +19,7 @@ int IterationsFor(double inlier_share, double confidence) {
   return static_cast<int>(std::ceil(std::log(1 - confidence) / std::log(1 - hit)));
 }
 
-std::vector<size_t> InliersOf(const LevelTransform& T_A_G,
-                              const std::vector<PointSighting>& sightings,
+std::vector<size_t> InliersOf(const LevelTransform& T_A_G, const std::vector<SeenPoint>& sightings,
                               const Eigen::Quaterniond& R_G_C, double max_error) {
   std::vector<size_t> inliers;
   for (size_t i = 0; i < sightings.size(); ++i) {
@@ -67,7 +66,7 @@ std::vector<LevelTransform> SolveTwoPoints(const Eigen::Vector3d& ray_G1,
   return poses;
 }
 
-double SightingError(const PointSighting& sighting, const LevelTransform& T_A_G,
+double SightingError(const SeenPoint& sighting, const LevelTransform& T_A_G,
                      const Eigen::Quaterniond& R_G_C) {
   const Eigen::Vector3d p_C = R_G_C.conjugate() * (T_A_G.Inverse() * sighting.p_A);
   if (p_C.z() <= 0) return std::numeric_limits<double>::infinity();
@@ -75,15 +74,15 @@ double SightingError(const PointSighting& sighting, const LevelTransform& T_A_G,
 }
 
 std::optional<LevelPose> FindLevelPose(const LevelPoseRansacOptions& options,
-                                       const std::vector<PointSighting>& sightings,
+                                       const std::vector<SeenPoint>& sightings,
                                        const Eigen::Quaterniond& R_G_C) {
   if (sightings.size() < 2) return std::nullopt;
   std::mt19937 random(kSeed);
   LevelPose best;
   int iterations = options.max_iterations;
   for (int i = 0; i < iterations; ++i) {
-    const PointSighting& first = sightings[random() % sightings.size()];
-    const PointSighting& second = sightings[random() % sightings.size()];
+    const SeenPoint& first = sightings[random() % sightings.size()];
+    const SeenPoint& second = sightings[random() % sightings.size()];
     if (&first == &second) continue;
     const auto poses = SolveTwoPoints(R_G_C * first.xy.homogeneous(), first.p_A,
                                       R_G_C * second.xy.homogeneous(), second.p_A);

@@ -11,7 +11,7 @@
 namespace plm_vins {
 
 // A point in space and where it is seen.
-struct PointSighting {
+struct SeenPoint {
   Eigen::Vector3d p_A = Eigen::Vector3d::Zero();  // [m]
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();   // normalised
 };
@@ -36,13 +36,13 @@ struct LevelPose {
 };
 
 // Error of a sighting from a pose (normalised); infinite behind the camera. `R_G_C` is level.
-double SightingError(const PointSighting& sighting, const LevelTransform& T_A_G,
+double SightingError(const SeenPoint& sighting, const LevelTransform& T_A_G,
                      const Eigen::Quaterniond& R_G_C);
 
 // The pose that most sightings agree on. Nothing from fewer than two, or where none agree. The
 // same input gives the same result.
 std::optional<LevelPose> FindLevelPose(const LevelPoseRansacOptions& options,
-                                       const std::vector<PointSighting>& sightings,
+                                       const std::vector<SeenPoint>& sightings,
                                        const Eigen::Quaterniond& R_G_C);
 
 }  // namespace plm_vins

@@ -31,7 +31,7 @@ std::optional<Stretch> MakeStretch(const Eigen::Vector2d& start, const Eigen::Ve
 
 // Nothing where the line is not in view: both its ends in front and its middle in the image.
 std::optional<Stretch> Project(const CameraModel& camera, const Rigid3d& T_C_A,
-                               const LineEnds& line_A) {
+                               const SpaceSegment& line_A) {
   const Eigen::Vector3d start_C = T_C_A * line_A.start_O;
   const Eigen::Vector3d end_C = T_C_A * line_A.end_O;
   if (start_C.z() < kMinDepth || end_C.z() < kMinDepth) return std::nullopt;
@@ -48,7 +48,7 @@ bool Fits(const LineWitnessOptions& options, const Stretch& line, const LineObse
   if (std::max(line.Across(segment.start), line.Across(segment.end)) > options.max_distance) {
     return false;
   }
-  const auto [from, to] = std::minmax(line.Along(segment.start), line.Along(segment.end));
+  const auto [from, to] = std::minmax({line.Along(segment.start), line.Along(segment.end)});
   const double overlap = std::min(to, line.length) - std::max(from, 0.0);
   return overlap >= options.min_overlap * std::min(line.length, seen->length);
 }
@@ -56,11 +56,11 @@ bool Fits(const LineWitnessOptions& options, const Stretch& line, const LineObse
 }  // namespace
 
 LineWitnesses FindWitnesses(const LineWitnessOptions& options, const CameraModel& camera,
-                            const Rigid3d& T_A_C, const std::vector<LineEnds>& lines_A,
+                            const Rigid3d& T_A_C, const std::vector<SpaceSegment>& lines_A,
                             const std::vector<TrackedSegment>& segments) {
   const Rigid3d T_C_A = T_A_C.Inverse();
   LineWitnesses witnesses;
-  for (const LineEnds& line_A : lines_A) {
+  for (const SpaceSegment& line_A : lines_A) {
     const auto line = Project(camera, T_C_A, line_A);
     if (!line) continue;
     ++witnesses.visible;

@@ -17,14 +17,14 @@ struct LineWitnessOptions {
 // Lines of an earlier visit that would be in view from a camera, and those that are seen there.
 struct LineWitnesses {
   int visible = 0;
-  std::vector<LineSighting> seen;
+  std::vector<SeenSegment> seen;
 
   double share() const { return visible > 0 ? static_cast<double>(seen.size()) / visible : 0.0; }
 };
 
 // `lines_A` as seen by a camera at `T_A_C` with these `segments`.
 LineWitnesses FindWitnesses(const LineWitnessOptions& options, const CameraModel& camera,
-                            const Rigid3d& T_A_C, const std::vector<LineEnds>& lines_A,
+                            const Rigid3d& T_A_C, const std::vector<SpaceSegment>& lines_A,
                             const std::vector<TrackedSegment>& segments);
 
 }  // namespace plm_vins

@@ -55,7 +55,7 @@ struct EarlierLandmarkCost {
   bool operator()(const T* place, T* residual) const {
     return Reproject<T>(ToLaterCamera(place, sighting.p_A, T_B_C), sighting.xy, weight, residual);
   }
-  PointSighting sighting;
+  SeenPoint sighting;
   Rigid3d T_B_C;
   double weight;
 };
@@ -66,7 +66,7 @@ struct LaterLandmarkCost {
     return Reproject<T>(ToEarlierCamera(place, sighting.p_A, T_B_C, T_A_C), sighting.xy, weight,
                         residual);
   }
-  PointSighting sighting;  // its point is one of B
+  SeenPoint sighting;  // its point is one of B
   Rigid3d T_A_C;
   Rigid3d T_B_C;
   double weight;
@@ -88,7 +88,7 @@ struct LineCost {
     residual[1] = line.dot(b.cast<T>()) / norm * weight;
     return true;
   }
-  LineSighting sighting;
+  SeenSegment sighting;
   Rigid3d T_B_C;
   double weight;
 };
@@ -101,13 +101,13 @@ void AddCosts(const LoopRefinementOptions& options, const LoopSightings& sightin
                               new ceres::HuberLoss(kRobustWidth), place);
   };
   const double point_weight = 1 / options.point_noise;
-  for (const PointSighting& sighting : sightings.of_earlier) {
+  for (const SeenPoint& sighting : sightings.of_earlier) {
     add(EarlierLandmarkCost{sighting, sightings.T_B_C, point_weight});
   }
-  for (const PointSighting& sighting : sightings.of_later) {
+  for (const SeenPoint& sighting : sightings.of_later) {
     add(LaterLandmarkCost{sighting, sightings.T_A_C, sightings.T_B_C, point_weight});
   }
-  for (const LineSighting& sighting : sightings.lines) {
+  for (const SeenSegment& sighting : sightings.lines) {
     add(LineCost{sighting, sightings.T_B_C, 1 / options.line_noise});
   }
 }

@@ -26,26 +26,48 @@ std::set<int64_t> TracksOf(const Island& island) {
 }
 
 // The lines of an island, each once, as its newest keyframe has them.
-std::vector<LineEnds> LinesOf(const Island& island) {
-  std::map<int64_t, LineEnds> by_track;
+std::vector<SpaceSegment> LinesOf(const Island& island) {
+  std::map<int64_t, SpaceSegment> by_track;
   for (const Keyframe* keyframe : island.all) {
     for (const TrackedSegment& segment : keyframe->segments) {
       if (segment.landmark) by_track[segment.observation.id] = *segment.landmark;
     }
   }
-  std::vector<LineEnds> lines;
+  std::vector<SpaceSegment> lines;
   for (const auto& [track, line] : by_track) lines.push_back(line);
   return lines;
 }
 
-std::vector<PointSighting> ToSightings(const std::vector<LandmarkMatch>& matches,
-                                       const std::vector<DescribedCorner>& corners,
-                                       const std::vector<DescribedLandmark>& landmarks) {
-  std::vector<PointSighting> sightings;
-  for (const LandmarkMatch& match : matches) {
-    sightings.push_back({landmarks[match.landmark].p_O, corners[match.corner].xy.cast<double>()});
+SeenPoint ToSeenPoint(const LandmarkMatch& match, const std::vector<DescribedCorner>& corners,
+                      const std::vector<DescribedLandmark>& landmarks) {
+  return {landmarks[match.landmark].p_O, corners[match.corner].xy.cast<double>()};
+}
+
+// Landmarks looked for around their images, and the corners that are where they should be.
+struct Search {
+  size_t matches = 0;
+  std::vector<SeenPoint> inliers;
+  std::vector<Eigen::Vector2f> corners_px;  // of the inliers
+
+  double share() const {
+    return matches > 0 ? static_cast<double>(inliers.size()) / static_cast<double>(matches) : 0.0;
   }
-  return sightings;
+};
+
+Search SearchAroundImages(const LoopVerificationOptions& options,
+                          const std::vector<DescribedCorner>& corners,
+                          const std::vector<DescribedLandmark>& landmarks,
+                          const LevelTransform& T_O_G, const Eigen::Quaterniond& R_G_C) {
+  Search search;
+  for (const LandmarkMatch& match :
+       MatchAroundImages(options.matching, corners, landmarks, T_O_G, R_G_C)) {
+    ++search.matches;
+    const SeenPoint seen = ToSeenPoint(match, corners, landmarks);
+    if (SightingError(seen, T_O_G, R_G_C) > options.ransac.max_error) continue;
+    search.inliers.push_back(seen);
+    search.corners_px.push_back(corners[match.corner].uv_px);
+  }
+  return search;
 }
 
 int CountCells(const std::vector<Eigen::Vector2f>& corners_px, const CameraParameters& camera) {
@@ -62,12 +84,10 @@ int CountCells(const std::vector<Eigen::Vector2f>& corners_px, const CameraParam
 
 // What is known of a candidate on its way through the gates. A and B as in LoopSightings.
 struct LoopVerification::Evidence {
-  std::vector<LandmarkMatch> matches;       // of the later image with the earlier landmarks
-  std::vector<PointSighting> sightings;     // one for each match
-  std::vector<size_t> inliers;              // of them
-  std::vector<Eigen::Vector2f> corners_px;  // of the inliers
+  std::vector<DescribedLandmark> landmarks_A;
   LevelTransform T_A_B;
   LoopSightings all;
+  std::vector<Eigen::Vector2f> corners_px;  // of the later image, that agree
 };
 
 LoopVerification::LoopVerification(const LoopVerificationOptions& options,
@@ -108,19 +128,23 @@ bool LoopVerification::AreApart(const Island& earlier, const Island& later,
 bool LoopVerification::FindPose(const Island& earlier, const Keyframe& later,
                                 LoopCandidate* candidate, Evidence* evidence) const {
   candidate->failed = LoopGate::kMatches;
-  const std::vector<DescribedLandmark> landmarks = MergeLandmarks(earlier.all);
-  evidence->matches = MatchLandmarks(options_.matching, later.corners, landmarks);
-  evidence->sightings = ToSightings(evidence->matches, later.corners, landmarks);
-  candidate->matches = static_cast<int>(evidence->matches.size());
+  evidence->landmarks_A = MergeLandmarks(earlier.all);
+  std::vector<SeenPoint> seen;
+  for (const LandmarkMatch& match :
+       MatchLandmarks(options_.matching, later.corners, evidence->landmarks_A)) {
+    seen.push_back(ToSeenPoint(match, later.corners, evidence->landmarks_A));
+  }
+  candidate->matches = static_cast<int>(seen.size());
   if (*candidate->matches < options_.min_matches) return false;
 
   candidate->failed = LoopGate::kPose;
   const Rigid3d& T_B_C = evidence->all.T_B_C;
-  auto pose = FindLevelPose(options_.ransac, evidence->sightings, T_B_C.rotation);
-  if (!pose) return false;
-  evidence->inliers = std::move(pose->inliers);
+  const auto pose = FindLevelPose(options_.ransac, seen, T_B_C.rotation);
+  candidate->pose_inliers = pose ? static_cast<int>(pose->inliers.size()) : 0;
+  if (*candidate->pose_inliers < options_.min_pose_inliers) return false;
+  for (const size_t i : pose->inliers) evidence->all.of_earlier.push_back(seen[i]);
   evidence->T_A_B = pose->T_A_G * LevelTransform{0, T_B_C.translation}.Inverse();
-  return true;
+  return Refine(candidate, evidence);
 }
 
 bool LoopVerification::ManhattanAgrees(const Keyframe& earlier, const Keyframe& later,
@@ -135,14 +159,16 @@ bool LoopVerification::ManhattanAgrees(const Keyframe& earlier, const Keyframe& 
 bool LoopVerification::HasInliers(const Keyframe& later, LoopCandidate* candidate,
                                   Evidence* evidence) const {
   candidate->failed = LoopGate::kInliers;
-  for (const size_t i : evidence->inliers) {
-    evidence->all.of_earlier.push_back(evidence->sightings[i]);
-    evidence->corners_px.push_back(later.corners[evidence->matches[i].corner].uv_px);
-  }
-  candidate->inliers = static_cast<int>(evidence->inliers.size());
-  candidate->inlier_share = static_cast<double>(*candidate->inliers) / *candidate->matches;
+  const Rigid3d& T_B_C = evidence->all.T_B_C;
+  const LevelTransform T_A_G = evidence->T_A_B * LevelTransform{0, T_B_C.translation};
+  Search search =
+      SearchAroundImages(options_, later.corners, evidence->landmarks_A, T_A_G, T_B_C.rotation);
+  candidate->inliers = static_cast<int>(search.inliers.size());
+  candidate->inlier_share = search.share();
   if (*candidate->inliers < options_.min_inliers) return false;
-  if (*candidate->inlier_share < options_.min_inlier_share) return false;
+  if (search.share() < options_.min_inlier_share) return false;
+  evidence->all.of_earlier = std::move(search.inliers);
+  evidence->corners_px = std::move(search.corners_px);
 
   candidate->failed = LoopGate::kSpread;
   candidate->cells = CountCells(evidence->corners_px, camera_->parameters());
@@ -152,22 +178,15 @@ bool LoopVerification::HasInliers(const Keyframe& later, LoopCandidate* candidat
 bool LoopVerification::HoldsBackwards(const Keyframe& earlier, const Island& later,
                                       LoopCandidate* candidate, Evidence* evidence) const {
   candidate->failed = LoopGate::kBackwards;
-  const std::vector<DescribedLandmark> landmarks = MergeLandmarks(later.all);
-  const auto matches = MatchLandmarks(options_.matching, earlier.corners, landmarks);
-  const auto sightings = ToSightings(matches, earlier.corners, landmarks);
   const Rigid3d& T_A_C = evidence->all.T_A_C;
   const LevelTransform T_B_G = evidence->T_A_B.Inverse() * LevelTransform{0, T_A_C.translation};
-  for (const PointSighting& sighting : sightings) {
-    if (SightingError(sighting, T_B_G, T_A_C.rotation) <= options_.ransac.max_error) {
-      evidence->all.of_later.push_back(sighting);
-    }
-  }
-  const size_t inliers = evidence->all.of_later.size();
-  candidate->backward_inliers = static_cast<int>(inliers);
-  candidate->backward_share =
-      sightings.empty() ? 0 : static_cast<double>(inliers) / static_cast<double>(sightings.size());
+  Search search = SearchAroundImages(options_, earlier.corners, MergeLandmarks(later.all), T_B_G,
+                                     T_A_C.rotation);
+  candidate->backward_inliers = static_cast<int>(search.inliers.size());
+  candidate->backward_share = search.share();
+  evidence->all.of_later = std::move(search.inliers);
   return *candidate->backward_inliers >= options_.min_backward_inliers &&
-         *candidate->backward_share >= options_.min_backward_share;
+         search.share() >= options_.min_backward_share;
 }
 
 bool LoopVerification::Refine(LoopCandidate* candidate, Evidence* evidence) const {

@@ -19,7 +19,8 @@ struct LoopVerificationOptions {
   LevelPoseRansacOptions ransac;
   LoopRefinementOptions refinement;
   LineWitnessOptions witnesses;
-  int min_matches = 25;
+  int min_matches = 15;
+  int min_pose_inliers = 8;  // of them, for a pose that is looked into
   int min_inliers = 25;
   double min_inlier_share = 0.5;
   double max_manhattan_error = 3 * M_PI / 180;  // [rad]
@@ -27,7 +28,7 @@ struct LoopVerificationOptions {
   int min_backward_inliers = 10;
   double min_backward_share = 0.5;
   int min_visible_lines = 5;  // fewer say nothing
-  double min_line_share = 0.3;
+  double min_line_share = 0.2;
 };
 
 // A keyframe and its neighbours in time, whose landmarks it knows as well. The keyframe is one of

@@ -34,14 +34,19 @@ LoopClosure LoopCloser::Add(const OdometryFrame& frame) {
   last_position_O_ = frame.T_O_B.translation;
 
   LoopClosure closure;
-  closure.is_keyframe =
-      !last_ || IsApart(options_.spacing, last_->t_ns, last_->T_O_B, frame.t_ns, frame.T_O_B);
+  closure.is_keyframe = IsKeyframe(frame);
   if (closure.is_keyframe) {
     AddKeyframe(frame);
     LookForLoops(&closure);
   }
   closure.fix = Fix();
   return closure;
+}
+
+bool LoopCloser::IsKeyframe(const OdometryFrame& frame) const {
+  if (!last_) return true;
+  const KeyframeSpacing& spacing = Fix() ? options_.spacing : options_.lost_spacing;
+  return IsApart(spacing, last_->t_ns, last_->T_O_B, frame.t_ns, frame.T_O_B);
 }
 
 void LoopCloser::AddKeyframe(const OdometryFrame& frame) {

@@ -24,6 +24,8 @@ namespace plm_vins {
 
 struct LoopCloserOptions {
   KeyframeSpacing spacing;
+  // While the place in the map is unknown, to find it soon.
+  KeyframeSpacing lost_spacing = {0.1, 5 * M_PI / 180, 0.5};
   CornerSelectionOptions corners;
   OdometryNoise odometry;
   PlaceRecognitionOptions recognition;
@@ -62,6 +64,7 @@ class LoopCloser {
   const KeyframeMap& map() const { return map_; }
 
  private:
+  bool IsKeyframe(const OdometryFrame& frame) const;
   void AddKeyframe(const OdometryFrame& frame);
   void ConnectToPrevious(const OdometryFrame& frame, int number);
   void LookForLoops(LoopClosure* closure);

@@ -186,7 +186,7 @@ bool LoopVerification::HoldsBackwards(const Keyframe& earlier, const Island& lat
   candidate->backward_share = search.share();
   evidence->all.of_later = std::move(search.inliers);
   return *candidate->backward_inliers >= options_.min_backward_inliers &&
-         search.share() >= options_.min_backward_share;
+         *candidate->backward_share >= options_.min_backward_share;
 }
 
 bool LoopVerification::Refine(LoopCandidate* candidate, Evidence* evidence) const {

@@ -21,7 +21,7 @@ struct LoopVerificationOptions {
   LineWitnessOptions witnesses;
   int min_matches = 15;
   int min_pose_inliers = 8;  // of them, for a pose that is looked into
-  int min_inliers = 25;
+  int min_inliers = 20;      // of the later image; with those of the earlier one 30
   double min_inlier_share = 0.5;
   double max_manhattan_error = 3 * M_PI / 180;  // [rad]
   int min_cells = 4;                            // of 4 x 3, with inliers

@@ -9,10 +9,10 @@ namespace plm_vins {
 // How uncertain a step of odometry is, at least: scale and heading drift more than the window of an
 // estimator knows.
 struct OdometryNoise {
-  double position_floor = 0.002;         // [m]
-  double position_rate = 0.01;           // of the step [1]
+  double position_floor = 0.001;          // [m]
+  double position_rate = 0.003;           // of the step [1]
   double yaw_floor = 0.003 * M_PI / 180;  // [rad]
-  double yaw_rate = 0.02 * M_PI / 180;   // [rad/m]
+  double yaw_rate = 0.02 * M_PI / 180;    // [rad/m]
 };
 
 // Covariance of the step from a keyframe to the next: by how much that of the pose grew, which is

@@ -22,11 +22,11 @@ struct LoopVerificationOptions {
   int min_matches = 15;
   int min_pose_inliers = 8;  // of them, for a pose that is looked into
   int min_inliers = 20;      // of the later image; with those of the earlier one 30
-  double min_inlier_share = 0.5;
+  double min_inlier_share = 0.4;
   double max_manhattan_error = 3 * M_PI / 180;  // [rad]
   int min_cells = 4;                            // of 4 x 3, with inliers
   int min_backward_inliers = 10;
-  double min_backward_share = 0.5;
+  double min_backward_share = 0.3;
   int min_visible_lines = 5;  // fewer say nothing
   double min_line_share = 0.2;
 };

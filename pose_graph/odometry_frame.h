@@ -8,28 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "common/measurements.h"
+#include "common/placed_features.h"
 #include "common/rigid3.h"
 
 namespace plm_vins {
-
-// A corner that odometry follows, and its place in the odometry's world O where that is known.
-struct TrackedCorner {
-  PointObservation observation;
-  std::optional<Eigen::Vector3d> p_O;  // [m]
-};
-
-// The two ends of a line in space.
-struct SpaceSegment {
-  Eigen::Vector3d start_O = Eigen::Vector3d::Zero();  // [m]
-  Eigen::Vector3d end_O = Eigen::Vector3d::Zero();    // [m]
-};
-
-// The same of a line.
-struct TrackedSegment {
-  LineObservation observation;
-  std::optional<SpaceSegment> landmark;
-};
 
 // One image with what odometry says about it: all that loop closure takes. O is the odometry's
 // world, z up, which starts anew with the odometry.

@@ -66,6 +66,8 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   }
   EstimatedFrame frame;
   frame.output = estimator_->Process(*measurement);
+  frame.points = measurement->points;
+  if (measurement->lines) frame.lines = *measurement->lines;
   ++frames_;
   if (frame.output.restarted) ++resets_;
   anew_ = false;

@@ -131,10 +131,17 @@ bool PoseGraph::AreConnected(int a, int b) const {
   return parts[a] == parts[b];
 }
 
-void PoseGraph::MovePart(int node, const LevelTransform& T_new_old) {
+std::vector<bool> PoseGraph::ConnectedWith(int node) const {
   const std::vector<int> parts = Parts();
+  std::vector<bool> connected;
+  for (const int part : parts) connected.push_back(part == parts[node]);
+  return connected;
+}
+
+void PoseGraph::MovePart(int node, const LevelTransform& T_new_old) {
+  const std::vector<bool> moves = ConnectedWith(node);
   for (int i = 0; i < size(); ++i) {
-    if (parts[i] == parts[node]) nodes_[i] = T_new_old * nodes_[i];
+    if (moves[i]) nodes_[i] = T_new_old * nodes_[i];
   }
 }
 

@@ -23,6 +23,7 @@ class PoseGraph {
 
   // Whether edges lead from one node to the other.
   bool AreConnected(int a, int b) const;
+  std::vector<bool> ConnectedWith(int node) const;  // by node
 
   // Moves all nodes that are connected with `node`.
   void MovePart(int node, const LevelTransform& T_new_old);

@@ -7,6 +7,13 @@
 #include "pose_graph/keyframe_maker.h"
 
 namespace plm_vins {
+namespace {
+
+LevelEdge EdgeOf(const LoopCandidate& loop) {
+  return {loop.earlier, loop.later, loop.T_earlier_later, loop.covariance, /*is_loop=*/true};
+}
+
+}  // namespace
 
 LoopCloser::LoopCloser(const LoopCloserOptions& options, std::shared_ptr<const CameraModel> camera)
     : options_(options),
@@ -121,12 +128,7 @@ Island LoopCloser::IslandOf(int number) const {
 // Of two parts that a loop joins, the later one moves to where the loop says.
 bool LoopCloser::AddLoops(const std::vector<LoopCandidate>& loops) {
   for (const LoopCandidate& loop : loops) {
-    LevelEdge edge;
-    edge.from = loop.earlier;
-    edge.to = loop.later;
-    edge.T_from_to = loop.T_earlier_later;
-    edge.covariance = loop.covariance;
-    edge.is_loop = true;
+    const LevelEdge edge = EdgeOf(loop);
     if (!map_.graph.AreConnected(edge.from, edge.to)) {
       const LevelTransform T_M_L = map_.graph.node(edge.from) * edge.T_from_to;
       map_.graph.MovePart(edge.to, T_M_L * map_.graph.node(edge.to).Inverse());
@@ -139,14 +141,14 @@ bool LoopCloser::AddLoops(const std::vector<LoopCandidate>& loops) {
 
 void LoopCloser::Optimize(LoopClosure* closure) {
   const std::vector<LevelEdge> dropped = map_.graph.Optimize();
-  closure->map_changed = true;
   for (LoopCandidate& candidate : closure->candidates) {
     if (candidate.failed) continue;
-    for (const LevelEdge& edge : dropped) {
-      if (edge.from == candidate.earlier && edge.to == candidate.later) {
-        candidate.failed = LoopGate::kGraph;
-      }
-    }
+    const LevelEdge edge = EdgeOf(candidate);
+    candidate.graph_error = map_.graph.Deviations(edge);
+    const bool is_dropped = std::any_of(
+        dropped.begin(), dropped.end(),
+        [&](const LevelEdge& other) { return other.from == edge.from && other.to == edge.to; });
+    if (is_dropped) candidate.failed = LoopGate::kGraph;
   }
 }
 

@@ -44,7 +44,6 @@ struct LoopClosure {
   bool is_keyframe = false;
   std::vector<LoopCandidate> candidates;    // that were looked at
   std::vector<Eigen::Vector2f> inliers_px;  // corners of a place that was recognised
-  bool map_changed = false;                 // the graph has been optimised
   std::optional<MapFix> fix;                // nothing while the place in the map is unknown
 };
 

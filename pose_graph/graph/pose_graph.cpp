@@ -16,7 +16,7 @@ namespace plm_vins {
 namespace {
 
 constexpr double kRobustWidth = 1.0;  // [standard deviations]
-constexpr int kMaxIterations = 10;  // from the last solution, few do
+constexpr int kMaxIterations = 10;    // from the last solution, few do
 
 // W with W^T W = covariance^-1.
 Matrix4d Whitening(const Matrix4d& covariance) {

@@ -32,11 +32,28 @@ ESTIMATOR_LAYERS = {
     "estimator_output.h": "state",
     "output": "state estimator_output.h",
 }
+# The same of the pose graph. What is not in a folder of its own joins them.
+POSE_GRAPH_LAYERS = {
+    "geometry": "",
+    "odometry_frame.h": "",
+    "description": "",
+    "keyframe.h": "geometry odometry_frame.h description",
+    "retrieval": "geometry odometry_frame.h description keyframe.h",
+    "loop_candidate.h": "geometry",
+    "verification": "geometry odometry_frame.h description keyframe.h loop_candidate.h",
+    "graph": "geometry",
+    "keyframe_map.h": "geometry keyframe.h graph",
+    "output": "geometry description keyframe.h keyframe_map.h loop_candidate.h graph",
+}
 ESTIMATOR_CORE = " ".join(layer for layer in ESTIMATOR_LAYERS if layer != "output")
 
 
 def inside_estimator(layers):
     return {"vins_estimator/" + layer for layer in layers.split()}
+
+
+def inside_pose_graph(layers):
+    return {"pose_graph/" + layer for layer in layers.split()}
 
 
 # What each layer, a folder or a file, may include beside itself; the longest match counts. Tests
@@ -51,8 +68,13 @@ LAYERS = {
     "vins_estimator": {"common"} | inside_estimator(ESTIMATOR_CORE),
     "vins_estimator/ros": {"common", "vins_estimator"} | inside_estimator(
         "state imu estimator_output.h output"),
-    "offline": {"common", "tracking", "feature_tracker", "linefeature_tracker",
-                "vins_estimator"} | inside_estimator("state estimator_output.h output"),
+    **{"pose_graph/" + layer: {"common"} | inside_pose_graph(below)
+       for layer, below in POSE_GRAPH_LAYERS.items()},
+    "pose_graph": {"common"} | inside_pose_graph(" ".join(POSE_GRAPH_LAYERS)),
+    "pose_graph/ros": {"common", "pose_graph"} | inside_pose_graph(" ".join(POSE_GRAPH_LAYERS)),
+    "offline": {"common", "tracking", "feature_tracker", "linefeature_tracker", "vins_estimator",
+                "pose_graph"} | inside_estimator("state estimator_output.h output")
+               | inside_pose_graph(" ".join(POSE_GRAPH_LAYERS)),
     "mavros_relay": {"common"},
     "simulator": {"common"} | inside_estimator("state output"),
 }

@@ -15,6 +15,7 @@
 #include "common/config/line_tracker_config.h"
 #include "common/config/output_config.h"
 #include "common/config/point_tracker_config.h"
+#include "common/config/pose_graph_config.h"
 #include "common/config/sensor_config.h"
 
 namespace plm_vins {
@@ -29,6 +30,7 @@ struct Config {
   bool use_lines = true;  // beside the points
   LineTrackerConfig lines;
   EstimatorConfig estimator;
+  PoseGraphConfig pose_graph;
   OutputConfig output;
 };
 

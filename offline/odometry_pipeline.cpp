@@ -156,6 +156,7 @@ void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
   PipelineFrame& frame = unfinished_[tracked.points.features.t_ns];
   frame.point_tracking_ms = tracked.points.tracking_ms;
   frame.point_tracking = tracked.points.statistics;
+  frame.image = std::move(tracked.points.image);
   back_end_.AddPoints(std::move(tracked.points.features));
   if (!tracked.lines) return;
   frame.line_tracking_ms = tracked.lines->tracking_ms;
@@ -170,6 +171,8 @@ void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_
   const auto unfinished = unfinished_.find(estimated.output.t_ns);
   PipelineFrame frame = std::move(unfinished->second);
   frame.output = std::move(estimated.output);
+  frame.points = std::move(estimated.points);
+  frame.lines = std::move(estimated.lines);
   unfinished_.erase(unfinished_.begin(), std::next(unfinished));
   on_frame(frame);
 }

@@ -21,6 +21,9 @@ namespace plm_vins {
 // What the pipeline says about one image.
 struct PipelineFrame {
   EstimatorOutput output;
+  ImageSample image;  // without pixels where saved features are run
+  PointFrame points;
+  LineFrame lines;
   double point_tracking_ms = 0;
   double line_tracking_ms = 0;  // detection included
   PointTrackerStatistics point_tracking;

@@ -169,7 +169,7 @@ void ResultFiles::WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv:
                       {cv::IMWRITE_JPEG_QUALITY, kTrackImageQuality});
 }
 
-void ResultFiles::Finish(RunSummary::Run run, const Config& config) {
+void ResultFiles::Finish(RunSummary::Run run, const Config& config, const Json& loops) {
   EndWorld();
   map_.Finish();
   trajectory_.close();
@@ -183,6 +183,7 @@ void ResultFiles::Finish(RunSummary::Run run, const Config& config) {
   run.map_points = map_.size();
   run.map_lines = static_cast<int64_t>(lines_.size());
   Json summary = summary_.ToJson(run);
+  if (!loops.is_null()) summary["loops"] = loops;
   summary["version"] = PLM_VINS_VERSION;
   summary["config"] = ToJson(config);
   Open("summary.json") << summary.dump(2) << "\n";

@@ -33,8 +33,9 @@ class ResultFiles {
   // tracks/STAMP_NS.jpg: points and lines side by side, in half the size.
   void WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) const;
 
-  // Completes all files; the counts of the map in `run` are filled in here.
-  void Finish(RunSummary::Run run, const Config& config);
+  // Completes all files; the counts of the map in `run` are filled in here. `loops` goes into
+  // summary.json as it is; null: no loops were looked for.
+  void Finish(RunSummary::Run run, const Config& config, const Json& loops);
 
   const std::string& folder() const { return folder_; }
   const RunSummary& summary() const { return summary_; }

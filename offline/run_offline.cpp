@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "common/stopwatch.h"
 #include "offline/asl_recording.h"
 #include "offline/bag_recording.h"
+#include "offline/loop_results.h"
 #include "offline/odometry_pipeline.h"
 #include "offline/result_files.h"
 
@@ -32,6 +34,8 @@ struct Arguments {
   std::string features;
   std::string output;
   std::string saved_features;
+  std::string map_in;
+  std::string map_out;
   double start = 0;                                           // [s]
   double duration = std::numeric_limits<double>::infinity();  // [s]
   std::vector<std::string> overrides;                         // "key=value"
@@ -73,6 +77,10 @@ void Declare(Arguments* arguments, CLI::App* app) {
   app->add_option("--save-track-images", arguments->track_image_interval,
                   "write a small image with its points and lines to tracks/ every so often [s]")
       ->check(CheckSeconds);
+  app->add_option("--map-in", arguments->map_in,
+                  "start in this map (--map-out of another run); switches loop_closure on");
+  app->add_option("--map-out", arguments->map_out,
+                  "save the map to this file in the end; switches loop_closure on");
   app->add_option("--set", arguments->overrides, "replace a value of the configuration: key=value")
       ->allow_extra_args(false)
       ->check(CheckOverride);
@@ -135,41 +143,61 @@ int Report(const RunSummary::Run& run, int64_t unused_images, const ResultFiles&
   return 0;
 }
 
+using FrameCallback = OdometryPipeline::FrameCallback;
+
 // What was run, as far as its source knows.
 struct Source {
   std::string name;
   DropCounts problems;
 };
 
-Source RunFromImages(const Arguments& arguments, Recording* recording, ResultFiles* results,
-                     OdometryPipeline* pipeline) {
+Source RunFromImages(const Arguments& arguments, Recording* recording,
+                     const FrameCallback& on_frame, OdometryPipeline* pipeline) {
   ProgressDisplay progress(recording->end_ns(), arguments.duration);
-  if (arguments.track_image_interval > 0) {
-    pipeline->ShowTracks(arguments.track_image_interval,
-                         [&](int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) {
-                           results->WriteTrackImage(t_ns, points, lines);
-                         });
-  }
   pipeline->Run(recording, RecordingInterval(arguments.start, arguments.duration),
                 arguments.threads, [&](const PipelineFrame& frame) {
-                  results->Add(frame);
+                  on_frame(frame);
                   progress.Update(frame.output.t_ns);
                 });
   progress.Finish();
-  results->WriteAnnotatedImage("tracks.png", pipeline->points_image());
-  results->WriteAnnotatedImage("line_tracks.png", pipeline->lines_image());
   return {recording->name(), recording->problems()};
 }
 
 Source RunFromFeatures(const Arguments& arguments, FeatureFileReader* features,
-                       ResultFiles* results, OdometryPipeline* pipeline) {
-  pipeline->Run(features, RecordingInterval(arguments.start, arguments.duration),
-                [&](const PipelineFrame& frame) { results->Add(frame); });
+                       const FrameCallback& on_frame, OdometryPipeline* pipeline) {
+  pipeline->Run(features, RecordingInterval(arguments.start, arguments.duration), on_frame);
   return {arguments.features, {}};
 }
 
+// The configuration as the arguments change it.
+Config Configure(const Arguments& arguments) {
+  Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
+  PoseGraphConfig& pose_graph = config.pose_graph;
+  if (!arguments.map_in.empty() || !arguments.map_out.empty()) pose_graph.loop_closure = true;
+  if (pose_graph.loop_closure && !arguments.features.empty()) {
+    throw std::runtime_error(
+        "loop closure needs images: run it without --features, or with "
+        "--set loop_closure=0");
+  }
+  return config;
+}
+
+// The map to start in; empty: none.
+std::string MapToStartIn(const Arguments& arguments, const PoseGraphConfig& config) {
+  if (!arguments.map_in.empty()) return arguments.map_in;
+  return config.load_previous ? config.MapFile() : "";
+}
+
+void ShowTracks(double interval, const ResultFiles* results, OdometryPipeline* pipeline) {
+  if (interval <= 0) return;
+  pipeline->ShowTracks(interval,
+                       [results](int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) {
+                         results->WriteTrackImage(t_ns, points, lines);
+                       });
+}
+
 int Run(const Arguments& arguments) {
-  const Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
+  const Config config = Configure(arguments);
   Warn(IgnoredKeysWarning(config));
   // The input first: where there is none, earlier results in the folder stay as they are.
   std::unique_ptr<Recording> recording;
@@ -181,14 +209,26 @@ int Run(const Arguments& arguments) {
   }
   ResultFiles results(arguments.output);
   OdometryPipeline pipeline(config);
+  ShowTracks(arguments.track_image_interval, &results, &pipeline);
   std::optional<FeatureFileWriter> saved_features;
   if (!arguments.saved_features.empty()) {
     pipeline.SaveFeatures(&saved_features.emplace(arguments.saved_features));
   }
+  std::optional<LoopResults> loops;
+  if (config.pose_graph.loop_closure) {
+    loops.emplace(config, arguments.output, MapToStartIn(arguments, config.pose_graph));
+  }
+  const auto on_frame = [&](const PipelineFrame& frame) {
+    results.Add(frame);
+    if (loops) loops->Add(frame);
+  };
   const Stopwatch stopwatch;
-  const Source source = features ? RunFromFeatures(arguments, &*features, &results, &pipeline)
-                                 : RunFromImages(arguments, recording.get(), &results, &pipeline);
+  const Source source = features ? RunFromFeatures(arguments, &*features, on_frame, &pipeline)
+                                 : RunFromImages(arguments, recording.get(), on_frame, &pipeline);
+  results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
+  results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());
   if (saved_features) saved_features->Close();
+  if (loops) loops->Finish(arguments.map_out);
 
   RunSummary::Run run;
   run.input = source.name;
@@ -198,7 +238,7 @@ int Run(const Arguments& arguments) {
   run.drops = source.problems;
   Append(pipeline.drops(), &run.drops);
   Warn(pipeline.imu_contradiction());
-  results.Finish(run, config);
+  results.Finish(run, config, loops ? loops->Summary() : Json());
   return Report(run, pipeline.unused_images(), results);
 }
 

@@ -15,6 +15,7 @@ namespace plm_vins {
 // The features of one image, how the tracker came to them, and what they cost.
 template <typename Tracker>
 struct Tracked {
+  ImageSample image;  // that they were found in
   typename Tracker::Features features;
   typename Tracker::Statistics statistics;
   bool restart = false;    // as of ReadyImage
@@ -54,6 +55,7 @@ class TrackingStage {
     if (next->restart) tracker_.Reset();
     const Stopwatch stopwatch;
     Frame frame;
+    frame.image = next->image;
     frame.features = tracker_.Track(next->image, next->R_C1_C0);
     frame.tracking_ms = stopwatch.Milliseconds();
     frame.statistics = tracker_.statistics();

@@ -114,6 +114,8 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   }
   EstimatedFrame frame;
   frame.output = estimator_->Process(*measurement);
+  frame.points = measurement->points;
+  if (measurement->lines) frame.lines = *measurement->lines;
   ++frames_;
   imu_noise_scale_ = frame.output.imu_noise_scale;
   delay_ = frame.output.delay;

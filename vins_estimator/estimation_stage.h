@@ -25,6 +25,8 @@ DropCounts ToDropCounts(const SyncStatistics& statistics);
 // What the estimator says about an image, and what else there is to publish.
 struct EstimatedFrame {
   EstimatorOutput output;
+  PointFrame points;  // that were estimated from
+  LineFrame lines;    // the same; empty where there were none
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // of B, bias removed [rad/s]
   // Of each of its components, by the noise of one gyro sample [rad^2/s^2].
   double angular_velocity_variance = 0;

@@ -13,7 +13,7 @@ namespace plm_vins {
 // a line to the list of its module and one to config/reference.yaml.
 ConfigKeys<Config> AllKeys(const std::string& model_type);
 
-// Keys of the VINS family without effect here (loop closure, output paths, wall-clock limits).
+// Keys of the VINS family without effect here (vocabulary, output paths, wall-clock limits).
 const std::vector<std::string>& IgnoredKeys();
 
 }  // namespace plm_vins

@@ -9,6 +9,7 @@ namespace plm_vins {
 
 // The frames of tf.
 struct OutputConfig {
+  std::string map_frame = "map";
   std::string world_frame = "world";
   std::string body_frame = "body";
   std::string camera_frame = "camera";

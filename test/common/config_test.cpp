@@ -95,17 +95,31 @@ TEST_F(ConfigTest, VinsMonoFileLoadsAsItIs) {
 
 TEST_F(ConfigTest, IgnoredKeysAreTold) {
   const auto ignored = Load(kVinsMonoFile).ignored_keys;
-  const std::vector<std::string> expected = {
-      "camera_name",     "fast_relocalization",   "load_previous_pose_graph", "loop_closure",
-      "max_solver_time", "output_path",           "pose_graph_save_path",     "rolling_shutter_tr",
-      "save_image",      "visualize_camera_size", "visualize_imu_forward"};
+  const std::vector<std::string> expected = {"camera_name",           "fast_relocalization",
+                                             "max_solver_time",       "output_path",
+                                             "rolling_shutter_tr",    "save_image",
+                                             "visualize_camera_size", "visualize_imu_forward"};
   EXPECT_EQ(ignored, expected);
 }
 
+TEST_F(ConfigTest, LoopClosureHasTheKeysOfVins) {
+  const PoseGraphConfig config = Load(kVinsMonoFile).pose_graph;
+  EXPECT_TRUE(config.loop_closure);
+  EXPECT_FALSE(config.load_previous);
+  EXPECT_EQ(config.MapFile(), "/home/somebody/output/pose_graph/pose_graph.plm");
+  EXPECT_FALSE(Load(kShortFile).pose_graph.loop_closure);
+}
+
+TEST_F(ConfigTest, MapAndWorldAreTwoFramesWhereThereIsAMap) {
+  EXPECT_EQ(Load(std::string(kShortFile) + "world_frame: map\n").output.world_frame, "map");
+  ExpectProblem("world_frame: map\nloop_closure: 1", {"map_frame: is the same as world_frame"});
+}
+
 TEST_F(ConfigTest, IgnoredKeysAreOneWarning) {
-  const std::string more = "voc_file: \"a\"\nloop_closure: 1\n";
-  EXPECT_EQ(IgnoredKeysWarning(Load(kShortFile + more)),
-            (folder_ / "camera.yaml").string() + ": without effect here: loop_closure, voc_file");
+  const std::string more = "voc_file: \"a\"\nmax_solver_time: 1\n";
+  EXPECT_EQ(
+      IgnoredKeysWarning(Load(kShortFile + more)),
+      (folder_ / "camera.yaml").string() + ": without effect here: max_solver_time, voc_file");
   EXPECT_EQ(IgnoredKeysWarning(Load(kShortFile)), "");
 }
 

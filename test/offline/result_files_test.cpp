@@ -76,7 +76,7 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
   frame.output.departed_lines = {{1, {1, 1, 1}, {1, 2, 1}}};
   frame.output.lines = {{2, {1, 0, 0}, {2, 0, 0}}, {3, {0, 1, 0}, {0, 2, 0}}};
   results.Add(frame);
-  results.Finish(RunSummary::Run(), Config());
+  results.Finish(RunSummary::Run(), Config(), Json());
 
   const std::string trajectory = folder.Read("new/folder/trajectory.tum");
   EXPECT_EQ(trajectory.substr(0, 12), "2.000000000 ");
@@ -107,7 +107,7 @@ TEST(ResultFiles, TellOfANewWorldFrameBetweenTheRows) {
   restart.output.reason = "it flew away";
   results.Add(restart);
   results.Add(MakeFrame(3'000'000'000, true));
-  results.Finish(RunSummary::Run(), Config());
+  results.Finish(RunSummary::Run(), Config(), Json());
   EXPECT_THAT(folder.Read("trajectory.tum"),
               HasSubstr("\n# the world frame starts anew: it flew away\n3.000000000 "));
 }
@@ -124,7 +124,7 @@ TEST(ResultFiles, HoldALineThatCameBackOnceAsKnownLast) {
   frame = MakeFrame(3'000'000'000, true);
   frame.output.lines = {{8, {4, 0, 0}, {4, 0, 1}}};
   results.Add(frame);
-  results.Finish(RunSummary::Run(), Config());
+  results.Finish(RunSummary::Run(), Config(), Json());
   EXPECT_EQ(nlohmann::json::parse(folder.Read("summary.json"))["lines"], 2);
   EXPECT_THAT(folder.Read("lines.ply"), HasSubstr("element edge 2\n"));
   const std::string lines = folder.Read("lines.obj");
@@ -140,7 +140,7 @@ TEST(ResultFiles, HoldWhatLeavesWithTheLastFrameOnceAndInFull) {
   frame.output.lines = {{7, {1, 0, 0}, {1, 0, 1}}};
   frame.output.departed_lines = {{7, {1, 0, 0}, {1, 0, 5}}};
   results.Add(frame);
-  results.Finish(RunSummary::Run(), Config());
+  results.Finish(RunSummary::Run(), Config(), Json());
   EXPECT_THAT(folder.Read("map.ply"), HasSubstr("element vertex 1 "));
   EXPECT_THAT(folder.Read("lines.ply"), HasSubstr("element edge 1\n"));
   EXPECT_THAT(folder.Read("lines.obj"), HasSubstr("v 1.0000 0.0000 5.0000\n"));
@@ -160,7 +160,7 @@ TEST(ResultFiles, LeaveTheLinesOfAFormerWorldFrameAsTheyWere) {
   frame.output.departed_lines = {{7, {3, 0, 0}, {3, 0, 1}}};
   frame.output.lines = {{8, {4, 0, 0}, {4, 0, 1}}};
   results.Add(frame);
-  results.Finish(RunSummary::Run(), Config());
+  results.Finish(RunSummary::Run(), Config(), Json());
   EXPECT_EQ(nlohmann::json::parse(folder.Read("summary.json"))["lines"], 4);
   const std::string lines = folder.Read("lines.obj");
   for (const std::string x : {"1", "2", "3", "4"}) {

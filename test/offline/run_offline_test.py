@@ -30,9 +30,9 @@ class RunOffline(unittest.TestCase):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
 
-    def assert_refuses(self, message, *options, config=CONFIG, output="results"):
+    def assert_refuses(self, message, *options, config=CONFIG, source=None, output="results"):
         """The program exits with 1 and one of its lines holds `message`."""
-        command = [RUN_OFFLINE, "--config", config, "--asl", self.asl,
+        command = [RUN_OFFLINE, "--config", config, *(source or ("--asl", self.asl)),
                    "--output", self.folder / output, *options]
         result = subprocess.run([str(word) for word in command], stderr=subprocess.PIPE,
                                 encoding="utf-8", check=False)
@@ -51,10 +51,14 @@ class RunOffline(unittest.TestCase):
 
     def test_keys_without_effect(self):
         config = self.folder / "vins.yaml"
-        config.write_text(CONFIG.read_text(encoding="utf-8") + "\nloop_closure: 1\nvoc_file: x\n",
+        config.write_text(CONFIG.read_text(encoding="utf-8") + "\nmin_loop_num: 1\nvoc_file: x\n",
                           encoding="utf-8")
-        self.assert_refuses(f"warning: {config}: without effect here: loop_closure, voc_file\n",
+        self.assert_refuses(f"warning: {config}: without effect here: min_loop_num, voc_file\n",
                             config=config)
+
+    def test_loops_without_images(self):
+        self.assert_refuses("loop closure needs images", "--map-out", "map.plm",
+                            source=("--features", "none.features"))
 
     def test_output_that_cannot_be_written(self):
         self.assert_refuses("cannot make the output folder", output="asl/imu0/data.csv")

@@ -2,10 +2,13 @@
 #include "vins_estimator/ros/output_publisher.h"
 
 #include <geometry_msgs/PoseStamped.h>
+#include <std_msgs/Bool.h>
 
 #include <string>
 
+#include "common/ros/keyframe_conversion.h"
 #include "common/ros/msg_conversion.h"
+#include "vins_estimator/output/placed_features.h"
 #include "vins_estimator/ros/output_conversion.h"
 
 namespace plm_vins {
@@ -61,6 +64,10 @@ OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle pri
       camera_pose_visual_(
           private_node.advertise<visualization_msgs::MarkerArray>("camera_pose_visual", kQueue)),
       extrinsic_(private_node.advertise<nav_msgs::Odometry>("extrinsic", kQueue)),
+      keyframe_pose_(private_node.advertise<nav_msgs::Odometry>("keyframe_pose", kQueue)),
+      keyframe_point_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_point", kQueue)),
+      keyframe_line_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_line", kQueue)),
+      restart_(private_node.advertise<std_msgs::Bool>("restart", 10)),
       line_history_(frames.world_frame) {
   path_.header.frame_id = frames_.world_frame;
   if (frames.publish_tf && !frames.base_frame.empty()) {
@@ -70,7 +77,12 @@ OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle pri
 
 void OutputPublisher::Publish(const EstimatedFrame& frame) {
   const EstimatorOutput& output = frame.output;
-  if (output.restarted) Clear();
+  if (output.restarted) {
+    Clear();
+    std_msgs::Bool restart;
+    restart.data = true;
+    restart_.publish(restart);
+  }
   if (!output.has_pose) return;
 
   const int64_t t_ns = output.t_ns;
@@ -87,6 +99,7 @@ void OutputPublisher::Publish(const EstimatedFrame& frame) {
   PublishIfWanted(key_poses_, [&] { return ToKeyPoses(output.window, t_ns, world); });
   PublishIfWanted(point_cloud_, [&] { return ToPointCloud(output.points, t_ns, world); });
   PublishIfWanted(lines_cloud_, [&] { return ToLineMarker(output.lines, t_ns, world, "lines"); });
+  if (output.keyframe) PublishKeyframe(frame);
   PublishHistory(output);
   PublishIfWanted(camera_pose_visual_, [&] { return ToCameraVisual(T_W_C, t_ns, world); });
 }
@@ -98,6 +111,21 @@ void OutputPublisher::Clear() {
   departed_lines_.clear();
   history_ns_ = 0;
   history_lines_cloud_.publish(line_history_.Clear());
+}
+
+// The newest image, which comes with a keyframe. The lines first: who has them waits for nothing.
+void OutputPublisher::PublishKeyframe(const EstimatedFrame& frame) {
+  const EstimatorOutput& output = frame.output;
+  const std::string& world = frames_.world_frame;
+  PublishIfWanted(keyframe_line_, [&] {
+    return ToKeyframeLines(PlaceSegments(frame.lines, output.lines), output.t_ns, world);
+  });
+  PublishIfWanted(keyframe_point_, [&] {
+    return ToKeyframePoints(PlaceCorners(frame.points, output.points), output.t_ns, world);
+  });
+  PublishIfWanted(keyframe_pose_, [&] {
+    return ToOdometry(output.state, CovarianceOf(frame), frame.angular_velocity, frames_);
+  });
 }
 
 // In one message per interval: a display keeps each message as an object of its own.

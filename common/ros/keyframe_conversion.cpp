@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/ros/keyframe_conversion.h"
+
+#include <geometry_msgs/Point32.h>
+#include <sensor_msgs/ChannelFloat32.h>
+
+#include <stdexcept>
+
+#include "common/feature_ids.h"
+#include "common/ros/msg_conversion.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr size_t kValuesPerChannel = 5;
+
+geometry_msgs::Point32 ToPoint32(const Eigen::Vector3d& p) {
+  geometry_msgs::Point32 point;
+  point.x = static_cast<float>(p.x());
+  point.y = static_cast<float>(p.y());
+  point.z = static_cast<float>(p.z());
+  return point;
+}
+
+Eigen::Vector3d ToVector(const geometry_msgs::Point32& p) { return {p.x, p.y, p.z}; }
+
+sensor_msgs::ChannelFloat32 ToChannel(const Eigen::Vector2d& first, const Eigen::Vector2d& second,
+                                      int64_t id) {
+  sensor_msgs::ChannelFloat32 channel;
+  channel.values = {static_cast<float>(first.x()), static_cast<float>(first.y()),
+                    static_cast<float>(second.x()), static_cast<float>(second.y()),
+                    static_cast<float>(WrapId(id))};
+  return channel;
+}
+
+sensor_msgs::PointCloud EmptyCloud(int64_t t_ns, const std::string& frame_id) {
+  sensor_msgs::PointCloud cloud;
+  cloud.header.stamp = ToRosTime(t_ns);
+  cloud.header.frame_id = frame_id;
+  return cloud;
+}
+
+// One channel for each feature, which has `points_each` points.
+void CheckLayout(const sensor_msgs::PointCloud& message, size_t points_each) {
+  if (message.points.size() != points_each * message.channels.size()) {
+    throw std::invalid_argument("a keyframe's message has not one channel for each feature");
+  }
+  for (const sensor_msgs::ChannelFloat32& channel : message.channels) {
+    if (channel.values.size() < kValuesPerChannel) {
+      throw std::invalid_argument("a keyframe's message has a channel of less than five values");
+    }
+  }
+}
+
+}  // namespace
+
+sensor_msgs::PointCloud ToKeyframePoints(const std::vector<TrackedCorner>& corners, int64_t t_ns,
+                                         const std::string& frame_id) {
+  sensor_msgs::PointCloud cloud = EmptyCloud(t_ns, frame_id);
+  for (const TrackedCorner& corner : corners) {
+    if (!corner.p_O) continue;
+    cloud.points.push_back(ToPoint32(*corner.p_O));
+    const PointObservation& seen = corner.observation;
+    cloud.channels.push_back(ToChannel(seen.xy, seen.uv_px, seen.id));
+  }
+  return cloud;
+}
+
+std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message) {
+  CheckLayout(message, 1);
+  std::vector<TrackedCorner> corners;
+  for (size_t i = 0; i < message.points.size(); ++i) {
+    const auto& values = message.channels[i].values;
+    TrackedCorner& corner = corners.emplace_back();
+    corner.observation.xy = {values[0], values[1]};
+    corner.observation.uv_px = {values[2], values[3]};
+    corner.observation.id = static_cast<int64_t>(values[4]);
+    corner.p_O = ToVector(message.points[i]);
+  }
+  return corners;
+}
+
+sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments, int64_t t_ns,
+                                        const std::string& frame_id) {
+  sensor_msgs::PointCloud cloud = EmptyCloud(t_ns, frame_id);
+  for (const TrackedSegment& segment : segments) {
+    if (!segment.landmark) continue;
+    cloud.points.push_back(ToPoint32(segment.landmark->start_O));
+    cloud.points.push_back(ToPoint32(segment.landmark->end_O));
+    const LineObservation& seen = segment.observation;
+    cloud.channels.push_back(ToChannel(seen.start, seen.end, seen.id));
+  }
+  return cloud;
+}
+
+std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message) {
+  CheckLayout(message, 2);
+  std::vector<TrackedSegment> segments;
+  for (size_t i = 0; i < message.channels.size(); ++i) {
+    const auto& values = message.channels[i].values;
+    TrackedSegment& segment = segments.emplace_back();
+    segment.observation.start = {values[0], values[1]};
+    segment.observation.end = {values[2], values[3]};
+    segment.observation.id = static_cast<int64_t>(values[4]);
+    segment.landmark = {ToVector(message.points[2 * i]), ToVector(message.points[2 * i + 1])};
+  }
+  return segments;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keyframes of the estimator for those who build maps, as messages.
+#pragma once
+
+#include <sensor_msgs/PointCloud.h>
+
+#include <string>
+#include <vector>
+
+#include "common/placed_features.h"
+
+namespace plm_vins {
+
+// ~keyframe_point as in VINS-Mono: the places of the corners that have one, and one channel for
+// each, with x, y (normalised), u, v [px] and the id, which travels as that of features does.
+// Reading throws std::invalid_argument where a channel is missing or too short.
+sensor_msgs::PointCloud ToKeyframePoints(const std::vector<TrackedCorner>& corners, int64_t t_ns,
+                                         const std::string& frame_id);
+std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message);
+
+// ~keyframe_line: both ends in space of each line that has a place, and one channel for each line,
+// with the ends x, y, x, y (normalised) and the id. Reading throws as above.
+sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments, int64_t t_ns,
+                                        const std::string& frame_id);
+std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message);
+
+}  // namespace plm_vins

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "common/rigid3.h"
+
+namespace plm_vins {
+
+// (x, y, z [m], yaw [rad]): what odometry drifts in, since gravity shows the rest.
+using Vector4d = Eigen::Vector4d;
+using Matrix4d = Eigen::Matrix4d;
+
+inline double WrapAngle(double angle) { return std::remainder(angle, 2 * M_PI); }
+
+// A rigid transform T_A_B between two frames with z up: p_A = Rz(yaw) p_B + translation.
+struct LevelTransform {
+  double yaw = 0;                                         // [rad]
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  // origin of B in A [m]
+
+  Eigen::Quaterniond rotation() const {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
+  }
+  Rigid3d ToRigid() const { return {rotation(), translation}; }
+  Vector4d ToVector() const {
+    return {translation.x(), translation.y(), translation.z(), WrapAngle(yaw)};
+  }
+  static LevelTransform FromVector(const Vector4d& v) { return {v(3), v.head<3>()}; }
+
+  LevelTransform Inverse() const { return {-yaw, -(rotation().conjugate() * translation)}; }
+};
+
+inline LevelTransform operator*(const LevelTransform& T_A_B, const LevelTransform& T_B_C) {
+  return {WrapAngle(T_A_B.yaw + T_B_C.yaw),
+          T_A_B.rotation() * T_B_C.translation + T_A_B.translation};
+}
+
+inline Eigen::Vector3d operator*(const LevelTransform& T_A_B, const Eigen::Vector3d& p_B) {
+  return T_A_B.rotation() * p_B + T_A_B.translation;
+}
+
+}  // namespace plm_vins

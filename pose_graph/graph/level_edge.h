@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pose_graph/geometry/level_transform.h"
+
+namespace plm_vins {
+
+// What was measured between two nodes of the pose graph.
+struct LevelEdge {
+  int from = -1;
+  int to = -1;
+  LevelTransform T_from_to;
+  Matrix4d covariance = Matrix4d::Identity();  // of (x, y, z, yaw) of T_from_to [m, rad]
+  bool is_loop = false;
+};
+
+// Measured less actual T_from_to, as (x, y, z, yaw).
+inline Vector4d EdgeError(const LevelTransform& measured, const LevelTransform& actual) {
+  Vector4d error = measured.ToVector() - actual.ToVector();
+  error(3) = WrapAngle(error(3));
+  return error;
+}
+
+// The Mahalanobis distance of an error from zero [standard deviations].
+double Deviations(const Vector4d& error, const Matrix4d& covariance);
+
+// Of four variables of which nothing is wrong, the deviations stay below in 997 of 1000 cases: as
+// those of one below three. [Wilson1931] gives chi-square; 16.3 is its square.
+constexpr double kThreeSigma = 4.03;
+
+}  // namespace plm_vins

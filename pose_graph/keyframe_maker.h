@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "common/camera_model.h"
+#include "pose_graph/description/corner_selection.h"
+#include "pose_graph/keyframe.h"
+#include "pose_graph/odometry_frame.h"
+
+namespace plm_vins {
+
+// The keyframe of an image: the corners that odometry follows, filled up with others, all with
+// descriptors. `world` and `path` are left to the caller.
+Keyframe MakeKeyframe(const CornerSelectionOptions& options, const CameraModel& camera,
+                      const OdometryFrame& frame);
+
+}  // namespace plm_vins

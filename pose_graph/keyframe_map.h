@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "pose_graph/graph/pose_graph.h"
+#include "pose_graph/keyframe.h"
+
+namespace plm_vins {
+
+// Keyframes and the graph that joins them: what a map file holds.
+struct KeyframeMap {
+  std::vector<Keyframe> keyframes;
+  PoseGraph graph;  // node i is keyframe i
+
+  // Where the world of a keyframe's odometry was in the map when it was taken, as known now.
+  LevelTransform T_M_O(int keyframe) const {
+    return graph.node(keyframe) * keyframes[keyframe].T_O_L().Inverse();
+  }
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "pose_graph/graph/pose_graph.h"
+#include "pose_graph/keyframe.h"
+#include "pose_graph/loop_candidate.h"
+
+namespace plm_vins {
+
+// How far odometry may be off after a way.
+struct DriftBudget {
+  double position_floor = 0.05;         // [m]
+  double position_rate = 0.02;          // of the way [1]
+  double yaw_floor = 0.5 * M_PI / 180;  // [rad]
+  double yaw_rate = 0.05 * M_PI / 180;  // [rad/m]
+
+  Matrix4d Covariance(double distance) const;
+};
+
+struct LoopAcceptanceOptions {
+  DriftBudget drift;
+  double max_deviations = 2 * kThreeSigma;  // that two loops which agree may ask for
+  double max_wait = 10;                     // for a loop that agrees [s]
+};
+
+// Decides on loops that are right as far as the images show: against odometry, and against each
+// other where they ask for much. Two loops agree where they say the same of where the odometry's
+// world is in the map.
+class LoopAcceptance {
+ public:
+  explicit LoopAcceptance(const LoopAcceptanceOptions& options) : options_(options) {}
+
+  // Takes the candidate through the gates kOdometry and kAgreement. Returns the loops to be
+  // believed: none, this one, or this one and one of before that waited for it.
+  std::vector<LoopCandidate> Judge(const std::vector<Keyframe>& keyframes, const PoseGraph& graph,
+                                   LoopCandidate* candidate);
+
+ private:
+  bool Agree(const std::vector<Keyframe>& keyframes, const PoseGraph& graph, const LoopCandidate& a,
+             const LoopCandidate& b) const;
+
+  LoopAcceptanceOptions options_;
+  std::vector<LoopCandidate> waiting_;
+};
+
+}  // namespace plm_vins

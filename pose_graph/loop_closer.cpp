@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/loop_closer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "pose_graph/keyframe_maker.h"
+
+namespace plm_vins {
+namespace {
+
+LevelEdge EdgeOf(const LoopCandidate& loop) {
+  return {loop.earlier, loop.later, loop.T_earlier_later, loop.covariance, /*is_loop=*/true};
+}
+
+}  // namespace
+
+LoopCloser::LoopCloser(const LoopCloserOptions& options, std::shared_ptr<const CameraModel> camera)
+    : options_(options),
+      camera_(std::move(camera)),
+      recognition_(options.recognition),
+      verification_(options.verification, camera_),
+      acceptance_(options.acceptance) {}
+
+void LoopCloser::SetMap(KeyframeMap map) {
+  map_ = std::move(map);
+  for (size_t i = 0; i < map_.keyframes.size(); ++i) {
+    recognition_.Add(map_.keyframes[i], static_cast<int>(i));
+    world_ = std::max(world_, map_.keyframes[i].world + 1);
+  }
+}
+
+LoopClosure LoopCloser::Add(const OdometryFrame& frame) {
+  if (frame.restarted) {
+    ++world_;
+    path_ = 0;
+    last_position_O_.reset();
+    last_.reset();
+  }
+  if (last_position_O_) path_ += (frame.T_O_B.translation - *last_position_O_).norm();
+  last_position_O_ = frame.T_O_B.translation;
+
+  LoopClosure closure;
+  closure.is_keyframe = IsKeyframe(frame);
+  if (closure.is_keyframe) {
+    AddKeyframe(frame);
+    LookForLoops(&closure);
+  }
+  closure.fix = Fix();
+  return closure;
+}
+
+bool LoopCloser::IsKeyframe(const OdometryFrame& frame) const {
+  if (!last_) return true;
+  const KeyframeSpacing& spacing = Fix() ? options_.spacing : options_.lost_spacing;
+  return IsApart(spacing, last_->t_ns, last_->T_O_B, frame.t_ns, frame.T_O_B);
+}
+
+void LoopCloser::AddKeyframe(const OdometryFrame& frame) {
+  Keyframe keyframe = MakeKeyframe(options_.corners, *camera_, frame);
+  keyframe.world = world_;
+  keyframe.path = path_;
+  const LevelTransform T_O_L = keyframe.T_O_L();
+  const LevelTransform T_M_L = last_ ? map_.T_M_O(map_.graph.size() - 1) * T_O_L : T_O_L;
+  const int number = map_.graph.AddNode(T_M_L);
+  map_.keyframes.push_back(std::move(keyframe));
+  recognition_.Add(map_.keyframes.back(), number);
+  if (last_) ConnectToPrevious(frame, number);
+  last_ = frame;
+  last_->gray.release();
+}
+
+void LoopCloser::ConnectToPrevious(const OdometryFrame& frame, int number) {
+  LevelEdge edge;
+  edge.from = number - 1;
+  edge.to = number;
+  edge.T_from_to = map_.keyframes[number - 1].T_O_L().Inverse() * map_.keyframes[number].T_O_L();
+  edge.covariance = StepCovariance(options_.odometry, *last_, frame);
+  map_.graph.AddEdge(edge);
+  covariance_ += edge.covariance;
+}
+
+void LoopCloser::LookForLoops(LoopClosure* closure) {
+  std::vector<LoopCandidate> accepted;
+  for (const PlaceCandidate& place : recognition_.Find(map_.keyframes)) {
+    LoopCandidate candidate = Examine(place, closure);
+    if (!candidate.failed) {
+      const auto loops = acceptance_.Judge(map_.keyframes, map_.graph, &candidate);
+      accepted.insert(accepted.end(), loops.begin(), loops.end());
+    }
+    closure->candidates.push_back(candidate);
+  }
+  if (AddLoops(accepted)) Optimize(closure);
+}
+
+LoopCandidate LoopCloser::Examine(const PlaceCandidate& place, LoopClosure* closure) {
+  LoopCandidate candidate;
+  candidate.earlier = place.keyframe;
+  candidate.later = static_cast<int>(map_.keyframes.size()) - 1;
+  candidate.earlier_ns = map_.keyframes[candidate.earlier].t_ns;
+  candidate.later_ns = map_.keyframes[candidate.later].t_ns;
+  candidate.score_share = place.score_share;
+  candidate.repeated = place.repeated;
+  if (!place.similar) {
+    candidate.failed = LoopGate::kScore;
+  } else if (!place.repeated) {
+    candidate.failed = LoopGate::kRepeated;
+  } else {
+    auto inliers =
+        verification_.Verify(IslandOf(candidate.earlier), IslandOf(candidate.later), &candidate);
+    if (!inliers.empty()) closure->inliers_px = std::move(inliers);
+  }
+  return candidate;
+}
+
+Island LoopCloser::IslandOf(int number) const {
+  const std::vector<Keyframe>& keyframes = map_.keyframes;
+  const int radius = options_.recognition.island_radius;
+  const int end = std::min(number + radius + 1, static_cast<int>(keyframes.size()));
+  Island island;
+  island.keyframe = &keyframes[number];
+  for (int i = std::max(0, number - radius); i < end; ++i) {
+    if (keyframes[i].world == keyframes[number].world) island.all.push_back(&keyframes[i]);
+  }
+  return island;
+}
+
+// Of two parts that a loop joins, the later one moves to where the loop says.
+bool LoopCloser::AddLoops(const std::vector<LoopCandidate>& loops) {
+  for (const LoopCandidate& loop : loops) {
+    const LevelEdge edge = EdgeOf(loop);
+    if (!map_.graph.AreConnected(edge.from, edge.to)) {
+      const LevelTransform T_M_L = map_.graph.node(edge.from) * edge.T_from_to;
+      map_.graph.MovePart(edge.to, T_M_L * map_.graph.node(edge.to).Inverse());
+    }
+    map_.graph.AddEdge(edge);
+    covariance_ = edge.covariance;
+  }
+  return !loops.empty();
+}
+
+void LoopCloser::Optimize(LoopClosure* closure) {
+  const std::vector<LevelEdge> dropped = map_.graph.Optimize();
+  for (LoopCandidate& candidate : closure->candidates) {
+    if (candidate.failed) continue;
+    const LevelEdge edge = EdgeOf(candidate);
+    candidate.graph_error = map_.graph.Deviations(edge);
+    const bool is_dropped = std::any_of(
+        dropped.begin(), dropped.end(),
+        [&](const LevelEdge& other) { return other.from == edge.from && other.to == edge.to; });
+    if (is_dropped) candidate.failed = LoopGate::kGraph;
+  }
+}
+
+std::optional<MapFix> LoopCloser::Fix() const {
+  const int newest = map_.graph.size() - 1;
+  if (!map_.graph.AreConnected(0, newest)) return std::nullopt;
+  return MapFix{map_.T_M_O(newest), covariance_};
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/camera_model.h"
+#include "pose_graph/description/corner_selection.h"
+#include "pose_graph/graph/pose_graph.h"
+#include "pose_graph/keyframe.h"
+#include "pose_graph/keyframe_map.h"
+#include "pose_graph/keyframe_policy.h"
+#include "pose_graph/loop_acceptance.h"
+#include "pose_graph/loop_candidate.h"
+#include "pose_graph/odometry_frame.h"
+#include "pose_graph/odometry_noise.h"
+#include "pose_graph/retrieval/place_recognition.h"
+#include "pose_graph/verification/loop_verification.h"
+
+namespace plm_vins {
+
+struct LoopCloserOptions {
+  KeyframeSpacing spacing;
+  // While the place in the map is unknown, to find it soon.
+  KeyframeSpacing lost_spacing = {0.1, 5 * M_PI / 180, 0.5};
+  CornerSelectionOptions corners;
+  OdometryNoise odometry;
+  PlaceRecognitionOptions recognition;
+  LoopVerificationOptions verification;
+  LoopAcceptanceOptions acceptance;
+};
+
+// The place of an odometry's world in the map.
+struct MapFix {
+  LevelTransform T_M_O;
+  Matrix4d covariance = Matrix4d::Zero();  // of (x, y, z, yaw) of the newest keyframe in M
+};
+
+// What an image brought.
+struct LoopClosure {
+  bool is_keyframe = false;
+  std::vector<LoopCandidate> candidates;    // that were looked at
+  std::vector<Eigen::Vector2f> inliers_px;  // corners of a place that was recognised
+  std::optional<MapFix> fix;                // nothing while the place in the map is unknown
+};
+
+// Recognises places and corrects the odometry's drift: the map M is the world of the first odometry
+// or that of a map which is loaded; the poses of odometry themselves are never touched. One call
+// per image, synchronous and deterministic.
+class LoopCloser {
+ public:
+  LoopCloser(const LoopCloserOptions& options, std::shared_ptr<const CameraModel> camera);
+
+  // Starts in a map of earlier. Before the first Add().
+  void SetMap(KeyframeMap map);
+
+  // Takes the next image that odometry has a pose for.
+  LoopClosure Add(const OdometryFrame& frame);
+
+  const KeyframeMap& map() const { return map_; }
+
+ private:
+  bool IsKeyframe(const OdometryFrame& frame) const;
+  void AddKeyframe(const OdometryFrame& frame);
+  void ConnectToPrevious(const OdometryFrame& frame, int number);
+  void LookForLoops(LoopClosure* closure);
+  LoopCandidate Examine(const PlaceCandidate& place, LoopClosure* closure);
+  Island IslandOf(int number) const;
+  bool AddLoops(const std::vector<LoopCandidate>& loops);
+  void Optimize(LoopClosure* closure);
+  std::optional<MapFix> Fix() const;
+
+  LoopCloserOptions options_;
+  std::shared_ptr<const CameraModel> camera_;
+  PlaceRecognition recognition_;
+  LoopVerification verification_;
+  LoopAcceptance acceptance_;
+  KeyframeMap map_;
+  int world_ = 0;
+  double path_ = 0;                                 // in this world [m]
+  std::optional<Eigen::Vector3d> last_position_O_;  // for path_
+  std::optional<OdometryFrame> last_;               // the newest keyframe of this world
+  Matrix4d covariance_ = Matrix4d::Zero();          // of the newest keyframe in M
+};
+
+}  // namespace plm_vins

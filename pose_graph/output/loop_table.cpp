@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/output/loop_table.h"
+
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace plm_vins {
+namespace {
+
+constexpr double kDegreesPerRadian = 180 / M_PI;
+
+void WriteNumber(double value, std::ostream* stream) {
+  char text[32];
+  std::snprintf(text, sizeof(text), ",%.4f", value);
+  *stream << text;
+}
+
+void WriteCount(const std::optional<int>& value, std::ostream* stream) {
+  *stream << ',';
+  if (value) *stream << *value;
+}
+
+void WriteValue(const std::optional<double>& value, std::ostream* stream, double unit = 1) {
+  if (value) {
+    WriteNumber(*value * unit, stream);
+  } else {
+    *stream << ',';
+  }
+}
+
+}  // namespace
+
+void WriteLoopHeader(std::ostream* stream) {
+  *stream
+      << "later_ns,earlier_ns,later,earlier,result,score_share,repeated,common_tracks,matches,pose_"
+         "inliers,"
+         "inliers,inlier_share,manhattan_error_deg,cells,backward_inliers,backward_share,"
+         "visible_lines,line_share,odometry_error_sigma,graph_error_sigma,x_m,y_m,z_m,yaw_deg\n";
+}
+
+void WriteLoopRow(const LoopCandidate& candidate, std::ostream* stream) {
+  *stream << candidate.later_ns << ',' << candidate.earlier_ns << ',' << candidate.later << ','
+          << candidate.earlier << ','
+          << (candidate.failed ? ToString(*candidate.failed) : "accepted");
+  WriteNumber(candidate.score_share, stream);
+  *stream << ',' << candidate.repeated;
+  WriteCount(candidate.common_tracks, stream);
+  WriteCount(candidate.matches, stream);
+  WriteCount(candidate.pose_inliers, stream);
+  WriteCount(candidate.inliers, stream);
+  WriteValue(candidate.inlier_share, stream);
+  WriteValue(candidate.manhattan_error, stream, kDegreesPerRadian);
+  WriteCount(candidate.cells, stream);
+  WriteCount(candidate.backward_inliers, stream);
+  WriteValue(candidate.backward_share, stream);
+  WriteCount(candidate.visible_lines, stream);
+  WriteValue(candidate.line_share, stream);
+  WriteValue(candidate.odometry_error, stream);
+  WriteValue(candidate.graph_error, stream);
+  const LevelTransform& T = candidate.T_earlier_later;
+  for (int i = 0; i < 3; ++i) WriteNumber(T.translation(i), stream);
+  WriteNumber(T.yaw * kDegreesPerRadian, stream);
+  *stream << '\n';
+}
+
+}  // namespace plm_vins

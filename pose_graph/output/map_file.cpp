@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/output/map_file.h"
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "pose_graph/output/map_archive.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr char kSignature[] = "plm_vins map";
+constexpr uint32_t kVersion = 1;
+
+// [FNV]: 64-bit FNV-1a. It is there against damage, not against malice.
+uint64_t Checksum(const std::string& bytes) {
+  uint64_t hash = 14695981039346656037ULL;
+  for (const char byte : bytes) {
+    hash ^= static_cast<uint8_t>(byte);
+    hash *= 1099511628211ULL;
+  }
+  return hash;
+}
+
+// Layouts; Struct is const where it is written.
+template <typename Archive, typename Matrix>
+void Numbers(Archive* archive, Matrix& matrix) {
+  for (Eigen::Index i = 0; i < matrix.size(); ++i) archive->Value(matrix.data()[i]);
+}
+
+template <typename Archive, typename Struct>
+void Pose(Archive* archive, Struct& transform) {
+  Numbers(archive, transform.translation);
+  Numbers(archive, transform.rotation.coeffs());
+}
+
+template <typename Archive, typename Struct>
+void Level(Archive* archive, Struct& transform) {
+  archive->Value(transform.yaw);
+  Numbers(archive, transform.translation);
+}
+
+template <typename Archive, typename Struct>
+void Corner(Archive* archive, Struct& corner) {
+  archive->Value(corner.track);
+  Numbers(archive, corner.uv_px);
+  Numbers(archive, corner.xy);
+  if (archive->Has(corner.p_O)) Numbers(archive, *corner.p_O);
+  for (auto& word : corner.descriptor) archive->Value(word);
+}
+
+template <typename Archive, typename Struct>
+void Segment(Archive* archive, Struct& segment) {
+  archive->Value(segment.observation.id);
+  Numbers(archive, segment.observation.start);
+  Numbers(archive, segment.observation.end);
+  if (!archive->Has(segment.landmark)) return;
+  Numbers(archive, segment.landmark->start_O);
+  Numbers(archive, segment.landmark->end_O);
+}
+
+template <typename Archive, typename Struct>
+void Frame(Archive* archive, Struct& keyframe) {
+  archive->Value(keyframe.t_ns);
+  archive->Value(keyframe.world);
+  archive->Value(keyframe.path);
+  Pose(archive, keyframe.T_O_B);
+  Pose(archive, keyframe.T_B_C);
+  if (archive->Has(keyframe.R_O_M)) Numbers(archive, keyframe.R_O_M->coeffs());
+  archive->Resize(keyframe.corners);
+  for (auto& corner : keyframe.corners) Corner(archive, corner);
+  archive->Resize(keyframe.segments);
+  for (auto& segment : keyframe.segments) Segment(archive, segment);
+}
+
+template <typename Archive, typename Struct>
+void Edge(Archive* archive, Struct& edge) {
+  archive->Value(edge.from);
+  archive->Value(edge.to);
+  Level(archive, edge.T_from_to);
+  Numbers(archive, edge.covariance);
+  archive->Value(edge.is_loop);
+}
+
+template <typename Archive, typename Keyframes, typename Nodes, typename Edges>
+void Map(Archive* archive, Keyframes& keyframes, Nodes& nodes, Edges& edges) {
+  archive->Resize(keyframes);
+  for (auto& keyframe : keyframes) Frame(archive, keyframe);
+  archive->Resize(nodes);
+  for (auto& node : nodes) Level(archive, node);
+  archive->Resize(edges);
+  for (auto& edge : edges) Edge(archive, edge);
+}
+
+// Takes the numbers of a graph only where they are of this map.
+KeyframeMap ParseMap(const std::string& bytes) {
+  KeyframeMap map;
+  std::vector<LevelTransform> nodes;
+  std::vector<LevelEdge> edges;
+  MapReader reader(bytes);
+  Map(&reader, map.keyframes, nodes, edges);
+  if (nodes.size() != map.keyframes.size()) throw std::runtime_error("is damaged");
+  for (const LevelTransform& node : nodes) map.graph.AddNode(node);
+  for (const LevelEdge& edge : edges) {
+    const int lowest = std::min(edge.from, edge.to);
+    if (lowest < 0 || std::max(edge.from, edge.to) >= map.graph.size()) {
+      throw std::runtime_error("is damaged");
+    }
+    map.graph.AddEdge(edge);
+  }
+  return map;
+}
+
+std::string ReadPayload(std::istream* stream) {
+  std::array<char, sizeof(kSignature)> signature = {};
+  uint32_t version = 0;
+  uint64_t size = 0, checksum = 0;
+  stream->read(signature.data(), signature.size());
+  if (std::string(signature.data(), signature.size()) !=
+      std::string(kSignature, sizeof(kSignature))) {
+    throw std::runtime_error("is no map of plm_vins");
+  }
+  stream->read(reinterpret_cast<char*>(&version), sizeof(version));
+  if (*stream && version != kVersion) {
+    throw std::runtime_error("is a map of version " + std::to_string(version) +
+                             ", this program reads version " + std::to_string(kVersion));
+  }
+  stream->read(reinterpret_cast<char*>(&size), sizeof(size));
+  stream->read(reinterpret_cast<char*>(&checksum), sizeof(checksum));
+  std::ostringstream rest;
+  if (*stream) rest << stream->rdbuf();
+  std::string bytes = rest.str();
+  if (bytes.size() != size || Checksum(bytes) != checksum) {
+    throw std::runtime_error("is damaged: save the map again");
+  }
+  return bytes;
+}
+
+void WriteStream(const std::string& bytes, std::ostream* stream) {
+  const uint64_t size = bytes.size();
+  const uint64_t checksum = Checksum(bytes);
+  stream->write(kSignature, sizeof(kSignature));
+  stream->write(reinterpret_cast<const char*>(&kVersion), sizeof(kVersion));
+  stream->write(reinterpret_cast<const char*>(&size), sizeof(size));
+  stream->write(reinterpret_cast<const char*>(&checksum), sizeof(checksum));
+  stream->write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+}  // namespace
+
+void SaveMap(const std::string& file, const KeyframeMap& map) {
+  MapWriter writer;
+  Map(&writer, map.keyframes, map.graph.nodes(), map.graph.edges());
+  // Readers see the old file or the new one, never half of it.
+  const std::string unfinished = file + ".part";
+  std::ofstream stream(unfinished, std::ios::binary);
+  WriteStream(writer.bytes(), &stream);
+  stream.close();
+  if (!stream) {
+    std::remove(unfinished.c_str());
+    throw std::runtime_error(file + ": the map cannot be written; check the path and the disk");
+  }
+  std::error_code error;
+  std::filesystem::rename(unfinished, file, error);
+  if (error) throw std::runtime_error(file + ": " + error.message());
+}
+
+KeyframeMap LoadMap(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::runtime_error(file + ": there is no such map");
+  try {
+    return ParseMap(ReadPayload(&stream));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "pose_graph/keyframe_map.h"
+
+namespace plm_vins {
+
+// Writes a map: signature with version, size and checksum of what follows, then keyframes, nodes
+// and edges. The file is there completely or, where that fails, as it was before. Throws
+// std::runtime_error, which names the file and says why.
+void SaveMap(const std::string& file, const KeyframeMap& map);
+
+// Reads it back, bit by bit. Throws std::runtime_error with one message where there is no such
+// file, it is none of a map, of another version, or damaged.
+KeyframeMap LoadMap(const std::string& file);
+
+}  // namespace plm_vins

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/retrieval/corner_index.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plm_vins {
+
+CornerIndex::CornerIndex(const CornerIndexOptions& options)
+    : options_(options), buckets_(static_cast<size_t>(options.tables) << options.bits) {}
+
+// The tables take turns in the bits, so that each has some of every part of the pattern.
+uint64_t CornerIndex::Word(const Descriptor& descriptor, int table) const {
+  uint64_t word = static_cast<uint64_t>(table);
+  for (int i = 0; i < options_.bits; ++i) {
+    const int bit = i * options_.tables + table;
+    word = word << 1 | (descriptor[bit / 64] >> (bit % 64) & 1);
+  }
+  return word;
+}
+
+void CornerIndex::Add(int image, const std::vector<Descriptor>& descriptors) {
+  images_.insert(image);
+  for (const Descriptor& descriptor : descriptors) {
+    for (int table = 0; table < options_.tables; ++table) {
+      buckets_[Word(descriptor, table)].push_back({image, descriptor});
+    }
+  }
+}
+
+void CornerIndex::Remove(int image) {
+  images_.erase(image);
+  for (std::vector<Entry>& bucket : buckets_) {
+    bucket.erase(std::remove_if(bucket.begin(), bucket.end(),
+                                [image](const Entry& entry) { return entry.image == image; }),
+                 bucket.end());
+  }
+}
+
+std::set<int> CornerIndex::ImagesWith(const Descriptor& descriptor) const {
+  std::set<int> images;
+  for (int table = 0; table < options_.tables; ++table) {
+    for (const Entry& entry : buckets_[Word(descriptor, table)]) {
+      const int distance = HammingDistance(entry.descriptor, descriptor);
+      if (distance <= options_.max_distance) images.insert(entry.image);
+    }
+  }
+  return images;
+}
+
+std::map<int, double> CornerIndex::Scores(const std::vector<Descriptor>& descriptors) const {
+  const auto image_count = static_cast<double>(images_.size());
+  std::map<int, double> scores;
+  for (const Descriptor& descriptor : descriptors) {
+    const std::set<int> images = ImagesWith(descriptor);
+    if (images.empty()) continue;
+    const double weight = std::log((image_count + 1) / static_cast<double>(images.size()));
+    for (const int image : images) scores[image] += weight;
+  }
+  return scores;
+}
+
+}  // namespace plm_vins

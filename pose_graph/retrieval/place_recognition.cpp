@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/retrieval/place_recognition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "common/measurements.h"
+
+namespace plm_vins {
+namespace {
+
+std::vector<Descriptor> DescriptorsOf(const Keyframe& keyframe) {
+  std::vector<Descriptor> descriptors;
+  for (const DescribedCorner& corner : keyframe.corners) descriptors.push_back(corner.descriptor);
+  return descriptors;
+}
+
+// Another visit: of another world, or long enough ago.
+bool IsEarlierVisit(const Keyframe& newest, const Keyframe& other, double min_time) {
+  return other.world != newest.world || ToSeconds(newest.t_ns - other.t_ns) >= min_time;
+}
+
+double ScoreOf(const std::map<int, double>& scores, int number) {
+  const auto found = scores.find(number);
+  return found == scores.end() ? 0.0 : found->second;
+}
+
+// The sum over the keyframes around `number` of the same world.
+double IslandScore(const std::map<int, double>& scores, const std::vector<Keyframe>& keyframes,
+                   int number, int radius) {
+  double sum = 0;
+  const int end = std::min(number + radius + 1, static_cast<int>(keyframes.size()));
+  for (int i = std::max(0, number - radius); i < end; ++i) {
+    if (keyframes[i].world == keyframes[number].world) sum += ScoreOf(scores, i);
+  }
+  return sum;
+}
+
+}  // namespace
+
+PlaceRecognition::PlaceRecognition(const PlaceRecognitionOptions& options)
+    : options_(options), index_(options.index) {}
+
+void PlaceRecognition::Add(const Keyframe& keyframe, int number) {
+  index_.Add(number, DescriptorsOf(keyframe));
+}
+
+std::vector<PlaceCandidate> PlaceRecognition::Find(const std::vector<Keyframe>& keyframes) {
+  const int newest = static_cast<int>(keyframes.size()) - 1;
+  const std::map<int, double> scores = index_.Scores(DescriptorsOf(keyframes[newest]));
+  std::vector<std::pair<double, int>> islands;  // score, keyframe
+  for (const auto& [number, score] : scores) {
+    if (!IsEarlierVisit(keyframes[newest], keyframes[number], options_.min_time)) continue;
+    islands.emplace_back(IslandScore(scores, keyframes, number, options_.island_radius), number);
+  }
+  std::stable_sort(islands.begin(), islands.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+
+  const double reference = ScoreOf(scores, newest - 1);
+  std::vector<PlaceCandidate> candidates;
+  for (const auto& [island_score, number] : islands) {
+    if (static_cast<int>(candidates.size()) == options_.max_islands) break;
+    const bool taken = std::any_of(
+        candidates.begin(), candidates.end(), [&, number = number](const PlaceCandidate& other) {
+          return std::abs(other.keyframe - number) <= 2 * options_.island_radius;
+        });
+    if (taken) continue;
+    PlaceCandidate candidate;
+    candidate.keyframe = number;
+    candidate.score_share = reference > 0 ? ScoreOf(scores, number) / reference : 0;
+    candidate.similar = candidate.score_share >= options_.min_score_share;
+    candidate.repeated = IsRepeated(keyframes[number], number, keyframes);
+    candidates.push_back(candidate);
+  }
+  recent_.emplace_back();
+  for (const PlaceCandidate& candidate : candidates) {
+    if (candidate.similar) recent_.back().push_back(candidate.keyframe);
+  }
+  if (static_cast<int>(recent_.size()) > options_.memory) recent_.pop_front();
+  return candidates;
+}
+
+bool PlaceRecognition::IsRepeated(const Keyframe& candidate, int number,
+                                  const std::vector<Keyframe>& keyframes) const {
+  for (const std::vector<int>& before : recent_) {
+    for (const int other : before) {
+      if (keyframes[other].world == candidate.world &&
+          std::abs(other - number) <= 2 * options_.island_radius) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace plm_vins

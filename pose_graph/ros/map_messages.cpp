@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/ros/map_messages.h"
+
+#include <geometry_msgs/PoseStamped.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "common/ros/msg_conversion.h"
+
+namespace plm_vins {
+namespace {
+
+using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+Rigid3d FromPose(const geometry_msgs::Pose& pose) {
+  const auto& q = pose.orientation;
+  const auto& p = pose.position;
+  return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), {p.x, p.y, p.z}};
+}
+
+visualization_msgs::Marker LineList(const std::string& name, double width) {
+  visualization_msgs::Marker marker;
+  marker.ns = name;
+  marker.type = visualization_msgs::Marker::LINE_LIST;
+  marker.action = visualization_msgs::Marker::ADD;
+  marker.pose.orientation.w = 1;
+  marker.scale.x = width;
+  marker.color.a = 1;
+  return marker;
+}
+
+}  // namespace
+
+nav_msgs::Odometry ToMap(const nav_msgs::Odometry& odometry, const MapFix& fix,
+                         const std::string& map_frame) {
+  nav_msgs::Odometry result = odometry;
+  result.header.frame_id = map_frame;
+  result.pose.pose = ToPose(fix.T_M_O.ToRigid() * FromPose(odometry.pose.pose));
+  Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Identity();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() =
+      fix.T_M_O.rotation().toRotationMatrix();
+  Eigen::Map<RowMajor6d> covariance(result.pose.covariance.data());
+  covariance = (turn * covariance * turn.transpose()).eval();
+  covariance.topLeftCorner<3, 3>() += fix.covariance.topLeftCorner<3, 3>();
+  covariance(5, 5) += fix.covariance(3, 3);
+  return result;
+}
+
+nav_msgs::Path ToPath(const KeyframeMap& map, const std::string& map_frame) {
+  nav_msgs::Path path;
+  path.header.frame_id = map_frame;
+  const std::vector<bool> connected = map.graph.ConnectedWith(map.graph.size() - 1);
+  for (int i = 0; i < map.graph.size(); ++i) {
+    if (!connected[i]) continue;
+    geometry_msgs::PoseStamped& pose = path.poses.emplace_back();
+    pose.header.frame_id = map_frame;
+    pose.header.stamp = ToRosTime(map.keyframes[i].t_ns);
+    pose.pose = ToPose(map.T_M_O(i).ToRigid() * map.keyframes[i].T_O_B);
+  }
+  if (!path.poses.empty()) path.header.stamp = path.poses.back().header.stamp;
+  return path;
+}
+
+visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map, int64_t t_ns,
+                                               const std::string& map_frame) {
+  visualization_msgs::Marker steps = LineList("odometry", 0.01);
+  steps.color.r = steps.color.g = steps.color.b = 0.6F;
+  visualization_msgs::Marker loops = LineList("loops", 0.02);
+  loops.color.g = 1;
+  for (const LevelEdge& edge : map.graph.edges()) {
+    visualization_msgs::Marker& list = edge.is_loop ? loops : steps;
+    list.points.push_back(ToPoint(map.graph.node(edge.from).translation));
+    list.points.push_back(ToPoint(map.graph.node(edge.to).translation));
+  }
+  visualization_msgs::MarkerArray markers;
+  markers.markers = {steps, loops};
+  for (visualization_msgs::Marker& marker : markers.markers) {
+    marker.header.frame_id = map_frame;
+    marker.header.stamp = ToRosTime(t_ns);
+  }
+  return markers;
+}
+
+cv::Mat DrawMatches(const cv::Mat& gray, const std::vector<Eigen::Vector2f>& inliers_px) {
+  cv::Mat picture;
+  cv::cvtColor(gray, picture, cv::COLOR_GRAY2BGR);
+  for (const Eigen::Vector2f& uv : inliers_px) {
+    cv::circle(picture, cv::Point2f(uv.x(), uv.y()), 4, cv::Scalar(0, 255, 0), 1, cv::LINE_AA);
+  }
+  return picture;
+}
+
+}  // namespace plm_vins

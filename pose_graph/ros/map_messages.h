@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the pose graph says, as messages.
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <string>
+#include <vector>
+
+#include "pose_graph/loop_closer.h"
+
+namespace plm_vins {
+
+// Odometry's message in the map: its pose moved, its covariance turned and made larger by that of
+// the place in the map. The twist stays, as it is in the body's frame.
+nav_msgs::Odometry ToMap(const nav_msgs::Odometry& odometry, const MapFix& fix,
+                         const std::string& map_frame);
+
+// The keyframes that are connected with the newest, where they are as known now.
+nav_msgs::Path ToPath(const KeyframeMap& map, const std::string& map_frame);
+
+// Two lists of lines: odometry's edges in grey, loops in green.
+visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map, int64_t t_ns,
+                                               const std::string& map_frame);
+
+// The image with the corners of a recognised place (CV_8UC3).
+cv::Mat DrawMatches(const cv::Mat& gray, const std::vector<Eigen::Vector2f>& inliers_px);
+
+}  // namespace plm_vins

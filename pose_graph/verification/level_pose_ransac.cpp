@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/verification/level_pose_ransac.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace plm_vins {
+namespace {
+
+constexpr size_t kMinInliers = 3;  // two agree always
+constexpr uint32_t kSeed = 1;
+
+// Samples needed to meet one of inliers alone.
+int IterationsFor(double inlier_share, double confidence) {
+  const double hit = inlier_share * inlier_share;
+  if (hit >= 1) return 1;
+  return static_cast<int>(std::ceil(std::log(1 - confidence) / std::log(1 - hit)));
+}
+
+std::vector<size_t> InliersOf(const LevelTransform& T_A_G, const std::vector<SeenPoint>& sightings,
+                              const Eigen::Quaterniond& R_G_C, double max_error) {
+  std::vector<size_t> inliers;
+  for (size_t i = 0; i < sightings.size(); ++i) {
+    if (SightingError(sightings[i], T_A_G, R_G_C) <= max_error) inliers.push_back(i);
+  }
+  return inliers;
+}
+
+}  // namespace
+
+std::vector<LevelTransform> SolveTwoPoints(const Eigen::Vector3d& ray_G1,
+                                           const Eigen::Vector3d& p_A1,
+                                           const Eigen::Vector3d& ray_G2,
+                                           const Eigen::Vector3d& p_A2) {
+  // p_A1 - p_A2 = Rz(yaw) (l1 ray_G1 - l2 ray_G2). Heights leave a line of lengths (l1, l2) =
+  // nearest + s along.
+  const Eigen::Vector3d difference = p_A1 - p_A2;
+  const Eigen::Vector2d heights(ray_G1.z(), -ray_G2.z());
+  if (heights.squaredNorm() < 1e-12) return {};
+  const Eigen::Vector2d nearest = heights * difference.z() / heights.squaredNorm();
+  const Eigen::Vector2d along = Eigen::Vector2d(-heights.y(), heights.x()).normalized();
+  Eigen::Matrix2d horizontal;
+  horizontal << ray_G1.head<2>(), -ray_G2.head<2>();
+
+  const Eigen::Vector2d start = horizontal * nearest;
+  const Eigen::Vector2d slope = horizontal * along;
+  const double a = slope.squaredNorm();
+  const double b = start.dot(slope);
+  const double c = start.squaredNorm() - difference.head<2>().squaredNorm();
+  const double discriminant = b * b - a * c;
+  if (a < 1e-12 || discriminant < 0) return {};
+
+  std::vector<LevelTransform> poses;
+  for (const double sign : {-1.0, 1.0}) {
+    const Eigen::Vector2d lengths = nearest + (-b + sign * std::sqrt(discriminant)) / a * along;
+    if (lengths.minCoeff() <= 0) continue;
+    const Eigen::Vector2d seen = horizontal * lengths;
+    LevelTransform T_A_G;
+    T_A_G.yaw =
+        WrapAngle(std::atan2(difference.y(), difference.x()) - std::atan2(seen.y(), seen.x()));
+    T_A_G.translation = p_A1 - T_A_G.rotation() * (lengths(0) * ray_G1);
+    poses.push_back(T_A_G);
+  }
+  return poses;
+}
+
+double SightingError(const SeenPoint& sighting, const LevelTransform& T_A_G,
+                     const Eigen::Quaterniond& R_G_C) {
+  const Eigen::Vector3d p_C = R_G_C.conjugate() * (T_A_G.Inverse() * sighting.p_A);
+  if (p_C.z() <= 0) return std::numeric_limits<double>::infinity();
+  return (p_C.hnormalized() - sighting.xy).norm();
+}
+
+std::optional<LevelPose> FindLevelPose(const LevelPoseRansacOptions& options,
+                                       const std::vector<SeenPoint>& sightings,
+                                       const Eigen::Quaterniond& R_G_C) {
+  if (sightings.size() < 2) return std::nullopt;
+  std::mt19937 random(kSeed);
+  LevelPose best;
+  int iterations = options.max_iterations;
+  for (int i = 0; i < iterations; ++i) {
+    const SeenPoint& first = sightings[random() % sightings.size()];
+    const SeenPoint& second = sightings[random() % sightings.size()];
+    if (&first == &second) continue;
+    const auto poses = SolveTwoPoints(R_G_C * first.xy.homogeneous(), first.p_A,
+                                      R_G_C * second.xy.homogeneous(), second.p_A);
+    for (const LevelTransform& pose : poses) {
+      auto inliers = InliersOf(pose, sightings, R_G_C, options.max_error);
+      if (inliers.size() <= best.inliers.size()) continue;
+      best = {pose, std::move(inliers)};
+      const double share = static_cast<double>(best.inliers.size()) / sightings.size();
+      iterations = std::min(iterations, IterationsFor(share, options.confidence) + i);
+    }
+  }
+  if (best.inliers.size() < kMinInliers) return std::nullopt;
+  return best;
+}
+
+}  // namespace plm_vins

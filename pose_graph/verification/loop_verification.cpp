@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/verification/loop_verification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "common/so3.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int kCellColumns = 4;
+constexpr int kCellRows = 3;
+
+std::set<int64_t> TracksOf(const Island& island) {
+  std::set<int64_t> tracks;
+  for (const Keyframe* keyframe : island.all) {
+    for (const DescribedCorner& corner : keyframe->corners) {
+      if (corner.track >= 0) tracks.insert(corner.track);
+    }
+  }
+  return tracks;
+}
+
+// The lines of an island, each once, as its newest keyframe has them.
+std::vector<SpaceSegment> LinesOf(const Island& island) {
+  std::map<int64_t, SpaceSegment> by_track;
+  for (const Keyframe* keyframe : island.all) {
+    for (const TrackedSegment& segment : keyframe->segments) {
+      if (segment.landmark) by_track[segment.observation.id] = *segment.landmark;
+    }
+  }
+  std::vector<SpaceSegment> lines;
+  for (const auto& [track, line] : by_track) lines.push_back(line);
+  return lines;
+}
+
+SeenPoint ToSeenPoint(const LandmarkMatch& match, const std::vector<DescribedCorner>& corners,
+                      const std::vector<DescribedLandmark>& landmarks) {
+  return {landmarks[match.landmark].p_O, corners[match.corner].xy.cast<double>()};
+}
+
+// Landmarks looked for around their images, and the corners that are where they should be.
+struct Search {
+  size_t matches = 0;
+  std::vector<SeenPoint> inliers;
+  std::vector<Eigen::Vector2f> corners_px;  // of the inliers
+
+  double share() const {
+    return matches > 0 ? static_cast<double>(inliers.size()) / static_cast<double>(matches) : 0.0;
+  }
+};
+
+Search SearchAroundImages(const LoopVerificationOptions& options,
+                          const std::vector<DescribedCorner>& corners,
+                          const std::vector<DescribedLandmark>& landmarks,
+                          const LevelTransform& T_O_G, const Eigen::Quaterniond& R_G_C) {
+  Search search;
+  for (const LandmarkMatch& match :
+       MatchAroundImages(options.matching, corners, landmarks, T_O_G, R_G_C)) {
+    ++search.matches;
+    const SeenPoint seen = ToSeenPoint(match, corners, landmarks);
+    if (SightingError(seen, T_O_G, R_G_C) > options.ransac.max_error) continue;
+    search.inliers.push_back(seen);
+    search.corners_px.push_back(corners[match.corner].uv_px);
+  }
+  return search;
+}
+
+int CountCells(const std::vector<Eigen::Vector2f>& corners_px, const CameraParameters& camera) {
+  std::set<int> cells;
+  for (const Eigen::Vector2f& uv : corners_px) {
+    const int column = static_cast<int>(uv.x() * kCellColumns / camera.width);
+    const int row = static_cast<int>(uv.y() * kCellRows / camera.height);
+    cells.insert(row * kCellColumns + column);
+  }
+  return static_cast<int>(cells.size());
+}
+
+}  // namespace
+
+// What is known of a candidate on its way through the gates. A and B as in LoopSightings.
+struct LoopVerification::Evidence {
+  std::vector<DescribedLandmark> landmarks_A;
+  LevelTransform T_A_B;
+  LoopSightings all;
+  std::vector<Eigen::Vector2f> corners_px;  // of the later image, that agree
+};
+
+LoopVerification::LoopVerification(const LoopVerificationOptions& options,
+                                   std::shared_ptr<const CameraModel> camera)
+    : options_(options), camera_(std::move(camera)) {}
+
+std::vector<Eigen::Vector2f> LoopVerification::Verify(const Island& earlier, const Island& later,
+                                                      LoopCandidate* candidate) const {
+  Evidence evidence;
+  evidence.all.T_A_C = earlier.keyframe->T_O_C();
+  evidence.all.T_B_C = later.keyframe->T_O_C();
+  const bool accepted = AreApart(earlier, later, candidate) &&
+                        FindPose(earlier, *later.keyframe, candidate, &evidence) &&
+                        ManhattanAgrees(*earlier.keyframe, *later.keyframe, candidate, evidence) &&
+                        HasInliers(*later.keyframe, candidate, &evidence) &&
+                        HoldsBackwards(*earlier.keyframe, later, candidate, &evidence) &&
+                        Refine(candidate, &evidence) &&
+                        LinesAgree(earlier, *later.keyframe, candidate, &evidence);
+  if (!accepted) return {};
+  candidate->T_earlier_later =
+      earlier.keyframe->T_O_L().Inverse() * evidence.T_A_B * later.keyframe->T_O_L();
+  return evidence.corners_px;
+}
+
+bool LoopVerification::AreApart(const Island& earlier, const Island& later,
+                                LoopCandidate* candidate) const {
+  candidate->failed = LoopGate::kApart;
+  candidate->common_tracks = 0;
+  if (earlier.keyframe->world == later.keyframe->world) {
+    const std::set<int64_t> tracks = TracksOf(earlier);
+    for (const int64_t track : TracksOf(later)) {
+      if (tracks.count(track) > 0) ++*candidate->common_tracks;
+    }
+  }
+  return candidate->common_tracks == 0;
+}
+
+bool LoopVerification::FindPose(const Island& earlier, const Keyframe& later,
+                                LoopCandidate* candidate, Evidence* evidence) const {
+  candidate->failed = LoopGate::kMatches;
+  evidence->landmarks_A = MergeLandmarks(earlier.all);
+  std::vector<SeenPoint> seen;
+  for (const LandmarkMatch& match :
+       MatchLandmarks(options_.matching, later.corners, evidence->landmarks_A)) {
+    seen.push_back(ToSeenPoint(match, later.corners, evidence->landmarks_A));
+  }
+  candidate->matches = static_cast<int>(seen.size());
+  if (*candidate->matches < options_.min_matches) return false;
+
+  candidate->failed = LoopGate::kPose;
+  const Rigid3d& T_B_C = evidence->all.T_B_C;
+  const auto pose = FindLevelPose(options_.ransac, seen, T_B_C.rotation);
+  candidate->pose_inliers = pose ? static_cast<int>(pose->inliers.size()) : 0;
+  if (*candidate->pose_inliers < options_.min_pose_inliers) return false;
+  for (const size_t i : pose->inliers) evidence->all.of_earlier.push_back(seen[i]);
+  evidence->T_A_B = pose->T_A_G * LevelTransform{0, T_B_C.translation}.Inverse();
+  return Refine(candidate, evidence);
+}
+
+bool LoopVerification::ManhattanAgrees(const Keyframe& earlier, const Keyframe& later,
+                                       LoopCandidate* candidate, const Evidence& evidence) const {
+  candidate->failed = LoopGate::kManhattan;
+  if (!earlier.R_O_M || !later.R_O_M) return true;
+  const double turn = evidence.T_A_B.yaw + Yaw(*later.R_O_M) - Yaw(*earlier.R_O_M);
+  candidate->manhattan_error = std::remainder(turn, M_PI / 2);
+  return std::abs(*candidate->manhattan_error) <= options_.max_manhattan_error;
+}
+
+bool LoopVerification::HasInliers(const Keyframe& later, LoopCandidate* candidate,
+                                  Evidence* evidence) const {
+  candidate->failed = LoopGate::kInliers;
+  const Rigid3d& T_B_C = evidence->all.T_B_C;
+  const LevelTransform T_A_G = evidence->T_A_B * LevelTransform{0, T_B_C.translation};
+  Search search =
+      SearchAroundImages(options_, later.corners, evidence->landmarks_A, T_A_G, T_B_C.rotation);
+  candidate->inliers = static_cast<int>(search.inliers.size());
+  candidate->inlier_share = search.share();
+  if (*candidate->inliers < options_.min_inliers) return false;
+  if (search.share() < options_.min_inlier_share) return false;
+  evidence->all.of_earlier = std::move(search.inliers);
+  evidence->corners_px = std::move(search.corners_px);
+
+  candidate->failed = LoopGate::kSpread;
+  candidate->cells = CountCells(evidence->corners_px, camera_->parameters());
+  return *candidate->cells >= options_.min_cells;
+}
+
+bool LoopVerification::HoldsBackwards(const Keyframe& earlier, const Island& later,
+                                      LoopCandidate* candidate, Evidence* evidence) const {
+  candidate->failed = LoopGate::kBackwards;
+  const Rigid3d& T_A_C = evidence->all.T_A_C;
+  const LevelTransform T_B_G = evidence->T_A_B.Inverse() * LevelTransform{0, T_A_C.translation};
+  Search search = SearchAroundImages(options_, earlier.corners, MergeLandmarks(later.all), T_B_G,
+                                     T_A_C.rotation);
+  candidate->backward_inliers = static_cast<int>(search.inliers.size());
+  candidate->backward_share = search.share();
+  evidence->all.of_later = std::move(search.inliers);
+  return *candidate->backward_inliers >= options_.min_backward_inliers &&
+         *candidate->backward_share >= options_.min_backward_share;
+}
+
+bool LoopVerification::Refine(LoopCandidate* candidate, Evidence* evidence) const {
+  candidate->failed = LoopGate::kRefinement;
+  const auto refined = RefineLoop(options_.refinement, evidence->all, evidence->T_A_B);
+  if (!refined) return false;
+  evidence->T_A_B = refined->T_A_B;
+  candidate->covariance = refined->covariance;
+  return true;
+}
+
+// Lines take part in the pose once the points have found it.
+bool LoopVerification::LinesAgree(const Island& earlier, const Keyframe& later,
+                                  LoopCandidate* candidate, Evidence* evidence) const {
+  candidate->failed = LoopGate::kLines;
+  const Rigid3d T_A_C = evidence->T_A_B.ToRigid() * evidence->all.T_B_C;
+  LineWitnesses witnesses =
+      FindWitnesses(options_.witnesses, *camera_, T_A_C, LinesOf(earlier), later.segments);
+  candidate->visible_lines = witnesses.visible;
+  candidate->line_share = witnesses.share();
+  if (witnesses.visible >= options_.min_visible_lines &&
+      witnesses.share() < options_.min_line_share) {
+    return false;
+  }
+  evidence->all.lines = std::move(witnesses.seen);
+  if (!evidence->all.lines.empty() && !Refine(candidate, evidence)) return false;
+  candidate->failed.reset();
+  return true;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/camera_model.h"
+#include "pose_graph/keyframe.h"
+#include "pose_graph/loop_candidate.h"
+#include "pose_graph/verification/landmark_matching.h"
+#include "pose_graph/verification/level_pose_ransac.h"
+#include "pose_graph/verification/line_witnesses.h"
+#include "pose_graph/verification/loop_refinement.h"
+
+namespace plm_vins {
+
+struct LoopVerificationOptions {
+  MatchingOptions matching;
+  LevelPoseRansacOptions ransac;
+  LoopRefinementOptions refinement;
+  LineWitnessOptions witnesses;
+  int min_matches = 15;
+  int min_pose_inliers = 8;  // of them, for a pose that is looked into
+  int min_inliers = 20;      // of the later image; with those of the earlier one 30
+  double min_inlier_share = 0.4;
+  double max_manhattan_error = 3 * M_PI / 180;  // [rad]
+  int min_cells = 4;                            // of 4 x 3, with inliers
+  int min_backward_inliers = 10;
+  double min_backward_share = 0.3;
+  int min_visible_lines = 5;  // fewer say nothing
+  double min_line_share = 0.2;
+};
+
+// A keyframe and its neighbours in time, whose landmarks it knows as well. The keyframe is one of
+// the island.
+struct Island {
+  const Keyframe* keyframe = nullptr;
+  std::vector<const Keyframe*> all;
+};
+
+// Whether two keyframes show one place, by all that can be seen in them alone.
+class LoopVerification {
+ public:
+  LoopVerification(const LoopVerificationOptions& options,
+                   std::shared_ptr<const CameraModel> camera);
+
+  // Takes the candidate through the gates from kApart to kLines. Fills in the gates' values, the
+  // one that refused it and, where none did, the transform with its covariance. Returns the
+  // later image's corners that agree, for drawing [px].
+  std::vector<Eigen::Vector2f> Verify(const Island& earlier, const Island& later,
+                                      LoopCandidate* candidate) const;
+
+ private:
+  struct Evidence;
+
+  bool AreApart(const Island& earlier, const Island& later, LoopCandidate* candidate) const;
+  bool FindPose(const Island& earlier, const Keyframe& later, LoopCandidate* candidate,
+                Evidence* evidence) const;
+  bool ManhattanAgrees(const Keyframe& earlier, const Keyframe& later, LoopCandidate* candidate,
+                       const Evidence& evidence) const;
+  bool HasInliers(const Keyframe& later, LoopCandidate* candidate, Evidence* evidence) const;
+  bool HoldsBackwards(const Keyframe& earlier, const Island& later, LoopCandidate* candidate,
+                      Evidence* evidence) const;
+  bool Refine(LoopCandidate* candidate, Evidence* evidence) const;
+  bool LinesAgree(const Island& earlier, const Keyframe& later, LoopCandidate* candidate,
+                  Evidence* evidence) const;
+
+  LoopVerificationOptions options_;
+  std::shared_ptr<const CameraModel> camera_;
+};
+
+}  // namespace plm_vins

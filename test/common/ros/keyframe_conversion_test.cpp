@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/ros/keyframe_conversion.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace plm_vins {
+namespace {
+
+std::vector<TrackedCorner> TwoCorners() {
+  std::vector<TrackedCorner> corners(2);
+  corners[1].observation.id = 5;
+  corners[1].observation.xy = {0.25, -0.5};
+  corners[1].observation.uv_px = {300.5, 20};
+  corners[1].p_O = Eigen::Vector3d(1, 2, 3);
+  return corners;
+}
+
+// One channel for each point: x, y, u, v, id.
+TEST(KeyframePoints, HaveTheLayoutOfVinsMono) {
+  const auto message = ToKeyframePoints(TwoCorners(), 1'500'000'000, "world");
+  EXPECT_EQ(message.header.frame_id, "world");
+  EXPECT_EQ(message.header.stamp.nsec, 500'000'000u);
+  ASSERT_EQ(message.points.size(), 1u);  // the first has no place
+  EXPECT_EQ(message.points[0].z, 3);
+  ASSERT_EQ(message.channels.size(), 1u);
+  EXPECT_EQ(message.channels[0].values, (std::vector<float>{0.25F, -0.5F, 300.5F, 20, 5}));
+}
+
+TEST(KeyframePoints, ComeBack) {
+  const auto corners = ToCorners(ToKeyframePoints(TwoCorners(), 0, ""));
+  ASSERT_EQ(corners.size(), 1u);
+  EXPECT_EQ(corners[0].observation.id, 5);
+  EXPECT_EQ(corners[0].observation.uv_px, Eigen::Vector2d(300.5, 20));
+  EXPECT_EQ(*corners[0].p_O, Eigen::Vector3d(1, 2, 3));
+}
+
+TEST(KeyframePoints, AreRefusedWithoutAChannelForEach) {
+  auto message = ToKeyframePoints(TwoCorners(), 0, "");
+  message.channels[0].values.pop_back();
+  EXPECT_THROW(ToCorners(message), std::invalid_argument);
+  message.channels.clear();
+  EXPECT_THROW(ToCorners(message), std::invalid_argument);
+}
+
+TEST(KeyframeLines, ComeBack) {
+  std::vector<TrackedSegment> segments(2);
+  segments[0].observation.id = 8;
+  segments[0].observation.end = {0.5, 0.75};
+  segments[0].landmark = {{1, 2, 3}, {4, 5, 6}};
+  const auto back = ToSegments(ToKeyframeLines(segments, 0, ""));
+  ASSERT_EQ(back.size(), 1u);
+  EXPECT_EQ(back[0].observation.id, 8);
+  EXPECT_EQ(back[0].observation.end, Eigen::Vector2d(0.5, 0.75));
+  EXPECT_EQ(back[0].landmark->start_O, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(back[0].landmark->end_O, Eigen::Vector3d(4, 5, 6));
+}
+
+}  // namespace
+}  // namespace plm_vins

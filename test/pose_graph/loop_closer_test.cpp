@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/loop_closer.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "test/pose_graph/two_visits.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kDepth = 4;             // of the painted wall, along x [m]
+constexpr double kPixelsPerMeter = 115;  // of the painting: as the camera sees it
+
+// A camera that slides along a painted wall, looking at it. Each pixel it sees is one of the
+// painting, which makes images simple to cut out.
+class LoopCloserTest : public ::testing::Test {
+ protected:
+  LoopCloserTest() {
+    cv::Mat small(130, 400, CV_8UC1);
+    cv::RNG random(11);
+    random.fill(small, cv::RNG::UNIFORM, 0, 256);
+    cv::resize(small, painting_, cv::Size(3200, 1040), 0, 0, cv::INTER_CUBIC);
+  }
+
+  // The image at y [m] along the wall, and what odometry says of it: T_O_W of its drift.
+  OdometryFrame FrameAt(double y, double t, const LevelTransform& T_O_W) {
+    const int left = 1600 - static_cast<int>(std::lround(y * kPixelsPerMeter)) - 376;
+    OdometryFrame frame;
+    frame.t_ns = ToNanoseconds(t);
+    frame.T_B_C = testing::LookingAhead();
+    frame.T_O_B = T_O_W.ToRigid() * Rigid3d(Eigen::Quaterniond::Identity(), {0, y, 0});
+    frame.gray = painting_(cv::Rect(left, 280, 752, 480)).clone();
+    const Rigid3d T_O_C = frame.T_O_B * frame.T_B_C;
+    for (int u = 40; u < 720; u += 40) {
+      for (int v = 40; v < 450; v += 40) {
+        // One id for one place of the painting within a visit.
+        TrackedCorner corner;
+        const int place_u = (left + u) / 40 * 40;
+        const int in_image_u = place_u - left;
+        if (in_image_u < 30 || in_image_u > 720) continue;
+        corner.observation.id = first_track_ + place_u * 10000 + v;
+        corner.observation.uv_px = {in_image_u, v};
+        corner.observation.xy = *camera_->Unproject(corner.observation.uv_px);
+        corner.p_O = T_O_C * Eigen::Vector3d(kDepth * corner.observation.xy.homogeneous());
+        frame.corners.push_back(corner);
+      }
+    }
+    return frame;
+  }
+
+  // Slides from y = -3 to 3 from time `t` on; the newest closure.
+  LoopClosure Slide(LoopCloser* loops, double t, const LevelTransform& T_O_W,
+                    bool restarted = false) {
+    first_track_ += 100'000'000;
+    LoopClosure last;
+    for (int i = 0; i <= 15; ++i) {
+      OdometryFrame frame = FrameAt(-3 + 0.4 * i, t + 0.4 * i, T_O_W);
+      frame.restarted = restarted && i == 0;
+      last = loops->Add(frame);
+      for (const LoopCandidate& candidate : last.candidates) {
+        if (!candidate.failed) ++accepted_;
+      }
+    }
+    return last;
+  }
+
+  std::shared_ptr<const CameraModel> camera_ = testing::SimpleCamera();
+  cv::Mat painting_;
+  int64_t first_track_ = 0;
+  int accepted_ = 0;
+};
+
+const LevelTransform kDrift = {0.001, {0.05, -0.08, 0.03}};
+
+TEST_F(LoopCloserTest, UndoesTheDriftOfASecondVisit) {
+  LoopCloser loops(LoopCloserOptions(), camera_);
+  const LoopClosure first = Slide(&loops, 0, LevelTransform());
+  ASSERT_TRUE(first.fix);
+  EXPECT_EQ(first.fix->T_M_O.ToVector(), Vector4d::Zero());
+  EXPECT_EQ(accepted_, 0);
+
+  const LoopClosure second = Slide(&loops, 60, kDrift);
+  EXPECT_GT(accepted_, 3);
+  ASSERT_TRUE(second.fix);
+  const LevelTransform rest = second.fix->T_M_O * kDrift;
+  EXPECT_LT(rest.translation.norm(), 0.05);
+  EXPECT_NEAR(rest.yaw, 0, 0.01);
+  EXPECT_GT(second.fix->covariance(0, 0), 0);
+}
+
+TEST_F(LoopCloserTest, FindsTheOldWorldAgainAfterARestart) {
+  LoopCloser loops(LoopCloserOptions(), camera_);
+  Slide(&loops, 0, LevelTransform());
+  const LevelTransform T_O_W = {2.0, {7, 8, 9}};
+  const LoopClosure found = Slide(&loops, 10, T_O_W, /*restarted=*/true);
+  ASSERT_TRUE(found.fix);
+  EXPECT_LT((found.fix->T_M_O * T_O_W).translation.norm(), 0.05);
+}
+
+TEST_F(LoopCloserTest, DoesNotKnowWhereANewWorldIs) {
+  LoopCloser loops(LoopCloserOptions(), camera_);
+  Slide(&loops, 0, LevelTransform());
+  OdometryFrame frame = FrameAt(0, 10, {2.0, {7, 8, 9}});
+  frame.restarted = true;
+  frame.gray = cv::Scalar(100);
+  EXPECT_FALSE(loops.Add(frame).fix);
+}
+
+TEST_F(LoopCloserTest, StartsInAMapOfEarlier) {
+  LoopCloser before(LoopCloserOptions(), camera_);
+  Slide(&before, 0, LevelTransform());
+  LoopCloser loops(LoopCloserOptions(), camera_);
+  loops.SetMap(before.map());
+  const LevelTransform T_O_W = {-1.0, {2, 1, 0}};
+  const LoopClosure found = Slide(&loops, 5, T_O_W);
+  ASSERT_TRUE(found.fix);
+  EXPECT_LT((found.fix->T_M_O * T_O_W).translation.norm(), 0.05);
+}
+
+TEST_F(LoopCloserTest, IsTheSameForTheSameInput) {
+  std::vector<Vector4d> fixes;
+  for (int run = 0; run < 2; ++run) {
+    first_track_ = 0;
+    LoopCloser loops(LoopCloserOptions(), camera_);
+    Slide(&loops, 0, LevelTransform());
+    fixes.push_back(Slide(&loops, 60, kDrift).fix->T_M_O.ToVector());
+  }
+  EXPECT_EQ(fixes[0], fixes[1]);
+}
+
+}  // namespace
+}  // namespace plm_vins

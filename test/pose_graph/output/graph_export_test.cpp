@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "pose_graph/output/colmap_writer.h"
+#include "pose_graph/output/g2o_writer.h"
+#include "pose_graph/output/loop_table.h"
+#include "test/pose_graph/two_visits.h"
+#include "test/testing/temporary_folder.h"
+
+namespace plm_vins {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// Two keyframes, the second of which is a metre aside, in a map that is turned by a quarter.
+KeyframeMap SmallMap(const CameraModel& camera) {
+  KeyframeMap map;
+  const LevelTransform T_M_O = {M_PI / 2, {0, 0, 1}};
+  for (int i = 0; i < 2; ++i) {
+    const Rigid3d T_O_B(Eigen::Quaterniond::Identity(), {0, 1.0 * i, 0});
+    map.keyframes.push_back(testing::Visit(testing::Wall(), camera, T_O_B, 7 + i, {}));
+    map.graph.AddNode(T_M_O * map.keyframes.back().T_O_L());
+  }
+  map.graph.AddEdge({0, 1, {0, {0, 1, 0}}, 0.25 * Matrix4d::Identity(), false});
+  return map;
+}
+
+std::vector<std::string> Words(const std::string& line) {
+  std::istringstream stream(line);
+  return {std::istream_iterator<std::string>(stream), std::istream_iterator<std::string>()};
+}
+
+TEST(WriteG2o, HasNodesAndEdgesWithInformation) {
+  std::ostringstream text;
+  WriteG2o(SmallMap(*testing::SimpleCamera()), &text);
+  std::istringstream lines(text.str());
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_THAT(line, StartsWith("VERTEX_SE3:QUAT 0 0 0 1 0 0 0.707"));
+  std::getline(lines, line);
+  EXPECT_THAT(line, StartsWith("VERTEX_SE3:QUAT 1 -1 "));
+  std::getline(lines, line);
+  const auto words = Words(line);
+  ASSERT_EQ(words.size(), 3u + 7 + 21);
+  EXPECT_EQ(words[0], "EDGE_SE3:QUAT");
+  EXPECT_EQ(words[10], "4");   // 1 / variance of x
+  EXPECT_EQ(words[30], "16");  // of half the yaw
+  EXPECT_FALSE(std::getline(lines, line));
+}
+
+class ColmapTest : public ::testing::Test {
+ protected:
+  ColmapTest() : camera_(testing::SimpleCamera()), map_(SmallMap(*camera_)) {
+    WriteColmapModel(folder_.File("model"), camera_->parameters(), map_);
+  }
+
+  testing::TemporaryFolder folder_;
+  std::shared_ptr<const CameraModel> camera_;
+  KeyframeMap map_;
+};
+
+TEST_F(ColmapTest, HasTheCamera) {
+  EXPECT_EQ(folder_.Read("model/cameras.txt"), "1 OPENCV 752 480 460 460 376.5 240.5 0 0 0 0\n");
+}
+
+TEST_F(ColmapTest, ProjectsItsPointsToItsCorners) {
+  std::istringstream images(folder_.Read("model/images.txt"));
+  std::string pose, corners;
+  std::getline(images, pose);
+  std::getline(images, corners);
+  const auto words = Words(pose);
+  ASSERT_EQ(words.size(), 10u);
+  EXPECT_EQ(words[9], "7.png");
+  const auto number = [&](int i) { return std::stod(words[i]); };
+  const Rigid3d T_C_M(Eigen::Quaterniond(number(1), number(2), number(3), number(4)),
+                      {number(5), number(6), number(7)});
+  double u, v;
+  int64_t id;
+  std::istringstream(corners) >> u >> v >> id;
+
+  std::istringstream points(folder_.Read("model/points3D.txt"));
+  std::string line;
+  while (std::getline(points, line) && Words(line)[0] != std::to_string(id)) continue;
+  const auto point = Words(line);
+  const Eigen::Vector3d p_M(std::stod(point[1]), std::stod(point[2]), std::stod(point[3]));
+  const auto uv_px = camera_->Project(T_C_M * p_M);
+  ASSERT_TRUE(uv_px);
+  EXPECT_NEAR(uv_px->x() + 0.5, u, 0.05);
+  EXPECT_NEAR(uv_px->y() + 0.5, v, 0.05);
+  EXPECT_EQ(point[8], "1");  // seen in the first image
+}
+
+TEST_F(ColmapTest, SaysWhereItCannotBeWritten) {
+  folder_.Write("file", "");
+  EXPECT_THROW(WriteColmapModel(folder_.File("file/model"), camera_->parameters(), map_),
+               std::runtime_error);
+}
+
+TEST(LoopTable, HasAValueOrNothingInEachColumn) {
+  std::ostringstream text;
+  WriteLoopHeader(&text);
+  LoopCandidate candidate;
+  candidate.failed = LoopGate::kManhattan;
+  candidate.matches = 40;
+  candidate.manhattan_error = 0.1;
+  WriteLoopRow(candidate, &text);
+  candidate.failed.reset();
+  WriteLoopRow(candidate, &text);
+  std::istringstream lines(text.str());
+  std::string header, refused, accepted;
+  std::getline(lines, header);
+  std::getline(lines, refused);
+  std::getline(lines, accepted);
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','),
+            std::count(refused.begin(), refused.end(), ','));
+  EXPECT_THAT(refused, HasSubstr(",manhattan,"));
+  EXPECT_THAT(refused, HasSubstr(",40,,,,5.7296,,"));
+  EXPECT_THAT(accepted, HasSubstr(",accepted,"));
+}
+
+}  // namespace
+}  // namespace plm_vins

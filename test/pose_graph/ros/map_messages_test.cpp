@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/ros/map_messages.h"
+
+#include <gtest/gtest.h>
+
+namespace plm_vins {
+namespace {
+
+TEST(ToMap, MovesThePoseAndAddsTheCovariances) {
+  nav_msgs::Odometry odometry;
+  odometry.header.frame_id = "world";
+  odometry.pose.pose.position.x = 1;
+  odometry.pose.pose.orientation.w = 1;
+  odometry.pose.covariance[0] = 4;   // of x, which is y in the map
+  odometry.pose.covariance[35] = 1;  // of yaw
+  odometry.twist.twist.linear.x = 3;
+  const MapFix fix = {{M_PI / 2, {0, 0, 5}}, 0.5 * Matrix4d::Identity()};
+  const nav_msgs::Odometry in_map = ToMap(odometry, fix, "map");
+  EXPECT_EQ(in_map.header.frame_id, "map");
+  EXPECT_NEAR(in_map.pose.pose.position.y, 1, 1e-12);
+  EXPECT_NEAR(in_map.pose.pose.position.z, 5, 1e-12);
+  EXPECT_NEAR(in_map.pose.covariance[0], 0.5, 1e-12);
+  EXPECT_NEAR(in_map.pose.covariance[7], 4.5, 1e-12);
+  EXPECT_NEAR(in_map.pose.covariance[35], 1.5, 1e-12);
+  EXPECT_EQ(in_map.twist.twist.linear.x, 3);
+}
+
+// Two keyframes that are joined by a step and a loop, and one of another world.
+KeyframeMap SmallMap() {
+  KeyframeMap map;
+  for (int i = 0; i < 3; ++i) {
+    map.keyframes.emplace_back().t_ns = i;
+    map.graph.AddNode({0, {1.0 * i, 0, 0}});
+  }
+  map.graph.AddEdge({0, 1, {}, Matrix4d::Identity(), false});
+  map.graph.AddEdge({0, 1, {}, Matrix4d::Identity(), true});
+  return map;
+}
+
+TEST(ToPath, HasThePartOfTheNewestKeyframe) {
+  KeyframeMap map = SmallMap();
+  EXPECT_EQ(ToPath(map, "map").poses.size(), 1u);
+  map.graph.AddEdge({1, 2, {}, Matrix4d::Identity(), false});
+  const nav_msgs::Path path = ToPath(map, "map");
+  ASSERT_EQ(path.poses.size(), 3u);
+  EXPECT_EQ(path.poses[2].pose.position.x, 2);
+}
+
+TEST(ToGraphMarkers, HaveStepsAndLoopsApart) {
+  const auto markers = ToGraphMarkers(SmallMap(), 0, "map").markers;
+  ASSERT_EQ(markers.size(), 2u);
+  EXPECT_EQ(markers[0].points.size(), 2u);
+  EXPECT_EQ(markers[1].ns, "loops");
+  EXPECT_EQ(markers[1].points.size(), 2u);
+}
+
+TEST(DrawMatches, MarksTheCorners) {
+  const cv::Mat picture = DrawMatches(cv::Mat(50, 50, CV_8UC1, cv::Scalar(9)), {{20, 20}});
+  EXPECT_EQ(picture.at<cv::Vec3b>(0, 0), cv::Vec3b(9, 9, 9));
+  EXPECT_GT(picture.at<cv::Vec3b>(20, 24)[1], 100);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/verification/loop_refinement.h"
+
+#include <gtest/gtest.h>
+
+#include "simulator/random.h"
+#include "test/pose_graph/two_visits.h"
+
+namespace plm_vins {
+namespace {
+
+const LevelTransform kTruth = {0.4, {5, -3, 0.5}};  // T_A_B
+
+// Two cameras before the same points and lines, each of which it knows in its own world.
+LoopSightings See(int points, bool lines, double noise, simulator::Random* random) {
+  LoopSightings all;
+  const Rigid3d T_A_Be({Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()))},
+                       {0, 0, 1});
+  const Rigid3d T_A_Bl({Eigen::Quaterniond(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()))},
+                       {0.4, 0.3, 1.1});
+  all.T_A_C = T_A_Be * testing::LookingAhead();
+  all.T_B_C = kTruth.Inverse().ToRigid() * T_A_Bl * testing::LookingAhead();
+  const Rigid3d T_C_A_later = (kTruth.ToRigid() * all.T_B_C).Inverse();
+  const auto noisy = [&](const Eigen::Vector3d& p_C) {
+    return Eigen::Vector2d(p_C.hnormalized() +
+                           noise * Eigen::Vector2d(random->Normal(), random->Normal()));
+  };
+  for (int i = 0; i < points; ++i) {
+    const Eigen::Vector3d p_A(random->Uniform(3, 8), random->Uniform(-2, 2), random->Uniform(0, 2));
+    all.of_earlier.push_back({p_A, noisy(T_C_A_later * p_A)});
+    all.of_later.push_back({kTruth.Inverse() * p_A, noisy(all.T_A_C.Inverse() * p_A)});
+  }
+  for (int i = 0; lines && i < 8; ++i) {
+    const SpaceSegment line = {{4.0 + i % 3, -1 + 0.3 * i, 0.5}, {5, -1 + 0.2 * i, 1.5}};
+    LineObservation segment;
+    segment.start = noisy(T_C_A_later * line.start_O);
+    segment.end = noisy(T_C_A_later * (0.5 * (line.start_O + line.end_O)));  // a part of it
+    all.lines.push_back({line, segment});
+  }
+  return all;
+}
+
+LevelTransform Disturbed() { return kTruth * LevelTransform{0.05, {0.1, -0.1, 0.05}}; }
+
+// Of the place of the later camera and the yaw.
+Vector4d ErrorOf(const LevelTransform& T_A_B, const LoopSightings& sightings) {
+  Vector4d error;
+  error << T_A_B * sightings.T_B_C.translation - kTruth * sightings.T_B_C.translation,
+      WrapAngle(T_A_B.yaw - kTruth.yaw);
+  return error;
+}
+
+TEST(RefineLoop, FindsTheTruthWithoutNoise) {
+  simulator::Random random(1);
+  const LoopSightings sightings = See(20, true, 0, &random);
+  const auto loop = RefineLoop(LoopRefinementOptions(), sightings, Disturbed());
+  ASSERT_TRUE(loop);
+  EXPECT_LT(ErrorOf(loop->T_A_B, sightings).norm(), 1e-6);
+}
+
+TEST(RefineLoop, FindsItFromLinesAlone) {
+  simulator::Random random(2);
+  const LoopSightings sightings = See(0, true, 0, &random);
+  const auto loop = RefineLoop(LoopRefinementOptions(), sightings, Disturbed());
+  ASSERT_TRUE(loop);
+  EXPECT_LT(ErrorOf(loop->T_A_B, sightings).norm(), 1e-5);
+}
+
+TEST(RefineLoop, StandsSomeWrongSightings) {
+  simulator::Random random(3);
+  LoopSightings sightings = See(40, false, 0.2 / 460, &random);
+  for (int i = 0; i < 6; ++i) sightings.of_earlier[i].xy += Eigen::Vector2d(0.05, -0.03);
+  const auto loop = RefineLoop(LoopRefinementOptions(), sightings, Disturbed());
+  ASSERT_TRUE(loop);
+  EXPECT_LT(ErrorOf(loop->T_A_B, sightings).norm(), 0.02);
+}
+
+TEST(RefineLoop, HasTheCovarianceThatItsErrorsHave) {
+  LoopRefinementOptions options;
+  options.point_noise = options.line_noise = 1.0 / 460;
+  options.floor_position = options.floor_yaw = 0;
+  simulator::Random random(4);
+  constexpr int kRuns = 100;
+  double nees = 0;
+  for (int i = 0; i < kRuns; ++i) {
+    const LoopSightings sightings = See(15, true, 1.0 / 460, &random);
+    const auto loop = RefineLoop(options, sightings, kTruth);
+    ASSERT_TRUE(loop);
+    const Vector4d error = ErrorOf(loop->T_A_B, sightings);
+    nees += error.dot(loop->covariance.inverse() * error) / kRuns;
+  }
+  EXPECT_GT(nees, 3.0);  // four degrees of freedom: 4 +- 0.28, and a robust loss
+  EXPECT_LT(nees, 5.5);
+}
+
+TEST(RefineLoop, AddsWhatTheSightingsHaveWrongInCommon) {
+  simulator::Random random(5);
+  const LoopSightings sightings = See(30, false, 0, &random);
+  LoopRefinementOptions options;
+  const auto with = RefineLoop(options, sightings, kTruth);
+  options.floor_position = options.floor_yaw = 0;
+  const auto without = RefineLoop(options, sightings, kTruth);
+  ASSERT_TRUE(with && without);
+  EXPECT_NEAR(with->covariance(0, 0) - without->covariance(0, 0), 0.03 * 0.03, 1e-9);
+}
+
+TEST(RefineLoop, RefusesWithoutSightings) {
+  EXPECT_FALSE(RefineLoop(LoopRefinementOptions(), LoopSightings(), kTruth));
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Each gate has a case that it alone refuses.
+#include "pose_graph/verification/loop_verification.h"
+
+#include <gtest/gtest.h>
+
+#include "test/pose_graph/two_visits.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::Visit;
+using testing::VisitOptions;
+using testing::Wall;
+
+constexpr double kDegree = M_PI / 180;
+
+class LoopVerificationTest : public ::testing::Test {
+ protected:
+  LoopVerificationTest() {
+    later_.first_track = 1000;
+    later_.T_O_W = {10 * kDegree, {0.5, -0.3, 0.2}};  // drift
+  }
+
+  LoopCandidate Verify() {
+    const Keyframe earlier = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
+    const Rigid3d T_W_B(Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX())),
+                        {0.3, 0.2, 0.1});
+    const Keyframe later = Visit(second_wall_ ? *second_wall_ : wall_, *camera_, T_W_B, 1, later_);
+    return VerifyPair(earlier, later);
+  }
+
+  LoopCandidate VerifyPair(const Keyframe& earlier, const Keyframe& later) {
+    const LoopVerification verification(options_, camera_);
+    LoopCandidate candidate;
+    verification.Verify({&earlier, {&earlier}}, {&later, {&later}}, &candidate);
+    truth_ = earlier_.T_O_W * later_.T_O_W.Inverse();
+    error_ = earlier.T_O_L() * candidate.T_earlier_later * later.T_O_L().Inverse();
+    return candidate;
+  }
+
+  std::shared_ptr<const CameraModel> camera_ = testing::SimpleCamera();
+  Wall wall_;
+  std::optional<Wall> second_wall_;
+  VisitOptions earlier_;
+  VisitOptions later_;
+  LoopVerificationOptions options_;
+  LevelTransform truth_;
+  LevelTransform error_;
+};
+
+TEST_F(LoopVerificationTest, AcceptsTheSamePlaceAndMeasuresTheDrift) {
+  const LoopCandidate candidate = Verify();
+  EXPECT_FALSE(candidate.failed) << ToString(*candidate.failed);
+  EXPECT_NEAR(error_.yaw, truth_.yaw, 0.2 * kDegree);
+  EXPECT_LT((error_.translation - truth_.translation).norm(), 0.02);
+  EXPECT_GT(candidate.inlier_share, 0.9);
+  EXPECT_GT(candidate.line_share, 0.9);
+  EXPECT_GT(candidate.covariance(0, 0), 0);
+}
+
+TEST_F(LoopVerificationTest, RefusesTheSameVisit) {
+  later_.first_track = earlier_.first_track;  // tracks go on
+  EXPECT_EQ(Verify().failed, LoopGate::kApart);
+}
+
+TEST_F(LoopVerificationTest, TakesEqualTracksOfTwoWorldsForChance) {
+  later_.first_track = earlier_.first_track;
+  later_.world = 1;
+  EXPECT_FALSE(Verify().failed);
+}
+
+TEST_F(LoopVerificationTest, RefusesAnotherPlace) {
+  second_wall_.emplace(/*seed=*/77);
+  EXPECT_EQ(Verify().failed, LoopGate::kMatches);
+}
+
+TEST_F(LoopVerificationTest, RefusesTheSameThingsInAnotherOrder) {
+  second_wall_ = wall_;
+  simulator::Random random(5);
+  for (testing::WallPoint& point : second_wall_->points) {
+    point.p_W = {random.Uniform(3, 8), random.Uniform(-4, 4), random.Uniform(-2, 2)};
+  }
+  EXPECT_EQ(Verify().failed, LoopGate::kPose);
+}
+
+// A poster that hangs somewhere else: a part of the image agrees on a pose, the rest does not.
+TEST_F(LoopVerificationTest, RefusesWhereMostIsNotWhereItShouldBe) {
+  second_wall_ = wall_;
+  for (size_t i = 0; i < second_wall_->points.size(); ++i) {
+    if (i % 3 != 0) second_wall_->points[i].p_W.y() += i % 2 == 0 ? 0.15 : -0.2;
+  }
+  EXPECT_EQ(Verify().failed, LoopGate::kInliers);
+}
+
+TEST_F(LoopVerificationTest, RefusesATurnedManhattanFrame) {
+  const Keyframe earlier = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
+  Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
+  Keyframe first = earlier;
+  first.R_O_M = Eigen::Quaterniond::Identity();
+  const auto turned = [](double degrees) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitZ()));
+  };
+  later.R_O_M = turned(100);  // the world is turned by 10, the frame by a quarter
+  EXPECT_FALSE(VerifyPair(first, later).failed);
+  later.R_O_M = turned(105);
+  EXPECT_EQ(VerifyPair(first, later).failed, LoopGate::kManhattan);
+}
+
+TEST_F(LoopVerificationTest, RefusesWhatIsSeenInACornerOfTheImageAlone) {
+  wall_ = Wall(1, 0);
+  simulator::Random random(6);
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::Vector3d p_W(random.Uniform(4, 6), random.Uniform(1.2, 1.6),
+                              random.Uniform(0.6, 0.9));
+    wall_.points.push_back({p_W, testing::RandomDescriptor(&random)});
+  }
+  EXPECT_EQ(Verify().failed, LoopGate::kSpread);
+}
+
+TEST_F(LoopVerificationTest, RefusesWhatDoesNotHoldBackwards) {
+  const Keyframe earlier = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
+  Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
+  for (DescribedCorner& corner : later.corners) *corner.p_O *= 1.3F;  // its scale is wrong
+  EXPECT_EQ(VerifyPair(earlier, later).failed, LoopGate::kBackwards);
+}
+
+TEST_F(LoopVerificationTest, RefusesWhereTheLinesAreMissing) {
+  later_.with_lines = false;
+  EXPECT_EQ(Verify().failed, LoopGate::kLines);
+  earlier_.with_lines = false;
+  EXPECT_FALSE(Verify().failed);  // no lines, no witnesses
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""A map is saved, all nodes end, and new ones find their place in it.
+
+Usage: saved_map_test.py NODES BAG FOLDER [unittest option ...]
+NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs and results.
+"""
+
+import math
+import os
+import pathlib
+import sys
+import unittest
+
+import rosgraph
+import rospy
+from nav_msgs.msg import Odometry
+from std_srvs.srv import Trigger
+
+from node_processes import Listener, Processes, free_port, wait_until
+
+if len(sys.argv) < 4:
+    sys.exit(__doc__)
+NODES = pathlib.Path(sys.argv[1])
+BAG = sys.argv[2]
+FOLDER = pathlib.Path(sys.argv[3])
+NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator", "pose_graph")
+MAP = FOLDER / "map.plm"
+PARAMETER = "/pose_graph/set/load_previous_pose_graph"
+
+
+def setUpModule():
+    os.environ["ROS_MASTER_URI"] = f"http://localhost:{free_port()}"
+    master = Processes(FOLDER / "master", os.environ["ROS_MASTER_URI"])
+    unittest.addModuleCleanup(master.close)
+    port = os.environ["ROS_MASTER_URI"].rsplit(":", 1)[1]
+    master.start("master", ["rosmaster", "--core", "-p", port])
+    wait_until(rosgraph.is_master_online, "the master")
+    rospy.init_node("saved_map_test", disable_signals=True)
+
+
+class SaveAndRelocalise(unittest.TestCase):
+    def setUp(self):
+        MAP.unlink(missing_ok=True)
+        self.in_map = {}  # by stamp: position [m]
+        rospy.Subscriber("/pose_graph/odometry", Odometry, self.add)
+
+    def add(self, message):
+        self.assertEqual(message.header.frame_id, "map")
+        p = message.pose.pose.position
+        self.in_map[message.header.stamp.to_nsec()] = (p.x, p.y, p.z)
+
+    def fly(self, name):
+        """Starts all nodes and plays the bag; ends without ending them."""
+        self.in_map.clear()
+        self.processes = Processes(FOLDER / name, os.environ["ROS_MASTER_URI"])
+        self.addCleanup(self.processes.close)
+        listener = Listener()
+        for node in NAMES:
+            self.processes.start_node(NODES / node, f"_map_file:={MAP}")
+        for node in NAMES:
+            listener.wait_for_message(node, "")
+        player = self.processes.start("player", ["rosbag", "play", "--delay", "1", BAG])
+        wait_until(lambda: player.poll() == 0, "end of the recording")
+        wait_until(lambda: self.in_map, lambda: "a pose in the map: " +
+                   listener.value("pose_graph", "message"))
+        return listener
+
+    def call(self, service):
+        return rospy.ServiceProxy(f"/pose_graph/{service}", Trigger)()
+
+    def test_save_restart_and_relocalise(self):
+        rospy.set_param(PARAMETER, "0")
+        self.fly("first")
+        self.assertFalse(self.call("load_map").success)  # there is none yet
+        saved = self.call("save_map")
+        self.assertTrue(saved.success, saved.message)
+        first = dict(self.in_map)
+        self.processes.close()
+
+        rospy.set_param(PARAMETER, "1")
+        listener = self.fly("second")
+        listener.wait_for_message("pose_graph", "located in the map")
+        # The same images are of the same places.
+        stamp = wait_until(lambda: max(first.keys() & self.in_map.keys(), default=0),
+                           "an image with a pose in both flights")
+        self.assertLess(math.dist(first[stamp], self.in_map[stamp]), 0.2)
+        self.assertTrue(self.call("reset").success)
+        listener.wait_for_value("pose_graph", "keyframes", lambda count: count == "0")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "--verbose", *sys.argv[4:]])

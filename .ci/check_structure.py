@@ -73,8 +73,8 @@ LAYERS = {
     "pose_graph": {"common"} | inside_pose_graph(" ".join(POSE_GRAPH_LAYERS)),
     "pose_graph/ros": {"common", "pose_graph"} | inside_pose_graph(" ".join(POSE_GRAPH_LAYERS)),
     "offline": {"common", "tracking", "feature_tracker", "linefeature_tracker", "vins_estimator",
-                "pose_graph"} | inside_estimator("state estimator_output.h output")
-               | inside_pose_graph(" ".join(POSE_GRAPH_LAYERS)),
+                "pose_graph"} | inside_pose_graph(" ".join(POSE_GRAPH_LAYERS)) | inside_estimator(
+        "state estimator_output.h output"),
     "mavros_relay": {"common"},
     "simulator": {"common"} | inside_estimator("state output"),
 }

@@ -84,16 +84,13 @@ def _numbers(lines, columns):
 
 
 def _read_loops(path):
-    """The first two columns whose names end in _ns are the stamps of both poses. Where there is a
-    column `accepted`, only rows with 1 count."""
+    """Stamps [s] of both ends of the loops that were accepted."""
     if not os.path.isfile(path):
         return None
-    columns = _read_columns(path)
-    stamps = [column for name, column in columns.items() if name.endswith("_ns")][:2]
-    if len(stamps) < 2:
-        return np.empty((0, 2))
-    accepted = columns.get("accepted", np.ones(len(stamps[0]))) == 1
-    return 1e-9 * np.stack(stamps, axis=1)[accepted]
+    with open(path, encoding="utf-8", newline="") as file:
+        accepted = [(row["later_ns"], row["earlier_ns"]) for row in csv.DictReader(file)
+                    if row["result"] == "accepted"]
+    return 1e-9 * np.array(accepted, dtype=float).reshape(-1, 2)
 
 
 def _find_images(path, first_stamp):

@@ -65,9 +65,9 @@ def make_run(folder):
              "map.ply": POINTS + "".join(f"{7 + x} {8 + y} 9.5\n" for x in np.linspace(-2, 2, 20)
                                          for y in np.linspace(-3, 3, 20)),
              "lines.ply": LINES,
-             "loops.csv": "id,query_ns,match_ns,accepted\n"
-                          f"1,{round(stamps[300] * 1e9)},{round(stamps[10] * 1e9)},1\n"
-                          f"2,{round(stamps[200] * 1e9)},{round(stamps[20] * 1e9)},0\n",
+             "loops.csv": "later_ns,earlier_ns,later,earlier,result\n"
+                          f"{round(stamps[300] * 1e9)},{round(stamps[10] * 1e9)},9,1,accepted\n"
+                          f"{round(stamps[200] * 1e9)},{round(stamps[20] * 1e9)},7,2,pose\n",
              "timing.csv": "stamp_ns,total,points_observed\n" + "".join(
                  f"{round(stamp * 1e9)},{10 + i % 3},{100 + i % 50}\n"
                  for i, stamp in enumerate(stamps))}

@@ -25,10 +25,10 @@ ConfigKeys<Config> AllKeys(const std::string& model_type) {
 
 const std::vector<std::string>& IgnoredKeys() {
   static const std::vector<std::string> keys = {
-      "camera_name",  "ex_calib_result_path",  "fast_relocalization",   "load_previous_pose_graph",
-      "loop_closure", "max_solver_time",       "min_loop_num",          "output_path",
-      "pattern_file", "pose_graph_save_path",  "rolling_shutter_tr",    "save_image",
-      "support_path", "visualize_camera_size", "visualize_imu_forward", "voc_file"};
+      "camera_name",  "ex_calib_result_path",  "fast_relocalization",  "load_previous_pose_graph",
+      "loop_closure", "max_solver_time",       "min_loop_num",         "output_path",
+      "pattern_file", "pose_graph_save_path",  "save_image",           "support_path",
+      "voc_file",     "visualize_camera_size", "visualize_imu_forward"};
   return keys;
 }
 

@@ -52,7 +52,9 @@ Estimator::State::State(const Config& config, const EstimatorOptions& options)
     : initializer(config),
       standstill_detector(config.sensor.imu_noise),
       estimate(EmptyWindow(config.sensor, options.map)),
-      noise(1 / options.problem.point_weight, 1 / options.problem.line_weight) {}
+      noise(1 / options.problem.point_weight, 1 / options.problem.line_weight) {
+  if (config.sensor.rolling_shutter) rolling_shutter.emplace(config.sensor.camera);
+}
 
 Estimator::Estimator(const Config& config)
     : config_(config), options_(config), state_(config, options_) {}
@@ -69,14 +71,25 @@ EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
   if (measurement.lines) {
     output.counts.lines_observed = static_cast<int>(measurement.lines->lines.size());
   }
-  const bool stands_still = StandsStill(measurement);
-  if (state_.initialized) {
-    Track(measurement, stands_still, &output);
+  if (state_.rolling_shutter) {
+    const SlidingWindow& window = state_.estimate.map.window;
+    Use(state_.rolling_shutter->ToStamp(measurement, window.T_B_C().rotation,
+                                        config_.sensor.ReadoutTime()),
+        &output);
   } else {
-    Initialize(measurement, &output);
+    Use(measurement, &output);
   }
   output.timings.total = stopwatch.Milliseconds();
   return output;
+}
+
+void Estimator::Use(const FrameMeasurement& measurement, EstimatorOutput* output) {
+  const bool stands_still = StandsStill(measurement);
+  if (state_.initialized) {
+    Track(measurement, stands_still, output);
+  } else {
+    Initialize(measurement, output);
+  }
 }
 
 void Estimator::Initialize(const FrameMeasurement& measurement, EstimatorOutput* output) {

@@ -42,6 +42,7 @@ WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& op
   SlidingWindow& window = estimate.map.window;
   window.SetExtrinsic(sensor.T_B_C);
   window.td = sensor.td;
+  window.readout = sensor.ReadoutTime();
   window.gravity_W = Eigen::Vector3d(0, 0, -sensor.gravity_norm);
   return estimate;
 }
@@ -73,8 +74,7 @@ EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
   }
   if (state_.rolling_shutter) {
     const SlidingWindow& window = state_.estimate.map.window;
-    Use(state_.rolling_shutter->ToStamp(measurement, window.T_B_C().rotation,
-                                        config_.sensor.ReadoutTime()),
+    Use(state_.rolling_shutter->ToStamp(measurement, window.T_B_C().rotation, window.readout),
         &output);
   } else {
     Use(measurement, &output);
@@ -156,7 +156,7 @@ bool Estimator::StandsStill(const FrameMeasurement& measurement) {
 void Estimator::AddFrame(const FrameMeasurement& measurement) {
   LocalMap& map = state_.estimate.map;
   WindowFrame frame;
-  frame.cut_time_offset = measurement.time_offset;
+  frame.timing = {measurement.time_offset, map.window.readout, config_.sensor.camera.height};
   if (!map.window.frames.empty()) {
     const FrameState& before = map.window.newest().state;
     frame.motion_since_previous =
@@ -282,6 +282,7 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->state = window.newest().state;
   output->T_B_C = window.T_B_C();
   output->td = window.td;
+  output->readout = window.readout;
   output->R_W_M = state_.manhattan.R_W_M();
   output->stationary = window.newest().stationary;
   for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);

@@ -51,6 +51,7 @@ struct EstimatorOutput {
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // of v_W [m/s]
   Rigid3d T_B_C;
   double td = 0;                            // [s]
+  double readout = 0;                       // time of a rolling shutter; 0: a global one [s]
   std::optional<Eigen::Quaterniond> R_W_M;  // the Manhattan frame, where the scene has one
   bool keyframe = false;
   bool stationary = false;                // standing still was recognised

@@ -36,8 +36,12 @@ void CheckExtrinsics(const ConfigEntries& entries, const Config& config, const R
 }
 
 void CheckShutter(const SensorConfig& sensor, const Report& report) {
-  if (!sensor.rolling_shutter || sensor.rolling_shutter_tr > 0) return;
-  report("rolling_shutter_tr", "is 0; give the read-out time [s], or set rolling_shutter: 0");
+  if (sensor.estimate_rolling_shutter_tr && !sensor.rolling_shutter) {
+    report("estimate_rolling_shutter_tr", "needs rolling_shutter: 1");
+  }
+  if (sensor.rolling_shutter && !(sensor.rolling_shutter_tr > 0)) {
+    report("rolling_shutter_tr", "is 0; give the read-out time [s], or set rolling_shutter: 0");
+  }
 }
 
 void CheckNoise(const ConfigEntries& entries, const Report& report) {

@@ -22,6 +22,7 @@ struct SensorConfig {
   bool estimate_td = false;
   bool rolling_shutter = false;
   double rolling_shutter_tr = 0.0;  // read-out time of the whole image, rows top to bottom [s]
+  bool estimate_rolling_shutter_tr = false;
   // How a file means its noise, and the rate [Hz] that kVins refers to. Once loaded: kContinuous.
   enum class ImuNoiseModel { kVins, kContinuous };
   ImuNoiseModel imu_noise_model = ImuNoiseModel::kVins;

@@ -316,6 +316,8 @@ TEST_F(ConfigTest, BadExtrinsics) {
 
 TEST_F(ConfigTest, Contradictions) {
   ExpectProblem("rolling_shutter: 1", {"rolling_shutter_tr: is 0; give the read-out time"});
+  ExpectProblem("estimate_rolling_shutter_tr: 1",
+                {"estimate_rolling_shutter_tr: needs rolling_shutter: 1"});
   ExpectProblem("acc_n: 0.1\ngyr_n: 0.1\nacc_w: 0.1", {"gyr_w: is missing; give all of"});
   ExpectProblem("base_frame: camera", {"base_frame: is the same as camera_frame"});
   ExpectProblem("world_frame: my world", {"world_frame: must be a name without spaces"});

@@ -109,7 +109,8 @@ def read_section(file):
 def refuse_rolling_shutter(camera):
     for key, value in camera.values.items():
         if "line_delay" in str(key) and value != 0:
-            raise camera.error(key, "a rolling-shutter camera; only global shutters are supported")
+            raise camera.error(key, "a rolling-shutter camera: remove this line, then set"
+                               " rolling_shutter and rolling_shutter_tr in the configuration")
 
 
 def camera_lines(camera):

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/camera_model.h"
+#include "common/readout_share.h"
 #include "simulator/random.h"
 #include "simulator/track_selector.h"
 
@@ -54,8 +55,15 @@ class FeatureCamera {
         point_random_(StreamSeed(options.seed, kPointNoise)),
         line_random_(StreamSeed(options.seed, kLineNoise)) {}
 
-  void Expose(int64_t t_ns, const Rigid3d& T_W_B) {
-    T_C_W_ = (T_W_B * options_.sensors.T_B_C).Inverse();
+  // The image stamped `t_ns`, of `time` seconds after the start.
+  void Expose(int64_t t_ns, const Trajectory& trajectory, double time) {
+    const double readout = options_.sensors.ReadoutTime();
+    const int height = options_.sensors.camera.height;
+    T_C_W_.resize(readout > 0 ? height : 1);
+    for (size_t row = 0; row < T_C_W_.size(); ++row) {
+      const double delay = readout * ReadoutShare(static_cast<double>(row), height);
+      T_C_W_[row] = (trajectory.At(time + delay).T_W_B * options_.sensors.T_B_C).Inverse();
+    }
     dataset_->points.push_back(ObservePoints(t_ns));
     dataset_->lines.push_back(ObserveLines(t_ns));
   }
@@ -64,9 +72,20 @@ class FeatureCamera {
   const TrackSelector& line_tracks() const { return line_tracks_; }
 
  private:
-  // Raw pixel of a point of W, where it is in view.
+  // Raw pixel of a point of W, where it is in view: seen from where the camera is when it reads
+  // that pixel's row.
   std::optional<Vector2d> Project(const Vector3d& p_W) const {
-    const Vector3d p_C = T_C_W_ * p_W;
+    constexpr int kRollingIterations = 4;
+    const int rows = static_cast<int>(T_C_W_.size());
+    auto pixel = ProjectFrom(T_C_W_[rows / 2], p_W);
+    for (int i = 1; rows > 1 && pixel && i < kRollingIterations; ++i) {
+      pixel = ProjectFrom(T_C_W_[static_cast<int>(std::lround(pixel->y()))], p_W);
+    }
+    return pixel;
+  }
+
+  std::optional<Vector2d> ProjectFrom(const Rigid3d& T_C_W, const Vector3d& p_W) const {
+    const Vector3d p_C = T_C_W * p_W;
     if (p_C.z() < kNearest) return std::nullopt;
     const auto pixel = camera_->Project(p_C);
     if (!pixel || !camera_->IsInImage(*pixel)) return std::nullopt;
@@ -191,7 +210,7 @@ class FeatureCamera {
   std::unique_ptr<const CameraModel> camera_;
   TrackSelector point_tracks_, line_tracks_;
   Random point_random_, line_random_;
-  Rigid3d T_C_W_;
+  std::vector<Rigid3d> T_C_W_;  // at each row; of a global shutter one for all
   std::map<int64_t, Vector2d> previous_xy_;
   int64_t previous_t_ns_ = 0;
 };
@@ -212,7 +231,7 @@ FeatureDataset SimulateFeatures(const FeatureSimulationOptions& options) {
     if (ToSeconds(exposure_ns) > trajectory.duration()) break;
     const int64_t t_ns = options.start_ns + exposure_ns - td_ns;
     const BodyState body = trajectory.At(ToSeconds(exposure_ns));
-    camera.Expose(t_ns, body.T_W_B);
+    camera.Expose(t_ns, trajectory, ToSeconds(exposure_ns));
     dataset.truth.push_back(TrueState(t_ns, body, imu.BiasAt(t_ns + td_ns)));
   }
   dataset.point_landmark = camera.point_tracks().landmark_of_id();

@@ -16,7 +16,7 @@
 namespace plm_vins::simulator {
 
 struct FeatureSimulationOptions {
-  SensorConfig sensors = DefaultSensors();  // camera, T_B_C, td, IMU densities, gravity
+  SensorConfig sensors = DefaultSensors();  // camera, shutter, T_B_C, td, IMU densities, gravity
   // Its R_V_B is replaced: the camera looks forward.
   TrajectoryOptions trajectory;
   FeatureRoomOptions room;
@@ -51,7 +51,7 @@ struct FeatureDataset {
 };
 
 // Image stamps t obey t_imu = t + td: the image stamped t shows the scene at t + td of the IMU
-// clock. The same options give the same bytes.
+// clock, with a rolling shutter in its middle row. The same options give the same bytes.
 FeatureDataset SimulateFeatures(const FeatureSimulationOptions& options);
 
 }  // namespace plm_vins::simulator

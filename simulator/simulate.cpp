@@ -42,7 +42,7 @@ void Declare(Arguments* arguments, CLI::App* app) {
   output->add_option("--asl", arguments->asl, "folder in ASL format (EuRoC), new");
   output->require_option(1, 2);
   app->add_option("--config", arguments->config,
-                  "sensors: topics, camera, extrinsics, IMU noise, td (default: EuRoC's)");
+                  "sensors: topics, camera, shutter, extrinsics, IMU noise, td (default: EuRoC's)");
   AddChoice<WorldKind>(
       app, "--world", &flight.world,
       "where to fly; atlanta: a room of two frames, irregular: one without (default: room)",

@@ -46,6 +46,7 @@ WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& op
   SlidingWindow& window = estimate.map.window;
   window.SetExtrinsic(sensor.T_B_C);
   window.td = sensor.td;
+  window.readout = sensor.ReadoutTime();
   window.gravity_W = Eigen::Vector3d(0, 0, -sensor.gravity_norm);
   return estimate;
 }
@@ -56,7 +57,9 @@ Estimator::State::State(const Config& config, const EstimatorOptions& options)
     : initializer(config),
       standstill_detector(config.sensor.imu_noise),
       estimate(EmptyWindow(config.sensor, options.map)),
-      noise(1 / options.problem.point_weight, 1 / options.problem.line_weight) {}
+      noise(1 / options.problem.point_weight, 1 / options.problem.line_weight) {
+  if (config.sensor.rolling_shutter) rolling_shutter.emplace(config.sensor.camera);
+}
 
 Estimator::Estimator(const Config& config)
     : config_(config), options_(config), state_(config, options_) {}
@@ -73,14 +76,24 @@ EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
   if (measurement.lines) {
     output.counts.lines_observed = static_cast<int>(measurement.lines->lines.size());
   }
-  const bool stands_still = StandsStill(measurement);
-  if (state_.initialized) {
-    Track(measurement, stands_still, &output);
+  if (state_.rolling_shutter) {
+    const SlidingWindow& window = state_.estimate.map.window;
+    Use(state_.rolling_shutter->ToStamp(measurement, window.T_B_C().rotation, window.readout),
+        &output);
   } else {
-    Initialize(measurement, &output);
+    Use(measurement, &output);
   }
   output.timings.total = stopwatch.Milliseconds();
   return output;
+}
+
+void Estimator::Use(const FrameMeasurement& measurement, EstimatorOutput* output) {
+  const bool stands_still = StandsStill(measurement);
+  if (state_.initialized) {
+    Track(measurement, stands_still, output);
+  } else {
+    Initialize(measurement, output);
+  }
 }
 
 void Estimator::Initialize(const FrameMeasurement& measurement, EstimatorOutput* output) {
@@ -157,7 +170,7 @@ bool Estimator::StandsStill(const FrameMeasurement& measurement) {
 void Estimator::AddFrame(const FrameMeasurement& measurement) {
   LocalMap& map = state_.estimate.map;
   WindowFrame frame;
-  frame.cut_time_offset = measurement.time_offset;
+  frame.timing = {measurement.time_offset, map.window.readout, config_.sensor.camera.height};
   if (!map.window.frames.empty()) {
     const FrameState& before = map.window.newest().state;
     const ImuNoise noise = Scaled(config_.sensor.imu_noise, state_.imu_monitor.noise_scale());
@@ -317,6 +330,7 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->state = window.newest().state;
   output->T_B_C = window.T_B_C();
   output->td = window.td;
+  output->readout = window.readout;
   output->R_W_M = state_.manhattan.R_W_M();
   output->imu_noise_scale = state_.imu_monitor.noise_scale();
   output->delay = state_.delay_monitor.delay();

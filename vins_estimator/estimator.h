@@ -17,6 +17,7 @@
 #include "vins_estimator/manhattan/manhattan_frame.h"
 #include "vins_estimator/map/view_noise.h"
 #include "vins_estimator/marginalization/window_estimate.h"
+#include "vins_estimator/rolling_shutter.h"
 
 namespace plm_vins {
 
@@ -45,6 +46,7 @@ class Estimator {
     std::optional<int64_t> newest_ns;  // stamp of the last measurement
     Initializer initializer;
     StandstillDetector standstill_detector;
+    std::optional<RollingShutter> rolling_shutter;  // where the camera has one
     ContradictionMonitor contradiction_monitor;
     BlindnessMonitor blindness_monitor;
     ImuMonitor imu_monitor;
@@ -55,6 +57,8 @@ class Estimator {
     FrameState predicted;  // of the newest image, from the IMU alone
   };
 
+  // Hands the image on to Initialize() or Track(), as a global shutter would have taken it.
+  void Use(const FrameMeasurement& measurement, EstimatorOutput* output);
   void Initialize(const FrameMeasurement& measurement, EstimatorOutput* output);
   void Track(const FrameMeasurement& measurement, bool stands_still, EstimatorOutput* output);
 

@@ -52,6 +52,7 @@ struct EstimatorOutput {
   Matrix6d bias_covariance = Matrix6d::Zero();  // of the accelerometer [m/s^2] and gyro [rad/s]
   Rigid3d T_B_C;
   double td = 0;                            // [s]
+  double readout = 0;                       // time of a rolling shutter; 0: a global one [s]
   std::optional<Eigen::Quaterniond> R_W_M;  // the Manhattan frame, where the scene has one
   double imu_noise_scale = 1;               // of its variance, as the camera shows it (ImuMonitor)
   bool imu_doubted = false;                 // in this image, at once

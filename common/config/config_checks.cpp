@@ -35,6 +35,15 @@ void CheckExtrinsics(const ConfigEntries& entries, const Config& config, const R
   }
 }
 
+void CheckShutter(const SensorConfig& sensor, const Report& report) {
+  if (sensor.estimate_rolling_shutter_tr && !sensor.rolling_shutter) {
+    report("estimate_rolling_shutter_tr", "needs rolling_shutter: 1");
+  }
+  if (sensor.rolling_shutter && !(sensor.rolling_shutter_tr > 0)) {
+    report("rolling_shutter_tr", "is 0; give the read-out time [s], or set rolling_shutter: 0");
+  }
+}
+
 void CheckNoise(const ConfigEntries& entries, const Report& report) {
   if (!HasNoise(entries)) return;
   for (const char* key : kNoiseKeys) {
@@ -100,6 +109,7 @@ void CheckMask(const ConfigEntries& entries, const Config& config, const Report&
 
 void CheckTogether(const ConfigEntries& entries, const Config& config, const Report& report) {
   CheckExtrinsics(entries, config, report);
+  CheckShutter(config.sensor, report);
   CheckNoise(entries, report);
   CheckImage(config, report);
   CheckTopics(config.sensor, report);

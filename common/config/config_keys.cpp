@@ -26,10 +26,9 @@ ConfigKeys<Config> AllKeys(const std::string& model_type) {
 
 const std::vector<std::string>& IgnoredKeys() {
   static const std::vector<std::string> keys = {
-      "camera_name",  "ex_calib_result_path", "fast_relocalization",   "max_solver_time",
-      "min_loop_num", "output_path",          "pattern_file",          "rolling_shutter_tr",
-      "save_image",   "support_path",         "visualize_camera_size", "visualize_imu_forward",
-      "voc_file"};
+      "camera_name",  "ex_calib_result_path",  "fast_relocalization",   "max_solver_time",
+      "min_loop_num", "output_path",           "pattern_file",          "save_image",
+      "support_path", "visualize_camera_size", "visualize_imu_forward", "voc_file"};
   return keys;
 }
 

@@ -49,14 +49,6 @@ ConfigKeys<S> ExtrinsicKeys() {
   return {mode, rotation, translation};
 }
 
-Key RollingShutterKey() {
-  const auto read = [](const YAML::Node& value, S&) -> Problem {
-    if (ScalarText(value) == "0") return std::nullopt;
-    return "must be 0: rolling-shutter cameras are not supported, use a global-shutter camera";
-  };
-  return {"rolling_shutter", "", "must be 0", read, [](const S&) { return 0; }};
-}
-
 ConfigKeys<ImuNoise> ImuNoiseKeys() {
   using Key = ConfigKey<ImuNoise>;
   using N = ImuNoise;
@@ -86,7 +78,9 @@ ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type) {
   const ConfigKeys<S> timing = {
       Key::Number("td", "s", {-1, 1}, &S::td),
       Key::Flag("estimate_td", &S::estimate_td),
-      RollingShutterKey(),
+      Key::Flag("rolling_shutter", &S::rolling_shutter),
+      Key::Number("rolling_shutter_tr", "s", {0, 0.2}, &S::rolling_shutter_tr),
+      Key::Flag("estimate_rolling_shutter_tr", &S::estimate_rolling_shutter_tr),
   };
   const ConfigKeys<S> noise = {
       Key::Choice<S::ImuNoiseModel>(

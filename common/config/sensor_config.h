@@ -21,6 +21,9 @@ struct SensorConfig {
   ExtrinsicMode estimate_extrinsic = ExtrinsicMode::kFixed;
   double td = 0.0;  // t_imu = t_image + td [s]
   bool estimate_td = false;
+  bool rolling_shutter = false;
+  double rolling_shutter_tr = 0.0;  // read-out time of the whole image, rows top to bottom [s]
+  bool estimate_rolling_shutter_tr = false;
   // How a file means its noise, and the rate [Hz] that kVins refers to. Once loaded: kContinuous.
   enum class ImuNoiseModel { kVins, kContinuous };
   ImuNoiseModel imu_noise_model = ImuNoiseModel::kVins;
@@ -28,6 +31,9 @@ struct SensorConfig {
   ImuNoise imu_noise;
   ImuRange imu_range;
   double gravity_norm = 9.81;  // [m/s^2]
+
+  // Read-out time of the whole image [s]; 0 with a global shutter.
+  double ReadoutTime() const { return rolling_shutter ? rolling_shutter_tr : 0.0; }
 };
 
 // All keys, where the camera is of this `model_type`.

@@ -34,8 +34,10 @@ ImuSimulationOptions ImuOptions(const FlightOptions& options) {
   return imu;
 }
 
-ImagingOptions Seeded(ImagingOptions imaging, uint64_t seed) {
-  imaging.seed = seed;
+ImagingOptions Imaging(const FlightOptions& options) {
+  ImagingOptions imaging = options.imaging;
+  imaging.readout = options.sensors.ReadoutTime();
+  imaging.seed = options.seed;
   return imaging;
 }
 
@@ -47,7 +49,7 @@ Flight::Flight(const FlightOptions& options)
       trajectory_(TrajectoryThrough(world_, options)),
       imu_(SimulateImu(trajectory_, ImuOptions(options))),
       camera_(trajectory_, world_.scene, options.sensors.camera, options.sensors.T_B_C,
-              Seeded(options.imaging, options.seed)) {}
+              Imaging(options)) {}
 
 void Flight::Record(const std::vector<Recorder*>& recorders,
                     const std::function<void(int64_t t_ns)>& progress) const {

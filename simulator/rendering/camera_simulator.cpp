@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "common/readout_share.h"
 #include "simulator/random.h"
 
 namespace plm_vins::simulator {
@@ -16,7 +17,7 @@ CameraSimulator::CameraSimulator(const Trajectory& trajectory, const Scene& scen
       camera_(CameraModel::Create(camera)),
       T_B_C_(T_B_C),
       options_(options),
-      renderer_(scene, camera_),
+      renderer_(scene, camera_, options.readout > 0 ? Renderer::RowTile() : Renderer::SquareTile()),
       gain_(VignettingGain()) {}
 
 cv::Mat CameraSimulator::Expose(double t, uint64_t index) const {
@@ -24,12 +25,25 @@ cv::Mat CameraSimulator::Expose(double t, uint64_t index) const {
   const int steps = ExposureSteps(t);
   for (int i = 0; i < steps; ++i) {
     const double offset = ((i + 0.5) / steps - 0.5) * options_.exposure;
-    renderer_.Accumulate(trajectory_.At(t + offset).T_W_B * T_B_C_, i % Renderer::kSubpixels, &sum);
+    Accumulate(t + offset, i % Renderer::kSubpixels, &sum);
   }
   if (options_.lens_blur_px > 0) {
     cv::GaussianBlur(sum, sum, cv::Size(5, 5), options_.lens_blur_px, 0, cv::BORDER_REPLICATE);
   }
   return Digitize(sum.mul(gain_, 1.0 / steps), index);
+}
+
+// The scene at one instant, with a rolling shutter at one instant per row.
+void CameraSimulator::Accumulate(double t, int subpixel, cv::Mat1f* sum) const {
+  if (options_.readout > 0) {
+    const auto T_W_C = [&](int row) {
+      const double delay = options_.readout * ReadoutShare(row, camera_->parameters().height);
+      return trajectory_.At(t + delay).T_W_B * T_B_C_;
+    };
+    renderer_.AccumulateByRows(T_W_C, subpixel, sum);
+  } else {
+    renderer_.Accumulate(trajectory_.At(t).T_W_B * T_B_C_, subpixel, sum);
+  }
 }
 
 // Enough for a step of about a pixel; whole rounds of the subpixels.

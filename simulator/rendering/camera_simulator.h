@@ -13,6 +13,7 @@ namespace plm_vins::simulator {
 
 struct ImagingOptions {
   double exposure = 0.006;    // [s]
+  double readout = 0;         // of a rolling shutter, top to bottom; 0: a global one [s]
   double full_scale = 0.78;   // brightness that saturates a pixel
   double lens_blur_px = 0.6;  // standard deviation of a point's image
   double vignetting = 0.35;   // light lost in the image corners
@@ -29,10 +30,12 @@ class CameraSimulator {
   CameraSimulator(const Trajectory& trajectory, const Scene& scene, const CameraParameters& camera,
                   const Rigid3d& T_B_C, const ImagingOptions& options);
 
-  // Image `index` (it seeds the noise), whose exposure is centred `t` seconds after the start.
+  // Image `index` (it seeds the noise), whose exposure is centred `t` seconds after the start, with
+  // a rolling shutter that of its middle row.
   cv::Mat Expose(double t, uint64_t index) const;
 
  private:
+  void Accumulate(double t, int subpixel, cv::Mat1f* sum) const;
   int ExposureSteps(double t) const;
   cv::Mat1f VignettingGain() const;
   cv::Mat Digitize(const cv::Mat1f& brightness, uint64_t index) const;

@@ -74,12 +74,14 @@ bool ProjectedBounds(const std::array<Vector3d, 4>& corners, Vector2f* min, Vect
 
 }  // namespace
 
-Renderer::Renderer(const Scene& scene, std::shared_ptr<const CameraModel> camera)
+Renderer::Renderer(const Scene& scene, std::shared_ptr<const CameraModel> camera,
+                   const cv::Size& tile)
     : scene_(scene), camera_(std::move(camera)) {
   const cv::Rect image(0, 0, camera_->parameters().width, camera_->parameters().height);
-  for (int y = 0; y < image.height; y += kTileSize) {
-    for (int x = 0; x < image.width; x += kTileSize) {
-      AddTile(cv::Rect(x, y, kTileSize, kTileSize) & image);
+  tiles_per_row_ = (image.width + tile.width - 1) / tile.width;
+  for (int y = 0; y < image.height; y += tile.height) {
+    for (int x = 0; x < image.width; x += tile.width) {
+      AddTile(cv::Rect(cv::Point(x, y), tile) & image);
     }
   }
 }
@@ -116,6 +118,19 @@ void Renderer::Accumulate(const Rigid3d& T_W_C, int subpixel, cv::Mat1f* sum) co
   const std::vector<RayTile>& tiles = tiles_[subpixel];
   cv::parallel_for_(cv::Range(0, static_cast<int>(tiles.size())), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) RenderTile(tiles[i], visible, sum);
+  });
+}
+
+void Renderer::AccumulateByRows(const std::function<Rigid3d(int row)>& T_W_C, int subpixel,
+                                cv::Mat1f* sum) const {
+  const std::vector<RayTile>& tiles = tiles_[subpixel];
+  const int rows = static_cast<int>(tiles.size()) / tiles_per_row_;
+  cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
+    for (int row = range.start; row < range.end; ++row) {
+      const RayTile* first = &tiles[row * tiles_per_row_];
+      const std::vector<VisibleRectangle> visible = FindVisible(T_W_C(first->pixels.y));
+      for (int i = 0; i < tiles_per_row_; ++i) RenderTile(first[i], visible, sum);
+    }
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <opencv2/core.hpp>
@@ -23,16 +24,26 @@ class Renderer {
   // Rays of each half that look for surfaces; what they find is shaded once.
   static constexpr int kRays = 8;
 
-  // The scene must outlive the renderer.
-  Renderer(const Scene& scene, std::shared_ptr<const CameraModel> camera);
+  // Sizes of tiles [px]: square ones are drawn fastest; those of one row let each row be drawn from
+  // a place of its own.
+  static constexpr int kTilePixels = 256;
+  static cv::Size SquareTile() { return {16, 16}; }
+  static cv::Size RowTile() { return {kTilePixels, 1}; }
+
+  // The scene must outlive the renderer. A tile has at most kTilePixels.
+  Renderer(const Scene& scene, std::shared_ptr<const CameraModel> camera,
+           const cv::Size& tile = SquareTile());
 
   // Adds the brightness of one half of each pixel to `sum` (CV_32F). A white wall in full light has
   // a brightness of 1.
   void Accumulate(const Rigid3d& T_W_C, int subpixel, cv::Mat1f* sum) const;
 
+  // The same with a pose for the top row of each row of tiles. `T_W_C` is called by many threads.
+  void AccumulateByRows(const std::function<Rigid3d(int row)>& T_W_C, int subpixel,
+                        cv::Mat1f* sum) const;
+
  private:
-  static constexpr int kTileSize = 16;  // [px]
-  static constexpr int kRaysPerTile = kRays * kTileSize * kTileSize;
+  static constexpr int kRaysPerTile = kRays * kTilePixels;
 
   // Rays (x, y, 1) of one half of a tile's samples: the first ray of all pixels, the second, ...
   // NaN where the lens has none.
@@ -59,7 +70,8 @@ class Renderer {
 
   const Scene& scene_;
   std::shared_ptr<const CameraModel> camera_;
-  std::vector<RayTile> tiles_[kSubpixels];
+  int tiles_per_row_;
+  std::vector<RayTile> tiles_[kSubpixels];  // row by row
 };
 
 }  // namespace plm_vins::simulator

@@ -93,12 +93,17 @@ TEST_F(ConfigTest, VinsMonoFileLoadsAsItIs) {
   EXPECT_EQ(config.sensor.gravity_norm, 9.81007);
 }
 
+TEST_F(ConfigTest, TheReadoutTimeCountsWithARollingShutter) {
+  const std::string readout = "rolling_shutter_tr: 0.03\n";
+  EXPECT_EQ(Load(kShortFile + readout).sensor.ReadoutTime(), 0);
+  EXPECT_EQ(Load(kShortFile + readout + "rolling_shutter: 1\n").sensor.ReadoutTime(), 0.03);
+}
+
 TEST_F(ConfigTest, IgnoredKeysAreTold) {
   const auto ignored = Load(kVinsMonoFile).ignored_keys;
-  const std::vector<std::string> expected = {"camera_name",           "fast_relocalization",
-                                             "max_solver_time",       "output_path",
-                                             "rolling_shutter_tr",    "save_image",
-                                             "visualize_camera_size", "visualize_imu_forward"};
+  const std::vector<std::string> expected = {
+      "camera_name", "fast_relocalization",   "max_solver_time",      "output_path",
+      "save_image",  "visualize_camera_size", "visualize_imu_forward"};
   EXPECT_EQ(ignored, expected);
 }
 
@@ -323,7 +328,9 @@ TEST_F(ConfigTest, BadExtrinsics) {
 }
 
 TEST_F(ConfigTest, Contradictions) {
-  ExpectProblem("rolling_shutter: 1", {"rolling_shutter: \"1\" must be 0", "not supported"});
+  ExpectProblem("rolling_shutter: 1", {"rolling_shutter_tr: is 0; give the read-out time"});
+  ExpectProblem("estimate_rolling_shutter_tr: 1",
+                {"estimate_rolling_shutter_tr: needs rolling_shutter: 1"});
   ExpectProblem("acc_n: 0.1\ngyr_n: 0.1\nacc_w: 0.1", {"gyr_w: is missing; give all of"});
   ExpectProblem("base_frame: camera", {"base_frame: is the same as camera_frame"});
   ExpectProblem("world_frame: my world", {"world_frame: must be a name without spaces"});
@@ -354,7 +361,7 @@ TEST_F(ConfigTest, AllProblemsAtOnce) {
   const std::string file = Write(text + "max_cnt: 1\n");
   const auto problems = ProblemsOf(file, {{"window_size", "1000"}});
   const std::string all = ConfigError(problems).what();
-  for (const char* key : {"image_topic", "min_dist", "equalise", "gyr_n", "rolling_shutter",
+  for (const char* key : {"image_topic", "min_dist", "equalise", "gyr_n", "rolling_shutter_tr",
                           "extrinsicRotation", "max_cnt", "window_size"}) {
     EXPECT_NE(all.find(std::string(": ") + key + ": "), std::string::npos) << key;
   }

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+
+#include "common/readout_share.h"
 
 namespace plm_vins::simulator {
 namespace {
@@ -115,6 +118,30 @@ TEST(FeatureSimulator, VelocitiesAreDifferencesOfConsecutiveObservations) {
     }
     previous = current;
   }
+}
+
+TEST(FeatureSimulator, ARollingShutterSeesEachRowAtItsOwnTime) {
+  FeatureSimulationOptions options = NoiseFree();
+  options.trajectory.motion = Motion::kFast;
+  options.trajectory.R_V_B = ForwardLookingBody(options.sensors.T_B_C);
+  options.sensors.rolling_shutter = true;
+  options.sensors.rolling_shutter_tr = 0.03;
+  const FeatureDataset data = SimulateFeatures(options);
+  const Trajectory trajectory(options.trajectory);
+  double greatest_shift = 0;
+  for (size_t i = 0; i < data.points.size(); ++i) {
+    const double stamp = ToSeconds(data.points[i].t_ns - options.start_ns);
+    const Rigid3d T_C_W = CameraFromWorld(options, data.truth[i]);
+    for (const PointObservation& point : data.points[i].points) {
+      const Vector3d& p_W = data.world.points[data.point_landmark.at(point.id)];
+      const double share = ReadoutShare(point.uv_px.y(), options.sensors.camera.height);
+      const Rigid3d T_W_B = trajectory.At(stamp + 0.03 * share).T_W_B;
+      const Vector3d p_C = (T_W_B * options.sensors.T_B_C).Inverse() * p_W;
+      EXPECT_LT((point.xy - p_C.hnormalized()).norm(), 4e-4);  // to the row
+      greatest_shift = std::max(greatest_shift, (point.xy - (T_C_W * p_W).hnormalized()).norm());
+    }
+  }
+  EXPECT_GT(greatest_shift, 0.02);
 }
 
 TEST(FeatureSimulator, TimeOffsetMovesTheImageStampsOnly) {

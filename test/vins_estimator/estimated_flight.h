@@ -91,8 +91,8 @@ inline double GreatestError(const EstimatedFlight& flight, size_t aligned_at) {
   return greatest;
 }
 
-// Normalised squared errors: with the right covariances, 6 for the pose, 3 for the velocity and 6 for
-// the biases in the mean.
+// Normalised squared errors: with the right covariances, 6 for the pose, 3 for the velocity and 6
+// for the biases in the mean.
 struct Consistency {
   double pose = 0, velocity = 0, biases = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the covariances that the estimator states are those of its errors, with each of the stages
-// that work on lines.
+// Whether the covariances that the estimator states are those of its errors, with each of the
+// stages that work on lines.
 #include <gtest/gtest.h>
 
 #include <iostream>

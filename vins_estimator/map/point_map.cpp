@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/readout_share.h"
 #include "vins_estimator/geometry/depth_limits.h"
 #include "vins_estimator/geometry/point_triangulation.h"
 
@@ -12,7 +13,7 @@ namespace {
 constexpr size_t kMinViewsToTriangulate = 2;
 
 PointSighting SightingOf(const PointView& view, const SlidingWindow& window) {
-  return {window.T_W_C(view.t_ns), view.bearing.At(window.td)};
+  return {window.T_W_C(view.t_ns), window.AtState(view.bearing)};
 }
 
 // Expresses a point in the camera of one of the landmark's views; not triangulated where it is not
@@ -54,11 +55,14 @@ std::optional<double> ReprojectionError(const Eigen::Vector3d& p_W, const PointV
   return (p_C.hnormalized() - sighting.xy).norm();
 }
 
-void PointMap::AddFrame(const PointFrame& frame, double cut_time_offset) {
+void PointMap::AddFrame(const PointFrame& frame, const ImageTiming& timing) {
   for (const PointObservation& point : frame.points) {
     PointLandmark& landmark = landmarks_[point.id];
     landmark.id = point.id;
-    landmark.views.push_back({frame.t_ns, {point.xy, point.velocity, cut_time_offset}});
+    const double share = ReadoutShare(point.uv_px.y(), timing.image_height);
+    landmark.views.push_back(
+        {frame.t_ns,
+         {point.xy, point.velocity, timing.cut_time_offset, share, timing.cut_readout}});
   }
 }
 

@@ -14,8 +14,8 @@ namespace plm_vins {
 // All corner tracks with views in the window. Every view belongs to a frame of the window.
 class PointMap : public LandmarkMap<PointLandmark> {
  public:
-  // Adds one image's corners as views. `cut_time_offset`: see TimedBearing.
-  void AddFrame(const PointFrame& frame, double cut_time_offset);
+  // Adds one image's corners as views.
+  void AddFrame(const PointFrame& frame, const ImageTiming& timing);
 
   // Triangulates what can be; `min_angle` [rad] is the least angle between rays.
   void Triangulate(const SlidingWindow& window, double min_angle);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/rigid3.h"
+#include "vins_estimator/geometry/timed_bearing.h"
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/state/frame_state.h"
 
@@ -15,7 +16,7 @@ namespace plm_vins {
 // One image's place in the window.
 struct WindowFrame {
   FrameState state;
-  double cut_time_offset = 0;  // td with which the IMU was cut at this image [s]
+  ImageTiming timing;
   // Motion since the frame before in the window; null in the first frame.
   std::shared_ptr<Preintegration> motion_since_previous;
   bool stationary = false;  // stood still ever since the frame before
@@ -35,6 +36,7 @@ struct SlidingWindow {
   std::vector<AnchorFrame> anchors;
   std::array<double, 7> extrinsic = {0, 0, 0, 0, 0, 0, 1};  // T_B_C, laid out like FrameState::pose
   double td = 0;                                            // t_imu = t_image + td [s]
+  double readout = 0;  // time of a rolling shutter, from the first row to the last [s]
   Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  // [m/s^2]
 
   WindowFrame& newest() { return frames.back(); }
@@ -55,6 +57,11 @@ struct SlidingWindow {
   // The state of a frame or an anchor.
   FrameState& StateAt(int64_t t_ns);
   const FrameState& StateAt(int64_t t_ns) const;
+
+  // Where a corner is at the time of its frame's state.
+  Eigen::Vector2d AtState(const TimedBearing& bearing) const {
+    return bearing.At(td + bearing.Delay(readout));
+  }
 
   // Camera pose of a frame or an anchor.
   Rigid3d T_W_C(const FrameState& state) const { return state.T_W_B() * T_B_C(); }

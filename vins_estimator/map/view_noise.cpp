@@ -25,7 +25,7 @@ std::vector<Eigen::Vector2d> ResidualsOf(const PointLandmark& point, const Slidi
   std::vector<Eigen::Vector2d> residuals;
   for (const PointView& view : point.views) {
     const Eigen::Vector3d p_C = window.T_W_C(view.t_ns).Inverse() * p_W;
-    residuals.push_back(p_C.hnormalized() - view.bearing.At(window.td));
+    residuals.push_back(p_C.hnormalized() - window.AtState(view.bearing));
   }
   return residuals;
 }

@@ -70,6 +70,7 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
   int size = 15;
   const int extrinsic = options.estimate_extrinsic ? std::exchange(size, size + 6) : -1;
   const int td = options.estimate_td ? std::exchange(size, size + 1) : -1;
+  const int readout = options.estimate_readout ? std::exchange(size, size + 1) : -1;
   Quadratic quadratic{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
   std::vector<MarginalizationPrior::Block> blocks;
 
@@ -89,6 +90,10 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
   if (td >= 0) {
     blocks.push_back(MakeBlock({BlockKind::kTimeOffset, 0}, td, &window.td));
     SetInformation(td, 1, uncertainty.td, &quadratic.H);
+  }
+  if (readout >= 0) {
+    blocks.push_back(MakeBlock({BlockKind::kReadout, 0}, readout, &window.readout));
+    SetInformation(readout, 1, uncertainty.readout, &quadratic.H);
   }
   return {std::move(blocks), std::move(quadratic)};
 }

@@ -22,6 +22,7 @@ struct InitialUncertainty {
   double extrinsic_position = 0.02;  // [m]
   double extrinsic_rotation = 0.02;  // [rad]
   double td = 0.01;                  // [s]
+  double readout = 0.01;             // [s]
 };
 
 // The prior of a new window: its first frame is where it was put, and the calibration about right.

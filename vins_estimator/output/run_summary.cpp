@@ -17,12 +17,13 @@ Json DropsToJson(const DropCounts& drops) {
   return json;
 }
 
-Json CalibrationToJson(const Rigid3d& T_B_C, double td) {
+Json CalibrationToJson(const Rigid3d& T_B_C, double td, double readout) {
   const Eigen::Quaterniond& q = T_B_C.rotation;
   const Eigen::Vector3d& p = T_B_C.translation;
   return {{"q_B_C_xyzw", {q.x(), q.y(), q.z(), q.w()}},
           {"p_B_C_m", {p.x(), p.y(), p.z()}},
-          {"td_s", td}};
+          {"td_s", td},
+          {"rolling_shutter_tr_s", readout}};
 }
 
 Json TimingsToJson(const std::vector<FrameTimings>& frames) {
@@ -76,6 +77,7 @@ void RunSummary::AddPose(const EstimatorOutput& output) {
   last_position_ = position;
   T_B_C_ = output.T_B_C;
   td_ = output.td;
+  readout_ = output.readout;
 }
 
 Json RunSummary::ToJson(const Run& run) const {
@@ -104,7 +106,7 @@ Json RunSummary::ToJson(const Run& run) const {
   json["resets"] = resets_;
   json["imu_doubts"] = imu_doubts_;
   json["imu_noisy_share"] = Ratio(static_cast<double>(imu_noisy_), static_cast<double>(poses_));
-  json["calibration"] = poses_ > 0 ? CalibrationToJson(T_B_C_, td_) : Json(nullptr);
+  json["calibration"] = poses_ > 0 ? CalibrationToJson(T_B_C_, td_, readout_) : Json(nullptr);
   json["timing_ms"] = TimingsToJson(timings_);
   json["counts_per_frame"] = CountsToJson(counts_);
   json["dropped"] = DropsToJson(run.drops);

@@ -51,8 +51,8 @@ class RunSummary {
   int64_t manhattan_ = 0;   // poses with a Manhattan frame
   double path_length_ = 0;  // [m]
   std::optional<Eigen::Vector3d> last_position_;
-  Rigid3d T_B_C_;  // as of the last pose
-  double td_ = 0;  // [s]
+  Rigid3d T_B_C_;                // as of the last pose
+  double td_ = 0, readout_ = 0;  // [s]
   std::optional<int64_t> first_frame_ns_;
   std::optional<int64_t> first_pose_ns_;
   int64_t last_frame_ns_ = 0;

@@ -28,8 +28,8 @@ SeriesSummary Summarize(const std::vector<std::array<T, kSize>>& frames, size_t 
   const auto quantile = [&](double share) {
     return values[static_cast<size_t>(std::ceil(share * count)) - 1];
   };
-  return {std::accumulate(values.begin(), values.end(), 0.0) / count, quantile(0.5),
-          quantile(0.95), quantile(0.99)};
+  return {std::accumulate(values.begin(), values.end(), 0.0) / count, quantile(0.5), quantile(0.95),
+          quantile(0.99)};
 }
 
 }  // namespace plm_vins

@@ -6,10 +6,10 @@
 
 namespace plm_vins {
 
-enum class BlockKind : uint8_t { kPose, kMotion, kExtrinsic, kTimeOffset, kPoint, kLine };
+enum class BlockKind : uint8_t { kPose, kMotion, kExtrinsic, kTimeOffset, kPoint, kLine, kReadout };
 
 // Names one variable of the estimator for good, wherever its values are stored: a frame's pose or
-// motion by the frame's stamp, a landmark by its id, extrinsics and time offset by 0.
+// motion by the frame's stamp, a landmark by its id, the calibration by 0.
 struct BlockId {
   BlockKind kind = BlockKind::kPose;
   int64_t key = 0;

@@ -3,11 +3,13 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/manhattan_factor.h"
 #include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/factors/readout_factor.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
 
 namespace plm_vins {
@@ -22,7 +24,8 @@ constexpr double kAnchorNoise = 5.0;  // in units of the noise of lines
 ProblemOptions::ProblemOptions(const Config& config, double focal_length)
     : manhattan_weight(180 / (M_PI * config.estimator.manhattan_noise)),
       estimate_extrinsic(config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed),
-      estimate_td(config.sensor.estimate_td) {
+      estimate_td(config.sensor.estimate_td),
+      estimate_readout(config.sensor.estimate_rolling_shutter_tr) {
   SetNoise(config.estimator.point_noise / focal_length, config.estimator.line_noise / focal_length);
 }
 
@@ -47,6 +50,8 @@ double* ProblemBuilder::Values(const BlockId& id) {
       return window_->extrinsic.data();
     case BlockKind::kTimeOffset:
       return &window_->td;
+    case BlockKind::kReadout:
+      return &window_->readout;
     case BlockKind::kPose:
       return window_->StateAt(id.key).pose.data();
     case BlockKind::kMotion:
@@ -86,6 +91,21 @@ void ProblemBuilder::AddMotion(size_t index) {
       nullptr, {pose_i, pose_j});
 }
 
+// `variables` ends in those of td and the point.
+template <typename... Indices>
+void ProblemBuilder::AddPointTerm(int landmark, std::unique_ptr<ceres::CostFunction> factor,
+                                  const TimedBearing& bearing, Indices... variables) {
+  if (!options_.estimate_readout) {
+    problem_.AddLandmarkTerm(landmark, std::move(factor), &point_loss_, {variables...});
+    return;
+  }
+  constexpr size_t kTdBlock = sizeof...(variables) - 2;
+  const int readout = AddVariable({BlockKind::kReadout, 0});
+  problem_.AddLandmarkTerm(landmark,
+                           std::make_unique<ReadoutFactor>(std::move(factor), kTdBlock, bearing),
+                           &point_loss_, {variables..., readout});
+}
+
 void ProblemBuilder::AddPoint(PointLandmark* landmark) {
   const BlockId id{BlockKind::kPoint, landmark->id};
   const int index = problem_.AddLandmark(id, landmark->coordinates.data());
@@ -95,14 +115,12 @@ void ProblemBuilder::AddPoint(PointLandmark* landmark) {
   const PointView& host = landmark->host();
   const int host_pose = Pose(host.t_ns);
   problem_.ReserveLandmarkTerms(index, landmark->views.size());
-  problem_.AddLandmarkTerm(index,
-                           std::make_unique<PointHostFactor>(host.bearing, options_.point_weight),
-                           &point_loss_, {td, point});
+  AddPointTerm(index, std::make_unique<PointHostFactor>(host.bearing, options_.point_weight),
+               host.bearing, td, point);
   for (size_t i = 1; i < landmark->views.size(); ++i) {
     const PointView& view = landmark->views[i];
-    problem_.AddLandmarkTerm(index,
-                             std::make_unique<PointFactor>(view.bearing, options_.point_weight),
-                             &point_loss_, {host_pose, Pose(view.t_ns), extrinsic, td, point});
+    AddPointTerm(index, std::make_unique<PointFactor>(view.bearing, options_.point_weight),
+                 view.bearing, host_pose, Pose(view.t_ns), extrinsic, td, point);
   }
 }
 

@@ -36,6 +36,7 @@ struct ProblemOptions {
   double standstill_rotation = 0.0005;  // ... of the rotation between two frames [rad]
   bool estimate_extrinsic;
   bool estimate_td;
+  bool estimate_readout;  // time of a rolling shutter
   bool first_estimate_jacobians = true;
   // Lines on its axes are held to them; none where there is no such frame.
   std::optional<Eigen::Quaterniond> R_W_M;
@@ -63,6 +64,9 @@ class ProblemBuilder {
  private:
   int AddVariable(const BlockId& id);
   double* Values(const BlockId& id);
+  template <typename... Indices>
+  void AddPointTerm(int landmark, std::unique_ptr<ceres::CostFunction> factor,
+                    const TimedBearing& bearing, Indices... variables);
   int Pose(int64_t t_ns) { return AddVariable({BlockKind::kPose, t_ns}); }
   int Motion(int64_t t_ns) { return AddVariable({BlockKind::kMotion, t_ns}); }
 

@@ -67,6 +67,17 @@ TEST(Flight, TimeOffsetMovesTheImageStampsOnly) {
   EXPECT_EQ(shifted.imu[3].t_ns, plain.imu[3].t_ns);
 }
 
+TEST(Flight, TheShutterIsThatOfTheSensors) {
+  FlightOptions options = SmallFlight();
+  options.sensors.rolling_shutter_tr = 0.03;
+  const MemoryRecorder global = Record(options);
+  EXPECT_EQ(cv::countNonZero(global.images.back().gray != Reference().images.back().gray), 0);
+  options.sensors.rolling_shutter = true;
+  const MemoryRecorder rolling = Record(options);
+  EXPECT_EQ(rolling.images.back().t_ns, global.images.back().t_ns);
+  EXPECT_GT(cv::countNonZero(rolling.images.back().gray != global.images.back().gray), 1000);
+}
+
 TEST(Flight, SameSeedSameBytes) {
   FlightOptions options = SmallFlight();
   const MemoryRecorder& a = Reference();

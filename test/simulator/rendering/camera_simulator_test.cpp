@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "common/readout_share.h"
 #include "simulator/default_sensors.h"
 
 namespace plm_vins::simulator {
@@ -96,6 +98,29 @@ TEST(CameraSimulator, BlurIsCentredOnTheExposure) {
   }
   EXPECT_GE(checked, 5);
   EXPECT_GT(speed * imaging.exposure, 2.0) << "there is blur to speak of";
+}
+
+TEST(CameraSimulator, ARollingShutterExposesEachRowAtItsOwnTime) {
+  Rig rig(Motion::kFast);
+  rig.options.extent = {1, 0.6, 0.3};
+  const Trajectory trajectory(rig.options);
+  const Scene scene = HalfBrightWall();
+  ImagingOptions imaging = Ideal();
+  const CameraParameters& parameters = rig.sensors.camera;
+  const CameraSimulator global(trajectory, scene, parameters, rig.sensors.T_B_C, imaging);
+  imaging.readout = 0.03;
+  const CameraSimulator rolling(trajectory, scene, parameters, rig.sensors.T_B_C, imaging);
+  constexpr double kTime = 4.0;
+  const cv::Mat image = rolling.Expose(kTime, 0), unmoved = global.Expose(kTime, 0);
+  double greatest = 0;  // difference of a row's sum of pixels between rolling and global
+  for (const int row : {20, 240, 460}) {
+    const double delay = imaging.readout * ReadoutShare(row, parameters.height);
+    const cv::Mat at_its_time = global.Expose(kTime + delay, 0);
+    const double brightness = cv::sum(image.row(row))[0];
+    EXPECT_NEAR(brightness, cv::sum(at_its_time.row(row))[0], 30) << row;
+    greatest = std::max(greatest, std::abs(brightness - cv::sum(unmoved.row(row))[0]));
+  }
+  EXPECT_GT(greatest, 180 * 2) << "the edge has moved by pixels";
 }
 
 TEST(CameraSimulator, NoiseHasTheRequestedStrengthAndIsNewInEachImage) {

@@ -38,8 +38,8 @@ bool Keyframe(const Case& c, size_t frame_count = 2) {
   AddPoints(0, 150, 0.1, &before);
   AddPoints(0, c.tracked, 0.1 + c.parallax, &newest);
   AddPoints(1000, c.fresh, 0, &newest);
-  if (frame_count > 1) points.AddFrame(before, 0);
-  points.AddFrame(newest, 0);
+  if (frame_count > 1) points.AddFrame(before, {});
+  points.AddFrame(newest, {});
   return IsKeyframe(KeyframePolicyOptions(EstimatorConfig(), kFocalLength), window, points);
 }
 

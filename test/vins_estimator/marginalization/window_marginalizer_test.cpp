@@ -96,12 +96,13 @@ TEST(InitialPrior, IsTheStatedUncertaintyOfTheFirstState) {
   EXPECT_NEAR(std::sqrt(covariance(11, 11)), uncertainty.accel_bias, 1e-9);
   EXPECT_NEAR(std::sqrt(covariance(14, 14)), uncertainty.gyro_bias, 1e-9);
 
-  options.estimate_extrinsic = options.estimate_td = true;
+  options.estimate_extrinsic = options.estimate_td = options.estimate_readout = true;
   const MarginalizationPrior all = InitialPrior(uncertainty, options, simulated.window);
   const MatrixXd all_covariance = all.quadratic().H.inverse();
-  ASSERT_EQ(all_covariance.rows(), 22);
+  ASSERT_EQ(all_covariance.rows(), 23);
   EXPECT_NEAR(std::sqrt(all_covariance(20, 20)), uncertainty.extrinsic_rotation, 1e-9);
   EXPECT_NEAR(std::sqrt(all_covariance(21, 21)), uncertainty.td, 1e-9);
+  EXPECT_NEAR(std::sqrt(all_covariance(22, 22)), uncertainty.readout, 1e-9);
 }
 
 // One Gauss-Newton step of the reduced window is the step of the whole, at the same linearisation.

@@ -82,6 +82,7 @@ TEST(RunSummary, TellsTheLastCalibration) {
   EstimatorOutput refined = Pose(1, 0);
   refined.T_B_C = {Eigen::Quaterniond(0, 1, 0, 0), {0.1, 0.2, 0.3}};
   refined.td = 0.004;
+  refined.readout = 0.03;
   summary.Add(refined, {}, {});
   summary.Add(NoPose(2, "lost"), {}, {});
   const auto calibration = summary.ToJson({})["calibration"];
@@ -90,6 +91,7 @@ TEST(RunSummary, TellsTheLastCalibration) {
   EXPECT_EQ(calibration["p_B_C_m"].get<std::vector<double>>(),
             (std::vector<double>{0.1, 0.2, 0.3}));
   EXPECT_EQ(calibration["td_s"], 0.004);
+  EXPECT_EQ(calibration["rolling_shutter_tr_s"], 0.03);
   EXPECT_TRUE(RunSummary().ToJson({})["calibration"].is_null());
 }
 

@@ -161,6 +161,16 @@ TEST_F(ProblemBuilderTest, CalibrationIsConstantUnlessItIsEstimated) {
   }
 }
 
+TEST_F(ProblemBuilderTest, TheReadoutTimeIsAVariableWhereItIsEstimated) {
+  for (const bool readout : {false, true}) {
+    options_.estimate_readout = readout;
+    ProblemBuilder builder(options_, &window(), &no_prior_);
+    builder.AddPoint(LongestTrack());
+    EXPECT_EQ(builder.problem().Find({BlockKind::kReadout, 0}) >= 0, readout);
+    EXPECT_EQ(NormalEquations(builder.problem()).dense_size(), 18 + readout);
+  }
+}
+
 TEST_F(ProblemBuilderTest, VariablesOfThePriorAreLinearisedThere) {
   const MarginalizationPrior prior = InitialPrior(InitialUncertainty(), options_, window());
   for (const bool first_estimates : {true, false}) {

@@ -12,7 +12,8 @@ namespace plm_vins {
 namespace {
 
 constexpr BlockKind kKinds[] = {BlockKind::kPose,       BlockKind::kMotion, BlockKind::kExtrinsic,
-                                BlockKind::kTimeOffset, BlockKind::kPoint,  BlockKind::kLine};
+                                BlockKind::kTimeOffset, BlockKind::kPoint,  BlockKind::kLine,
+                                BlockKind::kReadout};
 
 // Values that are well inside the domain of every kind.
 Eigen::VectorXd SomeValues(BlockKind kind, simulator::Random* random) {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A rolling shutter costs little where it is known, and much where it is not.
+#include <gtest/gtest.h>
+
+#include "test/vins_estimator/estimated_flight.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::EstimatedFlight;
+using testing::SimulatedFlight;
+
+constexpr uint64_t kSeeds = 3;
+constexpr double kReadout = 0.03;  // [s]
+
+simulator::FeatureSimulationOptions Options(uint64_t seed, bool rolling_shutter) {
+  auto options = testing::FlightOptions(simulator::Motion::kFast, seed);
+  options.trajectory.duration = 15;
+  options.max_points = 80;
+  options.sensors.rolling_shutter = rolling_shutter;
+  options.sensors.rolling_shutter_tr = kReadout;
+  return options;
+}
+
+double ErrorOf(const SimulatedFlight& simulated) {
+  const EstimatedFlight flight = testing::Estimate(simulated);
+  EXPECT_TRUE(flight.restarts.empty());
+  EXPECT_GT(flight.truth.size(), 230u) << "late start";
+  return testing::AbsoluteError(flight);
+}
+
+TEST(EstimatorRollingShutterTest, CostsLittleWhereItIsKnown) {
+  double global = 0, known = 0, ignored = 0;
+  for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    global += ErrorOf(testing::SimulateFlight(Options(seed, false))) / kSeeds;
+    SimulatedFlight rolling = testing::SimulateFlight(Options(seed, true));
+    known += ErrorOf(rolling) / kSeeds;
+    rolling.sensor.rolling_shutter = false;
+    ignored += ErrorOf(rolling) / kSeeds;
+  }
+  EXPECT_LT(known, 1.2 * global);
+  EXPECT_GT(ignored, 2 * global);
+}
+
+TEST(EstimatorRollingShutterTest, LearnsTheReadoutTime) {
+  for (const double assumed : {0.02, 0.04}) {
+    SimulatedFlight simulated = testing::SimulateFlight(Options(1, true));
+    simulated.sensor.rolling_shutter_tr = assumed;
+    simulated.sensor.estimate_rolling_shutter_tr = true;
+    const EstimatedFlight flight = testing::Estimate(simulated);
+    EXPECT_TRUE(flight.restarts.empty());
+    ASSERT_GT(flight.truth.size(), 230u);
+    EXPECT_NEAR(flight.outputs.front().readout, assumed, 0.01);
+    EXPECT_NEAR(flight.outputs.back().readout, kReadout, 0.001);
+  }
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -5,62 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 
 #include "test/common/config_files.h"
+#include "test/common/config_fixture.h"
 #include "test/testing/numeric_jacobian.h"
 
 namespace plm_vins {
 namespace {
-
-namespace fs = std::filesystem;
-using Overrides = std::map<std::string, std::string>;
-
-class ConfigTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) / (std::string("plm_vins_config_") + test->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string Write(const std::string& text) const {
-    const std::string file = (folder_ / "camera.yaml").string();
-    std::ofstream(file) << text;
-    return file;
-  }
-
-  Config Load(const std::string& text, const Overrides& overrides = {}) const {
-    return LoadConfig(Write(text), overrides);
-  }
-
-  std::vector<std::string> ProblemsOf(const std::string& file,
-                                      const Overrides& overrides = {}) const {
-    try {
-      LoadConfig(file, overrides);
-    } catch (const ConfigError& error) {
-      return error.problems();
-    }
-    return {};
-  }
-
-  // The short file with `more` lines has exactly one problem, which says all of `words`.
-  void ExpectProblem(const std::string& more, const std::vector<std::string>& words) const {
-    ExpectOneProblem(ProblemsOf(Write(kShortFile + more + "\n")), words);
-  }
-
-  void ExpectOneProblem(const std::vector<std::string>& problems,
-                        const std::vector<std::string>& words) const {
-    ASSERT_EQ(problems.size(), 1u) << ConfigError(problems).what();
-    for (const std::string& word : words) {
-      EXPECT_NE(problems[0].find(word), std::string::npos) << word << " not in: " << problems[0];
-    }
-  }
-
-  fs::path folder_;
-};
 
 // ---- What must load ----------------------------------------------------------------------------
 
@@ -368,38 +320,6 @@ TEST_F(ConfigTest, AllProblemsAtOnce) {
   EXPECT_EQ(problems.size(), 8u) << all;
   EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 7);
   for (const auto& problem : problems) EXPECT_EQ(problem.rfind(file, 0), 0u) << problem;
-}
-
-// ---- What must not run away --------------------------------------------------------------------
-
-TEST_F(ConfigTest, AnAliasThatLeadsBackToItselfIsAProblem) {
-  ExpectOneProblem(ProblemsOf(Write("%YAML:1.0\na: &a\n  b: *a\n")),
-                   {"camera.yaml", "a.b", "group"});
-}
-
-TEST_F(ConfigTest, ABombOfAliasesIsAProblem) {
-  std::string lists = "a0: &a0 {data: 0}\n", groups = "g0: &g0 {k: 0}\n";
-  for (int i = 1; i < 40; ++i) {
-    const std::string n = std::to_string(i), m = std::to_string(i - 1);
-    lists += "a" + n + ": &a" + n + " [*a" + m + ", *a" + m + "]\n";
-    groups += "g" + n + ": &g" + n + " {k: *g" + m + ", l: *g" + m + "}\n";
-  }
-  EXPECT_FALSE(ProblemsOf(Write(lists)).empty());
-  ExpectOneProblem(ProblemsOf(Write(groups)), {"group within a group"});
-  std::string wide = "g: &g {", uses;
-  for (int i = 0; i < 500; ++i) {
-    wide += "k" + std::to_string(i) + ": 0, ";
-    uses += "u" + std::to_string(i) + ": *g\n";
-  }
-  ExpectOneProblem(ProblemsOf(Write(wide + "z: 0}\n" + uses)), {"too many keys"});
-}
-
-TEST_F(ConfigTest, AFileWithoutAnEndIsAProblem) {
-  ExpectOneProblem(ProblemsOf("/dev/zero"), {"/dev/zero", "longer than 1 MiB"});
-}
-
-TEST_F(ConfigTest, AMaskWithAnOverlongPathIsAProblem) {
-  ExpectProblem("fisheye_mask: " + std::string(5000, 'm'), {"fisheye_mask", "there is no file"});
 }
 
 }  // namespace

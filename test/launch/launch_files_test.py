@@ -133,7 +133,7 @@ class LaunchFiles(unittest.TestCase):
                                 for prefix in os.environ["CMAKE_PREFIX_PATH"].split(":")),
                             library.get("path"))
         self.assertEqual(sorted(entry.get("name") for entry in description.iter("class")),
-                         sorted(NODELETS.values()))
+                         sorted([*NODELETS.values(), "plm_vins/PoseGraph"]))
 
     def test_templates_ask_for_a_configuration(self):
         for name in TEMPLATES:

@@ -28,7 +28,7 @@ class ConfigTest : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::string Write(const std::string& text) const {
-    const std::string file = (folder_ / "camera.yaml").string();
+    std::string file = (folder_ / "camera.yaml").string();
     std::ofstream(file) << text;
     return file;
   }

@@ -2,6 +2,7 @@
 // Configurations that would run away: endless, or endlessly nested.
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <string>
 
 #include "test/common/config_fixture.h"
@@ -17,14 +18,15 @@ TEST_F(ConfigLimitsTest, AnAliasThatLeadsBackToItselfIsAProblem) {
 }
 
 TEST_F(ConfigLimitsTest, ABombOfAliasesIsAProblem) {
-  std::string lists = "a0: &a0 {data: 0}\n", groups = "g0: &g0 {k: 0}\n";
+  std::ostringstream lists, groups;
+  lists << "a0: &a0 {data: 0}\n";
+  groups << "g0: &g0 {k: 0}\n";
   for (int i = 1; i < 40; ++i) {
-    const std::string n = std::to_string(i), m = std::to_string(i - 1);
-    lists += "a" + n + ": &a" + n + " [*a" + m + ", *a" + m + "]\n";
-    groups += "g" + n + ": &g" + n + " {k: *g" + m + ", l: *g" + m + "}\n";
+    lists << "a" << i << ": &a" << i << " [*a" << i - 1 << ", *a" << i - 1 << "]\n";
+    groups << "g" << i << ": &g" << i << " {k: *g" << i - 1 << ", l: *g" << i - 1 << "}\n";
   }
-  EXPECT_FALSE(ProblemsOf(Write(lists)).empty());
-  ExpectOneProblem(ProblemsOf(Write(groups)), {"group within a group"});
+  EXPECT_FALSE(ProblemsOf(Write(lists.str())).empty());
+  ExpectOneProblem(ProblemsOf(Write(groups.str())), {"group within a group"});
   std::string wide = "g: &g {", uses;
   for (int i = 0; i < 500; ++i) {
     wide += "k" + std::to_string(i) + ": 0, ";

@@ -155,7 +155,7 @@ std::optional<std::string> Estimator::FindFailure(const EstimatorOutput& output)
   auto contradiction = state_.contradiction_monitor.Add(output.t_ns, output.counts.points_in_window,
                                                         output.counts.points_rejected);
   if (contradiction) return contradiction;
-  const auto blindness = state_.blindness_monitor.Add(
+  auto blindness = state_.blindness_monitor.Add(
       output.t_ns, output.counts.points_observed + output.counts.lines_observed,
       output.pose_covariance.topLeftCorner<3, 3>());
   if (blindness) return blindness;

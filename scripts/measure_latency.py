@@ -5,6 +5,7 @@ odometry of that image, and the processor's time of each node."""
 
 import argparse
 import os
+import pathlib
 import signal
 import subprocess
 import sys
@@ -77,8 +78,14 @@ def image_topic(config):
     return yaml.safe_load("\n".join(lines).replace("!!opencv-matrix", ""))["image_topic"]
 
 
+def launch_file():
+    """As arguments of roslaunch: that of this checkout, or of the package that is installed."""
+    file = pathlib.Path(__file__).resolve().parents[1] / "launch" / "plm_vins.launch"
+    return [str(file)] if file.is_file() else ["plm_vins", file.name]
+
+
 def launch(options, output):
-    command = ["roslaunch", "plm_vins", "plm_vins.launch", f"bag:={os.path.abspath(options.bag)}",
+    command = ["roslaunch", *launch_file(), f"bag:={os.path.abspath(options.bag)}",
                f"config:={os.path.abspath(options.config)}", f"rate:={options.rate}",
                f"nodelets:={str(options.nodelets).lower()}", f"output:={output}",
                f"image_transport:={options.image_transport}"]

@@ -16,14 +16,6 @@ LevelTransform MapFromOdometry(const std::vector<Keyframe>& keyframes, const Pos
 
 }  // namespace
 
-Matrix4d DriftBudget::Covariance(double distance) const {
-  const double position = position_floor + position_rate * distance;
-  const double yaw = yaw_floor + yaw_rate * distance;
-  Vector4d deviations;
-  deviations << Eigen::Vector3d::Constant(position), yaw;
-  return deviations.cwiseAbs2().asDiagonal();
-}
-
 std::vector<LoopCandidate> LoopAcceptance::Judge(const std::vector<Keyframe>& keyframes,
                                                  const PoseGraph& graph, LoopCandidate* candidate) {
   candidate->failed = LoopGate::kOdometry;

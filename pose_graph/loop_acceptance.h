@@ -3,24 +3,15 @@
 
 #include <vector>
 
+#include "pose_graph/drift_budget.h"
 #include "pose_graph/graph/pose_graph.h"
 #include "pose_graph/keyframe.h"
 #include "pose_graph/loop_candidate.h"
 
 namespace plm_vins {
 
-// How far odometry may be off after a way.
-struct DriftBudget {
-  double position_floor = 0.05;         // [m]
-  double position_rate = 0.02;          // of the way [1]
-  double yaw_floor = 0.5 * M_PI / 180;  // [rad]
-  double yaw_rate = 0.05 * M_PI / 180;  // [rad/m]
-
-  Matrix4d Covariance(double distance) const;
-};
-
 struct LoopAcceptanceOptions {
-  DriftBudget drift;
+  DriftBudget drift = {0.05, 0.02, 0.5 * M_PI / 180, 0.05 * M_PI / 180};
   double max_deviations = 2 * kThreeSigma;  // that two loops which agree may ask for
   double max_wait = 10;                     // for a loop that agrees [s]
 };

@@ -21,11 +21,8 @@ Vector4d Variances(const OdometryFrame& frame) {
 Matrix4d StepCovariance(const OdometryNoise& noise, const OdometryFrame& from,
                         const OdometryFrame& to) {
   const double length = (to.T_O_B.translation - from.T_O_B.translation).norm();
-  Vector4d floor;
-  floor << Eigen::Vector3d::Constant(noise.position_floor + noise.position_rate * length),
-      noise.yaw_floor + noise.yaw_rate * length;
   const Vector4d growth = Variances(to) - Variances(from);
-  return growth.cwiseMax(floor.cwiseAbs2()).asDiagonal();
+  return growth.cwiseMax(noise.Variances(length)).asDiagonal();
 }
 
 }  // namespace plm_vins

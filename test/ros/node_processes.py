@@ -8,7 +8,9 @@ import signal
 import socket
 import subprocess
 import time
+import unittest
 
+import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
@@ -69,6 +71,17 @@ class Processes:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
             process.wait()
+
+
+def start_master(folder, name):
+    """A master of the module's own, up to the module's end, with this process as its node NAME."""
+    port = free_port()
+    os.environ["ROS_MASTER_URI"] = f"http://localhost:{port}"
+    master = Processes(pathlib.Path(folder) / "master", os.environ["ROS_MASTER_URI"])
+    unittest.addModuleCleanup(master.close)
+    master.start("master", ["rosmaster", "--core", "-p", str(port)])
+    wait_until(rosgraph.is_master_online, "the master")
+    rospy.init_node(name, disable_signals=True)
 
 
 class Listener:

@@ -13,11 +13,10 @@ import sys
 import time
 import unittest
 
-import rosgraph
 import rospy
 from std_srvs.srv import Trigger
 
-from node_processes import Listener, Processes, free_port, wait_until
+from node_processes import Listener, Processes, free_port, start_master, wait_until
 
 if len(sys.argv) < 4:
     sys.exit(__doc__)
@@ -29,13 +28,7 @@ END_LIMIT = 20  # [s] from SIGINT to the end; takes well below one where the mac
 
 
 def setUpModule():
-    os.environ["ROS_MASTER_URI"] = f"http://localhost:{free_port()}"
-    master = Processes(FOLDER / "master", os.environ["ROS_MASTER_URI"])
-    unittest.addModuleCleanup(master.close)
-    port = os.environ["ROS_MASTER_URI"].rsplit(":", 1)[1]
-    master.start("master", ["rosmaster", "--core", "-p", port])
-    wait_until(rosgraph.is_master_online, "the master")
-    rospy.init_node("operations_test", disable_signals=True)
+    start_master(FOLDER, "operations_test")
 
 
 class OperationsTest(unittest.TestCase):

@@ -12,12 +12,11 @@ import pathlib
 import sys
 import unittest
 
-import rosgraph
 import rospy
 from nav_msgs.msg import Odometry
 from std_srvs.srv import Trigger
 
-from node_processes import Listener, Processes, free_port, wait_until
+from node_processes import Listener, Processes, start_master, wait_until
 
 if len(sys.argv) < 4:
     sys.exit(__doc__)
@@ -30,13 +29,7 @@ PARAMETER = "/pose_graph/set/load_previous_pose_graph"
 
 
 def setUpModule():
-    os.environ["ROS_MASTER_URI"] = f"http://localhost:{free_port()}"
-    master = Processes(FOLDER / "master", os.environ["ROS_MASTER_URI"])
-    unittest.addModuleCleanup(master.close)
-    port = os.environ["ROS_MASTER_URI"].rsplit(":", 1)[1]
-    master.start("master", ["rosmaster", "--core", "-p", port])
-    wait_until(rosgraph.is_master_online, "the master")
-    rospy.init_node("saved_map_test", disable_signals=True)
+    start_master(FOLDER, "saved_map_test")
 
 
 class SaveAndRelocalise(unittest.TestCase):

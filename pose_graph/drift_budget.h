@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pose_graph/geometry/level_transform.h"
+
+namespace plm_vins {
+
+// How far odometry may be off after a way: standard deviations.
+struct DriftBudget {
+  double position_floor;  // [m]
+  double position_rate;   // of the way [1]
+  double yaw_floor;       // [rad]
+  double yaw_rate;        // [rad/m]
+
+  // Of (x, y, z, yaw), after so many metres.
+  Vector4d Variances(double distance) const {
+    Vector4d deviations;
+    deviations << Eigen::Vector3d::Constant(position_floor + position_rate * distance),
+        yaw_floor + yaw_rate * distance;
+    return deviations.cwiseAbs2();
+  }
+
+  Matrix4d Covariance(double distance) const { return Variances(distance).asDiagonal(); }
+};
+
+}  // namespace plm_vins

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "vins_estimator/factors/imu_factor.h"
+#include "vins_estimator/factors/intrinsics_factor.h"
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/manhattan_factor.h"
 #include "vins_estimator/factors/point_factor.h"
@@ -25,7 +26,9 @@ ProblemOptions::ProblemOptions(const Config& config, double focal_length)
     : manhattan_weight(180 / (M_PI * config.estimator.manhattan_noise)),
       estimate_extrinsic(config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed),
       estimate_td(config.sensor.estimate_td),
-      estimate_readout(config.sensor.estimate_rolling_shutter_tr) {
+      estimate_readout(config.sensor.estimate_rolling_shutter_tr),
+      estimate_intrinsics(config.sensor.estimate_intrinsics),
+      camera(config.sensor.camera) {
   SetNoise(config.estimator.point_noise / focal_length, config.estimator.line_noise / focal_length);
 }
 
@@ -40,6 +43,9 @@ ProblemBuilder::ProblemBuilder(const ProblemOptions& options, SlidingWindow* win
     : options_(options),
       window_(window),
       prior_(prior),
+      camera_(options.estimate_intrinsics
+                  ? CameraModel::Create(options.camera.With(window->intrinsics))
+                  : nullptr),
       point_loss_(options.point_loss_scale),
       line_loss_(options.line_loss_scale),
       manhattan_loss_(options.manhattan_loss_scale) {}
@@ -52,6 +58,8 @@ double* ProblemBuilder::Values(const BlockId& id) {
       return &window_->td;
     case BlockKind::kReadout:
       return &window_->readout;
+    case BlockKind::kIntrinsics:
+      return window_->intrinsics.data();
     case BlockKind::kPose:
       return window_->StateAt(id.key).pose.data();
     case BlockKind::kMotion:
@@ -96,14 +104,44 @@ template <typename... Indices>
 void ProblemBuilder::AddPointTerm(int landmark, std::unique_ptr<ceres::CostFunction> factor,
                                   const TimedBearing& bearing, Indices... variables) {
   if (!options_.estimate_readout) {
-    problem_.AddLandmarkTerm(landmark, std::move(factor), &point_loss_, {variables...});
+    AddShutteredPointTerm(landmark, std::move(factor), bearing, variables...);
     return;
   }
   constexpr size_t kTdBlock = sizeof...(variables) - 2;
   const int readout = AddVariable({BlockKind::kReadout, 0});
-  problem_.AddLandmarkTerm(landmark,
-                           std::make_unique<ReadoutFactor>(std::move(factor), kTdBlock, bearing),
-                           &point_loss_, {variables..., readout});
+  AddShutteredPointTerm(landmark,
+                        std::make_unique<ReadoutFactor>(std::move(factor), kTdBlock, bearing),
+                        bearing, variables..., readout);
+}
+
+template <typename... Indices>
+void ProblemBuilder::AddShutteredPointTerm(int landmark,
+                                           std::unique_ptr<ceres::CostFunction> factor,
+                                           const TimedBearing& bearing, Indices... variables) {
+  if (!camera_) {
+    problem_.AddLandmarkTerm(landmark, std::move(factor), &point_loss_, {variables...});
+    return;
+  }
+  const int intrinsics = AddVariable({BlockKind::kIntrinsics, 0});
+  problem_.AddLandmarkTerm(
+      landmark,
+      std::make_unique<PointIntrinsicsFactor>(std::move(factor), RayShift(*camera_, bearing.xy),
+                                              options_.point_weight),
+      &point_loss_, {variables..., intrinsics});
+}
+
+template <typename Factor, typename... Indices>
+void ProblemBuilder::AddLineTerm(int landmark, const LineSegmentView& segment, double weight,
+                                 Indices... variables) {
+  if (!camera_) {
+    problem_.AddLandmarkTerm(landmark, std::make_unique<Factor>(segment, weight), &line_loss_,
+                             {variables...});
+    return;
+  }
+  const int intrinsics = AddVariable({BlockKind::kIntrinsics, 0});
+  problem_.AddLandmarkTerm(
+      landmark, std::make_unique<LineIntrinsicsFactor<Factor>>(segment, weight, *camera_),
+      &line_loss_, {variables..., intrinsics});
 }
 
 void ProblemBuilder::AddPoint(PointLandmark* landmark) {
@@ -132,12 +170,10 @@ void ProblemBuilder::AddLine(LineLandmark* landmark) {
   const LineView& host = landmark->host();
   const int host_pose = Pose(host.t_ns);
   problem_.ReserveLandmarkTerms(index, landmark->views.size() + landmark->anchor_views.size() + 1);
-  problem_.AddLandmarkTerm(index,
-                           std::make_unique<LineHostFactor>(host.segment, options_.line_weight),
-                           &line_loss_, {line});
+  AddLineTerm<LineHostFactor>(index, host.segment, options_.line_weight, line);
   const auto add_view = [&](const LineView& view, double weight) {
-    problem_.AddLandmarkTerm(index, std::make_unique<LineFactor>(view.segment, weight), &line_loss_,
-                             {host_pose, Pose(view.t_ns), extrinsic, line});
+    AddLineTerm<LineFactor>(index, view.segment, weight, host_pose, Pose(view.t_ns), extrinsic,
+                            line);
   };
   for (size_t i = 1; i < landmark->views.size(); ++i) {
     add_view(landmark->views[i], options_.line_weight);

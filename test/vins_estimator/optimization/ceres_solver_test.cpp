@@ -28,7 +28,7 @@ class CeresSolverTest : public ::testing::TestWithParam<bool> {
       : estimate_(testing::SimulateWindow(7, /*seed=*/1, /*stride=*/5, /*max_points=*/60)),
         random_(1) {
     options_.first_estimate_jacobians = GetParam();
-    options_.estimate_extrinsic = options_.estimate_td = true;
+    options_.estimate_extrinsic = options_.estimate_td = options_.estimate_intrinsics = true;
     options_.R_W_M = Eigen::Quaterniond::Identity();
     NameAxes();
     estimate_.prior = InitialPrior(InitialUncertainty(), options_, estimate_.map.window);

@@ -11,7 +11,7 @@ namespace {
 using testing::EstimatedFlight;
 using testing::SimulatedFlight;
 
-constexpr uint64_t kSeeds = 3;
+const uint64_t kSeeds = std::getenv("SEEDS") ? atoi(std::getenv("SEEDS")) : 3;
 
 simulator::FeatureSimulationOptions Options(uint64_t seed) {
   auto options = testing::FlightOptions(simulator::Motion::kFast, seed);

@@ -34,8 +34,9 @@ bool PointIntrinsicsFactor::Evaluate(double const* const* parameters, double* re
 
 template <typename Factor>
 LineIntrinsicsFactor<Factor>::LineIntrinsicsFactor(const LineSegmentView& view, double weight,
-                                                   const CameraModel& camera)
-    : view_(view), weight_(weight), start_shift_(camera, view.start), end_shift_(camera, view.end) {
+                                                   const RayShift& start_shift,
+                                                   const RayShift& end_shift)
+    : view_(view), weight_(weight), start_shift_(start_shift), end_shift_(end_shift) {
   set_num_residuals(2);
   *mutable_parameter_block_sizes() = Factor(view, weight).parameter_block_sizes();
   mutable_parameter_block_sizes()->push_back(kIntrinsicsSize);

@@ -34,8 +34,8 @@ class PointIntrinsicsFactor final : public ceres::CostFunction {
 template <typename Factor>
 class LineIntrinsicsFactor final : public ceres::CostFunction {
  public:
-  // `camera`: with which the ends of `view` are what they are.
-  LineIntrinsicsFactor(const LineSegmentView& view, double weight, const CameraModel& camera);
+  LineIntrinsicsFactor(const LineSegmentView& view, double weight, const RayShift& start_shift,
+                       const RayShift& end_shift);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;

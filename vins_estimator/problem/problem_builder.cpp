@@ -12,6 +12,7 @@
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/factors/readout_factor.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
+#include "vins_estimator/problem/expected_rays.h"
 
 namespace plm_vins {
 namespace {
@@ -100,48 +101,49 @@ void ProblemBuilder::AddMotion(size_t index) {
 }
 
 // `variables` ends in those of td and the point.
-template <typename... Indices>
-void ProblemBuilder::AddPointTerm(int landmark, std::unique_ptr<ceres::CostFunction> factor,
-                                  const TimedBearing& bearing, Indices... variables) {
+template <typename Factor, typename... Indices>
+void ProblemBuilder::AddPointTerm(int index, const PointLandmark& landmark, const PointView& view,
+                                  Indices... variables) {
+  auto factor = std::make_unique<Factor>(view.bearing, options_.point_weight);
   if (!options_.estimate_readout) {
-    AddShutteredPointTerm(landmark, std::move(factor), bearing, variables...);
+    AddPointTerm(index, std::move(factor), landmark, view, variables...);
     return;
   }
   constexpr size_t kTdBlock = sizeof...(variables) - 2;
   const int readout = AddVariable({BlockKind::kReadout, 0});
-  AddShutteredPointTerm(landmark,
-                        std::make_unique<ReadoutFactor>(std::move(factor), kTdBlock, bearing),
-                        bearing, variables..., readout);
+  AddPointTerm(index, std::make_unique<ReadoutFactor>(std::move(factor), kTdBlock, view.bearing),
+               landmark, view, variables..., readout);
 }
 
 template <typename... Indices>
-void ProblemBuilder::AddShutteredPointTerm(int landmark,
-                                           std::unique_ptr<ceres::CostFunction> factor,
-                                           const TimedBearing& bearing, Indices... variables) {
+void ProblemBuilder::AddPointTerm(int index, std::unique_ptr<ceres::CostFunction> factor,
+                                  const PointLandmark& landmark, const PointView& view,
+                                  Indices... variables) {
   if (!camera_) {
-    problem_.AddLandmarkTerm(landmark, std::move(factor), &point_loss_, {variables...});
+    problem_.AddLandmarkTerm(index, std::move(factor), &point_loss_, {variables...});
     return;
   }
-  const int intrinsics = AddVariable({BlockKind::kIntrinsics, 0});
+  const RayShift shift(*camera_, ExpectedRay(landmark, view, *window_));
   problem_.AddLandmarkTerm(
-      landmark,
-      std::make_unique<PointIntrinsicsFactor>(std::move(factor), RayShift(*camera_, bearing.xy),
-                                              options_.point_weight),
-      &point_loss_, {variables..., intrinsics});
+      index,
+      std::make_unique<PointIntrinsicsFactor>(std::move(factor), shift, options_.point_weight),
+      &point_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});
 }
 
 template <typename Factor, typename... Indices>
-void ProblemBuilder::AddLineTerm(int landmark, const LineSegmentView& segment, double weight,
-                                 Indices... variables) {
+void ProblemBuilder::AddLineTerm(int index, const LineLandmark& landmark, const LineView& view,
+                                 double weight, Indices... variables) {
   if (!camera_) {
-    problem_.AddLandmarkTerm(landmark, std::make_unique<Factor>(segment, weight), &line_loss_,
+    problem_.AddLandmarkTerm(index, std::make_unique<Factor>(view.segment, weight), &line_loss_,
                              {variables...});
     return;
   }
-  const int intrinsics = AddVariable({BlockKind::kIntrinsics, 0});
-  problem_.AddLandmarkTerm(
-      landmark, std::make_unique<LineIntrinsicsFactor<Factor>>(segment, weight, *camera_),
-      &line_loss_, {variables..., intrinsics});
+  const LineSegmentView expected = ExpectedEnds(landmark, view, *window_);
+  problem_.AddLandmarkTerm(index,
+                           std::make_unique<LineIntrinsicsFactor<Factor>>(
+                               view.segment, weight, RayShift(*camera_, expected.start),
+                               RayShift(*camera_, expected.end)),
+                           &line_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});
 }
 
 void ProblemBuilder::AddPoint(PointLandmark* landmark) {
@@ -153,12 +155,11 @@ void ProblemBuilder::AddPoint(PointLandmark* landmark) {
   const PointView& host = landmark->host();
   const int host_pose = Pose(host.t_ns);
   problem_.ReserveLandmarkTerms(index, landmark->views.size());
-  AddPointTerm(index, std::make_unique<PointHostFactor>(host.bearing, options_.point_weight),
-               host.bearing, td, point);
+  AddPointTerm<PointHostFactor>(index, *landmark, host, td, point);
   for (size_t i = 1; i < landmark->views.size(); ++i) {
     const PointView& view = landmark->views[i];
-    AddPointTerm(index, std::make_unique<PointFactor>(view.bearing, options_.point_weight),
-                 view.bearing, host_pose, Pose(view.t_ns), extrinsic, td, point);
+    AddPointTerm<PointFactor>(index, *landmark, view, host_pose, Pose(view.t_ns), extrinsic, td,
+                              point);
   }
 }
 
@@ -170,9 +171,9 @@ void ProblemBuilder::AddLine(LineLandmark* landmark) {
   const LineView& host = landmark->host();
   const int host_pose = Pose(host.t_ns);
   problem_.ReserveLandmarkTerms(index, landmark->views.size() + landmark->anchor_views.size() + 1);
-  AddLineTerm<LineHostFactor>(index, host.segment, options_.line_weight, line);
+  AddLineTerm<LineHostFactor>(index, *landmark, host, options_.line_weight, line);
   const auto add_view = [&](const LineView& view, double weight) {
-    AddLineTerm<LineFactor>(index, view.segment, weight, host_pose, Pose(view.t_ns), extrinsic,
+    AddLineTerm<LineFactor>(index, *landmark, view, weight, host_pose, Pose(view.t_ns), extrinsic,
                             line);
   };
   for (size_t i = 1; i < landmark->views.size(); ++i) {

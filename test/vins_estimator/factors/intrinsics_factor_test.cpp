@@ -44,6 +44,11 @@ class IntrinsicsFactorTest : public ::testing::Test {
     return {std::move(factor), RayShift(*camera_, bearing_.xy), kWeight};
   }
 
+  template <typename Factor>
+  LineIntrinsicsFactor<Factor> Line() const {
+    return {view_, kWeight, RayShift(*camera_, view_.start), RayShift(*camera_, view_.end)};
+  }
+
   // Where other intrinsics, with which the pixel of xy stays, see it.
   Vector2d Recalibrated(const Vector2d& xy, const Block& intrinsics) const {
     const auto other = CameraModel::Create(camera_->parameters().With(Intrinsics(intrinsics)));
@@ -64,7 +69,7 @@ TEST_F(IntrinsicsFactorTest, AtTheIntrinsicsOfTheRaysIsTheFactorItself) {
   EXPECT_MATRIX_NEAR(testing::Residual(point, {Scalar(0.02), point_, reference}),
                      testing::Residual(PointHostFactor(bearing_, kWeight), {Scalar(0.02), point_}),
                      1e-12);
-  const LineIntrinsicsFactor<LineHostFactor> line(view_, kWeight, *camera_);
+  const auto line = Line<LineHostFactor>();
   EXPECT_MATRIX_NEAR(testing::Residual(line, {LineBlock(), reference}),
                      testing::Residual(LineHostFactor(view_, kWeight), {LineBlock()}), 1e-12);
 }
@@ -79,7 +84,7 @@ TEST_F(IntrinsicsFactorTest, SeesTheSamePixelsWithOtherIntrinsics) {
       testing::Residual(point, {Scalar(0.02), point_, near}),
       testing::Residual(PointHostFactor(moved_bearing, kWeight), {Scalar(0.02), point_}), 1e-5);
   const LineSegmentView moved_view{Recalibrated(view_.start, near), Recalibrated(view_.end, near)};
-  const LineIntrinsicsFactor<LineHostFactor> line(view_, kWeight, *camera_);
+  const auto line = Line<LineHostFactor>();
   EXPECT_MATRIX_NEAR(testing::Residual(line, {LineBlock(), near}),
                      testing::Residual(LineHostFactor(moved_view, kWeight), {LineBlock()}), 1e-5);
 }
@@ -101,9 +106,9 @@ TEST_F(IntrinsicsFactorTest, HasExactJacobiansWithARollingShutter) {
 }
 
 TEST_F(IntrinsicsFactorTest, HasExactJacobiansForLines) {
-  const LineIntrinsicsFactor<LineHostFactor> host(view_, kWeight, *camera_);
+  const auto host = Line<LineHostFactor>();
   testing::ExpectTangentJacobians(host, {LineBlock(), intrinsics_}, 1e-6);
-  const LineIntrinsicsFactor<LineFactor> target(view_, kWeight, *camera_);
+  const auto target = Line<LineFactor>();
   testing::ExpectTangentJacobians(target, {identity_, turned_, identity_, LineBlock(), intrinsics_},
                                   1e-6);
 }
@@ -115,7 +120,7 @@ TEST_F(IntrinsicsFactorTest, ARayThatTheCameraDoesNotSeeStays) {
 }
 
 TEST_F(IntrinsicsFactorTest, FailsWhereTheFactorFails) {
-  const LineIntrinsicsFactor<LineHostFactor> line(view_, kWeight, *camera_);
+  const auto line = Line<LineHostFactor>();
   const OrthonormalLine nowhere = ToOrthonormal({{0, 0, 1}, {1, 0, 0}});  // at infinity
   const Block block = Eigen::Map<const Eigen::Matrix<double, kLineSize, 1>>(nowhere.data());
   Vector2d residual;

@@ -11,11 +11,11 @@ namespace {
 using testing::EstimatedFlight;
 using testing::SimulatedFlight;
 
-const uint64_t kSeeds = std::getenv("SEEDS") ? atoi(std::getenv("SEEDS")) : 3;
+constexpr uint64_t kSeeds = 3;
 
 simulator::FeatureSimulationOptions Options(uint64_t seed) {
   auto options = testing::FlightOptions(simulator::Motion::kFast, seed);
-  options.trajectory.duration = 30;
+  options.trajectory.duration = 15;
   options.max_points = 80;
   return options;
 }
@@ -27,18 +27,14 @@ SimulatedFlight WithWrongIntrinsics(SimulatedFlight flight) {
   CameraParameters& wrong = flight.sensor.camera;
   wrong.fx *= 1.01;
   wrong.fy *= 1.01;
-  wrong.cx += 5 / M_SQRT2;
-  wrong.cy -= 5 / M_SQRT2;
+  wrong.cx += 5;
+  wrong.cy -= 5;
   const Recalibration recalibration(truth, wrong);
   for (FrameMeasurement& frame : flight.frames) recalibration.Move(&frame);
   return flight;
 }
 
 void ExpectIntrinsics(const CameraParameters& found, const CameraParameters& truth) {
-  std::printf("%.3f%% %.3f%% %.2f %.2f px d %.4f %.4f %.5f %.5f\n", 100 * (found.fx / truth.fx - 1),
-              100 * (found.fy / truth.fy - 1), found.cx - truth.cx, found.cy - truth.cy,
-              found.distortion[0] - truth.distortion[0], found.distortion[1] - truth.distortion[1],
-              found.distortion[2] - truth.distortion[2], found.distortion[3] - truth.distortion[3]);
   EXPECT_NEAR(found.fx / truth.fx, 1, 0.001);
   EXPECT_NEAR(found.fy / truth.fy, 1, 0.001);
   EXPECT_NEAR(found.cx, truth.cx, 1);
@@ -48,7 +44,7 @@ void ExpectIntrinsics(const CameraParameters& found, const CameraParameters& tru
 EstimatedFlight Fly(const SimulatedFlight& simulated) {
   const EstimatedFlight flight = testing::Estimate(simulated);
   EXPECT_TRUE(flight.restarts.empty());
-  EXPECT_GT(flight.truth.size(), 500u) << "late start";
+  EXPECT_GT(flight.truth.size(), 230u) << "late start";
   return flight;
 }
 
@@ -64,9 +60,8 @@ TEST(EstimatorIntrinsicsTest, AreFoundInFlight) {
     found += testing::AbsoluteError(flight) / kSeeds;
     ExpectIntrinsics(flight.outputs.back().calibration.camera, simulated.sensor.camera);
   }
-  std::printf("right %f wrong %f found %f\n", right, wrong, found);
   EXPECT_LT(found, 1.3 * right);
-  EXPECT_GT(wrong, 1.5 * found);
+  EXPECT_GT(wrong, 3 * found);
 }
 
 TEST(EstimatorIntrinsicsTest, AreFoundWithARollingShutter) {
@@ -80,7 +75,6 @@ TEST(EstimatorIntrinsicsTest, AreFoundWithARollingShutter) {
   spoiled.sensor.estimate_rolling_shutter_tr = true;
   const Calibration found = Fly(spoiled).outputs.back().calibration;
   ExpectIntrinsics(found.camera, simulated.sensor.camera);
-  std::printf("readout %f\n", found.readout);
   EXPECT_NEAR(found.readout, 0.03, 0.001);
 }
 

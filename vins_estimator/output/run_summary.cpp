@@ -17,7 +17,7 @@ Json DropsToJson(const DropCounts& drops) {
   return json;
 }
 
-Json ToJson(const Calibration& calibration) {
+Json CalibrationToJson(const Calibration& calibration) {
   const Eigen::Quaterniond& q = calibration.T_B_C.rotation;
   const Eigen::Vector3d& p = calibration.T_B_C.translation;
   const CameraParameters& camera = calibration.camera;
@@ -108,7 +108,7 @@ Json RunSummary::ToJson(const Run& run) const {
   json["resets"] = resets_;
   json["imu_doubts"] = imu_doubts_;
   json["imu_noisy_share"] = Ratio(static_cast<double>(imu_noisy_), static_cast<double>(poses_));
-  json["calibration"] = poses_ > 0 ? ToJson(calibration_) : Json(nullptr);
+  json["calibration"] = poses_ > 0 ? CalibrationToJson(calibration_) : Json(nullptr);
   json["timing_ms"] = TimingsToJson(timings_);
   json["counts_per_frame"] = CountsToJson(counts_);
   json["dropped"] = DropsToJson(run.drops);

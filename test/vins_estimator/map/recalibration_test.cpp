@@ -48,10 +48,12 @@ TEST_F(RecalibrationTest, MovesVelocitiesAlong) {
 }
 
 TEST_F(RecalibrationTest, LeavesARayThatNobodySees) {
-  const Vector2d beyond(5, 5);  // the fold of the distortion
-  ASSERT_FALSE(from_->Project(beyond.homogeneous()));
+  const Vector2d beyond(0.9, 0.9);
+  CameraParameters folded = Other();
+  folded.distortion = {-0.4, 0, 0, 0};  // up to a radius of 0.91
+  ASSERT_FALSE(CameraModel::Create(folded)->Project(beyond.homogeneous()));
   Vector2d xy = beyond, velocity(1, 2);
-  recalibration_.Move(&xy, &velocity);
+  Recalibration(folded, Other()).Move(&xy, &velocity);
   EXPECT_EQ(xy, beyond);
   EXPECT_EQ(velocity, Vector2d(1, 2));
 }

@@ -7,10 +7,10 @@
 
 namespace plm_vins {
 
-// How an observed ray moves with the intrinsics c of the camera, to first order about those that it
-// was computed with: xy(c) = xy + d_xy_d_intrinsics (c - reference).
+// How far an observed ray moves with the intrinsics c of the camera, to first order about those that
+// it was computed with: d_xy_d_intrinsics (c - reference), normalised.
 struct RayShift {
-  // Of the ray (x, y, 1) as `camera` sees it. None where that is beyond what it can describe.
+  // Of rays near (x, y, 1) in `camera`. Zero where that is beyond what the camera can describe.
   RayShift(const CameraModel& camera, const Eigen::Vector2d& xy)
       : reference(camera.parameters().intrinsics()),
         d_xy_d_intrinsics(camera.RayByIntrinsics(xy).value_or(IntrinsicsJacobian::Zero())) {}

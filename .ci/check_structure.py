@@ -94,6 +94,8 @@ INCLUDE = re.compile(r'^#include\s*"([^"]+)"', re.MULTILINE)
 CERES_INCLUDE = re.compile(r"^#include\s*<ceres/", re.MULTILINE)
 # "somebody" stands for a user in examples.
 HOME_PATH = re.compile(r"(?<![\w./~$}{-])/(home|root|work|Users)/(?!somebody/)\w")
+NAMESPACE = re.compile(r"^namespace ([\w:]+) {", re.MULTILINE)
+TYPE = re.compile(r"^(?:class|struct|enum class) (\w+)(?: final)?(?: :[^;{]*)? {", re.MULTILINE)
 LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)(?:#([^)\s]+))?\)")
 SPDX = "// SPDX-License-Identifier: BSD-3-Clause"
 MAX_FILE_LINES = 400
@@ -110,6 +112,7 @@ def main(root):
                  for problem in check_links(root, path)]
     problems += check_circles(root)
     problems += check_ceres(root)
+    problems += check_types(root)
     problems += check_functions(root)
     print(*problems, sep="\n", end="\n" if problems else "")
     print(f"{len(code_files(root))} source files, {len(problems)} problems")
@@ -232,6 +235,21 @@ def headings(page):
     """The anchors that the headings of a Markdown page get."""
     titles = re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def check_types(root):
+    """Types that two headers define under one name: the linker takes one for the other."""
+    homes = {}  # by the full name: the header
+    for path in code_files(root):
+        name = path.relative_to(root)
+        if path.suffix != ".h" or not layer_of(name):
+            continue  # tests are programs of their own
+        text = path.read_text(encoding="utf-8")
+        space = NAMESPACE.search(text)
+        for defined in sorted(set(TYPE.findall(text))):
+            home = homes.setdefault((space and space.group(1), defined), name)
+            if home != name:
+                yield f"{name}: {defined} is defined in {home}, too"
 
 
 def check_functions(root):

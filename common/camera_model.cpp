@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/camera_model.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,8 +13,7 @@ namespace plm_vins {
 namespace {
 
 void Check(const CameraParameters& p) {
-  const Eigen::Vector4d intrinsics(p.fx, p.fy, p.cx, p.cy);
-  if (!intrinsics.allFinite() || !p.distortion.allFinite() || !std::isfinite(p.xi)) {
+  if (!p.intrinsics().allFinite() || !std::isfinite(p.xi)) {
     throw std::invalid_argument("camera model: every parameter must be a finite number");
   }
   if (p.fx <= 0 || p.fy <= 0) {
@@ -23,6 +23,22 @@ void Check(const CameraParameters& p) {
 }
 
 }  // namespace
+
+Intrinsics CameraParameters::intrinsics() const {
+  Intrinsics intrinsics;
+  intrinsics << fx, fy, cx, cy, distortion;
+  return intrinsics;
+}
+
+CameraParameters CameraParameters::With(const Intrinsics& intrinsics) const {
+  CameraParameters camera = *this;
+  camera.fx = intrinsics[0];
+  camera.fy = intrinsics[1];
+  camera.cx = intrinsics[2];
+  camera.cy = intrinsics[3];
+  camera.distortion = intrinsics.tail<4>();
+  return camera;
+}
 
 std::unique_ptr<const CameraModel> CameraModel::Create(const CameraParameters& parameters) {
   Check(parameters);
@@ -35,6 +51,17 @@ std::unique_ptr<const CameraModel> CameraModel::Create(const CameraParameters& p
       return std::make_unique<Mei>(parameters);
   }
   throw std::invalid_argument("camera model: unknown model");
+}
+
+// The pixel stays: 0 = d_pixel_d_xy d_xy + d_pixel_d_intrinsics d_intrinsics.
+std::optional<IntrinsicsJacobian> CameraModel::RayByIntrinsics(const Eigen::Vector2d& xy) const {
+  Eigen::Matrix<double, 2, 3> d_pixel_d_ray;
+  const auto pixel = Project(xy.homogeneous(), &d_pixel_d_ray);
+  if (!pixel) return std::nullopt;
+  IntrinsicsJacobian d_pixel_d_intrinsics;
+  d_pixel_d_intrinsics << PixelToPlane(*pixel).asDiagonal().toDenseMatrix(),
+      Eigen::Matrix2d::Identity(), focal().asDiagonal() * PlaneByDistortion(xy);
+  return -d_pixel_d_ray.leftCols<2>().inverse() * d_pixel_d_intrinsics;
 }
 
 }  // namespace plm_vins

@@ -9,6 +9,11 @@
 
 namespace plm_vins {
 
+// fx, fy, cx, cy [px] and the four coefficients of distortion: what may be refined of a camera.
+constexpr int kIntrinsicsSize = 8;
+using Intrinsics = Eigen::Matrix<double, kIntrinsicsSize, 1>;
+using IntrinsicsJacobian = Eigen::Matrix<double, 2, kIntrinsicsSize>;
+
 // Calibration of one camera, as read from the configuration.
 struct CameraParameters {
   enum class Model { kPinholeRadtan, kPinholeEquidistant, kMei };
@@ -20,6 +25,10 @@ struct CameraParameters {
   // theta_d = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8).
   Eigen::Vector4d distortion = Eigen::Vector4d::Zero();
   double xi = 0;  // MEI only: distance of the unit sphere's centre from the projection centre
+
+  Intrinsics intrinsics() const;
+  // The same camera with other intrinsics.
+  CameraParameters With(const Intrinsics& intrinsics) const;
 };
 
 // A calibrated camera: rays of the camera frame C (x right, y down, z forward) to raw pixels and
@@ -44,6 +53,10 @@ class CameraModel {
   virtual std::optional<Eigen::Vector2d> Unproject(
       const Eigen::Vector2d& pixel, Eigen::Matrix2d* d_xy_d_pixel = nullptr) const = 0;
 
+  // How the normalised image point of a pixel moves with the intrinsics, where it is now at `xy`.
+  // Nothing where the model does not see that ray.
+  std::optional<IntrinsicsJacobian> RayByIntrinsics(const Eigen::Vector2d& xy) const;
+
   const CameraParameters& parameters() const { return parameters_; }
 
   // Pixels per radian at the image centre (mean of both axes): turns normalised errors into pixels.
@@ -57,6 +70,10 @@ class CameraModel {
 
  protected:
   explicit CameraModel(const CameraParameters& parameters) : parameters_(parameters) {}
+
+  // Derivative of the distorted point of the image plane by the coefficients of distortion, for a
+  // ray (x, y, 1) that Project() takes.
+  virtual Eigen::Matrix<double, 2, 4> PlaneByDistortion(const Eigen::Vector2d& xy) const = 0;
 
   // The last step of every model: from the distorted point of its image plane to pixels, and back.
   Eigen::Vector2d PlaneToPixel(const Eigen::Vector2d& point) const {

@@ -11,7 +11,7 @@ OdometryFrame ToOdometryFrame(const PipelineFrame& frame, bool restarted) {
   result.t_ns = output.t_ns;
   result.restarted = restarted;
   result.T_O_B = output.state.T_W_B();
-  result.T_B_C = output.T_B_C;
+  result.T_B_C = output.calibration.T_B_C;
   result.covariance = output.pose_covariance;
   result.R_O_M = output.R_W_M;
   result.corners = PlaceCorners(frame.points, output.points);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "offline/pipeline_timings.h"
+#include "vins_estimator/output/calibrated_config.h"
 #include "vins_estimator/output/config_json.h"
 #include "vins_estimator/output/frame_table.h"
 #include "vins_estimator/output/tum_format.h"
@@ -102,7 +103,9 @@ ResultFiles::ResultFiles(const std::string& folder)
       trajectory_(Open("trajectory.tum")),
       timing_(Open("timing.csv")),
       map_(Open("map.ply")) {
-  fs::remove_all(fs::path(folder_) / kTrackImages);  // of an earlier run
+  // Of an earlier run:
+  fs::remove_all(fs::path(folder_) / kTrackImages);
+  fs::remove(fs::path(folder_) / kCalibratedConfigFile);
   WriteFrameHeader(&timing_);
 }
 
@@ -187,6 +190,10 @@ void ResultFiles::Finish(RunSummary::Run run, const Config& config, const Json& 
   summary["version"] = PLM_VINS_VERSION;
   summary["config"] = ToJson(config);
   Open("summary.json") << summary.dump(2) << "\n";
+  if (summary_.poses() > 0 && RefinesCalibration(config.sensor)) {
+    const fs::path file = fs::path(folder_) / kCalibratedConfigFile;
+    SaveCalibratedConfig(summary_.calibration(), config, file.string());
+  }
 }
 
 }  // namespace plm_vins

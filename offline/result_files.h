@@ -17,7 +17,8 @@
 namespace plm_vins {
 
 // The folder of results of an offline run: trajectory.tum, timing.csv, summary.json, map.ply,
-// lines.ply, lines.obj, tracks.png, line_tracks.png, tracks/. Rows are written as frames come,
+// lines.ply, lines.obj, tracks.png, line_tracks.png, tracks/, and calibrated.yaml where the
+// calibration is refined. Rows are written as frames come,
 // which keeps memory small.
 class ResultFiles {
  public:

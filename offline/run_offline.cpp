@@ -7,12 +7,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "common/config.h"
@@ -169,6 +171,15 @@ Source RunFromFeatures(const Arguments& arguments, FeatureFileReader* features,
   return {arguments.features, {}};
 }
 
+// Features that are read while they are written would be lost.
+void CheckSavedFeatures(const Arguments& arguments) {
+  std::error_code error;  // a file that is not there is no other's
+  if (std::filesystem::equivalent(arguments.features, arguments.saved_features, error)) {
+    throw std::runtime_error("--save-features would overwrite the input of --features, " +
+                             arguments.features);
+  }
+}
+
 // The configuration as the arguments change it.
 Config Configure(const Arguments& arguments) {
   Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
@@ -197,6 +208,7 @@ void ShowTracks(double interval, const ResultFiles* results, OdometryPipeline* p
 }
 
 int Run(const Arguments& arguments) {
+  CheckSavedFeatures(arguments);
   const Config config = Configure(arguments);
   Warn(IgnoredKeysWarning(config));
   // The input first: where there is none, earlier results in the folder stay as they are.

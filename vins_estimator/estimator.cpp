@@ -8,6 +8,7 @@
 #include "common/stopwatch.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/manhattan/line_directions.h"
+#include "vins_estimator/map/recalibration.h"
 #include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/measurement_check.h"
 #include "vins_estimator/merging/line_merging.h"
@@ -38,6 +39,7 @@ InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstil
     uncertainty.extrinsic_rotation = 0.1;
     uncertainty.extrinsic_position = 0.1;
   }
+  uncertainty.intrinsics = sensor.intrinsics_deviation;
   return uncertainty;
 }
 
@@ -47,6 +49,7 @@ WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& op
   window.SetExtrinsic(sensor.T_B_C);
   window.td = sensor.td;
   window.readout = sensor.ReadoutTime();
+  window.intrinsics = sensor.camera.intrinsics();
   window.gravity_W = Eigen::Vector3d(0, 0, -sensor.gravity_norm);
   return estimate;
 }
@@ -76,15 +79,25 @@ EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
   if (measurement.lines) {
     output.counts.lines_observed = static_cast<int>(measurement.lines->lines.size());
   }
-  if (state_.rolling_shutter) {
-    const SlidingWindow& window = state_.estimate.map.window;
-    Use(state_.rolling_shutter->ToStamp(measurement, window.T_B_C().rotation, window.readout),
-        &output);
+  if (state_.rolling_shutter || options_.problem.estimate_intrinsics) {
+    Use(Correct(measurement), &output);
   } else {
     Use(measurement, &output);
   }
   output.timings.total = stopwatch.Milliseconds();
   return output;
+}
+
+FrameMeasurement Estimator::Correct(FrameMeasurement measurement) {
+  const SlidingWindow& window = state_.estimate.map.window;
+  if (state_.rolling_shutter) {
+    measurement = state_.rolling_shutter->ToStamp(std::move(measurement), window.T_B_C().rotation,
+                                                  window.readout);
+  }
+  if (options_.problem.estimate_intrinsics) {
+    Recalibration(config_.sensor.camera, CurrentCamera()).Move(&measurement);
+  }
+  return measurement;
 }
 
 void Estimator::Use(const FrameMeasurement& measurement, EstimatorOutput* output) {
@@ -224,6 +237,10 @@ void Estimator::RemoveOutliers(EstimatorOutput* output) {
   output->counts.lines_rejected = map.lines.RemoveOutliers(map.window, options_.line_limits);
 }
 
+CameraParameters Estimator::CurrentCamera() const {
+  return config_.sensor.camera.With(state_.estimate.map.window.intrinsics);
+}
+
 ProblemOptions Estimator::CurrentProblem() const {
   ProblemOptions options = options_.problem;
   if (config_.estimator.manhattan_constraints) options.R_W_M = state_.manhattan.R_W_M();
@@ -248,6 +265,7 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
     builder.AddLine(&landmark);
     ++output->counts.lines_in_window;
   }
+  const CameraParameters camera = CurrentCamera();
   NormalEquations equations(builder.problem());
   if (config_.estimator.solver == SolverType::kCeres) {
     SolveByCeres(options, builder.problem());
@@ -264,6 +282,7 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
     output->velocity_covariance = covariance.block<3, 3>(6, 6);
     output->bias_covariance = covariance.bottomRightCorner<6, 6>();
   }
+  if (options_.problem.estimate_intrinsics) Recalibration(camera, CurrentCamera()).Move(&map);
   output->timings.optimization = stopwatch.Milliseconds();
 }
 
@@ -328,9 +347,7 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->status = EstimatorStatus::kTracking;
   output->has_pose = true;
   output->state = window.newest().state;
-  output->T_B_C = window.T_B_C();
-  output->td = window.td;
-  output->readout = window.readout;
+  output->calibration = {CurrentCamera(), window.T_B_C(), window.td, window.readout};
   output->R_W_M = state_.manhattan.R_W_M();
   output->imu_noise_scale = state_.imu_monitor.noise_scale();
   output->delay = state_.delay_monitor.delay();

@@ -57,7 +57,9 @@ class Estimator {
     FrameState predicted;  // of the newest image, from the IMU alone
   };
 
-  // Hands the image on to Initialize() or Track(), as a global shutter would have taken it.
+  // The image as a global shutter would have taken it, in rays of the camera as it is known so far.
+  FrameMeasurement Correct(FrameMeasurement measurement);
+  // Hands the image on to Initialize() or Track().
   void Use(const FrameMeasurement& measurement, EstimatorOutput* output);
   void Initialize(const FrameMeasurement& measurement, EstimatorOutput* output);
   void Track(const FrameMeasurement& measurement, bool stands_still, EstimatorOutput* output);
@@ -77,6 +79,9 @@ class Estimator {
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
   void SlideOldest(EstimatorOutput* output);
   void Describe(EstimatorOutput* output) const;
+
+  // The camera with its intrinsics as they are now.
+  CameraParameters CurrentCamera() const;
 
   // The problem's options with Manhattan frame and noise as they are now.
   ProblemOptions CurrentProblem() const;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/rigid3.h"
+#include "vins_estimator/state/calibration.h"
 #include "vins_estimator/state/estimate_counts.h"
 #include "vins_estimator/state/frame_state.h"
 #include "vins_estimator/state/map_elements.h"
@@ -50,9 +50,7 @@ struct EstimatorOutput {
   Matrix6d pose_covariance = Matrix6d::Zero();
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // of v_W [m/s]
   Matrix6d bias_covariance = Matrix6d::Zero();  // of the accelerometer [m/s^2] and gyro [rad/s]
-  Rigid3d T_B_C;
-  double td = 0;                            // [s]
-  double readout = 0;                       // time of a rolling shutter; 0: a global one [s]
+  Calibration calibration;
   std::optional<Eigen::Quaterniond> R_W_M;  // the Manhattan frame, where the scene has one
   double imu_noise_scale = 1;               // of its variance, as the camera shows it (ImuMonitor)
   bool imu_doubted = false;                 // in this image, at once

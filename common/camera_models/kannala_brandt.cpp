@@ -93,6 +93,12 @@ std::optional<Eigen::Vector2d> KannalaBrandt::Unproject(const Eigen::Vector2d& p
   return Eigen::Vector2d(tangent * u);
 }
 
+Eigen::Matrix<double, 2, 4> KannalaBrandt::PlaneByDistortion(const Eigen::Vector2d& xy) const {
+  const double radius = xy.norm(), theta = std::atan(radius), t = theta * theta;
+  const Eigen::RowVector4d powers(t, t * t, t * t * t, t * t * t * t);
+  return theta * Direction(xy, radius) * powers;
+}
+
 double KannalaBrandt::FocalLength() const { return focal().mean(); }
 
 }  // namespace plm_vins

@@ -19,6 +19,7 @@ class KannalaBrandt final : public CameraModel {
   double FocalLength() const override;
 
  private:
+  Eigen::Matrix<double, 2, 4> PlaneByDistortion(const Eigen::Vector2d& xy) const override;
   double Distort(double theta) const;            // theta_d [rad]
   double DistortDerivative(double theta) const;  // d theta_d / d theta
   double FindMaxTheta() const;

@@ -67,6 +67,10 @@ std::optional<Eigen::Vector2d> Mei::Unproject(const Eigen::Vector2d& pixel,
   return xy;
 }
 
+Eigen::Matrix<double, 2, 4> Mei::PlaneByDistortion(const Eigen::Vector2d& xy) const {
+  return RadtanDistortion::DistortedByCoefficients(xy / (1 + xi_ * xy.homogeneous().norm()));
+}
+
 double Mei::FocalLength() const { return focal().mean() / (1 + xi_); }
 
 }  // namespace plm_vins

@@ -20,6 +20,7 @@ class Mei final : public CameraModel {
   double FocalLength() const override;
 
  private:
+  Eigen::Matrix<double, 2, 4> PlaneByDistortion(const Eigen::Vector2d& xy) const override;
   // The ray (x, y, 1) through a point of the undistorted image plane.
   std::optional<Eigen::Vector2d> PlaneToRay(const Eigen::Vector2d& point,
                                             Eigen::Matrix2d* d_xy_d_point) const;

@@ -33,6 +33,10 @@ std::optional<Eigen::Vector2d> PinholeRadtan::Unproject(const Eigen::Vector2d& p
   return xy;
 }
 
+Eigen::Matrix<double, 2, 4> PinholeRadtan::PlaneByDistortion(const Eigen::Vector2d& xy) const {
+  return RadtanDistortion::DistortedByCoefficients(xy);
+}
+
 double PinholeRadtan::FocalLength() const { return focal().mean(); }
 
 }  // namespace plm_vins

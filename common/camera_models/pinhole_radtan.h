@@ -18,6 +18,7 @@ class PinholeRadtan final : public CameraModel {
   double FocalLength() const override;
 
  private:
+  Eigen::Matrix<double, 2, 4> PlaneByDistortion(const Eigen::Vector2d& xy) const override;
   RadtanDistortion distortion_;
 };
 

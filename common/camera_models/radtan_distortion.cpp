@@ -53,6 +53,15 @@ std::optional<Eigen::Vector2d> RadtanDistortion::Distort(
                          y * radial + p1_ * (r2 + 2 * y * y) + 2 * p2_ * x * y);
 }
 
+Eigen::Matrix<double, 2, 4> RadtanDistortion::DistortedByCoefficients(
+    const Eigen::Vector2d& point) {
+  const double x = point.x(), y = point.y(), r2 = point.squaredNorm();
+  Eigen::Matrix<double, 2, 4> derivative;
+  derivative << r2 * x, r2 * r2 * x, 2 * x * y, r2 + 2 * x * x,  //
+      r2 * y, r2 * r2 * y, r2 + 2 * y * y, 2 * x * y;
+  return derivative;
+}
+
 // Newton's method; a step that leaves the invertible disc or does not improve is halved.
 std::optional<Eigen::Vector2d> RadtanDistortion::Undistort(
     const Eigen::Vector2d& distorted, Eigen::Matrix2d* d_point_d_distorted) const {

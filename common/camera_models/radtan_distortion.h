@@ -22,6 +22,9 @@ class RadtanDistortion {
   std::optional<Eigen::Vector2d> Undistort(const Eigen::Vector2d& distorted,
                                            Eigen::Matrix2d* d_point_d_distorted) const;
 
+  // Derivative of the distorted point by k1, k2, p1, p2, on which it depends linearly.
+  static Eigen::Matrix<double, 2, 4> DistortedByCoefficients(const Eigen::Vector2d& point);
+
  private:
   double k1_, k2_, p1_, p2_;
   double max_radius_squared_;  // the radial part grows up to here

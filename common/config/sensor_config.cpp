@@ -49,6 +49,16 @@ ConfigKeys<S> ExtrinsicKeys() {
   return {mode, rotation, translation};
 }
 
+ConfigKeys<IntrinsicsDeviation> IntrinsicsDeviationKeys() {
+  using Key = ConfigKey<IntrinsicsDeviation>;
+  using D = IntrinsicsDeviation;
+  return {
+      Key::Number("focal_length_deviation", "", {1e-6, 0.2}, &D::focal_length),
+      Key::Number("principal_point_deviation", "px", {1e-3, 200}, &D::principal_point),
+      Key::Number("distortion_deviation", "", {1e-6, 1}, &D::distortion),
+  };
+}
+
 ConfigKeys<ImuNoise> ImuNoiseKeys() {
   using Key = ConfigKey<ImuNoise>;
   using N = ImuNoise;
@@ -75,6 +85,7 @@ ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type) {
       Key::Text("image_topic", &S::image_topic),
       Key::Text("imu_topic", &S::imu_topic),
   };
+  const ConfigKeys<S> intrinsics = {Key::Flag("estimate_intrinsics", &S::estimate_intrinsics)};
   const ConfigKeys<S> timing = {
       Key::Number("td", "s", {-1, 1}, &S::td),
       Key::Flag("estimate_td", &S::estimate_td),
@@ -90,7 +101,8 @@ ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type) {
       Key::Number("imu_rate", "Hz", {10, 10000}, &S::imu_rate),
       Key::Number("g_norm", "m/s^2", {9, 10.5}, &S::gravity_norm),
   };
-  return Join<S>({Required(topics), Within(&S::camera, CameraKeys(model_type)), ExtrinsicKeys(),
+  return Join<S>({Required(topics), Within(&S::camera, CameraKeys(model_type)), intrinsics,
+                  Within(&S::intrinsics_deviation, IntrinsicsDeviationKeys()), ExtrinsicKeys(),
                   timing, noise, Within(&S::imu_noise, ImuNoiseKeys()),
                   Within(&S::imu_range, ImuRangeKeys())});
 }

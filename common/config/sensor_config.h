@@ -11,11 +11,20 @@
 
 namespace plm_vins {
 
+// How far the intrinsics of a camera may be from those configured: standard deviations.
+struct IntrinsicsDeviation {
+  double focal_length = 0.01;  // share of it [1]
+  double principal_point = 5;  // [px]
+  double distortion = 0.005;   // of each coefficient [1]
+};
+
 // The sensors: topics, calibration, noise.
 struct SensorConfig {
   std::string image_topic = "/cam0/image_raw";
   std::string imu_topic = "/imu0";
   CameraParameters camera;
+  bool estimate_intrinsics = false;
+  IntrinsicsDeviation intrinsics_deviation;
   Rigid3d T_B_C;  // camera in the body (IMU) frame
   enum class ExtrinsicMode { kFixed = 0, kRefine = 1, kCalibrateRotation = 2 };
   ExtrinsicMode estimate_extrinsic = ExtrinsicMode::kFixed;

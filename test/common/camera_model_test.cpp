@@ -114,6 +114,36 @@ TEST_P(EveryModel, JacobiansMatchNumericDifferences) {
   }
 }
 
+TEST_P(EveryModel, RaysMoveWithTheIntrinsicsAsNumericDifferencesSay) {
+  const CameraParameters& parameters = camera_->parameters();
+  for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(10, 20), Eigen::Vector2d(700, 30),
+                                       Eigen::Vector2d(400, 470), Eigen::Vector2d(367, 250)}) {
+    const auto ray = [&](const Intrinsics& intrinsics) {
+      return *CameraModel::Create(parameters.With(intrinsics))->Unproject(pixel);
+    };
+    const auto d_xy_d_intrinsics = camera_->RayByIntrinsics(*camera_->Unproject(pixel));
+    ASSERT_TRUE(d_xy_d_intrinsics);
+    EXPECT_MATRIX_NEAR(*d_xy_d_intrinsics, NumericJacobian(ray, parameters.intrinsics()), 1e-7);
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(camera_->RayByIntrinsics({nan, 0}));
+}
+
+TEST_P(EveryModel, OtherIntrinsicsLeaveTheRestOfTheCamera) {
+  const CameraParameters& parameters = camera_->parameters();
+  Intrinsics intrinsics;
+  intrinsics << 1, 2, 3, 4, 5, 6, 7, 8;
+  const CameraParameters other = parameters.With(intrinsics);
+  EXPECT_EQ(other.intrinsics(), intrinsics);
+  EXPECT_EQ(other.fy, 2);
+  EXPECT_EQ(other.cx, 3);
+  EXPECT_EQ(other.distortion, Eigen::Vector4d(5, 6, 7, 8));
+  EXPECT_EQ(other.With(parameters.intrinsics()).intrinsics(), parameters.intrinsics());
+  EXPECT_EQ(other.model, parameters.model);
+  EXPECT_EQ(other.height, parameters.height);
+  EXPECT_EQ(other.xi, parameters.xi);
+}
+
 TEST_P(EveryModel, JacobiansAreFiniteOnTheOpticalAxis) {
   const auto& p = camera_->parameters();
   const Eigen::Vector3d p_C(0, 0, 2);

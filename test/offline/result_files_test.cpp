@@ -98,6 +98,23 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
   EXPECT_FALSE(summary["version"].get<std::string>().empty());
 }
 
+TEST(ResultFiles, HoldAConfigurationWithTheCalibrationThatWasFound) {
+  const testing::TemporaryFolder folder;
+  Config config;
+  config.sensor.estimate_td = true;
+  PipelineFrame frame = MakeFrame(1'000'000'000, true);
+  frame.output.calibration.td = 0.0123;
+  const auto calibrated = [&](const Config& run_config, const PipelineFrame& only_frame) {
+    ResultFiles results(folder.File("run"));
+    results.Add(only_frame);
+    results.Finish(RunSummary::Run(), run_config, Json());
+    return folder.Read("run/calibrated.yaml");
+  };
+  EXPECT_THAT(calibrated(config, frame), HasSubstr("\ntd: 0.0123\n"));
+  EXPECT_EQ(calibrated(config, MakeFrame(1'000'000'000, false)), "") << "nothing was found";
+  EXPECT_EQ(calibrated(Config(), frame), "") << "nothing was refined";
+}
+
 TEST(ResultFiles, TellOfANewWorldFrameBetweenTheRows) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());

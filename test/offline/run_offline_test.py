@@ -60,6 +60,15 @@ class RunOffline(unittest.TestCase):
         self.assert_refuses("loop closure needs images", "--map-out", "map.plm",
                             source=("--features", "none.features"))
 
+    def test_features_that_would_overwrite_themselves(self):
+        features = self.folder / "flight.features"
+        features.write_text("kept", encoding="utf-8")
+        link = self.folder / "link.features"
+        link.symlink_to(features)
+        self.assert_refuses("--save-features would overwrite the input of --features",
+                            "--save-features", link, source=("--features", features))
+        self.assertEqual(features.read_text(encoding="utf-8"), "kept")
+
     def test_output_that_cannot_be_written(self):
         self.assert_refuses("cannot make the output folder", output="asl/imu0/data.csv")
 

@@ -53,6 +53,24 @@ class CheckStructure(unittest.TestCase):
         self.assert_clean("scripts/a.py", "#" * 100 + "\n")
         self.assert_problem("scripts/a.py", "#" * 101 + "\n", "101 columns")
 
+    def test_types_of_one_name(self):
+        def header(space, definition):
+            return HEADER + f"namespace {space} {{\n{definition}\n}}\n"
+        tracker = header("plm_vins", "struct Options {\n};")
+        taken = "tracking/a.h: Options is defined in common/a.h, too"
+        for definition in ("struct Options {", "class Options final : public Base<int> {",
+                           "enum class Options : int {"):
+            code, output = self.check_tree({"common/a.h": header("plm_vins", definition),
+                                            "tracking/a.h": tracker})
+            self.assertEqual(code, 1)
+            self.assertIn(taken, output)
+        for other in (header("plm_vins::simulator", "struct Options {\n};"),
+                      header("plm_vins", "struct Options;"),
+                      header("plm_vins", "class A {\n  struct Options {};\n};")):
+            self.assertEqual(self.check_tree({"common/a.h": other, "tracking/a.h": tracker})[0], 0)
+        twice = header("plm_vins", "#if A\nstruct B {\n};\n#else\nstruct B {\n};\n#endif")
+        self.assert_clean("common/a.h", twice)
+
     def test_ros_outside_of_its_folders(self):
         for include in ("<ros/ros.h>", "<sensor_msgs/Imu.h>", '"cv_bridge/cv_bridge.h"'):
             self.assert_problem("common/a.h", HEADER + f"#include {include}\n", "ROS outside")

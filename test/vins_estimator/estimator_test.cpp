@@ -96,7 +96,7 @@ TEST(EstimatorTest, LearnsTheRotationOfTheCamera) {
   const EstimatedFlight flight = testing::Estimate(simulated);
   EXPECT_TRUE(flight.restarts.empty());
   ASSERT_GT(flight.truth.size(), 200u);
-  const Eigen::Quaterniond& learned = flight.outputs.back().T_B_C.rotation;
+  const Eigen::Quaterniond& learned = flight.outputs.back().calibration.T_B_C.rotation;
   EXPECT_LT(learned.angularDistance(truth), 0.1 * M_PI / 180);
   EXPECT_LT(testing::AbsoluteError(flight), 0.003 * flight.path);
 }
@@ -116,7 +116,7 @@ double LearnTimeOffset(const simulator::FeatureSimulationOptions& options) {
     stage.AddPoints(points);
     while (const auto frame = stage.Pop()) {
       EXPECT_FALSE(frame->output.restarted);
-      if (frame->output.has_pose) learned = frame->output.td;
+      if (frame->output.has_pose) learned = frame->output.calibration.td;
     }
   }
   return learned;

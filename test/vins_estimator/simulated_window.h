@@ -20,6 +20,7 @@ constexpr double kSimulatedFocalLength = 460;  // [px]
 // Corners and lines with a standard deviation of one pixel; fixed calibration.
 inline ProblemOptions OnePixelOptions() {
   Config config;
+  config.sensor.camera = simulator::DefaultSensors().camera;
   config.estimator.point_noise = config.estimator.line_noise = 1;
   return {config, kSimulatedFocalLength};
 }
@@ -38,6 +39,7 @@ inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, siz
   SimulatedWindow result(LocalMapOptions(kLineNoise, /*remember_lines=*/true));
   SlidingWindow& window = result.window;
   window.SetExtrinsic(flight.sensor.T_B_C);
+  window.intrinsics = flight.sensor.camera.intrinsics();
   std::vector<ImuSample> imu;
   for (size_t i = 0; i <= (frame_count - 1) * stride; ++i) {
     JoinImu(flight.frames[i].imu, &imu);

@@ -36,8 +36,8 @@ void SetLineJacobian(const Matrix23d& d_r_d_moment, const Matrix23d& d_r_d_direc
 
 }  // namespace
 
-bool LineFactor::Evaluate(double const* const* parameters, double* residuals,
-                          double** jacobians) const {
+bool LineFactor::EvaluateWithNormal(double const* const* parameters, double* residuals,
+                                    double** jacobians, Eigen::Vector2d* normal) const {
   const PoseBlock T_W_Bh(parameters[0]), T_W_Bt(parameters[1]), T_B_C(parameters[2]);
   const PluckerLine L_Ch = ToPlucker(parameters[3]);
   const PluckerLine L_Bh = ToParent(T_B_C, L_Ch);
@@ -49,6 +49,7 @@ bool LineFactor::Evaluate(double const* const* parameters, double* residuals,
   Matrix23d d_r_d_mCt;
   if (!EndPointDistances(view_, L_Ct.moment, &distances, &d_r_d_mCt)) return false;
   Vector2Map{residuals} = weight_ * distances;
+  if (normal != nullptr) *normal = L_Ct.moment.head<2>().normalized();
   if (jacobians == nullptr) return true;
 
   // Back along the chain: the derivative by each frame's moment, then by its direction, which acts
@@ -82,13 +83,14 @@ bool LineFactor::Evaluate(double const* const* parameters, double* residuals,
   return true;
 }
 
-bool LineHostFactor::Evaluate(double const* const* parameters, double* residuals,
-                              double** jacobians) const {
+bool LineHostFactor::EvaluateWithNormal(double const* const* parameters, double* residuals,
+                                        double** jacobians, Eigen::Vector2d* normal) const {
   Eigen::Vector2d distances;
   Matrix23d d_r_d_moment;
   const PluckerLine line = ToPlucker(parameters[0]);
   if (!EndPointDistances(view_, line.moment, &distances, &d_r_d_moment)) return false;
   Vector2Map{residuals} = weight_ * distances;
+  if (normal != nullptr) *normal = line.moment.head<2>().normalized();
   if (jacobians == nullptr || jacobians[0] == nullptr) return true;
   SetLineJacobian(weight_ * d_r_d_moment, Matrix23d::Zero(), parameters[0], jacobians[0]);
   return true;

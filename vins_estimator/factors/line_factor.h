@@ -18,7 +18,13 @@ class LineFactor final : public ceres::SizedCostFunction<2, 7, 7, 7, kLineSize> 
   LineFactor(const LineSegmentView& view, double weight) : view_(view), weight_(weight) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override;
+                double** jacobians) const override {
+    return EvaluateWithNormal(parameters, residuals, jacobians, nullptr);
+  }
+  // The same, with the unit normal of the line's image, by which both distances grow as their ends
+  // move; null: not wanted.
+  bool EvaluateWithNormal(double const* const* parameters, double* residuals, double** jacobians,
+                          Eigen::Vector2d* normal) const;
 
  private:
   LineSegmentView view_;
@@ -31,7 +37,12 @@ class LineHostFactor final : public ceres::SizedCostFunction<2, kLineSize> {
   LineHostFactor(const LineSegmentView& view, double weight) : view_(view), weight_(weight) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override;
+                double** jacobians) const override {
+    return EvaluateWithNormal(parameters, residuals, jacobians, nullptr);
+  }
+  // As that of LineFactor.
+  bool EvaluateWithNormal(double const* const* parameters, double* residuals, double** jacobians,
+                          Eigen::Vector2d* normal) const;
 
  private:
   LineSegmentView view_;

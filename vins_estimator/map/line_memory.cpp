@@ -54,6 +54,12 @@ void LineMemory::Join(int64_t newer, int64_t older) {
   for (const LineView& view : joined.mapped().anchor_views) KeepView(older, view);
 }
 
+void LineMemory::ChangeViews(const std::function<void(LineView*)>& change) {
+  for (auto& [id, line] : lines_) {
+    for (LineView& view : line.anchor_views) change(&view);
+  }
+}
+
 void LineMemory::RemoveAnchor(int64_t t_ns) {
   for (auto& [id, line] : lines_) RemoveViewsOf(t_ns, &line.anchor_views);
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -34,6 +35,9 @@ class LineMemory {
 
   // Two lines are one: the older takes over what is known of the newer.
   void Join(int64_t newer, int64_t older);
+
+  // Changes what anchors have seen, view by view.
+  void ChangeViews(const std::function<void(LineView*)>& change);
 
   // Forgets what an anchor has seen.
   void RemoveAnchor(int64_t t_ns);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/camera_model.h"
 #include "common/rigid3.h"
 #include "vins_estimator/geometry/timed_bearing.h"
 #include "vins_estimator/imu/preintegration.h"
@@ -37,6 +38,7 @@ struct SlidingWindow {
   std::array<double, 7> extrinsic = {0, 0, 0, 0, 0, 0, 1};  // T_B_C, laid out like FrameState::pose
   double td = 0;                                            // t_imu = t_image + td [s]
   double readout = 0;  // time of a rolling shutter, from the first row to the last [s]
+  Intrinsics intrinsics = Intrinsics::Zero();  // of the camera, which all rays were computed with
   Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  // [m/s^2]
 
   WindowFrame& newest() { return frames.back(); }

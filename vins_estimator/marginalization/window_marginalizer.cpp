@@ -71,6 +71,8 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
   const int extrinsic = options.estimate_extrinsic ? std::exchange(size, size + 6) : -1;
   const int td = options.estimate_td ? std::exchange(size, size + 1) : -1;
   const int readout = options.estimate_readout ? std::exchange(size, size + 1) : -1;
+  const int intrinsics =
+      options.estimate_intrinsics ? std::exchange(size, size + kIntrinsicsSize) : -1;
   Quadratic quadratic{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
   std::vector<MarginalizationPrior::Block> blocks;
 
@@ -94,6 +96,15 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
   if (readout >= 0) {
     blocks.push_back(MakeBlock({BlockKind::kReadout, 0}, readout, &window.readout));
     SetInformation(readout, 1, uncertainty.readout, &quadratic.H);
+  }
+  if (intrinsics >= 0) {
+    blocks.push_back(MakeBlock({BlockKind::kIntrinsics, 0}, intrinsics, window.intrinsics.data()));
+    const IntrinsicsDeviation& deviation = uncertainty.intrinsics;
+    const double f_x = window.intrinsics[0], f_y = window.intrinsics[1];
+    SetInformation(intrinsics, 1, deviation.focal_length * f_x, &quadratic.H);
+    SetInformation(intrinsics + 1, 1, deviation.focal_length * f_y, &quadratic.H);
+    SetInformation(intrinsics + 2, 2, deviation.principal_point, &quadratic.H);
+    SetInformation(intrinsics + 4, 4, deviation.distortion, &quadratic.H);
   }
   return {std::move(blocks), std::move(quadratic)};
 }

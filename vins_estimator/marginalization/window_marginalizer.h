@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "common/config.h"
 #include "vins_estimator/map/local_map.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/problem/marginalization_prior.h"
@@ -23,6 +24,7 @@ struct InitialUncertainty {
   double extrinsic_rotation = 0.02;  // [rad]
   double td = 0.01;                  // [s]
   double readout = 0.01;             // [s]
+  IntrinsicsDeviation intrinsics;
 };
 
 // The prior of a new window: its first frame is where it was put, and the calibration about right.

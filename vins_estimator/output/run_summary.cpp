@@ -17,13 +17,17 @@ Json DropsToJson(const DropCounts& drops) {
   return json;
 }
 
-Json CalibrationToJson(const Rigid3d& T_B_C, double td, double readout) {
-  const Eigen::Quaterniond& q = T_B_C.rotation;
-  const Eigen::Vector3d& p = T_B_C.translation;
-  return {{"q_B_C_xyzw", {q.x(), q.y(), q.z(), q.w()}},
+Json CalibrationToJson(const Calibration& calibration) {
+  const Eigen::Quaterniond& q = calibration.T_B_C.rotation;
+  const Eigen::Vector3d& p = calibration.T_B_C.translation;
+  const CameraParameters& camera = calibration.camera;
+  const Eigen::Vector4d& d = camera.distortion;
+  return {{"fx_fy_cx_cy_px", {camera.fx, camera.fy, camera.cx, camera.cy}},
+          {"distortion", {d[0], d[1], d[2], d[3]}},
+          {"q_B_C_xyzw", {q.x(), q.y(), q.z(), q.w()}},
           {"p_B_C_m", {p.x(), p.y(), p.z()}},
-          {"td_s", td},
-          {"rolling_shutter_tr_s", readout}};
+          {"td_s", calibration.td},
+          {"rolling_shutter_tr_s", calibration.readout}};
 }
 
 Json TimingsToJson(const std::vector<FrameTimings>& frames) {
@@ -75,9 +79,7 @@ void RunSummary::AddPose(const EstimatorOutput& output) {
   const Eigen::Vector3d position = output.state.position();
   if (last_position_) path_length_ += (position - *last_position_).norm();
   last_position_ = position;
-  T_B_C_ = output.T_B_C;
-  td_ = output.td;
-  readout_ = output.readout;
+  calibration_ = output.calibration;
 }
 
 Json RunSummary::ToJson(const Run& run) const {
@@ -106,7 +108,7 @@ Json RunSummary::ToJson(const Run& run) const {
   json["resets"] = resets_;
   json["imu_doubts"] = imu_doubts_;
   json["imu_noisy_share"] = Ratio(static_cast<double>(imu_noisy_), static_cast<double>(poses_));
-  json["calibration"] = poses_ > 0 ? CalibrationToJson(T_B_C_, td_, readout_) : Json(nullptr);
+  json["calibration"] = poses_ > 0 ? CalibrationToJson(calibration_) : Json(nullptr);
   json["timing_ms"] = TimingsToJson(timings_);
   json["counts_per_frame"] = CountsToJson(counts_);
   json["dropped"] = DropsToJson(run.drops);

@@ -22,6 +22,8 @@ class RunSummary {
 
   int64_t frames() const { return frames_; }
   int64_t poses() const { return poses_; }
+  // As of the last pose.
+  const Calibration& calibration() const { return calibration_; }
   const std::string& last_reason() const { return last_reason_; }  // why there was no pose
 
   // What the run knows beside its frames.
@@ -51,8 +53,7 @@ class RunSummary {
   int64_t manhattan_ = 0;   // poses with a Manhattan frame
   double path_length_ = 0;  // [m]
   std::optional<Eigen::Vector3d> last_position_;
-  Rigid3d T_B_C_;                // as of the last pose
-  double td_ = 0, readout_ = 0;  // [s]
+  Calibration calibration_;  // as of the last pose
   std::optional<int64_t> first_frame_ns_;
   std::optional<int64_t> first_pose_ns_;
   int64_t last_frame_ns_ = 0;

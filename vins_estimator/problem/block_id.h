@@ -6,7 +6,16 @@
 
 namespace plm_vins {
 
-enum class BlockKind : uint8_t { kPose, kMotion, kExtrinsic, kTimeOffset, kPoint, kLine, kReadout };
+enum class BlockKind : uint8_t {
+  kPose,
+  kMotion,
+  kExtrinsic,
+  kTimeOffset,
+  kPoint,
+  kLine,
+  kReadout,
+  kIntrinsics
+};
 
 // Names one variable of the estimator for good, wherever its values are stored: a frame's pose or
 // motion by the frame's stamp, a landmark by its id, the calibration by 0.

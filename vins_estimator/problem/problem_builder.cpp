@@ -6,11 +6,13 @@
 #include <utility>
 
 #include "vins_estimator/factors/imu_factor.h"
+#include "vins_estimator/factors/intrinsics_factor.h"
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/manhattan_factor.h"
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/factors/readout_factor.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
+#include "vins_estimator/problem/expected_rays.h"
 
 namespace plm_vins {
 namespace {
@@ -25,7 +27,9 @@ ProblemOptions::ProblemOptions(const Config& config, double focal_length)
     : manhattan_weight(180 / (M_PI * config.estimator.manhattan_noise)),
       estimate_extrinsic(config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed),
       estimate_td(config.sensor.estimate_td),
-      estimate_readout(config.sensor.estimate_rolling_shutter_tr) {
+      estimate_readout(config.sensor.estimate_rolling_shutter_tr),
+      estimate_intrinsics(config.sensor.estimate_intrinsics),
+      camera(config.sensor.camera) {
   SetNoise(config.estimator.point_noise / focal_length, config.estimator.line_noise / focal_length);
 }
 
@@ -40,6 +44,9 @@ ProblemBuilder::ProblemBuilder(const ProblemOptions& options, SlidingWindow* win
     : options_(options),
       window_(window),
       prior_(prior),
+      camera_(options.estimate_intrinsics
+                  ? CameraModel::Create(options.camera.With(window->intrinsics))
+                  : nullptr),
       point_loss_(options.point_loss_scale),
       line_loss_(options.line_loss_scale),
       manhattan_loss_(options.manhattan_loss_scale) {}
@@ -52,6 +59,8 @@ double* ProblemBuilder::Values(const BlockId& id) {
       return &window_->td;
     case BlockKind::kReadout:
       return &window_->readout;
+    case BlockKind::kIntrinsics:
+      return window_->intrinsics.data();
     case BlockKind::kPose:
       return window_->StateAt(id.key).pose.data();
     case BlockKind::kMotion:
@@ -92,18 +101,49 @@ void ProblemBuilder::AddMotion(size_t index) {
 }
 
 // `variables` ends in those of td and the point.
-template <typename... Indices>
-void ProblemBuilder::AddPointTerm(int landmark, std::unique_ptr<ceres::CostFunction> factor,
-                                  const TimedBearing& bearing, Indices... variables) {
+template <typename Factor, typename... Indices>
+void ProblemBuilder::AddPointTerm(int index, const PointLandmark& landmark, const PointView& view,
+                                  Indices... variables) {
+  auto factor = std::make_unique<Factor>(view.bearing, options_.point_weight);
   if (!options_.estimate_readout) {
-    problem_.AddLandmarkTerm(landmark, std::move(factor), &point_loss_, {variables...});
+    AddPointTerm(index, std::move(factor), landmark, view, variables...);
     return;
   }
   constexpr size_t kTdBlock = sizeof...(variables) - 2;
   const int readout = AddVariable({BlockKind::kReadout, 0});
-  problem_.AddLandmarkTerm(landmark,
-                           std::make_unique<ReadoutFactor>(std::move(factor), kTdBlock, bearing),
-                           &point_loss_, {variables..., readout});
+  AddPointTerm(index, std::make_unique<ReadoutFactor>(std::move(factor), kTdBlock, view.bearing),
+               landmark, view, variables..., readout);
+}
+
+template <typename... Indices>
+void ProblemBuilder::AddPointTerm(int index, std::unique_ptr<ceres::CostFunction> factor,
+                                  const PointLandmark& landmark, const PointView& view,
+                                  Indices... variables) {
+  if (!camera_) {
+    problem_.AddLandmarkTerm(index, std::move(factor), &point_loss_, {variables...});
+    return;
+  }
+  const RayShift shift(*camera_, ExpectedRay(landmark, view, *window_));
+  problem_.AddLandmarkTerm(
+      index,
+      std::make_unique<PointIntrinsicsFactor>(std::move(factor), shift, options_.point_weight),
+      &point_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});
+}
+
+template <typename Factor, typename... Indices>
+void ProblemBuilder::AddLineTerm(int index, const LineLandmark& landmark, const LineView& view,
+                                 double weight, Indices... variables) {
+  if (!camera_) {
+    problem_.AddLandmarkTerm(index, std::make_unique<Factor>(view.segment, weight), &line_loss_,
+                             {variables...});
+    return;
+  }
+  const LineSegmentView expected = ExpectedEnds(landmark, view, *window_);
+  problem_.AddLandmarkTerm(index,
+                           std::make_unique<LineIntrinsicsFactor<Factor>>(
+                               view.segment, weight, RayShift(*camera_, expected.start),
+                               RayShift(*camera_, expected.end)),
+                           &line_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});
 }
 
 void ProblemBuilder::AddPoint(PointLandmark* landmark) {
@@ -115,12 +155,11 @@ void ProblemBuilder::AddPoint(PointLandmark* landmark) {
   const PointView& host = landmark->host();
   const int host_pose = Pose(host.t_ns);
   problem_.ReserveLandmarkTerms(index, landmark->views.size());
-  AddPointTerm(index, std::make_unique<PointHostFactor>(host.bearing, options_.point_weight),
-               host.bearing, td, point);
+  AddPointTerm<PointHostFactor>(index, *landmark, host, td, point);
   for (size_t i = 1; i < landmark->views.size(); ++i) {
     const PointView& view = landmark->views[i];
-    AddPointTerm(index, std::make_unique<PointFactor>(view.bearing, options_.point_weight),
-                 view.bearing, host_pose, Pose(view.t_ns), extrinsic, td, point);
+    AddPointTerm<PointFactor>(index, *landmark, view, host_pose, Pose(view.t_ns), extrinsic, td,
+                              point);
   }
 }
 
@@ -132,12 +171,10 @@ void ProblemBuilder::AddLine(LineLandmark* landmark) {
   const LineView& host = landmark->host();
   const int host_pose = Pose(host.t_ns);
   problem_.ReserveLandmarkTerms(index, landmark->views.size() + landmark->anchor_views.size() + 1);
-  problem_.AddLandmarkTerm(index,
-                           std::make_unique<LineHostFactor>(host.segment, options_.line_weight),
-                           &line_loss_, {line});
+  AddLineTerm<LineHostFactor>(index, *landmark, host, options_.line_weight, line);
   const auto add_view = [&](const LineView& view, double weight) {
-    problem_.AddLandmarkTerm(index, std::make_unique<LineFactor>(view.segment, weight), &line_loss_,
-                             {host_pose, Pose(view.t_ns), extrinsic, line});
+    AddLineTerm<LineFactor>(index, *landmark, view, weight, host_pose, Pose(view.t_ns), extrinsic,
+                            line);
   };
   for (size_t i = 1; i < landmark->views.size(); ++i) {
     add_view(landmark->views[i], options_.line_weight);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "common/camera_model.h"
 #include "common/config.h"
 #include "vins_estimator/map/line_landmark.h"
 #include "vins_estimator/map/point_landmark.h"
@@ -37,6 +38,8 @@ struct ProblemOptions {
   bool estimate_extrinsic;
   bool estimate_td;
   bool estimate_readout;  // time of a rolling shutter
+  bool estimate_intrinsics;
+  CameraParameters camera;  // as configured
   bool first_estimate_jacobians = true;
   // Lines on its axes are held to them; none where there is no such frame.
   std::optional<Eigen::Quaterniond> R_W_M;
@@ -64,15 +67,23 @@ class ProblemBuilder {
  private:
   int AddVariable(const BlockId& id);
   double* Values(const BlockId& id);
+  template <typename Factor, typename... Indices>
+  void AddPointTerm(int index, const PointLandmark& landmark, const PointView& view,
+                    Indices... variables);
+  // The same, with the factor as it is but for the intrinsics.
   template <typename... Indices>
-  void AddPointTerm(int landmark, std::unique_ptr<ceres::CostFunction> factor,
-                    const TimedBearing& bearing, Indices... variables);
+  void AddPointTerm(int index, std::unique_ptr<ceres::CostFunction> factor,
+                    const PointLandmark& landmark, const PointView& view, Indices... variables);
+  template <typename Factor, typename... Indices>
+  void AddLineTerm(int index, const LineLandmark& landmark, const LineView& view, double weight,
+                   Indices... variables);
   int Pose(int64_t t_ns) { return AddVariable({BlockKind::kPose, t_ns}); }
   int Motion(int64_t t_ns) { return AddVariable({BlockKind::kMotion, t_ns}); }
 
   const ProblemOptions options_;
   SlidingWindow* window_;
   const MarginalizationPrior* prior_;
+  std::unique_ptr<const CameraModel> camera_;  // as it is known; null: it is not estimated
   ceres::CauchyLoss point_loss_;
   ceres::CauchyLoss line_loss_;
   ceres::TukeyLoss manhattan_loss_;

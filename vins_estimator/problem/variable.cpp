@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/camera_model.h"
 #include "vins_estimator/geometry/plucker.h"
 
 namespace plm_vins {
@@ -23,6 +24,13 @@ void PointPlus(const double* x, const double* delta, double* x_plus_delta) {
   constexpr double kMinInverseDepth = 1e-3;  // [1/m]
   VectorPlus<3>(x, delta, x_plus_delta);
   x_plus_delta[2] = std::max(x_plus_delta[2], kMinInverseDepth);
+}
+
+// Focal lengths stay positive.
+void IntrinsicsPlus(const double* x, const double* delta, double* x_plus_delta) {
+  constexpr double kMinFocalLength = 1;  // [px]
+  VectorPlus<kIntrinsicsSize>(x, delta, x_plus_delta);
+  for (int i = 0; i < 2; ++i) x_plus_delta[i] = std::max(x_plus_delta[i], kMinFocalLength);
 }
 
 template <int kSize>
@@ -52,6 +60,12 @@ const VariableType& PointVariable() {
   return type;
 }
 
+const VariableType& IntrinsicsVariable() {
+  static const VariableType type{kIntrinsicsSize, kIntrinsicsSize, &IntrinsicsPlus,
+                                 &VectorMinus<kIntrinsicsSize>};
+  return type;
+}
+
 const VariableType& LineVariable() {
   static const VariableType type{kLineSize, kLineTangentSize, &LinePlus, &LineMinus};
   return type;
@@ -68,6 +82,8 @@ const VariableType& VariableTypeOf(BlockKind kind) {
       return PointVariable();
     case BlockKind::kLine:
       return LineVariable();
+    case BlockKind::kIntrinsics:
+      return IntrinsicsVariable();
     default:
       return ScalarVariable();
   }

@@ -21,7 +21,8 @@ const VariableType& PoseVariable();    // 7 -> 6
 const VariableType& MotionVariable();  // 9, vector space
 const VariableType& ScalarVariable();  // 1, vector space: time offset
 const VariableType& PointVariable();   // 3, vector space: image point and inverse depth in a host
-const VariableType& LineVariable();    // 5 -> 4: orthonormal representation (geometry/plucker.h)
+const VariableType& IntrinsicsVariable();  // 8, vector space: of the camera
+const VariableType& LineVariable();  // 5 -> 4: orthonormal representation (geometry/plucker.h)
 
 const VariableType& VariableTypeOf(BlockKind kind);
 

@@ -19,7 +19,7 @@ class MarginalizationPrior;
 // One term 0.5 rho(|r|^2) of the cost. Jacobians of the cost function follow factors/manifolds.h:
 // taken in the tangent space and padded with zero columns to the ambient size.
 struct ResidualTerm {
-  static constexpr int kMaxVariables = 6;
+  static constexpr int kMaxVariables = 7;
 
   std::unique_ptr<const ceres::CostFunction> cost;
   const ceres::LossFunction* loss = nullptr;      // null: squared

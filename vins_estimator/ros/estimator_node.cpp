@@ -34,6 +34,7 @@ EstimatorNode::EstimatorNode(const Config& config)
     : config_(config),
       queue_(kQueueCapacity),
       propagation_(config, private_node_),
+      calibration_(config),
       file_at_end_(private_node_.hasParam("trajectory_file") ? TrajectoryFile() : ""),
       diagnostics_(config, kPointTopic, kLineTopic),
       stage_(config, kMaxWait),
@@ -66,7 +67,7 @@ EstimatorNode::~EstimatorNode() {
   worker_.join();
   if (file_at_end_.empty() || trajectory_.empty()) return;
   try {
-    trajectory_.Save(file_at_end_);
+    Save(file_at_end_);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM(error.what());
   }
@@ -132,7 +133,7 @@ bool EstimatorNode::SaveTrajectory(std_srvs::Trigger::Request&,
                                    std_srvs::Trigger::Response& response) {
   const std::string file = TrajectoryFile();
   try {
-    const size_t poses = trajectory_.Save(file);
+    const size_t poses = Save(file);
     response.success = true;
     response.message = std::to_string(poses) + " poses saved to " + file;
   } catch (const std::runtime_error& error) {
@@ -145,6 +146,12 @@ bool EstimatorNode::SaveTrajectory(std_srvs::Trigger::Request&,
 std::string EstimatorNode::TrajectoryFile() const {
   const auto file = private_node_.param<std::string>("trajectory_file", "trajectory.tum");
   return std::filesystem::absolute(file).string();
+}
+
+size_t EstimatorNode::Save(const std::string& trajectory_file) const {
+  const size_t poses = trajectory_.Save(trajectory_file);
+  calibration_.Save(std::filesystem::path(trajectory_file).parent_path().string());
+  return poses;
 }
 
 void EstimatorNode::Work() {
@@ -199,7 +206,10 @@ void EstimatorNode::Handle(const EstimatedFrame& frame) {
   propagation_.SetEstimate(frame);
   publisher_.Publish(frame);
   if (output.restarted) trajectory_.BeginWorld(output.reason);
-  if (output.has_pose) trajectory_.Add(output.t_ns, output.state.T_W_B());
+  if (output.has_pose) {
+    trajectory_.Add(output.t_ns, output.state.T_W_B());
+    calibration_.Set(output.calibration);
+  }
   LogChanges(output);
   LogLines();
   if (config_.estimator.verbose) LogFrame(output);

@@ -19,6 +19,7 @@
 #include "common/feature_ids.h"
 #include "common/ros/node_setup.h"
 #include "vins_estimator/estimation_stage.h"
+#include "vins_estimator/ros/calibration_log.h"
 #include "vins_estimator/ros/estimator_diagnostics.h"
 #include "vins_estimator/ros/output_publisher.h"
 #include "vins_estimator/ros/propagation_publisher.h"
@@ -33,8 +34,8 @@ namespace plm_vins {
 // that the newest one has its turn.
 //
 // Services: ~reset starts over; ~save_trajectory writes the poses so far to ~trajectory_file
-// (default trajectory.tum in the node's working folder), as the end of the node does where that
-// parameter is set.
+// (default trajectory.tum in the node's working folder), and beside it calibrated.yaml where the
+// calibration is refined, as the end of the node does where that parameter is set.
 class EstimatorNode {
  public:
   explicit EstimatorNode(const Config& config);
@@ -64,6 +65,8 @@ class EstimatorNode {
   bool Reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool SaveTrajectory(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   std::string TrajectoryFile() const;
+  // Returns the number of poses; throws std::runtime_error where a file cannot be written.
+  size_t Save(const std::string& trajectory_file) const;
 
   // In the worker thread.
   void Work();
@@ -83,6 +86,7 @@ class EstimatorNode {
   BoundedQueue<Input> queue_;
   PropagationPublisher propagation_;
   TrajectoryLog trajectory_;
+  CalibrationLog calibration_;
   std::string file_at_end_;  // empty: none
   EstimatorDiagnostics diagnostics_;
   FeatureSource point_source_;

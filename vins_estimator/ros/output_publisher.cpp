@@ -87,14 +87,14 @@ void OutputPublisher::Publish(const EstimatedFrame& frame) {
 
   const int64_t t_ns = output.t_ns;
   const std::string& world = frames_.world_frame;
-  const Rigid3d T_W_C = output.state.T_W_B() * output.T_B_C;
+  const Rigid3d T_W_C = output.state.T_W_B() * output.calibration.T_B_C;
   odometry_.publish(ToOdometry(output.state, CovarianceOf(frame), frame.angular_velocity, frames_));
   PublishPath(output.state);
   PublishTransforms(output);
   PublishIfWanted(camera_pose_,
                   [&] { return ToOdometry(t_ns, T_W_C, world, frames_.camera_frame); });
   PublishIfWanted(extrinsic_, [&] {
-    return ToOdometry(t_ns, output.T_B_C, frames_.body_frame, frames_.camera_frame);
+    return ToOdometry(t_ns, output.calibration.T_B_C, frames_.body_frame, frames_.camera_frame);
   });
   PublishIfWanted(key_poses_, [&] { return ToKeyPoses(output.window, t_ns, world); });
   PublishIfWanted(point_cloud_, [&] { return ToPointCloud(output.points, t_ns, world); });
@@ -179,7 +179,7 @@ std::vector<geometry_msgs::TransformStamped> OutputPublisher::BodyTransforms(
   const Rigid3d T_W_B = output.state.T_W_B();
   if (!base_) {
     return {ToStamped(output.t_ns, T_W_B, world, body),
-            ToStamped(output.t_ns, output.T_B_C, body, frames_.camera_frame)};
+            ToStamped(output.t_ns, output.calibration.T_B_C, body, frames_.camera_frame)};
   }
   const auto T_body_base = base_->Locate();
   if (!T_body_base) return {};

@@ -22,7 +22,7 @@ void PropagationPublisher::SetEstimate(const EstimatedFrame& frame) {
   const EstimatorOutput& output = frame.output;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!output.has_pose) return propagator_.Clear();
-  propagator_.Reset(output.state, output.t_ns + ToNanoseconds(output.td));
+  propagator_.Reset(output.state, output.t_ns + ToNanoseconds(output.calibration.td));
   covariance_ = CovarianceOf(frame);
 }
 
@@ -34,7 +34,7 @@ void PropagationPublisher::Clear() {
 double PropagationPublisher::Age(const EstimatorOutput& output) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto newest_ns = propagator_.newest_ns();
-  return newest_ns ? ToSeconds(*newest_ns - output.t_ns) - output.td : 0;
+  return newest_ns ? ToSeconds(*newest_ns - output.t_ns) - output.calibration.td : 0;
 }
 
 }  // namespace plm_vins

@@ -97,7 +97,7 @@ TEST(ExtrinsicCalibratorTest, EstimatorStartsWithoutAnyCameraPose) {
     EXPECT_GT(i, 80u);
     estimate.col(poses) = output.state.position();
     truth.col(poses++) = flight.truth[i].position();
-    T_B_C = output.T_B_C;
+    T_B_C = output.calibration.T_B_C;
   }
   ASSERT_GT(poses, 100);
   EXPECT_LT(AbsoluteError(estimate.leftCols(poses), truth.leftCols(poses)), 0.03);

@@ -54,6 +54,18 @@ TEST_F(LineMemoryTest, KnowsWhatItWasToldAlone) {
   EXPECT_EQ(memory_.Find(4), nullptr);
 }
 
+TEST_F(LineMemoryTest, LetsAllThatAnchorsSawBeChanged) {
+  memory_.Keep(3, LineAlongX(1, 2));
+  memory_.Keep(4, LineAlongX(1, 2));
+  memory_.KeepView(3, ViewAt(10));
+  memory_.KeepView(3, ViewAt(20));
+  memory_.KeepView(4, ViewAt(20));
+  memory_.ChangeViews([](LineView* view) { view->segment.end.x() += 2; });
+  for (const auto& [id, line] : memory_.lines()) {
+    for (const LineView& view : line.anchor_views) EXPECT_EQ(view.segment.end.x(), 2);
+  }
+}
+
 TEST_F(LineMemoryTest, JoinsThePartsThatWereSeen) {
   memory_.Keep(3, LineAlongX(1, 2));
   memory_.Keep(3, LineAlongX(1.5, 3));

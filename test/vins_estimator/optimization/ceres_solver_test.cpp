@@ -28,7 +28,7 @@ class CeresSolverTest : public ::testing::TestWithParam<bool> {
       : estimate_(testing::SimulateWindow(7, /*seed=*/1, /*stride=*/5, /*max_points=*/60)),
         random_(1) {
     options_.first_estimate_jacobians = GetParam();
-    options_.estimate_extrinsic = options_.estimate_td = true;
+    options_.estimate_extrinsic = options_.estimate_td = options_.estimate_intrinsics = true;
     options_.R_W_M = Eigen::Quaterniond::Identity();
     NameAxes();
     estimate_.prior = InitialPrior(InitialUncertainty(), options_, estimate_.map.window);
@@ -123,16 +123,17 @@ TEST_P(CeresSolverTest, IsBoundedByIterations) {
 // Ceres orders the variables to eliminate by their addresses.
 TEST_P(CeresSolverTest, GivesTheSameBytesWhereverTheValuesAre) {
   Disturb(0.01);
+  Build();
   const std::vector<double> start = testing::CopyValues(problem());
   SolveByCeres(SolverOptions(), problem());
   const std::vector<double> expected = testing::CopyValues(problem());
 
+  testing::RestoreValues(start, problem());
   auto& landmarks = estimate_.map.points.landmarks();
   std::remove_reference_t<decltype(landmarks)> moved;
   for (auto it = landmarks.rbegin(); it != landmarks.rend(); ++it) moved.insert(*it);
   landmarks.swap(moved);
   Build();
-  testing::RestoreValues(start, problem());
   SolveByCeres(SolverOptions(), problem());
   EXPECT_EQ(testing::CopyValues(problem()), expected);
 }

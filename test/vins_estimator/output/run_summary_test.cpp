@@ -80,9 +80,12 @@ TEST(RunSummary, TellsTheLastCalibration) {
   RunSummary summary;
   summary.Add(Pose(0, 0), {}, {});
   EstimatorOutput refined = Pose(1, 0);
-  refined.T_B_C = {Eigen::Quaterniond(0, 1, 0, 0), {0.1, 0.2, 0.3}};
-  refined.td = 0.004;
-  refined.readout = 0.03;
+  refined.calibration.T_B_C = {Eigen::Quaterniond(0, 1, 0, 0), {0.1, 0.2, 0.3}};
+  refined.calibration.td = 0.004;
+  refined.calibration.readout = 0.03;
+  Intrinsics intrinsics;
+  intrinsics << 460, 461, 370, 240, -0.3, 0.1, 0.01, 0.02;
+  refined.calibration.camera = refined.calibration.camera.With(intrinsics);
   summary.Add(refined, {}, {});
   summary.Add(NoPose(2, "lost"), {}, {});
   const auto calibration = summary.ToJson({})["calibration"];
@@ -90,6 +93,10 @@ TEST(RunSummary, TellsTheLastCalibration) {
             (std::vector<double>{1, 0, 0, 0}));
   EXPECT_EQ(calibration["p_B_C_m"].get<std::vector<double>>(),
             (std::vector<double>{0.1, 0.2, 0.3}));
+  EXPECT_EQ(calibration["fx_fy_cx_cy_px"].get<std::vector<double>>(),
+            (std::vector<double>{460, 461, 370, 240}));
+  EXPECT_EQ(calibration["distortion"].get<std::vector<double>>(),
+            (std::vector<double>{-0.3, 0.1, 0.01, 0.02}));
   EXPECT_EQ(calibration["td_s"], 0.004);
   EXPECT_EQ(calibration["rolling_shutter_tr_s"], 0.03);
   EXPECT_TRUE(RunSummary().ToJson({})["calibration"].is_null());

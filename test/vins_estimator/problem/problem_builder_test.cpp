@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -169,6 +170,35 @@ TEST_F(ProblemBuilderTest, TheReadoutTimeIsAVariableWhereItIsEstimated) {
     EXPECT_EQ(builder.problem().Find({BlockKind::kReadout, 0}) >= 0, readout);
     EXPECT_EQ(NormalEquations(builder.problem()).dense_size(), 18 + readout);
   }
+}
+
+TEST_F(ProblemBuilderTest, TheIntrinsicsAreAVariableOfPointsAndLinesWhereTheyAreEstimated) {
+  for (const bool intrinsics : {false, true}) {
+    options_.estimate_intrinsics = intrinsics;
+    ProblemBuilder points(options_, &window(), &no_prior_), lines(options_, &window(), &no_prior_);
+    points.AddPoint(LongestTrack());
+    lines.AddLine(LongestLineTrack());
+    for (const ProblemBuilder* builder : {&points, &lines}) {
+      const WindowProblem& problem = builder->problem();
+      const int variable = problem.Find({BlockKind::kIntrinsics, 0});
+      EXPECT_EQ(variable >= 0, intrinsics);
+      EXPECT_EQ(NormalEquations(problem).dense_size(), 18 + 8 * intrinsics);
+      for (const ResidualTerm& term : problem.landmarks()[0].terms) {
+        const auto last = term.variables.begin() + term.variable_count;
+        EXPECT_EQ(std::find(term.variables.begin(), last, variable) != last, intrinsics);
+      }
+    }
+  }
+}
+
+TEST_F(ProblemBuilderTest, ReadoutTimeAndIntrinsicsGoTogether) {
+  options_.estimate_td = options_.estimate_readout = options_.estimate_intrinsics = true;
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  builder.AddPoint(LongestTrack());
+  EXPECT_EQ(builder.problem().landmarks()[0].terms[1].variable_count, 7);
+  NormalEquations equations(builder.problem());
+  EXPECT_EQ(equations.dense_size(), 18 + 1 + 1 + 8);
+  EXPECT_TRUE(std::isfinite(equations.Linearize()));
 }
 
 TEST_F(ProblemBuilderTest, VariablesOfThePriorAreLinearisedThere) {

@@ -5,21 +5,23 @@
 
 #include <Eigen/Core>
 
+#include "common/camera_model.h"
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_window.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr BlockKind kKinds[] = {BlockKind::kPose,       BlockKind::kMotion, BlockKind::kExtrinsic,
-                                BlockKind::kTimeOffset, BlockKind::kPoint,  BlockKind::kLine,
-                                BlockKind::kReadout};
+constexpr BlockKind kKinds[] = {
+    BlockKind::kPose,  BlockKind::kMotion, BlockKind::kExtrinsic, BlockKind::kTimeOffset,
+    BlockKind::kPoint, BlockKind::kLine,   BlockKind::kReadout,   BlockKind::kIntrinsics};
 
 // Values that are well inside the domain of every kind.
 Eigen::VectorXd SomeValues(BlockKind kind, simulator::Random* random) {
   Eigen::VectorXd values = testing::NormalVector(VariableTypeOf(kind).ambient_size, random);
   if (values.size() == 7) values.tail<4>().normalize();
   if (kind == BlockKind::kPoint) values[2] = 5.0;
+  if (kind == BlockKind::kIntrinsics) values.head<4>().array() += 400;
   if (kind == BlockKind::kLine) {
     values.head<4>().normalize();
     values[4] = 0.5;
@@ -73,6 +75,18 @@ TEST(Variable, PointsStayInFrontOfTheirHost) {
     EXPECT_GT(moved[2], 0) << step;
     EXPECT_MATRIX_NEAR(moved.head<2>(), Eigen::Vector2d(0.4, 0.6), 1e-15);
   }
+}
+
+TEST(Variable, FocalLengthsStayPositive) {
+  Intrinsics intrinsics;
+  intrinsics << 400, 401, 320, 240, 0.1, 0.2, 0.3, 0.4;
+  Intrinsics step = Intrinsics::Ones();
+  step.head<2>() << -500, -401;
+  Intrinsics moved;
+  IntrinsicsVariable().plus(intrinsics.data(), step.data(), moved.data());
+  EXPECT_GT(moved[0], 0);
+  EXPECT_GT(moved[1], 0);
+  EXPECT_MATRIX_NEAR(moved.tail<6>(), (intrinsics + step).tail<6>(), 1e-12);
 }
 
 }  // namespace

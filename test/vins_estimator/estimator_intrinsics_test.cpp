@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wrong intrinsics are found in flight, and then cost little.
+#include <gtest/gtest.h>
+
+#include "test/vins_estimator/estimated_flight.h"
+#include "vins_estimator/map/recalibration.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::EstimatedFlight;
+using testing::SimulatedFlight;
+
+constexpr uint64_t kSeeds = 3;
+
+simulator::FeatureSimulationOptions Options(uint64_t seed) {
+  auto options = testing::FlightOptions(simulator::Motion::kFast, seed);
+  options.trajectory.duration = 15;
+  options.max_points = 80;
+  return options;
+}
+
+// The flight as trackers with a wrong calibration see it: focal lengths off by 1 %, the principal
+// point by 5 px.
+SimulatedFlight WithWrongIntrinsics(SimulatedFlight flight) {
+  const CameraParameters truth = flight.sensor.camera;
+  CameraParameters& wrong = flight.sensor.camera;
+  wrong.fx *= 1.01;
+  wrong.fy *= 1.01;
+  wrong.cx += 5;
+  wrong.cy -= 5;
+  const Recalibration recalibration(truth, wrong);
+  for (FrameMeasurement& frame : flight.frames) recalibration.Move(&frame);
+  return flight;
+}
+
+void ExpectIntrinsics(const CameraParameters& found, const CameraParameters& truth) {
+  EXPECT_NEAR(found.fx / truth.fx, 1, 0.001);
+  EXPECT_NEAR(found.fy / truth.fy, 1, 0.001);
+  EXPECT_NEAR(found.cx, truth.cx, 1);
+  EXPECT_NEAR(found.cy, truth.cy, 1);
+}
+
+EstimatedFlight Fly(const SimulatedFlight& simulated) {
+  const EstimatedFlight flight = testing::Estimate(simulated);
+  EXPECT_TRUE(flight.restarts.empty());
+  EXPECT_GT(flight.truth.size(), 230u) << "late start";
+  return flight;
+}
+
+TEST(EstimatorIntrinsicsTest, AreFoundInFlight) {
+  double right = 0, wrong = 0, found = 0;
+  for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const SimulatedFlight simulated = testing::SimulateFlight(Options(seed));
+    right += testing::AbsoluteError(Fly(simulated)) / kSeeds;
+    SimulatedFlight spoiled = WithWrongIntrinsics(simulated);
+    wrong += testing::AbsoluteError(Fly(spoiled)) / kSeeds;
+    spoiled.sensor.estimate_intrinsics = true;
+    const EstimatedFlight flight = Fly(spoiled);
+    found += testing::AbsoluteError(flight) / kSeeds;
+    ExpectIntrinsics(flight.outputs.back().calibration.camera, simulated.sensor.camera);
+  }
+  EXPECT_LT(found, 1.3 * right);
+  EXPECT_GT(wrong, 3 * found);
+}
+
+TEST(EstimatorIntrinsicsTest, AreFoundWithARollingShutter) {
+  auto options = Options(1);
+  options.sensors.rolling_shutter = true;
+  options.sensors.rolling_shutter_tr = 0.03;
+  const SimulatedFlight simulated = testing::SimulateFlight(options);
+  SimulatedFlight spoiled = WithWrongIntrinsics(simulated);
+  spoiled.sensor.estimate_intrinsics = true;
+  spoiled.sensor.rolling_shutter_tr = 0.025;
+  spoiled.sensor.estimate_rolling_shutter_tr = true;
+  const Calibration found = Fly(spoiled).outputs.back().calibration;
+  ExpectIntrinsics(found.camera, simulated.sensor.camera);
+  EXPECT_NEAR(found.readout, 0.03, 0.001);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/factors/intrinsics_factor.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "common/so3.h"
+#include "simulator/default_sensors.h"
+#include "test/testing/cost_function_check.h"
+#include "vins_estimator/factors/line_factor.h"
+#include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/factors/readout_factor.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using testing::Block;
+
+constexpr double kWeight = 2;
+
+// The camera that the rays were computed with, and intrinsics near its own.
+class IntrinsicsFactorTest : public ::testing::Test {
+ protected:
+  IntrinsicsFactorTest() : identity_(Block::Zero(7)), turned_(7), intrinsics_(kIntrinsicsSize) {
+    identity_[6] = 1;
+    turned_ << 0.3, -0.1, 0.2, SO3Exp(Vector3d(0.05, -0.02, 0.03)).coeffs();
+    intrinsics_ << 1, -2, 3, -4, 0.01, -0.01, 0.001, -0.001;
+    intrinsics_ += camera_->parameters().intrinsics();
+  }
+
+  static Block Scalar(double value) { return Block::Constant(1, value); }
+
+  Block LineBlock() const {
+    const OrthonormalLine line = ToOrthonormal(LineThrough({0.4, -0.8, 4}, {-1, 0.8, 5}));
+    return Eigen::Map<const Eigen::Matrix<double, kLineSize, 1>>(line.data());
+  }
+
+  PointIntrinsicsFactor Point(std::unique_ptr<const ceres::CostFunction> factor) const {
+    return {std::move(factor), RayShift(*camera_, bearing_.xy), kWeight};
+  }
+
+  template <typename Factor>
+  LineIntrinsicsFactor<Factor> Line() const {
+    return {view_, kWeight, RayShift(*camera_, view_.start), RayShift(*camera_, view_.end)};
+  }
+
+  // Where other intrinsics, with which the pixel of xy stays, see it.
+  Vector2d Recalibrated(const Vector2d& xy, const Block& intrinsics) const {
+    const auto other = CameraModel::Create(camera_->parameters().With(Intrinsics(intrinsics)));
+    return *other->Unproject(*camera_->Project(xy.homogeneous()));
+  }
+
+  const std::unique_ptr<const CameraModel> camera_ =
+      CameraModel::Create(simulator::DefaultSensors().camera);
+  const TimedBearing bearing_{{0.1, -0.2}, {1, 2}, 0.01, 0.4, 0.02};
+  const LineSegmentView view_{{0.1, -0.2}, {-0.2, 0.15}};
+  const Block point_ = Vector3d(0.12, -0.23, 0.5);
+  Block identity_, turned_, intrinsics_;
+};
+
+TEST_F(IntrinsicsFactorTest, AtTheIntrinsicsOfTheRaysIsTheFactorItself) {
+  const Block reference = camera_->parameters().intrinsics();
+  const auto point = Point(std::make_unique<PointHostFactor>(bearing_, kWeight));
+  EXPECT_MATRIX_NEAR(testing::Residual(point, {Scalar(0.02), point_, reference}),
+                     testing::Residual(PointHostFactor(bearing_, kWeight), {Scalar(0.02), point_}),
+                     1e-12);
+  const auto line = Line<LineHostFactor>();
+  EXPECT_MATRIX_NEAR(testing::Residual(line, {LineBlock(), reference}),
+                     testing::Residual(LineHostFactor(view_, kWeight), {LineBlock()}), 1e-12);
+}
+
+TEST_F(IntrinsicsFactorTest, SeesTheSamePixelsWithOtherIntrinsics) {
+  const Block near =
+      camera_->parameters().intrinsics() + 0.1 * (intrinsics_ - camera_->parameters().intrinsics());
+  TimedBearing moved_bearing = bearing_;
+  moved_bearing.xy = Recalibrated(bearing_.xy, near);
+  const auto point = Point(std::make_unique<PointHostFactor>(bearing_, kWeight));
+  EXPECT_MATRIX_NEAR(
+      testing::Residual(point, {Scalar(0.02), point_, near}),
+      testing::Residual(PointHostFactor(moved_bearing, kWeight), {Scalar(0.02), point_}), 1e-5);
+  const LineSegmentView moved_view{Recalibrated(view_.start, near), Recalibrated(view_.end, near)};
+  const auto line = Line<LineHostFactor>();
+  EXPECT_MATRIX_NEAR(testing::Residual(line, {LineBlock(), near}),
+                     testing::Residual(LineHostFactor(moved_view, kWeight), {LineBlock()}), 1e-5);
+}
+
+TEST_F(IntrinsicsFactorTest, HasExactJacobiansForPoints) {
+  const auto host = Point(std::make_unique<PointHostFactor>(bearing_, kWeight));
+  testing::ExpectTangentJacobians(host, {Scalar(0.03), point_, intrinsics_}, 1e-7);
+  const auto target = Point(std::make_unique<PointFactor>(bearing_, kWeight));
+  testing::ExpectTangentJacobians(
+      target, {identity_, turned_, identity_, Scalar(0.03), point_, intrinsics_}, 1e-7);
+}
+
+TEST_F(IntrinsicsFactorTest, HasExactJacobiansWithARollingShutter) {
+  const auto factor = Point(std::make_unique<ReadoutFactor>(
+      std::make_unique<PointFactor>(bearing_, kWeight), /*td_block=*/3, bearing_));
+  testing::ExpectTangentJacobians(
+      factor, {identity_, turned_, identity_, Scalar(0.03), point_, Scalar(0.04), intrinsics_},
+      1e-7);
+}
+
+TEST_F(IntrinsicsFactorTest, HasExactJacobiansForLines) {
+  const auto host = Line<LineHostFactor>();
+  testing::ExpectTangentJacobians(host, {LineBlock(), intrinsics_}, 1e-6);
+  const auto target = Line<LineFactor>();
+  testing::ExpectTangentJacobians(target, {identity_, turned_, identity_, LineBlock(), intrinsics_},
+                                  1e-6);
+}
+
+TEST_F(IntrinsicsFactorTest, ARayThatTheCameraDoesNotSeeStays) {
+  CameraParameters folded = camera_->parameters();
+  folded.distortion = {-0.4, 0, 0, 0};  // up to a radius of 0.91
+  const RayShift shift(*CameraModel::Create(folded), Vector2d(0.9, 0.9));
+  EXPECT_EQ(shift.At(intrinsics_.data()), Vector2d(0, 0));
+}
+
+TEST_F(IntrinsicsFactorTest, FailsWhereTheFactorFails) {
+  const auto line = Line<LineHostFactor>();
+  const OrthonormalLine nowhere = ToOrthonormal({{0, 0, 1}, {1, 0, 0}});  // at infinity
+  const Block block = Eigen::Map<const Eigen::Matrix<double, kLineSize, 1>>(nowhere.data());
+  Vector2d residual;
+  const std::vector<Block> blocks = {block, intrinsics_};
+  EXPECT_FALSE(line.Evaluate(testing::Pointers(blocks).data(), residual.data(), nullptr));
+}
+
+}  // namespace
+}  // namespace plm_vins

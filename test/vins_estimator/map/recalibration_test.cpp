@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/map/recalibration.h"
+
+#include <gtest/gtest.h>
+
+#include "simulator/default_sensors.h"
+#include "test/testing/numeric_jacobian.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Vector2d;
+
+class RecalibrationTest : public ::testing::Test {
+ protected:
+  static CameraParameters Other() {
+    CameraParameters camera = simulator::DefaultSensors().camera;
+    camera.fx *= 1.02;
+    camera.cy += 7;
+    camera.distortion[0] += 0.01;
+    return camera;
+  }
+
+  // Where the other camera sees what the first sees at xy.
+  Vector2d Expected(const Vector2d& xy) const {
+    return *to_->Unproject(*from_->Project(xy.homogeneous()));
+  }
+
+  const std::unique_ptr<const CameraModel> from_ =
+      CameraModel::Create(simulator::DefaultSensors().camera);
+  const std::unique_ptr<const CameraModel> to_ = CameraModel::Create(Other());
+  const Recalibration recalibration_{simulator::DefaultSensors().camera, Other()};
+};
+
+TEST_F(RecalibrationTest, SeesTheSamePixels) {
+  Vector2d xy(0.4, -0.3);
+  recalibration_.Move(&xy);
+  EXPECT_MATRIX_NEAR(xy, Expected({0.4, -0.3}), 1e-12);
+  EXPECT_GT((xy - Vector2d(0.4, -0.3)).norm(), 0.005);
+}
+
+TEST_F(RecalibrationTest, MovesVelocitiesAlong) {
+  const Vector2d before(0.4, -0.3), velocity_before(1, -2);
+  Vector2d xy = before, velocity = velocity_before;
+  recalibration_.Move(&xy, &velocity);
+  const auto expected = [this](const Vector2d& x) { return Expected(x); };
+  EXPECT_MATRIX_NEAR(velocity, testing::NumericJacobian(expected, before) * velocity_before, 1e-8);
+}
+
+TEST_F(RecalibrationTest, LeavesARayThatNobodySees) {
+  const Vector2d beyond(0.9, 0.9);
+  CameraParameters folded = Other();
+  folded.distortion = {-0.4, 0, 0, 0};  // up to a radius of 0.91
+  ASSERT_FALSE(CameraModel::Create(folded)->Project(beyond.homogeneous()));
+  Vector2d xy = beyond, velocity(1, 2);
+  Recalibration(folded, Other()).Move(&xy, &velocity);
+  EXPECT_EQ(xy, beyond);
+  EXPECT_EQ(velocity, Vector2d(1, 2));
+}
+
+TEST_F(RecalibrationTest, MovesAllRaysOfAnImage) {
+  FrameMeasurement measurement;
+  measurement.points.points = {{1, {0.1, 0.2}, {300, 200}, {1, 0}}};
+  recalibration_.Move(&measurement);  // without lines
+  const PointObservation& point = measurement.points.points[0];
+  EXPECT_MATRIX_NEAR(point.xy, Expected({0.1, 0.2}), 1e-12);
+  EXPECT_EQ(point.uv_px, Vector2d(300, 200));
+  EXPECT_NE(point.velocity, Vector2d(1, 0));
+
+  measurement.lines = LineFrame{0, {{1, {0.1, 0.2}, {-0.3, 0.4}}}};
+  recalibration_.Move(&measurement);
+  EXPECT_MATRIX_NEAR(measurement.lines->lines[0].start, Expected({0.1, 0.2}), 1e-12);
+  EXPECT_MATRIX_NEAR(measurement.lines->lines[0].end, Expected({-0.3, 0.4}), 1e-12);
+}
+
+TEST_F(RecalibrationTest, MovesAllRaysOfAMap) {
+  const LineView view{7, {{0.1, 0.2}, {-0.3, 0.4}}};
+  LocalMap map(LocalMapOptions(0.001, /*remember_lines=*/true));
+  PointLandmark& point = map.points.landmarks()[1];
+  point.views.resize(2);
+  point.views[1].bearing.xy = {0.1, 0.2};
+  LineLandmark& line = map.lines.landmarks()[2];
+  line.views = line.anchor_views = {view};
+  map.memory.Keep(3, SeenLine());
+  map.memory.KeepView(3, view);
+
+  recalibration_.Move(&map);
+  EXPECT_MATRIX_NEAR(point.views[0].bearing.xy, Expected({0, 0}), 1e-12);
+  EXPECT_MATRIX_NEAR(point.views[1].bearing.xy, Expected({0.1, 0.2}), 1e-12);
+  for (const LineView& moved :
+       {line.views[0], line.anchor_views[0], map.memory.Find(3)->anchor_views[0]}) {
+    EXPECT_MATRIX_NEAR(moved.segment.start, Expected({0.1, 0.2}), 1e-12);
+    EXPECT_MATRIX_NEAR(moved.segment.end, Expected({-0.3, 0.4}), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/output/calibrated_config.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "test/testing/numeric_jacobian.h"
+#include "test/testing/temporary_folder.h"
+
+namespace plm_vins {
+namespace {
+
+using Mode = SensorConfig::ExtrinsicMode;
+
+Calibration SomeCalibration() {
+  Calibration calibration;
+  calibration.camera.width = 640;
+  calibration.camera.height = 480;
+  Intrinsics intrinsics;
+  intrinsics << 401, 402, 321, 241, -0.3, 0.1, 0.001, 0.002;
+  calibration.camera = calibration.camera.With(intrinsics);
+  calibration.T_B_C = {Eigen::Quaterniond(0.8, 0, 0.6, 0), {0.1, 0.2, 0.3}};
+  calibration.td = 0.004;
+  calibration.readout = 0.03;
+  return calibration;
+}
+
+TEST(CalibratedConfig, IsWantedWhereAnythingIsRefined) {
+  EXPECT_FALSE(RefinesCalibration({}));
+  SensorConfig sensors[4];
+  sensors[0].estimate_intrinsics = true;
+  sensors[1].estimate_td = true;
+  sensors[2].estimate_rolling_shutter_tr = true;
+  sensors[3].estimate_extrinsic = Mode::kCalibrateRotation;
+  for (const SensorConfig& sensor : sensors) EXPECT_TRUE(RefinesCalibration(sensor));
+}
+
+TEST(CalibratedConfig, RunsAsItIs) {
+  const testing::TemporaryFolder folder;
+  Config config;
+  config.points.fisheye = false;  // as the loader leaves it without a mask
+  config.estimator.window_size = 12;
+  config.sensor.rolling_shutter = true;
+  SaveCalibratedConfig(SomeCalibration(), config, folder.File("calibrated.yaml"));
+  const Config read = LoadConfig(folder.File("calibrated.yaml"));
+  EXPECT_EQ(read.estimator.window_size, 12);
+  EXPECT_EQ(read.sensor.camera.intrinsics(), SomeCalibration().camera.intrinsics());
+  EXPECT_MATRIX_NEAR(read.sensor.T_B_C.R(), SomeCalibration().T_B_C.R(), 1e-10);
+  EXPECT_EQ(read.sensor.T_B_C.translation, SomeCalibration().T_B_C.translation);
+  EXPECT_EQ(read.sensor.td, 0.004);
+  EXPECT_EQ(read.sensor.rolling_shutter_tr, 0.03);
+}
+
+TEST(CalibratedConfig, LeavesWhatAGlobalShutterDoesNotUse) {
+  Config config;
+  config.sensor.rolling_shutter_tr = 0.02;
+  EXPECT_EQ(WithCalibration(SomeCalibration(), config).sensor.rolling_shutter_tr, 0.02);
+}
+
+TEST(CalibratedConfig, KnowsTheRotationThatWasUnknown) {
+  Config config;
+  for (const Mode mode : {Mode::kFixed, Mode::kRefine}) {
+    config.sensor.estimate_extrinsic = mode;
+    EXPECT_EQ(WithCalibration(SomeCalibration(), config).sensor.estimate_extrinsic, mode);
+  }
+  config.sensor.estimate_extrinsic = Mode::kCalibrateRotation;
+  EXPECT_EQ(WithCalibration(SomeCalibration(), config).sensor.estimate_extrinsic, Mode::kRefine);
+}
+
+TEST(CalibratedConfig, SaysWhereItCannotBeWritten) {
+  const testing::TemporaryFolder folder;
+  EXPECT_THROW(SaveCalibratedConfig({}, Config(), folder.File("none/calibrated.yaml")),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/problem/expected_rays.h"
+
+#include <gtest/gtest.h>
+
+#include "test/testing/numeric_jacobian.h"
+#include "vins_estimator/map/line_map.h"
+#include "vins_estimator/map/point_map.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// Two cameras, half a metre apart; the second is frame 2.
+SlidingWindow TwoFrames() {
+  SlidingWindow window;
+  window.frames.resize(2);
+  window.frames[0].state.t_ns = 1;
+  window.frames[1].state.t_ns = 2;
+  window.frames[1].state.position() = Vector3d(0.5, 0, 0);
+  return window;
+}
+
+TEST(ExpectedRay, IsThatOfTheLandmarkWhateverWasObserved) {
+  PointLandmark landmark;
+  landmark.views.resize(2);
+  landmark.views[0].t_ns = 1;
+  landmark.views[1].t_ns = 2;
+  landmark.views[1].bearing.xy = {0.3, 0.4};
+  landmark.coordinates = {0.1, 0.2, 0.25};  // 4 m away
+  const SlidingWindow window = TwoFrames();
+  EXPECT_MATRIX_NEAR(ExpectedRay(landmark, landmark.views[0], window), Vector2d(0.1, 0.2), 1e-12);
+  EXPECT_MATRIX_NEAR(ExpectedRay(landmark, landmark.views[1], window), Vector2d(-0.025, 0.2),
+                     1e-12);
+}
+
+TEST(ExpectedRay, IsTheObservedOneOfWhatIsBehindTheCamera) {
+  PointLandmark landmark;
+  landmark.views.resize(2);
+  landmark.views[0].t_ns = 1;
+  landmark.views[1].t_ns = 2;
+  landmark.views[1].bearing.xy = {0.3, 0.4};
+  landmark.coordinates = {0.1, 0.2, 0.25};
+  SlidingWindow window = TwoFrames();
+  window.frames[1].state.position() = Vector3d(0, 0, 5);
+  EXPECT_EQ(ExpectedRay(landmark, landmark.views[1], window), Vector2d(0.3, 0.4));
+}
+
+TEST(ExpectedEnds, AreNearestToThoseObserved) {
+  LineLandmark landmark;
+  landmark.views = {{1, {}}, {2, {{-0.1, 0.3}, {0.2, 0.22}}}};
+  landmark.coordinates = ToOrthonormal(LineThrough({-1, 1, 4}, {1, 1, 4}));  // at y = 0.25
+  const LineSegmentView ends = ExpectedEnds(landmark, landmark.views[1], TwoFrames());
+  EXPECT_MATRIX_NEAR(ends.start, Vector2d(-0.1, 0.25), 1e-12);
+  EXPECT_MATRIX_NEAR(ends.end, Vector2d(0.2, 0.25), 1e-12);
+}
+
+TEST(ExpectedEnds, AreThoseObservedOfALineWithoutAnImage) {
+  LineLandmark landmark;
+  landmark.views = {{1, {}}, {2, {{-0.1, 0.3}, {0.2, 0.22}}}};
+  landmark.coordinates = ToOrthonormal(LineThrough({0.5, 1, 0}, {0.5, 2, 0}));  // through frame 2
+  const LineSegmentView ends = ExpectedEnds(landmark, landmark.views[1], TwoFrames());
+  EXPECT_EQ(ends.start, Vector2d(-0.1, 0.3));
+  EXPECT_EQ(ends.end, Vector2d(0.2, 0.22));
+}
+
+}  // namespace
+}  // namespace plm_vins

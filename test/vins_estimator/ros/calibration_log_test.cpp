@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/ros/calibration_log.h"
+
+#include <gtest/gtest.h>
+
+#include "test/testing/temporary_folder.h"
+
+namespace plm_vins {
+namespace {
+
+TEST(CalibrationLog, SavesTheNewestWhereItIsRefined) {
+  const testing::TemporaryFolder folder;
+  Config config;
+  config.sensor.estimate_td = true;
+  CalibrationLog log(config);
+  log.Save(folder.path());
+  EXPECT_EQ(folder.Read("calibrated.yaml"), "") << "there was no pose";
+  Calibration calibration;
+  for (const double td : {0.01, 0.02}) {
+    calibration.td = td;
+    log.Set(calibration);
+  }
+  log.Save(folder.path());
+  EXPECT_NE(folder.Read("calibrated.yaml").find("\ntd: 0.02\n"), std::string::npos);
+}
+
+TEST(CalibrationLog, SavesNothingWhereNothingIsRefined) {
+  const testing::TemporaryFolder folder;
+  CalibrationLog log{Config()};
+  log.Set(Calibration());
+  log.Save(folder.path());
+  EXPECT_EQ(folder.Read("calibrated.yaml"), "");
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/map/recalibration.h"
+
+namespace plm_vins {
+
+void Recalibration::Move(Eigen::Vector2d* xy) const {
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+  Move(xy, &velocity);
+}
+
+void Recalibration::Move(Eigen::Vector2d* xy, Eigen::Vector2d* velocity) const {
+  Eigen::Matrix<double, 2, 3> d_pixel_d_ray;
+  const auto pixel = from_->Project(xy->homogeneous(), &d_pixel_d_ray);
+  if (!pixel) return;
+  Eigen::Matrix2d d_xy_d_pixel;
+  const auto moved = to_->Unproject(*pixel, &d_xy_d_pixel);
+  if (!moved) return;
+  *xy = *moved;
+  *velocity = d_xy_d_pixel * (d_pixel_d_ray.leftCols<2>() * *velocity);
+}
+
+void Recalibration::Move(FrameMeasurement* measurement) const {
+  for (PointObservation& point : measurement->points.points) Move(&point.xy, &point.velocity);
+  if (!measurement->lines) return;
+  for (LineObservation& line : measurement->lines->lines) {
+    Move(&line.start);
+    Move(&line.end);
+  }
+}
+
+void Recalibration::Move(LineView* view) const {
+  Move(&view->segment.start);
+  Move(&view->segment.end);
+}
+
+void Recalibration::Move(LocalMap* map) const {
+  for (auto& [id, point] : map->points.landmarks()) {
+    for (PointView& view : point.views) Move(&view.bearing.xy, &view.bearing.velocity);
+  }
+  for (auto& [id, line] : map->lines.landmarks()) {
+    for (LineView& view : line.views) Move(&view);
+    for (LineView& view : line.anchor_views) Move(&view);
+  }
+  map->memory.ChangeViews([this](LineView* view) { Move(view); });
+}
+
+}  // namespace plm_vins

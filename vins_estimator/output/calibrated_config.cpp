@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/output/calibrated_config.h"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "common/config/config_writer.h"
+
+namespace plm_vins {
+
+using ExtrinsicMode = SensorConfig::ExtrinsicMode;
+
+bool RefinesCalibration(const SensorConfig& sensor) {
+  return sensor.estimate_intrinsics || sensor.estimate_td || sensor.estimate_rolling_shutter_tr ||
+         sensor.estimate_extrinsic != ExtrinsicMode::kFixed;
+}
+
+Config WithCalibration(const Calibration& calibration, Config config) {
+  SensorConfig& sensor = config.sensor;
+  sensor.camera = calibration.camera;
+  sensor.T_B_C = calibration.T_B_C;
+  sensor.td = calibration.td;
+  if (sensor.rolling_shutter) sensor.rolling_shutter_tr = calibration.readout;
+  // What was unknown is known now.
+  if (sensor.estimate_extrinsic == ExtrinsicMode::kCalibrateRotation) {
+    sensor.estimate_extrinsic = ExtrinsicMode::kRefine;
+  }
+  return config;
+}
+
+void SaveCalibratedConfig(const Calibration& calibration, const Config& config,
+                          const std::string& file) {
+  std::ofstream stream(file);
+  WriteConfig(WithCalibration(calibration, config), &stream);
+  stream.close();
+  if (!stream) throw std::runtime_error("cannot write " + file);
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "common/config.h"
+#include "vins_estimator/state/calibration.h"
+
+namespace plm_vins {
+
+// The newest calibration, to be saved on request. For several threads.
+class CalibrationLog {
+ public:
+  explicit CalibrationLog(const Config& config) : config_(config) {}
+
+  void Set(const Calibration& calibration);
+
+  // Writes the configuration with this calibration into the folder, where the configuration has it
+  // refined and there was a pose. Throws std::runtime_error where that cannot be written.
+  void Save(const std::string& folder) const;
+
+ private:
+  const Config config_;
+  mutable std::mutex mutex_;
+  std::optional<Calibration> newest_;
+};
+
+}  // namespace plm_vins

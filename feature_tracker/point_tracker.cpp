@@ -65,7 +65,7 @@ class PointTracker::Implementation {
   PointFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0) {
     CheckImage(sample, camera_->parameters(), t_ns_);
     const cv::Mat image = config_.equalize ? equalizer_.Equalize(sample.gray) : sample.gray;
-    OpticalFlow::Pyramid pyramid = flow_.BuildPyramid(image);
+    OpticalFlow::Pyramid pyramid = flow_.BuildPyramid(image, std::move(unused_pyramid_));
     statistics_ = {};
     statistics_.previous = static_cast<int>(tracks_.size());
     if (!tracks_.empty()) {
@@ -74,7 +74,7 @@ class PointTracker::Implementation {
     }
     if (IsRefillDue()) Refill(image);
     sample_ = sample;
-    pyramid_ = std::move(pyramid);
+    unused_pyramid_ = std::exchange(pyramid_, std::move(pyramid));
     t_ns_ = sample.t_ns;
     return MakeFrame();
   }
@@ -206,6 +206,7 @@ class PointTracker::Implementation {
   double previous_dt_ = 0;  // between the two newest images [s]
   ImageSample sample_;      // the pyramid may look at its pixels
   OpticalFlow::Pyramid pyramid_;
+  OpticalFlow::Pyramid unused_pyramid_;  // memory for the next
   std::vector<PointTrack> tracks_;
   PointTrackerStatistics statistics_;
   int64_t next_id_ = 0;

@@ -19,7 +19,7 @@ int RunNode(int argc, char** argv, const std::string& name,
   std::signal(SIGINT, [](int) { std::_Exit(0); });
   ros::init(argc, argv, name);
   const ros::NodeHandle keeps_ros_running;
-  // Sharing out work on images this small costs more of the processor than it gains time.
+  // To share out work on images this small costs more of the processor than it saves time.
   cv::setNumThreads(1);
   try {
     body(LoadNodeConfig(ros::NodeHandle("~")));

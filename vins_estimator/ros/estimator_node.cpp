@@ -19,8 +19,7 @@ constexpr char kLineTopic[] = "/linefeature_tracker/linefeature";
 constexpr char kInternalError[] = "internal error, see the log";
 constexpr char kRestartTopic[] = "/feature_tracker/restart";
 constexpr size_t kQueueCapacity = 5000;  // inputs, most of them IMU samples
-// IMU samples that gather while no image waits for them: to wake a thread costs more than to use
-// one.
+// IMU samples that gather while no image waits for them: waking a thread costs more than a sample.
 constexpr size_t kImuBatch = 20;
 constexpr double kMaxWait = 0.5;  // [s]: images that wait for longer are left out
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <opencv2/core/utility.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -51,6 +52,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: stage_benchmark CONFIG ASL_FOLDER\n");
     return 1;
   }
+  cv::setNumThreads(1);
   try {
     plm_vins::Run(argv[1], argv[2]);
   } catch (const std::exception& error) {

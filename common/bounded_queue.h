@@ -18,13 +18,22 @@ class BoundedQueue {
 
   // Waits while the queue is full. False, and the item is gone, once the queue is closed.
   bool Push(T item) {
+    if (!PushQuietly(std::move(item))) return false;
+    Wake();
+    return true;
+  }
+
+  // The same, but the item wakes no consumer (unless the queue is full): Wake() or the next Push()
+  // does.
+  bool PushQuietly(T item) {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return closed_ || items_.size() < capacity_; });
     if (closed_) return false;
     items_.push_back(std::move(item));
-    changed_.notify_all();
+    if (items_.size() == capacity_) changed_.notify_all();
     return true;
   }
+  void Wake() { changed_.notify_all(); }
 
   // Waits while the queue is empty. Nothing once it is closed and all items are taken.
   std::optional<T> Pop() {

@@ -17,11 +17,10 @@ bool IsInside(const cv::Mat& image, const cv::Point2f& point) {
 
 }  // namespace
 
-OpticalFlow::Pyramid OpticalFlow::BuildPyramid(const cv::Mat& image) const {
-  Pyramid pyramid;
-  cv::buildOpticalFlowPyramid(image, pyramid, {config_.klt_window, config_.klt_window},
+OpticalFlow::Pyramid OpticalFlow::BuildPyramid(const cv::Mat& image, Pyramid unused) const {
+  cv::buildOpticalFlowPyramid(image, unused, {config_.klt_window, config_.klt_window},
                               config_.klt_levels);
-  return pyramid;
+  return unused;
 }
 
 std::vector<FlowResult> OpticalFlow::Track(const Pyramid& previous, const Pyramid& current,

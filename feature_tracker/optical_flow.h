@@ -27,7 +27,8 @@ class OpticalFlow {
 
   explicit OpticalFlow(const PointTrackerConfig& config) : config_(config) {}
 
-  Pyramid BuildPyramid(const cv::Mat& image) const;
+  // In the memory of a pyramid that is no longer needed, where there is one.
+  Pyramid BuildPyramid(const cv::Mat& image, Pyramid unused = {}) const;
 
   // Follows `points` from `previous` to `current`, beginning at their `predicted` positions [px].
   std::vector<FlowResult> Track(const Pyramid& previous, const Pyramid& current,

@@ -125,6 +125,7 @@ std::vector<LineRefinement::EdgePoint> LineRefinement::LocateEdges(const cv::Mat
                                                                    int search_px) const {
   const int count = static_cast<int>(std::lround(segment.Length() / step));
   std::vector<EdgePoint> points;
+  points.reserve(count + 2 * extension + 1);
   for (int i = -extension; i <= count + extension; ++i) {
     const auto sample = SampleSegment(*camera_, segment, i * step);
     EdgePoint point;

@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <opencv2/core/utility.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -263,6 +264,7 @@ int main(int argc, char** argv) try {
   plm_vins::Declare(&arguments, &app);
   try {
     app.parse(argc, argv);
+    cv::setNumThreads(1);  // --threads says how many there are
     return plm_vins::Run(arguments);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);

@@ -88,6 +88,7 @@ def launch(options, output):
     command = ["roslaunch", *launch_file(), f"bag:={os.path.abspath(options.bag)}",
                f"config:={os.path.abspath(options.config)}", f"rate:={options.rate}",
                f"nodelets:={str(options.nodelets).lower()}", f"output:={output}",
+               "use_sim_time:=false",  # no sensor publishes a clock, which costs each node
                f"image_transport:={options.image_transport}"]
     if options.duration:
         command.append(f"duration:={options.duration}")

@@ -352,6 +352,7 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->imu_noise_scale = state_.imu_monitor.noise_scale();
   output->delay = state_.delay_monitor.delay();
   output->stationary = window.newest().stationary;
+  output->window.reserve(window.frames.size());
   for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
   for (const auto& [id, landmark] : map.points.landmarks()) {
     if (IsOptimized(landmark)) output->points.push_back({id, PositionInWorld(landmark, window)});

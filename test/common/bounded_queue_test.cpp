@@ -39,6 +39,32 @@ TEST(BoundedQueue, NeverHoldsMoreThanItsCapacityAndLosesNothing) {
   EXPECT_EQ(expected, kItems);
 }
 
+TEST(BoundedQueue, AQuietItemIsTakenWithTheNext) {
+  BoundedQueue<int> queue(3);
+  queue.PushQuietly(1);
+  queue.Push(2);
+  EXPECT_EQ(queue.Pop(), 1);
+  EXPECT_EQ(queue.Pop(), 2);
+}
+
+TEST(BoundedQueue, WakesTheConsumerForAQuietItem) {
+  BoundedQueue<int> queue(3);
+  std::thread consumer([&] { EXPECT_EQ(queue.Pop(), 1); });
+  queue.PushQuietly(1);
+  queue.Wake();
+  consumer.join();
+}
+
+TEST(BoundedQueue, QuietItemsWakeTheConsumerOnceTheQueueIsFull) {
+  constexpr int kItems = 1000;
+  BoundedQueue<int> queue(5);
+  std::thread consumer([&] {
+    for (int expected = 0; expected < kItems; ++expected) EXPECT_EQ(queue.Pop(), expected);
+  });
+  for (int i = 0; i < kItems; ++i) queue.PushQuietly(i);
+  consumer.join();
+}
+
 TEST(BoundedQueue, GivesWhatIsLeftAfterClosing) {
   BoundedQueue<int> queue(2);
   queue.Push(1);

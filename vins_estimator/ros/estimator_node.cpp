@@ -19,7 +19,9 @@ constexpr char kLineTopic[] = "/linefeature_tracker/linefeature";
 constexpr char kInternalError[] = "internal error, see the log";
 constexpr char kRestartTopic[] = "/feature_tracker/restart";
 constexpr size_t kQueueCapacity = 5000;  // inputs, most of them IMU samples
-constexpr double kMaxWait = 0.5;         // [s]: images that wait for longer are left out
+// IMU samples that gather while no image waits for them: waking a thread costs more than a sample.
+constexpr size_t kImuBatch = 20;
+constexpr double kMaxWait = 0.5;  // [s]: images that wait for longer are left out
 
 template <typename... Handlers>
 struct Overloaded : Handlers... {
@@ -77,7 +79,8 @@ void EstimatorNode::AddImu(const sensor_msgs::Imu& message) {
   const ImuSample sample = ToImuSample(message);
   diagnostics_.imu().Add(sample.t_ns);
   propagation_.AddImu(sample);
-  queue_.Push(sample);
+  queue_.PushQuietly(sample);
+  if (frames_wait_ || queue_.size() >= kImuBatch) queue_.Wake();
 }
 
 void EstimatorNode::AddPoints(const FeatureEvent& event) {
@@ -167,6 +170,7 @@ void EstimatorNode::Work() {
     });
     if (!done) StartOver(kInternalError);
     ReportDrops();
+    frames_wait_ = stage_.queued_frames() > 0;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <std_msgs/Bool.h>
 #include <std_srvs/Trigger.h>
 
+#include <atomic>
 #include <string>
 #include <thread>
 #include <variant>
@@ -84,6 +85,7 @@ class EstimatorNode {
   Config config_;
 
   BoundedQueue<Input> queue_;
+  std::atomic<bool> frames_wait_ = false;  // in the worker, for the IMU or for lines
   PropagationPublisher propagation_;
   TrajectoryLog trajectory_;
   CalibrationLog calibration_;

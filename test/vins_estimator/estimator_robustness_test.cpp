@@ -143,7 +143,7 @@ TEST(EstimatorRobustness, TenSecondsOfBlindnessEndInARestart) {
     if (output.restarted) reasons.push_back(output.reason);
   }
   ASSERT_EQ(reasons.size(), 1u);
-  EXPECT_NE(reasons[0].find("nothing was seen for"), std::string::npos) << reasons[0];
+  EXPECT_NE(reasons[0].find("nothing has held the position"), std::string::npos) << reasons[0];
 }
 
 TEST(EstimatorRobustness, WithoutPointsItNeverStartsAndSaysWhy) {

@@ -21,10 +21,12 @@ std::optional<std::string> BlindnessMonitor::Add(int64_t t_ns, int features_seen
                                                  const Eigen::Matrix3d& position_covariance) {
   const double variance = position_covariance.trace();
   blind_ = features_seen < kFewFeatures;
-  if (!seen_ns_) seen_ns_ = t_ns, variance_before_ = variance;
-  const double added = std::sqrt(std::max(0.0, variance - variance_before_));
+  const double added = seen_ns_ ? std::sqrt(std::max(0.0, variance - variance_before_)) : 0;
   if (added <= kMaxDeviation) {
-    if (!blind_) seen_ns_ = t_ns, variance_before_ = variance;
+    if (!blind_ || !seen_ns_) {
+      seen_ns_ = t_ns;
+      variance_before_ = variance;
+    }
     return std::nullopt;
   }
   char text[128];

@@ -17,6 +17,11 @@ constexpr double kAlwaysAllowedAccel = 15.0;  // [m/s^2]
 constexpr double kLeapFactor = 6.0;
 constexpr double kLearningRate = 0.01;  // per sample: usual is what half a second was like
 
+// Of saturated readings. Sensors end somewhat below the round numbers that their ranges are given
+// in: 2000 deg/s are 34.9 rad/s, 16 g are 156.9 m/s^2.
+constexpr double kEndOfRange = 0.98;  // share of the range
+constexpr double kCutOff = 0.5;       // what may be missing, as a share of the range
+
 constexpr int64_t kMaxInterval_ns = 50'000'000;  // readings further apart have nothing to say
 
 // Of the axis that differs most.
@@ -54,6 +59,7 @@ std::vector<ImuSample> ImuGate::Add(const ImuSample& sample) {
   std::vector<ImuSample> decided = TakeSuspects(/*believed=*/suspect, sample);
   decided.push_back(sample);
   last_ = sample;
+  for (ImuSample& next : decided) DoubtSaturated(&next);
   return decided;
 }
 
@@ -92,6 +98,14 @@ ImuSample ImuGate::Replace(const ImuSample& suspect, const ImuSample& next) cons
   replacement.gyro_doubt = Doubt(suspect.gyro, replacement.gyro, range_.gyro);
   replacement.accel_doubt = Doubt(suspect.accel, replacement.accel, range_.accel);
   return replacement;
+}
+
+void ImuGate::DoubtSaturated(ImuSample* sample) {
+  const bool gyro = sample->gyro.cwiseAbs().maxCoeff() >= kEndOfRange * range_.gyro;
+  const bool accel = sample->accel.cwiseAbs().maxCoeff() >= kEndOfRange * range_.accel;
+  if (gyro) sample->gyro_doubt = kCutOff * range_.gyro;
+  if (accel) sample->accel_doubt = kCutOff * range_.accel;
+  if (gyro || accel) ++saturated_;
 }
 
 }  // namespace plm_vins

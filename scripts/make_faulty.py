@@ -38,6 +38,8 @@ def main(arguments=None):
     fault = FAULTS[options.fault]
     try:
         adapter = adapter_of(options.source)
+        if os.path.exists(options.target) and os.path.samefile(options.source, options.target):
+            raise ValueError("the target is the source")
         if fault.needs_features and not adapter.__name__.endswith("feature_file"):
             raise ValueError(f"{options.fault} can be made of a file of features only")
         adapter.make_faulty(options.source, options.target, fault.apply, options.begin)

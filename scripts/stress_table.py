@@ -20,7 +20,8 @@ CONFIG = os.path.join(ROOT, "config", "euroc.yaml")
 HEAD = ("| fault | APE [m] | largest error [m] | restarts after [s] | coverage | noticed |\n"
         + 6 * "|---" + "|")
 # Counts in summary.json that name a fault.
-NAMED = ("imu_implausible", "imu_replaced", "imu_gaps", "imu_doubts")
+FOUND = ("imu_doubts", "bridged_losses")
+NAMED = ("imu_implausible", "imu_replaced", "imu_saturated", "imu_gaps", *FOUND)
 
 
 def parse_arguments(arguments):
@@ -55,7 +56,7 @@ def row(name, options, truth, folder):
 def _noticed(output):
     with open(os.path.join(output, "summary.json"), encoding="utf-8") as file:
         summary = json.load(file)
-    counts = {**summary["dropped"], "imu_doubts": summary["imu_doubts"]}
+    counts = {**summary["dropped"], **{name: summary[name] for name in FOUND}}
     noticed = [f"{name} {counts[name]}" for name in NAMED if counts.get(name)]
     if summary["imu_noisy_share"] > 0:
         noticed.append(f"IMU noisy {100 * summary['imu_noisy_share']:.0f} %")

@@ -20,18 +20,19 @@ constexpr double kMaxDeviation = 0.5;
 std::optional<std::string> BlindnessMonitor::Add(int64_t t_ns, int features_seen,
                                                  const Eigen::Matrix3d& position_covariance) {
   const double variance = position_covariance.trace();
-  if (features_seen >= kFewFeatures) {
-    since_ns_.reset();
-    variance_before_ = variance;
+  blind_ = features_seen < kFewFeatures;
+  const double added = seen_ns_ ? std::sqrt(std::max(0.0, variance - variance_before_)) : 0;
+  if (added <= kMaxDeviation) {
+    if (!blind_ || !seen_ns_) {
+      seen_ns_ = t_ns;
+      variance_before_ = variance;
+    }
     return std::nullopt;
   }
-  if (!since_ns_) since_ns_ = t_ns;
-  const double added = std::sqrt(std::max(0.0, variance - variance_before_));
-  if (added <= kMaxDeviation) return std::nullopt;
   char text[128];
   std::snprintf(text, sizeof(text),
-                "nothing was seen for %.1f s, which leaves the position open by %.2f m",
-                ToSeconds(t_ns - *since_ns_), added);
+                "nothing has held the position for %.1f s, which leaves it open by %.2f m",
+                ToSeconds(t_ns - *seen_ns_), added);
   return std::string(text);
 }
 

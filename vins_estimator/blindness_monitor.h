@@ -9,7 +9,8 @@
 namespace plm_vins {
 
 // Ends a flight on the IMU alone once the position has become too uncertain for what is said of it.
-// A second without features is bridged this way; after ten the IMU has drifted by metres.
+// A second without features is bridged this way; after ten the IMU has drifted by metres. The same
+// holds for seconds without any image or IMU sample, and where nothing of what is seen fits.
 class BlindnessMonitor {
  public:
   // Takes how many features the newest image shows and the covariance of its position [m^2]. The
@@ -17,9 +18,12 @@ class BlindnessMonitor {
   std::optional<std::string> Add(int64_t t_ns, int features_seen,
                                  const Eigen::Matrix3d& position_covariance);
 
+  bool blind() const { return blind_; }  // at the newest image
+
  private:
-  std::optional<int64_t> since_ns_;  // the first image without features
-  double variance_before_ = 0;       // of the position when some were seen last [m^2]
+  std::optional<int64_t> seen_ns_;  // the last image with features, or the first one of all
+  double variance_before_ = 0;      // of the position then [m^2]
+  bool blind_ = false;
 };
 
 }  // namespace plm_vins

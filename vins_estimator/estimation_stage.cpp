@@ -34,6 +34,7 @@ DropCounts ToDropCounts(const SyncStatistics& statistics) {
   return {{"imu_not_finite", statistics.imu_not_finite, ""},
           {"imu_implausible", statistics.imu_implausible, ""},
           {"imu_replaced", statistics.imu_replaced, ""},
+          {"imu_saturated", statistics.imu_saturated, ""},
           {"imu_out_of_order", statistics.imu_out_of_order, ""},
           {"imu_gaps", statistics.imu_gaps, ""},
           {"imu_dropped_full", statistics.imu_dropped_full, ""},

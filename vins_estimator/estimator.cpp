@@ -7,9 +7,9 @@
 
 #include "common/stopwatch.h"
 #include "vins_estimator/factors/imu_factor.h"
+#include "vins_estimator/frame_placement.h"
 #include "vins_estimator/manhattan/line_directions.h"
 #include "vins_estimator/map/recalibration.h"
-#include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/measurement_check.h"
 #include "vins_estimator/merging/line_merging.h"
 #include "vins_estimator/optimization/ceres_solver.h"
@@ -60,7 +60,9 @@ Estimator::State::State(const Config& config, const EstimatorOptions& options)
     : initializer(config),
       standstill_detector(config.sensor.imu_noise),
       estimate(EmptyWindow(config.sensor, options.map)),
-      noise(1 / options.problem.point_weight, 1 / options.problem.line_weight) {
+      noise(1 / options.problem.point_weight, 1 / options.problem.line_weight),
+      newest_covariance(Matrix15d::Zero()),
+      bridge(config.sensor.imu_noise, estimate.map.window.gravity_W) {
   if (config.sensor.rolling_shutter) rolling_shutter.emplace(config.sensor.camera);
 }
 
@@ -111,28 +113,52 @@ void Estimator::Use(const FrameMeasurement& measurement, EstimatorOutput* output
 
 void Estimator::Initialize(const FrameMeasurement& measurement, EstimatorOutput* output) {
   const Stopwatch stopwatch;
-  const auto result = state_.initializer.Add(measurement);
+  state_.bridge.AddLost(measurement.imu, measurement.t_ns);
+  auto result = state_.initializer.Add(measurement);
   output->timings.initialization = stopwatch.Milliseconds();
   output->reason = state_.initializer.reason();
-  if (!result) return;
-
-  StartWindow(*result);
+  if (!result) {
+    if (!state_.bridge.CanConnect(state_.initializer.begin_ns())) BeginWorld(output);
+    return;
+  }
+  InitialUncertainty uncertainty = UncertaintyOf(config_.sensor, result->from_standstill);
+  output->bridged = state_.bridge.begun();
+  if (output->bridged && !KeepFrame(&*result, &uncertainty)) BeginWorld(output);
+  state_.bridge.Clear();
+  StartWindow(*result, uncertainty);
   Triangulate(output);
   Optimize(options_.first_solution, output);
   state_.initialized = true;
-  output->reason.clear();
   Describe(output);
 }
 
-void Estimator::StartWindow(const InitializationResult& result) {
+bool Estimator::KeepFrame(InitializationResult* result, InitialUncertainty* uncertainty) const {
+  const FrameState fresh = result->frames.front().state;
+  const UncertainState* known = state_.bridge.At(fresh.t_ns);
+  if (known == nullptr || !DifferByFrame(*known, fresh)) return false;
+  const FramePlacement placement(known->state, fresh);
+  for (InitialFrame& frame : result->frames) frame.state = placement.Apply(frame.state);
+  uncertainty->position = PositionDeviation(*known);
+  uncertainty->heading = HeadingDeviation(*known);
+  return true;
+}
+
+void Estimator::BeginWorld(EstimatorOutput* output) {
+  output->restarted = true;
+  output->bridged = false;
+  output->reason = state_.bridge.why();
+  state_.bridge.Clear();
+}
+
+void Estimator::StartWindow(const InitializationResult& result,
+                            const InitialUncertainty& uncertainty) {
   SlidingWindow& window = state_.estimate.map.window;
   window.SetExtrinsic(result.T_B_C);
   for (const InitialFrame& frame : result.frames) {
     AddFrame(frame.measurement);
     window.newest().state = frame.state;
   }
-  state_.estimate.prior =
-      InitialPrior(UncertaintyOf(config_.sensor, result.from_standstill), options_.problem, window);
+  state_.estimate.prior = InitialPrior(uncertainty, options_.problem, window);
 }
 
 void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
@@ -151,13 +177,8 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
     Optimize(options_.solution, output);
   }
   RemoveOutliers(output);
-  if (const auto failure = FindFailure(*output)) {
-    Reset();
-    output->status = EstimatorStatus::kLost;
-    output->reason = *failure;
-    output->restarted = true;
-    return;
-  }
+  state_.bridge.AddTracked(measurement.imu, {map.window.newest().state, state_.newest_covariance});
+  if (const auto failure = FindFailure(*output)) return GiveUp(*failure, output);
   if (config_.estimator.adapt_noise) state_.noise.Update(map);
   output->keyframe = keep_second_newest;
   Describe(output);
@@ -174,6 +195,17 @@ std::optional<std::string> Estimator::FindFailure(const EstimatorOutput& output)
   if (blindness) return blindness;
   return DetectFailure(FailureLimits(), state_.predicted,
                        state_.estimate.map.window.newest().state);
+}
+
+// All but the bridge starts over. From blindness none leads on: the IMU has drifted too far.
+void Estimator::GiveUp(const std::string& why, EstimatorOutput* output) {
+  const bool blind = state_.blindness_monitor.blind();
+  FrameBridge bridge = std::move(state_.bridge);
+  Reset();
+  output->status = EstimatorStatus::kLost;
+  output->reason = why;
+  output->restarted = blind || !bridge.Begin(why);
+  if (!output->restarted) state_.bridge = std::move(bridge);
 }
 
 bool Estimator::StandsStill(const FrameMeasurement& measurement) {
@@ -277,7 +309,9 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
   const int64_t newest_ns = map.window.newest().state.t_ns;
   const Eigen::MatrixXd covariance =
       equations.Covariance({{BlockKind::kPose, newest_ns}, {BlockKind::kMotion, newest_ns}});
+  state_.newest_covariance.setZero();
   if (covariance.size() > 0) {
+    state_.newest_covariance = covariance;
     output->pose_covariance = covariance.topLeftCorner<6, 6>();
     output->velocity_covariance = covariance.block<3, 3>(6, 6);
     output->bias_covariance = covariance.bottomRightCorner<6, 6>();

@@ -11,13 +11,16 @@
 #include "vins_estimator/estimator_options.h"
 #include "vins_estimator/estimator_output.h"
 #include "vins_estimator/failure_detector.h"
+#include "vins_estimator/frame_bridge.h"
 #include "vins_estimator/imu/standstill_detector.h"
 #include "vins_estimator/imu_monitor.h"
 #include "vins_estimator/initialization/initializer.h"
 #include "vins_estimator/manhattan/manhattan_frame.h"
 #include "vins_estimator/map/view_noise.h"
 #include "vins_estimator/marginalization/window_estimate.h"
+#include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/rolling_shutter.h"
+#include "vins_estimator/uncertain_state.h"
 
 namespace plm_vins {
 
@@ -54,7 +57,9 @@ class Estimator {
     ManhattanFrame manhattan;
     WindowEstimate estimate;
     ViewNoise noise;
-    FrameState predicted;  // of the newest image, from the IMU alone
+    FrameState predicted;         // of the newest image, from the IMU alone
+    Matrix15d newest_covariance;  // as optimised; zero where the problem is singular
+    FrameBridge bridge;
   };
 
   // The image as a global shutter would have taken it, in rays of the camera as it is known so far.
@@ -64,13 +69,18 @@ class Estimator {
   void Initialize(const FrameMeasurement& measurement, EstimatorOutput* output);
   void Track(const FrameMeasurement& measurement, bool stands_still, EstimatorOutput* output);
 
-  void StartWindow(const InitializationResult& result);
+  // Puts a new window into the frame of the world before the loss, where there was one and the
+  // bridge leads from there to here. False where that world has to be given up.
+  bool KeepFrame(InitializationResult* result, InitialUncertainty* uncertainty) const;
+  void BeginWorld(EstimatorOutput* output);
+  void StartWindow(const InitializationResult& result, const InitialUncertainty& uncertainty);
   void AddFrame(const FrameMeasurement& measurement);
   void Triangulate(EstimatorOutput* output);
   void FindStructure(bool keep_second_newest, EstimatorOutput* output);
   void UniteLines(EstimatorOutput* output);
   void RemoveOutliers(EstimatorOutput* output);
   std::optional<std::string> FindFailure(const EstimatorOutput& output);
+  void GiveUp(const std::string& why, EstimatorOutput* output);
   bool StandsStill(const FrameMeasurement& measurement);
   void CheckTiming();
   std::optional<double> FindImuDoubt();

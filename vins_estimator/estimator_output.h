@@ -58,6 +58,7 @@ struct EstimatorOutput {
   bool keyframe = false;
   bool stationary = false;                // standing still was recognised
   bool restarted = false;                 // the world frame is a new one from here on
+  bool bridged = false;                   // tracks again after a loss, in the same world frame
   std::vector<FrameState> window;         // states of the sliding window, oldest first
   std::vector<MapPoint> points;           // landmarks in the window
   std::vector<MapPoint> departed_points;  // landmarks that left the window with this frame

@@ -77,6 +77,7 @@ void MeasurementSync::TakeImu(const ImuSample& sample) {
   last_imu_ns_ = sample.t_ns;
   for (const ImuSample& decided : imu_gate_.Add(sample)) QueueImu(decided);
   statistics_.imu_replaced = imu_gate_.replaced();
+  statistics_.imu_saturated = imu_gate_.saturated();
 }
 
 void MeasurementSync::QueueImu(const ImuSample& sample) {

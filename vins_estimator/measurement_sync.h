@@ -21,6 +21,7 @@ struct SyncStatistics {
   int64_t imu_not_finite = 0;    // NaN or infinity
   int64_t imu_implausible = 0;   // beyond any sensor's range, or zeros throughout
   int64_t imu_replaced = 0;      // did not fit the samples around them (ImuGate)
+  int64_t imu_saturated = 0;     // at the end of the sensor's range
   int64_t imu_out_of_order = 0;  // stamp not after the one before, or alone in the future
   int64_t imu_gaps = 0;          // intervals longer than the allowed gap, bridged
   int64_t imu_dropped_full = 0;  // no image came for long: oldest dropped

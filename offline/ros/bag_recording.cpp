@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "common/ros/msg_conversion.h"
+#include "offline/ros/bag_index.h"
 #include "offline/ros/bag_message_source.h"
 
 namespace plm_vins {
@@ -26,10 +27,11 @@ std::unique_ptr<BagMessageSource> OpenSource(const std::string& file) {
     throw std::runtime_error("no such file: " + file);
   }
   try {
+    CheckBagIndex(file);
     return OpenIndexedBag(file);
   } catch (const std::exception& error) {  // rosbag::BagException, std::bad_alloc
     throw std::runtime_error(
-        file + " is not a ROS bag of format 2.0, or it was cut off or never closed (" +
+        file + " is not a ROS bag of format 2.0, or it was cut off, damaged or never closed (" +
         error.what() + "); then \"rosbag reindex " + file + "\" makes it whole");
   }
 }

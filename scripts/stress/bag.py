@@ -13,15 +13,24 @@ IMAGE_TYPES = ("sensor_msgs/Image", "sensor_msgs/CompressedImage")
 
 def make_faulty(source, target, apply, begin):
     """Every topic of these types is taken for the one of its kind; other messages are copied."""
-    with rosbag.Bag(source) as bag:
+    with _open(source) as bag:
         topics = bag.get_type_and_topic_info().topics
         types = {name: topic.msg_type for name, topic in topics.items()}
         imu_topics = [name for name, kind in types.items() if kind == IMU_TYPE]
         image_topics = [name for name, kind in types.items() if kind in IMAGE_TYPES]
+        if not imu_topics or not image_topics:
+            raise ValueError(f"{source}: no {IMU_TYPE} or no image in it")
         measurements = _measurements(bag, imu_topics, image_topics)
         apply(measurements, begin)
         with rosbag.Bag(target, "w") as output:
             _copy(bag, output, measurements, imu_topics, image_topics)
+
+
+def _open(source):
+    try:
+        return rosbag.Bag(source)
+    except (rosbag.ROSBagException, UnicodeDecodeError) as error:
+        raise ValueError(f"{source} is no ROS bag, or \"rosbag reindex\" must repair it") from error
 
 
 def _measurements(bag, imu_topics, image_topics):

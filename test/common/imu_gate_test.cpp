@@ -111,6 +111,22 @@ TEST(ImuGate, NeverBelievesASpikeBeyondTheRange) {
   EXPECT_NEAR(decided.samples[0].gyro_doubt, two_turns.gyro - samples[1].gyro.x(), 1e-12);
 }
 
+TEST(ImuGate, DoubtsReadingsAtTheEndOfTheRange) {
+  std::vector<ImuSample> samples = Flight(200);
+  for (size_t i = 100; i < 110; ++i) samples[i].gyro.z() = -34.9;  // 2000 deg/s
+  ImuGate gate{ImuRange()};
+  std::vector<ImuSample> decided;
+  for (const ImuSample& sample : samples) {
+    for (const ImuSample& next : gate.Add(sample)) decided.push_back(next);
+  }
+  EXPECT_EQ(gate.saturated(), 10);
+  EXPECT_EQ(decided[105].gyro.z(), -34.9);
+  EXPECT_EQ(decided[105].gyro_doubt, 17.5);
+  EXPECT_EQ(decided[105].accel_doubt, 0);
+  EXPECT_EQ(decided[99].gyro_doubt, 0);
+  EXPECT_EQ(decided[115].gyro_doubt, 0);
+}
+
 TEST(ImuGate, ComparesNothingAcrossAGap) {
   std::vector<ImuSample> samples = Flight(200);
   for (size_t i = 100; i < samples.size(); ++i) {

@@ -1,30 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
 
-#include "common/feature_checks.h"
-#include "simulator/feature_simulator.h"
+#include "test/fuzz/stage_flight.h"
 #include "test/fuzz/target.h"
-#include "vins_estimator/estimation_stage.h"
 
 namespace plm_vins::fuzz {
 namespace {
 
-constexpr double kMaxFrame_ms = 1000;  // of processor time, sanitizers included
-
 const simulator::FeatureDataset& Flight() {
-  static const simulator::FeatureDataset flight = [] {
-    simulator::FeatureSimulationOptions options;
-    options.trajectory.motion = simulator::Motion::kFast;
-    options.trajectory.rest = 0;
-    options.trajectory.lead_in = 0.5;
-    options.trajectory.duration = 4;
-    options.max_points = 40;
-    options.max_lines = 8;
-    return simulator::SimulateFeatures(options);
-  }();
+  static const simulator::FeatureDataset flight = SimulateFastFlight(4);
   return flight;
 }
 
@@ -35,7 +19,7 @@ double Size(Reader* reader) {
   return exponent == -128 ? std::nan("") : sign * std::pow(10.0, exponent / 16.0);
 }
 
-// Faults as an input describes them: nine bytes each, the kind, the sample or image that it begins
+// Faults as an input describes them: five bytes each, the kind, the sample or image that it begins
 // with, how many it takes, how large it is.
 void Damage(const Bytes& bytes, simulator::FeatureDataset* flight) {
   for (Reader reader(bytes); !reader.empty();) {
@@ -84,46 +68,6 @@ void Damage(const Bytes& bytes, simulator::FeatureDataset* flight) {
   }
 }
 
-void Check(const EstimatedFrame& frame, double milliseconds) {
-  const FrameState& state = frame.output.state;
-  const bool finite = state.position().allFinite() && state.velocity().allFinite() &&
-                      state.rotation().coeffs().allFinite() &&
-                      frame.output.pose_covariance.allFinite();
-  if (frame.output.has_pose && !finite) {
-    std::fprintf(stderr, "stage: a pose is not finite\n");
-    std::abort();
-  }
-  if (milliseconds > kMaxFrame_ms) {
-    std::fprintf(stderr, "stage: a frame took %.0f ms\n", milliseconds);
-    std::abort();
-  }
-}
-
-// Duplicate ids and absurd coordinates are left out where messages are converted.
-PointFrame Converted(PointFrame frame) {
-  RemoveImpossible(&frame.points);
-  return frame;
-}
-
-void Fly(const simulator::FeatureDataset& flight) {
-  Config config;
-  config.sensor = simulator::FeatureSimulationOptions().sensors;
-  EstimationStage stage(config);
-  size_t sample = 0;
-  for (size_t i = 0; i < flight.points.size(); ++i) {
-    stage.AddPoints(Converted(flight.points[i]));
-    stage.AddLines(flight.lines[i]);
-    for (size_t end = (i + 1) * flight.imu.size() / flight.points.size(); sample < end; ++sample) {
-      if (IsStamp(flight.imu[sample].t_ns)) stage.AddImu(flight.imu[sample]);
-    }
-    std::clock_t begin = std::clock();
-    while (const auto frame = stage.Pop()) {
-      Check(*frame, 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-      begin = std::clock();
-    }
-  }
-}
-
 }  // namespace
 
 Target StageTarget() {
@@ -132,7 +76,7 @@ Target StageTarget() {
   return {"stage", {seed}, [](const Bytes& bytes) {
             simulator::FeatureDataset flight = Flight();
             Damage(bytes, &flight);
-            Fly(flight);
+            Fly(flight, [](const EstimatorOutput&) {});
           }};
 }
 

@@ -15,11 +15,13 @@ struct Target {
   std::string name;
   std::vector<Bytes> seeds;  // good inputs
   std::function<void(const Bytes&)> run;
+  std::function<std::string()> report = [] { return std::string("no finding"); };
 };
 
 Target ConfigTarget();
 Target AslTarget();
 Target StageTarget();
+Target DivergenceTarget();
 Target PointTrackerTarget();
 Target LineTrackerTarget();
 // With ROS only.

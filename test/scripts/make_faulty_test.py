@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """scripts/make_faulty.py: what becomes of recordings, and what does not."""
 
+import importlib.util
 import os
 import struct
 import sys
@@ -116,6 +117,64 @@ class Files(unittest.TestCase):
         self.assertEqual([row.split(",")[1] for row in rows].count("40.0"), 1)
         self.assertEqual(self.read("bad/cam0/data/a.png"), b"picture")
         self.assertIn("a.png", self.read("bad/cam0/data.csv").decode())
+
+    @unittest.skipUnless(importlib.util.find_spec("rosbag"), "needs ROS")
+    def test_bag(self):
+        self.write_bag(self.path("good.bag"))
+        for fault, samples in (("none", 40), ("imu_halved", 25), ("image_step", 40)):
+            self.assertEqual(main([self.path("good.bag"), self.path("bad.bag"), "--fault", fault,
+                                   "--begin", "0.05"]), 0)
+            imu, images = self.read_bag(self.path("bad.bag"))
+            self.assertEqual(len(imu), samples, fault)
+            self.assertEqual(len(images), 4)
+            step_ns = 20_000_000 if fault == "image_step" else 0
+            self.assertEqual(images[1].header.stamp.to_nsec(), START_NS + 50_000_000 + step_ns)
+            self.assertEqual(images[1].data, bytes(16))
+
+    @unittest.skipUnless(importlib.util.find_spec("rosbag"), "needs ROS")
+    def test_readings_in_a_bag(self):
+        self.write_bag(self.path("good.bag"))
+        self.assertEqual(main([self.path("good.bag"), self.path("bad.bag"), "--fault",
+                               "accel_spike", "--begin", "0.05"]), 0)
+        imu, _ = self.read_bag(self.path("bad.bag"))
+        self.assertEqual([message.linear_acceleration.x for message in imu].count(150), 1)
+        self.assertEqual(imu[10].linear_acceleration.x, 150)
+        self.assertEqual(imu[10].linear_acceleration.z, 9.81)
+
+    @unittest.skipUnless(importlib.util.find_spec("rosbag"), "needs ROS")
+    def test_a_bag_that_is_none(self):
+        self.write("other.bag", b"\xa2 no bag")
+        self.assertEqual(main([self.path("other.bag"), self.path("x.bag"), "--fault", "none"]), 1)
+
+    def test_a_recording_is_not_overwritten(self):
+        self.features()
+        good = self.read("good.feat")
+        self.assertEqual(main([self.path("good.feat"), self.path("good.feat"), "--fault",
+                               "accel_spike", "--begin", "0"]), 1)
+        self.assertEqual(self.read("good.feat"), good)
+
+    def write_bag(self, path):
+        """Forty samples, with an image before every tenth."""
+        import rosbag
+        import rospy
+        from sensor_msgs.msg import Image, Imu
+        with rosbag.Bag(path, "w") as bag:
+            for i in range(40):
+                stamp = rospy.Time(0, START_NS + 5_000_000 * i)
+                imu = Imu()
+                imu.header.stamp, imu.linear_acceleration.z = stamp, 9.81
+                bag.write("/imu0", imu, stamp)
+                if i % 10 == 0:
+                    image = Image(encoding="mono8", width=4, height=4, step=4, data=bytes(16))
+                    image.header.stamp = stamp
+                    bag.write("/cam0/image_raw", image, stamp)
+
+    def read_bag(self, path):
+        import rosbag
+        with rosbag.Bag(path) as bag:
+            messages = [(topic, message) for topic, message, _ in bag.read_messages()]
+        return ([message for topic, message in messages if topic == "/imu0"],
+                [message for topic, message in messages if topic != "/imu0"])
 
     def test_what_needs_features_says_so(self):
         os.makedirs(self.path("folder"))

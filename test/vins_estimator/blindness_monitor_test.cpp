@@ -15,7 +15,7 @@ Eigen::Matrix3d Known(double deviation) {
 
 TEST(BlindnessMonitor, BearsDriftWhileSomethingIsSeen) {
   BlindnessMonitor monitor;
-  for (int i = 0; i < 100; ++i) EXPECT_FALSE(monitor.Add(i, 6, Known(0.1 * i)));
+  for (int i = 0; i < 1000; ++i) EXPECT_FALSE(monitor.Add(i, 6, Known(0.01 * i)));
 }
 
 TEST(BlindnessMonitor, EndsWhatBlindnessHasMadeTooUncertain) {
@@ -24,7 +24,14 @@ TEST(BlindnessMonitor, EndsWhatBlindnessHasMadeTooUncertain) {
   EXPECT_FALSE(monitor.Add(ToNanoseconds(0.5), 0, Known(3.0)));
   EXPECT_FALSE(monitor.Add(ToNanoseconds(1.5), 5, Known(3.02)));
   EXPECT_EQ(monitor.Add(ToNanoseconds(3.5), 5, Known(3.06)).value_or(""),
-            "nothing was seen for 3.0 s, which leaves the position open by 0.60 m");
+            "nothing has held the position for 3.5 s, which leaves it open by 0.60 m");
+}
+
+TEST(BlindnessMonitor, AGapBetweenImagesIsBlindness) {
+  BlindnessMonitor monitor;
+  monitor.Add(0, 100, Known(0.1));
+  EXPECT_EQ(monitor.Add(ToNanoseconds(4.0), 100, Known(0.6)).value_or(""),
+            "nothing has held the position for 4.0 s, which leaves it open by 0.59 m");
 }
 
 TEST(BlindnessMonitor, SightStartsItOver) {

@@ -77,18 +77,19 @@ TEST(EstimatorRobustness, AbsurdImuRestartsWithAReasonAndTracksAgain) {
   std::vector<EstimatorOutput> outputs;
   for (const FrameMeasurement& frame : flight.frames) outputs.push_back(estimator.Process(frame));
   EXPECT_TRUE(outputs[119].has_pose);
-  size_t restarts = 0;
+  size_t losses = 0, restarts = 0;
   for (const EstimatorOutput& output : outputs) {
-    if (!output.restarted) continue;
-    ++restarts;
-    EXPECT_EQ(output.status, EstimatorStatus::kLost);
+    if (output.restarted) ++restarts;
+    if (output.status != EstimatorStatus::kLost) continue;
+    ++losses;
     EXPECT_FALSE(output.has_pose);
     const bool names_a_limit = output.reason.find(", more than ") != std::string::npos;
     const bool names_the_camera = output.reason.find("camera contradicts") != std::string::npos;
     EXPECT_TRUE(names_a_limit || names_the_camera) << output.reason;
     EXPECT_LT(output.t_ns, flight.frames[150].t_ns);  // within a second and a half
   }
-  EXPECT_GE(restarts, 1u);
+  EXPECT_GE(losses, 1u);
+  EXPECT_EQ(restarts, losses);  // no bridge leads over what such an IMU says
   EXPECT_EQ(outputs.back().status, EstimatorStatus::kTracking);
   EXPECT_TRUE(outputs[200].has_pose) << outputs[200].reason;
 }
@@ -143,7 +144,7 @@ TEST(EstimatorRobustness, TenSecondsOfBlindnessEndInARestart) {
     if (output.restarted) reasons.push_back(output.reason);
   }
   ASSERT_EQ(reasons.size(), 1u);
-  EXPECT_NE(reasons[0].find("nothing was seen for"), std::string::npos) << reasons[0];
+  EXPECT_NE(reasons[0].find("nothing has held the position"), std::string::npos) << reasons[0];
 }
 
 TEST(EstimatorRobustness, WithoutPointsItNeverStartsAndSaysWhy) {

@@ -101,6 +101,11 @@ std::optional<InitializationResult> Initializer::Add(const FrameMeasurement& mea
   return stands_still ? TryStandstill() : TryMotion();
 }
 
+std::optional<int64_t> Initializer::begin_ns() const {
+  if (buffer_.empty()) return std::nullopt;
+  return buffer_.front().t_ns;
+}
+
 void Initializer::CalibrateRotation() {
   const auto R_B_C = calibrator_->Add(buffer_, &reason_);
   if (!R_B_C) return;

@@ -42,6 +42,9 @@ class Initializer {
   // Takes the next image; at most window_size + 1 frames as soon as their states can be determined.
   std::optional<InitializationResult> Add(const FrameMeasurement& measurement);
 
+  // The first image that a result would go back to; nothing where the next one would be it.
+  std::optional<int64_t> begin_ns() const;
+
   // Why there is no result yet, e.g. "too little parallax: 4.2 px of 15.0 px".
   const std::string& reason() const { return reason_; }
 

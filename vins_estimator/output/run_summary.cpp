@@ -70,6 +70,7 @@ void RunSummary::AddPose(const EstimatorOutput& output) {
   ++poses_;
   stationary_ += output.stationary ? 1 : 0;
   keyframes_ += output.keyframe ? 1 : 0;
+  bridged_losses_ += output.bridged ? 1 : 0;
   imu_doubts_ += output.imu_doubted ? 1 : 0;
   imu_noisy_ += output.imu_noise_scale > 1 ? 1 : 0;
   merged_lines_ += output.counts.line_merging.merged;
@@ -106,6 +107,7 @@ Json RunSummary::ToJson(const Run& run) const {
   json["recognised_lines"] = recognised_lines_;
   json["manhattan_share"] = Ratio(static_cast<double>(manhattan_), static_cast<double>(poses_));
   json["resets"] = resets_;
+  json["bridged_losses"] = bridged_losses_;
   json["imu_doubts"] = imu_doubts_;
   json["imu_noisy_share"] = Ratio(static_cast<double>(imu_noisy_), static_cast<double>(poses_));
   json["calibration"] = poses_ > 0 ? CalibrationToJson(calibration_) : Json(nullptr);

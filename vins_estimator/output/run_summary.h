@@ -46,6 +46,7 @@ class RunSummary {
   int64_t stationary_ = 0;
   int64_t keyframes_ = 0;
   int64_t resets_ = 0;
+  int64_t bridged_losses_ = 0;  // of the estimate, but not of the world frame
   int64_t imu_doubts_ = 0;
   int64_t imu_noisy_ = 0;  // poses with a noise of the IMU beyond the configured one
   int64_t merged_lines_ = 0;

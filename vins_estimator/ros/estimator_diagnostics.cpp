@@ -23,6 +23,7 @@ void EstimatorDiagnostics::Update(const EstimatorOutput& output, int64_t frames,
   reason_ = output.reason;
   pose_age_ = age;
   imu_noise_scale_ = output.imu_noise_scale;
+  bridged_losses_ += output.bridged ? 1 : 0;
   imu_doubts_ += output.imu_doubted ? 1 : 0;
   if (output.restarted) last_restart_ = output.reason;
   if (output.has_pose) poses_.Add(output.t_ns);
@@ -50,6 +51,7 @@ void EstimatorDiagnostics::Report(size_t queued,
   status->add("frames", frames_);
   status->add("resets", resets_);
   status->add("last_restart", last_restart_);
+  status->add("bridged_losses", bridged_losses_);
   for (StreamMonitor* stream : {&imu_, &points_, &lines_, &poses_}) stream->Report(status);
   status->addf("pose_age_ms", "%.0f", 1e3 * pose_age_);
   status->addf("imu_noise_scale", "%.1f", imu_noise_scale_);

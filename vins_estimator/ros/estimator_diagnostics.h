@@ -68,6 +68,7 @@ class EstimatorDiagnostics {
   EstimatorStatus state_ = EstimatorStatus::kInitializing;
   std::string reason_;
   double imu_noise_scale_ = 1;
+  int64_t bridged_losses_ = 0;
   int64_t imu_doubts_ = 0;
   std::string imu_contradiction_;
   double pose_age_ = 0;       // [s]

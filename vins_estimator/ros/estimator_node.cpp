@@ -224,6 +224,10 @@ void EstimatorNode::LogChanges(const EstimatorOutput& output) {
   const std::string why = output.reason.empty() ? "" : ": " + output.reason;
   if (output.restarted) {
     ROS_WARN_STREAM("the world frame starts anew" << why);
+  } else if (output.bridged) {
+    ROS_INFO("tracking again, in the world frame of before");
+  } else if (output.status == EstimatorStatus::kLost) {
+    ROS_WARN_STREAM("lost" << why);
   } else if (output.status != last_status_) {
     ROS_INFO_STREAM(ToString(output.status) << why);
   } else if (output.reason != last_reason_) {

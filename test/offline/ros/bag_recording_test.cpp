@@ -7,6 +7,8 @@
 #include <std_msgs/Bool.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/ros/msg_conversion.h"
@@ -87,6 +89,19 @@ class BagRecording : public ::testing::Test {
     std::filesystem::resize_file(file_, static_cast<uintmax_t>(share * size));
   }
 
+  // Of a message in its chunk, as the first list of the index has it: behind the fields of the
+  // list's header, the size of the list and the time of the message.
+  void SetFirstOffset(int32_t offset) {
+    const std::string list = "op=\x04";
+    const std::string last_field = "ver=";
+    std::fstream bag(file_, std::ios::in | std::ios::out | std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(bag), {});
+    const size_t version = bytes.find(last_field, bytes.find(list));
+    ASSERT_NE(version, std::string::npos);
+    bag.seekp(static_cast<std::streamoff>(version + last_field.size() + 4 + 4 + 8));
+    bag.write(reinterpret_cast<const char*>(&offset), sizeof(offset));
+  }
+
   RecordingContents Read() { return ReadAll(OpenBag(file_, "/cam0/image_raw", "/imu0").get()); }
 
   void ExpectComplete(const RecordingContents& contents) {
@@ -138,6 +153,17 @@ TEST_F(BagRecording, NamesTheRemedyForATruncatedBag) {
   WriteBag("/cam0/image_raw", RawImage);
   Truncate(0.7);
   EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("\"rosbag reindex " + file_ + "\""));
+}
+
+TEST_F(BagRecording, NamesTheRemedyForAnIndexThatLeadsAstray) {
+  for (const auto compression : {rosbag::compression::Uncompressed, rosbag::compression::LZ4}) {
+    WriteBag("/cam0/image_raw", RawImage, compression);
+    SetFirstOffset(INT32_MAX);
+    EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("\"rosbag reindex " + file_ + "\""));
+  }
+  WriteBag("/cam0/image_raw", RawImage);
+  SetFirstOffset(7);  // in the middle of a record
+  EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("rosbag reindex"));
 }
 
 TEST_F(BagRecording, NamesTheRemedyForABagThatWasNeverClosed) {

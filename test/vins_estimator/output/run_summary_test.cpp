@@ -76,6 +76,19 @@ TEST(RunSummary, TheJumpToANewWorldFrameIsNoWay) {
   EXPECT_EQ(json["resets"], 1);
 }
 
+TEST(RunSummary, ALossThatIsBridgedIsPartOfTheWay) {
+  RunSummary summary;
+  summary.Add(Pose(0, 0.0), {}, {});
+  summary.Add(NoPose(1, "lost"), {}, {});
+  EstimatorOutput bridged = Pose(2, 2.0);
+  bridged.bridged = true;
+  summary.Add(bridged, {}, {});
+  const auto json = summary.ToJson({});
+  EXPECT_NEAR(json["path_length_m"].get<double>(), 2.0, 1e-12);
+  EXPECT_EQ(json["bridged_losses"], 1);
+  EXPECT_EQ(json["resets"], 0);
+}
+
 TEST(RunSummary, TellsTheLastCalibration) {
   RunSummary summary;
   summary.Add(Pose(0, 0), {}, {});

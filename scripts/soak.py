@@ -1,0 +1,157 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Plays a bag to the nodes again and again, and watches what must not grow: their memory, their
+open files and threads, and the age of the poses. Ends with code 1 where something does."""
+
+import argparse
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+import rosgraph
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+
+from measure_latency import NODES, launch_file, process_of, wait_for_master
+
+# What may be added from the second quarter of the time to the last; in the first one caches and
+# pools fill up.
+LIMITS = {"memory_MB": 20, "files": 3, "threads": 2, "pose_age_ms": 50}
+HEAD = "| node | what | second quarter | last quarter |\n|---|---|---|---|"
+
+
+class PoseAge:
+    """The last age of a pose that the estimator stated [ms]."""
+
+    def __init__(self):
+        self.value = 0.0
+        self.resets = 0
+        rospy.Subscriber("/diagnostics", DiagnosticArray, self._add)
+
+    def _add(self, array):
+        for status in array.status:
+            values = {value.key: value.value for value in status.values}
+            if "pose_age_ms" in values:
+                self.value = float(values["pose_age_ms"])
+                self.resets = int(values["resets"])
+
+
+def usage(process):
+    """Of a process now, or None where there is none."""
+    try:
+        with open(f"/proc/{process}/status", encoding="ascii") as file:
+            fields = dict(line.split(":", 1) for line in file)
+        return {"memory_MB": int(fields["VmRSS"].split()[0]) / 1024,
+                "threads": int(fields["Threads"]), "files": len(os.listdir(f"/proc/{process}/fd"))}
+    except (OSError, KeyError):
+        return None
+
+
+class Series:
+    """Samples by node and what was measured."""
+
+    def __init__(self):
+        self.samples = {}
+
+    def add(self, node, values):
+        for what, value in values.items():
+            self.samples.setdefault((node, what), []).append(value)
+
+    def growth(self):
+        """(node, what, mean of the second quarter, of the last one) of all that was measured."""
+        for (node, what), values in self.samples.items():
+            quarter = max(1, len(values) // 4)
+            yield (node, what, float(np.mean(values[quarter:2 * quarter] or values)),
+                   float(np.mean(values[-quarter:])))
+
+
+def play(bag, rate):
+    return subprocess.Popen(["rosbag", "play", "--loop", "--clock", "--quiet", "--delay", "3",
+                             "--rate", str(rate), bag], stdout=subprocess.DEVNULL)
+
+
+def launch(config, output):
+    return subprocess.Popen(["roslaunch", *launch_file(), f"config:={os.path.abspath(config)}",
+                             "use_sim_time:=true", f"output:={output}"],
+                            stdout=subprocess.DEVNULL)
+
+
+def watch(options, nodes):
+    """Samples of every node that runs, until the time is over or a node has ended."""
+    series, age = Series(), PoseAge()
+    end = time.monotonic() + 60 * options.minutes
+    processes = {}
+    while time.monotonic() < end:
+        time.sleep(options.interval)
+        for node in NODES:
+            if node not in processes and (found := process_of(node)):
+                processes[node] = found
+        for node, process in processes.items():
+            values = usage(process)
+            if values is None:
+                raise RuntimeError(f"{node} has ended")
+            series.add(node[1:], values)
+        if nodes.poll() is not None:
+            raise RuntimeError("the nodes have ended")
+        series.add("vins_estimator", {"pose_age_ms": age.value})
+    print(f"{options.minutes:g} minutes, {age.resets} world frames given up")
+    return series
+
+
+def soak(options, output):
+    """Starts the nodes and the player, and ends them after the time."""
+    running = [launch(options.config, output)]
+    try:
+        wait_for_master(running[0])
+        rospy.init_node("soak", anonymous=True, disable_signals=True)
+        running.append(play(options.bag, options.rate))
+        return watch(options, running[0])
+    finally:
+        for process in reversed(running):
+            process.send_signal(signal.SIGINT)
+            process.wait()
+
+
+def report(series):
+    """Prints the table; True where nothing has grown."""
+    print(HEAD)
+    grown = []
+    for node, what, before, after in series.growth():
+        print(f"| {node} | {what} | {before:.1f} | {after:.1f} |")
+        if after - before > LIMITS[what]:
+            grown.append(f"{what} of {node}")
+    if grown:
+        print("soak.py: grown: " + ", ".join(grown), file=sys.stderr)
+    return not grown
+
+
+def parse_arguments(arguments):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("bag", help="ROS bag, played in a loop")
+    parser.add_argument("--config", required=True, help="of the sensors in the bag")
+    parser.add_argument("--minutes", type=float, default=60, help="(default: 60)")
+    parser.add_argument("--interval", type=float, default=5, help="of the samples [s] (default: 5)")
+    parser.add_argument("--rate", type=float, default=1, help="of playing (default: 1)")
+    return parser.parse_args(arguments)
+
+
+def main(arguments=None):
+    options = parse_arguments(arguments)
+    for file in (options.bag, options.config):
+        if not os.path.isfile(file):
+            print(f"soak.py: {file}: no such file", file=sys.stderr)
+            return 1
+    try:
+        with tempfile.TemporaryDirectory() as output:
+            return 0 if report(soak(options, output)) else 1
+    except (RuntimeError, rosgraph.MasterException) as error:
+        print(f"soak.py: {error}", file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

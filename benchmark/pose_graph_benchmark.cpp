@@ -71,6 +71,7 @@ void Print(const Round& round, double minutes, const KeyframeMap& map) {
       "%.1f, 95th percentile %.1f\n",
       minutes, map.graph.size(), map.CountKept(), map.graph.edges().size(), round.loops,
       sum / static_cast<double>(sorted.size()), sorted[sorted.size() * 95 / 100]);
+  std::fflush(stdout);  // rounds are slow
 }
 
 void Run(const Config& config, const std::vector<Keyframe>& keyframes, double hours) {

@@ -68,10 +68,13 @@ void PoseGraph::Remove(int number, int anchor) {
     }
   }
   edges_ = std::move(others);
-  const auto best = std::min_element(
-      from_node.begin(), from_node.end(), [](const LevelEdge& a, const LevelEdge& b) {
-        return a.covariance.determinant() < b.covariance.determinant();
-      });
+  // A step if there is one: were steps told by a loop, they would go where it is taken out.
+  const auto rank = [](const LevelEdge& edge) {
+    return std::make_pair(edge.is_loop, edge.covariance.determinant());
+  };
+  const auto best =
+      std::min_element(from_node.begin(), from_node.end(),
+                       [&](const LevelEdge& a, const LevelEdge& b) { return rank(a) < rank(b); });
   for (auto edge = from_node.begin(); edge != from_node.end(); ++edge) {
     if (edge->to != best->to) AddSurer(Chained(Reversed(*best), *edge));
   }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace plm_vins {
@@ -162,6 +163,15 @@ TEST(PoseGraph, TellsTheNeighboursWhatWasMeasuredToANodeThatGoes) {
   EXPECT_TRUE(graph.edges()[3].is_loop);
   EXPECT_NEAR(graph.edges()[3].way, 1, 1e-12);  // from 2 to 1, which it leads to now
   EXPECT_TRUE(graph.AreConnected(2, 4));
+}
+
+TEST(PoseGraph, PassesStepsOnAsStepsWhereALoopIsSurer) {
+  PoseGraph graph = Straight(4);
+  graph.AddEdge(Edge(0, 2, {0, {2, 0, 0}}, true, Variance(0.001, 0.001)));
+  graph.Remove(2, 0);
+  EXPECT_EQ(std::count_if(graph.edges().begin(), graph.edges().end(),
+                          [](const LevelEdge& edge) { return !edge.is_loop; }),
+            3);
 }
 
 TEST(PoseGraph, KeepsTheSurerOfTwoEdgesThatComeToJoinTheSameNodes) {

@@ -18,16 +18,17 @@
 namespace plm_vins {
 namespace {
 
-const LevelTransform kDrift = {0.3 * M_PI / 180, {0.05, -0.03, 0.02}};  // of a round
-constexpr int64_t kTracks = 1'000'000'000;                              // more than a round has
-constexpr double kPause = 1;                                            // between two rounds [s]
+const Vector4d kDrift(0.05, -0.03, 0.02, 0.3 * M_PI / 180);  // of a round [m, rad]
+constexpr int64_t kTracks = 1'000'000'000;                   // more than a round has
+constexpr double kPause = 1;                                 // between two rounds [s]
 
-// The keyframe as it is in a later round: O of that round is T_O_first beside that of the first.
-Keyframe InRound(Keyframe keyframe, int round, int64_t length_ns, double path,
-                 const LevelTransform& T_O_first) {
+// The keyframe as it is in a later round, `share` of the round later than its first.
+Keyframe InRound(Keyframe keyframe, int round, double share, int64_t length_ns, double path) {
+  const LevelTransform T_O_first = LevelTransform::FromVector((round + share) * kDrift);
   keyframe.t_ns += round * length_ns;
   keyframe.path += round * path;
   keyframe.T_O_B = T_O_first.ToRigid() * keyframe.T_O_B;
+  if (keyframe.R_O_M) keyframe.R_O_M = T_O_first.rotation() * *keyframe.R_O_M;
   for (DescribedCorner& corner : keyframe.corners) {
     if (corner.track >= 0) corner.track += round * kTracks;
     if (corner.p_O) corner.p_O = (T_O_first * corner.p_O->cast<double>()).cast<float>();
@@ -46,12 +47,12 @@ struct Round {
   int loops = 0;
 };
 
-Round Fly(const std::vector<Keyframe>& keyframes, int round, const LevelTransform& T_O_first,
-          LoopCloser* loops) {
+Round Fly(const std::vector<Keyframe>& keyframes, int round, LoopCloser* loops) {
   const int64_t length_ns = keyframes.back().t_ns - keyframes.front().t_ns + ToNanoseconds(kPause);
   Round result;
-  for (const Keyframe& keyframe : keyframes) {
-    Keyframe again = InRound(keyframe, round, length_ns, keyframes.back().path, T_O_first);
+  for (size_t i = 0; i < keyframes.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(keyframes.size());
+    Keyframe again = InRound(keyframes[i], round, share, length_ns, keyframes.back().path);
     again.world = 0;
     const Stopwatch stopwatch;
     const LoopClosure closure = loops->Add(std::move(again));
@@ -77,10 +78,8 @@ void Print(const Round& round, double minutes, const KeyframeMap& map) {
 void Run(const Config& config, const std::vector<Keyframe>& keyframes, double hours) {
   LoopCloser loops(LoopCloserOptions(), CameraModel::Create(config.sensor.camera));
   const double seconds = ToSeconds(keyframes.back().t_ns - keyframes.front().t_ns) + kPause;
-  LevelTransform T_O_first;
   for (int round = 0; round * seconds < 3600 * hours; ++round) {
-    Print(Fly(keyframes, round, T_O_first, &loops), (round + 1) * seconds / 60, loops.map());
-    T_O_first = T_O_first * kDrift;
+    Print(Fly(keyframes, round, &loops), (round + 1) * seconds / 60, loops.map());
   }
   PoseGraph graph = loops.map().Compact().graph;
   const Stopwatch stopwatch;

@@ -148,6 +148,11 @@ void PoseGraph::Solve() {
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  // That of Eigen works in this thread alone; that of SuiteSparse wakes others, for less than it
+  // costs.
+  if (ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::EIGEN_SPARSE)) {
+    options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+  }
   options.max_num_iterations = kMaxIterations;
   options.num_threads = 1;  // sums of several would differ from run to run
   options.logging_type = ceres::SILENT;

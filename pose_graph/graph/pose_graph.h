@@ -9,8 +9,8 @@ namespace plm_vins {
 
 // Keyframes in the map M with four degrees of freedom each, and what was measured between them.
 // A node is T_M_L of its keyframe. Nodes that are not needed any more can be taken out, and what
-// was measured to them is kept between the others. Parts that no edge connects lie apart, each
-// where its first node is. Deterministic.
+// was measured to them is kept between the others. Parts that no edge connects lie apart.
+// Deterministic.
 class PoseGraph {
  public:
   // Returns the node's number: they count up from zero.

@@ -102,7 +102,7 @@ Json LoopResults::Summary() const {
   const SeriesSummary timing = Summarize(keyframe_ms_, 0);
   Json json;
   json["keyframes"] = keyframes_;
-  json["map_keyframes"] = loops_.map().graph.size();
+  json["map_keyframes"] = loops_.map().CountKept();
   json["candidates"] = candidates_;
   json["accepted"] = accepted_;
   json["refused"] = refused;

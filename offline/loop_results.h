@@ -46,7 +46,6 @@ class LoopResults {
   std::ofstream trajectory_;
   std::ofstream table_;
   std::string restart_reason_;  // of a world without a pose yet; empty: there is none
-  bool restarted_ = false;
   std::vector<OdometryPose> poses_;
   std::vector<std::pair<size_t, std::string>> worlds_;  // first pose of each but the first, reason
   std::optional<double> first_fix_;                     // since the first pose [s]

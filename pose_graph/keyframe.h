@@ -29,6 +29,7 @@ struct Keyframe {
   int world = 0;    // names the odometry's world O: one for each start of the odometry
   double path = 0;  // length of the way from the start of O [m]
   Rigid3d T_O_B;
+  Matrix4d covariance = Matrix4d::Zero();  // of (x, y, z, yaw) of T_O_B, as odometry states it
   Rigid3d T_B_C;
   std::optional<Eigen::Quaterniond> R_O_M;
   std::vector<DescribedCorner> corners;

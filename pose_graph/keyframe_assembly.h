@@ -19,7 +19,8 @@ class KeyframeAssembly {
   void AddImage(const ImageSample& image);
   void AddPose(int64_t t_ns, const Rigid3d& T_O_B, const Eigen::Matrix<double, 6, 6>& covariance);
   void AddCorners(int64_t t_ns, std::vector<TrackedCorner> corners);
-  void AddSegments(int64_t t_ns, std::vector<TrackedSegment> segments);
+  void AddSegments(int64_t t_ns, std::vector<TrackedSegment> segments,
+                   const std::optional<Eigen::Quaterniond>& R_O_M);
 
   // The next keyframe in order of time, or nothing yet.
   std::optional<OdometryFrame> Pop();

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pose_graph/description/corner_description.h"
+#include "pose_graph/odometry_noise.h"
 
 namespace plm_vins {
 namespace {
@@ -63,6 +64,7 @@ Keyframe MakeKeyframe(const CornerSelectionOptions& options, const CameraModel& 
   Keyframe keyframe;
   keyframe.t_ns = frame.t_ns;
   keyframe.T_O_B = frame.T_O_B;
+  keyframe.covariance = LevelCovariance(frame);
   keyframe.T_B_C = frame.T_B_C;
   keyframe.R_O_M = frame.R_O_M;
   keyframe.segments = frame.segments;

@@ -28,6 +28,9 @@ class LoopAcceptance {
   std::vector<LoopCandidate> Judge(const std::vector<Keyframe>& keyframes, const PoseGraph& graph,
                                    LoopCandidate* candidate);
 
+  // Drops loops that wait and lead to this keyframe, which leaves the map.
+  void Forget(int keyframe);
+
  private:
   bool Agree(const std::vector<Keyframe>& keyframes, const PoseGraph& graph, const LoopCandidate& a,
              const LoopCandidate& b) const;

@@ -20,7 +20,8 @@ LoopCloser::LoopCloser(const LoopCloserOptions& options, std::shared_ptr<const C
       camera_(std::move(camera)),
       recognition_(options.recognition),
       verification_(options.verification, camera_),
-      acceptance_(options.acceptance) {}
+      acceptance_(options.acceptance),
+      thinning_(options.thinning) {}
 
 void LoopCloser::SetMap(KeyframeMap map) {
   map_ = std::move(map);
@@ -35,47 +36,59 @@ LoopClosure LoopCloser::Add(const OdometryFrame& frame) {
     ++world_;
     path_ = 0;
     last_position_O_.reset();
-    last_.reset();
   }
   if (last_position_O_) path_ += (frame.T_O_B.translation - *last_position_O_).norm();
   last_position_O_ = frame.T_O_B.translation;
 
-  LoopClosure closure;
-  closure.is_keyframe = IsKeyframe(frame);
-  if (closure.is_keyframe) {
-    AddKeyframe(frame);
-    LookForLoops(&closure);
+  if (!IsKeyframe(frame)) {
+    LoopClosure closure;
+    closure.fix = Fix();
+    return closure;
   }
+  Keyframe keyframe = MakeKeyframe(options_.corners, *camera_, frame);
+  keyframe.world = world_;
+  keyframe.path = path_;
+  return Add(std::move(keyframe));
+}
+
+LoopClosure LoopCloser::Add(Keyframe keyframe) {
+  const bool continues = HasKeyframeOf(keyframe.world);
+  const LevelTransform T_O_L = keyframe.T_O_L();
+  const int number =
+      map_.graph.AddNode(continues ? map_.T_M_O(map_.graph.size() - 1) * T_O_L : T_O_L);
+  map_.keyframes.push_back(std::move(keyframe));
+  recognition_.Add(map_.keyframes.back(), number);
+  if (continues) ConnectToPrevious(number);
+
+  LoopClosure closure;
+  closure.is_keyframe = true;
+  LookForLoops(&closure);
+  Thin();
   closure.fix = Fix();
   return closure;
 }
 
+// The newest keyframes are those of the newest world.
+bool LoopCloser::HasKeyframeOf(int world) const {
+  return !map_.keyframes.empty() && map_.keyframes.back().world == world;
+}
+
 bool LoopCloser::IsKeyframe(const OdometryFrame& frame) const {
-  if (!last_) return true;
+  if (!HasKeyframeOf(world_)) return true;
   const KeyframeSpacing& spacing = Fix() ? options_.spacing : options_.lost_spacing;
-  return IsApart(spacing, last_->t_ns, last_->T_O_B, frame.t_ns, frame.T_O_B);
+  const Keyframe& last = map_.keyframes.back();
+  return IsApart(spacing, last.t_ns, last.T_O_B, frame.t_ns, frame.T_O_B);
 }
 
-void LoopCloser::AddKeyframe(const OdometryFrame& frame) {
-  Keyframe keyframe = MakeKeyframe(options_.corners, *camera_, frame);
-  keyframe.world = world_;
-  keyframe.path = path_;
-  const LevelTransform T_O_L = keyframe.T_O_L();
-  const LevelTransform T_M_L = last_ ? map_.T_M_O(map_.graph.size() - 1) * T_O_L : T_O_L;
-  const int number = map_.graph.AddNode(T_M_L);
-  map_.keyframes.push_back(std::move(keyframe));
-  recognition_.Add(map_.keyframes.back(), number);
-  if (last_) ConnectToPrevious(frame, number);
-  last_ = frame;
-  last_->gray.release();
-}
-
-void LoopCloser::ConnectToPrevious(const OdometryFrame& frame, int number) {
+void LoopCloser::ConnectToPrevious(int number) {
+  const Keyframe& from = map_.keyframes[number - 1];
+  const Keyframe& to = map_.keyframes[number];
   LevelEdge edge;
   edge.from = number - 1;
   edge.to = number;
-  edge.T_from_to = map_.keyframes[number - 1].T_O_L().Inverse() * map_.keyframes[number].T_O_L();
-  edge.covariance = StepCovariance(options_.odometry, *last_, frame);
+  edge.T_from_to = from.T_O_L().Inverse() * to.T_O_L();
+  edge.covariance = StepCovariance(options_.odometry, from, to);
+  edge.way = edge.T_from_to.translation.norm();
   map_.graph.AddEdge(edge);
   covariance_ += edge.covariance;
 }
@@ -149,6 +162,14 @@ void LoopCloser::Optimize(LoopClosure* closure) {
         dropped.begin(), dropped.end(),
         [&](const LevelEdge& other) { return other.from == edge.from && other.to == edge.to; });
     if (is_dropped) candidate.failed = LoopGate::kGraph;
+  }
+}
+
+void LoopCloser::Thin() {
+  while (const auto keyframe = thinning_.Next(map_)) {
+    recognition_.Remove(map_.keyframes[keyframe->number], keyframe->number);
+    acceptance_.Forget(keyframe->number);
+    map_.Remove(keyframe->number, keyframe->nearest);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "pose_graph/keyframe_policy.h"
 #include "pose_graph/loop_acceptance.h"
 #include "pose_graph/loop_candidate.h"
+#include "pose_graph/map_thinning.h"
 #include "pose_graph/odometry_frame.h"
 #include "pose_graph/odometry_noise.h"
 #include "pose_graph/retrieval/place_recognition.h"
@@ -31,6 +32,7 @@ struct LoopCloserOptions {
   PlaceRecognitionOptions recognition;
   LoopVerificationOptions verification;
   LoopAcceptanceOptions acceptance;
+  MapThinningOptions thinning;
 };
 
 // The place of an odometry's world in the map.
@@ -60,17 +62,21 @@ class LoopCloser {
   // Takes the next image that odometry has a pose for.
   LoopClosure Add(const OdometryFrame& frame);
 
+  // Takes a keyframe that is made already, as those of a map are.
+  LoopClosure Add(Keyframe keyframe);
+
   const KeyframeMap& map() const { return map_; }
 
  private:
   bool IsKeyframe(const OdometryFrame& frame) const;
-  void AddKeyframe(const OdometryFrame& frame);
-  void ConnectToPrevious(const OdometryFrame& frame, int number);
+  bool HasKeyframeOf(int world) const;
+  void ConnectToPrevious(int number);
   void LookForLoops(LoopClosure* closure);
   LoopCandidate Examine(const PlaceCandidate& place, LoopClosure* closure);
   Island IslandOf(int number) const;
   bool AddLoops(const std::vector<LoopCandidate>& loops);
   void Optimize(LoopClosure* closure);
+  void Thin();
   std::optional<MapFix> Fix() const;
 
   LoopCloserOptions options_;
@@ -78,11 +84,11 @@ class LoopCloser {
   PlaceRecognition recognition_;
   LoopVerification verification_;
   LoopAcceptance acceptance_;
+  MapThinning thinning_;
   KeyframeMap map_;
   int world_ = 0;
   double path_ = 0;                                 // in this world [m]
   std::optional<Eigen::Vector3d> last_position_O_;  // for path_
-  std::optional<OdometryFrame> last_;               // the newest keyframe of this world
   Matrix4d covariance_ = Matrix4d::Zero();          // of the newest keyframe in M
 };
 

@@ -3,6 +3,7 @@
 
 #include "pose_graph/drift_budget.h"
 #include "pose_graph/geometry/level_transform.h"
+#include "pose_graph/keyframe.h"
 #include "pose_graph/odometry_frame.h"
 
 namespace plm_vins {
@@ -13,9 +14,12 @@ struct OdometryNoise : DriftBudget {
   OdometryNoise() : DriftBudget{0.001, 0.003, 0.003 * M_PI / 180, 0.02 * M_PI / 180} {}
 };
 
-// Covariance of the step from a keyframe to the next: by how much that of the pose grew, which is
-// what the step added, and not less than the floor.
-Matrix4d StepCovariance(const OdometryNoise& noise, const OdometryFrame& from,
-                        const OdometryFrame& to);
+// Of (x, y, z, yaw) in O, out of what odometry says of all six degrees of freedom.
+Matrix4d LevelCovariance(const OdometryFrame& frame);
+
+// Covariance of the step from a keyframe to the next, and not less than the floor: by how much that
+// of the pose grew, which is what the step added, or shrank, which is that of a correction. (The
+// error that an optimal correction leaves does not correlate with it, so variances subtract.)
+Matrix4d StepCovariance(const OdometryNoise& noise, const Keyframe& from, const Keyframe& to);
 
 }  // namespace plm_vins

@@ -45,11 +45,13 @@ void Declare(Arguments* arguments, CLI::App* app) {
                   "sensors: topics, camera, shutter, extrinsics, IMU noise, td (default: EuRoC's)");
   AddChoice<WorldKind>(
       app, "--world", &flight.world,
-      "where to fly; atlanta: a room of two frames, irregular: one without (default: room)",
+      "where to fly; atlanta: a room of two frames, irregular: one without, twins: two equal rooms "
+      "(default: room)",
       {{"room", WorldKind::kRoom},
        {"corridor", WorldKind::kCorridor},
        {"hall", WorldKind::kHall},
        {"atlanta", WorldKind::kAtlanta},
+       {"twins", WorldKind::kTwins},
        {"irregular", WorldKind::kIrregular}});
   AddChoice<TextureStyle>(app, "--texture", &flight.texture,
                           "weak leaves almost only lines (default: rich)",

@@ -13,6 +13,7 @@ namespace plm_vins {
 namespace {
 
 constexpr size_t kValuesPerChannel = 5;
+constexpr char kManhattan[] = "manhattan";
 
 geometry_msgs::Point32 ToPoint32(const Eigen::Vector3d& p) {
   geometry_msgs::Point32 point;
@@ -40,13 +41,18 @@ sensor_msgs::PointCloud EmptyCloud(int64_t t_ns, const std::string& frame_id) {
   return cloud;
 }
 
+bool HasManhattanFrame(const sensor_msgs::PointCloud& message) {
+  return !message.channels.empty() && message.channels.back().name == kManhattan;
+}
+
 // One channel for each feature, which has `points_each` points.
 void CheckLayout(const sensor_msgs::PointCloud& message, size_t points_each) {
-  if (message.points.size() != points_each * message.channels.size()) {
+  const size_t features = message.channels.size() - (HasManhattanFrame(message) ? 1 : 0);
+  if (message.points.size() != points_each * features) {
     throw std::invalid_argument("a keyframe's message has not one channel for each feature");
   }
-  for (const sensor_msgs::ChannelFloat32& channel : message.channels) {
-    if (channel.values.size() < kValuesPerChannel) {
+  for (size_t i = 0; i < features; ++i) {
+    if (message.channels[i].values.size() < kValuesPerChannel) {
       throw std::invalid_argument("a keyframe's message has a channel of less than five values");
     }
   }
@@ -80,8 +86,9 @@ std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message) {
   return corners;
 }
 
-sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments, int64_t t_ns,
-                                        const std::string& frame_id) {
+sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments,
+                                        const std::optional<Eigen::Quaterniond>& R_O_M,
+                                        int64_t t_ns, const std::string& frame_id) {
   sensor_msgs::PointCloud cloud = EmptyCloud(t_ns, frame_id);
   for (const TrackedSegment& segment : segments) {
     if (!segment.landmark) continue;
@@ -90,13 +97,20 @@ sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segme
     const LineObservation& seen = segment.observation;
     cloud.channels.push_back(ToChannel(seen.start, seen.end, seen.id));
   }
+  if (R_O_M) {
+    sensor_msgs::ChannelFloat32& channel = cloud.channels.emplace_back();
+    channel.name = kManhattan;
+    for (const double value : {R_O_M->w(), R_O_M->x(), R_O_M->y(), R_O_M->z()}) {
+      channel.values.push_back(static_cast<float>(value));
+    }
+  }
   return cloud;
 }
 
 std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message) {
   CheckLayout(message, 2);
   std::vector<TrackedSegment> segments;
-  for (size_t i = 0; i < message.channels.size(); ++i) {
+  for (size_t i = 0; 2 * i < message.points.size(); ++i) {
     const auto& values = message.channels[i].values;
     TrackedSegment& segment = segments.emplace_back();
     segment.observation.start = {values[0], values[1]};
@@ -105,6 +119,15 @@ std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message) {
     segment.landmark = {ToVector(message.points[2 * i]), ToVector(message.points[2 * i + 1])};
   }
   return segments;
+}
+
+std::optional<Eigen::Quaterniond> ToManhattanFrame(const sensor_msgs::PointCloud& message) {
+  if (!HasManhattanFrame(message)) return std::nullopt;
+  const auto& values = message.channels.back().values;
+  if (values.size() != 4) {
+    throw std::invalid_argument("a keyframe's Manhattan frame is no quaternion");
+  }
+  return Eigen::Quaterniond(values[0], values[1], values[2], values[3]).normalized();
 }
 
 }  // namespace plm_vins

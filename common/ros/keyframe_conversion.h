@@ -4,6 +4,8 @@
 
 #include <sensor_msgs/PointCloud.h>
 
+#include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +21,12 @@ sensor_msgs::PointCloud ToKeyframePoints(const std::vector<TrackedCorner>& corne
 std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message);
 
 // ~keyframe_line: both ends in space of each line that has a place, and one channel for each line,
-// with the ends x, y, x, y (normalised) and the id. Reading throws as above.
-sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments, int64_t t_ns,
-                                        const std::string& frame_id);
+// with the ends x, y, x, y (normalised) and the id. Where the scene has a Manhattan frame, a last
+// channel of that name has R_O_M as w, x, y, z. Reading throws as above.
+sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments,
+                                        const std::optional<Eigen::Quaterniond>& R_O_M,
+                                        int64_t t_ns, const std::string& frame_id);
 std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message);
+std::optional<Eigen::Quaterniond> ToManhattanFrame(const sensor_msgs::PointCloud& message);
 
 }  // namespace plm_vins

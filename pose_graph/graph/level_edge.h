@@ -12,7 +12,14 @@ struct LevelEdge {
   LevelTransform T_from_to;
   Matrix4d covariance = Matrix4d::Identity();  // of (x, y, z, yaw) of T_from_to [m, rad]
   bool is_loop = false;
+  double way = 0;  // of odometry that is in it [m]
 };
+
+// The same, told the other way round.
+LevelEdge Reversed(const LevelEdge& edge);
+
+// What two edges, a to b and b to c, say of a and c. They are taken for independent.
+LevelEdge Chained(const LevelEdge& a_b, const LevelEdge& b_c);
 
 // Measured less actual T_from_to, as (x, y, z, yaw).
 inline Vector4d EdgeError(const LevelTransform& measured, const LevelTransform& actual) {
@@ -20,6 +27,9 @@ inline Vector4d EdgeError(const LevelTransform& measured, const LevelTransform& 
   error(3) = WrapAngle(error(3));
   return error;
 }
+
+// W with W^T W = covariance^-1.
+Matrix4d Whitening(const Matrix4d& covariance);
 
 // The Mahalanobis distance of an error from zero [standard deviations].
 double Deviations(const Vector4d& error, const Matrix4d& covariance);

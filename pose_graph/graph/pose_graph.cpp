@@ -3,26 +3,21 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <queue>
 #include <utility>
 
+#include "pose_graph/geometry/level_fit.h"
+
 namespace plm_vins {
 namespace {
 
-constexpr double kRobustWidth = 1.0;  // [standard deviations]
-constexpr int kMaxIterations = 10;    // from the last solution, few do
-
-// W with W^T W = covariance^-1.
-Matrix4d Whitening(const Matrix4d& covariance) {
-  const Eigen::LLT<Matrix4d> factor(covariance);
-  return factor.matrixL().solve(Matrix4d::Identity());
-}
+constexpr int kMaxIterations = 10;  // from the last solution, few do
 
 // The whitened error of an edge. The variables of a node: (x, y, z, yaw) of T_M_L.
 struct EdgeCost {
@@ -50,17 +45,66 @@ struct EdgeCost {
 
 }  // namespace
 
-double Deviations(const Vector4d& error, const Matrix4d& covariance) {
-  return (Whitening(covariance) * error).norm();
-}
-
 int PoseGraph::AddNode(const LevelTransform& T_M_L) {
-  nodes_.push_back(T_M_L);
+  nodes_.push_back({T_M_L});
   return size() - 1;
 }
 
+LevelTransform PoseGraph::node(int number) const {
+  const Node& node = nodes_[number];
+  return node.anchor < 0 ? node.T_M_L : nodes_[node.anchor].T_M_L * node.T_M_L;
+}
+
+void PoseGraph::Remove(int number, int anchor) {
+  std::vector<LevelEdge> from_node;
+  std::vector<LevelEdge> others;
+  for (const LevelEdge& edge : edges_) {
+    if (edge.from == number) {
+      from_node.push_back(edge);
+    } else if (edge.to == number) {
+      from_node.push_back(Reversed(edge));
+    } else {
+      others.push_back(edge);
+    }
+  }
+  edges_ = std::move(others);
+  // A step if there is one: were steps told by a loop, they would go where it is taken out.
+  const auto rank = [](const LevelEdge& edge) {
+    return std::make_pair(edge.is_loop, edge.covariance.determinant());
+  };
+  const auto best =
+      std::min_element(from_node.begin(), from_node.end(),
+                       [&](const LevelEdge& a, const LevelEdge& b) { return rank(a) < rank(b); });
+  for (auto edge = from_node.begin(); edge != from_node.end(); ++edge) {
+    if (edge->to != best->to) AddSurer(Chained(Reversed(*best), *edge));
+  }
+  Anchor(number, anchor);
+}
+
+// Those that are taken out are seen from one that is not, so no search is needed.
+void PoseGraph::Anchor(int number, int anchor) {
+  const LevelTransform T_A_L = node(anchor).Inverse() * node(number);
+  nodes_[number] = {T_A_L, anchor};
+  for (Node& node : nodes_) {
+    if (node.anchor == number) node = {T_A_L * node.T_M_L, anchor};
+  }
+}
+
+// Steps and loops are compared with their like alone: steps are never doubted.
+void PoseGraph::AddSurer(const LevelEdge& edge) {
+  const auto same = std::find_if(edges_.begin(), edges_.end(), [&](const LevelEdge& other) {
+    return edge.is_loop == other.is_loop &&
+           std::minmax(edge.from, edge.to) == std::minmax(other.from, other.to);
+  });
+  if (same == edges_.end()) {
+    edges_.push_back(edge);
+  } else if (edge.covariance.determinant() < same->covariance.determinant()) {
+    *same = edge;
+  }
+}
+
 double PoseGraph::Deviations(const LevelEdge& edge) const {
-  const LevelTransform actual = nodes_[edge.from].Inverse() * nodes_[edge.to];
+  const LevelTransform actual = node(edge.from).Inverse() * node(edge.to);
   return plm_vins::Deviations(EdgeError(edge.T_from_to, actual), edge.covariance);
 }
 
@@ -84,14 +128,16 @@ std::vector<LevelEdge> PoseGraph::Optimize() {
 
 void PoseGraph::Solve() {
   std::vector<Vector4d> values;
-  for (const LevelTransform& node : nodes_) values.push_back(node.ToVector());
+  for (const Node& node : nodes_) values.push_back(node.T_M_L.ToVector());
   ceres::Problem problem;
   for (const LevelEdge& edge : edges_) {
     const Vector4d measured = edge.T_from_to.ToVector();
     const double excess = values[edge.to](3) - values[edge.from](3) - measured(3);
     auto* cost = new ceres::AutoDiffCostFunction<EdgeCost, 4, 4, 4>(
         new EdgeCost{measured, Whitening(edge.covariance), std::round(excess / (2 * M_PI))});
-    problem.AddResidualBlock(cost, edge.is_loop ? new ceres::CauchyLoss(kRobustWidth) : nullptr,
+    // Where odometry jumped, a right loop is off by much at first: it must not be doubted before it
+    // is taken out.
+    problem.AddResidualBlock(cost, edge.is_loop ? new ceres::CauchyLoss(kThreeSigma) : nullptr,
                              values[edge.from].data(), values[edge.to].data());
   }
   const std::vector<int> parts = Parts();
@@ -102,13 +148,33 @@ void PoseGraph::Solve() {
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  // That of Eigen works in this thread alone; that of SuiteSparse wakes others, for less than it
+  // costs.
+  if (ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::EIGEN_SPARSE)) {
+    options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+  }
   options.max_num_iterations = kMaxIterations;
   options.num_threads = 1;  // sums of several would differ from run to run
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) return;
-  for (int i = 0; i < size(); ++i) nodes_[i] = LevelTransform::FromVector(values[i]);
+  TakeOver(values, parts);
+}
+
+// The solver left the first node of each part where it was. But that any one node stays is worth
+// nothing: a turn of the first step would swing all others about it. So each part is laid onto
+// where it was.
+void PoseGraph::TakeOver(const std::vector<Vector4d>& values, const std::vector<int>& parts) {
+  std::map<int, LevelFit> fits;
+  for (int i = 0; i < size(); ++i) {
+    if (Has(i)) fits[parts[i]].Add(LevelTransform::FromVector(values[i]), nodes_[i].T_M_L);
+  }
+  for (int i = 0; i < size(); ++i) {
+    if (Has(i)) {
+      nodes_[i].T_M_L = fits[parts[i]].T_to_from() * LevelTransform::FromVector(values[i]);
+    }
+  }
 }
 
 std::vector<int> PoseGraph::Parts() const {
@@ -122,7 +188,7 @@ std::vector<int> PoseGraph::Parts() const {
     const auto [low, high] = std::minmax({first_of(edge.from), first_of(edge.to)});
     part[high] = low;
   }
-  for (int i = 0; i < size(); ++i) part[i] = first_of(i);
+  for (int i = 0; i < size(); ++i) part[i] = first_of(Has(i) ? i : nodes_[i].anchor);
   return part;
 }
 
@@ -141,16 +207,15 @@ std::vector<bool> PoseGraph::ConnectedWith(int node) const {
 void PoseGraph::MovePart(int node, const LevelTransform& T_new_old) {
   const std::vector<bool> moves = ConnectedWith(node);
   for (int i = 0; i < size(); ++i) {
-    if (moves[i]) nodes_[i] = T_new_old * nodes_[i];
+    if (moves[i] && Has(i)) nodes_[i].T_M_L = T_new_old * nodes_[i].T_M_L;
   }
 }
 
 double PoseGraph::Distance(int from, int to) const {
   std::vector<std::vector<std::pair<int, double>>> neighbours(nodes_.size());
   for (const LevelEdge& edge : edges_) {
-    const double length = edge.is_loop ? 0 : edge.T_from_to.translation.norm();
-    neighbours[edge.from].emplace_back(edge.to, length);
-    neighbours[edge.to].emplace_back(edge.from, length);
+    neighbours[edge.from].emplace_back(edge.to, edge.way);
+    neighbours[edge.to].emplace_back(edge.from, edge.way);
   }
   std::vector<double> distances(nodes_.size(), std::numeric_limits<double>::infinity());
   using Reached = std::pair<double, int>;  // distance, node

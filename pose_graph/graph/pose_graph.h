@@ -8,17 +8,24 @@
 namespace plm_vins {
 
 // Keyframes in the map M with four degrees of freedom each, and what was measured between them.
-// A node is T_M_L of its keyframe. Parts that no edge connects lie apart, each where its first
-// node is. Deterministic.
+// A node is T_M_L of its keyframe. Nodes that are not needed any more can be taken out, and what
+// was measured to them is kept between the others. Parts that no edge connects lie apart.
+// Deterministic.
 class PoseGraph {
  public:
   // Returns the node's number: they count up from zero.
   int AddNode(const LevelTransform& T_M_L);
   void AddEdge(const LevelEdge& edge) { edges_.push_back(edge); }
 
-  // Takes the nodes to where all edges fit best. The first node of each part stays. Loops count
-  // robustly; those that are off by more than kThreeSigma in the end are taken out, the worst
-  // first, and it is done again. Returns them.
+  // Takes a node out. Its edges are told of that neighbour which it is tied to best instead; of two
+  // edges that then join the same nodes the surer one stays, since both are mostly of the same
+  // landmarks. node() goes on telling where it was, as seen from `anchor`, one of its part.
+  void Remove(int number, int anchor);
+  bool Has(int number) const { return nodes_[number].anchor < 0; }
+
+  // Takes the nodes to where all edges fit best. Each part as a whole stays where it is.
+  // Loops count robustly; those that are off by more than kThreeSigma in the end are taken out, the
+  // worst first, and it is done again. Returns them.
   std::vector<LevelEdge> Optimize();
 
   // Whether edges lead from one node to the other.
@@ -35,16 +42,23 @@ class PoseGraph {
   // Of an edge, by its own covariance [standard deviations].
   double Deviations(const LevelEdge& edge) const;
 
-  int size() const { return static_cast<int>(nodes_.size()); }
-  const LevelTransform& node(int number) const { return nodes_[number]; }
-  const std::vector<LevelTransform>& nodes() const { return nodes_; }
+  int size() const { return static_cast<int>(nodes_.size()); }  // with those taken out
+  LevelTransform node(int number) const;
   const std::vector<LevelEdge>& edges() const { return edges_; }
 
  private:
+  struct Node {
+    LevelTransform T_M_L;  // of one that is taken out: T_A_L, A being its anchor's L
+    int anchor = -1;       // -1: it is not taken out
+  };
+
+  void Anchor(int number, int anchor);
+  void AddSurer(const LevelEdge& edge);
   std::vector<int> Parts() const;  // by node: the first node of its part
   void Solve();
+  void TakeOver(const std::vector<Vector4d>& values, const std::vector<int>& parts);
 
-  std::vector<LevelTransform> nodes_;
+  std::vector<Node> nodes_;
   std::vector<LevelEdge> edges_;
 };
 

@@ -98,7 +98,9 @@ void WriteColmapModel(const std::string& folder, const CameraParameters& camera,
 
   const std::map<PointName, ColmapPoint> points = CollectPoints(map);
   std::ofstream images = Open(folder, "images.txt");
-  for (int i = 0; i < map.graph.size(); ++i) WriteImage(camera, map, i, points, &images);
+  for (int i = 0; i < map.graph.size(); ++i) {
+    if (map.graph.Has(i)) WriteImage(camera, map, i, points, &images);
+  }
 
   std::ofstream places = Open(folder, "points3D.txt");
   for (const auto& [name, point] : points) {

@@ -32,6 +32,7 @@ void WriteInformation(const Matrix4d& covariance, std::ostream* stream) {
 void WriteG2o(const KeyframeMap& map, std::ostream* stream) {
   *stream << std::setprecision(9);
   for (int i = 0; i < map.graph.size(); ++i) {
+    if (!map.graph.Has(i)) continue;
     *stream << "VERTEX_SE3:QUAT " << i;
     WriteTransform(map.graph.node(i), stream);
     *stream << '\n';

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "pose_graph/output/map_archive.h"
 
@@ -16,7 +18,7 @@ namespace plm_vins {
 namespace {
 
 constexpr char kSignature[] = "plm_vins map";
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 
 // [FNV]: 64-bit FNV-1a. It is there against damage, not against malice.
 uint64_t Checksum(const std::string& bytes) {
@@ -71,6 +73,7 @@ void Frame(Archive* archive, Struct& keyframe) {
   archive->Value(keyframe.world);
   archive->Value(keyframe.path);
   Pose(archive, keyframe.T_O_B);
+  Numbers(archive, keyframe.covariance);
   Pose(archive, keyframe.T_B_C);
   if (archive->Has(keyframe.R_O_M)) Numbers(archive, keyframe.R_O_M->coeffs());
   archive->Resize(keyframe.corners);
@@ -86,6 +89,7 @@ void Edge(Archive* archive, Struct& edge) {
   Level(archive, edge.T_from_to);
   Numbers(archive, edge.covariance);
   archive->Value(edge.is_loop);
+  archive->Value(edge.way);
 }
 
 template <typename Archive, typename Keyframes, typename Nodes, typename Edges>
@@ -156,7 +160,10 @@ void WriteStream(const std::string& bytes, std::ostream* stream) {
 
 void SaveMap(const std::string& file, const KeyframeMap& map) {
   MapWriter writer;
-  Map(&writer, map.keyframes, map.graph.nodes(), map.graph.edges());
+  const KeyframeMap kept = map.Compact();
+  std::vector<LevelTransform> nodes;
+  for (int i = 0; i < kept.graph.size(); ++i) nodes.push_back(kept.graph.node(i));
+  Map(&writer, kept.keyframes, std::as_const(nodes), kept.graph.edges());
   // Readers see the old file or the new one, never half of it.
   const std::string unfinished = file + ".part";
   std::ofstream stream(unfinished, std::ios::binary);

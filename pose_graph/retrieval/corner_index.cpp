@@ -28,12 +28,15 @@ void CornerIndex::Add(int image, const std::vector<Descriptor>& descriptors) {
   }
 }
 
-void CornerIndex::Remove(int image) {
+void CornerIndex::Remove(int image, const std::vector<Descriptor>& descriptors) {
   images_.erase(image);
-  for (std::vector<Entry>& bucket : buckets_) {
-    bucket.erase(std::remove_if(bucket.begin(), bucket.end(),
-                                [image](const Entry& entry) { return entry.image == image; }),
-                 bucket.end());
+  for (const Descriptor& descriptor : descriptors) {
+    for (int table = 0; table < options_.tables; ++table) {
+      std::vector<Entry>& bucket = buckets_[Word(descriptor, table)];
+      bucket.erase(std::remove_if(bucket.begin(), bucket.end(),
+                                  [image](const Entry& entry) { return entry.image == image; }),
+                   bucket.end());
+    }
   }
 }
 

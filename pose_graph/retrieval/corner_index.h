@@ -23,7 +23,7 @@ class CornerIndex {
   explicit CornerIndex(const CornerIndexOptions& options);
 
   void Add(int image, const std::vector<Descriptor>& descriptors);
-  void Remove(int image);
+  void Remove(int image, const std::vector<Descriptor>& descriptors);  // that were added
 
   // How similar the images are to one with these descriptors: each that an image has a like of
   // counts the more, the fewer images have. By image; those not named have none.

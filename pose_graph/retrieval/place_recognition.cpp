@@ -47,6 +47,10 @@ void PlaceRecognition::Add(const Keyframe& keyframe, int number) {
   index_.Add(number, DescriptorsOf(keyframe));
 }
 
+void PlaceRecognition::Remove(const Keyframe& keyframe, int number) {
+  index_.Remove(number, DescriptorsOf(keyframe));
+}
+
 std::vector<PlaceCandidate> PlaceRecognition::Find(const std::vector<Keyframe>& keyframes) {
   const int newest = static_cast<int>(keyframes.size()) - 1;
   const std::map<int, double> scores = index_.Scores(DescriptorsOf(keyframes[newest]));

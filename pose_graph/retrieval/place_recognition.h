@@ -34,7 +34,7 @@ class PlaceRecognition {
   // Adds keyframes[number], which odometry may know by its place in the list ever after.
   void Add(const Keyframe& keyframe, int number);
 
-  void Remove(int number) { index_.Remove(number); }
+  void Remove(const Keyframe& keyframe, int number);
 
   // Candidates for the newest keyframe, the best first. It has been added before.
   std::vector<PlaceCandidate> Find(const std::vector<Keyframe>& keyframes);

@@ -101,8 +101,10 @@ void PoseGraphNode::AddPoints(const sensor_msgs::PointCloud& message) {
 }
 
 void PoseGraphNode::AddLines(const sensor_msgs::PointCloud& message) {
-  callback_errors_.Run(
-      [&] { assembly_.AddSegments(ToNanoseconds(message.header.stamp), ToSegments(message)); });
+  callback_errors_.Run([&] {
+    assembly_.AddSegments(ToNanoseconds(message.header.stamp), ToSegments(message),
+                          ToManhattanFrame(message));
+  });
   PassOn();
 }
 
@@ -119,15 +121,15 @@ void PoseGraphNode::Restart(const std_msgs::Bool& message) {
   if (!message.data) return;
   assembly_.Clear();
   restarted_ = true;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  fix_.reset();
+  const std::lock_guard<std::mutex> lock(status_mutex_);
+  status_.fix.reset();
 }
 
 void PoseGraphNode::AddOdometry(const nav_msgs::Odometry& message) {
   std::optional<MapFix> fix;
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    fix = fix_;
+    const std::lock_guard<std::mutex> lock(status_mutex_);
+    fix = status_.fix;
   }
   if (!fix) return;
   const std::string& map_frame = config_.output.map_frame;
@@ -142,12 +144,12 @@ void PoseGraphNode::AddOdometry(const nav_msgs::Odometry& message) {
 }
 
 bool PoseGraphNode::SaveMapFile(Trigger::Request&, Trigger::Response& response) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<std::mutex> lock(loops_mutex_);
   try {
     SaveMap(map_file_, loops_->map());
     response.success = true;
     response.message =
-        std::to_string(loops_->map().graph.size()) + " keyframes saved to " + map_file_;
+        std::to_string(loops_->map().CountKept()) + " keyframes saved to " + map_file_;
   } catch (const std::exception& error) {
     response.message = error.what();
   }
@@ -173,26 +175,33 @@ bool PoseGraphNode::Reset(Trigger::Request&, Trigger::Response& response) {
 }
 
 void PoseGraphNode::StartWith(KeyframeMap map) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<std::mutex> lock(loops_mutex_);
   loops_ = std::make_unique<LoopCloser>(LoopCloserOptions(), camera_);
   loops_->SetMap(std::move(map));
-  fix_.reset();
-  accepted_ = 0;
+  const std::lock_guard<std::mutex> status_lock(status_mutex_);
+  status_ = Status();
+  status_.keyframes = loops_->map().CountKept();
 }
 
 void PoseGraphNode::Work() {
   while (auto frame = queue_.Pop()) {
     worker_errors_.Run([&] {
-      const std::lock_guard<std::mutex> lock(mutex_);
+      const std::lock_guard<std::mutex> lock(loops_mutex_);
       const Stopwatch stopwatch;
       const LoopClosure closure = loops_->Add(*frame);
-      fix_ = closure.fix;
-      if (closure.is_keyframe) keyframe_ms_ = stopwatch.Milliseconds();
-      for (const LoopCandidate& candidate : closure.candidates) {
-        accepted_ += candidate.failed ? 0 : 1;
-      }
+      UpdateStatus(closure, stopwatch.Milliseconds());
       Publish(*frame, closure);
     });
+  }
+}
+
+void PoseGraphNode::UpdateStatus(const LoopClosure& closure, double milliseconds) {
+  const std::lock_guard<std::mutex> lock(status_mutex_);
+  status_.fix = closure.fix;
+  status_.keyframes = loops_->map().CountKept();
+  if (closure.is_keyframe) status_.keyframe_ms = milliseconds;
+  for (const LoopCandidate& candidate : closure.candidates) {
+    status_.loops += candidate.failed ? 0 : 1;
   }
 }
 
@@ -213,18 +222,17 @@ void PoseGraphNode::Publish(const OdometryFrame& frame, const LoopClosure& closu
 
 void PoseGraphNode::ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const int keyframes = loops_->map().graph.size();
-  if (fix_) {
+  const std::lock_guard<std::mutex> lock(status_mutex_);
+  if (status_.fix) {
     status.summary(DiagnosticStatus::OK, "located in the map");
-  } else if (keyframes == 0) {
+  } else if (status_.keyframes == 0) {
     status.summary(DiagnosticStatus::OK, "waiting: no keyframe yet");
   } else {
     status.summary(DiagnosticStatus::WARN, "looking for the place in the map");
   }
-  status.add("keyframes", keyframes);
-  status.add("loops", accepted_);
-  status.add("keyframe_ms", keyframe_ms_);
+  status.add("keyframes", status_.keyframes);
+  status.add("loops", status_.loops);
+  status.add("keyframe_ms", status_.keyframe_ms);
   status.add("waiting_keyframes", queue_.size());
 }
 

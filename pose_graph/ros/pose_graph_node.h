@@ -29,7 +29,8 @@ namespace plm_vins {
 
 // Loop closure under ROS, as a node or in a nodelet: the keyframes of an estimator, ours or that of
 // VINS-Mono, and the images in; tf map -> world, ~odometry, ~path, ~graph and ~match_image out.
-// The callbacks put keyframes together; a thread of its own looks for loops.
+// The callbacks put keyframes together; a thread of its own looks for loops and optimises. No
+// callback waits for it, but those of the services.
 //
 // Services: ~save_map and ~load_map, to and from the file that the configuration names (parameter
 // ~map_file: another one); ~reset starts an empty map.
@@ -60,6 +61,7 @@ class PoseGraphNode {
 
   // In the worker thread.
   void Work();
+  void UpdateStatus(const LoopClosure& closure, double milliseconds);
   void Publish(const OdometryFrame& frame, const LoopClosure& closure);
 
   ros::NodeHandle node_;
@@ -73,11 +75,18 @@ class PoseGraphNode {
   ErrorCounter callback_errors_;
   BoundedQueue<OdometryFrame> queue_;
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex loops_mutex_;  // held while a keyframe is worked on
   std::unique_ptr<LoopCloser> loops_;
-  std::optional<MapFix> fix_;
-  int accepted_ = 0;
-  double keyframe_ms_ = 0;  // of the last keyframe
+
+  // What the callbacks need at once, whatever is worked on.
+  struct Status {
+    std::optional<MapFix> fix;
+    int keyframes = 0;
+    int loops = 0;
+    double keyframe_ms = 0;  // of the last keyframe
+  };
+  std::mutex status_mutex_;  // never held for long
+  Status status_;
 
   ErrorCounter worker_errors_;  // for the worker
   ros::Publisher odometry_publisher_;

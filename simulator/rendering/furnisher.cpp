@@ -20,7 +20,6 @@ double Detail(TextureStyle style) { return style == TextureStyle::kRich ? 1.0 : 
 
 Rigid3d Upright(const Vector3d& origin, double yaw) { return {SO3Exp({0, 0, yaw}), origin}; }
 
-// The wall above an edge of a floor that lies to the left of the way from `from` to `to`.
 Wall MakeWall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double height) {
   const Eigen::Vector2d along = (to - from).normalized();
   Eigen::Matrix3d R_W_F;
@@ -66,12 +65,8 @@ std::vector<Wall> Furnisher::AddRoom(const std::vector<Eigen::Vector2d>& corners
   std::vector<Wall> walls;
   Eigen::AlignedBox2d box;
   for (size_t i = 0; i < corners.size(); ++i) {
-    const Wall wall = MakeWall(corners[i], corners[(i + 1) % corners.size()], height);
-    scene_->AddRectangle({wall.T_W_F.translation, wall.T_W_F.rotation * Vector3d::UnitX(),
-                          Vector3d::UnitZ(), wall.width, wall.height,
-                          Paint(surfaces[i % surfaces.size()], wall.width, wall.height, 0.66)});
-    AddSkirting(wall);
-    walls.push_back(wall);
+    walls.push_back(AddWall(corners[i], corners[(i + 1) % corners.size()], height,
+                            surfaces[i % surfaces.size()]));
     box.extend(corners[i]);
   }
   // What of these is outside is behind the walls.
@@ -89,6 +84,17 @@ std::vector<Wall> Furnisher::AddRoom(const std::vector<Eigen::Vector2d>& corners
                         size.y(),
                         Paint(ceiling, size.x(), size.y(), 0.95)});
   return walls;
+}
+
+Wall Furnisher::AddWall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double height,
+                        Surface surface) {
+  const Wall wall = MakeWall(from, to, height);
+  if (surface == Surface::kOpen) return wall;
+  scene_->AddRectangle({wall.T_W_F.translation, wall.T_W_F.rotation * Vector3d::UnitX(),
+                        Vector3d::UnitZ(), wall.width, wall.height,
+                        Paint(surface, wall.width, wall.height, 0.66)});
+  AddSkirting(wall);
+  return wall;
 }
 
 void Furnisher::AddBoxOnWall(const Wall& wall, const Vector3d& corner, const Vector3d& size,

@@ -31,12 +31,16 @@ class Furnisher {
   // `texel`: size of the finest detail on the walls [m].
   Furnisher(Scene* scene, TextureStyle style, double texel, uint64_t seed);
 
-  enum class Surface { kPlaster, kBricks, kTiles, kPanels };
+  enum class Surface { kPlaster, kBricks, kTiles, kPanels, kOpen };  // kOpen: there is no wall
 
   // The inner faces of a room with upright walls and its floor at z = 0. `corners`: of the floor,
-  // convex, counterclockwise [m]; wall i runs from corner i to the next one.
+  // counterclockwise [m]; wall i runs from corner i to the next one.
   std::vector<Wall> AddRoom(const std::vector<Eigen::Vector2d>& corners, double height,
                             const std::vector<Surface>& walls, Surface floor, Surface ceiling);
+
+  // A wall above an edge of the floor, which lies to the left of the way from `from` to `to`.
+  Wall AddWall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double height,
+               Surface surface);
 
   void AddBoxOnWall(const Wall& wall, const Eigen::Vector3d& corner, const Eigen::Vector3d& size,
                     int texture);

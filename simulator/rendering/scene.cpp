@@ -60,4 +60,13 @@ void Scene::AddPipe(const Vector3d& start, const Vector3d& end, double radius, i
   }
 }
 
+void Scene::Repeat(const Vector3d& offset) {
+  const size_t count = rectangles_.size();
+  for (size_t i = 0; i < count; ++i) {
+    Rectangle copy = rectangles_[i];
+    copy.corner += offset;
+    rectangles_.push_back(copy);
+  }
+}
+
 }  // namespace plm_vins::simulator

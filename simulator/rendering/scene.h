@@ -34,6 +34,9 @@ class Scene {
   void AddPipe(const Eigen::Vector3d& start, const Eigen::Vector3d& end, double radius,
                int texture);
 
+  // Adds all that is there once more, moved.
+  void Repeat(const Eigen::Vector3d& offset);
+
   const std::vector<Rectangle>& rectangles() const { return rectangles_; }
   const std::vector<MipTexture>& textures() const { return textures_; }
 

@@ -241,6 +241,51 @@ World MakeIrregular(TextureStyle style, uint64_t seed) {
   return MakePolygonalRoom(walls, /*askew=*/1, turn, style, seed);
 }
 
+// One of two equal rooms, 6 x 5 m about x = -5, half of the corridor on either side of it.
+void MakeTwin(Furnisher* furnisher, double height) {
+  constexpr Surface kPlaster = Surface::kPlaster;
+  const auto walls =
+      furnisher->AddRoom({{0, -1},
+                          {0, 1},
+                          {-2, 1},
+                          {-2, 2.5},
+                          {-8, 2.5},
+                          {-8, 1},
+                          {-10, 1},
+                          {-10, -1},
+                          {-8, -1},
+                          {-8, -2.5},
+                          {-2, -2.5},
+                          {-2, -1}},
+                         height,
+                         {Surface::kOpen, kPlaster, kPlaster, Surface::kBricks, kPlaster, kPlaster,
+                          Surface::kOpen, kPlaster, kPlaster, kPlaster, kPlaster, kPlaster},
+                         Surface::kTiles, Surface::kPanels);
+  const Wall &left = walls[3], &right = walls[9];
+  HangPosters(furnisher, left, 0.3, 3.6, 1.3);
+  furnisher->AddShelf(left, 4.0, 1.2, 2.1);
+  furnisher->AddDoor(right, 0.6);
+  HangPosters(furnisher, right, 2.0, 5.7, 1.3);
+  for (const int part : {2, 4, 8, 10}) HangPosters(furnisher, walls[part], 0.1, 1.4, 1.2);
+  furnisher->AddTable({-3.2, -1.7, 0}, 0.2);
+  furnisher->AddCrate({-7.2, 1.8, 0}, 0.6, 0.5);
+  furnisher->AddPlank({-4.5, -1.9, 0}, {-5, -2.4, 2.2}, 0.15);
+  furnisher->AddLamp({-5, 0, height - 0.1}, 2.0, M_PI / 2);
+}
+
+World MakeTwins(TextureStyle style, uint64_t seed) {
+  constexpr double kHeight = 2.9;
+  World world;
+  world.flight_center = {0, 0, 1.5};
+  world.flight_extent = {8, 0.6, 0.4};
+  Furnisher furnisher(&world.scene, style, 0.003, seed);
+  MakeTwin(&furnisher, kHeight);
+  world.scene.Repeat({10, 0, 0});
+  furnisher.AddWall({10, -1}, {10, 1}, kHeight, Surface::kPlaster);
+  furnisher.AddWall({-10, 1}, {-10, -1}, kHeight, Surface::kPlaster);
+  return world;
+}
+
 }  // namespace
 
 World MakeWorld(WorldKind kind, TextureStyle style, uint64_t seed) {
@@ -251,6 +296,8 @@ World MakeWorld(WorldKind kind, TextureStyle style, uint64_t seed) {
       return MakeHall(style, seed);
     case WorldKind::kAtlanta:
       return MakeAtlanta(style, seed);
+    case WorldKind::kTwins:
+      return MakeTwins(style, seed);
     case WorldKind::kIrregular:
       return MakeIrregular(style, seed);
     default:

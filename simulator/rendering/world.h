@@ -14,6 +14,7 @@ enum class WorldKind {
   kCorridor,
   kHall,
   kAtlanta,   // a room of two frames: half of its walls and things are turned against the others
+  kTwins,     // two equal rooms, joined by a corridor
   kIrregular  // a room of walls and things that stand anyhow
 };
 

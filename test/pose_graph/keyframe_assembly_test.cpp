@@ -23,7 +23,7 @@ class KeyframeAssemblyTest : public ::testing::Test {
 };
 
 TEST_F(KeyframeAssemblyTest, PutsTogetherWhatHasOneStampInAnyOrder) {
-  assembly_.AddSegments(5, std::vector<TrackedSegment>(2));
+  assembly_.AddSegments(5, std::vector<TrackedSegment>(2), Eigen::Quaterniond(0.6, 0, 0, 0.8));
   assembly_.AddCorners(5, std::vector<TrackedCorner>(3));
   AddPose(5);
   EXPECT_FALSE(assembly_.Pop());
@@ -36,6 +36,7 @@ TEST_F(KeyframeAssemblyTest, PutsTogetherWhatHasOneStampInAnyOrder) {
   EXPECT_EQ(frame->T_O_B.translation.x(), 5);
   EXPECT_EQ(frame->corners.size(), 3u);
   EXPECT_EQ(frame->segments.size(), 2u);
+  EXPECT_EQ(frame->R_O_M->w(), 0.6);
   EXPECT_EQ(frame->gray.at<uchar>(0, 0), 7);
   EXPECT_FALSE(assembly_.Pop());
 }
@@ -51,7 +52,7 @@ TEST_F(KeyframeAssemblyTest, WaitsForLinesUntilTheNextIsComplete) {
 TEST_F(KeyframeAssemblyTest, ForgetsWhatWaitsForTooLong) {
   AddPose(1);
   assembly_.AddCorners(1, {});
-  assembly_.AddSegments(1, {});
+  assembly_.AddSegments(1, {}, std::nullopt);
   for (int64_t t = 2; t < 100; ++t) AddImage(t);
   AddImage(1);
   EXPECT_FALSE(assembly_.Pop());
@@ -60,7 +61,7 @@ TEST_F(KeyframeAssemblyTest, ForgetsWhatWaitsForTooLong) {
 TEST_F(KeyframeAssemblyTest, StartsOverWhenCleared) {
   AddAllButLines(1);
   assembly_.Clear();
-  assembly_.AddSegments(1, {});
+  assembly_.AddSegments(1, {}, std::nullopt);
   EXPECT_FALSE(assembly_.Pop());
 }
 

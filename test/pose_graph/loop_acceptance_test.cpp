@@ -24,7 +24,8 @@ class LoopAcceptanceTest : public ::testing::Test {
       graph_.AddNode(keyframe.T_O_L());
       if (i == 0) continue;
       const LevelTransform step = keyframes_[first + i - 1].T_O_L().Inverse() * keyframe.T_O_L();
-      graph_.AddEdge({first + i - 1, first + i, step, 1e-4 * Matrix4d::Identity(), false});
+      graph_.AddEdge({first + i - 1, first + i, step, 1e-4 * Matrix4d::Identity(), false,
+                      step.translation.norm()});
     }
   }
 

@@ -84,7 +84,7 @@ TEST_F(LoopCloserTest, UndoesTheDriftOfASecondVisit) {
   const LoopClosure second = Slide(&loops, 60, kDrift);
   EXPECT_GT(accepted_, 3);
   ASSERT_TRUE(second.fix);
-  const LevelTransform rest = second.fix->T_M_O * kDrift;
+  const LevelTransform rest = loops.map().T_M_O(0).Inverse() * second.fix->T_M_O * kDrift;
   EXPECT_LT(rest.translation.norm(), 0.05);
   EXPECT_NEAR(rest.yaw, 0, 0.01);
   EXPECT_GT(second.fix->covariance(0, 0), 0);
@@ -117,6 +117,32 @@ TEST_F(LoopCloserTest, StartsInAMapOfEarlier) {
   const LoopClosure found = Slide(&loops, 5, T_O_W);
   ASSERT_TRUE(found.fix);
   EXPECT_LT((found.fix->T_M_O * T_O_W).translation.norm(), 0.05);
+}
+
+TEST_F(LoopCloserTest, DoesNotTakeATwinOfAPlaceForThePlace) {
+  LoopCloser loops(LoopCloserOptions(), camera_);
+  Slide(&loops, 0, LevelTransform());
+  // The same images, to which odometry came by a way of 10 m.
+  OdometryFrame on_the_way = FrameAt(0, 30, {0, {0, 5, 0}});
+  on_the_way.gray = cv::Scalar(100);
+  loops.Add(on_the_way);
+  const LoopClosure twin = Slide(&loops, 60, {0, {0, 10, 0}});
+  EXPECT_EQ(accepted_, 0);
+  ASSERT_FALSE(twin.candidates.empty());
+  EXPECT_EQ(twin.candidates.front().failed, LoopGate::kOdometry);
+  EXPECT_EQ(twin.fix->T_M_O.ToVector(), Vector4d::Zero());
+}
+
+TEST_F(LoopCloserTest, IsNotLargerAfterManyVisitsThanAfterAFew) {
+  LoopCloser loops(LoopCloserOptions(), camera_);
+  std::vector<int> sizes;
+  for (int visit = 0; visit < 8; ++visit) {
+    Slide(&loops, 60 * visit, kDrift);
+    sizes.push_back(loops.map().CountKept());
+  }
+  EXPECT_GT(accepted_, 8);
+  EXPECT_LT(sizes[1], sizes[2]);
+  EXPECT_LE(sizes[7], sizes[5]);
 }
 
 TEST_F(LoopCloserTest, IsTheSameForTheSameInput) {

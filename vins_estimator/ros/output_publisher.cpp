@@ -118,7 +118,8 @@ void OutputPublisher::PublishKeyframe(const EstimatedFrame& frame) {
   const EstimatorOutput& output = frame.output;
   const std::string& world = frames_.world_frame;
   PublishIfWanted(keyframe_line_, [&] {
-    return ToKeyframeLines(PlaceSegments(frame.lines, output.lines), output.t_ns, world);
+    return ToKeyframeLines(PlaceSegments(frame.lines, output.lines), output.R_W_M, output.t_ns,
+                           world);
   });
   PublishIfWanted(keyframe_point_, [&] {
     return ToKeyframePoints(PlaceCorners(frame.points, output.points), output.t_ns, world);

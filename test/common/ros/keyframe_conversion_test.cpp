@@ -49,12 +49,26 @@ TEST(KeyframeLines, ComeBack) {
   segments[0].observation.id = 8;
   segments[0].observation.end = {0.5, 0.75};
   segments[0].landmark = {{1, 2, 3}, {4, 5, 6}};
-  const auto back = ToSegments(ToKeyframeLines(segments, 0, ""));
+  const auto message = ToKeyframeLines(segments, std::nullopt, 0, "");
+  EXPECT_FALSE(ToManhattanFrame(message));
+  const auto back = ToSegments(message);
   ASSERT_EQ(back.size(), 1u);
   EXPECT_EQ(back[0].observation.id, 8);
   EXPECT_EQ(back[0].observation.end, Eigen::Vector2d(0.5, 0.75));
   EXPECT_EQ(back[0].landmark->start_O, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(back[0].landmark->end_O, Eigen::Vector3d(4, 5, 6));
+}
+
+TEST(KeyframeLines, BringTheManhattanFrame) {
+  std::vector<TrackedSegment> segments(1);
+  segments[0].landmark = {{1, 2, 3}, {4, 5, 6}};
+  const Eigen::Quaterniond R_O_M(0.6, 0, 0, 0.8);
+  auto message = ToKeyframeLines(segments, R_O_M, 0, "");
+  EXPECT_EQ(ToSegments(message).size(), 1u);
+  ASSERT_TRUE(ToManhattanFrame(message));
+  EXPECT_LT(ToManhattanFrame(message)->angularDistance(R_O_M), 1e-6);
+  message.channels.back().values.pop_back();
+  EXPECT_THROW(ToManhattanFrame(message), std::invalid_argument);
 }
 
 }  // namespace

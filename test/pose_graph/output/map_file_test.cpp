@@ -23,6 +23,7 @@ class MapFileTest : public ::testing::Test {
       map_.keyframes.push_back(testing::Visit(testing::Wall(), *camera, Rigid3d(), i, {}));
       map_.graph.AddNode({0.1 * i, {1.0 * i, 2, 3}});
     }
+    map_.keyframes[1].covariance = 0.1 * Matrix4d::Identity();
     map_.keyframes[1].R_O_M = Eigen::Quaterniond(0.6, 0, 0, 0.8);
     map_.keyframes[2].corners[0].p_O.reset();
     map_.graph.AddEdge({0, 1, {0.1, {1, 0, 0}}, 2 * Matrix4d::Identity(), false});
@@ -100,7 +101,7 @@ TEST_F(MapFileTest, RefusesAnotherVersion) {
   std::string bytes = folder_.Read("map.plm");
   bytes[sizeof("plm_vins map")] = 9;
   Write(bytes);
-  EXPECT_THAT(ErrorOfLoading(), HasSubstr("is a map of version 9, this program reads version 1"));
+  EXPECT_THAT(ErrorOfLoading(), HasSubstr("is a map of version 9, this program reads version 2"));
 }
 
 TEST_F(MapFileTest, FindsEveryDamage) {

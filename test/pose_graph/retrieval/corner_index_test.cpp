@@ -60,7 +60,7 @@ TEST_F(CornerIndexTest, CountsACornerLessThatManyImagesHave) {
 }
 
 TEST_F(CornerIndexTest, ForgetsAnImage) {
-  index_.Remove(3);
+  index_.Remove(3, images_[3]);
   EXPECT_TRUE(index_.Scores(images_[3]).empty());
   EXPECT_NEAR(index_.Scores(images_[1]).at(1), 100 * std::log(5.0), 1e-9);
 }

@@ -68,7 +68,8 @@ TEST_P(EachWorld, LeavesTheFlightBoxFreeAndSurroundsItWithoutAHole) {
 
 INSTANTIATE_TEST_SUITE_P(Worlds, EachWorld,
                          testing::Values(WorldKind::kRoom, WorldKind::kCorridor, WorldKind::kHall,
-                                         WorldKind::kAtlanta, WorldKind::kIrregular));
+                                         WorldKind::kAtlanta, WorldKind::kTwins,
+                                         WorldKind::kIrregular));
 
 // By heading modulo 90 deg, in bins of 1 deg: the length of all level edges of upright rectangles,
 // as shares of their sum.
@@ -95,6 +96,21 @@ TEST(World, HasAsManyHorizontalFramesAsItsKindSays) {
     EXPECT_NEAR(atlanta[0] + atlanta[1], 1.0, 1e-9);
     EXPECT_LT(LevelEdges(WorldKind::kIrregular, seed)[0], 0.3);
   }
+}
+
+TEST(World, OfTwinsHasAllButTheEndsOfTheCorridorTwice) {
+  const World world = MakeWorld(WorldKind::kTwins, TextureStyle::kWeak, 1);
+  const auto& rectangles = world.scene.rectangles();
+  size_t repeated = 0;
+  for (const Rectangle& r : rectangles) {
+    repeated += std::any_of(rectangles.begin(), rectangles.end(), [&](const Rectangle& other) {
+      return other.corner == r.corner + Vector3d(10, 0, 0) && other.u == r.u && other.v == r.v &&
+             other.texture == r.texture && other.texture_u == r.texture_u;
+    });
+  }
+  EXPECT_GT(repeated, 100u);
+  constexpr size_t kEnds = 2 * 7;  // a wall and the skirting board on it, a box
+  EXPECT_EQ(rectangles.size(), 2 * repeated + kEnds);
 }
 
 TEST(World, SeedDecidesWhatItLooksLike) {

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What loop closure costs over a long time in one place: flies the keyframes of a map again and
+// again, each round with new tracks and some drift, and prints after each round how many keyframes
+// are kept and how long one took. In the end, how long the graph takes to optimise.
+//
+// Usage: pose_graph_benchmark CONFIG MAP HOURS    MAP: run_offline --map-out of a flight
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <vector>
+
+#include "common/config.h"
+#include "common/stopwatch.h"
+#include "pose_graph/loop_closer.h"
+#include "pose_graph/output/map_file.h"
+
+namespace plm_vins {
+namespace {
+
+const Vector4d kDrift(0.05, -0.03, 0.02, 0.3 * M_PI / 180);  // of a round [m, rad]
+constexpr int64_t kTracks = 1'000'000'000;                   // more than a round has
+constexpr double kPause = 1;                                 // between two rounds [s]
+
+// The keyframe as it is in a later round, `share` of the round later than its first.
+Keyframe InRound(Keyframe keyframe, int round, double share, int64_t length_ns, double path) {
+  const LevelTransform T_O_first = LevelTransform::FromVector((round + share) * kDrift);
+  keyframe.t_ns += round * length_ns;
+  keyframe.path += round * path;
+  keyframe.T_O_B = T_O_first.ToRigid() * keyframe.T_O_B;
+  if (keyframe.R_O_M) keyframe.R_O_M = T_O_first.rotation() * *keyframe.R_O_M;
+  for (DescribedCorner& corner : keyframe.corners) {
+    if (corner.track >= 0) corner.track += round * kTracks;
+    if (corner.p_O) corner.p_O = (T_O_first * corner.p_O->cast<double>()).cast<float>();
+  }
+  for (TrackedSegment& segment : keyframe.segments) {
+    segment.observation.id += round * kTracks;
+    if (!segment.landmark) continue;
+    segment.landmark->start_O = T_O_first * segment.landmark->start_O;
+    segment.landmark->end_O = T_O_first * segment.landmark->end_O;
+  }
+  return keyframe;
+}
+
+struct Round {
+  std::vector<double> ms;  // by keyframe
+  int loops = 0;
+};
+
+Round Fly(const std::vector<Keyframe>& keyframes, int round, LoopCloser* loops) {
+  const int64_t length_ns = keyframes.back().t_ns - keyframes.front().t_ns + ToNanoseconds(kPause);
+  Round result;
+  for (size_t i = 0; i < keyframes.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(keyframes.size());
+    Keyframe again = InRound(keyframes[i], round, share, length_ns, keyframes.back().path);
+    again.world = 0;
+    const Stopwatch stopwatch;
+    const LoopClosure closure = loops->Add(std::move(again));
+    result.ms.push_back(stopwatch.Milliseconds());
+    for (const LoopCandidate& candidate : closure.candidates) result.loops += !candidate.failed;
+  }
+  return result;
+}
+
+void Print(const Round& round, double minutes, const KeyframeMap& map) {
+  std::vector<double> sorted = round.ms;
+  std::sort(sorted.begin(), sorted.end());
+  double sum = 0;
+  for (const double ms : sorted) sum += ms;
+  std::printf(
+      "%6.1f min: %5d keyframes, %4d kept, %5zu edges, %3d loops, ms per keyframe: mean "
+      "%.1f, 95th percentile %.1f\n",
+      minutes, map.graph.size(), map.CountKept(), map.graph.edges().size(), round.loops,
+      sum / static_cast<double>(sorted.size()), sorted[sorted.size() * 95 / 100]);
+  std::fflush(stdout);  // rounds are slow
+}
+
+void Run(const Config& config, const std::vector<Keyframe>& keyframes, double hours) {
+  LoopCloser loops(LoopCloserOptions(), CameraModel::Create(config.sensor.camera));
+  const double seconds = ToSeconds(keyframes.back().t_ns - keyframes.front().t_ns) + kPause;
+  for (int round = 0; round * seconds < 3600 * hours; ++round) {
+    Print(Fly(keyframes, round, &loops), (round + 1) * seconds / 60, loops.map());
+  }
+  PoseGraph graph = loops.map().Compact().graph;
+  const Stopwatch stopwatch;
+  graph.Optimize();
+  std::printf("optimising %d keyframes and %zu edges: %.1f ms\n", graph.size(),
+              graph.edges().size(), stopwatch.Milliseconds());
+}
+
+}  // namespace
+}  // namespace plm_vins
+
+int main(int argc, char** argv) try {
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: pose_graph_benchmark CONFIG MAP HOURS\n");
+    return 1;
+  }
+  plm_vins::Run(plm_vins::LoadConfig(argv[1]), plm_vins::LoadMap(argv[2]).keyframes,
+                std::atof(argv[3]));
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "pose_graph_benchmark: %s\n", error.what());
+  return 1;
+}

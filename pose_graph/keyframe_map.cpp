@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/keyframe_map.h"
+
+namespace plm_vins {
+
+void KeyframeMap::Remove(int keyframe, int anchor) {
+  graph.Remove(keyframe, anchor);
+  keyframes[keyframe].corners = {};
+  keyframes[keyframe].segments = {};
+}
+
+int KeyframeMap::CountKept() const {
+  int count = 0;
+  for (int i = 0; i < graph.size(); ++i) count += graph.Has(i) ? 1 : 0;
+  return count;
+}
+
+KeyframeMap KeyframeMap::Compact() const {
+  KeyframeMap compact;
+  std::vector<int> new_number(keyframes.size(), -1);
+  for (int i = 0; i < graph.size(); ++i) {
+    if (!graph.Has(i)) continue;
+    new_number[i] = compact.graph.AddNode(graph.node(i));
+    compact.keyframes.push_back(keyframes[i]);
+  }
+  for (LevelEdge edge : graph.edges()) {
+    edge.from = new_number[edge.from];
+    edge.to = new_number[edge.to];
+    compact.graph.AddEdge(edge);
+  }
+  return compact;
+}
+
+}  // namespace plm_vins

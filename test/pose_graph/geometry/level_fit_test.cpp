@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/geometry/level_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace plm_vins {
+namespace {
+
+const LevelTransform kMoved = {2.5, {4, -3, 1}};
+
+LevelTransform Fit(const std::vector<LevelTransform>& from, const std::vector<LevelTransform>& to) {
+  LevelFit fit;
+  for (size_t i = 0; i < from.size(); ++i) fit.Add(from[i], to[i]);
+  return fit.T_to_from();
+}
+
+void ExpectNear(const LevelTransform& actual, const LevelTransform& expected) {
+  EXPECT_LT((actual.translation - expected.translation).norm(), 1e-9);
+  EXPECT_NEAR(WrapAngle(actual.yaw - expected.yaw), 0, 1e-9);
+}
+
+TEST(LevelFit, FindsHowAllWereMoved) {
+  std::vector<LevelTransform> from = {{0, {0, 0, 0}}, {1, {3, 0, 1}}, {-2, {3, 5, 0}}};
+  std::vector<LevelTransform> to;
+  for (const LevelTransform& frame : from) to.push_back(kMoved * frame);
+  ExpectNear(Fit(from, to), kMoved);
+}
+
+TEST(LevelFit, TakesTheHeadingOfOneFrame) {
+  ExpectNear(Fit({{0.3, {1, 2, 3}}}, {kMoved * LevelTransform{0.3, {1, 2, 3}}}), kMoved);
+}
+
+TEST(LevelFit, IsTheIdentityOfNothing) { ExpectNear(Fit({}, {}), LevelTransform()); }
+
+// Two frames that came nearer to each other: their middle stays, so that both move alike.
+TEST(LevelFit, SharesWhatDoesNotFit) {
+  const LevelTransform T = Fit({{0, {-1, 0, 0}}, {0, {1, 0, 0}}}, {{0, {0, 0, 0}}, {0, {1, 0, 0}}});
+  ExpectNear(T, {0, {0.5, 0, 0}});
+}
+
+}  // namespace
+}  // namespace plm_vins

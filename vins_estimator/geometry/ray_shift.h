@@ -7,8 +7,8 @@
 
 namespace plm_vins {
 
-// How far an observed ray moves with the intrinsics c of the camera, to first order about those that
-// it was computed with: d_xy_d_intrinsics (c - reference), normalised.
+// How far an observed ray moves with the intrinsics c of the camera, to first order about those
+// that it was computed with: d_xy_d_intrinsics (c - reference), normalised.
 struct RayShift {
   // Of rays near (x, y, 1) in `camera`. Zero where that is beyond what the camera can describe.
   RayShift(const CameraModel& camera, const Eigen::Vector2d& xy)

@@ -21,8 +21,8 @@ class LevelFit {
     cross_ += offset.x() * before.y() - offset.y() * before.x() + std::sin(to.yaw - from.yaw);
   }
 
-  // The identity where nothing was added.
-  LevelTransform T_to_from() const {
+  // T_to_from; the identity where nothing was added.
+  LevelTransform Transform() const {
     LevelTransform T;
     T.yaw = std::atan2(cross_, dot_);
     T.translation = mean_to_ - T.rotation() * mean_from_;

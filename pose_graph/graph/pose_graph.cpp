@@ -172,7 +172,7 @@ void PoseGraph::TakeOver(const std::vector<Vector4d>& values, const std::vector<
   }
   for (int i = 0; i < size(); ++i) {
     if (Has(i)) {
-      nodes_[i].T_M_L = fits[parts[i]].T_to_from() * LevelTransform::FromVector(values[i]);
+      nodes_[i].T_M_L = fits[parts[i]].Transform() * LevelTransform::FromVector(values[i]);
     }
   }
 }
@@ -200,6 +200,7 @@ bool PoseGraph::AreConnected(int a, int b) const {
 std::vector<bool> PoseGraph::ConnectedWith(int node) const {
   const std::vector<int> parts = Parts();
   std::vector<bool> connected;
+  connected.reserve(parts.size());
   for (const int part : parts) connected.push_back(part == parts[node]);
   return connected;
 }

@@ -112,7 +112,7 @@ TEST_F(LoopResultsTest, WantsImages) {
 
 TEST_F(LoopResultsTest, NamesTheFolderThatItCannotWriteTo) {
   try {
-    LoopResults(config_, folder_.File("missing"), "");
+    const LoopResults results(config_, folder_.File("missing"), "");
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("missing"));

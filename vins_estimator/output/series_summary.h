@@ -22,6 +22,7 @@ template <typename T, size_t kSize>
 SeriesSummary Summarize(const std::vector<std::array<T, kSize>>& frames, size_t index) {
   if (frames.empty()) return {};
   std::vector<double> values;
+  values.reserve(frames.size());
   for (const auto& frame : frames) values.push_back(static_cast<double>(frame[index]));
   std::sort(values.begin(), values.end());
   const auto count = static_cast<double>(values.size());

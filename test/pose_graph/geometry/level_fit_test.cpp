@@ -13,7 +13,7 @@ const LevelTransform kMoved = {2.5, {4, -3, 1}};
 LevelTransform Fit(const std::vector<LevelTransform>& from, const std::vector<LevelTransform>& to) {
   LevelFit fit;
   for (size_t i = 0; i < from.size(); ++i) fit.Add(from[i], to[i]);
-  return fit.T_to_from();
+  return fit.Transform();
 }
 
 void ExpectNear(const LevelTransform& actual, const LevelTransform& expected) {

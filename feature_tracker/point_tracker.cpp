@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "feature_tracker/contrast_equalizer.h"
 #include "feature_tracker/corner_detector.h"
 #include "feature_tracker/optical_flow.h"
 #include "feature_tracker/outlier_rejection.h"
@@ -20,6 +20,8 @@
 namespace plm_vins {
 namespace {
 
+constexpr double kClaheClipLimit = 3.0;
+constexpr int kClaheTiles = 8;
 // Corners are searched for once this share is missing: a search takes as long as following many.
 constexpr double kRefillShare = 0.1;
 
@@ -60,11 +62,11 @@ class PointTracker::Implementation {
         mask_(ReadMask(config.fisheye_mask, image_size_)),
         detector_(config, mask_),
         flow_(config),
-        equalizer_(image_size_) {}
+        clahe_(cv::createCLAHE(kClaheClipLimit, {kClaheTiles, kClaheTiles})) {}
 
   PointFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0) {
     CheckImage(sample, camera_->parameters(), t_ns_);
-    const cv::Mat image = config_.equalize ? equalizer_.Equalize(sample.gray) : sample.gray;
+    const cv::Mat& image = Equalize(sample.gray);
     OpticalFlow::Pyramid pyramid = flow_.BuildPyramid(image, std::move(unused_pyramid_));
     statistics_ = {};
     statistics_.previous = static_cast<int>(tracks_.size());
@@ -98,6 +100,12 @@ class PointTracker::Implementation {
   cv::Mat DrawTracks() const { return DrawPointTracks(sample_.gray, tracks_); }
 
  private:
+  const cv::Mat& Equalize(const cv::Mat& gray) {
+    if (!config_.equalize) return gray;
+    clahe_->apply(gray, equalized_);
+    return equalized_;
+  }
+
   // Takes the tracks to the image of `pyramid`, `dt` seconds later, and drops those that got lost.
   void Follow(const OpticalFlow::Pyramid& pyramid, double dt,
               const std::optional<Eigen::Quaterniond>& R_C1_C0) {
@@ -192,14 +200,14 @@ class PointTracker::Implementation {
     return frame;
   }
 
-  // Read-only after construction, but for the equalizer's buffers and SetMaxCorners.
+  // Read-only after construction, but for SetMaxCorners.
   PointTrackerConfig config_;
   std::shared_ptr<const CameraModel> camera_;
   cv::Size image_size_;
   cv::Mat mask_;
   CornerDetector detector_;
   OpticalFlow flow_;
-  ContrastEqualizer equalizer_;
+  cv::Ptr<cv::CLAHE> clahe_;
 
   // As of the newest image.
   std::optional<int64_t> t_ns_;
@@ -207,6 +215,7 @@ class PointTracker::Implementation {
   ImageSample sample_;      // the pyramid may look at its pixels
   OpticalFlow::Pyramid pyramid_;
   OpticalFlow::Pyramid unused_pyramid_;  // memory for the next
+  cv::Mat equalized_;                    // the same, of an image
   std::vector<PointTrack> tracks_;
   PointTrackerStatistics statistics_;
   int64_t next_id_ = 0;

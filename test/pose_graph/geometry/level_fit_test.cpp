@@ -24,6 +24,7 @@ void ExpectNear(const LevelTransform& actual, const LevelTransform& expected) {
 TEST(LevelFit, FindsHowAllWereMoved) {
   std::vector<LevelTransform> from = {{0, {0, 0, 0}}, {1, {3, 0, 1}}, {-2, {3, 5, 0}}};
   std::vector<LevelTransform> to;
+  to.reserve(from.size());
   for (const LevelTransform& frame : from) to.push_back(kMoved * frame);
   ExpectNear(Fit(from, to), kMoved);
 }

@@ -42,8 +42,10 @@ LineSegment Shifted(const LineSegment& segment, const LineOffset& offset) {
 template <typename EdgePoint>
 LineOffset FitOffset(const std::vector<EdgePoint>& points) {
   std::vector<double> offsets;
-  for (const EdgePoint& point : points)
+  offsets.reserve(points.size());
+  for (const EdgePoint& point : points) {
     offsets.push_back(point.offset_px * point.sample.offset_per_pixel);
+  }
   std::nth_element(offsets.begin(), offsets.begin() + offsets.size() / 2, offsets.end());
   LineOffset fit{offsets[offsets.size() / 2], 0};
   for (const double scale_px : kRobustScales_px) {

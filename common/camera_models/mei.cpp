@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/camera_models/mei.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -60,7 +61,7 @@ std::optional<Eigen::Vector2d> Mei::Unproject(const Eigen::Vector2d& pixel,
   Eigen::Matrix2d d_point_d_distorted, d_xy_d_point;
   const auto point = distortion_.Undistort(PixelToPlane(pixel), &d_point_d_distorted);
   if (!point) return std::nullopt;
-  const auto xy = PlaneToRay(*point, &d_xy_d_point);
+  auto xy = PlaneToRay(*point, &d_xy_d_point);
   if (xy && d_xy_d_pixel) {
     *d_xy_d_pixel = d_xy_d_point * d_point_d_distorted * focal().cwiseInverse().asDiagonal();
   }

@@ -48,7 +48,7 @@ bool Has(const Topics& topics, const std::string& topic, const std::string& type
 std::string Missing(const std::string& file, const std::string& wanted, const Topics& topics) {
   std::string text = file + " has no " + wanted + "; its topics:";
   if (topics.empty()) text += " none";
-  for (const auto& [topic, type] : topics) text += " " + topic + " (" + type + ")";
+  for (const auto& [topic, type] : topics) text.append(" " + topic).append(" (" + type + ")");
   return text;
 }
 

@@ -162,6 +162,7 @@ void SaveMap(const std::string& file, const KeyframeMap& map) {
   MapWriter writer;
   const KeyframeMap kept = map.Compact();
   std::vector<LevelTransform> nodes;
+  nodes.reserve(kept.graph.size());
   for (int i = 0; i < kept.graph.size(); ++i) nodes.push_back(kept.graph.node(i));
   Map(&writer, kept.keyframes, std::as_const(nodes), kept.graph.edges());
   // Readers see the old file or the new one, never half of it.

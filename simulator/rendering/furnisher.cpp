@@ -88,7 +88,7 @@ std::vector<Wall> Furnisher::AddRoom(const std::vector<Eigen::Vector2d>& corners
 
 Wall Furnisher::AddWall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double height,
                         Surface surface) {
-  const Wall wall = MakeWall(from, to, height);
+  Wall wall = MakeWall(from, to, height);
   if (surface == Surface::kOpen) return wall;
   scene_->AddRectangle({wall.T_W_F.translation, wall.T_W_F.rotation * Vector3d::UnitX(),
                         Vector3d::UnitZ(), wall.width, wall.height,

@@ -96,17 +96,19 @@ void LoopCloser::ConnectToPrevious(int number) {
 void LoopCloser::LookForLoops(LoopClosure* closure) {
   std::vector<LoopCandidate> accepted;
   for (const PlaceCandidate& place : recognition_.Find(map_.keyframes)) {
-    LoopCandidate candidate = Examine(place, closure);
+    LoopSightings sightings;
+    LoopCandidate candidate = Examine(place, &sightings);
     if (!candidate.failed) {
       const auto loops = acceptance_.Judge(map_.keyframes, map_.graph, &candidate);
       accepted.insert(accepted.end(), loops.begin(), loops.end());
     }
+    if (!candidate.failed) closure->place = {candidate.earlier, std::move(sightings)};
     closure->candidates.push_back(candidate);
   }
   if (AddLoops(accepted)) Optimize(closure);
 }
 
-LoopCandidate LoopCloser::Examine(const PlaceCandidate& place, LoopClosure* closure) {
+LoopCandidate LoopCloser::Examine(const PlaceCandidate& place, LoopSightings* sightings) {
   LoopCandidate candidate;
   candidate.earlier = place.keyframe;
   candidate.later = static_cast<int>(map_.keyframes.size()) - 1;
@@ -119,9 +121,8 @@ LoopCandidate LoopCloser::Examine(const PlaceCandidate& place, LoopClosure* clos
   } else if (!place.repeated) {
     candidate.failed = LoopGate::kRepeated;
   } else {
-    auto inliers =
+    *sightings =
         verification_.Verify(IslandOf(candidate.earlier), IslandOf(candidate.later), &candidate);
-    if (!inliers.empty()) closure->inliers_px = std::move(inliers);
   }
   return candidate;
 }

@@ -41,12 +41,18 @@ struct MapFix {
   Matrix4d covariance = Matrix4d::Zero();  // of (x, y, z, yaw) of the newest keyframe in M
 };
 
+// A place that the newest keyframe sees again.
+struct RecognisedPlace {
+  int earlier = -1;         // keyframe of the earlier visit, by number
+  LoopSightings sightings;  // of what both visits see
+};
+
 // What an image brought.
 struct LoopClosure {
   bool is_keyframe = false;
-  std::vector<LoopCandidate> candidates;    // that were looked at
-  std::vector<Eigen::Vector2f> inliers_px;  // corners of a place that was recognised
-  std::optional<MapFix> fix;                // nothing while the place in the map is unknown
+  std::vector<LoopCandidate> candidates;  // that were looked at
+  std::optional<RecognisedPlace> place;   // passed all gates but the graph's
+  std::optional<MapFix> fix;              // nothing while the place in the map is unknown
 };
 
 // Recognises places and corrects the odometry's drift: the map M is the world of the first odometry
@@ -72,7 +78,7 @@ class LoopCloser {
   bool HasKeyframeOf(int world) const;
   void ConnectToPrevious(int number);
   void LookForLoops(LoopClosure* closure);
-  LoopCandidate Examine(const PlaceCandidate& place, LoopClosure* closure);
+  LoopCandidate Examine(const PlaceCandidate& place, LoopSightings* sightings);
   Island IslandOf(int number) const;
   bool AddLoops(const std::vector<LoopCandidate>& loops);
   void Optimize(LoopClosure* closure);

@@ -3,8 +3,6 @@
 
 #include <geometry_msgs/PoseStamped.h>
 
-#include <opencv2/imgproc.hpp>
-
 #include "common/ros/msg_conversion.h"
 
 namespace plm_vins {
@@ -79,15 +77,6 @@ visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map, int64_t t
     marker.header.stamp = ToRosTime(t_ns);
   }
   return markers;
-}
-
-cv::Mat DrawMatches(const cv::Mat& gray, const std::vector<Eigen::Vector2f>& inliers_px) {
-  cv::Mat picture;
-  cv::cvtColor(gray, picture, cv::COLOR_GRAY2BGR);
-  for (const Eigen::Vector2f& uv : inliers_px) {
-    cv::circle(picture, cv::Point2f(uv.x(), uv.y()), 4, cv::Scalar(0, 255, 0), 1, cv::LINE_AA);
-  }
-  return picture;
 }
 
 }  // namespace plm_vins

@@ -25,7 +25,4 @@ nav_msgs::Path ToPath(const KeyframeMap& map, const std::string& map_frame);
 visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map, int64_t t_ns,
                                                const std::string& map_frame);
 
-// The image with the corners of a recognised place (CV_8UC3).
-cv::Mat DrawMatches(const cv::Mat& gray, const std::vector<Eigen::Vector2f>& inliers_px);
-
 }  // namespace plm_vins

@@ -8,6 +8,7 @@
 #include "common/ros/msg_conversion.h"
 #include "common/stopwatch.h"
 #include "pose_graph/output/map_file.h"
+#include "pose_graph/ros/loop_drawing.h"
 #include "pose_graph/ros/map_messages.h"
 
 namespace plm_vins {
@@ -178,6 +179,7 @@ void PoseGraphNode::StartWith(KeyframeMap map) {
   const std::lock_guard<std::mutex> lock(loops_mutex_);
   loops_ = std::make_unique<LoopCloser>(LoopCloserOptions(), camera_);
   loops_->SetMap(std::move(map));
+  images_ = KeyframeImages();
   const std::lock_guard<std::mutex> status_lock(status_mutex_);
   status_ = Status();
   status_.keyframes = loops_->map().CountKept();
@@ -190,7 +192,9 @@ void PoseGraphNode::Work() {
       const Stopwatch stopwatch;
       const LoopClosure closure = loops_->Add(*frame);
       UpdateStatus(closure, stopwatch.Milliseconds());
+      if (!closure.is_keyframe) return;
       Publish(*frame, closure);
+      Remember(*frame);
     });
   }
 }
@@ -206,7 +210,6 @@ void PoseGraphNode::UpdateStatus(const LoopClosure& closure, double milliseconds
 }
 
 void PoseGraphNode::Publish(const OdometryFrame& frame, const LoopClosure& closure) {
-  if (!closure.is_keyframe) return;
   const std::string& map_frame = config_.output.map_frame;
   if (path_publisher_.getNumSubscribers() > 0) {
     path_publisher_.publish(ToPath(loops_->map(), map_frame));
@@ -214,10 +217,18 @@ void PoseGraphNode::Publish(const OdometryFrame& frame, const LoopClosure& closu
   if (graph_publisher_.getNumSubscribers() > 0) {
     graph_publisher_.publish(ToGraphMarkers(loops_->map(), frame.t_ns, map_frame));
   }
-  if (!closure.inliers_px.empty() && match_publisher_.getNumSubscribers() > 0) {
-    match_publisher_.publish(ToMessage(DrawMatches(frame.gray, closure.inliers_px), frame.t_ns,
-                                       config_.output.camera_frame));
+  if (closure.place && match_publisher_.getNumSubscribers() > 0) {
+    const cv::Mat picture = DrawLoop(*camera_, closure.place->sightings,
+                                     images_.Find(closure.place->earlier), frame.gray);
+    match_publisher_.publish(ToMessage(picture, frame.t_ns, config_.output.camera_frame));
   }
+}
+
+// The newest keyframe is that of the frame. Thinning may have taken others away.
+void PoseGraphNode::Remember(const OdometryFrame& frame) {
+  const PoseGraph& graph = loops_->map().graph;
+  images_.Add(graph.size() - 1, frame.gray);
+  images_.Keep([&](int keyframe) { return graph.Has(keyframe); });
 }
 
 void PoseGraphNode::ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {

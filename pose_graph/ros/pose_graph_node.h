@@ -24,6 +24,7 @@
 #include "common/ros/node_setup.h"
 #include "pose_graph/keyframe_assembly.h"
 #include "pose_graph/loop_closer.h"
+#include "pose_graph/ros/keyframe_images.h"
 
 namespace plm_vins {
 
@@ -62,6 +63,7 @@ class PoseGraphNode {
   // In the worker thread.
   void Work();
   void UpdateStatus(const LoopClosure& closure, double milliseconds);
+  void Remember(const OdometryFrame& frame);
   void Publish(const OdometryFrame& frame, const LoopClosure& closure);
 
   ros::NodeHandle node_;
@@ -77,6 +79,7 @@ class PoseGraphNode {
 
   std::mutex loops_mutex_;  // held while a keyframe is worked on
   std::unique_ptr<LoopCloser> loops_;
+  KeyframeImages images_;  // of its keyframes
 
   // What the callbacks need at once, whatever is worked on.
   struct Status {

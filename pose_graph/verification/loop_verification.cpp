@@ -87,15 +87,14 @@ struct LoopVerification::Evidence {
   std::vector<DescribedLandmark> landmarks_A;
   LevelTransform T_A_B;
   LoopSightings all;
-  std::vector<Eigen::Vector2f> corners_px;  // of the later image, that agree
 };
 
 LoopVerification::LoopVerification(const LoopVerificationOptions& options,
                                    std::shared_ptr<const CameraModel> camera)
     : options_(options), camera_(std::move(camera)) {}
 
-std::vector<Eigen::Vector2f> LoopVerification::Verify(const Island& earlier, const Island& later,
-                                                      LoopCandidate* candidate) const {
+LoopSightings LoopVerification::Verify(const Island& earlier, const Island& later,
+                                       LoopCandidate* candidate) const {
   Evidence evidence;
   evidence.all.T_A_C = earlier.keyframe->T_O_C();
   evidence.all.T_B_C = later.keyframe->T_O_C();
@@ -106,10 +105,11 @@ std::vector<Eigen::Vector2f> LoopVerification::Verify(const Island& earlier, con
                         HoldsBackwards(*earlier.keyframe, later, candidate, &evidence) &&
                         Refine(candidate, &evidence) &&
                         LinesAgree(earlier, *later.keyframe, candidate, &evidence);
-  if (!accepted) return {};
-  candidate->T_earlier_later =
-      earlier.keyframe->T_O_L().Inverse() * evidence.T_A_B * later.keyframe->T_O_L();
-  return evidence.corners_px;
+  if (accepted) {
+    candidate->T_earlier_later =
+        earlier.keyframe->T_O_L().Inverse() * evidence.T_A_B * later.keyframe->T_O_L();
+  }
+  return evidence.all;
 }
 
 bool LoopVerification::AreApart(const Island& earlier, const Island& later,
@@ -168,10 +168,9 @@ bool LoopVerification::HasInliers(const Keyframe& later, LoopCandidate* candidat
   if (*candidate->inliers < options_.min_inliers) return false;
   if (search.share() < options_.min_inlier_share) return false;
   evidence->all.of_earlier = std::move(search.inliers);
-  evidence->corners_px = std::move(search.corners_px);
 
   candidate->failed = LoopGate::kSpread;
-  candidate->cells = CountCells(evidence->corners_px, camera_->parameters());
+  candidate->cells = CountCells(search.corners_px, camera_->parameters());
   return *candidate->cells >= options_.min_cells;
 }
 

@@ -46,9 +46,8 @@ class LoopVerification {
 
   // Takes the candidate through the gates from kApart to kLines. Fills in the gates' values, the
   // one that refused it and, where none did, the transform with its covariance. Returns the
-  // later image's corners that agree, for drawing [px].
-  std::vector<Eigen::Vector2f> Verify(const Island& earlier, const Island& later,
-                                      LoopCandidate* candidate) const;
+  // sightings that agree, as far as the gates were reached.
+  LoopSightings Verify(const Island& earlier, const Island& later, LoopCandidate* candidate) const;
 
  private:
   struct Evidence;

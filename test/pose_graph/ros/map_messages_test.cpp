@@ -54,11 +54,5 @@ TEST(ToGraphMarkers, HaveStepsAndLoopsApart) {
   EXPECT_EQ(markers[1].points.size(), 2u);
 }
 
-TEST(DrawMatches, MarksTheCorners) {
-  const cv::Mat picture = DrawMatches(cv::Mat(50, 50, CV_8UC1, cv::Scalar(9)), {{20, 20}});
-  EXPECT_EQ(picture.at<cv::Vec3b>(0, 0), cv::Vec3b(9, 9, 9));
-  EXPECT_GT(picture.at<cv::Vec3b>(20, 24)[1], 100);
-}
-
 }  // namespace
 }  // namespace plm_vins

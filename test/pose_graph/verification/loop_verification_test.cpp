@@ -33,7 +33,7 @@ class LoopVerificationTest : public ::testing::Test {
   LoopCandidate VerifyPair(const Keyframe& earlier, const Keyframe& later) {
     const LoopVerification verification(options_, camera_);
     LoopCandidate candidate;
-    verification.Verify({&earlier, {&earlier}}, {&later, {&later}}, &candidate);
+    sightings_ = verification.Verify({&earlier, {&earlier}}, {&later, {&later}}, &candidate);
     truth_ = earlier_.T_O_W * later_.T_O_W.Inverse();
     error_ = earlier.T_O_L() * candidate.T_earlier_later * later.T_O_L().Inverse();
     return candidate;
@@ -45,6 +45,7 @@ class LoopVerificationTest : public ::testing::Test {
   VisitOptions earlier_;
   VisitOptions later_;
   LoopVerificationOptions options_;
+  LoopSightings sightings_;
   LevelTransform truth_;
   LevelTransform error_;
 };
@@ -57,6 +58,9 @@ TEST_F(LoopVerificationTest, AcceptsTheSamePlaceAndMeasuresTheDrift) {
   EXPECT_GT(candidate.inlier_share, 0.9);
   EXPECT_GT(candidate.line_share, 0.9);
   EXPECT_GT(candidate.covariance(0, 0), 0);
+  EXPECT_EQ(sightings_.of_earlier.size(), static_cast<size_t>(*candidate.inliers));
+  EXPECT_EQ(sightings_.of_later.size(), static_cast<size_t>(*candidate.backward_inliers));
+  EXPECT_FALSE(sightings_.lines.empty());
 }
 
 TEST_F(LoopVerificationTest, RefusesTheSameVisit) {

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/ros/loop_drawing.h"
+
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+namespace plm_vins {
+namespace {
+
+constexpr double kScale = 0.5;  // of the picture to the camera's images
+constexpr int kDiscRadius_px = 3;
+constexpr int kLineThickness_px = 2;
+const cv::Scalar kCornerColor(80, 220, 80);  // blue, green, red
+const cv::Scalar kLineColor(0, 140, 255);
+
+// One half of the picture: `offset_x_px` is where it begins.
+class Half {
+ public:
+  Half(const CameraModel& camera, double offset_x_px)
+      : camera_(camera), offset_px_(offset_x_px, 0) {}
+
+  // Where the picture shows the point; nothing outside the half.
+  std::optional<cv::Point2d> Find(const Eigen::Vector3d& p_C) const {
+    const auto uv_px = camera_.Project(p_C);
+    if (!uv_px || !camera_.IsInImage(*uv_px)) return std::nullopt;
+    return cv::Point2d(kScale * uv_px->x(), kScale * uv_px->y()) + offset_px_;
+  }
+
+  void DrawSegment(const Eigen::Vector3d& start_C, const Eigen::Vector3d& end_C,
+                   cv::Mat* picture) const {
+    const auto start = Find(start_C);
+    const auto end = Find(end_C);
+    if (start && end) cv::line(*picture, *start, *end, kLineColor, kLineThickness_px, cv::LINE_AA);
+  }
+
+ private:
+  const CameraModel& camera_;
+  cv::Point2d offset_px_;
+};
+
+void DrawCorners(const LoopSightings& sightings, const Half& left, const Half& right,
+                 cv::Mat* picture) {
+  const Rigid3d T_C_A = sightings.T_A_C.Inverse();
+  for (const SeenPoint& point : sightings.of_earlier) {
+    const auto before = left.Find(T_C_A * point.p_A);
+    const auto now = right.Find(point.xy.homogeneous());
+    if (!before || !now) continue;
+    cv::line(*picture, *before, *now, kCornerColor, 1, cv::LINE_AA);
+    cv::circle(*picture, *before, kDiscRadius_px, kCornerColor, cv::FILLED, cv::LINE_AA);
+    cv::circle(*picture, *now, kDiscRadius_px, kCornerColor, cv::FILLED, cv::LINE_AA);
+  }
+}
+
+void DrawLines(const LoopSightings& sightings, const Half& left, const Half& right,
+               cv::Mat* picture) {
+  const Rigid3d T_C_A = sightings.T_A_C.Inverse();
+  for (const auto& [line_A, segment] : sightings.lines) {
+    left.DrawSegment(T_C_A * line_A.start_O, T_C_A * line_A.end_O, picture);
+    right.DrawSegment(segment.start.homogeneous(), segment.end.homogeneous(), picture);
+  }
+}
+
+}  // namespace
+
+cv::Mat DrawLoop(const CameraModel& camera, const LoopSightings& sightings, const cv::Mat& earlier,
+                 const cv::Mat& later) {
+  const cv::Size half(cvRound(kScale * camera.parameters().width),
+                      cvRound(kScale * camera.parameters().height));
+  cv::Mat gray(half.height, 2 * half.width, CV_8UC1, cv::Scalar(0));
+  if (!earlier.empty()) cv::resize(earlier, gray.colRange(0, half.width), half);
+  cv::resize(later, gray.colRange(half.width, 2 * half.width), half, 0, 0, cv::INTER_AREA);
+  cv::Mat picture;
+  cv::cvtColor(gray, picture, cv::COLOR_GRAY2BGR);
+  const Half left(camera, 0);
+  const Half right(camera, half.width);
+  DrawCorners(sightings, left, right, &picture);
+  DrawLines(sightings, left, right, &picture);
+  return picture;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/ros/loop_drawing.h"
+
+#include <gtest/gtest.h>
+
+#include "test/pose_graph/two_visits.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int kEarlierGrey = 40;
+constexpr int kLaterGrey = 90;
+
+// Two visits of the camera of two_visits.h, 752 x 480 with 460 px, the halves of the picture being
+// 376 x 240. The earlier camera is 1 m above the origin of its world and looks along z.
+class LoopDrawingTest : public ::testing::Test {
+ protected:
+  LoopDrawingTest() { sightings_.T_A_C.translation = {0, 0, 1}; }
+
+  cv::Mat Draw() const { return DrawLoop(*camera_, sightings_, earlier_, later_); }
+
+  // Whether the picture is other than grey there.
+  static bool IsColored(const cv::Mat& picture, int x, int y) {
+    const auto& color = picture.at<cv::Vec3b>(y, x);
+    return color[0] != color[1] || color[1] != color[2];
+  }
+
+  std::shared_ptr<const CameraModel> camera_ = testing::SimpleCamera();
+  cv::Mat earlier_{240, 376, CV_8UC1, cv::Scalar(kEarlierGrey)};  // at half resolution, as kept
+  cv::Mat later_{480, 752, CV_8UC1, cv::Scalar(kLaterGrey)};
+  LoopSightings sightings_;
+};
+
+TEST_F(LoopDrawingTest, HasTheEarlierImageOnTheLeft) {
+  const cv::Mat picture = Draw();
+  ASSERT_EQ(picture.size(), cv::Size(752, 240));
+  ASSERT_EQ(picture.type(), CV_8UC3);
+  EXPECT_EQ(picture.at<cv::Vec3b>(120, 375), cv::Vec3b::all(kEarlierGrey));
+  EXPECT_EQ(picture.at<cv::Vec3b>(120, 376), cv::Vec3b::all(kLaterGrey));
+}
+
+TEST_F(LoopDrawingTest, LeavesAnEarlierImageThatIsUnknownBlack) {
+  earlier_ = cv::Mat();
+  const cv::Mat picture = Draw();
+  EXPECT_EQ(picture.at<cv::Vec3b>(120, 100), cv::Vec3b::all(0));
+  EXPECT_EQ(picture.at<cv::Vec3b>(120, 500), cv::Vec3b::all(kLaterGrey));
+}
+
+TEST_F(LoopDrawingTest, JoinsALandmarkWithItsCorner) {
+  // 92 px above the middle of the earlier image, 92 px below that of the later one.
+  sightings_.of_earlier = {{{0, -0.4, 3}, {0, 0.2}}};
+  const cv::Mat picture = Draw();
+  EXPECT_TRUE(IsColored(picture, 188 - 2, 120 - 46));  // left of the line: the disc
+  EXPECT_TRUE(IsColored(picture, 376 + 188 + 2, 120 + 46));
+  EXPECT_TRUE(IsColored(picture, 376, 120));  // half way
+  EXPECT_FALSE(IsColored(picture, 188, 120 + 46));
+}
+
+TEST_F(LoopDrawingTest, LeavesOutWhatTheEarlierCameraDidNotSee) {
+  sightings_.of_earlier = {{{0, 0, 0.5}, {0, 0}}, {{5, 0, 2}, {0, 0}}};  // behind, beside
+  EXPECT_FALSE(IsColored(Draw(), 376 + 188, 120));
+}
+
+TEST_F(LoopDrawingTest, DrawsALineInBothImages) {
+  SeenSegment upright;
+  upright.line_A = {{0.4, -0.4, 3}, {0.4, 0.4, 3}};
+  upright.segment.start = {-0.2, -0.2};
+  upright.segment.end = {-0.2, 0.2};
+  sightings_.lines = {upright};
+  const cv::Mat picture = Draw();
+  for (const int y : {80, 120, 160}) {
+    EXPECT_TRUE(IsColored(picture, 188 + 46, y));
+    EXPECT_TRUE(IsColored(picture, 376 + 188 - 46, y));
+    EXPECT_FALSE(IsColored(picture, 376, y));  // lines are not joined
+  }
+  EXPECT_FALSE(IsColored(picture, 188 + 46, 120 + 60));
+}
+
+}  // namespace
+}  // namespace plm_vins

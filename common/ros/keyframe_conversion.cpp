@@ -4,6 +4,7 @@
 #include <geometry_msgs/Point32.h>
 #include <sensor_msgs/ChannelFloat32.h>
 
+#include <limits>
 #include <stdexcept>
 
 #include "common/feature_ids.h"
@@ -21,6 +22,10 @@ geometry_msgs::Point32 ToPoint32(const Eigen::Vector3d& p) {
   point.y = static_cast<float>(p.y());
   point.z = static_cast<float>(p.z());
   return point;
+}
+
+geometry_msgs::Point32 Nowhere() {
+  return ToPoint32(Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
 }
 
 Eigen::Vector3d ToVector(const geometry_msgs::Point32& p) { return {p.x, p.y, p.z}; }
@@ -91,9 +96,9 @@ sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segme
                                         int64_t t_ns, const std::string& frame_id) {
   sensor_msgs::PointCloud cloud = EmptyCloud(t_ns, frame_id);
   for (const TrackedSegment& segment : segments) {
-    if (!segment.landmark) continue;
-    cloud.points.push_back(ToPoint32(segment.landmark->start_O));
-    cloud.points.push_back(ToPoint32(segment.landmark->end_O));
+    const bool is_placed = segment.landmark.has_value();
+    cloud.points.push_back(is_placed ? ToPoint32(segment.landmark->start_O) : Nowhere());
+    cloud.points.push_back(is_placed ? ToPoint32(segment.landmark->end_O) : Nowhere());
     const LineObservation& seen = segment.observation;
     cloud.channels.push_back(ToChannel(seen.start, seen.end, seen.id));
   }
@@ -116,7 +121,8 @@ std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message) {
     segment.observation.start = {values[0], values[1]};
     segment.observation.end = {values[2], values[3]};
     segment.observation.id = static_cast<int64_t>(values[4]);
-    segment.landmark = {ToVector(message.points[2 * i]), ToVector(message.points[2 * i + 1])};
+    const SpaceSegment place{ToVector(message.points[2 * i]), ToVector(message.points[2 * i + 1])};
+    if (place.start_O.allFinite() && place.end_O.allFinite()) segment.landmark = place;
   }
   return segments;
 }

@@ -20,9 +20,10 @@ sensor_msgs::PointCloud ToKeyframePoints(const std::vector<TrackedCorner>& corne
                                          const std::string& frame_id);
 std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message);
 
-// ~keyframe_line: both ends in space of each line that has a place, and one channel for each line,
-// with the ends x, y, x, y (normalised) and the id. Where the scene has a Manhattan frame, a last
-// channel of that name has R_O_M as w, x, y, z. Reading throws as above.
+// ~keyframe_line: both ends in space of each line, not a number where it has no place, and one
+// channel for each line, with the ends x, y, x, y (normalised) and the id. Lines without a place
+// count as well: they show that what was there at an earlier visit still is. Where the scene has a
+// Manhattan frame, a last channel of that name has R_O_M as w, x, y, z. Reading throws as above.
 sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments,
                                         const std::optional<Eigen::Quaterniond>& R_O_M,
                                         int64_t t_ns, const std::string& frame_id);

@@ -205,7 +205,7 @@ void PoseGraphNode::UpdateStatus(const LoopClosure& closure, double milliseconds
   status_.keyframes = loops_->map().CountKept();
   if (closure.is_keyframe) status_.keyframe_ms = milliseconds;
   for (const LoopCandidate& candidate : closure.candidates) {
-    status_.loops += candidate.failed ? 0 : 1;
+    candidate.failed ? ++status_.refused[ToString(*candidate.failed)] : ++status_.loops;
   }
 }
 
@@ -243,6 +243,7 @@ void PoseGraphNode::ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& st
   }
   status.add("keyframes", status_.keyframes);
   status.add("loops", status_.loops);
+  for (const auto& [gate, count] : status_.refused) status.add("refused_" + gate, count);
   status.add("keyframe_ms", status_.keyframe_ms);
   status.add("waiting_keyframes", queue_.size());
 }

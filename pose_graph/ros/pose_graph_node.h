@@ -12,6 +12,7 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -86,7 +87,8 @@ class PoseGraphNode {
     std::optional<MapFix> fix;
     int keyframes = 0;
     int loops = 0;
-    double keyframe_ms = 0;  // of the last keyframe
+    std::map<std::string, int> refused;  // candidates, by gate
+    double keyframe_ms = 0;              // of the last keyframe
   };
   std::mutex status_mutex_;  // never held for long
   Status status_;

@@ -52,7 +52,8 @@ TEST(KeyframeLines, ComeBack) {
   const auto message = ToKeyframeLines(segments, std::nullopt, 0, "");
   EXPECT_FALSE(ToManhattanFrame(message));
   const auto back = ToSegments(message);
-  ASSERT_EQ(back.size(), 1u);
+  ASSERT_EQ(back.size(), 2u);
+  EXPECT_FALSE(back[1].landmark);  // seen, but without a place
   EXPECT_EQ(back[0].observation.id, 8);
   EXPECT_EQ(back[0].observation.end, Eigen::Vector2d(0.5, 0.75));
   EXPECT_EQ(back[0].landmark->start_O, Eigen::Vector3d(1, 2, 3));

@@ -89,11 +89,11 @@ TEST_P(CornerDetectorTest, RefillsWhereCornersAreMissing) {
   const CornerDetector detector(config_, {});
   std::vector<cv::Point2f> left_half;
   for (const cv::Point2f& corner : detector.Detect(image, {}, 60)) {
-    if (corner.x < kWidth / 2) left_half.push_back(corner);
+    if (corner.x < 0.5F * kWidth) left_half.push_back(corner);
   }
   const auto refill = detector.Detect(image, left_half, 60 - static_cast<int>(left_half.size()));
   const auto in_right_half = std::count_if(
-      refill.begin(), refill.end(), [](const auto& corner) { return corner.x >= kWidth / 2; });
+      refill.begin(), refill.end(), [](const auto& corner) { return corner.x >= 0.5F * kWidth; });
   EXPECT_GT(in_right_half, 0.9 * static_cast<double>(refill.size()));
 }
 
@@ -103,7 +103,7 @@ TEST_P(CornerDetectorTest, SpreadsOverStrongAndWeakTexture) {
   right.convertTo(right, CV_8U, 0.5, 60);
   const auto corners = CornerDetector(config_, {}).Detect(image, {}, 60);
   const auto in_right_half = std::count_if(
-      corners.begin(), corners.end(), [](const auto& corner) { return corner.x >= kWidth / 2; });
+      corners.begin(), corners.end(), [](const auto& corner) { return corner.x >= 0.5F * kWidth; });
   EXPECT_NEAR(static_cast<double>(in_right_half), 30, 8);
 }
 

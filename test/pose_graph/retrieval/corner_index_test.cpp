@@ -14,6 +14,7 @@ using testing::WithFlippedBits;
 std::vector<Descriptor> RandomDescriptors(int count, uint64_t seed) {
   simulator::Random random(seed);
   std::vector<Descriptor> descriptors;
+  descriptors.reserve(count);
   for (int i = 0; i < count; ++i) descriptors.push_back(RandomDescriptor(&random));
   return descriptors;
 }

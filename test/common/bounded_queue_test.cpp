@@ -62,6 +62,7 @@ TEST(BoundedQueue, QuietItemsWakeTheConsumerOnceTheQueueIsFull) {
     for (int expected = 0; expected < kItems; ++expected) EXPECT_EQ(queue.Pop(), expected);
   });
   for (int i = 0; i < kItems; ++i) queue.PushQuietly(i);
+  queue.Wake();  // the last few do not fill it
   consumer.join();
 }
 

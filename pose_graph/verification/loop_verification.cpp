@@ -34,6 +34,7 @@ std::vector<SpaceSegment> LinesOf(const Island& island) {
     }
   }
   std::vector<SpaceSegment> lines;
+  lines.reserve(by_track.size());
   for (const auto& [track, line] : by_track) lines.push_back(line);
   return lines;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vins_estimator/imu/preintegration.h"
+
 namespace plm_vins {
 namespace {
 
@@ -26,7 +28,7 @@ bool IsCertain(const UncertainState& start, const UncertainState& end) {
 
 void FrameBridge::AddTracked(const std::vector<ImuSample>& samples,
                              const UncertainState& estimate) {
-  images_.push_back(MakeImage(samples, estimate));
+  images_.push_back({samples, estimate});
   const int64_t last_believed_ns = estimate.state.t_ns - kTrouble_ns;
   while (images_.size() > 1 && images_[1].estimate.state.t_ns <= last_believed_ns) {
     images_.pop_front();
@@ -48,22 +50,17 @@ void FrameBridge::AddLost(const std::vector<ImuSample>& samples, int64_t t_ns) {
   if (!begun_ || ended_) return;
   UncertainState there = images_.back().estimate;
   there.state.t_ns = t_ns;
-  Image next = MakeImage(samples, there);
+  Image next{samples, there};
   Cross(images_.back(), &next);
   ended_ = !IsCertain(images_.front().estimate, next.estimate);
   if (!ended_) images_.push_back(next);
 }
 
-FrameBridge::Image FrameBridge::MakeImage(const std::vector<ImuSample>& samples,
-                                          const UncertainState& estimate) const {
-  Image image{Preintegration(noise_, estimate.state.bias()), estimate};
-  for (const ImuSample& sample : samples) image.motion.Append(sample);
-  return image;
-}
-
 void FrameBridge::Cross(const Image& from, Image* to) const {
   const int64_t t_ns = to->estimate.state.t_ns;
-  to->estimate = Propagate(from.estimate, to->motion, gravity_W_);
+  Preintegration motion(noise_, to->estimate.state.bias());
+  for (const ImuSample& sample : to->samples) motion.Append(sample);
+  to->estimate = Propagate(from.estimate, motion, gravity_W_);
   to->estimate.state.t_ns = t_ns;
 }
 

@@ -10,7 +10,6 @@
 
 #include "common/imu_noise.h"
 #include "common/measurements.h"
-#include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/uncertain_state.h"
 
 namespace plm_vins {
@@ -50,13 +49,12 @@ class FrameBridge {
 
  private:
   struct Image {
-    Preintegration motion;  // from the image before
+    std::vector<ImuSample> samples;  // from the image before
     UncertainState estimate;
   };
 
-  // The motion as it was measured, whatever the camera has made of the noise of the IMU meanwhile:
-  // which of the two was wrong shows where the new window does or does not fit.
-  Image MakeImage(const std::vector<ImuSample>& samples, const UncertainState& estimate) const;
+  // By the motion as it was measured, whatever the camera has made of the noise of the IMU
+  // meanwhile: which of the two was wrong shows where the new window does or does not fit.
   void Cross(const Image& from, Image* to) const;
 
   ImuNoise noise_;

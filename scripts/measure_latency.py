@@ -64,6 +64,13 @@ def process_of(node):
         return None
 
 
+def find_nodes(processes):
+    """Adds the nodes that are there by now to their processes."""
+    for node in NODES:
+        if node not in processes and (found := process_of(node)):
+            processes[node] = found
+
+
 def processor_seconds(process):
     with open(f"/proc/{process}/stat", encoding="ascii") as file:
         fields = file.read().rsplit(")", 1)[1].split()
@@ -116,11 +123,10 @@ def measure(options, output):
                          queue_size=100)
         processes = {}
         while process.poll() is None and not latencies.ended:
-            for node in NODES:
-                if node not in processes and (found := process_of(node)):
-                    processes[node] = found
-                if node in processes and os.path.exists(f"/proc/{processes[node]}"):
-                    costs[node] = processor_seconds(processes[node])
+            find_nodes(processes)
+            for node, identity in processes.items():
+                if os.path.exists(f"/proc/{identity}"):
+                    costs[node] = processor_seconds(identity)
             time.sleep(0.2)
     finally:
         process.send_signal(signal.SIGINT)
@@ -143,6 +149,12 @@ def report(latencies, costs):
     return "\n".join(lines)
 
 
+def check_files(options):
+    for file in (options.bag, options.config):
+        if not os.path.isfile(file):
+            raise RuntimeError(f"{file}: no such file")
+
+
 def parse_arguments(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("bag", help="ROS bag")
@@ -156,11 +168,8 @@ def parse_arguments(arguments):
 
 def main(arguments=None):
     options = parse_arguments(arguments)
-    for file in (options.bag, options.config):
-        if not os.path.isfile(file):
-            print(f"measure_latency.py: {file}: no such file", file=sys.stderr)
-            return 1
     try:
+        check_files(options)
         with tempfile.TemporaryDirectory() as output:
             latencies, costs = measure(options, output)
     except (RuntimeError, OSError, KeyError, yaml.YAMLError) as error:

@@ -16,7 +16,7 @@ import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 
-from measure_latency import NODES, launch_file, process_of, wait_for_master
+from measure_latency import check_files, find_nodes, launch_file, wait_for_master
 
 # What may be added from the second quarter of the time to the last; in the first one caches and
 # pools fill up.
@@ -87,9 +87,7 @@ def watch(options, nodes):
     processes = {}
     while time.monotonic() < end:
         time.sleep(options.interval)
-        for node in NODES:
-            if node not in processes and (found := process_of(node)):
-                processes[node] = found
+        find_nodes(processes)
         for node, process in processes.items():
             values = usage(process)
             if values is None:
@@ -141,11 +139,8 @@ def parse_arguments(arguments):
 
 def main(arguments=None):
     options = parse_arguments(arguments)
-    for file in (options.bag, options.config):
-        if not os.path.isfile(file):
-            print(f"soak.py: {file}: no such file", file=sys.stderr)
-            return 1
     try:
+        check_files(options)
         with tempfile.TemporaryDirectory() as output:
             return 0 if report(soak(options, output)) else 1
     except (RuntimeError, rosgraph.MasterException) as error:

@@ -23,13 +23,19 @@ SlidingWindow TwoFrames() {
   return window;
 }
 
-TEST(ExpectedRay, IsThatOfTheLandmarkWhateverWasObserved) {
+// 4 m away from the first frame.
+PointLandmark PointOfBoth() {
   PointLandmark landmark;
   landmark.views.resize(2);
   landmark.views[0].t_ns = 1;
   landmark.views[1].t_ns = 2;
   landmark.views[1].bearing.xy = {0.3, 0.4};
-  landmark.coordinates = {0.1, 0.2, 0.25};  // 4 m away
+  landmark.coordinates = {0.1, 0.2, 0.25};
+  return landmark;
+}
+
+TEST(ExpectedRay, IsThatOfTheLandmarkWhateverWasObserved) {
+  const PointLandmark landmark = PointOfBoth();
   const SlidingWindow window = TwoFrames();
   EXPECT_MATRIX_NEAR(ExpectedRay(landmark, landmark.views[0], window), Vector2d(0.1, 0.2), 1e-12);
   EXPECT_MATRIX_NEAR(ExpectedRay(landmark, landmark.views[1], window), Vector2d(-0.025, 0.2),
@@ -37,12 +43,7 @@ TEST(ExpectedRay, IsThatOfTheLandmarkWhateverWasObserved) {
 }
 
 TEST(ExpectedRay, IsTheObservedOneOfWhatIsBehindTheCamera) {
-  PointLandmark landmark;
-  landmark.views.resize(2);
-  landmark.views[0].t_ns = 1;
-  landmark.views[1].t_ns = 2;
-  landmark.views[1].bearing.xy = {0.3, 0.4};
-  landmark.coordinates = {0.1, 0.2, 0.25};
+  const PointLandmark landmark = PointOfBoth();
   SlidingWindow window = TwoFrames();
   window.frames[1].state.position() = Vector3d(0, 0, 5);
   EXPECT_EQ(ExpectedRay(landmark, landmark.views[1], window), Vector2d(0.3, 0.4));

@@ -16,7 +16,7 @@ def associate(estimate, truth, max_difference):
     """
     swapped = len(estimate) <= len(truth)
     shorter, longer = (estimate, truth) if swapped else (truth, estimate)
-    nearest = _nearest(longer.stamps, shorter.stamps)
+    nearest = nearest_indices(longer.stamps, shorter.stamps)
     near = np.abs(longer.stamps[nearest] - shorter.stamps) <= max_difference
     shorter, longer = shorter.select(near), longer.select(nearest[near])
     if len(shorter) < 3:
@@ -26,7 +26,8 @@ def associate(estimate, truth, max_difference):
     return (shorter, longer) if swapped else (longer, shorter)
 
 
-def _nearest(sorted_stamps, queries):
+def nearest_indices(sorted_stamps, queries):
+    """Index of the stamp that is nearest to each query."""
     right = np.clip(np.searchsorted(sorted_stamps, queries), 1, len(sorted_stamps) - 1)
     left_is_nearer = queries - sorted_stamps[right - 1] <= sorted_stamps[right] - queries
     return right - left_is_nearer
@@ -77,20 +78,20 @@ def rotation_errors(estimate, truth):
 
 def yaw_errors(estimate, truth):
     """Absolute heading errors [deg] about the vertical axis of the ground truth's world."""
-    return np.abs(np.degrees(_signed_yaw_errors(estimate, truth)))
+    return np.abs(np.degrees(signed_yaw_errors(estimate, truth)))
 
 
 def yaw_drift(estimate, truth, seconds=1.0):
     """Absolute heading error [deg] at the end, once the heading at the beginning agrees; beginning
     and end are the means of the first and the last `seconds`. Of paired trajectories in worlds with
     z up, not aligned: the alignment of a short path tilts them."""
-    unit = np.exp(1j * _signed_yaw_errors(estimate, truth))
+    unit = np.exp(1j * signed_yaw_errors(estimate, truth))
     first = unit[truth.stamps <= truth.stamps[0] + seconds].mean()
     last = unit[truth.stamps >= truth.stamps[-1] - seconds].mean()
     return float(np.abs(np.degrees(np.angle(last * np.conj(first)))))
 
 
-def _signed_yaw_errors(estimate, truth):
+def signed_yaw_errors(estimate, truth):
     """Heading errors [rad] in (-pi, pi]."""
     error = estimate.rotations @ _transposed(truth.rotations)
     return np.arctan2(error[:, 1, 0] - error[:, 0, 1], error[:, 0, 0] + error[:, 1, 1])
@@ -111,7 +112,7 @@ def pairs_by_path(trajectory, metres):
 
 def pairs_by_time(trajectory, seconds, tolerance=0.01):
     """All index pairs that are `seconds` apart, to within `tolerance` [s]."""
-    nearest = _nearest(trajectory.stamps, trajectory.stamps + seconds)
+    nearest = nearest_indices(trajectory.stamps, trajectory.stamps + seconds)
     difference = trajectory.stamps[nearest] - trajectory.stamps
     first = np.flatnonzero(np.abs(difference - seconds) <= tolerance)
     return first, nearest[first]

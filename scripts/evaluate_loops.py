@@ -1,0 +1,74 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compares the loops of a run with ground truth: how many are false, how far they are off, and how
+many of the true revisits they close. Prints what happened to the APE as well."""
+
+import argparse
+import json
+import pathlib
+import sys
+
+from evaluate import evaluate
+from evaluation import loops as loop_metrics
+from evaluation.trajectory import TrajectoryError, read_trajectory
+
+FALSE_DISTANCE = 0.3  # a loop that is off by more is false [m]
+FALSE_TURN = 5.0  # [deg]
+TRAJECTORIES = {"trajectory.tum": "odometry", "trajectory_map.tum": "map, as known at each time",
+                "trajectory_final.tum": "map, as known in the end"}
+
+
+def evaluate_loops(folder, truth):
+    """All figures of the results of a run in `folder`, as a dictionary."""
+    odometry = read_trajectory(folder / "trajectory.tum")
+    loops = loop_metrics.read_loops(folder / "loops.csv")
+    distances, turns = loop_metrics.loop_errors(loops, odometry, truth)
+    flown = (truth.stamps >= odometry.stamps[0]) & (truth.stamps <= odometry.stamps[-1])
+    revisit_times = loop_metrics.revisits(truth.select(flown))
+    return {
+        "loops": len(loops),
+        "false_loops": int(((distances > FALSE_DISTANCE) | (turns > FALSE_TURN)).sum()),
+        "largest_error_m": float(distances.max(initial=0)),
+        "largest_error_deg": float(turns.max(initial=0)),
+        "revisited_s": len(revisit_times) * loop_metrics.SAMPLING,
+        "closed_share": loop_metrics.closed_share(loops, revisit_times),
+        "ape_m": {name: evaluate(read_trajectory(folder / name), truth)[2]["ape_m"]["rmse"]
+                  for name in TRAJECTORIES},
+    }
+
+
+def format_report(result):
+    closed = result["closed_share"]
+    lines = [
+        f"{result['loops']} loops, {result['false_loops']} false (off by more than"
+        f" {FALSE_DISTANCE} m or {FALSE_TURN:.0f} deg), the largest error"
+        f" {1000 * result['largest_error_m']:.0f} mm, {result['largest_error_deg']:.1f} deg",
+        "no revisit" if closed is None else
+        f"{100 * closed:.0f} % of {result['revisited_s']:.0f} s of revisits are closed",
+    ]
+    odometry = result["ape_m"]["trajectory.tum"]
+    lines += [f"APE {1000 * ape:7.1f} mm  {ape / odometry:4.2f}  {TRAJECTORIES[name]}"
+              for name, ape in result["ape_m"].items()]
+    return "\n".join(lines)
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("results", type=pathlib.Path,
+                        help="folder that run_offline wrote with loop_closure: 1")
+    parser.add_argument("ground_truth", help="TUM file or EuRoC csv (.../data.csv)")
+    parser.add_argument("--json", metavar="FILE", help="write all figures there")
+    options = parser.parse_args(arguments)
+    try:
+        result = evaluate_loops(options.results, read_trajectory(options.ground_truth))
+        print(format_report(result))
+        if options.json:
+            pathlib.Path(options.json).write_text(json.dumps(result, indent=2), encoding="utf-8")
+    except (TrajectoryError, OSError) as error:
+        print(f"evaluate_loops.py: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

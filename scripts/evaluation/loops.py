@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The loops that a run closed, by its loops.csv, against ground truth."""
+
+import csv
+from dataclasses import dataclass
+
+import numpy as np
+
+from .metrics import nearest_indices, signed_yaw_errors
+from .trajectory import TrajectoryError
+
+# A true revisit: the body is near where it was before, and looks nearly the same way.
+REVISIT_DISTANCE = 1.0  # [m]
+REVISIT_ANGLE = np.radians(30)  # [rad]
+REVISIT_PAUSE = 15.0  # [s]
+SAMPLING = 0.25  # of time, where revisits are looked for [s]
+CLOSED_WITHIN = 1.0  # of a revisit, before or after it [s]
+
+
+@dataclass
+class Loops:
+    """Accepted loops: where a later pose is, seen from an earlier one, with the axes of its
+    world."""
+
+    earlier: np.ndarray  # (n,) stamps [s]
+    later: np.ndarray  # (n,) stamps [s]
+    positions: np.ndarray  # (n, 3) [m]
+    yaws: np.ndarray  # (n,) [rad]
+
+    def __len__(self):
+        return len(self.later)
+
+
+def read_loops(path):
+    """The accepted ones of a loops.csv; raises TrajectoryError where it is none."""
+    try:
+        with open(path, encoding="utf-8", newline="") as file:
+            rows = [_parse_row(row) for row in csv.DictReader(file) if row["result"] == "accepted"]
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise TrajectoryError(f"{path}: no loops.csv ({error})") from None
+    table = np.array(rows).reshape(-1, 6)
+    return Loops(table[:, 0], table[:, 1], table[:, 2:5], table[:, 5])
+
+
+def _parse_row(row):
+    stamps = [1e-9 * int(row[name]) for name in ("earlier_ns", "later_ns")]
+    return [*stamps, *(float(row[name]) for name in ("x_m", "y_m", "z_m")),
+            np.radians(float(row["yaw_deg"]))]
+
+
+def loop_errors(loops, odometry, truth):
+    """Distances [m] and turns [deg], both (n,), by which the loops are off. The worlds of
+    `odometry` may be turned against that of `truth`, and drift."""
+    earlier, earlier_turns = _true_places(loops.earlier, odometry, truth)
+    later, later_turns = _true_places(loops.later, odometry, truth)
+    c, s = np.cos(earlier_turns), np.sin(earlier_turns)
+    x, y, z = (later - earlier).T
+    positions = np.stack([c * x - s * y, s * x + c * y, z], axis=1)
+    turns = loops.yaws - (earlier_turns - later_turns)
+    return (np.linalg.norm(loops.positions - positions, axis=1),
+            np.abs(np.degrees(np.arctan2(np.sin(turns), np.cos(turns)))))
+
+
+def _true_places(stamps, odometry, truth):
+    """True positions, and how far the odometry's world is turned against the true one [rad]."""
+    true = truth.select(nearest_indices(truth.stamps, stamps))
+    estimated = odometry.select(nearest_indices(odometry.stamps, stamps))
+    return true.positions, signed_yaw_errors(estimated, true)
+
+
+def revisits(truth):
+    """Times (n,) [s], SAMPLING apart, at which the body is where it was REVISIT_PAUSE before."""
+    times = np.arange(truth.stamps[0], truth.stamps[-1], SAMPLING)
+    poses = truth.select(nearest_indices(truth.stamps, times))
+    return times[[_is_revisit(poses, index) for index in range(len(times))]]
+
+
+def _is_revisit(poses, index):
+    before = poses.stamps <= poses.stamps[index] - REVISIT_PAUSE
+    distances = np.linalg.norm(poses.positions[before] - poses.positions[index], axis=1)
+    traces = np.einsum("nij,ij->n", poses.rotations[before], poses.rotations[index])
+    is_same_view = (traces - 1) / 2 > np.cos(REVISIT_ANGLE)
+    return bool(np.any((distances < REVISIT_DISTANCE) & is_same_view))
+
+
+def closed_share(loops, revisit_times):
+    """Share of the revisits that a loop closes; None where there are none."""
+    if len(revisit_times) == 0:
+        return None
+    if len(loops) == 0:
+        return 0.0
+    gaps = np.abs(revisit_times[:, None] - loops.later[None, :]).min(axis=1)
+    return float(np.mean(gaps <= CLOSED_WITHIN))

@@ -1,0 +1,149 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""scripts/evaluate_loops.py against loops whose errors are known by hand."""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+sys.path.insert(0, str(SCRIPTS))
+from evaluate_loops import evaluate_loops  # noqa: E402
+from evaluation.loops import Loops, closed_share, loop_errors, revisits  # noqa: E402
+from evaluation.trajectory import Trajectory, format_tum  # noqa: E402
+
+START = 1403636580.0  # [s], as large as real stamps are
+ROUND = 20.0  # [s]
+HEADER = "later_ns,earlier_ns,result,x_m,y_m,z_m,yaw_deg\n"
+
+
+def about_z(angles):
+    c, s, zero = np.cos(angles), np.sin(angles), np.zeros_like(angles)
+    return np.stack([np.stack([c, -s, zero], axis=-1), np.stack([s, c, zero], axis=-1),
+                     np.stack([zero, zero, zero + 1], axis=-1)], axis=-2)
+
+
+def rounds(count=2):
+    """Rounds of 4 m radius, looking ahead."""
+    t = np.arange(0.0, count * ROUND, 0.05)
+    angles = 2 * np.pi * t / ROUND
+    positions = np.stack([4 * np.cos(angles), 4 * np.sin(angles), 0 * t], axis=1)
+    return Trajectory(START + t, positions, about_z(angles))
+
+
+def drifting(truth, turn=1.0, turn_rate=0.01):
+    """Odometry whose world is turned about the true one by `turn` [rad], and ever more."""
+    turns = about_z(turn + turn_rate * (truth.stamps - START))
+    positions = np.einsum("nij,nj->ni", turns, truth.positions) + [5, 6, 7]
+    return Trajectory(truth.stamps, positions, turns @ truth.rotations)
+
+
+def true_loop(truth, earlier, later, turn=1.0, turn_rate=0.01):
+    """What a loop between two stamps [s since START] says that is right: position and yaw."""
+    first, second = (truth.positions[int(round(t / 0.05))] for t in (earlier, later))
+    position = about_z(np.array(turn + turn_rate * earlier)) @ (second - first)
+    return position, turn_rate * (earlier - later)
+
+
+class LoopErrors(unittest.TestCase):
+    def setUp(self):
+        self.truth = rounds()
+        self.odometry = drifting(self.truth)
+        self.position, self.yaw = true_loop(self.truth, 2.0, 22.5)
+
+    def errors(self, position, yaw):
+        loops = Loops(np.array([START + 2.0]), np.array([START + 22.5]), position[None, :],
+                      np.array([yaw]))
+        distances, turns = loop_errors(loops, self.odometry, self.truth)
+        return distances[0], turns[0]
+
+    def test_a_true_loop_has_none(self):
+        distance, turn = self.errors(self.position, self.yaw)
+        self.assertLess(distance, 1e-9)
+        self.assertLess(turn, 1e-6)
+
+    def test_a_wrong_one_has_what_it_is_off_by(self):
+        distance, turn = self.errors(self.position + [0.3, 0, 0.4], self.yaw + 2 * np.pi - 0.1)
+        self.assertAlmostEqual(distance, 0.5, 6)
+        self.assertAlmostEqual(turn, np.degrees(0.1), 6)
+
+
+class Revisits(unittest.TestCase):
+    def test_only_the_second_round_is_one(self):
+        times = revisits(rounds()) - START
+        self.assertAlmostEqual(times[0], ROUND - 0.8, delta=0.25)  # 1 m before where it began
+        self.assertEqual(len(times), 1 + round((times[-1] - times[0]) / 0.25))
+
+    def test_the_same_place_in_another_direction_is_none(self):
+        truth = rounds(count=1.9)
+        later = truth.stamps >= START + ROUND - 1
+        truth.rotations[later] = truth.rotations[later] @ about_z(np.array(np.pi))
+        self.assertEqual(len(revisits(truth)), 0)
+
+    def test_a_loop_closes_what_is_a_second_around_it(self):
+        loops = Loops(np.array([1.0]), np.array([21.0]), np.zeros((1, 3)), np.zeros(1))
+        self.assertEqual(closed_share(loops, np.array([20.5, 21.5, 22.5, 23.5])), 0.5)
+        none = Loops(np.empty(0), np.empty(0), np.empty((0, 3)), np.empty(0))
+        self.assertEqual(closed_share(none, np.array([20.5])), 0)
+        self.assertIsNone(closed_share(loops, np.array([])))
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.truth = rounds()
+        self.write("truth.tum", self.truth)
+        self.write("trajectory.tum", drifting(self.truth))
+        for name in ("trajectory_map.tum", "trajectory_final.tum"):
+            self.write(name, self.truth)
+
+    def write(self, name, trajectory):
+        (self.folder / name).write_text(format_tum(trajectory), encoding="utf-8")
+
+    def write_loops(self, *rows):
+        text = HEADER + "".join(",".join(str(word) for word in row) + "\n" for row in rows)
+        (self.folder / "loops.csv").write_text(text, encoding="utf-8")
+
+    def row(self, result, offset=0.0):
+        position, yaw = true_loop(self.truth, 2.0, 22.5)
+        stamps = [int(START + t) * 10**9 + int(t % 1 * 1e9) for t in (22.5, 2.0)]
+        return *stamps, result, *(position + [offset, 0, 0]), np.degrees(yaw)
+
+    def test_counts_false_loops_among_the_accepted(self):
+        self.write_loops(self.row("accepted"), self.row("accepted", 0.5), self.row("lines", 9.0))
+        result = evaluate_loops(self.folder, self.truth)
+        self.assertEqual((result["loops"], result["false_loops"]), (2, 1))
+        self.assertAlmostEqual(result["largest_error_m"], 0.5, 4)
+        self.assertAlmostEqual(result["closed_share"], 0.1, delta=0.02)
+        self.assertGreater(result["ape_m"]["trajectory.tum"], 0.1)
+        self.assertLess(result["ape_m"]["trajectory_final.tum"], 1e-6)
+
+    def run_script(self, *arguments):
+        return subprocess.run(["/usr/bin/python3", SCRIPTS / "evaluate_loops.py", *arguments],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8",
+                              check=False)
+
+    def test_prints_and_writes_the_figures(self):
+        self.write_loops(self.row("accepted", 0.1))
+        json_file = self.folder / "loops.json"
+        run = self.run_script(self.folder, self.folder / "truth.tum", "--json", json_file)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("1 loops, 0 false", run.stdout)
+        self.assertEqual(json.loads(json_file.read_text(encoding="utf-8"))["loops"], 1)
+
+    def test_says_what_is_missing(self):
+        run = self.run_script(self.folder, self.folder / "truth.tum")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("loops.csv", run.stderr)
+        self.assertEqual(run.stderr.count("\n"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

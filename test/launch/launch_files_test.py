@@ -68,6 +68,13 @@ def player_words(**arguments):
     return shlex.split(load("plm_vins.launch", config="c.yaml", **arguments)[0]["player"].args)
 
 
+def rviz_layout(nodes):
+    """The name of the file that rviz starts with."""
+    file = pathlib.Path(shlex.split(nodes["rviz"].args)[1])
+    assert file.is_file(), file
+    return file.name
+
+
 class LaunchFiles(unittest.TestCase):
     def test_every_file_is_known_here(self):
         self.assertEqual(sorted(ALL), sorted(path.name for path in LAUNCH.glob("*.launch")))
@@ -161,7 +168,11 @@ class LaunchFiles(unittest.TestCase):
                                  output="/results")
         self.assertEqual(parameters["/feature_tracker/image_transport"], "compressed")
         self.assertEqual(parameters["/vins_estimator/trajectory_file"], "/results/trajectory.tum")
-        self.assertTrue(os.path.isfile(shlex.split(nodes["rviz"].args)[1]))
+        self.assertEqual(rviz_layout(nodes), "plm_vins.rviz")
+
+    def test_loop_closure_shows_the_map(self):
+        nodes, _ = load("euroc.launch", rviz="true", loop_closure="true")
+        self.assertEqual(rviz_layout(nodes), "map.rviz")
 
 
 class RealSense(unittest.TestCase):

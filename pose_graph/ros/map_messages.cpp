@@ -75,6 +75,7 @@ visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map, int64_t t
   for (visualization_msgs::Marker& marker : markers.markers) {
     marker.header.frame_id = map_frame;
     marker.header.stamp = ToRosTime(t_ns);
+    if (marker.points.empty()) marker.action = visualization_msgs::Marker::DELETE;
   }
   return markers;
 }

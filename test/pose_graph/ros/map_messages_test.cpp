@@ -52,6 +52,15 @@ TEST(ToGraphMarkers, HaveStepsAndLoopsApart) {
   EXPECT_EQ(markers[0].points.size(), 2u);
   EXPECT_EQ(markers[1].ns, "loops");
   EXPECT_EQ(markers[1].points.size(), 2u);
+  EXPECT_EQ(markers[1].action, visualization_msgs::Marker::ADD);
+}
+
+TEST(ToGraphMarkers, DeleteWhatIsEmpty) {
+  KeyframeMap map = SmallMap();
+  map.graph = PoseGraph();
+  for (const auto& marker : ToGraphMarkers(map, 0, "map").markers) {
+    EXPECT_EQ(marker.action, visualization_msgs::Marker::DELETE);
+  }
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A map is saved, all nodes end, and new ones find their place in it.
+"""A place is recognised in flight; the map is saved, all nodes end, and new ones find their place
+in it.
 
 Usage: saved_map_test.py NODES BAG FOLDER [unittest option ...]
-NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs and results.
+NODES: folder of the nodes' programs; BAG: a recording that comes back to a place; FOLDER: for logs
+and results.
 """
 
 import math
@@ -62,9 +64,10 @@ class SaveAndRelocalise(unittest.TestCase):
     def call(self, service):
         return rospy.ServiceProxy(f"/pose_graph/{service}", Trigger)()
 
-    def test_save_restart_and_relocalise(self):
+    def test_close_a_loop_save_restart_and_relocalise(self):
         rospy.set_param(PARAMETER, "0")
-        self.fly("first")
+        listener = self.fly("first")
+        listener.wait_for_value("pose_graph", "loops", lambda count: int(count or 0) > 0)
         self.assertFalse(self.call("load_map").success)  # there is none yet
         saved = self.call("save_map")
         self.assertTrue(saved.success, saved.message)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulated flights through simulate, run_offline and evaluate.py.
+"""Simulated flights through simulate, run_offline, evaluate.py and evaluate_loops.py.
 
 Usage: end_to_end_test.py SIMULATE RUN_OFFLINE [unittest option ...]
 """
@@ -35,10 +35,10 @@ def read_json(path):
 class Flight:
     """A simulated recording with its ground truth, in a folder of its own."""
 
-    def __init__(self, *options):
+    def __init__(self, *options, duration=DURATION):
         self._folder = tempfile.TemporaryDirectory()
         self.path = pathlib.Path(self._folder.name)
-        run(SIMULATE, "--asl", self.path / "flight", "--config", CONFIG, "--duration", DURATION,
+        run(SIMULATE, "--asl", self.path / "flight", "--config", CONFIG, "--duration", duration,
             *options)
 
     def __enter__(self):
@@ -52,9 +52,21 @@ class Flight:
         results = self.path / "results"
         run(RUN_OFFLINE, "--config", config, "--asl", self.path / "flight", "--output", results,
             *options)
-        run("/usr/bin/python3", "-B", ROOT / "scripts" / "evaluate.py", results / "trajectory.tum",
-            self.path / "flight" / "groundtruth.tum", "--json", results / "evaluation.json")
-        return read_json(results / "summary.json"), read_json(results / "evaluation.json")
+        return (read_json(results / "summary.json"),
+                self._evaluate("evaluate.py", results / "trajectory.tum"))
+
+    def close_loops(self):
+        """Returns how many loop candidates each gate refused, and the comparison of the loops with
+        the ground truth."""
+        summary, _ = self.estimate("--set", "loop_closure=1")
+        return (summary["loops"]["refused"],
+                self._evaluate("evaluate_loops.py", self.path / "results"))
+
+    def _evaluate(self, script, results):
+        figures = self.path / "figures.json"
+        run("/usr/bin/python3", "-B", ROOT / "scripts" / script, results,
+            self.path / "flight" / "groundtruth.tum", "--json", figures)
+        return read_json(figures)
 
 
 def with_turned_camera(text, angle):
@@ -119,6 +131,29 @@ class EndToEnd(unittest.TestCase):
     def test_straight_flight_through_a_corridor(self):
         with Flight("--world", "corridor", "--motion", "straight") as flight:
             self.assert_accurate(flight.estimate()[1], 0.02)
+
+
+class Loops(unittest.TestCase):
+    """Fast flights, which come back to where they were. Drawing is what takes the time, so there
+    are half as many images as usual, without blur."""
+
+    @staticmethod
+    def fly(world):
+        with Flight("--world", world, "--motion", "fast", "--frame-rate", 10, "--exposure", 0,
+                    duration=30) as flight:
+            return flight.close_loops()
+
+    def test_rooms_with_and_without_right_angles(self):
+        for world in ("room", "atlanta", "irregular"):
+            with self.subTest(world):
+                _, loops = self.fly(world)
+                self.assertEqual(loops["false_loops"], 0)
+                self.assertGreater(loops["closed_share"], 0.6)
+
+    def test_two_equal_rooms_are_not_taken_for_one(self):
+        refused, loops = self.fly("twins")
+        self.assertGreater(refused["odometry"], 0)  # the other room was there to be taken
+        self.assertEqual(loops["false_loops"], 0)
 
 
 if __name__ == "__main__":

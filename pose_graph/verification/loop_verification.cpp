@@ -152,8 +152,11 @@ bool LoopVerification::ManhattanAgrees(const Keyframe& earlier, const Keyframe& 
                                        LoopCandidate* candidate, const Evidence& evidence) const {
   candidate->failed = LoopGate::kManhattan;
   if (!earlier.R_O_M || !later.R_O_M) return true;
-  const double turn = evidence.T_A_B.yaw + Yaw(*later.R_O_M) - Yaw(*earlier.R_O_M);
-  candidate->manhattan_error = std::remainder(turn, M_PI / 2);
+  const double turn_in_O = std::remainder(Yaw(*later.R_O_M) - Yaw(*earlier.R_O_M), M_PI / 2);
+  // A scene may have several frames. Where odometry itself sees two, they say nothing here.
+  const bool are_two = std::abs(turn_in_O) > options_.max_manhattan_error;
+  if (earlier.world == later.world && are_two) return true;
+  candidate->manhattan_error = std::remainder(evidence.T_A_B.yaw + turn_in_O, M_PI / 2);
   return std::abs(*candidate->manhattan_error) <= options_.max_manhattan_error;
 }
 

@@ -97,18 +97,31 @@ TEST_F(LoopVerificationTest, RefusesWhereMostIsNotWhereItShouldBe) {
   EXPECT_EQ(Verify().failed, LoopGate::kInliers);
 }
 
+Eigen::Quaterniond Turned(double degrees) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitZ()));
+}
+
 TEST_F(LoopVerificationTest, RefusesATurnedManhattanFrame) {
-  const Keyframe earlier = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
+  Keyframe first = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
   Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
-  Keyframe first = earlier;
-  first.R_O_M = Eigen::Quaterniond::Identity();
-  const auto turned = [](double degrees) {
-    return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitZ()));
-  };
-  later.R_O_M = turned(100);  // the world is turned by 10, the frame by a quarter
+  first.R_O_M = Turned(0);
+  later.world = first.world + 1;
+  later.R_O_M = Turned(100);  // the world is turned by 10, the frame by a quarter
   EXPECT_FALSE(VerifyPair(first, later).failed);
-  later.R_O_M = turned(105);
+  later.R_O_M = Turned(105);
   EXPECT_EQ(VerifyPair(first, later).failed, LoopGate::kManhattan);
+}
+
+TEST_F(LoopVerificationTest, ComparesNoTwoManhattanFramesOfOneWorld) {
+  Keyframe first = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
+  Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
+  first.R_O_M = Turned(0);
+  later.R_O_M = Turned(2);  // one frame, but the loop says that its world is turned by 10
+  EXPECT_EQ(VerifyPair(first, later).failed, LoopGate::kManhattan);
+  later.R_O_M = Turned(30);  // another frame
+  const LoopCandidate candidate = VerifyPair(first, later);
+  EXPECT_FALSE(candidate.failed);
+  EXPECT_FALSE(candidate.manhattan_error);
 }
 
 TEST_F(LoopVerificationTest, RefusesWhatIsSeenInACornerOfTheImageAlone) {

@@ -10,7 +10,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMinLandmarks = 20;           // fewer are no evidence
+constexpr int kMinLandmarks = 20;           // to begin with: what is rejected leaves fewer
 constexpr double kMaxRejectedShare = 0.25;  // a few per cent in flight
 constexpr double kMaxContradiction = 0.5;   // [s]
 
@@ -50,7 +50,9 @@ std::optional<std::string> DetectFailure(const FailureLimits& limits, const Fram
 }
 
 std::optional<std::string> ContradictionMonitor::Add(int64_t t_ns, int landmarks, int rejected) {
-  if (landmarks < kMinLandmarks || rejected < kMaxRejectedShare * landmarks) {
+  const bool contradicts = rejected > 0 && rejected >= kMaxRejectedShare * landmarks;
+  const bool few = landmarks < kMinLandmarks;
+  if (!contradicts || (few && !since_ns_)) {
     since_ns_.reset();
     return std::nullopt;
   }

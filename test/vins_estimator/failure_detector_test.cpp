@@ -105,6 +105,15 @@ TEST(ContradictionMonitor, ToleratesOutliersAndFewLandmarks) {
   EXPECT_EQ(FirstAlarm(&monitor, 19, 19, 100), -1);
 }
 
+TEST(ContradictionMonitor, GoesOnWithTheFewThatAreLeft) {
+  ContradictionMonitor monitor;
+  EXPECT_EQ(FirstAlarm(&monitor, 40, 30, 10), -1);
+  EXPECT_TRUE(monitor.Add(ToNanoseconds(0.5), 8, 5));
+  monitor = ContradictionMonitor();
+  EXPECT_EQ(FirstAlarm(&monitor, 40, 30, 10), -1);
+  EXPECT_FALSE(monitor.Add(ToNanoseconds(0.5), 0, 0)) << "nothing is left, nothing is rejected";
+}
+
 TEST(ContradictionMonitor, StartsOverWithAnImageThatFits) {
   ContradictionMonitor monitor;
   for (int i = 0; i < 200; ++i) {

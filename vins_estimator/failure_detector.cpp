@@ -10,8 +10,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMinLandmarks = 20;           // to begin with: what is rejected leaves fewer
 constexpr double kMaxRejectedShare = 0.25;  // a few per cent in flight
+constexpr int kMinRejected = 5;             // to begin with, as their share leaves fewer and fewer
 constexpr double kMaxContradiction = 0.5;   // [s]
 
 bool IsFinite(const FrameState& state) {
@@ -51,8 +51,8 @@ std::optional<std::string> DetectFailure(const FailureLimits& limits, const Fram
 
 std::optional<std::string> ContradictionMonitor::Add(int64_t t_ns, int landmarks, int rejected) {
   const bool contradicts = rejected > 0 && rejected >= kMaxRejectedShare * landmarks;
-  const bool few = landmarks < kMinLandmarks;
-  if (!contradicts || (few && !since_ns_)) {
+  const bool by_chance = !since_ns_ && rejected < kMinRejected;
+  if (!contradicts || by_chance) {
     since_ns_.reset();
     return std::nullopt;
   }

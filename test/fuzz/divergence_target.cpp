@@ -118,7 +118,10 @@ class Witness {
     }
     if (!diverged_ns_ || output.t_ns - *diverged_ns_ < kInTime_ns) return;
     const bool said = said_ns_ && *said_ns_ >= *diverged_ns_ - kInTime_ns;
-    if (!said && !unsaid_) ++counts.unsaid, unsaid_ = true;
+    if (said || unsaid_) return;
+    unsaid_ = true;
+    ++counts.unsaid;
+    Note("a divergence is not announced by " + std::to_string(ToSeconds(output.t_ns)) + " s");
   }
 
  private:

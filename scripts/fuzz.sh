@@ -9,7 +9,7 @@ seconds="${1:-600}"
 
 cmake -S "$root" -B "$root/build/fuzz" -DCMAKE_BUILD_TYPE=Release -DSANITIZE="${SANITIZE:-ON}" \
   -DBUILD_TESTING=OFF -DBUILD_FUZZ=ON
-cmake --build "$root/build/fuzz" -j "${JOBS:-$(nproc)}" --target plm_fuzz
+cmake --build "$root/build/fuzz" -j "${JOBS:-$(nproc)}" --target plm_fuzz plm_soak
 export ASAN_OPTIONS=abort_on_error=1:handle_segv=0:allocator_may_return_null=0:detect_leaks=0
 export UBSAN_OPTIONS=abort_on_error=1:print_stacktrace=1
 exec "$root/build/fuzz/tests/plm_fuzz" "${2:-all}" "$seconds" "${@:3}"

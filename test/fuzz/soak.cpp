@@ -49,6 +49,7 @@ std::vector<Part> Soak(double seconds) {
     part.memory_MB = Memory_MB();
     std::printf("%" PRId64 " images, %" PRId64 " poses, %" PRId64 " restarts, %.2f ms, %.1f MB\n",
                 part.images, part.poses, part.restarts, part.milliseconds, part.memory_MB);
+    std::fflush(stdout);  // to be watched, also in a file
     begin = end;
     parts.emplace_back();
   });

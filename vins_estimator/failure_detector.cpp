@@ -11,7 +11,7 @@ namespace plm_vins {
 namespace {
 
 constexpr double kMaxRejectedShare = 0.25;  // a few per cent in flight
-constexpr int kMinRejected = 5;             // to begin with, as their share leaves fewer and fewer
+constexpr int kMinRejected = 5;             // at first; what is rejected leaves fewer
 constexpr double kMaxContradiction = 0.5;   // [s]
 
 bool IsFinite(const FrameState& state) {

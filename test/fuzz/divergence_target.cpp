@@ -18,10 +18,10 @@ namespace {
 
 using simulator::FeatureDataset;
 
-constexpr double kFlight = 8;            // [s]
-constexpr double kFaultsBegin = 3;       // when the estimator has started [s]
-constexpr int kMaxFaults = 20;           // per flight
-constexpr double kMaxError = 1;          // that may go unsaid [m]
+constexpr double kFlight = 8;             // [s]
+constexpr double kFaultsBegin = 3;        // when the estimator has started [s]
+constexpr int kMaxFaults = 20;            // per flight
+constexpr double kMaxError = 1;           // that may go unsaid [m]
 constexpr double kMaxUnsaidShare = 0.02;  // of the flights; none of 129 was seen
 constexpr int kFewUnsaid = 5;             // chance
 constexpr int64_t kInTime_ns = 1'000'000'000;

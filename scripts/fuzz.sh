@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # Builds the fuzz targets under AddressSanitizer and UndefinedBehaviorSanitizer and runs each of them.
-# Usage: fuzz.sh [SECONDS [TARGET [INDEX]]]; by default an hour in all. A finding names the target and
-# the index of the input, which run it again.
+# Usage: fuzz.sh [SECONDS [TARGET [FIRST [COUNT]]]]; by default an hour in all. A finding names the
+# target and the index of the input, which as FIRST runs it again. SANITIZE=OFF is ten times as fast:
+# a million faults are SANITIZE=OFF fuzz.sh inf divergence 0 95000, or parts of that side by side.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 seconds="${1:-600}"
 
-cmake -S "$root" -B "$root/build/fuzz" -DCMAKE_BUILD_TYPE=Release -DSANITIZE=ON -DBUILD_TESTING=OFF \
-  -DBUILD_FUZZ=ON
-cmake --build "$root/build/fuzz" -j "${JOBS:-$(nproc)}" --target plm_fuzz
+cmake -S "$root" -B "$root/build/fuzz" -DCMAKE_BUILD_TYPE=Release -DSANITIZE="${SANITIZE:-ON}" \
+  -DBUILD_TESTING=OFF -DBUILD_FUZZ=ON
+cmake --build "$root/build/fuzz" -j "${JOBS:-$(nproc)}" --target plm_fuzz plm_soak
 export ASAN_OPTIONS=abort_on_error=1:handle_segv=0:allocator_may_return_null=0:detect_leaks=0
 export UBSAN_OPTIONS=abort_on_error=1:print_stacktrace=1
-exec "$root/build/fuzz/tests/plm_fuzz" "${2:-all}" "$seconds" "${3:-0}"
+exec "$root/build/fuzz/tests/plm_fuzz" "${2:-all}" "$seconds" "${@:3}"

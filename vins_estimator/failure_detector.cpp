@@ -10,8 +10,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMinLandmarks = 20;           // fewer are no evidence
 constexpr double kMaxRejectedShare = 0.25;  // a few per cent in flight
+constexpr int kMinRejected = 5;             // at first; what is rejected leaves fewer
 constexpr double kMaxContradiction = 0.5;   // [s]
 
 bool IsFinite(const FrameState& state) {
@@ -50,7 +50,9 @@ std::optional<std::string> DetectFailure(const FailureLimits& limits, const Fram
 }
 
 std::optional<std::string> ContradictionMonitor::Add(int64_t t_ns, int landmarks, int rejected) {
-  if (landmarks < kMinLandmarks || rejected < kMaxRejectedShare * landmarks) {
+  const bool contradicts = rejected > 0 && rejected >= kMaxRejectedShare * landmarks;
+  const bool by_chance = !since_ns_ && rejected < kMinRejected;
+  if (!contradicts || by_chance) {
     since_ns_.reset();
     return std::nullopt;
   }

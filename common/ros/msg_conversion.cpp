@@ -96,6 +96,19 @@ int64_t ToId(float value) {
   return static_cast<int64_t>(value);
 }
 
+// What the channels of points are, by their number: VINS-Fusion names a camera after the id.
+struct PointLayout {
+  size_t channels = 0;  // that must be there
+  size_t first_pixel = 0;
+  const char* names = "";
+};
+
+PointLayout LayoutOf(const sensor_msgs::PointCloud& points) {
+  if (points.channels.size() > 5) return {6, 2, "id, camera_id, u, v, vx, vy"};
+  if (HasVelocities(points)) return {5, 1, "id, u, v, vx, vy"};
+  return {3, 1, "id, u, v (, vx, vy)"};
+}
+
 }  // namespace
 
 ros::Time ToRosTime(int64_t t_ns) {
@@ -155,17 +168,22 @@ sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& fr
 }
 
 PointFrame ToPointFrame(const sensor_msgs::PointCloud& message, int64_t* left_out) {
+  const PointLayout layout = LayoutOf(message);
+  CheckChannels(message, layout.channels, layout.names);
+  const bool has_cameras = layout.channels == 6;
   const bool has_velocities = HasVelocities(message);
-  CheckChannels(message, has_velocities ? 5 : 3, "id, u, v (, vx, vy)");
   PointFrame frame;
   frame.t_ns = ToNanoseconds(message.header.stamp);
-  frame.points.resize(message.points.size());
-  const auto value = [&](int channel, size_t i) { return message.channels[channel].values[i]; };
-  for (size_t i = 0; i < frame.points.size(); ++i) {
-    frame.points[i].id = ToId(value(0, i));
-    frame.points[i].xy = {message.points[i].x, message.points[i].y};
-    frame.points[i].uv_px = {value(1, i), value(2, i)};
-    if (has_velocities) frame.points[i].velocity = {value(3, i), value(4, i)};
+  frame.points.reserve(message.points.size());
+  const auto value = [&](size_t channel, size_t i) { return message.channels[channel].values[i]; };
+  for (size_t i = 0; i < message.points.size(); ++i) {
+    if (has_cameras && value(1, i) != 0) continue;
+    PointObservation& point = frame.points.emplace_back();
+    const size_t pixel = layout.first_pixel;
+    point.id = ToId(value(0, i));
+    point.xy = {message.points[i].x, message.points[i].y};
+    point.uv_px = {value(pixel, i), value(pixel + 1, i)};
+    if (has_velocities) point.velocity = {value(pixel + 2, i), value(pixel + 3, i)};
   }
   *left_out += RemoveImpossible(&frame.points);
   return frame;

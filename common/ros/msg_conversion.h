@@ -39,14 +39,14 @@ ImuSample ToImuSample(const sensor_msgs::Imu& message);
 sensor_msgs::ImagePtr ToMessage(const cv::Mat& bgr, int64_t t_ns, const std::string& frame_id);
 
 // /feature_tracker/feature as in VINS-Mono: points (x, y, 1), channels id, u, v, vx, vy. Ids travel
-// modulo kTransportableIds; IdRestorer takes that back. Reading throws std::invalid_argument where
-// channels are missing and where an id is none that travels; what RemoveImpossible() would remove
-// is left out, and `left_out` grows by its number.
+// modulo kTransportableIds; IdRestorer takes that back. Reading takes the layouts of PL-VINS (id,
+// u, v) and VINS-Fusion (id, camera, u, v, vx, vy, ...) as well, of the latter the points of camera
+// 0 alone. It throws std::invalid_argument where channels are missing and where an id is none that
+// travels; what RemoveImpossible() would remove is left out, and `left_out` grows by its number.
 sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& frame_id);
 PointFrame ToPointFrame(const sensor_msgs::PointCloud& message, int64_t* left_out);
 
-// False for the messages of PL-VINS, which end with the channel v: ToPointFrame() leaves the
-// velocities zero.
+// False for the messages of PL-VINS: ToPointFrame() leaves the velocities zero.
 inline bool HasVelocities(const sensor_msgs::PointCloud& points) {
   return points.channels.size() >= 5;
 }

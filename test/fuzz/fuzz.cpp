@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gives damaged inputs to what takes input from outside, for some seconds each. The input of an
-// index is always the same, so that a finding can be run again alone: fuzz TARGET SECONDS INDEX.
+// index is always the same, so that a finding can be run again: fuzz TARGET SECONDS FIRST COUNT.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <exception>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,12 @@ namespace plm_vins::fuzz {
 namespace {
 
 constexpr double kHang = 10;  // of one input, the machine being busy or not [s of processor time]
+
+// What ends a target's run: the first of both.
+struct Limits {
+  double seconds = 5;
+  uint64_t inputs = std::numeric_limits<uint64_t>::max();
+};
 
 std::vector<Target> Targets() {
   std::vector<Target> targets = {ConfigTarget(),     AslTarget(),          StageTarget(),
@@ -57,39 +64,46 @@ void RunOne(const Target& target, uint64_t index) {
   }
 }
 
-void RunTarget(const Target& target, double seconds, uint64_t first) {
+void RunTarget(const Target& target, const Limits& limits, uint64_t first) {
   current_target = target.name.c_str();
   const Stopwatch stopwatch;
-  uint64_t index = first;
+  uint64_t inputs = 0;
   do {
-    RunOne(target, index++);
-  } while (stopwatch.Milliseconds() < 1e3 * seconds);
+    RunOne(target, first + inputs++);
+  } while (inputs < limits.inputs && stopwatch.Milliseconds() < 1e3 * limits.seconds);
   std::fprintf(stderr, "fuzz: %s, %llu inputs, %s\n", current_target,
-               static_cast<unsigned long long>(index - first), target.report().c_str());
+               static_cast<unsigned long long>(inputs), target.report().c_str());
 }
 
 // False where there is no such target.
-bool RunTargets(const std::string& name, double seconds, uint64_t first) {
+bool RunTargets(const std::string& name, const Limits& limits, uint64_t first) {
   bool found = false;
   for (const Target& target : Targets()) {
     if (name != "all" && name != target.name) continue;
     found = true;
-    RunTarget(target, seconds, first);
+    RunTarget(target, limits, first);
   }
   return found;
 }
 
 }  // namespace
+
+void Note(const std::string& what) {
+  std::fprintf(stderr, "fuzz: %s, input %llu: %s\n", current_target, current_index, what.c_str());
+}
+
 }  // namespace plm_vins::fuzz
 
 int main(int argc, char** argv) {
   const std::string name = argc > 1 ? argv[1] : "all";
-  const double seconds = argc > 2 ? std::atof(argv[2]) : 5;
+  plm_vins::fuzz::Limits limits;
+  if (argc > 2) limits.seconds = std::atof(argv[2]);
   const uint64_t first = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 0;
+  if (argc > 4) limits.inputs = std::strtoull(argv[4], nullptr, 10);
   for (const int signal : {SIGABRT, SIGSEGV, SIGFPE}) {
     std::signal(signal, plm_vins::fuzz::NameInput);
   }
-  const bool found = plm_vins::fuzz::RunTargets(name, seconds, first);
+  const bool found = plm_vins::fuzz::RunTargets(name, limits, first);
   if (!found) std::fprintf(stderr, "fuzz: no target %s\n", name.c_str());
   return found ? 0 : 1;
 }

@@ -18,6 +18,9 @@ struct Target {
   std::function<std::string()> report = [] { return std::string("no finding"); };
 };
 
+// Says something about the input that is being run.
+void Note(const std::string& what);
+
 Target ConfigTarget();
 Target AslTarget();
 Target StageTarget();

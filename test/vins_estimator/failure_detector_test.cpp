@@ -99,10 +99,20 @@ TEST(ContradictionMonitor, SaysHowMuchContradicts) {
             "the camera contradicts the state: 40 of 80 landmarks rejected, for 1.2 s");
 }
 
-TEST(ContradictionMonitor, ToleratesOutliersAndFewLandmarks) {
+TEST(ContradictionMonitor, ToleratesOutliersAndWhatMayBeChance) {
   ContradictionMonitor monitor;
   EXPECT_EQ(FirstAlarm(&monitor, 100, 24, 100), -1);
-  EXPECT_EQ(FirstAlarm(&monitor, 19, 19, 100), -1);
+  EXPECT_EQ(FirstAlarm(&monitor, 4, 4, 100), -1);
+  EXPECT_DOUBLE_EQ(FirstAlarm(&monitor, 5, 5, 100), 0.5);
+}
+
+TEST(ContradictionMonitor, GoesOnWithTheFewThatAreLeft) {
+  ContradictionMonitor monitor;
+  EXPECT_EQ(FirstAlarm(&monitor, 40, 30, 10), -1);
+  EXPECT_TRUE(monitor.Add(ToNanoseconds(0.5), 8, 3));
+  monitor = ContradictionMonitor();
+  EXPECT_EQ(FirstAlarm(&monitor, 40, 30, 10), -1);
+  EXPECT_FALSE(monitor.Add(ToNanoseconds(0.5), 0, 0)) << "nothing is left, nothing is rejected";
 }
 
 TEST(ContradictionMonitor, StartsOverWithAnImageThatFits) {

@@ -90,11 +90,14 @@ std::optional<RotationMeasurement> Attempt::MeasureRotation(int interval) const 
 
 bool Attempt::EstimateBias() {
   std::vector<RotationMeasurement> rotations;
+  size_t failed = 0;
   for (size_t i = 0; i < preintegrations_.size(); ++i) {
-    const auto rotation = MeasureRotation(static_cast<int>(i));
-    if (rotation) rotations.push_back(*rotation);
+    if (const auto rotation = MeasureRotation(static_cast<int>(i))) {
+      rotations.push_back(*rotation);
+    } else if (2 * ++failed > preintegrations_.size()) {
+      return false;  // the last pair's reason; the search where none is to be found takes longest
+    }
   }
-  if (2 * rotations.size() < preintegrations_.size()) return false;  // the last pair's reason
   const auto gyro = EstimateGyroBias(rotations, reason_);
   if (!gyro) return false;
   for (Preintegration& imu : preintegrations_) {

@@ -174,6 +174,29 @@ TEST(FeatureMessage, PointsOfPlVinsComeWithoutVelocities) {
   EXPECT_TRUE(read.points[0].velocity.isZero(0));
 }
 
+// Also with the channels that it may send after these: the true places of the points.
+TEST(FeatureMessage, OfVinsFusionThePointsOfTheFirstCameraAreTaken) {
+  for (const size_t channels : {6, 9}) {
+    sensor_msgs::PointCloud message;
+    message.points.resize(2);
+    message.points[0].x = 0.25f;
+    message.channels.resize(channels);
+    for (auto& channel : message.channels) channel.values.resize(2);
+    const std::vector<float> first = {7, 0, 300.5f, 200.25f, 0.125f, -2};
+    const std::vector<float> right = {7, 1, 280.5f, 200.25f, 0.125f, -2};
+    for (size_t i = 0; i < first.size(); ++i) message.channels[i].values = {first[i], right[i]};
+    int64_t left_out = 0;
+    const PointFrame read = ToPointFrame(message, &left_out);
+    EXPECT_TRUE(HasVelocities(message));
+    EXPECT_EQ(left_out, 0);
+    ASSERT_EQ(read.points.size(), 1u);
+    EXPECT_EQ(read.points[0].id, 7);
+    EXPECT_EQ(read.points[0].xy, Eigen::Vector2d(0.25, 0));
+    EXPECT_EQ(read.points[0].uv_px, Eigen::Vector2d(300.5, 200.25));
+    EXPECT_EQ(read.points[0].velocity, Eigen::Vector2d(0.125, -2));
+  }
+}
+
 TEST(FeatureMessage, AnEmptyFrameComesBack) {
   EXPECT_TRUE(ReadBack(PointFrame{kStamp, {}}).points.empty());
 }

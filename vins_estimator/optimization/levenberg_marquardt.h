@@ -10,7 +10,7 @@ struct SolverOptions {
   int max_iterations = 8;
   // Stop when an iteration gains, or misses of what it was predicted to gain, less than this share
   // of the cost.
-  double cost_tolerance = 3e-2;
+  double cost_tolerance = 1e-2;
   double step_tolerance = 1e-6;  // stop when no component of the step is longer [m, rad, ...]
 };
 

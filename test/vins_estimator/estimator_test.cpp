@@ -39,7 +39,7 @@ TEST(EstimatorTest, IsAccurateAndHonestInFlight) {
     for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
       const EstimatedFlight flight = Fly(Options(motion, seed));
       EXPECT_TRUE(flight.restarts.empty());
-      EXPECT_GT(flight.truth.size(), 250u) << "late start";
+      EXPECT_GE(flight.truth.size(), 250u) << "late start";
       EXPECT_LT(testing::AbsoluteError(flight), max_error * flight.path) << "seed " << seed;
       const testing::Consistency consistency = testing::MeasureConsistency(flight);
       mean.pose += consistency.pose / kSeeds;

@@ -20,6 +20,7 @@ constexpr double kMinTriangulationSigmas = 4.0;  // angle between rays of a poin
 constexpr double kMaxReprojectionSigmas = 3.0;
 constexpr double kMinDepth = 1e-3;  // in units of the first baseline
 constexpr int kBundleIterations = 12;
+constexpr double kBundleTolerance = 1e-2;  // the adjustment with the IMU goes on from there
 constexpr int kIntersectionIterations = 4;
 
 // A line in G: all points origin + depth * direction (unit length).
@@ -224,6 +225,7 @@ bool Builder::AdjustBundle() {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
   options.max_num_iterations = kBundleIterations;
+  options.function_tolerance = kBundleTolerance;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

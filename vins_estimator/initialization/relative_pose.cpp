@@ -18,6 +18,7 @@ constexpr int kMinInliers = 12;
 constexpr double kConfidence = 0.999;
 constexpr double kInlierSigmas = 3.0;  // distance to the epipolar line, in standard deviations
 constexpr int kRefinements = 8;
+constexpr double kClearShare = 0.9;  // of inliers: five points would find nothing better
 // How far the gyro's rotation may be off, before its bias is known: decides between the two
 // solutions of a plane and weighs next to nothing elsewhere [rad].
 constexpr double kGyroDeviation = 0.05;
@@ -166,6 +167,22 @@ void Classify(const std::vector<Correspondence>& correspondences, double noise,
   }
 }
 
+// The fit from the gyro's start, or the better one from five points where that leaves many out.
+RelativePose FitPose(const std::vector<Correspondence>& correspondences,
+                     const Eigen::Quaterniond& R_C1_C0_gyro, double noise) {
+  const PoseRefiner refiner(correspondences, R_C1_C0_gyro, noise);
+  RelativePose pose = GyroPose(correspondences, R_C1_C0_gyro);
+  refiner.Refine(&pose);
+  Classify(correspondences, noise, &pose);
+  if (pose.num_inliers >= kClearShare * static_cast<double>(correspondences.size())) return pose;
+  auto candidate = FivePointPose(correspondences, R_C1_C0_gyro, noise);
+  if (!candidate) return pose;
+  refiner.Refine(&*candidate);
+  if (refiner.Cost(*candidate) >= refiner.Cost(pose)) return pose;
+  Classify(correspondences, noise, &*candidate);
+  return *candidate;
+}
+
 // Turns the translation so that most inliers have positive depth.
 void ChooseTranslationSign(const std::vector<Correspondence>& correspondences, RelativePose* pose) {
   int votes = 0;
@@ -189,14 +206,7 @@ std::optional<RelativePose> EstimateRelativePose(const std::vector<Correspondenc
               std::to_string(kMinCorrespondences);
     return std::nullopt;
   }
-  const PoseRefiner refiner(correspondences, R_C1_C0_gyro, noise);
-  RelativePose pose = GyroPose(correspondences, R_C1_C0_gyro);
-  refiner.Refine(&pose);
-  if (auto candidate = FivePointPose(correspondences, R_C1_C0_gyro, noise)) {
-    refiner.Refine(&*candidate);
-    if (refiner.Cost(*candidate) < refiner.Cost(pose)) pose = *candidate;
-  }
-  Classify(correspondences, noise, &pose);
+  RelativePose pose = FitPose(correspondences, R_C1_C0_gyro, noise);
   if (pose.num_inliers < std::max<int>(kMinInliers, correspondences.size() / 2)) {
     *reason = "epipolar geometry has too few inliers: " + std::to_string(pose.num_inliers) +
               " of " + std::to_string(correspondences.size());

@@ -23,12 +23,12 @@ struct RelativePose {
 };
 
 // Epipolar geometry of two calibrated views: a robust least-squares fit of the Sampson distances,
-// from two starts, the gyro's rotation and the consensus of five-point hypotheses (deterministic);
-// the better one is taken. The gyro's rotation, a few degrees uncertain, also decides between the
-// solutions of a plane; the sign of the translation is the one that puts most points in front of
-// both cameras. Where the camera only turned, the rotation is good and the translation arbitrary.
-// `noise`: standard deviation of a normalised coordinate. Nothing, and the reason in words, where
-// too few points agree.
+// from the gyro's rotation, and, where many points contradict that, from the consensus of
+// five-point hypotheses (deterministic); the better one is taken. The gyro's rotation, a few
+// degrees uncertain, also decides between the solutions of a plane; the sign of the translation is
+// the one that puts most points in front of both cameras. Where the camera only turned, the
+// rotation is good and the translation arbitrary. `noise`: standard deviation of a normalised
+// coordinate. Nothing, and the reason in words, where too few points agree.
 std::optional<RelativePose> EstimateRelativePose(const std::vector<Correspondence>& correspondences,
                                                  const Eigen::Quaterniond& R_C1_C0_gyro,
                                                  double noise, std::string* reason);

@@ -18,6 +18,7 @@ namespace plm_vins {
 namespace {
 
 constexpr int kIterations = 12;
+constexpr double kTolerance = 1e-3;       // the window is optimised further
 constexpr double kGaugeDeviation = 1e-3;  // [m] and [rad]; any small value will do
 
 // Holds position and heading of a pose: [p - p0, angle about the world's z] / deviation.
@@ -181,6 +182,7 @@ bool Bundle::Solve() {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
   options.max_num_iterations = kIterations;
+  options.function_tolerance = kTolerance;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();

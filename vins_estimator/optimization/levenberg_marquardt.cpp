@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace plm_vins {
 namespace {
@@ -47,21 +48,41 @@ void Move(const Variable& variable, const double* step) {
   std::copy(moved, moved + variable.type().ambient_size, variable.values);
 }
 
-// Moves every variable along the solution of the damped equations. Returns the largest component of
-// the dense step; negative where there is no solution (nothing is moved then).
-double TakeStep(const WindowProblem& problem, double damping, NormalEquations* equations) {
-  const Eigen::VectorXd step = equations->DenseStep(damping);
-  if (step.size() != equations->dense_size() || !step.allFinite()) return -1;
+struct Step {
+  double size = 0;            // largest component of its dense part
+  double predicted_gain = 0;  // of the cost, were the equations undamped and the whole truth
+};
 
+// Moves every variable along the solution of the damped equations; where there is none, nothing.
+std::optional<Step> TakeStep(const WindowProblem& problem, double damping,
+                             NormalEquations* equations) {
+  const Eigen::VectorXd dense_step = equations->DenseStep(damping);
+  if (dense_step.size() != equations->dense_size() || !dense_step.allFinite()) return std::nullopt;
+
+  Step step;
   for (size_t i = 0; i < problem.landmarks().size(); ++i) {
-    const auto landmark_step = equations->LandmarkStep(static_cast<int>(i), step, damping);
+    const int index = static_cast<int>(i);
+    const LandmarkVector landmark_step = equations->LandmarkStep(index, dense_step, damping);
+    step.predicted_gain -= 0.5 * equations->LandmarkGradient(index).dot(landmark_step);
     Move(problem.variables()[problem.landmarks()[i].variable], landmark_step.data());
   }
   for (size_t i = 0; i < problem.variables().size(); ++i) {
     const int offset = equations->DenseOffset(static_cast<int>(i));
-    if (offset >= 0) Move(problem.variables()[i], &step[offset]);
+    if (offset >= 0) Move(problem.variables()[i], &dense_step[offset]);
   }
-  return step.size() == 0 ? 0.0 : step.lpNorm<Eigen::Infinity>();
+  if (dense_step.size() > 0) {
+    step.predicted_gain -= 0.5 * equations->DenseGradient().dot(dense_step);
+    step.size = dense_step.lpNorm<Eigen::Infinity>();
+  }
+  return step;
+}
+
+// Whether another step has nothing left to gain: this one gained little, or, what takes no second
+// step to tell, just what the equations said that there was.
+bool HasConverged(const SolverOptions& options, const Step& step, double gain, double cost) {
+  const double least_gain = options.cost_tolerance * std::abs(cost);
+  return gain <= least_gain || std::abs(gain - step.predicted_gain) <= least_gain ||
+         step.size < options.step_tolerance;
 }
 
 }  // namespace
@@ -77,9 +98,9 @@ SolverSummary Solve(const SolverOptions& options, const WindowProblem& problem,
   double damping = 0;
   while (summary.iterations < options.max_iterations && damping < kMaxDamping) {
     ++summary.iterations;
-    const double step_size = TakeStep(problem, damping, equations);
-    const double new_cost = step_size < 0 ? cost : equations->Cost();
-    const bool accepted = step_size >= 0 && std::isfinite(new_cost) && new_cost <= cost;
+    const std::optional<Step> step = TakeStep(problem, damping, equations);
+    const double new_cost = step ? equations->Cost() : cost;
+    const bool accepted = step && std::isfinite(new_cost) && new_cost <= cost;
     if (!accepted) {
       snapshot.Restore();
       damping = std::max(damping * kDampingIncrease, kFirstDamping);
@@ -88,8 +109,7 @@ SolverSummary Solve(const SolverOptions& options, const WindowProblem& problem,
     summary.solved = true;
     const double gain = cost - new_cost;
     cost = summary.final_cost = new_cost;
-    if (gain <= options.cost_tolerance * std::abs(cost) || step_size < options.step_tolerance)
-      break;
+    if (HasConverged(options, *step, gain, cost)) break;
     snapshot.Take();
     damping *= kDampingDecrease;
     if (damping < kMinDamping) damping = 0;

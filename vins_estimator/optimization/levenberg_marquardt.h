@@ -8,7 +8,9 @@ namespace plm_vins {
 
 struct SolverOptions {
   int max_iterations = 8;
-  double cost_tolerance = 1e-2;  // stop when an iteration gains less than this share of the cost
+  // Stop when an iteration gains, or misses of what it was predicted to gain, less than this share
+  // of the cost.
+  double cost_tolerance = 1e-2;
   double step_tolerance = 1e-6;  // stop when no component of the step is longer [m, rad, ...]
 };
 

@@ -43,6 +43,10 @@ class NormalEquations {
   // step_l of landmark `index` that belongs to `dense_step`, with the same damping.
   LandmarkVector LandmarkStep(int index, const Eigen::VectorXd& dense_step, double damping) const;
 
+  // The gradient of the cost: b_d, and b_l of landmark `index`.
+  const Eigen::VectorXd& DenseGradient() const { return b_d_; }
+  const LandmarkVector& LandmarkGradient(int index) const { return landmarks_[index].b_l; }
+
   // Joint covariance of some dense variables, in the order given, at the last linearisation. Empty
   // where the equations do not determine them.
   Eigen::MatrixXd Covariance(const std::vector<BlockId>& ids);

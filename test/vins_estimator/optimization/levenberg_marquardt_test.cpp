@@ -83,7 +83,17 @@ class LevenbergMarquardtTest : public ::testing::Test {
 TEST_F(LevenbergMarquardtTest, FewDefaultIterationsAreEnoughFromAPrediction) {
   const double lowest = Solve(thorough_, problem_, &*equations_).final_cost;
   Disturb(0.003, 1);
-  EXPECT_LT(Solve(SolverOptions(), problem_, &*equations_).final_cost, 1.01 * lowest);
+  EXPECT_LT(Solve(SolverOptions(), problem_, &*equations_).final_cost, 1.02 * lowest);
+}
+
+// Without a second step that would tell that there is nothing left to gain.
+TEST_F(LevenbergMarquardtTest, StopsAfterAStepThatGainsWhatWasPredicted) {
+  const double lowest = Solve(thorough_, problem_, &*equations_).final_cost;
+  Disturb(0.0002, 1);
+  const SolverSummary summary = Solve(SolverOptions(), problem_, &*equations_);
+  EXPECT_GT(summary.initial_cost, 1.5 * lowest) << "a gain that alone would not end it";
+  EXPECT_LT(summary.final_cost, 1.01 * lowest);
+  EXPECT_EQ(summary.iterations, 1);
 }
 
 TEST_F(LevenbergMarquardtTest, NeverEndsAboveTheInitialCost) {

@@ -273,8 +273,9 @@ CameraParameters Estimator::CurrentCamera() const {
   return config_.sensor.camera.With(state_.estimate.map.window.intrinsics);
 }
 
-ProblemOptions Estimator::CurrentProblem() const {
+ProblemOptions Estimator::CurrentProblem(JacobiansAt jacobians_at) const {
   ProblemOptions options = options_.problem;
+  options.jacobians_at = jacobians_at;
   if (config_.estimator.manhattan_constraints) options.R_W_M = state_.manhattan.R_W_M();
   options.SetNoise(state_.noise.point(), state_.noise.line());
   return options;
@@ -284,7 +285,7 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
   const Stopwatch stopwatch;
   LocalMap& map = state_.estimate.map;
   output->counts.points_in_window = output->counts.lines_in_window = 0;
-  ProblemBuilder builder(CurrentProblem(), &map.window, &state_.estimate.prior);
+  ProblemBuilder builder(CurrentProblem(JacobiansAt::kValues), &map.window, &state_.estimate.prior);
   builder.AddPrior();
   for (size_t i = 1; i < map.window.frames.size(); ++i) builder.AddMotion(i);
   for (auto& [id, landmark] : map.points.landmarks()) {
@@ -370,7 +371,8 @@ void Estimator::SlideOldest(EstimatorOutput* output) {
     const auto replaced_ns = AnchorToReplace(options_.anchors, estimate.map.window);
     if (replaced_ns) estimate.RemoveAnchor(*replaced_ns);
   }
-  DepartedLandmarks departed = estimate.SlideOldest(CurrentProblem(), stays);
+  DepartedLandmarks departed =
+      estimate.SlideOldest(CurrentProblem(JacobiansAt::kFirstEstimates), stays);
   output->departed_points = std::move(departed.points);
   output->departed_lines = std::move(departed.lines);
 }

@@ -94,7 +94,7 @@ class Estimator {
   CameraParameters CurrentCamera() const;
 
   // The problem's options with Manhattan frame and noise as they are now.
-  ProblemOptions CurrentProblem() const;
+  ProblemOptions CurrentProblem(JacobiansAt jacobians_at) const;
 
   const Config config_;
   const EstimatorOptions options_;

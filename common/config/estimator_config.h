@@ -15,7 +15,7 @@ struct EstimatorConfig {
   SolverType solver = SolverType::kSchur;
   double point_noise = 0.7;  // standard deviation of a corner [px]
   double line_noise = 0.5;   // standard deviation of a line's end across the line [px]
-  bool adapt_noise = false;  // let both follow what the images show
+  bool adapt_noise = true;   // let both follow what the images show
 
   double line_outlier_distance = 10.0;     // longest line that is believed [m]
   bool line_merging = true;                // one landmark for what is one line

@@ -6,11 +6,9 @@
 
 #include <algorithm>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "vins_estimator/factors/manifolds.h"
-#include "vins_estimator/optimization/first_estimate_cost.h"
 #include "vins_estimator/optimization/prior_cost.h"
 #include "vins_estimator/problem/term_evaluation.h"
 
@@ -78,21 +76,8 @@ class CeresProblem {
   void AddTerm(const ResidualTerm& term) {
     if (!CanBeEvaluated(term, window_.variables())) return;
     std::vector<double*> blocks;
-    std::vector<const double*> linearization;
-    bool linearized_elsewhere = false;
-    for (int k = 0; k < term.variable_count; ++k) {
-      const Variable& variable = window_.variables()[term.variables[k]];
-      blocks.push_back(blocks_[term.variables[k]]);
-      linearization.push_back(variable.linearization);
-      linearized_elsewhere |= variable.linearization != nullptr;
-    }
-    const ceres::CostFunction* cost = term.cost.get();
-    if (linearized_elsewhere) {
-      first_estimate_costs_.push_back(
-          std::make_unique<FirstEstimateCost>(cost, std::move(linearization)));
-      cost = first_estimate_costs_.back().get();
-    }
-    Add(cost, term.loss, blocks);
+    for (int k = 0; k < term.variable_count; ++k) blocks.push_back(blocks_[term.variables[k]]);
+    Add(term.cost.get(), term.loss, blocks);
   }
 
   void AddPrior(const MarginalizationPrior& prior) {
@@ -114,7 +99,6 @@ class CeresProblem {
   const WindowProblem& window_;
   std::vector<double> values_;
   std::vector<double*> blocks_;  // of the values, by variable
-  std::vector<std::unique_ptr<const FirstEstimateCost>> first_estimate_costs_;
   std::unique_ptr<const PriorCost> prior_;
   ceres::Problem problem_;  // last: refers to all the others
 };

@@ -6,12 +6,11 @@
 
 namespace plm_vins {
 
-// The same as Solve(), by ceres::Solve: the same terms and prior, Jacobians at the same points, the
-// same limits, one thread; landmarks are eliminated first. A term that cannot be evaluated at the
-// start (a landmark behind a camera) is left out, since Ceres solves nothing then.
+// The same as Solve(), by ceres::Solve: the same terms and prior, the same limits, one thread;
+// landmarks are eliminated first. All Jacobians are taken at the values. A term that cannot be
+// evaluated at the start (a landmark behind a camera) is left out, since Ceres solves nothing then.
 //
-// Both end where the gradient by the Jacobians vanishes, if they are given the iterations. On the
-// way they differ: in the damping, and in the tolerances, which Ceres takes relative to a cost that
+// Both end at the minimum, if they are given the iterations. On the way they differ: in the damping, and in the tolerances, which Ceres takes relative to a cost that
 // has a constant more (see PriorCost) and to the length of all values.
 SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& problem);
 

@@ -75,9 +75,9 @@ int ProblemBuilder::AddVariable(const BlockId& id) {
   if (known >= 0) return known;
   const bool constant = (id.kind == BlockKind::kExtrinsic && !options_.estimate_extrinsic) ||
                         (id.kind == BlockKind::kTimeOffset && !options_.estimate_td);
-  const double* linearization =
-      options_.first_estimate_jacobians ? prior_->Linearization(id) : nullptr;
-  return problem_.AddVariable(id, Values(id), constant, linearization);
+  const bool at_first_estimates = options_.jacobians_at == JacobiansAt::kFirstEstimates;
+  return problem_.AddVariable(id, Values(id), constant,
+                              at_first_estimates ? prior_->Linearization(id) : nullptr);
 }
 
 void ProblemBuilder::AddPrior() {

@@ -17,6 +17,11 @@
 
 namespace plm_vins {
 
+// Where Jacobians by the variables of the prior are taken. At the values, the solution is the
+// minimum of the cost. At the first estimates, which the prior was linearised at, equations say
+// nothing of position and heading that cannot be known ([Huang2010]): for what stays in the prior.
+enum class JacobiansAt { kValues, kFirstEstimates };
+
 // What weighs the terms of the window problem, and which calibration it estimates.
 struct ProblemOptions {
   // `focal_length` [px] turns pixels into normalised coordinates.
@@ -40,7 +45,7 @@ struct ProblemOptions {
   bool estimate_readout;  // time of a rolling shutter
   bool estimate_intrinsics;
   CameraParameters camera;  // as configured
-  bool first_estimate_jacobians = true;
+  JacobiansAt jacobians_at = JacobiansAt::kFirstEstimates;
   // Lines on its axes are held to them; none where there is no such frame.
   std::optional<Eigen::Quaterniond> R_W_M;
 };

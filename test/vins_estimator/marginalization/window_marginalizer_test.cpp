@@ -114,10 +114,10 @@ TEST(InitialPrior, IsTheStatedUncertaintyOfTheFirstState) {
 }
 
 // One Gauss-Newton step of the reduced window is the step of the whole, at the same linearisation.
-class MarginalizeOldestTest : public ::testing::TestWithParam<bool> {
+class MarginalizeOldestTest : public ::testing::TestWithParam<JacobiansAt> {
  protected:
   MarginalizeOldestTest() : estimate_(testing::SimulateWindow(6)), random_(1) {
-    options_.first_estimate_jacobians = GetParam();
+    options_.jacobians_at = GetParam();
     options_.estimate_extrinsic = options_.estimate_td = options_.estimate_intrinsics = true;
     testing::Disturb(0.003, &random_, &estimate_.map.window);
     estimate_.prior = InitialPrior(InitialUncertainty(), options_, estimate_.map.window);
@@ -174,7 +174,9 @@ TEST_P(MarginalizeOldestTest, KeepsLinearisationPointsOnlyForFirstEstimates) {
   estimate_.SlideOldest(options_, /*stays_as_anchor=*/false);
   ASSERT_NE(estimate_.prior.Linearization(id), nullptr);
   EXPECT_EQ(estimate_.prior.Linearization(id)[0],
-            GetParam() ? before : estimate_.map.window.frames[0].state.position().x());
+            GetParam() == JacobiansAt::kFirstEstimates
+                ? before
+                : estimate_.map.window.frames[0].state.position().x());
 }
 
 TEST_P(MarginalizeOldestTest, ForgetsTheOldestFrame) {
@@ -184,7 +186,8 @@ TEST_P(MarginalizeOldestTest, ForgetsTheOldestFrame) {
   EXPECT_EQ(estimate_.prior.Linearization({BlockKind::kMotion, oldest_ns}), nullptr);
 }
 
-INSTANTIATE_TEST_SUITE_P(FirstEstimateJacobians, MarginalizeOldestTest, ::testing::Bool());
+INSTANTIATE_TEST_SUITE_P(JacobiansAt, MarginalizeOldestTest,
+                         ::testing::Values(JacobiansAt::kFirstEstimates, JacobiansAt::kValues));
 
 // Vectors along which all states move as one: world translation and rotation about an axis of W.
 VectorXd Motion(const MarginalizationPrior& prior, const Vector3d& translation,
@@ -216,10 +219,10 @@ struct GaugeInformation {
 
 // Information of the prior about the four unobservable directions and the observable inclination
 // after some marginalisations without anchor; the states are off the truth and move in between.
-GaugeInformation SlideWithoutAnchor(bool first_estimate_jacobians, int rounds) {
+GaugeInformation SlideWithoutAnchor(JacobiansAt jacobians_at, int rounds) {
   WindowEstimate estimate(testing::SimulateWindow(8));
   ProblemOptions options = testing::OnePixelOptions();
-  options.first_estimate_jacobians = first_estimate_jacobians;
+  options.jacobians_at = jacobians_at;
   simulator::Random random(1);
   for (int round = 0; round < rounds; ++round) {
     testing::Disturb(0.01, &random, &estimate.map.window);
@@ -236,7 +239,7 @@ GaugeInformation SlideWithoutAnchor(bool first_estimate_jacobians, int rounds) {
 
 TEST(UnobservableDirections, StayWithoutInformation) {
   for (const int rounds : {1, 2, 5}) {
-    const GaugeInformation information = SlideWithoutAnchor(true, rounds);
+    const GaugeInformation information = SlideWithoutAnchor(JacobiansAt::kFirstEstimates, rounds);
     EXPECT_LT(information.position, 1e-4) << rounds;    // known to 100 m at best
     EXPECT_LT(information.heading, 1e-4) << rounds;     // ... 100 rad
     EXPECT_GT(information.inclination, 100) << rounds;  // known to 0.1 rad and better
@@ -244,7 +247,7 @@ TEST(UnobservableDirections, StayWithoutInformation) {
 }
 
 TEST(UnobservableDirections, WouldGainInformationWithoutFirstEstimates) {
-  const GaugeInformation information = SlideWithoutAnchor(false, 5);
+  const GaugeInformation information = SlideWithoutAnchor(JacobiansAt::kValues, 5);
   // known to 0.1 rad, by mistake
   EXPECT_GT(information.heading, 100);
 }

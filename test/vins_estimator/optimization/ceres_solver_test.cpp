@@ -20,20 +20,19 @@
 namespace plm_vins {
 namespace {
 
-// A window with points, lines on Manhattan axes, and the prior of a frame that has left it. Whether
-// Jacobians are taken at first estimates is the parameter.
-class CeresSolverTest : public ::testing::TestWithParam<bool> {
+// A window with points, lines on Manhattan axes, and the prior of a frame that has left it.
+class CeresSolverTest : public ::testing::Test {
  protected:
   CeresSolverTest()
       : estimate_(testing::SimulateWindow(7, /*seed=*/1, /*stride=*/5, /*max_points=*/60)),
         random_(1) {
-    options_.first_estimate_jacobians = GetParam();
     options_.estimate_extrinsic = options_.estimate_td = options_.estimate_intrinsics = true;
     options_.R_W_M = Eigen::Quaterniond::Identity();
     NameAxes();
     estimate_.prior = InitialPrior(InitialUncertainty(), options_, estimate_.map.window);
     Disturb(0.001);
     estimate_.SlideOldest(options_, /*stays_as_anchor=*/false);
+    options_.jacobians_at = JacobiansAt::kValues;
     Build();
     thorough_.max_iterations = 200;
     thorough_.cost_tolerance = 1e-15;
@@ -71,9 +70,7 @@ class CeresSolverTest : public ::testing::TestWithParam<bool> {
   SolverOptions thorough_;
 };
 
-INSTANTIATE_TEST_SUITE_P(FirstEstimates, CeresSolverTest, ::testing::Bool());
-
-TEST_P(CeresSolverTest, WindowHasAllKindsOfTerms) {
+TEST_F(CeresSolverTest, WindowHasAllKindsOfTerms) {
   std::map<BlockKind, int> landmarks;
   for (const LandmarkTerms& landmark : problem().landmarks()) {
     ++landmarks[problem().variables()[landmark.variable].id.kind];
@@ -89,7 +86,7 @@ TEST_P(CeresSolverTest, WindowHasAllKindsOfTerms) {
   EXPECT_GT(estimate_.prior.quadratic().b.norm(), 0);
 }
 
-TEST_P(CeresSolverTest, ReachesTheMinimumOfOurSolver) {
+TEST_F(CeresSolverTest, ReachesTheMinimumOfOurSolver) {
   for (int start = 0; start < 3; ++start) {
     Disturb(0.003);
     const std::vector<double> values = testing::CopyValues(problem());
@@ -110,7 +107,7 @@ TEST_P(CeresSolverTest, ReachesTheMinimumOfOurSolver) {
   }
 }
 
-TEST_P(CeresSolverTest, IsBoundedByIterations) {
+TEST_F(CeresSolverTest, IsBoundedByIterations) {
   Disturb(0.01);
   SolverOptions options;
   options.max_iterations = 2;
@@ -121,7 +118,7 @@ TEST_P(CeresSolverTest, IsBoundedByIterations) {
 }
 
 // Ceres orders the variables to eliminate by their addresses.
-TEST_P(CeresSolverTest, GivesTheSameBytesWhereverTheValuesAre) {
+TEST_F(CeresSolverTest, GivesTheSameBytesWhereverTheValuesAre) {
   Disturb(0.01);
   Build();
   const std::vector<double> start = testing::CopyValues(problem());
@@ -138,7 +135,7 @@ TEST_P(CeresSolverTest, GivesTheSameBytesWhereverTheValuesAre) {
   EXPECT_EQ(testing::CopyValues(problem()), expected);
 }
 
-TEST_P(CeresSolverTest, MovesNoConstants) {
+TEST_F(CeresSolverTest, MovesNoConstants) {
   options_.estimate_extrinsic = options_.estimate_td = false;
   Build();
   Disturb(0.003);
@@ -149,7 +146,7 @@ TEST_P(CeresSolverTest, MovesNoConstants) {
   EXPECT_EQ(estimate_.map.window.td, td);
 }
 
-TEST_P(CeresSolverTest, LeavesOutWhatCannotBeEvaluated) {
+TEST_F(CeresSolverTest, LeavesOutWhatCannotBeEvaluated) {
   const double lowest = SolveByCeres(thorough_, problem()).final_cost;
   const Variable& point = problem().variables()[problem().landmarks()[0].variable];
   ASSERT_EQ(point.id.kind, BlockKind::kPoint);
@@ -159,7 +156,7 @@ TEST_P(CeresSolverTest, LeavesOutWhatCannotBeEvaluated) {
   EXPECT_LT(summary.final_cost, lowest);
 }
 
-TEST_P(CeresSolverTest, RefusesValuesThatAreNotFinite) {
+TEST_F(CeresSolverTest, RefusesValuesThatAreNotFinite) {
   estimate_.map.window.frames[2].state.velocity().x() = std::numeric_limits<double>::quiet_NaN();
   const auto pose = estimate_.map.window.newest().state.pose;
   EXPECT_FALSE(SolveByCeres(SolverOptions(), problem()).solved);

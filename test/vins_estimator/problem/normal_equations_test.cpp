@@ -162,7 +162,7 @@ TEST_F(NormalEquationsTest, ATermThatCanNoLongerBeEvaluatedMakesTheCostInfinite)
 }
 
 TEST_F(NormalEquationsTest, GradientIsTheDerivativeOfTheCost) {
-  options_.first_estimate_jacobians = false;
+  options_.jacobians_at = JacobiansAt::kValues;
   Build();
   equations_->Linearize();
   const DenseEquations dense = testing::BuildDenseEquations(problem(), *equations_);

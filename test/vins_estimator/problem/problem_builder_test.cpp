@@ -201,10 +201,10 @@ TEST_F(ProblemBuilderTest, ReadoutTimeAndIntrinsicsGoTogether) {
   EXPECT_TRUE(std::isfinite(equations.Linearize()));
 }
 
-TEST_F(ProblemBuilderTest, VariablesOfThePriorAreLinearisedThere) {
+TEST_F(ProblemBuilderTest, VariablesOfThePriorAreLinearisedThereWhereAsked) {
   const MarginalizationPrior prior = InitialPrior(InitialUncertainty(), options_, window());
-  for (const bool first_estimates : {true, false}) {
-    options_.first_estimate_jacobians = first_estimates;
+  for (const JacobiansAt jacobians_at : {JacobiansAt::kFirstEstimates, JacobiansAt::kValues}) {
+    options_.jacobians_at = jacobians_at;
     ProblemBuilder builder(options_, &window(), &prior);
     builder.AddPrior();
     builder.AddMotion(1);
@@ -212,7 +212,7 @@ TEST_F(ProblemBuilderTest, VariablesOfThePriorAreLinearisedThere) {
     EXPECT_EQ(problem.prior(), &prior);
     const BlockId first{BlockKind::kPose, Stamp(0)}, second{BlockKind::kPose, Stamp(1)};
     EXPECT_EQ(problem.variables()[problem.Find(first)].linearization,
-              first_estimates ? prior.Linearization(first) : nullptr);
+              jacobians_at == JacobiansAt::kFirstEstimates ? prior.Linearization(first) : nullptr);
     EXPECT_EQ(problem.variables()[problem.Find(second)].linearization, nullptr);
   }
 }

@@ -235,8 +235,7 @@ void Estimator::Triangulate(EstimatorOutput* output) {
                                                             options_.line_limits.max_length);
 }
 
-// The Manhattan frame of the lines, and which of them are one: that only changes with the frames
-// that are kept.
+// The Manhattan frame of the lines, and, where a frame is kept, which of them are one.
 void Estimator::FindStructure(bool keep_second_newest, EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = state_.estimate.map;
@@ -306,7 +305,6 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
   } else {
     Solve(options, builder.problem(), &equations);
   }
-
   const int64_t newest_ns = map.window.newest().state.t_ns;
   const Eigen::MatrixXd covariance =
       equations.Covariance({{BlockKind::kPose, newest_ns}, {BlockKind::kMotion, newest_ns}});

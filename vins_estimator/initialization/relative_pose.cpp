@@ -18,7 +18,7 @@ constexpr int kMinInliers = 12;
 constexpr double kConfidence = 0.999;
 constexpr double kInlierSigmas = 3.0;  // distance to the epipolar line, in standard deviations
 constexpr int kRefinements = 8;
-constexpr double kClearShare = 0.9;  // of inliers: five points would find nothing better
+constexpr double kClearShare = 0.95;  // of inliers: five points would find nothing better
 // How far the gyro's rotation may be off, before its bias is known: decides between the two
 // solutions of a plane and weighs next to nothing elsewhere [rad].
 constexpr double kGyroDeviation = 0.05;

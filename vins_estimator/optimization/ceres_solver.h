@@ -10,8 +10,9 @@ namespace plm_vins {
 // landmarks are eliminated first. All Jacobians are taken at the values. A term that cannot be
 // evaluated at the start (a landmark behind a camera) is left out, since Ceres solves nothing then.
 //
-// Both end at the minimum, if they are given the iterations. On the way they differ: in the damping, and in the tolerances, which Ceres takes relative to a cost that
-// has a constant more (see PriorCost) and to the length of all values.
+// Both end at the minimum, if they are given the iterations. On the way they differ: in the
+// damping, and in the tolerances, which Ceres takes relative to a cost that has a constant more
+// (see PriorCost) and to the length of all values.
 SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& problem);
 
 }  // namespace plm_vins

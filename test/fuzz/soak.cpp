@@ -28,7 +28,7 @@ struct Part {
   double memory_MB = 0;     // at its end
 };
 
-double Memory_MB() {
+double MegabytesInUse() {
   std::ifstream file("/proc/self/statm");
   double pages = 0, resident = 0;
   file >> pages >> resident;
@@ -48,7 +48,7 @@ std::vector<Part> Soak(double seconds) {
     if (part.images < static_cast<int64_t>(images_per_part)) return;
     const std::clock_t end = std::clock();
     part.milliseconds = 1e3 * static_cast<double>(end - begin) / CLOCKS_PER_SEC / part.images;
-    part.memory_MB = Memory_MB();
+    part.memory_MB = MegabytesInUse();
     std::printf("%" PRId64 " images, %" PRId64 " poses, %" PRId64 " restarts, %.2f ms, %.1f MB\n",
                 part.images, part.poses, part.restarts, part.milliseconds, part.memory_MB);
     std::fflush(stdout);  // to be watched, also in a file

@@ -80,6 +80,7 @@ Errors EstimatorStages::with_all_;
 
 TEST_F(EstimatorStages, LinesHelp) {
   std::vector<testing::SimulatedFlight> flights;
+  flights.reserve(flights_.size());
   for (const auto& flight : flights_) flights.push_back(WithoutLines(flight));
   const Errors without = MeanErrors(flights, [](EstimatorConfig*) {});
   EXPECT_LT(with_all_.position, 0.86 * without.position);

@@ -67,6 +67,7 @@ Attempt::Attempt(const std::vector<FrameMeasurement>& frames, const SensorConfig
       options_(options),
       reason_(reason) {
   std::vector<const PointFrame*> views;
+  views.reserve(frames.size());
   for (const FrameMeasurement& frame : frames) views.push_back(&frame.points);
   tracks_ = CollectTracks(views);
   for (size_t i = 0; i + 1 < frames.size(); ++i) {

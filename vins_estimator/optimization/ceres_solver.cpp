@@ -75,8 +75,8 @@ class CeresProblem {
 
   void AddTerm(const ResidualTerm& term) {
     if (!CanBeEvaluated(term, window_.variables())) return;
-    std::vector<double*> blocks;
-    for (int k = 0; k < term.variable_count; ++k) blocks.push_back(blocks_[term.variables[k]]);
+    std::vector<double*> blocks(term.variable_count);
+    for (int k = 0; k < term.variable_count; ++k) blocks[k] = blocks_[term.variables[k]];
     Add(term.cost.get(), term.loss, blocks);
   }
 

@@ -17,6 +17,7 @@ constexpr double kGreatestRatio = 9.0;   // of variances, to the median landmark
 constexpr double kGreatestLength = 3.0;  // of one view's residual, to the median view's
 constexpr double kGreatestCorrelation = 0.8;
 constexpr double kTimeConstant = 2.5;        // [s]
+constexpr double kMinMotion = 0.3;           // from one end of the window to the other [m]
 constexpr double kLeast = 0.5, kMost = 4.0;  // times what is assumed at first
 constexpr int kPointParameters = 3, kLineParameters = 4;
 
@@ -84,6 +85,10 @@ void Follow(std::optional<double> seen, double first, double share, double* nois
   *noise *= std::pow(goal / *noise, share);
 }
 
+double MotionOver(const SlidingWindow& window) {
+  return (window.newest().state.position() - window.frames.front().state.position()).norm();
+}
+
 }  // namespace
 
 ViewSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters) {
@@ -118,7 +123,7 @@ void ViewNoise::Update(const LocalMap& map) {
   const int64_t newest_ns = window.newest().state.t_ns;
   const double dt = newest_ns_ ? ToSeconds(newest_ns - *newest_ns_) : 0;
   newest_ns_ = newest_ns;
-  if (window.newest().stationary) return;
+  if (window.newest().stationary || MotionOver(window) < kMinMotion) return;
   const double share = 1 - std::exp(-dt / kTimeConstant);
   const auto points = CollectSpreads(map.points.landmarks(), window, kPointParameters);
   const auto lines = CollectSpreads(map.lines.landmarks(), window, kLineParameters);

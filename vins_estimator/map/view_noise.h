@@ -40,8 +40,8 @@ class ViewNoise {
         point_(first_point_),
         line_(first_line_) {}
 
-  // Learns from a window that was just optimised. Ignores windows of standing still: there, errors
-  // are the same in all views.
+  // Learns from a window that was just optimised. Ignores windows of standing still or nearly so:
+  // there, errors are the same in all views.
   void Update(const LocalMap& map);
 
   double point() const { return point_; }

@@ -7,6 +7,9 @@
 #include <random>
 #include <vector>
 
+#include "test/vins_estimator/simulated_window.h"
+#include "vins_estimator/marginalization/window_estimate.h"
+
 namespace plm_vins {
 namespace {
 
@@ -73,6 +76,28 @@ TEST(EffectiveNoise, IsUnknownOfTooFewLandmarksAndOfExactOnes) {
   EXPECT_FALSE(EffectiveNoise(Simulate(0, 5)));
   EXPECT_FALSE(EffectiveNoise({}));
   EXPECT_FALSE(EffectiveNoise(std::vector<ViewSpread>(20)));
+}
+
+// What is learnt of the noise of points from two windows, which moved or stood.
+double LearnPointNoise(double first, bool moved) {
+  ViewNoise noise(first, first);
+  for (const size_t frames : {7, 9}) {
+    WindowEstimate estimate(
+        testing::SimulateWindow(frames, /*seed=*/1, /*stride=*/5, /*max_points=*/60));
+    SlidingWindow& window = estimate.map.window;
+    simulator::Random random(1);
+    testing::Disturb(0.003, &random, &window);
+    for (WindowFrame& frame : window.frames) {
+      if (!moved) frame.state.position() = window.newest().state.position();
+    }
+    noise.Update(estimate.map);
+  }
+  return noise.point();
+}
+
+TEST(ViewNoise, IsLearntInMotionOnly) {
+  EXPECT_GT(LearnPointNoise(1e-4, true), 1e-4);
+  EXPECT_EQ(LearnPointNoise(1e-4, false), 1e-4);
 }
 
 }  // namespace

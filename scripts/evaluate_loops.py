@@ -20,7 +20,8 @@ TRAJECTORIES = {"trajectory.tum": "odometry", "trajectory_map.tum": "map, as kno
 
 def evaluate_loops(folder, truth):
     """All figures of the results of a run in `folder`, as a dictionary."""
-    odometry = read_trajectory(folder / "trajectory.tum")
+    trajectories = {name: read_trajectory(folder / name) for name in TRAJECTORIES}
+    odometry = trajectories["trajectory.tum"]
     loops = loop_metrics.read_loops(folder / "loops.csv")
     distances, turns = loop_metrics.loop_errors(loops, odometry, truth)
     flown = (truth.stamps >= odometry.stamps[0]) & (truth.stamps <= odometry.stamps[-1])
@@ -32,8 +33,8 @@ def evaluate_loops(folder, truth):
         "largest_error_deg": float(turns.max(initial=0)),
         "revisited_s": len(revisit_times) * loop_metrics.SAMPLING,
         "closed_share": loop_metrics.closed_share(loops, revisit_times),
-        "ape_m": {name: evaluate(read_trajectory(folder / name), truth)[2]["ape_m"]["rmse"]
-                  for name in TRAJECTORIES},
+        "ape_m": {name: evaluate(trajectory, truth)[2]["ape_m"]["rmse"]
+                  for name, trajectory in trajectories.items()},
     }
 
 

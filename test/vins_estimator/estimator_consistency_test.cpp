@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <utility>
 
 #include "test/vins_estimator/estimated_flight.h"
 #include "vins_estimator/estimator.h"
@@ -35,9 +36,7 @@ testing::EstimatedFlight Fly(const Stages& stages, uint64_t seed) {
   options.max_lines = 40;
   options.line_break_probability = 0.02;
   testing::SimulatedFlight flight = testing::SimulateFlight(options);
-  if (!stages.lines) {
-    for (FrameMeasurement& frame : flight.frames) frame.lines.reset();
-  }
+  if (!stages.lines) flight = testing::WithoutLines(std::move(flight));
   Config config = testing::ConfigFor(flight);
   config.estimator.line_noise = options.line_noise_px;
   config.estimator.line_merging = stages.merging;

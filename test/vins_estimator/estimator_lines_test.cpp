@@ -14,6 +14,7 @@ namespace {
 using simulator::Motion;
 using testing::EstimatedFlight;
 using testing::SimulatedFlight;
+using testing::WithoutLines;
 
 constexpr size_t kFewPointsFrom = 60;  // image from which points are few: three seconds
 
@@ -31,11 +32,6 @@ void LeaveFewPoints(size_t count, SimulatedFlight* flight) {
     auto& points = flight->frames[i].points.points;
     points.resize(std::min(points.size(), count));
   }
-}
-
-SimulatedFlight WithoutLines(SimulatedFlight flight) {
-  for (FrameMeasurement& frame : flight.frames) frame.lines.reset();
-  return flight;
 }
 
 // In every image, one line in `every` carries the id of another.

@@ -25,11 +25,6 @@ testing::SimulatedFlight SimulateLongFlight(uint64_t seed) {
   return testing::SimulateFlight(options);
 }
 
-testing::SimulatedFlight WithoutLines(testing::SimulatedFlight flight) {
-  for (FrameMeasurement& frame : flight.frames) frame.lines.reset();
-  return flight;
-}
-
 // Root mean square of the heading's error, from the beginning of the flight on [rad].
 double HeadingError(const testing::EstimatedFlight& flight) {
   const Rigid3d T = testing::AlignHeading(flight.anchor, flight.true_anchor);
@@ -81,7 +76,7 @@ Errors EstimatorStages::with_all_;
 TEST_F(EstimatorStages, LinesHelp) {
   std::vector<testing::SimulatedFlight> flights;
   flights.reserve(flights_.size());
-  for (const auto& flight : flights_) flights.push_back(WithoutLines(flight));
+  for (const auto& flight : flights_) flights.push_back(testing::WithoutLines(flight));
   const Errors without = MeanErrors(flights, [](EstimatorConfig*) {});
   EXPECT_LT(with_all_.position, 0.86 * without.position);
 }

@@ -17,6 +17,12 @@ struct SimulatedFlight {
   std::vector<FrameState> truth;  // one per frame
 };
 
+// As a point tracker alone would deliver it.
+inline SimulatedFlight WithoutLines(SimulatedFlight flight) {
+  for (FrameMeasurement& frame : flight.frames) frame.lines.reset();
+  return flight;
+}
+
 // From `skip` seconds after the start on, so that a flight can begin in motion.
 inline SimulatedFlight SimulateFlight(const simulator::FeatureSimulationOptions& options,
                                       double skip = 0) {

@@ -3,7 +3,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <opencv2/core.hpp>
+
+#include "feature_tracker/corner_patch.h"
 
 namespace plm_vins {
 
@@ -14,8 +17,10 @@ struct PointTrack {
   cv::Point2f uv_px;        // raw pixel
   cv::Point2f motion_px;    // since the image before; zero when new
   cv::Point2f parallax_px;  // the part of it that the camera's known rotation does not explain
-  Eigen::Vector2d xy = Eigen::Vector2d::Zero();        // normalised, undistorted
-  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // d(xy)/dt [1/s]; zero when new
+  std::shared_ptr<const CornerPatch> patch;                    // to align with, if there is one
+  Eigen::Matrix2d patch_linear = Eigen::Matrix2d::Identity();  // of its pose around uv_px
+  Eigen::Vector2d xy = Eigen::Vector2d::Zero();                // normalised, undistorted
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();          // d(xy)/dt [1/s]; zero when new
 };
 
 }  // namespace plm_vins

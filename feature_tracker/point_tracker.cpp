@@ -71,10 +71,11 @@ class PointTracker::Implementation {
     statistics_ = {};
     statistics_.previous = static_cast<int>(tracks_.size());
     if (!tracks_.empty()) {
-      Follow(pyramid, ToSeconds(sample.t_ns - *t_ns_), R_C1_C0);
+      Follow(pyramid, sample.gray, ToSeconds(sample.t_ns - *t_ns_), R_C1_C0);
       Spread();
     }
     if (IsRefillDue()) Refill(image);
+    CutMissingPatches(sample.gray);
     sample_ = sample;
     unused_pyramid_ = std::exchange(pyramid_, std::move(pyramid));
     t_ns_ = sample.t_ns;
@@ -106,8 +107,9 @@ class PointTracker::Implementation {
     return equalized_;
   }
 
-  // Takes the tracks to the image of `pyramid`, `dt` seconds later, and drops those that got lost.
-  void Follow(const OpticalFlow::Pyramid& pyramid, double dt,
+  // Takes the tracks to the image of `pyramid`, `gray` as it came from the camera, `dt` seconds
+  // later, and drops those that got lost.
+  void Follow(const OpticalFlow::Pyramid& pyramid, const cv::Mat& gray, double dt,
               const std::optional<Eigen::Quaterniond>& R_C1_C0) {
     std::vector<cv::Point2f> points, turned, predicted;
     const auto dt_ratio = static_cast<float>(previous_dt_ > 0 ? dt / previous_dt_ : 0);
@@ -126,7 +128,8 @@ class PointTracker::Implementation {
       if (flow[i].status == FlowResult::Status::kLost) ++statistics_.flow_lost;
       if (flow[i].status != FlowResult::Status::kTracked) continue;
       const Eigen::Vector2d xy_C0 = tracks_[i].xy;
-      keep[i] = Advance(flow[i].position, turned[i], dt, &tracks_[i]);
+      const cv::Point2f aligned = Align(gray, flow[i].position, &tracks_[i]);
+      keep[i] = Advance(aligned, turned[i], dt, &tracks_[i]);
       if (!keep[i]) {
         ++statistics_.flow_lost;
         continue;
@@ -143,6 +146,30 @@ class PointTracker::Implementation {
   cv::Point2f Turn(const PointTrack& track, const Eigen::Quaterniond& R_C1_C0) const {
     const auto pixel = camera_->Project(R_C1_C0 * track.xy.homogeneous());
     return pixel ? ToOpenCv(*pixel) : track.uv_px;
+  }
+
+  // Where the track's patch lies, near `uv_px`. There itself, and without that patch from now on,
+  // where it is not found.
+  static cv::Point2f Align(const cv::Mat& gray, const cv::Point2f& uv_px, PointTrack* track) {
+    if (!track->patch) return uv_px;
+    const auto pose = track->patch->Align(gray, {track->patch_linear, ToEigen(uv_px)});
+    if (!pose) {
+      track->patch.reset();
+      return uv_px;
+    }
+    track->patch_linear = pose->linear;
+    return ToOpenCv(pose->center);
+  }
+
+  // For the corners that are new, and those that look different by now.
+  void CutMissingPatches(const cv::Mat& gray) {
+    for (PointTrack& track : tracks_) {
+      if (track.patch) continue;
+      if (const auto patch = CornerPatch::Cut(gray, ToEigen(track.uv_px))) {
+        track.patch = std::make_shared<const CornerPatch>(*patch);
+        track.patch_linear.setIdentity();
+      }
+    }
   }
 
   // False where the camera model has no ray for the new position.

@@ -100,6 +100,21 @@ TEST_F(PointTrackerTest, HardlyDriftsUnderTranslation) {
   EXPECT_LT(errors[errors.size() / 2], 0.1);
 }
 
+// Flow alone adds up to 1 px: it takes part of the deformation for motion.
+TEST_F(PointTrackerTest, HardlyDriftsWhileTheImageTurnsAndGrows) {
+  const cv::Matx33d step(1.004, 0.01, -1.2, -0.01, 1.004, 1.4, 0, 0, 1);
+  cv::Matx33d H = cv::Matx33d::eye();
+  const PointFrame first = Track(scene_.View());
+  PointFrame last;
+  for (int i = 1; i <= 40; ++i) {
+    H = step * H;
+    last = Track(scene_.View(H));
+  }
+  const auto errors = TrackErrors(first, last, H);
+  ASSERT_GT(errors.size(), 30U);
+  EXPECT_LT(errors[errors.size() / 2], 0.05);
+}
+
 TEST_F(PointTrackerTest, VelocityIsTheMotionOfNormalisedPoints) {
   const PointFrame first = Track(scene_.View());
   const PointFrame second = Track(scene_.View(Translation(3, -2)));

@@ -9,7 +9,7 @@ namespace plm_vins {
 enum class SolverType { kSchur, kCeres };
 
 struct EstimatorConfig {
-  int window_size = 10;             // keyframes kept beside the newest frame
+  int window_size = 12;             // keyframes kept beside the newest frame
   double keyframe_parallax = 20.0;  // mean parallax that makes a keyframe [px]
   int max_num_iterations = 8;       // of the window optimisation
   SolverType solver = SolverType::kSchur;

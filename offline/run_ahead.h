@@ -15,8 +15,8 @@ template <typename Item>
 using ItemReceiver = std::function<bool(Item)>;
 
 // Runs `produce` in a thread of its own, up to `capacity` items ahead of `consume`, which is given
-// the same items in the same order in the caller's thread. Where one of the two throws, the other
-// one ends early, and the exception goes on to the caller.
+// the same items in the same order in the caller's thread. What `produce` throws goes on to the
+// caller after the items before it; what `consume` throws, once `produce` has ended.
 template <typename Item>
 void RunAhead(size_t capacity, const std::function<void(const ItemReceiver<Item>&)>& produce,
               const ItemReceiver<Item>& consume) {

@@ -87,10 +87,9 @@ void Declare(Arguments* arguments, CLI::App* app) {
   app->add_option("--set", arguments->overrides, "replace a value of the configuration: key=value")
       ->allow_extra_args(false)
       ->check(CheckOverride);
-  app->add_option(
-         "--threads", arguments->threads,
-         "1: all in turn, 2: trackers beside the estimator, 3: and beside each other, 4: and "
-         "images read ahead; the results are the same")
+  app->add_option("--threads", arguments->threads,
+                  "1: all in turn, 2: trackers beside the estimator, 3: and beside each other, 4: "
+                  "and images read ahead; the results are the same")
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
 }

@@ -58,7 +58,7 @@ struct Problem {
     return TriangulatePoint(sightings, kMinAngle);
   }
 
-  // Everything larger by `factor`, about the first position.
+  // Makes the points larger by `factor`, about the first position; returns the states to match.
   std::vector<FrameState> Scale(double factor) {
     const Eigen::Vector3d origin = truth.front().position();
     std::vector<FrameState> states = truth;

@@ -28,7 +28,7 @@ ESTIMATOR_LAYERS = {
     "manhattan": "state geometry map",
     "merging": "state geometry map",
     "recall": "state geometry map",
-    "initialization": "state geometry imu factors",
+    "initialization": "state geometry imu factors problem optimization",
     "estimator_output.h": "state",
     "output": "state estimator_output.h",
 }

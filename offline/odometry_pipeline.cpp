@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "offline/odometry_pipeline.h"
 
-#include <exception>
 #include <iterator>
-#include <thread>
 #include <utility>
-
-#include "common/bounded_queue.h"
 
 namespace plm_vins {
 namespace {
@@ -39,13 +35,17 @@ void OdometryPipeline::ShowTracks(double interval, TrackImageCallback on_images)
 void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, int threads,
                            const FrameCallback& on_frame) {
   trackers_.TrackSideBySide(threads > 2);
+  const auto track = [&](const TrackedReceiver& emit) {
+    RunTrackers(recording, interval, threads > 3, emit);
+  };
+  const auto estimate = [&](TrackedItem item) {
+    Consume(std::move(item), on_frame);
+    return true;
+  };
   if (threads > 1) {
-    RunInTwoThreads(recording, interval, on_frame);
+    RunAhead<TrackedItem>(kQueueCapacity, track, estimate);
   } else {
-    RunTrackers(recording, interval, [&](TrackedItem item) {
-      Consume(std::move(item), on_frame);
-      return true;
-    });
+    track(estimate);
   }
   images_ = trackers_.image_counts().images;
   while (auto estimated = back_end_.Flush()) Report(std::move(*estimated), on_frame);
@@ -67,51 +67,40 @@ void OdometryPipeline::Run(FeatureFileReader* features, RecordingInterval interv
   while (auto estimated = back_end_.Flush()) Report(std::move(*estimated), on_frame);
 }
 
-void OdometryPipeline::RunInTwoThreads(Recording* recording, const RecordingInterval& interval,
-                                       const FrameCallback& on_frame) {
-  BoundedQueue<TrackedItem> queue(kQueueCapacity);
-  std::exception_ptr tracking_error;
-  std::thread tracking([&] {
-    try {
-      RunTrackers(recording, interval,
-                  [&](TrackedItem item) { return queue.Push(std::move(item)); });
-    } catch (...) {
-      tracking_error = std::current_exception();
-    }
-    queue.Close();
-  });
-  std::exception_ptr back_end_error;
-  try {
-    while (auto item = queue.Pop()) Consume(std::move(*item), on_frame);
-  } catch (...) {
-    back_end_error = std::current_exception();
-    queue.Close();
-  }
-  tracking.join();
-  if (tracking_error) std::rethrow_exception(tracking_error);
-  if (back_end_error) std::rethrow_exception(back_end_error);
-}
-
-void OdometryPipeline::RunTrackers(Recording* recording, RecordingInterval interval,
-                                   const ItemCallback& emit) {
+void OdometryPipeline::Read(Recording* recording, RecordingInterval interval,
+                            const EventReceiver& emit) {
   while (const auto event = recording->Next()) {
     const RecordingInterval::Part part = interval.Locate(*event);
-    if (part == RecordingInterval::Part::kEnd) break;
-    if (part == RecordingInterval::Part::kUse && !Feed(*event, recording, emit)) return;
+    if (part == RecordingInterval::Part::kEnd) return;
+    if (part == RecordingInterval::Part::kSkip) continue;
+    LoadedEvent loaded{*event, std::nullopt};
+    if (event->kind == RecordingEvent::Kind::kImage) loaded.image = recording->LoadImage();
+    if (!emit(std::move(loaded))) return;
+  }
+}
+
+void OdometryPipeline::RunTrackers(Recording* recording, const RecordingInterval& interval,
+                                   bool reads_ahead, const TrackedReceiver& emit) {
+  const auto read = [&](const EventReceiver& feed) { Read(recording, interval, feed); };
+  const auto feed = [&](LoadedEvent loaded) { return Feed(std::move(loaded), emit); };
+  if (reads_ahead) {
+    RunAhead<LoadedEvent>(kQueueCapacity, read, feed);
+  } else {
+    read(feed);
   }
   while (auto frame = trackers_.Flush()) {
     if (!EmitTracked(std::move(*frame), emit)) return;
   }
 }
 
-bool OdometryPipeline::Feed(const RecordingEvent& event, Recording* recording,
-                            const ItemCallback& emit) {
+bool OdometryPipeline::Feed(LoadedEvent loaded, const TrackedReceiver& emit) {
+  const RecordingEvent& event = loaded.event;
   if (event.kind == RecordingEvent::Kind::kImu) {
     trackers_.AddImu(event.imu);
     if (!emit({event.imu, nullptr})) return false;
-  } else if (const auto image = recording->LoadImage()) {
+  } else if (loaded.image) {
     if (!first_image_ns_) first_image_ns_ = event.t_ns;
-    trackers_.AddImage({event.t_ns, *image});
+    trackers_.AddImage({event.t_ns, std::move(*loaded.image)});
   }
   while (auto frame = trackers_.Pop()) {
     if (!EmitTracked(std::move(*frame), emit)) return false;
@@ -119,7 +108,7 @@ bool OdometryPipeline::Feed(const RecordingEvent& event, Recording* recording,
   return true;
 }
 
-bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const ItemCallback& emit) {
+bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit) {
   // The last power of two lies in the second half of any run, however long it turns out to be.
   if (IsPowerOfTwo(++tracked_images_)) {
     points_image_ = trackers_.DrawPoints();

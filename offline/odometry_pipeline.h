@@ -14,6 +14,7 @@
 #include "offline/feature_trackers.h"
 #include "offline/recording.h"
 #include "offline/recording_interval.h"
+#include "offline/run_ahead.h"
 #include "vins_estimator/estimation_stage.h"
 
 namespace plm_vins {
@@ -33,8 +34,9 @@ struct PipelineFrame {
 // Front ends and back end in a row, fed from a recording.
 //
 // With two threads the front runs ahead of the back by a few images; from three on, points and
-// lines are tracked side by side as well. What each is given, and in which order, does not depend
-// on that, so the results are the same bit by bit.
+// lines are tracked side by side as well; from four on, images are read and decoded ahead of both.
+// What each is given, and in which order, does not depend on that, so the results are the same bit
+// by bit.
 class OdometryPipeline {
  public:
   using FrameCallback = std::function<void(const PipelineFrame&)>;
@@ -73,14 +75,19 @@ class OdometryPipeline {
   const cv::Mat& lines_image() const { return lines_image_; }
 
  private:
-  using ItemCallback = std::function<bool(TrackedItem)>;  // false: no more are wanted
+  struct LoadedEvent {
+    RecordingEvent event;
+    std::optional<cv::Mat> image;  // where the event is one that can be read
+  };
+  using EventReceiver = ItemReceiver<LoadedEvent>;
+  using TrackedReceiver = ItemReceiver<TrackedItem>;
 
-  void RunTrackers(Recording* recording, RecordingInterval interval, const ItemCallback& emit);
-  bool Feed(const RecordingEvent& event, Recording* recording, const ItemCallback& emit);
-  bool EmitTracked(TrackedFeatures frame, const ItemCallback& emit);
+  static void Read(Recording* recording, RecordingInterval interval, const EventReceiver& emit);
+  void RunTrackers(Recording* recording, const RecordingInterval& interval, bool reads_ahead,
+                   const TrackedReceiver& emit);
+  bool Feed(LoadedEvent loaded, const TrackedReceiver& emit);
+  bool EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit);
   void ShowTracks(int64_t t_ns);
-  void RunInTwoThreads(Recording* recording, const RecordingInterval& interval,
-                       const FrameCallback& on_frame);
   void Consume(TrackedItem item, const FrameCallback& on_frame);
   void AddFeatures(TrackedFeatures tracked);
   void Report(EstimatedFrame estimated, const FrameCallback& on_frame);

@@ -43,7 +43,7 @@ struct Arguments {
   double duration = std::numeric_limits<double>::infinity();  // [s]
   std::vector<std::string> overrides;                         // "key=value"
   double track_image_interval = 0;                            // [s]; 0: none
-  int threads = 3;
+  int threads = 4;
 };
 
 // The message of what is wrong with the argument of --set; empty where nothing is.
@@ -88,9 +88,9 @@ void Declare(Arguments* arguments, CLI::App* app) {
       ->allow_extra_args(false)
       ->check(CheckOverride);
   app->add_option("--threads", arguments->threads,
-                  "1: all in turn, 2: trackers beside the estimator, 3: and beside each other; the "
-                  "results are the same")
-      ->check(CLI::Range(1, 3))
+                  "1: all in turn, 2: trackers beside the estimator, 3: and beside each other, 4: "
+                  "and images read ahead; the results are the same")
+      ->check(CLI::Range(1, 4))
       ->capture_default_str();
 }
 

@@ -152,7 +152,7 @@ TEST(OdometryPipeline, GivesEveryImageItsResult) {
 
 TEST(OdometryPipeline, MoreThreadsGiveTheSameBytesAsOne) {
   const Result one = RunPipeline(StillRecording(3000), 1);
-  for (const int threads : {2, 3}) {
+  for (const int threads : {2, 3, 4}) {
     const Result more = RunPipeline(StillRecording(3000), threads);
     EXPECT_EQ(one.frames, more.frames);
     EXPECT_EQ(one.trajectory, more.trajectory);
@@ -264,7 +264,7 @@ TEST(OdometryPipeline, WithoutImuItGivesNothingAndSaysWhy) {
 }
 
 TEST(OdometryPipeline, PassesOnWhatTheRecordingThrows) {
-  for (const int threads : {1, 2, 3}) {
+  for (const int threads : {1, 2, 3, 4}) {
     MemoryRecording recording = StillRecording(300);
     recording.Fail();
     EXPECT_THROW(RunPipeline(recording, threads), std::runtime_error);
@@ -272,7 +272,7 @@ TEST(OdometryPipeline, PassesOnWhatTheRecordingThrows) {
 }
 
 TEST(OdometryPipeline, PassesOnWhatTheReceiverThrows) {
-  for (const int threads : {1, 2, 3}) {
+  for (const int threads : {1, 2, 3, 4}) {
     MemoryRecording recording = StillRecording(3000);
     OdometryPipeline pipeline(StillConfig());
     EXPECT_THROW(pipeline.Run(&recording, RecordingInterval(), threads,

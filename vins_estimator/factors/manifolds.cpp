@@ -68,8 +68,4 @@ void SetManifold(ceres::Problem* problem, double* values, const TangentManifold&
 }
 #endif
 
-void SetPoseManifold(ceres::Problem* problem, double* pose) {
-  SetManifold(problem, pose, {kPoseSize, kPoseTangentSize, &PosePlus, &PoseMinus});
-}
-
 }  // namespace plm_vins

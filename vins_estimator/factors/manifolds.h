@@ -76,7 +76,4 @@ class TangentManifold final : public ceres::LocalParameterization {
 // Declares `values`, a parameter block that `problem` has already, to live on a manifold.
 void SetManifold(ceres::Problem* problem, double* values, const TangentManifold& manifold);
 
-// The same for a pose.
-void SetPoseManifold(ceres::Problem* problem, double* pose);
-
 }  // namespace plm_vins

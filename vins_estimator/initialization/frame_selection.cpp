@@ -2,6 +2,7 @@
 #include "vins_estimator/initialization/frame_selection.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "vins_estimator/initialization/tracks.h"
 
@@ -9,7 +10,14 @@ namespace plm_vins {
 namespace {
 
 std::vector<Correspondence> CommonPoints(const PointFrame& first, const PointFrame& second) {
-  return FindCorrespondences(CollectTracks({&first, &second}), 0, 1);
+  std::unordered_map<int64_t, Eigen::Vector2d> xy_by_id;
+  for (const PointObservation& point : first.points) xy_by_id.emplace(point.id, point.xy);
+  std::vector<Correspondence> common;
+  for (const PointObservation& point : second.points) {
+    const auto before = xy_by_id.find(point.id);
+    if (before != xy_by_id.end()) common.push_back({before->second, point.xy});
+  }
+  return common;
 }
 
 // How far each frame is along the sequence, 0 to 1: the mean of its share of the time and its share

@@ -54,6 +54,11 @@ std::optional<Eigen::Vector3d> IntersectLines(const std::vector<Line>& lines, do
   return point;
 }
 
+bool IsSeenBy(int view, const Track& track) {
+  return std::any_of(track.observations.begin(), track.observations.end(),
+                     [view](const ViewObservation& o) { return o.view == view; });
+}
+
 // Reprojection of a point into a view of known rotation. Blocks: p_G_C, p_G.
 class PositionCost {
  public:
@@ -102,7 +107,7 @@ class Builder {
   }
   bool Start(std::string* reason);
   std::pair<int, int> BestPair() const;
-  void Triangulate();
+  void Place(int view, const Eigen::Vector3d& p_G_C);
   std::optional<Eigen::Vector3d> TriangulateTrack(const Track& track) const;
   int NextView() const;
   bool Resect(int view);
@@ -156,8 +161,8 @@ bool Builder::Start(std::string* reason) {
   }
   const auto pose = EstimateRelativePose(correspondences, R_C1_C0, noise_, reason);
   if (!pose) return false;
-  structure_.p_G_C[second] = -(R_G_C_[second] * pose->t_C1_C0);
-  posed_[first] = posed_[second] = true;
+  Place(first, Eigen::Vector3d::Zero());
+  Place(second, -(R_G_C_[second] * pose->t_C1_C0));
   return true;
 }
 
@@ -180,8 +185,13 @@ std::optional<Eigen::Vector3d> Builder::TriangulateTrack(const Track& track) con
   return point;
 }
 
-void Builder::Triangulate() {
-  for (size_t i = 0; i < tracks_.size(); ++i) structure_.p_G[i] = TriangulateTrack(tracks_[i]);
+// Sets the position of a view, and anew those of the points that it sees.
+void Builder::Place(int view, const Eigen::Vector3d& p_G_C) {
+  structure_.p_G_C[view] = p_G_C;
+  posed_[view] = true;
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    if (IsSeenBy(view, tracks_[i])) structure_.p_G[i] = TriangulateTrack(tracks_[i]);
+  }
 }
 
 // The view without position that sees most of the points; -1 where none sees enough.
@@ -205,8 +215,7 @@ bool Builder::Resect(int view) {
   }
   const auto position = IntersectLines(lines, noise_);
   if (!position) return false;
-  structure_.p_G_C[view] = *position;
-  posed_[view] = true;
+  Place(view, *position);
   return true;
 }
 
@@ -265,14 +274,12 @@ void Builder::MoveOriginToFirstView() {
 
 std::optional<Structure> Builder::Build(std::string* reason) {
   if (!Start(reason)) return std::nullopt;
-  Triangulate();
   while (!std::all_of(posed_.begin(), posed_.end(), [](bool posed) { return posed; })) {
     const int view = NextView();
     if (view < 0 || !Resect(view)) {
       *reason = "a view shares too few points with the others";
       return std::nullopt;
     }
-    Triangulate();
   }
   if (!AdjustBundle()) {
     *reason = "the bundle adjustment of the structure failed";

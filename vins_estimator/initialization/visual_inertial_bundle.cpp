@@ -1,25 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/visual_inertial_bundle.h"
 
-#include <ceres/ceres.h>
+#include <ceres/loss_function.h>
+#include <ceres/sized_cost_function.h>
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include "common/so3.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/geometry/depth_limits.h"
+#include "vins_estimator/optimization/levenberg_marquardt.h"
+#include "vins_estimator/problem/normal_equations.h"
+#include "vins_estimator/problem/term_evaluation.h"
+#include "vins_estimator/problem/window_problem.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr int kIterations = 12;
-constexpr double kTolerance = 1e-3;       // the window is optimised further
-constexpr double kGaugeDeviation = 1e-3;  // [m] and [rad]; any small value will do
+constexpr SolverOptions kSolution = {12, 1e-3};  // the window is optimised further
+constexpr double kGaugeDeviation = 1e-3;         // [m] and [rad]; any small value will do
 
 // Holds position and heading of a pose: [p - p0, angle about the world's z] / deviation.
 class GaugePrior final : public ceres::SizedCostFunction<4, kPoseSize> {
@@ -76,80 +80,84 @@ class BiasPrior final : public ceres::SizedCostFunction<6, 9> {
   Eigen::Matrix<double, 6, 1> mean_, inverse_deviation_;
 };
 
-// The adjustment as a Ceres problem over the given states.
+// The adjustment as a problem for the solver of the window, over the given states.
 class Bundle {
  public:
   Bundle(const std::vector<Track>& tracks, const std::vector<std::optional<Eigen::Vector3d>>& p_W,
          const std::vector<Preintegration>& preintegrations,
          const VisualInertialBundleOptions& options, std::vector<FrameState>* states);
 
-  bool Solve();
-  double Rms(const std::vector<ceres::ResidualBlockId>& blocks, int freedom);
-  double ReprojectionRms() {
-    return Rms(point_blocks_, kPointSize * static_cast<int>(points_.size()));
-  }
-  double ImuRms() { return Rms(imu_blocks_, 0); }
-  std::optional<double> RelativeScaleDeviation();
+  const WindowProblem& problem() const { return problem_; }
+  double ReprojectionRms() const;
+  double ImuRms() const;
+  std::optional<double> RelativeScaleDeviation(NormalEquations* equations) const;
 
  private:
-  void AddImu(const std::vector<Preintegration>& preintegrations);
+  void AddVariables();
+  void AddImu();
   void AddPriors();
   Eigen::Vector3d InCamera(int view, const Eigen::Vector3d& p_W) const;
   void AddTrack(const Track& track, const Eigen::Vector3d& p_W);
-  Eigen::SparseMatrix<double> Hessian();
-  Eigen::VectorXd ScaleDirection(int size) const;
+  Eigen::VectorXd ScaleDirection() const;
 
-  VisualInertialBundleOptions options_;
+  const VisualInertialBundleOptions options_;
+  const Eigen::Vector3d gravity_W_;
+  const std::vector<Preintegration>& preintegrations_;
   std::vector<FrameState>& states_;
   std::array<double, kPoseSize> extrinsics_;
   double time_offset_ = 0;
   std::vector<std::array<double, kPointSize>> points_;  // image point and inverse depth in the host
-  ceres::Problem problem_;
-  std::vector<ceres::ResidualBlockId> point_blocks_, imu_blocks_;
+  ceres::CauchyLoss loss_{1.0};
+  std::vector<int> poses_, motions_;  // variables, by view
+  int extrinsic_variable_ = -1, td_variable_ = -1;
+  WindowProblem problem_;
 };
 
 Bundle::Bundle(const std::vector<Track>& tracks,
                const std::vector<std::optional<Eigen::Vector3d>>& p_W,
                const std::vector<Preintegration>& preintegrations,
                const VisualInertialBundleOptions& options, std::vector<FrameState>* states)
-    : options_(options), states_(*states) {
+    : options_(options),
+      gravity_W_(0, 0, -options.gravity_norm),
+      preintegrations_(preintegrations),
+      states_(*states) {
   FrameState extrinsics;
   extrinsics.SetPose(options.T_B_C);
   extrinsics_ = extrinsics.pose;
-  points_.reserve(tracks.size());  // the solver holds pointers to the elements
-  for (FrameState& state : states_) {
-    problem_.AddParameterBlock(state.pose.data(), kPoseSize);
-    SetPoseManifold(&problem_, state.pose.data());
-    problem_.AddParameterBlock(state.motion.data(), 9);
-  }
-  problem_.AddParameterBlock(extrinsics_.data(), kPoseSize);
-  problem_.SetParameterBlockConstant(extrinsics_.data());
-  problem_.AddParameterBlock(&time_offset_, 1);
-  problem_.SetParameterBlockConstant(&time_offset_);
-  AddImu(preintegrations);
+  points_.reserve(tracks.size());  // the problem holds pointers to the elements
+  AddVariables();
+  AddImu();
   AddPriors();
   for (size_t i = 0; i < tracks.size(); ++i) {
     if (p_W[i]) AddTrack(tracks[i], *p_W[i]);
   }
 }
 
-void Bundle::AddImu(const std::vector<Preintegration>& preintegrations) {
-  const Eigen::Vector3d gravity_W(0, 0, -options_.gravity_norm);
-  for (size_t i = 0; i < preintegrations.size(); ++i) {
-    FrameState &from = states_[i], &to = states_[i + 1];
-    imu_blocks_.push_back(problem_.AddResidualBlock(new ImuFactor(&preintegrations[i], gravity_W),
-                                                    nullptr, from.pose.data(), from.motion.data(),
-                                                    to.pose.data(), to.motion.data()));
+void Bundle::AddVariables() {
+  for (FrameState& state : states_) {
+    poses_.push_back(problem_.AddVariable({BlockKind::kPose, state.t_ns}, state.pose.data()));
+    motions_.push_back(problem_.AddVariable({BlockKind::kMotion, state.t_ns}, state.motion.data()));
+  }
+  constexpr bool kConstant = true;
+  extrinsic_variable_ =
+      problem_.AddVariable({BlockKind::kExtrinsic, 0}, extrinsics_.data(), kConstant);
+  td_variable_ = problem_.AddVariable({BlockKind::kTimeOffset, 0}, &time_offset_, kConstant);
+}
+
+void Bundle::AddImu() {
+  for (size_t i = 0; i < preintegrations_.size(); ++i) {
+    problem_.AddTerm(std::make_unique<ImuFactor>(&preintegrations_[i], gravity_W_), nullptr,
+                     {poses_[i], motions_[i], poses_[i + 1], motions_[i + 1]});
   }
 }
 
 void Bundle::AddPriors() {
-  FrameState& first = states_.front();
-  problem_.AddResidualBlock(new GaugePrior(first), nullptr, first.pose.data());
+  const FrameState& first = states_.front();
+  problem_.AddTerm(std::make_unique<GaugePrior>(first), nullptr, {poses_.front()});
   const ImuBias mean{Eigen::Vector3d::Zero(), first.gyro_bias()};
-  problem_.AddResidualBlock(
-      new BiasPrior(mean, options_.accel_bias_prior, options_.gyro_bias_prior), nullptr,
-      first.motion.data());
+  problem_.AddTerm(
+      std::make_unique<BiasPrior>(mean, options_.accel_bias_prior, options_.gyro_bias_prior),
+      nullptr, {motions_.front()});
 }
 
 Eigen::Vector3d Bundle::InCamera(int view, const Eigen::Vector3d& p_W) const {
@@ -164,74 +172,55 @@ void Bundle::AddTrack(const Track& track, const Eigen::Vector3d& p_W) {
   }
   const Eigen::Vector3d p_C = InCamera(host.view, p_W);
   points_.push_back({p_C.x() / p_C.z(), p_C.y() / p_C.z(), 1 / p_C.z()});
-  double* point = points_.back().data();
+  const BlockId id{BlockKind::kPoint, track.id};
+  const int index = problem_.AddLandmark(id, points_.back().data());
+  const int point = problem_.Find(id);
   const double weight = 1 / options_.noise;
-  point_blocks_.push_back(
-      problem_.AddResidualBlock(new PointHostFactor({host.xy, Eigen::Vector2d::Zero(), 0}, weight),
-                                new ceres::CauchyLoss(1.0), &time_offset_, point));
+  const auto bearing = [](const ViewObservation& o) {
+    return TimedBearing{o.xy, Eigen::Vector2d::Zero(), 0};
+  };
+  problem_.AddLandmarkTerm(index, std::make_unique<PointHostFactor>(bearing(host), weight), &loss_,
+                           {td_variable_, point});
   for (size_t i = 1; i < track.observations.size(); ++i) {
     const ViewObservation& target = track.observations[i];
-    point_blocks_.push_back(problem_.AddResidualBlock(
-        new PointFactor({target.xy, Eigen::Vector2d::Zero(), 0}, weight),
-        new ceres::CauchyLoss(1.0), states_[host.view].pose.data(),
-        states_[target.view].pose.data(), extrinsics_.data(), &time_offset_, point));
+    problem_.AddLandmarkTerm(
+        index, std::make_unique<PointFactor>(bearing(target), weight), &loss_,
+        {poses_[host.view], poses_[target.view], extrinsic_variable_, td_variable_, point});
   }
 }
 
-bool Bundle::Solve() {
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_SCHUR;
-  options.max_num_iterations = kIterations;
-  options.function_tolerance = kTolerance;
-  options.num_threads = 1;
-  options.logging_type = ceres::SILENT;
-  options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-  for (auto& point : points_) {
-    options.linear_solver_ordering->AddElementToGroup(point.data(), 0);
+// Root mean square of the whitened and weighted residuals, less the unknowns that only they
+// determine.
+double Bundle::ReprojectionRms() const {
+  double squared_sum = 0;
+  int freedom = 0;
+  TermEvaluation evaluation;
+  for (const LandmarkTerms& landmark : problem_.landmarks()) {
+    freedom -= kPointSize;
+    for (const ResidualTerm& term : landmark.terms) {
+      if (!EvaluateTerm(term, problem_.variables(), &evaluation)) continue;
+      squared_sum += Eigen::Map<const Eigen::VectorXd>(evaluation.residual.data(), evaluation.rows)
+                         .squaredNorm();
+      freedom += evaluation.rows;
+    }
   }
-  for (FrameState& state : states_) {
-    options.linear_solver_ordering->AddElementToGroup(state.pose.data(), 1);
-    options.linear_solver_ordering->AddElementToGroup(state.motion.data(), 1);
+  return std::sqrt(squared_sum / std::max(1, freedom));
+}
+
+double Bundle::ImuRms() const {
+  double squared_sum = 0;
+  for (size_t i = 0; i < preintegrations_.size(); ++i) {
+    squared_sum += ImuChiSquare(preintegrations_[i], gravity_W_, states_[i], states_[i + 1]);
   }
-  options.linear_solver_ordering->AddElementToGroup(extrinsics_.data(), 1);
-  options.linear_solver_ordering->AddElementToGroup(&time_offset_, 1);
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem_, &summary);
-  return summary.IsSolutionUsable();
+  return std::sqrt(squared_sum / (Vector15d::SizeAtCompileTime * preintegrations_.size()));
 }
 
-// Root mean square of the whitened residuals, less the unknowns that only they determine.
-double Bundle::Rms(const std::vector<ceres::ResidualBlockId>& blocks, int freedom) {
-  ceres::Problem::EvaluateOptions options;
-  options.residual_blocks = blocks;
-  std::vector<double> residuals;
-  problem_.Evaluate(options, nullptr, &residuals, nullptr, nullptr);
-  const double squared_sum =
-      Eigen::Map<const Eigen::VectorXd>(residuals.data(), residuals.size()).squaredNorm();
-  return std::sqrt(squared_sum / std::max(1, static_cast<int>(residuals.size()) - freedom));
-}
-
-// Gauss-Newton Hessian in the order: poses, motions, points.
-Eigen::SparseMatrix<double> Bundle::Hessian() {
-  ceres::Problem::EvaluateOptions options;
-  for (FrameState& state : states_) options.parameter_blocks.push_back(state.pose.data());
-  for (FrameState& state : states_) options.parameter_blocks.push_back(state.motion.data());
-  for (auto& point : points_) options.parameter_blocks.push_back(point.data());
-  ceres::CRSMatrix crs;
-  problem_.Evaluate(options, nullptr, nullptr, nullptr, &crs);
-  const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> rows(
-      crs.num_rows, crs.num_cols, static_cast<int>(crs.values.size()), crs.rows.data(),
-      crs.cols.data(), crs.values.data());
-  const Eigen::SparseMatrix<double> J = rows;
-  return J.transpose() * J;
-}
-
-// The change of the logarithm of the trajectory's size with each unknown, to first order: positions
+// The change of the logarithm of the trajectory's size with each pose, to first order: positions
 // about their mean, projected onto themselves.
-Eigen::VectorXd Bundle::ScaleDirection(int size) const {
+Eigen::VectorXd Bundle::ScaleDirection() const {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const FrameState& state : states_) mean += state.position() / states_.size();
-  Eigen::VectorXd direction = Eigen::VectorXd::Zero(size);
+  Eigen::VectorXd direction = Eigen::VectorXd::Zero(kPoseTangentSize * states_.size());
   double squared_size = 0;
   for (size_t i = 0; i < states_.size(); ++i) {
     direction.segment<3>(kPoseTangentSize * i) = states_[i].position() - mean;
@@ -240,12 +229,13 @@ Eigen::VectorXd Bundle::ScaleDirection(int size) const {
   return direction / squared_size;
 }
 
-std::optional<double> Bundle::RelativeScaleDeviation() {
-  const Eigen::SparseMatrix<double> H = Hessian();
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(H);
-  if (ldlt.info() != Eigen::Success) return std::nullopt;
-  const Eigen::VectorXd direction = ScaleDirection(static_cast<int>(H.rows()));
-  const double variance = direction.dot(ldlt.solve(direction));
+std::optional<double> Bundle::RelativeScaleDeviation(NormalEquations* equations) const {
+  std::vector<BlockId> poses;
+  for (const int pose : poses_) poses.push_back(problem_.variables()[pose].id);
+  const Eigen::MatrixXd covariance = equations->Covariance(poses);
+  if (covariance.size() == 0) return std::nullopt;
+  const Eigen::VectorXd direction = ScaleDirection();
+  const double variance = direction.dot(covariance * direction);
   if (!(variance > 0)) return std::nullopt;
   return std::sqrt(variance);
 }
@@ -257,11 +247,10 @@ std::optional<VisualInertialBundle> AdjustVisualInertialBundle(
     const std::vector<Preintegration>& preintegrations, const VisualInertialBundleOptions& options,
     std::vector<FrameState>* states, std::string* reason) {
   Bundle bundle(tracks, p_W, preintegrations, options, states);
-  if (!bundle.Solve()) {
-    *reason = "the visual-inertial bundle adjustment failed";
-    return std::nullopt;
-  }
-  const std::optional<double> scale_deviation = bundle.RelativeScaleDeviation();
+  NormalEquations equations(bundle.problem());
+  Solve(kSolution, bundle.problem(), &equations);
+  equations.Linearize();
+  const std::optional<double> scale_deviation = bundle.RelativeScaleDeviation(&equations);
   if (!scale_deviation) {
     *reason = "the visual-inertial bundle adjustment is not determined";
     return std::nullopt;

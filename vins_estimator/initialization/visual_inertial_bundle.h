@@ -31,7 +31,7 @@ struct VisualInertialBundle {
 // Refines poses, velocities and biases of a few frames together with their points, over IMU and
 // reprojection errors. Position and heading of the first frame stay. `p_W` has one entry per track;
 // tracks without are left out. `preintegrations[i]` leads from state i to state i + 1.
-// Nothing, and the reason in words, where the solver fails.
+// Nothing, and the reason in words, where the measurements do not determine the states.
 std::optional<VisualInertialBundle> AdjustVisualInertialBundle(
     const std::vector<Track>& tracks, const std::vector<std::optional<Eigen::Vector3d>>& p_W,
     const std::vector<Preintegration>& preintegrations, const VisualInertialBundleOptions& options,

@@ -103,8 +103,9 @@ TEST(PoseManifold, CeresSolvesWithTangentJacobians) {
   Pose free = RandomPose(&random);
   ceres::Problem problem;
   problem.AddResidualBlock(new SamePoseFactor(0.1, 0.1), nullptr, fixed.data(), free.data());
-  SetPoseManifold(&problem, fixed.data());
-  SetPoseManifold(&problem, free.data());
+  const TangentManifold manifold(kPoseSize, kPoseTangentSize, &PosePlus, &PoseMinus);
+  SetManifold(&problem, fixed.data(), manifold);
+  SetManifold(&problem, free.data(), manifold);
   problem.SetParameterBlockConstant(fixed.data());
   ceres::Solver::Options options;
   options.function_tolerance = options.gradient_tolerance = options.parameter_tolerance = 1e-16;

@@ -20,6 +20,7 @@ namespace plm_vins {
 namespace {
 
 constexpr size_t kMinViewsToOptimize = 3;
+constexpr int kFewLandmarks = 6;  // fewer do not fix a pose
 
 // What a shock, or a sensor that is heated or fails, may do to the biases.
 constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]
@@ -378,6 +379,9 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->imu_noise_scale = state_.imu_monitor.noise_scale();
   output->delay = state_.delay_monitor.delay();
   output->stationary = window.newest().stationary;
+  const int landmarks = output->counts.points_in_window + output->counts.lines_in_window;
+  output->on_imu_alone =
+      state_.blindness_monitor.blind() || (!output->stationary && landmarks < kFewLandmarks);
   output->window.reserve(window.frames.size());
   for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
   for (const auto& [id, landmark] : map.points.landmarks()) {

@@ -171,9 +171,23 @@ TEST(EstimatorRobustness, TenSecondsOfBlindnessEndInARestart) {
   for (size_t i = 0; i < 380; ++i) {
     const EstimatorOutput output = estimator.Process(simulated.frames[i]);
     if (output.restarted) reasons.push_back(output.reason);
+    EXPECT_EQ(output.on_imu_alone, output.has_pose && i >= 180) << i;
   }
   ASSERT_EQ(reasons.size(), 1u);
   EXPECT_NE(reasons[0].find("nothing has held the position"), std::string::npos) << reasons[0];
+}
+
+TEST(EstimatorRobustness, PointsThatAreAllNewHoldNothing) {
+  SimulatedFlight simulated = Simulate(Motion::kFast, 1, 11);
+  for (size_t i = 180; i < simulated.frames.size(); ++i) {
+    simulated.frames[i].lines.reset();
+    for (PointObservation& point : simulated.frames[i].points.points) {
+      point.id += 1'000'000 * static_cast<int64_t>(i);
+    }
+  }
+  const EstimatedFlight flight = testing::Estimate(simulated);
+  EXPECT_FALSE(flight.outputs.front().on_imu_alone);
+  EXPECT_TRUE(flight.outputs.back().on_imu_alone);
 }
 
 TEST(EstimatorRobustness, WithoutPointsItNeverStartsAndSaysWhy) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <random>
 #include <vector>
 
@@ -22,7 +21,7 @@ class FaultMaker {
   FaultMaker(double begin, std::mt19937_64* random, simulator::FeatureDataset* flight)
       : begin_(begin), random_(*random), flight_(*flight) {}
 
-  // Most are near `least`, some are as large as `most`.
+  // Each order of magnitude between both is as likely.
   double Size(double least, double most) { return least * std::pow(most / least, Uniform(0, 1)); }
 
   void MakeIncident() {

@@ -209,6 +209,9 @@ void Estimator::AddFrame(const FrameMeasurement& measurement) {
     frame.motion_since_previous = std::make_shared<Preintegration>(noise, before.bias());
     for (const ImuSample& sample : measurement.imu) frame.motion_since_previous->Append(sample);
     frame.state = frame.motion_since_previous->Predict(before, map.window.gravity_W);
+    frame.motion_since_previous->AllowStampErrors(
+        StampErrorsOf(state_.stamp_jitter.deviation(), *frame.motion_since_previous,
+                      map.window.gravity_W, before, frame.state));
   }
   frame.state.t_ns = measurement.t_ns;
   state_.predicted = frame.state;
@@ -311,8 +314,10 @@ void Estimator::CheckTiming() {
   const Preintegration& motion = *window.newest().motion_since_previous;
   const Vector15d residual = ImuResidual(motion, window.gravity_W, window.second_newest().state,
                                          window.newest().state, nullptr);
-  state_.delay_monitor.Add(residual.segment<3>(ImuErrorIndex::kRotation),
-                           motion.samples().back().gyro - motion.samples().front().gyro);
+  const Eigen::Vector3d turn = residual.segment<3>(ImuErrorIndex::kRotation);
+  const Eigen::Vector3d rate = motion.samples().back().gyro;
+  state_.delay_monitor.Add(turn, rate - motion.samples().front().gyro);
+  state_.stamp_jitter.Add(turn, rate);
 }
 
 std::optional<double> Estimator::FindImuDoubt() {
@@ -335,6 +340,7 @@ void Estimator::DoubtNewestMotion(double noise_scale) {
   auto doubted = std::make_shared<Preintegration>(noise, before.linearization_bias());
   for (const ImuSample& sample : before.samples()) doubted->Append(sample);
   doubted->AllowBiasStep(kBiasStep);
+  doubted->AllowStampErrors(before.stamp_errors());
   newest.motion_since_previous = doubted;
 }
 

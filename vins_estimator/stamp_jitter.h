@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "vins_estimator/imu/preintegration.h"
+
+namespace plm_vins {
+
+// Measures by how much the stamps of images jitter. An error of a stamp makes the camera see more
+// or less of the turn than the gyro has integrated: along the turn, and by the rate times the
+// error. What else is wrong does not keep to that direction.
+class StampJitterMonitor {
+ public:
+  // `rotation_residual` [rad]: the turn between two images beyond the gyro's; `rate` [rad/s]: the
+  // gyro's at the second one.
+  void Add(const Eigen::Vector3d& rotation_residual, const Eigen::Vector3d& rate);
+
+  // Standard deviation of a stamp's error [s]; zero where there is none to be seen.
+  double deviation() const;
+
+ private:
+  // Sums that forget: of the squared residual along the turn and across it, each weighed with the
+  // squared rate, and of the rate to the fourth power.
+  double along_ = 0, across_ = 0, rate_ = 0;
+};
+
+// Of the interval between two images the stamps of which err by this deviation [s]. `gravity_W` is
+// (0, 0, -g).
+StampErrors StampErrorsOf(double deviation, const Preintegration& motion,
+                          const Eigen::Vector3d& gravity_W, const FrameState& start,
+                          const FrameState& end);
+
+}  // namespace plm_vins

@@ -28,16 +28,19 @@ Vector15d Change(const Eigen::Matrix3d& R_B_W, const FrameState& state, const Im
 void StampJitterMonitor::Add(const Eigen::Vector3d& rotation_residual,
                              const Eigen::Vector3d& rate) {
   const auto add = [](double product, double* sum) { *sum += product - kForgetting * *sum; };
-  const double along = std::pow(rate.dot(rotation_residual), 2);
-  add(along, &along_);
-  add(rate.squaredNorm() * rotation_residual.squaredNorm() - along, &across_);
-  add(std::pow(rate.squaredNorm(), 2), &rate_);
+  const double along = rate.dot(rotation_residual), squared_rate = rate.squaredNorm();
+  add(along * along, &along_);
+  add(squared_rate * rotation_residual.squaredNorm() - along * along, &across_);
+  add(along * along_before_, &common_);
+  add(squared_rate * rate_before_, &rates_);
+  along_before_ = along;
+  rate_before_ = squared_rate;
 }
 
-// The errors at both ends add up; across the turn there are two directions.
+// Across the turn there are two directions.
 double StampJitterMonitor::deviation() const {
-  if (rate_ < kMinRate || along_ < kMinRatio * across_ / 2) return 0;
-  const double deviation = std::sqrt(along_ / rate_ / 2);
+  if (rates_ < kMinRate || along_ < kMinRatio * across_ / 2 || common_ >= 0) return 0;
+  const double deviation = std::sqrt(-common_ / rates_);
   return deviation > kMinDeviation ? deviation : 0;
 }
 

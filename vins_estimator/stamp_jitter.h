@@ -8,8 +8,9 @@
 namespace plm_vins {
 
 // Measures by how much the stamps of images jitter. An error of a stamp makes the camera see more
-// or less of the turn than the gyro has integrated: along the turn, and by the rate times the
-// error. What else is wrong does not keep to that direction.
+// of the turn than the gyro has integrated before it, by the rate times the error, and as much less
+// after it. What else is wrong does not keep to the axis of the turn; a delay or a bias, which do,
+// have the same sign in both intervals.
 class StampJitterMonitor {
  public:
   // `rotation_residual` [rad]: the turn between two images beyond the gyro's; `rate` [rad/s]: the
@@ -21,8 +22,10 @@ class StampJitterMonitor {
 
  private:
   // Sums that forget: of the squared residual along the turn and across it, each weighed with the
-  // squared rate, and of the rate to the fourth power.
-  double along_ = 0, across_ = 0, rate_ = 0;
+  // squared rate, of what the one along has in common with that of the interval before, and of the
+  // squared rates of both.
+  double along_ = 0, across_ = 0, common_ = 0, rates_ = 0;
+  double along_before_ = 0, rate_before_ = 0;  // of the interval before, not squared and squared
 };
 
 // Of the interval between two images the stamps of which err by this deviation [s]. `gravity_W` is

@@ -20,6 +20,7 @@ namespace plm_vins {
 namespace {
 
 constexpr size_t kMinViewsToOptimize = 3;
+constexpr int kFewLandmarks = 6;  // fewer do not fix a pose
 
 // What a shock, or a sensor that is heated or fails, may do to the biases.
 constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]
@@ -27,20 +28,6 @@ constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]
 template <typename Landmark>
 bool IsOptimized(const Landmark& landmark) {
   return landmark.triangulated && landmark.views.size() >= kMinViewsToOptimize;
-}
-
-InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstill) {
-  InitialUncertainty uncertainty;
-  if (from_standstill) {
-    uncertainty.velocity = 0.03;
-    uncertainty.gyro_bias = 0.003;
-  }
-  if (sensor.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {
-    uncertainty.extrinsic_rotation = 0.1;
-    uncertainty.extrinsic_position = 0.1;
-  }
-  uncertainty.intrinsics = sensor.intrinsics_deviation;
-  return uncertainty;
 }
 
 WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& options) {
@@ -222,6 +209,9 @@ void Estimator::AddFrame(const FrameMeasurement& measurement) {
     frame.motion_since_previous = std::make_shared<Preintegration>(noise, before.bias());
     for (const ImuSample& sample : measurement.imu) frame.motion_since_previous->Append(sample);
     frame.state = frame.motion_since_previous->Predict(before, map.window.gravity_W);
+    frame.motion_since_previous->AllowStampErrors(
+        StampErrorsOf(state_.stamp_jitter.deviation(), *frame.motion_since_previous,
+                      map.window.gravity_W, before, frame.state));
   }
   frame.state.t_ns = measurement.t_ns;
   state_.predicted = frame.state;
@@ -324,8 +314,10 @@ void Estimator::CheckTiming() {
   const Preintegration& motion = *window.newest().motion_since_previous;
   const Vector15d residual = ImuResidual(motion, window.gravity_W, window.second_newest().state,
                                          window.newest().state, nullptr);
-  state_.delay_monitor.Add(residual.segment<3>(ImuErrorIndex::kRotation),
-                           motion.samples().back().gyro - motion.samples().front().gyro);
+  const Eigen::Vector3d turn = residual.segment<3>(ImuErrorIndex::kRotation);
+  const Eigen::Vector3d rate = motion.samples().back().gyro;
+  state_.delay_monitor.Add(turn, rate - motion.samples().front().gyro);
+  state_.stamp_jitter.Add(turn, rate);
 }
 
 std::optional<double> Estimator::FindImuDoubt() {
@@ -348,6 +340,7 @@ void Estimator::DoubtNewestMotion(double noise_scale) {
   auto doubted = std::make_shared<Preintegration>(noise, before.linearization_bias());
   for (const ImuSample& sample : before.samples()) doubted->Append(sample);
   doubted->AllowBiasStep(kBiasStep);
+  doubted->AllowStampErrors(before.stamp_errors());
   newest.motion_since_previous = doubted;
 }
 
@@ -386,6 +379,9 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->imu_noise_scale = state_.imu_monitor.noise_scale();
   output->delay = state_.delay_monitor.delay();
   output->stationary = window.newest().stationary;
+  const int landmarks = output->counts.points_in_window + output->counts.lines_in_window;
+  output->on_imu_alone =
+      state_.blindness_monitor.blind() || (!output->stationary && landmarks < kFewLandmarks);
   output->window.reserve(window.frames.size());
   for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
   for (const auto& [id, landmark] : map.points.landmarks()) {

@@ -20,6 +20,7 @@
 #include "vins_estimator/marginalization/window_estimate.h"
 #include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/rolling_shutter.h"
+#include "vins_estimator/stamp_jitter.h"
 #include "vins_estimator/uncertain_state.h"
 
 namespace plm_vins {
@@ -54,6 +55,7 @@ class Estimator {
     BlindnessMonitor blindness_monitor;
     ImuMonitor imu_monitor;
     DelayMonitor delay_monitor;
+    StampJitterMonitor stamp_jitter;
     ManhattanFrame manhattan;
     WindowEstimate estimate;
     ViewNoise noise;

@@ -29,4 +29,18 @@ EstimatorOptions::EstimatorOptions(const Config& config, double focal_length)
   solution.max_iterations = config.estimator.max_num_iterations;
 }
 
+InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstill) {
+  InitialUncertainty uncertainty;
+  if (from_standstill) {
+    uncertainty.velocity = 0.03;
+    uncertainty.gyro_bias = 0.003;
+  }
+  if (sensor.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {
+    uncertainty.extrinsic_rotation = 0.1;
+    uncertainty.extrinsic_position = 0.1;
+  }
+  uncertainty.intrinsics = sensor.intrinsics_deviation;
+  return uncertainty;
+}
+
 }  // namespace plm_vins

@@ -7,6 +7,7 @@
 #include "vins_estimator/map/line_comparison.h"
 #include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/local_map.h"
+#include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/optimization/levenberg_marquardt.h"
 #include "vins_estimator/problem/problem_builder.h"
 #include "vins_estimator/recall/anchor_policy.h"
@@ -33,5 +34,8 @@ struct EstimatorOptions {
  private:
   EstimatorOptions(const Config& config, double focal_length);  // [px]
 };
+
+// Of the first window.
+InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstill);
 
 }  // namespace plm_vins

@@ -2,6 +2,8 @@
 // The estimator when things go wrong, and that the same input always gives the same output.
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "test/vins_estimator/estimated_flight.h"
 #include "vins_estimator/estimator.h"
 
@@ -12,11 +14,15 @@ using simulator::Motion;
 using testing::EstimatedFlight;
 using testing::SimulatedFlight;
 
-SimulatedFlight Simulate(Motion motion, uint64_t seed, double duration) {
+simulator::FeatureSimulationOptions Options(Motion motion, uint64_t seed, double duration) {
   auto options = testing::FlightOptions(motion, seed);
   options.trajectory.duration = duration;
   options.max_points = 80;
-  return testing::SimulateFlight(options);
+  return options;
+}
+
+SimulatedFlight Simulate(Motion motion, uint64_t seed, double duration) {
+  return testing::SimulateFlight(Options(motion, seed, duration));
 }
 
 void ExpectSameBits(const EstimatedFlight& a, const EstimatedFlight& b) {
@@ -119,6 +125,29 @@ TEST(EstimatorRobustness, AStepOfTheGyroBiasIsAbsorbed) {
   EXPECT_LT((last.gyro_bias() - truth.gyro_bias() - Eigen::Vector3d(0.05, 0, 0)).norm(), 0.005);
 }
 
+// The stamps of images err by up to 5 ms, from the hundredth on.
+SimulatedFlight SimulateJitter(uint64_t seed) {
+  const auto options = Options(Motion::kFast, seed, 20);
+  simulator::FeatureDataset data = simulator::SimulateFeatures(options);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> error(-0.005, 0.005);
+  for (size_t i = 100; i < data.points.size(); ++i) {
+    data.points[i].t_ns = data.lines[i].t_ns += ToNanoseconds(error(random));
+  }
+  return testing::ToFlight(data, options.sensors);
+}
+
+TEST(EstimatorRobustness, StampsThatJitterCostLittle) {
+  for (uint64_t seed = 1; seed <= 2; ++seed) {
+    SimulatedFlight simulated = SimulateJitter(seed);
+    simulated.sensor.imu_noise.accel_density = 0.03;  // as in euroc.yaml
+    simulated.sensor.imu_noise.gyro_density = 0.001;
+    const EstimatedFlight flight = testing::Estimate(simulated);
+    EXPECT_TRUE(flight.restarts.empty());
+    EXPECT_LT(AbsoluteError(flight), 0.03);
+  }
+}
+
 TEST(EstimatorRobustness, AGoodImuIsNeverDoubted) {
   for (const Motion motion : {Motion::kGentle, Motion::kFast}) {
     for (const EstimatorOutput& output : testing::Estimate(Simulate(motion, 3, 15)).outputs) {
@@ -142,9 +171,23 @@ TEST(EstimatorRobustness, TenSecondsOfBlindnessEndInARestart) {
   for (size_t i = 0; i < 380; ++i) {
     const EstimatorOutput output = estimator.Process(simulated.frames[i]);
     if (output.restarted) reasons.push_back(output.reason);
+    EXPECT_EQ(output.on_imu_alone, output.has_pose && i >= 180) << i;
   }
   ASSERT_EQ(reasons.size(), 1u);
   EXPECT_NE(reasons[0].find("nothing has held the position"), std::string::npos) << reasons[0];
+}
+
+TEST(EstimatorRobustness, PointsThatAreAllNewHoldNothing) {
+  SimulatedFlight simulated = Simulate(Motion::kFast, 1, 11);
+  for (size_t i = 180; i < simulated.frames.size(); ++i) {
+    simulated.frames[i].lines.reset();
+    for (PointObservation& point : simulated.frames[i].points.points) {
+      point.id += 1'000'000 * static_cast<int64_t>(i);
+    }
+  }
+  const EstimatedFlight flight = testing::Estimate(simulated);
+  EXPECT_FALSE(flight.outputs.front().on_imu_alone);
+  EXPECT_TRUE(flight.outputs.back().on_imu_alone);
 }
 
 TEST(EstimatorRobustness, WithoutPointsItNeverStartsAndSaysWhy) {

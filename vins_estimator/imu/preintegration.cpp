@@ -111,6 +111,10 @@ void Preintegration::Join(const Preintegration& next) {
   noise_ = next.noise_;
   bias_step_ = {std::max(bias_step_.gyro, next.bias_step_.gyro),
                 std::max(bias_step_.accel, next.bias_step_.accel)};
+  stamp_errors_.at_end = next.stamp_errors_.at_end;
+  for (const int row : {Index::kPosition, Index::kVelocity}) {
+    stamp_errors_.at_end.segment<3>(row) = delta_q_ * next.stamp_errors_.at_end.segment<3>(row);
+  }
   for (const ImuSample& sample : next.samples_) {
     if (sample.t_ns > samples_.back().t_ns) Append(sample);
   }
@@ -127,13 +131,25 @@ void Preintegration::AllowBiasStep(const BiasStep& step) {
   sqrt_information_valid_ = false;
 }
 
-// A step at the start of the interval acts on all of it.
+void Preintegration::AllowStampErrors(const StampErrors& errors) {
+  stamp_errors_ = errors;
+  sqrt_information_valid_ = false;
+}
+
+// A step at the start of the interval acts on all of it, as an error of the start does.
 Matrix15d Preintegration::covariance() const {
-  if (bias_step_.gyro == 0 && bias_step_.accel == 0) return covariance_;
-  const Eigen::Matrix<double, 15, 3> accel = jacobian_.middleCols<3>(Index::kAccelBias);
-  const Eigen::Matrix<double, 15, 3> gyro = jacobian_.middleCols<3>(Index::kGyroBias);
-  return covariance_ + bias_step_.accel * bias_step_.accel * accel * accel.transpose() +
-         bias_step_.gyro * bias_step_.gyro * gyro * gyro.transpose();
+  Matrix15d covariance = covariance_;
+  if (bias_step_.gyro != 0 || bias_step_.accel != 0) {
+    const Eigen::Matrix<double, 15, 3> accel = jacobian_.middleCols<3>(Index::kAccelBias);
+    const Eigen::Matrix<double, 15, 3> gyro = jacobian_.middleCols<3>(Index::kGyroBias);
+    covariance += bias_step_.accel * bias_step_.accel * accel * accel.transpose() +
+                  bias_step_.gyro * bias_step_.gyro * gyro * gyro.transpose();
+  }
+  const Vector15d start = jacobian_ * stamp_errors_.at_start, &end = stamp_errors_.at_end;
+  if (!start.isZero(0) || !end.isZero(0)) {
+    covariance += start * start.transpose() + end * end.transpose();
+  }
+  return covariance;
 }
 
 void Preintegration::Restart() {

@@ -25,6 +25,12 @@ struct BiasStep {
   double accel = 0;  // [m/s^2]
 };
 
+// What the time errors of both ends do to the states there, one standard deviation each; rows as in
+// ImuErrorIndex, position and velocity in the body frame at the start.
+struct StampErrors {
+  Vector15d at_start = Vector15d::Zero(), at_end = Vector15d::Zero();
+};
+
 // IMU samples between two images folded into one relative motion that does not depend on the state
 // (midpoint rule). [Forster2017], [Qin2018] section IV.B. A gap in the samples (over 50 ms) is
 // bridged the same way, with the noise grown by what a vehicle's motion may do meanwhile. Rotation
@@ -49,6 +55,9 @@ class Preintegration {
   // Lets the biases differ from those before the interval by steps of these deviations.
   void AllowBiasStep(const BiasStep& step);
 
+  // Lets the states at both ends be those of another time than the samples'.
+  void AllowStampErrors(const StampErrors& errors);
+
   // Deltas corrected to first order for the change of bias.
   Eigen::Vector3d DeltaP(const ImuBias& bias) const;
   Eigen::Quaterniond DeltaQ(const ImuBias& bias) const;
@@ -62,6 +71,7 @@ class Preintegration {
   const ImuBias& linearization_bias() const { return bias_; }
   const ImuNoise& noise() const { return noise_; }
   const BiasStep& bias_step() const { return bias_step_; }
+  const StampErrors& stamp_errors() const { return stamp_errors_; }
   const Eigen::Vector3d& delta_p() const { return delta_p_; }
   const Eigen::Quaterniond& delta_q() const { return delta_q_; }
   const Eigen::Vector3d& delta_v() const { return delta_v_; }
@@ -80,13 +90,14 @@ class Preintegration {
   ImuNoise noise_;
   ImuBias bias_;
   BiasStep bias_step_;
+  StampErrors stamp_errors_;
   std::vector<ImuSample> samples_;
   double duration_ = 0;
   Eigen::Vector3d delta_p_ = Eigen::Vector3d::Zero();
   Eigen::Quaterniond delta_q_ = Eigen::Quaterniond::Identity();
   Eigen::Vector3d delta_v_ = Eigen::Vector3d::Zero();
   Matrix15d jacobian_ = Matrix15d::Identity();
-  Matrix15d covariance_ = Matrix15d::Zero();  // without that of the step
+  Matrix15d covariance_ = Matrix15d::Zero();  // without those of steps and stamps
   mutable Matrix15d sqrt_information_ = Matrix15d::Zero();
   mutable bool sqrt_information_valid_ = false;
 };

@@ -325,6 +325,26 @@ TEST(Preintegration, JoinedIntervalsKeepTheirNoiseAndSteps) {
               0.05 * alone);
 }
 
+// Where two intervals are joined, the stamp between them no longer matters.
+TEST(Preintegration, JoinedIntervalsErrByTheStampsOfTheirEnds) {
+  const std::vector<ImuSample> samples = Flight(3.0, 3.4);
+  const std::vector<ImuSample> first(samples.begin(), samples.begin() + 41);
+  const std::vector<ImuSample> second(samples.begin() + 40, samples.end());
+  const Vector15d start = 1e-3 * Vector15d::LinSpaced(1, 15), end = 2 * start;
+  Preintegration whole = Integrate(samples), joined = Integrate(first), next = Integrate(second);
+  const Eigen::Quaterniond R_B0_B1 = joined.delta_q();
+  joined.AllowStampErrors({start, Vector15d::Constant(7)});
+  next.AllowStampErrors({Vector15d::Constant(7), end});
+  joined.Join(next);
+  Vector15d turned = end;
+  turned.head<3>() = R_B0_B1 * end.head<3>();
+  turned.segment<3>(Index::kVelocity) = R_B0_B1 * end.segment<3>(Index::kVelocity);
+  const Vector15d moved = whole.jacobian() * start;
+  EXPECT_MATRIX_NEAR(joined.covariance(),
+                     whole.covariance() + moved * moved.transpose() + turned * turned.transpose(),
+                     1e-12);
+}
+
 TEST(Preintegration, CovarianceHardlyDependsOnTheSampleRate) {
   const Matrix15d slow = Integrate(Flight(3.0, 3.5, 100)).covariance();
   const Matrix15d fast = Integrate(Flight(3.0, 3.5, 1000)).covariance();

@@ -23,10 +23,9 @@ inline SimulatedFlight WithoutLines(SimulatedFlight flight) {
   return flight;
 }
 
-// From `skip` seconds after the start on, so that a flight can begin in motion.
-inline SimulatedFlight SimulateFlight(const simulator::FeatureSimulationOptions& options,
-                                      double skip = 0) {
-  const simulator::FeatureDataset data = simulator::SimulateFeatures(options);
+// What the stage makes of a simulation, from `skip` seconds after the start on.
+inline SimulatedFlight ToFlight(const simulator::FeatureDataset& data, const SensorConfig& sensor,
+                                double skip = 0) {
   MeasurementSync::Options sync_options;
   sync_options.max_frames = static_cast<int>(data.points.size());
   MeasurementSync sync(sync_options);
@@ -34,7 +33,7 @@ inline SimulatedFlight SimulateFlight(const simulator::FeatureSimulationOptions&
   for (const PointFrame& points : data.points) sync.AddPoints(points);
   for (const LineFrame& lines : data.lines) sync.AddLines(lines);
   SimulatedFlight flight;
-  flight.sensor = options.sensors;
+  flight.sensor = sensor;
   while (const auto frame = sync.Flush()) {
     if (ToSeconds(frame->t_ns - data.points.front().t_ns) < skip) continue;
     flight.frames.push_back(*frame);
@@ -44,6 +43,12 @@ inline SimulatedFlight SimulateFlight(const simulator::FeatureSimulationOptions&
   }
   flight.truth.resize(flight.frames.size());
   return flight;
+}
+
+// From `skip` seconds after the start on, so that a flight can begin in motion.
+inline SimulatedFlight SimulateFlight(const simulator::FeatureSimulationOptions& options,
+                                      double skip = 0) {
+  return ToFlight(simulator::SimulateFeatures(options), options.sensors, skip);
 }
 
 // A flight with EuRoC-like biases and no rest.

@@ -11,8 +11,8 @@ namespace plm_vins {
 
 // An image becomes a keyframe where it is this far from the last one in any of the three.
 struct KeyframeSpacing {
-  double distance = 0.3;           // [m]
-  double angle = 15 * M_PI / 180;  // [rad]
+  double distance = 0.2;           // [m]
+  double angle = 12 * M_PI / 180;  // [rad]
   double time = 2.0;               // [s]
 };
 

@@ -26,7 +26,7 @@ struct LoopVerificationOptions {
   double min_inlier_share = 0.3;
   double max_manhattan_error = 3 * M_PI / 180;  // [rad]
   int min_cells = 4;                            // of 4 x 3, with inliers
-  int min_backward_inliers = 6;
+  int min_backward_inliers = 8;
   double min_backward_share = 0.15;
   int min_visible_lines = 5;  // fewer say nothing
   double min_line_share = 0.2;

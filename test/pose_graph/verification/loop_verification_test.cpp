@@ -68,6 +68,15 @@ TEST_F(LoopVerificationTest, RefusesTheSameVisit) {
   EXPECT_EQ(Verify().failed, LoopGate::kApart);
 }
 
+TEST_F(LoopVerificationTest, LeavesOutTracksThatGoOn) {
+  const int inliers = Verify().inliers.value();
+  later_.first_track = earlier_.first_track + 120;  // of 150: some tracks have both visits
+  const LoopCandidate candidate = Verify();
+  EXPECT_FALSE(candidate.failed) << ToString(*candidate.failed);
+  EXPECT_GT(*candidate.common_tracks, 10);
+  EXPECT_LE(*candidate.inliers, inliers - *candidate.common_tracks / 2);
+}
+
 TEST_F(LoopVerificationTest, TakesEqualTracksOfTwoWorldsForChance) {
   later_.first_track = earlier_.first_track;
   later_.world = 1;

@@ -12,7 +12,7 @@ namespace plm_vins {
 enum class LoopGate {
   kScore,       // the images look alike
   kRepeated,    // an image before led to the same place
-  kApart,       // no track is seen in both: it is another visit
+  kApart,       // few tracks are seen in both: it is another visit
   kMatches,     // corners have a like among the landmarks
   kPose,        // there is a pose from which some of them are seen
   kManhattan,   // the Manhattan frames agree on the heading

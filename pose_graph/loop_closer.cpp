@@ -104,6 +104,7 @@ void LoopCloser::LookForLoops(LoopClosure* closure) {
     }
     if (!candidate.failed) closure->place = {candidate.earlier, std::move(sightings)};
     closure->candidates.push_back(candidate);
+    if (!candidate.failed) break;  // another would say the same once more
   }
   if (AddLoops(accepted)) Optimize(closure);
 }

@@ -43,16 +43,18 @@ void Declare(Arguments* arguments, CLI::App* app) {
   output->require_option(1, 2);
   app->add_option("--config", arguments->config,
                   "sensors: topics, camera, shutter, extrinsics, IMU noise, td (default: EuRoC's)");
-  AddChoice<WorldKind>(
-      app, "--world", &flight.world,
-      "where to fly; atlanta: a room of two frames, irregular: one without, twins: two equal rooms "
-      "(default: room)",
-      {{"room", WorldKind::kRoom},
-       {"corridor", WorldKind::kCorridor},
-       {"hall", WorldKind::kHall},
-       {"atlanta", WorldKind::kAtlanta},
-       {"twins", WorldKind::kTwins},
-       {"irregular", WorldKind::kIrregular}});
+  AddChoice<WorldKind>(app, "--world", &flight.world,
+                       "where to fly; atlanta: a room of two frames, irregular: one without, "
+                       "twins: two equal rooms, "
+                       "shelves: rows of equal ones, tiles: a room of equal tiles (default: room)",
+                       {{"room", WorldKind::kRoom},
+                        {"corridor", WorldKind::kCorridor},
+                        {"hall", WorldKind::kHall},
+                        {"atlanta", WorldKind::kAtlanta},
+                        {"twins", WorldKind::kTwins},
+                        {"shelves", WorldKind::kShelves},
+                        {"tiles", WorldKind::kTiles},
+                        {"irregular", WorldKind::kIrregular}});
   AddChoice<TextureStyle>(app, "--texture", &flight.texture,
                           "weak leaves almost only lines (default: rich)",
                           {{"rich", TextureStyle::kRich}, {"weak", TextureStyle::kWeak}});

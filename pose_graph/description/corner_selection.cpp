@@ -35,20 +35,22 @@ std::vector<Eigen::Vector2f> SelectCorners(const CornerSelectionOptions& options
   std::vector<cv::KeyPoint> found;
   cv::FAST(gray, found, options.fast_threshold, /*nonmaxSuppression=*/true);
   cv::KeyPointsFilter::runByImageBorder(found, gray.size(), options.border_px);
-  std::stable_sort(found.begin(), found.end(), [](const cv::KeyPoint& a, const cv::KeyPoint& b) {
-    return a.response > b.response;
-  });
+  std::vector<const cv::KeyPoint*> strongest(taken.size(), nullptr);  // by cell
+  for (const cv::KeyPoint& corner : found) {
+    const size_t cell = grid.CellOf(corner.pt.x, corner.pt.y);
+    const cv::KeyPoint*& best = strongest[cell];
+    if (!taken[cell] && (best == nullptr || corner.response > best->response)) best = &corner;
+  }
+  strongest.erase(std::remove(strongest.begin(), strongest.end(), nullptr), strongest.end());
+  std::stable_sort(
+      strongest.begin(), strongest.end(),
+      [](const cv::KeyPoint* a, const cv::KeyPoint* b) { return a->response > b->response; });
 
   const size_t room = static_cast<size_t>(options.max_corners) -
                       std::min<size_t>(options.max_corners, known_px.size());
+  if (strongest.size() > room) strongest.resize(room);
   std::vector<Eigen::Vector2f> selected;
-  for (const cv::KeyPoint& corner : found) {
-    if (selected.size() == room) break;
-    const size_t cell = grid.CellOf(corner.pt.x, corner.pt.y);
-    if (taken[cell]) continue;
-    taken[cell] = true;
-    selected.emplace_back(corner.pt.x, corner.pt.y);
-  }
+  for (const cv::KeyPoint* corner : strongest) selected.emplace_back(corner->pt.x, corner->pt.y);
   return selected;
 }
 

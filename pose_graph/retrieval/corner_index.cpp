@@ -40,14 +40,16 @@ void CornerIndex::Remove(int image, const std::vector<Descriptor>& descriptors) 
   }
 }
 
-std::set<int> CornerIndex::ImagesWith(const Descriptor& descriptor) const {
-  std::set<int> images;
+std::vector<int> CornerIndex::ImagesWith(const Descriptor& descriptor) const {
+  std::vector<int> images;
   for (int table = 0; table < options_.tables; ++table) {
     for (const Entry& entry : buckets_[Word(descriptor, table)]) {
       const int distance = HammingDistance(entry.descriptor, descriptor);
-      if (distance <= options_.max_distance) images.insert(entry.image);
+      if (distance <= options_.max_distance) images.push_back(entry.image);
     }
   }
+  std::sort(images.begin(), images.end());
+  images.erase(std::unique(images.begin(), images.end()), images.end());
   return images;
 }
 
@@ -55,7 +57,7 @@ std::map<int, double> CornerIndex::Scores(const std::vector<Descriptor>& descrip
   const auto image_count = static_cast<double>(images_.size());
   std::map<int, double> scores;
   for (const Descriptor& descriptor : descriptors) {
-    const std::set<int> images = ImagesWith(descriptor);
+    const std::vector<int> images = ImagesWith(descriptor);
     if (images.empty()) continue;
     const double weight = std::log((image_count + 1) / static_cast<double>(images.size()));
     for (const int image : images) scores[image] += weight;

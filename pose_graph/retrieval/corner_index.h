@@ -36,7 +36,7 @@ class CornerIndex {
   };
 
   uint64_t Word(const Descriptor& descriptor, int table) const;
-  std::set<int> ImagesWith(const Descriptor& descriptor) const;
+  std::vector<int> ImagesWith(const Descriptor& descriptor) const;  // each once
 
   CornerIndexOptions options_;
   std::set<int> images_;

@@ -11,11 +11,11 @@ namespace plm_vins {
 
 struct PlaceRecognitionOptions {
   CornerIndexOptions index;
-  double min_time = 15;          // since an image that counts as another visit [s]
-  int island_radius = 3;         // keyframes to each side that show the same place
-  int max_islands = 2;           // looked at for one image
-  double min_score_share = 0.1;  // of the score of the image's predecessor
-  int memory = 2;                // images before, one of which must have led to the same island
+  double min_time = 15;           // since an image that counts as another visit [s]
+  int island_radius = 3;          // keyframes to each side that show the same place
+  int max_islands = 3;            // looked at for one image
+  double min_score_share = 0.05;  // of the score of the image's predecessor
+  int memory = 2;                 // images before, one of which must have led to the same island
 };
 
 // An island of keyframes, neighbours in time, that look like an image.

@@ -62,11 +62,12 @@ class NearestTable {
 
 }  // namespace
 
-std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>& island) {
+std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>& island,
+                                              const std::set<int64_t>& without) {
   std::map<int64_t, DescribedLandmark> by_track;
   for (const Keyframe* keyframe : island) {
     for (const DescribedCorner& corner : keyframe->corners) {
-      if (!corner.p_O) continue;
+      if (!corner.p_O || without.count(corner.track) > 0) continue;
       DescribedLandmark& landmark = by_track[corner.track];
       landmark.p_O = corner.p_O->cast<double>();
       landmark.descriptors.push_back(corner.descriptor);

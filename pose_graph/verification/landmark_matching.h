@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include "pose_graph/keyframe.h"
@@ -15,13 +16,15 @@ struct DescribedLandmark {
   std::vector<Descriptor> descriptors;
 };
 
-// The landmarks of keyframes of one world, each once: the place is that of its newest keyframe.
-std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>& island);
+// The landmarks of keyframes of one world but those of the tracks `without`, each once: the place
+// is that of its newest keyframe.
+std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>& island,
+                                              const std::set<int64_t>& without = {});
 
 struct MatchingOptions {
-  int max_distance = 64;         // [bits]
-  double max_ratio = 0.85;       // of the distances of the best and the second best landmark
-  double search_radius = 0.085;  // around where a landmark should be seen (normalised)
+  int max_distance = 72;        // [bits]
+  double max_ratio = 0.9;       // of the distances of the best and the second best landmark
+  double search_radius = 0.05;  // around where a landmark should be seen (normalised)
 };
 
 struct LandmarkMatch {

@@ -29,11 +29,11 @@ struct LoopSightings {
 };
 
 struct LoopRefinementOptions {
-  double point_noise = 1.5 / 460;  // (normalised) corners found apart, and landmarks in error
+  double point_noise = 6.0 / 460;  // (normalised) of that, landmarks in error are the most
   double line_noise = 1.5 / 460;   // (normalised) of an end across the line
   // Of the result, on top of what the sightings say: what landmarks have wrong in common.
-  double floor_position = 0.03;         // [m]
-  double floor_yaw = 0.3 * M_PI / 180;  // [rad]
+  double floor_position = 0.02;          // [m]
+  double floor_yaw = 0.06 * M_PI / 180;  // [rad]
 };
 
 struct RefinedLoop {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -23,6 +24,17 @@ std::set<int64_t> TracksOf(const Island& island) {
     }
   }
   return tracks;
+}
+
+// The tracks that are seen in both.
+std::set<int64_t> CommonTracks(const Island& earlier, const Island& later) {
+  std::set<int64_t> common;
+  if (earlier.keyframe->world != later.keyframe->world) return common;
+  const std::set<int64_t> a = TracksOf(earlier);
+  const std::set<int64_t> b = TracksOf(later);
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(),
+                        std::inserter(common, common.end()));
+  return common;
 }
 
 // The lines of an island, each once, as its newest keyframe has them.
@@ -85,6 +97,7 @@ int CountCells(const std::vector<Eigen::Vector2f>& corners_px, const CameraParam
 
 // What is known of a candidate on its way through the gates. A and B as in LoopSightings.
 struct LoopVerification::Evidence {
+  std::set<int64_t> common_tracks;  // say nothing about another visit: odometry has followed them
   std::vector<DescribedLandmark> landmarks_A;
   LevelTransform T_A_B;
   LoopSightings all;
@@ -99,7 +112,7 @@ LoopSightings LoopVerification::Verify(const Island& earlier, const Island& late
   Evidence evidence;
   evidence.all.T_A_C = earlier.keyframe->T_O_C();
   evidence.all.T_B_C = later.keyframe->T_O_C();
-  const bool accepted = AreApart(earlier, later, candidate) &&
+  const bool accepted = AreApart(earlier, later, candidate, &evidence) &&
                         FindPose(earlier, *later.keyframe, candidate, &evidence) &&
                         ManhattanAgrees(*earlier.keyframe, *later.keyframe, candidate, evidence) &&
                         HasInliers(*later.keyframe, candidate, &evidence) &&
@@ -114,22 +127,17 @@ LoopSightings LoopVerification::Verify(const Island& earlier, const Island& late
 }
 
 bool LoopVerification::AreApart(const Island& earlier, const Island& later,
-                                LoopCandidate* candidate) const {
+                                LoopCandidate* candidate, Evidence* evidence) const {
   candidate->failed = LoopGate::kApart;
-  candidate->common_tracks = 0;
-  if (earlier.keyframe->world == later.keyframe->world) {
-    const std::set<int64_t> tracks = TracksOf(earlier);
-    for (const int64_t track : TracksOf(later)) {
-      if (tracks.count(track) > 0) ++*candidate->common_tracks;
-    }
-  }
-  return candidate->common_tracks == 0;
+  evidence->common_tracks = CommonTracks(earlier, later);
+  candidate->common_tracks = static_cast<int>(evidence->common_tracks.size());
+  return *candidate->common_tracks <= options_.max_common_tracks;
 }
 
 bool LoopVerification::FindPose(const Island& earlier, const Keyframe& later,
                                 LoopCandidate* candidate, Evidence* evidence) const {
   candidate->failed = LoopGate::kMatches;
-  evidence->landmarks_A = MergeLandmarks(earlier.all);
+  evidence->landmarks_A = MergeLandmarks(earlier.all, evidence->common_tracks);
   std::vector<SeenPoint> seen;
   for (const LandmarkMatch& match :
        MatchLandmarks(options_.matching, later.corners, evidence->landmarks_A)) {
@@ -183,8 +191,9 @@ bool LoopVerification::HoldsBackwards(const Keyframe& earlier, const Island& lat
   candidate->failed = LoopGate::kBackwards;
   const Rigid3d& T_A_C = evidence->all.T_A_C;
   const LevelTransform T_B_G = evidence->T_A_B.Inverse() * LevelTransform{0, T_A_C.translation};
-  Search search = SearchAroundImages(options_, earlier.corners, MergeLandmarks(later.all), T_B_G,
-                                     T_A_C.rotation);
+  Search search =
+      SearchAroundImages(options_, earlier.corners,
+                         MergeLandmarks(later.all, evidence->common_tracks), T_B_G, T_A_C.rotation);
   candidate->backward_inliers = static_cast<int>(search.inliers.size());
   candidate->backward_share = search.share();
   evidence->all.of_later = std::move(search.inliers);

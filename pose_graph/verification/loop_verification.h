@@ -19,14 +19,15 @@ struct LoopVerificationOptions {
   LevelPoseRansacOptions ransac;
   LoopRefinementOptions refinement;
   LineWitnessOptions witnesses;
+  int max_common_tracks = 40;  // more, and it is the same visit
   int min_matches = 15;
   int min_pose_inliers = 8;  // of them, for a pose that is looked into
-  int min_inliers = 20;      // of the later image; with those of the earlier one 30
-  double min_inlier_share = 0.4;
+  int min_inliers = 15;      // of the later image
+  double min_inlier_share = 0.3;
   double max_manhattan_error = 3 * M_PI / 180;  // [rad]
   int min_cells = 4;                            // of 4 x 3, with inliers
-  int min_backward_inliers = 10;
-  double min_backward_share = 0.3;
+  int min_backward_inliers = 8;
+  double min_backward_share = 0.15;
   int min_visible_lines = 5;  // fewer say nothing
   double min_line_share = 0.2;
 };
@@ -52,7 +53,8 @@ class LoopVerification {
  private:
   struct Evidence;
 
-  bool AreApart(const Island& earlier, const Island& later, LoopCandidate* candidate) const;
+  bool AreApart(const Island& earlier, const Island& later, LoopCandidate* candidate,
+                Evidence* evidence) const;
   bool FindPose(const Island& earlier, const Keyframe& later, LoopCandidate* candidate,
                 Evidence* evidence) const;
   bool ManhattanAgrees(const Keyframe& earlier, const Keyframe& later, LoopCandidate* candidate,

@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double kObjectTexel = 0.0025;  // [m]
 constexpr double kMaterialSize = 2.0;    // of the shared textures [m]
+constexpr double kTile = 0.5;            // [m]
 constexpr double kGap = 0.004;           // between a picture and what it hangs on [m]
 
 double Detail(TextureStyle style) { return style == TextureStyle::kRich ? 1.0 : 0.06; }
@@ -51,9 +52,12 @@ int Furnisher::Paint(Surface surface, double width, double height, double bright
     case Surface::kBricks:
       return scene_->AddTexture(walls_.Bricks(width, height, brightness), width, height);
     case Surface::kTiles:
-      return scene_->AddTexture(walls_.Tiles(width, height, brightness, 0.5), width, height);
+      return scene_->AddTexture(walls_.Tiles(width, height, brightness, kTile), width, height);
     case Surface::kPanels:
       return scene_->AddTexture(walls_.Panels(width, height, brightness, 1.2), width, height);
+    case Surface::kMosaic:
+      if (!mosaic_) mosaic_ = scene_->AddTexture(walls_.Mosaic(kTile, brightness), kTile, kTile);
+      return *mosaic_;
     default:
       return scene_->AddTexture(walls_.Plaster(width, height, brightness), width, height);
   }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/rigid3.h"
@@ -31,7 +32,14 @@ class Furnisher {
   // `texel`: size of the finest detail on the walls [m].
   Furnisher(Scene* scene, TextureStyle style, double texel, uint64_t seed);
 
-  enum class Surface { kPlaster, kBricks, kTiles, kPanels, kOpen };  // kOpen: there is no wall
+  enum class Surface {
+    kPlaster,
+    kBricks,
+    kTiles,
+    kPanels,
+    kMosaic,  // each tile is like the other
+    kOpen     // there is no wall
+  };
 
   // The inner faces of a room with upright walls and its floor at z = 0. `corners`: of the floor,
   // counterclockwise [m]; wall i runs from corner i to the next one.
@@ -75,6 +83,7 @@ class Furnisher {
   Random random_;
   TexturePainter walls_, objects_;
   Materials materials_;
+  std::optional<int> mosaic_;  // texture of one tile, once it is painted
 };
 
 }  // namespace plm_vins::simulator

@@ -286,6 +286,50 @@ World MakeTwins(TextureStyle style, uint64_t seed) {
   return world;
 }
 
+// Four rows of equal shelves back to back, with an aisle along x in the middle.
+World MakeShelves(TextureStyle style, uint64_t seed) {
+  constexpr double kHeight = 3.4, kBay = 1.3, kAisles = 2.4;  // apart [m]
+  constexpr int kBays = 8;
+  const double start = -0.5 * kBays * kBay;
+  World world;
+  world.flight_center = {0, 0, 1.4};
+  world.flight_extent = {5, 0.5, 0.5};
+  Furnisher furnisher(&world.scene, style, 0.003, seed);
+  const auto add_bay = [&](double from, double to) {
+    constexpr double y = -1.5 * kAisles;
+    const Wall back = furnisher.AddWall({from, y}, {to, y}, kHeight, Surface::kOpen);
+    furnisher.AddShelf(back, 0.03, kBay - 0.06, 2.1);
+  };
+  add_bay(start, start + kBay);
+  add_bay(start + kBay, start);
+  for (const int bays : {1, 2, 4}) world.scene.Repeat({bays * kBay, 0, 0});
+  for (const int rows : {1, 2}) world.scene.Repeat({0, rows * kAisles, 0});
+
+  const Vector3d size(16, 12, kHeight);
+  const auto walls =
+      furnisher.AddRoom(BoxFloor(size), kHeight, {Surface::kPlaster, Surface::kBricks},
+                        Surface::kTiles, Surface::kPanels);
+  for (const Wall& wall : walls) HangPosters(&furnisher, wall, 0.5, wall.width - 0.5, 1.4);
+  for (double x = -6; x <= 6; x += 3) furnisher.AddLamp({x, 0, kHeight - 0.1}, 1.2, 0);
+  return world;
+}
+
+World MakeTiles(TextureStyle style, uint64_t seed) {
+  World world;
+  world.flight_center = {0, 0, 1.6};
+  world.flight_extent = {1.8, 1.2, 0.5};
+  const Vector3d size(8, 6, 3);
+  Furnisher furnisher(&world.scene, style, 0.003, seed);
+  const auto walls = furnisher.AddRoom(BoxFloor(size), size.z(), {Surface::kMosaic},
+                                       Surface::kMosaic, Surface::kPanels);
+  for (const Wall& wall : walls) HangPosters(&furnisher, wall, 2.0, 3.4, 1.3);
+  furnisher.AddDoor(walls[1], 0.8);
+  furnisher.AddTable({2.6, -2.0, 0}, 0.3);
+  furnisher.AddCrate({-3.2, 2.2, 0}, 0.7, 0.5);
+  furnisher.AddLamp({0, 0, size.z() - 0.1}, 2.0, M_PI / 2);
+  return world;
+}
+
 }  // namespace
 
 World MakeWorld(WorldKind kind, TextureStyle style, uint64_t seed) {
@@ -298,6 +342,10 @@ World MakeWorld(WorldKind kind, TextureStyle style, uint64_t seed) {
       return MakeAtlanta(style, seed);
     case WorldKind::kTwins:
       return MakeTwins(style, seed);
+    case WorldKind::kShelves:
+      return MakeShelves(style, seed);
+    case WorldKind::kTiles:
+      return MakeTiles(style, seed);
     case WorldKind::kIrregular:
       return MakeIrregular(style, seed);
     default:

@@ -15,6 +15,8 @@ enum class WorldKind {
   kHall,
   kAtlanta,   // a room of two frames: half of its walls and things are turned against the others
   kTwins,     // two equal rooms, joined by a corridor
+  kShelves,   // a store room: aisles between rows of equal shelves
+  kTiles,     // a room whose walls and floor are of equal tiles with a print
   kIrregular  // a room of walls and things that stand anyhow
 };
 

@@ -150,6 +150,13 @@ class Loops(unittest.TestCase):
                 self.assertEqual(loops["false_loops"], 0)
                 self.assertGreater(loops["closed_share"], 0.6)
 
+    def test_equal_shelves_and_tiles_are_not_taken_for_each_other(self):
+        for world in ("shelves", "tiles"):
+            with self.subTest(world):
+                _, loops = self.fly(world)
+                self.assertEqual(loops["false_loops"], 0)
+                self.assertGreater(loops["loops"], 0)
+
     def test_two_equal_rooms_are_not_taken_for_one(self):
         refused, loops = self.fly("twins")
         self.assertGreater(refused["odometry"], 0)  # the other room was there to be taken

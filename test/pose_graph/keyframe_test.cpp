@@ -20,9 +20,9 @@ TEST(KeyframeSpacing, WantsAWayATurnOrTime) {
         {0, distance, 0});
     return IsApart(KeyframeSpacing(), 0, Rigid3d(), ToNanoseconds(seconds), T_O_B);
   };
-  EXPECT_FALSE(is_apart(0.29, 14, 1.9));
-  EXPECT_TRUE(is_apart(0.31, 0, 0.1));
-  EXPECT_TRUE(is_apart(0, 16, 0.1));
+  EXPECT_FALSE(is_apart(0.19, 11, 1.9));
+  EXPECT_TRUE(is_apart(0.21, 0, 0.1));
+  EXPECT_TRUE(is_apart(0, 12, 0.1));
   EXPECT_TRUE(is_apart(0, 0, 2.1));
 }
 

@@ -41,7 +41,7 @@ TEST_F(LandmarkMatchingTest, LeavesWhatLooksUnlike) {
 }
 
 TEST_F(LandmarkMatchingTest, LeavesACornerThatTwoLandmarksLookLike) {
-  const auto twin = LandmarkOf(WithFlippedBits(a_, 3, &random_));
+  const auto twin = LandmarkOf(WithFlippedBits(a_, 1, &random_));
   EXPECT_TRUE(MatchLandmarks(MatchingOptions(), {CornerOf(WithFlippedBits(a_, 20, &random_))},
                              {LandmarkOf(a_), twin})
                   .empty());

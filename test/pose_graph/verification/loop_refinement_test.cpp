@@ -72,7 +72,7 @@ TEST(RefineLoop, StandsSomeWrongSightings) {
   for (int i = 0; i < 6; ++i) sightings.of_earlier[i].xy += Eigen::Vector2d(0.05, -0.03);
   const auto loop = RefineLoop(LoopRefinementOptions(), sightings, Disturbed());
   ASSERT_TRUE(loop);
-  EXPECT_LT(ErrorOf(loop->T_A_B, sightings).norm(), 0.02);
+  EXPECT_LT(ErrorOf(loop->T_A_B, sightings).norm(), 0.03);
 }
 
 TEST(RefineLoop, HasTheCovarianceThatItsErrorsHave) {
@@ -98,10 +98,11 @@ TEST(RefineLoop, AddsWhatTheSightingsHaveWrongInCommon) {
   const LoopSightings sightings = See(30, false, 0, &random);
   LoopRefinementOptions options;
   const auto with = RefineLoop(options, sightings, kTruth);
+  const double variance = options.floor_position * options.floor_position;
   options.floor_position = options.floor_yaw = 0;
   const auto without = RefineLoop(options, sightings, kTruth);
   ASSERT_TRUE(with && without);
-  EXPECT_NEAR(with->covariance(0, 0) - without->covariance(0, 0), 0.03 * 0.03, 1e-9);
+  EXPECT_NEAR(with->covariance(0, 0) - without->covariance(0, 0), variance, 1e-9);
 }
 
 TEST(RefineLoop, RefusesWithoutSightings) {

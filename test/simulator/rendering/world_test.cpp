@@ -69,6 +69,7 @@ TEST_P(EachWorld, LeavesTheFlightBoxFreeAndSurroundsItWithoutAHole) {
 INSTANTIATE_TEST_SUITE_P(Worlds, EachWorld,
                          testing::Values(WorldKind::kRoom, WorldKind::kCorridor, WorldKind::kHall,
                                          WorldKind::kAtlanta, WorldKind::kTwins,
+                                         WorldKind::kShelves, WorldKind::kTiles,
                                          WorldKind::kIrregular));
 
 // By heading modulo 90 deg, in bins of 1 deg: the length of all level edges of upright rectangles,

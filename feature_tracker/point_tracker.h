@@ -22,8 +22,8 @@ struct PointTrackerStatistics {
 };
 
 // Follows corners from image to image and refills with new ones (façade of the point front end):
-// CLAHE -> KLT with prediction -> forward-backward check -> alignment with the patch that the corner
-// was found in -> epipolar RANSAC -> spread -> refill.
+// CLAHE -> KLT with prediction -> forward-backward check -> alignment with the patch that the
+// corner was found in -> epipolar RANSAC -> spread -> refill.
 class PointTracker {
  public:
   using Features = PointFrame;

@@ -53,7 +53,7 @@ class LoopResultsTest : public ::testing::Test {
 
 TEST_F(LoopResultsTest, WritesAllFilesOfARun) {
   LoopResults results(config_, folder_.path(), "");
-  for (int i = 0; i < 4; ++i) results.Add(FrameAt(0.2 * i));
+  for (int i = 0; i < 4; ++i) results.Add(FrameAt(0.15 * i));
   results.Finish("");
   EXPECT_EQ(Rows("trajectory_map.tum"), 4);
   EXPECT_EQ(Rows("trajectory_final.tum"), 4);
@@ -61,7 +61,7 @@ TEST_F(LoopResultsTest, WritesAllFilesOfARun) {
   EXPECT_THAT(folder_.Read("pose_graph.g2o"), HasSubstr("EDGE_SE3:QUAT 0 1"));
   EXPECT_TRUE(std::filesystem::exists(folder_.File("colmap/images.txt")));
   const Json summary = results.Summary();
-  EXPECT_EQ(summary["keyframes"], 2);  // at 0 and at 0.4 m
+  EXPECT_EQ(summary["keyframes"], 2);  // at 0 and at 0.3 m
   EXPECT_EQ(summary["map_keyframes"], 2);
   EXPECT_EQ(summary["accepted"], 0);
   EXPECT_EQ(summary["first_fix_s"], 0.0);

@@ -138,7 +138,7 @@ TEST(EstimatorTest, DescribesItsWindow) {
   const EstimatorOutput& output = flight.outputs.back();
   EXPECT_EQ(output.status, EstimatorStatus::kTracking);
   EXPECT_TRUE(output.reason.empty());
-  EXPECT_EQ(output.window.size(), 11u);
+  EXPECT_EQ(output.window.size(), EstimatorConfig().window_size + 1u);
   EXPECT_EQ(output.window.back().t_ns, output.t_ns);
   EXPECT_EQ(output.window.back().pose, output.state.pose);
   for (size_t i = 1; i < output.window.size(); ++i) {

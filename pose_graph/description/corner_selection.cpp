@@ -50,6 +50,7 @@ std::vector<Eigen::Vector2f> SelectCorners(const CornerSelectionOptions& options
                       std::min<size_t>(options.max_corners, known_px.size());
   if (strongest.size() > room) strongest.resize(room);
   std::vector<Eigen::Vector2f> selected;
+  selected.reserve(strongest.size());
   for (const cv::KeyPoint* corner : strongest) selected.emplace_back(corner->pt.x, corner->pt.y);
   return selected;
 }

@@ -42,7 +42,7 @@ void ExpectIntrinsics(const CameraParameters& found, const CameraParameters& tru
 }
 
 EstimatedFlight Fly(const SimulatedFlight& simulated) {
-  const EstimatedFlight flight = testing::Estimate(simulated);
+  EstimatedFlight flight = testing::Estimate(simulated);
   EXPECT_TRUE(flight.restarts.empty());
   EXPECT_GT(flight.truth.size(), 230u) << "late start";
   return flight;

@@ -180,7 +180,7 @@ TEST(Preintegration, RepropagationEqualsIntegratingAnew) {
 TEST(Preintegration, SqrtInformationIsTheUpperFactorOfTheInverse) {
   for (const double duration : {0.005, 0.05, 1.0}) {  // a single interval must do
     const Preintegration result = Integrate(Flight(3.0, 3.0 + duration));
-    const Matrix15d U = result.SqrtInformation();
+    const Matrix15d& U = result.SqrtInformation();
     EXPECT_TRUE(U.isUpperTriangular(0.0));
     EXPECT_MATRIX_NEAR(U * result.covariance() * U.transpose(), Matrix15d::Identity(), 1e-8);
   }

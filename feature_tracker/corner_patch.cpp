@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracking/image_sampling.h"
+
 namespace plm_vins {
 namespace {
 
@@ -18,21 +20,14 @@ constexpr double kMaxGrowth = 3.0;        // of its area, or one over it
 constexpr float kMinGain = 0.3F;
 constexpr double kMinPivot = 1e-6;  // of the normal equations; less of a flat patch
 
-// Bilinear. The point is at least one pixel inside of the image.
-float PixelAt(const cv::Mat& image, float x, float y) {
-  const int column = static_cast<int>(x), row = static_cast<int>(y);
-  const float a = x - static_cast<float>(column), b = y - static_cast<float>(row);
-  const uint8_t* top = image.ptr<uint8_t>(row) + column;
-  const uint8_t* bottom = top + image.step;
-  return (1 - b) * ((1 - a) * top[0] + a * top[1]) + b * ((1 - a) * bottom[0] + a * bottom[1]);
-}
-
 // With one pixel more around it, for derivatives.
 bool IsInside(const cv::Mat& image, const PatchPose& pose, int radius) {
   const Eigen::Vector2d reach =
       radius * (pose.linear.col(0).cwiseAbs() + pose.linear.col(1).cwiseAbs());
-  const Eigen::Vector2d least = pose.center - reach, most = pose.center + reach;
-  return least.minCoeff() >= 1 && most.x() < image.cols - 2 && most.y() < image.rows - 2;
+  const Eigen::Vector2f least = (pose.center - reach).cast<float>();
+  const Eigen::Vector2f most = (pose.center + reach).cast<float>();
+  return IsInterpolable(image, least.x(), least.y(), 1) &&
+         IsInterpolable(image, most.x(), most.y(), 1);
 }
 
 }  // namespace
@@ -58,21 +53,22 @@ std::optional<CornerPatch::Pixels> CornerPatch::Sample(const cv::Mat& image,
   for (int y = -kRadius, i = 0; y <= kRadius; ++y) {
     Eigen::Vector2f point = center + linear * Eigen::Vector2f(-kRadius, y);
     for (int x = -kRadius; x <= kRadius; ++x, ++i, point += linear.col(0)) {
-      pixels[i] = PixelAt(image, point.x(), point.y());
+      pixels[i] = Interpolate(image, point.x(), point.y());
     }
   }
   return pixels;
 }
 
-CornerPatch::ByParameter CornerPatch::Derivatives(const cv::Mat& image, const PatchPose& pose,
+CornerPatch::ByParameter CornerPatch::Derivatives(const cv::Mat& image,
+                                                  const Eigen::Vector2d& center,
                                                   const Pixels& pixels) {
   ByParameter J;
   for (int y = -kRadius, i = 0; y <= kRadius; ++y) {
     for (int x = -kRadius; x <= kRadius; ++x, ++i) {
-      const float u = static_cast<float>(pose.center.x()) + x;
-      const float v = static_cast<float>(pose.center.y()) + y;
-      const float gx = (PixelAt(image, u + 1, v) - PixelAt(image, u - 1, v)) / 2;
-      const float gy = (PixelAt(image, u, v + 1) - PixelAt(image, u, v - 1)) / 2;
+      const float u = static_cast<float>(center.x()) + x;
+      const float v = static_cast<float>(center.y()) + y;
+      const float gx = (Interpolate(image, u + 1, v) - Interpolate(image, u - 1, v)) / 2;
+      const float gy = (Interpolate(image, u, v + 1) - Interpolate(image, u, v - 1)) / 2;
       J.col(i) << gx * x, gx * y, gy * x, gy * y, gx, gy, pixels[i], 1;
     }
   }
@@ -80,10 +76,9 @@ CornerPatch::ByParameter CornerPatch::Derivatives(const cv::Mat& image, const Pa
 }
 
 std::optional<CornerPatch> CornerPatch::Cut(const cv::Mat& image, const Eigen::Vector2d& center) {
-  const PatchPose pose{Eigen::Matrix2d::Identity(), center};
-  const auto pixels = Sample(image, pose);
+  const auto pixels = Sample(image, {Eigen::Matrix2d::Identity(), center});
   if (!pixels) return std::nullopt;
-  const ByParameter J = Derivatives(image, pose, *pixels);
+  const ByParameter J = Derivatives(image, center, *pixels);
   const ByParameter weighted = J * Weights().asDiagonal();
   const Eigen::Matrix<double, kParameters, kParameters> H =
       (weighted * J.transpose()).cast<double>();

@@ -39,7 +39,8 @@ class CornerPatch {
 
   static const Pixels& Weights();
   static std::optional<Pixels> Sample(const cv::Mat& image, const PatchPose& pose);
-  static ByParameter Derivatives(const cv::Mat& image, const PatchPose& pose, const Pixels& pixels);
+  static ByParameter Derivatives(const cv::Mat& image, const Eigen::Vector2d& center,
+                                 const Pixels& pixels);
   bool LooksLike(const Pixels& pixels) const;
 
   Pixels pixels_;

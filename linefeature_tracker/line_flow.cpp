@@ -6,8 +6,8 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
-#include "linefeature_tracker/image_sampling.h"
 #include "linefeature_tracker/segment_sampler.h"
+#include "tracking/image_sampling.h"
 
 namespace plm_vins {
 namespace {

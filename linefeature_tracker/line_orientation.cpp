@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linefeature_tracker/line_orientation.h"
 
-#include "linefeature_tracker/image_sampling.h"
+#include "tracking/image_sampling.h"
 
 namespace plm_vins {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "common/geometry/robust_weight.h"
-#include "linefeature_tracker/image_sampling.h"
+#include "tracking/image_sampling.h"
 
 namespace plm_vins {
 namespace {

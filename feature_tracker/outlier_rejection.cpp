@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "common/geometry/epipolar_constraint.h"
@@ -45,10 +46,12 @@ struct EpipolarResidual {
   double error;  // [rad]
 };
 
-// Truncated squared errors (MSAC), smaller is better.
-double Cost(const std::vector<RayPair>& pairs, const EpipolarGeometry& geometry, double threshold) {
+// Truncated squared errors (MSAC), smaller is better; not all of them where they reach `limit`.
+double Cost(const std::vector<RayPair>& pairs, const EpipolarGeometry& geometry, double threshold,
+            double limit) {
   double cost = 0;
   for (const RayPair& pair : pairs) {
+    if (cost >= limit) break;
     const double error = EpipolarResidual(geometry, pair).error;
     cost += std::min(error * error, threshold * threshold);
   }
@@ -122,7 +125,7 @@ EpipolarGeometry FindGeometry(const std::vector<RayPair>& pairs, const Eigen::Ma
                               bool is_rotation_known, double threshold) {
   std::mt19937 random;  // default seed: same input, same result
   EpipolarGeometry best{R, Eigen::Vector3d::UnitZ()};
-  double best_cost = Cost(pairs, best, threshold);
+  double best_cost = Cost(pairs, best, threshold, std::numeric_limits<double>::infinity());
   const int hypotheses = is_rotation_known ? kHypothesesOfTwo : kHypothesesOfFive;
   for (int i = 0; i < hypotheses; ++i) {
     const auto sample = Draw(pairs, is_rotation_known ? 2 : 5, &random);
@@ -132,7 +135,7 @@ EpipolarGeometry FindGeometry(const std::vector<RayPair>& pairs, const Eigen::Ma
     for (int k = 0; !is_rotation_known && k < kSolverIterations; ++k) {
       geometry = Refine(sample, geometry, kNotRobust);
     }
-    const double cost = Cost(pairs, geometry, threshold);
+    const double cost = Cost(pairs, geometry, threshold, best_cost);
     if (cost < best_cost) {
       best = geometry;
       best_cost = cost;

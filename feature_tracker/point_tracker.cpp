@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "feature_tracker/contrast_equalizer.h"
 #include "feature_tracker/corner_detector.h"
 #include "feature_tracker/optical_flow.h"
 #include "feature_tracker/outlier_rejection.h"
@@ -20,8 +20,6 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kClaheClipLimit = 3.0;
-constexpr int kClaheTiles = 8;
 // Corners are searched for once this share is missing: a search takes as long as following many.
 constexpr double kRefillShare = 0.1;
 
@@ -62,7 +60,7 @@ class PointTracker::Implementation {
         mask_(ReadMask(config.fisheye_mask, image_size_)),
         detector_(config, mask_),
         flow_(config),
-        clahe_(cv::createCLAHE(kClaheClipLimit, {kClaheTiles, kClaheTiles})) {}
+        equalizer_(image_size_) {}
 
   PointFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0) {
     CheckImage(sample, camera_->parameters(), t_ns_);
@@ -103,7 +101,7 @@ class PointTracker::Implementation {
  private:
   const cv::Mat& Equalize(const cv::Mat& gray) {
     if (!config_.equalize) return gray;
-    clahe_->apply(gray, equalized_);
+    equalizer_.Apply(gray, &equalized_);
     return equalized_;
   }
 
@@ -234,7 +232,7 @@ class PointTracker::Implementation {
   cv::Mat mask_;
   CornerDetector detector_;
   OpticalFlow flow_;
-  cv::Ptr<cv::CLAHE> clahe_;
+  ContrastEqualizer equalizer_;
 
   // As of the newest image.
   std::optional<int64_t> t_ns_;

@@ -34,10 +34,12 @@ bool IsInside(const cv::Mat& image, const PatchPose& pose, int radius) {
 
 const CornerPatch::Pixels& CornerPatch::Weights() {
   static const Pixels weights = [] {
-    Pixels w;
-    for (int i = 0; i < kCount; ++i) {
-      const Eigen::Vector2f p(i % kSide - kRadius, i / kSide - kRadius);
-      w[i] = std::exp(-p.squaredNorm() / (2 * kSigma_px * kSigma_px));
+    Pixels w = Pixels::Zero();
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const Eigen::Vector2f p(x - kRadius, y - kRadius);
+        w(x, y) = std::exp(-p.squaredNorm() / (2 * kSigma_px * kSigma_px));
+      }
     }
     return Pixels(w / w.sum());
   }();
@@ -47,46 +49,77 @@ const CornerPatch::Pixels& CornerPatch::Weights() {
 std::optional<CornerPatch::Pixels> CornerPatch::Sample(const cv::Mat& image,
                                                        const PatchPose& pose) {
   if (!IsInside(image, pose, kRadius)) return std::nullopt;
+  return SampleInside(image, pose);
+}
+
+CornerPatch::Pixels CornerPatch::SampleInside(const cv::Mat& image, const PatchPose& pose) {
   const Eigen::Matrix2f linear = pose.linear.cast<float>();
   const Eigen::Vector2f center = pose.center.cast<float>();
   Pixels pixels;
-  for (int y = -kRadius, i = 0; y <= kRadius; ++y) {
-    Eigen::Vector2f point = center + linear * Eigen::Vector2f(-kRadius, y);
-    for (int x = -kRadius; x <= kRadius; ++x, ++i, point += linear.col(0)) {
-      pixels[i] = Interpolate(image, point.x(), point.y());
-    }
+  for (int y = 0; y < kSide; ++y) {
+    const Eigen::Vector2f start = center + linear * Eigen::Vector2f(-kRadius, y - kRadius);
+    InterpolateRow<kSide, kStride>(image, {start.x(), start.y()}, {linear(0, 0), linear(1, 0)},
+                                   pixels.col(y).data());
   }
   return pixels;
 }
 
-CornerPatch::ByParameter CornerPatch::Derivatives(const cv::Mat& image,
-                                                  const Eigen::Vector2d& center,
-                                                  const Pixels& pixels) {
-  ByParameter J;
-  for (int y = -kRadius, i = 0; y <= kRadius; ++y) {
-    for (int x = -kRadius; x <= kRadius; ++x, ++i) {
-      const float u = static_cast<float>(center.x()) + x;
-      const float v = static_cast<float>(center.y()) + y;
-      const float gx = (Interpolate(image, u + 1, v) - Interpolate(image, u - 1, v)) / 2;
-      const float gy = (Interpolate(image, u, v + 1) - Interpolate(image, u, v - 1)) / 2;
-      J.col(i) << gx * x, gx * y, gy * x, gy * y, gx, gy, pixels[i], 1;
+// Of half the weighted squares of `difference`: J W difference.
+CornerPatch::Parameters CornerPatch::Gradient(const Pixels& difference) const {
+  constexpr int kLanes = 4;
+  const Pixels& weights = Weights();
+  using Lanes = Eigen::Matrix<float, kLanes, 1>;
+  Parameters gradient = Parameters::Zero();
+  for (int x = 0; x < kStride; x += kLanes) {
+    Lanes by_x = Lanes::Zero(), by_x_y = Lanes::Zero(), by_y = Lanes::Zero(),
+          by_y_y = Lanes::Zero(), by_gain = Lanes::Zero(), by_offset = Lanes::Zero();
+    for (int y = 0; y < kSide; ++y) {
+      const Lanes d = difference.block<kLanes, 1>(x, y);
+      const Lanes dx = d.cwiseProduct(d_pixels_dx_.block<kLanes, 1>(x, y));
+      const Lanes dy = d.cwiseProduct(d_pixels_dy_.block<kLanes, 1>(x, y));
+      const Lanes weighted = d.cwiseProduct(weights.block<kLanes, 1>(x, y));
+      by_x += dx;
+      by_y += dy;
+      by_x_y += dx * static_cast<float>(y - kRadius);
+      by_y_y += dy * static_cast<float>(y - kRadius);
+      by_gain += weighted.cwiseProduct(pixels_.block<kLanes, 1>(x, y));
+      by_offset += weighted;
     }
+    const Lanes column = Lanes::LinSpaced(x - kRadius, x - kRadius + kLanes - 1);
+    gradient += (Parameters() << by_x.dot(column), by_x_y.sum(), by_y.dot(column), by_y_y.sum(),
+                 by_x.sum(), by_y.sum(), by_gain.sum(), by_offset.sum())
+                    .finished();
   }
-  return J;
+  return gradient;
 }
 
 std::optional<CornerPatch> CornerPatch::Cut(const cv::Mat& image, const Eigen::Vector2d& center) {
-  const auto pixels = Sample(image, {Eigen::Matrix2d::Identity(), center});
+  const Eigen::Matrix2d identity = Eigen::Matrix2d::Identity();
+  const auto pixels = Sample(image, {identity, center});
   if (!pixels) return std::nullopt;
-  const ByParameter J = Derivatives(image, center, *pixels);
-  const ByParameter weighted = J * Weights().asDiagonal();
-  const Eigen::Matrix<double, kParameters, kParameters> H =
-      (weighted * J.transpose()).cast<double>();
-  const Eigen::LDLT<Eigen::Matrix<double, kParameters, kParameters>> factor(H);
-  if (!(factor.vectorD().minCoeff() > kMinPivot)) return std::nullopt;
+  const auto slope = [&](const Eigen::Vector2d& half) -> Pixels {
+    return (SampleInside(image, {identity, center + half}) -
+            SampleInside(image, {identity, center - half})) /
+           2;
+  };
+  const Pixels dx = slope(Eigen::Vector2d::UnitX());
+  const Pixels dy = slope(Eigen::Vector2d::UnitY());
   CornerPatch patch;
   patch.pixels_ = *pixels;
-  patch.step_from_difference_ = factor.solve(weighted.cast<double>()).cast<float>();
+  patch.d_pixels_dx_ = dx.cwiseProduct(Weights());
+  patch.d_pixels_dy_ = dy.cwiseProduct(Weights());
+
+  const Eigen::DiagonalMatrix<float, kStride> x(
+      Eigen::Matrix<float, kStride, 1>::LinSpaced(-kRadius, kRadius + 1));
+  const Eigen::DiagonalMatrix<float, kSide> y(
+      Eigen::Matrix<float, kSide, 1>::LinSpaced(-kRadius, kRadius));
+  Eigen::Matrix<float, kParameters, kParameters> H;
+  H << patch.Gradient(x * dx), patch.Gradient(dx * y), patch.Gradient(x * dy),
+      patch.Gradient(dy * y), patch.Gradient(dx), patch.Gradient(dy), patch.Gradient(*pixels),
+      patch.Gradient(Pixels::Ones());
+  const Eigen::LDLT<Information> factor(H.cast<double>());
+  if (!(factor.vectorD().minCoeff() > kMinPivot)) return std::nullopt;
+  patch.covariance_ = factor.solve(Information::Identity());
   return patch;
 }
 
@@ -95,7 +128,8 @@ std::optional<PatchPose> CornerPatch::Align(const cv::Mat& image, const PatchPos
   for (int i = 0; i < kMaxIterations; ++i) {
     const auto pixels = Sample(image, pose);
     if (!pixels) return std::nullopt;
-    const Parameters step = step_from_difference_ * (*pixels - pixels_);
+    const Parameters step =
+        (covariance_ * Gradient(*pixels - pixels_).cast<double>()).cast<float>();
     // Gain scales the gradients as well.
     const Eigen::Matrix<double, 6, 1> warp =
         step.head<6>().cast<double>() / std::max(1 + step[6], kMinGain);
@@ -115,12 +149,13 @@ std::optional<PatchPose> CornerPatch::Align(const cv::Mat& image, const PatchPos
 
 // By the weighted correlation, which gain and offset do not change.
 bool CornerPatch::LooksLike(const Pixels& pixels) const {
-  const Pixels& weights = Weights();
-  const Pixels a = pixels.array() - pixels.dot(weights);
-  const Pixels b = pixels_.array() - pixels_.dot(weights);
-  const Pixels weighted = a.cwiseProduct(weights);
-  const float product = weighted.dot(b);
-  const float squares = weighted.dot(a) * b.cwiseProduct(weights).dot(b);
+  const auto product_of = [](const Pixels& a, const Pixels& b) {
+    return a.cwiseProduct(Weights()).cwiseProduct(b).sum();
+  };
+  const Pixels a = pixels.array() - pixels.cwiseProduct(Weights()).sum();
+  const Pixels b = pixels_.array() - pixels_.cwiseProduct(Weights()).sum();
+  const float product = product_of(a, b);
+  const float squares = product_of(a, a) * product_of(b, b);
   return product > 0 && product * product > kMinCorrelation * kMinCorrelation * squares;
 }
 

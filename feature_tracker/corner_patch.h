@@ -30,21 +30,24 @@ class CornerPatch {
  private:
   static constexpr int kRadius = 7;  // [px]
   static constexpr int kSide = 2 * kRadius + 1;
-  static constexpr int kCount = kSide * kSide;
-  static constexpr int kParameters = 8;  // linear, by rows; shift; gain; offset
+  static constexpr int kStride = kSide + 1;  // of rows in memory, for the processor's vectors
+  static constexpr int kParameters = 8;      // linear, by rows; shift; gain; offset
 
-  using Pixels = Eigen::Matrix<float, kCount, 1>;
+  // A column for each row of the patch. The last row holds nothing and has no weight.
+  using Pixels = Eigen::Matrix<float, kStride, kSide>;
   using Parameters = Eigen::Matrix<float, kParameters, 1>;
-  using ByParameter = Eigen::Matrix<float, kParameters, kCount>;
+  using Information = Eigen::Matrix<double, kParameters, kParameters>;
 
   static const Pixels& Weights();
   static std::optional<Pixels> Sample(const cv::Mat& image, const PatchPose& pose);
-  static ByParameter Derivatives(const cv::Mat& image, const Eigen::Vector2d& center,
-                                 const Pixels& pixels);
+  static Pixels SampleInside(const cv::Mat& image, const PatchPose& pose);
+  Parameters Gradient(const Pixels& difference) const;
   bool LooksLike(const Pixels& pixels) const;
 
   Pixels pixels_;
-  ByParameter step_from_difference_;  // (J W J^T)^-1 J W: the step of Gauss-Newton
+  Pixels d_pixels_dx_;  // with their weights
+  Pixels d_pixels_dy_;
+  Information covariance_;  // (J W J^T)^-1
 };
 
 }  // namespace plm_vins

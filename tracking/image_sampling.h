@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstring>
 #include <opencv2/core.hpp>
 
 namespace plm_vins {
@@ -17,6 +19,41 @@ inline float Interpolate(const cv::Mat& image, float x, float y) {
   const float top = static_cast<float>(upper[0]) + dx * static_cast<float>(upper[1] - upper[0]);
   const float bottom = static_cast<float>(lower[0]) + dx * static_cast<float>(lower[1] - lower[0]);
   return top + dy * (bottom - top);
+}
+
+// The same at kCount points in a row, `step` from one to the next, rounded otherwise in the last
+// bits; followed by zeros up to kStride. The work is laid out so that the compiler does it for
+// several points at once, but for the loading of pixels.
+template <int kCount, int kStride>
+void InterpolateRow(const cv::Mat& image, const cv::Point2f& start, const cv::Point2f& step,
+                    float* brightness) {
+  static_assert(kCount <= kStride);
+  const int row_step = static_cast<int>(image.step[0]);
+  float dx[kStride], dy[kStride];
+  int offset[kStride];
+  for (int i = 0; i < kStride; ++i) {
+    const float x = start.x + static_cast<float>(i) * step.x;
+    const float y = start.y + static_cast<float>(i) * step.y;
+    const int column = static_cast<int>(x);
+    const int row = static_cast<int>(y);
+    dx[i] = x - static_cast<float>(column);
+    dy[i] = y - static_cast<float>(row);
+    offset[i] = row * row_step + column;
+  }
+  // Each pixel with its right neighbour.
+  std::array<uint16_t, kStride> upper = {}, lower = {};
+  for (int i = 0; i < kCount; ++i) {
+    const uint8_t* pixel = image.data + offset[i];
+    std::memcpy(&upper[i], pixel, 2);
+    std::memcpy(&lower[i], pixel + row_step, 2);
+  }
+  for (int i = 0; i < kStride; ++i) {
+    const float top = static_cast<float>(upper[i] & 0xFF) +
+                      dx[i] * static_cast<float>((upper[i] >> 8) - (upper[i] & 0xFF));
+    const float bottom = static_cast<float>(lower[i] & 0xFF) +
+                         dx[i] * static_cast<float>((lower[i] >> 8) - (lower[i] & 0xFF));
+    brightness[i] = top + dy[i] * (bottom - top);
+  }
 }
 
 // True where a profile of this radius around the point can be interpolated in any direction.

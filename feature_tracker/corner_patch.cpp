@@ -113,7 +113,7 @@ std::optional<CornerPatch> CornerPatch::Cut(const cv::Mat& image, const Eigen::V
       Eigen::Matrix<float, kStride, 1>::LinSpaced(-kRadius, kRadius + 1));
   const Eigen::DiagonalMatrix<float, kSide> y(
       Eigen::Matrix<float, kSide, 1>::LinSpaced(-kRadius, kRadius));
-  Eigen::Matrix<float, kParameters, kParameters> H;
+  Eigen::Matrix<float, kParameters, kParameters> H;  // J W J^T, column by column of J^T
   H << patch.Gradient(x * dx), patch.Gradient(dx * y), patch.Gradient(x * dy),
       patch.Gradient(dy * y), patch.Gradient(dx), patch.Gradient(dy), patch.Gradient(*pixels),
       patch.Gradient(Pixels::Ones());

@@ -40,7 +40,8 @@ void InterpolateRow(const cv::Mat& image, const cv::Point2f& start, const cv::Po
     dy[i] = y - static_cast<float>(row);
     offset[i] = row * row_step + column;
   }
-  // Each pixel with its right neighbour.
+  // Each pixel with its right neighbour, which is the higher byte: both come in one load.
+  static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
   std::array<uint16_t, kStride> upper = {}, lower = {};
   for (int i = 0; i < kCount; ++i) {
     const uint8_t* pixel = image.data + offset[i];

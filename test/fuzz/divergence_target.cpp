@@ -69,8 +69,8 @@ class Witness {
 
  private:
   static bool SaysSo(const EstimatorOutput& output) {
-    return !output.has_pose || output.restarted || output.on_imu_alone || output.imu_doubted ||
-           output.imu_noise_scale > 1 || output.delay;
+    return !output.has_pose || output.restarted || output.on_imu_alone || output.contradicted ||
+           output.imu_doubted || output.imu_noise_scale > 1 || output.delay;
   }
 
   // Of the position, the world frame being aligned after the last announcement: what was wrong

@@ -185,9 +185,31 @@ TEST(EstimatorRobustness, PointsThatAreAllNewHoldNothing) {
       point.id += 1'000'000 * static_cast<int64_t>(i);
     }
   }
-  const EstimatedFlight flight = testing::Estimate(simulated);
-  EXPECT_FALSE(flight.outputs.front().on_imu_alone);
-  EXPECT_TRUE(flight.outputs.back().on_imu_alone);
+  Estimator estimator(testing::ConfigFor(simulated));
+  for (size_t i = 0; i < simulated.frames.size(); ++i) {
+    const EstimatorOutput output = estimator.Process(simulated.frames[i]);
+    EXPECT_EQ(output.on_imu_alone, output.has_pose && i >= 180) << i;
+    EXPECT_FALSE(output.contradicted);
+  }
+}
+
+// Lines are seen, and known points are in the window; but what is seen contradicts the IMU.
+TEST(EstimatorRobustness, AnAccelerometerThatFailsWhileOnlyLinesAreSeenIsNoticed) {
+  SimulatedFlight simulated = Simulate(Motion::kFast, 1, 11);
+  for (size_t i = 180; i < simulated.frames.size(); ++i) {
+    FrameMeasurement& frame = simulated.frames[i];
+    frame.points.points.clear();
+    for (ImuSample& sample : frame.imu) sample.accel += Eigen::Vector3d(5, 0, 0);
+  }
+  Estimator estimator(testing::ConfigFor(simulated));
+  std::string reason;
+  for (size_t i = 0; i < 200 && reason.empty(); ++i) {
+    const EstimatorOutput output = estimator.Process(simulated.frames[i]);
+    EXPECT_FALSE(i < 180 && (output.on_imu_alone || output.contradicted)) << i;
+    EXPECT_TRUE(i < 185 || !output.has_pose || output.contradicted) << i;
+    if (output.status == EstimatorStatus::kLost) reason = output.reason;
+  }
+  EXPECT_NE(reason.find("camera contradicts"), std::string::npos) << reason;
 }
 
 TEST(EstimatorRobustness, WithoutPointsItNeverStartsAndSaysWhy) {

@@ -2,6 +2,7 @@
 // The estimator when things go wrong, and that the same input always gives the same output.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "test/vins_estimator/estimated_flight.h"
@@ -137,7 +138,21 @@ SimulatedFlight SimulateJitter(uint64_t seed) {
   return testing::ToFlight(data, options.sensors);
 }
 
+// Root mean square [m/s].
+double SpeedError(const EstimatedFlight& flight) {
+  double sum = 0;
+  for (size_t i = 0; i < flight.truth.size(); ++i) {
+    const double error =
+        flight.outputs[i].state.velocity().norm() - flight.truth[i].velocity().norm();
+    sum += error * error;
+  }
+  return std::sqrt(sum / static_cast<double>(flight.truth.size()));
+}
+
+// Without StampJitterMonitor the speed is wrong by 0.064 m/s, with it by 0.028 m/s: noise that
+// counts as larger keeps positions near, but not the speed.
 TEST(EstimatorRobustness, StampsThatJitterCostLittle) {
+  double speed_error = 0;
   for (uint64_t seed = 1; seed <= 2; ++seed) {
     SimulatedFlight simulated = SimulateJitter(seed);
     simulated.sensor.imu_noise.accel_density = 0.03;  // as in euroc.yaml
@@ -145,7 +160,9 @@ TEST(EstimatorRobustness, StampsThatJitterCostLittle) {
     const EstimatedFlight flight = testing::Estimate(simulated);
     EXPECT_TRUE(flight.restarts.empty());
     EXPECT_LT(AbsoluteError(flight), 0.03);
+    speed_error += SpeedError(flight) / 2;
   }
+  EXPECT_LT(speed_error, 0.045);
 }
 
 TEST(EstimatorRobustness, AGoodImuIsNeverDoubted) {

@@ -35,7 +35,7 @@ class ContradictionMonitor {
   // after the optimisation. The reason once the contradiction has lasted too long; nothing before.
   std::optional<std::string> Add(int64_t t_ns, int landmarks, int rejected);
 
-  bool contradicts() const { return contradicts_; }  // at the newest image that says so or not
+  bool contradicts() const { return contradicts_; }  // so far as images tell
 
  private:
   bool contradicts_ = false;

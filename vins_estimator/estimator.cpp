@@ -19,16 +19,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMinViewsToOptimize = 3;
-constexpr int kFewLandmarks = 6;  // fewer do not fix a pose
-
 // What a shock, or a sensor that is heated or fails, may do to the biases.
 constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]
-
-template <typename Landmark>
-bool IsOptimized(const Landmark& landmark) {
-  return landmark.triangulated && landmark.views.size() >= kMinViewsToOptimize;
-}
 
 WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& options) {
   WindowEstimate estimate{LocalMap(options)};
@@ -173,8 +165,8 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
 }
 
 std::optional<std::string> Estimator::FindFailure(const EstimatorOutput& output) {
-  auto contradiction = state_.contradiction_monitor.Add(output.t_ns, output.counts.points_in_window,
-                                                        output.counts.points_rejected);
+  auto contradiction = state_.contradiction_monitor.Add(output.t_ns, output.counts.known_seen,
+                                                        output.counts.known_rejected);
   if (contradiction) return contradiction;
   auto blindness = state_.blindness_monitor.Add(
       output.t_ns, output.counts.points_observed + output.counts.lines_observed,
@@ -256,6 +248,7 @@ void Estimator::RemoveOutliers(EstimatorOutput* output) {
   output->counts.points_rejected =
       map.points.RemoveOutliers(map.window, options_.max_reprojection_error);
   output->counts.lines_rejected = map.lines.RemoveOutliers(map.window, options_.line_limits);
+  output->counts.known_rejected = output->counts.known_seen - map.CountInNewest();
 }
 
 CameraParameters Estimator::CurrentCamera() const {
@@ -287,6 +280,7 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
     builder.AddLine(&landmark);
     ++output->counts.lines_in_window;
   }
+  output->counts.known_seen = map.CountInNewest();
   const CameraParameters camera = CurrentCamera();
   NormalEquations equations(builder.problem());
   if (config_.estimator.solver == SolverType::kCeres) {
@@ -379,9 +373,10 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->imu_noise_scale = state_.imu_monitor.noise_scale();
   output->delay = state_.delay_monitor.delay();
   output->stationary = window.newest().stationary;
-  const int landmarks = output->counts.points_in_window + output->counts.lines_in_window;
+  output->contradicted = state_.contradiction_monitor.contradicts();
+  const int fitting = output->counts.known_seen - output->counts.known_rejected;
   output->on_imu_alone =
-      state_.blindness_monitor.blind() || (!output->stationary && landmarks < kFewLandmarks);
+      state_.blindness_monitor.blind() || (!output->stationary && fitting < kFewLandmarks);
   output->window.reserve(window.frames.size());
   for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
   for (const auto& [id, landmark] : map.points.landmarks()) {

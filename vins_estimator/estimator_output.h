@@ -55,7 +55,8 @@ struct EstimatorOutput {
   double imu_noise_scale = 1;               // of its variance, as the camera shows it (ImuMonitor)
   bool imu_doubted = false;                 // in this image, at once
   std::optional<double> delay;              // error of td that shows, roughly [s] (DelayMonitor)
-  bool on_imu_alone = false;                // next to nothing that is known is seen
+  bool contradicted = false;                // much of what is known is not where it should be
+  bool on_imu_alone = false;                // next to nothing that is known holds the pose
   bool keyframe = false;
   bool stationary = false;                // standing still was recognised
   bool restarted = false;                 // the world frame is a new one from here on

@@ -50,18 +50,20 @@ std::optional<std::string> DetectFailure(const FailureLimits& limits, const Fram
 }
 
 std::optional<std::string> ContradictionMonitor::Add(int64_t t_ns, int landmarks, int rejected) {
-  const bool contradicts = rejected > 0 && rejected >= kMaxRejectedShare * landmarks;
-  const bool by_chance = !since_ns_ && rejected < kMinRejected;
-  if (!contradicts || by_chance) {
-    since_ns_.reset();
-    return std::nullopt;
-  }
-  if (!since_ns_) since_ns_ = t_ns;
-  if (ToSeconds(t_ns - *since_ns_) < kMaxContradiction) return std::nullopt;
+  const int64_t interval_ns = t_ns - newest_ns_;
+  newest_ns_ = t_ns;
+  const bool fits = rejected == 0 || rejected < kMaxRejectedShare * landmarks;
+  const bool by_chance = !contradicts_ && rejected < kMinRejected;
+  if (fits && landmarks >= kFewLandmarks) contradicts_ = false;
+  if (fits || by_chance) return std::nullopt;
+  contradiction_ns_ = contradicts_ ? contradiction_ns_ + interval_ns : 0;
+  contradicts_ = true;
+  const double seconds = ToSeconds(contradiction_ns_);
+  if (seconds < kMaxContradiction) return std::nullopt;
   char text[128];
   std::snprintf(text, sizeof(text),
                 "the camera contradicts the state: %d of %d landmarks rejected, for %.1f s",
-                rejected, landmarks, ToSeconds(t_ns - *since_ns_));
+                rejected, landmarks, seconds);
   return std::string(text);
 }
 

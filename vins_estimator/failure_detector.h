@@ -9,6 +9,8 @@
 
 namespace plm_vins {
 
+constexpr int kFewLandmarks = 6;  // fewer do not fix a pose
+
 // Bounds beyond which an estimate cannot be right for a robot with a working IMU.
 struct FailureLimits {
   double accel_bias = 3.0;     // [m/s^2]
@@ -25,15 +27,20 @@ std::optional<std::string> DetectFailure(const FailureLimits& limits, const Fram
                                          const FrameState& optimized);
 
 // Notices when the camera goes on contradicting the state: image after image, a large share of the
-// landmarks does not fit. A single bad IMU sample can do that, and no other limit need see it.
+// landmarks that it shows does not fit. A single bad IMU sample can do that, and no other limit
+// need see it. An image that shows too few to say so neither goes on with that nor ends it.
 class ContradictionMonitor {
  public:
-  // Takes an image's landmarks in the optimisation and how many were rejected after it. The reason
-  // once the contradiction has lasted too long; nothing before.
+  // Takes how many landmarks an image shows, points and lines, and how many of them did not fit
+  // after the optimisation. The reason once the contradiction has lasted too long; nothing before.
   std::optional<std::string> Add(int64_t t_ns, int landmarks, int rejected);
 
+  bool contradicts() const { return contradicts_; }  // so far as images tell
+
  private:
-  std::optional<int64_t> since_ns_;  // stamp of the first image that contradicted
+  bool contradicts_ = false;
+  int64_t newest_ns_ = 0;         // stamp of the last image
+  int64_t contradiction_ns_ = 0;  // how long
 };
 
 }  // namespace plm_vins

@@ -23,8 +23,8 @@ constexpr double kFlight = 20;                                // [s]
 constexpr double kFaultsBegin = 3;                            // when the estimator has started [s]
 constexpr double kFewestIncidents = 4, kMostIncidents = 100;  // per flight
 constexpr double kMaxError = 1;                               // that may go unsaid [m]
-constexpr double kMaxUnsaidShare = 0.02;                      // of the flights; 2 of 344 were seen
-constexpr int kFewUnsaid = 5;                                 // chance
+constexpr double kMaxUnsaidShare = 0.002;                     // of the flights; 0 of 1072 were seen
+constexpr int kFewUnsaid = 2;                                 // chance
 constexpr int64_t kInTime_ns = 1'000'000'000;
 
 struct Counts {
@@ -69,8 +69,8 @@ class Witness {
 
  private:
   static bool SaysSo(const EstimatorOutput& output) {
-    return !output.has_pose || output.restarted || output.on_imu_alone || output.imu_doubted ||
-           output.imu_noise_scale > 1 || output.delay;
+    return !output.has_pose || output.restarted || output.on_imu_alone || output.contradicted ||
+           output.imu_doubted || output.imu_noise_scale > 1 || output.delay;
   }
 
   // Of the position, the world frame being aligned after the last announcement: what was wrong

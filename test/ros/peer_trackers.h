@@ -24,6 +24,7 @@ struct ImageMessages {
   };
   std::vector<Message> messages;
   bool with_imu = true;         // the samples up to this image
+  bool with_features = true;    // false: nothing is seen
   bool with_velocities = true;  // false: as from the point tracker of PL-VINS
 };
 
@@ -53,15 +54,7 @@ class PeerTrackers {
     for (size_t i = begin; i < end && ros::ok(); ++i) {
       const ImageMessages image = messages_of(i);
       if (image.with_imu) PublishImu(i);
-      for (const auto& message : image.messages) {
-        if (message.kind == ImageMessages::Kind::kPoints) {
-          sensor_msgs::PointCloud points = ToVinsMono(flight_.points[message.image]);
-          if (!image.with_velocities) points.channels.resize(3);
-          points_.publish(points);
-        } else {
-          lines_.publish(ToPlVins(flight_.lines[message.image]));
-        }
-      }
+      for (const auto& message : image.messages) Publish(image, message);
       ros::WallDuration(period).sleep();
       ros::spinOnce();
     }
@@ -93,6 +86,19 @@ class PeerTrackers {
   }
 
  private:
+  void Publish(const ImageMessages& image, const ImageMessages::Message& message) const {
+    PointFrame points = flight_.points[message.image];
+    LineFrame lines = flight_.lines[message.image];
+    if (!image.with_features) {
+      points.points.clear();
+      lines.lines.clear();
+    }
+    if (message.kind == ImageMessages::Kind::kLines) return lines_.publish(ToPlVins(lines));
+    sensor_msgs::PointCloud cloud = ToVinsMono(points);
+    if (!image.with_velocities) cloud.channels.resize(3);
+    points_.publish(cloud);
+  }
+
   static sensor_msgs::PointCloud EmptyCloud(int64_t t_ns, size_t channels) {
     sensor_msgs::PointCloud cloud;
     cloud.header.stamp = ToRosTime(t_ns);

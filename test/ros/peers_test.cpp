@@ -173,6 +173,22 @@ TEST_F(Peers, MayFallSilentForAWhile) {
       << log_->Value("message");
 }
 
+TEST_F(Peers, MayLoseSightOfEverything) {
+  trackers_->PublishRestart();
+  const size_t seeing = trackers_->images() - 10;
+  trackers_->Play(0, seeing, kPeriod, PointsThenLines);
+  WaitUntilDone();
+  EXPECT_EQ(log_->Value("message").find("blind"), std::string::npos) << log_->Value("message");
+  trackers_->Play(seeing, trackers_->images(), kPeriod, [](size_t image) {
+    ImageMessages nothing = PointsThenLines(image);
+    nothing.with_features = false;
+    return nothing;
+  });
+  EXPECT_TRUE(log_->WaitForStatus(kPatience, [](const EstimatorLog& log) {
+    return log.Value("message").find("blind: the IMU alone carries on") != std::string::npos;
+  })) << log_->Value("message");
+}
+
 TEST_F(Peers, OfPlVinsSendNoVelocities) {
   trackers_->PublishRestart();
   trackers_->Play(0, trackers_->images(), kPeriod, [](size_t image) {

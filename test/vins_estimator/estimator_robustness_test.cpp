@@ -2,6 +2,7 @@
 // The estimator when things go wrong, and that the same input always gives the same output.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "test/vins_estimator/estimated_flight.h"
@@ -137,7 +138,21 @@ SimulatedFlight SimulateJitter(uint64_t seed) {
   return testing::ToFlight(data, options.sensors);
 }
 
+// Root mean square [m/s].
+double SpeedError(const EstimatedFlight& flight) {
+  double sum = 0;
+  for (size_t i = 0; i < flight.truth.size(); ++i) {
+    const double error =
+        flight.outputs[i].state.velocity().norm() - flight.truth[i].velocity().norm();
+    sum += error * error;
+  }
+  return std::sqrt(sum / static_cast<double>(flight.truth.size()));
+}
+
+// Without StampJitterMonitor the speed is wrong by 0.066 m/s, with it by 0.03 m/s: noise that
+// counts as larger keeps positions near, but not the speed.
 TEST(EstimatorRobustness, StampsThatJitterCostLittle) {
+  double speed_error = 0;
   for (uint64_t seed = 1; seed <= 2; ++seed) {
     SimulatedFlight simulated = SimulateJitter(seed);
     simulated.sensor.imu_noise.accel_density = 0.03;  // as in euroc.yaml
@@ -145,7 +160,9 @@ TEST(EstimatorRobustness, StampsThatJitterCostLittle) {
     const EstimatedFlight flight = testing::Estimate(simulated);
     EXPECT_TRUE(flight.restarts.empty());
     EXPECT_LT(AbsoluteError(flight), 0.03);
+    speed_error += SpeedError(flight) / 2;
   }
+  EXPECT_LT(speed_error, 0.045);
 }
 
 TEST(EstimatorRobustness, AGoodImuIsNeverDoubted) {
@@ -185,9 +202,31 @@ TEST(EstimatorRobustness, PointsThatAreAllNewHoldNothing) {
       point.id += 1'000'000 * static_cast<int64_t>(i);
     }
   }
-  const EstimatedFlight flight = testing::Estimate(simulated);
-  EXPECT_FALSE(flight.outputs.front().on_imu_alone);
-  EXPECT_TRUE(flight.outputs.back().on_imu_alone);
+  Estimator estimator(testing::ConfigFor(simulated));
+  for (size_t i = 0; i < simulated.frames.size(); ++i) {
+    const EstimatorOutput output = estimator.Process(simulated.frames[i]);
+    EXPECT_EQ(output.on_imu_alone, output.has_pose && i >= 180) << i;
+    EXPECT_FALSE(output.contradicted);
+  }
+}
+
+// Lines are seen, and known points are in the window; but what is seen contradicts the IMU.
+TEST(EstimatorRobustness, AnAccelerometerThatFailsWhileOnlyLinesAreSeenIsNoticed) {
+  SimulatedFlight simulated = Simulate(Motion::kFast, 1, 11);
+  for (size_t i = 180; i < simulated.frames.size(); ++i) {
+    FrameMeasurement& frame = simulated.frames[i];
+    frame.points.points.clear();
+    for (ImuSample& sample : frame.imu) sample.accel += Eigen::Vector3d(5, 0, 0);
+  }
+  Estimator estimator(testing::ConfigFor(simulated));
+  std::string reason;
+  for (size_t i = 0; i < 200 && reason.empty(); ++i) {
+    const EstimatorOutput output = estimator.Process(simulated.frames[i]);
+    EXPECT_FALSE(i < 180 && (output.on_imu_alone || output.contradicted)) << i;
+    EXPECT_TRUE(i < 185 || !output.has_pose || output.contradicted) << i;
+    if (output.status == EstimatorStatus::kLost) reason = output.reason;
+  }
+  EXPECT_NE(reason.find("camera contradicts"), std::string::npos) << reason;
 }
 
 TEST(EstimatorRobustness, WithoutPointsItNeverStartsAndSaysWhy) {

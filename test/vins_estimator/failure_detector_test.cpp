@@ -115,6 +115,22 @@ TEST(ContradictionMonitor, GoesOnWithTheFewThatAreLeft) {
   EXPECT_FALSE(monitor.Add(ToNanoseconds(0.5), 0, 0)) << "nothing is left, nothing is rejected";
 }
 
+TEST(ContradictionMonitor, ImagesThatShowTooLittleNeitherEndNorProlongIt) {
+  for (const int shown : {0, 5}) {
+    ContradictionMonitor monitor;
+    EXPECT_EQ(FirstAlarm(&monitor, 40, 30, 10), -1);
+    for (int i = 10; i < 40; ++i) EXPECT_FALSE(monitor.Add(ToNanoseconds(0.05 * i), shown, 0));
+    EXPECT_TRUE(monitor.contradicts());
+    EXPECT_EQ(monitor.Add(ToNanoseconds(2), 6, 5).value_or(""),
+              "the camera contradicts the state: 5 of 6 landmarks rejected, for 0.5 s");
+  }
+  ContradictionMonitor monitor;
+  EXPECT_EQ(FirstAlarm(&monitor, 40, 30, 10), -1);
+  EXPECT_FALSE(monitor.Add(ToNanoseconds(0.5), 6, 0));
+  EXPECT_FALSE(monitor.contradicts());
+  EXPECT_FALSE(monitor.Add(ToNanoseconds(0.55), 6, 5));
+}
+
 TEST(ContradictionMonitor, StartsOverWithAnImageThatFits) {
   ContradictionMonitor monitor;
   for (int i = 0; i < 200; ++i) {

@@ -34,12 +34,22 @@ class LandmarkMap {
   // Removes the landmarks that `condition` selects.
   void RemoveIf(const std::function<bool(const Landmark&)>& condition);
 
+  // How many landmarks that are optimised the newest image shows.
+  int CountInNewest(const SlidingWindow& window) const;
+
   Landmarks& landmarks() { return landmarks_; }
   const Landmarks& landmarks() const { return landmarks_; }
 
  protected:
   Landmarks landmarks_;
 };
+
+// Takes part in the optimisation: its views can contradict each other.
+template <typename Landmark>
+bool IsOptimized(const Landmark& landmark) {
+  constexpr size_t kMinViews = 3;
+  return landmark.triangulated && landmark.views.size() >= kMinViews;
+}
 
 // The landmark goes into the prior with the frame that hosts it: other frames know it as well.
 template <typename Landmark>
@@ -89,6 +99,15 @@ void LandmarkMap<Landmark>::StartAnew(const SlidingWindow& window, int64_t host_
     if (has_gone) KeepOnlyView(window, landmark.views.size() - 1, &landmark);
     ++it;
   }
+}
+
+template <typename Landmark>
+int LandmarkMap<Landmark>::CountInNewest(const SlidingWindow& window) const {
+  const int64_t newest_ns = window.newest().state.t_ns;
+  const auto shows = [newest_ns](const auto& entry) {
+    return IsOptimized(entry.second) && entry.second.views.back().t_ns == newest_ns;
+  };
+  return static_cast<int>(std::count_if(landmarks_.begin(), landmarks_.end(), shows));
 }
 
 template <typename Landmark>

@@ -54,6 +54,9 @@ struct LocalMap {
   // A line is one that had left: it goes on under that one's id, with what anchors saw of it.
   void ReviveLine(int64_t newer, int64_t older);
 
+  // How many landmarks that are optimised, points and lines, the newest image shows.
+  int CountInNewest() const { return points.CountInNewest(window) + lines.CountInNewest(window); }
+
   // Forgets which tracks belong to lines that are no more.
   void ForgetIdleAliases();
 

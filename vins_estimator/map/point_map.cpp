@@ -77,10 +77,7 @@ PointMap::Fit PointMap::FitOfNewest(const SlidingWindow& window, double max_erro
   Fit fit;
   for (const auto& [id, landmark] : landmarks()) {
     const PointView& newest = landmark.views.back();
-    if (!landmark.triangulated || landmark.views.size() < 3 ||
-        newest.t_ns != window.newest().state.t_ns) {
-      continue;
-    }
+    if (!IsOptimized(landmark) || newest.t_ns != window.newest().state.t_ns) continue;
     const auto error = ReprojectionError(PositionInWorld(landmark, window), newest, window);
     ++fit.seen;
     fit.contradicted += !error || *error > max_error ? 1 : 0;

@@ -22,6 +22,7 @@ void EstimatorDiagnostics::Update(const EstimatorOutput& output, int64_t frames,
   state_ = output.status;
   reason_ = output.reason;
   pose_age_ = age;
+  contradicted_ = output.contradicted;
   on_imu_alone_ = output.on_imu_alone;
   imu_noise_scale_ = output.imu_noise_scale;
   bridged_losses_ += output.bridged ? 1 : 0;
@@ -80,8 +81,9 @@ void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapp
     state += "; late: poses are " + std::to_string(std::lround(1e3 * pose_age_)) + " ms old";
   if (on_imu_alone_) state += "; blind: the IMU alone carries on";
   if (!imu_contradiction_.empty()) state += "; " + imu_contradiction_;
-  const bool fine =
-      tracking && !lines_are_missing_ && !late && !on_imu_alone_ && imu_contradiction_.empty();
+  if (contradicted_) state += "; the camera contradicts the state";
+  const bool fine = tracking && !lines_are_missing_ && !late && !on_imu_alone_ && !contradicted_ &&
+                    imu_contradiction_.empty();
   status->summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN, state);
 }
 

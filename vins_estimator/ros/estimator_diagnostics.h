@@ -67,6 +67,7 @@ class EstimatorDiagnostics {
   StreamMonitor poses_{"odometry"};
   EstimatorStatus state_ = EstimatorStatus::kInitializing;
   std::string reason_;
+  bool contradicted_ = false;
   bool on_imu_alone_ = false;
   double imu_noise_scale_ = 1;
   int64_t bridged_losses_ = 0;

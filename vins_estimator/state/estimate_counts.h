@@ -33,6 +33,8 @@ struct EstimatorCounts {
   int lines_observed = 0;    // in this image
   int lines_in_window = 0;   // landmarks in the optimisation
   int lines_rejected = 0;    // landmarks or observations thrown out in this frame
+  int known_seen = 0;        // landmarks in the optimisation, of both kinds, in this image
+  int known_rejected = 0;    // of them: not where they should be
   LineTriangulationCounts line_triangulation;
   LineMergingCounts line_merging;
   int lines_recognised = 0;  // landmarks that turned out to be a line which had left the window

@@ -61,6 +61,16 @@ class PointMapTest : public ::testing::Test {
   PointMap map_;
 };
 
+TEST_F(PointMapTest, CountsWhatTheNewestFrameShowsOfThoseThatAreOptimised) {
+  EXPECT_EQ(map_.CountInNewest(window_), 0) << "not triangulated";
+  map_.Triangulate(window_, kMinAngle);
+  EXPECT_EQ(map_.CountInNewest(window_), 20);
+  Landmark(3).views.pop_back();
+  EXPECT_EQ(map_.CountInNewest(window_), 19) << "out of sight";
+  Landmark(4).views.erase(Landmark(4).views.begin(), Landmark(4).views.begin() + 2);
+  EXPECT_EQ(map_.CountInNewest(window_), 18) << "seen twice";
+}
+
 TEST_F(PointMapTest, CollectsViewsByTime) {
   PointFrame frame;
   frame.t_ns = 200;

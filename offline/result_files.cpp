@@ -12,6 +12,7 @@
 #include "offline/pipeline_timings.h"
 #include "vins_estimator/output/calibrated_config.h"
 #include "vins_estimator/output/config_json.h"
+#include "vins_estimator/output/covariance_table.h"
 #include "vins_estimator/output/frame_table.h"
 #include "vins_estimator/output/tum_format.h"
 
@@ -101,11 +102,13 @@ std::string MakeFolder(const std::string& folder) {
 ResultFiles::ResultFiles(const std::string& folder)
     : folder_(MakeFolder(folder)),
       trajectory_(Open("trajectory.tum")),
+      covariance_(Open("covariance.csv")),
       timing_(Open("timing.csv")),
       map_(Open("map.ply")) {
   // Of an earlier run:
   fs::remove_all(fs::path(folder_) / kTrackImages);
   fs::remove(fs::path(folder_) / kCalibratedConfigFile);
+  WriteCovarianceHeader(&covariance_);
   WriteFrameHeader(&timing_);
 }
 
@@ -130,6 +133,7 @@ void ResultFiles::Add(const PipelineFrame& frame) {
   AddMapLines(output.departed_lines);
   if (!output.has_pose) return;
   trajectory_ << FormatTumRow(output.t_ns, output.state.T_W_B());
+  WriteCovarianceRow(output.t_ns, output.pose_covariance, &covariance_);
   window_points_ = Staying(output.points, output.departed_points);
   window_lines_ = Staying(output.lines, output.departed_lines);
 }

@@ -16,10 +16,10 @@
 
 namespace plm_vins {
 
-// The folder of results of an offline run: trajectory.tum, timing.csv, summary.json, map.ply,
-// lines.ply, lines.obj, tracks.png, line_tracks.png, tracks/, and calibrated.yaml where the
-// calibration is refined. Rows are written as frames come,
-// which keeps memory small.
+// The folder of results of an offline run: trajectory.tum, covariance.csv, timing.csv,
+// summary.json, map.ply, lines.ply, lines.obj, tracks.png, line_tracks.png, tracks/, and
+// calibrated.yaml where the calibration is refined. Rows are written as frames come, which keeps
+// memory small.
 class ResultFiles {
  public:
   // Makes the folder and opens the files. Throws std::runtime_error where that is not possible.
@@ -51,6 +51,7 @@ class ResultFiles {
 
   std::string folder_;
   std::ofstream trajectory_;
+  std::ofstream covariance_;
   std::ofstream timing_;
   PlyPointWriter map_;
   std::vector<Segment> lines_;

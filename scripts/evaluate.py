@@ -6,7 +6,7 @@ import argparse
 import json
 import sys
 
-from evaluation import evo_backend, metrics
+from evaluation import consistency, evo_backend, metrics
 from evaluation.evo_zip import write_evo_zip
 from evaluation.trajectory import TrajectoryError, read_trajectory
 
@@ -55,6 +55,13 @@ def error_statistics(estimate, truth):
     return {name: metrics.statistics(values) for name, values in zip(LABELS, errors)}
 
 
+def add_consistency(result, estimate, truth, path, seconds):
+    """Adds `position_nees`, so long after the first pose, of paired trajectories."""
+    covariances = consistency.read_covariances(path, estimate.stamps)
+    result["position_nees"] = consistency.position_nees(estimate, truth, covariances, seconds)
+    result["position_nees_s"] = seconds
+
+
 def _replace_by_evo(result, estimate, truth):
     if not evo_backend.is_available():
         return
@@ -82,6 +89,9 @@ def format_report(result):
             lines[-1] += f"   coverage {100 * result['coverage']:.1f} %"
     lines.append(f"yaw error at the end {result['yaw_drift_deg']:.3f} deg,"
                  " with none at the beginning")
+    if "position_nees" in result:
+        lines.append(f"squared error of the position after {result['position_nees_s']:g} s, in units"
+                     f" of its stated covariance: {result['position_nees']:.2f} (exact: 3 on average)")
     return "\n".join(lines)
 
 
@@ -107,6 +117,10 @@ def parse_arguments(arguments):
                         help="added to the stamps of the estimate [s] (default: 0)")
     parser.add_argument("--max-gap", type=float, default=0.5, metavar="S",
                         help="longer gaps between poses count as not covered [s] (default: 0.5)")
+    parser.add_argument("--covariance", metavar="FILE",
+                        help="covariance.csv of the run: compares errors with it")
+    parser.add_argument("--nees-after", type=float, default=10.0, metavar="S",
+                        help="for --covariance, at this time after the first pose [s] (default: 10)")
     return parser.parse_args(arguments)
 
 
@@ -117,6 +131,9 @@ def main(arguments=None):
         truth = read_trajectory(options.ground_truth)
         paired_estimate, paired_truth, result = evaluate(estimate, truth, options.align,
                                                          options.max_diff, options.max_gap)
+        if options.covariance:
+            add_consistency(result, *metrics.associate(estimate, truth, options.max_diff),
+                            options.covariance, options.nees_after)
         print(format_report(result))
         if options.json:
             with open(options.json, "w", encoding="utf-8") as file:

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether the errors of a trajectory are as large as its stated covariance says."""
+
+import numpy as np
+
+from . import metrics
+from .trajectory import TrajectoryError
+
+_COLUMNS = 22  # of covariance.csv: a stamp and the upper triangle of 6 x 6
+
+
+def read_covariances(path, stamps):
+    """Covariances (n, 6, 6) of the poses at `stamps` [s]: position in the world, then rotation in
+    the body, from the covariance.csv of `run_offline`."""
+    try:
+        table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+    except (OSError, ValueError) as error:
+        raise TrajectoryError(f"{path}: {error}") from None
+    if table.shape[1] != _COLUMNS or len(table) < 2:
+        raise TrajectoryError(f"{path}: not the covariance.csv of run_offline")
+    rows = metrics.nearest_indices(table[:, 0] * 1e-9, stamps)
+    if np.any(np.abs(table[rows, 0] * 1e-9 - stamps) > 1e-4):
+        raise TrajectoryError(f"{path}: has no covariance for some poses, is of another trajectory")
+    row, column = np.triu_indices(6)
+    covariances = np.empty((len(rows), 6, 6))
+    covariances[:, row, column] = covariances[:, column, row] = table[rows, 1:]
+    return covariances
+
+
+def position_nees(estimate, truth, covariances, seconds, align="yaw"):
+    """Squared error of the position `seconds` after the first pose, in units of its covariance: 3
+    on average where that is true [BarShalom2001].
+
+    The trajectories are paired. They agree at the first pose, as nothing tells where that is, and
+    in direction as `align` does it (metrics.alignment), up to the pose in question: ground truth
+    may state headings that its own path does not have. So the figure is a little too small, as a
+    part of the error is aligned away.
+    """
+    last = metrics.nearest_indices(estimate.stamps, estimate.stamps[:1] + seconds)[0]
+    if abs(estimate.stamps[last] - estimate.stamps[0] - seconds) > 0.1:
+        raise TrajectoryError(f"no pose {seconds:g} s after the first, the last one is"
+                              f" {estimate.duration:.2f} s after it")
+    stretch = np.arange(last + 1)
+    rotation, _ = metrics.alignment(truth.select(stretch), estimate.select(stretch), align)
+    error = (estimate.positions[last] - estimate.positions[0]
+             - rotation @ (truth.positions[last] - truth.positions[0]))
+    return float(error @ np.linalg.solve(covariances[last][:3, :3], error))

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/output/covariance_table.h"
+
+#include <cstdio>
+
+namespace plm_vins {
+namespace {
+
+constexpr const char* kNames[] = {"px", "py", "pz", "rx", "ry", "rz"};
+
+}  // namespace
+
+void WriteCovarianceHeader(std::ostream* stream) {
+  *stream << "stamp_ns";
+  for (int row = 0; row < 6; ++row) {
+    for (int col = row; col < 6; ++col) *stream << "," << kNames[row] << "_" << kNames[col];
+  }
+  *stream << "\n";
+}
+
+void WriteCovarianceRow(int64_t t_ns, const Matrix6d& covariance, std::ostream* stream) {
+  *stream << t_ns;
+  for (int row = 0; row < 6; ++row) {
+    for (int col = row; col < 6; ++col) {
+      char text[32];
+      std::snprintf(text, sizeof(text), ",%.8e", covariance(row, col));
+      *stream << text;
+    }
+  }
+  *stream << "\n";
+}
+
+}  // namespace plm_vins

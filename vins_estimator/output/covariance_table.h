@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+
+#include "vins_estimator/estimator_output.h"
+
+namespace plm_vins {
+
+// covariance.csv: a line of names, then one row per pose with its stamp [ns] and the upper triangle
+// of its covariance, row by row: position p_W [m], then rotation in B [rad], R_W_B Exp(theta).
+void WriteCovarianceHeader(std::ostream* stream);
+void WriteCovarianceRow(int64_t t_ns, const Matrix6d& covariance, std::ostream* stream);
+
+}  // namespace plm_vins

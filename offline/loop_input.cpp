@@ -12,6 +12,7 @@ OdometryFrame ToOdometryFrame(const PipelineFrame& frame, bool restarted) {
   result.restarted = restarted;
   result.T_O_B = output.state.T_W_B();
   result.T_B_C = output.calibration.T_B_C;
+  result.camera = output.calibration.camera;
   result.covariance = output.pose_covariance;
   result.R_O_M = output.R_W_M;
   result.corners = PlaceCorners(frame.points, output.points);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/keyframe_maker.h"
 
+#include <memory>
 #include <vector>
 
 #include "pose_graph/description/corner_description.h"
@@ -8,6 +9,25 @@
 
 namespace plm_vins {
 namespace {
+
+// Moves what was seen at `xy` by one camera to where another one has the ray of the same pixel.
+void TakeAnew(const CameraModel& camera, const CameraModel& refined, Eigen::Vector2d* xy) {
+  const auto uv_px = camera.Project(xy->homogeneous());
+  const auto moved = uv_px ? refined.Unproject(*uv_px) : std::nullopt;
+  if (moved) *xy = *moved;
+}
+
+// The frame with all rays as the refined camera has them.
+OdometryFrame Refined(const CameraModel& camera, const CameraModel& refined, OdometryFrame frame) {
+  for (TrackedCorner& corner : frame.corners) {
+    TakeAnew(camera, refined, &corner.observation.xy);
+  }
+  for (TrackedSegment& segment : frame.segments) {
+    TakeAnew(camera, refined, &segment.observation.start);
+    TakeAnew(camera, refined, &segment.observation.end);
+  }
+  return frame;
+}
 
 std::vector<DescribedCorner> FollowedCorners(const OdometryFrame& frame) {
   std::vector<DescribedCorner> corners;
@@ -61,6 +81,10 @@ void Describe(const CameraModel& camera, const Eigen::Quaterniond& R_O_C, const 
 
 Keyframe MakeKeyframe(const CornerSelectionOptions& options, const CameraModel& camera,
                       const OdometryFrame& frame) {
+  if (frame.camera && frame.camera->intrinsics() != camera.parameters().intrinsics()) {
+    const std::unique_ptr<const CameraModel> refined = CameraModel::Create(*frame.camera);
+    return MakeKeyframe(options, *refined, Refined(camera, *refined, frame));
+  }
   Keyframe keyframe;
   keyframe.t_ns = frame.t_ns;
   keyframe.T_O_B = frame.T_O_B;

@@ -11,7 +11,8 @@
 namespace plm_vins {
 
 // The keyframe of an image: the corners that odometry follows, filled up with others, all with
-// descriptors. `world` and `path` are left to the caller.
+// descriptors. `world` and `path` are left to the caller. `camera` is the one that the rays of the
+// frame were computed with.
 Keyframe MakeKeyframe(const CornerSelectionOptions& options, const CameraModel& camera,
                       const OdometryFrame& frame);
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/camera_model.h"
 #include "common/placed_features.h"
 #include "common/rigid3.h"
 
@@ -20,6 +21,7 @@ struct OdometryFrame {
   bool restarted = false;  // O is a new one from here on
   Rigid3d T_O_B;
   Rigid3d T_B_C;
+  std::optional<CameraParameters> camera;  // as refined by now: all rays are taken anew by it
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  // (p_O, theta_B)
   std::optional<Eigen::Quaterniond> R_O_M;  // the Manhattan frame, where one is locked
   std::vector<TrackedCorner> corners;

@@ -90,8 +90,8 @@ def format_report(result):
     lines.append(f"yaw error at the end {result['yaw_drift_deg']:.3f} deg,"
                  " with none at the beginning")
     if "position_nees" in result:
-        lines.append(f"squared error of the position after {result['position_nees_s']:g} s, in units"
-                     f" of its stated covariance: {result['position_nees']:.2f} (exact: 3 on average)")
+        lines.append(f"squared error of the position after {result['position_nees_s']:g} s in units"
+                     f" of its covariance {result['position_nees']:.2f}, 3 on average if that is true")
     return "\n".join(lines)
 
 
@@ -120,7 +120,7 @@ def parse_arguments(arguments):
     parser.add_argument("--covariance", metavar="FILE",
                         help="covariance.csv of the run: compares errors with it")
     parser.add_argument("--nees-after", type=float, default=10.0, metavar="S",
-                        help="for --covariance, at this time after the first pose [s] (default: 10)")
+                        help="for --covariance, so long after the first pose [s] (default: 10)")
     return parser.parse_args(arguments)
 
 

@@ -95,5 +95,32 @@ TEST(MakeKeyframe, DescribesFollowedCornersAndFillsUp) {
   EXPECT_FALSE(keyframe.corners[1].p_O);
 }
 
+TEST(MakeKeyframe, TakesAllRaysByTheCameraAsRefined) {
+  const auto camera = testing::SimpleCamera();
+  OdometryFrame frame;
+  frame.T_B_C = testing::LookingAhead();
+  frame.gray = Noise();
+  TrackedCorner& corner = frame.corners.emplace_back();
+  corner.observation.uv_px = {300, 200};
+  corner.observation.xy = *camera->Unproject(corner.observation.uv_px);
+  const Eigen::Vector2d start_px(100, 50), end_px(400, 420);
+  TrackedSegment& segment = frame.segments.emplace_back();
+  segment.observation.start = *camera->Unproject(start_px);
+  segment.observation.end = *camera->Unproject(end_px);
+  frame.camera = camera->parameters();
+  frame.camera->fx *= 1.01;
+  frame.camera->cy += 3;
+  const auto refined = CameraModel::Create(*frame.camera);
+
+  const Keyframe keyframe = MakeKeyframe(CornerSelectionOptions(), *camera, frame);
+  ASSERT_GT(keyframe.corners.size(), 100u);
+  for (const DescribedCorner& seen : keyframe.corners) {
+    const Eigen::Vector2d ray = *refined->Unproject(seen.uv_px.cast<double>());
+    EXPECT_LT((seen.xy.cast<double>() - ray).norm(), 1e-6);
+  }
+  EXPECT_LT((keyframe.segments[0].observation.start - *refined->Unproject(start_px)).norm(), 1e-9);
+  EXPECT_LT((keyframe.segments[0].observation.end - *refined->Unproject(end_px)).norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace plm_vins

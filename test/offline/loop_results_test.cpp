@@ -30,6 +30,7 @@ class LoopResultsTest : public ::testing::Test {
   PipelineFrame FrameAt(double x) {
     t_ns_ += ToNanoseconds(0.5);
     PipelineFrame frame;
+    frame.output.calibration.camera = config_.sensor.camera;
     frame.output.t_ns = t_ns_;
     frame.output.has_pose = true;
     frame.output.state.SetPose({Eigen::Quaterniond::Identity(), {x, 0, 0}});

@@ -28,7 +28,7 @@ WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& op
   window.SetExtrinsic(sensor.T_B_C);
   window.td = sensor.td;
   window.readout = sensor.ReadoutTime();
-  window.intrinsics = sensor.camera.intrinsics();
+  window.intrinsics = window.ray_intrinsics = sensor.camera.intrinsics();
   window.gravity_W = Eigen::Vector3d(0, 0, -sensor.gravity_norm);
   return estimate;
 }
@@ -76,7 +76,8 @@ FrameMeasurement Estimator::Correct(FrameMeasurement measurement) {
                                                   window.readout);
   }
   if (options_.problem.estimate_intrinsics) {
-    Recalibration(config_.sensor.camera, CurrentCamera()).Move(&measurement);
+    const CameraParameters& camera = config_.sensor.camera;
+    Recalibration(camera, camera.With(window.ray_intrinsics)).Move(&measurement);
   }
   return measurement;
 }
@@ -251,8 +252,14 @@ void Estimator::RemoveOutliers(EstimatorOutput* output) {
   output->counts.known_rejected = output->counts.known_seen - map.CountInNewest();
 }
 
-CameraParameters Estimator::CurrentCamera() const {
-  return config_.sensor.camera.With(state_.estimate.map.window.intrinsics);
+void Estimator::MoveRays() {
+  SlidingWindow& window = state_.estimate.map.window;
+  const CameraParameters& camera = config_.sensor.camera;
+  const Recalibration recalibration(camera.With(window.ray_intrinsics),
+                                    camera.With(window.intrinsics));
+  if (recalibration.LargestMove() < options_.max_ray_error) return;
+  recalibration.Move(&state_.estimate.map);
+  window.ray_intrinsics = window.intrinsics;
 }
 
 ProblemOptions Estimator::CurrentProblem(JacobiansAt jacobians_at) const {
@@ -281,7 +288,6 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
     ++output->counts.lines_in_window;
   }
   output->counts.known_seen = map.CountInNewest();
-  const CameraParameters camera = CurrentCamera();
   NormalEquations equations(builder.problem());
   if (config_.estimator.solver == SolverType::kCeres) {
     SolveByCeres(options, builder.problem());
@@ -299,7 +305,7 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
     output->velocity_covariance = covariance.block<3, 3>(6, 6);
     output->bias_covariance = covariance.bottomRightCorner<6, 6>();
   }
-  if (options_.problem.estimate_intrinsics) Recalibration(camera, CurrentCamera()).Move(&map);
+  if (options_.problem.estimate_intrinsics) MoveRays();
   output->timings.optimization = stopwatch.Milliseconds();
 }
 
@@ -368,7 +374,8 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->status = EstimatorStatus::kTracking;
   output->has_pose = true;
   output->state = window.newest().state;
-  output->calibration = {CurrentCamera(), window.T_B_C(), window.td, window.readout};
+  output->calibration = {config_.sensor.camera.With(window.intrinsics), window.T_B_C(), window.td,
+                         window.readout};
   output->R_W_M = state_.manhattan.R_W_M();
   output->imu_noise_scale = state_.imu_monitor.noise_scale();
   output->delay = state_.delay_monitor.delay();

@@ -92,8 +92,8 @@ class Estimator {
   void SlideOldest(EstimatorOutput* output);
   void Describe(EstimatorOutput* output) const;
 
-  // The camera with its intrinsics as they are now.
-  CameraParameters CurrentCamera() const;
+  // Brings all rays to the intrinsics as they are now, once they have moved far enough to matter.
+  void MoveRays();
 
   // The problem's options with Manhattan frame and noise as they are now.
   ProblemOptions CurrentProblem(JacobiansAt jacobians_at) const;

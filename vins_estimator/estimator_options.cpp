@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kMinTriangulationAngle_px = 2.0;  // in pixels of motion: well above corner noise
 constexpr double kMaxReprojectionError_px = 3.0;
+constexpr double kMaxRayError_px = 0.02;  // a tenth of the noise of the best corners
 constexpr SolverOptions kFirstSolution = {20, 1e-3};
 
 }  // namespace
@@ -20,6 +21,7 @@ EstimatorOptions::EstimatorOptions(const Config& config, double focal_length)
       keyframes(config.estimator, focal_length),
       min_triangulation_angle(kMinTriangulationAngle_px / focal_length),
       max_reprojection_error(kMaxReprojectionError_px / focal_length),
+      max_ray_error(kMaxRayError_px / focal_length),
       line_triangulation(config.estimator.line_noise / focal_length),
       line_limits(line_triangulation.noise, config.estimator.line_outlier_distance),
       same_line(config.estimator, focal_length),

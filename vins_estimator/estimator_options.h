@@ -23,6 +23,7 @@ struct EstimatorOptions {
   KeyframePolicyOptions keyframes;
   double min_triangulation_angle;  // between the rays of a point [rad]
   double max_reprojection_error;   // of a point, mean over its views, normalised
+  double max_ray_error;            // of rays by intrinsics that were refined since, normalised
   LineTriangulationOptions line_triangulation;
   LineLimits line_limits;
   SameLineLimits same_line;

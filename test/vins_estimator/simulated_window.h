@@ -39,7 +39,7 @@ inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, siz
   SimulatedWindow result(LocalMapOptions(kLineNoise, /*remember_lines=*/true));
   SlidingWindow& window = result.window;
   window.SetExtrinsic(flight.sensor.T_B_C);
-  window.intrinsics = flight.sensor.camera.intrinsics();
+  window.intrinsics = window.ray_intrinsics = flight.sensor.camera.intrinsics();
   std::vector<ImuSample> imu;
   for (size_t i = 0; i <= (frame_count - 1) * stride; ++i) {
     JoinImu(flight.frames[i].imu, &imu);

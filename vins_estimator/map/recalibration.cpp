@@ -1,7 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/map/recalibration.h"
 
+#include <algorithm>
+
 namespace plm_vins {
+
+double Recalibration::LargestMove() const {
+  constexpr int kSteps = 4;
+  const CameraParameters& camera = from_->parameters();
+  double largest = 0;
+  for (int row = 0; row <= kSteps; ++row) {
+    for (int col = 0; col <= kSteps; ++col) {
+      const Eigen::Vector2d pixel(col * camera.width / kSteps, row * camera.height / kSteps);
+      const auto from = from_->Unproject(pixel);
+      const auto to = to_->Unproject(pixel);
+      if (from && to) largest = std::max(largest, (*to - *from).norm());
+    }
+  }
+  return largest;
+}
 
 void Recalibration::Move(Eigen::Vector2d* xy) const {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();

@@ -16,6 +16,9 @@ class Recalibration {
   Recalibration(const CameraParameters& from, const CameraParameters& to)
       : from_(CameraModel::Create(from)), to_(CameraModel::Create(to)) {}
 
+  // How far it moves rays at most: of a grid over the image, normalised.
+  double LargestMove() const;
+
   // A ray (x, y, 1) by its normalised image point. One that either calibration does not see, at the
   // rim of what a distortion can describe, stays where it is.
   void Move(Eigen::Vector2d* xy) const;

@@ -38,7 +38,8 @@ struct SlidingWindow {
   std::array<double, 7> extrinsic = {0, 0, 0, 0, 0, 0, 1};  // T_B_C, laid out like FrameState::pose
   double td = 0;                                            // t_imu = t_image + td [s]
   double readout = 0;  // time of a rolling shutter, from the first row to the last [s]
-  Intrinsics intrinsics = Intrinsics::Zero();  // of the camera, which all rays were computed with
+  Intrinsics intrinsics = Intrinsics::Zero();      // of the camera
+  Intrinsics ray_intrinsics = Intrinsics::Zero();  // that all rays were computed with: near those
   Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  // [m/s^2]
 
   WindowFrame& newest() { return frames.back(); }

@@ -45,7 +45,7 @@ ProblemBuilder::ProblemBuilder(const ProblemOptions& options, SlidingWindow* win
       window_(window),
       prior_(prior),
       camera_(options.estimate_intrinsics
-                  ? CameraModel::Create(options.camera.With(window->intrinsics))
+                  ? CameraModel::Create(options.camera.With(window->ray_intrinsics))
                   : nullptr),
       point_loss_(options.point_loss_scale),
       line_loss_(options.line_loss_scale),

@@ -32,6 +32,21 @@ class RecalibrationTest : public ::testing::Test {
   const Recalibration recalibration_{simulator::DefaultSensors().camera, Other()};
 };
 
+TEST_F(RecalibrationTest, KnowsHowFarItMoves) {
+  CameraParameters camera = simulator::DefaultSensors().camera;
+  EXPECT_EQ(Recalibration(camera, camera).LargestMove(), 0);
+
+  camera.distortion.setZero();
+  CameraParameters moved = camera;
+  moved.cx += 2;
+  EXPECT_NEAR(Recalibration(camera, moved).LargestMove(), 2 / camera.fx, 1e-12);
+
+  Vector2d xy = *from_->Unproject(Vector2d(0, 0));
+  const Vector2d before = xy;
+  recalibration_.Move(&xy);
+  EXPECT_GE(recalibration_.LargestMove(), (xy - before).norm());
+}
+
 TEST_F(RecalibrationTest, SeesTheSamePixels) {
   Vector2d xy(0.4, -0.3);
   recalibration_.Move(&xy);

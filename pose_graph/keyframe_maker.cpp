@@ -4,27 +4,21 @@
 #include <memory>
 #include <vector>
 
+#include "common/ray_transfer.h"
 #include "pose_graph/description/corner_description.h"
 #include "pose_graph/odometry_noise.h"
 
 namespace plm_vins {
 namespace {
 
-// Moves what was seen at `xy` by one camera to where another one has the ray of the same pixel.
-void TakeAnew(const CameraModel& camera, const CameraModel& refined, Eigen::Vector2d* xy) {
-  const auto uv_px = camera.Project(xy->homogeneous());
-  const auto moved = uv_px ? refined.Unproject(*uv_px) : std::nullopt;
-  if (moved) *xy = *moved;
-}
-
 // The frame with all rays as the refined camera has them.
 OdometryFrame Refined(const CameraModel& camera, const CameraModel& refined, OdometryFrame frame) {
   for (TrackedCorner& corner : frame.corners) {
-    TakeAnew(camera, refined, &corner.observation.xy);
+    TransferRay(camera, refined, &corner.observation.xy);
   }
   for (TrackedSegment& segment : frame.segments) {
-    TakeAnew(camera, refined, &segment.observation.start);
-    TakeAnew(camera, refined, &segment.observation.end);
+    TransferRay(camera, refined, &segment.observation.start);
+    TransferRay(camera, refined, &segment.observation.end);
   }
   return frame;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/ray_transfer.h"
+
 namespace plm_vins {
 
 double Recalibration::LargestMove() const {
@@ -20,20 +22,10 @@ double Recalibration::LargestMove() const {
   return largest;
 }
 
-void Recalibration::Move(Eigen::Vector2d* xy) const {
-  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
-  Move(xy, &velocity);
-}
+void Recalibration::Move(Eigen::Vector2d* xy) const { TransferRay(*from_, *to_, xy); }
 
 void Recalibration::Move(Eigen::Vector2d* xy, Eigen::Vector2d* velocity) const {
-  Eigen::Matrix<double, 2, 3> d_pixel_d_ray;
-  const auto pixel = from_->Project(xy->homogeneous(), &d_pixel_d_ray);
-  if (!pixel) return;
-  Eigen::Matrix2d d_xy_d_pixel;
-  const auto moved = to_->Unproject(*pixel, &d_xy_d_pixel);
-  if (!moved) return;
-  *xy = *moved;
-  *velocity = d_xy_d_pixel * (d_pixel_d_ray.leftCols<2>() * *velocity);
+  TransferRay(*from_, *to_, xy, velocity);
 }
 
 void Recalibration::Move(FrameMeasurement* measurement) const {

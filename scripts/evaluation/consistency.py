@@ -27,21 +27,21 @@ def read_covariances(path, stamps):
     return covariances
 
 
-def position_nees(estimate, truth, covariances, seconds, align="yaw"):
+def position_nees(estimate, truth, covariances, seconds):
     """Squared error of the position `seconds` after the first pose, in units of its covariance: 3
     on average where that is true [BarShalom2001].
 
     The trajectories are paired. They agree at the first pose, as nothing tells where that is, and
-    in direction as `align` does it (metrics.alignment), up to the pose in question: ground truth
-    may state headings that its own path does not have. So the figure is a little too small, as a
-    part of the error is aligned away.
+    in heading as their positions up to the pose in question do: ground truth may state headings
+    that its own path does not have. So the figure is a little too small, as a part of the error is
+    aligned away.
     """
     last = metrics.nearest_indices(estimate.stamps, estimate.stamps[:1] + seconds)[0]
     if abs(estimate.stamps[last] - estimate.stamps[0] - seconds) > 0.1:
         raise TrajectoryError(f"no pose {seconds:g} s after the first, the last one is"
                               f" {estimate.duration:.2f} s after it")
     stretch = np.arange(last + 1)
-    rotation, _ = metrics.alignment(truth.select(stretch), estimate.select(stretch), align)
+    rotation, _ = metrics.alignment(truth.select(stretch), estimate.select(stretch), "yaw")
     error = (estimate.positions[last] - estimate.positions[0]
              - rotation @ (truth.positions[last] - truth.positions[0]))
     return float(error @ np.linalg.solve(covariances[last][:3, :3], error))

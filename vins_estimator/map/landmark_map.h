@@ -51,6 +51,12 @@ bool IsOptimized(const Landmark& landmark) {
   return landmark.triangulated && landmark.views.size() >= kMinViews;
 }
 
+// ... and the newest image shows it.
+template <typename Landmark>
+bool IsOptimizedInNewest(const Landmark& landmark, const SlidingWindow& window) {
+  return IsOptimized(landmark) && landmark.views.back().t_ns == window.newest().state.t_ns;
+}
+
 // The landmark goes into the prior with the frame that hosts it: other frames know it as well.
 template <typename Landmark>
 bool LeavesWith(int64_t host_ns, const Landmark& landmark) {
@@ -103,9 +109,8 @@ void LandmarkMap<Landmark>::StartAnew(const SlidingWindow& window, int64_t host_
 
 template <typename Landmark>
 int LandmarkMap<Landmark>::CountInNewest(const SlidingWindow& window) const {
-  const int64_t newest_ns = window.newest().state.t_ns;
-  const auto shows = [newest_ns](const auto& entry) {
-    return IsOptimized(entry.second) && entry.second.views.back().t_ns == newest_ns;
+  const auto shows = [&window](const auto& entry) {
+    return IsOptimizedInNewest(entry.second, window);
   };
   return static_cast<int>(std::count_if(landmarks_.begin(), landmarks_.end(), shows));
 }

@@ -76,8 +76,8 @@ void PointMap::Triangulate(const SlidingWindow& window, double min_angle) {
 PointMap::Fit PointMap::FitOfNewest(const SlidingWindow& window, double max_error) const {
   Fit fit;
   for (const auto& [id, landmark] : landmarks()) {
+    if (!IsOptimizedInNewest(landmark, window)) continue;
     const PointView& newest = landmark.views.back();
-    if (!IsOptimized(landmark) || newest.t_ns != window.newest().state.t_ns) continue;
     const auto error = ReprojectionError(PositionInWorld(landmark, window), newest, window);
     ++fit.seen;
     fit.contradicted += !error || *error > max_error ? 1 : 0;

@@ -10,6 +10,7 @@
 #include "vins_estimator/frame_placement.h"
 #include "vins_estimator/manhattan/line_directions.h"
 #include "vins_estimator/map/recalibration.h"
+#include "vins_estimator/map/wandering_lines.h"
 #include "vins_estimator/measurement_check.h"
 #include "vins_estimator/merging/line_merging.h"
 #include "vins_estimator/optimization/ceres_solver.h"
@@ -248,6 +249,7 @@ void Estimator::RemoveOutliers(EstimatorOutput* output) {
   LocalMap& map = state_.estimate.map;
   output->counts.points_rejected =
       map.points.RemoveOutliers(map.window, options_.max_reprojection_error);
+  output->counts.lines_wandering = LeaveOutWandering(map.window, state_.noise.line(), &map.lines);
   output->counts.lines_rejected = map.lines.RemoveOutliers(map.window, options_.line_limits);
   output->counts.known_rejected = output->counts.known_seen - map.CountInNewest();
 }

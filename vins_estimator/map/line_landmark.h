@@ -26,6 +26,7 @@ struct LineLandmark {
   std::vector<LineView> anchor_views;
   OrthonormalLine coordinates = {0, 0, 0, 1, 0};
   bool triangulated = false;
+  bool wanders = false;             // its views are not of one line in space
   LineAxis axis = LineAxis::kFree;  // as known from the views so far
 
   const LineView& host() const { return views.front(); }

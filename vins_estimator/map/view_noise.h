@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "vins_estimator/map/local_map.h"
+#include "vins_estimator/map/view_spread.h"
 
 namespace plm_vins {
-
-// How far the views of one landmark are from it, once it is estimated: without the share that its
-// own parameters took up.
-struct ViewSpread {
-  double variance = 0;    // of one coordinate of the residuals
-  double difference = 0;  // half the variance of the step from one view to the next
-};
-
-// `residuals` by time, at least two, of a landmark with so many parameters.
-// Single views far off count as three times the median one.
-ViewSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters);
 
 // The standard deviation with which independent views would contain as much information as these.
 // Errors of a track are not independent: a template drifts, an outline wanders with the viewpoint.

@@ -41,6 +41,7 @@ enum FrameCount : size_t {
   kMergeInconsistent,    // the views do not fit one line
   kLinesInWindow,        // landmarks in the optimisation
   kLinesRejected,        // landmarks or observations thrown out after it
+  kLinesWandering,       // landmarks found to be an outline, a shadow or a reflection, left out
   kFrameCounts
 };
 
@@ -53,7 +54,7 @@ constexpr std::array<const char*, kFrameCounts> kCountNames = {
     "lines_inconsistent",     "lines_too_long",        "lines_merged",       "lines_recognised",
     "merge_candidates",       "merge_other_direction", "merge_distant",      "merge_apart",
     "merge_distant_in_image", "merge_side_by_side",    "merge_inconsistent", "lines_in_window",
-    "lines_rejected"};
+    "lines_rejected",         "lines_wandering"};
 
 using FrameCounts = std::array<int, kFrameCounts>;
 

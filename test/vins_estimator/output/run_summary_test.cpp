@@ -33,6 +33,7 @@ TEST(RunSummary, AddsUpARun) {
   standing.stationary = true;
   standing.counts.line_merging.merged = 2;
   standing.counts.lines_recognised = 3;
+  standing.counts.lines_wandering = 4;
   standing.R_W_M = Eigen::Quaterniond::Identity();
   summary.Add(standing, {}, {});
 
@@ -53,6 +54,7 @@ TEST(RunSummary, AddsUpARun) {
   EXPECT_EQ(json["lines"], 7);
   EXPECT_EQ(json["merged_lines"], 2);
   EXPECT_EQ(json["recognised_lines"], 3);
+  EXPECT_EQ(json["wandering_lines"], 4);
   EXPECT_NEAR(json["manhattan_share"].get<double>(), 1.0 / 3, 1e-12);
   EXPECT_EQ(json["resets"], 0);
   EXPECT_NEAR(json["init_time_s"].get<double>(), 0.1, 1e-9);

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/map/view_spread.h"
+
+#include <algorithm>
+
+#include "vins_estimator/geometry/line_segment_view.h"
+#include "vins_estimator/geometry/plucker.h"
+#include "vins_estimator/map/line_map.h"
+#include "vins_estimator/map/point_map.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kGreatestLength = 3.0;  // of one view's residual, to the median view's
+
+// Makes a view that is another thing altogether count as one that is just far off.
+void ShortenOutliers(std::vector<Eigen::Vector2d>* residuals) {
+  std::vector<double> lengths;
+  for (const Eigen::Vector2d& residual : *residuals) lengths.push_back(residual.norm());
+  const auto middle = lengths.begin() + lengths.size() / 2;
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  const double limit = kGreatestLength * *middle;
+  for (Eigen::Vector2d& residual : *residuals) {
+    const double length = residual.norm();
+    if (length > limit) residual *= limit / length;
+  }
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> ResidualsOf(const PointLandmark& point, const SlidingWindow& window) {
+  const Eigen::Vector3d p_W = PositionInWorld(point, window);
+  std::vector<Eigen::Vector2d> residuals;
+  for (const PointView& view : point.views) {
+    const Eigen::Vector3d p_C = window.T_W_C(view.t_ns).Inverse() * p_W;
+    residuals.push_back(p_C.hnormalized() - window.AtState(view.bearing));
+  }
+  return residuals;
+}
+
+std::vector<Eigen::Vector2d> ResidualsOf(const LineLandmark& line, const SlidingWindow& window) {
+  const PluckerLine line_W = LineInWorld(line, window);
+  std::vector<Eigen::Vector2d> residuals;
+  for (const LineView& view : line.views) {
+    const PluckerLine line_C = window.T_W_C(view.t_ns).Inverse() * line_W;
+    Eigen::Vector2d distances;
+    if (EndPointDistances(view.segment, line_C.moment, &distances, nullptr)) {
+      residuals.push_back(distances);
+    }
+  }
+  return residuals;
+}
+
+ViewSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters) {
+  ShortenOutliers(&residuals);
+  const double count = static_cast<double>(residuals.size());
+  ViewSpread spread;
+  for (size_t i = 0; i < residuals.size(); ++i) {
+    spread.variance += residuals[i].squaredNorm() / (2 * count - parameters);
+    if (i == 0) continue;
+    spread.difference += (residuals[i] - residuals[i - 1]).squaredNorm() / (4 * (count - 1));
+  }
+  return spread;
+}
+
+}  // namespace plm_vins

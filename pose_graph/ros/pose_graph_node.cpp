@@ -2,8 +2,10 @@
 #include "pose_graph/ros/pose_graph_node.h"
 
 #include <exception>
+#include <stdexcept>
 #include <utility>
 
+#include "common/ros/camera_info_conversion.h"
 #include "common/ros/keyframe_conversion.h"
 #include "common/ros/msg_conversion.h"
 #include "common/stopwatch.h"
@@ -26,6 +28,14 @@ Eigen::Matrix<double, 6, 6> CovarianceOf(const nav_msgs::Odometry& message, cons
   J.bottomRightCorner<3, 3>() = T_O_B.R().transpose();
   const Eigen::Map<const RowMajor6d> covariance(message.pose.covariance.data());
   return J * covariance * J.transpose();
+}
+
+void CheckSameKind(const CameraParameters& ours, const CameraParameters& refined) {
+  if (refined.model == ours.model && refined.width == ours.width && refined.height == ours.height) {
+    return;
+  }
+  throw std::invalid_argument(std::string("the camera of ") + kEstimator +
+                              "camera_info is not that of the configuration");
 }
 
 Rigid3d PoseOf(const nav_msgs::Odometry& message) {
@@ -72,6 +82,7 @@ void PoseGraphNode::Subscribe() {
   const std::string estimator = kEstimator;
   subscribers_ = {
       node_.subscribe(config_.sensor.image_topic, kQueue, &PoseGraphNode::AddImage, this),
+      node_.subscribe(estimator + "camera_info", kQueue, &PoseGraphNode::AddCamera, this),
       node_.subscribe(estimator + "keyframe_pose", kQueue, &PoseGraphNode::AddPose, this),
       node_.subscribe(estimator + "keyframe_point", kQueue, &PoseGraphNode::AddPoints, this),
       node_.subscribe(estimator + "keyframe_line", kQueue, &PoseGraphNode::AddLines, this),
@@ -87,6 +98,16 @@ void PoseGraphNode::Subscribe() {
 void PoseGraphNode::AddImage(const sensor_msgs::ImageConstPtr& message) {
   callback_errors_.Run([&] { assembly_.AddImage(ToImageSample(message)); });
   PassOn();
+}
+
+// Of another camera than ours, its rays would be nonsense. A model without rays throws.
+void PoseGraphNode::AddCamera(const sensor_msgs::CameraInfo& message) {
+  callback_errors_.Run([&] {
+    const CameraParameters camera = ToCameraParameters(message);
+    CameraModel::Create(camera);
+    CheckSameKind(camera_->parameters(), camera);
+    refined_camera_ = camera;
+  });
 }
 
 void PoseGraphNode::AddPose(const nav_msgs::Odometry& message) {
@@ -112,6 +133,7 @@ void PoseGraphNode::AddLines(const sensor_msgs::PointCloud& message) {
 void PoseGraphNode::PassOn() {
   while (auto frame = assembly_.Pop()) {
     frame->T_B_C = config_.sensor.T_B_C;
+    frame->camera = refined_camera_;
     frame->restarted = std::exchange(restarted_, false);
     queue_.Push(std::move(*frame));
   }

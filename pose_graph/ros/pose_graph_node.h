@@ -6,6 +6,7 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud.h>
 #include <std_msgs/Bool.h>
@@ -49,6 +50,7 @@ class PoseGraphNode {
   // In the thread of the callbacks.
   void Subscribe();
   void AddImage(const sensor_msgs::ImageConstPtr& message);
+  void AddCamera(const sensor_msgs::CameraInfo& message);
   void AddPose(const nav_msgs::Odometry& message);
   void AddPoints(const sensor_msgs::PointCloud& message);
   void AddLines(const sensor_msgs::PointCloud& message);
@@ -75,6 +77,7 @@ class PoseGraphNode {
 
   KeyframeAssembly assembly_;  // for the callbacks, as what follows
   bool restarted_ = false;
+  std::optional<CameraParameters> refined_camera_;  // by the estimator, where it says so
   ErrorCounter callback_errors_;
   BoundedQueue<OdometryFrame> queue_;
 

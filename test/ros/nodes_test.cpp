@@ -5,6 +5,7 @@
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/PointCloud.h>
@@ -67,6 +68,7 @@ struct Listeners {
   Listener<nav_msgs::Path> path{"/vins_estimator/path"};
   Listener<nav_msgs::Odometry> camera_pose{"/vins_estimator/camera_pose"};
   Listener<nav_msgs::Odometry> extrinsic{"/vins_estimator/extrinsic"};
+  Listener<sensor_msgs::CameraInfo> camera_info{"/vins_estimator/camera_info"};
   Listener<sensor_msgs::PointCloud> point_cloud{"/vins_estimator/point_cloud"};
   Listener<sensor_msgs::PointCloud> history_cloud{"/vins_estimator/history_cloud"};
   Listener<visualization_msgs::Marker> key_poses{"/vins_estimator/key_poses"};
@@ -223,6 +225,9 @@ TEST_F(Nodes, PublishPathCameraAndMap) {
   EXPECT_EQ(log_->camera_pose.messages.back().child_frame_id, "camera");
   ASSERT_FALSE(log_->extrinsic.messages.empty());
   EXPECT_NEAR(log_->extrinsic.messages.back().pose.pose.position.y, -0.0647, 0.02);
+  ASSERT_FALSE(log_->camera_info.messages.empty());
+  EXPECT_EQ(log_->camera_info.messages.back().header.frame_id, "camera");
+  EXPECT_GT(log_->camera_info.messages.back().K[0], 100);
 }
 
 TEST_F(Nodes, PublishTransformsFromWorldToCamera) {

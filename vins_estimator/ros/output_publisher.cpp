@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "common/ros/camera_info_conversion.h"
 #include "common/ros/keyframe_conversion.h"
 #include "common/ros/msg_conversion.h"
 #include "vins_estimator/output/placed_features.h"
@@ -64,6 +65,7 @@ OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle pri
       camera_pose_visual_(
           private_node.advertise<visualization_msgs::MarkerArray>("camera_pose_visual", kQueue)),
       extrinsic_(private_node.advertise<nav_msgs::Odometry>("extrinsic", kQueue)),
+      camera_info_(private_node.advertise<sensor_msgs::CameraInfo>("camera_info", 10)),
       keyframe_pose_(private_node.advertise<nav_msgs::Odometry>("keyframe_pose", kQueue)),
       keyframe_point_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_point", kQueue)),
       keyframe_line_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_line", kQueue)),
@@ -113,10 +115,14 @@ void OutputPublisher::Clear() {
   history_lines_cloud_.publish(line_history_.Clear());
 }
 
-// The newest image, which comes with a keyframe. The lines first: who has them waits for nothing.
+// The newest image, which comes with a keyframe. What may be missing comes first: who has it waits
+// for nothing.
 void OutputPublisher::PublishKeyframe(const EstimatedFrame& frame) {
   const EstimatorOutput& output = frame.output;
   const std::string& world = frames_.world_frame;
+  PublishIfWanted(camera_info_, [&] {
+    return ToCameraInfo(output.calibration.camera, output.t_ns, frames_.camera_frame);
+  });
   PublishIfWanted(keyframe_line_, [&] {
     return ToKeyframeLines(PlaceSegments(frame.lines, output.lines), output.R_W_M, output.t_ns,
                            world);

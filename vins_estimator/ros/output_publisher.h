@@ -18,12 +18,12 @@ namespace plm_vins {
 
 // Publishes what the estimator says about an image, under the node's private namespace: odometry,
 // path, camera_pose, key_poses, point_cloud, history_cloud, lines_cloud, history_lines_cloud,
-// camera_pose_visual, extrinsic, what a pose graph takes (keyframe_pose, keyframe_point,
-// keyframe_line, and restart where another world begins), and tf2 world -> body -> camera, world ->
-// manhattan once known. In a robot's own tree, which base_frame names, tf2 has world -> base
-// instead of body and camera. The histories have, as in VINS-Mono and PL-VINS, the landmarks that
-// leave the window, those of one second in a message. Messages that nobody listens to are not made.
-// For one thread.
+// camera_pose_visual, extrinsic, what a pose graph takes (camera_info, keyframe_pose,
+// keyframe_point, keyframe_line, and restart where another world begins), and tf2 world -> body ->
+// camera, world -> manhattan once known. In a robot's own tree, which base_frame names, tf2 has
+// world -> base instead of body and camera. The histories have, as in VINS-Mono and PL-VINS, the
+// landmarks that leave the window, those of one second in a message. Messages that nobody listens
+// to are not made. For one thread.
 class OutputPublisher {
  public:
   OutputPublisher(const OutputConfig& frames, ros::NodeHandle private_node);
@@ -51,6 +51,7 @@ class OutputPublisher {
   ros::Publisher history_lines_cloud_;
   ros::Publisher camera_pose_visual_;
   ros::Publisher extrinsic_;
+  ros::Publisher camera_info_;
   ros::Publisher keyframe_pose_;
   ros::Publisher keyframe_point_;
   ros::Publisher keyframe_line_;

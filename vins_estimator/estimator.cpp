@@ -249,7 +249,7 @@ void Estimator::RemoveOutliers(EstimatorOutput* output) {
   LocalMap& map = state_.estimate.map;
   output->counts.points_rejected =
       map.points.RemoveOutliers(map.window, options_.max_reprojection_error);
-  output->counts.lines_wandering = LeaveOutWandering(map.window, state_.noise.line(), &map.lines);
+  output->counts.lines_wandering = NoteWandering(map.window, state_.noise.line(), &map.lines);
   output->counts.lines_rejected = map.lines.RemoveOutliers(map.window, options_.line_limits);
   output->counts.known_rejected = output->counts.known_seen - map.CountInNewest();
 }

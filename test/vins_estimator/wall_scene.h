@@ -14,6 +14,7 @@ struct WallLine {
   int64_t id;
   Eigen::Vector2d start, end;
   int first_frame = 0, last_frame = 100;  // that show it
+  bool wanders = false;
 };
 
 inline UnitedLines UniteOnWall(const std::vector<WallLine>& lines, LineWindow* window,
@@ -34,6 +35,11 @@ inline UnitedLines UniteOnWall(const std::vector<WallLine>& lines, LineWindow* w
     }
     window->Slide(/*keep_second_newest=*/true, kWindowSize);
     window->AddFrame(state, frame);
+    for (const WallLine& line : lines) {
+      const auto landmark = window->map().lines.landmarks().find(line.id);
+      if (landmark != window->map().lines.landmarks().end())
+        landmark->second.wanders = line.wanders;
+    }
     const auto [now, recognised] = window->Unite();
     sum.merging.merged += now.merged;
     sum.recognised += recognised;

@@ -26,11 +26,14 @@ struct LineLandmark {
   std::vector<LineView> anchor_views;
   OrthonormalLine coordinates = {0, 0, 0, 1, 0};
   bool triangulated = false;
-  bool wanders = false;             // its views are not of one line in space
+  bool wanders = false;             // its views do not look like those of one line (NoteWandering)
   LineAxis axis = LineAxis::kFree;  // as known from the views so far
 
   const LineView& host() const { return views.front(); }
 };
+
+// What may be taken for the same as others, now or when it comes back.
+inline bool MayLast(const LineLandmark& line) { return line.triangulated && !line.wanders; }
 
 // Takes out the view of one frame.
 inline void RemoveViewsOf(int64_t t_ns, std::vector<LineView>* views) {

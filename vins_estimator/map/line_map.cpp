@@ -151,8 +151,7 @@ LineTriangulationCounts LineMap::Triangulate(const SlidingWindow& window,
   LineTriangulationCounts counts;
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {
     LineLandmark& landmark = it->second;
-    if (landmark.triangulated || landmark.wanders ||
-        landmark.views.size() < kMinViewsToTriangulate) {
+    if (landmark.triangulated || landmark.views.size() < kMinViewsToTriangulate) {
       ++it;
       continue;
     }

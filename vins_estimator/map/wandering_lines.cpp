@@ -10,7 +10,7 @@ constexpr double kMinSpread = 1.5;  // in units of the noise
 constexpr double kMaxRatio = 0.25;  // of steps to spread; independent views: 1
 
 bool Wanders(const LineLandmark& line, const SlidingWindow& window, double noise) {
-  if (!line.triangulated || line.views.size() < kMinViews) return false;
+  if (line.wanders || !line.triangulated || line.views.size() < kMinViews) return false;
   const std::vector<Eigen::Vector2d> residuals = ResidualsOf(line, window);
   return residuals.size() >= kMinViews && Wanders(SpreadOf(residuals, kLineParameters), noise);
 }
@@ -22,12 +22,11 @@ bool Wanders(const ViewSpread& spread, double noise) {
          spread.difference < kMaxRatio * spread.variance;
 }
 
-int LeaveOutWandering(const SlidingWindow& window, double noise, LineMap* lines) {
+int NoteWandering(const SlidingWindow& window, double noise, LineMap* lines) {
   int found = 0;
   for (auto& [id, line] : lines->landmarks()) {
     if (!Wanders(line, window, noise)) continue;
     line.wanders = true;
-    line.triangulated = false;
     ++found;
   }
   return found;

@@ -14,8 +14,9 @@ namespace plm_vins {
 // variance is about 2 ([vonNeumann1941]).
 bool Wanders(const ViewSpread& spread, double noise);
 
-// Names the triangulated lines that wander. They are no lines in space: each stays what it is for
-// as long as it is followed, and is triangulated no more. Returns how many were found.
-int LeaveOutWandering(const SlidingWindow& window, double noise, LineMap* lines);
+// Finds the triangulated lines that wander, each once. The window goes on using them, as far as
+// they fit: leaving out lines by their residuals leaves out what contradicts the estimate. But they
+// are neither merged nor remembered (MayLast). Returns how many were found.
+int NoteWandering(const SlidingWindow& window, double noise, LineMap* lines);
 
 }  // namespace plm_vins

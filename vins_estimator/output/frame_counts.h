@@ -41,7 +41,7 @@ enum FrameCount : size_t {
   kMergeInconsistent,    // the views do not fit one line
   kLinesInWindow,        // landmarks in the optimisation
   kLinesRejected,        // landmarks or observations thrown out after it
-  kLinesWandering,       // landmarks found to be an outline, a shadow or a reflection, left out
+  kLinesWandering,       // landmarks that turned out to wander (NoteWandering)
   kFrameCounts
 };
 

@@ -51,7 +51,7 @@ class RunSummary {
   int64_t imu_noisy_ = 0;  // poses with a noise of the IMU beyond the configured one
   int64_t merged_lines_ = 0;
   int64_t recognised_lines_ = 0;
-  int64_t wandering_lines_ = 0;  // no lines in space (LeaveOutWandering)
+  int64_t wandering_lines_ = 0;  // (NoteWandering)
   int64_t manhattan_ = 0;   // poses with a Manhattan frame
   double path_length_ = 0;  // [m]
   std::optional<Eigen::Vector3d> last_position_;

@@ -33,7 +33,7 @@ struct EstimatorCounts {
   int lines_observed = 0;    // in this image
   int lines_in_window = 0;   // landmarks in the optimisation
   int lines_rejected = 0;    // landmarks or observations thrown out in this frame
-  int lines_wandering = 0;   // found to be an outline, a shadow or a reflection
+  int lines_wandering = 0;   // landmarks that turned out to wander (NoteWandering)
   int known_seen = 0;        // landmarks in the optimisation, of both kinds, in this image
   int known_rejected = 0;    // of them: not where they should be
   LineTriangulationCounts line_triangulation;

@@ -95,7 +95,7 @@ int CountWandering(const Place& place, double noise, int lines) {
   for (int seed = 1; seed <= lines; ++seed) {
     LineMap map = Observe(place, noise, window, seed);
     Triangulate(window, &map);
-    found += LeaveOutWandering(window, kNoise, &map);
+    found += NoteWandering(window, kNoise, &map);
   }
   return found;
 }
@@ -115,17 +115,15 @@ TEST(WanderingLines, AreNoEdgesHoweverBadlySeen) {
   EXPECT_LT(CountWandering(Edge(), 4 * kNoise, 1000), 10);
 }
 
-TEST(WanderingLines, AreNotTriangulatedAgainWhileFollowed) {
+TEST(WanderingLines, AreCountedOnceAndStayInTheWindow) {
   const SlidingWindow window = FlyAround();
   LineMap map = Observe(OutlineOf(0.5), kNoise, window, 1);
   Triangulate(window, &map);
-  ASSERT_EQ(LeaveOutWandering(window, kNoise, &map), 1);
-  Triangulate(window, &map);
-  ASSERT_EQ(map.landmarks().count(1), 1u);
-  EXPECT_FALSE(map.landmarks().at(1).triangulated);
-  EXPECT_EQ(LeaveOutWandering(window, kNoise, &map), 0) << "counted once";
-  for (const WindowFrame& frame : window.frames) map.RemoveFrame(window, frame.state.t_ns);
-  EXPECT_TRUE(map.landmarks().empty()) << "forgotten with its track";
+  ASSERT_EQ(NoteWandering(window, kNoise, &map), 1);
+  EXPECT_EQ(NoteWandering(window, kNoise, &map), 0);
+  const LineLandmark& line = map.landmarks().at(1);
+  EXPECT_TRUE(line.triangulated);
+  EXPECT_FALSE(MayLast(line));
 }
 
 TEST(WanderingLines, NeedViewsThatShowATrend) {
@@ -134,7 +132,7 @@ TEST(WanderingLines, NeedViewsThatShowATrend) {
   Triangulate(window, &map);
   std::vector<LineView>& views = map.landmarks().at(1).views;
   views.erase(views.begin() + 5, views.end());
-  EXPECT_EQ(LeaveOutWandering(window, kNoise, &map), 0);
+  EXPECT_EQ(NoteWandering(window, kNoise, &map), 0);
 }
 
 TEST(WanderingLines, AreOffByMoreThanNoiseAndToOneSideForLong) {

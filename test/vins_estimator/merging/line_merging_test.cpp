@@ -31,6 +31,13 @@ TEST(LineMerging, JoinsTheTracksOfOneLine) {
                      Vector3d(2, 0.1, 0).normalized(), 1e-6);
 }
 
+TEST(LineMerging, NeverJoinsWhatWanders) {
+  LineWindow window;
+  const auto counts = UniteOnWall(
+      {{4, {-1, 0.5}, {1, 0.6}, 0, 4}, {9, {-1, 0.5}, {1, 0.6}, 5, 100, true}}, &window);
+  EXPECT_EQ(counts.merging.merged, 0);
+}
+
 TEST(LineMerging, JoinsPiecesThatTouch) {
   LineWindow window;
   const auto counts = UniteOnWall({{1, {-1, 0.5}, {0, 0.5}}, {2, {0.05, 0.5}, {1, 0.5}}}, &window);

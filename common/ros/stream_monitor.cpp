@@ -8,12 +8,19 @@ namespace plm_vins {
 
 // Not by ros::Duration, which throws beyond 68 years: a stamp may be anything.
 void StreamMonitor::Add(int64_t t_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   last_arrival_ = ros::WallTime::now();
   ++messages_;
   summed_delay_ += ToSeconds(ToNanoseconds(ros::Time::now()) - t_ns);
 }
 
+double StreamMonitor::Silence() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return (ros::WallTime::now() - last_arrival_).toSec();
+}
+
 void StreamMonitor::Report(diagnostic_updater::DiagnosticStatusWrapper* status) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   const ros::WallTime now = ros::WallTime::now();
   const double seconds = (now - last_report_).toSec();
   status->addf(name_ + "_rate_hz", "%.1f", seconds > 0 ? messages_ / seconds : 0.0);

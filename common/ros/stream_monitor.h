@@ -5,11 +5,12 @@
 #include <ros/time.h>
 
 #include <cstdint>
+#include <mutex>
 #include <string>
 
 namespace plm_vins {
 
-// How the messages of one topic come along, for diagnostics: rate, age, silence. For one thread.
+// How the messages of one topic come along, for diagnostics: rate, age, silence. For any threads.
 class StreamMonitor {
  public:
   static constexpr double kSilence = 1.0;  // [s] without a message: the topic is waited for
@@ -20,14 +21,15 @@ class StreamMonitor {
   void Add(int64_t t_ns);
 
   // Wall time since the last message, or since construction where there was none [s].
-  double Silence() const { return (ros::WallTime::now() - last_arrival_).toSec(); }
+  double Silence() const;
 
   // Adds NAME_rate_hz and, where messages came, NAME_delay_ms, the mean age of their stamps on
   // arrival. Both are of the messages since the last call.
   void Report(diagnostic_updater::DiagnosticStatusWrapper* status);
 
  private:
-  std::string name_;
+  const std::string name_;
+  mutable std::mutex mutex_;  // guards what follows
   ros::WallTime last_arrival_ = ros::WallTime::now();
   ros::WallTime last_report_ = ros::WallTime::now();
   int messages_ = 0;         // since the last report

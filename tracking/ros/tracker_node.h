@@ -7,7 +7,6 @@
 #include <ros/wall_timer.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
-#include <sensor_msgs/Imu.h>
 #include <sensor_msgs/PointCloud.h>
 #include <std_msgs/Bool.h>
 
@@ -20,6 +19,7 @@
 #include "common/ros/msg_conversion.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/stream_monitor.h"
+#include "tracking/ros/imu_inbox.h"
 #include "tracking/ros/run_time_settings.h"
 
 namespace plm_vins {
@@ -67,7 +67,6 @@ class TrackerNode {
   using Settings = typename Traits::Settings;
 
   static constexpr uint32_t kOutputQueue = 200;
-  static constexpr uint32_t kImuQueue = 2000;
   // [s] of wall time: then an image is tracked without the gyro.
   static constexpr double kMaxWaitForImu = 0.1;
 
@@ -88,15 +87,14 @@ class TrackerNode {
           [this](const sensor_msgs::ImageConstPtr& message) { AddImage(message); }, nullptr,
           image_transport::TransportHints(transport, ros::TransportHints(), private_node_));
     }
-    imu_subscriber_ = node_.subscribe(config_.sensor.imu_topic, kImuQueue, &TrackerNode::AddImu,
-                                      this, ros::TransportHints().tcpNoDelay());
   }
 
-  void AddImu(const sensor_msgs::Imu& message) {
-    const ImuSample sample = ToImuSample(message);
-    imu_stream_.Add(sample.t_ns);
-    stage_.AddImu(sample);
-    Track([this] { return stage_.Pop(); });
+  // Tracks the images whose turn it is by what the IMU says so far.
+  void TrackWhatIsReady() {
+    do {
+      for (const ImuSample& sample : imu_.Take()) stage_.AddImu(sample);
+      Track([this] { return stage_.Pop(); });
+    } while (stage_.waiting() && !imu_.WaitForNext());
   }
 
   void AddCompressedImage(const sensor_msgs::CompressedImage& message) { AddImage(message); }
@@ -112,7 +110,7 @@ class TrackerNode {
     } catch (const std::exception& error) {
       if (unreadable_images_++ == 0) first_unreadable_ = error.what();
     }
-    Track([this] { return stage_.Pop(); });
+    TrackWhatIsReady();
     drop_warner_.Check(Drops());
   }
 
@@ -172,7 +170,7 @@ class TrackerNode {
     status.add("images", stage_.counts().images);
     status.add("features", features_in_last_image_);
     status.add("tracking_ms", tracking_ms_);
-    for (StreamMonitor* stream : {&image_stream_, &imu_stream_, &feature_stream_}) {
+    for (StreamMonitor* stream : {&image_stream_, &imu_.stream(), &feature_stream_}) {
       stream->Report(&status);
     }
     for (const DropCount& drop : Drops()) status.add(drop.cause, drop.count);
@@ -193,7 +191,6 @@ class TrackerNode {
   size_t features_in_last_image_ = 0;
   double tracking_ms_ = 0;  // of the last image [ms]
   StreamMonitor image_stream_{"images"};
-  StreamMonitor imu_stream_{"imu"};
   StreamMonitor feature_stream_{"features"};
 
   ros::WallTime last_image_arrival_;
@@ -208,7 +205,7 @@ class TrackerNode {
   // each of these waits for its own to return.
   image_transport::Subscriber image_subscriber_;
   ros::Subscriber compressed_subscriber_;
-  ros::Subscriber imu_subscriber_;
+  ImuInbox imu_{node_, config_.sensor.imu_topic, [this] { TrackWhatIsReady(); }};
   ros::WallTimer flush_timer_;
   ros::WallTimer diagnostics_timer_;
 };

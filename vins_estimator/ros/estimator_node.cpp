@@ -42,9 +42,11 @@ EstimatorNode::EstimatorNode(const Config& config)
       stage_(config, kMaxWait),
       publisher_(config.output, private_node_) {
   const auto no_delay = ros::TransportHints().tcpNoDelay();
+  ros::NodeHandle receiver(node_);
+  receiver.setCallbackQueue(&in_place_);
   subscribers_ = {
-      node_.subscribe(config_.sensor.imu_topic, kSubscriberQueue, &EstimatorNode::AddImu, this,
-                      no_delay),
+      receiver.subscribe(config_.sensor.imu_topic, kSubscriberQueue, &EstimatorNode::AddImu, this,
+                         no_delay),
       node_.subscribe(kPointTopic, kSubscriberQueue, &EstimatorNode::AddPoints, this, no_delay),
       node_.subscribe(kRestartTopic, 10, &EstimatorNode::Restart, this, no_delay)};
   if (config_.use_lines) {
@@ -162,6 +164,7 @@ void EstimatorNode::Work() {
     if (!ros::ok()) return queue_.Close();  // a callback may wait for room in it
     const bool done = worker_errors_.Run([&] {
       Take(std::move(*input));
+      TakeAllThatWaits();
       for (auto frame = stage_.Pop(); frame && ros::ok(); frame = stage_.Pop()) {
         Handle(*frame);
         ReportDrops();

@@ -18,6 +18,7 @@
 #include "common/bounded_queue.h"
 #include "common/config.h"
 #include "common/feature_ids.h"
+#include "common/ros/in_place_queue.h"
 #include "common/ros/node_setup.h"
 #include "vins_estimator/estimation_stage.h"
 #include "vins_estimator/ros/calibration_log.h"
@@ -55,8 +56,10 @@ class EstimatorNode {
     IdRestorer ids;
   };
 
-  // In the thread of the callbacks.
+  // In the thread that receives the samples.
   void AddImu(const sensor_msgs::Imu& message);
+
+  // In the thread of the callbacks.
   void AddPoints(const FeatureEvent& event);
   void AddLines(const FeatureEvent& event);
   template <typename Observation>
@@ -105,6 +108,7 @@ class EstimatorNode {
   std::string last_reason_;
   bool lines_were_missing_ = false;
 
+  InPlaceQueue in_place_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   diagnostic_updater::Updater diagnostics_updater_;

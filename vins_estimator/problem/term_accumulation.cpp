@@ -1,16 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/problem/term_accumulation.h"
 
+#include <type_traits>
+
+#include "common/camera_model.h"
 #include "vins_estimator/geometry/plucker.h"
 #include "vins_estimator/geometry/point_in_host.h"
 
 namespace plm_vins {
 namespace {
 
-// Most terms are views: two rows, by poses and by a landmark. They are worth products of fixed
-// size.
+// Most terms are views: two rows, by poses, by a landmark and perhaps by the intrinsics. They are
+// worth products of fixed size.
 constexpr int kViewRows = 2;
 constexpr int kPoseSize = 6;
+
+template <int kSize>
+using Size = std::integral_constant<int, kSize>;
+
+// Calls `body` with the size as a constant, where it is one of those, else with Eigen::Dynamic.
+template <typename Body>
+void WithFixed(int size, const Body& body) {
+  if (size == kPoseSize) return body(Size<kPoseSize>());
+  if (size == kIntrinsicsSize) return body(Size<kIntrinsicsSize>());
+  body(Size<Eigen::Dynamic>());
+}
 
 // The Jacobian of a term by one of its variables, in the tangent space.
 template <int kRows = Eigen::Dynamic, int kColumns = Eigen::Dynamic>
@@ -31,15 +45,21 @@ Eigen::Map<const Eigen::VectorXd> ResidualOf(const TermEvaluation& evaluation) {
 
 void AddPair(const TermEvaluation& evaluation, const Slot& left, const Slot& right,
              Eigen::MatrixXd* H) {
-  if (evaluation.rows == kViewRows && left.size == kPoseSize && right.size == kPoseSize) {
-    H->block<kPoseSize, kPoseSize>(left.dense_offset, right.dense_offset) +=
-        BlockOf<kViewRows, kPoseSize>(evaluation, left)
-            .transpose()
-            .lazyProduct(BlockOf<kViewRows, kPoseSize>(evaluation, right));
-  } else {
-    H->block(left.dense_offset, right.dense_offset, left.size, right.size).noalias() +=
-        BlockOf(evaluation, left).transpose().lazyProduct(BlockOf(evaluation, right));
-  }
+  H->block(left.dense_offset, right.dense_offset, left.size, right.size).noalias() +=
+      BlockOf(evaluation, left).transpose().lazyProduct(BlockOf(evaluation, right));
+}
+
+void AddPairOfView(const TermEvaluation& evaluation, const Slot& left, const Slot& right,
+                   Eigen::MatrixXd* H) {
+  WithFixed(left.size, [&](auto left_size) {
+    WithFixed(right.size, [&](auto right_size) {
+      H->block<left_size, right_size>(left.dense_offset, right.dense_offset, left.size,
+                                      right.size) +=
+          BlockOf<kViewRows, left_size>(evaluation, left)
+              .transpose()
+              .lazyProduct(BlockOf<kViewRows, right_size>(evaluation, right));
+    });
+  });
 }
 
 template <int kSize>
@@ -48,13 +68,10 @@ void AddView(const TermLayout& layout, const TermEvaluation& evaluation,
   const auto J_l =
       BlockOf<kViewRows, kSize>(evaluation, layout.landmark_block, kSize, layout.landmark_stride);
   for (const Slot& slot : layout) {
-    if (slot.size == kPoseSize) {
-      equations->H_ld.block<kSize, kPoseSize>(0, slot.local_offset) +=
-          J_l.transpose().lazyProduct(BlockOf<kViewRows, kPoseSize>(evaluation, slot));
-    } else {
-      equations->H_ld.block(0, slot.local_offset, kSize, slot.size) +=
-          J_l.transpose().lazyProduct(BlockOf(evaluation, slot));
-    }
+    WithFixed(slot.size, [&](auto size) {
+      equations->H_ld.block<kSize, size>(0, slot.local_offset, kSize, slot.size) +=
+          J_l.transpose().lazyProduct(BlockOf<kViewRows, size>(evaluation, slot));
+    });
   }
   equations->H_ll.topLeftCorner<kSize, kSize>() += J_l.transpose().lazyProduct(J_l);
   equations->b_l.head<kSize>() += J_l.transpose().lazyProduct(ResidualOf(evaluation));
@@ -66,7 +83,11 @@ void AddToDense(const TermLayout& layout, const TermEvaluation& evaluation, Eige
                 Eigen::VectorXd* b) {
   for (const Slot& right : layout) {
     for (const Slot* left = layout.begin(); left <= &right; ++left) {
-      AddPair(evaluation, *left, right, H);
+      if (evaluation.rows == kViewRows) {
+        AddPairOfView(evaluation, *left, right, H);
+      } else {
+        AddPair(evaluation, *left, right, H);
+      }
     }
     b->segment(right.dense_offset, right.size) +=
         BlockOf(evaluation, right).transpose().lazyProduct(ResidualOf(evaluation));

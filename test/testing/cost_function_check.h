@@ -2,7 +2,6 @@
 // Checks a cost function's Jacobians against the convention of factors/manifolds.h.
 #pragma once
 
-#include <ceres/cost_function.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -43,7 +42,9 @@ inline std::vector<const double*> Pointers(const std::vector<Block>& blocks) {
   return pointers;
 }
 
-inline Eigen::VectorXd Residual(const ceres::CostFunction& cost, const std::vector<Block>& blocks) {
+// `Cost`: a Factor or a ceres::CostFunction.
+template <typename Cost>
+Eigen::VectorXd Residual(const Cost& cost, const std::vector<Block>& blocks) {
   Eigen::VectorXd residual(cost.num_residuals());
   EXPECT_TRUE(cost.Evaluate(Pointers(blocks).data(), residual.data(), nullptr));
   return residual;
@@ -51,9 +52,9 @@ inline Eigen::VectorXd Residual(const ceres::CostFunction& cost, const std::vect
 
 // Every Jacobian of `cost`, asked for together and alone, is the derivative through Plus, padded
 // with zeros. `tolerance` is per entry.
-inline void ExpectTangentJacobians(const ceres::CostFunction& cost,
-                                   const std::vector<Block>& blocks, double tolerance,
-                                   double step = 1e-6) {
+template <typename Cost>
+void ExpectTangentJacobians(const Cost& cost, const std::vector<Block>& blocks, double tolerance,
+                            double step = 1e-6) {
   const int rows = cost.num_residuals();
   std::vector<RowMajorMatrix> jacobians;
   std::vector<double*> all;

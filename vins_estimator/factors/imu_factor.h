@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <ceres/sized_cost_function.h>
-
 #include <Eigen/Core>
 
+#include "vins_estimator/factors/factor.h"
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/state/frame_state.h"
 
@@ -33,7 +32,7 @@ double ImuChiSquare(const Preintegration& preintegration, const Eigen::Vector3d&
 
 // ImuResidual, whitened, as cost function of pose_i, motion_i, pose_j, motion_j. The preintegration
 // belongs to the window: it must outlive the factor and not change while the factor is in use.
-class ImuFactor final : public ceres::SizedCostFunction<15, 7, 9, 7, 9> {
+class ImuFactor final : public SizedFactor<15, 7, 9, 7, 9> {
  public:
   // `gravity_W` is (0, 0, -g) [m/s^2].
   ImuFactor(const Preintegration* preintegration, const Eigen::Vector3d& gravity_W)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/factors/intrinsics_factor.h"
 
-#include <utility>
-
 #include "vins_estimator/factors/line_factor.h"
+#include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/factors/readout_factor.h"
 
 namespace plm_vins {
 namespace {
@@ -13,53 +13,51 @@ using JacobianMap = Eigen::Map<Eigen::Matrix<double, 2, kIntrinsicsSize, Eigen::
 
 }  // namespace
 
-PointIntrinsicsFactor::PointIntrinsicsFactor(std::unique_ptr<const ceres::CostFunction> factor,
-                                             const RayShift& shift, double weight)
-    : factor_(std::move(factor)), shift_(shift), weight_(weight) {
-  set_num_residuals(2);
-  *mutable_parameter_block_sizes() = factor_->parameter_block_sizes();
-  mutable_parameter_block_sizes()->push_back(kIntrinsicsSize);
-}
+template <typename Inner>
+PointIntrinsicsFactor<Inner>::PointIntrinsicsFactor(const Inner& factor, const RayShift& shift,
+                                                    double weight)
+    : Factor(2), factor_(factor), shift_(shift), weight_(weight) {}
 
-bool PointIntrinsicsFactor::Evaluate(double const* const* parameters, double* residuals,
-                                     double** jacobians) const {
-  if (!factor_->Evaluate(parameters, residuals, jacobians)) return false;
-  const size_t intrinsics = parameter_block_sizes().size() - 1;
-  Vector2Map{residuals} -= weight_ * shift_.At(parameters[intrinsics]);
-  if (jacobians != nullptr && jacobians[intrinsics] != nullptr) {
-    JacobianMap{jacobians[intrinsics]} = -weight_ * shift_.d_xy_d_intrinsics;
+template <typename Inner>
+bool PointIntrinsicsFactor<Inner>::Evaluate(double const* const* parameters, double* residuals,
+                                            double** jacobians) const {
+  constexpr int kIntrinsics = Inner::kBlocks;
+  if (!factor_.Evaluate(parameters, residuals, jacobians)) return false;
+  Vector2Map{residuals} -= weight_ * shift_.At(parameters[kIntrinsics]);
+  if (jacobians != nullptr && jacobians[kIntrinsics] != nullptr) {
+    JacobianMap{jacobians[kIntrinsics]} = -weight_ * shift_.d_xy_d_intrinsics;
   }
   return true;
 }
 
-template <typename Factor>
-LineIntrinsicsFactor<Factor>::LineIntrinsicsFactor(const LineSegmentView& view, double weight,
-                                                   const RayShift& start_shift,
-                                                   const RayShift& end_shift)
-    : view_(view), weight_(weight), start_shift_(start_shift), end_shift_(end_shift) {
-  set_num_residuals(2);
-  *mutable_parameter_block_sizes() = Factor(view, weight).parameter_block_sizes();
-  mutable_parameter_block_sizes()->push_back(kIntrinsicsSize);
-}
+template <typename Inner>
+LineIntrinsicsFactor<Inner>::LineIntrinsicsFactor(const LineSegmentView& view, double weight,
+                                                  const RayShift& start_shift,
+                                                  const RayShift& end_shift)
+    : Factor(2), view_(view), weight_(weight), start_shift_(start_shift), end_shift_(end_shift) {}
 
-template <typename Factor>
-bool LineIntrinsicsFactor<Factor>::Evaluate(double const* const* parameters, double* residuals,
-                                            double** jacobians) const {
-  const size_t intrinsics = parameter_block_sizes().size() - 1;
-  const double* c = parameters[intrinsics];
+template <typename Inner>
+bool LineIntrinsicsFactor<Inner>::Evaluate(double const* const* parameters, double* residuals,
+                                           double** jacobians) const {
+  constexpr int kIntrinsics = Inner::kBlocks;
+  const double* c = parameters[kIntrinsics];
   const LineSegmentView seen{view_.start + start_shift_.At(c), view_.end + end_shift_.At(c)};
   Eigen::Vector2d normal;
-  if (!Factor(seen, weight_).EvaluateWithNormal(parameters, residuals, jacobians, &normal)) {
+  if (!Inner(seen, weight_).EvaluateWithNormal(parameters, residuals, jacobians, &normal)) {
     return false;
   }
-  if (jacobians != nullptr && jacobians[intrinsics] != nullptr) {
-    JacobianMap J(jacobians[intrinsics]);
+  if (jacobians != nullptr && jacobians[kIntrinsics] != nullptr) {
+    JacobianMap J(jacobians[kIntrinsics]);
     J.row(0) = weight_ * normal.transpose() * start_shift_.d_xy_d_intrinsics;
     J.row(1) = weight_ * normal.transpose() * end_shift_.d_xy_d_intrinsics;
   }
   return true;
 }
 
+template class PointIntrinsicsFactor<PointFactor>;
+template class PointIntrinsicsFactor<PointHostFactor>;
+template class PointIntrinsicsFactor<ReadoutFactor<PointFactor>>;
+template class PointIntrinsicsFactor<ReadoutFactor<PointHostFactor>>;
 template class LineIntrinsicsFactor<LineFactor>;
 template class LineIntrinsicsFactor<LineHostFactor>;
 

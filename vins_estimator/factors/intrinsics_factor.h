@@ -1,38 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <ceres/cost_function.h>
-
-#include <Eigen/Core>
-#include <memory>
-
+#include "vins_estimator/factors/factor.h"
 #include "vins_estimator/geometry/line_segment_view.h"
 #include "vins_estimator/geometry/ray_shift.h"
 
 namespace plm_vins {
 
-// A corner's factor with the intrinsics of the camera as one more variable: the corner is seen at
-// xy + shift(c), which the residual weight * (m_t - xy) depends on directly. Blocks: those of the
-// factor, intrinsics (8).
-class PointIntrinsicsFactor final : public ceres::CostFunction {
+// A corner's factor, PointFactor, PointHostFactor or a ReadoutFactor of these, with the intrinsics
+// of the camera as one more variable: the corner is seen at xy + shift(c), which the residual
+// weight * (m_t - xy) depends on directly. Blocks: those of the factor, intrinsics (8).
+template <typename Inner>
+class PointIntrinsicsFactor final : public Factor {
  public:
   // `weight`: that of `factor`.
-  PointIntrinsicsFactor(std::unique_ptr<const ceres::CostFunction> factor, const RayShift& shift,
-                        double weight);
+  PointIntrinsicsFactor(const Inner& factor, const RayShift& shift, double weight);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  std::unique_ptr<const ceres::CostFunction> factor_;
+  Inner factor_;
   RayShift shift_;
   double weight_;
 };
 
 // A line's factor, LineFactor or LineHostFactor, likewise: the factor of the segment whose ends are
 // seen at xy + shift(c). Blocks: those of the factor, intrinsics (8).
-template <typename Factor>
-class LineIntrinsicsFactor final : public ceres::CostFunction {
+template <typename Inner>
+class LineIntrinsicsFactor final : public Factor {
  public:
   LineIntrinsicsFactor(const LineSegmentView& view, double weight, const RayShift& start_shift,
                        const RayShift& end_shift);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <ceres/sized_cost_function.h>
-
+#include "vins_estimator/factors/factor.h"
 #include "vins_estimator/geometry/line_segment_view.h"
 #include "vins_estimator/geometry/plucker.h"
 
@@ -12,7 +11,7 @@ namespace plm_vins {
 //   r = weight * EndPointDistances(view, moment of T_B_C^-1 T_W_Bt^-1 T_W_Bh T_B_C L_Ch)
 // Blocks: pose of host (7), pose of target (7), extrinsics T_B_C (7), line (5). Jacobians are taken
 // as factors/manifolds.h defines them.
-class LineFactor final : public ceres::SizedCostFunction<2, 7, 7, 7, kLineSize> {
+class LineFactor final : public SizedFactor<2, 7, 7, 7, kLineSize> {
  public:
   // `weight`: focal length over the standard deviation of an end point across the line, in pixels.
   LineFactor(const LineSegmentView& view, double weight) : view_(view), weight_(weight) {}
@@ -32,7 +31,7 @@ class LineFactor final : public ceres::SizedCostFunction<2, 7, 7, 7, kLineSize> 
 };
 
 // The host's own view: r = weight * EndPointDistances(view, moment of L_Ch). Block: line (5).
-class LineHostFactor final : public ceres::SizedCostFunction<2, kLineSize> {
+class LineHostFactor final : public SizedFactor<2, kLineSize> {
  public:
   LineHostFactor(const LineSegmentView& view, double weight) : view_(view), weight_(weight) {}
 

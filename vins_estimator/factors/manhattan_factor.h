@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <ceres/sized_cost_function.h>
-
 #include <Eigen/Core>
 
+#include "vins_estimator/factors/factor.h"
 #include "vins_estimator/geometry/plucker.h"
 
 namespace plm_vins {
@@ -15,7 +14,7 @@ namespace plm_vins {
 // is the sine of the angle between line and axis, whichever way the line points. Blocks: pose of
 // host (7), extrinsics T_B_C (7), line (5). Jacobians follow factors/manifolds.h. A vertical axis
 // constrains roll and pitch, a horizontal one the heading as well.
-class ManhattanFactor final : public ceres::SizedCostFunction<2, 7, 7, kLineSize> {
+class ManhattanFactor final : public SizedFactor<2, 7, 7, kLineSize> {
  public:
   // `axis_W` of length 1; `weight`: one over the standard deviation of that angle [1/rad].
   ManhattanFactor(const Eigen::Vector3d& axis_W, double weight);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <ceres/sized_cost_function.h>
-
+#include "vins_estimator/factors/factor.h"
 #include "vins_estimator/geometry/point_in_host.h"
 #include "vins_estimator/geometry/timed_bearing.h"
 
@@ -13,8 +12,10 @@ namespace plm_vins {
 // Blocks: pose of host (7), pose of target (7), extrinsics T_B_C (7), time offset td (1), point
 // (3). Jacobians follow factors/manifolds.h. Evaluate() fails where the point is not in front of
 // the target.
-class PointFactor final : public ceres::SizedCostFunction<2, 7, 7, 7, 1, kPointSize> {
+class PointFactor final : public SizedFactor<2, 7, 7, 7, 1, kPointSize> {
  public:
+  static constexpr int kTdBlock = 3;
+
   // `weight`: focal length over the standard deviation of a corner, both in pixels.
   PointFactor(const TimedBearing& target, double weight) : target_(target), weight_(weight) {}
 
@@ -27,8 +28,10 @@ class PointFactor final : public ceres::SizedCostFunction<2, 7, 7, 7, 1, kPointS
 };
 
 // The host's own view: r = weight * ( (x, y) - m_h(td) ). Blocks: time offset td (1), point (3).
-class PointHostFactor final : public ceres::SizedCostFunction<2, 1, kPointSize> {
+class PointHostFactor final : public SizedFactor<2, 1, kPointSize> {
  public:
+  static constexpr int kTdBlock = 0;
+
   PointHostFactor(const TimedBearing& host, double weight) : host_(host), weight_(weight) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,

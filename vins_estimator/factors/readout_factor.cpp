@@ -2,36 +2,39 @@
 #include "vins_estimator/factors/readout_factor.h"
 
 #include <Eigen/Core>
-#include <utility>
-#include <vector>
+#include <algorithm>
+#include <array>
+
+#include "vins_estimator/factors/point_factor.h"
 
 namespace plm_vins {
 
-ReadoutFactor::ReadoutFactor(std::unique_ptr<ceres::CostFunction> factor, size_t td_block,
-                             const TimedBearing& bearing)
-    : factor_(std::move(factor)), td_block_(td_block), bearing_(bearing) {
-  set_num_residuals(factor_->num_residuals());
-  *mutable_parameter_block_sizes() = factor_->parameter_block_sizes();
-  mutable_parameter_block_sizes()->push_back(1);
-}
+template <typename Inner>
+ReadoutFactor<Inner>::ReadoutFactor(const Inner& factor, const TimedBearing& bearing)
+    : Factor(factor.num_residuals()), factor_(factor), bearing_(bearing) {}
 
-bool ReadoutFactor::Evaluate(double const* const* parameters, double* residuals,
-                             double** jacobians) const {
-  const size_t readout_block = parameter_block_sizes().size() - 1;
-  const double td = parameters[td_block_][0] + bearing_.Delay(parameters[readout_block][0]);
-  std::vector<const double*> delayed(parameters, parameters + readout_block);
-  delayed[td_block_] = &td;
-  if (jacobians == nullptr || jacobians[readout_block] == nullptr) {
-    return factor_->Evaluate(delayed.data(), residuals, jacobians);
+template <typename Inner>
+bool ReadoutFactor<Inner>::Evaluate(double const* const* parameters, double* residuals,
+                                    double** jacobians) const {
+  constexpr int kTd = Inner::kTdBlock, kReadout = Inner::kBlocks;
+  const double td = parameters[kTd][0] + bearing_.Delay(parameters[kReadout][0]);
+  std::array<const double*, Inner::kBlocks> delayed;
+  std::copy_n(parameters, delayed.size(), delayed.begin());
+  delayed[kTd] = &td;
+  if (jacobians == nullptr || jacobians[kReadout] == nullptr) {
+    return factor_.Evaluate(delayed.data(), residuals, jacobians);
   }
-  std::vector<double*> factor_jacobians(jacobians, jacobians + readout_block);
-  Eigen::VectorXd d_residual_d_td(num_residuals());
-  if (factor_jacobians[td_block_] == nullptr) factor_jacobians[td_block_] = d_residual_d_td.data();
-  if (!factor_->Evaluate(delayed.data(), residuals, factor_jacobians.data())) return false;
-  for (int i = 0; i < num_residuals(); ++i) {
-    jacobians[readout_block][i] = bearing_.share * factor_jacobians[td_block_][i];
-  }
+  std::array<double*, Inner::kBlocks> factor_jacobians;
+  std::copy_n(jacobians, factor_jacobians.size(), factor_jacobians.begin());
+  Eigen::Vector2d d_residual_d_td;
+  if (factor_jacobians[kTd] == nullptr) factor_jacobians[kTd] = d_residual_d_td.data();
+  if (!factor_.Evaluate(delayed.data(), residuals, factor_jacobians.data())) return false;
+  Eigen::Map<Eigen::Vector2d>{jacobians[kReadout]} =
+      bearing_.share * Eigen::Map<const Eigen::Vector2d>(factor_jacobians[kTd]);
   return true;
 }
+
+template class ReadoutFactor<PointFactor>;
+template class ReadoutFactor<PointHostFactor>;
 
 }  // namespace plm_vins

@@ -3,12 +3,12 @@
 // its pose does not change. Both soft, with standard deviations that say how still "still" is.
 #pragma once
 
-#include <ceres/sized_cost_function.h>
+#include "vins_estimator/factors/factor.h"
 
 namespace plm_vins {
 
 // residual = v_W / sigma, for one motion block.
-class ZeroVelocityFactor final : public ceres::SizedCostFunction<3, 9> {
+class ZeroVelocityFactor final : public SizedFactor<3, 9> {
  public:
   explicit ZeroVelocityFactor(double sigma_velocity)  // [m/s]
       : weight_(1.0 / sigma_velocity) {}
@@ -21,7 +21,7 @@ class ZeroVelocityFactor final : public ceres::SizedCostFunction<3, 9> {
 };
 
 // residual = [(p_j - p_i) / sigma_position, Log(q_i^-1 q_j) / sigma_rotation], for two poses.
-class SamePoseFactor final : public ceres::SizedCostFunction<6, 7, 7> {
+class SamePoseFactor final : public SizedFactor<6, 7, 7> {
  public:
   SamePoseFactor(double sigma_position, double sigma_rotation)  // [m], [rad]
       : position_weight_(1.0 / sigma_position), rotation_weight_(1.0 / sigma_rotation) {}

@@ -2,7 +2,6 @@
 #include "vins_estimator/initialization/visual_inertial_bundle.h"
 
 #include <ceres/loss_function.h>
-#include <ceres/sized_cost_function.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <memory>
 
 #include "common/so3.h"
+#include "vins_estimator/factors/factor.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/factors/point_factor.h"
@@ -26,7 +26,7 @@ constexpr SolverOptions kSolution = {12, 1e-3};  // the window is optimised furt
 constexpr double kGaugeDeviation = 1e-3;         // [m] and [rad]; any small value will do
 
 // Holds position and heading of a pose: [p - p0, angle about the world's z] / deviation.
-class GaugePrior final : public ceres::SizedCostFunction<4, kPoseSize> {
+class GaugePrior final : public SizedFactor<4, kPoseSize> {
  public:
   explicit GaugePrior(const FrameState& state) : state_(state) {}
 
@@ -54,7 +54,7 @@ class GaugePrior final : public ceres::SizedCostFunction<4, kPoseSize> {
 };
 
 // Holds the biases of the first frame softly. Block: motion.
-class BiasPrior final : public ceres::SizedCostFunction<6, 9> {
+class BiasPrior final : public SizedFactor<6, 9> {
  public:
   BiasPrior(const ImuBias& mean, double accel_deviation, double gyro_deviation) {
     mean_ << mean.accel, mean.gyro;

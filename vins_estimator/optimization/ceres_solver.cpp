@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vins_estimator/factors/manifolds.h"
+#include "vins_estimator/optimization/factor_cost.h"
 #include "vins_estimator/optimization/prior_cost.h"
 #include "vins_estimator/problem/term_evaluation.h"
 
@@ -76,8 +77,13 @@ class CeresProblem {
   void AddTerm(const ResidualTerm& term) {
     if (!CanBeEvaluated(term, window_.variables())) return;
     std::vector<double*> blocks(term.variable_count);
-    for (int k = 0; k < term.variable_count; ++k) blocks[k] = blocks_[term.variables[k]];
-    Add(term.cost.get(), term.loss, blocks);
+    std::vector<int> sizes(term.variable_count);
+    for (int k = 0; k < term.variable_count; ++k) {
+      blocks[k] = blocks_[term.variables[k]];
+      sizes[k] = window_.variables()[term.variables[k]].type().ambient_size;
+    }
+    costs_.push_back(std::make_unique<FactorCost>(term.cost.get(), sizes));
+    Add(costs_.back().get(), term.loss, blocks);
   }
 
   void AddPrior(const MarginalizationPrior& prior) {
@@ -99,6 +105,7 @@ class CeresProblem {
   const WindowProblem& window_;
   std::vector<double> values_;
   std::vector<double*> blocks_;  // of the values, by variable
+  std::vector<std::unique_ptr<const FactorCost>> costs_;
   std::unique_ptr<const PriorCost> prior_;
   ceres::Problem problem_;  // last: refers to all the others
 };

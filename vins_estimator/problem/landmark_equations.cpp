@@ -15,7 +15,8 @@ constexpr double kMinLandmarkInformation = 1e-9;
 
 // The damped H_ll as L L^T.
 template <int kSize>
-Eigen::LLT<Eigen::Matrix<double, kSize, kSize>> Factor(const LandmarkMatrix& H_ll, double damping) {
+Eigen::LLT<Eigen::Matrix<double, kSize, kSize>> DampedFactor(const LandmarkMatrix& H_ll,
+                                                             double damping) {
   Eigen::Matrix<double, kSize, kSize> H = H_ll;
   H.diagonal() *= 1.0 + damping;
   H.diagonal().array() += kMinLandmarkInformation;
@@ -27,7 +28,7 @@ template <int kSize>
 void Eliminate(const LandmarkEquations& equations, double damping, Eigen::MatrixXd* S,
                Eigen::VectorXd* g) {
   // H_dl H_ll^-1 H_ld = W^T W with W = L^-1 H_ld.
-  const auto factor = Factor<kSize>(equations.H_ll, damping);
+  const auto factor = DampedFactor<kSize>(equations.H_ll, damping);
   Rows<kSize> W = equations.H_ld;
   factor.matrixL().solveInPlace(W);
   const Eigen::Matrix<double, kSize, 1> w_b =
@@ -68,8 +69,9 @@ LandmarkVector SolveLandmark(const LandmarkEquations& equations, const Eigen::Ve
     right.noalias() -=
         equations.H_ld.middleCols(run.local, run.size) * dense_step.segment(run.dense, run.size);
   }
-  if (right.size() == kPointSize) return Factor<kPointSize>(equations.H_ll, damping).solve(right);
-  return Factor<kLineTangentSize>(equations.H_ll, damping).solve(right);
+  if (right.size() == kPointSize)
+    return DampedFactor<kPointSize>(equations.H_ll, damping).solve(right);
+  return DampedFactor<kLineTangentSize>(equations.H_ll, damping).solve(right);
 }
 
 }  // namespace plm_vins

@@ -100,47 +100,46 @@ void ProblemBuilder::AddMotion(size_t index) {
       nullptr, {pose_i, pose_j});
 }
 
-// `variables` ends in those of td and the point.
-template <typename Factor, typename... Indices>
+template <typename ViewFactor, typename... Indices>
 void ProblemBuilder::AddPointTerm(int index, const PointLandmark& landmark, const PointView& view,
                                   Indices... variables) {
-  auto factor = std::make_unique<Factor>(view.bearing, options_.point_weight);
+  const ViewFactor factor(view.bearing, options_.point_weight);
   if (!options_.estimate_readout) {
-    AddPointTerm(index, std::move(factor), landmark, view, variables...);
+    AddPointFactor(index, factor, landmark, view, variables...);
     return;
   }
-  constexpr size_t kTdBlock = sizeof...(variables) - 2;
   const int readout = AddVariable({BlockKind::kReadout, 0});
-  AddPointTerm(index, std::make_unique<ReadoutFactor>(std::move(factor), kTdBlock, view.bearing),
-               landmark, view, variables..., readout);
+  AddPointFactor(index, ReadoutFactor<ViewFactor>(factor, view.bearing), landmark, view,
+                 variables..., readout);
 }
 
-template <typename... Indices>
-void ProblemBuilder::AddPointTerm(int index, std::unique_ptr<ceres::CostFunction> factor,
-                                  const PointLandmark& landmark, const PointView& view,
-                                  Indices... variables) {
+template <typename ViewFactor, typename... Indices>
+void ProblemBuilder::AddPointFactor(int index, const ViewFactor& factor,
+                                    const PointLandmark& landmark, const PointView& view,
+                                    Indices... variables) {
   if (!camera_) {
-    problem_.AddLandmarkTerm(index, std::move(factor), &point_loss_, {variables...});
+    problem_.AddLandmarkTerm(index, std::make_unique<ViewFactor>(factor), &point_loss_,
+                             {variables...});
     return;
   }
   const RayShift shift(*camera_, ExpectedRay(landmark, view, *window_));
   problem_.AddLandmarkTerm(
       index,
-      std::make_unique<PointIntrinsicsFactor>(std::move(factor), shift, options_.point_weight),
+      std::make_unique<PointIntrinsicsFactor<ViewFactor>>(factor, shift, options_.point_weight),
       &point_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});
 }
 
-template <typename Factor, typename... Indices>
+template <typename ViewFactor, typename... Indices>
 void ProblemBuilder::AddLineTerm(int index, const LineLandmark& landmark, const LineView& view,
                                  double weight, Indices... variables) {
   if (!camera_) {
-    problem_.AddLandmarkTerm(index, std::make_unique<Factor>(view.segment, weight), &line_loss_,
+    problem_.AddLandmarkTerm(index, std::make_unique<ViewFactor>(view.segment, weight), &line_loss_,
                              {variables...});
     return;
   }
   const LineSegmentView expected = ExpectedEnds(landmark, view, *window_);
   problem_.AddLandmarkTerm(index,
-                           std::make_unique<LineIntrinsicsFactor<Factor>>(
+                           std::make_unique<LineIntrinsicsFactor<ViewFactor>>(
                                view.segment, weight, RayShift(*camera_, expected.start),
                                RayShift(*camera_, expected.end)),
                            &line_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});

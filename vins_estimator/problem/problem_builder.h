@@ -72,14 +72,14 @@ class ProblemBuilder {
  private:
   int AddVariable(const BlockId& id);
   double* Values(const BlockId& id);
-  template <typename Factor, typename... Indices>
+  template <typename ViewFactor, typename... Indices>
   void AddPointTerm(int index, const PointLandmark& landmark, const PointView& view,
                     Indices... variables);
   // The same, with the factor as it is but for the intrinsics.
-  template <typename... Indices>
-  void AddPointTerm(int index, std::unique_ptr<ceres::CostFunction> factor,
-                    const PointLandmark& landmark, const PointView& view, Indices... variables);
-  template <typename Factor, typename... Indices>
+  template <typename ViewFactor, typename... Indices>
+  void AddPointFactor(int index, const ViewFactor& factor, const PointLandmark& landmark,
+                      const PointView& view, Indices... variables);
+  template <typename ViewFactor, typename... Indices>
   void AddLineTerm(int index, const LineLandmark& landmark, const LineView& view, double weight,
                    Indices... variables);
   int Pose(int64_t t_ns) { return AddVariable({BlockKind::kPose, t_ns}); }

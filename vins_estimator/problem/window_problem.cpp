@@ -7,8 +7,8 @@
 namespace plm_vins {
 namespace {
 
-ResidualTerm MakeTerm(std::unique_ptr<const ceres::CostFunction> cost,
-                      const ceres::LossFunction* loss, std::initializer_list<int> variables) {
+ResidualTerm MakeTerm(std::unique_ptr<const Factor> cost, const ceres::LossFunction* loss,
+                      std::initializer_list<int> variables) {
   ResidualTerm term;
   term.cost = std::move(cost);
   term.loss = loss;
@@ -26,8 +26,8 @@ int WindowProblem::AddVariable(const BlockId& id, double* values, bool constant,
   return position->second;
 }
 
-void WindowProblem::AddTerm(std::unique_ptr<const ceres::CostFunction> cost,
-                            const ceres::LossFunction* loss, std::initializer_list<int> variables) {
+void WindowProblem::AddTerm(std::unique_ptr<const Factor> cost, const ceres::LossFunction* loss,
+                            std::initializer_list<int> variables) {
   terms_.push_back(MakeTerm(std::move(cost), loss, variables));
 }
 
@@ -37,7 +37,7 @@ int WindowProblem::AddLandmark(const BlockId& id, double* values) {
   return static_cast<int>(landmarks_.size()) - 1;
 }
 
-void WindowProblem::AddLandmarkTerm(int landmark, std::unique_ptr<const ceres::CostFunction> cost,
+void WindowProblem::AddLandmarkTerm(int landmark, std::unique_ptr<const Factor> cost,
                                     const ceres::LossFunction* loss,
                                     std::initializer_list<int> variables) {
   landmarks_[landmark].terms.push_back(MakeTerm(std::move(cost), loss, variables));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <ceres/cost_function.h>
 #include <ceres/loss_function.h>
 
 #include <array>
@@ -10,18 +9,19 @@
 #include <unordered_map>
 #include <vector>
 
+#include "vins_estimator/factors/factor.h"
 #include "vins_estimator/problem/variable.h"
 
 namespace plm_vins {
 
 class MarginalizationPrior;
 
-// One term 0.5 rho(|r|^2) of the cost. Jacobians of the cost function follow factors/manifolds.h:
+// One term 0.5 rho(|r|^2) of the cost. Jacobians of the factor follow factors/manifolds.h:
 // taken in the tangent space and padded with zero columns to the ambient size.
 struct ResidualTerm {
   static constexpr int kMaxVariables = 7;
 
-  std::unique_ptr<const ceres::CostFunction> cost;
+  std::unique_ptr<const Factor> cost;
   const ceres::LossFunction* loss = nullptr;      // null: squared
   std::array<int, kMaxVariables> variables = {};  // indices of WindowProblem::variables()
   int variable_count = 0;
@@ -42,12 +42,12 @@ class WindowProblem {
   int AddVariable(const BlockId& id, double* values, bool constant = false,
                   const double* linearization = nullptr);
 
-  void AddTerm(std::unique_ptr<const ceres::CostFunction> cost, const ceres::LossFunction* loss,
+  void AddTerm(std::unique_ptr<const Factor> cost, const ceres::LossFunction* loss,
                std::initializer_list<int> variables);
 
   // A landmark, and the terms that see it. Returns the landmark's index.
   int AddLandmark(const BlockId& id, double* values);
-  void AddLandmarkTerm(int landmark, std::unique_ptr<const ceres::CostFunction> cost,
+  void AddLandmarkTerm(int landmark, std::unique_ptr<const Factor> cost,
                        const ceres::LossFunction* loss, std::initializer_list<int> variables);
   void ReserveLandmarkTerms(int landmark, size_t count) {
     landmarks_[landmark].terms.reserve(count);

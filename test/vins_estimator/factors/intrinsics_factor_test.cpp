@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "common/so3.h"
@@ -40,12 +39,13 @@ class IntrinsicsFactorTest : public ::testing::Test {
     return Eigen::Map<const Eigen::Matrix<double, kLineSize, 1>>(line.data());
   }
 
-  PointIntrinsicsFactor Point(std::unique_ptr<const ceres::CostFunction> factor) const {
-    return {std::move(factor), RayShift(*camera_, bearing_.xy), kWeight};
+  template <typename Inner>
+  PointIntrinsicsFactor<Inner> Point(const Inner& factor) const {
+    return {factor, RayShift(*camera_, bearing_.xy), kWeight};
   }
 
-  template <typename Factor>
-  LineIntrinsicsFactor<Factor> Line() const {
+  template <typename Inner>
+  LineIntrinsicsFactor<Inner> Line() const {
     return {view_, kWeight, RayShift(*camera_, view_.start), RayShift(*camera_, view_.end)};
   }
 
@@ -65,7 +65,7 @@ class IntrinsicsFactorTest : public ::testing::Test {
 
 TEST_F(IntrinsicsFactorTest, AtTheIntrinsicsOfTheRaysIsTheFactorItself) {
   const Block reference = camera_->parameters().intrinsics();
-  const auto point = Point(std::make_unique<PointHostFactor>(bearing_, kWeight));
+  const auto point = Point(PointHostFactor(bearing_, kWeight));
   EXPECT_MATRIX_NEAR(testing::Residual(point, {Scalar(0.02), point_, reference}),
                      testing::Residual(PointHostFactor(bearing_, kWeight), {Scalar(0.02), point_}),
                      1e-12);
@@ -79,7 +79,7 @@ TEST_F(IntrinsicsFactorTest, SeesTheSamePixelsWithOtherIntrinsics) {
       camera_->parameters().intrinsics() + 0.1 * (intrinsics_ - camera_->parameters().intrinsics());
   TimedBearing moved_bearing = bearing_;
   moved_bearing.xy = Recalibrated(bearing_.xy, near);
-  const auto point = Point(std::make_unique<PointHostFactor>(bearing_, kWeight));
+  const auto point = Point(PointHostFactor(bearing_, kWeight));
   EXPECT_MATRIX_NEAR(
       testing::Residual(point, {Scalar(0.02), point_, near}),
       testing::Residual(PointHostFactor(moved_bearing, kWeight), {Scalar(0.02), point_}), 1e-5);
@@ -90,16 +90,15 @@ TEST_F(IntrinsicsFactorTest, SeesTheSamePixelsWithOtherIntrinsics) {
 }
 
 TEST_F(IntrinsicsFactorTest, HasExactJacobiansForPoints) {
-  const auto host = Point(std::make_unique<PointHostFactor>(bearing_, kWeight));
+  const auto host = Point(PointHostFactor(bearing_, kWeight));
   testing::ExpectTangentJacobians(host, {Scalar(0.03), point_, intrinsics_}, 1e-7);
-  const auto target = Point(std::make_unique<PointFactor>(bearing_, kWeight));
+  const auto target = Point(PointFactor(bearing_, kWeight));
   testing::ExpectTangentJacobians(
       target, {identity_, turned_, identity_, Scalar(0.03), point_, intrinsics_}, 1e-7);
 }
 
 TEST_F(IntrinsicsFactorTest, HasExactJacobiansWithARollingShutter) {
-  const auto factor = Point(std::make_unique<ReadoutFactor>(
-      std::make_unique<PointFactor>(bearing_, kWeight), /*td_block=*/3, bearing_));
+  const auto factor = Point(ReadoutFactor<PointFactor>(PointFactor(bearing_, kWeight), bearing_));
   testing::ExpectTangentJacobians(
       factor, {identity_, turned_, identity_, Scalar(0.03), point_, Scalar(0.04), intrinsics_},
       1e-7);

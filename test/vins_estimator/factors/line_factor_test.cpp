@@ -66,7 +66,7 @@ Vector2d Across(const LineSegmentView& view) {
   return {-along.y(), along.x()};
 }
 
-bool Evaluates(const ceres::CostFunction& cost, const std::vector<Block>& blocks) {
+bool Evaluates(const Factor& cost, const std::vector<Block>& blocks) {
   Vector2d residual;
   return cost.Evaluate(testing::Pointers(blocks).data(), residual.data(), nullptr);
 }

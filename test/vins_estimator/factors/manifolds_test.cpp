@@ -10,6 +10,7 @@
 #include "simulator/random.h"
 #include "test/testing/numeric_jacobian.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
+#include "vins_estimator/optimization/factor_cost.h"
 
 namespace plm_vins {
 namespace {
@@ -102,7 +103,9 @@ TEST(PoseManifold, CeresSolvesWithTangentJacobians) {
   Pose fixed = RandomPose(&random);
   Pose free = RandomPose(&random);
   ceres::Problem problem;
-  problem.AddResidualBlock(new SamePoseFactor(0.1, 0.1), nullptr, fixed.data(), free.data());
+  const SamePoseFactor factor(0.1, 0.1);
+  problem.AddResidualBlock(new FactorCost(&factor, {kPoseSize, kPoseSize}), nullptr, fixed.data(),
+                           free.data());
   const TangentManifold manifold(kPoseSize, kPoseTangentSize, &PosePlus, &PoseMinus);
   SetManifold(&problem, fixed.data(), manifold);
   SetManifold(&problem, free.data(), manifold);

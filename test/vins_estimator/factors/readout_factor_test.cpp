@@ -23,9 +23,7 @@ TimedBearing Bearing() {
 }
 
 // Blocks: td, point, read-out time.
-ReadoutFactor HostFactor() {
-  return {std::make_unique<PointHostFactor>(Bearing(), 100), /*td_block=*/0, Bearing()};
-}
+ReadoutFactor<PointHostFactor> HostFactor() { return {PointHostFactor(Bearing(), 100), Bearing()}; }
 
 TEST(ReadoutFactor, IsTheFactorAtTheTimeOfTheRow) {
   const PointHostFactor plain(Bearing(), 100);
@@ -44,8 +42,7 @@ TEST(ReadoutFactor, HasExactJacobians) {
   turned.tail<4>().normalize();
   Block identity = Block::Zero(7);
   identity[6] = 1;
-  const ReadoutFactor factor(std::make_unique<PointFactor>(Bearing(), 2.0), /*td_block=*/3,
-                             Bearing());
+  const ReadoutFactor<PointFactor> factor(PointFactor(Bearing(), 2.0), Bearing());
   testing::ExpectTangentJacobians(
       factor, {identity, turned, identity, Scalar(0.05), point, Scalar(0.04)}, 1e-7);
 }

@@ -3,7 +3,6 @@
 
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
-#include <ceres/sized_cost_function.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "test/testing/numeric_jacobian.h"
+#include "vins_estimator/optimization/factor_cost.h"
 
 namespace plm_vins {
 namespace {
@@ -20,7 +20,7 @@ using Eigen::Vector2d;
 using Jacobian = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
 
 // r = (x y - 1, x^2 + z), whose Jacobian depends on where it is taken. Defined for x > 0.
-class Bilinear final : public ceres::SizedCostFunction<2, 3> {
+class Bilinear final : public SizedFactor<2, 3> {
  public:
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
@@ -80,7 +80,9 @@ TEST_F(TermEvaluationTest, RobustCostAndGradientAreThoseOfCeres) {
     ASSERT_TRUE(EvaluateTerm(term_, variables_, &evaluation_));
 
     ceres::Problem problem;
-    problem.AddResidualBlock(new Bilinear, new ceres::CauchyLoss(scale), values_.data());
+    const Bilinear bilinear;
+    problem.AddResidualBlock(new FactorCost(&bilinear, {3}), new ceres::CauchyLoss(scale),
+                             values_.data());
     double cost = 0;
     std::vector<double> gradient;
     problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, &gradient, nullptr);

@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "common/drop_counts.h"
 
@@ -16,7 +15,7 @@ namespace plm_vins {
 // One serialised message of a bag.
 struct BagMessage {
   std::string topic;
-  std::vector<uint8_t> data;
+  std::string data;
 };
 
 // The messages of a bag in the order of their time of recording.
@@ -32,9 +31,10 @@ class BagMessageSource {
   virtual std::optional<BagMessage> Next() = 0;
 
   virtual std::optional<int64_t> end_ns() const = 0;  // time of the last selected message
-  virtual DropCounts problems() const = 0;
+  virtual DropCounts problems() const = 0;            // what was left out
 };
 
-// Reads by the index at the bag's end. Throws rosbag::BagException where that is not possible.
+// Reads by the index at the bag's end. Throws std::exception where that is not possible.
 std::unique_ptr<BagMessageSource> OpenIndexedBag(const std::string& file);
+
 }  // namespace plm_vins

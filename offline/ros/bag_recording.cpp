@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "common/ros/msg_conversion.h"
-#include "offline/ros/bag_index.h"
 #include "offline/ros/bag_message_source.h"
 
 namespace plm_vins {
@@ -27,9 +26,8 @@ std::unique_ptr<BagMessageSource> OpenSource(const std::string& file) {
     throw std::runtime_error("no such file: " + file);
   }
   try {
-    CheckBagIndex(file);
     return OpenIndexedBag(file);
-  } catch (const std::exception& error) {  // rosbag::BagException, std::bad_alloc
+  } catch (const std::exception& error) {  // of a bad place, or std::bad_alloc
     throw std::runtime_error(
         file + " is not a ROS bag of format 2.0, or it was cut off, damaged or never closed (" +
         error.what() + "); then \"rosbag reindex " + file + "\" makes it whole");
@@ -52,13 +50,45 @@ std::string Missing(const std::string& file, const std::string& wanted, const To
   return text;
 }
 
+using ros::serialization::IStream;
+
+IStream StreamOf(const BagMessage& message) {
+  // Only read; the stream wants it so.
+  auto* bytes = reinterpret_cast<uint8_t*>(const_cast<char*>(message.data.data()));
+  return {bytes, static_cast<uint32_t>(message.data.size())};
+}
+
+void SkipToPixels(IStream* stream, sensor_msgs::Image image) {
+  stream->next(image.header);
+  stream->next(image.height);
+  stream->next(image.width);
+  stream->next(image.encoding);
+  stream->next(image.is_bigendian);
+  stream->next(image.step);
+}
+
+void SkipToPixels(IStream* stream, sensor_msgs::CompressedImage image) {
+  stream->next(image.header);
+  stream->next(image.format);
+}
+
 template <typename Message>
 Message Deserialize(const BagMessage& message) {
   Message result;
-  auto* bytes = const_cast<uint8_t*>(message.data.data());  // only read; the stream wants it so
-  ros::serialization::IStream stream(bytes, static_cast<uint32_t>(message.data.size()));
+  IStream stream = StreamOf(message);
   ros::serialization::deserialize(stream, result);
   return result;
+}
+
+// roscpp makes room for as many pixels as a message claims before it looks whether they are there.
+template <typename Message>
+Message DeserializeImage(const BagMessage& message) {
+  IStream stream = StreamOf(message);
+  SkipToPixels(&stream, Message());
+  uint32_t size = 0;
+  stream.next(size);
+  stream.advance(size);
+  return Deserialize<Message>(message);
 }
 
 class BagRecording : public Recording {
@@ -125,10 +155,10 @@ class BagRecording : public Recording {
   RecordingEvent ImageEvent(const BagMessage& message) {
     ros::Time stamp;
     if (compressed_) {
-      compressed_image_ = Deserialize<sensor_msgs::CompressedImage>(message);
+      compressed_image_ = DeserializeImage<sensor_msgs::CompressedImage>(message);
       stamp = compressed_image_.header.stamp;
     } else {
-      raw_image_ = Deserialize<sensor_msgs::Image>(message);
+      raw_image_ = DeserializeImage<sensor_msgs::Image>(message);
       stamp = raw_image_.header.stamp;
     }
     return {RecordingEvent::Kind::kImage, ToNanoseconds(stamp), {}};

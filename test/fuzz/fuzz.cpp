@@ -30,6 +30,7 @@ std::vector<Target> Targets() {
 #ifdef WITH_ROS
   targets.push_back(MessagesTarget());
   targets.push_back(BagTarget());
+  targets.push_back(ChunkTarget());
 #endif
   return targets;
 }

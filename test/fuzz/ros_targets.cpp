@@ -9,6 +9,7 @@
 #include "common/ros/msg_conversion.h"
 #include "offline/bag_recording.h"
 #include "test/fuzz/target.h"
+#include "test/offline/ros/packed_chunk.h"
 
 namespace plm_vins::fuzz {
 namespace {
@@ -28,7 +29,7 @@ sensor_msgs::Image Image(int64_t t_ns) {
   return image;
 }
 
-Bytes SmallBag(rosbag::compression::CompressionType compression) {
+std::string SmallBag(rosbag::compression::CompressionType compression) {
   rosbag::Bag bag(BagFile(), rosbag::bagmode::Write);
   bag.setCompression(compression);
   for (int i = 0; i < 20; ++i) {
@@ -42,7 +43,15 @@ Bytes SmallBag(rosbag::compression::CompressionType compression) {
   bag.close();
   std::ostringstream text;
   text << std::ifstream(BagFile(), std::ios::binary).rdbuf();
-  return ToBytes(text.str());
+  return text.str();
+}
+
+void ReadBag(const std::string& bytes) {
+  std::ofstream(BagFile(), std::ios::binary) << bytes;
+  const auto recording = OpenBag(BagFile(), "/cam0/image_raw", "/imu0");
+  while (const auto event = recording->Next()) {
+    if (event->kind == RecordingEvent::Kind::kImage) recording->LoadImage();
+  }
 }
 
 // Messages of any content, as a node's callback may get them; roscpp has read their lengths.
@@ -91,14 +100,20 @@ void Try(Conversion conversion) {
 }  // namespace
 
 Target BagTarget() {
-  const std::vector<Bytes> seeds = {SmallBag(rosbag::compression::Uncompressed),
-                                    SmallBag(rosbag::compression::BZ2),
-                                    SmallBag(rosbag::compression::LZ4)};
-  return {"bag", seeds, [](const Bytes& bytes) {
-            std::ofstream(BagFile(), std::ios::binary) << ToText(bytes);
-            const auto recording = OpenBag(BagFile(), "/cam0/image_raw", "/imu0");
-            while (const auto event = recording->Next()) {
-              if (event->kind == RecordingEvent::Kind::kImage) recording->LoadImage();
+  const std::vector<Bytes> seeds = {ToBytes(SmallBag(rosbag::compression::Uncompressed)),
+                                    ToBytes(SmallBag(rosbag::compression::BZ2)),
+                                    ToBytes(SmallBag(rosbag::compression::LZ4))};
+  return {"bag", seeds, [](const Bytes& bytes) { ReadBag(ToText(bytes)); }};
+}
+
+// The content of a chunk, which is packed when it is damaged, so that checksums do not find it.
+Target ChunkTarget() {
+  const testing::BagWithOneChunk good(SmallBag(rosbag::compression::Uncompressed));
+  return {"chunk", {ToBytes(good.content)}, [good](const Bytes& bytes) {
+            testing::BagWithOneChunk bag = good;
+            bag.content = ToText(bytes);
+            for (const std::string compression : {"lz4", "bz2"}) {
+              Try([&] { ReadBag(bag.Packed(compression)); });
             }
           }};
 }

@@ -29,6 +29,7 @@ Target PointTrackerTarget();
 Target LineTrackerTarget();
 // With ROS only.
 Target BagTarget();
+Target ChunkTarget();
 Target MessagesTarget();
 
 // The numbers in an input, one after the other; zeros after its end.

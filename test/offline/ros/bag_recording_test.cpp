@@ -13,6 +13,7 @@
 
 #include "common/ros/msg_conversion.h"
 #include "test/offline/recording_contents.h"
+#include "test/offline/ros/packed_chunk.h"
 #include "test/testing/temporary_folder.h"
 
 namespace plm_vins {
@@ -30,6 +31,8 @@ constexpr int64_t kStart = 1'500'000'000'000'000'000;
 constexpr int64_t kStep = 10'000'000;  // IMU at 100 Hz, every fifth time an image
 constexpr int kSamples = 200;
 constexpr int kImages = 40;
+constexpr rosbag::CompressionType kCompressions[] = {
+    rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4};
 
 ros::Time Stamp(int i) { return ToRosTime(kStart + i * kStep); }
 
@@ -73,10 +76,11 @@ class BagRecording : public ::testing::Test {
  protected:
   template <typename MakeImage>
   void WriteBag(const std::string& image_topic, const MakeImage& make_image,
-                rosbag::CompressionType compression = rosbag::compression::Uncompressed) {
+                rosbag::CompressionType compression = rosbag::compression::Uncompressed,
+                uint32_t chunk_size = 20000) {  // several chunks in a small bag
     rosbag::Bag bag(file_, rosbag::bagmode::Write);
     bag.setCompression(compression);
-    bag.setChunkThreshold(20000);  // several chunks in a small bag
+    bag.setChunkThreshold(chunk_size);
     bag.write("/other", Stamp(0), std_msgs::Bool());
     for (int i = 0; i < kSamples; ++i) {
       bag.write("/imu0", Stamp(i), Imu(i));
@@ -89,14 +93,14 @@ class BagRecording : public ::testing::Test {
     std::filesystem::resize_file(file_, static_cast<uintmax_t>(share * size));
   }
 
-  // Of a message in its chunk, as the first list of the index has it: behind the fields of the
-  // list's header, the size of the list and the time of the message.
-  void SetFirstOffset(int32_t offset) {
+  // Of an IMU sample in its chunk, as the second list of the index has it (the first is of another
+  // topic): behind the fields of the list's header, the size of the list and the sample's time.
+  void SetImuOffset(int32_t offset) {
     const std::string list = "op=\x04";
     const std::string last_field = "ver=";
     std::fstream bag(file_, std::ios::in | std::ios::out | std::ios::binary);
     const std::string bytes(std::istreambuf_iterator<char>(bag), {});
-    const size_t version = bytes.find(last_field, bytes.find(list));
+    const size_t version = bytes.find(last_field, bytes.find(list, bytes.find(list) + 1));
     ASSERT_NE(version, std::string::npos);
     bag.seekp(static_cast<std::streamoff>(version + last_field.size() + 4 + 4 + 8));
     bag.write(reinterpret_cast<const char*>(&offset), sizeof(offset));
@@ -158,12 +162,79 @@ TEST_F(BagRecording, NamesTheRemedyForATruncatedBag) {
 TEST_F(BagRecording, NamesTheRemedyForAnIndexThatLeadsAstray) {
   for (const auto compression : {rosbag::compression::Uncompressed, rosbag::compression::LZ4}) {
     WriteBag("/cam0/image_raw", RawImage, compression);
-    SetFirstOffset(INT32_MAX);
+    SetImuOffset(INT32_MAX);
     EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("\"rosbag reindex " + file_ + "\""));
   }
+}
+
+TEST_F(BagRecording, LeavesOutAMessageThatIsNotWhereTheIndexSays) {
+  for (const auto compression : kCompressions) {
+    WriteBag("/cam0/image_raw", RawImage, compression);
+    SetImuOffset(7);  // in the middle of a record
+    const auto recording = OpenBag(file_, "/cam0/image_raw", "/imu0");
+    const RecordingContents contents = ReadAll(recording.get());
+    EXPECT_EQ(contents.imu.size() + contents.images.size(), size_t{kSamples + kImages - 1});
+    EXPECT_EQ(contents.problems.at("bag_damaged"), 1);
+    EXPECT_THAT(recording->problems().front().detail,
+                AllOf(HasSubstr(file_ + ", chunk at byte"), HasSubstr("rosbag reindex")));
+  }
+}
+
+// What is behind it is read all the same.
+TEST_F(BagRecording, LeavesOutAChunkThatDoesNotUnpack) {
+  for (const auto compression : {rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    WriteBag("/cam0/image_raw", RawImage, compression);
+    std::string bytes = folder_.Read("test.bag");
+    const size_t chunk = bytes.find("compression=", bytes.size() / 2);
+    for (size_t i = 200; i < 220; ++i) bytes[chunk + i] ^= '\x55';
+    folder_.Write("test.bag", bytes);
+    const auto recording = OpenBag(file_, "/cam0/image_raw", "/imu0");
+    const RecordingContents contents = ReadAll(recording.get());
+    EXPECT_GT(contents.imu.size(), size_t{kSamples / 2});
+    EXPECT_LT(contents.imu.size(), size_t{kSamples});
+    EXPECT_EQ(contents.stamps.back(), kStart + (kSamples - 1) * kStep);
+    EXPECT_EQ(contents.problems.at("bag_damaged"), 1);
+    EXPECT_THAT(recording->problems().front().detail,
+                AllOf(HasSubstr(file_ + ", chunk at byte"), HasSubstr("does not unpack")));
+  }
+}
+
+// What checksums do not find: the content was wrong before it was packed.
+TEST_F(BagRecording, LeavesOutWhatIsWrongInsideOfACompressedChunk) {
+  WriteBag("/cam0/image_raw", RawImage, rosbag::compression::Uncompressed, 10'000'000);
+  const testing::BagWithOneChunk good(folder_.Read("test.bag"));
+  for (const std::string compression : {"bz2", "lz4"}) {
+    folder_.Write("test.bag", good.Packed(compression));
+    ExpectComplete(Read());
+
+    testing::BagWithOneChunk bag = good;  // whose messages are said to be of no kind that there is
+    for (size_t at = 0; (at = bag.content.find("op=\x02", at + 1)) != std::string::npos;) {
+      bag.content[at + 3] = '\x77';
+    }
+    folder_.Write("test.bag", bag.Packed(compression));
+    const RecordingContents none = Read();
+    EXPECT_TRUE(none.stamps.empty());
+    EXPECT_EQ(none.problems.at("bag_damaged"), kSamples + kImages);
+
+    bag = good;
+    bag.content.resize(bag.content.size() / 2);
+    folder_.Write("test.bag", bag.Packed(compression));
+    EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("\"rosbag reindex " + file_ + "\""));
+  }
+}
+
+// Of the pixels, which take most of the message: 4 GiB instead of 3 KiB.
+TEST_F(BagRecording, MakesNoRoomForPixelsThatAreNotThere) {
   WriteBag("/cam0/image_raw", RawImage);
-  SetFirstOffset(7);  // in the middle of a record
-  EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("rosbag reindex"));
+  std::string bytes = folder_.Read("test.bag");
+  const std::string before_size = std::string("mono8") + '\0' + std::string("\x40\0\0\0", 4);
+  const size_t size = bytes.find(before_size) + before_size.size();
+  ASSERT_LT(size, bytes.size());
+  bytes.replace(size, 4, "\xff\xff\xff\xff");
+  folder_.Write("test.bag", bytes);
+  const RecordingContents contents = Read();
+  EXPECT_EQ(contents.images.size(), size_t{kImages - 1});
+  EXPECT_EQ(contents.problems.at("messages_malformed"), 1);
 }
 
 TEST_F(BagRecording, NamesTheRemedyForABagThatWasNeverClosed) {
@@ -176,8 +247,7 @@ TEST_F(BagRecording, NamesTheRemedyForABagThatWasNeverClosed) {
 
 // As fuzzing finds them: the size of a chunk, as its header claims it, is 4 GiB.
 TEST_F(BagRecording, RefusesChunksThatClaimToBeHuge) {
-  for (const auto compression :
-       {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+  for (const auto compression : kCompressions) {
     WriteBag("/cam0/image_raw", RawImage, compression);
     std::string bytes = folder_.Read("test.bag");
     const size_t second_chunk = bytes.find("size=", bytes.find("size=") + 1);

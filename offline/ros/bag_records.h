@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace plm_vins {
+
+// The records of a bag of format 2.0, see https://wiki.ros.org/Bags/Format/2.0. Whatever sizes and
+// places the file claims, nothing is read beyond its end or that of an unpacked chunk; what does
+// not fit throws std::runtime_error.
+
+enum class BagOp : uint8_t {
+  kMessage = 2,
+  kBag = 3,
+  kIndex = 4,
+  kChunk = 5,
+  kChunkInfo = 6,
+  kConnection = 7
+};
+
+using BagFields = std::map<std::string, std::string>;
+
+BagFields ParseBagFields(const std::string& header);
+
+template <typename T>
+T BagValue(const std::string& bytes) {
+  T value;
+  if (bytes.size() != sizeof(T)) throw std::runtime_error("a field of the wrong size");
+  std::memcpy(&value, bytes.data(), sizeof(T));
+  return value;
+}
+
+struct BagRecord {
+  BagFields fields;
+  uint64_t data = 0, end = 0;  // where its data begin and end
+
+  const std::string& Text(const std::string& name) const;
+  template <typename T>
+  T Field(const std::string& name) const {
+    return BagValue<T>(Text(name));
+  }
+};
+
+// What has records in it: the file, or an unpacked chunk.
+class BagBytes {
+ public:
+  explicit BagBytes(uint64_t size) : size_(size) {}
+  virtual ~BagBytes() = default;
+
+  uint64_t size() const { return size_; }
+  std::string Read(uint64_t at, uint64_t size);
+  // The record at a place, which must be of this kind and end by `limit`.
+  BagRecord ReadRecord(BagOp op, uint64_t at, uint64_t limit);
+  BagRecord ReadRecord(BagOp op, uint64_t at) { return ReadRecord(op, at, size_); }
+
+ private:
+  virtual void Copy(uint64_t at, std::string* bytes) = 0;
+
+  uint64_t size_;
+};
+
+class BagFile : public BagBytes {
+ public:
+  explicit BagFile(const std::string& file);
+
+ private:
+  void Copy(uint64_t at, std::string* bytes) override;
+
+  std::ifstream stream_;
+};
+
+// The content of a compressed chunk, whose checksums have been found right.
+std::unique_ptr<BagBytes> UnpackChunk(const BagRecord& chunk, BagFile* file);
+
+}  // namespace plm_vins

@@ -151,8 +151,8 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   Triangulate(output);
   FindStructure(keep_second_newest, output);
   Optimize(options_.solution, output);
-  CheckTiming();
-  if (const auto noise_scale = FindImuDoubt()) {
+  const Eigen::Vector3d turn_residual = CheckTiming();
+  if (const auto noise_scale = FindImuDoubt(turn_residual)) {
     DoubtNewestMotion(*noise_scale);
     output->imu_doubted = true;
     Optimize(options_.solution, output);
@@ -311,7 +311,7 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
   output->timings.optimization = stopwatch.Milliseconds();
 }
 
-void Estimator::CheckTiming() {
+Eigen::Vector3d Estimator::CheckTiming() {
   const SlidingWindow& window = state_.estimate.map.window;
   const Preintegration& motion = *window.newest().motion_since_previous;
   const Vector15d residual = ImuResidual(motion, window.gravity_W, window.second_newest().state,
@@ -320,9 +320,10 @@ void Estimator::CheckTiming() {
   const Eigen::Vector3d rate = motion.samples().back().gyro;
   state_.delay_monitor.Add(turn, rate - motion.samples().front().gyro);
   state_.stamp_jitter.Add(turn, rate);
+  return turn;
 }
 
-std::optional<double> Estimator::FindImuDoubt() {
+std::optional<double> Estimator::FindImuDoubt(const Eigen::Vector3d& turn_residual) {
   const LocalMap& map = state_.estimate.map;
   const WindowFrame& newest = map.window.newest();
   ImuMonitor::Evidence evidence;
@@ -332,6 +333,7 @@ std::optional<double> Estimator::FindImuDoubt() {
   const PointMap::Fit fit = map.points.FitOfNewest(map.window, options_.max_reprojection_error);
   evidence.points = fit.seen;
   evidence.contradicted = fit.contradicted;
+  if (!state_.delay_monitor.delay()) evidence.turn_residual = turn_residual;
   return state_.imu_monitor.Add(evidence);
 }
 

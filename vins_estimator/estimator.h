@@ -84,8 +84,8 @@ class Estimator {
   std::optional<std::string> FindFailure(const EstimatorOutput& output);
   void GiveUp(const std::string& why, EstimatorOutput* output);
   bool StandsStill(const FrameMeasurement& measurement);
-  void CheckTiming();
-  std::optional<double> FindImuDoubt();
+  Eigen::Vector3d CheckTiming();  // the turn that the camera sees beyond the gyro's [rad]
+  std::optional<double> FindImuDoubt(const Eigen::Vector3d& turn_residual);
   void DoubtNewestMotion(double noise_scale);
   void Optimize(const SolverOptions& options, EstimatorOutput* output);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "common/measurements.h"
@@ -62,6 +63,27 @@ TEST(ImuMonitor, FollowsNoiseThatGoesOnAndForgetsIt) {
   EXPECT_NEAR(monitor.noise_scale(), true_scale, 0.1 * true_scale);
   for (; i < 400; ++i) monitor.Add(At(0.05 * i, 0.5 / monitor.noise_scale()));
   EXPECT_EQ(monitor.noise_scale(), 1);
+}
+
+// An image that contradicts a little, and by a turn about one axis or to and fro.
+ImuMonitor::Evidence Turned(int image, double turn) {
+  ImuMonitor::Evidence evidence = At(0.05 * image, image < 10 ? 4 : 1.5);
+  evidence.turn_residual = turn * Eigen::Vector3d(1, -1, 1);
+  return evidence;
+}
+
+TEST(ImuMonitor, NoiseThatHasOneDirectionIsABias) {
+  ImuMonitor monitor;
+  int images = 1;
+  while (images < 100 && !monitor.Add(Turned(images, 2e-3))) ++images;
+  EXPECT_LT(images, 40);  // two seconds
+  EXPECT_EQ(monitor.noise_scale(), 1);
+}
+
+TEST(ImuMonitor, NoiseThatGoesToAndFroIsNone) {
+  ImuMonitor monitor;
+  for (int i = 0; i < 200; ++i) EXPECT_FALSE(monitor.Add(Turned(i, 2e-3 * std::sin(0.3 * i))));
+  EXPECT_GT(monitor.noise_scale(), 1);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace plm_vins {
 namespace {
 
 constexpr int kMaxIterations = 50;
-constexpr int kMaxHalvings = 10;
+constexpr int kMaxHalvings = 60;  // from far outside, where the distortion is of fifth order
 constexpr double kTolerance = 4 * std::numeric_limits<double>::epsilon();
 
 // Smallest s = r^2 > 0 where r (1 + k1 s + k2 s^2) stops growing: 1 + 3 k1 s + 5 k2 s^2 = 0.

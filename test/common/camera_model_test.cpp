@@ -232,7 +232,9 @@ TEST(PinholeRadtan, PincushionDistortionReachesEverywhere) {
   for (const double radius : {0.1, 1.0, 10.0, 100.0}) {
     const auto pixel = camera->Project({radius, radius, 1});
     ASSERT_TRUE(pixel);
-    EXPECT_NEAR(camera->Unproject(*pixel)->x() / radius, 1, 1e-12);
+    const auto xy = camera->Unproject(*pixel);
+    ASSERT_TRUE(xy) << radius;
+    EXPECT_NEAR(xy->x() / radius, 1, 1e-12);
   }
 }
 

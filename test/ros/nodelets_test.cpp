@@ -99,6 +99,8 @@ class Feed {
     return image->header.stamp;
   }
 
+  void Publish(const sensor_msgs::Image& image) { images_.publish(image); }
+
  private:
   rosbag::Bag bag_;
   rosbag::View view_;
@@ -184,6 +186,29 @@ TEST_F(TrackerNodelets, ChangeTheNumberOfFeaturesWhileTheyRun) {
     EXPECT_LE(points.newest->points.size(), static_cast<size_t>(value));
     EXPECT_GT(points.newest->points.size(), 0.8 * value);
   }
+}
+
+// Of an unknown encoding, of a size beyond its bytes and any memory, of another time.
+TEST_F(TrackerNodelets, GoOnAfterImagesThatNoCameraSends) {
+  const Features points("/feature_tracker/feature");
+  const Features node_lines("/nodes/linefeature_tracker/linefeature");
+  ASSERT_TRUE(SpinUntil(kTimeout, [&] {
+    return points.subscriber.getNumPublishers() && node_lines.subscriber.getNumPublishers();
+  }));
+  sensor_msgs::Image image;
+  image.header.stamp = feed_->PublishImage() + ros::Duration(1e-3);
+  image.encoding = "secret";
+  image.width = image.height = image.step = 4;
+  image.data.resize(16);
+  feed_->Publish(image);
+  image.encoding = "mono8";
+  image.width = image.height = image.step = 4'294'967'295;
+  feed_->Publish(image);
+  image.width = image.height = image.step = 4;
+  image.header.stamp = ros::Time(4'294'967'295, 0);
+  feed_->Publish(image);
+  const ros::Time stamp = feed_->PublishImage();
+  EXPECT_TRUE(SpinUntil(kTimeout, [&] { return points.Has(stamp) && node_lines.Has(stamp); }));
 }
 
 TEST_F(TrackerNodelets, AreUnloadedWhileImagesArriveAndLoadedAgain) {

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/ros/estimator_diagnostics.h"
+
+#include <gtest/gtest.h>
+
+namespace plm_vins {
+namespace {
+
+using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+// What is said of a tracked image, with its pose this old.
+class EstimatorDiagnosticsTest : public ::testing::Test {
+ protected:
+  Status Report(double age) {
+    diagnostics_.Update(output_, ++frames_, age);
+    Status status;
+    diagnostics_.Report(0, &status);
+    return status;
+  }
+
+  static std::string Value(const Status& status, const std::string& key) {
+    for (const auto& value : status.values) {
+      if (value.key == key) return value.value;
+    }
+    return "missing";
+  }
+
+  void SetUp() override {
+    ros::Time::init();
+    output_.status = EstimatorStatus::kTracking;
+    output_.has_pose = true;
+  }
+
+  EstimatorDiagnostics diagnostics_{Config(), "/points", "/lines"};
+  EstimatorOutput output_;
+  int64_t frames_ = 0;
+};
+
+TEST_F(EstimatorDiagnosticsTest, AreFineWhileItTracksInTime) {
+  const Status status = Report(0.1);
+  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::OK);
+  EXPECT_EQ(status.message, "tracking");
+  EXPECT_EQ(Value(status, "pose_age_ms"), "100");
+}
+
+TEST_F(EstimatorDiagnosticsTest, WarnOfPosesOlderThanHalfASecond) {
+  EXPECT_EQ(Report(0.49).level, diagnostic_msgs::DiagnosticStatus::OK);
+  const Status status = Report(4.2);
+  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
+  EXPECT_EQ(status.message, "tracking; late: poses are 4200 ms old");
+  EXPECT_EQ(Value(status, "pose_age_ms"), "4200");
+}
+
+TEST_F(EstimatorDiagnosticsTest, WarnWhereThePoseIsDoubtful) {
+  output_.on_imu_alone = true;
+  EXPECT_EQ(Report(0).message, "tracking; blind: the IMU alone carries on");
+  output_.on_imu_alone = false;
+  output_.contradicted = true;
+  const Status status = Report(0);
+  EXPECT_EQ(status.message, "tracking; the camera contradicts the state");
+  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
+}
+
+TEST_F(EstimatorDiagnosticsTest, WarnWhereNothingThatComesIsUsable) {
+  diagnostics_.input().CountMalformed("two channels");
+  Status status;
+  diagnostics_.Report(0, &status);
+  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
+  EXPECT_EQ(status.message, "waiting: no usable image yet");
+  EXPECT_EQ(Value(status, "feature_messages_malformed"), "1");
+}
+
+TEST_F(EstimatorDiagnosticsTest, KeepWhyItLastStartedAnew) {
+  output_.restarted = true;
+  output_.reason = "nothing seen";
+  Report(0);
+  output_.restarted = false;
+  output_.reason = "";
+  EXPECT_EQ(Value(Report(0), "last_restart"), "nothing seen");
+}
+
+}  // namespace
+}  // namespace plm_vins

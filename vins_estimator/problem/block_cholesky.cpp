@@ -47,8 +47,10 @@ bool BlockCholesky::Eliminate(int offset, Eigen::MatrixXd* S) {
   for (const ColumnRun& run : block.runs) {
     block.W.middleCols(run.local, run.size) = columns.middleRows(run.dense, run.size).transpose();
   }
-  block.factor.matrixL().solveInPlace(block.W);
-  SubtractGram<kBlockSize>(block.W, block.runs, S);
+  if (!block.runs.empty()) {  // Eigen refers to the first element, which there must be
+    block.factor.matrixL().solveInPlace(block.W);
+    SubtractGram<kBlockSize>(block.W, block.runs, S);
+  }
   blocks_.push_back(std::move(block));
   return true;
 }

@@ -88,6 +88,12 @@ TEST(BlockCholesky, GivesABlockOfTheInverseInTheOrderAsked) {
   }
 }
 
+TEST(BlockCholesky, ABlockMayBeCoupledToNothing) {
+  Eigen::MatrixXd S = 2 * Eigen::MatrixXd::Identity(kSize, kSize);
+  const BlockCholesky factors(kBlocks * kBlock, &S);
+  EXPECT_EQ(factors.Solve(Eigen::VectorXd::Ones(kSize)), Eigen::VectorXd::Constant(kSize, 0.5));
+}
+
 TEST(BlockCholesky, TellsWhatIsNotPositiveDefinite) {
   for (const int wrong : {1, kDense + 2, kSize - 1}) {
     Eigen::MatrixXd S = ChainOfBlocks();

@@ -4,6 +4,7 @@
 #include <bzlib.h>
 #include <roslz4/lz4s.h>
 
+#include <algorithm>
 #include <boost/smart_ptr/make_unique.hpp>
 #include <filesystem>
 

@@ -7,6 +7,9 @@ namespace plm_vins {
 
 Quadratic MarginalizeFirst(const Quadratic& quadratic, int count) {
   const int rest = static_cast<int>(quadratic.b.size()) - count;
+  // Eigen refers to the first element of what it solves for, which there must be.
+  if (count == 0) return quadratic;
+  if (rest == 0) return {Eigen::MatrixXd(0, 0), Eigen::VectorXd(0)};
   const auto H_mr = quadratic.H.topRightCorner(count, rest);
 
   // Unit diagonal first: metres, radians and biases differ by many orders of magnitude.

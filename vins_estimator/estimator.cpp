@@ -151,8 +151,7 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   Triangulate(output);
   FindStructure(keep_second_newest, output);
   Optimize(options_.solution, output);
-  const Eigen::Vector3d turn_residual = CheckTiming();
-  if (const auto noise_scale = FindImuDoubt(turn_residual)) {
+  if (const auto noise_scale = FindImuDoubt(CheckTiming())) {
     DoubtNewestMotion(*noise_scale);
     output->imu_doubted = true;
     Optimize(options_.solution, output);
@@ -247,11 +246,11 @@ void Estimator::UniteLines(EstimatorOutput* output) {
 
 void Estimator::RemoveOutliers(EstimatorOutput* output) {
   LocalMap& map = state_.estimate.map;
-  output->counts.points_rejected =
-      map.points.RemoveOutliers(map.window, options_.max_reprojection_error);
-  output->counts.lines_wandering = NoteWandering(map.window, state_.noise.line(), &map.lines);
-  output->counts.lines_rejected = map.lines.RemoveOutliers(map.window, options_.line_limits);
-  output->counts.known_rejected = output->counts.known_seen - map.CountInNewest();
+  EstimatorCounts& counts = output->counts;
+  counts.points_rejected = map.points.RemoveOutliers(map.window, options_.max_reprojection_error);
+  counts.lines_wandering = NoteWandering(map.window, state_.noise.line(), &map.lines);
+  counts.lines_rejected = map.lines.RemoveOutliers(map.window, options_.line_limits);
+  counts.known_rejected = counts.known_seen - map.CountInNewest();
 }
 
 void Estimator::MoveRays() {

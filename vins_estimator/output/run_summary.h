@@ -52,8 +52,8 @@ class RunSummary {
   int64_t merged_lines_ = 0;
   int64_t recognised_lines_ = 0;
   int64_t wandering_lines_ = 0;  // (NoteWandering)
-  int64_t manhattan_ = 0;   // poses with a Manhattan frame
-  double path_length_ = 0;  // [m]
+  int64_t manhattan_ = 0;        // poses with a Manhattan frame
+  double path_length_ = 0;       // [m]
   std::optional<Eigen::Vector3d> last_position_;
   Calibration calibration_;  // as of the last pose
   std::optional<int64_t> first_frame_ns_;

@@ -325,8 +325,7 @@ Eigen::Vector3d Estimator::CheckTiming() {
 std::optional<double> Estimator::FindImuDoubt(const Eigen::Vector3d& turn_residual) {
   const LocalMap& map = state_.estimate.map;
   const WindowFrame& newest = map.window.newest();
-  ImuMonitor::Evidence evidence;
-  evidence.t_ns = newest.state.t_ns;
+  ImuMonitor::Evidence evidence{newest.state.t_ns};
   evidence.chi_square = ImuChiSquare(*newest.motion_since_previous, map.window.gravity_W,
                                      map.window.second_newest().state, newest.state);
   const PointMap::Fit fit = map.points.FitOfNewest(map.window, options_.max_reprojection_error);

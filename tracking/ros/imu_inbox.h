@@ -69,6 +69,7 @@ class ImuInbox {
     stream_.Add(sample.t_ns);
     {
       const std::lock_guard<std::mutex> lock(mutex_);
+      if (samples_.size() == kQueue) samples_.erase(samples_.begin());  // nobody takes them
       samples_.push_back(sample);
       if (!is_wanted_ && samples_.size() % kBatch != 0) return;
       is_wanted_ = false;

@@ -29,7 +29,7 @@ echo "clang-tidy: ${#sources[@]} changed sources, at most $limit checked"
 ((${#sources[@]})) || exit 0
 
 # The commands of a full build; clang cannot read the precompiled headers of GCC.
-cmake -S . -B "$build" -DPLM_PRECOMPILED_HEADERS=OFF >/dev/null
+cmake -S . -B "$build" -DPLM_PRECOMPILED_HEADERS=OFF -DBUILD_FUZZ=ON >/dev/null
 cmake --build "$build" --target plm_vins_gencfg >/dev/null
 printf '%s\n' "${sources[@]:0:limit}" |
   xargs -P "$(nproc)" -n 1 clang-tidy-14 -p "$build" --quiet --warnings-as-errors='*' \

@@ -315,7 +315,7 @@ Eigen::Vector3d Estimator::CheckTiming() {
   const Preintegration& motion = *window.newest().motion_since_previous;
   const Vector15d residual = ImuResidual(motion, window.gravity_W, window.second_newest().state,
                                          window.newest().state, nullptr);
-  const Eigen::Vector3d turn = residual.segment<3>(ImuErrorIndex::kRotation);
+  Eigen::Vector3d turn = residual.segment<3>(ImuErrorIndex::kRotation);
   const Eigen::Vector3d rate = motion.samples().back().gyro;
   state_.delay_monitor.Add(turn, rate - motion.samples().front().gyro);
   state_.stamp_jitter.Add(turn, rate);

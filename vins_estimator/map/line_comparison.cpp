@@ -41,12 +41,8 @@ std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaternion
 
 double DistanceInImage(const SlidingWindow& window, const PluckerLine& line_W,
                        const LineView& view) {
-  const Rigid3d T_C_W = window.T_W_C(view.t_ns).Inverse();
-  Eigen::Vector2d distances;
-  if (!EndPointDistances(view.segment, (T_C_W * line_W).moment, &distances, nullptr)) {
-    return std::numeric_limits<double>::infinity();
-  }
-  return distances.cwiseAbs().maxCoeff();
+  const auto distances = DistancesOf(view, line_W, window);
+  return distances ? distances->cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace plm_vins

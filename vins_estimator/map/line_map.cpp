@@ -41,13 +41,9 @@ bool IsTooLong(const LineLandmark& landmark, const SlidingWindow& window, double
 // Mean square of a view's two residuals in units of the noise; infinite where it has no image.
 double MeanSquareError(const PluckerLine& line_W, const LineView& view, double noise,
                        const SlidingWindow& window) {
-  const LineSighting sighting = SightingOf(view, window);
-  Eigen::Vector2d distances;
-  const Eigen::Vector3d moment = (sighting.T_W_C.Inverse() * line_W).moment;
-  if (!EndPointDistances(view.segment, moment, &distances, nullptr)) {
-    return std::numeric_limits<double>::infinity();
-  }
-  return 0.5 * distances.squaredNorm() / (noise * noise);
+  const auto distances = DistancesOf(view, line_W, window);
+  if (!distances) return std::numeric_limits<double>::infinity();
+  return 0.5 * distances->squaredNorm() / (noise * noise);
 }
 
 // Takes out what anchors have seen and does not fit. Returns how many views went.
@@ -99,6 +95,14 @@ void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark) 
 void KeepOnlyView(const SlidingWindow& window, size_t view, LineLandmark* landmark) {
   KeepOnlyView<LineLandmark>(window, view, landmark);
   landmark->anchor_views.clear();
+}
+
+std::optional<Eigen::Vector2d> DistancesOf(const LineView& view, const PluckerLine& line_W,
+                                           const SlidingWindow& window) {
+  const PluckerLine line_C = window.T_W_C(view.t_ns).Inverse() * line_W;
+  Eigen::Vector2d distances;
+  if (!EndPointDistances(view.segment, line_C.moment, &distances, nullptr)) return std::nullopt;
+  return distances;
 }
 
 LineSighting SightingOf(const LineView& view, const SlidingWindow& window) {

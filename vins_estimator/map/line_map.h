@@ -57,6 +57,11 @@ LineSighting SightingOf(const LineView& view, const SlidingWindow& window);
 std::vector<LineSighting> SightingsOf(const std::vector<LineView>& views,
                                       const SlidingWindow& window);
 
+// How far the start and the end of a view are from a line in the world, across it, normalised.
+// Nothing where the line has no image there.
+std::optional<Eigen::Vector2d> DistancesOf(const LineView& view, const PluckerLine& line_W,
+                                           const SlidingWindow& window);
+
 // A triangulated line in the world.
 PluckerLine LineInWorld(const LineLandmark& landmark, const SlidingWindow& window);
 

@@ -9,7 +9,6 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMinViews = 6;         // fewer hardly show how their errors follow on each other
 constexpr size_t kMinLandmarks = 24;    // fewer are no sample
 constexpr double kGreatestRatio = 9.0;  // of variances, to the median landmark's
 constexpr double kGreatestCorrelation = 0.8;
@@ -18,13 +17,10 @@ constexpr double kMinMotion = 0.3;           // from one end of the window to th
 constexpr double kLeast = 0.5, kMost = 4.0;  // times what is assumed at first
 
 template <typename Landmarks>
-std::vector<ViewSpread> CollectSpreads(const Landmarks& landmarks, const SlidingWindow& window,
-                                       int parameters) {
+std::vector<ViewSpread> CollectSpreads(const Landmarks& landmarks, const SlidingWindow& window) {
   std::vector<ViewSpread> spreads;
   for (const auto& [id, landmark] : landmarks) {
-    if (!landmark.triangulated || landmark.views.size() < kMinViews) continue;
-    const auto residuals = ResidualsOf(landmark, window);
-    if (residuals.size() >= kMinViews) spreads.push_back(SpreadOf(residuals, parameters));
+    if (const auto spread = SpreadOf(landmark, window)) spreads.push_back(*spread);
   }
   return spreads;
 }
@@ -73,8 +69,8 @@ void ViewNoise::Update(const LocalMap& map) {
   newest_ns_ = newest_ns;
   if (window.newest().stationary || MotionOver(window) < kMinMotion) return;
   const double share = 1 - std::exp(-dt / kTimeConstant);
-  const auto points = CollectSpreads(map.points.landmarks(), window, kPointParameters);
-  const auto lines = CollectSpreads(map.lines.landmarks(), window, kLineParameters);
+  const auto points = CollectSpreads(map.points.landmarks(), window);
+  const auto lines = CollectSpreads(map.lines.landmarks(), window);
   Follow(EffectiveNoise(points), first_point_, share, &point_);
   Follow(EffectiveNoise(lines), first_line_, share, &line_);
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "vins_estimator/geometry/line_segment_view.h"
 #include "vins_estimator/geometry/plucker.h"
 #include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/point_map.h"
@@ -11,6 +10,8 @@
 namespace plm_vins {
 namespace {
 
+constexpr size_t kMinViews = 6;
+constexpr int kPointParameters = 3, kLineParameters = 4;
 constexpr double kGreatestLength = 3.0;  // of one view's residual, to the median view's
 
 // Makes a view that is another thing altogether count as one that is just far off.
@@ -26,8 +27,7 @@ void ShortenOutliers(std::vector<Eigen::Vector2d>* residuals) {
   }
 }
 
-}  // namespace
-
+// By time.
 std::vector<Eigen::Vector2d> ResidualsOf(const PointLandmark& point, const SlidingWindow& window) {
   const Eigen::Vector3d p_W = PositionInWorld(point, window);
   std::vector<Eigen::Vector2d> residuals;
@@ -42,14 +42,21 @@ std::vector<Eigen::Vector2d> ResidualsOf(const LineLandmark& line, const Sliding
   const PluckerLine line_W = LineInWorld(line, window);
   std::vector<Eigen::Vector2d> residuals;
   for (const LineView& view : line.views) {
-    const PluckerLine line_C = window.T_W_C(view.t_ns).Inverse() * line_W;
-    Eigen::Vector2d distances;
-    if (EndPointDistances(view.segment, line_C.moment, &distances, nullptr)) {
-      residuals.push_back(distances);
-    }
+    if (const auto distances = DistancesOf(view, line_W, window)) residuals.push_back(*distances);
   }
   return residuals;
 }
+
+template <typename Landmark>
+std::optional<ViewSpread> SpreadOfViews(const Landmark& landmark, const SlidingWindow& window,
+                                        int parameters) {
+  if (!landmark.triangulated || landmark.views.size() < kMinViews) return std::nullopt;
+  const std::vector<Eigen::Vector2d> residuals = ResidualsOf(landmark, window);
+  if (residuals.size() < kMinViews) return std::nullopt;
+  return SpreadOf(residuals, parameters);
+}
+
+}  // namespace
 
 ViewSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters) {
   ShortenOutliers(&residuals);
@@ -61,6 +68,14 @@ ViewSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters) {
     spread.difference += (residuals[i] - residuals[i - 1]).squaredNorm() / (4 * (count - 1));
   }
   return spread;
+}
+
+std::optional<ViewSpread> SpreadOf(const PointLandmark& point, const SlidingWindow& window) {
+  return SpreadOfViews(point, window, kPointParameters);
+}
+
+std::optional<ViewSpread> SpreadOf(const LineLandmark& line, const SlidingWindow& window) {
+  return SpreadOfViews(line, window, kLineParameters);
 }
 
 }  // namespace plm_vins

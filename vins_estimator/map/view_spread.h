@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "vins_estimator/map/line_landmark.h"
@@ -9,13 +10,6 @@
 #include "vins_estimator/map/sliding_window.h"
 
 namespace plm_vins {
-
-// By time, how far a triangulated landmark's views in the window are from where it is, normalised:
-// of a point in x and y, of a line at the start and the end of the segment, across the line.
-std::vector<Eigen::Vector2d> ResidualsOf(const PointLandmark& point, const SlidingWindow& window);
-std::vector<Eigen::Vector2d> ResidualsOf(const LineLandmark& line, const SlidingWindow& window);
-
-constexpr int kPointParameters = 3, kLineParameters = 4;
 
 // How far the views of one landmark are from it, once it is estimated: without the share that its
 // own parameters took up.
@@ -27,5 +21,11 @@ struct ViewSpread {
 // `residuals` by time, at least two, of a landmark with so many parameters.
 // Single views far off count as three times the median one.
 ViewSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters);
+
+// Of a triangulated landmark's views in the window, normalised: of a point in x and y, of a line at
+// the start and the end of the segment, across the line. Nothing for fewer than six views, which
+// hardly show how their errors follow on each other.
+std::optional<ViewSpread> SpreadOf(const PointLandmark& point, const SlidingWindow& window);
+std::optional<ViewSpread> SpreadOf(const LineLandmark& line, const SlidingWindow& window);
 
 }  // namespace plm_vins

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pose_graph/keyframe_maker.h"
+#include "pose_graph/landmark_update.h"
 
 namespace plm_vins {
 namespace {
@@ -57,6 +58,7 @@ LoopClosure LoopCloser::Add(Keyframe keyframe) {
   const int number =
       map_.graph.AddNode(continues ? map_.T_M_O(map_.graph.size() - 1) * T_O_L : T_O_L);
   map_.keyframes.push_back(std::move(keyframe));
+  UpdateLandmarks(&map_.keyframes);
   recognition_.Add(map_.keyframes.back(), number);
   if (continues) ConnectToPrevious(number);
 

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
+#include "common/so3.h"
 #include "simulator/random.h"
 #include "test/pose_graph/two_visits.h"
 
@@ -11,8 +15,15 @@ namespace {
 
 const LevelTransform kTruth = {0.4, {5, -3, 0.5}};  // T_A_B
 
+// Standard deviations of what is wrong with sightings.
+struct Noise {
+  double image = 0;  // normalised
+  double depth = 0;  // of a landmark along its ray, share of its distance
+  double tilt = 0;   // of B about its level axes [rad]
+};
+
 // Two cameras before the same points and lines, each of which it knows in its own world.
-LoopSightings See(int points, bool lines, double noise, simulator::Random* random) {
+LoopSightings See(int points, bool lines, const Noise& noise, simulator::Random* random) {
   LoopSightings all;
   const Rigid3d T_A_Be({Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()))},
                        {0, 0, 1});
@@ -21,14 +32,22 @@ LoopSightings See(int points, bool lines, double noise, simulator::Random* rando
   all.T_A_C = T_A_Be * testing::LookingAhead();
   all.T_B_C = kTruth.Inverse().ToRigid() * T_A_Bl * testing::LookingAhead();
   const Rigid3d T_C_A_later = (kTruth.ToRigid() * all.T_B_C).Inverse();
+  const Eigen::Vector3d tilt(noise.tilt * random->Normal(), noise.tilt * random->Normal(), 0);
+  const Eigen::Quaterniond R_tilted_B = SO3Exp(tilt);
+  all.T_B_C.rotation = R_tilted_B * all.T_B_C.rotation;  // all of B is turned about the camera
+  const auto place = [&](const Rigid3d& T_W_C, const Eigen::Vector3d& p_C) {
+    return Eigen::Vector3d(T_W_C * Eigen::Vector3d((1 + noise.depth * random->Normal()) * p_C));
+  };
   const auto noisy = [&](const Eigen::Vector3d& p_C) {
     return Eigen::Vector2d(p_C.hnormalized() +
-                           noise * Eigen::Vector2d(random->Normal(), random->Normal()));
+                           noise.image * Eigen::Vector2d(random->Normal(), random->Normal()));
   };
   for (int i = 0; i < points; ++i) {
     const Eigen::Vector3d p_A(random->Uniform(3, 8), random->Uniform(-2, 2), random->Uniform(0, 2));
-    all.of_earlier.push_back({p_A, noisy(T_C_A_later * p_A)});
-    all.of_later.push_back({kTruth.Inverse() * p_A, noisy(all.T_A_C.Inverse() * p_A)});
+    const Eigen::Vector3d p_C_earlier = all.T_A_C.Inverse() * p_A;
+    const Eigen::Vector3d p_C_later = T_C_A_later * p_A;
+    all.of_earlier.push_back({place(all.T_A_C, p_C_earlier), noisy(p_C_later)});
+    all.of_later.push_back({place(all.T_B_C, p_C_later), noisy(p_C_earlier)});
   }
   for (int i = 0; lines && i < 8; ++i) {
     const SpaceSegment line = {{4.0 + i % 3, -1 + 0.3 * i, 0.5}, {5, -1 + 0.2 * i, 1.5}};
@@ -52,7 +71,7 @@ Vector4d ErrorOf(const LevelTransform& T_A_B, const LoopSightings& sightings) {
 
 TEST(RefineLoop, FindsTheTruthWithoutNoise) {
   simulator::Random random(1);
-  const LoopSightings sightings = See(20, true, 0, &random);
+  const LoopSightings sightings = See(20, true, Noise(), &random);
   const auto loop = RefineLoop(LoopRefinementOptions(), sightings, Disturbed());
   ASSERT_TRUE(loop);
   EXPECT_LT(ErrorOf(loop->T_A_B, sightings).norm(), 1e-6);
@@ -60,7 +79,7 @@ TEST(RefineLoop, FindsTheTruthWithoutNoise) {
 
 TEST(RefineLoop, FindsItFromLinesAlone) {
   simulator::Random random(2);
-  const LoopSightings sightings = See(0, true, 0, &random);
+  const LoopSightings sightings = See(0, true, Noise(), &random);
   const auto loop = RefineLoop(LoopRefinementOptions(), sightings, Disturbed());
   ASSERT_TRUE(loop);
   EXPECT_LT(ErrorOf(loop->T_A_B, sightings).norm(), 1e-5);
@@ -68,34 +87,64 @@ TEST(RefineLoop, FindsItFromLinesAlone) {
 
 TEST(RefineLoop, StandsSomeWrongSightings) {
   simulator::Random random(3);
-  LoopSightings sightings = See(40, false, 0.2 / 460, &random);
+  LoopSightings sightings = See(40, false, {0.2 / 460}, &random);
   for (int i = 0; i < 6; ++i) sightings.of_earlier[i].xy += Eigen::Vector2d(0.05, -0.03);
   const auto loop = RefineLoop(LoopRefinementOptions(), sightings, Disturbed());
   ASSERT_TRUE(loop);
   EXPECT_LT(ErrorOf(loop->T_A_B, sightings).norm(), 0.03);
 }
 
-TEST(RefineLoop, HasTheCovarianceThatItsErrorsHave) {
+// Mean normalised error squared, of four degrees of freedom, where the noise is what is assumed.
+double MeanNees(const Noise& noise, uint64_t seed) {
   LoopRefinementOptions options;
-  options.point_noise = options.line_noise = 1.0 / 460;
+  options.point_noise = options.line_noise = noise.image;
+  options.depth_noise = noise.depth;
+  options.tilt = noise.tilt;
   options.floor_position = options.floor_yaw = 0;
-  simulator::Random random(4);
+  simulator::Random random(seed);
   constexpr int kRuns = 100;
   double nees = 0;
   for (int i = 0; i < kRuns; ++i) {
-    const LoopSightings sightings = See(15, true, 1.0 / 460, &random);
+    const LoopSightings sightings = See(15, true, noise, &random);
     const auto loop = RefineLoop(options, sightings, kTruth);
-    ASSERT_TRUE(loop);
+    if (!loop) return std::numeric_limits<double>::infinity();
     const Vector4d error = ErrorOf(loop->T_A_B, sightings);
     nees += error.dot(loop->covariance.inverse() * error) / kRuns;
   }
-  EXPECT_GT(nees, 3.0);  // four degrees of freedom: 4 +- 0.28, and a robust loss
-  EXPECT_LT(nees, 5.5);
+  return nees;
+}
+
+TEST(RefineLoop, HasTheCovarianceThatItsErrorsHave) {
+  // Images alone, then with landmarks of uncertain depth, then with roll and pitch in error too.
+  for (const Noise& noise :
+       {Noise{1.0 / 460, 1e-6, 1e-6}, Noise{1.0 / 460, 0.1, 1e-6}, Noise{1.0 / 460, 0.1, 0.01}}) {
+    const double nees = MeanNees(noise, 4);
+    EXPECT_GT(nees, 3.0) << noise.depth << " " << noise.tilt;  // 4 +- 0.28, and a robust loss
+    EXPECT_LT(nees, 5.5) << noise.depth << " " << noise.tilt;
+  }
+}
+
+// What the two visits' attitudes are off by must not be taken for a way.
+TEST(RefineLoop, TellsATiltFromAWay) {
+  const Noise noise = {0, 0, 0.5 * M_PI / 180};
+  LoopRefinementOptions without;
+  without.tilt = 1e-6;
+  double error = 0, error_without = 0;
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    simulator::Random random(seed);
+    const LoopSightings sightings = See(30, false, noise, &random);
+    const auto loop = RefineLoop(LoopRefinementOptions(), sightings, kTruth);
+    const auto level = RefineLoop(without, sightings, kTruth);
+    ASSERT_TRUE(loop && level);
+    error += ErrorOf(loop->T_A_B, sightings).head<3>().norm();
+    error_without += ErrorOf(level->T_A_B, sightings).head<3>().norm();
+  }
+  EXPECT_LT(error, 0.5 * error_without);
 }
 
 TEST(RefineLoop, AddsWhatTheSightingsHaveWrongInCommon) {
   simulator::Random random(5);
-  const LoopSightings sightings = See(30, false, 0, &random);
+  const LoopSightings sightings = See(30, false, Noise(), &random);
   LoopRefinementOptions options;
   const auto with = RefineLoop(options, sightings, kTruth);
   const double variance = options.floor_position * options.floor_position;

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What sightings say about where the camera of a later visit is: residuals for Ceres, whitened. A
+// and B as in LoopSightings.
+#pragma once
+
+#include <ceres/rotation.h>
+
+#include <Eigen/Core>
+
+#include "common/rigid3.h"
+#include "pose_graph/verification/loop_sightings.h"
+
+namespace plm_vins {
+
+// The variables: the place of the later camera in A, the yaw of T_A_B, and a turn of B about its
+// level axes, since odometry's roll and pitch are in error at one visit other than at the other.
+// (That camera's place and the yaw hardly correlate, other than the yaw and the translation of
+// T_A_B, which is that of a far origin.)
+constexpr int kPlaceSize = 6;
+
+constexpr double kMinDepth = 1e-3;  // [m]
+
+template <typename T>
+Eigen::Matrix<T, 3, 3> RotationFromB(const T* place) {
+  const T yaw[3] = {T(0), T(0), place[3]};
+  const T tilt[3] = {place[4], place[5], T(0)};
+  Eigen::Matrix<T, 3, 3> about_z, about_level;
+  ceres::AngleAxisToRotationMatrix(yaw, about_z.data());
+  ceres::AngleAxisToRotationMatrix(tilt, about_level.data());
+  return about_z * about_level;
+}
+
+// A point of A in the later camera.
+template <typename T>
+Eigen::Matrix<T, 3, 1> ToLaterCamera(const T* place, const Eigen::Vector3d& p_A,
+                                     const Rigid3d& T_B_C) {
+  const Eigen::Matrix<T, 3, 1> offset =
+      p_A.cast<T>() - Eigen::Map<const Eigen::Matrix<T, 3, 1>>(place);
+  return T_B_C.R().transpose().cast<T>() * (RotationFromB(place).transpose() * offset);
+}
+
+// A point of B in the earlier camera.
+template <typename T>
+Eigen::Matrix<T, 3, 1> ToEarlierCamera(const T* place, const Eigen::Vector3d& p_B,
+                                       const Rigid3d& T_B_C, const Rigid3d& T_A_C) {
+  const Eigen::Matrix<T, 3, 1> offset = (p_B - T_B_C.translation).cast<T>();
+  const Eigen::Matrix<T, 3, 1> p_A =
+      Eigen::Map<const Eigen::Matrix<T, 3, 1>>(place) + RotationFromB(place) * offset;
+  return T_A_C.R().transpose().cast<T>() * (p_A - T_A_C.translation.cast<T>());
+}
+
+template <typename T>
+bool ReprojectionError(const Eigen::Matrix<T, 3, 1>& p_C, const Eigen::Vector2d& xy,
+                       const Eigen::Matrix2d& whitening, T* residual) {
+  if (p_C.z() <= T(kMinDepth)) return false;
+  const Eigen::Matrix<T, 2, 1> error = p_C.hnormalized() - xy.cast<T>();
+  Eigen::Map<Eigen::Matrix<T, 2, 1>>{residual} = whitening.cast<T>() * error;
+  return true;
+}
+
+// A landmark of the earlier visit in the later image.
+struct EarlierLandmarkCost {
+  template <typename T>
+  bool operator()(const T* place, T* residual) const {
+    return ReprojectionError<T>(ToLaterCamera(place, sighting.p_A, T_B_C), sighting.xy, whitening,
+                                residual);
+  }
+  SeenPoint sighting;
+  Rigid3d T_B_C;
+  Eigen::Matrix2d whitening;
+};
+
+// A landmark of the later visit in the earlier image.
+struct LaterLandmarkCost {
+  template <typename T>
+  bool operator()(const T* place, T* residual) const {
+    return ReprojectionError<T>(ToEarlierCamera(place, sighting.p_A, T_B_C, T_A_C), sighting.xy,
+                                whitening, residual);
+  }
+  SeenPoint sighting;  // its point is one of B
+  Rigid3d T_A_C;
+  Rigid3d T_B_C;
+  Eigen::Matrix2d whitening;
+};
+
+// Both ends of the segment on the image of the line.
+struct LineCost {
+  template <typename T>
+  bool operator()(const T* place, T* residual) const {
+    using std::sqrt;
+    const Eigen::Matrix<T, 3, 1> start = ToLaterCamera(place, sighting.line_A.start_O, T_B_C);
+    const Eigen::Matrix<T, 3, 1> end = ToLaterCamera(place, sighting.line_A.end_O, T_B_C);
+    const Eigen::Matrix<T, 3, 1> line = start.cross(end);
+    const T norm = sqrt(line.x() * line.x() + line.y() * line.y());
+    if (norm < T(1e-12)) return false;
+    const Eigen::Vector3d a = sighting.segment.start.homogeneous();
+    const Eigen::Vector3d b = sighting.segment.end.homogeneous();
+    residual[0] = line.dot(a.cast<T>()) / norm * weight;
+    residual[1] = line.dot(b.cast<T>()) / norm * weight;
+    return true;
+  }
+  SeenSegment sighting;
+  Rigid3d T_B_C;
+  double weight;
+};
+
+// What is known of the turn about the level axes before.
+struct TiltCost {
+  template <typename T>
+  bool operator()(const T* place, T* residual) const {
+    residual[0] = place[4] * weight;
+    residual[1] = place[5] * weight;
+    return true;
+  }
+  double weight;
+};
+
+}  // namespace plm_vins

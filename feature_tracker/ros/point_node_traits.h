@@ -23,7 +23,7 @@ struct PointNodeTraits {
   static constexpr uint32_t kImageQueue = 10;
 
   static Settings ToSettings(const Config& config) {
-    Settings settings;
+    Settings settings = Settings::__getDefault__();  // its groups, too, have values then
     settings.max_cnt = config.points.max_cnt;
     settings.show_track = config.show_track;
     return settings;

@@ -25,7 +25,7 @@ struct LineNodeTraits {
   static constexpr uint32_t kImageQueue = 3;
 
   static Settings ToSettings(const Config& config) {
-    Settings settings;
+    Settings settings = Settings::__getDefault__();  // its groups, too, have values then
     settings.max_line_cnt = config.lines.max_lines;
     settings.show_track = config.show_track;
     return settings;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gives damaged inputs to what takes input from outside, for some seconds each. The input of an
-// index is always the same, so that a finding can be run again: fuzz TARGET SECONDS FIRST COUNT.
+// index is always the same, so that a finding can be run again: TARGET SECONDS FIRST COUNT.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -23,17 +23,6 @@ struct Limits {
   double seconds = 5;
   uint64_t inputs = std::numeric_limits<uint64_t>::max();
 };
-
-std::vector<Target> Targets() {
-  std::vector<Target> targets = {ConfigTarget(),     AslTarget(),          StageTarget(),
-                                 DivergenceTarget(), PointTrackerTarget(), LineTrackerTarget()};
-#ifdef WITH_ROS
-  targets.push_back(MessagesTarget());
-  targets.push_back(BagTarget());
-  targets.push_back(ChunkTarget());
-#endif
-  return targets;
-}
 
 const char* current_target = "";
 volatile unsigned long long current_index = 0;

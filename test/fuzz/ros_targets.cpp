@@ -97,8 +97,6 @@ void Try(Conversion conversion) {
   }
 }
 
-}  // namespace
-
 Target BagTarget() {
   const std::vector<Bytes> seeds = {ToBytes(SmallBag(rosbag::compression::Uncompressed)),
                                     ToBytes(SmallBag(rosbag::compression::BZ2)),
@@ -132,5 +130,9 @@ Target MessagesTarget() {
         Try([&] { ToImageSample(compressed); });
       }};
 }
+
+}  // namespace
+
+std::vector<Target> Targets() { return {MessagesTarget(), BagTarget(), ChunkTarget()}; }
 
 }  // namespace plm_vins::fuzz

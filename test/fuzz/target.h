@@ -21,16 +21,15 @@ struct Target {
 // Says something about the input that is being run.
 void Note(const std::string& what);
 
+// Those of the program.
+std::vector<Target> Targets();
+
 Target ConfigTarget();
 Target AslTarget();
 Target StageTarget();
 Target DivergenceTarget();
 Target PointTrackerTarget();
 Target LineTrackerTarget();
-// With ROS only.
-Target BagTarget();
-Target ChunkTarget();
-Target MessagesTarget();
 
 // The numbers in an input, one after the other; zeros after its end.
 class Reader {

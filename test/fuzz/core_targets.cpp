@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The targets of plm_fuzz: all but those that take what ROS brings.
+#include "test/fuzz/target.h"
+
+namespace plm_vins::fuzz {
+
+std::vector<Target> Targets() {
+  return {ConfigTarget(),     AslTarget(),          StageTarget(),
+          DivergenceTarget(), PointTrackerTarget(), LineTrackerTarget()};
+}
+
+}  // namespace plm_vins::fuzz

@@ -3,10 +3,10 @@
 
 #include <unordered_map>
 
+#include "pose_graph/verification/level_pose_ransac.h"
+
 namespace plm_vins {
 namespace {
-
-constexpr double kMaxError = 4.0 / 460;  // normalised
 
 using PlacesByTrack = std::unordered_map<int64_t, Eigen::Vector3f>;
 
@@ -18,32 +18,29 @@ PlacesByTrack PlacesOf(const Keyframe& keyframe) {
   return places;
 }
 
-bool IsSeenAt(const Rigid3d& T_C_O, const Eigen::Vector3f& p_O, const Eigen::Vector2f& xy) {
-  const Eigen::Vector3d p_C = T_C_O * p_O.cast<double>();
-  return p_C.z() > 0 && (p_C.hnormalized() - xy.cast<double>()).norm() < kMaxError;
-}
-
 // Whether any track is one of those whose places are known.
-bool TakeOver(const PlacesByTrack& places, Keyframe* keyframe) {
-  const Rigid3d T_C_O = keyframe->T_O_C().Inverse();
+bool TakeOver(const PlacesByTrack& places, double max_error, Keyframe* keyframe) {
+  const Rigid3d T_O_C = keyframe->T_O_C();
+  const LevelTransform T_O_G = {0, T_O_C.translation};
   bool shares_tracks = false;
   for (DescribedCorner& corner : keyframe->corners) {
     const auto place = places.find(corner.track);
     if (place == places.end()) continue;
     shares_tracks = true;
-    if (IsSeenAt(T_C_O, place->second, corner.xy)) corner.p_O = place->second;
+    const SeenPoint seen = {place->second.cast<double>(), corner.xy.cast<double>()};
+    if (SightingError(seen, T_O_G, T_O_C.rotation) < max_error) corner.p_O = place->second;
   }
   return shares_tracks;
 }
 
 }  // namespace
 
-void UpdateLandmarks(std::vector<Keyframe>* keyframes) {
+void UpdateLandmarks(double max_error, std::vector<Keyframe>* keyframes) {
   if (keyframes->empty()) return;
   const Keyframe& newest = keyframes->back();
   const PlacesByTrack places = PlacesOf(newest);
   for (auto earlier = keyframes->rbegin() + 1; earlier != keyframes->rend(); ++earlier) {
-    if (earlier->world != newest.world || !TakeOver(places, &*earlier)) return;
+    if (earlier->world != newest.world || !TakeOver(places, max_error, &*earlier)) return;
   }
 }
 

@@ -58,7 +58,7 @@ LoopClosure LoopCloser::Add(Keyframe keyframe) {
   const int number =
       map_.graph.AddNode(continues ? map_.T_M_O(map_.graph.size() - 1) * T_O_L : T_O_L);
   map_.keyframes.push_back(std::move(keyframe));
-  UpdateLandmarks(&map_.keyframes);
+  UpdateLandmarks(options_.verification.ransac.max_error, &map_.keyframes);
   recognition_.Add(map_.keyframes.back(), number);
   if (continues) ConnectToPrevious(number);
 

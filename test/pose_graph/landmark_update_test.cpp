@@ -10,6 +10,8 @@ namespace {
 
 using testing::Wall;
 
+constexpr double kMaxError = 4.0 / 460;  // normalised
+
 // Three keyframes a metre apart, which follow the same points.
 class UpdateLandmarksTest : public ::testing::Test {
  protected:
@@ -57,14 +59,14 @@ TEST_F(UpdateLandmarksTest, GivesAllThatFollowATrackItsNewestPlace) {
   SpoilDepths(&keyframes_[0]);
   SpoilDepths(&keyframes_[1]);
   ASSERT_GT(LargestError(keyframes_[0]), 0.2);
-  UpdateLandmarks(&keyframes_);
+  UpdateLandmarks(kMaxError, &keyframes_);
   EXPECT_LT(LargestError(keyframes_[0]), 1e-5);
   EXPECT_LT(LargestError(keyframes_[1]), 1e-5);
 }
 
 TEST_F(UpdateLandmarksTest, PlacesALandmarkWhereItWasNotKnownYet) {
   for (DescribedCorner& corner : keyframes_[0].corners) corner.p_O.reset();
-  UpdateLandmarks(&keyframes_);
+  UpdateLandmarks(kMaxError, &keyframes_);
   int placed = 0;
   for (const DescribedCorner& corner : keyframes_[0].corners) placed += corner.p_O ? 1 : 0;
   EXPECT_GT(placed, 20);
@@ -73,14 +75,14 @@ TEST_F(UpdateLandmarksTest, PlacesALandmarkWhereItWasNotKnownYet) {
 
 TEST_F(UpdateLandmarksTest, KeepsAPlaceThatTheNewOneDoesNotFit) {
   for (DescribedCorner& corner : keyframes_[2].corners) *corner.p_O += Eigen::Vector3f(0, 0.3f, 0);
-  UpdateLandmarks(&keyframes_);
+  UpdateLandmarks(kMaxError, &keyframes_);
   EXPECT_LT(LargestError(keyframes_[0]), 1e-5);
 }
 
 TEST_F(UpdateLandmarksTest, LeavesOtherWorldsAlone) {
   SpoilDepths(&keyframes_[0]);
   keyframes_[1].world = keyframes_[2].world = 1;
-  UpdateLandmarks(&keyframes_);
+  UpdateLandmarks(kMaxError, &keyframes_);
   EXPECT_GT(LargestError(keyframes_[0]), 0.2);
 }
 
@@ -89,13 +91,13 @@ TEST_F(UpdateLandmarksTest, LeavesCornersAloneThatAreNotFollowed) {
     for (DescribedCorner& corner : keyframe.corners) corner.track = -1;
   }
   keyframes_[0].corners.front().p_O.reset();
-  UpdateLandmarks(&keyframes_);
+  UpdateLandmarks(kMaxError, &keyframes_);
   EXPECT_FALSE(keyframes_[0].corners.front().p_O);
 }
 
 TEST(UpdateLandmarks, TakesNoKeyframesAtAll) {
   std::vector<Keyframe> none;
-  UpdateLandmarks(&none);
+  UpdateLandmarks(kMaxError, &none);
   EXPECT_TRUE(none.empty());
 }
 

@@ -48,15 +48,15 @@ class PeerTrackers {
     restart_.publish(restart);
   }
 
-  // The images from `begin` to before `end`, each `period` [s] of wall time after the one before,
-  // times ~slowness, for an estimator that cannot keep up.
+  // The images from `begin` to before `end`, each `period` [s] of wall time after the one before at
+  // a ~rate of 1; lower, for an estimator that cannot keep up.
   void Play(size_t begin, size_t end, double period,
             const std::function<ImageMessages(size_t)>& messages_of) const {
     for (size_t i = begin; i < end && ros::ok(); ++i) {
       const ImageMessages image = messages_of(i);
       if (image.with_imu) PublishImu(i);
       for (const auto& message : image.messages) Publish(image, message);
-      ros::WallDuration(period * slowness_).sleep();
+      ros::WallDuration(period / rate_).sleep();
       ros::spinOnce();
     }
   }
@@ -136,7 +136,7 @@ class PeerTrackers {
   }
 
   const simulator::FeatureDataset& flight_;
-  double slowness_ = ros::NodeHandle("~").param("slowness", 1.0);
+  double rate_ = ros::NodeHandle("~").param("rate", 1.0);
   ros::NodeHandle node_;
   ros::Publisher imu_ = node_.advertise<sensor_msgs::Imu>("/imu0", 2000);
   ros::Publisher points_ =

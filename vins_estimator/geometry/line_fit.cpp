@@ -16,14 +16,44 @@ constexpr double kConverged = 1e-6;  // relative decrease of the cost
 
 using LineJacobian = Eigen::Matrix<double, 2, kLineTangentSize>;
 
-// Derivative of the distances in one camera by the line's tangent.
-LineJacobian ByTangent(const Rigid3d& T_C_C0, const PluckerJacobian& plucker,
-                       const Eigen::Matrix<double, 2, 3>& d_distances_d_moment) {
-  const Eigen::Matrix3d R = T_C_C0.R();
-  const Eigen::Matrix<double, 2, 3> by_moment = d_distances_d_moment * R;
-  const Eigen::Matrix<double, 2, 3> by_direction =
-      d_distances_d_moment * Skew(T_C_C0.translation) * R;
-  return by_moment * plucker.d_moment + by_direction * plucker.d_direction;
+// What takes a line from the first camera's frame into another one's: its moment becomes
+// R moment + [t]x R direction.
+struct LineCamera {
+  Eigen::Matrix3d R;
+  Eigen::Matrix3d tR;  // [t]x R
+  LineSegmentView segment;
+};
+
+std::vector<LineCamera> CamerasOf(const std::vector<LineSighting>& sightings) {
+  std::vector<LineCamera> cameras;
+  cameras.reserve(sightings.size());
+  const Rigid3d T_C0_W = sightings.front().T_W_C.Inverse();
+  for (const LineSighting& sighting : sightings) {
+    const Rigid3d T_C_C0 = (T_C0_W * sighting.T_W_C).Inverse();
+    const Eigen::Matrix3d R = T_C_C0.R();
+    cameras.push_back({R, Skew(T_C_C0.translation) * R, sighting.segment});
+  }
+  return cameras;
+}
+
+std::optional<LineFit> Evaluate(const std::vector<LineCamera>& cameras, double noise,
+                                const OrthonormalLine& line) {
+  LineFit fit;
+  fit.line = line;
+  const PluckerLine line_C0 = ToPlucker(line.data());
+  const PluckerJacobian plucker = ToPluckerJacobian(line.data());
+  for (const LineCamera& camera : cameras) {
+    const Eigen::Vector3d moment = camera.R * line_C0.moment + camera.tR * line_C0.direction;
+    Eigen::Vector2d distances;
+    Eigen::Matrix<double, 2, 3> d_distances;
+    if (!EndPointDistances(camera.segment, moment, &distances, &d_distances)) return std::nullopt;
+    const LineJacobian J =
+        d_distances * (camera.R * plucker.d_moment + camera.tR * plucker.d_direction) / noise;
+    fit.information += J.transpose() * J;
+    fit.gradient += J.transpose() * distances / noise;
+    fit.cost += distances.squaredNorm() / (noise * noise);
+  }
+  return fit;
 }
 
 // A prior of one radian on each coordinate of the tangent keeps the inverse finite.
@@ -36,29 +66,14 @@ Eigen::Matrix4d Covariance(const LineFit& fit) {
 
 std::optional<LineFit> EvaluateLine(const std::vector<LineSighting>& sightings, double noise,
                                     const OrthonormalLine& line) {
-  LineFit fit;
-  fit.line = line;
-  const Rigid3d T_C0_W = sightings.front().T_W_C.Inverse();
-  const PluckerLine line_C0 = ToPlucker(line.data());
-  const PluckerJacobian plucker = ToPluckerJacobian(line.data());
-  for (const LineSighting& sighting : sightings) {
-    const Rigid3d T_C_C0 = (T_C0_W * sighting.T_W_C).Inverse();
-    Eigen::Vector2d distances;
-    Eigen::Matrix<double, 2, 3> d_distances;
-    const Eigen::Vector3d moment = (T_C_C0 * line_C0).moment;
-    if (!EndPointDistances(sighting.segment, moment, &distances, &d_distances)) return std::nullopt;
-    const LineJacobian J = ByTangent(T_C_C0, plucker, d_distances) / noise;
-    fit.information += J.transpose() * J;
-    fit.gradient += J.transpose() * distances / noise;
-    fit.cost += distances.squaredNorm() / (noise * noise);
-  }
-  return fit;
+  return Evaluate(CamerasOf(sightings), noise, line);
 }
 
 // Levenberg-Marquardt: from a poor start, a full step may lead astray.
 std::optional<LineFit> FitLine(const std::vector<LineSighting>& sightings, double noise,
                                const OrthonormalLine& initial) {
-  auto fit = EvaluateLine(sightings, noise, initial);
+  const std::vector<LineCamera> cameras = CamerasOf(sightings);
+  auto fit = Evaluate(cameras, noise, initial);
   double damping = kInitialDamping;
   for (int i = 0; fit && i < kMaxIterations; ++i) {
     Eigen::Matrix4d H = fit->information;
@@ -67,7 +82,7 @@ std::optional<LineFit> FitLine(const std::vector<LineSighting>& sightings, doubl
     if (!step.allFinite()) return std::nullopt;
     OrthonormalLine moved;
     LinePlus(fit->line.data(), step.data(), moved.data());
-    const auto next = EvaluateLine(sightings, noise, moved);
+    const auto next = Evaluate(cameras, noise, moved);
     if (!next || next->cost > fit->cost) {
       damping *= 10;
       continue;

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <opencv2/core/version.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/ximgproc/fast_line_detector.hpp>
 #include <stdexcept>
+
+#include "linefeature_tracker/chain_segments.h"
 
 // OpenCV 4.1 to 4.5.3 have neither LSD nor EDLines.
 #define HAS_LSD_AND_EDLINES \
@@ -26,29 +27,34 @@ std::vector<LineSegment> LongerThan(double min_length_px, const std::vector<cv::
   return segments;
 }
 
+bool IsAlongBorder(const LineSegment& segment, const cv::Size& size, double border_px) {
+  const auto highest = segment.start.cwiseMin(segment.end);
+  const auto lowest = segment.start.cwiseMax(segment.end);
+  return lowest.x() <= border_px || lowest.y() <= border_px ||
+         highest.x() >= size.width - border_px || highest.y() >= size.height - border_px;
+}
+
 class FldDetector : public LineDetector {
  public:
   std::vector<LineSegment> Detect(const cv::Mat& image, double min_length_px) override {
-    const int threshold = std::max(static_cast<int>(min_length_px), 1);
-    if (threshold != threshold_) {
-      // Merging stays off: OpenCV's takes time with the square of the number of lines.
-      detector_ = cv::ximgproc::createFastLineDetector(threshold, kMaxDeviation_px, kCannyLow,
-                                                       kCannyHigh, kCannyAperture, false);
-      threshold_ = threshold;
-    }
-    std::vector<cv::Vec4f> lines;
-    detector_->detect(image, lines);
-    return LongerThan(min_length_px, lines);
+    const StraightnessLimits limits = {std::max(static_cast<int>(min_length_px), 1),
+                                       kMaxDeviation_px};
+    std::vector<LineSegment> segments;
+    EdgeChains chains(image, kCannyLow, kCannyHigh);
+    EdgeChain chain;
+    while (chains.Next(&chain)) AppendSegments(chain, limits, &segments);
+    const auto is_useless = [&](const LineSegment& segment) {
+      return segment.Length() < min_length_px || IsAlongBorder(segment, image.size(), kBorder_px);
+    };
+    segments.erase(std::remove_if(segments.begin(), segments.end(), is_useless), segments.end());
+    return segments;
   }
 
  private:
-  static constexpr float kMaxDeviation_px = 1.414F;
+  static constexpr double kMaxDeviation_px = 1.414;
   static constexpr double kCannyLow = 50;
   static constexpr double kCannyHigh = 100;
-  static constexpr int kCannyAperture = 3;
-
-  int threshold_ = 0;
-  cv::Ptr<cv::ximgproc::FastLineDetector> detector_;
+  static constexpr double kBorder_px = 5;
 };
 
 #if HAS_LSD_AND_EDLINES

@@ -7,7 +7,7 @@ namespace plm_vins {
 namespace {
 
 constexpr int kMaxIterations = 30;
-constexpr double kConverged_px = 0.01;
+constexpr double kConverged_px = 0.03;
 constexpr int kBackwardLevels = 0;  // the way back begins at its expected end
 
 bool IsInside(const cv::Mat& image, const cv::Point2f& point) {

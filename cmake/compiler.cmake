@@ -25,6 +25,10 @@ endif()
 
 option(WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 add_compile_options(-Wall -Wextra)
+# Programs load only what they use: an estimator none of the hundreds of libraries that read images.
+if(NOT APPLE)
+  add_link_options(-Wl,--as-needed)
+endif()
 # Libraries need it; programs have it too, to share their precompiled headers.
 add_compile_options(-fPIC)
 if(WARNINGS_AS_ERRORS)

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/ros/msg_conversion.h"
 
-#include <cv_bridge/cv_bridge.h>
 #include <geometry_msgs/Point32.h>
-#include <sensor_msgs/image_encodings.h>
-#include <boost/make_shared.hpp>
 
 #include <array>
 #include <cmath>
-#include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,28 +14,6 @@
 
 namespace plm_vins {
 namespace {
-
-// Shares the message's pixels where they are grey. Drivers that do not care announce grey images by
-// their OpenCV type, which cv_bridge converts only to itself.
-cv_bridge::CvImageConstPtr ToGrey(const sensor_msgs::ImageConstPtr& message) {
-  namespace encodings = sensor_msgs::image_encodings;
-  const std::string& encoding = message->encoding;
-  if (encoding == encodings::TYPE_8UC1) return cv_bridge::toCvShare(message, encoding);
-  if (encoding != encodings::TYPE_16UC1) return cv_bridge::toCvShare(message, encodings::MONO8);
-  const auto gray = boost::make_shared<cv_bridge::CvImage>();
-  cv_bridge::toCvShare(message, encoding)->image.convertTo(gray->image, CV_8U, 255.0 / 65535.0);
-  return gray;
-}
-
-// Empty where that fails. OpenCV throws where the header claims too large an image.
-cv::Mat Decode(const std::vector<uint8_t>& bytes) {
-  if (bytes.empty()) return {};
-  try {
-    return cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
-  } catch (const std::exception&) {  // cv::Exception or std::bad_alloc
-    return {};
-  }
-}
 
 void AddChannel(const std::string& name, size_t size, sensor_msgs::PointCloud* cloud) {
   cloud->channels.emplace_back();
@@ -117,43 +90,10 @@ ros::Time ToRosTime(int64_t t_ns) {
   return stamp;
 }
 
-ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message) {
-  try {
-    const cv_bridge::CvImageConstPtr gray = ToGrey(message);
-    return {ToNanoseconds(message->header.stamp), gray->image,
-            std::make_shared<cv_bridge::CvImageConstPtr>(gray)};
-  } catch (const std::exception& error) {  // cv_bridge::Exception or cv::Exception
-    throw std::invalid_argument("image of encoding '" + message->encoding +
-                                "' cannot be made grey: " + error.what());
-  }
-}
-
-ImageSample ToImageSample(const sensor_msgs::Image& message) {
-  const sensor_msgs::ImageConstPtr borrowed(&message, [](const sensor_msgs::Image*) {});
-  const ImageSample sample = ToImageSample(borrowed);
-  return {sample.t_ns, sample.gray.clone(), nullptr};
-}
-
-ImageSample ToImageSample(const sensor_msgs::CompressedImage& message) {
-  const cv::Mat gray = Decode(message.data);
-  if (gray.empty()) {
-    throw std::invalid_argument("compressed image of format '" + message.format +
-                                "' cannot be decoded");
-  }
-  return {ToNanoseconds(message.header.stamp), gray, nullptr};
-}
-
 ImuSample ToImuSample(const sensor_msgs::Imu& message) {
   const auto& w = message.angular_velocity;
   const auto& a = message.linear_acceleration;
   return {ToNanoseconds(message.header.stamp), {w.x, w.y, w.z}, {a.x, a.y, a.z}};
-}
-
-sensor_msgs::ImagePtr ToMessage(const cv::Mat& bgr, int64_t t_ns, const std::string& frame_id) {
-  std_msgs::Header header;
-  header.stamp = ToRosTime(t_ns);
-  header.frame_id = frame_id;
-  return cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, bgr).toImageMsg();
 }
 
 sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& frame_id) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measurements and transforms to ROS messages and back: the only place that knows their layout.
+// Measurements and transforms to ROS messages and back: the only place that knows their layout, but
+// for images (see image_conversion.h).
 #pragma once
 
 #include <geometry_msgs/Point.h>
@@ -8,8 +9,6 @@
 #include <geometry_msgs/Transform.h>
 #include <geometry_msgs/Vector3.h>
 #include <ros/time.h>
-#include <sensor_msgs/CompressedImage.h>
-#include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/PointCloud.h>
 
@@ -25,18 +24,7 @@ inline int64_t ToNanoseconds(const ros::Time& stamp) {
 }
 ros::Time ToRosTime(int64_t t_ns);
 
-// Grey image of any encoding that cv_bridge can turn into one (mono8, mono16, bgr8, rgb8, Bayer,
-// ...). Throws std::invalid_argument that names the encoding where there is no way. Pixels that are
-// grey already stay where they are: the sample then owns a share of the message.
-ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message);
-// The same from a message that may go: with pixels of its own.
-ImageSample ToImageSample(const sensor_msgs::Image& message);
-ImageSample ToImageSample(const sensor_msgs::CompressedImage& message);
-
 ImuSample ToImuSample(const sensor_msgs::Imu& message);
-
-// A picture of type CV_8UC3 (BGR).
-sensor_msgs::ImagePtr ToMessage(const cv::Mat& bgr, int64_t t_ns, const std::string& frame_id);
 
 // /feature_tracker/feature as in VINS-Mono: points (x, y, 1), channels id, u, v, vx, vy. Ids travel
 // modulo kTransportableIds; IdRestorer takes that back. Reading takes the layouts of PL-VINS (id,

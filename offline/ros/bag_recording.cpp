@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
 #include "offline/ros/bag_message_source.h"
 

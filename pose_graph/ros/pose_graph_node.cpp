@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/ros/camera_info_conversion.h"
+#include "common/ros/image_conversion.h"
 #include "common/ros/keyframe_conversion.h"
 #include "common/ros/msg_conversion.h"
 #include "common/stopwatch.h"

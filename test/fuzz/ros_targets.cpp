@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
 #include "offline/bag_recording.h"
 #include "test/fuzz/target.h"

@@ -16,6 +16,7 @@
 
 #include "common/config.h"
 #include "common/drop_counts.h"
+#include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/stream_monitor.h"

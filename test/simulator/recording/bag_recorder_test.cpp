@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
 
 namespace plm_vins::simulator {

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/ros/image_conversion.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <boost/make_shared.hpp>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "common/ros/msg_conversion.h"
+
+namespace plm_vins {
+namespace {
+
+// Shares the message's pixels where they are grey. Drivers that do not care announce grey images by
+// their OpenCV type, which cv_bridge converts only to itself.
+cv_bridge::CvImageConstPtr ToGrey(const sensor_msgs::ImageConstPtr& message) {
+  namespace encodings = sensor_msgs::image_encodings;
+  const std::string& encoding = message->encoding;
+  if (encoding == encodings::TYPE_8UC1) return cv_bridge::toCvShare(message, encoding);
+  if (encoding != encodings::TYPE_16UC1) return cv_bridge::toCvShare(message, encodings::MONO8);
+  const auto gray = boost::make_shared<cv_bridge::CvImage>();
+  cv_bridge::toCvShare(message, encoding)->image.convertTo(gray->image, CV_8U, 255.0 / 65535.0);
+  return gray;
+}
+
+// Empty where that fails. OpenCV throws where the header claims too large an image.
+cv::Mat Decode(const std::vector<uint8_t>& bytes) {
+  if (bytes.empty()) return {};
+  try {
+    return cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+  } catch (const std::exception&) {  // cv::Exception or std::bad_alloc
+    return {};
+  }
+}
+
+}  // namespace
+
+ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message) {
+  try {
+    const cv_bridge::CvImageConstPtr gray = ToGrey(message);
+    return {ToNanoseconds(message->header.stamp), gray->image,
+            std::make_shared<cv_bridge::CvImageConstPtr>(gray)};
+  } catch (const std::exception& error) {  // cv_bridge::Exception or cv::Exception
+    throw std::invalid_argument("image of encoding '" + message->encoding +
+                                "' cannot be made grey: " + error.what());
+  }
+}
+
+ImageSample ToImageSample(const sensor_msgs::Image& message) {
+  const sensor_msgs::ImageConstPtr borrowed(&message, [](const sensor_msgs::Image*) {});
+  const ImageSample sample = ToImageSample(borrowed);
+  return {sample.t_ns, sample.gray.clone(), nullptr};
+}
+
+ImageSample ToImageSample(const sensor_msgs::CompressedImage& message) {
+  const cv::Mat gray = Decode(message.data);
+  if (gray.empty()) {
+    throw std::invalid_argument("compressed image of format '" + message.format +
+                                "' cannot be decoded");
+  }
+  return {ToNanoseconds(message.header.stamp), gray, nullptr};
+}
+
+sensor_msgs::ImagePtr ToMessage(const cv::Mat& bgr, int64_t t_ns, const std::string& frame_id) {
+  std_msgs::Header header;
+  header.stamp = ToRosTime(t_ns);
+  header.frame_id = frame_id;
+  return cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, bgr).toImageMsg();
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/ros/image_conversion.h"
+
+#include <gtest/gtest.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <boost/make_shared.hpp>
+#include <boost/weak_ptr.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/ros/msg_conversion.h"
+
+namespace plm_vins {
+namespace {
+
+namespace encodings = sensor_msgs::image_encodings;
+
+constexpr int64_t kStamp = 1403636579763555584;  // of EuRoC; a double cannot hold it
+
+// A 6 x 4 image of which every pixel has the bytes `pixel`.
+sensor_msgs::Image MakeImage(const std::string& encoding, const std::vector<uint8_t>& pixel) {
+  sensor_msgs::Image image;
+  image.header.stamp = ToRosTime(kStamp);
+  image.encoding = encoding;
+  image.width = 6;
+  image.height = 4;
+  image.step = static_cast<uint32_t>(6 * pixel.size());
+  for (int i = 0; i < 24; ++i) image.data.insert(image.data.end(), pixel.begin(), pixel.end());
+  return image;
+}
+
+struct EncodingCase {
+  std::string encoding;
+  std::vector<uint8_t> pixel;
+  double grey;
+};
+
+class ImageEncodings : public ::testing::TestWithParam<EncodingCase> {};
+
+TEST_P(ImageEncodings, BecomeGrey) {
+  const ImageSample sample = ToImageSample(MakeImage(GetParam().encoding, GetParam().pixel));
+  EXPECT_EQ(sample.t_ns, kStamp);
+  ASSERT_EQ(sample.gray.type(), CV_8UC1);
+  ASSERT_EQ(sample.gray.size(), cv::Size(6, 4));
+  EXPECT_NEAR(sample.gray.at<uint8_t>(2, 3), GetParam().grey, 1);
+}
+
+// Luma: 0.299 R + 0.587 G + 0.114 B. 16-bit pixels are little endian.
+INSTANTIATE_TEST_SUITE_P(Encodings, ImageEncodings,
+                         ::testing::Values(EncodingCase{encodings::MONO8, {90}, 90},
+                                           EncodingCase{encodings::TYPE_8UC1, {90}, 90},
+                                           EncodingCase{encodings::BGR8, {10, 100, 200}, 119.6},
+                                           EncodingCase{encodings::RGB8, {10, 100, 200}, 84.5},
+                                           EncodingCase{
+                                               encodings::BGRA8, {10, 100, 200, 255}, 119.6},
+                                           EncodingCase{encodings::MONO16, {0x00, 0x80}, 127.5},
+                                           EncodingCase{encodings::TYPE_16UC1, {0x00, 0x80}, 127.5},
+                                           EncodingCase{encodings::BAYER_RGGB8, {60}, 60}));
+
+TEST(ImageConversion, SharesGreyPixelsAndKeepsThem) {
+  for (const std::string& encoding : {encodings::MONO8, encodings::TYPE_8UC1}) {
+    auto message = boost::make_shared<const sensor_msgs::Image>(MakeImage(encoding, {90}));
+    const boost::weak_ptr<const sensor_msgs::Image> watched = message;
+    ImageSample sample = ToImageSample(sensor_msgs::ImageConstPtr(message));
+    EXPECT_EQ(sample.gray.data, message->data.data()) << encoding;
+    message.reset();
+    EXPECT_FALSE(watched.expired()) << encoding;
+    sample = {};
+    EXPECT_TRUE(watched.expired()) << encoding;
+  }
+}
+
+TEST(ImageConversion, CopiesThePixelsOfAMessageThatMayGo) {
+  const sensor_msgs::Image message = MakeImage(encodings::MONO8, {90});
+  EXPECT_NE(ToImageSample(message).gray.data, message.data.data());
+}
+
+TEST(ImageConversion, NamesAnEncodingThatIsNoPicture) {
+  try {
+    ToImageSample(MakeImage("32SC1", {0, 0, 0, 0}));
+    FAIL() << "no exception";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("32SC1"), std::string::npos) << error.what();
+  }
+}
+
+TEST(ImageConversion, RefusesTooFewBytes) {
+  sensor_msgs::Image image = MakeImage(encodings::MONO8, {90});
+  image.data.resize(10);
+  EXPECT_THROW(ToImageSample(image), std::invalid_argument);
+}
+
+TEST(ImageConversion, DecodesCompressedImages) {
+  sensor_msgs::CompressedImage image;
+  image.header.stamp = ToRosTime(kStamp);
+  image.format = "png";
+  cv::imencode(".png", cv::Mat(4, 6, CV_8UC1, cv::Scalar(77)), image.data);
+  const ImageSample sample = ToImageSample(image);
+  EXPECT_EQ(sample.t_ns, kStamp);
+  EXPECT_EQ(sample.gray.at<uint8_t>(1, 1), 77);
+  image.data.resize(20);
+  EXPECT_THROW(ToImageSample(image), std::invalid_argument);
+  image.data.clear();
+  EXPECT_THROW(ToImageSample(image), std::invalid_argument);
+}
+
+// Headers alone: OpenCV throws on them before it looks for pixels.
+TEST(ImageConversion, RefusesCompressedImagesThatClaimAbsurdSizes) {
+  for (const auto& [width, height] : {std::pair(40000, 40000), std::pair((1 << 20) + 1, 1)}) {
+    sensor_msgs::CompressedImage image;
+    const std::string header = "P5 " + std::to_string(width) + " " + std::to_string(height);
+    const std::string text = header + " 255\n" + std::string(100, 'x');
+    image.data.assign(text.begin(), text.end());
+    EXPECT_THROW(ToImageSample(image), std::invalid_argument) << header;
+  }
+}
+
+}  // namespace
+}  // namespace plm_vins

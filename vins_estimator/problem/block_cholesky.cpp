@@ -8,19 +8,10 @@ namespace {
 template <typename Columns>
 std::vector<ColumnRun> RunsOf(const Columns& columns) {
   std::vector<ColumnRun> runs;
-  int count = 0;
   for (int i = 0; i < columns.rows(); ++i) {
-    if ((columns.row(i).array() == 0).all()) continue;
-    const bool continues = !runs.empty() && runs.back().dense + runs.back().size == i;
-    if (!continues) runs.push_back({count, i, 0});
-    ++runs.back().size;
-    ++count;
+    if ((columns.row(i).array() != 0).any()) AppendColumns(i, 1, &runs);
   }
   return runs;
-}
-
-int CountColumns(const std::vector<ColumnRun>& runs) {
-  return runs.empty() ? 0 : runs.back().local + runs.back().size;
 }
 
 }  // namespace

@@ -31,19 +31,10 @@ std::vector<DenseBlock> DenseBlocks(const TermLayout* begin, const TermLayout* e
   return blocks;
 }
 
-void Append(const DenseBlock& block, LandmarkLayout* layout) {
-  const auto [offset, size] = block;
-  std::vector<ColumnRun>& runs = layout->runs;
-  const bool continues = !runs.empty() && runs.back().dense + runs.back().size == offset;
-  if (!continues) runs.push_back({layout->columns, offset, 0});
-  runs.back().size += size;
-  layout->columns += size;
-}
-
 // The column of H_ld that belongs to a dense one.
-int LocalColumn(const LandmarkLayout& layout, int dense) {
+int LocalColumn(const std::vector<ColumnRun>& runs, int dense) {
   const auto after =
-      std::upper_bound(layout.runs.begin(), layout.runs.end(), dense,
+      std::upper_bound(runs.begin(), runs.end(), dense,
                        [](int column, const ColumnRun& run) { return column < run.dense; });
   const ColumnRun& run = *std::prev(after);
   return run.local + dense - run.dense;
@@ -111,12 +102,14 @@ void EquationLayout::LayOutLandmark(int index) {
   }
   TermLayout* const begin = terms_.data() + first;
   TermLayout* const end = terms_.data() + terms_.size();
-  LandmarkLayout& layout = landmarks_[index];
-  for (const DenseBlock& block : DenseBlocks(begin, end)) Append(block, &layout);
+  std::vector<ColumnRun>& runs = landmarks_[index];
+  for (const auto& [offset, size] : DenseBlocks(begin, end)) {
+    AppendColumns(offset, size, &runs);
+  }
   for (TermLayout* term = begin; term != end; ++term) {
     for (int i = 0; i < term->slot_count; ++i) {
       Slot& slot = term->slots[i];
-      slot.local_offset = LocalColumn(layout, slot.dense_offset);
+      slot.local_offset = LocalColumn(runs, slot.dense_offset);
     }
   }
 }

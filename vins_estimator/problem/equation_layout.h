@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "vins_estimator/problem/gram.h"
+#include "vins_estimator/problem/column_runs.h"
 #include "vins_estimator/problem/window_problem.h"
 
 namespace plm_vins {
@@ -31,12 +31,6 @@ struct TermLayout {
   const Slot* end() const { return slots.data() + slot_count; }
 };
 
-// The dense columns that the terms of a landmark touch, as few runs as possible.
-struct LandmarkLayout {
-  std::vector<ColumnRun> runs;
-  int columns = 0;  // of all runs
-};
-
 // Where the variables of a problem are in its equations (see NormalEquations): frame variables in
 // dense columns, motions last and by time, as BlockCholesky likes them (each knows its neighbours,
 // and only the oldest is in the prior); each landmark in equations of its own; constants nowhere.
@@ -52,7 +46,8 @@ class EquationLayout {
 
   // The terms among frames, then those of each landmark.
   const std::vector<TermLayout>& terms() const { return terms_; }
-  const std::vector<LandmarkLayout>& landmarks() const { return landmarks_; }
+  // The dense columns that the terms of each landmark touch, as few runs as possible.
+  const std::vector<std::vector<ColumnRun>>& landmarks() const { return landmarks_; }
 
  private:
   void LayOutFrameVariables();
@@ -65,7 +60,7 @@ class EquationLayout {
   int dense_size_ = 0;
   int motion_size_ = 0;
   std::vector<TermLayout> terms_;
-  std::vector<LandmarkLayout> landmarks_;
+  std::vector<std::vector<ColumnRun>> landmarks_;
 };
 
 }  // namespace plm_vins

@@ -4,14 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace plm_vins {
+#include "vins_estimator/problem/column_runs.h"
 
-// Neighbouring columns of a narrow matrix that are neighbours in a wide one as well.
-struct ColumnRun {
-  int local = 0;
-  int dense = 0;
-  int size = 0;
-};
+namespace plm_vins {
 
 // Some rows over the columns of a few runs, each row in one piece.
 template <int kRows>

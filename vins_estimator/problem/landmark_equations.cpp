@@ -6,6 +6,7 @@
 
 #include "vins_estimator/geometry/plucker.h"
 #include "vins_estimator/geometry/point_in_host.h"
+#include "vins_estimator/problem/gram.h"
 
 namespace plm_vins {
 namespace {
@@ -42,8 +43,8 @@ void Eliminate(const LandmarkEquations& equations, double damping, Eigen::Matrix
 
 }  // namespace
 
-LandmarkEquations::LandmarkEquations(int size, LandmarkLayout layout)
-    : runs(std::move(layout.runs)), H_ll(size, size), b_l(size), H_ld(size, layout.columns) {}
+LandmarkEquations::LandmarkEquations(int size, std::vector<ColumnRun> columns)
+    : runs(std::move(columns)), H_ll(size, size), b_l(size), H_ld(size, CountColumns(runs)) {}
 
 void LandmarkEquations::SetZero() {
   H_ll.setZero();

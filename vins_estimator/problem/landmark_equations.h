@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "vins_estimator/problem/equation_layout.h"
+#include "vins_estimator/problem/column_runs.h"
 
 namespace plm_vins {
 
@@ -15,7 +15,7 @@ using LandmarkVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxLandmarkS
 
 // One landmark's share of the equations, over the dense columns that its terms touch.
 struct LandmarkEquations {
-  LandmarkEquations(int size, LandmarkLayout layout);
+  LandmarkEquations(int size, std::vector<ColumnRun> columns);
 
   void SetZero();
 

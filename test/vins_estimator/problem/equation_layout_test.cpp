@@ -70,13 +70,13 @@ TEST_F(EquationLayoutTest, TermsHaveTheirVariablesInOrderOfColumns) {
 
 TEST_F(EquationLayoutTest, LandmarksHaveTheColumnsOfTheirTermsInRuns) {
   const EquationLayout layout(problem_);
-  const LandmarkLayout& landmark = layout.landmarks()[0];
-  EXPECT_EQ(landmark.columns, 13);
-  ASSERT_EQ(landmark.runs.size(), 2u);  // the time offset and the first pose are neighbours
-  EXPECT_EQ(landmark.runs[0].size, 7);
-  EXPECT_EQ(landmark.runs[1].dense, 13);
-  EXPECT_EQ(landmark.runs[1].local, 7);
-  EXPECT_EQ(landmark.runs[1].size, 6);
+  const std::vector<ColumnRun>& runs = layout.landmarks()[0];
+  EXPECT_EQ(CountColumns(runs), 13);
+  ASSERT_EQ(runs.size(), 2u);  // the time offset and the first pose are neighbours
+  EXPECT_EQ(runs[0].size, 7);
+  EXPECT_EQ(runs[1].dense, 13);
+  EXPECT_EQ(runs[1].local, 7);
+  EXPECT_EQ(runs[1].size, 6);
   const TermLayout& seen = layout.terms()[1];
   EXPECT_THAT((std::array{seen.slots[0].local_offset, seen.slots[1].local_offset,
                           seen.slots[2].local_offset}),

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// IMU samples on their way to the thread of the callbacks, which is this one. Messages published by
+// pointer within a process are received at once. Run by imu_inbox.test.
+#include "tracking/ros/imu_inbox.h"
+
+#include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+#include <ros/init.h>
+
+namespace plm_vins {
+namespace {
+
+constexpr double kPatience = 10;  // [s]
+constexpr int64_t kStep = 5'000'000;
+
+class ImuInboxTest : public ::testing::Test {
+ protected:
+  static void Connect(const ros::Publisher& publisher) {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
+    while (publisher.getNumSubscribers() == 0 && ros::WallTime::now() < end) {
+      ros::WallDuration(0.002).sleep();
+    }
+    ASSERT_EQ(publisher.getNumSubscribers(), 1u);
+  }
+
+  void SetUp() override { Connect(publisher_); }
+
+  void Publish(int count) {
+    for (int i = 0; i < count; ++i) {
+      const auto message = boost::make_shared<sensor_msgs::Imu>();
+      message->header.stamp = ToRosTime(++published_ * kStep);
+      publisher_.publish(message);
+    }
+  }
+
+  // What the callbacks' thread has been told by now.
+  int Notices() {
+    ros::getGlobalCallbackQueue()->callAvailable();
+    return notices_;
+  }
+
+  int notices_ = 0;
+  int64_t published_ = 0;
+  ros::NodeHandle node_;
+  ros::Publisher publisher_ = node_.advertise<sensor_msgs::Imu>("imu", 5000);
+  ImuInbox inbox_{node_, "imu", [this] { ++notices_; }};
+};
+
+TEST_F(ImuInboxTest, GivesAllSamplesOnceInOrder) {
+  Publish(7);
+  const std::vector<ImuSample> samples = inbox_.Take();
+  ASSERT_EQ(samples.size(), 7u);
+  for (int i = 0; i < 7; ++i) EXPECT_EQ(samples[i].t_ns, (i + 1) * kStep);
+  EXPECT_TRUE(inbox_.Take().empty());
+}
+
+TEST_F(ImuInboxTest, WakesNobodyWhoDoesNotWait) {
+  Publish(19);
+  EXPECT_EQ(Notices(), 0);
+}
+
+TEST_F(ImuInboxTest, WakesWhoWaitsForTheNextOnce) {
+  ASSERT_TRUE(inbox_.WaitForNext());
+  Publish(5);
+  EXPECT_EQ(Notices(), 1);
+}
+
+TEST_F(ImuInboxTest, KeepsNobodyWaitingForWhatIsThere) {
+  Publish(1);
+  EXPECT_FALSE(inbox_.WaitForNext());
+  inbox_.Take();
+  EXPECT_TRUE(inbox_.WaitForNext());
+}
+
+TEST_F(ImuInboxTest, WakesWhereManyHaveGathered) {
+  Publish(20);
+  EXPECT_EQ(Notices(), 1);
+}
+
+TEST_F(ImuInboxTest, ForgetsTheOldestWhereNobodyTakesThem) {
+  Publish(2100);
+  const std::vector<ImuSample> samples = inbox_.Take();
+  ASSERT_EQ(samples.size(), 2000u);
+  EXPECT_EQ(samples.front().t_ns, 101 * kStep);
+  EXPECT_EQ(samples.back().t_ns, 2100 * kStep);
+}
+
+TEST_F(ImuInboxTest, NoticesNothingOnceItIsGone) {
+  {
+    ImuInbox other(node_, "imu_of_another", [this] { ++notices_; });
+    const ros::Publisher publisher = node_.advertise<sensor_msgs::Imu>("imu_of_another", 10);
+    Connect(publisher);
+    ASSERT_TRUE(other.WaitForNext());
+    publisher.publish(boost::make_shared<sensor_msgs::Imu>());
+    ASSERT_FALSE(other.WaitForNext());
+  }
+  EXPECT_EQ(Notices(), 0);
+}
+
+}  // namespace
+}  // namespace plm_vins
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "imu_inbox_test");
+  const ros::NodeHandle keeps_ros_running;
+  return RUN_ALL_TESTS();
+}

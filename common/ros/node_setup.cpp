@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/ros/node_setup.h"
 
+#include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
 
@@ -28,6 +29,15 @@ int RunNode(int argc, char** argv, const std::string& name,
     return 1;
   }
   return 0;
+}
+
+void Spin() {
+  while (ros::ok()) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
+    // A queue that is shut down does not wait: ros::spin() is busy from then on, for a tenth of a
+    // second of each node.
+    if (ros::isShuttingDown()) ros::WallDuration(0.01).sleep();
+  }
 }
 
 bool ErrorCounter::Run(const std::function<void()>& body) {

@@ -20,6 +20,9 @@ namespace plm_vins {
 int RunNode(int argc, char** argv, const std::string& name,
             const std::function<void(const Config&)>& body);
 
+// Calls the callbacks of the global queue until ROS has shut down.
+void Spin();
+
 // Runs what must not end a node, whatever came in: an exception is logged (not all of them where
 // there are many) and counted. For one thread.
 class ErrorCounter {

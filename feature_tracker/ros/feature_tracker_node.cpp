@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The point front end as a node: ~feature, ~feature_img and ~restart out.
-#include <ros/spinner.h>
 
 #include "feature_tracker/ros/point_node_traits.h"
 #include "tracking/ros/tracker_node.h"
@@ -9,6 +8,6 @@ int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "feature_tracker", [](const plm_vins::Config& config) {
     const plm_vins::TrackerNode<plm_vins::PointNodeTraits> node(config, ros::NodeHandle(),
                                                                 ros::NodeHandle("~"));
-    ros::spin();
+    plm_vins::Spin();
   });
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The line front end as a node: ~linefeature, ~linefeature_img and ~restart out.
-#include <ros/spinner.h>
 
 #include "linefeature_tracker/ros/line_node_traits.h"
 #include "tracking/ros/tracker_node.h"
@@ -9,6 +8,6 @@ int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "linefeature_tracker", [](const plm_vins::Config& config) {
     const plm_vins::TrackerNode<plm_vins::LineNodeTraits> node(config, ros::NodeHandle(),
                                                                ros::NodeHandle("~"));
-    ros::spin();
+    plm_vins::Spin();
   });
 }

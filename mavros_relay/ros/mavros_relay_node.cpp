@@ -11,6 +11,7 @@
 #include <string>
 
 #include "common/ros/msg_conversion.h"
+#include "common/ros/node_setup.h"
 #include "common/ros/robot_base.h"
 #include "mavros_relay/body_odometry.h"
 #include "mavros_relay/relay_gate.h"
@@ -144,7 +145,7 @@ int main(int argc, char** argv) {
   const ros::NodeHandle keeps_ros_running;
   try {
     const plm_vins::MavrosRelayNode node;
-    ros::spin();
+    plm_vins::Spin();
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());
     return 1;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/ros/estimator_node.h"
 
-#include <ros/spinner.h>
 
 #include <exception>
 #include <filesystem>
@@ -265,6 +264,6 @@ void EstimatorNode::LogLines() {
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "vins_estimator", [](const plm_vins::Config& config) {
     const plm_vins::EstimatorNode node(config);
-    ros::spin();
+    plm_vins::Spin();
   });
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/ros/estimator_node.h"
 
-
 #include <exception>
 #include <filesystem>
 #include <stdexcept>

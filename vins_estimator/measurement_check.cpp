@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
-#include <unordered_set>
 #include <vector>
 
 #include "common/feature_checks.h"
@@ -22,12 +21,18 @@ void CheckFeatures(const FrameMeasurement& measurement, int64_t t_ns,
   if (t_ns != measurement.t_ns) {
     Refuse(measurement, "its " + kind + "s are of " + std::to_string(t_ns) + " ns");
   }
-  std::unordered_set<int64_t> ids;
+  std::vector<int64_t> ids;
+  ids.reserve(observations.size());
   for (const Observation& observation : observations) {
-    const bool possible = IsPossible(observation);
-    if (possible && ids.insert(observation.id).second) continue;
-    Refuse(measurement, kind + " " + std::to_string(observation.id) +
-                            (possible ? " is there twice" : " is nowhere in an image"));
+    if (!IsPossible(observation)) {
+      Refuse(measurement, kind + " " + std::to_string(observation.id) + " is nowhere in an image");
+    }
+    ids.push_back(observation.id);
+  }
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end()) {
+    Refuse(measurement, kind + " " + std::to_string(*twice) + " is there twice");
   }
 }
 

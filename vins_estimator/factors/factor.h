@@ -5,11 +5,9 @@ namespace plm_vins {
 
 // A residual by some blocks of variables, with Jacobians as of factors/manifolds.h. What a
 // ceres::CostFunction is, without its list of the blocks' sizes: to allocate one for each view of
-// the window takes longer than to evaluate it.
+// the window takes longer than to evaluate it. Nor is it ever destroyed.
 class Factor {
  public:
-  virtual ~Factor() = default;
-
   int num_residuals() const { return num_residuals_; }
 
   // As ceres::CostFunction::Evaluate().
@@ -18,6 +16,7 @@ class Factor {
 
  protected:
   explicit Factor(int num_residuals) : num_residuals_(num_residuals) {}
+  ~Factor() = default;
   Factor(const Factor&) = default;
   Factor& operator=(const Factor&) = default;
 

@@ -146,18 +146,17 @@ void Bundle::AddVariables() {
 
 void Bundle::AddImu() {
   for (size_t i = 0; i < preintegrations_.size(); ++i) {
-    problem_.AddTerm(std::make_unique<ImuFactor>(&preintegrations_[i], gravity_W_), nullptr,
+    problem_.AddTerm(ImuFactor(&preintegrations_[i], gravity_W_), nullptr,
                      {poses_[i], motions_[i], poses_[i + 1], motions_[i + 1]});
   }
 }
 
 void Bundle::AddPriors() {
   const FrameState& first = states_.front();
-  problem_.AddTerm(std::make_unique<GaugePrior>(first), nullptr, {poses_.front()});
+  problem_.AddTerm(GaugePrior(first), nullptr, {poses_.front()});
   const ImuBias mean{Eigen::Vector3d::Zero(), first.gyro_bias()};
-  problem_.AddTerm(
-      std::make_unique<BiasPrior>(mean, options_.accel_bias_prior, options_.gyro_bias_prior),
-      nullptr, {motions_.front()});
+  problem_.AddTerm(BiasPrior(mean, options_.accel_bias_prior, options_.gyro_bias_prior), nullptr,
+                   {motions_.front()});
 }
 
 Eigen::Vector3d Bundle::InCamera(int view, const Eigen::Vector3d& p_W) const {
@@ -179,12 +178,12 @@ void Bundle::AddTrack(const Track& track, const Eigen::Vector3d& p_W) {
   const auto bearing = [](const ViewObservation& o) {
     return TimedBearing{o.xy, Eigen::Vector2d::Zero(), 0};
   };
-  problem_.AddLandmarkTerm(index, std::make_unique<PointHostFactor>(bearing(host), weight), &loss_,
+  problem_.AddLandmarkTerm(index, PointHostFactor(bearing(host), weight), &loss_,
                            {td_variable_, point});
   for (size_t i = 1; i < track.observations.size(); ++i) {
     const ViewObservation& target = track.observations[i];
     problem_.AddLandmarkTerm(
-        index, std::make_unique<PointFactor>(bearing(target), weight), &loss_,
+        index, PointFactor(bearing(target), weight), &loss_,
         {poses_[host.view], poses_[target.view], extrinsic_variable_, td_variable_, point});
   }
 }

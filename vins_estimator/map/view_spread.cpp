@@ -2,6 +2,7 @@
 #include "vins_estimator/map/view_spread.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "vins_estimator/geometry/plucker.h"
 #include "vins_estimator/map/line_map.h"
@@ -17,6 +18,7 @@ constexpr double kGreatestLength = 3.0;  // of one view's residual, to the media
 // Makes a view that is another thing altogether count as one that is just far off.
 void ShortenOutliers(std::vector<Eigen::Vector2d>* residuals) {
   std::vector<double> lengths;
+  lengths.reserve(residuals->size());
   for (const Eigen::Vector2d& residual : *residuals) lengths.push_back(residual.norm());
   const auto middle = lengths.begin() + lengths.size() / 2;
   std::nth_element(lengths.begin(), middle, lengths.end());
@@ -31,6 +33,7 @@ void ShortenOutliers(std::vector<Eigen::Vector2d>* residuals) {
 std::vector<Eigen::Vector2d> ResidualsOf(const PointLandmark& point, const SlidingWindow& window) {
   const Eigen::Vector3d p_W = PositionInWorld(point, window);
   std::vector<Eigen::Vector2d> residuals;
+  residuals.reserve(point.views.size());
   for (const PointView& view : point.views) {
     const Eigen::Vector3d p_C = window.T_W_C(view.t_ns).Inverse() * p_W;
     residuals.push_back(p_C.hnormalized() - window.AtState(view.bearing));
@@ -41,6 +44,7 @@ std::vector<Eigen::Vector2d> ResidualsOf(const PointLandmark& point, const Slidi
 std::vector<Eigen::Vector2d> ResidualsOf(const LineLandmark& line, const SlidingWindow& window) {
   const PluckerLine line_W = LineInWorld(line, window);
   std::vector<Eigen::Vector2d> residuals;
+  residuals.reserve(line.views.size());
   for (const LineView& view : line.views) {
     if (const auto distances = DistancesOf(view, line_W, window)) residuals.push_back(*distances);
   }
@@ -51,9 +55,9 @@ template <typename Landmark>
 std::optional<ViewSpread> SpreadOfViews(const Landmark& landmark, const SlidingWindow& window,
                                         int parameters) {
   if (!landmark.triangulated || landmark.views.size() < kMinViews) return std::nullopt;
-  const std::vector<Eigen::Vector2d> residuals = ResidualsOf(landmark, window);
+  std::vector<Eigen::Vector2d> residuals = ResidualsOf(landmark, window);
   if (residuals.size() < kMinViews) return std::nullopt;
-  return SpreadOf(residuals, parameters);
+  return SpreadOf(std::move(residuals), parameters);
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ class CeresProblem {
       blocks[k] = blocks_[term.variables[k]];
       sizes[k] = window_.variables()[term.variables[k]].type().ambient_size;
     }
-    costs_.push_back(std::make_unique<FactorCost>(term.cost.get(), sizes));
+    costs_.push_back(std::make_unique<FactorCost>(term.cost, sizes));
     Add(costs_.back().get(), term.loss, blocks);
   }
 

@@ -40,7 +40,7 @@ bool BlockCholesky::Eliminate(int offset, Eigen::MatrixXd* S) {
   }
   if (!block.runs.empty()) {  // Eigen refers to the first element, which there must be
     block.factor.matrixL().solveInPlace(block.W);
-    SubtractGram<kBlockSize>(block.W, block.runs, S);
+    SubtractGram(block.W, block.runs, S);
   }
   blocks_.push_back(std::move(block));
   return true;

@@ -23,6 +23,7 @@ void Insert(const Slot& slot, TermLayout* layout) {
 // The dense variables of some terms, each once, in order of their columns.
 std::vector<DenseBlock> DenseBlocks(const TermLayout* begin, const TermLayout* end) {
   std::vector<DenseBlock> blocks;
+  blocks.reserve(ResidualTerm::kMaxVariables * (end - begin));
   for (const TermLayout* term = begin; term != end; ++term) {
     for (const Slot& slot : *term) blocks.emplace_back(slot.dense_offset, slot.size);
   }
@@ -103,9 +104,9 @@ void EquationLayout::LayOutLandmark(int index) {
   TermLayout* const begin = terms_.data() + first;
   TermLayout* const end = terms_.data() + terms_.size();
   std::vector<ColumnRun>& runs = landmarks_[index];
-  for (const auto& [offset, size] : DenseBlocks(begin, end)) {
-    AppendColumns(offset, size, &runs);
-  }
+  const std::vector<DenseBlock> blocks = DenseBlocks(begin, end);
+  runs.reserve(blocks.size());
+  for (const auto& [offset, size] : blocks) AppendColumns(offset, size, &runs);
   for (TermLayout* term = begin; term != end; ++term) {
     for (int i = 0; i < term->slot_count; ++i) {
       Slot& slot = term->slots[i];

@@ -12,9 +12,11 @@ namespace plm_vins {
 template <int kRows>
 using Rows = Eigen::Matrix<double, kRows, Eigen::Dynamic, Eigen::RowMajor>;
 
-// S -= W^T W, upper triangle, for W whose columns belong to `runs` of columns of S.
-template <int kRows>
-void SubtractGram(const Rows<kRows>& W, const std::vector<ColumnRun>& runs, Eigen::MatrixXd* S) {
+// S -= W^T W, upper triangle, for W, Rows or a map of them, whose columns belong to `runs` of
+// columns of S.
+template <typename RowsOfW>
+void SubtractGram(const RowsOfW& W, const std::vector<ColumnRun>& runs, Eigen::MatrixXd* S) {
+  constexpr int kRows = RowsOfW::RowsAtCompileTime;
   for (auto right = runs.begin(); right != runs.end(); ++right) {
     for (int j = 0; j < right->size; ++j) {
       const Eigen::Matrix<double, kRows, 1> factor = W.col(right->local + j);

@@ -2,7 +2,6 @@
 #include "vins_estimator/problem/landmark_equations.h"
 
 #include <Eigen/Cholesky>
-#include <utility>
 
 #include "vins_estimator/geometry/plucker.h"
 #include "vins_estimator/geometry/point_in_host.h"
@@ -24,13 +23,14 @@ Eigen::LLT<Eigen::Matrix<double, kSize, kSize>> DampedFactor(const LandmarkMatri
   return Eigen::LLT<Eigen::Matrix<double, kSize, kSize>>(H);
 }
 
-// Takes one landmark of kSize parameters out of the dense equations.
+// Takes one landmark of kSize parameters out of the dense equations. `memory` is for its H_ld.
 template <int kSize>
-void Eliminate(const LandmarkEquations& equations, double damping, Eigen::MatrixXd* S,
-               Eigen::VectorXd* g) {
+void Eliminate(const LandmarkEquations& equations, double damping, double* memory,
+               Eigen::MatrixXd* S, Eigen::VectorXd* g) {
   // H_dl H_ll^-1 H_ld = W^T W with W = L^-1 H_ld.
   const auto factor = DampedFactor<kSize>(equations.H_ll, damping);
-  Rows<kSize> W = equations.H_ld;
+  Eigen::Map<Rows<kSize>> W(memory, kSize, equations.H_ld.cols());
+  W = equations.H_ld;
   factor.matrixL().solveInPlace(W);
   const Eigen::Matrix<double, kSize, 1> w_b =
       factor.matrixL().solve(equations.b_l.template head<kSize>());
@@ -38,13 +38,14 @@ void Eliminate(const LandmarkEquations& equations, double damping, Eigen::Matrix
     const auto W_run = W.middleCols(run.local, run.size);
     g->segment(run.dense, run.size).noalias() -= W_run.transpose() * w_b;
   }
-  SubtractGram<kSize>(W, equations.runs, S);
+  SubtractGram(W, equations.runs, S);
 }
 
 }  // namespace
 
-LandmarkEquations::LandmarkEquations(int size, std::vector<ColumnRun> columns)
-    : runs(std::move(columns)), H_ll(size, size), b_l(size), H_ld(size, CountColumns(runs)) {}
+LandmarkEquations::LandmarkEquations(int size, const std::vector<ColumnRun>& columns,
+                                     double* memory)
+    : runs(columns), H_ll(size, size), b_l(size), H_ld(memory, size, CountColumns(columns)) {}
 
 void LandmarkEquations::SetZero() {
   H_ll.setZero();
@@ -54,11 +55,12 @@ void LandmarkEquations::SetZero() {
 
 void EliminateLandmarks(const std::vector<LandmarkEquations>& landmarks, double damping,
                         Eigen::MatrixXd* S, Eigen::VectorXd* g) {
+  std::vector<double> memory(kMaxLandmarkSize * S->cols());
   for (const LandmarkEquations& equations : landmarks) {
     if (equations.b_l.size() == kPointSize) {
-      Eliminate<kPointSize>(equations, damping, S, g);
+      Eliminate<kPointSize>(equations, damping, memory.data(), S, g);
     } else {
-      Eliminate<kLineTangentSize>(equations, damping, S, g);
+      Eliminate<kLineTangentSize>(equations, damping, memory.data(), S, g);
     }
   }
 }

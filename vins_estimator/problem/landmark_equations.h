@@ -15,14 +15,15 @@ using LandmarkVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxLandmarkS
 
 // One landmark's share of the equations, over the dense columns that its terms touch.
 struct LandmarkEquations {
-  LandmarkEquations(int size, std::vector<ColumnRun> columns);
+  // Over the columns of these runs, which must outlive it, with H_ld in `memory`.
+  LandmarkEquations(int size, const std::vector<ColumnRun>& columns, double* memory);
 
   void SetZero();
 
-  std::vector<ColumnRun> runs;  // of H_ld's columns
+  const std::vector<ColumnRun>& runs;  // of H_ld's columns
   LandmarkMatrix H_ll;
   LandmarkVector b_l;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> H_ld;
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> H_ld;
 };
 
 // Takes all landmarks out of the dense equations S step_d = -g (Schur complement): S upper

@@ -13,10 +13,15 @@ NormalEquations::NormalEquations(const WindowProblem& problem)
       left_out_(layout_.terms().size(), false),
       H_dd_(layout_.dense_size(), layout_.dense_size()),
       b_d_(layout_.dense_size()) {
+  size_t columns = 0;
+  for (const std::vector<ColumnRun>& runs : layout_.landmarks()) columns += CountColumns(runs);
+  H_ld_.resize(kMaxLandmarkSize * columns);
   landmarks_.reserve(problem.landmarks().size());
+  double* memory = H_ld_.data();
   for (const LandmarkTerms& landmark : problem.landmarks()) {
     const int size = problem.variables()[landmark.variable].type().tangent_size;
-    landmarks_.emplace_back(size, layout_.landmarks()[landmarks_.size()]);
+    landmarks_.emplace_back(size, layout_.landmarks()[landmarks_.size()], memory);
+    memory += landmarks_.back().H_ld.size();
   }
 }
 

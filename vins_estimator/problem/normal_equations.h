@@ -25,6 +25,8 @@ class NormalEquations {
  public:
   // `problem` must outlive this object and keep its structure; its values may change.
   explicit NormalEquations(const WindowProblem& problem);
+  NormalEquations(const NormalEquations&) = delete;
+  NormalEquations& operator=(const NormalEquations&) = delete;
 
   // Fills the equations at the current values. Returns the cost.
   double Linearize();
@@ -63,6 +65,7 @@ class NormalEquations {
   const WindowProblem& problem_;
   const EquationLayout layout_;
   std::vector<bool> left_out_;  // by term
+  std::vector<double> H_ld_;    // of all landmarks
   std::vector<LandmarkEquations> landmarks_;
   Eigen::MatrixXd H_dd_;  // upper triangle
   Eigen::VectorXd b_d_;

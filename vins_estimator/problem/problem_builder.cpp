@@ -90,14 +90,12 @@ void ProblemBuilder::AddMotion(size_t index) {
   const WindowFrame& to = window_->frames[index];
   const int pose_i = Pose(from.state.t_ns), motion_i = Motion(from.state.t_ns);
   const int pose_j = Pose(to.state.t_ns), motion_j = Motion(to.state.t_ns);
-  problem_.AddTerm(std::make_unique<ImuFactor>(to.motion_since_previous.get(), window_->gravity_W),
-                   nullptr, {pose_i, motion_i, pose_j, motion_j});
+  problem_.AddTerm(ImuFactor(to.motion_since_previous.get(), window_->gravity_W), nullptr,
+                   {pose_i, motion_i, pose_j, motion_j});
   if (!to.stationary) return;
-  problem_.AddTerm(std::make_unique<ZeroVelocityFactor>(options_.standstill_velocity), nullptr,
-                   {motion_j});
-  problem_.AddTerm(
-      std::make_unique<SamePoseFactor>(options_.standstill_position, options_.standstill_rotation),
-      nullptr, {pose_i, pose_j});
+  problem_.AddTerm(ZeroVelocityFactor(options_.standstill_velocity), nullptr, {motion_j});
+  problem_.AddTerm(SamePoseFactor(options_.standstill_position, options_.standstill_rotation),
+                   nullptr, {pose_i, pose_j});
 }
 
 template <typename ViewFactor, typename... Indices>
@@ -118,31 +116,28 @@ void ProblemBuilder::AddPointFactor(int index, const ViewFactor& factor,
                                     const PointLandmark& landmark, const PointView& view,
                                     Indices... variables) {
   if (!camera_) {
-    problem_.AddLandmarkTerm(index, std::make_unique<ViewFactor>(factor), &point_loss_,
-                             {variables...});
+    problem_.AddLandmarkTerm(index, factor, &point_loss_, {variables...});
     return;
   }
   const RayShift shift(*camera_, ExpectedRay(landmark, view, *window_));
-  problem_.AddLandmarkTerm(
-      index,
-      std::make_unique<PointIntrinsicsFactor<ViewFactor>>(factor, shift, options_.point_weight),
-      &point_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});
+  problem_.AddLandmarkTerm(index,
+                           PointIntrinsicsFactor<ViewFactor>(factor, shift, options_.point_weight),
+                           &point_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});
 }
 
 template <typename ViewFactor, typename... Indices>
 void ProblemBuilder::AddLineTerm(int index, const LineLandmark& landmark, const LineView& view,
                                  double weight, Indices... variables) {
   if (!camera_) {
-    problem_.AddLandmarkTerm(index, std::make_unique<ViewFactor>(view.segment, weight), &line_loss_,
-                             {variables...});
+    problem_.AddLandmarkTerm(index, ViewFactor(view.segment, weight), &line_loss_, {variables...});
     return;
   }
   const LineSegmentView expected = ExpectedEnds(landmark, view, *window_);
-  problem_.AddLandmarkTerm(index,
-                           std::make_unique<LineIntrinsicsFactor<ViewFactor>>(
-                               view.segment, weight, RayShift(*camera_, expected.start),
-                               RayShift(*camera_, expected.end)),
-                           &line_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});
+  problem_.AddLandmarkTerm(
+      index,
+      LineIntrinsicsFactor<ViewFactor>(view.segment, weight, RayShift(*camera_, expected.start),
+                                       RayShift(*camera_, expected.end)),
+      &line_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});
 }
 
 void ProblemBuilder::AddPoint(PointLandmark* landmark) {
@@ -181,8 +176,7 @@ void ProblemBuilder::AddLine(LineLandmark* landmark) {
   for (const LineView& view : landmark->anchor_views) add_view(view, options_.anchor_weight);
   if (!options_.R_W_M || landmark->axis == LineAxis::kFree) return;
   const Eigen::Vector3d axis_W = *options_.R_W_M * UnitVector(landmark->axis);
-  problem_.AddLandmarkTerm(index,
-                           std::make_unique<ManhattanFactor>(axis_W, options_.manhattan_weight),
+  problem_.AddLandmarkTerm(index, ManhattanFactor(axis_W, options_.manhattan_weight),
                            &manhattan_loss_, {host_pose, extrinsic, line});
 }
 

@@ -2,22 +2,18 @@
 #include "vins_estimator/problem/window_problem.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace plm_vins {
-namespace {
 
-ResidualTerm MakeTerm(std::unique_ptr<const Factor> cost, const ceres::LossFunction* loss,
-                      std::initializer_list<int> variables) {
+ResidualTerm WindowProblem::MakeTerm(const Factor* cost, const ceres::LossFunction* loss,
+                                     std::initializer_list<int> variables) {
   ResidualTerm term;
-  term.cost = std::move(cost);
+  term.cost = cost;
   term.loss = loss;
   term.variable_count = static_cast<int>(variables.size());
   std::copy(variables.begin(), variables.end(), term.variables.begin());
   return term;
 }
-
-}  // namespace
 
 int WindowProblem::AddVariable(const BlockId& id, double* values, bool constant,
                                const double* linearization) {
@@ -26,21 +22,9 @@ int WindowProblem::AddVariable(const BlockId& id, double* values, bool constant,
   return position->second;
 }
 
-void WindowProblem::AddTerm(std::unique_ptr<const Factor> cost, const ceres::LossFunction* loss,
-                            std::initializer_list<int> variables) {
-  terms_.push_back(MakeTerm(std::move(cost), loss, variables));
-}
-
 int WindowProblem::AddLandmark(const BlockId& id, double* values) {
-  landmarks_.emplace_back();
-  landmarks_.back().variable = AddVariable(id, values);
+  landmarks_.push_back({AddVariable(id, values), std::pmr::vector<ResidualTerm>(memory_.get())});
   return static_cast<int>(landmarks_.size()) - 1;
-}
-
-void WindowProblem::AddLandmarkTerm(int landmark, std::unique_ptr<const Factor> cost,
-                                    const ceres::LossFunction* loss,
-                                    std::initializer_list<int> variables) {
-  landmarks_[landmark].terms.push_back(MakeTerm(std::move(cost), loss, variables));
 }
 
 int WindowProblem::Find(const BlockId& id) const {

@@ -6,6 +6,8 @@
 #include <array>
 #include <initializer_list>
 #include <memory>
+#include <memory_resource>
+#include <type_traits>
 #include <unordered_map>
 #include <vector>
 
@@ -21,7 +23,7 @@ class MarginalizationPrior;
 struct ResidualTerm {
   static constexpr int kMaxVariables = 7;
 
-  std::unique_ptr<const Factor> cost;
+  const Factor* cost = nullptr;
   const ceres::LossFunction* loss = nullptr;      // null: squared
   std::array<int, kMaxVariables> variables = {};  // indices of WindowProblem::variables()
   int variable_count = 0;
@@ -29,26 +31,34 @@ struct ResidualTerm {
 
 // A landmark: its variable is eliminated from the linear system before it is solved.
 struct LandmarkTerms {
-  int variable = -1;                // index of WindowProblem::variables()
-  std::vector<ResidualTerm> terms;  // every term that depends on it
+  int variable = -1;                     // index of WindowProblem::variables()
+  std::pmr::vector<ResidualTerm> terms;  // every term that depends on it
 };
 
 // A nonlinear least-squares problem over the window, in the form that both solving and
 // marginalising take: variables, terms among frames, terms grouped by landmark, and the prior.
 // Variables are ordered as added; a variable is added once, later additions return the same index.
+// It is made anew for each image, of thousands of small parts: they lie in one piece of memory.
 class WindowProblem {
  public:
   // `linearization` as in Variable.
   int AddVariable(const BlockId& id, double* values, bool constant = false,
                   const double* linearization = nullptr);
 
-  void AddTerm(std::unique_ptr<const Factor> cost, const ceres::LossFunction* loss,
-               std::initializer_list<int> variables);
+  // With a copy of the factor; of the loss, only the address.
+  template <typename FactorType>
+  void AddTerm(const FactorType& factor, const ceres::LossFunction* loss,
+               std::initializer_list<int> variables) {
+    terms_.push_back(MakeTerm(Keep(factor), loss, variables));
+  }
 
   // A landmark, and the terms that see it. Returns the landmark's index.
   int AddLandmark(const BlockId& id, double* values);
-  void AddLandmarkTerm(int landmark, std::unique_ptr<const Factor> cost,
-                       const ceres::LossFunction* loss, std::initializer_list<int> variables);
+  template <typename FactorType>
+  void AddLandmarkTerm(int landmark, const FactorType& factor, const ceres::LossFunction* loss,
+                       std::initializer_list<int> variables) {
+    landmarks_[landmark].terms.push_back(MakeTerm(Keep(factor), loss, variables));
+  }
   void ReserveLandmarkTerms(int landmark, size_t count) {
     landmarks_[landmark].terms.reserve(count);
   }
@@ -65,8 +75,21 @@ class WindowProblem {
   const MarginalizationPrior* prior() const { return prior_; }
 
  private:
+  static constexpr size_t kUsualSize = 400'000;  // of a window [bytes]
+
+  template <typename FactorType>
+  const Factor* Keep(const FactorType& factor) {
+    static_assert(std::is_trivially_destructible_v<FactorType>);
+    return new (memory_->allocate(sizeof(FactorType), alignof(FactorType))) FactorType(factor);
+  }
+
+  static ResidualTerm MakeTerm(const Factor* cost, const ceres::LossFunction* loss,
+                               std::initializer_list<int> variables);
+
+  std::unique_ptr<std::pmr::memory_resource> memory_ =
+      std::make_unique<std::pmr::monotonic_buffer_resource>(kUsualSize);
   std::vector<Variable> variables_;
-  std::unordered_map<BlockId, int, BlockIdHash> index_;
+  std::pmr::unordered_map<BlockId, int, BlockIdHash> index_{memory_.get()};
   std::vector<ResidualTerm> terms_;
   std::vector<LandmarkTerms> landmarks_;
   const MarginalizationPrior* prior_ = nullptr;

@@ -30,9 +30,8 @@ class LevenbergMarquardtTest : public ::testing::Test {
       problem_.AddVariable({BlockKind::kMotion, state.t_ns}, state.motion.data());
     }
     for (size_t i = 1; i < frames.size(); ++i) {
-      problem_.AddTerm(
-          std::make_unique<ImuFactor>(frames[i].motion_since_previous.get(), window.gravity_W),
-          nullptr, {Pose(i - 1), Motion(i - 1), Pose(i), Motion(i)});
+      problem_.AddTerm(ImuFactor(frames[i].motion_since_previous.get(), window.gravity_W), nullptr,
+                       {Pose(i - 1), Motion(i - 1), Pose(i), Motion(i)});
     }
     for (auto& [id, landmark] : simulated_.points.landmarks()) {
       if (landmark.triangulated) AddPoint(extrinsic, td, &landmark);
@@ -53,11 +52,10 @@ class LevenbergMarquardtTest : public ::testing::Test {
     const int index = problem_.AddLandmark(id, landmark->coordinates.data());
     const int point = problem_.Find(id);
     const PointView& host = landmark->host();
-    problem_.AddLandmarkTerm(index, std::make_unique<PointHostFactor>(host.bearing, kWeight),
-                             &loss_, {td, point});
+    problem_.AddLandmarkTerm(index, PointHostFactor(host.bearing, kWeight), &loss_, {td, point});
     for (size_t i = 1; i < landmark->views.size(); ++i) {
       const PointView& view = landmark->views[i];
-      problem_.AddLandmarkTerm(index, std::make_unique<PointFactor>(view.bearing, kWeight), &loss_,
+      problem_.AddLandmarkTerm(index, PointFactor(view.bearing, kWeight), &loss_,
                                {PoseAt(host.t_ns), PoseAt(view.t_ns), extrinsic, td, point});
     }
   }
@@ -132,7 +130,7 @@ TEST(LevenbergMarquardt, LeavesWhatCannotBeSolvedAsItIs) {
   WindowProblem problem;
   std::array<double, 9> motion = {1, 2, 3, 4, 5, 6, 7, 8, 9};  // nothing is known of the biases
   const int index = problem.AddVariable({BlockKind::kMotion, 1}, motion.data());
-  problem.AddTerm(std::make_unique<ZeroVelocityFactor>(1.0), nullptr, {index});
+  problem.AddTerm(ZeroVelocityFactor(1.0), nullptr, {index});
   NormalEquations equations(problem);
   const SolverSummary summary = Solve(SolverOptions(), problem, &equations);
   EXPECT_FALSE(summary.solved);

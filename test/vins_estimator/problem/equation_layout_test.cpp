@@ -24,10 +24,10 @@ class EquationLayoutTest : public ::testing::Test {
     motion_ = Add(BlockKind::kMotion, 3);
     earlier_motion_ = Add(BlockKind::kMotion, 2);
     extrinsic_ = problem_.AddVariable({BlockKind::kExtrinsic, 0}, values_.data(), true);
-    problem_.AddTerm(std::make_unique<ZeroVelocityFactor>(1.0), nullptr, {motion_});
+    problem_.AddTerm(ZeroVelocityFactor(1.0), nullptr, {motion_});
     const int landmark = problem_.AddLandmark({BlockKind::kPoint, 7}, values_.data());
     point_ = problem_.Find({BlockKind::kPoint, 7});
-    problem_.AddLandmarkTerm(landmark, std::make_unique<PointFactor>(TimedBearing(), 1.0), nullptr,
+    problem_.AddLandmarkTerm(landmark, PointFactor(TimedBearing(), 1.0), nullptr,
                              {poses_[2], poses_[0], extrinsic_, td_, point_});
   }
 

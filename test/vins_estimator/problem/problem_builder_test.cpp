@@ -116,7 +116,7 @@ TEST_F(ProblemBuilderTest, AnchorsSeeALineWithTheirOwnWeight) {
     ProblemBuilder builder(options_, &window(), &no_prior_);
     builder.AddLine(landmark);
     const WindowProblem& problem = builder.problem();
-    const std::vector<ResidualTerm>& terms = problem.landmarks()[0].terms;
+    const auto& terms = problem.landmarks()[0].terms;
     EXPECT_EQ(terms.size(), 3u);
     const ResidualTerm& of_anchor = terms.back();
     EXPECT_EQ(of_anchor.variables[0], problem.Find({BlockKind::kPose, Stamp(0)}));  // the host

@@ -38,13 +38,13 @@ TEST(WindowProblem, KeepsTermsWithTheirLandmark) {
   double motion[9] = {}, td = 0, points[2][3] = {};
   const int motion_index = problem.AddVariable({BlockKind::kMotion, 1}, motion);
   const int td_index = problem.AddVariable({BlockKind::kTimeOffset, 0}, &td);
-  problem.AddTerm(std::make_unique<ZeroVelocityFactor>(1.0), nullptr, {motion_index});
+  problem.AddTerm(ZeroVelocityFactor(1.0), nullptr, {motion_index});
   for (int64_t id : {0, 1}) {
     const int landmark = problem.AddLandmark({BlockKind::kPoint, id}, points[id]);
     EXPECT_EQ(landmark, id);
     const int point = problem.Find({BlockKind::kPoint, id});
-    problem.AddLandmarkTerm(landmark, std::make_unique<PointHostFactor>(TimedBearing(), 1.0),
-                            nullptr, {td_index, point});
+    problem.AddLandmarkTerm(landmark, PointHostFactor(TimedBearing(), 1.0), nullptr,
+                            {td_index, point});
   }
   EXPECT_EQ(problem.terms().size(), 1u);
   ASSERT_EQ(problem.landmarks().size(), 2u);

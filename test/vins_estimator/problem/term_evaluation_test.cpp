@@ -46,7 +46,7 @@ class TermEvaluationTest : public ::testing::Test {
   void MakeTerm(const ceres::LossFunction* loss, bool constant = false,
                 const double* linearization = nullptr) {
     variables_ = {{{BlockKind::kPoint, 1}, values_.data(), constant, linearization}};
-    term_.cost = std::make_unique<Bilinear>();
+    term_.cost = &factor_;
     term_.loss = loss;
     term_.variables[0] = 0;
     term_.variable_count = 1;
@@ -59,6 +59,7 @@ class TermEvaluationTest : public ::testing::Test {
 
   Eigen::Vector3d values_{1.5, -2.0, 0.7};
   std::vector<Variable> variables_;
+  const Bilinear factor_;
   ResidualTerm term_;
   TermEvaluation evaluation_;
 };

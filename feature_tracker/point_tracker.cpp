@@ -190,6 +190,7 @@ class PointTracker::Implementation {
                      [](const auto& a, const auto& b) { return a.length > b.length; });
     SpacingGrid occupied(image_size_, config_.min_dist);
     std::vector<bool> keep;
+    keep.reserve(tracks_.size());
     for (const PointTrack& track : tracks_) {
       const bool is_visible = mask_.empty() || mask_.at<uint8_t>(cv::Point(track.uv_px)) != 0;
       keep.push_back(is_visible && occupied.IsFree(track.uv_px));

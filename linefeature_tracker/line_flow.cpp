@@ -79,6 +79,7 @@ class LevelAlignment {
   LevelAlignment(const cv::Mat& previous, const cv::Mat& current,
                  const std::vector<SamplePair>& samples, int level)
       : current_(current), scale_(1.0 / (1 << level)) {
+    templates_.reserve(samples.size());
     for (const SamplePair& pair : samples) AddTemplate(previous, pair);
   }
 
@@ -178,6 +179,7 @@ std::vector<SamplePair> SampleBoth(const CameraModel& camera, const LineSegment&
   const int count =
       std::clamp(static_cast<int>(length_px / kSpacing_px), kMinProfiles + 1, kMaxProfiles);
   std::vector<SamplePair> samples;
+  samples.reserve(count);
   for (int k = 0; k < count; ++k) {
     const double share = (k + 0.5) / count;
     const auto previous = SampleSegment(camera, segment, share * segment.Length());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/ray_transfer.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <optional>
 

@@ -195,7 +195,7 @@ double Survival(const std::vector<LineFrame>& frames, size_t later) {
   return lines > 0 ? alive / lines : 0;
 }
 
-double MeanLength_px(const std::vector<LineFrame>& frames, const CameraModel& camera) {
+double MeanLengthInPixels(const std::vector<LineFrame>& frames, const CameraModel& camera) {
   double count = 0, sum = 0;
   for (const LineFrame& frame : frames) {
     for (const LineObservation& line : frame.lines) {
@@ -229,7 +229,7 @@ void JudgeOnImages(benchmark::State& state, const Input& input, MakeFrontEnd mak
   double lines = 0;
   for (const LineFrame& frame : frames) lines += static_cast<double>(frame.lines.size());
   state.counters["lines"] = lines / static_cast<double>(frames.size());
-  state.counters["length_px"] = MeanLength_px(frames, *input.camera);
+  state.counters["length_px"] = MeanLengthInPixels(frames, *input.camera);
   state.counters["track_images"] = MeanTrackLength(frames);
   state.counters["alive_5"] = Survival(frames, 5);
   state.counters["alive_10"] = Survival(frames, 10);
@@ -251,7 +251,7 @@ int EdgeOf(const std::vector<LineSegment>& edges, const LineSegment& line, doubl
   double best_error = kMaxError_px;
   for (size_t i = 0; i < edges.size(); ++i) {
     if (Relate(edges[i], line).overlap < 0.5) continue;
-    const double error = NormalError_px(edges[i], line, focal);
+    const double error = NormalErrorInPixels(edges[i], line, focal);
     if (error >= best_error) continue;
     best = static_cast<int>(i);
     best_error = error;
@@ -265,6 +265,7 @@ void JudgeOnSimulation(benchmark::State& state, MakeFrontEnd make) {
   const LineScene scene = BarScene(DistortedParameters());
   const double focal = scene.camera()->FocalLength();
   std::vector<cv::Mat> images;
+  images.reserve(kImages);
   for (int i = 0; i < kImages; ++i) images.push_back(scene.View(SimulatedMotion(i), kNoise));
   std::vector<double> errors;
   int switched = 0;
@@ -279,7 +280,7 @@ void JudgeOnSimulation(benchmark::State& state, MakeFrontEnd make) {
       for (const LineObservation& line : frame.lines) {
         const int edge = EdgeOf(edges, {line.start, line.end}, focal);
         if (edge < 0) continue;
-        errors.push_back(NormalError_px(edges[edge], {line.start, line.end}, focal));
+        errors.push_back(NormalErrorInPixels(edges[edge], {line.start, line.end}, focal));
         if (edge_of_id.emplace(line.id, edge).first->second != edge) ++switched;
       }
     }

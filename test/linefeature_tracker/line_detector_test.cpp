@@ -28,7 +28,7 @@ TEST_P(LineDetectorTest, FindsTheEdgesOfABar) {
     const auto edge_px = LineSegment{458 * edge.start + Eigen::Vector2d(375.5, 239.5),
                                      458 * edge.end + Eigen::Vector2d(375.5, 239.5)};
     const bool is_found = std::any_of(found.begin(), found.end(), [&](const LineSegment& line) {
-      return Relate(edge_px, line).overlap > 0.5 && NormalError_px(edge_px, line, 1) < 2.5;
+      return Relate(edge_px, line).overlap > 0.5 && NormalErrorInPixels(edge_px, line, 1) < 2.5;
     });
     EXPECT_TRUE(is_found) << "from " << edge_px.start.transpose();
   }
@@ -48,7 +48,7 @@ TEST_P(LineDetectorTest, FindsNothingInUniformImages) {
 }
 
 // Half of the ends' distances, whichever way the segments run.
-double EndError_px(const LineSegment& a, const LineSegment& b) {
+double EndErrorInPixels(const LineSegment& a, const LineSegment& b) {
   return 0.5 * std::min((a.start - b.start).norm() + (a.end - b.end).norm(),
                         (a.start - b.end).norm() + (a.end - b.start).norm());
 }
@@ -70,7 +70,7 @@ TEST(FastLineDetector, FindsWhatThatOfOpenCvFinds) {
   for (const cv::Vec4f& line : lines) {
     const LineSegment expected = {{line[0], line[1]}, {line[2], line[3]}};
     alike += std::any_of(found.begin(), found.end(), [&](const LineSegment& segment) {
-      return EndError_px(expected, segment) < 0.1;
+      return EndErrorInPixels(expected, segment) < 0.1;
     });
   }
   EXPECT_GE(alike, lines.size() * 90 / 100);

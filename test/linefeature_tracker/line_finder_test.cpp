@@ -14,7 +14,7 @@ int CountFound(const std::vector<LineSegment>& edges, const std::vector<FoundLin
   return static_cast<int>(std::count_if(edges.begin(), edges.end(), [&](const LineSegment& edge) {
     return std::any_of(lines.begin(), lines.end(), [&](const FoundLine& line) {
       return Relate(edge, line.segment).overlap > 0.5 &&
-             NormalError_px(edge, line.segment, 458) < 2.5;
+             NormalErrorInPixels(edge, line.segment, 458) < 2.5;
     });
   }));
 }

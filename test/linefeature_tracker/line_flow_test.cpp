@@ -28,8 +28,8 @@ class LineFlowTest : public testing::Test {
                        edge);
   }
 
-  double Error_px(const Eigen::Matrix3d& H, const LineSegment& found) const {
-    return NormalError_px(scene_.Edges(H)[0], found, kFocal);
+  double ErrorInPixels(const Eigen::Matrix3d& H, const LineSegment& found) const {
+    return NormalErrorInPixels(scene_.Edges(H)[0], found, kFocal);
   }
 
   LineScene scene_ = [] {
@@ -46,7 +46,7 @@ TEST_F(LineFlowTest, FindsSmallAndLargeMotions) {
   for (const Eigen::Matrix3d& H : motions) {
     const auto found = Follow(H);
     ASSERT_TRUE(found);
-    EXPECT_LT(Error_px(H, found->segment), 0.5) << H;
+    EXPECT_LT(ErrorInPixels(H, found->segment), 0.5) << H;
     EXPECT_GT(found->correlation, 0.95);
   }
 }
@@ -55,7 +55,7 @@ TEST_F(LineFlowTest, ChangesOfExposureDoNotMatter) {
   const Eigen::Matrix3d H = Motion(0, 2, 5);
   const auto found = Follow(H, 0.8, 15);
   ASSERT_TRUE(found);
-  EXPECT_LT(Error_px(H, found->segment), 1);
+  EXPECT_LT(ErrorInPixels(H, found->segment), 1);
   EXPECT_GT(found->correlation, 0.95);
 }
 

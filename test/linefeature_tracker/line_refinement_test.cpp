@@ -22,7 +22,7 @@ LineSegment Orient(const LineScene& scene, const cv::Mat& image, const LineSegme
 }
 
 // Largest error of all edges long enough, from guesses that are off by up to 2.5 px.
-double LargestError_px(const LineScene& scene, const cv::Mat& image, int* refined_count) {
+double LargestErrorInPixels(const LineScene& scene, const cv::Mat& image, int* refined_count) {
   const LineRefinement refinement(LineTrackerConfig(), scene.camera());
   double largest = 0;
   int edges = 0;
@@ -32,7 +32,7 @@ double LargestError_px(const LineScene& scene, const cv::Mat& image, int* refine
     const auto refined = refinement.Refine(image, Orient(scene, image, guess), 4);
     if (!refined) continue;
     ++*refined_count;
-    largest = std::max(largest, NormalError_px(edge, *refined, kFocal));
+    largest = std::max(largest, NormalErrorInPixels(edge, *refined, kFocal));
   }
   return largest;
 }
@@ -40,7 +40,7 @@ double LargestError_px(const LineScene& scene, const cv::Mat& image, int* refine
 TEST(LineRefinementTest, FindsEdgesToTenthsOfAPixel) {
   const LineScene scene = BarScene(PlainParameters());
   int refined = 0;
-  EXPECT_LT(LargestError_px(scene, scene.View(), &refined), 0.15);
+  EXPECT_LT(LargestErrorInPixels(scene, scene.View(), &refined), 0.15);
   EXPECT_EQ(refined, 48);
 }
 
@@ -48,14 +48,14 @@ TEST(LineRefinementTest, FindsEdgesToTenthsOfAPixel) {
 TEST(LineRefinementTest, DistortionCostsLittle) {
   const LineScene scene = BarScene(DistortedParameters());
   int refined = 0;
-  EXPECT_LT(LargestError_px(scene, scene.View(), &refined), 0.3);
+  EXPECT_LT(LargestErrorInPixels(scene, scene.View(), &refined), 0.3);
   EXPECT_EQ(refined, 48);
 }
 
 TEST(LineRefinementTest, NoiseCostsLittle) {
   const LineScene scene = BarScene(PlainParameters());
   int refined = 0;
-  EXPECT_LT(LargestError_px(scene, scene.View(Eigen::Matrix3d::Identity(), 4), &refined), 0.3);
+  EXPECT_LT(LargestErrorInPixels(scene, scene.View(Eigen::Matrix3d::Identity(), 4), &refined), 0.3);
   EXPECT_GE(refined, 44);
 }
 
@@ -68,7 +68,7 @@ TEST(LineRefinementTest, FollowsTheBendOfALongLine) {
   const LineSegment edge = scene.Edges()[0];
   const auto refined = refinement.Refine(image, Orient(scene, image, Moved(edge, 2, -2)), 4);
   ASSERT_TRUE(refined);
-  EXPECT_LT(NormalError_px(edge, *refined, kFocal), 0.15);
+  EXPECT_LT(NormalErrorInPixels(edge, *refined, kFocal), 0.15);
   EXPECT_GT(refined->Length(), 0.9 * edge.Length());
 }
 

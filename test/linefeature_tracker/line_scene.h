@@ -135,7 +135,7 @@ class LineScene {
 };
 
 // Largest distance of the found line's ends from the infinite edge, in pixels of the image centre.
-inline double NormalError_px(const LineSegment& edge, const LineSegment& found, double focal) {
+inline double NormalErrorInPixels(const LineSegment& edge, const LineSegment& found, double focal) {
   return focal * std::max(std::abs(edge.Distance(found.start)), std::abs(edge.Distance(found.end)));
 }
 

@@ -58,7 +58,7 @@ class LineTrackerTest : public testing::TestWithParam<LineMatcherType> {
     const auto edges = scene_->Edges(H);
     for (size_t i = 0; i < edges.size(); ++i) {
       if (Relate(edges[i], Segment(line)).overlap > 0.5 &&
-          NormalError_px(edges[i], Segment(line), kFocal) < 1.0)
+          NormalErrorInPixels(edges[i], Segment(line), kFocal) < 1.0)
         return static_cast<int>(i);
     }
     return -1;
@@ -93,7 +93,7 @@ class LineTrackerTest : public testing::TestWithParam<LineMatcherType> {
         if (edge_of_id.emplace(line.id, edge).first->second != edge) ++account.switched;
         account.largest_error_px =
             std::max(account.largest_error_px,
-                     NormalError_px(scene_->Edges(H)[edge], Segment(line), kFocal));
+                     NormalErrorInPixels(scene_->Edges(H)[edge], Segment(line), kFocal));
       }
     }
     account.first = static_cast<int>(first.size());

@@ -18,7 +18,7 @@ namespace {
 constexpr int64_t kStart = 1'600'000'000'000'000'000;
 
 std::string WriteBag(const std::string& name) {
-  const std::string file = testing::TempDir() + name;
+  std::string file = testing::TempDir() + name;
   SensorConfig sensors;
   sensors.image_topic = "/camera/image";
   sensors.imu_topic = "/camera/imu";

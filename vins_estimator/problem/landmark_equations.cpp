@@ -55,7 +55,7 @@ void LandmarkEquations::SetZero() {
 
 void EliminateLandmarks(const std::vector<LandmarkEquations>& landmarks, double damping,
                         Eigen::MatrixXd* S, Eigen::VectorXd* g) {
-  std::vector<double> memory(kMaxLandmarkSize * S->cols());
+  Eigen::VectorXd memory(kMaxLandmarkSize * S->cols());
   for (const LandmarkEquations& equations : landmarks) {
     if (equations.b_l.size() == kPointSize) {
       Eliminate<kPointSize>(equations, damping, memory.data(), S, g);

@@ -13,7 +13,7 @@ NormalEquations::NormalEquations(const WindowProblem& problem)
       left_out_(layout_.terms().size(), false),
       H_dd_(layout_.dense_size(), layout_.dense_size()),
       b_d_(layout_.dense_size()) {
-  size_t columns = 0;
+  int columns = 0;
   for (const std::vector<ColumnRun>& runs : layout_.landmarks()) columns += CountColumns(runs);
   H_ld_.resize(kMaxLandmarkSize * columns);
   landmarks_.reserve(problem.landmarks().size());

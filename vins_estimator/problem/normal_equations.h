@@ -65,7 +65,7 @@ class NormalEquations {
   const WindowProblem& problem_;
   const EquationLayout layout_;
   std::vector<bool> left_out_;  // by term
-  std::vector<double> H_ld_;    // of all landmarks
+  Eigen::VectorXd H_ld_;        // memory for that of all landmarks
   std::vector<LandmarkEquations> landmarks_;
   Eigen::MatrixXd H_dd_;  // upper triangle
   Eigen::VectorXd b_d_;

@@ -23,7 +23,7 @@ int WindowProblem::AddVariable(const BlockId& id, double* values, bool constant,
 }
 
 int WindowProblem::AddLandmark(const BlockId& id, double* values) {
-  landmarks_.push_back({AddVariable(id, values), std::pmr::vector<ResidualTerm>(memory_.get())});
+  landmarks_.push_back({AddVariable(id, values), std::pmr::vector<ResidualTerm>(&memory_)});
   return static_cast<int>(landmarks_.size()) - 1;
 }
 

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <initializer_list>
-#include <memory>
 #include <memory_resource>
 #include <type_traits>
 #include <unordered_map>
@@ -41,6 +40,10 @@ struct LandmarkTerms {
 // It is made anew for each image, of thousands of small parts: they lie in one piece of memory.
 class WindowProblem {
  public:
+  WindowProblem() = default;
+  WindowProblem(const WindowProblem&) = delete;
+  WindowProblem& operator=(const WindowProblem&) = delete;
+
   // `linearization` as in Variable.
   int AddVariable(const BlockId& id, double* values, bool constant = false,
                   const double* linearization = nullptr);
@@ -80,16 +83,15 @@ class WindowProblem {
   template <typename FactorType>
   const Factor* Keep(const FactorType& factor) {
     static_assert(std::is_trivially_destructible_v<FactorType>);
-    return new (memory_->allocate(sizeof(FactorType), alignof(FactorType))) FactorType(factor);
+    return new (memory_.allocate(sizeof(FactorType), alignof(FactorType))) FactorType(factor);
   }
 
   static ResidualTerm MakeTerm(const Factor* cost, const ceres::LossFunction* loss,
                                std::initializer_list<int> variables);
 
-  std::unique_ptr<std::pmr::memory_resource> memory_ =
-      std::make_unique<std::pmr::monotonic_buffer_resource>(kUsualSize);
+  std::pmr::monotonic_buffer_resource memory_{kUsualSize};
   std::vector<Variable> variables_;
-  std::pmr::unordered_map<BlockId, int, BlockIdHash> index_{memory_.get()};
+  std::pmr::unordered_map<BlockId, int, BlockIdHash> index_{&memory_};
   std::vector<ResidualTerm> terms_;
   std::vector<LandmarkTerms> landmarks_;
   const MarginalizationPrior* prior_ = nullptr;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <memory>
 
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_problem.h"
@@ -19,9 +20,10 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using testing::SimulatedWindow;
 
-ProblemBuilder BuildProblem(const ProblemOptions& options, WindowEstimate* estimate) {
-  ProblemBuilder builder(options, &estimate->map.window, &estimate->prior);
-  testing::AddAll(&estimate->map, &builder);
+std::unique_ptr<const ProblemBuilder> BuildProblem(const ProblemOptions& options,
+                                                   WindowEstimate* estimate) {
+  auto builder = std::make_unique<ProblemBuilder>(options, &estimate->map.window, &estimate->prior);
+  testing::AddAll(&estimate->map, builder.get());
   return builder;
 }
 
@@ -131,9 +133,9 @@ class MarginalizeOldestTest : public ::testing::TestWithParam<JacobiansAt> {
 
 TEST_P(MarginalizeOldestTest, LeavesTheGaussNewtonStepAsItWas) {
   for (const bool keep_pose : {false, true, false}) {
-    const Step full = GaussNewtonStep(BuildProblem(options_, &estimate_).problem());
+    const Step full = GaussNewtonStep(BuildProblem(options_, &estimate_)->problem());
     estimate_.SlideOldest(options_, keep_pose);
-    const Step kept = GaussNewtonStep(BuildProblem(options_, &estimate_).problem());
+    const Step kept = GaussNewtonStep(BuildProblem(options_, &estimate_)->problem());
     EXPECT_EQ(kept.ids.size() + (keep_pose ? 1 : 2), full.ids.size());
     ExpectSameStep(kept, full);
     testing::Disturb(0.0005, &random_, &estimate_.map.window);  // as an optimisation would
@@ -145,10 +147,10 @@ TEST_P(MarginalizeOldestTest, KeepsThePoseOfAnAnchorWithoutItsMotion) {
   estimate_.SlideOldest(options_, /*stays_as_anchor=*/true);
   EXPECT_EQ(estimate_.prior.Linearization({BlockKind::kMotion, oldest_ns}), nullptr);
   EXPECT_NE(estimate_.prior.Linearization({BlockKind::kPose, oldest_ns}), nullptr);
-  const ProblemBuilder builder = BuildProblem(options_, &estimate_);
-  const int pose = builder.problem().Find({BlockKind::kPose, oldest_ns});
+  const auto builder = BuildProblem(options_, &estimate_);
+  const int pose = builder->problem().Find({BlockKind::kPose, oldest_ns});
   ASSERT_GE(pose, 0);
-  EXPECT_EQ(builder.problem().variables()[pose].values,
+  EXPECT_EQ(builder->problem().variables()[pose].values,
             estimate_.map.window.anchors[0].state.pose.data());
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "linefeature_tracker/chain_segments.h"
+#include "linefeature_tracker/edge_chains.h"
 
 // OpenCV 4.1 to 4.5.3 have neither LSD nor EDLines.
 #define HAS_LSD_AND_EDLINES \
@@ -28,10 +29,10 @@ std::vector<LineSegment> LongerThan(double min_length_px, const std::vector<cv::
 }
 
 bool IsAlongBorder(const LineSegment& segment, const cv::Size& size, double border_px) {
-  const auto highest = segment.start.cwiseMin(segment.end);
-  const auto lowest = segment.start.cwiseMax(segment.end);
-  return lowest.x() <= border_px || lowest.y() <= border_px ||
-         highest.x() >= size.width - border_px || highest.y() >= size.height - border_px;
+  const Eigen::Vector2d least = segment.start.cwiseMin(segment.end);
+  const Eigen::Vector2d most = segment.start.cwiseMax(segment.end);
+  return most.x() <= border_px || most.y() <= border_px || least.x() >= size.width - border_px ||
+         least.y() >= size.height - border_px;
 }
 
 class FldDetector : public LineDetector {

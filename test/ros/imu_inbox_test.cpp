@@ -7,6 +7,8 @@
 #include <ros/callback_queue.h>
 #include <ros/init.h>
 
+#include "test/ros/estimator_log.h"
+
 namespace plm_vins {
 namespace {
 
@@ -16,11 +18,7 @@ constexpr int64_t kStep = 5'000'000;
 class ImuInboxTest : public ::testing::Test {
  protected:
   static void Connect(const ros::Publisher& publisher) {
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
-    while (publisher.getNumSubscribers() == 0 && ros::WallTime::now() < end) {
-      ros::WallDuration(0.002).sleep();
-    }
-    ASSERT_EQ(publisher.getNumSubscribers(), 1u);
+    ASSERT_TRUE(testing::SpinUntil(kPatience, [&] { return publisher.getNumSubscribers() == 1; }));
   }
 
   void SetUp() override { Connect(publisher_); }

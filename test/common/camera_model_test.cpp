@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "simulator/default_sensors.h"
 #include "test/testing/numeric_jacobian.h"
 
 namespace plm_vins {
@@ -34,10 +35,7 @@ CameraParameters Parameters(Model model, const Eigen::Vector4d& intrinsics,
   return p;
 }
 
-CameraParameters Euroc() {
-  return Parameters(Model::kPinholeRadtan, {458.654, 457.296, 367.215, 248.375},
-                    {-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05});
-}
+CameraParameters Euroc() { return simulator::DefaultSensors().camera; }
 
 CameraParameters Fisheye() {
   return Parameters(Model::kPinholeEquidistant, {380.81, 380.79, 370.3, 247.7},

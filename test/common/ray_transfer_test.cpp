@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "simulator/default_sensors.h"
 #include "test/testing/numeric_jacobian.h"
 
 namespace plm_vins {
@@ -16,17 +17,7 @@ using Eigen::Vector2d;
 
 constexpr double kMillionthOfAPixel = 1e-6 / 460;  // normalised
 
-CameraParameters Camera() {
-  CameraParameters camera;
-  camera.width = 752;
-  camera.height = 480;
-  camera.fx = 458;
-  camera.fy = 457;
-  camera.cx = 367;
-  camera.cy = 248;
-  camera.distortion = {-0.28, 0.074, 0.0002, 0.00002};
-  return camera;
-}
+CameraParameters Camera() { return simulator::DefaultSensors().camera; }
 
 // From that camera to one whose intrinsics all differ by `share` of 10 %.
 class RayTransfer : public ::testing::TestWithParam<double> {

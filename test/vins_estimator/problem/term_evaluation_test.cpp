@@ -59,7 +59,7 @@ class TermEvaluationTest : public ::testing::Test {
 
   Eigen::Vector3d values_{1.5, -2.0, 0.7};
   std::vector<Variable> variables_;
-  const Bilinear factor_;
+  const Bilinear factor_{};
   ResidualTerm term_;
   TermEvaluation evaluation_;
 };

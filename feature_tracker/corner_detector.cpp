@@ -6,13 +6,12 @@
 #include <utility>
 
 #include "feature_tracker/corner_refinement.h"
+#include "feature_tracker/corner_response.h"
 #include "feature_tracker/region_queue.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr int kBlockSize = 3;  // of the gradient covariance, in pixels of the half image
-constexpr double kHarrisK = 0.04;
 // White noise of 2 grey levels stays below this even when CLAHE amplifies it; corners of a lit
 // scene reach 0.1 (gradients are in units of the full grey range).
 constexpr float kMinEigenvalue = 5e-4F;
@@ -55,7 +54,7 @@ std::vector<CornerDetector::Candidate> CornerDetector::FindCandidates(
     const cv::Mat& image, const SpacingGrid& occupied) const {
   cv::Mat half_image, local_maximum;
   cv::pyrDown(image, half_image);
-  const cv::Mat response = Response(half_image);
+  const cv::Mat response = CornerResponse(half_image, config_.corner_detector);
   cv::dilate(response, local_maximum, cv::Mat());
   const float min_response = MinResponse(response);
 
@@ -73,32 +72,6 @@ std::vector<CornerDetector::Candidate> CornerDetector::FindCandidates(
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.response > b.response; });
   return candidates;
-}
-
-// Strip by strip: what OpenCV keeps on the way takes twenty bytes a pixel, too much for a cache.
-cv::Mat CornerDetector::Response(const cv::Mat& half_image) const {
-  constexpr int kStripRows = 32;
-  constexpr int kMargin = kBlockSize / 2;
-  cv::Mat response(half_image.size(), CV_32F);
-  for (int top = 0; top < response.rows; top += kStripRows) {
-    const int bottom = std::min(top + kStripRows, response.rows);
-    const int first = std::max(top - kMargin, 0);
-    const int last = std::min(bottom + kMargin, response.rows);
-    const cv::Mat strip = StripResponse(half_image.rowRange(first, last));
-    strip.rowRange(top - first, bottom - first).copyTo(response.rowRange(top, bottom));
-  }
-  return response;
-}
-
-cv::Mat CornerDetector::StripResponse(const cv::Mat& half_image) const {
-  constexpr int kSobelSize = 3;
-  cv::Mat response;
-  if (config_.corner_detector == CornerDetectorType::kHarris) {
-    cv::cornerHarris(half_image, response, kBlockSize, kSobelSize, kHarrisK);
-  } else {
-    cv::cornerMinEigenVal(half_image, response, kBlockSize, kSobelSize);
-  }
-  return response;
 }
 
 // Harris' response is a product of two eigenvalues, so its thresholds are squares.

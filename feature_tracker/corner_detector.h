@@ -30,8 +30,6 @@ class CornerDetector {
     float response = 0;
   };
 
-  cv::Mat Response(const cv::Mat& half_image) const;
-  cv::Mat StripResponse(const cv::Mat& half_image) const;
   float MinResponse(const cv::Mat& response) const;
   std::vector<Candidate> FindCandidates(const cv::Mat& image, const SpacingGrid& occupied) const;
   bool IsAllowed(const cv::Point2f& position, const cv::Size& image_size) const;

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <tuple>
 
 #include "feature_tracker/corner_refinement.h"
 #include "test/feature_tracker/textured_scene.h"
@@ -51,25 +50,6 @@ TEST_P(CornerDetectorTest, FindsCornersOfSquares) {
       EXPECT_NEAR(value, nearest, 0.5);
     }
   }
-}
-
-// The response is computed in strips: no corner may depend on where these meet.
-TEST_P(CornerDetectorTest, FindsTheSameCornersAtEveryHeight) {
-  config_.corner_subpixel = false;
-  const CornerDetector detector(config_, {});
-  const auto corners_at = [&](int top) {
-    cv::Mat image(kHeight, kWidth, CV_8UC1, cv::Scalar(60));
-    image({100, top, 20, 20}).setTo(200);
-    auto corners = detector.Detect(image, {}, 4);
-    for (cv::Point2f& corner : corners) corner.y -= static_cast<float>(top);
-    std::sort(corners.begin(), corners.end(),
-              [](const auto& a, const auto& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); });
-    return corners;
-  };
-  constexpr int kFirst = 40;
-  const auto expected = corners_at(kFirst);
-  ASSERT_EQ(expected.size(), 4U);
-  for (int top = kFirst + 2; top < kHeight - 60; top += 2) EXPECT_EQ(corners_at(top), expected);
 }
 
 TEST_P(CornerDetectorTest, KeepsCountSpacingAndBorder) {

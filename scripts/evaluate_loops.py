@@ -25,27 +25,35 @@ def evaluate_loops(folder, truth):
     loops = loop_metrics.read_loops(folder / "loops.csv")
     distances, turns = loop_metrics.loop_errors(loops, odometry, truth)
     flown = (truth.stamps >= odometry.stamps[0]) & (truth.stamps <= odometry.stamps[-1])
-    revisit_times = loop_metrics.revisits(truth.select(flown))
+    revisited, returned = loop_metrics.revisits(truth.select(flown))
     return {
         "loops": len(loops),
         "false_loops": int(((distances > FALSE_DISTANCE) | (turns > FALSE_TURN)).sum()),
         "largest_error_m": float(distances.max(initial=0)),
         "largest_error_deg": float(turns.max(initial=0)),
-        "revisited_s": len(revisit_times) * loop_metrics.SAMPLING,
-        "closed_share": loop_metrics.closed_share(loops, revisit_times),
+        "revisited_s": len(revisited) * loop_metrics.SAMPLING,
+        "closed_share": loop_metrics.closed_share(loops, revisited),
+        "returned_s": int(returned.sum()) * loop_metrics.SAMPLING,
+        "closed_share_of_returns": loop_metrics.closed_share(loops, revisited[returned]),
         "ape_m": {name: evaluate(trajectory, truth)[2]["ape_m"]["rmse"]
                   for name, trajectory in trajectories.items()},
     }
 
 
+def format_closed(share, seconds, what):
+    if share is None:
+        return f"no {what}"
+    return f"{100 * share:.0f} % of {seconds:.0f} s of {what} are closed"
+
+
 def format_report(result):
-    closed = result["closed_share"]
     lines = [
         f"{result['loops']} loops, {result['false_loops']} false (off by more than"
         f" {FALSE_DISTANCE} m or {FALSE_TURN:.0f} deg), the largest error"
         f" {1000 * result['largest_error_m']:.0f} mm, {result['largest_error_deg']:.1f} deg",
-        "no revisit" if closed is None else
-        f"{100 * closed:.0f} % of {result['revisited_s']:.0f} s of revisits are closed",
+        format_closed(result["closed_share"], result["revisited_s"], "revisits"),
+        format_closed(result["closed_share_of_returns"], result["returned_s"],
+                      "returns after having left"),
     ]
     odometry = result["ape_m"]["trajectory.tum"]
     lines += [f"APE {1000 * ape:7.1f} mm  {ape / odometry:4.2f}  {TRAJECTORIES[name]}"

@@ -69,18 +69,27 @@ def _true_places(stamps, odometry, truth):
 
 
 def revisits(truth):
-    """Times (n,) [s], SAMPLING apart, at which the body is where it was REVISIT_PAUSE before."""
+    """Times (n,) [s], SAMPLING apart, at which the body is where it was REVISIT_PAUSE before, and
+    whether it has been elsewhere in between, (n,): one that stays where it starts has not."""
     times = np.arange(truth.stamps[0], truth.stamps[-1], SAMPLING)
     poses = truth.select(nearest_indices(truth.stamps, times))
-    return times[[_is_revisit(poses, index) for index in range(len(times))]]
+    pause = round(REVISIT_PAUSE / SAMPLING)
+    revisited, returned = [], []
+    for index in range(pause, len(times)):
+        near = _is_near(poses, index)
+        if near[:index - pause + 1].any():
+            revisited.append(times[index])
+            returned.append(not near[np.argmax(near):].all())
+    return np.array(revisited), np.array(returned, dtype=bool)
 
 
-def _is_revisit(poses, index):
-    before = poses.stamps <= poses.stamps[index] - REVISIT_PAUSE
-    distances = np.linalg.norm(poses.positions[before] - poses.positions[index], axis=1)
-    traces = np.einsum("nij,ij->n", poses.rotations[before], poses.rotations[index])
+def _is_near(poses, index):
+    """Whether each of the poses up to this one is at its place."""
+    until = slice(index + 1)
+    distances = np.linalg.norm(poses.positions[until] - poses.positions[index], axis=1)
+    traces = np.einsum("nij,ij->n", poses.rotations[until], poses.rotations[index])
     is_same_view = (traces - 1) / 2 > np.cos(REVISIT_ANGLE)
-    return bool(np.any((distances < REVISIT_DISTANCE) & is_same_view))
+    return (distances < REVISIT_DISTANCE) & is_same_view
 
 
 def closed_share(loops, revisit_times):

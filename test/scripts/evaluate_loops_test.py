@@ -75,15 +75,24 @@ class LoopErrors(unittest.TestCase):
 
 class Revisits(unittest.TestCase):
     def test_only_the_second_round_is_one(self):
-        times = revisits(rounds()) - START
+        times, returned = revisits(rounds())
+        times -= START
         self.assertAlmostEqual(times[0], ROUND - 0.8, delta=0.25)  # 1 m before where it began
         self.assertEqual(len(times), 1 + round((times[-1] - times[0]) / 0.25))
+        self.assertTrue(returned.all())
+
+    def test_who_stays_has_not_returned(self):
+        truth = rounds(count=0.02)  # standing still, but for half a metre
+        truth.stamps = np.linspace(START, START + 30, len(truth.stamps))
+        times, returned = revisits(truth)
+        self.assertAlmostEqual(times[0], START + 15, delta=0.3)
+        self.assertFalse(returned.any())
 
     def test_the_same_place_in_another_direction_is_none(self):
         truth = rounds(count=1.9)
         later = truth.stamps >= START + ROUND - 1
         truth.rotations[later] = truth.rotations[later] @ about_z(np.array(np.pi))
-        self.assertEqual(len(revisits(truth)), 0)
+        self.assertEqual(len(revisits(truth)[0]), 0)
 
     def test_a_loop_closes_what_is_a_second_around_it(self):
         loops = Loops(np.array([1.0]), np.array([21.0]), np.zeros((1, 3)), np.zeros(1))
@@ -122,6 +131,7 @@ class Folder(unittest.TestCase):
         self.assertEqual((result["loops"], result["false_loops"]), (2, 1))
         self.assertAlmostEqual(result["largest_error_m"], 0.5, 4)
         self.assertAlmostEqual(result["closed_share"], 0.1, delta=0.02)
+        self.assertEqual(result["closed_share_of_returns"], result["closed_share"])
         self.assertGreater(result["ape_m"]["trajectory.tum"], 0.1)
         self.assertLess(result["ape_m"]["trajectory_final.tum"], 1e-6)
 

@@ -20,7 +20,7 @@ constexpr double kSpacing_px = 10;  // between profiles along the line
 constexpr int kMinProfiles = 5;
 constexpr int kMaxProfiles = 12;
 constexpr int kMaxIterations = 8;
-constexpr double kConverged_px = 0.03;
+constexpr double kConverged_px = 0.1;  // of a level: the edge is located afterwards
 constexpr double kMinTurnLength = 10;  // shorter lines do not turn, in pixels of a level
 
 using Profile = std::array<float, kProfileSize>;

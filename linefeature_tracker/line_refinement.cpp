@@ -12,8 +12,9 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kStep_px = 4;         // between samples along a line
-constexpr double kMaxSamples = 32;     // of long lines; the step grows
+constexpr double kStep_px = 4;      // between samples along a line
+constexpr double kMaxSamples = 32;  // of long lines; the step grows
+constexpr double kMaxRoughSamples = 12;
 constexpr int kMaxSearch_px = 5;       // to either side
 constexpr int kFineSearch_px = 2;      // once the line is known roughly
 constexpr int kExtension = 3;          // samples beyond each end
@@ -78,13 +79,13 @@ LineRefinement::LineRefinement(const LineTrackerConfig& config,
 std::optional<LineSegment> LineRefinement::Refine(const cv::Mat& image, const LineSegment& guess,
                                                   int search_px) const {
   const auto is_missing = [](const EdgePoint& point) { return !point.found; };
-  const double step = Step(guess);
-  std::vector<EdgePoint> points =
-      LocateEdges(image, guess, step, 0, std::min(search_px, kMaxSearch_px));
+  std::vector<EdgePoint> points = LocateEdges(image, guess, Step(guess, kMaxRoughSamples), 0,
+                                              std::min(search_px, kMaxSearch_px));
   points.erase(std::remove_if(points.begin(), points.end(), is_missing), points.end());
   if (points.size() < kMinPoints) return std::nullopt;
   const LineSegment rough = Shifted(guess, FitOffset(points));
 
+  const double step = Step(rough, kMaxSamples);
   points = LocateEdges(image, rough, step, kExtension, kFineSearch_px);
   std::vector<EdgePoint> edges = points;
   edges.erase(std::remove_if(edges.begin(), edges.end(), is_missing), edges.end());
@@ -112,12 +113,12 @@ std::optional<LineSegment> LineRefinement::Refine(const cv::Mat& image, const Li
   return LineSegment{on_line(part->start), on_line(part->end)};
 }
 
-// Normalised distance between samples along the segment.
-double LineRefinement::Step(const LineSegment& segment) const {
+// Normalised distance between at most so many samples along the segment.
+double LineRefinement::Step(const LineSegment& segment, double max_samples) const {
   const auto segment_px = ProjectSegment(*camera_, segment);
   const double length_px =
       segment_px ? segment_px->Length() : segment.Length() * camera_->FocalLength();
-  return segment.Length() / std::clamp(std::round(length_px / kStep_px), 1.0, kMaxSamples);
+  return segment.Length() / std::clamp(std::round(length_px / kStep_px), 1.0, max_samples);
 }
 
 // The edge at every sample from `extension` steps before the start to as many behind the end.

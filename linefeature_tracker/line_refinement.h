@@ -35,7 +35,7 @@ class LineRefinement {
     double offset_px = 0;  // of the edge from the sample, along its normal
   };
 
-  double Step(const LineSegment& segment) const;
+  double Step(const LineSegment& segment, double max_samples) const;
   std::vector<EdgePoint> LocateEdges(const cv::Mat& image, const LineSegment& segment, double step,
                                      int extension, int search_px) const;
   void LocateEdge(const cv::Mat& image, int search_px, EdgePoint* point) const;

@@ -109,21 +109,25 @@ class PointTracker::Implementation {
   // later, and drops those that got lost.
   void Follow(const OpticalFlow::Pyramid& pyramid, const cv::Mat& gray, double dt,
               const std::optional<Eigen::Quaterniond>& R_C1_C0) {
-    std::vector<cv::Point2f> turned, predicted;
+    std::vector<cv::Point2f> points, turned, predicted;
     const auto dt_ratio = static_cast<float>(previous_dt_ > 0 ? dt / previous_dt_ : 0);
     for (const PointTrack& track : tracks_) {
+      points.push_back(track.uv_px);
       turned.push_back(R_C1_C0 ? Turn(track, *R_C1_C0) : track.uv_px);
       predicted.push_back(turned.back() + dt_ratio * track.parallax_px);
     }
     previous_dt_ = dt;
-    const std::vector<std::optional<cv::Point2f>> found = Find(pyramid, gray, predicted);
+    const std::vector<FlowResult> flow = flow_.Track(pyramid_, pyramid, points, predicted);
 
     std::vector<RayPair> pairs;
     std::vector<bool> keep(tracks_.size(), false);
     for (size_t i = 0; i < tracks_.size(); ++i) {
-      if (!found[i]) continue;
+      if (flow[i].status == FlowResult::Status::kInconsistent) ++statistics_.forward_backward;
+      if (flow[i].status == FlowResult::Status::kLost) ++statistics_.flow_lost;
+      if (flow[i].status != FlowResult::Status::kTracked) continue;
       const Eigen::Vector2d xy_C0 = tracks_[i].xy;
-      keep[i] = Advance(*found[i], turned[i], dt, &tracks_[i]);
+      const cv::Point2f aligned = Align(gray, flow[i].position, &tracks_[i]);
+      keep[i] = Advance(aligned, turned[i], dt, &tracks_[i]);
       if (!keep[i]) {
         ++statistics_.flow_lost;
         continue;
@@ -136,52 +140,23 @@ class PointTracker::Implementation {
         RemoveTracks(FindEpipolarInliers(pairs, R_C1_C0, threshold), &tracks_);
   }
 
-  // Where the tracks are in the image, nothing for those that got lost. Most patches are found near
-  // where they are `predicted`; the others are followed by flow first, which sees further.
-  std::vector<std::optional<cv::Point2f>> Find(const OpticalFlow::Pyramid& pyramid,
-                                               const cv::Mat& gray,
-                                               const std::vector<cv::Point2f>& predicted) {
-    std::vector<std::optional<cv::Point2f>> found;
-    std::vector<size_t> others;
-    std::vector<cv::Point2f> points, guesses;
-    for (size_t i = 0; i < tracks_.size(); ++i) {
-      found.push_back(FindPatch(gray, predicted[i], &tracks_[i]));
-      if (found[i]) continue;
-      others.push_back(i);
-      points.push_back(tracks_[i].uv_px);
-      guesses.push_back(predicted[i]);
-    }
-    const std::vector<FlowResult> flow = flow_.Track(pyramid_, pyramid, points, guesses);
-    for (size_t k = 0; k < others.size(); ++k) {
-      if (flow[k].status == FlowResult::Status::kInconsistent) ++statistics_.forward_backward;
-      if (flow[k].status == FlowResult::Status::kLost) ++statistics_.flow_lost;
-      if (flow[k].status != FlowResult::Status::kTracked) continue;
-      found[others[k]] = Align(gray, flow[k].position, &tracks_[others[k]]);
-    }
-    return found;
-  }
-
   // Where the track's pixel goes when the camera only turns; unchanged if not projectable.
   cv::Point2f Turn(const PointTrack& track, const Eigen::Quaterniond& R_C1_C0) const {
     const auto pixel = camera_->Project(R_C1_C0 * track.xy.homogeneous());
     return pixel ? ToOpenCv(*pixel) : track.uv_px;
   }
 
-  // Where the track's patch lies, near `uv_px`; nothing where it is not found.
-  static std::optional<cv::Point2f> FindPatch(const cv::Mat& gray, const cv::Point2f& uv_px,
-                                              PointTrack* track) {
-    if (!track->patch) return std::nullopt;
+  // Where the track's patch lies, near `uv_px`. There itself, and without that patch from now on,
+  // where it is not found.
+  static cv::Point2f Align(const cv::Mat& gray, const cv::Point2f& uv_px, PointTrack* track) {
+    if (!track->patch) return uv_px;
     const auto pose = track->patch->Align(gray, {track->patch_linear, ToEigen(uv_px)});
-    if (!pose) return std::nullopt;
+    if (!pose) {
+      track->patch.reset();
+      return uv_px;
+    }
     track->patch_linear = pose->linear;
     return ToOpenCv(pose->center);
-  }
-
-  // The same, but `uv_px` itself, and without that patch from now on, where it is not found.
-  static cv::Point2f Align(const cv::Mat& gray, const cv::Point2f& uv_px, PointTrack* track) {
-    const auto found = FindPatch(gray, uv_px, track);
-    if (!found) track->patch.reset();
-    return found.value_or(uv_px);
   }
 
   // For the corners that are new, and those that look different by now.

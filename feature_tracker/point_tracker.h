@@ -14,16 +14,16 @@ namespace plm_vins {
 // What happened to the corners of one image.
 struct PointTrackerStatistics {
   int previous = 0;           // corners to follow
-  int flow_lost = 0;          // not where expected, and KLT failed or left the image
-  int forward_backward = 0;   // not where expected, and KLT did not come back
+  int flow_lost = 0;          // KLT failed or left the image
+  int forward_backward = 0;   // did not come back
   int epipolar_outliers = 0;  // against the epipolar geometry
   int crowded = 0;            // came too close to an older one, or under the mask
   int detected = 0;           // new corners
 };
 
 // Follows corners from image to image and refills with new ones (façade of the point front end):
-// CLAHE -> alignment with the patch that the corner was found in, where it is expected; else KLT
-// with forward-backward check, then alignment -> epipolar RANSAC -> spread -> refill.
+// CLAHE -> KLT with prediction -> forward-backward check -> alignment with the patch that the
+// corner was found in -> epipolar RANSAC -> spread -> refill.
 class PointTracker {
  public:
   using Features = PointFrame;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "feature_tracker/corner_response.h"
 
-#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -21,16 +20,10 @@ struct Gradients {
 // Products of gradients, each the sum over the three rows of a block: one per column, and at both
 // ends one more, as reflected.
 struct ColumnSums {
-  explicit ColumnSums(int columns) : xx(columns + 2), xy(columns + 2), yy(columns + 2) {}
   std::vector<int> xx;
   std::vector<int> xy;
   std::vector<int> yy;
 };
-
-int Reflect(int index, int size) {
-  if (index < 0) return -index;
-  return index < size ? index : 2 * size - 2 - index;
-}
 
 void AddProducts(const int16_t* a, const int16_t* b, size_t columns, int* sums) {
   for (size_t x = 0; x < columns; ++x) sums[x] += static_cast<int>(a[x]) * b[x];
@@ -40,9 +33,10 @@ void AddProducts(const int16_t* a, const int16_t* b, size_t columns, int* sums) 
 void SumColumns(const Gradients& gradients, int y, ColumnSums* sums) {
   const auto columns = static_cast<size_t>(gradients.x.cols);
   for (std::vector<int>* sum : {&sums->xx, &sums->xy, &sums->yy}) sum->assign(columns + 2, 0);
-  for (const int row : {y - 1, y, y + 1}) {
-    const auto* gx = gradients.x.ptr<int16_t>(Reflect(row, gradients.x.rows));
-    const auto* gy = gradients.y.ptr<int16_t>(Reflect(row, gradients.y.rows));
+  for (const int beside : {y - 1, y, y + 1}) {
+    const int row = cv::borderInterpolate(beside, gradients.x.rows, cv::BORDER_REFLECT_101);
+    const auto* gx = gradients.x.ptr<int16_t>(row);
+    const auto* gy = gradients.y.ptr<int16_t>(row);
     AddProducts(gx, gx, columns, sums->xx.data() + 1);
     AddProducts(gx, gy, columns, sums->xy.data() + 1);
     AddProducts(gy, gy, columns, sums->yy.data() + 1);
@@ -80,7 +74,7 @@ float HarrisMeasure(float xx, float xy, float yy) {
 cv::Mat CornerResponse(const cv::Mat& image, CornerDetectorType type) {
   Gradients gradients;
   cv::spatialGradient(image, gradients.x, gradients.y);
-  ColumnSums sums(image.cols);
+  ColumnSums sums;
   cv::Mat response(image.size(), CV_32F);
   for (int y = 0; y < image.rows; ++y) {
     SumColumns(gradients, y, &sums);

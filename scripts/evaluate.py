@@ -90,8 +90,8 @@ def format_report(result):
     lines.append(f"yaw error at the end {result['yaw_drift_deg']:.3f} deg,"
                  " with none at the beginning")
     if "position_nees" in result:
-        lines.append(f"squared position error after {result['position_nees_s']:g} s, in units of"
-                     f" its covariance: {result['position_nees']:.2f}; exact: 3 on average")
+        lines.append(f"squared error of the first {result['position_nees_s']:g} s' way, in units"
+                     f" of its covariance: {result['position_nees']:.2f}; exact: 3 on average")
     return "\n".join(lines)
 
 

@@ -28,13 +28,13 @@ def read_covariances(path, stamps):
 
 
 def position_nees(estimate, truth, covariances, seconds):
-    """Squared error of the position `seconds` after the first pose, in units of its covariance: 3
-    on average where that is true [BarShalom2001].
+    """Squared error of the way from the first pose to the one `seconds` later, in units of its
+    covariance: 3 on average where that is true [BarShalom2001].
 
-    The trajectories are paired. They agree at the first pose, as nothing tells where that is, and
-    in heading as their positions up to the pose in question do: ground truth may state headings
-    that its own path does not have. So the figure is a little too small, as a part of the error is
-    aligned away.
+    The trajectories are paired. Both poses have errors, the first one those of a start; they are
+    taken as independent, so their covariances add. Headings agree as the positions up to the pose
+    in question do: ground truth may state headings that its own path does not have. So the figure
+    is a little too small, as a part of the error is aligned away.
     """
     last = metrics.nearest_indices(estimate.stamps, estimate.stamps[:1] + seconds)[0]
     if abs(estimate.stamps[last] - estimate.stamps[0] - seconds) > 0.1:
@@ -44,4 +44,5 @@ def position_nees(estimate, truth, covariances, seconds):
     rotation, _ = metrics.alignment(truth.select(stretch), estimate.select(stretch), "yaw")
     error = (estimate.positions[last] - estimate.positions[0]
              - rotation @ (truth.positions[last] - truth.positions[0]))
-    return float(error @ np.linalg.solve(covariances[last][:3, :3], error))
+    covariance = covariances[0][:3, :3] + covariances[last][:3, :3]
+    return float(error @ np.linalg.solve(covariance, error))

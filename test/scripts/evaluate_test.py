@@ -51,6 +51,7 @@ class StatedCovariance(unittest.TestCase):
         estimate = moved(truth.transformed(rotation((0, 0, 1), 70), np.array([5.0, -3.0, 2.0])),
                          offsets)
         covariances = np.tile(np.diag([0.04, 0.04, 0.01, 1, 1, 1]), (len(truth), 1, 1))
+        covariances[0] = 0.0  # the first pose is known
         self.assertAlmostEqual(
             consistency.position_nees(estimate, truth, covariances, 5.0), 4.0, places=6)
         self.assertLess(consistency.position_nees(estimate, truth, covariances, 4.0), 1e-6)
@@ -63,7 +64,8 @@ class StatedCovariance(unittest.TestCase):
         values = []
         for _ in range(500):
             offsets = np.zeros((len(truth), 3))
-            offsets[-1] = generator.multivariate_normal(np.zeros(3), covariance[:3, :3])
+            for end in (0, -1):
+                offsets[end] = generator.multivariate_normal(np.zeros(3), covariance[:3, :3])
             estimate = moved(truth, offsets)
             values.append(consistency.position_nees(estimate, truth, covariances, 10.0))
         self.assertAlmostEqual(np.mean(values), 3.0, delta=0.3)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each stage that works on lines is worth on long flights. Single flights differ by a third
-// either way, the means by about a tenth; the margins are half of what the stages gain there.
+// What each stage that works on lines is worth on long flights. The margins are what 24 flights (of
+// the Manhattan frame, 16) gave for the ratio of the mean errors, plus two standard deviations of
+// that ratio, by bootstrap, for as many flights as here.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,12 +14,10 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kFlights = 6;
-
 // Tracks of lines end often, as in real images, so that many are seen again.
-testing::SimulatedFlight SimulateLongFlight(uint64_t seed) {
+testing::SimulatedFlight SimulateLongFlight(uint64_t seed, double duration) {
   auto options = testing::FlightOptions(simulator::Motion::kFast, seed);
-  options.trajectory.duration = 50;
+  options.trajectory.duration = duration;
   options.max_points = 40;
   options.max_lines = 40;
   options.line_break_probability = 0.05;
@@ -42,10 +41,17 @@ struct Errors {
   double heading = 0;   // [rad]
 };
 
+std::vector<testing::SimulatedFlight> SimulateLongFlights(int count, double duration) {
+  std::vector<testing::SimulatedFlight> flights;
+  flights.reserve(count);
+  for (int seed = 1; seed <= count; ++seed) flights.push_back(SimulateLongFlight(seed, duration));
+  return flights;
+}
+
 class EstimatorStages : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    for (int seed = 1; seed <= kFlights; ++seed) flights_.push_back(SimulateLongFlight(seed));
+    flights_ = SimulateLongFlights(12, 50);
     with_all_ = MeanErrors(flights_, [](EstimatorConfig*) {});
   }
 
@@ -60,8 +66,8 @@ class EstimatorStages : public ::testing::Test {
       change(&config.estimator);
       Estimator estimator(config);
       const testing::EstimatedFlight estimated = testing::Estimate(flight, &estimator);
-      mean.position += testing::AbsoluteError(estimated) / kFlights;
-      mean.heading += HeadingError(estimated) / kFlights;
+      mean.position += testing::AbsoluteError(estimated) / static_cast<double>(flights.size());
+      mean.heading += HeadingError(estimated) / static_cast<double>(flights.size());
     }
     return mean;
   }
@@ -78,25 +84,30 @@ TEST_F(EstimatorStages, LinesHelp) {
   flights.reserve(flights_.size());
   for (const auto& flight : flights_) flights.push_back(testing::WithoutLines(flight));
   const Errors without = MeanErrors(flights, [](EstimatorConfig*) {});
-  EXPECT_LT(with_all_.position, 0.86 * without.position);
+  EXPECT_LT(with_all_.position, 0.85 * without.position);
 }
 
 TEST_F(EstimatorStages, MergingHelps) {
   const auto without = MeanErrors(flights_, [](EstimatorConfig* c) { c->line_merging = false; });
-  EXPECT_LT(with_all_.position, 0.88 * without.position);
+  EXPECT_LT(with_all_.position, 0.91 * without.position);
 }
 
 TEST_F(EstimatorStages, AnchorsHelp) {
   const auto without = MeanErrors(flights_, [](EstimatorConfig* c) { c->line_anchors = 0; });
-  EXPECT_LT(with_all_.position, 0.89 * without.position);
+  EXPECT_LT(with_all_.position, 0.95 * without.position);
 }
 
-// It holds the heading only, which is a small part of the position's error.
-TEST_F(EstimatorStages, TheManhattanFrameHelpsTheHeading) {
-  const auto without =
-      MeanErrors(flights_, [](EstimatorConfig* c) { c->manhattan_constraints = false; });
-  EXPECT_LT(with_all_.heading, 0.96 * without.heading);
-  EXPECT_LT(with_all_.position, 1.03 * without.position);
+// It holds the heading where no line comes back. Where lines do, anchors hold it as well, and the
+// frame adds nothing that 24 flights of 50 s or 16 of 150 s could tell.
+TEST_F(EstimatorStages, TheManhattanFrameHoldsTheHeading) {
+  const auto flights = SimulateLongFlights(8, 150);
+  const auto with = MeanErrors(flights, [](EstimatorConfig* c) { c->line_anchors = 0; });
+  const auto without = MeanErrors(flights, [](EstimatorConfig* c) {
+    c->line_anchors = 0;
+    c->manhattan_constraints = false;
+  });
+  EXPECT_LT(with.heading, 0.85 * without.heading);
+  EXPECT_LT(with.position, without.position);
 }
 
 }  // namespace

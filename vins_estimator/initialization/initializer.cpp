@@ -18,7 +18,7 @@ constexpr double kMaxDuration = 3.0;          // of the buffer [s]
 constexpr int kMinCommonPoints = 12;          // of neighbouring images
 constexpr size_t kMinFrames = 6;
 constexpr size_t kMaxFrames = 11;
-constexpr int kImagesPerAttempt = 5;
+constexpr double kAttemptInterval = 0.125;  // each takes as long as several images [s]
 // The longer the wait, the larger the scale uncertainty that is accepted: a vehicle that has not
 // moved enough for seconds may not do so soon. Where propellers shake the IMU, the estimated
 // uncertainty is half the true one.
@@ -93,7 +93,6 @@ void Initializer::Append(const FrameMeasurement& measurement) {
 std::optional<InitializationResult> Initializer::Add(const FrameMeasurement& measurement) {
   if (!start_ns_) start_ns_ = measurement.t_ns;
   Append(measurement);
-  ++images_since_attempt_;
   if (buffer_.empty()) return std::nullopt;
   const bool stands_still = standstill_.Add(buffer_.back());
   if (calibrator_) CalibrateRotation();
@@ -138,11 +137,14 @@ std::optional<InitializationResult> Initializer::TryMotion() {
     }
     return std::nullopt;
   }
-  if (images_since_attempt_ < kImagesPerAttempt) return std::nullopt;
-  images_since_attempt_ = 0;
+  const int64_t now_ns = buffer_.back().t_ns;
+  if (last_attempt_ns_ && ToSeconds(now_ns - *last_attempt_ns_) < kAttemptInterval) {
+    return std::nullopt;
+  }
+  last_attempt_ns_ = now_ns;
   MotionInitializerOptions options;
-  options.max_scale_deviation = std::min(
-      kMaxScaleDeviation, kScaleDeviationPerSecond * ToSeconds(buffer_.back().t_ns - *start_ns_));
+  options.max_scale_deviation =
+      std::min(kMaxScaleDeviation, kScaleDeviationPerSecond * ToSeconds(now_ns - *start_ns_));
   std::vector<FrameMeasurement> frames = JoinFrames(buffer_, SelectFrames(buffer_, max_frames_));
   const auto states =
       InitializeFromMotion(frames, sensor_, config_.estimator.point_noise, options, &reason_);

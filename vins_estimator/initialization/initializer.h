@@ -62,7 +62,7 @@ class Initializer {
   std::optional<ExtrinsicCalibrator> calibrator_;  // until the rotation is known
   std::deque<FrameMeasurement> buffer_;            // without gap in IMU samples and tracks
   std::optional<int64_t> start_ns_;                // of the first image since the reset
-  int images_since_attempt_ = 0;
+  std::optional<int64_t> last_attempt_ns_;         // to initialise from motion
   std::string reason_ = "waiting for images";
 };
 

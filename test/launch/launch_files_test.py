@@ -79,6 +79,12 @@ class LaunchFiles(unittest.TestCase):
     def test_every_file_is_known_here(self):
         self.assertEqual(sorted(ALL), sorted(path.name for path in LAUNCH.glob("*.launch")))
 
+    def test_every_file_is_found_by_its_name(self):
+        """Neither missing nor ambiguous, as roslaunch refuses two of one name."""
+        for name in ALL:
+            self.assertEqual(roslib.packages.find_resource("plm_vins", name),
+                             [str(LAUNCH / name)])
+
     def test_programs_exist_and_share_one_configuration(self):
         for name in ALL:
             with self.subTest(name):

@@ -24,6 +24,13 @@ testing::SimulatedFlight SimulateLongFlight(uint64_t seed, double duration) {
   return testing::SimulateFlight(options);
 }
 
+std::vector<testing::SimulatedFlight> SimulateLongFlights(int count, double duration) {
+  std::vector<testing::SimulatedFlight> flights;
+  flights.reserve(count);
+  for (int seed = 1; seed <= count; ++seed) flights.push_back(SimulateLongFlight(seed, duration));
+  return flights;
+}
+
 // Root mean square of the heading's error, from the beginning of the flight on [rad].
 double HeadingError(const testing::EstimatedFlight& flight) {
   const Rigid3d T = testing::AlignHeading(flight.anchor, flight.true_anchor);
@@ -41,13 +48,6 @@ struct Errors {
   double heading = 0;   // [rad]
 };
 
-std::vector<testing::SimulatedFlight> SimulateLongFlights(int count, double duration) {
-  std::vector<testing::SimulatedFlight> flights;
-  flights.reserve(count);
-  for (int seed = 1; seed <= count; ++seed) flights.push_back(SimulateLongFlight(seed, duration));
-  return flights;
-}
-
 class EstimatorStages : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -59,6 +59,7 @@ class EstimatorStages : public ::testing::Test {
 
   static Errors MeanErrors(const std::vector<testing::SimulatedFlight>& flights,
                            void (*change)(EstimatorConfig*)) {
+    const auto count = static_cast<double>(flights.size());
     Errors mean;
     for (const testing::SimulatedFlight& flight : flights) {
       Config config = testing::ConfigFor(flight);
@@ -66,8 +67,8 @@ class EstimatorStages : public ::testing::Test {
       change(&config.estimator);
       Estimator estimator(config);
       const testing::EstimatedFlight estimated = testing::Estimate(flight, &estimator);
-      mean.position += testing::AbsoluteError(estimated) / static_cast<double>(flights.size());
-      mean.heading += HeadingError(estimated) / static_cast<double>(flights.size());
+      mean.position += testing::AbsoluteError(estimated) / count;
+      mean.heading += HeadingError(estimated) / count;
     }
     return mean;
   }

@@ -85,7 +85,7 @@ def angle_between(first, second):
     return 2 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(first, second)))))
 
 
-class EndToEnd(unittest.TestCase):
+class Odometry(unittest.TestCase):
     def assert_accurate(self, evaluation, greatest_share):
         """The APE is at most this share of the path, and a pose is there nearly all the time."""
         share = evaluation["ape_m"]["rmse"] / evaluation["ground_truth_path_m"]
@@ -133,32 +133,33 @@ class EndToEnd(unittest.TestCase):
             self.assert_accurate(flight.estimate()[1], 0.02)
 
 
-class Loops(unittest.TestCase):
-    """Fast flights, which come back to where they were. Drawing is what takes the time, so there
-    are half as many images as usual, without blur."""
+def close_loops_of_fast_flight(world):
+    """A fast flight comes back to where it was. Drawing is what takes the time, so there are half
+    as many images as usual, without blur."""
+    with Flight("--world", world, "--motion", "fast", "--frame-rate", 10, "--exposure", 0,
+                duration=30) as flight:
+        return flight.close_loops()
 
-    @staticmethod
-    def fly(world):
-        with Flight("--world", world, "--motion", "fast", "--frame-rate", 10, "--exposure", 0,
-                    duration=30) as flight:
-            return flight.close_loops()
 
+class LoopsInRooms(unittest.TestCase):
     def test_rooms_with_and_without_right_angles(self):
         for world in ("room", "atlanta", "irregular"):
             with self.subTest(world):
-                _, loops = self.fly(world)
+                _, loops = close_loops_of_fast_flight(world)
                 self.assertEqual(loops["false_loops"], 0)
                 self.assertGreater(loops["closed_share"], 0.6)
 
+
+class LoopsAmongEquals(unittest.TestCase):
     def test_equal_shelves_and_tiles_are_not_taken_for_each_other(self):
         for world in ("shelves", "tiles"):
             with self.subTest(world):
-                _, loops = self.fly(world)
+                _, loops = close_loops_of_fast_flight(world)
                 self.assertEqual(loops["false_loops"], 0)
                 self.assertGreater(loops["loops"], 0)
 
     def test_two_equal_rooms_are_not_taken_for_one(self):
-        refused, loops = self.fly("twins")
+        refused, loops = close_loops_of_fast_flight("twins")
         self.assertGreater(refused["odometry"], 0)  # the other room was there to be taken
         self.assertEqual(loops["false_loops"], 0)
 

@@ -38,6 +38,14 @@ LineSegment Shifted(const LineSegment& segment, const LineOffset& offset) {
           segment.end + (offset.at_start + offset.slope * segment.Length()) * normal};
 }
 
+// Those of the points that show an edge.
+template <typename EdgePoint>
+std::vector<EdgePoint> OnEdges(std::vector<EdgePoint> points) {
+  const auto is_missing = [](const EdgePoint& point) { return !point.found; };
+  points.erase(std::remove_if(points.begin(), points.end(), is_missing), points.end());
+  return points;
+}
+
 // Weighted least squares of the offsets, with Geman-McClure weights of residuals in pixels whose
 // scale shrinks. Begins at the median offset. `points` is not empty.
 template <typename EdgePoint>
@@ -78,17 +86,24 @@ LineRefinement::LineRefinement(const LineTrackerConfig& config,
 
 std::optional<LineSegment> LineRefinement::Refine(const cv::Mat& image, const LineSegment& guess,
                                                   int search_px) const {
-  const auto is_missing = [](const EdgePoint& point) { return !point.found; };
-  std::vector<EdgePoint> points = LocateEdges(image, guess, Step(guess, kMaxRoughSamples), 0,
-                                              std::min(search_px, kMaxSearch_px));
-  points.erase(std::remove_if(points.begin(), points.end(), is_missing), points.end());
-  if (points.size() < kMinPoints) return std::nullopt;
-  const LineSegment rough = Shifted(guess, FitOffset(points));
+  const auto rough = PlaceRoughly(image, guess, search_px);
+  return rough ? Place(image, *rough) : std::nullopt;
+}
 
+std::optional<LineSegment> LineRefinement::PlaceRoughly(const cv::Mat& image,
+                                                        const LineSegment& guess,
+                                                        int search_px) const {
+  const std::vector<EdgePoint> edges = OnEdges(LocateEdges(
+      image, guess, Step(guess, kMaxRoughSamples), 0, std::min(search_px, kMaxSearch_px)));
+  if (edges.size() < kMinPoints) return std::nullopt;
+  return Shifted(guess, FitOffset(edges));
+}
+
+std::optional<LineSegment> LineRefinement::Place(const cv::Mat& image,
+                                                 const LineSegment& rough) const {
   const double step = Step(rough, kMaxSamples);
-  points = LocateEdges(image, rough, step, kExtension, kFineSearch_px);
-  std::vector<EdgePoint> edges = points;
-  edges.erase(std::remove_if(edges.begin(), edges.end(), is_missing), edges.end());
+  std::vector<EdgePoint> points = LocateEdges(image, rough, step, kExtension, kFineSearch_px);
+  const std::vector<EdgePoint> edges = OnEdges(points);
   if (edges.size() < kMinPoints) return std::nullopt;
   const LineOffset fit = FitOffset(edges);
   for (EdgePoint& point : points) {
@@ -101,11 +116,10 @@ std::optional<LineSegment> LineRefinement::Refine(const cv::Mat& image, const Li
   // Once more without what lies beyond the ends, which may belong to another edge.
   const double first = rough.Along(part->start);
   const double last = rough.Along(part->end);
-  const auto is_beyond = [&](const EdgePoint& point) {
-    return !point.found || point.sample.along <= first || point.sample.along >= last;
-  };
-  points.erase(std::remove_if(points.begin(), points.end(), is_beyond), points.end());
-  const LineOffset final_fit = FitOffset(points);
+  for (EdgePoint& point : points) {
+    point.found = point.found && point.sample.along > first && point.sample.along < last;
+  }
+  const LineOffset final_fit = FitOffset(OnEdges(std::move(points)));
   const Eigen::Vector2d normal = rough.Normal();
   const auto on_line = [&](const Eigen::Vector2d& xy) -> Eigen::Vector2d {
     return xy + (final_fit.at_start + final_fit.slope * rough.Along(xy)) * normal;

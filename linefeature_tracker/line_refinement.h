@@ -35,6 +35,11 @@ class LineRefinement {
     double offset_px = 0;  // of the edge from the sample, along its normal
   };
 
+  // On few samples, in the whole range of the search.
+  std::optional<LineSegment> PlaceRoughly(const cv::Mat& image, const LineSegment& guess,
+                                          int search_px) const;
+  // On all samples of a line that is known to a pixel or two, and its ends.
+  std::optional<LineSegment> Place(const cv::Mat& image, const LineSegment& rough) const;
   double Step(const LineSegment& segment, double max_samples) const;
   std::vector<EdgePoint> LocateEdges(const cv::Mat& image, const LineSegment& segment, double step,
                                      int extension, int search_px) const;

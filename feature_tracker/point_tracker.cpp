@@ -88,7 +88,7 @@ class PointTracker::Implementation {
     statistics_ = {};
   }
 
-  // The youngest tracks are at the end.
+  // The youngest tracks go first.
   void SetMaxCorners(int count) {
     config_.max_cnt = count;
     detector_ = CornerDetector(config_, mask_);
@@ -186,8 +186,6 @@ class PointTracker::Implementation {
 
   // Drops tracks that came too close to an older one, or under the mask.
   void Spread() {
-    std::stable_sort(tracks_.begin(), tracks_.end(),
-                     [](const auto& a, const auto& b) { return a.length > b.length; });
     SpacingGrid occupied(image_size_, config_.min_dist);
     std::vector<bool> keep;
     keep.reserve(tracks_.size());
@@ -242,7 +240,7 @@ class PointTracker::Implementation {
   OpticalFlow::Pyramid pyramid_;
   OpticalFlow::Pyramid unused_pyramid_;  // memory for the next
   cv::Mat equalized_;                    // the same, of an image
-  std::vector<PointTrack> tracks_;
+  std::vector<PointTrack> tracks_;       // from the oldest to the youngest
   PointTrackerStatistics statistics_;
   int64_t next_id_ = 0;
 };

@@ -190,8 +190,6 @@ class LineTracker::Implementation {
 
   // Keeps the older of two tracks that came to lie on one line.
   void DropDuplicates() {
-    std::stable_sort(tracks_.begin(), tracks_.end(),
-                     [](const auto& a, const auto& b) { return a.length > b.length; });
     LineOccupancy occupied(config_.spacing);
     std::vector<LineTrack> kept;
     for (LineTrack& track : tracks_) {
@@ -281,7 +279,7 @@ class LineTracker::Implementation {
   double previous_dt_ = 0;  // between the two newest images [s]
   ImageSample sample_;      // the pyramid may look at its pixels
   LineFlow::Pyramid pyramid_;
-  std::vector<LineTrack> tracks_;
+  std::vector<LineTrack> tracks_;  // from the oldest to the youngest
   std::optional<int> images_since_detection_;
   LineTrackerStatistics statistics_;
   int64_t next_id_ = 0;

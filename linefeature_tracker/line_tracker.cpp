@@ -123,7 +123,7 @@ class LineTracker::Implementation {
       ++statistics_.inconsistent;
       return std::nullopt;
     }
-    const auto refined = refinement_.Refine(pyramid.front(), flow->segment, kSearchAfterFlow_px);
+    auto refined = refinement_.Refine(pyramid.front(), flow->segment, kSearchAfterFlow_px);
     if (!refined) ++statistics_.edge_lost;
     return refined;
   }

@@ -55,9 +55,8 @@ def error_statistics(estimate, truth):
     return {name: metrics.statistics(values) for name, values in zip(LABELS, errors)}
 
 
-def add_consistency(result, estimate, truth, path, seconds):
+def add_consistency(result, estimate, truth, covariances, seconds):
     """Adds `position_nees`, so long after the first pose, of paired trajectories."""
-    covariances = consistency.read_covariances(path, estimate.stamps)
     result["position_nees"] = consistency.position_nees(estimate, truth, covariances, seconds)
     result["position_nees_s"] = seconds
 
@@ -132,8 +131,10 @@ def main(arguments=None):
         paired_estimate, paired_truth, result = evaluate(estimate, truth, options.align,
                                                          options.max_diff, options.max_gap)
         if options.covariance:
-            add_consistency(result, *metrics.associate(estimate, truth, options.max_diff),
-                            options.covariance, options.nees_after)
+            pair = metrics.associate(estimate, truth, options.max_diff)
+            covariances = consistency.read_covariances(
+                options.covariance, pair[0].stamps - options.t_offset)  # as the run wrote them
+            add_consistency(result, *pair, covariances, options.nees_after)
         print(format_report(result))
         if options.json:
             with open(options.json, "w", encoding="utf-8") as file:

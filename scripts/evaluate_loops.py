@@ -18,16 +18,19 @@ TRAJECTORIES = {"trajectory.tum": "odometry", "trajectory_map.tum": "map, as kno
                 "trajectory_final.tum": "map, as known in the end"}
 
 
-def evaluate_loops(folder, truth):
+def evaluate_loops(folder, truth_path):
     """All figures of the results of a run in `folder`, as a dictionary."""
-    trajectories = {name: read_trajectory(folder / name) for name in TRAJECTORIES}
-    odometry = trajectories["trajectory.tum"]
-    loops = loop_metrics.read_loops(folder / "loops.csv")
+    truth = read_trajectory(truth_path)
+    ape = {name: _ape(folder / name, truth, truth_path) for name in TRAJECTORIES}
+    odometry = read_trajectory(folder / "trajectory.tum")
+    accepted = loop_metrics.read_loops(folder / "loops.csv")
+    loops = accepted.between(odometry.stamps)
     distances, turns = loop_metrics.loop_errors(loops, odometry, truth)
     flown = (truth.stamps >= odometry.stamps[0]) & (truth.stamps <= odometry.stamps[-1])
     revisited, returned = loop_metrics.revisits(truth.select(flown))
     return {
         "loops": len(loops),
+        "loops_left_out": len(accepted) - len(loops),
         "false_loops": int(((distances > FALSE_DISTANCE) | (turns > FALSE_TURN)).sum()),
         "largest_error_m": float(distances.max(initial=0)),
         "largest_error_deg": float(turns.max(initial=0)),
@@ -35,9 +38,16 @@ def evaluate_loops(folder, truth):
         "closed_share": loop_metrics.closed_share(loops, revisited),
         "returned_s": int(returned.sum()) * loop_metrics.SAMPLING,
         "closed_share_of_returns": loop_metrics.closed_share(loops, revisited[returned]),
-        "ape_m": {name: evaluate(trajectory, truth)[2]["ape_m"]["rmse"]
-                  for name, trajectory in trajectories.items()},
+        "ape_m": ape,
     }
+
+
+def _ape(path, truth, truth_path):
+    trajectory = read_trajectory(path)
+    try:
+        return evaluate(trajectory, truth)[2]["ape_m"]["rmse"]
+    except TrajectoryError as error:
+        raise TrajectoryError(f"{path} against {truth_path}: {error}") from None
 
 
 def format_closed(share, seconds, what):
@@ -55,6 +65,9 @@ def format_report(result):
         format_closed(result["closed_share_of_returns"], result["returned_s"],
                       "returns after having left"),
     ]
+    if result["loops_left_out"]:
+        lines.insert(1, f"left out: {result['loops_left_out']} to poses that are not in"
+                        " trajectory.tum, such as those of a map of earlier (--map-in)")
     odometry = result["ape_m"]["trajectory.tum"]
     lines += [f"APE {1000 * ape:7.1f} mm  {ape / odometry:4.2f}  {TRAJECTORIES[name]}"
               for name, ape in result["ape_m"].items()]
@@ -69,7 +82,7 @@ def main(arguments=None):
     parser.add_argument("--json", metavar="FILE", help="write all figures there")
     options = parser.parse_args(arguments)
     try:
-        result = evaluate_loops(options.results, read_trajectory(options.ground_truth))
+        result = evaluate_loops(options.results, options.ground_truth)
         print(format_report(result))
         if options.json:
             pathlib.Path(options.json).write_text(json.dumps(result, indent=2), encoding="utf-8")

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The figures of runs, and their means and spread over starts and repetitions."""
 
-import csv
 import json
 import os
 import statistics
@@ -9,6 +8,7 @@ from dataclasses import dataclass
 from typing import Callable, Optional
 
 from evaluate import evaluate
+from evaluation.csv_columns import read_columns
 from evaluation.trajectory import TrajectoryError, read_trajectory
 
 from .run import Run
@@ -232,10 +232,9 @@ class Evaluator:
 
 def _mean_line_extraction(folder):
     """Mean over the frames that extract lines [ms], or None: not every frame does."""
-    with open(os.path.join(folder, "timing.csv"), encoding="utf-8") as file:
-        values = [float(row["line_detection"]) for row in csv.DictReader(file)]
-    values = [value for value in values if value > 0]
-    return statistics.mean(values) if values else None
+    values = read_columns(os.path.join(folder, "timing.csv"))["line_detection"]
+    values = values[values > 0]
+    return float(values.mean()) if len(values) else None
 
 
 def _read_json(path):

@@ -18,9 +18,10 @@ def read_covariances(path, stamps):
         raise TrajectoryError(f"{path}: {error}") from None
     if table.shape[1] != _COLUMNS or len(table) < 2:
         raise TrajectoryError(f"{path}: not the covariance.csv of run_offline")
-    rows = metrics.nearest_indices(table[:, 0] * 1e-9, stamps)
-    if np.any(np.abs(table[rows, 0] * 1e-9 - stamps) > 1e-4):
+    stated = table[:, 0] * 1e-9
+    if not metrics.are_among(stamps, stated).all():
         raise TrajectoryError(f"{path}: has no covariance for some poses, is of another trajectory")
+    rows = metrics.nearest_indices(stated, stamps)
     row, column = np.triu_indices(6)
     covariances = np.empty((len(rows), 6, 6))
     covariances[:, row, column] = covariances[:, column, row] = table[rows, 1:]

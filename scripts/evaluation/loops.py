@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .metrics import nearest_indices, signed_yaw_errors
+from .metrics import are_among, nearest_indices, signed_yaw_errors
 from .trajectory import TrajectoryError
 
 # A true revisit: the body is near where it was before, and looks nearly the same way.
@@ -30,14 +30,20 @@ class Loops:
     def __len__(self):
         return len(self.later)
 
+    def between(self, stamps):
+        """Those between poses that are there. The others lead to a map of an earlier recording:
+        where its poses are in this one's world is not known."""
+        kept = are_among(self.earlier, stamps) & are_among(self.later, stamps)
+        return Loops(self.earlier[kept], self.later[kept], self.positions[kept], self.yaws[kept])
+
 
 def read_loops(path):
     """The accepted ones of a loops.csv; raises TrajectoryError where it is none."""
     try:
         with open(path, encoding="utf-8", newline="") as file:
             rows = [_parse_row(row) for row in csv.DictReader(file) if row["result"] == "accepted"]
-    except (OSError, KeyError, TypeError, ValueError) as error:
-        raise TrajectoryError(f"{path}: no loops.csv ({error})") from None
+    except (OSError, KeyError, TypeError, ValueError, csv.Error) as error:
+        raise TrajectoryError(f"{path}: damaged, or no loops.csv ({error})") from None
     table = np.array(rows).reshape(-1, 6)
     return Loops(table[:, 0], table[:, 1], table[:, 2:5], table[:, 5])
 
@@ -49,8 +55,8 @@ def _parse_row(row):
 
 
 def loop_errors(loops, odometry, truth):
-    """Distances [m] and turns [deg], both (n,), by which the loops are off. The worlds of
-    `odometry` may be turned against that of `truth`, and drift."""
+    """Distances [m] and turns [deg], both (n,), by which the loops are off, all of them between
+    poses of `odometry`. Its worlds may be turned against that of `truth`, and drift."""
     earlier, earlier_turns = _true_places(loops.earlier, odometry, truth)
     later, later_turns = _true_places(loops.later, odometry, truth)
     c, s = np.cos(earlier_turns), np.sin(earlier_turns)

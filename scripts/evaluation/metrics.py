@@ -6,6 +6,7 @@ import numpy as np
 from .trajectory import TrajectoryError
 
 ALIGNMENTS = ("se3", "yaw", "none")
+SAME_STAMP = 1e-4  # two files write one stamp that differently, at most [s]
 
 
 def associate(estimate, truth, max_difference):
@@ -31,6 +32,12 @@ def nearest_indices(sorted_stamps, queries):
     right = np.clip(np.searchsorted(sorted_stamps, queries), 1, len(sorted_stamps) - 1)
     left_is_nearer = queries - sorted_stamps[right - 1] <= sorted_stamps[right] - queries
     return right - left_is_nearer
+
+
+def are_among(queries, sorted_stamps):
+    """Whether each query is one of the stamps."""
+    nearest = sorted_stamps[nearest_indices(sorted_stamps, queries)]
+    return np.abs(nearest - queries) <= SAME_STAMP
 
 
 def _span(trajectory):

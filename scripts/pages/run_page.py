@@ -7,7 +7,7 @@ import os
 import numpy as np
 
 from evaluate import evaluate, format_report
-from evaluation.metrics import alignment, associate
+from evaluation.metrics import alignment, associate, nearest_indices
 from evaluation.trajectory import TrajectoryError
 from show_result import rows
 
@@ -34,8 +34,10 @@ def run_page(run, truth, script):
     Where the two cannot be compared, the page says why and goes without the truth."""
     pair, figures, note = _compare(run, truth)
     table = html.table([[html.text(cell) for cell in row] for row in rows(run.summary, figures)])
-    sections = [("Run", table + (f"<p>{html.text(note)}</p>" if note else "")),
-                ("Trajectory and map", html.figure("scene", _scene(run, truth, pair), 650))]
+    left_out = run.loops_left_out and f"Loops to a map of earlier, left out: {run.loops_left_out}"
+    scene = html.figure("scene", _scene(run, truth, pair), 650)
+    sections = [("Run", table + _paragraph(note)),
+                ("Trajectory and map", scene + _paragraph(left_out))]
     if pair:
         sections.append(("Error", html.figure("error", run_figures.error_figure({"APE": pair}))
                          + f"<pre>{html.text(format_report(figures))}</pre>"))
@@ -46,6 +48,10 @@ def run_page(run, truth, script):
     if run.images:
         sections.append(("Tracks", _slider(run.images)))
     return html.page(os.path.basename(os.path.abspath(run.path)), sections, script)
+
+
+def _paragraph(note):
+    return f"<p>{html.text(note)}</p>" if note else ""
 
 
 def _compare(run, truth):
@@ -75,12 +81,10 @@ def _scene(run, truth, pair):
                                     _loops(run.loops, estimate))
 
 
-def _loops(stamps, estimate):
-    """The positions (n, 2, 3) at pairs of stamps (n, 2) [s]."""
-    if stamps is None:
-        return np.empty((0, 2, 3))
-    nearest = np.clip(np.searchsorted(estimate.stamps, stamps), 0, len(estimate) - 1)
-    return estimate.positions[nearest]
+def _loops(loops, estimate):
+    """The positions (n, 2, 3) of both ends."""
+    ends = np.stack([loops.later, loops.earlier], axis=1)
+    return estimate.positions[nearest_indices(estimate.stamps, ends)]
 
 
 def _slider(images):

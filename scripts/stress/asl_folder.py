@@ -15,8 +15,13 @@ def make_faulty(source, target, apply, begin):
     """The images and all else stay where they are: `target` links to them."""
     nested = os.path.join(source, "mav0")
     source = nested if os.path.isdir(nested) else source
+    for name in (IMU, IMAGES):
+        if _is_same(os.path.join(source, name), os.path.join(target, name)):
+            raise ValueError(f"{target}: the recording itself lies there; give another target")
     (imu_head, imu), (image_head, images) = (_read(os.path.join(source, name))
                                              for name in (IMU, IMAGES))
+    if not imu or not images:
+        raise ValueError(f"{source}: no IMU sample or no image in it")
     values = np.array([row[1:7] for row in imu], dtype=float)
     measurements = Measurements(np.array([int(row[0]) for row in imu]), values[:, :3].copy(),
                                 values[:, 3:].copy(), np.array([int(row[0]) for row in images]))
@@ -27,6 +32,10 @@ def make_faulty(source, target, apply, begin):
             for i in np.flatnonzero(measurements.imu_kept)])
     _write(os.path.join(target, IMAGES), image_head,
            [[t_ns, *row[1:]] for t_ns, row in zip(measurements.image_ns, images)])
+
+
+def _is_same(path, other):
+    return os.path.realpath(path) == os.path.realpath(other)
 
 
 def _read(path):
@@ -41,9 +50,17 @@ def _write(path, head, rows):
 
 
 def _link_the_rest(source, target):
-    for sensor in os.listdir(source):
-        os.makedirs(os.path.join(target, sensor), exist_ok=True)
-        for name in os.listdir(os.path.join(source, sensor)):
-            link = os.path.join(target, sensor, name)
-            if os.path.join(sensor, name) not in (IMU, IMAGES) and not os.path.lexists(link):
-                os.symlink(os.path.realpath(os.path.join(source, sensor, name)), link)
+    """What the sensors have, and files beside them, such as EuRoC's body.yaml."""
+    for name in os.listdir(source):
+        if os.path.isdir(os.path.join(source, name)):
+            for inner in os.listdir(os.path.join(source, name)):
+                _link(source, target, os.path.join(name, inner))
+        else:
+            _link(source, target, name)
+
+
+def _link(source, target, name):
+    link = os.path.join(target, name)
+    os.makedirs(os.path.dirname(link), exist_ok=True)
+    if name not in (IMU, IMAGES) and not os.path.lexists(link):
+        os.symlink(os.path.realpath(os.path.join(source, name)), link)

@@ -22,6 +22,7 @@ class Features:
     """A file of features in memory, item by item as it lies on disk."""
 
     def __init__(self, path):
+        self._path = path
         with open(path, "rb") as file:
             self._bytes = file.read()
         if not self._bytes.startswith(SIGNATURE):
@@ -29,6 +30,8 @@ class Features:
         self._imu, self._images = [], []  # of each: where it begins in the file
         self._items = []  # (kind, index, begin, end)
         self._split()
+        if not self._imu or not self._images:
+            raise ValueError(f"{path}: no IMU sample or no image in it")
 
     def measurements(self):
         samples = np.array([IMU_LAYOUT.unpack_from(self._bytes, at) for at in self._imu],
@@ -52,21 +55,34 @@ class Features:
         at = len(SIGNATURE)
         while at < len(self._bytes):
             kind, begin = self._bytes[at], at
+            if kind not in (IMU, POINTS, POINTS_AND_LINES):
+                raise self._error("is damaged")
             places = self._imu if kind == IMU else self._images
             places.append(at + 1)
             at = at + 1 + IMU_LAYOUT.size if kind == IMU else self._end_of_image(at)
             self._items.append((kind, len(places) - 1, begin, at))
+        if at > len(self._bytes):
+            raise self._error("ends in an item")
 
     def _end_of_points(self, begin):
         size_at = begin + 1 + TRACKING.size + POINT_STATISTICS_SIZE
-        return size_at + SIZE.size + SIZE.unpack_from(self._bytes, size_at)[0] * POINT.itemsize
+        return self._end_of_list(size_at, POINT.itemsize)
 
     def _end_of_image(self, begin):
         end = self._end_of_points(begin)
         if self._bytes[begin] == POINTS:
             return end
         size_at = end + TRACKING.size + LINE_STATISTICS_SIZE
-        return size_at + SIZE.size + SIZE.unpack_from(self._bytes, size_at)[0] * LINE_SIZE
+        return self._end_of_list(size_at, LINE_SIZE)
+
+    def _end_of_list(self, size_at, item_size):
+        items_at = size_at + SIZE.size
+        if items_at > len(self._bytes):
+            raise self._error("ends in an item")
+        return items_at + SIZE.unpack_from(self._bytes, size_at)[0] * item_size
+
+    def _error(self, what):
+        return ValueError(f"{self._path}: {what}; write it again with --save-features")
 
     def _image_item(self, measurements, was_ns, index, begin, end):
         t_ns, end_of_points = int(measurements.image_ns[index]), self._end_of_points(begin)

@@ -127,13 +127,39 @@ class Folder(unittest.TestCase):
 
     def test_counts_false_loops_among_the_accepted(self):
         self.write_loops(self.row("accepted"), self.row("accepted", 0.5), self.row("lines", 9.0))
-        result = evaluate_loops(self.folder, self.truth)
+        result = evaluate_loops(self.folder, self.folder / "truth.tum")
         self.assertEqual((result["loops"], result["false_loops"]), (2, 1))
         self.assertAlmostEqual(result["largest_error_m"], 0.5, 4)
         self.assertAlmostEqual(result["closed_share"], 0.1, delta=0.02)
         self.assertEqual(result["closed_share_of_returns"], result["closed_share"])
         self.assertGreater(result["ape_m"]["trajectory.tum"], 0.1)
         self.assertLess(result["ape_m"]["trajectory_final.tum"], 1e-6)
+
+    def test_leaves_out_what_leads_to_another_recording(self):
+        later, _, *rest = self.row("accepted")
+        for earlier in (START - 1000.0, START + 1000.0, START + 2.02):
+            self.write_loops(self.row("accepted"), (later, round(earlier * 1e9), *rest))
+            result = evaluate_loops(self.folder, self.folder / "truth.tum")
+            self.assertEqual((result["loops"], result["loops_left_out"]), (1, 1))
+            self.assertEqual(result["false_loops"], 0)
+        run = self.run_script(self.folder, self.folder / "truth.tum")
+        self.assertIn("left out: 1 to poses that are not in trajectory.tum", run.stdout)
+
+    def test_loops_to_another_recording_close_nothing(self):
+        later, _, *rest = self.row("accepted")
+        self.write_loops((later, 10**9, *rest))
+        result = evaluate_loops(self.folder, self.folder / "truth.tum")
+        self.assertEqual((result["loops"], result["loops_left_out"]), (0, 1))
+        self.assertEqual(result["closed_share"], 0)
+
+    def test_ground_truth_of_another_time(self):
+        self.write_loops(self.row("accepted"))
+        self.write("other.tum", self.truth.shifted(1000.0))
+        run = self.run_script(self.folder, self.folder / "other.tum")
+        self.assertEqual(run.returncode, 1)
+        for words in ("no overlap in time", "trajectory.tum", "other.tum"):
+            self.assertIn(words, run.stderr)
+        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
 
     def run_script(self, *arguments):
         return subprocess.run(["/usr/bin/python3", SCRIPTS / "evaluate_loops.py", *arguments],

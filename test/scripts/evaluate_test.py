@@ -373,6 +373,20 @@ class CommandLine(unittest.TestCase):
         self.assert_fails("no overlap", late, truth)
         self.assertEqual(self.run_script(late, truth, "--t-offset", "-100").returncode, 0)
 
+    def test_covariances_are_those_of_the_stamps_before_the_offset(self):
+        estimate = self.write("estimate.tum", self.spiral(" "))
+        unit = ",".join("1" if i in (0, 6, 11, 15, 18, 20) else "0" for i in range(21))
+        stamps = [round(1e9 * stamp) for stamp in read_trajectory(estimate).stamps]
+        covariance = self.write("covariance.csv", "stamp_ns\n" + "".join(
+            f"{stamp},{unit}\n" for stamp in stamps))
+        report = os.path.join(self.folder.name, "report.json")
+        for offset in ("0", "0.005"):
+            result = self.run_script(estimate, estimate, "--covariance", covariance, "--t-offset",
+                                     offset, "--nees-after", "4", "--json", report)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(report, encoding="utf-8") as file:
+                self.assertLess(json.load(file)["position_nees"], 1e-6)
+
     def test_attitude_of_both_formats(self):
         tum = read_trajectory(self.write("truth.tum", self.spiral(" ")))
         csv = read_trajectory(self.write("data.csv", self.spiral(",", stamp_unit=1e9)))

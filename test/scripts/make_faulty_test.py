@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """scripts/make_faulty.py: what becomes of recordings, and what does not."""
 
+import contextlib
 import importlib.util
+import io
 import os
 import struct
 import sys
@@ -14,8 +16,9 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 from make_faulty import main  # noqa: E402
 from stress.faults import FAULTS  # noqa: E402
-from stress.feature_file import (IMU, IMU_LAYOUT, POINT_STATISTICS_SIZE, POINTS,  # noqa: E402
-                                 SIGNATURE, SIZE, TRACKING, POINT, Features)
+from stress.feature_file import (IMU, IMU_LAYOUT, LINE_SIZE, LINE_STATISTICS_SIZE,  # noqa: E402
+                                 POINT, POINT_STATISTICS_SIZE, POINTS, POINTS_AND_LINES, SIGNATURE,
+                                 SIZE, TRACKING, Features)
 from stress.measurements import Measurements  # noqa: E402
 
 START_NS = 1403636579758555392
@@ -77,6 +80,13 @@ class Files(unittest.TestCase):
         with open(self.path(name), "wb") as file:
             file.write(content)
 
+    def assert_refused(self, message, *arguments):
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            self.assertEqual(main(arguments), 1)
+        self.assertIn(message, errors.getvalue())
+        self.assertEqual(errors.getvalue().count("\n"), 1)
+
     def read(self, name):
         with open(self.path(name), "rb") as file:
             return file.read()
@@ -104,19 +114,41 @@ class Files(unittest.TestCase):
             self.assertEqual(len(self.read("bad.feat")) - len(self.read("good.feat")), size, fault)
         self.assertEqual(Features(self.path("bad.feat")).measurements().accel[0, 0], 150)
 
-    def test_asl_folder(self):
+    def write_asl(self):
         imu = "".join(f"{START_NS + 5_000_000 * i},0,0,0,0,0,9.81\n" for i in range(20))
         self.write("good/mav0/imu0/data.csv", b"#timestamp [ns],w,w,w,a,a,a\n" + imu.encode())
         images = f"#timestamp [ns],filename\n{START_NS},a.png\n"
         self.write("good/mav0/cam0/data.csv", images.encode())
         self.write("good/mav0/cam0/data/a.png", b"picture")
+
+    def test_asl_folder(self):
+        self.write_asl()
+        self.write("good/mav0/body.yaml", b"comment: body")
         self.assertEqual(main([self.path("good"), self.path("bad"), "--fault", "gyro_spike",
                                "--begin", "0.05"]), 0)
         rows = self.read("bad/imu0/data.csv").decode().splitlines()
         self.assertEqual(len(rows), 21)
         self.assertEqual([row.split(",")[1] for row in rows].count("40.0"), 1)
         self.assertEqual(self.read("bad/cam0/data/a.png"), b"picture")
+        self.assertEqual(self.read("bad/body.yaml"), b"comment: body")
         self.assertIn("a.png", self.read("bad/cam0/data.csv").decode())
+
+    def test_asl_folder_is_not_overwritten(self):
+        self.write_asl()
+        good = self.read("good/mav0/imu0/data.csv")
+        os.symlink(self.path("good", "mav0"), self.path("link"))
+        for target in ("good", "good/mav0", "link"):
+            self.assert_refused("make_faulty.py: ", self.path("good"), self.path(target),
+                                "--fault", "gyro_spike", "--begin", "0.05")
+        self.assertEqual(self.read("good/mav0/imu0/data.csv"), good)
+        self.assertEqual(sorted(os.listdir(self.path("good"))), ["mav0"])
+
+    def test_asl_folder_without_a_row(self):
+        self.write_asl()
+        self.write("good/mav0/imu0/data.csv", b"#timestamp [ns],w,w,w,a,a,a\n")
+        self.assert_refused(self.path("good"), self.path("good"), self.path("bad"), "--fault",
+                            "none")
+        self.assertFalse(os.path.exists(self.path("bad")))
 
     @unittest.skipUnless(importlib.util.find_spec("rosbag"), "needs ROS")
     def test_bag(self):
@@ -183,6 +215,21 @@ class Files(unittest.TestCase):
     def test_a_file_that_is_none(self):
         self.write("other.feat", struct.pack("<q", 1))
         self.assertEqual(main([self.path("other.feat"), self.path("x"), "--fault", "none"]), 1)
+
+    def test_features_that_are_cut_off_or_damaged(self):
+        head, points = TRACKING.pack(START_NS, False, True, 1), bytes(2 * POINT.itemsize)
+        content = (SIGNATURE + bytes([IMU]) + IMU_LAYOUT.pack(START_NS, *range(6))
+                   + bytes([POINTS_AND_LINES]) + head + bytes(POINT_STATISTICS_SIZE)
+                   + SIZE.pack(2) + points + head + bytes(LINE_STATISTICS_SIZE) + SIZE.pack(2)
+                   + bytes(2 * LINE_SIZE))
+        arguments = (self.path("cut.feat"), self.path("x"), "--fault", "none")
+        for damaged in (*(content[:size] for size in range(len(content))), content + b"\x07"):
+            self.write("cut.feat", damaged)
+            self.assert_refused(self.path("cut.feat"), *arguments)
+            self.assertFalse(os.path.exists(self.path("x")))
+        self.write("cut.feat", content)
+        self.assertEqual(main(arguments), 0)
+        self.assertEqual(self.read("x"), content)
 
 
 if __name__ == "__main__":

@@ -371,7 +371,7 @@ class Cluster(DatasetTest):
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.05)
         with distributed.Client(scheduler_file=self.scheduler_file, timeout=60) as client:
-            client.wait_for_workers(count, timeout=60)
+            client.wait_for_workers(count)
             return client.scheduler.address
 
     def test_runs_are_under_way_at_the_same_time(self):
@@ -445,14 +445,17 @@ class BadCalls(DatasetTest):
         os.symlink(self.path("nowhere"), self.path("bags", "gone.bag"))
         self.assert_refused("gone.bag: No such file", "--sequences", "gone")
 
-    def test_damaged_summary(self):
+    def test_damaged_results(self):
         self.add("hall")
         self.call("--no-plots", "--variants", "improved")
-        summary = os.path.join(self.output, "runs", "hall", "improved", "1", "summary.json")
-        with open(summary, "w", encoding="utf-8") as file:
-            file.write("{")
-        self.call("--no-plots", "--variants", "improved", exit_code=1)
-        self.assertIn("damaged results", self.rows()[0]["status"])
+        folder = os.path.join(self.output, "runs", "hall", "improved", "1")
+        for name, mode, text, reason in (
+                ("timing.csv", "a", "14036366,2.5\n", r"timing.csv:\d+: 2 columns, expected 5"),
+                ("timing.csv", "w", "", "timing.csv: no rows"), ("summary.json", "w", "{", "")):
+            with open(os.path.join(folder, name), mode, encoding="utf-8") as file:
+                file.write(text)
+            self.call("--no-plots", "--variants", "improved", exit_code=1)
+            self.assertRegex(self.rows()[0]["status"], "damaged results.*" + reason)
 
 
 if __name__ == "__main__":

@@ -65,9 +65,11 @@ def make_run(folder):
              "map.ply": POINTS + "".join(f"{7 + x} {8 + y} 9.5\n" for x in np.linspace(-2, 2, 20)
                                          for y in np.linspace(-3, 3, 20)),
              "lines.ply": LINES,
-             "loops.csv": "later_ns,earlier_ns,later,earlier,result\n"
-                          f"{round(stamps[300] * 1e9)},{round(stamps[10] * 1e9)},9,1,accepted\n"
-                          f"{round(stamps[200] * 1e9)},{round(stamps[20] * 1e9)},7,2,pose\n",
+             "loops.csv": "later_ns,earlier_ns,result,x_m,y_m,z_m,yaw_deg\n" + "".join(
+                 f"{round(later * 1e9)},{round(earlier * 1e9)},{result},0,0,0,0\n"
+                 for later, earlier, result in ((stamps[300], stamps[10], "accepted"),
+                                                (stamps[200], stamps[20], "pose"),
+                                                (stamps[250], stamps[10] - 1e6, "accepted"))),
              "timing.csv": "stamp_ns,total,points_observed\n" + "".join(
                  f"{round(stamp * 1e9)},{10 + i % 3},{100 + i % 50}\n"
                  for i, stamp in enumerate(stamps))}
@@ -95,6 +97,11 @@ class ShowRun(unittest.TestCase):
         return subprocess.run([*command, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               encoding="utf-8", check=False)
 
+    @staticmethod
+    def write(path, text):
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+
     def truth(self):
         path = os.path.join(self.folder, "truth.tum")
         write_tum(path, *flight(rate=100.0))
@@ -116,7 +123,9 @@ class Folder(ShowRun):
         self.assertEqual({axis: len(ends) for axis, ends in run.lines.items()},
                          {"along x": 1, "along y": 0, "along z": 1, "free": 1})
         np.testing.assert_array_equal(run.lines["along z"], [[[5, 5, 8.5], [5, 5, 9.5]]])
-        np.testing.assert_allclose(run.loops - run.trajectory.stamps[0], [[15.0, 0.5]], atol=1e-6)
+        for stamps, seconds in ((run.loops.later, 15.0), (run.loops.earlier, 0.5)):
+            np.testing.assert_allclose(stamps - run.trajectory.stamps[0], [seconds], atol=1e-6)
+        self.assertEqual(run.loops_left_out, 1)
         self.assertEqual(list(run.images), ["+2.00 s from the first pose",
                                             "+10.00 s from the first pose"])
 
@@ -125,17 +134,38 @@ class Folder(ShowRun):
             os.remove(os.path.join(self.run_folder, name))
         shutil.rmtree(os.path.join(self.run_folder, "tracks"))
         run = RunFolder.read(self.run_folder)
-        self.assertEqual((len(run.points), run.loops, run.images), (0, None, {}))
+        self.assertEqual((len(run.points), len(run.loops), run.images), (0, 0, {}))
         self.assertEqual(sum(map(len, run.lines.values())), 0)
         self.write_page()
 
     def test_no_run(self):
         os.remove(os.path.join(self.run_folder, "timing.csv"))
-        with self.assertRaisesRegex(TrajectoryError, "not the folder of a run"):
+        with self.assertRaisesRegex(TrajectoryError, "not the folder of a finished run"):
             RunFolder.read(self.run_folder)
         result = self.call()
         self.assertEqual(result.returncode, 1)
         self.assertIn("timing.csv", result.stderr)
+
+    def test_damaged_files_are_named(self):
+        unfinished = POINTS.replace("400 ", 12 * " ") + "1 2 3\n"
+        for name, text, reason in (
+                ("timing.csv", "stamp_ns,total\n1,2\n3\n", ":3: 1 columns, expected 2"),
+                ("timing.csv", "stamp_ns,total\n", ": no rows"),
+                ("map.ply", unfinished, ": damaged"), ("map.ply", "", ": damaged"),
+                ("map.ply", POINTS + "1 2 3\n1 2", ": damaged"),
+                ("lines.ply", LINES.replace("4 5 140", "4 6 140"), ": damaged"),
+                ("lines.ply", LINES[:-4], ": damaged"),
+                ("loops.csv", "later_ns,earlier_ns\n1,2\n", ": damaged")):
+            path = os.path.join(self.run_folder, name)
+            with open(path, encoding="utf-8") as file:
+                good = file.read()
+            self.write(path, text)
+            with self.assertRaisesRegex(TrajectoryError, name + reason):
+                RunFolder.read(self.run_folder)
+            self.write(path, good)
+        self.write(os.path.join(self.run_folder, "map.ply"), unfinished)
+        result = self.call()
+        self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
 
 
 class Figures(unittest.TestCase):
@@ -176,6 +206,8 @@ class Page(ShowRun):
         self.assertEqual(len(positions("ground truth")), 2001)
         np.testing.assert_allclose(positions("loops")[:2].astype(float), flight()[1][[300, 10]],
                                    atol=2e-4)
+        self.assertEqual(len(positions("loops")), 3, "one, and the gap behind it")
+        self.assertTrue("Loops to a map of earlier, left out: 1" in text)
         self.assertTrue("coverage 100.0 %" in text)
 
     def test_without_ground_truth(self):

@@ -8,7 +8,7 @@ if(NOT TARGET yaml-cpp::yaml-cpp)  # yaml-cpp before 0.8 exports a bare name
   add_library(yaml-cpp::yaml-cpp INTERFACE IMPORTED)
   target_link_libraries(yaml-cpp::yaml-cpp INTERFACE yaml-cpp)
 endif()
-find_package(CLI11 REQUIRED HINTS ${PROJECT_SOURCE_DIR}/build/deps)  # see scripts/setup.sh
+find_package(CLI11 2 REQUIRED HINTS ${PROJECT_SOURCE_DIR}/build/deps)  # see scripts/setup.sh
 find_package(nlohmann_json REQUIRED)
 
 if(BUILD_ROS)
@@ -44,8 +44,14 @@ endif()
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
   if(NOT TARGET GTest::gmock)  # CMake before 3.23 does not look for it
-    add_library(GTest::gmock INTERFACE IMPORTED)
-    target_link_libraries(GTest::gmock INTERFACE gmock GTest::GTest)
+    # By its file: Noetic's catkin has a target gmock, which brings a second gtest.
+    find_library(GMOCK_LIBRARY gmock)
+    if(NOT GMOCK_LIBRARY)
+      message(FATAL_ERROR "gmock is missing: install libgmock-dev or set BUILD_TESTING=OFF")
+    endif()
+    add_library(GTest::gmock UNKNOWN IMPORTED)
+    set_target_properties(GTest::gmock PROPERTIES IMPORTED_LOCATION ${GMOCK_LIBRARY}
+                          INTERFACE_LINK_LIBRARIES GTest::GTest)
   endif()
 endif()
 if(BUILD_BENCHMARKS)

@@ -1,5 +1,5 @@
 # PLM-VINS on Ubuntu 20.04 with ROS Noetic. From the checkout:
-#   docker build -f docker/noetic.Dockerfile -t plm_vins .
+#   docker build --pull -f docker/noetic.Dockerfile -t plm_vins .
 #   docker run --rm -v /path/to/data:/data plm_vins run_offline --config /plm_vins/config/euroc.yaml \
 #     --bag /data/MH_05_difficult.bag --output /data/results
 FROM ros:noetic-ros-base-focal

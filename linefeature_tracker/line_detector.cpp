@@ -19,15 +19,6 @@
 namespace plm_vins {
 namespace {
 
-std::vector<LineSegment> LongerThan(double min_length_px, const std::vector<cv::Vec4f>& lines) {
-  std::vector<LineSegment> segments;
-  for (const cv::Vec4f& line : lines) {
-    const LineSegment segment{{line[0], line[1]}, {line[2], line[3]}};
-    if (segment.Length() >= min_length_px) segments.push_back(segment);
-  }
-  return segments;
-}
-
 bool IsAlongBorder(const LineSegment& segment, const cv::Size& size, double border_px) {
   const Eigen::Vector2d least = segment.start.cwiseMin(segment.end);
   const Eigen::Vector2d most = segment.start.cwiseMax(segment.end);
@@ -59,6 +50,15 @@ class FldDetector : public LineDetector {
 };
 
 #if HAS_LSD_AND_EDLINES
+std::vector<LineSegment> LongerThan(double min_length_px, const std::vector<cv::Vec4f>& lines) {
+  std::vector<LineSegment> segments;
+  for (const cv::Vec4f& line : lines) {
+    const LineSegment segment{{line[0], line[1]}, {line[2], line[3]}};
+    if (segment.Length() >= min_length_px) segments.push_back(segment);
+  }
+  return segments;
+}
+
 class LsdDetector : public LineDetector {
  public:
   std::vector<LineSegment> Detect(const cv::Mat& image, double min_length_px) override {

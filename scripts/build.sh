@@ -8,7 +8,7 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 if [[ -z "${ROS_PACKAGE_PATH:-}" && -f /opt/ros/noetic/setup.bash ]]; then
   set +u  # ROS's script reads variables that are not set
   # shellcheck disable=SC1091
-  source /opt/ros/noetic/setup.bash
+  source /opt/ros/noetic/setup.bash --  # else it reads our options
   set -u
 fi
 

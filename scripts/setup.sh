@@ -7,8 +7,8 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 common_packages=(
   build-essential cmake libboost-dev libbz2-dev libceres-dev libeigen3-dev libgmock-dev libgtest-dev
   libopencv-contrib-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev
-  python3-distributed python3-matplotlib python3-numpy python3-plotly python3-tqdm
-  python3-yaml)
+  python3-matplotlib python3-numpy python3-pil python3-tqdm python3-yaml)
+optional_packages=(python3-distributed python3-plotly)  # for --scheduler, and for pages in 3-D
 debian_packages=(
   catkin libcli11-dev libcv-bridge-dev libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev libimage-transport-dev
@@ -52,6 +52,13 @@ install_cli11() {
 if [[ -d /opt/ros/noetic ]]; then
   install_packages "${common_packages[@]}" "${noetic_packages[@]}" ca-certificates git "$@"
   install_cli11
+elif grep -qx ID=ubuntu /etc/os-release; then
+  echo "setup.sh: ROS Noetic is missing in /opt/ros/noetic; install it first:" \
+    "https://wiki.ros.org/noetic/Installation/Ubuntu" >&2
+  exit 1
 else
   install_packages "${common_packages[@]}" "${debian_packages[@]}" "$@"
 fi
+for package in "${optional_packages[@]}"; do
+  install_packages "$package" || echo "setup.sh: goes on without $package" >&2
+done

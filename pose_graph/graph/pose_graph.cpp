@@ -23,9 +23,7 @@ constexpr int kMaxIterations = 10;  // from the last solution, few do
 struct EdgeCost {
   template <typename T>
   bool operator()(const T* from, const T* to, T* residual) const {
-    using ceres::cos;
-    using ceres::sin;
-    using std::cos;
+    using std::cos;  // of Jets, Ceres has its own
     using std::sin;
     const T c = cos(from[3]);
     const T s = sin(from[3]);

@@ -34,11 +34,20 @@ void AddChoice(CLI::App* app, const std::string& name, T* value, const std::stri
       ->check(CLI::IsMember(choices));
 }
 
+// The message of what is wrong with the argument of --output; empty where nothing is.
+std::string CheckBag(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  const bool is_truth = extension == ".tum" || extension == ".csv";
+  return is_truth ? "expected a bag instead of " + file + ", where the ground truth is to go" : "";
+}
+
 void Declare(Arguments* arguments, CLI::App* app) {
   FlightOptions& flight = arguments->flight;
   auto* output = app->add_option_group("output");
-  output->add_option("--output", arguments->output,
-                     "ROS bag; the ground truth goes beside it as .tum and .csv");
+  output
+      ->add_option("--output", arguments->output,
+                   "ROS bag; the ground truth goes beside it as .tum and .csv")
+      ->check(CheckBag);
   output->add_option("--asl", arguments->asl, "folder in ASL format (EuRoC), new");
   output->require_option(1, 2);
   app->add_option("--config", arguments->config,
@@ -79,10 +88,11 @@ void Declare(Arguments* arguments, CLI::App* app) {
 
 std::vector<std::unique_ptr<Recorder>> OpenRecorders(const Arguments& arguments) {
   std::vector<std::unique_ptr<Recorder>> recorders;
+  // First the folder, which may refuse: an earlier bag then stays.
+  if (!arguments.asl.empty()) recorders.push_back(std::make_unique<AslRecorder>(arguments.asl));
   if (!arguments.output.empty()) {
     recorders.push_back(MakeBagRecorder(arguments.output, arguments.flight.sensors));
   }
-  if (!arguments.asl.empty()) recorders.push_back(std::make_unique<AslRecorder>(arguments.asl));
   return recorders;
 }
 

@@ -26,15 +26,15 @@ AslRecorder::AslRecorder(const std::string& folder)
     : image_folder_(MakeFolders(folder) + "/cam0/data/"),
       image_list_(folder + "/mav0/cam0/data.csv"),
       imu_list_(folder + "/mav0/imu0/data.csv") {
-  image_list_.Write("#timestamp [ns],filename\n");
-  imu_list_.Write(
-      "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
-      "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n");
+  image_list_.stream() << "#timestamp [ns],filename\n";
+  imu_list_.stream()
+      << "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
+         "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n";
 }
 
 void AslRecorder::Write(const ImuSample& sample) {
-  imu_list_.Write(CsvRow(sample.t_ns, {sample.gyro.x(), sample.gyro.y(), sample.gyro.z(),
-                                       sample.accel.x(), sample.accel.y(), sample.accel.z()}));
+  imu_list_.stream() << CsvRow(sample.t_ns, {sample.gyro.x(), sample.gyro.y(), sample.gyro.z(),
+                                             sample.accel.x(), sample.accel.y(), sample.accel.z()});
 }
 
 void AslRecorder::Write(const ImageSample& image) {
@@ -43,7 +43,12 @@ void AslRecorder::Write(const ImageSample& image) {
   if (!cv::imwrite(image_folder_ + name, image.gray, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
     throw std::runtime_error("cannot write " + image_folder_ + name);
   }
-  image_list_.Write(std::to_string(image.t_ns) + "," + name + "\n");
+  image_list_.stream() << image.t_ns << ',' << name << '\n';
+}
+
+void AslRecorder::Finish() {
+  image_list_.Close();
+  imu_list_.Close();
 }
 
 std::string AslRecorder::GroundTruthFile(const std::string& folder) {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "simulator/recording/output_file.h"
+#include "common/output_file.h"
 #include "simulator/recording/recorder.h"
 
 namespace plm_vins::simulator {
@@ -16,6 +16,7 @@ class AslRecorder : public Recorder {
 
   void Write(const ImuSample& sample) override;
   void Write(const ImageSample& image) override;
+  void Finish() override;
 
   // Where the ground truth of this recording belongs; the folder exists.
   static std::string GroundTruthFile(const std::string& folder);

@@ -67,6 +67,7 @@ void Flight::Record(const std::vector<Recorder*>& recorders,
       ++image_index;
     }
   }
+  for (Recorder* recorder : recorders) recorder->Finish();
 }
 
 std::vector<FrameState> Flight::GroundTruth() const {

@@ -37,7 +37,8 @@ class Flight {
   Flight(const Flight&) = delete;  // its parts refer to each other
   Flight& operator=(const Flight&) = delete;
 
-  // Hands all samples to the recorders in order of time; `progress` gets each image's stamp.
+  // Hands all samples to the recorders in order of time and finishes them; `progress` gets each
+  // image's stamp.
   void Record(const std::vector<Recorder*>& recorders,
               const std::function<void(int64_t t_ns)>& progress) const;
 

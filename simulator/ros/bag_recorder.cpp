@@ -7,6 +7,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 
+#include <memory>
 #include <stdexcept>
 
 #include "common/ros/msg_conversion.h"
@@ -14,11 +15,22 @@
 namespace plm_vins::simulator {
 namespace {
 
+// The destructor of a bag closes it, and ends the program where that fails: such a one is left alone.
+struct CloseOrLeave {
+  void operator()(rosbag::Bag* bag) const {
+    try {
+      bag->close();
+      delete bag;
+    } catch (const rosbag::BagException&) {
+    }
+  }
+};
+
 class BagRecorder : public Recorder {
  public:
   BagRecorder(const std::string& file, const SensorConfig& sensors)
       : file_(file), sensors_(sensors) {
-    Guard([&] { bag_.open(file, rosbag::bagmode::Write); });
+    Guard([&] { bag_->open(file, rosbag::bagmode::Write); });
   }
 
   void Write(const ImuSample& sample) override {
@@ -27,13 +39,17 @@ class BagRecorder : public Recorder {
     message.orientation_covariance[0] = -1;  // there is no orientation in here
     message.angular_velocity = ToVector3(sample.gyro);
     message.linear_acceleration = ToVector3(sample.accel);
-    Guard([&] { bag_.write(sensors_.imu_topic, message.header.stamp, message); });
+    Guard([&] { bag_->write(sensors_.imu_topic, message.header.stamp, message); });
   }
 
   void Write(const ImageSample& image) override {
     const auto header = NextHeader(image.t_ns, "cam0", &image_count_);
     const auto message = cv_bridge::CvImage(header, "mono8", image.gray).toImageMsg();
-    Guard([&] { bag_.write(sensors_.image_topic, header.stamp, message); });
+    Guard([&] { bag_->write(sensors_.image_topic, header.stamp, message); });
+  }
+
+  void Finish() override {
+    Guard([this] { bag_->close(); });
   }
 
  private:
@@ -56,7 +72,7 @@ class BagRecorder : public Recorder {
 
   std::string file_;
   SensorConfig sensors_;
-  rosbag::Bag bag_;
+  std::unique_ptr<rosbag::Bag, CloseOrLeave> bag_{new rosbag::Bag};
   uint32_t imu_count_ = 0, image_count_ = 0;
 };
 

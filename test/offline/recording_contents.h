@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "offline/recording.h"
+#include "test/testing/message_of.h"
 
 namespace plm_vins::testing {
 
@@ -34,17 +35,6 @@ inline RecordingContents ReadAll(Recording* recording) {
   }
   for (const DropCount& drop : recording->problems()) contents.problems[drop.cause] = drop.count;
   return contents;
-}
-
-// The message of the exception that `function` throws; empty where it throws none.
-template <typename Function>
-std::string MessageOf(const Function& function) {
-  try {
-    function();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace plm_vins::testing

@@ -34,6 +34,7 @@ TEST_F(AslFolder, HoldsImagesAndListsAsEuroc) {
     AslRecorder recorder(folder_);
     recorder.Write(ImuSample{1'600'000'000'000'000'005, {0.1, 0.2, 0.3}, {1, 2, 9.8125}});
     recorder.Write(ImageSample{1'600'000'000'050'000'000, picture});
+    recorder.Finish();
   }
   EXPECT_NE(
       Read(folder_ + "/mav0/imu0/data.csv").find("\n1600000000000000005,0.1,0.2,0.3,1,2,9.8125\n"),
@@ -49,6 +50,11 @@ TEST_F(AslFolder, HoldsImagesAndListsAsEuroc) {
 TEST_F(AslFolder, IsNeverOverwritten) {
   { AslRecorder first(folder_); }
   EXPECT_THROW(AslRecorder second(folder_), std::runtime_error);
+}
+
+TEST(GroundTruth, NoticesAFullDisk) {
+  EXPECT_THROW(WriteTum("/dev/full", {FrameState()}), std::runtime_error);
+  EXPECT_THROW(WriteEurocCsv("/dev/full", {FrameState()}), std::runtime_error);
 }
 
 TEST_F(AslFolder, TakesTheGroundTruth) {

@@ -36,6 +36,17 @@ std::string Bytes(const std::string& path) {
   return bytes.str();
 }
 
+// The destructor of a bag throws where the disk is full, which would end the program.
+TEST(BagRecorder, NoticesAFullDisk) {
+  EXPECT_THROW(
+      {
+        const auto recorder = MakeBagRecorder("/dev/full", SensorConfig());
+        recorder->Write(ImuSample{kStart, {0.1, 0.2, 0.3}, {1, 2, 9.8}});
+        recorder->Finish();
+      },
+      std::runtime_error);
+}
+
 TEST(BagRecorder, WritesTheTopicsOfTheConfiguration) {
   const std::string file = WriteBag("plm_vins_bag_recorder_test.bag");
   {

@@ -19,10 +19,12 @@ class MemoryRecorder : public Recorder {
     images.push_back(image);
     order.push_back(image.t_ns);
   }
+  void Finish() override { finished = true; }
 
   std::vector<ImuSample> imu;
   std::vector<ImageSample> images;
   std::vector<int64_t> order;
+  bool finished = false;
 };
 
 FlightOptions SmallFlight() {

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <stdexcept>
 #include <vector>
 
 #include "common/config.h"
@@ -76,6 +77,7 @@ void Print(const Round& round, double minutes, const KeyframeMap& map) {
 }
 
 void Run(const Config& config, const std::vector<Keyframe>& keyframes, double hours) {
+  if (keyframes.empty()) throw std::runtime_error("there is no keyframe in the map");
   LoopCloser loops(LoopCloserOptions(), CameraModel::Create(config.sensor.camera));
   const double seconds = ToSeconds(keyframes.back().t_ns - keyframes.front().t_ns) + kPause;
   for (int round = 0; round * seconds < 3600 * hours; ++round) {

@@ -5,8 +5,9 @@ namespace plm_vins {
 
 void KeyframeMap::Remove(int keyframe, int anchor) {
   graph.Remove(keyframe, anchor);
-  keyframes[keyframe].corners = {};
-  keyframes[keyframe].segments = {};
+  Keyframe& removed = keyframes[keyframe];
+  removed.corners = std::vector<DescribedCorner>();  // gives its memory back, which `= {}` keeps
+  removed.segments = std::vector<TrackedSegment>();
 }
 
 int KeyframeMap::CountKept() const {

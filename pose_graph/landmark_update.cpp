@@ -40,7 +40,9 @@ void UpdateLandmarks(double max_error, std::vector<Keyframe>* keyframes) {
   const Keyframe& newest = keyframes->back();
   const PlacesByTrack places = PlacesOf(newest);
   for (auto earlier = keyframes->rbegin() + 1; earlier != keyframes->rend(); ++earlier) {
-    if (earlier->world != newest.world || !TakeOver(places, max_error, &*earlier)) return;
+    if (earlier->world != newest.world) return;
+    if (earlier->corners.empty()) continue;  // it was removed
+    if (!TakeOver(places, max_error, &*earlier)) return;
   }
 }
 

@@ -28,7 +28,7 @@ std::vector<LoopCandidate> LoopAcceptance::Judge(const std::vector<Keyframe>& ke
                    candidate->covariance + options_.drift.Covariance(distance));
     if (*candidate->odometry_error <= kThreeSigma) {
       candidate->failed.reset();
-      return {*candidate};
+      return {};
     }
     if (*candidate->odometry_error > options_.max_deviations) return {};
   }
@@ -46,10 +46,10 @@ std::vector<LoopCandidate> LoopAcceptance::Judge(const std::vector<Keyframe>& ke
     return {};
   }
   candidate->failed.reset();
-  std::vector<LoopCandidate> accepted = {*witness, *candidate};
-  accepted.front().failed.reset();
+  LoopCandidate confirmed = *witness;
+  confirmed.failed.reset();
   waiting_.erase(witness);
-  return accepted;
+  return {confirmed};
 }
 
 void LoopAcceptance::Forget(int keyframe) {

@@ -23,8 +23,8 @@ class LoopAcceptance {
  public:
   explicit LoopAcceptance(const LoopAcceptanceOptions& options) : options_(options) {}
 
-  // Takes the candidate through the gates kOdometry and kAgreement. Returns the loops to be
-  // believed: none, this one, or this one and one of before that waited for it.
+  // Takes the candidate through the gates kOdometry and kAgreement. Returns the loops that waited
+  // for it and are to be believed with it: one or none.
   std::vector<LoopCandidate> Judge(const std::vector<Keyframe>& keyframes, const PoseGraph& graph,
                                    LoopCandidate* candidate);
 

@@ -14,6 +14,15 @@ LevelEdge EdgeOf(const LoopCandidate& loop) {
   return {loop.earlier, loop.later, loop.T_earlier_later, loop.covariance, /*is_loop=*/true};
 }
 
+std::vector<LoopCandidate*> NewLoops(LoopClosure* closure) {
+  std::vector<LoopCandidate*> loops;
+  for (LoopCandidate& loop : closure->confirmed) loops.push_back(&loop);
+  for (LoopCandidate& loop : closure->candidates) {
+    if (!loop.failed) loops.push_back(&loop);
+  }
+  return loops;
+}
+
 }  // namespace
 
 LoopCloser::LoopCloser(const LoopCloserOptions& options, std::shared_ptr<const CameraModel> camera)
@@ -96,19 +105,20 @@ void LoopCloser::ConnectToPrevious(int number) {
 }
 
 void LoopCloser::LookForLoops(LoopClosure* closure) {
-  std::vector<LoopCandidate> accepted;
   for (const PlaceCandidate& place : recognition_.Find(map_.keyframes)) {
     LoopSightings sightings;
     LoopCandidate candidate = Examine(place, &sightings);
     if (!candidate.failed) {
-      const auto loops = acceptance_.Judge(map_.keyframes, map_.graph, &candidate);
-      accepted.insert(accepted.end(), loops.begin(), loops.end());
+      closure->confirmed = acceptance_.Judge(map_.keyframes, map_.graph, &candidate);
     }
     if (!candidate.failed) closure->place = {candidate.earlier, std::move(sightings)};
     closure->candidates.push_back(candidate);
     if (!candidate.failed) break;  // another would say the same once more
   }
-  if (AddLoops(accepted)) Optimize(closure);
+  const std::vector<LoopCandidate*> loops = NewLoops(closure);
+  if (loops.empty()) return;
+  AddLoops(loops);
+  Optimize(loops, closure);
 }
 
 LoopCandidate LoopCloser::Examine(const PlaceCandidate& place, LoopSightings* sightings) {
@@ -143,29 +153,32 @@ Island LoopCloser::IslandOf(int number) const {
 }
 
 // Of two parts that a loop joins, the later one moves to where the loop says.
-bool LoopCloser::AddLoops(const std::vector<LoopCandidate>& loops) {
-  for (const LoopCandidate& loop : loops) {
-    const LevelEdge edge = EdgeOf(loop);
+void LoopCloser::AddLoops(const std::vector<LoopCandidate*>& loops) {
+  for (const LoopCandidate* loop : loops) {
+    const LevelEdge edge = EdgeOf(*loop);
     if (!map_.graph.AreConnected(edge.from, edge.to)) {
       const LevelTransform T_M_L = map_.graph.node(edge.from) * edge.T_from_to;
       map_.graph.MovePart(edge.to, T_M_L * map_.graph.node(edge.to).Inverse());
     }
     map_.graph.AddEdge(edge);
-    covariance_ = edge.covariance;
   }
-  return !loops.empty();
 }
 
-void LoopCloser::Optimize(LoopClosure* closure) {
+void LoopCloser::Optimize(const std::vector<LoopCandidate*>& loops, LoopClosure* closure) {
   const std::vector<LevelEdge> dropped = map_.graph.Optimize();
-  for (LoopCandidate& candidate : closure->candidates) {
-    if (candidate.failed) continue;
-    const LevelEdge edge = EdgeOf(candidate);
-    candidate.graph_error = map_.graph.Deviations(edge);
+  closure->dropped = static_cast<int>(dropped.size());
+  for (LoopCandidate* loop : loops) {
+    const LevelEdge edge = EdgeOf(*loop);
+    loop->graph_error = map_.graph.Deviations(edge);
     const bool is_dropped = std::any_of(
         dropped.begin(), dropped.end(),
         [&](const LevelEdge& other) { return other.from == edge.from && other.to == edge.to; });
-    if (is_dropped) candidate.failed = LoopGate::kGraph;
+    if (is_dropped) {
+      loop->failed = LoopGate::kGraph;
+      --closure->dropped;
+    } else {
+      covariance_ = loop->covariance;
+    }
   }
 }
 

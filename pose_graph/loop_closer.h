@@ -51,6 +51,8 @@ struct RecognisedPlace {
 struct LoopClosure {
   bool is_keyframe = false;
   std::vector<LoopCandidate> candidates;  // that were looked at
+  std::vector<LoopCandidate> confirmed;   // waited for one that agrees, and count from now on
+  int dropped = 0;                        // loops of before that the graph contradicts by now
   std::optional<RecognisedPlace> place;   // passed all gates but the graph's
   std::optional<MapFix> fix;              // nothing while the place in the map is unknown
 };
@@ -80,8 +82,9 @@ class LoopCloser {
   void LookForLoops(LoopClosure* closure);
   LoopCandidate Examine(const PlaceCandidate& place, LoopSightings* sightings);
   Island IslandOf(int number) const;
-  bool AddLoops(const std::vector<LoopCandidate>& loops);
-  void Optimize(LoopClosure* closure);
+  void AddLoops(const std::vector<LoopCandidate*>& loops);
+  // Says of the new loops which the graph contradicts.
+  void Optimize(const std::vector<LoopCandidate*>& loops, LoopClosure* closure);
   void Thin();
   std::optional<MapFix> Fix() const;
 

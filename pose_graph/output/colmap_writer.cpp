@@ -3,13 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <map>
-#include <stdexcept>
+#include <ostream>
 #include <system_error>
 #include <utility>
 #include <vector>
+
+#include "common/output_file.h"
 
 namespace plm_vins {
 namespace {
@@ -40,13 +41,13 @@ std::map<PointName, ColmapPoint> CollectPoints(const KeyframeMap& map) {
   return points;
 }
 
-std::ofstream Open(const std::string& folder, const std::string& name) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  std::ofstream stream(std::filesystem::path(folder) / name);
-  if (!stream) throw std::runtime_error("cannot write " + folder + "/" + name);
-  stream << std::setprecision(9);
-  return stream;
+// Writes a file of the model by `write(stream)`.
+template <typename Write>
+void WriteFile(const std::string& folder, const std::string& name, const Write& write) {
+  OutputFile file((std::filesystem::path(folder) / name).string());
+  file.stream() << std::setprecision(9);
+  write(&file.stream());
+  file.Close();
 }
 
 void WriteCamera(const CameraParameters& camera, std::ostream* stream) {
@@ -86,32 +87,39 @@ void WriteImage(const CameraParameters& camera, const KeyframeMap& map, int numb
   *stream << '\n';
 }
 
+void WriteImages(const CameraParameters& camera, const KeyframeMap& map,
+                 const std::map<PointName, ColmapPoint>& points, std::ostream* stream) {
+  for (int i = 0; i < map.graph.size(); ++i) {
+    if (map.graph.Has(i)) WriteImage(camera, map, i, points, stream);
+  }
+}
+
+void WritePoints(const std::map<PointName, ColmapPoint>& points, std::ostream* stream) {
+  for (const auto& [name, point] : points) {
+    *stream << point.id;
+    for (int i = 0; i < 3; ++i) *stream << ' ' << point.p_M(i);
+    *stream << " 128 128 128 0";  // grey; the error is not known
+    for (const auto& [keyframe, corner] : point.views) {
+      *stream << ' ' << keyframe + 1 << ' ' << corner;
+    }
+    *stream << '\n';
+  }
+}
+
 }  // namespace
 
 void WriteColmapModel(const std::string& folder, const CameraParameters& camera,
                       const KeyframeMap& map) {
-  std::ofstream cameras = Open(folder, "cameras.txt");
+  std::error_code error;  // shows with the first file
+  std::filesystem::create_directories(folder, error);
   CameraParameters shifted = camera;
   shifted.cx += 0.5;
   shifted.cy += 0.5;
-  WriteCamera(shifted, &cameras);
-
   const std::map<PointName, ColmapPoint> points = CollectPoints(map);
-  std::ofstream images = Open(folder, "images.txt");
-  for (int i = 0; i < map.graph.size(); ++i) {
-    if (map.graph.Has(i)) WriteImage(camera, map, i, points, &images);
-  }
-
-  std::ofstream places = Open(folder, "points3D.txt");
-  for (const auto& [name, point] : points) {
-    places << point.id;
-    for (int i = 0; i < 3; ++i) places << ' ' << point.p_M(i);
-    places << " 128 128 128 0";  // grey; the error is not known
-    for (const auto& [keyframe, corner] : point.views)
-      places << ' ' << keyframe + 1 << ' ' << corner;
-    places << '\n';
-  }
-  if (!cameras || !images || !places) throw std::runtime_error("cannot write to " + folder);
+  WriteFile(folder, "cameras.txt", [&](std::ostream* stream) { WriteCamera(shifted, stream); });
+  WriteFile(folder, "images.txt",
+            [&](std::ostream* stream) { WriteImages(camera, map, points, stream); });
+  WriteFile(folder, "points3D.txt", [&](std::ostream* stream) { WritePoints(points, stream); });
 }
 
 }  // namespace plm_vins

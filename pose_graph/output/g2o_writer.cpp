@@ -14,9 +14,13 @@ void WriteTransform(const LevelTransform& transform, std::ostream* stream) {
   *stream << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << ' ' << q.w();
 }
 
-// The upper triangle, row by row. g2o's rotation is the vector of the quaternion: half the angle.
-void WriteInformation(const Matrix4d& covariance, std::ostream* stream) {
-  const Matrix4d information4 = covariance.inverse();
+// The upper triangle, row by row. g2o's error has the axes of `to` as measured, ours those of
+// `from`; its rotation is the vector of the quaternion: half the angle.
+void WriteInformation(const LevelEdge& edge, std::ostream* stream) {
+  Matrix4d from_axes_of_to = Matrix4d::Identity();
+  from_axes_of_to.topLeftCorner<3, 3>() = edge.T_from_to.rotation().toRotationMatrix();
+  const Matrix4d information4 =
+      from_axes_of_to.transpose() * edge.covariance.inverse() * from_axes_of_to;
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   information.topLeftCorner<3, 3>() = information4.topLeftCorner<3, 3>();
   information.topRightCorner<3, 1>() = 2 * information4.topRightCorner<3, 1>();
@@ -40,7 +44,7 @@ void WriteG2o(const KeyframeMap& map, std::ostream* stream) {
   for (const LevelEdge& edge : map.graph.edges()) {
     *stream << "EDGE_SE3:QUAT " << edge.from << ' ' << edge.to;
     WriteTransform(edge.T_from_to, stream);
-    WriteInformation(edge.covariance, stream);
+    WriteInformation(edge, stream);
     *stream << '\n';
   }
 }

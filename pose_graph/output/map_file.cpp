@@ -3,12 +3,9 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -158,25 +155,20 @@ void WriteStream(const std::string& bytes, std::ostream* stream) {
 
 }  // namespace
 
-void SaveMap(const std::string& file, const KeyframeMap& map) {
+void SaveMap(const KeyframeMap& map, ReplacedFile* file) {
   MapWriter writer;
   const KeyframeMap kept = map.Compact();
   std::vector<LevelTransform> nodes;
   nodes.reserve(kept.graph.size());
   for (int i = 0; i < kept.graph.size(); ++i) nodes.push_back(kept.graph.node(i));
   Map(&writer, kept.keyframes, std::as_const(nodes), kept.graph.edges());
-  // Readers see the old file or the new one, never half of it.
-  const std::string unfinished = file + ".part";
-  std::ofstream stream(unfinished, std::ios::binary);
-  WriteStream(writer.bytes(), &stream);
-  stream.close();
-  if (!stream) {
-    std::remove(unfinished.c_str());
-    throw std::runtime_error(file + ": the map cannot be written; check the path and the disk");
-  }
-  std::error_code error;
-  std::filesystem::rename(unfinished, file, error);
-  if (error) throw std::runtime_error(file + ": " + error.message());
+  WriteStream(writer.bytes(), &file->stream());
+  file->Commit();
+}
+
+void SaveMap(const std::string& file, const KeyframeMap& map) {
+  ReplacedFile replaced(file);
+  SaveMap(map, &replaced);
 }
 
 KeyframeMap LoadMap(const std::string& file) {

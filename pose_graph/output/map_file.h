@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "common/output_file.h"
 #include "pose_graph/keyframe_map.h"
 
 namespace plm_vins {
@@ -11,6 +12,7 @@ namespace plm_vins {
 // and edges. The file is there completely or, where that fails, as it was before. Throws
 // std::runtime_error, which names the file and says why.
 void SaveMap(const std::string& file, const KeyframeMap& map);
+void SaveMap(const KeyframeMap& map, ReplacedFile* file);
 
 // Reads it back, bit by bit. Throws std::runtime_error with one message where there is no such
 // file, it is none of a map, of another version, or damaged.

@@ -79,6 +79,13 @@ TEST_F(UpdateLandmarksTest, KeepsAPlaceThatTheNewOneDoesNotFit) {
   EXPECT_LT(LargestError(keyframes_[0]), 1e-5);
 }
 
+TEST_F(UpdateLandmarksTest, GoesOnBehindAKeyframeThatWasRemoved) {
+  SpoilDepths(&keyframes_[0]);
+  keyframes_[1].corners.clear();
+  UpdateLandmarks(kMaxError, &keyframes_);
+  EXPECT_LT(LargestError(keyframes_[0]), 1e-5);
+}
+
 TEST_F(UpdateLandmarksTest, LeavesOtherWorldsAlone) {
   SpoilDepths(&keyframes_[0]);
   keyframes_[1].world = keyframes_[2].world = 1;

@@ -62,6 +62,7 @@ class LoopCloserTest : public ::testing::Test {
       for (const LoopCandidate& candidate : last.candidates) {
         if (!candidate.failed) ++accepted_;
       }
+      confirmed_ += last.confirmed.size();
     }
     return last;
   }
@@ -70,6 +71,7 @@ class LoopCloserTest : public ::testing::Test {
   cv::Mat painting_;
   int64_t first_track_ = 0;
   int accepted_ = 0;
+  size_t confirmed_ = 0;
 };
 
 const LevelTransform kDrift = {0.001, {0.05, -0.08, 0.03}};
@@ -101,6 +103,7 @@ TEST_F(LoopCloserTest, FindsTheOldWorldAgainAfterARestart) {
   const LoopClosure found = Slide(&loops, 10, T_O_W, /*restarted=*/true);
   ASSERT_TRUE(found.fix);
   EXPECT_LT((found.fix->T_M_O * T_O_W).translation.norm(), 0.05);
+  EXPECT_EQ(confirmed_, 1u);  // the first loop waited for the second
 }
 
 TEST_F(LoopCloserTest, DoesNotKnowWhereANewWorldIs) {
@@ -147,6 +150,11 @@ TEST_F(LoopCloserTest, IsNotLargerAfterManyVisitsThanAfterAFew) {
   EXPECT_GT(accepted_, 8);
   EXPECT_LT(sizes[1], sizes[2]);
   EXPECT_LE(sizes[7], sizes[5]);
+  for (int i = 0; i < loops.map().graph.size(); ++i) {
+    if (loops.map().graph.Has(i)) continue;
+    EXPECT_EQ(loops.map().keyframes[i].corners.capacity(), 0u);
+    EXPECT_EQ(loops.map().keyframes[i].segments.capacity(), 0u);
+  }
 }
 
 TEST_F(LoopCloserTest, IsTheSameForTheSameInput) {

@@ -52,6 +52,21 @@ TEST(WriteG2o, HasNodesAndEdgesWithInformation) {
   EXPECT_FALSE(std::getline(lines, line));
 }
 
+// A loop between worlds that are turned to each other. Along x of `from` it is sure, which is along
+// -y of `to`.
+TEST(WriteG2o, HasInformationInTheAxesOfTheLaterNode) {
+  KeyframeMap map = SmallMap(*testing::SimpleCamera());
+  LevelEdge loop = {0, 1, {M_PI / 2, {0, 1, 0}}, Matrix4d::Identity(), true};
+  loop.covariance(0, 0) = 0.01;
+  map.graph.AddEdge(loop);
+  std::ostringstream text;
+  WriteG2o(map, &text);
+  const auto words = Words(text.str().substr(text.str().rfind("EDGE_SE3:QUAT")));
+  ASSERT_EQ(words.size(), 3u + 7 + 21);
+  EXPECT_NEAR(std::stod(words[10]), 1, 1e-6);    // along x
+  EXPECT_NEAR(std::stod(words[16]), 100, 1e-6);  // along y
+}
+
 class ColmapTest : public ::testing::Test {
  protected:
   ColmapTest() : camera_(testing::SimpleCamera()), map_(SmallMap(*camera_)) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
+#include <system_error>
 
 #include "offline/csv_reader.h"
 #include "offline/ordered_rows.h"
@@ -22,6 +23,17 @@ std::optional<ImuSample> ToImuSample(const CsvRow& row) {
     if (end == row.values[i].c_str() || *end != '\0') return std::nullopt;
   }
   return ImuSample{row.t_ns, Eigen::Vector3d(values), Eigen::Vector3d(values + 3)};
+}
+
+// Empty where it cannot be read.
+cv::Mat ReadImage(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(file, error)) return {};  // without OpenCV's own warning
+  try {
+    return cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  } catch (const cv::Exception&) {  // a damaged header may ask for more pixels than OpenCV allows
+    return {};
+  }
 }
 
 std::string Require(const fs::path& file) {
@@ -68,9 +80,7 @@ class AslRecording : public Recording {
   }
 
   std::optional<cv::Mat> LoadImage() override {
-    cv::Mat gray;
-    if (fs::exists(current_image_))
-      gray = cv::imread(current_image_.string(), cv::IMREAD_GRAYSCALE);
+    cv::Mat gray = ReadImage(current_image_);
     if (!gray.empty()) return gray;
     if (unreadable_images_++ == 0) first_unreadable_ = current_image_.string();
     return std::nullopt;

@@ -46,6 +46,12 @@ class Input {
     if (!stream_->read(bytes.data(), bytes.size())) throw std::runtime_error("ends in an item");
     std::memcpy(&value, bytes.data(), sizeof(T));
   }
+  void Value(bool& value) {
+    uint8_t byte = 0;
+    Value(byte);
+    if (byte > 1) throw std::runtime_error("is damaged");
+    value = byte == 1;
+  }
   template <typename T>
   void Size(std::vector<T>& values) {
     uint32_t size = 0;
@@ -128,16 +134,18 @@ void Lines(Archive* archive, Struct& tracked) {
   }
 }
 
+void RequireStamp(int64_t t_ns) {
+  if (!IsStamp(t_ns)) throw std::runtime_error("is damaged");
+}
+
 }  // namespace
 
-FeatureFileWriter::FeatureFileWriter(const std::string& file)
-    : file_(file), stream_(file, std::ios::binary) {
-  stream_.write(kSignature.data(), kSignature.size());
-  if (!stream_) throw std::runtime_error(file + ": cannot be written; check the path");
+FeatureFileWriter::FeatureFileWriter(const std::string& file) : file_(file) {
+  file_.stream().write(kSignature.data(), kSignature.size());
 }
 
 void FeatureFileWriter::Add(const TrackedItem& item) {
-  Output output(&stream_);
+  Output output(&file_.stream());
   if (!item.frame) {
     output.Value(ItemKind::kImu);
     Imu(&output, item.imu);
@@ -149,10 +157,7 @@ void FeatureFileWriter::Add(const TrackedItem& item) {
   if (frame.lines) Lines(&output, *frame.lines);
 }
 
-void FeatureFileWriter::Close() {
-  stream_.close();
-  if (!stream_) throw std::runtime_error(file_ + ": could not be written completely; disk full?");
-}
+void FeatureFileWriter::Close() { file_.Close(); }
 
 FeatureFileReader::FeatureFileReader(const std::string& file)
     : file_(file), stream_(file, std::ios::binary) {
@@ -173,12 +178,19 @@ std::optional<TrackedItem> FeatureFileReader::Next() {
     input.Value(kind);
     if (kind == ItemKind::kImu) {
       Imu(&input, item.imu);
+      RequireStamp(item.imu.t_ns);
       return item;
     }
-    if (kind > ItemKind::kPointsAndLines) throw std::runtime_error("is damaged");
+    if (kind != ItemKind::kPoints && kind != ItemKind::kPointsAndLines) {
+      throw std::runtime_error("is damaged");
+    }
     item.frame = std::make_unique<TrackedFeatures>();
     Points(&input, item.frame->points);
-    if (kind == ItemKind::kPointsAndLines) Lines(&input, item.frame->lines.emplace());
+    RequireStamp(item.t_ns());
+    if (kind == ItemKind::kPointsAndLines) {
+      Lines(&input, item.frame->lines.emplace());
+      RequireStamp(item.frame->lines->features.t_ns);
+    }
     return item;
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(file_ + ": " + error.what() + "; write it again with --save-features");

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/measurements.h"
+#include "common/output_file.h"
 #include "offline/feature_trackers.h"
 
 namespace plm_vins {
@@ -25,17 +26,14 @@ struct TrackedItem {
 // good for comparisons, not for keeping.
 class FeatureFileWriter {
  public:
-  // Throws std::runtime_error where the file cannot be written.
+  // What cannot be written, here or in Close(), throws std::runtime_error that names the file.
   explicit FeatureFileWriter(const std::string& file);
 
   void Add(const TrackedItem& item);
-
-  // Throws std::runtime_error where not all could be written, for instance on a full disk.
   void Close();
 
  private:
-  std::string file_;
-  std::ofstream stream_;
+  OutputFile file_;
 };
 
 // Reads such a file: the same items, bit by bit.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "common/config.h"
+#include "common/output_file.h"
 #include "offline/odometry_pipeline.h"
 #include "pose_graph/loop_closer.h"
 #include "pose_graph/map_trajectory.h"
@@ -22,29 +22,31 @@ namespace plm_vins {
 // end), loops.csv, pose_graph.g2o and the COLMAP model in colmap/.
 class LoopResults {
  public:
-  // Opens the files. Throws std::runtime_error where that is not possible, or where the map to
-  // start in (`map_in`, empty: none) cannot be read.
-  LoopResults(const Config& config, const std::string& folder, const std::string& map_in);
+  // Opens the files; starts in a map where there is one. Here and in Finish() std::runtime_error
+  // names the file that cannot be written.
+  LoopResults(const Config& config, const std::string& folder, std::optional<KeyframeMap> map);
 
   // Takes the next image. Throws std::runtime_error where it has no pixels.
   void Add(const PipelineFrame& frame);
 
-  // Completes all files and saves the map to `map_out`; empty: it is not saved.
-  void Finish(const std::string& map_out);
+  // Completes all files.
+  void Finish();
+
+  const KeyframeMap& map() const { return loops_.map(); }
 
   // Counts and times, for summary.json.
   Json Summary() const;
 
  private:
-  std::ofstream Open(const std::string& name) const;
+  std::string File(const std::string& name) const;
   void Count(const LoopClosure& closure, double milliseconds);
   void WriteFinalTrajectory() const;
 
   std::string folder_;
   std::shared_ptr<const CameraModel> camera_;
   LoopCloser loops_;
-  std::ofstream trajectory_;
-  std::ofstream table_;
+  OutputFile trajectory_;
+  OutputFile table_;
   std::string restart_reason_;  // of a world without a pose yet; empty: there is none
   std::vector<OdometryPose> poses_;
   std::vector<std::pair<size_t, std::string>> worlds_;  // first pose of each but the first, reason
@@ -52,6 +54,7 @@ class LoopResults {
   int64_t keyframes_ = 0;
   int64_t candidates_ = 0;
   int64_t accepted_ = 0;
+  int64_t dropped_ = 0;                           // of the accepted, by the graph later
   std::array<int64_t, kLoopGates> refused_ = {};  // by gate
   std::vector<std::array<double, 1>> keyframe_ms_;
 };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "offline/pipeline_timings.h"
+#include "offline/result_folder.h"
 #include "vins_estimator/output/calibrated_config.h"
 #include "vins_estimator/output/config_json.h"
 #include "vins_estimator/output/covariance_table.h"
@@ -21,7 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kTrackImages[] = "tracks";
 constexpr int kTrackImageQuality = 70;  // of JPEG: a few ten kB per image
 
 void SetPointTracking(const PointTrackerStatistics& points, FrameCounts* counts) {
@@ -88,53 +88,42 @@ std::vector<Landmark> Staying(const std::vector<Landmark>& in_window,
   return staying;
 }
 
-std::string MakeFolder(const std::string& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
-    throw std::runtime_error("cannot make the output folder " + folder + ": " +
-                             (error ? error.message() : "not a folder"));
-  }
-  return folder;
+// A path that is no UTF-8 is no reason to do without a summary.
+std::string ToText(const Json& json) {
+  return json.dump(2, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
 
 ResultFiles::ResultFiles(const std::string& folder)
-    : folder_(MakeFolder(folder)),
-      trajectory_(Open("trajectory.tum")),
-      covariance_(Open("covariance.csv")),
-      timing_(Open("timing.csv")),
-      map_(Open("map.ply")) {
-  // Of an earlier run:
-  fs::remove_all(fs::path(folder_) / kTrackImages);
-  fs::remove(fs::path(folder_) / kCalibratedConfigFile);
-  WriteCovarianceHeader(&covariance_);
-  WriteFrameHeader(&timing_);
+    : folder_(PrepareResultFolder(folder)),
+      trajectory_(File("trajectory.tum")),
+      covariance_(File("covariance.csv")),
+      timing_(File("timing.csv")),
+      map_(File("map.ply")) {
+  WriteCovarianceHeader(&covariance_.stream());
+  WriteFrameHeader(&timing_.stream());
 }
 
-std::ofstream ResultFiles::Open(const std::string& name) const {
-  const fs::path file = fs::path(folder_) / name;
-  std::ofstream stream(file);
-  if (!stream) throw std::runtime_error("cannot write " + file.string());
-  return stream;
+std::string ResultFiles::File(const std::string& name) const {
+  return (fs::path(folder_) / name).string();
 }
 
 void ResultFiles::Add(const PipelineFrame& frame) {
   const EstimatorOutput& output = frame.output;
   const FrameTimings timings = TimingsOf(frame);
   const FrameCounts counts = MakeCounts(frame);
-  WriteFrameRow(output.t_ns, timings, counts, &timing_);
+  WriteFrameRow(output.t_ns, timings, counts, &timing_.stream());
   summary_.Add(output, timings, counts);
   if (output.restarted) {
-    trajectory_ << FormatTumRestart(output.reason);
+    trajectory_.stream() << FormatTumRestart(output.reason);
     EndWorld();
   }
   AddMapPoints(output.departed_points);
   AddMapLines(output.departed_lines);
   if (!output.has_pose) return;
-  trajectory_ << FormatTumRow(output.t_ns, output.state.T_W_B());
-  WriteCovarianceRow(output.t_ns, output.pose_covariance, &covariance_);
+  trajectory_.stream() << FormatTumRow(output.t_ns, output.state.T_W_B());
+  WriteCovarianceRow(output.t_ns, output.pose_covariance, &covariance_.stream());
   window_points_ = Staying(output.points, output.departed_points);
   window_lines_ = Staying(output.lines, output.departed_lines);
 }
@@ -161,9 +150,8 @@ void ResultFiles::EndWorld() {
 
 void ResultFiles::WriteAnnotatedImage(const std::string& name, const cv::Mat& image,
                                       const std::vector<int>& format) const {
-  const fs::path file = fs::path(folder_) / name;
-  if (!image.empty() && !cv::imwrite(file.string(), image, format)) {
-    throw std::runtime_error("cannot write " + file.string());
+  if (!image.empty() && !cv::imwrite(File(name), image, format)) {
+    throw std::runtime_error("cannot write " + File(name));
   }
 }
 
@@ -172,7 +160,7 @@ void ResultFiles::WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv:
   cv::Mat image = points;
   if (!lines.empty()) cv::hconcat(points, lines, image);
   cv::resize(image, image, {}, 0.5, 0.5, cv::INTER_AREA);
-  MakeFolder((fs::path(folder_) / kTrackImages).string());
+  fs::create_directories(File(kTrackImages));
   WriteAnnotatedImage(fs::path(kTrackImages) / (std::to_string(t_ns) + ".jpg"), image,
                       {cv::IMWRITE_JPEG_QUALITY, kTrackImageQuality});
 }
@@ -180,25 +168,36 @@ void ResultFiles::WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv:
 void ResultFiles::Finish(RunSummary::Run run, const Config& config, const Json& loops) {
   EndWorld();
   map_.Finish();
-  trajectory_.close();
-  timing_.close();
-  if (!trajectory_ || !timing_)
-    throw std::runtime_error("cannot write to " + folder_ + ": disk full?");
-  std::ofstream ply = Open("lines.ply");
-  WriteSegmentsPly(lines_, &ply);
-  std::ofstream obj = Open("lines.obj");
-  WriteSegmentsObj(lines_, &obj);
+  trajectory_.Close();
+  covariance_.Close();
+  timing_.Close();
+  WriteLines();
   run.map_points = map_.size();
   run.map_lines = static_cast<int64_t>(lines_.size());
+  WriteSummary(run, config, loops);
+  if (summary_.poses() > 0 && RefinesCalibration(config.sensor)) {
+    SaveCalibratedConfig(summary_.calibration(), config, File(kCalibratedConfigFile));
+  }
+}
+
+void ResultFiles::WriteLines() const {
+  OutputFile ply(File("lines.ply"));
+  WriteSegmentsPly(lines_, &ply.stream());
+  ply.Close();
+  OutputFile obj(File("lines.obj"));
+  WriteSegmentsObj(lines_, &obj.stream());
+  obj.Close();
+}
+
+void ResultFiles::WriteSummary(const RunSummary::Run& run, const Config& config,
+                               const Json& loops) const {
   Json summary = summary_.ToJson(run);
   if (!loops.is_null()) summary["loops"] = loops;
   summary["version"] = PLM_VINS_VERSION;
   summary["config"] = ToJson(config);
-  Open("summary.json") << summary.dump(2) << "\n";
-  if (summary_.poses() > 0 && RefinesCalibration(config.sensor)) {
-    const fs::path file = fs::path(folder_) / kCalibratedConfigFile;
-    SaveCalibratedConfig(summary_.calibration(), config, file.string());
-  }
+  ReplacedFile file(File("summary.json"));
+  file.stream() << ToText(summary);
+  file.Commit();
 }
 
 }  // namespace plm_vins

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -10,19 +9,21 @@
 #include <vector>
 
 #include "common/config.h"
+#include "common/output_file.h"
 #include "offline/odometry_pipeline.h"
 #include "vins_estimator/output/ply_writer.h"
 #include "vins_estimator/output/run_summary.h"
 
 namespace plm_vins {
 
-// The folder of results of an offline run: trajectory.tum, covariance.csv, timing.csv,
+// Results of an offline run in their folder: trajectory.tum, covariance.csv, timing.csv,
 // summary.json, map.ply, lines.ply, lines.obj, tracks.png, line_tracks.png, tracks/, and
 // calibrated.yaml where the calibration is refined. Rows are written as frames come, which keeps
 // memory small.
 class ResultFiles {
  public:
-  // Makes the folder and opens the files. Throws std::runtime_error where that is not possible.
+  // Prepares the folder and opens the files. What cannot be written, here or later, throws
+  // std::runtime_error that names it.
   explicit ResultFiles(const std::string& folder);
 
   void Add(const PipelineFrame& frame);
@@ -42,17 +43,19 @@ class ResultFiles {
   const RunSummary& summary() const { return summary_; }
 
  private:
-  std::ofstream Open(const std::string& name) const;
+  std::string File(const std::string& name) const;
   void AddMapPoints(const std::vector<MapPoint>& points);
   // A line that is there already, since it came back into view, is replaced.
   void AddMapLines(const std::vector<MapLine>& lines);
   // The landmarks in the window go into the map; ids start over.
   void EndWorld();
+  void WriteLines() const;
+  void WriteSummary(const RunSummary::Run& run, const Config& config, const Json& loops) const;
 
   std::string folder_;
-  std::ofstream trajectory_;
-  std::ofstream covariance_;
-  std::ofstream timing_;
+  OutputFile trajectory_;
+  OutputFile covariance_;
+  OutputFile timing_;
   PlyPointWriter map_;
   std::vector<Segment> lines_;
   std::unordered_map<int64_t, size_t> line_places_;  // in lines_, by id in this world frame

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cinttypes>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -16,9 +15,11 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "common/config.h"
+#include "common/output_file.h"
 #include "common/progress_display.h"
 #include "common/stopwatch.h"
 #include "offline/asl_recording.h"
@@ -26,6 +27,7 @@
 #include "offline/loop_results.h"
 #include "offline/odometry_pipeline.h"
 #include "offline/result_files.h"
+#include "pose_graph/output/map_file.h"
 
 namespace plm_vins {
 namespace {
@@ -46,6 +48,8 @@ struct Arguments {
   int threads = 4;
 };
 
+constexpr double kMostSeconds = 1e9;  // stamps count nanoseconds in 64 bits
+
 // The message of what is wrong with the argument of --set; empty where nothing is.
 std::string CheckOverride(const std::string& text) {
   const size_t equals = text.find('=');
@@ -58,8 +62,8 @@ std::string CheckSeconds(const std::string& text) {
   char* end = nullptr;
   const double seconds = std::strtod(text.c_str(), &end);
   const bool is_number = end != text.c_str() && *end == '\0';
-  const bool valid = is_number && std::isfinite(seconds) && seconds >= 0;
-  return valid ? "" : "expected seconds, zero or more, instead of " + text;
+  const bool valid = is_number && seconds >= 0 && seconds <= kMostSeconds;
+  return valid ? "" : "expected seconds, zero to 1e9, instead of " + text;
 }
 
 void Declare(Arguments* arguments, CLI::App* app) {
@@ -154,6 +158,16 @@ struct Source {
   DropCounts problems;
 };
 
+RunSummary::Run Describe(const Source& source, const OdometryPipeline& pipeline) {
+  RunSummary::Run run;
+  run.input = source.name;
+  run.images = pipeline.images();
+  run.first_image_ns = pipeline.first_image_ns();
+  run.drops = source.problems;
+  Append(pipeline.drops(), &run.drops);
+  return run;
+}
+
 Source RunFromImages(const Arguments& arguments, Recording* recording,
                      const FrameCallback& on_frame, OdometryPipeline* pipeline) {
   ProgressDisplay progress(recording->end_ns(), arguments.duration);
@@ -172,12 +186,13 @@ Source RunFromFeatures(const Arguments& arguments, FeatureFileReader* features,
   return {arguments.features, {}};
 }
 
-// Features that are read while they are written would be lost.
+// What is read while it is written would be lost.
 void CheckSavedFeatures(const Arguments& arguments) {
-  std::error_code error;  // a file that is not there is no other's
-  if (std::filesystem::equivalent(arguments.features, arguments.saved_features, error)) {
-    throw std::runtime_error("--save-features would overwrite the input of --features, " +
-                             arguments.features);
+  for (const std::string& input : {arguments.features, arguments.bag}) {
+    std::error_code error;  // a file that is not there is no other's
+    if (std::filesystem::equivalent(input, arguments.saved_features, error)) {
+      throw std::runtime_error("--save-features would overwrite the input, " + input);
+    }
   }
 }
 
@@ -194,10 +209,10 @@ Config Configure(const Arguments& arguments) {
   return config;
 }
 
-// The map to start in; empty: none.
-std::string MapToStartIn(const Arguments& arguments, const PoseGraphConfig& config) {
-  if (!arguments.map_in.empty()) return arguments.map_in;
-  return config.load_previous ? config.MapFile() : "";
+std::optional<KeyframeMap> MapToStartIn(const Arguments& arguments, const PoseGraphConfig& config) {
+  if (!arguments.map_in.empty()) return LoadMap(arguments.map_in);
+  if (config.loop_closure && config.load_previous) return LoadMap(config.MapFile());
+  return std::nullopt;
 }
 
 void ShowTracks(double interval, const ResultFiles* results, OdometryPipeline* pipeline) {
@@ -212,7 +227,7 @@ int Run(const Arguments& arguments) {
   CheckSavedFeatures(arguments);
   const Config config = Configure(arguments);
   Warn(IgnoredKeysWarning(config));
-  // The input first: where there is none, earlier results in the folder stay as they are.
+  // What may be missing comes first: where it is, earlier results in the folder stay as they are.
   std::unique_ptr<Recording> recording;
   std::optional<FeatureFileReader> features;
   if (arguments.features.empty()) {
@@ -220,17 +235,18 @@ int Run(const Arguments& arguments) {
   } else {
     features.emplace(arguments.features);
   }
-  ResultFiles results(arguments.output);
+  std::optional<KeyframeMap> map = MapToStartIn(arguments, config.pose_graph);
+  std::optional<ReplacedFile> map_out;
+  if (!arguments.map_out.empty()) map_out.emplace(arguments.map_out);
   OdometryPipeline pipeline(config);
-  ShowTracks(arguments.track_image_interval, &results, &pipeline);
   std::optional<FeatureFileWriter> saved_features;
   if (!arguments.saved_features.empty()) {
     pipeline.SaveFeatures(&saved_features.emplace(arguments.saved_features));
   }
+  ResultFiles results(arguments.output);
+  ShowTracks(arguments.track_image_interval, &results, &pipeline);
   std::optional<LoopResults> loops;
-  if (config.pose_graph.loop_closure) {
-    loops.emplace(config, arguments.output, MapToStartIn(arguments, config.pose_graph));
-  }
+  if (config.pose_graph.loop_closure) loops.emplace(config, arguments.output, std::move(map));
   const auto on_frame = [&](const PipelineFrame& frame) {
     results.Add(frame);
     if (loops) loops->Add(frame);
@@ -238,20 +254,15 @@ int Run(const Arguments& arguments) {
   const Stopwatch stopwatch;
   const Source source = features ? RunFromFeatures(arguments, &*features, on_frame, &pipeline)
                                  : RunFromImages(arguments, recording.get(), on_frame, &pipeline);
-  results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
-  results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());
-  if (saved_features) saved_features->Close();
-  if (loops) loops->Finish(arguments.map_out);
-
-  RunSummary::Run run;
-  run.input = source.name;
-  run.images = pipeline.images();
-  run.first_image_ns = pipeline.first_image_ns();
+  RunSummary::Run run = Describe(source, pipeline);
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
-  run.drops = source.problems;
-  Append(pipeline.drops(), &run.drops);
   Warn(pipeline.imu_contradiction());
   results.Finish(run, config, loops ? loops->Summary() : Json());
+  results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
+  results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());
+  if (loops) loops->Finish();
+  if (map_out) SaveMap(loops->map(), &*map_out);
+  if (saved_features) saved_features->Close();
   return Report(run, pipeline.unused_images(), results);
 }
 

@@ -35,6 +35,14 @@ class AslRecording : public ::testing::Test {
   testing::TemporaryFolder folder_;
 };
 
+// OpenCV throws at such sizes.
+TEST_F(AslRecording, CountsAnImageWhoseHeaderAsksForTooMuch) {
+  folder_.Write("mav0/cam0/data/a.png", "P5 2000000 2000000 255 ");
+  folder_.Write("mav0/cam0/data.csv", "10,a.png\n20," + std::string(300, 'b') + ".png\n30,c.png\n");
+  const auto contents = ReadAll(OpenAslFolder(folder_.path()).get());
+  EXPECT_EQ(contents.problems.at("images_unreadable"), 2);
+}
+
 TEST_F(AslRecording, MergesByTimeWithTheImuFirst) {
   const auto recording = OpenAslFolder(folder_.path());
   EXPECT_EQ(recording->end_ns(), 30);

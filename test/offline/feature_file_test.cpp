@@ -112,5 +112,27 @@ TEST_F(FeatureFile, SaysWhereAFileEndsTooEarlyOrIsDamaged) {
   EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
 }
 
+// As a file has them that was being written when the power went.
+TEST_F(FeatureFile, DoesNotTakeZerosForAnImage) {
+  Write();
+  std::ofstream(file_, std::ios::app | std::ios::binary) << std::string(46, '\0');
+  EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
+}
+
+TEST_F(FeatureFile, WithstandsDamageOfEveryByte) {
+  Write();
+  const std::string bytes = folder_.Read("flight.features");
+  int refused = 0;
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    for (const char damage : {'\x00', '\x02', '\x7f', '\xff'}) {
+      std::string damaged = bytes;
+      damaged[i] = damage;
+      std::ofstream(file_, std::ios::binary) << damaged;
+      refused += ErrorOf(file_).empty() ? 0 : 1;
+    }
+  }
+  EXPECT_GT(refused, 4 * 16);  // those of the signature, and others
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -6,14 +6,17 @@
 
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <sstream>
 
+#include "pose_graph/output/map_file.h"
 #include "test/testing/temporary_folder.h"
 
 namespace plm_vins {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 class LoopResultsTest : public ::testing::Test {
  protected:
@@ -53,9 +56,9 @@ class LoopResultsTest : public ::testing::Test {
 };
 
 TEST_F(LoopResultsTest, WritesAllFilesOfARun) {
-  LoopResults results(config_, folder_.path(), "");
+  LoopResults results(config_, folder_.path(), std::nullopt);
   for (int i = 0; i < 4; ++i) results.Add(FrameAt(0.15 * i));
-  results.Finish("");
+  results.Finish();
   EXPECT_EQ(Rows("trajectory_map.tum"), 4);
   EXPECT_EQ(Rows("trajectory_final.tum"), 4);
   EXPECT_THAT(folder_.Read("loops.csv"), HasSubstr("result"));
@@ -69,43 +72,46 @@ TEST_F(LoopResultsTest, WritesAllFilesOfARun) {
 }
 
 TEST_F(LoopResultsTest, WaitsForPoses) {
-  LoopResults results(config_, folder_.path(), "");
+  LoopResults results(config_, folder_.path(), std::nullopt);
   PipelineFrame without = FrameAt(0);
   without.output.has_pose = false;
   results.Add(without);
-  results.Finish("");
+  results.Finish();
   EXPECT_EQ(Rows("trajectory_final.tum"), 0);
   EXPECT_TRUE(results.Summary()["first_fix_s"].is_null());
 }
 
 TEST_F(LoopResultsTest, SaysInTheTrajectoryWhereAWorldBeginsThatIsNotInTheMap) {
-  LoopResults results(config_, folder_.path(), "");
+  LoopResults results(config_, folder_.path(), std::nullopt);
   for (int i = 0; i < 3; ++i) results.Add(FrameAt(0.4 * i));
   PipelineFrame restarted = FrameAt(0);
   restarted.output.restarted = true;
   restarted.output.reason = "no image for 3 s";
   results.Add(restarted);
-  results.Finish("");
+  results.Finish();
   EXPECT_THAT(folder_.Read("trajectory_final.tum"), HasSubstr("no image for 3 s"));
   EXPECT_EQ(Rows("trajectory_final.tum"), 4);
   EXPECT_EQ(Rows("trajectory_map.tum"), 3);  // where the new world is, is not known
 }
 
-TEST_F(LoopResultsTest, SavesAMapAndStartsInIt) {
+TEST_F(LoopResultsTest, StartsInAMap) {
   const std::string file = folder_.File("map.plm");
   {
-    LoopResults results(config_, folder_.path(), "");
+    LoopResults results(config_, folder_.path(), std::nullopt);
     for (int i = 0; i < 3; ++i) results.Add(FrameAt(0.4 * i));
-    results.Finish(file);
+    SaveMap(file, results.map());
   }
-  LoopResults results(config_, folder_.path(), file);
+  LoopResults results(config_, folder_.path(), LoadMap(file));
   results.Add(FrameAt(0));
   EXPECT_EQ(results.Summary()["map_keyframes"], 4);
   EXPECT_TRUE(results.Summary()["first_fix_s"].is_null());
+  results.Finish();
+  // Its only world is not joined to the map, so that its pose is not in the map's frame.
+  EXPECT_THAT(folder_.Read("trajectory_final.tum"), StartsWith("# the world frame starts anew"));
 }
 
 TEST_F(LoopResultsTest, WantsImages) {
-  LoopResults results(config_, folder_.path(), "");
+  LoopResults results(config_, folder_.path(), std::nullopt);
   PipelineFrame frame = FrameAt(0);
   frame.image.gray.release();
   EXPECT_THROW(results.Add(frame), std::runtime_error);
@@ -113,7 +119,7 @@ TEST_F(LoopResultsTest, WantsImages) {
 
 TEST_F(LoopResultsTest, NamesTheFolderThatItCannotWriteTo) {
   try {
-    const LoopResults results(config_, folder_.File("missing"), "");
+    const LoopResults results(config_, folder_.File("missing"), std::nullopt);
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("missing"));

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 
@@ -12,6 +14,8 @@
 
 namespace plm_vins {
 namespace {
+
+namespace fs = std::filesystem;
 
 using ::testing::HasSubstr;
 
@@ -62,6 +66,36 @@ TEST(ResultFiles, ATrackImageHasPointsAndLinesSideBySide) {
   EXPECT_TRUE(cv::imread(folder.File("run/tracks/9.jpg")).empty());
   const ResultFiles next_run(folder.File("run"));
   EXPECT_TRUE(cv::imread(folder.File("run/tracks/7.jpg")).empty());
+}
+
+TEST(ResultFiles, TakeThePlaceOfThoseOfAnEarlierRun) {
+  const testing::TemporaryFolder folder;
+  for (const char* name : {"trajectory_map.tum", "loops.csv", "colmap/images.txt", "summary.json",
+                           "line_tracks.png", "tracks/1403636579.jpg"}) {
+    folder.Write(name, "of the run before");
+  }
+  for (const char* name : {"notes.txt", "tracks/gps.log", "tracks/start.jpg"}) {
+    folder.Write(name, "of somebody else");
+  }
+  const ResultFiles results(folder.path());
+  EXPECT_FALSE(fs::exists(folder.File("trajectory_map.tum")));
+  EXPECT_FALSE(fs::exists(folder.File("loops.csv")));
+  EXPECT_FALSE(fs::exists(folder.File("colmap")));
+  EXPECT_FALSE(fs::exists(folder.File("summary.json")));
+  EXPECT_FALSE(fs::exists(folder.File("line_tracks.png")));
+  EXPECT_FALSE(fs::exists(folder.File("tracks/1403636579.jpg")));
+  EXPECT_EQ(folder.Read("notes.txt"), "of somebody else");
+  EXPECT_EQ(folder.Read("tracks/gps.log"), "of somebody else");
+  EXPECT_EQ(folder.Read("tracks/start.jpg"), "of somebody else");
+}
+
+TEST(ResultFiles, HoldASummaryOfARecordingWhoseNameIsNotUtf8) {
+  const testing::TemporaryFolder folder;
+  ResultFiles results(folder.path());
+  RunSummary::Run run;
+  run.input = "Aufnahme_\xfc.bag";
+  results.Finish(run, Config(), Json());
+  EXPECT_THAT(folder.Read("summary.json"), ::testing::HasSubstr("Aufnahme_"));
 }
 
 TEST(ResultFiles, AreWrittenFrameByFrame) {

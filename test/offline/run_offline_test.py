@@ -40,8 +40,8 @@ class RunOffline(unittest.TestCase):
         self.assertIn(message, result.stderr)
 
     def test_bad_options(self):
-        self.assert_refuses("expected seconds, zero or more, instead of nan", "--start", "nan")
-        self.assert_refuses("expected seconds, zero or more, instead of -2", "--duration", "-2")
+        self.assert_refuses("expected seconds, zero to 1e9, instead of nan", "--start", "nan")
+        self.assert_refuses("expected seconds, zero to 1e9, instead of -2", "--duration", "-2")
         self.assert_refuses("expected key=value instead of freq", "--set", "freq")
         self.assert_refuses("[--bag,--asl,--features]", "--bag", "flight.bag")
 
@@ -65,9 +65,20 @@ class RunOffline(unittest.TestCase):
         features.write_text("kept", encoding="utf-8")
         link = self.folder / "link.features"
         link.symlink_to(features)
-        self.assert_refuses("--save-features would overwrite the input of --features",
+        self.assert_refuses("--save-features would overwrite the input",
                             "--save-features", link, source=("--features", features))
+        self.assert_refuses("--save-features would overwrite the input",
+                            "--save-features", link, source=("--bag", features))
         self.assertEqual(features.read_text(encoding="utf-8"), "kept")
+
+    def test_earlier_results_stay_where_nothing_can_be_run(self):
+        results = self.folder / "results"
+        results.mkdir()
+        (results / "trajectory.tum").write_text("of before", encoding="utf-8")
+        self.assert_refuses("there is no such map", "--map-in", self.folder / "missing.plm")
+        self.assert_refuses("cannot write", "--map-out", self.folder / "missing" / "map.plm")
+        self.assert_refuses("cannot write", "--save-features", self.folder / "missing" / "x")
+        self.assertEqual((results / "trajectory.tum").read_text(encoding="utf-8"), "of before")
 
     def test_output_that_cannot_be_written(self):
         self.assert_refuses("cannot make the output folder", output="asl/imu0/data.csv")

@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <string>
-#include <utility>
 
 namespace plm_vins {
 namespace {
@@ -34,21 +33,22 @@ constexpr char kCoordinates[] = "property float x\nproperty float y\nproperty fl
 
 }  // namespace
 
-PlyPointWriter::PlyPointWriter(std::ofstream stream) : stream_(std::move(stream)) {
-  stream_ << kFormat << "element vertex ";
-  count_position_ = stream_.tellp();
-  stream_ << std::string(kCountWidth, ' ') << "\n" << kCoordinates << "end_header\n";
+PlyPointWriter::PlyPointWriter(const std::string& path) : file_(path) {
+  std::ostream& stream = file_.stream();
+  stream << kFormat << "element vertex ";
+  count_position_ = stream.tellp();
+  stream << std::string(kCountWidth, ' ') << "\n" << kCoordinates << "end_header\n";
 }
 
 void PlyPointWriter::Add(const Eigen::Vector3d& p_W) {
-  stream_ << FormatPoint(p_W);
+  file_.stream() << FormatPoint(p_W);
   ++size_;
 }
 
 void PlyPointWriter::Finish() {
-  stream_.seekp(count_position_);
-  stream_ << size_;
-  stream_.close();
+  file_.stream().seekp(count_position_);
+  file_.stream() << size_;
+  file_.Close();
 }
 
 void WriteSegmentsPly(const std::vector<Segment>& segments, std::ostream* stream) {

@@ -3,19 +3,20 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <fstream>
 #include <ostream>
+#include <string>
 #include <vector>
 
+#include "common/output_file.h"
 #include "vins_estimator/state/line_axis.h"
 
 namespace plm_vins {
 
 // A point cloud as ASCII PLY, written point by point, so that a long run needs no memory for it.
-// The file is complete after Finish().
+// The file is complete after Finish(). What cannot be written throws as OutputFile does.
 class PlyPointWriter {
  public:
-  explicit PlyPointWriter(std::ofstream stream);
+  explicit PlyPointWriter(const std::string& path);
 
   void Add(const Eigen::Vector3d& p_W);
   void Finish();
@@ -23,7 +24,7 @@ class PlyPointWriter {
   int64_t size() const { return size_; }
 
  private:
-  std::ofstream stream_;
+  OutputFile file_;
   std::streampos count_position_;
   int64_t size_ = 0;
 };

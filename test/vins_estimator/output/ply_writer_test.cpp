@@ -12,7 +12,7 @@ constexpr char kVertexProperties[] = "property float x\nproperty float y\nproper
 
 TEST(PlyPointWriter, FillsInTheCountAtTheEnd) {
   const testing::TemporaryFolder folder;
-  PlyPointWriter writer(std::ofstream(folder.File("map.ply")));
+  PlyPointWriter writer(folder.File("map.ply"));
   writer.Add({1, 2, 3});
   writer.Add({-0.5, 0, 1e-5});
   writer.Finish();
@@ -23,7 +23,7 @@ TEST(PlyPointWriter, FillsInTheCountAtTheEnd) {
 
 TEST(PlyPointWriter, AnEmptyMapIsValid) {
   const testing::TemporaryFolder folder;
-  PlyPointWriter(std::ofstream(folder.File("map.ply"))).Finish();
+  PlyPointWriter(folder.File("map.ply")).Finish();
   EXPECT_EQ(folder.Read("map.ply"),
             std::string("ply\nformat ascii 1.0\nelement vertex 0           \n") +
                 kVertexProperties + "end_header\n");

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <exception>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "common/ros/msg_conversion.h"
@@ -90,13 +89,9 @@ MavrosRelayNode::MavrosRelayNode() {
 
 RelayGate::Options MavrosRelayNode::ReadOptions() const {
   RelayGate::Options options;
-  const auto read = [&](const std::string& name, double* value) {
-    *value = private_node_.param(name, *value);
-    if (!(*value > 0)) throw std::invalid_argument("~" + name + " must be above zero");
-  };
-  read("rate", &options.rate);
-  read("max_age", &options.max_age);
-  read("min_pause", &options.min_pause);
+  options.rate = private_node_.param("rate", options.rate);
+  options.max_age = private_node_.param("max_age", options.max_age);
+  options.min_pause = private_node_.param("min_pause", options.min_pause);
   return options;
 }
 

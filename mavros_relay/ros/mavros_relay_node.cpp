@@ -68,7 +68,7 @@ class MavrosRelayNode {
   bool was_interrupted_ = true;
   std::optional<Rigid3d> T_body_base_;
   std::optional<RobotBase> base_;  // where that is not given
-  ros::Publisher publisher_ = node_.advertise<nav_msgs::Odometry>("/mavros/odometry/out", 10);
+  ros::Publisher publisher_ = node_.advertise<nav_msgs::Odometry>("mavros/odometry/out", 10);
   ros::Publisher counter_ = private_node_.advertise<std_msgs::UInt8>("reset_counter", 1, true);
   ros::Subscriber images_;
   ros::Subscriber states_;
@@ -82,8 +82,8 @@ MavrosRelayNode::MavrosRelayNode() {
   }
   counter_.publish(std_msgs::UInt8());
   images_ =
-      node_.subscribe("/vins_estimator/odometry", 100, &MavrosRelayNode::AddImage, this, no_delay);
-  states_ = node_.subscribe("/vins_estimator/imu_propagate", 100, &MavrosRelayNode::AddState, this,
+      node_.subscribe("vins_estimator/odometry", 100, &MavrosRelayNode::AddImage, this, no_delay);
+  states_ = node_.subscribe("vins_estimator/imu_propagate", 100, &MavrosRelayNode::AddState, this,
                             no_delay);
 }
 

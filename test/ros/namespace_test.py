@@ -50,7 +50,7 @@ class Namespace(unittest.TestCase):
                                       ROS_NAMESPACE="robot1")
         for name in NAMES[:3]:
             listener.wait_for_message(name, "waiting")
-        self.processes.start("player", ["rosbag", "play", "--delay", "1", "--loop",
+        self.processes.start("player", ["rosbag", "play", "--delay", "1",
                                         "--prefix", "/robot1", BAG])
         listener.wait_for_message("vins_estimator", "tracking")
         listener.wait_for_value("vins_estimator", "lines_in_window",

@@ -12,6 +12,7 @@
 namespace plm_vins {
 
 constexpr double kMaxImageCoordinate = 100;  // normalised: half a degree from the image plane
+constexpr double kMaxPixel = 1e5;            // no image is as large
 constexpr double kMaxImageVelocity = 1e4;    // [1/s], at that place where the camera spins
 
 // False for what is not finite, too.
@@ -20,7 +21,8 @@ inline bool IsWithin(const Eigen::Vector2d& xy, double limit) {
 }
 
 inline bool IsPossible(const PointObservation& point) {
-  return IsWithin(point.xy, kMaxImageCoordinate) && IsWithin(point.velocity, kMaxImageVelocity);
+  return IsWithin(point.xy, kMaxImageCoordinate) && IsWithin(point.velocity, kMaxImageVelocity) &&
+         IsWithin(point.uv_px, kMaxPixel);
 }
 
 inline bool IsPossible(const LineObservation& line) {

@@ -2,6 +2,8 @@
 #include "mavros_relay/relay_gate.h"
 
 #include <cstdlib>
+#include <stdexcept>
+#include <string>
 
 #include "common/measurements.h"
 
@@ -10,7 +12,18 @@ namespace {
 
 constexpr double kMaxGap = 0.2;  // between states [s]: no restart of the estimator takes less
 
+// Throws for what is not finite, too.
+void RequireWithin(double value, double min, double max, const std::string& text) {
+  if (!(value >= min && value <= max)) throw std::invalid_argument(text);
+}
+
 }  // namespace
+
+RelayGate::RelayGate(const Options& options) : options_(options) {
+  RequireWithin(options.rate, 0.1, 1000, "rate must be 0.1 to 1000 Hz");
+  RequireWithin(options.max_age, 0.001, 1000, "max_age must be 0.001 to 1000 s");
+  RequireWithin(options.min_pause, 0.001, 1000, "min_pause must be 0.001 to 1000 s");
+}
 
 bool RelayGate::Pass(int64_t t_ns) {
   const bool continues =

@@ -15,12 +15,13 @@ namespace plm_vins {
 class RelayGate {
  public:
   struct Options {
-    double rate = 30;        // [Hz]
-    double max_age = 0.5;    // of the newest image's estimate [s]
-    double min_pause = 1.0;  // of what goes on, at an interruption [s]
+    double rate = 30;        // [Hz], 0.1 to 1000
+    double max_age = 0.5;    // of the newest image's estimate [s], 0.001 to 1000
+    double min_pause = 1.0;  // of what goes on, at an interruption [s], 0.001 to 1000
   };
 
-  explicit RelayGate(const Options& options) : options_(options) {}
+  // Throws std::invalid_argument, which names the option, where one is out of its range.
+  explicit RelayGate(const Options& options);
 
   // An image has been estimated.
   void AddImage(int64_t t_ns) { image_ns_ = t_ns; }

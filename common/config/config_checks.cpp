@@ -77,9 +77,11 @@ void CheckTopics(const SensorConfig& sensor, const Report& report) {
 // tf2 refuses names with a leading slash, and each frame has one parent.
 void CheckFrames(const Config& config, const Report& report) {
   const OutputConfig& output = config.output;
-  std::vector<std::pair<const char*, std::string>> frames = {{"world_frame", output.world_frame},
-                                                             {"body_frame", output.body_frame},
-                                                             {"camera_frame", output.camera_frame}};
+  std::vector<std::pair<const char*, std::string>> frames = {
+      {"world_frame", output.world_frame},
+      {"body_frame", output.body_frame},
+      {"camera_frame", output.camera_frame},
+      {"manhattan_frame", output.manhattan_frame}};
   if (config.pose_graph.loop_closure) frames.emplace_back("map_frame", output.map_frame);
   if (!output.base_frame.empty()) frames.emplace_back("base_frame", output.base_frame);
   std::map<std::string, std::string> key_of_name;

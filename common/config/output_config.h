@@ -13,6 +13,7 @@ struct OutputConfig {
   std::string world_frame = "world";
   std::string body_frame = "body";
   std::string camera_frame = "camera";
+  std::string manhattan_frame = "manhattan";
   std::string base_frame;  // of a robot whose own tree leads to the body; empty: none
   bool publish_tf = true;
 };

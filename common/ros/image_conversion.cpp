@@ -5,15 +5,31 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <boost/make_shared.hpp>
+#include <cstdint>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "common/ros/msg_conversion.h"
 
 namespace plm_vins {
 namespace {
+
+// cv_bridge counts the bytes in 32 bits, which rows far apart overflow: it would take the image,
+// and its pixels would lie far behind the message.
+void CheckSize(const sensor_msgs::Image& image) {
+  namespace encodings = sensor_msgs::image_encodings;
+  const auto pixel_bits = static_cast<uint64_t>(encodings::numChannels(image.encoding)) *
+                          static_cast<uint64_t>(encodings::bitDepth(image.encoding));
+  const uint64_t row = uint64_t{image.width} * pixel_bits / 8;
+  if (image.step >= row && uint64_t{image.height} * image.step == image.data.size()) return;
+  throw std::invalid_argument(std::to_string(image.data.size()) + " bytes are not " +
+                              std::to_string(image.height) + " rows of " +
+                              std::to_string(image.step) + " bytes for " +
+                              std::to_string(image.width) + " pixels");
+}
 
 // Shares the message's pixels where they are grey. Drivers that do not care announce grey images by
 // their OpenCV type, which cv_bridge converts only to itself.
@@ -41,10 +57,11 @@ cv::Mat Decode(const std::vector<uint8_t>& bytes) {
 
 ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message) {
   try {
+    CheckSize(*message);
     const cv_bridge::CvImageConstPtr gray = ToGrey(message);
     return {ToNanoseconds(message->header.stamp), gray->image,
             std::make_shared<cv_bridge::CvImageConstPtr>(gray)};
-  } catch (const std::exception& error) {  // cv_bridge::Exception or cv::Exception
+  } catch (const std::exception& error) {  // cv_bridge's and cv's exceptions among others
     throw std::invalid_argument("image of encoding '" + message->encoding +
                                 "' cannot be made grey: " + error.what());
   }

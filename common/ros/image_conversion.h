@@ -14,8 +14,9 @@
 namespace plm_vins {
 
 // Grey image of any encoding that cv_bridge can turn into one (mono8, mono16, bgr8, rgb8, Bayer,
-// ...). Throws std::invalid_argument that names the encoding where there is no way. Pixels that are
-// grey already stay where they are: the sample then owns a share of the message.
+// ...). Throws std::invalid_argument that names the encoding where there is no way, or where the
+// bytes are not those of an image of that size. Pixels that are grey already stay where they are:
+// the sample then owns a share of the message.
 ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message);
 // The same from a message that may go: with pixels of its own.
 ImageSample ToImageSample(const sensor_msgs::Image& message);

@@ -13,6 +13,19 @@
 #include "common/ros/node_config.h"
 
 namespace plm_vins {
+namespace {
+
+constexpr double kClockPatience = 10;  // [s]: a player opens its bag first
+
+// Parameters outlive a launch: a bag's leaves live sensors with a clock that stands still.
+void WarnWithoutClock() {
+  if (ros::Time::isValid()) return;
+  ROS_WARN(
+      "/use_sim_time is set, but no time comes on /clock: play the bag with --clock; for live "
+      "sensors, rosparam delete /use_sim_time and start all nodes again");
+}
+
+}  // namespace
 
 int RunNode(int argc, char** argv, const std::string& name,
             const std::function<void(const Config&)>& body) {
@@ -32,6 +45,9 @@ int RunNode(int argc, char** argv, const std::string& name,
 }
 
 void Spin() {
+  const ros::WallTimer clock_check = ros::NodeHandle().createWallTimer(
+      ros::WallDuration(kClockPatience), [](const ros::WallTimerEvent&) { WarnWithoutClock(); },
+      /*oneshot=*/true);
   while (ros::ok()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
     // A queue that is shut down does not wait: ros::spin() is busy from then on, for a tenth of a

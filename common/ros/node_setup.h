@@ -20,7 +20,8 @@ namespace plm_vins {
 int RunNode(int argc, char** argv, const std::string& name,
             const std::function<void(const Config&)>& body);
 
-// Calls the callbacks of the global queue until ROS has shut down.
+// Calls the callbacks of the global queue until ROS has shut down. Warns where the time is to come
+// from /clock, and does not.
 void Spin();
 
 // Runs what must not end a node, whatever came in: an exception is logged (not all of them where

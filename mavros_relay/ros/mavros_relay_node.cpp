@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <exception>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "common/ros/msg_conversion.h"
@@ -69,7 +68,7 @@ class MavrosRelayNode {
   bool was_interrupted_ = true;
   std::optional<Rigid3d> T_body_base_;
   std::optional<RobotBase> base_;  // where that is not given
-  ros::Publisher publisher_ = node_.advertise<nav_msgs::Odometry>("/mavros/odometry/out", 10);
+  ros::Publisher publisher_ = node_.advertise<nav_msgs::Odometry>("mavros/odometry/out", 10);
   ros::Publisher counter_ = private_node_.advertise<std_msgs::UInt8>("reset_counter", 1, true);
   ros::Subscriber images_;
   ros::Subscriber states_;
@@ -83,20 +82,16 @@ MavrosRelayNode::MavrosRelayNode() {
   }
   counter_.publish(std_msgs::UInt8());
   images_ =
-      node_.subscribe("/vins_estimator/odometry", 100, &MavrosRelayNode::AddImage, this, no_delay);
-  states_ = node_.subscribe("/vins_estimator/imu_propagate", 100, &MavrosRelayNode::AddState, this,
+      node_.subscribe("vins_estimator/odometry", 100, &MavrosRelayNode::AddImage, this, no_delay);
+  states_ = node_.subscribe("vins_estimator/imu_propagate", 100, &MavrosRelayNode::AddState, this,
                             no_delay);
 }
 
 RelayGate::Options MavrosRelayNode::ReadOptions() const {
   RelayGate::Options options;
-  const auto read = [&](const std::string& name, double* value) {
-    *value = private_node_.param(name, *value);
-    if (!(*value > 0)) throw std::invalid_argument("~" + name + " must be above zero");
-  };
-  read("rate", &options.rate);
-  read("max_age", &options.max_age);
-  read("min_pause", &options.min_pause);
+  options.rate = private_node_.param("rate", options.rate);
+  options.max_age = private_node_.param("max_age", options.max_age);
+  options.min_pause = private_node_.param("min_pause", options.min_pause);
   return options;
 }
 

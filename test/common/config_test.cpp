@@ -285,6 +285,7 @@ TEST_F(ConfigTest, Contradictions) {
                 {"estimate_rolling_shutter_tr: needs rolling_shutter: 1"});
   ExpectProblem("acc_n: 0.1\ngyr_n: 0.1\nacc_w: 0.1", {"gyr_w: is missing; give all of"});
   ExpectProblem("base_frame: camera", {"base_frame: is the same as camera_frame"});
+  ExpectProblem("manhattan_frame: body", {"manhattan_frame: is the same as body_frame"});
   ExpectProblem("world_frame: my world", {"world_frame: must be a name without spaces"});
   ExpectProblem("world_frame: /map", {"world_frame: must not begin with a slash"});
   ExpectProblem("min_dist: 490", {"min_dist: must be smaller than the image"});

@@ -84,7 +84,8 @@ sensor_msgs::Image AnyImage(Reader* reader) {
   image.width = small ? reader->Byte() : reader->Value<uint32_t>();
   image.height = small ? reader->Byte() : reader->Value<uint32_t>();
   image.step = small ? image.width * (1 + reader->Byte() % 8) : reader->Value<uint32_t>();
-  const size_t whole = size_t{image.step} * image.height;
+  if (reader->Byte() % 4 == 0) image.step += 1U << (24 + reader->Byte() % 8);
+  const uint32_t whole = image.step * image.height;  // in 32 bits, as cv_bridge counts the bytes
   image.data.resize(std::min<size_t>(small ? whole : reader->Value<uint16_t>(), 1 << 20));
   return image;
 }
@@ -120,8 +121,10 @@ Target ChunkTarget() {
 Target MessagesTarget() {
   Bytes seed;
   for (int i = 0; i < 600; ++i) seed.push_back(static_cast<uint8_t>(7 * i));
+  // AnyImage() makes of it: mono8, 128 x 128 pixels, rows of 128 + 2^25 bytes.
+  const Bytes rows_far_apart = {0, 1, 128, 128, 0, 0, 1};
   return {
-      "messages", {seed}, [](const Bytes& bytes) {
+      "messages", {seed, rows_far_apart}, [](const Bytes& bytes) {
         int64_t left_out = 0;
         Try([&, reader = Reader(bytes)]() mutable { ToPointFrame(AnyCloud(&reader), &left_out); });
         Try([&, reader = Reader(bytes)]() mutable { ToLineFrame(AnyCloud(&reader), &left_out); });

@@ -55,17 +55,31 @@ def make_package(folder, name, launch_file, namespace, arguments):
     (package / "launch" / launch_file).write_text(f"<launch>{text}</launch>")
 
 
-def load(name, **arguments):
-    """The nodes by name, and the parameters, that a launch file gives with these arguments."""
+def configuration(file, **arguments):
+    """All that a launch file gives with these arguments."""
     words = [f"{key}:={value}" for key, value in arguments.items()]
-    config = roslaunch.config.load_config_default([(str(LAUNCH / name), words)], None,
-                                                  verbose=False, assign_machines=False)
+    return roslaunch.config.load_config_default([(str(file), words)], None, verbose=False,
+                                                assign_machines=False)
+
+
+def load(name, **arguments):
+    """The nodes by name, and the parameters, of one of our launch files."""
+    config = configuration(LAUNCH / name, **arguments)
     return ({node.name: node for node in config.nodes},
             {key: parameter.value for key, parameter in config.params.items()})
 
 
-def player_words(**arguments):
-    return shlex.split(load("plm_vins.launch", config="c.yaml", **arguments)[0]["player"].args)
+def robot_configuration(name, **arguments):
+    """As configuration() of one of our launch files, which a robot's own includes."""
+    with tempfile.NamedTemporaryFile("w", suffix=".launch") as file:
+        file.write(f'<launch><group ns="robot1"><include file="{LAUNCH / name}"'
+                   ' pass_all_args="true"/></group></launch>')
+        file.flush()
+        return configuration(file.name, **arguments)
+
+
+def player_words(name="plm_vins.launch", **arguments):
+    return shlex.split(load(name, config="c.yaml", **arguments)[0]["player"].args)
 
 
 def rviz_layout(nodes):
@@ -148,6 +162,13 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(sorted(entry.get("name") for entry in description.iter("class")),
                          sorted([*NODELETS.values(), "plm_vins/PoseGraph"]))
 
+    def test_robots_have_namespaces(self):
+        for nodelets in (False, True):
+            config = robot_configuration("px4.launch", config="c.yaml", nodelets=nodelets)
+            self.assertEqual({node.namespace for node in config.nodes}, {"/robot1/"})
+            self.assertFalse([key for key in config.params
+                              if not key.startswith(("/robot1/", "/ros", "/run_id"))])
+
     def test_templates_ask_for_a_configuration(self):
         for name in TEMPLATES:
             with self.assertRaisesRegex(Exception, "config"):
@@ -172,13 +193,29 @@ class LaunchFiles(unittest.TestCase):
     def test_options_reach_the_nodes(self):
         nodes, parameters = load("tum_vi.launch", rviz="true", image_transport="compressed",
                                  output="/results")
-        self.assertEqual(parameters["/feature_tracker/image_transport"], "compressed")
+        for tracker in NODELETS:
+            self.assertEqual(parameters[f"/{tracker}/image_transport"], "compressed")
         self.assertEqual(parameters["/vins_estimator/trajectory_file"], "/results/trajectory.tum")
         self.assertEqual(rviz_layout(nodes), "plm_vins.rviz")
+
+    def test_nodes_forget_the_options_of_an_earlier_launch(self):
+        """As parameters stay with the master."""
+        for name in ALL:
+            for nodelets in (False, True):
+                config = configuration(LAUNCH / name, config="c.yaml", bag="/a.bag",
+                                       loop_closure="true", nodelets=nodelets)
+                ours = [f"/{node.name}/" for node in config.nodes
+                        if node.package in ("plm_vins", "nodelet")]
+                self.assertIn("/pose_graph/", ours)
+                self.assertEqual(sorted(config.clear_params), sorted(ours))
 
     def test_loop_closure_shows_the_map(self):
         nodes, _ = load("euroc.launch", rviz="true", loop_closure="true")
         self.assertEqual(rviz_layout(nodes), "map.rviz")
+
+    def test_loop_closure_takes_the_images_as_the_trackers_do(self):
+        parameters = load("euroc.launch", loop_closure="true", image_transport="compressed")[1]
+        self.assertEqual(parameters["/pose_graph/image_transport"], "compressed")
 
 
 class RealSense(unittest.TestCase):
@@ -206,13 +243,18 @@ class RealSense(unittest.TestCase):
 
 class Px4(unittest.TestCase):
     def test_relay(self):
-        nodes, parameters = load("px4.launch", config="c.yaml", rate="50",
+        nodes, parameters = load("px4.launch", config="c.yaml", pose_rate="50",
                                  imu_to_base="-0.1 0 0 0 0 3.14")
         self.assertEqual((parameters["/mavros_relay/rate"], parameters["/mavros_relay/base_frame"]),
                          (50, "base_link"))
         self.assertEqual(parameters["/mavros_relay/imu_to_base"], "-0.1 0 0 0 0 3.14")
         self.assertTrue(all(nodes[name].respawn for name in ("vins_estimator", "mavros_relay")))
         self.assertNotIn("/mavros/fcu_url", parameters)
+
+    def test_a_bag_is_played_at_a_speed_of_its_own(self):
+        for arguments, speed in (({}, "1"), ({"rate": "0.5"}, "0.5")):
+            words = player_words("px4.launch", bag="/a.bag", pose_rate="50", **arguments)
+            self.assertEqual(words[words.index("--rate") + 1], speed)
 
     def test_base_that_tf_has(self):
         parameters = load("px4.launch", config="c.yaml", imu_to_base="tf")[1]

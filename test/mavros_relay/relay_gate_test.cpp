@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace plm_vins {
@@ -39,6 +42,29 @@ TEST(RelayGate, KeepsTheMeanRate) {
     EXPECT_NEAR(static_cast<double>(feed.Send(0, 10'000).size()), 10 * std::min(rate, 200.0), 1)
         << rate;
     EXPECT_EQ(feed.gate.resets(), 0);
+  }
+}
+
+void ExpectRefused(double RelayGate::Options::*option, double value, const std::string& name) {
+  RelayGate::Options options;
+  options.*option = value;
+  try {
+    const RelayGate gate(options);
+    FAIL() << name << " " << value;
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(std::string(error.what()).rfind(name + " must be", 0), 0u) << error.what();
+  }
+}
+
+// What the period, as a number of nanoseconds, cannot hold would end the program.
+TEST(RelayGate, RefusesOptionsOutOfTheirRange) {
+  using Options = RelayGate::Options;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const double value : {kInfinity, kNan, 3e9, 1e-12, 0.0, -1.0}) {
+    ExpectRefused(&Options::rate, value, "rate");
+    ExpectRefused(&Options::max_age, value, "max_age");
+    ExpectRefused(&Options::min_pause, value, "min_pause");
   }
 }
 

@@ -85,15 +85,17 @@ def start_master(folder, name):
 
 
 class Listener:
-    """Stamps [s] of odometry and features as they come, and the last status of each node."""
+    """Stamps [s] of odometry and features as they come, and the last status of each node, all of
+    them in a namespace."""
 
-    def __init__(self):
+    def __init__(self, namespace=""):
+        self._prefix = f"{namespace[1:]}/" if namespace else ""
         self.odometry = []
         self.features = []
         self._statuses = {}
-        rospy.Subscriber("/vins_estimator/odometry", Odometry,
+        rospy.Subscriber(f"{namespace}/vins_estimator/odometry", Odometry,
                          lambda message: self.odometry.append(message.header.stamp.to_sec()))
-        rospy.Subscriber("/feature_tracker/feature", PointCloud,
+        rospy.Subscriber(f"{namespace}/feature_tracker/feature", PointCloud,
                          lambda message: self.features.append(message.header.stamp.to_sec()))
         rospy.Subscriber("/diagnostics", DiagnosticArray, self._add)
 
@@ -103,7 +105,7 @@ class Listener:
             self._statuses[status.name.split(":")[0]] = {"message": status.message, **values}
 
     def value(self, node, key):
-        return self._statuses.get(node, {}).get(key, "")
+        return self._statuses.get(self._prefix + node, {}).get(key, "")
 
     def wait_for_value(self, node, key, condition):
         wait_until(lambda: condition(self.value(node, key)),

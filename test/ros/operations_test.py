@@ -118,6 +118,15 @@ class Restart(OperationsTest):
         self.check("--clock")
 
 
+class Clock(OperationsTest):
+    def test_that_an_earlier_bag_leaves_standing_is_named(self):
+        rospy.set_param("/use_sim_time", True)
+        self.addCleanup(rospy.delete_param, "/use_sim_time")
+        self.start_node("vins_estimator")
+        wait_until(lambda: "no time comes on /clock" in self.processes.log("vins_estimator"),
+                   "a warning")
+
+
 class Death(OperationsTest):
     def kill(self, name):
         self.nodes[name].kill()

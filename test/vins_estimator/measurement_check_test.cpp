@@ -77,6 +77,9 @@ TEST(MeasurementCheck, RefusesWhatNoCameraSees) {
   measurement.points.points[0].velocity.y() = std::numeric_limits<double>::infinity();
   ExpectRefused(measurement, "point 1 is nowhere in an image");
   measurement = Good();
+  measurement.points.points[1].uv_px.x() = kNan;
+  ExpectRefused(measurement, "point 2 is nowhere in an image");
+  measurement = Good();
   measurement.lines->lines[1].end.y() = -1e20;
   ExpectRefused(measurement, "line 2 is nowhere in an image");
 }

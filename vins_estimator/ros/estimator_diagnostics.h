@@ -30,8 +30,9 @@ struct FeatureMessageCounts {
 };
 
 // What /diagnostics says of the estimator: waiting (for what), initializing (why not yet), tracking
-// or lost; rates and delays of what comes in and goes out; counts. The inputs' monitors are for the
-// thread that reports, Update for the one that estimates.
+// or lost; rates and delays of what comes in and goes out; counts. The IMU's monitor is for the
+// thread that receives its samples, those of features for the thread that reports, Update for the
+// one that estimates.
 class EstimatorDiagnostics {
  public:
   EstimatorDiagnostics(const Config& config, const std::string& points_topic,

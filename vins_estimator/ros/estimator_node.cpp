@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "common/ros/msg_conversion.h"
@@ -12,10 +13,11 @@ namespace plm_vins {
 namespace {
 
 constexpr int kSubscriberQueue = 2000;
-constexpr char kPointTopic[] = "/feature_tracker/feature";
-constexpr char kLineTopic[] = "/linefeature_tracker/linefeature";
+// In the namespace of the node, so that each robot may have one of its own.
+constexpr char kPointTopic[] = "feature_tracker/feature";
+constexpr char kLineTopic[] = "linefeature_tracker/linefeature";
+constexpr char kRestartTopic[] = "feature_tracker/restart";
 constexpr char kInternalError[] = "internal error, see the log";
-constexpr char kRestartTopic[] = "/feature_tracker/restart";
 constexpr size_t kQueueCapacity = 5000;  // inputs, most of them IMU samples
 // IMU samples that gather while no image waits for them: waking a thread costs more than a sample.
 constexpr size_t kImuBatch = 20;
@@ -36,7 +38,7 @@ EstimatorNode::EstimatorNode(const Config& config)
       propagation_(config, private_node_),
       calibration_(config),
       file_at_end_(private_node_.hasParam("trajectory_file") ? TrajectoryFile() : ""),
-      diagnostics_(config, kPointTopic, kLineTopic),
+      diagnostics_(config, node_.resolveName(kPointTopic), node_.resolveName(kLineTopic)),
       stage_(config, kMaxWait),
       publisher_(config.output, private_node_) {
   const auto no_delay = ros::TransportHints().tcpNoDelay();
@@ -122,7 +124,7 @@ void EstimatorNode::RestoreIds(const boost::shared_ptr<ros::M_string>& connectio
 }
 
 void EstimatorNode::Restart(const std_msgs::Bool& message) {
-  if (message.data) queue_.Push(ResetCommand{std::string("asked for on ") + kRestartTopic});
+  if (message.data) queue_.Push(ResetCommand{"asked for on " + node_.resolveName(kRestartTopic)});
 }
 
 bool EstimatorNode::Reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
@@ -247,15 +249,17 @@ void EstimatorNode::LogFrame(const EstimatorOutput& output) const {
 
 void EstimatorNode::LogLines() {
   const bool missing = stage_.lines_are_missing();
-  if (missing && !lines_were_missing_) {
+  if (missing == lines_were_missing_) return;
+  lines_were_missing_ = missing;
+  const std::string line_topic = node_.resolveName(kLineTopic);
+  if (missing) {
     ROS_WARN("%s on %s: going on with points alone",
              stage_.lines_are_of_other_images() ? "all lines are of other images than the points"
                                                 : "no lines come in time",
-             kLineTopic);
-  } else if (!missing && lines_were_missing_) {
-    ROS_INFO("lines come in time again on %s", kLineTopic);
+             line_topic.c_str());
+  } else {
+    ROS_INFO("lines come in time again on %s", line_topic.c_str());
   }
-  lines_were_missing_ = missing;
 }
 
 }  // namespace plm_vins

@@ -59,6 +59,7 @@ visualization_msgs::Marker ToLineMarker(const std::vector<MapLine>& lines, int64
       marker.colors.push_back(ColorOf(line.axis));
     }
   }
+  if (lines.empty()) marker.action = visualization_msgs::Marker::DELETE;
   return marker;
 }
 

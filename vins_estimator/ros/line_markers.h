@@ -12,7 +12,8 @@
 
 namespace plm_vins {
 
-// Lines as one LINE_LIST: red, green, blue along the Manhattan axes x, y, z; grey where free.
+// Lines as one LINE_LIST: red, green, blue along the Manhattan axes x, y, z; grey where free. One
+// that is empty is deleted, since rviz takes it for an error.
 visualization_msgs::Marker ToLineMarker(const std::vector<MapLine>& lines, int64_t t_ns,
                                         const std::string& frame_id, const std::string& name);
 

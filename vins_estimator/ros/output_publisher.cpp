@@ -16,7 +16,6 @@ namespace plm_vins {
 namespace {
 
 constexpr int kQueue = 1000;
-constexpr char kManhattanFrame[] = "manhattan";
 constexpr double kPathStep = 0.02;      // [m] between the poses of the path
 constexpr size_t kMaxPathPoses = 5000;  // then every second one goes: the path gets coarser
 // The path is sent again when so many poses are new, which shows no lag where all of it is in view,
@@ -174,7 +173,8 @@ void OutputPublisher::PublishTransforms(const EstimatorOutput& output) {
   std::vector<geometry_msgs::TransformStamped> transforms = BodyTransforms(output);
   if (output.R_W_M) {
     const Rigid3d T_W_M(*output.R_W_M, Eigen::Vector3d::Zero());
-    transforms.push_back(ToStamped(output.t_ns, T_W_M, frames_.world_frame, kManhattanFrame));
+    transforms.push_back(
+        ToStamped(output.t_ns, T_W_M, frames_.world_frame, frames_.manhattan_frame));
   }
   broadcaster_.sendTransform(transforms);
 }

@@ -94,6 +94,28 @@ TEST(ImageConversion, RefusesTooFewBytes) {
   EXPECT_THROW(ToImageSample(image), std::invalid_argument);
 }
 
+TEST(ImageConversion, TakesRowsWithBytesToSpare) {
+  sensor_msgs::Image image = MakeImage(encodings::MONO8, {90});
+  image.width = 5;
+  EXPECT_EQ(ToImageSample(image).gray.size(), cv::Size(5, 4));
+}
+
+void ExpectRefused(const std::string& encoding, cv::Size size, uint32_t step, size_t bytes) {
+  sensor_msgs::Image image;
+  image.encoding = encoding;
+  image.width = static_cast<uint32_t>(size.width);
+  image.height = static_cast<uint32_t>(size.height);
+  image.step = step;
+  image.data.resize(bytes);
+  EXPECT_THROW(ToImageSample(image), std::invalid_argument) << encoding;
+}
+
+// In 32 bits, height * step is the number of bytes, and width * 4 is the step.
+TEST(ImageConversion, RefusesSizesThatFitIn32BitsOnly) {
+  ExpectRefused(encodings::MONO8, {752, 480}, (1U << 27) + 752, 752 * 480);
+  ExpectRefused(encodings::BGRA8, {(1 << 30) + 6, 4}, 24, 96);
+}
+
 TEST(ImageConversion, DecodesCompressedImages) {
   sensor_msgs::CompressedImage image;
   image.header.stamp = ToRosTime(kStamp);

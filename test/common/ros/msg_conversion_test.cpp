@@ -169,10 +169,12 @@ TEST(FeatureMessage, ImpossiblePointsAndRepeatedIdsAreLeftOutAndCounted) {
   frame.points.push_back({2, {nan, 0}, {0, 0}, {0, 0}});
   frame.points.push_back({3, {0, 1e30}, {0, 0}, {0, 0}});
   frame.points.push_back({4, {0, 0}, {0, 0}, {0, -1.0 / 0.0}});
+  frame.points.push_back({5, {0, 0}, {nan, 0}, {0, 0}});
+  frame.points.push_back({6, {0, 0}, {0, 1e30}, {0, 0}});
   frame.points.push_back({2, {0, 0}, {0, 0}, {0, 0}});
   int64_t left_out = 5;
   const PointFrame back = ToPointFrame(ToMessage(frame, "camera"), &left_out);
-  EXPECT_EQ(left_out, 5 + 4);
+  EXPECT_EQ(left_out, 5 + 6);
   ASSERT_EQ(back.points.size(), 2u);
   EXPECT_EQ(back.points[0].xy.x(), 0.25);
   EXPECT_EQ(back.points[1].id, 2);

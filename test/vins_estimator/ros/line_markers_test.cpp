@@ -48,6 +48,13 @@ TEST(LineMarker, ShowsTheAxesInDifferentColours) {
   EXPECT_EQ(colors.size(), 4u);
 }
 
+// As rviz calls an empty list an error.
+TEST(LineMarker, GoesWhereThereAreNoLines) {
+  const Marker marker = ToLineMarker({}, 1, "world", "lines");
+  EXPECT_EQ(marker.action, Marker::DELETE);
+  EXPECT_EQ(marker.ns, "lines");
+}
+
 TEST(LineHistory, HasNothingToSayWithoutLines) {
   EXPECT_TRUE(LineHistory("world").Add({}, 1).empty());
 }

@@ -1,0 +1,72 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The nodes of a robot that has a namespace: all they say and hear is in it.
+
+Usage: namespace_test.py NODES BAG FOLDER [unittest option ...]
+NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs.
+"""
+
+import os
+import pathlib
+import sys
+import unittest
+
+import rosgraph
+import rospy
+from nav_msgs.msg import Odometry
+from tf2_msgs.msg import TFMessage
+
+from node_processes import Listener, Processes, start_master, wait_until
+
+if len(sys.argv) < 4:
+    sys.exit(__doc__)
+NODES = pathlib.Path(sys.argv[1])
+BAG = sys.argv[2]
+FOLDER = pathlib.Path(sys.argv[3])
+NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator", "mavros_relay")
+SHARED = ("/rosout", "/rosout_agg", "/diagnostics", "/tf", "/tf_static", "/clock")
+# As a configuration of its own has them.
+SETTINGS = ("_set/image_topic:=cam0/image_raw", "_set/imu_topic:=imu0",
+            "_set/manhattan_frame:=robot1_manhattan")
+
+
+def setUpModule():
+    start_master(FOLDER, "namespace_test")
+
+
+class Namespace(unittest.TestCase):
+    def setUp(self):
+        self.processes = Processes(FOLDER, os.environ["ROS_MASTER_URI"])
+        self.addCleanup(self.processes.close)
+
+    def test_has_all_of_a_robot(self):
+        listener = Listener("/robot1")
+        relayed, frames = [], set()
+        rospy.Subscriber("/robot1/mavros/odometry/out", Odometry, relayed.append)
+        rospy.Subscriber("/tf", TFMessage, lambda message: frames.update(
+            transform.child_frame_id for transform in message.transforms))
+        for name in NAMES:
+            self.processes.start_node(NODES / name, "_imu_to_base:=0 0 0 0 0 0", *SETTINGS,
+                                      ROS_NAMESPACE="robot1")
+        for name in NAMES[:3]:
+            listener.wait_for_message(name, "waiting")
+        self.processes.start("player", ["rosbag", "play", "--delay", "1",
+                                        "--prefix", "/robot1", BAG])
+        listener.wait_for_message("vins_estimator", "tracking")
+        listener.wait_for_value("vins_estimator", "lines_in_window",
+                                lambda lines: int(lines or 0) > 0)
+        listener.wait_for_odometry()
+        wait_until(lambda: relayed, "odometry for mavros")
+        wait_until(lambda: "robot1_manhattan" in frames, lambda: f"tf of {frames}")
+        self.assertNotIn("manhattan", frames)
+        self.assertEqual(self.topics_outside(), [])
+
+    def topics_outside(self):
+        topics = {name for kind in rosgraph.Master("/namespace_test").getSystemState()[:2]
+                  for name, _ in kind}
+        return sorted(name for name in topics
+                      if not name.startswith("/robot1/") and name not in SHARED)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]], warnings="ignore")

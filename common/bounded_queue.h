@@ -10,7 +10,8 @@
 namespace plm_vins {
 
 // First in, first out between threads, never more than `capacity` items: a full queue makes the
-// producer wait, so that nothing is lost and memory stays bounded.
+// producer wait, so that nothing is lost and memory stays bounded. A producer that must not wait
+// pushes over the oldest.
 template <typename T>
 class BoundedQueue {
  public:
@@ -34,6 +35,17 @@ class BoundedQueue {
     return true;
   }
   void Wake() { changed_.notify_all(); }
+
+  // Never waits: of a full queue the oldest item goes, which is true then.
+  bool PushOverOldest(T item) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (closed_) return false;
+    const bool is_full = items_.size() == capacity_;
+    if (is_full) items_.pop_front();
+    items_.push_back(std::move(item));
+    changed_.notify_all();
+    return is_full;
+  }
 
   // Waits while the queue is empty. Nothing once it is closed and all items are taken.
   std::optional<T> Pop() {

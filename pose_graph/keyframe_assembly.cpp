@@ -7,21 +7,26 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMaxStamps = 60;  // three seconds of images
+// Odometry says within these whether an image is a keyframe: three seconds of them at 20 Hz.
+constexpr size_t kMaxStamps = 60;
 
 }  // namespace
 
 KeyframeAssembly::Parts& KeyframeAssembly::PartsAt(int64_t t_ns) {
-  Parts& parts = parts_[t_ns];
-  parts.frame.t_ns = t_ns;
-  return parts;
+  const auto [parts, is_new] = parts_.try_emplace(t_ns);
+  parts->second.frame.t_ns = t_ns;
+  if (is_new && parts_.size() > kMaxStamps) {
+    parts_.erase(parts == parts_.begin() ? std::next(parts) : parts_.begin());
+  }
+  return parts->second;
 }
 
 void KeyframeAssembly::AddImage(const ImageSample& image) {
+  if (image.t_ns < image_ns_) Clear();
+  image_ns_ = image.t_ns;
   Parts& parts = PartsAt(image.t_ns);
   parts.frame.gray = image.gray;
   parts.owner = image.owner;
-  while (parts_.size() > kMaxStamps) parts_.erase(parts_.begin());
 }
 
 void KeyframeAssembly::AddPose(int64_t t_ns, const Rigid3d& T_O_B,
@@ -62,6 +67,11 @@ std::optional<OdometryFrame> KeyframeAssembly::Pop() {
   if (first->second.owner) frame.gray = frame.gray.clone();  // its pixels go with the message
   parts_.erase(parts_.begin(), std::next(first));
   return frame;
+}
+
+void KeyframeAssembly::Clear() {
+  parts_.clear();
+  image_ns_ = 0;
 }
 
 }  // namespace plm_vins

@@ -13,7 +13,8 @@ namespace plm_vins {
 
 // Puts keyframes together whose parts come one by one, in any order: image, pose, corners, lines.
 // Equal stamps belong together. Lines may be missing: a keyframe does not wait for them longer than
-// until the next one is complete. Keeps the parts of the newest stamps only.
+// until the next one is complete. Keeps the parts of the newest stamps only, and begins anew where
+// the stamps of images go back: a recording is played again.
 class KeyframeAssembly {
  public:
   void AddImage(const ImageSample& image);
@@ -25,7 +26,7 @@ class KeyframeAssembly {
   // The next keyframe in order of time, or nothing yet.
   std::optional<OdometryFrame> Pop();
 
-  void Clear() { parts_.clear(); }
+  void Clear();
 
  private:
   struct Parts {
@@ -41,6 +42,7 @@ class KeyframeAssembly {
   Parts& PartsAt(int64_t t_ns);
 
   std::map<int64_t, Parts> parts_;  // by stamp
+  int64_t image_ns_ = 0;            // stamp of the last image
 };
 
 }  // namespace plm_vins

@@ -39,13 +39,6 @@ sensor_msgs::ChannelFloat32 ToChannel(const Eigen::Vector2d& first, const Eigen:
   return channel;
 }
 
-sensor_msgs::PointCloud EmptyCloud(int64_t t_ns, const std::string& frame_id) {
-  sensor_msgs::PointCloud cloud;
-  cloud.header.stamp = ToRosTime(t_ns);
-  cloud.header.frame_id = frame_id;
-  return cloud;
-}
-
 bool HasManhattanFrame(const sensor_msgs::PointCloud& message) {
   return !message.channels.empty() && message.channels.back().name == kManhattan;
 }

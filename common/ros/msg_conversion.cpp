@@ -30,11 +30,9 @@ geometry_msgs::Point32 ToImagePoint(const Eigen::Vector2d& xy) {
 }
 
 template <size_t kSize>
-sensor_msgs::PointCloud EmptyCloud(int64_t t_ns, const std::string& frame_id, size_t size,
-                                   const std::array<const char*, kSize>& channels) {
-  sensor_msgs::PointCloud cloud;
-  cloud.header.stamp = ToRosTime(t_ns);
-  cloud.header.frame_id = frame_id;
+sensor_msgs::PointCloud FeatureCloud(int64_t t_ns, const std::string& frame_id, size_t size,
+                                     const std::array<const char*, kSize>& channels) {
+  sensor_msgs::PointCloud cloud = EmptyCloud(t_ns, frame_id);
   cloud.points.reserve(size);
   for (const char* name : channels) AddChannel(name, size, &cloud);
   return cloud;
@@ -82,6 +80,11 @@ PointLayout LayoutOf(const sensor_msgs::PointCloud& points) {
   return {3, 1, "id, u, v (, vx, vy)"};
 }
 
+template <typename Position>
+Rigid3d ToRigid(const Position& p, const geometry_msgs::Quaternion& q) {
+  return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), {p.x, p.y, p.z}};
+}
+
 }  // namespace
 
 ros::Time ToRosTime(int64_t t_ns) {
@@ -98,7 +101,7 @@ ImuSample ToImuSample(const sensor_msgs::Imu& message) {
 
 sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& frame_id) {
   const std::array<const char*, 5> channels = {"id", "u", "v", "vx", "vy"};
-  sensor_msgs::PointCloud cloud = EmptyCloud(frame.t_ns, frame_id, frame.points.size(), channels);
+  sensor_msgs::PointCloud cloud = FeatureCloud(frame.t_ns, frame_id, frame.points.size(), channels);
   for (const PointObservation& point : frame.points) {
     const std::array<double, 5> values = {static_cast<double>(WrapId(point.id)), point.uv_px.x(),
                                           point.uv_px.y(), point.velocity.x(), point.velocity.y()};
@@ -131,7 +134,7 @@ PointFrame ToPointFrame(const sensor_msgs::PointCloud& message, int64_t* left_ou
 
 sensor_msgs::PointCloud ToMessage(const LineFrame& frame, const std::string& frame_id) {
   const std::array<const char*, 3> channels = {"id", "x_end", "y_end"};
-  sensor_msgs::PointCloud cloud = EmptyCloud(frame.t_ns, frame_id, frame.lines.size(), channels);
+  sensor_msgs::PointCloud cloud = FeatureCloud(frame.t_ns, frame_id, frame.lines.size(), channels);
   for (const LineObservation& line : frame.lines) {
     const std::array<double, 3> values = {static_cast<double>(WrapId(line.id)), line.end.x(),
                                           line.end.y()};
@@ -194,10 +197,19 @@ geometry_msgs::Transform ToTransform(const Rigid3d& T) {
   return transform;
 }
 
+Rigid3d ToRigid(const geometry_msgs::Pose& pose) {
+  return ToRigid(pose.position, pose.orientation);
+}
+
 Rigid3d ToRigid(const geometry_msgs::Transform& transform) {
-  const auto& p = transform.translation;
-  const auto& q = transform.rotation;
-  return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), {p.x, p.y, p.z}};
+  return ToRigid(transform.translation, transform.rotation);
+}
+
+sensor_msgs::PointCloud EmptyCloud(int64_t t_ns, const std::string& frame_id) {
+  sensor_msgs::PointCloud cloud;
+  cloud.header.stamp = ToRosTime(t_ns);
+  cloud.header.frame_id = frame_id;
+  return cloud;
 }
 
 }  // namespace plm_vins

@@ -49,6 +49,12 @@ geometry_msgs::Vector3 ToVector3(const Eigen::Vector3d& v);
 geometry_msgs::Quaternion ToQuaternion(const Eigen::Quaterniond& q);
 geometry_msgs::Pose ToPose(const Rigid3d& T);
 geometry_msgs::Transform ToTransform(const Rigid3d& T);
+Rigid3d ToRigid(const geometry_msgs::Pose& pose);
 Rigid3d ToRigid(const geometry_msgs::Transform& transform);
+
+// How messages of poses and twists lay out a covariance.
+using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+sensor_msgs::PointCloud EmptyCloud(int64_t t_ns, const std::string& frame_id);
 
 }  // namespace plm_vins

@@ -2,12 +2,33 @@
 #include "common/ros/node_config.h"
 
 #include <ros/console.h>
+#include <ros/exceptions.h>
 
 #include <map>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace plm_vins {
+namespace {
+
+// Who subscribes to a name that ROS refuses gets an exception that knows neither file nor key.
+void CheckTopics(const ros::NodeHandle& node, const Config& config) {
+  std::vector<std::string> problems;
+  const auto check = [&](const std::string& key, const std::string& topic) {
+    try {
+      node.resolveName(topic);
+    } catch (const ros::InvalidNameException& error) {
+      problems.push_back(config.file + ": " + key + ": \"" + topic +
+                         "\" is not the name of a topic: " + error.what());
+    }
+  };
+  check("image_topic", config.sensor.image_topic);
+  check("imu_topic", config.sensor.imu_topic);
+  if (!problems.empty()) throw ConfigError(problems);
+}
+
+}  // namespace
 
 Config LoadNodeConfig(const ros::NodeHandle& private_node) {
   std::string file;
@@ -21,6 +42,7 @@ Config LoadNodeConfig(const ros::NodeHandle& private_node) {
                        "/KEY must be texts (in a launch file: type=\"str\")"});
   }
   const Config config = LoadConfig(file, overrides);
+  CheckTopics(private_node, config);
   const std::string warning = IgnoredKeysWarning(config);
   if (!warning.empty()) ROS_WARN_STREAM_ONCE(warning);
   return config;

@@ -62,9 +62,15 @@ bool ErrorCounter::Run(const std::function<void()>& body) {
     return true;
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM_THROTTLE(10.0, "going on after an internal error: " << error.what());
-    if (errors_++ == 0) first_error_ = error.what();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (errors_.count++ == 0) errors_.detail = error.what();
     return false;
   }
+}
+
+DropCount ErrorCounter::count() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return errors_;
 }
 
 void DropWarner::Check(const DropCounts& counts) {

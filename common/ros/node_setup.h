@@ -3,8 +3,8 @@
 
 #include <ros/node_handle.h>
 
-#include <cstdint>
 #include <functional>
+#include <mutex>
 #include <set>
 #include <string>
 
@@ -25,17 +25,17 @@ int RunNode(int argc, char** argv, const std::string& name,
 void Spin();
 
 // Runs what must not end a node, whatever came in: an exception is logged (not all of them where
-// there are many) and counted. For one thread.
+// there are many) and counted. For any threads.
 class ErrorCounter {
  public:
   // False where `body` threw.
   bool Run(const std::function<void()>& body);
 
-  DropCount count() const { return {"internal_errors", errors_, first_error_}; }
+  DropCount count() const;
 
  private:
-  int64_t errors_ = 0;
-  std::string first_error_;
+  mutable std::mutex mutex_;  // guards what follows
+  DropCount errors_{"internal_errors", 0, ""};
 };
 
 // Warns when a kind of unusable input turns up for the first time.

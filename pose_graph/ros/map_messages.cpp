@@ -8,14 +8,6 @@
 namespace plm_vins {
 namespace {
 
-using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-
-Rigid3d FromPose(const geometry_msgs::Pose& pose) {
-  const auto& q = pose.orientation;
-  const auto& p = pose.position;
-  return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), {p.x, p.y, p.z}};
-}
-
 visualization_msgs::Marker LineList(const std::string& name, double width) {
   visualization_msgs::Marker marker;
   marker.ns = name;
@@ -33,7 +25,7 @@ nav_msgs::Odometry ToMap(const nav_msgs::Odometry& odometry, const MapFix& fix,
                          const std::string& map_frame) {
   nav_msgs::Odometry result = odometry;
   result.header.frame_id = map_frame;
-  result.pose.pose = ToPose(fix.T_M_O.ToRigid() * FromPose(odometry.pose.pose));
+  result.pose.pose = ToPose(fix.T_M_O.ToRigid() * ToRigid(odometry.pose.pose));
   Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Identity();
   turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() =
       fix.T_M_O.rotation().toRotationMatrix();
@@ -59,7 +51,7 @@ nav_msgs::Path ToPath(const KeyframeMap& map, const std::string& map_frame) {
   return path;
 }
 
-visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map, int64_t t_ns,
+visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map,
                                                const std::string& map_frame) {
   visualization_msgs::Marker steps = LineList("odometry", 0.01);
   steps.color.r = steps.color.g = steps.color.b = 0.6F;
@@ -70,6 +62,7 @@ visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map, int64_t t
     list.points.push_back(ToPoint(map.graph.node(edge.from).translation));
     list.points.push_back(ToPoint(map.graph.node(edge.to).translation));
   }
+  const int64_t t_ns = map.keyframes.empty() ? 0 : map.keyframes.back().t_ns;
   visualization_msgs::MarkerArray markers;
   markers.markers = {steps, loops};
   for (visualization_msgs::Marker& marker : markers.markers) {

@@ -21,9 +21,9 @@ nav_msgs::Odometry ToMap(const nav_msgs::Odometry& odometry, const MapFix& fix,
 // The keyframes that are connected with the newest, where they are as known now.
 nav_msgs::Path ToPath(const KeyframeMap& map, const std::string& map_frame);
 
-// Two lists of lines: odometry's edges in grey, loops in green. One that is empty is deleted, since
-// rviz takes it for an error.
-visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map, int64_t t_ns,
+// Two lists of lines: odometry's edges in grey, loops in green, with the stamp of the newest
+// keyframe. One that is empty is deleted, since rviz takes it for an error.
+visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map,
                                                const std::string& map_frame);
 
 }  // namespace plm_vins

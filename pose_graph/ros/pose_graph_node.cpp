@@ -2,12 +2,9 @@
 #include "pose_graph/ros/pose_graph_node.h"
 
 #include <exception>
-#include <stdexcept>
 #include <utility>
 
-#include "common/ros/camera_info_conversion.h"
 #include "common/ros/image_conversion.h"
-#include "common/ros/keyframe_conversion.h"
 #include "common/ros/msg_conversion.h"
 #include "common/stopwatch.h"
 #include "pose_graph/output/map_file.h"
@@ -17,33 +14,10 @@
 namespace plm_vins {
 namespace {
 
-constexpr char kEstimator[] = "/vins_estimator/";
+constexpr char kEstimator[] = "vins_estimator/";
 constexpr int kQueue = 100;
 constexpr size_t kWaitingKeyframes = 50;
-
-using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-
-// The message has the rotation's covariance about the axes of the world, we in the body.
-Eigen::Matrix<double, 6, 6> CovarianceOf(const nav_msgs::Odometry& message, const Rigid3d& T_O_B) {
-  Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Identity();
-  J.bottomRightCorner<3, 3>() = T_O_B.R().transpose();
-  const Eigen::Map<const RowMajor6d> covariance(message.pose.covariance.data());
-  return J * covariance * J.transpose();
-}
-
-void CheckSameKind(const CameraParameters& ours, const CameraParameters& refined) {
-  if (refined.model == ours.model && refined.width == ours.width && refined.height == ours.height) {
-    return;
-  }
-  throw std::invalid_argument(std::string("the camera of ") + kEstimator +
-                              "camera_info is not that of the configuration");
-}
-
-Rigid3d PoseOf(const nav_msgs::Odometry& message) {
-  const auto& q = message.pose.pose.orientation;
-  const auto& p = message.pose.pose.position;
-  return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), {p.x, p.y, p.z}};
-}
+constexpr double kMaxLag = 2;  // [s] of keyframes behind their images
 
 std::string MapFile(const Config& config, const ros::NodeHandle& private_node) {
   return private_node.param<std::string>("map_file", config.pose_graph.MapFile());
@@ -58,6 +32,7 @@ PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
       config_(config),
       camera_(CameraModel::Create(config.sensor.camera)),
       map_file_(MapFile(config, private_node)),
+      input_(config.sensor),
       queue_(kWaitingKeyframes),
       odometry_publisher_(private_node_.advertise<nav_msgs::Odometry>("odometry", kQueue)),
       path_publisher_(private_node_.advertise<nav_msgs::Path>("path", 10, /*latch=*/true)),
@@ -68,13 +43,11 @@ PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
   StartWith(config.pose_graph.load_previous ? LoadMap(map_file_) : KeyframeMap());
   diagnostics_.setHardwareID("none");
   diagnostics_.add("map", this, &PoseGraphNode::ReportStatus);
-  worker_ = std::thread(&PoseGraphNode::Work, this);
   Subscribe();
+  worker_ = std::thread(&PoseGraphNode::Work, this);  // last: what throws would end all with it
 }
 
 PoseGraphNode::~PoseGraphNode() {
-  subscribers_.clear();
-  services_.clear();
   queue_.Close();
   worker_.join();
 }
@@ -82,13 +55,15 @@ PoseGraphNode::~PoseGraphNode() {
 void PoseGraphNode::Subscribe() {
   const std::string estimator = kEstimator;
   subscribers_ = {
-      node_.subscribe(config_.sensor.image_topic, kQueue, &PoseGraphNode::AddImage, this),
       node_.subscribe(estimator + "camera_info", kQueue, &PoseGraphNode::AddCamera, this),
       node_.subscribe(estimator + "keyframe_pose", kQueue, &PoseGraphNode::AddPose, this),
       node_.subscribe(estimator + "keyframe_point", kQueue, &PoseGraphNode::AddPoints, this),
       node_.subscribe(estimator + "keyframe_line", kQueue, &PoseGraphNode::AddLines, this),
       node_.subscribe(estimator + "odometry", kQueue, &PoseGraphNode::AddOdometry, this),
       node_.subscribe(estimator + "restart", kQueue, &PoseGraphNode::Restart, this)};
+  image_subscription_.Subscribe(
+      node_, private_node_, config_.sensor.image_topic, kQueue,
+      [this](const std::optional<ImageSample>& image) { AddImage(image); });
   services_ = {private_node_.advertiseService("save_map", &PoseGraphNode::SaveMapFile, this),
                private_node_.advertiseService("load_map", &PoseGraphNode::LoadMapFile, this),
                private_node_.advertiseService("reset", &PoseGraphNode::Reset, this)};
@@ -96,60 +71,56 @@ void PoseGraphNode::Subscribe() {
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
 }
 
-void PoseGraphNode::AddImage(const sensor_msgs::ImageConstPtr& message) {
-  callback_errors_.Run([&] { assembly_.AddImage(ToImageSample(message)); });
+void PoseGraphNode::AddImage(const std::optional<ImageSample>& image) {
+  if (image) input_.AddImage(*image);
   PassOn();
 }
 
-// Of another camera than ours, its rays would be nonsense. A model without rays throws.
 void PoseGraphNode::AddCamera(const sensor_msgs::CameraInfo& message) {
-  callback_errors_.Run([&] {
-    const CameraParameters camera = ToCameraParameters(message);
-    CameraModel::Create(camera);
-    CheckSameKind(camera_->parameters(), camera);
-    refined_camera_ = camera;
-  });
+  input_.AddCamera(message);
+  PassOn();
 }
 
-void PoseGraphNode::AddPose(const nav_msgs::Odometry& message) {
-  const Rigid3d T_O_B = PoseOf(message);
-  assembly_.AddPose(ToNanoseconds(message.header.stamp), T_O_B, CovarianceOf(message, T_O_B));
+void PoseGraphNode::AddPose(const OdometryEvent& event) {
+  if (estimator_.HasChanged(kKeyframePoses, event.getConnectionHeaderPtr())) BeginWorld();
+  keyframe_stream_.Add(ToNanoseconds(event.getMessage()->header.stamp));
+  input_.AddPose(*event.getMessage());
   PassOn();
 }
 
 void PoseGraphNode::AddPoints(const sensor_msgs::PointCloud& message) {
-  callback_errors_.Run(
-      [&] { assembly_.AddCorners(ToNanoseconds(message.header.stamp), ToCorners(message)); });
+  input_.AddPoints(message);
   PassOn();
 }
 
 void PoseGraphNode::AddLines(const sensor_msgs::PointCloud& message) {
-  callback_errors_.Run([&] {
-    assembly_.AddSegments(ToNanoseconds(message.header.stamp), ToSegments(message),
-                          ToManhattanFrame(message));
-  });
+  input_.AddLines(message);
   PassOn();
 }
 
 void PoseGraphNode::PassOn() {
-  while (auto frame = assembly_.Pop()) {
-    frame->T_B_C = config_.sensor.T_B_C;
-    frame->camera = refined_camera_;
-    frame->restarted = std::exchange(restarted_, false);
-    queue_.Push(std::move(*frame));
+  while (auto frame = input_.Pop()) {
+    if (queue_.PushOverOldest({std::move(*frame), world_})) ++keyframes_too_late_;
   }
+  drop_warner_.Check(Drops());
+}
+
+void PoseGraphNode::Restart(const std_msgs::Bool& message) {
+  if (message.data) BeginWorld();
 }
 
 // Keyframes of before that wait for a part are of a world that is no more.
-void PoseGraphNode::Restart(const std_msgs::Bool& message) {
-  if (!message.data) return;
-  assembly_.Clear();
-  restarted_ = true;
+void PoseGraphNode::BeginWorld() {
+  input_.Clear();
   const std::lock_guard<std::mutex> lock(status_mutex_);
+  ++world_;
   status_.fix.reset();
 }
 
-void PoseGraphNode::AddOdometry(const nav_msgs::Odometry& message) {
+void PoseGraphNode::AddOdometry(const OdometryEvent& event) {
+  if (estimator_.HasChanged(kOdometry, event.getConnectionHeaderPtr())) BeginWorld();
+  const nav_msgs::Odometry& message = *event.getMessage();
+  if (!input_.Accepts(message)) return drop_warner_.Check(Drops());
   std::optional<MapFix> fix;
   {
     const std::lock_guard<std::mutex> lock(status_mutex_);
@@ -198,33 +169,47 @@ bool PoseGraphNode::Reset(Trigger::Request&, Trigger::Response& response) {
   return true;
 }
 
+// Odometry's world counts as another one from here on: the keyframes of before that still wait
+// belong to the map of before.
 void PoseGraphNode::StartWith(KeyframeMap map) {
+  BeginWorld();
   const std::lock_guard<std::mutex> lock(loops_mutex_);
   loops_ = std::make_unique<LoopCloser>(LoopCloserOptions(), camera_);
   loops_->SetMap(std::move(map));
+  map_world_ = world_;
   images_ = KeyframeImages();
+  PublishMap();
   const std::lock_guard<std::mutex> status_lock(status_mutex_);
   status_ = Status();
   status_.keyframes = loops_->map().CountKept();
 }
 
 void PoseGraphNode::Work() {
-  while (auto frame = queue_.Pop()) {
-    worker_errors_.Run([&] {
+  while (auto keyframe = queue_.Pop()) {
+    errors_.Run([&] {
       const std::lock_guard<std::mutex> lock(loops_mutex_);
-      const Stopwatch stopwatch;
-      const LoopClosure closure = loops_->Add(*frame);
-      UpdateStatus(closure, stopwatch.Milliseconds());
-      if (!closure.is_keyframe) return;
-      Publish(*frame, closure);
-      Remember(*frame);
+      if (keyframe->world >= map_world_) AddToMap(&*keyframe);
     });
   }
 }
 
-void PoseGraphNode::UpdateStatus(const LoopClosure& closure, double milliseconds) {
+void PoseGraphNode::AddToMap(WaitingKeyframe* keyframe) {
+  const Stopwatch stopwatch;
+  OdometryFrame& frame = keyframe->frame;
+  frame.restarted = keyframe->world > map_world_;
+  map_world_ = keyframe->world;
+  const LoopClosure closure = loops_->Add(frame);
+  UpdateStatus(closure, keyframe->world, stopwatch.Milliseconds());
+  if (!closure.is_keyframe) return;
+  PublishMap();
+  PublishMatch(frame, closure);
+  Remember(frame);
+}
+
+// The callbacks may know of a newer world by now, for which a fix of this one is wrong.
+void PoseGraphNode::UpdateStatus(const LoopClosure& closure, int world, double milliseconds) {
   const std::lock_guard<std::mutex> lock(status_mutex_);
-  status_.fix = closure.fix;
+  if (world == world_) status_.fix = closure.fix;
   status_.keyframes = loops_->map().CountKept();
   if (closure.is_keyframe) status_.keyframe_ms = milliseconds;
   for (const LoopCandidate& candidate : closure.candidates) {
@@ -232,19 +217,18 @@ void PoseGraphNode::UpdateStatus(const LoopClosure& closure, double milliseconds
   }
 }
 
-void PoseGraphNode::Publish(const OdometryFrame& frame, const LoopClosure& closure) {
+// Whoever listens or not: the topics are latched, for displays that are opened later.
+void PoseGraphNode::PublishMap() {
   const std::string& map_frame = config_.output.map_frame;
-  if (path_publisher_.getNumSubscribers() > 0) {
-    path_publisher_.publish(ToPath(loops_->map(), map_frame));
-  }
-  if (graph_publisher_.getNumSubscribers() > 0) {
-    graph_publisher_.publish(ToGraphMarkers(loops_->map(), frame.t_ns, map_frame));
-  }
-  if (closure.place && match_publisher_.getNumSubscribers() > 0) {
-    const cv::Mat picture = DrawLoop(*camera_, closure.place->sightings,
-                                     images_.Find(closure.place->earlier), frame.gray);
-    match_publisher_.publish(ToMessage(picture, frame.t_ns, config_.output.camera_frame));
-  }
+  path_publisher_.publish(ToPath(loops_->map(), map_frame));
+  graph_publisher_.publish(ToGraphMarkers(loops_->map(), map_frame));
+}
+
+void PoseGraphNode::PublishMatch(const OdometryFrame& frame, const LoopClosure& closure) {
+  if (!closure.place || match_publisher_.getNumSubscribers() == 0) return;
+  const cv::Mat picture = DrawLoop(*camera_, closure.place->sightings,
+                                   images_.Find(closure.place->earlier), frame.gray);
+  match_publisher_.publish(ToMessage(picture, frame.t_ns, config_.output.camera_frame));
 }
 
 // The newest keyframe is that of the frame. Thinning may have taken others away.
@@ -254,21 +238,39 @@ void PoseGraphNode::Remember(const OdometryFrame& frame) {
   images_.Keep([&](int keyframe) { return graph.Has(keyframe); });
 }
 
+DropCounts PoseGraphNode::Drops() const {
+  DropCounts drops = {image_subscription_.unreadable(), errors_.count()};
+  Append(input_.Drops(), &drops);
+  drops.push_back({"keyframes_too_late", keyframes_too_late_, ""});
+  return drops;
+}
+
 void PoseGraphNode::ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  using diagnostic_msgs::DiagnosticStatus;
   const std::lock_guard<std::mutex> lock(status_mutex_);
-  if (status_.fix) {
-    status.summary(DiagnosticStatus::OK, "located in the map");
-  } else if (status_.keyframes == 0) {
-    status.summary(DiagnosticStatus::OK, "waiting: no keyframe yet");
-  } else {
-    status.summary(DiagnosticStatus::WARN, "looking for the place in the map");
-  }
+  ReportState(&status);
   status.add("keyframes", status_.keyframes);
   status.add("loops", status_.loops);
   for (const auto& [gate, count] : status_.refused) status.add("refused_" + gate, count);
   status.add("keyframe_ms", status_.keyframe_ms);
   status.add("waiting_keyframes", queue_.size());
+  for (StreamMonitor* stream : {&image_subscription_.stream(), &keyframe_stream_}) {
+    stream->Report(&status);
+  }
+  for (const DropCount& drop : Drops()) status.add(drop.cause, drop.count);
+}
+
+void PoseGraphNode::ReportState(diagnostic_updater::DiagnosticStatusWrapper* status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  if (image_subscription_.stream().Silence() > keyframe_stream_.Silence() + kMaxLag) {
+    status->summary(DiagnosticStatus::WARN,
+                    "keyframes without images: no image comes on " + config_.sensor.image_topic);
+  } else if (status_.fix) {
+    status->summary(DiagnosticStatus::OK, "located in the map");
+  } else if (status_.keyframes == 0) {
+    status->summary(DiagnosticStatus::OK, "waiting: no keyframe yet");
+  } else {
+    status->summary(DiagnosticStatus::WARN, "looking for the place in the map");
+  }
 }
 
 }  // namespace plm_vins

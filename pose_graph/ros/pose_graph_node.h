@@ -4,10 +4,10 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
+#include <ros/message_event.h>
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
 #include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud.h>
 #include <std_msgs/Bool.h>
 #include <std_srvs/Trigger.h>
@@ -23,17 +23,24 @@
 
 #include "common/bounded_queue.h"
 #include "common/config.h"
+#include "common/ros/image_subscription.h"
 #include "common/ros/node_setup.h"
-#include "pose_graph/keyframe_assembly.h"
+#include "common/ros/publisher_watch.h"
+#include "common/ros/stream_monitor.h"
 #include "pose_graph/loop_closer.h"
 #include "pose_graph/ros/keyframe_images.h"
+#include "pose_graph/ros/keyframe_input.h"
 
 namespace plm_vins {
 
 // Loop closure under ROS, as a node or in a nodelet: the keyframes of an estimator, ours or that of
 // VINS-Mono, and the images in; tf map -> world, ~odometry, ~path, ~graph and ~match_image out.
 // The callbacks put keyframes together; a thread of its own looks for loops and optimises. No
-// callback waits for it, but those of the services.
+// callback waits for it, but those of the services: where it cannot keep up, the oldest keyframes
+// go. ~image_transport: as of ImageSubscription.
+//
+// A new world of odometry begins where it says so (restart), and where its messages begin to come
+// from another process: from an estimator that was started again, or a recording played again.
 //
 // Services: ~save_map and ~load_map, to and from the file that the configuration names (parameter
 // ~map_file: another one); ~reset starts an empty map.
@@ -46,28 +53,41 @@ class PoseGraphNode {
 
  private:
   using Trigger = std_srvs::Trigger;
+  using OdometryEvent = ros::MessageEvent<const nav_msgs::Odometry>;
+
+  enum WatchedTopic { kKeyframePoses, kOdometry, kWatchedTopics };
+
+  struct WaitingKeyframe {
+    OdometryFrame frame;
+    int world = 0;  // of its pose
+  };
 
   // In the thread of the callbacks.
   void Subscribe();
-  void AddImage(const sensor_msgs::ImageConstPtr& message);
+  void AddImage(const std::optional<ImageSample>& image);
   void AddCamera(const sensor_msgs::CameraInfo& message);
-  void AddPose(const nav_msgs::Odometry& message);
+  void AddPose(const OdometryEvent& event);
   void AddPoints(const sensor_msgs::PointCloud& message);
   void AddLines(const sensor_msgs::PointCloud& message);
-  void AddOdometry(const nav_msgs::Odometry& message);
+  void AddOdometry(const OdometryEvent& event);
   void Restart(const std_msgs::Bool& message);
+  void BeginWorld();
   void PassOn();
   bool SaveMapFile(Trigger::Request& request, Trigger::Response& response);
   bool LoadMapFile(Trigger::Request& request, Trigger::Response& response);
   bool Reset(Trigger::Request& request, Trigger::Response& response);
   void StartWith(KeyframeMap map);
+  DropCounts Drops() const;
   void ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void ReportState(diagnostic_updater::DiagnosticStatusWrapper* status);
 
-  // In the worker thread.
+  // In the worker thread; where a map begins, in that of the callbacks.
   void Work();
-  void UpdateStatus(const LoopClosure& closure, double milliseconds);
+  void AddToMap(WaitingKeyframe* keyframe);
+  void UpdateStatus(const LoopClosure& closure, int world, double milliseconds);
   void Remember(const OdometryFrame& frame);
-  void Publish(const OdometryFrame& frame, const LoopClosure& closure);
+  void PublishMap();
+  void PublishMatch(const OdometryFrame& frame, const LoopClosure& closure);
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
@@ -75,14 +95,19 @@ class PoseGraphNode {
   const std::shared_ptr<const CameraModel> camera_;
   const std::string map_file_;
 
-  KeyframeAssembly assembly_;  // for the callbacks, as what follows
-  bool restarted_ = false;
-  std::optional<CameraParameters> refined_camera_;  // by the estimator, where it says so
-  ErrorCounter callback_errors_;
-  BoundedQueue<OdometryFrame> queue_;
+  // For the callbacks.
+  KeyframeInput input_;
+  PublisherWatch estimator_{kWatchedTopics};
+  StreamMonitor keyframe_stream_{"keyframes"};
+  int64_t keyframes_too_late_ = 0;
+  DropWarner drop_warner_;
+
+  ErrorCounter errors_;
+  BoundedQueue<WaitingKeyframe> queue_;
 
   std::mutex loops_mutex_;  // held while a keyframe is worked on
   std::unique_ptr<LoopCloser> loops_;
+  int map_world_ = 0;      // of its newest keyframe; older ones are of the map before
   KeyframeImages images_;  // of its keyframes
 
   // What the callbacks need at once, whatever is worked on.
@@ -95,8 +120,8 @@ class PoseGraphNode {
   };
   std::mutex status_mutex_;  // never held for long
   Status status_;
+  int world_ = 0;  // that odometry is in now, changed by the callbacks alone
 
-  ErrorCounter worker_errors_;  // for the worker
   ros::Publisher odometry_publisher_;
   ros::Publisher path_publisher_;
   ros::Publisher graph_publisher_;
@@ -108,6 +133,7 @@ class PoseGraphNode {
   // Last, so that no callback comes any more while the rest ends.
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Subscriber> subscribers_;
+  ImageSubscription image_subscription_;
   ros::WallTimer diagnostics_timer_;
 };
 

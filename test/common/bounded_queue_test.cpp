@@ -39,6 +39,19 @@ TEST(BoundedQueue, NeverHoldsMoreThanItsCapacityAndLosesNothing) {
   EXPECT_EQ(expected, kItems);
 }
 
+TEST(BoundedQueue, GivesUpTheOldestForWhoMustNotWait) {
+  BoundedQueue<int> queue(2);
+  EXPECT_FALSE(queue.PushOverOldest(1));
+  EXPECT_FALSE(queue.PushOverOldest(2));
+  EXPECT_TRUE(queue.PushOverOldest(3));
+  EXPECT_EQ(queue.size(), 2u);
+  EXPECT_EQ(queue.Pop(), 2);
+  EXPECT_EQ(queue.Pop(), 3);
+  queue.Close();
+  queue.PushOverOldest(4);
+  EXPECT_FALSE(queue.Pop());
+}
+
 TEST(BoundedQueue, AQuietItemIsTakenWithTheNext) {
   BoundedQueue<int> queue(3);
   queue.PushQuietly(1);

@@ -50,19 +50,57 @@ TEST_F(KeyframeAssemblyTest, WaitsForLinesUntilTheNextIsComplete) {
 }
 
 TEST_F(KeyframeAssemblyTest, ForgetsWhatWaitsForTooLong) {
+  AddImage(1);
+  AddPose(1);
+  for (int64_t t = 2; t < 100; ++t) AddImage(t);
+  assembly_.AddCorners(1, {});
+  assembly_.AddSegments(1, {}, std::nullopt);
+  EXPECT_FALSE(assembly_.Pop());
+}
+
+// As where images come compressed, and are waited for raw.
+TEST_F(KeyframeAssemblyTest, ForgetsAsMuchWhereNoImagesCome) {
+  AddImage(1);
+  for (int64_t t = 2; t < 100; ++t) AddPose(t);
   AddPose(1);
   assembly_.AddCorners(1, {});
   assembly_.AddSegments(1, {}, std::nullopt);
-  for (int64_t t = 2; t < 100; ++t) AddImage(t);
-  AddImage(1);
+  EXPECT_FALSE(assembly_.Pop());
+}
+
+TEST_F(KeyframeAssemblyTest, TakesTheOldestOfManyStamps) {
+  for (int64_t t = 100; t < 200; ++t) AddPose(t);
+  AddAllButLines(1);
+  assembly_.AddSegments(1, {}, std::nullopt);
+  const auto frame = assembly_.Pop();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->t_ns, 1);
+}
+
+TEST_F(KeyframeAssemblyTest, BeginsAnewWhereImagesGoBack) {
+  for (int64_t t = 100; t < 200; ++t) AddImage(t);
+  AddAllButLines(200);
+  for (int64_t t = 1; t < 30; ++t) AddImage(t);
+  AddPose(1);
+  assembly_.AddCorners(1, {});
+  assembly_.AddSegments(1, {}, std::nullopt);
+  const auto frame = assembly_.Pop();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->t_ns, 1);
+  assembly_.AddSegments(200, {}, std::nullopt);
   EXPECT_FALSE(assembly_.Pop());
 }
 
 TEST_F(KeyframeAssemblyTest, StartsOverWhenCleared) {
-  AddAllButLines(1);
+  AddAllButLines(2);
   assembly_.Clear();
-  assembly_.AddSegments(1, {}, std::nullopt);
+  assembly_.AddSegments(2, {}, std::nullopt);
   EXPECT_FALSE(assembly_.Pop());
+  AddPose(1);
+  assembly_.AddCorners(1, {});
+  assembly_.AddSegments(1, {}, std::nullopt);
+  AddImage(1);
+  EXPECT_TRUE(assembly_.Pop()) << "it goes back behind what is forgotten";
 }
 
 }  // namespace

@@ -260,6 +260,33 @@ TEST_F(TrackerNodelets, WithAFaultyConfigurationAreNotLoadedAndSayWhy) {
   EXPECT_EQ(Nodelets::List().size(), 2U) << "the others go on";
 }
 
+// Names that ROS refuses, and a topic that the manager knows of another type.
+TEST_F(TrackerNodelets, GoOnWhereOneBesideThemCannotSubscribe) {
+  ros::param::set("/graph/config_file", ros::param::param<std::string>("~config_file", ""));
+  ros::param::set("/graph/set/imu_topic", "/another_imu");
+  for (const std::string topic : {"/cam-0", "~private", "/imu0"}) {
+    ros::param::set("/graph/set/image_topic", topic);
+    EXPECT_FALSE(Nodelets::Load("/graph", "plm_vins/PoseGraph")) << topic;
+    EXPECT_EQ(Nodelets::List().size(), 2U) << topic;
+  }
+  ros::param::del("/graph/set");
+  EXPECT_TRUE(Nodelets::Load("/graph", "plm_vins/PoseGraph"));
+  EXPECT_TRUE(Nodelets::Unload("/graph"));
+}
+
+TEST_F(TrackerNodelets, SayWhichKeyNamesNoTopic) {
+  std::string log;
+  const ros::Subscriber subscriber = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
+      "/rosout", 1000, [&](const rosgraph_msgs::LogConstPtr& line) { log += line->msg + "\n"; });
+  ASSERT_TRUE(SpinUntil(kTimeout, [&] { return subscriber.getNumPublishers() >= kProcesses; }));
+  ros::param::set("/misnamed/config_file", ros::param::param<std::string>("~config_file", ""));
+  ros::param::set("/misnamed/set/imu_topic", "/imu-0");
+  EXPECT_FALSE(Nodelets::Load("/misnamed", "plm_vins/FeatureTracker"));
+  EXPECT_TRUE(SpinUntil(kTimeout, [&] {
+    return log.find("imu_topic: \"/imu-0\" is not the name of a topic") != std::string::npos;
+  })) << log;
+}
+
 }  // namespace
 }  // namespace plm_vins
 

@@ -5,18 +5,16 @@
 #include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
-#include <sensor_msgs/CompressedImage.h>
-#include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud.h>
 #include <std_msgs/Bool.h>
 
-#include <exception>
-#include <string>
+#include <optional>
 #include <utility>
 
 #include "common/config.h"
 #include "common/drop_counts.h"
 #include "common/ros/image_conversion.h"
+#include "common/ros/image_subscription.h"
 #include "common/ros/msg_conversion.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/stream_monitor.h"
@@ -28,9 +26,6 @@ namespace plm_vins {
 // A tracker under ROS, as a node or in a nodelet: images (and the IMU, where it comes) in;
 // features, annotated image and ~restart out. All callbacks come from the queue of the two node
 // handles, one at a time: images queue in their subscriber while one is tracked.
-//
-// ~image_transport: raw (default), compressed (decoded here, no plugin needed) or any plugin's
-// name.
 //
 // `Traits` says what is particular to a tracker: the types Stage (a TrackingStage) and Settings
 // (of dynamic_reconfigure, with show_track), ToSettings(config) and Apply(settings, tracker), the
@@ -60,7 +55,8 @@ class TrackerNode {
     diagnostics_timer_ =
         node_.createWallTimer(ros::WallDuration(1.0),
                               [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
-    Subscribe();
+    images_.Subscribe(node_, private_node_, config_.sensor.image_topic, Traits::kImageQueue,
+                      [this](std::optional<ImageSample> image) { AddImage(std::move(image)); });
   }
 
  private:
@@ -76,20 +72,6 @@ class TrackerNode {
     Traits::Apply(settings, &stage_.tracker());
   }
 
-  void Subscribe() {
-    const std::string topic = config_.sensor.image_topic;
-    const auto transport = private_node_.param<std::string>("image_transport", "raw");
-    if (transport == "compressed") {
-      compressed_subscriber_ = node_.subscribe(topic + "/compressed", Traits::kImageQueue,
-                                               &TrackerNode::AddCompressedImage, this);
-    } else {
-      image_subscriber_ = transport_.subscribe(
-          topic, Traits::kImageQueue,
-          [this](const sensor_msgs::ImageConstPtr& message) { AddImage(message); }, nullptr,
-          image_transport::TransportHints(transport, ros::TransportHints(), private_node_));
-    }
-  }
-
   // Tracks the images whose turn it is by what the IMU says so far.
   void TrackWhatIsReady() {
     do {
@@ -98,19 +80,9 @@ class TrackerNode {
     } while (stage_.waiting() && !imu_.WaitForNext());
   }
 
-  void AddCompressedImage(const sensor_msgs::CompressedImage& message) { AddImage(message); }
-
-  // A message, or a pointer to one that may be shared.
-  template <typename Image>
-  void AddImage(const Image& message) {
+  void AddImage(std::optional<ImageSample> image) {
     last_image_arrival_ = ros::WallTime::now();
-    try {
-      ImageSample image = ToImageSample(message);
-      image_stream_.Add(image.t_ns);
-      stage_.AddImage(std::move(image));
-    } catch (const std::exception& error) {
-      if (unreadable_images_++ == 0) first_unreadable_ = error.what();
-    }
+    if (image) stage_.AddImage(std::move(*image));
     TrackWhatIsReady();
     drop_warner_.Check(Drops());
   }
@@ -150,15 +122,14 @@ class TrackerNode {
   }
 
   DropCounts Drops() const {
-    DropCounts drops = {{"images_unreadable", unreadable_images_, first_unreadable_},
-                        errors_.count()};
+    DropCounts drops = {images_.unreadable(), errors_.count()};
     Append(ToDropCounts(stage_.counts()), &drops);
     return drops;
   }
 
   void ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
-    if (image_stream_.Silence() > StreamMonitor::kSilence) {
+    if (images_.stream().Silence() > StreamMonitor::kSilence) {
       status.summary(DiagnosticStatus::WARN,
                      "waiting: nothing comes on " + config_.sensor.image_topic);
     } else if ((ros::WallTime::now() - last_tracked_).toSec() > StreamMonitor::kSilence) {
@@ -171,7 +142,7 @@ class TrackerNode {
     status.add("images", stage_.counts().images);
     status.add("features", features_in_last_image_);
     status.add("tracking_ms", tracking_ms_);
-    for (StreamMonitor* stream : {&image_stream_, &imu_.stream(), &feature_stream_}) {
+    for (StreamMonitor* stream : {&images_.stream(), &imu_.stream(), &feature_stream_}) {
       stream->Report(&status);
     }
     for (const DropCount& drop : Drops()) status.add(drop.cause, drop.count);
@@ -179,7 +150,6 @@ class TrackerNode {
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
-  image_transport::ImageTransport transport_{node_};
   image_transport::ImageTransport private_transport_{private_node_};
 
   const Config config_;
@@ -187,11 +157,8 @@ class TrackerNode {
   bool show_track_ = true;
   DropWarner drop_warner_;
   ErrorCounter errors_;
-  int64_t unreadable_images_ = 0;
-  std::string first_unreadable_;
   size_t features_in_last_image_ = 0;
   double tracking_ms_ = 0;  // of the last image [ms]
-  StreamMonitor image_stream_{"images"};
   StreamMonitor feature_stream_{"features"};
 
   ros::WallTime last_image_arrival_;
@@ -202,11 +169,11 @@ class TrackerNode {
   diagnostic_updater::Updater diagnostics_;
   RunTimeSettings<Settings> settings_;
 
-  // Last, so that they end first: a nodelet is unloaded while callbacks run in other threads, and
-  // each of these waits for its own to return.
-  image_transport::Subscriber image_subscriber_;
-  ros::Subscriber compressed_subscriber_;
+  // Last, so that they end first, and in this order: a nodelet is unloaded while callbacks run in
+  // other threads. Each of these waits for its own to return, and those of images and timers take
+  // from the IMU's inbox, whose own, in the thread that receives, touch nothing else.
   ImuInbox imu_{node_, config_.sensor.imu_topic, [this] { TrackWhatIsReady(); }};
+  ImageSubscription images_;
   ros::WallTimer flush_timer_;
   ros::WallTimer diagnostics_timer_;
 };

@@ -200,9 +200,10 @@ TEST(PoseMessage, HasTheTransform) {
   EXPECT_EQ(pose.orientation.w, 0.5);
   EXPECT_EQ(pose.orientation.y, -0.5);
   EXPECT_EQ(ToTransform(T).translation.z, 3);
-  const Rigid3d same = ToRigid(ToTransform(T));
-  EXPECT_EQ(same.translation, T.translation);
-  EXPECT_TRUE(same.rotation.isApprox(T.rotation));
+  for (const Rigid3d& same : {ToRigid(pose), ToRigid(ToTransform(T))}) {
+    EXPECT_EQ(same.translation, T.translation);
+    EXPECT_TRUE(same.rotation.isApprox(T.rotation));
+  }
 }
 
 }  // namespace

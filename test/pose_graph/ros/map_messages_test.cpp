@@ -46,19 +46,22 @@ TEST(ToPath, HasThePartOfTheNewestKeyframe) {
   EXPECT_EQ(path.poses[2].pose.position.x, 2);
 }
 
+TEST(ToPath, OfAnEmptyMapIsEmpty) { EXPECT_TRUE(ToPath(KeyframeMap(), "map").poses.empty()); }
+
 TEST(ToGraphMarkers, HaveStepsAndLoopsApart) {
-  const auto markers = ToGraphMarkers(SmallMap(), 0, "map").markers;
+  const auto markers = ToGraphMarkers(SmallMap(), "map").markers;
   ASSERT_EQ(markers.size(), 2u);
   EXPECT_EQ(markers[0].points.size(), 2u);
   EXPECT_EQ(markers[1].ns, "loops");
   EXPECT_EQ(markers[1].points.size(), 2u);
   EXPECT_EQ(markers[1].action, visualization_msgs::Marker::ADD);
+  EXPECT_EQ(markers[1].header.stamp, ros::Time(0, 2));  // of the newest keyframe
 }
 
 TEST(ToGraphMarkers, DeleteWhatIsEmpty) {
   KeyframeMap map = SmallMap();
   map.graph = PoseGraph();
-  for (const auto& marker : ToGraphMarkers(map, 0, "map").markers) {
+  for (const auto& marker : ToGraphMarkers(map, "map").markers) {
     EXPECT_EQ(marker.action, visualization_msgs::Marker::DELETE);
   }
 }

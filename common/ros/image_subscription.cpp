@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/ros/image_subscription.h"
+
+#include <image_transport/image_transport.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+
+#include <exception>
+#include <utility>
+
+#include "common/ros/image_conversion.h"
+
+namespace plm_vins {
+
+void ImageSubscription::Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node,
+                                  const std::string& topic, uint32_t queue, Callback callback) {
+  callback_ = std::move(callback);
+  const auto transport = private_node.param<std::string>("image_transport", "raw");
+  if (transport == "compressed") {
+    compressed_subscriber_ = node.subscribe<sensor_msgs::CompressedImage>(
+        topic + "/compressed", queue,
+        [this](const sensor_msgs::CompressedImageConstPtr& message) { Read(*message); });
+  } else {
+    subscriber_ = image_transport::ImageTransport(node).subscribe(
+        topic, queue, [this](const sensor_msgs::ImageConstPtr& message) { Read(message); }, nullptr,
+        image_transport::TransportHints(transport, ros::TransportHints(), private_node));
+  }
+}
+
+// A message, or a pointer to one whose pixels are shared.
+template <typename Message>
+void ImageSubscription::Read(const Message& message) {
+  std::optional<ImageSample> image;
+  try {
+    image = ToImageSample(message);
+    stream_.Add(image->t_ns);
+  } catch (const std::exception& error) {
+    if (unreadable_.count++ == 0) unreadable_.detail = error.what();
+  }
+  callback_(std::move(image));
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <image_transport/subscriber.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "common/drop_counts.h"
+#include "common/measurements.h"
+#include "common/ros/stream_monitor.h"
+
+namespace plm_vins {
+
+// Grey images of a topic, by the transport that ~image_transport names: raw (default), compressed
+// (decoded here, no plugin needed) or any plugin's name. Ends with the subscription, which waits
+// for a callback that runs.
+class ImageSubscription {
+ public:
+  // An image, or nothing where a message cannot be made one, which is counted.
+  using Callback = std::function<void(std::optional<ImageSample>)>;
+
+  // Once. Callbacks come from the queue of `node` from here on, at most `queue` of them waiting.
+  void Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node,
+                 const std::string& topic, uint32_t queue, Callback callback);
+
+  StreamMonitor& stream() { return stream_; }
+  DropCount unreadable() const { return unreadable_; }
+
+ private:
+  template <typename Message>
+  void Read(const Message& message);
+
+  Callback callback_;
+  StreamMonitor stream_{"images"};
+  DropCount unreadable_{"images_unreadable", 0, ""};
+  image_transport::Subscriber subscriber_;
+  ros::Subscriber compressed_subscriber_;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/ros/keyframe_input.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/feature_checks.h"
+#include "common/ros/camera_info_conversion.h"
+#include "common/ros/keyframe_conversion.h"
+#include "common/ros/msg_conversion.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kUnitTolerance = 1e-2;  // of a quaternion's length; single precision is enough
+
+using RowMajorCovariance = Eigen::Map<const RowMajor6d>;
+
+bool IsUnit(const Eigen::Quaterniond& q) { return std::abs(q.norm() - 1) < kUnitTolerance; }
+
+// The message has the rotation's covariance about the axes of the world, we in the body.
+Eigen::Matrix<double, 6, 6> CovarianceOf(const nav_msgs::Odometry& message, const Rigid3d& T_O_B) {
+  Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Identity();
+  J.bottomRightCorner<3, 3>() = T_O_B.R().transpose();
+  return J * RowMajorCovariance(message.pose.covariance.data()) * J.transpose();
+}
+
+// Of another camera than ours, its rays would be nonsense.
+void CheckSameKind(const CameraParameters& ours, const CameraParameters& refined) {
+  if (refined.model == ours.model && refined.width == ours.width && refined.height == ours.height) {
+    return;
+  }
+  throw std::invalid_argument("it is not the camera of the configuration");
+}
+
+bool IsPlaced(const TrackedCorner& corner) {
+  return IsPossible(corner.observation) && corner.observation.uv_px.allFinite() &&
+         corner.p_O->allFinite();
+}
+
+bool IsSeen(const TrackedSegment& segment) { return IsPossible(segment.observation); }
+
+// Returns how many went.
+template <typename Feature>
+int64_t KeepOnly(bool (*is_possible)(const Feature&), std::vector<Feature>* features) {
+  const auto rest = std::remove_if(features->begin(), features->end(), std::not_fn(is_possible));
+  const int64_t removed = features->end() - rest;
+  features->erase(rest, features->end());
+  return removed;
+}
+
+// Runs `take`; an exception says what is wrong with a message, and counts.
+void CountFailure(DropCount* failures, const std::function<void()>& take) {
+  try {
+    take();
+  } catch (const std::exception& error) {
+    if (failures->count++ == 0) failures->detail = error.what();
+  }
+}
+
+}  // namespace
+
+bool KeyframeInput::Accepts(const nav_msgs::Odometry& message) {
+  const auto& p = message.pose.pose.position;
+  const auto& q = message.pose.pose.orientation;
+  const bool is_possible = Eigen::Vector3d(p.x, p.y, p.z).allFinite() &&
+                           IsUnit(Eigen::Quaterniond(q.w, q.x, q.y, q.z)) &&
+                           RowMajorCovariance(message.pose.covariance.data()).allFinite();
+  if (!is_possible) ++poses_.count;
+  return is_possible;
+}
+
+void KeyframeInput::AddPose(const nav_msgs::Odometry& message) {
+  if (!Accepts(message)) return;
+  const Rigid3d T_O_B = ToRigid(message.pose.pose);
+  assembly_.AddPose(ToNanoseconds(message.header.stamp), T_O_B, CovarianceOf(message, T_O_B));
+}
+
+void KeyframeInput::AddPoints(const sensor_msgs::PointCloud& message) {
+  CountFailure(&malformed_, [&] {
+    std::vector<TrackedCorner> corners = ToCorners(message);
+    features_.count += KeepOnly(IsPlaced, &corners);
+    assembly_.AddCorners(ToNanoseconds(message.header.stamp), std::move(corners));
+  });
+}
+
+void KeyframeInput::AddLines(const sensor_msgs::PointCloud& message) {
+  CountFailure(&malformed_, [&] {
+    std::vector<TrackedSegment> segments = ToSegments(message);
+    const auto R_O_M = ToManhattanFrame(message);
+    if (R_O_M && !IsUnit(*R_O_M)) {
+      throw std::invalid_argument("a keyframe's Manhattan frame is no rotation");
+    }
+    features_.count += KeepOnly(IsSeen, &segments);
+    assembly_.AddSegments(ToNanoseconds(message.header.stamp), std::move(segments), R_O_M);
+  });
+}
+
+// A model without rays throws as well.
+void KeyframeInput::AddCamera(const sensor_msgs::CameraInfo& message) {
+  CountFailure(&cameras_, [&] {
+    const CameraParameters camera = ToCameraParameters(message);
+    CheckSameKind(sensor_.camera, camera);
+    CameraModel::Create(camera);
+    camera_ = camera;
+  });
+}
+
+std::optional<OdometryFrame> KeyframeInput::Pop() {
+  std::optional<OdometryFrame> frame = assembly_.Pop();
+  if (!frame) return std::nullopt;
+  frame->T_B_C = sensor_.T_B_C;
+  frame->camera = camera_;
+  return frame;
+}
+
+}  // namespace plm_vins

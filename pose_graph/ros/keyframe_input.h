@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/PointCloud.h>
+
+#include <functional>
+#include <optional>
+
+#include "common/config/sensor_config.h"
+#include "common/drop_counts.h"
+#include "pose_graph/keyframe_assembly.h"
+
+namespace plm_vins {
+
+// From the messages of odometry, and images, to keyframes. What cannot be true stays out, and is
+// counted: one pose that is not finite would spoil a map for good. For one thread.
+class KeyframeInput {
+ public:
+  explicit KeyframeInput(const SensorConfig& sensor) : sensor_(sensor) {}
+
+  void AddImage(const ImageSample& image) { assembly_.AddImage(image); }
+  void AddPose(const nav_msgs::Odometry& message);
+  void AddPoints(const sensor_msgs::PointCloud& message);
+  void AddLines(const sensor_msgs::PointCloud& message);
+  // The camera as refined by now, for the keyframes that follow.
+  void AddCamera(const sensor_msgs::CameraInfo& message);
+
+  // The next keyframe in order of time, or nothing yet.
+  std::optional<OdometryFrame> Pop();
+
+  // Forgets what waits for other parts.
+  void Clear() { assembly_.Clear(); }
+
+  // False, and counted, where the pose, its quaternion or its covariance cannot be true.
+  bool Accepts(const nav_msgs::Odometry& message);
+
+  DropCounts Drops() const { return {malformed_, poses_, features_, cameras_}; }
+
+ private:
+  SensorConfig sensor_;
+  KeyframeAssembly assembly_;
+  std::optional<CameraParameters> camera_;
+  DropCount malformed_{"keyframe_messages_malformed", 0, ""};
+  DropCount poses_{"poses_impossible", 0, ""};
+  DropCount features_{"places_impossible", 0, ""};
+  DropCount cameras_{"cameras_refused", 0, ""};
+};
+
+}  // namespace plm_vins

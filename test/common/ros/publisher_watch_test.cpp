@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/ros/publisher_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/make_shared.hpp>
+
+namespace plm_vins {
+namespace {
+
+boost::shared_ptr<ros::M_string> Connect() { return boost::make_shared<ros::M_string>(); }
+
+TEST(PublisherWatch, TellsAnotherConnectionFromThatOfBefore) {
+  PublisherWatch watch(1);
+  const auto first = Connect();
+  const auto second = Connect();
+  EXPECT_FALSE(watch.HasChanged(0, first)) << "there was none before";
+  EXPECT_FALSE(watch.HasChanged(0, first));
+  EXPECT_TRUE(watch.HasChanged(0, second));
+  EXPECT_FALSE(watch.HasChanged(0, second));
+}
+
+TEST(PublisherWatch, TellsAProcessOnceByWhicheverTopicComesFirst) {
+  PublisherWatch watch(2);
+  EXPECT_FALSE(watch.HasChanged(0, Connect()));
+  EXPECT_FALSE(watch.HasChanged(1, Connect()));
+  for (const size_t first : {0, 1, 1, 0}) {
+    EXPECT_TRUE(watch.HasChanged(first, Connect()));
+    EXPECT_FALSE(watch.HasChanged(1 - first, Connect()));
+  }
+}
+
+TEST(PublisherWatch, MissesNoProcessOfWhichOneTopicComes) {
+  PublisherWatch watch(2);
+  EXPECT_FALSE(watch.HasChanged(0, Connect()));
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(watch.HasChanged(0, Connect()));
+  EXPECT_FALSE(watch.HasChanged(1, Connect()));
+  EXPECT_TRUE(watch.HasChanged(1, Connect()));
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/ros/keyframe_input.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/ros/camera_info_conversion.h"
+#include "common/ros/keyframe_conversion.h"
+#include "test/pose_graph/two_visits.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+nav_msgs::Odometry Pose() {
+  nav_msgs::Odometry message;
+  message.header.stamp = ros::Time(0, 5);
+  message.pose.pose.orientation.z = message.pose.pose.orientation.w = std::sqrt(0.5);
+  message.pose.covariance[21] = 4;  // about x of the world, which is -y of the body
+  return message;
+}
+
+class KeyframeInputTest : public ::testing::Test {
+ protected:
+  KeyframeInputTest() {
+    sensor_.camera = testing::SimpleCamera()->parameters();
+    sensor_.T_B_C = testing::LookingAhead();
+    for (int i = 0; i < 4; ++i) {
+      corners_.emplace_back().observation.id = segments_.emplace_back().observation.id = i;
+      corners_.back().p_O = Eigen::Vector3d(1, 2, 3);
+    }
+  }
+
+  // A keyframe of all parts; nothing where one was refused.
+  std::optional<OdometryFrame> Assemble(const nav_msgs::Odometry& pose) {
+    KeyframeInput input(sensor_);
+    input.AddImage({5, cv::Mat(4, 4, CV_8UC1)});
+    input.AddPose(pose);
+    input.AddPoints(ToKeyframePoints(corners_, 5, "world"));
+    input.AddLines(ToKeyframeLines(segments_, R_O_M_, 5, "world"));
+    for (const DropCount& drop : input.Drops()) drops_[drop.cause] = drop.count;
+    return input.Pop();
+  }
+
+  SensorConfig sensor_;
+  std::vector<TrackedCorner> corners_;
+  std::vector<TrackedSegment> segments_;
+  std::optional<Eigen::Quaterniond> R_O_M_;
+  std::map<std::string, int64_t> drops_;  // of the last keyframe
+};
+
+TEST_F(KeyframeInputTest, HasTheFramesOfAKeyframe) {
+  const auto frame = Assemble(Pose());
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->corners.size(), 4u);
+  EXPECT_EQ(frame->segments.size(), 4u);
+  EXPECT_EQ(frame->T_B_C.translation, sensor_.T_B_C.translation);
+  EXPECT_NEAR(frame->covariance(4, 4), 4, 1e-12);
+  EXPECT_NEAR(frame->covariance(3, 3), 0, 1e-12);
+  for (const auto& [cause, count] : drops_) EXPECT_EQ(count, 0) << cause;
+}
+
+TEST_F(KeyframeInputTest, RefusesPosesThatCannotBeTrue) {
+  std::vector<nav_msgs::Odometry> poses(4, Pose());
+  poses[0].pose.pose.position.y = kNan;
+  poses[1].pose.pose.orientation.x = std::numeric_limits<double>::infinity();
+  poses[2].pose.pose.orientation.w = 0;
+  poses[3].pose.covariance[1] = kNan;
+  for (const nav_msgs::Odometry& pose : poses) {
+    EXPECT_FALSE(Assemble(pose));
+    EXPECT_EQ(drops_["poses_impossible"], 1);
+  }
+}
+
+TEST_F(KeyframeInputTest, TakesQuaternionsOfSinglePrecision) {
+  nav_msgs::Odometry pose = Pose();
+  pose.pose.pose.orientation.w *= 1 + 1e-6;
+  const auto frame = Assemble(pose);
+  ASSERT_TRUE(frame);
+  EXPECT_NEAR(frame->T_O_B.rotation.norm(), 1, 1e-12);
+}
+
+TEST_F(KeyframeInputTest, LeavesOutFeaturesThatCannotBeTrue) {
+  corners_[1].p_O->z() = kNan;
+  corners_[2].observation.uv_px.x() = kNan;
+  segments_[0].observation.end.x() = kNan;
+  const auto frame = Assemble(Pose());
+  ASSERT_TRUE(frame);
+  ASSERT_EQ(frame->corners.size(), 2u);
+  EXPECT_EQ(frame->corners[1].observation.id, 3);
+  EXPECT_EQ(frame->segments.size(), 3u);
+  EXPECT_EQ(drops_["places_impossible"], 3);
+}
+
+TEST_F(KeyframeInputTest, CountsMessagesOfAnotherLayout) {
+  KeyframeInput input(sensor_);
+  sensor_msgs::PointCloud message = ToKeyframePoints(corners_, 5, "world");
+  message.channels[2].values.resize(3);
+  input.AddPoints(message);
+  R_O_M_ = Eigen::Quaterniond(0, 0, 0, 0);
+  input.AddLines(ToKeyframeLines(segments_, R_O_M_, 5, "world"));
+  const DropCount malformed = input.Drops().front();
+  EXPECT_EQ(malformed.cause, "keyframe_messages_malformed");
+  EXPECT_EQ(malformed.count, 2);
+  EXPECT_FALSE(malformed.detail.empty());
+}
+
+TEST_F(KeyframeInputTest, RefusesAnotherCamera) {
+  KeyframeInput input(sensor_);
+  CameraParameters refined = sensor_.camera;
+  refined.fx += 1;
+  input.AddCamera(ToCameraInfo(refined, 5, "camera"));
+  EXPECT_EQ(input.Drops().back().count, 0);
+  refined.width /= 2;
+  input.AddCamera(ToCameraInfo(refined, 5, "camera"));
+  EXPECT_EQ(input.Drops().back().cause, "cameras_refused");
+  EXPECT_EQ(input.Drops().back().count, 1);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pose graph's node fed with keyframes: worlds that end, images that do not come or come
+// compressed, numbers that are none, displays that are opened later. Run by pose_graph.test.
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Path.h>
+#include <std_srvs/Trigger.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "test/ros/keyframe_source.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::Camera;
+using testing::KeyframeSource;
+using testing::SpinUntil;
+
+constexpr double kPatience = 20;  // [s]
+
+// The newest message of a topic.
+template <typename Message>
+class Newest {
+ public:
+  explicit Newest(const std::string& topic)
+      : subscriber_(ros::NodeHandle().subscribe<Message>(
+            topic, 1000, [this](const boost::shared_ptr<const Message>& message) {
+              message_ = message;
+              ++count_;
+            })) {}
+
+  const Message* operator->() const { return message_.get(); }
+  bool has() const { return message_ != nullptr; }
+  int count() const { return count_; }
+  void Forget() {
+    message_.reset();
+    count_ = 0;
+  }
+  bool WaitForPublisher() const {
+    return SpinUntil(kPatience, [&] { return subscriber_.getNumPublishers() > 0; });
+  }
+
+ private:
+  boost::shared_ptr<const Message> message_;
+  int count_ = 0;
+  ros::Subscriber subscriber_;
+};
+
+// What a node said last in /diagnostics, by key; its text as "message".
+class Status {
+ public:
+  explicit Status(std::string name) : name_(std::move(name)) {}
+
+  // Turns ROS until the value contains the text.
+  bool WaitFor(const std::string& key, const std::string& text) {
+    return SpinUntil(kPatience, [&] { return values_[key].find(text) != std::string::npos; });
+  }
+  const std::string& Value(const std::string& key) { return values_[key]; }
+
+ private:
+  void Add(const diagnostic_msgs::DiagnosticArray& array) {
+    for (const auto& status : array.status) {
+      if (status.name != name_) continue;
+      values_ = {{"message", status.message}};
+      for (const auto& value : status.values) values_[value.key] = value.value;
+    }
+  }
+
+  std::string name_;
+  std::map<std::string, std::string> values_;
+  ros::Subscriber subscriber_ =
+      ros::NodeHandle().subscribe("/diagnostics", 100, &Status::Add, this);
+};
+
+bool Reset(const std::string& node) {
+  std_srvs::Trigger reset;
+  return ros::service::waitForService(node + "/reset", ros::Duration(kPatience)) &&
+         ros::service::call(node + "/reset", reset) && reset.response.success;
+}
+
+cv::Mat Blank() { return {480, 752, CV_8UC1, cv::Scalar(100)}; }
+
+// What takes long to describe.
+cv::Mat Noise() {
+  cv::Mat noise(480, 752, CV_8UC1);
+  cv::randu(noise, 0, 256);
+  return noise;
+}
+
+class PoseGraphNodeTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    Start();
+    ASSERT_TRUE(camera_.WaitForSubscriber() && path_.WaitForPublisher() &&
+                in_map_.WaitForPublisher());
+    estimator_->PublishPose(KeyframeSource::Pose(0));
+    EXPECT_EQ(CountInMap(0.3), 0);
+    ASSERT_TRUE(Reset("/pose_graph"));
+  }
+
+  // An estimator, in the place of the one before.
+  void Start() {
+    estimator_.reset();
+    estimator_ = std::make_unique<KeyframeSource>("/vins_estimator/");
+    ASSERT_TRUE(estimator_->WaitForSubscriber());
+  }
+
+  // Keyframes from `begin` to before `end`, until the node has the last one.
+  void Fly(int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      estimator_->Publish(i, camera_, Blank());
+      ros::WallDuration(0.02).sleep();
+    }
+    ASSERT_TRUE(WaitForKeyframe(end - 1)) << status_.Value("message");
+  }
+
+  bool WaitForKeyframe(int number) {
+    return SpinUntil(kPatience, [&] {
+      return path_.has() && path_->header.stamp == KeyframeSource::Stamp(number);
+    });
+  }
+
+  // Odometry in the map for a while, as the node takes it.
+  int CountInMap(double seconds) {
+    in_map_.Forget();
+    SpinUntil(seconds, [&] {
+      estimator_->PublishOdometry(50);
+      return false;
+    });
+    return in_map_.count();
+  }
+
+  Camera camera_{"raw"};
+  std::unique_ptr<KeyframeSource> estimator_;
+  Newest<nav_msgs::Path> path_{"/pose_graph/path"};
+  Newest<nav_msgs::Odometry> in_map_{"/pose_graph/odometry"};
+  Status status_{"pose_graph: map"};
+};
+
+TEST_F(PoseGraphNodeTest, PutsKeyframesInOrderAndOdometryInTheMap) {
+  Fly(0, 4);
+  EXPECT_EQ(path_->poses.size(), 4u);
+  EXPECT_GT(CountInMap(0.5), 0);
+  EXPECT_EQ(in_map_->header.frame_id, "map");
+}
+
+// The new one says nothing of the world that it begins.
+TEST_F(PoseGraphNodeTest, TakesAnEstimatorThatWasStartedAgainForANewWorld) {
+  Fly(0, 4);
+  EXPECT_GT(CountInMap(0.5), 0);
+  Start();
+  EXPECT_EQ(CountInMap(0.5), 0) << "by the place of the world before";
+  Fly(10, 14);
+  EXPECT_EQ(path_->poses.size(), 4u) << "7 or 8: joined with the world before";
+  EXPECT_EQ(CountInMap(0.5), 0);
+}
+
+// As of a recording without odometry. The first keyframe is lost where its pose comes after its
+// points.
+TEST_F(PoseGraphNodeTest, TakesKeyframesOfAnotherPublisherForANewWorld) {
+  Fly(0, 4);
+  Start();
+  Fly(10, 14);
+  EXPECT_GE(path_->poses.size(), 3u);
+  EXPECT_LE(path_->poses.size(), 4u) << "joined with the world before";
+}
+
+TEST_F(PoseGraphNodeTest, TakesARestartForANewWorld) {
+  Fly(0, 4);
+  estimator_->PublishRestart();
+  ros::WallDuration(0.2).sleep();
+  Fly(10, 14);
+  EXPECT_EQ(path_->poses.size(), 4u);
+  EXPECT_EQ(CountInMap(0.5), 0);
+}
+
+TEST_F(PoseGraphNodeTest, KnowsNoPlaceOfANewWorldByTheKeyframesOfTheOneBefore) {
+  const cv::Mat noise = Noise();
+  for (int i = 0; i < 40; ++i) estimator_->Publish(i, camera_, noise);
+  ASSERT_TRUE(SpinUntil(kPatience, [&] { return path_.has() && !path_->poses.empty(); }));
+  estimator_->PublishRestart();
+  ros::WallDuration(0.1).sleep();
+  EXPECT_EQ(CountInMap(1.5), 0);
+}
+
+TEST_F(PoseGraphNodeTest, ForgetsPartsOfKeyframesWhenReset) {
+  camera_.Publish(KeyframeSource::Stamp(0), Blank());
+  estimator_->PublishPoints(0);
+  estimator_->PublishPose(KeyframeSource::Pose(0));
+  ros::WallDuration(0.3).sleep();
+  ASSERT_TRUE(Reset("/pose_graph"));
+  estimator_->PublishLines(0);
+  Fly(1, 3);
+  EXPECT_EQ(path_->poses.size(), 2u);
+  EXPECT_GT(CountInMap(0.5), 0) << "the map is that of the odometry";
+}
+
+TEST_F(PoseGraphNodeTest, RefusesPosesThatAreNotFinite) {
+  Fly(0, 2);
+  auto pose = KeyframeSource::Pose(2);
+  pose.pose.pose.position.x = std::numeric_limits<double>::quiet_NaN();
+  camera_.Publish(KeyframeSource::Stamp(2), Blank());
+  estimator_->PublishLines(2);
+  estimator_->PublishPoints(2);
+  estimator_->PublishPose(pose);
+  Fly(3, 5);
+  EXPECT_EQ(path_->poses.size(), 4u);
+  for (const auto& on_path : path_->poses) EXPECT_TRUE(std::isfinite(on_path.pose.position.x));
+  EXPECT_TRUE(status_.WaitFor("poses_impossible", "1"));
+}
+
+TEST_F(PoseGraphNodeTest, CountsImagesThatAreNoneApartFromErrors) {
+  camera_.PublishDepth(KeyframeSource::Stamp(0));
+  EXPECT_TRUE(status_.WaitFor("images_unreadable", "1"));
+  EXPECT_EQ(status_.Value("internal_errors"), "0");
+  Fly(1, 3);
+}
+
+TEST_F(PoseGraphNodeTest, SaysWhereKeyframesComeWithoutImages) {
+  EXPECT_TRUE(SpinUntil(kPatience, [&] {
+    estimator_->PublishPose(KeyframeSource::Pose(0));
+    ros::WallDuration(0.1).sleep();
+    return status_.Value("message").find("no image comes on /cam0/image_raw") != std::string::npos;
+  })) << status_.Value("message");
+}
+
+// In a namespace, and with nobody who looks at it before.
+TEST(PoseGraphOfARobot, TakesCompressedImagesAndShowsItsPathToWhomComesLater) {
+  const std::string node = "/robot/pose_graph";
+  const Camera camera("compressed");
+  const KeyframeSource estimator("/robot/vins_estimator/");
+  ASSERT_TRUE(camera.WaitForSubscriber() && estimator.WaitForSubscriber());
+  Status status("robot/pose_graph: map");
+  for (int i = 0; i < 3; ++i) estimator.Publish(i, camera, Blank());
+  ASSERT_TRUE(status.WaitFor("keyframes", "3")) << status.Value("message");
+  {
+    const Newest<nav_msgs::Path> path(node + "/path");
+    ASSERT_TRUE(SpinUntil(kPatience, [&] { return path.has(); }));
+    EXPECT_EQ(path->poses.size(), 3u);
+  }
+  ASSERT_TRUE(Reset(node));
+  const Newest<nav_msgs::Path> path(node + "/path");
+  ASSERT_TRUE(SpinUntil(kPatience, [&] { return path.has(); }));
+  EXPECT_TRUE(path->poses.empty());
+}
+
+}  // namespace
+}  // namespace plm_vins
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "pose_graph_test");
+  const ros::NodeHandle keeps_ros_running;
+  return RUN_ALL_TESTS();
+}

@@ -15,7 +15,6 @@ struct VariableType {
 };
 
 constexpr int kMaxAmbientSize = 9;
-constexpr int kMaxTangentSize = 9;
 
 const VariableType& PoseVariable();    // 7 -> 6
 const VariableType& MotionVariable();  // 9, vector space

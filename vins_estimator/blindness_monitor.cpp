@@ -6,11 +6,11 @@
 #include <cstdio>
 
 #include "common/measurements.h"
+#include "vins_estimator/failure_detector.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr int kFewFeatures = 6;  // fewer do not fix a pose
 // Standard deviation that blindness may add [m]: with errors of three of them, the pose is still
 // good for a vehicle to stop by.
 constexpr double kMaxDeviation = 0.5;

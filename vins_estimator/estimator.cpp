@@ -385,7 +385,7 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->contradicted = state_.contradiction_monitor.contradicts();
   const int fitting = output->counts.known_seen - output->counts.known_rejected;
   output->on_imu_alone =
-      state_.blindness_monitor.blind() || (!output->stationary && fitting < kFewLandmarks);
+      state_.blindness_monitor.blind() || (!output->stationary && fitting < kFewFeatures);
   output->window.reserve(window.frames.size());
   for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
   for (const auto& [id, landmark] : map.points.landmarks()) {

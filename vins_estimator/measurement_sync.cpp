@@ -24,11 +24,6 @@ constexpr int64_t kPointsLeap_ns = 10'000'000'000;
 
 constexpr size_t kFewPoints = 10;  // too few to estimate the motion of the camera
 
-// False also for zeros throughout, which drivers give where they could not read the sensor.
-bool IsPlausible(const ImuSample& sample) {
-  return IsInRange(sample) && !(sample.gyro.isZero(0.0) && sample.accel.isZero(0.0));
-}
-
 }  // namespace
 
 MeasurementSync::MeasurementSync(const Options& options)

@@ -52,8 +52,8 @@ Estimator::Estimator(const Config& config)
 void Estimator::Reset() { state_ = State(config_, options_); }
 
 EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
-  CheckMeasurement(measurement, state_.newest_ns);
-  state_.newest_ns = measurement.t_ns;
+  CheckMeasurement(measurement, state_.newest);
+  state_.newest = EndOf(measurement);
   const Stopwatch stopwatch;
   EstimatorOutput output;
   output.t_ns = measurement.t_ns;

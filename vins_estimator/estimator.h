@@ -61,6 +61,7 @@ class Estimator {
     WindowEstimate estimate;
     ViewNoise noise;
     FrameState predicted;         // of the newest image, from the IMU alone
+    bool solved = false;          // what was last optimised had a solution
     Matrix15d newest_covariance;  // as optimised; zero where the problem is singular
     FrameBridge bridge;
   };

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/config.h"
+#include "common/median.h"
 #include "offline/asl_recording.h"
 #include "offline/feature_trackers.h"
 #include "vins_estimator/estimator.h"
@@ -48,12 +49,6 @@ std::vector<FrameMeasurement> Measure(const Config& config, Recording* recording
   while (auto frame = trackers.Flush()) Take(std::move(*frame), &sync);
   while (auto measurement = sync.Flush()) measurements.push_back(std::move(*measurement));
   return measurements;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 void Optimize(benchmark::State& state, Config config, SolverType solver,

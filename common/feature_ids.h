@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 
 namespace plm_vins {
 
@@ -11,6 +14,17 @@ constexpr int64_t kTransportableIds = int64_t{1} << 24;
 
 // An id as it travels: modulo kTransportableIds.
 inline int64_t WrapId(int64_t id) { return id % kTransportableIds; }
+
+// An id that has travelled. From kTransportableIds on, a float32 is taken for its neighbours; so
+// what is no such id throws std::invalid_argument.
+inline int64_t ReadId(float value) {
+  if (!(value >= 0 && value < static_cast<float>(kTransportableIds)) ||
+      value != std::floor(value)) {
+    throw std::invalid_argument("feature message with the id " + std::to_string(value) +
+                                ": not a whole number from 0 to 2^24 - 1");
+  }
+  return static_cast<int64_t>(value);
+}
 
 // Restores the ids of a tracker from wrapped ones, and keeps apart those of a tracker that was
 // started again and counts from zero once more.

@@ -34,6 +34,15 @@ double Doubt(const Eigen::Vector3d& reading, const Eigen::Vector3d& replacement,
   return Difference(reading.cwiseMax(-range).cwiseMin(range), replacement);
 }
 
+// Whether the sample is at the end of the range; it is doubted there.
+bool DoubtSaturated(const ImuRange& range, ImuSample* sample) {
+  const bool gyro = sample->gyro.cwiseAbs().maxCoeff() >= kEndOfRange * range.gyro;
+  const bool accel = sample->accel.cwiseAbs().maxCoeff() >= kEndOfRange * range.accel;
+  if (gyro) sample->gyro_doubt = std::max(sample->gyro_doubt, kCutOff * range.gyro);
+  if (accel) sample->accel_doubt = std::max(sample->accel_doubt, kCutOff * range.accel);
+  return gyro || accel;
+}
+
 }  // namespace
 
 double ImuGate::Leaps::Limit() const {
@@ -59,7 +68,10 @@ std::vector<ImuSample> ImuGate::Add(const ImuSample& sample) {
   std::vector<ImuSample> decided = TakeSuspects(/*believed=*/suspect, sample);
   decided.push_back(sample);
   last_ = sample;
-  for (ImuSample& next : decided) DoubtSaturated(&next);
+  for (ImuSample& next : decided) {
+    const bool is_reading = suspect || next.t_ns == sample.t_ns;  // not a replacement
+    if (DoubtSaturated(range_, &next) && is_reading) ++saturated_;
+  }
   return decided;
 }
 
@@ -98,14 +110,6 @@ ImuSample ImuGate::Replace(const ImuSample& suspect, const ImuSample& next) cons
   replacement.gyro_doubt = Doubt(suspect.gyro, replacement.gyro, range_.gyro);
   replacement.accel_doubt = Doubt(suspect.accel, replacement.accel, range_.accel);
   return replacement;
-}
-
-void ImuGate::DoubtSaturated(ImuSample* sample) {
-  const bool gyro = sample->gyro.cwiseAbs().maxCoeff() >= kEndOfRange * range_.gyro;
-  const bool accel = sample->accel.cwiseAbs().maxCoeff() >= kEndOfRange * range_.accel;
-  if (gyro) sample->gyro_doubt = kCutOff * range_.gyro;
-  if (accel) sample->accel_doubt = kCutOff * range_.accel;
-  if (gyro || accel) ++saturated_;
 }
 
 }  // namespace plm_vins

@@ -19,7 +19,7 @@ namespace plm_vins {
 // within kMaxRun it was an outlier; where they do not, the motion did change, and it is believed.
 //
 // A reading at the end of the range is believed, too, but the true one may be beyond: it comes with
-// a doubt of half the range.
+// a doubt of half the range at least.
 class ImuGate {
  public:
   static constexpr int kMaxRun = 5;  // suspects in a row, 25 ms at 200 Hz
@@ -51,7 +51,6 @@ class ImuGate {
   // The suspects, as they are where they are believed, else replaced; `next` comes after them.
   std::vector<ImuSample> TakeSuspects(bool believed, const ImuSample& next);
   ImuSample Replace(const ImuSample& suspect, const ImuSample& next) const;
-  void DoubtSaturated(ImuSample* sample);
 
   ImuRange range_;
   std::optional<ImuSample> last_;    // the newest that was believed

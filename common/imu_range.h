@@ -21,4 +21,10 @@ inline bool IsInRange(const ImuSample& sample, const ImuRange& range = kAnyImuRa
          sample.accel.cwiseAbs().maxCoeff() <= range.accel;
 }
 
+// What an inertial sensor may have read: false also for zeros throughout, which drivers give where
+// they could not read it.
+inline bool IsPlausible(const ImuSample& sample) {
+  return IsInRange(sample) && !(sample.gyro.isZero(0.0) && sample.accel.isZero(0.0));
+}
+
 }  // namespace plm_vins

@@ -30,7 +30,7 @@ Eigen::Matrix3d SO3RightJacobianInverse(const Eigen::Vector3d& phi);
 // The shortest rotation that turns direction `from` into direction `to`: to ~ R from.
 Eigen::Quaterniond ShortestRotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-// Rotation about z by the heading (yaw) of `q` in the z-up world.
+// The heading (yaw) of `q` in the z-up world: of its x axis, about z [rad].
 double Yaw(const Eigen::Quaterniond& q);
 
 }  // namespace plm_vins

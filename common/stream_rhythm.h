@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/measurements.h"
+#include "common/median.h"
 
 namespace plm_vins {
 
@@ -21,13 +22,7 @@ class StreamRhythm {
   }
 
   // Median interval [s]; zero while there are few stamps.
-  double Interval() const {
-    if (stamps_.size() < kStamps) return 0;
-    std::vector<double> intervals = Intervals();
-    const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-    std::nth_element(intervals.begin(), middle, intervals.end());
-    return *middle;
-  }
+  double Interval() const { return stamps_.size() < kStamps ? 0 : Median(Intervals()); }
 
   // Root mean square by which intervals differ from the median or, where stamps are missing, from a
   // multiple of it [s].

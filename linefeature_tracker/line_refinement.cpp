@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/geometry/robust_weight.h"
+#include "common/median.h"
 #include "tracking/image_sampling.h"
 
 namespace plm_vins {
@@ -55,8 +56,7 @@ LineOffset FitOffset(const std::vector<EdgePoint>& points) {
   for (const EdgePoint& point : points) {
     offsets.push_back(point.offset_px * point.sample.offset_per_pixel);
   }
-  std::nth_element(offsets.begin(), offsets.begin() + offsets.size() / 2, offsets.end());
-  LineOffset fit{offsets[offsets.size() / 2], 0};
+  LineOffset fit{Median(std::move(offsets)), 0};
   for (const double scale_px : kRobustScales_px) {
     Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
     Eigen::Vector2d b = Eigen::Vector2d::Zero();

@@ -29,7 +29,7 @@ GyroPredictor::GyroPredictor(const Rigid3d& T_B_C, double td, const ImuRange& im
       jump_(kJumpPatience) {}
 
 void GyroPredictor::AddImu(const ImuSample& sample) {
-  if (!IsInRange(sample)) return;
+  if (!IsPlausible(sample)) return;
   if (last_ns_ && sample.t_ns <= *last_ns_) {
     if (!jump_.Refuse(sample.t_ns)) return;
     Clear();

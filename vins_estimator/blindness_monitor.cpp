@@ -6,11 +6,11 @@
 #include <cstdio>
 
 #include "common/measurements.h"
+#include "vins_estimator/failure_detector.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr int kFewFeatures = 6;  // fewer do not fix a pose
 // Standard deviation that blindness may add [m]: with errors of three of them, the pose is still
 // good for a vehicle to stop by.
 constexpr double kMaxDeviation = 0.5;
@@ -21,6 +21,7 @@ std::optional<std::string> BlindnessMonitor::Add(int64_t t_ns, int features_seen
                                                  const Eigen::Matrix3d& position_covariance) {
   const double variance = position_covariance.trace();
   blind_ = features_seen < kFewFeatures;
+  if (!(variance > 0)) return std::nullopt;
   const double added = seen_ns_ ? std::sqrt(std::max(0.0, variance - variance_before_)) : 0;
   if (added <= kMaxDeviation) {
     if (!blind_ || !seen_ns_) {

@@ -13,8 +13,9 @@ namespace plm_vins {
 // holds for seconds without any image or IMU sample, and where nothing of what is seen fits.
 class BlindnessMonitor {
  public:
-  // Takes how many features the newest image shows and the covariance of its position [m^2]. The
-  // reason once the state cannot be kept; nothing before.
+  // Takes how many features the newest image shows and the covariance of its position [m^2], zero
+  // where that is not known, which says nothing. The reason once the state cannot be kept; nothing
+  // before.
   std::optional<std::string> Add(int64_t t_ns, int features_seen,
                                  const Eigen::Matrix3d& position_covariance);
 

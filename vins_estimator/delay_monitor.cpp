@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "vins_estimator/forgetting_sum.h"
+
 namespace plm_vins {
 namespace {
 
@@ -15,10 +17,9 @@ constexpr double kMinChange = 0.01;  // [rad^2/s^2], sum: without turns there is
 
 void DelayMonitor::Add(const Eigen::Vector3d& rotation_residual,
                        const Eigen::Vector3d& rate_change) {
-  const auto add = [](double product, double* sum) { *sum += product - kForgetting * *sum; };
-  add(rate_change.dot(rotation_residual), &change_residual_);
-  add(rate_change.squaredNorm(), &change_change_);
-  add(rotation_residual.squaredNorm(), &residual_residual_);
+  AddForgetting(kForgetting, rate_change.dot(rotation_residual), &change_residual_);
+  AddForgetting(kForgetting, rate_change.squaredNorm(), &change_change_);
+  AddForgetting(kForgetting, rotation_residual.squaredNorm(), &residual_residual_);
 }
 
 std::optional<double> DelayMonitor::delay() const {

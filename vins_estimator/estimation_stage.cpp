@@ -48,7 +48,8 @@ DropCounts ToDropCounts(const SyncStatistics& statistics) {
           {"frames_with_few_points", statistics.frames_with_few_points, ""},
           {"lines_out_of_order", statistics.lines_out_of_order, ""},
           {"lines_late", statistics.lines_late, ""},
-          {"jumps_back", statistics.jumps_back, ""}};
+          {"jumps_back", statistics.jumps_back, ""},
+          {"leaps_ahead", statistics.leaps_ahead, ""}};
 }
 
 EstimationStage::EstimationStage(const Config& config, double max_wait)
@@ -106,13 +107,18 @@ void EstimationStage::StartOver(const std::string& reason) {
   anew_ = true;
 }
 
+void EstimationStage::FollowClock() {
+  const SyncStatistics& now = sync_.statistics();
+  if (now.leaps_ahead > leaps_ahead_) StartOver("stamps leaped ahead");
+  if (now.jumps_back > jumps_back_) StartOver("stamps jumped back");
+  leaps_ahead_ = now.leaps_ahead;
+  jumps_back_ = now.jumps_back;
+}
+
 std::optional<EstimatedFrame> EstimationStage::Process(
     const std::optional<FrameMeasurement>& measurement) {
   if (!measurement) return std::nullopt;
-  if (sync_.statistics().jumps_back > jumps_back_) {
-    jumps_back_ = sync_.statistics().jumps_back;
-    StartOver("stamps jumped back");
-  }
+  FollowClock();
   EstimatedFrame frame;
   frame.output = estimator_->Process(*measurement);
   frame.points = measurement->points;

@@ -69,6 +69,8 @@ class EstimationStage {
  private:
   std::optional<EstimatedFrame> Process(const std::optional<FrameMeasurement>& measurement);
   void StartOver(const std::string& reason);
+  // Starts over where a clock was set: what was estimated has nothing to do with what comes.
+  void FollowClock();
 
   const double imu_rate_;                       // as configured [Hz]
   const double gyro_density_;                   // [rad/s/sqrt(Hz)]
@@ -79,7 +81,7 @@ class EstimationStage {
   std::optional<double> delay_;  // [s]
   int64_t frames_ = 0;
   int64_t resets_ = 0;
-  int64_t jumps_back_ = 0;                     // followed so far
+  int64_t jumps_back_ = 0, leaps_ahead_ = 0;   // followed so far
   bool anew_ = true;                           // no image since the start or since starting over
   std::optional<std::string> restart_reason_;  // for the next output
 };

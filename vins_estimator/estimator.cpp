@@ -13,8 +13,7 @@
 #include "vins_estimator/map/wandering_lines.h"
 #include "vins_estimator/measurement_check.h"
 #include "vins_estimator/merging/line_merging.h"
-#include "vins_estimator/optimization/ceres_solver.h"
-#include "vins_estimator/optimization/levenberg_marquardt.h"
+#include "vins_estimator/optimization/window_solver.h"
 #include "vins_estimator/recall/line_recognition.h"
 
 namespace plm_vins {
@@ -52,8 +51,8 @@ Estimator::Estimator(const Config& config)
 void Estimator::Reset() { state_ = State(config_, options_); }
 
 EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
-  CheckMeasurement(measurement, state_.newest_ns);
-  state_.newest_ns = measurement.t_ns;
+  CheckMeasurement(measurement, state_.newest);
+  state_.newest = EndOf(measurement);
   const Stopwatch stopwatch;
   EstimatorOutput output;
   output.t_ns = measurement.t_ns;
@@ -166,6 +165,7 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
 }
 
 std::optional<std::string> Estimator::FindFailure(const EstimatorOutput& output) {
+  if (!state_.solved) return "the optimisation has no solution";
   auto contradiction = state_.contradiction_monitor.Add(output.t_ns, output.counts.known_seen,
                                                         output.counts.known_rejected);
   if (contradiction) return contradiction;
@@ -290,12 +290,7 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
   }
   output->counts.known_seen = map.CountInNewest();
   NormalEquations equations(builder.problem());
-  if (config_.estimator.solver == SolverType::kCeres) {
-    SolveByCeres(options, builder.problem());
-    equations.Linearize();
-  } else {
-    Solve(options, builder.problem(), &equations);
-  }
+  state_.solved = SolveBy(config_.estimator.solver, options, builder.problem(), &equations).solved;
   const int64_t newest_ns = map.window.newest().state.t_ns;
   const Eigen::MatrixXd covariance =
       equations.Covariance({{BlockKind::kPose, newest_ns}, {BlockKind::kMotion, newest_ns}});
@@ -385,7 +380,7 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->contradicted = state_.contradiction_monitor.contradicts();
   const int fitting = output->counts.known_seen - output->counts.known_rejected;
   output->on_imu_alone =
-      state_.blindness_monitor.blind() || (!output->stationary && fitting < kFewLandmarks);
+      state_.blindness_monitor.blind() || (!output->stationary && fitting < kFewFeatures);
   output->window.reserve(window.frames.size());
   for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
   for (const auto& [id, landmark] : map.points.landmarks()) {

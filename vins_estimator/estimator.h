@@ -19,6 +19,7 @@
 #include "vins_estimator/map/view_noise.h"
 #include "vins_estimator/marginalization/window_estimate.h"
 #include "vins_estimator/marginalization/window_marginalizer.h"
+#include "vins_estimator/measurement_check.h"
 #include "vins_estimator/rolling_shutter.h"
 #include "vins_estimator/stamp_jitter.h"
 #include "vins_estimator/uncertain_state.h"
@@ -47,7 +48,7 @@ class Estimator {
     State(const Config& config, const EstimatorOptions& options);
 
     bool initialized = false;
-    std::optional<int64_t> newest_ns;  // stamp of the last measurement
+    std::optional<MeasurementEnd> newest;
     Initializer initializer;
     StandstillDetector standstill_detector;
     std::optional<RollingShutter> rolling_shutter;  // where the camera has one
@@ -60,6 +61,7 @@ class Estimator {
     WindowEstimate estimate;
     ViewNoise noise;
     FrameState predicted;         // of the newest image, from the IMU alone
+    bool solved = false;          // what was last optimised had a solution
     Matrix15d newest_covariance;  // as optimised; zero where the problem is singular
     FrameBridge bridge;
   };

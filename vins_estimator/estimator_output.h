@@ -57,12 +57,12 @@ struct EstimatorOutput {
   std::optional<double> delay;              // error of td that shows, roughly [s] (DelayMonitor)
   bool contradicted = false;                // much of what is known is not where it should be
   bool on_imu_alone = false;                // next to nothing that is known holds the pose
-  bool keyframe = false;
-  bool stationary = false;                // standing still was recognised
-  bool restarted = false;                 // the world frame is a new one from here on
-  bool bridged = false;                   // tracks again after a loss, in the same world frame
-  std::vector<FrameState> window;         // states of the sliding window, oldest first
-  std::vector<MapPoint> points;           // landmarks in the window
+  bool keyframe = false;           // the image before this one stays in the window as a keyframe
+  bool stationary = false;         // standing still was recognised
+  bool restarted = false;          // the world frame is a new one from here on
+  bool bridged = false;            // tracks again after a loss, in the same world frame
+  std::vector<FrameState> window;  // states of the sliding window, oldest first
+  std::vector<MapPoint> points;    // landmarks in the window
   std::vector<MapPoint> departed_points;  // landmarks that left the window with this frame
   std::vector<MapLine> lines;             // the same for lines
   std::vector<MapLine> departed_lines;

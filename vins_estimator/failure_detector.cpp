@@ -54,7 +54,7 @@ std::optional<std::string> ContradictionMonitor::Add(int64_t t_ns, int landmarks
   newest_ns_ = t_ns;
   const bool fits = rejected == 0 || rejected < kMaxRejectedShare * landmarks;
   const bool by_chance = !contradicts_ && rejected < kMinRejected;
-  if (fits && landmarks >= kFewLandmarks) contradicts_ = false;
+  if (fits && landmarks >= kFewFeatures) contradicts_ = false;
   if (fits || by_chance) return std::nullopt;
   contradiction_ns_ = contradicts_ ? contradiction_ns_ + interval_ns : 0;
   contradicts_ = true;

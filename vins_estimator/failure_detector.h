@@ -9,7 +9,7 @@
 
 namespace plm_vins {
 
-constexpr int kFewLandmarks = 6;  // fewer do not fix a pose
+constexpr int kFewFeatures = 6;  // fewer points and lines do not fix a pose
 
 // Bounds beyond which an estimate cannot be right for a robot with a working IMU.
 struct FailureLimits {

@@ -2,6 +2,7 @@
 #include "vins_estimator/measurement_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -36,21 +37,47 @@ void CheckFeatures(const FrameMeasurement& measurement, int64_t t_ns,
   }
 }
 
+bool IsDoubt(double deviation) { return std::isfinite(deviation) && deviation >= 0; }
+
+bool IsFinite(const ImuSample& sample) {
+  return sample.gyro.allFinite() && sample.accel.allFinite() && IsDoubt(sample.gyro_doubt) &&
+         IsDoubt(sample.accel_doubt);
+}
+
+bool Increase(const std::vector<ImuSample>& samples) {
+  const auto is_not_before = [](const ImuSample& a, const ImuSample& b) {
+    return a.t_ns >= b.t_ns;
+  };
+  return std::adjacent_find(samples.begin(), samples.end(), is_not_before) == samples.end();
+}
+
+void CheckImu(const FrameMeasurement& measurement, const std::optional<MeasurementEnd>& previous) {
+  const std::vector<ImuSample>& imu = measurement.imu;
+  if (imu.empty()) Refuse(measurement, "it has no IMU sample");
+  if (!std::all_of(imu.begin(), imu.end(), IsFinite)) {
+    Refuse(measurement, "an IMU sample is not finite, or its doubt negative");
+  }
+  if (!Increase(imu)) Refuse(measurement, "the stamps of its IMU samples do not increase");
+  if (!previous) return;
+  if (imu.front().t_ns != previous->imu_ns) {
+    Refuse(measurement, "its IMU samples do not begin where those before end, at " +
+                            std::to_string(previous->imu_ns) + " ns");
+  }
+  if (imu.size() < 2) Refuse(measurement, "no IMU sample leads to it");
+}
+
 }  // namespace
 
 void CheckMeasurement(const FrameMeasurement& measurement,
-                      const std::optional<int64_t>& previous_ns) {
-  if (previous_ns && measurement.t_ns <= *previous_ns) {
-    Refuse(measurement, "it is not after the one before, of " + std::to_string(*previous_ns));
+                      const std::optional<MeasurementEnd>& previous) {
+  if (previous && measurement.t_ns <= previous->t_ns) {
+    Refuse(measurement, "it is not after the one before, of " + std::to_string(previous->t_ns));
   }
   CheckFeatures(measurement, measurement.points.t_ns, measurement.points.points, "point");
   if (measurement.lines) {
     CheckFeatures(measurement, measurement.lines->t_ns, measurement.lines->lines, "line");
   }
-  const bool finite = std::all_of(
-      measurement.imu.begin(), measurement.imu.end(),
-      [](const ImuSample& sample) { return sample.gyro.allFinite() && sample.accel.allFinite(); });
-  if (!finite) Refuse(measurement, "an IMU sample is not finite");
+  CheckImu(measurement, previous);
 }
 
 }  // namespace plm_vins

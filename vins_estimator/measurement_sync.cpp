@@ -22,12 +22,10 @@ constexpr int kPointsJumpPatience = 10;
 // Our trackers are stricter; this check is for those of others.
 constexpr int64_t kPointsLeap_ns = 10'000'000'000;
 
-constexpr size_t kFewPoints = 10;  // too few to estimate the motion of the camera
+// A longer gap means that the clock was set on: the IMU bridges no pause of that length.
+constexpr int64_t kImuLeap_ns = 60'000'000'000;
 
-// False also for zeros throughout, which drivers give where they could not read the sensor.
-bool IsPlausible(const ImuSample& sample) {
-  return IsInRange(sample) && !(sample.gyro.isZero(0.0) && sample.accel.isZero(0.0));
-}
+constexpr size_t kFewPoints = 10;  // too few to estimate the motion of the camera
 
 }  // namespace
 
@@ -51,7 +49,7 @@ void MeasurementSync::AddImu(const ImuSample& sample) {
   if (last_imu_ns_ && sample.t_ns <= *last_imu_ns_) {
     ++statistics_.imu_out_of_order;
     if (!imu_jump_.Refuse(sample.t_ns)) return;
-    BeginRecording();
+    BeginRecording(&statistics_.jumps_back);
   }
   imu_jump_.Accept();
   JudgeImuAfterGap(sample.t_ns);
@@ -64,13 +62,17 @@ void MeasurementSync::AddImu(const ImuSample& sample) {
 
 void MeasurementSync::JudgeImuAfterGap(int64_t next_ns) {
   if (!imu_after_gap_) return;
-  if (next_ns > imu_after_gap_->t_ns) {
-    ++statistics_.imu_gaps;
-    TakeImu(*imu_after_gap_);
-  } else {
+  const ImuSample sample = *std::exchange(imu_after_gap_, std::nullopt);
+  if (next_ns <= sample.t_ns) {
     ++statistics_.imu_out_of_order;
+    return;
   }
-  imu_after_gap_.reset();
+  if (sample.t_ns - *last_imu_ns_ > kImuLeap_ns) {
+    BeginRecording(&statistics_.leaps_ahead);
+  } else {
+    ++statistics_.imu_gaps;
+  }
+  TakeImu(sample);
 }
 
 void MeasurementSync::TakeImu(const ImuSample& sample) {
@@ -94,7 +96,7 @@ void MeasurementSync::AddPoints(PointFrame frame) {
   if (last_points_ns_ && frame.t_ns <= *last_points_ns_) {
     ++statistics_.frames_out_of_order;
     if (!points_jump_.Refuse(frame.t_ns)) return;
-    BeginRecording();
+    BeginRecording(&statistics_.jumps_back);
   } else if (last_points_ns_ && !points_leap_.Accept(*last_points_ns_, frame.t_ns)) {
     ++statistics_.frames_ahead_of_time;
     return;
@@ -130,8 +132,8 @@ void MeasurementSync::AddLines(LineFrame frame) {
   }
 }
 
-void MeasurementSync::BeginRecording() {
-  ++statistics_.jumps_back;
+void MeasurementSync::BeginRecording(int64_t* cause) {
+  ++*cause;
   Clear();
 }
 

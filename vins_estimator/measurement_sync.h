@@ -39,7 +39,9 @@ struct SyncStatistics {
   int64_t lines_out_of_order = 0;    // stamp not after the one before
   int64_t lines_late = 0;            // came after a frame of that time or later had been handed out
   int64_t lines_without_points = 0;  // line frame whose point frame never came
-  int64_t jumps_back = 0;            // IMU or images went back in time for good: all was forgotten
+  // All was forgotten: IMU or images went back in time for good, or the IMU ahead by a minute.
+  int64_t jumps_back = 0;
+  int64_t leaps_ahead = 0;
 };
 
 // Pairs point and line features by equal stamp and cuts the IMU stream at the image times.
@@ -53,8 +55,9 @@ struct SyncStatistics {
 // the IMU samples before it then lead to the next one: of the samples between the first and the
 // last frame none is lost or used twice, also when td changes.
 //
-// Where the IMU or the images go back in time for good (a bag played again, a clock set back), all
-// is forgotten but the statistics, and a new recording begins.
+// Where the IMU or the images go back in time for good (a bag played again, a clock set back), or
+// the IMU leaps ahead by more than a minute (a clock set on), all is forgotten but the statistics,
+// and a new recording begins.
 class MeasurementSync {
  public:
   struct Options {
@@ -101,7 +104,8 @@ class MeasurementSync {
   const SyncStatistics& statistics() const { return statistics_; }
 
  private:
-  void BeginRecording();
+  // `cause` is the statistic that counts it.
+  void BeginRecording(int64_t* cause);
   // Decides on the sample after a gap, now that the stamp of the next one is known.
   void JudgeImuAfterGap(int64_t next_ns);
   void TakeImu(const ImuSample& sample);

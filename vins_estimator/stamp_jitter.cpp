@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "vins_estimator/forgetting_sum.h"
+
 namespace plm_vins {
 namespace {
 
@@ -27,12 +29,12 @@ Vector15d Change(const Eigen::Matrix3d& R_B_W, const FrameState& state, const Im
 
 void StampJitterMonitor::Add(const Eigen::Vector3d& rotation_residual,
                              const Eigen::Vector3d& rate) {
-  const auto add = [](double product, double* sum) { *sum += product - kForgetting * *sum; };
   const double along = rate.dot(rotation_residual), squared_rate = rate.squaredNorm();
-  add(along * along, &along_);
-  add(squared_rate * rotation_residual.squaredNorm() - along * along, &across_);
-  add(along * along_before_, &common_);
-  add(squared_rate * rate_before_, &rates_);
+  AddForgetting(kForgetting, along * along, &along_);
+  AddForgetting(kForgetting, squared_rate * rotation_residual.squaredNorm() - along * along,
+                &across_);
+  AddForgetting(kForgetting, along * along_before_, &common_);
+  AddForgetting(kForgetting, squared_rate * rate_before_, &rates_);
   along_before_ = along;
   rate_before_ = squared_rate;
 }

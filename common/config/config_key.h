@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -51,6 +52,8 @@ struct ConfigKey {
   std::function<ConfigValue(const Section& section)> value;
   bool required = false;
   bool has_default = true;
+  // Brings a number that a program has set into its range; empty for what has none.
+  std::function<void(Section& section)> keep_in_range = nullptr;
 
   template <typename Field>
   static ConfigKey Number(const std::string& name, const std::string& unit, Range range,
@@ -58,7 +61,12 @@ struct ConfigKey {
     const auto read = [=](const YAML::Node& value, Section& section) {
       return ReadNumber(value, unit, range, &std::invoke(field, section));
     };
-    return {name, unit, ToText(range), read, ValueOf(field)};
+    ConfigKey key{name, unit, ToText(range), read, ValueOf(field)};
+    key.keep_in_range = [=](Section& section) {
+      double& number = std::invoke(field, section);
+      number = std::clamp(number, range.min, range.max);
+    };
+    return key;
   }
 
   template <typename Field>
@@ -156,6 +164,8 @@ ConfigKeys<Whole> Within(Part Whole::*part, const ConfigKeys<Part>& keys) {
     };
     const auto value = [part, key](const Whole& whole) { return key.value(whole.*part); };
     result.push_back({key.name, key.unit, key.allowed, read, value, key.required, key.has_default});
+    if (!key.keep_in_range) continue;
+    result.back().keep_in_range = [part, key](Whole& whole) { key.keep_in_range(whole.*part); };
   }
   return result;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/config/config_keys.h"
 
+#include "common/config/camera_keys.h"
+
 namespace plm_vins {
 namespace {
 
@@ -22,6 +24,12 @@ ConfigKeys<Config> AllKeys(const std::string& model_type) {
        Within(&Config::points, PointTrackerKeys()), Within(&Config::lines, LineTrackerKeys()),
        Within(&Config::estimator, EstimatorKeys()), Within(&Config::pose_graph, PoseGraphKeys()),
        Within(&Config::output, OutputKeys())});
+}
+
+void KeepInRange(Config* config) {
+  for (const ConfigKey<Config>& key : AllKeys(ModelType(config->sensor.camera.model))) {
+    if (key.keep_in_range) key.keep_in_range(*config);
+  }
 }
 
 const std::vector<std::string>& IgnoredKeys() {

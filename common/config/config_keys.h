@@ -13,6 +13,10 @@ namespace plm_vins {
 // a line to the list of its module and one to config/reference.yaml.
 ConfigKeys<Config> AllKeys(const std::string& model_type);
 
+// Brings every number that a program has set into the range of its key, so that a file of them can
+// be read.
+void KeepInRange(Config* config);
+
 // Keys of the VINS family without effect here (vocabulary, output paths, wall-clock limits).
 const std::vector<std::string>& IgnoredKeys();
 

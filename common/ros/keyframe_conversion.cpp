@@ -6,7 +6,9 @@
 
 #include <limits>
 #include <stdexcept>
+#include <unordered_set>
 
+#include "common/feature_checks.h"
 #include "common/feature_ids.h"
 #include "common/ros/msg_conversion.h"
 
@@ -43,6 +45,12 @@ bool HasManhattanFrame(const sensor_msgs::PointCloud& message) {
   return !message.channels.empty() && message.channels.back().name == kManhattan;
 }
 
+// Whether it can be true, and has an id that was not there before.
+template <typename Observation>
+bool IsNew(const Observation& observation, std::unordered_set<int64_t>* ids) {
+  return IsPossible(observation) && ids->insert(observation.id).second;
+}
+
 // One channel for each feature, which has `points_each` points.
 void CheckLayout(const sensor_msgs::PointCloud& message, size_t points_each) {
   const size_t features = message.channels.size() - (HasManhattanFrame(message) ? 1 : 0);
@@ -73,13 +81,18 @@ sensor_msgs::PointCloud ToKeyframePoints(const std::vector<TrackedCorner>& corne
 std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message) {
   CheckLayout(message, 1);
   std::vector<TrackedCorner> corners;
+  std::unordered_set<int64_t> ids;
   for (size_t i = 0; i < message.points.size(); ++i) {
     const auto& values = message.channels[i].values;
-    TrackedCorner& corner = corners.emplace_back();
+    TrackedCorner corner;
     corner.observation.xy = {values[0], values[1]};
     corner.observation.uv_px = {values[2], values[3]};
-    corner.observation.id = static_cast<int64_t>(values[4]);
-    corner.p_O = ToVector(message.points[i]);
+    corner.observation.id = ReadId(values[4]);
+    const Eigen::Vector3d p_O = ToVector(message.points[i]);
+    if (p_O.allFinite()) corner.p_O = p_O;
+    if (corner.observation.uv_px.allFinite() && IsNew(corner.observation, &ids)) {
+      corners.push_back(corner);
+    }
   }
   return corners;
 }
@@ -108,14 +121,16 @@ sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segme
 std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message) {
   CheckLayout(message, 2);
   std::vector<TrackedSegment> segments;
+  std::unordered_set<int64_t> ids;
   for (size_t i = 0; 2 * i < message.points.size(); ++i) {
     const auto& values = message.channels[i].values;
-    TrackedSegment& segment = segments.emplace_back();
+    TrackedSegment segment;
     segment.observation.start = {values[0], values[1]};
     segment.observation.end = {values[2], values[3]};
-    segment.observation.id = static_cast<int64_t>(values[4]);
+    segment.observation.id = ReadId(values[4]);
     const SpaceSegment place{ToVector(message.points[2 * i]), ToVector(message.points[2 * i + 1])};
     if (place.start_O.allFinite() && place.end_O.allFinite()) segment.landmark = place;
+    if (IsNew(segment.observation, &ids)) segments.push_back(segment);
   }
   return segments;
 }
@@ -126,7 +141,11 @@ std::optional<Eigen::Quaterniond> ToManhattanFrame(const sensor_msgs::PointCloud
   if (values.size() != 4) {
     throw std::invalid_argument("a keyframe's Manhattan frame is no quaternion");
   }
-  return Eigen::Quaterniond(values[0], values[1], values[2], values[3]).normalized();
+  const Eigen::Quaterniond R_O_M(values[0], values[1], values[2], values[3]);
+  if (!(R_O_M.norm() > 0) || !R_O_M.coeffs().allFinite()) {
+    throw std::invalid_argument("a keyframe's Manhattan frame is no rotation");
+  }
+  return R_O_M.normalized();
 }
 
 }  // namespace plm_vins

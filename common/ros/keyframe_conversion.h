@@ -15,7 +15,9 @@ namespace plm_vins {
 
 // ~keyframe_point as in VINS-Mono: the places of the corners that have one, and one channel for
 // each, with x, y (normalised), u, v [px] and the id, which travels as that of features does.
-// Reading throws std::invalid_argument where a channel is missing or too short.
+// Reading throws std::invalid_argument where a channel is missing or too short, or an id is none
+// that travels. It leaves out what cannot be true (common/feature_checks.h) and the second of an
+// id; a place that is not finite is none.
 sensor_msgs::PointCloud ToKeyframePoints(const std::vector<TrackedCorner>& corners, int64_t t_ns,
                                          const std::string& frame_id);
 std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message);
@@ -23,7 +25,8 @@ std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message);
 // ~keyframe_line: both ends in space of each line, not a number where it has no place, and one
 // channel for each line, with the ends x, y, x, y (normalised) and the id. Lines without a place
 // count as well: they show that what was there at an earlier visit still is. Where the scene has a
-// Manhattan frame, a last channel of that name has R_O_M as w, x, y, z. Reading throws as above.
+// Manhattan frame, a last channel of that name has R_O_M as w, x, y, z. Reading is as above, and
+// throws where that is no rotation.
 sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments,
                                         const std::optional<Eigen::Quaterniond>& R_O_M,
                                         int64_t t_ns, const std::string& frame_id);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace plm_vins {
 namespace {
 
@@ -19,7 +21,14 @@ TEST(FeatureIds, ComeBackAcrossManyWraps) {
 
 TEST(FeatureIds, TravelAsFloats) {
   for (const int64_t id : {int64_t{16'777'215}, int64_t{16'777'217}, int64_t{123'456'789'012}}) {
-    EXPECT_EQ(static_cast<int64_t>(static_cast<float>(WrapId(id))), WrapId(id));
+    EXPECT_EQ(ReadId(static_cast<float>(WrapId(id))), WrapId(id));
+  }
+}
+
+TEST(FeatureIds, AreRefusedWhereTheyAreNone) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float value : {-1.0F, 0.5F, 16'777'216.0F, 1e30F, infinity, infinity - infinity}) {
+    EXPECT_THROW(ReadId(value), std::invalid_argument) << value;
   }
 }
 

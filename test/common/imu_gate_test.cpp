@@ -127,6 +127,21 @@ TEST(ImuGate, DoubtsReadingsAtTheEndOfTheRange) {
   EXPECT_EQ(decided[115].gyro_doubt, 0);
 }
 
+TEST(ImuGate, ASpikeAmongSaturatedReadingsKeepsItsDoubt) {
+  std::vector<ImuSample> samples = Flight(200);
+  for (size_t i = 100; i < 120; ++i) samples[i].gyro.z() = 34.9;
+  samples[110].gyro.z() = -34.9;  // the sign's bit flipped
+  ImuGate gate{ImuRange()};
+  std::vector<ImuSample> decided;
+  for (const ImuSample& sample : samples) {
+    for (const ImuSample& next : gate.Add(sample)) decided.push_back(next);
+  }
+  EXPECT_EQ(gate.replaced(), 1);
+  EXPECT_EQ(gate.saturated(), 19);
+  EXPECT_NEAR(decided[110].gyro.z(), 34.9, 1e-12);
+  EXPECT_NEAR(decided[110].gyro_doubt, 69.8, 1e-12);
+}
+
 TEST(ImuGate, ComparesNothingAcrossAGap) {
   std::vector<ImuSample> samples = Flight(200);
   for (size_t i = 100; i < samples.size(); ++i) {

@@ -16,7 +16,7 @@ constexpr int64_t kPeriod = 5'000'000;                 // 200 Hz
 const Rigid3d T_B_C(SO3Exp({0.4, -1.3, 0.8}), {0.1, 0.2, 0.3});
 
 ImuSample Sample(int64_t t_ns, const Eigen::Vector3d& gyro) {
-  return {t_ns, gyro, Eigen::Vector3d::Zero()};
+  return {t_ns, gyro, Eigen::Vector3d(0, 0, 9.81)};
 }
 
 // Samples of `rate`(seconds since start) over `seconds`.
@@ -98,6 +98,7 @@ TEST(GyroPredictor, IgnoresBadSamples) {
     predictor.AddImu(Sample(t - kPeriod, 100 * rate));  // backwards
     predictor.AddImu(
         Sample(t + 1, Eigen::Vector3d(0, std::numeric_limits<double>::quiet_NaN(), 0)));
+    predictor.AddImu({t + 2, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});  // not read
   }
   const auto rotation = predictor.Rotation(kStart, kStart + 100'000'000);
   ASSERT_TRUE(rotation);

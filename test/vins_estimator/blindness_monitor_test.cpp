@@ -34,6 +34,18 @@ TEST(BlindnessMonitor, AGapBetweenImagesIsBlindness) {
             "nothing has held the position for 4.0 s, which leaves it open by 0.59 m");
 }
 
+TEST(BlindnessMonitor, TakesNothingFromAnUnknownCovariance) {
+  BlindnessMonitor monitor;
+  EXPECT_FALSE(monitor.Add(0, 100, Eigen::Matrix3d::Zero()));
+  EXPECT_FALSE(monitor.Add(1, 100, Known(3.0)));
+  EXPECT_FALSE(monitor.Add(2, 100, Eigen::Matrix3d::Zero()));
+  EXPECT_FALSE(monitor.Add(3, 5, Known(3.0)));
+  EXPECT_TRUE(monitor.blind());
+  EXPECT_FALSE(monitor.Add(4, 100, Eigen::Matrix3d::Zero()));
+  EXPECT_FALSE(monitor.blind());
+  EXPECT_TRUE(monitor.Add(5, 5, Known(3.1)));
+}
+
 TEST(BlindnessMonitor, SightStartsItOver) {
   BlindnessMonitor monitor;
   monitor.Add(0, 0, Known(0.4));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the back end starts over: on demand, and where stamps go back.
+// How the back end starts over: on demand, and where stamps go back or leap ahead.
 #include "vins_estimator/estimation_stage.h"
 
 #include <gtest/gtest.h>
@@ -123,6 +123,28 @@ TEST_F(EstimationStageTest, StartsOverWhereImagesAloneJumpBack) {
   EXPECT_EQ(stage_->statistics().jumps_back, 1);
   Rest(1005, 3000);
   EXPECT_EQ(Restarts(), (std::vector<std::string>{"stamps jumped back"}));
+  EXPECT_TRUE(outputs_.back().has_pose);
+}
+
+// The time that NTP sets a clock on by may be months.
+TEST_F(EstimationStageTest, StartsOverWhereAllStampsLeapAhead) {
+  Rest(5000, 7000);
+  ASSERT_TRUE(outputs_.back().has_pose);
+  constexpr int kLeap = 2'000'000'000;
+  Rest(kLeap, kLeap + 3000);
+  EXPECT_EQ(Restarts(), (std::vector<std::string>{"stamps leaped ahead"}));
+  EXPECT_EQ(stage_->statistics().leaps_ahead, 1);
+  EXPECT_EQ(stage_->resets(), 1);
+  EXPECT_TRUE(outputs_.back().has_pose);
+  EXPECT_EQ(outputs_.back().t_ns, (kLeap + 3000) * kMillisecond);
+}
+
+// The longest pause that is none of these is left to the estimator.
+TEST_F(EstimationStageTest, APauseIsNoLeap) {
+  Rest(5000, 7000);
+  Rest(66'000, 68'000);
+  EXPECT_EQ(stage_->statistics().leaps_ahead, 0);
+  EXPECT_EQ(stage_->statistics().imu_gaps, 1);
   EXPECT_TRUE(outputs_.back().has_pose);
 }
 

@@ -244,6 +244,25 @@ TEST(EstimatorRobustness, AnAccelerometerThatFailsWhileOnlyLinesAreSeenIsNoticed
   EXPECT_NE(reason.find("camera contradicts"), std::string::npos) << reason;
 }
 
+// A doubt so large that the term of the IMU is no number.
+TEST(EstimatorRobustness, WhatCannotBeOptimisedIsALoss) {
+  const SimulatedFlight flight = Simulate(Motion::kFast, 1, 10);
+  for (const SolverType solver : {SolverType::kSchur, SolverType::kCeres}) {
+    Config config = testing::ConfigFor(flight);
+    config.estimator.solver = solver;
+    Estimator estimator(config);
+    EstimatorOutput output;
+    for (size_t i = 0; i < 180; ++i) output = estimator.Process(flight.frames[i]);
+    ASSERT_TRUE(output.has_pose);
+    FrameMeasurement frame = flight.frames[180];
+    frame.imu[1].accel_doubt = 1e160;
+    output = estimator.Process(frame);
+    EXPECT_EQ(output.status, EstimatorStatus::kLost);
+    EXPECT_EQ(output.reason, "the optimisation has no solution");
+    EXPECT_FALSE(output.has_pose);
+  }
+}
+
 TEST(EstimatorRobustness, WithoutPointsItNeverStartsAndSaysWhy) {
   SimulatedFlight flight = Simulate(Motion::kFast, 1, 6);
   Estimator estimator(testing::ConfigFor(flight));

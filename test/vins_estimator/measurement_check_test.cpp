@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "test/testing/still_scene.h"
 #include "vins_estimator/estimator.h"
@@ -25,25 +26,46 @@ FrameMeasurement Good() {
   return measurement;
 }
 
-// Refused with these words, by the check and by the estimator; which takes a good one after it.
-void ExpectRefused(const FrameMeasurement& measurement, const std::string& words) {
-  Estimator estimator(testing::StillConfig());
+// The image after that.
+FrameMeasurement Next() {
+  FrameMeasurement measurement = Good();
+  measurement.t_ns = measurement.points.t_ns = measurement.lines->t_ns = kStamp + 10;
+  measurement.imu.push_back(measurement.imu.front());
+  measurement.imu.back().t_ns = kStamp + 10;
+  return measurement;
+}
+
+void ExpectRefused(Estimator* estimator, const FrameMeasurement& measurement,
+                   const std::string& words) {
   try {
-    estimator.Process(measurement);
+    estimator->Process(measurement);
     FAIL() << "taken, instead of: " << words;
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
   }
+}
+
+// Refused with these words by the estimator, which takes a good one after it.
+void ExpectRefused(const FrameMeasurement& measurement, const std::string& words) {
+  Estimator estimator(testing::StillConfig());
+  ExpectRefused(&estimator, measurement, words);
   EXPECT_NO_THROW(estimator.Process(Good()));
+}
+
+// The same of one that comes after a good one.
+void ExpectRefusedNext(const FrameMeasurement& measurement, const std::string& words) {
+  Estimator estimator(testing::StillConfig());
+  estimator.Process(Good());
+  ExpectRefused(&estimator, measurement, words);
+  EXPECT_NO_THROW(estimator.Process(Next()));
 }
 
 TEST(MeasurementCheck, TakesWhatIsGood) {
   EXPECT_NO_THROW(CheckMeasurement(Good(), std::nullopt));
-  EXPECT_NO_THROW(CheckMeasurement(Good(), kStamp - 1));
+  EXPECT_NO_THROW(CheckMeasurement(Next(), EndOf(Good())));
 }
 
 TEST(MeasurementCheck, RefusesStampsThatDoNotFollow) {
-  EXPECT_THROW(CheckMeasurement(Good(), kStamp), std::invalid_argument);
   Estimator estimator(testing::StillConfig());
   estimator.Process(Good());
   EXPECT_THROW(estimator.Process(Good()), std::invalid_argument);
@@ -88,6 +110,32 @@ TEST(MeasurementCheck, RefusesImuSamplesThatAreNotFinite) {
   FrameMeasurement measurement = Good();
   measurement.imu[0].accel.z() = kNan;
   ExpectRefused(measurement, "IMU sample is not finite");
+}
+
+TEST(MeasurementCheck, RefusesDoubtsThatAreNone) {
+  for (const double doubt : {-1.0, kNan, std::numeric_limits<double>::infinity()}) {
+    FrameMeasurement measurement = Good();
+    measurement.imu[0].gyro_doubt = doubt;
+    ExpectRefused(measurement, "or its doubt negative");
+    measurement = Good();
+    measurement.imu[0].accel_doubt = doubt;
+    ExpectRefused(measurement, "or its doubt negative");
+  }
+}
+
+TEST(MeasurementCheck, RefusesImuSamplesThatDoNotLeadToTheImage) {
+  FrameMeasurement measurement = Next();
+  measurement.imu.clear();
+  ExpectRefusedNext(measurement, "has no IMU sample");
+  measurement = Next();
+  std::swap(measurement.imu[0], measurement.imu[1]);
+  ExpectRefusedNext(measurement, "stamps of its IMU samples do not increase");
+  measurement = Next();
+  measurement.imu[0].t_ns += 1;
+  ExpectRefusedNext(measurement, "do not begin where those before end, at 7000000000 ns");
+  measurement = Next();
+  measurement.imu.pop_back();
+  ExpectRefusedNext(measurement, "no IMU sample leads to it");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ void ImuPropagator::Reset(const FrameState& state, int64_t t_imu_ns) {
 }
 
 std::optional<FrameState> ImuPropagator::Add(const ImuSample& sample) {
-  if (!IsInRange(sample)) return std::nullopt;
+  if (!IsPlausible(sample)) return std::nullopt;
   if (last_ns_ && sample.t_ns <= *last_ns_) return std::nullopt;
   if (last_ns_ && !leap_.Accept(*last_ns_, sample.t_ns)) return std::nullopt;
   last_ns_ = sample.t_ns;

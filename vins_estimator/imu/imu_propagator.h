@@ -28,8 +28,9 @@ class ImuPropagator {
   void Reset(const FrameState& state, int64_t t_imu_ns);
 
   // The state at this sample, its t_ns being the sample's stamp. Nothing without a state to start
-  // from (none yet, too old, or newer than the sample) or where the sample is beyond any range, out
-  // of order, the first after a leap in time, or waits for others to confirm it (ImuGate).
+  // from (none yet, too old, or newer than the sample) or where the sample is nothing that a sensor
+  // gives, out of order, the first after a leap in time, or waits for others to confirm it
+  // (ImuGate).
   std::optional<FrameState> Add(const ImuSample& sample);
 
   // Stamp of the newest sample; nothing without one.

@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "common/median.h"
+
 namespace plm_vins {
 namespace {
 
@@ -19,12 +21,6 @@ std::vector<double> CornerMotions(const PointFrame& from, const PointFrame& to) 
     if (found != start.end()) motions.push_back((point.uv_px - found->second).norm());
   }
   return motions;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Standard deviation of the axis that varies most.

@@ -5,10 +5,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "common/geometry/robust_weight.h"
 #include "common/so3.h"
+#include "vins_estimator/initialization/refusal_text.h"
 
 namespace plm_vins {
 namespace {
@@ -150,12 +150,6 @@ double Refiner::Deviation() const {
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues().maxCoeff());
 }
 
-std::string Describe(const char* format, double value, double limit) {
-  char text[120];
-  std::snprintf(text, sizeof(text), format, value, limit);
-  return text;
-}
-
 double Degrees(double radians) { return radians * 180 / M_PI; }
 
 }  // namespace
@@ -170,20 +164,20 @@ std::optional<Eigen::Quaterniond> CalibrateExtrinsicRotation(
   }
   const LinearSolution linear = SolveLinear(pairs);
   if (linear.second_turn < options.min_second_turn) {
-    *reason = Describe("turn about a second axis: %.1f deg of %.1f deg per image pair",
-                       Degrees(linear.second_turn), Degrees(options.min_second_turn));
+    *reason = RefusalText("turn about a second axis: %.1f deg of %.1f deg per image pair",
+                          Degrees(linear.second_turn), Degrees(options.min_second_turn));
     return std::nullopt;
   }
   Refiner refiner(pairs, linear.R_B_C, options.gyro_bias_deviation);
   refiner.Run();
   if (refiner.inlier_share() < kMinInlierShare) {
-    *reason = Describe("camera and gyro disagree: %.0f %% of %.0f %% of the image pairs fit",
-                       100 * refiner.inlier_share(), 100 * kMinInlierShare);
+    *reason = RefusalText("camera and gyro disagree: %.0f %% of %.0f %% of the image pairs fit",
+                          100 * refiner.inlier_share(), 100 * kMinInlierShare);
     return std::nullopt;
   }
   if (refiner.Deviation() > options.max_deviation) {
-    *reason = Describe("turn more: uncertain by %.1f deg of at most %.1f deg",
-                       Degrees(refiner.Deviation()), Degrees(options.max_deviation));
+    *reason = RefusalText("turn more: uncertain by %.1f deg of at most %.1f deg",
+                          Degrees(refiner.Deviation()), Degrees(options.max_deviation));
     return std::nullopt;
   }
   return refiner.R_B_C();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/frame_selection.h"
 
-#include <algorithm>
 #include <unordered_map>
+#include <utility>
 
+#include "common/median.h"
 #include "vins_estimator/initialization/tracks.h"
 
 namespace plm_vins {
@@ -46,10 +47,7 @@ double MedianFlow(const PointFrame& first, const PointFrame& second) {
   std::vector<double> ways;
   for (const Correspondence& c : CommonPoints(first, second))
     ways.push_back((c.xy1 - c.xy0).norm());
-  if (ways.empty()) return 0;
-  const auto middle = ways.begin() + ways.size() / 2;
-  std::nth_element(ways.begin(), middle, ways.end());
-  return *middle;
+  return Median(std::move(ways));
 }
 
 std::vector<size_t> SelectFrames(const std::deque<FrameMeasurement>& frames, size_t max_frames) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/motion_initializer.h"
 
-#include <cstdio>
-
 #include "common/so3.h"
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/initialization/global_sfm.h"
+#include "vins_estimator/initialization/refusal_text.h"
 #include "vins_estimator/initialization/relative_pose.h"
 #include "vins_estimator/initialization/tracks.h"
 #include "vins_estimator/initialization/visual_inertial_alignment.h"
@@ -13,13 +12,6 @@
 
 namespace plm_vins {
 namespace {
-
-// "text: 4.2 of 15.0"; the format takes both numbers.
-std::string Describe(const char* format, double value, double limit) {
-  char text[120];
-  std::snprintf(text, sizeof(text), format, value, limit);
-  return text;
-}
 
 // One attempt; the members are filled step by step.
 class Attempt {
@@ -158,13 +150,13 @@ bool Attempt::CheckBiases() {
   const double accel = states_.back().accel_bias().norm();
   const double gyro = states_.back().gyro_bias().norm();
   if (accel > options_.max_accel_bias) {
-    *reason_ = Describe("implausible accelerometer bias: %.2f m/s^2 of at most %.2f", accel,
-                        options_.max_accel_bias);
+    *reason_ = RefusalText("implausible accelerometer bias: %.2f m/s^2 of at most %.2f", accel,
+                           options_.max_accel_bias);
     return false;
   }
   if (gyro > options_.max_gyro_bias) {
-    *reason_ =
-        Describe("implausible gyro bias: %.3f rad/s of at most %.3f", gyro, options_.max_gyro_bias);
+    *reason_ = RefusalText("implausible gyro bias: %.3f rad/s of at most %.3f", gyro,
+                           options_.max_gyro_bias);
     return false;
   }
   return true;
@@ -172,18 +164,19 @@ bool Attempt::CheckBiases() {
 
 bool Attempt::CheckAdjustment(const VisualInertialBundle& bundle) {
   if (bundle.reprojection_rms > options_.max_reprojection_rms) {
-    *reason_ = Describe("points do not fit: %.1f sigma of at most %.1f", bundle.reprojection_rms,
-                        options_.max_reprojection_rms);
+    *reason_ = RefusalText("points do not fit: %.1f sigma of at most %.1f", bundle.reprojection_rms,
+                           options_.max_reprojection_rms);
     return false;
   }
   if (bundle.imu_rms > options_.max_imu_rms) {
-    *reason_ = Describe("camera and IMU disagree: %.1f sigma of at most %.1f", bundle.imu_rms,
-                        options_.max_imu_rms);
+    *reason_ = RefusalText("camera and IMU disagree: %.1f sigma of at most %.1f", bundle.imu_rms,
+                           options_.max_imu_rms);
     return false;
   }
   if (bundle.relative_scale_deviation > options_.max_scale_deviation) {
-    *reason_ = Describe("scale not observable yet: uncertain by %.1f %% of at most %.1f %%",
-                        100 * bundle.relative_scale_deviation, 100 * options_.max_scale_deviation);
+    *reason_ =
+        RefusalText("scale not observable yet: uncertain by %.1f %% of at most %.1f %%",
+                    100 * bundle.relative_scale_deviation, 100 * options_.max_scale_deviation);
     return false;
   }
   return true;

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
+#include <utility>
 
 #include "common/geometry/epipolar_constraint.h"
 #include "common/geometry/tangent_basis.h"
+#include "common/median.h"
 #include "common/so3.h"
 
 namespace plm_vins {
@@ -218,16 +220,13 @@ std::optional<RelativePose> EstimateRelativePose(const std::vector<Correspondenc
 
 double MedianParallax(const std::vector<Correspondence>& correspondences,
                       const Eigen::Quaterniond& R_C1_C0) {
-  if (correspondences.empty()) return 0;
   std::vector<double> angles;
   for (const Correspondence& c : correspondences) {
     const Eigen::Vector3d rotated = R_C1_C0 * c.xy0.homogeneous().eval();
     const Eigen::Vector3d f1 = c.xy1.homogeneous();
     angles.push_back(std::atan2(rotated.cross(f1).norm(), rotated.dot(f1)));
   }
-  const auto middle = angles.begin() + angles.size() / 2;
-  std::nth_element(angles.begin(), middle, angles.end());
-  return *middle;
+  return Median(std::move(angles));
 }
 
 }  // namespace plm_vins

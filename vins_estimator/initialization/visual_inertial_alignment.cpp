@@ -103,9 +103,7 @@ bool AlignmentSystem::Solve(const Eigen::Vector3d& fixed_gravity,
   if (llt.info() != Eigen::Success) return false;
   const Eigen::VectorXd x = llt.solve(b);
   if (!x.allFinite()) return false;
-  const double variance = llt.solve(Eigen::VectorXd::Unit(size, scale))(scale);
   result->scale = x(scale);
-  result->relative_scale_deviation = std::sqrt(variance) / std::abs(x(scale));
   result->gravity_G = fixed_gravity + gravity_basis * x.segment(gravity, gravity_basis.cols());
   result->accel_bias = x.tail<3>();
   result->velocity_G.resize(n);

@@ -247,10 +247,10 @@ std::optional<VisualInertialBundle> AdjustVisualInertialBundle(
     std::vector<FrameState>* states, std::string* reason) {
   Bundle bundle(tracks, p_W, preintegrations, options, states);
   NormalEquations equations(bundle.problem());
-  Solve(kSolution, bundle.problem(), &equations);
+  const bool solved = Solve(kSolution, bundle.problem(), &equations).solved;
   equations.Linearize();
   const std::optional<double> scale_deviation = bundle.RelativeScaleDeviation(&equations);
-  if (!scale_deviation) {
+  if (!solved || !scale_deviation) {
     *reason = "the visual-inertial bundle adjustment is not determined";
     return std::nullopt;
   }

@@ -31,7 +31,7 @@ void HeadingVotes::Fade(double elapsed) {
   const double factor = std::exp(-elapsed / options_.memory);
   for (auto it = votes_.begin(); it != votes_.end();) {
     it->second.freshness *= factor;
-    it = Weight(it->second) < kForgottenWeight ? votes_.erase(it) : std::next(it);
+    it = MatureWeight(it->second) < kForgottenWeight ? votes_.erase(it) : std::next(it);
   }
 }
 
@@ -45,10 +45,13 @@ void HeadingVotes::Cast(int64_t id, double heading, double sigma, double elapsed
   vote.freshness = 1;
 }
 
-double HeadingVotes::Weight(const Vote& vote) const {
-  const double maturity = std::min(1.0, vote.followed / options_.maturity);
+double HeadingVotes::MatureWeight(const Vote& vote) const {
   const double deviation = vote.sigma / options_.reference_sigma;
-  return vote.freshness * maturity / (1 + deviation * deviation);
+  return vote.freshness / (1 + deviation * deviation);
+}
+
+double HeadingVotes::Weight(const Vote& vote) const {
+  return std::min(1.0, vote.followed / options_.maturity) * MatureWeight(vote);
 }
 
 HeadingSupport HeadingVotes::At(double heading) const {

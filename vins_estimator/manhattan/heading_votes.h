@@ -39,7 +39,8 @@ class HeadingVotes {
  public:
   explicit HeadingVotes(const HeadingVotesOptions& options = {}) : options_(options) {}
 
-  // Lets time [s] pass: all votes fade; those that hardly count any more are forgotten.
+  // Lets time [s] pass: all votes fade; those that would hardly count any more, were their lines
+  // followed for however long, are forgotten.
   void Fade(double elapsed);
 
   // A line's heading as it is now, with its standard deviation [rad], `elapsed` [s] since the frame
@@ -63,6 +64,7 @@ class HeadingVotes {
     double freshness = 1;  // 1 in sight, then fading
   };
 
+  double MatureWeight(const Vote& vote) const;  // once its line was followed for long enough
   double Weight(const Vote& vote) const;
   double DensestHeading() const;
 

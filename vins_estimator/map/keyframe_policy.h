@@ -15,7 +15,7 @@ struct KeyframePolicyOptions {
   double min_parallax;              // mean motion of corners that makes a keyframe [normalised]
   int min_tracked = 20;             // fewer corners left from the last keyframe make one
   double min_tracked_share = 0.5;   // ... or a smaller share of the image's corners
-  int min_points_to_see = 10;       // an image with fewer corners is blind: never a keyframe
+  int min_points_to_see = 10;       // an image with fewer corners is blind, and seldom a keyframe
   double max_interval = 1.0;        // a keyframe at least this often while the camera sees [s]
   double max_blind_interval = 3.0;  // ... and this often while it is blind [s]
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct LineView {
 struct LineLandmark {
   int64_t id = -1;
   std::vector<LineView> views;  // by time
-  // By anchors, of a line that was recognised; they count together with `views`.
+  // By anchors, by time, of a line that was recognised; they count together with `views`.
   std::vector<LineView> anchor_views;
   OrthonormalLine coordinates = {0, 0, 0, 1, 0};
   bool triangulated = false;
@@ -34,6 +35,15 @@ struct LineLandmark {
 
 // What may be taken for the same as others, now or when it comes back.
 inline bool MayLast(const LineLandmark& line) { return line.triangulated && !line.wanders; }
+
+constexpr size_t kMaxAnchorViews = 4;  // of one line: the first and the newest
+
+// Adds what an anchor has seen, by time.
+inline void AddAnchorView(const LineView& view, std::vector<LineView>* views) {
+  const auto is_earlier = [](const LineView& a, const LineView& b) { return a.t_ns < b.t_ns; };
+  views->insert(std::upper_bound(views->begin(), views->end(), view, is_earlier), view);
+  if (views->size() > kMaxAnchorViews) views->erase(views->begin() + 1);
+}
 
 // Takes out the view of one frame.
 inline void RemoveViewsOf(int64_t t_ns, std::vector<LineView>* views) {

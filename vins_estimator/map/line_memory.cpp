@@ -38,13 +38,7 @@ void LineMemory::Keep(int64_t id, const SeenLine& line_W) {
 
 void LineMemory::KeepView(int64_t id, const LineView& anchor_view) {
   const auto line = lines_.find(id);
-  if (line == lines_.end()) return;
-  std::vector<LineView>& views = line->second.anchor_views;
-  views.insert(
-      std::upper_bound(views.begin(), views.end(), anchor_view,
-                       [](const LineView& a, const LineView& b) { return a.t_ns < b.t_ns; }),
-      anchor_view);
-  if (views.size() > kMaxAnchorViews) views.erase(views.begin() + 1);
+  if (line != lines_.end()) AddAnchorView(anchor_view, &line->second.anchor_views);
 }
 
 void LineMemory::Join(int64_t newer, int64_t older) {

@@ -24,7 +24,6 @@ struct RememberedLine {
 class LineMemory {
  public:
   static constexpr size_t kCapacity = 1000;
-  static constexpr size_t kMaxAnchorViews = 4;  // of one line: the first and the newest
 
   // Takes note of a line. Of two notes under one id the newer stays, unless it is much less
   // certain; the parts that were seen then and now become one.

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/measurements.h"
+#include "common/median.h"
 
 namespace plm_vins {
 namespace {
@@ -25,13 +27,11 @@ std::vector<ViewSpread> CollectSpreads(const Landmarks& landmarks, const Sliding
   return spreads;
 }
 
-// The median, by variance.
-double MedianVariance(std::vector<ViewSpread> spreads) {
-  const auto middle = spreads.begin() + spreads.size() / 2;
-  std::nth_element(
-      spreads.begin(), middle, spreads.end(),
-      [](const ViewSpread& a, const ViewSpread& b) { return a.variance < b.variance; });
-  return middle->variance;
+double MedianVariance(const std::vector<ViewSpread>& spreads) {
+  std::vector<double> variances;
+  variances.reserve(spreads.size());
+  for (const ViewSpread& spread : spreads) variances.push_back(spread.variance);
+  return Median(std::move(variances));
 }
 
 // Moves `noise` towards what was seen, by ratios.

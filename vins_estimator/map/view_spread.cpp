@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/map/view_spread.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "common/median.h"
 #include "vins_estimator/geometry/plucker.h"
 #include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/point_map.h"
@@ -20,9 +20,7 @@ void ShortenOutliers(std::vector<Eigen::Vector2d>* residuals) {
   std::vector<double> lengths;
   lengths.reserve(residuals->size());
   for (const Eigen::Vector2d& residual : *residuals) lengths.push_back(residual.norm());
-  const auto middle = lengths.begin() + lengths.size() / 2;
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  const double limit = kGreatestLength * *middle;
+  const double limit = kGreatestLength * Median(std::move(lengths));
   for (Eigen::Vector2d& residual : *residuals) {
     const double length = residual.norm();
     if (length > limit) residual *= limit / length;

@@ -82,6 +82,7 @@ std::optional<LineLandmark> Join(const SlidingWindow& window, double noise,
                                  const LineLandmark& older, const LineLandmark& newer) {
   LineLandmark joint = older;
   joint.views = JoinViews(older, newer);
+  for (const LineView& view : newer.anchor_views) AddAnchorView(view, &joint.anchor_views);
   const auto joint_fit = Fit(window, noise, joint.views, LineInWorld(older, window));
   const auto older_fit = Fit(window, noise, older.views, LineInWorld(older, window));
   const auto newer_fit = Fit(window, noise, newer.views, LineInWorld(newer, window));

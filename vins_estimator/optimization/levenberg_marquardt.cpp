@@ -99,6 +99,7 @@ SolverSummary Solve(const SolverOptions& options, const WindowProblem& problem,
   while (summary.iterations < options.max_iterations && damping < kMaxDamping) {
     ++summary.iterations;
     const std::optional<Step> step = TakeStep(problem, damping, equations);
+    if (step) summary.solved = true;
     const double new_cost = step ? equations->Cost() : cost;
     const bool accepted = step && std::isfinite(new_cost) && new_cost <= cost;
     if (!accepted) {
@@ -106,7 +107,6 @@ SolverSummary Solve(const SolverOptions& options, const WindowProblem& problem,
       damping = std::max(damping * kDampingIncrease, kFirstDamping);
       continue;
     }
-    summary.solved = true;
     const double gain = cost - new_cost;
     cost = summary.final_cost = new_cost;
     if (HasConverged(options, *step, gain, cost)) break;

@@ -18,7 +18,9 @@ struct SolverSummary {
   double initial_cost = 0;
   double final_cost = 0;
   int iterations = 0;
-  bool solved = false;  // the equations could be solved, and gave finite values
+  // The cost of the start is finite, and the equations have a solution; whether or not there was
+  // anything to gain.
+  bool solved = false;
 };
 
 // Minimises the problem's cost from the current values of its variables, which are replaced by the

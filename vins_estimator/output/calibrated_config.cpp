@@ -4,6 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "common/config/config_keys.h"
 #include "common/config/config_writer.h"
 
 namespace plm_vins {
@@ -24,6 +25,10 @@ Config WithCalibration(const Calibration& calibration, Config config) {
   // What was unknown is known now.
   if (sensor.estimate_extrinsic == ExtrinsicMode::kCalibrateRotation) {
     sensor.estimate_extrinsic = ExtrinsicMode::kRefine;
+  }
+  KeepInRange(&config);
+  if (!(sensor.rolling_shutter_tr > 0)) {
+    sensor.rolling_shutter = sensor.estimate_rolling_shutter_tr = false;
   }
   return config;
 }

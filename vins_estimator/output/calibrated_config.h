@@ -13,7 +13,8 @@ constexpr char kCalibratedConfigFile[] = "calibrated.yaml";
 // Whether the estimator is asked to refine anything of the calibration.
 bool RefinesCalibration(const SensorConfig& sensor);
 
-// The configuration with the calibration as it was estimated.
+// The configuration with the calibration as it was estimated, but within what LoadConfig() takes:
+// without a rolling shutter where its read-out time came out as none.
 Config WithCalibration(const Calibration& calibration, Config config);
 
 // Writes that as a file, ready to be run with. Throws std::runtime_error where it cannot be

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "common/camera_model.h"
+#include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/geometry/plucker.h"
 #include "vins_estimator/geometry/point_in_host.h"
 
@@ -13,7 +14,6 @@ namespace {
 // Most terms are views: two rows, by poses, by a landmark and perhaps by the intrinsics. They are
 // worth products of fixed size.
 constexpr int kViewRows = 2;
-constexpr int kPoseSize = 6;
 
 template <int kSize>
 using Size = std::integral_constant<int, kSize>;
@@ -21,7 +21,7 @@ using Size = std::integral_constant<int, kSize>;
 // Calls `body` with the size as a constant, where it is one of those, else with Eigen::Dynamic.
 template <typename Body>
 void WithFixed(int size, const Body& body) {
-  if (size == kPoseSize) return body(Size<kPoseSize>());
+  if (size == kPoseTangentSize) return body(Size<kPoseTangentSize>());
   if (size == kIntrinsicsSize) return body(Size<kIntrinsicsSize>());
   body(Size<Eigen::Dynamic>());
 }

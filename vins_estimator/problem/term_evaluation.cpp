@@ -38,11 +38,14 @@ bool GatherParameters(const ResidualTerm& term, const std::vector<Variable>& var
   return differs;
 }
 
+// Constants have no Jacobian.
 void ScaleBy(double factor, const ResidualTerm& term, const std::vector<Variable>& variables,
              TermEvaluation* evaluation) {
   for (int i = 0; i < evaluation->rows; ++i) evaluation->residual[i] *= factor;
   for (int k = 0; k < term.variable_count; ++k) {
-    const int size = evaluation->rows * variables[term.variables[k]].type().ambient_size;
+    const Variable& variable = variables[term.variables[k]];
+    if (variable.constant) continue;
+    const int size = evaluation->rows * variable.type().ambient_size;
     for (int i = 0; i < size; ++i) evaluation->jacobians[k][i] *= factor;
   }
 }

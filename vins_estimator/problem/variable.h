@@ -15,13 +15,14 @@ struct VariableType {
 };
 
 constexpr int kMaxAmbientSize = 9;
-constexpr int kMaxTangentSize = 9;
 
 const VariableType& PoseVariable();    // 7 -> 6
 const VariableType& MotionVariable();  // 9, vector space
-const VariableType& ScalarVariable();  // 1, vector space: time offset
-const VariableType& PointVariable();   // 3, vector space: image point and inverse depth in a host
-const VariableType& IntrinsicsVariable();  // 8, vector space: of the camera
+const VariableType& ScalarVariable();  // 1, vector space: time offset, read-out time
+// 3, vector space: image point and inverse depth in a host, which stays positive.
+const VariableType& PointVariable();
+// 8, vector space: of the camera; focal lengths stay positive.
+const VariableType& IntrinsicsVariable();
 const VariableType& LineVariable();  // 5 -> 4: orthonormal representation (geometry/plucker.h)
 
 const VariableType& VariableTypeOf(BlockKind kind);

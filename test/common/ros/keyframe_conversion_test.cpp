@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <stdexcept>
 
 namespace plm_vins {
@@ -44,9 +45,83 @@ TEST(KeyframePoints, AreRefusedWithoutAChannelForEach) {
   EXPECT_THROW(ToCorners(message), std::invalid_argument);
 }
 
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Three corners, of which the second is to be spoiled.
+sensor_msgs::PointCloud ThreePoints() {
+  std::vector<TrackedCorner> corners(3);
+  for (size_t i = 0; i < corners.size(); ++i) {
+    corners[i].observation.id = static_cast<int64_t>(i);
+    corners[i].p_O = Eigen::Vector3d(1, 2, 3);
+  }
+  return ToKeyframePoints(corners, 0, "");
+}
+
+TEST(KeyframePoints, AreLeftOutWhereTheyCannotBe) {
+  for (const int value : {0, 1, 2, 3}) {
+    for (const float wrong : {kNan, kInfinity}) {
+      auto message = ThreePoints();
+      message.channels[1].values[value] = wrong;
+      EXPECT_EQ(ToCorners(message).size(), 2u) << value;
+    }
+  }
+  auto message = ThreePoints();
+  message.channels[1].values[0] = 1e30F;
+  EXPECT_EQ(ToCorners(message).size(), 2u);
+  message = ThreePoints();
+  message.channels[1].values[4] = 0;  // the id of the first
+  EXPECT_EQ(ToCorners(message).size(), 2u);
+}
+
+TEST(KeyframePoints, HaveNoPlaceWhereItIsNotFinite) {
+  auto message = ThreePoints();
+  message.points[1].y = kNan;
+  const auto corners = ToCorners(message);
+  ASSERT_EQ(corners.size(), 3u);
+  EXPECT_FALSE(corners[1].p_O);
+  EXPECT_TRUE(corners[2].p_O);
+}
+
+TEST(KeyframePoints, AreRefusedWithAnIdThatIsNone) {
+  for (const float id : {kNan, kInfinity, 1e30F, -1.0F, 0.5F}) {
+    auto message = ThreePoints();
+    message.channels[1].values[4] = id;
+    EXPECT_THROW(ToCorners(message), std::invalid_argument) << id;
+  }
+}
+
+TEST(KeyframeLines, AreLeftOutOrRefusedAsPointsAre) {
+  std::vector<TrackedSegment> segments(3);
+  for (size_t i = 0; i < segments.size(); ++i) {
+    segments[i].observation.id = static_cast<int64_t>(i);
+  }
+  const auto message = ToKeyframeLines(segments, std::nullopt, 0, "");
+  EXPECT_EQ(ToSegments(message).size(), 3u);
+  for (const int value : {0, 1, 2, 3}) {
+    auto spoiled = message;
+    spoiled.channels[1].values[value] = kNan;
+    EXPECT_EQ(ToSegments(spoiled).size(), 2u) << value;
+  }
+  auto spoiled = message;
+  spoiled.channels[1].values[4] = 2;  // the id of the last
+  EXPECT_EQ(ToSegments(spoiled).size(), 2u);
+  spoiled.channels[1].values[4] = kInfinity;
+  EXPECT_THROW(ToSegments(spoiled), std::invalid_argument);
+}
+
+TEST(KeyframeLines, AreRefusedWithAManhattanFrameThatIsNoRotation) {
+  auto message = ToKeyframeLines({}, Eigen::Quaterniond::Identity(), 0, "");
+  for (const float w : {0.0F, kNan, kInfinity}) {
+    message.channels.back().values[0] = w;
+    EXPECT_THROW(ToManhattanFrame(message), std::invalid_argument) << w;
+  }
+}
+
 TEST(KeyframeLines, ComeBack) {
   std::vector<TrackedSegment> segments(2);
   segments[0].observation.id = 8;
+  segments[1].observation.id = 9;
   segments[0].observation.end = {0.5, 0.75};
   segments[0].landmark = {{1, 2, 3}, {4, 5, 6}};
   const auto message = ToKeyframeLines(segments, std::nullopt, 0, "");
@@ -62,6 +137,7 @@ TEST(KeyframeLines, ComeBack) {
 
 TEST(KeyframeLines, BringTheManhattanFrame) {
   std::vector<TrackedSegment> segments(1);
+  segments[0].observation.id = 8;
   segments[0].landmark = {{1, 2, 3}, {4, 5, 6}};
   const Eigen::Quaterniond R_O_M(0.6, 0, 0, 0.8);
   auto message = ToKeyframeLines(segments, R_O_M, 0, "");

@@ -101,16 +101,6 @@ TEST_F(AlignmentTest, RefusesAnotherPlanetsGravity) {
   EXPECT_EQ(reason_, "gravity comes out as 9.81 m/s^2 instead of 3.71");
 }
 
-TEST_F(AlignmentTest, ScaleIsUncertainWithoutAcceleration) {
-  Simulate(simulator::Motion::kFast, 1, /*noise=*/false);
-  const auto excited = Align(1.0);
-  ASSERT_TRUE(excited) << reason_;
-  Simulate(simulator::Motion::kCorridor, 1, /*noise=*/false);
-  const auto straight = Align(1.0);
-  ASSERT_TRUE(straight) << reason_;
-  EXPECT_GT(straight->relative_scale_deviation, 2 * excited->relative_scale_deviation);
-}
-
 TEST_F(AlignmentTest, FindsTheGyroBias) {
   Simulate(simulator::Motion::kFast, 2, /*noise=*/true);
   const auto gyro = EstimateGyroBias(Rotations(1e6), &reason_);

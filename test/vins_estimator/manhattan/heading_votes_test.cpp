@@ -77,6 +77,19 @@ TEST(HeadingVotes, FadeAndAreForgotten) {
   EXPECT_EQ(votes.size(), 0u);
 }
 
+TEST(HeadingVotes, MatureAtAnyFrameRate) {
+  constexpr double kSigma = 3 * kDegree;
+  const double full = 1 / (1 + std::pow(kSigma / HeadingVotesOptions().reference_sigma, 2));
+  for (const int rate : {10, 20, 30, 60, 200}) {
+    HeadingVotes votes;
+    for (int image = 0; image < rate; ++image) {
+      votes.Fade(1.0 / rate);
+      votes.Cast(1, 0.1, kSigma, 1.0 / rate);
+    }
+    EXPECT_NEAR(votes.Best().total, full, 1e-9) << rate << " Hz";
+  }
+}
+
 TEST(HeadingVotes, MeetAtTheMeanAcrossTheWrap) {
   HeadingVotes votes;
   Poll(&votes, 1, 30, 45 * kDegree, 0.5 * kDegree, 2);

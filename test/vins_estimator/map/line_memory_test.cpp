@@ -99,7 +99,7 @@ TEST_F(LineMemoryTest, KeepsViewsOfKnownLinesOnly) {
 }
 
 TEST_F(LineMemoryTest, KeepsTheFirstViewAndTheNewest) {
-  static_assert(LineMemory::kMaxAnchorViews == 4);
+  static_assert(kMaxAnchorViews == 4);
   memory_.Keep(3, LineAlongX(1, 2));
   for (const int64_t t_ns : {10, 20, 30, 40}) memory_.KeepView(3, ViewAt(t_ns));
   EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10, 20, 30, 40}));

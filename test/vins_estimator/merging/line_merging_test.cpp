@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/wall_scene.h"
 
@@ -29,6 +31,30 @@ TEST(LineMerging, JoinsTheTracksOfOneLine) {
   const PluckerLine line_W = LineInWorld(line, window.map().window);
   EXPECT_MATRIX_NEAR(Vector3d(line_W.direction.normalized().cwiseAbs()),
                      Vector3d(2, 0.1, 0).normalized(), 1e-6);
+}
+
+std::vector<LineView> ViewsAt(const std::vector<int64_t>& stamps) {
+  std::vector<LineView> views;
+  for (const int64_t t_ns : stamps) views.push_back({t_ns, {}});
+  return views;
+}
+
+TEST(LineMerging, KeepsWhatAnchorsHaveSeenOfBoth) {
+  LineWindow window;
+  constexpr bool kApartSoFar = true;
+  UniteOnWall({{4, {-1, 0.5}, {1, 0.6}, 0, 4}, {9, {-1, 0.5}, {1, 0.6}, 5, 100, kApartSoFar}},
+              &window);
+  auto& lines = window.map().lines.landmarks();
+  ASSERT_EQ(lines.size(), 2u);
+  lines.at(9).wanders = false;
+  lines.at(4).anchor_views = ViewsAt({1, 4});
+  lines.at(9).anchor_views = ViewsAt({2, 3, 5});
+  const auto merged =
+      MergeLines(LineWindow::Limits(), Eigen::Quaterniond::Identity(), &window.map());
+  ASSERT_EQ(merged.counts.merged, 1);
+  std::vector<int64_t> stamps;
+  for (const LineView& view : lines.at(4).anchor_views) stamps.push_back(view.t_ns);
+  EXPECT_EQ(stamps, (std::vector<int64_t>{1, 3, 4, 5}));  // the first and the newest
 }
 
 TEST(LineMerging, NeverJoinsWhatWanders) {

@@ -8,6 +8,7 @@
 
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_problem.h"
+#include "vins_estimator/factors/factor.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
@@ -124,6 +125,29 @@ TEST_F(LevenbergMarquardtTest, RefusesValuesThatAreNotFinite) {
   const auto pose = simulated_.window.newest().state.pose;
   EXPECT_FALSE(Solve(SolverOptions(), problem_, &*equations_).solved);
   EXPECT_EQ(simulated_.window.newest().state.pose, pose);
+}
+
+// Its Jacobian has the wrong sign, so that each step leads uphill.
+class Misleading final : public SizedFactor<1, 1> {
+ public:
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    residuals[0] = parameters[0][0];
+    if (jacobians != nullptr && jacobians[0] != nullptr) jacobians[0][0] = -1;
+    return true;
+  }
+};
+
+TEST(LevenbergMarquardt, HasSolvedWhatThereIsNothingToGainFrom) {
+  WindowProblem problem;
+  double value = 2;
+  const int index = problem.AddVariable({BlockKind::kTimeOffset, 0}, &value);
+  problem.AddTerm(Misleading(), nullptr, {index});
+  NormalEquations equations(problem);
+  const SolverSummary summary = Solve(SolverOptions(), problem, &equations);
+  EXPECT_TRUE(summary.solved);
+  EXPECT_EQ(summary.final_cost, 2.0);
+  EXPECT_EQ(value, 2);
 }
 
 TEST(LevenbergMarquardt, LeavesWhatCannotBeSolvedAsItIs) {

@@ -52,6 +52,34 @@ TEST(CalibratedConfig, RunsAsItIs) {
   EXPECT_EQ(read.sensor.rolling_shutter_tr, 0.03);
 }
 
+// Read by the loader, whatever it was that was estimated.
+Config ReadBack(const Calibration& calibration) {
+  const testing::TemporaryFolder folder;
+  Config config;
+  config.points.fisheye = false;
+  config.sensor.rolling_shutter = config.sensor.estimate_rolling_shutter_tr = true;
+  SaveCalibratedConfig(calibration, config, folder.File("calibrated.yaml"));
+  return LoadConfig(folder.File("calibrated.yaml"));
+}
+
+TEST(CalibratedConfig, HasAGlobalShutterWhereNoReadoutIsLeft) {
+  Calibration calibration = SomeCalibration();
+  for (const double readout : {-0.0003, 0.0}) {
+    calibration.readout = readout;
+    EXPECT_FALSE(ReadBack(calibration).sensor.rolling_shutter);
+  }
+}
+
+TEST(CalibratedConfig, StaysInTheRangesOfTheKeys) {
+  Calibration calibration = SomeCalibration();
+  calibration.readout = 0.3;
+  calibration.td = -1.01;
+  const Config read = ReadBack(calibration);
+  EXPECT_TRUE(read.sensor.rolling_shutter);
+  EXPECT_EQ(read.sensor.rolling_shutter_tr, 0.2);
+  EXPECT_EQ(read.sensor.td, -1);
+}
+
 TEST(CalibratedConfig, LeavesWhatAGlobalShutterDoesNotUse) {
   Config config;
   config.sensor.rolling_shutter_tr = 0.02;

@@ -103,10 +103,14 @@ TEST_F(TermEvaluationTest, TakesJacobiansAtTheLinearisationPoint) {
 }
 
 TEST_F(TermEvaluationTest, LeavesTheJacobianOfAConstantAlone) {
-  MakeTerm(nullptr, /*constant=*/true);
-  evaluation_.jacobians[0].fill(7);
-  ASSERT_TRUE(EvaluateTerm(term_, variables_, &evaluation_));
-  EXPECT_MATRIX_NEAR(FirstJacobian(), Jacobian::Constant(7), 0.0);
+  const ceres::CauchyLoss robust(0.1);
+  for (const ceres::LossFunction* loss :
+       {static_cast<const ceres::CauchyLoss*>(nullptr), &robust}) {
+    MakeTerm(loss, /*constant=*/true);
+    evaluation_.jacobians[0].fill(7);
+    ASSERT_TRUE(EvaluateTerm(term_, variables_, &evaluation_));
+    EXPECT_MATRIX_NEAR(FirstJacobian(), Jacobian::Constant(7), 0.0);
+  }
 }
 
 TEST_F(TermEvaluationTest, TellsWhereATermCannotBeEvaluated) {

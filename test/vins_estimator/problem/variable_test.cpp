@@ -35,7 +35,6 @@ TEST(Variable, MinusInvertsPlus) {
     SCOPED_TRACE(static_cast<int>(kind));
     const VariableType& type = VariableTypeOf(kind);
     ASSERT_LE(type.ambient_size, kMaxAmbientSize);
-    ASSERT_LE(type.tangent_size, kMaxTangentSize);
     for (int i = 0; i < 20; ++i) {
       const Eigen::VectorXd x = SomeValues(kind, &random);
       const Eigen::VectorXd delta = 0.3 * testing::NormalVector(type.tangent_size, &random);

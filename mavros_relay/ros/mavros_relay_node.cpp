@@ -19,14 +19,10 @@
 namespace plm_vins {
 namespace {
 
-using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-
 BodyOdometry ToBodyOdometry(const nav_msgs::Odometry& message) {
-  const auto& q = message.pose.pose.orientation;
-  const auto& p = message.pose.pose.position;
   const auto& twist = message.twist.twist;
   BodyOdometry odometry;
-  odometry.T_W_B = {Eigen::Quaterniond(q.w, q.x, q.y, q.z), Eigen::Vector3d(p.x, p.y, p.z)};
+  odometry.T_W_B = ToRigid(message.pose.pose);
   odometry.v_B = {twist.linear.x, twist.linear.y, twist.linear.z};
   odometry.omega_B = {twist.angular.x, twist.angular.y, twist.angular.z};
   odometry.pose_covariance = Eigen::Map<const RowMajor6d>(message.pose.covariance.data());

@@ -10,8 +10,6 @@
 namespace plm_vins {
 namespace {
 
-using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-
 std_msgs::Header MakeHeader(int64_t t_ns, const std::string& frame_id) {
   std_msgs::Header header;
   header.stamp = ToRosTime(t_ns);

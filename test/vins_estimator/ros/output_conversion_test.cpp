@@ -12,8 +12,6 @@
 namespace plm_vins {
 namespace {
 
-using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-
 const Eigen::Quaterniond kRotation = SO3Exp({0.3, -0.8, 1.2});
 
 FrameState MakeState() {

@@ -15,7 +15,8 @@
 namespace plm_vins::simulator {
 namespace {
 
-// The destructor of a bag closes it, and ends the program where that fails: such a one is left alone.
+// The destructor of a bag closes it, and ends the program where that fails: such a one is left
+// alone.
 struct CloseOrLeave {
   void operator()(rosbag::Bag* bag) const {
     try {

@@ -90,9 +90,7 @@ std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message) {
     corner.observation.id = ReadId(values[4]);
     const Eigen::Vector3d p_O = ToVector(message.points[i]);
     if (p_O.allFinite()) corner.p_O = p_O;
-    if (corner.observation.uv_px.allFinite() && IsNew(corner.observation, &ids)) {
-      corners.push_back(corner);
-    }
+    if (IsNew(corner.observation, &ids)) corners.push_back(corner);
   }
   return corners;
 }

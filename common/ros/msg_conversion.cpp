@@ -57,16 +57,6 @@ void CheckChannels(const sensor_msgs::PointCloud& cloud, size_t count, const cha
   }
 }
 
-// From kTransportableIds on, a float32 is taken for its neighbours.
-int64_t ToId(float value) {
-  if (!(value >= 0 && value < static_cast<float>(kTransportableIds)) ||
-      value != std::floor(value)) {
-    throw std::invalid_argument("feature message with the id " + std::to_string(value) +
-                                ": not a whole number from 0 to 2^24 - 1");
-  }
-  return static_cast<int64_t>(value);
-}
-
 // What the channels of points are, by their number: VINS-Fusion names a camera after the id.
 struct PointLayout {
   size_t channels = 0;  // that must be there
@@ -123,7 +113,7 @@ PointFrame ToPointFrame(const sensor_msgs::PointCloud& message, int64_t* left_ou
     if (has_cameras && value(1, i) != 0) continue;
     PointObservation& point = frame.points.emplace_back();
     const size_t pixel = layout.first_pixel;
-    point.id = ToId(value(0, i));
+    point.id = ReadId(value(0, i));
     point.xy = {message.points[i].x, message.points[i].y};
     point.uv_px = {value(pixel, i), value(pixel + 1, i)};
     if (has_velocities) point.velocity = {value(pixel + 2, i), value(pixel + 3, i)};
@@ -150,7 +140,7 @@ LineFrame ToLineFrame(const sensor_msgs::PointCloud& message, int64_t* left_out)
   frame.lines.resize(message.points.size());
   const auto value = [&](int channel, size_t i) { return message.channels[channel].values[i]; };
   for (size_t i = 0; i < frame.lines.size(); ++i) {
-    frame.lines[i].id = ToId(value(0, i));
+    frame.lines[i].id = ReadId(value(0, i));
     frame.lines[i].start = {message.points[i].x, message.points[i].y};
     frame.lines[i].end = {value(1, i), value(2, i)};
   }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "common/ros/image_conversion.h"
+#include "common/ros/keyframe_conversion.h"
 #include "common/ros/msg_conversion.h"
 #include "offline/bag_recording.h"
 #include "test/fuzz/target.h"
@@ -128,6 +129,9 @@ Target MessagesTarget() {
         int64_t left_out = 0;
         Try([&, reader = Reader(bytes)]() mutable { ToPointFrame(AnyCloud(&reader), &left_out); });
         Try([&, reader = Reader(bytes)]() mutable { ToLineFrame(AnyCloud(&reader), &left_out); });
+        Try([&, reader = Reader(bytes)]() mutable { ToCorners(AnyCloud(&reader)); });
+        Try([&, reader = Reader(bytes)]() mutable { ToSegments(AnyCloud(&reader)); });
+        Try([&, reader = Reader(bytes)]() mutable { ToManhattanFrame(AnyCloud(&reader)); });
         Try([&, reader = Reader(bytes)]() mutable { ToImageSample(AnyImage(&reader)); });
         sensor_msgs::CompressedImage compressed;
         compressed.data = bytes;

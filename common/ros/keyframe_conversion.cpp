@@ -78,7 +78,7 @@ sensor_msgs::PointCloud ToKeyframePoints(const std::vector<TrackedCorner>& corne
   return cloud;
 }
 
-std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message) {
+std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message, int64_t* left_out) {
   CheckLayout(message, 1);
   std::vector<TrackedCorner> corners;
   std::unordered_set<int64_t> ids;
@@ -88,10 +88,10 @@ std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message) {
     corner.observation.xy = {values[0], values[1]};
     corner.observation.uv_px = {values[2], values[3]};
     corner.observation.id = ReadId(values[4]);
-    const Eigen::Vector3d p_O = ToVector(message.points[i]);
-    if (p_O.allFinite()) corner.p_O = p_O;
-    if (IsNew(corner.observation, &ids)) corners.push_back(corner);
+    corner.p_O = ToVector(message.points[i]);
+    if (corner.p_O->allFinite() && IsNew(corner.observation, &ids)) corners.push_back(corner);
   }
+  *left_out += static_cast<int64_t>(message.points.size() - corners.size());
   return corners;
 }
 
@@ -116,7 +116,7 @@ sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segme
   return cloud;
 }
 
-std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message) {
+std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message, int64_t* left_out) {
   CheckLayout(message, 2);
   std::vector<TrackedSegment> segments;
   std::unordered_set<int64_t> ids;
@@ -130,6 +130,7 @@ std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message) {
     if (place.start_O.allFinite() && place.end_O.allFinite()) segment.landmark = place;
     if (IsNew(segment.observation, &ids)) segments.push_back(segment);
   }
+  *left_out += static_cast<int64_t>(message.points.size() / 2 - segments.size());
   return segments;
 }
 

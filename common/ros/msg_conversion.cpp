@@ -4,7 +4,6 @@
 #include <geometry_msgs/Point32.h>
 
 #include <array>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/ros/keyframe_input.h"
 
-#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <functional>
 #include <stdexcept>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "common/feature_checks.h"
 #include "common/ros/camera_info_conversion.h"
 #include "common/ros/keyframe_conversion.h"
 #include "common/ros/msg_conversion.h"
@@ -37,22 +33,6 @@ void CheckSameKind(const CameraParameters& ours, const CameraParameters& refined
     return;
   }
   throw std::invalid_argument("it is not the camera of the configuration");
-}
-
-bool IsPlaced(const TrackedCorner& corner) {
-  return IsPossible(corner.observation) && corner.observation.uv_px.allFinite() &&
-         corner.p_O->allFinite();
-}
-
-bool IsSeen(const TrackedSegment& segment) { return IsPossible(segment.observation); }
-
-// Returns how many went.
-template <typename Feature>
-int64_t KeepOnly(bool (*is_possible)(const Feature&), std::vector<Feature>* features) {
-  const auto rest = std::remove_if(features->begin(), features->end(), std::not_fn(is_possible));
-  const int64_t removed = features->end() - rest;
-  features->erase(rest, features->end());
-  return removed;
 }
 
 // Runs `take`; an exception says what is wrong with a message, and counts.
@@ -84,21 +64,14 @@ void KeyframeInput::AddPose(const nav_msgs::Odometry& message) {
 
 void KeyframeInput::AddPoints(const sensor_msgs::PointCloud& message) {
   CountFailure(&malformed_, [&] {
-    std::vector<TrackedCorner> corners = ToCorners(message);
-    features_.count += KeepOnly(IsPlaced, &corners);
-    assembly_.AddCorners(ToNanoseconds(message.header.stamp), std::move(corners));
+    assembly_.AddCorners(ToNanoseconds(message.header.stamp), ToCorners(message, &features_.count));
   });
 }
 
 void KeyframeInput::AddLines(const sensor_msgs::PointCloud& message) {
   CountFailure(&malformed_, [&] {
-    std::vector<TrackedSegment> segments = ToSegments(message);
-    const auto R_O_M = ToManhattanFrame(message);
-    if (R_O_M && !IsUnit(*R_O_M)) {
-      throw std::invalid_argument("a keyframe's Manhattan frame is no rotation");
-    }
-    features_.count += KeepOnly(IsSeen, &segments);
-    assembly_.AddSegments(ToNanoseconds(message.header.stamp), std::move(segments), R_O_M);
+    assembly_.AddSegments(ToNanoseconds(message.header.stamp),
+                          ToSegments(message, &features_.count), ToManhattanFrame(message));
   });
 }
 

@@ -129,8 +129,8 @@ Target MessagesTarget() {
         int64_t left_out = 0;
         Try([&, reader = Reader(bytes)]() mutable { ToPointFrame(AnyCloud(&reader), &left_out); });
         Try([&, reader = Reader(bytes)]() mutable { ToLineFrame(AnyCloud(&reader), &left_out); });
-        Try([&, reader = Reader(bytes)]() mutable { ToCorners(AnyCloud(&reader)); });
-        Try([&, reader = Reader(bytes)]() mutable { ToSegments(AnyCloud(&reader)); });
+        Try([&, reader = Reader(bytes)]() mutable { ToCorners(AnyCloud(&reader), &left_out); });
+        Try([&, reader = Reader(bytes)]() mutable { ToSegments(AnyCloud(&reader), &left_out); });
         Try([&, reader = Reader(bytes)]() mutable { ToManhattanFrame(AnyCloud(&reader)); });
         Try([&, reader = Reader(bytes)]() mutable { ToImageSample(AnyImage(&reader)); });
         sensor_msgs::CompressedImage compressed;

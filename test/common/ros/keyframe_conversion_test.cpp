@@ -9,6 +9,16 @@
 namespace plm_vins {
 namespace {
 
+std::vector<TrackedCorner> Corners(const sensor_msgs::PointCloud& message) {
+  int64_t left_out = 0;
+  return ToCorners(message, &left_out);
+}
+
+std::vector<TrackedSegment> Segments(const sensor_msgs::PointCloud& message) {
+  int64_t left_out = 0;
+  return ToSegments(message, &left_out);
+}
+
 std::vector<TrackedCorner> TwoCorners() {
   std::vector<TrackedCorner> corners(2);
   corners[1].observation.id = 5;
@@ -30,7 +40,7 @@ TEST(KeyframePoints, HaveTheLayoutOfVinsMono) {
 }
 
 TEST(KeyframePoints, ComeBack) {
-  const auto corners = ToCorners(ToKeyframePoints(TwoCorners(), 0, ""));
+  const auto corners = Corners(ToKeyframePoints(TwoCorners(), 0, ""));
   ASSERT_EQ(corners.size(), 1u);
   EXPECT_EQ(corners[0].observation.id, 5);
   EXPECT_EQ(corners[0].observation.uv_px, Eigen::Vector2d(300.5, 20));
@@ -40,9 +50,9 @@ TEST(KeyframePoints, ComeBack) {
 TEST(KeyframePoints, AreRefusedWithoutAChannelForEach) {
   auto message = ToKeyframePoints(TwoCorners(), 0, "");
   message.channels[0].values.pop_back();
-  EXPECT_THROW(ToCorners(message), std::invalid_argument);
+  EXPECT_THROW(Corners(message), std::invalid_argument);
   message.channels.clear();
-  EXPECT_THROW(ToCorners(message), std::invalid_argument);
+  EXPECT_THROW(Corners(message), std::invalid_argument);
 }
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -63,31 +73,32 @@ TEST(KeyframePoints, AreLeftOutWhereTheyCannotBe) {
     for (const float wrong : {kNan, kInfinity}) {
       auto message = ThreePoints();
       message.channels[1].values[value] = wrong;
-      EXPECT_EQ(ToCorners(message).size(), 2u) << value;
+      EXPECT_EQ(Corners(message).size(), 2u) << value;
     }
   }
   auto message = ThreePoints();
   message.channels[1].values[0] = 1e30F;
-  EXPECT_EQ(ToCorners(message).size(), 2u);
+  EXPECT_EQ(Corners(message).size(), 2u);
   message = ThreePoints();
   message.channels[1].values[4] = 0;  // the id of the first
-  EXPECT_EQ(ToCorners(message).size(), 2u);
+  EXPECT_EQ(Corners(message).size(), 2u);
 }
 
-TEST(KeyframePoints, HaveNoPlaceWhereItIsNotFinite) {
+TEST(KeyframePoints, AreLeftOutAndCountedWithoutAPlaceThatIsFinite) {
   auto message = ThreePoints();
   message.points[1].y = kNan;
-  const auto corners = ToCorners(message);
-  ASSERT_EQ(corners.size(), 3u);
-  EXPECT_FALSE(corners[1].p_O);
-  EXPECT_TRUE(corners[2].p_O);
+  int64_t left_out = 0;
+  const auto corners = ToCorners(message, &left_out);
+  ASSERT_EQ(corners.size(), 2u);
+  EXPECT_EQ(corners[1].observation.id, 2);
+  EXPECT_EQ(left_out, 1);
 }
 
 TEST(KeyframePoints, AreRefusedWithAnIdThatIsNone) {
   for (const float id : {kNan, kInfinity, 1e30F, -1.0F, 0.5F}) {
     auto message = ThreePoints();
     message.channels[1].values[4] = id;
-    EXPECT_THROW(ToCorners(message), std::invalid_argument) << id;
+    EXPECT_THROW(Corners(message), std::invalid_argument) << id;
   }
 }
 
@@ -97,17 +108,17 @@ TEST(KeyframeLines, AreLeftOutOrRefusedAsPointsAre) {
     segments[i].observation.id = static_cast<int64_t>(i);
   }
   const auto message = ToKeyframeLines(segments, std::nullopt, 0, "");
-  EXPECT_EQ(ToSegments(message).size(), 3u);
+  EXPECT_EQ(Segments(message).size(), 3u);
   for (const int value : {0, 1, 2, 3}) {
     auto spoiled = message;
     spoiled.channels[1].values[value] = kNan;
-    EXPECT_EQ(ToSegments(spoiled).size(), 2u) << value;
+    EXPECT_EQ(Segments(spoiled).size(), 2u) << value;
   }
   auto spoiled = message;
   spoiled.channels[1].values[4] = 2;  // the id of the last
-  EXPECT_EQ(ToSegments(spoiled).size(), 2u);
+  EXPECT_EQ(Segments(spoiled).size(), 2u);
   spoiled.channels[1].values[4] = kInfinity;
-  EXPECT_THROW(ToSegments(spoiled), std::invalid_argument);
+  EXPECT_THROW(Segments(spoiled), std::invalid_argument);
 }
 
 TEST(KeyframeLines, AreRefusedWithAManhattanFrameThatIsNoRotation) {
@@ -126,7 +137,7 @@ TEST(KeyframeLines, ComeBack) {
   segments[0].landmark = {{1, 2, 3}, {4, 5, 6}};
   const auto message = ToKeyframeLines(segments, std::nullopt, 0, "");
   EXPECT_FALSE(ToManhattanFrame(message));
-  const auto back = ToSegments(message);
+  const auto back = Segments(message);
   ASSERT_EQ(back.size(), 2u);
   EXPECT_FALSE(back[1].landmark);  // seen, but without a place
   EXPECT_EQ(back[0].observation.id, 8);
@@ -141,7 +152,7 @@ TEST(KeyframeLines, BringTheManhattanFrame) {
   segments[0].landmark = {{1, 2, 3}, {4, 5, 6}};
   const Eigen::Quaterniond R_O_M(0.6, 0, 0, 0.8);
   auto message = ToKeyframeLines(segments, R_O_M, 0, "");
-  EXPECT_EQ(ToSegments(message).size(), 1u);
+  EXPECT_EQ(Segments(message).size(), 1u);
   ASSERT_TRUE(ToManhattanFrame(message));
   EXPECT_LT(ToManhattanFrame(message)->angularDistance(R_O_M), 1e-6);
   message.channels.back().values.pop_back();

@@ -13,89 +13,10 @@ import zipfile
 
 import numpy as np
 
-SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
-sys.path.insert(0, SCRIPTS)
-from evaluate import error_statistics, evaluate, format_report  # noqa: E402
-from evaluation import consistency, evo_backend, metrics  # noqa: E402
-from evaluation.trajectory import (  # noqa: E402
-    Trajectory, TrajectoryError, format_tum, read_trajectory)
-
-START = 1403636580.0  # [s], as large as real stamps are
-
-
-def rotation(axis, degrees):
-    x, y, z = axis
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    angle = np.radians(degrees)
-    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
-
-
-def flight(rate=20.0, seconds=10.0):
-    """A curved motion in all axes while the body turns."""
-    t = np.arange(0.0, seconds + 1e-9, 1.0 / rate)
-    positions = np.stack([2 * np.cos(t), 3 * np.sin(0.7 * t), 0.5 * np.sin(1.3 * t)], axis=1)
-    rotations = np.array([rotation((0, 0, 1), 20 * s) @ rotation((1, 0, 0), 5 * s) for s in t])
-    return Trajectory(START + t, positions, rotations)
-
-
-def moved(trajectory, offsets):
-    return Trajectory(trajectory.stamps, trajectory.positions + offsets, trajectory.rotations)
-
-
-class StatedCovariance(unittest.TestCase):
-    def test_error_is_taken_in_units_of_its_covariance(self):
-        truth = flight(seconds=6.0)
-        # A curve that is out by 0.2 m at one pose only, which turns the alignment by little.
-        offsets = np.zeros((len(truth), 3))
-        offsets[100, 2] = 0.2
-        estimate = moved(truth.transformed(rotation((0, 0, 1), 70), np.array([5.0, -3.0, 2.0])),
-                         offsets)
-        covariances = np.tile(np.diag([0.04, 0.04, 0.01, 1, 1, 1]), (len(truth), 1, 1))
-        covariances[0] = 0.0  # the first pose is known
-        self.assertAlmostEqual(
-            consistency.position_nees(estimate, truth, covariances, 5.0), 4.0, places=6)
-        self.assertLess(consistency.position_nees(estimate, truth, covariances, 4.0), 1e-6)
-
-    def test_is_three_on_average_where_it_is_true(self):
-        generator = np.random.default_rng(1)
-        truth = flight(seconds=10.0)
-        covariance = np.diag([0.01, 0.02, 0.03, 1, 1, 1]) ** 2
-        covariances = np.tile(covariance, (len(truth), 1, 1))
-        values = []
-        for _ in range(500):
-            offsets = np.zeros((len(truth), 3))
-            for end in (0, -1):
-                offsets[end] = generator.multivariate_normal(np.zeros(3), covariance[:3, :3])
-            estimate = moved(truth, offsets)
-            values.append(consistency.position_nees(estimate, truth, covariances, 10.0))
-        self.assertAlmostEqual(np.mean(values), 3.0, delta=0.3)
-
-    def test_trajectory_that_ends_before_is_an_error(self):
-        truth = flight(seconds=4.0)
-        covariances = np.tile(np.eye(6), (len(truth), 1, 1))
-        with self.assertRaisesRegex(TrajectoryError, "no pose 10 s after the first"):
-            consistency.position_nees(truth, truth, covariances, 10.0)
-
-    def test_reads_the_upper_triangle_of_the_poses_asked_for(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "covariance.csv")
-            triangle = ",".join(str(n) for n in range(1, 22))
-            with open(path, "w", encoding="utf-8") as file:
-                file.write("stamp_ns\n" + "".join(f"{1000000000 + i * 50000000},{triangle}\n"
-                                                  for i in range(4)))
-            covariances = consistency.read_covariances(path, np.array([1.05, 1.15]))
-            self.assertEqual(covariances.shape, (2, 6, 6))
-            np.testing.assert_array_equal(covariances[1], covariances[1].T)
-            np.testing.assert_array_equal(covariances[0][0], [1, 2, 3, 4, 5, 6])
-            self.assertEqual(covariances[0][5, 5], 21)
-            with self.assertRaisesRegex(TrajectoryError, "has no covariance for some poses"):
-                consistency.read_covariances(path, np.array([2.0]))
-            with open(path, "w", encoding="utf-8") as file:
-                file.write("a,b\n1,2\n3,4\n")
-            with self.assertRaisesRegex(TrajectoryError, "not the covariance.csv"):
-                consistency.read_covariances(path, np.array([1.0]))
-            with self.assertRaisesRegex(TrajectoryError, "missing.csv"):
-                consistency.read_covariances(os.path.join(folder, "missing.csv"), np.array([1.0]))
+from known_flight import SCRIPTS, START, flight, moved, rotation  # first: it names the folder
+from evaluate import error_statistics, evaluate, format_report
+from evaluation import evo_backend, metrics
+from evaluation.trajectory import Trajectory, TrajectoryError, format_tum, read_trajectory
 
 
 class AbsoluteError(unittest.TestCase):

@@ -1,9 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/run_dataset.py as it is called, with fake_run_offline.py in the place of run_offline."""
+"""scripts/run_dataset.py on one machine: results, failures, stops, bad calls."""
 
-import csv
-import glob
 import importlib.util
 import os
 import pty
@@ -11,80 +9,10 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
-import time
 import unittest
 
+from dataset_case import DatasetTest
 from fake_run_offline import flight, write_tum
-
-HERE = os.path.dirname(os.path.abspath(__file__))
-RUN_DATASET = os.path.join(HERE, "..", "..", "scripts", "run_dataset.py")
-
-
-class DatasetTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.output = self.path("output")
-        self.program = self.path("run_offline")
-        shutil.copy(os.path.join(HERE, "fake_run_offline.py"), self.program)
-        self.write("config.yaml", "%YAML:1.0\n")
-        os.mkdir(self.path("bags"))
-
-    def path(self, *names):
-        return os.path.join(self.folder, *names)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-
-    def add(self, name, words="fly", truth=True):
-        """A recording that does as the words say, with its ground truth."""
-        self.write(os.path.join("bags", name + ".bag"), words)
-        if truth:
-            write_tum(self.path("bags", name + ".tum"), *flight(rate=100.0))
-
-    def command(self, *arguments):
-        return [sys.executable, "-B", RUN_DATASET, self.path("bags"), "--output", self.output,
-                "--run-offline", self.program, "--config", self.path("config.yaml"), *arguments]
-
-    def call(self, *arguments, exit_code=0):
-        result = subprocess.run(self.command(*arguments), stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, encoding="utf-8", check=False)
-        self.assertEqual(result.returncode, exit_code, result.stderr)
-        self.assertNotIn("Traceback", result.stderr)
-        return result
-
-    def calls(self):
-        """The arguments of every run so far."""
-        try:
-            with open(self.path("calls.txt"), encoding="utf-8") as file:
-                return file.read().splitlines()
-        except FileNotFoundError:
-            return []
-
-    def hanging_run(self):
-        """Waits until a run hangs; returns the ids of its process and of that which started it."""
-        deadline = time.monotonic() + 120
-        while time.monotonic() < deadline:
-            for path in glob.glob(os.path.join(self.output, "runs", "*", "*", "*", "pid")):
-                with open(path, encoding="utf-8") as file:
-                    text = file.read()
-                if text.endswith("\n"):
-                    return [int(word) for word in text.split()]
-            time.sleep(0.02)
-        self.fail("no run hangs")
-        return None
-
-    def report(self):
-        with open(os.path.join(self.output, "report.md"), encoding="utf-8") as file:
-            return file.read()
-
-    def rows(self, name="runs.csv"):
-        with open(os.path.join(self.output, name), encoding="utf-8") as file:
-            return list(csv.DictReader(file))
 
 
 class Results(DatasetTest):
@@ -339,82 +267,6 @@ class Terminal(DatasetTest):
                 text += os.read(terminal, 4096)
             except OSError:
                 return text.decode()
-
-
-@unittest.skipUnless(importlib.util.find_spec("distributed"), "Dask is not installed")
-class Cluster(DatasetTest):
-    """A Dask scheduler and two workers, as on three machines that share a folder."""
-
-    def setUp(self):
-        super().setUp()
-        self.scheduler_file = self.path("scheduler.json")
-        self.start("scheduler", "--port", "0", "--no-dashboard")
-        scripts = os.path.dirname(os.path.abspath(RUN_DATASET))
-        self.workers = [self.start("worker", "--nthreads", "1", "--no-nanny", "--no-dashboard",
-                                   PYTHONPATH=scripts) for _ in range(2)]
-        self.address = self.wait_for_workers(2)
-
-    def start(self, kind, *options, **environment):
-        """A process of Dask's, ended with the test."""
-        process = subprocess.Popen(
-            [sys.executable, "-B", "-m", f"distributed.cli.dask_{kind}", "--scheduler-file",
-             self.scheduler_file, *options], cwd=self.folder, env=dict(os.environ, **environment),
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        return process
-
-    def wait_for_workers(self, count):
-        import distributed
-        deadline = time.monotonic() + 60
-        while not os.path.isfile(self.scheduler_file):
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.05)
-        with distributed.Client(scheduler_file=self.scheduler_file, timeout=60) as client:
-            client.wait_for_workers(count)
-            return client.scheduler.address
-
-    def test_runs_are_under_way_at_the_same_time(self):
-        self.add("hall", "fly meet")
-        result = self.call("--no-plots", "--variants", "improved", "--repetitions", "2",
-                           "--jobs", "1", "--scheduler", self.address)
-        self.assertIn(f"by 2 workers of {self.address}", result.stdout)
-        self.assertEqual([row["status"] for row in self.rows()], ["compared"] * 2)
-        result = self.call("--no-plots", "--variants", "improved", "--repetitions", "2",
-                           "--scheduler", self.address)
-        self.assertIn("2 of them finished before", result.stdout)
-        self.assertEqual(len(self.calls()), 2)
-
-    def test_the_run_of_a_lost_worker_is_done_again(self):
-        self.add("a_flies")
-        self.add("b_hangs", "fly hang_once")
-        self.add("c_flies")
-        with subprocess.Popen(self.command("--no-plots", "--variants", "improved", "--scheduler",
-                                           self.address), stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, encoding="utf-8") as process:
-            orphan, worker = self.hanging_run()
-            self.addCleanup(os.kill, orphan, signal.SIGKILL)
-            self.assertIn(worker, [w.pid for w in self.workers])
-            os.kill(worker, signal.SIGKILL)
-            _, messages = process.communicate(timeout=120)
-        self.assertEqual(process.returncode, 0, messages)
-        self.assertEqual([row["status"] for row in self.rows()], ["compared"] * 3)
-        self.assertEqual(sum("b_hangs" in call for call in self.calls()), 2)
-        self.assertEqual(os.listdir(os.path.join(self.output, "runs", "b_hangs", "improved")),
-                         ["1"])
-
-    def test_interruption_leaves_no_process(self):
-        self.add("b_hangs", "hang")
-        with subprocess.Popen(self.command("--variants", "improved", "--scheduler", self.address),
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                              encoding="utf-8") as process:
-            pid, _ = self.hanging_run()
-            process.send_signal(signal.SIGINT)
-            _, messages = process.communicate(timeout=120)
-        self.assertEqual(process.returncode, 130, messages)
-        self.assertIn("1 of 1 runs left", messages)
-        with self.assertRaises(ProcessLookupError):
-            os.kill(pid, 0)
 
 
 class BadCalls(DatasetTest):

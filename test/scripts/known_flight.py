@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A flight whose poses are known by their formula, for the tests of scripts/evaluation."""
+
+import os
+import sys
+
+import numpy as np
+
+SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
+sys.path.insert(0, SCRIPTS)
+from evaluation.trajectory import Trajectory  # noqa: E402
+
+START = 1403636580.0  # [s], as large as real stamps are
+
+
+def rotation(axis, degrees):
+    x, y, z = axis
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    angle = np.radians(degrees)
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+def flight(rate=20.0, seconds=10.0):
+    """A curved motion in all axes while the body turns."""
+    t = np.arange(0.0, seconds + 1e-9, 1.0 / rate)
+    positions = np.stack([2 * np.cos(t), 3 * np.sin(0.7 * t), 0.5 * np.sin(1.3 * t)], axis=1)
+    rotations = np.array([rotation((0, 0, 1), 20 * s) @ rotation((1, 0, 0), 5 * s) for s in t])
+    return Trajectory(START + t, positions, rotations)
+
+
+def moved(trajectory, offsets):
+    return Trajectory(trajectory.stamps, trajectory.positions + offsets, trajectory.rotations)

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -36,10 +37,10 @@ class MapWriter {
   std::string bytes_;
 };
 
-// Throws std::runtime_error where the bytes end early.
+// Reads bytes that outlive it. Throws std::runtime_error where they end early.
 class MapReader {
  public:
-  explicit MapReader(std::string bytes) : bytes_(std::move(bytes)) {}
+  explicit MapReader(std::string_view bytes) : bytes_(bytes) {}
 
   template <typename T>
   void Value(T& value) {
@@ -64,7 +65,7 @@ class MapReader {
   }
 
  private:
-  std::string bytes_;
+  std::string_view bytes_;
   size_t next_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "common/ros/msg_conversion.h"
 #include "common/so3.h"
 #include "test/testing/numeric_jacobian.h"
 

@@ -35,6 +35,7 @@ TEST(LineMerging, JoinsTheTracksOfOneLine) {
 
 std::vector<LineView> ViewsAt(const std::vector<int64_t>& stamps) {
   std::vector<LineView> views;
+  views.reserve(stamps.size());
   for (const int64_t t_ns : stamps) views.push_back({t_ns, {}});
   return views;
 }

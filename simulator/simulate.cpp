@@ -113,6 +113,7 @@ void Run(Arguments arguments) {
   if (!arguments.config.empty()) options.sensors = LoadConfig(arguments.config).sensor;
   const auto owned = OpenRecorders(arguments);
   std::vector<Recorder*> recorders;
+  recorders.reserve(owned.size());
   for (const auto& recorder : owned) recorders.push_back(recorder.get());
 
   const Flight flight(options);
@@ -125,7 +126,7 @@ void Run(Arguments arguments) {
 }  // namespace
 }  // namespace plm_vins::simulator
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app("Renders a flight through a simulated world");
   plm_vins::simulator::Arguments arguments;
   plm_vins::simulator::Declare(&arguments, &app);
@@ -144,5 +145,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     std::fprintf(stderr, "simulate: %s\n", error.what());
   }
+  return 1;
+} catch (...) {  // of the handlers above
   return 1;
 }

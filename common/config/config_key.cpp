@@ -39,7 +39,7 @@ Problem ReadNumber(const YAML::Node& value, const std::string& unit, Range range
 
 Problem ReadInteger(const YAML::Node& value, const std::string& unit, Range range, int* number) {
   double parsed = 0;
-  if (const Problem problem = ReadNumber(value, unit, range, &parsed)) return problem;
+  if (Problem problem = ReadNumber(value, unit, range, &parsed)) return problem;
   if (parsed != std::floor(parsed)) return "is not a whole number; " + MustBeIn(range, unit);
   *number = static_cast<int>(parsed);
   return std::nullopt;

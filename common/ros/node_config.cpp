@@ -41,7 +41,7 @@ Config LoadNodeConfig(const ros::NodeHandle& private_node) {
     throw ConfigError({"parameters " + private_node.resolveName("set") +
                        "/KEY must be texts (in a launch file: type=\"str\")"});
   }
-  const Config config = LoadConfig(file, overrides);
+  Config config = LoadConfig(file, overrides);
   CheckTopics(private_node, config);
   const std::string warning = IgnoredKeysWarning(config);
   if (!warning.empty()) ROS_WARN_STREAM_ONCE(warning);

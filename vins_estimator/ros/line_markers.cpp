@@ -72,6 +72,7 @@ std::vector<visualization_msgs::Marker> LineHistory::Add(const std::vector<MapLi
     changed.insert(place.part);
   }
   std::vector<visualization_msgs::Marker> markers;
+  markers.reserve(changed.size());
   for (const size_t part : changed) markers.push_back(MakeMarker(part, t_ns));
   return markers;
 }

@@ -30,7 +30,7 @@ void Feed(GyroPredictor* predictor, double seconds, const Rate& rate) {
 TEST(GyroPredictor, ConstantRateBetweenArbitraryTimes) {
   const Eigen::Vector3d rate(0.5, -1.0, 2.0);
   GyroPredictor predictor(T_B_C, 0);
-  Feed(&predictor, 0.5, [&](double) { return rate; });
+  Feed(&predictor, 0.5, [&](double) -> const Eigen::Vector3d& { return rate; });
   const int64_t t0 = kStart + 12'345'678, t1 = t0 + 50'000'000;
   // A direction fixed in the world: d_C1 = R_C_B Exp(-rate dt) R_B_C d_C0.
   const Eigen::Quaterniond R_B_C = T_B_C.rotation;

@@ -29,7 +29,8 @@ class EstimationStageTest : public ::testing::Test {
     for (int i = 0; i < 20; ++i) {
       PointObservation point;
       point.id = i;
-      point.xy = {0.1 * (i % 5 - 2), 0.1 * (i / 5 - 2)};
+      const int row = i / 5;
+      point.xy = {0.1 * (i % 5 - 2), 0.1 * (row - 2)};
       point.uv_px = {160 + 200 * point.xy.x(), 120 + 200 * point.xy.y()};
       frame.points.push_back(point);
     }

@@ -68,6 +68,7 @@ LinearSolution SolveLinear(const std::vector<RotationPair>& pairs,
 LinearSolution SolveLinear(const std::vector<RotationPair>& pairs) {
   // The angles of both rotations are equal whatever R_B_C is, so that most outliers show at once.
   std::vector<double> weights;
+  weights.reserve(pairs.size());
   for (const RotationPair& pair : pairs) {
     weights.push_back(
         GemanMcClureWeight(Angle(pair.R_B0_B1) - Angle(pair.R_C0_C1), kLinearTolerance));

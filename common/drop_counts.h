@@ -12,6 +12,10 @@ struct DropCount {
   std::string cause;  // a key for reports, e.g. "imu_not_finite"
   int64_t count = 0;
   std::string detail;  // what the first one was, for the message; may be empty
+
+  void Add(const std::string& what) {
+    if (count++ == 0) detail = what;
+  }
 };
 
 using DropCounts = std::vector<DropCount>;

@@ -29,6 +29,12 @@ inline bool IsPossible(const LineObservation& line) {
   return IsWithin(line.start, kMaxImageCoordinate) && IsWithin(line.end, kMaxImageCoordinate);
 }
 
+// Whether it can be true, and its id is none of `ids`, which it joins.
+template <typename Observation>
+bool IsPossibleAndNew(const Observation& observation, std::unordered_set<int64_t>* ids) {
+  return IsPossible(observation) && ids->insert(observation.id).second;
+}
+
 // Removes impossible observations, and those of an id that is in the image already. Returns how
 // many went.
 template <typename Observation>
@@ -37,9 +43,7 @@ int64_t RemoveImpossible(std::vector<Observation>* observations) {
   std::vector<Observation> possible;
   possible.reserve(observations->size());
   for (const Observation& observation : *observations) {
-    if (IsPossible(observation) && ids.insert(observation.id).second) {
-      possible.push_back(observation);
-    }
+    if (IsPossibleAndNew(observation, &ids)) possible.push_back(observation);
   }
   const size_t removed = observations->size() - possible.size();
   observations->swap(possible);

@@ -82,7 +82,7 @@ class AslRecording : public Recording {
   std::optional<cv::Mat> LoadImage() override {
     cv::Mat gray = ReadImage(current_image_);
     if (!gray.empty()) return gray;
-    if (unreadable_images_++ == 0) first_unreadable_ = current_image_.string();
+    unreadable_images_.Add(current_image_.string());
     return std::nullopt;
   }
 
@@ -90,7 +90,7 @@ class AslRecording : public Recording {
   std::optional<int64_t> end_ns() const override { return end_ns_; }
 
   DropCounts problems() const override {
-    return {{"images_unreadable", unreadable_images_, first_unreadable_},
+    return {unreadable_images_,
             {"image_csv_lines_bad", image_rows_.bad_lines(), image_rows_.first_bad_line()},
             {"imu_csv_lines_bad", imu_rows_.bad_lines(), imu_rows_.first_bad_line()},
             {"image_stamps_ahead_of_time", ordered_images_.dropped(), ""},
@@ -124,8 +124,7 @@ class AslRecording : public Recording {
   std::optional<CsvRow> next_image_;
   std::optional<ImuSample> next_imu_;
   fs::path current_image_;
-  int64_t unreadable_images_ = 0;
-  std::string first_unreadable_;
+  DropCount unreadable_images_{"images_unreadable", 0, ""};
 };
 
 }  // namespace

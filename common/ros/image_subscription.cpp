@@ -35,7 +35,7 @@ void ImageSubscription::Read(const Message& message) {
     image = ToImageSample(message);
     stream_.Add(image->t_ns);
   } catch (const std::exception& error) {
-    if (unreadable_.count++ == 0) unreadable_.detail = error.what();
+    unreadable_.Add(error.what());
   }
   callback_(std::move(image));
 }

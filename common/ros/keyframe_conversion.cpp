@@ -45,12 +45,6 @@ bool HasManhattanFrame(const sensor_msgs::PointCloud& message) {
   return !message.channels.empty() && message.channels.back().name == kManhattan;
 }
 
-// Whether it can be true, and has an id that was not there before.
-template <typename Observation>
-bool IsNew(const Observation& observation, std::unordered_set<int64_t>* ids) {
-  return IsPossible(observation) && ids->insert(observation.id).second;
-}
-
 // One channel for each feature, which has `points_each` points.
 void CheckLayout(const sensor_msgs::PointCloud& message, size_t points_each) {
   const size_t features = message.channels.size() - (HasManhattanFrame(message) ? 1 : 0);
@@ -89,7 +83,9 @@ std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message, int
     corner.observation.uv_px = {values[2], values[3]};
     corner.observation.id = ReadId(values[4]);
     corner.p_O = ToVector(message.points[i]);
-    if (corner.p_O->allFinite() && IsNew(corner.observation, &ids)) corners.push_back(corner);
+    if (corner.p_O->allFinite() && IsPossibleAndNew(corner.observation, &ids)) {
+      corners.push_back(corner);
+    }
   }
   *left_out += static_cast<int64_t>(message.points.size() - corners.size());
   return corners;
@@ -128,7 +124,7 @@ std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message, i
     segment.observation.id = ReadId(values[4]);
     const SpaceSegment place{ToVector(message.points[2 * i]), ToVector(message.points[2 * i + 1])};
     if (place.start_O.allFinite() && place.end_O.allFinite()) segment.landmark = place;
-    if (IsNew(segment.observation, &ids)) segments.push_back(segment);
+    if (IsPossibleAndNew(segment.observation, &ids)) segments.push_back(segment);
   }
   *left_out += static_cast<int64_t>(message.points.size() / 2 - segments.size());
   return segments;

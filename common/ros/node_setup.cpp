@@ -63,7 +63,7 @@ bool ErrorCounter::Run(const std::function<void()>& body) {
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM_THROTTLE(10.0, "going on after an internal error: " << error.what());
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (errors_.count++ == 0) errors_.detail = error.what();
+    errors_.Add(error.what());
     return false;
   }
 }

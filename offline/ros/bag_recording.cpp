@@ -120,7 +120,7 @@ class BagRecording : public Recording {
     try {
       return compressed_ ? ToImageSample(compressed_image_).gray : ToImageSample(raw_image_).gray;
     } catch (const std::invalid_argument& error) {
-      if (unreadable_images_++ == 0) first_unreadable_ = error.what();
+      unreadable_images_.Add(error.what());
       return std::nullopt;
     }
   }
@@ -130,7 +130,7 @@ class BagRecording : public Recording {
 
   DropCounts problems() const override {
     DropCounts counts = source_->problems();
-    counts.push_back({"images_unreadable", unreadable_images_, first_unreadable_});
+    counts.push_back(unreadable_images_);
     counts.push_back({"messages_malformed", malformed_, ""});
     return counts;
   }
@@ -172,9 +172,8 @@ class BagRecording : public Recording {
   bool compressed_ = false;
   sensor_msgs::Image raw_image_;
   sensor_msgs::CompressedImage compressed_image_;
-  int64_t unreadable_images_ = 0;
+  DropCount unreadable_images_{"images_unreadable", 0, ""};
   int64_t malformed_ = 0;
-  std::string first_unreadable_;
 };
 
 }  // namespace

@@ -40,7 +40,7 @@ void CountFailure(DropCount* failures, const std::function<void()>& take) {
   try {
     take();
   } catch (const std::exception& error) {
-    if (failures->count++ == 0) failures->detail = error.what();
+    failures->Add(error.what());
   }
 }
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/output/calibrated_config.h"
 
-#include <fstream>
-#include <stdexcept>
-
 #include "common/config/config_keys.h"
 #include "common/config/config_writer.h"
+#include "common/output_file.h"
 
 namespace plm_vins {
 
@@ -35,10 +33,9 @@ Config WithCalibration(const Calibration& calibration, Config config) {
 
 void SaveCalibratedConfig(const Calibration& calibration, const Config& config,
                           const std::string& file) {
-  std::ofstream stream(file);
-  WriteConfig(WithCalibration(calibration, config), &stream);
-  stream.close();
-  if (!stream) throw std::runtime_error("cannot write " + file);
+  OutputFile output(file);
+  WriteConfig(WithCalibration(calibration, config), &output.stream());
+  output.Close();
 }
 
 }  // namespace plm_vins

@@ -110,14 +110,11 @@ void EstimatorNode::AddLines(const FeatureEvent& event) {
   callback_warner_.Check(diagnostics_.input().Drops());
 }
 
-// A tracker that was started again comes with a connection of its own.
+// A tracker that was started again counts from zero once more.
 template <typename Observation>
 void EstimatorNode::RestoreIds(const boost::shared_ptr<ros::M_string>& connection,
                                std::vector<Observation>* observations, FeatureSource* source) {
-  if (source->connection != connection) {
-    source->connection = connection;
-    source->ids.BeginTracker();
-  }
+  if (source->publisher.HasChanged(0, connection)) source->ids.BeginTracker();
   for (Observation& observation : *observations) {
     observation.id = source->ids.Restore(observation.id);
   }

@@ -20,6 +20,7 @@
 #include "common/feature_ids.h"
 #include "common/ros/in_place_queue.h"
 #include "common/ros/node_setup.h"
+#include "common/ros/publisher_watch.h"
 #include "vins_estimator/estimation_stage.h"
 #include "vins_estimator/ros/calibration_log.h"
 #include "vins_estimator/ros/estimator_diagnostics.h"
@@ -52,7 +53,7 @@ class EstimatorNode {
 
   // Ids of one tracker's messages, as long as it is connected.
   struct FeatureSource {
-    boost::shared_ptr<ros::M_string> connection;
+    PublisherWatch publisher{1};
     IdRestorer ids;
   };
 

@@ -21,8 +21,10 @@ TRAJECTORIES = {"trajectory.tum": "odometry", "trajectory_map.tum": "map, as kno
 def evaluate_loops(folder, truth_path):
     """All figures of the results of a run in `folder`, as a dictionary."""
     truth = read_trajectory(truth_path)
-    ape = {name: _ape(folder / name, truth, truth_path) for name in TRAJECTORIES}
-    odometry = read_trajectory(folder / "trajectory.tum")
+    trajectories = {name: read_trajectory(folder / name) for name in TRAJECTORIES}
+    ape = {name: _ape(trajectory, folder / name, truth, truth_path)
+           for name, trajectory in trajectories.items()}
+    odometry = trajectories["trajectory.tum"]
     accepted = loop_metrics.read_loops(folder / "loops.csv")
     loops = accepted.between(odometry.stamps)
     distances, turns = loop_metrics.loop_errors(loops, odometry, truth)
@@ -42,8 +44,7 @@ def evaluate_loops(folder, truth_path):
     }
 
 
-def _ape(path, truth, truth_path):
-    trajectory = read_trajectory(path)
+def _ape(trajectory, path, truth, truth_path):
     try:
         return evaluate(trajectory, truth)[2]["ape_m"]["rmse"]
     except TrajectoryError as error:

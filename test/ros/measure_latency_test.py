@@ -12,12 +12,9 @@ import subprocess
 import sys
 import unittest
 
-from node_processes import CONFIG, ROOT, free_port
+from node_processes import CONFIG, ROOT, arguments, free_port
 
-if len(sys.argv) < 4:
-    sys.exit(__doc__)
-BAG = sys.argv[2]
-FOLDER = sys.argv[3]
+_, BAG, FOLDER = arguments(__doc__)
 SCRIPT = ROOT / "scripts" / "measure_latency.py"
 BOUND_MS = 1000  # under overload: the queues are short, and what is late is dropped
 LEAST_SHARE = 0.3  # of the images with a pose: the rest is initialisation and overload
@@ -25,7 +22,7 @@ LEAST_SHARE = 0.3  # of the images with a pose: the rest is initialisation and o
 
 def measure(*options):
     environment = {**os.environ, "ROS_MASTER_URI": f"http://localhost:{free_port()}",
-                   "ROS_HOME": FOLDER}
+                   "ROS_HOME": str(FOLDER)}
     return subprocess.run(["/usr/bin/python3", "-B", SCRIPT, "--config", CONFIG, *options],
                           env=environment, capture_output=True, text=True, check=False,
                           timeout=120)

@@ -7,7 +7,6 @@ NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs.
 """
 
 import os
-import pathlib
 import sys
 import unittest
 
@@ -16,13 +15,9 @@ import rospy
 from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
 
-from node_processes import Listener, Processes, start_master, wait_until
+from node_processes import Listener, Processes, arguments, start_master, wait_until
 
-if len(sys.argv) < 4:
-    sys.exit(__doc__)
-NODES = pathlib.Path(sys.argv[1])
-BAG = sys.argv[2]
-FOLDER = pathlib.Path(sys.argv[3])
+NODES, BAG, FOLDER = arguments(__doc__)
 NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator", "mavros_relay")
 SHARED = ("/rosout", "/rosout_agg", "/diagnostics", "/tf", "/tf_static", "/clock")
 # As a configuration of its own has them.

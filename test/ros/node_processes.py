@@ -7,6 +7,7 @@ import pathlib
 import signal
 import socket
 import subprocess
+import sys
 import time
 import unittest
 
@@ -19,6 +20,13 @@ from sensor_msgs.msg import PointCloud
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CONFIG = ROOT / "config" / "euroc.yaml"
 PATIENCE = 60  # [s], generous for a machine that is busy
+
+
+def arguments(usage):
+    """NODES, BAG and FOLDER as they were given; ends with the usage where one is missing."""
+    if len(sys.argv) < 4:
+        sys.exit(usage)
+    return pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])
 
 
 def wait_until(condition, what, seconds=PATIENCE):

@@ -7,7 +7,6 @@ NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs and res
 """
 
 import os
-import pathlib
 import signal
 import sys
 import time
@@ -16,13 +15,9 @@ import unittest
 import rospy
 from std_srvs.srv import Trigger
 
-from node_processes import Listener, Processes, free_port, start_master, wait_until
+from node_processes import Listener, Processes, arguments, free_port, start_master, wait_until
 
-if len(sys.argv) < 4:
-    sys.exit(__doc__)
-NODES = pathlib.Path(sys.argv[1])
-BAG = sys.argv[2]
-FOLDER = pathlib.Path(sys.argv[3])
+NODES, BAG, FOLDER = arguments(__doc__)
 NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator")
 END_LIMIT = 20  # [s] from SIGINT to the end; takes well below one where the machine is not busy
 

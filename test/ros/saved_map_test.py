@@ -10,7 +10,6 @@ and results.
 
 import math
 import os
-import pathlib
 import sys
 import unittest
 
@@ -18,13 +17,9 @@ import rospy
 from nav_msgs.msg import Odometry
 from std_srvs.srv import Trigger
 
-from node_processes import Listener, Processes, start_master, wait_until
+from node_processes import Listener, Processes, arguments, start_master, wait_until
 
-if len(sys.argv) < 4:
-    sys.exit(__doc__)
-NODES = pathlib.Path(sys.argv[1])
-BAG = sys.argv[2]
-FOLDER = pathlib.Path(sys.argv[3])
+NODES, BAG, FOLDER = arguments(__doc__)
 NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator", "pose_graph")
 MAP = FOLDER / "map.plm"
 PARAMETER = "/pose_graph/set/load_previous_pose_graph"

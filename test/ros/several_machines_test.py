@@ -12,7 +12,6 @@ NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs.
 import contextlib
 import ctypes
 import os
-import pathlib
 import subprocess
 import sys
 import time
@@ -21,13 +20,9 @@ import unittest
 import rosgraph
 import rospy
 
-from node_processes import Listener, Processes, wait_until
+from node_processes import Listener, Processes, arguments, wait_until
 
-if len(sys.argv) < 4:
-    sys.exit(__doc__)
-NODES = pathlib.Path(sys.argv[1])
-BAG = sys.argv[2]
-FOLDER = pathlib.Path(sys.argv[3])
+NODES, BAG, FOLDER = arguments(__doc__)
 SKIPPED = 77
 
 ROBOT, STATION = f"robot{os.getpid()}", f"station{os.getpid()}"  # the two hosts

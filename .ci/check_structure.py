@@ -13,15 +13,39 @@ import shutil
 import subprocess
 import sys
 
-# The layers of the estimator, from the bottom to the top, each with those that it may include
-# beside common/ and itself. estimator_output.h is one of its own: plain data, for those who only
-# read it.
+# The layers of each part, from the bottom to the top, each with those of its part that it may
+# include beside itself, all of them listed before it. What is in no folder of its part is above
+# them, and ros/ above that.
+COMMON_LAYERS = {
+    "measurements.h": "",
+    "median.h": "",
+    "stopwatch.h": "",
+    "geometry": "",
+    "camera": "",
+    "imu": "measurements.h",
+    "features": "measurements.h",
+    "streams": "measurements.h median.h",
+    "io": "measurements.h",
+    "config": "geometry camera imu",
+}
+POINT_TRACKER_LAYERS = {
+    "detection": "",
+    "following": "",
+}
+LINE_TRACKER_LAYERS = {
+    "segments": "",
+    "detection": "segments",
+    "following": "segments",
+}
 ESTIMATOR_LAYERS = {
     "state": "",
     "geometry": "state",
     "imu": "state",
+    "input": "imu",
+    "monitoring": "state imu",
     "map": "state geometry imu",
     "factors": "state geometry imu",
+    "bridging": "state imu factors",
     "problem": "state geometry map factors",
     "optimization": "factors problem",
     "marginalization": "state map problem",
@@ -29,54 +53,63 @@ ESTIMATOR_LAYERS = {
     "merging": "state geometry map",
     "recall": "state geometry map",
     "initialization": "state geometry imu factors problem optimization",
-    "estimator_output.h": "state",
-    "output": "state estimator_output.h",
+    "output": "state",
 }
-# The same of the pose graph. What is not in a folder of its own joins them.
 POSE_GRAPH_LAYERS = {
     "geometry": "",
-    "odometry_frame.h": "",
     "description": "",
-    "keyframe.h": "geometry odometry_frame.h description",
-    "retrieval": "geometry odometry_frame.h description keyframe.h",
-    "loop_candidate.h": "geometry",
-    "verification": "geometry odometry_frame.h description keyframe.h loop_candidate.h",
+    "keyframes": "geometry description",
+    "retrieval": "description keyframes",
     "graph": "geometry",
-    "keyframe_map.h": "geometry keyframe.h graph",
-    "output": "geometry description keyframe.h keyframe_map.h loop_candidate.h graph",
+    "verification": "geometry keyframes graph",
+    "map": "geometry keyframes graph verification",
+    "output": "verification map",
 }
-ESTIMATOR_CORE = " ".join(layer for layer in ESTIMATOR_LAYERS if layer != "output")
+OFFLINE_LAYERS = {
+    "recordings": "",
+    "pipeline": "recordings",
+    "results": "pipeline",
+}
 
 
-def inside_estimator(layers):
-    return {"vins_estimator/" + layer for layer in layers.split()}
+def inside(part, layers):
+    return {f"{part}/{layer}" for layer in layers}
 
 
-def inside_pose_graph(layers):
-    return {"pose_graph/" + layer for layer in layers.split()}
+def layers_of_part(part, folders, others=frozenset()):
+    """The layers of a part, each with all that it may include; `others` are other parts' layers."""
+    layers = {}
+    for layer, below in folders.items():
+        below = inside(part, below.split())
+        assert below <= set(layers), f"{part}/{layer} may include only what is listed before it"
+        layers[f"{part}/{layer}"] = below | others
+    return {**layers, part: set(layers) | others,
+            f"{part}/ros": {part, *layers} | others | ROS_EDGE}
 
+
+ROS_EDGE = {"common/ros", "tracking/ros"}
+COMMON = {"common"} | inside("common", COMMON_LAYERS)
+TRACKING = COMMON | {"tracking"}
+TRACKERS = {"feature_tracker", "linefeature_tracker"}
+ESTIMATOR_OUTPUT = inside("vins_estimator", ["state", "output"])
 
 # What each layer, a folder or a file, may include beside itself; the longest match counts. Tests
 # and benchmarks may include anything, ROS too.
 LAYERS = {
-    "common": set(),
-    "tracking": {"common"},
-    "feature_tracker": {"common", "tracking"},
-    "linefeature_tracker": {"common", "tracking"},
-    **{"vins_estimator/" + layer: {"common"} | inside_estimator(below)
-       for layer, below in ESTIMATOR_LAYERS.items()},
-    "vins_estimator": {"common"} | inside_estimator(ESTIMATOR_CORE),
-    "vins_estimator/ros": {"common", "vins_estimator"} | inside_estimator(
-        "state imu estimator_output.h output"),
-    **{"pose_graph/" + layer: {"common"} | inside_pose_graph(below)
-       for layer, below in POSE_GRAPH_LAYERS.items()},
-    "pose_graph": {"common"} | inside_pose_graph(" ".join(POSE_GRAPH_LAYERS)),
-    "pose_graph/ros": {"common", "pose_graph"} | inside_pose_graph(" ".join(POSE_GRAPH_LAYERS)),
-    "offline": {"common", "tracking", "feature_tracker", "linefeature_tracker", "vins_estimator",
-                "pose_graph"} | inside_pose_graph(" ".join(POSE_GRAPH_LAYERS)) | inside_estimator(
-        "state estimator_output.h output"),
-    "mavros_relay": {"common"},
-    "simulator": {"common"} | inside_estimator("state output"),
+    **layers_of_part("common", COMMON_LAYERS),
+    **layers_of_part("tracking", {}, COMMON),
+    **layers_of_part("feature_tracker", POINT_TRACKER_LAYERS, TRACKING),
+    **layers_of_part("linefeature_tracker", LINE_TRACKER_LAYERS, TRACKING),
+    **layers_of_part("vins_estimator", ESTIMATOR_LAYERS, COMMON),
+    "vins_estimator": COMMON | inside("vins_estimator", set(ESTIMATOR_LAYERS) - {"output"}),
+    "vins_estimator/ros": COMMON | ROS_EDGE | {"vins_estimator"} | ESTIMATOR_OUTPUT | inside(
+        "vins_estimator", ["imu", "input"]),
+    **layers_of_part("pose_graph", POSE_GRAPH_LAYERS, COMMON),
+    **layers_of_part("offline", OFFLINE_LAYERS,
+                     TRACKING | TRACKERS | {"vins_estimator", "pose_graph"} | ESTIMATOR_OUTPUT
+                     | inside("pose_graph", POSE_GRAPH_LAYERS)),
+    **layers_of_part("mavros_relay", {}, COMMON),
+    **layers_of_part("simulator", {}, COMMON | ESTIMATOR_OUTPUT),
 }
 # Who only reads what the estimator says gets by without the solver, however far the includes lead.
 WITHOUT_CERES = ["common", "tracking", "feature_tracker", "linefeature_tracker",

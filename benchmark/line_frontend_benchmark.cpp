@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "benchmark/image_benchmark.h"
-#include "common/config.h"
-#include "linefeature_tracker/line_finder.h"
-#include "linefeature_tracker/line_flow.h"
+#include "common/config/config.h"
+#include "linefeature_tracker/detection/line_finder.h"
+#include "linefeature_tracker/following/line_flow.h"
 #include "linefeature_tracker/line_tracker.h"
-#include "linefeature_tracker/segment_sampler.h"
+#include "linefeature_tracker/segments/segment_sampler.h"
 #include "test/linefeature_tracker/bar_scene.h"
 
 namespace plm_vins {

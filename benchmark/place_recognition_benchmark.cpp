@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "common/stopwatch.h"
 #include "pose_graph/description/corner_description.h"
 #include "pose_graph/description/corner_selection.h"

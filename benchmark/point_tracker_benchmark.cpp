@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "benchmark/image_benchmark.h"
-#include "common/config.h"
-#include "feature_tracker/corner_detector.h"
-#include "feature_tracker/optical_flow.h"
-#include "feature_tracker/outlier_rejection.h"
+#include "common/config/config.h"
+#include "feature_tracker/detection/corner_detector.h"
+#include "feature_tracker/following/optical_flow.h"
+#include "feature_tracker/following/outlier_rejection.h"
 #include "feature_tracker/point_tracker.h"
 
 namespace plm_vins {

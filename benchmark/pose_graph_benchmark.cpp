@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "common/stopwatch.h"
 #include "pose_graph/loop_closer.h"
 #include "pose_graph/output/map_file.h"

@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "common/median.h"
-#include "offline/asl_recording.h"
-#include "offline/feature_trackers.h"
+#include "offline/pipeline/feature_trackers.h"
+#include "offline/recordings/asl_recording.h"
 #include "vins_estimator/estimator.h"
-#include "vins_estimator/measurement_sync.h"
+#include "vins_estimator/input/measurement_sync.h"
 
 namespace plm_vins {
 namespace {

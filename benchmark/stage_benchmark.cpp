@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "common/config.h"
-#include "offline/asl_recording.h"
-#include "offline/odometry_pipeline.h"
-#include "offline/pipeline_timings.h"
+#include "common/config/config.h"
+#include "offline/pipeline/odometry_pipeline.h"
+#include "offline/recordings/asl_recording.h"
+#include "offline/results/pipeline_timings.h"
 #include "vins_estimator/output/series_summary.h"
 
 namespace plm_vins {

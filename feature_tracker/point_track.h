@@ -6,7 +6,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
-#include "feature_tracker/corner_patch.h"
+#include "feature_tracker/following/corner_patch.h"
 
 namespace plm_vins {
 

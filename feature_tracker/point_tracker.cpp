@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "feature_tracker/contrast_equalizer.h"
-#include "feature_tracker/corner_detector.h"
-#include "feature_tracker/optical_flow.h"
-#include "feature_tracker/outlier_rejection.h"
+#include "feature_tracker/detection/corner_detector.h"
+#include "feature_tracker/detection/spacing_grid.h"
+#include "feature_tracker/following/optical_flow.h"
+#include "feature_tracker/following/outlier_rejection.h"
 #include "feature_tracker/point_track.h"
-#include "feature_tracker/spacing_grid.h"
 #include "feature_tracker/track_drawing.h"
 #include "tracking/image_check.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
-#include "linefeature_tracker/line_segment.h"
+#include "linefeature_tracker/segments/line_segment.h"
 
 namespace plm_vins {
 

@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "common/stopwatch.h"
-#include "linefeature_tracker/lbd_matcher.h"
+#include "linefeature_tracker/detection/line_finder.h"
+#include "linefeature_tracker/following/lbd_matcher.h"
+#include "linefeature_tracker/following/line_flow.h"
+#include "linefeature_tracker/following/line_gate.h"
+#include "linefeature_tracker/following/line_occupancy.h"
+#include "linefeature_tracker/following/line_queue.h"
+#include "linefeature_tracker/following/line_refinement.h"
 #include "linefeature_tracker/line_drawing.h"
-#include "linefeature_tracker/line_finder.h"
-#include "linefeature_tracker/line_flow.h"
-#include "linefeature_tracker/line_gate.h"
-#include "linefeature_tracker/line_occupancy.h"
-#include "linefeature_tracker/line_queue.h"
-#include "linefeature_tracker/line_refinement.h"
 #include "linefeature_tracker/line_track.h"
-#include "linefeature_tracker/segment_sampler.h"
+#include "linefeature_tracker/segments/segment_sampler.h"
 #include "tracking/image_check.h"
 
 namespace plm_vins {

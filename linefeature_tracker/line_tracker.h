@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "common/camera_model.h"
-#include "common/config.h"
+#include "common/camera/camera_model.h"
+#include "common/config/config.h"
 #include "common/measurements.h"
 
 namespace plm_vins {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 
 namespace plm_vins {
 

@@ -18,15 +18,15 @@
 #include <utility>
 #include <vector>
 
-#include "common/config.h"
-#include "common/output_file.h"
-#include "common/progress_display.h"
+#include "common/config/config.h"
+#include "common/io/output_file.h"
+#include "common/io/progress_display.h"
 #include "common/stopwatch.h"
-#include "offline/asl_recording.h"
-#include "offline/bag_recording.h"
-#include "offline/loop_results.h"
-#include "offline/odometry_pipeline.h"
-#include "offline/result_files.h"
+#include "offline/pipeline/odometry_pipeline.h"
+#include "offline/recordings/asl_recording.h"
+#include "offline/recordings/bag_recording.h"
+#include "offline/results/loop_results.h"
+#include "offline/results/result_files.h"
 #include "pose_graph/output/map_file.h"
 
 namespace plm_vins {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "pose_graph/keyframe_maker.h"
-#include "pose_graph/landmark_update.h"
+#include "pose_graph/keyframes/keyframe_maker.h"
+#include "pose_graph/map/landmark_update.h"
 
 namespace plm_vins {
 namespace {

@@ -7,18 +7,18 @@
 #include <optional>
 #include <vector>
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 #include "pose_graph/description/corner_selection.h"
 #include "pose_graph/graph/pose_graph.h"
-#include "pose_graph/keyframe.h"
-#include "pose_graph/keyframe_map.h"
-#include "pose_graph/keyframe_policy.h"
-#include "pose_graph/loop_acceptance.h"
-#include "pose_graph/loop_candidate.h"
-#include "pose_graph/map_thinning.h"
-#include "pose_graph/odometry_frame.h"
-#include "pose_graph/odometry_noise.h"
+#include "pose_graph/keyframes/keyframe.h"
+#include "pose_graph/keyframes/keyframe_policy.h"
+#include "pose_graph/keyframes/odometry_frame.h"
+#include "pose_graph/keyframes/odometry_noise.h"
+#include "pose_graph/map/keyframe_map.h"
+#include "pose_graph/map/map_thinning.h"
 #include "pose_graph/retrieval/place_recognition.h"
+#include "pose_graph/verification/loop_acceptance.h"
+#include "pose_graph/verification/loop_candidate.h"
 #include "pose_graph/verification/loop_verification.h"
 
 namespace plm_vins {

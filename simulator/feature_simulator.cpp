@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "common/camera_model.h"
-#include "common/readout_share.h"
+#include "common/camera/camera_model.h"
+#include "common/camera/readout_share.h"
 #include "simulator/random.h"
 #include "simulator/track_selector.h"
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "common/measurements.h"
 #include "simulator/default_sensors.h"
 #include "simulator/feature_world.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "simulator/random.h"
 
 namespace plm_vins::simulator {

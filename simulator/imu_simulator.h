@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/imu_noise.h"
+#include "common/imu/imu_noise.h"
 #include "common/measurements.h"
 #include "simulator/trajectory.h"
 #include "vins_estimator/state/frame_state.h"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "common/config.h"
-#include "common/progress_display.h"
+#include "common/config/config.h"
+#include "common/io/progress_display.h"
 #include "simulator/recording/asl_recorder.h"
 #include "simulator/recording/bag_recorder.h"
 #include "simulator/recording/flight.h"

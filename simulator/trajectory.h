@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 #include "simulator/quintic_spline.h"
 
 namespace plm_vins::simulator {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "common/imu_range.h"
-#include "common/so3.h"
+#include "common/geometry/so3.h"
+#include "common/imu/imu_range.h"
 
 namespace plm_vins {
 namespace {

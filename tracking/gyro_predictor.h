@@ -6,11 +6,11 @@
 #include <deque>
 #include <optional>
 
-#include "common/backward_jump.h"
-#include "common/forward_jump.h"
-#include "common/imu_gate.h"
+#include "common/geometry/rigid3.h"
+#include "common/imu/imu_gate.h"
 #include "common/measurements.h"
-#include "common/rigid3.h"
+#include "common/streams/backward_jump.h"
+#include "common/streams/forward_jump.h"
 
 namespace plm_vins {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 #include "common/measurements.h"
 
 namespace plm_vins {

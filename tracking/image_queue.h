@@ -7,11 +7,11 @@
 #include <optional>
 #include <string>
 
-#include "common/backward_jump.h"
-#include "common/config.h"
-#include "common/drop_counts.h"
-#include "common/forward_jump.h"
+#include "common/config/config.h"
 #include "common/measurements.h"
+#include "common/streams/backward_jump.h"
+#include "common/streams/drop_counts.h"
+#include "common/streams/forward_jump.h"
 #include "tracking/gyro_predictor.h"
 #include "tracking/rate_limiter.h"
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "common/camera_model.h"
-#include "common/config.h"
+#include "common/camera/camera_model.h"
+#include "common/config/config.h"
 #include "common/measurements.h"
 #include "common/stopwatch.h"
 #include "tracking/image_queue.h"

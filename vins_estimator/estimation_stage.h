@@ -9,12 +9,12 @@
 #include <string>
 #include <utility>
 
-#include "common/config.h"
-#include "common/drop_counts.h"
+#include "common/config/config.h"
 #include "common/measurements.h"
-#include "common/stream_rhythm.h"
-#include "vins_estimator/estimator_output.h"
-#include "vins_estimator/measurement_sync.h"
+#include "common/streams/drop_counts.h"
+#include "common/streams/stream_rhythm.h"
+#include "vins_estimator/input/measurement_sync.h"
+#include "vins_estimator/state/estimator_output.h"
 
 namespace plm_vins {
 

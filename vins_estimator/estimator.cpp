@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "common/stopwatch.h"
+#include "vins_estimator/bridging/frame_placement.h"
 #include "vins_estimator/factors/imu_factor.h"
-#include "vins_estimator/frame_placement.h"
+#include "vins_estimator/input/measurement_check.h"
 #include "vins_estimator/manhattan/line_directions.h"
 #include "vins_estimator/map/recalibration.h"
 #include "vins_estimator/map/wandering_lines.h"
-#include "vins_estimator/measurement_check.h"
 #include "vins_estimator/merging/line_merging.h"
 #include "vins_estimator/optimization/window_solver.h"
 #include "vins_estimator/recall/line_recognition.h"

@@ -4,25 +4,25 @@
 #include <optional>
 #include <string>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "common/measurements.h"
-#include "vins_estimator/blindness_monitor.h"
-#include "vins_estimator/delay_monitor.h"
+#include "vins_estimator/bridging/frame_bridge.h"
+#include "vins_estimator/bridging/uncertain_state.h"
 #include "vins_estimator/estimator_options.h"
-#include "vins_estimator/estimator_output.h"
-#include "vins_estimator/failure_detector.h"
-#include "vins_estimator/frame_bridge.h"
 #include "vins_estimator/imu/standstill_detector.h"
-#include "vins_estimator/imu_monitor.h"
 #include "vins_estimator/initialization/initializer.h"
+#include "vins_estimator/input/measurement_check.h"
+#include "vins_estimator/input/rolling_shutter.h"
 #include "vins_estimator/manhattan/manhattan_frame.h"
 #include "vins_estimator/map/view_noise.h"
 #include "vins_estimator/marginalization/window_estimate.h"
 #include "vins_estimator/marginalization/window_marginalizer.h"
-#include "vins_estimator/measurement_check.h"
-#include "vins_estimator/rolling_shutter.h"
-#include "vins_estimator/stamp_jitter.h"
-#include "vins_estimator/uncertain_state.h"
+#include "vins_estimator/monitoring/blindness_monitor.h"
+#include "vins_estimator/monitoring/delay_monitor.h"
+#include "vins_estimator/monitoring/failure_detector.h"
+#include "vins_estimator/monitoring/imu_monitor.h"
+#include "vins_estimator/monitoring/stamp_jitter.h"
+#include "vins_estimator/state/estimator_output.h"
 
 namespace plm_vins {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/estimator_options.h"
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 
 namespace plm_vins {
 namespace {

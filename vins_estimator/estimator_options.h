@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "vins_estimator/geometry/line_triangulation.h"
 #include "vins_estimator/map/keyframe_policy.h"
 #include "vins_estimator/map/line_comparison.h"

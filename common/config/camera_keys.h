@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 #include "common/config/config_key.h"
 
 namespace plm_vins {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "common/config/config_entry.h"
 
 namespace plm_vins {

@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "common/config.h"
+#include "common/config/config.h"
 
 namespace plm_vins {
 

@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 #include "common/config/config_key.h"
-#include "common/imu_noise.h"
-#include "common/imu_range.h"
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
+#include "common/imu/imu_noise.h"
+#include "common/imu/imu_range.h"
 
 namespace plm_vins {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 
 namespace plm_vins {
 

@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 
-#include "common/drop_counts.h"
 #include "common/measurements.h"
 #include "common/ros/stream_monitor.h"
+#include "common/streams/drop_counts.h"
 
 namespace plm_vins {
 

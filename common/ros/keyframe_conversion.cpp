@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <unordered_set>
 
-#include "common/feature_checks.h"
-#include "common/feature_ids.h"
+#include "common/features/feature_checks.h"
+#include "common/features/feature_ids.h"
 #include "common/ros/msg_conversion.h"
 
 namespace plm_vins {

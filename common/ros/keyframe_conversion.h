@@ -10,15 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "common/placed_features.h"
+#include "common/features/placed_features.h"
 
 namespace plm_vins {
 
 // ~keyframe_point as in VINS-Mono: the places of the corners that have one, and one channel for
 // each, with x, y (normalised), u, v [px] and the id, which travels as that of features does.
 // Reading throws std::invalid_argument where a channel is missing or too short, or an id is none
-// that travels. It leaves out, and counts, what cannot be true (common/feature_checks.h), a place
-// that is not finite, and the second of an id.
+// that travels. It leaves out, and counts, what cannot be true (common/features/feature_checks.h),
+// a place that is not finite, and the second of an id.
 sensor_msgs::PointCloud ToKeyframePoints(const std::vector<TrackedCorner>& corners, int64_t t_ns,
                                          const std::string& frame_id);
 std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message, int64_t* left_out);

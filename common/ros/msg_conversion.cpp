@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "common/feature_checks.h"
-#include "common/feature_ids.h"
+#include "common/features/feature_checks.h"
+#include "common/features/feature_ids.h"
 
 namespace plm_vins {
 namespace {

@@ -14,8 +14,8 @@
 
 #include <string>
 
+#include "common/geometry/rigid3.h"
 #include "common/measurements.h"
-#include "common/rigid3.h"
 
 namespace plm_vins {
 

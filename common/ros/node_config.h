@@ -5,7 +5,7 @@
 
 #include <exception>
 
-#include "common/config.h"
+#include "common/config/config.h"
 
 namespace plm_vins {
 

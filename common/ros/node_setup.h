@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
-#include "common/config.h"
-#include "common/drop_counts.h"
+#include "common/config/config.h"
+#include "common/streams/drop_counts.h"
 
 namespace plm_vins {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 
 namespace plm_vins {
 

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "linefeature_tracker/line_tracking_stage.h"
 
 namespace plm_vins {

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "common/drop_counts.h"
+#include "common/streams/drop_counts.h"
 
 namespace plm_vins {
 

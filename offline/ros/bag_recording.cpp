@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "offline/bag_recording.h"
+#include "offline/recordings/bag_recording.h"
 
 #include <ros/serialization.h>
 

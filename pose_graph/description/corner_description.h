@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 #include "pose_graph/description/descriptor.h"
 
 namespace plm_vins {

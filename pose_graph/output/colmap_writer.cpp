@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/output_file.h"
+#include "common/io/output_file.h"
 
 namespace plm_vins {
 namespace {

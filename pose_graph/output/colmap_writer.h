@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "common/camera_model.h"
-#include "pose_graph/keyframe_map.h"
+#include "common/camera/camera_model.h"
+#include "pose_graph/map/keyframe_map.h"
 
 namespace plm_vins {
 

@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "pose_graph/keyframe_map.h"
+#include "pose_graph/map/keyframe_map.h"
 
 namespace plm_vins {
 

@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "pose_graph/loop_candidate.h"
+#include "pose_graph/verification/loop_candidate.h"
 
 namespace plm_vins {
 

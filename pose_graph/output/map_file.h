@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "common/output_file.h"
-#include "pose_graph/keyframe_map.h"
+#include "common/io/output_file.h"
+#include "pose_graph/map/keyframe_map.h"
 
 namespace plm_vins {
 

@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-#include "pose_graph/keyframe.h"
+#include "pose_graph/keyframes/keyframe.h"
 #include "pose_graph/retrieval/corner_index.h"
 
 namespace plm_vins {

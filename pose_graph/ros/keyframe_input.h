@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "common/config/sensor_config.h"
-#include "common/drop_counts.h"
-#include "pose_graph/keyframe_assembly.h"
+#include "common/streams/drop_counts.h"
+#include "pose_graph/keyframes/keyframe_assembly.h"
 
 namespace plm_vins {
 

@@ -21,12 +21,12 @@
 #include <thread>
 #include <vector>
 
-#include "common/bounded_queue.h"
-#include "common/config.h"
+#include "common/config/config.h"
 #include "common/ros/image_subscription.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/publisher_watch.h"
 #include "common/ros/stream_monitor.h"
+#include "common/streams/bounded_queue.h"
 #include "pose_graph/loop_closer.h"
 #include "pose_graph/ros/keyframe_images.h"
 #include "pose_graph/ros/keyframe_input.h"

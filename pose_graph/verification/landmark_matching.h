@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "pose_graph/keyframe.h"
+#include "pose_graph/keyframes/keyframe.h"
 
 namespace plm_vins {
 

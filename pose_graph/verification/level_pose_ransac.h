@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 #include "pose_graph/geometry/level_transform.h"
 
 namespace plm_vins {

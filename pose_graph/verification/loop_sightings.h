@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "common/features/placed_features.h"
+#include "common/geometry/rigid3.h"
 #include "common/measurements.h"
-#include "common/placed_features.h"
-#include "common/rigid3.h"
 #include "pose_graph/verification/level_pose_ransac.h"
 
 namespace plm_vins {

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 
 namespace plm_vins {
 namespace {

@@ -4,12 +4,12 @@
 #include <memory>
 #include <vector>
 
-#include "common/camera_model.h"
-#include "pose_graph/keyframe.h"
-#include "pose_graph/loop_candidate.h"
+#include "common/camera/camera_model.h"
+#include "pose_graph/keyframes/keyframe.h"
 #include "pose_graph/verification/landmark_matching.h"
 #include "pose_graph/verification/level_pose_ransac.h"
 #include "pose_graph/verification/line_witnesses.h"
+#include "pose_graph/verification/loop_candidate.h"
 #include "pose_graph/verification/loop_refinement.h"
 
 namespace plm_vins {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 #include "pose_graph/verification/loop_sightings.h"
 
 namespace plm_vins {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files of run_offline --save-features (offline/feature_file.cpp has their layout)."""
+"""The files of run_offline --save-features (offline/pipeline/feature_file.cpp has their layout)."""
 
 import struct
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/output_file.h"
+#include "common/io/output_file.h"
 #include "simulator/recording/recorder.h"
 
 namespace plm_vins::simulator {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "simulator/default_sensors.h"
 #include "simulator/imu_simulator.h"
 #include "simulator/recording/recorder.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulator/recording/ground_truth.h"
 
-#include "common/output_file.h"
+#include "common/io/output_file.h"
 #include "simulator/recording/csv_row.h"
 #include "vins_estimator/output/tum_format.h"
 

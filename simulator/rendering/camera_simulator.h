@@ -5,7 +5,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "simulator/rendering/renderer.h"
 #include "simulator/trajectory.h"
 

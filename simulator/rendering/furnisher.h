@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 #include "simulator/rendering/scene.h"
 #include "simulator/rendering/texture_painter.h"
 

@@ -9,8 +9,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "common/camera_model.h"
-#include "common/rigid3.h"
+#include "common/camera/camera_model.h"
+#include "common/geometry/rigid3.h"
 #include "simulator/rendering/scene.h"
 
 namespace plm_vins::simulator {

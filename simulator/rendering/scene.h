@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 #include "simulator/rendering/mip_texture.h"
 
 namespace plm_vins::simulator {

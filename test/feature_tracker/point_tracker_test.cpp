@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "test/feature_tracker/textured_scene.h"
 
 namespace plm_vins {

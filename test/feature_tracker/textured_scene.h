@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 #include "common/measurements.h"
 
 namespace plm_vins {

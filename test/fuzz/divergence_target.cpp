@@ -8,8 +8,8 @@
 #include <random>
 #include <sstream>
 
-#include "common/rigid3.h"
-#include "common/so3.h"
+#include "common/geometry/rigid3.h"
+#include "common/geometry/so3.h"
 #include "test/fuzz/fault_maker.h"
 #include "test/fuzz/stage_flight.h"
 #include "test/fuzz/target.h"

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "common/config.h"
-#include "offline/asl_recording.h"
+#include "common/config/config.h"
+#include "offline/recordings/asl_recording.h"
 #include "test/fuzz/target.h"
 
 namespace plm_vins::fuzz {

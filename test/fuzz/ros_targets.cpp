@@ -9,7 +9,7 @@
 #include "common/ros/image_conversion.h"
 #include "common/ros/keyframe_conversion.h"
 #include "common/ros/msg_conversion.h"
-#include "offline/bag_recording.h"
+#include "offline/recordings/bag_recording.h"
 #include "test/fuzz/target.h"
 #include "test/offline/ros/packed_chunk.h"
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <utility>
 
-#include "common/feature_checks.h"
+#include "common/features/feature_checks.h"
 #include "simulator/feature_simulator.h"
 #include "vins_estimator/estimation_stage.h"
 

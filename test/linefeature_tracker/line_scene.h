@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/camera_model.h"
-#include "linefeature_tracker/line_segment.h"
+#include "common/camera/camera_model.h"
+#include "linefeature_tracker/segments/line_segment.h"
 
 namespace plm_vins {
 

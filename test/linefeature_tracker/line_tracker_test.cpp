@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "test/linefeature_tracker/bar_scene.h"
 
 namespace plm_vins {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "offline/recording.h"
+#include "offline/recordings/recording.h"
 #include "test/testing/message_of.h"
 
 namespace plm_vins::testing {

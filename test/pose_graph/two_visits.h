@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "common/camera_model.h"
-#include "pose_graph/keyframe.h"
+#include "common/camera/camera_model.h"
+#include "pose_graph/keyframes/keyframe.h"
 #include "simulator/random.h"
 
 namespace plm_vins::testing {

@@ -87,13 +87,17 @@ class CheckStructure(unittest.TestCase):
                               ("vins_estimator/merging/a.h", "vins_estimator/recall/b.h"),
                               ("vins_estimator/recall/a.h", "vins_estimator/estimator.h"),
                               ("vins_estimator/output/a.h", "vins_estimator/estimator.h"),
-                              ("vins_estimator/estimator_output.h", "vins_estimator/map/b.h"),
+                              ("vins_estimator/state/a.h", "vins_estimator/map/b.h"),
+                              ("common/imu/a.h", "common/config/b.h"),
+                              ("feature_tracker/following/a.h", "feature_tracker/detection/b.h"),
+                              ("pose_graph/graph/a.h", "pose_graph/map/b.h"),
+                              ("offline/pipeline/a.h", "offline/results/b.h"),
                               ("offline/a.h", "vins_estimator/problem/b.h"),
                               ("simulator/a.h", "vins_estimator/imu/b.h"),
                               ("common/a.h", "test/testing/b.h")]:
             self.assert_problem(name, HEADER + f'#include "{include}"\n', "must not know")
         for name, include in [("offline/a.h", "feature_tracker/b.h"),
-                              ("vins_estimator/output/a.h", "vins_estimator/estimator_output.h"),
+                              ("vins_estimator/output/a.h", "vins_estimator/state/b.h"),
                               ("vins_estimator/recall/a.h", "vins_estimator/map/b.h"),
                               ("simulator/a.h", "vins_estimator/state/b.h")]:
             self.assert_clean(name, HEADER + f'#include "{include}"\n')

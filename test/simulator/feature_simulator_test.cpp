@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "common/readout_share.h"
+#include "common/camera/readout_share.h"
 
 namespace plm_vins::simulator {
 namespace {

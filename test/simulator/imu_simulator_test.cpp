@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 
 namespace plm_vins::simulator {
 namespace {

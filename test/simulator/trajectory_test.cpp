@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "simulator/default_sensors.h"
 #include "simulator/random.h"
 

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "common/measurements.h"
 
 namespace plm_vins::testing {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "test/testing/still_scene.h"
 
 namespace plm_vins {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 #include "vins_estimator/estimator.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "test/vins_estimator/estimated_flight.h"
 #include "vins_estimator/estimator.h"
 

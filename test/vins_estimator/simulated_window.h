@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "simulator/random.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 #include "vins_estimator/factors/manifolds.h"

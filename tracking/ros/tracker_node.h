@@ -11,13 +11,13 @@
 #include <optional>
 #include <utility>
 
-#include "common/config.h"
-#include "common/drop_counts.h"
+#include "common/config/config.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/image_subscription.h"
 #include "common/ros/msg_conversion.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/stream_monitor.h"
+#include "common/streams/drop_counts.h"
 #include "tracking/ros/imu_inbox.h"
 #include "tracking/ros/run_time_settings.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 
 namespace plm_vins {
 namespace {

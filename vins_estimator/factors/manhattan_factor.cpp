@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "common/geometry/so3.h"
 #include "common/geometry/tangent_basis.h"
-#include "common/so3.h"
 #include "vins_estimator/factors/pose_block.h"
 
 namespace plm_vins {

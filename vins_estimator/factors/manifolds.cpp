@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 
 namespace plm_vins {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "vins_estimator/factors/pose_block.h"
 #include "vins_estimator/geometry/depth_limits.h"
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "vins_estimator/factors/manifolds.h"
 
 namespace plm_vins {

@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 
 namespace plm_vins {
 namespace {

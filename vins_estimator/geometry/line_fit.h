@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 #include "vins_estimator/geometry/line_segment_view.h"
 #include "vins_estimator/geometry/plucker.h"
 

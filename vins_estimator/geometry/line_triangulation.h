@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 #include "vins_estimator/geometry/line_fit.h"
 #include "vins_estimator/geometry/plucker.h"
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 
 namespace plm_vins {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 
 namespace plm_vins {
 

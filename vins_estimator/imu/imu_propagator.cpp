@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/imu/imu_propagator.h"
 
-#include "common/imu_interpolation.h"
-#include "common/imu_range.h"
+#include "common/imu/imu_interpolation.h"
+#include "common/imu/imu_range.h"
 #include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/imu/preintegration.h"
 

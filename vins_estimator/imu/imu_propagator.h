@@ -5,10 +5,10 @@
 #include <deque>
 #include <optional>
 
-#include "common/forward_jump.h"
-#include "common/imu_gate.h"
-#include "common/imu_noise.h"
+#include "common/imu/imu_gate.h"
+#include "common/imu/imu_noise.h"
 #include "common/measurements.h"
+#include "common/streams/forward_jump.h"
 #include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {

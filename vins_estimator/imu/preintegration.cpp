@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "vins_estimator/imu/imu_gap.h"
 
 namespace plm_vins {

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "common/imu_noise.h"
+#include "common/imu/imu_noise.h"
 #include "common/measurements.h"
 #include "vins_estimator/state/frame_state.h"
 

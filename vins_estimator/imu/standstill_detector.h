@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <deque>
 
-#include "common/imu_noise.h"
+#include "common/imu/imu_noise.h"
 #include "common/measurements.h"
 
 namespace plm_vins {

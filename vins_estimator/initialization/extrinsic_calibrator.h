@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "common/imu_noise.h"
+#include "common/imu/imu_noise.h"
 #include "common/measurements.h"
 #include "vins_estimator/initialization/extrinsic_rotation.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "common/geometry/robust_weight.h"
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "vins_estimator/initialization/refusal_text.h"
 
 namespace plm_vins {

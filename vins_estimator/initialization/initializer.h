@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "common/measurements.h"
 #include "vins_estimator/imu/standstill_detector.h"
 #include "vins_estimator/initialization/extrinsic_calibrator.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/motion_initializer.h"
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/initialization/global_sfm.h"
 #include "vins_estimator/initialization/refusal_text.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "common/measurements.h"
 #include "vins_estimator/state/frame_state.h"
 

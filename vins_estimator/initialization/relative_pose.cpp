@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "common/geometry/epipolar_constraint.h"
+#include "common/geometry/so3.h"
 #include "common/geometry/tangent_basis.h"
 #include "common/median.h"
-#include "common/so3.h"
 
 namespace plm_vins {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 
 namespace plm_vins {
 namespace {

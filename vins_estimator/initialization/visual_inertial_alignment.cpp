@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/geometry/so3.h"
 #include "common/geometry/tangent_basis.h"
-#include "common/so3.h"
 
 namespace plm_vins {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 #include "vins_estimator/imu/preintegration.h"
 
 namespace plm_vins {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <memory>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "vins_estimator/factors/factor.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/manifolds.h"

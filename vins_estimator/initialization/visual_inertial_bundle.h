@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/initialization/tracks.h"
 #include "vins_estimator/state/frame_state.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "common/readout_share.h"
+#include "common/camera/readout_share.h"
 #include "vins_estimator/geometry/depth_limits.h"
 #include "vins_estimator/geometry/point_triangulation.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "common/ray_transfer.h"
+#include "common/camera/ray_transfer.h"
 
 namespace plm_vins {
 

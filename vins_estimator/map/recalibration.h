@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 #include "common/measurements.h"
 #include "vins_estimator/map/local_map.h"
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "common/camera_model.h"
-#include "common/rigid3.h"
+#include "common/camera/camera_model.h"
+#include "common/geometry/rigid3.h"
 #include "vins_estimator/geometry/timed_bearing.h"
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/state/frame_state.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "vins_estimator/map/local_map.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/problem/marginalization_prior.h"

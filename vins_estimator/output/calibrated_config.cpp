@@ -3,7 +3,7 @@
 
 #include "common/config/config_keys.h"
 #include "common/config/config_writer.h"
-#include "common/output_file.h"
+#include "common/io/output_file.h"
 
 namespace plm_vins {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "vins_estimator/state/calibration.h"
 
 namespace plm_vins {

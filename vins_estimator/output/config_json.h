@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "vins_estimator/output/json.h"
 
 namespace plm_vins {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <ostream>
 
-#include "vins_estimator/estimator_output.h"
+#include "vins_estimator/state/estimator_output.h"
 
 namespace plm_vins {
 

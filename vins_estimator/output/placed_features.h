@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "common/features/placed_features.h"
 #include "common/measurements.h"
-#include "common/placed_features.h"
 #include "vins_estimator/state/map_elements.h"
 
 namespace plm_vins {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/output_file.h"
+#include "common/io/output_file.h"
 #include "vins_estimator/state/line_axis.h"
 
 namespace plm_vins {

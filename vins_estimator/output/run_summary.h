@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "common/drop_counts.h"
-#include "vins_estimator/estimator_output.h"
+#include "common/streams/drop_counts.h"
 #include "vins_estimator/output/frame_counts.h"
 #include "vins_estimator/output/frame_timings.h"
 #include "vins_estimator/output/json.h"
+#include "vins_estimator/state/estimator_output.h"
 
 namespace plm_vins {
 

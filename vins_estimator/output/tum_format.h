@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 
 namespace plm_vins {
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
-#include "common/camera_model.h"
-#include "common/config.h"
+#include "common/camera/camera_model.h"
+#include "common/config/config.h"
 #include "vins_estimator/map/line_landmark.h"
 #include "vins_estimator/map/point_landmark.h"
 #include "vins_estimator/map/sliding_window.h"

@@ -3,7 +3,7 @@
 
 #include <type_traits>
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 #include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/geometry/plucker.h"
 #include "vins_estimator/geometry/point_in_host.h"

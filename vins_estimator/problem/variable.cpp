@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 #include "vins_estimator/geometry/plucker.h"
 
 namespace plm_vins {

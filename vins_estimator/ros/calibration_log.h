@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "vins_estimator/state/calibration.h"
 
 namespace plm_vins {

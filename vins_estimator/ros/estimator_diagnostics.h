@@ -7,9 +7,9 @@
 #include <mutex>
 #include <string>
 
-#include "common/config.h"
-#include "common/drop_counts.h"
+#include "common/config/config.h"
 #include "common/ros/stream_monitor.h"
+#include "common/streams/drop_counts.h"
 #include "vins_estimator/estimation_stage.h"
 
 namespace plm_vins {

@@ -15,19 +15,19 @@
 #include <variant>
 #include <vector>
 
-#include "common/bounded_queue.h"
-#include "common/config.h"
-#include "common/feature_ids.h"
+#include "common/config/config.h"
+#include "common/features/feature_ids.h"
 #include "common/ros/in_place_queue.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/publisher_watch.h"
+#include "common/streams/bounded_queue.h"
 #include "vins_estimator/estimation_stage.h"
+#include "vins_estimator/input/track_velocities.h"
 #include "vins_estimator/ros/calibration_log.h"
 #include "vins_estimator/ros/estimator_diagnostics.h"
 #include "vins_estimator/ros/output_publisher.h"
 #include "vins_estimator/ros/propagation_publisher.h"
 #include "vins_estimator/ros/trajectory_log.h"
-#include "vins_estimator/track_velocities.h"
 
 namespace plm_vins {
 

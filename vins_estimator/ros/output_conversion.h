@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "vins_estimator/estimation_stage.h"
 
 namespace plm_vins {

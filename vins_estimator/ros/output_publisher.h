@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "common/ros/robot_base.h"
 #include "vins_estimator/estimation_stage.h"
 #include "vins_estimator/ros/line_markers.h"

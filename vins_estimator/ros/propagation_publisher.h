@@ -5,7 +5,7 @@
 
 #include <mutex>
 
-#include "common/config.h"
+#include "common/config/config.h"
 #include "vins_estimator/estimation_stage.h"
 #include "vins_estimator/imu/imu_propagator.h"
 #include "vins_estimator/ros/output_conversion.h"

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 
 namespace plm_vins {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/camera_model.h"
-#include "common/rigid3.h"
+#include "common/camera/camera_model.h"
+#include "common/geometry/rigid3.h"
 
 namespace plm_vins {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "common/rigid3.h"
+#include "common/geometry/rigid3.h"
 
 namespace plm_vins {
 

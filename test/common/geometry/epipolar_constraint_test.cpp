@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/geometry/so3.h"
 #include "common/geometry/tangent_basis.h"
-#include "common/so3.h"
 #include "simulator/random.h"
 #include "test/testing/numeric_jacobian.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "simulator/random.h"
 #include "test/pose_graph/two_visits.h"
 

@@ -5,7 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "simulator/default_sensors.h"
 
 namespace plm_vins::simulator {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "simulator/imu_simulator.h"
 #include "simulator/random.h"
 #include "test/testing/cost_function_check.h"

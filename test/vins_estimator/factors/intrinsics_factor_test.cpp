@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "simulator/default_sensors.h"
 #include "test/testing/cost_function_check.h"
 #include "vins_estimator/factors/line_factor.h"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/rigid3.h"
-#include "common/so3.h"
+#include "common/geometry/rigid3.h"
+#include "common/geometry/so3.h"
 #include "simulator/random.h"
 #include "test/testing/cost_function_check.h"
 

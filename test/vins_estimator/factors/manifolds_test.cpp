@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "simulator/random.h"
 #include "test/testing/numeric_jacobian.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"

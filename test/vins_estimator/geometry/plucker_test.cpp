@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "simulator/random.h"
 #include "test/testing/numeric_jacobian.h"
 

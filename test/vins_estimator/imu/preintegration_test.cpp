@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "simulator/imu_simulator.h"
 #include "simulator/random.h"
 #include "test/testing/numeric_jacobian.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 
 namespace plm_vins {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "simulator/random.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "simulator/feature_simulator.h"
-#include "vins_estimator/measurement_sync.h"
+#include "vins_estimator/input/measurement_sync.h"
 
 namespace plm_vins::testing {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 #include "vins_estimator/geometry/point_triangulation.h"
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "common/geometry/so3.h"
 #include "common/measurements.h"
-#include "common/so3.h"
 #include "simulator/random.h"
 
 namespace plm_vins {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 #include "test/testing/numeric_jacobian.h"
 
 namespace plm_vins {

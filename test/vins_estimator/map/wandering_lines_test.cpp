@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "common/so3.h"
+#include "common/geometry/so3.h"
 
 namespace plm_vins {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "common/camera_model.h"
+#include "common/camera/camera_model.h"
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_window.h"
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/geometry/so3.h"
 #include "common/measurements.h"
-#include "common/so3.h"
 
 namespace plm_vins {
 namespace {

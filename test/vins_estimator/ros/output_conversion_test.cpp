@@ -6,8 +6,8 @@
 #include <limits>
 #include <random>
 
+#include "common/geometry/so3.h"
 #include "common/ros/msg_conversion.h"
-#include "common/so3.h"
 #include "test/testing/numeric_jacobian.h"
 
 namespace plm_vins {

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/geometry/so3.h"
+
+#include <cmath>
+
+namespace plm_vins {
+
+Eigen::Quaterniond SO3Exp(const Eigen::Vector3d& phi) {
+  const double angle_squared = phi.squaredNorm();
+  const double angle = std::sqrt(angle_squared);
+  // sin(a/2)/a, by its series where a is too small to divide by.
+  const double scale = angle < 1e-6 ? 0.5 - angle_squared / 48.0 : std::sin(0.5 * angle) / angle;
+  Eigen::Quaterniond q;
+  q.w() = angle < 1e-6 ? 1.0 - angle_squared / 8.0 : std::cos(0.5 * angle);
+  q.vec() = scale * phi;
+  return q;
+}
+
+Eigen::Vector3d SO3Log(const Eigen::Quaterniond& q) {
+  const double sign = q.w() < 0 ? -1.0 : 1.0;
+  const double sine = q.vec().norm();
+  const double cosine = sign * q.w();
+  const double scale = sine < 1e-9 ? 2.0 / cosine : 2.0 * std::atan2(sine, cosine) / sine;
+  return sign * scale * q.vec();
+}
+
+Eigen::Matrix3d SO3RightJacobian(const Eigen::Vector3d& phi) {
+  const double angle_squared = phi.squaredNorm();
+  const Eigen::Matrix3d K = Skew(phi);
+  if (angle_squared < 1e-10) return Eigen::Matrix3d::Identity() - 0.5 * K + K * K / 6.0;
+  const double angle = std::sqrt(angle_squared);
+  return Eigen::Matrix3d::Identity() - (1.0 - std::cos(angle)) / angle_squared * K +
+         (angle - std::sin(angle)) / (angle_squared * angle) * K * K;
+}
+
+Eigen::Matrix3d SO3RightJacobianInverse(const Eigen::Vector3d& phi) {
+  const double angle_squared = phi.squaredNorm();
+  const Eigen::Matrix3d K = Skew(phi);
+  if (angle_squared < 1e-10) return Eigen::Matrix3d::Identity() + 0.5 * K + K * K / 12.0;
+  const double angle = std::sqrt(angle_squared);
+  const double cotangent_term =
+      1.0 / angle_squared - (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
+  return Eigen::Matrix3d::Identity() + 0.5 * K + cotangent_term * K * K;
+}
+
+Eigen::Quaterniond ShortestRotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
+
+double Yaw(const Eigen::Quaterniond& q) {
+  const Eigen::Vector3d x_axis = q * Eigen::Vector3d::UnitX();
+  return std::atan2(x_axis.y(), x_axis.x());
+}
+
+}  // namespace plm_vins

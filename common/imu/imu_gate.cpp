@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/imu/imu_gate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/imu/imu_interpolation.h"
+
+namespace plm_vins {
+namespace {
+
+// What a tap on a body at rest may do from one reading to the next.
+constexpr double kAlwaysAllowedGyro = 1.0;    // [rad/s]
+constexpr double kAlwaysAllowedAccel = 15.0;  // [m/s^2]
+
+// Beyond this multiple of the usual leap one is suspect; propellers reach four times.
+constexpr double kLeapFactor = 6.0;
+constexpr double kLearningRate = 0.01;  // per sample: usual is what half a second was like
+
+// Of saturated readings. Sensors end somewhat below the round numbers that their ranges are given
+// in: 2000 deg/s are 34.9 rad/s, 16 g are 156.9 m/s^2.
+constexpr double kEndOfRange = 0.98;  // share of the range
+constexpr double kCutOff = 0.5;       // what may be missing, as a share of the range
+
+constexpr int64_t kMaxInterval_ns = 50'000'000;  // readings further apart have nothing to say
+
+// Of the axis that differs most.
+double Difference(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (b - a).cwiseAbs().maxCoeff();
+}
+
+// How far a reading, cut off where the sensor ends, is from its replacement.
+double Doubt(const Eigen::Vector3d& reading, const Eigen::Vector3d& replacement, double range) {
+  return Difference(reading.cwiseMax(-range).cwiseMin(range), replacement);
+}
+
+// Whether the sample is at the end of the range; it is doubted there.
+bool DoubtSaturated(const ImuRange& range, ImuSample* sample) {
+  const bool gyro = sample->gyro.cwiseAbs().maxCoeff() >= kEndOfRange * range.gyro;
+  const bool accel = sample->accel.cwiseAbs().maxCoeff() >= kEndOfRange * range.accel;
+  if (gyro) sample->gyro_doubt = std::max(sample->gyro_doubt, kCutOff * range.gyro);
+  if (accel) sample->accel_doubt = std::max(sample->accel_doubt, kCutOff * range.accel);
+  return gyro || accel;
+}
+
+}  // namespace
+
+double ImuGate::Leaps::Limit() const {
+  return always_allowed + kLeapFactor * std::sqrt(mean_square);
+}
+
+// Cut off, a few outliers do not spoil the limit; where leaps go on, the limit yields.
+void ImuGate::Leaps::Learn(double leap) {
+  const double counted = std::min(leap, Limit());
+  mean_square += kLearningRate * (counted * counted - mean_square);
+}
+
+ImuGate::ImuGate(const ImuRange& range)
+    : range_(range), gyro_leaps_{kAlwaysAllowedGyro}, accel_leaps_{kAlwaysAllowedAccel} {}
+
+std::vector<ImuSample> ImuGate::Add(const ImuSample& sample) {
+  const bool suspect = IsSuspect(sample);
+  LearnLeaps(sample);
+  if (suspect && static_cast<int>(suspects_.size()) < kMaxRun) {
+    suspects_.push_back(sample);
+    return {};
+  }
+  std::vector<ImuSample> decided = TakeSuspects(/*believed=*/suspect, sample);
+  decided.push_back(sample);
+  last_ = sample;
+  for (ImuSample& next : decided) {
+    const bool is_reading = suspect || next.t_ns == sample.t_ns;  // not a replacement
+    if (DoubtSaturated(range_, &next) && is_reading) ++saturated_;
+  }
+  return decided;
+}
+
+void ImuGate::Clear() {
+  last_.reset();
+  suspects_.clear();
+  gyro_leaps_.mean_square = accel_leaps_.mean_square = 0;
+}
+
+bool ImuGate::IsSuspect(const ImuSample& sample) const {
+  if (!IsInRange(sample, range_)) return true;
+  if (!last_ || sample.t_ns - last_->t_ns > kMaxInterval_ns) return false;
+  return Difference(last_->gyro, sample.gyro) > gyro_leaps_.Limit() ||
+         Difference(last_->accel, sample.accel) > accel_leaps_.Limit();
+}
+
+void ImuGate::LearnLeaps(const ImuSample& sample) {
+  if (!last_) return;
+  const ImuSample& before = suspects_.empty() ? *last_ : suspects_.back();
+  gyro_leaps_.Learn(Difference(before.gyro, sample.gyro));
+  accel_leaps_.Learn(Difference(before.accel, sample.accel));
+}
+
+std::vector<ImuSample> ImuGate::TakeSuspects(bool believed, const ImuSample& next) {
+  std::vector<ImuSample> taken;
+  taken.swap(suspects_);
+  if (believed) return taken;
+  for (ImuSample& suspect : taken) suspect = Replace(suspect, next);
+  replaced_ += static_cast<int64_t>(taken.size());
+  return taken;
+}
+
+ImuSample ImuGate::Replace(const ImuSample& suspect, const ImuSample& next) const {
+  ImuSample replacement = last_ ? InterpolateImu(*last_, next, suspect.t_ns) : next;
+  replacement.t_ns = suspect.t_ns;
+  replacement.gyro_doubt = Doubt(suspect.gyro, replacement.gyro, range_.gyro);
+  replacement.accel_doubt = Doubt(suspect.accel, replacement.accel, range_.accel);
+  return replacement;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/io/output_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+namespace plm_vins {
+namespace {
+
+std::string Unfinished(const std::string& path) { return path + ".part"; }
+
+// Waits until the disk has what was written. Where that cannot be asked for, as of a pipe, it has
+// been written as well as can be.
+void Synchronize(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+[[noreturn]] void Fail(const std::string& name, const std::string& reason) {
+  throw std::runtime_error("cannot write " + name + ": " + reason);
+}
+
+// What a link leads to. A device or a folder is not to be replaced by a file.
+std::string ToReplace(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return path;
+  if (!std::filesystem::is_regular_file(path, error)) Fail(path, "there is something else");
+  return std::filesystem::canonical(path).string();
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path, const std::string& name)
+    : name_(name), stream_(path, std::ios::binary) {
+  if (!stream_) Fail(name_, std::generic_category().message(errno));
+}
+
+void OutputFile::Close() {
+  stream_.close();
+  if (!stream_) Fail(name_, "disk full?");
+}
+
+ReplacedFile::ReplacedFile(const std::string& path)
+    : path_(ToReplace(path)), unfinished_(Unfinished(path_), path) {}
+
+ReplacedFile::~ReplacedFile() { std::remove(Unfinished(path_).c_str()); }
+
+void ReplacedFile::Commit() {
+  unfinished_.Close();
+  Synchronize(Unfinished(path_));
+  std::error_code error;
+  std::filesystem::rename(Unfinished(path_), path_, error);
+  if (error) Fail(path_, error.message());
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "feature_tracker/detection/corner_detector.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "feature_tracker/detection/corner_refinement.h"
+#include "feature_tracker/detection/corner_response.h"
+#include "feature_tracker/detection/region_queue.h"
+
+namespace plm_vins {
+namespace {
+
+// White noise of 2 grey levels stays below this even when CLAHE amplifies it; corners of a lit
+// scene reach 0.1 (gradients are in units of the full grey range).
+constexpr float kMinEigenvalue = 5e-4F;
+constexpr int kCornersPerRegion = 8;  // on average, of the regions that they are spread over
+
+}  // namespace
+
+CornerDetector::CornerDetector(const PointTrackerConfig& config, cv::Mat mask)
+    : config_(config), mask_(std::move(mask)) {}
+
+std::vector<cv::Point2f> CornerDetector::Detect(const cv::Mat& image,
+                                                const std::vector<cv::Point2f>& existing,
+                                                int max_count) const {
+  if (max_count <= 0) return {};
+  SpacingGrid occupied(image.size(), config_.min_dist);
+  RegionQueue queue(image.size(), config_.max_cnt / kCornersPerRegion + 1);
+  for (const cv::Point2f& point : existing) {
+    occupied.Add(point);
+    queue.CountPoint(point);
+  }
+  for (const Candidate& candidate : FindCandidates(image, occupied)) {
+    queue.AddCandidate(candidate.position);
+  }
+  std::vector<cv::Point2f> corners;
+  while (static_cast<int>(corners.size()) < max_count) {
+    const auto candidate = queue.Pop();
+    if (!candidate) break;
+    if (!occupied.IsFree(*candidate)) continue;
+    const auto corner = config_.corner_subpixel ? RefineCorner(image, *candidate) : candidate;
+    if (!corner || !IsAllowed(*corner, image.size()) || !occupied.IsFree(*corner)) continue;
+    occupied.Add(*corner);
+    queue.CountPoint(*corner);
+    corners.push_back(*corner);
+  }
+  return corners;
+}
+
+// Local maxima of the response, best first; equal ones in order of position.
+std::vector<CornerDetector::Candidate> CornerDetector::FindCandidates(
+    const cv::Mat& image, const SpacingGrid& occupied) const {
+  cv::Mat half_image, local_maximum;
+  cv::pyrDown(image, half_image);
+  const cv::Mat response = CornerResponse(half_image, config_.corner_detector);
+  cv::dilate(response, local_maximum, cv::Mat());
+  const float min_response = MinResponse(response);
+
+  std::vector<Candidate> candidates;
+  for (int y = 0; y < response.rows; ++y) {
+    const auto* values = response.ptr<float>(y);
+    const auto* maxima = local_maximum.ptr<float>(y);
+    for (int x = 0; x < response.cols; ++x) {
+      if (values[x] < min_response || values[x] < maxima[x]) continue;
+      const cv::Point2f position(2.0F * static_cast<float>(x), 2.0F * static_cast<float>(y));
+      if (!IsAllowed(position, image.size()) || !occupied.IsFree(position)) continue;
+      candidates.push_back({position, values[x]});
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.response > b.response; });
+  return candidates;
+}
+
+// Harris' response is a product of two eigenvalues, so its thresholds are squares.
+float CornerDetector::MinResponse(const cv::Mat& response) const {
+  double best = 0;
+  cv::minMaxLoc(response, nullptr, &best);
+  const auto quality = static_cast<float>(config_.quality_level);
+  const auto best_response = static_cast<float>(best);
+  if (config_.corner_detector == CornerDetectorType::kHarris) {
+    return std::max(kMinEigenvalue * kMinEigenvalue, quality * quality * best_response);
+  }
+  return std::max(kMinEigenvalue, quality * best_response);
+}
+
+bool CornerDetector::IsAllowed(const cv::Point2f& position, const cv::Size& image_size) const {
+  if (!IsRefinementWindowInside(image_size, position)) return false;
+  return mask_.empty() || mask_.at<uint8_t>(cv::Point(position)) != 0;
+}
+
+}  // namespace plm_vins

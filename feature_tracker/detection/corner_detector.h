@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "common/config/config.h"
+#include "feature_tracker/detection/spacing_grid.h"
+
+namespace plm_vins {
+
+// Finds new corners where there are none yet, spread evenly over the image.
+//
+// The Shi-Tomasi [Shi1994] or Harris response is taken at half resolution: that costs a quarter,
+// and corners that only the full resolution shows are poor ones to follow. Refinement then places
+// them at full resolution.
+class CornerDetector {
+ public:
+  // `mask` (CV_8UC1, of the images' size, non-zero where corners are allowed) may be empty.
+  CornerDetector(const PointTrackerConfig& config, cv::Mat mask);
+
+  // At most `max_count` new corners [px] of the CV_8UC1 image, at least min_dist from the
+  // `existing` ones and from each other, in the order in which they were chosen.
+  std::vector<cv::Point2f> Detect(const cv::Mat& image, const std::vector<cv::Point2f>& existing,
+                                  int max_count) const;
+
+ private:
+  struct Candidate {
+    cv::Point2f position;  // in the full image [px]
+    float response = 0;
+  };
+
+  float MinResponse(const cv::Mat& response) const;
+  std::vector<Candidate> FindCandidates(const cv::Mat& image, const SpacingGrid& occupied) const;
+  bool IsAllowed(const cv::Point2f& position, const cv::Size& image_size) const;
+
+  PointTrackerConfig config_;
+  cv::Mat mask_;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "feature_tracker/following/outlier_rejection.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "common/geometry/epipolar_constraint.h"
+#include "common/geometry/robust_weight.h"
+#include "common/geometry/so3.h"
+#include "common/geometry/tangent_basis.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr size_t kMinPairs = 8;
+constexpr int kHypothesesOfTwo = 40;    // (1 - 0.5^2)^40 = 1e-5: half may be outliers
+constexpr int kHypothesesOfFive = 100;  // (1 - 0.6^5)^100 = 3e-4: 40 % may be outliers
+constexpr double kCoarseFactor = 3.0;   // of the threshold, while the rotation is only guessed
+constexpr int kRotationIterations = 10;
+constexpr int kSolverIterations = 4;
+constexpr double kNotRobust = 1.0;  // [rad], larger than any error
+
+// Motion of the camera up to scale: p_C1 ~ R p_C0 + s t.
+struct EpipolarGeometry {
+  Eigen::Matrix3d R_C1_C0 = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d t_C1 = Eigen::Vector3d::UnitZ();  // unit length
+};
+
+// The pair's epipolar constraint t . (a x b) = 0 with a = R ray_C0, b = ray_C1, over its noise in
+// units of the angular error of either ray (first-order or Sampson error): [rad].
+struct EpipolarResidual {
+  EpipolarResidual(const EpipolarGeometry& geometry, const RayPair& pair)
+      : a(geometry.R_C1_C0 * pair.ray_C0),
+        b(pair.ray_C1),
+        weight(1.0 / std::sqrt(0.5 * (geometry.t_C1.cross(a).squaredNorm() +
+                                      geometry.t_C1.cross(b).squaredNorm()) +
+                               kEpipole)),
+        error(weight * geometry.t_C1.dot(a.cross(b))) {}
+
+  static constexpr double kEpipole = 1e-9;  // keeps rays along t from dividing by zero
+  Eigen::Vector3d a, b;
+  double weight;
+  double error;  // [rad]
+};
+
+// Truncated squared errors (MSAC), smaller is better; not all of them where they reach `limit`.
+double Cost(const std::vector<RayPair>& pairs, const EpipolarGeometry& geometry, double threshold,
+            double limit) {
+  double cost = 0;
+  for (const RayPair& pair : pairs) {
+    if (cost >= limit) break;
+    const double error = EpipolarResidual(geometry, pair).error;
+    cost += std::min(error * error, threshold * threshold);
+  }
+  return cost;
+}
+
+// The rotation alone that takes most rays of C0 to those of C1: Gauss-Newton on b - R a.
+Eigen::Matrix3d FitRotation(const std::vector<RayPair>& pairs, double scale) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  for (int i = 0; i < kRotationIterations; ++i) {
+    Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d g = Eigen::Vector3d::Zero();
+    for (const RayPair& pair : pairs) {
+      const Eigen::Vector3d a = R * pair.ray_C0;
+      const Eigen::Vector3d error = pair.ray_C1 - a;
+      const double weight = GemanMcClureWeight(error.norm(), scale);
+      H += weight * (Eigen::Matrix3d::Identity() - a * a.transpose());
+      g += weight * a.cross(error);
+    }
+    const Eigen::Vector3d step = H.ldlt().solve(g);
+    if (!step.allFinite()) break;
+    R = SO3Exp(step) * R;
+  }
+  return R;
+}
+
+// The direction of translation that two pairs leave: t . (a x b) = 0 for both.
+std::optional<Eigen::Vector3d> TranslationOfTwo(const Eigen::Matrix3d& R_C1_C0,
+                                                const RayPair& pair0, const RayPair& pair1) {
+  const Eigen::Vector3d normal0 = (R_C1_C0 * pair0.ray_C0).cross(pair0.ray_C1);
+  const Eigen::Vector3d normal1 = (R_C1_C0 * pair1.ray_C0).cross(pair1.ray_C1);
+  const Eigen::Vector3d t = normal0.cross(normal1);
+  const double length = t.norm();
+  if (!(length > 0)) return std::nullopt;
+  return t / length;
+}
+
+// One robust Gauss-Newton step on rotation (R <- Exp(w) R) and direction of translation. Damped,
+// as without parallax the latter is free.
+EpipolarGeometry Refine(const std::vector<RayPair>& pairs, const EpipolarGeometry& geometry,
+                        double scale) {
+  using Matrix5d = Eigen::Matrix<double, 5, 5>;
+  using Vector5d = Eigen::Matrix<double, 5, 1>;
+  constexpr double kDamping = 1e-4;
+  const Eigen::Matrix<double, 3, 2> basis = TangentBasis(geometry.t_C1);
+  Matrix5d H = kDamping * Matrix5d::Identity();
+  Vector5d g = Vector5d::Zero();
+  for (const RayPair& pair : pairs) {
+    const EpipolarResidual r(geometry, pair);
+    const Vector5d J = EpipolarGradient(r.weight, r.a, r.b, geometry.t_C1, basis);
+    const double weight = GemanMcClureWeight(r.error, scale);
+    H.noalias() += weight * J * J.transpose();
+    g.noalias() -= weight * r.error * J;
+  }
+  const Vector5d step = H.ldlt().solve(g);
+  if (!step.allFinite()) return geometry;
+  return {SO3Exp(step.head<3>()) * geometry.R_C1_C0,
+          (geometry.t_C1 + basis * step.tail<2>()).normalized()};
+}
+
+// `count` pairs, drawn with repetition.
+std::vector<RayPair> Draw(const std::vector<RayPair>& pairs, size_t count, std::mt19937* random) {
+  std::vector<RayPair> sample;
+  while (sample.size() < count) sample.push_back(pairs[(*random)() % pairs.size()]);
+  return sample;
+}
+
+// RANSAC. The translation comes from two pairs and the given rotation; a rotation that is not known
+// is then solved for together with the translation from all pairs of the (larger) sample.
+EpipolarGeometry FindGeometry(const std::vector<RayPair>& pairs, const Eigen::Matrix3d& R,
+                              bool is_rotation_known, double threshold) {
+  std::mt19937 random;  // default seed: same input, same result
+  EpipolarGeometry best{R, Eigen::Vector3d::UnitZ()};
+  double best_cost = Cost(pairs, best, threshold, std::numeric_limits<double>::infinity());
+  const int hypotheses = is_rotation_known ? kHypothesesOfTwo : kHypothesesOfFive;
+  for (int i = 0; i < hypotheses; ++i) {
+    const auto sample = Draw(pairs, is_rotation_known ? 2 : 5, &random);
+    const auto t = TranslationOfTwo(R, sample[0], sample[1]);
+    if (!t) continue;
+    EpipolarGeometry geometry{R, *t};
+    for (int k = 0; !is_rotation_known && k < kSolverIterations; ++k) {
+      geometry = Refine(sample, geometry, kNotRobust);
+    }
+    const double cost = Cost(pairs, geometry, threshold, best_cost);
+    if (cost < best_cost) {
+      best = geometry;
+      best_cost = cost;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<bool> FindEpipolarInliers(const std::vector<RayPair>& pairs,
+                                      const std::optional<Eigen::Quaterniond>& R_C1_C0,
+                                      double threshold) {
+  std::vector<bool> inliers(pairs.size(), true);
+  if (pairs.size() < kMinPairs) return inliers;
+  const double coarse = kCoarseFactor * threshold;
+  const Eigen::Matrix3d R = R_C1_C0 ? R_C1_C0->toRotationMatrix() : FitRotation(pairs, coarse);
+  EpipolarGeometry geometry = FindGeometry(pairs, R, R_C1_C0.has_value(), coarse);
+  for (const double scale : {coarse, coarse, threshold, threshold, threshold}) {
+    geometry = Refine(pairs, geometry, scale);
+  }
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    inliers[i] = std::abs(EpipolarResidual(geometry, pairs[i]).error) <= threshold;
+  }
+  return inliers;
+}
+
+}  // namespace plm_vins

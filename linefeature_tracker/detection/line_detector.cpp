@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linefeature_tracker/detection/line_detector.h"
+
+#include <algorithm>
+#include <opencv2/core/version.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "linefeature_tracker/detection/chain_segments.h"
+#include "linefeature_tracker/detection/edge_chains.h"
+
+// OpenCV 4.1 to 4.5.3 have neither LSD nor EDLines.
+#define HAS_LSD_AND_EDLINES \
+  (CV_VERSION_MAJOR * 10000 + CV_VERSION_MINOR * 100 + CV_VERSION_REVISION >= 40504)
+#if HAS_LSD_AND_EDLINES
+#include <opencv2/ximgproc/edge_drawing.hpp>
+#endif
+
+namespace plm_vins {
+namespace {
+
+bool IsAlongBorder(const LineSegment& segment, const cv::Size& size, double border_px) {
+  const Eigen::Vector2d least = segment.start.cwiseMin(segment.end);
+  const Eigen::Vector2d most = segment.start.cwiseMax(segment.end);
+  return most.x() <= border_px || most.y() <= border_px || least.x() >= size.width - border_px ||
+         least.y() >= size.height - border_px;
+}
+
+class FldDetector : public LineDetector {
+ public:
+  std::vector<LineSegment> Detect(const cv::Mat& image, double min_length_px) override {
+    const StraightnessLimits limits = {std::max(static_cast<int>(min_length_px), 1),
+                                       kMaxDeviation_px};
+    std::vector<LineSegment> segments;
+    EdgeChains chains(image, kCannyLow, kCannyHigh);
+    EdgeChain chain;
+    while (chains.Next(&chain)) AppendSegments(chain, limits, &segments);
+    const auto is_useless = [&](const LineSegment& segment) {
+      return segment.Length() < min_length_px || IsAlongBorder(segment, image.size(), kBorder_px);
+    };
+    segments.erase(std::remove_if(segments.begin(), segments.end(), is_useless), segments.end());
+    return segments;
+  }
+
+ private:
+  static constexpr double kMaxDeviation_px = 1.414;
+  static constexpr double kCannyLow = 50;
+  static constexpr double kCannyHigh = 100;
+  static constexpr double kBorder_px = 5;
+};
+
+#if HAS_LSD_AND_EDLINES
+std::vector<LineSegment> LongerThan(double min_length_px, const std::vector<cv::Vec4f>& lines) {
+  std::vector<LineSegment> segments;
+  for (const cv::Vec4f& line : lines) {
+    const LineSegment segment{{line[0], line[1]}, {line[2], line[3]}};
+    if (segment.Length() >= min_length_px) segments.push_back(segment);
+  }
+  return segments;
+}
+
+class LsdDetector : public LineDetector {
+ public:
+  std::vector<LineSegment> Detect(const cv::Mat& image, double min_length_px) override {
+    std::vector<cv::Vec4f> lines;
+    detector_->detect(image, lines);
+    return LongerThan(min_length_px, lines);
+  }
+
+ private:
+  // The image is already scaled by the caller.
+  cv::Ptr<cv::LineSegmentDetector> detector_ =
+      cv::createLineSegmentDetector(cv::LSD_REFINE_STD, 1.0);
+};
+
+class EdLinesDetector : public LineDetector {
+ public:
+  std::vector<LineSegment> Detect(const cv::Mat& image, double min_length_px) override {
+    cv::ximgproc::EdgeDrawing::Params params;
+    params.MinLineLength = std::max(static_cast<int>(min_length_px), 1);
+    detector_->setParams(params);
+    std::vector<cv::Vec4f> lines;
+    detector_->detectEdges(image);
+    detector_->detectLines(lines);
+    return LongerThan(min_length_px, lines);
+  }
+
+ private:
+  cv::Ptr<cv::ximgproc::EdgeDrawing> detector_ = cv::ximgproc::createEdgeDrawing();
+};
+#endif
+
+}  // namespace
+
+bool LineDetector::IsAvailable(LineDetectorType type) {
+  return type == LineDetectorType::kFld || HAS_LSD_AND_EDLINES;
+}
+
+std::unique_ptr<LineDetector> LineDetector::Create(LineDetectorType type) {
+  if (type == LineDetectorType::kFld) return std::make_unique<FldDetector>();
+#if HAS_LSD_AND_EDLINES
+  if (type == LineDetectorType::kLsd) return std::make_unique<LsdDetector>();
+  return std::make_unique<EdLinesDetector>();
+#else
+  throw std::runtime_error("line_detector: OpenCV " CV_VERSION
+                           " has neither lsd nor edlines (4.5.4 and later do); use fld");
+#endif
+}
+
+}  // namespace plm_vins

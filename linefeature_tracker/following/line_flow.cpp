@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linefeature_tracker/following/line_flow.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <opencv2/imgproc.hpp>
+
+#include "linefeature_tracker/segments/segment_sampler.h"
+#include "tracking/image_sampling.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int kTopLevel = 3;
+constexpr int kBottomLevel = 1;
+constexpr int kRadius = 5;  // of a profile, in pixels of its level
+constexpr int kProfileSize = 2 * kRadius + 1;
+constexpr double kSpacing_px = 10;  // between profiles along the line
+constexpr int kMinProfiles = 5;
+constexpr int kMaxProfiles = 12;
+constexpr int kMaxIterations = 8;
+constexpr double kConverged_px = 0.1;  // of a level: the edge is located afterwards
+constexpr double kMinTurnLength = 10;  // shorter lines do not turn, in pixels of a level
+
+using Profile = std::array<float, kProfileSize>;
+
+// Brightness at `size` steps of a pixel across the line; false where it leaves the image.
+template <size_t kSize>
+bool ReadProfile(const cv::Mat& image, const Eigen::Vector2f& center, const Eigen::Vector2f& normal,
+                 std::array<float, kSize>* profile) {
+  constexpr int kHalf = static_cast<int>(kSize / 2);
+  if (!IsInterpolable(image, center.x(), center.y(), kHalf)) return false;
+  for (int j = -kHalf; j <= kHalf; ++j) {
+    const auto distance = static_cast<float>(j);
+    (*profile)[j + kHalf] =
+        Interpolate(image, center.x() + distance * normal.x(), center.y() + distance * normal.y());
+  }
+  return true;
+}
+
+// The same part of the line in both images.
+struct SamplePair {
+  SegmentSample previous;
+  SegmentSample current;
+};
+
+// The brightness across the line before, with its derivative.
+struct Template {
+  const SegmentSample* current = nullptr;
+  Profile value;
+  Profile slope;
+  double slope_squares = 0;
+  double slope_sum = 0;
+};
+
+// Sums over profiles, for the correlation.
+struct CorrelationSums {
+  double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+
+  double Correlation() const {
+    const double variance_a = aa - a * a / n;
+    const double variance_b = bb - b * b / n;
+    const double covariance = ab - a * b / n;
+    return variance_a > 0 && variance_b > 0 ? covariance / std::sqrt(variance_a * variance_b) : 0;
+  }
+};
+
+// Normalised offset of the line from where it was predicted: at its start and its slope along it.
+using LineOffset = Eigen::Vector2d;
+
+double OffsetInPixels(const LineOffset& offset, const SegmentSample& sample) {
+  return (offset.x() + offset.y() * sample.along) / sample.offset_per_pixel;
+}
+
+// Aligns one level of the pyramids.
+class LevelAlignment {
+ public:
+  LevelAlignment(const cv::Mat& previous, const cv::Mat& current,
+                 const std::vector<SamplePair>& samples, int level)
+      : current_(current), scale_(1.0 / (1 << level)) {
+    templates_.reserve(samples.size());
+    for (const SamplePair& pair : samples) AddTemplate(previous, pair);
+  }
+
+  bool HasEnough() const { return templates_.size() >= kMinProfiles; }
+
+  // Improves the offset; false where too little of the line is seen.
+  bool Align(double length_px, LineOffset* offset) const {
+    const bool may_turn = length_px * scale_ >= kMinTurnLength;
+    for (int i = 0; i < kMaxIterations; ++i) {
+      const auto step = Step(may_turn, *offset);
+      if (!step) return false;
+      *offset += *step;
+      const SegmentSample& sample = *templates_.front().current;
+      if (std::abs(OffsetInPixels(*step, sample)) * scale_ < kConverged_px) break;
+    }
+    return true;
+  }
+
+  double Correlation(const LineOffset& offset) const {
+    CorrelationSums sums;
+    Profile profile;
+    for (const Template& reference : templates_) {
+      if (!ReadCurrent(reference, offset, &profile)) continue;
+      for (int j = 0; j < kProfileSize; ++j) {
+        const double a = reference.value[j];
+        const double b = profile[j];
+        sums.n += 1, sums.a += a, sums.b += b;
+        sums.aa += a * a, sums.bb += b * b, sums.ab += a * b;
+      }
+    }
+    return sums.n > 0 ? sums.Correlation() : 0;
+  }
+
+ private:
+  void AddTemplate(const cv::Mat& previous, const SamplePair& pair) {
+    std::array<float, kProfileSize + 2> wide;
+    const Eigen::Vector2f center = (scale_ * pair.previous.pixel).cast<float>();
+    if (!ReadProfile(previous, center, pair.previous.normal_px.cast<float>(), &wide)) return;
+    Template reference;
+    reference.current = &pair.current;
+    for (int j = 0; j < kProfileSize; ++j) {
+      reference.value[j] = wide[j + 1];
+      reference.slope[j] = 0.5F * (wide[j + 2] - wide[j]);
+      reference.slope_squares += reference.slope[j] * reference.slope[j];
+      reference.slope_sum += reference.slope[j];
+    }
+    templates_.push_back(reference);
+  }
+
+  bool ReadCurrent(const Template& reference, const LineOffset& offset, Profile* profile) const {
+    const SegmentSample& sample = *reference.current;
+    const Eigen::Vector2d pixel = sample.pixel + OffsetInPixels(offset, sample) * sample.normal_px;
+    return ReadProfile(current_, (scale_ * pixel).cast<float>(), sample.normal_px.cast<float>(),
+                       profile);
+  }
+
+  // One Gauss-Newton step of the inverse compositional kind: the template is moved, not the image,
+  // so that its derivatives serve all iterations. The third unknown is the change of brightness.
+  std::optional<LineOffset> Step(bool may_turn, const LineOffset& offset) const {
+    Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    int used = 0;
+    Profile profile;
+    for (const Template& reference : templates_) {
+      if (!ReadCurrent(reference, offset, &profile)) continue;
+      ++used;
+      double error_sum = 0, slope_error = 0;
+      for (int j = 0; j < kProfileSize; ++j) {
+        const float error = reference.value[j] - profile[j];
+        error_sum += error;
+        slope_error += error * reference.slope[j];
+      }
+      const SegmentSample& sample = *reference.current;
+      const double pixels = scale_ / sample.offset_per_pixel;  // of the level, per offset
+      const Eigen::Vector2d d_pixels(pixels, pixels * sample.along);
+      H.topLeftCorner<2, 2>() += reference.slope_squares * d_pixels * d_pixels.transpose();
+      H.topRightCorner<2, 1>() += reference.slope_sum * d_pixels;
+      H(2, 2) += kProfileSize;
+      b.head<2>() += slope_error * d_pixels;
+      b(2) += error_sum;
+    }
+    if (used < kMinProfiles) return std::nullopt;
+    H.bottomLeftCorner<1, 2>() = H.topRightCorner<2, 1>().transpose();
+    if (!may_turn) H(1, 1) *= 1e6;
+    const Eigen::Vector3d solution = H.ldlt().solve(b);
+    if (!solution.allFinite()) return std::nullopt;
+    return solution.head<2>();
+  }
+
+  const cv::Mat& current_;
+  double scale_;  // pixels of the level per pixel of the image
+  std::vector<Template> templates_;
+};
+
+std::vector<SamplePair> SampleBoth(const CameraModel& camera, const LineSegment& segment,
+                                   const LineSegment& predicted, double length_px) {
+  const int count =
+      std::clamp(static_cast<int>(length_px / kSpacing_px), kMinProfiles + 1, kMaxProfiles);
+  std::vector<SamplePair> samples;
+  samples.reserve(count);
+  for (int k = 0; k < count; ++k) {
+    const double share = (k + 0.5) / count;
+    const auto previous = SampleSegment(camera, segment, share * segment.Length());
+    const auto current = SampleSegment(camera, predicted, share * predicted.Length());
+    if (previous && current) samples.push_back({*previous, *current});
+  }
+  return samples;
+}
+
+}  // namespace
+
+LineFlow::Pyramid LineFlow::BuildPyramid(const cv::Mat& image) {
+  Pyramid pyramid = {image};
+  for (int level = 1; level <= kTopLevel; ++level) {
+    cv::Mat half;
+    cv::pyrDown(pyramid.back(), half);
+    pyramid.push_back(half);
+  }
+  return pyramid;
+}
+
+std::optional<LineFlowResult> LineFlow::Track(const Pyramid& previous, const Pyramid& current,
+                                              const LineSegment& segment,
+                                              const LineSegment& predicted) const {
+  const auto segment_px = ProjectSegment(*camera_, segment);
+  if (!segment_px) return std::nullopt;
+  const double length_px = segment_px->Length();
+  const auto samples = SampleBoth(*camera_, segment, predicted, length_px);
+  LineOffset offset = LineOffset::Zero();
+  double correlation = 0;
+  for (int level = kTopLevel; level >= kBottomLevel; --level) {
+    const LevelAlignment alignment(previous[level], current[level], samples, level);
+    const bool is_aligned = alignment.HasEnough() && alignment.Align(length_px, &offset);
+    if (level > kBottomLevel) continue;  // close to the border, only fine levels see enough
+    if (!is_aligned) return std::nullopt;
+    correlation = alignment.Correlation(offset);
+  }
+  const Eigen::Vector2d normal = predicted.Normal();
+  return LineFlowResult{{predicted.start + offset.x() * normal,
+                         predicted.end + (offset.x() + offset.y() * predicted.Length()) * normal},
+                        correlation};
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linefeature_tracker/following/line_refinement.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "common/geometry/robust_weight.h"
+#include "common/median.h"
+#include "tracking/image_sampling.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kStep_px = 4;      // between samples along a line
+constexpr double kMaxSamples = 32;  // of long lines; the step grows
+constexpr double kMaxRoughSamples = 12;
+constexpr int kMaxSearch_px = 5;       // to either side
+constexpr int kFineSearch_px = 2;      // once the line is known roughly
+constexpr int kExtension = 3;          // samples beyond each end
+constexpr int kMaxGap = 2;             // samples without an edge within a line
+constexpr double kMinSupport = 0.6;    // share of a line's samples that show its edge
+constexpr double kMaxResidual_px = 1;  // of a sample that shows it
+constexpr size_t kMinPoints = 5;
+constexpr std::array<double, 3> kRobustScales_px = {2.0, 1.0, 0.5};
+
+// Value and slope along the segment of the offset of an edge from it, normalised.
+struct LineOffset {
+  double at_start = 0;
+  double slope = 0;
+
+  double At(const SegmentSample& sample) const { return at_start + slope * sample.along; }
+};
+
+LineSegment Shifted(const LineSegment& segment, const LineOffset& offset) {
+  const Eigen::Vector2d normal = segment.Normal();
+  return {segment.start + offset.at_start * normal,
+          segment.end + (offset.at_start + offset.slope * segment.Length()) * normal};
+}
+
+// Those of the points that show an edge.
+template <typename EdgePoint>
+std::vector<EdgePoint> OnEdges(std::vector<EdgePoint> points) {
+  const auto is_missing = [](const EdgePoint& point) { return !point.found; };
+  points.erase(std::remove_if(points.begin(), points.end(), is_missing), points.end());
+  return points;
+}
+
+// Weighted least squares of the offsets, with Geman-McClure weights of residuals in pixels whose
+// scale shrinks. Begins at the median offset. `points` is not empty.
+template <typename EdgePoint>
+LineOffset FitOffset(const std::vector<EdgePoint>& points) {
+  std::vector<double> offsets;
+  offsets.reserve(points.size());
+  for (const EdgePoint& point : points) {
+    offsets.push_back(point.offset_px * point.sample.offset_per_pixel);
+  }
+  LineOffset fit{Median(std::move(offsets)), 0};
+  for (const double scale_px : kRobustScales_px) {
+    Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d b = Eigen::Vector2d::Zero();
+    for (const EdgePoint& point : points) {
+      const double pixels = 1 / point.sample.offset_per_pixel;
+      const double residual_px = point.offset_px - fit.At(point.sample) * pixels;
+      const double weight = GemanMcClureWeight(residual_px, scale_px);
+      const Eigen::Vector2d J(pixels, point.sample.along * pixels);
+      H += weight * J * J.transpose();
+      b += weight * J * point.offset_px;
+    }
+    const Eigen::Vector2d solution = H.inverse() * b;
+    if (!solution.allFinite()) break;
+    fit = {solution.x(), solution.y()};
+  }
+  return fit;
+}
+
+}  // namespace
+
+LineRefinement::LineRefinement(const LineTrackerConfig& config,
+                               std::shared_ptr<const CameraModel> camera)
+    : config_(config),
+      camera_(std::move(camera)),
+      min_length_px_(config.min_length *
+                     std::min(camera_->parameters().width, camera_->parameters().height)) {}
+
+std::optional<LineSegment> LineRefinement::Refine(const cv::Mat& image, const LineSegment& guess,
+                                                  int search_px) const {
+  const auto rough = PlaceRoughly(image, guess, search_px);
+  return rough ? Place(image, *rough) : std::nullopt;
+}
+
+std::optional<LineSegment> LineRefinement::PlaceRoughly(const cv::Mat& image,
+                                                        const LineSegment& guess,
+                                                        int search_px) const {
+  const std::vector<EdgePoint> edges = OnEdges(LocateEdges(
+      image, guess, Step(guess, kMaxRoughSamples), 0, std::min(search_px, kMaxSearch_px)));
+  if (edges.size() < kMinPoints) return std::nullopt;
+  return Shifted(guess, FitOffset(edges));
+}
+
+std::optional<LineSegment> LineRefinement::Place(const cv::Mat& image,
+                                                 const LineSegment& rough) const {
+  const double step = Step(rough, kMaxSamples);
+  std::vector<EdgePoint> points = LocateEdges(image, rough, step, kExtension, kFineSearch_px);
+  const std::vector<EdgePoint> edges = OnEdges(points);
+  if (edges.size() < kMinPoints) return std::nullopt;
+  const LineOffset fit = FitOffset(edges);
+  for (EdgePoint& point : points) {
+    const double residual_px =
+        point.offset_px - fit.At(point.sample) / point.sample.offset_per_pixel;
+    point.found = point.found && std::abs(residual_px) <= kMaxResidual_px;
+  }
+  const auto part = SupportedPart(rough, step, points);
+  if (!part) return std::nullopt;
+  // Once more without what lies beyond the ends, which may belong to another edge.
+  const double first = rough.Along(part->start);
+  const double last = rough.Along(part->end);
+  for (EdgePoint& point : points) {
+    point.found = point.found && point.sample.along > first && point.sample.along < last;
+  }
+  const LineOffset final_fit = FitOffset(OnEdges(std::move(points)));
+  const Eigen::Vector2d normal = rough.Normal();
+  const auto on_line = [&](const Eigen::Vector2d& xy) -> Eigen::Vector2d {
+    return xy + (final_fit.at_start + final_fit.slope * rough.Along(xy)) * normal;
+  };
+  return LineSegment{on_line(part->start), on_line(part->end)};
+}
+
+// Normalised distance between at most so many samples along the segment.
+double LineRefinement::Step(const LineSegment& segment, double max_samples) const {
+  const auto segment_px = ProjectSegment(*camera_, segment);
+  const double length_px =
+      segment_px ? segment_px->Length() : segment.Length() * camera_->FocalLength();
+  return segment.Length() / std::clamp(std::round(length_px / kStep_px), 1.0, max_samples);
+}
+
+// The edge at every sample from `extension` steps before the start to as many behind the end.
+std::vector<LineRefinement::EdgePoint> LineRefinement::LocateEdges(const cv::Mat& image,
+                                                                   const LineSegment& segment,
+                                                                   double step, int extension,
+                                                                   int search_px) const {
+  const int count = static_cast<int>(std::lround(segment.Length() / step));
+  std::vector<EdgePoint> points;
+  points.reserve(count + 2 * extension + 1);
+  for (int i = -extension; i <= count + extension; ++i) {
+    const auto sample = SampleSegment(*camera_, segment, i * step);
+    EdgePoint point;
+    point.sample.along = i * step;
+    point.sample.offset_per_pixel = 1;
+    if (sample) {
+      point.sample = *sample;
+      if (camera_->IsInImage(sample->pixel, config_.border)) LocateEdge(image, search_px, &point);
+    }
+    points.push_back(point);
+  }
+  return points;
+}
+
+// The steepest rise across the line, those closer to the sample preferred, with the vertex of the
+// parabola through it and its neighbours as the subpixel position.
+void LineRefinement::LocateEdge(const cv::Mat& image, int search_px, EdgePoint* point) const {
+  const int radius = search_px + 2;
+  const Eigen::Vector2f center = point->sample.pixel.cast<float>();
+  const Eigen::Vector2f normal = point->sample.normal_px.cast<float>();
+  if (!IsInterpolable(image, center.x(), center.y(), static_cast<float>(radius))) return;
+  std::array<float, 2 * (kMaxSearch_px + 2) + 1> profile;
+  for (int j = -radius; j <= radius; ++j) {
+    const auto distance = static_cast<float>(j);
+    profile[j + radius] =
+        Interpolate(image, center.x() + distance * normal.x(), center.y() + distance * normal.y());
+  }
+  const auto rise = [&](int j) {
+    return 0.5F * (profile[j + radius + 1] - profile[j + radius - 1]);
+  };
+  float best = 0;
+  for (int j = -search_px; j <= search_px; ++j) {
+    const float center_rise = rise(j);
+    const float closeness =
+        1 - 0.5F * static_cast<float>(std::abs(j)) / static_cast<float>(search_px + 1);
+    if (center_rise < config_.min_gradient || center_rise * closeness <= best) continue;
+    const float before = rise(j - 1);
+    const float after = rise(j + 1);
+    if (center_rise < before || center_rise < after) continue;
+    const float curvature = before - 2 * center_rise + after;
+    const float vertex = curvature < 0 ? 0.5F * (before - after) / curvature : 0;
+    best = center_rise * closeness;
+    point->found = true;
+    point->offset_px = j + vertex;
+  }
+}
+
+// The longest part of the line whose samples show its edge, small gaps allowed.
+std::optional<LineSegment> LineRefinement::SupportedPart(
+    const LineSegment& line, double step, const std::vector<EdgePoint>& points) const {
+  const int count = static_cast<int>(points.size());
+  int best_first = 0, best_last = -1, best_support = 0;
+  int first = -1, last = -1, support = 0;
+  for (int i = 0; i < count; ++i) {
+    if (!points[i].found) continue;
+    if (first < 0 || i - last > kMaxGap + 1) {
+      first = i;
+      support = 0;
+    }
+    last = i;
+    ++support;
+    if (last - first > best_last - best_first) {
+      best_first = first;
+      best_last = last;
+      best_support = support;
+    }
+  }
+  const int samples = best_last - best_first + 1;
+  if (samples < static_cast<int>(kMinPoints) || best_support < kMinSupport * samples)
+    return std::nullopt;
+  // A line of which most has gone is not the same one any more.
+  const int expected = static_cast<int>(std::lround(line.Length() / step));
+  if (best_support < kMinSupport * kMinSupport * expected) return std::nullopt;
+  const double length_px =
+      (points[best_last].sample.pixel - points[best_first].sample.pixel).norm();
+  if (length_px < min_length_px_) return std::nullopt;
+  const Eigen::Vector2d direction = line.Direction();
+  return LineSegment{line.start + points[best_first].sample.along * direction,
+                     line.start + points[best_last].sample.along * direction};
+}
+
+}  // namespace plm_vins

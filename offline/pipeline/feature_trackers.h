@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "common/config/config.h"
+#include "common/measurements.h"
+#include "feature_tracker/point_tracking_stage.h"
+#include "linefeature_tracker/line_tracking_stage.h"
+
+namespace plm_vins {
+
+// The features of one image. Points and lines share its stamp and the flags of ReadyImage.
+struct TrackedFeatures {
+  TrackedPoints points;
+  std::optional<TrackedLines> lines;  // absent where lines are not used
+};
+
+// The trackers of points and, where they are used, lines, fed with the same images.
+class FeatureTrackers {
+ public:
+  explicit FeatureTrackers(const Config& config);
+
+  // Whether the lines of an image are tracked in a thread of their own, beside its points. The
+  // results are the same.
+  void TrackSideBySide(bool side_by_side) { side_by_side_ = side_by_side; }
+
+  void AddImu(const ImuSample& sample);
+  void AddImage(const ImageSample& image);
+  std::optional<TrackedFeatures> Pop();
+  std::optional<TrackedFeatures> Flush();
+
+  const ImageCounts& image_counts() const { return points_.counts(); }
+
+  // The newest image with its points or lines drawn (CV_8UC3); empty where there are none.
+  cv::Mat DrawPoints() const { return points_.tracker().DrawTracks(); }
+  cv::Mat DrawLines() const { return lines_ ? lines_->tracker().DrawTracks() : cv::Mat(); }
+
+ private:
+  template <typename TrackOne>
+  std::optional<TrackedFeatures> TrackBoth(const TrackOne& track);
+
+  PointTrackingStage points_;
+  std::optional<LineTrackingStage> lines_;
+  bool side_by_side_ = false;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline/pipeline/odometry_pipeline.h"
+
+#include <iterator>
+#include <utility>
+
+namespace plm_vins {
+namespace {
+
+constexpr size_t kQueueCapacity = 200;  // items, most of them IMU samples: about a second
+
+bool IsPowerOfTwo(int64_t count) { return (count & (count - 1)) == 0; }
+
+RecordingEvent EventOf(const TrackedItem& item) {
+  using Kind = RecordingEvent::Kind;
+  return {item.frame ? Kind::kImage : Kind::kImu, item.t_ns(), item.imu};
+}
+
+}  // namespace
+
+OdometryPipeline::OdometryPipeline(const Config& config)
+    : use_lines_(config.use_lines), trackers_(config), back_end_(config) {}
+
+DropCounts OdometryPipeline::drops() const {
+  DropCounts counts = ToDropCounts(trackers_.image_counts());
+  Append(ToDropCounts(back_end_.statistics()), &counts);
+  return counts;
+}
+
+void OdometryPipeline::ShowTracks(double interval, TrackImageCallback on_images) {
+  track_image_interval_ns_ = ToNanoseconds(interval);
+  on_track_images_ = std::move(on_images);
+}
+
+void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, int threads,
+                           const FrameCallback& on_frame) {
+  trackers_.TrackSideBySide(threads > 2);
+  const auto track = [&](const TrackedReceiver& emit) {
+    RunTrackers(recording, interval, threads > 3, emit);
+  };
+  const auto estimate = [&](TrackedItem item) {
+    Consume(std::move(item), on_frame);
+    return true;
+  };
+  if (threads > 1) {
+    RunAhead<TrackedItem>(kQueueCapacity, track, estimate);
+  } else {
+    track(estimate);
+  }
+  images_ = trackers_.image_counts().images;
+  while (auto estimated = back_end_.Flush()) Report(std::move(*estimated), on_frame);
+}
+
+void OdometryPipeline::Run(FeatureFileReader* features, RecordingInterval interval,
+                           const FrameCallback& on_frame) {
+  while (auto item = features->Next()) {
+    const RecordingInterval::Part part = interval.Locate(EventOf(*item));
+    if (part == RecordingInterval::Part::kEnd) break;
+    if (part == RecordingInterval::Part::kSkip) continue;
+    if (item->frame) {
+      if (!use_lines_) item->frame->lines.reset();
+      if (!first_image_ns_) first_image_ns_ = item->t_ns();
+      ++images_;
+    }
+    Consume(std::move(*item), on_frame);
+  }
+  while (auto estimated = back_end_.Flush()) Report(std::move(*estimated), on_frame);
+}
+
+void OdometryPipeline::Read(Recording* recording, RecordingInterval interval,
+                            const EventReceiver& emit) {
+  while (const auto event = recording->Next()) {
+    const RecordingInterval::Part part = interval.Locate(*event);
+    if (part == RecordingInterval::Part::kEnd) return;
+    if (part == RecordingInterval::Part::kSkip) continue;
+    LoadedEvent loaded{*event, std::nullopt};
+    if (event->kind == RecordingEvent::Kind::kImage) loaded.image = recording->LoadImage();
+    if (!emit(std::move(loaded))) return;
+  }
+}
+
+void OdometryPipeline::RunTrackers(Recording* recording, const RecordingInterval& interval,
+                                   bool reads_ahead, const TrackedReceiver& emit) {
+  const auto read = [&](const EventReceiver& feed) { Read(recording, interval, feed); };
+  const auto feed = [&](LoadedEvent loaded) { return Feed(std::move(loaded), emit); };
+  if (reads_ahead) {
+    RunAhead<LoadedEvent>(kQueueCapacity, read, feed);
+  } else {
+    read(feed);
+  }
+  while (auto frame = trackers_.Flush()) {
+    if (!EmitTracked(std::move(*frame), emit)) return;
+  }
+}
+
+bool OdometryPipeline::Feed(LoadedEvent loaded, const TrackedReceiver& emit) {
+  const RecordingEvent& event = loaded.event;
+  if (event.kind == RecordingEvent::Kind::kImu) {
+    trackers_.AddImu(event.imu);
+    if (!emit({event.imu, nullptr})) return false;
+  } else if (loaded.image) {
+    if (!first_image_ns_) first_image_ns_ = event.t_ns;
+    trackers_.AddImage({event.t_ns, std::move(*loaded.image)});
+  }
+  while (auto frame = trackers_.Pop()) {
+    if (!EmitTracked(std::move(*frame), emit)) return false;
+  }
+  return true;
+}
+
+bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit) {
+  // The last power of two lies in the second half of any run, however long it turns out to be.
+  if (IsPowerOfTwo(++tracked_images_)) {
+    points_image_ = trackers_.DrawPoints();
+    lines_image_ = trackers_.DrawLines();
+  }
+  if (on_track_images_) ShowTracks(frame.points.features.t_ns);
+  return emit({{}, std::make_unique<TrackedFeatures>(std::move(frame))});
+}
+
+void OdometryPipeline::ShowTracks(int64_t t_ns) {
+  const bool is_due = !last_track_image_ns_ || t_ns < *last_track_image_ns_ ||
+                      t_ns - *last_track_image_ns_ >= track_image_interval_ns_;
+  if (!is_due) return;
+  last_track_image_ns_ = t_ns;
+  on_track_images_(t_ns, trackers_.DrawPoints(), trackers_.DrawLines());
+}
+
+void OdometryPipeline::Consume(TrackedItem item, const FrameCallback& on_frame) {
+  if (saved_features_ != nullptr) saved_features_->Add(item);
+  if (item.frame) {
+    AddFeatures(std::move(*item.frame));
+  } else {
+    back_end_.AddImu(item.imu);
+  }
+  while (auto estimated = back_end_.Pop()) Report(std::move(*estimated), on_frame);
+}
+
+void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
+  if (tracked.points.restart) back_end_.Reset("stamps jumped back");
+  if (!tracked.points.publish) {
+    ++thinned_images_;
+    return;
+  }
+  PipelineFrame& frame = unfinished_[tracked.points.features.t_ns];
+  frame.point_tracking_ms = tracked.points.tracking_ms;
+  frame.point_tracking = tracked.points.statistics;
+  frame.image = std::move(tracked.points.image);
+  back_end_.AddPoints(std::move(tracked.points.features));
+  if (!tracked.lines) return;
+  frame.line_tracking_ms = tracked.lines->tracking_ms;
+  frame.line_tracking = tracked.lines->statistics;
+  back_end_.AddLines(std::move(tracked.lines->features));
+}
+
+void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_frame) {
+  ++estimated_images_;
+  const std::string contradiction = back_end_.ImuContradiction();
+  if (!contradiction.empty()) imu_contradiction_ = contradiction;
+  const auto unfinished = unfinished_.find(estimated.output.t_ns);
+  PipelineFrame frame = std::move(unfinished->second);
+  frame.output = std::move(estimated.output);
+  frame.points = std::move(estimated.points);
+  frame.lines = std::move(estimated.lines);
+  unfinished_.erase(unfinished_.begin(), std::next(unfinished));
+  on_frame(frame);
+}
+
+}  // namespace plm_vins

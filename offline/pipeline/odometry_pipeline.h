@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "common/config/config.h"
+#include "common/streams/drop_counts.h"
+#include "offline/pipeline/feature_file.h"
+#include "offline/pipeline/feature_trackers.h"
+#include "offline/pipeline/run_ahead.h"
+#include "offline/recordings/recording.h"
+#include "offline/recordings/recording_interval.h"
+#include "vins_estimator/estimation_stage.h"
+
+namespace plm_vins {
+
+// What the pipeline says about one image.
+struct PipelineFrame {
+  EstimatorOutput output;
+  ImageSample image;  // without pixels where saved features are run
+  PointFrame points;
+  LineFrame lines;
+  double point_tracking_ms = 0;
+  double line_tracking_ms = 0;  // detection included
+  PointTrackerStatistics point_tracking;
+  LineTrackerStatistics line_tracking;
+};
+
+// Front ends and back end in a row, fed from a recording.
+//
+// With two threads the front runs ahead of the back by a few images; from three on, points and
+// lines are tracked side by side as well; from four on, images are read and decoded ahead of both.
+// What each is given, and in which order, does not depend on that, so the results are the same bit
+// by bit.
+class OdometryPipeline {
+ public:
+  using FrameCallback = std::function<void(const PipelineFrame&)>;
+  // An image with its points, and with its lines (CV_8UC3; empty where lines are not used).
+  using TrackImageCallback =
+      std::function<void(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines)>;
+
+  explicit OdometryPipeline(const Config& config);
+
+  // What the trackers find from here on goes to this file as well; null: nowhere.
+  void SaveFeatures(FeatureFileWriter* file) { saved_features_ = file; }
+
+  // Calls back about every `interval` [s] of the recording, in the thread of the trackers.
+  void ShowTracks(double interval, TrackImageCallback on_images);
+
+  // Processes the recording; `on_frame` is called in the caller's thread, in order of time.
+  void Run(Recording* recording, RecordingInterval interval, int threads,
+           const FrameCallback& on_frame);
+
+  // The same from saved features instead of images: the results are those of the run that saved
+  // them, bit by bit, where the configuration of the estimator is the same.
+  void Run(FeatureFileReader* features, RecordingInterval interval, const FrameCallback& on_frame);
+
+  // After Run().
+  int64_t images() const { return images_; }
+  // Images that should have come to the estimator and did not.
+  int64_t unused_images() const { return images() - thinned_images_ - estimated_images_; }
+  std::optional<int64_t> first_image_ns() const { return first_image_ns_; }
+  DropCounts drops() const;
+  // The last EstimationStage::ImuContradiction() that was not empty.
+  const std::string& imu_contradiction() const { return imu_contradiction_; }
+
+  // An image of the second half of the run with its points or lines drawn (CV_8UC3); empty without
+  // images, or where lines are not used.
+  const cv::Mat& points_image() const { return points_image_; }
+  const cv::Mat& lines_image() const { return lines_image_; }
+
+ private:
+  struct LoadedEvent {
+    RecordingEvent event;
+    std::optional<cv::Mat> image;  // where the event is one that can be read
+  };
+  using EventReceiver = ItemReceiver<LoadedEvent>;
+  using TrackedReceiver = ItemReceiver<TrackedItem>;
+
+  static void Read(Recording* recording, RecordingInterval interval, const EventReceiver& emit);
+  void RunTrackers(Recording* recording, const RecordingInterval& interval, bool reads_ahead,
+                   const TrackedReceiver& emit);
+  bool Feed(LoadedEvent loaded, const TrackedReceiver& emit);
+  bool EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit);
+  void ShowTracks(int64_t t_ns);
+  void Consume(TrackedItem item, const FrameCallback& on_frame);
+  void AddFeatures(TrackedFeatures tracked);
+  void Report(EstimatedFrame estimated, const FrameCallback& on_frame);
+
+  const bool use_lines_;
+  FeatureTrackers trackers_;
+  EstimationStage back_end_;
+  std::optional<int64_t> first_image_ns_;
+  std::string imu_contradiction_;
+  int64_t images_ = 0;
+  int64_t tracked_images_ = 0;
+  int64_t thinned_images_ = 0;  // left out for the sake of the rate `freq`
+  int64_t estimated_images_ = 0;
+  FeatureFileWriter* saved_features_ = nullptr;
+  TrackImageCallback on_track_images_;
+  int64_t track_image_interval_ns_ = 0;
+  std::optional<int64_t> last_track_image_ns_;
+  cv::Mat points_image_;
+  cv::Mat lines_image_;
+  std::map<int64_t, PipelineFrame> unfinished_;  // by stamp: what the back end has yet to add to
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline/results/loop_results.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "common/stopwatch.h"
+#include "offline/results/loop_input.h"
+#include "pose_graph/output/colmap_writer.h"
+#include "pose_graph/output/g2o_writer.h"
+#include "pose_graph/output/loop_table.h"
+#include "vins_estimator/output/series_summary.h"
+#include "vins_estimator/output/tum_format.h"
+
+namespace plm_vins {
+
+LoopResults::LoopResults(const Config& config, const std::string& folder,
+                         std::optional<KeyframeMap> map)
+    : folder_(folder),
+      camera_(CameraModel::Create(config.sensor.camera)),
+      loops_(LoopCloserOptions(), camera_),
+      trajectory_(File("trajectory_map.tum")),
+      table_(File("loops.csv")) {
+  if (map) loops_.SetMap(std::move(*map));
+  WriteLoopHeader(&table_.stream());
+}
+
+std::string LoopResults::File(const std::string& name) const {
+  return (std::filesystem::path(folder_) / name).string();
+}
+
+void LoopResults::Add(const PipelineFrame& frame) {
+  if (frame.output.restarted) restart_reason_ = frame.output.reason;
+  if (!frame.output.has_pose) return;
+  if (frame.image.gray.empty()) {
+    throw std::runtime_error("loop closure needs images, and there are none with --features");
+  }
+  const bool restarted = !restart_reason_.empty() && !poses_.empty();
+  if (restarted) worlds_.emplace_back(poses_.size(), restart_reason_);
+  restart_reason_.clear();
+
+  const Stopwatch stopwatch;
+  const LoopClosure closure = loops_.Add(ToOdometryFrame(frame, restarted));
+  Count(closure, stopwatch.Milliseconds());
+  const Rigid3d T_O_B = frame.output.state.T_W_B();
+  const int newest = map().graph.size() - 1;
+  poses_.push_back({frame.output.t_ns, T_O_B, newest});
+  if (!closure.fix) return;
+  trajectory_.stream() << FormatTumRow(frame.output.t_ns, closure.fix->T_M_O.ToRigid() * T_O_B);
+  if (!first_fix_) first_fix_ = ToSeconds(frame.output.t_ns - poses_.front().t_ns);
+}
+
+void LoopResults::Count(const LoopClosure& closure, double milliseconds) {
+  candidates_ += static_cast<int64_t>(closure.candidates.size());
+  dropped_ += closure.dropped;
+  for (const auto* loops : {&closure.candidates, &closure.confirmed}) {
+    for (const LoopCandidate& loop : *loops) {
+      WriteLoopRow(loop, &table_.stream());
+      ++(loop.failed ? refused_[static_cast<size_t>(*loop.failed)] : accepted_);
+    }
+  }
+  if (!closure.is_keyframe) return;
+  ++keyframes_;
+  keyframe_ms_.push_back({milliseconds});
+}
+
+void LoopResults::Finish() {
+  trajectory_.Close();
+  table_.Close();
+  WriteFinalTrajectory();
+  OutputFile g2o(File("pose_graph.g2o"));
+  WriteG2o(map(), &g2o.stream());
+  g2o.Close();
+  WriteColmapModel(File("colmap"), camera_->parameters(), map());
+}
+
+// Poses of a world that was not joined to the map are in that world, between comments that say so.
+void LoopResults::WriteFinalTrajectory() const {
+  OutputFile file(File("trajectory_final.tum"));
+  auto world = worlds_.begin();
+  std::string reason = "it is not found in the map";
+  bool was_in_map = true;
+  for (size_t i = 0; i < poses_.size(); ++i) {
+    const bool in_map = map().graph.AreConnected(0, poses_[i].keyframe);
+    const bool begins = world != worlds_.end() && world->first == i;
+    if (begins) reason = (world++)->second;
+    if (in_map != was_in_map || (begins && !in_map)) file.stream() << FormatTumRestart(reason);
+    was_in_map = in_map;
+    file.stream() << FormatTumRow(poses_[i].t_ns, PoseInMap(map(), poses_[i]));
+  }
+  file.Close();
+}
+
+Json LoopResults::Summary() const {
+  Json refused = Json::object();
+  for (int gate = 0; gate < kLoopGates; ++gate) {
+    refused[ToString(static_cast<LoopGate>(gate))] = refused_[gate];
+  }
+  const SeriesSummary timing = Summarize(keyframe_ms_, 0);
+  Json json;
+  json["keyframes"] = keyframes_;
+  json["map_keyframes"] = map().CountKept();
+  json["candidates"] = candidates_;
+  json["accepted"] = accepted_;
+  json["dropped"] = dropped_;
+  json["refused"] = refused;
+  json["first_fix_s"] = first_fix_ ? Json(*first_fix_) : Json(nullptr);
+  json["keyframe_ms"] = {{"mean", timing.mean}, {"p95", timing.p95}};
+  return json;
+}
+
+}  // namespace plm_vins

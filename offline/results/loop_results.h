@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/config/config.h"
+#include "common/io/output_file.h"
+#include "offline/pipeline/odometry_pipeline.h"
+#include "pose_graph/loop_closer.h"
+#include "pose_graph/map/map_trajectory.h"
+#include "vins_estimator/output/json.h"
+
+namespace plm_vins {
+
+// Loop closure over an offline run and its files in the folder of results: trajectory_map.tum (as
+// known at each time, once the place in the map is known), trajectory_final.tum (as known in the
+// end), loops.csv, pose_graph.g2o and the COLMAP model in colmap/.
+class LoopResults {
+ public:
+  // Opens the files; starts in a map where there is one. Here and in Finish() std::runtime_error
+  // names the file that cannot be written.
+  LoopResults(const Config& config, const std::string& folder, std::optional<KeyframeMap> map);
+
+  // Takes the next image. Throws std::runtime_error where it has no pixels.
+  void Add(const PipelineFrame& frame);
+
+  // Completes all files.
+  void Finish();
+
+  const KeyframeMap& map() const { return loops_.map(); }
+
+  // Counts and times, for summary.json.
+  Json Summary() const;
+
+ private:
+  std::string File(const std::string& name) const;
+  void Count(const LoopClosure& closure, double milliseconds);
+  void WriteFinalTrajectory() const;
+
+  std::string folder_;
+  std::shared_ptr<const CameraModel> camera_;
+  LoopCloser loops_;
+  OutputFile trajectory_;
+  OutputFile table_;
+  std::string restart_reason_;  // of a world without a pose yet; empty: there is none
+  std::vector<OdometryPose> poses_;
+  std::vector<std::pair<size_t, std::string>> worlds_;  // first pose of each but the first, reason
+  std::optional<double> first_fix_;                     // since the first pose [s]
+  int64_t keyframes_ = 0;
+  int64_t candidates_ = 0;
+  int64_t accepted_ = 0;
+  int64_t dropped_ = 0;                           // of the accepted, by the graph later
+  std::array<int64_t, kLoopGates> refused_ = {};  // by gate
+  std::vector<std::array<double, 1>> keyframe_ms_;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "offline/pipeline/odometry_pipeline.h"
+#include "vins_estimator/output/frame_timings.h"
+
+namespace plm_vins {
+
+// What each stage took for one image [ms].
+FrameTimings TimingsOf(const PipelineFrame& frame);
+
+}  // namespace plm_vins

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline/results/result_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "offline/results/pipeline_timings.h"
+#include "offline/results/result_folder.h"
+#include "vins_estimator/output/calibrated_config.h"
+#include "vins_estimator/output/config_json.h"
+#include "vins_estimator/output/covariance_table.h"
+#include "vins_estimator/output/frame_table.h"
+#include "vins_estimator/output/tum_format.h"
+
+namespace plm_vins {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kTrackImageQuality = 70;  // of JPEG: a few ten kB per image
+
+void SetPointTracking(const PointTrackerStatistics& points, FrameCounts* counts) {
+  (*counts)[kPointsFollowed] = points.previous - points.flow_lost - points.forward_backward -
+                               points.epipolar_outliers - points.crowded;
+  (*counts)[kPointsFlowLost] = points.flow_lost;
+  (*counts)[kPointsNotBack] = points.forward_backward;
+  (*counts)[kPointsEpipolar] = points.epipolar_outliers;
+  (*counts)[kPointsCrowded] = points.crowded;
+  (*counts)[kPointsAdded] = points.detected;
+}
+
+void SetMerging(const LineMergingCounts& merging, FrameCounts* counts) {
+  (*counts)[kLinesMerged] = merging.merged;
+  (*counts)[kMergeCandidates] = merging.candidates;
+  (*counts)[kMergeOtherDirection] = merging.other_direction;
+  (*counts)[kMergeDistant] = merging.distant;
+  (*counts)[kMergeApart] = merging.apart;
+  (*counts)[kMergeDistantInImage] = merging.distant_in_image;
+  (*counts)[kMergeSideBySide] = merging.seen_side_by_side;
+  (*counts)[kMergeInconsistent] = merging.inconsistent;
+}
+
+FrameCounts MakeCounts(const PipelineFrame& frame) {
+  const EstimatorCounts& estimator = frame.output.counts;
+  const LineTrackerStatistics& lines = frame.line_tracking;
+  FrameCounts counts{};
+  SetPointTracking(frame.point_tracking, &counts);
+  counts[kPointsObserved] = estimator.points_observed;
+  counts[kPointsInWindow] = estimator.points_in_window;
+  counts[kPointsRejected] = estimator.points_rejected;
+  counts[kLinesFollowed] =
+      lines.previous - lines.match_lost - lines.inconsistent - lines.edge_lost - lines.duplicates;
+  counts[kLinesUnmatched] = lines.match_lost;
+  counts[kLinesOffCourse] = lines.inconsistent;
+  counts[kLinesEdgeLost] = lines.edge_lost;
+  counts[kLinesDuplicate] = lines.duplicates;
+  counts[kLinesDetected] = lines.candidates;
+  counts[kLinesAdded] = lines.added;
+  counts[kLinesObserved] = estimator.lines_observed;
+  counts[kLinesTriangulated] = estimator.line_triangulation.triangulated;
+  counts[kLinesDegenerate] = estimator.line_triangulation.degenerate;
+  counts[kLinesBehind] = estimator.line_triangulation.behind;
+  counts[kLinesInconsistent] = estimator.line_triangulation.inconsistent;
+  counts[kLinesTooLong] = estimator.line_triangulation.too_long;
+  SetMerging(estimator.line_merging, &counts);
+  counts[kLinesRecognised] = estimator.lines_recognised;
+  counts[kLinesInWindow] = estimator.lines_in_window;
+  counts[kLinesRejected] = estimator.lines_rejected;
+  counts[kLinesWandering] = estimator.lines_wandering;
+  return counts;
+}
+
+// The landmarks that stay in the window. Those that leave belong to the frame that they leave with.
+template <typename Landmark>
+std::vector<Landmark> Staying(const std::vector<Landmark>& in_window,
+                              const std::vector<Landmark>& departed) {
+  std::vector<Landmark> staying;
+  std::copy_if(in_window.begin(), in_window.end(), std::back_inserter(staying),
+               [&](const Landmark& landmark) {
+                 return std::none_of(departed.begin(), departed.end(),
+                                     [&](const Landmark& gone) { return gone.id == landmark.id; });
+               });
+  return staying;
+}
+
+// A path that is no UTF-8 is no reason to do without a summary.
+std::string ToText(const Json& json) {
+  return json.dump(2, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+ResultFiles::ResultFiles(const std::string& folder)
+    : folder_(PrepareResultFolder(folder)),
+      trajectory_(File("trajectory.tum")),
+      covariance_(File("covariance.csv")),
+      timing_(File("timing.csv")),
+      map_(File("map.ply")) {
+  WriteCovarianceHeader(&covariance_.stream());
+  WriteFrameHeader(&timing_.stream());
+}
+
+std::string ResultFiles::File(const std::string& name) const {
+  return (fs::path(folder_) / name).string();
+}
+
+void ResultFiles::Add(const PipelineFrame& frame) {
+  const EstimatorOutput& output = frame.output;
+  const FrameTimings timings = TimingsOf(frame);
+  const FrameCounts counts = MakeCounts(frame);
+  WriteFrameRow(output.t_ns, timings, counts, &timing_.stream());
+  summary_.Add(output, timings, counts);
+  if (output.restarted) {
+    trajectory_.stream() << FormatTumRestart(output.reason);
+    EndWorld();
+  }
+  AddMapPoints(output.departed_points);
+  AddMapLines(output.departed_lines);
+  if (!output.has_pose) return;
+  trajectory_.stream() << FormatTumRow(output.t_ns, output.state.T_W_B());
+  WriteCovarianceRow(output.t_ns, output.pose_covariance, &covariance_.stream());
+  window_points_ = Staying(output.points, output.departed_points);
+  window_lines_ = Staying(output.lines, output.departed_lines);
+}
+
+void ResultFiles::AddMapPoints(const std::vector<MapPoint>& points) {
+  for (const MapPoint& point : points) map_.Add(point.p_W);
+}
+
+void ResultFiles::AddMapLines(const std::vector<MapLine>& lines) {
+  for (const MapLine& line : lines) {
+    const auto [place, is_new] = line_places_.try_emplace(line.id, lines_.size());
+    if (is_new) lines_.emplace_back();
+    lines_[place->second] = {line.start_W, line.end_W, line.axis};
+  }
+}
+
+void ResultFiles::EndWorld() {
+  AddMapPoints(window_points_);
+  AddMapLines(window_lines_);
+  window_points_.clear();
+  window_lines_.clear();
+  line_places_.clear();
+}
+
+void ResultFiles::WriteAnnotatedImage(const std::string& name, const cv::Mat& image,
+                                      const std::vector<int>& format) const {
+  if (!image.empty() && !cv::imwrite(File(name), image, format)) {
+    throw std::runtime_error("cannot write " + File(name));
+  }
+}
+
+void ResultFiles::WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) const {
+  if (points.empty()) return;
+  cv::Mat image = points;
+  if (!lines.empty()) cv::hconcat(points, lines, image);
+  cv::resize(image, image, {}, 0.5, 0.5, cv::INTER_AREA);
+  fs::create_directories(File(kTrackImages));
+  WriteAnnotatedImage(fs::path(kTrackImages) / (std::to_string(t_ns) + ".jpg"), image,
+                      {cv::IMWRITE_JPEG_QUALITY, kTrackImageQuality});
+}
+
+void ResultFiles::Finish(RunSummary::Run run, const Config& config, const Json& loops) {
+  EndWorld();
+  map_.Finish();
+  trajectory_.Close();
+  covariance_.Close();
+  timing_.Close();
+  WriteLines();
+  run.map_points = map_.size();
+  run.map_lines = static_cast<int64_t>(lines_.size());
+  WriteSummary(run, config, loops);
+  if (summary_.poses() > 0 && RefinesCalibration(config.sensor)) {
+    SaveCalibratedConfig(summary_.calibration(), config, File(kCalibratedConfigFile));
+  }
+}
+
+void ResultFiles::WriteLines() const {
+  OutputFile ply(File("lines.ply"));
+  WriteSegmentsPly(lines_, &ply.stream());
+  ply.Close();
+  OutputFile obj(File("lines.obj"));
+  WriteSegmentsObj(lines_, &obj.stream());
+  obj.Close();
+}
+
+void ResultFiles::WriteSummary(const RunSummary::Run& run, const Config& config,
+                               const Json& loops) const {
+  Json summary = summary_.ToJson(run);
+  if (!loops.is_null()) summary["loops"] = loops;
+  summary["version"] = PLM_VINS_VERSION;
+  summary["config"] = ToJson(config);
+  ReplacedFile file(File("summary.json"));
+  file.stream() << ToText(summary);
+  file.Commit();
+}
+
+}  // namespace plm_vins

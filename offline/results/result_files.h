@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "common/config/config.h"
+#include "common/io/output_file.h"
+#include "offline/pipeline/odometry_pipeline.h"
+#include "vins_estimator/output/ply_writer.h"
+#include "vins_estimator/output/run_summary.h"
+
+namespace plm_vins {
+
+// Results of an offline run in their folder: trajectory.tum, covariance.csv, timing.csv,
+// summary.json, map.ply, lines.ply, lines.obj, tracks.png, line_tracks.png, tracks/, and
+// calibrated.yaml where the calibration is refined. Rows are written as frames come, which keeps
+// memory small.
+class ResultFiles {
+ public:
+  // Prepares the folder and opens the files. What cannot be written, here or later, throws
+  // std::runtime_error that names it.
+  explicit ResultFiles(const std::string& folder);
+
+  void Add(const PipelineFrame& frame);
+
+  // Nothing where the image is empty.
+  void WriteAnnotatedImage(const std::string& name, const cv::Mat& image,
+                           const std::vector<int>& format = {}) const;
+
+  // tracks/STAMP_NS.jpg: points and lines side by side, in half the size.
+  void WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) const;
+
+  // Completes all files; the counts of the map in `run` are filled in here. `loops` goes into
+  // summary.json as it is; null: no loops were looked for.
+  void Finish(RunSummary::Run run, const Config& config, const Json& loops);
+
+  const std::string& folder() const { return folder_; }
+  const RunSummary& summary() const { return summary_; }
+
+ private:
+  std::string File(const std::string& name) const;
+  void AddMapPoints(const std::vector<MapPoint>& points);
+  // A line that is there already, since it came back into view, is replaced.
+  void AddMapLines(const std::vector<MapLine>& lines);
+  // The landmarks in the window go into the map; ids start over.
+  void EndWorld();
+  void WriteLines() const;
+  void WriteSummary(const RunSummary::Run& run, const Config& config, const Json& loops) const;
+
+  std::string folder_;
+  OutputFile trajectory_;
+  OutputFile covariance_;
+  OutputFile timing_;
+  PlyPointWriter map_;
+  std::vector<Segment> lines_;
+  std::unordered_map<int64_t, size_t> line_places_;  // in lines_, by id in this world frame
+  std::vector<MapPoint> window_points_;  // of the newest frame with a pose: not in the map yet
+  std::vector<MapLine> window_lines_;
+  RunSummary summary_;
+};
+
+}  // namespace plm_vins

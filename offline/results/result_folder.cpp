@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline/results/result_folder.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+#include "vins_estimator/output/calibrated_config.h"
+
+namespace plm_vins {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kResults[] = {"trajectory.tum",
+                                    "covariance.csv",
+                                    "timing.csv",
+                                    "summary.json",
+                                    "map.ply",
+                                    "lines.ply",
+                                    "lines.obj",
+                                    "tracks.png",
+                                    "line_tracks.png",
+                                    kCalibratedConfigFile,
+                                    "trajectory_map.tum",
+                                    "trajectory_final.tum",
+                                    "loops.csv",
+                                    "pose_graph.g2o",
+                                    "colmap/cameras.txt",
+                                    "colmap/images.txt",
+                                    "colmap/points3D.txt"};
+
+bool IsTrackImage(const fs::path& file) {
+  const std::string stamp = file.stem().string();
+  return file.extension() == ".jpg" && !stamp.empty() &&
+         std::all_of(stamp.begin(), stamp.end(),
+                     [](unsigned char digit) { return std::isdigit(digit) != 0; });
+}
+
+void RemoveTrackImages(const fs::path& folder) {
+  std::error_code error;  // where there is no such folder
+  std::vector<fs::path> images;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (IsTrackImage(entry.path())) images.push_back(entry.path());
+  }
+  if (images.empty()) return;
+  for (const fs::path& image : images) fs::remove(image, error);
+  fs::remove(folder, error);  // unless there is something else in it
+}
+
+}  // namespace
+
+std::string PrepareResultFolder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw std::runtime_error("cannot make the output folder " + folder + ": " +
+                             (error ? error.message() : "not a folder"));
+  }
+  for (const char* name : kResults) fs::remove(fs::path(folder) / name, error);
+  fs::remove(fs::path(folder) / "colmap", error);  // unless there is something else in it
+  RemoveTrackImages(fs::path(folder) / kTrackImages);
+  return folder;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/keyframes/keyframe_assembly.h"
+
+#include <iterator>
+#include <utility>
+
+namespace plm_vins {
+namespace {
+
+// Odometry says within these whether an image is a keyframe: three seconds of them at 20 Hz.
+constexpr size_t kMaxStamps = 60;
+
+}  // namespace
+
+KeyframeAssembly::Parts& KeyframeAssembly::PartsAt(int64_t t_ns) {
+  const auto [parts, is_new] = parts_.try_emplace(t_ns);
+  parts->second.frame.t_ns = t_ns;
+  if (is_new && parts_.size() > kMaxStamps) {
+    parts_.erase(parts == parts_.begin() ? std::next(parts) : parts_.begin());
+  }
+  return parts->second;
+}
+
+void KeyframeAssembly::AddImage(const ImageSample& image) {
+  if (image.t_ns < image_ns_) Clear();
+  image_ns_ = image.t_ns;
+  Parts& parts = PartsAt(image.t_ns);
+  parts.frame.gray = image.gray;
+  parts.owner = image.owner;
+}
+
+void KeyframeAssembly::AddPose(int64_t t_ns, const Rigid3d& T_O_B,
+                               const Eigen::Matrix<double, 6, 6>& covariance) {
+  Parts& parts = PartsAt(t_ns);
+  parts.frame.T_O_B = T_O_B;
+  parts.frame.covariance = covariance;
+  parts.has_pose = true;
+}
+
+void KeyframeAssembly::AddCorners(int64_t t_ns, std::vector<TrackedCorner> corners) {
+  Parts& parts = PartsAt(t_ns);
+  parts.frame.corners = std::move(corners);
+  parts.has_corners = true;
+}
+
+void KeyframeAssembly::AddSegments(int64_t t_ns, std::vector<TrackedSegment> segments,
+                                   const std::optional<Eigen::Quaterniond>& R_O_M) {
+  Parts& parts = PartsAt(t_ns);
+  parts.frame.R_O_M = R_O_M;
+  parts.frame.segments = std::move(segments);
+  parts.has_segments = true;
+}
+
+std::optional<OdometryFrame> KeyframeAssembly::Pop() {
+  auto first = parts_.end();
+  bool next_is_complete = false;
+  for (auto it = parts_.begin(); it != parts_.end(); ++it) {
+    if (!it->second.AreComplete()) continue;
+    next_is_complete = first != parts_.end();
+    if (next_is_complete) break;
+    first = it;
+  }
+  if (first == parts_.end() || !(first->second.has_segments || next_is_complete)) {
+    return std::nullopt;
+  }
+  OdometryFrame frame = std::move(first->second.frame);
+  if (first->second.owner) frame.gray = frame.gray.clone();  // its pixels go with the message
+  parts_.erase(parts_.begin(), std::next(first));
+  return frame;
+}
+
+void KeyframeAssembly::Clear() {
+  parts_.clear();
+  image_ns_ = 0;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "pose_graph/keyframes/odometry_frame.h"
+
+namespace plm_vins {
+
+// Puts keyframes together whose parts come one by one, in any order: image, pose, corners, lines.
+// Equal stamps belong together. Lines may be missing: a keyframe does not wait for them longer than
+// until the next one is complete. Keeps the parts of the newest stamps only, and begins anew where
+// the stamps of images go back: a recording is played again.
+class KeyframeAssembly {
+ public:
+  void AddImage(const ImageSample& image);
+  void AddPose(int64_t t_ns, const Rigid3d& T_O_B, const Eigen::Matrix<double, 6, 6>& covariance);
+  void AddCorners(int64_t t_ns, std::vector<TrackedCorner> corners);
+  void AddSegments(int64_t t_ns, std::vector<TrackedSegment> segments,
+                   const std::optional<Eigen::Quaterniond>& R_O_M);
+
+  // The next keyframe in order of time, or nothing yet.
+  std::optional<OdometryFrame> Pop();
+
+  void Clear();
+
+ private:
+  struct Parts {
+    OdometryFrame frame;
+    std::shared_ptr<const void> owner;  // of the image's pixels
+    bool has_pose = false;
+    bool has_corners = false;
+    bool has_segments = false;
+
+    bool AreComplete() const { return !frame.gray.empty() && has_pose && has_corners; }
+  };
+
+  Parts& PartsAt(int64_t t_ns);
+
+  std::map<int64_t, Parts> parts_;  // by stamp
+  int64_t image_ns_ = 0;            // stamp of the last image
+};
+
+}  // namespace plm_vins

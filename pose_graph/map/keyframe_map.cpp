@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/map/keyframe_map.h"
+
+namespace plm_vins {
+
+void KeyframeMap::Remove(int keyframe, int anchor) {
+  graph.Remove(keyframe, anchor);
+  Keyframe& removed = keyframes[keyframe];
+  removed.corners = std::vector<DescribedCorner>();  // gives its memory back, which `= {}` keeps
+  removed.segments = std::vector<TrackedSegment>();
+}
+
+int KeyframeMap::CountKept() const {
+  int count = 0;
+  for (int i = 0; i < graph.size(); ++i) count += graph.Has(i) ? 1 : 0;
+  return count;
+}
+
+KeyframeMap KeyframeMap::Compact() const {
+  KeyframeMap compact;
+  std::vector<int> new_number(keyframes.size(), -1);
+  for (int i = 0; i < graph.size(); ++i) {
+    if (!graph.Has(i)) continue;
+    new_number[i] = compact.graph.AddNode(graph.node(i));
+    compact.keyframes.push_back(keyframes[i]);
+  }
+  for (LevelEdge edge : graph.edges()) {
+    edge.from = new_number[edge.from];
+    edge.to = new_number[edge.to];
+    compact.graph.AddEdge(edge);
+  }
+  return compact;
+}
+
+}  // namespace plm_vins

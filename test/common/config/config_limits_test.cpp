@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Configurations that would run away: endless, or endlessly nested.
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+
+#include "test/common/config/config_fixture.h"
+
+namespace plm_vins {
+namespace {
+
+class ConfigLimitsTest : public ConfigTest {};
+
+TEST_F(ConfigLimitsTest, AnAliasThatLeadsBackToItselfIsAProblem) {
+  ExpectOneProblem(ProblemsOf(Write("%YAML:1.0\na: &a\n  b: *a\n")),
+                   {"camera.yaml", "a.b", "group"});
+}
+
+TEST_F(ConfigLimitsTest, ABombOfAliasesIsAProblem) {
+  std::ostringstream lists, groups;
+  lists << "a0: &a0 {data: 0}\n";
+  groups << "g0: &g0 {k: 0}\n";
+  for (int i = 1; i < 40; ++i) {
+    lists << "a" << i << ": &a" << i << " [*a" << i - 1 << ", *a" << i - 1 << "]\n";
+    groups << "g" << i << ": &g" << i << " {k: *g" << i - 1 << ", l: *g" << i - 1 << "}\n";
+  }
+  EXPECT_FALSE(ProblemsOf(Write(lists.str())).empty());
+  ExpectOneProblem(ProblemsOf(Write(groups.str())), {"group within a group"});
+  std::string wide = "g: &g {", uses;
+  for (int i = 0; i < 500; ++i) {
+    wide += "k" + std::to_string(i) + ": 0, ";
+    uses += "u" + std::to_string(i) + ": *g\n";
+  }
+  ExpectOneProblem(ProblemsOf(Write(wide + "z: 0}\n" + uses)), {"too many keys"});
+}
+
+TEST_F(ConfigLimitsTest, AFileWithoutAnEndIsAProblem) {
+  ExpectOneProblem(ProblemsOf("/dev/zero"), {"/dev/zero", "longer than 1 MiB"});
+}
+
+TEST_F(ConfigLimitsTest, AMaskWithAnOverlongPathIsAProblem) {
+  ExpectProblem("fisheye_mask: " + std::string(5000, 'm'), {"fisheye_mask", "there is no file"});
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/config/config.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "test/common/config/config_files.h"
+#include "test/common/config/config_fixture.h"
+#include "test/testing/numeric_jacobian.h"
+
+namespace plm_vins {
+namespace {
+
+// ---- What must load ----------------------------------------------------------------------------
+
+TEST_F(ConfigTest, ShortFileGivesTheDefaults) {
+  const Config config = Load(kShortFile);
+  EXPECT_EQ(config.sensor.image_topic, "/image");
+  EXPECT_EQ(config.sensor.camera.width, 640);
+  EXPECT_EQ(config.sensor.estimate_extrinsic, SensorConfig::ExtrinsicMode::kCalibrateRotation);
+  EXPECT_EQ(config.points.max_cnt, PointTrackerConfig().max_cnt);
+  EXPECT_EQ(config.sensor.imu_noise.gyro_density, ImuNoise().gyro_density);
+  EXPECT_TRUE(config.ignored_keys.empty());
+}
+
+TEST_F(ConfigTest, VinsMonoFileLoadsAsItIs) {
+  const Config config = Load(kVinsMonoFile);
+  EXPECT_EQ(config.sensor.imu_topic, "/imu0");
+  EXPECT_EQ(config.sensor.camera.model, CameraParameters::Model::kPinholeRadtan);
+  EXPECT_EQ(config.sensor.camera.fx, 461.6);
+  EXPECT_EQ(config.sensor.camera.cy, 248.1);
+  EXPECT_MATRIX_NEAR(config.sensor.camera.distortion,
+                     Eigen::Vector4d(-0.2917, 0.08228, 5.333e-5, -1.578e-4), 0.0);
+  EXPECT_EQ(config.sensor.estimate_extrinsic, SensorConfig::ExtrinsicMode::kRefine);
+  const Eigen::Vector3d optical_axis(0.00414029679422, 0.025715529948, 0.999660727178);
+  EXPECT_MATRIX_NEAR(config.sensor.T_B_C.R().col(2), optical_axis, 1e-9);
+  EXPECT_EQ(config.sensor.T_B_C.translation.y(), -0.064676986768);
+  EXPECT_EQ(config.publish_rate, 10);
+  EXPECT_EQ(config.sensor.td, 0.005);
+  EXPECT_TRUE(config.sensor.estimate_td);
+  EXPECT_NEAR(config.sensor.imu_noise.gyro_density, 0.004 / std::sqrt(200), 1e-15);
+  EXPECT_EQ(config.sensor.gravity_norm, 9.81007);
+}
+
+TEST_F(ConfigTest, TheReadoutTimeCountsWithARollingShutter) {
+  const std::string readout = "rolling_shutter_tr: 0.03\n";
+  EXPECT_EQ(Load(kShortFile + readout).sensor.ReadoutTime(), 0);
+  EXPECT_EQ(Load(kShortFile + readout + "rolling_shutter: 1\n").sensor.ReadoutTime(), 0.03);
+}
+
+TEST_F(ConfigTest, IgnoredKeysAreTold) {
+  const auto ignored = Load(kVinsMonoFile).ignored_keys;
+  const std::vector<std::string> expected = {
+      "camera_name", "fast_relocalization",   "max_solver_time",      "output_path",
+      "save_image",  "visualize_camera_size", "visualize_imu_forward"};
+  EXPECT_EQ(ignored, expected);
+}
+
+TEST_F(ConfigTest, LoopClosureHasTheKeysOfVins) {
+  const PoseGraphConfig config = Load(kVinsMonoFile).pose_graph;
+  EXPECT_TRUE(config.loop_closure);
+  EXPECT_FALSE(config.load_previous);
+  EXPECT_EQ(config.MapFile(), "/home/somebody/output/pose_graph/pose_graph.plm");
+  EXPECT_FALSE(Load(kShortFile).pose_graph.loop_closure);
+}
+
+TEST_F(ConfigTest, MapAndWorldAreTwoFramesWhereThereIsAMap) {
+  EXPECT_EQ(Load(std::string(kShortFile) + "world_frame: map\n").output.world_frame, "map");
+  ExpectProblem("world_frame: map\nloop_closure: 1", {"map_frame: is the same as world_frame"});
+}
+
+TEST_F(ConfigTest, IgnoredKeysAreOneWarning) {
+  const std::string more = "voc_file: \"a\"\nmax_solver_time: 1\n";
+  EXPECT_EQ(
+      IgnoredKeysWarning(Load(kShortFile + more)),
+      (folder_ / "camera.yaml").string() + ": without effect here: max_solver_time, voc_file");
+  EXPECT_EQ(IgnoredKeysWarning(Load(kShortFile)), "");
+}
+
+TEST_F(ConfigTest, PlVinsFileLoadsAsItIs) {
+  const Config config = Load(kPlVinsFile);
+  EXPECT_EQ(config.estimator.max_num_iterations, 10);
+  EXPECT_EQ(config.points.min_dist, 25);
+  EXPECT_FALSE(config.points.equalize);
+  EXPECT_MATRIX_NEAR(config.sensor.T_B_C * Eigen::Vector3d::UnitX(),
+                     Eigen::Vector3d(-0.02, 0.94, 0.01), 1e-15);
+}
+
+TEST_F(ConfigTest, KannalaBrandtTakesTheNamesOfVins) {
+  const std::string pinhole =
+      "projection_parameters: {fx: 400, fy: 400, cx: 320, cy: 240}\n"
+      "distortion_parameters: {k1: 0, k2: 0, p1: 0, p2: 0}\n";
+  std::string text = Replaced(kShortFile, "PINHOLE", "KANNALA_BRANDT");
+  text = Replaced(text, pinhole,
+                  "projection_parameters: {k2: 0.1, k3: 0.2, k4: 0.3, k5: 0.4, "
+                  "mu: 380, mv: 381, u0: 310, v0: 230}\n");
+  const CameraParameters camera = Load(text).sensor.camera;
+  EXPECT_EQ(camera.model, CameraParameters::Model::kPinholeEquidistant);
+  EXPECT_MATRIX_NEAR(camera.distortion, Eigen::Vector4d(0.1, 0.2, 0.3, 0.4), 0.0);
+  EXPECT_MATRIX_NEAR(Eigen::Vector4d(camera.fx, camera.fy, camera.cx, camera.cy),
+                     Eigen::Vector4d(380, 381, 310, 230), 0.0);
+}
+
+TEST_F(ConfigTest, EquidistantTakesTheNamesOfKalibr) {
+  std::string text = Replaced(kShortFile, "PINHOLE", "EQUIDISTANT");
+  text = Replaced(text, "p1: 0, p2: 0", "k3: 0.3, k4: 0.4");
+  const CameraParameters camera = Load(text).sensor.camera;
+  EXPECT_EQ(camera.model, CameraParameters::Model::kPinholeEquidistant);
+  EXPECT_MATRIX_NEAR(camera.distortion, Eigen::Vector4d(0, 0, 0.3, 0.4), 0.0);
+}
+
+TEST_F(ConfigTest, MeiTakesTheNamesOfVins) {
+  std::string text = Replaced(kShortFile, "PINHOLE", "MEI\nmirror_parameters:\n   xi: 0.9");
+  text = Replaced(text, "fx: 400, fy: 400, cx: 320, cy: 240",
+                  "gamma1: 500, gamma2: 501, u0: 310, v0: 230");
+  const CameraParameters camera = Load(text).sensor.camera;
+  EXPECT_EQ(camera.model, CameraParameters::Model::kMei);
+  EXPECT_EQ(camera.xi, 0.9);
+  EXPECT_MATRIX_NEAR(Eigen::Vector4d(camera.fx, camera.fy, camera.cx, camera.cy),
+                     Eigen::Vector4d(500, 501, 310, 230), 0.0);
+}
+
+TEST_F(ConfigTest, OverridesReplaceScalars) {
+  const Config config = Load(kVinsMonoFile, {{"max_cnt", "99"},
+                                             {"projection_parameters.fx", "500"},
+                                             {"corner_detector", "harris"},
+                                             {"zero_velocity_update", "false"}});
+  EXPECT_EQ(config.points.max_cnt, 99);
+  EXPECT_EQ(config.sensor.camera.fx, 500);
+  EXPECT_EQ(config.points.corner_detector, CornerDetectorType::kHarris);
+  EXPECT_FALSE(config.estimator.zero_velocity_update);
+}
+
+TEST_F(ConfigTest, LinesHaveTheirKeys) {
+  const Config config = Load(kPlVinsFile, {{"line_detector", "edlines"},
+                                           {"line_matcher", "lbd"},
+                                           {"max_line_cnt", "80"},
+                                           {"line_min_length", "0.125"},
+                                           {"line_outlier_distance", "20"},
+                                           {"line_merging", "0"}});
+  EXPECT_TRUE(config.use_lines);
+  EXPECT_EQ(config.lines.line_detector, LineDetectorType::kEdLines);
+  EXPECT_EQ(config.lines.line_matcher, LineMatcherType::kLbd);
+  EXPECT_EQ(config.lines.max_lines, 80);
+  EXPECT_EQ(config.lines.min_length, 0.125);
+  EXPECT_EQ(config.estimator.line_outlier_distance, 20);
+  EXPECT_FALSE(config.estimator.line_merging);
+  EXPECT_FALSE(Load(kPlVinsFile, {{"use_lines", "0"}}).use_lines);
+}
+
+TEST_F(ConfigTest, AnOverrideCanRepairAValue) {
+  EXPECT_EQ(Load(kShortFile + std::string("max_cnt: many\n"), {{"max_cnt", "70"}}).points.max_cnt,
+            70);
+}
+
+TEST_F(ConfigTest, NoiseMeansWhatTheModelSays) {
+  const std::string noise = "acc_n: 0.1\ngyr_n: 0.01\nacc_w: 0.001\ngyr_w: 0.0001\n";
+  const auto gyro = [&](const std::string& more) {
+    return Load(kShortFile + noise + more).sensor.imu_noise.gyro_density;
+  };
+  EXPECT_EQ(gyro("imu_noise_model: continuous\n"), 0.01);
+  EXPECT_NEAR(gyro("imu_noise_model: vins\nimu_rate: 400\n"), 0.01 / 20, 1e-15);
+  EXPECT_NEAR(gyro(""), 0.01 / std::sqrt(200), 1e-15);
+}
+
+TEST_F(ConfigTest, MaskIsRelativeToTheFileAndCanBeSwitchedOff) {
+  std::ofstream(folder_ / "mask.png") << "x";
+  const std::string text = std::string(kShortFile) + "fisheye_mask: mask.png\n";
+  EXPECT_EQ(Load(text).points.fisheye_mask, (folder_ / "mask.png").string());
+  EXPECT_EQ(Load(text + "fisheye: 1\n").points.fisheye_mask, (folder_ / "mask.png").string());
+  EXPECT_EQ(Load(text + "fisheye: 0\n").points.fisheye_mask, "");
+}
+
+// ---- What must be refused ----------------------------------------------------------------------
+
+TEST_F(ConfigTest, MissingFile) {
+  ExpectOneProblem(ProblemsOf((folder_ / "nothing.yaml").string()),
+                   {"nothing.yaml", "cannot be read"});
+  ExpectOneProblem(ProblemsOf(folder_.string()), {folder_.string(), "cannot be read"});
+}
+
+TEST_F(ConfigTest, NotAConfiguration) {
+  ExpectOneProblem(ProblemsOf(Write("")), {"camera.yaml", "no \"key: value\" lines"});
+  ExpectOneProblem(ProblemsOf(Write("- 1\n- 2\n")), {"no \"key: value\" lines"});
+}
+
+TEST_F(ConfigTest, SyntaxErrorNamesTheLine) {
+  ExpectOneProblem(ProblemsOf(Write("%YAML:1.0\nimage_width: 752\nimu_topic: [1, 2\nx: 3\n")),
+                   {"camera.yaml:4", "not valid YAML"});
+}
+
+TEST_F(ConfigTest, DuplicateKey) {
+  ExpectProblem("td: 0.1\ntd: 0.2", {"camera.yaml:11", "td: appears twice", "camera.yaml:10"});
+}
+
+TEST_F(ConfigTest, UnknownKeySuggestsTheNearest) {
+  ExpectProblem("max_count: 100", {"camera.yaml:10", "max_count: unknown key", "mean max_cnt?"});
+  ExpectProblem("fx: 100", {"mean projection_parameters.fx?"});
+  ExpectProblem("colour_of_the_sky: blue", {"unknown key; remove it"});
+}
+
+TEST_F(ConfigTest, WrongType) {
+  ExpectProblem("max_cnt: many", {"camera.yaml:10", "max_cnt: \"many\" is not a number", "150"});
+  ExpectProblem("max_cnt: 100.5", {"\"100.5\" is not a whole number"});
+  ExpectProblem("min_dist: [1, 2]", {"min_dist: is not a number"});
+  ExpectProblem("min_dist:", {"min_dist: is not a number"});
+  ExpectProblem("equalize: 2", {"\"2\" must be 0 or 1", "default 1"});
+  ExpectProblem("corner_detector: fast", {"must be one of shi_tomasi, harris"});
+  ExpectProblem("line_detector: hough", {"must be one of fld, lsd, edlines"});
+  ExpectProblem("world_frame: [a]", {"world_frame: must be one text"});
+}
+
+TEST_F(ConfigTest, OutOfRange) {
+  ExpectProblem("acc_n: 0\ngyr_n: 0.1\nacc_w: 0.1\ngyr_w: 0.1",
+                {"must be 1e-06 to 10 [m/s^2/sqrt(Hz); vins: m/s^2] (default 0.002)"});
+  ExpectProblem("max_cnt: 0", {"\"0\" out of range, must be 20 to 5000 [corners] (default 150)"});
+  ExpectProblem("td: -1.5", {"must be -1 to 1 [s]"});
+  ExpectProblem("g_norm: 981", {"must be 9 to 10.5 [m/s^2]"});
+  ExpectProblem("max_line_cnt: 0", {"must be 1 to 5000 [lines] (default 60)"});
+}
+
+TEST_F(ConfigTest, NotFinite) {
+  ExpectProblem("td: .nan", {"\".nan\" is not finite"});
+  ExpectProblem("point_noise: .inf", {"\".inf\" is not finite"});
+  ExpectProblem("point_noise: nan", {"point_noise: \"nan\" is not a number"});
+}
+
+TEST_F(ConfigTest, EveryRequiredKeyIsMissed) {
+  std::vector<std::string> missing;
+  for (const std::string& problem : ProblemsOf(Write("%YAML:1.0\nmodel_type: PINHOLE\n"))) {
+    ASSERT_NE(problem.find("is missing"), std::string::npos) << problem;
+    const size_t start = problem.find(": ") + 2;
+    missing.push_back(problem.substr(start, problem.find(": is missing") - start));
+  }
+  std::sort(missing.begin(), missing.end());
+  const std::vector<std::string> expected = {"distortion_parameters.k1",
+                                             "distortion_parameters.k2",
+                                             "distortion_parameters.p1",
+                                             "distortion_parameters.p2",
+                                             "extrinsicRotation",
+                                             "extrinsicTranslation",
+                                             "image_height",
+                                             "image_topic",
+                                             "image_width",
+                                             "imu_topic",
+                                             "projection_parameters.cx",
+                                             "projection_parameters.cy",
+                                             "projection_parameters.fx",
+                                             "projection_parameters.fy"};
+  EXPECT_EQ(missing, expected);
+}
+
+TEST_F(ConfigTest, ModelTypeMissingOrMisspelt) {
+  ExpectOneProblem(ProblemsOf(Write(Replaced(kShortFile, "model_type: PINHOLE\n", ""))),
+                   {"model_type: is missing"});
+  ExpectOneProblem(ProblemsOf(Write(Replaced(kShortFile, "PINHOLE", "pinhole"))),
+                   {"camera.yaml:4", "\"pinhole\" must be one of PINHOLE"});
+}
+
+TEST_F(ConfigTest, KeysOfAnotherModel) {
+  ExpectProblem("mirror_parameters:\n   xi: 0.9", {"mirror_parameters.xi: unknown key"});
+}
+
+TEST_F(ConfigTest, BadExtrinsics) {
+  const auto problems = [&](const std::string& from, const std::string& to) {
+    return ProblemsOf(Write(Replaced(kPlVinsFile, from, to)));
+  };
+  ExpectOneProblem(problems("0.0, -1.0, 0.0", "0.0, -1.1, 0.0"),
+                   {"camera.yaml:24: extrinsicRotation", "is not a rotation"});
+  ExpectOneProblem(problems("0.0, -1.0, 0.0", "0.0, 1.0, 0.0"), {"is not a rotation"});
+  ExpectOneProblem(problems("0.0, -1.0, 0.0", "-1.0, 0.0"), {"of size 3x3 with 9 numbers"});
+  ExpectOneProblem(problems("cols: 1", "cols: 2"), {"extrinsicTranslation", "of size 3x1"});
+  ExpectOneProblem(problems("-0.02, ", "abc, "), {"entry 1 of data is not a finite number"});
+  ExpectOneProblem(problems("-0.02, ", ".nan, "), {"entry 1 of data is not a finite number"});
+  ExpectOneProblem(problems("-0.02, ", "-20, "), {"each must be -10 to 10 [m]"});
+  ExpectProblem("extrinsicRotation: 3", {"must be an !!opencv-matrix of size 3x3"});
+}
+
+TEST_F(ConfigTest, Contradictions) {
+  ExpectProblem("rolling_shutter: 1", {"rolling_shutter_tr: is 0; give the read-out time"});
+  ExpectProblem("estimate_rolling_shutter_tr: 1",
+                {"estimate_rolling_shutter_tr: needs rolling_shutter: 1"});
+  ExpectProblem("acc_n: 0.1\ngyr_n: 0.1\nacc_w: 0.1", {"gyr_w: is missing; give all of"});
+  ExpectProblem("base_frame: camera", {"base_frame: is the same as camera_frame"});
+  ExpectProblem("manhattan_frame: body", {"manhattan_frame: is the same as body_frame"});
+  ExpectProblem("world_frame: my world", {"world_frame: must be a name without spaces"});
+  ExpectProblem("world_frame: /map", {"world_frame: must not begin with a slash"});
+  ExpectProblem("min_dist: 490", {"min_dist: must be smaller than the image"});
+  ExpectProblem("fisheye: 1", {"fisheye_mask: is missing; name an image file"});
+  ExpectProblem("fisheye_mask: no.png", {"fisheye_mask: there is no file", "no.png"});
+  ExpectOneProblem(ProblemsOf(Write(Replaced(kShortFile, "cx: 320", "cx: 700"))),
+                   {"camera.yaml:5: image_width: the principal point is right of the image"});
+  ExpectOneProblem(ProblemsOf(Write(Replaced(kShortFile, "/imu\"", "/image\""))),
+                   {"imu_topic: is the same as image_topic"});
+}
+
+TEST_F(ConfigTest, OverridesAreChecked) {
+  const std::string file = Write(kShortFile);
+  ExpectOneProblem(ProblemsOf(file, {{"max_cnt", "-3"}}),
+                   {"camera.yaml (override): max_cnt: \"-3\" out of range"});
+  ExpectOneProblem(ProblemsOf(file, {{"maxcnt", "100"}}), {"unknown key; did you mean max_cnt?"});
+}
+
+TEST_F(ConfigTest, AllProblemsAtOnce) {
+  std::string text = Replaced(kVinsMonoFile, "image_topic: \"/cam0/image_raw\"\n", "");
+  text = Replaced(text, "min_dist: 30", "min_dist: -30");
+  text = Replaced(text, "equalize: 1", "equalise: 1");
+  text = Replaced(text, "gyr_n: 0.004", "gyr_n: low");
+  text = Replaced(text, "rolling_shutter: 0", "rolling_shutter: 1");
+  text = Replaced(text, "0.999660727178", "0.9");
+  const std::string file = Write(text + "max_cnt: 1\n");
+  const auto problems = ProblemsOf(file, {{"window_size", "1000"}});
+  const std::string all = ConfigError(problems).what();
+  for (const char* key : {"image_topic", "min_dist", "equalise", "gyr_n", "rolling_shutter_tr",
+                          "extrinsicRotation", "max_cnt", "window_size"}) {
+    EXPECT_NE(all.find(std::string(": ") + key + ": "), std::string::npos) << key;
+  }
+  EXPECT_EQ(problems.size(), 8u) << all;
+  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 7);
+  for (const auto& problem : problems) EXPECT_EQ(problem.rfind(file, 0), 0u) << problem;
+}
+
+}  // namespace
+}  // namespace plm_vins

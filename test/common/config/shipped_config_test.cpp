@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The configuration files that come with the package.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/config/config.h"
+#include "common/config/config_entry.h"
+#include "common/config/config_keys.h"
+
+namespace plm_vins {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(ShippedConfig, EveryFileLoads) {
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(CONFIG_DIR)) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++files;
+    EXPECT_NO_THROW({
+      const Config config = LoadConfig(entry.path().string());
+      EXPECT_TRUE(config.ignored_keys.empty());
+    }) << entry.path();
+  }
+  EXPECT_GE(files, 2);
+}
+
+TEST(ShippedConfig, EurocHasTheCalibrationOfTheDataset) {
+  const Config config = LoadConfig(CONFIG_DIR "/euroc.yaml");
+  EXPECT_EQ(config.sensor.camera.fx, 458.654);
+  EXPECT_EQ(config.sensor.T_B_C.translation.x(), -0.0216401454975);
+  EXPECT_EQ(config.sensor.imu_noise.accel_walk, 3.0e-3);
+  EXPECT_EQ(config.publish_rate, 0);
+}
+
+class ReferenceFile : public ::testing::Test {
+ protected:
+  ReferenceFile() {
+    std::ifstream stream(kFile);
+    for (std::string line; std::getline(stream, line);) lines_.push_back(line);
+    std::vector<std::string> problems;
+    entries_ = ReadConfigEntries(kFile, {}, &problems).value();
+  }
+
+  // The comment on the line of a key.
+  std::string CommentOn(const std::string& key) const {
+    const std::string& location = entries_.at(key).location;  // FILE:LINE
+    const std::string& line = lines_.at(std::stoul(location.substr(location.rfind(':') + 1)) - 1);
+    return line.substr(std::min(line.find('#'), line.size()));
+  }
+
+  // Numbers and matrices; flags, choices and texts have no unit.
+  static bool IsMeasured(const ConfigKey<Config>& key) {
+    const ConfigValue value = key.value(Config());
+    return std::holds_alternative<double>(value) ||
+           std::holds_alternative<std::vector<double>>(value) ||
+           key.allowed.find(" to ") != std::string::npos;
+  }
+
+  static constexpr const char* kFile = CONFIG_DIR "/reference.yaml";
+  std::vector<std::string> lines_;
+  ConfigEntries entries_;
+};
+
+TEST_F(ReferenceFile, HasAllKeysAndNoOthers) {
+  std::vector<std::string> known, documented;
+  for (const auto& key : AllKeys("PINHOLE")) known.push_back(key.name);
+  for (const auto& [name, entry] : entries_) documented.push_back(name);
+  EXPECT_THAT(documented, ::testing::UnorderedElementsAreArray(known));
+}
+
+TEST_F(ReferenceFile, TellsUnitRangeAndDefault) {
+  for (const auto& key : AllKeys("PINHOLE")) {
+    const std::string unit =
+        IsMeasured(key) ? "[" + (key.unit.empty() ? "1" : key.unit) + "], " : "";
+    const std::string comment = CommentOn(key.name);
+    EXPECT_NE(comment.find(unit + key.allowed), std::string::npos) << key.name << ": " << comment;
+    const std::string standard = "default " + ToText(key.value(Config()));
+    const size_t found = (comment + " ").find(standard);
+    EXPECT_EQ(found != std::string::npos, key.has_default) << key.name << ": " << comment;
+    if (!key.has_default) continue;
+    const char next = (comment + " ").at(found + standard.size());
+    EXPECT_NE(std::string(" ,;:").find(next), std::string::npos) << key.name << ": " << comment;
+  }
+}
+
+TEST_F(ReferenceFile, HasTheDefaultsAsValues) {
+  for (const auto& key : AllKeys("PINHOLE")) {
+    // The noise is said in densities; there is no mask to use.
+    if (key.name == "imu_noise_model" || key.name == "fisheye" || !key.has_default) continue;
+    const std::string value = entries_.at(key.name).value.Scalar();
+    EXPECT_EQ(ToText(ConfigValue(value)), ToText(key.value(Config()))) << key.name;
+  }
+}
+
+TEST_F(ReferenceFile, NamesTheKeysOfTheOtherCameraModels) {
+  std::string comments;
+  for (const std::string& line : lines_) {
+    if (line.rfind('#', 0) == 0) comments += line + " ";
+  }
+  for (const char* model_type : {"EQUIDISTANT", "KANNALA_BRANDT", "MEI"}) {
+    EXPECT_NE(comments.find(std::string("# ") + model_type + " "), std::string::npos);
+    for (const auto& key : AllKeys(model_type)) {
+      if (key.name.find('.') == std::string::npos) continue;
+      const std::string last_part = key.name.substr(key.name.find('.') + 1);
+      EXPECT_NE(comments.find(last_part), std::string::npos) << key.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plm_vins

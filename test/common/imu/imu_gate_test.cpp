@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/imu/imu_gate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace plm_vins {
+namespace {
+
+constexpr int64_t kStep_ns = 5'000'000;
+
+// A flight: a slow turn and propellers that shake the accelerometer by 5 m/s^2 from sample to
+// sample.
+std::vector<ImuSample> Flight(int count) {
+  std::vector<ImuSample> samples;
+  for (int i = 0; i < count; ++i) {
+    const double shake = i % 2 == 0 ? 2.5 : -2.5;
+    samples.push_back({i * kStep_ns, {0.01 * i, 0, 0}, {shake, 0, 9.81}});
+  }
+  return samples;
+}
+
+struct Decided {
+  std::vector<ImuSample> samples;
+  int64_t replaced = 0;
+};
+
+Decided Pass(const std::vector<ImuSample>& samples, const ImuRange& range = ImuRange()) {
+  ImuGate gate(range);
+  Decided decided;
+  for (const ImuSample& sample : samples) {
+    for (const ImuSample& next : gate.Add(sample)) decided.samples.push_back(next);
+  }
+  decided.replaced = gate.replaced();
+  return decided;
+}
+
+void ExpectUntouched(const std::vector<ImuSample>& samples) {
+  const Decided decided = Pass(samples);
+  EXPECT_EQ(decided.replaced, 0);
+  ASSERT_EQ(decided.samples.size(), samples.size());
+  for (size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_EQ(decided.samples[i].t_ns, samples[i].t_ns);
+    EXPECT_EQ(decided.samples[i].gyro, samples[i].gyro);
+    EXPECT_EQ(decided.samples[i].accel, samples[i].accel);
+    EXPECT_EQ(decided.samples[i].accel_doubt, 0);
+  }
+}
+
+TEST(ImuGate, LeavesAFlightAlone) { ExpectUntouched(Flight(200)); }
+
+TEST(ImuGate, ReplacesASpikeByTheLineBetweenItsNeighbours) {
+  std::vector<ImuSample> samples = Flight(200);
+  samples[100].accel.y() = 150;
+  const Decided decided = Pass(samples);
+  ASSERT_EQ(decided.samples.size(), samples.size());
+  EXPECT_EQ(decided.replaced, 1);
+  const ImuSample& replaced = decided.samples[100];
+  EXPECT_EQ(replaced.t_ns, samples[100].t_ns);
+  EXPECT_NEAR(replaced.gyro.x(), samples[100].gyro.x(), 1e-12);
+  EXPECT_TRUE(replaced.accel.isApprox(samples[99].accel));
+  EXPECT_NEAR(replaced.accel_doubt, 150, 1e-9);
+  EXPECT_NEAR(replaced.gyro_doubt, 0, 1e-12);
+  EXPECT_EQ(decided.samples[101].accel, samples[101].accel);
+}
+
+TEST(ImuGate, ReplacesAFewInARow) {
+  std::vector<ImuSample> samples = Flight(200);
+  for (int i = 100; i < 100 + ImuGate::kMaxRun; ++i) samples[i].gyro.z() = -30;
+  const Decided decided = Pass(samples);
+  EXPECT_EQ(decided.replaced, ImuGate::kMaxRun);
+  for (int i = 100; i < 100 + ImuGate::kMaxRun; ++i) {
+    EXPECT_NEAR(decided.samples[i].gyro.x(), samples[i].gyro.x(), 1e-12);
+    EXPECT_EQ(decided.samples[i].gyro.z(), 0);
+    EXPECT_NEAR(decided.samples[i].gyro_doubt, 30, 1e-9);
+  }
+}
+
+TEST(ImuGate, BelievesALeapThatLasts) {
+  std::vector<ImuSample> samples = Flight(200);
+  for (size_t i = 100; i < samples.size(); ++i) samples[i].gyro.z() = 10;
+  ExpectUntouched(samples);
+}
+
+TEST(ImuGate, YieldsToShakingThatGoesOn) {
+  std::vector<ImuSample> samples = Flight(1000);
+  for (size_t i = 100; i < samples.size(); ++i) samples[i].accel.x() = i % 2 == 0 ? 30 : -30;
+  const Decided decided = Pass(samples);
+  EXPECT_GT(decided.replaced, 0);
+  EXPECT_LT(decided.replaced, 50);  // for half a second at most
+}
+
+TEST(ImuGate, OneSpikeASecondDoesNotWidenItMuch) {
+  std::vector<ImuSample> samples = Flight(2000);
+  for (size_t i = 100; i < samples.size(); i += 200) samples[i].accel.y() = 80;
+  EXPECT_EQ(Pass(samples).replaced, 10);
+}
+
+TEST(ImuGate, NeverBelievesASpikeBeyondTheRange) {
+  std::vector<ImuSample> samples = Flight(10);
+  samples[0].gyro.x() = 3;  // nothing to compare it with
+  EXPECT_EQ(Pass(samples).replaced, 0);
+  const ImuRange two_turns{2, 160};
+  const Decided decided = Pass(samples, two_turns);
+  EXPECT_EQ(decided.replaced, 1);
+  EXPECT_EQ(decided.samples[0].t_ns, 0);
+  EXPECT_EQ(decided.samples[0].gyro, samples[1].gyro);
+  EXPECT_NEAR(decided.samples[0].gyro_doubt, two_turns.gyro - samples[1].gyro.x(), 1e-12);
+}
+
+TEST(ImuGate, DoubtsReadingsAtTheEndOfTheRange) {
+  std::vector<ImuSample> samples = Flight(200);
+  for (size_t i = 100; i < 110; ++i) samples[i].gyro.z() = -34.9;  // 2000 deg/s
+  ImuGate gate{ImuRange()};
+  std::vector<ImuSample> decided;
+  for (const ImuSample& sample : samples) {
+    for (const ImuSample& next : gate.Add(sample)) decided.push_back(next);
+  }
+  EXPECT_EQ(gate.saturated(), 10);
+  EXPECT_EQ(decided[105].gyro.z(), -34.9);
+  EXPECT_EQ(decided[105].gyro_doubt, 17.5);
+  EXPECT_EQ(decided[105].accel_doubt, 0);
+  EXPECT_EQ(decided[99].gyro_doubt, 0);
+  EXPECT_EQ(decided[115].gyro_doubt, 0);
+}
+
+TEST(ImuGate, ASpikeAmongSaturatedReadingsKeepsItsDoubt) {
+  std::vector<ImuSample> samples = Flight(200);
+  for (size_t i = 100; i < 120; ++i) samples[i].gyro.z() = 34.9;
+  samples[110].gyro.z() = -34.9;  // the sign's bit flipped
+  ImuGate gate{ImuRange()};
+  std::vector<ImuSample> decided;
+  for (const ImuSample& sample : samples) {
+    for (const ImuSample& next : gate.Add(sample)) decided.push_back(next);
+  }
+  EXPECT_EQ(gate.replaced(), 1);
+  EXPECT_EQ(gate.saturated(), 19);
+  EXPECT_NEAR(decided[110].gyro.z(), 34.9, 1e-12);
+  EXPECT_NEAR(decided[110].gyro_doubt, 69.8, 1e-12);
+}
+
+TEST(ImuGate, ComparesNothingAcrossAGap) {
+  std::vector<ImuSample> samples = Flight(200);
+  for (size_t i = 100; i < samples.size(); ++i) {
+    samples[i].t_ns += 100'000'000;
+    samples[i].gyro.z() = 10;
+  }
+  ImuGate gate{ImuRange()};
+  for (const ImuSample& sample : samples) EXPECT_EQ(gate.Add(sample).size(), 1u);
+}
+
+}  // namespace
+}  // namespace plm_vins

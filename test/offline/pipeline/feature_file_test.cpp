@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline/pipeline/feature_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "test/testing/temporary_folder.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int64_t kStart = 1403636579763555584;
+
+TrackedItem ImuItem() {
+  TrackedItem item;
+  item.imu = {kStart - 5, {0.1, -0.2, 0.3}, {9.7, 1e-9, -0.4}};
+  return item;
+}
+
+TrackedItem FrameItem() {
+  TrackedItem item;
+  item.frame = std::make_unique<TrackedFeatures>();
+  TrackedPoints& points = item.frame->points;
+  points.features.t_ns = kStart;
+  points.features.points = {{7, {0.1, 0.2}, {300.25, 200.5}, {-1, 2}},
+                            {9, {1 / 3.0, -0.2}, {}, {}}};
+  points.statistics.epipolar_outliers = 3;
+  points.publish = false;
+  TrackedLines& lines = item.frame->lines.emplace();
+  lines.features.t_ns = kStart;
+  lines.features.lines = {{4, {0.1, 0.1}, {-0.3, 0.7}}};
+  lines.statistics.added = 2;
+  lines.restart = true;
+  return item;
+}
+
+class FeatureFile : public ::testing::Test {
+ protected:
+  void Write() {
+    FeatureFileWriter writer(file_);
+    writer.Add(ImuItem());
+    writer.Add(FrameItem());
+    writer.Close();
+  }
+
+  testing::TemporaryFolder folder_;
+  const std::string file_ = folder_.path() + "/flight.features";
+};
+
+std::string ErrorOf(const std::string& file) {
+  try {
+    FeatureFileReader reader(file);
+    while (reader.Next()) {
+    }
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(FeatureFile, GivesBackWhatWasWritten) {
+  Write();
+  FeatureFileReader reader(file_);
+  const auto imu = reader.Next();
+  ASSERT_TRUE(imu && !imu->frame);
+  EXPECT_EQ(imu->t_ns(), kStart - 5);
+  EXPECT_EQ(imu->imu.gyro, ImuItem().imu.gyro);
+  EXPECT_EQ(imu->imu.accel, ImuItem().imu.accel);
+
+  const auto item = reader.Next();
+  ASSERT_TRUE(item && item->frame && item->frame->lines);
+  EXPECT_EQ(item->t_ns(), kStart);
+  const TrackedPoints& points = item->frame->points;
+  ASSERT_EQ(points.features.points.size(), 2u);
+  EXPECT_EQ(points.features.points[0].id, 7);
+  EXPECT_EQ(points.features.points[0].uv_px, Eigen::Vector2d(300.25, 200.5));
+  EXPECT_EQ(points.features.points[0].velocity, Eigen::Vector2d(-1, 2));
+  EXPECT_EQ(points.features.points[1].xy, Eigen::Vector2d(1 / 3.0, -0.2));
+  EXPECT_EQ(points.statistics.epipolar_outliers, 3);
+  EXPECT_FALSE(points.publish);
+  const TrackedLines& lines = *item->frame->lines;
+  ASSERT_EQ(lines.features.lines.size(), 1u);
+  EXPECT_EQ(lines.features.lines[0].id, 4);
+  EXPECT_EQ(lines.features.lines[0].end, Eigen::Vector2d(-0.3, 0.7));
+  EXPECT_EQ(lines.statistics.added, 2);
+  EXPECT_TRUE(lines.restart);
+  EXPECT_FALSE(reader.Next());
+}
+
+TEST_F(FeatureFile, NamesTheFileThatCannotBeUsed) {
+  EXPECT_NE(ErrorOf(file_).find(file_ + ": cannot be read"), std::string::npos);
+  std::ofstream(file_) << "a text that is longer than the signature of such a file";
+  EXPECT_NE(ErrorOf(file_).find(file_ + ": no features of this version"), std::string::npos);
+  EXPECT_THROW(FeatureFileWriter(folder_.path() + "/missing/file"), std::runtime_error);
+}
+
+TEST_F(FeatureFile, SaysWhereAFileEndsTooEarlyOrIsDamaged) {
+  Write();
+  const auto size = std::filesystem::file_size(file_);
+  std::filesystem::resize_file(file_, size - 9);
+  EXPECT_NE(ErrorOf(file_).find(file_ + ": ends in an item"), std::string::npos);
+  Write();
+  {
+    std::fstream file(file_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(16);
+    file.put('\x77');  // no kind of item
+  }
+  EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
+}
+
+// As a file has them that was being written when the power went.
+TEST_F(FeatureFile, DoesNotTakeZerosForAnImage) {
+  Write();
+  std::ofstream(file_, std::ios::app | std::ios::binary) << std::string(46, '\0');
+  EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
+}
+
+TEST_F(FeatureFile, WithstandsDamageOfEveryByte) {
+  Write();
+  const std::string bytes = folder_.Read("flight.features");
+  int refused = 0;
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    for (const char damage : {'\x00', '\x02', '\x7f', '\xff'}) {
+      std::string damaged = bytes;
+      damaged[i] = damage;
+      std::ofstream(file_, std::ios::binary) << damaged;
+      refused += ErrorOf(file_).empty() ? 0 : 1;
+    }
+  }
+  EXPECT_GT(refused, 4 * 16);  // those of the signature, and others
+}
+
+}  // namespace
+}  // namespace plm_vins

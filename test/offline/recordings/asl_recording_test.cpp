@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline/recordings/asl_recording.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "test/offline/recording_contents.h"
+#include "test/testing/temporary_folder.h"
+
+namespace plm_vins {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::MessageOf;
+using testing::ReadAll;
+
+class AslRecording : public ::testing::Test {
+ protected:
+  AslRecording() {
+    folder_.Write("mav0/cam0/data.csv", "#timestamp [ns],filename\n10,a.png\n20,b.png\n30,c.png\n");
+    folder_.Write("mav0/imu0/data.csv",
+                  "#timestamp [ns],wx,wy,wz,ax,ay,az\n"
+                  "5,0.1,0.2,0.3,1,2,3\n10,0,0,0,4,5,6\n15,0,0,0,7,8,9\n25,0,0,0,1,1,1\n");
+    for (const char* name : {"a.png", "b.png", "c.png"}) WriteImage(name, cv::Mat(4, 6, CV_8UC1));
+  }
+
+  void WriteImage(const std::string& name, const cv::Mat& image) {
+    folder_.Write("mav0/cam0/data/" + name, "");
+    cv::imwrite(folder_.File("mav0/cam0/data/" + name), image);
+  }
+
+  testing::TemporaryFolder folder_;
+};
+
+// OpenCV throws at such sizes.
+TEST_F(AslRecording, CountsAnImageWhoseHeaderAsksForTooMuch) {
+  folder_.Write("mav0/cam0/data/a.png", "P5 2000000 2000000 255 ");
+  folder_.Write("mav0/cam0/data.csv", "10,a.png\n20," + std::string(300, 'b') + ".png\n30,c.png\n");
+  const auto contents = ReadAll(OpenAslFolder(folder_.path()).get());
+  EXPECT_EQ(contents.problems.at("images_unreadable"), 2);
+}
+
+TEST_F(AslRecording, MergesByTimeWithTheImuFirst) {
+  const auto recording = OpenAslFolder(folder_.path());
+  EXPECT_EQ(recording->end_ns(), 30);
+  const auto contents = ReadAll(recording.get());
+  EXPECT_EQ(contents.order, "mmimimi");
+  EXPECT_THAT(contents.stamps, ElementsAre(5, 10, 10, 15, 20, 25, 30));
+  EXPECT_EQ(contents.imu[0].gyro, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(contents.imu[1].accel, Eigen::Vector3d(4, 5, 6));
+}
+
+// Merged by time, each would hold up all that follows.
+TEST_F(AslRecording, DropsStampsAloneInTheFuture) {
+  const std::string hour = "3600000000000";
+  folder_.Write("mav0/cam0/data.csv", "10,a.png\n" + hour + ",b.png\n20,b.png\n30,c.png\n");
+  folder_.Write("mav0/imu0/data.csv",
+                hour + ",0,0,0,4,5,6\n10,0,0,0,4,5,6\n" + hour + ",0,0,0,7,8,9\n25,0,0,0,1,1,1\n");
+  const auto recording = OpenAslFolder(folder_.path());
+  EXPECT_EQ(recording->end_ns(), 30);
+  const auto contents = ReadAll(recording.get());
+  EXPECT_THAT(contents.stamps, ElementsAre(10, 10, 20, 25, 30));
+  EXPECT_EQ(contents.order, "miimi");
+  EXPECT_EQ(contents.problems.at("image_stamps_ahead_of_time"), 1);
+  EXPECT_EQ(contents.problems.at("imu_stamps_ahead_of_time"), 2);
+}
+
+TEST_F(AslRecording, KeepsWhatFollowsAGapAndWhatJumpsBack) {
+  folder_.Write("mav0/cam0/data.csv", "10,a.png\n5000000000,b.png\n5000000010,c.png\n5,a.png\n");
+  const auto contents = ReadAll(OpenAslFolder(folder_.path()).get());
+  EXPECT_EQ(contents.images.size(), 4u);
+}
+
+TEST_F(AslRecording, TakesTheInnerFolderToo) {
+  EXPECT_EQ(ReadAll(OpenAslFolder(folder_.File("mav0")).get()).order, "mmimimi");
+}
+
+TEST_F(AslRecording, MakesColourGrey) {
+  WriteImage("a.png", cv::Mat(4, 6, CV_8UC3, cv::Scalar(10, 100, 200)));
+  const auto contents = ReadAll(OpenAslFolder(folder_.path()).get());
+  ASSERT_EQ(contents.images[0].type(), CV_8UC1);
+  EXPECT_NEAR(contents.images[0].at<uint8_t>(0, 0), 120, 1);
+}
+
+TEST_F(AslRecording, CountsMissingAndBrokenImagesAndGoesOn) {
+  std::filesystem::remove(folder_.File("mav0/cam0/data/a.png"));
+  folder_.Write("mav0/cam0/data/c.png", "this is no image");
+  const auto recording = OpenAslFolder(folder_.path());
+  const auto contents = ReadAll(recording.get());
+  EXPECT_EQ(contents.order, "mmxmimx");
+  EXPECT_EQ(contents.problems.at("images_unreadable"), 2);
+  EXPECT_THAT(recording->problems()[0].detail, HasSubstr("a.png"));
+}
+
+TEST_F(AslRecording, CountsBadCsvLinesAndGoesOn) {
+  folder_.Write("mav0/imu0/data.csv", "5,0,0,0,0,0,9\n6,0,0\n7,0,0,zero,0,0,9\n8,nan,0,0,0,0,9\n");
+  folder_.Write("mav0/cam0/data.csv", "10,a.png\nnonsense\n20,b.png\n");
+  const auto contents = ReadAll(OpenAslFolder(folder_.path()).get());
+  EXPECT_EQ(contents.order, "mmii");
+  EXPECT_TRUE(std::isnan(contents.imu[1].gyro.x()));  // for the sync to refuse
+  EXPECT_EQ(contents.problems.at("imu_csv_lines_bad"), 2);
+  EXPECT_EQ(contents.problems.at("image_csv_lines_bad"), 1);
+}
+
+TEST_F(AslRecording, NamesTheLineOfTheFirstImuSampleThatIsNotNumeric) {
+  folder_.Write("mav0/imu0/data.csv", "5,0,0,0,0,0,9\n7,0,0,zero,0,0,9\n8,0,0\n");
+  const auto recording = OpenAslFolder(folder_.path());
+  ReadAll(recording.get());
+  EXPECT_THAT(recording->problems()[2].detail, HasSubstr("imu0/data.csv:2"));
+}
+
+TEST_F(AslRecording, SaysWhichPartIsMissing) {
+  std::filesystem::remove(folder_.File("mav0/imu0/data.csv"));
+  EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path()); }), HasSubstr("imu0/data.csv"));
+  EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.File("nothing")); }), HasSubstr("nothing"));
+}
+
+TEST_F(AslRecording, RefusesAFolderWithoutImages) {
+  folder_.Write("mav0/cam0/data.csv", "#timestamp [ns],filename\n");
+  EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path()); }), HasSubstr("no image"));
+}
+
+TEST_F(AslRecording, RefusesAFolderWithoutImuSamples) {
+  folder_.Write("mav0/imu0/data.csv", "#timestamp [ns],wx,wy,wz,ax,ay,az\n");
+  EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path()); }), HasSubstr("no IMU sample"));
+}
+
+}  // namespace
+}  // namespace plm_vins

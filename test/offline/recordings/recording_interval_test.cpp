@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline/recordings/recording_interval.h"
+
+#include <gtest/gtest.h>
+
+namespace plm_vins {
+namespace {
+
+using Part = RecordingInterval::Part;
+
+constexpr int64_t kFirstImage = 1403636579763555584;
+
+RecordingEvent Event(RecordingEvent::Kind kind, double seconds) {
+  return {kind, kFirstImage + ToNanoseconds(seconds), {}};
+}
+RecordingEvent Image(double seconds) { return Event(RecordingEvent::Kind::kImage, seconds); }
+RecordingEvent Imu(double seconds) { return Event(RecordingEvent::Kind::kImu, seconds); }
+
+TEST(RecordingInterval, TakesEverythingByDefault) {
+  RecordingInterval interval;
+  EXPECT_EQ(interval.Locate(Imu(-5)), Part::kUse);
+  EXPECT_EQ(interval.Locate(Image(0)), Part::kUse);
+  EXPECT_EQ(interval.Locate(Image(1e6)), Part::kUse);
+}
+
+TEST(RecordingInterval, CountsFromTheFirstImage) {
+  RecordingInterval interval(2, 3);
+  EXPECT_EQ(interval.Locate(Imu(-5)), Part::kSkip);
+  EXPECT_EQ(interval.Locate(Image(0)), Part::kSkip);
+  EXPECT_EQ(interval.Locate(Image(1.95)), Part::kSkip);
+  EXPECT_EQ(interval.Locate(Image(2)), Part::kUse);
+  EXPECT_EQ(interval.Locate(Image(5)), Part::kUse);
+  EXPECT_EQ(interval.Locate(Image(5.05)), Part::kSkip);
+}
+
+TEST(RecordingInterval, TakesImuSamplesAroundTheImages) {
+  RecordingInterval interval(2, 3);
+  interval.Locate(Image(0));
+  EXPECT_EQ(interval.Locate(Imu(1.7)), Part::kSkip);
+  EXPECT_EQ(interval.Locate(Imu(1.9)), Part::kUse);
+  EXPECT_EQ(interval.Locate(Imu(5.1)), Part::kUse);
+  EXPECT_EQ(interval.Locate(Imu(5.3)), Part::kSkip);
+  EXPECT_EQ(interval.Locate(Image(5.3)), Part::kSkip);
+  EXPECT_EQ(interval.Locate(Image(5.35)), Part::kEnd);
+}
+
+TEST(RecordingInterval, UsesWhatJumpsBackInTime) {
+  RecordingInterval interval;
+  interval.Locate(Image(0));
+  EXPECT_EQ(interval.Locate(Image(-100)), Part::kUse);
+  EXPECT_EQ(interval.Locate(Imu(-100)), Part::kUse);
+}
+
+TEST(RecordingInterval, AnImuSampleFromTheFutureDoesNotEndIt) {
+  RecordingInterval interval(0, 3);
+  interval.Locate(Image(0));
+  EXPECT_EQ(interval.Locate(Imu(1000)), Part::kSkip);
+  EXPECT_EQ(interval.Locate(Imu(0.1)), Part::kUse);
+}
+
+TEST(RecordingInterval, AnImageFromTheFutureDoesNotEndIt) {
+  RecordingInterval interval(0, 3);
+  interval.Locate(Image(0));
+  for (const double t : {0.1, 0.2}) {
+    EXPECT_EQ(interval.Locate(Image(1000)), Part::kSkip);
+    EXPECT_EQ(interval.Locate(Image(t)), Part::kUse);
+  }
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline/results/loop_results.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <sstream>
+
+#include "pose_graph/output/map_file.h"
+#include "test/testing/temporary_folder.h"
+
+namespace plm_vins {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class LoopResultsTest : public ::testing::Test {
+ protected:
+  LoopResultsTest() {
+    CameraParameters& camera = config_.sensor.camera;
+    camera.width = 320;
+    camera.height = 240;
+    camera.fx = camera.fy = 200;
+    camera.cx = 160;
+    camera.cy = 120;
+  }
+
+  // An image of random grey levels at x [m], half a second after the last one.
+  PipelineFrame FrameAt(double x) {
+    t_ns_ += ToNanoseconds(0.5);
+    PipelineFrame frame;
+    frame.output.calibration.camera = config_.sensor.camera;
+    frame.output.t_ns = t_ns_;
+    frame.output.has_pose = true;
+    frame.output.state.SetPose({Eigen::Quaterniond::Identity(), {x, 0, 0}});
+    frame.image.gray.create(240, 320, CV_8UC1);
+    cv::RNG random(static_cast<uint64_t>(t_ns_));
+    random.fill(frame.image.gray, cv::RNG::UNIFORM, 0, 256);
+    return frame;
+  }
+
+  int Rows(const std::string& name) const {
+    std::istringstream text(folder_.Read(name));
+    int rows = 0;
+    for (std::string line; std::getline(text, line);) rows += line[0] != '#';
+    return rows;
+  }
+
+  testing::TemporaryFolder folder_;
+  Config config_;
+  int64_t t_ns_ = 0;
+};
+
+TEST_F(LoopResultsTest, WritesAllFilesOfARun) {
+  LoopResults results(config_, folder_.path(), std::nullopt);
+  for (int i = 0; i < 4; ++i) results.Add(FrameAt(0.15 * i));
+  results.Finish();
+  EXPECT_EQ(Rows("trajectory_map.tum"), 4);
+  EXPECT_EQ(Rows("trajectory_final.tum"), 4);
+  EXPECT_THAT(folder_.Read("loops.csv"), HasSubstr("result"));
+  EXPECT_THAT(folder_.Read("pose_graph.g2o"), HasSubstr("EDGE_SE3:QUAT 0 1"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.File("colmap/images.txt")));
+  const Json summary = results.Summary();
+  EXPECT_EQ(summary["keyframes"], 2);  // at 0 and at 0.3 m
+  EXPECT_EQ(summary["map_keyframes"], 2);
+  EXPECT_EQ(summary["accepted"], 0);
+  EXPECT_EQ(summary["first_fix_s"], 0.0);
+}
+
+TEST_F(LoopResultsTest, WaitsForPoses) {
+  LoopResults results(config_, folder_.path(), std::nullopt);
+  PipelineFrame without = FrameAt(0);
+  without.output.has_pose = false;
+  results.Add(without);
+  results.Finish();
+  EXPECT_EQ(Rows("trajectory_final.tum"), 0);
+  EXPECT_TRUE(results.Summary()["first_fix_s"].is_null());
+}
+
+TEST_F(LoopResultsTest, SaysInTheTrajectoryWhereAWorldBeginsThatIsNotInTheMap) {
+  LoopResults results(config_, folder_.path(), std::nullopt);
+  for (int i = 0; i < 3; ++i) results.Add(FrameAt(0.4 * i));
+  PipelineFrame restarted = FrameAt(0);
+  restarted.output.restarted = true;
+  restarted.output.reason = "no image for 3 s";
+  results.Add(restarted);
+  results.Finish();
+  EXPECT_THAT(folder_.Read("trajectory_final.tum"), HasSubstr("no image for 3 s"));
+  EXPECT_EQ(Rows("trajectory_final.tum"), 4);
+  EXPECT_EQ(Rows("trajectory_map.tum"), 3);  // where the new world is, is not known
+}
+
+TEST_F(LoopResultsTest, StartsInAMap) {
+  const std::string file = folder_.File("map.plm");
+  {
+    LoopResults results(config_, folder_.path(), std::nullopt);
+    for (int i = 0; i < 3; ++i) results.Add(FrameAt(0.4 * i));
+    SaveMap(file, results.map());
+  }
+  LoopResults results(config_, folder_.path(), LoadMap(file));
+  results.Add(FrameAt(0));
+  EXPECT_EQ(results.Summary()["map_keyframes"], 4);
+  EXPECT_TRUE(results.Summary()["first_fix_s"].is_null());
+  results.Finish();
+  // Its only world is not joined to the map, so that its pose is not in the map's frame.
+  EXPECT_THAT(folder_.Read("trajectory_final.tum"), StartsWith("# the world frame starts anew"));
+}
+
+TEST_F(LoopResultsTest, WantsImages) {
+  LoopResults results(config_, folder_.path(), std::nullopt);
+  PipelineFrame frame = FrameAt(0);
+  frame.image.gray.release();
+  EXPECT_THROW(results.Add(frame), std::runtime_error);
+}
+
+TEST_F(LoopResultsTest, NamesTheFolderThatItCannotWriteTo) {
+  try {
+    const LoopResults results(config_, folder_.File("missing"), std::nullopt);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("missing"));
+  }
+}
+
+}  // namespace
+}  // namespace plm_vins

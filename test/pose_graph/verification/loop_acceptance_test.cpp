@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/verification/loop_acceptance.h"
+
+#include <gtest/gtest.h>
+
+namespace plm_vins {
+namespace {
+
+// A way of 40 keyframes, one in a second and a metre, there and back: keyframe 20 + i is where
+// 20 - i was.
+class LoopAcceptanceTest : public ::testing::Test {
+ protected:
+  LoopAcceptanceTest() { AddWay(/*world=*/0, 41); }
+
+  void AddWay(int world, int count) {
+    const int first = static_cast<int>(keyframes_.size());
+    for (int i = 0; i < count; ++i) {
+      Keyframe keyframe;
+      keyframe.t_ns = (first + i) * int64_t{1'000'000'000};
+      keyframe.world = world;
+      keyframe.path = i;
+      keyframe.T_O_B.translation = {i <= 20 ? 1.0 * i : 40.0 - i, 0, 0};
+      keyframes_.push_back(keyframe);
+      graph_.AddNode(keyframe.T_O_L());
+      if (i == 0) continue;
+      const LevelTransform step = keyframes_[first + i - 1].T_O_L().Inverse() * keyframe.T_O_L();
+      graph_.AddEdge({first + i - 1, first + i, step, 1e-4 * Matrix4d::Identity(), false,
+                      step.translation.norm()});
+    }
+  }
+
+  // A loop that asks for a correction of odometry.
+  LoopCandidate Loop(int earlier, int later, const Eigen::Vector3d& correction) {
+    LoopCandidate loop;
+    loop.earlier = earlier;
+    loop.later = later;
+    loop.later_ns = keyframes_[later].t_ns;
+    loop.T_earlier_later = keyframes_[earlier].T_O_L().Inverse() * keyframes_[later].T_O_L();
+    loop.T_earlier_later.translation += correction;
+    loop.covariance = 1e-4 * Matrix4d::Identity();
+    return loop;
+  }
+
+  // How many loops are to be believed.
+  size_t Judge(LoopCandidate* loop) {
+    const size_t confirmed = acceptance_.Judge(keyframes_, graph_, loop).size();
+    return confirmed + (loop->failed ? 0 : 1);
+  }
+
+  std::vector<Keyframe> keyframes_;
+  PoseGraph graph_;
+  LoopAcceptance acceptance_{LoopAcceptanceOptions()};
+};
+
+TEST_F(LoopAcceptanceTest, BelievesWhatOdometryMayHaveDrifted) {
+  LoopCandidate loop = Loop(10, 30, {0, 0.5, 0});  // 2 % of 20 m are 0.4 m
+  EXPECT_EQ(Judge(&loop), 1u);
+  EXPECT_FALSE(loop.failed);
+  EXPECT_LT(*loop.odometry_error, kThreeSigma);
+}
+
+TEST_F(LoopAcceptanceTest, RefusesWhatOdometryRulesOut) {
+  LoopCandidate loop = Loop(10, 30, {0, 6, 0});
+  EXPECT_EQ(Judge(&loop), 0u);
+  EXPECT_EQ(loop.failed, LoopGate::kOdometry);
+}
+
+TEST_F(LoopAcceptanceTest, HasLoopsThatAskForMuchWaitForASecond) {
+  LoopCandidate first = Loop(10, 30, {0, 2.5, 0});
+  EXPECT_EQ(Judge(&first), 0u);
+  EXPECT_EQ(first.failed, LoopGate::kAgreement);
+  LoopCandidate second = Loop(8, 32, {0, 2.5, 0});
+  EXPECT_EQ(Judge(&second), 2u);
+  EXPECT_FALSE(second.failed);
+}
+
+TEST_F(LoopAcceptanceTest, RefusesTwoThatDoNotAgree) {
+  LoopCandidate first = Loop(10, 30, {0, 2.5, 0});
+  LoopCandidate second = Loop(8, 32, {0, -2.8, 0});
+  EXPECT_EQ(Judge(&first) + Judge(&second), 0u);
+  EXPECT_EQ(second.failed, LoopGate::kAgreement);
+}
+
+TEST_F(LoopAcceptanceTest, DoesNotTakeALoopForItsOwnWitness) {
+  LoopCandidate loop = Loop(10, 30, {0, 2.5, 0});
+  EXPECT_EQ(Judge(&loop) + Judge(&loop), 0u);
+}
+
+TEST_F(LoopAcceptanceTest, ForgetsAWitnessOfLongAgo) {
+  LoopCandidate first = Loop(14, 26, {0, 1.6, 0});
+  LoopCandidate second = Loop(2, 38, {0, 4.0, 0});
+  EXPECT_EQ(Judge(&first) + Judge(&second), 0u);
+}
+
+TEST_F(LoopAcceptanceTest, JoinsAnotherWorldWithTwoLoopsThatAgree) {
+  AddWay(/*world=*/1, 21);
+  LoopCandidate first = Loop(10, 41 + 10, {3, 4, 5});
+  LoopCandidate second = Loop(12, 41 + 12, {3, 4, 5});
+  EXPECT_EQ(Judge(&first), 0u);
+  EXPECT_FALSE(first.odometry_error);  // odometry says nothing of it
+  EXPECT_EQ(Judge(&second), 2u);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/bridging/frame_bridge.h"
+
+#include <gtest/gtest.h>
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int64_t kImage_ns = 50'000'000;
+constexpr int kLost = 30;  // the first image after the loss
+
+// Flies along x at 2 m/s, with an IMU that feels gravity only.
+class FrameBridgeTest : public ::testing::Test {
+ protected:
+  static std::vector<ImuSample> ImuBefore(int image) {
+    std::vector<ImuSample> samples;
+    for (int i = -10; i <= 0; ++i) {
+      samples.push_back({image * kImage_ns + i * kImage_ns / 10, Vector3d::Zero(), {0, 0, 9.81}});
+    }
+    return samples;
+  }
+
+  UncertainState Estimate(int image) const {
+    UncertainState estimate;
+    estimate.state.t_ns = image * kImage_ns;
+    estimate.state.position() = Vector3d(0.1 * image, 0, 0);
+    estimate.state.velocity() = Vector3d(2, 0, 0);
+    estimate.covariance = deviation_ * deviation_ * Matrix15d::Identity();
+    return estimate;
+  }
+
+  void Track(int begin, int end) {
+    for (int image = begin; image < end; ++image) {
+      bridge_.AddTracked(ImuBefore(image), Estimate(image));
+    }
+  }
+
+  void Lose(int begin, int end) {
+    for (int image = begin; image < end; ++image) {
+      bridge_.AddLost(ImuBefore(image), image * kImage_ns);
+    }
+  }
+
+  const ImuNoise noise_;
+  double deviation_ = 1e-3;
+  FrameBridge bridge_{noise_, Vector3d(0, 0, -9.81)};
+};
+
+TEST_F(FrameBridgeTest, LeadsOnFromBeforeTheTrouble) {
+  Track(0, kLost - 1);
+  UncertainState wrong = Estimate(kLost - 1);
+  wrong.state.position().y() = 5;
+  bridge_.AddTracked(ImuBefore(kLost - 1), wrong);
+  ASSERT_TRUE(bridge_.Begin("why"));
+  EXPECT_TRUE(bridge_.begun());
+  EXPECT_EQ(bridge_.why(), "why");
+  EXPECT_NEAR(bridge_.At((kLost - 1) * kImage_ns)->state.position().y(), 0, 1e-9);
+}
+
+TEST_F(FrameBridgeTest, ReachesTheImagesAfterTheLoss) {
+  Track(0, kLost);
+  ASSERT_TRUE(bridge_.Begin("why"));
+  Lose(kLost, 35);
+  const UncertainState* last = bridge_.At(34 * kImage_ns);
+  ASSERT_NE(last, nullptr);
+  EXPECT_NEAR(last->state.position().x(), 3.4, 1e-9);
+  EXPECT_EQ(last->state.t_ns, 34 * kImage_ns);
+  EXPECT_GT(PositionDeviation(*last), deviation_);
+  EXPECT_EQ(bridge_.At(35 * kImage_ns), nullptr);
+}
+
+TEST_F(FrameBridgeTest, BelievesNothingThatIsTooYoungOrUnknown) {
+  EXPECT_FALSE(bridge_.Begin("why"));
+  Track(0, 20);
+  EXPECT_FALSE(bridge_.Begin("why"));
+  bridge_.Clear();
+  deviation_ = 0;
+  Track(0, kLost);
+  EXPECT_FALSE(bridge_.Begin("why"));
+  EXPECT_FALSE(bridge_.begun());
+}
+
+TEST_F(FrameBridgeTest, ConnectsWhatBeginsAsFarAsItReaches) {
+  Track(0, kLost);
+  EXPECT_TRUE(bridge_.CanConnect(std::nullopt));
+  ASSERT_TRUE(bridge_.Begin("why"));
+  Lose(kLost, 40);
+  EXPECT_TRUE(bridge_.CanConnect(std::nullopt));
+  Lose(40, 60);  // more than two seconds after the last estimate that was believed
+  EXPECT_FALSE(bridge_.CanConnect(std::nullopt));
+  EXPECT_TRUE(bridge_.CanConnect(32 * kImage_ns));
+  EXPECT_FALSE(bridge_.CanConnect(55 * kImage_ns));
+}
+
+TEST_F(FrameBridgeTest, EndsWhereThePositionHasBecomeUncertain) {
+  deviation_ = 0.006;  // of the inclination, too: twelve centimetres after two seconds
+  Track(0, kLost);
+  ASSERT_TRUE(bridge_.Begin("why"));
+  Lose(kLost, 49);
+  EXPECT_NE(bridge_.At(32 * kImage_ns), nullptr);
+  EXPECT_EQ(bridge_.At(48 * kImage_ns), nullptr);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How MeasurementSync pairs lines with points.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "test/vins_estimator/input/sync_input.h"
+#include "vins_estimator/input/measurement_sync.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::AddImu;
+using testing::kMs;
+using testing::Lines;
+using testing::Points;
+using testing::PopAll;
+using testing::Sample;
+using testing::WithLines;
+
+TEST(LinePairing, PairsLinesByEqualStamp) {
+  MeasurementSync sync(WithLines());
+  AddImu(&sync, 0, 200);
+  sync.AddLines(Lines(50 * kMs));  // before its points
+  sync.AddPoints(Points(50 * kMs));
+  auto frame = sync.Pop();
+  ASSERT_TRUE(frame && frame->lines);
+  EXPECT_EQ(frame->lines->t_ns, 50 * kMs);
+
+  sync.AddPoints(Points(100 * kMs));
+  EXPECT_FALSE(sync.Pop().has_value());  // waits
+  sync.AddLines(Lines(100 * kMs));
+  frame = sync.Pop();
+  ASSERT_TRUE(frame && frame->lines);
+  EXPECT_EQ(frame->lines->lines.size(), 2u);
+  EXPECT_EQ(sync.statistics().frames_without_lines, 0);
+  EXPECT_EQ(sync.statistics().line_frames, 2);
+}
+
+TEST(LinePairing, ALaterLineFrameTellsThatOneIsLost) {
+  MeasurementSync sync(WithLines());
+  AddImu(&sync, 0, 200);
+  sync.AddPoints(Points(50 * kMs));
+  sync.AddPoints(Points(100 * kMs));
+  sync.AddLines(Lines(100 * kMs));
+  const auto frames = PopAll(&sync);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_FALSE(frames[0].lines.has_value());
+  EXPECT_TRUE(frames[1].lines.has_value());
+  EXPECT_EQ(sync.statistics().frames_without_lines, 1);
+}
+
+TEST(LinePairing, MissingLinesDelayNoLongerThanTheLag) {
+  MeasurementSync sync(WithLines());
+  AddImu(&sync, 0, 400);
+  for (int64_t t : {50, 100, 150}) sync.AddPoints(Points(t * kMs));
+  EXPECT_FALSE(sync.Pop().has_value());
+  sync.AddPoints(Points(200 * kMs));  // three images ahead of the first
+  const auto frames = PopAll(&sync);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_FALSE(frames[0].lines.has_value());
+
+  sync.AddLines(Lines(50 * kMs));  // too late
+  EXPECT_FALSE(sync.Pop().has_value());
+  EXPECT_EQ(sync.statistics().lines_late, 1);
+}
+
+// Feeds images from..to every 50 ms, with lines that arrive `lag` images late (none: negative).
+// Returns how many images ahead of each frame handed out the newest one was.
+std::vector<int> FeedWithLines(int64_t from, int64_t to, int lag, MeasurementSync* sync) {
+  std::vector<int> delays;
+  for (int64_t t = from; t <= to; t += 50) {
+    AddImu(sync, t - 45, t);
+    sync->AddPoints(Points(t * kMs));
+    if (lag >= 0) sync->AddLines(Lines((t - 50 * lag) * kMs));
+    for (const FrameMeasurement& frame : PopAll(sync)) {
+      delays.push_back(static_cast<int>((t * kMs - frame.t_ns) / (50 * kMs)));
+    }
+  }
+  return delays;
+}
+
+TEST(LinePairing, ADeadLineTrackerDelaysNoLongerThanItsPatience) {
+  MeasurementSync sync(WithLines());
+  FeedWithLines(50, 1000, 0, &sync);
+  EXPECT_EQ(sync.statistics().frames_without_lines, 0);
+  const std::vector<int> delays = FeedWithLines(1050, 3000, -1, &sync);
+  EXPECT_EQ(delays.front(), 3);
+  EXPECT_EQ(delays.back(), 0);
+  EXPECT_EQ(std::count(delays.begin(), delays.end(), 3), 10);
+  EXPECT_EQ(delays.size(), 40u) << "every image is handed out";
+  EXPECT_TRUE(sync.lines_are_missing());
+}
+
+TEST(LinePairing, LinesThatComeBackAreUsedAgain) {
+  for (const int lag : {0, 1, 2}) {
+    MeasurementSync sync(WithLines());
+    FeedWithLines(50, 1000, -1, &sync);
+    EXPECT_TRUE(sync.lines_are_missing());
+    FeedWithLines(1050, 2000, lag, &sync);
+    EXPECT_FALSE(sync.lines_are_missing());
+    EXPECT_LE(sync.statistics().frames_without_lines, 20 + lag);
+  }
+}
+
+TEST(LinePairing, AHopelesslySlowLineTrackerDelaysNothing) {
+  MeasurementSync sync(WithLines());
+  const std::vector<int> delays = FeedWithLines(50, 3000, 6, &sync);
+  EXPECT_EQ(delays.back(), 0);
+  EXPECT_TRUE(sync.lines_are_missing());
+  EXPECT_GT(sync.statistics().lines_late, 40);
+}
+
+// As of two trackers that use every second image, each the other ones.
+TEST(LinePairing, LinesOfOtherImagesAreMissingForGood) {
+  MeasurementSync sync(WithLines());
+  AddImu(&sync, 0, 6000);
+  size_t frames = 0;
+  int changes = 0;
+  bool missing = false;
+  for (int64_t t = 100; t <= 5000; t += 50) {
+    if (t % 100 == 0) {
+      sync.AddPoints(Points(t * kMs));
+    } else {
+      sync.AddLines(Lines(t * kMs));
+    }
+    frames += testing::PopAll(&sync).size();
+    if (sync.lines_are_missing() != missing) ++changes;
+    missing = sync.lines_are_missing();
+  }
+  EXPECT_EQ(frames, 50u);
+  EXPECT_EQ(changes, 1);
+  EXPECT_TRUE(sync.lines_are_of_other_images());
+}
+
+TEST(LinePairing, LateLinesAreNotOfOtherImages) {
+  MeasurementSync sync(WithLines());
+  FeedWithLines(50, 3000, 6, &sync);
+  EXPECT_TRUE(sync.lines_are_missing());
+  EXPECT_FALSE(sync.lines_are_of_other_images());
+}
+
+// The line tracker does not know which images the tracker of points uses.
+TEST(LinePairing, LinesOfEveryImagePairWithPointsOfSome) {
+  for (const int64_t phase : {0, 50}) {
+    MeasurementSync sync(WithLines());
+    AddImu(&sync, 0, 3000);
+    for (int64_t t = 100; t <= 2000; t += 50) {
+      sync.AddLines(Lines(t * kMs));
+      if (t % 100 == phase) sync.AddPoints(Points(t * kMs));
+      for (const FrameMeasurement& frame : testing::PopAll(&sync)) EXPECT_TRUE(frame.lines);
+    }
+    EXPECT_EQ(sync.statistics().frames_without_lines, 0);
+    EXPECT_FALSE(sync.lines_are_missing());
+  }
+}
+
+TEST(LinePairing, LinesOfAnEarlierRecordingDoNotBlockThoseOfThisOne) {
+  MeasurementSync sync(WithLines());
+  sync.AddLines(Lines(90000 * kMs));  // left over, arrives after the restart
+  FeedWithLines(50, 1000, 0, &sync);
+  EXPECT_EQ(sync.statistics().frames_without_lines, 0);
+  EXPECT_EQ(sync.statistics().lines_out_of_order, 1);
+}
+
+TEST(LinePairing, NoLinesAndAThousandLinesAreFramesLikeOthers) {
+  MeasurementSync sync(WithLines());
+  AddImu(&sync, 0, 200);
+  for (const size_t count : {0, 1000}) {
+    const int64_t t = count == 0 ? 50 : 100;
+    LineFrame lines = Lines(t * kMs);
+    lines.lines.resize(count);
+    sync.AddPoints(Points(t * kMs));
+    sync.AddLines(lines);
+    const auto frame = sync.Pop();
+    ASSERT_TRUE(frame && frame->lines);
+    EXPECT_EQ(frame->lines->lines.size(), count);
+  }
+}
+
+TEST(LinePairing, LinesWithoutPointsAndOutOfOrderAreCounted) {
+  MeasurementSync sync(WithLines());
+  AddImu(&sync, 0, 200);
+  sync.AddLines(Lines(25 * kMs));  // its points never come
+  sync.AddLines(Lines(50 * kMs));
+  sync.AddLines(Lines(50 * kMs));
+  sync.AddPoints(Points(50 * kMs));
+  const auto frame = sync.Pop();
+  ASSERT_TRUE(frame && frame->lines);
+  EXPECT_EQ(sync.statistics().lines_without_points, 1);
+  EXPECT_EQ(sync.statistics().lines_out_of_order, 1);
+}
+
+}  // namespace
+}  // namespace plm_vins

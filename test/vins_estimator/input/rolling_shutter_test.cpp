@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/input/rolling_shutter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/camera/readout_share.h"
+#include "common/geometry/rigid3.h"
+#include "common/geometry/so3.h"
+#include "simulator/default_sensors.h"
+#include "simulator/random.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kReadout = 0.03;   // [s]
+constexpr double kInterval = 0.05;  // between images [s]
+
+// A camera that flies and turns ever faster past points and lines. B is C, but for its attitude.
+class RollingCamera {
+ public:
+  explicit RollingCamera(const Vector3d& angular_acceleration_C)
+      : angular_acceleration_C_(angular_acceleration_C) {
+    simulator::Random random(1);
+    for (int i = 0; i < 300; ++i) {
+      points_C0_.push_back({random.Uniform(-3, 3), random.Uniform(-2, 2), random.Uniform(2.5, 6)});
+    }
+  }
+
+  const CameraParameters& parameters() const { return camera_->parameters(); }
+  const Eigen::Quaterniond& R_B_C() const { return R_B_C_; }
+  double focal_length() const { return camera_->FocalLength(); }
+
+  // Angular rate in C at a time since the first image.
+  Vector3d Rate(double t) const { return Vector3d(0.5, -0.6, 0.7) + t * angular_acceleration_C_; }
+
+  // Where a point of the first camera is in that of a time.
+  Vector3d InCamera(const Vector3d& p_C0, double t) const {
+    const Vector3d turn = t * (Rate(0) + Rate(t)) / 2;
+    return SO3Exp(turn).conjugate() * (p_C0 - t * Vector3d(1.5, -0.8, 0.6));
+  }
+
+  Vector2d AtStamp(const Vector3d& p_C0, double t) const { return InCamera(p_C0, t).hnormalized(); }
+
+  // What is seen of it in the image of that time; nothing where it is not in view.
+  std::optional<Vector2d> Pixel(const Vector3d& p_C0, double t) const {
+    double share = 0;
+    std::optional<Vector2d> pixel;
+    for (int i = 0; i < 6; ++i) {
+      pixel = camera_->Project(InCamera(p_C0, t + share * kReadout));
+      if (!pixel || !camera_->IsInImage(*pixel)) return std::nullopt;
+      share = ReadoutShare(pixel->y(), parameters().height);
+    }
+    return pixel;
+  }
+
+  // The image with the points, and lines from each point to the next, but every third.
+  FrameMeasurement Image(double t) const {
+    FrameMeasurement image;
+    image.t_ns = image.points.t_ns = ToNanoseconds(1000 + t);
+    image.lines.emplace();
+    image.lines->t_ns = image.t_ns;
+    for (size_t i = 0; i < points_C0_.size(); ++i) {
+      const auto pixel = Pixel(points_C0_[i], t);
+      if (!pixel) continue;
+      const int64_t id = static_cast<int64_t>(i);
+      image.points.points.push_back({id, *camera_->Unproject(*pixel), *pixel, {0, 0}});
+      const auto end = i + 1 < points_C0_.size() ? Pixel(points_C0_[i + 1], t) : std::nullopt;
+      if (end) {
+        image.lines->lines.push_back({id, *camera_->Unproject(*pixel), *camera_->Unproject(*end)});
+      }
+    }
+    for (double s = t - kInterval; s < t + 1e-9; s += 0.005) {
+      const Vector3d gyro = R_B_C_ * Rate(s) + Vector3d(0.05, -0.03, 0.02);  // with a bias
+      image.imu.push_back({ToNanoseconds(1000 + s), gyro, Vector3d::Zero()});
+    }
+    return image;
+  }
+
+  const std::vector<Vector3d>& points_C0() const { return points_C0_; }
+
+ private:
+  std::unique_ptr<const CameraModel> camera_ =
+      CameraModel::Create(simulator::DefaultSensors().camera);
+  Eigen::Quaterniond R_B_C_ = SO3Exp({1, 2, -0.5});
+  Vector3d angular_acceleration_C_;
+  std::vector<Vector3d> points_C0_;
+};
+
+// Root mean square distance of an image's points from where they are at the stamp [px].
+double PointError(const RollingCamera& camera, double t, const FrameMeasurement& image) {
+  double sum = 0;
+  for (const PointObservation& point : image.points.points) {
+    sum += (point.xy - camera.AtStamp(camera.points_C0()[point.id], t)).squaredNorm();
+  }
+  return camera.focal_length() * std::sqrt(sum / static_cast<double>(image.points.points.size()));
+}
+
+// Of the lines' ends from the lines through where their ends are at the stamp [px].
+double LineError(const RollingCamera& camera, double t, const FrameMeasurement& image) {
+  double sum = 0;
+  for (const LineObservation& line : image.lines->lines) {
+    const Vector3d normal =
+        camera.AtStamp(camera.points_C0()[line.id], t)
+            .homogeneous()
+            .cross(camera.AtStamp(camera.points_C0()[line.id + 1], t).homogeneous());
+    for (const Vector2d& end : {line.start, line.end}) {
+      sum += std::pow(normal.dot(end.homogeneous()) / normal.head<2>().norm(), 2) / 2;
+    }
+  }
+  return camera.focal_length() * std::sqrt(sum / static_cast<double>(image.lines->lines.size()));
+}
+
+// The second image of a flight, moved.
+FrameMeasurement Moved(const RollingCamera& camera) {
+  RollingShutter shutter(camera.parameters());
+  shutter.ToStamp(camera.Image(0), camera.R_B_C(), kReadout);
+  return shutter.ToStamp(camera.Image(kInterval), camera.R_B_C(), kReadout);
+}
+
+TEST(RollingShutter, MovesPointsAndLinesToTheStamp) {
+  const RollingCamera camera(Vector3d::Zero());
+  const FrameMeasurement moved = Moved(camera), seen = camera.Image(kInterval);
+  ASSERT_GT(moved.points.points.size(), 80u);
+  ASSERT_GT(moved.lines->lines.size(), 30u);
+  EXPECT_GT(PointError(camera, kInterval, seen), 2);
+  EXPECT_LT(PointError(camera, kInterval, moved), 0.1);
+  EXPECT_GT(LineError(camera, kInterval, seen), 2);
+  EXPECT_LT(LineError(camera, kInterval, moved), 0.1);
+}
+
+TEST(RollingShutter, TheGyroTellsHowMotionChanges) {
+  const RollingCamera camera(Vector3d(8, -6, 5));
+  FrameMeasurement first = camera.Image(0), second = camera.Image(kInterval);
+  const FrameMeasurement moved = Moved(camera);
+  for (ImuSample& sample : second.imu) sample.gyro.setZero();
+  RollingShutter deaf(camera.parameters());
+  deaf.ToStamp(first, camera.R_B_C(), kReadout);
+  const FrameMeasurement by_tracks = deaf.ToStamp(second, camera.R_B_C(), kReadout);
+  EXPECT_LT(PointError(camera, kInterval, moved), 0.6 * PointError(camera, kInterval, by_tracks));
+  EXPECT_LT(LineError(camera, kInterval, moved), 0.6 * LineError(camera, kInterval, by_tracks));
+}
+
+TEST(RollingShutter, PointsGetTheirVelocity) {
+  const RollingCamera camera(Vector3d::Zero());
+  for (const PointObservation& point : Moved(camera).points.points) {
+    const Vector3d& p_C0 = camera.points_C0()[point.id];
+    const Vector2d velocity =
+        (camera.AtStamp(p_C0, kInterval + 1e-4) - camera.AtStamp(p_C0, kInterval - 1e-4)) / 2e-4;
+    EXPECT_LT((point.velocity - velocity).norm(), 0.02 + 0.05 * velocity.norm());
+  }
+}
+
+TEST(RollingShutter, LeavesOutWhatIsNew) {
+  const RollingCamera camera(Vector3d::Zero());
+  RollingShutter shutter(camera.parameters());
+  FrameMeasurement first = camera.Image(0);
+  first.points.points.resize(10);
+  first.lines.reset();
+  const FrameMeasurement moved = shutter.ToStamp(first, camera.R_B_C(), kReadout);
+  EXPECT_TRUE(moved.points.points.empty());
+  EXPECT_FALSE(moved.lines);
+  const FrameMeasurement second =
+      shutter.ToStamp(camera.Image(kInterval), camera.R_B_C(), kReadout);
+  EXPECT_GT(second.points.points.size(), 5u);
+  EXPECT_LE(second.points.points.size(), 10u);
+  EXPECT_TRUE(second.lines->lines.empty());
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/input/rolling_shutter.h"
+
+#include <utility>
+
+#include "common/camera/readout_share.h"
+#include "common/features/feature_checks.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kMinInterval = 0.005;  // [s]: less is no interval to divide by
+
+// Mean angular rate in B from `from_ns`, or earlier where no sample is later, to the last sample.
+Eigen::Vector3d MeanRate(const std::vector<ImuSample>& imu, int64_t from_ns) {
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  size_t first = imu.size() - 1;
+  do {
+    const ImuSample &a = imu[first - 1], &b = imu[first];
+    turn += ToSeconds(b.t_ns - a.t_ns) * 0.5 * (a.gyro + b.gyro);
+    --first;
+  } while (first > 0 && imu[first].t_ns > from_ns);
+  const double duration = ToSeconds(imu.back().t_ns - imu[first].t_ns);
+  return duration > 0 ? Eigen::Vector3d(turn / duration) : imu.back().gyro;
+}
+
+// How much faster the body turns at the image than on average since the image before. Now is the
+// half of the read-out that the samples reach; a single one would take a vibration for a turn.
+Eigen::Vector3d RateChange(const std::vector<ImuSample>& imu, double readout) {
+  if (imu.size() < 2) return Eigen::Vector3d::Zero();
+  return MeanRate(imu, imu.back().t_ns - ToNanoseconds(readout / 2)) -
+         MeanRate(imu, imu.front().t_ns);
+}
+
+// Velocity in the image of what stands still, while the camera turns.
+Eigen::Vector2d RotationalFlow(const Eigen::Vector2d& xy, const Eigen::Vector3d& rate_C) {
+  const Eigen::Vector3d change = xy.homogeneous().cross(rate_C);
+  return change.head<2>() - xy * change.z();
+}
+
+// The point nearest to `xy` of the line through both ends.
+Eigen::Vector2d FootOnLine(const LineObservation& line, const Eigen::Vector2d& xy) {
+  const Eigen::Vector2d along = (line.end - line.start).normalized();
+  return line.start + along.dot(xy - line.start) * along;
+}
+
+}  // namespace
+
+FrameMeasurement RollingShutter::ToStamp(FrameMeasurement measurement,
+                                         const Eigen::Quaterniond& R_B_C, double readout) {
+  const Motion motion{ToSeconds(measurement.t_ns - t_ns_), readout,
+                      R_B_C.conjugate() * RateChange(measurement.imu, readout)};
+  MovePoints(motion, &measurement.points.points);
+  if (measurement.lines) {
+    MoveLines(motion, &measurement.lines->lines);
+  } else {
+    lines_.clear();
+  }
+  t_ns_ = measurement.t_ns;
+  return measurement;
+}
+
+void RollingShutter::MovePoints(const Motion& motion, std::vector<PointObservation>* points) {
+  std::unordered_map<int64_t, Sight> sights;
+  std::vector<PointObservation> moved;
+  moved.reserve(points->size());
+  for (PointObservation& point : *points) {
+    const Sight now = SightOf(point);
+    sights.emplace(point.id, now);
+    const auto before = points_.find(point.id);
+    if (before == points_.end()) continue;
+    const auto velocity = Velocity(motion, before->second, now);
+    if (!velocity) continue;
+    point.velocity = *velocity;
+    point.xy -= now.share * motion.readout * *velocity;
+    moved.push_back(point);
+  }
+  points_ = std::move(sights);
+  *points = std::move(moved);
+}
+
+void RollingShutter::MoveLines(const Motion& motion, std::vector<LineObservation>* lines) {
+  std::unordered_map<int64_t, LineObservation> seen;
+  std::vector<LineObservation> moved;
+  moved.reserve(lines->size());
+  for (const LineObservation& line : *lines) {
+    seen.emplace(line.id, line);
+    const auto before = lines_.find(line.id);
+    if (before == lines_.end()) continue;
+    const auto start = MoveEnd(motion, before->second, line.start);
+    const auto end = MoveEnd(motion, before->second, line.end);
+    if (start && end) moved.push_back({line.id, *start, *end});
+  }
+  lines_ = std::move(seen);
+  *lines = std::move(moved);
+}
+
+RollingShutter::Sight RollingShutter::SightOf(const PointObservation& point) const {
+  return {point.xy, ReadoutShare(point.uv_px.y(), camera_->parameters().height)};
+}
+
+std::optional<RollingShutter::Sight> RollingShutter::SightOf(const Eigen::Vector2d& xy) const {
+  const auto pixel = camera_->Project(xy.homogeneous());
+  if (!pixel) return std::nullopt;
+  return Sight{xy, ReadoutShare(pixel->y(), camera_->parameters().height)};
+}
+
+std::optional<Eigen::Vector2d> RollingShutter::MoveEnd(const Motion& motion,
+                                                       const LineObservation& before,
+                                                       const Eigen::Vector2d& end) const {
+  const auto now = SightOf(end), foot = SightOf(FootOnLine(before, end));
+  if (!now || !foot) return std::nullopt;
+  const auto velocity = Velocity(motion, *foot, *now);
+  if (!velocity) return std::nullopt;
+  return end - now->share * motion.readout * *velocity;
+}
+
+std::optional<Eigen::Vector2d> RollingShutter::Velocity(const Motion& motion, const Sight& before,
+                                                        const Sight& now) {
+  const double interval = motion.interval + motion.readout * (now.share - before.share);
+  if (interval < kMinInterval) return std::nullopt;
+  const Eigen::Vector2d velocity =
+      (now.xy - before.xy) / interval + RotationalFlow(now.xy, motion.rate_change_C);
+  if (!IsWithin(velocity, kMaxImageVelocity)) return std::nullopt;
+  return velocity;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/monitoring/delay_monitor.h"
+
+#include <cmath>
+
+#include "vins_estimator/monitoring/forgetting_sum.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kForgetting = 0.01;     // per image: five seconds at 20 Hz
+constexpr double kMinCorrelation = 0.5;  // of a hundred images: chance stays below 0.2
+constexpr double kMinDelay = 0.003;  // [s]; the optimisation gives in to much of ten milliseconds
+constexpr double kMinChange = 0.01;  // [rad^2/s^2], sum: without turns there is nothing to see
+
+}  // namespace
+
+void DelayMonitor::Add(const Eigen::Vector3d& rotation_residual,
+                       const Eigen::Vector3d& rate_change) {
+  AddForgetting(kForgetting, rate_change.dot(rotation_residual), &change_residual_);
+  AddForgetting(kForgetting, rate_change.squaredNorm(), &change_change_);
+  AddForgetting(kForgetting, rotation_residual.squaredNorm(), &residual_residual_);
+}
+
+std::optional<double> DelayMonitor::delay() const {
+  if (change_change_ < kMinChange || residual_residual_ == 0) return std::nullopt;
+  const double correlation = change_residual_ / std::sqrt(change_change_ * residual_residual_);
+  const double delay = change_residual_ / change_change_;
+  const bool shows = std::abs(correlation) > kMinCorrelation && std::abs(delay) > kMinDelay;
+  return shows ? std::optional(delay) : std::nullopt;
+}
+
+}  // namespace plm_vins

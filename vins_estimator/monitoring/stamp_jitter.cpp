@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/monitoring/stamp_jitter.h"
+
+#include <cmath>
+
+#include "vins_estimator/monitoring/forgetting_sum.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kForgetting = 0.02;    // per image: two and a half seconds at 20 Hz
+constexpr double kMinRatio = 4.0;       // of the variance along the turn to that across it
+constexpr double kMinDeviation = 1e-3;  // [s]
+constexpr double kMinRate = 1e-2;       // [rad^4/s^4], sum: without turns there is nothing to see
+
+// How a state changes with time, in the coordinates of R_B_W [per second].
+Vector15d Change(const Eigen::Matrix3d& R_B_W, const FrameState& state, const ImuSample& sample,
+                 const Eigen::Vector3d& gravity_W) {
+  const Eigen::Vector3d accel_W =
+      state.rotation() * (sample.accel - state.accel_bias()) + gravity_W;
+  Vector15d change = Vector15d::Zero();
+  change.segment<3>(ImuErrorIndex::kPosition) = R_B_W * state.velocity();
+  change.segment<3>(ImuErrorIndex::kRotation) = sample.gyro - state.gyro_bias();
+  change.segment<3>(ImuErrorIndex::kVelocity) = R_B_W * accel_W;
+  return change;
+}
+
+}  // namespace
+
+void StampJitterMonitor::Add(const Eigen::Vector3d& rotation_residual,
+                             const Eigen::Vector3d& rate) {
+  const double along = rate.dot(rotation_residual), squared_rate = rate.squaredNorm();
+  AddForgetting(kForgetting, along * along, &along_);
+  AddForgetting(kForgetting, squared_rate * rotation_residual.squaredNorm() - along * along,
+                &across_);
+  AddForgetting(kForgetting, along * along_before_, &common_);
+  AddForgetting(kForgetting, squared_rate * rate_before_, &rates_);
+  along_before_ = along;
+  rate_before_ = squared_rate;
+}
+
+// Across the turn there are two directions.
+double StampJitterMonitor::deviation() const {
+  if (rates_ < kMinRate || along_ < kMinRatio * across_ / 2 || common_ >= 0) return 0;
+  const double deviation = std::sqrt(-common_ / rates_);
+  return deviation > kMinDeviation ? deviation : 0;
+}
+
+StampErrors StampErrorsOf(double deviation, const Preintegration& motion,
+                          const Eigen::Vector3d& gravity_W, const FrameState& start,
+                          const FrameState& end) {
+  const Eigen::Matrix3d R_B_W = start.rotation().toRotationMatrix().transpose();
+  return {deviation * Change(R_B_W, start, motion.samples().front(), gravity_W),
+          deviation * Change(R_B_W, end, motion.samples().back(), gravity_W)};
+}
+
+}  // namespace plm_vins

@@ -2,9 +2,9 @@
 #include "vins_estimator/estimation_stage.h"
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "common/format.h"
 #include "vins_estimator/estimator.h"
 
 namespace plm_vins {
@@ -12,12 +12,6 @@ namespace {
 
 constexpr double kRateTolerance = 0.2;  // share of the configured rate
 constexpr double kMaxJitter_ms = 1.0;  // a turn of 1 rad/s moves a corner by half a pixel meanwhile
-
-std::string Format(const char* format, double value) {
-  char text[128];
-  std::snprintf(text, sizeof(text), format, value);
-  return text;
-}
 
 MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) {
   MeasurementSync::Options options;
@@ -109,7 +103,8 @@ void EstimationStage::StartOver(const std::string& reason) {
 
 void EstimationStage::FollowClock() {
   const SyncStatistics& now = sync_.statistics();
-  if (now.leaps_ahead > leaps_ahead_) StartOver("stamps leaped ahead");
+  if (now.leaps_ahead > leaps_ahead_)
+    StartOver("no IMU for more than a minute, or its clock was set on");
   if (now.jumps_back > jumps_back_) StartOver("stamps jumped back");
   leaps_ahead_ = now.leaps_ahead;
   jumps_back_ = now.jumps_back;

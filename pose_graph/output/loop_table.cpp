@@ -2,19 +2,16 @@
 #include "pose_graph/output/loop_table.h"
 
 #include <cmath>
-#include <cstdio>
 #include <optional>
+
+#include "common/format.h"
 
 namespace plm_vins {
 namespace {
 
 constexpr double kDegreesPerRadian = 180 / M_PI;
 
-void WriteNumber(double value, std::ostream* stream) {
-  char text[32];
-  std::snprintf(text, sizeof(text), ",%.4f", value);
-  *stream << text;
-}
+void WriteNumber(double value, std::ostream* stream) { *stream << Format(",%.4f", value); }
 
 void WriteCount(const std::optional<int>& value, std::ostream* stream) {
   *stream << ',';

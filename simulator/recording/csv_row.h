@@ -2,20 +2,17 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <initializer_list>
 #include <string>
+
+#include "common/format.h"
 
 namespace plm_vins::simulator {
 
 // "stamp,a,b,c\n" with twelve significant digits each.
 inline std::string CsvRow(int64_t t_ns, std::initializer_list<double> values) {
   std::string row = std::to_string(t_ns);
-  char text[32];
-  for (const double value : values) {
-    std::snprintf(text, sizeof(text), ",%.12g", value);
-    row += text;
-  }
+  for (const double value : values) row += Format(",%.12g", value);
   return row + "\n";
 }
 

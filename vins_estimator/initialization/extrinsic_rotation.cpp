@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/format.h"
 #include "common/geometry/robust_weight.h"
 #include "common/geometry/so3.h"
-#include "vins_estimator/initialization/refusal_text.h"
 
 namespace plm_vins {
 namespace {
@@ -165,20 +165,20 @@ std::optional<Eigen::Quaterniond> CalibrateExtrinsicRotation(
   }
   const LinearSolution linear = SolveLinear(pairs);
   if (linear.second_turn < options.min_second_turn) {
-    *reason = RefusalText("turn about a second axis: %.1f deg of %.1f deg per image pair",
-                          Degrees(linear.second_turn), Degrees(options.min_second_turn));
+    *reason = Format("turn about a second axis: %.1f deg of %.1f deg per image pair",
+                     Degrees(linear.second_turn), Degrees(options.min_second_turn));
     return std::nullopt;
   }
   Refiner refiner(pairs, linear.R_B_C, options.gyro_bias_deviation);
   refiner.Run();
   if (refiner.inlier_share() < kMinInlierShare) {
-    *reason = RefusalText("camera and gyro disagree: %.0f %% of %.0f %% of the image pairs fit",
-                          100 * refiner.inlier_share(), 100 * kMinInlierShare);
+    *reason = Format("camera and gyro disagree: %.0f %% of %.0f %% of the image pairs fit",
+                     100 * refiner.inlier_share(), 100 * kMinInlierShare);
     return std::nullopt;
   }
   if (refiner.Deviation() > options.max_deviation) {
-    *reason = RefusalText("turn more: uncertain by %.1f deg of at most %.1f deg",
-                          Degrees(refiner.Deviation()), Degrees(options.max_deviation));
+    *reason = Format("turn more: uncertain by %.1f deg of at most %.1f deg",
+                     Degrees(refiner.Deviation()), Degrees(options.max_deviation));
     return std::nullopt;
   }
   return refiner.R_B_C();

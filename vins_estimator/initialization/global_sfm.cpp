@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "common/format.h"
 #include "vins_estimator/initialization/relative_pose.h"
 
 namespace plm_vins {
@@ -153,10 +153,8 @@ bool Builder::Start(std::string* reason) {
   const Eigen::Quaterniond R_C1_C0 = R_G_C_[second].conjugate() * R_G_C_[first];
   const double parallax_px = options_.focal_length * MedianParallax(correspondences, R_C1_C0);
   if (parallax_px < options_.min_parallax_px) {
-    char text[80];
-    std::snprintf(text, sizeof(text), "too little parallax: %.1f px of %.1f px", parallax_px,
-                  options_.min_parallax_px);
-    *reason = text;
+    *reason =
+        Format("too little parallax: %.1f px of %.1f px", parallax_px, options_.min_parallax_px);
     return false;
   }
   const auto pose = EstimateRelativePose(correspondences, R_C1_C0, noise_, reason);

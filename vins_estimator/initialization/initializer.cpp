@@ -2,8 +2,8 @@
 #include "vins_estimator/initialization/initializer.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "common/format.h"
 #include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/initialization/frame_selection.h"
 #include "vins_estimator/initialization/motion_initializer.h"
@@ -130,10 +130,7 @@ std::optional<InitializationResult> Initializer::TryMotion() {
   const double duration = ToSeconds(buffer_.back().t_ns - buffer_.front().t_ns);
   if (duration < kMinMotionDuration || buffer_.size() < kMinFrames) {
     if (buffer_.size() > 1) {
-      char text[80];
-      std::snprintf(text, sizeof(text), "collecting images: %.1f s of %.1f s", duration,
-                    kMinMotionDuration);
-      reason_ = text;
+      reason_ = Format("collecting images: %.1f s of %.1f s", duration, kMinMotionDuration);
     }
     return std::nullopt;
   }

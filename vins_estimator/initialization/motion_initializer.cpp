@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/motion_initializer.h"
 
+#include "common/format.h"
 #include "common/geometry/so3.h"
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/initialization/global_sfm.h"
-#include "vins_estimator/initialization/refusal_text.h"
 #include "vins_estimator/initialization/relative_pose.h"
 #include "vins_estimator/initialization/tracks.h"
 #include "vins_estimator/initialization/visual_inertial_alignment.h"
@@ -150,13 +150,13 @@ bool Attempt::CheckBiases() {
   const double accel = states_.back().accel_bias().norm();
   const double gyro = states_.back().gyro_bias().norm();
   if (accel > options_.max_accel_bias) {
-    *reason_ = RefusalText("implausible accelerometer bias: %.2f m/s^2 of at most %.2f", accel,
-                           options_.max_accel_bias);
+    *reason_ = Format("implausible accelerometer bias: %.2f m/s^2 of at most %.2f", accel,
+                      options_.max_accel_bias);
     return false;
   }
   if (gyro > options_.max_gyro_bias) {
-    *reason_ = RefusalText("implausible gyro bias: %.3f rad/s of at most %.3f", gyro,
-                           options_.max_gyro_bias);
+    *reason_ =
+        Format("implausible gyro bias: %.3f rad/s of at most %.3f", gyro, options_.max_gyro_bias);
     return false;
   }
   return true;
@@ -164,19 +164,18 @@ bool Attempt::CheckBiases() {
 
 bool Attempt::CheckAdjustment(const VisualInertialBundle& bundle) {
   if (bundle.reprojection_rms > options_.max_reprojection_rms) {
-    *reason_ = RefusalText("points do not fit: %.1f sigma of at most %.1f", bundle.reprojection_rms,
-                           options_.max_reprojection_rms);
+    *reason_ = Format("points do not fit: %.1f sigma of at most %.1f", bundle.reprojection_rms,
+                      options_.max_reprojection_rms);
     return false;
   }
   if (bundle.imu_rms > options_.max_imu_rms) {
-    *reason_ = RefusalText("camera and IMU disagree: %.1f sigma of at most %.1f", bundle.imu_rms,
-                           options_.max_imu_rms);
+    *reason_ = Format("camera and IMU disagree: %.1f sigma of at most %.1f", bundle.imu_rms,
+                      options_.max_imu_rms);
     return false;
   }
   if (bundle.relative_scale_deviation > options_.max_scale_deviation) {
-    *reason_ =
-        RefusalText("scale not observable yet: uncertain by %.1f %% of at most %.1f %%",
-                    100 * bundle.relative_scale_deviation, 100 * options_.max_scale_deviation);
+    *reason_ = Format("scale not observable yet: uncertain by %.1f %% of at most %.1f %%",
+                      100 * bundle.relative_scale_deviation, 100 * options_.max_scale_deviation);
     return false;
   }
   return true;

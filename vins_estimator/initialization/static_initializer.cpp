@@ -2,8 +2,8 @@
 #include "vins_estimator/initialization/static_initializer.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "common/format.h"
 #include "common/geometry/so3.h"
 
 namespace plm_vins {
@@ -21,17 +21,13 @@ std::optional<FrameState> InitializeFromStandstill(const std::vector<ImuSample>&
     gyro += sample.gyro / samples.size();
     accel += sample.accel / samples.size();
   }
-  char text[120];
   if (!(std::abs(accel.norm() - gravity_norm) < kMaxGravityError)) {
-    std::snprintf(text, sizeof(text),
-                  "standing still, but gravity reads %.2f m/s^2 instead of %.2f", accel.norm(),
-                  gravity_norm);
-    *reason = text;
+    *reason = Format("standing still, but gravity reads %.2f m/s^2 instead of %.2f", accel.norm(),
+                     gravity_norm);
     return std::nullopt;
   }
   if (!(gyro.norm() < kMaxGyroMean)) {
-    std::snprintf(text, sizeof(text), "standing still, but the gyro reads %.2f rad/s", gyro.norm());
-    *reason = text;
+    *reason = Format("standing still, but the gyro reads %.2f rad/s", gyro.norm());
     return std::nullopt;
   }
   const Eigen::Quaterniond R_W_B = ShortestRotation(accel, Eigen::Vector3d::UnitZ());

@@ -3,8 +3,8 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <cstdio>
 
+#include "common/format.h"
 #include "common/geometry/so3.h"
 #include "common/geometry/tangent_basis.h"
 
@@ -150,10 +150,7 @@ std::optional<Alignment> AlignVisualInertial(
   }
   const double norm = result.gravity_G.norm();
   if (std::abs(norm / gravity_norm - 1) > kGravityNormTolerance) {
-    char text[80];
-    std::snprintf(text, sizeof(text), "gravity comes out as %.2f m/s^2 instead of %.2f", norm,
-                  gravity_norm);
-    *reason = text;
+    *reason = Format("gravity comes out as %.2f m/s^2 instead of %.2f", norm, gravity_norm);
     return std::nullopt;
   }
   for (int iteration = 0; iteration < kGravityIterations; ++iteration) {

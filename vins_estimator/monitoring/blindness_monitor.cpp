@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "common/format.h"
 #include "common/measurements.h"
 #include "vins_estimator/monitoring/failure_detector.h"
 
@@ -30,11 +30,8 @@ std::optional<std::string> BlindnessMonitor::Add(int64_t t_ns, int features_seen
     }
     return std::nullopt;
   }
-  char text[128];
-  std::snprintf(text, sizeof(text),
-                "nothing has held the position for %.1f s, which leaves it open by %.2f m",
+  return Format("nothing has held the position for %.1f s, which leaves it open by %.2f m",
                 ToSeconds(t_ns - *seen_ns_), added);
-  return std::string(text);
 }
 
 }  // namespace plm_vins

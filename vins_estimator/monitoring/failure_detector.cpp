@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "common/format.h"
 #include "common/measurements.h"
 
 namespace plm_vins {
@@ -22,9 +22,7 @@ bool IsFinite(const FrameState& state) {
 
 std::optional<std::string> Exceeds(const char* what, double value, double limit, const char* unit) {
   if (value <= limit) return std::nullopt;
-  char text[128];
-  std::snprintf(text, sizeof(text), "%s is %.2f %s, more than %.2f", what, value, unit, limit);
-  return std::string(text);
+  return Format("%s is %.2f %s, more than %.2f", what, value, unit, limit);
 }
 
 }  // namespace
@@ -60,11 +58,8 @@ std::optional<std::string> ContradictionMonitor::Add(int64_t t_ns, int landmarks
   contradicts_ = true;
   const double seconds = ToSeconds(contradiction_ns_);
   if (seconds < kMaxContradiction) return std::nullopt;
-  char text[128];
-  std::snprintf(text, sizeof(text),
-                "the camera contradicts the state: %d of %d landmarks rejected, for %.1f s",
+  return Format("the camera contradicts the state: %d of %d landmarks rejected, for %.1f s",
                 rejected, landmarks, seconds);
-  return std::string(text);
 }
 
 }  // namespace plm_vins

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/output/covariance_table.h"
 
-#include <cstdio>
+#include "common/format.h"
 
 namespace plm_vins {
 namespace {
@@ -21,11 +21,7 @@ void WriteCovarianceHeader(std::ostream* stream) {
 void WriteCovarianceRow(int64_t t_ns, const Matrix6d& covariance, std::ostream* stream) {
   *stream << t_ns;
   for (int row = 0; row < 6; ++row) {
-    for (int col = row; col < 6; ++col) {
-      char text[32];
-      std::snprintf(text, sizeof(text), ",%.8e", covariance(row, col));
-      *stream << text;
-    }
+    for (int col = row; col < 6; ++col) *stream << Format(",%.8e", covariance(row, col));
   }
   *stream << "\n";
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/output/frame_table.h"
 
-#include <cstdio>
+#include "common/format.h"
 
 namespace plm_vins {
 
@@ -15,11 +15,7 @@ void WriteFrameHeader(std::ostream* stream) {
 void WriteFrameRow(int64_t t_ns, const FrameTimings& timings, const FrameCounts& counts,
                    std::ostream* stream) {
   *stream << t_ns;
-  for (const double milliseconds : timings) {
-    char text[32];
-    std::snprintf(text, sizeof(text), ",%.4f", milliseconds);
-    *stream << text;
-  }
+  for (const double milliseconds : timings) *stream << Format(",%.4f", milliseconds);
   for (const int count : counts) *stream << "," << count;
   *stream << "\n";
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/output/ply_writer.h"
 
-#include <cstdio>
 #include <string>
+
+#include "common/format.h"
 
 namespace plm_vins {
 namespace {
@@ -10,9 +11,7 @@ namespace {
 constexpr int kCountWidth = 12;  // room for the number of points, padded with blanks
 
 std::string FormatPoint(const Eigen::Vector3d& p) {
-  char text[128];
-  std::snprintf(text, sizeof(text), "%.4f %.4f %.4f\n", p.x(), p.y(), p.z());
-  return text;
+  return Format("%.4f %.4f %.4f\n", p.x(), p.y(), p.z());
 }
 
 const char* Color(LineAxis axis) {

@@ -2,7 +2,8 @@
 #include "vins_estimator/output/tum_format.h"
 
 #include <cinttypes>
-#include <cstdio>
+
+#include "common/format.h"
 
 namespace plm_vins {
 
@@ -10,11 +11,8 @@ std::string FormatTumRow(int64_t t_ns, const Rigid3d& T_W_B) {
   constexpr int64_t kSecond_ns = 1'000'000'000;
   const Eigen::Vector3d& p = T_W_B.translation;
   const Eigen::Quaterniond& q = T_W_B.rotation;
-  char row[512];
-  std::snprintf(row, sizeof(row), "%" PRId64 ".%09" PRId64 " %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n",
-                t_ns / kSecond_ns, t_ns % kSecond_ns, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(),
-                q.w());
-  return row;
+  return Format("%" PRId64 ".%09" PRId64 " %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", t_ns / kSecond_ns,
+                t_ns % kSecond_ns, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
 }
 
 std::string FormatTumRestart(const std::string& reason) {

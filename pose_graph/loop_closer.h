@@ -24,6 +24,8 @@
 namespace plm_vins {
 
 struct LoopCloserOptions {
+  explicit LoopCloserOptions(const CameraModel& camera) : verification(camera.FocalLength()) {}
+
   KeyframeSpacing spacing;
   // While the place in the map is unknown, to find it soon.
   KeyframeSpacing lost_spacing = {0.1, 5 * M_PI / 180, 0.5};

@@ -92,7 +92,7 @@ std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message, int
 }
 
 sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments,
-                                        const std::optional<Eigen::Quaterniond>& R_O_M,
+                                        const std::optional<Eigen::Quaterniond>& R_O_Manhattan,
                                         int64_t t_ns, const std::string& frame_id) {
   sensor_msgs::PointCloud cloud = EmptyCloud(t_ns, frame_id);
   for (const TrackedSegment& segment : segments) {
@@ -102,10 +102,11 @@ sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segme
     const LineObservation& seen = segment.observation;
     cloud.channels.push_back(ToChannel(seen.start, seen.end, seen.id));
   }
-  if (R_O_M) {
+  if (R_O_Manhattan) {
     sensor_msgs::ChannelFloat32& channel = cloud.channels.emplace_back();
     channel.name = kManhattan;
-    for (const double value : {R_O_M->w(), R_O_M->x(), R_O_M->y(), R_O_M->z()}) {
+    for (const double value :
+         {R_O_Manhattan->w(), R_O_Manhattan->x(), R_O_Manhattan->y(), R_O_Manhattan->z()}) {
       channel.values.push_back(static_cast<float>(value));
     }
   }
@@ -136,11 +137,11 @@ std::optional<Eigen::Quaterniond> ToManhattanFrame(const sensor_msgs::PointCloud
   if (values.size() != 4) {
     throw std::invalid_argument("a keyframe's Manhattan frame is no quaternion");
   }
-  const Eigen::Quaterniond R_O_M(values[0], values[1], values[2], values[3]);
-  if (!(R_O_M.norm() > 0) || !R_O_M.coeffs().allFinite()) {
+  const Eigen::Quaterniond R_O_Manhattan(values[0], values[1], values[2], values[3]);
+  if (!(R_O_Manhattan.norm() > 0) || !R_O_Manhattan.coeffs().allFinite()) {
     throw std::invalid_argument("a keyframe's Manhattan frame is no rotation");
   }
-  return R_O_M.normalized();
+  return R_O_Manhattan.normalized();
 }
 
 }  // namespace plm_vins

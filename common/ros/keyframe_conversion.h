@@ -26,10 +26,10 @@ std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message, int
 // ~keyframe_line: both ends in space of each line, not a number where it has no place, and one
 // channel for each line, with the ends x, y, x, y (normalised) and the id. Lines without a place
 // count as well: they show that what was there at an earlier visit still is. Where the scene has a
-// Manhattan frame, a last channel of that name has R_O_M as w, x, y, z. Reading is as above, and
-// throws where that is no rotation.
+// Manhattan frame, a last channel of that name has R_O_Manhattan as w, x, y, z. Reading is as
+// above, and throws where that is no rotation.
 sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments,
-                                        const std::optional<Eigen::Quaterniond>& R_O_M,
+                                        const std::optional<Eigen::Quaterniond>& R_O_Manhattan,
                                         int64_t t_ns, const std::string& frame_id);
 std::vector<TrackedSegment> ToSegments(const sensor_msgs::PointCloud& message, int64_t* left_out);
 std::optional<Eigen::Quaterniond> ToManhattanFrame(const sensor_msgs::PointCloud& message);

@@ -14,7 +14,7 @@ OdometryFrame ToOdometryFrame(const PipelineFrame& frame, bool restarted) {
   result.T_B_C = output.calibration.T_B_C;
   result.camera = output.calibration.camera;
   result.covariance = output.pose_covariance;
-  result.R_O_M = output.R_W_M;
+  result.R_O_Manhattan = output.R_W_M;
   result.corners = PlaceCorners(frame.points, output.points);
   result.segments = PlaceSegments(frame.lines, output.lines);
   result.gray = frame.image.gray;

@@ -20,7 +20,7 @@ LoopResults::LoopResults(const Config& config, const std::string& folder,
                          std::optional<KeyframeMap> map)
     : folder_(folder),
       camera_(CameraModel::Create(config.sensor.camera)),
-      loops_(LoopCloserOptions(), camera_),
+      loops_(LoopCloserOptions(*camera_), camera_),
       trajectory_(File("trajectory_map.tum")),
       table_(File("loops.csv")) {
   if (map) loops_.SetMap(std::move(*map));
@@ -61,6 +61,8 @@ void LoopResults::Count(const LoopClosure& closure, double milliseconds) {
       ++(loop.failed ? refused_[static_cast<size_t>(*loop.failed)] : accepted_);
     }
   }
+  // They were refused for lack of one that agrees, and have another verdict now.
+  refused_[static_cast<size_t>(LoopGate::kAgreement)] -= static_cast<int>(closure.confirmed.size());
   if (!closure.is_keyframe) return;
   ++keyframes_;
   keyframe_ms_.push_back({milliseconds});

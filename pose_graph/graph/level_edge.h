@@ -36,6 +36,6 @@ double Deviations(const Vector4d& error, const Matrix4d& covariance);
 
 // Of four variables of which nothing is wrong, the deviations stay below in 997 of 1000 cases: as
 // those of one below three. [Wilson1931] gives chi-square; 16.3 is its square.
-constexpr double kThreeSigma = 4.03;
+constexpr double kThreeSigmaOf4Dof = 4.03;
 
 }  // namespace plm_vins

@@ -111,7 +111,7 @@ std::vector<LevelEdge> PoseGraph::Optimize() {
   while (true) {
     Solve();
     auto worst = edges_.end();
-    double worst_deviations = kThreeSigma;
+    double worst_deviations = kThreeSigmaOf4Dof;
     for (auto edge = edges_.begin(); edge != edges_.end(); ++edge) {
       const double deviations = edge->is_loop ? Deviations(*edge) : 0;
       if (deviations <= worst_deviations) continue;
@@ -135,7 +135,8 @@ void PoseGraph::Solve() {
         new EdgeCost{measured, Whitening(edge.covariance), std::round(excess / (2 * M_PI))});
     // Where odometry jumped, a right loop is off by much at first: it must not be doubted before it
     // is taken out.
-    problem.AddResidualBlock(cost, edge.is_loop ? new ceres::CauchyLoss(kThreeSigma) : nullptr,
+    problem.AddResidualBlock(cost,
+                             edge.is_loop ? new ceres::CauchyLoss(kThreeSigmaOf4Dof) : nullptr,
                              values[edge.from].data(), values[edge.to].data());
   }
   const std::vector<int> parts = Parts();

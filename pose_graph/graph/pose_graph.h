@@ -24,8 +24,8 @@ class PoseGraph {
   bool Has(int number) const { return nodes_[number].anchor < 0; }
 
   // Takes the nodes to where all edges fit best. Each part as a whole stays where it is.
-  // Loops count robustly; those that are off by more than kThreeSigma in the end are taken out, the
-  // worst first, and it is done again. Returns them.
+  // Loops count robustly; those that are off by more than kThreeSigmaOf4Dof in the end are taken
+  // out, the worst first, and it is done again. Returns them.
   std::vector<LevelEdge> Optimize();
 
   // Whether edges lead from one node to the other.

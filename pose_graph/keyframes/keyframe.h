@@ -31,7 +31,7 @@ struct Keyframe {
   Rigid3d T_O_B;
   Matrix4d covariance = Matrix4d::Zero();  // of (x, y, z, yaw) of T_O_B, as odometry states it
   Rigid3d T_B_C;
-  std::optional<Eigen::Quaterniond> R_O_M;
+  std::optional<Eigen::Quaterniond> R_O_Manhattan;
   std::vector<DescribedCorner> corners;
   std::vector<TrackedSegment> segments;
 

@@ -84,7 +84,7 @@ Keyframe MakeKeyframe(const CornerSelectionOptions& options, const CameraModel& 
   keyframe.T_O_B = frame.T_O_B;
   keyframe.covariance = LevelCovariance(frame);
   keyframe.T_B_C = frame.T_B_C;
-  keyframe.R_O_M = frame.R_O_M;
+  keyframe.R_O_Manhattan = frame.R_O_Manhattan;
   keyframe.segments = frame.segments;
   keyframe.corners = FollowedCorners(frame);
   AddFoundCorners(options, camera, frame.gray, &keyframe.corners);

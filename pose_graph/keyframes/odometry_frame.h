@@ -23,7 +23,7 @@ struct OdometryFrame {
   Rigid3d T_B_C;
   std::optional<CameraParameters> camera;  // as refined by now: all rays are taken anew by it
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  // (p_O, theta_B)
-  std::optional<Eigen::Quaterniond> R_O_M;  // the Manhattan frame, where one is locked
+  std::optional<Eigen::Quaterniond> R_O_Manhattan;  // the Manhattan frame, where one is locked
   std::vector<TrackedCorner> corners;
   std::vector<TrackedSegment> segments;
   cv::Mat gray;  // CV_8UC1, as the camera delivered it

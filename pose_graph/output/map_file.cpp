@@ -72,7 +72,7 @@ void Frame(Archive* archive, Struct& keyframe) {
   Pose(archive, keyframe.T_O_B);
   Numbers(archive, keyframe.covariance);
   Pose(archive, keyframe.T_B_C);
-  if (archive->Has(keyframe.R_O_M)) Numbers(archive, keyframe.R_O_M->coeffs());
+  if (archive->Has(keyframe.R_O_Manhattan)) Numbers(archive, keyframe.R_O_Manhattan->coeffs());
   archive->Resize(keyframe.corners);
   for (auto& corner : keyframe.corners) Corner(archive, corner);
   archive->Resize(keyframe.segments);

@@ -40,9 +40,9 @@ class Half {
 
 void DrawCorners(const LoopSightings& sightings, const Half& left, const Half& right,
                  cv::Mat* picture) {
-  const Rigid3d T_C_A = sightings.T_A_C.Inverse();
+  const Rigid3d T_C_O = sightings.T_O1_C.Inverse();
   for (const SeenPoint& point : sightings.of_earlier) {
-    const auto before = left.Find(T_C_A * point.p_A);
+    const auto before = left.Find(T_C_O * point.p_O);
     const auto now = right.Find(point.xy.homogeneous());
     if (!before || !now) continue;
     cv::line(*picture, *before, *now, kCornerColor, 1, cv::LINE_AA);
@@ -53,9 +53,9 @@ void DrawCorners(const LoopSightings& sightings, const Half& left, const Half& r
 
 void DrawLines(const LoopSightings& sightings, const Half& left, const Half& right,
                cv::Mat* picture) {
-  const Rigid3d T_C_A = sightings.T_A_C.Inverse();
-  for (const auto& [line_A, segment] : sightings.lines) {
-    left.DrawSegment(T_C_A * line_A.start_O, T_C_A * line_A.end_O, picture);
+  const Rigid3d T_C_O = sightings.T_O1_C.Inverse();
+  for (const auto& [line, segment] : sightings.lines) {
+    left.DrawSegment(T_C_O * line.start_O, T_C_O * line.end_O, picture);
     right.DrawSegment(segment.start.homogeneous(), segment.end.homogeneous(), picture);
   }
 }

@@ -22,9 +22,11 @@ std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>
                                               const std::set<int64_t>& without = {});
 
 struct MatchingOptions {
-  int max_distance = 72;        // [bits]
-  double max_ratio = 0.9;       // of the distances of the best and the second best landmark
-  double search_radius = 0.05;  // around where a landmark should be seen (normalised)
+  explicit MatchingOptions(double focal_length) : search_radius(23 / focal_length) {}  // [px]
+
+  int max_distance = 72;   // [bits]
+  double max_ratio = 0.9;  // of the distances of the best and the second best landmark
+  double search_radius;    // around where a landmark should be seen (normalised)
 };
 
 struct LandmarkMatch {

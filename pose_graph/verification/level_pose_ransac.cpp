@@ -19,30 +19,30 @@ int IterationsFor(double inlier_share, double confidence) {
   return static_cast<int>(std::ceil(std::log(1 - confidence) / std::log(1 - hit)));
 }
 
-std::vector<size_t> InliersOf(const LevelTransform& T_A_G, const std::vector<SeenPoint>& sightings,
+std::vector<size_t> InliersOf(const LevelTransform& T_O_G, const std::vector<SeenPoint>& sightings,
                               const Eigen::Quaterniond& R_G_C, double max_error) {
   std::vector<size_t> inliers;
   for (size_t i = 0; i < sightings.size(); ++i) {
-    if (SightingError(sightings[i], T_A_G, R_G_C) <= max_error) inliers.push_back(i);
+    if (SightingError(sightings[i], T_O_G, R_G_C) <= max_error) inliers.push_back(i);
   }
   return inliers;
 }
 
 }  // namespace
 
-std::vector<LevelTransform> SolveTwoPoints(const Eigen::Vector3d& ray_G1,
-                                           const Eigen::Vector3d& p_A1,
-                                           const Eigen::Vector3d& ray_G2,
-                                           const Eigen::Vector3d& p_A2) {
-  // p_A1 - p_A2 = Rz(yaw) (l1 ray_G1 - l2 ray_G2). Heights leave a line of lengths (l1, l2) =
+std::vector<LevelTransform> SolveTwoPoints(const Eigen::Vector3d& ray1_G,
+                                           const Eigen::Vector3d& p1_O,
+                                           const Eigen::Vector3d& ray2_G,
+                                           const Eigen::Vector3d& p2_O) {
+  // p1_O - p2_O = Rz(yaw) (l1 ray1_G - l2 ray2_G). Heights leave a line of lengths (l1, l2) =
   // nearest + s along.
-  const Eigen::Vector3d difference = p_A1 - p_A2;
-  const Eigen::Vector2d heights(ray_G1.z(), -ray_G2.z());
+  const Eigen::Vector3d difference = p1_O - p2_O;
+  const Eigen::Vector2d heights(ray1_G.z(), -ray2_G.z());
   if (heights.squaredNorm() < 1e-12) return {};
   const Eigen::Vector2d nearest = heights * difference.z() / heights.squaredNorm();
   const Eigen::Vector2d along = Eigen::Vector2d(-heights.y(), heights.x()).normalized();
   Eigen::Matrix2d horizontal;
-  horizontal << ray_G1.head<2>(), -ray_G2.head<2>();
+  horizontal << ray1_G.head<2>(), -ray2_G.head<2>();
 
   const Eigen::Vector2d start = horizontal * nearest;
   const Eigen::Vector2d slope = horizontal * along;
@@ -57,18 +57,18 @@ std::vector<LevelTransform> SolveTwoPoints(const Eigen::Vector3d& ray_G1,
     const Eigen::Vector2d lengths = nearest + (-b + sign * std::sqrt(discriminant)) / a * along;
     if (lengths.minCoeff() <= 0) continue;
     const Eigen::Vector2d seen = horizontal * lengths;
-    LevelTransform T_A_G;
-    T_A_G.yaw =
+    LevelTransform T_O_G;
+    T_O_G.yaw =
         WrapAngle(std::atan2(difference.y(), difference.x()) - std::atan2(seen.y(), seen.x()));
-    T_A_G.translation = p_A1 - T_A_G.rotation() * (lengths(0) * ray_G1);
-    poses.push_back(T_A_G);
+    T_O_G.translation = p1_O - T_O_G.rotation() * (lengths(0) * ray1_G);
+    poses.push_back(T_O_G);
   }
   return poses;
 }
 
-double SightingError(const SeenPoint& sighting, const LevelTransform& T_A_G,
+double SightingError(const SeenPoint& sighting, const LevelTransform& T_O_G,
                      const Eigen::Quaterniond& R_G_C) {
-  const Eigen::Vector3d p_C = R_G_C.conjugate() * (T_A_G.Inverse() * sighting.p_A);
+  const Eigen::Vector3d p_C = R_G_C.conjugate() * (T_O_G.Inverse() * sighting.p_O);
   if (p_C.z() <= 0) return std::numeric_limits<double>::infinity();
   return (p_C.hnormalized() - sighting.xy).norm();
 }
@@ -84,8 +84,8 @@ std::optional<LevelPose> FindLevelPose(const LevelPoseRansacOptions& options,
     const SeenPoint& first = sightings[random() % sightings.size()];
     const SeenPoint& second = sightings[random() % sightings.size()];
     if (&first == &second) continue;
-    const auto poses = SolveTwoPoints(R_G_C * first.xy.homogeneous(), first.p_A,
-                                      R_G_C * second.xy.homogeneous(), second.p_A);
+    const auto poses = SolveTwoPoints(R_G_C * first.xy.homogeneous(), first.p_O,
+                                      R_G_C * second.xy.homogeneous(), second.p_O);
     for (const LevelTransform& pose : poses) {
       auto inliers = InliersOf(pose, sightings, R_G_C, options.max_error);
       if (inliers.size() <= best.inliers.size()) continue;

@@ -30,10 +30,10 @@ std::optional<Stretch> MakeStretch(const Eigen::Vector2d& start, const Eigen::Ve
 }
 
 // Nothing where the line is not in view: both its ends in front and its middle in the image.
-std::optional<Stretch> Project(const CameraModel& camera, const Rigid3d& T_C_A,
-                               const SpaceSegment& line_A) {
-  const Eigen::Vector3d start_C = T_C_A * line_A.start_O;
-  const Eigen::Vector3d end_C = T_C_A * line_A.end_O;
+std::optional<Stretch> Project(const CameraModel& camera, const Rigid3d& T_C_O,
+                               const SpaceSegment& line) {
+  const Eigen::Vector3d start_C = T_C_O * line.start_O;
+  const Eigen::Vector3d end_C = T_C_O * line.end_O;
   if (start_C.z() < kMinDepth || end_C.z() < kMinDepth) return std::nullopt;
   const auto middle_px = camera.Project(0.5 * (start_C + end_C));
   if (!middle_px || !camera.IsInImage(*middle_px)) return std::nullopt;
@@ -56,19 +56,19 @@ bool Fits(const LineWitnessOptions& options, const Stretch& line, const LineObse
 }  // namespace
 
 LineWitnesses FindWitnesses(const LineWitnessOptions& options, const CameraModel& camera,
-                            const Rigid3d& T_A_C, const std::vector<SpaceSegment>& lines_A,
+                            const Rigid3d& T_O_C, const std::vector<SpaceSegment>& lines_O,
                             const std::vector<TrackedSegment>& segments) {
-  const Rigid3d T_C_A = T_A_C.Inverse();
+  const Rigid3d T_C_O = T_O_C.Inverse();
   LineWitnesses witnesses;
-  for (const SpaceSegment& line_A : lines_A) {
-    const auto line = Project(camera, T_C_A, line_A);
-    if (!line) continue;
+  for (const SpaceSegment& line : lines_O) {
+    const auto image = Project(camera, T_C_O, line);
+    if (!image) continue;
     ++witnesses.visible;
     const auto segment =
         std::find_if(segments.begin(), segments.end(), [&](const TrackedSegment& candidate) {
-          return Fits(options, *line, candidate.observation);
+          return Fits(options, *image, candidate.observation);
         });
-    if (segment != segments.end()) witnesses.seen.push_back({line_A, segment->observation});
+    if (segment != segments.end()) witnesses.seen.push_back({line, segment->observation});
   }
   return witnesses;
 }

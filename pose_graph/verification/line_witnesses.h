@@ -9,8 +9,10 @@
 namespace plm_vins {
 
 struct LineWitnessOptions {
+  explicit LineWitnessOptions(double focal_length) : max_distance(6 / focal_length) {}  // [px]
+
   double max_angle = 5 * M_PI / 180;  // between a line's image and a segment [rad]
-  double max_distance = 6.0 / 460;    // of the segment's ends from it (normalised)
+  double max_distance;                // of the segment's ends from it (normalised)
   double min_overlap = 0.3;           // of the two, share of the shorter
 };
 
@@ -22,9 +24,9 @@ struct LineWitnesses {
   double share() const { return visible > 0 ? static_cast<double>(seen.size()) / visible : 0.0; }
 };
 
-// `lines_A` as seen by a camera at `T_A_C` with these `segments`.
+// `lines_O` as seen by a camera at `T_O_C` with these `segments`.
 LineWitnesses FindWitnesses(const LineWitnessOptions& options, const CameraModel& camera,
-                            const Rigid3d& T_A_C, const std::vector<SpaceSegment>& lines_A,
+                            const Rigid3d& T_O_C, const std::vector<SpaceSegment>& lines_O,
                             const std::vector<TrackedSegment>& segments);
 
 }  // namespace plm_vins

@@ -26,7 +26,7 @@ std::vector<LoopCandidate> LoopAcceptance::Judge(const std::vector<Keyframe>& ke
     candidate->odometry_error =
         Deviations(EdgeError(candidate->T_earlier_later, predicted),
                    candidate->covariance + options_.drift.Covariance(distance));
-    if (*candidate->odometry_error <= kThreeSigma) {
+    if (*candidate->odometry_error <= kThreeSigmaOf4Dof) {
       candidate->failed.reset();
       return {};
     }
@@ -72,7 +72,7 @@ bool LoopAcceptance::Agree(const std::vector<Keyframe>& keyframes, const PoseGra
                                         MapFromOdometry(keyframes, graph, b) * here);
   const double way = way_earlier + std::abs(later_b.path - later_a.path);
   return Deviations(difference, a.covariance + b.covariance + options_.drift.Covariance(way)) <=
-         kThreeSigma;
+         kThreeSigmaOf4Dof;
 }
 
 }  // namespace plm_vins

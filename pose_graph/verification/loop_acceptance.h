@@ -12,8 +12,8 @@ namespace plm_vins {
 
 struct LoopAcceptanceOptions {
   DriftBudget drift = {0.05, 0.02, 0.5 * M_PI / 180, 0.05 * M_PI / 180};
-  double max_deviations = 2 * kThreeSigma;  // that two loops which agree may ask for
-  double max_wait = 10;                     // for a loop that agrees [s]
+  double max_deviations = 2 * kThreeSigmaOf4Dof;  // that two loops which agree may ask for
+  double max_wait = 10;                           // for a loop that agrees [s]
 };
 
 // Decides on loops that are right as far as the images show: against odometry, and against each

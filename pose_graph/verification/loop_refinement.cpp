@@ -31,26 +31,27 @@ Eigen::Matrix2d WhiteningOf(const LoopRefinementOptions& options, const Eigen::V
 // Both visits' landmarks with their noise as it is at `place`.
 void AddCosts(const LoopRefinementOptions& options, const LoopSightings& sightings, double* place,
               ceres::Problem* problem) {
-  const Rigid3d& T_A_C = sightings.T_A_C;
-  const Rigid3d& T_B_C = sightings.T_B_C;
+  const Rigid3d& T_O1_C = sightings.T_O1_C;
+  const Rigid3d& T_O2_C = sightings.T_O2_C;
   const auto add = [&](auto cost) {
     using Cost = decltype(cost);
     problem->AddResidualBlock(new ceres::AutoDiffCostFunction<Cost, 2, kPlaceSize>(new Cost(cost)),
                               new ceres::HuberLoss(kRobustWidth), place);
   };
-  const Eigen::Vector3d earlier_in_later = ToLaterCamera(place, T_A_C.translation, T_B_C);
+  const Eigen::Vector3d earlier_in_later = ToLaterCamera(place, T_O1_C.translation, T_O2_C);
   for (const SeenPoint& sighting : sightings.of_earlier) {
-    const Eigen::Vector3d p_C = ToLaterCamera(place, sighting.p_A, T_B_C);
-    add(EarlierLandmarkCost{sighting, T_B_C, WhiteningOf(options, p_C, p_C - earlier_in_later)});
+    const Eigen::Vector3d p_C = ToLaterCamera(place, sighting.p_O, T_O2_C);
+    add(EarlierLandmarkCost{sighting, T_O2_C, WhiteningOf(options, p_C, p_C - earlier_in_later)});
   }
-  const Eigen::Vector3d later_in_earlier = ToEarlierCamera(place, T_B_C.translation, T_B_C, T_A_C);
+  const Eigen::Vector3d later_in_earlier =
+      ToEarlierCamera(place, T_O2_C.translation, T_O2_C, T_O1_C);
   for (const SeenPoint& sighting : sightings.of_later) {
-    const Eigen::Vector3d p_C = ToEarlierCamera(place, sighting.p_A, T_B_C, T_A_C);
-    add(LaterLandmarkCost{sighting, T_A_C, T_B_C,
+    const Eigen::Vector3d p_C = ToEarlierCamera(place, sighting.p_O, T_O2_C, T_O1_C);
+    add(LaterLandmarkCost{sighting, T_O1_C, T_O2_C,
                           WhiteningOf(options, p_C, p_C - later_in_earlier)});
   }
   for (const SeenSegment& sighting : sightings.lines) {
-    add(LineCost{sighting, T_B_C, 1 / options.line_noise});
+    add(LineCost{sighting, T_O2_C, 1 / options.line_noise});
   }
   add(TiltCost{1 / options.tilt});
 }
@@ -73,7 +74,7 @@ std::optional<Matrix4d> CovarianceAt(ceres::Problem* problem) {
 std::optional<RefinedLoop> RefineLoop(const LoopRefinementOptions& options,
                                       const LoopSightings& sightings, const LevelTransform& start) {
   PlaceVector place;
-  place << start * sightings.T_B_C.translation, start.yaw, 0, 0;
+  place << start * sightings.T_O2_C.translation, start.yaw, 0, 0;
   ceres::Problem problem;
   AddCosts(options, sightings, place.data(), &problem);
   ceres::Solver::Options solver;
@@ -86,8 +87,9 @@ std::optional<RefinedLoop> RefineLoop(const LoopRefinementOptions& options,
   if (!covariance) return std::nullopt;
 
   RefinedLoop loop;
-  loop.T_A_B.yaw = WrapAngle(place(3));
-  loop.T_A_B.translation = place.head<3>() - loop.T_A_B.rotation() * sightings.T_B_C.translation;
+  loop.T_O1_O2.yaw = WrapAngle(place(3));
+  loop.T_O1_O2.translation =
+      place.head<3>() - loop.T_O1_O2.rotation() * sightings.T_O2_C.translation;
   Vector4d floor;
   floor << Eigen::Vector3d::Constant(options.floor_position), options.floor_yaw;
   loop.covariance = *covariance;

@@ -10,9 +10,12 @@
 namespace plm_vins {
 
 struct LoopRefinementOptions {
-  double point_noise = 2.0 / 460;  // (normalised) of a corner that another patch of the place gave
+  explicit LoopRefinementOptions(double focal_length)  // [px]
+      : point_noise(2 / focal_length), line_noise(1.5 / focal_length) {}
+
+  double point_noise;              // (normalised) of a corner that another patch of the place gave
   double depth_noise = 0.05;       // of a landmark along its ray, share of its distance
-  double line_noise = 1.5 / 460;   // (normalised) of an end across the line
+  double line_noise;               // (normalised) of an end across the line
   double tilt = 0.2 * M_PI / 180;  // by which roll and pitch of one visit err against the other's
   // Of the result, on top of what the sightings say: what landmarks have wrong in common.
   double floor_position = 0.02;          // [m]
@@ -20,8 +23,9 @@ struct LoopRefinementOptions {
 };
 
 struct RefinedLoop {
-  LevelTransform T_A_B;
-  Matrix4d covariance;  // of the later visit's place and heading, with the axes of A, see LoopEdge
+  LevelTransform T_O1_O2;
+  Matrix4d covariance;  // of the later visit's place and heading, with the axes of O1, as LevelEdge
+                        // has it
 };
 
 // The transform that fits all sightings best, from `start`; robust against some that are wrong.

@@ -95,11 +95,11 @@ int CountCells(const std::vector<Eigen::Vector2f>& corners_px, const CameraParam
 
 }  // namespace
 
-// What is known of a candidate on its way through the gates. A and B as in LoopSightings.
+// What is known of a candidate on its way through the gates. O1 and O2 as in LoopSightings.
 struct LoopVerification::Evidence {
   std::set<int64_t> common_tracks;  // say nothing about another visit: odometry has followed them
-  std::vector<DescribedLandmark> landmarks_A;
-  LevelTransform T_A_B;
+  std::vector<DescribedLandmark> landmarks_O1;
+  LevelTransform T_O1_O2;
   LoopSightings all;
 };
 
@@ -110,8 +110,8 @@ LoopVerification::LoopVerification(const LoopVerificationOptions& options,
 LoopSightings LoopVerification::Verify(const Island& earlier, const Island& later,
                                        LoopCandidate* candidate) const {
   Evidence evidence;
-  evidence.all.T_A_C = earlier.keyframe->T_O_C();
-  evidence.all.T_B_C = later.keyframe->T_O_C();
+  evidence.all.T_O1_C = earlier.keyframe->T_O_C();
+  evidence.all.T_O2_C = later.keyframe->T_O_C();
   const bool accepted = AreApart(earlier, later, candidate, &evidence) &&
                         FindPose(earlier, *later.keyframe, candidate, &evidence) &&
                         ManhattanAgrees(*earlier.keyframe, *later.keyframe, candidate, evidence) &&
@@ -121,7 +121,7 @@ LoopSightings LoopVerification::Verify(const Island& earlier, const Island& late
                         LinesAgree(earlier, *later.keyframe, candidate, &evidence);
   if (accepted) {
     candidate->T_earlier_later =
-        earlier.keyframe->T_O_L().Inverse() * evidence.T_A_B * later.keyframe->T_O_L();
+        earlier.keyframe->T_O_L().Inverse() * evidence.T_O1_O2 * later.keyframe->T_O_L();
   }
   return evidence.all;
 }
@@ -137,44 +137,45 @@ bool LoopVerification::AreApart(const Island& earlier, const Island& later,
 bool LoopVerification::FindPose(const Island& earlier, const Keyframe& later,
                                 LoopCandidate* candidate, Evidence* evidence) const {
   candidate->failed = LoopGate::kMatches;
-  evidence->landmarks_A = MergeLandmarks(earlier.all, evidence->common_tracks);
+  evidence->landmarks_O1 = MergeLandmarks(earlier.all, evidence->common_tracks);
   std::vector<SeenPoint> seen;
   for (const LandmarkMatch& match :
-       MatchLandmarks(options_.matching, later.corners, evidence->landmarks_A)) {
-    seen.push_back(ToSeenPoint(match, later.corners, evidence->landmarks_A));
+       MatchLandmarks(options_.matching, later.corners, evidence->landmarks_O1)) {
+    seen.push_back(ToSeenPoint(match, later.corners, evidence->landmarks_O1));
   }
   candidate->matches = static_cast<int>(seen.size());
   if (*candidate->matches < options_.min_matches) return false;
 
   candidate->failed = LoopGate::kPose;
-  const Rigid3d& T_B_C = evidence->all.T_B_C;
-  const auto pose = FindLevelPose(options_.ransac, seen, T_B_C.rotation);
+  const Rigid3d& T_O2_C = evidence->all.T_O2_C;
+  const auto pose = FindLevelPose(options_.ransac, seen, T_O2_C.rotation);
   candidate->pose_inliers = pose ? static_cast<int>(pose->inliers.size()) : 0;
   if (*candidate->pose_inliers < options_.min_pose_inliers) return false;
   for (const size_t i : pose->inliers) evidence->all.of_earlier.push_back(seen[i]);
-  evidence->T_A_B = pose->T_A_G * LevelTransform{0, T_B_C.translation}.Inverse();
+  evidence->T_O1_O2 = pose->T_O_G * LevelTransform{0, T_O2_C.translation}.Inverse();
   return Refine(candidate, evidence);
 }
 
 bool LoopVerification::ManhattanAgrees(const Keyframe& earlier, const Keyframe& later,
                                        LoopCandidate* candidate, const Evidence& evidence) const {
   candidate->failed = LoopGate::kManhattan;
-  if (!earlier.R_O_M || !later.R_O_M) return true;
-  const double turn_in_O = std::remainder(Yaw(*later.R_O_M) - Yaw(*earlier.R_O_M), M_PI / 2);
+  if (!earlier.R_O_Manhattan || !later.R_O_Manhattan) return true;
+  const double turn_in_O =
+      std::remainder(Yaw(*later.R_O_Manhattan) - Yaw(*earlier.R_O_Manhattan), M_PI / 2);
   // A scene may have several frames. Where odometry itself sees two, they say nothing here.
   const bool are_two = std::abs(turn_in_O) > options_.max_manhattan_error;
   if (earlier.world == later.world && are_two) return true;
-  candidate->manhattan_error = std::remainder(evidence.T_A_B.yaw + turn_in_O, M_PI / 2);
+  candidate->manhattan_error = std::remainder(evidence.T_O1_O2.yaw + turn_in_O, M_PI / 2);
   return std::abs(*candidate->manhattan_error) <= options_.max_manhattan_error;
 }
 
 bool LoopVerification::HasInliers(const Keyframe& later, LoopCandidate* candidate,
                                   Evidence* evidence) const {
   candidate->failed = LoopGate::kInliers;
-  const Rigid3d& T_B_C = evidence->all.T_B_C;
-  const LevelTransform T_A_G = evidence->T_A_B * LevelTransform{0, T_B_C.translation};
+  const Rigid3d& T_O2_C = evidence->all.T_O2_C;
+  const LevelTransform T_O1_G = evidence->T_O1_O2 * LevelTransform{0, T_O2_C.translation};
   Search search =
-      SearchAroundImages(options_, later.corners, evidence->landmarks_A, T_A_G, T_B_C.rotation);
+      SearchAroundImages(options_, later.corners, evidence->landmarks_O1, T_O1_G, T_O2_C.rotation);
   candidate->inliers = static_cast<int>(search.inliers.size());
   candidate->inlier_share = search.share();
   if (*candidate->inliers < options_.min_inliers) return false;
@@ -189,11 +190,11 @@ bool LoopVerification::HasInliers(const Keyframe& later, LoopCandidate* candidat
 bool LoopVerification::HoldsBackwards(const Keyframe& earlier, const Island& later,
                                       LoopCandidate* candidate, Evidence* evidence) const {
   candidate->failed = LoopGate::kBackwards;
-  const Rigid3d& T_A_C = evidence->all.T_A_C;
-  const LevelTransform T_B_G = evidence->T_A_B.Inverse() * LevelTransform{0, T_A_C.translation};
-  Search search =
-      SearchAroundImages(options_, earlier.corners,
-                         MergeLandmarks(later.all, evidence->common_tracks), T_B_G, T_A_C.rotation);
+  const Rigid3d& T_O1_C = evidence->all.T_O1_C;
+  const LevelTransform T_O2_G = evidence->T_O1_O2.Inverse() * LevelTransform{0, T_O1_C.translation};
+  Search search = SearchAroundImages(options_, earlier.corners,
+                                     MergeLandmarks(later.all, evidence->common_tracks), T_O2_G,
+                                     T_O1_C.rotation);
   candidate->backward_inliers = static_cast<int>(search.inliers.size());
   candidate->backward_share = search.share();
   evidence->all.of_later = std::move(search.inliers);
@@ -203,9 +204,9 @@ bool LoopVerification::HoldsBackwards(const Keyframe& earlier, const Island& lat
 
 bool LoopVerification::Refine(LoopCandidate* candidate, Evidence* evidence) const {
   candidate->failed = LoopGate::kRefinement;
-  const auto refined = RefineLoop(options_.refinement, evidence->all, evidence->T_A_B);
+  const auto refined = RefineLoop(options_.refinement, evidence->all, evidence->T_O1_O2);
   if (!refined) return false;
-  evidence->T_A_B = refined->T_A_B;
+  evidence->T_O1_O2 = refined->T_O1_O2;
   candidate->covariance = refined->covariance;
   return true;
 }
@@ -214,9 +215,9 @@ bool LoopVerification::Refine(LoopCandidate* candidate, Evidence* evidence) cons
 bool LoopVerification::LinesAgree(const Island& earlier, const Keyframe& later,
                                   LoopCandidate* candidate, Evidence* evidence) const {
   candidate->failed = LoopGate::kLines;
-  const Rigid3d T_A_C = evidence->T_A_B.ToRigid() * evidence->all.T_B_C;
+  const Rigid3d T_O1_C = evidence->T_O1_O2.ToRigid() * evidence->all.T_O2_C;
   LineWitnesses witnesses =
-      FindWitnesses(options_.witnesses, *camera_, T_A_C, LinesOf(earlier), later.segments);
+      FindWitnesses(options_.witnesses, *camera_, T_O1_C, LinesOf(earlier), later.segments);
   candidate->visible_lines = witnesses.visible;
   candidate->line_share = witnesses.share();
   if (witnesses.visible >= options_.min_visible_lines &&

@@ -15,6 +15,12 @@
 namespace plm_vins {
 
 struct LoopVerificationOptions {
+  explicit LoopVerificationOptions(double focal_length)  // [px]
+      : matching(focal_length),
+        ransac(focal_length),
+        refinement(focal_length),
+        witnesses(focal_length) {}
+
   MatchingOptions matching;
   LevelPoseRansacOptions ransac;
   LoopRefinementOptions refinement;

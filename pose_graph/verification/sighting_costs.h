@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What sightings say about where the camera of a later visit is: residuals for Ceres, whitened. A
-// and B as in LoopSightings.
+// What sightings say about where the camera of a later visit is: residuals for Ceres, whitened. O1
+// and O2 as in LoopSightings.
 #pragma once
 
 #include <ceres/rotation.h>
@@ -12,16 +12,16 @@
 
 namespace plm_vins {
 
-// The variables: the place of the later camera in A, the yaw of T_A_B, and a turn of B about its
-// level axes, since odometry's roll and pitch are in error at one visit other than at the other.
-// (That camera's place and the yaw hardly correlate, other than the yaw and the translation of
-// T_A_B, which is that of a far origin.)
+// The variables: the place of the later camera in O1, the yaw of T_O1_O2, and a turn of O2 about
+// its level axes, since odometry's roll and pitch are in error at one visit other than at the
+// other. (That camera's place and the yaw hardly correlate, other than the yaw and the translation
+// of T_O1_O2, which is that of a far origin.)
 constexpr int kPlaceSize = 6;
 
 constexpr double kMinDepth = 1e-3;  // [m]
 
 template <typename T>
-Eigen::Matrix<T, 3, 3> RotationFromB(const T* place) {
+Eigen::Matrix<T, 3, 3> RotationFromO2(const T* place) {
   const T yaw[3] = {T(0), T(0), place[3]};
   const T tilt[3] = {place[4], place[5], T(0)};
   Eigen::Matrix<T, 3, 3> about_z, about_level;
@@ -30,23 +30,23 @@ Eigen::Matrix<T, 3, 3> RotationFromB(const T* place) {
   return about_z * about_level;
 }
 
-// A point of A in the later camera.
+// A point of O1 in the later camera.
 template <typename T>
-Eigen::Matrix<T, 3, 1> ToLaterCamera(const T* place, const Eigen::Vector3d& p_A,
-                                     const Rigid3d& T_B_C) {
+Eigen::Matrix<T, 3, 1> ToLaterCamera(const T* place, const Eigen::Vector3d& p_O1,
+                                     const Rigid3d& T_O2_C) {
   const Eigen::Matrix<T, 3, 1> offset =
-      p_A.cast<T>() - Eigen::Map<const Eigen::Matrix<T, 3, 1>>(place);
-  return T_B_C.R().transpose().cast<T>() * (RotationFromB(place).transpose() * offset);
+      p_O1.cast<T>() - Eigen::Map<const Eigen::Matrix<T, 3, 1>>(place);
+  return T_O2_C.R().transpose().cast<T>() * (RotationFromO2(place).transpose() * offset);
 }
 
-// A point of B in the earlier camera.
+// A point of O2 in the earlier camera.
 template <typename T>
-Eigen::Matrix<T, 3, 1> ToEarlierCamera(const T* place, const Eigen::Vector3d& p_B,
-                                       const Rigid3d& T_B_C, const Rigid3d& T_A_C) {
-  const Eigen::Matrix<T, 3, 1> offset = (p_B - T_B_C.translation).cast<T>();
-  const Eigen::Matrix<T, 3, 1> p_A =
-      Eigen::Map<const Eigen::Matrix<T, 3, 1>>(place) + RotationFromB(place) * offset;
-  return T_A_C.R().transpose().cast<T>() * (p_A - T_A_C.translation.cast<T>());
+Eigen::Matrix<T, 3, 1> ToEarlierCamera(const T* place, const Eigen::Vector3d& p_O2,
+                                       const Rigid3d& T_O2_C, const Rigid3d& T_O1_C) {
+  const Eigen::Matrix<T, 3, 1> offset = (p_O2 - T_O2_C.translation).cast<T>();
+  const Eigen::Matrix<T, 3, 1> p_O1 =
+      Eigen::Map<const Eigen::Matrix<T, 3, 1>>(place) + RotationFromO2(place) * offset;
+  return T_O1_C.R().transpose().cast<T>() * (p_O1 - T_O1_C.translation.cast<T>());
 }
 
 template <typename T>
@@ -62,11 +62,11 @@ bool ReprojectionError(const Eigen::Matrix<T, 3, 1>& p_C, const Eigen::Vector2d&
 struct EarlierLandmarkCost {
   template <typename T>
   bool operator()(const T* place, T* residual) const {
-    return ReprojectionError<T>(ToLaterCamera(place, sighting.p_A, T_B_C), sighting.xy, whitening,
+    return ReprojectionError<T>(ToLaterCamera(place, sighting.p_O, T_O2_C), sighting.xy, whitening,
                                 residual);
   }
   SeenPoint sighting;
-  Rigid3d T_B_C;
+  Rigid3d T_O2_C;
   Eigen::Matrix2d whitening;
 };
 
@@ -74,12 +74,12 @@ struct EarlierLandmarkCost {
 struct LaterLandmarkCost {
   template <typename T>
   bool operator()(const T* place, T* residual) const {
-    return ReprojectionError<T>(ToEarlierCamera(place, sighting.p_A, T_B_C, T_A_C), sighting.xy,
+    return ReprojectionError<T>(ToEarlierCamera(place, sighting.p_O, T_O2_C, T_O1_C), sighting.xy,
                                 whitening, residual);
   }
-  SeenPoint sighting;  // its point is one of B
-  Rigid3d T_A_C;
-  Rigid3d T_B_C;
+  SeenPoint sighting;  // its point is one of O2
+  Rigid3d T_O1_C;
+  Rigid3d T_O2_C;
   Eigen::Matrix2d whitening;
 };
 
@@ -88,8 +88,8 @@ struct LineCost {
   template <typename T>
   bool operator()(const T* place, T* residual) const {
     using std::sqrt;
-    const Eigen::Matrix<T, 3, 1> start = ToLaterCamera(place, sighting.line_A.start_O, T_B_C);
-    const Eigen::Matrix<T, 3, 1> end = ToLaterCamera(place, sighting.line_A.end_O, T_B_C);
+    const Eigen::Matrix<T, 3, 1> start = ToLaterCamera(place, sighting.line.start_O, T_O2_C);
+    const Eigen::Matrix<T, 3, 1> end = ToLaterCamera(place, sighting.line.end_O, T_O2_C);
     const Eigen::Matrix<T, 3, 1> line = start.cross(end);
     const T norm = sqrt(line.x() * line.x() + line.y() * line.y());
     if (norm < T(1e-12)) return false;
@@ -100,7 +100,7 @@ struct LineCost {
     return true;
   }
   SeenSegment sighting;
-  Rigid3d T_B_C;
+  Rigid3d T_O2_C;
   double weight;
 };
 

@@ -77,7 +77,7 @@ class LoopCloserTest : public ::testing::Test {
 const LevelTransform kDrift = {0.001, {0.05, -0.08, 0.03}};
 
 TEST_F(LoopCloserTest, UndoesTheDriftOfASecondVisit) {
-  LoopCloser loops(LoopCloserOptions(), camera_);
+  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   const LoopClosure first = Slide(&loops, 0, LevelTransform());
   ASSERT_TRUE(first.fix);
   EXPECT_EQ(first.fix->T_M_O.ToVector(), Vector4d::Zero());
@@ -97,7 +97,7 @@ TEST_F(LoopCloserTest, UndoesTheDriftOfASecondVisit) {
 }
 
 TEST_F(LoopCloserTest, FindsTheOldWorldAgainAfterARestart) {
-  LoopCloser loops(LoopCloserOptions(), camera_);
+  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());
   const LevelTransform T_O_W = {2.0, {7, 8, 9}};
   const LoopClosure found = Slide(&loops, 10, T_O_W, /*restarted=*/true);
@@ -107,7 +107,7 @@ TEST_F(LoopCloserTest, FindsTheOldWorldAgainAfterARestart) {
 }
 
 TEST_F(LoopCloserTest, DoesNotKnowWhereANewWorldIs) {
-  LoopCloser loops(LoopCloserOptions(), camera_);
+  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());
   OdometryFrame frame = FrameAt(0, 10, {2.0, {7, 8, 9}});
   frame.restarted = true;
@@ -116,9 +116,9 @@ TEST_F(LoopCloserTest, DoesNotKnowWhereANewWorldIs) {
 }
 
 TEST_F(LoopCloserTest, StartsInAMapOfEarlier) {
-  LoopCloser before(LoopCloserOptions(), camera_);
+  LoopCloser before(LoopCloserOptions(*camera_), camera_);
   Slide(&before, 0, LevelTransform());
-  LoopCloser loops(LoopCloserOptions(), camera_);
+  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   loops.SetMap(before.map());
   const LevelTransform T_O_W = {-1.0, {2, 1, 0}};
   const LoopClosure found = Slide(&loops, 5, T_O_W);
@@ -127,7 +127,7 @@ TEST_F(LoopCloserTest, StartsInAMapOfEarlier) {
 }
 
 TEST_F(LoopCloserTest, DoesNotTakeATwinOfAPlaceForThePlace) {
-  LoopCloser loops(LoopCloserOptions(), camera_);
+  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());
   // The same images, to which odometry came by a way of 10 m.
   OdometryFrame on_the_way = FrameAt(0, 30, {0, {0, 5, 0}});
@@ -141,7 +141,7 @@ TEST_F(LoopCloserTest, DoesNotTakeATwinOfAPlaceForThePlace) {
 }
 
 TEST_F(LoopCloserTest, IsNotLargerAfterManyVisitsThanAfterAFew) {
-  LoopCloser loops(LoopCloserOptions(), camera_);
+  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   std::vector<int> sizes;
   for (int visit = 0; visit < 8; ++visit) {
     Slide(&loops, 60 * visit, kDrift);
@@ -161,7 +161,7 @@ TEST_F(LoopCloserTest, IsTheSameForTheSameInput) {
   std::vector<Vector4d> fixes;
   for (int run = 0; run < 2; ++run) {
     first_track_ = 0;
-    LoopCloser loops(LoopCloserOptions(), camera_);
+    LoopCloser loops(LoopCloserOptions(*camera_), camera_);
     Slide(&loops, 0, LevelTransform());
     fixes.push_back(Slide(&loops, 60, kDrift).fix->T_M_O.ToVector());
   }

@@ -11,11 +11,13 @@
 
 namespace plm_vins::testing {
 
-inline std::shared_ptr<const CameraModel> SimpleCamera() {
+constexpr double kFocalLength = 460;  // [px]
+
+inline std::shared_ptr<const CameraModel> SimpleCamera(double focal_length = kFocalLength) {
   CameraParameters parameters;
   parameters.width = 752;
   parameters.height = 480;
-  parameters.fx = parameters.fy = 460;
+  parameters.fx = parameters.fy = focal_length;
   parameters.cx = 376;
   parameters.cy = 240;
   return CameraModel::Create(parameters);
@@ -63,9 +65,9 @@ struct Wall {
 struct VisitOptions {
   LevelTransform T_O_W;  // odometry's error: its world O beside the true one
   int world = 0;
-  int64_t first_track = 0;   // each visit has tracks of its own
-  double noise = 0.3 / 460;  // of corners (normalised)
-  int flipped_bits = 10;     // of a descriptor
+  int64_t first_track = 0;            // each visit has tracks of its own
+  double noise = 0.3 / kFocalLength;  // of corners (normalised)
+  int flipped_bits = 10;              // of a descriptor
   bool with_lines = true;
   uint64_t seed = 2;
 };

@@ -150,11 +150,11 @@ TEST(KeyframeLines, BringTheManhattanFrame) {
   std::vector<TrackedSegment> segments(1);
   segments[0].observation.id = 8;
   segments[0].landmark = {{1, 2, 3}, {4, 5, 6}};
-  const Eigen::Quaterniond R_O_M(0.6, 0, 0, 0.8);
-  auto message = ToKeyframeLines(segments, R_O_M, 0, "");
+  const Eigen::Quaterniond R_O_Manhattan(0.6, 0, 0, 0.8);
+  auto message = ToKeyframeLines(segments, R_O_Manhattan, 0, "");
   EXPECT_EQ(Segments(message).size(), 1u);
   ASSERT_TRUE(ToManhattanFrame(message));
-  EXPECT_LT(ToManhattanFrame(message)->angularDistance(R_O_M), 1e-6);
+  EXPECT_LT(ToManhattanFrame(message)->angularDistance(R_O_Manhattan), 1e-6);
   message.channels.back().values.pop_back();
   EXPECT_THROW(ToManhattanFrame(message), std::invalid_argument);
 }

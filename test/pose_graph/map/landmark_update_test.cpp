@@ -10,7 +10,7 @@ namespace {
 
 using testing::Wall;
 
-constexpr double kMaxError = 4.0 / 460;  // normalised
+constexpr double kMaxError = 4 / testing::kFocalLength;  // normalised
 
 // Three keyframes a metre apart, which follow the same points.
 class UpdateLandmarksTest : public ::testing::Test {

@@ -15,7 +15,7 @@ constexpr int kLaterGrey = 90;
 // 376 x 240. The earlier camera is 1 m above the origin of its world and looks along z.
 class LoopDrawingTest : public ::testing::Test {
  protected:
-  LoopDrawingTest() { sightings_.T_A_C.translation = {0, 0, 1}; }
+  LoopDrawingTest() { sightings_.T_O1_C.translation = {0, 0, 1}; }
 
   cv::Mat Draw() const { return DrawLoop(*camera_, sightings_, earlier_, later_); }
 
@@ -63,7 +63,7 @@ TEST_F(LoopDrawingTest, LeavesOutWhatTheEarlierCameraDidNotSee) {
 
 TEST_F(LoopDrawingTest, DrawsALineInBothImages) {
   SeenSegment upright;
-  upright.line_A = {{0.4, -0.4, 3}, {0.4, 0.4, 3}};
+  upright.line = {{0.4, -0.4, 3}, {0.4, 0.4, 3}};
   upright.segment.start = {-0.2, -0.2};
   upright.segment.end = {-0.2, 0.2};
   sightings_.lines = {upright};

@@ -8,6 +8,8 @@
 namespace plm_vins {
 namespace {
 
+using testing::kFocalLength;
+
 using testing::RandomDescriptor;
 using testing::WithFlippedBits;
 
@@ -29,7 +31,7 @@ class LandmarkMatchingTest : public ::testing::Test {
 
 TEST_F(LandmarkMatchingTest, PairsWhatLooksAlike) {
   const auto matches =
-      MatchLandmarks(MatchingOptions(), {CornerOf(WithFlippedBits(b_, 20, &random_))},
+      MatchLandmarks(MatchingOptions(kFocalLength), {CornerOf(WithFlippedBits(b_, 20, &random_))},
                      {LandmarkOf(a_), LandmarkOf(b_)});
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches.front().corner, 0u);
@@ -37,20 +39,21 @@ TEST_F(LandmarkMatchingTest, PairsWhatLooksAlike) {
 }
 
 TEST_F(LandmarkMatchingTest, LeavesWhatLooksUnlike) {
-  EXPECT_TRUE(MatchLandmarks(MatchingOptions(), {CornerOf(a_)}, {LandmarkOf(b_)}).empty());
+  EXPECT_TRUE(
+      MatchLandmarks(MatchingOptions(kFocalLength), {CornerOf(a_)}, {LandmarkOf(b_)}).empty());
 }
 
 TEST_F(LandmarkMatchingTest, LeavesACornerThatTwoLandmarksLookLike) {
   const auto twin = LandmarkOf(WithFlippedBits(a_, 1, &random_));
-  EXPECT_TRUE(MatchLandmarks(MatchingOptions(), {CornerOf(WithFlippedBits(a_, 20, &random_))},
-                             {LandmarkOf(a_), twin})
+  EXPECT_TRUE(MatchLandmarks(MatchingOptions(kFocalLength),
+                             {CornerOf(WithFlippedBits(a_, 20, &random_))}, {LandmarkOf(a_), twin})
                   .empty());
 }
 
 TEST_F(LandmarkMatchingTest, GivesALandmarkToTheNearestCornerAlone) {
   const auto matches =
-      MatchLandmarks(MatchingOptions(), {CornerOf(WithFlippedBits(a_, 30, &random_)), CornerOf(a_)},
-                     {LandmarkOf(a_)});
+      MatchLandmarks(MatchingOptions(kFocalLength),
+                     {CornerOf(WithFlippedBits(a_, 30, &random_)), CornerOf(a_)}, {LandmarkOf(a_)});
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches.front().corner, 1u);
 }
@@ -58,14 +61,15 @@ TEST_F(LandmarkMatchingTest, GivesALandmarkToTheNearestCornerAlone) {
 TEST_F(LandmarkMatchingTest, ComparesWithAllViewsOfALandmark) {
   DescribedLandmark landmark = LandmarkOf(a_);
   landmark.descriptors.push_back(b_);
-  EXPECT_EQ(MatchLandmarks(MatchingOptions(), {CornerOf(b_)}, {landmark}).size(), 1u);
+  EXPECT_EQ(MatchLandmarks(MatchingOptions(kFocalLength), {CornerOf(b_)}, {landmark}).size(), 1u);
 }
 
 TEST_F(LandmarkMatchingTest, LooksOnlyAroundTheImageWhereThePoseIsKnown) {
   const Eigen::Quaterniond R_G_C = testing::LookingAhead().rotation;
   DescribedCorner corner = CornerOf(a_);
   const auto count = [&] {
-    return MatchAroundImages(MatchingOptions(), {corner}, {LandmarkOf(a_)}, LevelTransform(), R_G_C)
+    return MatchAroundImages(MatchingOptions(kFocalLength), {corner}, {LandmarkOf(a_)},
+                             LevelTransform(), R_G_C)
         .size();
   };
   corner.xy = {0.05F, 0};
@@ -77,7 +81,8 @@ TEST_F(LandmarkMatchingTest, LooksOnlyAroundTheImageWhereThePoseIsKnown) {
 TEST_F(LandmarkMatchingTest, SeesNoLandmarksBehindTheCamera) {
   const Eigen::Quaterniond R_G_C = testing::LookingAhead().rotation;
   const LevelTransform beyond = {0, {8, 0, 0}};
-  EXPECT_TRUE(MatchAroundImages(MatchingOptions(), {CornerOf(a_)}, {LandmarkOf(a_)}, beyond, R_G_C)
+  EXPECT_TRUE(MatchAroundImages(MatchingOptions(kFocalLength), {CornerOf(a_)}, {LandmarkOf(a_)},
+                                beyond, R_G_C)
                   .empty());
 }
 

@@ -12,6 +12,8 @@
 namespace plm_vins {
 namespace {
 
+using testing::kFocalLength;
+
 double Difference(const LevelTransform& a, const LevelTransform& b) {
   return (a.translation - b.translation).norm() + std::abs(WrapAngle(a.yaw - b.yaw));
 }
@@ -23,13 +25,13 @@ LevelTransform RandomPose(simulator::Random* random) {
 TEST(SolveTwoPoints, HasTheTruthAmongItsSolutions) {
   simulator::Random random(1);
   for (int i = 0; i < 200; ++i) {
-    const LevelTransform T_A_G = RandomPose(&random);
+    const LevelTransform T_O_G = RandomPose(&random);
     const Eigen::Vector3d p_G1 = random.UniformInBox({5, 5, 5});
     const Eigen::Vector3d p_G2 = random.UniformInBox({5, 5, 5});
     // The rays' lengths are of no matter.
-    const auto poses = SolveTwoPoints(0.3 * p_G1, T_A_G * p_G1, 2.0 * p_G2, T_A_G * p_G2);
+    const auto poses = SolveTwoPoints(0.3 * p_G1, T_O_G * p_G1, 2.0 * p_G2, T_O_G * p_G2);
     double best = std::numeric_limits<double>::infinity();
-    for (const LevelTransform& pose : poses) best = std::min(best, Difference(pose, T_A_G));
+    for (const LevelTransform& pose : poses) best = std::min(best, Difference(pose, T_O_G));
     EXPECT_LT(best, 1e-6) << i;
     EXPECT_LE(poses.size(), 2u);
   }
@@ -41,7 +43,7 @@ TEST(SolveTwoPoints, HasNoSolutionWhereTheHeightsCannotBe) {
 }
 
 // Sightings from a pose, a share of them wrong.
-std::vector<SeenPoint> See(const LevelTransform& T_A_G, const Eigen::Quaterniond& R_G_C, int count,
+std::vector<SeenPoint> See(const LevelTransform& T_O_G, const Eigen::Quaterniond& R_G_C, int count,
                            double wrong_share, double noise, simulator::Random* random) {
   std::vector<SeenPoint> sightings;
   for (int i = 0; i < count; ++i) {
@@ -50,7 +52,7 @@ std::vector<SeenPoint> See(const LevelTransform& T_A_G, const Eigen::Quaterniond
     Eigen::Vector2d xy = p_C.hnormalized();
     xy += noise * Eigen::Vector2d(random->Normal(), random->Normal());
     if (i < wrong_share * count) xy = {random->Uniform(-0.8, 0.8), random->Uniform(-0.5, 0.5)};
-    sightings.push_back({T_A_G * (R_G_C * p_C), xy});
+    sightings.push_back({T_O_G * (R_G_C * p_C), xy});
   }
   return sightings;
 }
@@ -58,38 +60,38 @@ std::vector<SeenPoint> See(const LevelTransform& T_A_G, const Eigen::Quaterniond
 class FindLevelPoseTest : public ::testing::Test {
  protected:
   simulator::Random random_{3};
-  LevelTransform T_A_G_ = RandomPose(&random_);
+  LevelTransform T_O_G_ = RandomPose(&random_);
   Eigen::Quaterniond R_G_C_ =
       testing::LookingAhead().rotation *
       Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d(0.6, 0, 0.8)));
 };
 
 TEST_F(FindLevelPoseTest, FindsThePoseAmongSixOfTenWrongSightings) {
-  const auto sightings = See(T_A_G_, R_G_C_, 100, 0.6, 0.5 / 460, &random_);
-  const auto pose = FindLevelPose(LevelPoseRansacOptions(), sightings, R_G_C_);
+  const auto sightings = See(T_O_G_, R_G_C_, 100, 0.6, 0.5 / kFocalLength, &random_);
+  const auto pose = FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_);
   ASSERT_TRUE(pose);
-  EXPECT_LT(Difference(pose->T_A_G, T_A_G_), 0.1);
+  EXPECT_LT(Difference(pose->T_O_G, T_O_G_), 0.1);
   EXPECT_GE(pose->inliers.size(), 36u);
   EXPECT_GE(pose->inliers.front(), 60u - 6);  // hardly any of the wrong ones
 }
 
 TEST_F(FindLevelPoseTest, IsTheSameForTheSameInput) {
-  const auto sightings = See(T_A_G_, R_G_C_, 60, 0.5, 1.0 / 460, &random_);
-  const auto first = FindLevelPose(LevelPoseRansacOptions(), sightings, R_G_C_);
-  const auto second = FindLevelPose(LevelPoseRansacOptions(), sightings, R_G_C_);
+  const auto sightings = See(T_O_G_, R_G_C_, 60, 0.5, 1.0 / kFocalLength, &random_);
+  const auto first = FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_);
+  const auto second = FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_);
   ASSERT_TRUE(first && second);
-  EXPECT_EQ(first->T_A_G.ToVector(), second->T_A_G.ToVector());
+  EXPECT_EQ(first->T_O_G.ToVector(), second->T_O_G.ToVector());
   EXPECT_EQ(first->inliers, second->inliers);
 }
 
 TEST_F(FindLevelPoseTest, FindsNothingInOneSighting) {
-  const auto sightings = See(T_A_G_, R_G_C_, 1, 0, 0, &random_);
-  EXPECT_FALSE(FindLevelPose(LevelPoseRansacOptions(), sightings, R_G_C_));
+  const auto sightings = See(T_O_G_, R_G_C_, 1, 0, 0, &random_);
+  EXPECT_FALSE(FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_));
 }
 
 TEST_F(FindLevelPoseTest, TakesTwoSightingsForNoAgreement) {
-  const auto sightings = See(T_A_G_, R_G_C_, 2, 0, 0, &random_);
-  EXPECT_FALSE(FindLevelPose(LevelPoseRansacOptions(), sightings, R_G_C_));
+  const auto sightings = See(T_O_G_, R_G_C_, 2, 0, 0, &random_);
+  EXPECT_FALSE(FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_));
 }
 
 TEST(SightingError, IsInfiniteBehindTheCamera) {

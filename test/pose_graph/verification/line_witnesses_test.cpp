@@ -8,11 +8,13 @@
 namespace plm_vins {
 namespace {
 
+using testing::kFocalLength;
+
 class FindWitnessesTest : public ::testing::Test {
  protected:
-  LineWitnesses Find(const Rigid3d& T_A_B, const std::vector<SpaceSegment>& lines) const {
-    return FindWitnesses(LineWitnessOptions(), *camera_, T_A_B * testing::LookingAhead(), lines,
-                         seen_.segments);
+  LineWitnesses Find(const Rigid3d& T_O_B, const std::vector<SpaceSegment>& lines) const {
+    return FindWitnesses(LineWitnessOptions(kFocalLength), *camera_,
+                         T_O_B * testing::LookingAhead(), lines, seen_.segments);
   }
 
   std::shared_ptr<const CameraModel> camera_ = testing::SimpleCamera();

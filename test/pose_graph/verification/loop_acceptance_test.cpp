@@ -56,7 +56,7 @@ TEST_F(LoopAcceptanceTest, BelievesWhatOdometryMayHaveDrifted) {
   LoopCandidate loop = Loop(10, 30, {0, 0.5, 0});  // 2 % of 20 m are 0.4 m
   EXPECT_EQ(Judge(&loop), 1u);
   EXPECT_FALSE(loop.failed);
-  EXPECT_LT(*loop.odometry_error, kThreeSigma);
+  EXPECT_LT(*loop.odometry_error, kThreeSigmaOf4Dof);
 }
 
 TEST_F(LoopAcceptanceTest, RefusesWhatOdometryRulesOut) {

@@ -13,28 +13,30 @@
 namespace plm_vins {
 namespace {
 
-const LevelTransform kTruth = {0.4, {5, -3, 0.5}};  // T_A_B
+using testing::kFocalLength;
+
+const LevelTransform kTruth = {0.4, {5, -3, 0.5}};  // T_O1_O2
 
 // Standard deviations of what is wrong with sightings.
 struct Noise {
   double image = 0;  // normalised
   double depth = 0;  // of a landmark along its ray, share of its distance
-  double tilt = 0;   // of B about its level axes [rad]
+  double tilt = 0;   // of O2 about its level axes [rad]
 };
 
 // Two cameras before the same points and lines, each of which it knows in its own world.
 LoopSightings See(int points, bool lines, const Noise& noise, simulator::Random* random) {
   LoopSightings all;
-  const Rigid3d T_A_Be({Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()))},
-                       {0, 0, 1});
-  const Rigid3d T_A_Bl({Eigen::Quaterniond(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()))},
-                       {0.4, 0.3, 1.1});
-  all.T_A_C = T_A_Be * testing::LookingAhead();
-  all.T_B_C = kTruth.Inverse().ToRigid() * T_A_Bl * testing::LookingAhead();
-  const Rigid3d T_C_A_later = (kTruth.ToRigid() * all.T_B_C).Inverse();
+  const Rigid3d T_O1_earlier({Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()))},
+                             {0, 0, 1});
+  const Rigid3d T_O1_later({Eigen::Quaterniond(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()))},
+                           {0.4, 0.3, 1.1});
+  all.T_O1_C = T_O1_earlier * testing::LookingAhead();
+  all.T_O2_C = kTruth.Inverse().ToRigid() * T_O1_later * testing::LookingAhead();
+  const Rigid3d T_C_O1_later = (kTruth.ToRigid() * all.T_O2_C).Inverse();
   const Eigen::Vector3d tilt(noise.tilt * random->Normal(), noise.tilt * random->Normal(), 0);
-  const Eigen::Quaterniond R_tilted_B = SO3Exp(tilt);
-  all.T_B_C.rotation = R_tilted_B * all.T_B_C.rotation;  // all of B is turned about the camera
+  const Eigen::Quaterniond R_tilted_O2 = SO3Exp(tilt);
+  all.T_O2_C.rotation = R_tilted_O2 * all.T_O2_C.rotation;  // all of O2 is turned about the camera
   const auto place = [&](const Rigid3d& T_W_C, const Eigen::Vector3d& p_C) {
     return Eigen::Vector3d(T_W_C * Eigen::Vector3d((1 + noise.depth * random->Normal()) * p_C));
   };
@@ -43,17 +45,18 @@ LoopSightings See(int points, bool lines, const Noise& noise, simulator::Random*
                            noise.image * Eigen::Vector2d(random->Normal(), random->Normal()));
   };
   for (int i = 0; i < points; ++i) {
-    const Eigen::Vector3d p_A(random->Uniform(3, 8), random->Uniform(-2, 2), random->Uniform(0, 2));
-    const Eigen::Vector3d p_C_earlier = all.T_A_C.Inverse() * p_A;
-    const Eigen::Vector3d p_C_later = T_C_A_later * p_A;
-    all.of_earlier.push_back({place(all.T_A_C, p_C_earlier), noisy(p_C_later)});
-    all.of_later.push_back({place(all.T_B_C, p_C_later), noisy(p_C_earlier)});
+    const Eigen::Vector3d p_O1(random->Uniform(3, 8), random->Uniform(-2, 2),
+                               random->Uniform(0, 2));
+    const Eigen::Vector3d p_C_earlier = all.T_O1_C.Inverse() * p_O1;
+    const Eigen::Vector3d p_C_later = T_C_O1_later * p_O1;
+    all.of_earlier.push_back({place(all.T_O1_C, p_C_earlier), noisy(p_C_later)});
+    all.of_later.push_back({place(all.T_O2_C, p_C_later), noisy(p_C_earlier)});
   }
   for (int i = 0; lines && i < 8; ++i) {
     const SpaceSegment line = {{4.0 + i % 3, -1 + 0.3 * i, 0.5}, {5, -1 + 0.2 * i, 1.5}};
     LineObservation segment;
-    segment.start = noisy(T_C_A_later * line.start_O);
-    segment.end = noisy(T_C_A_later * (0.5 * (line.start_O + line.end_O)));  // a part of it
+    segment.start = noisy(T_C_O1_later * line.start_O);
+    segment.end = noisy(T_C_O1_later * (0.5 * (line.start_O + line.end_O)));  // a part of it
     all.lines.push_back({line, segment});
   }
   return all;
@@ -62,41 +65,41 @@ LoopSightings See(int points, bool lines, const Noise& noise, simulator::Random*
 LevelTransform Disturbed() { return kTruth * LevelTransform{0.05, {0.1, -0.1, 0.05}}; }
 
 // Of the place of the later camera and the yaw.
-Vector4d ErrorOf(const LevelTransform& T_A_B, const LoopSightings& sightings) {
+Vector4d ErrorOf(const LevelTransform& T_O1_O2, const LoopSightings& sightings) {
   Vector4d error;
-  error << T_A_B * sightings.T_B_C.translation - kTruth * sightings.T_B_C.translation,
-      WrapAngle(T_A_B.yaw - kTruth.yaw);
+  error << T_O1_O2 * sightings.T_O2_C.translation - kTruth * sightings.T_O2_C.translation,
+      WrapAngle(T_O1_O2.yaw - kTruth.yaw);
   return error;
 }
 
 TEST(RefineLoop, FindsTheTruthWithoutNoise) {
   simulator::Random random(1);
   const LoopSightings sightings = See(20, true, Noise(), &random);
-  const auto loop = RefineLoop(LoopRefinementOptions(), sightings, Disturbed());
+  const auto loop = RefineLoop(LoopRefinementOptions(kFocalLength), sightings, Disturbed());
   ASSERT_TRUE(loop);
-  EXPECT_LT(ErrorOf(loop->T_A_B, sightings).norm(), 1e-6);
+  EXPECT_LT(ErrorOf(loop->T_O1_O2, sightings).norm(), 1e-6);
 }
 
 TEST(RefineLoop, FindsItFromLinesAlone) {
   simulator::Random random(2);
   const LoopSightings sightings = See(0, true, Noise(), &random);
-  const auto loop = RefineLoop(LoopRefinementOptions(), sightings, Disturbed());
+  const auto loop = RefineLoop(LoopRefinementOptions(kFocalLength), sightings, Disturbed());
   ASSERT_TRUE(loop);
-  EXPECT_LT(ErrorOf(loop->T_A_B, sightings).norm(), 1e-5);
+  EXPECT_LT(ErrorOf(loop->T_O1_O2, sightings).norm(), 1e-5);
 }
 
 TEST(RefineLoop, StandsSomeWrongSightings) {
   simulator::Random random(3);
-  LoopSightings sightings = See(40, false, {0.2 / 460}, &random);
+  LoopSightings sightings = See(40, false, {0.2 / kFocalLength}, &random);
   for (int i = 0; i < 6; ++i) sightings.of_earlier[i].xy += Eigen::Vector2d(0.05, -0.03);
-  const auto loop = RefineLoop(LoopRefinementOptions(), sightings, Disturbed());
+  const auto loop = RefineLoop(LoopRefinementOptions(kFocalLength), sightings, Disturbed());
   ASSERT_TRUE(loop);
-  EXPECT_LT(ErrorOf(loop->T_A_B, sightings).norm(), 0.03);
+  EXPECT_LT(ErrorOf(loop->T_O1_O2, sightings).norm(), 0.03);
 }
 
 // Mean normalised error squared, of four degrees of freedom, where the noise is what is assumed.
 double MeanNees(const Noise& noise, uint64_t seed) {
-  LoopRefinementOptions options;
+  LoopRefinementOptions options(kFocalLength);
   options.point_noise = options.line_noise = noise.image;
   options.depth_noise = noise.depth;
   options.tilt = noise.tilt;
@@ -108,7 +111,7 @@ double MeanNees(const Noise& noise, uint64_t seed) {
     const LoopSightings sightings = See(15, true, noise, &random);
     const auto loop = RefineLoop(options, sightings, kTruth);
     if (!loop) return std::numeric_limits<double>::infinity();
-    const Vector4d error = ErrorOf(loop->T_A_B, sightings);
+    const Vector4d error = ErrorOf(loop->T_O1_O2, sightings);
     nees += error.dot(loop->covariance.inverse() * error) / kRuns;
   }
   return nees;
@@ -117,7 +120,8 @@ double MeanNees(const Noise& noise, uint64_t seed) {
 TEST(RefineLoop, HasTheCovarianceThatItsErrorsHave) {
   // Images alone, then with landmarks of uncertain depth, then with roll and pitch in error too.
   for (const Noise& noise :
-       {Noise{1.0 / 460, 1e-6, 1e-6}, Noise{1.0 / 460, 0.1, 1e-6}, Noise{1.0 / 460, 0.1, 0.01}}) {
+       {Noise{1.0 / kFocalLength, 1e-6, 1e-6}, Noise{1.0 / kFocalLength, 0.1, 1e-6},
+        Noise{1.0 / kFocalLength, 0.1, 0.01}}) {
     const double nees = MeanNees(noise, 4);
     EXPECT_GT(nees, 3.0) << noise.depth << " " << noise.tilt;  // 4 +- 0.28, and a robust loss
     EXPECT_LT(nees, 5.5) << noise.depth << " " << noise.tilt;
@@ -127,17 +131,17 @@ TEST(RefineLoop, HasTheCovarianceThatItsErrorsHave) {
 // What the two visits' attitudes are off by must not be taken for a way.
 TEST(RefineLoop, TellsATiltFromAWay) {
   const Noise noise = {0, 0, 0.5 * M_PI / 180};
-  LoopRefinementOptions without;
+  LoopRefinementOptions without(kFocalLength);
   without.tilt = 1e-6;
   double error = 0, error_without = 0;
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     simulator::Random random(seed);
     const LoopSightings sightings = See(30, false, noise, &random);
-    const auto loop = RefineLoop(LoopRefinementOptions(), sightings, kTruth);
+    const auto loop = RefineLoop(LoopRefinementOptions(kFocalLength), sightings, kTruth);
     const auto level = RefineLoop(without, sightings, kTruth);
     ASSERT_TRUE(loop && level);
-    error += ErrorOf(loop->T_A_B, sightings).head<3>().norm();
-    error_without += ErrorOf(level->T_A_B, sightings).head<3>().norm();
+    error += ErrorOf(loop->T_O1_O2, sightings).head<3>().norm();
+    error_without += ErrorOf(level->T_O1_O2, sightings).head<3>().norm();
   }
   EXPECT_LT(error, 0.5 * error_without);
 }
@@ -145,7 +149,7 @@ TEST(RefineLoop, TellsATiltFromAWay) {
 TEST(RefineLoop, AddsWhatTheSightingsHaveWrongInCommon) {
   simulator::Random random(5);
   const LoopSightings sightings = See(30, false, Noise(), &random);
-  LoopRefinementOptions options;
+  LoopRefinementOptions options(kFocalLength);
   const auto with = RefineLoop(options, sightings, kTruth);
   const double variance = options.floor_position * options.floor_position;
   options.floor_position = options.floor_yaw = 0;
@@ -155,7 +159,7 @@ TEST(RefineLoop, AddsWhatTheSightingsHaveWrongInCommon) {
 }
 
 TEST(RefineLoop, RefusesWithoutSightings) {
-  EXPECT_FALSE(RefineLoop(LoopRefinementOptions(), LoopSightings(), kTruth));
+  EXPECT_FALSE(RefineLoop(LoopRefinementOptions(kFocalLength), LoopSightings(), kTruth));
 }
 
 }  // namespace

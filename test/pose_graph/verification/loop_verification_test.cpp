@@ -44,11 +44,21 @@ class LoopVerificationTest : public ::testing::Test {
   std::optional<Wall> second_wall_;
   VisitOptions earlier_;
   VisitOptions later_;
-  LoopVerificationOptions options_;
+  LoopVerificationOptions options_{testing::kFocalLength};
   LoopSightings sightings_;
   LevelTransform truth_;
   LevelTransform error_;
 };
+
+// Gates in pixels: corners of a wide lens are as many pixels off, and more in angles.
+TEST_F(LoopVerificationTest, AllowsTheSamePixelsToEveryLens) {
+  constexpr double kWide = 191;  // [px]
+  camera_ = testing::SimpleCamera(kWide);
+  earlier_.noise = later_.noise = 2.5 / kWide;
+  EXPECT_EQ(Verify().failed, LoopGate::kInliers);
+  options_ = LoopVerificationOptions(kWide);
+  EXPECT_FALSE(Verify().failed);
+}
 
 TEST_F(LoopVerificationTest, AcceptsTheSamePlaceAndMeasuresTheDrift) {
   const LoopCandidate candidate = Verify();
@@ -115,21 +125,21 @@ Eigen::Quaterniond Turned(double degrees) {
 TEST_F(LoopVerificationTest, RefusesATurnedManhattanFrame) {
   Keyframe first = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
   Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
-  first.R_O_M = Turned(0);
+  first.R_O_Manhattan = Turned(0);
   later.world = first.world + 1;
-  later.R_O_M = Turned(100);  // the world is turned by 10, the frame by a quarter
+  later.R_O_Manhattan = Turned(100);  // the world is turned by 10, the frame by a quarter
   EXPECT_FALSE(VerifyPair(first, later).failed);
-  later.R_O_M = Turned(105);
+  later.R_O_Manhattan = Turned(105);
   EXPECT_EQ(VerifyPair(first, later).failed, LoopGate::kManhattan);
 }
 
 TEST_F(LoopVerificationTest, ComparesNoTwoManhattanFramesOfOneWorld) {
   Keyframe first = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
   Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
-  first.R_O_M = Turned(0);
-  later.R_O_M = Turned(2);  // one frame, but the loop says that its world is turned by 10
+  first.R_O_Manhattan = Turned(0);
+  later.R_O_Manhattan = Turned(2);  // one frame, but the loop says that its world is turned by 10
   EXPECT_EQ(VerifyPair(first, later).failed, LoopGate::kManhattan);
-  later.R_O_M = Turned(30);  // another frame
+  later.R_O_Manhattan = Turned(30);  // another frame
   const LoopCandidate candidate = VerifyPair(first, later);
   EXPECT_FALSE(candidate.failed);
   EXPECT_FALSE(candidate.manhattan_error);

@@ -21,7 +21,10 @@ class PublisherWatch {
   // the first, whichever of its topics comes first.
   bool HasChanged(size_t topic, const boost::shared_ptr<ros::M_string>& connection) {
     Source& source = sources_[topic];
-    if (source.connection == connection) return false;
+    if (source.connection == connection) {
+      source.is_behind = false;  // its process goes on: another topic's link alone was made again
+      return false;
+    }
     const auto before = std::exchange(source.connection, connection);
     if (std::exchange(source.is_behind, false)) return false;
     for (Source& other : sources_) other.is_behind = &other != &source;

@@ -65,6 +65,14 @@ class BoundedQueue {
     changed_.notify_all();
   }
 
+  // The same, and what still waits is gone.
+  void Abandon() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    items_.clear();
+    closed_ = true;
+    changed_.notify_all();
+  }
+
   size_t size() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return items_.size();

@@ -7,23 +7,40 @@
 namespace plm_vins {
 namespace {
 
-// Odometry says within these whether an image is a keyframe: three seconds of them at 20 Hz.
-constexpr size_t kMaxStamps = 60;
+// Odometry says within these whether an image is a keyframe: three seconds of them at 20 Hz. At
+// higher rates there are more, up to as many as 100 MB of small images.
+constexpr size_t kFewStamps = 60;
+constexpr size_t kMaxStamps = 300;
+constexpr int64_t kMaxAge_ns = 2'000'000'000;
+constexpr int kJumpPatience = 10;  // images
 
 }  // namespace
+
+KeyframeAssembly::KeyframeAssembly() : jump_(kJumpPatience) {}
+
+bool KeyframeAssembly::HasTooMany() const {
+  const int64_t age_ns = parts_.rbegin()->first - parts_.begin()->first;
+  return parts_.size() > kMaxStamps || (parts_.size() > kFewStamps && age_ns > kMaxAge_ns);
+}
 
 KeyframeAssembly::Parts& KeyframeAssembly::PartsAt(int64_t t_ns) {
   const auto [parts, is_new] = parts_.try_emplace(t_ns);
   parts->second.frame.t_ns = t_ns;
-  if (is_new && parts_.size() > kMaxStamps) {
-    parts_.erase(parts == parts_.begin() ? std::next(parts) : parts_.begin());
+  while (is_new && HasTooMany()) {
+    const auto oldest = parts == parts_.begin() ? std::next(parts) : parts_.begin();
+    without_image_ += oldest->second.LacksImage() ? 1 : 0;
+    parts_.erase(oldest);
   }
   return parts->second;
 }
 
 void KeyframeAssembly::AddImage(const ImageSample& image) {
-  if (image.t_ns < image_ns_) Clear();
-  image_ns_ = image.t_ns;
+  if (image.t_ns < image_ns_) {
+    if (jump_.Refuse(image.t_ns)) Clear();
+  } else {
+    jump_.Accept();
+    image_ns_ = image.t_ns;
+  }
   Parts& parts = PartsAt(image.t_ns);
   parts.frame.gray = image.gray;
   parts.owner = image.owner;
@@ -44,9 +61,9 @@ void KeyframeAssembly::AddCorners(int64_t t_ns, std::vector<TrackedCorner> corne
 }
 
 void KeyframeAssembly::AddSegments(int64_t t_ns, std::vector<TrackedSegment> segments,
-                                   const std::optional<Eigen::Quaterniond>& R_O_M) {
+                                   const std::optional<Eigen::Quaterniond>& R_O_Manhattan) {
   Parts& parts = PartsAt(t_ns);
-  parts.frame.R_O_M = R_O_M;
+  parts.frame.R_O_Manhattan = R_O_Manhattan;
   parts.frame.segments = std::move(segments);
   parts.has_segments = true;
 }

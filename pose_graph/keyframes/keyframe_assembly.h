@@ -7,26 +7,32 @@
 #include <optional>
 #include <vector>
 
+#include "common/streams/backward_jump.h"
 #include "pose_graph/keyframes/odometry_frame.h"
 
 namespace plm_vins {
 
 // Puts keyframes together whose parts come one by one, in any order: image, pose, corners, lines.
 // Equal stamps belong together. Lines may be missing: a keyframe does not wait for them longer than
-// until the next one is complete. Keeps the parts of the newest stamps only, and begins anew where
-// the stamps of images go back: a recording is played again.
+// until the next one is complete. Keeps the parts of the newest stamps only, of two seconds at
+// least, and begins anew where the stamps of images go back for good: a recording is played again.
 class KeyframeAssembly {
  public:
+  KeyframeAssembly();
+
   void AddImage(const ImageSample& image);
   void AddPose(int64_t t_ns, const Rigid3d& T_O_B, const Eigen::Matrix<double, 6, 6>& covariance);
   void AddCorners(int64_t t_ns, std::vector<TrackedCorner> corners);
   void AddSegments(int64_t t_ns, std::vector<TrackedSegment> segments,
-                   const std::optional<Eigen::Quaterniond>& R_O_M);
+                   const std::optional<Eigen::Quaterniond>& R_O_Manhattan);
 
   // The next keyframe in order of time, or nothing yet.
   std::optional<OdometryFrame> Pop();
 
   void Clear();
+
+  // Those that had to go before their image came.
+  int64_t without_image() const { return without_image_; }
 
  private:
   struct Parts {
@@ -37,12 +43,16 @@ class KeyframeAssembly {
     bool has_segments = false;
 
     bool AreComplete() const { return !frame.gray.empty() && has_pose && has_corners; }
+    bool LacksImage() const { return frame.gray.empty() && has_pose && has_corners; }
   };
 
   Parts& PartsAt(int64_t t_ns);
+  bool HasTooMany() const;
 
   std::map<int64_t, Parts> parts_;  // by stamp
-  int64_t image_ns_ = 0;            // stamp of the last image
+  int64_t image_ns_ = 0;            // stamp of the newest image
+  BackwardJumpDetector jump_;
+  int64_t without_image_ = 0;
 };
 
 }  // namespace plm_vins

@@ -15,16 +15,20 @@ namespace plm_vins {
 namespace {
 
 constexpr double kUnitTolerance = 1e-2;  // of a quaternion's length; single precision is enough
+constexpr double kUnknown = 1e6;         // a variance as large stands for none, as in MAVLink
 
 using RowMajorCovariance = Eigen::Map<const RowMajor6d>;
 
 bool IsUnit(const Eigen::Quaterniond& q) { return std::abs(q.norm() - 1) < kUnitTolerance; }
 
-// The message has the rotation's covariance about the axes of the world, we in the body.
+// The message has the rotation's covariance about the axes of the world, we in the body. Zeros
+// where it is not known, which leaves a step its floor.
 Eigen::Matrix<double, 6, 6> CovarianceOf(const nav_msgs::Odometry& message, const Rigid3d& T_O_B) {
   Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Identity();
   J.bottomRightCorner<3, 3>() = T_O_B.R().transpose();
-  return J * RowMajorCovariance(message.pose.covariance.data()) * J.transpose();
+  const RowMajorCovariance covariance(message.pose.covariance.data());
+  if (covariance.diagonal().maxCoeff() >= kUnknown) return Eigen::Matrix<double, 6, 6>::Zero();
+  return J * covariance * J.transpose();
 }
 
 // Of another camera than ours, its rays would be nonsense.
@@ -85,10 +89,14 @@ void KeyframeInput::AddCamera(const sensor_msgs::CameraInfo& message) {
   });
 }
 
+void KeyframeInput::AddExtrinsics(const nav_msgs::Odometry& message) {
+  if (Accepts(message)) T_B_C_ = ToRigid(message.pose.pose);
+}
+
 std::optional<OdometryFrame> KeyframeInput::Pop() {
   std::optional<OdometryFrame> frame = assembly_.Pop();
   if (!frame) return std::nullopt;
-  frame->T_B_C = sensor_.T_B_C;
+  frame->T_B_C = T_B_C_;
   frame->camera = camera_;
   return frame;
 }

@@ -26,6 +26,8 @@ class KeyframeInput {
   void AddLines(const sensor_msgs::PointCloud& message);
   // The camera as refined by now, for the keyframes that follow.
   void AddCamera(const sensor_msgs::CameraInfo& message);
+  // T_B_C as estimated by now, the same way.
+  void AddExtrinsics(const nav_msgs::Odometry& message);
 
   // The next keyframe in order of time, or nothing yet.
   std::optional<OdometryFrame> Pop();
@@ -33,15 +35,22 @@ class KeyframeInput {
   // Forgets what waits for other parts.
   void Clear() { assembly_.Clear(); }
 
-  // False, and counted, where the pose, its quaternion or its covariance cannot be true.
+  // False, and counted, where the position, the quaternion or the covariance cannot be true.
   bool Accepts(const nav_msgs::Odometry& message);
 
-  DropCounts Drops() const { return {malformed_, poses_, features_, cameras_}; }
+  DropCounts Drops() const {
+    return {malformed_,
+            poses_,
+            features_,
+            {"keyframes_without_image", assembly_.without_image(), ""},
+            cameras_};
+  }
 
  private:
   SensorConfig sensor_;
   KeyframeAssembly assembly_;
   std::optional<CameraParameters> camera_;
+  Rigid3d T_B_C_ = sensor_.T_B_C;
   DropCount malformed_{"keyframe_messages_malformed", 0, ""};
   DropCount poses_{"poses_impossible", 0, ""};
   DropCount features_{"places_impossible", 0, ""};

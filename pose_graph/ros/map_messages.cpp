@@ -3,10 +3,14 @@
 
 #include <geometry_msgs/PoseStamped.h>
 
+#include <algorithm>
+
 #include "common/ros/msg_conversion.h"
 
 namespace plm_vins {
 namespace {
+
+constexpr int kMaxPathPoses = 5000;  // the newest; the message is sent anew with each keyframe
 
 visualization_msgs::Marker LineList(const std::string& name, double width) {
   visualization_msgs::Marker marker;
@@ -36,14 +40,17 @@ nav_msgs::Odometry ToMap(const nav_msgs::Odometry& odometry, const MapFix& fix,
   return result;
 }
 
-nav_msgs::Path ToPath(const KeyframeMap& map, const std::string& map_frame) {
+nav_msgs::Path ToPath(const KeyframeMap& map, const std::string& map_frame,
+                      const std::string& world_frame) {
   nav_msgs::Path path;
-  path.header.frame_id = map_frame;
-  const std::vector<bool> connected = map.graph.ConnectedWith(map.graph.size() - 1);
-  for (int i = 0; i < map.graph.size(); ++i) {
+  const int newest = map.graph.size() - 1;
+  const std::vector<bool> connected = map.graph.ConnectedWith(newest);
+  const bool is_in_map = connected.empty() || connected[0];
+  path.header.frame_id = is_in_map ? map_frame : world_frame;
+  for (int i = std::max(0, newest + 1 - kMaxPathPoses); i <= newest; ++i) {
     if (!connected[i]) continue;
     geometry_msgs::PoseStamped& pose = path.poses.emplace_back();
-    pose.header.frame_id = map_frame;
+    pose.header.frame_id = path.header.frame_id;
     pose.header.stamp = ToRosTime(map.keyframes[i].t_ns);
     pose.pose = ToPose(map.T_M_O(i).ToRigid() * map.keyframes[i].T_O_B);
   }
@@ -57,7 +64,9 @@ visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map,
   steps.color.r = steps.color.g = steps.color.b = 0.6F;
   visualization_msgs::Marker loops = LineList("loops", 0.02);
   loops.color.g = 1;
+  const std::vector<bool> is_in_map = map.graph.ConnectedWith(0);
   for (const LevelEdge& edge : map.graph.edges()) {
+    if (!is_in_map[edge.from]) continue;
     visualization_msgs::Marker& list = edge.is_loop ? loops : steps;
     list.points.push_back(ToPoint(map.graph.node(edge.from).translation));
     list.points.push_back(ToPoint(map.graph.node(edge.to).translation));

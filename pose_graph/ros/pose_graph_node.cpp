@@ -2,6 +2,7 @@
 #include "pose_graph/ros/pose_graph_node.h"
 
 #include <exception>
+#include <filesystem>
 #include <utility>
 
 #include "common/ros/image_conversion.h"
@@ -48,7 +49,7 @@ PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
 }
 
 PoseGraphNode::~PoseGraphNode() {
-  queue_.Close();
+  queue_.Abandon();
   worker_.join();
 }
 
@@ -56,6 +57,7 @@ void PoseGraphNode::Subscribe() {
   const std::string estimator = kEstimator;
   subscribers_ = {
       node_.subscribe(estimator + "camera_info", kQueue, &PoseGraphNode::AddCamera, this),
+      node_.subscribe(estimator + "extrinsic", kQueue, &PoseGraphNode::AddExtrinsics, this),
       node_.subscribe(estimator + "keyframe_pose", kQueue, &PoseGraphNode::AddPose, this),
       node_.subscribe(estimator + "keyframe_point", kQueue, &PoseGraphNode::AddPoints, this),
       node_.subscribe(estimator + "keyframe_line", kQueue, &PoseGraphNode::AddLines, this),
@@ -81,8 +83,14 @@ void PoseGraphNode::AddCamera(const sensor_msgs::CameraInfo& message) {
   PassOn();
 }
 
+void PoseGraphNode::AddExtrinsics(const nav_msgs::Odometry& message) {
+  input_.AddExtrinsics(message);
+}
+
 void PoseGraphNode::AddPose(const OdometryEvent& event) {
-  if (estimator_.HasChanged(kKeyframePoses, event.getConnectionHeaderPtr())) BeginWorld();
+  if (estimator_.HasChanged(kKeyframePoses, event.getConnectionHeaderPtr())) {
+    NoteNewWorld("keyframes come from another estimator");
+  }
   keyframe_stream_.Add(ToNanoseconds(event.getMessage()->header.stamp));
   input_.AddPose(*event.getMessage());
   PassOn();
@@ -106,7 +114,12 @@ void PoseGraphNode::PassOn() {
 }
 
 void PoseGraphNode::Restart(const std_msgs::Bool& message) {
-  if (message.data) BeginWorld();
+  if (message.data) NoteNewWorld("the estimator says so");
+}
+
+void PoseGraphNode::NoteNewWorld(const std::string& reason) {
+  ROS_WARN("a new world of odometry begins: %s", reason.c_str());
+  BeginWorld();
 }
 
 // Keyframes of before that wait for a part are of a world that is no more.
@@ -118,8 +131,11 @@ void PoseGraphNode::BeginWorld() {
 }
 
 void PoseGraphNode::AddOdometry(const OdometryEvent& event) {
-  if (estimator_.HasChanged(kOdometry, event.getConnectionHeaderPtr())) BeginWorld();
+  if (estimator_.HasChanged(kOdometry, event.getConnectionHeaderPtr())) {
+    NoteNewWorld("odometry comes from another estimator");
+  }
   const nav_msgs::Odometry& message = *event.getMessage();
+  odometry_stream_.Add(ToNanoseconds(message.header.stamp));
   if (!input_.Accepts(message)) return drop_warner_.Check(Drops());
   std::optional<MapFix> fix;
   {
@@ -140,11 +156,17 @@ void PoseGraphNode::AddOdometry(const OdometryEvent& event) {
 
 bool PoseGraphNode::SaveMapFile(Trigger::Request&, Trigger::Response& response) {
   const std::lock_guard<std::mutex> lock(loops_mutex_);
+  const int keyframes = loops_->map().CountKept();
+  if (keyframes == 0) {
+    response.message = "there is no keyframe to save yet; " + map_file_ + " stays as it is";
+    return true;
+  }
   try {
+    const auto folder = std::filesystem::path(map_file_).parent_path();
+    if (!folder.empty()) std::filesystem::create_directories(folder);
     SaveMap(map_file_, loops_->map());
     response.success = true;
-    response.message =
-        std::to_string(loops_->map().CountKept()) + " keyframes saved to " + map_file_;
+    response.message = std::to_string(keyframes) + " keyframes saved to " + map_file_;
   } catch (const std::exception& error) {
     response.message = error.what();
   }
@@ -174,7 +196,7 @@ bool PoseGraphNode::Reset(Trigger::Request&, Trigger::Response& response) {
 void PoseGraphNode::StartWith(KeyframeMap map) {
   BeginWorld();
   const std::lock_guard<std::mutex> lock(loops_mutex_);
-  loops_ = std::make_unique<LoopCloser>(LoopCloserOptions(), camera_);
+  loops_ = std::make_unique<LoopCloser>(LoopCloserOptions(*camera_), camera_);
   loops_->SetMap(std::move(map));
   map_world_ = world_;
   images_ = KeyframeImages();
@@ -212,16 +234,23 @@ void PoseGraphNode::UpdateStatus(const LoopClosure& closure, int world, double m
   if (world == world_) status_.fix = closure.fix;
   status_.keyframes = loops_->map().CountKept();
   if (closure.is_keyframe) status_.keyframe_ms = milliseconds;
-  for (const LoopCandidate& candidate : closure.candidates) {
-    candidate.failed ? ++status_.refused[ToString(*candidate.failed)] : ++status_.loops;
+  for (const auto* loops : {&closure.candidates, &closure.confirmed}) {
+    for (const LoopCandidate& loop : *loops) {
+      loop.failed ? ++status_.refused[ToString(*loop.failed)] : ++status_.loops;
+    }
   }
+  // They were refused for lack of one that agrees, and have another verdict now.
+  if (!closure.confirmed.empty()) {
+    status_.refused[ToString(LoopGate::kAgreement)] -= static_cast<int>(closure.confirmed.size());
+  }
+  status_.dropped += closure.dropped;
 }
 
 // Whoever listens or not: the topics are latched, for displays that are opened later.
 void PoseGraphNode::PublishMap() {
-  const std::string& map_frame = config_.output.map_frame;
-  path_publisher_.publish(ToPath(loops_->map(), map_frame));
-  graph_publisher_.publish(ToGraphMarkers(loops_->map(), map_frame));
+  const OutputConfig& frames = config_.output;
+  path_publisher_.publish(ToPath(loops_->map(), frames.map_frame, frames.world_frame));
+  graph_publisher_.publish(ToGraphMarkers(loops_->map(), frames.map_frame));
 }
 
 void PoseGraphNode::PublishMatch(const OdometryFrame& frame, const LoopClosure& closure) {
@@ -250,10 +279,13 @@ void PoseGraphNode::ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& st
   ReportState(&status);
   status.add("keyframes", status_.keyframes);
   status.add("loops", status_.loops);
+  status.add("dropped", status_.dropped);
+  status.add("worlds", world_);
   for (const auto& [gate, count] : status_.refused) status.add("refused_" + gate, count);
   status.add("keyframe_ms", status_.keyframe_ms);
   status.add("waiting_keyframes", queue_.size());
-  for (StreamMonitor* stream : {&image_subscription_.stream(), &keyframe_stream_}) {
+  for (StreamMonitor* stream :
+       {&image_subscription_.stream(), &keyframe_stream_, &odometry_stream_}) {
     stream->Report(&status);
   }
   for (const DropCount& drop : Drops()) status.add(drop.cause, drop.count);
@@ -264,6 +296,10 @@ void PoseGraphNode::ReportState(diagnostic_updater::DiagnosticStatusWrapper* sta
   if (image_subscription_.stream().Silence() > keyframe_stream_.Silence() + kMaxLag) {
     status->summary(DiagnosticStatus::WARN,
                     "keyframes without images: no image comes on " + config_.sensor.image_topic);
+  } else if (odometry_stream_.Silence() > StreamMonitor::kSilence) {
+    status->summary(
+        DiagnosticStatus::WARN,
+        "waiting: no pose comes on " + node_.resolveName(std::string(kEstimator) + "odometry"));
   } else if (status_.fix) {
     status->summary(DiagnosticStatus::OK, "located in the map");
   } else if (status_.keyframes == 0) {

@@ -66,11 +66,13 @@ class PoseGraphNode {
   void Subscribe();
   void AddImage(const std::optional<ImageSample>& image);
   void AddCamera(const sensor_msgs::CameraInfo& message);
+  void AddExtrinsics(const nav_msgs::Odometry& message);
   void AddPose(const OdometryEvent& event);
   void AddPoints(const sensor_msgs::PointCloud& message);
   void AddLines(const sensor_msgs::PointCloud& message);
   void AddOdometry(const OdometryEvent& event);
   void Restart(const std_msgs::Bool& message);
+  void NoteNewWorld(const std::string& reason);
   void BeginWorld();
   void PassOn();
   bool SaveMapFile(Trigger::Request& request, Trigger::Response& response);
@@ -99,6 +101,7 @@ class PoseGraphNode {
   KeyframeInput input_;
   PublisherWatch estimator_{kWatchedTopics};
   StreamMonitor keyframe_stream_{"keyframes"};
+  StreamMonitor odometry_stream_{"odometry"};
   int64_t keyframes_too_late_ = 0;
   DropWarner drop_warner_;
 
@@ -114,7 +117,8 @@ class PoseGraphNode {
   struct Status {
     std::optional<MapFix> fix;
     int keyframes = 0;
-    int loops = 0;
+    int loops = 0;                       // accepted
+    int dropped = 0;                     // of them, by the graph later on
     std::map<std::string, int> refused;  // candidates, by gate
     double keyframe_ms = 0;              // of the last keyframe
   };

@@ -30,6 +30,17 @@ TEST(PublisherWatch, TellsAProcessOnceByWhicheverTopicComesFirst) {
   }
 }
 
+TEST(PublisherWatch, MissesNoProcessAfterTheLinkOfOneTopicWasMadeAgain) {
+  PublisherWatch watch(2);
+  const auto keyframes = Connect();
+  EXPECT_FALSE(watch.HasChanged(0, Connect()));
+  EXPECT_FALSE(watch.HasChanged(1, keyframes));
+  EXPECT_TRUE(watch.HasChanged(0, Connect())) << "cannot be told from another process";
+  EXPECT_FALSE(watch.HasChanged(1, keyframes));
+  EXPECT_TRUE(watch.HasChanged(1, Connect()));
+  EXPECT_FALSE(watch.HasChanged(0, Connect()));
+}
+
 TEST(PublisherWatch, MissesNoProcessOfWhichOneTopicComes) {
   PublisherWatch watch(2);
   EXPECT_FALSE(watch.HasChanged(0, Connect()));

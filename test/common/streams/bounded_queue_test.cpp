@@ -88,6 +88,14 @@ TEST(BoundedQueue, GivesWhatIsLeftAfterClosing) {
   EXPECT_EQ(queue.Pop(), std::nullopt);
 }
 
+TEST(BoundedQueue, GivesNothingThatIsLeftOnceItIsAbandoned) {
+  BoundedQueue<int> queue(2);
+  queue.Push(1);
+  queue.Abandon();
+  EXPECT_FALSE(queue.Push(2));
+  EXPECT_EQ(queue.Pop(), std::nullopt);
+}
+
 TEST(BoundedQueue, ClosingWakesAProducerThatWaits) {
   BoundedQueue<int> queue(1);
   queue.Push(1);

@@ -6,6 +6,8 @@
 namespace plm_vins {
 namespace {
 
+constexpr int64_t kPeriod = 50'000'000;  // of images
+
 class KeyframeAssemblyTest : public ::testing::Test {
  protected:
   void AddImage(int64_t t_ns) { assembly_.AddImage({t_ns, cv::Mat(4, 4, CV_8UC1, cv::Scalar(7))}); }
@@ -17,6 +19,11 @@ class KeyframeAssemblyTest : public ::testing::Test {
     AddImage(t_ns);
     AddPose(t_ns);
     assembly_.AddCorners(t_ns, std::vector<TrackedCorner>(3));
+  }
+
+  void AddTheRest(int64_t t_ns) {
+    assembly_.AddCorners(t_ns, {});
+    assembly_.AddSegments(t_ns, {}, std::nullopt);
   }
 
   KeyframeAssembly assembly_;
@@ -36,7 +43,7 @@ TEST_F(KeyframeAssemblyTest, PutsTogetherWhatHasOneStampInAnyOrder) {
   EXPECT_EQ(frame->T_O_B.translation.x(), 5);
   EXPECT_EQ(frame->corners.size(), 3u);
   EXPECT_EQ(frame->segments.size(), 2u);
-  EXPECT_EQ(frame->R_O_M->w(), 0.6);
+  EXPECT_EQ(frame->R_O_Manhattan->w(), 0.6);
   EXPECT_EQ(frame->gray.at<uchar>(0, 0), 7);
   EXPECT_FALSE(assembly_.Pop());
 }
@@ -50,45 +57,74 @@ TEST_F(KeyframeAssemblyTest, WaitsForLinesUntilTheNextIsComplete) {
 }
 
 TEST_F(KeyframeAssemblyTest, ForgetsWhatWaitsForTooLong) {
-  AddImage(1);
-  AddPose(1);
-  for (int64_t t = 2; t < 100; ++t) AddImage(t);
-  assembly_.AddCorners(1, {});
-  assembly_.AddSegments(1, {}, std::nullopt);
+  AddImage(kPeriod);
+  AddPose(kPeriod);
+  for (int i = 2; i < 100; ++i) AddImage(i * kPeriod);
+  AddTheRest(kPeriod);
   EXPECT_FALSE(assembly_.Pop());
+  EXPECT_EQ(assembly_.without_image(), 0);
 }
 
 // As where images come compressed, and are waited for raw.
 TEST_F(KeyframeAssemblyTest, ForgetsAsMuchWhereNoImagesCome) {
-  AddImage(1);
-  for (int64_t t = 2; t < 100; ++t) AddPose(t);
+  AddImage(kPeriod);
+  for (int i = 2; i < 100; ++i) {
+    AddPose(i * kPeriod);
+    assembly_.AddCorners(i * kPeriod, {});
+  }
+  AddPose(kPeriod);
+  AddTheRest(kPeriod);
+  EXPECT_FALSE(assembly_.Pop());
+  EXPECT_EQ(assembly_.without_image(), 99 - 60);
+}
+
+TEST_F(KeyframeAssemblyTest, WaitsAsLongAtAHighRate) {
+  constexpr int64_t kFast = kPeriod / 10;
+  AddAllButLines(kFast);
+  for (int i = 2; i < 250; ++i) AddImage(i * kFast);
+  assembly_.AddSegments(kFast, {}, std::nullopt);
+  EXPECT_TRUE(assembly_.Pop());
+}
+
+TEST_F(KeyframeAssemblyTest, HasABoundAtAnyRate) {
   AddPose(1);
-  assembly_.AddCorners(1, {});
-  assembly_.AddSegments(1, {}, std::nullopt);
+  for (int i = 2; i < 400; ++i) AddImage(i);
+  AddImage(1);
+  AddTheRest(1);
   EXPECT_FALSE(assembly_.Pop());
 }
 
 TEST_F(KeyframeAssemblyTest, TakesTheOldestOfManyStamps) {
-  for (int64_t t = 100; t < 200; ++t) AddPose(t);
-  AddAllButLines(1);
-  assembly_.AddSegments(1, {}, std::nullopt);
+  for (int i = 100; i < 200; ++i) AddPose(i * kPeriod);
+  AddAllButLines(kPeriod);
+  assembly_.AddSegments(kPeriod, {}, std::nullopt);
   const auto frame = assembly_.Pop();
   ASSERT_TRUE(frame);
-  EXPECT_EQ(frame->t_ns, 1);
+  EXPECT_EQ(frame->t_ns, kPeriod);
 }
 
 TEST_F(KeyframeAssemblyTest, BeginsAnewWhereImagesGoBack) {
-  for (int64_t t = 100; t < 200; ++t) AddImage(t);
-  AddAllButLines(200);
-  for (int64_t t = 1; t < 30; ++t) AddImage(t);
-  AddPose(1);
-  assembly_.AddCorners(1, {});
-  assembly_.AddSegments(1, {}, std::nullopt);
+  for (int i = 100; i < 200; ++i) AddImage(i * kPeriod);
+  AddAllButLines(200 * kPeriod);
+  for (int i = 1; i < 30; ++i) AddImage(i * kPeriod);
+  AddPose(20 * kPeriod);
+  AddTheRest(20 * kPeriod);
   const auto frame = assembly_.Pop();
   ASSERT_TRUE(frame);
-  EXPECT_EQ(frame->t_ns, 1);
-  assembly_.AddSegments(200, {}, std::nullopt);
+  EXPECT_EQ(frame->t_ns, 20 * kPeriod);
+  assembly_.AddSegments(200 * kPeriod, {}, std::nullopt);
   EXPECT_FALSE(assembly_.Pop());
+}
+
+TEST_F(KeyframeAssemblyTest, TakesTwoImagesThatWereSwappedAndOneOfAWrongClock) {
+  AddAllButLines(20 * kPeriod);
+  AddImage(19 * kPeriod);
+  AddImage(20'000 * kPeriod);
+  AddImage(21 * kPeriod);
+  assembly_.AddSegments(20 * kPeriod, {}, std::nullopt);
+  const auto frame = assembly_.Pop();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->t_ns, 20 * kPeriod);
 }
 
 TEST_F(KeyframeAssemblyTest, StartsOverWhenCleared) {

@@ -40,18 +40,21 @@ class KeyframeInputTest : public ::testing::Test {
   // A keyframe of all parts; nothing where one was refused.
   std::optional<OdometryFrame> Assemble(const nav_msgs::Odometry& pose) {
     KeyframeInput input(sensor_);
-    input.AddImage({5, cv::Mat(4, 4, CV_8UC1)});
-    input.AddPose(pose);
-    input.AddPoints(ToKeyframePoints(corners_, 5, "world"));
-    input.AddLines(ToKeyframeLines(segments_, R_O_M_, 5, "world"));
-    for (const DropCount& drop : input.Drops()) drops_[drop.cause] = drop.count;
-    return input.Pop();
+    return Assemble(pose, &input);
+  }
+  std::optional<OdometryFrame> Assemble(const nav_msgs::Odometry& pose, KeyframeInput* input) {
+    input->AddImage({5, cv::Mat(4, 4, CV_8UC1)});
+    input->AddPose(pose);
+    input->AddPoints(ToKeyframePoints(corners_, 5, "world"));
+    input->AddLines(ToKeyframeLines(segments_, R_O_Manhattan_, 5, "world"));
+    for (const DropCount& drop : input->Drops()) drops_[drop.cause] = drop.count;
+    return input->Pop();
   }
 
   SensorConfig sensor_;
   std::vector<TrackedCorner> corners_;
   std::vector<TrackedSegment> segments_;
-  std::optional<Eigen::Quaterniond> R_O_M_;
+  std::optional<Eigen::Quaterniond> R_O_Manhattan_;
   std::map<std::string, int64_t> drops_;  // of the last keyframe
 };
 
@@ -64,6 +67,28 @@ TEST_F(KeyframeInputTest, HasTheFramesOfAKeyframe) {
   EXPECT_NEAR(frame->covariance(4, 4), 4, 1e-12);
   EXPECT_NEAR(frame->covariance(3, 3), 0, 1e-12);
   for (const auto& [cause, count] : drops_) EXPECT_EQ(count, 0) << cause;
+}
+
+TEST_F(KeyframeInputTest, TakesTheExtrinsicsAsTheyAreEstimated) {
+  KeyframeInput input(sensor_);
+  nav_msgs::Odometry extrinsics = Pose();
+  extrinsics.pose.pose.position.x = 0.25;
+  input.AddExtrinsics(extrinsics);
+  extrinsics.pose.pose.position.x = kNan;
+  input.AddExtrinsics(extrinsics);
+  const auto frame = Assemble(Pose(), &input);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->T_B_C.translation.x(), 0.25);
+  EXPECT_NEAR(frame->T_B_C.rotation.z(), std::sqrt(0.5), 1e-12);
+}
+
+// As 1e6 in the message; a step between such keyframes would be free.
+TEST_F(KeyframeInputTest, TakesAnUnknownCovarianceForNone) {
+  nav_msgs::Odometry pose = Pose();
+  for (size_t i = 0; i < 36; i += 7) pose.pose.covariance[i] = 1e6;
+  const auto frame = Assemble(pose);
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(frame->covariance.isZero());
 }
 
 TEST_F(KeyframeInputTest, RefusesPosesThatCannotBeTrue) {
@@ -103,8 +128,8 @@ TEST_F(KeyframeInputTest, CountsMessagesOfAnotherLayout) {
   sensor_msgs::PointCloud message = ToKeyframePoints(corners_, 5, "world");
   message.channels[2].values.resize(3);
   input.AddPoints(message);
-  R_O_M_ = Eigen::Quaterniond(0, 0, 0, 0);
-  input.AddLines(ToKeyframeLines(segments_, R_O_M_, 5, "world"));
+  R_O_Manhattan_ = Eigen::Quaterniond(0, 0, 0, 0);
+  input.AddLines(ToKeyframeLines(segments_, R_O_Manhattan_, 5, "world"));
   const DropCount malformed = input.Drops().front();
   EXPECT_EQ(malformed.cause, "keyframe_messages_malformed");
   EXPECT_EQ(malformed.count, 2);

@@ -39,14 +39,31 @@ KeyframeMap SmallMap() {
 
 TEST(ToPath, HasThePartOfTheNewestKeyframe) {
   KeyframeMap map = SmallMap();
-  EXPECT_EQ(ToPath(map, "map").poses.size(), 1u);
+  const nav_msgs::Path apart = ToPath(map, "map", "world");
+  EXPECT_EQ(apart.poses.size(), 1u);
+  EXPECT_EQ(apart.header.frame_id, "world") << "it has no place in the map";
   map.graph.AddEdge({1, 2, {}, Matrix4d::Identity(), false});
-  const nav_msgs::Path path = ToPath(map, "map");
+  const nav_msgs::Path path = ToPath(map, "map", "world");
+  EXPECT_EQ(path.header.frame_id, "map");
   ASSERT_EQ(path.poses.size(), 3u);
   EXPECT_EQ(path.poses[2].pose.position.x, 2);
 }
 
-TEST(ToPath, OfAnEmptyMapIsEmpty) { EXPECT_TRUE(ToPath(KeyframeMap(), "map").poses.empty()); }
+TEST(ToPath, DoesNotGrowForEver) {
+  KeyframeMap map;
+  for (int i = 0; i < 6000; ++i) {
+    map.keyframes.emplace_back().t_ns = i;
+    map.graph.AddNode({});
+    if (i > 0) map.graph.AddEdge({i - 1, i, {}, Matrix4d::Identity(), false});
+  }
+  const nav_msgs::Path path = ToPath(map, "map", "world");
+  EXPECT_EQ(path.poses.size(), 5000u);
+  EXPECT_EQ(path.header.stamp, ros::Time(0, 5999));
+}
+
+TEST(ToPath, OfAnEmptyMapIsEmpty) {
+  EXPECT_TRUE(ToPath(KeyframeMap(), "map", "world").poses.empty());
+}
 
 TEST(ToGraphMarkers, HaveStepsAndLoopsApart) {
   const auto markers = ToGraphMarkers(SmallMap(), "map").markers;
@@ -56,6 +73,14 @@ TEST(ToGraphMarkers, HaveStepsAndLoopsApart) {
   EXPECT_EQ(markers[1].points.size(), 2u);
   EXPECT_EQ(markers[1].action, visualization_msgs::Marker::ADD);
   EXPECT_EQ(markers[1].header.stamp, ros::Time(0, 2));  // of the newest keyframe
+}
+
+TEST(ToGraphMarkers, HaveNothingOfAWorldWithoutAPlaceInTheMap) {
+  KeyframeMap map = SmallMap();
+  map.keyframes.emplace_back().t_ns = 3;
+  map.graph.AddNode({});
+  map.graph.AddEdge({2, 3, {}, Matrix4d::Identity(), false});
+  EXPECT_EQ(ToGraphMarkers(map, "map").markers[0].points.size(), 2u);
 }
 
 TEST(ToGraphMarkers, DeleteWhatIsEmpty) {

@@ -88,7 +88,14 @@ void Declare(Arguments* arguments, CLI::App* app) {
 
 std::vector<std::unique_ptr<Recorder>> OpenRecorders(const Arguments& arguments) {
   std::vector<std::unique_ptr<Recorder>> recorders;
-  // First the folder, which may refuse: an earlier bag then stays.
+  // First the folder, which may refuse: an earlier bag then stays. But not before there is a place
+  // for the bag: a folder that is begun refuses the next time.
+  const auto is_in_folder = [](const std::string& file) {
+    return std::filesystem::is_directory(std::filesystem::absolute(file).parent_path());
+  };
+  if (!arguments.output.empty() && !is_in_folder(arguments.output)) {
+    throw std::runtime_error("cannot write " + arguments.output + ": no such folder");
+  }
   if (!arguments.asl.empty()) recorders.push_back(std::make_unique<AslRecorder>(arguments.asl));
   if (!arguments.output.empty()) {
     recorders.push_back(MakeBagRecorder(arguments.output, arguments.flight.sensors));

@@ -10,6 +10,7 @@
 
 #include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
+#include "common/ros/topic_names.h"
 #include "offline/ros/bag_message_source.h"
 
 namespace plm_vins {
@@ -33,10 +34,6 @@ std::unique_ptr<BagMessageSource> OpenSource(const std::string& file) {
         file + " is not a ROS bag of format 2.0, or it was cut off, damaged or never closed (" +
         error.what() + "); then \"rosbag reindex " + file + "\" makes it whole");
   }
-}
-
-std::string Absolute(const std::string& topic) {
-  return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
 }
 
 bool Has(const Topics& topics, const std::string& topic, const std::string& type) {
@@ -96,9 +93,9 @@ class BagRecording : public Recording {
  public:
   BagRecording(const std::string& file, const std::string& image_topic,
                const std::string& imu_topic)
-      : file_(file), source_(OpenSource(file)), imu_topic_(Absolute(imu_topic)) {
+      : file_(file), source_(OpenSource(file)), imu_topic_(AbsoluteTopic(imu_topic)) {
     const Topics topics = source_->topics();
-    ChooseImageTopic(Absolute(image_topic), topics);
+    ChooseImageTopic(AbsoluteTopic(image_topic), topics);
     if (!Has(topics, imu_topic_, kImu)) {
       throw std::runtime_error(Missing(file, "topic " + imu_topic_ + " (" + kImu + ")", topics));
     }

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "common/ros/msg_conversion.h"
+#include "common/ros/topic_names.h"
 
 namespace plm_vins::simulator {
 namespace {
@@ -40,17 +41,21 @@ class BagRecorder : public Recorder {
     message.orientation_covariance[0] = -1;  // there is no orientation in here
     message.angular_velocity = ToVector3(sample.gyro);
     message.linear_acceleration = ToVector3(sample.accel);
-    Guard([&] { bag_->write(sensors_.imu_topic, message.header.stamp, message); });
+    Guard([&] { bag_->write(AbsoluteTopic(sensors_.imu_topic), message.header.stamp, message); });
   }
 
   void Write(const ImageSample& image) override {
     const auto header = NextHeader(image.t_ns, "cam0", &image_count_);
     const auto message = cv_bridge::CvImage(header, "mono8", image.gray).toImageMsg();
-    Guard([&] { bag_->write(sensors_.image_topic, header.stamp, message); });
+    Guard([&] { bag_->write(AbsoluteTopic(sensors_.image_topic), header.stamp, message); });
   }
 
   void Finish() override {
-    Guard([this] { bag_->close(); });
+    rosbag::Bag* bag = bag_.release();  // one that cannot be closed must not be closed again
+    Guard([bag] {
+      bag->close();
+      delete bag;
+    });
   }
 
  private:

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -20,12 +22,13 @@ constexpr int64_t kStart = 1'600'000'000'000'000'000;
 std::string WriteBag(const std::string& name) {
   std::string file = testing::TempDir() + name;
   SensorConfig sensors;
-  sensors.image_topic = "/camera/image";
-  sensors.imu_topic = "/camera/imu";
+  sensors.image_topic = "camera/image";
+  sensors.imu_topic = "camera/imu";
   const auto recorder = MakeBagRecorder(file, sensors);
   recorder->Write(ImuSample{kStart, {0.1, 0.2, 0.3}, {1, 2, 9.8}});
   recorder->Write(ImageSample{kStart + 5'000'000, cv::Mat1b(6, 8, uchar(77))});
   recorder->Write(ImuSample{kStart + 7'000'000, {0.4, 0.5, 0.6}, {1, 2, 9.9}});
+  recorder->Finish();
   return file;
 }
 
@@ -36,15 +39,42 @@ std::string Bytes(const std::string& path) {
   return bytes.str();
 }
 
-// The destructor of a bag throws where the disk is full, which would end the program.
+// No file gets larger than this while it lives: as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit = {bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_ = {};
+  sighandler_t handler_;
+};
+
+// The destructor of a bag throws where the disk is full, which would end the program. What is
+// buffered fails as late as at the end.
 TEST(BagRecorder, NoticesAFullDisk) {
-  EXPECT_THROW(
-      {
-        const auto recorder = MakeBagRecorder("/dev/full", SensorConfig());
-        recorder->Write(ImuSample{kStart, {0.1, 0.2, 0.3}, {1, 2, 9.8}});
-        recorder->Finish();
-      },
-      std::runtime_error);
+  const std::string file = testing::TempDir() + "plm_vins_bag_too_large.bag";
+  for (const rlim_t limit : {4200, 100'000}) {
+    const auto recorder = MakeBagRecorder(file, SensorConfig());
+    const FileSizeLimit full(limit);
+    EXPECT_THROW(
+        {
+          for (int i = 0; i < 5; ++i) {
+            recorder->Write(ImageSample{kStart + i, cv::Mat1b(100, 300, uchar(77))});
+          }
+          recorder->Finish();
+        },
+        std::runtime_error)
+        << limit;
+  }
+  std::filesystem::remove(file);
 }
 
 TEST(BagRecorder, WritesTheTopicsOfTheConfiguration) {

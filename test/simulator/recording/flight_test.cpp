@@ -57,6 +57,7 @@ TEST(Flight, RecordsAllSensorsInOrderOfTime) {
   EXPECT_TRUE(std::is_sorted(recording.order.begin(), recording.order.end()));
   EXPECT_EQ(recording.images[0].gray.size(), cv::Size(188, 120));
   EXPECT_EQ(recording.images[1].t_ns - recording.images[0].t_ns, 100'000'000);
+  EXPECT_TRUE(recording.finished);
 }
 
 TEST(Flight, TimeOffsetMovesTheImageStampsOnly) {

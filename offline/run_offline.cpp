@@ -27,6 +27,7 @@
 #include "offline/recordings/bag_recording.h"
 #include "offline/results/loop_results.h"
 #include "offline/results/result_files.h"
+#include "offline/results/result_folder.h"
 #include "pose_graph/output/map_file.h"
 
 namespace plm_vins {
@@ -188,7 +189,7 @@ Source RunFromFeatures(const Arguments& arguments, FeatureFileReader* features,
 
 // What is read while it is written would be lost.
 void CheckSavedFeatures(const Arguments& arguments) {
-  for (const std::string& input : {arguments.features, arguments.bag}) {
+  for (const std::string& input : {arguments.features, arguments.bag, arguments.config}) {
     std::error_code error;  // a file that is not there is no other's
     if (std::filesystem::equivalent(input, arguments.saved_features, error)) {
       throw std::runtime_error("--save-features would overwrite the input, " + input);
@@ -227,7 +228,7 @@ int Run(const Arguments& arguments) {
   CheckSavedFeatures(arguments);
   const Config config = Configure(arguments);
   Warn(IgnoredKeysWarning(config));
-  // What may be missing comes first: where it is, earlier results in the folder stay as they are.
+  // What may be missing, or not writable, comes first: then earlier results stay as they are.
   std::unique_ptr<Recording> recording;
   std::optional<FeatureFileReader> features;
   if (arguments.features.empty()) {
@@ -236,6 +237,7 @@ int Run(const Arguments& arguments) {
     features.emplace(arguments.features);
   }
   std::optional<KeyframeMap> map = MapToStartIn(arguments, config.pose_graph);
+  MakeResultFolder(arguments.output);
   std::optional<ReplacedFile> map_out;
   if (!arguments.map_out.empty()) map_out.emplace(arguments.map_out);
   OdometryPipeline pipeline(config);
@@ -243,7 +245,7 @@ int Run(const Arguments& arguments) {
   if (!arguments.saved_features.empty()) {
     pipeline.SaveFeatures(&saved_features.emplace(arguments.saved_features));
   }
-  ResultFiles results(arguments.output);
+  ResultFiles results(arguments.output, arguments.config);
   ShowTracks(arguments.track_image_interval, &results, &pipeline);
   std::optional<LoopResults> loops;
   if (config.pose_graph.loop_closure) loops.emplace(config, arguments.output, std::move(map));
@@ -257,12 +259,13 @@ int Run(const Arguments& arguments) {
   RunSummary::Run run = Describe(source, pipeline);
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
   Warn(pipeline.imu_contradiction());
-  results.Finish(run, config, loops ? loops->Summary() : Json());
+  // What may be on another disk comes first, and the summary, which says that all is there, last.
+  if (saved_features) saved_features->Close();
+  if (map_out) SaveMap(loops->map(), &*map_out);
+  if (loops) loops->Finish();
   results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
   results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());
-  if (loops) loops->Finish();
-  if (map_out) SaveMap(loops->map(), &*map_out);
-  if (saved_features) saved_features->Close();
+  results.Finish(run, config, loops ? loops->Summary() : Json());
   return Report(run, pipeline.unused_images(), results);
 }
 

@@ -15,17 +15,19 @@ namespace {
 
 std::string Unfinished(const std::string& path) { return path + ".part"; }
 
-// Waits until the disk has what was written. Where that cannot be asked for, as of a pipe, it has
-// been written as well as can be.
-void Synchronize(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
 [[noreturn]] void Fail(const std::string& name, const std::string& reason) {
   throw std::runtime_error("cannot write " + name + ": " + reason);
+}
+
+// Waits until the disk has what was written to `path`, which errors call `name`. Where a file
+// system does not offer that, it has been written as well as can be.
+void Synchronize(const std::string& path, const std::string& name) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int failed = descriptor < 0 || ::fsync(descriptor) < 0 ? errno : 0;
+  if (descriptor >= 0) ::close(descriptor);
+  if (failed != 0 && failed != EINVAL && failed != ENOTSUP) {
+    Fail(name, std::generic_category().message(failed));
+  }
 }
 
 // What a link leads to. A device or a folder is not to be replaced by a file.
@@ -55,7 +57,7 @@ ReplacedFile::~ReplacedFile() { std::remove(Unfinished(path_).c_str()); }
 
 void ReplacedFile::Commit() {
   unfinished_.Close();
-  Synchronize(Unfinished(path_));
+  Synchronize(Unfinished(path_), path_);
   std::error_code error;
   std::filesystem::rename(Unfinished(path_), path_, error);
   if (error) Fail(path_, error.message());

@@ -26,7 +26,8 @@ class OutputFile {
 };
 
 // A file that is replaced in one step: readers see the old one until Commit(), then the new one,
-// never half of it, not even after a loss of power. What is not committed leaves no trace.
+// never half of it, not even after a loss of power. What is not committed leaves no trace, but
+// for PATH.part where the program is killed meanwhile.
 class ReplacedFile {
  public:
   // Begins to write beside the file. Throws as OutputFile does.

@@ -157,7 +157,7 @@ void FeatureFileWriter::Add(const TrackedItem& item) {
   if (frame.lines) Lines(&output, *frame.lines);
 }
 
-void FeatureFileWriter::Close() { file_.Close(); }
+void FeatureFileWriter::Close() { file_.Commit(); }
 
 FeatureFileReader::FeatureFileReader(const std::string& file)
     : file_(file), stream_(file, std::ios::binary) {

@@ -33,7 +33,7 @@ class FeatureFileWriter {
   void Close();
 
  private:
-  OutputFile file_;
+  ReplacedFile file_;
 };
 
 // Reads such a file: the same items, bit by bit.

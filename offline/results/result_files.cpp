@@ -93,10 +93,16 @@ std::string ToText(const Json& json) {
   return json.dump(2, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string Prepared(const std::string& folder, const std::string& config_file) {
+  MakeResultFolder(folder);
+  RemoveEarlierResults(folder, config_file);
+  return folder;
+}
+
 }  // namespace
 
-ResultFiles::ResultFiles(const std::string& folder)
-    : folder_(PrepareResultFolder(folder)),
+ResultFiles::ResultFiles(const std::string& folder, const std::string& config_file)
+    : folder_(Prepared(folder, config_file)),
       trajectory_(File("trajectory.tum")),
       covariance_(File("covariance.csv")),
       timing_(File("timing.csv")),

@@ -22,9 +22,9 @@ namespace plm_vins {
 // memory small.
 class ResultFiles {
  public:
-  // Prepares the folder and opens the files. What cannot be written, here or later, throws
-  // std::runtime_error that names it.
-  explicit ResultFiles(const std::string& folder);
+  // Makes the folder, removes earlier results from it, but for `config_file`, and opens the files.
+  // What cannot be written, here or later, throws std::runtime_error that names it.
+  explicit ResultFiles(const std::string& folder, const std::string& config_file = "");
 
   void Add(const PipelineFrame& frame);
 

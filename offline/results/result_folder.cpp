@@ -31,7 +31,9 @@ constexpr const char* kResults[] = {"trajectory.tum",
                                     "pose_graph.g2o",
                                     "colmap/cameras.txt",
                                     "colmap/images.txt",
-                                    "colmap/points3D.txt"};
+                                    "colmap/points3D.txt",
+                                    "evaluation.json",
+                                    "run.html"};
 
 bool IsTrackImage(const fs::path& file) {
   const std::string stamp = file.stem().string();
@@ -53,17 +55,23 @@ void RemoveTrackImages(const fs::path& folder) {
 
 }  // namespace
 
-std::string PrepareResultFolder(const std::string& folder) {
+void MakeResultFolder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder)) {
     throw std::runtime_error("cannot make the output folder " + folder + ": " +
                              (error ? error.message() : "not a folder"));
   }
-  for (const char* name : kResults) fs::remove(fs::path(folder) / name, error);
+}
+
+void RemoveEarlierResults(const std::string& folder, const std::string& config_file) {
+  std::error_code error;  // where there is no such file
+  for (const char* name : kResults) {
+    const fs::path file = fs::path(folder) / name;
+    if (!fs::equivalent(file, config_file, error)) fs::remove(file, error);
+  }
   fs::remove(fs::path(folder) / "colmap", error);  // unless there is something else in it
   RemoveTrackImages(fs::path(folder) / kTrackImages);
-  return folder;
 }
 
 }  // namespace plm_vins

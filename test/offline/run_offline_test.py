@@ -80,6 +80,31 @@ class RunOffline(unittest.TestCase):
         self.assert_refuses("cannot write", "--save-features", self.folder / "missing" / "x")
         self.assertEqual((results / "trajectory.tum").read_text(encoding="utf-8"), "of before")
 
+    def test_files_that_nothing_is_written_to_where_the_output_cannot_be(self):
+        features = self.folder / "good.features"
+        features.write_text("kept", encoding="utf-8")
+        self.assert_refuses("cannot make the output folder", "--save-features", features,
+                            output="asl/imu0/data.csv")
+        self.assertEqual(features.read_text(encoding="utf-8"), "kept")
+        self.assert_refuses("--save-features would overwrite the input", "--save-features",
+                            CONFIG)
+
+    def test_a_map_in_a_result_folder_that_is_not_there_yet(self):
+        self.assert_refuses("none was usable", "--map-out", self.folder / "new" / "map.plm",
+                            output="new")
+        self.assertTrue((self.folder / "new" / "map.plm").is_file())
+
+    def test_the_configuration_stays_in_its_result_folder(self):
+        results = self.folder / "results"
+        results.mkdir()
+        config = results / "calibrated.yaml"
+        config.write_text(CONFIG.read_text(encoding="utf-8"), encoding="utf-8")
+        for name in ["evaluation.json", "run.html", "loops.csv"]:
+            (results / name).write_text("of before", encoding="utf-8")
+        self.assert_refuses("none was usable", config=config)
+        self.assertTrue(config.is_file())
+        self.assertFalse((results / "evaluation.json").exists())
+
     def test_output_that_cannot_be_written(self):
         self.assert_refuses("cannot make the output folder", output="asl/imu0/data.csv")
 

@@ -33,9 +33,9 @@ Config WithCalibration(const Calibration& calibration, Config config) {
 
 void SaveCalibratedConfig(const Calibration& calibration, const Config& config,
                           const std::string& file) {
-  OutputFile output(file);
+  ReplacedFile output(file);  // it may be the one that the program was started with
   WriteConfig(WithCalibration(calibration, config), &output.stream());
-  output.Close();
+  output.Commit();
 }
 
 }  // namespace plm_vins

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/ros/trajectory_log.h"
 
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
+#include "common/io/output_file.h"
 #include "vins_estimator/output/tum_format.h"
 
 namespace plm_vins {
@@ -38,18 +37,13 @@ size_t TrajectoryLog::Save(const std::string& file) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::error_code error;
   std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
-  std::ofstream stream(file);
-  if (!stream) {
-    throw std::runtime_error(
-        "cannot write " + file + ": " +
-        (error ? error : std::error_code(errno, std::generic_category())).message());
-  }
+  if (error) throw std::runtime_error("cannot write " + file + ": " + error.message());
+  OutputFile output(file);
   for (const Pose& pose : poses_) {
-    if (!pose.new_world.empty()) stream << FormatTumRestart(pose.new_world);
-    stream << FormatTumRow(pose.t_ns, pose.T_W_B);
+    if (!pose.new_world.empty()) output.stream() << FormatTumRestart(pose.new_world);
+    output.stream() << FormatTumRow(pose.t_ns, pose.T_W_B);
   }
-  stream.close();
-  if (!stream) throw std::runtime_error("cannot write " + file + ": disk full?");
+  output.Close();
   return poses_.size();
 }
 

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "common/geometry/so3.h"
+#include "common/imu/imu_interpolation.h"
 #include "common/imu/imu_range.h"
 
 namespace plm_vins {
@@ -13,11 +14,6 @@ namespace {
 constexpr int64_t kHistory_ns = 5'000'000'000;  // longer than any image waits
 constexpr int64_t kMaxGap_ns = 100'000'000;     // rotation inside a longer gap is anybody's guess
 constexpr int kJumpPatience = 100;              // samples
-
-Eigen::Vector3d InterpolateGyro(const ImuSample& a, const ImuSample& b, int64_t t_ns) {
-  const double fraction = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
-  return a.gyro + fraction * (b.gyro - a.gyro);
-}
 
 }  // namespace
 
@@ -67,7 +63,7 @@ std::optional<Eigen::Quaterniond> GyroPredictor::Rotation(int64_t t0_ns, int64_t
     if (b.t_ns - a.t_ns > kMaxGap_ns) return std::nullopt;
     const int64_t from = std::max(a.t_ns, begin);
     const int64_t to = std::min(b.t_ns, end);
-    const Eigen::Vector3d rate = InterpolateGyro(a, b, from + (to - from) / 2);
+    const Eigen::Vector3d rate = InterpolateImu(a, b, from + (to - from) / 2).gyro;
     R_B0_B1 = R_B0_B1 * SO3Exp(rate * ToSeconds(to - from));
   }
   return (R_B_C_.conjugate() * R_B0_B1.conjugate() * R_B_C_).normalized();

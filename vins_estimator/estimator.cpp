@@ -150,21 +150,22 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   Triangulate(output);
   FindStructure(keep_second_newest, output);
   Optimize(options_.solution, output);
-  if (const auto noise_scale = FindImuDoubt(CheckTiming())) {
-    DoubtNewestMotion(*noise_scale);
+  const Eigen::Vector3d rotation_residual = UpdateTimingMonitors();
+  if (const auto variance_scale = UpdateImuMonitor(rotation_residual)) {
+    InflateNewestImuNoise(*variance_scale);
     output->imu_doubted = true;
     Optimize(options_.solution, output);
   }
   RemoveOutliers(output);
   state_.bridge.AddTracked(measurement.imu, {map.window.newest().state, state_.newest_covariance});
-  if (const auto failure = FindFailure(*output)) return GiveUp(*failure, output);
+  if (const auto failure = UpdateFailureMonitors(*output)) return GiveUp(*failure, output);
   if (config_.estimator.adapt_noise) state_.noise.Update(map);
   output->keyframe = keep_second_newest;
   Describe(output);
   SlideWindow(keep_second_newest, output);
 }
 
-std::optional<std::string> Estimator::FindFailure(const EstimatorOutput& output) {
+std::optional<std::string> Estimator::UpdateFailureMonitors(const EstimatorOutput& output) {
   if (!state_.solved) return "the optimisation has no solution";
   auto contradiction = state_.contradiction_monitor.Add(output.t_ns, output.counts.known_seen,
                                                         output.counts.known_rejected);
@@ -302,10 +303,10 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
     output->bias_covariance = covariance.bottomRightCorner<6, 6>();
   }
   if (options_.problem.estimate_intrinsics) MoveRays();
-  output->timings.optimization = stopwatch.Milliseconds();
+  output->timings.optimization += stopwatch.Milliseconds();  // it may be done twice
 }
 
-Eigen::Vector3d Estimator::CheckTiming() {
+Eigen::Vector3d Estimator::UpdateTimingMonitors() {
   const SlidingWindow& window = state_.estimate.map.window;
   const Preintegration& motion = *window.newest().motion_since_previous;
   const Vector15d residual = ImuResidual(motion, window.gravity_W, window.second_newest().state,
@@ -317,7 +318,7 @@ Eigen::Vector3d Estimator::CheckTiming() {
   return turn;
 }
 
-std::optional<double> Estimator::FindImuDoubt(const Eigen::Vector3d& turn_residual) {
+std::optional<double> Estimator::UpdateImuMonitor(const Eigen::Vector3d& rotation_residual) {
   const LocalMap& map = state_.estimate.map;
   const WindowFrame& newest = map.window.newest();
   ImuMonitor::Evidence evidence{newest.state.t_ns};
@@ -326,14 +327,14 @@ std::optional<double> Estimator::FindImuDoubt(const Eigen::Vector3d& turn_residu
   const PointMap::Fit fit = map.points.FitOfNewest(map.window, options_.max_reprojection_error);
   evidence.points = fit.seen;
   evidence.contradicted = fit.contradicted;
-  if (!state_.delay_monitor.delay()) evidence.turn_residual = turn_residual;
+  if (!state_.delay_monitor.delay()) evidence.turn_residual = rotation_residual;
   return state_.imu_monitor.Add(evidence);
 }
 
-void Estimator::DoubtNewestMotion(double noise_scale) {
+void Estimator::InflateNewestImuNoise(double variance_scale) {
   WindowFrame& newest = state_.estimate.map.window.newest();
   const Preintegration& before = *newest.motion_since_previous;
-  const ImuNoise noise = Scaled(config_.sensor.imu_noise, noise_scale);
+  const ImuNoise noise = Scaled(config_.sensor.imu_noise, variance_scale);
   auto doubted = std::make_shared<Preintegration>(noise, before.linearization_bias());
   for (const ImuSample& sample : before.samples()) doubted->Append(sample);
   doubted->AllowBiasStep(kBiasStep);

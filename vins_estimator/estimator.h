@@ -83,12 +83,14 @@ class Estimator {
   void FindStructure(bool keep_second_newest, EstimatorOutput* output);
   void UniteLines(EstimatorOutput* output);
   void RemoveOutliers(EstimatorOutput* output);
-  std::optional<std::string> FindFailure(const EstimatorOutput& output);
+  std::optional<std::string> UpdateFailureMonitors(const EstimatorOutput& output);  // why lost
   void GiveUp(const std::string& why, EstimatorOutput* output);
   bool StandsStill(const FrameMeasurement& measurement);
-  Eigen::Vector3d CheckTiming();  // the turn that the camera sees beyond the gyro's [rad]
-  std::optional<double> FindImuDoubt(const Eigen::Vector3d& turn_residual);
-  void DoubtNewestMotion(double noise_scale);
+  // Returns the rotation since the image before that the camera sees beyond the gyro's [rad].
+  Eigen::Vector3d UpdateTimingMonitors();
+  // Returns by how much to scale the variances of the newest IMU samples, where they are too small.
+  std::optional<double> UpdateImuMonitor(const Eigen::Vector3d& rotation_residual);
+  void InflateNewestImuNoise(double variance_scale);
   void Optimize(const SolverOptions& options, EstimatorOutput* output);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
   void SlideOldest(EstimatorOutput* output);

@@ -16,8 +16,8 @@ struct PointSighting {
 };
 
 // The point p_W that all sightings agree on best: least distance to the rays, then refined on the
-// image errors. Nothing where the rays are too parallel for it, i.e. where the greatest angle
-// between two rays is below `min_angle` [rad], or where the point is not in front of all cameras.
+// image errors. Nothing where no ray forms an angle of at least `min_angle` [rad] with the first
+// one, or where the point is not in front of all cameras.
 std::optional<Eigen::Vector3d> TriangulatePoint(const std::vector<PointSighting>& sightings,
                                                 double min_angle);
 

@@ -18,6 +18,10 @@ struct LineView {
   LineSegmentView segment;
 };
 
+inline double Length(const LineView& view) {
+  return (view.segment.end - view.segment.start).norm();
+}
+
 // A line track over the frames of the window, and the line in space behind it. The first view is
 // the host whose camera frame the coordinates refer to.
 struct LineLandmark {
@@ -38,10 +42,15 @@ inline bool MayLast(const LineLandmark& line) { return line.triangulated && !lin
 
 constexpr size_t kMaxAnchorViews = 4;  // of one line: the first and the newest
 
-// Adds what an anchor has seen, by time.
+// Adds what an anchor has seen, by time. Of two views of one anchor the longer segment stays.
 inline void AddAnchorView(const LineView& view, std::vector<LineView>* views) {
   const auto is_earlier = [](const LineView& a, const LineView& b) { return a.t_ns < b.t_ns; };
-  views->insert(std::upper_bound(views->begin(), views->end(), view, is_earlier), view);
+  const auto place = std::lower_bound(views->begin(), views->end(), view, is_earlier);
+  if (place != views->end() && place->t_ns == view.t_ns) {
+    if (Length(view) > Length(*place)) *place = view;
+    return;
+  }
+  views->insert(place, view);
   if (views->size() > kMaxAnchorViews) views->erase(views->begin() + 1);
 }
 

@@ -41,8 +41,6 @@ bool AreSeenSideBySide(const LineLandmark& a, const LineLandmark& b, double nois
   return false;
 }
 
-double Length(const LineView& view) { return (view.segment.end - view.segment.start).norm(); }
-
 // The views of both by time; where one image shows both, the longer segment.
 std::vector<LineView> JoinViews(const LineLandmark& a, const LineLandmark& b) {
   std::vector<LineView> views;

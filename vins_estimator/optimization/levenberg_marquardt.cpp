@@ -97,9 +97,11 @@ SolverSummary Solve(const SolverOptions& options, const WindowProblem& problem,
 
   double damping = 0;
   while (summary.iterations < options.max_iterations && damping < kMaxDamping) {
-    ++summary.iterations;
     const std::optional<Step> step = TakeStep(problem, damping, equations);
-    if (step) summary.solved = true;
+    if (step) {
+      summary.solved = true;
+      ++summary.iterations;
+    }
     const double new_cost = step ? equations->Cost() : cost;
     const bool accepted = step && std::isfinite(new_cost) && new_cost <= cost;
     if (!accepted) {

@@ -14,8 +14,9 @@ namespace plm_vins {
 // What is known of the window's variables from everything that left it, as a quadratic
 //   0.5 delta^T H delta + b^T delta,   delta = x [-] x0,
 // about fixed linearisation points x0. A variable keeps its x0 as long as the prior holds it, and
-// the other factors take their Jacobians there as well, so that the unobservable directions
-// (position and heading) gain no information they must not have ([Huang2010]).
+// what is marginalised later takes its Jacobians there as well, so that the unobservable directions
+// (position and heading) gain no information they must not have ([Huang2010]). The solution and
+// the covariance that is published take theirs at the values (JacobiansAt).
 class MarginalizationPrior {
  public:
   struct Block {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/problem/normal_equations.h"
 
+#include <stdexcept>
+
 #include "vins_estimator/problem/marginalization_prior.h"
 #include "vins_estimator/problem/term_accumulation.h"
 #include "vins_estimator/problem/term_evaluation.h"
@@ -94,6 +96,9 @@ Eigen::MatrixXd NormalEquations::Covariance(const std::vector<BlockId>& ids) {
   std::vector<int> rows;
   for (const BlockId& id : ids) {
     const int variable = problem_.Find(id);
+    if (variable < 0 || DenseOffset(variable) < 0) {
+      throw std::invalid_argument("covariance of what is no dense variable of the problem");
+    }
     const int size = problem_.variables()[variable].type().tangent_size;
     for (int i = 0; i < size; ++i) rows.push_back(DenseOffset(variable) + i);
   }

@@ -50,7 +50,8 @@ class NormalEquations {
   const LandmarkVector& LandmarkGradient(int index) const { return landmarks_[index].b_l; }
 
   // Joint covariance of some dense variables, in the order given, at the last linearisation. Empty
-  // where the equations do not determine them.
+  // where the equations do not determine them. Throws std::invalid_argument for what is no dense
+  // variable of the problem, or is constant.
   Eigen::MatrixXd Covariance(const std::vector<BlockId>& ids);
 
   // First row of a variable in the dense equations; -1 for constants and landmarks.

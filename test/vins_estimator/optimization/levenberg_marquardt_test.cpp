@@ -150,6 +150,34 @@ TEST(LevenbergMarquardt, HasSolvedWhatThereIsNothingToGainFrom) {
   EXPECT_EQ(value, 2);
 }
 
+// Of two variables only the sum is known: the equations have a solution where they are damped.
+class Sum final : public SizedFactor<1, 1, 1> {
+ public:
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    residuals[0] = parameters[0][0] + parameters[1][0];
+    for (int i = 0; i < 2; ++i) {
+      if (jacobians != nullptr && jacobians[i] != nullptr) jacobians[i][0] = 1;
+    }
+    return true;
+  }
+};
+
+TEST(LevenbergMarquardt, CountsNoIterationWhereTheUndampedEquationsHaveNoSolution) {
+  WindowProblem problem;
+  std::array<double, 2> values = {1, 2};
+  const int first = problem.AddVariable({BlockKind::kTimeOffset, 0}, &values[0]);
+  const int second = problem.AddVariable({BlockKind::kTimeOffset, 1}, &values[1]);
+  problem.AddTerm(Sum(), nullptr, {first, second});
+  NormalEquations equations(problem);
+  SolverOptions options;
+  options.max_iterations = 1;
+  const SolverSummary summary = Solve(options, problem, &equations);
+  EXPECT_TRUE(summary.solved);
+  EXPECT_EQ(summary.iterations, 1);
+  EXPECT_NEAR(values[0] + values[1], 0, 1e-3);
+}
+
 TEST(LevenbergMarquardt, LeavesWhatCannotBeSolvedAsItIs) {
   WindowProblem problem;
   std::array<double, 9> motion = {1, 2, 3, 4, 5, 6, 7, 8, 9};  // nothing is known of the biases

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <limits>
 #include <set>
+#include <stdexcept>
 
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/problem/dense_equations.h"
@@ -129,6 +130,11 @@ TEST_F(NormalEquationsTest, CovarianceIsThatOfTheUndampedEquationsWhateverWasSol
   simulated_.window.frames.back().state.pose[0] += 0.1;
   equations_->Linearize();
   EXPECT_NE(covariance(), expected);
+}
+
+TEST_F(NormalEquationsTest, RefusesTheCovarianceOfWhatIsNoVariable) {
+  equations_->Linearize();
+  EXPECT_THROW(equations_->Covariance({{BlockKind::kPose, 12345}}), std::invalid_argument);
 }
 
 TEST_F(NormalEquationsTest, WithoutAnchorThereIsNoCovariance) {

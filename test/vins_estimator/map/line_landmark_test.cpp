@@ -10,6 +10,7 @@ LineView View(int64_t t_ns, double length) { return {t_ns, {{0, 0}, {length, 0}}
 
 std::vector<int64_t> Stamps(const std::vector<LineView>& views) {
   std::vector<int64_t> stamps;
+  stamps.reserve(views.size());
   for (const LineView& view : views) stamps.push_back(view.t_ns);
   return stamps;
 }

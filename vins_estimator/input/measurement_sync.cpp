@@ -49,7 +49,8 @@ void MeasurementSync::AddImu(const ImuSample& sample) {
   if (last_imu_ns_ && sample.t_ns <= *last_imu_ns_) {
     ++statistics_.imu_out_of_order;
     if (!imu_jump_.Refuse(sample.t_ns)) return;
-    BeginRecording(&statistics_.jumps_back);
+    ++statistics_.jumps_back;
+    Clear();
   }
   imu_jump_.Accept();
   JudgeImuAfterGap(sample.t_ns);
@@ -68,7 +69,8 @@ void MeasurementSync::JudgeImuAfterGap(int64_t next_ns) {
     return;
   }
   if (sample.t_ns - *last_imu_ns_ > kImuLeap_ns) {
-    BeginRecording(&statistics_.leaps_ahead);
+    ++statistics_.leaps_ahead;
+    Clear();
   } else {
     ++statistics_.imu_gaps;
   }
@@ -96,7 +98,8 @@ void MeasurementSync::AddPoints(PointFrame frame) {
   if (last_points_ns_ && frame.t_ns <= *last_points_ns_) {
     ++statistics_.frames_out_of_order;
     if (!points_jump_.Refuse(frame.t_ns)) return;
-    BeginRecording(&statistics_.jumps_back);
+    ++statistics_.jumps_back;
+    Clear();
   } else if (last_points_ns_ && !points_leap_.Accept(*last_points_ns_, frame.t_ns)) {
     ++statistics_.frames_ahead_of_time;
     return;
@@ -130,11 +133,6 @@ void MeasurementSync::AddLines(LineFrame frame) {
     lines_.pop_front();
     ++statistics_.lines_without_points;
   }
-}
-
-void MeasurementSync::BeginRecording(int64_t* cause) {
-  ++*cause;
-  Clear();
 }
 
 void MeasurementSync::Clear() {
@@ -191,25 +189,31 @@ bool MeasurementSync::IsInTime(int64_t lines_ns) const {
 
 void MeasurementSync::DropUnusableFrames() {
   while (!points_.empty() && !imu_.empty() && imu_.back().t_ns >= CutTime()) {
-    int64_t* const defect = FindDefect();
-    if (defect == nullptr) return;
-    ++*defect;
+    const auto defect = FindDefect();
+    if (!defect) return;
+    Count(*defect);
     points_.pop_front();
   }
 }
 
-int64_t* MeasurementSync::FindDefect() {
+std::optional<MeasurementSync::FrameDefect> MeasurementSync::FindDefect() const {
   const int64_t cut_ns = CutTime();
-  if (last_cut_ns_ && cut_ns - *last_cut_ns_ < kMinInterval_ns) {
-    return &statistics_.frames_too_close;
-  }
-  if (cut_ns < imu_.front().t_ns) return &statistics_.frames_without_imu;
+  if (last_cut_ns_ && cut_ns - *last_cut_ns_ < kMinInterval_ns) return FrameDefect::kTooClose;
+  if (cut_ns < imu_.front().t_ns) return FrameDefect::kWithoutImu;
   const size_t next = FirstImuNotBefore(cut_ns);
   const bool between_samples = imu_[next].t_ns > cut_ns;
   if (between_samples && ToSeconds(imu_[next].t_ns - imu_[next - 1].t_ns) > options_.max_imu_gap) {
-    return &statistics_.frames_in_imu_gap;
+    return FrameDefect::kInImuGap;
   }
-  return IsTooLate() ? &statistics_.frames_too_late : nullptr;
+  if (IsTooLate()) return FrameDefect::kTooLate;
+  return std::nullopt;
+}
+
+void MeasurementSync::Count(FrameDefect defect) {
+  statistics_.frames_too_close += defect == FrameDefect::kTooClose;
+  statistics_.frames_without_imu += defect == FrameDefect::kWithoutImu;
+  statistics_.frames_in_imu_gap += defect == FrameDefect::kInImuGap;
+  statistics_.frames_too_late += defect == FrameDefect::kTooLate;
 }
 
 bool MeasurementSync::IsTooLate() const {

@@ -104,8 +104,8 @@ class MeasurementSync {
   const SyncStatistics& statistics() const { return statistics_; }
 
  private:
-  // `cause` is the statistic that counts it.
-  void BeginRecording(int64_t* cause);
+  enum class FrameDefect { kTooClose, kWithoutImu, kInImuGap, kTooLate };
+
   // Decides on the sample after a gap, now that the stamp of the next one is known.
   void JudgeImuAfterGap(int64_t next_ns);
   void TakeImu(const ImuSample& sample);
@@ -117,9 +117,9 @@ class MeasurementSync {
   // While frames do not wait for lines: the one of that image would still wait if they did.
   bool IsInTime(int64_t lines_ns) const;
   void DropUnusableFrames();
-  // Why the oldest queued frame cannot be used, as the statistic that counts it; null: it can.
-  // The IMU must reach it.
-  int64_t* FindDefect();
+  // Why the oldest queued frame cannot be used; nothing: it can. The IMU must reach it.
+  std::optional<FrameDefect> FindDefect() const;
+  void Count(FrameDefect defect);
   bool IsTooLate() const;
   FrameMeasurement TakeFrame();
   std::vector<ImuSample> CutImu(int64_t cut_ns);

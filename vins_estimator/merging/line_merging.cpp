@@ -114,31 +114,36 @@ Candidates Collect(const Eigen::Quaterniond& R_F_W, double noise, LocalMap* map)
   return candidates;
 }
 
-// The counter of pairs that differ in this way; null for those that do not differ.
-int LineMergingCounts::*CountOf(LineDifference difference) {
-  switch (difference) {
+enum class MergeRefusal { kDirection, kDistance, kGap, kSideBySide, kDistanceInImages, kFit };
+
+// The first condition that two lines fail, in space or in the images; nothing where they meet all.
+std::optional<MergeRefusal> FindRefusal(const SameLineLimits& limits, const SlidingWindow& window,
+                                        const LineLandmark& a, const LineLandmark& b,
+                                        const LinePairGeometry& pair) {
+  switch (FindDifference(limits, pair)) {
     case LineDifference::kDirection:
-      return &LineMergingCounts::other_direction;
+      return MergeRefusal::kDirection;
     case LineDifference::kDistance:
-      return &LineMergingCounts::distant;
+      return MergeRefusal::kDistance;
     case LineDifference::kGap:
-      return &LineMergingCounts::apart;
-    default:
-      return nullptr;
+      return MergeRefusal::kGap;
+    case LineDifference::kNone:
+      break;
   }
+  if (AreSeenSideBySide(a, b, limits.noise)) return MergeRefusal::kSideBySide;
+  if (DistanceInImages(window, a, b) > limits.image_distance) {
+    return MergeRefusal::kDistanceInImages;
+  }
+  return std::nullopt;
 }
 
-// The counter of the first condition that two lines fail, in space or in the images; null where
-// they meet all.
-int LineMergingCounts::*FindRefusal(const SameLineLimits& limits, const SlidingWindow& window,
-                                    const LineLandmark& a, const LineLandmark& b,
-                                    const LinePairGeometry& pair) {
-  if (const auto refusal = CountOf(FindDifference(limits, pair))) return refusal;
-  if (AreSeenSideBySide(a, b, limits.noise)) return &LineMergingCounts::seen_side_by_side;
-  if (DistanceInImages(window, a, b) > limits.image_distance) {
-    return &LineMergingCounts::distant_in_image;
-  }
-  return nullptr;
+void Count(MergeRefusal refusal, LineMergingCounts* counts) {
+  counts->other_direction += refusal == MergeRefusal::kDirection;
+  counts->distant += refusal == MergeRefusal::kDistance;
+  counts->apart += refusal == MergeRefusal::kGap;
+  counts->seen_side_by_side += refusal == MergeRefusal::kSideBySide;
+  counts->distant_in_image += refusal == MergeRefusal::kDistanceInImages;
+  counts->inconsistent += refusal == MergeRefusal::kFit;
 }
 
 }  // namespace
@@ -154,13 +159,13 @@ MergedLines MergeLines(const SameLineLimits& limits, const Eigen::Quaterniond& R
     ++counts.candidates;
     const auto refusal = FindRefusal(limits, window, *landmarks[older], *landmarks[newer],
                                      Compare(seen[older], seen[newer]));
-    if (refusal != nullptr) {
-      ++(counts.*refusal);
+    if (refusal) {
+      Count(*refusal, &counts);
       continue;
     }
     const auto joint = Join(window, limits.noise, *landmarks[older], *landmarks[newer]);
     if (!joint) {
-      ++counts.inconsistent;
+      Count(MergeRefusal::kFit, &counts);
       continue;
     }
     seen[older] = See(window, R_F_W, limits.noise, *joint).value_or(seen[older]);

@@ -2,7 +2,9 @@
 #include "vins_estimator/marginalization/window_marginalizer.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <utility>
+#include <vector>
 
 #include "vins_estimator/problem/normal_equations.h"
 
@@ -17,16 +19,50 @@ MarginalizationPrior::Block MakeBlock(const BlockId& id, int offset, const doubl
   return block;
 }
 
-void SetInformation(int offset, int size, double sigma, Eigen::MatrixXd* H) {
-  H->diagonal().segment(offset, size).setConstant(1.0 / (sigma * sigma));
+// A prior on some variables, each by itself.
+class PriorBuilder {
+ public:
+  // The next variable, with this information on its tangent space.
+  void Add(const BlockId& id, const double* values, const Eigen::MatrixXd& information) {
+    const auto offset = H_.rows();
+    const auto size = offset + information.rows();
+    blocks_.push_back(MakeBlock(id, static_cast<int>(offset), values));
+    H_.conservativeResizeLike(Eigen::MatrixXd::Zero(size, size));
+    H_.bottomRightCorner(information.rows(), information.rows()) = information;
+  }
+
+  // The same by standard deviations.
+  void Add(const BlockId& id, const double* values, const Eigen::VectorXd& sigmas) {
+    Add(id, values, Eigen::MatrixXd(sigmas.cwiseAbs2().cwiseInverse().asDiagonal()));
+  }
+
+  MarginalizationPrior Build() {
+    return {std::move(blocks_), {H_, Eigen::VectorXd::Zero(H_.rows())}};
+  }
+
+ private:
+  std::vector<MarginalizationPrior::Block> blocks_;
+  Eigen::MatrixXd H_;
+};
+
+// So many of each standard deviation, one after the other.
+Eigen::VectorXd Sigmas(std::initializer_list<std::pair<int, double>> counts_and_values) {
+  std::vector<double> sigmas;
+  for (const auto& [count, value] : counts_and_values) sigmas.insert(sigmas.end(), count, value);
+  return Eigen::Map<const Eigen::VectorXd>(sigmas.data(), static_cast<Eigen::Index>(sigmas.size()));
 }
 
-// Information on the rotation of a body, from the uncertainty of its heading and its inclination in
-// the world.
-Eigen::Matrix3d RotationInformation(const Eigen::Matrix3d& R_W_B, double inclination,
-                                    double heading) {
-  const Eigen::Vector3d sigma(inclination, inclination, heading);
-  return R_W_B.transpose() * sigma.cwiseAbs2().cwiseInverse().asDiagonal() * R_W_B;
+// Information on a pose: on the position in the world, and on the rotation of the body, from the
+// uncertainty of its heading and its inclination in the world.
+Eigen::MatrixXd PoseInformation(const InitialUncertainty& uncertainty, const FrameState& state) {
+  const Eigen::Matrix3d R_W_B = state.rotation().toRotationMatrix();
+  const Eigen::Vector3d sigma(uncertainty.inclination, uncertainty.inclination,
+                              uncertainty.heading);
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(6, 6);
+  information.diagonal().head<3>().setConstant(1 / (uncertainty.position * uncertainty.position));
+  information.bottomRightCorner<3, 3>() =
+      R_W_B.transpose() * sigma.cwiseAbs2().cwiseInverse().asDiagonal() * R_W_B;
+  return information;
 }
 
 // All that a problem says about its frame variables, as a prior on them.
@@ -67,46 +103,30 @@ std::function<bool(const BlockId&)> IsMotionOfFrame(int64_t t_ns) {
 MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
                                   const ProblemOptions& options, const SlidingWindow& window) {
   const FrameState& state = window.frames.front().state;
-  int size = 15;
-  const int extrinsic = options.estimate_extrinsic ? std::exchange(size, size + 6) : -1;
-  const int td = options.estimate_td ? std::exchange(size, size + 1) : -1;
-  const int readout = options.estimate_readout ? std::exchange(size, size + 1) : -1;
-  const int intrinsics =
-      options.estimate_intrinsics ? std::exchange(size, size + kIntrinsicsSize) : -1;
-  Quadratic quadratic{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
-  std::vector<MarginalizationPrior::Block> blocks;
-
-  blocks.push_back(MakeBlock({BlockKind::kPose, state.t_ns}, 0, state.pose.data()));
-  SetInformation(0, 3, uncertainty.position, &quadratic.H);
-  quadratic.H.block<3, 3>(3, 3) = RotationInformation(state.rotation().toRotationMatrix(),
-                                                      uncertainty.inclination, uncertainty.heading);
-  blocks.push_back(MakeBlock({BlockKind::kMotion, state.t_ns}, 6, state.motion.data()));
-  SetInformation(6, 3, uncertainty.velocity, &quadratic.H);
-  SetInformation(9, 3, uncertainty.accel_bias, &quadratic.H);
-  SetInformation(12, 3, uncertainty.gyro_bias, &quadratic.H);
-  if (extrinsic >= 0) {
-    blocks.push_back(MakeBlock({BlockKind::kExtrinsic, 0}, extrinsic, window.extrinsic.data()));
-    SetInformation(extrinsic, 3, uncertainty.extrinsic_position, &quadratic.H);
-    SetInformation(extrinsic + 3, 3, uncertainty.extrinsic_rotation, &quadratic.H);
+  PriorBuilder prior;
+  prior.Add({BlockKind::kPose, state.t_ns}, state.pose.data(), PoseInformation(uncertainty, state));
+  prior.Add(
+      {BlockKind::kMotion, state.t_ns}, state.motion.data(),
+      Sigmas({{3, uncertainty.velocity}, {3, uncertainty.accel_bias}, {3, uncertainty.gyro_bias}}));
+  if (options.estimate_extrinsic) {
+    prior.Add({BlockKind::kExtrinsic, 0}, window.extrinsic.data(),
+              Sigmas({{3, uncertainty.extrinsic_position}, {3, uncertainty.extrinsic_rotation}}));
   }
-  if (td >= 0) {
-    blocks.push_back(MakeBlock({BlockKind::kTimeOffset, 0}, td, &window.td));
-    SetInformation(td, 1, uncertainty.td, &quadratic.H);
+  if (options.estimate_td) {
+    prior.Add({BlockKind::kTimeOffset, 0}, &window.td, Sigmas({{1, uncertainty.td}}));
   }
-  if (readout >= 0) {
-    blocks.push_back(MakeBlock({BlockKind::kReadout, 0}, readout, &window.readout));
-    SetInformation(readout, 1, uncertainty.readout, &quadratic.H);
+  if (options.estimate_readout) {
+    prior.Add({BlockKind::kReadout, 0}, &window.readout, Sigmas({{1, uncertainty.readout}}));
   }
-  if (intrinsics >= 0) {
-    blocks.push_back(MakeBlock({BlockKind::kIntrinsics, 0}, intrinsics, window.intrinsics.data()));
+  if (options.estimate_intrinsics) {
     const IntrinsicsDeviation& deviation = uncertainty.intrinsics;
-    const double f_x = window.intrinsics[0], f_y = window.intrinsics[1];
-    SetInformation(intrinsics, 1, deviation.focal_length * f_x, &quadratic.H);
-    SetInformation(intrinsics + 1, 1, deviation.focal_length * f_y, &quadratic.H);
-    SetInformation(intrinsics + 2, 2, deviation.principal_point, &quadratic.H);
-    SetInformation(intrinsics + 4, 4, deviation.distortion, &quadratic.H);
+    prior.Add({BlockKind::kIntrinsics, 0}, window.intrinsics.data(),
+              Sigmas({{1, deviation.focal_length * window.intrinsics[0]},
+                      {1, deviation.focal_length * window.intrinsics[1]},
+                      {2, deviation.principal_point},
+                      {4, deviation.distortion}}));
   }
-  return {std::move(blocks), std::move(quadratic)};
+  return prior.Build();
 }
 
 MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,

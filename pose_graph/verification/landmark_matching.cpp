@@ -74,6 +74,7 @@ std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>
     }
   }
   std::vector<DescribedLandmark> landmarks;
+  landmarks.reserve(by_track.size());
   for (auto& [track, landmark] : by_track) landmarks.push_back(std::move(landmark));
   return landmarks;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/features/feature_checks.h"
 #include "feature_tracker/contrast_equalizer.h"
 #include "feature_tracker/detection/corner_detector.h"
 #include "feature_tracker/detection/spacing_grid.h"
@@ -215,11 +216,13 @@ class PointTracker::Implementation {
     }
   }
 
+  // Without what lies at right angles to the axis of a fisheye: it has no image in the plane z = 1.
   PointFrame MakeFrame() const {
     PointFrame frame;
     frame.t_ns = *t_ns_;
     for (const PointTrack& track : tracks_) {
-      frame.points.push_back({track.id, track.xy, ToEigen(track.uv_px), track.velocity});
+      const PointObservation point = {track.id, track.xy, ToEigen(track.uv_px), track.velocity};
+      if (IsPossible(point)) frame.points.push_back(point);
     }
     return frame;
   }

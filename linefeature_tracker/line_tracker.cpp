@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/features/feature_checks.h"
 #include "common/stopwatch.h"
 #include "linefeature_tracker/detection/line_finder.h"
 #include "linefeature_tracker/following/lbd_matcher.h"
@@ -256,11 +257,14 @@ class LineTracker::Implementation {
     return track;
   }
 
+  // Without what lies at right angles to the axis of a fisheye: it has no image in the plane z = 1.
   LineFrame MakeFrame() const {
     LineFrame frame;
     frame.t_ns = *t_ns_;
-    for (const LineTrack& track : tracks_)
-      frame.lines.push_back({track.id, track.segment.start, track.segment.end});
+    for (const LineTrack& track : tracks_) {
+      const LineObservation line = {track.id, track.segment.start, track.segment.end};
+      if (IsPossible(line)) frame.lines.push_back(line);
+    }
     return frame;
   }
 

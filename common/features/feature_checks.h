@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which features can be true, for those who take them from elsewhere.
+// Which features can be true: those that trackers give, and others take from elsewhere.
 #pragma once
 
 #include <Eigen/Core>

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/features/feature_checks.h"
 #include "common/geometry/so3.h"
 #include "test/feature_tracker/textured_scene.h"
 
@@ -375,6 +376,23 @@ TEST(PointTracker, IsDeterministicWhateverTheNumberOfThreads) {
   const auto numbers = run(1);
   EXPECT_EQ(numbers, run(1));
   EXPECT_EQ(numbers, run(4));
+}
+
+// Column 271 of this fisheye lies at right angles to its axis, where rays meet no image plane.
+TEST(PointTracker, LeavesOutWhatLiesAtRightAnglesToTheAxis) {
+  CameraParameters parameters = TestCameraParameters();
+  parameters.model = CameraParameters::Model::kPinholeEquidistant;
+  parameters.fx = parameters.fy = 1000;
+  parameters.cx = -1300;
+  PointTracker tracker(TestConfig(), CameraModel::Create(parameters));
+  cv::Mat image(kHeight, kWidth, CV_8UC1);
+  cv::RNG(3).fill(image, cv::RNG::UNIFORM, 0, 256);
+  cv::GaussianBlur(image, image, {5, 5}, 1.5);
+  for (int i = 1; i <= 3; ++i) {
+    const PointFrame frame = tracker.Track({i * kFrame_ns, image}, std::nullopt);
+    EXPECT_GT(frame.points.size(), 20u);
+    for (const PointObservation& point : frame.points) EXPECT_TRUE(IsPossible(point)) << point.xy;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "common/features/feature_checks.h"
 #include "common/geometry/so3.h"
 #include "test/linefeature_tracker/bar_scene.h"
 
@@ -281,6 +282,22 @@ TEST_P(LineTrackerTest, DrawsTheNewestImage) {
 
 INSTANTIATE_TEST_SUITE_P(Matchers, LineTrackerTest,
                          testing::Values(LineMatcherType::kFlow, LineMatcherType::kLbd));
+
+// Column 271 of this fisheye lies at right angles to its axis, where rays meet no image plane.
+TEST(LineTracker, LeavesOutWhatLiesAtRightAnglesToTheAxis) {
+  CameraParameters parameters = PlainParameters();
+  parameters.model = CameraParameters::Model::kPinholeEquidistant;
+  parameters.fx = parameters.fy = 1000;
+  parameters.cx = -1300;
+  LineTracker tracker({}, CameraModel::Create(parameters));
+  cv::Mat image(parameters.height, parameters.width, CV_8UC1, cv::Scalar(60));
+  cv::rectangle(image, cv::Rect(120, 150, 147, 180), cv::Scalar(200), cv::FILLED);
+  for (int i = 1; i <= 3; ++i) {
+    const LineFrame frame = tracker.Track({i * kFrame_ns, image}, std::nullopt);
+    EXPECT_FALSE(frame.lines.empty());
+    for (const LineObservation& line : frame.lines) EXPECT_TRUE(IsPossible(line)) << line.start;
+  }
+}
 
 }  // namespace
 }  // namespace plm_vins

@@ -55,6 +55,9 @@ Rigid3d ToRigid(const geometry_msgs::Transform& transform);
 // How messages of poses and twists lay out a covariance.
 using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
+// A variance as large stands for one that is not known, in SI units, as in MAVLink.
+constexpr double kUnknownVariance = 1e6;
+
 sensor_msgs::PointCloud EmptyCloud(int64_t t_ns, const std::string& frame_id);
 
 }  // namespace plm_vins

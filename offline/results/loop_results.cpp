@@ -53,16 +53,10 @@ void LoopResults::Add(const PipelineFrame& frame) {
 }
 
 void LoopResults::Count(const LoopClosure& closure, double milliseconds) {
-  candidates_ += static_cast<int64_t>(closure.candidates.size());
-  dropped_ += closure.dropped;
+  tally_.Add(closure);
   for (const auto* loops : {&closure.candidates, &closure.confirmed}) {
-    for (const LoopCandidate& loop : *loops) {
-      WriteLoopRow(loop, &table_.stream());
-      ++(loop.failed ? refused_[static_cast<size_t>(*loop.failed)] : accepted_);
-    }
+    for (const LoopCandidate& loop : *loops) WriteLoopRow(loop, &table_.stream());
   }
-  // They were refused for lack of one that agrees, and have another verdict now.
-  refused_[static_cast<size_t>(LoopGate::kAgreement)] -= static_cast<int>(closure.confirmed.size());
   if (!closure.is_keyframe) return;
   ++keyframes_;
   keyframe_ms_.push_back({milliseconds});
@@ -98,15 +92,16 @@ void LoopResults::WriteFinalTrajectory() const {
 Json LoopResults::Summary() const {
   Json refused = Json::object();
   for (int gate = 0; gate < kLoopGates; ++gate) {
-    refused[ToString(static_cast<LoopGate>(gate))] = refused_[gate];
+    refused[ToString(static_cast<LoopGate>(gate))] = 0;
   }
+  for (const auto& [gate, count] : tally_.refused) refused[ToString(gate)] = count;
   const SeriesSummary timing = Summarize(keyframe_ms_, 0);
   Json json;
   json["keyframes"] = keyframes_;
   json["map_keyframes"] = map().CountKept();
-  json["candidates"] = candidates_;
-  json["accepted"] = accepted_;
-  json["dropped"] = dropped_;
+  json["candidates"] = tally_.candidates;
+  json["accepted"] = tally_.accepted;
+  json["dropped"] = tally_.dropped;
   json["refused"] = refused;
   json["first_fix_s"] = first_fix_ ? Json(*first_fix_) : Json(nullptr);
   json["keyframe_ms"] = {{"mean", timing.mean}, {"p95", timing.p95}};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "common/io/output_file.h"
 #include "offline/pipeline/odometry_pipeline.h"
 #include "pose_graph/loop_closer.h"
+#include "pose_graph/loop_tally.h"
 #include "pose_graph/map/map_trajectory.h"
 #include "vins_estimator/output/json.h"
 
@@ -52,10 +54,7 @@ class LoopResults {
   std::vector<std::pair<size_t, std::string>> worlds_;  // first pose of each but the first, reason
   std::optional<double> first_fix_;                     // since the first pose [s]
   int64_t keyframes_ = 0;
-  int64_t candidates_ = 0;
-  int64_t accepted_ = 0;
-  int64_t dropped_ = 0;                           // of the accepted, by the graph later
-  std::array<int64_t, kLoopGates> refused_ = {};  // by gate
+  LoopTally tally_;
   std::vector<std::array<double, 1>> keyframe_ms_;
 };
 

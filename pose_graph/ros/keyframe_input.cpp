@@ -15,7 +15,6 @@ namespace plm_vins {
 namespace {
 
 constexpr double kUnitTolerance = 1e-2;  // of a quaternion's length; single precision is enough
-constexpr double kUnknown = 1e6;         // a variance as large stands for none, as in MAVLink
 
 using RowMajorCovariance = Eigen::Map<const RowMajor6d>;
 
@@ -27,7 +26,8 @@ Eigen::Matrix<double, 6, 6> CovarianceOf(const nav_msgs::Odometry& message, cons
   Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Identity();
   J.bottomRightCorner<3, 3>() = T_O_B.R().transpose();
   const RowMajorCovariance covariance(message.pose.covariance.data());
-  if (covariance.diagonal().maxCoeff() >= kUnknown) return Eigen::Matrix<double, 6, 6>::Zero();
+  if (covariance.diagonal().maxCoeff() >= kUnknownVariance)
+    return Eigen::Matrix<double, 6, 6>::Zero();
   return J * covariance * J.transpose();
 }
 

@@ -234,16 +234,7 @@ void PoseGraphNode::UpdateStatus(const LoopClosure& closure, int world, double m
   if (world == world_) status_.fix = closure.fix;
   status_.keyframes = loops_->map().CountKept();
   if (closure.is_keyframe) status_.keyframe_ms = milliseconds;
-  for (const auto* loops : {&closure.candidates, &closure.confirmed}) {
-    for (const LoopCandidate& loop : *loops) {
-      loop.failed ? ++status_.refused[ToString(*loop.failed)] : ++status_.loops;
-    }
-  }
-  // They were refused for lack of one that agrees, and have another verdict now.
-  if (!closure.confirmed.empty()) {
-    status_.refused[ToString(LoopGate::kAgreement)] -= static_cast<int>(closure.confirmed.size());
-  }
-  status_.dropped += closure.dropped;
+  status_.loops.Add(closure);
 }
 
 // Whoever listens or not: the topics are latched, for displays that are opened later.
@@ -278,10 +269,12 @@ void PoseGraphNode::ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& st
   const std::lock_guard<std::mutex> lock(status_mutex_);
   ReportState(&status);
   status.add("keyframes", status_.keyframes);
-  status.add("loops", status_.loops);
-  status.add("dropped", status_.dropped);
+  status.add("loops", status_.loops.accepted);
+  status.add("dropped", status_.loops.dropped);
   status.add("worlds", world_);
-  for (const auto& [gate, count] : status_.refused) status.add("refused_" + gate, count);
+  for (const auto& [gate, count] : status_.loops.refused) {
+    status.add(std::string("refused_") + ToString(gate), count);
+  }
   status.add("keyframe_ms", status_.keyframe_ms);
   status.add("waiting_keyframes", queue_.size());
   for (StreamMonitor* stream :

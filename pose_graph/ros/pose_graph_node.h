@@ -13,7 +13,6 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -28,6 +27,7 @@
 #include "common/ros/stream_monitor.h"
 #include "common/streams/bounded_queue.h"
 #include "pose_graph/loop_closer.h"
+#include "pose_graph/loop_tally.h"
 #include "pose_graph/ros/keyframe_images.h"
 #include "pose_graph/ros/keyframe_input.h"
 
@@ -117,10 +117,8 @@ class PoseGraphNode {
   struct Status {
     std::optional<MapFix> fix;
     int keyframes = 0;
-    int loops = 0;                       // accepted
-    int dropped = 0;                     // of them, by the graph later on
-    std::map<std::string, int> refused;  // candidates, by gate
-    double keyframe_ms = 0;              // of the last keyframe
+    LoopTally loops;
+    double keyframe_ms = 0;  // of the last keyframe
   };
   std::mutex status_mutex_;  // never held for long
   Status status_;

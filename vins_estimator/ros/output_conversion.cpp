@@ -25,8 +25,6 @@ Matrix6d RotationToWorld(const Matrix6d& covariance, const Eigen::Matrix3d& R_W_
   return J * covariance * J.transpose();
 }
 
-constexpr double kUnknown = 1e6;  // variance of what is not known, in SI units
-
 // `covariance`; where that is none, a diagonal of `variance`.
 template <typename Matrix>
 Matrix KnownOr(double variance, const Matrix& covariance) {
@@ -51,9 +49,9 @@ visualization_msgs::Marker MakeMarker(int64_t t_ns, const std::string& frame_id,
 
 StateCovariance CovarianceOf(const EstimatedFrame& frame) {
   const double rate_variance = frame.angular_velocity_variance;
-  return {KnownOr(kUnknown, frame.output.pose_covariance),
-          KnownOr(kUnknown, frame.output.velocity_covariance),
-          std::isfinite(rate_variance) && rate_variance > 0 ? rate_variance : kUnknown};
+  return {KnownOr(kUnknownVariance, frame.output.pose_covariance),
+          KnownOr(kUnknownVariance, frame.output.velocity_covariance),
+          std::isfinite(rate_variance) && rate_variance > 0 ? rate_variance : kUnknownVariance};
 }
 
 nav_msgs::Odometry ToOdometry(const FrameState& state, const StateCovariance& covariance,

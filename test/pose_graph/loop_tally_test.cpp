@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/loop_tally.h"
+
+#include <gtest/gtest.h>
+
+namespace plm_vins {
+namespace {
+
+LoopCandidate RefusedBy(LoopGate gate) {
+  LoopCandidate loop;
+  loop.failed = gate;
+  return loop;
+}
+
+TEST(LoopTallyTest, CountsEachVerdict) {
+  LoopClosure closure;
+  closure.candidates = {RefusedBy(LoopGate::kScore), LoopCandidate(), RefusedBy(LoopGate::kScore)};
+  closure.dropped = 1;
+  LoopTally tally;
+  tally.Add(closure);
+  EXPECT_EQ(tally.candidates, 3);
+  EXPECT_EQ(tally.accepted, 1);
+  EXPECT_EQ(tally.dropped, 1);
+  EXPECT_EQ(tally.refused.size(), 1);
+  EXPECT_EQ(tally.refused[LoopGate::kScore], 2);
+}
+
+TEST(LoopTallyTest, CountsALoopThatWaitedOnce) {
+  LoopClosure first;
+  first.candidates = {RefusedBy(LoopGate::kAgreement), RefusedBy(LoopGate::kAgreement)};
+  LoopClosure second;
+  second.candidates = {LoopCandidate()};
+  second.confirmed = {LoopCandidate()};  // one of the first
+  LoopTally tally;
+  tally.Add(first);
+  tally.Add(second);
+  EXPECT_EQ(tally.candidates, 3);
+  EXPECT_EQ(tally.accepted, 2);
+  EXPECT_EQ(tally.refused[LoopGate::kAgreement], 1);
+}
+
+TEST(LoopTallyTest, CountsAConfirmedLoopThatTheGraphRefusesUnderItsLastGate) {
+  LoopClosure first;
+  first.candidates = {RefusedBy(LoopGate::kAgreement)};
+  LoopClosure second;
+  second.confirmed = {RefusedBy(LoopGate::kGraph)};
+  LoopTally tally;
+  tally.Add(first);
+  tally.Add(second);
+  EXPECT_EQ(tally.accepted, 0);
+  EXPECT_EQ(tally.refused[LoopGate::kAgreement], 0);
+  EXPECT_EQ(tally.refused[LoopGate::kGraph], 1);
+}
+
+}  // namespace
+}  // namespace plm_vins

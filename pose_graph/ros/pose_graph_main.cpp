@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loop closure as a node.
+// Loop closure as a node, which ends at once where the configuration has it switched off.
 
 #include "common/ros/node_setup.h"
 #include "pose_graph/ros/pose_graph_node.h"
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "pose_graph", [](const plm_vins::Config& config) {
+    if (!config.pose_graph.loop_closure) {
+      ROS_INFO("not needed: loop_closure is 0 in %s", config.file.c_str());
+      return;
+    }
     const plm_vins::PoseGraphNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
     plm_vins::Spin();
   });

@@ -20,8 +20,9 @@ constexpr int kQueue = 100;
 constexpr size_t kWaitingKeyframes = 50;
 constexpr double kMaxLag = 2;  // [s] of keyframes behind their images
 
-std::string MapFile(const Config& config, const ros::NodeHandle& private_node) {
-  return private_node.param<std::string>("map_file", config.pose_graph.MapFile());
+std::string MapFile(PoseGraphConfig config, const ros::NodeHandle& private_node) {
+  if (config.save_path.empty()) private_node.getParam("output", config.save_path);
+  return private_node.param("map_file", config.MapFile());
 }
 
 }  // namespace
@@ -32,7 +33,7 @@ PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
       private_node_(private_node),
       config_(config),
       camera_(CameraModel::Create(config.sensor.camera)),
-      map_file_(MapFile(config, private_node)),
+      map_file_(MapFile(config.pose_graph, private_node)),
       input_(config.sensor),
       queue_(kWaitingKeyframes),
       odometry_publisher_(private_node_.advertise<nav_msgs::Odometry>("odometry", kQueue)),

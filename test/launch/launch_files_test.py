@@ -109,7 +109,8 @@ class LaunchFiles(unittest.TestCase):
                         "plm_vins", node.type), node.type)
                 ours.pop("mavros_relay", None)  # it needs no configuration
                 self.assertEqual(sorted(ours),
-                                 ["feature_tracker", "linefeature_tracker", "vins_estimator"])
+                                 ["feature_tracker", "linefeature_tracker", "pose_graph",
+                                  "vins_estimator"])
                 for node_name in ours:
                     self.assertEqual(parameters[f"/{node_name}/config_file"], "/mine.yaml")
 
@@ -128,8 +129,9 @@ class LaunchFiles(unittest.TestCase):
         for respawn in (False, True):
             for nodelets in (False, True):
                 nodes, _ = load("plm_vins.launch", config="c.yaml", nodelets=nodelets,
-                                **({"respawn": True} if respawn else {}))
-                self.assertTrue(nodes.pop("linefeature_tracker").respawn, "lines are no must")
+                                loop_closure=True, **({"respawn": True} if respawn else {}))
+                for name in ("linefeature_tracker", "pose_graph"):
+                    self.assertTrue(nodes.pop(name).respawn, f"{name} is no must")
                 for node in nodes.values():
                     self.assertEqual((node.respawn, node.required), (respawn, not respawn),
                                      node.name)
@@ -208,6 +210,25 @@ class LaunchFiles(unittest.TestCase):
                         if node.package in ("plm_vins", "nodelet")]
                 self.assertIn("/pose_graph/", ours)
                 self.assertEqual(sorted(config.clear_params), sorted(ours))
+
+    def test_the_configuration_decides_on_loop_closure(self):
+        nodes, parameters = load("euroc.launch", output="/results")
+        self.assertFalse(nodes["pose_graph"].respawn, "it ends where it is switched off")
+        self.assertEqual({key for key in parameters if key.startswith("/pose_graph/")},
+                         {"/pose_graph/config_file", "/pose_graph/image_transport",
+                          "/pose_graph/output"})
+        self.assertEqual(parameters["/pose_graph/output"], "/results")
+
+    def test_arguments_override_the_configuration_on_loop_closure(self):
+        nodes, parameters = load("euroc.launch", loop_closure="true", load_map="true",
+                                 map_file="/house.plm")
+        self.assertTrue(nodes["pose_graph"].respawn)
+        self.assertEqual(parameters["/pose_graph/set/loop_closure"], "1")
+        self.assertEqual(parameters["/pose_graph/set/load_previous_pose_graph"], "1")
+        self.assertEqual(parameters["/pose_graph/map_file"], "/house.plm")
+        self.assertNotIn("pose_graph", load("euroc.launch", loop_closure="false")[0])
+        self.assertEqual(load("euroc.launch", load_map="false")[1][
+            "/pose_graph/set/load_previous_pose_graph"], "0")
 
     def test_loop_closure_shows_the_map(self):
         nodes, _ = load("euroc.launch", rviz="true", loop_closure="true")

@@ -17,12 +17,13 @@ import rospy
 from nav_msgs.msg import Odometry
 from std_srvs.srv import Trigger
 
-from node_processes import Listener, Processes, arguments, start_master, wait_until
+from node_processes import (PATIENCE, Listener, Processes, arguments, start_master,
+                            wait_until)
 
 NODES, BAG, FOLDER = arguments(__doc__)
 NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator", "pose_graph")
 MAP = FOLDER / "map.plm"
-PARAMETER = "/pose_graph/set/load_previous_pose_graph"
+SETTINGS = "/pose_graph/set"
 
 
 def setUpModule():
@@ -60,7 +61,7 @@ class SaveAndRelocalise(unittest.TestCase):
         return rospy.ServiceProxy(f"/pose_graph/{service}", Trigger)()
 
     def test_close_a_loop_save_restart_and_relocalise(self):
-        rospy.set_param(PARAMETER, "0")
+        rospy.set_param(SETTINGS, {"loop_closure": "1"})
         listener = self.fly("first")
         listener.wait_for_value("pose_graph", "loops", lambda count: int(count or 0) > 0)
         self.assertFalse(self.call("load_map").success)  # there is none yet
@@ -69,7 +70,7 @@ class SaveAndRelocalise(unittest.TestCase):
         first = dict(self.in_map)
         self.processes.close()
 
-        rospy.set_param(PARAMETER, "1")
+        rospy.set_param(SETTINGS, {"loop_closure": "1", "load_previous_pose_graph": "1"})
         listener = self.fly("second")
         listener.wait_for_message("pose_graph", "located in the map")
         # The same images are of the same places.
@@ -78,6 +79,13 @@ class SaveAndRelocalise(unittest.TestCase):
         self.assertLess(math.dist(first[stamp], self.in_map[stamp]), 0.2)
         self.assertTrue(self.call("reset").success)
         listener.wait_for_value("pose_graph", "keyframes", lambda count: count == "0")
+
+    def test_ends_where_it_is_switched_off(self):
+        rospy.set_param(SETTINGS, {"loop_closure": "0"})
+        processes = Processes(FOLDER / "off", os.environ["ROS_MASTER_URI"])
+        self.addCleanup(processes.close)
+        self.assertEqual(processes.start_node(NODES / "pose_graph").wait(PATIENCE), 0)
+        self.assertIn("loop_closure is 0", processes.log("pose_graph"))
 
 
 if __name__ == "__main__":

@@ -31,10 +31,12 @@ LoopCloser::LoopCloser(const LoopCloserOptions& options, std::shared_ptr<const C
       recognition_(options.recognition),
       verification_(options.verification, camera_),
       acceptance_(options.acceptance),
-      thinning_(options.thinning) {}
+      thinning_(options.thinning),
+      place_(options.odometry) {}
 
 void LoopCloser::SetMap(KeyframeMap map) {
   map_ = std::move(map);
+  place_.SetMap(map_);
   for (size_t i = 0; i < map_.keyframes.size(); ++i) {
     recognition_.Add(map_.keyframes[i], static_cast<int>(i));
     world_ = std::max(world_, map_.keyframes[i].world + 1);
@@ -70,6 +72,7 @@ LoopClosure LoopCloser::Add(Keyframe keyframe) {
   UpdateLandmarks(options_.verification.ransac.max_error, &map_.keyframes);
   recognition_.Add(map_.keyframes.back(), number);
   if (continues) ConnectToPrevious(number);
+  place_.AddKeyframe(map_, continues);
 
   LoopClosure closure;
   closure.is_keyframe = true;
@@ -98,10 +101,10 @@ void LoopCloser::ConnectToPrevious(int number) {
   edge.from = number - 1;
   edge.to = number;
   edge.T_from_to = from.T_O_L().Inverse() * to.T_O_L();
-  edge.covariance = StepCovariance(options_.odometry, from, to);
+  edge.covariance = StepCovariance(options_.odometry, edge.T_from_to.translation,
+                                   to.covariance - from.covariance);
   edge.way = edge.T_from_to.translation.norm();
   map_.graph.AddEdge(edge);
-  covariance_ += edge.covariance;
 }
 
 void LoopCloser::LookForLoops(LoopClosure* closure) {
@@ -117,8 +120,12 @@ void LoopCloser::LookForLoops(LoopClosure* closure) {
   }
   const std::vector<LoopCandidate*> loops = NewLoops(closure);
   if (loops.empty()) return;
+  const bool had_place = Fix().has_value();
   AddLoops(loops);
   Optimize(loops, closure);
+  for (const LoopCandidate* loop : loops) {
+    if (!loop->failed) place_.AddLoop(map_, EdgeOf(*loop), /*joins=*/!had_place && Fix());
+  }
 }
 
 LoopCandidate LoopCloser::Examine(const PlaceCandidate& place, LoopSightings* sightings) {
@@ -176,8 +183,6 @@ void LoopCloser::Optimize(const std::vector<LoopCandidate*>& loops, LoopClosure*
     if (is_dropped) {
       loop->failed = LoopGate::kGraph;
       --closure->dropped;
-    } else {
-      covariance_ = loop->covariance;
     }
   }
 }
@@ -193,7 +198,7 @@ void LoopCloser::Thin() {
 std::optional<MapFix> LoopCloser::Fix() const {
   const int newest = map_.graph.size() - 1;
   if (!map_.graph.AreConnected(0, newest)) return std::nullopt;
-  return MapFix{map_.T_M_O(newest), covariance_};
+  return place_.Fix(map_);
 }
 
 }  // namespace plm_vins

@@ -15,7 +15,9 @@
 #include "pose_graph/keyframes/odometry_frame.h"
 #include "pose_graph/keyframes/odometry_noise.h"
 #include "pose_graph/map/keyframe_map.h"
+#include "pose_graph/map/map_fix.h"
 #include "pose_graph/map/map_thinning.h"
+#include "pose_graph/map/place_in_map.h"
 #include "pose_graph/retrieval/place_recognition.h"
 #include "pose_graph/verification/loop_acceptance.h"
 #include "pose_graph/verification/loop_candidate.h"
@@ -35,12 +37,6 @@ struct LoopCloserOptions {
   LoopVerificationOptions verification;
   LoopAcceptanceOptions acceptance;
   MapThinningOptions thinning;
-};
-
-// The place of an odometry's world in the map.
-struct MapFix {
-  LevelTransform T_M_O;
-  Matrix4d covariance = Matrix4d::Zero();  // of (x, y, z, yaw) of the newest keyframe in M
 };
 
 // A place that the newest keyframe sees again.
@@ -97,10 +93,10 @@ class LoopCloser {
   LoopAcceptance acceptance_;
   MapThinning thinning_;
   KeyframeMap map_;
+  PlaceInMap place_;
   int world_ = 0;
   double path_ = 0;                                 // in this world [m]
   std::optional<Eigen::Vector3d> last_position_O_;  // for path_
-  Matrix4d covariance_ = Matrix4d::Zero();          // of the newest keyframe in M
 };
 
 }  // namespace plm_vins

@@ -74,6 +74,14 @@ Rigid3d ToRigid(const Position& p, const geometry_msgs::Quaternion& q) {
   return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), {p.x, p.y, p.z}};
 }
 
+// The covariance of a pose whose rotation is told by theta before, by R theta after.
+Eigen::Matrix<double, 6, 6> TurnRotation(const Eigen::Matrix3d& R,
+                                         const Eigen::Matrix<double, 6, 6>& covariance) {
+  Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Identity();
+  J.bottomRightCorner<3, 3>() = R;
+  return J * covariance * J.transpose();
+}
+
 }  // namespace
 
 ros::Time ToRosTime(int64_t t_ns) {
@@ -192,6 +200,19 @@ Rigid3d ToRigid(const geometry_msgs::Pose& pose) {
 
 Rigid3d ToRigid(const geometry_msgs::Transform& transform) {
   return ToRigid(transform.translation, transform.rotation);
+}
+
+std::optional<Eigen::Matrix<double, 6, 6>> CovarianceOf(
+    const geometry_msgs::PoseWithCovariance& pose) {
+  const Eigen::Map<const RowMajor6d> covariance(pose.covariance.data());
+  if (covariance.diagonal().maxCoeff() >= kUnknownVariance) return std::nullopt;
+  return TurnRotation(ToRigid(pose.pose).R().transpose(), covariance);
+}
+
+void SetCovariance(const Eigen::Matrix<double, 6, 6>& covariance,
+                   geometry_msgs::PoseWithCovariance* pose) {
+  Eigen::Map<RowMajor6d>(pose->covariance.data()) =
+      TurnRotation(ToRigid(pose->pose).R(), covariance);
 }
 
 sensor_msgs::PointCloud EmptyCloud(int64_t t_ns, const std::string& frame_id) {

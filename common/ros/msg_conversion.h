@@ -5,6 +5,7 @@
 
 #include <geometry_msgs/Point.h>
 #include <geometry_msgs/Pose.h>
+#include <geometry_msgs/PoseWithCovariance.h>
 #include <geometry_msgs/Quaternion.h>
 #include <geometry_msgs/Transform.h>
 #include <geometry_msgs/Vector3.h>
@@ -12,6 +13,7 @@
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/PointCloud.h>
 
+#include <optional>
 #include <string>
 
 #include "common/geometry/rigid3.h"
@@ -57,6 +59,13 @@ using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
 // A variance as large stands for one that is not known, in SI units, as in MAVLink.
 constexpr double kUnknownVariance = 1e6;
+
+// The covariance of a message's pose T_W_B, as (p_W, theta_B), R_W_B Exp(theta_B): the message has
+// it about the axes of W. Nothing where it is not known.
+std::optional<Eigen::Matrix<double, 6, 6>> CovarianceOf(
+    const geometry_msgs::PoseWithCovariance& pose);
+void SetCovariance(const Eigen::Matrix<double, 6, 6>& covariance,
+                   geometry_msgs::PoseWithCovariance* pose);
 
 sensor_msgs::PointCloud EmptyCloud(int64_t t_ns, const std::string& frame_id);
 

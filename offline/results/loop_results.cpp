@@ -11,6 +11,7 @@
 #include "pose_graph/output/colmap_writer.h"
 #include "pose_graph/output/g2o_writer.h"
 #include "pose_graph/output/loop_table.h"
+#include "vins_estimator/output/covariance_table.h"
 #include "vins_estimator/output/series_summary.h"
 #include "vins_estimator/output/tum_format.h"
 
@@ -22,8 +23,10 @@ LoopResults::LoopResults(const Config& config, const std::string& folder,
       camera_(CameraModel::Create(config.sensor.camera)),
       loops_(LoopCloserOptions(*camera_), camera_),
       trajectory_(File("trajectory_map.tum")),
+      covariance_(File("covariance_map.csv")),
       table_(File("loops.csv")) {
   if (map) loops_.SetMap(std::move(*map));
+  WriteCovarianceHeader(&covariance_.stream());
   WriteLoopHeader(&table_.stream());
 }
 
@@ -49,6 +52,9 @@ void LoopResults::Add(const PipelineFrame& frame) {
   poses_.push_back({frame.output.t_ns, T_O_B, newest});
   if (!closure.fix) return;
   trajectory_.stream() << FormatTumRow(frame.output.t_ns, closure.fix->T_M_O.ToRigid() * T_O_B);
+  WriteCovarianceRow(frame.output.t_ns,
+                     CovarianceInMap(*closure.fix, T_O_B, frame.output.pose_covariance),
+                     &covariance_.stream());
   if (!first_fix_) first_fix_ = ToSeconds(frame.output.t_ns - poses_.front().t_ns);
 }
 
@@ -64,6 +70,7 @@ void LoopResults::Count(const LoopClosure& closure, double milliseconds) {
 
 void LoopResults::Finish() {
   trajectory_.Close();
+  covariance_.Close();
   table_.Close();
   WriteFinalTrajectory();
   OutputFile g2o(File("pose_graph.g2o"));

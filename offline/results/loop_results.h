@@ -20,8 +20,9 @@
 namespace plm_vins {
 
 // Loop closure over an offline run and its files in the folder of results: trajectory_map.tum (as
-// known at each time, once the place in the map is known), trajectory_final.tum (as known in the
-// end), loops.csv, pose_graph.g2o and the COLMAP model in colmap/.
+// known at each time, once the place in the map is known) with covariance_map.csv,
+// trajectory_final.tum (as known in the end), loops.csv, pose_graph.g2o and the COLMAP model in
+// colmap/.
 class LoopResults {
  public:
   // Opens the files; starts in a map where there is one. Here and in Finish() std::runtime_error
@@ -48,6 +49,7 @@ class LoopResults {
   std::shared_ptr<const CameraModel> camera_;
   LoopCloser loops_;
   OutputFile trajectory_;
+  OutputFile covariance_;
   OutputFile table_;
   std::string restart_reason_;  // of a world without a pose yet; empty: there is none
   std::vector<OdometryPose> poses_;

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kResults[] = {"trajectory.tum",
                                     "covariance.csv",
+                                    "covariance_map.csv",
                                     "timing.csv",
                                     "summary.json",
                                     "map.ply",

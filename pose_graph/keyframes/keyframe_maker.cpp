@@ -82,7 +82,7 @@ Keyframe MakeKeyframe(const CornerSelectionOptions& options, const CameraModel& 
   Keyframe keyframe;
   keyframe.t_ns = frame.t_ns;
   keyframe.T_O_B = frame.T_O_B;
-  keyframe.covariance = LevelCovariance(frame);
+  keyframe.covariance = LevelCovariance(frame.T_O_B, frame.covariance);
   keyframe.T_B_C = frame.T_B_C;
   keyframe.R_O_Manhattan = frame.R_O_Manhattan;
   keyframe.segments = frame.segments;

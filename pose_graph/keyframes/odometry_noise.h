@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/geometry/rigid3.h"
 #include "pose_graph/geometry/drift_budget.h"
 #include "pose_graph/geometry/level_transform.h"
-#include "pose_graph/keyframes/keyframe.h"
-#include "pose_graph/keyframes/odometry_frame.h"
 
 namespace plm_vins {
 
@@ -14,12 +13,13 @@ struct OdometryNoise : DriftBudget {
   OdometryNoise() : DriftBudget{0.001, 0.003, 0.003 * M_PI / 180, 0.02 * M_PI / 180} {}
 };
 
-// Of (x, y, z, yaw) in O, out of what odometry says of all six degrees of freedom.
-Matrix4d LevelCovariance(const OdometryFrame& frame);
+// Of (x, y, z, yaw) in O, out of that of (p_O, theta_B), all six degrees of freedom.
+Matrix4d LevelCovariance(const Rigid3d& T_O_B, const Eigen::Matrix<double, 6, 6>& covariance);
 
-// Covariance of the step from a keyframe to the next, and not less than the floor: by how much that
-// of the pose grew, which is what the step added, or shrank, which is that of a correction. (The
-// error that an optimal correction leaves does not correlate with it, so variances subtract.)
-Matrix4d StepCovariance(const OdometryNoise& noise, const Keyframe& from, const Keyframe& to);
+// Covariance of a step of odometry, and not less than the floor of its way: by how much that of the
+// pose grew, which is what the step added, or shrank, which is that of a correction. (The error
+// that an optimal correction leaves does not correlate with it, so variances subtract.)
+Matrix4d StepCovariance(const OdometryNoise& noise, const Eigen::Vector3d& way,
+                        const Matrix4d& growth);
 
 }  // namespace plm_vins

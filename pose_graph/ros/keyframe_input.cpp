@@ -16,20 +16,7 @@ namespace {
 
 constexpr double kUnitTolerance = 1e-2;  // of a quaternion's length; single precision is enough
 
-using RowMajorCovariance = Eigen::Map<const RowMajor6d>;
-
 bool IsUnit(const Eigen::Quaterniond& q) { return std::abs(q.norm() - 1) < kUnitTolerance; }
-
-// The message has the rotation's covariance about the axes of the world, we in the body. Zeros
-// where it is not known, which leaves a step its floor.
-Eigen::Matrix<double, 6, 6> CovarianceOf(const nav_msgs::Odometry& message, const Rigid3d& T_O_B) {
-  Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Identity();
-  J.bottomRightCorner<3, 3>() = T_O_B.R().transpose();
-  const RowMajorCovariance covariance(message.pose.covariance.data());
-  if (covariance.diagonal().maxCoeff() >= kUnknownVariance)
-    return Eigen::Matrix<double, 6, 6>::Zero();
-  return J * covariance * J.transpose();
-}
 
 // Of another camera than ours, its rays would be nonsense.
 void CheckSameKind(const CameraParameters& ours, const CameraParameters& refined) {
@@ -55,15 +42,16 @@ bool KeyframeInput::Accepts(const nav_msgs::Odometry& message) {
   const auto& q = message.pose.pose.orientation;
   const bool is_possible = Eigen::Vector3d(p.x, p.y, p.z).allFinite() &&
                            IsUnit(Eigen::Quaterniond(q.w, q.x, q.y, q.z)) &&
-                           RowMajorCovariance(message.pose.covariance.data()).allFinite();
+                           Eigen::Map<const RowMajor6d>(message.pose.covariance.data()).allFinite();
   if (!is_possible) ++poses_.count;
   return is_possible;
 }
 
 void KeyframeInput::AddPose(const nav_msgs::Odometry& message) {
   if (!Accepts(message)) return;
-  const Rigid3d T_O_B = ToRigid(message.pose.pose);
-  assembly_.AddPose(ToNanoseconds(message.header.stamp), T_O_B, CovarianceOf(message, T_O_B));
+  // Zeros, where it is not known, leave a step its floor.
+  const auto covariance = CovarianceOf(message.pose).value_or(Eigen::Matrix<double, 6, 6>::Zero());
+  assembly_.AddPose(ToNanoseconds(message.header.stamp), ToRigid(message.pose.pose), covariance);
 }
 
 void KeyframeInput::AddPoints(const sensor_msgs::PointCloud& message) {

@@ -29,14 +29,11 @@ nav_msgs::Odometry ToMap(const nav_msgs::Odometry& odometry, const MapFix& fix,
                          const std::string& map_frame) {
   nav_msgs::Odometry result = odometry;
   result.header.frame_id = map_frame;
-  result.pose.pose = ToPose(fix.T_M_O.ToRigid() * ToRigid(odometry.pose.pose));
-  Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Identity();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() =
-      fix.T_M_O.rotation().toRotationMatrix();
-  Eigen::Map<RowMajor6d> covariance(result.pose.covariance.data());
-  covariance = (turn * covariance * turn.transpose()).eval();
-  covariance.topLeftCorner<3, 3>() += fix.covariance.topLeftCorner<3, 3>();
-  covariance(5, 5) += fix.covariance(3, 3);
+  const Rigid3d T_O_B = ToRigid(odometry.pose.pose);
+  result.pose.pose = ToPose(fix.T_M_O.ToRigid() * T_O_B);
+  if (const auto covariance = CovarianceOf(odometry.pose)) {
+    SetCovariance(CovarianceInMap(fix, T_O_B, *covariance), &result.pose);
+  }
   return result;
 }
 

@@ -13,8 +13,8 @@
 
 namespace plm_vins {
 
-// Odometry's message in the map: its pose moved, its covariance turned and made larger by that of
-// the place in the map. The twist stays, as it is in the body's frame.
+// Odometry's message in the map: its pose moved, with its covariance there; one that is not known
+// stays so. The twist stays, too, as it is in the body's frame.
 nav_msgs::Odometry ToMap(const nav_msgs::Odometry& odometry, const MapFix& fix,
                          const std::string& map_frame);
 

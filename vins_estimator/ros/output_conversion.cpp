@@ -17,14 +17,6 @@ std_msgs::Header MakeHeader(int64_t t_ns, const std::string& frame_id) {
   return header;
 }
 
-// The message wants the rotation's covariance about the axes of the world: Exp(theta_W) R_W_B =
-// R_W_B Exp(theta_B) with theta_W = R_W_B theta_B.
-Matrix6d RotationToWorld(const Matrix6d& covariance, const Eigen::Matrix3d& R_W_B) {
-  Matrix6d J = Matrix6d::Identity();
-  J.bottomRightCorner<3, 3>() = R_W_B;
-  return J * covariance * J.transpose();
-}
-
 // `covariance`; where that is none, a diagonal of `variance`.
 template <typename Matrix>
 Matrix KnownOr(double variance, const Matrix& covariance) {
@@ -59,7 +51,7 @@ nav_msgs::Odometry ToOdometry(const FrameState& state, const StateCovariance& co
   nav_msgs::Odometry odometry =
       ToOdometry(state.t_ns, state.T_W_B(), frames.world_frame, frames.body_frame);
   const Eigen::Matrix3d R_W_B = state.T_W_B().R();
-  Eigen::Map<RowMajor6d>(odometry.pose.covariance.data()) = RotationToWorld(covariance.pose, R_W_B);
+  SetCovariance(covariance.pose, &odometry.pose);
   odometry.twist.twist.linear = ToVector3(R_W_B.transpose() * state.velocity());
   odometry.twist.twist.angular = ToVector3(angular_velocity);
   Eigen::Map<RowMajor6d> twist(odometry.twist.covariance.data());

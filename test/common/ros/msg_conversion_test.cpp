@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -191,6 +192,31 @@ TEST(FeatureMessage, ImpossibleLinesAndRepeatedIdsAreLeftOutAndCounted) {
   EXPECT_EQ(left_out, 3);
   ASSERT_EQ(back.lines.size(), 1u);
   EXPECT_EQ(back.lines[0].end.x(), 0.5);
+}
+
+TEST(PoseMessage, HasTheRotationsCovarianceAboutTheAxesOfTheWorld) {
+  geometry_msgs::PoseWithCovariance pose;
+  pose.pose = ToPose(
+      {Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ())), {1, 2, 3}});
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  covariance.diagonal() << 1, 2, 3, 4, 5, 6;
+  covariance(0, 3) = covariance(3, 0) = 0.5;  // of x and a turn about x of the body, y of the world
+  SetCovariance(covariance, &pose);
+  EXPECT_NEAR(pose.covariance[0], 1, 1e-12);
+  EXPECT_NEAR(pose.covariance[4], 0.5, 1e-12);
+  EXPECT_NEAR(pose.covariance[21], 5, 1e-12);
+  EXPECT_NEAR(pose.covariance[28], 4, 1e-12);
+  const auto read = CovarianceOf(pose);
+  ASSERT_TRUE(read);
+  EXPECT_LT((*read - covariance).norm(), 1e-12);
+}
+
+TEST(PoseMessage, KnowsNoCovarianceOfVeryLargeVariances) {
+  geometry_msgs::PoseWithCovariance pose;
+  pose.pose.orientation.w = 1;
+  EXPECT_TRUE(CovarianceOf(pose));
+  pose.covariance[35] = kUnknownVariance;
+  EXPECT_FALSE(CovarianceOf(pose));
 }
 
 TEST(PoseMessage, HasTheTransform) {

@@ -60,6 +60,7 @@ TEST_F(LoopResultsTest, WritesAllFilesOfARun) {
   for (int i = 0; i < 4; ++i) results.Add(FrameAt(0.15 * i));
   results.Finish();
   EXPECT_EQ(Rows("trajectory_map.tum"), 4);
+  EXPECT_EQ(Rows("covariance_map.csv"), 1 + 4);  // names first
   EXPECT_EQ(Rows("trajectory_final.tum"), 4);
   EXPECT_THAT(folder_.Read("loops.csv"), HasSubstr("result"));
   EXPECT_THAT(folder_.Read("pose_graph.g2o"), HasSubstr("EDGE_SE3:QUAT 0 1"));

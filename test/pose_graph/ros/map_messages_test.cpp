@@ -3,26 +3,49 @@
 
 #include <gtest/gtest.h>
 
+#include "common/ros/msg_conversion.h"
+
 namespace plm_vins {
 namespace {
 
-TEST(ToMap, MovesThePoseAndAddsTheCovariances) {
+MapFix QuarterTurn() {
+  MapFix fix;
+  fix.T_M_O = {M_PI / 2, {0, 0, 5}};
+  fix.T_O_L.translation = {1, 0, 0};
+  fix.covariance = 0.5 * Matrix4d::Identity();
+  return fix;
+}
+
+nav_msgs::Odometry OdometryAtTheKeyframe() {
   nav_msgs::Odometry odometry;
   odometry.header.frame_id = "world";
   odometry.pose.pose.position.x = 1;
   odometry.pose.pose.orientation.w = 1;
-  odometry.pose.covariance[0] = 4;   // of x, which is y in the map
+  return odometry;
+}
+
+TEST(ToMap, MovesThePoseAndSaysHowSureItIsThere) {
+  nav_msgs::Odometry odometry = OdometryAtTheKeyframe();
+  odometry.pose.covariance[0] = 4;   // of x, which is y in the map: the drift since the keyframe
+  odometry.pose.covariance[21] = 9;  // of roll, which is pitch in the map
   odometry.pose.covariance[35] = 1;  // of yaw
   odometry.twist.twist.linear.x = 3;
-  const MapFix fix = {{M_PI / 2, {0, 0, 5}}, 0.5 * Matrix4d::Identity()};
-  const nav_msgs::Odometry in_map = ToMap(odometry, fix, "map");
+  const nav_msgs::Odometry in_map = ToMap(odometry, QuarterTurn(), "map");
   EXPECT_EQ(in_map.header.frame_id, "map");
   EXPECT_NEAR(in_map.pose.pose.position.y, 1, 1e-12);
   EXPECT_NEAR(in_map.pose.pose.position.z, 5, 1e-12);
-  EXPECT_NEAR(in_map.pose.covariance[0], 0.5, 1e-12);
-  EXPECT_NEAR(in_map.pose.covariance[7], 4.5, 1e-12);
-  EXPECT_NEAR(in_map.pose.covariance[35], 1.5, 1e-12);
+  EXPECT_NEAR(in_map.pose.covariance[0], 0.5, 1e-5);
+  EXPECT_NEAR(in_map.pose.covariance[7], 4.5, 1e-5);
+  EXPECT_NEAR(in_map.pose.covariance[21], 0, 1e-12);
+  EXPECT_NEAR(in_map.pose.covariance[28], 9, 1e-12);
+  EXPECT_NEAR(in_map.pose.covariance[35], 1.5, 1e-5);
   EXPECT_EQ(in_map.twist.twist.linear.x, 3);
+}
+
+TEST(ToMap, LeavesACovarianceThatIsNotKnown) {
+  nav_msgs::Odometry odometry = OdometryAtTheKeyframe();
+  for (size_t i = 0; i < 36; i += 7) odometry.pose.covariance[i] = kUnknownVariance;
+  EXPECT_EQ(ToMap(odometry, QuarterTurn(), "map").pose.covariance, odometry.pose.covariance);
 }
 
 // Two keyframes that are joined by a step and a loop, and one of another world.

@@ -21,7 +21,8 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Image
 
 QUANTILES = (50, 95, 99, 100)
-NODES = ("/feature_tracker", "/linefeature_tracker", "/tracker_manager", "/vins_estimator")
+NODES = ("/feature_tracker", "/linefeature_tracker", "/tracker_manager", "/vins_estimator",
+         "/pose_graph")
 START_TIMEOUT = 30  # [s]
 END_AFTER = 3  # [s] without images
 SECONDS_PER_TICK = 1 / os.sysconf("SC_CLK_TCK")
@@ -97,6 +98,8 @@ def launch(options, output):
                f"nodelets:={str(options.nodelets).lower()}", f"output:={output}",
                "use_sim_time:=false",  # no sensor publishes a clock, which costs each node
                f"image_transport:={options.image_transport}"]
+    if options.loop_closure:
+        command.append("loop_closure:=true")
     if options.duration:
         command.append(f"duration:={options.duration}")
     return subprocess.Popen(command, stdout=subprocess.DEVNULL)
@@ -162,6 +165,8 @@ def parse_arguments(arguments):
     parser.add_argument("--duration", type=float, help="play this much [s] (default: all)")
     parser.add_argument("--rate", type=float, default=1, help="of playing (default: 1)")
     parser.add_argument("--nodelets", action="store_true", help="trackers as nodelets")
+    parser.add_argument("--loop-closure", action="store_true",
+                        help="with it, whatever the configuration says")
     parser.add_argument("--image-transport", default="raw", help="raw (default), compressed, ...")
     return parser.parse_args(arguments)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What measure_latency.py says of the nodes, also where a bag is played too fast for them.
+"""What measure_latency.py says of the nodes, of a bag that is played at three times its speed.
 
 Usage: measure_latency_test.py NODES BAG FOLDER [unittest option ...]
 NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs.
@@ -16,7 +16,7 @@ from node_processes import CONFIG, ROOT, arguments, free_port
 
 _, BAG, FOLDER = arguments(__doc__)
 SCRIPT = ROOT / "scripts" / "measure_latency.py"
-BOUND_MS = 1000  # under overload: the queues are short, and what is late is dropped
+BOUND_MS = 1000  # on a busy machine: the queues are short, and what is late is dropped
 LEAST_SHARE = 0.3  # of the images with a pose: the rest is initialisation and overload
 
 
@@ -34,13 +34,14 @@ class MeasureLatencyTest(unittest.TestCase):
         self.assertEqual(run.returncode, 1)
         self.assertEqual(run.stderr, "measure_latency.py: /nowhere.bag: no such file\n")
 
-    def test_latency_stays_bounded_where_images_come_too_fast(self):
-        run = measure(BAG, "--rate", "3")
+    def test_latency_stays_bounded_where_images_come_fast(self):
+        run = measure(BAG, "--rate", "3", "--loop-closure")
         self.assertEqual(run.returncode, 0, run.stderr)
         poses, images = map(int, re.match(r"(\d+) poses of (\d+) images\n", run.stdout).groups())
         self.assertGreater(poses, LEAST_SHARE * images)
         self.assertLess(float(re.search(r"p99 ([\d.]+)", run.stdout)[1]), BOUND_MS)
-        for node in ("feature_tracker", "linefeature_tracker", "vins_estimator", "all"):
+        for node in ("feature_tracker", "linefeature_tracker", "vins_estimator", "pose_graph",
+                     "all"):
             self.assertRegex(run.stdout, rf"\n{node} +[\d.]+ s of CPU, +[\d.]+ ms per image")
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The nodes when bags are played again, when one of them dies, and when they are asked to end.
+"""The nodes when bags are played again, when one of them dies or has to wait for the processor, and
+when they are asked to end.
 
 Usage: operations_test.py NODES BAG FOLDER [unittest option ...]
 NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs and results.
@@ -19,6 +20,8 @@ from node_processes import Listener, Processes, arguments, free_port, start_mast
 
 NODES, BAG, FOLDER = arguments(__doc__)
 NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator")
+MAX_WAIT = 0.5  # [s]: images that wait for longer are left out
+IMAGE_INTERVAL = 0.05  # [s], of the recording
 END_LIMIT = 20  # [s] from SIGINT to the end; takes well below one where the machine is not busy
 
 
@@ -156,6 +159,28 @@ class Death(OperationsTest):
         listener.wait_for_odometry()
         listener.wait_for_message("vins_estimator", "tracking")
         self.assert_end_on_interrupt(self.nodes)
+
+
+class Overload(OperationsTest):
+    def test_leaves_out_what_is_too_late(self):
+        """A processor that is busy elsewhere for two seconds; played more slowly, so that the poses
+        that follow are the estimator's choice, not its speed."""
+        self.start_all()
+        listener = self.listener
+        self.play("--rate", "0.5")
+        listener.wait_for_odometry(30)
+        estimator = self.nodes["vins_estimator"]
+        estimator.send_signal(signal.SIGSTOP)
+        try:
+            behind = len(listener.features) + 20  # a second of the recording
+            wait_until(lambda: len(listener.features) > behind, "features without estimator")
+        finally:
+            estimator.send_signal(signal.SIGCONT)
+        newest = listener.features[-1]
+        third_after = listener.wait_for_odometry(3)[2]  # what had been received may come first
+        self.assertGreater(third_after, newest - MAX_WAIT - 2 * IMAGE_INTERVAL)
+        listener.wait_for_value("vins_estimator", "frames_too_late", lambda count: int(count) > 0)
+        self.assertEqual(listener.value("vins_estimator", "resets"), "0")
 
 
 class Interrupt(OperationsTest):

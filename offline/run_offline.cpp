@@ -212,8 +212,10 @@ Config Configure(const Arguments& arguments) {
 
 std::optional<KeyframeMap> MapToStartIn(const Arguments& arguments, const PoseGraphConfig& config) {
   if (!arguments.map_in.empty()) return LoadMap(arguments.map_in);
-  if (config.loop_closure && config.load_previous) return LoadMap(config.MapFile());
-  return std::nullopt;
+  if (!config.loop_closure || !config.load_previous) return std::nullopt;
+  PreviousMap previous = LoadPreviousMap(config.MapFile());
+  Warn(previous.warning);
+  return std::move(previous.map);
 }
 
 void ShowTracks(double interval, const ResultFiles* results, OdometryPipeline* pipeline) {

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -179,6 +181,14 @@ KeyframeMap LoadMap(const std::string& file) {
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(file + ": " + error.what());
   }
+}
+
+PreviousMap LoadPreviousMap(const std::string& file) {
+  std::error_code error;  // a folder that is closed to us has no map for us
+  if (std::filesystem::exists(file, error)) return {LoadMap(file), ""};
+  return {{},
+          "load_previous_pose_graph: there is no map " + file +
+              "; starting an empty one (pose_graph_save_path is its folder)"};
 }
 
 }  // namespace plm_vins

@@ -18,4 +18,13 @@ void SaveMap(const KeyframeMap& map, ReplacedFile* file);
 // file, it is none of a map, of another version, or damaged.
 KeyframeMap LoadMap(const std::string& file);
 
+struct PreviousMap {
+  KeyframeMap map;
+  std::string warning;  // why it is empty; empty: it is not
+};
+
+// The map that load_previous_pose_graph asks for: an empty one where there is no such file, as in
+// configurations of VINS-Mono and PL-VINS, whose folder is on another machine. Else as LoadMap().
+PreviousMap LoadPreviousMap(const std::string& file);
+
 }  // namespace plm_vins

@@ -25,6 +25,12 @@ std::string MapFile(PoseGraphConfig config, const ros::NodeHandle& private_node)
   return private_node.param("map_file", config.MapFile());
 }
 
+KeyframeMap MapToStartIn(const std::string& file) {
+  PreviousMap previous = LoadPreviousMap(file);
+  if (!previous.warning.empty()) ROS_WARN("%s", previous.warning.c_str());
+  return std::move(previous.map);
+}
+
 }  // namespace
 
 PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
@@ -42,7 +48,7 @@ PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
           private_node_.advertise<visualization_msgs::MarkerArray>("graph", 10, /*latch=*/true)),
       match_publisher_(private_node_.advertise<sensor_msgs::Image>("match_image", 10)),
       diagnostics_(node, private_node, private_node.getNamespace()) {
-  StartWith(config.pose_graph.load_previous ? LoadMap(map_file_) : KeyframeMap());
+  StartWith(config.pose_graph.load_previous ? MapToStartIn(map_file_) : KeyframeMap());
   diagnostics_.setHardwareID("none");
   diagnostics_.add("map", this, &PoseGraphNode::ReportStatus);
   Subscribe();

@@ -80,6 +80,17 @@ class RunOffline(unittest.TestCase):
         self.assert_refuses("cannot write", "--save-features", self.folder / "missing" / "x")
         self.assertEqual((results / "trajectory.tum").read_text(encoding="utf-8"), "of before")
 
+    def test_a_previous_map_that_is_not_there(self):
+        folder = self.folder / "of" / "another" / "machine"
+        options = ["--set", "loop_closure=1", "--set", "load_previous_pose_graph=1",
+                   "--set", f"pose_graph_save_path={folder}"]
+        self.assert_refuses(f"warning: load_previous_pose_graph: there is no map {folder}",
+                            *options)
+        self.assert_refuses("none was usable", *options)
+        folder.mkdir(parents=True)
+        (folder / "pose_graph.plm").write_text("damaged", encoding="utf-8")
+        self.assert_refuses("is no map of plm_vins", *options)
+
     def test_files_that_nothing_is_written_to_where_the_output_cannot_be(self):
         features = self.folder / "good.features"
         features.write_text("kept", encoding="utf-8")

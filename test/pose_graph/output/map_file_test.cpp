@@ -64,6 +64,19 @@ TEST_F(MapFileTest, ComesBackAsItWas) {
   EXPECT_EQ(folder_.Read("map.plm"), first);
 }
 
+TEST_F(MapFileTest, OfAPreviousRunIsEmptyWhereThereIsNoneAndSaysSo) {
+  const PreviousMap none = LoadPreviousMap(folder_.File("no/such/folder/map.plm"));
+  EXPECT_TRUE(none.map.keyframes.empty());
+  EXPECT_THAT(none.warning, HasSubstr("load_previous_pose_graph: there is no map " +
+                                      folder_.File("no/such/folder/map.plm")));
+  SaveMap(file_, map_);
+  const PreviousMap previous = LoadPreviousMap(file_);
+  EXPECT_EQ(previous.map.keyframes.size(), 3u);
+  EXPECT_EQ(previous.warning, "");
+  Write("damaged");
+  EXPECT_THROW(LoadPreviousMap(file_), std::runtime_error);
+}
+
 TEST_F(MapFileTest, TakesAboutFifteenKilobytesForAKeyframe) {
   map_.keyframes[0].corners.resize(300);
   SaveMap(file_, map_);

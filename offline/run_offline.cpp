@@ -89,8 +89,7 @@ void Declare(Arguments* arguments, CLI::App* app) {
                   "start in this map (--map-out of another run); switches loop_closure on");
   app->add_option("--map-out", arguments->map_out,
                   "save the map to this file in the end; switches loop_closure on");
-  app->add_option("--set", arguments->overrides, "replace a value of the configuration: key=value")
-      ->allow_extra_args(false)
+  app->add_option("--set", arguments->overrides, "replace values of the configuration: key=value")
       ->check(CheckOverride);
   app->add_option("--threads", arguments->threads,
                   "1: all in turn, 2: trackers beside the estimator, 3: and beside each other, 4: "

@@ -49,6 +49,13 @@ class RunOffline(unittest.TestCase):
         self.assert_refuses("nothing.yaml", config=self.folder / "nothing.yaml")
         self.assert_refuses("frequ: unknown key; did you mean freq?", "--set", "frequ=3")
 
+    def test_several_values_set_at_once(self):
+        for options in [["--set", "freq=5", "max_cnt=0"],
+                        ["--set", "freq=5", "--set", "max_cnt=0"],
+                        ["--set", "freq=5", "max_cnt=0", "--start", "0"]]:
+            self.assert_refuses("max_cnt", *options)
+        self.assert_refuses("expected key=value instead of max_cnt", "--set", "freq=5", "max_cnt")
+
     def test_keys_without_effect(self):
         config = self.folder / "vins.yaml"
         config.write_text(CONFIG.read_text(encoding="utf-8") + "\nmin_loop_num: 1\nvoc_file: x\n",

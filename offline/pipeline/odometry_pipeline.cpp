@@ -59,7 +59,7 @@ void OdometryPipeline::Run(FeatureFileReader* features, RecordingInterval interv
     if (part == RecordingInterval::Part::kSkip) continue;
     if (item->frame) {
       if (!use_lines_) item->frame->lines.reset();
-      if (!first_image_ns_) first_image_ns_ = item->t_ns();
+      first_image_.Add(item->t_ns());
       ++images_;
     }
     Consume(std::move(*item), on_frame);
@@ -99,7 +99,7 @@ bool OdometryPipeline::Feed(LoadedEvent loaded, const TrackedReceiver& emit) {
     trackers_.AddImu(event.imu);
     if (!emit({event.imu, nullptr})) return false;
   } else if (loaded.image) {
-    if (!first_image_ns_) first_image_ns_ = event.t_ns;
+    first_image_.Add(event.t_ns);
     trackers_.AddImage({event.t_ns, std::move(*loaded.image)});
   }
   while (auto frame = trackers_.Pop()) {

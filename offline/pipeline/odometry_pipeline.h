@@ -13,6 +13,7 @@
 #include "offline/pipeline/feature_file.h"
 #include "offline/pipeline/feature_trackers.h"
 #include "offline/pipeline/run_ahead.h"
+#include "offline/recordings/confirmed_stamp.h"
 #include "offline/recordings/recording.h"
 #include "offline/recordings/recording_interval.h"
 #include "vins_estimator/estimation_stage.h"
@@ -64,7 +65,7 @@ class OdometryPipeline {
   int64_t images() const { return images_; }
   // Images that should have come to the estimator and did not.
   int64_t unused_images() const { return images() - thinned_images_ - estimated_images_; }
-  std::optional<int64_t> first_image_ns() const { return first_image_ns_; }
+  std::optional<int64_t> first_image_ns() const { return first_image_.t_ns(); }
   DropCounts drops() const;
   // The last EstimationStage::ImuContradiction() that was not empty.
   const std::string& imu_contradiction() const { return imu_contradiction_; }
@@ -95,7 +96,7 @@ class OdometryPipeline {
   const bool use_lines_;
   FeatureTrackers trackers_;
   EstimationStage back_end_;
-  std::optional<int64_t> first_image_ns_;
+  ConfirmedStamp first_image_;
   std::string imu_contradiction_;
   int64_t images_ = 0;
   int64_t tracked_images_ = 0;

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <limits>
-#include <optional>
 
 #include "common/measurements.h"
+#include "offline/recordings/confirmed_stamp.h"
 #include "offline/recordings/recording.h"
 
 namespace plm_vins {
@@ -24,10 +24,10 @@ class RecordingInterval {
   // from here on.
   Part Locate(const RecordingEvent& event) {
     const bool is_image = event.kind == RecordingEvent::Kind::kImage;
-    if (is_image && !first_image_ns_) first_image_ns_ = event.t_ns;
-    if (!first_image_ns_) return start_ > 0 ? Part::kSkip : Part::kUse;
+    if (is_image) first_image_.Add(event.t_ns);
+    if (!first_image_.Admits(event.t_ns)) return start_ > 0 ? Part::kSkip : Part::kUse;
     const double margin = is_image ? 0 : kImuMargin;
-    const double t = ToSeconds(event.t_ns - *first_image_ns_) - start_;
+    const double t = ToSeconds(event.t_ns - *first_image_.t_ns()) - start_;
     if (is_image) {
       const bool beyond = t > duration_ + kImuMargin;
       if (beyond && beyond_) return Part::kEnd;
@@ -43,7 +43,7 @@ class RecordingInterval {
 
   double start_;
   double duration_;
-  std::optional<int64_t> first_image_ns_;
+  ConfirmedStamp first_image_;
   bool beyond_ = false;  // the end, the last image; one alone may have a wrong stamp
   bool begun_ = false;   // from here on, stamps may jump back: that is for the next stages to judge
 };

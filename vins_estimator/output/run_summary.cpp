@@ -7,6 +7,14 @@
 namespace plm_vins {
 namespace {
 
+constexpr int64_t kLongestPause_ns = 60'000'000'000;
+
+// What passed between two frames: nothing where the clock was set back or far on.
+int64_t Elapsed(int64_t from_ns, int64_t to_ns) {
+  const int64_t elapsed = to_ns - from_ns;
+  return elapsed > 0 && elapsed <= kLongestPause_ns ? elapsed : 0;
+}
+
 double Ratio(double numerator, double denominator) {
   return denominator > 0 ? numerator / denominator : 0.0;
 }
@@ -56,7 +64,7 @@ void RunSummary::Add(const EstimatorOutput& output, const FrameTimings& timings,
   ++frames_;
   timings_.push_back(timings);
   counts_.push_back(counts);
-  if (!first_frame_ns_) first_frame_ns_ = output.t_ns;
+  if (last_frame_ns_) duration_ns_ += Elapsed(*last_frame_ns_, output.t_ns);
   last_frame_ns_ = output.t_ns;
   if (!output.reason.empty()) last_reason_ = output.reason;
   if (output.restarted) {
@@ -85,7 +93,7 @@ void RunSummary::AddPose(const EstimatorOutput& output) {
 }
 
 Json RunSummary::ToJson(const Run& run) const {
-  const double duration = first_frame_ns_ ? ToSeconds(last_frame_ns_ - *first_frame_ns_) : 0.0;
+  const double duration = ToSeconds(duration_ns_);
   Json json;
   json["input"] = run.input;
   json["images"] = run.images;

@@ -56,9 +56,9 @@ class RunSummary {
   double path_length_ = 0;       // [m]
   std::optional<Eigen::Vector3d> last_position_;
   Calibration calibration_;  // as of the last pose
-  std::optional<int64_t> first_frame_ns_;
   std::optional<int64_t> first_pose_ns_;
-  int64_t last_frame_ns_ = 0;
+  std::optional<int64_t> last_frame_ns_;
+  int64_t duration_ns_ = 0;
   std::string last_reason_;
   std::vector<FrameTimings> timings_;
   std::vector<FrameCounts> counts_;

@@ -241,6 +241,23 @@ TEST(OdometryPipeline, GoesOnPastStampsInTheFuture) {
   EXPECT_EQ(result.drops.at("image_restarts"), 0);
 }
 
+TEST(OdometryPipeline, BeginsWhereAFirstImageOfAWrongStampHasBeen) {
+  for (const int64_t wrong_ns : {int64_t{0}, kStart + 1'000'000'000'000'000}) {
+    MemoryRecording recording = StillRecording(3000);
+    for (RecordingEvent& event : recording.events()) {
+      if (event.kind != RecordingEvent::Kind::kImage) continue;
+      event.t_ns = wrong_ns;
+      break;
+    }
+    OdometryPipeline pipeline(StillConfig());
+    int poses = 0;
+    pipeline.Run(&recording, RecordingInterval(0, 2), 1,
+                 [&](const PipelineFrame& frame) { poses += frame.output.has_pose ? 1 : 0; });
+    EXPECT_EQ(pipeline.first_image_ns(), kStart + 60 * kMillisecond);
+    EXPECT_GT(poses, 10);
+  }
+}
+
 TEST(OdometryPipeline, CountsTheImagesThatItDidNotUse) {
   Config config = StillConfig();
   config.publish_rate = 10;  // what is left out for that is no loss

@@ -54,6 +54,7 @@ TEST(RecordingInterval, UsesWhatJumpsBackInTime) {
 TEST(RecordingInterval, AnImuSampleFromTheFutureDoesNotEndIt) {
   RecordingInterval interval(0, 3);
   interval.Locate(Image(0));
+  interval.Locate(Image(0.05));
   EXPECT_EQ(interval.Locate(Imu(1000)), Part::kSkip);
   EXPECT_EQ(interval.Locate(Imu(0.1)), Part::kUse);
 }
@@ -61,9 +62,29 @@ TEST(RecordingInterval, AnImuSampleFromTheFutureDoesNotEndIt) {
 TEST(RecordingInterval, AnImageFromTheFutureDoesNotEndIt) {
   RecordingInterval interval(0, 3);
   interval.Locate(Image(0));
+  interval.Locate(Image(0.05));
   for (const double t : {0.1, 0.2}) {
     EXPECT_EQ(interval.Locate(Image(1000)), Part::kSkip);
     EXPECT_EQ(interval.Locate(Image(t)), Part::kUse);
+  }
+}
+
+TEST(RecordingInterval, CountsFromAnImageThatTheNextOneConfirms) {
+  for (const double wrong : {-1e9, 1e6}) {
+    RecordingInterval all(0, 3);
+    EXPECT_EQ(all.Locate(Image(wrong)), Part::kUse);
+    for (const double t : {0.0, 0.05, 3.0}) {
+      EXPECT_EQ(all.Locate(Imu(t)), Part::kUse);
+      EXPECT_EQ(all.Locate(Image(t)), Part::kUse);
+    }
+    EXPECT_EQ(all.Locate(Image(3.1)), Part::kSkip);
+
+    RecordingInterval later(2, 3);
+    for (const double t : {wrong, 0.0, 0.05, 1.5}) {
+      EXPECT_EQ(later.Locate(Image(t)), Part::kSkip);
+      EXPECT_EQ(later.Locate(Imu(0.01)), Part::kSkip);
+    }
+    EXPECT_EQ(later.Locate(Image(2)), Part::kUse);
   }
 }
 

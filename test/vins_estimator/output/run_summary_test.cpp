@@ -65,6 +65,18 @@ TEST(RunSummary, AddsUpARun) {
   EXPECT_EQ(json["dropped"]["imu_gaps"], 0);
 }
 
+TEST(RunSummary, AClockThatIsSetAnewTakesNoTime) {
+  RunSummary summary;
+  for (const int frame : {0, 1, 2, -2000, -1999, 1'000'000, 1'000'002}) {
+    summary.Add(Pose(frame, 0.0), {}, {});
+  }
+  RunSummary::Run run;
+  run.wall_time = 0.5;
+  const auto json = summary.ToJson(run);
+  EXPECT_NEAR(json["duration_s"].get<double>(), 5 * 0.05, 1e-9);
+  EXPECT_NEAR(json["real_time_factor"].get<double>(), 0.5, 1e-9);
+}
+
 TEST(RunSummary, TheJumpToANewWorldFrameIsNoWay) {
   RunSummary summary;
   summary.Add(Pose(0, 0.0), {}, {});

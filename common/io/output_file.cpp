@@ -45,8 +45,17 @@ OutputFile::OutputFile(const std::string& path, const std::string& name)
   if (!stream_) Fail(name_, std::generic_category().message(errno));
 }
 
+std::ostream& OutputFile::stream() {
+  Check();
+  return stream_;
+}
+
 void OutputFile::Close() {
   stream_.close();
+  Check();
+}
+
+void OutputFile::Check() const {
   if (!stream_) Fail(name_, "disk full?");
 }
 

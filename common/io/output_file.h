@@ -8,19 +8,21 @@
 namespace plm_vins {
 
 // A file being written. What cannot be written throws std::runtime_error that names the file: where
-// it cannot be opened at once, on a full disk in Close() at the latest.
+// it cannot be opened at once, on a full disk at a later stream(), and in Close() at the latest.
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path) : OutputFile(path, path) {}
   // Errors call it `name`.
   OutputFile(const std::string& path, const std::string& name);
 
-  std::ostream& stream() { return stream_; }
+  std::ostream& stream();
 
   // Everything is on its way to the disk afterwards.
   void Close();
 
  private:
+  void Check() const;
+
   std::string name_;
   std::ofstream stream_;
 };

@@ -33,6 +33,14 @@ TEST(OutputFile, NoticesAFullDiskWhenItIsClosed) {
   EXPECT_THAT(MessageOf([&] { file.Close(); }), HasSubstr("/dev/full"));
 }
 
+TEST(OutputFile, NoticesAFullDiskWhileItIsWritten) {
+  OutputFile file(kFullDisk);
+  const auto write = [&] {
+    for (int i = 0; i < 100; ++i) file.stream() << std::string(1000, 'x');
+  };
+  EXPECT_THAT(MessageOf(write), HasSubstr("cannot write /dev/full: disk full?"));
+}
+
 TEST(ReplacedFile, IsTheOldOneUntilItIsCommitted) {
   const TemporaryFolder folder;
   folder.Write("map", "old");

@@ -135,11 +135,19 @@ std::string UnusedWarning(int64_t unused, int64_t images) {
   return std::to_string(unused) + " of " + std::to_string(images) + " images were not used";
 }
 
+// The warning where a file of poses begins behind a jump; empty where none does.
+std::string ForgottenWarning(const PoseFiles& poses) {
+  if (poses.forgotten() == 0) return "";
+  return "stamps jumped back: trajectory.tum and covariance.csv are without the " +
+         std::to_string(poses.forgotten()) + " poses of before";
+}
+
 // Says how it went. Exit code: 0 where there is a trajectory.
 int Report(const RunSummary::Run& run, int64_t unused_images, const ResultFiles& results) {
   const RunSummary& summary = results.summary();
   Warn(run.drops);
   Warn(UnusedWarning(unused_images, run.images));
+  Warn(ForgottenWarning(results.poses()));
   if (summary.poses() == 0) {
     std::fprintf(stderr, "run_offline: no trajectory from %" PRId64 " images: %s\n", run.images,
                  WhyNone(run, summary).c_str());

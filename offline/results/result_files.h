@@ -11,6 +11,7 @@
 #include "common/config/config.h"
 #include "common/io/output_file.h"
 #include "offline/pipeline/odometry_pipeline.h"
+#include "offline/results/pose_files.h"
 #include "vins_estimator/output/ply_writer.h"
 #include "vins_estimator/output/run_summary.h"
 
@@ -41,6 +42,7 @@ class ResultFiles {
 
   const std::string& folder() const { return folder_; }
   const RunSummary& summary() const { return summary_; }
+  const PoseFiles& poses() const { return poses_; }
 
  private:
   std::string File(const std::string& name) const;
@@ -53,8 +55,7 @@ class ResultFiles {
   void WriteSummary(const RunSummary::Run& run, const Config& config, const Json& loops) const;
 
   std::string folder_;
-  OutputFile trajectory_;
-  OutputFile covariance_;
+  PoseFiles poses_;
   OutputFile timing_;
   PlyPointWriter map_;
   std::vector<Segment> lines_;

@@ -116,10 +116,8 @@ void Warn(const std::string& text) {
   if (!text.empty()) std::fprintf(stderr, "warning: %s\n", text.c_str());
 }
 
-void Warn(const DropCounts& drops) {
-  for (const DropCount& drop : drops) {
-    if (drop.count > 0) Warn(ToString(drop));
-  }
+void Warn(const DropCount& drop) {
+  if (drop.count > 0) Warn(ToString(drop));
 }
 
 std::string WhyNone(const RunSummary::Run& run, const RunSummary& summary) {
@@ -145,7 +143,8 @@ std::string ForgottenWarning(const PoseFiles& poses) {
 // Says how it went. Exit code: 0 where there is a trajectory.
 int Report(const RunSummary::Run& run, int64_t unused_images, const ResultFiles& results) {
   const RunSummary& summary = results.summary();
-  Warn(run.drops);
+  for (const DropCount& drop : run.drops) Warn(drop);
+  Warn(results.unwritten_pictures());
   Warn(UnusedWarning(unused_images, run.images));
   Warn(ForgottenWarning(results.poses()));
   if (summary.poses() == 0) {
@@ -225,7 +224,7 @@ std::optional<KeyframeMap> MapToStartIn(const Arguments& arguments, const PoseGr
   return std::move(previous.map);
 }
 
-void ShowTracks(double interval, const ResultFiles* results, OdometryPipeline* pipeline) {
+void ShowTracks(double interval, ResultFiles* results, OdometryPipeline* pipeline) {
   if (interval <= 0) return;
   pipeline->ShowTracks(interval,
                        [results](int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) {

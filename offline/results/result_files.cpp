@@ -6,7 +6,7 @@
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "offline/results/pipeline_timings.h"
@@ -91,6 +91,14 @@ std::string ToText(const Json& json) {
   return json.dump(2, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
 }
 
+bool WritePicture(const std::string& file, const cv::Mat& image, const std::vector<int>& format) {
+  try {
+    return cv::imwrite(file, image, format);
+  } catch (const cv::Exception&) {
+    return false;
+  }
+}
+
 std::string Prepared(const std::string& folder, const std::string& config_file) {
   MakeResultFolder(folder);
   RemoveEarlierResults(folder, config_file);
@@ -150,18 +158,19 @@ void ResultFiles::EndWorld() {
 }
 
 void ResultFiles::WriteAnnotatedImage(const std::string& name, const cv::Mat& image,
-                                      const std::vector<int>& format) const {
-  if (!image.empty() && !cv::imwrite(File(name), image, format)) {
-    throw std::runtime_error("cannot write " + File(name));
+                                      const std::vector<int>& format) {
+  if (!image.empty() && !WritePicture(File(name), image, format)) {
+    unwritten_pictures_.Add(File(name));
   }
 }
 
-void ResultFiles::WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) const {
+void ResultFiles::WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) {
   if (points.empty()) return;
   cv::Mat image = points;
   if (!lines.empty()) cv::hconcat(points, lines, image);
   cv::resize(image, image, {}, 0.5, 0.5, cv::INTER_AREA);
-  fs::create_directories(File(kTrackImages));
+  std::error_code error;  // shows where the picture cannot be written
+  fs::create_directories(File(kTrackImages), error);
   WriteAnnotatedImage(fs::path(kTrackImages) / (std::to_string(t_ns) + ".jpg"), image,
                       {cv::IMWRITE_JPEG_QUALITY, kTrackImageQuality});
 }

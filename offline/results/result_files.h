@@ -10,6 +10,7 @@
 
 #include "common/config/config.h"
 #include "common/io/output_file.h"
+#include "common/streams/drop_counts.h"
 #include "offline/pipeline/odometry_pipeline.h"
 #include "offline/results/pose_files.h"
 #include "vins_estimator/output/ply_writer.h"
@@ -29,12 +30,12 @@ class ResultFiles {
 
   void Add(const PipelineFrame& frame);
 
-  // Nothing where the image is empty.
+  // Nothing where the image is empty. A picture that cannot be written is counted, and no error.
   void WriteAnnotatedImage(const std::string& name, const cv::Mat& image,
-                           const std::vector<int>& format = {}) const;
+                           const std::vector<int>& format = {});
 
   // tracks/STAMP_NS.jpg: points and lines side by side, in half the size.
-  void WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines) const;
+  void WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines);
 
   // Completes all files; the counts of the map in `run` are filled in here. `loops` goes into
   // summary.json as it is; null: no loops were looked for.
@@ -43,6 +44,7 @@ class ResultFiles {
   const std::string& folder() const { return folder_; }
   const RunSummary& summary() const { return summary_; }
   const PoseFiles& poses() const { return poses_; }
+  const DropCount& unwritten_pictures() const { return unwritten_pictures_; }
 
  private:
   std::string File(const std::string& name) const;
@@ -63,6 +65,7 @@ class ResultFiles {
   std::vector<MapPoint> window_points_;  // of the newest frame with a pose: not in the map yet
   std::vector<MapLine> window_lines_;
   RunSummary summary_;
+  DropCount unwritten_pictures_{"pictures_not_written", 0, ""};
 };
 
 }  // namespace plm_vins

@@ -53,7 +53,7 @@ TEST(ResultFiles, ATrackImageHasPointsAndLinesSideBySide) {
   const cv::Mat blue(40, 60, CV_8UC3, cv::Scalar(255, 0, 0));
   const cv::Mat red(40, 60, CV_8UC3, cv::Scalar(0, 0, 255));
   {
-    const ResultFiles results(folder.File("run"));
+    ResultFiles results(folder.File("run"));
     results.WriteTrackImage(7, blue, red);
     results.WriteTrackImage(8, blue, {});
     results.WriteTrackImage(9, {}, {});
@@ -241,11 +241,25 @@ TEST(ResultFiles, LeaveTheLinesOfAFormerWorldFrameAsTheyWere) {
 
 TEST(ResultFiles, HoldAnAnnotatedImageWhereThereIsOne) {
   const testing::TemporaryFolder folder;
-  const ResultFiles results(folder.File("results"));
+  ResultFiles results(folder.File("results"));
   results.WriteAnnotatedImage("tracks.png", cv::Mat());
   EXPECT_TRUE(cv::imread(folder.File("results/tracks.png")).empty());
   results.WriteAnnotatedImage("tracks.png", cv::Mat(20, 30, CV_8UC3, cv::Scalar(0, 0, 255)));
   EXPECT_EQ(cv::imread(folder.File("results/tracks.png")).size(), cv::Size(30, 20));
+}
+
+TEST(ResultFiles, AreCompleteWithoutAPictureThatCannotBeWritten) {
+  const testing::TemporaryFolder folder;
+  ResultFiles results(folder.path());
+  folder.Write("tracks.png/in", "a folder of that name");
+  folder.Write("tracks", "a file of that name");
+  const cv::Mat picture(20, 30, CV_8UC3, cv::Scalar(0, 0, 255));
+  results.WriteAnnotatedImage("tracks.png", picture);
+  results.WriteTrackImage(7, picture, {});
+  results.Finish(RunSummary::Run(), Config(), Json());
+  EXPECT_EQ(results.unwritten_pictures().count, 2);
+  EXPECT_EQ(results.unwritten_pictures().detail, folder.File("tracks.png"));
+  EXPECT_TRUE(fs::exists(folder.File("summary.json")));
 }
 
 TEST(ResultFiles, NameAFolderThatCannotBeMade) {

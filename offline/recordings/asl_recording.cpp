@@ -7,8 +7,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "offline/recordings/csv_reader.h"
-#include "offline/recordings/ordered_rows.h"
+#include "offline/recordings/sorted_rows.h"
 
 namespace plm_vins {
 namespace {
@@ -49,34 +48,37 @@ fs::path SensorRoot(const std::string& folder) {
   return fs::is_directory(nested) ? nested : fs::path(folder);
 }
 
+struct ImageRow {
+  int64_t t_ns = 0;
+  std::string file;
+};
+
+std::optional<ImageRow> ToImageRow(const CsvRow& row) { return ImageRow{row.t_ns, row.values[0]}; }
+
+const SortedRows<ImageRow>::Format kImageFormat = {"image", "image", "stamp [ns],file name", 1,
+                                                   ToImageRow};
+const SortedRows<ImuSample>::Format kImuFormat = {
+    "imu", "IMU sample", "stamp [ns],gyro x,y,z [rad/s],accelerometer x,y,z [m/s^2]", 6,
+    ToImuSample};
+
 // The two csv files merged by stamp; an IMU sample comes before an image of the same time.
 class AslRecording : public Recording {
  public:
   explicit AslRecording(const std::string& folder)
       : name_(folder),
         image_folder_(SensorRoot(folder) / "cam0" / "data"),
-        image_rows_(Require(SensorRoot(folder) / "cam0" / "data.csv"), 1),
-        imu_rows_(Require(SensorRoot(folder) / "imu0" / "data.csv"), 6),
-        end_ns_(LastStamp(SensorRoot(folder) / "cam0" / "data.csv")) {
-    next_image_ = ordered_images_.Next();
-    next_imu_ = ordered_imu_.Next();
-    if (!next_image_) throw std::runtime_error("no image listed in " + folder + " (cam0/data.csv)");
-    if (!next_imu_) throw std::runtime_error("no IMU sample in " + folder + " (imu0/data.csv)");
-  }
+        images_(Require(SensorRoot(folder) / "cam0" / "data.csv"), kImageFormat),
+        imu_(Require(SensorRoot(folder) / "imu0" / "data.csv"), kImuFormat) {}
 
   std::optional<RecordingEvent> Next() override {
-    RecordingEvent event;
-    if (next_imu_ && (!next_image_ || next_imu_->t_ns <= next_image_->t_ns)) {
-      event = {RecordingEvent::Kind::kImu, next_imu_->t_ns, *next_imu_};
-      next_imu_ = ordered_imu_.Next();
-    } else if (next_image_) {
-      event = {RecordingEvent::Kind::kImage, next_image_->t_ns, {}};
-      current_image_ = image_folder_ / next_image_->values[0];
-      next_image_ = ordered_images_.Next();
-    } else {
-      return std::nullopt;
+    const ImageRow* image = images_.next();
+    const ImuSample* sample = imu_.next();
+    if (sample != nullptr && (image == nullptr || sample->t_ns <= image->t_ns)) {
+      return RecordingEvent{RecordingEvent::Kind::kImu, sample->t_ns, imu_.Take()};
     }
-    return event;
+    if (image == nullptr) return std::nullopt;
+    current_image_ = image_folder_ / images_.Take().file;
+    return RecordingEvent{RecordingEvent::Kind::kImage, image->t_ns, {}};
   }
 
   std::optional<cv::Mat> LoadImage() override {
@@ -87,42 +89,20 @@ class AslRecording : public Recording {
   }
 
   std::string name() const override { return name_; }
-  std::optional<int64_t> end_ns() const override { return end_ns_; }
+  std::optional<int64_t> end_ns() const override { return images_.end_ns(); }
 
   DropCounts problems() const override {
-    return {unreadable_images_,
-            {"image_csv_lines_bad", image_rows_.bad_lines(), image_rows_.first_bad_line()},
-            {"imu_csv_lines_bad", imu_rows_.bad_lines(), imu_rows_.first_bad_line()},
-            {"image_stamps_ahead_of_time", ordered_images_.dropped(), ""},
-            {"imu_stamps_ahead_of_time", ordered_imu_.dropped(), ""}};
+    DropCounts counts = {unreadable_images_};
+    Append(images_.problems(), &counts);
+    Append(imu_.problems(), &counts);
+    return counts;
   }
 
  private:
-  static std::optional<int64_t> LastStamp(const fs::path& file) {
-    CsvReader reader(file.string(), 1);
-    OrderedRows<CsvRow> rows([&reader] { return reader.Next(); });
-    std::optional<int64_t> last;
-    while (const auto row = rows.Next()) last = row->t_ns;
-    return last;
-  }
-
-  std::optional<ImuSample> NextImu() {
-    while (const auto row = imu_rows_.Next()) {
-      if (auto sample = ToImuSample(*row)) return sample;
-      imu_rows_.Reject();
-    }
-    return std::nullopt;
-  }
-
   std::string name_;
   fs::path image_folder_;
-  CsvReader image_rows_;
-  CsvReader imu_rows_;
-  OrderedRows<CsvRow> ordered_images_{[this] { return image_rows_.Next(); }};
-  OrderedRows<ImuSample> ordered_imu_{[this] { return NextImu(); }};
-  std::optional<int64_t> end_ns_;
-  std::optional<CsvRow> next_image_;
-  std::optional<ImuSample> next_imu_;
+  SortedRows<ImageRow> images_;
+  SortedRows<ImuSample> imu_;
   fs::path current_image_;
   DropCount unreadable_images_{"images_unreadable", 0, ""};
 };

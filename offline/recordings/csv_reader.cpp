@@ -11,6 +11,7 @@ namespace plm_vins {
 namespace {
 
 constexpr char kBlanks[] = " \t\r";
+constexpr char kByteOrderMark[] = "\xef\xbb\xbf";
 
 std::string Trim(const std::string& text) {
   const size_t begin = text.find_first_not_of(kBlanks);
@@ -28,7 +29,8 @@ CsvReader::CsvReader(const std::string& file, size_t values_per_row)
 std::optional<CsvRow> CsvReader::Next() {
   std::string line;
   while (std::getline(stream_, line)) {
-    ++line_number_;
+    const bool is_first = ++line_number_ == 1;
+    if (is_first && line.rfind(kByteOrderMark, 0) == 0) line.erase(0, sizeof(kByteOrderMark) - 1);
     line = Trim(line);
     if (line.empty() || line.front() == '#') continue;
     if (auto row = Parse(line)) return row;
@@ -38,7 +40,7 @@ std::optional<CsvRow> CsvReader::Next() {
 }
 
 void CsvReader::Reject() {
-  if (bad_lines_++ == 0) first_bad_line_ = file_ + ":" + std::to_string(line_number_);
+  if (bad_lines_++ == 0) first_bad_line_ = Place();
 }
 
 std::optional<CsvRow> CsvReader::Parse(const std::string& line) const {

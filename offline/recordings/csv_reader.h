@@ -15,8 +15,9 @@ struct CsvRow {
   std::vector<std::string> values;
 };
 
-// Reads "stamp,value,..." lines one by one. Comments (#) and empty lines are passed over; a line
-// that is not of this form, or whose stamp is no IsStamp(), is counted and passed over.
+// Reads "stamp,value,..." lines one by one. Comments (#), empty lines and a byte order mark are
+// passed over; a line that is not of this form, or whose stamp is no IsStamp(), is counted and
+// passed over.
 class CsvReader {
  public:
   // Throws std::runtime_error that names the file where it cannot be opened.
@@ -27,8 +28,11 @@ class CsvReader {
   // Counts the line that Next() gave last among the bad ones: its values are of no use.
   void Reject();
 
+  // Where the line is that Next() gave last: "FILE:LINE".
+  std::string Place() const { return file_ + ":" + std::to_string(line_number_); }
+
   int64_t bad_lines() const { return bad_lines_; }
-  const std::string& first_bad_line() const { return first_bad_line_; }  // "FILE:LINE"
+  const std::string& first_bad_line() const { return first_bad_line_; }  // its place
 
  private:
   std::optional<CsvRow> Parse(const std::string& line) const;

@@ -54,24 +54,29 @@ TEST_F(AslRecording, MergesByTimeWithTheImuFirst) {
 }
 
 // Merged by time, each would hold up all that follows.
-TEST_F(AslRecording, DropsStampsAloneInTheFuture) {
+TEST_F(AslRecording, GivesStampsInTheFutureLast) {
   const std::string hour = "3600000000000";
   folder_.Write("mav0/cam0/data.csv", "10,a.png\n" + hour + ",b.png\n20,b.png\n30,c.png\n");
-  folder_.Write("mav0/imu0/data.csv",
-                hour + ",0,0,0,4,5,6\n10,0,0,0,4,5,6\n" + hour + ",0,0,0,7,8,9\n25,0,0,0,1,1,1\n");
+  folder_.Write("mav0/imu0/data.csv", hour + ",0,0,0,4,5,6\n10,0,0,0,4,5,6\n25,0,0,0,1,1,1\n");
   const auto recording = OpenAslFolder(folder_.path());
   EXPECT_EQ(recording->end_ns(), 30);
   const auto contents = ReadAll(recording.get());
-  EXPECT_THAT(contents.stamps, ElementsAre(10, 10, 20, 25, 30));
-  EXPECT_EQ(contents.order, "miimi");
-  EXPECT_EQ(contents.problems.at("image_stamps_ahead_of_time"), 1);
-  EXPECT_EQ(contents.problems.at("imu_stamps_ahead_of_time"), 2);
+  EXPECT_THAT(contents.stamps, ElementsAre(10, 10, 20, 25, 30, 3600000000000, 3600000000000));
+  EXPECT_EQ(contents.order, "miimimi");
 }
 
-TEST_F(AslRecording, KeepsWhatFollowsAGapAndWhatJumpsBack) {
-  folder_.Write("mav0/cam0/data.csv", "10,a.png\n5000000000,b.png\n5000000010,c.png\n5,a.png\n");
-  const auto contents = ReadAll(OpenAslFolder(folder_.path()).get());
-  EXPECT_EQ(contents.images.size(), 4u);
+TEST_F(AslRecording, PutsRowsInOrderAndSaysWhichWereNot) {
+  folder_.Write("mav0/cam0/data.csv", "20,b.png\n5000000010,c.png\n10,a.png\n5000000000,a.png\n");
+  folder_.Write("mav0/imu0/data.csv",
+                "25,0,0,0,3,0,0\n5,0,0,0,1,0,0\n5,0,0,0,2,0,0\n5000000005,0,0,0,4,0,0\n");
+  const auto recording = OpenAslFolder(folder_.path());
+  const auto contents = ReadAll(recording.get());
+  EXPECT_THAT(contents.stamps, ElementsAre(5, 5, 10, 20, 25, 5000000000, 5000000005, 5000000010));
+  EXPECT_EQ(contents.order, "mmiimimi");
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(contents.imu[i].accel.x(), i + 1);
+  EXPECT_EQ(contents.problems.at("image_csv_lines_not_in_order"), 1);
+  EXPECT_EQ(contents.problems.at("imu_csv_lines_not_in_order"), 1);
+  EXPECT_THAT(recording->problems()[2].detail, HasSubstr("cam0/data.csv:3"));
 }
 
 TEST_F(AslRecording, TakesTheInnerFolderToo) {
@@ -109,7 +114,7 @@ TEST_F(AslRecording, NamesTheLineOfTheFirstImuSampleThatIsNotNumeric) {
   folder_.Write("mav0/imu0/data.csv", "5,0,0,0,0,0,9\n7,0,0,zero,0,0,9\n8,0,0\n");
   const auto recording = OpenAslFolder(folder_.path());
   ReadAll(recording.get());
-  EXPECT_THAT(recording->problems()[2].detail, HasSubstr("imu0/data.csv:2"));
+  EXPECT_THAT(recording->problems()[3].detail, HasSubstr("imu0/data.csv:2"));
 }
 
 TEST_F(AslRecording, SaysWhichPartIsMissing) {
@@ -121,6 +126,12 @@ TEST_F(AslRecording, SaysWhichPartIsMissing) {
 TEST_F(AslRecording, RefusesAFolderWithoutImages) {
   folder_.Write("mav0/cam0/data.csv", "#timestamp [ns],filename\n");
   EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path()); }), HasSubstr("no image"));
+}
+
+TEST_F(AslRecording, NamesTheFirstLineOfAFileThatHasNoUsableOne) {
+  folder_.Write("mav0/imu0/data.csv", "#t,gyro,accel\n1.5,0,0,0,0,0,9\n1.6,0,0,0,0,0,9\n");
+  EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path()); }),
+              ::testing::AllOf(HasSubstr("\"stamp [ns],gyro"), HasSubstr("imu0/data.csv:2")));
 }
 
 TEST_F(AslRecording, RefusesAFolderWithoutImuSamples) {

@@ -32,6 +32,19 @@ TEST(CsvReader, PassesOverBadLinesAndSaysWhereTheFirstWas) {
   EXPECT_EQ(reader.first_bad_line(), folder.File("data.csv") + ":3");
 }
 
+TEST(CsvReader, PassesOverAByteOrderMark) {
+  const testing::TemporaryFolder folder;
+  folder.Write("data.csv",
+               "\xef\xbb\xbf"
+               "1,ok\n");
+  folder.Write("head.csv", "\xef\xbb\xbf#t,a\n1,ok\n");
+  for (const char* name : {"data.csv", "head.csv"}) {
+    CsvReader reader(folder.File(name), 1);
+    ASSERT_TRUE(reader.Next());
+    EXPECT_EQ(reader.bad_lines(), 0);
+  }
+}
+
 TEST(CsvReader, PassesOverStampsThatNoClockHas) {
   const testing::TemporaryFolder folder;
   folder.Write("data.csv",

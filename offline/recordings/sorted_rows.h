@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "common/streams/drop_counts.h"
+#include "offline/recordings/confirmed_stamp.h"
+#include "offline/recordings/csv_reader.h"
+
+namespace plm_vins {
+
+// The rows of an ASL csv file, each with its t_ns, one by one in order of time; those of equal
+// stamps in the order of the file. Tools list images in any order, and a row that is late, or far
+// in the future, would hold up all that follow where two files are merged.
+template <typename Row>
+class SortedRows {
+ public:
+  struct Format {
+    std::string key;    // of the sensor, for reports
+    std::string name;   // of what a line holds
+    std::string line;   // its form
+    size_t values = 0;  // in it, after the stamp
+    std::optional<Row> (*parse)(const CsvRow& row) = nullptr;
+  };
+
+  // Throws std::runtime_error where the file holds no such row.
+  SortedRows(const std::string& file, const Format& format)
+      : key_(format.key), reader_(file, format.values) {
+    while (const auto row = reader_.Next()) Add(format.parse(*row));
+    if (rows_.empty()) throw std::runtime_error(WhyEmpty(file, format));
+    const auto is_earlier = [](const Row& a, const Row& b) { return a.t_ns < b.t_ns; };
+    if (unsorted_.count > 0) std::stable_sort(rows_.begin(), rows_.end(), is_earlier);
+  }
+
+  // The row that Take() gives; null at the end.
+  const Row* next() const { return next_ < rows_.size() ? &rows_[next_] : nullptr; }
+  const Row& Take() { return rows_[next_++]; }
+
+  // The last stamp, unless it is a wrong one, alone in the future.
+  std::optional<int64_t> end_ns() const {
+    ConfirmedStamp end;
+    for (auto row = rows_.rbegin(); row != rows_.rend(); ++row) end.Add(row->t_ns);
+    return end.t_ns();
+  }
+
+  DropCounts problems() const {
+    return {{key_ + "_csv_lines_bad", reader_.bad_lines(), reader_.first_bad_line()}, unsorted_};
+  }
+
+ private:
+  void Add(const std::optional<Row>& row) {
+    if (!row) return reader_.Reject();
+    if (!rows_.empty() && row->t_ns < rows_.back().t_ns) unsorted_.Add(reader_.Place());
+    rows_.push_back(*row);
+  }
+
+  std::string WhyEmpty(const std::string& file, const Format& format) const {
+    const std::string text =
+        "no " + format.name + " in " + file + ": it has no line \"" + format.line + "\"";
+    return reader_.bad_lines() == 0 ? text : text + "; see " + reader_.first_bad_line();
+  }
+
+  std::string key_;
+  CsvReader reader_;
+  std::vector<Row> rows_;
+  size_t next_ = 0;
+  DropCount unsorted_{key_ + "_csv_lines_not_in_order", 0, ""};  // they are sorted, not dropped
+};
+
+}  // namespace plm_vins

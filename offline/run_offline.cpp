@@ -116,8 +116,23 @@ void Warn(const std::string& text) {
   if (!text.empty()) std::fprintf(stderr, "warning: %s\n", text.c_str());
 }
 
-void Warn(const DropCount& drop) {
-  if (drop.count > 0) Warn(ToString(drop));
+// What was run, as far as its source knows.
+struct Source {
+  std::string name;
+  std::string images, imu;  // where they come from
+  DropCounts problems;
+};
+
+// Where the input comes from that was dropped, as far as its cause says.
+std::string Origin(const DropCount& drop, const Source& source) {
+  const auto begins_with = [&](const char* word) { return drop.cause.rfind(word, 0) == 0; };
+  return begins_with("image") ? source.images : begins_with("imu") ? source.imu : "";
+}
+
+void Warn(const DropCount& drop, const Source& source) {
+  if (drop.count == 0) return;
+  const std::string origin = Origin(drop, source);
+  Warn(origin.empty() ? ToString(drop) : ToString(drop) + " from " + origin);
 }
 
 std::string WhyNone(const RunSummary::Run& run, const RunSummary& summary) {
@@ -141,10 +156,11 @@ std::string ForgottenWarning(const PoseFiles& poses) {
 }
 
 // Says how it went. Exit code: 0 where there is a trajectory.
-int Report(const RunSummary::Run& run, int64_t unused_images, const ResultFiles& results) {
+int Report(const RunSummary::Run& run, const Source& source, int64_t unused_images,
+           const ResultFiles& results) {
   const RunSummary& summary = results.summary();
-  for (const DropCount& drop : run.drops) Warn(drop);
-  Warn(results.unwritten_pictures());
+  for (const DropCount& drop : run.drops) Warn(drop, source);
+  Warn(results.unwritten_pictures(), source);
   Warn(UnusedWarning(unused_images, run.images));
   Warn(ForgottenWarning(results.poses()));
   if (summary.poses() == 0) {
@@ -158,12 +174,6 @@ int Report(const RunSummary::Run& run, int64_t unused_images, const ResultFiles&
 }
 
 using FrameCallback = OdometryPipeline::FrameCallback;
-
-// What was run, as far as its source knows.
-struct Source {
-  std::string name;
-  DropCounts problems;
-};
 
 RunSummary::Run Describe(const Source& source, const OdometryPipeline& pipeline) {
   RunSummary::Run run;
@@ -184,13 +194,15 @@ Source RunFromImages(const Arguments& arguments, Recording* recording,
                   progress.Update(frame.output.t_ns);
                 });
   progress.Finish();
-  return {recording->name(), recording->problems()};
+  using Kind = RecordingEvent::Kind;
+  return {recording->name(), recording->Source(Kind::kImage), recording->Source(Kind::kImu),
+          recording->problems()};
 }
 
 Source RunFromFeatures(const Arguments& arguments, FeatureFileReader* features,
                        const FrameCallback& on_frame, OdometryPipeline* pipeline) {
   pipeline->Run(features, RecordingInterval(arguments.start, arguments.duration), on_frame);
-  return {arguments.features, {}};
+  return {arguments.features, "", "", {}};
 }
 
 // What is read while it is written would be lost.
@@ -274,7 +286,7 @@ int Run(const Arguments& arguments) {
   results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
   results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());
   results.Finish(run, config, loops ? loops->Summary() : Json());
-  return Report(run, pipeline.unused_images(), results);
+  return Report(run, source, pipeline.unused_images(), results);
 }
 
 }  // namespace

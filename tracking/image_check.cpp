@@ -15,7 +15,7 @@ void CheckImage(const ImageSample& image, const CameraParameters& camera,
     throw std::invalid_argument("image is " + std::to_string(image.gray.cols) + " x " +
                                 std::to_string(image.gray.rows) + " px, the calibration is for " +
                                 std::to_string(camera.width) + " x " +
-                                std::to_string(camera.height));
+                                std::to_string(camera.height) + " (image_width, image_height)");
   }
   if (previous_ns && image.t_ns <= *previous_ns) {
     throw std::invalid_argument("image stamp " + std::to_string(image.t_ns) +

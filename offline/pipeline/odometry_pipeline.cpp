@@ -47,7 +47,7 @@ void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, int
   } else {
     track(estimate);
   }
-  images_ = trackers_.image_counts().images;
+  images_ = trackers_.image_counts().images + unreadable_images_;
   while (auto estimated = back_end_.Flush()) Report(std::move(*estimated), on_frame);
 }
 
@@ -101,6 +101,8 @@ bool OdometryPipeline::Feed(LoadedEvent loaded, const TrackedReceiver& emit) {
   } else if (loaded.image) {
     first_image_.Add(event.t_ns);
     trackers_.AddImage({event.t_ns, std::move(*loaded.image)});
+  } else {
+    ++unreadable_images_;
   }
   while (auto frame = trackers_.Pop()) {
     if (!EmitTracked(std::move(*frame), emit)) return false;

@@ -99,6 +99,7 @@ class OdometryPipeline {
   ConfirmedStamp first_image_;
   std::string imu_contradiction_;
   int64_t images_ = 0;
+  int64_t unreadable_images_ = 0;
   int64_t tracked_images_ = 0;
   int64_t thinned_images_ = 0;  // left out for the sake of the rate `freq`
   int64_t estimated_images_ = 0;

@@ -36,16 +36,22 @@ cv::Mat ReadImage(const fs::path& file) {
 }
 
 std::string Require(const fs::path& file) {
-  if (!fs::exists(file)) {
-    throw std::runtime_error("not an ASL folder: " + file.string() + " is missing");
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    throw std::runtime_error("not an ASL folder: " + file.string() +
+                             (error ? ": " + error.message() : " is missing"));
   }
   return file.string();
 }
 
 fs::path SensorRoot(const std::string& folder) {
-  if (!fs::is_directory(folder)) throw std::runtime_error("no such folder: " + folder);
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    throw std::runtime_error("cannot read the folder " + folder + ": " +
+                             (error ? error.message() : "not a folder"));
+  }
   const fs::path nested = fs::path(folder) / "mav0";
-  return fs::is_directory(nested) ? nested : fs::path(folder);
+  return fs::is_directory(nested, error) ? nested : fs::path(folder);
 }
 
 struct ImageRow {
@@ -89,6 +95,9 @@ class AslRecording : public Recording {
   }
 
   std::string name() const override { return name_; }
+  std::string Source(RecordingEvent::Kind kind) const override {
+    return kind == RecordingEvent::Kind::kImage ? images_.file() : imu_.file();
+  }
   std::optional<int64_t> end_ns() const override { return images_.end_ns(); }
 
   DropCounts problems() const override {

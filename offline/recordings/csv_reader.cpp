@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "offline/recordings/csv_reader.h"
 
+#include <cerrno>
 #include <charconv>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "common/measurements.h"
 
@@ -23,7 +25,8 @@ std::string Trim(const std::string& text) {
 
 CsvReader::CsvReader(const std::string& file, size_t values_per_row)
     : file_(file), values_per_row_(values_per_row), stream_(file) {
-  if (!stream_) throw std::runtime_error("cannot read " + file);
+  if (stream_) return;
+  throw std::runtime_error("cannot read " + file + ": " + std::generic_category().message(errno));
 }
 
 std::optional<CsvRow> CsvReader::Next() {

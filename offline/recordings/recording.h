@@ -33,6 +33,8 @@ class Recording {
   virtual std::optional<cv::Mat> LoadImage() = 0;
 
   virtual std::string name() const = 0;  // for reports
+  // Where its images or IMU samples come from: a file, or a topic and its key.
+  virtual std::string Source(RecordingEvent::Kind kind) const = 0;
 
   // About when the recording ends; nothing where that is not known beforehand.
   virtual std::optional<int64_t> end_ns() const = 0;

@@ -30,12 +30,14 @@ class SortedRows {
 
   // Throws std::runtime_error where the file holds no such row.
   SortedRows(const std::string& file, const Format& format)
-      : key_(format.key), reader_(file, format.values) {
+      : key_(format.key), file_(file), reader_(file, format.values) {
     while (const auto row = reader_.Next()) Add(format.parse(*row));
-    if (rows_.empty()) throw std::runtime_error(WhyEmpty(file, format));
+    if (rows_.empty()) throw std::runtime_error(WhyEmpty(format));
     const auto is_earlier = [](const Row& a, const Row& b) { return a.t_ns < b.t_ns; };
     if (unsorted_.count > 0) std::stable_sort(rows_.begin(), rows_.end(), is_earlier);
   }
+
+  const std::string& file() const { return file_; }
 
   // The row that Take() gives; null at the end.
   const Row* next() const { return next_ < rows_.size() ? &rows_[next_] : nullptr; }
@@ -59,13 +61,14 @@ class SortedRows {
     rows_.push_back(*row);
   }
 
-  std::string WhyEmpty(const std::string& file, const Format& format) const {
+  std::string WhyEmpty(const Format& format) const {
     const std::string text =
-        "no " + format.name + " in " + file + ": it has no line \"" + format.line + "\"";
+        "no " + format.name + " in " + file_ + ": it has no line \"" + format.line + "\"";
     return reader_.bad_lines() == 0 ? text : text + "; see " + reader_.first_bad_line();
   }
 
   std::string key_;
+  std::string file_;
   CsvReader reader_;
   std::vector<Row> rows_;
   size_t next_ = 0;

@@ -59,7 +59,8 @@ void RemoveTrackImages(const fs::path& folder) {
 void MakeResultFolder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
+  std::error_code unknown;  // of a folder in a closed one
+  if (!fs::is_directory(folder, unknown)) {
     throw std::runtime_error("cannot make the output folder " + folder + ": " +
                              (error ? error.message() : "not a folder"));
   }

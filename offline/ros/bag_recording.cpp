@@ -3,8 +3,11 @@
 
 #include <ros/serialization.h>
 
+#include <cerrno>
 #include <exception>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 
@@ -22,11 +25,19 @@ constexpr char kImu[] = "sensor_msgs/Imu";
 
 using Topics = std::map<std::string, std::string>;  // topic -> message type
 
-std::unique_ptr<BagMessageSource> OpenSource(const std::string& file) {
-  std::error_code unused;
-  if (!std::filesystem::is_regular_file(file, unused)) {
-    throw std::runtime_error("no such file: " + file);
+void RequireReadable(const std::string& file) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) {
+    throw std::runtime_error(file + " is not a file; --bag takes a ROS bag, --asl a folder");
   }
+  if (!std::ifstream(file)) {
+    const std::string reason = std::generic_category().message(errno);
+    throw std::runtime_error("cannot read " + file + ": " + reason);
+  }
+}
+
+std::unique_ptr<BagMessageSource> OpenSource(const std::string& file) {
+  RequireReadable(file);
   try {
     return OpenIndexedBag(file);
   } catch (const std::exception& error) {  // of a bad place, or std::bad_alloc
@@ -36,16 +47,24 @@ std::unique_ptr<BagMessageSource> OpenSource(const std::string& file) {
   }
 }
 
-bool Has(const Topics& topics, const std::string& topic, const std::string& type) {
-  const auto entry = topics.find(topic);
-  return entry != topics.end() && entry->second == type;
+// The name by which a bag has a topic of this type: with a leading slash or, from some recorders,
+// without. Nothing where it has none.
+std::optional<std::string> Find(const Topics& topics, const std::string& topic,
+                                const std::string& type) {
+  for (const auto& [name, its_type] : topics) {
+    if (AbsoluteTopic(name) == AbsoluteTopic(topic) && its_type == type) return name;
+  }
+  return std::nullopt;
 }
 
-std::string Missing(const std::string& file, const std::string& wanted, const Topics& topics) {
-  std::string text = file + " has no " + wanted + "; its topics:";
-  if (topics.empty()) text += " none";
+std::string Missing(const std::string& key, const std::string& topic, const std::string& type) {
+  return " no topic " + AbsoluteTopic(topic) + " (" + type + ") for the key " + key + ",";
+}
+
+std::string ToText(const Topics& topics) {
+  std::string text;
   for (const auto& [topic, type] : topics) text.append(" " + topic).append(" (" + type + ")");
-  return text;
+  return text.empty() ? " nothing" : text;
 }
 
 using ros::serialization::IStream;
@@ -93,11 +112,17 @@ class BagRecording : public Recording {
  public:
   BagRecording(const std::string& file, const std::string& image_topic,
                const std::string& imu_topic)
-      : file_(file), source_(OpenSource(file)), imu_topic_(AbsoluteTopic(imu_topic)) {
+      : file_(file), source_(OpenSource(file)) {
     const Topics topics = source_->topics();
-    ChooseImageTopic(AbsoluteTopic(image_topic), topics);
-    if (!Has(topics, imu_topic_, kImu)) {
-      throw std::runtime_error(Missing(file, "topic " + imu_topic_ + " (" + kImu + ")", topics));
+    ChooseImageTopic(image_topic, topics);
+    imu_topic_ = Find(topics, imu_topic, kImu).value_or("");
+    std::string missing;
+    if (image_topic_.empty()) {
+      missing += Missing("image_topic", image_topic, kRaw + std::string(" or ") + kCompressed);
+    }
+    if (imu_topic_.empty()) missing += Missing("imu_topic", imu_topic, kImu);
+    if (!missing.empty()) {
+      throw std::runtime_error(file + " has" + missing + " but:" + ToText(topics));
     }
     source_->Select({image_topic_, imu_topic_});
   }
@@ -123,6 +148,10 @@ class BagRecording : public Recording {
   }
 
   std::string name() const override { return file_; }
+  std::string Source(RecordingEvent::Kind kind) const override {
+    return kind == RecordingEvent::Kind::kImage ? "image_topic " + image_topic_
+                                                : "imu_topic " + imu_topic_;
+  }
   std::optional<int64_t> end_ns() const override { return source_->end_ns(); }
 
   DropCounts problems() const override {
@@ -134,15 +163,11 @@ class BagRecording : public Recording {
 
  private:
   void ChooseImageTopic(const std::string& topic, const Topics& topics) {
-    const std::string compressed_topic = topic + "/compressed";
-    image_topic_ = topic;
-    if (Has(topics, topic, kRaw)) return;
-    compressed_ = true;
-    if (Has(topics, topic, kCompressed)) return;
-    image_topic_ = compressed_topic;
-    if (Has(topics, compressed_topic, kCompressed)) return;
-    throw std::runtime_error(
-        Missing(file_, "topic " + topic + " (" + kRaw + " or " + kCompressed + ")", topics));
+    auto name = Find(topics, topic, kRaw);
+    compressed_ = !name;
+    if (!name) name = Find(topics, topic, kCompressed);
+    if (!name) name = Find(topics, topic + "/compressed", kCompressed);
+    image_topic_ = name.value_or("");
   }
 
   RecordingEvent ImuEvent(const BagMessage& message) const {

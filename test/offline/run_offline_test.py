@@ -125,6 +125,7 @@ class RunOffline(unittest.TestCase):
 
     def test_output_that_cannot_be_written(self):
         self.assert_refuses("cannot make the output folder", output="asl/imu0/data.csv")
+        self.assert_refuses("cannot make the output folder", output="x" * 300)
 
     def test_input_that_is_incomplete(self):
         self.write("imu0/data.csv", "")
@@ -134,6 +135,8 @@ class RunOffline(unittest.TestCase):
 
     def test_no_usable_image(self):
         self.assert_refuses("images_unreadable: 1 (first: ")
+        self.assert_refuses(f"from {self.asl / 'cam0' / 'data.csv'}\n")
+        self.assert_refuses("no trajectory from 1 images")
         self.assert_refuses("none was usable, see the warnings")
         self.assert_refuses("none between --start and --duration", "--start", "40")
 

@@ -48,6 +48,7 @@ class MemoryRecording : public Recording {
     return picture.empty() ? std::nullopt : std::make_optional(picture);
   }
   std::string name() const override { return "memory"; }
+  std::string Source(RecordingEvent::Kind) const override { return "memory"; }
   std::optional<int64_t> end_ns() const override { return std::nullopt; }
   DropCounts problems() const override { return {}; }
 
@@ -256,6 +257,15 @@ TEST(OdometryPipeline, BeginsWhereAFirstImageOfAWrongStampHasBeen) {
     EXPECT_EQ(pipeline.first_image_ns(), kStart + 60 * kMillisecond);
     EXPECT_GT(poses, 10);
   }
+}
+
+TEST(OdometryPipeline, CountsUnreadableImages) {
+  MemoryRecording recording = StillRecording(200);  // with images at 10, 60, 110 and 160 ms
+  recording.AddImage(210, cv::Mat());
+  OdometryPipeline pipeline(StillConfig());
+  pipeline.Run(&recording, {}, 1, [](const PipelineFrame&) {});
+  EXPECT_EQ(pipeline.images(), 5);
+  EXPECT_EQ(pipeline.unused_images(), 1);
 }
 
 TEST(OdometryPipeline, CountsTheImagesThatItDidNotUse) {

@@ -27,6 +27,7 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::MessageOf;
+using ::testing::Not;
 using testing::ReadAll;
 using testing::RecordingContents;
 
@@ -146,8 +147,30 @@ TEST_F(BagRecording, NamesTheTopicsThatThereAre) {
   WriteBag("/camera/left", RawImage);
   EXPECT_THAT(MessageOf([&] { Read(); }),
               AllOf(HasSubstr(file_ + " has no topic /cam0/image_raw (sensor_msgs/Image"),
+                    HasSubstr("key image_topic"), Not(HasSubstr("imu_topic")),
                     HasSubstr("/camera/left (sensor_msgs/Image)"),
                     HasSubstr("/imu0 (sensor_msgs/Imu)"), HasSubstr("/other (std_msgs/Bool)")));
+}
+
+TEST_F(BagRecording, NamesBothTopicsAndTheirKeysWhereBothAreMissing) {
+  WriteBag("/camera/left", RawImage);
+  EXPECT_THAT(MessageOf([&] { OpenBag(file_, "/cam0", "/imu"); }),
+              AllOf(HasSubstr("no topic /cam0 ("), HasSubstr("key image_topic"),
+                    HasSubstr("no topic /imu ("), HasSubstr("key imu_topic")));
+}
+
+TEST_F(BagRecording, FindsATopicWithoutALeadingSlash) {
+  WriteBag("cam0/image_raw", RawImage);
+  ExpectComplete(Read());
+  ExpectComplete(ReadAll(OpenBag(file_, "cam0/image_raw", "imu0").get()));
+}
+
+TEST_F(BagRecording, SaysFromWhichTopicImagesAndSamplesCome) {
+  WriteBag("/cam0/image_raw/compressed", CompressedImage);
+  const auto recording = OpenBag(file_, "/cam0/image_raw", "/imu0");
+  EXPECT_EQ(recording->Source(RecordingEvent::Kind::kImage),
+            "image_topic /cam0/image_raw/compressed");
+  EXPECT_EQ(recording->Source(RecordingEvent::Kind::kImu), "imu_topic /imu0");
 }
 
 TEST_F(BagRecording, RefusesATopicOfAnotherType) {
@@ -276,7 +299,10 @@ TEST_F(BagRecording, RefusesWhatIsNoBag) {
   folder_.Write("test.bag", "");
   EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("is not a ROS bag"));
   file_ = folder_.File("missing.bag");
-  EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("no such file"));
+  EXPECT_THAT(MessageOf([&] { Read(); }),
+              AllOf(HasSubstr("cannot read " + file_), HasSubstr("No such file")));
+  file_ = folder_.path();
+  EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("is not a file"));
 }
 
 TEST_F(BagRecording, CountsImagesOfUnknownEncodingAndGoesOn) {

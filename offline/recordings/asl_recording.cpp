@@ -61,9 +61,9 @@ struct ImageRow {
 
 std::optional<ImageRow> ToImageRow(const CsvRow& row) { return ImageRow{row.t_ns, row.values[0]}; }
 
-const SortedRows<ImageRow>::Format kImageFormat = {"image", "image", "stamp [ns],file name", 1,
-                                                   ToImageRow};
-const SortedRows<ImuSample>::Format kImuFormat = {
+constexpr SortedRows<ImageRow>::Format kImageFormat = {"image", "image", "stamp [ns],file name", 1,
+                                                       ToImageRow};
+constexpr SortedRows<ImuSample>::Format kImuFormat = {
     "imu", "IMU sample", "stamp [ns],gyro x,y,z [rad/s],accelerometer x,y,z [m/s^2]", 6,
     ToImuSample};
 

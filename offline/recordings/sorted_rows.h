@@ -21,11 +21,11 @@ template <typename Row>
 class SortedRows {
  public:
   struct Format {
-    std::string key;    // of the sensor, for reports
-    std::string name;   // of what a line holds
-    std::string line;   // its form
-    size_t values = 0;  // in it, after the stamp
-    std::optional<Row> (*parse)(const CsvRow& row) = nullptr;
+    const char* key;   // of the sensor, for reports
+    const char* name;  // of what a line holds
+    const char* line;  // its form
+    size_t values;     // in it, after the stamp
+    std::optional<Row> (*parse)(const CsvRow& row);
   };
 
   // Throws std::runtime_error where the file holds no such row.
@@ -62,8 +62,8 @@ class SortedRows {
   }
 
   std::string WhyEmpty(const Format& format) const {
-    const std::string text =
-        "no " + format.name + " in " + file_ + ": it has no line \"" + format.line + "\"";
+    const std::string text = std::string("no ") + format.name + " in " + file_ +
+                             ": it has no line \"" + format.line + "\"";
     return reader_.bad_lines() == 0 ? text : text + "; see " + reader_.first_bad_line();
   }
 

@@ -148,11 +148,11 @@ std::string UnusedWarning(int64_t unused, int64_t images) {
   return std::to_string(unused) + " of " + std::to_string(images) + " images were not used";
 }
 
-// The warning where a file of poses begins behind a jump; empty where none does.
-std::string ForgottenWarning(const PoseFiles& poses) {
-  if (poses.forgotten() == 0) return "";
-  return "stamps jumped back: trajectory.tum and covariance.csv are without the " +
-         std::to_string(poses.forgotten()) + " poses of before";
+// The warning where time does not run forward in a recording; empty where it does.
+std::string PartsWarning(const TimedFile& trajectory) {
+  if (trajectory.parts() == 0) return "";
+  return "stamps jumped back " + std::to_string(trajectory.parts()) +
+         " times: poses of before are in trajectory_1.tum, covariance_1.csv, ...";
 }
 
 // Says how it went. Exit code: 0 where there is a trajectory.
@@ -162,7 +162,7 @@ int Report(const RunSummary::Run& run, const Source& source, int64_t unused_imag
   for (const DropCount& drop : run.drops) Warn(drop, source);
   Warn(results.unwritten_pictures(), source);
   Warn(UnusedWarning(unused_images, run.images));
-  Warn(ForgottenWarning(results.poses()));
+  Warn(PartsWarning(results.trajectory()));
   if (summary.poses() == 0) {
     std::fprintf(stderr, "run_offline: no trajectory from %" PRId64 " images: %s\n", run.images,
                  WhyNone(run, summary).c_str());

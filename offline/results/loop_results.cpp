@@ -23,10 +23,9 @@ LoopResults::LoopResults(const Config& config, const std::string& folder,
       camera_(CameraModel::Create(config.sensor.camera)),
       loops_(LoopCloserOptions(*camera_), camera_),
       trajectory_(File("trajectory_map.tum")),
-      covariance_(File("covariance_map.csv")),
+      covariance_(File("covariance_map.csv"), CovarianceHeader()),
       table_(File("loops.csv")) {
   if (map) loops_.SetMap(std::move(*map));
-  WriteCovarianceHeader(&covariance_.stream());
   WriteLoopHeader(&table_.stream());
 }
 
@@ -51,10 +50,10 @@ void LoopResults::Add(const PipelineFrame& frame) {
   const int newest = map().graph.size() - 1;
   poses_.push_back({frame.output.t_ns, T_O_B, newest});
   if (!closure.fix) return;
-  trajectory_.stream() << FormatTumRow(frame.output.t_ns, closure.fix->T_M_O.ToRigid() * T_O_B);
-  WriteCovarianceRow(frame.output.t_ns,
-                     CovarianceInMap(*closure.fix, T_O_B, frame.output.pose_covariance),
-                     &covariance_.stream());
+  const int64_t t_ns = frame.output.t_ns;
+  trajectory_.Row(t_ns) << FormatTumRow(t_ns, closure.fix->T_M_O.ToRigid() * T_O_B);
+  WriteCovarianceRow(t_ns, CovarianceInMap(*closure.fix, T_O_B, frame.output.pose_covariance),
+                     &covariance_.Row(t_ns));
   if (!first_fix_) first_fix_ = ToSeconds(frame.output.t_ns - poses_.front().t_ns);
 }
 
@@ -81,7 +80,7 @@ void LoopResults::Finish() {
 
 // Poses of a world that was not joined to the map are in that world, between comments that say so.
 void LoopResults::WriteFinalTrajectory() const {
-  OutputFile file(File("trajectory_final.tum"));
+  TimedFile file(File("trajectory_final.tum"));
   auto world = worlds_.begin();
   std::string reason = "it is not found in the map";
   bool was_in_map = true;
@@ -89,9 +88,9 @@ void LoopResults::WriteFinalTrajectory() const {
     const bool in_map = map().graph.AreConnected(0, poses_[i].keyframe);
     const bool begins = world != worlds_.end() && world->first == i;
     if (begins) reason = (world++)->second;
-    if (in_map != was_in_map || (begins && !in_map)) file.stream() << FormatTumRestart(reason);
+    if (in_map != was_in_map || (begins && !in_map)) file.Comment(FormatTumRestart(reason));
     was_in_map = in_map;
-    file.stream() << FormatTumRow(poses_[i].t_ns, PoseInMap(map(), poses_[i]));
+    file.Row(poses_[i].t_ns) << FormatTumRow(poses_[i].t_ns, PoseInMap(map(), poses_[i]));
   }
   file.Close();
 }

@@ -12,6 +12,7 @@
 #include "common/config/config.h"
 #include "common/io/output_file.h"
 #include "offline/pipeline/odometry_pipeline.h"
+#include "offline/results/timed_file.h"
 #include "pose_graph/loop_closer.h"
 #include "pose_graph/loop_tally.h"
 #include "pose_graph/map/map_trajectory.h"
@@ -48,8 +49,8 @@ class LoopResults {
   std::string folder_;
   std::shared_ptr<const CameraModel> camera_;
   LoopCloser loops_;
-  OutputFile trajectory_;
-  OutputFile covariance_;
+  TimedFile trajectory_;
+  TimedFile covariance_;
   OutputFile table_;
   std::string restart_reason_;  // of a world without a pose yet; empty: there is none
   std::vector<OdometryPose> poses_;

@@ -13,7 +13,9 @@
 #include "offline/results/result_folder.h"
 #include "vins_estimator/output/calibrated_config.h"
 #include "vins_estimator/output/config_json.h"
+#include "vins_estimator/output/covariance_table.h"
 #include "vins_estimator/output/frame_table.h"
+#include "vins_estimator/output/tum_format.h"
 
 namespace plm_vins {
 namespace {
@@ -109,7 +111,8 @@ std::string Prepared(const std::string& folder, const std::string& config_file) 
 
 ResultFiles::ResultFiles(const std::string& folder, const std::string& config_file)
     : folder_(Prepared(folder, config_file)),
-      poses_(folder),
+      trajectory_(File("trajectory.tum")),
+      covariance_(File("covariance.csv"), CovarianceHeader()),
       timing_(File("timing.csv")),
       map_(File("map.ply")) {
   WriteFrameHeader(&timing_.stream());
@@ -126,13 +129,14 @@ void ResultFiles::Add(const PipelineFrame& frame) {
   WriteFrameRow(output.t_ns, timings, counts, &timing_.stream());
   summary_.Add(output, timings, counts);
   if (output.restarted) {
-    poses_.BeginWorld(output.reason);
+    trajectory_.Comment(FormatTumRestart(output.reason));
     EndWorld();
   }
   AddMapPoints(output.departed_points);
   AddMapLines(output.departed_lines);
   if (!output.has_pose) return;
-  poses_.Add(output.t_ns, output.state.T_W_B(), output.pose_covariance);
+  trajectory_.Row(output.t_ns) << FormatTumRow(output.t_ns, output.state.T_W_B());
+  WriteCovarianceRow(output.t_ns, output.pose_covariance, &covariance_.Row(output.t_ns));
   window_points_ = Staying(output.points, output.departed_points);
   window_lines_ = Staying(output.lines, output.departed_lines);
 }
@@ -178,7 +182,8 @@ void ResultFiles::WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv:
 void ResultFiles::Finish(RunSummary::Run run, const Config& config, const Json& loops) {
   EndWorld();
   map_.Finish();
-  poses_.Finish();
+  trajectory_.Close();
+  covariance_.Close();
   timing_.Close();
   WriteLines();
   run.map_points = map_.size();

@@ -12,7 +12,7 @@
 #include "common/io/output_file.h"
 #include "common/streams/drop_counts.h"
 #include "offline/pipeline/odometry_pipeline.h"
-#include "offline/results/pose_files.h"
+#include "offline/results/timed_file.h"
 #include "vins_estimator/output/ply_writer.h"
 #include "vins_estimator/output/run_summary.h"
 
@@ -43,7 +43,7 @@ class ResultFiles {
 
   const std::string& folder() const { return folder_; }
   const RunSummary& summary() const { return summary_; }
-  const PoseFiles& poses() const { return poses_; }
+  const TimedFile& trajectory() const { return trajectory_; }
   const DropCount& unwritten_pictures() const { return unwritten_pictures_; }
 
  private:
@@ -57,7 +57,8 @@ class ResultFiles {
   void WriteSummary(const RunSummary::Run& run, const Config& config, const Json& loops) const;
 
   std::string folder_;
-  PoseFiles poses_;
+  TimedFile trajectory_;
+  TimedFile covariance_;
   OutputFile timing_;
   PlyPointWriter map_;
   std::vector<Segment> lines_;

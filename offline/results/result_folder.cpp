@@ -8,6 +8,7 @@
 #include <system_error>
 #include <vector>
 
+#include "offline/results/timed_file.h"
 #include "vins_estimator/output/calibrated_config.h"
 
 namespace plm_vins {
@@ -35,6 +36,15 @@ constexpr const char* kResults[] = {"trajectory.tum",
                                     "colmap/points3D.txt",
                                     "evaluation.json",
                                     "run.html"};
+
+// Of these there may be parts, of before stamps jumped back.
+constexpr const char* kTimedResults[] = {"trajectory.tum", "covariance.csv", "trajectory_map.tum",
+                                         "covariance_map.csv", "trajectory_final.tum"};
+
+void RemoveParts(const fs::path& file) {
+  std::error_code error;
+  for (int part = 1; fs::remove(TimedFile::PartOf(file, part), error);) ++part;
+}
 
 bool IsTrackImage(const fs::path& file) {
   const std::string stamp = file.stem().string();
@@ -72,6 +82,7 @@ void RemoveEarlierResults(const std::string& folder, const std::string& config_f
     const fs::path file = fs::path(folder) / name;
     if (!fs::equivalent(file, config_file, error)) fs::remove(file, error);
   }
+  for (const char* name : kTimedResults) RemoveParts(fs::path(folder) / name);
   fs::remove(fs::path(folder) / "colmap", error);  // unless there is something else in it
   RemoveTrackImages(fs::path(folder) / kTrackImages);
 }

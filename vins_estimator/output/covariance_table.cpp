@@ -10,12 +10,12 @@ constexpr const char* kNames[] = {"px", "py", "pz", "rx", "ry", "rz"};
 
 }  // namespace
 
-void WriteCovarianceHeader(std::ostream* stream) {
-  *stream << "stamp_ns";
+std::string CovarianceHeader() {
+  std::string header = "stamp_ns";
   for (int row = 0; row < 6; ++row) {
-    for (int col = row; col < 6; ++col) *stream << "," << kNames[row] << "_" << kNames[col];
+    for (int col = row; col < 6; ++col) header += Format(",%s_%s", kNames[row], kNames[col]);
   }
-  *stream << "\n";
+  return header + "\n";
 }
 
 void WriteCovarianceRow(int64_t t_ns, const Matrix6d& covariance, std::ostream* stream) {

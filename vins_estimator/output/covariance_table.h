@@ -10,7 +10,7 @@ namespace plm_vins {
 
 // covariance.csv: a line of names, then one row per pose with its stamp [ns] and the upper triangle
 // of its covariance, row by row: position p_W [m], then rotation in B [rad], R_W_B Exp(theta).
-void WriteCovarianceHeader(std::ostream* stream);
+std::string CovarianceHeader();
 void WriteCovarianceRow(int64_t t_ns, const Matrix6d& covariance, std::ostream* stream);
 
 }  // namespace plm_vins

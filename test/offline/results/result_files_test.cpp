@@ -164,7 +164,7 @@ TEST(ResultFiles, TellOfANewWorldFrameBetweenTheRows) {
               HasSubstr("\n# the world frame starts anew: it flew away\n3.000000000 "));
 }
 
-TEST(ResultFiles, HoldThePosesFromTheLastJumpBackOn) {
+TEST(ResultFiles, KeepThePosesOfBeforeAJumpBackInFilesOfTheirOwn) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());
   for (const int64_t t : {100, 101, 102}) results.Add(MakeFrame(t * 1'000'000'000, true));
@@ -174,13 +174,18 @@ TEST(ResultFiles, HoldThePosesFromTheLastJumpBackOn) {
   results.Add(restart);
   results.Add(MakeFrame(3'000'000'000, true));
   results.Finish(RunSummary::Run(), Config(), Json());
-  EXPECT_EQ(results.poses().forgotten(), 3);
+  EXPECT_EQ(results.trajectory().parts(), 1);
+  const std::string before = folder.Read("trajectory_1.tum");
+  EXPECT_EQ(std::count(before.begin(), before.end(), '\n'), 3);
   EXPECT_THAT(folder.Read("trajectory.tum"),
               ::testing::StartsWith("# the world frame starts anew: stamps jumped back\n3.0000"));
   const std::string covariance = folder.Read("covariance.csv");
   EXPECT_THAT(covariance, ::testing::StartsWith("stamp_ns,"));
   EXPECT_EQ(std::count(covariance.begin(), covariance.end(), '\n'), 2);
+  EXPECT_THAT(folder.Read("covariance_1.csv"), ::testing::StartsWith("stamp_ns,"));
   EXPECT_EQ(nlohmann::json::parse(folder.Read("summary.json"))["poses"], 4);
+  const ResultFiles next_run(folder.path());
+  EXPECT_FALSE(fs::exists(folder.File("trajectory_1.tum")));
 }
 
 TEST(ResultFiles, HoldALineThatCameBackOnceAsKnownLast) {

@@ -17,7 +17,7 @@ TEST(CovarianceTable, HasTheUpperTriangleRowByRow) {
   covariance(4, 5) = covariance(5, 4) = -1.25e-9;
 
   std::ostringstream stream;
-  WriteCovarianceHeader(&stream);
+  stream << CovarianceHeader();
   WriteCovarianceRow(1403636579763555584, covariance, &stream);
   EXPECT_EQ(stream.str(),
             "stamp_ns,px_px,px_py,px_pz,px_rx,px_ry,px_rz,py_py,py_pz,py_rx,py_ry,py_rz,"

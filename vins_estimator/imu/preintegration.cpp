@@ -126,6 +126,13 @@ void Preintegration::Repropagate(const ImuBias& linearization_bias) {
   for (size_t i = 1; i < samples_.size(); ++i) IntegrateInterval(samples_[i - 1], samples_[i]);
 }
 
+bool Preintegration::HasGap() const {
+  const auto is_gap = [](const ImuSample& begin, const ImuSample& end) {
+    return ToSeconds(end.t_ns - begin.t_ns) > kMaxImuInterval;
+  };
+  return std::adjacent_find(samples_.begin(), samples_.end(), is_gap) != samples_.end();
+}
+
 void Preintegration::AllowBiasStep(const BiasStep& step) {
   bias_step_ = step;
   sqrt_information_valid_ = false;

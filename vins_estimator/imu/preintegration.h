@@ -66,6 +66,7 @@ class Preintegration {
   // State at the end of the interval from the state at its start. `gravity_W` is (0, 0, -g).
   FrameState Predict(const FrameState& start, const Eigen::Vector3d& gravity_W) const;
 
+  bool HasGap() const;                           // of more than 50 ms between samples
   double duration() const { return duration_; }  // [s]
   const std::vector<ImuSample>& samples() const { return samples_; }
   const ImuBias& linearization_bias() const { return bias_; }

@@ -270,13 +270,17 @@ TEST(Preintegration, AGapAddsTheUncertaintyOfARandomWalkBetweenItsEnds) {
   const ImuSample begin{0, Vector3d::Zero(), Vector3d::Zero()};
   ImuSample end = begin;
   end.t_ns = 200'000'000;
-  const Matrix15d gap = Integrate({begin, end}).covariance();
+  const Preintegration over_gap = Integrate({begin, end});
+  EXPECT_TRUE(over_gap.HasGap());
+  const Matrix15d gap = over_gap.covariance();
   const double bridge = std::pow(0.2, 3) / 12.0;  // walks of 1 rad/s/sqrt(s), 5 m/s^2/sqrt(s)
   EXPECT_NEAR(gap(Index::kRotation, Index::kRotation), bridge, 0.01 * bridge);
   EXPECT_NEAR(gap(Index::kVelocity, Index::kVelocity), 25 * bridge, 0.25 * bridge);
 
-  const Matrix15d sampled =
-      Integrate(ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.2, 200)).covariance();
+  const Preintegration without_gap =
+      Integrate(ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.2, 200));
+  EXPECT_FALSE(without_gap.HasGap());
+  const Matrix15d sampled = without_gap.covariance();
   EXPECT_GT(gap(Index::kPosition, Index::kPosition),
             100 * sampled(Index::kPosition, Index::kPosition));
 }

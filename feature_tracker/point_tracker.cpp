@@ -29,12 +29,17 @@ cv::Point2f ToOpenCv(const Eigen::Vector2d& point) {
   return {static_cast<float>(point.x()), static_cast<float>(point.y())};
 }
 
+std::string ToText(const cv::Size& size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
 cv::Mat ReadMask(const std::string& file, const cv::Size& image_size) {
   if (file.empty()) return {};
   cv::Mat mask = cv::imread(file, cv::IMREAD_GRAYSCALE);
   if (mask.empty()) throw std::invalid_argument("fisheye_mask: cannot read the image " + file);
   if (mask.size() != image_size) {
-    throw std::invalid_argument("fisheye_mask: " + file + " is not of the camera's image size");
+    throw std::invalid_argument("fisheye_mask: " + file + " has " + ToText(mask.size()) +
+                                " pixels, image_width and image_height say " + ToText(image_size));
   }
   return mask;
 }

@@ -247,7 +247,7 @@ void ShowTracks(double interval, ResultFiles* results, OdometryPipeline* pipelin
 int Run(const Arguments& arguments) {
   CheckSavedFeatures(arguments);
   const Config config = Configure(arguments);
-  Warn(IgnoredKeysWarning(config));
+  for (const std::string& warning : config.warnings) Warn(warning);
   // What may be missing, or not writable, comes first: then earlier results stay as they are.
   std::unique_ptr<Recording> recording;
   std::optional<FeatureFileReader> features;

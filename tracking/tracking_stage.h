@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "common/camera/camera_model.h"
@@ -31,8 +32,8 @@ class TrackingStage {
  public:
   using Frame = Tracked<Tracker>;
 
-  explicit TrackingStage(const Config& config)
-      : queue_(config), tracker_(config.*kSection, CameraModel::Create(config.sensor.camera)) {}
+  // Throws ConfigError where the tracker refuses its part.
+  explicit TrackingStage(const Config& config) : queue_(config), tracker_(MakeTracker(config)) {}
 
   // As of ImageQueue.
   void AddImu(const ImuSample& sample) { queue_.AddImu(sample); }
@@ -50,6 +51,15 @@ class TrackingStage {
   Tracker& tracker() { return tracker_; }
 
  private:
+  // A tracker knows the key that it refuses, but not the file.
+  static Tracker MakeTracker(const Config& config) {
+    try {
+      return Tracker(config.*kSection, CameraModel::Create(config.sensor.camera));
+    } catch (const std::invalid_argument& error) {
+      throw ConfigError({config.file + ": " + error.what()});
+    }
+  }
+
   std::optional<Frame> Track(const std::optional<ReadyImage>& next) {
     if (!next) return std::nullopt;
     if (next->restart) tracker_.Reset();

@@ -39,6 +39,7 @@ class Loader {
     for (const auto& [name, entry] : entries_) CheckKnown(name);
     CheckTogether(entries_, config_, [this](const auto& key, const auto& text) { Add(key, text); });
     if (!problems_.empty()) throw ConfigError(problems_);
+    AddWarnings();
     FinishConfig(entries_, &config_);
     return config_;
   }
@@ -66,7 +67,7 @@ class Loader {
   void CheckKnown(const std::string& name) {
     if (Contains(known_, name)) return;
     if (Contains(IgnoredKeys(), name)) {
-      config_.ignored_keys.push_back(name);
+      ignored_.push_back(name);
       return;
     }
     // Without a model it is not known which calibration keys there should be.
@@ -76,16 +77,33 @@ class Loader {
     Add(name, "unknown key" + (nearest ? "; did you mean " + *nearest + "?" : "; remove it"));
   }
 
+  void AddWarnings() {
+    if (!ignored_.empty()) {
+      config_.warnings.push_back(config_.file + ": without effect here: " + Join(ignored_, ", "));
+    }
+    if (LacksMask(entries_, config_)) {
+      config_.warnings.push_back(
+          At("fisheye") +
+          "no fisheye_mask is named, so corners are allowed everywhere; name an "
+          "image file that shows where they are, or set fisheye: 0");
+    }
+  }
+
   void Add(const std::string& key, const std::string& problem) {
+    problems_.push_back(At(key) + problem);
+  }
+
+  // "FILE:LINE: KEY: ".
+  std::string At(const std::string& key) const {
     const auto entry = entries_.find(key);
-    const std::string location = entry == entries_.end() ? config_.file : entry->second.location;
-    problems_.push_back(location + ": " + key + ": " + problem);
+    return (entry == entries_.end() ? config_.file : entry->second.location) + ": " + key + ": ";
   }
 
   Config config_;
   ConfigEntries entries_;
   ConfigKeys<Config> keys_;
-  std::vector<std::string> known_;  // names of the keys
+  std::vector<std::string> known_;    // names of the keys
+  std::vector<std::string> ignored_;  // the same, without effect here
   std::vector<std::string> problems_;
 };
 
@@ -104,11 +122,6 @@ std::vector<std::pair<std::string, ConfigValue>> EffectiveValues(const Config& c
     values.emplace_back(key.name, key.value(config));
   }
   return values;
-}
-
-std::string IgnoredKeysWarning(const Config& config) {
-  if (config.ignored_keys.empty()) return "";
-  return config.file + ": without effect here: " + Join(config.ignored_keys, ", ");
 }
 
 }  // namespace plm_vins

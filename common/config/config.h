@@ -21,8 +21,8 @@
 namespace plm_vins {
 
 struct Config {
-  std::string file;                       // where it was read from, for messages
-  std::vector<std::string> ignored_keys;  // accepted from VINS files, without effect here
+  std::string file;                   // where it was read from, for messages
+  std::vector<std::string> warnings;  // of what is accepted, but not followed; each names the file
   SensorConfig sensor;
   double publish_rate = 0;  // images whose features the estimator gets [Hz]; 0: all
   bool show_track = true;   // publish annotated images
@@ -53,8 +53,5 @@ Config LoadConfig(const std::string& file,
 // Every key with the value that is in effect: defaults, overrides, noise as densities, the mask
 // with its folder. A file of them gives the same configuration.
 std::vector<std::pair<std::string, ConfigValue>> EffectiveValues(const Config& config);
-
-// "FILE: without effect here: KEY, ..."; empty where every key has one.
-std::string IgnoredKeysWarning(const Config& config);
 
 }  // namespace plm_vins

@@ -96,11 +96,8 @@ void CheckFrames(const Config& config, const Report& report) {
   }
 }
 
-void CheckMask(const ConfigEntries& entries, const Config& config, const Report& report) {
+void CheckMask(const Config& config, const Report& report) {
   const std::string mask = MaskPath(config);
-  if (Has(entries, "fisheye") && config.points.fisheye && mask.empty()) {
-    report("fisheye_mask", "is missing; name an image file, or set fisheye: 0");
-  }
   std::error_code error;  // a path may be too long for a file
   if (!mask.empty() && !std::filesystem::is_regular_file(mask, error)) {
     report("fisheye_mask", "there is no file " + mask);
@@ -116,7 +113,11 @@ void CheckTogether(const ConfigEntries& entries, const Config& config, const Rep
   CheckImage(config, report);
   CheckTopics(config.sensor, report);
   CheckFrames(config, report);
-  CheckMask(entries, config, report);
+  CheckMask(config, report);
+}
+
+bool LacksMask(const ConfigEntries& entries, const Config& config) {
+  return Has(entries, "fisheye") && config.points.fisheye && MaskPath(config).empty();
 }
 
 void FinishConfig(const ConfigEntries& entries, Config* config) {

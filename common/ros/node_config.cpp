@@ -43,8 +43,7 @@ Config LoadNodeConfig(const ros::NodeHandle& private_node) {
   }
   Config config = LoadConfig(file, overrides);
   CheckTopics(private_node, config);
-  const std::string warning = IgnoredKeysWarning(config);
-  if (!warning.empty()) ROS_WARN_STREAM_ONCE(warning);
+  for (const std::string& warning : config.warnings) ROS_WARN_STREAM(warning);
   return config;
 }
 

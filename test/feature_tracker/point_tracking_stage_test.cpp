@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "feature_tracker/point_tracking_stage.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <set>
+#include <string>
 
 #include "test/testing/still_scene.h"
+#include "test/testing/temporary_folder.h"
 
 namespace plm_vins {
 namespace {
@@ -57,6 +61,27 @@ TEST_F(PointTrackingStageTest, WaitsForTheGyro) {
   EXPECT_FALSE(stage_.Pop());
   stage_.AddImu(testing::StillImu(0));
   EXPECT_TRUE(stage_.Pop());
+}
+
+TEST(PointTrackingStage, AMaskThatIsRefusedNamesTheFileOfTheConfiguration) {
+  const testing::TemporaryFolder folder;
+  Config config = StillConfig();
+  config.file = "camera.yaml";
+  config.points.fisheye_mask = folder.File("mask.png");
+  const auto error = [&] {
+    try {
+      PointTrackingStage stage(config);
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string key = "camera.yaml: fisheye_mask: ";
+  folder.Write("mask.png", "echo no picture");
+  EXPECT_EQ(error(), key + "cannot read the image " + config.points.fisheye_mask);
+  cv::imwrite(config.points.fisheye_mask, cv::Mat(10, 20, CV_8UC1, cv::Scalar(255)));
+  EXPECT_THAT(error(), ::testing::StartsWith(key + config.points.fisheye_mask +
+                                             " has 20x10 pixels, image_width and image_height"));
 }
 
 }  // namespace

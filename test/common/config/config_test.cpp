@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/config/config.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,6 +15,10 @@
 namespace plm_vins {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
 // ---- What must load ----------------------------------------------------------------------------
 
 TEST_F(ConfigTest, ShortFileGivesTheDefaults) {
@@ -23,7 +28,7 @@ TEST_F(ConfigTest, ShortFileGivesTheDefaults) {
   EXPECT_EQ(config.sensor.estimate_extrinsic, SensorConfig::ExtrinsicMode::kCalibrateRotation);
   EXPECT_EQ(config.points.max_cnt, PointTrackerConfig().max_cnt);
   EXPECT_EQ(config.sensor.imu_noise.gyro_density, ImuNoise().gyro_density);
-  EXPECT_TRUE(config.ignored_keys.empty());
+  EXPECT_TRUE(config.warnings.empty());
 }
 
 TEST_F(ConfigTest, VinsMonoFileLoadsAsItIs) {
@@ -51,12 +56,12 @@ TEST_F(ConfigTest, TheReadoutTimeCountsWithARollingShutter) {
   EXPECT_EQ(Load(kShortFile + readout + "rolling_shutter: 1\n").sensor.ReadoutTime(), 0.03);
 }
 
-TEST_F(ConfigTest, IgnoredKeysAreTold) {
-  const auto ignored = Load(kVinsMonoFile).ignored_keys;
-  const std::vector<std::string> expected = {
-      "camera_name", "fast_relocalization",   "max_solver_time",      "output_path",
-      "save_image",  "visualize_camera_size", "visualize_imu_forward"};
-  EXPECT_EQ(ignored, expected);
+TEST_F(ConfigTest, IgnoredKeysAreOneWarning) {
+  const std::string file = (folder_ / "camera.yaml").string();
+  EXPECT_THAT(Load(kVinsMonoFile).warnings,
+              ElementsAre(file + ": without effect here: camera_name, fast_relocalization, "
+                                 "max_solver_time, output_path, save_image, visualize_camera_size, "
+                                 "visualize_imu_forward"));
 }
 
 TEST_F(ConfigTest, LoopClosureHasTheKeysOfVins) {
@@ -72,12 +77,13 @@ TEST_F(ConfigTest, MapAndWorldAreTwoFramesWhereThereIsAMap) {
   ExpectProblem("world_frame: map\nloop_closure: 1", {"map_frame: is the same as world_frame"});
 }
 
-TEST_F(ConfigTest, IgnoredKeysAreOneWarning) {
-  const std::string more = "voc_file: \"a\"\nmax_solver_time: 1\n";
-  EXPECT_EQ(
-      IgnoredKeysWarning(Load(kShortFile + more)),
-      (folder_ / "camera.yaml").string() + ": without effect here: max_solver_time, voc_file");
-  EXPECT_EQ(IgnoredKeysWarning(Load(kShortFile)), "");
+// VINS has a mask of its own for them.
+TEST_F(ConfigTest, AFisheyeOfVinsGoesOnWithoutAMask) {
+  const Config config = Load(kShortFile + std::string("fisheye: 1\n"));
+  EXPECT_THAT(config.warnings, ElementsAre(AllOf(HasSubstr("camera.yaml:10: fisheye: "),
+                                                 HasSubstr("no fisheye_mask is named"))));
+  EXPECT_EQ(config.points.fisheye_mask, "");
+  EXPECT_FALSE(config.points.fisheye);
 }
 
 TEST_F(ConfigTest, PlVinsFileLoadsAsItIs) {
@@ -289,7 +295,6 @@ TEST_F(ConfigTest, Contradictions) {
   ExpectProblem("world_frame: my world", {"world_frame: must be a name without spaces"});
   ExpectProblem("world_frame: /map", {"world_frame: must not begin with a slash"});
   ExpectProblem("min_dist: 490", {"min_dist: must be smaller than the image"});
-  ExpectProblem("fisheye: 1", {"fisheye_mask: is missing; name an image file"});
   ExpectProblem("fisheye_mask: no.png", {"fisheye_mask: there is no file", "no.png"});
   ExpectOneProblem(ProblemsOf(Write(Replaced(kShortFile, "cx: 320", "cx: 700"))),
                    {"camera.yaml:5: image_width: the principal point is right of the image"});

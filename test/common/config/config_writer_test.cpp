@@ -46,7 +46,7 @@ TEST_F(ConfigWriter, WritesWhatReadsAsTheSame) {
   }
   EXPECT_MATRIX_NEAR(again.sensor.T_B_C.R(), config.sensor.T_B_C.R(), 1e-11);
   EXPECT_MATRIX_NEAR(again.sensor.T_B_C.translation, config.sensor.T_B_C.translation, 1e-11);
-  EXPECT_TRUE(again.ignored_keys.empty());
+  EXPECT_TRUE(again.warnings.empty());
 }
 
 TEST_F(ConfigWriter, HasTheFormatOfOpenCV) {

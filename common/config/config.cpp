@@ -22,6 +22,10 @@ std::string Join(const std::vector<std::string>& words, const std::string& separ
   return text;
 }
 
+bool IsInGroup(const std::string& key, const std::string& group) {
+  return key.rfind(group + ".", 0) == 0;
+}
+
 // One loading of a file; collects problems along the way.
 class Loader {
  public:
@@ -30,13 +34,16 @@ class Loader {
     const auto entries = ReadConfigEntries(file, overrides, &problems_);
     if (!entries) throw ConfigError(problems_);
     entries_ = *entries;
-    keys_ = AllKeys(ModelTypeAsWritten());
+    const std::string model_type = ModelTypeAsWritten();
+    knows_model_ = IsModelType(model_type);
+    keys_ = AllKeys(model_type);
     for (const ConfigKey<Config>& key : keys_) known_.push_back(key.name);
   }
 
   Config Load() {
     for (const ConfigKey<Config>& key : keys_) Read(key);
     for (const auto& [name, entry] : entries_) CheckKnown(name);
+    if (!knows_model_) CheckCalibrationGroups();
     CheckTogether(entries_, config_, [this](const auto& key, const auto& text) { Add(key, text); });
     if (!problems_.empty()) throw ConfigError(problems_);
     AddWarnings();
@@ -53,7 +60,10 @@ class Loader {
   void Read(const ConfigKey<Config>& key) {
     const auto entry = entries_.find(key.name);
     if (entry == entries_.end()) {
-      if (key.required) Add(key.name, "is missing; add it (config/reference.yaml explains it)");
+      const bool has_broken_group = entries_.count(key.name.substr(0, key.name.find('.'))) > 0;
+      if (key.required && !has_broken_group) {
+        Add(key.name, "is missing; add it (config/reference.yaml explains it)");
+      }
       return;
     }
     const auto text = ScalarText(entry->second.value);
@@ -70,11 +80,34 @@ class Loader {
       ignored_.push_back(name);
       return;
     }
+    const auto keys = KeysOfGroup(name);
+    if (!keys.empty()) {
+      return Add(name, "must be a group of keys, indented below it: " + Join(keys, ", "));
+    }
     // Without a model it is not known which calibration keys there should be.
-    const bool of_camera = name.find("_parameters.") != std::string::npos;
-    if (of_camera && !IsModelType(ModelTypeAsWritten())) return;
+    const bool of_camera = name.find("_parameters") != std::string::npos;
+    if (of_camera && !knows_model_) return;
     const auto nearest = NearestWord(name, known_);
     Add(name, "unknown key" + (nearest ? "; did you mean " + *nearest + "?" : "; remove it"));
+  }
+
+  std::vector<std::string> KeysOfGroup(const std::string& group) const {
+    std::vector<std::string> keys;
+    for (const std::string& key : known_) {
+      if (IsInGroup(key, group)) keys.push_back(key.substr(group.size() + 1));
+    }
+    return keys;
+  }
+
+  void CheckCalibrationGroups() {
+    for (const std::string group : {"projection_parameters", "distortion_parameters"}) {
+      const bool has_keys = std::any_of(entries_.begin(), entries_.end(), [&](const auto& entry) {
+        return IsInGroup(entry.first, group);
+      });
+      if (has_keys) continue;
+      Add(group,
+          "is missing; model_type says which keys it has (config/reference.yaml lists them)");
+    }
   }
 
   void AddWarnings() {
@@ -82,10 +115,9 @@ class Loader {
       config_.warnings.push_back(config_.file + ": without effect here: " + Join(ignored_, ", "));
     }
     if (LacksMask(entries_, config_)) {
-      config_.warnings.push_back(
-          At("fisheye") +
-          "no fisheye_mask is named, so corners are allowed everywhere; name an "
-          "image file that shows where they are, or set fisheye: 0");
+      config_.warnings.push_back(At("fisheye") +
+                                 "no fisheye_mask is named, so corners are allowed everywhere; "
+                                 "name an image file, or set fisheye: 0");
     }
   }
 
@@ -101,6 +133,7 @@ class Loader {
 
   Config config_;
   ConfigEntries entries_;
+  bool knows_model_ = false;
   ConfigKeys<Config> keys_;
   std::vector<std::string> known_;    // names of the keys
   std::vector<std::string> ignored_;  // the same, without effect here

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
 namespace plm_vins {
 namespace {
@@ -12,8 +13,8 @@ std::string Location(const std::string& file, const YAML::Mark& mark) {
   return mark.is_null() ? file : file + ":" + std::to_string(mark.line + 1);
 }
 
-// A configuration has some 100 lines. The limits end what would otherwise never end: a device, an
-// alias that leads back to itself, aliases of aliases of aliases.
+// A configuration has some 100 lines. The limits end what would otherwise hardly end: a recording
+// by mistake, an alias that leads back to itself, aliases of aliases of aliases.
 constexpr std::streamsize kMaxBytes = 1 << 20;
 constexpr size_t kMaxEntries = 1000;
 constexpr int kMaxDepth = 2;  // keys and groups of keys
@@ -21,7 +22,7 @@ constexpr int kMaxDepth = 2;  // keys and groups of keys
 // Not more than one byte beyond kMaxBytes.
 std::optional<std::string> ReadText(const std::string& file) {
   std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file)) return std::nullopt;
+  if (!stream) return std::nullopt;
   std::string text(kMaxBytes + 1, '\0');
   stream.read(text.data(), kMaxBytes + 1);
   text.resize(static_cast<size_t>(stream.gcount()));
@@ -34,8 +35,16 @@ std::string WithoutDirective(std::string text) {
   return text;
 }
 
-// An OpenCV matrix is one value; any other map is a group of keys.
-bool IsGroup(const YAML::Node& node) { return node.IsMap() && !node["data"]; }
+// An OpenCV matrix is one value, complete or not; any other map with keys is a group of them.
+bool IsGroup(const YAML::Node& node) {
+  return node.IsMap() && node.size() > 0 && !node["data"] && !node["rows"];
+}
+
+// To open a pipe waits for its other end; a device may have no end.
+bool IsSomethingElse(const std::string& file) {
+  std::error_code error;  // a path may be too long for a file
+  return std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error);
+}
 
 // Stops at the first problem of size.
 bool Flatten(const YAML::Node& map, const std::string& prefix, int depth, const std::string& file,
@@ -67,6 +76,10 @@ bool Flatten(const YAML::Node& map, const std::string& prefix, int depth, const 
 
 // The top-level map of the file, or nothing and a problem.
 std::optional<YAML::Node> ReadRoot(const std::string& file, std::vector<std::string>* problems) {
+  if (IsSomethingElse(file)) {
+    problems->push_back(file + ": is no regular file; give the path of a configuration file");
+    return std::nullopt;
+  }
   const auto text = ReadText(file);
   if (!text) {
     problems->push_back(file + ": cannot be read; check the path of the configuration file");

@@ -64,13 +64,13 @@ Problem ReadText(const YAML::Node& value, std::string* text) {
 Problem ReadMatrix(const YAML::Node& node, Eigen::MatrixXd* matrix) {
   const std::string size = std::to_string(matrix->rows()) + "x" + std::to_string(matrix->cols());
   const std::string advice = "must be an !!opencv-matrix of size " + size;
-  if (!node.IsMap() || !node["data"].IsSequence()) return advice;
+  if (!node.IsMap()) return advice;
   const YAML::Node data = node["data"];
   const auto differs = [&](const char* key, Eigen::Index expected) {
     return node[key] && ToNumber(node[key]) != static_cast<double>(expected);
   };
-  if (differs("rows", matrix->rows()) || differs("cols", matrix->cols()) ||
-      data.size() != static_cast<size_t>(matrix->size())) {
+  if (!data || !data.IsSequence() || differs("rows", matrix->rows()) ||
+      differs("cols", matrix->cols()) || data.size() != static_cast<size_t>(matrix->size())) {
     return advice + " with " + std::to_string(matrix->size()) + " numbers in data";
   }
   for (Eigen::Index i = 0; i < matrix->size(); ++i) {

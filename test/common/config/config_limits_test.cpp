@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Configurations that would run away: endless, or endlessly nested.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <sstream>
 #include <string>
@@ -36,7 +37,12 @@ TEST_F(ConfigLimitsTest, ABombOfAliasesIsAProblem) {
 }
 
 TEST_F(ConfigLimitsTest, AFileWithoutAnEndIsAProblem) {
-  ExpectOneProblem(ProblemsOf("/dev/zero"), {"/dev/zero", "longer than 1 MiB"});
+  const std::string problem = "is no regular file; give the path of a configuration file";
+  ExpectOneProblem(ProblemsOf("/dev/zero"), {"/dev/zero: " + problem});
+  const std::string pipe = (folder_ / "pipe.yaml").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  ExpectOneProblem(ProblemsOf(pipe), {pipe + ": " + problem});
+  ExpectOneProblem(ProblemsOf(Write(std::string(2 << 20, '#'))), {"longer than 1 MiB"});
 }
 
 TEST_F(ConfigLimitsTest, AMaskWithAnOverlongPathIsAProblem) {

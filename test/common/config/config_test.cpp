@@ -185,7 +185,7 @@ TEST_F(ConfigTest, MaskIsRelativeToTheFileAndCanBeSwitchedOff) {
 TEST_F(ConfigTest, MissingFile) {
   ExpectOneProblem(ProblemsOf((folder_ / "nothing.yaml").string()),
                    {"nothing.yaml", "cannot be read"});
-  ExpectOneProblem(ProblemsOf(folder_.string()), {folder_.string(), "cannot be read"});
+  ExpectOneProblem(ProblemsOf(folder_.string()), {folder_.string(), "is no regular file"});
 }
 
 TEST_F(ConfigTest, NotAConfiguration) {
@@ -264,6 +264,38 @@ TEST_F(ConfigTest, ModelTypeMissingOrMisspelt) {
                    {"model_type: is missing"});
   ExpectOneProblem(ProblemsOf(Write(Replaced(kShortFile, "PINHOLE", "pinhole"))),
                    {"camera.yaml:4", "\"pinhole\" must be one of PINHOLE"});
+}
+
+TEST_F(ConfigTest, WithoutAModelMissingGroupsAreNamed) {
+  for (const std::string model : {"", "model_type: pinhole\n"}) {
+    const std::string all =
+        ConfigError(ProblemsOf(Write(model + "image_topic: /image\nfoo: 1\n"))).what();
+    for (const std::string key :
+         {"model_type", "foo", "imu_topic", "image_width", "image_height", "extrinsicRotation",
+          "extrinsicTranslation", "projection_parameters", "distortion_parameters"}) {
+      EXPECT_THAT(all, HasSubstr(": " + key + ": "));
+    }
+    EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 8) << all;
+  }
+}
+
+TEST_F(ConfigTest, AGroupWithoutKeysIsOneProblem) {
+  const std::string keys = ": {k1: 0, k2: 0, p1: 0, p2: 0}";
+  for (const std::string value : {":", ": {}", ": 3"}) {
+    const std::string text = Replaced(kShortFile, keys, value);
+    const std::string where = "camera.yaml:8: distortion_parameters: ";
+    ExpectOneProblem(ProblemsOf(Write(text)),
+                     {where + "must be a group of keys, indented below it: k1, k2, p1, p2"});
+    EXPECT_THAT(ProblemsOf(Write(Replaced(text, "PINHOLE", "pinhole"))),
+                ElementsAre(HasSubstr("model_type"), HasSubstr(where + "is missing")));
+  }
+}
+
+TEST_F(ConfigTest, AMatrixWithoutNumbersIsOneProblem) {
+  const std::string all = "must be an !!opencv-matrix of size 3x3";
+  ExpectProblem("extrinsicRotation:", {"camera.yaml:10: extrinsicRotation: " + all});
+  ExpectProblem("extrinsicRotation: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d",
+                {"camera.yaml:10: extrinsicRotation: " + all + " with 9 numbers in data"});
 }
 
 TEST_F(ConfigTest, KeysOfAnotherModel) {

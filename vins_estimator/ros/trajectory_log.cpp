@@ -34,16 +34,24 @@ bool TrajectoryLog::empty() const {
 }
 
 size_t TrajectoryLog::Save(const std::string& file) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  if (empty()) {
+    throw std::runtime_error("there is no pose to save yet; " + file + " stays as it is");
+  }
   std::error_code error;
   std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
   if (error) throw std::runtime_error("cannot write " + file + ": " + error.message());
-  OutputFile output(file);
+  ReplacedFile output(file);
+  const size_t poses = Write(output.stream());
+  output.Commit();  // waits for the disk, Add() does not
+  return poses;
+}
+
+size_t TrajectoryLog::Write(std::ostream& stream) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
   for (const Pose& pose : poses_) {
-    if (!pose.new_world.empty()) output.stream() << FormatTumRestart(pose.new_world);
-    output.stream() << FormatTumRow(pose.t_ns, pose.T_W_B);
+    if (!pose.new_world.empty()) stream << FormatTumRestart(pose.new_world);
+    stream << FormatTumRow(pose.t_ns, pose.T_W_B);
   }
-  output.Close();
   return poses_.size();
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <ostream>
 #include <string>
 
 #include "common/geometry/rigid3.h"
@@ -21,8 +22,9 @@ class TrajectoryLog {
 
   bool empty() const;
 
-  // Writes a TUM file, and its folder where it is missing. Returns the number of poses; throws
-  // std::runtime_error, which says why, where the file cannot be written.
+  // Replaces a TUM file in one step, and makes its folder where it is missing. Returns the number
+  // of poses; throws std::runtime_error, which says why, where there is none or the file cannot be
+  // written. It stays as it was then.
   size_t Save(const std::string& file) const;
 
  private:
@@ -31,6 +33,8 @@ class TrajectoryLog {
     Rigid3d T_W_B;
     std::string new_world;  // why its world frame is a new one; empty: it is not
   };
+
+  size_t Write(std::ostream& stream) const;  // returns the number of poses
 
   mutable std::mutex mutex_;
   std::deque<Pose> poses_;

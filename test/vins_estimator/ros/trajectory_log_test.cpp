@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -30,12 +32,28 @@ class TrajectoryLogTest : public ::testing::Test {
 };
 
 TEST_F(TrajectoryLogTest, ASecondSaveTakesThePlaceOfTheFirst) {
+  log_.Add(1'000'000'000, kPose);
+  const std::string first = Saved();
+  std::ifstream reader(folder_.File("a.tum"));
+  log_.Add(2'500'000'000, kPose);
+  EXPECT_EQ(log_.Save(folder_.File("a.tum")), 2u);
+  EXPECT_EQ(folder_.Read("a.tum"), first + kRow);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(reader), {}), first) << "not in one step";
+}
+
+TEST_F(TrajectoryLogTest, WithoutAPoseTheFileStaysAsItIs) {
+  folder_.Write("a.tum", "of the flight before");
   EXPECT_TRUE(log_.empty());
-  EXPECT_EQ(Saved(), "");
+  try {
+    log_.Save(folder_.File("a.tum"));
+    ADD_FAILURE();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(),
+              "there is no pose to save yet; " + folder_.File("a.tum") + " stays as it is");
+  }
+  EXPECT_EQ(folder_.Read("a.tum"), "of the flight before");
   log_.Add(2'500'000'000, kPose);
   EXPECT_FALSE(log_.empty());
-  EXPECT_EQ(log_.Save(folder_.File("a.tum")), 1u);
-  EXPECT_EQ(Saved(), kRow);
 }
 
 TEST_F(TrajectoryLogTest, TellsOfANewWorldFrame) {
@@ -60,8 +78,9 @@ TEST_F(TrajectoryLogTest, MakesTheFolder) {
 }
 
 TEST_F(TrajectoryLogTest, SaysWhyAFileCannotBeWritten) {
+  log_.Add(2'500'000'000, kPose);
   for (const auto& [file, why] : {std::pair("/dev/null/a.tum", "Not a directory"),
-                                  {"/", "Is a directory"},
+                                  {"/", "there is something else"},
                                   {"/proc/a.tum", "No such file or directory"}}) {
     try {
       log_.Save(file);

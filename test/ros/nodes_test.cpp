@@ -213,6 +213,14 @@ TEST_F(Nodes, PropagateAtTheRateOfTheImu) {
   EXPECT_GT(log_->imu_propagate.messages.back().pose.covariance[0], 0);
 }
 
+// The last image has come long ago.
+TEST_F(Nodes, KeepThePathForWhoComesLate) {
+  const Listener<nav_msgs::Path> late("/vins_estimator/path");
+  for (int i = 0; i < 50 && late.messages.empty(); ++i) Spin(0.1);
+  ASSERT_EQ(late.messages.size(), 1u);
+  EXPECT_EQ(late.messages[0].poses.size(), log_->path.messages.back().poses.size());
+}
+
 TEST_F(Nodes, PublishPathCameraAndMap) {
   EXPECT_FALSE(log_->path.messages.empty());
   EXPECT_FALSE(log_->key_poses.messages.empty());

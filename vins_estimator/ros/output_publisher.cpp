@@ -53,7 +53,7 @@ geometry_msgs::TransformStamped ToStamped(int64_t t_ns, const Rigid3d& T_parent_
 OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle private_node)
     : frames_(frames),
       odometry_(private_node.advertise<nav_msgs::Odometry>("odometry", kQueue)),
-      path_publisher_(private_node.advertise<nav_msgs::Path>("path", 10)),
+      path_publisher_(private_node.advertise<nav_msgs::Path>("path", 10, /*latch=*/true)),
       camera_pose_(private_node.advertise<nav_msgs::Odometry>("camera_pose", kQueue)),
       key_poses_(private_node.advertise<visualization_msgs::Marker>("key_poses", kQueue)),
       point_cloud_(private_node.advertise<sensor_msgs::PointCloud>("point_cloud", kQueue)),
@@ -165,7 +165,7 @@ void OutputPublisher::PublishPath(const FrameState& state) {
   path_.header.stamp = pose.header.stamp;
   if (++new_path_poses_ < kNewPathShare * static_cast<double>(path_.poses.size())) return;
   new_path_poses_ = 0;
-  PublishIfWanted(path_publisher_, [&] { return path_; });
+  path_publisher_.publish(path_);  // whoever listens: displays may be opened during a standstill
 }
 
 void OutputPublisher::PublishTransforms(const EstimatorOutput& output) {

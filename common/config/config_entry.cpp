@@ -46,6 +46,21 @@ bool IsSomethingElse(const std::string& file) {
   return std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error);
 }
 
+std::string TooLarge(bool is_group) {
+  const std::string problem = is_group ? "is a group within a group"
+                                       : "too many keys, more than " + std::to_string(kMaxEntries);
+  return problem + "; is this a configuration file?";
+}
+
+std::string AppearsTwice(const ConfigEntry& first) {
+  return "appears twice (first at " + first.location + "); remove one";
+}
+
+void AddProblem(const std::string& location, const std::string& key, const std::string& problem,
+                std::vector<std::string>* problems) {
+  problems->push_back(location + ": " + key + ": " + problem);
+}
+
 // Stops at the first problem of size.
 bool Flatten(const YAML::Node& map, const std::string& prefix, int depth, const std::string& file,
              ConfigEntries* entries, std::vector<std::string>* problems) {
@@ -55,10 +70,7 @@ bool Flatten(const YAML::Node& map, const std::string& prefix, int depth, const 
     const std::string location = Location(file, key_node.Mark());
     const bool is_group = IsGroup(value);
     if (entries->size() == kMaxEntries || (is_group && depth == kMaxDepth)) {
-      problems->push_back(location + ": " + key + ": " +
-                          (is_group ? "is a group within a group"
-                                    : "too many keys, more than " + std::to_string(kMaxEntries)) +
-                          "; is this a configuration file?");
+      AddProblem(location, key, TooLarge(is_group), problems);
       return false;
     }
     if (is_group) {
@@ -66,10 +78,7 @@ bool Flatten(const YAML::Node& map, const std::string& prefix, int depth, const 
       continue;
     }
     const auto [entry, is_new] = entries->insert({key, ConfigEntry{value, location}});
-    if (!is_new) {
-      problems->push_back(location + ": " + key + ": appears twice (first at " +
-                          entry->second.location + "); remove one");
-    }
+    if (!is_new) AddProblem(location, key, AppearsTwice(entry->second), problems);
   }
   return true;
 }
@@ -109,7 +118,8 @@ std::optional<ConfigEntries> ReadConfigEntries(const std::string& file,
   ConfigEntries entries;
   if (!Flatten(*root, "", 1, file, &entries, problems)) return std::nullopt;
   for (const auto& [key, text] : overrides) {
-    entries[key] = {YAML::Node(text), file + " (override)"};
+    entries.erase(key);
+    entries.emplace(key, ConfigEntry{YAML::Node(text), file + " (override)"});
   }
   return entries;
 }

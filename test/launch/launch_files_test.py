@@ -239,6 +239,18 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(parameters["/pose_graph/image_transport"], "compressed")
 
 
+class Programs(unittest.TestCase):
+    def test_rosrun_finds_them_and_the_scripts(self):
+        for name in ("run_offline", "evaluate.py"):
+            result = subprocess.run(["rosrun", "plm_vins", name, "--help"],
+                                    env=dict(os.environ, ROS_PACKAGE_PATH=PACKAGE_PATH),
+                                    stdin=subprocess.DEVNULL,
+                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                    encoding="utf-8", check=False)
+            self.assertEqual(result.returncode, 0, result.stdout)
+            self.assertIn("--", result.stdout)
+
+
 class RealSense(unittest.TestCase):
     def test_camera(self):
         parameters = load("realsense_d435i.launch")[1]

@@ -6,6 +6,8 @@ import argparse
 import json
 import sys
 
+import numpy as np
+
 from evaluation import consistency, evo_backend, metrics
 from evaluation.evo_zip import write_evo_zip
 from evaluation.trajectory import TrajectoryError, read_trajectory
@@ -39,11 +41,21 @@ def evaluate(estimate, truth, align="se3", max_diff=0.01, max_gap=0.5):
         "ground_truth_path_m": truth.path_length,
         "estimate_path_m": estimate.path_length,
         "yaw_drift_deg": yaw_drift,
+        "local_scale": local_scale(paired_estimate, paired_truth),
         "computed_by": "numpy",
     }
     result.update(error_statistics(paired_estimate, paired_truth))
     _replace_by_evo(result, paired_estimate, paired_truth)
     return paired_estimate, paired_truth, result
+
+
+def local_scale(estimate, truth):
+    """How large pieces of 5 s are, or None where none is large enough to say."""
+    errors = metrics.local_scale_errors(estimate, truth)
+    if len(errors) == 0:
+        return None
+    return {"pieces": len(errors), "mean_error_percent": float(errors.mean()),
+            "mean_absolute_error_percent": float(np.abs(errors).mean())}
 
 
 def error_statistics(estimate, truth):
@@ -88,6 +100,11 @@ def format_report(result):
             lines[-1] += f"   coverage {100 * result['coverage']:.1f} %"
     lines.append(f"yaw error at the end {result['yaw_drift_deg']:.3f} deg,"
                  " with none at the beginning")
+    if result["local_scale"]:
+        scale = result["local_scale"]
+        lines.append(f"scale of {scale['pieces']} pieces of 5 s wrong by"
+                     f" {scale['mean_absolute_error_percent']:.2f} % (mean of absolute errors),"
+                     f" {scale['mean_error_percent']:+.2f} % on the mean")
     if "position_nees" in result:
         lines.append(f"squared error of the first {result['position_nees_s']:g} s' way, in units"
                      f" of its covariance: {result['position_nees']:.2f}; exact: 3 on average")

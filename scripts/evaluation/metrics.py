@@ -98,6 +98,31 @@ def yaw_drift(estimate, truth, seconds=1.0):
     return float(np.abs(np.degrees(np.angle(last * np.conj(first)))))
 
 
+def local_scale_errors(estimate, truth, seconds=5.0, every=0.5, after=10.0, least_extent=0.15):
+    """By how much [%] pieces of a trajectory are too large: the inverse of the scale of
+    [Umeyama1991] that fits each to its ground truth best.
+
+    Pieces last `seconds`, begin `every` so often from `after` the first pose on [s], and extend
+    over `least_extent` [m] at least, the root mean square from their middle. Of paired
+    trajectories, whatever their alignment.
+    """
+    errors = []
+    first, last = estimate.stamps[0] + after, estimate.stamps[-1] - seconds
+    for begin in np.arange(first, last + SAME_STAMP, every):
+        piece = (begin <= estimate.stamps) & (estimate.stamps <= begin + seconds)
+        if piece.sum() < 3:
+            continue
+        from_middle = [trajectory.positions[piece] - trajectory.positions[piece].mean(axis=0)
+                       for trajectory in (estimate, truth)]
+        extent = np.sqrt(np.mean(np.sum(from_middle[1] ** 2, axis=1)))
+        if extent < least_extent:
+            continue
+        u, singular_values, v_transposed = np.linalg.svd(from_middle[1].T @ from_middle[0])
+        singular_values[2] *= np.sign(np.linalg.det(u) * np.linalg.det(v_transposed))
+        errors.append(100 * (np.sum(from_middle[0] ** 2) / singular_values.sum() - 1))
+    return np.array(errors)
+
+
 def signed_yaw_errors(estimate, truth):
     """Heading errors [rad] in (-pi, pi]."""
     error = estimate.rotations @ _transposed(truth.rotations)

@@ -97,6 +97,29 @@ class AbsoluteError(unittest.TestCase):
                               turns @ truth.rotations)
         self.assertAlmostEqual(evaluate(estimate, truth)[2]["yaw_drift_deg"], 3.0, 6)
 
+    def test_local_scale_is_that_of_pieces_not_of_the_whole(self):
+        stamps = START + np.arange(0.0, 40.0, 0.05)
+        positions = np.stack([np.sin(stamps), np.cos(1.3 * stamps), 0.3 * np.sin(0.7 * stamps)],
+                             axis=1)
+        truth = Trajectory(stamps, positions, np.repeat(np.eye(3)[None], len(stamps), axis=0))
+        drift = np.array([1.0, 0, 0]) * np.floor((stamps - START + 0.075) / 5)[:, None]
+        turn = rotation((0.6, 0, 0.8), 50.0)
+        estimate = Trajectory(stamps, (1.02 * positions + drift) @ turn.T, truth.rotations)
+        errors = metrics.local_scale_errors(estimate, truth, seconds=4.9, every=5.0)
+        self.assertEqual(len(errors), 6)  # between which it jumps
+        np.testing.assert_allclose(errors, 2.0, atol=1e-6)
+        scale = evaluate(Trajectory(stamps, 0.97 * positions, truth.rotations), truth)[2]
+        self.assertAlmostEqual(scale["local_scale"]["mean_error_percent"], -3.0, 6)
+        self.assertAlmostEqual(scale["local_scale"]["mean_absolute_error_percent"], 3.0, 6)
+        self.assertIn("wrong by 3.00 %", format_report(scale))
+
+    def test_local_scale_of_a_standstill_is_not_told(self):
+        truth = flight()
+        truth.positions[:] = np.random.default_rng(1).normal(0, 1e-3, truth.positions.shape)
+        result = evaluate(truth, truth)[2]
+        self.assertIsNone(result["local_scale"])
+        self.assertNotIn("scale", format_report(result))
+
     def test_straight_line_leaves_the_alignment_open(self):
         truth = flight()
         truth.positions[:, 1:] = 0.0

@@ -18,6 +18,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 CONFIG = ROOT / "config" / "euroc.yaml"
 SIMULATE, RUN_OFFLINE = sys.argv[1:3] if len(sys.argv) > 2 else sys.exit(__doc__)
 DURATION = 12  # [s]
+LOOP_RESULTS = ("trajectory_map.tum", "covariance_map.csv", "trajectory_final.tum", "loops.csv",
+                "pose_graph.g2o", "colmap/points3D.txt")
 
 
 def run(*command):
@@ -55,12 +57,16 @@ class Flight:
         return (read_json(results / "summary.json"),
                 self._evaluate("evaluate.py", results / "trajectory.tum"))
 
-    def close_loops(self):
+    def close_loops(self, *options):
         """Returns how many loop candidates each gate refused, and the comparison of the loops with
         the ground truth."""
-        summary, _ = self.estimate("--set", "loop_closure=1")
+        summary, _ = self.estimate("--set", "loop_closure=1", *options)
         return (summary["loops"]["refused"],
                 self._evaluate("evaluate_loops.py", self.path / "results"))
+
+    def results(self, names):
+        """What is in these files of results."""
+        return {name: (self.path / "results" / name).read_bytes() for name in names}
 
     def _evaluate(self, script, results):
         figures = self.path / "figures.json"
@@ -133,33 +139,41 @@ class Odometry(unittest.TestCase):
             self.assert_accurate(flight.estimate()[1], 0.02)
 
 
-def close_loops_of_fast_flight(world):
-    """A fast flight comes back to where it was. Drawing is what takes the time, so there are half
-    as many images as usual, without blur."""
-    with Flight("--world", world, "--motion", "fast", "--frame-rate", 10, "--exposure", 0,
-                duration=30) as flight:
-        return flight.close_loops()
+def fast_flight(world):
+    """Comes back to where it was. Drawing is what takes the time, so there are half as many images
+    as usual, without blur."""
+    return Flight("--world", world, "--motion", "fast", "--frame-rate", 10, "--exposure", 0,
+                  duration=30)
 
 
 class LoopsInRooms(unittest.TestCase):
     def test_rooms_with_and_without_right_angles(self):
         for world in ("room", "atlanta", "irregular"):
-            with self.subTest(world):
-                _, loops = close_loops_of_fast_flight(world)
+            with self.subTest(world), fast_flight(world) as flight:
+                _, loops = flight.close_loops()
                 self.assertEqual(loops["false_loops"], 0)
                 self.assertGreater(loops["closed_share"], 0.6)
+                if world == "room":
+                    self.assert_same_bytes_with_one_thread(flight)
+
+    def assert_same_bytes_with_one_thread(self, flight):
+        before = flight.results(LOOP_RESULTS)
+        flight.close_loops("--threads", 1)
+        for name, content in flight.results(LOOP_RESULTS).items():
+            self.assertEqual(content, before[name], name)
 
 
 class LoopsAmongEquals(unittest.TestCase):
     def test_equal_shelves_and_tiles_are_not_taken_for_each_other(self):
         for world in ("shelves", "tiles"):
-            with self.subTest(world):
-                _, loops = close_loops_of_fast_flight(world)
+            with self.subTest(world), fast_flight(world) as flight:
+                _, loops = flight.close_loops()
                 self.assertEqual(loops["false_loops"], 0)
                 self.assertGreater(loops["loops"], 0)
 
     def test_two_equal_rooms_are_not_taken_for_one(self):
-        refused, loops = close_loops_of_fast_flight("twins")
+        with fast_flight("twins") as flight:
+            refused, loops = flight.close_loops()
         self.assertGreater(refused["odometry"], 0)  # the other room was there to be taken
         self.assertEqual(loops["false_loops"], 0)
 

@@ -166,7 +166,7 @@ TEST(OdometryPipeline, SavedFeaturesGiveTheSameBytesAsTheImages) {
   const std::string file = folder.File("flight.features");
   const Result images = [&] {
     FeatureFileWriter writer(file);
-    const Result result = RunPipeline(StillRecording(3000), 2, {}, &writer);
+    Result result = RunPipeline(StillRecording(3000), 2, {}, &writer);
     writer.Close();
     return result;
   }();

@@ -29,7 +29,7 @@ class LoopCloserTest : public ::testing::Test {
     const int left = 1600 - static_cast<int>(std::lround(y * kPixelsPerMeter)) - 376;
     OdometryFrame frame;
     frame.t_ns = ToNanoseconds(t);
-    frame.covariance.diagonal().head<3>().setConstant(1e-4 * t);
+    frame.covariance.diagonal().head<3>().setConstant(variance_rate_ * t);
     frame.T_B_C = testing::LookingAhead();
     frame.T_O_B = T_O_W.ToRigid() * Rigid3d(Eigen::Quaterniond::Identity(), {0, y, 0});
     frame.gray = painting_(cv::Rect(left, 280, 752, 480)).clone();
@@ -71,6 +71,7 @@ class LoopCloserTest : public ::testing::Test {
   std::shared_ptr<const CameraModel> camera_ = testing::SimpleCamera();
   cv::Mat painting_;
   int64_t first_track_ = 0;
+  double variance_rate_ = 1e-4;  // of odometry's position, as it states it [m^2/s]
   int accepted_ = 0;
   size_t confirmed_ = 0;
 };
@@ -140,6 +141,30 @@ TEST_F(LoopCloserTest, DoesNotTakeATwinOfAPlaceForThePlace) {
   ASSERT_FALSE(twin.candidates.empty());
   EXPECT_EQ(twin.candidates.front().failed, LoopGate::kOdometry);
   EXPECT_EQ(twin.fix->T_M_O.ToVector(), Vector4d::Zero());
+}
+
+// The wall was moved by more than odometry says that it may be off, but by less than it may drift.
+TEST_F(LoopCloserTest, DropsALoopThatTheGraphContradicts) {
+  const LevelTransform moved = {0, {0, 0.3, 0}};
+  LoopCloser unsure(LoopCloserOptions(*camera_), camera_);
+  Slide(&unsure, 0, LevelTransform());
+  const LoopClosure accepted = Slide(&unsure, 60, moved);
+  ASSERT_TRUE(accepted.place);
+  EXPECT_FALSE(accepted.candidates.back().failed);
+
+  variance_rate_ = 0;
+  accepted_ = 0;
+  LoopCloser sure(LoopCloserOptions(*camera_), camera_);
+  Slide(&sure, 0, LevelTransform());
+  const LoopClosure refused = Slide(&sure, 60, moved);
+  EXPECT_EQ(accepted_, 0);
+  ASSERT_TRUE(refused.place);  // it passed all other gates
+  EXPECT_EQ(refused.place->earlier, accepted.place->earlier);
+  const LoopCandidate& loop = refused.candidates.back();
+  EXPECT_EQ(loop.failed, LoopGate::kGraph);
+  EXPECT_LT(*loop.odometry_error, kThreeSigmaOf4Dof);
+  EXPECT_GT(*loop.graph_error, kThreeSigmaOf4Dof);
+  EXPECT_LT(refused.fix->T_M_O.ToVector().norm(), 1e-6);
 }
 
 TEST_F(LoopCloserTest, IsNotLargerAfterManyVisitsThanAfterAFew) {

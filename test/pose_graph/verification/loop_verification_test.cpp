@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "test/pose_graph/two_visits.h"
 
 namespace plm_vins {
@@ -161,6 +163,21 @@ TEST_F(LoopVerificationTest, RefusesWhatDoesNotHoldBackwards) {
   Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
   for (DescribedCorner& corner : later.corners) *corner.p_O *= 1.3F;  // its scale is wrong
   EXPECT_EQ(VerifyPair(earlier, later).failed, LoopGate::kBackwards);
+}
+
+// No comparison finds anything wrong with a place that is no number.
+TEST_F(LoopVerificationTest, RefusesLandmarksThatAreNowhere) {
+  const Keyframe earlier = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
+  Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
+  const LoopCandidate accepted = VerifyPair(earlier, later);
+  EXPECT_FALSE(accepted.failed);
+  for (DescribedCorner& corner : later.corners) corner.p_O->setConstant(std::nanf(""));
+  const LoopCandidate candidate = VerifyPair(earlier, later);
+  EXPECT_EQ(candidate.failed, LoopGate::kRefinement);
+  EXPECT_EQ(candidate.inliers, accepted.inliers);
+  EXPECT_EQ(candidate.cells, accepted.cells);
+  EXPECT_GE(candidate.backward_inliers, accepted.backward_inliers);
+  EXPECT_GE(candidate.backward_share, accepted.backward_share);
 }
 
 TEST_F(LoopVerificationTest, RefusesWhereTheLinesAreMissing) {

@@ -47,7 +47,7 @@ ESTIMATOR_LAYERS = {
     "map": "state geometry imu",
     "factors": "state geometry imu",
     "bridging": "state imu factors",
-    "problem": "state geometry map factors",
+    "problem": "state geometry imu map factors",
     "optimization": "factors problem",
     "marginalization": "state map problem",
     "manhattan": "state geometry map",

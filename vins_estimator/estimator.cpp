@@ -22,16 +22,7 @@ namespace {
 // What a shock, or a sensor that is heated or fails, may do to the biases.
 constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]
 
-WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& options) {
-  WindowEstimate estimate{LocalMap(options)};
-  SlidingWindow& window = estimate.map.window;
-  window.SetExtrinsic(sensor.T_B_C);
-  window.td = sensor.td;
-  window.readout = sensor.ReadoutTime();
-  window.intrinsics = window.ray_intrinsics = sensor.camera.intrinsics();
-  window.gravity_W = Eigen::Vector3d(0, 0, -sensor.gravity_norm);
-  return estimate;
-}
+constexpr int kMaxReweighings = 3;  // each finds three times the noise at most
 
 }  // namespace
 
@@ -40,6 +31,7 @@ Estimator::State::State(const Config& config, const EstimatorOptions& options)
       standstill_detector(config.sensor.imu_noise),
       estimate(EmptyWindow(config.sensor, options.map)),
       noise(1 / options.problem.point_weight, 1 / options.problem.line_weight),
+      imu_noise(config.sensor.imu_noise),
       newest_covariance(Matrix15d::Zero()),
       bridge(config.sensor.imu_noise, estimate.map.window.gravity_W) {
   if (config.sensor.rolling_shutter) rolling_shutter.emplace(config.sensor.camera);
@@ -107,7 +99,7 @@ void Estimator::Initialize(const FrameMeasurement& measurement, EstimatorOutput*
   state_.bridge.Clear();
   StartWindow(*result, uncertainty);
   Triangulate(output);
-  Optimize(options_.first_solution, output);
+  SolveFirstWindow(output);
   state_.initialized = true;
   Describe(output);
 }
@@ -141,6 +133,16 @@ void Estimator::StartWindow(const InitializationResult& result,
   state_.estimate.prior = InitialPrior(uncertainty, options_.problem, window);
 }
 
+// Again with the noise of the IMU that the window shows, where it is far from what is configured.
+void Estimator::SolveFirstWindow(EstimatorOutput* output) {
+  Optimize(options_.first_solution, output);
+  for (int i = 0; i < kMaxReweighings; ++i) {
+    if (!state_.imu_noise.Reweigh(&state_.estimate.map.window)) return;
+    state_.imu_noise.Reset();  // the next solution tells anew
+    Optimize(options_.solution, output);
+  }
+}
+
 void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
                       EstimatorOutput* output) {
   LocalMap& map = state_.estimate.map;
@@ -160,6 +162,7 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   state_.bridge.AddTracked(measurement.imu, {map.window.newest().state, state_.newest_covariance});
   if (const auto failure = UpdateFailureMonitors(*output)) return GiveUp(*failure, output);
   if (config_.estimator.adapt_noise) state_.noise.Update(map);
+  state_.imu_noise.Reweigh(&map.window);
   output->keyframe = keep_second_newest;
   Describe(output);
   SlideWindow(keep_second_newest, output);
@@ -199,7 +202,7 @@ void Estimator::AddFrame(const FrameMeasurement& measurement) {
   frame.timing = {measurement.time_offset, map.window.readout, config_.sensor.camera.height};
   if (!map.window.frames.empty()) {
     const FrameState& before = map.window.newest().state;
-    const ImuNoise noise = Scaled(config_.sensor.imu_noise, state_.imu_monitor.noise_scale());
+    const ImuNoise noise = Scaled(state_.imu_noise.noise(), state_.imu_monitor.noise_scale());
     frame.motion_since_previous = std::make_shared<Preintegration>(noise, before.bias());
     for (const ImuSample& sample : measurement.imu) frame.motion_since_previous->Append(sample);
     frame.state = frame.motion_since_previous->Predict(before, map.window.gravity_W);
@@ -302,6 +305,9 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
     output->velocity_covariance = covariance.block<3, 3>(6, 6);
     output->bias_covariance = covariance.bottomRightCorner<6, 6>();
   }
+  if (config_.estimator.adapt_imu_noise) {
+    state_.imu_noise.Learn(map.window, !state_.initialized, &equations);
+  }
   if (options_.problem.estimate_intrinsics) MoveRays();
   output->timings.optimization += stopwatch.Milliseconds();  // it may be done twice
 }
@@ -333,14 +339,10 @@ std::optional<double> Estimator::UpdateImuMonitor(const Eigen::Vector3d& rotatio
 }
 
 void Estimator::InflateNewestImuNoise(double variance_scale) {
-  WindowFrame& newest = state_.estimate.map.window.newest();
-  const Preintegration& before = *newest.motion_since_previous;
-  const ImuNoise noise = Scaled(config_.sensor.imu_noise, variance_scale);
-  auto doubted = std::make_shared<Preintegration>(noise, before.linearization_bias());
-  for (const ImuSample& sample : before.samples()) doubted->Append(sample);
-  doubted->AllowBiasStep(kBiasStep);
-  doubted->AllowStampErrors(before.stamp_errors());
-  newest.motion_since_previous = doubted;
+  auto& motion = state_.estimate.map.window.newest().motion_since_previous;
+  motion = std::make_shared<Preintegration>(*motion);
+  motion->Reweigh(Scaled(state_.imu_noise.noise(), variance_scale));
+  motion->AllowBiasStep(kBiasStep);
 }
 
 void Estimator::SlideWindow(bool keep_second_newest, EstimatorOutput* output) {
@@ -376,6 +378,7 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->calibration = {config_.sensor.camera.With(window.intrinsics), window.T_B_C(), window.td,
                          window.readout};
   output->R_W_M = state_.manhattan.R_W_M();
+  output->imu_noise = state_.imu_noise.noise();
   output->imu_noise_scale = state_.imu_monitor.noise_scale();
   output->delay = state_.delay_monitor.delay();
   output->stationary = window.newest().stationary;

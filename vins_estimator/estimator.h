@@ -22,6 +22,7 @@
 #include "vins_estimator/monitoring/failure_detector.h"
 #include "vins_estimator/monitoring/imu_monitor.h"
 #include "vins_estimator/monitoring/stamp_jitter.h"
+#include "vins_estimator/problem/imu_noise_learning.h"
 #include "vins_estimator/state/estimator_output.h"
 
 namespace plm_vins {
@@ -60,6 +61,7 @@ class Estimator {
     ManhattanFrame manhattan;
     WindowEstimate estimate;
     ViewNoise noise;
+    ImuNoiseLearning imu_noise;
     FrameState predicted;         // of the newest image, from the IMU alone
     bool solved = false;          // what was last optimised had a solution
     Matrix15d newest_covariance;  // as optimised; zero where the problem is singular
@@ -78,6 +80,7 @@ class Estimator {
   bool KeepFrame(InitializationResult* result, InitialUncertainty* uncertainty) const;
   void BeginWorld(EstimatorOutput* output);
   void StartWindow(const InitializationResult& result, const InitialUncertainty& uncertainty);
+  void SolveFirstWindow(EstimatorOutput* output);
   void AddFrame(const FrameMeasurement& measurement);
   void Triangulate(EstimatorOutput* output);
   void FindStructure(bool keep_second_newest, EstimatorOutput* output);

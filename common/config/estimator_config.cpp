@@ -15,6 +15,7 @@ ConfigKeys<EstimatorConfig> EstimatorKeys() {
       Key::Number("point_noise", "px", {0.01, 20}, &E::point_noise),
       Key::Number("line_noise", "px", {0.01, 20}, &E::line_noise),
       Key::Flag("adapt_noise", &E::adapt_noise),
+      Key::Flag("adapt_imu_noise", &E::adapt_imu_noise),
       Key::Number("line_outlier_distance", "m", {0.1, 1000}, &E::line_outlier_distance),
       Key::Flag("line_merging", &E::line_merging),
       Key::Number("line_merge_distance", "m", {0.001, 10}, &E::line_merge_distance),

@@ -13,9 +13,10 @@ struct EstimatorConfig {
   double keyframe_parallax = 20.0;  // mean parallax that makes a keyframe [px]
   int max_num_iterations = 8;       // of the window optimisation
   SolverType solver = SolverType::kSchur;
-  double point_noise = 0.7;  // standard deviation of a corner [px]
-  double line_noise = 0.5;   // standard deviation of a line's end across the line [px]
-  bool adapt_noise = true;   // let both follow what the images show
+  double point_noise = 0.7;     // standard deviation of a corner [px]
+  double line_noise = 0.5;      // standard deviation of a line's end across the line [px]
+  bool adapt_noise = true;      // let both follow what the images show
+  bool adapt_imu_noise = true;  // let that of the IMU grow to what the images show
 
   double line_outlier_distance = 10.0;     // longest line that is believed [m]
   bool line_merging = true;                // one landmark for what is one line

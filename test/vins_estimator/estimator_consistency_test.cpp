@@ -76,5 +76,56 @@ INSTANTIATE_TEST_SUITE_P(AllStages, EstimatorConsistency,
                                            Stages{"manhattan", true, true, true, 0},
                                            Stages{"anchors", true, true, true, 24}));
 
+// Flights with an IMU that propellers shake, of which the configuration knows a share.
+class ImuNoiseIsLearned : public ::testing::Test {
+ protected:
+  struct Result {
+    double pose = 0, velocity = 0;               // mean normalised squared errors at the ends
+    double accel_density = 0, gyro_density = 0;  // mean at the ends, over the true ones
+  };
+
+  static Result Fly(double configured_share, bool learns) {
+    constexpr int kShakenFlights = 8;
+    Result mean;
+    for (uint64_t seed = 1; seed <= kShakenFlights; ++seed) {
+      auto options = testing::FlightOptions(simulator::Motion::kFast, seed);
+      options.trajectory.duration = 12;
+      options.max_points = 80;
+      const ImuNoise truth = {1e-3, 3e-2, 2e-5, 3e-3};
+      options.sensors.imu_noise = truth;
+      const auto flight = testing::WithoutLines(testing::SimulateFlight(options));
+      Config config = testing::ConfigFor(flight);
+      config.sensor.imu_noise = Scaled(truth, configured_share * configured_share);
+      config.estimator.adapt_imu_noise = learns;
+      Estimator estimator(config);
+      const testing::EstimatedFlight estimated = testing::Estimate(flight, &estimator);
+      const auto at_end = testing::MeasureConsistencyAt(estimated, estimated.truth.size() - 1);
+      const ImuNoise& noise = estimated.outputs.back().imu_noise;
+      mean.pose += at_end.pose / kShakenFlights;
+      mean.velocity += at_end.velocity / kShakenFlights;
+      mean.accel_density += noise.accel_density / truth.accel_density / kShakenFlights;
+      mean.gyro_density += noise.gyro_density / truth.gyro_density / kShakenFlights;
+    }
+    std::cout << "pose " << mean.pose << ", velocity " << mean.velocity << ", accel "
+              << mean.accel_density << ", gyro " << mean.gyro_density << "\n";
+    return mean;
+  }
+};
+
+// The gyro is so much more precise than images that they tell little of its noise.
+TEST_F(ImuNoiseIsLearned, OfTheAccelerometerWhereItIsConfiguredAsAQuarter) {
+  const Result fixed = Fly(0.25, false), learned = Fly(0.25, true);
+  EXPECT_NEAR(learned.accel_density, 1, 0.3);
+  EXPECT_GT(learned.gyro_density, fixed.gyro_density);
+  EXPECT_LT(learned.pose, 0.6 * fixed.pose);
+  EXPECT_LT(learned.velocity, 0.3 * fixed.velocity);
+}
+
+TEST_F(ImuNoiseIsLearned, AndStaysAsConfiguredWhereThatIsRight) {
+  const Result learned = Fly(1, true);
+  EXPECT_NEAR(learned.accel_density, 1, 0.1);
+  EXPECT_NEAR(learned.gyro_density, 1, 0.1);
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -28,11 +28,9 @@ inline ProblemOptions OnePixelOptions() {
 // At the truth; landmarks are triangulated there.
 using SimulatedWindow = LocalMap;
 
-// `frame_count` keyframes, `stride` images of 20 Hz apart, that follow up to `max_points` corners.
-inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, size_t stride = 5,
-                                      int max_points = 25) {
-  simulator::FeatureSimulationOptions options = FlightOptions(simulator::Motion::kFast, seed);
-  options.max_points = max_points;
+// `frame_count` keyframes of a flight, `stride` images of 20 Hz apart.
+inline SimulatedWindow SimulateWindow(simulator::FeatureSimulationOptions options,
+                                      size_t frame_count, size_t stride) {
   options.trajectory.duration = 3.5 + static_cast<double>(frame_count * stride) / 20.0;
   const SimulatedFlight flight = SimulateFlight(options, /*skip=*/3);
   constexpr double kLineNoise = 1 / kSimulatedFocalLength;
@@ -57,6 +55,23 @@ inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, siz
   result.points.Triangulate(window, /*min_angle=*/0.02);
   result.lines.Triangulate(window, LineTriangulationOptions(kLineNoise), /*max_length=*/10);
   return result;
+}
+
+// The same of a fast flight, in which up to `max_points` corners are followed.
+inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, size_t stride = 5,
+                                      int max_points = 25) {
+  simulator::FeatureSimulationOptions options = FlightOptions(simulator::Motion::kFast, seed);
+  options.max_points = max_points;
+  return SimulateWindow(options, frame_count, stride);
+}
+
+// With an IMU as noisy as propellers make it, which corners of any window tell.
+inline SimulatedWindow SimulateShakenWindow(uint64_t seed) {
+  simulator::FeatureSimulationOptions options = FlightOptions(simulator::Motion::kFast, seed);
+  options.max_points = 80;
+  options.sensors.imu_noise.accel_density = 0.1;
+  options.sensors.imu_noise.gyro_density = 5e-3;
+  return SimulateWindow(options, 7, 5);
 }
 
 inline Eigen::VectorXd NormalVector(Eigen::Index size, simulator::Random* random) {

@@ -126,6 +126,11 @@ void Preintegration::Repropagate(const ImuBias& linearization_bias) {
   for (size_t i = 1; i < samples_.size(); ++i) IntegrateInterval(samples_[i - 1], samples_[i]);
 }
 
+void Preintegration::Reweigh(const ImuNoise& noise) {
+  noise_ = noise;
+  Repropagate(bias_);
+}
+
 bool Preintegration::HasGap() const {
   const auto is_gap = [](const ImuSample& begin, const ImuSample& end) {
     return ToSeconds(end.t_ns - begin.t_ns) > kMaxImuInterval;
@@ -146,7 +151,7 @@ void Preintegration::AllowStampErrors(const StampErrors& errors) {
 // A step at the start of the interval acts on all of it, as an error of the start does.
 Matrix15d Preintegration::covariance() const {
   Matrix15d covariance = covariance_;
-  if (bias_step_.gyro != 0 || bias_step_.accel != 0) {
+  if (HasBiasStep()) {
     const Eigen::Matrix<double, 15, 3> accel = jacobian_.middleCols<3>(Index::kAccelBias);
     const Eigen::Matrix<double, 15, 3> gyro = jacobian_.middleCols<3>(Index::kGyroBias);
     covariance += bias_step_.accel * bias_step_.accel * accel * accel.transpose() +

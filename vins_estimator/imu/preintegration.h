@@ -52,6 +52,9 @@ class Preintegration {
   // Integrates the same samples anew about another bias.
   void Repropagate(const ImuBias& linearization_bias);
 
+  // Integrates the same samples anew with another noise.
+  void Reweigh(const ImuNoise& noise);
+
   // Lets the biases differ from those before the interval by steps of these deviations.
   void AllowBiasStep(const BiasStep& step);
 
@@ -67,6 +70,7 @@ class Preintegration {
   FrameState Predict(const FrameState& start, const Eigen::Vector3d& gravity_W) const;
 
   bool HasGap() const;                           // of more than 50 ms between samples
+  bool HasBiasStep() const { return bias_step_.gyro != 0 || bias_step_.accel != 0; }
   double duration() const { return duration_; }  // [s]
   const std::vector<ImuSample>& samples() const { return samples_; }
   const ImuBias& linearization_bias() const { return bias_; }

@@ -20,4 +20,15 @@ void WindowEstimate::RemoveAnchor(int64_t t_ns) {
   map.RemoveAnchor(t_ns);
 }
 
+WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& options) {
+  WindowEstimate estimate{LocalMap(options)};
+  SlidingWindow& window = estimate.map.window;
+  window.SetExtrinsic(sensor.T_B_C);
+  window.td = sensor.td;
+  window.readout = sensor.ReadoutTime();
+  window.intrinsics = window.ray_intrinsics = sensor.camera.intrinsics();
+  window.gravity_W = Eigen::Vector3d(0, 0, -sensor.gravity_norm);
+  return estimate;
+}
+
 }  // namespace plm_vins

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "common/config/sensor_config.h"
 #include "vins_estimator/map/local_map.h"
 #include "vins_estimator/problem/marginalization_prior.h"
 #include "vins_estimator/problem/problem_builder.h"
@@ -27,5 +28,8 @@ struct WindowEstimate {
   LocalMap map;
   MarginalizationPrior prior;
 };
+
+// Without frames, with the calibration as configured.
+WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& options);
 
 }  // namespace plm_vins

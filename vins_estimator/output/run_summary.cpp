@@ -80,6 +80,8 @@ void RunSummary::AddPose(const EstimatorOutput& output) {
   keyframes_ += output.keyframe ? 1 : 0;
   bridged_losses_ += output.bridged ? 1 : 0;
   imu_doubts_ += output.imu_doubted ? 1 : 0;
+  accel_density_ += output.imu_noise.accel_density;
+  gyro_density_ += output.imu_noise.gyro_density;
   imu_noisy_ += output.imu_noise_scale > 1 ? 1 : 0;
   merged_lines_ += output.counts.line_merging.merged;
   recognised_lines_ += output.counts.lines_recognised;
@@ -119,6 +121,8 @@ Json RunSummary::ToJson(const Run& run) const {
   json["resets"] = resets_;
   json["bridged_losses"] = bridged_losses_;
   json["imu_doubts"] = imu_doubts_;
+  json["imu_noise"] = {{"accel_density", Ratio(accel_density_, static_cast<double>(poses_))},
+                       {"gyro_density", Ratio(gyro_density_, static_cast<double>(poses_))}};
   json["imu_noisy_share"] = Ratio(static_cast<double>(imu_noisy_), static_cast<double>(poses_));
   json["calibration"] = poses_ > 0 ? CalibrationToJson(calibration_) : Json(nullptr);
   json["timing_ms"] = TimingsToJson(timings_);

@@ -24,6 +24,7 @@ void EstimatorDiagnostics::Update(const EstimatorOutput& output, int64_t frames,
   pose_age_ = age;
   contradicted_ = output.contradicted;
   on_imu_alone_ = output.on_imu_alone;
+  imu_noise_ = output.imu_noise;
   imu_noise_scale_ = output.imu_noise_scale;
   bridged_losses_ += output.bridged ? 1 : 0;
   imu_doubts_ += output.imu_doubted ? 1 : 0;
@@ -56,6 +57,8 @@ void EstimatorDiagnostics::Report(size_t queued,
   status->add("bridged_losses", bridged_losses_);
   for (StreamMonitor* stream : {&imu_, &points_, &lines_, &poses_}) stream->Report(status);
   status->addf("pose_age_ms", "%.0f", 1e3 * pose_age_);
+  status->addf("accel_density", "%.2g", imu_noise_.accel_density);
+  status->addf("gyro_density", "%.2g", imu_noise_.gyro_density);
   status->addf("imu_noise_scale", "%.1f", imu_noise_scale_);
   status->add("imu_doubts", imu_doubts_);
   status->add("queued", queued);

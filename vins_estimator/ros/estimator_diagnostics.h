@@ -70,6 +70,7 @@ class EstimatorDiagnostics {
   std::string reason_;
   bool contradicted_ = false;
   bool on_imu_alone_ = false;
+  ImuNoise imu_noise_;
   double imu_noise_scale_ = 1;
   int64_t bridged_losses_ = 0;
   int64_t imu_doubts_ = 0;

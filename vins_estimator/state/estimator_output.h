@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/imu/imu_noise.h"
 #include "vins_estimator/state/calibration.h"
 #include "vins_estimator/state/estimate_counts.h"
 #include "vins_estimator/state/frame_state.h"
@@ -52,7 +53,8 @@ struct EstimatorOutput {
   Matrix6d bias_covariance = Matrix6d::Zero();  // of the accelerometer [m/s^2] and gyro [rad/s]
   Calibration calibration;
   std::optional<Eigen::Quaterniond> R_W_M;  // the Manhattan frame, where the scene has one
-  double imu_noise_scale = 1;               // of its variance, as the camera shows it (ImuMonitor)
+  ImuNoise imu_noise;                       // as it counts: configured, or as flight shows it
+  double imu_noise_scale = 1;               // of its variance beyond that (ImuMonitor)
   bool imu_doubted = false;                 // in this image, at once
   std::optional<double> delay;              // error of td that shows, roughly [s] (DelayMonitor)
   bool contradicted = false;                // much of what is known is not where it should be

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/imu/imu_noise_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulator/random.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kConfigured = 0.01;
+
+// Adds what intervals show of a noise where images tell the motion to the deviation `images`, and
+// the noise is assumed as estimated so far.
+void AddIntervals(int count, double truth, double images, simulator::Random* random,
+                  DensityEstimate* estimate) {
+  constexpr double kDegrees = 3;
+  const auto square = [](double x) { return x * x; };
+  for (int i = 0; i < count; ++i) {
+    const double assumed = estimate->density();
+    const double share = square(assumed) / (square(assumed) + square(images));
+    const double ratio = (square(truth) + square(images)) / (square(assumed) + square(images));
+    estimate->Add(
+        {assumed, share * ratio * random->NormalVector3().squaredNorm(), kDegrees * share});
+  }
+}
+
+TEST(DensityEstimate, FindsTheDensity) {
+  simulator::Random random(1);
+  for (const double images : {0.0, 1.0, 2.0}) {
+    DensityEstimate estimate(kConfigured);
+    AddIntervals(400, 5 * kConfigured, images * kConfigured, &random, &estimate);
+    // 7 % is the deviation from as much as it remembers.
+    EXPECT_NEAR(estimate.density(), 5 * kConfigured, 0.21 * 5 * kConfigured) << images;
+  }
+}
+
+TEST(DensityEstimate, FollowsWhatChanges) {
+  simulator::Random random(1);
+  DensityEstimate estimate(kConfigured);
+  AddIntervals(100, 5 * kConfigured, 0, &random, &estimate);
+  EXPECT_GT(estimate.density(), 4 * kConfigured);
+  AddIntervals(300, 2 * kConfigured, 0, &random, &estimate);
+  EXPECT_NEAR(estimate.density(), 2 * kConfigured, 0.21 * 2 * kConfigured);
+}
+
+TEST(DensityEstimate, IsNeverLessThanConfigured) {
+  simulator::Random random(1);
+  DensityEstimate estimate(kConfigured);
+  AddIntervals(100, 0.1 * kConfigured, 0, &random, &estimate);
+  EXPECT_DOUBLE_EQ(estimate.density(), kConfigured);
+}
+
+TEST(DensityEstimate, IsBounded) {
+  simulator::Random random(1);
+  DensityEstimate estimate(kConfigured);
+  AddIntervals(400, 100 * kConfigured, 0, &random, &estimate);
+  EXPECT_DOUBLE_EQ(estimate.density(), 16 * kConfigured);
+}
+
+TEST(DensityEstimate, OneIntervalDoesNotDecide) {
+  DensityEstimate estimate(kConfigured);
+  estimate.Add({kConfigured, 1e6, 3.0});
+  EXPECT_LT(estimate.density(), 2 * kConfigured);
+}
+
+TEST(DensityEstimate, IgnoresIntervalsThatSayNothing) {
+  DensityEstimate estimate(kConfigured);
+  for (int i = 0; i < 100; ++i) estimate.Add({kConfigured, 1.0, i % 2 == 0 ? 1e-4 : -1e-4});
+  estimate.Add({kConfigured, 1.0, std::nan("")});
+  EXPECT_DOUBLE_EQ(estimate.density(), kConfigured);
+}
+
+TEST(ImuNoiseEstimate, TellsAccelerometerAndGyroApart) {
+  const ImuNoise configured = {1e-4, 1e-2, 1e-5, 1e-3};
+  ImuNoiseEstimate estimate(configured);
+  for (int i = 0; i < 100; ++i) {
+    const double assumed = estimate.noise().accel_density, ratio = 3e-2 / assumed;
+    estimate.Add({{assumed, 3 * ratio * ratio, 3}, {1e-4, 3, 3}});
+  }
+  EXPECT_NEAR(estimate.noise().accel_density, 3e-2, 1e-3);
+  EXPECT_DOUBLE_EQ(estimate.noise().gyro_density, 1e-4);
+  EXPECT_EQ(estimate.noise().accel_walk, configured.accel_walk);
+  EXPECT_EQ(estimate.noise().gyro_walk, configured.gyro_walk);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/problem/imu_noise_learning.h"
+
+#include <gtest/gtest.h>
+
+#include "test/vins_estimator/simulated_problem.h"
+#include "vins_estimator/marginalization/window_marginalizer.h"
+
+namespace plm_vins {
+namespace {
+
+// A window at the truth, in which the IMU has a noise that the configuration does not know.
+class ImuNoiseLearningTest : public ::testing::Test {
+ protected:
+  ImuNoiseLearningTest() : simulated_(testing::SimulateShakenWindow(1)) {
+    configured_ = window().newest().motion_since_previous->noise();
+    configured_.accel_density /= 10;
+    configured_.gyro_density /= 10;
+    for (WindowFrame& frame : window().frames) {
+      if (frame.motion_since_previous) frame.motion_since_previous->Reweigh(configured_);
+    }
+  }
+
+  SlidingWindow& window() { return simulated_.window; }
+  const ImuNoise& NoiseOfInterval(size_t i) {
+    return window().frames[i + 1].motion_since_previous->noise();
+  }
+
+  void Learn(bool is_first, ImuNoiseLearning* learning) {
+    const ProblemOptions options = testing::OnePixelOptions();
+    const auto prior = InitialPrior(InitialUncertainty(), options, window());
+    ProblemBuilder builder(options, &window(), &prior);
+    testing::AddAll(&simulated_, &builder);
+    NormalEquations equations(builder.problem());
+    equations.Linearize();
+    learning->Learn(window(), is_first, &equations);
+  }
+
+  testing::SimulatedWindow simulated_;
+  ImuNoise configured_;
+};
+
+TEST_F(ImuNoiseLearningTest, BeginsAsConfigured) {
+  const ImuNoiseLearning learning(configured_);
+  EXPECT_EQ(learning.noise().accel_density, configured_.accel_density);
+  EXPECT_FALSE(learning.Reweigh(&window()));
+}
+
+TEST_F(ImuNoiseLearningTest, FindsNoiseInTheOlderHalfOfTheWindowOnce) {
+  ImuNoiseLearning learning(configured_);
+  Learn(/*is_first=*/false, &learning);
+  const ImuNoise found = learning.noise();
+  EXPECT_GT(found.accel_density, 1.1 * configured_.accel_density);
+  EXPECT_GT(found.gyro_density, 1.1 * configured_.gyro_density);
+  Learn(/*is_first=*/false, &learning);
+  EXPECT_EQ(learning.noise().accel_density, found.accel_density);
+  EXPECT_EQ(learning.noise().gyro_density, found.gyro_density);
+  Learn(/*is_first=*/true, &learning);  // the other half as well
+  EXPECT_NE(learning.noise().accel_density, found.accel_density);
+}
+
+TEST_F(ImuNoiseLearningTest, LeavesOutStandstillAndStepsOfBias) {
+  for (WindowFrame& frame : window().frames) frame.stationary = true;
+  window().frames[2].stationary = false;
+  window().frames[2].motion_since_previous->AllowBiasStep({0.1, 0.1});
+  ImuNoiseLearning learning(configured_);
+  Learn(/*is_first=*/true, &learning);
+  EXPECT_EQ(learning.noise().accel_density, configured_.accel_density);
+  EXPECT_EQ(learning.noise().gyro_density, configured_.gyro_density);
+}
+
+TEST_F(ImuNoiseLearningTest, ReweighsOnlyIntervalsThatAreFarLessNoisy) {
+  ImuNoise noisier = configured_;
+  noisier.accel_density *= 100;
+  noisier.gyro_density *= 100;
+  window().frames[3].motion_since_previous->Reweigh(noisier);
+  ImuNoiseLearning learning(configured_);
+  Learn(/*is_first=*/true, &learning);
+  EXPECT_TRUE(learning.Reweigh(&window()));
+  EXPECT_EQ(NoiseOfInterval(0).accel_density, learning.noise().accel_density);
+  EXPECT_EQ(NoiseOfInterval(2).accel_density, noisier.accel_density);
+  EXPECT_EQ(NoiseOfInterval(5).gyro_density, learning.noise().gyro_density);
+  EXPECT_EQ(NoiseOfInterval(5).gyro_walk, configured_.gyro_walk);
+  EXPECT_FALSE(learning.Reweigh(&window()));
+}
+
+TEST_F(ImuNoiseLearningTest, ResetForgets) {
+  ImuNoiseLearning learning(configured_);
+  Learn(/*is_first=*/true, &learning);
+  EXPECT_GT(learning.noise().accel_density, configured_.accel_density);
+  learning.Reset();
+  EXPECT_EQ(learning.noise().accel_density, configured_.accel_density);
+}
+
+}  // namespace
+}  // namespace plm_vins

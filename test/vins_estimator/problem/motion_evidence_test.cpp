@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/problem/motion_evidence.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "test/vins_estimator/simulated_problem.h"
+#include "vins_estimator/marginalization/window_marginalizer.h"
+#include "vins_estimator/optimization/window_solver.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::SimulatedWindow;
+
+ProblemOptions Options() {
+  Config config;
+  config.sensor.camera = simulator::DefaultSensors().camera;
+  config.estimator.point_noise = simulator::FeatureSimulationOptions().point_noise_px;
+  config.estimator.line_noise = simulator::FeatureSimulationOptions().line_noise_px;
+  return {config, testing::kSimulatedFocalLength};
+}
+
+// Knows all states as they are, to `deviation` in all their units.
+MarginalizationPrior KnownStates(double deviation, const SlidingWindow& window) {
+  std::vector<MarginalizationPrior::Block> blocks;
+  int size = 0;
+  const auto add = [&](const BlockId& id, const auto& values, int tangent_size) {
+    MarginalizationPrior::Block block{id, size};
+    std::copy(values.begin(), values.end(), block.linearization.begin());
+    blocks.push_back(block);
+    size += tangent_size;
+  };
+  for (const WindowFrame& frame : window.frames) {
+    add({BlockKind::kPose, frame.state.t_ns}, frame.state.pose, 6);
+    add({BlockKind::kMotion, frame.state.t_ns}, frame.state.motion, 9);
+  }
+  Quadratic quadratic;
+  quadratic.H = Eigen::MatrixXd::Identity(size, size) / (deviation * deviation);
+  quadratic.b = Eigen::VectorXd::Zero(size);
+  return {blocks, quadratic};
+}
+
+// What the equations of the motions and the prior alone, linearised at the values, say of the
+// interval from frame 1 to frame 2.
+ImuNoiseEvidence EvidenceWithoutImages(const MarginalizationPrior& prior, SlidingWindow* window) {
+  ProblemBuilder builder(Options(), window, &prior);
+  builder.AddPrior();
+  for (size_t i = 1; i < window->frames.size(); ++i) builder.AddMotion(i);
+  NormalEquations equations(builder.problem());
+  equations.Linearize();
+  return EvidenceOfMotion(*window, window->frames[1], window->frames[2], &equations).value();
+}
+
+// The covariance of the residual is then S, to which three independent sources contribute.
+TEST(EvidenceOfMotion, ExpectsTheWholeResidualOfStatesThatAreKnown) {
+  SimulatedWindow simulated = testing::SimulateWindow(4);
+  SlidingWindow& window = simulated.window;
+  const auto evidence = EvidenceWithoutImages(KnownStates(1e-7, window), &window);
+  const Preintegration& motion = *window.frames[2].motion_since_previous;
+  ImuNoise walks = motion.noise();
+  walks.accel_density = walks.gyro_density = 0;
+  Preintegration walking(walks, motion.linearization_bias());
+  for (const ImuSample& sample : motion.samples()) walking.Append(sample);
+  const double of_walks = motion.covariance().llt().solve(walking.covariance()).trace();
+  EXPECT_NEAR(evidence.accel.expected + evidence.gyro.expected, 15 - of_walks, 1e-2);
+  EXPECT_NEAR(of_walks, 6, 0.1);
+  EXPECT_NEAR(evidence.gyro.expected, 3, 0.1);
+  EXPECT_EQ(evidence.accel.assumed, motion.noise().accel_density);
+  EXPECT_EQ(evidence.gyro.assumed, motion.noise().gyro_density);
+}
+
+TEST(EvidenceOfMotion, ExpectsNothingWhereTheImuAloneTellsTheMotion) {
+  SimulatedWindow simulated = testing::SimulateWindow(4);
+  SlidingWindow& window = simulated.window;
+  const auto prior = InitialPrior(InitialUncertainty(), Options(), window);
+  const auto evidence = EvidenceWithoutImages(prior, &window);
+  EXPECT_NEAR(evidence.accel.expected, 0, 1e-3);
+  EXPECT_NEAR(evidence.gyro.expected, 0, 1e-3);
+}
+
+TEST(EvidenceOfMotion, IsNothingWhereTheStatesAreNotDetermined) {
+  SimulatedWindow simulated = testing::SimulateWindow(3);
+  SlidingWindow& window = simulated.window;
+  const MarginalizationPrior prior;
+  ProblemBuilder builder(Options(), &window, &prior);
+  builder.AddMotion(1);
+  builder.AddMotion(2);
+  NormalEquations equations(builder.problem());
+  equations.Linearize();
+  EXPECT_FALSE(EvidenceOfMotion(window, window.frames[0], window.frames[1], &equations));
+}
+
+// Sums over solved windows with noise, of which the motions assume a share.
+ImuNoiseEvidence SumOverWindows(double assumed_share) {
+  ImuNoiseEvidence sum;
+  for (uint64_t seed = 1; seed <= 30; ++seed) {
+    SimulatedWindow simulated = testing::SimulateShakenWindow(seed);
+    SlidingWindow& window = simulated.window;
+    for (WindowFrame& frame : window.frames) {
+      if (!frame.motion_since_previous) continue;
+      ImuNoise noise = frame.motion_since_previous->noise();
+      noise.accel_density *= assumed_share;
+      noise.gyro_density *= assumed_share;
+      frame.motion_since_previous->Reweigh(noise);
+    }
+    const auto prior = InitialPrior(InitialUncertainty(), Options(), window);
+    ProblemBuilder builder(Options(), &window, &prior);
+    testing::AddAll(&simulated, &builder);
+    NormalEquations equations(builder.problem());
+    SolverOptions options;
+    options.max_iterations = 20;
+    SolveBy(SolverType::kSchur, options, builder.problem(), &equations);
+    const auto evidence =
+        EvidenceOfMotion(window, window.frames[3], window.frames[4], &equations).value();
+    sum.accel.squared += evidence.accel.squared;
+    sum.accel.expected += evidence.accel.expected;
+    sum.gyro.squared += evidence.gyro.squared;
+    sum.gyro.expected += evidence.gyro.expected;
+  }
+  return sum;
+}
+
+// A quotient of n redundancies has the standard deviation sqrt(2 / n).
+double Tolerance(const DensityEvidence& sum) { return 3 * std::sqrt(2 / sum.expected); }
+
+TEST(EvidenceOfMotion, IsAsExpectedWhereTheNoiseIsAsAssumed) {
+  const ImuNoiseEvidence sum = SumOverWindows(1);
+  EXPECT_GT(sum.accel.expected, 20);
+  EXPECT_GT(sum.gyro.expected, 20);
+  EXPECT_NEAR(sum.accel.squared / sum.accel.expected, 1, Tolerance(sum.accel));
+  EXPECT_NEAR(sum.gyro.squared / sum.gyro.expected, 1, Tolerance(sum.gyro));
+}
+
+TEST(EvidenceOfMotion, ShowsNoiseThatIsGreaterThanAssumed) {
+  const ImuNoiseEvidence sum = SumOverWindows(0.25);
+  EXPECT_GT(sum.accel.squared / sum.accel.expected, 6);
+  EXPECT_GT(sum.gyro.squared / sum.gyro.expected, 6);
+}
+
+}  // namespace
+}  // namespace plm_vins

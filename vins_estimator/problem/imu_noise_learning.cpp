@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/problem/imu_noise_learning.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "vins_estimator/problem/motion_evidence.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kFar = 1.25;  // less is chance, and not worth integrating samples anew
+
+bool IsFarNoisier(const ImuNoise& noise, const ImuNoise& than) {
+  return noise.accel_density > kFar * than.accel_density ||
+         noise.gyro_density > kFar * than.gyro_density;
+}
+
+// What is wrong with these is not noise.
+bool IsNoEvidence(const WindowFrame& end) {
+  return end.stationary || end.motion_since_previous->HasGap() ||
+         end.motion_since_previous->HasBiasStep();
+}
+
+}  // namespace
+
+void ImuNoiseLearning::Learn(const SlidingWindow& window, bool is_first,
+                             NormalEquations* equations) {
+  const size_t intervals = window.frames.size() - 1;
+  for (size_t i = 0; i < (is_first ? intervals : intervals / 2); ++i) {
+    const WindowFrame &begin = window.frames[i], &end = window.frames[i + 1];
+    if (known_ns_ && begin.state.t_ns <= *known_ns_) continue;
+    known_ns_ = begin.state.t_ns;
+    if (IsNoEvidence(end)) continue;
+    const auto evidence = EvidenceOfMotion(window, begin, end, equations);
+    if (evidence) estimate_.Add(*evidence);
+  }
+  noise_ = estimate_.noise();
+}
+
+bool ImuNoiseLearning::Reweigh(SlidingWindow* window) const {
+  bool any = false;
+  for (WindowFrame& frame : window->frames) {
+    auto& motion = frame.motion_since_previous;
+    if (!motion || !IsFarNoisier(noise_, motion->noise())) continue;
+    const ImuNoise before = motion->noise();
+    motion = std::make_shared<Preintegration>(*motion);
+    motion->Reweigh({std::max(noise_.gyro_density, before.gyro_density),
+                     std::max(noise_.accel_density, before.accel_density), before.gyro_walk,
+                     before.accel_walk});
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace plm_vins

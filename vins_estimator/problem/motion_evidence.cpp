@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/problem/motion_evidence.h"
+
+#include <Eigen/Cholesky>
+
+#include "vins_estimator/factors/imu_factor.h"
+
+namespace plm_vins {
+namespace {
+
+// That of the same samples with no other noise than this.
+Matrix15d CovarianceFrom(const ImuNoise& noise, const Preintegration& motion) {
+  Preintegration alone(noise, motion.linearization_bias());
+  for (const ImuSample& sample : motion.samples()) alone.Append(sample);
+  return alone.covariance();
+}
+
+// Of the residual, from that of the states at both ends.
+std::optional<Matrix15d> SolutionCovariance(int64_t begin_ns, int64_t end_ns,
+                                            const ImuResidualJacobians& jacobians,
+                                            NormalEquations* equations) {
+  const Eigen::MatrixXd states = equations->Covariance({{BlockKind::kPose, begin_ns},
+                                                        {BlockKind::kMotion, begin_ns},
+                                                        {BlockKind::kPose, end_ns},
+                                                        {BlockKind::kMotion, end_ns}});
+  if (states.size() == 0) return std::nullopt;
+  Eigen::Matrix<double, 15, 30> J;
+  J << jacobians.d_residual_d_pose_i, jacobians.d_residual_d_motion_i,
+      jacobians.d_residual_d_pose_j, jacobians.d_residual_d_motion_j;
+  return J * states * J.transpose();
+}
+
+}  // namespace
+
+std::optional<ImuNoiseEvidence> EvidenceOfMotion(const SlidingWindow& window,
+                                                 const WindowFrame& begin, const WindowFrame& end,
+                                                 NormalEquations* equations) {
+  const Preintegration& motion = *end.motion_since_previous;
+  ImuResidualJacobians jacobians;
+  const Vector15d residual =
+      ImuResidual(motion, window.gravity_W, begin.state, end.state, &jacobians);
+  const auto known = SolutionCovariance(begin.state.t_ns, end.state.t_ns, jacobians, equations);
+  if (!known) return std::nullopt;
+  const Eigen::LLT<Matrix15d> assumed(motion.covariance());
+  const Vector15d weighted = assumed.solve(residual);
+  const Matrix15d P = assumed.solve(Matrix15d::Identity() - assumed.solve(*known).transpose());
+  const auto evidence = [&](double density, const ImuNoise& source) {
+    const Matrix15d S_k = CovarianceFrom(source, motion);
+    return DensityEvidence{density, weighted.dot(S_k * weighted), P.cwiseProduct(S_k).sum()};
+  };
+  const ImuNoise noise = motion.noise();
+  return ImuNoiseEvidence{evidence(noise.accel_density, {0, noise.accel_density, 0, 0}),
+                          evidence(noise.gyro_density, {noise.gyro_density, 0, 0, 0})};
+}
+
+}  // namespace plm_vins

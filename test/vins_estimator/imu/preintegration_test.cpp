@@ -313,6 +313,24 @@ TEST(Preintegration, ABiasStepActsFromTheStartOfTheInterval) {
   EXPECT_MATRIX_NEAR(whitened, Matrix15d::Identity(), 1e-6);
 }
 
+TEST(Preintegration, AnotherNoiseChangesTheCovarianceAlone) {
+  const std::vector<ImuSample> samples = Flight(3.0, 3.2);
+  Preintegration reweighed = Integrate(samples);
+  reweighed.AllowBiasStep({0.1, 0.2});
+  reweighed.SqrtInformation();
+  const ImuNoise noise = Scaled(reweighed.noise(), 9);
+  const Eigen::Vector3d delta_v = reweighed.delta_v();
+  reweighed.Reweigh(noise);
+  Preintegration expected(noise, reweighed.linearization_bias());
+  for (const ImuSample& sample : samples) expected.Append(sample);
+  EXPECT_FALSE(expected.HasBiasStep());
+  expected.AllowBiasStep({0.1, 0.2});
+  EXPECT_TRUE(reweighed.HasBiasStep());
+  EXPECT_EQ(reweighed.delta_v(), delta_v);
+  EXPECT_EQ(reweighed.covariance(), expected.covariance());
+  EXPECT_EQ(reweighed.SqrtInformation(), expected.SqrtInformation());
+}
+
 TEST(Preintegration, JoinedIntervalsKeepTheirNoiseAndSteps) {
   const auto samples = ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.1, 200);
   const std::vector<ImuSample> first(samples.begin(), samples.begin() + 11);

@@ -31,6 +31,7 @@ TEST(RunSummary, AddsUpARun) {
   summary.Add(Pose(2, 0.3), {}, {});
   EstimatorOutput standing = Pose(4, -0.1);
   standing.stationary = true;
+  standing.imu_noise = {5e-4, 8e-3, 0, 0};
   standing.counts.line_merging.merged = 2;
   standing.counts.lines_recognised = 3;
   standing.counts.lines_wandering = 4;
@@ -56,6 +57,11 @@ TEST(RunSummary, AddsUpARun) {
   EXPECT_EQ(json["recognised_lines"], 3);
   EXPECT_EQ(json["wandering_lines"], 4);
   EXPECT_NEAR(json["manhattan_share"].get<double>(), 1.0 / 3, 1e-12);
+  const ImuNoise usual;
+  EXPECT_NEAR(json["imu_noise"]["accel_density"].get<double>(),
+              (2 * usual.accel_density + 8e-3) / 3, 1e-12);
+  EXPECT_NEAR(json["imu_noise"]["gyro_density"].get<double>(), (2 * usual.gyro_density + 5e-4) / 3,
+              1e-12);
   EXPECT_EQ(json["resets"], 0);
   EXPECT_NEAR(json["init_time_s"].get<double>(), 0.1, 1e-9);
   EXPECT_NEAR(json["path_length_m"].get<double>(), 0.7, 1e-12);

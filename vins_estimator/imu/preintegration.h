@@ -69,7 +69,7 @@ class Preintegration {
   // State at the end of the interval from the state at its start. `gravity_W` is (0, 0, -g).
   FrameState Predict(const FrameState& start, const Eigen::Vector3d& gravity_W) const;
 
-  bool HasGap() const;                           // of more than 50 ms between samples
+  bool HasGap() const;  // of more than 50 ms between samples
   bool HasBiasStep() const { return bias_step_.gyro != 0 || bias_step_.accel != 0; }
   double duration() const { return duration_; }  // [s]
   const std::vector<ImuSample>& samples() const { return samples_; }

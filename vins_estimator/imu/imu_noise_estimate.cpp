@@ -24,7 +24,7 @@ DensityEstimate::DensityEstimate(double configured)
       redundancy_(kOfConfigured) {}
 
 void DensityEstimate::Add(const DensityEvidence& evidence) {
-  if (!(evidence.expected > kLeastExpected)) return;
+  if (!(evidence.expected > kLeastExpected && evidence.squared >= 0)) return;
   const double squared = std::min(evidence.squared, kGreatestRatio * evidence.expected);
   squares_ += evidence.assumed * evidence.assumed * squared;
   redundancy_ += evidence.expected;

@@ -70,6 +70,7 @@ TEST(DensityEstimate, IgnoresIntervalsThatSayNothing) {
   DensityEstimate estimate(kConfigured);
   for (int i = 0; i < 100; ++i) estimate.Add({kConfigured, 1.0, i % 2 == 0 ? 1e-4 : -1e-4});
   estimate.Add({kConfigured, 1.0, std::nan("")});
+  estimate.Add({kConfigured, std::nan(""), 1.0});
   EXPECT_DOUBLE_EQ(estimate.density(), kConfigured);
 }
 

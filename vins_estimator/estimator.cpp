@@ -339,10 +339,9 @@ std::optional<double> Estimator::UpdateImuMonitor(const Eigen::Vector3d& rotatio
 }
 
 void Estimator::InflateNewestImuNoise(double variance_scale) {
-  auto& motion = state_.estimate.map.window.newest().motion_since_previous;
-  motion = std::make_shared<Preintegration>(*motion);
-  motion->Reweigh(Scaled(state_.imu_noise.noise(), variance_scale));
-  motion->AllowBiasStep(kBiasStep);
+  Preintegration& motion = *state_.estimate.map.window.newest().motion_since_previous;
+  motion.Reweigh(Scaled(state_.imu_noise.noise(), variance_scale));
+  motion.AllowBiasStep(kBiasStep);
 }
 
 void Estimator::SlideWindow(bool keep_second_newest, EstimatorOutput* output) {

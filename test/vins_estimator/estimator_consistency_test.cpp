@@ -106,8 +106,6 @@ class ImuNoiseIsLearned : public ::testing::Test {
       mean.accel_density += noise.accel_density / truth.accel_density / kShakenFlights;
       mean.gyro_density += noise.gyro_density / truth.gyro_density / kShakenFlights;
     }
-    std::cout << "pose " << mean.pose << ", velocity " << mean.velocity << ", accel "
-              << mean.accel_density << ", gyro " << mean.gyro_density << "\n";
     return mean;
   }
 };

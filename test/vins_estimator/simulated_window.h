@@ -74,6 +74,14 @@ inline SimulatedWindow SimulateShakenWindow(uint64_t seed) {
   return SimulateWindow(options, 7, 5);
 }
 
+// Lets all intervals take the variance of the IMU's noise for another.
+inline void ScaleAssumedNoise(double variance_scale, SlidingWindow* window) {
+  for (WindowFrame& frame : window->frames) {
+    const auto& motion = frame.motion_since_previous;
+    if (motion) motion->Reweigh(Scaled(motion->noise(), variance_scale));
+  }
+}
+
 inline Eigen::VectorXd NormalVector(Eigen::Index size, simulator::Random* random) {
   Eigen::VectorXd result(size);
   for (Eigen::Index i = 0; i < size; ++i) result[i] = random->Normal();

@@ -32,6 +32,7 @@ class ImuNoiseEstimate {
 
   // The biases wander as configured.
   ImuNoise noise() const;
+  const ImuNoise& configured() const { return configured_; }
 
  private:
   ImuNoise configured_;

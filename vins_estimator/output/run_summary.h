@@ -48,9 +48,8 @@ class RunSummary {
   int64_t resets_ = 0;
   int64_t bridged_losses_ = 0;  // of the estimate, but not of the world frame
   int64_t imu_doubts_ = 0;
-  int64_t imu_noisy_ = 0;     // poses with a noise of the IMU beyond that
-  double accel_density_ = 0;  // sums over poses of the noise of the IMU
-  double gyro_density_ = 0;
+  double accel_density_ = 0, gyro_density_ = 0;  // sums over poses of the IMU's noise
+  int64_t imu_noisy_ = 0;                        // poses with a noise beyond that
   int64_t merged_lines_ = 0;
   int64_t recognised_lines_ = 0;
   int64_t wandering_lines_ = 0;  // (NoteWandering)

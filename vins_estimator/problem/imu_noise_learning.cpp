@@ -2,7 +2,6 @@
 #include "vins_estimator/problem/imu_noise_learning.h"
 
 #include <algorithm>
-#include <memory>
 
 #include "vins_estimator/problem/motion_evidence.h"
 
@@ -35,19 +34,19 @@ void ImuNoiseLearning::Learn(const SlidingWindow& window, bool is_first,
     const auto evidence = EvidenceOfMotion(window, begin, end, equations);
     if (evidence) estimate_.Add(*evidence);
   }
-  noise_ = estimate_.noise();
 }
 
 bool ImuNoiseLearning::Reweigh(SlidingWindow* window) const {
+  const ImuNoise noise = estimate_.noise();
   bool any = false;
   for (WindowFrame& frame : window->frames) {
-    auto& motion = frame.motion_since_previous;
-    if (!motion || !IsFarNoisier(noise_, motion->noise())) continue;
-    const ImuNoise before = motion->noise();
-    motion = std::make_shared<Preintegration>(*motion);
-    motion->Reweigh({std::max(noise_.gyro_density, before.gyro_density),
-                     std::max(noise_.accel_density, before.accel_density), before.gyro_walk,
-                     before.accel_walk});
+    if (!frame.motion_since_previous) continue;
+    Preintegration& motion = *frame.motion_since_previous;
+    const ImuNoise& before = motion.noise();
+    if (!IsFarNoisier(noise, before)) continue;
+    motion.Reweigh({std::max(noise.gyro_density, before.gyro_density),
+                    std::max(noise.accel_density, before.accel_density), before.gyro_walk,
+                    before.accel_walk});
     any = true;
   }
   return any;

@@ -14,8 +14,7 @@ namespace plm_vins {
 // Finds the noise of the IMU in the windows that are solved, and gives it to their intervals.
 class ImuNoiseLearning {
  public:
-  explicit ImuNoiseLearning(const ImuNoise& configured)
-      : configured_(configured), estimate_(configured), noise_(configured) {}
+  explicit ImuNoiseLearning(const ImuNoise& configured) : estimate_(configured) {}
 
   // Takes in the intervals of the older half of the window but for those that it knows: images on
   // both sides tell them best. All of them where the window is the first. `equations` are those of
@@ -26,14 +25,12 @@ class ImuNoiseLearning {
   // are none.
   bool Reweigh(SlidingWindow* window) const;
 
-  void Reset() { *this = ImuNoiseLearning(configured_); }
+  void Reset() { *this = ImuNoiseLearning(estimate_.configured()); }
 
-  const ImuNoise& noise() const { return noise_; }
+  ImuNoise noise() const { return estimate_.noise(); }
 
  private:
-  ImuNoise configured_;
   ImuNoiseEstimate estimate_;
-  ImuNoise noise_;
   std::optional<int64_t> known_ns_;  // begin of the newest interval that was taken in
 };
 

@@ -321,8 +321,7 @@ TEST(Preintegration, AnotherNoiseChangesTheCovarianceAlone) {
   const ImuNoise noise = Scaled(reweighed.noise(), 9);
   const Eigen::Vector3d delta_v = reweighed.delta_v();
   reweighed.Reweigh(noise);
-  Preintegration expected(noise, reweighed.linearization_bias());
-  for (const ImuSample& sample : samples) expected.Append(sample);
+  Preintegration expected = Integrate(samples, reweighed.linearization_bias(), noise);
   EXPECT_FALSE(expected.HasBiasStep());
   expected.AllowBiasStep({0.1, 0.2});
   EXPECT_TRUE(reweighed.HasBiasStep());

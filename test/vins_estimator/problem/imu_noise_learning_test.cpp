@@ -13,12 +13,8 @@ namespace {
 class ImuNoiseLearningTest : public ::testing::Test {
  protected:
   ImuNoiseLearningTest() : simulated_(testing::SimulateShakenWindow(1)) {
+    testing::ScaleAssumedNoise(1e-2, &window());
     configured_ = window().newest().motion_since_previous->noise();
-    configured_.accel_density /= 10;
-    configured_.gyro_density /= 10;
-    for (WindowFrame& frame : window().frames) {
-      if (frame.motion_since_previous) frame.motion_since_previous->Reweigh(configured_);
-    }
   }
 
   SlidingWindow& window() { return simulated_.window; }
@@ -70,9 +66,7 @@ TEST_F(ImuNoiseLearningTest, LeavesOutStandstillAndStepsOfBias) {
 }
 
 TEST_F(ImuNoiseLearningTest, ReweighsOnlyIntervalsThatAreFarLessNoisy) {
-  ImuNoise noisier = configured_;
-  noisier.accel_density *= 100;
-  noisier.gyro_density *= 100;
+  const ImuNoise noisier = Scaled(configured_, 1e4);
   window().frames[3].motion_since_previous->Reweigh(noisier);
   ImuNoiseLearning learning(configured_);
   Learn(/*is_first=*/true, &learning);

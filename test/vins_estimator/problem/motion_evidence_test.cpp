@@ -64,8 +64,8 @@ TEST(EvidenceOfMotion, ExpectsTheWholeResidualOfStatesThatAreKnown) {
   const Preintegration& motion = *window.frames[2].motion_since_previous;
   ImuNoise walks = motion.noise();
   walks.accel_density = walks.gyro_density = 0;
-  Preintegration walking(walks, motion.linearization_bias());
-  for (const ImuSample& sample : motion.samples()) walking.Append(sample);
+  Preintegration walking = motion;
+  walking.Reweigh(walks);
   const double of_walks = motion.covariance().llt().solve(walking.covariance()).trace();
   EXPECT_NEAR(evidence.accel.expected + evidence.gyro.expected, 15 - of_walks, 1e-2);
   EXPECT_NEAR(of_walks, 6, 0.1);
@@ -101,13 +101,7 @@ ImuNoiseEvidence SumOverWindows(double assumed_share) {
   for (uint64_t seed = 1; seed <= 30; ++seed) {
     SimulatedWindow simulated = testing::SimulateShakenWindow(seed);
     SlidingWindow& window = simulated.window;
-    for (WindowFrame& frame : window.frames) {
-      if (!frame.motion_since_previous) continue;
-      ImuNoise noise = frame.motion_since_previous->noise();
-      noise.accel_density *= assumed_share;
-      noise.gyro_density *= assumed_share;
-      frame.motion_since_previous->Reweigh(noise);
-    }
+    testing::ScaleAssumedNoise(assumed_share * assumed_share, &window);
     const auto prior = InitialPrior(InitialUncertainty(), Options(), window);
     ProblemBuilder builder(Options(), &window, &prior);
     testing::AddAll(&simulated, &builder);

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "common/process_setup.h"
+
 namespace plm_vins {
 
 // The first images of a folder, grey, in order of their names.
@@ -36,7 +38,7 @@ int RunImageBenchmark(int argc, char** argv, const std::string& name,
     std::cerr << "usage: " << name << " CONFIG IMAGE_FOLDER [--benchmark_...]\n";
     return 1;
   }
-  cv::setNumThreads(1);
+  SetUpProcess();
   try {
     const Input input = read(argv[1], argv[2]);
     register_benchmarks(input);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/process_setup.h"
 #include "common/stopwatch.h"
 #include "pose_graph/description/corner_description.h"
 #include "pose_graph/description/corner_selection.h"
@@ -173,6 +174,7 @@ int main(int argc, char** argv) try {
     std::fprintf(stderr, "usage: place_recognition_benchmark CONFIG FOLDER\n");
     return 1;
   }
+  plm_vins::SetUpProcess();
   const auto places = plm_vins::LoadPlaces(plm_vins::LoadConfig(argv[1]), argv[2]);
   for (const int max_distance : {24, 32, 40, 48}) {
     plm_vins::Measure(

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/process_setup.h"
 #include "common/stopwatch.h"
 #include "pose_graph/loop_closer.h"
 #include "pose_graph/output/map_file.h"
@@ -100,6 +101,7 @@ int main(int argc, char** argv) try {
     std::fprintf(stderr, "usage: pose_graph_benchmark CONFIG MAP HOURS\n");
     return 1;
   }
+  plm_vins::SetUpProcess();
   plm_vins::Run(plm_vins::LoadConfig(argv[1]), plm_vins::LoadMap(argv[2]).keyframes,
                 std::atof(argv[3]));
   return 0;

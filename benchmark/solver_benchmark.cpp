@@ -14,6 +14,7 @@
 
 #include "common/config/config.h"
 #include "common/median.h"
+#include "common/process_setup.h"
 #include "offline/pipeline/feature_trackers.h"
 #include "offline/recordings/asl_recording.h"
 #include "vins_estimator/estimator.h"
@@ -98,6 +99,7 @@ void Run(const std::string& config_file, const std::string& folder) {
 }  // namespace plm_vins
 
 int main(int argc, char** argv) {
+  plm_vins::SetUpProcess();
   benchmark::Initialize(&argc, argv);
   if (argc != 3) {
     std::cerr << "usage: solver_benchmark CONFIG ASL_FOLDER [--benchmark_...]\n";

@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <ctime>
 #include <exception>
-#include <opencv2/core/utility.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/process_setup.h"
 #include "offline/pipeline/odometry_pipeline.h"
 #include "offline/recordings/asl_recording.h"
 #include "offline/results/pipeline_timings.h"
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: stage_benchmark CONFIG ASL_FOLDER\n");
     return 1;
   }
-  cv::setNumThreads(1);
+  plm_vins::SetUpProcess();
   try {
     plm_vins::Run(argv[1], argv[2]);
   } catch (const std::exception& error) {

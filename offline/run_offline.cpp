@@ -10,7 +10,7 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <opencv2/core/utility.hpp>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -21,6 +21,7 @@
 #include "common/config/config.h"
 #include "common/io/output_file.h"
 #include "common/io/progress_display.h"
+#include "common/process_setup.h"
 #include "common/stopwatch.h"
 #include "offline/pipeline/odometry_pipeline.h"
 #include "offline/recordings/asl_recording.h"
@@ -298,7 +299,7 @@ int main(int argc, char** argv) try {
   plm_vins::Declare(&arguments, &app);
   try {
     app.parse(argc, argv);
-    cv::setNumThreads(1);  // --threads says how many there are
+    plm_vins::SetUpProcess();
     return plm_vins::Run(arguments);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);

@@ -8,8 +8,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
-#include <opencv2/core/utility.hpp>
 
+#include "common/process_setup.h"
 #include "common/ros/node_config.h"
 
 namespace plm_vins {
@@ -31,10 +31,9 @@ int RunNode(int argc, char** argv, const std::string& name,
             const std::function<void(const Config&)>& body) {
   // Until ROS runs and handles the signal, there is nothing to save.
   std::signal(SIGINT, [](int) { std::_Exit(0); });
+  SetUpProcess();
   ros::init(argc, argv, name);
   const ros::NodeHandle keeps_ros_running;
-  // To share out work on images this small costs more of the processor than it saves time.
-  cv::setNumThreads(1);
   try {
     body(LoadNodeConfig(ros::NodeHandle("~")));
   } catch (const std::exception& error) {

@@ -14,9 +14,9 @@
 namespace plm_vins {
 
 // main() of every node: starts ROS under `name` once there is a master, loads the file of
-// ~config_file, in which texts ~set/KEY replace scalar keys, and runs `body` until shutdown. OpenCV
-// gets no threads besides the one that calls it. Returns the exit code: 0 after SIGINT; 1 where the
-// configuration has problems (each a fatal log line) or `body` threw.
+// ~config_file, in which texts ~set/KEY replace scalar keys, and runs `body` until shutdown.
+// Threads and memory are used as by SetUpProcess(). Returns the exit code: 0 after SIGINT; 1 where
+// the configuration has problems (each a fatal log line) or `body` threw.
 int RunNode(int argc, char** argv, const std::string& name,
             const std::function<void(const Config&)>& body);
 

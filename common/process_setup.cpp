@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/process_setup.h"
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <opencv2/core/utility.hpp>
+
+namespace plm_vins {
+
+void SetUpProcess() {
+  cv::setNumThreads(1);
+#ifdef __GLIBC__
+  constexpr int kMegabyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * kMegabyte);  // the most that it takes
+  mallopt(M_TRIM_THRESHOLD, 256 * kMegabyte);
+#endif
+}
+
+}  // namespace plm_vins

@@ -43,14 +43,12 @@ PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
       input_(config.sensor),
       queue_(kWaitingKeyframes),
       odometry_publisher_(private_node_.advertise<nav_msgs::Odometry>("odometry", kQueue)),
-      path_publisher_(private_node_.advertise<nav_msgs::Path>("path", 10, /*latch=*/true)),
-      graph_publisher_(
-          private_node_.advertise<visualization_msgs::MarkerArray>("graph", 10, /*latch=*/true)),
       match_publisher_(private_node_.advertise<sensor_msgs::Image>("match_image", 10)),
       diagnostics_(node, private_node, private_node.getNamespace()) {
   StartWith(config.pose_graph.load_previous ? MapToStartIn(map_file_) : KeyframeMap());
   diagnostics_.setHardwareID("none");
   diagnostics_.add("map", this, &PoseGraphNode::ReportStatus);
+  AdvertiseMap();
   Subscribe();
   worker_ = std::thread(&PoseGraphNode::Work, this);  // last: what throws would end all with it
 }
@@ -58,6 +56,21 @@ PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
 PoseGraphNode::~PoseGraphNode() {
   queue_.Abandon();
   worker_.join();
+}
+
+// Whoever subscribes gets the map as it is, as from a latched topic. To make these messages for
+// nobody would cost more with each keyframe of the map.
+void PoseGraphNode::AdvertiseMap() {
+  const auto advertise = [this](const char* topic, const auto& make) {
+    using Message = decltype(make());
+    return private_node_.advertise<Message>(
+        topic, 10, [this, make](const ros::SingleSubscriberPublisher& subscriber) {
+          const std::lock_guard<std::mutex> lock(loops_mutex_);
+          subscriber.publish(make());
+        });
+  };
+  path_publisher_ = advertise("path", [this] { return Path(); });
+  graph_publisher_ = advertise("graph", [this] { return Graph(); });
 }
 
 void PoseGraphNode::Subscribe() {
@@ -244,11 +257,17 @@ void PoseGraphNode::UpdateStatus(const LoopClosure& closure, int world, double m
   status_.loops.Add(closure);
 }
 
-// Whoever listens or not: the topics are latched, for displays that are opened later.
+nav_msgs::Path PoseGraphNode::Path() const {
+  return ToPath(loops_->map(), config_.output.map_frame, config_.output.world_frame);
+}
+
+visualization_msgs::MarkerArray PoseGraphNode::Graph() const {
+  return ToGraphMarkers(loops_->map(), config_.output.map_frame);
+}
+
 void PoseGraphNode::PublishMap() {
-  const OutputConfig& frames = config_.output;
-  path_publisher_.publish(ToPath(loops_->map(), frames.map_frame, frames.world_frame));
-  graph_publisher_.publish(ToGraphMarkers(loops_->map(), frames.map_frame));
+  if (path_publisher_.getNumSubscribers() > 0) path_publisher_.publish(Path());
+  if (graph_publisher_.getNumSubscribers() > 0) graph_publisher_.publish(Graph());
 }
 
 void PoseGraphNode::PublishMatch(const OdometryFrame& frame, const LoopClosure& closure) {

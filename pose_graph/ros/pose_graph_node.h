@@ -4,6 +4,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
 #include <ros/message_event.h>
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
@@ -12,6 +13,7 @@
 #include <std_msgs/Bool.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_broadcaster.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <memory>
 #include <mutex>
@@ -36,8 +38,8 @@ namespace plm_vins {
 // Loop closure under ROS, as a node or in a nodelet: the keyframes of an estimator, ours or that of
 // VINS-Mono, and the images in; tf map -> world, ~odometry, ~path, ~graph and ~match_image out.
 // The callbacks put keyframes together; a thread of its own looks for loops and optimises. No
-// callback waits for it, but those of the services: where it cannot keep up, the oldest keyframes
-// go. ~image_transport: as of ImageSubscription.
+// callback waits for it, but those of the services and of displays that begin to listen: where it
+// cannot keep up, the oldest keyframes go. ~image_transport: as of ImageSubscription.
 //
 // A new world of odometry begins where it says so (restart), and where its messages begin to come
 // from another process: from an estimator that was started again, or a recording played again.
@@ -63,6 +65,7 @@ class PoseGraphNode {
   };
 
   // In the thread of the callbacks.
+  void AdvertiseMap();
   void Subscribe();
   void AddImage(const std::optional<ImageSample>& image);
   void AddCamera(const sensor_msgs::CameraInfo& message);
@@ -88,6 +91,8 @@ class PoseGraphNode {
   void AddToMap(WaitingKeyframe* keyframe);
   void UpdateStatus(const LoopClosure& closure, int world, double milliseconds);
   void Remember(const OdometryFrame& frame);
+  nav_msgs::Path Path() const;
+  visualization_msgs::MarkerArray Graph() const;
   void PublishMap();
   void PublishMatch(const OdometryFrame& frame, const LoopClosure& closure);
 

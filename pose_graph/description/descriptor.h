@@ -11,19 +11,20 @@ namespace plm_vins {
 constexpr int kDescriptorBits = 256;
 using Descriptor = std::array<uint64_t, kDescriptorBits / 64>;
 
-// How many bits differ. Half of the time of loop closure would be spent here: processors count bits
-// by an instruction that not all of them have, and that compilers therefore do without. So they are
-// added in place, in fields of 2, 4, 8 and 16 bits, all words in common as soon as that fits.
+// Before a function that spends its time on HammingDistance(): processors count bits by an
+// instruction that not all of them have, and that compilers therefore do without. It is compiled
+// with and without it, and the processor that it runs on decides: four times as fast with it.
+#if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__)
+#define PLM_COUNTS_BITS [[gnu::target_clones("popcnt", "default")]]
+#else
+#define PLM_COUNTS_BITS
+#endif
+
+// How many bits differ.
 inline int HammingDistance(const Descriptor& a, const Descriptor& b) {
-  uint64_t bytes = 0;
-  for (size_t i = 0; i < a.size(); ++i) {
-    uint64_t word = a[i] ^ b[i];
-    word -= word >> 1 & 0x5555555555555555;
-    word = (word & 0x3333333333333333) + (word >> 2 & 0x3333333333333333);
-    bytes += (word + (word >> 4)) & 0x0f0f0f0f0f0f0f0f;
-  }
-  const uint64_t pairs = (bytes & 0x00ff00ff00ff00ff) + (bytes >> 8 & 0x00ff00ff00ff00ff);
-  return static_cast<int>(pairs * 0x0001000100010001 >> 48);
+  int distance = 0;
+  for (size_t i = 0; i < a.size(); ++i) distance += __builtin_popcountll(a[i] ^ b[i]);
+  return distance;
 }
 
 }  // namespace plm_vins

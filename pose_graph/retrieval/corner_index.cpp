@@ -40,6 +40,7 @@ void CornerIndex::Remove(int image, const std::vector<Descriptor>& descriptors) 
   }
 }
 
+PLM_COUNTS_BITS
 std::vector<int> CornerIndex::ImagesWith(const Descriptor& descriptor) const {
   std::vector<int> images;
   for (int table = 0; table < options_.tables; ++table) {

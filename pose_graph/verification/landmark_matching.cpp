@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kFar = kDescriptorBits + 1;
 
+PLM_COUNTS_BITS
 int Distance(const Descriptor& descriptor, const DescribedLandmark& landmark) {
   int distance = kFar;
   for (const Descriptor& other : landmark.descriptors) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/process_setup.h"
 
-#ifdef __GLIBC__
+#if __has_include(<malloc.h>)
 #include <malloc.h>
 #endif
 
@@ -11,7 +11,7 @@ namespace plm_vins {
 
 void SetUpProcess() {
   cv::setNumThreads(1);
-#ifdef __GLIBC__
+#ifdef M_MMAP_THRESHOLD
   constexpr int kMegabyte = 1 << 20;
   mallopt(M_MMAP_THRESHOLD, 32 * kMegabyte);  // the most that it takes
   mallopt(M_TRIM_THRESHOLD, 256 * kMegabyte);

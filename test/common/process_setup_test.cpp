@@ -8,11 +8,13 @@
 #include <memory>
 #include <opencv2/core/utility.hpp>
 #include <thread>
+#include <vector>
 
 namespace plm_vins {
 namespace {
 
 constexpr size_t kPage = 4096;  // [bytes]
+constexpr size_t kMegabyte = size_t{1} << 20;
 
 int64_t PageFaults() {
   rusage usage = {};
@@ -20,13 +22,16 @@ int64_t PageFaults() {
   return usage.ru_minflt;
 }
 
-// How many pages come from the system where a block of this size is taken, filled and freed again
-// and again.
-int64_t FaultsOfBlocks(size_t bytes, int times) {
+// How many pages come from the system where so many blocks of a megabyte are taken and filled
+// together, then freed, again and again.
+int64_t FaultsOfBlocks(size_t blocks, int times) {
   const int64_t before = PageFaults();
   for (int i = 0; i < times; ++i) {
-    const std::unique_ptr<char[]> block(new char[bytes]);
-    std::fill_n(static_cast<volatile char*>(block.get()), bytes, 'x');
+    std::vector<std::unique_ptr<char[]>> taken;
+    for (size_t block = 0; block < blocks; ++block) {
+      taken.emplace_back(new char[kMegabyte]);
+      std::fill_n(static_cast<volatile char*>(taken.back().get()), kMegabyte, 'x');
+    }
   }
   return PageFaults() - before;
 }
@@ -40,12 +45,12 @@ TEST_F(ProcessSetup, LeavesOpenCvOneThread) { EXPECT_EQ(cv::getNumThreads(), 1);
 
 #ifdef __GLIBC__
 TEST_F(ProcessSetup, KeepsMemoryThatIsFreed) {
-  constexpr size_t kBytes = size_t{8} << 20;
-  constexpr auto kPages = static_cast<int64_t>(kBytes / kPage);
+  constexpr size_t kBlocks = 24;
   constexpr int kTimes = 20;
-  EXPECT_LT(FaultsOfBlocks(kBytes, kTimes), 2 * kPages);
+  constexpr auto kPages = static_cast<int64_t>(kBlocks * kMegabyte / kPage);
+  EXPECT_LT(FaultsOfBlocks(kBlocks, kTimes), 2 * kPages);
   int64_t of_thread = 0;
-  std::thread([&of_thread] { of_thread = FaultsOfBlocks(kBytes, kTimes); }).join();
+  std::thread([&of_thread] { of_thread = FaultsOfBlocks(kBlocks, kTimes); }).join();
   EXPECT_LT(of_thread, 2 * kPages);
 }
 #endif

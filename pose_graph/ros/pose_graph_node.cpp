@@ -7,6 +7,7 @@
 
 #include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
+#include "common/ros/publish_if_wanted.h"
 #include "common/stopwatch.h"
 #include "pose_graph/output/map_file.h"
 #include "pose_graph/ros/loop_drawing.h"
@@ -266,8 +267,8 @@ visualization_msgs::MarkerArray PoseGraphNode::Graph() const {
 }
 
 void PoseGraphNode::PublishMap() {
-  if (path_publisher_.getNumSubscribers() > 0) path_publisher_.publish(Path());
-  if (graph_publisher_.getNumSubscribers() > 0) graph_publisher_.publish(Graph());
+  PublishIfWanted(path_publisher_, [this] { return Path(); });
+  PublishIfWanted(graph_publisher_, [this] { return Graph(); });
 }
 
 void PoseGraphNode::PublishMatch(const OdometryFrame& frame, const LoopClosure& closure) {

@@ -9,6 +9,7 @@
 #include "common/ros/camera_info_conversion.h"
 #include "common/ros/keyframe_conversion.h"
 #include "common/ros/msg_conversion.h"
+#include "common/ros/publish_if_wanted.h"
 #include "vins_estimator/output/placed_features.h"
 #include "vins_estimator/ros/output_conversion.h"
 
@@ -30,12 +31,6 @@ void RemoveEverySecond(std::vector<geometry_msgs::PoseStamped>* poses) {
 
 double Distance(const geometry_msgs::Point& a, const geometry_msgs::Point& b) {
   return Eigen::Vector3d(a.x - b.x, a.y - b.y, a.z - b.z).norm();
-}
-
-// Makes and sends a message where somebody listens.
-template <typename MakeMessage>
-void PublishIfWanted(const ros::Publisher& publisher, const MakeMessage& make_message) {
-  if (publisher.getNumSubscribers() > 0) publisher.publish(make_message());
 }
 
 geometry_msgs::TransformStamped ToStamped(int64_t t_ns, const Rigid3d& T_parent_child,

@@ -35,6 +35,7 @@ void ImageSubscription::Read(const Message& message) {
     image = ToImageSample(message);
     stream_.Add(image->t_ns);
   } catch (const std::exception& error) {
+    const std::lock_guard<std::mutex> lock(mutex_);
     unreadable_.Add(error.what());
   }
   callback_(std::move(image));

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -24,12 +25,16 @@ class ImageSubscription {
   // An image, or nothing where a message cannot be made one, which is counted.
   using Callback = std::function<void(std::optional<ImageSample>)>;
 
-  // Once. Callbacks come from the queue of `node` from here on, at most `queue` of them waiting.
+  // Once. Callbacks come by the queue of `node` from here on, at most `queue` of them waiting.
   void Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node,
                  const std::string& topic, uint32_t queue, Callback callback);
 
+  // For any threads.
   StreamMonitor& stream() { return stream_; }
-  DropCount unreadable() const { return unreadable_; }
+  DropCount unreadable() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return unreadable_;
+  }
 
  private:
   template <typename Message>
@@ -37,6 +42,7 @@ class ImageSubscription {
 
   Callback callback_;
   StreamMonitor stream_{"images"};
+  mutable std::mutex mutex_;  // guards the count
   DropCount unreadable_{"images_unreadable", 0, ""};
   image_transport::Subscriber subscriber_;
   ros::Subscriber compressed_subscriber_;

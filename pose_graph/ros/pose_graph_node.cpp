@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/ros/pose_graph_node.h"
 
+#include <ros/parameter_adapter.h>
+
 #include <exception>
 #include <filesystem>
 #include <utility>
@@ -38,6 +40,7 @@ PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
                              const ros::NodeHandle& private_node)
     : node_(node),
       private_node_(private_node),
+      receiver_(node),
       config_(config),
       camera_(CameraModel::Create(config.sensor.camera)),
       map_file_(MapFile(config.pose_graph, private_node)),
@@ -74,19 +77,35 @@ void PoseGraphNode::AdvertiseMap() {
   graph_publisher_ = advertise("graph", [this] { return Graph(); });
 }
 
+// In place, as to wake a thread of its own for each message costs more than to take it in.
+template <typename Parameter>
+ros::Subscriber PoseGraphNode::Receive(const std::string& topic,
+                                       void (PoseGraphNode::*add)(Parameter)) {
+  const boost::function<void(Parameter)> callback = [this, add](Parameter message) {
+    TakeIn([&] { (this->*add)(message); });
+  };
+  using Message = typename ros::ParameterAdapter<Parameter>::Message;
+  return receiver_.subscribe<Message, Parameter>(topic, kQueue, callback);
+}
+
+void PoseGraphNode::TakeIn(const std::function<void()>& add) {
+  const std::lock_guard<std::mutex> lock(input_mutex_);
+  errors_.Run(add);
+}
+
 void PoseGraphNode::Subscribe() {
+  receiver_.setCallbackQueue(&in_place_);
   const std::string estimator = kEstimator;
-  subscribers_ = {
-      node_.subscribe(estimator + "camera_info", kQueue, &PoseGraphNode::AddCamera, this),
-      node_.subscribe(estimator + "extrinsic", kQueue, &PoseGraphNode::AddExtrinsics, this),
-      node_.subscribe(estimator + "keyframe_pose", kQueue, &PoseGraphNode::AddPose, this),
-      node_.subscribe(estimator + "keyframe_point", kQueue, &PoseGraphNode::AddPoints, this),
-      node_.subscribe(estimator + "keyframe_line", kQueue, &PoseGraphNode::AddLines, this),
-      node_.subscribe(estimator + "odometry", kQueue, &PoseGraphNode::AddOdometry, this),
-      node_.subscribe(estimator + "restart", kQueue, &PoseGraphNode::Restart, this)};
+  subscribers_ = {Receive(estimator + "camera_info", &PoseGraphNode::AddCamera),
+                  Receive(estimator + "extrinsic", &PoseGraphNode::AddExtrinsics),
+                  Receive(estimator + "keyframe_pose", &PoseGraphNode::AddPose),
+                  Receive(estimator + "keyframe_point", &PoseGraphNode::AddPoints),
+                  Receive(estimator + "keyframe_line", &PoseGraphNode::AddLines),
+                  Receive(estimator + "odometry", &PoseGraphNode::AddOdometry),
+                  Receive(estimator + "restart", &PoseGraphNode::Restart)};
   image_subscription_.Subscribe(
-      node_, private_node_, config_.sensor.image_topic, kQueue,
-      [this](const std::optional<ImageSample>& image) { AddImage(image); });
+      receiver_, private_node_, config_.sensor.image_topic, kQueue,
+      [this](const std::optional<ImageSample>& image) { TakeIn([&] { AddImage(image); }); });
   services_ = {private_node_.advertiseService("save_map", &PoseGraphNode::SaveMapFile, this),
                private_node_.advertiseService("load_map", &PoseGraphNode::LoadMapFile, this),
                private_node_.advertiseService("reset", &PoseGraphNode::Reset, this)};
@@ -215,14 +234,17 @@ bool PoseGraphNode::Reset(Trigger::Request&, Trigger::Response& response) {
 // Odometry's world counts as another one from here on: the keyframes of before that still wait
 // belong to the map of before.
 void PoseGraphNode::StartWith(KeyframeMap map) {
-  BeginWorld();
+  {
+    const std::lock_guard<std::mutex> lock(input_mutex_);
+    BeginWorld();
+  }
   const std::lock_guard<std::mutex> lock(loops_mutex_);
   loops_ = std::make_unique<LoopCloser>(LoopCloserOptions(*camera_), camera_);
   loops_->SetMap(std::move(map));
-  map_world_ = world_;
   images_ = KeyframeImages();
   PublishMap();
   const std::lock_guard<std::mutex> status_lock(status_mutex_);
+  map_world_ = world_;
   status_ = Status();
   status_.keyframes = loops_->map().CountKept();
 }
@@ -249,7 +271,7 @@ void PoseGraphNode::AddToMap(WaitingKeyframe* keyframe) {
   Remember(frame);
 }
 
-// The callbacks may know of a newer world by now, for which a fix of this one is wrong.
+// A newer world may have begun by now, for which a fix of this one is wrong.
 void PoseGraphNode::UpdateStatus(const LoopClosure& closure, int world, double milliseconds) {
   const std::lock_guard<std::mutex> lock(status_mutex_);
   if (world == world_) status_.fix = closure.fix;
@@ -293,7 +315,7 @@ DropCounts PoseGraphNode::Drops() const {
 }
 
 void PoseGraphNode::ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const std::lock_guard<std::mutex> lock(status_mutex_);
+  const std::scoped_lock lock(input_mutex_, status_mutex_);
   ReportState(&status);
   status.add("keyframes", status_.keyframes);
   status.add("loops", status_.loops.accepted);

@@ -15,6 +15,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -24,6 +25,7 @@
 
 #include "common/config/config.h"
 #include "common/ros/image_subscription.h"
+#include "common/ros/in_place_queue.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/publisher_watch.h"
 #include "common/ros/stream_monitor.h"
@@ -37,9 +39,10 @@ namespace plm_vins {
 
 // Loop closure under ROS, as a node or in a nodelet: the keyframes of an estimator, ours or that of
 // VINS-Mono, and the images in; tf map -> world, ~odometry, ~path, ~graph and ~match_image out.
-// The callbacks put keyframes together; a thread of its own looks for loops and optimises. No
-// callback waits for it, but those of the services and of displays that begin to listen: where it
-// cannot keep up, the oldest keyframes go. ~image_transport: as of ImageSubscription.
+// Keyframes are put together in the thread that receives their messages; a thread of its own looks
+// for loops and optimises. No callback waits for it, but those of the services and of displays that
+// begin to listen: where it cannot keep up, the oldest keyframes go. ~image_transport: as of
+// ImageSubscription.
 //
 // A new world of odometry begins where it says so (restart), and where its messages begin to come
 // from another process: from an estimator that was started again, or a recording played again.
@@ -64,9 +67,13 @@ class PoseGraphNode {
     int world = 0;  // of its pose
   };
 
-  // In the thread of the callbacks.
   void AdvertiseMap();
   void Subscribe();
+  template <typename Parameter>
+  ros::Subscriber Receive(const std::string& topic, void (PoseGraphNode::*add)(Parameter));
+  void TakeIn(const std::function<void()>& add);
+
+  // With input_mutex_ held.
   void AddImage(const std::optional<ImageSample>& image);
   void AddCamera(const sensor_msgs::CameraInfo& message);
   void AddExtrinsics(const nav_msgs::Odometry& message);
@@ -78,15 +85,17 @@ class PoseGraphNode {
   void NoteNewWorld(const std::string& reason);
   void BeginWorld();
   void PassOn();
+  DropCounts Drops() const;
+
+  // In the thread of the services and timers.
   bool SaveMapFile(Trigger::Request& request, Trigger::Response& response);
   bool LoadMapFile(Trigger::Request& request, Trigger::Response& response);
   bool Reset(Trigger::Request& request, Trigger::Response& response);
   void StartWith(KeyframeMap map);
-  DropCounts Drops() const;
   void ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status);
   void ReportState(diagnostic_updater::DiagnosticStatusWrapper* status);
 
-  // In the worker thread; where a map begins, in that of the callbacks.
+  // In the worker thread; where a map begins, in that of the services.
   void Work();
   void AddToMap(WaitingKeyframe* keyframe);
   void UpdateStatus(const LoopClosure& closure, int world, double milliseconds);
@@ -98,15 +107,18 @@ class PoseGraphNode {
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
+  InPlaceQueue in_place_;
+  ros::NodeHandle receiver_;  // its callbacks run in place
   const Config config_;
   const std::shared_ptr<const CameraModel> camera_;
   const std::string map_file_;
 
-  // For the callbacks.
-  KeyframeInput input_;
-  PublisherWatch estimator_{kWatchedTopics};
   StreamMonitor keyframe_stream_{"keyframes"};
   StreamMonitor odometry_stream_{"odometry"};
+
+  std::mutex input_mutex_;  // never held for long; before the others, where two are held
+  KeyframeInput input_;
+  PublisherWatch estimator_{kWatchedTopics};
   int64_t keyframes_too_late_ = 0;
   DropWarner drop_warner_;
 
@@ -118,7 +130,7 @@ class PoseGraphNode {
   int map_world_ = 0;      // of its newest keyframe; older ones are of the map before
   KeyframeImages images_;  // of its keyframes
 
-  // What the callbacks need at once, whatever is worked on.
+  // What is needed at once, whatever is worked on.
   struct Status {
     std::optional<MapFix> fix;
     int keyframes = 0;
@@ -127,7 +139,7 @@ class PoseGraphNode {
   };
   std::mutex status_mutex_;  // never held for long
   Status status_;
-  int world_ = 0;  // that odometry is in now, changed by the callbacks alone
+  int world_ = 0;  // that odometry is in now, changed with input_mutex_ held, too
 
   ros::Publisher odometry_publisher_;
   ros::Publisher path_publisher_;

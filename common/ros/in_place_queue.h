@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ros/callback_queue_interface.h>
+#include <ros/node_handle.h>
 
 namespace plm_vins {
 
@@ -10,6 +11,12 @@ namespace plm_vins {
 // callbacks, and hold up what else is received. Must outlive the subscriptions.
 class InPlaceQueue : public ros::CallbackQueueInterface {
  public:
+  // The same node, for subscriptions with this queue.
+  ros::NodeHandle Receiver(ros::NodeHandle node) {
+    node.setCallbackQueue(this);
+    return node;
+  }
+
   void addCallback(const ros::CallbackInterfacePtr& callback, uint64_t) override {
     callback->call();
   }

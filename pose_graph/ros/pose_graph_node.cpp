@@ -40,7 +40,7 @@ PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
                              const ros::NodeHandle& private_node)
     : node_(node),
       private_node_(private_node),
-      receiver_(node),
+      receiver_(in_place_.Receiver(node)),
       config_(config),
       camera_(CameraModel::Create(config.sensor.camera)),
       map_file_(MapFile(config.pose_graph, private_node)),
@@ -94,7 +94,6 @@ void PoseGraphNode::TakeIn(const std::function<void()>& add) {
 }
 
 void PoseGraphNode::Subscribe() {
-  receiver_.setCallbackQueue(&in_place_);
   const std::string estimator = kEstimator;
   subscribers_ = {Receive(estimator + "camera_info", &PoseGraphNode::AddCamera),
                   Receive(estimator + "extrinsic", &PoseGraphNode::AddExtrinsics),

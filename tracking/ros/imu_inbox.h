@@ -25,10 +25,8 @@ class ImuInbox {
  public:
   ImuInbox(const ros::NodeHandle& node, const std::string& topic, std::function<void()> notice)
       : node_(node), notice_(boost::make_shared<Notice>(std::move(notice))) {
-    ros::NodeHandle receiver(node);
-    receiver.setCallbackQueue(&in_place_);
-    subscriber_ =
-        receiver.subscribe(topic, kQueue, &ImuInbox::Add, this, ros::TransportHints().tcpNoDelay());
+    subscriber_ = in_place_.Receiver(node).subscribe(topic, kQueue, &ImuInbox::Add, this,
+                                                     ros::TransportHints().tcpNoDelay());
   }
 
   ~ImuInbox() {

@@ -42,11 +42,9 @@ EstimatorNode::EstimatorNode(const Config& config)
       stage_(config, kMaxWait),
       publisher_(config.output, private_node_) {
   const auto no_delay = ros::TransportHints().tcpNoDelay();
-  ros::NodeHandle receiver(node_);
-  receiver.setCallbackQueue(&in_place_);
   subscribers_ = {
-      receiver.subscribe(config_.sensor.imu_topic, kSubscriberQueue, &EstimatorNode::AddImu, this,
-                         no_delay),
+      in_place_.Receiver(node_).subscribe(config_.sensor.imu_topic, kSubscriberQueue,
+                                          &EstimatorNode::AddImu, this, no_delay),
       node_.subscribe(kPointTopic, kSubscriberQueue, &EstimatorNode::AddPoints, this, no_delay),
       node_.subscribe(kRestartTopic, 10, &EstimatorNode::Restart, this, no_delay)};
   if (config_.use_lines) {

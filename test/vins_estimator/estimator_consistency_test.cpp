@@ -113,10 +113,10 @@ class ImuNoiseIsLearned : public ::testing::Test {
 // The gyro is so much more precise than images that they tell little of its noise.
 TEST_F(ImuNoiseIsLearned, OfTheAccelerometerWhereItIsConfiguredAsAQuarter) {
   const Result fixed = Fly(0.25, false), learned = Fly(0.25, true);
-  EXPECT_NEAR(learned.accel_density, 1, 0.3);
-  EXPECT_GT(learned.gyro_density, fixed.gyro_density);
-  EXPECT_LT(learned.pose, 0.6 * fixed.pose);
-  EXPECT_LT(learned.velocity, 0.3 * fixed.velocity);
+  EXPECT_NEAR(learned.accel_density, 1, 0.15);
+  EXPECT_GT(learned.gyro_density, 2 * fixed.gyro_density);
+  EXPECT_LT(learned.pose, 0.3 * fixed.pose);
+  EXPECT_LT(learned.velocity, 0.15 * fixed.velocity);
 }
 
 TEST_F(ImuNoiseIsLearned, AndStaysAsConfiguredWhereThatIsRight) {

@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kFar = 1.25;  // less is chance, and not worth integrating samples anew
+constexpr double kFar = 1.1;  // less is chance, and not worth integrating samples anew
 
 bool IsFarNoisier(const ImuNoise& noise, const ImuNoise& than) {
   return noise.accel_density > kFar * than.accel_density ||

@@ -63,7 +63,7 @@ TEST(DensityEstimate, IsBounded) {
 TEST(DensityEstimate, OneIntervalDoesNotDecide) {
   DensityEstimate estimate(kConfigured);
   estimate.Add({kConfigured, 1e6, 3.0});
-  EXPECT_LT(estimate.density(), 2 * kConfigured);
+  EXPECT_LT(estimate.density(), 2.5 * kConfigured);
 }
 
 TEST(DensityEstimate, IgnoresIntervalsThatSayNothing) {
@@ -74,12 +74,13 @@ TEST(DensityEstimate, IgnoresIntervalsThatSayNothing) {
   EXPECT_DOUBLE_EQ(estimate.density(), kConfigured);
 }
 
+// Robust losses hide a part of the noise: 0.21 of the accelerometer's variance, 0.47 of the gyro's.
 TEST(ImuNoiseEstimate, TellsAccelerometerAndGyroApart) {
   const ImuNoise configured = {1e-4, 1e-2, 1e-5, 1e-3};
   ImuNoiseEstimate estimate(configured);
   for (int i = 0; i < 100; ++i) {
     const double assumed = estimate.noise().accel_density, ratio = 3e-2 / assumed;
-    estimate.Add({{assumed, 3 * ratio * ratio, 3}, {1e-4, 3, 3}});
+    estimate.Add({{assumed, 0.79 * 3 * ratio * ratio, 3}, {1e-4, 0.53 * 3, 3}});
   }
   EXPECT_NEAR(estimate.noise().accel_density, 3e-2, 1e-3);
   EXPECT_DOUBLE_EQ(estimate.noise().gyro_density, 1e-4);

@@ -9,7 +9,7 @@ namespace {
 
 // Redundancies; an interval between keyframes has up to five of the accelerometer, three of the
 // gyro.
-constexpr double kOfConfigured = 3;
+constexpr double kOfConfigured = 5;
 constexpr double kRemembered = 100;  // tell a density to 7 %
 
 constexpr double kLeastExpected = 1e-3;   // less is rounding

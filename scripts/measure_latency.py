@@ -18,7 +18,7 @@ import rosgraph
 import rospy
 import yaml
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Image
+from sensor_msgs.msg import CompressedImage, Image
 
 QUANTILES = (50, 95, 99, 100)
 NODES = ("/feature_tracker", "/linefeature_tracker", "/tracker_manager", "/vins_estimator",
@@ -46,9 +46,13 @@ class Latencies:
             self.seconds.append(time.monotonic() - arrival)
 
     @property
+    def begun(self):
+        return self._last_arrival is not None
+
+    @property
     def ended(self):
         """Images came, and come no more."""
-        return self._last_arrival and time.monotonic() - self._last_arrival > END_AFTER
+        return self.begun and time.monotonic() - self._last_arrival > END_AFTER
 
     @property
     def images(self):
@@ -86,6 +90,16 @@ def image_topic(config):
     return yaml.safe_load("\n".join(lines).replace("!!opencv-matrix", ""))["image_topic"]
 
 
+def subscribe(options, latencies):
+    """Returns the topic of the images."""
+    topic, kind = image_topic(options.config), Image
+    if options.image_transport == "compressed":
+        topic, kind = topic + "/compressed", CompressedImage
+    rospy.Subscriber(topic, kind, latencies.add_image, queue_size=100, buff_size=1 << 24)
+    rospy.Subscriber("/vins_estimator/odometry", Odometry, latencies.add_odometry, queue_size=100)
+    return topic
+
+
 def launch_file():
     """As arguments of roslaunch: that of this checkout, or of the package that is installed."""
     file = pathlib.Path(__file__).resolve().parents[1] / "launch" / "plm_vins.launch"
@@ -120,12 +134,12 @@ def measure(options, output):
     try:
         wait_for_master(process)
         rospy.init_node("measure_latency", anonymous=True, disable_signals=True)
-        rospy.Subscriber(image_topic(options.config), Image, latencies.add_image,
-                         queue_size=100, buff_size=1 << 24)
-        rospy.Subscriber("/vins_estimator/odometry", Odometry, latencies.add_odometry,
-                         queue_size=100)
-        processes = {}
+        topic = subscribe(options, latencies)
+        processes, deadline = {}, time.monotonic() + START_TIMEOUT
         while process.poll() is None and not latencies.ended:
+            if not latencies.begun and time.monotonic() > deadline:
+                raise RuntimeError(f"no image came on {topic} in {START_TIMEOUT} s: see "
+                                   f"image_topic of {options.config} and --image-transport")
             find_nodes(processes)
             for node, identity in processes.items():
                 if os.path.exists(f"/proc/{identity}"):
@@ -167,7 +181,8 @@ def parse_arguments(arguments):
     parser.add_argument("--nodelets", action="store_true", help="trackers as nodelets")
     parser.add_argument("--loop-closure", action="store_true",
                         help="with it, whatever the configuration says")
-    parser.add_argument("--image-transport", default="raw", help="raw (default), compressed, ...")
+    parser.add_argument("--image-transport", default="raw", choices=("raw", "compressed"),
+                        help="of the images in the bag (default: raw)")
     return parser.parse_args(arguments)
 
 

@@ -28,7 +28,7 @@ class PoseAge:
     """The last age of a pose that the estimator stated [ms]."""
 
     def __init__(self):
-        self.value = 0.0
+        self.value = None  # none yet
         self.resets = 0
         rospy.Subscriber("/diagnostics", DiagnosticArray, self._add)
 
@@ -80,8 +80,9 @@ def launch(config, output):
                             stdout=subprocess.DEVNULL)
 
 
-def watch(options, nodes):
-    """Samples of every node that runs, until the time is over or a node has ended."""
+def watch(options, nodes, player):
+    """Samples of every node that runs, until the time is over. RuntimeError where something that is
+    to run has ended, or no pose ever came."""
     series, age = Series(), PoseAge()
     end = time.monotonic() + 60 * options.minutes
     processes = {}
@@ -95,7 +96,12 @@ def watch(options, nodes):
             series.add(node[1:], values)
         if nodes.poll() is not None:
             raise RuntimeError("the nodes have ended")
-        series.add("vins_estimator", {"pose_age_ms": age.value})
+        if player.poll() is not None:
+            raise RuntimeError("rosbag play has ended")
+        if age.value is not None:
+            series.add("vins_estimator", {"pose_age_ms": age.value})
+    if age.value is None:
+        raise RuntimeError("the estimator never said how old its poses are")
     print(f"{options.minutes:g} minutes, {age.resets} world frames given up")
     return series
 
@@ -107,7 +113,7 @@ def soak(options, output):
         wait_for_master(running[0])
         rospy.init_node("soak", anonymous=True, disable_signals=True)
         running.append(play(options.bag, options.rate))
-        return watch(options, running[0])
+        return watch(options, *running)
     finally:
         for process in reversed(running):
             process.send_signal(signal.SIGINT)
@@ -143,7 +149,7 @@ def main(arguments=None):
         check_files(options)
         with tempfile.TemporaryDirectory() as output:
             return 0 if report(soak(options, output)) else 1
-    except (RuntimeError, rosgraph.MasterException) as error:
+    except (RuntimeError, OSError, rosgraph.MasterException) as error:
         print(f"soak.py: {error}", file=sys.stderr)
         return 1
 

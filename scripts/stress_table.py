@@ -44,8 +44,12 @@ def row(name, options, truth, folder):
                "--output", output]
     for override in options.set:
         command += ["--set", override]
-    if subprocess.run(command, stderr=subprocess.DEVNULL, check=False).returncode != 0:
-        return f"| {name} | no trajectory |"
+    run = subprocess.run(command, stderr=subprocess.PIPE, encoding="utf-8", check=False)
+    if run.returncode != 0:
+        why = (run.stderr.strip().splitlines() or [f"ended with {run.returncode}"])[-1]
+        if name == "none":
+            raise ValueError(f"no trajectory even without a fault: {why}")
+        return f"| {name} | no trajectory: {why} |"
     start = feature_file.Features(options.features).measurements().image_ns[0] * 1e-9
     damage = assess(os.path.join(output, "trajectory.tum"), truth, start + options.begin)
     restarts = " ".join(f"{time:.1f}" for time in damage.restarts) or "-"

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+RESTART = "# the world frame starts anew"  # in trajectories that a run wrote
+
 
 class TrajectoryError(Exception):
     """A file or a pair of trajectories that cannot be evaluated; the text is one clear line."""
@@ -53,7 +55,7 @@ def read_trajectory(path):
     if not os.path.isfile(path):
         raise TrajectoryError(f"{path}: no such file")
     rows = []
-    with open(path, encoding="utf-8", errors="replace") as file:
+    with open(path, encoding="utf-8-sig", errors="replace") as file:
         for number, line in enumerate(file, start=1):
             if line.strip() and not line.lstrip().startswith("#"):
                 rows.append(_parse_row(line, f"{path}:{number}", rows[-1][0] if rows else None))
@@ -61,6 +63,12 @@ def read_trajectory(path):
         raise TrajectoryError(f"{path}: {len(rows)} poses, at least 3 are needed")
     table = np.array(rows)
     return Trajectory(table[:, 0], table[:, 1:4], _rotations(table[:, 4:8]))
+
+
+def count_restarts(path):
+    """How often the world frame started anew in a trajectory that a run wrote."""
+    with open(path, encoding="utf-8", errors="replace") as file:
+        return sum(line.startswith(RESTART) for line in file)
 
 
 def format_tum(trajectory):

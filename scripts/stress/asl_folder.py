@@ -39,8 +39,9 @@ def _is_same(path, other):
 
 
 def _read(path):
-    with open(path, encoding="utf-8", newline="") as file:
-        rows = [[word.strip() for word in row] for row in csv.reader(file) if row]
+    with open(path, encoding="utf-8-sig", newline="") as file:
+        rows = [[word.strip() for word in row] for row in csv.reader(file)]
+        rows = [row for row in rows if row and row[0]]
     return [row for row in rows if row[0][0] == "#"], [row for row in rows if row[0][0] != "#"]
 
 

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from evaluation import metrics
-from evaluation.trajectory import Trajectory, TrajectoryError, read_trajectory
+from evaluation.trajectory import RESTART, Trajectory, TrajectoryError, read_trajectory
 
-RESTART = "# the world frame starts anew"
 MAX_DIFFERENCE = 0.01  # between paired stamps [s]
 
 

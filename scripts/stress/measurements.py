@@ -23,6 +23,11 @@ class Measurements:
         self.points_kept = np.ones(len(self.image_ns), dtype=bool)
         self.lines_kept = np.ones(len(self.image_ns), dtype=bool)
 
+    @property
+    def duration(self):
+        """From the first image to the end [s]."""
+        return (max(self.imu_ns[-1], self.image_ns[-1]) - self.image_ns[0]) * 1e-9
+
     def image_at(self, seconds):
         """Index of the first image at or after a time since the first image."""
         return int(np.searchsorted(self.image_ns, self._nanoseconds(seconds)))

@@ -262,6 +262,20 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(sorted(os.listdir(plots)),
                          ["ape.png", "trajectory.png", "translation.png"])
 
+    def test_an_estimate_with_another_world_says_so(self):
+        rows = self.spiral(" ").splitlines(keepends=True)
+        truth = self.write("truth.tum", "".join(rows))
+        alone = self.run_script(self.write("one.tum", "".join(rows)), truth)
+        self.assertNotIn("starts anew", alone.stdout)
+        rows.insert(50, "# the world frame starts anew: lost\n")
+        result = self.run_script(self.write("two.tum", "".join(rows)), truth)
+        self.assertIn("the world frame starts anew 1 times: APE", result.stdout)
+
+    def test_ground_truth_with_a_byte_order_mark(self):
+        estimate = self.write("estimate.tum", self.spiral(" "))
+        truth = self.write("data.csv", "\ufeff" + self.spiral(",", stamp_unit=1e9))
+        self.assertIn("100 pairs", self.run_script(estimate, truth).stdout)
+
     def evo_zip(self, *options):
         """The parts of a result file of an estimate that is 0.3 m off, now here, now there."""
         estimate = self.write("estimate.tum", "".join(

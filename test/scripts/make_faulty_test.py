@@ -54,6 +54,12 @@ class Faults(unittest.TestCase):
             # The flight is still and so far from the limits of a sensor.
             self.assertEqual(same, name in ("none", "imu_saturated", "imu_held_100ms"), name)
 
+    def test_a_fault_that_would_begin_after_the_end(self):
+        for name in set(FAULTS) - {"none", "image_delay"}:
+            with self.assertRaisesRegex(ValueError, "--begin 9: the recording lasts 4.0 s"):
+                self.damaged(name, begin=9)
+        self.damaged("none", begin=9)
+
     def test_sizes(self):
         self.assertAlmostEqual(
             np.linalg.norm(self.damaged("gyro_bias_step").gyro[-1] - flight().gyro[-1]), 0.05)

@@ -206,13 +206,37 @@ Source RunFromFeatures(const Arguments& arguments, FeatureFileReader* features,
   return {arguments.features, "", "", {}};
 }
 
-// What is read while it is written would be lost.
-void CheckSavedFeatures(const Arguments& arguments) {
-  for (const std::string& input : {arguments.features, arguments.bag, arguments.config}) {
-    std::error_code error;  // a file that is not there is no other's
-    if (std::filesystem::equivalent(input, arguments.saved_features, error)) {
-      throw std::runtime_error("--save-features would overwrite the input, " + input);
+bool AreOneFile(const std::string& a, const std::string& b) {
+  std::error_code error;  // a file that is not there is no other's
+  return std::filesystem::equivalent(a, b, error);
+}
+
+std::vector<std::string> InputFiles(const Arguments& arguments) {
+  std::vector<std::string> files = {arguments.config, arguments.bag, arguments.features};
+  for (const char* table : {"imu0/data.csv", "cam0/data.csv"}) {
+    files.push_back(arguments.asl + "/" + table);
+    files.push_back(arguments.asl + "/mav0/" + table);
+  }
+  return files;
+}
+
+void CheckOutput(const char* option, const std::string& output,
+                 const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    if (AreOneFile(input, output)) {
+      throw std::runtime_error(std::string(option) + " would overwrite the input, " + input);
     }
+  }
+}
+
+// An input would be lost where an output takes its place at the end. But a map may be continued.
+void CheckOutputs(const Arguments& arguments) {
+  std::vector<std::string> inputs = InputFiles(arguments);
+  CheckOutput("--map-out", arguments.map_out, inputs);
+  inputs.push_back(arguments.map_in);
+  CheckOutput("--save-features", arguments.saved_features, inputs);
+  if (!arguments.map_out.empty() && arguments.map_out == arguments.saved_features) {
+    throw std::runtime_error("--save-features and --map-out both name " + arguments.map_out);
   }
 }
 
@@ -246,7 +270,7 @@ void ShowTracks(double interval, ResultFiles* results, OdometryPipeline* pipelin
 }
 
 int Run(const Arguments& arguments) {
-  CheckSavedFeatures(arguments);
+  CheckOutputs(arguments);
   const Config config = Configure(arguments);
   for (const std::string& warning : config.warnings) Warn(warning);
   // What may be missing, or not writable, comes first: then earlier results stay as they are.

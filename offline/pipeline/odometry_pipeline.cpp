@@ -9,6 +9,9 @@ namespace {
 
 constexpr size_t kQueueCapacity = 200;  // items, most of them IMU samples: about a second
 
+// Images that the back end may yet report. More than it lets wait: what it drops it never reports.
+constexpr size_t kMaxUnfinished = 300;
+
 bool IsPowerOfTwo(int64_t count) { return (count & (count - 1)) == 0; }
 
 RecordingEvent EventOf(const TrackedItem& item) {
@@ -139,11 +142,15 @@ void OdometryPipeline::Consume(TrackedItem item, const FrameCallback& on_frame) 
 }
 
 void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
-  if (tracked.points.restart) back_end_.Reset("stamps jumped back");
+  if (tracked.points.restart) {
+    back_end_.Reset("stamps jumped back");
+    unfinished_.clear();
+  }
   if (!tracked.points.publish) {
     ++thinned_images_;
     return;
   }
+  if (unfinished_.size() == kMaxUnfinished) unfinished_.erase(unfinished_.begin());
   PipelineFrame& frame = unfinished_[tracked.points.features.t_ns];
   frame.point_tracking_ms = tracked.points.tracking_ms;
   frame.point_tracking = tracked.points.statistics;
@@ -159,12 +166,15 @@ void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_
   ++estimated_images_;
   const std::string contradiction = back_end_.ImuContradiction();
   if (!contradiction.empty()) imu_contradiction_ = contradiction;
-  const auto unfinished = unfinished_.find(estimated.output.t_ns);
-  PipelineFrame frame = std::move(unfinished->second);
+  PipelineFrame frame;
+  const auto reported = unfinished_.find(estimated.output.t_ns);
+  if (reported != unfinished_.end()) {
+    frame = std::move(reported->second);
+    unfinished_.erase(unfinished_.begin(), std::next(reported));
+  }
   frame.output = std::move(estimated.output);
   frame.points = std::move(estimated.points);
   frame.lines = std::move(estimated.lines);
-  unfinished_.erase(unfinished_.begin(), std::next(unfinished));
   on_frame(frame);
 }
 

@@ -84,8 +84,9 @@ void LoopResults::WriteFinalTrajectory() const {
   auto world = worlds_.begin();
   std::string reason = "it is not found in the map";
   bool was_in_map = true;
+  const std::vector<bool> connected = map().graph.ConnectedWith(0);
   for (size_t i = 0; i < poses_.size(); ++i) {
-    const bool in_map = map().graph.AreConnected(0, poses_[i].keyframe);
+    const bool in_map = connected[poses_[i].keyframe];
     const bool begins = world != worlds_.end() && world->first == i;
     if (begins) reason = (world++)->second;
     if (in_map != was_in_map || (begins && !in_map)) file.Comment(FormatTumRestart(reason));

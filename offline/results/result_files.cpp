@@ -188,10 +188,10 @@ void ResultFiles::Finish(RunSummary::Run run, const Config& config, const Json& 
   WriteLines();
   run.map_points = map_.size();
   run.map_lines = static_cast<int64_t>(lines_.size());
-  WriteSummary(run, config, loops);
   if (summary_.poses() > 0 && RefinesCalibration(config.sensor)) {
     SaveCalibratedConfig(summary_.calibration(), config, File(kCalibratedConfigFile));
   }
+  WriteSummary(run, config, loops);  // last: it says that all is there
 }
 
 void ResultFiles::WriteLines() const {

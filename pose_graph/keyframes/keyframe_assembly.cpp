@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/keyframes/keyframe_assembly.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -28,10 +29,16 @@ KeyframeAssembly::Parts& KeyframeAssembly::PartsAt(int64_t t_ns) {
   parts->second.frame.t_ns = t_ns;
   while (is_new && HasTooMany()) {
     const auto oldest = parts == parts_.begin() ? std::next(parts) : parts_.begin();
-    without_image_ += oldest->second.LacksImage() ? 1 : 0;
-    parts_.erase(oldest);
+    Forget(oldest, std::next(oldest));
   }
   return parts->second;
+}
+
+KeyframeAssembly::Stamps::iterator KeyframeAssembly::Forget(Stamps::iterator begin,
+                                                            Stamps::iterator end) {
+  without_image_ +=
+      std::count_if(begin, end, [](const auto& entry) { return entry.second.LacksImage(); });
+  return parts_.erase(begin, end);
 }
 
 void KeyframeAssembly::AddImage(const ImageSample& image) {
@@ -82,7 +89,7 @@ std::optional<OdometryFrame> KeyframeAssembly::Pop() {
   }
   OdometryFrame frame = std::move(first->second.frame);
   if (first->second.owner) frame.gray = frame.gray.clone();  // its pixels go with the message
-  parts_.erase(parts_.begin(), std::next(first));
+  parts_.erase(Forget(parts_.begin(), first));
   return frame;
 }
 

@@ -14,8 +14,9 @@ namespace plm_vins {
 
 // Puts keyframes together whose parts come one by one, in any order: image, pose, corners, lines.
 // Equal stamps belong together. Lines may be missing: a keyframe does not wait for them longer than
-// until the next one is complete. Keeps the parts of the newest stamps only, of two seconds at
-// least, and begins anew where the stamps of images go back for good: a recording is played again.
+// until the next one is complete. Keeps the parts of the newest stamps only, of two seconds or
+// 300 images at least, and begins anew where the stamps of images go back for good: a recording is
+// played again.
 class KeyframeAssembly {
  public:
   KeyframeAssembly();
@@ -46,11 +47,15 @@ class KeyframeAssembly {
     bool LacksImage() const { return frame.gray.empty() && has_pose && has_corners; }
   };
 
+  using Stamps = std::map<int64_t, Parts>;
+
   Parts& PartsAt(int64_t t_ns);
   bool HasTooMany() const;
+  // Counts those that lack their image; returns `end`.
+  Stamps::iterator Forget(Stamps::iterator begin, Stamps::iterator end);
 
-  std::map<int64_t, Parts> parts_;  // by stamp
-  int64_t image_ns_ = 0;            // stamp of the newest image
+  Stamps parts_;
+  int64_t image_ns_ = 0;  // stamp of the newest image
   BackwardJumpDetector jump_;
   int64_t without_image_ = 0;
 };

@@ -76,7 +76,18 @@ class RunOffline(unittest.TestCase):
                             "--save-features", link, source=("--features", features))
         self.assert_refuses("--save-features would overwrite the input",
                             "--save-features", link, source=("--bag", features))
+        self.assert_refuses("--map-out would overwrite the input", "--map-out", link,
+                            source=("--bag", features))
+        self.assert_refuses("--save-features would overwrite the input", "--save-features", link,
+                            "--map-in", features)
+        self.assert_refuses("both name x.plm", "--save-features", "x.plm", "--map-out", "x.plm")
         self.assertEqual(features.read_text(encoding="utf-8"), "kept")
+
+    def test_outputs_that_would_overwrite_a_table_of_the_recording(self):
+        for table in ["imu0/data.csv", "cam0/data.csv"]:
+            for option in ["--save-features", "--map-out"]:
+                self.assert_refuses(f"{option} would overwrite the input", option,
+                                    self.folder / "asl" / table)
 
     def test_earlier_results_stay_where_nothing_can_be_run(self):
         results = self.folder / "results"

@@ -112,6 +112,16 @@ TEST(OdometryPipeline, DrawsPointsAndLinesOfOneImage) {
   }
 }
 
+TEST(OdometryPipeline, KeepsFewOfTheImagesThatTheImuDoesNotCover) {
+  MemoryRecording recording;
+  const cv::Mat picture = StillPicture().clone();
+  for (int i = 0; i < 500; ++i) recording.AddImage(50 * i, picture);
+  const int in_recording = picture.u->refcount;
+  OdometryPipeline pipeline(StillConfig());
+  pipeline.Run(&recording, {}, 1, [](const PipelineFrame&) {});
+  EXPECT_LT(picture.u->refcount - in_recording, 350);
+}
+
 TEST(OdometryPipeline, ShowsTracksEverySoOften) {
   MemoryRecording recording = StillRecording(400);  // an image every 50 ms
   OdometryPipeline pipeline(StillConfig());

@@ -78,6 +78,15 @@ TEST_F(KeyframeAssemblyTest, ForgetsAsMuchWhereNoImagesCome) {
   EXPECT_EQ(assembly_.without_image(), 99 - 60);
 }
 
+TEST_F(KeyframeAssemblyTest, CountsAKeyframeWhoseImageWasLostOnTheWay) {
+  AddPose(kPeriod);
+  AddTheRest(kPeriod);
+  AddAllButLines(2 * kPeriod);
+  assembly_.AddSegments(2 * kPeriod, {}, std::nullopt);
+  EXPECT_TRUE(assembly_.Pop());
+  EXPECT_EQ(assembly_.without_image(), 1);
+}
+
 TEST_F(KeyframeAssemblyTest, WaitsAsLongAtAHighRate) {
   constexpr int64_t kFast = kPeriod / 10;
   AddAllButLines(kFast);

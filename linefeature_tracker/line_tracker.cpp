@@ -67,6 +67,7 @@ class LineTracker::Implementation {
     statistics_.previous = static_cast<int>(tracks_.size());
     const double dt = t_ns_ ? ToSeconds(sample.t_ns - *t_ns_) : 0;
     const double dt_ratio = previous_dt_ > 0 ? dt / previous_dt_ : 0;
+    if (images_since_detection_) ++*images_since_detection_;
     if (config_.line_matcher == LineMatcherType::kFlow) {
       FollowByFlow(pyramid, dt_ratio, R_C1_C0);
       if (IsRefillDue()) Refill(sample.gray, FindLines(pyramid));
@@ -202,8 +203,7 @@ class LineTracker::Implementation {
     tracks_ = std::move(kept);
   }
 
-  bool IsRefillDue() {
-    if (images_since_detection_) ++*images_since_detection_;
+  bool IsRefillDue() const {
     const bool is_short =
         static_cast<double>(tracks_.size()) < config_.refill_below * config_.max_lines;
     const bool has_waited =

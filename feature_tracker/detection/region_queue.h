@@ -3,7 +3,8 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
-#include <vector>
+
+#include "tracking/poorest_bin_queue.h"
 
 namespace plm_vins {
 
@@ -15,25 +16,21 @@ class RegionQueue {
   RegionQueue(const cv::Size& image_size, int region_count);
 
   // To be added best first.
-  void AddCandidate(const cv::Point2f& position);
+  void AddCandidate(const cv::Point2f& position) {
+    queue_.AddCandidate(RegionOf(position), position);
+  }
 
   // A point that exists, or a candidate that was taken.
-  void CountPoint(const cv::Point2f& position);
+  void CountPoint(const cv::Point2f& position) { queue_.Count(RegionOf(position)); }
 
-  std::optional<cv::Point2f> Pop();
+  std::optional<cv::Point2f> Pop() { return queue_.Pop(); }
 
  private:
-  struct Region {
-    std::vector<cv::Point2f> candidates;
-    size_t next = 0;
-    int points = 0;
-  };
-
-  Region& RegionAt(const cv::Point2f& position);
+  size_t RegionOf(const cv::Point2f& position) const;
 
   double region_size_;  // [px]
   int columns_;
-  std::vector<Region> regions_;
+  PoorestBinQueue<cv::Point2f> queue_;
 };
 
 }  // namespace plm_vins

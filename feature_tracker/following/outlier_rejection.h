@@ -17,11 +17,12 @@ struct RayPair {
 // error of a good one is at most `threshold` [rad].
 //
 // `R_C1_C0` is a first guess (from the gyro, so off by its bias); without it the rotation that
-// explains the pairs best stands in. RANSAC draws translation directions from two pairs each, with
-// an own generator of fixed seed; the best one and the rotation are then refined together over all
-// pairs, robustly. Angles instead of distances in a plane make it valid for any field of view.
-// Without parallax (standstill, pure rotation) every translation fits and all good pairs stay. All
-// pairs are returned as good where there are fewer than eight.
+// explains the pairs best stands in. RANSAC, with a generator of its own of fixed seed, draws two
+// pairs for a translation direction, or five for that and the rotation where none is given; the
+// best geometry is then refined over all pairs, robustly. Angles instead of distances in a plane
+// make it valid for any field of view. Without parallax (standstill, pure rotation) every
+// translation fits and all good pairs stay. All pairs are returned as good where there are fewer
+// than eight.
 std::vector<bool> FindEpipolarInliers(const std::vector<RayPair>& pairs,
                                       const std::optional<Eigen::Quaterniond>& R_C1_C0,
                                       double threshold);

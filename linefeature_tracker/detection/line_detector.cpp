@@ -102,8 +102,8 @@ std::unique_ptr<LineDetector> LineDetector::Create(LineDetectorType type) {
   if (type == LineDetectorType::kLsd) return std::make_unique<LsdDetector>();
   return std::make_unique<EdLinesDetector>();
 #else
-  throw std::runtime_error("line_detector: OpenCV " CV_VERSION
-                           " has neither lsd nor edlines (4.5.4 and later do); use fld");
+  throw std::invalid_argument("line_detector: OpenCV " CV_VERSION
+                              " has neither lsd nor edlines (4.5.4 and later do); use fld");
 #endif
 }
 

@@ -14,7 +14,7 @@ namespace plm_vins {
 // keep buffers.
 class LineDetector {
  public:
-  // FLD [Lee2014], LSD [Gioi2010] or EDLines [Akinlar2011]. Throws std::runtime_error where the
+  // FLD [Lee2014], LSD [Gioi2010] or EDLines [Akinlar2011]. Throws std::invalid_argument where the
   // version of OpenCV lacks it.
   static std::unique_ptr<LineDetector> Create(LineDetectorType type);
   static bool IsAvailable(LineDetectorType type);

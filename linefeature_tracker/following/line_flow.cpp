@@ -6,8 +6,9 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
+#include "linefeature_tracker/segments/line_offset.h"
+#include "linefeature_tracker/segments/line_profile.h"
 #include "linefeature_tracker/segments/segment_sampler.h"
-#include "tracking/image_sampling.h"
 
 namespace plm_vins {
 namespace {
@@ -24,20 +25,6 @@ constexpr double kConverged_px = 0.1;  // of a level: the edge is located afterw
 constexpr double kMinTurnLength = 10;  // shorter lines do not turn, in pixels of a level
 
 using Profile = std::array<float, kProfileSize>;
-
-// Brightness at `size` steps of a pixel across the line; false where it leaves the image.
-template <size_t kSize>
-bool ReadProfile(const cv::Mat& image, const Eigen::Vector2f& center, const Eigen::Vector2f& normal,
-                 std::array<float, kSize>* profile) {
-  constexpr int kHalf = static_cast<int>(kSize / 2);
-  if (!IsInterpolable(image, center.x(), center.y(), kHalf)) return false;
-  for (int j = -kHalf; j <= kHalf; ++j) {
-    const auto distance = static_cast<float>(j);
-    (*profile)[j + kHalf] =
-        Interpolate(image, center.x() + distance * normal.x(), center.y() + distance * normal.y());
-  }
-  return true;
-}
 
 // The same part of the line in both images.
 struct SamplePair {
@@ -66,11 +53,8 @@ struct CorrelationSums {
   }
 };
 
-// Normalised offset of the line from where it was predicted: at its start and its slope along it.
-using LineOffset = Eigen::Vector2d;
-
 double OffsetInPixels(const LineOffset& offset, const SegmentSample& sample) {
-  return (offset.x() + offset.y() * sample.along) / sample.offset_per_pixel;
+  return offset.At(sample.along) / sample.offset_per_pixel;
 }
 
 // Aligns one level of the pyramids.
@@ -91,7 +75,8 @@ class LevelAlignment {
     for (int i = 0; i < kMaxIterations; ++i) {
       const auto step = Step(may_turn, *offset);
       if (!step) return false;
-      *offset += *step;
+      offset->at_start += step->at_start;
+      offset->slope += step->slope;
       const SegmentSample& sample = *templates_.front().current;
       if (std::abs(OffsetInPixels(*step, sample)) * scale_ < kConverged_px) break;
     }
@@ -117,7 +102,8 @@ class LevelAlignment {
   void AddTemplate(const cv::Mat& previous, const SamplePair& pair) {
     std::array<float, kProfileSize + 2> wide;
     const Eigen::Vector2f center = (scale_ * pair.previous.pixel).cast<float>();
-    if (!ReadProfile(previous, center, pair.previous.normal_px.cast<float>(), &wide)) return;
+    if (!ReadProfile(previous, center, pair.previous.normal_px.cast<float>(), kRadius + 1, &wide))
+      return;
     Template reference;
     reference.current = &pair.current;
     for (int j = 0; j < kProfileSize; ++j) {
@@ -133,7 +119,7 @@ class LevelAlignment {
     const SegmentSample& sample = *reference.current;
     const Eigen::Vector2d pixel = sample.pixel + OffsetInPixels(offset, sample) * sample.normal_px;
     return ReadProfile(current_, (scale_ * pixel).cast<float>(), sample.normal_px.cast<float>(),
-                       profile);
+                       kRadius, profile);
   }
 
   // One Gauss-Newton step of the inverse compositional kind: the template is moved, not the image,
@@ -166,7 +152,7 @@ class LevelAlignment {
     if (!may_turn) H(1, 1) *= 1e6;
     const Eigen::Vector3d solution = H.ldlt().solve(b);
     if (!solution.allFinite()) return std::nullopt;
-    return solution.head<2>();
+    return LineOffset{solution.x(), solution.y()};
   }
 
   const cv::Mat& current_;
@@ -208,7 +194,7 @@ std::optional<LineFlowResult> LineFlow::Track(const Pyramid& previous, const Pyr
   if (!segment_px) return std::nullopt;
   const double length_px = segment_px->Length();
   const auto samples = SampleBoth(*camera_, segment, predicted, length_px);
-  LineOffset offset = LineOffset::Zero();
+  LineOffset offset;
   double correlation = 0;
   for (int level = kTopLevel; level >= kBottomLevel; --level) {
     const LevelAlignment alignment(previous[level], current[level], samples, level);
@@ -217,10 +203,7 @@ std::optional<LineFlowResult> LineFlow::Track(const Pyramid& previous, const Pyr
     if (!is_aligned) return std::nullopt;
     correlation = alignment.Correlation(offset);
   }
-  const Eigen::Vector2d normal = predicted.Normal();
-  return LineFlowResult{{predicted.start + offset.x() * normal,
-                         predicted.end + (offset.x() + offset.y() * predicted.Length()) * normal},
-                        correlation};
+  return LineFlowResult{Shifted(predicted, offset), correlation};
 }
 
 }  // namespace plm_vins

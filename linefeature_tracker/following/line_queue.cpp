@@ -15,33 +15,17 @@ int Bin(double value, double range, int count) {
 }  // namespace
 
 LineQueue::LineQueue(const cv::Size& image_size)
-    : image_size_(image_size), buckets_(kColumns * kRows * kDirections) {}
-
-void LineQueue::AddCandidate(const LineSegment& segment_px, size_t index) {
-  BucketOf(segment_px).candidates.push_back(index);
-}
-
-void LineQueue::CountLine(const LineSegment& segment_px) { ++BucketOf(segment_px).lines; }
-
-std::optional<size_t> LineQueue::Pop() {
-  Bucket* poorest = nullptr;
-  for (Bucket& bucket : buckets_) {
-    if (bucket.next == bucket.candidates.size()) continue;
-    if (poorest == nullptr || bucket.lines < poorest->lines) poorest = &bucket;
-  }
-  if (poorest == nullptr) return std::nullopt;
-  return poorest->candidates[poorest->next++];
-}
+    : image_size_(image_size), queue_(kColumns * kRows * kDirections) {}
 
 // Directions are counted around the axes, so that upright and level lines do not lie on a boundary.
-LineQueue::Bucket& LineQueue::BucketOf(const LineSegment& segment_px) {
+size_t LineQueue::BinOf(const LineSegment& segment_px) const {
   const Eigen::Vector2d middle = segment_px.Midpoint();
   const Eigen::Vector2d direction = segment_px.Direction();
   const double angle = std::atan2(direction.y(), direction.x()) + M_PI / (2 * kDirections);
   const double wrapped = angle - M_PI * std::floor(angle / M_PI);
   const int region = Bin(middle.y(), image_size_.height, kRows) * kColumns +
                      Bin(middle.x(), image_size_.width, kColumns);
-  return buckets_[region * kDirections + Bin(wrapped, M_PI, kDirections)];
+  return region * kDirections + Bin(wrapped, M_PI, kDirections);
 }
 
 }  // namespace plm_vins

@@ -3,9 +3,9 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
-#include <vector>
 
 #include "linefeature_tracker/segments/line_segment.h"
+#include "tracking/poorest_bin_queue.h"
 
 namespace plm_vins {
 
@@ -16,24 +16,20 @@ class LineQueue {
   explicit LineQueue(const cv::Size& image_size);
 
   // To be added best first; `index` is what Pop() hands out.
-  void AddCandidate(const LineSegment& segment_px, size_t index);
+  void AddCandidate(const LineSegment& segment_px, size_t index) {
+    queue_.AddCandidate(BinOf(segment_px), index);
+  }
 
   // A line that exists, or a candidate that was taken.
-  void CountLine(const LineSegment& segment_px);
+  void CountLine(const LineSegment& segment_px) { queue_.Count(BinOf(segment_px)); }
 
-  std::optional<size_t> Pop();
+  std::optional<size_t> Pop() { return queue_.Pop(); }
 
  private:
-  struct Bucket {
-    std::vector<size_t> candidates;
-    size_t next = 0;
-    int lines = 0;
-  };
-
-  Bucket& BucketOf(const LineSegment& segment_px);
+  size_t BinOf(const LineSegment& segment_px) const;
 
   cv::Size image_size_;
-  std::vector<Bucket> buckets_;
+  PoorestBinQueue<size_t> queue_;
 };
 
 }  // namespace plm_vins

@@ -8,7 +8,8 @@
 
 #include "common/geometry/robust_weight.h"
 #include "common/median.h"
-#include "tracking/image_sampling.h"
+#include "linefeature_tracker/segments/line_offset.h"
+#include "linefeature_tracker/segments/line_profile.h"
 
 namespace plm_vins {
 namespace {
@@ -24,20 +25,6 @@ constexpr double kMinSupport = 0.6;    // share of a line's samples that show it
 constexpr double kMaxResidual_px = 1;  // of a sample that shows it
 constexpr size_t kMinPoints = 5;
 constexpr std::array<double, 3> kRobustScales_px = {2.0, 1.0, 0.5};
-
-// Value and slope along the segment of the offset of an edge from it, normalised.
-struct LineOffset {
-  double at_start = 0;
-  double slope = 0;
-
-  double At(const SegmentSample& sample) const { return at_start + slope * sample.along; }
-};
-
-LineSegment Shifted(const LineSegment& segment, const LineOffset& offset) {
-  const Eigen::Vector2d normal = segment.Normal();
-  return {segment.start + offset.at_start * normal,
-          segment.end + (offset.at_start + offset.slope * segment.Length()) * normal};
-}
 
 // Those of the points that show an edge.
 template <typename EdgePoint>
@@ -62,7 +49,7 @@ LineOffset FitOffset(const std::vector<EdgePoint>& points) {
     Eigen::Vector2d b = Eigen::Vector2d::Zero();
     for (const EdgePoint& point : points) {
       const double pixels = 1 / point.sample.offset_per_pixel;
-      const double residual_px = point.offset_px - fit.At(point.sample) * pixels;
+      const double residual_px = point.offset_px - fit.At(point.sample.along) * pixels;
       const double weight = GemanMcClureWeight(residual_px, scale_px);
       const Eigen::Vector2d J(pixels, point.sample.along * pixels);
       H += weight * J * J.transpose();
@@ -108,7 +95,7 @@ std::optional<LineSegment> LineRefinement::Place(const cv::Mat& image,
   const LineOffset fit = FitOffset(edges);
   for (EdgePoint& point : points) {
     const double residual_px =
-        point.offset_px - fit.At(point.sample) / point.sample.offset_per_pixel;
+        point.offset_px - fit.At(point.sample.along) / point.sample.offset_per_pixel;
     point.found = point.found && std::abs(residual_px) <= kMaxResidual_px;
   }
   const auto part = SupportedPart(rough, step, points);
@@ -122,7 +109,7 @@ std::optional<LineSegment> LineRefinement::Place(const cv::Mat& image,
   const LineOffset final_fit = FitOffset(OnEdges(std::move(points)));
   const Eigen::Vector2d normal = rough.Normal();
   const auto on_line = [&](const Eigen::Vector2d& xy) -> Eigen::Vector2d {
-    return xy + (final_fit.at_start + final_fit.slope * rough.Along(xy)) * normal;
+    return xy + final_fit.At(rough.Along(xy)) * normal;
   };
   return LineSegment{on_line(part->start), on_line(part->end)};
 }
@@ -163,13 +150,8 @@ void LineRefinement::LocateEdge(const cv::Mat& image, int search_px, EdgePoint* 
   const int radius = search_px + 2;
   const Eigen::Vector2f center = point->sample.pixel.cast<float>();
   const Eigen::Vector2f normal = point->sample.normal_px.cast<float>();
-  if (!IsInterpolable(image, center.x(), center.y(), static_cast<float>(radius))) return;
   std::array<float, 2 * (kMaxSearch_px + 2) + 1> profile;
-  for (int j = -radius; j <= radius; ++j) {
-    const auto distance = static_cast<float>(j);
-    profile[j + radius] =
-        Interpolate(image, center.x() + distance * normal.x(), center.y() + distance * normal.y());
-  }
+  if (!ReadProfile(image, center, normal, radius, &profile)) return;
   const auto rise = [&](int j) {
     return 0.5F * (profile[j + radius + 1] - profile[j + radius - 1]);
   };

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linefeature_tracker/line_tracking_stage.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
 
+#include "linefeature_tracker/detection/line_detector.h"
 #include "test/linefeature_tracker/bar_scene.h"
 
 namespace plm_vins {
@@ -71,6 +73,20 @@ TEST_F(LineTrackingStageTest, AnImageWithoutLinesGivesAnEmptyFrame) {
   TrackedLines found;
   while (auto frame = stage_->Flush()) found = *frame;
   EXPECT_FALSE(found.features.lines.empty());
+}
+
+TEST(LineTrackingStage, ADetectorThatOpenCvLacksNamesTheFileOfTheConfiguration) {
+  if (LineDetector::IsAvailable(LineDetectorType::kLsd)) GTEST_SKIP() << "it has all detectors";
+  Config config;
+  config.file = "camera.yaml";
+  config.sensor.camera = PlainParameters();
+  config.lines.line_detector = LineDetectorType::kLsd;
+  try {
+    LineTrackingStage stage(config);
+    FAIL() << "is not refused";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), ::testing::StartsWith("camera.yaml: line_detector: OpenCV "));
+  }
 }
 
 TEST_F(LineTrackingStageTest, FollowsAThousandLines) {

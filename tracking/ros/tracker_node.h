@@ -169,9 +169,9 @@ class TrackerNode {
   diagnostic_updater::Updater diagnostics_;
   RunTimeSettings<Settings> settings_;
 
-  // Last, so that they end first, and in this order: a nodelet is unloaded while callbacks run in
-  // other threads. Each of these waits for its own to return, and those of images and timers take
-  // from the IMU's inbox, whose own, in the thread that receives, touch nothing else.
+  // Last, so that they end first, the inbox after the others: a nodelet is unloaded while callbacks
+  // run in other threads. Each of these waits for its own to return, and those of images and timers
+  // take from the IMU's inbox, whose own, in the thread that receives, touch nothing else.
   ImuInbox imu_{node_, config_.sensor.imu_topic, [this] { TrackWhatIsReady(); }};
   ImageSubscription images_;
   ros::WallTimer flush_timer_;

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "linefeature_tracker/segments/line_segment.h"
+
+namespace plm_vins {
+
+// How far a line lies from a segment, on the side of its Normal(), normalised.
+struct LineOffset {
+  double at_start = 0;
+  double slope = 0;  // along the segment
+
+  // `along` from the segment's start.
+  double At(double along) const { return at_start + slope * along; }
+};
+
+// The segment moved to where the line is.
+inline LineSegment Shifted(const LineSegment& segment, const LineOffset& offset) {
+  const Eigen::Vector2d normal = segment.Normal();
+  return {segment.start + offset.at_start * normal,
+          segment.end + offset.At(segment.Length()) * normal};
+}
+
+}  // namespace plm_vins

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <memory>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
 #include "benchmark/image_benchmark.h"
 #include "common/config/config.h"
+#include "feature_tracker/contrast_equalizer.h"
 #include "feature_tracker/detection/corner_detector.h"
 #include "feature_tracker/following/optical_flow.h"
 #include "feature_tracker/following/outlier_rejection.h"
@@ -34,8 +35,9 @@ Input ReadInput(const std::string& config_file, const std::string& folder) {
 }
 
 cv::Mat Equalized(const cv::Mat& image) {
+  ContrastEqualizer equalizer(image.size());
   cv::Mat equalized;
-  cv::createCLAHE(3.0, {8, 8})->apply(image, equalized);
+  equalizer.Apply(image, &equalized);
   return equalized;
 }
 
@@ -51,8 +53,13 @@ void TrackWhole(benchmark::State& state, const Input& input) {
 }
 
 void Equalize(benchmark::State& state, const Input& input) {
+  ContrastEqualizer equalizer(input.Image(0).size());
+  cv::Mat equalized;
   size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(Equalized(input.Image(i++)));
+  for (auto _ : state) {
+    equalizer.Apply(input.Image(i++), &equalized);
+    benchmark::DoNotOptimize(equalized.data);
+  }
 }
 
 void BuildPyramid(benchmark::State& state, const Input& input) {

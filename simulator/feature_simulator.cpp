@@ -34,7 +34,7 @@ ImuSimulationOptions ImuOptions(const FeatureSimulationOptions& options) {
   imu.noise = options.sensors.imu_noise;
   imu.add_noise = options.add_imu_noise;
   imu.gravity_norm = options.sensors.gravity_norm;
-  imu.rate_hz = options.imu_rate_hz;
+  imu.rate_hz = options.sensors.imu_rate;
   imu.start_ns = options.start_ns;
   imu.initial_bias = options.initial_bias;
   imu.seed = StreamSeed(options.seed, kImu);

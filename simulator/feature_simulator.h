@@ -16,12 +16,11 @@
 namespace plm_vins::simulator {
 
 struct FeatureSimulationOptions {
-  SensorConfig sensors = DefaultSensors();  // camera, shutter, T_B_C, td, IMU densities, gravity
+  SensorConfig sensors = DefaultSensors();  // camera, shutter, T_B_C, td, IMU, gravity
   // Its R_V_B is replaced: the camera looks forward.
   TrajectoryOptions trajectory;
   FeatureRoomOptions room;
   double frame_rate_hz = 20.0;
-  double imu_rate_hz = 200.0;
   bool add_imu_noise = true;
   ImuBias initial_bias;
   int64_t start_ns = 1'000'000'000'000;  // IMU stamp of the trajectory's start

@@ -48,7 +48,6 @@ DropCounts ToDropCounts(const SyncStatistics& statistics) {
 
 EstimationStage::EstimationStage(const Config& config, double max_wait)
     : imu_rate_(config.sensor.imu_rate),
-      gyro_density_(config.sensor.imu_noise.gyro_density),
       estimator_(std::make_unique<Estimator>(config)),
       sync_(MakeSyncOptions(config, max_wait)) {}
 
@@ -129,11 +128,12 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   }
   sync_.SetTimeOffset(estimator_->time_offset());
   const std::vector<ImuSample>& imu = measurement->imu;
+  frame.imu_ns = imu.back().t_ns;
   if (imu.size() > 1) {
     const double interval =
         ToSeconds(imu.back().t_ns - imu.front().t_ns) / static_cast<double>(imu.size() - 1);
     frame.angular_velocity = imu.back().gyro - frame.output.state.gyro_bias();
-    frame.angular_velocity_variance = gyro_density_ * gyro_density_ / interval;
+    frame.angular_velocity_variance = std::pow(frame.output.imu_noise.gyro_density, 2) / interval;
   }
   return frame;
 }

@@ -25,8 +25,9 @@ DropCounts ToDropCounts(const SyncStatistics& statistics);
 // What the estimator says about an image, and what else there is to publish.
 struct EstimatedFrame {
   EstimatorOutput output;
-  PointFrame points;  // that were estimated from
-  LineFrame lines;    // the same; empty where there were none
+  PointFrame points;   // that were estimated from
+  LineFrame lines;     // the same; empty where there were none
+  int64_t imu_ns = 0;  // on the IMU's clock, what the state stands for
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // of B, bias removed [rad/s]
   // Of each of its components, by the noise of one gyro sample [rad^2/s^2].
   double angular_velocity_variance = 0;
@@ -73,7 +74,6 @@ class EstimationStage {
   void FollowClock();
 
   const double imu_rate_;                       // as configured [Hz]
-  const double gyro_density_;                   // [rad/s/sqrt(Hz)]
   const std::unique_ptr<Estimator> estimator_;  // so that users do not see the solver
   MeasurementSync sync_;
   StreamRhythm imu_rhythm_, image_rhythm_;

@@ -24,6 +24,15 @@ constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]
 
 constexpr int kMaxReweighings = 3;  // each finds three times the noise at most
 
+// Zero where the equations do not determine it.
+Matrix15d NewestCovariance(const SlidingWindow& window, NormalEquations* equations) {
+  const int64_t t_ns = window.newest().state.t_ns;
+  const Eigen::MatrixXd covariance =
+      equations->Covariance({{BlockKind::kPose, t_ns}, {BlockKind::kMotion, t_ns}});
+  if (covariance.size() == 0) return Matrix15d::Zero();
+  return covariance;
+}
+
 }  // namespace
 
 Estimator::State::State(const Config& config, const EstimatorOptions& options)
@@ -175,7 +184,7 @@ std::optional<std::string> Estimator::UpdateFailureMonitors(const EstimatorOutpu
   if (contradiction) return contradiction;
   auto blindness = state_.blindness_monitor.Add(
       output.t_ns, output.counts.points_observed + output.counts.lines_observed,
-      output.pose_covariance.topLeftCorner<3, 3>());
+      state_.newest_covariance.topLeftCorner<3, 3>());
   if (blindness) return blindness;
   return DetectFailure(FailureLimits(), state_.predicted,
                        state_.estimate.map.window.newest().state);
@@ -278,33 +287,14 @@ ProblemOptions Estimator::CurrentProblem(JacobiansAt jacobians_at) const {
 void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = state_.estimate.map;
-  output->counts.points_in_window = output->counts.lines_in_window = 0;
   ProblemBuilder builder(CurrentProblem(JacobiansAt::kValues), &map.window, &state_.estimate.prior);
-  builder.AddPrior();
-  for (size_t i = 1; i < map.window.frames.size(); ++i) builder.AddMotion(i);
-  for (auto& [id, landmark] : map.points.landmarks()) {
-    if (!IsOptimized(landmark)) continue;
-    builder.AddPoint(&landmark);
-    ++output->counts.points_in_window;
-  }
-  for (auto& [id, landmark] : map.lines.landmarks()) {
-    if (!IsOptimized(landmark)) continue;
-    builder.AddLine(&landmark);
-    ++output->counts.lines_in_window;
-  }
+  builder.AddAll(&map.points, &map.lines);
+  output->counts.points_in_window = map.points.CountOptimized();
+  output->counts.lines_in_window = map.lines.CountOptimized();
   output->counts.known_seen = map.CountInNewest();
   NormalEquations equations(builder.problem());
   state_.solved = SolveBy(config_.estimator.solver, options, builder.problem(), &equations).solved;
-  const int64_t newest_ns = map.window.newest().state.t_ns;
-  const Eigen::MatrixXd covariance =
-      equations.Covariance({{BlockKind::kPose, newest_ns}, {BlockKind::kMotion, newest_ns}});
-  state_.newest_covariance.setZero();
-  if (covariance.size() > 0) {
-    state_.newest_covariance = covariance;
-    output->pose_covariance = covariance.topLeftCorner<6, 6>();
-    output->velocity_covariance = covariance.block<3, 3>(6, 6);
-    output->bias_covariance = covariance.bottomRightCorner<6, 6>();
-  }
+  state_.newest_covariance = NewestCovariance(map.window, &equations);
   if (config_.estimator.adapt_imu_noise) {
     state_.imu_noise.Learn(map.window, !state_.initialized, &equations);
   }
@@ -374,6 +364,9 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->status = EstimatorStatus::kTracking;
   output->has_pose = true;
   output->state = window.newest().state;
+  output->pose_covariance = state_.newest_covariance.topLeftCorner<6, 6>();
+  output->velocity_covariance = state_.newest_covariance.block<3, 3>(6, 6);
+  output->bias_covariance = state_.newest_covariance.bottomRightCorner<6, 6>();
   output->calibration = {config_.sensor.camera.With(window.intrinsics), window.T_B_C(), window.td,
                          window.readout};
   output->R_W_M = state_.manhattan.R_W_M();

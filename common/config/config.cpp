@@ -119,6 +119,10 @@ class Loader {
                                  "no fisheye_mask is named, so corners are allowed everywhere; "
                                  "name an image file, or set fisheye: 0");
     }
+    if (LeavesMaskOut(config_)) {
+      config_.warnings.push_back(At("fisheye_mask") +
+                                 "is without effect with fisheye: 0; set fisheye: 1 to use it");
+    }
   }
 
   void Add(const std::string& key, const std::string& problem) {

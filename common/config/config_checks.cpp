@@ -120,6 +120,10 @@ bool LacksMask(const ConfigEntries& entries, const Config& config) {
   return Has(entries, "fisheye") && config.points.fisheye && MaskPath(config).empty();
 }
 
+bool LeavesMaskOut(const Config& config) {
+  return !config.points.fisheye_mask.empty() && !config.points.fisheye;
+}
+
 void FinishConfig(const ConfigEntries& entries, Config* config) {
   config->points.fisheye_mask = MaskPath(*config);
   config->points.fisheye = !config->points.fisheye_mask.empty();

@@ -15,8 +15,12 @@ using Report = std::function<void(const std::string& key, const std::string& pro
 // Reports values that are fine alone but not together, and keys that others make necessary.
 void CheckTogether(const ConfigEntries& entries, const Config& config, const Report& report);
 
-// VINS takes a mask of its own for a fisheye where none is named, which is not to be had here.
+// True where `fisheye: 1` stands without a mask. VINS takes one of its own then, which is not to be
+// had here.
 bool LacksMask(const ConfigEntries& entries, const Config& config);
+
+// True where a mask is named that `fisheye: 0` switches off.
+bool LeavesMaskOut(const Config& config);
 
 // Turns what is written into what the modules take: noise densities, path of the mask.
 void FinishConfig(const ConfigEntries& entries, Config* config);

@@ -91,6 +91,7 @@ bool ImuGate::IsSuspect(const ImuSample& sample) const {
 void ImuGate::LearnLeaps(const ImuSample& sample) {
   if (!last_) return;
   const ImuSample& before = suspects_.empty() ? *last_ : suspects_.back();
+  if (sample.t_ns - before.t_ns > kMaxInterval_ns) return;
   gyro_leaps_.Learn(Difference(before.gyro, sample.gyro));
   accel_leaps_.Learn(Difference(before.accel, sample.accel));
 }

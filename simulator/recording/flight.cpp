@@ -26,7 +26,7 @@ ImuSimulationOptions ImuOptions(const FlightOptions& options) {
   ImuSimulationOptions imu;
   imu.noise = options.sensors.imu_noise;
   imu.gravity_norm = options.sensors.gravity_norm;
-  imu.rate_hz = options.imu_rate_hz;
+  imu.rate_hz = options.sensors.imu_rate;
   imu.start_ns = options.start_ns;
   imu.initial_bias.gyro = kGyroBias * random.NormalVector3();
   imu.initial_bias.accel = kAccelBias * random.NormalVector3();

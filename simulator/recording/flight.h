@@ -20,10 +20,9 @@ struct FlightOptions {
   TextureStyle texture = TextureStyle::kRich;
   Motion motion = Motion::kGentle;
   double duration = 60.0;                   // [s]
-  SensorConfig sensors = DefaultSensors();  // camera, shutter, T_B_C, td, IMU densities, gravity
+  SensorConfig sensors = DefaultSensors();  // camera, shutter, T_B_C, td, IMU, gravity
   ImagingOptions imaging;                   // but its read-out and seed, which are those here
   double frame_rate_hz = 20.0;
-  double imu_rate_hz = 200.0;
   int64_t start_ns = 1'600'000'000'000'000'000;  // IMU stamp of the start
   uint64_t seed = 1;
 };

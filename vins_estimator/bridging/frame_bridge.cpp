@@ -58,7 +58,7 @@ void FrameBridge::AddLost(const std::vector<ImuSample>& samples, int64_t t_ns) {
 
 void FrameBridge::Cross(const Image& from, Image* to) const {
   const int64_t t_ns = to->estimate.state.t_ns;
-  Preintegration motion(noise_, to->estimate.state.bias());
+  Preintegration motion(noise_, from.estimate.state.bias());
   for (const ImuSample& sample : to->samples) motion.Append(sample);
   to->estimate = Propagate(from.estimate, motion, gravity_W_);
   to->estimate.state.t_ns = t_ns;

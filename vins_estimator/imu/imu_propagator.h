@@ -24,7 +24,7 @@ class ImuPropagator {
 
   explicit ImuPropagator(const Eigen::Vector3d& gravity_W, const ImuRange& imu_range = ImuRange());
 
-  // Starts from `state`, valid at `t_imu_ns` of the IMU clock (image stamp + td).
+  // Starts from `state`, valid at `t_imu_ns` of the IMU clock.
   void Reset(const FrameState& state, int64_t t_imu_ns);
 
   // The state at this sample, its t_ns being the sample's stamp. Nothing without a state to start

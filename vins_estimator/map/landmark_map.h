@@ -34,7 +34,8 @@ class LandmarkMap {
   // Removes the landmarks that `condition` selects.
   void RemoveIf(const std::function<bool(const Landmark&)>& condition);
 
-  // How many landmarks that are optimised the newest image shows.
+  // How many landmarks are optimised, and how many of them the newest image shows.
+  int CountOptimized() const;
   int CountInNewest(const SlidingWindow& window) const;
 
   Landmarks& landmarks() { return landmarks_; }
@@ -105,6 +106,12 @@ void LandmarkMap<Landmark>::StartAnew(const SlidingWindow& window, int64_t host_
     if (has_gone) KeepOnlyView(window, landmark.views.size() - 1, &landmark);
     ++it;
   }
+}
+
+template <typename Landmark>
+int LandmarkMap<Landmark>::CountOptimized() const {
+  const auto is_optimized = [](const auto& entry) { return IsOptimized(entry.second); };
+  return static_cast<int>(std::count_if(landmarks_.begin(), landmarks_.end(), is_optimized));
 }
 
 template <typename Landmark>

@@ -42,6 +42,8 @@ bool ImuNoiseLearning::Reweigh(SlidingWindow* window) const {
   for (WindowFrame& frame : window->frames) {
     if (!frame.motion_since_previous) continue;
     Preintegration& motion = *frame.motion_since_previous;
+    // Integrated anew, a doubted interval that was joined with others would be trusted again.
+    if (motion.HasBiasStep()) continue;
     const ImuNoise& before = motion.noise();
     if (!IsFarNoisier(noise, before)) continue;
     motion.Reweigh({std::max(noise.gyro_density, before.gyro_density),

@@ -80,6 +80,17 @@ int ProblemBuilder::AddVariable(const BlockId& id) {
                               at_first_estimates ? prior_->Linearization(id) : nullptr);
 }
 
+void ProblemBuilder::AddAll(PointMap* points, LineMap* lines) {
+  AddPrior();
+  for (size_t i = 1; i < window_->frames.size(); ++i) AddMotion(i);
+  for (auto& [id, landmark] : points->landmarks()) {
+    if (IsOptimized(landmark)) AddPoint(&landmark);
+  }
+  for (auto& [id, landmark] : lines->landmarks()) {
+    if (IsOptimized(landmark)) AddLine(&landmark);
+  }
+}
+
 void ProblemBuilder::AddPrior() {
   for (const MarginalizationPrior::Block& block : prior_->blocks()) AddVariable(block.id);
   problem_.SetPrior(prior_);

@@ -9,8 +9,8 @@
 
 #include "common/camera/camera_model.h"
 #include "common/config/config.h"
-#include "vins_estimator/map/line_landmark.h"
-#include "vins_estimator/map/point_landmark.h"
+#include "vins_estimator/map/line_map.h"
+#include "vins_estimator/map/point_map.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/problem/marginalization_prior.h"
 #include "vins_estimator/problem/window_problem.h"
@@ -58,6 +58,9 @@ class ProblemBuilder {
   // All must outlive the problem.
   ProblemBuilder(const ProblemOptions& options, SlidingWindow* window,
                  const MarginalizationPrior* prior);
+
+  // The whole window, with the landmarks that are optimised.
+  void AddAll(PointMap* points, LineMap* lines);
 
   void AddPrior();
   // The IMU between frame `index` - 1 and `index`, and that they stood still where they did.

@@ -15,7 +15,10 @@ constexpr double kMaxPoseAge = 0.5;  // [s], beyond it is worth a warning
 
 EstimatorDiagnostics::EstimatorDiagnostics(const Config& config, const std::string& points_topic,
                                            const std::string& lines_topic)
-    : imu_topic_(config.sensor.imu_topic), points_topic_(points_topic), lines_topic_(lines_topic) {}
+    : imu_topic_(config.sensor.imu_topic),
+      points_topic_(points_topic),
+      lines_topic_(lines_topic),
+      configured_noise_(config.sensor.imu_noise) {}
 
 void EstimatorDiagnostics::Update(const EstimatorOutput& output, int64_t frames, double age) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -24,7 +27,7 @@ void EstimatorDiagnostics::Update(const EstimatorOutput& output, int64_t frames,
   pose_age_ = age;
   contradicted_ = output.contradicted;
   on_imu_alone_ = output.on_imu_alone;
-  imu_noise_ = output.imu_noise;
+  imu_noise_ = output.has_pose ? output.imu_noise : configured_noise_;
   imu_noise_scale_ = output.imu_noise_scale;
   bridged_losses_ += output.bridged ? 1 : 0;
   imu_doubts_ += output.imu_doubted ? 1 : 0;

@@ -59,6 +59,7 @@ class EstimatorDiagnostics {
   std::string WaitsFor() const;  // the silent topics; empty: none
 
   const std::string imu_topic_, points_topic_, lines_topic_;
+  const ImuNoise configured_noise_;
   StreamMonitor imu_{"imu"};
   StreamMonitor points_{"points"};
   StreamMonitor lines_{"lines"};
@@ -70,7 +71,7 @@ class EstimatorDiagnostics {
   std::string reason_;
   bool contradicted_ = false;
   bool on_imu_alone_ = false;
-  ImuNoise imu_noise_;
+  ImuNoise imu_noise_ = configured_noise_;
   double imu_noise_scale_ = 1;
   int64_t bridged_losses_ = 0;
   int64_t imu_doubts_ = 0;

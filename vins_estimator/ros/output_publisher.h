@@ -23,7 +23,8 @@ namespace plm_vins {
 // camera, world -> manhattan once known. In a robot's own tree, which base_frame names, tf2 has
 // world -> base instead of body and camera. The histories have, as in VINS-Mono and PL-VINS, the
 // landmarks that leave the window, those of one second in a message. Messages that nobody listens
-// to are not made, but for odometry, tf and what is deleted from displays. For one thread.
+// to are not made, but for odometry, tf, the path and the lines of the past, which a display shows
+// that is opened later. For one thread.
 class OutputPublisher {
  public:
   OutputPublisher(const OutputConfig& frames, ros::NodeHandle private_node);

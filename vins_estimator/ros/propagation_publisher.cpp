@@ -22,7 +22,7 @@ void PropagationPublisher::SetEstimate(const EstimatedFrame& frame) {
   const EstimatorOutput& output = frame.output;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!output.has_pose) return propagator_.Clear();
-  propagator_.Reset(output.state, output.t_ns + ToNanoseconds(output.calibration.td));
+  propagator_.Reset(output.state, frame.imu_ns);
   covariance_ = CovarianceOf(frame);
 }
 

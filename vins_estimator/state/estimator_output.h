@@ -45,7 +45,7 @@ struct EstimatorOutput {
   int64_t t_ns = 0;
   EstimatorStatus status = EstimatorStatus::kInitializing;
   std::string reason;     // why not tracking, or why restarted; empty otherwise
-  bool has_pose = false;  // `state` and covariances are valid
+  bool has_pose = false;  // `state`, covariances, calibration and `imu_noise` are valid
   FrameState state;
   // Covariance of (p_W [m], rotation in B [rad]), right perturbation R_W_B Exp(theta).
   Matrix6d pose_covariance = Matrix6d::Zero();

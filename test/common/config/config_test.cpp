@@ -177,7 +177,9 @@ TEST_F(ConfigTest, MaskIsRelativeToTheFileAndCanBeSwitchedOff) {
   const std::string text = std::string(kShortFile) + "fisheye_mask: mask.png\n";
   EXPECT_EQ(Load(text).points.fisheye_mask, (folder_ / "mask.png").string());
   EXPECT_EQ(Load(text + "fisheye: 1\n").points.fisheye_mask, (folder_ / "mask.png").string());
-  EXPECT_EQ(Load(text + "fisheye: 0\n").points.fisheye_mask, "");
+  const Config without = Load(text + "fisheye: 0\n");
+  EXPECT_EQ(without.points.fisheye_mask, "");
+  EXPECT_THAT(without.warnings, ElementsAre(HasSubstr("fisheye_mask: is without effect")));
 }
 
 // ---- What must be refused ----------------------------------------------------------------------

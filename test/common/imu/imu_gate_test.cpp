@@ -152,5 +152,16 @@ TEST(ImuGate, ComparesNothingAcrossAGap) {
   for (const ImuSample& sample : samples) EXPECT_EQ(gate.Add(sample).size(), 1u);
 }
 
+// The turn meanwhile is not how much a reading usually differs from the one before.
+TEST(ImuGate, LearnsNothingAcrossAGap) {
+  std::vector<ImuSample> samples = Flight(200);
+  for (size_t i = 100; i < samples.size(); ++i) {
+    samples[i].t_ns += 100'000'000;
+    samples[i].gyro.z() = 10;
+  }
+  samples[101].gyro.z() = 11.2;
+  EXPECT_EQ(Pass(samples).replaced, 1);
+}
+
 }  // namespace
 }  // namespace plm_vins

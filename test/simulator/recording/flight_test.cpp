@@ -60,6 +60,14 @@ TEST(Flight, RecordsAllSensorsInOrderOfTime) {
   EXPECT_TRUE(recording.finished);
 }
 
+TEST(Flight, TheRateOfTheImuIsThatOfTheSensors) {
+  FlightOptions options = SmallFlight();
+  options.sensors.imu_rate = 100;
+  const MemoryRecorder recording = Record(options);
+  EXPECT_EQ(recording.imu.size(), 201u);
+  EXPECT_EQ(recording.imu[1].t_ns - recording.imu[0].t_ns, 10'000'000);
+}
+
 TEST(Flight, TimeOffsetMovesTheImageStampsOnly) {
   FlightOptions options = SmallFlight();
   const MemoryRecorder& plain = Reference();

@@ -78,6 +78,18 @@ TEST_F(ImuNoiseLearningTest, ReweighsOnlyIntervalsThatAreFarLessNoisy) {
   EXPECT_FALSE(learning.Reweigh(&window()));
 }
 
+TEST_F(ImuNoiseLearningTest, KeepsTheDoubtOfAnIntervalThatWasJoined) {
+  Preintegration& doubted = *window().frames[3].motion_since_previous;
+  doubted.Reweigh(Scaled(configured_, 1e4));
+  doubted.AllowBiasStep({0.1, 0.1});
+  doubted.Join(*window().frames[4].motion_since_previous);
+  const Matrix15d before = doubted.covariance();
+  ImuNoiseLearning learning(configured_);
+  Learn(/*is_first=*/true, &learning);
+  EXPECT_TRUE(learning.Reweigh(&window()));
+  EXPECT_EQ(doubted.covariance(), before);
+}
+
 TEST_F(ImuNoiseLearningTest, ResetForgets) {
   ImuNoiseLearning learning(configured_);
   Learn(/*is_first=*/true, &learning);

@@ -51,6 +51,23 @@ TEST_F(EstimatorDiagnosticsTest, WarnOfPosesOlderThanHalfASecond) {
   EXPECT_EQ(Value(status, "pose_age_ms"), "4200");
 }
 
+TEST_F(EstimatorDiagnosticsTest, StateTheNoiseOfTheImuAsConfiguredUntilItIsLearned) {
+  Config config;
+  config.sensor.imu_noise.accel_density = 0.5;
+  EstimatorDiagnostics diagnostics(config, "/points", "/lines");
+  const auto density = [&] {
+    Status status;
+    diagnostics.Report(0, &status);
+    return Value(status, "accel_density");
+  };
+  EXPECT_EQ(density(), "0.5");
+  output_.imu_noise.accel_density = 0.7;
+  diagnostics.Update(output_, 1, 0);
+  EXPECT_EQ(density(), "0.7");
+  diagnostics.Update(EstimatorOutput(), 1, 0);  // all starts over
+  EXPECT_EQ(density(), "0.5");
+}
+
 TEST_F(EstimatorDiagnosticsTest, WarnWhereThePoseIsDoubtful) {
   output_.on_imu_alone = true;
   EXPECT_EQ(Report(0).message, "tracking; blind: the IMU alone carries on");

@@ -87,7 +87,7 @@ class FeatureCamera {
   std::optional<Vector2d> ProjectFrom(const Rigid3d& T_C_W, const Vector3d& p_W) const {
     const Vector3d p_C = T_C_W * p_W;
     if (p_C.z() < kNearest) return std::nullopt;
-    const auto pixel = camera_->Project(p_C);
+    auto pixel = camera_->Project(p_C);
     if (!pixel || !camera_->IsInImage(*pixel)) return std::nullopt;
     // Beyond its field of view a distortion polynomial folds back into the image.
     const auto xy = camera_->Unproject(*pixel);

@@ -102,7 +102,8 @@ class LevelAlignment {
   void AddTemplate(const cv::Mat& previous, const SamplePair& pair) {
     std::array<float, kProfileSize + 2> wide;
     const Eigen::Vector2f center = (scale_ * pair.previous.pixel).cast<float>();
-    if (!ReadProfile(previous, center, pair.previous.normal_px.cast<float>(), kRadius + 1, &wide))
+    if (!ReadProfile(previous, center, pair.previous.normal_px.cast<float>(), kRadius + 1,
+                     wide.data()))
       return;
     Template reference;
     reference.current = &pair.current;
@@ -119,7 +120,7 @@ class LevelAlignment {
     const SegmentSample& sample = *reference.current;
     const Eigen::Vector2d pixel = sample.pixel + OffsetInPixels(offset, sample) * sample.normal_px;
     return ReadProfile(current_, (scale_ * pixel).cast<float>(), sample.normal_px.cast<float>(),
-                       kRadius, profile);
+                       kRadius, profile->data());
   }
 
   // One Gauss-Newton step of the inverse compositional kind: the template is moved, not the image,

@@ -138,8 +138,8 @@ def measure(options, output):
         processes, deadline = {}, time.monotonic() + START_TIMEOUT
         while process.poll() is None and not latencies.ended:
             if not latencies.begun and time.monotonic() > deadline:
-                raise RuntimeError(f"no image came on {topic} in {START_TIMEOUT} s: see "
-                                   f"image_topic of {options.config} and --image-transport")
+                raise RuntimeError(f"no image came on {topic} in {START_TIMEOUT} s: see"
+                                   f" image_topic in {options.config} and --image-transport")
             find_nodes(processes)
             for node, identity in processes.items():
                 if os.path.exists(f"/proc/{identity}"):
@@ -148,6 +148,8 @@ def measure(options, output):
     finally:
         process.send_signal(signal.SIGINT)
         process.wait()
+    if not latencies.begun:
+        raise RuntimeError(f"the nodes ended before an image came on {topic}")
     return latencies, costs
 
 
@@ -182,7 +184,7 @@ def parse_arguments(arguments):
     parser.add_argument("--loop-closure", action="store_true",
                         help="with it, whatever the configuration says")
     parser.add_argument("--image-transport", default="raw", choices=("raw", "compressed"),
-                        help="of the images in the bag (default: raw)")
+                        help="of the images in the bag (default: raw); others are not supported")
     return parser.parse_args(arguments)
 
 

@@ -52,7 +52,8 @@ def parse_arguments(arguments):
     parser.add_argument("--duration", type=_seconds, metavar="S", help="process this much [s]")
     parser.add_argument("--config", metavar="FILE", help="configuration (default: euroc.yaml)")
     parser.add_argument("--set", action="append", default=[], type=_override, metavar="KEY=VALUE",
-                        help="a change to the configuration of all variants, which go before it")
+                        help="a change to the configuration of all variants; keys that a variant"
+                        " sets itself stay as it has them")
     parser.add_argument("--output", default=os.path.join("output", "dataset"), metavar="DIR",
                         help="folder for everything (default: output/dataset)")
     parser.add_argument("--jobs", type=_positive, metavar="N",
@@ -62,7 +63,8 @@ def parse_arguments(arguments):
     parser.add_argument("--scheduler", metavar="ADDRESS",
                         help="hand the runs to the workers of this Dask scheduler, such as"
                         " tcp://HOST:8786; they share all folders with this machine")
-    parser.add_argument("--no-plots", action="store_true", help="tables only")
+    parser.add_argument("--no-plots", action="store_true",
+                        help="tables only: neither plots/ nor index.html and the pages of runs")
     parser.add_argument("--run-offline", metavar="FILE", help="the program, where it is not found")
     parser.set_defaults(starts=[0.0])
     options = parser.parse_args(arguments)

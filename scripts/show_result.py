@@ -29,18 +29,30 @@ def rows(summary, evaluation):
 
 
 def read_json(path):
+    """The object in the file, or None where there is no file; ValueError where it is damaged."""
     if not os.path.isfile(path):
         return None
-    with open(path, encoding="utf-8") as file:
-        return json.load(file)
+    try:
+        with open(path, encoding="utf-8") as file:
+            return dict(json.load(file))
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{path}: damaged ({error})") from None
 
 
 def main(folder):
-    summary = read_json(os.path.join(folder, "summary.json"))
-    if summary is None:
-        print(f"show_result.py: {folder}: no summary.json", file=sys.stderr)
+    try:
+        summary = read_json(os.path.join(folder, "summary.json"))
+        if summary is None:
+            raise ValueError(f"{folder}: no summary.json")
+        table = rows(summary, read_json(os.path.join(folder, "evaluation.json")))
+    except (OSError, ValueError) as error:
+        print(f"show_result.py: {error}", file=sys.stderr)
         return 1
-    for label, text in rows(summary, read_json(os.path.join(folder, "evaluation.json"))):
+    except (KeyError, TypeError) as error:
+        print(f"show_result.py: {folder}: a figure is missing or damaged ({error!r})",
+              file=sys.stderr)
+        return 1
+    for label, text in table:
         print(f"{label:12}{text}")
     for parent, _, names in sorted(os.walk(folder)):
         for name in sorted(names):

@@ -29,7 +29,8 @@ def main(arguments=None):
     output = options.output or os.path.join(options.run, "run.html")
     try:
         run = RunFolder.read(options.run)
-        truth = options.groundtruth or find_truth(run.summary["input"])
+        recording = run.summary.get("input")
+        truth = options.groundtruth or (recording and find_truth(recording))
         text = run_page(run, truth and read_trajectory(truth), embedded_plotly())
         with open(output, "w", encoding="utf-8") as file:
             file.write(text)

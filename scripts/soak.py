@@ -36,8 +36,9 @@ class PoseAge:
         for status in array.status:
             values = {value.key: value.value for value in status.values}
             if "pose_age_ms" in values:
-                self.value = float(values["pose_age_ms"])
                 self.resets = int(values["resets"])
+                if "odometry_delay_ms" in values:  # poses came; the age is 0 before the first one
+                    self.value = float(values["pose_age_ms"])
 
 
 def usage(process):
@@ -101,7 +102,8 @@ def watch(options, nodes, player):
         if age.value is not None:
             series.add("vins_estimator", {"pose_age_ms": age.value})
     if age.value is None:
-        raise RuntimeError("the estimator never said how old its poses are")
+        raise RuntimeError(f"no pose came in {options.minutes:g} minutes: see the topics in"
+                           f" {options.config}, and /diagnostics")
     print(f"{options.minutes:g} minutes, {age.resets} world frames given up")
     return series
 

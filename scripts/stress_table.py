@@ -44,9 +44,10 @@ def row(name, options, truth, folder):
                "--output", output]
     for override in options.set:
         command += ["--set", override]
-    run = subprocess.run(command, stderr=subprocess.PIPE, encoding="utf-8", check=False)
+    run = subprocess.run(command, stderr=subprocess.PIPE, encoding="utf-8", errors="replace",
+                         check=False)
     if run.returncode != 0:
-        why = (run.stderr.strip().splitlines() or [f"ended with {run.returncode}"])[-1]
+        why = _why(run)
         if name == "none":
             raise ValueError(f"no trajectory even without a fault: {why}")
         return f"| {name} | no trajectory: {why} |"
@@ -55,6 +56,12 @@ def row(name, options, truth, folder):
     restarts = " ".join(f"{time:.1f}" for time in damage.restarts) or "-"
     return (f"| {name} | {damage.ape:.3f} | {damage.jump:.2f} | {restarts} |"
             f" {100 * damage.coverage:.0f} % | {_noticed(output)} |")
+
+
+def _why(run):
+    """The last thing that run_offline said of its end."""
+    said = [line for line in run.stderr.splitlines() if line.startswith("run_offline:")]
+    return said[-1] if said else f"run_offline ended with {run.returncode}"
 
 
 def _noticed(output):

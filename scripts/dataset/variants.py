@@ -48,5 +48,8 @@ def select_variants(names):
 
 
 def describe_variants():
-    """One line per variant."""
-    return "\n".join(f"  {name:<10} {DESCRIPTIONS[name]}" for name in VARIANTS)
+    """One line per variant, and what some of them need."""
+    lines = [f"  {name:<10} {DESCRIPTIONS[name]}" for name in VARIANTS]
+    with_lsd = [name for name, keys in VARIANTS.items() if keys.get("line_detector") == "lsd"]
+    return "\n".join([*lines, f"{', '.join(with_lsd)}: OpenCV has LSD from 4.5.4 on (Ubuntu 20.04:"
+                              " 4.2)"])

@@ -2,11 +2,11 @@
 """A trajectory and its two file formats, TUM and EuRoC csv."""
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-RESTART = "# the world frame starts anew"  # in trajectories that a run wrote
+RESTART = "# the world frame starts anew"  # the comment of run_offline and the nodes
 
 
 class TrajectoryError(Exception):
@@ -15,11 +15,12 @@ class TrajectoryError(Exception):
 
 @dataclass
 class Trajectory:
-    """Poses of the body in a world frame, in the order of time."""
+    """Poses of the body in a world frame, in the order of time; in several where it starts anew."""
 
     stamps: np.ndarray  # (n,) [s], strictly increasing
     positions: np.ndarray  # (n, 3) [m]
     rotations: np.ndarray  # (n, 3, 3) body to world
+    worlds: int = 1
 
     def __len__(self):
         return len(self.stamps)
@@ -39,36 +40,33 @@ class Trajectory:
         return float(self.distances[-1])
 
     def select(self, indices):
-        return Trajectory(self.stamps[indices], self.positions[indices], self.rotations[indices])
+        return replace(self, stamps=self.stamps[indices], positions=self.positions[indices],
+                       rotations=self.rotations[indices])
 
     def shifted(self, seconds):
-        return Trajectory(self.stamps + seconds, self.positions, self.rotations)
+        return replace(self, stamps=self.stamps + seconds)
 
     def transformed(self, rotation, translation):
         """The same motion seen from another world frame: p' = rotation * p + translation."""
-        return Trajectory(self.stamps, self.positions @ rotation.T + translation,
-                          rotation @ self.rotations)
+        return replace(self, positions=self.positions @ rotation.T + translation,
+                       rotations=rotation @ self.rotations)
 
 
 def read_trajectory(path):
     """Reads `stamp[s] x y z qx qy qz qw` (TUM) or `stamp[ns],x,y,z,qw,qx,qy,qz,...` (EuRoC csv)."""
     if not os.path.isfile(path):
         raise TrajectoryError(f"{path}: no such file")
-    rows = []
+    rows, worlds, begins = [], 0, True
     with open(path, encoding="utf-8-sig", errors="replace") as file:
         for number, line in enumerate(file, start=1):
+            begins |= line.startswith(RESTART)
             if line.strip() and not line.lstrip().startswith("#"):
                 rows.append(_parse_row(line, f"{path}:{number}", rows[-1][0] if rows else None))
+                worlds, begins = worlds + begins, False
     if len(rows) < 3:
         raise TrajectoryError(f"{path}: {len(rows)} poses, at least 3 are needed")
     table = np.array(rows)
-    return Trajectory(table[:, 0], table[:, 1:4], _rotations(table[:, 4:8]))
-
-
-def count_restarts(path):
-    """How often the world frame started anew in a trajectory that a run wrote."""
-    with open(path, encoding="utf-8", errors="replace") as file:
-        return sum(line.startswith(RESTART) for line in file)
+    return Trajectory(table[:, 0], table[:, 1:4], _rotations(table[:, 4:8]), worlds)
 
 
 def format_tum(trajectory):

@@ -40,9 +40,9 @@ class RunFolder:
         damaged."""
         try:
             with open(os.path.join(path, "summary.json"), encoding="utf-8") as file:
-                summary = json.load(file)
+                summary = dict(json.load(file))
             frames = read_columns(os.path.join(path, "timing.csv"))
-        except (OSError, ValueError) as error:
+        except (OSError, TypeError, ValueError) as error:
             raise TrajectoryError(f"{path}: not the folder of a finished run ({error})") from None
         trajectory = read_trajectory(os.path.join(path, "trajectory.tum"))
         accepted = _read_loops(os.path.join(path, "loops.csv"))
@@ -83,8 +83,9 @@ def _read_loops(path):
 
 def _find_images(path, first_stamp):
     """tracks/STAMP_NS.jpg in order of time, or what every run writes."""
-    files = {int(os.path.basename(file)[:-4]): file
+    stems = {os.path.basename(file)[:-len(".jpg")]: file
              for file in glob.glob(os.path.join(glob.escape(path), "tracks", "*.jpg"))}
+    files = {int(stem): file for stem, file in stems.items() if stem.isdecimal()}
     if files:
         return {f"{1e-9 * stamp - first_stamp:+.2f} s from the first pose": files[stamp]
                 for stamp in sorted(files)}

@@ -18,12 +18,12 @@ class Fault:
     what: str
     change: Callable
     needs_features: bool = False
-    whole: bool = False  # whenever it begins
+    ignores_begin: bool = False
 
     def apply(self, measurements, begin):
         """ValueError where the recording ends before the fault begins."""
         duration = measurements.duration
-        if not self.whole and begin > duration:
+        if not self.ignores_begin and begin > duration:
             raise ValueError(f"--begin {begin:g}: the recording lasts {duration:.1f} s")
         self.change(measurements, begin)
 
@@ -99,7 +99,7 @@ def _blind(seconds, *features):
 
 
 FAULTS = {
-    "none": Fault("undamaged", lambda measurements, begin: None, whole=True),
+    "none": Fault("undamaged", lambda measurements, begin: None, ignores_begin=True),
     "gyro_bias_step": Fault("bias of the gyro + 0.05 rad/s", _step("gyro", 0.05)),
     "accel_bias_step": Fault("bias of the accelerometer + 0.5 m/s^2", _step("accel", 0.5)),
     "accel_spike": Fault("one sample of 150 m/s^2", _spikes("accel", 150)),
@@ -116,7 +116,7 @@ FAULTS = {
     "image_step": Fault("stamps of images + 20 ms", _shift_images(0.02)),
     "image_delay": Fault("stamps of images + 30 ms, from the first one on",
                          lambda measurements, begin: _shift_images(0.03)(measurements, 0),
-                         whole=True),
+                         ignores_begin=True),
     "points_gone_10s": Fault("no points for 10 s", _blind(10, "points_kept"), True),
     "blind_10s": Fault("neither points nor lines for 10 s",
                        _blind(10, "points_kept", "lines_kept"), True),

@@ -25,8 +25,8 @@ class Measurements:
 
     @property
     def duration(self):
-        """From the first image to the end [s]."""
-        return (max(self.imu_ns[-1], self.image_ns[-1]) - self.image_ns[0]) * 1e-9
+        """From the first image on, as long as there are both images and IMU samples [s]."""
+        return (min(self.imu_ns.max(), self.image_ns.max()) - self.image_ns[0]) * 1e-9
 
     def image_at(self, seconds):
         """Index of the first image at or after a time since the first image."""

@@ -48,7 +48,7 @@ class ShowResult(unittest.TestCase):
             for name, content in files.items():
                 path = os.path.join(folder, name + ".json")
                 with open(path, "w", encoding="utf-8") as file:
-                    json.dump(content, file)
+                    file.write(content if isinstance(content, str) else json.dumps(content))
             return run(sys.executable, os.path.join(SCRIPTS, "show_result.py"), folder)
 
     def test_with_ground_truth(self):
@@ -67,6 +67,15 @@ class ShowResult(unittest.TestCase):
         result = self.show()
         self.assertEqual(result.returncode, 1)
         self.assertIn("no summary.json", result.stderr)
+
+    def test_damaged_files_are_named(self):
+        for files in ({"summary": '{"poses": 19'}, {"summary": "[1, 2]"},
+                      {"summary": SUMMARY, "evaluation": ""},
+                      {"summary": SUMMARY, "evaluation": {"ape_m": None}},
+                      {"summary": dict(SUMMARY, lines={}, path_length_m=[])}):
+            result = self.show(**files)
+            self.assertEqual((result.returncode, result.stdout), (1, ""), files)
+            self.assertRegex(result.stderr, "^show_result.py: .*damaged.*\n$")
 
 
 if __name__ == "__main__":

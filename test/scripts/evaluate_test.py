@@ -262,14 +262,21 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(sorted(os.listdir(plots)),
                          ["ape.png", "trajectory.png", "translation.png"])
 
-    def test_an_estimate_with_another_world_says_so(self):
+    def test_an_estimate_in_several_worlds_says_so(self):
+        truth = self.write("truth.tum", self.spiral(" "))
+        report = os.path.join(self.folder.name, "report.json")
         rows = self.spiral(" ").splitlines(keepends=True)
-        truth = self.write("truth.tum", "".join(rows))
-        alone = self.run_script(self.write("one.tum", "".join(rows)), truth)
-        self.assertNotIn("starts anew", alone.stdout)
-        rows.insert(50, "# the world frame starts anew: lost\n")
-        result = self.run_script(self.write("two.tum", "".join(rows)), truth)
-        self.assertIn("the world frame starts anew 1 times: APE", result.stdout)
+        # A world without poses is none.
+        for comment_at, worlds in ((len(rows), 1), (50, 2), (30, 3), (30, 3), (0, 3)):
+            rows.insert(comment_at, "# the world frame starts anew: lost\n")
+            result = self.run_script(self.write("estimate.tum", "".join(rows)), truth,
+                                     "--t-offset", "0.001", "--json", report)
+            self.assertEqual("starts anew" in result.stdout, worlds > 1)
+            if worlds > 1:
+                self.assertIn(f"the world frame starts anew {worlds - 1} times: APE and yaw",
+                              result.stdout)
+            with open(report, encoding="utf-8") as file:
+                self.assertEqual(json.load(file)["worlds"], worlds)
 
     def test_ground_truth_with_a_byte_order_mark(self):
         estimate = self.write("estimate.tum", self.spiral(" "))

@@ -6,6 +6,7 @@ import contextlib
 import importlib.util
 import io
 import os
+import shutil
 import struct
 import sys
 import tempfile
@@ -58,7 +59,10 @@ class Faults(unittest.TestCase):
         for name in set(FAULTS) - {"none", "image_delay"}:
             with self.assertRaisesRegex(ValueError, "--begin 9: the recording lasts 4.0 s"):
                 self.damaged(name, begin=9)
+            with self.assertRaisesRegex(ValueError, "--begin 3.99: "):  # no image comes then
+                self.damaged(name, begin=3.99)
         self.damaged("none", begin=9)
+        self.damaged("image_delay", begin=9)
 
     def test_sizes(self):
         self.assertAlmostEqual(
@@ -123,7 +127,7 @@ class Files(unittest.TestCase):
     def write_asl(self):
         imu = "".join(f"{START_NS + 5_000_000 * i},0,0,0,0,0,9.81\n" for i in range(20))
         self.write("good/mav0/imu0/data.csv", b"#timestamp [ns],w,w,w,a,a,a\n" + imu.encode())
-        images = f"#timestamp [ns],filename\n{START_NS},a.png\n"
+        images = f"#timestamp [ns],filename\n{START_NS},a.png\n{START_NS + 95_000_000},b.png\n"
         self.write("good/mav0/cam0/data.csv", images.encode())
         self.write("good/mav0/cam0/data/a.png", b"picture")
 
@@ -138,6 +142,19 @@ class Files(unittest.TestCase):
         self.assertEqual(self.read("bad/cam0/data/a.png"), b"picture")
         self.assertEqual(self.read("bad/body.yaml"), b"comment: body")
         self.assertIn("a.png", self.read("bad/cam0/data.csv").decode())
+
+    def test_a_fault_after_the_end_of_a_file(self):
+        self.write_asl()
+        good = [self.features(), self.path("good")]
+        if importlib.util.find_spec("rosbag"):
+            self.write_bag(self.path("good.bag"))
+            good.append(self.path("good.bag"))
+        for source in good:
+            self.assert_refused("--begin 24: the recording lasts 0.", source, self.path("bad"),
+                                "--fault", "accel_spike")
+            self.assertFalse(os.path.exists(self.path("bad")), source)
+            self.assertEqual(main([source, self.path("bad"), "--fault", "none"]), 0)
+            (shutil.rmtree if os.path.isdir(source) else os.remove)(self.path("bad"))
 
     def test_asl_folder_is_not_overwritten(self):
         self.write_asl()

@@ -138,6 +138,22 @@ class Folder(ShowRun):
         self.assertEqual(sum(map(len, run.lines.values())), 0)
         self.write_page()
 
+    def test_images_of_others_are_left_out(self):
+        tracks = os.path.join(self.run_folder, "tracks")
+        for name in ("thumb.jpg", "1.5.jpg", ".jpg"):
+            self.write(os.path.join(tracks, name), "")
+        self.assertEqual(list(RunFolder.read(self.run_folder).images),
+                         ["+2.00 s from the first pose", "+10.00 s from the first pose"])
+
+    def test_summary_without_the_recording(self):
+        path = os.path.join(self.run_folder, "summary.json")
+        self.write(path, "{}")
+        self.assertTrue("No ground truth." in self.write_page()[1])
+        for damaged in ("[1]", "3", '{"input": '):
+            self.write(path, damaged)
+            result = self.call()
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
+
     def test_no_run(self):
         os.remove(os.path.join(self.run_folder, "timing.csv"))
         with self.assertRaisesRegex(TrajectoryError, "not the folder of a finished run"):

@@ -1,11 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/soak.py: what counts as grown."""
+"""scripts/soak.py: what counts as grown, and as not having run at all."""
 
+import argparse
+import contextlib
 import importlib.util
+import io
 import os
 import sys
 import unittest
+from unittest import mock
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 
@@ -40,9 +44,47 @@ class Soak(unittest.TestCase):
         self.assertGreaterEqual(values["threads"], 1)
         self.assertIsNone(usage(2 ** 30))
 
-    def test_a_bag_that_is_not_there(self):
+    def assert_refused(self, message, *arguments):
         from soak import main
-        self.assertEqual(main(["/nowhere.bag", "--config", "/nowhere.yaml"]), 1)
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            self.assertEqual(main(arguments), 1)
+        self.assertIn(message, errors.getvalue())
+        self.assertEqual(errors.getvalue().count("\n"), 1)
+
+    def test_a_bag_that_is_not_there(self):
+        self.assert_refused("no such file", "/nowhere.bag", "--config", "/nowhere.yaml")
+
+    def test_roslaunch_that_is_not_there(self):
+        with mock.patch.dict(os.environ, PATH=""):
+            self.assert_refused("roslaunch", __file__, "--config", __file__)
+
+    def watch(self, values, player_ended=False):
+        """With this process in the place of the estimator, which states the values once."""
+        from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+        from soak import watch
+        array = DiagnosticArray(status=[DiagnosticStatus(
+            values=[KeyValue(key, value) for key, value in values.items()])])
+        nodes, player = (mock.Mock(**{"poll.return_value": code})
+                         for code in (None, 0 if player_ended else None))
+        options = argparse.Namespace(minutes=0.005, interval=0.01, config="mine.yaml")
+        with mock.patch("soak.find_nodes", lambda found: found.update({"/node": os.getpid()})), \
+                mock.patch("rospy.Subscriber", lambda topic, kind, callback: callback(array)), \
+                contextlib.redirect_stdout(io.StringIO()):
+            return watch(options, nodes, player)
+
+    def test_poses_that_come(self):
+        series = self.watch({"pose_age_ms": "40", "resets": "0", "odometry_delay_ms": "50.0"})
+        self.assertEqual(series.samples["vins_estimator", "pose_age_ms"][0], 40)
+        self.assertGreater(len(series.samples["node", "memory_MB"]), 1)
+
+    def test_an_estimator_without_a_pose_is_an_error(self):
+        with self.assertRaisesRegex(RuntimeError, "no pose came in 0.005 minutes.* mine.yaml"):
+            self.watch({"pose_age_ms": "0", "resets": "0", "odometry_rate_hz": "0.0"})
+
+    def test_a_player_that_has_ended_is_an_error(self):
+        with self.assertRaisesRegex(RuntimeError, "rosbag play has ended"):
+            self.watch({}, player_ended=True)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mavros_relay/body_odometry.h"
 
+#include <cmath>
+
 #include "common/geometry/so3.h"
 
 namespace plm_vins {
 namespace {
 
 using Matrix6d = BodyOdometry::Matrix6d;
+
+constexpr double kMaxNormError = 1e-6;  // of a rotation's quaternion
 
 // p_A = p_B + R_W_B t with t from B to A: turning by theta about W's axes moves it by
 // theta x (R_W_B t).
@@ -27,9 +31,10 @@ Matrix6d TwistJacobian(const Eigen::Matrix3d& R_A_B, const Eigen::Vector3d& leve
 
 }  // namespace
 
-bool BodyOdometry::IsFinite() const {
-  return T_W_B.translation.allFinite() && T_W_B.rotation.coeffs().allFinite() && v_B.allFinite() &&
-         omega_B.allFinite() && pose_covariance.allFinite() && twist_covariance.allFinite();
+bool BodyOdometry::IsUsable() const {
+  return T_W_B.translation.allFinite() && std::abs(T_W_B.rotation.norm() - 1) < kMaxNormError &&
+         v_B.allFinite() && omega_B.allFinite() && pose_covariance.allFinite() &&
+         twist_covariance.allFinite();
 }
 
 BodyOdometry MoveTo(const Rigid3d& T_B_A, const BodyOdometry& of_B) {

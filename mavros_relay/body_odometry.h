@@ -18,7 +18,8 @@ struct BodyOdometry {
   Matrix6d pose_covariance = Matrix6d::Zero();  // p_W, rotation about the axes of W (from the left)
   Matrix6d twist_covariance = Matrix6d::Zero();  // v_B, omega_B
 
-  bool IsFinite() const;
+  // Finite numbers, and a rotation.
+  bool IsUsable() const;
 };
 
 // The same motion of another frame A on the same body.

@@ -27,20 +27,26 @@ void WarnWithoutClock() {
 
 }  // namespace
 
-int RunNode(int argc, char** argv, const std::string& name,
-            const std::function<void(const Config&)>& body) {
-  // Until ROS runs and handles the signal, there is nothing to save.
+int RunNode(int argc, char** argv, const std::string& name, const std::function<void()>& body) {
+  // Until ROS runs and handles signals, there is nothing to save.
   std::signal(SIGINT, [](int) { std::_Exit(0); });
+  std::signal(SIGTERM, [](int) { std::_Exit(0); });
   SetUpProcess();
   ros::init(argc, argv, name);
   const ros::NodeHandle keeps_ros_running;
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });  // of SIGINT, ROS does so itself
   try {
-    body(LoadNodeConfig(ros::NodeHandle("~")));
+    body();
   } catch (const std::exception& error) {
     LogFatal(error);
     return 1;
   }
   return 0;
+}
+
+int RunNode(int argc, char** argv, const std::string& name,
+            const std::function<void(const Config&)>& body) {
+  return RunNode(argc, argv, name, [&] { body(LoadNodeConfig(ros::NodeHandle("~"))); });
 }
 
 void Spin() {

@@ -5,7 +5,6 @@
 #include <std_msgs/UInt8.h>
 
 #include <cstdint>
-#include <exception>
 #include <optional>
 #include <string>
 
@@ -99,7 +98,7 @@ void MavrosRelayNode::AddState(const nav_msgs::Odometry& odometry) {
   const BodyOdometry body = ToBodyOdometry(odometry);
   const auto T_body_base = LocateBase(odometry.child_frame_id);
   const bool passes =
-      T_body_base && body.IsFinite() && gate_.Pass(ToNanoseconds(odometry.header.stamp));
+      T_body_base && body.IsUsable() && gate_.Pass(ToNanoseconds(odometry.header.stamp));
   ReportChange();
   if (!passes) return;
   nav_msgs::Odometry message = ToMessage(MoveTo(*T_body_base, body));
@@ -132,14 +131,8 @@ void MavrosRelayNode::ReportChange() {
 }  // namespace plm_vins
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "mavros_relay");
-  const ros::NodeHandle keeps_ros_running;
-  try {
+  return plm_vins::RunNode(argc, argv, "mavros_relay", [] {
     const plm_vins::MavrosRelayNode node;
     plm_vins::Spin();
-  } catch (const std::exception& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 1;
-  }
-  return 0;
+  });
 }

@@ -103,14 +103,17 @@ TEST(BodyOdometry, VariancesKeepTheirAxes) {
   EXPECT_NEAR(base.twist_covariance(0, 1), -0.5, 1e-12);
 }
 
-TEST(BodyOdometry, KnowsWhatIsNotFinite) {
-  EXPECT_TRUE(Flying().IsFinite());
+TEST(BodyOdometry, KnowsWhatIsOfNoUse) {
+  EXPECT_TRUE(Flying().IsUsable());
   BodyOdometry bad = Flying();
   bad.twist_covariance(5, 5) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(bad.IsFinite());
+  EXPECT_FALSE(bad.IsUsable());
   bad = Flying();
   bad.T_W_B.translation.x() = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(bad.IsFinite());
+  EXPECT_FALSE(bad.IsUsable());
+  bad = Flying();
+  bad.T_W_B.rotation.coeffs().setZero();  // of a message that nobody filled in
+  EXPECT_FALSE(bad.IsUsable());
 }
 
 }  // namespace

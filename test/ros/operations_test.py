@@ -49,9 +49,9 @@ class OperationsTest(unittest.TestCase):
     def play(self, *options):
         return self.processes.start("player", ["rosbag", "play", "--delay", "1", *options, BAG])
 
-    def assert_end_on_interrupt(self, nodes):
+    def assert_end_on(self, number, nodes):
         for node in nodes.values():
-            node.send_signal(signal.SIGINT)
+            node.send_signal(number)
         begin = time.monotonic()
         for name, node in nodes.items():
             self.assertEqual(node.wait(END_LIMIT), 0, self.processes.log(name))
@@ -67,7 +67,7 @@ class OperationsTest(unittest.TestCase):
 
 
 class Restart(OperationsTest):
-    def check(self, *player_options):
+    def check(self, end, *player_options):
         self.start_all()
         stamps = self.listener.odometry
         for _ in range(2):
@@ -90,7 +90,7 @@ class Restart(OperationsTest):
         wait_until(lambda: stamps[jump:] == self.stamps_in_file(),
                    lambda: f"in the file what was published: {stamps[jump:]}")
         self.trajectory.unlink()
-        self.assert_end_on_interrupt(self.nodes)
+        self.assert_end_on(end, self.nodes)
         self.assertEqual(stamps[jump:], self.stamps_in_file()[:len(stamps) - jump])
 
     def check_save(self):
@@ -108,12 +108,12 @@ class Restart(OperationsTest):
                              f"{len(self.stamps_in_file())} poses saved to {self.trajectory}")
 
     def test_in_time_of_the_machine(self):
-        self.check()
+        self.check(signal.SIGINT)
 
     def test_in_time_of_the_bag(self):
         rospy.set_param("/use_sim_time", True)
         self.addCleanup(rospy.delete_param, "/use_sim_time")
-        self.check("--clock")
+        self.check(signal.SIGTERM, "--clock")
 
 
 class Clock(OperationsTest):
@@ -158,7 +158,7 @@ class Death(OperationsTest):
         self.revive("vins_estimator")
         listener.wait_for_odometry()
         listener.wait_for_message("vins_estimator", "tracking")
-        self.assert_end_on_interrupt(self.nodes)
+        self.assert_end_on(signal.SIGINT, self.nodes)
 
 
 class Overload(OperationsTest):
@@ -184,20 +184,21 @@ class Overload(OperationsTest):
 
 
 class Interrupt(OperationsTest):
-    def check(self, started, **environment):
+    def check(self, end, started, **environment):
         nodes = {name: self.start_node(name, **environment) for name in NAMES}
         for name in NAMES:
             wait_until(lambda: started(name), f"start of {name}")
-        self.assert_end_on_interrupt(nodes)
+        self.assert_end_on(end, nodes)
         self.assertFalse(self.trajectory.exists(), "there was no pose")
 
     def test_without_a_master(self):
-        self.check(lambda name: "Failed to contact master" in self.processes.log(name),
+        self.check(signal.SIGTERM,
+                   lambda name: "Failed to contact master" in self.processes.log(name),
                    ROS_MASTER_URI=f"http://localhost:{free_port()}")
 
     def test_before_any_data(self):
         self.listener = Listener()
-        self.check(lambda name: self.listener.value(name, "message") != "")
+        self.check(signal.SIGINT, lambda name: self.listener.value(name, "message") != "")
 
 
 if __name__ == "__main__":

@@ -2,16 +2,15 @@
 #include "linefeature_tracker/detection/line_detector.h"
 
 #include <algorithm>
-#include <opencv2/core/version.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "common/opencv_version.h"
 #include "linefeature_tracker/detection/chain_segments.h"
 #include "linefeature_tracker/detection/edge_chains.h"
 
 // OpenCV 4.1 to 4.5.3 have neither LSD nor EDLines.
-#define HAS_LSD_AND_EDLINES \
-  (CV_VERSION_MAJOR * 10000 + CV_VERSION_MINOR * 100 + CV_VERSION_REVISION >= 40504)
+#define HAS_LSD_AND_EDLINES PLM_OPENCV_IS_AT_LEAST(4, 5, 4)
 #if HAS_LSD_AND_EDLINES
 #include <opencv2/ximgproc/edge_drawing.hpp>
 #endif

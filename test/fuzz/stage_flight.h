@@ -20,7 +20,7 @@ inline simulator::FeatureDataset SimulateFastFlight(double seconds) {
   options.trajectory.rest = 0;
   options.trajectory.lead_in = 0.5;
   options.trajectory.duration = seconds;
-  options.max_points = 40;
+  options.max_points = 130;
   options.max_lines = 8;
   return simulator::SimulateFeatures(options);
 }

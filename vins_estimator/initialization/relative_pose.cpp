@@ -11,6 +11,7 @@
 #include "common/geometry/so3.h"
 #include "common/geometry/tangent_basis.h"
 #include "common/median.h"
+#include "common/opencv_version.h"
 
 namespace plm_vins {
 namespace {
@@ -18,6 +19,9 @@ namespace {
 constexpr size_t kMinCorrespondences = 15;
 constexpr int kMinInliers = 12;
 constexpr double kConfidence = 0.999;
+// As many find what half of the points agree on: ln(1 - kConfidence) / ln(1 - 0.5^5). Less than
+// half is refused.
+constexpr int kMaxIterations = 218;
 constexpr double kInlierSigmas = 3.0;  // distance to the epipolar line, in standard deviations
 constexpr int kRefinements = 8;
 constexpr double kClearShare = 0.95;  // of inliers: five points would find nothing better
@@ -119,6 +123,17 @@ void PoseRefiner::Step(RelativePose* pose) const {
   pose->t_C1_C0 = (pose->t_C1_C0 + B * step.tail<2>()).normalized();
 }
 
+cv::Mat FindEssentialMatrix(const std::vector<cv::Point2d>& points0,
+                            const std::vector<cv::Point2d>& points1, double max_distance) {
+#if PLM_OPENCV_IS_AT_LEAST(4, 5, 4)  // before, the iterations cannot be limited
+  return cv::findEssentialMat(points0, points1, cv::Mat::eye(3, 3, CV_64F), cv::RANSAC, kConfidence,
+                              max_distance, kMaxIterations);
+#else
+  return cv::findEssentialMat(points0, points1, cv::Mat::eye(3, 3, CV_64F), cv::RANSAC, kConfidence,
+                              max_distance);
+#endif
+}
+
 // The pose of the five-point consensus: of the decompositions of E, the one nearest to the gyro.
 std::optional<RelativePose> FivePointPose(const std::vector<Correspondence>& correspondences,
                                           const Eigen::Quaterniond& R_C1_C0_gyro, double noise) {
@@ -127,8 +142,7 @@ std::optional<RelativePose> FivePointPose(const std::vector<Correspondence>& cor
     points0.emplace_back(c.xy0.x(), c.xy0.y());
     points1.emplace_back(c.xy1.x(), c.xy1.y());
   }
-  const cv::Mat E = cv::findEssentialMat(points0, points1, cv::Mat::eye(3, 3, CV_64F), cv::RANSAC,
-                                         kConfidence, kInlierSigmas * noise, cv::noArray());
+  const cv::Mat E = FindEssentialMatrix(points0, points1, kInlierSigmas * noise);
   if (E.rows != 3 || E.cols != 3) return std::nullopt;
   cv::Mat R_a, R_b, t;
   cv::decomposeEssentialMat(E, R_a, R_b, t);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pose_graph/keyframes/keyframe_maker.h"
+#include "pose_graph/keyframes/keyframe_neighbours.h"
 #include "pose_graph/map/landmark_update.h"
 
 namespace plm_vins {
@@ -37,6 +38,7 @@ LoopCloser::LoopCloser(const LoopCloserOptions& options, std::shared_ptr<const C
 void LoopCloser::SetMap(KeyframeMap map) {
   map_ = std::move(map);
   place_.SetMap(map_);
+  thinning_.StartBehind(map_);
   for (size_t i = 0; i < map_.keyframes.size(); ++i) {
     recognition_.Add(map_.keyframes[i], static_cast<int>(i));
     world_ = std::max(world_, map_.keyframes[i].world + 1);
@@ -149,12 +151,10 @@ LoopCandidate LoopCloser::Examine(const PlaceCandidate& place, LoopSightings* si
 
 Island LoopCloser::IslandOf(int number) const {
   const std::vector<Keyframe>& keyframes = map_.keyframes;
-  const int radius = options_.recognition.island_radius;
-  const int end = std::min(number + radius + 1, static_cast<int>(keyframes.size()));
   Island island;
   island.keyframe = &keyframes[number];
-  for (int i = std::max(0, number - radius); i < end; ++i) {
-    if (keyframes[i].world == keyframes[number].world) island.all.push_back(&keyframes[i]);
+  for (const int i : NumbersAround(keyframes, number, options_.recognition.island_radius)) {
+    island.all.push_back(&keyframes[i]);
   }
   return island;
 }

@@ -8,7 +8,6 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kBorder_px = 24;       // the rotated pattern reaches this far
 constexpr float kPatchSize_px = 31;  // that the pattern was learned for
 constexpr double kSmallStep = 1e-3;  // along gravity, for its direction in the image [rad]
 constexpr double kDegreesPerRadian = 180 / M_PI;
@@ -37,7 +36,7 @@ std::vector<std::optional<Descriptor>> DescribeCorners(const cv::Mat& gray,
                          /*octave=*/0, /*class_id=*/static_cast<int>(i));
   }
   const auto orb = cv::ORB::create(/*nfeatures=*/500, /*scaleFactor=*/2.0F, /*nlevels=*/1,
-                                   /*edgeThreshold=*/kBorder_px);
+                                   /*edgeThreshold=*/kDescriptorBorder_px);
   cv::Mat rows;
   orb->compute(gray, corners, rows);
   std::vector<std::optional<Descriptor>> descriptors(uv_px.size());

@@ -5,13 +5,15 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "pose_graph/description/descriptor.h"
+
 namespace plm_vins {
 
 struct CornerSelectionOptions {
-  int max_corners = 300;    // with those that are there already
-  int cell_px = 32;         // of the grid, one new corner in each
-  int fast_threshold = 12;  // [grey levels]
-  int border_px = 24;       // without corners: a descriptor does not fit there
+  int max_corners = 300;                 // with those that are there already
+  int cell_px = 32;                      // of the grid, one new corner in each
+  int fast_threshold = 12;               // [grey levels]
+  int border_px = kDescriptorBorder_px;  // without corners: a descriptor does not fit there
 };
 
 // Corners that fill up an image: the strongest by FAST in each cell of a grid that has none in

@@ -11,6 +11,8 @@ namespace plm_vins {
 constexpr int kDescriptorBits = 256;
 using Descriptor = std::array<uint64_t, kDescriptorBits / 64>;
 
+constexpr int kDescriptorBorder_px = 24;  // how far from the corner they reach, however turned
+
 // Before a function that spends its time on HammingDistance(): processors count bits by an
 // instruction that not all of them have, and that compilers therefore do without. It is compiled
 // with and without it, and the processor that it runs on decides: four times as fast with it.

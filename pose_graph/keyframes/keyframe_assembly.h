@@ -14,9 +14,9 @@ namespace plm_vins {
 
 // Puts keyframes together whose parts come one by one, in any order: image, pose, corners, lines.
 // Equal stamps belong together. Lines may be missing: a keyframe does not wait for them longer than
-// until the next one is complete. Keeps the parts of the newest stamps only, of two seconds or
-// 300 images at least, and begins anew where the stamps of images go back for good: a recording is
-// played again.
+// until the next one is complete. Keeps the parts of the newest stamps only, of two seconds at
+// least but of 300 stamps at most, and begins anew where the stamps of images go back for good: a
+// recording is played again.
 class KeyframeAssembly {
  public:
   KeyframeAssembly();

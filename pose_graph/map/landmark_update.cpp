@@ -3,7 +3,7 @@
 
 #include <unordered_map>
 
-#include "pose_graph/verification/level_pose_ransac.h"
+#include "pose_graph/verification/seen_point.h"
 
 namespace plm_vins {
 namespace {

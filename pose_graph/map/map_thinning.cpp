@@ -7,6 +7,11 @@
 
 namespace plm_vins {
 
+void MapThinning::StartBehind(const KeyframeMap& map) {
+  next_ = static_cast<int>(map.keyframes.size());
+  while (next_ > 0 && !IsOld(map.keyframes[next_ - 1], map.keyframes.back())) --next_;
+}
+
 std::optional<DispensableKeyframe> MapThinning::Next(const KeyframeMap& map) {
   while (IsOld(map.keyframes[next_], map.keyframes.back())) {
     const int number = next_++;

@@ -30,6 +30,9 @@ class MapThinning {
  public:
   explicit MapThinning(const MapThinningOptions& options) : options_(options) {}
 
+  // A map that was thinned when it was made: looks only at those that were too young then.
+  void StartBehind(const KeyframeMap& map);
+
   // The next one that has become old and is not needed; it must be removed before the next call.
   std::optional<DispensableKeyframe> Next(const KeyframeMap& map);
 

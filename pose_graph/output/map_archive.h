@@ -37,7 +37,7 @@ class MapWriter {
   std::string bytes_;
 };
 
-// Reads bytes that outlive it. Throws std::runtime_error where they end early.
+// Reads bytes that outlive it. Throws std::runtime_error where they end early or are damaged.
 class MapReader {
  public:
   explicit MapReader(std::string_view bytes) : bytes_(bytes) {}
@@ -49,6 +49,12 @@ class MapReader {
     std::memcpy(&value, bytes_.data() + next_, sizeof(value));
     next_ += sizeof(value);
   }
+  void Value(bool& value) {
+    uint8_t byte = 0;
+    Value(byte);
+    if (byte > 1) throw std::runtime_error("is damaged");
+    value = byte == 1;
+  }
   template <typename T>
   void Resize(std::vector<T>& values) {
     uint32_t size = 0;
@@ -58,10 +64,10 @@ class MapReader {
   }
   template <typename T>
   bool Has(std::optional<T>& value) {
-    uint8_t has = 0;
+    bool has = false;
     Value(has);
-    if (has != 0) value.emplace();
-    return has != 0;
+    if (has) value.emplace();
+    return has;
   }
 
  private:

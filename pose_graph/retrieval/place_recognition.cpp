@@ -7,6 +7,7 @@
 #include <map>
 
 #include "common/measurements.h"
+#include "pose_graph/keyframes/keyframe_neighbours.h"
 
 namespace plm_vins {
 namespace {
@@ -27,14 +28,10 @@ double ScoreOf(const std::map<int, double>& scores, int number) {
   return found == scores.end() ? 0.0 : found->second;
 }
 
-// The sum over the keyframes around `number` of the same world.
 double IslandScore(const std::map<int, double>& scores, const std::vector<Keyframe>& keyframes,
                    int number, int radius) {
   double sum = 0;
-  const int end = std::min(number + radius + 1, static_cast<int>(keyframes.size()));
-  for (int i = std::max(0, number - radius); i < end; ++i) {
-    if (keyframes[i].world == keyframes[number].world) sum += ScoreOf(scores, i);
-  }
+  for (const int i : NumbersAround(keyframes, number, radius)) sum += ScoreOf(scores, i);
   return sum;
 }
 

@@ -31,7 +31,7 @@ class PlaceRecognition {
  public:
   explicit PlaceRecognition(const PlaceRecognitionOptions& options);
 
-  // Adds keyframes[number], which odometry may know by its place in the list ever after.
+  // Takes in a keyframe, which is keyframes[number] in each Find() that follows.
   void Add(const Keyframe& keyframe, int number);
 
   void Remove(const Keyframe& keyframe, int number);

@@ -22,7 +22,10 @@ std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>
                                               const std::set<int64_t>& without = {});
 
 struct MatchingOptions {
-  explicit MatchingOptions(double focal_length) : search_radius(23 / focal_length) {}  // [px]
+  static constexpr double kSearchRadius_px = 23;
+
+  explicit MatchingOptions(double focal_length)  // [px]
+      : search_radius(kSearchRadius_px / focal_length) {}
 
   int max_distance = 72;   // [bits]
   double max_ratio = 0.9;  // of the distances of the best and the second best landmark

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 namespace plm_vins {
@@ -64,13 +63,6 @@ std::vector<LevelTransform> SolveTwoPoints(const Eigen::Vector3d& ray1_G,
     poses.push_back(T_O_G);
   }
   return poses;
-}
-
-double SightingError(const SeenPoint& sighting, const LevelTransform& T_O_G,
-                     const Eigen::Quaterniond& R_G_C) {
-  const Eigen::Vector3d p_C = R_G_C.conjugate() * (T_O_G.Inverse() * sighting.p_O);
-  if (p_C.z() <= 0) return std::numeric_limits<double>::infinity();
-  return (p_C.hnormalized() - sighting.xy).norm();
 }
 
 std::optional<LevelPose> FindLevelPose(const LevelPoseRansacOptions& options,

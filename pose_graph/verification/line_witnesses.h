@@ -9,7 +9,10 @@
 namespace plm_vins {
 
 struct LineWitnessOptions {
-  explicit LineWitnessOptions(double focal_length) : max_distance(6 / focal_length) {}  // [px]
+  static constexpr double kMaxDistance_px = 6;
+
+  explicit LineWitnessOptions(double focal_length)  // [px]
+      : max_distance(kMaxDistance_px / focal_length) {}
 
   double max_angle = 5 * M_PI / 180;  // between a line's image and a segment [rad]
   double max_distance;                // of the segment's ends from it (normalised)

@@ -2,6 +2,7 @@
 #include "pose_graph/verification/loop_acceptance.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/measurements.h"
 
@@ -66,7 +67,7 @@ bool LoopAcceptance::Agree(const std::vector<Keyframe>& keyframes, const PoseGra
   const Keyframe& later_b = keyframes[b.later];
   if (a.later == b.later || later_a.world != later_b.world) return false;
   const double way_earlier = graph.Distance(a.earlier, b.earlier);
-  if (!(way_earlier < 1e6)) return false;
+  if (!std::isfinite(way_earlier)) return false;
   const LevelTransform here = later_b.T_O_L();
   const Vector4d difference = EdgeError(MapFromOdometry(keyframes, graph, a) * here,
                                         MapFromOdometry(keyframes, graph, b) * here);

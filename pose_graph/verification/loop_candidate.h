@@ -8,7 +8,8 @@
 
 namespace plm_vins {
 
-// What a loop must pass, in this order.
+// What a loop must pass, in this order; but kRefinement already after kPose as well, and again
+// with the lines.
 enum class LoopGate {
   kScore,       // the images look alike
   kRepeated,    // an image before led to the same place
@@ -25,7 +26,7 @@ enum class LoopGate {
   kAgreement,   // a large correction is asked for by two loops
   kGraph,       // the optimised graph does not contradict
 };
-constexpr int kLoopGates = 14;
+constexpr int kLoopGates = static_cast<int>(LoopGate::kGraph) + 1;
 
 const char* ToString(LoopGate gate);
 

@@ -10,8 +10,11 @@
 namespace plm_vins {
 
 struct LoopRefinementOptions {
+  static constexpr double kPointNoise_px = 2;
+  static constexpr double kLineNoise_px = 1.5;
+
   explicit LoopRefinementOptions(double focal_length)  // [px]
-      : point_noise(2 / focal_length), line_noise(1.5 / focal_length) {}
+      : point_noise(kPointNoise_px / focal_length), line_noise(kLineNoise_px / focal_length) {}
 
   double point_noise;              // (normalised) of a corner that another patch of the place gave
   double depth_noise = 0.05;       // of a landmark along its ray, share of its distance

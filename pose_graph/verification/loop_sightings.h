@@ -6,7 +6,7 @@
 #include "common/features/placed_features.h"
 #include "common/geometry/rigid3.h"
 #include "common/measurements.h"
-#include "pose_graph/verification/level_pose_ransac.h"
+#include "pose_graph/verification/seen_point.h"
 
 namespace plm_vins {
 

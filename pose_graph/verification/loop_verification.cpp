@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/geometry/so3.h"
+#include "pose_graph/verification/seen_point.h"
 
 namespace plm_vins {
 namespace {

@@ -59,6 +59,8 @@ class LoopVerification {
  private:
   struct Evidence;
 
+  // Whether a gate, or several, let the candidate pass. Each names itself in `failed` before it
+  // looks; the last one clears that.
   bool AreApart(const Island& earlier, const Island& later, LoopCandidate* candidate,
                 Evidence* evidence) const;
   bool FindPose(const Island& earlier, const Keyframe& later, LoopCandidate* candidate,

@@ -79,10 +79,12 @@ TEST_F(KeyframeAssemblyTest, ForgetsAsMuchWhereNoImagesCome) {
 }
 
 TEST_F(KeyframeAssemblyTest, CountsAKeyframeWhoseImageWasLostOnTheWay) {
-  AddPose(kPeriod);
-  AddTheRest(kPeriod);
-  AddAllButLines(2 * kPeriod);
-  assembly_.AddSegments(2 * kPeriod, {}, std::nullopt);
+  AddImage(kPeriod);  // of no keyframe
+  AddPose(2 * kPeriod);
+  AddTheRest(2 * kPeriod);
+  AddPose(3 * kPeriod);  // its corners are lost, too
+  AddAllButLines(4 * kPeriod);
+  assembly_.AddSegments(4 * kPeriod, {}, std::nullopt);
   EXPECT_TRUE(assembly_.Pop());
   EXPECT_EQ(assembly_.without_image(), 1);
 }

@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "pose_graph/keyframes/keyframe_maker.h"
+#include "pose_graph/keyframes/keyframe_neighbours.h"
 #include "pose_graph/keyframes/keyframe_policy.h"
 #include "pose_graph/keyframes/odometry_noise.h"
 #include "test/pose_graph/two_visits.h"
@@ -24,6 +25,14 @@ TEST(KeyframeSpacing, WantsAWayATurnOrTime) {
   EXPECT_TRUE(is_apart(0.21, 0, 0.1));
   EXPECT_TRUE(is_apart(0, 12, 0.1));
   EXPECT_TRUE(is_apart(0, 0, 2.1));
+}
+
+TEST(NumbersAround, AreOfOneWorldAndOfThisList) {
+  std::vector<Keyframe> keyframes(8);
+  for (int i = 5; i < 8; ++i) keyframes[i].world = 1;
+  EXPECT_EQ(NumbersAround(keyframes, 1, 2), std::vector<int>({0, 1, 2, 3}));
+  EXPECT_EQ(NumbersAround(keyframes, 4, 2), std::vector<int>({2, 3, 4}));
+  EXPECT_EQ(NumbersAround(keyframes, 6, 2), std::vector<int>({5, 6, 7}));
 }
 
 TEST(StepCovariance, IsByHowMuchThePoseBecameLessCertain) {

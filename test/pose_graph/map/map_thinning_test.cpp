@@ -95,6 +95,14 @@ TEST_F(MapThinningTest, DoesNotCountThoseThatAreGone) {
   EXPECT_EQ(Dispensable(), std::vector<int>{3});
 }
 
+TEST_F(MapThinningTest, LooksInAThinnedMapAtTheYoungestAlone) {
+  for (int visit = 0; visit < 5; ++visit) Visit(visit, 0);
+  Visit(100, 0);
+  thinning_.StartBehind(map_);
+  Visit(200, 10, 0, /*world=*/1);
+  EXPECT_EQ(Dispensable(), std::vector<int>{5});
+}
+
 TEST(KeyframeMap, IsCompactWithoutThoseThatWereRemoved) {
   KeyframeMap map;
   for (int i = 0; i < 4; ++i) {

@@ -6,7 +6,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
+#include "pose_graph/output/map_archive.h"
 #include "test/pose_graph/two_visits.h"
 #include "test/testing/temporary_folder.h"
 
@@ -130,6 +132,20 @@ TEST_F(MapFileTest, FindsEveryDamage) {
     Write(bytes.substr(0, size));
     EXPECT_THAT(ErrorOfLoading(), HasSubstr("is damaged")) << size;
   }
+}
+
+// As of damage that the checksum does not show.
+TEST(MapReaderTest, TakesNothingButOneForTrueAndZeroForFalse) {
+  const std::string_view bytes("\1\0\2\2", 4);
+  bool value = false;
+  MapReader reader(bytes);
+  reader.Value(value);
+  EXPECT_TRUE(value);
+  reader.Value(value);
+  EXPECT_FALSE(value);
+  EXPECT_THROW(reader.Value(value), std::runtime_error);
+  std::optional<double> number;
+  EXPECT_THROW(reader.Has(number), std::runtime_error);
 }
 
 }  // namespace

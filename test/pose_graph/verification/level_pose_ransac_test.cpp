@@ -94,11 +94,5 @@ TEST_F(FindLevelPoseTest, TakesTwoSightingsForNoAgreement) {
   EXPECT_FALSE(FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_));
 }
 
-TEST(SightingError, IsInfiniteBehindTheCamera) {
-  const Eigen::Quaterniond R_G_C = testing::LookingAhead().rotation;
-  EXPECT_NEAR(SightingError({{2, 0, 0}, {0.1, 0}}, LevelTransform(), R_G_C), 0.1, 1e-12);
-  EXPECT_TRUE(std::isinf(SightingError({{-2, 0, 0}, {0.1, 0}}, LevelTransform(), R_G_C)));
-}
-
 }  // namespace
 }  // namespace plm_vins

@@ -206,13 +206,20 @@ Source RunFromFeatures(const Arguments& arguments, FeatureFileReader* features,
   return {arguments.features, "", "", {}};
 }
 
+std::filesystem::path FullName(const std::string& path) {
+  std::error_code error;  // of an empty path, which has none
+  return std::filesystem::absolute(path, error).lexically_normal();
+}
+
+// By their names where they are not there yet.
 bool AreOneFile(const std::string& a, const std::string& b) {
-  std::error_code error;  // a file that is not there is no other's
-  return std::filesystem::equivalent(a, b, error);
+  std::error_code error;
+  return std::filesystem::equivalent(a, b, error) || (!a.empty() && FullName(a) == FullName(b));
 }
 
 std::vector<std::string> InputFiles(const Arguments& arguments) {
   std::vector<std::string> files = {arguments.config, arguments.bag, arguments.features};
+  if (arguments.asl.empty()) return files;
   for (const char* table : {"imu0/data.csv", "cam0/data.csv"}) {
     files.push_back(arguments.asl + "/" + table);
     files.push_back(arguments.asl + "/mav0/" + table);
@@ -235,7 +242,7 @@ void CheckOutputs(const Arguments& arguments) {
   CheckOutput("--map-out", arguments.map_out, inputs);
   inputs.push_back(arguments.map_in);
   CheckOutput("--save-features", arguments.saved_features, inputs);
-  if (!arguments.map_out.empty() && arguments.map_out == arguments.saved_features) {
+  if (AreOneFile(arguments.map_out, arguments.saved_features)) {
     throw std::runtime_error("--save-features and --map-out both name " + arguments.map_out);
   }
 }

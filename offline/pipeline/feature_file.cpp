@@ -7,6 +7,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "common/features/feature_checks.h"
+
 namespace plm_vins {
 namespace {
 
@@ -138,6 +140,12 @@ void RequireStamp(int64_t t_ns) {
   if (!IsStamp(t_ns)) throw std::runtime_error("is damaged");
 }
 
+// Trackers give nothing else.
+template <typename Observation>
+void RequirePossible(std::vector<Observation>* observations) {
+  if (RemoveImpossible(observations) > 0) throw std::runtime_error("is damaged");
+}
+
 }  // namespace
 
 FeatureFileWriter::FeatureFileWriter(const std::string& file) : file_(file) {
@@ -187,9 +195,11 @@ std::optional<TrackedItem> FeatureFileReader::Next() {
     item.frame = std::make_unique<TrackedFeatures>();
     Points(&input, item.frame->points);
     RequireStamp(item.t_ns());
+    RequirePossible(&item.frame->points.features.points);
     if (kind == ItemKind::kPointsAndLines) {
       Lines(&input, item.frame->lines.emplace());
       RequireStamp(item.frame->lines->features.t_ns);
+      RequirePossible(&item.frame->lines->features.lines);
     }
     return item;
   } catch (const std::runtime_error& error) {

@@ -119,11 +119,11 @@ bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const TrackedReceiver&
     points_image_ = trackers_.DrawPoints();
     lines_image_ = trackers_.DrawLines();
   }
-  if (on_track_images_) ShowTracks(frame.points.features.t_ns);
+  if (on_track_images_) ShowTracksIfDue(frame.points.features.t_ns);
   return emit({{}, std::make_unique<TrackedFeatures>(std::move(frame))});
 }
 
-void OdometryPipeline::ShowTracks(int64_t t_ns) {
+void OdometryPipeline::ShowTracksIfDue(int64_t t_ns) {
   const bool is_due = !last_track_image_ns_ || t_ns < *last_track_image_ns_ ||
                       t_ns - *last_track_image_ns_ >= track_image_interval_ns_;
   if (!is_due) return;

@@ -88,7 +88,7 @@ class OdometryPipeline {
                    const TrackedReceiver& emit);
   bool Feed(LoadedEvent loaded, const TrackedReceiver& emit);
   bool EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit);
-  void ShowTracks(int64_t t_ns);
+  void ShowTracksIfDue(int64_t t_ns);
   void Consume(TrackedItem item, const FrameCallback& on_frame);
   void AddFeatures(TrackedFeatures tracked);
   void Report(EstimatedFrame estimated, const FrameCallback& on_frame);

@@ -28,8 +28,8 @@ class Recording {
   // The next measurement; nothing at the end of what is readable.
   virtual std::optional<RecordingEvent> Next() = 0;
 
-  // The grey image of the event that Next() gave last. Nothing where it is unreadable; the
-  // statistics count that.
+  // The grey image of the event that Next() gave last. Nothing where it is unreadable; problems()
+  // count that.
   virtual std::optional<cv::Mat> LoadImage() = 0;
 
   virtual std::string name() const = 0;  // for reports

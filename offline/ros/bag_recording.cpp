@@ -14,7 +14,7 @@
 #include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
 #include "common/ros/topic_names.h"
-#include "offline/ros/bag_message_source.h"
+#include "offline/ros/indexed_bag.h"
 
 namespace plm_vins {
 namespace {
@@ -36,10 +36,10 @@ void RequireReadable(const std::string& file) {
   }
 }
 
-std::unique_ptr<BagMessageSource> OpenSource(const std::string& file) {
+IndexedBag OpenIndexedBag(const std::string& file) {
   RequireReadable(file);
   try {
-    return OpenIndexedBag(file);
+    return IndexedBag(file);
   } catch (const std::exception& error) {  // of a bad place, or std::bad_alloc
     throw std::runtime_error(
         file + " is not a ROS bag of format 2.0, or it was cut off, damaged or never closed (" +
@@ -112,8 +112,8 @@ class BagRecording : public Recording {
  public:
   BagRecording(const std::string& file, const std::string& image_topic,
                const std::string& imu_topic)
-      : file_(file), source_(OpenSource(file)) {
-    const Topics topics = source_->topics();
+      : file_(file), bag_(OpenIndexedBag(file)) {
+    const Topics topics = bag_.topics();
     ChooseImageTopic(image_topic, topics);
     imu_topic_ = Find(topics, imu_topic, kImu).value_or("");
     std::string missing;
@@ -124,11 +124,11 @@ class BagRecording : public Recording {
     if (!missing.empty()) {
       throw std::runtime_error(file + " has" + missing + " but:" + ToText(topics));
     }
-    source_->Select({image_topic_, imu_topic_});
+    bag_.Select({image_topic_, imu_topic_});
   }
 
   std::optional<RecordingEvent> Next() override {
-    while (const auto message = source_->Next()) {
+    while (const auto message = bag_.Next()) {
       try {
         return message->topic == imu_topic_ ? ImuEvent(*message) : ImageEvent(*message);
       } catch (const ros::serialization::StreamOverrunException&) {
@@ -152,10 +152,10 @@ class BagRecording : public Recording {
     return kind == RecordingEvent::Kind::kImage ? "image_topic " + image_topic_
                                                 : "imu_topic " + imu_topic_;
   }
-  std::optional<int64_t> end_ns() const override { return source_->end_ns(); }
+  std::optional<int64_t> end_ns() const override { return bag_.end_ns(); }
 
   DropCounts problems() const override {
-    DropCounts counts = source_->problems();
+    DropCounts counts = bag_.problems();
     counts.push_back(unreadable_images_);
     counts.push_back({"messages_malformed", malformed_, ""});
     return counts;
@@ -188,7 +188,7 @@ class BagRecording : public Recording {
   }
 
   std::string file_;
-  std::unique_ptr<BagMessageSource> source_;
+  IndexedBag bag_;
   std::string image_topic_;
   std::string imu_topic_;
   bool compressed_ = false;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
+#include "offline/ros/indexed_bag.h"
 
-#include "offline/ros/bag_message_source.h"
-#include "offline/ros/bag_records.h"
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <stdexcept>
 
 namespace plm_vins {
 namespace {
@@ -12,169 +14,133 @@ constexpr uint64_t kFirstRecord = sizeof(kSignature) - 1;
 constexpr uint64_t kIndexEntrySize = 12;  // seconds, nanoseconds, offset into the chunk
 constexpr int64_t kSecond_ns = 1'000'000'000;
 
-struct Chunk {
-  uint64_t at = 0;  // in the file
-  BagRecord record;
-  bool damaged = false;
-
-  bool is_packed() const { return record.Text("compression") != "none"; }
-};
-
-struct Entry {
-  int64_t t_ns = 0;
-  uint32_t connection = 0, chunk = 0, offset = 0;
-};
-
-struct Connection {
-  std::string topic, type;
-};
-
-// rosbag follows the index and the sizes in messages without a look at where they lead; so bags are
-// read here, and what leads nowhere is left out.
-class IndexedBag : public BagMessageSource {
- public:
-  explicit IndexedBag(const std::string& file) : name_(file), file_(file) {
-    if (file_.Read(0, kFirstRecord) != kSignature) throw std::runtime_error("another signature");
-    const BagRecord head = file_.ReadRecord(BagOp::kBag, kFirstRecord);
-    const auto encryptor = head.fields.find("encryptor");
-    if (encryptor != head.fields.end() && !encryptor->second.empty()) {
-      throw std::runtime_error("encrypted by " + encryptor->second);
-    }
-    ReadIndex(head);
-  }
-
-  std::map<std::string, std::string> topics() const override {
-    std::map<std::string, std::string> types;
-    for (const auto& [id, connection] : connections_) types[connection.topic] = connection.type;
-    return types;
-  }
-
-  void Select(const std::set<std::string>& topics) override {
-    const auto is_other = [&](const Entry& entry) {
-      return topics.count(connections_.at(entry.connection).topic) == 0;
-    };
-    entries_.erase(std::remove_if(entries_.begin(), entries_.end(), is_other), entries_.end());
-    std::stable_sort(entries_.begin(), entries_.end(),
-                     [](const Entry& a, const Entry& b) { return a.t_ns < b.t_ns; });
-  }
-
-  std::optional<BagMessage> Next() override {
-    while (next_ < entries_.size()) {
-      const Entry& entry = entries_[next_++];
-      Chunk& chunk = chunks_[entry.chunk];
-      if (chunk.damaged) continue;
-      try {
-        return ReadMessage(entry, chunk);
-      } catch (const std::exception& error) {  // of a bad place, or std::bad_alloc
-        if (damaged_++ == 0) problem_ = Describe(error.what(), chunk);
-      }
-    }
-    return std::nullopt;
-  }
-
-  std::optional<int64_t> end_ns() const override {
-    if (entries_.empty()) return std::nullopt;
-    return entries_.back().t_ns;
-  }
-
-  DropCounts problems() const override { return {{"bag_damaged", damaged_, problem_}}; }
-
- private:
-  void ReadIndex(const BagRecord& head) {
-    uint64_t at = head.Field<uint64_t>("index_pos");
-    if (at == 0) throw std::runtime_error("no index");
-    for (uint32_t i = head.Field<uint32_t>("conn_count"); i > 0; --i) {
-      const BagRecord record = file_.ReadRecord(BagOp::kConnection, at);
-      const BagFields about = ParseBagFields(file_.Read(record.data, record.end - record.data));
-      const auto type = about.find("type");
-      if (type == about.end()) throw std::runtime_error("a topic without a type");
-      connections_[record.Field<uint32_t>("conn")] = {record.Text("topic"), type->second};
-      at = record.end;
-    }
-    for (uint32_t i = head.Field<uint32_t>("chunk_count"); i > 0; --i) {
-      const BagRecord info = file_.ReadRecord(BagOp::kChunkInfo, at);
-      ReadChunkIndex(info);
-      at = info.end;
-    }
-  }
-
-  // The lists behind a chunk, one for each of its connections.
-  void ReadChunkIndex(const BagRecord& info) {
-    const auto place = info.Field<uint64_t>("chunk_pos");
-    chunks_.push_back({place, file_.ReadRecord(BagOp::kChunk, place)});
-    const Chunk& chunk = chunks_.back();
-    const uint64_t size = chunk.is_packed() ? chunk.record.Field<uint32_t>("size")
-                                            : chunk.record.end - chunk.record.data;
-    uint64_t at = chunk.record.end;
-    for (uint32_t i = info.Field<uint32_t>("count"); i > 0; --i) {
-      const BagRecord list = file_.ReadRecord(BagOp::kIndex, at);
-      const auto connection = list.Field<uint32_t>("conn");
-      const std::string bytes = file_.Read(list.data, list.end - list.data);
-      if (connections_.count(connection) == 0 ||
-          bytes.size() != kIndexEntrySize * list.Field<uint32_t>("count")) {
-        throw std::runtime_error("a bad list of messages");
-      }
-      for (size_t entry = 0; entry < bytes.size(); entry += kIndexEntrySize) {
-        AddEntry(bytes.data() + entry, connection, size);
-      }
-      at = list.end;
-    }
-  }
-
-  void AddEntry(const char* bytes, uint32_t connection, uint64_t chunk_size) {
-    uint32_t values[3];
-    std::memcpy(values, bytes, kIndexEntrySize);
-    const auto [seconds, nanoseconds, offset] = values;
-    if (offset >= chunk_size) throw std::runtime_error("a message beyond the end of its chunk");
-    entries_.push_back({seconds * kSecond_ns + nanoseconds, connection,
-                        static_cast<uint32_t>(chunks_.size() - 1), offset});
-  }
-
-  BagMessage ReadMessage(const Entry& entry, Chunk& chunk) {
-    const bool is_packed = chunk.is_packed();
-    if (is_packed) Unpack(entry.chunk);
-    BagBytes& bytes = is_packed ? *unpacked_ : file_;
-    const uint64_t begin = is_packed ? 0 : chunk.record.data;
-    const uint64_t end = is_packed ? bytes.size() : chunk.record.end;
-    const BagRecord record = bytes.ReadRecord(BagOp::kMessage, begin + entry.offset, end);
-    if (record.Field<uint32_t>("conn") != entry.connection) {
-      throw std::runtime_error("a message of another topic");
-    }
-    return {connections_.at(entry.connection).topic,
-            bytes.Read(record.data, record.end - record.data)};
-  }
-
-  // Makes this chunk the one that is at hand; where that fails, all of it is left out.
-  void Unpack(uint32_t number) {
-    if (unpacked_ != nullptr && unpacked_chunk_ == number) return;
-    Chunk& chunk = chunks_[number];
-    chunk.damaged = true;
-    unpacked_ = UnpackChunk(chunk.record, &file_);
-    unpacked_chunk_ = number;
-    chunk.damaged = false;
-  }
-
-  std::string Describe(const std::string& error, const Chunk& chunk) const {
-    const std::string text = name_ + ", chunk at byte " + std::to_string(chunk.at) + ": " + error;
-    return chunk.damaged ? text : text + "; \"rosbag reindex " + name_ + "\" may help";
-  }
-
-  std::string name_;
-  BagFile file_;
-  std::map<uint32_t, Connection> connections_;
-  std::vector<Chunk> chunks_;
-  std::vector<Entry> entries_;  // of the selected topics, by time
-  size_t next_ = 0;
-  std::unique_ptr<BagBytes> unpacked_;
-  uint32_t unpacked_chunk_ = 0;
-  int64_t damaged_ = 0;
-  std::string problem_;
-};
-
 }  // namespace
 
-std::unique_ptr<BagMessageSource> OpenIndexedBag(const std::string& file) {
-  return std::make_unique<IndexedBag>(file);
+IndexedBag::IndexedBag(const std::string& file) : name_(file), file_(file) {
+  if (file_.Read(0, kFirstRecord) != kSignature) throw std::runtime_error("another signature");
+  const BagRecord head = file_.ReadRecord(BagOp::kBag, kFirstRecord);
+  const auto encryptor = head.fields.find("encryptor");
+  if (encryptor != head.fields.end() && !encryptor->second.empty()) {
+    throw std::runtime_error("encrypted by " + encryptor->second);
+  }
+  ReadIndex(head);
+}
+
+std::map<std::string, std::string> IndexedBag::topics() const {
+  std::map<std::string, std::string> types;
+  for (const auto& [id, connection] : connections_) types[connection.topic] = connection.type;
+  return types;
+}
+
+void IndexedBag::Select(const std::set<std::string>& topics) {
+  const auto is_other = [&](const Entry& entry) {
+    return topics.count(connections_.at(entry.connection).topic) == 0;
+  };
+  entries_.erase(std::remove_if(entries_.begin(), entries_.end(), is_other), entries_.end());
+  std::stable_sort(entries_.begin(), entries_.end(),
+                   [](const Entry& a, const Entry& b) { return a.t_ns < b.t_ns; });
+}
+
+std::optional<BagMessage> IndexedBag::Next() {
+  while (next_ < entries_.size()) {
+    const Entry& entry = entries_[next_++];
+    const Chunk& chunk = chunks_[entry.chunk];
+    if (chunk.damaged) continue;
+    try {
+      return ReadMessage(entry, chunk);
+    } catch (const std::exception& error) {  // of a bad place, or std::bad_alloc
+      if (damaged_++ == 0) problem_ = Describe(error.what(), chunk);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<int64_t> IndexedBag::end_ns() const {
+  if (entries_.empty()) return std::nullopt;
+  return entries_.back().t_ns;
+}
+
+DropCounts IndexedBag::problems() const { return {{"bag_damaged", damaged_, problem_}}; }
+
+void IndexedBag::ReadIndex(const BagRecord& head) {
+  uint64_t at = head.Field<uint64_t>("index_pos");
+  if (at == 0) throw std::runtime_error("no index");
+  for (uint32_t i = head.Field<uint32_t>("conn_count"); i > 0; --i) {
+    const BagRecord record = file_.ReadRecord(BagOp::kConnection, at);
+    const BagFields about = ParseBagFields(file_.Read(record.data, record.end - record.data));
+    const auto type = about.find("type");
+    if (type == about.end()) throw std::runtime_error("a topic without a type");
+    connections_[record.Field<uint32_t>("conn")] = {record.Text("topic"), type->second};
+    at = record.end;
+  }
+  for (uint32_t i = head.Field<uint32_t>("chunk_count"); i > 0; --i) {
+    const BagRecord info = file_.ReadRecord(BagOp::kChunkInfo, at);
+    ReadChunkIndex(info);
+    at = info.end;
+  }
+}
+
+void IndexedBag::ReadChunkIndex(const BagRecord& info) {
+  const auto place = info.Field<uint64_t>("chunk_pos");
+  chunks_.push_back({place, file_.ReadRecord(BagOp::kChunk, place)});
+  const Chunk& chunk = chunks_.back();
+  const uint64_t size = chunk.is_packed() ? chunk.record.Field<uint32_t>("size")
+                                          : chunk.record.end - chunk.record.data;
+  uint64_t at = chunk.record.end;
+  for (uint32_t i = info.Field<uint32_t>("count"); i > 0; --i) {
+    const BagRecord list = file_.ReadRecord(BagOp::kIndex, at);
+    const auto connection = list.Field<uint32_t>("conn");
+    const std::string bytes = file_.Read(list.data, list.end - list.data);
+    if (connections_.count(connection) == 0 ||
+        bytes.size() != kIndexEntrySize * list.Field<uint32_t>("count")) {
+      throw std::runtime_error("a bad list of messages");
+    }
+    for (size_t entry = 0; entry < bytes.size(); entry += kIndexEntrySize) {
+      AddEntry(bytes.data() + entry, connection, size);
+    }
+    // Lists of which some are one place in the file would ask for any amount of memory.
+    if (entries_.size() * kIndexEntrySize > file_.size()) {
+      throw std::runtime_error("lists of messages that overlap");
+    }
+    at = list.end;
+  }
+}
+
+void IndexedBag::AddEntry(const char* bytes, uint32_t connection, uint64_t chunk_size) {
+  uint32_t values[3];
+  std::memcpy(values, bytes, kIndexEntrySize);
+  const auto [seconds, nanoseconds, offset] = values;
+  if (offset >= chunk_size) throw std::runtime_error("a message beyond the end of its chunk");
+  entries_.push_back({seconds * kSecond_ns + nanoseconds, connection,
+                      static_cast<uint32_t>(chunks_.size() - 1), offset});
+}
+
+BagMessage IndexedBag::ReadMessage(const Entry& entry, const Chunk& chunk) {
+  const bool is_packed = chunk.is_packed();
+  if (is_packed) Unpack(entry.chunk);
+  BagBytes& bytes = is_packed ? *unpacked_ : file_;
+  const uint64_t begin = is_packed ? 0 : chunk.record.data;
+  const uint64_t end = is_packed ? bytes.size() : chunk.record.end;
+  const BagRecord record = bytes.ReadRecord(BagOp::kMessage, begin + entry.offset, end);
+  if (record.Field<uint32_t>("conn") != entry.connection) {
+    throw std::runtime_error("a message of another topic");
+  }
+  return {connections_.at(entry.connection).topic,
+          bytes.Read(record.data, record.end - record.data)};
+}
+
+void IndexedBag::Unpack(uint32_t number) {
+  if (unpacked_ != nullptr && unpacked_chunk_ == number) return;
+  Chunk& chunk = chunks_[number];
+  chunk.damaged = true;
+  unpacked_ = UnpackChunk(chunk.record, &file_);
+  unpacked_chunk_ = number;
+  chunk.damaged = false;
+}
+
+std::string IndexedBag::Describe(const std::string& error, const Chunk& chunk) const {
+  const std::string text = name_ + ", chunk at byte " + std::to_string(chunk.at) + ": " + error;
+  return chunk.damaged ? text : text + "; \"rosbag reindex " + name_ + "\" may help";
 }
 
 }  // namespace plm_vins

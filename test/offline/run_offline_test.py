@@ -80,7 +80,11 @@ class RunOffline(unittest.TestCase):
                             source=("--bag", features))
         self.assert_refuses("--save-features would overwrite the input", "--save-features", link,
                             "--map-in", features)
-        self.assert_refuses("both name x.plm", "--save-features", "x.plm", "--map-out", "x.plm")
+        self.assert_refuses("--map-out would overwrite the input", "--map-out", link,
+                            config=features)
+        self.assert_refuses("is no map of plm_vins", "--map-in", features, "--map-out", features)
+        self.assert_refuses(f"both name {link}", "--save-features", features, "--map-out", link)
+        self.assert_refuses("both name x.plm", "--save-features", "./x.plm", "--map-out", "x.plm")
         self.assertEqual(features.read_text(encoding="utf-8"), "kept")
 
     def test_outputs_that_would_overwrite_a_table_of_the_recording(self):

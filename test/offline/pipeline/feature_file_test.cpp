@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -117,6 +118,19 @@ TEST_F(FeatureFile, DoesNotTakeZerosForAnImage) {
   Write();
   std::ofstream(file_, std::ios::app | std::ios::binary) << std::string(46, '\0');
   EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
+}
+
+TEST_F(FeatureFile, TakesNoFeaturesThatNoTrackerGives) {
+  TrackedItem with_a_point = FrameItem();
+  with_a_point.frame->points.features.points[1].id = 7;  // twice
+  TrackedItem with_a_line = FrameItem();
+  with_a_line.frame->lines->features.lines[0].end.x() = std::nan("");
+  for (const TrackedItem* item : {&with_a_point, &with_a_line}) {
+    FeatureFileWriter writer(file_);
+    writer.Add(*item);
+    writer.Close();
+    EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
+  }
 }
 
 TEST_F(FeatureFile, WithstandsDamageOfEveryByte) {

@@ -193,6 +193,21 @@ TEST_F(BagRecording, NamesTheRemedyForAnIndexThatLeadsAstray) {
   }
 }
 
+// 2 MB that ask for 40: each copy of the chunk's entry in the index names all messages again.
+TEST_F(BagRecording, RefusesAnIndexThatNamesOneChunkAgainAndAgain) {
+  constexpr uint32_t kCopies = 15'000;
+  WriteBag("/cam0/image_raw", RawImage, rosbag::compression::Uncompressed, 10'000'000);
+  std::string bytes = folder_.Read("test.bag");
+  const std::string info = bytes.substr(bytes.rfind("chunk_pos=") - 2 * sizeof(uint32_t));
+  for (uint32_t i = 0; i < kCopies; ++i) bytes += info;
+  const uint32_t chunks = 1 + kCopies;
+  const std::string field = "chunk_count=";
+  bytes.replace(bytes.find(field) + field.size(), sizeof(chunks),
+                reinterpret_cast<const char*>(&chunks), sizeof(chunks));
+  folder_.Write("test.bag", bytes);
+  EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("lists of messages that overlap"));
+}
+
 TEST_F(BagRecording, LeavesOutAMessageThatIsNotWhereTheIndexSays) {
   for (const auto compression : kCompressions) {
     WriteBag("/cam0/image_raw", RawImage, compression);

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/streams/drop_counts.h"
+#include "offline/ros/bag_records.h"
+
+namespace plm_vins {
+
+// One serialised message of a bag.
+struct BagMessage {
+  std::string topic;
+  std::string data;
+};
+
+// The messages of a bag in the order of their time of recording, by the index at its end.
+//
+// rosbag follows the index and the sizes in messages without a look at where they lead; so bags are
+// read here, and what leads nowhere is left out.
+class IndexedBag {
+ public:
+  // Throws std::exception where there is no index that can be read.
+  explicit IndexedBag(const std::string& file);
+
+  std::map<std::string, std::string> topics() const;  // topic -> message type
+
+  // Chooses what Next() gives; before the first Next().
+  void Select(const std::set<std::string>& topics);
+
+  std::optional<BagMessage> Next();
+
+  std::optional<int64_t> end_ns() const;  // time of the last selected message
+  DropCounts problems() const;            // what was left out
+
+ private:
+  struct Chunk {
+    uint64_t at = 0;  // in the file
+    BagRecord record;
+    bool damaged = false;
+
+    bool is_packed() const { return record.Text("compression") != "none"; }
+  };
+
+  struct Entry {
+    int64_t t_ns = 0;
+    uint32_t connection = 0, chunk = 0, offset = 0;
+  };
+
+  struct Connection {
+    std::string topic, type;
+  };
+
+  void ReadIndex(const BagRecord& head);
+  // The lists behind a chunk, one for each of its connections.
+  void ReadChunkIndex(const BagRecord& info);
+  void AddEntry(const char* bytes, uint32_t connection, uint64_t chunk_size);
+  BagMessage ReadMessage(const Entry& entry, const Chunk& chunk);
+  // Makes this chunk the one that is at hand; where that fails, all of it is left out.
+  void Unpack(uint32_t number);
+  std::string Describe(const std::string& error, const Chunk& chunk) const;
+
+  std::string name_;
+  BagFile file_;
+  std::map<uint32_t, Connection> connections_;
+  std::vector<Chunk> chunks_;
+  std::vector<Entry> entries_;  // of the selected topics, by time
+  size_t next_ = 0;
+  std::unique_ptr<BagBytes> unpacked_;
+  uint32_t unpacked_chunk_ = 0;
+  int64_t damaged_ = 0;
+  std::string problem_;
+};
+
+}  // namespace plm_vins

@@ -227,15 +227,15 @@ void Estimator::AddFrame(const FrameMeasurement& measurement) {
 void Estimator::Triangulate(EstimatorOutput* output) {
   LocalMap& map = state_.estimate.map;
   map.points.Triangulate(map.window, options_.min_triangulation_angle);
-  output->counts.line_triangulation = map.lines.Triangulate(map.window, options_.line_triangulation,
-                                                            options_.line_limits.max_length);
+  output->counts.line_triangulation = map.lines.Triangulate(map.window, options_.line_limits);
 }
 
 // The Manhattan frame of the lines, and, where a frame is kept, which of them are one.
 void Estimator::FindStructure(bool keep_second_newest, EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = state_.estimate.map;
-  const auto directions = LineDirections(map.window, map.lines, options_.line_limits.noise);
+  const auto directions =
+      LineDirections(map.window, map.lines, options_.line_limits.triangulation.noise);
   state_.manhattan.Update(map.window.newest().state.t_ns, directions);
   NameAxes(state_.manhattan, directions, &map.lines);
   if (config_.estimator.line_merging && keep_second_newest) UniteLines(output);

@@ -16,13 +16,13 @@
 #include "vins_estimator/manhattan/manhattan_frame.h"
 #include "vins_estimator/map/view_noise.h"
 #include "vins_estimator/marginalization/window_estimate.h"
-#include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/monitoring/blindness_monitor.h"
 #include "vins_estimator/monitoring/delay_monitor.h"
 #include "vins_estimator/monitoring/failure_detector.h"
 #include "vins_estimator/monitoring/imu_monitor.h"
 #include "vins_estimator/monitoring/stamp_jitter.h"
 #include "vins_estimator/problem/imu_noise_learning.h"
+#include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/state/estimator_output.h"
 
 namespace plm_vins {

@@ -11,6 +11,14 @@ constexpr double kMaxReprojectionError_px = 3.0;
 constexpr double kMaxRayError_px = 0.02;  // a tenth of the noise of the best corners
 constexpr SolverOptions kFirstSolution = {20, 1e-3};
 
+// After a start from standstill, for which a hover may be taken.
+constexpr double kStandstillVelocity = 0.03;   // [m/s]
+constexpr double kStandstillGyroBias = 0.003;  // [rad/s]
+
+// Of a camera of whose pose nothing was known: the rotation has just been calibrated.
+constexpr double kUnknownCameraRotation = 0.1;  // [rad]
+constexpr double kUnknownCameraPosition = 0.1;  // [m]
+
 }  // namespace
 
 EstimatorOptions::EstimatorOptions(const Config& config)
@@ -22,8 +30,8 @@ EstimatorOptions::EstimatorOptions(const Config& config, double focal_length)
       min_triangulation_angle(kMinTriangulationAngle_px / focal_length),
       max_reprojection_error(kMaxReprojectionError_px / focal_length),
       max_ray_error(kMaxRayError_px / focal_length),
-      line_triangulation(config.estimator.line_noise / focal_length),
-      line_limits(line_triangulation.noise, config.estimator.line_outlier_distance),
+      line_limits(config.estimator.line_noise / focal_length,
+                  config.estimator.line_outlier_distance),
       same_line(config.estimator, focal_length),
       anchors(config.estimator),
       problem(config, focal_length),
@@ -34,12 +42,12 @@ EstimatorOptions::EstimatorOptions(const Config& config, double focal_length)
 InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstill) {
   InitialUncertainty uncertainty;
   if (from_standstill) {
-    uncertainty.velocity = 0.03;
-    uncertainty.gyro_bias = 0.003;
+    uncertainty.velocity = kStandstillVelocity;
+    uncertainty.gyro_bias = kStandstillGyroBias;
   }
   if (sensor.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {
-    uncertainty.extrinsic_rotation = 0.1;
-    uncertainty.extrinsic_position = 0.1;
+    uncertainty.extrinsic_rotation = kUnknownCameraRotation;
+    uncertainty.extrinsic_position = kUnknownCameraPosition;
   }
   uncertainty.intrinsics = sensor.intrinsics_deviation;
   return uncertainty;

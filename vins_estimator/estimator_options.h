@@ -2,13 +2,12 @@
 #pragma once
 
 #include "common/config/config.h"
-#include "vins_estimator/geometry/line_triangulation.h"
 #include "vins_estimator/map/keyframe_policy.h"
 #include "vins_estimator/map/line_comparison.h"
 #include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/local_map.h"
-#include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/optimization/levenberg_marquardt.h"
+#include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/problem/problem_builder.h"
 #include "vins_estimator/recall/anchor_policy.h"
 
@@ -24,7 +23,6 @@ struct EstimatorOptions {
   double min_triangulation_angle;  // between the rays of a point [rad]
   double max_reprojection_error;   // of a point, mean over its views, normalised
   double max_ray_error;            // of rays by intrinsics that were refined since, normalised
-  LineTriangulationOptions line_triangulation;
   LineLimits line_limits;
   SameLineLimits same_line;
   AnchorPolicyOptions anchors;

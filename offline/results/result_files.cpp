@@ -149,7 +149,7 @@ void ResultFiles::AddMapLines(const std::vector<MapLine>& lines) {
   for (const MapLine& line : lines) {
     const auto [place, is_new] = line_places_.try_emplace(line.id, lines_.size());
     if (is_new) lines_.emplace_back();
-    lines_[place->second] = {line.start_W, line.end_W, line.axis};
+    lines_[place->second] = line;
   }
 }
 

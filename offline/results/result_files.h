@@ -61,7 +61,7 @@ class ResultFiles {
   TimedFile covariance_;
   OutputFile timing_;
   PlyPointWriter map_;
-  std::vector<Segment> lines_;
+  std::vector<MapLine> lines_;
   std::unordered_map<int64_t, size_t> line_places_;  // in lines_, by id in this world frame
   std::vector<MapPoint> window_points_;  // of the newest frame with a pose: not in the map yet
   std::vector<MapLine> window_lines_;

@@ -28,8 +28,7 @@ TEST_F(EstimatorOptionsTest, PixelsAreDividedByTheFocalLength) {
   const EstimatorOptions options(config_);
   const double noise = 2 / focal_length_;
   EXPECT_DOUBLE_EQ(options.map.line_noise, noise);
-  EXPECT_DOUBLE_EQ(options.line_triangulation.noise, noise);
-  EXPECT_DOUBLE_EQ(options.line_limits.noise, noise);
+  EXPECT_DOUBLE_EQ(options.line_limits.triangulation.noise, noise);
   EXPECT_DOUBLE_EQ(options.same_line.noise, noise);
   EXPECT_DOUBLE_EQ(options.problem.line_weight, 1 / noise);
   EXPECT_DOUBLE_EQ(options.keyframes.min_parallax, 12 / focal_length_);

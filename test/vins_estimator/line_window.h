@@ -38,7 +38,7 @@ class LineWindow {
     window_frame.state = state;
     window_frame.motion_since_previous = std::make_shared<Preintegration>(ImuNoise(), ImuBias());
     map_.AddFrame(std::move(window_frame), PointFrame(), frame);
-    map_.lines.Triangulate(map_.window, LineTriangulationOptions(kNoise), /*max_length=*/20);
+    map_.lines.Triangulate(map_.window, LineLimits(kNoise, /*max_length=*/20));
     Refit();
   }
 

@@ -53,7 +53,7 @@ inline SimulatedWindow SimulateWindow(simulator::FeatureSimulationOptions option
     result.AddFrame(frame, flight.frames[i].points, flight.frames[i].lines);
   }
   result.points.Triangulate(window, /*min_angle=*/0.02);
-  result.lines.Triangulate(window, LineTriangulationOptions(kLineNoise), /*max_length=*/10);
+  result.lines.Triangulate(window, LineLimits(kLineNoise, /*max_length=*/10));
   return result;
 }
 

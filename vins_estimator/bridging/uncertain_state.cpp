@@ -20,7 +20,7 @@ UncertainState Propagate(const UncertainState& start, const Preintegration& moti
   J_1 << jacobians.d_residual_d_pose_j, jacobians.d_residual_d_motion_j;
   const Matrix15d d_end_d_noise = J_1.inverse();
   end.covariance = d_end_d_noise *
-                   (J_0 * start.covariance * J_0.transpose() + motion.covariance()) *
+                   (J_0 * start.covariance * J_0.transpose() + motion.Covariance()) *
                    d_end_d_noise.transpose();
   return end;
 }

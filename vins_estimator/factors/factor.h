@@ -5,7 +5,8 @@ namespace plm_vins {
 
 // A residual by some blocks of variables, with Jacobians as of factors/manifolds.h. What a
 // ceres::CostFunction is, without its list of the blocks' sizes: to allocate one for each view of
-// the window takes longer than to evaluate it. Nor is it ever destroyed.
+// the window takes longer than to evaluate it. Nor is it ever destroyed. Each kind of factor says
+// how many blocks it has: kBlocks.
 class Factor {
  public:
   int num_residuals() const { return num_residuals_; }

@@ -13,6 +13,8 @@ namespace plm_vins {
 template <typename Inner>
 class PointIntrinsicsFactor final : public Factor {
  public:
+  static constexpr int kBlocks = Inner::kBlocks + 1;
+
   // `weight`: that of `factor`.
   PointIntrinsicsFactor(const Inner& factor, const RayShift& shift, double weight);
 
@@ -30,6 +32,8 @@ class PointIntrinsicsFactor final : public Factor {
 template <typename Inner>
 class LineIntrinsicsFactor final : public Factor {
  public:
+  static constexpr int kBlocks = Inner::kBlocks + 1;
+
   LineIntrinsicsFactor(const LineSegmentView& view, double weight, const RayShift& start_shift,
                        const RayShift& end_shift);
 

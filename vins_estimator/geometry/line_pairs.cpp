@@ -10,8 +10,6 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-constexpr double kDeviations = 3.0;
-
 AlignedBox3d BoxAround(const SeenLine& line, double margin) {
   const Vector3d margins = Vector3d::Constant(margin);
   return {line.start_F.cwiseMin(line.end_F) - margins, line.start_F.cwiseMax(line.end_F) + margins};
@@ -32,7 +30,7 @@ std::vector<std::pair<size_t, size_t>> FindNearPairs(const std::vector<SeenLine>
   std::vector<size_t> upwards;  // by the lower side
   for (const SeenLine& line : lines) {
     upwards.push_back(boxes.size());
-    boxes.push_back(BoxAround(line, 0.5 * distance + kDeviations * line.place_sigma));
+    boxes.push_back(BoxAround(line, 0.5 * distance + kLineDeviations * line.place_sigma));
   }
   std::stable_sort(upwards.begin(), upwards.end(), [&boxes](size_t a, size_t b) {
     return boxes[a].min().z() < boxes[b].min().z();

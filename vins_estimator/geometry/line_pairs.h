@@ -22,6 +22,10 @@ struct SeenLine {
   Eigen::Vector3d Direction() const { return (end_F - start_F).normalized(); }
 };
 
+// How far lines that are one may be apart, in standard deviations. Who looks for pairs allows no
+// less than who judges them (FindDifference), so that none is missed.
+constexpr double kLineDeviations = 3.0;
+
 // Indices (greater, smaller) of the lines whose boxes along the axes of F are less than `distance`
 // [m] apart, allowing for their deviations; sorted. A sweep along z: time grows with the number of
 // pairs that overlap in z. In the Manhattan frame the box of a line along an axis is a needle, so

@@ -10,6 +10,8 @@
 namespace plm_vins {
 namespace {
 
+constexpr int kRefinements = 3;  // the point nearest to all rays is a good start
+
 Eigen::Vector3d RayInWorld(const PointSighting& sighting) {
   return (sighting.T_W_C.rotation * sighting.xy.homogeneous()).normalized();
 }
@@ -37,9 +39,9 @@ Eigen::Vector3d ClosestPoint(const std::vector<PointSighting>& sightings) {
   return A.ldlt().solve(b);
 }
 
-// One Gauss-Newton step sequence on the image errors.
+// By Gauss-Newton on the image errors.
 Eigen::Vector3d RefineOnImages(const std::vector<PointSighting>& sightings, Eigen::Vector3d p_W) {
-  for (int iteration = 0; iteration < 3; ++iteration) {
+  for (int iteration = 0; iteration < kRefinements; ++iteration) {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
     for (const PointSighting& sighting : sightings) {

@@ -131,13 +131,6 @@ void Preintegration::Reweigh(const ImuNoise& noise) {
   Repropagate(bias_);
 }
 
-bool Preintegration::HasGap() const {
-  const auto is_gap = [](const ImuSample& begin, const ImuSample& end) {
-    return ToSeconds(end.t_ns - begin.t_ns) > kMaxImuInterval;
-  };
-  return std::adjacent_find(samples_.begin(), samples_.end(), is_gap) != samples_.end();
-}
-
 void Preintegration::AllowBiasStep(const BiasStep& step) {
   bias_step_ = step;
   sqrt_information_valid_ = false;
@@ -149,7 +142,7 @@ void Preintegration::AllowStampErrors(const StampErrors& errors) {
 }
 
 // A step at the start of the interval acts on all of it, as an error of the start does.
-Matrix15d Preintegration::covariance() const {
+Matrix15d Preintegration::Covariance() const {
   Matrix15d covariance = covariance_;
   if (HasBiasStep()) {
     const Eigen::Matrix<double, 15, 3> accel = jacobian_.middleCols<3>(Index::kAccelBias);
@@ -238,7 +231,7 @@ FrameState Preintegration::Predict(const FrameState& start,
 const Matrix15d& Preintegration::SqrtInformation() const {
   if (sqrt_information_valid_) return sqrt_information_;
   // Cholesky from the last row up: covariance = V V^T with V upper triangular, hence U = V^-1.
-  const Matrix15d reversed = covariance().reverse();
+  const Matrix15d reversed = Covariance().reverse();
   const Eigen::LLT<Matrix15d> llt(reversed);
   if (llt.info() != Eigen::Success) {
     throw std::logic_error(

@@ -7,6 +7,7 @@
 
 #include "common/imu/imu_noise.h"
 #include "common/measurements.h"
+#include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {
@@ -46,7 +47,9 @@ class Preintegration {
   // Samples must be in strictly increasing order of time (std::invalid_argument otherwise).
   void Append(const ImuSample& sample);
 
-  // Appends the interval that follows this one, with the noise and the steps of bias of its own.
+  // Appends the interval that follows this one. The covariance keeps the noise of each part until
+  // it is integrated anew: noise() is that of the newer one. The greater step of bias counts for
+  // both.
   void Join(const Preintegration& next);
 
   // Integrates the same samples anew about another bias.
@@ -69,20 +72,19 @@ class Preintegration {
   // State at the end of the interval from the state at its start. `gravity_W` is (0, 0, -g).
   FrameState Predict(const FrameState& start, const Eigen::Vector3d& gravity_W) const;
 
-  bool HasGap() const;  // of more than 50 ms between samples
+  bool HasGap() const { return LeaveGap(samples_); }  // of more than 50 ms between samples
   bool HasBiasStep() const { return bias_step_.gyro != 0 || bias_step_.accel != 0; }
   double duration() const { return duration_; }  // [s]
   const std::vector<ImuSample>& samples() const { return samples_; }
   const ImuBias& linearization_bias() const { return bias_; }
   const ImuNoise& noise() const { return noise_; }
   const BiasStep& bias_step() const { return bias_step_; }
-  const StampErrors& stamp_errors() const { return stamp_errors_; }
   const Eigen::Vector3d& delta_p() const { return delta_p_; }
   const Eigen::Quaterniond& delta_q() const { return delta_q_; }
   const Eigen::Vector3d& delta_v() const { return delta_v_; }
   // d(error state at the end)/d(error state at the start), rows and columns as ImuErrorIndex.
   const Matrix15d& jacobian() const { return jacobian_; }
-  Matrix15d covariance() const;
+  Matrix15d Covariance() const;
   // Upper triangular U with U^T U = covariance^-1. Computed at the first call and kept, so that
   // this first call must not run in several threads. std::logic_error where no interval is
   // integrated yet.

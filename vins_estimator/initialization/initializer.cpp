@@ -31,34 +31,16 @@ StandstillDetector::Options StandstillOptions() {
   return options;
 }
 
-bool IsFinite(const ImuSample& sample) {
-  return sample.gyro.allFinite() && sample.accel.allFinite();
-}
-
-// True where the samples go on from `last` (of the image before), finite, in order and dense.
-bool IsContinuous(ImuSample last, const std::vector<ImuSample>& samples) {
-  if (samples.front().t_ns != last.t_ns) return false;
-  for (size_t i = 1; i < samples.size(); ++i) {
-    const ImuSample& sample = samples[i];
-    if (!IsFinite(sample) || sample.t_ns <= last.t_ns ||
-        ToSeconds(sample.t_ns - last.t_ns) > kMaxImuInterval) {
-      return false;
-    }
-    last = sample;
-  }
-  return true;
-}
-
 }  // namespace
 
 Initializer::Initializer(const Config& config)
-    : config_(config),
-      sensor_(config.sensor),
+    : sensor_(config.sensor),
+      point_noise_px_(config.estimator.point_noise),
       max_frames_(std::min<size_t>(kMaxFrames, config.estimator.window_size + 1)),
       standstill_(config.sensor.imu_noise, StandstillOptions()) {
   if (sensor_.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {
     const double focal_length = CameraModel::Create(sensor_.camera)->FocalLength();
-    calibrator_.emplace(sensor_.imu_noise, config_.estimator.point_noise / focal_length);
+    calibrator_.emplace(sensor_.imu_noise, point_noise_px_ / focal_length);
   }
 }
 
@@ -71,13 +53,7 @@ void Initializer::StartOver(const std::string& reason) {
 // Adds an image; forgets the older ones where IMU samples or tracks do not lead to it. Of the first
 // image's samples only the last one, at the image itself, counts.
 void Initializer::Append(const FrameMeasurement& measurement) {
-  if (measurement.imu.empty() || !IsFinite(measurement.imu.back())) {
-    StartOver("no IMU samples before the image");
-    return;
-  }
-  if (!buffer_.empty() && !IsContinuous(buffer_.back().imu.back(), measurement.imu)) {
-    StartOver("gap in the IMU samples");
-  }
+  if (!buffer_.empty() && LeaveGap(measurement.imu)) StartOver("gap in the IMU samples");
   if (!buffer_.empty()) {
     const int common = CountCommonPoints(buffer_.back().points, measurement.points);
     if (common < kMinCommonPoints) {
@@ -93,7 +69,6 @@ void Initializer::Append(const FrameMeasurement& measurement) {
 std::optional<InitializationResult> Initializer::Add(const FrameMeasurement& measurement) {
   if (!start_ns_) start_ns_ = measurement.t_ns;
   Append(measurement);
-  if (buffer_.empty()) return std::nullopt;
   const bool stands_still = standstill_.Add(buffer_.back());
   if (calibrator_) CalibrateRotation();
   if (calibrator_) return std::nullopt;
@@ -143,8 +118,7 @@ std::optional<InitializationResult> Initializer::TryMotion() {
   options.max_scale_deviation =
       std::min(kMaxScaleDeviation, kScaleDeviationPerSecond * ToSeconds(now_ns - *start_ns_));
   std::vector<FrameMeasurement> frames = JoinFrames(buffer_, SelectFrames(buffer_, max_frames_));
-  const auto states =
-      InitializeFromMotion(frames, sensor_, config_.estimator.point_noise, options, &reason_);
+  const auto states = InitializeFromMotion(frames, sensor_, point_noise_px_, options, &reason_);
   if (!states) return std::nullopt;
   reason_.clear();
   InitializationResult result;

@@ -39,10 +39,11 @@ class Initializer {
  public:
   explicit Initializer(const Config& config);
 
-  // Takes the next image; at most window_size + 1 frames as soon as their states can be determined.
+  // Takes the next image, one that CheckMeasurement() does not refuse after the one before. Returns
+  // at most window_size + 1 frames as soon as their states can be determined.
   std::optional<InitializationResult> Add(const FrameMeasurement& measurement);
 
-  // The first image that a result would go back to; nothing where the next one would be it.
+  // The first image that a result would go back to; nothing before there is an image.
   std::optional<int64_t> begin_ns() const;
 
   // Why there is no result yet, e.g. "too little parallax: 4.2 px of 15.0 px".
@@ -55,8 +56,8 @@ class Initializer {
   std::optional<InitializationResult> TryStandstill();
   std::optional<InitializationResult> TryMotion();
 
-  Config config_;
   SensorConfig sensor_;  // with the rotation of the camera as calibrated
+  double point_noise_px_;
   size_t max_frames_;
   StandstillDetector standstill_;
   std::optional<ExtrinsicCalibrator> calibrator_;  // until the rotation is known

@@ -91,10 +91,10 @@ bool Attempt::EstimateBias() {
       return false;  // the last pair's reason; the search where none is to be found takes longest
     }
   }
-  const auto gyro = EstimateGyroBias(rotations, reason_);
-  if (!gyro) return false;
+  const auto gyro_bias = EstimateGyroBias(rotations, reason_);
+  if (!gyro_bias) return false;
   for (Preintegration& imu : preintegrations_) {
-    imu.Repropagate({Eigen::Vector3d::Zero(), gyro->bias});
+    imu.Repropagate({Eigen::Vector3d::Zero(), *gyro_bias});
   }
   return true;
 }

@@ -76,7 +76,7 @@ void AlignmentSystem::AddInterval(size_t i, const Eigen::Vector3d& fixed_gravity
   right.tail<3>() = imu.DeltaV(bias) + T * R * fixed_gravity;
 
   Eigen::Matrix<double, 6, 6> covariance;
-  const Matrix15d& full = imu.covariance();
+  const Matrix15d full = imu.Covariance();
   covariance << full.block<3, 3>(Index::kPosition, Index::kPosition),
       full.block<3, 3>(Index::kPosition, Index::kVelocity),
       full.block<3, 3>(Index::kVelocity, Index::kPosition),
@@ -113,14 +113,15 @@ bool AlignmentSystem::Solve(const Eigen::Vector3d& fixed_gravity,
 
 }  // namespace
 
-std::optional<GyroBias> EstimateGyroBias(const std::vector<RotationMeasurement>& measurements,
-                                         std::string* reason) {
-  GyroBias result{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
+std::optional<Eigen::Vector3d> EstimateGyroBias(
+    const std::vector<RotationMeasurement>& measurements, std::string* reason) {
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (int iteration = 0; iteration < kGyroIterations; ++iteration) {
     Eigen::Matrix3d H = Eigen::Matrix3d::Identity() / (kGyroBiasPrior * kGyroBiasPrior);
-    Eigen::Vector3d g = result.bias / (kGyroBiasPrior * kGyroBiasPrior);
+    Eigen::Vector3d g = gyro_bias / (kGyroBiasPrior * kGyroBiasPrior);
     for (const RotationMeasurement& m : measurements) {
-      const ImuBias bias{m.preintegration->linearization_bias().accel, result.bias};
+      const ImuBias bias{m.preintegration->linearization_bias().accel, gyro_bias};
       const Eigen::Vector3d error = SO3Log(m.R_B0_B1.conjugate() * m.preintegration->DeltaQ(bias));
       const Eigen::Matrix3d J =
           m.preintegration->jacobian().block<3, 3>(Index::kRotation, Index::kGyroBias);
@@ -128,14 +129,14 @@ std::optional<GyroBias> EstimateGyroBias(const std::vector<RotationMeasurement>&
       H += weight * J.transpose() * m.information * J;
       g += weight * J.transpose() * m.information * error;
     }
-    result.bias -= H.ldlt().solve(g);
-    result.covariance = H.inverse();
+    gyro_bias -= H.ldlt().solve(g);
+    covariance = H.inverse();
   }
-  if (result.covariance.diagonal().maxCoeff() > std::pow(0.1 * kGyroBiasPrior, 2)) {
+  if (covariance.diagonal().maxCoeff() > std::pow(0.1 * kGyroBiasPrior, 2)) {
     *reason = "the gyro bias is not determined by the images";
     return std::nullopt;
   }
-  return result;
+  return gyro_bias;
 }
 
 std::optional<Alignment> AlignVisualInertial(

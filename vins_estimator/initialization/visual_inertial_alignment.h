@@ -19,15 +19,10 @@ struct RotationMeasurement {
   Eigen::Matrix3d information;  // of a right perturbation R_B0_B1 Exp(theta) [1/rad^2]
 };
 
-struct GyroBias {
-  Eigen::Vector3d bias;  // [rad/s]
-  Eigen::Matrix3d covariance;
-};
-
-// The gyro bias under which the integrated rotations agree best with the camera's; robust.
-// Nothing, and the reason in words, where the rotations do not determine it.
-std::optional<GyroBias> EstimateGyroBias(const std::vector<RotationMeasurement>& measurements,
-                                         std::string* reason);
+// The gyro bias under which the integrated rotations agree best with the camera's [rad/s];
+// robust. Nothing, and the reason in words, where the rotations do not determine it.
+std::optional<Eigen::Vector3d> EstimateGyroBias(
+    const std::vector<RotationMeasurement>& measurements, std::string* reason);
 
 // What the alignment knows of one image: B in the frame G, in which gravity is not yet known.
 struct AlignmentView {

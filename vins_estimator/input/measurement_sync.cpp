@@ -37,7 +37,6 @@ MeasurementSync::MeasurementSync(const Options& options)
       points_leap_(kPointsLeap_ns) {}
 
 void MeasurementSync::AddImu(const ImuSample& sample) {
-  ++statistics_.imu_samples;
   if (!sample.gyro.allFinite() || !sample.accel.allFinite()) {
     ++statistics_.imu_not_finite;
     return;
@@ -115,7 +114,6 @@ void MeasurementSync::AddPoints(PointFrame frame) {
 }
 
 void MeasurementSync::AddLines(LineFrame frame) {
-  ++statistics_.line_frames;
   if (last_lines_ns_ && frame.t_ns <= *last_lines_ns_) {
     ++statistics_.lines_out_of_order;
     if (frame.t_ns == *last_lines_ns_) return;

@@ -17,7 +17,6 @@ namespace plm_vins {
 
 // What came in and what could not be used, by cause. All counts are since construction.
 struct SyncStatistics {
-  int64_t imu_samples = 0;
   int64_t imu_not_finite = 0;    // NaN or infinity
   int64_t imu_implausible = 0;   // beyond any sensor's range, or zeros throughout
   int64_t imu_replaced = 0;      // did not fit the samples around them (ImuGate)
@@ -35,8 +34,7 @@ struct SyncStatistics {
   int64_t frames_dropped_full = 0;     // queue full: oldest dropped
   int64_t frames_with_few_points = 0;  // under ten: dark, blank or blurred; the IMU carries on
   int64_t frames_without_lines = 0;    // handed out without the line frame that was expected
-  int64_t line_frames = 0;
-  int64_t lines_out_of_order = 0;    // stamp not after the one before
+  int64_t lines_out_of_order = 0;      // stamp not after the one before
   int64_t lines_late = 0;            // came after a frame of that time or later had been handed out
   int64_t lines_without_points = 0;  // line frame whose point frame never came
   // All was forgotten: IMU or images went back in time for good, or the IMU ahead by a minute.

@@ -28,19 +28,6 @@ enum class ManhattanState {
   kRevoked,    // it was known, until the lines contradicted it; the search goes on as from kAbsent
 };
 
-inline const char* ToString(ManhattanState state) {
-  switch (state) {
-    case ManhattanState::kCandidate:
-      return "candidate";
-    case ManhattanState::kLocked:
-      return "locked";
-    case ManhattanState::kRevoked:
-      return "revoked";
-    default:
-      return "absent";
-  }
-}
-
 struct ManhattanOptions {
   HeadingVotesOptions votes;
   double axis_sigma = M_PI / 180;        // how true to an axis lines are built [rad]

@@ -10,11 +10,10 @@
 namespace plm_vins {
 
 LineDifference FindDifference(const SameLineLimits& limits, const LinePairGeometry& pair) {
-  constexpr double kDeviations = 3.0;
-  if (pair.angle > std::max(limits.angle, kDeviations * pair.angle_sigma)) {
+  if (pair.angle > std::max(limits.angle, kLineDeviations * pair.angle_sigma)) {
     return LineDifference::kDirection;
   }
-  if (pair.distance > std::max(limits.distance, kDeviations * pair.distance_sigma)) {
+  if (pair.distance > std::max(limits.distance, kLineDeviations * pair.distance_sigma)) {
     return LineDifference::kDistance;
   }
   return pair.gap > limits.distance ? LineDifference::kGap : LineDifference::kNone;

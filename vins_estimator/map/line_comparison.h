@@ -31,7 +31,7 @@ struct SameLineLimits {
 };
 
 // The condition in space that two lines fail; kNone where they meet all. Where direction or place
-// are known less well than the limits, three standard deviations take their place.
+// are known less well than the limits, kLineDeviations times their deviations take their place.
 enum class LineDifference { kNone, kDirection, kDistance, kGap };
 LineDifference FindDifference(const SameLineLimits& limits, const LinePairGeometry& pair);
 

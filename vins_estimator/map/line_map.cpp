@@ -55,7 +55,8 @@ int RemoveBadAnchorViews(const SlidingWindow& window, const LineLimits& limits,
   const size_t before = views.size();
   views.erase(std::remove_if(views.begin(), views.end(),
                              [&](const LineView& view) {
-                               return MeanSquareError(line_W, view, limits.noise, window) > limit;
+                               return MeanSquareError(line_W, view, limits.triangulation.noise,
+                                                      window) > limit;
                              }),
               views.end());
   return static_cast<int>(before - views.size());
@@ -70,7 +71,8 @@ int RemoveBadViews(const SlidingWindow& window, const LineLimits& limits, LineLa
   const size_t before = landmark->views.size();
   double sum = 0;
   for (size_t i = 0; i < landmark->views.size();) {
-    const double error = MeanSquareError(line_W, landmark->views[i], limits.noise, window);
+    const double error =
+        MeanSquareError(line_W, landmark->views[i], limits.triangulation.noise, window);
     if (i > 0 && error > limit) {
       landmark->views.erase(landmark->views.begin() + i);
     } else {
@@ -150,8 +152,7 @@ void LineMap::AddFrame(const LineFrame& frame) {
 }
 
 LineTriangulationCounts LineMap::Triangulate(const SlidingWindow& window,
-                                             const LineTriangulationOptions& options,
-                                             double max_length) {
+                                             const LineLimits& limits) {
   LineTriangulationCounts counts;
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {
     LineLandmark& landmark = it->second;
@@ -159,8 +160,8 @@ LineTriangulationCounts LineMap::Triangulate(const SlidingWindow& window,
       ++it;
       continue;
     }
-    LineTriangulationResult result = TriangulateLandmark(window, options, &landmark);
-    if (landmark.triangulated && IsTooLong(landmark, window, max_length)) {
+    LineTriangulationResult result = TriangulateLandmark(window, limits.triangulation, &landmark);
+    if (landmark.triangulated && IsTooLong(landmark, window, limits.max_length)) {
       result = LineTriangulationResult::kTooLong;
     }
     Count(result, &counts);
@@ -183,9 +184,9 @@ int LineMap::RemoveOutliers(const SlidingWindow& window, const LineLimits& limit
     removed += RemoveBadAnchorViews(window, limits, &landmark);
     removed += RemoveBadViews(window, limits, &landmark, &mean_square);
     const auto segment = ObservedSegment(landmark, window);
+    const double max_mean_error = limits.triangulation.max_mean_error;
     const bool bad = !segment || Length(*segment) > limits.max_length ||
-                     landmark.views.size() < 2 ||
-                     mean_square > limits.max_mean_error * limits.max_mean_error;
+                     landmark.views.size() < 2 || mean_square > max_mean_error * max_mean_error;
     removed += bad;
     it = bad ? landmarks_.erase(it) : std::next(it);
   }

@@ -15,14 +15,13 @@
 
 namespace plm_vins {
 
-// Limits that a triangulated line must meet.
+// Limits that a line must meet to be triangulated, and from then on.
 struct LineLimits {
-  LineLimits(double noise, double max_length) : noise(noise), max_length(max_length) {}
+  LineLimits(double noise, double max_length) : triangulation(noise), max_length(max_length) {}
 
-  double noise;                 // deviation of an end point across the line, normalised
-  double max_view_error = 5.0;  // of one view, root mean square in units of `noise`
-  double max_mean_error = 2.5;  // of all views
-  double max_length;            // between the ends [m]
+  LineTriangulationOptions triangulation;  // the mean error of all views stays as limited there
+  double max_view_error = 5.0;             // of one view, root mean square in units of the noise
+  double max_length;                       // between the ends [m]
 };
 
 // All line tracks with views in the window. Every view belongs to a frame of the window.
@@ -33,8 +32,7 @@ class LineMap : public LandmarkMap<LineLandmark> {
 
   // Triangulates what can be. Lines whose sightings contradict each other are removed, those with
   // too little baseline wait.
-  LineTriangulationCounts Triangulate(const SlidingWindow& window,
-                                      const LineTriangulationOptions& options, double max_length);
+  LineTriangulationCounts Triangulate(const SlidingWindow& window, const LineLimits& limits);
 
   // Judges the triangulated lines by all their views: removes single views that do not fit, lines
   // behind a camera, longer than allowed or with too large a mean error. Returns how many lines and

@@ -4,7 +4,8 @@
 namespace plm_vins {
 
 // Adds to a sum that forgets `share` of itself with each addend.
-inline void AddForgetting(double share, double addend, double* sum) {
+template <typename Value>
+void AddForgetting(double share, const Value& addend, Value* sum) {
   *sum += addend - share * *sum;
 }
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "common/measurements.h"
+#include "vins_estimator/monitoring/forgetting_sum.h"
 
 namespace plm_vins {
 namespace {
@@ -59,9 +59,9 @@ double ImuMonitor::noise_scale() const {
 }
 
 void ImuMonitor::FollowTurn(const Eigen::Vector3d& turn_residual) {
-  turns_ += turn_residual - kForgetting * turns_;
-  squared_turns_ += turn_residual.squaredNorm() - kForgetting * squared_turns_;
-  images_ += 1 - kForgetting * images_;
+  AddForgetting(kForgetting, turn_residual, &turns_);
+  AddForgetting(kForgetting, turn_residual.squaredNorm(), &squared_turns_);
+  AddForgetting(kForgetting, 1.0, &images_);
 }
 
 bool ImuMonitor::NoiseHasOneDirection() const {

@@ -11,7 +11,8 @@ namespace {
 constexpr double kForgetting = 0.02;    // per image: two and a half seconds at 20 Hz
 constexpr double kMinRatio = 4.0;       // of the variance along the turn to that across it
 constexpr double kMinDeviation = 1e-3;  // [s]
-constexpr double kMinRate = 1e-2;       // [rad^4/s^4], sum: without turns there is nothing to see
+// Sum of the products of two squared rates [rad^4/s^4]: without turns there is nothing to see.
+constexpr double kMinSquaredRates = 1e-2;
 
 // How a state changes with time, in the coordinates of R_B_W [per second].
 Vector15d Change(const Eigen::Matrix3d& R_B_W, const FrameState& state, const ImuSample& sample,
@@ -34,15 +35,16 @@ void StampJitterMonitor::Add(const Eigen::Vector3d& rotation_residual,
   AddForgetting(kForgetting, squared_rate * rotation_residual.squaredNorm() - along * along,
                 &across_);
   AddForgetting(kForgetting, along * along_before_, &common_);
-  AddForgetting(kForgetting, squared_rate * rate_before_, &rates_);
+  AddForgetting(kForgetting, squared_rate * squared_rate_before_, &squared_rates_);
   along_before_ = along;
-  rate_before_ = squared_rate;
+  squared_rate_before_ = squared_rate;
 }
 
 // Across the turn there are two directions.
 double StampJitterMonitor::deviation() const {
-  if (rates_ < kMinRate || along_ < kMinRatio * across_ / 2 || common_ >= 0) return 0;
-  const double deviation = std::sqrt(-common_ / rates_);
+  if (squared_rates_ < kMinSquaredRates || along_ < kMinRatio * across_ / 2 || common_ >= 0)
+    return 0;
+  const double deviation = std::sqrt(-common_ / squared_rates_);
   return deviation > kMinDeviation ? deviation : 0;
 }
 

@@ -24,8 +24,8 @@ class StampJitterMonitor {
   // Sums that forget: of the squared residual along the turn and across it, each weighed with the
   // squared rate, of what the one along has in common with that of the interval before, and of the
   // squared rates of both.
-  double along_ = 0, across_ = 0, common_ = 0, rates_ = 0;
-  double along_before_ = 0, rate_before_ = 0;  // of the interval before, not squared and squared
+  double along_ = 0, across_ = 0, common_ = 0, squared_rates_ = 0;
+  double along_before_ = 0, squared_rate_before_ = 0;  // of the interval before
 };
 
 // Of the interval between two images the stamps of which err by this deviation [s]. `gravity_W` is

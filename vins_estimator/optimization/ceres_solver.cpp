@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "vins_estimator/factors/manifolds.h"
+#include "vins_estimator/optimization/ceres_manifold.h"
 #include "vins_estimator/optimization/factor_cost.h"
 #include "vins_estimator/optimization/prior_cost.h"
 #include "vins_estimator/problem/term_evaluation.h"
@@ -67,7 +67,7 @@ class CeresProblem {
       const VariableType& type = variable.type();
       std::copy(variable.values, variable.values + type.ambient_size, block);
       problem_.AddParameterBlock(block, type.ambient_size);
-      SetManifold(&problem_, block, {type.ambient_size, type.tangent_size, type.plus, type.minus});
+      SetManifold(&problem_, block, type);
       if (variable.constant) problem_.SetParameterBlockConstant(block);
       blocks_.push_back(block);
       block += kMaxAmbientSize;

@@ -50,24 +50,24 @@ void PlyPointWriter::Finish() {
   file_.Close();
 }
 
-void WriteSegmentsPly(const std::vector<Segment>& segments, std::ostream* stream) {
-  *stream << kFormat << "element vertex " << 2 * segments.size() << "\n"
-          << kCoordinates << "element edge " << segments.size() << "\n"
+void WriteSegmentsPly(const std::vector<MapLine>& lines, std::ostream* stream) {
+  *stream << kFormat << "element vertex " << 2 * lines.size() << "\n"
+          << kCoordinates << "element edge " << lines.size() << "\n"
           << "property int vertex1\nproperty int vertex2\n"
           << "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
-  for (const Segment& segment : segments) {
-    *stream << FormatPoint(segment.start) << FormatPoint(segment.end);
+  for (const MapLine& line : lines) {
+    *stream << FormatPoint(line.start_W) << FormatPoint(line.end_W);
   }
-  for (size_t i = 0; i < segments.size(); ++i) {
-    *stream << 2 * i << " " << 2 * i + 1 << " " << Color(segments[i].axis) << "\n";
+  for (size_t i = 0; i < lines.size(); ++i) {
+    *stream << 2 * i << " " << 2 * i + 1 << " " << Color(lines[i].axis) << "\n";
   }
 }
 
-void WriteSegmentsObj(const std::vector<Segment>& segments, std::ostream* stream) {
-  for (const Segment& segment : segments) {
-    *stream << "v " << FormatPoint(segment.start) << "v " << FormatPoint(segment.end);
+void WriteSegmentsObj(const std::vector<MapLine>& lines, std::ostream* stream) {
+  for (const MapLine& line : lines) {
+    *stream << "v " << FormatPoint(line.start_W) << "v " << FormatPoint(line.end_W);
   }
-  for (size_t i = 0; i < segments.size(); ++i) {
+  for (size_t i = 0; i < lines.size(); ++i) {
     *stream << "l " << 2 * i + 1 << " " << 2 * i + 2 << "\n";
   }
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/io/output_file.h"
-#include "vins_estimator/state/line_axis.h"
+#include "vins_estimator/state/map_elements.h"
 
 namespace plm_vins {
 
@@ -29,16 +29,9 @@ class PlyPointWriter {
   int64_t size_ = 0;
 };
 
-// A line segment in the world [m], and the axis of the Manhattan frame that it runs along.
-struct Segment {
-  Eigen::Vector3d start = Eigen::Vector3d::Zero();
-  Eigen::Vector3d end = Eigen::Vector3d::Zero();
-  LineAxis axis = LineAxis::kFree;
-};
-
-// Segments as edges between vertices (ASCII PLY), red, green and blue along the axes x, y and z,
-// grey where free; and as Wavefront OBJ, without.
-void WriteSegmentsPly(const std::vector<Segment>& segments, std::ostream* stream);
-void WriteSegmentsObj(const std::vector<Segment>& segments, std::ostream* stream);
+// Seen parts of lines as edges between vertices (ASCII PLY), red, green and blue along the axes x,
+// y and z, grey where free; and as Wavefront OBJ, without.
+void WriteSegmentsPly(const std::vector<MapLine>& lines, std::ostream* stream);
+void WriteSegmentsObj(const std::vector<MapLine>& lines, std::ostream* stream);
 
 }  // namespace plm_vins

@@ -5,6 +5,15 @@
 
 namespace plm_vins {
 
+MarginalizationPrior::Block MarginalizationPrior::MakeBlock(const BlockId& id, int offset,
+                                                            const double* values) {
+  MarginalizationPrior::Block block;
+  block.id = id;
+  block.offset = offset;
+  std::copy(values, values + VariableTypeOf(id.kind).ambient_size, block.linearization.begin());
+  return block;
+}
+
 const double* MarginalizationPrior::Linearization(const BlockId& id) const {
   for (const Block& block : blocks_) {
     if (block.id == id) return block.linearization.data();

@@ -25,6 +25,9 @@ class MarginalizationPrior {
     std::array<double, kMaxAmbientSize> linearization = {};
   };
 
+  // A block whose linearisation point is at `values`.
+  static Block MakeBlock(const BlockId& id, int offset, const double* values);
+
   MarginalizationPrior() = default;
   MarginalizationPrior(std::vector<Block> blocks, Quadratic quadratic)
       : blocks_(std::move(blocks)), quadratic_(std::move(quadratic)) {}

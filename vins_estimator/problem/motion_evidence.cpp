@@ -8,11 +8,14 @@
 namespace plm_vins {
 namespace {
 
-// That of the same samples with no other noise than this.
+// That of the same samples with no other noise than this, nor any doubt about them.
 Matrix15d CovarianceFrom(const ImuNoise& noise, const Preintegration& motion) {
   Preintegration alone(noise, motion.linearization_bias());
-  for (const ImuSample& sample : motion.samples()) alone.Append(sample);
-  return alone.covariance();
+  for (ImuSample sample : motion.samples()) {
+    sample.gyro_doubt = sample.accel_doubt = 0;
+    alone.Append(sample);
+  }
+  return alone.Covariance();
 }
 
 // Of the residual, from that of the states at both ends.
@@ -41,7 +44,7 @@ std::optional<ImuNoiseEvidence> EvidenceOfMotion(const SlidingWindow& window,
       ImuResidual(motion, window.gravity_W, begin.state, end.state, &jacobians);
   const auto known = SolutionCovariance(begin.state.t_ns, end.state.t_ns, jacobians, equations);
   if (!known) return std::nullopt;
-  const Eigen::LLT<Matrix15d> assumed(motion.covariance());
+  const Eigen::LLT<Matrix15d> assumed(motion.Covariance());
   const Vector15d weighted = assumed.solve(residual);
   const Matrix15d P = assumed.solve(Matrix15d::Identity() - assumed.solve(*known).transpose());
   const auto evidence = [&](double density, const ImuNoise& source) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/camera/camera_model.h"
+#include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/geometry/plucker.h"
 
 namespace plm_vins {
@@ -41,7 +42,7 @@ VariableType VectorVariable() {
 }  // namespace
 
 const VariableType& PoseVariable() {
-  static const VariableType type{7, 6, &PosePlus, &PoseMinus};
+  static const VariableType type{kPoseSize, kPoseTangentSize, &PosePlus, &PoseMinus};
   return type;
 }
 

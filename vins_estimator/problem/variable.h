@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/problem/block_id.h"
 
 namespace plm_vins {
+
+using PlusFunction = void (*)(const double* x, const double* delta, double* x_plus_delta);
+using MinusFunction = void (*)(const double* y, const double* x, double* y_minus_x);
 
 // How a variable's values change by a tangent vector.
 struct VariableType {

@@ -1,19 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/problem/window_problem.h"
 
-#include <algorithm>
-
 namespace plm_vins {
-
-ResidualTerm WindowProblem::MakeTerm(const Factor* cost, const ceres::LossFunction* loss,
-                                     std::initializer_list<int> variables) {
-  ResidualTerm term;
-  term.cost = cost;
-  term.loss = loss;
-  term.variable_count = static_cast<int>(variables.size());
-  std::copy(variables.begin(), variables.end(), term.variables.begin());
-  return term;
-}
 
 int WindowProblem::AddVariable(const BlockId& id, double* values, bool constant,
                                const double* linearization) {

@@ -3,8 +3,8 @@
 
 #include <ceres/loss_function.h>
 
+#include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <memory_resource>
 #include <type_traits>
 #include <unordered_map>
@@ -48,19 +48,19 @@ class WindowProblem {
   int AddVariable(const BlockId& id, double* values, bool constant = false,
                   const double* linearization = nullptr);
 
-  // With a copy of the factor; of the loss, only the address.
-  template <typename FactorType>
+  // With a copy of the factor; of the loss, only the address. One variable for each of its blocks.
+  template <typename FactorType, int kCount>
   void AddTerm(const FactorType& factor, const ceres::LossFunction* loss,
-               std::initializer_list<int> variables) {
-    terms_.push_back(MakeTerm(Keep(factor), loss, variables));
+               const int (&variables)[kCount]) {
+    terms_.push_back(MakeTerm(factor, loss, variables));
   }
 
   // A landmark, and the terms that see it. Returns the landmark's index.
   int AddLandmark(const BlockId& id, double* values);
-  template <typename FactorType>
+  template <typename FactorType, int kCount>
   void AddLandmarkTerm(int landmark, const FactorType& factor, const ceres::LossFunction* loss,
-                       std::initializer_list<int> variables) {
-    landmarks_[landmark].terms.push_back(MakeTerm(Keep(factor), loss, variables));
+                       const int (&variables)[kCount]) {
+    landmarks_[landmark].terms.push_back(MakeTerm(factor, loss, variables));
   }
   void ReserveLandmarkTerms(int landmark, size_t count) {
     landmarks_[landmark].terms.reserve(count);
@@ -86,8 +86,14 @@ class WindowProblem {
     return new (memory_.allocate(sizeof(FactorType), alignof(FactorType))) FactorType(factor);
   }
 
-  static ResidualTerm MakeTerm(const Factor* cost, const ceres::LossFunction* loss,
-                               std::initializer_list<int> variables);
+  template <typename FactorType, int kCount>
+  ResidualTerm MakeTerm(const FactorType& factor, const ceres::LossFunction* loss,
+                        const int (&variables)[kCount]) {
+    static_assert(kCount == FactorType::kBlocks && kCount <= ResidualTerm::kMaxVariables);
+    ResidualTerm term{Keep(factor), loss, {}, kCount};
+    std::copy(variables, variables + kCount, term.variables.begin());
+    return term;
+  }
 
   std::pmr::monotonic_buffer_resource memory_{kUsualSize};
   std::vector<Variable> variables_;

@@ -17,10 +17,9 @@ SeenLine Rotated(const Eigen::Quaterniond& R_F_W, const SeenLine& line_W) {
 
 // Whether two lines could be near each other: the spheres around them touch.
 bool MayTouch(const SeenLine& a, const SeenLine& b, double distance) {
-  constexpr double kDeviations = 3.0;
   const double between = (a.start_F + a.end_F - b.start_F - b.end_F).norm();  // twice
   const double lengths = (a.end_F - a.start_F).norm() + (b.end_F - b.start_F).norm();
-  return between < lengths + 2 * (distance + kDeviations * (a.place_sigma + b.place_sigma));
+  return between < lengths + 2 * (distance + kLineDeviations * (a.place_sigma + b.place_sigma));
 }
 
 // How far the views of a landmark are from the image of another line, at most.

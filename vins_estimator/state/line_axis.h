@@ -9,19 +9,6 @@ namespace plm_vins {
 // The axis of the Manhattan frame M that a line runs along; free where it runs along none.
 enum class LineAxis { kFree, kX, kY, kZ };
 
-inline const char* ToString(LineAxis axis) {
-  switch (axis) {
-    case LineAxis::kX:
-      return "x";
-    case LineAxis::kY:
-      return "y";
-    case LineAxis::kZ:
-      return "z";
-    default:
-      return "free";
-  }
-}
-
 // Unit vector in M; not for kFree.
 inline Eigen::Vector3d UnitVector(LineAxis axis) {
   switch (axis) {

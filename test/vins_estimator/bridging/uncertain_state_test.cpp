@@ -67,7 +67,7 @@ TEST(UncertainState, TheNoiseIsThatOfTheIntervalInTheWorld) {
   const Preintegration motion = Motion();
   const UncertainState end = Propagate({Start()}, motion, kGravity_W);
   const Eigen::Matrix3d R_W_B0 = Start().rotation().toRotationMatrix();
-  const Matrix15d noise = motion.covariance();
+  const Matrix15d noise = motion.Covariance();
   EXPECT_MATRIX_NEAR((end.covariance.topLeftCorner<3, 3>()),
                      R_W_B0 * (noise.topLeftCorner<3, 3>()) * R_W_B0.transpose(), 1e-12);
   EXPECT_GT(end.covariance(0, 0), 0);

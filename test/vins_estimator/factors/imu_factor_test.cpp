@@ -126,7 +126,7 @@ TEST_F(ImuFactorTest, IsWhitenedByThePreintegratedCovariance) {
   end.position() += Vector3d(0.01, 0, 0);
   end.gyro_bias() += Vector3d(0, 1e-4, 0);
   const Vector15d residual = ImuResidual(preintegration, kGravity_W, start, end, nullptr);
-  const double mahalanobis = residual.dot(preintegration.covariance().ldlt().solve(residual));
+  const double mahalanobis = residual.dot(preintegration.Covariance().ldlt().solve(residual));
   EXPECT_NEAR(testing::Residual(factor, Blocks(start, end)).squaredNorm() / mahalanobis, 1.0, 1e-6);
 }
 

@@ -173,7 +173,7 @@ TEST(Preintegration, RepropagationEqualsIntegratingAnew) {
   const Preintegration anew = Integrate(Flight(3.0, 3.2), bias);
   EXPECT_MATRIX_NEAR(repropagated.delta_p(), anew.delta_p(), 0.0);
   EXPECT_MATRIX_NEAR(repropagated.jacobian(), anew.jacobian(), 0.0);
-  EXPECT_MATRIX_NEAR(repropagated.covariance(), anew.covariance(), 0.0);
+  EXPECT_MATRIX_NEAR(repropagated.Covariance(), anew.Covariance(), 0.0);
   EXPECT_MATRIX_NEAR(repropagated.SqrtInformation(), anew.SqrtInformation(), 0.0);
 }
 
@@ -182,7 +182,7 @@ TEST(Preintegration, SqrtInformationIsTheUpperFactorOfTheInverse) {
     const Preintegration result = Integrate(Flight(3.0, 3.0 + duration));
     const Matrix15d& U = result.SqrtInformation();
     EXPECT_TRUE(U.isUpperTriangular(0.0));
-    EXPECT_MATRIX_NEAR(U * result.covariance() * U.transpose(), Matrix15d::Identity(), 1e-8);
+    EXPECT_MATRIX_NEAR(U * result.Covariance() * U.transpose(), Matrix15d::Identity(), 1e-8);
   }
 }
 
@@ -201,7 +201,7 @@ class MonteCarlo {
   explicit MonteCarlo(const ImuNoise& noise)
       : noise_(noise), clean_(Flight(3.0, 3.5)), truth_(Integrate(clean_)), random_(7) {}
 
-  Matrix15d Covariance() { return Integrate(clean_, ImuBias(), noise_).covariance(); }
+  Matrix15d Covariance() { return Integrate(clean_, ImuBias(), noise_).Covariance(); }
 
   Vector15d DrawError() {
     const double dt = 0.005;
@@ -272,7 +272,7 @@ TEST(Preintegration, AGapAddsTheUncertaintyOfARandomWalkBetweenItsEnds) {
   end.t_ns = 200'000'000;
   const Preintegration over_gap = Integrate({begin, end});
   EXPECT_TRUE(over_gap.HasGap());
-  const Matrix15d gap = over_gap.covariance();
+  const Matrix15d gap = over_gap.Covariance();
   const double bridge = std::pow(0.2, 3) / 12.0;  // walks of 1 rad/s/sqrt(s), 5 m/s^2/sqrt(s)
   EXPECT_NEAR(gap(Index::kRotation, Index::kRotation), bridge, 0.01 * bridge);
   EXPECT_NEAR(gap(Index::kVelocity, Index::kVelocity), 25 * bridge, 0.25 * bridge);
@@ -280,17 +280,17 @@ TEST(Preintegration, AGapAddsTheUncertaintyOfARandomWalkBetweenItsEnds) {
   const Preintegration without_gap =
       Integrate(ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.2, 200));
   EXPECT_FALSE(without_gap.HasGap());
-  const Matrix15d sampled = without_gap.covariance();
+  const Matrix15d sampled = without_gap.Covariance();
   EXPECT_GT(gap(Index::kPosition, Index::kPosition),
             100 * sampled(Index::kPosition, Index::kPosition));
 }
 
 TEST(Preintegration, ADoubtfulReadingAddsItsDoubtOverTheTimeThatItStandsFor) {
   std::vector<ImuSample> samples = ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.1, 200);
-  const Matrix15d sure = Integrate(samples).covariance();
+  const Matrix15d sure = Integrate(samples).Covariance();
   samples[10].gyro_doubt = 4;
   samples[10].accel_doubt = 20;
-  const Matrix15d doubtful = Integrate(samples).covariance();
+  const Matrix15d doubtful = Integrate(samples).Covariance();
   // Half of the reading counts in either interval beside it, of 5 ms each.
   const double share = 2 * std::pow(0.5 * 0.005, 2);
   const Matrix15d added = doubtful - sure;
@@ -301,15 +301,15 @@ TEST(Preintegration, ADoubtfulReadingAddsItsDoubtOverTheTimeThatItStandsFor) {
 
 TEST(Preintegration, ABiasStepActsFromTheStartOfTheInterval) {
   Preintegration motion = Integrate(ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.1, 200));
-  const Matrix15d before = motion.covariance();
+  const Matrix15d before = motion.Covariance();
   motion.AllowBiasStep({0.2, 0.5});
-  const Matrix15d added = motion.covariance() - before;
+  const Matrix15d added = motion.Covariance() - before;
   EXPECT_NEAR(added(Index::kGyroBias, Index::kGyroBias), 0.04, 1e-12);
   EXPECT_NEAR(added(Index::kAccelBias, Index::kAccelBias), 0.25, 1e-12);
   EXPECT_NEAR(added(Index::kRotation, Index::kRotation), 0.04 * 0.01, 1e-9);
   EXPECT_NEAR(added(Index::kVelocity, Index::kVelocity), 0.25 * 0.01, 1e-9);
   const Matrix15d whitened =
-      motion.SqrtInformation() * motion.covariance() * motion.SqrtInformation().transpose();
+      motion.SqrtInformation() * motion.Covariance() * motion.SqrtInformation().transpose();
   EXPECT_MATRIX_NEAR(whitened, Matrix15d::Identity(), 1e-6);
 }
 
@@ -326,7 +326,7 @@ TEST(Preintegration, AnotherNoiseChangesTheCovarianceAlone) {
   expected.AllowBiasStep({0.1, 0.2});
   EXPECT_TRUE(reweighed.HasBiasStep());
   EXPECT_EQ(reweighed.delta_v(), delta_v);
-  EXPECT_EQ(reweighed.covariance(), expected.covariance());
+  EXPECT_EQ(reweighed.Covariance(), expected.Covariance());
   EXPECT_EQ(reweighed.SqrtInformation(), expected.SqrtInformation());
 }
 
@@ -335,14 +335,14 @@ TEST(Preintegration, JoinedIntervalsKeepTheirNoiseAndSteps) {
   const std::vector<ImuSample> first(samples.begin(), samples.begin() + 11);
   const std::vector<ImuSample> second(samples.begin() + 10, samples.end());
   Preintegration joined = Integrate(first);
-  const double alone = joined.covariance()(Index::kVelocity, Index::kVelocity);
+  const double alone = joined.Covariance()(Index::kVelocity, Index::kVelocity);
   Preintegration noisy(Scaled(joined.noise(), 9), {});
   for (const ImuSample& sample : second) noisy.Append(sample);
   noisy.AllowBiasStep({0.1, 0});
   joined.Join(noisy);
   EXPECT_EQ(joined.samples().size(), samples.size());
   EXPECT_EQ(joined.bias_step().gyro, 0.1);
-  EXPECT_NEAR(joined.covariance()(Index::kVelocity, Index::kVelocity), (1 + 9) * alone,
+  EXPECT_NEAR(joined.Covariance()(Index::kVelocity, Index::kVelocity), (1 + 9) * alone,
               0.05 * alone);
 }
 
@@ -361,14 +361,14 @@ TEST(Preintegration, JoinedIntervalsErrByTheStampsOfTheirEnds) {
   turned.head<3>() = R_B0_B1 * end.head<3>();
   turned.segment<3>(Index::kVelocity) = R_B0_B1 * end.segment<3>(Index::kVelocity);
   const Vector15d moved = whole.jacobian() * start;
-  EXPECT_MATRIX_NEAR(joined.covariance(),
-                     whole.covariance() + moved * moved.transpose() + turned * turned.transpose(),
+  EXPECT_MATRIX_NEAR(joined.Covariance(),
+                     whole.Covariance() + moved * moved.transpose() + turned * turned.transpose(),
                      1e-12);
 }
 
 TEST(Preintegration, CovarianceHardlyDependsOnTheSampleRate) {
-  const Matrix15d slow = Integrate(Flight(3.0, 3.5, 100)).covariance();
-  const Matrix15d fast = Integrate(Flight(3.0, 3.5, 1000)).covariance();
+  const Matrix15d slow = Integrate(Flight(3.0, 3.5, 100)).Covariance();
+  const Matrix15d fast = Integrate(Flight(3.0, 3.5, 1000)).Covariance();
   for (int i = 0; i < 15; ++i) EXPECT_NEAR(slow(i, i) / fast(i, i), 1.0, 0.03) << i;
 }
 

@@ -103,18 +103,18 @@ TEST_F(AlignmentTest, RefusesAnotherPlanetsGravity) {
 
 TEST_F(AlignmentTest, FindsTheGyroBias) {
   Simulate(simulator::Motion::kFast, 2, /*noise=*/true);
-  const auto gyro = EstimateGyroBias(Rotations(1e6), &reason_);
-  ASSERT_TRUE(gyro) << reason_;
-  EXPECT_LT((gyro->bias - gyro_bias_).norm(), 5e-4);
+  const auto gyro_bias = EstimateGyroBias(Rotations(1e6), &reason_);
+  ASSERT_TRUE(gyro_bias) << reason_;
+  EXPECT_LT((*gyro_bias - gyro_bias_).norm(), 5e-4);
 }
 
 TEST_F(AlignmentTest, OneWrongRotationDoesNotSpoilTheGyroBias) {
   Simulate(simulator::Motion::kFast, 2, /*noise=*/true);
   auto rotations = Rotations(1e6);
   rotations[3].R_B0_B1 = rotations[3].R_B0_B1 * SO3Exp({0.1, 0, 0});
-  const auto gyro = EstimateGyroBias(rotations, &reason_);
-  ASSERT_TRUE(gyro) << reason_;
-  EXPECT_LT((gyro->bias - gyro_bias_).norm(), 2e-3);
+  const auto gyro_bias = EstimateGyroBias(rotations, &reason_);
+  ASSERT_TRUE(gyro_bias) << reason_;
+  EXPECT_LT((*gyro_bias - gyro_bias_).norm(), 2e-3);
 }
 
 TEST_F(AlignmentTest, GyroBiasWithoutRotationsIsRefused) {

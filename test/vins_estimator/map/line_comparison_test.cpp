@@ -61,7 +61,7 @@ class SeeTest : public ::testing::Test {
                      (end_W_ - frame.state.position()).hnormalized()}};
       lines.AddFrame(seen);
     }
-    lines.Triangulate(window_, LineTriangulationOptions(kNoise), /*max_length=*/10);
+    lines.Triangulate(window_, LineLimits(kNoise, /*max_length=*/10));
     line_ = lines.landmarks().at(1);
   }
 

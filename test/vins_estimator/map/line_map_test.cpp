@@ -75,7 +75,7 @@ class LineMapTest : public ::testing::Test {
   }
 
   LineTriangulationCounts Triangulate(double max_length = kMaxLength) {
-    return map_.Triangulate(window_, LineTriangulationOptions(kNoise), max_length);
+    return map_.Triangulate(window_, LineLimits(kNoise, max_length));
   }
 
   void ExpectInPlace(const LineLandmark& landmark) const {
@@ -150,8 +150,7 @@ TEST_F(LineMapTest, AFrameMayHaveNoLines) {
   LineMap empty;
   empty.AddFrame(LineFrame());
   EXPECT_TRUE(empty.landmarks().empty());
-  EXPECT_EQ(empty.Triangulate(window_, LineTriangulationOptions(kNoise), kMaxLength).triangulated,
-            0);
+  EXPECT_EQ(empty.Triangulate(window_, LineLimits(kNoise, kMaxLength)).triangulated, 0);
   EXPECT_EQ(empty.RemoveOutliers(window_, LineLimits(kNoise, kMaxLength)), 0);
   empty.RemoveFrame(window_, Stamp(0));
   empty.StartAnew(window_, Stamp(0), [](const LineLandmark&) { FAIL(); });
@@ -284,10 +283,10 @@ TEST_F(LineMapTest, ObservedSegmentIsInFrontOfItsCameras) {
 TEST_F(LineMapTest, RemovesOutlyingViewsAndLines) {
   const LineLimits limits(kNoise, kMaxLength);
   Triangulate();
-  Shift(6 * limits.noise, &Landmark(1).views[2]);                              // one bad view
-  for (int i = 0; i < 4; ++i) Shift(4 * limits.noise, &Landmark(2).views[i]);  // on average
-  for (int i = 1; i < 4; ++i) Shift(6 * limits.noise, &Landmark(3).views[i]);  // all bad
-  Shift(4 * limits.noise, &Landmark(5).views[2]);  // the mean is still good
+  Shift(6 * kNoise, &Landmark(1).views[2]);                              // one bad view
+  for (int i = 0; i < 4; ++i) Shift(4 * kNoise, &Landmark(2).views[i]);  // on average
+  for (int i = 1; i < 4; ++i) Shift(6 * kNoise, &Landmark(3).views[i]);  // all bad
+  Shift(4 * kNoise, &Landmark(5).views[2]);                              // the mean is still good
   EXPECT_EQ(map_.RemoveOutliers(window_, limits), 1 + 1 + (3 + 1));
   EXPECT_EQ(Landmark(1).views.size(), 3u);
   EXPECT_EQ(Landmark(5).views.size(), 4u);
@@ -334,9 +333,9 @@ TEST_F(LineMapTest, RemovesAnchorViewsThatContradictTheLine) {
   const LineLimits limits(kNoise, kMaxLength);
   Triangulate();
   TurnOldestIntoAnchor();
-  Shift(4 * limits.noise, &Landmark(1).anchor_views[0]);
+  Shift(4 * kNoise, &Landmark(1).anchor_views[0]);
   EXPECT_EQ(map_.RemoveOutliers(window_, limits), 0);
-  Shift(2 * limits.noise, &Landmark(1).anchor_views[0]);
+  Shift(2 * kNoise, &Landmark(1).anchor_views[0]);
   EXPECT_EQ(map_.RemoveOutliers(window_, limits), 1);
   EXPECT_TRUE(Landmark(1).anchor_views.empty());
   EXPECT_EQ(Landmark(1).views.size(), 3u);

@@ -42,7 +42,7 @@ class LocalMapTest : public ::testing::Test {
 
   void Triangulate() {
     map_.points.Triangulate(map_.window, /*min_angle=*/0.01);
-    map_.lines.Triangulate(map_.window, LineTriangulationOptions(kNoise), /*max_length=*/10);
+    map_.lines.Triangulate(map_.window, LineLimits(kNoise, /*max_length=*/10));
   }
 
   // Throws where a view is of a frame that is no more.

@@ -86,7 +86,7 @@ TEST(SlidingWindow, RemovingTheSecondNewestJoinsTheImu) {
   EXPECT_MATRIX_NEAR(joined.delta_p(), expected.delta_p(), 1e-12);
   EXPECT_MATRIX_NEAR(joined.delta_v(), expected.delta_v(), 1e-12);
   EXPECT_LT(joined.delta_q().angularDistance(expected.delta_q()), 1e-7);
-  EXPECT_MATRIX_NEAR(joined.covariance(), expected.covariance(), 1e-15);
+  EXPECT_MATRIX_NEAR(joined.Covariance(), expected.Covariance(), 1e-15);
   EXPECT_MATRIX_NEAR(joined.jacobian(), expected.jacobian(), 1e-12);
   EXPECT_NEAR(joined.duration(), 0.15, 1e-12);
 }

@@ -85,7 +85,7 @@ LineMap Observe(const Place& place, double noise, const SlidingWindow& window, i
 }
 
 void Triangulate(const SlidingWindow& window, LineMap* map) {
-  map->Triangulate(window, LineTriangulationOptions(5 * kNoise), /*max_length=*/10);
+  map->Triangulate(window, LineLimits(5 * kNoise, /*max_length=*/10));
 }
 
 // Of this many with other noise each, how many are found to wander?

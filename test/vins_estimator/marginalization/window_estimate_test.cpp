@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "test/vins_estimator/simulated_window.h"
-#include "vins_estimator/marginalization/window_marginalizer.h"
+#include "vins_estimator/problem/initial_prior.h"
 
 namespace plm_vins {
 namespace {

@@ -10,6 +10,7 @@
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_problem.h"
 #include "vins_estimator/marginalization/window_estimate.h"
+#include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/problem/normal_equations.h"
 
 namespace plm_vins {
@@ -79,40 +80,6 @@ void ExpectSamePrior(const MarginalizationPrior& a, const MarginalizationPrior& 
   const VectorXd scaled_b = scale.cwiseProduct(b.quadratic().b);
   EXPECT_MATRIX_NEAR(VectorXd(scale.cwiseProduct(a.quadratic().b)), scaled_b,
                      1e-7 * scaled_b.norm());
-}
-
-TEST(InitialPrior, IsTheStatedUncertaintyOfTheFirstState) {
-  SimulatedWindow simulated = testing::SimulateWindow(2);
-  const InitialUncertainty uncertainty;
-  ProblemOptions options = testing::OnePixelOptions();
-  const MarginalizationPrior prior = InitialPrior(uncertainty, options, simulated.window);
-  const MatrixXd covariance = prior.quadratic().H.inverse();
-  ASSERT_EQ(covariance.rows(), 15);
-  EXPECT_TRUE(prior.quadratic().b.isZero(0));
-  EXPECT_NEAR(std::sqrt(covariance(0, 0)), uncertainty.position, 1e-9);
-  const Eigen::Matrix3d R_W_B = simulated.window.frames[0].state.T_W_B().R();
-  const Eigen::Matrix3d in_world = R_W_B * covariance.block<3, 3>(3, 3) * R_W_B.transpose();
-  EXPECT_NEAR(std::sqrt(in_world(0, 0)), uncertainty.inclination, 1e-9);
-  EXPECT_NEAR(std::sqrt(in_world(2, 2)), uncertainty.heading, 1e-9);
-  EXPECT_NEAR(std::sqrt(covariance(8, 8)), uncertainty.velocity, 1e-9);
-  EXPECT_NEAR(std::sqrt(covariance(11, 11)), uncertainty.accel_bias, 1e-9);
-  EXPECT_NEAR(std::sqrt(covariance(14, 14)), uncertainty.gyro_bias, 1e-9);
-
-  options.estimate_extrinsic = options.estimate_td = options.estimate_readout = true;
-  options.estimate_intrinsics = true;
-  const MarginalizationPrior all = InitialPrior(uncertainty, options, simulated.window);
-  const MatrixXd all_covariance = all.quadratic().H.inverse();
-  ASSERT_EQ(all_covariance.rows(), 31);
-  EXPECT_NEAR(std::sqrt(all_covariance(20, 20)), uncertainty.extrinsic_rotation, 1e-9);
-  EXPECT_NEAR(std::sqrt(all_covariance(21, 21)), uncertainty.td, 1e-9);
-  EXPECT_NEAR(std::sqrt(all_covariance(22, 22)), uncertainty.readout, 1e-9);
-  const Intrinsics& intrinsics = simulated.window.intrinsics;
-  const IntrinsicsDeviation& deviation = uncertainty.intrinsics;
-  EXPECT_NEAR(std::sqrt(all_covariance(23, 23)), deviation.focal_length * intrinsics[0], 1e-9);
-  EXPECT_NEAR(std::sqrt(all_covariance(24, 24)), deviation.focal_length * intrinsics[1], 1e-9);
-  EXPECT_NEAR(std::sqrt(all_covariance(26, 26)), deviation.principal_point, 1e-9);
-  EXPECT_NEAR(std::sqrt(all_covariance(27, 27)), deviation.distortion, 1e-9);
-  EXPECT_NEAR(std::sqrt(all_covariance(30, 30)), deviation.distortion, 1e-9);
 }
 
 // One Gauss-Newton step of the reduced window is the step of the whole, at the same linearisation.

@@ -15,7 +15,7 @@
 #include "test/vins_estimator/simulated_problem.h"
 #include "vins_estimator/manhattan/line_directions.h"
 #include "vins_estimator/marginalization/window_estimate.h"
-#include "vins_estimator/marginalization/window_marginalizer.h"
+#include "vins_estimator/problem/initial_prior.h"
 
 namespace plm_vins {
 namespace {

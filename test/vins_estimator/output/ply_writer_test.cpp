@@ -31,7 +31,7 @@ TEST(PlyPointWriter, AnEmptyMapIsValid) {
 
 TEST(Segments, PlyJoinsVerticesByEdgesInTheColorsOfTheirAxes) {
   std::ostringstream stream;
-  WriteSegmentsPly({{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 2}, LineAxis::kZ}}, &stream);
+  WriteSegmentsPly({{7, {0, 0, 0}, {1, 0, 0}}, {8, {0, 1, 0}, {0, 1, 2}, LineAxis::kZ}}, &stream);
   EXPECT_EQ(stream.str(), std::string("ply\nformat ascii 1.0\nelement vertex 4\n") +
                               kVertexProperties +
                               "element edge 2\nproperty int vertex1\nproperty int vertex2\n"
@@ -44,7 +44,7 @@ TEST(Segments, PlyJoinsVerticesByEdgesInTheColorsOfTheirAxes) {
 
 TEST(Segments, ObjCountsFromOne) {
   std::ostringstream stream;
-  WriteSegmentsObj({{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 2}}}, &stream);
+  WriteSegmentsObj({{7, {0, 0, 0}, {1, 0, 0}}, {8, {0, 1, 0}, {0, 1, 2}}}, &stream);
   EXPECT_EQ(stream.str(),
             "v 0.0000 0.0000 0.0000\nv 1.0000 0.0000 0.0000\n"
             "v 0.0000 1.0000 0.0000\nv 0.0000 1.0000 2.0000\n"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "test/vins_estimator/simulated_problem.h"
-#include "vins_estimator/marginalization/window_marginalizer.h"
+#include "vins_estimator/problem/initial_prior.h"
 
 namespace plm_vins {
 namespace {
@@ -83,11 +83,11 @@ TEST_F(ImuNoiseLearningTest, KeepsTheDoubtOfAnIntervalThatWasJoined) {
   doubted.Reweigh(Scaled(configured_, 1e4));
   doubted.AllowBiasStep({0.1, 0.1});
   doubted.Join(*window().frames[4].motion_since_previous);
-  const Matrix15d before = doubted.covariance();
+  const Matrix15d before = doubted.Covariance();
   ImuNoiseLearning learning(configured_);
   Learn(/*is_first=*/true, &learning);
   EXPECT_TRUE(learning.Reweigh(&window()));
-  EXPECT_EQ(doubted.covariance(), before);
+  EXPECT_EQ(doubted.Covariance(), before);
 }
 
 TEST_F(ImuNoiseLearningTest, ResetForgets) {

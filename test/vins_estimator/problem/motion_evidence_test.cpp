@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "test/vins_estimator/simulated_problem.h"
-#include "vins_estimator/marginalization/window_marginalizer.h"
 #include "vins_estimator/optimization/window_solver.h"
+#include "vins_estimator/problem/initial_prior.h"
 
 namespace plm_vins {
 namespace {
@@ -66,12 +66,28 @@ TEST(EvidenceOfMotion, ExpectsTheWholeResidualOfStatesThatAreKnown) {
   walks.accel_density = walks.gyro_density = 0;
   Preintegration walking = motion;
   walking.Reweigh(walks);
-  const double of_walks = motion.covariance().llt().solve(walking.covariance()).trace();
+  const double of_walks = motion.Covariance().llt().solve(walking.Covariance()).trace();
   EXPECT_NEAR(evidence.accel.expected + evidence.gyro.expected, 15 - of_walks, 1e-2);
   EXPECT_NEAR(of_walks, 6, 0.1);
   EXPECT_NEAR(evidence.gyro.expected, 3, 0.1);
   EXPECT_EQ(evidence.accel.assumed, motion.noise().accel_density);
   EXPECT_EQ(evidence.gyro.assumed, motion.noise().gyro_density);
+}
+
+TEST(EvidenceOfMotion, ExpectsNothingOfReadingsThatAreDoubted) {
+  SimulatedWindow simulated = testing::SimulateWindow(4);
+  SlidingWindow& window = simulated.window;
+  const auto sure = EvidenceWithoutImages(KnownStates(1e-7, window), &window);
+  Preintegration& motion = *window.frames[2].motion_since_previous;
+  Preintegration doubted(motion.noise(), motion.linearization_bias());
+  for (ImuSample sample : motion.samples()) {
+    sample.gyro_doubt = 1;
+    doubted.Append(sample);
+  }
+  motion = doubted;
+  const auto evidence = EvidenceWithoutImages(KnownStates(1e-7, window), &window);
+  EXPECT_LT(evidence.gyro.expected, 1e-3 * sure.gyro.expected);
+  EXPECT_LT(evidence.accel.expected, sure.accel.expected);
 }
 
 TEST(EvidenceOfMotion, ExpectsNothingWhereTheImuAloneTellsTheMotion) {

@@ -11,7 +11,7 @@
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/problem/dense_equations.h"
 #include "test/vins_estimator/simulated_problem.h"
-#include "vins_estimator/marginalization/window_marginalizer.h"
+#include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/problem/problem_builder.h"
 
 namespace plm_vins {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "test/vins_estimator/simulated_window.h"
-#include "vins_estimator/marginalization/window_marginalizer.h"
+#include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/problem/normal_equations.h"
 #include "vins_estimator/problem/term_evaluation.h"
 

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/problem/initial_prior.h"
+
+#include <Eigen/Core>
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+namespace plm_vins {
+namespace {
+
+// A prior on some variables, each by itself.
+class PriorBuilder {
+ public:
+  // The next variable, with this information on its tangent space.
+  void Add(const BlockId& id, const double* values, const Eigen::MatrixXd& information) {
+    const auto offset = H_.rows();
+    const auto size = offset + information.rows();
+    blocks_.push_back(MarginalizationPrior::MakeBlock(id, static_cast<int>(offset), values));
+    H_.conservativeResizeLike(Eigen::MatrixXd::Zero(size, size));
+    H_.bottomRightCorner(information.rows(), information.rows()) = information;
+  }
+
+  // The same by standard deviations.
+  void Add(const BlockId& id, const double* values, const Eigen::VectorXd& sigmas) {
+    Add(id, values, Eigen::MatrixXd(sigmas.cwiseAbs2().cwiseInverse().asDiagonal()));
+  }
+
+  MarginalizationPrior Build() {
+    return {std::move(blocks_), {H_, Eigen::VectorXd::Zero(H_.rows())}};
+  }
+
+ private:
+  std::vector<MarginalizationPrior::Block> blocks_;
+  Eigen::MatrixXd H_;
+};
+
+// So many of each standard deviation, one after the other.
+Eigen::VectorXd Sigmas(std::initializer_list<std::pair<int, double>> counts_and_values) {
+  std::vector<double> sigmas;
+  for (const auto& [count, value] : counts_and_values) sigmas.insert(sigmas.end(), count, value);
+  return Eigen::Map<const Eigen::VectorXd>(sigmas.data(), static_cast<Eigen::Index>(sigmas.size()));
+}
+
+// Information on a pose: on the position in the world, and on the rotation of the body, from the
+// uncertainty of its heading and its inclination in the world.
+Eigen::MatrixXd PoseInformation(const InitialUncertainty& uncertainty, const FrameState& state) {
+  const Eigen::Matrix3d R_W_B = state.rotation().toRotationMatrix();
+  const Eigen::Vector3d sigma(uncertainty.inclination, uncertainty.inclination,
+                              uncertainty.heading);
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(6, 6);
+  information.diagonal().head<3>().setConstant(1 / (uncertainty.position * uncertainty.position));
+  information.bottomRightCorner<3, 3>() =
+      R_W_B.transpose() * sigma.cwiseAbs2().cwiseInverse().asDiagonal() * R_W_B;
+  return information;
+}
+
+}  // namespace
+
+MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
+                                  const ProblemOptions& options, const SlidingWindow& window) {
+  const FrameState& state = window.frames.front().state;
+  PriorBuilder prior;
+  prior.Add({BlockKind::kPose, state.t_ns}, state.pose.data(), PoseInformation(uncertainty, state));
+  prior.Add(
+      {BlockKind::kMotion, state.t_ns}, state.motion.data(),
+      Sigmas({{3, uncertainty.velocity}, {3, uncertainty.accel_bias}, {3, uncertainty.gyro_bias}}));
+  if (options.estimate_extrinsic) {
+    prior.Add({BlockKind::kExtrinsic, 0}, window.extrinsic.data(),
+              Sigmas({{3, uncertainty.extrinsic_position}, {3, uncertainty.extrinsic_rotation}}));
+  }
+  if (options.estimate_td) {
+    prior.Add({BlockKind::kTimeOffset, 0}, &window.td, Sigmas({{1, uncertainty.td}}));
+  }
+  if (options.estimate_readout) {
+    prior.Add({BlockKind::kReadout, 0}, &window.readout, Sigmas({{1, uncertainty.readout}}));
+  }
+  if (options.estimate_intrinsics) {
+    const IntrinsicsDeviation& deviation = uncertainty.intrinsics;
+    prior.Add({BlockKind::kIntrinsics, 0}, window.intrinsics.data(),
+              Sigmas({{1, deviation.focal_length * window.intrinsics[0]},
+                      {1, deviation.focal_length * window.intrinsics[1]},
+                      {2, deviation.principal_point},
+                      {4, deviation.distortion}}));
+  }
+  return prior.Build();
+}
+
+}  // namespace plm_vins

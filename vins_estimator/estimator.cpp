@@ -160,10 +160,12 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   map.window.newest().stationary = stands_still;
   Triangulate(output);
   FindStructure(keep_second_newest, output);
+  const ImuNoiseLearning noise_before = state_.imu_noise;
   Optimize(options_.solution, output);
   const Eigen::Vector3d rotation_residual = UpdateTimingMonitors();
   if (const auto variance_scale = UpdateImuMonitor(rotation_residual)) {
     InflateNewestImuNoise(*variance_scale);
+    state_.imu_noise = noise_before;  // the first solution, which is distorted, teaches nothing
     output->imu_doubted = true;
     Optimize(options_.solution, output);
   }
@@ -177,27 +179,33 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   SlideWindow(keep_second_newest, output);
 }
 
-std::optional<std::string> Estimator::UpdateFailureMonitors(const EstimatorOutput& output) {
-  if (!state_.solved) return "the optimisation has no solution";
-  auto contradiction = state_.contradiction_monitor.Add(output.t_ns, output.counts.known_seen,
-                                                        output.counts.known_rejected);
-  if (contradiction) return contradiction;
-  auto blindness = state_.blindness_monitor.Add(
-      output.t_ns, output.counts.points_observed + output.counts.lines_observed,
-      state_.newest_covariance.topLeftCorner<3, 3>());
-  if (blindness) return blindness;
-  return DetectFailure(FailureLimits(), state_.predicted,
-                       state_.estimate.map.window.newest().state);
+std::optional<Estimator::Failure> Estimator::UpdateFailureMonitors(const EstimatorOutput& output) {
+  const EstimatorCounts& counts = output.counts;
+  if (!state_.solved) return Failure{"the optimisation has no solution"};
+  if (const auto contradiction =
+          state_.contradiction_monitor.Add(output.t_ns, counts.known_seen, counts.known_rejected)) {
+    return Failure{*contradiction};
+  }
+  if (const auto blindness =
+          state_.blindness_monitor.Add(output.t_ns, counts.points_observed + counts.lines_observed,
+                                       counts.known_seen - counts.known_rejected,
+                                       state_.newest_covariance.topLeftCorner<3, 3>())) {
+    return Failure{*blindness, /*has_drifted=*/true};
+  }
+  if (const auto jump = DetectFailure(FailureLimits(), state_.predicted,
+                                      state_.estimate.map.window.newest().state)) {
+    return Failure{*jump};
+  }
+  return std::nullopt;
 }
 
-// All but the bridge starts over. From blindness none leads on: the IMU has drifted too far.
-void Estimator::GiveUp(const std::string& why, EstimatorOutput* output) {
-  const bool blind = state_.blindness_monitor.blind();
+// All but the bridge starts over.
+void Estimator::GiveUp(const Failure& failure, EstimatorOutput* output) {
   FrameBridge bridge = std::move(state_.bridge);
   Reset();
   output->status = EstimatorStatus::kLost;
-  output->reason = why;
-  output->restarted = blind || !bridge.Begin(why);
+  output->reason = failure.why;
+  output->restarted = failure.has_drifted || !bridge.Begin(failure.why);
   if (!output->restarted) state_.bridge = std::move(bridge);
 }
 

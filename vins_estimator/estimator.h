@@ -44,6 +44,12 @@ class Estimator {
   double time_offset() const { return state_.estimate.map.window.td; }
 
  private:
+  // Why the estimate cannot be kept.
+  struct Failure {
+    std::string why;
+    bool has_drifted = false;  // further on the IMU alone than a bridge may lead on from
+  };
+
   // All that an image leaves behind for the next.
   struct State {
     State(const Config& config, const EstimatorOptions& options);
@@ -86,8 +92,8 @@ class Estimator {
   void FindStructure(bool keep_second_newest, EstimatorOutput* output);
   void UniteLines(EstimatorOutput* output);
   void RemoveOutliers(EstimatorOutput* output);
-  std::optional<std::string> UpdateFailureMonitors(const EstimatorOutput& output);  // why lost
-  void GiveUp(const std::string& why, EstimatorOutput* output);
+  std::optional<Failure> UpdateFailureMonitors(const EstimatorOutput& output);
+  void GiveUp(const Failure& failure, EstimatorOutput* output);
   bool StandsStill(const FrameMeasurement& measurement);
   // Returns the rotation since the image before that the camera sees beyond the gyro's [rad].
   Eigen::Vector3d UpdateTimingMonitors();

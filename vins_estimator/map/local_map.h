@@ -26,7 +26,7 @@ struct LocalMapOptions {
 // The landmarks that left the map with a frame and had a place in the world.
 struct DepartedLandmarks {
   std::vector<MapPoint> points;
-  std::vector<MapLine> lines;  // all that was ever seen of each
+  std::vector<MapLine> lines;  // all that was seen of each; where none is remembered, in its views
 };
 
 // The frames of the window and the landmarks that they see. Values are anybody's to change, but

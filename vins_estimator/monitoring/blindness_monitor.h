@@ -13,16 +13,16 @@ namespace plm_vins {
 // holds for seconds without any image or IMU sample, and where nothing of what is seen fits.
 class BlindnessMonitor {
  public:
-  // Takes how many features the newest image shows and the covariance of its position [m^2], zero
-  // where that is not known, which says nothing. The reason once the state cannot be kept; nothing
-  // before.
-  std::optional<std::string> Add(int64_t t_ns, int features_seen,
+  // Takes how many features the newest image shows, how many of them hold the position (known
+  // landmarks where they should be), and the covariance of the position [m^2], zero where that is
+  // not known, which says nothing. The reason once the state cannot be kept; nothing before.
+  std::optional<std::string> Add(int64_t t_ns, int features_seen, int features_holding,
                                  const Eigen::Matrix3d& position_covariance);
 
-  bool blind() const { return blind_; }  // at the newest image
+  bool blind() const { return blind_; }  // the newest image shows next to nothing
 
  private:
-  std::optional<int64_t> seen_ns_;  // the last image with features, or the first one of all
+  std::optional<int64_t> held_ns_;  // the last image that held it, or the first one of all
   double variance_before_ = 0;      // of the position then [m^2]
   bool blind_ = false;
 };

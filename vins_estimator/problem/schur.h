@@ -14,7 +14,8 @@ struct Quadratic {
 
 // Minimises over the first `count` components of x: the quadratic of what remains,
 //   H' = H_rr - H_rm H_mm^-1 H_mr,  b' = b_r - H_rm H_mm^-1 b_m.
-// Directions of H_mm without information (relative to its scale) drop out.
+// Pivots of H_mm that are zero drop out; right-hand sides are in the range of H_mm, as of every sum
+// of squares, so directions without information do no harm.
 Quadratic MarginalizeFirst(const Quadratic& quadratic, int count);
 
 // The same quadratic with component i moved to position new_position[i].

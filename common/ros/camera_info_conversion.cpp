@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/ros/msg_conversion.h"
+#include "common/ros/geometry_conversion.h"
 
 namespace plm_vins {
 namespace {
@@ -42,8 +42,7 @@ size_t CoefficientsOf(Model model) { return model == Model::kPinholeEquidistant 
 sensor_msgs::CameraInfo ToCameraInfo(const CameraParameters& camera, int64_t t_ns,
                                      const std::string& frame_id) {
   sensor_msgs::CameraInfo message;
-  message.header.stamp = ToRosTime(t_ns);
-  message.header.frame_id = frame_id;
+  message.header = MakeHeader(t_ns, frame_id);
   message.width = camera.width;
   message.height = camera.height;
   message.distortion_model = NameOf(camera.model);

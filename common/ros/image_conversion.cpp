@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "common/ros/msg_conversion.h"
+#include "common/ros/geometry_conversion.h"
 
 namespace plm_vins {
 namespace {
@@ -83,10 +83,8 @@ ImageSample ToImageSample(const sensor_msgs::CompressedImage& message) {
 }
 
 sensor_msgs::ImagePtr ToMessage(const cv::Mat& bgr, int64_t t_ns, const std::string& frame_id) {
-  std_msgs::Header header;
-  header.stamp = ToRosTime(t_ns);
-  header.frame_id = frame_id;
-  return cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, bgr).toImageMsg();
+  return cv_bridge::CvImage(MakeHeader(t_ns, frame_id), sensor_msgs::image_encodings::BGR8, bgr)
+      .toImageMsg();
 }
 
 }  // namespace plm_vins

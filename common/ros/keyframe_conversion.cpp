@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/ros/keyframe_conversion.h"
 
-#include <geometry_msgs/Point32.h>
 #include <sensor_msgs/ChannelFloat32.h>
 
 #include <limits>
@@ -10,6 +9,7 @@
 
 #include "common/features/feature_checks.h"
 #include "common/features/feature_ids.h"
+#include "common/ros/geometry_conversion.h"
 #include "common/ros/msg_conversion.h"
 
 namespace plm_vins {
@@ -17,14 +17,6 @@ namespace {
 
 constexpr size_t kValuesPerChannel = 5;
 constexpr char kManhattan[] = "manhattan";
-
-geometry_msgs::Point32 ToPoint32(const Eigen::Vector3d& p) {
-  geometry_msgs::Point32 point;
-  point.x = static_cast<float>(p.x());
-  point.y = static_cast<float>(p.y());
-  point.z = static_cast<float>(p.z());
-  return point;
-}
 
 geometry_msgs::Point32 Nowhere() {
   return ToPoint32(Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/ros/msg_conversion.h"
 
-#include <geometry_msgs/Point32.h>
-
 #include <array>
 #include <stdexcept>
 #include <string>
@@ -10,6 +8,7 @@
 
 #include "common/features/feature_checks.h"
 #include "common/features/feature_ids.h"
+#include "common/ros/geometry_conversion.h"
 
 namespace plm_vins {
 namespace {
@@ -18,14 +17,6 @@ void AddChannel(const std::string& name, size_t size, sensor_msgs::PointCloud* c
   cloud->channels.emplace_back();
   cloud->channels.back().name = name;
   cloud->channels.back().values.reserve(size);
-}
-
-geometry_msgs::Point32 ToImagePoint(const Eigen::Vector2d& xy) {
-  geometry_msgs::Point32 point;
-  point.x = static_cast<float>(xy.x());
-  point.y = static_cast<float>(xy.y());
-  point.z = 1;
-  return point;
 }
 
 template <size_t kSize>
@@ -40,7 +31,7 @@ sensor_msgs::PointCloud FeatureCloud(int64_t t_ns, const std::string& frame_id, 
 template <size_t kSize>
 void Append(const Eigen::Vector2d& xy, const std::array<double, kSize>& values,
             sensor_msgs::PointCloud* cloud) {
-  cloud->points.push_back(ToImagePoint(xy));
+  cloud->points.push_back(ToPoint32(xy.homogeneous()));
   for (size_t i = 0; i < kSize; ++i) {
     cloud->channels[i].values.push_back(static_cast<float>(values[i]));
   }
@@ -69,26 +60,7 @@ PointLayout LayoutOf(const sensor_msgs::PointCloud& points) {
   return {3, 1, "id, u, v (, vx, vy)"};
 }
 
-template <typename Position>
-Rigid3d ToRigid(const Position& p, const geometry_msgs::Quaternion& q) {
-  return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), {p.x, p.y, p.z}};
-}
-
-// The covariance of a pose whose rotation is told by theta before, by R theta after.
-Eigen::Matrix<double, 6, 6> TurnRotation(const Eigen::Matrix3d& R,
-                                         const Eigen::Matrix<double, 6, 6>& covariance) {
-  Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Identity();
-  J.bottomRightCorner<3, 3>() = R;
-  return J * covariance * J.transpose();
-}
-
 }  // namespace
-
-ros::Time ToRosTime(int64_t t_ns) {
-  ros::Time stamp;
-  stamp.fromNSec(static_cast<uint64_t>(t_ns));
-  return stamp;
-}
 
 ImuSample ToImuSample(const sensor_msgs::Imu& message) {
   const auto& w = message.angular_velocity;
@@ -155,70 +127,9 @@ LineFrame ToLineFrame(const sensor_msgs::PointCloud& message, int64_t* left_out)
   return frame;
 }
 
-geometry_msgs::Point ToPoint(const Eigen::Vector3d& p) {
-  geometry_msgs::Point point;
-  point.x = p.x();
-  point.y = p.y();
-  point.z = p.z();
-  return point;
-}
-
-geometry_msgs::Vector3 ToVector3(const Eigen::Vector3d& v) {
-  geometry_msgs::Vector3 vector;
-  vector.x = v.x();
-  vector.y = v.y();
-  vector.z = v.z();
-  return vector;
-}
-
-geometry_msgs::Quaternion ToQuaternion(const Eigen::Quaterniond& q) {
-  geometry_msgs::Quaternion quaternion;
-  quaternion.x = q.x();
-  quaternion.y = q.y();
-  quaternion.z = q.z();
-  quaternion.w = q.w();
-  return quaternion;
-}
-
-geometry_msgs::Pose ToPose(const Rigid3d& T) {
-  geometry_msgs::Pose pose;
-  pose.position = ToPoint(T.translation);
-  pose.orientation = ToQuaternion(T.rotation);
-  return pose;
-}
-
-geometry_msgs::Transform ToTransform(const Rigid3d& T) {
-  geometry_msgs::Transform transform;
-  transform.translation = ToVector3(T.translation);
-  transform.rotation = ToQuaternion(T.rotation);
-  return transform;
-}
-
-Rigid3d ToRigid(const geometry_msgs::Pose& pose) {
-  return ToRigid(pose.position, pose.orientation);
-}
-
-Rigid3d ToRigid(const geometry_msgs::Transform& transform) {
-  return ToRigid(transform.translation, transform.rotation);
-}
-
-std::optional<Eigen::Matrix<double, 6, 6>> CovarianceOf(
-    const geometry_msgs::PoseWithCovariance& pose) {
-  const Eigen::Map<const RowMajor6d> covariance(pose.covariance.data());
-  if (covariance.diagonal().maxCoeff() >= kUnknownVariance) return std::nullopt;
-  return TurnRotation(ToRigid(pose.pose).R().transpose(), covariance);
-}
-
-void SetCovariance(const Eigen::Matrix<double, 6, 6>& covariance,
-                   geometry_msgs::PoseWithCovariance* pose) {
-  Eigen::Map<RowMajor6d>(pose->covariance.data()) =
-      TurnRotation(ToRigid(pose->pose).R(), covariance);
-}
-
 sensor_msgs::PointCloud EmptyCloud(int64_t t_ns, const std::string& frame_id) {
   sensor_msgs::PointCloud cloud;
-  cloud.header.stamp = ToRosTime(t_ns);
-  cloud.header.frame_id = frame_id;
+  cloud.header = MakeHeader(t_ns, frame_id);
   return cloud;
 }
 

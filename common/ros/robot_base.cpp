@@ -3,7 +3,7 @@
 
 #include <ros/console.h>
 
-#include "common/ros/msg_conversion.h"
+#include "common/ros/geometry_conversion.h"
 
 namespace plm_vins {
 

@@ -2,7 +2,7 @@
 #include "common/ros/stream_monitor.h"
 
 #include "common/measurements.h"
-#include "common/ros/msg_conversion.h"
+#include "common/ros/geometry_conversion.h"
 
 namespace plm_vins {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "common/ros/msg_conversion.h"
+#include "common/ros/geometry_conversion.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/robot_base.h"
 #include "mavros_relay/body_odometry.h"

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "common/ros/camera_info_conversion.h"
+#include "common/ros/geometry_conversion.h"
 #include "common/ros/keyframe_conversion.h"
-#include "common/ros/msg_conversion.h"
 
 namespace plm_vins {
 namespace {

@@ -5,23 +5,15 @@
 
 #include <algorithm>
 
-#include "common/ros/msg_conversion.h"
+#include "common/ros/geometry_conversion.h"
+#include "common/ros/marker.h"
 
 namespace plm_vins {
 namespace {
 
 constexpr int kMaxPathPoses = 5000;  // the newest; the message is sent anew with each keyframe
-
-visualization_msgs::Marker LineList(const std::string& name, double width) {
-  visualization_msgs::Marker marker;
-  marker.ns = name;
-  marker.type = visualization_msgs::Marker::LINE_LIST;
-  marker.action = visualization_msgs::Marker::ADD;
-  marker.pose.orientation.w = 1;
-  marker.scale.x = width;
-  marker.color.a = 1;
-  return marker;
-}
+constexpr double kStepWidth = 0.01;  // [m]
+constexpr double kLoopWidth = 0.02;  // [m]
 
 }  // namespace
 
@@ -47,8 +39,7 @@ nav_msgs::Path ToPath(const KeyframeMap& map, const std::string& map_frame,
   for (int i = std::max(0, newest + 1 - kMaxPathPoses); i <= newest; ++i) {
     if (!connected[i]) continue;
     geometry_msgs::PoseStamped& pose = path.poses.emplace_back();
-    pose.header.frame_id = path.header.frame_id;
-    pose.header.stamp = ToRosTime(map.keyframes[i].t_ns);
+    pose.header = MakeHeader(map.keyframes[i].t_ns, path.header.frame_id);
     pose.pose = ToPose(map.T_M_O(i).ToRigid() * map.keyframes[i].T_O_B);
   }
   if (!path.poses.empty()) path.header.stamp = path.poses.back().header.stamp;
@@ -57,9 +48,11 @@ nav_msgs::Path ToPath(const KeyframeMap& map, const std::string& map_frame,
 
 visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map,
                                                const std::string& map_frame) {
-  visualization_msgs::Marker steps = LineList("odometry", 0.01);
+  constexpr int kType = visualization_msgs::Marker::LINE_LIST;
+  const auto header = MakeHeader(map.keyframes.empty() ? 0 : map.keyframes.back().t_ns, map_frame);
+  visualization_msgs::Marker steps = MakeMarker(header, "odometry", kType, kStepWidth);
   steps.color.r = steps.color.g = steps.color.b = 0.6F;
-  visualization_msgs::Marker loops = LineList("loops", 0.02);
+  visualization_msgs::Marker loops = MakeMarker(header, "loops", kType, kLoopWidth);
   loops.color.g = 1;
   const std::vector<bool> is_in_map = map.graph.ConnectedWith(0);
   for (const LevelEdge& edge : map.graph.edges()) {
@@ -68,12 +61,9 @@ visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map,
     list.points.push_back(ToPoint(map.graph.node(edge.from).translation));
     list.points.push_back(ToPoint(map.graph.node(edge.to).translation));
   }
-  const int64_t t_ns = map.keyframes.empty() ? 0 : map.keyframes.back().t_ns;
   visualization_msgs::MarkerArray markers;
   markers.markers = {steps, loops};
   for (visualization_msgs::Marker& marker : markers.markers) {
-    marker.header.frame_id = map_frame;
-    marker.header.stamp = ToRosTime(t_ns);
     if (marker.points.empty()) marker.action = visualization_msgs::Marker::DELETE;
   }
   return markers;

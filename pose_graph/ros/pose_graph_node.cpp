@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
-#include "common/ros/msg_conversion.h"
 #include "common/ros/publish_if_wanted.h"
 #include "common/stopwatch.h"
 #include "pose_graph/output/map_file.h"
@@ -80,12 +80,18 @@ void PoseGraphNode::AdvertiseMap() {
 // In place, as to wake a thread of its own for each message costs more than to take it in.
 template <typename Parameter>
 ros::Subscriber PoseGraphNode::Receive(const std::string& topic,
+                                       const boost::function<void(Parameter)>& callback) {
+  using Message = typename ros::ParameterAdapter<Parameter>::Message;
+  return receiver_.subscribe<Message, Parameter>(topic, kQueue, callback);
+}
+
+template <typename Parameter>
+ros::Subscriber PoseGraphNode::Receive(const std::string& topic,
                                        void (PoseGraphNode::*add)(Parameter)) {
   const boost::function<void(Parameter)> callback = [this, add](Parameter message) {
     TakeIn([&] { (this->*add)(message); });
   };
-  using Message = typename ros::ParameterAdapter<Parameter>::Message;
-  return receiver_.subscribe<Message, Parameter>(topic, kQueue, callback);
+  return Receive(topic, callback);
 }
 
 void PoseGraphNode::TakeIn(const std::function<void()>& add) {
@@ -93,14 +99,33 @@ void PoseGraphNode::TakeIn(const std::function<void()>& add) {
   errors_.Run(add);
 }
 
+// To publish takes a lock of ROS, which a driver in this process holds while its image waits here
+// for input_mutex_: so nothing is published with that held.
+void PoseGraphNode::PassOnInMap(const OdometryEvent& event) {
+  std::optional<MapFix> fix;
+  TakeIn([&] { fix = AddOdometry(event); });
+  if (fix) errors_.Run([&] { PublishInMap(*event.getMessage(), *fix); });
+}
+
+void PoseGraphNode::PublishInMap(const nav_msgs::Odometry& odometry, const MapFix& fix) {
+  const std::string& map_frame = config_.output.map_frame;
+  odometry_publisher_.publish(ToMap(odometry, fix, map_frame));
+  if (!config_.output.publish_tf) return;
+  const auto header = MakeHeader(ToNanoseconds(odometry.header.stamp), map_frame);
+  broadcaster_.sendTransform(ToTransform(header, odometry.header.frame_id, fix.T_M_O.ToRigid()));
+}
+
 void PoseGraphNode::Subscribe() {
   const std::string estimator = kEstimator;
+  const boost::function<void(const OdometryEvent&)> pass_on = [this](const OdometryEvent& event) {
+    PassOnInMap(event);
+  };
   subscribers_ = {Receive(estimator + "camera_info", &PoseGraphNode::AddCamera),
                   Receive(estimator + "extrinsic", &PoseGraphNode::AddExtrinsics),
                   Receive(estimator + "keyframe_pose", &PoseGraphNode::AddPose),
                   Receive(estimator + "keyframe_point", &PoseGraphNode::AddPoints),
                   Receive(estimator + "keyframe_line", &PoseGraphNode::AddLines),
-                  Receive(estimator + "odometry", &PoseGraphNode::AddOdometry),
+                  Receive(estimator + "odometry", pass_on),
                   Receive(estimator + "restart", &PoseGraphNode::Restart)};
   image_subscription_.Subscribe(
       receiver_, private_node_, config_.sensor.image_topic, kQueue,
@@ -169,28 +194,18 @@ void PoseGraphNode::BeginWorld() {
   status_.fix.reset();
 }
 
-void PoseGraphNode::AddOdometry(const OdometryEvent& event) {
+std::optional<MapFix> PoseGraphNode::AddOdometry(const OdometryEvent& event) {
   if (estimator_.HasChanged(kOdometry, event.getConnectionHeaderPtr())) {
     NoteNewWorld("odometry comes from another estimator");
   }
   const nav_msgs::Odometry& message = *event.getMessage();
   odometry_stream_.Add(ToNanoseconds(message.header.stamp));
-  if (!input_.Accepts(message)) return drop_warner_.Check(Drops());
-  std::optional<MapFix> fix;
-  {
-    const std::lock_guard<std::mutex> lock(status_mutex_);
-    fix = status_.fix;
+  if (!input_.Accepts(message)) {
+    drop_warner_.Check(Drops());
+    return std::nullopt;
   }
-  if (!fix) return;
-  const std::string& map_frame = config_.output.map_frame;
-  odometry_publisher_.publish(ToMap(message, *fix, map_frame));
-  if (!config_.output.publish_tf) return;
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = message.header.stamp;
-  transform.header.frame_id = map_frame;
-  transform.child_frame_id = message.header.frame_id;
-  transform.transform = ToTransform(fix->T_M_O.ToRigid());
-  broadcaster_.sendTransform(transform);
+  const std::lock_guard<std::mutex> lock(status_mutex_);
+  return status_.fix;
 }
 
 bool PoseGraphNode::SaveMapFile(Trigger::Request&, Trigger::Response& response) {

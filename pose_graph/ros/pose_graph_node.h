@@ -70,8 +70,13 @@ class PoseGraphNode {
   void AdvertiseMap();
   void Subscribe();
   template <typename Parameter>
+  ros::Subscriber Receive(const std::string& topic,
+                          const boost::function<void(Parameter)>& callback);
+  template <typename Parameter>
   ros::Subscriber Receive(const std::string& topic, void (PoseGraphNode::*add)(Parameter));
   void TakeIn(const std::function<void()>& add);
+  void PassOnInMap(const OdometryEvent& event);
+  void PublishInMap(const nav_msgs::Odometry& odometry, const MapFix& fix);
 
   // With input_mutex_ held.
   void AddImage(const std::optional<ImageSample>& image);
@@ -80,7 +85,8 @@ class PoseGraphNode {
   void AddPose(const OdometryEvent& event);
   void AddPoints(const sensor_msgs::PointCloud& message);
   void AddLines(const sensor_msgs::PointCloud& message);
-  void AddOdometry(const OdometryEvent& event);
+  // Returns what to pass it on with, where its place in the map is known.
+  std::optional<MapFix> AddOdometry(const OdometryEvent& event);
   void Restart(const std_msgs::Bool& message);
   void NoteNewWorld(const std::string& reason);
   void BeginWorld();

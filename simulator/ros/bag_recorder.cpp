@@ -10,7 +10,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "common/ros/msg_conversion.h"
+#include "common/ros/geometry_conversion.h"
 #include "common/ros/topic_names.h"
 
 namespace plm_vins::simulator {

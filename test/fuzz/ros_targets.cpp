@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/keyframe_conversion.h"
 #include "common/ros/msg_conversion.h"

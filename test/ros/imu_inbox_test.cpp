@@ -7,6 +7,7 @@
 #include <ros/callback_queue.h>
 #include <ros/init.h>
 
+#include "common/ros/geometry_conversion.h"
 #include "test/ros/estimator_log.h"
 
 namespace plm_vins {

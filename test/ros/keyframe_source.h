@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "common/ros/geometry_conversion.h"
 #include "common/ros/keyframe_conversion.h"
-#include "common/ros/msg_conversion.h"
 #include "test/ros/estimator_log.h"
 
 namespace plm_vins::testing {

@@ -10,6 +10,7 @@
 #include <functional>
 #include <vector>
 
+#include "common/ros/geometry_conversion.h"
 #include "common/ros/msg_conversion.h"
 #include "simulator/feature_simulator.h"
 

@@ -3,10 +3,12 @@
 
 #include <exception>
 #include <filesystem>
+#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "common/ros/geometry_conversion.h"
 #include "common/ros/msg_conversion.h"
 
 namespace plm_vins {
@@ -71,7 +73,7 @@ EstimatorNode::~EstimatorNode() {
   try {
     Save(file_at_end_);
   } catch (const std::runtime_error& error) {
-    ROS_ERROR_STREAM(error.what());
+    std::cerr << error.what() << std::endl;  // ROS has shut its log down by now
   }
 }
 

@@ -5,7 +5,8 @@
 
 #include <set>
 
-#include "common/ros/msg_conversion.h"
+#include "common/ros/geometry_conversion.h"
+#include "common/ros/marker.h"
 
 namespace plm_vins {
 namespace {
@@ -38,14 +39,8 @@ std_msgs::ColorRGBA ColorOf(LineAxis axis) {
 
 visualization_msgs::Marker EmptyMarker(int64_t t_ns, const std::string& frame_id,
                                        const std::string& name) {
-  visualization_msgs::Marker marker;
-  marker.header.stamp = ToRosTime(t_ns);
-  marker.header.frame_id = frame_id;
-  marker.ns = name;
-  marker.type = visualization_msgs::Marker::LINE_LIST;
-  marker.pose.orientation.w = 1.0;
-  marker.scale.x = kWidth;
-  return marker;
+  return MakeMarker(MakeHeader(t_ns, frame_id), name, visualization_msgs::Marker::LINE_LIST,
+                    kWidth);
 }
 
 }  // namespace

@@ -1,40 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/ros/output_conversion.h"
 
-#include <geometry_msgs/Point32.h>
-
 #include <cmath>
 
+#include "common/ros/geometry_conversion.h"
+#include "common/ros/marker.h"
 #include "common/ros/msg_conversion.h"
 
 namespace plm_vins {
 namespace {
-
-std_msgs::Header MakeHeader(int64_t t_ns, const std::string& frame_id) {
-  std_msgs::Header header;
-  header.stamp = ToRosTime(t_ns);
-  header.frame_id = frame_id;
-  return header;
-}
 
 // `covariance`; where that is none, a diagonal of `variance`.
 template <typename Matrix>
 Matrix KnownOr(double variance, const Matrix& covariance) {
   const bool known = covariance.allFinite() && covariance.diagonal().minCoeff() > 0;
   return known ? covariance : Matrix(variance * Matrix::Identity());
-}
-
-visualization_msgs::Marker MakeMarker(int64_t t_ns, const std::string& frame_id,
-                                      const std::string& name, int type, double scale) {
-  visualization_msgs::Marker marker;
-  marker.header = MakeHeader(t_ns, frame_id);
-  marker.ns = name;
-  marker.type = type;
-  marker.action = visualization_msgs::Marker::ADD;
-  marker.pose.orientation.w = 1.0;
-  marker.scale.x = marker.scale.y = marker.scale.z = scale;
-  marker.color.a = 1.0;
-  return marker;
 }
 
 }  // namespace
@@ -71,23 +51,18 @@ nav_msgs::Odometry ToOdometry(int64_t t_ns, const Rigid3d& T_parent_child,
 
 sensor_msgs::PointCloud ToPointCloud(const std::vector<MapPoint>& points, int64_t t_ns,
                                      const std::string& frame_id) {
-  sensor_msgs::PointCloud cloud;
-  cloud.header = MakeHeader(t_ns, frame_id);
+  sensor_msgs::PointCloud cloud = EmptyCloud(t_ns, frame_id);
   cloud.points.reserve(points.size());
   for (const MapPoint& point : points) {
-    geometry_msgs::Point32 p;
-    p.x = static_cast<float>(point.p_W.x());
-    p.y = static_cast<float>(point.p_W.y());
-    p.z = static_cast<float>(point.p_W.z());
-    cloud.points.push_back(p);
+    cloud.points.push_back(ToPoint32(point.p_W));
   }
   return cloud;
 }
 
 visualization_msgs::Marker ToKeyPoses(const std::vector<FrameState>& window, int64_t t_ns,
                                       const std::string& frame_id) {
-  visualization_msgs::Marker marker =
-      MakeMarker(t_ns, frame_id, "key_poses", visualization_msgs::Marker::SPHERE_LIST, 0.05);
+  visualization_msgs::Marker marker = MakeMarker(MakeHeader(t_ns, frame_id), "key_poses",
+                                                 visualization_msgs::Marker::SPHERE_LIST, 0.05);
   marker.color.r = 1.0;
   for (const FrameState& state : window) marker.points.push_back(ToPoint(state.position()));
   return marker;
@@ -96,8 +71,8 @@ visualization_msgs::Marker ToKeyPoses(const std::vector<FrameState>& window, int
 visualization_msgs::MarkerArray ToCameraVisual(const Rigid3d& T_W_C, int64_t t_ns,
                                                const std::string& frame_id) {
   constexpr double kWidth = 0.2, kHeight = 0.13, kDepth = 0.15;  // [m]
-  visualization_msgs::Marker marker =
-      MakeMarker(t_ns, frame_id, "camera_pose_visual", visualization_msgs::Marker::LINE_LIST, 0.02);
+  visualization_msgs::Marker marker = MakeMarker(MakeHeader(t_ns, frame_id), "camera_pose_visual",
+                                                 visualization_msgs::Marker::LINE_LIST, 0.02);
   marker.color.g = 1.0;
   marker.pose = ToPose(T_W_C);
   const Eigen::Vector3d center = Eigen::Vector3d::Zero();

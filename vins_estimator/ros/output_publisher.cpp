@@ -7,8 +7,8 @@
 #include <string>
 
 #include "common/ros/camera_info_conversion.h"
+#include "common/ros/geometry_conversion.h"
 #include "common/ros/keyframe_conversion.h"
-#include "common/ros/msg_conversion.h"
 #include "common/ros/publish_if_wanted.h"
 #include "vins_estimator/output/placed_features.h"
 #include "vins_estimator/ros/output_conversion.h"
@@ -33,20 +33,11 @@ double Distance(const geometry_msgs::Point& a, const geometry_msgs::Point& b) {
   return Eigen::Vector3d(a.x - b.x, a.y - b.y, a.z - b.z).norm();
 }
 
-geometry_msgs::TransformStamped ToStamped(int64_t t_ns, const Rigid3d& T_parent_child,
-                                          const std::string& parent, const std::string& child) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = ToRosTime(t_ns);
-  transform.header.frame_id = parent;
-  transform.child_frame_id = child;
-  transform.transform = ToTransform(T_parent_child);
-  return transform;
-}
-
 }  // namespace
 
 OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle private_node)
     : frames_(frames),
+      restart_(private_node.advertise<std_msgs::Bool>("restart", 10)),
       odometry_(private_node.advertise<nav_msgs::Odometry>("odometry", kQueue)),
       path_publisher_(private_node.advertise<nav_msgs::Path>("path", 10, /*latch=*/true)),
       camera_pose_(private_node.advertise<nav_msgs::Odometry>("camera_pose", kQueue)),
@@ -63,7 +54,6 @@ OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle pri
       keyframe_pose_(private_node.advertise<nav_msgs::Odometry>("keyframe_pose", kQueue)),
       keyframe_point_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_point", kQueue)),
       keyframe_line_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_line", kQueue)),
-      restart_(private_node.advertise<std_msgs::Bool>("restart", 10)),
       line_history_(frames.world_frame) {
   path_.header.frame_id = frames_.world_frame;
   if (frames.publish_tf && !frames.base_frame.empty()) {
@@ -149,8 +139,7 @@ void OutputPublisher::PublishHistory(const EstimatorOutput& output) {
 
 void OutputPublisher::PublishPath(const FrameState& state) {
   geometry_msgs::PoseStamped pose;
-  pose.header.stamp = ToRosTime(state.t_ns);
-  pose.header.frame_id = frames_.world_frame;
+  pose.header = MakeHeader(state.t_ns, frames_.world_frame);
   pose.pose = ToPose(state.T_W_B());
   const bool moved = path_.poses.empty() ||
                      Distance(path_.poses.back().pose.position, pose.pose.position) > kPathStep;
@@ -169,23 +158,23 @@ void OutputPublisher::PublishTransforms(const EstimatorOutput& output) {
   if (output.R_W_M) {
     const Rigid3d T_W_M(*output.R_W_M, Eigen::Vector3d::Zero());
     transforms.push_back(
-        ToStamped(output.t_ns, T_W_M, frames_.world_frame, frames_.manhattan_frame));
+        ToTransform(MakeHeader(output.t_ns, frames_.world_frame), frames_.manhattan_frame, T_W_M));
   }
   broadcaster_.sendTransform(transforms);
 }
 
 std::vector<geometry_msgs::TransformStamped> OutputPublisher::BodyTransforms(
     const EstimatorOutput& output) {
-  const std::string& world = frames_.world_frame;
-  const std::string& body = frames_.body_frame;
+  const std_msgs::Header in_world = MakeHeader(output.t_ns, frames_.world_frame);
+  const std_msgs::Header in_body = MakeHeader(output.t_ns, frames_.body_frame);
   const Rigid3d T_W_B = output.state.T_W_B();
   if (!base_) {
-    return {ToStamped(output.t_ns, T_W_B, world, body),
-            ToStamped(output.t_ns, output.calibration.T_B_C, body, frames_.camera_frame)};
+    return {ToTransform(in_world, frames_.body_frame, T_W_B),
+            ToTransform(in_body, frames_.camera_frame, output.calibration.T_B_C)};
   }
   const auto T_body_base = base_->Locate();
   if (!T_body_base) return {};
-  return {ToStamped(output.t_ns, T_W_B * *T_body_base, world, frames_.base_frame)};
+  return {ToTransform(in_world, frames_.base_frame, T_W_B * *T_body_base)};
 }
 
 }  // namespace plm_vins

@@ -42,6 +42,8 @@ class OutputPublisher {
   std::vector<geometry_msgs::TransformStamped> BodyTransforms(const EstimatorOutput& output);
 
   OutputConfig frames_;
+  // What waits to be sent goes in this order: a new world before its first pose.
+  ros::Publisher restart_;
   ros::Publisher odometry_;
   ros::Publisher path_publisher_;
   ros::Publisher camera_pose_;
@@ -56,7 +58,6 @@ class OutputPublisher {
   ros::Publisher keyframe_pose_;
   ros::Publisher keyframe_point_;
   ros::Publisher keyframe_line_;
-  ros::Publisher restart_;
   tf2_ros::TransformBroadcaster broadcaster_;
   std::optional<RobotBase> base_;
   nav_msgs::Path path_;

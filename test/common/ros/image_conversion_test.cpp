@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/ros/msg_conversion.h"
+#include "common/ros/geometry_conversion.h"
 
 namespace plm_vins {
 namespace {

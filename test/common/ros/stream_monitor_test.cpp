@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/measurements.h"
-#include "common/ros/msg_conversion.h"
+#include "common/ros/geometry_conversion.h"
 
 namespace plm_vins {
 namespace {

@@ -14,7 +14,7 @@
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
 
-#include "common/ros/msg_conversion.h"
+#include "common/ros/geometry_conversion.h"
 #include "test/offline/recording_contents.h"
 #include "test/offline/ros/packed_chunk.h"
 #include "test/testing/temporary_folder.h"

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "common/geometry/so3.h"
-#include "common/ros/msg_conversion.h"
+#include "common/ros/geometry_conversion.h"
 #include "test/testing/numeric_jacobian.h"
 
 namespace plm_vins {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the fuzz targets under AddressSanitizer and UndefinedBehaviorSanitizer and runs each of them.
-# Usage: fuzz.sh [SECONDS [TARGET [FIRST [COUNT]]]]; by default an hour in all. A finding names the
+# Usage: fuzz.sh [SECONDS [TARGET [FIRST [COUNT]]]]; by default ten minutes each. A finding names the
 # target and the index of the input, which as FIRST runs it again. SANITIZE=OFF is ten times as fast:
 # a million faults are SANITIZE=OFF fuzz.sh inf divergence 0 1300, or parts of that side by side.
 set -euo pipefail

@@ -4,6 +4,16 @@
 namespace plm_vins {
 namespace {
 
+template <typename Message>
+Message WithCoordinates(const Eigen::Vector3d& v) {
+  using Coordinate = decltype(Message::x);
+  Message message;
+  message.x = static_cast<Coordinate>(v.x());
+  message.y = static_cast<Coordinate>(v.y());
+  message.z = static_cast<Coordinate>(v.z());
+  return message;
+}
+
 template <typename Position>
 Rigid3d ToRigid(const Position& p, const geometry_msgs::Quaternion& q) {
   return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), {p.x, p.y, p.z}};
@@ -33,27 +43,15 @@ std_msgs::Header MakeHeader(int64_t t_ns, const std::string& frame_id) {
 }
 
 geometry_msgs::Point ToPoint(const Eigen::Vector3d& p) {
-  geometry_msgs::Point point;
-  point.x = p.x();
-  point.y = p.y();
-  point.z = p.z();
-  return point;
+  return WithCoordinates<geometry_msgs::Point>(p);
 }
 
 geometry_msgs::Point32 ToPoint32(const Eigen::Vector3d& p) {
-  geometry_msgs::Point32 point;
-  point.x = static_cast<float>(p.x());
-  point.y = static_cast<float>(p.y());
-  point.z = static_cast<float>(p.z());
-  return point;
+  return WithCoordinates<geometry_msgs::Point32>(p);
 }
 
 geometry_msgs::Vector3 ToVector3(const Eigen::Vector3d& v) {
-  geometry_msgs::Vector3 vector;
-  vector.x = v.x();
-  vector.y = v.y();
-  vector.z = v.z();
-  return vector;
+  return WithCoordinates<geometry_msgs::Vector3>(v);
 }
 
 geometry_msgs::Quaternion ToQuaternion(const Eigen::Quaterniond& q) {

@@ -4,7 +4,7 @@
 #     --bag /data/MH_05_difficult.bag --output /data/results
 FROM ros:noetic-ros-base-focal
 
-COPY scripts/setup.sh /plm_vins/scripts/setup.sh
+COPY scripts/setup.sh scripts/usage.sh /plm_vins/scripts/
 RUN /plm_vins/scripts/setup.sh && rm -rf /var/lib/apt/lists/*
 
 COPY . /plm_vins

@@ -4,6 +4,8 @@
 # JOBS limits the parallel compilers; by default one per core and 1.5 GB of free memory.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+# shellcheck source=scripts/usage.sh
+source "$root/scripts/usage.sh"
 
 if [[ -z "${ROS_PACKAGE_PATH:-}" && -f /opt/ros/noetic/setup.bash ]]; then
   set +u  # ROS's script reads variables that are not set

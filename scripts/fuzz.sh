@@ -5,6 +5,8 @@
 # a million faults are SANITIZE=OFF fuzz.sh inf divergence 0 1300, or parts of that side by side.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+# shellcheck source=scripts/usage.sh
+source "$root/scripts/usage.sh"
 seconds="${1:-600}"
 
 cmake -S "$root" -B "$root/build/fuzz" -DCMAKE_BUILD_TYPE=Release -DSANITIZE="${SANITIZE:-ON}" \

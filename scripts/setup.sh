@@ -3,6 +3,8 @@
 # Noetic. Usage: setup.sh [further package ...]
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+# shellcheck source=scripts/usage.sh
+source "$root/scripts/usage.sh"
 
 common_packages=(
   build-essential cmake libboost-dev libbz2-dev libceres-dev libeigen3-dev libgmock-dev libgtest-dev
@@ -15,15 +17,16 @@ debian_packages=(
   libnav-msgs-dev libnodelet-dev libnodeletlib-dev libnodeletlib-tools librosbag-dev libroscpp-dev
   libroslz4-dev librostest-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-ros-dev
   libvisualization-msgs-dev pluginlib-dev python3-diagnostic-msgs python3-dynamic-reconfigure
-  python3-nav-msgs python3-rosbag python3-roslaunch python3-rosservice python3-rostest
-  python3-rostopic python3-sensor-msgs python3-std-srvs python3-tf2-msgs
-  python3-visualization-msgs rosbash rosout rviz)
+  python3-nav-msgs python3-rosbag python3-roslaunch python3-rosnode python3-rosservice
+  python3-rostest python3-rostopic python3-sensor-msgs python3-std-srvs python3-tf2-msgs
+  python3-visualization-msgs rosbash rosout rviz tf2-tools)
 noetic_packages=(
   ros-noetic-catkin ros-noetic-cv-bridge ros-noetic-diagnostic-updater
   ros-noetic-dynamic-reconfigure ros-noetic-geometry-msgs ros-noetic-image-transport
   ros-noetic-nav-msgs ros-noetic-nodelet ros-noetic-pluginlib ros-noetic-rosbag ros-noetic-roscpp
-  ros-noetic-roslaunch ros-noetic-roslz4 ros-noetic-rostest ros-noetic-rviz ros-noetic-sensor-msgs
-  ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2-ros ros-noetic-visualization-msgs)
+  ros-noetic-roslaunch ros-noetic-roslz4 ros-noetic-rosnode ros-noetic-rostest ros-noetic-rviz
+  ros-noetic-sensor-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2-ros
+  ros-noetic-tf2-tools ros-noetic-visualization-msgs)
 
 install_packages() {
   local missing=() as_root=() package status

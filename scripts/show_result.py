@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Prints a short table of a results folder: summary.json and, where present, evaluation.json."""
 
+import argparse
 import json
 import os
 import sys
@@ -39,7 +40,10 @@ def read_json(path):
         raise ValueError(f"{path}: damaged ({error})") from None
 
 
-def main(folder):
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", help="with summary.json")
+    folder = parser.parse_args(arguments).folder
     try:
         summary = read_json(os.path.join(folder, "summary.json"))
         if summary is None:
@@ -61,6 +65,4 @@ def main(folder):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit("usage: show_result.py FOLDER")
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main())

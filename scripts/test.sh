@@ -3,6 +3,8 @@
 # Usage: test.sh [ctest option ...], for instance: test.sh -R preintegration
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+# shellcheck source=scripts/usage.sh
+source "$root/scripts/usage.sh"
 
 "$root/scripts/setup.sh"
 "$root/scripts/build.sh" -DBUILD_TESTING=ON

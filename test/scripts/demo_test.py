@@ -37,9 +37,10 @@ class DemoOptions(unittest.TestCase):
         self.assert_refused("not ASL folders", "--asl", SCRIPTS, "--rviz")
 
     def test_help(self):
-        result = run(os.path.join(SCRIPTS, "demo.sh"), "--help")
-        self.assertEqual(result.returncode, 0)
-        self.assertIn("Usage", result.stdout)
+        for script in ("demo.sh", "setup.sh", "build.sh", "test.sh", "fuzz.sh"):
+            result = run(os.path.join(SCRIPTS, script), "--help")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertIn(f"Usage: {script}", result.stdout)
 
 
 class ShowResult(unittest.TestCase):

@@ -12,7 +12,7 @@ double WrapQuarterTurn(double angle);
 
 struct HeadingVotesOptions {
   double half_width = M_PI / 60;       // a vote this near supports a heading (3 deg) [rad]
-  double memory = 15.0;                // the vote of a line out of sight fades to 1/e in this [s]
+  double memory = 15.0;                // the vote of a line that is gone fades to 1/e in this [s]
   double maturity = 0.5;               // a line followed for so long has a full vote [s]
   double reference_sigma = M_PI / 90;  // a line of this deviation (2 deg) has half a vote [rad]
 };
@@ -33,7 +33,7 @@ struct HeadingSupport {
 
 // Horizontal lines vote on the heading of the buildings around, modulo 90 deg. One line has one
 // vote, however often it is seen: of weight 1 at most, growing with the time that the line was
-// followed and with its accuracy, fading once it is out of sight. The expected number of false
+// followed and with its accuracy, fading once it left the window. The expected number of false
 // alarms [Desolneux2000] decides whether a heading has more support than chance would give it.
 class HeadingVotes {
  public:
@@ -61,7 +61,7 @@ class HeadingVotes {
     double heading = 0;
     double sigma = 0;
     double followed = 0;   // for this time [s]
-    double freshness = 1;  // 1 in sight, then fading
+    double freshness = 1;  // 1 in the window, then fading
   };
 
   double MatureWeight(const Vote& vote) const;  // once its line was followed for long enough

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace plm_vins {
@@ -18,6 +19,12 @@ inline ImuNoise Scaled(const ImuNoise& noise, double variance_scale) {
   const double scale = std::sqrt(variance_scale);
   return {noise.gyro_density * scale, noise.accel_density * scale, noise.gyro_walk,
           noise.accel_walk};
+}
+
+// The greater density of each source of noise.
+inline ImuNoise Greater(const ImuNoise& a, const ImuNoise& b) {
+  return {std::max(a.gyro_density, b.gyro_density), std::max(a.accel_density, b.accel_density),
+          std::max(a.gyro_walk, b.gyro_walk), std::max(a.accel_walk, b.accel_walk)};
 }
 
 // Densities from the numbers of the VINS family, which belong to one sample interval dt = 1 / rate:

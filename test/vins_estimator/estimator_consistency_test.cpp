@@ -110,11 +110,13 @@ class ImuNoiseIsLearned : public ::testing::Test {
   }
 };
 
-// The gyro is so much more precise than images that they tell little of its noise.
+// The gyro is so much more precise than images that they tell little of its noise. That of the
+// accelerometer is white here, so that what real shaking has beyond that is allowed for in vain.
 TEST_F(ImuNoiseIsLearned, OfTheAccelerometerWhereItIsConfiguredAsAQuarter) {
   const Result fixed = Fly(0.25, false), learned = Fly(0.25, true);
-  EXPECT_NEAR(learned.accel_density, 1, 0.15);
-  EXPECT_GT(learned.gyro_density, 2 * fixed.gyro_density);
+  EXPECT_GT(learned.accel_density, 1);
+  EXPECT_LT(learned.accel_density, 1.5);
+  EXPECT_GT(learned.gyro_density, 1.6 * fixed.gyro_density);
   EXPECT_LT(learned.pose, 0.3 * fixed.pose);
   EXPECT_LT(learned.velocity, 0.15 * fixed.velocity);
 }

@@ -16,6 +16,10 @@ constexpr double kLeastExpected = 1e-3;   // less is rounding
 constexpr double kGreatestRatio = 9;      // more of an interval may be an outlier
 constexpr double kLeast = 1, kMost = 16;  // times the configured density
 
+// What shakes a vehicle is not white: over a second, the variance of an accelerometer in flight is
+// two to six times what intervals between keyframes show of it (docs/noise.md).
+constexpr double kSlowShaking = 3;
+
 // Shares of the variance that residuals show. A robust loss lets images count for less than they
 // tell, so the IMU has more of a say in the solution, and its residuals are smaller, than the
 // equations state. Found in simulated flights with the true noise configured.
@@ -24,6 +28,20 @@ constexpr double kShownOfAccel = 0.79, kShownOfGyro = 0.53;
 DensityEvidence Shown(double share, DensityEvidence evidence) {
   evidence.expected *= share;
   return evidence;
+}
+
+// What the same residual would be expected to be, had this density been assumed.
+DensityEvidence Assuming(double density, DensityEvidence evidence) {
+  const double ratio = density / evidence.assumed;
+  evidence.expected += (ratio * ratio - 1) * evidence.slope;
+  evidence.assumed = density;
+  return evidence;
+}
+
+// The density with `times` the variance that it has beyond the configured one.
+double WithExcess(double times, double configured, double density) {
+  const double excess = std::max(0.0, density * density - configured * configured);
+  return std::sqrt(configured * configured + times * excess);
 }
 
 }  // namespace
@@ -51,13 +69,17 @@ ImuNoiseEstimate::ImuNoiseEstimate(const ImuNoise& configured)
     : configured_(configured), accel_(configured.accel_density), gyro_(configured.gyro_density) {}
 
 void ImuNoiseEstimate::Add(const ImuNoiseEvidence& evidence) {
-  accel_.Add(Shown(kShownOfAccel, evidence.accel));
+  const double shown =
+      WithExcess(1 / kSlowShaking, configured_.accel_density, evidence.accel.assumed);
+  accel_.Add(Shown(kShownOfAccel, Assuming(shown, evidence.accel)));
   gyro_.Add(Shown(kShownOfGyro, evidence.gyro));
 }
 
 ImuNoise ImuNoiseEstimate::noise() const {
   ImuNoise noise = configured_;
-  noise.accel_density = accel_.density();
+  noise.accel_density =
+      std::min(WithExcess(kSlowShaking, configured_.accel_density, accel_.density()),
+               kMost * configured_.accel_density);
   noise.gyro_density = gyro_.density();
   return noise;
 }

@@ -9,6 +9,7 @@ struct DensityEvidence {
   double assumed = 0;   // density of its white noise, in the units of ImuNoise
   double squared = 0;   // the squared residual, as far as this source accounts for it
   double expected = 0;  // the mean of `squared`, were the noise as assumed
+  double slope = 0;     // how much more it would be for each time of the assumed variance more
 };
 
 struct ImuNoiseEvidence {

@@ -108,6 +108,7 @@ void Preintegration::Append(const ImuSample& sample) {
 }
 
 void Preintegration::Join(const Preintegration& next) {
+  const ImuNoise greater = Greater(noise_, next.noise_);
   noise_ = next.noise_;
   bias_step_ = {std::max(bias_step_.gyro, next.bias_step_.gyro),
                 std::max(bias_step_.accel, next.bias_step_.accel)};
@@ -118,6 +119,7 @@ void Preintegration::Join(const Preintegration& next) {
   for (const ImuSample& sample : next.samples_) {
     if (sample.t_ns > samples_.back().t_ns) Append(sample);
   }
+  noise_ = greater;
 }
 
 void Preintegration::Repropagate(const ImuBias& linearization_bias) {

@@ -48,8 +48,7 @@ class Preintegration {
   void Append(const ImuSample& sample);
 
   // Appends the interval that follows this one. The covariance keeps the noise of each part until
-  // it is integrated anew: noise() is that of the newer one. The greater step of bias counts for
-  // both.
+  // it is integrated anew: noise() is the greater one. The greater step of bias counts for both.
   void Join(const Preintegration& next);
 
   // Integrates the same samples anew about another bias.

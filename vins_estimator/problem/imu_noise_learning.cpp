@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/problem/imu_noise_learning.h"
 
-#include <algorithm>
-
 #include "vins_estimator/problem/motion_evidence.h"
 
 namespace plm_vins {
@@ -46,9 +44,7 @@ bool ImuNoiseLearning::Reweigh(SlidingWindow* window) const {
     if (motion.HasBiasStep()) continue;
     const ImuNoise& before = motion.noise();
     if (!IsFarNoisier(noise, before)) continue;
-    motion.Reweigh({std::max(noise.gyro_density, before.gyro_density),
-                    std::max(noise.accel_density, before.accel_density), before.gyro_walk,
-                    before.accel_walk});
+    motion.Reweigh(Greater(noise, before));
     any = true;
   }
   return any;

@@ -49,7 +49,9 @@ std::optional<ImuNoiseEvidence> EvidenceOfMotion(const SlidingWindow& window,
   const Matrix15d P = assumed.solve(Matrix15d::Identity() - assumed.solve(*known).transpose());
   const auto evidence = [&](double density, const ImuNoise& source) {
     const Matrix15d S_k = CovarianceFrom(source, motion);
-    return DensityEvidence{density, weighted.dot(S_k * weighted), P.cwiseProduct(S_k).sum()};
+    const Matrix15d P_S_k = P * S_k;
+    return DensityEvidence{density, weighted.dot(S_k * weighted), P_S_k.trace(),
+                           P_S_k.cwiseProduct(P_S_k.transpose()).sum()};
   };
   const ImuNoise noise = motion.noise();
   return ImuNoiseEvidence{evidence(noise.accel_density, {0, noise.accel_density, 0, 0}),

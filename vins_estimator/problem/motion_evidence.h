@@ -13,8 +13,9 @@ namespace plm_vins {
 // gyro: variance components by restricted maximum likelihood, [Patterson1971]. `equations` are
 // those of the solved window. Let r be the residual, S its covariance as assumed, S_k what of it is
 // due to one source, C the covariance of the residual as the solution knows it. Then r^T S^-1 S_k
-// S^-1 r has the mean tr(P S_k) with P = S^-1 - S^-1 C S^-1. Nothing where the equations do not
-// determine the two states.
+// S^-1 r has the mean tr(P S_k) with P = S^-1 - S^-1 C S^-1, and tr(P S_k P S_k) more for each time
+// that the variance of this source is more than assumed in this interval alone. Nothing where the
+// equations do not determine the two states.
 std::optional<ImuNoiseEvidence> EvidenceOfMotion(const SlidingWindow& window,
                                                  const WindowFrame& begin, const WindowFrame& end,
                                                  NormalEquations* equations);

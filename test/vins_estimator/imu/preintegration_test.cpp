@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "common/geometry/so3.h"
@@ -344,6 +345,22 @@ TEST(Preintegration, JoinedIntervalsKeepTheirNoiseAndSteps) {
   EXPECT_EQ(joined.bias_step().gyro, 0.1);
   EXPECT_NEAR(joined.Covariance()(Index::kVelocity, Index::kVelocity), (1 + 9) * alone,
               0.05 * alone);
+}
+
+// An interval that was found to be noisy stays so, whichever of both it is.
+TEST(Preintegration, JoinedIntervalsThatAreIntegratedAnewHaveTheGreaterNoise) {
+  const auto samples = ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.1, 200);
+  const ImuNoise usual, high = Scaled(usual, 9);
+  Preintegration whole(high, {});
+  for (const ImuSample& sample : samples) whole.Append(sample);
+  for (const auto& [earlier, later] : {std::pair(usual, high), std::pair(high, usual)}) {
+    Preintegration joined(earlier, {}), next(later, {});
+    for (size_t i = 0; i <= 10; ++i) joined.Append(samples[i]);
+    for (size_t i = 10; i < samples.size(); ++i) next.Append(samples[i]);
+    joined.Join(next);
+    joined.Repropagate({});
+    EXPECT_MATRIX_NEAR(joined.Covariance(), whole.Covariance(), 1e-15);
+  }
 }
 
 // Where two intervals are joined, the stamp between them no longer matters.

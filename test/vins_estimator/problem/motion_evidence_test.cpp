@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "test/vins_estimator/simulated_problem.h"
@@ -111,13 +112,30 @@ TEST(EvidenceOfMotion, IsNothingWhereTheStatesAreNotDetermined) {
   EXPECT_FALSE(EvidenceOfMotion(window, window.frames[0], window.frames[1], &equations));
 }
 
-// Sums over solved windows with noise, of which the motions assume a share.
-ImuNoiseEvidence SumOverWindows(double assumed_share) {
+constexpr size_t kFrame = 4;  // the interval that ends with it is looked at
+
+// Lets this interval take its noise for another.
+void Assume(double share_of_accel, double share_of_gyro, SlidingWindow* window) {
+  Preintegration& motion = *window->frames[kFrame].motion_since_previous;
+  ImuNoise noise = motion.noise();
+  noise.accel_density *= share_of_accel;
+  noise.gyro_density *= share_of_gyro;
+  motion.Reweigh(noise);
+}
+
+void AddEvidence(const DensityEvidence& evidence, DensityEvidence* sum) {
+  sum->squared += evidence.squared;
+  sum->expected += evidence.expected;
+  sum->slope += evidence.slope;
+}
+
+// Sums over windows with noise that were solved after `assume` had changed what they assume of it.
+ImuNoiseEvidence SumOverWindows(const std::function<void(SlidingWindow*)>& assume) {
   ImuNoiseEvidence sum;
   for (uint64_t seed = 1; seed <= 30; ++seed) {
     SimulatedWindow simulated = testing::SimulateShakenWindow(seed);
     SlidingWindow& window = simulated.window;
-    testing::ScaleAssumedNoise(assumed_share * assumed_share, &window);
+    assume(&window);
     const auto prior = InitialPrior(InitialUncertainty(), Options(), window);
     ProblemBuilder builder(Options(), &window, &prior);
     testing::AddAll(&simulated, &builder);
@@ -126,11 +144,10 @@ ImuNoiseEvidence SumOverWindows(double assumed_share) {
     options.max_iterations = 20;
     SolveBy(SolverType::kSchur, options, builder.problem(), &equations);
     const auto evidence =
-        EvidenceOfMotion(window, window.frames[3], window.frames[4], &equations).value();
-    sum.accel.squared += evidence.accel.squared;
-    sum.accel.expected += evidence.accel.expected;
-    sum.gyro.squared += evidence.gyro.squared;
-    sum.gyro.expected += evidence.gyro.expected;
+        EvidenceOfMotion(window, window.frames[kFrame - 1], window.frames[kFrame], &equations)
+            .value();
+    AddEvidence(evidence.accel, &sum.accel);
+    AddEvidence(evidence.gyro, &sum.gyro);
   }
   return sum;
 }
@@ -139,7 +156,7 @@ ImuNoiseEvidence SumOverWindows(double assumed_share) {
 double Tolerance(const DensityEvidence& sum) { return 3 * std::sqrt(2 / sum.expected); }
 
 TEST(EvidenceOfMotion, IsAsExpectedWhereTheNoiseIsAsAssumed) {
-  const ImuNoiseEvidence sum = SumOverWindows(1);
+  const ImuNoiseEvidence sum = SumOverWindows([](SlidingWindow*) {});
   EXPECT_GT(sum.accel.expected, 20);
   EXPECT_GT(sum.gyro.expected, 20);
   EXPECT_NEAR(sum.accel.squared / sum.accel.expected, 1, Tolerance(sum.accel));
@@ -147,9 +164,23 @@ TEST(EvidenceOfMotion, IsAsExpectedWhereTheNoiseIsAsAssumed) {
 }
 
 TEST(EvidenceOfMotion, ShowsNoiseThatIsGreaterThanAssumed) {
-  const ImuNoiseEvidence sum = SumOverWindows(0.25);
+  const ImuNoiseEvidence sum =
+      SumOverWindows([](SlidingWindow* window) { testing::ScaleAssumedNoise(1.0 / 16, window); });
   EXPECT_GT(sum.accel.squared / sum.accel.expected, 6);
   EXPECT_GT(sum.gyro.squared / sum.gyro.expected, 6);
+}
+
+// The variance of one source in this interval is four times, or a quarter of, what is assumed.
+TEST(EvidenceOfMotion, GrowsWithTheNoiseByTheSlope) {
+  for (const double share : {0.5, 2.0}) {
+    const double more = 1 / (share * share) - 1;
+    const auto of_accel = [share](SlidingWindow* window) { Assume(share, 1, window); };
+    const DensityEvidence accel = SumOverWindows(of_accel).accel;
+    EXPECT_NEAR(accel.squared / (accel.expected + more * accel.slope), 1, 0.25) << share;
+    const auto of_gyro = [share](SlidingWindow* window) { Assume(1, share, window); };
+    const DensityEvidence gyro = SumOverWindows(of_gyro).gyro;
+    EXPECT_NEAR(gyro.squared / (gyro.expected + more * gyro.slope), 1, 0.25) << share;
+  }
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ class ImuNoiseEstimate {
 
   void Add(const ImuNoiseEvidence& evidence);
 
-  // The biases wander as configured.
+  // Of the accelerometer for times of a second, over which shaking is more than intervals between
+  // keyframes show. The biases wander as configured.
   ImuNoise noise() const;
   const ImuNoise& configured() const { return configured_; }
 

@@ -317,7 +317,10 @@ Eigen::Vector3d Estimator::UpdateTimingMonitors() {
                                          window.newest().state, nullptr);
   Eigen::Vector3d turn = residual.segment<3>(ImuErrorIndex::kRotation);
   const Eigen::Vector3d rate = motion.samples().back().gyro;
-  if (motion.HasGap()) return turn;  // what the gyro missed in it says nothing about stamps
+  if (motion.HasGap()) {  // what the gyro missed in it says nothing about stamps
+    state_.stamp_jitter.Skip();
+    return turn;
+  }
   state_.delay_monitor.Add(turn, rate - motion.samples().front().gyro);
   state_.stamp_jitter.Add(turn, rate);
   return turn;

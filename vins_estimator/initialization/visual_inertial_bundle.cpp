@@ -8,12 +8,11 @@
 #include <cmath>
 #include <memory>
 
-#include "common/geometry/so3.h"
-#include "vins_estimator/factors/factor.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/geometry/depth_limits.h"
+#include "vins_estimator/initialization/bundle_priors.h"
 #include "vins_estimator/optimization/levenberg_marquardt.h"
 #include "vins_estimator/problem/normal_equations.h"
 #include "vins_estimator/problem/term_evaluation.h"
@@ -24,61 +23,6 @@ namespace {
 
 constexpr SolverOptions kSolution = {12, 1e-3};  // the window is optimised further
 constexpr double kGaugeDeviation = 1e-3;         // [m] and [rad]; any small value will do
-
-// Holds position and heading of a pose: [p - p0, angle about the world's z] / deviation.
-class GaugePrior final : public SizedFactor<4, kPoseSize> {
- public:
-  explicit GaugePrior(const FrameState& state) : state_(state) {}
-
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    std::array<double, kPoseTangentSize> delta;
-    PoseMinus(parameters[0], state_.pose.data(), delta.data());
-    const Eigen::Map<const Eigen::Vector3d> dp(delta.data()), theta(delta.data() + 3);
-    const Eigen::RowVector3d z_axis = state_.rotation().toRotationMatrix().row(2);
-    Eigen::Map<Eigen::Vector4d> residual(residuals);
-    residual << dp, z_axis.dot(theta);
-    residual /= kGaugeDeviation;
-    if (jacobians && jacobians[0]) {
-      Eigen::Map<Eigen::Matrix<double, 4, kPoseSize, Eigen::RowMajor>> J(jacobians[0]);
-      J.setZero();
-      J.topLeftCorner<3, 3>().setIdentity();
-      J.block<1, 3>(3, 3) = z_axis * SO3RightJacobianInverse(theta);
-      J /= kGaugeDeviation;
-    }
-    return true;
-  }
-
- private:
-  FrameState state_;
-};
-
-// Holds the biases of the first frame softly. Block: motion.
-class BiasPrior final : public SizedFactor<6, 9> {
- public:
-  BiasPrior(const ImuBias& mean, double accel_deviation, double gyro_deviation) {
-    mean_ << mean.accel, mean.gyro;
-    inverse_deviation_ << Eigen::Vector3d::Constant(1 / accel_deviation),
-        Eigen::Vector3d::Constant(1 / gyro_deviation);
-  }
-
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    using Vector6 = Eigen::Matrix<double, 6, 1>;
-    const Eigen::Map<const Vector6> bias(parameters[0] + 3);
-    Eigen::Map<Vector6> residual(residuals);
-    residual = inverse_deviation_.cwiseProduct(bias - mean_);
-    if (jacobians && jacobians[0]) {
-      Eigen::Map<Eigen::Matrix<double, 6, 9, Eigen::RowMajor>> J(jacobians[0]);
-      J.setZero();
-      J.rightCols<6>() = inverse_deviation_.asDiagonal();
-    }
-    return true;
-  }
-
- private:
-  Eigen::Matrix<double, 6, 1> mean_, inverse_deviation_;
-};
 
 // The adjustment as a problem for the solver of the window, over the given states.
 class Bundle {
@@ -153,7 +97,7 @@ void Bundle::AddImu() {
 
 void Bundle::AddPriors() {
   const FrameState& first = states_.front();
-  problem_.AddTerm(GaugePrior(first), nullptr, {poses_.front()});
+  problem_.AddTerm(GaugePrior(first, kGaugeDeviation), nullptr, {poses_.front()});
   const ImuBias mean{Eigen::Vector3d::Zero(), first.gyro_bias()};
   problem_.AddTerm(BiasPrior(mean, options_.accel_bias_prior, options_.gyro_bias_prior), nullptr,
                    {motions_.front()});

@@ -25,6 +25,7 @@ constexpr double kLeastScale = 4.0;  // less is chance
 // eightieth; what errors of stamps and saturation make goes to and fro with the turns.
 constexpr double kForgetting = 0.025;  // per image: two seconds at 20 Hz
 constexpr double kOneDirection = 0.5;
+constexpr double kMinTurnImages = 20;  // fewer may have one direction by chance
 
 constexpr int kMinPoints = 20;              // fewer are no evidence
 constexpr double kContradictedShare = 0.5;  // outliers are a few per cent
@@ -65,7 +66,7 @@ void ImuMonitor::FollowTurn(const Eigen::Vector3d& turn_residual) {
 }
 
 bool ImuMonitor::NoiseHasOneDirection() const {
-  const bool long_enough = images_ > kOneDirection / kForgetting;
+  const bool long_enough = images_ > kMinTurnImages;
   return noise_scale() > 1 && long_enough &&
          turns_.squaredNorm() > kOneDirection * images_ * squared_turns_;
 }

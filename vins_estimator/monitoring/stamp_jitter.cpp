@@ -40,6 +40,8 @@ void StampJitterMonitor::Add(const Eigen::Vector3d& rotation_residual,
   squared_rate_before_ = squared_rate;
 }
 
+void StampJitterMonitor::Skip() { along_before_ = squared_rate_before_ = 0; }
+
 // Across the turn there are two directions.
 double StampJitterMonitor::deviation() const {
   if (squared_rates_ < kMinSquaredRates || along_ < kMinRatio * across_ / 2 || common_ >= 0)

@@ -17,6 +17,9 @@ class StampJitterMonitor {
   // gyro's at the second one.
   void Add(const Eigen::Vector3d& rotation_residual, const Eigen::Vector3d& rate);
 
+  // An interval that says nothing: the next one has nothing in common with those before.
+  void Skip();
+
   // Standard deviation of a stamp's error [s]; zero where there is none to be seen.
   double deviation() const;
 

@@ -17,8 +17,10 @@ namespace {
 const Eigen::Vector3d kGravity_W(0, 0, -9.81);
 
 // What two hundred images of a flight show, the stamps of which err by `jitter` [s] at most; other
-// errors [rad] go in all directions, or are the same share of each turn [s].
-double Measure(double jitter, double noise, double rate = 0.5, double same = 0) {
+// errors [rad] go in all directions, or are the same share of each turn [s]. Where `gaps`, every
+// third interval tells nothing.
+double Measure(double jitter, double noise, double rate = 0.5, double same = 0,
+               bool gaps = false) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> error(-jitter, jitter);
@@ -30,7 +32,11 @@ double Measure(double jitter, double noise, double rate = 0.5, double same = 0) 
   for (int i = 0; i < 200; ++i) {
     const double now = error(random);
     const Eigen::Vector3d turn = vector(rate);
-    monitor.Add((now - before + same) * turn + vector(noise), turn);
+    if (gaps && i % 3 == 0) {
+      monitor.Skip();
+    } else {
+      monitor.Add((now - before + same) * turn + vector(noise), turn);
+    }
     before = now;
   }
   return monitor.deviation();
@@ -38,6 +44,10 @@ double Measure(double jitter, double noise, double rate = 0.5, double same = 0) 
 
 TEST(StampJitterMonitor, MeasuresTheJitter) {
   EXPECT_NEAR(Measure(0.005, 2e-4), 0.005 / std::sqrt(3), 7e-4);
+}
+
+TEST(StampJitterMonitor, ComparesNeighboursOnly) {
+  EXPECT_NEAR(Measure(0.005, 2e-4, 0.5, 0, /*gaps=*/true), 0.005 / std::sqrt(3), 7e-4);
 }
 
 TEST(StampJitterMonitor, SaysNothingOfOtherErrors) {

@@ -53,6 +53,7 @@ ESTIMATOR_LAYERS = {
     "manhattan": "state geometry map",
     "merging": "state geometry map",
     "recall": "state geometry map",
+    "structure": "state map manhattan merging recall",
     "initialization": "state geometry imu factors problem optimization",
     "output": "state",
 }

@@ -9,12 +9,9 @@
 #include "vins_estimator/bridging/frame_placement.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/input/measurement_check.h"
-#include "vins_estimator/manhattan/line_directions.h"
 #include "vins_estimator/map/recalibration.h"
 #include "vins_estimator/map/wandering_lines.h"
-#include "vins_estimator/merging/line_merging.h"
 #include "vins_estimator/optimization/window_solver.h"
-#include "vins_estimator/recall/line_recognition.h"
 
 namespace plm_vins {
 namespace {
@@ -38,6 +35,7 @@ Matrix15d NewestCovariance(const SlidingWindow& window, NormalEquations* equatio
 Estimator::State::State(const Config& config, const EstimatorOptions& options)
     : initializer(config),
       standstill_detector(config.sensor.imu_noise),
+      structure(options.same_line),
       estimate(EmptyWindow(config.sensor, options.map)),
       noise(1 / options.problem.point_weight, 1 / options.problem.line_weight),
       imu_noise(config.sensor.imu_noise),
@@ -238,31 +236,17 @@ void Estimator::Triangulate(EstimatorOutput* output) {
   output->counts.line_triangulation = map.lines.Triangulate(map.window, options_.line_limits);
 }
 
-// The Manhattan frame of the lines, and, where a frame is kept, which of them are one.
+// What the lines say of the scene, and, where a frame is kept, of each other.
 void Estimator::FindStructure(bool keep_second_newest, EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = state_.estimate.map;
-  const auto directions =
-      LineDirections(map.window, map.lines, options_.line_limits.triangulation.noise);
-  state_.manhattan.Update(map.window.newest().state.t_ns, directions);
-  NameAxes(state_.manhattan, directions, &map.lines);
-  if (config_.estimator.line_merging && keep_second_newest) UniteLines(output);
+  state_.structure.FindAxes(&map);
+  if (config_.estimator.line_merging && keep_second_newest) {
+    const UnitedLines united = state_.structure.Unite(&map);
+    output->counts.line_merging = united.merging;
+    output->counts.lines_recognised = united.recognised;
+  }
   output->timings.line_merging = stopwatch.Milliseconds();
-}
-
-// Merged lines continue as one line, with one vote on the Manhattan frame.
-void Estimator::UniteLines(EstimatorOutput* output) {
-  LocalMap& map = state_.estimate.map;
-  const Eigen::Quaterniond R_M_W =
-      state_.manhattan.R_W_M().value_or(Eigen::Quaterniond::Identity()).conjugate();
-  const MergedLines merged = MergeLines(options_.same_line, R_M_W, &map);
-  const std::vector<int64_t> recognised = RecogniseLines(options_.same_line, R_M_W, &map);
-  map.ForgetIdleAliases();
-  for (const int64_t id : merged.absorbed) state_.manhattan.Remove(id);
-  for (const int64_t id : recognised) state_.manhattan.Remove(id);
-  NoteUse(map.lines, &map.window);
-  output->counts.line_merging = merged.counts;
-  output->counts.lines_recognised = static_cast<int>(recognised.size());
 }
 
 void Estimator::RemoveOutliers(EstimatorOutput* output) {
@@ -287,7 +271,7 @@ void Estimator::MoveRays() {
 ProblemOptions Estimator::CurrentProblem(JacobiansAt jacobians_at) const {
   ProblemOptions options = options_.problem;
   options.jacobians_at = jacobians_at;
-  if (config_.estimator.manhattan_constraints) options.R_W_M = state_.manhattan.R_W_M();
+  if (config_.estimator.manhattan_constraints) options.R_W_M = state_.structure.manhattan().R_W_M();
   options.SetNoise(state_.noise.point(), state_.noise.line());
   return options;
 }
@@ -380,7 +364,7 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->bias_covariance = state_.newest_covariance.bottomRightCorner<6, 6>();
   output->calibration = {config_.sensor.camera.With(window.intrinsics), window.T_B_C(), window.td,
                          window.readout};
-  output->R_W_M = state_.manhattan.R_W_M();
+  output->R_W_M = state_.structure.manhattan().R_W_M();
   output->imu_noise = state_.imu_noise.noise();
   output->imu_noise_scale = state_.imu_monitor.noise_scale();
   output->delay = state_.delay_monitor.delay();

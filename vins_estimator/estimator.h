@@ -13,7 +13,6 @@
 #include "vins_estimator/initialization/initializer.h"
 #include "vins_estimator/input/measurement_check.h"
 #include "vins_estimator/input/rolling_shutter.h"
-#include "vins_estimator/manhattan/manhattan_frame.h"
 #include "vins_estimator/map/view_noise.h"
 #include "vins_estimator/marginalization/window_estimate.h"
 #include "vins_estimator/monitoring/blindness_monitor.h"
@@ -24,6 +23,7 @@
 #include "vins_estimator/problem/imu_noise_learning.h"
 #include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/state/estimator_output.h"
+#include "vins_estimator/structure/line_structure.h"
 
 namespace plm_vins {
 
@@ -64,7 +64,7 @@ class Estimator {
     ImuMonitor imu_monitor;
     DelayMonitor delay_monitor;
     StampJitterMonitor stamp_jitter;
-    ManhattanFrame manhattan;
+    LineStructure structure;
     WindowEstimate estimate;
     ViewNoise noise;
     ImuNoiseLearning imu_noise;
@@ -90,7 +90,6 @@ class Estimator {
   void AddFrame(const FrameMeasurement& measurement);
   void Triangulate(EstimatorOutput* output);
   void FindStructure(bool keep_second_newest, EstimatorOutput* output);
-  void UniteLines(EstimatorOutput* output);
   void RemoveOutliers(EstimatorOutput* output);
   std::optional<Failure> UpdateFailureMonitors(const EstimatorOutput& output);
   void GiveUp(const Failure& failure, EstimatorOutput* output);

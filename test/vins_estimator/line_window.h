@@ -6,23 +6,15 @@
 #include <utility>
 
 #include "vins_estimator/geometry/line_fit.h"
-#include "vins_estimator/manhattan/line_directions.h"
 #include "vins_estimator/map/local_map.h"
-#include "vins_estimator/merging/line_merging.h"
 #include "vins_estimator/recall/anchor_policy.h"
-#include "vins_estimator/recall/line_recognition.h"
+#include "vins_estimator/structure/line_structure.h"
 
 namespace plm_vins::testing {
 
 constexpr double kFocalLength = 460.0;
 constexpr double kNoise = 1.0 / kFocalLength;
 constexpr size_t kWindowSize = 10;
-
-// What one image brought.
-struct UnitedLines {
-  LineMergingCounts merging;
-  int recognised = 0;
-};
 
 // Frames of known pose, and the lines that they see, as the estimator would have them.
 class LineWindow {
@@ -43,16 +35,8 @@ class LineWindow {
   }
 
   UnitedLines Unite() {
-    const auto directions = LineDirections(map_.window, map_.lines, kNoise);
-    manhattan_.Update(map_.window.newest().state.t_ns, directions);
-    NameAxes(manhattan_, directions, &map_.lines);
-    const Eigen::Quaterniond R_M_W =
-        manhattan_.R_W_M().value_or(Eigen::Quaterniond::Identity()).conjugate();
-    const MergedLines merged = MergeLines(Limits(), R_M_W, &map_);
-    const auto recognised = RecogniseLines(Limits(), R_M_W, &map_);
-    map_.ForgetIdleAliases();
-    NoteUse(map_.lines, &map_.window);
-    return {merged.counts, static_cast<int>(recognised.size())};
+    structure_.FindAxes(&map_);
+    return structure_.Unite(&map_);
   }
 
   // As the estimator does: drops the frame before the newest, or else the oldest.
@@ -65,6 +49,7 @@ class LineWindow {
   }
 
   LocalMap& map() { return map_; }
+  const LineStructure& structure() const { return structure_; }
 
  private:
   void SlideOldest() {
@@ -86,7 +71,7 @@ class LineWindow {
   }
 
   LocalMap map_{LocalMapOptions(kNoise, /*remember_lines=*/true)};
-  ManhattanFrame manhattan_;
+  LineStructure structure_{Limits()};
 };
 
 }  // namespace plm_vins::testing

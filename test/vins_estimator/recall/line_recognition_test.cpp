@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Vector2d;
 using testing::LineWindow;
-using testing::UnitedLines;
 using testing::UniteOnWall;
 
 // A line that leaves the window, and another of a new track once it has left.

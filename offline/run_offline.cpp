@@ -257,6 +257,9 @@ Config Configure(const Arguments& arguments) {
         "loop closure needs images: run it without --features, or with "
         "--set loop_closure=0");
   }
+  if (arguments.track_image_interval > 0 && !arguments.features.empty()) {
+    throw std::runtime_error("--save-track-images needs images: run it without --features");
+  }
   return config;
 }
 

@@ -45,6 +45,7 @@ done
 [[ -z "$asl" || -d "$asl" ]] || fail "$asl: no such folder"
 [[ -z "$truth" || -f "$truth" ]] || fail "$truth: no such ground truth"
 [[ "$rviz" == false || -z "$asl" ]] || fail "--rviz plays bags, not ASL folders"
+[[ "$rviz" == false || -z "$truth" ]] || fail "--rviz compares nothing; leave --groundtruth out"
 [[ -f "$config" ]] || fail "$config: no such config"
 
 # A recording of 30 s with its ground truth; complete once the folder has its final name.
@@ -62,21 +63,22 @@ simulate() {
 }
 
 run_online() {
+  mkdir -p "$output"
   set +u  # ROS's script reads variables that are not set
   # shellcheck disable=SC1091
   source "$root/build/devel/setup.bash"
   set -u
   roslaunch plm_vins euroc.launch config:="$(realpath "$config")" bag:="$(realpath "$bag")" \
-    rviz:=true
+    output:="$(realpath "$output")" rviz:=true
 }
 
 find_truth() {
   if [[ -n "$truth" ]]; then
     echo "$truth"
   elif [[ -n "$asl" ]]; then
-    find "$asl" -path '*/state_groundtruth_estimate0/data.csv' -print -quit
-  else
-    find "$(dirname "$bag")" -maxdepth 1 -name "$(basename "$bag" .bag).tum"
+    find -H "$asl" -path '*/state_groundtruth_estimate0/data.csv' -print -quit
+  elif [[ -f "${bag%.bag}.tum" ]]; then
+    echo "${bag%.bag}.tum"
   fi
 }
 

@@ -26,20 +26,23 @@ def evaluate_loops(folder, truth_path):
            for name, trajectory in trajectories.items()}
     odometry = trajectories["trajectory.tum"]
     accepted = loop_metrics.read_loops(folder / "loops.csv")
-    loops = accepted.between(odometry.stamps)
+    # Where the poses of an earlier recording's map are in this one's world is not known.
+    own = accepted.between(odometry.stamps)
+    loops = own.between(truth.stamps, loop_metrics.TRUE_POSE_WITHIN)
     distances, turns = loop_metrics.loop_errors(loops, odometry, truth)
     flown = (truth.stamps >= odometry.stamps[0]) & (truth.stamps <= odometry.stamps[-1])
     revisited, returned = loop_metrics.revisits(truth.select(flown))
     return {
         "loops": len(loops),
-        "loops_left_out": len(accepted) - len(loops),
+        "loops_left_out": len(accepted) - len(own),
+        "loops_without_truth": len(own) - len(loops),
         "false_loops": int(((distances > FALSE_DISTANCE) | (turns > FALSE_TURN)).sum()),
         "largest_error_m": float(distances.max(initial=0)),
         "largest_error_deg": float(turns.max(initial=0)),
         "revisited_s": len(revisited) * loop_metrics.SAMPLING,
-        "closed_share": loop_metrics.closed_share(loops, revisited),
+        "closed_share": loop_metrics.closed_share(own, revisited),
         "returned_s": int(returned.sum()) * loop_metrics.SAMPLING,
-        "closed_share_of_returns": loop_metrics.closed_share(loops, revisited[returned]),
+        "closed_share_of_returns": loop_metrics.closed_share(own, revisited[returned]),
         "ape_m": ape,
     }
 
@@ -69,6 +72,9 @@ def format_report(result):
     if result["loops_left_out"]:
         lines.insert(1, f"left out: {result['loops_left_out']} to poses that are not in"
                         " trajectory.tum, such as those of a map of earlier (--map-in)")
+    if result["loops_without_truth"]:
+        lines.insert(1, f"left out: {result['loops_without_truth']} where the ground truth has a"
+                        " gap")
     odometry = result["ape_m"]["trajectory.tum"]
     lines += [f"APE {1000 * ape:7.1f} mm  {ape / odometry:4.2f}  {TRAJECTORIES[name]}"
               for name, ape in result["ape_m"].items()]

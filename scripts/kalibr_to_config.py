@@ -181,6 +181,8 @@ def noise_lines(imu):
         if value <= 0:
             raise imu.error(key, "must be positive")
         lines.append(f"{name}: {value!r}  # [{units[name]}]")
+    if "update_rate" in imu.values:
+        lines.append(f"imu_rate: {imu.number('update_rate')!r}  # [Hz]")
     return lines
 
 

@@ -14,7 +14,8 @@ def parse_arguments(arguments):
     parser = argparse.ArgumentParser(description=__doc__, epilog="faults:\n" + faults,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("source", help="a .bag, an ASL folder, or what --save-features wrote")
-    parser.add_argument("target", help="the same kind, with the fault; written anew")
+    parser.add_argument("target", help="the same kind, with the fault; a file is written anew,"
+                        " a folder must be new or empty")
     parser.add_argument("--fault", required=True, choices=FAULTS, metavar="NAME")
     parser.add_argument("--begin", type=float, default=24.0, metavar="S",
                         help="when it begins, since the first image [s] (default: 24)")

@@ -93,7 +93,7 @@ def _override(text):
 
 
 def plan(options):
-    """The settings and all runs, finished or not."""
+    """The settings, their fingerprint, and all runs, finished or not."""
     sequences = find_sequences(options.recordings)
     if options.sequences:
         sequences = select_sequences(sequences, options.sequences)
@@ -104,7 +104,7 @@ def plan(options):
             for repetition in range(1, options.repetitions + 1)
             for start in options.starts
             for sequence in sequences for variant in select_variants(options.variants)]
-    return settings, sequences, runs
+    return settings, fingerprint, sequences, runs
 
 
 @contextlib.contextmanager
@@ -157,7 +157,7 @@ def facts(options, settings, fingerprint, where):
 
 
 def run_dataset(options):
-    settings, sequences, runs = plan(options)
+    settings, fingerprint, sequences, runs = plan(options)
     evaluator = Evaluator(sequences, options.duration)
     with locked(settings.output), open_executor(
             options.scheduler, options.jobs) as (executor, where):
@@ -170,7 +170,10 @@ def run_dataset(options):
                   " command goes on from here", file=sys.stderr)
             return INTERRUPTED
         results = Results(evaluator.result(run) for run in runs)
-        about = facts(options, settings, settings.fingerprint(), where)
+        if settings.fingerprint() != fingerprint:
+            print("run_dataset.py: the program or the configuration has changed meanwhile, so runs"
+                  " may not be comparable; the same command repeats them all", file=sys.stderr)
+        about = facts(options, settings, fingerprint, where)
         print(*write_comparison(settings.output, results, evaluator, about,
                                 not options.no_plots), sep="\n")
     failures = sum(result.failure is not None for result in results.all())

@@ -57,7 +57,7 @@ class ControlGenerator {
     const int resting = static_cast<int>(std::ceil(options_.rest / spacing)) + 5;
     std::vector<Control> controls{First()};
     for (int i = 1; i < count; ++i) {
-      const double t = (i - 2.5) * spacing;  // where this control has its peak
+      const double t = (i - 2.5) * spacing;  // half a knot before this control has its peak
       controls.push_back(i < resting ? controls.front() : Next(t, spacing, controls.back()));
     }
     return controls;

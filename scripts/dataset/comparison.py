@@ -5,7 +5,6 @@ import math
 import os
 
 from .csv_files import write_csv
-from .environment import usable_cores
 from .pages import write_pages
 from .report import markdown_report
 from .results import METRIC
@@ -17,7 +16,7 @@ def write_comparison(output, results, evaluator, facts, with_plots):
     pictures = _write_pictures(output, results, evaluator) if with_plots else {}
     path = os.path.join(output, "report.md")
     with open(path, "w", encoding="utf-8") as file:
-        file.write(markdown_report(results, facts, pictures, usable_cores()))
+        file.write(markdown_report(results, facts, pictures))
     pages = _write_pages(output, results, evaluator, facts) if with_plots else []
     return [path, *write_csv(output, results), *pages]
 

@@ -13,20 +13,20 @@ from .variants import DESCRIPTIONS
 COVERAGE = METRIC["coverage_percent"]
 
 
-def markdown_report(results, facts, figures, cores):
+def markdown_report(results, facts, figures):
     """The report's text.
 
     facts: pairs of a label and a text about the whole; figures: paths of pictures, relative to the
-    report, by heading; cores: that the runs could use.
+    report, by heading.
     """
     errors = [metric for metric in METRICS if metric.is_error]
     others = [metric for metric in METRICS if not metric.is_error and metric is not COVERAGE]
     parts = ["# Odometry over a dataset", _facts(facts), _variants(results), _failures(results),
              _not_compared(results), "## Accuracy", _ape_notes(results),
              *(_metric_table(results, metric) for metric in errors), "## Start, speed and lines",
-             _time_notes(results, cores),
+             _time_notes(results),
              *(_metric_table(results, metric) for metric in others),
-             _paper_part(results, _time_notes(results, cores)), _pictures(figures)]
+             _paper_part(results, _time_notes(results)), _pictures(figures)]
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
@@ -94,14 +94,15 @@ def _ape_notes(results):
     return note
 
 
-def _time_notes(results, cores):
+def _time_notes(results):
     """A warning where other work made the runs slower."""
-    loads = [load for load in map(METRIC["load"].value, results.all()) if load is not None]
-    busy = [load for load in loads if load > cores + 1]
+    known = [(r.load, r.cores) for r in results.all() if None not in (r.load, r.cores)]
+    busy = [(load, cores) for load, cores in known if load > cores + 1]
     if not busy:
         return ""
-    return (f"**The times are too long:** {len(busy)} of {len(loads)} runs shared the machine with"
-            f" other work (load average up to {max(busy):.0f} on {cores} cores).")
+    load, cores = max(busy)
+    return (f"**The times are too long:** {len(busy)} of {len(known)} runs shared their machine"
+            f" with other work (load average up to {load:.0f}, on {cores} cores).")
 
 
 def _paper_part(results, time_notes):

@@ -25,6 +25,7 @@ class RunResult:
     evaluation: Optional[dict] = None  # as of evaluate.py
     not_compared: Optional[str] = None
     load: Optional[float] = None  # of the machine, in the run's last minute
+    cores: Optional[int] = None  # of the machine, that the run could use
 
 
 @dataclass(frozen=True)
@@ -195,7 +196,7 @@ class Evaluator:
         if outcome["failure"] is not None:
             return RunResult(run, failure=outcome["failure"])
         try:
-            result = RunResult(run, load=outcome.get("load_average"),
+            result = RunResult(run, load=outcome.get("load_average"), cores=outcome.get("cores"),
                                summary=_read_json(os.path.join(run.folder, "summary.json")),
                                line_extraction_ms=_mean_line_extraction(run.folder))
         except (KeyError, ValueError) as error:

@@ -16,6 +16,7 @@ import time
 import uuid
 from typing import Dict, Optional
 
+from .environment import usable_cores
 from .sequences import Sequence
 
 RESULTS = ("trajectory.tum", "timing.csv", "summary.json")
@@ -137,8 +138,8 @@ class Run:
         outcome = {"sequence": self.sequence.name, "variant": self.variant,
                    "start": self.start, "repetition": self.repetition, "failure": failure,
                    "exit_code": exit_code, "wall_time_s": seconds, "machine": platform.node(),
-                   "load_average": os.getloadavg()[0], "command": self._command(self.folder),
-                   "identity": self._identity}
+                   "load_average": os.getloadavg()[0], "cores": usable_cores(),
+                   "command": self._command(self.folder), "identity": self._identity}
         with open(os.path.join(folder, OUTCOME), "w", encoding="utf-8") as file:
             json.dump(outcome, file, indent=2)
 

@@ -53,6 +53,7 @@ def find_sequences(places):
 def find_truth(path):
     """The ground truth of a recording, or None: inside of its ASL folder, or beside the recording
     with the same name."""
+    path = _folder_of_mav0(os.path.normpath(path))
     stem = path[:-len(".bag")] if _is_bag(path) else path
     candidates = [os.path.join(stem, ASL_TRUTH), stem + ".tum", stem + ".csv"]
     if _is_bag(path):
@@ -82,8 +83,12 @@ def _recordings_at(place):
         return [place]
     if not os.path.isdir(place):
         raise DatasetError(f"{place}: no such folder or bag")
-    return list(_recordings_below(os.path.dirname(place) if os.path.basename(place) == "mav0"
-                                  else place))
+    return list(_recordings_below(_folder_of_mav0(place)))
+
+
+def _folder_of_mav0(path):
+    """The path itself, or, where it is an ASL folder's mav0/, the folder."""
+    return os.path.dirname(path) if os.path.basename(path) == "mav0" else path
 
 
 def _recordings_below(folder):

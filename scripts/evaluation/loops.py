@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .metrics import are_among, nearest_indices, signed_yaw_errors
+from .metrics import SAME_STAMP, are_among, nearest_indices, signed_yaw_errors
 from .trajectory import TrajectoryError
 
 # A true revisit: the body is near where it was before, and looks nearly the same way.
@@ -15,6 +15,7 @@ REVISIT_ANGLE = np.radians(30)  # [rad]
 REVISIT_PAUSE = 15.0  # [s]
 SAMPLING = 0.25  # of time, where revisits are looked for [s]
 CLOSED_WITHIN = 1.0  # of a revisit, before or after it [s]
+TRUE_POSE_WITHIN = 0.1  # of a pose, so that its true place is known [s]
 
 
 @dataclass
@@ -30,10 +31,9 @@ class Loops:
     def __len__(self):
         return len(self.later)
 
-    def between(self, stamps):
-        """Those between poses that are there. The others lead to a map of an earlier recording:
-        where its poses are in this one's world is not known."""
-        kept = are_among(self.earlier, stamps) & are_among(self.later, stamps)
+    def between(self, stamps, within=SAME_STAMP):
+        """Those whose both ends have one of `stamps`, or are `within` of one [s]."""
+        kept = are_among(self.earlier, stamps, within) & are_among(self.later, stamps, within)
         return Loops(self.earlier[kept], self.later[kept], self.positions[kept], self.yaws[kept])
 
 
@@ -56,7 +56,8 @@ def _parse_row(row):
 
 def loop_errors(loops, odometry, truth):
     """Distances [m] and turns [deg], both (n,), by which the loops are off, all of them between
-    poses of `odometry`. Its worlds may be turned against that of `truth`, and drift."""
+    poses of `odometry` that have true ones. Its worlds may be turned against that of `truth`, and
+    drift."""
     earlier, earlier_turns = _true_places(loops.earlier, odometry, truth)
     later, later_turns = _true_places(loops.later, odometry, truth)
     c, s = np.cos(earlier_turns), np.sin(earlier_turns)
@@ -76,14 +77,16 @@ def _true_places(stamps, odometry, truth):
 
 def revisits(truth):
     """Times (n,) [s], SAMPLING apart, at which the body is where it was REVISIT_PAUSE before, and
-    whether it has been elsewhere in between, (n,): one that stays where it starts has not."""
+    whether it has been elsewhere in between, (n,): one that stays where it starts has not. Gaps of
+    the ground truth are left out."""
     times = np.arange(truth.stamps[0], truth.stamps[-1], SAMPLING)
+    times = times[are_among(times, truth.stamps, SAMPLING)]
     poses = truth.select(nearest_indices(truth.stamps, times))
-    pause = round(REVISIT_PAUSE / SAMPLING)
+    before = np.searchsorted(times, times - REVISIT_PAUSE + SAMPLING / 2)
     revisited, returned = [], []
-    for index in range(pause, len(times)):
+    for index in range(len(times)):
         near = _is_near(poses, index)
-        if near[:index - pause + 1].any():
+        if near[:before[index]].any():
             revisited.append(times[index])
             returned.append(not near[np.argmax(near):].all())
     return np.array(revisited), np.array(returned, dtype=bool)

@@ -34,10 +34,10 @@ def nearest_indices(sorted_stamps, queries):
     return right - left_is_nearer
 
 
-def are_among(queries, sorted_stamps):
-    """Whether each query is one of the stamps."""
+def are_among(queries, sorted_stamps, within=SAME_STAMP):
+    """Whether each query is one of the stamps, or `within` of one [s]."""
     nearest = sorted_stamps[nearest_indices(sorted_stamps, queries)]
-    return np.abs(nearest - queries) <= SAME_STAMP
+    return np.abs(nearest - queries) <= within
 
 
 def _span(trajectory):

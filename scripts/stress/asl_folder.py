@@ -12,12 +12,11 @@ IMU, IMAGES = os.path.join("imu0", "data.csv"), os.path.join("cam0", "data.csv")
 
 
 def make_faulty(source, target, apply, begin):
-    """The images and all else stay where they are: `target` links to them."""
+    """The images and all else stay where they are: `target`, a new folder, links to them."""
+    if os.path.lexists(target) and not (os.path.isdir(target) and not os.listdir(target)):
+        raise ValueError(f"{target}: exists already; remove it or give another target")
     nested = os.path.join(source, "mav0")
     source = nested if os.path.isdir(nested) else source
-    for name in (IMU, IMAGES):
-        if _is_same(os.path.join(source, name), os.path.join(target, name)):
-            raise ValueError(f"{target}: the recording itself lies there; give another target")
     (imu_head, imu), (image_head, images) = (_read(os.path.join(source, name))
                                              for name in (IMU, IMAGES))
     if not imu or not images:
@@ -32,10 +31,6 @@ def make_faulty(source, target, apply, begin):
             for i in np.flatnonzero(measurements.imu_kept)])
     _write(os.path.join(target, IMAGES), image_head,
            [[t_ns, *row[1:]] for t_ns, row in zip(measurements.image_ns, images)])
-
-
-def _is_same(path, other):
-    return os.path.realpath(path) == os.path.realpath(other)
 
 
 def _read(path):
@@ -63,5 +58,5 @@ def _link_the_rest(source, target):
 def _link(source, target, name):
     link = os.path.join(target, name)
     os.makedirs(os.path.dirname(link), exist_ok=True)
-    if name not in (IMU, IMAGES) and not os.path.lexists(link):
+    if name not in (IMU, IMAGES):
         os.symlink(os.path.realpath(os.path.join(source, name)), link)

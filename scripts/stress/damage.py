@@ -32,7 +32,7 @@ def read_worlds(path):
     ends = starts[1:] + [len(poses)]
     worlds = [poses.select(np.arange(start, end)) for start, end in zip(starts, ends)
               if end > start]
-    return worlds, [poses.stamps[end - 1] for end in starts[1:]]
+    return worlds, [poses.stamps[end - 1] for end in starts[1:] if end > 0]
 
 
 def assess(path, truth, fault_at):

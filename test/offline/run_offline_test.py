@@ -67,6 +67,10 @@ class RunOffline(unittest.TestCase):
         self.assert_refuses("loop closure needs images", "--map-out", "map.plm",
                             source=("--features", "none.features"))
 
+    def test_track_images_without_images(self):
+        self.assert_refuses("--save-track-images needs images", "--save-track-images", "0.5",
+                            source=("--features", "none.features"))
+
     def test_features_that_would_overwrite_themselves(self):
         features = self.folder / "flight.features"
         features.write_text("kept", encoding="utf-8")

@@ -35,6 +35,7 @@ class DemoOptions(unittest.TestCase):
         self.assert_refused("missing.yaml: no such config", "--config", "missing.yaml")
         self.assert_refused("no such ground truth", "--groundtruth", "missing.tum")
         self.assert_refused("not ASL folders", "--asl", SCRIPTS, "--rviz")
+        self.assert_refused("--rviz compares nothing", "--groundtruth", __file__, "--rviz")
 
     def test_help(self):
         for script in ("demo.sh", "setup.sh", "build.sh", "test.sh", "fuzz.sh"):

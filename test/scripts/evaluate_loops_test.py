@@ -82,7 +82,9 @@ class Revisits(unittest.TestCase):
         self.assertTrue(returned.all())
 
     def test_who_stays_has_not_returned(self):
-        truth = rounds(count=0.02)  # standing still, but for half a metre
+        truth = rounds(count=1)
+        truth.positions *= 0.1  # 0.4 m about one place
+        truth.rotations[:] = np.eye(3)
         truth.stamps = np.linspace(START, START + 30, len(truth.stamps))
         times, returned = revisits(truth)
         self.assertAlmostEqual(times[0], START + 15, delta=0.3)
@@ -93,6 +95,13 @@ class Revisits(unittest.TestCase):
         later = truth.stamps >= START + ROUND - 1
         truth.rotations[later] = truth.rotations[later] @ about_z(np.array(np.pi))
         self.assertEqual(len(revisits(truth)[0]), 0)
+
+    def test_a_gap_of_the_truth_is_none(self):
+        turn = rounds(count=1)
+        left, back = turn.stamps < START + 5, turn.stamps > START + 12
+        turn.stamps[back] += 200.0  # to where the first half ends
+        turn.positions[back] = turn.positions[left][-1] + [2, 0, 0]
+        self.assertEqual(len(revisits(turn.select(left | back))[0]), 0)
 
     def test_a_loop_closes_what_is_a_second_around_it(self):
         loops = Loops(np.array([1.0]), np.array([21.0]), np.zeros((1, 3)), np.zeros(1))
@@ -144,6 +153,16 @@ class Folder(unittest.TestCase):
             self.assertEqual(result["false_loops"], 0)
         run = self.run_script(self.folder, self.folder / "truth.tum")
         self.assertIn("left out: 1 to poses that are not in trajectory.tum", run.stdout)
+
+    def test_leaves_out_what_has_no_truth(self):
+        gap = np.abs(self.truth.stamps - START - 22.5) < 1
+        self.write("truth.tum", self.truth.select(~gap))
+        self.write_loops(self.row("accepted", 0.5))
+        result = evaluate_loops(self.folder, self.folder / "truth.tum")
+        self.assertEqual((result["loops"], result["loops_without_truth"]), (0, 1))
+        self.assertEqual(result["false_loops"], 0)
+        run = self.run_script(self.folder, self.folder / "truth.tum")
+        self.assertIn("left out: 1 where the ground truth has a gap", run.stdout)
 
     def test_loops_to_another_recording_close_nothing(self):
         later, _, *rest = self.row("accepted")

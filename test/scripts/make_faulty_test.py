@@ -166,6 +166,15 @@ class Files(unittest.TestCase):
         self.assertEqual(self.read("good/mav0/imu0/data.csv"), good)
         self.assertEqual(sorted(os.listdir(self.path("good"))), ["mav0"])
 
+    def test_asl_folder_does_not_mix_with_another(self):
+        self.write_asl()
+        self.write("other/cam0/data/a.png", b"another picture")
+        self.assert_refused("exists already", self.path("good"), self.path("other"), "--fault",
+                            "none")
+        os.makedirs(self.path("empty"))
+        self.assertEqual(main([self.path("good"), self.path("empty"), "--fault", "none"]), 0)
+        self.assertEqual(self.read("empty/cam0/data/a.png"), b"picture")
+
     def test_asl_folder_without_a_row(self):
         self.write_asl()
         self.write("good/mav0/imu0/data.csv", b"#timestamp [ns],w,w,w,a,a,a\n")

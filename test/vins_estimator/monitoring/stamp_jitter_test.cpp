@@ -19,8 +19,7 @@ const Eigen::Vector3d kGravity_W(0, 0, -9.81);
 // What two hundred images of a flight show, the stamps of which err by `jitter` [s] at most; other
 // errors [rad] go in all directions, or are the same share of each turn [s]. Where `gaps`, every
 // third interval tells nothing.
-double Measure(double jitter, double noise, double rate = 0.5, double same = 0,
-               bool gaps = false) {
+double Measure(double jitter, double noise, double rate = 0.5, double same = 0, bool gaps = false) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> error(-jitter, jitter);

@@ -26,8 +26,8 @@ HeadingSupport SupportBy(std::vector<WallLine> tracks, UnitedLines* united) {
 TEST(LineStructure, ALineWhoseTrackBreaksHasOneVote) {
   UnitedLines whole, broken;
   const HeadingSupport once = SupportBy({{4, {-1, 0.5}, {1, 0.5}}}, &whole);
-  const HeadingSupport twice = SupportBy(
-      {{4, {-1, 0.5}, {1, 0.5}, 0, 14}, {9, {-1, 0.5}, {1, 0.5}, 15}}, &broken);
+  const HeadingSupport twice =
+      SupportBy({{4, {-1, 0.5}, {1, 0.5}, 0, 14}, {9, {-1, 0.5}, {1, 0.5}, 15}}, &broken);
   EXPECT_EQ(whole.merging.merged, 0);
   EXPECT_EQ(broken.merging.merged, 1);
   EXPECT_EQ(once.lines, 2);
@@ -36,8 +36,8 @@ TEST(LineStructure, ALineWhoseTrackBreaksHasOneVote) {
 
 TEST(LineStructure, ALineThatComesBackHasOneVote) {
   UnitedLines united;
-  const HeadingSupport support = SupportBy(
-      {{4, {-1, 0.5}, {1, 0.5}, 0, 7}, {9, {-1, 0.5}, {1, 0.5}, 20}}, &united);
+  const HeadingSupport support =
+      SupportBy({{4, {-1, 0.5}, {1, 0.5}, 0, 7}, {9, {-1, 0.5}, {1, 0.5}, 20}}, &united);
   EXPECT_EQ(united.recognised, 1);
   EXPECT_EQ(support.lines, 2);
 }

@@ -93,6 +93,8 @@ void EstimationStage::Reset(const std::string& reason) {
 // Without an output since the last start no world frame is given up, so none is announced.
 void EstimationStage::StartOver(const std::string& reason) {
   estimator_->Reset();
+  imu_noise_scale_ = 1;
+  delay_.reset();
   sync_.SetTimeOffset(estimator_->time_offset());
   if (anew_) return;
   ++resets_;

@@ -12,6 +12,7 @@
 #include "vins_estimator/map/recalibration.h"
 #include "vins_estimator/map/wandering_lines.h"
 #include "vins_estimator/optimization/window_solver.h"
+#include "vins_estimator/state/derived_covariance.h"
 
 namespace plm_vins {
 namespace {
@@ -137,6 +138,7 @@ void Estimator::StartWindow(const InitializationResult& result,
     AddFrame(frame.measurement);
     window.newest().state = frame.state;
   }
+  window.newest().stationary = result.from_standstill;
   state_.estimate.prior = InitialPrior(uncertainty, options_.problem, window);
 }
 
@@ -184,14 +186,13 @@ std::optional<Estimator::Failure> Estimator::UpdateFailureMonitors(const Estimat
           state_.contradiction_monitor.Add(output.t_ns, counts.known_seen, counts.known_rejected)) {
     return Failure{*contradiction};
   }
-  if (const auto blindness =
-          state_.blindness_monitor.Add(output.t_ns, counts.points_observed + counts.lines_observed,
-                                       counts.known_seen - counts.known_rejected,
-                                       state_.newest_covariance.topLeftCorner<3, 3>())) {
+  const FrameState& newest = state_.estimate.map.window.newest().state;
+  if (const auto blindness = state_.blindness_monitor.Add(
+          counts.points_observed + counts.lines_observed, counts.known_seen - counts.known_rejected,
+          newest, state_.newest_covariance.topLeftCorner<6, 6>())) {
     return Failure{*blindness, /*has_drifted=*/true};
   }
-  if (const auto jump = DetectFailure(FailureLimits(), state_.predicted,
-                                      state_.estimate.map.window.newest().state)) {
+  if (const auto jump = DetectFailure(FailureLimits(), state_.predicted, newest)) {
     return Failure{*jump};
   }
   return std::nullopt;
@@ -331,11 +332,13 @@ void Estimator::InflateNewestImuNoise(double variance_scale) {
 
 void Estimator::SlideWindow(bool keep_second_newest, EstimatorOutput* output) {
   const Stopwatch stopwatch;
-  const size_t frame_count = state_.estimate.map.window.frames.size();
+  const LocalMap& map = state_.estimate.map;
+  const auto window_size = static_cast<size_t>(config_.estimator.window_size);
   if (!keep_second_newest) {
     state_.estimate.DropSecondNewest();
-  } else if (static_cast<int>(frame_count) > config_.estimator.window_size) {
-    SlideOldest(output);
+  } else {
+    // Twice right after a start, which may fill a small window by one frame too many.
+    while (map.window.frames.size() > window_size) SlideOldest(output);
   }
   output->timings.marginalization = stopwatch.Milliseconds();
 }
@@ -349,8 +352,11 @@ void Estimator::SlideOldest(EstimatorOutput* output) {
   }
   DepartedLandmarks departed =
       estimate.SlideOldest(CurrentProblem(JacobiansAt::kFirstEstimates), stays);
-  output->departed_points = std::move(departed.points);
-  output->departed_lines = std::move(departed.lines);
+  const auto append = [](auto* more, auto* all) {
+    all->insert(all->end(), more->begin(), more->end());
+  };
+  append(&departed.points, &output->departed_points);
+  append(&departed.lines, &output->departed_lines);
 }
 
 void Estimator::Describe(EstimatorOutput* output) const {
@@ -361,6 +367,8 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->state = window.newest().state;
   output->pose_covariance = state_.newest_covariance.topLeftCorner<6, 6>();
   output->velocity_covariance = state_.newest_covariance.block<3, 3>(6, 6);
+  output->body_velocity_covariance =
+      BodyVelocityCovariance(output->state, state_.newest_covariance.block<6, 6>(3, 3));
   output->bias_covariance = state_.newest_covariance.bottomRightCorner<6, 6>();
   output->calibration = {config_.sensor.camera.With(window.intrinsics), window.T_B_C(), window.td,
                          window.readout};

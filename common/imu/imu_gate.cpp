@@ -83,14 +83,16 @@ void ImuGate::Clear() {
 
 bool ImuGate::IsSuspect(const ImuSample& sample) const {
   if (!IsInRange(sample, range_)) return true;
-  if (!last_ || sample.t_ns - last_->t_ns > kMaxInterval_ns) return false;
+  if (!last_ || sample.t_ns - Newest().t_ns > kMaxInterval_ns) return false;
   return Difference(last_->gyro, sample.gyro) > gyro_leaps_.Limit() ||
          Difference(last_->accel, sample.accel) > accel_leaps_.Limit();
 }
 
+const ImuSample& ImuGate::Newest() const { return suspects_.empty() ? *last_ : suspects_.back(); }
+
 void ImuGate::LearnLeaps(const ImuSample& sample) {
   if (!last_) return;
-  const ImuSample& before = suspects_.empty() ? *last_ : suspects_.back();
+  const ImuSample& before = Newest();
   if (sample.t_ns - before.t_ns > kMaxInterval_ns) return;
   gyro_leaps_.Learn(Difference(before.gyro, sample.gyro));
   accel_leaps_.Learn(Difference(before.accel, sample.accel));

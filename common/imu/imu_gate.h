@@ -47,6 +47,7 @@ class ImuGate {
   };
 
   bool IsSuspect(const ImuSample& sample) const;
+  const ImuSample& Newest() const;  // believed or not; there must be one that was believed
   void LearnLeaps(const ImuSample& sample);
   // The suspects, as they are where they are believed, else replaced; `next` comes after them.
   std::vector<ImuSample> TakeSuspects(bool believed, const ImuSample& next);

@@ -27,6 +27,13 @@ inline ImuNoise Greater(const ImuNoise& a, const ImuNoise& b) {
           std::max(a.gyro_walk, b.gyro_walk), std::max(a.accel_walk, b.accel_walk)};
 }
 
+// Whether readings are noisier by more than a tenth: less is chance where noise is learned.
+inline bool AreFarNoisier(const ImuNoise& noise, const ImuNoise& than) {
+  constexpr double kFar = 1.1;
+  return noise.accel_density > kFar * than.accel_density ||
+         noise.gyro_density > kFar * than.gyro_density;
+}
+
 // Densities from the numbers of the VINS family, which belong to one sample interval dt = 1 / rate:
 // a sample has standard deviation n [rad/s, m/s^2], so that one step adds n^2 dt^2 to the integral,
 // and a bias changes by w dt per step, so that one step adds w^2 dt^2 to its variance. A density d

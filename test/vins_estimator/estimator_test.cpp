@@ -74,7 +74,9 @@ TEST(EstimatorTest, StaysInPlaceWhenNothingMoves) {
     stationary += output.stationary;
     EXPECT_LT(output.state.velocity().norm(), 0.01);
   }
-  EXPECT_GT(stationary, 0.9 * static_cast<double>(flight.truth.size()));
+  EXPECT_GT(stationary, 0.98 * static_cast<double>(flight.truth.size()));
+  EXPECT_TRUE(flight.outputs.front().stationary);
+  EXPECT_FALSE(flight.outputs.front().on_imu_alone);
 }
 
 TEST(EstimatorTest, HoldsItsPlaceInHover) {
@@ -132,6 +134,16 @@ TEST(EstimatorTest, LearnsTheTimeOffset) {
   // corner: that pulls the offset, by a millisecond or two at half a pixel.
   options.point_noise_px = 0.5;
   EXPECT_NEAR(LearnTimeOffset(options), 0.01, 0.0025);
+}
+
+TEST(EstimatorTest, ASmallWindowHasItsSizeAfterAnyStart) {
+  const SimulatedFlight simulated = testing::SimulateFlight(Options(Motion::kFast, 1, 6));
+  Config config = testing::ConfigFor(simulated);
+  config.estimator.window_size = 6;
+  Estimator estimator(config);
+  const EstimatedFlight flight = testing::Estimate(simulated, &estimator);
+  ASSERT_GT(flight.outputs.size(), 50u);
+  EXPECT_EQ(flight.outputs.back().window.size(), 7u);  // with the image that has just come
 }
 
 TEST(EstimatorTest, DescribesItsWindow) {

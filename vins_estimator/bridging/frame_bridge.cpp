@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "vins_estimator/imu/preintegration.h"
+#include "vins_estimator/state/derived_covariance.h"
 
 namespace plm_vins {
 namespace {
@@ -15,13 +16,13 @@ constexpr int64_t kTrouble_ns = 1'000'000'000;
 constexpr int64_t kMaxDuration_ns = 2'000'000'000;
 constexpr double kMaxDeviation = 0.1;  // that the bridge may add to the position [m]
 
-double PositionVariance(const UncertainState& estimate) {
-  return estimate.covariance.diagonal().segment<3>(ImuErrorIndex::kPosition).sum();
-}
-
 bool IsCertain(const UncertainState& start, const UncertainState& end) {
+  const auto variance = [&start](const UncertainState& estimate) {
+    return PositionVarianceFrom(start.state.position(), estimate.state,
+                                estimate.covariance.topLeftCorner<6, 6>());
+  };
   return end.state.t_ns - start.state.t_ns <= kMaxDuration_ns &&
-         PositionVariance(end) - PositionVariance(start) <= kMaxDeviation * kMaxDeviation;
+         variance(end) - variance(start) <= kMaxDeviation * kMaxDeviation;
 }
 
 }  // namespace

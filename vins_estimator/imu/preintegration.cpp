@@ -28,9 +28,11 @@ double EffectiveDensitySquared(double density, double walk, double dt) {
   return dt <= kMaxImuInterval ? sensor : sensor + walk * walk * dt * dt / 12.0;
 }
 
-// The same of the doubt about the readings at both ends: the interval takes their mean.
+// The same of the doubt about the readings at both ends. A reading counts by half in each of the
+// two intervals beside it, with one error: as variances of intervals add up, each has half of the
+// whole.
 double DoubtSquared(double begin, double end, double dt) {
-  return (begin * begin + end * end) / 4 * dt;
+  return (begin * begin + end * end) / 2 * dt;
 }
 
 // Linearised error propagation over one interval: the blocks of F in error' = F error that are
@@ -108,6 +110,8 @@ void Preintegration::Append(const ImuSample& sample) {
 }
 
 void Preintegration::Join(const Preintegration& next) {
+  one_noise_ = one_noise_ && next.one_noise_ && !AreFarNoisier(noise_, next.noise_) &&
+               !AreFarNoisier(next.noise_, noise_);
   const ImuNoise greater = Greater(noise_, next.noise_);
   noise_ = next.noise_;
   bias_step_ = {std::max(bias_step_.gyro, next.bias_step_.gyro),
@@ -124,6 +128,7 @@ void Preintegration::Join(const Preintegration& next) {
 
 void Preintegration::Repropagate(const ImuBias& linearization_bias) {
   bias_ = linearization_bias;
+  one_noise_ = true;
   Restart();
   for (size_t i = 1; i < samples_.size(); ++i) IntegrateInterval(samples_[i - 1], samples_[i]);
 }

@@ -72,6 +72,7 @@ class Preintegration {
   FrameState Predict(const FrameState& start, const Eigen::Vector3d& gravity_W) const;
 
   bool HasGap() const { return LeaveGap(samples_); }  // of more than 50 ms between samples
+  bool HasOneNoise() const { return one_noise_; }     // but for a tenth, in all parts joined
   bool HasBiasStep() const { return bias_step_.gyro != 0 || bias_step_.accel != 0; }
   double duration() const { return duration_; }  // [s]
   const std::vector<ImuSample>& samples() const { return samples_; }
@@ -94,6 +95,7 @@ class Preintegration {
   void Restart();
 
   ImuNoise noise_;
+  bool one_noise_ = true;
   ImuBias bias_;
   BiasStep bias_step_;
   StampErrors stamp_errors_;

@@ -7,6 +7,7 @@
 #include "common/format.h"
 #include "common/measurements.h"
 #include "vins_estimator/monitoring/failure_detector.h"
+#include "vins_estimator/state/derived_covariance.h"
 
 namespace plm_vins {
 namespace {
@@ -17,22 +18,21 @@ constexpr double kMaxDeviation = 0.5;
 
 }  // namespace
 
-std::optional<std::string> BlindnessMonitor::Add(int64_t t_ns, int features_seen,
-                                                 int features_holding,
-                                                 const Eigen::Matrix3d& position_covariance) {
-  const double variance = position_covariance.trace();
+std::optional<std::string> BlindnessMonitor::Add(
+    int features_seen, int features_holding, const FrameState& state,
+    const Eigen::Matrix<double, 6, 6>& pose_covariance) {
   blind_ = features_seen < kFewFeatures;
-  if (!(variance > 0)) return std::nullopt;
-  const double added = held_ns_ ? std::sqrt(std::max(0.0, variance - variance_before_)) : 0;
+  const Hold now{state.t_ns, state.position(), pose_covariance.topLeftCorner<3, 3>().trace()};
+  if (!(now.variance > 0)) return std::nullopt;
+  if (!hold_) hold_ = now;
+  const double variance = PositionVarianceFrom(hold_->p_W, state, pose_covariance);
+  const double added = std::sqrt(std::max(0.0, variance - hold_->variance));
   if (added <= kMaxDeviation) {
-    if (features_holding >= kFewFeatures || !held_ns_) {
-      held_ns_ = t_ns;
-      variance_before_ = variance;
-    }
+    if (features_holding >= kFewFeatures) hold_ = now;
     return std::nullopt;
   }
   return Format("nothing has held the position for %.1f s, which leaves it open by %.2f m",
-                ToSeconds(t_ns - *held_ns_), added);
+                ToSeconds(state.t_ns - hold_->t_ns), added);
 }
 
 }  // namespace plm_vins

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "vins_estimator/state/frame_state.h"
+
 namespace plm_vins {
 
 // Ends a flight on the IMU alone once the position has become too uncertain for what is said of it.
@@ -14,16 +16,22 @@ namespace plm_vins {
 class BlindnessMonitor {
  public:
   // Takes how many features the newest image shows, how many of them hold the position (known
-  // landmarks where they should be), and the covariance of the position [m^2], zero where that is
-  // not known, which says nothing. The reason once the state cannot be kept; nothing before.
-  std::optional<std::string> Add(int64_t t_ns, int features_seen, int features_holding,
-                                 const Eigen::Matrix3d& position_covariance);
+  // landmarks where they should be), and its state, with the covariance of (p_W, rotation in B),
+  // zero where that is not known, which says nothing. The reason once the state cannot be kept;
+  // nothing before.
+  std::optional<std::string> Add(int features_seen, int features_holding, const FrameState& state,
+                                 const Eigen::Matrix<double, 6, 6>& pose_covariance);
 
   bool blind() const { return blind_; }  // the newest image shows next to nothing
 
  private:
-  std::optional<int64_t> held_ns_;  // the last image that held it, or the first one of all
-  double variance_before_ = 0;      // of the position then [m^2]
+  struct Hold {
+    int64_t t_ns;
+    Eigen::Vector3d p_W;
+    double variance;  // of the position, summed over the axes [m^2]
+  };
+
+  std::optional<Hold> hold_;  // by the last image that held the position, or the first one of all
   bool blind_ = false;
 };
 

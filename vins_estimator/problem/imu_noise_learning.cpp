@@ -6,17 +6,10 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kFar = 1.1;  // less is chance, and not worth integrating samples anew
-
-bool IsFarNoisier(const ImuNoise& noise, const ImuNoise& than) {
-  return noise.accel_density > kFar * than.accel_density ||
-         noise.gyro_density > kFar * than.gyro_density;
-}
-
-// What is wrong with these is not noise.
+// What is wrong with these is not noise, or not of one kind.
 bool IsNoEvidence(const WindowFrame& end) {
-  return end.stationary || end.motion_since_previous->HasGap() ||
-         end.motion_since_previous->HasBiasStep();
+  const Preintegration& motion = *end.motion_since_previous;
+  return end.stationary || motion.HasGap() || motion.HasBiasStep() || !motion.HasOneNoise();
 }
 
 }  // namespace
@@ -43,7 +36,7 @@ bool ImuNoiseLearning::Reweigh(SlidingWindow* window) const {
     // Integrated anew, a doubted interval that was joined with others would be trusted again.
     if (motion.HasBiasStep()) continue;
     const ImuNoise& before = motion.noise();
-    if (!IsFarNoisier(noise, before)) continue;
+    if (!AreFarNoisier(noise, before)) continue;
     motion.Reweigh(Greater(noise, before));
     any = true;
   }

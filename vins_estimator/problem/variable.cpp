@@ -20,11 +20,13 @@ void VectorMinus(const double* y, const double* x, double* y_minus_x) {
   for (int i = 0; i < kSize; ++i) y_minus_x[i] = y[i] - x[i];
 }
 
-// A point stays in front of its host: steps towards and beyond infinity end far away.
+// A point stays in front of its host: steps towards and beyond infinity end far away, or where the
+// point is, if that is further still.
 void PointPlus(const double* x, const double* delta, double* x_plus_delta) {
-  constexpr double kMinInverseDepth = 1e-3;  // [1/m]
+  constexpr double kFarInverseDepth = 1e-3;  // [1/m]
+  const double least = std::min(x[2], kFarInverseDepth);
   VectorPlus<3>(x, delta, x_plus_delta);
-  x_plus_delta[2] = std::max(x_plus_delta[2], kMinInverseDepth);
+  x_plus_delta[2] = std::max(x_plus_delta[2], least);
 }
 
 // Focal lengths stay positive.

@@ -22,7 +22,7 @@ Matrix KnownOr(double variance, const Matrix& covariance) {
 StateCovariance CovarianceOf(const EstimatedFrame& frame) {
   const double rate_variance = frame.angular_velocity_variance;
   return {KnownOr(kUnknownVariance, frame.output.pose_covariance),
-          KnownOr(kUnknownVariance, frame.output.velocity_covariance),
+          KnownOr(kUnknownVariance, frame.output.body_velocity_covariance),
           std::isfinite(rate_variance) && rate_variance > 0 ? rate_variance : kUnknownVariance};
 }
 
@@ -35,7 +35,7 @@ nav_msgs::Odometry ToOdometry(const FrameState& state, const StateCovariance& co
   odometry.twist.twist.linear = ToVector3(R_W_B.transpose() * state.velocity());
   odometry.twist.twist.angular = ToVector3(angular_velocity);
   Eigen::Map<RowMajor6d> twist(odometry.twist.covariance.data());
-  twist.topLeftCorner<3, 3>() = R_W_B.transpose() * covariance.velocity * R_W_B;
+  twist.topLeftCorner<3, 3>() = covariance.velocity;
   twist.diagonal().tail<3>().setConstant(covariance.angular_velocity);
   return odometry;
 }

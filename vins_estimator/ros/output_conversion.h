@@ -18,7 +18,7 @@ namespace plm_vins {
 // Covariances of a state, as EstimatorOutput has them.
 struct StateCovariance {
   Matrix6d pose = Matrix6d::Zero();                    // p_W, rotation in B (right perturbation)
-  Eigen::Matrix3d velocity = Eigen::Matrix3d::Zero();  // v_W
+  Eigen::Matrix3d velocity = Eigen::Matrix3d::Zero();  // v_B
   double angular_velocity = 0;                         // of each component, in B
 };
 

@@ -49,7 +49,8 @@ struct EstimatorOutput {
   FrameState state;
   // Covariance of (p_W [m], rotation in B [rad]), right perturbation R_W_B Exp(theta).
   Matrix6d pose_covariance = Matrix6d::Zero();
-  Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  // of v_W [m/s]
+  Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();       // of v_W [m/s]
+  Eigen::Matrix3d body_velocity_covariance = Eigen::Matrix3d::Zero();  // of v_B = R_W_B^T v_W
   Matrix6d bias_covariance = Matrix6d::Zero();  // of the accelerometer [m/s^2] and gyro [rad/s]
   Calibration calibration;
   std::optional<Eigen::Quaterniond> R_W_M;  // the Manhattan frame, where the scene has one

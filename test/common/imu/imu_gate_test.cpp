@@ -14,11 +14,11 @@ constexpr int64_t kStep_ns = 5'000'000;
 
 // A flight: a slow turn and propellers that shake the accelerometer by 5 m/s^2 from sample to
 // sample.
-std::vector<ImuSample> Flight(int count) {
+std::vector<ImuSample> Flight(int count, int64_t step_ns = kStep_ns) {
   std::vector<ImuSample> samples;
   for (int i = 0; i < count; ++i) {
     const double shake = i % 2 == 0 ? 2.5 : -2.5;
-    samples.push_back({i * kStep_ns, {0.01 * i, 0, 0}, {shake, 0, 9.81}});
+    samples.push_back({i * step_ns, {0.01 * i, 0, 0}, {shake, 0, 9.81}});
   }
   return samples;
 }
@@ -79,10 +79,12 @@ TEST(ImuGate, ReplacesAFewInARow) {
   }
 }
 
-TEST(ImuGate, BelievesALeapThatLasts) {
-  std::vector<ImuSample> samples = Flight(200);
-  for (size_t i = 100; i < samples.size(); ++i) samples[i].gyro.z() = 10;
-  ExpectUntouched(samples);
+TEST(ImuGate, BelievesALeapThatLastsAtAnyRate) {
+  for (const int64_t step_ns : {kStep_ns, 2 * kStep_ns, 8 * kStep_ns}) {
+    std::vector<ImuSample> samples = Flight(200, step_ns);
+    for (size_t i = 100; i < samples.size(); ++i) samples[i].gyro.z() = 10;
+    ExpectUntouched(samples);
+  }
 }
 
 TEST(ImuGate, YieldsToShakingThatGoesOn) {

@@ -25,9 +25,14 @@ class FrameBridgeTest : public ::testing::Test {
   UncertainState Estimate(int image) const {
     UncertainState estimate;
     estimate.state.t_ns = image * kImage_ns;
-    estimate.state.position() = Vector3d(0.1 * image, 0, 0);
+    estimate.state.position() = Vector3d(way_ + 0.1 * image, 0, 0);
     estimate.state.velocity() = Vector3d(2, 0, 0);
     estimate.covariance = deviation_ * deviation_ * Matrix15d::Identity();
+    Eigen::Matrix<double, 15, 1> turn = Eigen::Matrix<double, 15, 1>::Zero();
+    turn.segment<3>(ImuErrorIndex::kPosition) = Vector3d::UnitZ().cross(estimate.state.position());
+    turn.segment<3>(ImuErrorIndex::kRotation) = Vector3d::UnitZ();
+    turn.segment<3>(ImuErrorIndex::kVelocity) = Vector3d::UnitZ().cross(estimate.state.velocity());
+    estimate.covariance += heading_deviation_ * heading_deviation_ * turn * turn.transpose();
     return estimate;
   }
 
@@ -45,6 +50,8 @@ class FrameBridgeTest : public ::testing::Test {
 
   const ImuNoise noise_;
   double deviation_ = 1e-3;
+  double heading_deviation_ = 0;  // of the world, about its origin [rad]
+  double way_ = 0;                // from there to the first image [m]
   FrameBridge bridge_{noise_, Vector3d(0, 0, -9.81)};
 };
 
@@ -92,6 +99,19 @@ TEST_F(FrameBridgeTest, ConnectsWhatBeginsAsFarAsItReaches) {
   EXPECT_FALSE(bridge_.CanConnect(std::nullopt));
   EXPECT_TRUE(bridge_.CanConnect(32 * kImage_ns));
   EXPECT_FALSE(bridge_.CanConnect(55 * kImage_ns));
+}
+
+// A heading that is uncertain by half a degree moves this place by metres, but is no drift.
+TEST_F(FrameBridgeTest, LeadsOnFarFromTheOriginOfTheWorld) {
+  heading_deviation_ = 0.01;
+  for (const double way : {1000.0, -1000.0}) {
+    way_ = way;
+    Track(0, kLost);
+    ASSERT_TRUE(bridge_.Begin("why")) << way;
+    Lose(kLost, 40);
+    EXPECT_NE(bridge_.At(39 * kImage_ns), nullptr) << way;
+    bridge_.Clear();
+  }
 }
 
 TEST_F(FrameBridgeTest, EndsWhereThePositionHasBecomeUncertain) {

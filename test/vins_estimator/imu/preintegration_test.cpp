@@ -292,8 +292,7 @@ TEST(Preintegration, ADoubtfulReadingAddsItsDoubtOverTheTimeThatItStandsFor) {
   samples[10].gyro_doubt = 4;
   samples[10].accel_doubt = 20;
   const Matrix15d doubtful = Integrate(samples).Covariance();
-  // Half of the reading counts in either interval beside it, of 5 ms each.
-  const double share = 2 * std::pow(0.5 * 0.005, 2);
+  const double share = std::pow(0.005, 2);  // its error lasts for as long as it stands for
   const Matrix15d added = doubtful - sure;
   EXPECT_NEAR(added(Index::kRotation, Index::kRotation), 16 * share, 0.01 * 16 * share);
   EXPECT_NEAR(added(Index::kVelocity, Index::kVelocity), 400 * share, 0.01 * 400 * share);
@@ -340,7 +339,9 @@ TEST(Preintegration, JoinedIntervalsKeepTheirNoiseAndSteps) {
   Preintegration noisy(Scaled(joined.noise(), 9), {});
   for (const ImuSample& sample : second) noisy.Append(sample);
   noisy.AllowBiasStep({0.1, 0});
+  EXPECT_TRUE(joined.HasOneNoise());
   joined.Join(noisy);
+  EXPECT_FALSE(joined.HasOneNoise());
   EXPECT_EQ(joined.samples().size(), samples.size());
   EXPECT_EQ(joined.bias_step().gyro, 0.1);
   EXPECT_NEAR(joined.Covariance()(Index::kVelocity, Index::kVelocity), (1 + 9) * alone,
@@ -359,6 +360,7 @@ TEST(Preintegration, JoinedIntervalsThatAreIntegratedAnewHaveTheGreaterNoise) {
     for (size_t i = 10; i < samples.size(); ++i) next.Append(samples[i]);
     joined.Join(next);
     joined.Repropagate({});
+    EXPECT_TRUE(joined.HasOneNoise());
     EXPECT_MATRIX_NEAR(joined.Covariance(), whole.Covariance(), 1e-15);
   }
 }

@@ -8,60 +8,90 @@
 namespace plm_vins {
 namespace {
 
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+FrameState At(int64_t t_ns, const Eigen::Vector3d& p_W = Eigen::Vector3d::Zero()) {
+  FrameState state;
+  state.t_ns = t_ns;
+  state.position() = p_W;
+  return state;
+}
+
 // Of a position known to this deviation, in all directions together.
-Eigen::Matrix3d Known(double deviation) {
-  return deviation * deviation / 3 * Eigen::Matrix3d::Identity();
+Matrix6d Known(double deviation) {
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.diagonal().head<3>().setConstant(deviation * deviation / 3);
+  return covariance;
 }
 
 TEST(BlindnessMonitor, BearsDriftWhileSomethingIsSeen) {
   BlindnessMonitor monitor;
-  for (int i = 0; i < 1000; ++i) EXPECT_FALSE(monitor.Add(i, 6, 6, Known(0.01 * i)));
+  for (int i = 0; i < 1000; ++i) EXPECT_FALSE(monitor.Add(6, 6, At(i), Known(0.01 * i)));
 }
 
 TEST(BlindnessMonitor, EndsWhatBlindnessHasMadeTooUncertain) {
   BlindnessMonitor monitor;
-  monitor.Add(0, 100, 100, Known(3.0));
-  EXPECT_FALSE(monitor.Add(ToNanoseconds(0.5), 0, 0, Known(3.0)));
-  EXPECT_FALSE(monitor.Add(ToNanoseconds(1.5), 5, 5, Known(3.02)));
-  EXPECT_EQ(monitor.Add(ToNanoseconds(3.5), 5, 5, Known(3.06)).value_or(""),
+  monitor.Add(100, 100, At(0), Known(3.0));
+  EXPECT_FALSE(monitor.Add(0, 0, At(ToNanoseconds(0.5)), Known(3.0)));
+  EXPECT_FALSE(monitor.Add(5, 5, At(ToNanoseconds(1.5)), Known(3.02)));
+  EXPECT_EQ(monitor.Add(5, 5, At(ToNanoseconds(3.5)), Known(3.06)).value_or(""),
             "nothing has held the position for 3.5 s, which leaves it open by 0.60 m");
 }
 
 TEST(BlindnessMonitor, WhatHoldsNothingIsAsGoodAsBlindness) {
   BlindnessMonitor monitor;
-  monitor.Add(0, 100, 100, Known(0.1));
+  monitor.Add(100, 100, At(0), Known(0.1));
   for (int i = 1; i < 10; ++i) {
-    EXPECT_FALSE(monitor.Add(ToNanoseconds(0.5 * i), 100, 5, Known(0.05 * i)));
+    EXPECT_FALSE(monitor.Add(100, 5, At(ToNanoseconds(0.5 * i)), Known(0.05 * i)));
     EXPECT_FALSE(monitor.blind());
   }
-  EXPECT_EQ(monitor.Add(ToNanoseconds(5.0), 100, 5, Known(0.6)).value_or(""),
+  EXPECT_EQ(monitor.Add(100, 5, At(ToNanoseconds(5.0)), Known(0.6)).value_or(""),
             "nothing has held the position for 5.0 s, which leaves it open by 0.59 m");
 }
 
 TEST(BlindnessMonitor, AGapBetweenImagesIsBlindness) {
   BlindnessMonitor monitor;
-  monitor.Add(0, 100, 100, Known(0.1));
-  EXPECT_EQ(monitor.Add(ToNanoseconds(4.0), 100, 100, Known(0.6)).value_or(""),
+  monitor.Add(100, 100, At(0), Known(0.1));
+  EXPECT_EQ(monitor.Add(100, 100, At(ToNanoseconds(4.0)), Known(0.6)).value_or(""),
             "nothing has held the position for 4.0 s, which leaves it open by 0.59 m");
 }
 
 TEST(BlindnessMonitor, TakesNothingFromAnUnknownCovariance) {
   BlindnessMonitor monitor;
-  EXPECT_FALSE(monitor.Add(0, 100, 100, Eigen::Matrix3d::Zero()));
-  EXPECT_FALSE(monitor.Add(1, 100, 100, Known(3.0)));
-  EXPECT_FALSE(monitor.Add(2, 100, 100, Eigen::Matrix3d::Zero()));
-  EXPECT_FALSE(monitor.Add(3, 5, 5, Known(3.0)));
+  EXPECT_FALSE(monitor.Add(100, 100, At(0), Matrix6d::Zero()));
+  EXPECT_FALSE(monitor.Add(100, 100, At(1), Known(3.0)));
+  EXPECT_FALSE(monitor.Add(100, 100, At(2), Matrix6d::Zero()));
+  EXPECT_FALSE(monitor.Add(5, 5, At(3), Known(3.0)));
   EXPECT_TRUE(monitor.blind());
-  EXPECT_FALSE(monitor.Add(4, 100, 100, Eigen::Matrix3d::Zero()));
+  EXPECT_FALSE(monitor.Add(100, 100, At(4), Matrix6d::Zero()));
   EXPECT_FALSE(monitor.blind());
-  EXPECT_TRUE(monitor.Add(5, 5, 5, Known(3.1)));
+  EXPECT_TRUE(monitor.Add(5, 5, At(5), Known(3.1)));
+}
+
+// Far from the origin of the world, an unknown heading moves the position by metres.
+TEST(BlindnessMonitor, ATurnOfTheWorldIsNoDrift) {
+  constexpr double kHeading = 0.014;  // deviation [rad]
+  BlindnessMonitor monitor;
+  for (const double speed : {20.0, -20.0}) {
+    for (int i = 0; i <= 20; ++i) {
+      const FrameState state = At(i, {1000 + speed * 0.05 * i, 0, 0});
+      Matrix6d covariance = Known(0.1);
+      Eigen::Matrix<double, 6, 1> turn;
+      turn << 0, state.position().x(), 0, 0, 0, 1;
+      covariance += kHeading * kHeading * turn * turn.transpose();
+      EXPECT_FALSE(monitor.Add(100, i == 0 ? 100 : 0, state, covariance)) << speed << ' ' << i;
+      if (i < 20) continue;
+      covariance.diagonal().head<3>().array() += 0.1;  // drift, in one direction or the other
+      EXPECT_TRUE(monitor.Add(100, 0, state, covariance)) << speed;
+    }
+  }
 }
 
 TEST(BlindnessMonitor, SightStartsItOver) {
   BlindnessMonitor monitor;
-  monitor.Add(0, 0, 0, Known(0.4));
-  monitor.Add(1, 50, 50, Known(0.4));
-  EXPECT_FALSE(monitor.Add(2, 0, 0, Known(0.6)));
+  monitor.Add(0, 0, At(0), Known(0.4));
+  monitor.Add(50, 50, At(1), Known(0.4));
+  EXPECT_FALSE(monitor.Add(0, 0, At(2), Known(0.6)));
 }
 
 }  // namespace

@@ -65,6 +65,28 @@ TEST_F(ImuNoiseLearningTest, LeavesOutStandstillAndStepsOfBias) {
   EXPECT_EQ(learning.noise().gyro_density, configured_.gyro_density);
 }
 
+TEST_F(ImuNoiseLearningTest, LeavesOutPartsOfDifferentNoise) {
+  const auto learned_from_joined = [this](double variance_scale) {
+    Preintegration& motion = *window().newest().motion_since_previous;
+    const Preintegration alone = motion;
+    const auto& samples = alone.samples();
+    const size_t half = samples.size() / 2;
+    motion = Preintegration(configured_, alone.linearization_bias());
+    for (size_t i = 0; i <= half; ++i) motion.Append(samples[i]);
+    Preintegration next(Scaled(configured_, variance_scale), alone.linearization_bias());
+    for (size_t i = half; i < samples.size(); ++i) next.Append(samples[i]);
+    motion.Join(next);
+    for (WindowFrame& frame : window().frames) frame.stationary = true;
+    window().newest().stationary = false;
+    ImuNoiseLearning learning(configured_);
+    Learn(/*is_first=*/true, &learning);
+    motion = alone;
+    return learning.noise().gyro_density;
+  };
+  EXPECT_GT(learned_from_joined(1.0), configured_.gyro_density);
+  EXPECT_EQ(learned_from_joined(16.0), configured_.gyro_density);
+}
+
 TEST_F(ImuNoiseLearningTest, ReweighsOnlyIntervalsThatAreFarLessNoisy) {
   const ImuNoise noisier = Scaled(configured_, 1e4);
   window().frames[3].motion_since_previous->Reweigh(noisier);

@@ -76,6 +76,19 @@ TEST(Variable, PointsStayInFrontOfTheirHost) {
   }
 }
 
+TEST(Variable, APointFarAwayIsNotDrawnNearer) {
+  const Eigen::Vector3d point(0.1, 0.2, 1.0 / 2000);
+  Eigen::Vector3d moved;
+  for (const double step : {0.0, -1e-5, -1.0}) {
+    const Eigen::Vector3d delta(0, 0, step);
+    PointVariable().plus(point.data(), delta.data(), moved.data());
+    EXPECT_EQ(moved, point) << step;
+  }
+  const Eigen::Vector3d nearer(0, 0, 1e-4);
+  PointVariable().plus(point.data(), nearer.data(), moved.data());
+  EXPECT_NEAR(moved[2], 6e-4, 1e-15);
+}
+
 TEST(Variable, FocalLengthsStayPositive) {
   Intrinsics intrinsics;
   intrinsics << 400, 401, 320, 240, 0.1, 0.2, 0.3, 0.4;

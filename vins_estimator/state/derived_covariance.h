@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the covariance of a state says of quantities that follow from it. Rotations are perturbed
+// from the right, R_W_B Exp(theta).
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/geometry/so3.h"
+#include "vins_estimator/state/frame_state.h"
+
+namespace plm_vins {
+
+// Variance of the position, summed over the axes [m^2], without what the error of the heading does
+// on the way from `pivot_W`: where the whole flight is turned about the vertical through it, the
+// position moves across that way, and nothing has drifted. `pose_covariance`: of (p_W, theta).
+inline double PositionVarianceFrom(const Eigen::Vector3d& pivot_W, const FrameState& state,
+                                   const Eigen::Matrix<double, 6, 6>& pose_covariance) {
+  const Eigen::Vector3d up_B = state.rotation().conjugate() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d across_W = Eigen::Vector3d::UnitZ().cross(state.position() - pivot_W);
+  Eigen::Matrix<double, 3, 6> J;
+  J << Eigen::Matrix3d::Identity(), -across_W * up_B.transpose();
+  return (J * pose_covariance * J.transpose()).trace();
+}
+
+// Covariance of v_B = R_W_B^T v_W [m^2/s^2]. What heading and v_W have in common does not show in
+// the body. `covariance`: of (theta, v_W).
+inline Eigen::Matrix3d BodyVelocityCovariance(const FrameState& state,
+                                              const Eigen::Matrix<double, 6, 6>& covariance) {
+  const Eigen::Matrix3d R_B_W = state.rotation().toRotationMatrix().transpose();
+  Eigen::Matrix<double, 3, 6> J;
+  J << Skew(R_B_W * state.velocity()), R_B_W;
+  return J * covariance * J.transpose();
+}
+
+}  // namespace plm_vins

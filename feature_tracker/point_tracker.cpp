@@ -35,7 +35,7 @@ std::string ToText(const cv::Size& size) {
 
 cv::Mat ReadMask(const std::string& file, const cv::Size& image_size) {
   if (file.empty()) return {};
-  cv::Mat mask = cv::imread(file, cv::IMREAD_GRAYSCALE);
+  cv::Mat mask = cv::imread(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
   if (mask.empty()) throw std::invalid_argument("fisheye_mask: cannot read the image " + file);
   if (mask.size() != image_size) {
     throw std::invalid_argument("fisheye_mask: " + file + " has " + ToText(mask.size()) +

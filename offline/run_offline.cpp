@@ -316,7 +316,11 @@ int Run(const Arguments& arguments) {
   Warn(pipeline.imu_contradiction());
   // What may be on another disk comes first, and the summary, which says that all is there, last.
   if (saved_features) saved_features->Close();
-  if (map_out) SaveMap(loops->map(), &*map_out);
+  if (map_out && loops->map().CountKept() > 0) {
+    SaveMap(loops->map(), &*map_out);
+  } else if (map_out) {
+    Warn("there is no keyframe, so --map-out " + arguments.map_out + " is not written");
+  }
   if (loops) loops->Finish();
   results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
   results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());

@@ -243,9 +243,10 @@ void Estimator::FindStructure(bool keep_second_newest, EstimatorOutput* output) 
   LocalMap& map = state_.estimate.map;
   state_.structure.FindAxes(&map);
   if (config_.estimator.line_merging && keep_second_newest) {
-    const UnitedLines united = state_.structure.Unite(&map);
+    UnitedLines united = state_.structure.Unite(&map);
     output->counts.line_merging = united.merging;
     output->counts.lines_recognised = united.recognised;
+    output->absorbed_lines = std::move(united.absorbed);
   }
   output->timings.line_merging = stopwatch.Milliseconds();
 }

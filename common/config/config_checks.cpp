@@ -59,6 +59,9 @@ void CheckImage(const Config& config, const Report& report) {
   if (config.points.min_dist >= std::min(camera.width, camera.height)) {
     report("min_dist", "must be smaller than the image");
   }
+  if (2 * config.lines.border >= std::min(camera.width, camera.height) - 1) {
+    report("line_border", "leaves nothing of the image");
+  }
 }
 
 bool IsName(const std::string& text) {

@@ -43,11 +43,14 @@ cv_bridge::CvImageConstPtr ToGrey(const sensor_msgs::ImageConstPtr& message) {
   return gray;
 }
 
+// Not turned by what a camera notes of its orientation.
+constexpr int kAsCalibrated = cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION;
+
 // Empty where that fails. OpenCV throws where the header claims too large an image.
 cv::Mat Decode(const std::vector<uint8_t>& bytes) {
   if (bytes.empty()) return {};
   try {
-    return cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+    return cv::imdecode(bytes, kAsCalibrated);
   } catch (const std::exception&) {  // cv::Exception or std::bad_alloc
     return {};
   }

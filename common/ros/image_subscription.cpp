@@ -8,6 +8,7 @@
 #include <exception>
 #include <utility>
 
+#include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 
 namespace plm_vins {
@@ -18,22 +19,25 @@ void ImageSubscription::Subscribe(ros::NodeHandle node, const ros::NodeHandle& p
   const auto transport = private_node.param<std::string>("image_transport", "raw");
   if (transport == "compressed") {
     compressed_subscriber_ = node.subscribe<sensor_msgs::CompressedImage>(
-        topic + "/compressed", queue,
-        [this](const sensor_msgs::CompressedImageConstPtr& message) { Read(*message); });
+        topic + "/compressed", queue, [this](const sensor_msgs::CompressedImageConstPtr& message) {
+          Read(message->header, *message);
+        });
   } else {
     subscriber_ = image_transport::ImageTransport(node).subscribe(
-        topic, queue, [this](const sensor_msgs::ImageConstPtr& message) { Read(message); }, nullptr,
-        image_transport::TransportHints(transport, ros::TransportHints(), private_node));
+        topic, queue,
+        [this](const sensor_msgs::ImageConstPtr& message) { Read(message->header, message); },
+        nullptr, image_transport::TransportHints(transport, ros::TransportHints(), private_node));
   }
 }
 
 // A message, or a pointer to one whose pixels are shared.
 template <typename Message>
-void ImageSubscription::Read(const Message& message) {
+void ImageSubscription::Read(const std_msgs::Header& header, const Message& message) {
+  stream_.Add(ToNanoseconds(header.stamp));
   std::optional<ImageSample> image;
   try {
     image = ToImageSample(message);
-    stream_.Add(image->t_ns);
+    readable_.Add(image->t_ns);
   } catch (const std::exception& error) {
     const std::lock_guard<std::mutex> lock(mutex_);
     unreadable_.Add(error.what());

@@ -4,6 +4,7 @@
 #include <image_transport/subscriber.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
+#include <std_msgs/Header.h>
 
 #include <cstdint>
 #include <functional>
@@ -29,8 +30,9 @@ class ImageSubscription {
   void Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node,
                  const std::string& topic, uint32_t queue, Callback callback);
 
-  // For any threads.
+  // For any threads. Of all messages, and the wall time since the last that was an image [s].
   StreamMonitor& stream() { return stream_; }
+  double SilenceOfImages() const { return readable_.Silence(); }
   DropCount unreadable() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return unreadable_;
@@ -38,10 +40,11 @@ class ImageSubscription {
 
  private:
   template <typename Message>
-  void Read(const Message& message);
+  void Read(const std_msgs::Header& header, const Message& message);
 
   Callback callback_;
   StreamMonitor stream_{"images"};
+  StreamMonitor readable_{"readable_images"};
   mutable std::mutex mutex_;  // guards the count
   DropCount unreadable_{"images_unreadable", 0, ""};
   image_transport::Subscriber subscriber_;

@@ -10,7 +10,7 @@
 namespace plm_vins {
 
 // The configuration of the file ~config_file, in which texts ~set/KEY replace scalar keys. Warns of
-// keys without effect, once per process. Throws ConfigError, also where a topic has a name that ROS
+// keys without effect. Throws ConfigError, also where a topic has a name that ROS
 // refuses.
 Config LoadNodeConfig(const ros::NodeHandle& private_node);
 

@@ -24,6 +24,7 @@ constexpr int kMaxGap = 2;             // samples without an edge within a line
 constexpr double kMinSupport = 0.6;    // share of a line's samples that show its edge
 constexpr double kMaxResidual_px = 1;  // of a sample that shows it
 constexpr size_t kMinPoints = 5;
+constexpr size_t kMinFinalPoints = 3;  // between the ends: two would fit any line
 constexpr std::array<double, 3> kRobustScales_px = {2.0, 1.0, 0.5};
 
 // Those of the points that show an edge.
@@ -106,7 +107,9 @@ std::optional<LineSegment> LineRefinement::Place(const cv::Mat& image,
   for (EdgePoint& point : points) {
     point.found = point.found && point.sample.along > first && point.sample.along < last;
   }
-  const LineOffset final_fit = FitOffset(OnEdges(std::move(points)));
+  const std::vector<EdgePoint> supporting = OnEdges(std::move(points));
+  if (supporting.size() < kMinFinalPoints) return std::nullopt;
+  const LineOffset final_fit = FitOffset(supporting);
   const Eigen::Vector2d normal = rough.Normal();
   const auto on_line = [&](const Eigen::Vector2d& xy) -> Eigen::Vector2d {
     return xy + final_fit.At(rough.Along(xy)) * normal;

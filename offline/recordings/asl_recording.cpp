@@ -29,7 +29,7 @@ cv::Mat ReadImage(const fs::path& file) {
   std::error_code error;
   if (!fs::exists(file, error)) return {};  // without OpenCV's own warning
   try {
-    return cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+    return cv::imread(file.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {  // a damaged header may ask for more pixels than OpenCV allows
     return {};
   }

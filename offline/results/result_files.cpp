@@ -134,6 +134,7 @@ void ResultFiles::Add(const PipelineFrame& frame) {
   }
   AddMapPoints(output.departed_points);
   AddMapLines(output.departed_lines);
+  for (const int64_t id : output.absorbed_lines) world_lines_.erase(id);
   if (!output.has_pose) return;
   trajectory_.Row(output.t_ns) << FormatTumRow(output.t_ns, output.state.T_W_B());
   WriteCovarianceRow(output.t_ns, output.pose_covariance, &covariance_.Row(output.t_ns));
@@ -146,11 +147,7 @@ void ResultFiles::AddMapPoints(const std::vector<MapPoint>& points) {
 }
 
 void ResultFiles::AddMapLines(const std::vector<MapLine>& lines) {
-  for (const MapLine& line : lines) {
-    const auto [place, is_new] = line_places_.try_emplace(line.id, lines_.size());
-    if (is_new) lines_.emplace_back();
-    lines_[place->second] = line;
-  }
+  for (const MapLine& line : lines) world_lines_[line.id] = line;
 }
 
 void ResultFiles::EndWorld() {
@@ -158,7 +155,8 @@ void ResultFiles::EndWorld() {
   AddMapLines(window_lines_);
   window_points_.clear();
   window_lines_.clear();
-  line_places_.clear();
+  for (const auto& [id, line] : world_lines_) lines_.push_back(line);
+  world_lines_.clear();
 }
 
 void ResultFiles::WriteAnnotatedImage(const std::string& name, const cv::Mat& image,

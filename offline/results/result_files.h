@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "common/config/config.h"
@@ -61,9 +61,9 @@ class ResultFiles {
   TimedFile covariance_;
   OutputFile timing_;
   PlyPointWriter map_;
-  std::vector<MapLine> lines_;
-  std::unordered_map<int64_t, size_t> line_places_;  // in lines_, by id in this world frame
-  std::vector<MapPoint> window_points_;  // of the newest frame with a pose: not in the map yet
+  std::vector<MapLine> lines_;              // of world frames that have ended
+  std::map<int64_t, MapLine> world_lines_;  // of this one, by id
+  std::vector<MapPoint> window_points_;     // of the newest frame with a pose: not in the map yet
   std::vector<MapLine> window_lines_;
   RunSummary summary_;
   DropCount unwritten_pictures_{"pictures_not_written", 0, ""};

@@ -13,11 +13,12 @@ namespace {
 constexpr size_t kFewStamps = 60;
 constexpr size_t kMaxStamps = 300;
 constexpr int64_t kMaxAge_ns = 2'000'000'000;
-constexpr int kJumpPatience = 10;  // images
+constexpr int kJumpPatience = 10;                   // images
+constexpr int64_t kMaxInterval_ns = 1'000'000'000;  // more to the next image is a leap
 
 }  // namespace
 
-KeyframeAssembly::KeyframeAssembly() : jump_(kJumpPatience) {}
+KeyframeAssembly::KeyframeAssembly() : jump_(kJumpPatience), leap_(kMaxInterval_ns) {}
 
 bool KeyframeAssembly::HasTooMany() const {
   const int64_t age_ns = parts_.rbegin()->first - parts_.begin()->first;
@@ -42,7 +43,8 @@ KeyframeAssembly::Stamps::iterator KeyframeAssembly::Forget(Stamps::iterator beg
 }
 
 void KeyframeAssembly::AddImage(const ImageSample& image) {
-  if (image.t_ns < image_ns_) {
+  if (image_ns_ && !leap_.Accept(*image_ns_, image.t_ns)) return;
+  if (image_ns_ && image.t_ns < *image_ns_) {
     if (jump_.Refuse(image.t_ns)) Clear();
   } else {
     jump_.Accept();
@@ -95,7 +97,7 @@ std::optional<OdometryFrame> KeyframeAssembly::Pop() {
 
 void KeyframeAssembly::Clear() {
   parts_.clear();
-  image_ns_ = 0;
+  image_ns_.reset();
 }
 
 }  // namespace plm_vins

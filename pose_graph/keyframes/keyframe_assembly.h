@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/streams/backward_jump.h"
+#include "common/streams/forward_jump.h"
 #include "pose_graph/keyframes/odometry_frame.h"
 
 namespace plm_vins {
@@ -16,7 +17,7 @@ namespace plm_vins {
 // Equal stamps belong together. Lines may be missing: a keyframe does not wait for them longer than
 // until the next one is complete. Keeps the parts of the newest stamps only, of two seconds at
 // least but of 300 stamps at most, and begins anew where the stamps of images go back for good: a
-// recording is played again.
+// recording is played again. An image after a leap in time is dropped, as its stamp may be wrong.
 class KeyframeAssembly {
  public:
   KeyframeAssembly();
@@ -55,8 +56,9 @@ class KeyframeAssembly {
   Stamps::iterator Forget(Stamps::iterator begin, Stamps::iterator end);
 
   Stamps parts_;
-  int64_t image_ns_ = 0;  // stamp of the newest image
+  std::optional<int64_t> image_ns_;  // stamp of the newest image
   BackwardJumpDetector jump_;
+  ForwardJumpDetector leap_;
   int64_t without_image_ = 0;
 };
 

@@ -349,9 +349,13 @@ void PoseGraphNode::ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& st
 
 void PoseGraphNode::ReportState(diagnostic_updater::DiagnosticStatusWrapper* status) {
   using diagnostic_msgs::DiagnosticStatus;
-  if (image_subscription_.stream().Silence() > keyframe_stream_.Silence() + kMaxLag) {
+  const double late = keyframe_stream_.Silence() + kMaxLag;
+  if (image_subscription_.SilenceOfImages() > late) {
+    const bool silent = image_subscription_.stream().Silence() > late;
     status->summary(DiagnosticStatus::WARN,
-                    "keyframes without images: no image comes on " + config_.sensor.image_topic);
+                    std::string("keyframes without images: ") +
+                        (silent ? "no image comes on " : "nothing can be made an image of ") +
+                        config_.sensor.image_topic);
   } else if (odometry_stream_.Silence() > StreamMonitor::kSilence) {
     status->summary(
         DiagnosticStatus::WARN,

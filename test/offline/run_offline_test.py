@@ -129,7 +129,13 @@ class RunOffline(unittest.TestCase):
     def test_a_map_in_a_result_folder_that_is_not_there_yet(self):
         self.assert_refuses("none was usable", "--map-out", self.folder / "new" / "map.plm",
                             output="new")
-        self.assertTrue((self.folder / "new" / "map.plm").is_file())
+        self.assertFalse((self.folder / "new" / "map.plm").exists())
+
+    def test_a_map_is_not_replaced_by_an_empty_one(self):
+        self.write("good.plm", "a map of before")
+        self.assert_refuses("good.plm is not written", "--map-out", self.folder / "asl/good.plm")
+        self.assertEqual((self.folder / "asl/good.plm").read_text(encoding="utf-8"),
+                         "a map of before")
 
     def test_the_configuration_stays_in_its_result_folder(self):
         results = self.folder / "results"

@@ -229,6 +229,17 @@ TEST_F(PoseGraphNodeTest, SaysWhereKeyframesComeWithoutImages) {
   })) << status_.Value("message");
 }
 
+TEST_F(PoseGraphNodeTest, SaysWhereNothingThatComesIsAnImage) {
+  int i = 0;
+  EXPECT_TRUE(SpinUntil(kPatience, [&] {
+    camera_.PublishDepth(KeyframeSource::Stamp(i++));
+    estimator_->PublishPose(KeyframeSource::Pose(0));
+    ros::WallDuration(0.1).sleep();
+    return status_.Value("message").find("nothing can be made an image of /cam0/image_raw") !=
+           std::string::npos;
+  })) << status_.Value("message");
+}
+
 // In a namespace, and with nobody who looks at it before.
 TEST(PoseGraphOfARobot, TakesCompressedImagesAndShowsItsPathToWhomComesLater) {
   const std::string node = "/robot/pose_graph";

@@ -40,9 +40,11 @@ inline UnitedLines UniteOnWall(const std::vector<WallLine>& lines, LineWindow* w
       if (landmark != window->map().lines.landmarks().end())
         landmark->second.wanders = line.wanders;
     }
-    const auto [now, recognised] = window->Unite();
+    const UnitedLines united = window->Unite();
+    const LineMergingCounts& now = united.merging;
+    sum.absorbed.insert(sum.absorbed.end(), united.absorbed.begin(), united.absorbed.end());
     sum.merging.merged += now.merged;
-    sum.recognised += recognised;
+    sum.recognised += united.recognised;
     sum.merging.apart += now.apart;
     sum.merging.seen_side_by_side += now.seen_side_by_side;
     sum.merging.distant += now.distant;

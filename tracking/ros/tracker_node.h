@@ -133,7 +133,9 @@ class TrackerNode {
       status.summary(DiagnosticStatus::WARN,
                      "waiting: nothing comes on " + config_.sensor.image_topic);
     } else if ((ros::WallTime::now() - last_tracked_).toSec() > StreamMonitor::kSilence) {
-      status.summary(DiagnosticStatus::WARN, "waiting: no usable image any more");
+      status.summary(DiagnosticStatus::WARN, stage_.counts().images == 0
+                                                 ? "waiting: no usable image yet"
+                                                 : "waiting: no usable image any more");
     } else if (features_in_last_image_ == 0) {
       status.summary(DiagnosticStatus::WARN, "lost: nothing to follow in the last image");
     } else {
@@ -161,7 +163,7 @@ class TrackerNode {
   double tracking_ms_ = 0;  // of the last image [ms]
   StreamMonitor feature_stream_{"features"};
 
-  ros::WallTime last_image_arrival_;
+  ros::WallTime last_image_arrival_ = ros::WallTime::now();
   ros::WallTime last_tracked_ = ros::WallTime::now();
   ros::Publisher feature_publisher_;
   ros::Publisher restart_publisher_;

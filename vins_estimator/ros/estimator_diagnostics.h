@@ -81,7 +81,7 @@ class EstimatorDiagnostics {
   EstimatorCounts counts_;
   double estimator_ms_ = 0;
   int64_t frames_ = 0;
-  ros::WallTime last_frame_;
+  ros::WallTime last_frame_ = ros::WallTime::now();
   int64_t resets_ = 0;
   size_t queued_frames_ = 0;
   bool lines_are_missing_ = false;

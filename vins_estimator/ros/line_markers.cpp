@@ -3,8 +3,6 @@
 
 #include <std_msgs/ColorRGBA.h>
 
-#include <set>
-
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/marker.h"
 
@@ -58,17 +56,32 @@ visualization_msgs::Marker ToLineMarker(const std::vector<MapLine>& lines, int64
   return marker;
 }
 
+// The last line of the part takes the place.
+void LineHistory::Remove(const std::vector<int64_t>& ids) {
+  for (const int64_t id : ids) {
+    const auto known = places_.find(id);
+    if (known == places_.end()) continue;
+    const Place place = known->second;
+    std::vector<MapLine>& part = parts_[place.part];
+    places_[part.back().id] = place;
+    part[place.line] = part.back();
+    part.pop_back();
+    places_.erase(id);
+    changed_.insert(place.part);
+  }
+}
+
 std::vector<visualization_msgs::Marker> LineHistory::Add(const std::vector<MapLine>& lines,
                                                          int64_t t_ns) {
-  std::set<size_t> changed;
   for (const MapLine& line : lines) {
     const Place place = PlaceOf(line.id);
     parts_[place.part][place.line] = line;
-    changed.insert(place.part);
+    changed_.insert(place.part);
   }
   std::vector<visualization_msgs::Marker> markers;
-  markers.reserve(changed.size());
-  for (const size_t part : changed) markers.push_back(MakeMarker(part, t_ns));
+  markers.reserve(changed_.size());
+  for (const size_t part : changed_) markers.push_back(MakeMarker(part, t_ns));
+  changed_.clear();
   return markers;
 }
 
@@ -76,6 +89,7 @@ visualization_msgs::Marker LineHistory::Clear() {
   for (auto& part : parts_) part.clear();
   newest_part_ = 0;
   places_.clear();
+  changed_.clear();
   visualization_msgs::Marker marker = EmptyMarker(0, frame_id_, kHistoryName);
   marker.action = visualization_msgs::Marker::DELETEALL;
   return marker;

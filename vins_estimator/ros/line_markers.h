@@ -4,6 +4,7 @@
 #include <visualization_msgs/Marker.h>
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -28,6 +29,9 @@ class LineHistory {
 
   explicit LineHistory(const std::string& frame_id) : frame_id_(frame_id), parts_(kMaxMarkers) {}
 
+  // Forgets lines, which are part of others from now on; markers change with the next Add().
+  void Remove(const std::vector<int64_t>& ids);
+
   // Adds lines; returns the markers that changed, each once.
   std::vector<visualization_msgs::Marker> Add(const std::vector<MapLine>& lines, int64_t t_ns);
 
@@ -48,6 +52,7 @@ class LineHistory {
   std::vector<std::vector<MapLine>> parts_;  // by id of their marker
   size_t newest_part_ = 0;
   std::unordered_map<int64_t, Place> places_;  // of all lines, by id
+  std::set<size_t> changed_;                   // parts, since the last Add()
 };
 
 }  // namespace plm_vins

@@ -51,9 +51,9 @@ OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle pri
           private_node.advertise<visualization_msgs::MarkerArray>("camera_pose_visual", kQueue)),
       extrinsic_(private_node.advertise<nav_msgs::Odometry>("extrinsic", kQueue)),
       camera_info_(private_node.advertise<sensor_msgs::CameraInfo>("camera_info", 10)),
-      keyframe_pose_(private_node.advertise<nav_msgs::Odometry>("keyframe_pose", kQueue)),
-      keyframe_point_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_point", kQueue)),
       keyframe_line_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_line", kQueue)),
+      keyframe_point_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_point", kQueue)),
+      keyframe_pose_(private_node.advertise<nav_msgs::Odometry>("keyframe_pose", kQueue)),
       line_history_(frames.world_frame) {
   path_.header.frame_id = frames_.world_frame;
   if (frames.publish_tf && !frames.base_frame.empty()) {
@@ -95,6 +95,7 @@ void OutputPublisher::Clear() {
   new_path_poses_ = 0;
   departed_points_.clear();
   departed_lines_.clear();
+  absorbed_lines_.clear();
   history_ns_ = 0;
   history_lines_cloud_.publish(line_history_.Clear());
 }
@@ -126,6 +127,7 @@ void OutputPublisher::PublishHistory(const EstimatorOutput& output) {
   };
   append(output.departed_points, &departed_points_);
   append(output.departed_lines, &departed_lines_);
+  append(output.absorbed_lines, &absorbed_lines_);
   if (output.t_ns - history_ns_ < kHistoryInterval_ns) return;
   history_ns_ = output.t_ns;
   PublishIfWanted(history_cloud_,
@@ -133,8 +135,10 @@ void OutputPublisher::PublishHistory(const EstimatorOutput& output) {
   for (const auto& marker : line_history_.Add(departed_lines_, output.t_ns)) {
     history_lines_cloud_.publish(marker);
   }
+  line_history_.Remove(absorbed_lines_);  // after Add(), as they may have departed before
   departed_points_.clear();
   departed_lines_.clear();
+  absorbed_lines_.clear();
 }
 
 void OutputPublisher::PublishPath(const FrameState& state) {

@@ -55,9 +55,9 @@ class OutputPublisher {
   ros::Publisher camera_pose_visual_;
   ros::Publisher extrinsic_;
   ros::Publisher camera_info_;
-  ros::Publisher keyframe_pose_;
-  ros::Publisher keyframe_point_;
   ros::Publisher keyframe_line_;
+  ros::Publisher keyframe_point_;
+  ros::Publisher keyframe_pose_;
   tf2_ros::TransformBroadcaster broadcaster_;
   std::optional<RobotBase> base_;
   nav_msgs::Path path_;
@@ -65,6 +65,7 @@ class OutputPublisher {
   LineHistory line_history_;
   std::vector<MapPoint> departed_points_;  // since history_ns_, when the histories were published
   std::vector<MapLine> departed_lines_;
+  std::vector<int64_t> absorbed_lines_;
   int64_t history_ns_ = 0;
 };
 

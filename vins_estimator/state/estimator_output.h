@@ -69,6 +69,7 @@ struct EstimatorOutput {
   std::vector<MapPoint> departed_points;  // landmarks that left the window with this frame
   std::vector<MapLine> lines;             // the same for lines
   std::vector<MapLine> departed_lines;
+  std::vector<int64_t> absorbed_lines;  // ids: others go on with them, departed ones as well
   EstimatorCounts counts;
   EstimatorTimings timings;
 };

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/structure/line_structure.h"
 
-#include <cstdint>
-#include <vector>
-
 #include "vins_estimator/manhattan/line_directions.h"
 #include "vins_estimator/merging/line_merging.h"
 #include "vins_estimator/recall/anchor_policy.h"
@@ -26,7 +23,7 @@ UnitedLines LineStructure::Unite(LocalMap* map) {
   for (const int64_t id : merged.absorbed) manhattan_.Remove(id);
   for (const int64_t id : recognised) manhattan_.Remove(id);
   NoteUse(map->lines, &map->window);
-  return {merged.counts, static_cast<int>(recognised.size())};
+  return {merged.counts, static_cast<int>(recognised.size()), merged.absorbed};
 }
 
 }  // namespace plm_vins

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "vins_estimator/manhattan/manhattan_frame.h"
 #include "vins_estimator/map/line_comparison.h"
@@ -14,7 +16,8 @@ namespace plm_vins {
 // What became of the lines of the map in one frame.
 struct UnitedLines {
   LineMergingCounts merging;
-  int recognised = 0;  // that had left the window
+  int recognised = 0;             // that had left the window
+  std::vector<int64_t> absorbed;  // ids of merged lines that are no more
 };
 
 // What the lines of the map say of the scene and of each other: the Manhattan frame that they run

@@ -208,6 +208,21 @@ TEST(ResultFiles, HoldALineThatCameBackOnceAsKnownLast) {
   EXPECT_THAT(lines, HasSubstr("v 4.0000 0.0000 1.0000\n"));
 }
 
+TEST(ResultFiles, HoldALineThatBecamePartOfAnotherAsThatOne) {
+  const testing::TemporaryFolder folder;
+  ResultFiles results(folder.path());
+  PipelineFrame frame = MakeFrame(1'000'000'000, true);
+  frame.output.departed_lines = {{7, {1, 0, 0}, {1, 0, 1}}, {8, {2, 0, 0}, {2, 0, 1}}};
+  results.Add(frame);
+  frame = MakeFrame(2'000'000'000, true);
+  frame.output.absorbed_lines = {8, 99};
+  frame.output.departed_lines = {{7, {3, 0, 0}, {3, 0, 1}}};
+  results.Add(frame);
+  results.Finish(RunSummary::Run(), Config(), Json());
+  EXPECT_EQ(nlohmann::json::parse(folder.Read("summary.json"))["lines"], 1);
+  EXPECT_THAT(folder.Read("lines.obj"), HasSubstr("v 3.0000 0.0000 1.0000\n"));
+}
+
 TEST(ResultFiles, HoldWhatLeavesWithTheLastFrameOnceAndInFull) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());

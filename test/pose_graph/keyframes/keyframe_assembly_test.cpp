@@ -56,6 +56,31 @@ TEST_F(KeyframeAssemblyTest, WaitsForLinesUntilTheNextIsComplete) {
   EXPECT_FALSE(assembly_.Pop());
 }
 
+TEST_F(KeyframeAssemblyTest, OneStampInTheFutureCostsItsImageOnly) {
+  for (int i = 0; i < 100; ++i) {
+    const int64_t t_ns = (100 + i) * kPeriod;
+    AddPose(t_ns);
+    AddTheRest(t_ns);
+    AddImage(i == 50 ? t_ns + 2'000'000'000 : t_ns);
+    const auto frame = assembly_.Pop();
+    ASSERT_EQ(frame.has_value(), i != 50) << i;
+    if (frame) {
+      EXPECT_EQ(frame->t_ns, t_ns);
+    }
+  }
+}
+
+TEST_F(KeyframeAssemblyTest, GoesOnAfterAPause) {
+  AddImage(kPeriod);
+  const int64_t later_ns = 60'000'000'000;
+  AddImage(later_ns);
+  AddAllButLines(later_ns + kPeriod);
+  AddTheRest(later_ns + kPeriod);
+  const auto frame = assembly_.Pop();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->t_ns, later_ns + kPeriod);
+}
+
 TEST_F(KeyframeAssemblyTest, ForgetsWhatWaitsForTooLong) {
   AddImage(kPeriod);
   AddPose(kPeriod);

@@ -92,6 +92,21 @@ TEST_F(LoopAcceptanceTest, ForgetsAWitnessOfLongAgo) {
   EXPECT_EQ(Judge(&first) + Judge(&second), 0u);
 }
 
+// The map has turned since: what is uncertain along the way of the one is so along that of the
+// other.
+TEST_F(LoopAcceptanceTest, ComparesLoopsAlongTheAxesOfTheMap) {
+  AddWay(/*world=*/1, 21);
+  graph_.MovePart(0, {M_PI / 2, {0, 0, 0}});
+  for (const bool along : {true, false}) {
+    acceptance_ = LoopAcceptance(LoopAcceptanceOptions());
+    LoopCandidate first = Loop(10, 41 + 10, {3, 4, 5});
+    LoopCandidate second = Loop(12, 41 + 12, {along ? 4.5 : 3, along ? 4 : 5.5, 5});
+    first.covariance(0, 0) = second.covariance(0, 0) = 1;  // along x of the earlier world
+    EXPECT_EQ(Judge(&first), 0u);
+    EXPECT_EQ(Judge(&second), along ? 2u : 0u);
+  }
+}
+
 TEST_F(LoopAcceptanceTest, JoinsAnotherWorldWithTwoLoopsThatAgree) {
   AddWay(/*world=*/1, 21);
   LoopCandidate first = Loop(10, 41 + 10, {3, 4, 5});

@@ -85,9 +85,9 @@ FlightScore MergeOnFlight(uint64_t seed) {
   FlyThrough(data, [&](LineWindow* window) {
     const LineMap before = window->map().lines;
     redundant.merge(FindRedundant(before, data.line_landmark, &score));
-    const auto [merging, recognised] = window->Unite();
-    score.merged += merging.merged;
-    score.recognised += recognised;
+    const UnitedLines united = window->Unite();
+    score.merged += united.merging.merged;
+    score.recognised += united.recognised;
     CollectTriangulated(window->map().lines, &whole_map);
     for (const auto& [id, landmark] : before.landmarks()) {
       if (window->map().lines.landmarks().count(id)) continue;

@@ -92,6 +92,21 @@ TEST(LineHistory, ReplacesALineThatLeavesAgain) {
   EXPECT_EQ(changed[1].points[0].x, -2.0 * kFull);
 }
 
+TEST(LineHistory, ForgetsLinesThatArePartOfOthers) {
+  constexpr size_t kFull = LineHistory::kLinesPerMarker;
+  LineHistory history("world");
+  history.Add(MakeLines(0, kFull + 1), 1);
+  history.Remove({3, static_cast<int64_t>(kFull) - 1, static_cast<int64_t>(kFull), 999});
+  auto changed = history.Add({}, 2);
+  ASSERT_EQ(changed.size(), 2u);
+  EXPECT_EQ(changed[0].points.size(), 2 * (kFull - 2));
+  for (const auto& point : changed[0].points) EXPECT_NE(point.x, 3);
+  EXPECT_EQ(changed[1].action, visualization_msgs::Marker::DELETE);
+  EXPECT_TRUE(history.Add({}, 3).empty());
+  const auto last = MakeLines(static_cast<int64_t>(kFull) - 2, 1);  // it has taken a place
+  EXPECT_EQ(history.Add(last, 4).at(0).points.size(), 2 * (kFull - 2));
+}
+
 TEST(LineHistory, StaysBoundedInALongRun) {
   constexpr size_t kFull = LineHistory::kLinesPerMarker;
   LineHistory history("world");

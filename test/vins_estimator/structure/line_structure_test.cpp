@@ -30,6 +30,7 @@ TEST(LineStructure, ALineWhoseTrackBreaksHasOneVote) {
       SupportBy({{4, {-1, 0.5}, {1, 0.5}, 0, 14}, {9, {-1, 0.5}, {1, 0.5}, 15}}, &broken);
   EXPECT_EQ(whole.merging.merged, 0);
   EXPECT_EQ(broken.merging.merged, 1);
+  EXPECT_EQ(broken.absorbed, std::vector<int64_t>{9});
   EXPECT_EQ(once.lines, 2);
   EXPECT_EQ(twice.lines, 2);
 }

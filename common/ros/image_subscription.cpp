@@ -10,13 +10,15 @@
 
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
+#include "common/ros/parameter.h"
 
 namespace plm_vins {
 
 void ImageSubscription::Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node,
                                   const std::string& topic, uint32_t queue, Callback callback) {
   callback_ = std::move(callback);
-  const auto transport = private_node.param<std::string>("image_transport", "raw");
+  const auto transport =
+      FindParameter<std::string>(private_node, "image_transport").value_or("raw");
   if (transport == "compressed") {
     compressed_subscriber_ = node.subscribe<sensor_msgs::CompressedImage>(
         topic + "/compressed", queue, [this](const sensor_msgs::CompressedImageConstPtr& message) {

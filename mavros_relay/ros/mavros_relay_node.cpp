@@ -10,6 +10,7 @@
 
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/node_setup.h"
+#include "common/ros/parameter.h"
 #include "common/ros/robot_base.h"
 #include "mavros_relay/body_odometry.h"
 #include "mavros_relay/relay_gate.h"
@@ -57,8 +58,10 @@ class MavrosRelayNode {
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_{"~"};
-  const std::string odom_frame_ = private_node_.param<std::string>("odom_frame", "odom");
-  const std::string base_frame_ = private_node_.param<std::string>("base_frame", "base_link");
+  const std::string odom_frame_ =
+      FindParameter<std::string>(private_node_, "odom_frame").value_or("odom");
+  const std::string base_frame_ =
+      FindParameter<std::string>(private_node_, "base_frame").value_or("base_link");
   RelayGate gate_{ReadOptions()};
   bool was_interrupted_ = true;
   std::optional<Rigid3d> T_body_base_;
@@ -71,10 +74,8 @@ class MavrosRelayNode {
 
 MavrosRelayNode::MavrosRelayNode() {
   const auto no_delay = ros::TransportHints().tcpNoDelay();
-  std::string imu_to_base;
-  if (private_node_.getParam("imu_to_base", imu_to_base)) {
-    T_body_base_ = ParseTransform(imu_to_base);
-  }
+  const auto imu_to_base = FindParameter<std::string>(private_node_, "imu_to_base");
+  if (imu_to_base) T_body_base_ = ParseTransform(*imu_to_base);
   counter_.publish(std_msgs::UInt8());
   images_ =
       node_.subscribe("vins_estimator/odometry", 100, &MavrosRelayNode::AddImage, this, no_delay);
@@ -84,9 +85,12 @@ MavrosRelayNode::MavrosRelayNode() {
 
 RelayGate::Options MavrosRelayNode::ReadOptions() const {
   RelayGate::Options options;
-  options.rate = private_node_.param("rate", options.rate);
-  options.max_age = private_node_.param("max_age", options.max_age);
-  options.min_pause = private_node_.param("min_pause", options.min_pause);
+  const auto read = [this](const char* name, double* value) {
+    *value = FindParameter<double>(private_node_, name).value_or(*value);
+  };
+  read("rate", &options.rate);
+  read("max_age", &options.max_age);
+  read("min_pause", &options.min_pause);
   return options;
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
+#include "common/ros/parameter.h"
 #include "common/ros/publish_if_wanted.h"
 #include "common/stopwatch.h"
 #include "pose_graph/output/map_file.h"
@@ -24,8 +25,9 @@ constexpr size_t kWaitingKeyframes = 50;
 constexpr double kMaxLag = 2;  // [s] of keyframes behind their images
 
 std::string MapFile(PoseGraphConfig config, const ros::NodeHandle& private_node) {
-  if (config.save_path.empty()) private_node.getParam("output", config.save_path);
-  return private_node.param("map_file", config.MapFile());
+  const auto output = FindParameter<std::string>(private_node, "output");
+  if (config.save_path.empty() && output) config.save_path = *output;
+  return FindParameter<std::string>(private_node, "map_file").value_or(config.MapFile());
 }
 
 KeyframeMap MapToStartIn(const std::string& file) {

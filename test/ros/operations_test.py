@@ -66,6 +66,18 @@ class OperationsTest(unittest.TestCase):
         return stamps
 
 
+class Parameters(OperationsTest):
+    def test_one_of_another_kind_is_refused_by_name(self):
+        for name, parameter, kind in (("mavros_relay", "rate:=fast", "a number"),
+                                      ("feature_tracker", "image_transport:=5", "a text"),
+                                      ("vins_estimator", "trajectory_file:=8", "a text")):
+            node = self.processes.start_node(NODES / name, "_" + parameter)
+            self.assertEqual(node.wait(END_LIMIT), 1, name)
+            self.assertIn(f"parameter /{name}/{parameter.split(':')[0]} must be {kind}",
+                          self.processes.log(name))
+            rospy.delete_param(f"/{name}/{parameter.split(':')[0]}")
+
+
 class Restart(OperationsTest):
     def check(self, end, *player_options):
         self.start_all()

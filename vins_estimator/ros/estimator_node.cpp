@@ -10,6 +10,7 @@
 
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/msg_conversion.h"
+#include "common/ros/parameter.h"
 
 namespace plm_vins {
 namespace {
@@ -133,8 +134,8 @@ bool EstimatorNode::Reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Respon
 
 bool EstimatorNode::SaveTrajectory(std_srvs::Trigger::Request&,
                                    std_srvs::Trigger::Response& response) {
-  const std::string file = TrajectoryFile();
   try {
+    const std::string file = TrajectoryFile();
     const size_t poses = Save(file);
     response.success = true;
     response.message = std::to_string(poses) + " poses saved to " + file;
@@ -146,8 +147,8 @@ bool EstimatorNode::SaveTrajectory(std_srvs::Trigger::Request&,
 }
 
 std::string EstimatorNode::TrajectoryFile() const {
-  const auto file = private_node_.param<std::string>("trajectory_file", "trajectory.tum");
-  return std::filesystem::absolute(file).string();
+  const auto file = FindParameter<std::string>(private_node_, "trajectory_file");
+  return std::filesystem::absolute(file.value_or("trajectory.tum")).string();
 }
 
 size_t EstimatorNode::Save(const std::string& trajectory_file) const {

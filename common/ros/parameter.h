@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace plm_vins {
+
+inline const char* KindOf(const std::string&) { return "a text (in a launch file: type=\"str\")"; }
+inline const char* KindOf(double) { return "a number"; }
+
+// A parameter of the node, or nothing where it is not set. Throws std::runtime_error, which names
+// it, where it is of another kind: ros::NodeHandle takes that for not set.
+template <typename Value>
+std::optional<Value> FindParameter(const ros::NodeHandle& node, const std::string& name) {
+  Value value{};
+  if (node.getParam(name, value)) return value;
+  if (!node.hasParam(name)) return std::nullopt;
+  throw std::runtime_error("parameter " + node.resolveName(name) + " must be " + KindOf(value));
+}
+
+}  // namespace plm_vins

@@ -17,6 +17,7 @@ import sys
 # include beside itself, all of them listed before it. What is in no folder of its part is above
 # them, and ros/ above that.
 COMMON_LAYERS = {
+    "append.h": "",
     "format.h": "",
     "measurements.h": "",
     "median.h": "",

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/features/feature_checks.h"
+#include "common/io/grey_image.h"
 #include "feature_tracker/contrast_equalizer.h"
 #include "feature_tracker/detection/corner_detector.h"
 #include "feature_tracker/detection/spacing_grid.h"
@@ -35,7 +36,7 @@ std::string ToText(const cv::Size& size) {
 
 cv::Mat ReadMask(const std::string& file, const cv::Size& image_size) {
   if (file.empty()) return {};
-  cv::Mat mask = cv::imread(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+  cv::Mat mask = cv::imread(file, kReadGreyAsStored);
   if (mask.empty()) throw std::invalid_argument("fisheye_mask: cannot read the image " + file);
   if (mask.size() != image_size) {
     throw std::invalid_argument("fisheye_mask: " + file + " has " + ToText(mask.size()) +

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/append.h"
 #include "common/config/config.h"
 #include "common/io/output_file.h"
 #include "common/io/progress_display.h"

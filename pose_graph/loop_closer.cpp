@@ -11,10 +11,6 @@
 namespace plm_vins {
 namespace {
 
-LevelEdge EdgeOf(const LoopCandidate& loop) {
-  return {loop.earlier, loop.later, loop.T_earlier_later, loop.covariance, /*is_loop=*/true};
-}
-
 std::vector<LoopCandidate*> NewLoops(LoopClosure* closure) {
   std::vector<LoopCandidate*> loops;
   for (LoopCandidate& loop : closure->confirmed) loops.push_back(&loop);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/append.h"
 #include "common/stopwatch.h"
 #include "vins_estimator/bridging/frame_placement.h"
 #include "vins_estimator/factors/imu_factor.h"
@@ -351,13 +352,10 @@ void Estimator::SlideOldest(EstimatorOutput* output) {
     const auto replaced_ns = AnchorToReplace(options_.anchors, estimate.map.window);
     if (replaced_ns) estimate.RemoveAnchor(*replaced_ns);
   }
-  DepartedLandmarks departed =
+  const DepartedLandmarks departed =
       estimate.SlideOldest(CurrentProblem(JacobiansAt::kFirstEstimates), stays);
-  const auto append = [](auto* more, auto* all) {
-    all->insert(all->end(), more->begin(), more->end());
-  };
-  append(&departed.points, &output->departed_points);
-  append(&departed.lines, &output->departed_lines);
+  Append(departed.points, &output->departed_points);
+  Append(departed.lines, &output->departed_lines);
 }
 
 void Estimator::Describe(EstimatorOutput* output) const {

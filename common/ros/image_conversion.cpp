@@ -7,11 +7,11 @@
 #include <boost/make_shared.hpp>
 #include <cstdint>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "common/io/grey_image.h"
 #include "common/ros/geometry_conversion.h"
 
 namespace plm_vins {
@@ -43,14 +43,11 @@ cv_bridge::CvImageConstPtr ToGrey(const sensor_msgs::ImageConstPtr& message) {
   return gray;
 }
 
-// Not turned by what a camera notes of its orientation.
-constexpr int kAsCalibrated = cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION;
-
 // Empty where that fails. OpenCV throws where the header claims too large an image.
 cv::Mat Decode(const std::vector<uint8_t>& bytes) {
   if (bytes.empty()) return {};
   try {
-    return cv::imdecode(bytes, kAsCalibrated);
+    return cv::imdecode(bytes, kReadGreyAsStored);
   } catch (const std::exception&) {  // cv::Exception or std::bad_alloc
     return {};
   }

@@ -26,8 +26,4 @@ inline std::string ToString(const DropCount& drop) {
   return drop.detail.empty() ? text : text + " (first: " + drop.detail + ")";
 }
 
-inline void Append(const DropCounts& more, DropCounts* counts) {
-  counts->insert(counts->end(), more.begin(), more.end());
-}
-
 }  // namespace plm_vins

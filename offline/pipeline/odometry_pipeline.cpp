@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "offline/pipeline/odometry_pipeline.h"
+#include "common/append.h"
 
 #include <iterator>
 #include <utility>

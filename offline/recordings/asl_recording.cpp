@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "common/append.h"
+#include "common/io/grey_image.h"
 #include "offline/recordings/sorted_rows.h"
 
 namespace plm_vins {
@@ -29,7 +31,7 @@ cv::Mat ReadImage(const fs::path& file) {
   std::error_code error;
   if (!fs::exists(file, error)) return {};  // without OpenCV's own warning
   try {
-    return cv::imread(file.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+    return cv::imread(file.string(), kReadGreyAsStored);
   } catch (const cv::Exception&) {  // a damaged header may ask for more pixels than OpenCV allows
     return {};
   }

@@ -41,6 +41,14 @@ LevelEdge Chained(const LevelEdge& a_b, const LevelEdge& b_c) {
   return result;
 }
 
+Matrix4d CovarianceInMap(const LevelTransform& T_M_from, const Matrix4d& covariance,
+                         const LevelEdge& edge) {
+  LevelEdge map_from;
+  map_from.T_from_to = T_M_from;
+  map_from.covariance = covariance;
+  return Chained(map_from, edge).covariance;
+}
+
 Matrix4d Whitening(const Matrix4d& covariance) {
   const Eigen::LLT<Matrix4d> factor(covariance);
   return factor.matrixL().solve(Matrix4d::Identity());

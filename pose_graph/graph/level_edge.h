@@ -21,6 +21,11 @@ LevelEdge Reversed(const LevelEdge& edge);
 // What two edges, a to b and b to c, say of a and c. They are taken for independent.
 LevelEdge Chained(const LevelEdge& a_b, const LevelEdge& b_c);
 
+// Covariance of the place of an edge's end in the map, where its beginning has this place and
+// covariance there.
+Matrix4d CovarianceInMap(const LevelTransform& T_M_from, const Matrix4d& covariance,
+                         const LevelEdge& edge);
+
 // Measured less actual T_from_to, as (x, y, z, yaw).
 inline Vector4d EdgeError(const LevelTransform& measured, const LevelTransform& actual) {
   Vector4d error = measured.ToVector() - actual.ToVector();

@@ -19,10 +19,8 @@ void PlaceInMap::AddKeyframe(const KeyframeMap& map, bool continues) {
 
 // A loop that is less sure than odometry since the last one tells nothing new.
 void PlaceInMap::AddLoop(const KeyframeMap& map, const LevelEdge& loop, bool joins) {
-  LevelEdge earlier;
-  earlier.T_from_to = map.graph.node(loop.from);
-  earlier.covariance = covariances_[loop.from];
-  const MapFix fix = FixBy(map, loop.to, Chained(earlier, loop).covariance);
+  const MapFix fix = FixBy(
+      map, loop.to, CovarianceInMap(map.graph.node(loop.from), covariances_[loop.from], loop));
   const auto position_variance = [](const Matrix4d& covariance) {
     return covariance.topLeftCorner<3, 3>().trace();
   };

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "common/append.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/parameter.h"

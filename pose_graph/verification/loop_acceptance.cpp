@@ -15,16 +15,6 @@ LevelTransform MapFromOdometry(const std::vector<Keyframe>& keyframes, const Pos
   return graph.node(loop.earlier) * loop.T_earlier_later * keyframes[loop.later].T_O_L().Inverse();
 }
 
-// Of the place in the map that the loop gives the later keyframe, with the earlier one as it is.
-Matrix4d CovarianceInMap(const PoseGraph& graph, const LoopCandidate& loop) {
-  LevelEdge map_earlier, earlier_later;
-  map_earlier.T_from_to = graph.node(loop.earlier);
-  map_earlier.covariance.setZero();
-  earlier_later.T_from_to = loop.T_earlier_later;
-  earlier_later.covariance = loop.covariance;
-  return Chained(map_earlier, earlier_later).covariance;
-}
-
 }  // namespace
 
 std::vector<LoopCandidate> LoopAcceptance::Judge(const std::vector<Keyframe>& keyframes,
@@ -82,8 +72,11 @@ bool LoopAcceptance::Agree(const std::vector<Keyframe>& keyframes, const PoseGra
   const Vector4d difference = EdgeError(MapFromOdometry(keyframes, graph, a) * here,
                                         MapFromOdometry(keyframes, graph, b) * here);
   const double way = way_earlier + std::abs(later_b.path - later_a.path);
-  return Deviations(difference, CovarianceInMap(graph, a) + CovarianceInMap(graph, b) +
-                                    options_.drift.Covariance(way)) <= kThreeSigmaOf4Dof;
+  const auto covariance = [&graph](const LoopCandidate& loop) {
+    return CovarianceInMap(graph.node(loop.earlier), Matrix4d::Zero(), EdgeOf(loop));
+  };
+  return Deviations(difference, covariance(a) + covariance(b) + options_.drift.Covariance(way)) <=
+         kThreeSigmaOf4Dof;
 }
 
 }  // namespace plm_vins

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "pose_graph/geometry/level_transform.h"
+#include "pose_graph/graph/level_edge.h"
 
 namespace plm_vins {
 
@@ -59,5 +60,10 @@ struct LoopCandidate {
   LevelTransform T_earlier_later;
   Matrix4d covariance = Matrix4d::Zero();
 };
+
+// The loop as the graph takes it.
+inline LevelEdge EdgeOf(const LoopCandidate& loop) {
+  return {loop.earlier, loop.later, loop.T_earlier_later, loop.covariance, /*is_loop=*/true};
+}
 
 }  // namespace plm_vins

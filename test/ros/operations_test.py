@@ -68,14 +68,14 @@ class OperationsTest(unittest.TestCase):
 
 class Parameters(OperationsTest):
     def test_one_of_another_kind_is_refused_by_name(self):
-        for name, parameter, kind in (("mavros_relay", "rate:=fast", "a number"),
-                                      ("feature_tracker", "image_transport:=5", "a text"),
-                                      ("vins_estimator", "trajectory_file:=8", "a text")):
-            node = self.processes.start_node(NODES / name, "_" + parameter)
+        for name, parameter, value, kind in (("mavros_relay", "rate", "fast", "a number"),
+                                             ("feature_tracker", "image_transport", "5", "a text"),
+                                             ("vins_estimator", "trajectory_file", "8", "a text")):
+            node = self.processes.start_node(NODES / name, f"_{parameter}:={value}")
             self.assertEqual(node.wait(END_LIMIT), 1, name)
-            self.assertIn(f"parameter /{name}/{parameter.split(':')[0]} must be {kind}",
+            self.assertIn(f"parameter /{name}/{parameter} must be {kind}",
                           self.processes.log(name))
-            rospy.delete_param(f"/{name}/{parameter.split(':')[0]}")
+            rospy.delete_param(f"/{name}/{parameter}")
 
 
 class Restart(OperationsTest):

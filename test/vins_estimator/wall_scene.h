@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "common/append.h"
 #include "test/vins_estimator/line_window.h"
 
 namespace plm_vins::testing {
@@ -42,7 +43,7 @@ inline UnitedLines UniteOnWall(const std::vector<WallLine>& lines, LineWindow* w
     }
     const UnitedLines united = window->Unite();
     const LineMergingCounts& now = united.merging;
-    sum.absorbed.insert(sum.absorbed.end(), united.absorbed.begin(), united.absorbed.end());
+    Append(united.absorbed, &sum.absorbed);
     sum.merging.merged += now.merged;
     sum.recognised += united.recognised;
     sum.merging.apart += now.apart;

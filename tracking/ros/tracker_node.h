@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/append.h"
 #include "common/config/config.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/image_subscription.h"

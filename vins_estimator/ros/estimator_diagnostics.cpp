@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/ros/estimator_diagnostics.h"
+#include "common/append.h"
 
 #include <cmath>
 

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "common/append.h"
 #include "common/ros/camera_info_conversion.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/keyframe_conversion.h"
@@ -122,12 +123,9 @@ void OutputPublisher::PublishKeyframe(const EstimatedFrame& frame) {
 
 // In one message per interval: a display keeps each message as an object of its own.
 void OutputPublisher::PublishHistory(const EstimatorOutput& output) {
-  const auto append = [](const auto& departed, auto* all) {
-    all->insert(all->end(), departed.begin(), departed.end());
-  };
-  append(output.departed_points, &departed_points_);
-  append(output.departed_lines, &departed_lines_);
-  append(output.absorbed_lines, &absorbed_lines_);
+  Append(output.departed_points, &departed_points_);
+  Append(output.departed_lines, &departed_lines_);
+  Append(output.absorbed_lines, &absorbed_lines_);
   if (output.t_ns - history_ns_ < kHistoryInterval_ns) return;
   history_ns_ = output.t_ns;
   PublishIfWanted(history_cloud_,

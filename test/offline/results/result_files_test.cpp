@@ -188,13 +188,18 @@ TEST(ResultFiles, KeepThePosesOfBeforeAJumpBackInFilesOfTheirOwn) {
   EXPECT_FALSE(fs::exists(folder.File("trajectory_1.tum")));
 }
 
+// Lines 7 and 8 leave the window with it.
+PipelineFrame FrameThatLosesTwoLines() {
+  PipelineFrame frame = MakeFrame(1'000'000'000, true);
+  frame.output.departed_lines = {{7, {1, 0, 0}, {1, 0, 1}}, {8, {2, 0, 0}, {2, 0, 1}}};
+  return frame;
+}
+
 TEST(ResultFiles, HoldALineThatCameBackOnceAsKnownLast) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());
-  PipelineFrame frame = MakeFrame(1'000'000'000, true);
-  frame.output.departed_lines = {{7, {1, 0, 0}, {1, 0, 1}}, {8, {2, 0, 0}, {2, 0, 1}}};
-  results.Add(frame);
-  frame = MakeFrame(2'000'000'000, true);
+  results.Add(FrameThatLosesTwoLines());
+  PipelineFrame frame = MakeFrame(2'000'000'000, true);
   frame.output.departed_lines = {{7, {3, 0, 0}, {3, 0, 1}}};
   results.Add(frame);
   frame = MakeFrame(3'000'000'000, true);
@@ -211,10 +216,8 @@ TEST(ResultFiles, HoldALineThatCameBackOnceAsKnownLast) {
 TEST(ResultFiles, HoldALineThatBecamePartOfAnotherAsThatOne) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());
-  PipelineFrame frame = MakeFrame(1'000'000'000, true);
-  frame.output.departed_lines = {{7, {1, 0, 0}, {1, 0, 1}}, {8, {2, 0, 0}, {2, 0, 1}}};
-  results.Add(frame);
-  frame = MakeFrame(2'000'000'000, true);
+  results.Add(FrameThatLosesTwoLines());
+  PipelineFrame frame = MakeFrame(2'000'000'000, true);
   frame.output.absorbed_lines = {8, 99};
   frame.output.departed_lines = {{7, {3, 0, 0}, {3, 0, 1}}};
   results.Add(frame);

@@ -1,60 +1,86 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "feature_tracker/following/optical_flow.h"
 
+#include <algorithm>
 #include <opencv2/video/tracking.hpp>
+#include <optional>
+
+#include "feature_tracker/following/flow_window.h"
 
 namespace plm_vins {
 namespace {
 
 constexpr int kMaxIterations = 30;
 constexpr double kConverged_px = 0.03;
-constexpr int kBackwardLevels = 0;  // the way back begins at its expected end
+constexpr float kStandstill_px = 0.01F;  // a step that takes back the one before
+constexpr int kBackwardLevels = 0;       // the way back begins at its expected end
 
 bool IsInside(const cv::Mat& image, const cv::Point2f& point) {
   return point.x >= 0 && point.y >= 0 && point.x <= static_cast<float>(image.cols - 1) &&
          point.y <= static_cast<float>(image.rows - 1);
 }
 
+// Moves `point` of a level to where the window lies; false where it leaves the image.
+bool Descend(const cv::Mat& level, FlowWindow* window, cv::Point2f* point) {
+  cv::Point2f before;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const auto step = window->Step(level, *point);
+    if (!step) return false;
+    *point += *step;
+    if (step->dot(*step) <= kConverged_px * kConverged_px) return true;
+    const cv::Point2f both = *step + before;
+    if (i > 0 && std::abs(both.x) < kStandstill_px && std::abs(both.y) < kStandstill_px) {
+      *point -= *step / 2;
+      return true;
+    }
+    before = *step;
+  }
+  return true;
+}
+
+// Where `point` of `from` lies in `to`, from the coarsest of some levels to the finest, beginning
+// at `start`. Nothing where it is not found at the finest.
+std::optional<cv::Point2f> Search(const OpticalFlow::Pyramid& from, const OpticalFlow::Pyramid& to,
+                                  int levels, const cv::Point2f& point, const cv::Point2f& start,
+                                  FlowWindow* window) {
+  std::optional<cv::Point2f> found;
+  cv::Point2f current = start;
+  for (int level = std::min(levels, static_cast<int>(to.size()) - 1); level >= 0; --level) {
+    const float scale = 1.0F / static_cast<float>(1 << level);
+    cv::Point2f in_level = current * scale;
+    const bool is_found =
+        window->Cut(from[level], point * scale) && Descend(to[level], window, &in_level);
+    current = in_level / scale;
+    if (is_found && level == 0) found = current;
+  }
+  return found;
+}
+
 }  // namespace
 
 OpticalFlow::Pyramid OpticalFlow::BuildPyramid(const cv::Mat& image, Pyramid unused) const {
-  cv::buildOpticalFlowPyramid(image, unused, {config_.klt_window, config_.klt_window},
-                              config_.klt_levels);
+  constexpr bool kWithDerivatives = false;
+  const int border = FlowWindow::Border(config_.klt_window);
+  cv::buildOpticalFlowPyramid(image, unused, {border, border}, config_.klt_levels,
+                              kWithDerivatives);
   return unused;
 }
 
 std::vector<FlowResult> OpticalFlow::Track(const Pyramid& previous, const Pyramid& current,
                                            const std::vector<cv::Point2f>& points,
                                            const std::vector<cv::Point2f>& predicted) const {
-  if (points.empty()) return {};
-  std::vector<cv::Point2f> forward = predicted;
-  std::vector<cv::Point2f> backward = points;
-  const auto found = Search(previous, current, points, config_.klt_levels, &forward);
-  const auto returned = Search(current, previous, forward, kBackwardLevels, &backward);
-
+  FlowWindow window(config_.klt_window);
   std::vector<FlowResult> results(points.size());
   for (size_t i = 0; i < points.size(); ++i) {
-    results[i].position = forward[i];
-    if (!found[i] || !IsInside(current.front(), forward[i])) continue;
-    const bool consistent =
-        returned[i] && cv::norm(backward[i] - points[i]) <= config_.forward_backward;
-    results[i].status =
-        consistent ? FlowResult::Status::kTracked : FlowResult::Status::kInconsistent;
+    const auto there =
+        Search(previous, current, config_.klt_levels, points[i], predicted[i], &window);
+    if (!there || !IsInside(current.front(), *there)) continue;
+    const auto back = Search(current, previous, kBackwardLevels, *there, points[i], &window);
+    const bool consistent = back && cv::norm(*back - points[i]) <= config_.forward_backward;
+    results[i] = {*there,
+                  consistent ? FlowResult::Status::kTracked : FlowResult::Status::kInconsistent};
   }
   return results;
-}
-
-// `found` holds the first guess and takes the result. True where the search succeeded.
-std::vector<bool> OpticalFlow::Search(const Pyramid& from, const Pyramid& to,
-                                      const std::vector<cv::Point2f>& points, int levels,
-                                      std::vector<cv::Point2f>* found) const {
-  const cv::TermCriteria criteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kMaxIterations,
-                                  kConverged_px);
-  std::vector<uint8_t> status;
-  cv::calcOpticalFlowPyrLK(from, to, points, *found, status, cv::noArray(),
-                           {config_.klt_window, config_.klt_window}, levels, criteria,
-                           cv::OPTFLOW_USE_INITIAL_FLOW);
-  return {status.begin(), status.end()};
 }
 
 }  // namespace plm_vins

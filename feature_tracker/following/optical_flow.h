@@ -23,7 +23,7 @@ struct FlowResult {
 // built once and serves as current and then as previous one.
 class OpticalFlow {
  public:
-  using Pyramid = std::vector<cv::Mat>;  // levels and their derivatives, as OpenCV lays them out
+  using Pyramid = std::vector<cv::Mat>;  // levels, each with a border for the window
 
   explicit OpticalFlow(const PointTrackerConfig& config) : config_(config) {}
 
@@ -36,10 +36,6 @@ class OpticalFlow {
                                 const std::vector<cv::Point2f>& predicted) const;
 
  private:
-  std::vector<bool> Search(const Pyramid& from, const Pyramid& to,
-                           const std::vector<cv::Point2f>& points, int levels,
-                           std::vector<cv::Point2f>* found) const;
-
   PointTrackerConfig config_;
 };
 

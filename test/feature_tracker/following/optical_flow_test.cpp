@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <opencv2/video/tracking.hpp>
 
 #include "test/feature_tracker/textured_scene.h"
 
@@ -16,6 +17,10 @@ std::vector<cv::Point2f> GridPoints() {
     for (int x = 60; x <= kWidth - 60; x += 20) points.emplace_back(x + 0.25F, y - 0.4F);
   }
   return points;
+}
+
+Eigen::Quaterniond Turn(double about_axis) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(about_axis, Eigen::Vector3d::UnitZ()));
 }
 
 class OpticalFlowTest : public testing::Test {
@@ -47,6 +52,27 @@ TEST_F(OpticalFlowTest, FollowsTranslationToSubpixels) {
   EXPECT_EQ(errors.size(), points_.size());
   EXPECT_LT(errors[errors.size() / 2], 0.03);
   EXPECT_LT(errors.back(), 0.2);
+}
+
+// An implementation of others, which takes slopes of whole images.
+TEST_F(OpticalFlowTest, AgreesWithOpenCv) {
+  const PointTrackerConfig config;
+  const cv::Mat image0 = scene_.View();
+  const cv::Mat image1 = scene_.View(Translation(6.4, 2.3) * RotationHomography(Turn(0.02)));
+  const cv::TermCriteria criteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 30, 0.03);
+  std::vector<cv::Point2f> theirs;
+  std::vector<uint8_t> found;
+  cv::calcOpticalFlowPyrLK(image0, image1, points_, theirs, found, cv::noArray(),
+                           {config.klt_window, config.klt_window}, config.klt_levels, criteria);
+  const std::vector<FlowResult> ours = Track(image0, image1, points_);
+  int agreeing = 0, tracked = 0;
+  for (size_t i = 0; i < points_.size(); ++i) {
+    if (ours[i].status != FlowResult::Status::kTracked || found[i] == 0) continue;
+    ++tracked;
+    if (cv::norm(ours[i].position - theirs[i]) < 0.02) ++agreeing;
+  }
+  EXPECT_GT(tracked, static_cast<int>(0.9 * static_cast<double>(points_.size())));
+  EXPECT_GT(agreeing, 0.98 * tracked);
 }
 
 TEST_F(OpticalFlowTest, PredictionReachesFartherThanThePyramid) {

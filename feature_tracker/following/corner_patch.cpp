@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kSigma_px = 5.0F;  // of the weights: what is far from the corner may be elsewhere
 constexpr int kMaxIterations = 12;
-constexpr double kConverged_px = 0.03;
+constexpr double kConverged_px = 0.1;
 constexpr double kMaxShift_px = 1.5;      // from where the flow ended; else one of them is wrong
 constexpr float kMinCorrelation = 0.85F;  // of what is seen with the patch
 constexpr double kMaxGrowth = 3.0;        // of its area, or one over it
@@ -58,8 +58,8 @@ CornerPatch::Pixels CornerPatch::SampleInside(const cv::Mat& image, const PatchP
   Pixels pixels;
   for (int y = 0; y < kSide; ++y) {
     const Eigen::Vector2f start = center + linear * Eigen::Vector2f(-kRadius, y - kRadius);
-    InterpolateRow<kSide, kStride>(image, {start.x(), start.y()}, {linear(0, 0), linear(1, 0)},
-                                   pixels.col(y).data());
+    InterpolateRow<kStride>(image, {start.x(), start.y()}, {linear(0, 0), linear(1, 0)}, kSide,
+                            pixels.col(y).data());
   }
   return pixels;
 }

@@ -21,13 +21,12 @@ inline float Interpolate(const cv::Mat& image, float x, float y) {
   return top + dy * (bottom - top);
 }
 
-// The same at kCount points in a row, `step` from one to the next, rounded otherwise in the last
+// The same at `count` points in a row, `step` from one to the next, rounded otherwise in the last
 // bits; followed by zeros up to kStride. The work is laid out so that the compiler does it for
 // several points at once, but for the loading of pixels.
-template <int kCount, int kStride>
+template <int kStride>
 void InterpolateRow(const cv::Mat& image, const cv::Point2f& start, const cv::Point2f& step,
-                    float* brightness) {
-  static_assert(kCount <= kStride);
+                    int count, float* brightness) {
   const int row_step = static_cast<int>(image.step[0]);
   float dx[kStride], dy[kStride];
   int offset[kStride];
@@ -43,7 +42,7 @@ void InterpolateRow(const cv::Mat& image, const cv::Point2f& start, const cv::Po
   // Each pixel with its right neighbour, which is the higher byte: both come in one load.
   static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
   std::array<uint16_t, kStride> upper = {}, lower = {};
-  for (int i = 0; i < kCount; ++i) {
+  for (int i = 0; i < count; ++i) {
     const uint8_t* pixel = image.data + offset[i];
     std::memcpy(&upper[i], pixel, 2);
     std::memcpy(&lower[i], pixel + row_step, 2);

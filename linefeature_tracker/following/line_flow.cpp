@@ -3,7 +3,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <opencv2/imgproc.hpp>
 
 #include "linefeature_tracker/segments/line_offset.h"
@@ -17,14 +16,13 @@ constexpr int kTopLevel = 3;
 constexpr int kBottomLevel = 1;
 constexpr int kRadius = 5;  // of a profile, in pixels of its level
 constexpr int kProfileSize = 2 * kRadius + 1;
+static_assert(kRadius + 1 <= kMaxProfileRadius);
 constexpr double kSpacing_px = 10;  // between profiles along the line
 constexpr int kMinProfiles = 5;
 constexpr int kMaxProfiles = 12;
 constexpr int kMaxIterations = 8;
 constexpr double kConverged_px = 0.1;  // of a level: the edge is located afterwards
 constexpr double kMinTurnLength = 10;  // shorter lines do not turn, in pixels of a level
-
-using Profile = std::array<float, kProfileSize>;
 
 // The same part of the line in both images.
 struct SamplePair {
@@ -35,10 +33,10 @@ struct SamplePair {
 // The brightness across the line before, with its derivative.
 struct Template {
   const SegmentSample* current = nullptr;
-  Profile value;
-  Profile slope;
-  double slope_squares = 0;
-  double slope_sum = 0;
+  LineProfile value = LineProfile::Zero();
+  LineProfile slope = LineProfile::Zero();
+  float slope_squares = 0;
+  float slope_sum = 0;
 };
 
 // Sums over profiles, for the correlation.
@@ -85,7 +83,7 @@ class LevelAlignment {
 
   double Correlation(const LineOffset& offset) const {
     CorrelationSums sums;
-    Profile profile;
+    LineProfile profile;
     for (const Template& reference : templates_) {
       if (!ReadCurrent(reference, offset, &profile)) continue;
       for (int j = 0; j < kProfileSize; ++j) {
@@ -100,27 +98,26 @@ class LevelAlignment {
 
  private:
   void AddTemplate(const cv::Mat& previous, const SamplePair& pair) {
-    std::array<float, kProfileSize + 2> wide;
+    LineProfile wide;
     const Eigen::Vector2f center = (scale_ * pair.previous.pixel).cast<float>();
-    if (!ReadProfile(previous, center, pair.previous.normal_px.cast<float>(), kRadius + 1,
-                     wide.data()))
+    if (!ReadProfile(previous, center, pair.previous.normal_px.cast<float>(), kRadius + 1, &wide))
       return;
     Template reference;
     reference.current = &pair.current;
-    for (int j = 0; j < kProfileSize; ++j) {
-      reference.value[j] = wide[j + 1];
-      reference.slope[j] = 0.5F * (wide[j + 2] - wide[j]);
-      reference.slope_squares += reference.slope[j] * reference.slope[j];
-      reference.slope_sum += reference.slope[j];
-    }
+    reference.value.head<kProfileSize>() = wide.segment<kProfileSize>(1);
+    reference.slope.head<kProfileSize>() =
+        0.5F * (wide.segment<kProfileSize>(2) - wide.head<kProfileSize>());
+    reference.slope_squares = reference.slope.square().sum();
+    reference.slope_sum = reference.slope.sum();
     templates_.push_back(reference);
   }
 
-  bool ReadCurrent(const Template& reference, const LineOffset& offset, Profile* profile) const {
+  bool ReadCurrent(const Template& reference, const LineOffset& offset,
+                   LineProfile* profile) const {
     const SegmentSample& sample = *reference.current;
     const Eigen::Vector2d pixel = sample.pixel + OffsetInPixels(offset, sample) * sample.normal_px;
     return ReadProfile(current_, (scale_ * pixel).cast<float>(), sample.normal_px.cast<float>(),
-                       kRadius, profile->data());
+                       kRadius, profile);
   }
 
   // One Gauss-Newton step of the inverse compositional kind: the template is moved, not the image,
@@ -129,24 +126,20 @@ class LevelAlignment {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
     int used = 0;
-    Profile profile;
+    LineProfile profile;
     for (const Template& reference : templates_) {
       if (!ReadCurrent(reference, offset, &profile)) continue;
       ++used;
-      double error_sum = 0, slope_error = 0;
-      for (int j = 0; j < kProfileSize; ++j) {
-        const float error = reference.value[j] - profile[j];
-        error_sum += error;
-        slope_error += error * reference.slope[j];
-      }
+      const LineProfile error = reference.value - profile;
       const SegmentSample& sample = *reference.current;
       const double pixels = scale_ / sample.offset_per_pixel;  // of the level, per offset
       const Eigen::Vector2d d_pixels(pixels, pixels * sample.along);
-      H.topLeftCorner<2, 2>() += reference.slope_squares * d_pixels * d_pixels.transpose();
-      H.topRightCorner<2, 1>() += reference.slope_sum * d_pixels;
+      H.topLeftCorner<2, 2>() +=
+          static_cast<double>(reference.slope_squares) * d_pixels * d_pixels.transpose();
+      H.topRightCorner<2, 1>() += static_cast<double>(reference.slope_sum) * d_pixels;
       H(2, 2) += kProfileSize;
-      b.head<2>() += slope_error * d_pixels;
-      b(2) += error_sum;
+      b.head<2>() += static_cast<double>((error * reference.slope).sum()) * d_pixels;
+      b(2) += error.sum();
     }
     if (used < kMinProfiles) return std::nullopt;
     H.bottomLeftCorner<1, 2>() = H.topRightCorner<2, 1>().transpose();

@@ -153,8 +153,9 @@ void LineRefinement::LocateEdge(const cv::Mat& image, int search_px, EdgePoint* 
   const int radius = search_px + 2;
   const Eigen::Vector2f center = point->sample.pixel.cast<float>();
   const Eigen::Vector2f normal = point->sample.normal_px.cast<float>();
-  std::array<float, 2 * (kMaxSearch_px + 2) + 1> profile;
-  if (!ReadProfile(image, center, normal, radius, profile.data())) return;
+  static_assert(kMaxSearch_px + 2 <= kMaxProfileRadius);
+  LineProfile profile;
+  if (!ReadProfile(image, center, normal, radius, &profile)) return;
   const auto rise = [&](int j) {
     return 0.5F * (profile[j + radius + 1] - profile[j + radius - 1]);
   };

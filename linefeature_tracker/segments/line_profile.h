@@ -8,16 +8,20 @@
 
 namespace plm_vins {
 
-// Brightness across a line, from -radius to radius [px] along its unit `normal`, into the
-// 2 radius + 1 values of `profile`. False, and nothing read, where that leaves the image.
+// Brightness across a line, followed by zeros.
+using LineProfile = Eigen::Array<float, 16, 1>;
+constexpr int kMaxProfileRadius = 7;  // [px]
+
+// From -radius to radius [px] along the line's unit `normal`. False, and nothing read, where that
+// leaves the image.
 inline bool ReadProfile(const cv::Mat& image, const Eigen::Vector2f& center,
-                        const Eigen::Vector2f& normal, int radius, float* profile) {
-  if (!IsInterpolable(image, center.x(), center.y(), static_cast<float>(radius))) return false;
-  for (int j = -radius; j <= radius; ++j) {
-    const auto distance = static_cast<float>(j);
-    profile[j + radius] =
-        Interpolate(image, center.x() + distance * normal.x(), center.y() + distance * normal.y());
-  }
+                        const Eigen::Vector2f& normal, int radius, LineProfile* profile) {
+  constexpr float kRounding_px = 0.01F;
+  const auto reach = static_cast<float>(radius);
+  if (!IsInterpolable(image, center.x(), center.y(), reach + kRounding_px)) return false;
+  const Eigen::Vector2f start = center - reach * normal;
+  InterpolateRow<LineProfile::SizeAtCompileTime>(
+      image, {start.x(), start.y()}, {normal.x(), normal.y()}, 2 * radius + 1, profile->data());
   return true;
 }
 

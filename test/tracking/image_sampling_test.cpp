@@ -32,7 +32,7 @@ TEST_F(ImageSamplingTest, RowsAreTheSame) {
     const cv::Point2f start(20.3F, 15.8F);
     std::array<float, 8> row;
     row.fill(-1);
-    InterpolateRow<7, 8>(image_, start, step, row.data());
+    InterpolateRow<8>(image_, start, step, 7, row.data());
     for (int i = 0; i < 7; ++i) {
       const cv::Point2f point = start + step * i;
       EXPECT_NEAR(row[i], Interpolate(image_, point.x, point.y), 1e-2) << step << " " << i;
@@ -44,7 +44,7 @@ TEST_F(ImageSamplingTest, RowsAreTheSame) {
 TEST_F(ImageSamplingTest, TakesPartOfAnImage) {
   const cv::Mat part = image_(cv::Rect(10, 5, 30, 30));
   std::array<float, 4> row;
-  InterpolateRow<4, 4>(part, {3.5F, 4.5F}, {1, 0}, row.data());
+  InterpolateRow<4>(part, {3.5F, 4.5F}, {1, 0}, 4, row.data());
   for (int i = 0; i < 4; ++i) {
     EXPECT_FLOAT_EQ(row[i], Interpolate(image_, 13.5F + static_cast<float>(i), 9.5F));
   }

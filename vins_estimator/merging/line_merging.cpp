@@ -154,6 +154,7 @@ MergedLines MergeLines(const SameLineLimits& limits, const Eigen::Quaterniond& R
   auto [landmarks, seen] = Collect(R_F_W, limits.noise, map);
   MergedLines result;
   LineMergingCounts& counts = result.counts;
+  std::vector<std::pair<int64_t, int64_t>> absorbed;  // newer, older
   for (const auto& [newer, older] : FindNearPairs(seen, limits.distance)) {
     if (landmarks[newer] == nullptr || landmarks[older] == nullptr) continue;  // gone already
     ++counts.candidates;
@@ -169,10 +170,14 @@ MergedLines MergeLines(const SameLineLimits& limits, const Eigen::Quaterniond& R
       continue;
     }
     seen[older] = See(window, R_F_W, limits.noise, *joint).value_or(seen[older]);
-    result.absorbed.push_back(landmarks[newer]->id);
-    map->AbsorbLine(landmarks[newer]->id, *joint);
+    *landmarks[older] = *joint;
+    absorbed.emplace_back(landmarks[newer]->id, joint->id);
     landmarks[newer] = nullptr;
     ++counts.merged;
+  }
+  for (const auto& [newer, older] : absorbed) {
+    map->AbsorbLine(newer, older);
+    result.absorbed.push_back(newer);
   }
   return result;
 }

@@ -69,7 +69,7 @@ Eigen::Array4f SumOfProducts(const cv::v_int32x4& row_sums) {
 
 }  // namespace
 
-int FlowWindow::Border(int side) { return InWholeVectors(side + 2); }
+int FlowWindow::Border(int side) { return InWholeVectors(side) + kLanes; }
 
 FlowWindow::FlowWindow(int side)
     : side_(side),

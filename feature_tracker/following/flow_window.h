@@ -37,7 +37,7 @@ class FlowWindow {
 
   int side_;
   int columns_;                    // of a row in memory: the side, in whole vectors
-  int wide_columns_;               // with a pixel more on each side
+  int wide_columns_;               // of one with a pixel more on each side
   std::vector<int16_t> wide_;      // samples of the window, with a pixel more on each side
   std::vector<int16_t> samples_;   // of the other image
   std::vector<int16_t> slopes_x_;  // without weight beyond the side

@@ -120,7 +120,7 @@ TEST_P(FlowWindowTest, ReachesTheCornersOfTheImageAndNotFarBeyond) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sides, FlowWindowTest, testing::Values(5, 8, 16, 21, 101));
+INSTANTIATE_TEST_SUITE_P(Sides, FlowWindowTest, testing::Values(5, 8, 14, 16, 21, 101));
 
 }  // namespace
 }  // namespace plm_vins

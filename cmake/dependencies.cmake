@@ -10,7 +10,6 @@ if(NOT TARGET yaml-cpp::yaml-cpp)  # yaml-cpp before 0.8 exports a bare name
 endif()
 find_package(CLI11 2 REQUIRED HINTS ${PROJECT_SOURCE_DIR}/build/deps)  # see scripts/setup.sh
 find_package(nlohmann_json REQUIRED)
-find_package(Boost REQUIRED)  # headers alone
 
 if(BUILD_ROS)
   # ROS packages of a distribution live in its own Python, not in a pyenv or conda found in PATH.
@@ -24,6 +23,7 @@ if(BUILD_ROS)
   generate_dynamic_reconfigure_options(cfg/FeatureTracker.cfg cfg/LineFeatureTracker.cfg)
   set_directory_properties(PROPERTIES INCLUDE_DIRECTORIES "")  # it adds its headers for all
   catkin_package()
+  find_package(Boost REQUIRED)
   find_package(BZip2 REQUIRED)
   # Debian nests the headers that rosbag/bag.h needs one folder deeper than ROS does.
   set(ROS_INCLUDE_DIRS ${CATKIN_DEVEL_PREFIX}/include ${catkin_INCLUDE_DIRS})

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <boost/container/flat_map.hpp>
 #include <cstdint>
 #include <functional>
+#include <map>
 
 #include "vins_estimator/map/sliding_window.h"
 
@@ -18,9 +18,8 @@ namespace plm_vins {
 template <typename Landmark>
 class LandmarkMap {
  public:
-  // Ordered by id, so that every sum over landmarks is the same in every run. In one piece of
-  // memory: each image looks at all of them, again and again.
-  using Landmarks = boost::container::flat_map<int64_t, Landmark>;
+  // Ordered by id, so that every sum over landmarks is the same in every run.
+  using Landmarks = std::map<int64_t, Landmark>;
 
   // Removes all views in a frame, and landmarks without views. Where it was the host, the
   // coordinates move to the next view.

@@ -52,19 +52,18 @@ void LocalMap::RemoveAnchor(int64_t t_ns) {
   window.RemoveAnchor(t_ns);
 }
 
-void LocalMap::AbsorbLine(int64_t newer, int64_t older) {
+void LocalMap::AbsorbLine(int64_t newer, const LineLandmark& joint) {
+  lines.landmarks().at(joint.id) = joint;
   lines.landmarks().erase(newer);
-  memory.Join(newer, older);
-  aliases.Add(newer, older);
+  memory.Join(newer, joint.id);
+  aliases.Add(newer, joint.id);
 }
 
 void LocalMap::ReviveLine(int64_t newer, int64_t older) {
-  const auto found = lines.landmarks().find(newer);
-  LineLandmark landmark = std::move(found->second);
-  lines.landmarks().erase(found);
-  landmark.id = older;
-  landmark.anchor_views = memory.lines().at(older).anchor_views;
-  lines.landmarks().emplace(older, std::move(landmark));
+  auto landmark = lines.landmarks().extract(newer);
+  landmark.key() = landmark.mapped().id = older;
+  landmark.mapped().anchor_views = memory.lines().at(older).anchor_views;
+  lines.landmarks().insert(std::move(landmark));
   aliases.Add(newer, older);
 }
 

@@ -48,8 +48,8 @@ struct LocalMap {
 
   void RemoveAnchor(int64_t t_ns);
 
-  // The tracks of two lines are one: `older`, which has the views of both by now, takes over.
-  void AbsorbLine(int64_t newer, int64_t older);
+  // The tracks of two lines are one: `joint`, under the older id, takes over from `newer`.
+  void AbsorbLine(int64_t newer, const LineLandmark& joint);
 
   // A line is one that had left: it goes on under that one's id, with what anchors saw of it.
   void ReviveLine(int64_t newer, int64_t older);

@@ -154,7 +154,6 @@ MergedLines MergeLines(const SameLineLimits& limits, const Eigen::Quaterniond& R
   auto [landmarks, seen] = Collect(R_F_W, limits.noise, map);
   MergedLines result;
   LineMergingCounts& counts = result.counts;
-  std::vector<std::pair<int64_t, int64_t>> absorbed;  // newer, older
   for (const auto& [newer, older] : FindNearPairs(seen, limits.distance)) {
     if (landmarks[newer] == nullptr || landmarks[older] == nullptr) continue;  // gone already
     ++counts.candidates;
@@ -170,14 +169,10 @@ MergedLines MergeLines(const SameLineLimits& limits, const Eigen::Quaterniond& R
       continue;
     }
     seen[older] = See(window, R_F_W, limits.noise, *joint).value_or(seen[older]);
-    *landmarks[older] = *joint;
-    absorbed.emplace_back(landmarks[newer]->id, joint->id);
+    result.absorbed.push_back(landmarks[newer]->id);
+    map->AbsorbLine(landmarks[newer]->id, *joint);
     landmarks[newer] = nullptr;
     ++counts.merged;
-  }
-  for (const auto& [newer, older] : absorbed) {
-    map->AbsorbLine(newer, older);
-    result.absorbed.push_back(newer);
   }
   return result;
 }

@@ -137,9 +137,9 @@ TEST_F(LocalMapTest, AnAnchorGoesWithAllThatItHasSeen) {
 TEST_F(LocalMapTest, AnAbsorbedLineGoesOnAsTheOlder) {
   for (int i = 0; i < 2; ++i) AddFrame(i);
   for (int i = 2; i < 4; ++i) AddFrame(i, /*with_landmarks=*/true, /*line_id=*/9);
-  std::vector<LineView>& views = map_.lines.landmarks().at(kLine).views;
-  views.insert(views.end(), Line(9).views.begin(), Line(9).views.end());
-  map_.AbsorbLine(9, kLine);
+  LineLandmark joint = Line(kLine);
+  joint.views.insert(joint.views.end(), Line(9).views.begin(), Line(9).views.end());
+  map_.AbsorbLine(9, joint);
   EXPECT_EQ(map_.lines.landmarks().count(9), 0u);
   AddFrame(4, /*with_landmarks=*/true, /*line_id=*/9);
   EXPECT_EQ(Line(kLine).views.size(), 5u);

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <boost/container/flat_map.hpp>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -27,7 +27,7 @@ class ProblemBuilderTest : public ::testing::Test {
   LineLandmark* LongestLineTrack() { return LongestTrackOf(&simulated_.lines.landmarks()); }
 
   template <typename Landmark>
-  static Landmark* LongestTrackOf(boost::container::flat_map<int64_t, Landmark>* landmarks) {
+  static Landmark* LongestTrackOf(std::map<int64_t, Landmark>* landmarks) {
     const auto longest = std::max_element(
         landmarks->begin(), landmarks->end(),
         [](const auto& a, const auto& b) { return a.second.views.size() < b.second.views.size(); });

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kSigma_px = 5.0F;  // of the weights: what is far from the corner may be elsewhere
 constexpr int kMaxIterations = 12;
-constexpr double kConverged_px = 0.1;
+constexpr double kConverged_px = 0.03;
 constexpr double kMaxShift_px = 1.5;      // from where the flow ended; else one of them is wrong
 constexpr float kMinCorrelation = 0.85F;  // of what is seen with the patch
 constexpr double kMaxGrowth = 3.0;        // of its area, or one over it

@@ -14,9 +14,6 @@ constexpr int kMaxIterations = 30;
 constexpr double kConverged_px = 0.03;
 constexpr float kStandstill_px = 0.01F;  // a step that takes back the one before
 constexpr int kBackwardLevels = 0;       // the way back begins at its expected end
-// What lies this near to where it was predicted is found without the coarser levels, too.
-constexpr int kNearLevels = 1;
-constexpr double kNear_px = 4;
 
 bool IsInside(const cv::Mat& image, const cv::Point2f& point) {
   return point.x >= 0 && point.y >= 0 && point.x <= static_cast<float>(image.cols - 1) &&
@@ -59,17 +56,6 @@ std::optional<cv::Point2f> Search(const OpticalFlow::Pyramid& from, const Optica
   return found;
 }
 
-// The same, with as many levels as are needed.
-std::optional<cv::Point2f> Find(const OpticalFlow::Pyramid& from, const OpticalFlow::Pyramid& to,
-                                int levels, const cv::Point2f& point, const cv::Point2f& predicted,
-                                FlowWindow* window) {
-  if (levels > kNearLevels) {
-    const auto near = Search(from, to, kNearLevels, point, predicted, window);
-    if (near && cv::norm(*near - predicted) < kNear_px) return near;
-  }
-  return Search(from, to, levels, point, predicted, window);
-}
-
 }  // namespace
 
 OpticalFlow::Pyramid OpticalFlow::BuildPyramid(const cv::Mat& image, Pyramid unused) const {
@@ -87,7 +73,7 @@ std::vector<FlowResult> OpticalFlow::Track(const Pyramid& previous, const Pyrami
   std::vector<FlowResult> results(points.size());
   for (size_t i = 0; i < points.size(); ++i) {
     const auto there =
-        Find(previous, current, config_.klt_levels, points[i], predicted[i], &window);
+        Search(previous, current, config_.klt_levels, points[i], predicted[i], &window);
     if (!there || !IsInside(current.front(), *there)) continue;
     const auto back = Search(current, previous, kBackwardLevels, *there, points[i], &window);
     const bool consistent = back && cv::norm(*back - points[i]) <= config_.forward_backward;

@@ -2,6 +2,7 @@
 #include "feature_tracker/following/optical_flow.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/video/tracking.hpp>
 #include <optional>
 

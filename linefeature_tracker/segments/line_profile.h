@@ -11,6 +11,7 @@ namespace plm_vins {
 // Brightness across a line, followed by zeros.
 using LineProfile = Eigen::Array<float, 16, 1>;
 constexpr int kMaxProfileRadius = 7;  // [px]
+static_assert(2 * kMaxProfileRadius + 1 <= LineProfile::SizeAtCompileTime);
 
 // From -radius to radius [px] along the line's unit `normal`. False, and nothing read, where that
 // leaves the image.

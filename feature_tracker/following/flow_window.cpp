@@ -60,11 +60,10 @@ void Sample(const cv::Mat& image, const Subpixel& corner, int rows, int columns,
   }
 }
 
-// The sum of products of each lane of two rows, as four sums.
-Eigen::Array4f SumOfProducts(const cv::v_int32x4& row_sums) {
-  Eigen::Array4i sums;
-  cv::v_store(sums.data(), row_sums);
-  return sums.cast<float>();
+Eigen::Array4f ToFloats(const cv::v_int32x4& lanes) {
+  Eigen::Array4i integers;
+  cv::v_store(integers.data(), lanes);
+  return integers.cast<float>();
 }
 
 }  // namespace
@@ -144,9 +143,9 @@ bool FlowWindow::InvertInformation() {
       row_xy = cv::v_dotprod(x, y, row_xy);
       row_yy = cv::v_dotprod(y, y, row_yy);
     }
-    xx += SumOfProducts(row_xx);
-    xy += SumOfProducts(row_xy);
-    yy += SumOfProducts(row_yy);
+    xx += ToFloats(row_xx);
+    xy += ToFloats(row_xy);
+    yy += ToFloats(row_yy);
   }
   Eigen::Matrix2f information;
   information << xx.sum(), xy.sum(), xy.sum(), yy.sum();
@@ -175,8 +174,8 @@ std::optional<cv::Point2f> FlowWindow::Step(const cv::Mat& image, const cv::Poin
       row_x = cv::v_dotprod(difference, cv::v_load(&slopes_x_[i]), row_x);
       row_y = cv::v_dotprod(difference, cv::v_load(&slopes_y_[i]), row_y);
     }
-    by_x += SumOfProducts(row_x);
-    by_y += SumOfProducts(row_y);
+    by_x += ToFloats(row_x);
+    by_y += ToFloats(row_y);
   }
   static_assert(kDifferenceBits == kSlopeBits, "their units cancel");
   const Eigen::Vector2f step = covariance_ * Eigen::Vector2f(by_x.sum(), by_y.sum());

@@ -22,7 +22,7 @@ bool IsInside(const cv::Mat& image, const cv::Point2f& point) {
 }
 
 // Moves `point` of a level to where the window lies; false where it leaves the image.
-bool Descend(const cv::Mat& level, FlowWindow* window, cv::Point2f* point) {
+bool Converge(const cv::Mat& level, FlowWindow* window, cv::Point2f* point) {
   cv::Point2f before;
   for (int i = 0; i < kMaxIterations; ++i) {
     const auto step = window->Step(level, *point);
@@ -44,17 +44,15 @@ bool Descend(const cv::Mat& level, FlowWindow* window, cv::Point2f* point) {
 std::optional<cv::Point2f> Search(const OpticalFlow::Pyramid& from, const OpticalFlow::Pyramid& to,
                                   int levels, const cv::Point2f& point, const cv::Point2f& start,
                                   FlowWindow* window) {
-  std::optional<cv::Point2f> found;
-  cv::Point2f current = start;
+  cv::Point2f found = start;
+  bool is_found = false;
   for (int level = std::min(levels, static_cast<int>(to.size()) - 1); level >= 0; --level) {
     const float scale = 1.0F / static_cast<float>(1 << level);
-    cv::Point2f in_level = current * scale;
-    const bool is_found =
-        window->Cut(from[level], point * scale) && Descend(to[level], window, &in_level);
-    current = in_level / scale;
-    if (is_found && level == 0) found = current;
+    cv::Point2f in_level = found * scale;
+    is_found = window->Cut(from[level], point * scale) && Converge(to[level], window, &in_level);
+    found = in_level / scale;
   }
-  return found;
+  return is_found ? std::optional(found) : std::nullopt;
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/ros/estimator_diagnostics.h"
-#include "common/append.h"
 
 #include <cmath>
+
+#include "common/append.h"
 
 namespace plm_vins {
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "offline/pipeline/odometry_pipeline.h"
-#include "common/append.h"
 
 #include <iterator>
 #include <utility>
+
+#include "common/append.h"
 
 namespace plm_vins {
 namespace {

@@ -2,12 +2,15 @@
 // Time of every stage per image, all in one thread, over the images of a recording: mean, median,
 // 95th and 99th percentile, and each stage's share. Last, the processor's time of the whole run,
 // decoding included.
-// Usage: stage_benchmark CONFIG ASL_FOLDER
+// Usage: stage_benchmark CONFIG ASL_FOLDER [PAUSE]
+// PAUSE: after each image [ms], as between those of a camera, when caches go cold.
+#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "common/config/config.h"
@@ -32,12 +35,16 @@ void Print(const std::vector<FrameTimings>& frames) {
   }
 }
 
-void Run(const std::string& config_file, const std::string& folder) {
+void Run(const std::string& config_file, const std::string& folder,
+         std::chrono::milliseconds pause) {
   OdometryPipeline pipeline(LoadConfig(config_file));
   std::vector<FrameTimings> frames;
   const double start = ProcessorSeconds();
   pipeline.Run(OpenAslFolder(folder).get(), RecordingInterval(), 1,
-               [&](const PipelineFrame& frame) { frames.push_back(TimingsOf(frame)); });
+               [&](const PipelineFrame& frame) {
+                 frames.push_back(TimingsOf(frame));
+                 std::this_thread::sleep_for(pause);
+               });
   if (frames.empty()) throw std::invalid_argument("no frame in " + folder);
   Print(frames);
   std::printf("processor: %.2f ms per image\n",
@@ -48,13 +55,14 @@ void Run(const std::string& config_file, const std::string& folder) {
 }  // namespace plm_vins
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: stage_benchmark CONFIG ASL_FOLDER\n");
+  if (argc != 3 && argc != 4) {
+    std::fprintf(stderr, "usage: stage_benchmark CONFIG ASL_FOLDER [PAUSE]\n");
     return 1;
   }
   plm_vins::SetUpProcess();
   try {
-    plm_vins::Run(argv[1], argv[2]);
+    const int pause = argc == 4 ? std::stoi(argv[3]) : 0;
+    plm_vins::Run(argv[1], argv[2], std::chrono::milliseconds(pause));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

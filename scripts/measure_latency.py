@@ -21,8 +21,8 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CompressedImage, Image
 
 QUANTILES = (50, 95, 99, 100)
-NODES = ("/feature_tracker", "/linefeature_tracker", "/tracker_manager", "/vins_estimator",
-         "/pose_graph")
+NODES = ("/feature_tracker", "/linefeature_tracker", "/vins_estimator", "/pose_graph",
+         "/vins_manager")
 START_TIMEOUT = 30  # [s]
 END_AFTER = 3  # [s] without images
 SECONDS_PER_TICK = 1 / os.sysconf("SC_CLK_TCK")
@@ -180,7 +180,7 @@ def parse_arguments(arguments):
     parser.add_argument("--config", required=True, help="of the sensors in the bag")
     parser.add_argument("--duration", type=float, help="play this much [s] (default: all)")
     parser.add_argument("--rate", type=float, default=1, help="of playing (default: 1)")
-    parser.add_argument("--nodelets", action="store_true", help="trackers as nodelets")
+    parser.add_argument("--nodelets", action="store_true", help="all in one process")
     parser.add_argument("--loop-closure", action="store_true",
                         help="with it, whatever the configuration says")
     parser.add_argument("--image-transport", default="raw", choices=("raw", "compressed"),

@@ -2,11 +2,12 @@
 // The point front end as the nodelet plm_vins/FeatureTracker.
 #include <pluginlib/class_list_macros.hpp>
 
+#include "common/ros/nodelet_of.h"
 #include "feature_tracker/ros/point_node_traits.h"
-#include "tracking/ros/tracker_nodelet.h"
+#include "tracking/ros/tracker_node.h"
 
 namespace plm_vins {
-using FeatureTrackerNodelet = TrackerNodelet<PointNodeTraits>;
+using FeatureTrackerNodelet = NodeletOf<TrackerNode<PointNodeTraits>>;
 }  // namespace plm_vins
 
 PLUGINLIB_EXPORT_CLASS(plm_vins::FeatureTrackerNodelet, nodelet::Nodelet)

@@ -2,11 +2,12 @@
 // The line front end as the nodelet plm_vins/LineFeatureTracker.
 #include <pluginlib/class_list_macros.hpp>
 
+#include "common/ros/nodelet_of.h"
 #include "linefeature_tracker/ros/line_node_traits.h"
-#include "tracking/ros/tracker_nodelet.h"
+#include "tracking/ros/tracker_node.h"
 
 namespace plm_vins {
-using LineFeatureTrackerNodelet = TrackerNodelet<LineNodeTraits>;
+using LineFeatureTrackerNodelet = NodeletOf<TrackerNode<LineNodeTraits>>;
 }  // namespace plm_vins
 
 PLUGINLIB_EXPORT_CLASS(plm_vins::LineFeatureTrackerNodelet, nodelet::Nodelet)

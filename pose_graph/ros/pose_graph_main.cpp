@@ -6,10 +6,7 @@
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "pose_graph", [](const plm_vins::Config& config) {
-    if (!config.pose_graph.loop_closure) {
-      ROS_INFO("not needed: loop_closure is 0 in %s", config.file.c_str());
-      return;
-    }
+    if (!plm_vins::WantsLoopClosure(config)) return;
     const plm_vins::PoseGraphNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
     plm_vins::Spin();
   });

@@ -39,6 +39,12 @@ KeyframeMap MapToStartIn(const std::string& file) {
 
 }  // namespace
 
+bool WantsLoopClosure(const Config& config) {
+  if (config.pose_graph.loop_closure) return true;
+  ROS_INFO("not needed: loop_closure is 0 in %s", config.file.c_str());
+  return false;
+}
+
 PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
                              const ros::NodeHandle& private_node)
     : node_(node),

@@ -37,6 +37,9 @@
 
 namespace plm_vins {
 
+// False, and a line in the log, where the configuration has it switched off.
+bool WantsLoopClosure(const Config& config);
+
 // Loop closure under ROS, as a node or in a nodelet: the keyframes of an estimator, ours or that of
 // VINS-Mono, and the images in; tf map -> world, ~odometry, ~path, ~graph and ~match_image out.
 // Keyframes are put together in the thread that receives their messages; a thread of its own looks

@@ -1,31 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loop closure as the nodelet plm_vins/PoseGraph.
-#include <nodelet/nodelet.h>
-
+// Loop closure as the nodelet plm_vins/PoseGraph, which does nothing where the configuration has it
+// switched off.
 #include <pluginlib/class_list_macros.hpp>
 
-#include <exception>
-#include <optional>
-
-#include "common/ros/node_config.h"
+#include "common/ros/nodelet_of.h"
 #include "pose_graph/ros/pose_graph_node.h"
 
 namespace plm_vins {
 
-class PoseGraphNodelet : public nodelet::Nodelet {
+class PoseGraphNodelet : public NodeletOf<PoseGraphNode> {
  private:
-  void onInit() override {
-    try {
-      // Not the multi-threaded handles: one callback at a time.
-      node_.emplace(LoadNodeConfig(getPrivateNodeHandle()), getNodeHandle(),
-                    getPrivateNodeHandle());
-    } catch (const std::exception& error) {
-      LogFatal(error);
-      throw;
-    }
-  }
-
-  std::optional<PoseGraphNode> node_;
+  bool IsWanted(const Config& config) const override { return WantsLoopClosure(config); }
 };
 
 }  // namespace plm_vins

@@ -23,8 +23,11 @@ SENSORS = {"euroc.launch": "euroc.yaml", "realsense_d435i.launch": "realsense_d4
            "tum_vi.launch": "tum_vi.yaml"}
 TEMPLATES = ("own_sensor.launch", "plm_vins.launch", "px4.launch")
 ALL = (*SENSORS, *TEMPLATES)
+TRACKERS = ("feature_tracker", "linefeature_tracker")
 NODELETS = {"feature_tracker": "plm_vins/FeatureTracker",
-            "linefeature_tracker": "plm_vins/LineFeatureTracker"}
+            "linefeature_tracker": "plm_vins/LineFeatureTracker",
+            "vins_estimator": "plm_vins/VinsEstimator",
+            "pose_graph": "plm_vins/PoseGraph"}
 
 # Of rs_camera.launch in the driver, realsense2_camera 2.3.
 DRIVER_ARGUMENTS = ("enable_infra1", "enable_depth", "enable_color", "infra_width", "infra_height",
@@ -140,18 +143,17 @@ class LaunchFiles(unittest.TestCase):
         for name in ALL:
             with self.subTest(name):
                 nodes, parameters = load(name, config="/mine.yaml", bag="/a.bag", nodelets="true")
-                self.assertEqual(nodes["tracker_manager"].args, "manager")
-                for tracker, nodelet in NODELETS.items():
-                    self.assertEqual(nodes[tracker].package, "nodelet")
-                    self.assertEqual(nodes[tracker].args, f"load {nodelet} tracker_manager")
-                    self.assertEqual(parameters[f"/{tracker}/config_file"], "/mine.yaml")
-                self.assertEqual(nodes["vins_estimator"].package, "plm_vins")
+                self.assertEqual(nodes["vins_manager"].type, "vins_manager")
+                for node, nodelet in NODELETS.items():
+                    self.assertEqual(nodes[node].package, "nodelet")
+                    self.assertEqual(nodes[node].args, f"load {nodelet} vins_manager")
+                    self.assertEqual(parameters[f"/{node}/config_file"], "/mine.yaml")
 
     def test_nodelets_join_the_manager_of_a_driver(self):
         nodes = load("euroc.launch", nodelets="true", manager="/camera/manager")[0]
-        self.assertEqual(nodes["feature_tracker"].args,
-                         "load plm_vins/FeatureTracker /camera/manager")
-        self.assertFalse([node for node in nodes.values() if node.args == "manager"])
+        for node, nodelet in NODELETS.items():
+            self.assertEqual(nodes[node].args, f"load {nodelet} /camera/manager")
+        self.assertNotIn("vins_manager", nodes)
 
     def test_nodelets_are_described_where_the_manager_looks(self):
         package = rospkg.RosPack().get_path("plm_vins")
@@ -162,7 +164,7 @@ class LaunchFiles(unittest.TestCase):
                                 for prefix in os.environ["CMAKE_PREFIX_PATH"].split(":")),
                             library.get("path"))
         self.assertEqual(sorted(entry.get("name") for entry in description.iter("class")),
-                         sorted([*NODELETS.values(), "plm_vins/PoseGraph"]))
+                         sorted(NODELETS.values()))
 
     def test_robots_have_namespaces(self):
         for nodelets in (False, True):
@@ -195,7 +197,7 @@ class LaunchFiles(unittest.TestCase):
     def test_options_reach_the_nodes(self):
         nodes, parameters = load("tum_vi.launch", rviz="true", image_transport="compressed",
                                  output="/results")
-        for tracker in NODELETS:
+        for tracker in TRACKERS:
             self.assertEqual(parameters[f"/{tracker}/image_transport"], "compressed")
         self.assertEqual(parameters["/vins_estimator/trajectory_file"], "/results/trajectory.tum")
         self.assertEqual(rviz_layout(nodes), "plm_vins.rviz")

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loads the trackers as nodelets beside the same trackers as nodes, and feeds both with one bag.
+// Loads trackers and estimator as nodelets beside the same trackers as nodes, and feeds both with one
+// bag.
 // Run by nodelets.test.
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
 #include <nodelet/NodeletList.h>
 #include <nodelet/NodeletLoad.h>
 #include <nodelet/NodeletUnload.h>
@@ -17,6 +19,7 @@
 #include <algorithm>
 #include <atomic>
 #include <deque>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
@@ -43,7 +46,7 @@ struct Features {
   sensor_msgs::PointCloudConstPtr newest;
 };
 
-// The two nodelets of the manager.
+// Those of the manager.
 class Nodelets {
  public:
   static bool Load(const std::string& name, const std::string& type) {
@@ -63,9 +66,13 @@ class Nodelets {
     std::sort(list.response.nodelets.begin(), list.response.nodelets.end());
     return list.response.nodelets;
   }
-  static bool LoadBoth() {
+  static bool LoadAll() {
     return Load("/feature_tracker", "plm_vins/FeatureTracker") &&
-           Load("/linefeature_tracker", "plm_vins/LineFeatureTracker");
+           Load("/linefeature_tracker", "plm_vins/LineFeatureTracker") &&
+           Load("/vins_estimator", "plm_vins/VinsEstimator");
+  }
+  static std::vector<std::string> All() {
+    return {"/feature_tracker", "/linefeature_tracker", "/vins_estimator"};
   }
 };
 
@@ -111,16 +118,16 @@ class Feed {
   ros::Publisher imu_ = node_.advertise<sensor_msgs::Imu>("/imu0", 1000);
 };
 
-class TrackerNodelets : public ::testing::Test {
+class OurNodelets : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     const ros::NodeHandle parameters("~");
     const auto config = parameters.param<std::string>("config_file", "");
-    ros::param::set("/feature_tracker/config_file", config);
-    ros::param::set("/linefeature_tracker/config_file", config);
+    for (const std::string& name : Nodelets::All()) ros::param::set(name + "/config_file", config);
+    ros::param::set("/vins_estimator/trajectory_file", TrajectoryFile());
     feed_ = std::make_unique<Feed>(parameters.param<std::string>("bag", ""));
     are_loaded_ = ros::service::waitForService("/manager/load_nodelet", ros::Duration(kTimeout)) &&
-                  Nodelets::LoadBoth() && feed_->WaitForSubscribers(kProcesses);
+                  Nodelets::LoadAll() && feed_->WaitForSubscribers(kProcesses);
   }
   static void TearDownTestSuite() { feed_.reset(); }
 
@@ -128,15 +135,19 @@ class TrackerNodelets : public ::testing::Test {
   // success.
   void SetUp() override { ASSERT_TRUE(are_loaded_) << "the nodelets do not receive anything"; }
 
-  // Images and IMU go to the manager, once for both nodelets, and to the two nodes.
+  static std::string TrajectoryFile() {
+    return ros::param::param<std::string>("~output", ".") + "/nodelets_trajectory.tum";
+  }
+
+  // Images and IMU go to the manager, once for all nodelets, and to the two nodes.
   static constexpr uint32_t kProcesses = 3;
   static std::unique_ptr<Feed> feed_;
   static bool are_loaded_;
 };
-std::unique_ptr<Feed> TrackerNodelets::feed_;
-bool TrackerNodelets::are_loaded_ = false;
+std::unique_ptr<Feed> OurNodelets::feed_;
+bool OurNodelets::are_loaded_ = false;
 
-TEST_F(TrackerNodelets, GiveTheSameFeaturesAsTheNodes) {
+TEST_F(OurNodelets, GiveTheSameFeaturesAsTheNodes) {
   const Features points("/feature_tracker/feature");
   const Features node_points("/nodes/feature_tracker/feature");
   const Features lines("/linefeature_tracker/linefeature");
@@ -162,7 +173,21 @@ TEST_F(TrackerNodelets, GiveTheSameFeaturesAsTheNodes) {
   EXPECT_GT(lines.newest->points.size(), 5U);
 }
 
-TEST_F(TrackerNodelets, ReportUnderTheirOwnNames) {
+// After the images of the test before, which are enough to begin with.
+TEST_F(OurNodelets, EstimateAndSaveWhatTheyHaveWhenUnloaded) {
+  std::filesystem::remove(TrajectoryFile());
+  nav_msgs::Odometry newest;
+  const ros::Subscriber subscriber = ros::NodeHandle().subscribe<nav_msgs::Odometry>(
+      "/vins_estimator/odometry", 100, [&](const auto& message) { newest = *message; });
+  ASSERT_TRUE(SpinUntil(kTimeout, [&] { return subscriber.getNumPublishers() > 0; }));
+  const ros::Time stamp = feed_->PublishImage();
+  EXPECT_TRUE(SpinUntil(kTimeout, [&] { return newest.header.stamp == stamp; }));
+  EXPECT_TRUE(Nodelets::Unload("/vins_estimator"));
+  EXPECT_GT(std::filesystem::file_size(TrajectoryFile()), 100U);
+  EXPECT_TRUE(Nodelets::Load("/vins_estimator", "plm_vins/VinsEstimator"));
+}
+
+TEST_F(OurNodelets, ReportUnderTheirOwnNames) {
   std::string names;
   const auto add_names = [&](const diagnostic_msgs::DiagnosticArray& array) {
     for (const auto& status : array.status) names += status.name + "\n";
@@ -170,14 +195,15 @@ TEST_F(TrackerNodelets, ReportUnderTheirOwnNames) {
   const ros::Subscriber subscriber = ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>(
       "/diagnostics", 100, [&](const auto& array) { add_names(*array); });
   for (const std::string name :
-       {"\nfeature_tracker: point tracking\n", "\nlinefeature_tracker: line tracking\n"}) {
+       {"\nfeature_tracker: point tracking\n", "\nlinefeature_tracker: line tracking\n",
+        "\nvins_estimator: odometry\n"}) {
     EXPECT_TRUE(SpinUntil(kTimeout, [&] { return ("\n" + names).find(name) != std::string::npos; }))
         << name << " is not among\n"
         << names;
   }
 }
 
-TEST_F(TrackerNodelets, ChangeTheNumberOfFeaturesWhileTheyRun) {
+TEST_F(OurNodelets, ChangeTheNumberOfFeaturesWhileTheyRun) {
   dynamic_reconfigure::Reconfigure change;
   change.request.config.ints.resize(1);
   change.request.config.ints[0].name = "max_cnt";
@@ -194,7 +220,7 @@ TEST_F(TrackerNodelets, ChangeTheNumberOfFeaturesWhileTheyRun) {
 }
 
 // Of an unknown encoding, of a size beyond its bytes and any memory, of another time.
-TEST_F(TrackerNodelets, GoOnAfterImagesThatNoCameraSends) {
+TEST_F(OurNodelets, GoOnAfterImagesThatNoCameraSends) {
   const Features points("/feature_tracker/feature");
   const Features node_lines("/nodes/linefeature_tracker/linefeature");
   ASSERT_TRUE(SpinUntil(kTimeout, [&] {
@@ -216,7 +242,7 @@ TEST_F(TrackerNodelets, GoOnAfterImagesThatNoCameraSends) {
   EXPECT_TRUE(SpinUntil(kTimeout, [&] { return points.Has(stamp) && node_lines.Has(stamp); }));
 }
 
-TEST_F(TrackerNodelets, AreUnloadedWhileImagesArriveAndLoadedAgain) {
+TEST_F(OurNodelets, AreUnloadedWhileImagesArriveAndLoadedAgain) {
   std::atomic<bool> stop = false;
   std::thread images([&] {
     for (int i = 0; i < 80 && !stop; ++i) {  // the bag has twice as many
@@ -226,14 +252,12 @@ TEST_F(TrackerNodelets, AreUnloadedWhileImagesArriveAndLoadedAgain) {
   });
   for (int i = 0; i < 4; ++i) {
     ros::WallDuration(0.1).sleep();
-    EXPECT_TRUE(Nodelets::Unload("/feature_tracker"));
-    EXPECT_TRUE(Nodelets::Unload("/linefeature_tracker"));
-    EXPECT_TRUE(Nodelets::LoadBoth());
+    for (const std::string& name : Nodelets::All()) EXPECT_TRUE(Nodelets::Unload(name));
+    EXPECT_TRUE(Nodelets::LoadAll());
   }
   stop = true;
   images.join();
-  EXPECT_EQ(Nodelets::List(),
-            (std::vector<std::string>{"/feature_tracker", "/linefeature_tracker"}));
+  EXPECT_EQ(Nodelets::List(), Nodelets::All());
 
   ASSERT_TRUE(feed_->WaitForSubscribers(kProcesses));
   const Features points("/feature_tracker/feature");
@@ -242,7 +266,7 @@ TEST_F(TrackerNodelets, AreUnloadedWhileImagesArriveAndLoadedAgain) {
   EXPECT_TRUE(SpinUntil(kTimeout, [&] { return points.Has(stamp); }));
 }
 
-TEST_F(TrackerNodelets, WithAFaultyConfigurationAreNotLoadedAndSayWhy) {
+TEST_F(OurNodelets, WithAFaultyConfigurationAreNotLoadedAndSayWhy) {
   std::string log;
   const ros::Subscriber subscriber = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
       "/rosout", 1000, [&](const rosgraph_msgs::LogConstPtr& line) {
@@ -257,24 +281,25 @@ TEST_F(TrackerNodelets, WithAFaultyConfigurationAreNotLoadedAndSayWhy) {
   };
   EXPECT_TRUE(says("/no/such/file.yaml")) << log;
   EXPECT_TRUE(says("/without_file/config_file")) << log;
-  EXPECT_EQ(Nodelets::List().size(), 2U) << "the others go on";
+  EXPECT_EQ(Nodelets::List(), Nodelets::All()) << "the others go on";
 }
 
 // Names that ROS refuses, and a topic that the manager knows of another type.
-TEST_F(TrackerNodelets, GoOnWhereOneBesideThemCannotSubscribe) {
+TEST_F(OurNodelets, GoOnWhereOneBesideThemCannotSubscribe) {
   ros::param::set("/graph/config_file", ros::param::param<std::string>("~config_file", ""));
   ros::param::set("/graph/set/imu_topic", "/another_imu");
+  ros::param::set("/graph/set/loop_closure", "1");
   for (const std::string topic : {"/cam-0", "~private", "/imu0"}) {
     ros::param::set("/graph/set/image_topic", topic);
     EXPECT_FALSE(Nodelets::Load("/graph", "plm_vins/PoseGraph")) << topic;
-    EXPECT_EQ(Nodelets::List().size(), 2U) << topic;
+    EXPECT_EQ(Nodelets::List(), Nodelets::All()) << topic;
   }
   ros::param::del("/graph/set");
   EXPECT_TRUE(Nodelets::Load("/graph", "plm_vins/PoseGraph"));
   EXPECT_TRUE(Nodelets::Unload("/graph"));
 }
 
-TEST_F(TrackerNodelets, SayWhichKeyNamesNoTopic) {
+TEST_F(OurNodelets, SayWhichKeyNamesNoTopic) {
   std::string log;
   const ros::Subscriber subscriber = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
       "/rosout", 1000, [&](const rosgraph_msgs::LogConstPtr& line) { log += line->msg + "\n"; });

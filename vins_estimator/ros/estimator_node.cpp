@@ -35,15 +35,19 @@ Overloaded(Handlers...) -> Overloaded<Handlers...>;
 
 }  // namespace
 
-EstimatorNode::EstimatorNode(const Config& config)
-    : config_(config),
+EstimatorNode::EstimatorNode(const Config& config, const ros::NodeHandle& node,
+                             const ros::NodeHandle& private_node)
+    : node_(node),
+      private_node_(private_node),
+      config_(config),
       queue_(kQueueCapacity),
       propagation_(config, private_node_),
       calibration_(config),
       file_at_end_(private_node_.hasParam("trajectory_file") ? TrajectoryFile() : ""),
       diagnostics_(config, node_.resolveName(kPointTopic), node_.resolveName(kLineTopic)),
       stage_(config, kMaxWait),
-      publisher_(config.output, private_node_) {
+      publisher_(config.output, private_node_),
+      diagnostics_updater_(node, private_node, private_node.getNamespace()) {
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {
       in_place_.Receiver(node_).subscribe(config_.sensor.imu_topic, kSubscriberQueue,
@@ -261,10 +265,3 @@ void EstimatorNode::LogLines() {
 }
 
 }  // namespace plm_vins
-
-int main(int argc, char** argv) {
-  return plm_vins::RunNode(argc, argv, "vins_estimator", [](const plm_vins::Config& config) {
-    const plm_vins::EstimatorNode node(config);
-    plm_vins::Spin();
-  });
-}

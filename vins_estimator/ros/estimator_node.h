@@ -31,7 +31,7 @@
 
 namespace plm_vins {
 
-// The back end as a node. The callbacks only queue what comes in and publish the state at IMU rate;
+// The back end under ROS, as a node or in a nodelet. The callbacks only queue what comes in and publish the state at IMU rate;
 // a thread of its own takes everything from the queue, in order of arrival, through the synchronous
 // core. Where that thread cannot keep up, images that have waited for too long are left out, so
 // that the newest one has its turn.
@@ -41,7 +41,8 @@ namespace plm_vins {
 // calibration is refined, as the end of the node does where that parameter is set.
 class EstimatorNode {
  public:
-  explicit EstimatorNode(const Config& config);
+  EstimatorNode(const Config& config, const ros::NodeHandle& node,
+                const ros::NodeHandle& private_node);
   ~EstimatorNode();
 
  private:
@@ -85,7 +86,7 @@ class EstimatorNode {
   void LogLines();
 
   ros::NodeHandle node_;
-  ros::NodeHandle private_node_{"~"};
+  ros::NodeHandle private_node_;
   Config config_;
 
   BoundedQueue<Input> queue_;

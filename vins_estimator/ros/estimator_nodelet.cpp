@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The back end as the nodelet plm_vins/VinsEstimator.
+#include <pluginlib/class_list_macros.hpp>
+
+#include "common/ros/nodelet_of.h"
+#include "vins_estimator/ros/estimator_node.h"
+
+namespace plm_vins {
+using VinsEstimatorNodelet = NodeletOf<EstimatorNode>;
+}  // namespace plm_vins
+
+PLUGINLIB_EXPORT_CLASS(plm_vins::VinsEstimatorNodelet, nodelet::Nodelet)

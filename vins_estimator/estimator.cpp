@@ -149,7 +149,7 @@ void Estimator::SolveFirstWindow(EstimatorOutput* output) {
   for (int i = 0; i < kMaxReweighings; ++i) {
     if (!state_.imu_noise.Reweigh(&state_.estimate.map.window)) return;
     state_.imu_noise.Reset();  // the next solution tells anew
-    Optimize(options_.solution, output);
+    Optimize(CurrentSolution(), output);
   }
 }
 
@@ -159,16 +159,17 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
   const bool keep_second_newest = IsKeyframe(options_.keyframes, map.window, map.points);
   AddFrame(measurement);
   map.window.newest().stationary = stands_still;
+  PlaceNewest(output);
   Triangulate(output);
   FindStructure(keep_second_newest, output);
   const ImuNoiseLearning noise_before = state_.imu_noise;
-  Optimize(options_.solution, output);
+  Optimize(CurrentSolution(), output);
   const Eigen::Vector3d rotation_residual = UpdateTimingMonitors();
   if (const auto variance_scale = UpdateImuMonitor(rotation_residual)) {
     InflateNewestImuNoise(*variance_scale);
     state_.imu_noise = noise_before;  // the first solution, which is distorted, teaches nothing
     output->imu_doubted = true;
-    Optimize(options_.solution, output);
+    Optimize(CurrentSolution(), output);
   }
   RemoveOutliers(output);
   state_.bridge.AddTracked(measurement.imu, {map.window.newest().state, state_.newest_covariance});
@@ -271,12 +272,30 @@ void Estimator::MoveRays() {
   window.ray_intrinsics = window.intrinsics;
 }
 
+const SolverOptions& Estimator::CurrentSolution() const {
+  const auto window_size = static_cast<size_t>(config_.estimator.window_size);
+  const bool is_full = state_.estimate.map.window.frames.size() >= window_size;
+  return is_full ? options_.solution : options_.early_solution;
+}
+
 ProblemOptions Estimator::CurrentProblem(JacobiansAt jacobians_at) const {
   ProblemOptions options = options_.problem;
   options.jacobians_at = jacobians_at;
   if (config_.estimator.manhattan_constraints) options.R_W_M = state_.structure.manhattan().R_W_M();
   options.SetNoise(state_.noise.point(), state_.noise.line());
   return options;
+}
+
+// From where the IMU predicts it to where landmarks show it: what the window is then solved for is
+// close to linear.
+void Estimator::PlaceNewest(EstimatorOutput* output) {
+  const Stopwatch stopwatch;
+  LocalMap& map = state_.estimate.map;
+  ProblemBuilder builder(CurrentProblem(JacobiansAt::kValues), &map.window, &state_.estimate.prior);
+  builder.AddNewestState(&map.points, &map.lines);
+  NormalEquations equations(builder.problem());
+  SolveBy(config_.estimator.solver, options_.newest_solution, builder.problem(), &equations);
+  output->timings.optimization += stopwatch.Milliseconds();
 }
 
 void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) {

@@ -88,6 +88,7 @@ class Estimator {
   void StartWindow(const InitializationResult& result, const InitialUncertainty& uncertainty);
   void SolveFirstWindow(EstimatorOutput* output);
   void AddFrame(const FrameMeasurement& measurement);
+  void PlaceNewest(EstimatorOutput* output);
   void Triangulate(EstimatorOutput* output);
   void FindStructure(bool keep_second_newest, EstimatorOutput* output);
   void RemoveOutliers(EstimatorOutput* output);
@@ -107,6 +108,7 @@ class Estimator {
   // Brings all rays to the intrinsics as they are now, once they have moved far enough to matter.
   void MoveRays();
 
+  const SolverOptions& CurrentSolution() const;
   // The problem's options with Manhattan frame and noise as they are now.
   ProblemOptions CurrentProblem(JacobiansAt jacobians_at) const;
 

@@ -9,7 +9,9 @@ namespace {
 constexpr double kMinTriangulationAngle_px = 2.0;  // in pixels of motion: well above corner noise
 constexpr double kMaxReprojectionError_px = 3.0;
 constexpr double kMaxRayError_px = 0.02;  // a tenth of the noise of the best corners
-constexpr SolverOptions kFirstSolution = {20, 1e-3};
+constexpr SolverOptions kFirstSolution = {20, 0.01};
+constexpr SolverOptions kNewestSolution = {5, 0.1};
+constexpr double kEarlyTolerance = 0.1;  // of a standard deviation
 
 // After a start from standstill, for which a hover may be taken.
 constexpr double kStandstillVelocity = 0.03;   // [m/s]
@@ -35,8 +37,10 @@ EstimatorOptions::EstimatorOptions(const Config& config, double focal_length)
       same_line(config.estimator, focal_length),
       anchors(config.estimator),
       problem(config, focal_length),
+      newest_solution(kNewestSolution),
       first_solution(kFirstSolution) {
-  solution.max_iterations = config.estimator.max_num_iterations;
+  early_solution.max_iterations = solution.max_iterations = config.estimator.max_num_iterations;
+  early_solution.deviation_tolerance = kEarlyTolerance;
 }
 
 InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstill) {

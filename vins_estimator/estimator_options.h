@@ -27,7 +27,10 @@ struct EstimatorOptions {
   SameLineLimits same_line;
   AnchorPolicyOptions anchors;
   ProblemOptions problem;
-  SolverOptions first_solution;  // of the window that was just initialised
+  SolverOptions newest_solution;  // of the newest state alone
+  SolverOptions first_solution;   // of the window that was just initialised
+  // While the window fills: the first frames hardly tell the scale, which is far from linear.
+  SolverOptions early_solution;
   SolverOptions solution;
 
  private:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loads trackers and estimator as nodelets beside the same trackers as nodes, and feeds both with one
-// bag.
-// Run by nodelets.test.
+// Loads trackers and estimator as nodelets beside the same trackers as nodes, and feeds both with
+// one bag. Run by nodelets.test.
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>

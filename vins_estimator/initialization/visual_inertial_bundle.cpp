@@ -21,7 +21,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr SolverOptions kSolution = {12, 1e-3};  // the window is optimised further
+constexpr SolverOptions kSolution = {12, 0.01};  // the window is optimised further
 constexpr double kGaugeDeviation = 1e-3;         // [m] and [rad]; any small value will do
 
 // The adjustment as a problem for the solver of the window, over the given states.

@@ -110,6 +110,21 @@ class CeresProblem {
   ceres::Problem problem_;  // last: refers to all the others
 };
 
+// Ends the solution once a step gains no more than this.
+class EndOfGain final : public ceres::IterationCallback {
+ public:
+  explicit EndOfGain(double least_gain) : least_gain_(least_gain) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    const bool ended =
+        summary.iteration > 0 && summary.step_is_successful && summary.cost_change <= least_gain_;
+    return ended ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const double least_gain_;
+};
+
 // Of the trust region: as good as none.
 constexpr double kInitialRadius = 1e5;
 
@@ -120,7 +135,7 @@ ceres::Solver::Options ToCeres(const SolverOptions& options) {
   result.logging_type = ceres::SILENT;
   result.max_num_iterations = options.max_iterations;
   result.initial_trust_region_radius = kInitialRadius;
-  result.function_tolerance = options.cost_tolerance;
+  result.function_tolerance = 0;  // relative to the cost; see EndOfGain
   result.parameter_tolerance = options.step_tolerance;
   result.gradient_tolerance = 0;
   return result;
@@ -132,6 +147,8 @@ SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& wi
   CeresProblem problem(window);
   ceres::Solver::Options ceres_options = ToCeres(options);
   ceres_options.linear_solver_ordering = problem.Ordering();
+  EndOfGain end_of_gain(LeastGain(options, window));
+  ceres_options.callbacks.push_back(&end_of_gain);
   ceres::Solver::Summary ceres_summary;
   ceres::Solve(ceres_options, problem.problem(), &ceres_summary);
 

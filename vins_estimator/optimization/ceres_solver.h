@@ -11,8 +11,8 @@ namespace plm_vins {
 // evaluated at the start (a landmark behind a camera) is left out, since Ceres solves nothing then.
 //
 // Both end at the minimum, if they are given the iterations. On the way they differ: in the
-// damping, and in the tolerances, which Ceres takes relative to a cost that has a constant more
-// (see PriorCost) and to the length of all values.
+// damping, in the tolerance of steps, which Ceres takes relative to the length of all values, and
+// in that Ceres does not stop where a step gained what was predicted.
 SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& problem);
 
 }  // namespace plm_vins

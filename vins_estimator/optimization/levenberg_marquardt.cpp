@@ -79,13 +79,20 @@ std::optional<Step> TakeStep(const WindowProblem& problem, double damping,
 
 // Whether another step has nothing left to gain: this one gained little, or, what takes no second
 // step to tell, just what the equations said that there was.
-bool HasConverged(const SolverOptions& options, const Step& step, double gain, double cost) {
-  const double least_gain = options.cost_tolerance * std::abs(cost);
+bool HasConverged(const Step& step, double gain, double least_gain, double step_tolerance) {
   return gain <= least_gain || std::abs(gain - step.predicted_gain) <= least_gain ||
-         step.size < options.step_tolerance;
+         step.size < step_tolerance;
 }
 
 }  // namespace
+
+double LeastGain(const SolverOptions& options, const WindowProblem& problem) {
+  int unknowns = 0;
+  for (const Variable& variable : problem.variables()) {
+    if (!variable.constant) unknowns += variable.type().tangent_size;
+  }
+  return 0.5 * options.deviation_tolerance * options.deviation_tolerance * unknowns;
+}
 
 SolverSummary Solve(const SolverOptions& options, const WindowProblem& problem,
                     NormalEquations* equations) {
@@ -95,6 +102,7 @@ SolverSummary Solve(const SolverOptions& options, const WindowProblem& problem,
   summary.initial_cost = summary.final_cost = cost;
   if (!std::isfinite(cost)) return summary;
 
+  const double least_gain = LeastGain(options, problem);
   double damping = 0;
   while (summary.iterations < options.max_iterations && damping < kMaxDamping) {
     const std::optional<Step> step = TakeStep(problem, damping, equations);
@@ -111,7 +119,7 @@ SolverSummary Solve(const SolverOptions& options, const WindowProblem& problem,
     }
     const double gain = cost - new_cost;
     cost = summary.final_cost = new_cost;
-    if (HasConverged(options, *step, gain, cost)) break;
+    if (HasConverged(*step, gain, least_gain, options.step_tolerance)) break;
     snapshot.Take();
     damping *= kDampingDecrease;
     if (damping < kMinDamping) damping = 0;

@@ -8,9 +8,9 @@ namespace plm_vins {
 
 struct SolverOptions {
   int max_iterations = 8;
-  // Stop when an iteration gains, or misses of what it was predicted to gain, less than this share
-  // of the cost.
-  double cost_tolerance = 1e-2;
+  // Stop when an iteration gains, or misses of what it was predicted to gain, no more than
+  // LeastGain.
+  double deviation_tolerance = 0.2;
   double step_tolerance = 1e-6;  // stop when no component of the step is longer [m, rad, ...]
 };
 
@@ -22,6 +22,11 @@ struct SolverSummary {
   // anything to gain.
   bool solved = false;
 };
+
+// By how much the cost falls as each unknown moves by `deviation_tolerance` of its standard
+// deviations to the minimum. A share of the cost would say nothing: the prior is known but for a
+// constant, so the cost falls below zero, and further with each frame that leaves the window.
+double LeastGain(const SolverOptions& options, const WindowProblem& problem);
 
 // Minimises the problem's cost from the current values of its variables, which are replaced by the
 // result (Levenberg-Marquardt; never ends above the initial cost). Work is bounded by iterations,

@@ -70,13 +70,20 @@ double* ProblemBuilder::Values(const BlockId& id) {
   }
 }
 
+bool ProblemBuilder::IsConstant(const BlockId& id) const {
+  if (only_free_ns_) {
+    const bool of_frame = id.kind == BlockKind::kPose || id.kind == BlockKind::kMotion;
+    return !of_frame || id.key != *only_free_ns_;
+  }
+  return (id.kind == BlockKind::kExtrinsic && !options_.estimate_extrinsic) ||
+         (id.kind == BlockKind::kTimeOffset && !options_.estimate_td);
+}
+
 int ProblemBuilder::AddVariable(const BlockId& id) {
   const int known = problem_.Find(id);
   if (known >= 0) return known;
-  const bool constant = (id.kind == BlockKind::kExtrinsic && !options_.estimate_extrinsic) ||
-                        (id.kind == BlockKind::kTimeOffset && !options_.estimate_td);
   const bool at_first_estimates = options_.jacobians_at == JacobiansAt::kFirstEstimates;
-  return problem_.AddVariable(id, Values(id), constant,
+  return problem_.AddVariable(id, Values(id), IsConstant(id),
                               at_first_estimates ? prior_->Linearization(id) : nullptr);
 }
 
@@ -88,6 +95,22 @@ void ProblemBuilder::AddAll(PointMap* points, LineMap* lines) {
   }
   for (auto& [id, landmark] : lines->landmarks()) {
     if (IsOptimized(landmark)) AddLine(&landmark);
+  }
+}
+
+void ProblemBuilder::AddNewestState(PointMap* points, LineMap* lines) {
+  const int64_t newest_ns = window_->newest().state.t_ns;
+  only_free_ns_ = newest_ns;
+  AddMotion(window_->frames.size() - 1);
+  const auto shows = [&](const auto& landmark) {
+    return IsOptimized(landmark) && landmark.views.back().t_ns == newest_ns &&
+           landmark.host().t_ns != newest_ns;
+  };
+  for (auto& [id, landmark] : points->landmarks()) {
+    if (shows(landmark)) AddNewestView(&landmark);
+  }
+  for (auto& [id, landmark] : lines->landmarks()) {
+    if (shows(landmark)) AddNewestView(&landmark);
   }
 }
 
@@ -109,6 +132,16 @@ void ProblemBuilder::AddMotion(size_t index) {
                    nullptr, {pose_i, pose_j});
 }
 
+template <typename FactorType, int kCount>
+void ProblemBuilder::AddTerm(int index, const FactorType& factor, const ceres::LossFunction* loss,
+                             const int (&variables)[kCount]) {
+  if (index == kNotEliminated) {
+    problem_.AddTerm(factor, loss, variables);
+  } else {
+    problem_.AddLandmarkTerm(index, factor, loss, variables);
+  }
+}
+
 template <typename ViewFactor, typename... Indices>
 void ProblemBuilder::AddPointTerm(int index, const PointLandmark& landmark, const PointView& view,
                                   Indices... variables) {
@@ -127,28 +160,26 @@ void ProblemBuilder::AddPointFactor(int index, const ViewFactor& factor,
                                     const PointLandmark& landmark, const PointView& view,
                                     Indices... variables) {
   if (!camera_) {
-    problem_.AddLandmarkTerm(index, factor, &point_loss_, {variables...});
+    AddTerm(index, factor, &point_loss_, {variables...});
     return;
   }
   const RayShift shift(*camera_, ExpectedRay(landmark, view, *window_));
-  problem_.AddLandmarkTerm(index,
-                           PointIntrinsicsFactor<ViewFactor>(factor, shift, options_.point_weight),
-                           &point_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});
+  AddTerm(index, PointIntrinsicsFactor<ViewFactor>(factor, shift, options_.point_weight),
+          &point_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});
 }
 
 template <typename ViewFactor, typename... Indices>
 void ProblemBuilder::AddLineTerm(int index, const LineLandmark& landmark, const LineView& view,
                                  double weight, Indices... variables) {
   if (!camera_) {
-    problem_.AddLandmarkTerm(index, ViewFactor(view.segment, weight), &line_loss_, {variables...});
+    AddTerm(index, ViewFactor(view.segment, weight), &line_loss_, {variables...});
     return;
   }
   const LineSegmentView expected = ExpectedEnds(landmark, view, *window_);
-  problem_.AddLandmarkTerm(
-      index,
-      LineIntrinsicsFactor<ViewFactor>(view.segment, weight, RayShift(*camera_, expected.start),
-                                       RayShift(*camera_, expected.end)),
-      &line_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});
+  AddTerm(index,
+          LineIntrinsicsFactor<ViewFactor>(view.segment, weight, RayShift(*camera_, expected.start),
+                                           RayShift(*camera_, expected.end)),
+          &line_loss_, {variables..., AddVariable({BlockKind::kIntrinsics, 0})});
 }
 
 void ProblemBuilder::AddPoint(PointLandmark* landmark) {
@@ -166,6 +197,15 @@ void ProblemBuilder::AddPoint(PointLandmark* landmark) {
     AddPointTerm<PointFactor>(index, *landmark, view, host_pose, Pose(view.t_ns), extrinsic, td,
                               point);
   }
+}
+
+void ProblemBuilder::AddNewestView(PointLandmark* landmark) {
+  const BlockId id{BlockKind::kPoint, landmark->id};
+  const int point = problem_.AddVariable(id, landmark->coordinates.data(), /*constant=*/true);
+  const PointView& view = landmark->views.back();
+  AddPointTerm<PointFactor>(kNotEliminated, *landmark, view, Pose(landmark->host().t_ns),
+                            Pose(view.t_ns), AddVariable({BlockKind::kExtrinsic, 0}),
+                            AddVariable({BlockKind::kTimeOffset, 0}), point);
 }
 
 void ProblemBuilder::AddLine(LineLandmark* landmark) {
@@ -189,6 +229,15 @@ void ProblemBuilder::AddLine(LineLandmark* landmark) {
   const Eigen::Vector3d axis_W = *options_.R_W_M * UnitVector(landmark->axis);
   problem_.AddLandmarkTerm(index, ManhattanFactor(axis_W, options_.manhattan_weight),
                            &manhattan_loss_, {host_pose, extrinsic, line});
+}
+
+void ProblemBuilder::AddNewestView(LineLandmark* landmark) {
+  const BlockId id{BlockKind::kLine, landmark->id};
+  const int line = problem_.AddVariable(id, landmark->coordinates.data(), /*constant=*/true);
+  const LineView& view = landmark->views.back();
+  AddLineTerm<LineFactor>(kNotEliminated, *landmark, view, options_.line_weight,
+                          Pose(landmark->host().t_ns), Pose(view.t_ns),
+                          AddVariable({BlockKind::kExtrinsic, 0}), line);
 }
 
 }  // namespace plm_vins

@@ -62,6 +62,10 @@ class ProblemBuilder {
   // The whole window, with the landmarks that are optimised.
   void AddAll(PointMap* points, LineMap* lines);
 
+  // Instead of the whole window, its newest state: by the IMU, and by what its frame shows of
+  // landmarks that are optimised. All others are constants.
+  void AddNewestState(PointMap* points, LineMap* lines);
+
   void AddPrior();
   // The IMU between frame `index` - 1 and `index`, and that they stood still where they did.
   void AddMotion(size_t index);
@@ -73,8 +77,17 @@ class ProblemBuilder {
   const WindowProblem& problem() const { return problem_; }
 
  private:
+  static constexpr int kNotEliminated = -1;  // for an index: the landmark is a constant
+
+  bool IsConstant(const BlockId& id) const;
   int AddVariable(const BlockId& id);
   double* Values(const BlockId& id);
+  void AddNewestView(PointLandmark* landmark);
+  void AddNewestView(LineLandmark* landmark);
+  // Of the landmark `index`.
+  template <typename FactorType, int kCount>
+  void AddTerm(int index, const FactorType& factor, const ceres::LossFunction* loss,
+               const int (&variables)[kCount]);
   template <typename ViewFactor, typename... Indices>
   void AddPointTerm(int index, const PointLandmark& landmark, const PointView& view,
                     Indices... variables);
@@ -91,6 +104,7 @@ class ProblemBuilder {
   const ProblemOptions options_;
   SlidingWindow* window_;
   const MarginalizationPrior* prior_;
+  std::optional<int64_t> only_free_ns_;        // the frame whose state alone is no constant
   std::unique_ptr<const CameraModel> camera_;  // as it is known; null: it is not estimated
   ceres::CauchyLoss point_loss_;
   ceres::CauchyLoss line_loss_;

@@ -31,10 +31,10 @@
 
 namespace plm_vins {
 
-// The back end under ROS, as a node or in a nodelet. The callbacks only queue what comes in and publish the state at IMU rate;
-// a thread of its own takes everything from the queue, in order of arrival, through the synchronous
-// core. Where that thread cannot keep up, images that have waited for too long are left out, so
-// that the newest one has its turn.
+// The back end under ROS, as a node or in a nodelet. The callbacks only queue what comes in and
+// publish the state at IMU rate; a thread of its own takes everything from the queue, in order of
+// arrival, through the synchronous core. Where that thread cannot keep up, images that have waited
+// for too long are left out, so that the newest one has its turn.
 //
 // Services: ~reset starts over; ~save_trajectory writes the poses so far to ~trajectory_file
 // (default trajectory.tum in the node's working folder), and beside it calibrated.yaml where the

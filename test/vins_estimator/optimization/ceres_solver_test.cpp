@@ -35,7 +35,7 @@ class CeresSolverTest : public ::testing::Test {
     options_.jacobians_at = JacobiansAt::kValues;
     Build();
     thorough_.max_iterations = 200;
-    thorough_.cost_tolerance = 1e-15;
+    thorough_.deviation_tolerance = 1e-7;
     thorough_.step_tolerance = 1e-13;
   }
 

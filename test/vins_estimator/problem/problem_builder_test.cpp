@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/geometry/so3.h"
 #include "test/vins_estimator/simulated_window.h"
+#include "vins_estimator/optimization/levenberg_marquardt.h"
 #include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/problem/normal_equations.h"
 #include "vins_estimator/problem/term_evaluation.h"
@@ -67,6 +69,46 @@ TEST_F(ProblemBuilderTest, StandstillAddsZeroVelocityAndSamePose) {
   EXPECT_EQ(terms[2].cost->num_residuals(), 6);
   EXPECT_EQ(terms[2].variables[0], builder.problem().Find({BlockKind::kPose, Stamp(1)}));
   EXPECT_EQ(terms[2].variables[1], builder.problem().Find({BlockKind::kPose, Stamp(2)}));
+}
+
+// With all that may be estimated.
+TEST_F(ProblemBuilderTest, TheNewestStateAloneIsFree) {
+  options_.estimate_extrinsic = options_.estimate_td = true;
+  options_.estimate_intrinsics = options_.estimate_readout = true;
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  builder.AddNewestState(&simulated_.points, &simulated_.lines);
+  const WindowProblem& problem = builder.problem();
+  EXPECT_TRUE(problem.landmarks().empty());
+  for (const Variable& variable : problem.variables()) {
+    const bool of_frame =
+        variable.id.kind == BlockKind::kPose || variable.id.kind == BlockKind::kMotion;
+    EXPECT_EQ(variable.constant, !of_frame || variable.id.key != Stamp(2));
+  }
+  // The IMU, and each landmark that an older frame is host of.
+  size_t seen = 0;
+  const auto count = [&](const auto& landmarks) {
+    for (const auto& [id, landmark] : landmarks) {
+      seen += IsOptimized(landmark) && landmark.views.back().t_ns == Stamp(2) &&
+              landmark.host().t_ns != Stamp(2);
+    }
+  };
+  count(simulated_.points.landmarks());
+  count(simulated_.lines.landmarks());
+  EXPECT_GT(seen, 20u);
+  EXPECT_EQ(problem.terms().size(), 1 + seen);
+}
+
+TEST_F(ProblemBuilderTest, TheNewestStateIsFoundWhereTheRestIsKnown) {
+  const FrameState truth = window().newest().state;
+  FrameState& state = window().newest().state;
+  state.SetPose({state.rotation() * SO3Exp({0.01, -0.02, 0.01}),
+                 state.position() + Eigen::Vector3d(0.05, -0.03, 0.04)});
+  ProblemBuilder builder(options_, &window(), &no_prior_);
+  builder.AddNewestState(&simulated_.points, &simulated_.lines);
+  NormalEquations equations(builder.problem());
+  EXPECT_TRUE(Solve(SolverOptions(), builder.problem(), &equations).solved);
+  EXPECT_LT((state.position() - truth.position()).norm(), 0.005);
+  EXPECT_LT(state.rotation().angularDistance(truth.rotation()), 0.002);
 }
 
 TEST_F(ProblemBuilderTest, PointHasATermForEveryView) {

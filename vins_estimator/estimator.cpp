@@ -13,6 +13,7 @@
 #include "vins_estimator/map/recalibration.h"
 #include "vins_estimator/map/wandering_lines.h"
 #include "vins_estimator/optimization/window_solver.h"
+#include "vins_estimator/problem/newest_covariance.h"
 #include "vins_estimator/state/derived_covariance.h"
 
 namespace plm_vins {
@@ -22,15 +23,6 @@ namespace {
 constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]
 
 constexpr int kMaxReweighings = 3;  // each finds three times the noise at most
-
-// Zero where the equations do not determine it.
-Matrix15d NewestCovariance(const SlidingWindow& window, NormalEquations* equations) {
-  const int64_t t_ns = window.newest().state.t_ns;
-  const Eigen::MatrixXd covariance =
-      equations->Covariance({{BlockKind::kPose, t_ns}, {BlockKind::kMotion, t_ns}});
-  if (covariance.size() == 0) return Matrix15d::Zero();
-  return covariance;
-}
 
 }  // namespace
 
@@ -273,8 +265,8 @@ void Estimator::MoveRays() {
 }
 
 const SolverOptions& Estimator::CurrentSolution() const {
-  const auto window_size = static_cast<size_t>(config_.estimator.window_size);
-  const bool is_full = state_.estimate.map.window.frames.size() >= window_size;
+  const size_t frames = state_.estimate.map.window.frames.size();
+  const bool is_full = frames >= static_cast<size_t>(config_.estimator.window_size);
   return is_full ? options_.solution : options_.early_solution;
 }
 
@@ -401,13 +393,8 @@ void Estimator::Describe(EstimatorOutput* output) const {
       state_.blindness_monitor.blind() || (!output->stationary && fitting < kFewFeatures);
   output->window.reserve(window.frames.size());
   for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
-  for (const auto& [id, landmark] : map.points.landmarks()) {
-    if (IsOptimized(landmark)) output->points.push_back({id, PositionInWorld(landmark, window)});
-  }
-  for (const auto& [id, landmark] : map.lines.landmarks()) {
-    if (!IsOptimized(landmark)) continue;
-    if (const auto segment = ObservedSegment(landmark, window)) output->lines.push_back(*segment);
-  }
+  output->points = map.points.Optimized(window);
+  output->lines = map.lines.Optimized(window);
 }
 
 }  // namespace plm_vins

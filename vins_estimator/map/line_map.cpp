@@ -172,6 +172,15 @@ LineTriangulationCounts LineMap::Triangulate(const SlidingWindow& window,
   return counts;
 }
 
+std::vector<MapLine> LineMap::Optimized(const SlidingWindow& window) const {
+  std::vector<MapLine> lines;
+  for (const auto& [id, landmark] : landmarks_) {
+    if (!IsOptimized(landmark)) continue;
+    if (const auto segment = ObservedSegment(landmark, window)) lines.push_back(*segment);
+  }
+  return lines;
+}
+
 int LineMap::RemoveOutliers(const SlidingWindow& window, const LineLimits& limits) {
   int removed = 0;
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {

@@ -34,6 +34,9 @@ class LineMap : public LandmarkMap<LineLandmark> {
   // too little baseline wait.
   LineTriangulationCounts Triangulate(const SlidingWindow& window, const LineLimits& limits);
 
+  // Those that are optimised, in the world, as far as ObservedSegment() knows them.
+  std::vector<MapLine> Optimized(const SlidingWindow& window) const;
+
   // Judges the triangulated lines by all their views: removes single views that do not fit, lines
   // behind a camera, longer than allowed or with too large a mean error. Returns how many lines and
   // views were removed.

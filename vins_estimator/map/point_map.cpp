@@ -73,9 +73,17 @@ void PointMap::Triangulate(const SlidingWindow& window, double min_angle) {
   }
 }
 
+std::vector<MapPoint> PointMap::Optimized(const SlidingWindow& window) const {
+  std::vector<MapPoint> points;
+  for (const auto& [id, landmark] : landmarks_) {
+    if (IsOptimized(landmark)) points.push_back({id, PositionInWorld(landmark, window)});
+  }
+  return points;
+}
+
 PointMap::Fit PointMap::FitOfNewest(const SlidingWindow& window, double max_error) const {
   Fit fit;
-  for (const auto& [id, landmark] : landmarks()) {
+  for (const auto& [id, landmark] : landmarks_) {
     if (!IsOptimizedInNewest(landmark, window)) continue;
     const PointView& newest = landmark.views.back();
     const auto error = ReprojectionError(PositionInWorld(landmark, window), newest, window);

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "common/measurements.h"
 #include "vins_estimator/map/landmark_map.h"
 #include "vins_estimator/map/point_landmark.h"
 #include "vins_estimator/map/sliding_window.h"
+#include "vins_estimator/state/map_elements.h"
 
 namespace plm_vins {
 
@@ -19,6 +21,9 @@ class PointMap : public LandmarkMap<PointLandmark> {
 
   // Triangulates what can be; `min_angle` [rad] is the least angle between rays.
   void Triangulate(const SlidingWindow& window, double min_angle);
+
+  // Those that are optimised, in the world.
+  std::vector<MapPoint> Optimized(const SlidingWindow& window) const;
 
   // How many triangulated landmarks of three views and more the newest image shows, and how many of
   // them further than `max_error` from where they should be.

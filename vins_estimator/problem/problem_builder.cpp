@@ -132,6 +132,9 @@ void ProblemBuilder::AddMotion(size_t index) {
                    nullptr, {pose_i, pose_j});
 }
 
+// For the newest state alone, rays are near enough to those of the intrinsics.
+bool ProblemBuilder::MovesRays() const { return camera_ && !only_free_ns_; }
+
 template <typename FactorType, int kCount>
 void ProblemBuilder::AddTerm(int index, const FactorType& factor, const ceres::LossFunction* loss,
                              const int (&variables)[kCount]) {
@@ -159,7 +162,7 @@ template <typename ViewFactor, typename... Indices>
 void ProblemBuilder::AddPointFactor(int index, const ViewFactor& factor,
                                     const PointLandmark& landmark, const PointView& view,
                                     Indices... variables) {
-  if (!camera_) {
+  if (!MovesRays()) {
     AddTerm(index, factor, &point_loss_, {variables...});
     return;
   }
@@ -171,7 +174,7 @@ void ProblemBuilder::AddPointFactor(int index, const ViewFactor& factor,
 template <typename ViewFactor, typename... Indices>
 void ProblemBuilder::AddLineTerm(int index, const LineLandmark& landmark, const LineView& view,
                                  double weight, Indices... variables) {
-  if (!camera_) {
+  if (!MovesRays()) {
     AddTerm(index, ViewFactor(view.segment, weight), &line_loss_, {variables...});
     return;
   }

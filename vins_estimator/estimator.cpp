@@ -265,9 +265,8 @@ void Estimator::MoveRays() {
 }
 
 const SolverOptions& Estimator::CurrentSolution() const {
-  const size_t frames = state_.estimate.map.window.frames.size();
-  const bool is_full = frames >= static_cast<size_t>(config_.estimator.window_size);
-  return is_full ? options_.solution : options_.early_solution;
+  const auto frames = static_cast<int>(state_.estimate.map.window.frames.size());
+  return frames < config_.estimator.window_size ? options_.early_solution : options_.solution;
 }
 
 ProblemOptions Estimator::CurrentProblem(JacobiansAt jacobians_at) const {
@@ -278,12 +277,13 @@ ProblemOptions Estimator::CurrentProblem(JacobiansAt jacobians_at) const {
   return options;
 }
 
-// From where the IMU predicts it to where landmarks show it: what the window is then solved for is
-// close to linear.
+// To where landmarks show it to be, from where the window's equations are close to linear.
 void Estimator::PlaceNewest(EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = state_.estimate.map;
-  ProblemBuilder builder(CurrentProblem(JacobiansAt::kValues), &map.window, &state_.estimate.prior);
+  ProblemOptions problem = CurrentProblem(JacobiansAt::kValues);
+  problem.estimate_intrinsics = false;  // rays are near enough to those of the intrinsics
+  ProblemBuilder builder(problem, &map.window, &state_.estimate.prior);
   builder.AddNewestState(&map.points, &map.lines);
   NormalEquations equations(builder.problem());
   SolveBy(config_.estimator.solver, options_.newest_solution, builder.problem(), &equations);

@@ -293,7 +293,8 @@ TEST_F(OurNodelets, GoOnWhereOneBesideThemCannotSubscribe) {
     EXPECT_FALSE(Nodelets::Load("/graph", "plm_vins/PoseGraph")) << topic;
     EXPECT_EQ(Nodelets::List(), Nodelets::All()) << topic;
   }
-  ros::param::del("/graph/set");
+  ros::param::del("/graph/set/imu_topic");
+  ros::param::del("/graph/set/image_topic");
   EXPECT_TRUE(Nodelets::Load("/graph", "plm_vins/PoseGraph"));
   EXPECT_TRUE(Nodelets::Unload("/graph"));
 }

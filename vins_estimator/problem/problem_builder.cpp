@@ -99,12 +99,10 @@ void ProblemBuilder::AddAll(PointMap* points, LineMap* lines) {
 }
 
 void ProblemBuilder::AddNewestState(PointMap* points, LineMap* lines) {
-  const int64_t newest_ns = window_->newest().state.t_ns;
-  only_free_ns_ = newest_ns;
+  only_free_ns_ = window_->newest().state.t_ns;
   AddMotion(window_->frames.size() - 1);
   const auto shows = [&](const auto& landmark) {
-    return IsOptimized(landmark) && landmark.views.back().t_ns == newest_ns &&
-           landmark.host().t_ns != newest_ns;
+    return IsOptimizedInNewest(landmark, *window_) && landmark.host().t_ns != *only_free_ns_;
   };
   for (auto& [id, landmark] : points->landmarks()) {
     if (shows(landmark)) AddNewestView(&landmark);
@@ -131,9 +129,6 @@ void ProblemBuilder::AddMotion(size_t index) {
   problem_.AddTerm(SamePoseFactor(options_.standstill_position, options_.standstill_rotation),
                    nullptr, {pose_i, pose_j});
 }
-
-// For the newest state alone, rays are near enough to those of the intrinsics.
-bool ProblemBuilder::MovesRays() const { return camera_ && !only_free_ns_; }
 
 template <typename FactorType, int kCount>
 void ProblemBuilder::AddTerm(int index, const FactorType& factor, const ceres::LossFunction* loss,
@@ -162,7 +157,7 @@ template <typename ViewFactor, typename... Indices>
 void ProblemBuilder::AddPointFactor(int index, const ViewFactor& factor,
                                     const PointLandmark& landmark, const PointView& view,
                                     Indices... variables) {
-  if (!MovesRays()) {
+  if (!camera_) {
     AddTerm(index, factor, &point_loss_, {variables...});
     return;
   }
@@ -174,7 +169,7 @@ void ProblemBuilder::AddPointFactor(int index, const ViewFactor& factor,
 template <typename ViewFactor, typename... Indices>
 void ProblemBuilder::AddLineTerm(int index, const LineLandmark& landmark, const LineView& view,
                                  double weight, Indices... variables) {
-  if (!MovesRays()) {
+  if (!camera_) {
     AddTerm(index, ViewFactor(view.segment, weight), &line_loss_, {variables...});
     return;
   }

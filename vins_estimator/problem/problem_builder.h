@@ -80,7 +80,6 @@ class ProblemBuilder {
   static constexpr int kNotEliminated = -1;  // for an index: the landmark is a constant
 
   bool IsConstant(const BlockId& id) const;
-  bool MovesRays() const;
   int AddVariable(const BlockId& id);
   double* Values(const BlockId& id);
   void AddNewestView(PointLandmark* landmark);

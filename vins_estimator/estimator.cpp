@@ -8,12 +8,12 @@
 #include "common/append.h"
 #include "common/stopwatch.h"
 #include "vins_estimator/bridging/frame_placement.h"
-#include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/input/measurement_check.h"
 #include "vins_estimator/map/recalibration.h"
 #include "vins_estimator/map/wandering_lines.h"
 #include "vins_estimator/optimization/window_solver.h"
-#include "vins_estimator/problem/newest_covariance.h"
+#include "vins_estimator/problem/placed_covariance.h"
+#include "vins_estimator/problem/state_covariance.h"
 #include "vins_estimator/state/derived_covariance.h"
 
 namespace plm_vins {
@@ -23,6 +23,11 @@ namespace {
 constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]
 
 constexpr int kMaxReweighings = 3;  // each finds three times the noise at most
+
+// Points of an image that hold its state without the window being solved, and which share of them
+// may be outliers: a few per cent are.
+constexpr int kMinPointsToPlace = 20;
+constexpr double kDoubtfulShare = 0.1;
 
 }  // namespace
 
@@ -132,6 +137,8 @@ void Estimator::StartWindow(const InitializationResult& result,
     window.newest().state = frame.state;
   }
   window.newest().stationary = result.from_standstill;
+  const size_t frames = window.frames.size();
+  state_.keyframe = {window.frames[frames > 1 ? frames - 2 : 0].state.t_ns};
   state_.estimate.prior = InitialPrior(uncertainty, options_.problem, window);
 }
 
@@ -149,47 +156,35 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
                       EstimatorOutput* output) {
   LocalMap& map = state_.estimate.map;
   const bool keep_second_newest = IsKeyframe(options_.keyframes, map.window, map.points);
+  if (keep_second_newest) state_.keyframe = {map.window.newest().state.t_ns};
   AddFrame(measurement);
   map.window.newest().stationary = stands_still;
   PlaceNewest(output);
-  Triangulate(output);
-  FindStructure(keep_second_newest, output);
   const ImuNoiseLearning noise_before = state_.imu_noise;
-  Optimize(CurrentSolution(), output);
-  const Eigen::Vector3d rotation_residual = UpdateTimingMonitors();
-  if (const auto variance_scale = UpdateImuMonitor(rotation_residual)) {
-    InflateNewestImuNoise(*variance_scale);
-    state_.imu_noise = noise_before;  // the first solution, which is distorted, teaches nothing
-    output->imu_doubted = true;
+  bool solve_window = !PlacementSuffices();
+  if (solve_window) {
+    Triangulate(output);
+    FindStructure(keep_second_newest, output);
     Optimize(CurrentSolution(), output);
   }
-  RemoveOutliers(output);
+  if (const auto variance_scale = state_.imu_agreement.Add(map.window, FitOfNewest())) {
+    InflateNewestImuNoise(*variance_scale);
+    state_.imu_noise = noise_before;  // the first solution, which is distorted, teaches nothing
+    output->imu_doubted = solve_window = true;
+    Optimize(CurrentSolution(), output);
+  }
+  if (solve_window) LearnFromWindow(output);
   state_.bridge.AddTracked(measurement.imu, {map.window.newest().state, state_.newest_covariance});
-  if (const auto failure = UpdateFailureMonitors(*output)) return GiveUp(*failure, output);
-  if (config_.estimator.adapt_noise) state_.noise.Update(map);
-  state_.imu_noise.Reweigh(&map.window);
+  if (const auto failure = CheckEstimate(output->counts)) return GiveUp(*failure, output);
   output->keyframe = keep_second_newest;
   Describe(output);
   SlideWindow(keep_second_newest, output);
 }
 
-std::optional<Estimator::Failure> Estimator::UpdateFailureMonitors(const EstimatorOutput& output) {
-  const EstimatorCounts& counts = output.counts;
-  if (!state_.solved) return Failure{"the optimisation has no solution"};
-  if (const auto contradiction =
-          state_.contradiction_monitor.Add(output.t_ns, counts.known_seen, counts.known_rejected)) {
-    return Failure{*contradiction};
-  }
+std::optional<Failure> Estimator::CheckEstimate(const EstimatorCounts& counts) {
   const FrameState& newest = state_.estimate.map.window.newest().state;
-  if (const auto blindness = state_.blindness_monitor.Add(
-          counts.points_observed + counts.lines_observed, counts.known_seen - counts.known_rejected,
-          newest, state_.newest_covariance.topLeftCorner<6, 6>())) {
-    return Failure{*blindness, /*has_drifted=*/true};
-  }
-  if (const auto jump = DetectFailure(FailureLimits(), state_.predicted, newest)) {
-    return Failure{*jump};
-  }
-  return std::nullopt;
+  return state_.estimate_monitor.Add({state_.solved, state_.predicted, newest,
+                                      state_.newest_covariance.topLeftCorner<6, 6>(), counts});
 }
 
 // All but the bridge starts over.
@@ -212,12 +207,12 @@ void Estimator::AddFrame(const FrameMeasurement& measurement) {
   frame.timing = {measurement.time_offset, map.window.readout, config_.sensor.camera.height};
   if (!map.window.frames.empty()) {
     const FrameState& before = map.window.newest().state;
-    const ImuNoise noise = Scaled(state_.imu_noise.noise(), state_.imu_monitor.noise_scale());
+    const ImuNoise noise = Scaled(state_.imu_noise.noise(), state_.imu_agreement.noise_scale());
     frame.motion_since_previous = std::make_shared<Preintegration>(noise, before.bias());
     for (const ImuSample& sample : measurement.imu) frame.motion_since_previous->Append(sample);
     frame.state = frame.motion_since_previous->Predict(before, map.window.gravity_W);
     frame.motion_since_previous->AllowStampErrors(
-        StampErrorsOf(state_.stamp_jitter.deviation(), *frame.motion_since_previous,
+        StampErrorsOf(state_.imu_agreement.stamp_deviation(), *frame.motion_since_previous,
                       map.window.gravity_W, before, frame.state));
   }
   frame.state.t_ns = measurement.t_ns;
@@ -245,15 +240,6 @@ void Estimator::FindStructure(bool keep_second_newest, EstimatorOutput* output) 
   output->timings.line_merging = stopwatch.Milliseconds();
 }
 
-void Estimator::RemoveOutliers(EstimatorOutput* output) {
-  LocalMap& map = state_.estimate.map;
-  EstimatorCounts& counts = output->counts;
-  counts.points_rejected = map.points.RemoveOutliers(map.window, options_.max_reprojection_error);
-  counts.lines_wandering = NoteWandering(map.window, state_.noise.line(), &map.lines);
-  counts.lines_rejected = map.lines.RemoveOutliers(map.window, options_.line_limits);
-  counts.known_rejected = counts.known_seen - map.CountInNewest();
-}
-
 void Estimator::MoveRays() {
   SlidingWindow& window = state_.estimate.map.window;
   const CameraParameters& camera = config_.sensor.camera;
@@ -277,17 +263,37 @@ ProblemOptions Estimator::CurrentProblem(JacobiansAt jacobians_at) const {
   return options;
 }
 
-// To where landmarks show it to be, from where the window's equations are close to linear.
+// Solves for the states after the newest keyframe, with all else constant: near enough to the
+// minimum for the window's equations to be linear, or to leave it at that.
 void Estimator::PlaceNewest(EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = state_.estimate.map;
+  const Keyframe& keyframe = state_.keyframe;
   ProblemOptions problem = CurrentProblem(JacobiansAt::kValues);
   problem.estimate_intrinsics = false;  // rays are near enough to those of the intrinsics
   ProblemBuilder builder(problem, &map.window, &state_.estimate.prior);
-  builder.AddNewestState(&map.points, &map.lines);
+  builder.AddStatesAfter(keyframe.t_ns, &map.points, &map.lines);
   NormalEquations equations(builder.problem());
-  SolveBy(config_.estimator.solver, options_.newest_solution, builder.problem(), &equations);
+  state_.solved =
+      SolveBy(config_.estimator.solver, options_.newest_solution, builder.problem(), &equations)
+          .solved;
+  if (keyframe.covariance) {
+    state_.newest_covariance =
+        PlacedCovariance(map.window, keyframe.t_ns, *keyframe.covariance, &equations);
+  }
+  CountLandmarks(output);
   output->timings.optimization += stopwatch.Milliseconds();
+}
+
+// Between keyframes, once the window is full, where nothing is in doubt.
+bool Estimator::PlacementSuffices() const {
+  const SlidingWindow& window = state_.estimate.map.window;
+  const bool is_full = static_cast<int>(window.frames.size()) > config_.estimator.window_size;
+  const bool is_known = state_.solved && state_.keyframe.covariance;
+  if (!is_full || !is_known || window.newest().stationary) return false;
+  if (!state_.imu_agreement.IsUndoubted(window, state_.keyframe.t_ns)) return false;
+  const PointMap::Fit fit = FitOfNewest();
+  return fit.seen >= kMinPointsToPlace && fit.contradicted <= kDoubtfulShare * fit.seen;
 }
 
 void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) {
@@ -295,12 +301,11 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
   LocalMap& map = state_.estimate.map;
   ProblemBuilder builder(CurrentProblem(JacobiansAt::kValues), &map.window, &state_.estimate.prior);
   builder.AddAll(&map.points, &map.lines);
-  output->counts.points_in_window = map.points.CountOptimized();
-  output->counts.lines_in_window = map.lines.CountOptimized();
-  output->counts.known_seen = map.CountInNewest();
+  CountLandmarks(output);
   NormalEquations equations(builder.problem());
   state_.solved = SolveBy(config_.estimator.solver, options, builder.problem(), &equations).solved;
-  state_.newest_covariance = NewestCovariance(map.window, &equations);
+  state_.newest_covariance = StateCovariance(map.window.newest().state.t_ns, &equations);
+  state_.keyframe.covariance = StateCovariance(state_.keyframe.t_ns, &equations);
   if (config_.estimator.adapt_imu_noise) {
     state_.imu_noise.Learn(map.window, !state_.initialized, &equations);
   }
@@ -308,33 +313,28 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
   output->timings.optimization += stopwatch.Milliseconds();  // it may be done twice
 }
 
-Eigen::Vector3d Estimator::UpdateTimingMonitors() {
-  const SlidingWindow& window = state_.estimate.map.window;
-  const Preintegration& motion = *window.newest().motion_since_previous;
-  const Vector15d residual = ImuResidual(motion, window.gravity_W, window.second_newest().state,
-                                         window.newest().state, nullptr);
-  Eigen::Vector3d turn = residual.segment<3>(ImuErrorIndex::kRotation);
-  const Eigen::Vector3d rate = motion.samples().back().gyro;
-  if (motion.HasGap()) {  // what the gyro missed in it says nothing about stamps
-    state_.stamp_jitter.Skip();
-    return turn;
-  }
-  state_.delay_monitor.Add(turn, rate - motion.samples().front().gyro);
-  state_.stamp_jitter.Add(turn, rate);
-  return turn;
+void Estimator::CountLandmarks(EstimatorOutput* output) const {
+  const LocalMap& map = state_.estimate.map;
+  output->counts.points_in_window = map.points.CountOptimized();
+  output->counts.lines_in_window = map.lines.CountOptimized();
+  output->counts.known_seen = map.CountInNewest();
 }
 
-std::optional<double> Estimator::UpdateImuMonitor(const Eigen::Vector3d& rotation_residual) {
+PointMap::Fit Estimator::FitOfNewest() const {
   const LocalMap& map = state_.estimate.map;
-  const WindowFrame& newest = map.window.newest();
-  ImuMonitor::Evidence evidence{newest.state.t_ns};
-  evidence.chi_square = ImuChiSquare(*newest.motion_since_previous, map.window.gravity_W,
-                                     map.window.second_newest().state, newest.state);
-  const PointMap::Fit fit = map.points.FitOfNewest(map.window, options_.max_reprojection_error);
-  evidence.points = fit.seen;
-  evidence.contradicted = fit.contradicted;
-  if (!state_.delay_monitor.delay()) evidence.turn_residual = rotation_residual;
-  return state_.imu_monitor.Add(evidence);
+  return map.points.FitOfNewest(map.window, options_.max_reprojection_error);
+}
+
+// Which landmarks do not fit, and how noisy features and IMU are.
+void Estimator::LearnFromWindow(EstimatorOutput* output) {
+  LocalMap& map = state_.estimate.map;
+  EstimatorCounts& counts = output->counts;
+  counts.points_rejected = map.points.RemoveOutliers(map.window, options_.max_reprojection_error);
+  counts.lines_wandering = NoteWandering(map.window, state_.noise.line(), &map.lines);
+  counts.lines_rejected = map.lines.RemoveOutliers(map.window, options_.line_limits);
+  counts.known_rejected = counts.known_seen - map.CountInNewest();
+  if (config_.estimator.adapt_noise) state_.noise.Update(map);
+  state_.imu_noise.Reweigh(&map.window);
 }
 
 void Estimator::InflateNewestImuNoise(double variance_scale) {
@@ -384,13 +384,13 @@ void Estimator::Describe(EstimatorOutput* output) const {
                          window.readout};
   output->R_W_M = state_.structure.manhattan().R_W_M();
   output->imu_noise = state_.imu_noise.noise();
-  output->imu_noise_scale = state_.imu_monitor.noise_scale();
-  output->delay = state_.delay_monitor.delay();
+  output->imu_noise_scale = state_.imu_agreement.noise_scale();
+  output->delay = state_.imu_agreement.delay();
   output->stationary = window.newest().stationary;
-  output->contradicted = state_.contradiction_monitor.contradicts();
+  output->contradicted = state_.estimate_monitor.contradicted();
   const int fitting = output->counts.known_seen - output->counts.known_rejected;
   output->on_imu_alone =
-      state_.blindness_monitor.blind() || (!output->stationary && fitting < kFewFeatures);
+      state_.estimate_monitor.blind() || (!output->stationary && fitting < kFewFeatures);
   output->window.reserve(window.frames.size());
   for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
   output->points = map.points.Optimized(window);

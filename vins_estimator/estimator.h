@@ -15,11 +15,8 @@
 #include "vins_estimator/input/rolling_shutter.h"
 #include "vins_estimator/map/view_noise.h"
 #include "vins_estimator/marginalization/window_estimate.h"
-#include "vins_estimator/monitoring/blindness_monitor.h"
-#include "vins_estimator/monitoring/delay_monitor.h"
-#include "vins_estimator/monitoring/failure_detector.h"
-#include "vins_estimator/monitoring/imu_monitor.h"
-#include "vins_estimator/monitoring/stamp_jitter.h"
+#include "vins_estimator/monitoring/estimate_monitor.h"
+#include "vins_estimator/monitoring/imu_agreement.h"
 #include "vins_estimator/problem/imu_noise_learning.h"
 #include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/state/estimator_output.h"
@@ -44,10 +41,10 @@ class Estimator {
   double time_offset() const { return state_.estimate.map.window.td; }
 
  private:
-  // Why the estimate cannot be kept.
-  struct Failure {
-    std::string why;
-    bool has_drifted = false;  // further on the IMU alone than a bridge may lead on from
+  // The newest frame that stays.
+  struct Keyframe {
+    int64_t t_ns = 0;
+    std::optional<Matrix15d> covariance = std::nullopt;  // once the window was solved with it
   };
 
   // All that an image leaves behind for the next.
@@ -59,16 +56,14 @@ class Estimator {
     Initializer initializer;
     StandstillDetector standstill_detector;
     std::optional<RollingShutter> rolling_shutter;  // where the camera has one
-    ContradictionMonitor contradiction_monitor;
-    BlindnessMonitor blindness_monitor;
-    ImuMonitor imu_monitor;
-    DelayMonitor delay_monitor;
-    StampJitterMonitor stamp_jitter;
+    EstimateMonitor estimate_monitor;
+    ImuAgreement imu_agreement;
     LineStructure structure;
     WindowEstimate estimate;
     ViewNoise noise;
     ImuNoiseLearning imu_noise;
-    FrameState predicted;         // of the newest image, from the IMU alone
+    FrameState predicted;  // of the newest image, from the IMU alone
+    Keyframe keyframe;
     bool solved = false;          // what was last optimised had a solution
     Matrix15d newest_covariance;  // as optimised; zero where the problem is singular
     FrameBridge bridge;
@@ -89,16 +84,15 @@ class Estimator {
   void SolveFirstWindow(EstimatorOutput* output);
   void AddFrame(const FrameMeasurement& measurement);
   void PlaceNewest(EstimatorOutput* output);
+  bool PlacementSuffices() const;
   void Triangulate(EstimatorOutput* output);
   void FindStructure(bool keep_second_newest, EstimatorOutput* output);
-  void RemoveOutliers(EstimatorOutput* output);
-  std::optional<Failure> UpdateFailureMonitors(const EstimatorOutput& output);
+  void LearnFromWindow(EstimatorOutput* output);
+  void CountLandmarks(EstimatorOutput* output) const;
+  PointMap::Fit FitOfNewest() const;
+  std::optional<Failure> CheckEstimate(const EstimatorCounts& counts);
   void GiveUp(const Failure& failure, EstimatorOutput* output);
   bool StandsStill(const FrameMeasurement& measurement);
-  // Returns the rotation since the image before that the camera sees beyond the gyro's [rad].
-  Eigen::Vector3d UpdateTimingMonitors();
-  // Returns by how much to scale the variances of the newest IMU samples, where they are too small.
-  std::optional<double> UpdateImuMonitor(const Eigen::Vector3d& rotation_residual);
   void InflateNewestImuNoise(double variance_scale);
   void Optimize(const SolverOptions& options, EstimatorOutput* output);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);

@@ -27,7 +27,7 @@ struct EstimatorOptions {
   SameLineLimits same_line;
   AnchorPolicyOptions anchors;
   ProblemOptions problem;
-  SolverOptions newest_solution;  // of the newest state alone
+  SolverOptions newest_solution;  // of the states after the newest keyframe alone
   SolverOptions first_solution;   // of the window that was just initialised
   // While the window fills: the first frames hardly tell the scale, which is far from linear.
   SolverOptions early_solution;

@@ -131,9 +131,9 @@ TEST(EstimatorTest, LearnsTheTimeOffset) {
   // While the offset is not known yet, its errors count as noise of the IMU.
   EXPECT_NEAR(LearnTimeOffset(options), 0.01, 0.001);
   // A corner's velocity is the difference to the image before, so it has noise in common with the
-  // corner: that pulls the offset, by a millisecond or two at half a pixel.
+  // corner: that pulls the offset, by one to five milliseconds at half a pixel.
   options.point_noise_px = 0.5;
-  EXPECT_NEAR(LearnTimeOffset(options), 0.01, 0.0025);
+  EXPECT_NEAR(LearnTimeOffset(options), 0.01, 0.003);
 }
 
 TEST(EstimatorTest, ASmallWindowHasItsSizeAfterAnyStart) {

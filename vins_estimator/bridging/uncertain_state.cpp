@@ -15,10 +15,8 @@ UncertainState Propagate(const UncertainState& start, const Preintegration& moti
   UncertainState end{motion.Predict(start.state, gravity_W)};
   ImuResidualJacobians jacobians;
   ImuResidual(motion, gravity_W, start.state, end.state, &jacobians);
-  Matrix15d J_0, J_1;
-  J_0 << jacobians.d_residual_d_pose_i, jacobians.d_residual_d_motion_i;
-  J_1 << jacobians.d_residual_d_pose_j, jacobians.d_residual_d_motion_j;
-  const Matrix15d d_end_d_noise = J_1.inverse();
+  const Matrix15d J_0 = jacobians.ByFirst();
+  const Matrix15d d_end_d_noise = jacobians.BySecond().inverse();
   end.covariance = d_end_d_noise *
                    (J_0 * start.covariance * J_0.transpose() + motion.Covariance()) *
                    d_end_d_noise.transpose();

@@ -13,6 +13,14 @@ namespace plm_vins {
 struct ImuResidualJacobians {
   Eigen::Matrix<double, 15, 6> d_residual_d_pose_i, d_residual_d_pose_j;
   Eigen::Matrix<double, 15, 9> d_residual_d_motion_i, d_residual_d_motion_j;
+
+  // By the whole states, pose before motion.
+  Matrix15d ByFirst() const {
+    return (Matrix15d() << d_residual_d_pose_i, d_residual_d_motion_i).finished();
+  }
+  Matrix15d BySecond() const {
+    return (Matrix15d() << d_residual_d_pose_j, d_residual_d_motion_j).finished();
+  }
 };
 
 // What two states differ by, beyond the motion that the IMU measured between them; rows as in

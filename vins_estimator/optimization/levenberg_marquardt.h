@@ -10,7 +10,7 @@ struct SolverOptions {
   int max_iterations = 8;
   // Stop when an iteration gains, or misses of what it was predicted to gain, no more than
   // LeastGain.
-  double deviation_tolerance = 0.2;
+  double deviation_tolerance = 0.15;
   double step_tolerance = 1e-6;  // stop when no component of the step is longer [m, rad, ...]
 };
 

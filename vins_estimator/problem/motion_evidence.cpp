@@ -28,8 +28,7 @@ std::optional<Matrix15d> SolutionCovariance(int64_t begin_ns, int64_t end_ns,
                                                         {BlockKind::kMotion, end_ns}});
   if (states.size() == 0) return std::nullopt;
   Eigen::Matrix<double, 15, 30> J;
-  J << jacobians.d_residual_d_pose_i, jacobians.d_residual_d_motion_i,
-      jacobians.d_residual_d_pose_j, jacobians.d_residual_d_motion_j;
+  J << jacobians.ByFirst(), jacobians.BySecond();
   return J * states * J.transpose();
 }
 

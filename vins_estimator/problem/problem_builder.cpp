@@ -71,9 +71,9 @@ double* ProblemBuilder::Values(const BlockId& id) {
 }
 
 bool ProblemBuilder::IsConstant(const BlockId& id) const {
-  if (only_free_ns_) {
+  if (constants_until_ns_) {
     const bool of_frame = id.kind == BlockKind::kPose || id.kind == BlockKind::kMotion;
-    return !of_frame || id.key != *only_free_ns_;
+    return !of_frame || id.key <= *constants_until_ns_;
   }
   return (id.kind == BlockKind::kExtrinsic && !options_.estimate_extrinsic) ||
          (id.kind == BlockKind::kTimeOffset && !options_.estimate_td);
@@ -98,17 +98,20 @@ void ProblemBuilder::AddAll(PointMap* points, LineMap* lines) {
   }
 }
 
-void ProblemBuilder::AddNewestState(PointMap* points, LineMap* lines) {
-  only_free_ns_ = window_->newest().state.t_ns;
-  AddMotion(window_->frames.size() - 1);
-  const auto shows = [&](const auto& landmark) {
-    return IsOptimizedInNewest(landmark, *window_) && landmark.host().t_ns != *only_free_ns_;
+void ProblemBuilder::AddStatesAfter(int64_t t_ns, PointMap* points, LineMap* lines) {
+  constants_until_ns_ = t_ns;
+  for (size_t i = 1; i < window_->frames.size(); ++i) {
+    if (window_->frames[i].state.t_ns > t_ns) AddMotion(i);
+  }
+  // Where only one view is as old, it was never solved for.
+  const auto is_known = [t_ns](const auto& landmark) {
+    return IsOptimized(landmark) && landmark.views[1].t_ns <= t_ns;
   };
   for (auto& [id, landmark] : points->landmarks()) {
-    if (shows(landmark)) AddNewestView(&landmark);
+    if (is_known(landmark)) AddViewsOfKnown(&landmark);
   }
   for (auto& [id, landmark] : lines->landmarks()) {
-    if (shows(landmark)) AddNewestView(&landmark);
+    if (is_known(landmark)) AddViewsOfKnown(&landmark);
   }
 }
 
@@ -197,13 +200,18 @@ void ProblemBuilder::AddPoint(PointLandmark* landmark) {
   }
 }
 
-void ProblemBuilder::AddNewestView(PointLandmark* landmark) {
-  const BlockId id{BlockKind::kPoint, landmark->id};
-  const int point = problem_.AddVariable(id, landmark->coordinates.data(), /*constant=*/true);
-  const PointView& view = landmark->views.back();
-  AddPointTerm<PointFactor>(kNotEliminated, *landmark, view, Pose(landmark->host().t_ns),
-                            Pose(view.t_ns), AddVariable({BlockKind::kExtrinsic, 0}),
-                            AddVariable({BlockKind::kTimeOffset, 0}), point);
+void ProblemBuilder::AddViewsOfKnown(PointLandmark* landmark) {
+  if (landmark->views.back().t_ns <= *constants_until_ns_) return;
+  const int point = problem_.AddVariable({BlockKind::kPoint, landmark->id},
+                                         landmark->coordinates.data(), /*constant=*/true);
+  const int host_pose = Pose(landmark->host().t_ns);
+  const int extrinsic = AddVariable({BlockKind::kExtrinsic, 0});
+  const int td = AddVariable({BlockKind::kTimeOffset, 0});
+  for (const PointView& view : landmark->views) {
+    if (view.t_ns <= *constants_until_ns_) continue;
+    AddPointTerm<PointFactor>(kNotEliminated, *landmark, view, host_pose, Pose(view.t_ns),
+                              extrinsic, td, point);
+  }
 }
 
 void ProblemBuilder::AddLine(LineLandmark* landmark) {
@@ -229,13 +237,17 @@ void ProblemBuilder::AddLine(LineLandmark* landmark) {
                            &manhattan_loss_, {host_pose, extrinsic, line});
 }
 
-void ProblemBuilder::AddNewestView(LineLandmark* landmark) {
-  const BlockId id{BlockKind::kLine, landmark->id};
-  const int line = problem_.AddVariable(id, landmark->coordinates.data(), /*constant=*/true);
-  const LineView& view = landmark->views.back();
-  AddLineTerm<LineFactor>(kNotEliminated, *landmark, view, options_.line_weight,
-                          Pose(landmark->host().t_ns), Pose(view.t_ns),
-                          AddVariable({BlockKind::kExtrinsic, 0}), line);
+void ProblemBuilder::AddViewsOfKnown(LineLandmark* landmark) {
+  if (landmark->views.back().t_ns <= *constants_until_ns_) return;
+  const int line = problem_.AddVariable({BlockKind::kLine, landmark->id},
+                                        landmark->coordinates.data(), /*constant=*/true);
+  const int host_pose = Pose(landmark->host().t_ns);
+  const int extrinsic = AddVariable({BlockKind::kExtrinsic, 0});
+  for (const LineView& view : landmark->views) {
+    if (view.t_ns <= *constants_until_ns_) continue;
+    AddLineTerm<LineFactor>(kNotEliminated, *landmark, view, options_.line_weight, host_pose,
+                            Pose(view.t_ns), extrinsic, line);
+  }
 }
 
 }  // namespace plm_vins

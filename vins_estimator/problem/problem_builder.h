@@ -62,9 +62,9 @@ class ProblemBuilder {
   // The whole window, with the landmarks that are optimised.
   void AddAll(PointMap* points, LineMap* lines);
 
-  // Instead of the whole window, its newest state: by the IMU, and by what its frame shows of
-  // landmarks that are optimised. All others are constants.
-  void AddNewestState(PointMap* points, LineMap* lines);
+  // Instead of the whole window, the states of its frames after `t_ns`: by the IMU, and by what
+  // they show of landmarks that are optimised. All else is constant.
+  void AddStatesAfter(int64_t t_ns, PointMap* points, LineMap* lines);
 
   void AddPrior();
   // The IMU between frame `index` - 1 and `index`, and that they stood still where they did.
@@ -82,8 +82,9 @@ class ProblemBuilder {
   bool IsConstant(const BlockId& id) const;
   int AddVariable(const BlockId& id);
   double* Values(const BlockId& id);
-  void AddNewestView(PointLandmark* landmark);
-  void AddNewestView(LineLandmark* landmark);
+  // Views in the frames that are solved for; the landmark is a constant.
+  void AddViewsOfKnown(PointLandmark* landmark);
+  void AddViewsOfKnown(LineLandmark* landmark);
   // Of the landmark `index`.
   template <typename FactorType, int kCount>
   void AddTerm(int index, const FactorType& factor, const ceres::LossFunction* loss,
@@ -104,7 +105,7 @@ class ProblemBuilder {
   const ProblemOptions options_;
   SlidingWindow* window_;
   const MarginalizationPrior* prior_;
-  std::optional<int64_t> only_free_ns_;        // the frame whose state alone is no constant
+  std::optional<int64_t> constants_until_ns_;  // all but the states of frames after it
   std::unique_ptr<const CameraModel> camera_;  // as it is known; null: it is not estimated
   ceres::CauchyLoss point_loss_;
   ceres::CauchyLoss line_loss_;

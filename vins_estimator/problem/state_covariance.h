@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+
 #include "vins_estimator/imu/preintegration.h"
-#include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/problem/normal_equations.h"
 
 namespace plm_vins {
 
-// Covariance of the newest state, pose before motion, by the window's equations at their last
+// Covariance of the state of a frame, pose before motion, by the window's equations at their last
 // linearisation. Zero where these do not determine it.
-inline Matrix15d NewestCovariance(const SlidingWindow& window, NormalEquations* equations) {
-  const int64_t t_ns = window.newest().state.t_ns;
+inline Matrix15d StateCovariance(int64_t t_ns, NormalEquations* equations) {
   const Eigen::MatrixXd covariance =
       equations->Covariance({{BlockKind::kPose, t_ns}, {BlockKind::kMotion, t_ns}});
   if (covariance.size() == 0) return Matrix15d::Zero();

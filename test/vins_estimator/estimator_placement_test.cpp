@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Images between keyframes, for which the window is not solved anew.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "test/vins_estimator/estimated_flight.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::EstimatedFlight;
+
+// Of the frames that both know, none but the second newest has moved.
+bool WasPlaced(const EstimatorOutput& before, const EstimatorOutput& output) {
+  const auto in_output = [&](const FrameState& state) {
+    return std::find_if(output.window.begin(), output.window.end(),
+                        [&](const FrameState& other) { return other.t_ns == state.t_ns; });
+  };
+  return std::all_of(before.window.begin(), before.window.end() - 1, [&](const FrameState& state) {
+    const auto same = in_output(state);
+    return same == output.window.end() || same->pose == state.pose;
+  });
+}
+
+struct Images {
+  int count = 0;
+  double squared_error = 0, pose = 0, velocity = 0;  // sums
+};
+
+class EstimatorPlacement : public ::testing::Test {
+ protected:
+  // Adds the second half of gentle flights to the images that were placed and those that were
+  // solved for.
+  void Fly(int flights, double duration, double outlier_ratio) {
+    for (int seed = 1; seed <= flights; ++seed) {
+      auto options = testing::FlightOptions(simulator::Motion::kGentle, seed);
+      options.trajectory.duration = duration;
+      options.max_points = 80;
+      options.point_outlier_ratio = outlier_ratio;
+      Add(testing::Estimate(testing::SimulateFlight(options)));
+    }
+  }
+
+  Images placed_, solved_;
+
+ private:
+  void Add(const EstimatedFlight& flight) {
+    const Rigid3d T = testing::AlignHeading(flight.anchor, flight.true_anchor);
+    for (size_t i = flight.outputs.size() / 2; i < flight.outputs.size(); ++i) {
+      const EstimatorOutput& output = flight.outputs[i];
+      Images* images = WasPlaced(flight.outputs[i - 1], output) ? &placed_ : &solved_;
+      const Eigen::Vector3d p = T * Eigen::Vector3d(output.state.position());
+      const auto consistency = testing::MeasureConsistencyAt(flight, i);
+      ++images->count;
+      images->squared_error += (p - flight.truth[i].position()).squaredNorm();
+      images->pose += consistency.pose;
+      images->velocity += consistency.velocity;
+    }
+  }
+};
+
+TEST_F(EstimatorPlacement, IsAsGoodAsTheWindowsSolution) {
+  Fly(/*flights=*/6, /*duration=*/15, /*outlier_ratio=*/0);
+  EXPECT_GT(placed_.count, 2 * solved_.count);
+  const auto ratio = [&](double Images::*sum) {
+    return (placed_.*sum / placed_.count) / (solved_.*sum / solved_.count);
+  };
+  EXPECT_NEAR(ratio(&Images::squared_error), 1, 0.2);
+  EXPECT_NEAR(ratio(&Images::pose), 1, 0.2);
+  EXPECT_NEAR(ratio(&Images::velocity), 1, 0.3);
+}
+
+// A fifth of the points is wrong: too many to rely on them.
+TEST_F(EstimatorPlacement, IsNotReliedOnWherePointsContradict) {
+  Fly(/*flights=*/1, /*duration=*/8, /*outlier_ratio=*/0.2);
+  EXPECT_LT(placed_.count, 0.1 * solved_.count);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/monitoring/estimate_monitor.h"
+
+namespace plm_vins {
+
+std::optional<Failure> EstimateMonitor::Add(const Evidence& evidence) {
+  const EstimatorCounts& counts = evidence.counts;
+  const FrameState& newest = evidence.newest;
+  if (!evidence.solved) return Failure{"the optimisation has no solution"};
+  if (const auto contradiction =
+          contradiction_monitor_.Add(newest.t_ns, counts.known_seen, counts.known_rejected)) {
+    return Failure{*contradiction};
+  }
+  if (const auto blindness = blindness_monitor_.Add(counts.points_observed + counts.lines_observed,
+                                                    counts.known_seen - counts.known_rejected,
+                                                    newest, evidence.pose_covariance)) {
+    return Failure{*blindness, /*has_drifted=*/true};
+  }
+  if (const auto jump = DetectFailure(FailureLimits(), evidence.predicted, newest)) {
+    return Failure{*jump};
+  }
+  return std::nullopt;
+}
+
+}  // namespace plm_vins

@@ -106,6 +106,7 @@ void Estimator::Initialize(const FrameMeasurement& measurement, EstimatorOutput*
   StartWindow(*result, uncertainty);
   Triangulate(output);
   SolveFirstWindow(output);
+  CountLandmarks(output);
   state_.initialized = true;
   Describe(output);
 }
@@ -173,6 +174,7 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
     output->imu_doubted = solve_window = true;
     Optimize(CurrentSolution(), output);
   }
+  CountLandmarks(output);
   if (solve_window) LearnFromWindow(output);
   state_.bridge.AddTracked(measurement.imu, {map.window.newest().state, state_.newest_covariance});
   if (const auto failure = CheckEstimate(output->counts)) return GiveUp(*failure, output);
@@ -281,7 +283,6 @@ void Estimator::PlaceNewest(EstimatorOutput* output) {
     state_.newest_covariance =
         PlacedCovariance(map.window, keyframe.t_ns, *keyframe.covariance, &equations);
   }
-  CountLandmarks(output);
   output->timings.optimization += stopwatch.Milliseconds();
 }
 
@@ -301,7 +302,6 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
   LocalMap& map = state_.estimate.map;
   ProblemBuilder builder(CurrentProblem(JacobiansAt::kValues), &map.window, &state_.estimate.prior);
   builder.AddAll(&map.points, &map.lines);
-  CountLandmarks(output);
   NormalEquations equations(builder.problem());
   state_.solved = SolveBy(config_.estimator.solver, options, builder.problem(), &equations).solved;
   state_.newest_covariance = StateCovariance(map.window.newest().state.t_ns, &equations);

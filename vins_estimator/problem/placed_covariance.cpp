@@ -47,10 +47,11 @@ Matrix15d PlacedCovariance(const SlidingWindow& window, int64_t keyframe_ns,
     ImuResidual(*to.motion_since_previous, window.gravity_W, from, to.state, &jacobians);
     const auto whiten = to.motion_since_previous->SqrtInformation().triangularView<Eigen::Upper>();
     const Matrix15d J_from = whiten * jacobians.ByFirst(), J_to = whiten * jacobians.BySecond();
-    const Matrix15d residual = J_from * move + J_to * RigidMove(keyframe, to.state);
+    const Matrix15d next_move = RigidMove(keyframe, to.state);
+    const Matrix15d residual = J_from * move + J_to * next_move;
     pull.middleRows<kStateSize>(kStateSize * i) += J_from.transpose() * residual;
     pull.middleRows<kStateSize>(kStateSize * (i + 1)) += J_to.transpose() * residual;
-    move = RigidMove(keyframe, to.state);
+    move = next_move;
   }
   const Eigen::MatrixXd P = equations->Covariance(ids);
   if (P.size() == 0) return Matrix15d::Zero();

@@ -103,15 +103,16 @@ void ProblemBuilder::AddStatesAfter(int64_t t_ns, PointMap* points, LineMap* lin
   for (size_t i = 1; i < window_->frames.size(); ++i) {
     if (window_->frames[i].state.t_ns > t_ns) AddMotion(i);
   }
-  // Where only one view is as old, it was never solved for.
-  const auto is_known = [t_ns](const auto& landmark) {
-    return IsOptimized(landmark) && landmark.views[1].t_ns <= t_ns;
+  // Where only one view is as old as that, it was never solved for.
+  const auto holds_states = [t_ns](const auto& landmark) {
+    return IsOptimized(landmark) && landmark.views[1].t_ns <= t_ns &&
+           landmark.views.back().t_ns > t_ns;
   };
   for (auto& [id, landmark] : points->landmarks()) {
-    if (is_known(landmark)) AddViewsOfKnown(&landmark);
+    if (holds_states(landmark)) AddViewsOfKnown(&landmark);
   }
   for (auto& [id, landmark] : lines->landmarks()) {
-    if (is_known(landmark)) AddViewsOfKnown(&landmark);
+    if (holds_states(landmark)) AddViewsOfKnown(&landmark);
   }
 }
 
@@ -201,7 +202,6 @@ void ProblemBuilder::AddPoint(PointLandmark* landmark) {
 }
 
 void ProblemBuilder::AddViewsOfKnown(PointLandmark* landmark) {
-  if (landmark->views.back().t_ns <= *constants_until_ns_) return;
   const int point = problem_.AddVariable({BlockKind::kPoint, landmark->id},
                                          landmark->coordinates.data(), /*constant=*/true);
   const int host_pose = Pose(landmark->host().t_ns);
@@ -238,7 +238,6 @@ void ProblemBuilder::AddLine(LineLandmark* landmark) {
 }
 
 void ProblemBuilder::AddViewsOfKnown(LineLandmark* landmark) {
-  if (landmark->views.back().t_ns <= *constants_until_ns_) return;
   const int line = problem_.AddVariable({BlockKind::kLine, landmark->id},
                                         landmark->coordinates.data(), /*constant=*/true);
   const int host_pose = Pose(landmark->host().t_ns);

@@ -63,7 +63,7 @@ class ProblemBuilder {
   void AddAll(PointMap* points, LineMap* lines);
 
   // Instead of the whole window, the states of its frames after `t_ns`: by the IMU, and by what
-  // they show of landmarks that are optimised. All else is constant.
+  // they show of landmarks that are optimised and were seen twice until then. All else is constant.
   void AddStatesAfter(int64_t t_ns, PointMap* points, LineMap* lines);
 
   void AddPrior();

@@ -3,6 +3,7 @@
 """Turns the results of Kalibr into a configuration of one camera and one IMU.
 
 Format of the inputs: https://github.com/ethz-asl/kalibr/wiki/yaml-formats
+The files of OpenVINS, kalibr_imucam_chain.yaml and kalibr_imu_chain.yaml, have it as well.
 """
 
 import argparse
@@ -66,7 +67,7 @@ class Section:
             raise self.error(key, f"must be a list of {size} numbers")
         return [self._as_number(key, value) for value in values]
 
-    def transform(self, key, hint):
+    def transform(self, key, hint="add it"):
         """A 4x4 rigid transform, as rotation (3x3) and translation (3)."""
         rows = self.get(key, hint)
         if not isinstance(rows, list) or len(rows) != 4:
@@ -146,12 +147,18 @@ def matrix_lines(key, matrix, unit):
             "   data: [" + ",\n          ".join(rows) + "]"]
 
 
-def extrinsic_lines(camera):
-    """Kalibr gives p_C = T_cam_imu p_B and t_imu = t_cam + shift; T_B_C is the inverse."""
+def camera_in_imu(camera):
+    """R_B_C and p_B_C. Kalibr gives p_C = T_cam_imu p_B, OpenVINS p_B = T_imu_cam p_C."""
+    if "T_imu_cam" in camera.values:
+        return camera.transform("T_imu_cam")
     hint = "give the camchain-imucam file of kalibr_calibrate_imu_camera"
     R_C_B, p_C_B = camera.transform("T_cam_imu", hint)
-    R_B_C = R_C_B.T
-    p_B_C = -R_B_C @ p_C_B
+    return R_C_B.T, -R_C_B.T @ p_C_B
+
+
+def extrinsic_lines(camera):
+    """The time offset is Kalibr's: t_imu = t_cam + shift."""
+    R_B_C, p_B_C = camera_in_imu(camera)
     td = camera.number("timeshift_cam_imu") if "timeshift_cam_imu" in camera.values else 0.0
     return ["# Camera in the IMU frame, T_B_C.", "estimate_extrinsic: 0",
             *matrix_lines("extrinsicRotation", R_B_C, "1"),
@@ -172,7 +179,7 @@ def imu_section(imu_file):
 
 
 def noise_lines(imu):
-    lines = ["# Densities as given to Kalibr. A shaking vehicle has larger ones: docs/tuning.md.",
+    lines = ["# Densities as given to Kalibr. What flight shows beyond is learned: docs/tuning.md.",
              "imu_noise_model: continuous"]
     units = {"acc_n": "m/s^2/sqrt(Hz)", "gyr_n": "rad/s/sqrt(Hz)",
              "acc_w": "m/s^3/sqrt(Hz)", "gyr_w": "rad/s^2/sqrt(Hz)"}
@@ -205,8 +212,10 @@ def convert(camchain_file, imu_file, camera_name):
 def parse_arguments(arguments):
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("camchain", help="camchain-imucam-*.yaml of kalibr_calibrate_imu_camera")
-    parser.add_argument("imu", help="imu-*.yaml of Kalibr, or the imu.yaml given to it")
+    parser.add_argument("camchain", help="camchain-imucam-*.yaml of kalibr_calibrate_imu_camera, or"
+                        " kalibr_imucam_chain.yaml of OpenVINS")
+    parser.add_argument("imu", help="imu-*.yaml of Kalibr, the imu.yaml given to it, or"
+                        " kalibr_imu_chain.yaml of OpenVINS")
     parser.add_argument("--cam", default="cam0", help="camera of the chain (default: cam0)")
     parser.add_argument("--output", metavar="FILE", help="new file (default: standard output)")
     return parser.parse_args(arguments)

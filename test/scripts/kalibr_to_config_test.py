@@ -152,6 +152,14 @@ class RoundTrip(Kalibr):
         self.assertEqual(sensor["image_topic"], "/right/image_raw")
         self.assertEqual(sensor["imu_topic"], "/imu/data")
 
+    def test_files_of_openvins(self):
+        T_imu_cam = [[0.0, 1.0, 0.0, -2.0], [-1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, -3.0],
+                     [0.0, 0.0, 0.0, 1.0]]
+        sensor = self.load(chain={"cam0": edited(CAMERA, T_cam_imu=None, T_imu_cam=T_imu_cam)},
+                           imu={"imu0": edited(IMU, model="kalibr", time_offset=0.0)})
+        self.assert_all_close(sensor["extrinsicTranslation"], P_B_C)
+        self.assert_all_close(sensor["extrinsicRotation"], R_B_C)
+
     def test_numbers_that_yaml_takes_for_text(self):
         imu = self.write("imu.yaml", "accelerometer_noise_density: 2e-3\n"
                          "accelerometer_random_walk: 3e-3\ngyroscope_noise_density: 2e-4\n"

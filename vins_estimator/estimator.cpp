@@ -19,9 +19,6 @@
 namespace plm_vins {
 namespace {
 
-// What a shock, or a sensor that is heated or fails, may do to the biases.
-constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]
-
 constexpr int kMaxReweighings = 3;  // each finds three times the noise at most
 
 // Points of an image that hold its state without the window being solved, and which share of them
@@ -168,8 +165,10 @@ void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
     FindStructure(keep_second_newest, output);
     Optimize(CurrentSolution(), output);
   }
-  if (const auto variance_scale = state_.imu_agreement.Add(map.window, FitOfNewest())) {
-    InflateNewestImuNoise(*variance_scale);
+  const PointMap::Fit fit = FitOfNewest(map.window.newest().state.t_ns);
+  if (const auto variance_scale = state_.imu_agreement.Add(map.window, fit)) {
+    DoubtInterval(Scaled(state_.imu_noise.noise(), *variance_scale),
+                  map.window.newest().motion_since_previous.get());
     state_.imu_noise = noise_before;  // the first solution, which is distorted, teaches nothing
     output->imu_doubted = solve_window = true;
     Optimize(CurrentSolution(), output);
@@ -189,14 +188,14 @@ std::optional<Failure> Estimator::CheckEstimate(const EstimatorCounts& counts) {
                                       state_.newest_covariance.topLeftCorner<6, 6>(), counts});
 }
 
-// All but the bridge starts over.
+// All but the bridge starts over, with the measurement that follows this one.
 void Estimator::GiveUp(const Failure& failure, EstimatorOutput* output) {
-  FrameBridge bridge = std::move(state_.bridge);
-  Reset();
+  State lost = std::exchange(state_, State(config_, options_));
+  state_.newest = lost.newest;
   output->status = EstimatorStatus::kLost;
   output->reason = failure.why;
-  output->restarted = failure.has_drifted || !bridge.Begin(failure.why);
-  if (!output->restarted) state_.bridge = std::move(bridge);
+  output->restarted = failure.has_drifted || !lost.bridge.Begin(failure.why);
+  if (!output->restarted) state_.bridge = std::move(lost.bridge);
 }
 
 bool Estimator::StandsStill(const FrameMeasurement& measurement) {
@@ -252,9 +251,14 @@ void Estimator::MoveRays() {
   window.ray_intrinsics = window.intrinsics;
 }
 
-const SolverOptions& Estimator::CurrentSolution() const {
+// With the newest frame it is one more than it keeps.
+bool Estimator::WindowIsFull() const {
   const auto frames = static_cast<int>(state_.estimate.map.window.frames.size());
-  return frames < config_.estimator.window_size ? options_.early_solution : options_.solution;
+  return frames > config_.estimator.window_size;
+}
+
+const SolverOptions& Estimator::CurrentSolution() const {
+  return WindowIsFull() ? options_.solution : options_.early_solution;
 }
 
 ProblemOptions Estimator::CurrentProblem(JacobiansAt jacobians_at) const {
@@ -289,11 +293,10 @@ void Estimator::PlaceNewest(EstimatorOutput* output) {
 // Between keyframes, once the window is full, where nothing is in doubt.
 bool Estimator::PlacementSuffices() const {
   const SlidingWindow& window = state_.estimate.map.window;
-  const bool is_full = static_cast<int>(window.frames.size()) > config_.estimator.window_size;
   const bool is_known = state_.solved && state_.keyframe.covariance;
-  if (!is_full || !is_known || window.newest().stationary) return false;
+  if (!WindowIsFull() || !is_known || window.newest().stationary) return false;
   if (!state_.imu_agreement.IsUndoubted(window, state_.keyframe.t_ns)) return false;
-  const PointMap::Fit fit = FitOfNewest();
+  const PointMap::Fit fit = FitOfNewest(state_.keyframe.t_ns);
   return fit.seen >= kMinPointsToPlace && fit.contradicted <= kDoubtfulShare * fit.seen;
 }
 
@@ -304,7 +307,8 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
   builder.AddAll(&map.points, &map.lines);
   NormalEquations equations(builder.problem());
   state_.solved = SolveBy(config_.estimator.solver, options, builder.problem(), &equations).solved;
-  state_.newest_covariance = StateCovariance(map.window.newest().state.t_ns, &equations);
+  state_.newest_covariance =
+      StateCovariance(map.window.newest().state.t_ns, &equations).value_or(Matrix15d::Zero());
   state_.keyframe.covariance = StateCovariance(state_.keyframe.t_ns, &equations);
   if (config_.estimator.adapt_imu_noise) {
     state_.imu_noise.Learn(map.window, !state_.initialized, &equations);
@@ -320,9 +324,9 @@ void Estimator::CountLandmarks(EstimatorOutput* output) const {
   output->counts.known_seen = map.CountInNewest();
 }
 
-PointMap::Fit Estimator::FitOfNewest() const {
+PointMap::Fit Estimator::FitOfNewest(int64_t keyframe_ns) const {
   const LocalMap& map = state_.estimate.map;
-  return map.points.FitOfNewest(map.window, options_.max_reprojection_error);
+  return map.points.FitOfNewest(map.window, keyframe_ns, options_.max_reprojection_error);
 }
 
 // Which landmarks do not fit, and how noisy features and IMU are.
@@ -335,12 +339,6 @@ void Estimator::LearnFromWindow(EstimatorOutput* output) {
   counts.known_rejected = counts.known_seen - map.CountInNewest();
   if (config_.estimator.adapt_noise) state_.noise.Update(map);
   state_.imu_noise.Reweigh(&map.window);
-}
-
-void Estimator::InflateNewestImuNoise(double variance_scale) {
-  Preintegration& motion = *state_.estimate.map.window.newest().motion_since_previous;
-  motion.Reweigh(Scaled(state_.imu_noise.noise(), variance_scale));
-  motion.AllowBiasStep(kBiasStep);
 }
 
 void Estimator::SlideWindow(bool keep_second_newest, EstimatorOutput* output) {

@@ -89,11 +89,10 @@ class Estimator {
   void FindStructure(bool keep_second_newest, EstimatorOutput* output);
   void LearnFromWindow(EstimatorOutput* output);
   void CountLandmarks(EstimatorOutput* output) const;
-  PointMap::Fit FitOfNewest() const;
+  PointMap::Fit FitOfNewest(int64_t keyframe_ns) const;
   std::optional<Failure> CheckEstimate(const EstimatorCounts& counts);
   void GiveUp(const Failure& failure, EstimatorOutput* output);
   bool StandsStill(const FrameMeasurement& measurement);
-  void InflateNewestImuNoise(double variance_scale);
   void Optimize(const SolverOptions& options, EstimatorOutput* output);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
   void SlideOldest(EstimatorOutput* output);
@@ -102,6 +101,7 @@ class Estimator {
   // Brings all rays to the intrinsics as they are now, once they have moved far enough to matter.
   void MoveRays();
 
+  bool WindowIsFull() const;
   const SolverOptions& CurrentSolution() const;
   // The problem's options with Manhattan frame and noise as they are now.
   ProblemOptions CurrentProblem(JacobiansAt jacobians_at) const;

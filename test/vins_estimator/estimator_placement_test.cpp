@@ -78,5 +78,34 @@ TEST_F(EstimatorPlacement, IsNotReliedOnWherePointsContradict) {
   EXPECT_LT(placed_.count, 0.1 * solved_.count);
 }
 
+// A tracker that starts again, in the middle of the flight: no point of before holds a state.
+TEST_F(EstimatorPlacement, IsNotReliedOnWhereAllPointsAreNew) {
+  testing::SimulatedFlight flight =
+      testing::SimulateFlight(testing::FlightOptions(simulator::Motion::kGentle, 1));
+  const size_t begin = flight.frames.size() / 2;
+  for (size_t i = begin; i < flight.frames.size(); ++i) {
+    for (PointObservation& point : flight.frames[i].points.points) point.id += 1'000'000;
+    flight.frames[i].lines.reset();
+  }
+  const EstimatedFlight estimated = testing::Estimate(flight);
+  size_t i = estimated.outputs.size() - (flight.frames.size() - begin);
+  for (int keyframes = 0; keyframes < 2; ++i) {
+    ASSERT_LT(i, estimated.outputs.size());
+    keyframes += estimated.outputs[i].keyframe ? 1 : 0;
+    EXPECT_FALSE(keyframes < 2 && WasPlaced(estimated.outputs[i - 1], estimated.outputs[i])) << i;
+  }
+}
+
+TEST_F(EstimatorPlacement, IsNotReliedOnAtStandstill) {
+  const EstimatedFlight flight = testing::Estimate(
+      testing::SimulateFlight(testing::FlightOptions(simulator::Motion::kStill, 1)));
+  ASSERT_GT(flight.outputs.size(), 100u);
+  for (size_t i = flight.outputs.size() / 2; i < flight.outputs.size(); ++i) {
+    const EstimatorOutput& output = flight.outputs[i];
+    EXPECT_FALSE(output.stationary && WasPlaced(flight.outputs[i - 1], output)) << i;
+  }
+  EXPECT_TRUE(flight.outputs.back().stationary);
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -310,6 +310,8 @@ TEST(EstimatorRobustness, WhatCannotBeOptimisedIsALoss) {
     EXPECT_EQ(output.status, EstimatorStatus::kLost);
     EXPECT_EQ(output.reason, "the optimisation has no solution");
     EXPECT_FALSE(output.has_pose);
+    EXPECT_THROW(estimator.Process(flight.frames[150]), std::invalid_argument) << "older";
+    EXPECT_NO_THROW(estimator.Process(flight.frames[181]));
   }
 }
 

@@ -58,6 +58,13 @@ bool IsOptimizedInNewest(const Landmark& landmark, const SlidingWindow& window) 
   return IsOptimized(landmark) && landmark.views.back().t_ns == window.newest().state.t_ns;
 }
 
+// ... and a keyframe was solved for together with it. Where only one view is as old as the
+// keyframe, it was not.
+template <typename Landmark>
+bool WasOptimizedAt(int64_t keyframe_ns, const Landmark& landmark) {
+  return IsOptimized(landmark) && landmark.views[1].t_ns <= keyframe_ns;
+}
+
 // The landmark goes into the prior with the frame that hosts it: other frames know it as well.
 template <typename Landmark>
 bool LeavesWith(int64_t host_ns, const Landmark& landmark) {

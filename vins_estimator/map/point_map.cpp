@@ -81,10 +81,11 @@ std::vector<MapPoint> PointMap::Optimized(const SlidingWindow& window) const {
   return points;
 }
 
-PointMap::Fit PointMap::FitOfNewest(const SlidingWindow& window, double max_error) const {
+PointMap::Fit PointMap::FitOfNewest(const SlidingWindow& window, int64_t keyframe_ns,
+                                    double max_error) const {
   Fit fit;
   for (const auto& [id, landmark] : landmarks_) {
-    if (!IsOptimizedInNewest(landmark, window)) continue;
+    if (!IsOptimizedInNewest(landmark, window) || !WasOptimizedAt(keyframe_ns, landmark)) continue;
     const PointView& newest = landmark.views.back();
     const auto error = ReprojectionError(PositionInWorld(landmark, window), newest, window);
     ++fit.seen;

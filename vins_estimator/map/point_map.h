@@ -25,12 +25,12 @@ class PointMap : public LandmarkMap<PointLandmark> {
   // Those that are optimised, in the world.
   std::vector<MapPoint> Optimized(const SlidingWindow& window) const;
 
-  // How many triangulated landmarks of three views and more the newest image shows, and how many of
-  // them further than `max_error` from where they should be.
+  // How many of the landmarks that were optimised at a keyframe the newest image shows, and how
+  // many of them further than `max_error` from where they should be.
   struct Fit {
     int seen = 0, contradicted = 0;
   };
-  Fit FitOfNewest(const SlidingWindow& window, double max_error) const;
+  Fit FitOfNewest(const SlidingWindow& window, int64_t keyframe_ns, double max_error) const;
 
   // Removes landmarks behind a camera or with a mean reprojection error above `max_error`, and
   // single views above twice that (normalised image units). Returns how many landmarks and views

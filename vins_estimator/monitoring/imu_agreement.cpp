@@ -9,7 +9,15 @@ namespace {
 // Of the residual of an interval: twice its mean, or more, in flights with the right noise.
 constexpr double kUndoubtedChiSquare = 1.5;
 
+// What a shock, or a sensor that is heated or fails, may do to the biases.
+constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]
+
 }  // namespace
+
+void DoubtInterval(const ImuNoise& noise, Preintegration* motion) {
+  motion->Reweigh(noise);
+  motion->AllowBiasStep(kBiasStep);
+}
 
 std::optional<double> ImuAgreement::Add(const SlidingWindow& window, const PointMap::Fit& fit) {
   const WindowFrame& newest = window.newest();

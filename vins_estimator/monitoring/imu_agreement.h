@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/map/point_map.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/monitoring/delay_monitor.h"
@@ -13,13 +14,17 @@
 
 namespace plm_vins {
 
+// Weighs an interval that contradicts the camera anew: with more noise, and with biases free to
+// step.
+void DoubtInterval(const ImuNoise& noise, Preintegration* motion);
+
 // Whether IMU and camera agree on the motion from image to image, and if not, what may be the
 // cause: noise, a bias that stepped, or stamps of images that are late or jitter.
 class ImuAgreement {
  public:
   // Takes the newest interval of a window that was solved for, and how the known points of the
-  // newest image fit. Where the interval is to be weighed anew, with free biases: by how much to
-  // scale the variance of its noise.
+  // newest image fit. Where the interval is to be doubted: by how much to scale the variance of its
+  // noise.
   std::optional<double> Add(const SlidingWindow& window, const PointMap::Fit& fit);
 
   // Nothing contradicts, neither before nor in the intervals after `t_ns` of a window, the states

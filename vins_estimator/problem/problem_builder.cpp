@@ -103,10 +103,8 @@ void ProblemBuilder::AddStatesAfter(int64_t t_ns, PointMap* points, LineMap* lin
   for (size_t i = 1; i < window_->frames.size(); ++i) {
     if (window_->frames[i].state.t_ns > t_ns) AddMotion(i);
   }
-  // Where only one view is as old as that, it was never solved for.
   const auto holds_states = [t_ns](const auto& landmark) {
-    return IsOptimized(landmark) && landmark.views[1].t_ns <= t_ns &&
-           landmark.views.back().t_ns > t_ns;
+    return WasOptimizedAt(t_ns, landmark) && landmark.views.back().t_ns > t_ns;
   };
   for (auto& [id, landmark] : points->landmarks()) {
     if (holds_states(landmark)) AddViewsOfKnown(&landmark);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/problem/normal_equations.h"
@@ -9,11 +10,11 @@
 namespace plm_vins {
 
 // Covariance of the state of a frame, pose before motion, by the window's equations at their last
-// linearisation. Zero where these do not determine it.
-inline Matrix15d StateCovariance(int64_t t_ns, NormalEquations* equations) {
+// linearisation. Nothing where these do not determine it.
+inline std::optional<Matrix15d> StateCovariance(int64_t t_ns, NormalEquations* equations) {
   const Eigen::MatrixXd covariance =
       equations->Covariance({{BlockKind::kPose, t_ns}, {BlockKind::kMotion, t_ns}});
-  if (covariance.size() == 0) return Matrix15d::Zero();
+  if (covariance.size() == 0) return std::nullopt;
   return covariance;
 }
 

@@ -71,6 +71,19 @@ TEST_F(PointMapTest, CountsWhatTheNewestFrameShowsOfThoseThatAreOptimised) {
   EXPECT_EQ(map_.CountInNewest(window_), 18) << "seen twice";
 }
 
+TEST_F(PointMapTest, FitOfTheNewestIsOfPointsThatWereOptimisedAtTheKeyframe) {
+  constexpr double kMaxError = 0.01;
+  map_.Triangulate(window_, kMinAngle);
+  const int64_t keyframe_ns = Stamp(1);
+  EXPECT_EQ(map_.FitOfNewest(window_, keyframe_ns, kMaxError).seen, 20);
+  Landmark(3).views.erase(Landmark(3).views.begin());
+  EXPECT_EQ(map_.FitOfNewest(window_, keyframe_ns, kMaxError).seen, 19) << "new at the keyframe";
+  EXPECT_EQ(map_.FitOfNewest(window_, Stamp(3), kMaxError).seen, 20);
+  EXPECT_EQ(map_.FitOfNewest(window_, keyframe_ns, kMaxError).contradicted, 0);
+  Landmark(4).views.back().bearing.xy.x() += 2 * kMaxError;
+  EXPECT_EQ(map_.FitOfNewest(window_, keyframe_ns, kMaxError).contradicted, 1);
+}
+
 TEST_F(PointMapTest, CollectsViewsByTime) {
   PointFrame frame;
   frame.t_ns = 200;

@@ -168,22 +168,26 @@ TEST(PlacedCovariance, IsNearThatOfTheWholeWindow) {
   NormalEquations equations(builder.problem());
   equations.Linearize();
   const int64_t keyframe_ns = window.frames[7].state.t_ns;
-  const Matrix15d exact = StateCovariance(window.newest().state.t_ns, &equations);
+  const Matrix15d exact = StateCovariance(window.newest().state.t_ns, &equations).value();
   const Matrix15d placed =
-      Placed(options, keyframe_ns, StateCovariance(keyframe_ns, &equations), &simulated);
+      Placed(options, keyframe_ns, StateCovariance(keyframe_ns, &equations).value(), &simulated);
   const Vector15d ratios = (placed.diagonal().cwiseQuotient(exact.diagonal())).cwiseSqrt();
   EXPECT_GT(ratios.minCoeff(), 0.97);
   EXPECT_LT(ratios.maxCoeff(), 1.03);
 }
 
 TEST_F(PlacedCovarianceTest, IsZeroWhereNothingIsDetermined) {
-  const MarginalizationPrior no_prior;
-  ProblemBuilder builder(options_, &simulated_.window, &no_prior);
-  builder.AddStatesAfter(state(kKeyframe).t_ns, &simulated_.points, &simulated_.lines);
-  NormalEquations never_linearized(builder.problem());
-  EXPECT_EQ(PlacedCovariance(simulated_.window, state(kKeyframe).t_ns, SomeCovariance(),
-                             &never_linearized),
-            Matrix15d::Zero());
+  WindowProblem without_terms;
+  for (size_t i = kKeyframe + 1; i < simulated_.window.frames.size(); ++i) {
+    AddPose(state(i).t_ns, &without_terms);
+    without_terms.AddVariable({BlockKind::kMotion, state(i).t_ns}, state(i).motion.data());
+  }
+  NormalEquations equations(without_terms);
+  equations.Linearize();
+  EXPECT_EQ(StateCovariance(state(kKeyframe + 1).t_ns, &equations), std::nullopt);
+  EXPECT_EQ(
+      PlacedCovariance(simulated_.window, state(kKeyframe).t_ns, SomeCovariance(), &equations),
+      Matrix15d::Zero());
 }
 
 }  // namespace

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/monitoring/estimate_monitor.h"
+
+#include <gtest/gtest.h>
+
+#include "common/measurements.h"
+
+namespace plm_vins {
+namespace {
+
+// At rest, known to 1 cm, with a hundred points that fit.
+EstimateMonitor::Evidence Good(double t) {
+  EstimateMonitor::Evidence evidence;
+  evidence.solved = true;
+  evidence.newest.t_ns = evidence.predicted.t_ns = ToNanoseconds(t);
+  evidence.pose_covariance = 1e-4 * Eigen::Matrix<double, 6, 6>::Identity();
+  evidence.counts.points_observed = evidence.counts.known_seen = 100;
+  return evidence;
+}
+
+TEST(EstimateMonitor, KeepsWhatFits) {
+  EstimateMonitor monitor;
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_FALSE(monitor.Add(Good(0.05 * i)));
+    EXPECT_FALSE(monitor.contradicted());
+    EXPECT_FALSE(monitor.blind());
+  }
+}
+
+TEST(EstimateMonitor, GivesUpAtOnceWhatHasNoSolution) {
+  EstimateMonitor monitor;
+  EstimateMonitor::Evidence evidence = Good(0);
+  evidence.solved = false;
+  const auto failure = monitor.Add(evidence);
+  ASSERT_TRUE(failure);
+  EXPECT_EQ(failure->why, "the optimisation has no solution");
+  EXPECT_FALSE(failure->has_drifted);
+}
+
+TEST(EstimateMonitor, GivesUpWhatTheCameraGoesOnContradicting) {
+  EstimateMonitor monitor;
+  std::optional<Failure> failure;
+  for (int i = 0; i < 40 && !failure; ++i) {
+    EstimateMonitor::Evidence evidence = Good(0.05 * i);
+    evidence.counts.known_rejected = 50;
+    failure = monitor.Add(evidence);
+    EXPECT_TRUE(monitor.contradicted());
+  }
+  ASSERT_TRUE(failure);
+  EXPECT_NE(failure->why.find("camera contradicts"), std::string::npos) << failure->why;
+  EXPECT_FALSE(failure->has_drifted);
+}
+
+TEST(EstimateMonitor, NoBridgeLeadsOnFromBlindDrift) {
+  EstimateMonitor monitor;
+  EXPECT_FALSE(monitor.Add(Good(0)));
+  EstimateMonitor::Evidence evidence = Good(3);
+  evidence.counts = {};
+  evidence.pose_covariance.diagonal().head<3>().setConstant(1);
+  const auto failure = monitor.Add(evidence);
+  ASSERT_TRUE(failure);
+  EXPECT_TRUE(failure->has_drifted);
+}
+
+TEST(EstimateMonitor, GivesUpWhereTheStateJumps) {
+  EstimateMonitor monitor;
+  EstimateMonitor::Evidence evidence = Good(0);
+  evidence.newest.position().x() += 2 * FailureLimits().position_jump;
+  const auto failure = monitor.Add(evidence);
+  ASSERT_TRUE(failure);
+  EXPECT_FALSE(failure->has_drifted);
+}
+
+}  // namespace
+}  // namespace plm_vins

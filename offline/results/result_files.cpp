@@ -132,6 +132,7 @@ void ResultFiles::Add(const PipelineFrame& frame) {
     trajectory_.Comment(FormatTumRestart(output.reason));
     EndWorld();
   }
+  if (output.status == EstimatorStatus::kLost) EndWindow();
   AddMapPoints(output.departed_points);
   AddMapLines(output.departed_lines);
   for (const int64_t id : output.absorbed_lines) world_lines_.erase(id);
@@ -150,11 +151,15 @@ void ResultFiles::AddMapLines(const std::vector<MapLine>& lines) {
   for (const MapLine& line : lines) world_lines_[line.id] = line;
 }
 
-void ResultFiles::EndWorld() {
+void ResultFiles::EndWindow() {
   AddMapPoints(window_points_);
   AddMapLines(window_lines_);
   window_points_.clear();
   window_lines_.clear();
+}
+
+void ResultFiles::EndWorld() {
+  EndWindow();
   for (const auto& [id, line] : world_lines_) lines_.push_back(line);
   world_lines_.clear();
 }

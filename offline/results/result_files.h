@@ -51,7 +51,9 @@ class ResultFiles {
   void AddMapPoints(const std::vector<MapPoint>& points);
   // A line that is there already, since it came back into view, is replaced.
   void AddMapLines(const std::vector<MapLine>& lines);
-  // The landmarks in the window go into the map; ids start over.
+  // The landmarks in the window go into the map.
+  void EndWindow();
+  // ... and ids start over.
   void EndWorld();
   void WriteLines() const;
   void WriteSummary(const RunSummary::Run& run, const Config& config, const Json& loops) const;

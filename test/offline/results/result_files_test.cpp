@@ -133,6 +133,25 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
   EXPECT_FALSE(summary["version"].get<std::string>().empty());
 }
 
+// A loss that is bridged begins no new world, but another window with other landmarks.
+TEST(ResultFiles, KeepTheLandmarksOfAWindowThatWasLost) {
+  const testing::TemporaryFolder folder;
+  ResultFiles results(folder.path());
+  PipelineFrame frame = MakeFrame(1'000'000'000, true);
+  frame.output.points = {{1, {1, 1, 1}}, {2, {2, 2, 2}}};
+  frame.output.lines = {{1, {1, 1, 1}, {1, 2, 1}}};
+  results.Add(frame);
+  frame = MakeFrame(2'000'000'000, false);
+  frame.output.status = EstimatorStatus::kLost;
+  results.Add(frame);
+  frame = MakeFrame(3'000'000'000, true);
+  frame.output.points = {{3, {3, 3, 3}}};
+  results.Add(frame);
+  results.Finish(RunSummary::Run(), Config(), Json());
+  EXPECT_THAT(folder.Read("map.ply"), HasSubstr("element vertex 3 "));
+  EXPECT_THAT(folder.Read("lines.ply"), HasSubstr("element edge 1\n"));
+}
+
 TEST(ResultFiles, HoldAConfigurationWithTheCalibrationThatWasFound) {
   const testing::TemporaryFolder folder;
   Config config;

@@ -10,6 +10,7 @@ import numpy as np
 
 from evaluation import consistency, evo_backend, metrics
 from evaluation.evo_zip import write_evo_zip
+from evaluation.run_results import read_estimate
 from evaluation.trajectory import TrajectoryError, read_trajectory
 
 FIGURES = ("rmse", "mean", "median", "std", "min", "max")
@@ -24,7 +25,8 @@ LABELS = {
 }
 
 
-def evaluate(estimate, truth, align="se3", max_diff=0.01, max_gap=0.5):
+def evaluate(estimate, truth, align="se3", max_diff=metrics.MAX_DIFFERENCE,
+             max_gap=metrics.MAX_GAP):
     """Returns the paired trajectories (the estimate aligned) and a dictionary of all figures."""
     paired_estimate, paired_truth = metrics.associate(estimate, truth, max_diff)
     yaw_drift = metrics.yaw_drift(paired_estimate, paired_truth)
@@ -35,6 +37,7 @@ def evaluate(estimate, truth, align="se3", max_diff=0.01, max_gap=0.5):
         "ground_truth_poses": len(truth),
         "pairs": len(paired_estimate),
         "alignment": align,
+        "t_offset_s": estimate.shift,
         "coverage": metrics.coverage(estimate, truth, max_gap),
         "first_pose_delay_s": float(estimate.stamps[0] - truth.stamps[0]),
         "ground_truth_duration_s": float(truth.duration),
@@ -95,6 +98,9 @@ def format_report(result):
         " RPE over 1 m of the estimate's path (evo_rpe -d 1 -u m) and over 1 s",
         f"{'':20}" + "".join(f"{name:>9}" for name in FIGURES),
     ]
+    if result["t_offset_s"]:
+        lines.insert(2, f"stamps of the estimate shifted by {1000 * result['t_offset_s']:+.2f} ms,"
+                     " to the clock of the ground truth")
     for name, label in LABELS.items():
         lines.append(f"{label:20}" + _format_row(result[name]))
         if name == "ape_m":
@@ -131,12 +137,14 @@ def parse_arguments(arguments):
                         help="write the APE there, for evo_res, which names it as the file")
     parser.add_argument("--align", choices=metrics.ALIGNMENTS, default="se3",
                         help="alignment without scale before the errors are taken (default: se3)")
-    parser.add_argument("--max-diff", type=float, default=0.01, metavar="S",
-                        help="largest difference between paired stamps [s] (default: 0.01)")
-    parser.add_argument("--t-offset", type=float, default=0.0, metavar="S",
-                        help="added to the stamps of the estimate [s] (default: 0)")
-    parser.add_argument("--max-gap", type=float, default=0.5, metavar="S",
-                        help="longer gaps between poses count as not covered [s] (default: 0.5)")
+    parser.add_argument("--max-diff", type=float, default=metrics.MAX_DIFFERENCE, metavar="S",
+                        help="largest difference between paired stamps [s] (default: %(default)s)")
+    parser.add_argument("--t-offset", type=float, metavar="S",
+                        help="added to the stamps of the estimate [s] (default: td_s in the"
+                        " summary.json beside it, 0 where there is none)")
+    parser.add_argument("--max-gap", type=float, default=metrics.MAX_GAP, metavar="S",
+                        help="longer gaps between poses count as not covered [s] (default:"
+                        " %(default)s)")
     parser.add_argument("--covariance", metavar="FILE",
                         help="covariance.csv of the run: compares errors with it")
     parser.add_argument("--nees-after", type=float, default=10.0, metavar="S",
@@ -147,14 +155,14 @@ def parse_arguments(arguments):
 def main(arguments=None):
     options = parse_arguments(arguments)
     try:
-        estimate = read_trajectory(options.estimate).shifted(options.t_offset)
+        estimate = read_estimate(options.estimate, options.t_offset)
         truth = read_trajectory(options.ground_truth)
         paired_estimate, paired_truth, result = evaluate(estimate, truth, options.align,
                                                          options.max_diff, options.max_gap)
         if options.covariance:
             pair = metrics.associate(estimate, truth, options.max_diff)
             covariances = consistency.read_covariances(
-                options.covariance, pair[0].stamps - options.t_offset)  # as the run wrote them
+                options.covariance, pair[0].stamps - estimate.shift)  # as the run wrote them
             add_consistency(result, *pair, covariances, options.nees_after)
         print(format_report(result))
         if options.json:

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares the loops of a run with ground truth: how many are false, how far they are off, and how
-many of the true revisits they close. Prints what happened to the APE as well."""
+many of the true revisits they close. Prints what happened to the APE as well, with coverage and
+number of worlds."""
 
 import argparse
 import json
@@ -10,25 +11,38 @@ import sys
 
 from evaluate import evaluate
 from evaluation import loops as loop_metrics
-from evaluation.trajectory import TrajectoryError, read_trajectory
+from evaluation import metrics
+from evaluation.run_results import read_estimate
+from evaluation.trajectory import LEAST_POSES, TrajectoryError, read_trajectory
 
 FALSE_DISTANCE = 0.3  # a loop that is off by more is false [m]
 FALSE_TURN = 5.0  # [deg]
-TRAJECTORIES = {"trajectory.tum": "odometry", "trajectory_map.tum": "map, as known at each time",
-                "trajectory_final.tum": "map, as known in the end"}
+ODOMETRY, IN_MAP, FINAL = "trajectory.tum", "trajectory_map.tum", "trajectory_final.tum"
+TRAJECTORIES = {ODOMETRY: "odometry", IN_MAP: "map, as known at each time",
+                FINAL: "map, as known in the end"}
 
 
-def evaluate_loops(folder, truth_path):
-    """All figures of the results of a run in `folder`, as a dictionary."""
+def evaluate_loops(folder, truth_path, t_offset=None):
+    """All figures of the results of a run in `folder`, as a dictionary. `t_offset` [s] goes before
+    the `td` of the run."""
     truth = read_trajectory(truth_path)
-    trajectories = {name: read_trajectory(folder / name) for name in TRAJECTORIES}
-    ape = {name: _ape(trajectory, folder / name, truth, truth_path)
-           for name, trajectory in trajectories.items()}
-    odometry = trajectories["trajectory.tum"]
-    accepted = loop_metrics.read_loops(folder / "loops.csv")
+    odometry = read_estimate(folder / ODOMETRY, t_offset)
+    trajectories = {ODOMETRY: odometry,
+                    # Empty where the place in the map is never found.
+                    IN_MAP: read_estimate(folder / IN_MAP, t_offset, least=0),
+                    FINAL: read_estimate(folder / FINAL, t_offset)}
+    figures = {name: _figures(trajectory, folder / name, truth, truth_path)
+               for name, trajectory in trajectories.items()}
+    accepted = loop_metrics.read_loops(folder / "loops.csv").shifted(odometry.shift)
+    return {"t_offset_s": odometry.shift, **_loop_figures(accepted, odometry, truth),
+            **{key: {name: of_one[key] for name, of_one in figures.items()}
+               for key in ("poses", "ape_m", "coverage", "worlds")}}
+
+
+def _loop_figures(accepted, odometry, truth):
     # Where the poses of an earlier recording's map are in this one's world is not known.
     own = accepted.between(odometry.stamps)
-    loops = own.between(truth.stamps, loop_metrics.TRUE_POSE_WITHIN)
+    loops = own.with_truth(truth)
     distances, turns = loop_metrics.loop_errors(loops, odometry, truth)
     flown = (truth.stamps >= odometry.stamps[0]) & (truth.stamps <= odometry.stamps[-1])
     revisited, returned = loop_metrics.revisits(truth.select(flown))
@@ -43,13 +57,17 @@ def evaluate_loops(folder, truth_path):
         "closed_share": loop_metrics.closed_share(own, revisited),
         "returned_s": int(returned.sum()) * loop_metrics.SAMPLING,
         "closed_share_of_returns": loop_metrics.closed_share(own, revisited[returned]),
-        "ape_m": ape,
     }
 
 
-def _ape(trajectory, path, truth, truth_path):
+def _figures(trajectory, path, truth, truth_path):
+    """Poses, APE [m] or None with too few poses for one, coverage and worlds."""
+    figures = {"poses": len(trajectory), "ape_m": None, "worlds": trajectory.worlds,
+               "coverage": metrics.coverage(trajectory, truth)}
+    if len(trajectory) < LEAST_POSES:
+        return figures
     try:
-        return evaluate(trajectory, truth)[2]["ape_m"]["rmse"]
+        return {**figures, "ape_m": evaluate(trajectory, truth)[2]["ape_m"]["rmse"]}
     except TrajectoryError as error:
         raise TrajectoryError(f"{path} against {truth_path}: {error}") from None
 
@@ -75,10 +93,23 @@ def format_report(result):
     if result["loops_without_truth"]:
         lines.insert(1, f"left out: {result['loops_without_truth']} where the ground truth has a"
                         " gap")
-    odometry = result["ape_m"]["trajectory.tum"]
-    lines += [f"APE {1000 * ape:7.1f} mm  {ape / odometry:4.2f}  {TRAJECTORIES[name]}"
-              for name, ape in result["ape_m"].items()]
+    if result["t_offset_s"]:
+        lines.append(f"stamps of the run shifted by {1000 * result['t_offset_s']:+.2f} ms, to the"
+                     " clock of the ground truth")
+    lines += [_ape_line(result, name) for name in TRAJECTORIES]
+    if any(worlds > 1 for worlds in result["worlds"].values()):
+        lines.append("the APE over several worlds means little, all are aligned as one")
     return "\n".join(lines)
+
+
+def _ape_line(result, name):
+    ape, poses, worlds = (result[key][name] for key in ("ape_m", "poses", "worlds"))
+    if ape is None:
+        few = f"{poses} poses in the map, too few for an APE" if poses else "no pose in the map"
+        return f"{TRAJECTORIES[name]}: {few}"
+    return (f"APE {1000 * ape:7.1f} mm  {ape / result['ape_m'][ODOMETRY]:4.2f}  coverage"
+            f" {100 * result['coverage'][name]:5.1f} %  {worlds} world{'s' * (worlds > 1)}"
+            f"  {TRAJECTORIES[name]}")
 
 
 def main(arguments=None):
@@ -87,9 +118,12 @@ def main(arguments=None):
                         help="folder that run_offline wrote with loop_closure: 1")
     parser.add_argument("ground_truth", help="TUM file or EuRoC csv (.../data.csv)")
     parser.add_argument("--json", metavar="FILE", help="write all figures there")
+    parser.add_argument("--t-offset", type=float, metavar="S",
+                        help="added to the stamps of the run [s] (default: td_s in its"
+                        " summary.json)")
     options = parser.parse_args(arguments)
     try:
-        result = evaluate_loops(options.results, options.ground_truth)
+        result = evaluate_loops(options.results, options.ground_truth, options.t_offset)
         print(format_report(result))
         if options.json:
             pathlib.Path(options.json).write_text(json.dumps(result, indent=2), encoding="utf-8")

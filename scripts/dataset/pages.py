@@ -44,11 +44,11 @@ def _write_run_page(output, result, evaluator):
         return None
     script = html.linked_plotly(os.path.relpath(os.path.join(output, LIBRARY), folder))
     path = os.path.join(folder, "run.html")
-    truth = None
+    truth, reason = None, result.not_compared if result.run.sequence.truth else ""
     if result.evaluation is not None:
         truth = evaluator.truth(result.run, result.summary, run.trajectory)
     with open(path, "w", encoding="utf-8") as file:
-        file.write(run_page(run, truth, script))
+        file.write(run_page(run, truth, script, reason))
     return os.path.relpath(path, output)
 
 

@@ -88,6 +88,10 @@ def _ape_notes(results):
     if len(results.starts) > 1:
         note += (" Figures are mean ± standard deviation [minimum, maximum] over those of"
                  f" {len(results.starts)} starts that have them.")
+    shifts = [abs(r.evaluation.get("t_offset_s", 0.0)) for r in results.all() if r.evaluation]
+    if any(shifts):
+        note += (" Stamps are shifted by the `td` that each run ended with, by up to"
+                 f" {1000 * max(shifts):.2f} ms.")
     if max(r.run.repetition for r in results.all()) > 1:
         note += (" Repetitions count with their median, and in brackets with their minimum and"
                  " maximum.")

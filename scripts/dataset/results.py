@@ -9,6 +9,7 @@ from typing import Callable, Optional
 
 from evaluate import evaluate
 from evaluation.csv_columns import read_columns
+from evaluation.run_results import check_whole, read_estimate
 from evaluation.trajectory import TrajectoryError, read_trajectory
 
 from .run import Run
@@ -213,11 +214,14 @@ class Evaluator:
 
     def compare(self, run, summary):
         """As evaluate(): the paired trajectories and their figures. Raises TrajectoryError."""
-        estimate = read_trajectory(os.path.join(run.folder, "trajectory.tum"))
+        path = os.path.join(run.folder, "trajectory.tum")
+        check_whole(path)  # else the first pose is not the one that init_time_s leads to
+        estimate = read_estimate(path)
         return evaluate(estimate, self.truth(run, summary, estimate))
 
     def truth(self, run, summary, estimate):
-        """The ground truth of the part that was run, or None. Raises TrajectoryError."""
+        """The ground truth of the part that was run, or None. `estimate`: all of its poses, on the
+        clock of the IMU. Raises TrajectoryError."""
         truth = self._truths.get(run.sequence.name)
         if truth is None or (not run.start and self._duration == float("inf")):
             return truth

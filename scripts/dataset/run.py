@@ -170,8 +170,8 @@ def _stop(process, patience=5.0):
 
 def _content(sequence):
     """What distinguishes a recording from one of the same name, without reading all of it."""
-    status = os.stat(sequence.content_file)
-    return {"bytes": status.st_size, "modified_ns": status.st_mtime_ns}
+    statuses = [os.stat(path) for path in sequence.content_files]
+    return [{"bytes": s.st_size, "modified_ns": s.st_mtime_ns} for s in statuses]
 
 
 def _sha256(path):

@@ -10,6 +10,7 @@ from .errors import DatasetError
 
 ASL_TRUTH = os.path.join("mav0", "state_groundtruth_estimate0", "data.csv")
 ASL_IMAGES = os.path.join("mav0", "cam0", "data.csv")
+ASL_IMU = os.path.join("mav0", "imu0", "data.csv")
 
 
 @dataclass(frozen=True)
@@ -25,9 +26,12 @@ class Sequence:
         return self.path.endswith(".bag")
 
     @property
-    def content_file(self):
-        """The file that shows whether the recording is still the same one."""
-        return self.path if self.is_bag else os.path.join(self.path, ASL_IMAGES)
+    def content_files(self):
+        """The files that show whether the recording is still the same one."""
+        if self.is_bag:
+            return [self.path]
+        images, imu = (os.path.join(self.path, name) for name in (ASL_IMAGES, ASL_IMU))
+        return [images, imu] if os.path.isfile(imu) else [images]  # run_offline says what it lacks
 
 
 def find_sequences(places):

@@ -2,7 +2,7 @@
 """The loops that a run closed, by its loops.csv, against ground truth."""
 
 import csv
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,7 +15,7 @@ REVISIT_ANGLE = np.radians(30)  # [rad]
 REVISIT_PAUSE = 15.0  # [s]
 SAMPLING = 0.25  # of time, where revisits are looked for [s]
 CLOSED_WITHIN = 1.0  # of a revisit, before or after it [s]
-TRUE_POSE_WITHIN = 0.1  # of a pose, so that its true place is known [s]
+LONGEST_TRUTH_GAP = 0.2  # between true poses, so that the places between them are known [s]
 
 
 @dataclass
@@ -31,9 +31,18 @@ class Loops:
     def __len__(self):
         return len(self.later)
 
-    def between(self, stamps, within=SAME_STAMP):
-        """Those whose both ends have one of `stamps`, or are `within` of one [s]."""
-        kept = are_among(self.earlier, stamps, within) & are_among(self.later, stamps, within)
+    def between(self, stamps):
+        """Those whose both ends have one of `stamps`."""
+        return self._select(are_among(self.earlier, stamps) & are_among(self.later, stamps))
+
+    def with_truth(self, truth):
+        """Those whose both ends have a true place."""
+        return self._select(_is_known(self.earlier, truth) & _is_known(self.later, truth))
+
+    def shifted(self, seconds):
+        return replace(self, earlier=self.earlier + seconds, later=self.later + seconds)
+
+    def _select(self, kept):
         return Loops(self.earlier[kept], self.later[kept], self.positions[kept], self.yaws[kept])
 
 
@@ -70,9 +79,17 @@ def loop_errors(loops, odometry, truth):
 
 def _true_places(stamps, odometry, truth):
     """True positions, and how far the odometry's world is turned against the true one [rad]."""
-    true = truth.select(nearest_indices(truth.stamps, stamps))
+    true = truth.at(stamps)
     estimated = odometry.select(nearest_indices(odometry.stamps, stamps))
     return true.positions, signed_yaw_errors(estimated, true)
+
+
+def _is_known(stamps, truth):
+    """Whether each stamp is that of a true pose, or in a short gap between two."""
+    before, after = truth.neighbours(stamps)
+    inside = (truth.stamps[before] <= stamps) & (stamps <= truth.stamps[after])
+    is_short = truth.stamps[after] - truth.stamps[before] <= LONGEST_TRUTH_GAP + SAME_STAMP
+    return (inside & is_short) | are_among(stamps, truth.stamps)
 
 
 def revisits(truth):

@@ -6,10 +6,12 @@ import numpy as np
 from .trajectory import TrajectoryError
 
 ALIGNMENTS = ("se3", "yaw", "none")
+MAX_DIFFERENCE = 0.01  # between the stamps of paired poses [s]
+MAX_GAP = 0.5  # between poses, so that the time between them counts as covered [s]
 SAME_STAMP = 1e-4  # two files write one stamp that differently, at most [s]
 
 
-def associate(estimate, truth, max_difference):
+def associate(estimate, truth, max_difference=MAX_DIFFERENCE):
     """Pairs of poses with the nearest stamps, as evo does: each pose of the shorter trajectory
     takes the nearest one of the longer, if that is at most `max_difference` [s] away.
 
@@ -164,7 +166,7 @@ def _relative_motion(trajectory, first, second):
     return to_first @ trajectory.rotations[second], np.einsum("nij,nj->ni", to_first, step)
 
 
-def coverage(estimate, truth, max_gap):
+def coverage(estimate, truth, max_gap=MAX_GAP):
     """Share of the ground truth's time span with a pose; longer gaps than `max_gap` [s] count as
     without."""
     begin = np.clip(estimate.stamps[:-1], truth.stamps[0], truth.stamps[-1])

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+LEAST_POSES = 3  # that an alignment needs
 RESTART = "# the world frame starts anew"  # the comment of run_offline and the nodes
 
 
@@ -21,6 +22,7 @@ class Trajectory:
     positions: np.ndarray  # (n, 3) [m]
     rotations: np.ndarray  # (n, 3, 3) body to world
     worlds: int = 1
+    shift: float = 0.0  # what was added to the stamps of the file [s]
 
     def __len__(self):
         return len(self.stamps)
@@ -44,7 +46,23 @@ class Trajectory:
                        rotations=self.rotations[indices])
 
     def shifted(self, seconds):
-        return replace(self, stamps=self.stamps + seconds)
+        return replace(self, stamps=self.stamps + seconds, shift=self.shift + seconds)
+
+    def neighbours(self, stamps):
+        """Indices of the poses before and after each stamp; the outer ones beyond both ends."""
+        after = np.clip(np.searchsorted(self.stamps, stamps), 1, len(self) - 1)
+        return after - 1, after
+
+    def at(self, stamps):
+        """The poses at other stamps, on the straight way and the shortest turn between those before
+        and after; at the ends, the outer ones."""
+        before, after = self.neighbours(stamps)
+        gaps = self.stamps[after] - self.stamps[before]
+        share = np.clip((stamps - self.stamps[before]) / gaps, 0, 1)[:, None]
+        positions = (1 - share) * self.positions[before] + share * self.positions[after]
+        quaternions = _slerp(_quaternions(self.rotations[before]),
+                             _quaternions(self.rotations[after]), share)
+        return replace(self, stamps=stamps, positions=positions, rotations=_rotations(quaternions))
 
     def transformed(self, rotation, translation):
         """The same motion seen from another world frame: p' = rotation * p + translation."""
@@ -52,8 +70,9 @@ class Trajectory:
                        rotations=rotation @ self.rotations)
 
 
-def read_trajectory(path):
-    """Reads `stamp[s] x y z qx qy qz qw` (TUM) or `stamp[ns],x,y,z,qw,qx,qy,qz,...` (EuRoC csv)."""
+def read_trajectory(path, least=LEAST_POSES):
+    """Reads `stamp[s] x y z qx qy qz qw` (TUM) or `stamp[ns],x,y,z,qw,qx,qy,qz,...` (EuRoC csv);
+    TrajectoryError with fewer than `least` poses."""
     if not os.path.isfile(path):
         raise TrajectoryError(f"{path}: no such file")
     rows, worlds, begins = [], 0, True
@@ -63,9 +82,9 @@ def read_trajectory(path):
             if line.strip() and not line.lstrip().startswith("#"):
                 rows.append(_parse_row(line, f"{path}:{number}", rows[-1][0] if rows else None))
                 worlds, begins = worlds + begins, False
-    if len(rows) < 3:
-        raise TrajectoryError(f"{path}: {len(rows)} poses, at least 3 are needed")
-    table = np.array(rows)
+    if len(rows) < least:
+        raise TrajectoryError(f"{path}: {len(rows)} poses, at least {least} are needed")
+    table = np.array(rows).reshape(-1, 8)
     return Trajectory(table[:, 0], table[:, 1:4], _rotations(table[:, 4:8]), worlds)
 
 
@@ -124,3 +143,13 @@ def _quaternions(rotations):
     matrices[:, 3, 3] = trace
     quaternions = np.linalg.eigh(matrices)[1][:, :, -1]
     return quaternions * np.where(quaternions[:, 3:] < 0, -1.0, 1.0)
+
+
+def _slerp(first, second, share):
+    """Quaternions (n, 4), of any length, at these shares (n, 1) of the turn between unit ones."""
+    second = second * np.where(np.sum(first * second, axis=1, keepdims=True) < 0, -1.0, 1.0)
+    angles = 2 * np.arctan2(np.linalg.norm(second - first, axis=1, keepdims=True),
+                            np.linalg.norm(second + first, axis=1, keepdims=True))
+    # sinc(x / pi) = sin(x) / x: the common divisor sin(angle), zero without a turn, is left out.
+    return ((1 - share) * np.sinc((1 - share) * angles / np.pi) * first
+            + share * np.sinc(share * angles / np.pi) * second)

@@ -12,8 +12,10 @@ import numpy as np
 
 from evaluation.csv_columns import read_columns
 from evaluation.loops import Loops, read_loops
-from evaluation.trajectory import Trajectory, TrajectoryError, read_trajectory
+from evaluation.run_results import read_estimate
+from evaluation.trajectory import Trajectory, TrajectoryError
 
+TRAJECTORY = "trajectory.tum"
 # Of the edges in lines.ply, by their colour there.
 LINE_COLOURS = {(220, 40, 40): "along x", (40, 160, 40): "along y", (50, 90, 230): "along z"}
 FREE = "free"
@@ -26,7 +28,7 @@ class RunFolder:
 
     path: str
     summary: dict
-    trajectory: Trajectory
+    trajectory: Trajectory  # on the clock of the IMU, as the loops
     frames: Dict[str, np.ndarray]  # the columns of timing.csv
     points: np.ndarray  # (n, 3)
     lines: Dict[str, np.ndarray]  # (n, 2, 3) ends, by Manhattan axis
@@ -44,13 +46,14 @@ class RunFolder:
             frames = read_columns(os.path.join(path, "timing.csv"))
         except (OSError, TypeError, ValueError) as error:
             raise TrajectoryError(f"{path}: not the folder of a finished run ({error})") from None
-        trajectory = read_trajectory(os.path.join(path, "trajectory.tum"))
-        accepted = _read_loops(os.path.join(path, "loops.csv"))
+        trajectory = read_estimate(os.path.join(path, TRAJECTORY))
+        first_image = trajectory.stamps[0] - trajectory.shift
+        accepted = _read_loops(os.path.join(path, "loops.csv")).shifted(trajectory.shift)
         loops = accepted.between(trajectory.stamps)
         return cls(path, summary, trajectory, frames,
                    _read_ply(os.path.join(path, "map.ply"))[0],
                    _by_axis(*_read_ply(os.path.join(path, "lines.ply"))[1:]),
-                   loops, len(accepted) - len(loops), _find_images(path, trajectory.stamps[0]))
+                   loops, len(accepted) - len(loops), _find_images(path, first_image))
 
 
 def _read_ply(path):

@@ -8,12 +8,13 @@ import numpy as np
 
 from evaluate import evaluate, format_report
 from evaluation.metrics import alignment, associate, nearest_indices
+from evaluation.run_results import check_whole
 from evaluation.trajectory import TrajectoryError
 from show_result import rows
 
 from . import html, run_figures
+from .run_folder import TRAJECTORY
 
-MAX_TIME_DIFFERENCE = 0.01  # of paired poses [s]
 MIME_TYPES = {".jpg": "image/jpeg", ".png": "image/png"}
 
 SLIDER = """<input type='range' id='slider' min='0' max='%(last)d' value='0'>
@@ -29,10 +30,11 @@ show(0);
 </script>"""
 
 
-def run_page(run, truth, script):
+def run_page(run, truth, script, reason=""):
     """The text of the page. run: a RunFolder; truth: a Trajectory or None; script: see html.page().
-    Where the two cannot be compared, the page says why and goes without the truth."""
-    pair, figures, note = _compare(run, truth)
+    Where the two cannot be compared, the page says why and goes without the truth; `reason`: why
+    there is None although there is ground truth."""
+    pair, figures, note = _compare(run, truth, reason)
     table = html.table([[html.text(cell) for cell in row] for row in rows(run.summary, figures)])
     left_out = run.loops_left_out and f"Loops to a map of earlier, left out: {run.loops_left_out}"
     scene = html.figure("scene", _scene(run, truth, pair), 650)
@@ -54,22 +56,27 @@ def _paragraph(note):
     return f"<p>{html.text(note)}</p>" if note else ""
 
 
-def _compare(run, truth):
+def _compare(run, truth, reason):
     """The aligned estimate and the truth at its poses, their figures, and why there are none."""
     if truth is None:
-        return None, None, "No ground truth."
+        return None, None, _not_compared(reason) if reason else "No ground truth."
     try:
-        *pair, figures = evaluate(run.trajectory, truth, max_diff=MAX_TIME_DIFFERENCE)
+        check_whole(os.path.join(run.path, TRAJECTORY))
+        *pair, figures = evaluate(run.trajectory, truth)
         return pair, figures, ""
     except TrajectoryError as error:
-        return None, None, f"Not compared with the ground truth: {error}"
+        return None, None, _not_compared(error)
+
+
+def _not_compared(reason):
+    return f"Not compared with the ground truth: {reason}"
 
 
 def _scene(run, truth, pair):
     """Everything in the world of the truth, where there is one to compare with."""
     rotation, translation = np.eye(3), np.zeros(3)
     if pair:
-        partners = associate(run.trajectory, truth, MAX_TIME_DIFFERENCE)
+        partners = associate(run.trajectory, truth)
         rotation, translation = alignment(*partners, "se3")
     estimate = run.trajectory.transformed(rotation, translation)
     trajectories = {"estimate": estimate.positions}

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from evaluation import metrics
-from evaluation.trajectory import RESTART, Trajectory, TrajectoryError, read_trajectory
-
-MAX_DIFFERENCE = 0.01  # between paired stamps [s]
+from evaluation.run_results import read_estimate
+from evaluation.trajectory import RESTART, Trajectory, TrajectoryError
 
 
 @dataclass
@@ -21,7 +20,7 @@ class Damage:
 
 def read_worlds(path):
     """The trajectories between restarts, and the stamp of the last pose before each of these."""
-    poses = read_trajectory(path)
+    poses = read_estimate(path)
     starts, row = [0], 0
     with open(path, encoding="utf-8") as file:
         for line in file:
@@ -36,19 +35,19 @@ def read_worlds(path):
 
 
 def assess(path, truth, fault_at):
-    """`fault_at` [s] on the clock of the stamps. TrajectoryError where nothing can be compared."""
+    """`fault_at` [s] on the clock of the IMU. TrajectoryError where nothing can be compared."""
     worlds, restarts = read_worlds(path)
-    poses = read_trajectory(path)
+    poses = read_estimate(path)
     squares = np.concatenate([_squared_errors(world, truth) for world in worlds])
     if not len(squares):
         raise TrajectoryError(f"{path}: no world frame is long enough")
     return Damage(float(np.sqrt(squares.mean())), _jump(worlds, truth, fault_at),
-                  [stamp - fault_at for stamp in restarts], metrics.coverage(poses, truth, 0.5))
+                  [stamp - fault_at for stamp in restarts], metrics.coverage(poses, truth))
 
 
 def _squared_errors(world, truth):
     try:
-        estimate, true = metrics.associate(world, truth, MAX_DIFFERENCE)
+        estimate, true = metrics.associate(world, truth)
         rotation, translation = metrics.alignment(estimate, true, "se3")
     except TrajectoryError:
         return np.zeros(0)
@@ -63,7 +62,7 @@ def _jump(worlds, truth, fault_at):
 
 
 def _error_after(world: Trajectory, truth, fault_at):
-    estimate, true = metrics.associate(world, truth, MAX_DIFFERENCE)
+    estimate, true = metrics.associate(world, truth)
     before = estimate.stamps <= fault_at
     if before.sum() < 3:
         return 0.0

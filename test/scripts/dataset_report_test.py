@@ -183,6 +183,14 @@ class Report(unittest.TestCase):
         self.assertEqual(row(text, "**mean**"), ["**mean**", "0.2000", "0.1000"])
         self.assertEqual(row(text, "against points")[2], "-50 %")
 
+    def test_shifts_of_stamps_are_told(self):
+        shifted = result("hall", "points", 0.1)
+        self.assertNotIn("shifted", markdown_report(Results([shifted]), [], {}))
+        shifted.evaluation["t_offset_s"] = -0.0123
+        text = markdown_report(Results([result("hall", "lines", 0.1), shifted]), [], {})
+        self.assertIn("Stamps are shifted by the `td` that each run ended with, by up to 12.30 ms",
+                      text)
+
     def test_times_beside_other_work_are_not_passed_over(self):
         quiet, busy = result("MH_01_easy", "points", 0.1), result("MH_02_easy", "points", 0.1)
         quiet.load, quiet.cores = 1.4, 2

@@ -10,7 +10,8 @@ import unittest
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 from dataset.errors import DatasetError  # noqa: E402
 from dataset.paper import paper_sequence  # noqa: E402
-from dataset.sequences import ASL_IMAGES, ASL_TRUTH, find_sequences, select_sequences  # noqa: E402
+from dataset.sequences import (ASL_IMAGES, ASL_IMU, ASL_TRUTH, find_sequences,  # noqa: E402
+                               select_sequences)
 
 
 class SequencesTest(unittest.TestCase):
@@ -42,6 +43,13 @@ class Layouts(SequencesTest):
         self.assertEqual(found["V1_01_easy"].path, nested)
         self.assertEqual(found["V1_01_easy"].truth, os.path.join(nested, ASL_TRUTH))
         self.assertFalse(found["V1_01_easy"].is_bag)
+
+    def test_content_is_that_of_all_sensors(self):
+        self.touch("a.bag", "b/" + ASL_IMAGES, "b/" + ASL_IMU, "c/" + ASL_IMAGES)
+        files = {name: [os.path.relpath(file, self.folder) for file in s.content_files]
+                 for name, s in self.find().items()}
+        self.assertEqual(files, {"a": ["a.bag"], "b": ["b/" + ASL_IMAGES, "b/" + ASL_IMU],
+                                 "c": ["c/" + ASL_IMAGES]})
 
     def test_the_asl_folder_itself_or_its_mav0(self):
         self.touch("MH_01_easy/" + ASL_IMAGES)

@@ -15,7 +15,7 @@ SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.path.insert(0, str(SCRIPTS))
 from evaluate_loops import evaluate_loops  # noqa: E402
 from evaluation.loops import Loops, closed_share, loop_errors, revisits  # noqa: E402
-from evaluation.trajectory import Trajectory, format_tum  # noqa: E402
+from evaluation.trajectory import RESTART, Trajectory, format_tum  # noqa: E402
 
 START = 1403636580.0  # [s], as large as real stamps are
 ROUND = 20.0  # [s]
@@ -28,10 +28,10 @@ def about_z(angles):
                      np.stack([zero, zero, zero + 1], axis=-1)], axis=-2)
 
 
-def rounds(count=2):
-    """Rounds of 4 m radius, looking ahead."""
+def rounds(count=2, sway=0.0):
+    """Rounds of 4 m radius, looking ahead, at a speed that changes with `sway` [rad]."""
     t = np.arange(0.0, count * ROUND, 0.05)
-    angles = 2 * np.pi * t / ROUND
+    angles = 2 * np.pi * t / ROUND + sway * np.sin(t)
     positions = np.stack([4 * np.cos(angles), 4 * np.sin(angles), 0 * t], axis=1)
     return Trajectory(START + t, positions, about_z(angles))
 
@@ -71,6 +71,42 @@ class LoopErrors(unittest.TestCase):
         distance, turn = self.errors(self.position + [0.3, 0, 0.4], self.yaw + 2 * np.pi - 0.1)
         self.assertAlmostEqual(distance, 0.5, 6)
         self.assertAlmostEqual(turn, np.degrees(0.1), 6)
+
+
+class TruthBetweenItsPoses(unittest.TestCase):
+    def setUp(self):
+        self.truth = rounds(sway=0.5)
+        self.odometry = drifting(self.truth)
+        self.loops = Loops(np.array([START + 2.05]), np.array([START + 22.55]),
+                           *(np.array([value]) for value in true_loop(self.truth, 2.05, 22.55)))
+
+    def test_is_interpolated(self):
+        every_tenth_second = self.truth.select(slice(None, None, 2))
+        self.assertEqual(len(self.loops.with_truth(every_tenth_second)), 1)
+        distances, turns = loop_errors(self.loops, self.odometry, every_tenth_second)
+        self.assertLess(distances[0], 0.01)  # 0.042 with the nearest pose instead
+        self.assertLess(turns[0], 0.1)  # 0.6
+
+    def test_position_is_on_the_straight_way_and_rotation_on_the_shortest_turn(self):
+        poses = Trajectory(START + np.array([0.0, 1, 3]), np.array([[0.0, 0, 0], [1, 0, 0],
+                                                                    [1, 4, 0]]),
+                           about_z(np.radians([170.0, -170, -150])))
+        between = poses.at(START + np.array([-1.0, 0.25, 1, 1.5, 9]))
+        np.testing.assert_allclose(between.positions, [[0, 0, 0], [0.25, 0, 0], [1, 0, 0],
+                                                       [1, 1, 0], [1, 4, 0]], atol=1e-9)
+        np.testing.assert_allclose(between.rotations, about_z(np.radians(
+            [170.0, 175, -170, -165, -150])), atol=1e-9)
+
+    def test_long_gaps_and_what_is_beyond_the_ends_are_not_known(self):
+        stamps = self.truth.stamps - START
+        for kept, known in ((slice(None, None, 4), 1), (slice(None, None, 5), 0),
+                            (stamps > 2.01, 1), (stamps > 2.06, 0), (stamps < 22.54, 0),
+                            (np.abs(stamps - 22.55) % 1 < 0.01, 0)):
+            truth = self.truth.select(kept)
+            self.assertEqual(len(self.loops.with_truth(truth)), known)
+        # At a pose beside a gap the place is known.
+        self.assertEqual(len(self.loops.with_truth(self.truth.select(
+            (np.abs(stamps - 2.05) < 0.01) | (np.abs(stamps - 22.55) < 0.01) | (stamps > 30)))), 1)
 
 
 class Revisits(unittest.TestCase):
@@ -179,6 +215,62 @@ class Folder(unittest.TestCase):
         for words in ("no overlap in time", "trajectory.tum", "other.tum"):
             self.assertIn(words, run.stderr)
         self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+
+    def test_coverage_and_worlds_are_beside_the_ape(self):
+        self.write_loops(self.row("accepted"))
+        half = self.truth.select(self.truth.stamps >= START + ROUND)
+        self.write("trajectory_map.tum", half)
+        rows = format_tum(self.truth).splitlines(keepends=True)
+        rows.insert(100, RESTART + ": lost\n")
+        (self.folder / "trajectory_final.tum").write_text("".join(rows), encoding="utf-8")
+        run = self.run_script(self.folder, self.folder / "truth.tum")
+        for words in (r"coverage 100.0 %  1 world  odometry", r"coverage  49.9 %  1 world  map, ",
+                      r"coverage 100.0 %  2 worlds  map, as known in the end",
+                      "APE over several worlds means little"):
+            self.assertRegex(run.stdout, words)
+        self.write("trajectory_final.tum", self.truth)
+        self.assertNotIn("means little",
+                         self.run_script(self.folder, self.folder / "truth.tum").stdout)
+
+    def test_a_place_that_is_never_found(self):
+        self.write_loops(self.row("accepted"))
+        for poses, words in ((0, "time: no pose in the map"), (2, "2 poses in the map, too few")):
+            self.write("trajectory_map.tum", self.truth.select(slice(0, poses)))
+            run = self.run_script(self.folder, self.folder / "truth.tum")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn("1 loops, 0 false", run.stdout)
+            self.assertIn(words, run.stdout)
+            result = evaluate_loops(self.folder, self.folder / "truth.tum")
+            self.assertIsNone(result["ape_m"]["trajectory_map.tum"])
+            self.assertEqual(result["poses"]["trajectory_map.tum"], poses)
+            self.assertLess(result["coverage"]["trajectory_map.tum"], 0.01)
+
+    def write_run_with_time_offset(self, td):
+        """A run with images stamped `td` [s] early: by whole poses, which find a partner anyway."""
+        self.truth = rounds(sway=0.5)
+        self.write("truth.tum", self.truth)
+        self.write("trajectory.tum", drifting(self.truth).shifted(-td))
+        for name in ("trajectory_map.tum", "trajectory_final.tum"):
+            self.write(name, self.truth.shifted(-td))
+        later, earlier, *rest = self.row("accepted")
+        self.write_loops((later - round(td * 1e9), earlier - round(td * 1e9), *rest))
+        (self.folder / "summary.json").write_text(
+            json.dumps({"calibration": {"td_s": td}}), encoding="utf-8")
+
+    def test_time_offset_of_the_run(self):
+        self.write_run_with_time_offset(0.05)
+        run = self.run_script(self.folder, self.folder / "truth.tum")
+        self.assertIn("stamps of the run shifted by +50.00 ms", run.stdout)
+        result = evaluate_loops(self.folder, self.folder / "truth.tum")
+        self.assertEqual((result["loops"], result["t_offset_s"]), (1, 0.05))
+        self.assertLess(result["largest_error_m"], 1e-5)
+        self.assertLess(result["ape_m"]["trajectory_final.tum"], 1e-6)
+        run = self.run_script(self.folder, self.folder / "truth.tum", "--t-offset", "0")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn("shifted", run.stdout)
+        result = evaluate_loops(self.folder, self.folder / "truth.tum", t_offset=0.0)
+        self.assertGreater(result["largest_error_m"], 0.02)
+        self.assertGreater(result["ape_m"]["trajectory_final.tum"], 0.01)
 
     def run_script(self, *arguments):
         return subprocess.run(["/usr/bin/python3", SCRIPTS / "evaluate_loops.py", *arguments],

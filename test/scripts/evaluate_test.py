@@ -14,7 +14,7 @@ import zipfile
 import numpy as np
 
 from known_flight import SCRIPTS, START, flight, moved, rotation  # first: it names the folder
-from evaluate import error_statistics, evaluate, format_report
+from evaluate import error_statistics, evaluate, format_report, parse_arguments
 from evaluation import evo_backend, metrics
 from evaluation.trajectory import Trajectory, TrajectoryError, format_tum, read_trajectory
 
@@ -167,6 +167,11 @@ class Association(unittest.TestCase):
         estimate = truth.shifted(0.0)
         estimate.stamps[::2] += 0.02
         self.assertEqual(len(metrics.associate(estimate, truth, 0.01)[0]), len(truth) // 2)
+
+    def test_the_limit_is_the_same_for_all(self):
+        self.assertEqual(parse_arguments(["a.tum", "b.tum"]).max_diff, metrics.MAX_DIFFERENCE)
+        for function in (evaluate, metrics.associate):
+            self.assertIn(metrics.MAX_DIFFERENCE, function.__defaults__)
 
     def test_no_overlap_is_an_error(self):
         with self.assertRaisesRegex(TrajectoryError, "no overlap"):

@@ -4,7 +4,8 @@
 
 The "recording" is a text file whose words say what happens: `fly` gives results, `fail`, `crash`,
 `hang`, `hang_once` (the first run only), `lose` (ends well without results), `meet` (flies once
-another run is under way too), `stumble` (fails from STUMBLE on). The estimate is FLIGHT with
+another run is under way too), `stumble` (fails from STUMBLE on), `jump` (flies twice, the second
+time with the stamps of the first). The estimate is FLIGHT with
 offsets of alternating sign, so that the APE is known: OFFSETS, and with `drift` DRIFT more for
 every second that is skipped. Every call leaves a line in calls.txt beside the program.
 """
@@ -112,6 +113,8 @@ def main():
         time.sleep(600)
     if "meet" in words and not meet(folder):
         sys.exit("run_offline: nobody came")
+    if "jump" in words:
+        write_tum(os.path.join(options.output, "trajectory_1.tum"), *flight())
     if "lose" not in words:
         write_results(options, settings, DRIFT if "drift" in words else 0.0)
 

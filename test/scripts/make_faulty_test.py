@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """scripts/make_faulty.py: what becomes of recordings, and what does not."""
 
-import contextlib
 import importlib.util
-import io
 import os
 import shutil
 import struct
@@ -13,6 +11,8 @@ import tempfile
 import unittest
 
 import numpy as np
+
+from refusal_case import RefusalTest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 from make_faulty import main  # noqa: E402
@@ -76,7 +76,7 @@ class Faults(unittest.TestCase):
         self.assertGreater(abs(jitter).max(), 4_000_000)
 
 
-class Files(unittest.TestCase):
+class Files(RefusalTest):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -89,13 +89,6 @@ class Files(unittest.TestCase):
         os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
         with open(self.path(name), "wb") as file:
             file.write(content)
-
-    def assert_refused(self, message, *arguments):
-        errors = io.StringIO()
-        with contextlib.redirect_stderr(errors):
-            self.assertEqual(main(arguments), 1)
-        self.assertIn(message, errors.getvalue())
-        self.assertEqual(errors.getvalue().count("\n"), 1)
 
     def read(self, name):
         with open(self.path(name), "rb") as file:
@@ -150,8 +143,8 @@ class Files(unittest.TestCase):
             self.write_bag(self.path("good.bag"))
             good.append(self.path("good.bag"))
         for source in good:
-            self.assert_refused("--begin 24: the recording lasts 0.", source, self.path("bad"),
-                                "--fault", "accel_spike")
+            self.assert_refused(main, "--begin 24: the recording lasts 0.", source,
+                                self.path("bad"), "--fault", "accel_spike")
             self.assertFalse(os.path.exists(self.path("bad")), source)
             self.assertEqual(main([source, self.path("bad"), "--fault", "none"]), 0)
             (shutil.rmtree if os.path.isdir(source) else os.remove)(self.path("bad"))
@@ -161,7 +154,7 @@ class Files(unittest.TestCase):
         good = self.read("good/mav0/imu0/data.csv")
         os.symlink(self.path("good", "mav0"), self.path("link"))
         for target in ("good", "good/mav0", "link"):
-            self.assert_refused("make_faulty.py: ", self.path("good"), self.path(target),
+            self.assert_refused(main, "make_faulty.py: ", self.path("good"), self.path(target),
                                 "--fault", "gyro_spike", "--begin", "0.05")
         self.assertEqual(self.read("good/mav0/imu0/data.csv"), good)
         self.assertEqual(sorted(os.listdir(self.path("good"))), ["mav0"])
@@ -169,8 +162,8 @@ class Files(unittest.TestCase):
     def test_asl_folder_does_not_mix_with_another(self):
         self.write_asl()
         self.write("other/cam0/data/a.png", b"another picture")
-        self.assert_refused("exists already", self.path("good"), self.path("other"), "--fault",
-                            "none")
+        self.assert_refused(main, "exists already", self.path("good"), self.path("other"),
+                            "--fault", "none")
         os.makedirs(self.path("empty"))
         self.assertEqual(main([self.path("good"), self.path("empty"), "--fault", "none"]), 0)
         self.assertEqual(self.read("empty/cam0/data/a.png"), b"picture")
@@ -178,7 +171,7 @@ class Files(unittest.TestCase):
     def test_asl_folder_without_a_row(self):
         self.write_asl()
         self.write("good/mav0/imu0/data.csv", b"#timestamp [ns],w,w,w,a,a,a\n")
-        self.assert_refused(self.path("good"), self.path("good"), self.path("bad"), "--fault",
+        self.assert_refused(main, self.path("good"), self.path("good"), self.path("bad"), "--fault",
                             "none")
         self.assertFalse(os.path.exists(self.path("bad")))
 
@@ -257,7 +250,7 @@ class Files(unittest.TestCase):
         arguments = (self.path("cut.feat"), self.path("x"), "--fault", "none")
         for damaged in (*(content[:size] for size in range(len(content))), content + b"\x07"):
             self.write("cut.feat", damaged)
-            self.assert_refused(self.path("cut.feat"), *arguments)
+            self.assert_refused(main, self.path("cut.feat"), *arguments)
             self.assertFalse(os.path.exists(self.path("x")))
         self.write("cut.feat", content)
         self.assertEqual(main(arguments), 0)

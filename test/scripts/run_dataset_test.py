@@ -111,6 +111,19 @@ class Results(DatasetTest):
         self.assertIn("no overlap in time", self.rows()[0]["status"])
         self.assertIn("no overlap in time", self.report())
 
+    def test_the_last_part_of_a_run_is_not_compared(self):
+        self.add("hall", "fly jump")
+        self.call("--variants", "improved", "--starts", "0", "5")
+        for row in self.rows():
+            self.assertIn("jumped back, poses of before are in trajectory_1.tum", row["status"])
+            self.assertEqual((row["ape_m"], row["coverage_percent"], row["init_time_s"]),
+                             ("", "", "1"))
+        self.assertIn("trajectory_1.tum", self.report())
+        if importlib.util.find_spec("plotly"):
+            page = os.path.join(self.output, "runs", "hall", "improved", "1", "run.html")
+            with open(page, encoding="utf-8") as file:
+                self.assertTrue("Not compared with the ground truth: stamps of" in file.read())
+
 
 class Failures(DatasetTest):
     def test_are_shown_with_their_reason_and_tried_again(self):
@@ -176,6 +189,16 @@ class Resuming(DatasetTest):
         with open(self.program, "a", encoding="utf-8") as file:
             file.write("# another version\n")
         self.assert_repeated("--duration", "10")
+
+    def test_imu_data_of_an_asl_folder_count(self):
+        for sensor, words in (("cam0", "fly"), ("imu0", "0,0,0,0,0,0,9.81")):
+            os.makedirs(self.path("bags", "hall", "mav0", sensor))
+            self.write(os.path.join("bags", "hall", "mav0", sensor, "data.csv"), words)
+        self.assert_repeated()
+        self.call("--no-plots", "--variants", "improved")
+        self.assertEqual(len(self.calls()), 1)
+        self.write(os.path.join("bags", "hall", "mav0", "imu0", "data.csv"), "0,0,0,0,0,0,9.8")
+        self.assert_repeated()
 
     def test_incomplete_results_are_repeated(self):
         self.add("hall")

@@ -56,12 +56,15 @@ end_header
 """
 
 
-def make_run(folder):
-    """A run of FLIGHT without errors, in a world that is turned by 90 degrees and moved."""
+def make_run(folder, td=0.0):
+    """A run of FLIGHT without errors, in a world that is turned by 90 degrees and moved, whose
+    images are stamped `td` early [s]."""
     stamps, positions = flight()
+    stamps = stamps - td
     turned = np.stack([-positions[:, 1], positions[:, 0], positions[:, 2]], axis=1) + [7, 8, 9]
     write_tum(os.path.join(folder, "trajectory.tum"), stamps, turned)
-    texts = {"summary.json": json.dumps({"input": "gone.bag", "poses": len(stamps), "images": 410}),
+    texts = {"summary.json": json.dumps({"input": "gone.bag", "poses": len(stamps), "images": 410,
+                                         "calibration": {"td_s": td}}),
              "map.ply": POINTS + "".join(f"{7 + x} {8 + y} 9.5\n" for x in np.linspace(-2, 2, 20)
                                          for y in np.linspace(-3, 3, 20)),
              "lines.ply": LINES,
@@ -210,7 +213,20 @@ class Page(ShowRun):
         self.assertEqual(own.count("data:image/jpeg;base64,"), 2)
 
     def test_map_is_in_the_world_of_the_truth(self):
-        _, text = self.write_page("--groundtruth", self.truth())
+        text = self.write_page("--groundtruth", self.truth())[1]
+        self.assert_map_is_in_the_world_of_the_truth(text)
+        self.assertFalse("shifted by" in text)
+
+    def test_map_of_a_camera_with_a_time_offset(self):
+        shutil.rmtree(self.run_folder)
+        os.mkdir(self.run_folder)
+        make_run(self.run_folder, td=0.03)
+        text = self.write_page("--groundtruth", self.truth())[1]
+        self.assert_map_is_in_the_world_of_the_truth(text)
+        self.assertTrue("stamps of the estimate shifted by +30.00 ms" in text)
+        self.assertTrue("+2.00 s from the first pose" in text)
+
+    def assert_map_is_in_the_world_of_the_truth(self, text):
         start = text.index("Plotly.newPlot('scene', ") + len("Plotly.newPlot('scene', ")
         traces = {trace["name"]: trace
                   for trace in json.JSONDecoder().raw_decode(text, start)[0]}
@@ -236,6 +252,12 @@ class Page(ShowRun):
         stamps, positions = flight()
         write_tum(path, stamps + 1000, positions)
         self.assertTrue("no overlap in time" in self.write_page("--groundtruth", path)[1])
+
+    def test_a_part_of_a_run(self):
+        self.write(os.path.join(self.run_folder, "trajectory_1.tum"), "")
+        text = self.write_page("--groundtruth", self.truth())[1]
+        self.assertTrue("Not compared with the ground truth: stamps of the recording jumped back,"
+                        " poses of before are in trajectory_1.tum" in text)
 
     def test_text_cannot_end_a_script(self):
         self.assertNotIn("</script>", as_json("</script>"))

@@ -11,11 +11,13 @@ import sys
 import unittest
 from unittest import mock
 
+from refusal_case import RefusalTest
+
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 
 
 @unittest.skipUnless(importlib.util.find_spec("rospy"), "needs ROS")
-class Soak(unittest.TestCase):
+class Soak(RefusalTest):
     def series(self, what, values):
         from soak import Series
         series = Series()
@@ -44,20 +46,14 @@ class Soak(unittest.TestCase):
         self.assertGreaterEqual(values["threads"], 1)
         self.assertIsNone(usage(2 ** 30))
 
-    def assert_refused(self, message, *arguments):
-        from soak import main
-        errors = io.StringIO()
-        with contextlib.redirect_stderr(errors):
-            self.assertEqual(main(arguments), 1)
-        self.assertIn(message, errors.getvalue())
-        self.assertEqual(errors.getvalue().count("\n"), 1)
-
     def test_a_bag_that_is_not_there(self):
-        self.assert_refused("no such file", "/nowhere.bag", "--config", "/nowhere.yaml")
+        from soak import main
+        self.assert_refused(main, "no such file", "/nowhere.bag", "--config", "/nowhere.yaml")
 
     def test_roslaunch_that_is_not_there(self):
+        from soak import main
         with mock.patch.dict(os.environ, PATH=""):
-            self.assert_refused("roslaunch", __file__, "--config", __file__)
+            self.assert_refused(main, "roslaunch", __file__, "--config", __file__)
 
     def watch(self, values, player_ended=False):
         """With this process in the place of the estimator, which states the values once."""

@@ -11,7 +11,7 @@ namespace plm_vins {
 
 // First in, first out between threads, never more than `capacity` items: a full queue makes the
 // producer wait, so that nothing is lost and memory stays bounded. A producer that must not wait
-// pushes over the oldest.
+// pushes over the oldest, or quietly, and a full queue refuses the item.
 template <typename T>
 class BoundedQueue {
  public:
@@ -19,17 +19,19 @@ class BoundedQueue {
 
   // Waits while the queue is full. False, and the item is gone, once the queue is closed.
   bool Push(T item) {
-    if (!PushQuietly(std::move(item))) return false;
-    Wake();
-    return true;
-  }
-
-  // The same, but the item wakes no consumer (unless the queue is full): Wake() or the next Push()
-  // does.
-  bool PushQuietly(T item) {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return closed_ || items_.size() < capacity_; });
     if (closed_) return false;
+    items_.push_back(std::move(item));
+    changed_.notify_all();
+    return true;
+  }
+
+  // Never waits, and wakes no consumer unless it fills the queue: Wake() or the next Push() does.
+  // False, and the item is gone, where the queue is full or closed.
+  bool PushQuietly(T item) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (closed_ || items_.size() == capacity_) return false;
     items_.push_back(std::move(item));
     if (items_.size() == capacity_) changed_.notify_all();
     return true;

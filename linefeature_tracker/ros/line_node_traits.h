@@ -2,6 +2,7 @@
 #pragma once
 
 #include <plm_vins/LineFeatureTrackerConfig.h>
+#include <ros/console.h>
 
 #include <cstdint>
 
@@ -9,6 +10,13 @@
 #include "linefeature_tracker/line_tracking_stage.h"
 
 namespace plm_vins {
+
+// Whether there is anything to do for the line tracker. Says so where there is not.
+inline bool WantsLines(const Config& config) {
+  if (config.use_lines) return true;
+  ROS_INFO("not needed: use_lines is 0 in %s", config.file.c_str());
+  return false;
+}
 
 // What is particular to the line tracker under ROS, as TrackerNode describes it.
 struct LineNodeTraits {

@@ -19,6 +19,8 @@
 namespace plm_vins {
 namespace {
 
+constexpr double kSilence = 1.0;  // [s] of wall time: then the states have ceased
+
 BodyOdometry ToBodyOdometry(const nav_msgs::Odometry& message) {
   const auto& twist = message.twist.twist;
   BodyOdometry odometry;
@@ -49,11 +51,12 @@ class MavrosRelayNode {
   MavrosRelayNode();
 
  private:
-  void AddImage(const nav_msgs::Odometry& odometry);
+  void AddImage(const nav_msgs::Odometry&) { gate_.AddImage(); }
   void AddState(const nav_msgs::Odometry& odometry);
   // The base in the body frame; none as long as tf does not know it.
   std::optional<Rigid3d> LocateBase(const std::string& body_frame);
-  void ReportChange();
+  void ReportStop(const char* why);
+  void ReportGoingOn();
   RelayGate::Options ReadOptions() const;
 
   ros::NodeHandle node_;
@@ -63,13 +66,16 @@ class MavrosRelayNode {
   const std::string base_frame_ =
       FindParameter<std::string>(private_node_, "base_frame").value_or("base_link");
   RelayGate gate_{ReadOptions()};
-  bool was_interrupted_ = true;
+  bool is_relayed_ = false;                          // as was reported last
+  int64_t reported_resets_ = 0;                      // the same
+  ros::WallTime last_state_ = ros::WallTime::now();  // of which the stamp counts
   std::optional<Rigid3d> T_body_base_;
   std::optional<RobotBase> base_;  // where that is not given
   ros::Publisher publisher_ = node_.advertise<nav_msgs::Odometry>("mavros/odometry/out", 10);
   ros::Publisher counter_ = private_node_.advertise<std_msgs::UInt8>("reset_counter", 1, true);
   ros::Subscriber images_;
   ros::Subscriber states_;
+  ros::WallTimer silence_timer_;
 };
 
 MavrosRelayNode::MavrosRelayNode() {
@@ -81,6 +87,11 @@ MavrosRelayNode::MavrosRelayNode() {
       node_.subscribe("vins_estimator/odometry", 100, &MavrosRelayNode::AddImage, this, no_delay);
   states_ = node_.subscribe("vins_estimator/imu_propagate", 100, &MavrosRelayNode::AddState, this,
                             no_delay);
+  silence_timer_ =
+      node_.createWallTimer(ros::WallDuration(0.5 * kSilence), [this](const ros::WallTimerEvent&) {
+        const double silence = (ros::WallTime::now() - last_state_).toSec();
+        if (silence > kSilence) ReportStop("no usable states come");
+      });
 }
 
 RelayGate::Options MavrosRelayNode::ReadOptions() const {
@@ -94,16 +105,17 @@ RelayGate::Options MavrosRelayNode::ReadOptions() const {
   return options;
 }
 
-void MavrosRelayNode::AddImage(const nav_msgs::Odometry& odometry) {
-  gate_.AddImage(ToNanoseconds(odometry.header.stamp));
-}
-
 void MavrosRelayNode::AddState(const nav_msgs::Odometry& odometry) {
   const BodyOdometry body = ToBodyOdometry(odometry);
   const auto T_body_base = LocateBase(odometry.child_frame_id);
-  const bool passes =
-      T_body_base && body.IsUsable() && gate_.Pass(ToNanoseconds(odometry.header.stamp));
-  ReportChange();
+  if (!T_body_base || !body.IsUsable()) return;
+  last_state_ = ros::WallTime::now();
+  const bool passes = gate_.Pass(ToNanoseconds(odometry.header.stamp));
+  if (gate_.is_interrupted()) {
+    ReportStop("there was a gap, or images no longer support it");
+  } else {
+    ReportGoingOn();
+  }
   if (!passes) return;
   nav_msgs::Odometry message = ToMessage(MoveTo(*T_body_base, body));
   message.header.stamp = odometry.header.stamp;
@@ -118,15 +130,19 @@ std::optional<Rigid3d> MavrosRelayNode::LocateBase(const std::string& body_frame
   return base_->Locate();
 }
 
-void MavrosRelayNode::ReportChange() {
-  if (gate_.is_interrupted() == was_interrupted_) return;
-  was_interrupted_ = gate_.is_interrupted();
-  if (was_interrupted_) {
-    ROS_WARN("the estimate is not relayed: there was a gap, or images no longer support it");
-    return;
-  }
+void MavrosRelayNode::ReportStop(const char* why) {
+  if (!is_relayed_) return;
+  is_relayed_ = false;
+  ROS_WARN("the estimate is not relayed: %s", why);
+}
+
+// Of a pause of all that comes the gate may know with the first state after it only, which goes on.
+void MavrosRelayNode::ReportGoingOn() {
+  if (is_relayed_ && gate_.resets() == reported_resets_) return;
+  is_relayed_ = true;
+  reported_resets_ = gate_.resets();
   std_msgs::UInt8 count;
-  count.data = static_cast<uint8_t>(gate_.resets());
+  count.data = static_cast<uint8_t>(reported_resets_);
   counter_.publish(count);
   ROS_INFO("the estimate is relayed, reset counter %d", count.data);
 }

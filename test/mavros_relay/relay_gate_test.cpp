@@ -25,7 +25,7 @@ class Feed {
   std::vector<int64_t> Send(int64_t begin, int64_t end, bool with_images = true) {
     std::vector<int64_t> passed;
     for (int64_t t = begin; t < end; t += 5) {
-      if (with_images && t % 50 == 0) gate.AddImage(kStart + t * kMillisecond);
+      if (with_images && t % 50 == 0) gate.AddImage();
       if (gate.Pass(kStart + t * kMillisecond)) passed.push_back(t);
     }
     return passed;
@@ -39,6 +39,7 @@ TEST(RelayGate, KeepsTheMeanRate) {
     RelayGate::Options options;
     options.rate = rate;
     Feed feed(options);
+    feed.Send(-50, 0);  // supported from the next image on
     EXPECT_NEAR(static_cast<double>(feed.Send(0, 10'000).size()), 10 * std::min(rate, 200.0), 1)
         << rate;
     EXPECT_EQ(feed.gate.resets(), 0);
@@ -95,6 +96,25 @@ TEST(RelayGate, AGapIsLongEnoughToBeNoticed) {
   EXPECT_EQ(feed.gate.resets(), 1);
 }
 
+// States and images, as of an estimator that is lost and begins anew.
+TEST(RelayGate, APauseOfAllIsAnInterruptionThatCounts) {
+  Feed feed;
+  feed.Send(0, 1000);
+  EXPECT_EQ(feed.Send(3000, 4000).front(), 3050) << "an image supports nothing that came after it";
+  EXPECT_EQ(feed.gate.resets(), 1);
+}
+
+// Where the interruption shows in nothing but the count.
+TEST(RelayGate, GoesOnAtOnceAfterAPauseOfTheLengthThatIsAskedFor) {
+  RelayGate::Options options;
+  options.min_pause = 0.3;
+  Feed feed(options);
+  feed.Send(0, 1000);
+  EXPECT_EQ(feed.Send(1400, 2000).front(), 1400);
+  EXPECT_FALSE(feed.gate.is_interrupted());
+  EXPECT_EQ(feed.gate.resets(), 1);
+}
+
 TEST(RelayGate, LostStatesAreNoGap) {
   Feed feed;
   feed.Send(0, 1000);
@@ -105,7 +125,7 @@ TEST(RelayGate, LostStatesAreNoGap) {
 TEST(RelayGate, StampsThatJumpBackAreANewBeginning) {
   Feed feed;
   feed.Send(10'000, 11'000);
-  EXPECT_EQ(feed.Send(0, 1000).front(), 0);
+  EXPECT_EQ(feed.Send(0, 1000).front(), 50) << "with the next image";
   EXPECT_EQ(feed.gate.resets(), 1);
 }
 

@@ -44,6 +44,16 @@ class EstimatorLog {
     return SpinUntil(20, [&] { return statuses_ > seen; });
   }
 
+  // Turns ROS until the estimator has done with all that was published: the counts stand still.
+  bool WaitUntilDone() {
+    int64_t before = -1;
+    do {
+      before = Count("frames");
+      if (!NextStatus() || !NextStatus()) return false;
+    } while (Count("frames") != before || Count("queued") > 0);
+    return true;
+  }
+
   // Turns ROS until a status satisfies the condition.
   bool WaitForStatus(double seconds, const std::function<bool(const EstimatorLog&)>& condition) {
     return SpinUntil(seconds, [&] { return statuses_ > 0 && condition(*this); });

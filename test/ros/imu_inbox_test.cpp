@@ -84,6 +84,12 @@ TEST_F(ImuInboxTest, ForgetsTheOldestWhereNobodyTakesThem) {
   EXPECT_EQ(samples.back().t_ns, 2100 * kStep);
 }
 
+// Notices wait for that thread, too, and nothing else bounds them.
+TEST_F(ImuInboxTest, GivesNoMoreNoticesWhereNobodyTakesThem) {
+  Publish(2100);
+  EXPECT_EQ(Notices(), 2000 / 20);
+}
+
 TEST_F(ImuInboxTest, NoticesNothingOnceItIsGone) {
   {
     ImuInbox other(node_, "imu_of_another", [this] { ++notices_; });

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Feeds the estimator's node with points, lines and IMU samples as nodes of the VINS family publish
 // them, the lines in time, late or not at all. Run by lines.test.
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/PointCloud.h>
 
-#include <map>
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "test/ros/estimator_log.h"
+
 namespace {
+
+using plm_vins::testing::EstimatorLog;
 
 constexpr double kStart = 1000;   // [s]
 constexpr double kPeriod = 0.05;  // of the images [s]
@@ -40,8 +43,8 @@ sensor_msgs::PointCloud Features(int image, int count, const std::vector<std::st
 class Lines : public ::testing::Test {
  protected:
   struct Counts {
-    int frames = 0;
-    int without_lines = 0;
+    int64_t frames = 0;
+    int64_t without_lines = 0;
     std::string message;
   };
 
@@ -87,23 +90,10 @@ class Lines : public ::testing::Test {
       ros::spinOnce();
     }
 
-    // From the first diagnostics that come after all that was published.
+    // After all that was published.
     Counts Read() {
-      for (int i = 0; i < 250; ++i) {
-        ros::WallDuration(0.01).sleep();
-        ros::spinOnce();
-      }
-      return counts;
-    }
-
-    void AddDiagnostics(const diagnostic_msgs::DiagnosticArray& array) {
-      for (const auto& status : array.status) {
-        if (status.name != "vins_estimator: odometry") continue;
-        std::map<std::string, std::string> values;
-        for (const auto& value : status.values) values[value.key] = value.value;
-        counts = {std::stoi(values["frames"]), std::stoi(values["frames_without_lines"]),
-                  status.message};
-      }
+      EXPECT_TRUE(log.WaitUntilDone());
+      return {log.Count("frames"), log.Count("frames_without_lines"), log.Value("message")};
     }
 
     ros::NodeHandle node;
@@ -112,9 +102,8 @@ class Lines : public ::testing::Test {
         node.advertise<sensor_msgs::PointCloud>("/feature_tracker/feature", 100);
     ros::Publisher lines =
         node.advertise<sensor_msgs::PointCloud>("/linefeature_tracker/linefeature", 100);
-    ros::Subscriber diagnostics = node.subscribe("/diagnostics", 100, &Feed::AddDiagnostics, this);
+    EstimatorLog log;
     int image = 0;
-    Counts counts;
   };
 
   static Feed* feed_;

@@ -4,14 +4,22 @@
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
 #include <std_msgs/UInt8.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "test/ros/estimator_log.h"
+
 namespace {
+
+using plm_vins::testing::SpinUntil;
+
+constexpr double kPatience = 10;  // [s]
 
 // An estimator whose IMU has z down, is level and moves forward while it turns right.
 class FakeEstimator {
@@ -30,6 +38,8 @@ class FakeEstimator {
     }
   }
 
+  double image_offset = 0;  // of the stamps of images from those of states [s]
+
   ros::Time newest() const { return state_.header.stamp; }
 
   bool IsConnected() const {
@@ -40,16 +50,26 @@ class FakeEstimator {
   void Fly(double seconds, bool with_images) {
     for (int i = 0; i < 100 * seconds; ++i) {
       state_.header.stamp += ros::Duration(0.01);
-      if (with_images && i % 10 == 0) images_.publish(state_);
+      if (with_images && i % 10 == 0) PublishImage();
       states_.publish(state_);
       ros::WallDuration(0.01).sleep();
       ros::spinOnce();
     }
-    ros::WallDuration(0.3).sleep();  // for what is under way
-    ros::spinOnce();
+  }
+
+  // Neither states nor images.
+  void Pause(double seconds) {
+    state_.header.stamp += ros::Duration(seconds);
+    ros::WallDuration(seconds).sleep();
   }
 
  private:
+  void PublishImage() {
+    nav_msgs::Odometry image = state_;
+    image.header.stamp += ros::Duration(image_offset);
+    images_.publish(image);
+  }
+
   ros::NodeHandle node_;
   ros::Publisher images_ = node_.advertise<nav_msgs::Odometry>("/vins_estimator/odometry", 100);
   ros::Publisher states_ =
@@ -60,11 +80,30 @@ class FakeEstimator {
 class FakeMavros {
  public:
   FakeMavros(const std::string& relay, const std::string& topic)
-      : odometry_(node_.subscribe(topic, 100, &FakeMavros::Add, this)),
+      : odometry_(node_.subscribe(topic, 1000, &FakeMavros::Add, this)),
         counter_(node_.subscribe(relay + "/reset_counter", 10, &FakeMavros::Count, this)) {}
 
   bool IsConnected() const {
     return odometry_.getNumPublishers() > 0 && counter_.getNumPublishers() > 0;
+  }
+
+  // Until what the estimator said last has come; before it, all that was to come.
+  bool WaitForNewest(const FakeEstimator& estimator) const {
+    return SpinUntil(kPatience, [&] {
+      return !messages.empty() &&
+             estimator.newest() - messages.back().header.stamp < ros::Duration(0.05);
+    });
+  }
+
+  bool WaitForCounter(int count) const {
+    return SpinUntil(kPatience, [&] { return reset_counter == count; });
+  }
+
+  // With stamps from after `begin` to `end`.
+  auto CountWithin(const ros::Time& begin, const ros::Time& end) const {
+    return std::count_if(messages.begin(), messages.end(), [&](const nav_msgs::Odometry& message) {
+      return message.header.stamp > begin && message.header.stamp <= end;
+    });
   }
 
   std::vector<nav_msgs::Odometry> messages;
@@ -90,12 +129,11 @@ TEST(MavrosRelay, SendsWhatMavrosWantsAsLongAsTheEstimateHolds) {
   FakeMavros mavros("/mavros_relay", "/mavros/odometry/out");
   WaitFor(estimator, mavros);
   estimator.Fly(1.0, true);
-  ASSERT_FALSE(mavros.messages.empty());
-  EXPECT_EQ(mavros.reset_counter, 0);
-  const nav_msgs::Odometry& sent = mavros.messages.back();
+  ASSERT_TRUE(mavros.WaitForNewest(estimator));
+  EXPECT_TRUE(mavros.WaitForCounter(0));
+  const nav_msgs::Odometry sent = mavros.messages.back();
   EXPECT_EQ(sent.header.frame_id, "odom");
   EXPECT_EQ(sent.child_frame_id, "base_link");
-  EXPECT_NEAR((estimator.newest() - sent.header.stamp).toSec(), 0, 0.05);
   EXPECT_NEAR(sent.pose.pose.position.x, -0.1, 1e-9);
   EXPECT_NEAR(sent.pose.pose.position.z, 2, 1e-9);
   EXPECT_NEAR(std::abs(sent.pose.pose.orientation.w), 1, 1e-9);
@@ -108,21 +146,48 @@ TEST(MavrosRelay, SendsWhatMavrosWantsAsLongAsTheEstimateHolds) {
   EXPECT_NEAR(sent.pose.covariance[14], 0.03 + 0.01 * 0.05, 1e-9);
   EXPECT_NEAR(sent.twist.covariance[35], 0.6, 1e-9);
 
-  mavros.messages.clear();
+  const ros::Time begin = estimator.newest();
   estimator.Fly(2.0, true);
-  EXPECT_NEAR(static_cast<double>(mavros.messages.size()), 60, 2);
+  ASSERT_TRUE(mavros.WaitForNewest(estimator));
+  EXPECT_NEAR(static_cast<double>(mavros.CountWithin(begin, estimator.newest())), 60, 2);
 
   estimator.Fly(1.0, false);
-  mavros.messages.clear();
+  const ros::Time unsupported = estimator.newest();
   estimator.Fly(1.0, false);
-  EXPECT_TRUE(mavros.messages.empty());
-
+  const ros::Time end = estimator.newest();
   estimator.Fly(1.0, true);
-  EXPECT_FALSE(mavros.messages.empty());
-  EXPECT_EQ(mavros.reset_counter, 1);
+  ASSERT_TRUE(mavros.WaitForNewest(estimator));
+  EXPECT_EQ(mavros.CountWithin(unsupported, end), 0);
+  EXPECT_TRUE(mavros.WaitForCounter(1)) << mavros.reset_counter;
+
+  estimator.Pause(2.0);
+  estimator.Fly(1.0, true);
+  ASSERT_TRUE(mavros.WaitForNewest(estimator));
+  EXPECT_TRUE(mavros.WaitForCounter(2)) << mavros.reset_counter;
 }
 
-TEST(MavrosRelay, AsksTfWhereTheBaseIs) {
+// By as much as td may be, more than an image's estimate may be old.
+TEST(MavrosRelay, TakesImagesWhoseStampsAreFarFromThoseOfTheStates) {
+  FakeEstimator estimator;
+  FakeMavros mavros("/mavros_relay", "/mavros/odometry/out");
+  WaitFor(estimator, mavros);
+  for (const double offset : {0.6, -0.6}) {
+    estimator.image_offset = offset;
+    estimator.Fly(2.0, true);  // an interruption, perhaps
+    const ros::Time begin = estimator.newest();
+    estimator.Fly(1.0, true);
+    ASSERT_TRUE(mavros.WaitForNewest(estimator)) << offset;
+    EXPECT_NEAR(static_cast<double>(mavros.CountWithin(begin, estimator.newest())), 30, 2);
+  }
+}
+
+// Its images may be so old that the first state after a pause goes on at once.
+TEST(MavrosRelay, AsksTfWhereTheBaseIsAndCountsAPauseOfAll) {
+  std::string log;
+  const ros::Subscriber log_subscriber = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
+      "/rosout", 1000, [&](const rosgraph_msgs::LogConstPtr& line) {
+        if (line->name == "/relay_with_tf") log += line->msg + "\n";
+      });
   geometry_msgs::TransformStamped transform;
   transform.header.frame_id = "body";
   transform.child_frame_id = "base_link";
@@ -135,9 +200,18 @@ TEST(MavrosRelay, AsksTfWhereTheBaseIs) {
   estimator.Fly(1.0, true);
   EXPECT_TRUE(mavros.messages.empty());
   broadcaster.sendTransform(transform);
-  estimator.Fly(3.0, true);
-  ASSERT_FALSE(mavros.messages.empty());
+  for (int i = 0; i < 10 && mavros.messages.empty(); ++i) estimator.Fly(1.0, true);
+  ASSERT_TRUE(mavros.WaitForNewest(estimator));
   EXPECT_NEAR(mavros.messages.back().pose.pose.position.z, 2 - 0.5, 1e-9);  // z is down there
+  EXPECT_TRUE(mavros.WaitForCounter(0)) << mavros.reset_counter;
+
+  estimator.Pause(2.0);
+  EXPECT_TRUE(SpinUntil(kPatience, [&] {
+    return log.find("not relayed: no usable states come") != std::string::npos;
+  })) << log;
+  estimator.Fly(1.0, true);
+  EXPECT_TRUE(mavros.WaitForCounter(1)) << mavros.reset_counter;
+  ASSERT_TRUE(mavros.WaitForNewest(estimator));
 }
 
 }  // namespace

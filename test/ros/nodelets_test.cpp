@@ -299,6 +299,18 @@ TEST_F(OurNodelets, GoOnWhereOneBesideThemCannotSubscribe) {
   EXPECT_TRUE(Nodelets::Unload("/graph"));
 }
 
+TEST_F(OurNodelets, FollowNoLinesWhereNobodyWantsThem) {
+  ros::param::set("/idle/config_file", ros::param::param<std::string>("~config_file", ""));
+  ros::param::set("/idle/set/use_lines", "0");
+  ASSERT_TRUE(Nodelets::Load("/idle", "plm_vins/LineFeatureTracker"));
+  ros::master::V_TopicInfo topics;
+  ASSERT_TRUE(ros::master::getTopics(topics));
+  for (const ros::master::TopicInfo& topic : topics) {
+    EXPECT_NE(topic.name.rfind("/idle/linefeature", 0), 0U) << topic.name;
+  }
+  EXPECT_TRUE(Nodelets::Unload("/idle"));
+}
+
 TEST_F(OurNodelets, SayWhichKeyNamesNoTopic) {
   std::string log;
   const ros::Subscriber subscriber = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(

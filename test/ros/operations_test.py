@@ -13,6 +13,7 @@ import sys
 import time
 import unittest
 
+import rosgraph
 import rospy
 from std_srvs.srv import Trigger
 
@@ -135,6 +136,21 @@ class Clock(OperationsTest):
         self.start_node("vins_estimator")
         wait_until(lambda: "no time comes on /clock" in self.processes.log("vins_estimator"),
                    "a warning")
+
+
+class WithoutLines(OperationsTest):
+    def test_the_line_tracker_is_idle(self):
+        rospy.set_param("/linefeature_tracker/set", {"use_lines": "0"})
+        self.addCleanup(rospy.delete_param, "/linefeature_tracker/set")
+        name = "linefeature_tracker"
+        node = self.start_node(name, ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
+        wait_until(lambda: "use_lines is 0" in self.processes.log(name), "what it says")
+        time.sleep(1)  # what it would subscribe to is known by then
+        publishers, subscribers, _ = rosgraph.Master("/operations_test").getSystemState()
+        of_node = [topic for topic, nodes in publishers + subscribers if f"/{name}" in nodes]
+        self.assertEqual(of_node, ["/rosout"])
+        self.assertEqual(self.processes.log(name).count("not needed"), 1)
+        self.assert_end_on(signal.SIGTERM, {name: node})
 
 
 class Death(OperationsTest):

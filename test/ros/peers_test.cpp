@@ -59,14 +59,7 @@ class Peers : public ::testing::Test {
     log_->odometry.clear();
   }
 
-  // Until the estimator has done with all that was published: the counts stand still.
-  static void WaitUntilDone() {
-    int64_t before = -1;
-    do {
-      before = log_->Count("frames");
-      ASSERT_TRUE(log_->NextStatus() && log_->NextStatus());
-    } while (log_->Count("frames") != before || log_->Count("queued") > 0);
-  }
+  static void WaitUntilDone() { ASSERT_TRUE(log_->WaitUntilDone()); }
 
   // Root mean square distance from the truth after the best alignment of all poses [m].
   static double Error() {

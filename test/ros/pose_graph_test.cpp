@@ -7,9 +7,11 @@
 #include <std_srvs/Trigger.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "test/ros/keyframe_source.h"
@@ -62,16 +64,25 @@ class Status {
   }
   const std::string& Value(const std::string& key) { return values_[key]; }
 
+  // A count as it is now: what comes next may have been on its way before.
+  int Count(const std::string& key) {
+    const int seen = statuses_;
+    EXPECT_TRUE(SpinUntil(kPatience, [&] { return statuses_ >= seen + 2; }));
+    return std::atoi(Value(key).c_str());
+  }
+
  private:
   void Add(const diagnostic_msgs::DiagnosticArray& array) {
     for (const auto& status : array.status) {
       if (status.name != name_) continue;
       values_ = {{"message", status.message}};
       for (const auto& value : status.values) values_[value.key] = value.value;
+      ++statuses_;
     }
   }
 
   std::string name_;
+  int statuses_ = 0;
   std::map<std::string, std::string> values_;
   ros::Subscriber subscriber_ =
       ros::NodeHandle().subscribe("/diagnostics", 100, &Status::Add, this);
@@ -117,6 +128,12 @@ class PoseGraphNodeTest : public ::testing::Test {
       ros::WallDuration(0.02).sleep();
     }
     ASSERT_TRUE(WaitForKeyframe(end - 1)) << status_.Value("message");
+  }
+
+  // Ends with the world before, the `worlds`-th, once the node knows.
+  void Restart(int worlds) {
+    estimator_->PublishRestart();
+    ASSERT_TRUE(status_.WaitFor("worlds", std::to_string(worlds + 1)));
   }
 
   bool WaitForKeyframe(int number) {
@@ -172,19 +189,18 @@ TEST_F(PoseGraphNodeTest, TakesKeyframesOfAnotherPublisherForANewWorld) {
 
 TEST_F(PoseGraphNodeTest, TakesARestartForANewWorld) {
   Fly(0, 4);
-  estimator_->PublishRestart();
-  ros::WallDuration(0.2).sleep();
+  Restart(status_.Count("worlds"));
   Fly(10, 14);
   EXPECT_EQ(path_->poses.size(), 4u);
   EXPECT_EQ(CountInMap(0.5), 0);
 }
 
 TEST_F(PoseGraphNodeTest, KnowsNoPlaceOfANewWorldByTheKeyframesOfTheOneBefore) {
+  const int worlds = status_.Count("worlds");
   const cv::Mat noise = Noise();
   for (int i = 0; i < 40; ++i) estimator_->Publish(i, camera_, noise);
   ASSERT_TRUE(SpinUntil(kPatience, [&] { return path_.has() && !path_->poses.empty(); }));
-  estimator_->PublishRestart();
-  ros::WallDuration(0.1).sleep();
+  Restart(worlds);  // while keyframes of before wait
   EXPECT_EQ(CountInMap(1.5), 0);
 }
 

@@ -67,9 +67,10 @@ class ImuInbox {
     stream_.Add(sample.t_ns);
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      if (samples_.size() == kQueue) samples_.erase(samples_.begin());  // nobody takes them
+      const bool is_full = samples_.size() == kQueue;  // nobody takes them, nor the notices
+      if (is_full) samples_.erase(samples_.begin());
       samples_.push_back(sample);
-      if (!is_wanted_ && samples_.size() % kBatch != 0) return;
+      if (!is_wanted_ && (is_full || samples_.size() % kBatch != 0)) return;
       is_wanted_ = false;
     }
     node_.getCallbackQueue()->addCallback(notice_, NoticeId());

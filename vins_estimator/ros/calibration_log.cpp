@@ -13,10 +13,15 @@ void CalibrationLog::Set(const Calibration& calibration) {
 }
 
 void CalibrationLog::Save(const std::string& folder) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (!newest_ || !RefinesCalibration(config_.sensor)) return;
+  const std::optional<Calibration> newest = Newest();
+  if (!newest || !RefinesCalibration(config_.sensor)) return;
   const std::filesystem::path file = std::filesystem::path(folder) / kCalibratedConfigFile;
-  SaveCalibratedConfig(*newest_, config_, file.string());
+  SaveCalibratedConfig(*newest, config_, file.string());
+}
+
+std::optional<Calibration> CalibrationLog::Newest() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return newest_;
 }
 
 }  // namespace plm_vins

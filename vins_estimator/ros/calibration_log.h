@@ -10,7 +10,8 @@
 
 namespace plm_vins {
 
-// The newest calibration, to be saved on request. For several threads.
+// The newest calibration, to be saved on request. For several threads: Set() does not wait while
+// another one saves.
 class CalibrationLog {
  public:
   explicit CalibrationLog(const Config& config) : config_(config) {}
@@ -22,6 +23,8 @@ class CalibrationLog {
   void Save(const std::string& folder) const;
 
  private:
+  std::optional<Calibration> Newest() const;
+
   const Config config_;
   mutable std::mutex mutex_;
   std::optional<Calibration> newest_;

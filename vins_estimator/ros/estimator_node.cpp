@@ -73,6 +73,7 @@ EstimatorNode::EstimatorNode(const Config& config, const ros::NodeHandle& node,
 
 EstimatorNode::~EstimatorNode() {
   queue_.Close();
+  services_.clear();  // waits for one that saves: to the same files
   worker_.join();
   if (file_at_end_.empty() || trajectory_.empty()) return;
   try {
@@ -86,7 +87,7 @@ void EstimatorNode::AddImu(const sensor_msgs::Imu& message) {
   const ImuSample sample = ToImuSample(message);
   diagnostics_.imu().Add(sample.t_ns);
   propagation_.AddImu(sample);
-  queue_.PushQuietly(sample);
+  if (!queue_.PushQuietly(sample)) ++imu_refused_;
   if (frames_wait_ || queue_.size() >= kImuBatch) queue_.Wake();
 }
 
@@ -196,6 +197,7 @@ void EstimatorNode::Take(Input input) {
 
 void EstimatorNode::ReportDrops() {
   DropCounts drops = ToDropCounts(stage_.statistics());
+  drops.push_back({"imu_refused_full", imu_refused_, ""});
   drops.push_back(worker_errors_.count());
   worker_warner_.Check(drops);
   diagnostics_.UpdateCounts(stage_, drops);

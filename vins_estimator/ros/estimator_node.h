@@ -10,6 +10,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <atomic>
+#include <cstdint>
 #include <string>
 #include <thread>
 #include <variant>
@@ -58,7 +59,8 @@ class EstimatorNode {
     IdRestorer ids;
   };
 
-  // In the thread that receives the samples.
+  // In the thread that receives the samples. A driver in this process holds a lock of ROS
+  // meanwhile, without which the worker cannot publish: so it does not wait for room in the queue.
   void AddImu(const sensor_msgs::Imu& message);
 
   // In the thread of the callbacks.
@@ -91,6 +93,7 @@ class EstimatorNode {
 
   BoundedQueue<Input> queue_;
   std::atomic<bool> frames_wait_ = false;  // in the worker, for the IMU or for lines
+  std::atomic<int64_t> imu_refused_ = 0;   // samples that found the queue full
   PropagationPublisher propagation_;
   TrajectoryLog trajectory_;
   CalibrationLog calibration_;

@@ -34,25 +34,25 @@ bool TrajectoryLog::empty() const {
 }
 
 size_t TrajectoryLog::Save(const std::string& file) const {
-  if (empty()) {
+  const std::deque<Pose> poses = Poses();
+  if (poses.empty()) {
     throw std::runtime_error("there is no pose to save yet; " + file + " stays as it is");
   }
   std::error_code error;
   std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
   if (error) throw std::runtime_error("cannot write " + file + ": " + error.message());
   ReplacedFile output(file);
-  const size_t poses = Write(output.stream());
-  output.Commit();  // waits for the disk, Add() does not
-  return poses;
+  for (const Pose& pose : poses) {
+    if (!pose.new_world.empty()) output.stream() << FormatTumRestart(pose.new_world);
+    output.stream() << FormatTumRow(pose.t_ns, pose.T_W_B);
+  }
+  output.Commit();
+  return poses.size();
 }
 
-size_t TrajectoryLog::Write(std::ostream& stream) const {
+std::deque<TrajectoryLog::Pose> TrajectoryLog::Poses() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (const Pose& pose : poses_) {
-    if (!pose.new_world.empty()) stream << FormatTumRestart(pose.new_world);
-    stream << FormatTumRow(pose.t_ns, pose.T_W_B);
-  }
-  return poses_.size();
+  return poses_;
 }
 
 }  // namespace plm_vins

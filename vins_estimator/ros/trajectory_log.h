@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
-#include <ostream>
 #include <string>
 
 #include "common/geometry/rigid3.h"
@@ -12,7 +11,8 @@
 namespace plm_vins {
 
 // The poses so far, to be saved on request. Keeps the newest million (14 hours at 20 Hz), and none
-// from before their stamps jumped back: time runs forward in a file. For several threads.
+// from before their stamps jumped back: time runs forward in a file. For several threads: Add()
+// does not wait while another one saves.
 class TrajectoryLog {
  public:
   void Add(int64_t t_ns, const Rigid3d& T_W_B);
@@ -34,7 +34,7 @@ class TrajectoryLog {
     std::string new_world;  // why its world frame is a new one; empty: it is not
   };
 
-  size_t Write(std::ostream& stream) const;  // returns the number of poses
+  std::deque<Pose> Poses() const;
 
   mutable std::mutex mutex_;
   std::deque<Pose> poses_;

@@ -4,11 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <thread>
 
 namespace plm_vins {
 namespace {
+
+// Another thread is where it waits by then.
+void LetItWait() { std::this_thread::sleep_for(std::chrono::milliseconds(50)); }
 
 TEST(BoundedQueue, KeepsTheOrder) {
   BoundedQueue<int> queue(3);
@@ -63,20 +67,33 @@ TEST(BoundedQueue, AQuietItemIsTakenWithTheNext) {
 TEST(BoundedQueue, WakesTheConsumerForAQuietItem) {
   BoundedQueue<int> queue(3);
   std::thread consumer([&] { EXPECT_EQ(queue.Pop(), 1); });
+  LetItWait();
   queue.PushQuietly(1);
   queue.Wake();
   consumer.join();
 }
 
 TEST(BoundedQueue, QuietItemsWakeTheConsumerOnceTheQueueIsFull) {
-  constexpr int kItems = 1000;
-  BoundedQueue<int> queue(5);
-  std::thread consumer([&] {
-    for (int expected = 0; expected < kItems; ++expected) EXPECT_EQ(queue.Pop(), expected);
-  });
-  for (int i = 0; i < kItems; ++i) queue.PushQuietly(i);
-  queue.Wake();  // the last few do not fill it
+  BoundedQueue<int> queue(2);
+  std::thread consumer([&] { EXPECT_EQ(queue.Pop(), 1); });
+  LetItWait();
+  queue.PushQuietly(1);
+  queue.PushQuietly(2);
   consumer.join();
+}
+
+TEST(BoundedQueue, RefusesAQuietItemWhereItIsFullOrClosed) {
+  BoundedQueue<int> queue(2);
+  EXPECT_TRUE(queue.PushQuietly(1));
+  EXPECT_TRUE(queue.PushQuietly(2));
+  EXPECT_FALSE(queue.PushQuietly(3));
+  EXPECT_EQ(queue.Pop(), 1);
+  EXPECT_TRUE(queue.PushQuietly(4));
+  EXPECT_EQ(queue.Pop(), 2);
+  queue.Close();
+  EXPECT_FALSE(queue.PushQuietly(5));
+  EXPECT_EQ(queue.Pop(), 4);
+  EXPECT_EQ(queue.Pop(), std::nullopt);
 }
 
 TEST(BoundedQueue, GivesWhatIsLeftAfterClosing) {
@@ -101,6 +118,7 @@ TEST(BoundedQueue, ClosingWakesAProducerThatWaits) {
   queue.Push(1);
   std::atomic<bool> accepted = true;
   std::thread producer([&] { accepted = queue.Push(2); });
+  LetItWait();
   queue.Close();
   producer.join();
   EXPECT_FALSE(accepted);
@@ -109,6 +127,7 @@ TEST(BoundedQueue, ClosingWakesAProducerThatWaits) {
 TEST(BoundedQueue, ClosingWakesAConsumerThatWaits) {
   BoundedQueue<int> queue(1);
   std::thread consumer([&] { EXPECT_EQ(queue.Pop(), std::nullopt); });
+  LetItWait();
   queue.Close();
   consumer.join();
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "test/testing/temporary_folder.h"
+#include "test/vins_estimator/ros/busy_disk.h"
 
 namespace plm_vins {
 namespace {
@@ -30,6 +31,17 @@ TEST(CalibrationLog, SavesNothingWhereNothingIsRefined) {
   log.Set(Calibration());
   log.Save(folder.path());
   EXPECT_EQ(folder.Read("calibrated.yaml"), "");
+}
+
+TEST(CalibrationLog, TakesANewOneWhileItSaves) {
+  const testing::TemporaryFolder folder;
+  Config config;
+  config.sensor.estimate_td = true;
+  CalibrationLog log(config);
+  log.Set(Calibration());
+  EXPECT_TRUE(testing::EndsWhileSaving(
+      folder.File("calibrated.yaml"), [&] { log.Save(folder.path()); },
+      [&] { log.Set(Calibration()); }));
 }
 
 }  // namespace

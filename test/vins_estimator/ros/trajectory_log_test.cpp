@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "test/testing/temporary_folder.h"
+#include "test/vins_estimator/ros/busy_disk.h"
 
 namespace plm_vins {
 namespace {
@@ -89,6 +90,13 @@ TEST_F(TrajectoryLogTest, SaysWhyAFileCannotBeWritten) {
       EXPECT_EQ(error.what(), std::string("cannot write ") + file + ": " + why);
     }
   }
+}
+
+TEST_F(TrajectoryLogTest, TakesAPoseWhileItSaves) {
+  for (int i = 1; i <= 1000; ++i) log_.Add(i, kPose);  // more than a stream keeps to itself
+  EXPECT_TRUE(testing::EndsWhileSaving(
+      folder_.File("a.tum"), [&] { EXPECT_EQ(log_.Save(folder_.File("a.tum")), 1000u); },
+      [&] { log_.Add(1001, kPose); }));
 }
 
 }  // namespace

@@ -200,7 +200,8 @@ bool LoopVerification::HoldsBackwards(const Keyframe& earlier, const Island& lat
   candidate->backward_share = search.share();
   evidence->all.of_later = std::move(search.inliers);
   return *candidate->backward_inliers >= options_.min_backward_inliers &&
-         *candidate->backward_share >= options_.min_backward_share;
+         *candidate->backward_share >= options_.min_backward_share &&
+         *candidate->inliers + *candidate->backward_inliers >= options_.min_inliers_of_both;
 }
 
 bool LoopVerification::Refine(LoopCandidate* candidate, Evidence* evidence) const {

@@ -28,14 +28,15 @@ struct LoopVerificationOptions {
   int max_common_tracks = 40;  // more, and it is the same visit
   int min_matches = 15;
   int min_pose_inliers = 8;  // of them, for a pose that is looked into
-  int min_inliers = 20;      // of the later image
-  double min_inlier_share = 0.4;
+  int min_inliers = 12;      // of the later image
+  double min_inlier_share = 0.3;
   double max_manhattan_error = 3 * M_PI / 180;  // [rad]
   int min_cells = 4;                            // of 4 x 3, with inliers
   int min_backward_inliers = 8;
   double min_backward_share = 0.15;
-  int min_visible_lines = 5;  // fewer say nothing
-  double min_line_share = 0.2;
+  int min_inliers_of_both = 28;  // of both images together
+  int min_visible_lines = 5;     // fewer say nothing
+  double min_line_share = 0.15;
 };
 
 // A keyframe and its neighbours in time, whose landmarks it knows as well. The keyframe is one of

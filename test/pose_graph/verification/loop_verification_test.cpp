@@ -165,6 +165,24 @@ TEST_F(LoopVerificationTest, RefusesWhatDoesNotHoldBackwards) {
   EXPECT_EQ(VerifyPair(earlier, later).failed, LoopGate::kBackwards);
 }
 
+// As many landmarks as in the one direction are not needed in the other, but so many in all.
+TEST_F(LoopVerificationTest, RefusesFewInBothDirectionsTogether) {
+  wall_ = Wall(/*seed=*/1, /*point_count=*/19);
+  const Keyframe earlier = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
+  const Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
+  const auto verify_with_places = [&](int count) {
+    Keyframe with_places = later;
+    for (size_t i = count; i < later.corners.size(); ++i) with_places.corners[i].p_O.reset();
+    return VerifyPair(earlier, with_places);
+  };
+  const int forwards = VerifyPair(earlier, later).inliers.value();
+  ASSERT_LT(forwards, 20);
+  const int backwards = options_.min_inliers_of_both - forwards;
+  ASSERT_GT(backwards, options_.min_backward_inliers);
+  EXPECT_EQ(verify_with_places(backwards - 1).failed, LoopGate::kBackwards);
+  EXPECT_FALSE(verify_with_places(backwards).failed);
+}
+
 // No comparison finds anything wrong with a place that is no number.
 TEST_F(LoopVerificationTest, RefusesLandmarksThatAreNowhere) {
   const Keyframe earlier = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);

@@ -128,8 +128,10 @@ TEST(EstimatorTest, LearnsTheTimeOffset) {
   auto options = Options(Motion::kFast, 1);
   options.sensors.td = 0.01;
   options.point_noise_px = 0.1;
-  // While the offset is not known yet, its errors count as noise of the IMU.
   EXPECT_NEAR(LearnTimeOffset(options), 0.01, 0.001);
+  options.sensors.td = 0.025;  // so far off that its errors could count as noise of the IMU
+  EXPECT_NEAR(LearnTimeOffset(options), 0.025, 0.002);
+  options.sensors.td = 0.01;
   // A corner's velocity is the difference to the image before, so it has noise in common with the
   // corner: that pulls the offset, by one to five milliseconds at half a pixel.
   options.point_noise_px = 0.5;

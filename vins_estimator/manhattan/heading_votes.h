@@ -43,9 +43,10 @@ class HeadingVotes {
   // followed for however long, are forgotten.
   void Fade(double elapsed);
 
-  // A line's heading as it is now, with its standard deviation [rad], `elapsed` [s] since votes were
-  // last cast: a new line was followed for about as long, to be triangulated. It replaces the line's last vote unless that was more certain: a landmark that starts
-  // anew knows less than it did.
+  // A line's heading as it is now, with its standard deviation [rad], `elapsed` [s] since votes
+  // were last cast: a new line was followed for about as long, to be triangulated. It replaces the
+  // line's last vote unless that was more certain: a landmark that starts anew knows less than it
+  // did.
   void Cast(int64_t id, double heading, double sigma, double elapsed);
 
   void Remove(int64_t id) { votes_.erase(id); }

@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/problem/imu_noise_learning.h"
 
+#include <cmath>
+
 #include "vins_estimator/problem/motion_evidence.h"
 
 namespace plm_vins {
 namespace {
+
+// Of corners along their velocity [s]. Further, their way is not straight, and what that adds to
+// the residual is no noise of the IMU: so noise is not learned before the time offset.
+constexpr double kMaxShift = 0.002;
+
+bool ShiftsCorners(const WindowFrame& frame, double td) {
+  return std::abs(td - frame.timing.cut_time_offset) > kMaxShift;
+}
 
 // What is wrong with these is not noise, or not of one kind.
 bool IsNoEvidence(const WindowFrame& end) {
@@ -21,7 +31,9 @@ void ImuNoiseLearning::Learn(const SlidingWindow& window, bool is_first,
     const WindowFrame &begin = window.frames[i], &end = window.frames[i + 1];
     if (known_ns_ && begin.state.t_ns <= *known_ns_) continue;
     known_ns_ = begin.state.t_ns;
-    if (IsNoEvidence(end)) continue;
+    if (IsNoEvidence(end) || ShiftsCorners(begin, window.td) || ShiftsCorners(end, window.td)) {
+      continue;
+    }
     const auto evidence = EvidenceOfMotion(window, begin, end, equations);
     if (evidence) estimate_.Add(*evidence);
   }

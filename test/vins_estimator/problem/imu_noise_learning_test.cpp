@@ -65,6 +65,14 @@ TEST_F(ImuNoiseLearningTest, LeavesOutStandstillAndStepsOfBias) {
   EXPECT_EQ(learning.noise().gyro_density, configured_.gyro_density);
 }
 
+TEST_F(ImuNoiseLearningTest, LeavesOutWhatWasCutWithAnotherTimeOffset) {
+  window().td += 0.003;
+  ImuNoiseLearning learning(configured_);
+  Learn(/*is_first=*/true, &learning);
+  EXPECT_EQ(learning.noise().accel_density, configured_.accel_density);
+  EXPECT_EQ(learning.noise().gyro_density, configured_.gyro_density);
+}
+
 TEST_F(ImuNoiseLearningTest, LeavesOutPartsOfDifferentNoise) {
   const auto learned_from_joined = [this](double variance_scale) {
     Preintegration& motion = *window().newest().motion_since_previous;

@@ -3,55 +3,125 @@
 
 #include <algorithm>
 #include <opencv2/features2d.hpp>
+#include <optional>
 
 namespace plm_vins {
 namespace {
 
-// The cells of the grid, row by row.
-struct Grid {
-  Grid(int cell_px, const cv::Size& image)
-      : cell_px(cell_px), columns((image.width + cell_px - 1) / cell_px) {}
+constexpr int kFastReach_px = 4;     // its circle, and that of the neighbours it compares with
+constexpr int kClearThreshold = 25;  // [grey levels]
 
-  size_t CellOf(float u, float v) const {
-    return static_cast<size_t>(v) / cell_px * columns + static_cast<size_t>(u) / cell_px;
-  }
-  size_t CellCount(const cv::Size& image) const {
-    return static_cast<size_t>((image.height + cell_px - 1) / cell_px) * columns;
-  }
+cv::Point TopRight(const cv::Rect& pixels) { return {pixels.x + pixels.width, pixels.y}; }
 
-  int cell_px;
-  int columns;
+cv::Rect Grown(const cv::Rect& pixels, int by_px) {
+  return {pixels.x - by_px, pixels.y - by_px, pixels.width + 2 * by_px, pixels.height + 2 * by_px};
+}
+
+struct Cell {
+  cv::Rect pixels;
+  bool is_taken = false;                  // by a known corner
+  std::optional<cv::KeyPoint> strongest;  // of those offered
+
+  bool IsOpen() const { return !is_taken && !strongest; }
 };
+
+class Grid {
+ public:
+  Grid(int cell_px, const cv::Size& image)
+      : cell_px_(cell_px), columns_((image.width + cell_px - 1) / cell_px) {
+    for (int y = 0; y < image.height; y += cell_px) {
+      for (int x = 0; x < image.width; x += cell_px) {
+        cells_.emplace_back().pixels = {x, y, cell_px, cell_px};
+      }
+    }
+  }
+
+  void Take(const Eigen::Vector2f& uv_px) { CellAt(uv_px.x(), uv_px.y()).is_taken = true; }
+
+  void Offer(const std::vector<cv::KeyPoint>& corners) {
+    for (const cv::KeyPoint& corner : corners) {
+      Cell& cell = CellAt(corner.pt.x, corner.pt.y);
+      const bool is_stronger = !cell.strongest || corner.response > cell.strongest->response;
+      if (!cell.is_taken && is_stronger) cell.strongest = corner;
+    }
+  }
+
+  // Of the open cells, those side by side as one.
+  std::vector<cv::Rect> OpenPixels() const {
+    std::vector<cv::Rect> open;
+    for (const Cell& cell : cells_) {
+      if (!cell.IsOpen()) continue;
+      if (!open.empty() && TopRight(open.back()) == cell.pixels.tl()) {
+        open.back() |= cell.pixels;
+      } else {
+        open.push_back(cell.pixels);
+      }
+    }
+    return open;
+  }
+
+  // The strongest of each cell, in order of strength.
+  std::vector<cv::KeyPoint> Strongest() const {
+    std::vector<cv::KeyPoint> corners;
+    for (const Cell& cell : cells_) {
+      if (cell.strongest) corners.push_back(*cell.strongest);
+    }
+    std::stable_sort(
+        corners.begin(), corners.end(),
+        [](const cv::KeyPoint& a, const cv::KeyPoint& b) { return a.response > b.response; });
+    return corners;
+  }
+
+ private:
+  Cell& CellAt(float u, float v) {
+    return cells_[static_cast<size_t>(v) / cell_px_ * columns_ + static_cast<size_t>(u) / cell_px_];
+  }
+
+  int cell_px_;
+  int columns_;
+  std::vector<Cell> cells_;  // row by row
+};
+
+// The corners among these pixels that FAST finds in the whole image.
+std::vector<cv::KeyPoint> FindCorners(const cv::Mat& gray, const cv::Rect& pixels, int threshold) {
+  std::vector<cv::KeyPoint> corners;
+  if (pixels.empty()) return corners;
+  const cv::Rect seen = Grown(pixels, kFastReach_px) & cv::Rect({}, gray.size());
+  cv::FAST(gray(seen), corners, threshold, /*nonmaxSuppression=*/true);
+  for (cv::KeyPoint& corner : corners) corner.pt += cv::Point2f(seen.tl());
+  const auto is_beside = [&](const cv::KeyPoint& corner) { return !pixels.contains(corner.pt); };
+  corners.erase(std::remove_if(corners.begin(), corners.end(), is_beside), corners.end());
+  return corners;
+}
+
+// A corner's strength is the highest threshold that finds it. So clear corners, which take less
+// time, are the strongest of their cells, and the other cells' corners come after them.
+void OfferCorners(const CornerSelectionOptions& options, const cv::Mat& gray, size_t room,
+                  Grid* grid) {
+  const cv::Rect inside = Grown(cv::Rect({}, gray.size()), -options.border_px);
+  grid->Offer(FindCorners(gray, inside, std::max(kClearThreshold, options.fast_threshold)));
+  if (grid->Strongest().size() >= room) return;
+  for (const cv::Rect& pixels : grid->OpenPixels()) {
+    grid->Offer(FindCorners(gray, pixels & inside, options.fast_threshold));
+  }
+}
 
 }  // namespace
 
 std::vector<Eigen::Vector2f> SelectCorners(const CornerSelectionOptions& options,
                                            const cv::Mat& gray,
                                            const std::vector<Eigen::Vector2f>& known_px) {
-  const Grid grid(options.cell_px, gray.size());
-  std::vector<bool> taken(grid.CellCount(gray.size()), false);
-  for (const Eigen::Vector2f& uv : known_px) taken[grid.CellOf(uv.x(), uv.y())] = true;
-
-  std::vector<cv::KeyPoint> found;
-  cv::FAST(gray, found, options.fast_threshold, /*nonmaxSuppression=*/true);
-  cv::KeyPointsFilter::runByImageBorder(found, gray.size(), options.border_px);
-  std::vector<const cv::KeyPoint*> strongest(taken.size(), nullptr);  // by cell
-  for (const cv::KeyPoint& corner : found) {
-    const size_t cell = grid.CellOf(corner.pt.x, corner.pt.y);
-    const cv::KeyPoint*& best = strongest[cell];
-    if (!taken[cell] && (best == nullptr || corner.response > best->response)) best = &corner;
-  }
-  strongest.erase(std::remove(strongest.begin(), strongest.end(), nullptr), strongest.end());
-  std::stable_sort(
-      strongest.begin(), strongest.end(),
-      [](const cv::KeyPoint* a, const cv::KeyPoint* b) { return a->response > b->response; });
-
+  Grid grid(options.cell_px, gray.size());
+  for (const Eigen::Vector2f& uv_px : known_px) grid.Take(uv_px);
   const size_t room = static_cast<size_t>(options.max_corners) -
                       std::min<size_t>(options.max_corners, known_px.size());
+  OfferCorners(options, gray, room, &grid);
+
+  std::vector<cv::KeyPoint> strongest = grid.Strongest();
   if (strongest.size() > room) strongest.resize(room);
   std::vector<Eigen::Vector2f> selected;
   selected.reserve(strongest.size());
-  for (const cv::KeyPoint* corner : strongest) selected.emplace_back(corner->pt.x, corner->pt.y);
+  for (const cv::KeyPoint& corner : strongest) selected.emplace_back(corner.pt.x, corner.pt.y);
   return selected;
 }
 

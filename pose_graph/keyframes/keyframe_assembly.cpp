@@ -52,7 +52,7 @@ void KeyframeAssembly::AddImage(const ImageSample& image) {
   }
   Parts& parts = PartsAt(image.t_ns);
   parts.frame.gray = image.gray;
-  parts.owner = image.owner;
+  parts.frame.owner = image.owner;
 }
 
 void KeyframeAssembly::AddPose(int64_t t_ns, const Rigid3d& T_O_B,
@@ -90,7 +90,6 @@ std::optional<OdometryFrame> KeyframeAssembly::Pop() {
     return std::nullopt;
   }
   OdometryFrame frame = std::move(first->second.frame);
-  if (first->second.owner) frame.gray = frame.gray.clone();  // its pixels go with the message
   parts_.erase(Forget(parts_.begin(), first));
   return frame;
 }

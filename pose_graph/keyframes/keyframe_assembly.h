@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -39,7 +38,6 @@ class KeyframeAssembly {
  private:
   struct Parts {
     OdometryFrame frame;
-    std::shared_ptr<const void> owner;  // of the image's pixels
     bool has_pose = false;
     bool has_corners = false;
     bool has_segments = false;

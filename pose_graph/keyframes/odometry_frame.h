@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -26,7 +27,8 @@ struct OdometryFrame {
   std::optional<Eigen::Quaterniond> R_O_Manhattan;  // the Manhattan frame, where one is locked
   std::vector<TrackedCorner> corners;
   std::vector<TrackedSegment> segments;
-  cv::Mat gray;  // CV_8UC1, as the camera delivered it
+  cv::Mat gray;                       // CV_8UC1, as the camera delivered it
+  std::shared_ptr<const void> owner;  // of the pixels, where `gray` is not
 };
 
 }  // namespace plm_vins

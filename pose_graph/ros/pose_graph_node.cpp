@@ -323,8 +323,11 @@ void PoseGraphNode::PublishMatch(const OdometryFrame& frame, const LoopClosure& 
   match_publisher_.publish(ToMessage(picture, frame.t_ns, config_.output.camera_frame));
 }
 
-// The newest keyframe is that of the frame. Thinning may have taken others away.
+// The newest keyframe is that of the frame. Thinning may have taken others away. Nothing is kept
+// until somebody wants to see it; from then on all is, as displays close and open again.
 void PoseGraphNode::Remember(const OdometryFrame& frame) {
+  shows_matches_ = shows_matches_ || match_publisher_.getNumSubscribers() > 0;
+  if (!shows_matches_) return;
   const PoseGraph& graph = loops_->map().graph;
   images_.Add(graph.size() - 1, frame.gray);
   images_.Keep([&](int keyframe) { return graph.Has(keyframe); });

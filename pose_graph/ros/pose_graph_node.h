@@ -136,8 +136,9 @@ class PoseGraphNode {
 
   std::mutex loops_mutex_;  // held while a keyframe is worked on
   std::unique_ptr<LoopCloser> loops_;
-  int map_world_ = 0;      // of its newest keyframe; older ones are of the map before
-  KeyframeImages images_;  // of its keyframes
+  int map_world_ = 0;           // of its newest keyframe; older ones are of the map before
+  KeyframeImages images_;       // of its keyframes
+  bool shows_matches_ = false;  // somebody has asked for them
 
   // What is needed at once, whatever is worked on.
   struct Status {

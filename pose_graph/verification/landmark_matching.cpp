@@ -2,14 +2,12 @@
 #include "pose_graph/verification/landmark_matching.h"
 
 #include <algorithm>
-#include <map>
 
 namespace plm_vins {
 namespace {
 
 constexpr int kFar = kDescriptorBits + 1;
 
-PLM_COUNTS_BITS
 int Distance(const Descriptor& descriptor, const DescribedLandmark& landmark) {
   int distance = kFar;
   for (const Descriptor& other : landmark.descriptors) {
@@ -64,34 +62,40 @@ class NearestTable {
 }  // namespace
 
 std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>& island,
-                                              const std::set<int64_t>& without) {
-  std::map<int64_t, DescribedLandmark> by_track;
+                                              const std::vector<int64_t>& without) {
+  std::vector<const DescribedCorner*> views;
   for (const Keyframe* keyframe : island) {
     for (const DescribedCorner& corner : keyframe->corners) {
-      if (!corner.p_O || without.count(corner.track) > 0) continue;
-      DescribedLandmark& landmark = by_track[corner.track];
-      landmark.p_O = corner.p_O->cast<double>();
-      landmark.descriptors.push_back(corner.descriptor);
+      const bool is_left_out = std::binary_search(without.begin(), without.end(), corner.track);
+      if (corner.p_O && !is_left_out) views.push_back(&corner);
     }
   }
+  std::stable_sort(
+      views.begin(), views.end(),
+      [](const DescribedCorner* a, const DescribedCorner* b) { return a->track < b->track; });
   std::vector<DescribedLandmark> landmarks;
-  landmarks.reserve(by_track.size());
-  for (auto& [track, landmark] : by_track) landmarks.push_back(std::move(landmark));
+  for (size_t i = 0; i < views.size(); ++i) {
+    if (i == 0 || views[i]->track != views[i - 1]->track) landmarks.emplace_back();
+    landmarks.back().p_O = views[i]->p_O->cast<double>();
+    landmarks.back().descriptors.push_back(views[i]->descriptor);
+  }
   return landmarks;
 }
 
+PLM_COUNTS_BITS
 std::vector<LandmarkMatch> MatchLandmarks(const MatchingOptions& options,
                                           const std::vector<DescribedCorner>& corners,
                                           const std::vector<DescribedLandmark>& landmarks) {
   NearestTable nearest(corners.size(), landmarks.size());
-  for (size_t i = 0; i < corners.size(); ++i) {
-    for (size_t j = 0; j < landmarks.size(); ++j) {
+  for (size_t j = 0; j < landmarks.size(); ++j) {
+    for (size_t i = 0; i < corners.size(); ++i) {
       nearest.Offer(i, j, Distance(corners[i].descriptor, landmarks[j]));
     }
   }
   return nearest.Matches(options);
 }
 
+PLM_COUNTS_BITS
 std::vector<LandmarkMatch> MatchAroundImages(const MatchingOptions& options,
                                              const std::vector<DescribedCorner>& corners,
                                              const std::vector<DescribedLandmark>& landmarks,

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <set>
 #include <vector>
 
 #include "pose_graph/keyframes/keyframe.h"
@@ -16,10 +15,10 @@ struct DescribedLandmark {
   std::vector<Descriptor> descriptors;
 };
 
-// The landmarks of keyframes of one world but those of the tracks `without`, each once: the place
-// is that of its newest keyframe.
+// The landmarks of keyframes of one world but those of the tracks `without`, which are sorted. Each
+// once, in order of the tracks: the place is that of its newest keyframe.
 std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>& island,
-                                              const std::set<int64_t>& without = {});
+                                              const std::vector<int64_t>& without = {});
 
 struct MatchingOptions {
   static constexpr double kSearchRadius_px = 23;

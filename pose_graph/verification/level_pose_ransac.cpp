@@ -18,11 +18,20 @@ int IterationsFor(double inlier_share, double confidence) {
   return static_cast<int>(std::ceil(std::log(1 - confidence) / std::log(1 - hit)));
 }
 
+size_t CountInliers(const LevelTransform& T_O_G, const std::vector<SeenPoint>& sightings,
+                    const Eigen::Quaterniond& R_G_C, double max_error) {
+  const Viewpoint viewpoint(T_O_G, R_G_C);
+  return std::count_if(sightings.begin(), sightings.end(), [&](const SeenPoint& sighting) {
+    return viewpoint.Error(sighting) <= max_error;
+  });
+}
+
 std::vector<size_t> InliersOf(const LevelTransform& T_O_G, const std::vector<SeenPoint>& sightings,
                               const Eigen::Quaterniond& R_G_C, double max_error) {
+  const Viewpoint viewpoint(T_O_G, R_G_C);
   std::vector<size_t> inliers;
   for (size_t i = 0; i < sightings.size(); ++i) {
-    if (SightingError(sightings[i], T_O_G, R_G_C) <= max_error) inliers.push_back(i);
+    if (viewpoint.Error(sightings[i]) <= max_error) inliers.push_back(i);
   }
   return inliers;
 }
@@ -70,7 +79,8 @@ std::optional<LevelPose> FindLevelPose(const LevelPoseRansacOptions& options,
                                        const Eigen::Quaterniond& R_G_C) {
   if (sightings.size() < 2) return std::nullopt;
   std::mt19937 random(kSeed);
-  LevelPose best;
+  LevelTransform best;
+  size_t most = 0;  // inliers
   int iterations = options.max_iterations;
   for (int i = 0; i < iterations; ++i) {
     const SeenPoint& first = sightings[random() % sightings.size()];
@@ -79,15 +89,16 @@ std::optional<LevelPose> FindLevelPose(const LevelPoseRansacOptions& options,
     const auto poses = SolveTwoPoints(R_G_C * first.xy.homogeneous(), first.p_O,
                                       R_G_C * second.xy.homogeneous(), second.p_O);
     for (const LevelTransform& pose : poses) {
-      auto inliers = InliersOf(pose, sightings, R_G_C, options.max_error);
-      if (inliers.size() <= best.inliers.size()) continue;
-      best = {pose, std::move(inliers)};
-      const double share = static_cast<double>(best.inliers.size()) / sightings.size();
+      const size_t inliers = CountInliers(pose, sightings, R_G_C, options.max_error);
+      if (inliers <= most) continue;
+      best = pose;
+      most = inliers;
+      const double share = static_cast<double>(most) / sightings.size();
       iterations = std::min(iterations, IterationsFor(share, options.confidence) + i);
     }
   }
-  if (best.inliers.size() < kMinInliers) return std::nullopt;
-  return best;
+  if (most < kMinInliers) return std::nullopt;
+  return LevelPose{best, InliersOf(best, sightings, R_G_C, options.max_error)};
 }
 
 }  // namespace plm_vins

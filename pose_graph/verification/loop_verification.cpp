@@ -17,24 +17,26 @@ namespace {
 constexpr int kCellColumns = 4;
 constexpr int kCellRows = 3;
 
-std::set<int64_t> TracksOf(const Island& island) {
-  std::set<int64_t> tracks;
+// Sorted.
+std::vector<int64_t> TracksOf(const Island& island) {
+  std::vector<int64_t> tracks;
   for (const Keyframe* keyframe : island.all) {
     for (const DescribedCorner& corner : keyframe->corners) {
-      if (corner.track >= 0) tracks.insert(corner.track);
+      if (corner.track >= 0) tracks.push_back(corner.track);
     }
   }
+  std::sort(tracks.begin(), tracks.end());
+  tracks.erase(std::unique(tracks.begin(), tracks.end()), tracks.end());
   return tracks;
 }
 
-// The tracks that are seen in both.
-std::set<int64_t> CommonTracks(const Island& earlier, const Island& later) {
-  std::set<int64_t> common;
+// The tracks that are seen in both, sorted.
+std::vector<int64_t> CommonTracks(const Island& earlier, const Island& later) {
+  std::vector<int64_t> common;
   if (earlier.keyframe->world != later.keyframe->world) return common;
-  const std::set<int64_t> a = TracksOf(earlier);
-  const std::set<int64_t> b = TracksOf(later);
-  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(),
-                        std::inserter(common, common.end()));
+  const std::vector<int64_t> a = TracksOf(earlier);
+  const std::vector<int64_t> b = TracksOf(later);
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
   return common;
 }
 
@@ -98,7 +100,8 @@ int CountCells(const std::vector<Eigen::Vector2f>& corners_px, const CameraParam
 
 // What is known of a candidate on its way through the gates. O1 and O2 as in LoopSightings.
 struct LoopVerification::Evidence {
-  std::set<int64_t> common_tracks;  // say nothing about another visit: odometry has followed them
+  // Sorted. They say nothing about another visit: odometry has followed them.
+  std::vector<int64_t> common_tracks;
   std::vector<DescribedLandmark> landmarks_O1;
   LevelTransform T_O1_O2;
   LoopSightings all;

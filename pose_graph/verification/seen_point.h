@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <limits>
 
+#include "common/geometry/rigid3.h"
 #include "pose_graph/geometry/level_transform.h"
 
 namespace plm_vins {
@@ -14,7 +16,25 @@ struct SeenPoint {
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();   // normalised
 };
 
-// Error of a sighting from a pose (normalised); infinite behind the camera. `R_G_C` is level.
+// A pose that points are seen from, turned round once for many of them. `R_G_C` is level.
+class Viewpoint {
+ public:
+  Viewpoint(const LevelTransform& T_O_G, const Eigen::Quaterniond& R_G_C)
+      : T_G_O_(T_O_G.Inverse().ToRigid()), R_C_G_(R_G_C.conjugate()) {}
+
+  // Error of a sighting (normalised); infinite behind the camera.
+  double Error(const SeenPoint& sighting) const {
+    const Eigen::Vector3d p_C = R_C_G_ * (T_G_O_ * sighting.p_O);
+    if (p_C.z() <= 0) return std::numeric_limits<double>::infinity();
+    return (p_C.hnormalized() - sighting.xy).norm();
+  }
+
+ private:
+  Rigid3d T_G_O_;
+  Eigen::Quaterniond R_C_G_;
+};
+
+// The error of one sighting.
 double SightingError(const SeenPoint& sighting, const LevelTransform& T_O_G,
                      const Eigen::Quaterniond& R_G_C);
 

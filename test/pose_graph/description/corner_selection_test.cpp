@@ -4,7 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <map>
+#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "simulator/random.h"
 
 namespace plm_vins {
 namespace {
@@ -45,6 +53,92 @@ TEST(SelectCorners, StopsAtTheMostThereMayBeWithTheKnown) {
 
 TEST(SelectCorners, KeepsAwayFromTheBorder) {
   EXPECT_THAT(SelectCorners(CornerSelectionOptions(), Squares({{5, 5}}, {200}), {}),
+              testing::IsEmpty());
+}
+
+// The same in one pass over the whole image.
+std::vector<Eigen::Vector2f> SelectInOnePass(const CornerSelectionOptions& options,
+                                             const cv::Mat& gray,
+                                             const std::vector<Eigen::Vector2f>& known_px) {
+  const auto cell_of = [&](float u, float v) {
+    return std::pair(static_cast<int>(v) / options.cell_px, static_cast<int>(u) / options.cell_px);
+  };
+  std::set<std::pair<int, int>> taken;
+  for (const Eigen::Vector2f& uv : known_px) taken.insert(cell_of(uv.x(), uv.y()));
+  std::vector<cv::KeyPoint> found;
+  cv::FAST(gray, found, options.fast_threshold);
+  cv::KeyPointsFilter::runByImageBorder(found, gray.size(), options.border_px);
+  std::map<std::pair<int, int>, cv::KeyPoint> strongest;
+  for (const cv::KeyPoint& corner : found) {
+    const auto cell = cell_of(corner.pt.x, corner.pt.y);
+    if (taken.count(cell) > 0) continue;
+    cv::KeyPoint& best = strongest.try_emplace(cell, corner).first->second;
+    if (corner.response > best.response) best = corner;
+  }
+  std::multimap<float, Eigen::Vector2f, std::greater<>> by_strength;
+  for (const auto& [cell, corner] : strongest) {
+    by_strength.emplace(corner.response, Eigen::Vector2f(corner.pt.x, corner.pt.y));
+  }
+  std::vector<Eigen::Vector2f> selected;
+  for (const auto& [strength, uv] : by_strength) {
+    if (selected.size() + known_px.size() < static_cast<size_t>(options.max_corners)) {
+      selected.push_back(uv);
+    }
+  }
+  return selected;
+}
+
+// Noise of two sizes, the stronger the farther to the right: from cells without a corner, by faint
+// ones alone, to many clear ones.
+cv::Mat Texture(const cv::Size& size, simulator::Random* random) {
+  cv::Mat fine(size, CV_32FC1), coarse;
+  for (float& value : cv::Mat_<float>(fine)) value = static_cast<float>(random->Normal());
+  cv::GaussianBlur(fine, coarse, {}, 3.0);
+  cv::GaussianBlur(fine, fine, {}, 0.8);
+  cv::Mat gray(size, CV_8UC1);
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      const float contrast = 60.0F * static_cast<float>(u) / static_cast<float>(size.width);
+      const float noise = fine.at<float>(v, u) + 4 * coarse.at<float>(v, u);
+      gray.at<uint8_t>(v, u) = cv::saturate_cast<uint8_t>(128 + contrast * noise);
+    }
+  }
+  return gray;
+}
+
+std::vector<Eigen::Vector2f> RandomPlaces(int count, const cv::Size& size,
+                                          simulator::Random* random) {
+  std::vector<Eigen::Vector2f> places;
+  for (int i = 0; i < count; ++i) {
+    places.emplace_back(static_cast<float>(random->Index(10 * size.width)) / 10,
+                        static_cast<float>(random->Index(10 * size.height)) / 10);
+  }
+  return places;
+}
+
+TEST(SelectCorners, SelectsTheSameAsInOnePass) {
+  simulator::Random random(1);
+  for (int image = 0; image < 12; ++image) {
+    const cv::Size size(300 + 17 * image, 240 + 11 * image);
+    const cv::Mat gray = Texture(size, &random);
+    CornerSelectionOptions options;
+    if (image % 3 == 1) options.cell_px = 20;
+    if (image % 3 == 2) options.border_px = 2;
+    for (const int known_count : {0, 25}) {
+      const auto known_px = RandomPlaces(known_count, size, &random);
+      for (const int most : {30, 60, 1000}) {
+        options.max_corners = most;
+        const auto selected = SelectCorners(options, gray, known_px);
+        EXPECT_GE(selected.size(), 5u);
+        EXPECT_EQ(selected, SelectInOnePass(options, gray, known_px)) << image << ", " << most;
+      }
+    }
+  }
+}
+
+TEST(SelectCorners, FindsNoneWhereTheBorderIsAllThereIs) {
+  simulator::Random random(1);
+  EXPECT_THAT(SelectCorners(CornerSelectionOptions(), Texture({300, 48}, &random), {}),
               testing::IsEmpty());
 }
 

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <memory>
+#include <utility>
+
 namespace plm_vins {
 namespace {
 
@@ -46,6 +50,21 @@ TEST_F(KeyframeAssemblyTest, PutsTogetherWhatHasOneStampInAnyOrder) {
   EXPECT_EQ(frame->R_O_Manhattan->w(), 0.6);
   EXPECT_EQ(frame->gray.at<uchar>(0, 0), 7);
   EXPECT_FALSE(assembly_.Pop());
+}
+
+// As under ROS, where the pixels go with their message.
+TEST_F(KeyframeAssemblyTest, KeepsTheOwnerOfThePixelsWithTheFrame) {
+  auto pixels = std::make_shared<std::array<uint8_t, 16>>();
+  assembly_.AddImage({5, cv::Mat(4, 4, CV_8UC1, pixels->data()), pixels});
+  AddPose(5);
+  AddTheRest(5);
+  auto frame = assembly_.Pop();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->gray.data, pixels->data());
+  const std::weak_ptr<const void> alive = std::exchange(pixels, nullptr);
+  EXPECT_FALSE(alive.expired());
+  frame.reset();
+  EXPECT_TRUE(alive.expired());
 }
 
 TEST_F(KeyframeAssemblyTest, WaitsForLinesUntilTheNextIsComplete) {

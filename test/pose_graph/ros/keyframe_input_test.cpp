@@ -136,6 +136,18 @@ TEST_F(KeyframeInputTest, CountsMessagesOfAnotherLayout) {
   EXPECT_FALSE(malformed.detail.empty());
 }
 
+TEST_F(KeyframeInputTest, TakesTheCameraAsItIsRefined) {
+  KeyframeInput input(sensor_);
+  CameraParameters refined = sensor_.camera;
+  for (const double change_px : {1.0, 2.0}) {
+    refined.fx += change_px;
+    input.AddCamera(ToCameraInfo(refined, 5, "camera"));
+  }
+  const auto frame = Assemble(Pose(), &input);
+  ASSERT_TRUE(frame && frame->camera);
+  EXPECT_EQ(frame->camera->fx, sensor_.camera.fx + 3);
+}
+
 TEST_F(KeyframeInputTest, RefusesAnotherCamera) {
   KeyframeInput input(sensor_);
   CameraParameters refined = sensor_.camera;

@@ -100,5 +100,19 @@ TEST_F(LandmarkMatchingTest, MergesTheLandmarksOfAnIsland) {
   EXPECT_EQ(landmarks.front().descriptors.size(), 2u);
 }
 
+TEST_F(LandmarkMatchingTest, MergesInOrderOfTheTracksAndLeavesSomeOut) {
+  Keyframe keyframe;
+  for (const int track : {9, 4, 7, 2}) {
+    keyframe.corners.push_back(CornerOf(a_));
+    keyframe.corners.back().track = track;
+    keyframe.corners.back().p_O = Eigen::Vector3f::Constant(static_cast<float>(track));
+  }
+  std::vector<double> places;
+  for (const DescribedLandmark& landmark : MergeLandmarks({&keyframe}, {1, 4, 8})) {
+    places.push_back(landmark.p_O.x());
+  }
+  EXPECT_EQ(places, (std::vector<double>{2, 7, 9}));
+}
+
 }  // namespace
 }  // namespace plm_vins

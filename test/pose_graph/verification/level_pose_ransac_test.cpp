@@ -75,6 +75,18 @@ TEST_F(FindLevelPoseTest, FindsThePoseAmongSixOfTenWrongSightings) {
   EXPECT_GE(pose->inliers.front(), 60u - 6);  // hardly any of the wrong ones
 }
 
+TEST_F(FindLevelPoseTest, NamesAllThatAgreeWithThePose) {
+  const auto sightings = See(T_O_G_, R_G_C_, 60, 0.5, 2.0 / kFocalLength, &random_);
+  const LevelPoseRansacOptions options(kFocalLength);
+  const auto pose = FindLevelPose(options, sightings, R_G_C_);
+  ASSERT_TRUE(pose);
+  std::vector<size_t> agree;
+  for (size_t i = 0; i < sightings.size(); ++i) {
+    if (SightingError(sightings[i], pose->T_O_G, R_G_C_) <= options.max_error) agree.push_back(i);
+  }
+  EXPECT_EQ(pose->inliers, agree);
+}
+
 TEST_F(FindLevelPoseTest, IsTheSameForTheSameInput) {
   const auto sightings = See(T_O_G_, R_G_C_, 60, 0.5, 1.0 / kFocalLength, &random_);
   const auto first = FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_);

@@ -16,5 +16,16 @@ TEST(SightingError, IsInfiniteBehindTheCamera) {
   EXPECT_TRUE(std::isinf(SightingError({{-2, 0, 0}, {0.1, 0}}, LevelTransform(), R_G_C)));
 }
 
+TEST(Viewpoint, TellsHowFarAPointIsFromItsImage) {
+  const Eigen::Quaterniond R_G_C = testing::LookingAhead().rotation;
+  const LevelTransform T_O_G = {0.7, {1, 2, 3}};
+  const Eigen::Vector3d p_C(0.4, -0.2, 4);
+  const SeenPoint sighting = {T_O_G * (R_G_C * p_C),
+                              p_C.hnormalized() + Eigen::Vector2d(0.03, 0.04)};
+  const Viewpoint viewpoint(T_O_G, R_G_C);
+  EXPECT_NEAR(viewpoint.Error(sighting), 0.05, 1e-12);
+  EXPECT_EQ(viewpoint.Error(sighting), SightingError(sighting, T_O_G, R_G_C));
+}
+
 }  // namespace
 }  // namespace plm_vins

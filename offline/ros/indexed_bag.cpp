@@ -73,21 +73,27 @@ void IndexedBag::ReadIndex(const BagRecord& head) {
     connections_[record.Field<uint32_t>("conn")] = {record.Text("topic"), type->second};
     at = record.end;
   }
+  std::multimap<uint64_t, uint32_t> chunks;  // place -> number of its lists
   for (uint32_t i = head.Field<uint32_t>("chunk_count"); i > 0; --i) {
     const BagRecord info = file_.ReadRecord(BagOp::kChunkInfo, at);
-    ReadChunkIndex(info);
+    chunks.emplace(info.Field<uint64_t>("chunk_pos"), info.Field<uint32_t>("count"));
     at = info.end;
+  }
+  // Were one place read again and again, a small file would ask for any time and memory.
+  uint64_t end = 0;
+  for (const auto& [place, lists] : chunks) {
+    if (place < end) throw std::runtime_error("chunks that overlap");
+    end = ReadChunkIndex(place, lists);
   }
 }
 
-void IndexedBag::ReadChunkIndex(const BagRecord& info) {
-  const auto place = info.Field<uint64_t>("chunk_pos");
+uint64_t IndexedBag::ReadChunkIndex(uint64_t place, uint32_t lists) {
   chunks_.push_back({place, file_.ReadRecord(BagOp::kChunk, place)});
   const Chunk& chunk = chunks_.back();
   const uint64_t size = chunk.is_packed() ? chunk.record.Field<uint32_t>("size")
                                           : chunk.record.end - chunk.record.data;
   uint64_t at = chunk.record.end;
-  for (uint32_t i = info.Field<uint32_t>("count"); i > 0; --i) {
+  for (; lists > 0; --lists) {
     const BagRecord list = file_.ReadRecord(BagOp::kIndex, at);
     const auto connection = list.Field<uint32_t>("conn");
     const std::string bytes = file_.Read(list.data, list.end - list.data);
@@ -98,12 +104,9 @@ void IndexedBag::ReadChunkIndex(const BagRecord& info) {
     for (size_t entry = 0; entry < bytes.size(); entry += kIndexEntrySize) {
       AddEntry(bytes.data() + entry, connection, size);
     }
-    // Lists of which some are one place in the file would ask for any amount of memory.
-    if (entries_.size() * kIndexEntrySize > file_.size()) {
-      throw std::runtime_error("lists of messages that overlap");
-    }
     at = list.end;
   }
+  return at;
 }
 
 void IndexedBag::AddEntry(const char* bytes, uint32_t connection, uint64_t chunk_size) {

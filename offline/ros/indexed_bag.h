@@ -58,8 +58,8 @@ class IndexedBag {
   };
 
   void ReadIndex(const BagRecord& head);
-  // The lists behind a chunk, one for each of its connections.
-  void ReadChunkIndex(const BagRecord& info);
+  // The lists behind the chunk at a place, one for each of its connections. Returns where they end.
+  uint64_t ReadChunkIndex(uint64_t place, uint32_t lists);
   void AddEntry(const char* bytes, uint32_t connection, uint64_t chunk_size);
   BagMessage ReadMessage(const Entry& entry, const Chunk& chunk);
   // Makes this chunk the one that is at hand; where that fails, all of it is left out.

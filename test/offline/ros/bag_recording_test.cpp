@@ -9,6 +9,7 @@
 #include <sensor_msgs/Imu.h>
 #include <std_msgs/Bool.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -37,6 +38,28 @@ constexpr int kSamples = 200;
 constexpr int kImages = 40;
 constexpr rosbag::CompressionType kCompressions[] = {
     rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4};
+
+constexpr char kChunkHeader[] = "compression=";  // the first field
+
+size_t After(const std::string& field, const std::string& bytes) {
+  return bytes.find(field) + field.size();
+}
+
+uint32_t Number(const std::string& bytes, size_t at) {
+  uint32_t number = 0;
+  std::memcpy(&number, bytes.data() + at, sizeof(number));
+  return number;
+}
+
+void Replace(uint32_t number, size_t at, std::string* bytes) {
+  bytes->replace(at, sizeof(number), reinterpret_cast<const char*>(&number), sizeof(number));
+}
+
+// Where the data of a record begin, behind their size. `field`: the first one of its header, whose
+// size is before it, and before that the header's.
+size_t DataOf(const std::string& bytes, size_t field) {
+  return field - 4 + Number(bytes, field - 8) + 4;
+}
 
 ros::Time Stamp(int i) { return ToRosTime(kStart + i * kStep); }
 
@@ -193,19 +216,33 @@ TEST_F(BagRecording, NamesTheRemedyForAnIndexThatLeadsAstray) {
   }
 }
 
-// 2 MB that ask for 40: each copy of the chunk's entry in the index names all messages again.
+// 2 MB that ask for 40: each copy of the chunk's entry in the index names all messages again. Where
+// they name lists without messages, they ask for time alone.
 TEST_F(BagRecording, RefusesAnIndexThatNamesOneChunkAgainAndAgain) {
-  constexpr uint32_t kCopies = 15'000;
-  WriteBag("/cam0/image_raw", RawImage, rosbag::compression::Uncompressed, 10'000'000);
+  for (const uint32_t lists : {3u, 0u}) {
+    WriteBag("/cam0/image_raw", RawImage, rosbag::compression::Uncompressed, 10'000'000);
+    std::string bytes = folder_.Read("test.bag");
+    std::string info = bytes.substr(bytes.rfind("chunk_pos=") - 2 * sizeof(uint32_t));
+    Replace(lists, After("count=", info), &info);
+    constexpr uint32_t kCopies = 15'000;
+    for (uint32_t i = 0; i < kCopies; ++i) bytes += info;
+    Replace(1 + kCopies, After("chunk_count=", bytes), &bytes);
+    folder_.Write("test.bag", bytes);
+    EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("chunks that overlap"));
+  }
+}
+
+// The second one is said to end where the third one does, and has its lists of messages.
+TEST_F(BagRecording, RefusesChunksThatOverlap) {
+  WriteBag("/cam0/image_raw", RawImage);
   std::string bytes = folder_.Read("test.bag");
-  const std::string info = bytes.substr(bytes.rfind("chunk_pos=") - 2 * sizeof(uint32_t));
-  for (uint32_t i = 0; i < kCopies; ++i) bytes += info;
-  const uint32_t chunks = 1 + kCopies;
-  const std::string field = "chunk_count=";
-  bytes.replace(bytes.find(field) + field.size(), sizeof(chunks),
-                reinterpret_cast<const char*>(&chunks), sizeof(chunks));
+  const size_t first = bytes.find(kChunkHeader);
+  const size_t second = DataOf(bytes, bytes.find(kChunkHeader, first + 1));
+  const size_t third = DataOf(bytes, bytes.find(kChunkHeader, second));
+  const size_t end = third + Number(bytes, third - 4);
+  Replace(static_cast<uint32_t>(end - second), second - 4, &bytes);
   folder_.Write("test.bag", bytes);
-  EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("lists of messages that overlap"));
+  EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("chunks that overlap"));
 }
 
 TEST_F(BagRecording, LeavesOutAMessageThatIsNotWhereTheIndexSays) {

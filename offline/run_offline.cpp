@@ -25,6 +25,7 @@
 #include "common/process_setup.h"
 #include "common/stopwatch.h"
 #include "offline/pipeline/odometry_pipeline.h"
+#include "offline/pipeline/tracker_values.h"
 #include "offline/recordings/asl_recording.h"
 #include "offline/recordings/bag_recording.h"
 #include "offline/results/loop_results.h"
@@ -280,6 +281,22 @@ void ShowTracks(double interval, ResultFiles* results, OdometryPipeline* pipelin
                        });
 }
 
+// Warns where features are not those that the configuration asks for, and tells the summary.
+void CheckFeatures(const FeatureFileReader& features, const Config& config, Json* summary_parts) {
+  const Json otherwise = RecordedOtherwise(features.tracker_values(), config);
+  if (otherwise.empty()) return;
+  Warn(RecordedOtherwiseWarning(features.file(), otherwise));
+  (*summary_parts)["features_recorded_with"] = otherwise;
+}
+
+// By which the features were recorded that are saved now.
+Json ValuesToSave(const std::optional<FeatureFileReader>& features, const Config& config) {
+  if (!features) return TrackerValues(config);
+  Json values = features->tracker_values();
+  if (!config.use_lines) values["use_lines"] = false;
+  return values;
+}
+
 int Run(const Arguments& arguments) {
   CheckOutputs(arguments);
   const Config config = Configure(arguments);
@@ -292,6 +309,8 @@ int Run(const Arguments& arguments) {
   } else {
     features.emplace(arguments.features);
   }
+  Json summary_parts = Json::object();
+  if (features) CheckFeatures(*features, config, &summary_parts);
   std::optional<KeyframeMap> map = MapToStartIn(arguments, config.pose_graph);
   MakeResultFolder(arguments.output);
   std::optional<ReplacedFile> map_out;
@@ -299,7 +318,8 @@ int Run(const Arguments& arguments) {
   OdometryPipeline pipeline(config);
   std::optional<FeatureFileWriter> saved_features;
   if (!arguments.saved_features.empty()) {
-    pipeline.SaveFeatures(&saved_features.emplace(arguments.saved_features));
+    pipeline.SaveFeatures(
+        &saved_features.emplace(arguments.saved_features, ValuesToSave(features, config)));
   }
   ResultFiles results(arguments.output, arguments.config);
   ShowTracks(arguments.track_image_interval, &results, &pipeline);
@@ -325,7 +345,8 @@ int Run(const Arguments& arguments) {
   if (loops) loops->Finish();
   results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
   results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());
-  results.Finish(run, config, loops ? loops->Summary() : Json());
+  if (loops) summary_parts["loops"] = loops->Summary();
+  results.Finish(run, config, summary_parts);
   return Report(run, source, pipeline.unused_images(), results);
 }
 

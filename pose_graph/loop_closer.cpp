@@ -70,7 +70,7 @@ LoopClosure LoopCloser::Add(Keyframe keyframe) {
   UpdateLandmarks(options_.verification.ransac.max_error, &map_.keyframes);
   recognition_.Add(map_.keyframes.back(), number);
   if (continues) ConnectToPrevious(number);
-  place_.AddKeyframe(map_, continues);
+  place_.AddKeyframe(map_);
 
   LoopClosure closure;
   closure.is_keyframe = true;
@@ -121,6 +121,7 @@ void LoopCloser::LookForLoops(LoopClosure* closure) {
   const bool had_place = Fix().has_value();
   AddLoops(loops);
   Optimize(loops, closure);
+  if (closure->dropped > 0) return place_.Recompute(map_);
   for (const LoopCandidate* loop : loops) {
     if (!loop->failed) place_.AddLoop(map_, EdgeOf(*loop), /*joins=*/!had_place && Fix());
   }

@@ -1,70 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "offline/pipeline/feature_file.h"
 
-#include <array>
-#include <cstring>
 #include <stdexcept>
-#include <type_traits>
+#include <string>
 #include <vector>
 
 #include "common/features/feature_checks.h"
+#include "common/io/binary_archive.h"
 
 namespace plm_vins {
 namespace {
 
-constexpr std::array<char, 16> kSignature = {'p', 'l', 'm', '_', 'f', 'e', 'a', 't',
-                                             'u', 'r', 'e', 's', ' ', 'v', '1', '\n'};
-constexpr uint32_t kMostFeatures = 1 << 20;  // of one image: more are no features but damage
+constexpr char kKind[] = "plm_features v";
+constexpr char kVersion[] = "2\n";
 
 enum class ItemKind : uint8_t { kImu = 1, kPoints = 2, kPointsAndLines = 3 };
-
-// Both archives have the same interface, so that one function per struct below defines its layout.
-class Output {
- public:
-  explicit Output(std::ostream* stream) : stream_(stream) {}
-
-  template <typename T>
-  void Value(const T& value) {
-    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
-    stream_->write(reinterpret_cast<const char*>(&value), sizeof(value));
-  }
-  template <typename T>
-  void Size(const std::vector<T>& values) {
-    Value(static_cast<uint32_t>(values.size()));
-  }
-
- private:
-  std::ostream* stream_;
-};
-
-class Input {
- public:
-  explicit Input(std::istream* stream) : stream_(stream) {}
-
-  template <typename T>
-  void Value(T& value) {
-    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
-    std::array<char, sizeof(T)> bytes;
-    if (!stream_->read(bytes.data(), bytes.size())) throw std::runtime_error("ends in an item");
-    std::memcpy(&value, bytes.data(), sizeof(T));
-  }
-  void Value(bool& value) {
-    uint8_t byte = 0;
-    Value(byte);
-    if (byte > 1) throw std::runtime_error("is damaged");
-    value = byte == 1;
-  }
-  template <typename T>
-  void Size(std::vector<T>& values) {
-    uint32_t size = 0;
-    Value(size);
-    if (size > kMostFeatures) throw std::runtime_error("is damaged");
-    values.resize(size);
-  }
-
- private:
-  std::istream* stream_;
-};
 
 // Layouts; Struct is const where it is written.
 template <typename Archive, typename Vector>
@@ -101,13 +51,12 @@ template <typename Archive, typename Struct>
 void Points(Archive* archive, Struct& tracked) {
   Tracking(archive, tracked);
   PointStatistics(archive, tracked.statistics);
-  archive->Size(tracked.features.points);
-  for (auto& point : tracked.features.points) {
-    archive->Value(point.id);
-    Coordinates(archive, point.xy);
-    Coordinates(archive, point.uv_px);
-    Coordinates(archive, point.velocity);
-  }
+  archive->List(tracked.features.points, [](auto* a, auto& point) {
+    a->Value(point.id);
+    Coordinates(a, point.xy);
+    Coordinates(a, point.uv_px);
+    Coordinates(a, point.velocity);
+  });
 }
 
 template <typename Archive, typename Struct>
@@ -128,12 +77,16 @@ template <typename Archive, typename Struct>
 void Lines(Archive* archive, Struct& tracked) {
   Tracking(archive, tracked);
   LineStatistics(archive, tracked.statistics);
-  archive->Size(tracked.features.lines);
-  for (auto& line : tracked.features.lines) {
-    archive->Value(line.id);
-    Coordinates(archive, line.start);
-    Coordinates(archive, line.end);
-  }
+  archive->List(tracked.features.lines, [](auto* a, auto& line) {
+    a->Value(line.id);
+    Coordinates(a, line.start);
+    Coordinates(a, line.end);
+  });
+}
+
+template <typename Archive, typename String>
+void Text(Archive* archive, String& text) {
+  archive->List(text, [](auto* a, auto& character) { a->Value(character); });
 }
 
 void RequireStamp(int64_t t_ns) {
@@ -148,12 +101,16 @@ void RequirePossible(std::vector<Observation>* observations) {
 
 }  // namespace
 
-FeatureFileWriter::FeatureFileWriter(const std::string& file) : file_(file) {
-  file_.stream().write(kSignature.data(), kSignature.size());
+FeatureFileWriter::FeatureFileWriter(const std::string& file, const Json& tracker_values)
+    : file_(file) {
+  file_.stream() << kKind << kVersion;
+  BinaryWriter writer(&file_.stream());
+  const std::string text = tracker_values.dump();
+  Text(&writer, text);
 }
 
 void FeatureFileWriter::Add(const TrackedItem& item) {
-  Output output(&file_.stream());
+  BinaryWriter output(&file_.stream());
   if (!item.frame) {
     output.Value(ItemKind::kImu);
     Imu(&output, item.imu);
@@ -170,17 +127,38 @@ void FeatureFileWriter::Close() { file_.Commit(); }
 FeatureFileReader::FeatureFileReader(const std::string& file)
     : file_(file), stream_(file, std::ios::binary) {
   if (!stream_) throw std::runtime_error(file + ": cannot be read; check the path");
-  std::array<char, kSignature.size()> signature = {};
-  stream_.read(signature.data(), signature.size());
-  if (signature != kSignature) {
-    throw std::runtime_error(file + ": no features of this version; write it with --save-features");
+  std::string kind, version;
+  kind.resize(sizeof(kKind) - 1);
+  version.resize(sizeof(kVersion) - 1);
+  stream_.read(kind.data(), static_cast<std::streamsize>(kind.size()));
+  stream_.read(version.data(), static_cast<std::streamsize>(version.size()));
+  if (kind != kKind) {
+    throw std::runtime_error(file + ": is no file of features; --save-features writes one");
   }
+  if (version != kVersion) throw Unusable("is of another version of this program");
+  ReadTrackerValues();
+}
+
+void FeatureFileReader::ReadTrackerValues() {
+  std::string text;
+  try {
+    BinaryReader reader(&stream_);
+    Text(&reader, text);
+  } catch (const std::runtime_error& error) {
+    throw Unusable(error.what());
+  }
+  tracker_values_ = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!tracker_values_.is_object()) throw Unusable("is damaged");
+}
+
+std::runtime_error FeatureFileReader::Unusable(const std::string& why) const {
+  return std::runtime_error(file_ + ": " + why + "; record it again with --save-features");
 }
 
 std::optional<TrackedItem> FeatureFileReader::Next() {
   if (stream_.peek() == std::ifstream::traits_type::eof()) return std::nullopt;
   try {
-    Input input(&stream_);
+    BinaryReader input(&stream_);
     TrackedItem item;
     ItemKind kind = ItemKind::kImu;
     input.Value(kind);
@@ -203,7 +181,7 @@ std::optional<TrackedItem> FeatureFileReader::Next() {
     }
     return item;
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(file_ + ": " + error.what() + "; write it again with --save-features");
+    throw Unusable(error.what());
   }
 }
 

@@ -21,6 +21,7 @@ LoopResults::LoopResults(const Config& config, const std::string& folder,
                          std::optional<KeyframeMap> map)
     : folder_(folder),
       camera_(CameraModel::Create(config.sensor.camera)),
+      refined_camera_(camera_->parameters()),
       loops_(LoopCloserOptions(*camera_), camera_),
       trajectory_(File("trajectory_map.tum")),
       covariance_(File("covariance_map.csv"), CovarianceHeader()),
@@ -50,6 +51,7 @@ void LoopResults::Add(const PipelineFrame& frame) {
   const int newest = map().graph.size() - 1;
   poses_.push_back({frame.output.t_ns, T_O_B, newest});
   if (!closure.fix) return;
+  refined_camera_ = frame.output.calibration.camera;
   const int64_t t_ns = frame.output.t_ns;
   trajectory_.Row(t_ns) << FormatTumRow(t_ns, closure.fix->T_M_O.ToRigid() * T_O_B);
   WriteCovarianceRow(t_ns, CovarianceInMap(*closure.fix, T_O_B, frame.output.pose_covariance),
@@ -75,7 +77,7 @@ void LoopResults::Finish() {
   OutputFile g2o(File("pose_graph.g2o"));
   WriteG2o(map(), &g2o.stream());
   g2o.Close();
-  WriteColmapModel(File("colmap"), camera_->parameters(), map());
+  WriteColmapModel(File("colmap"), refined_camera_, map());
 }
 
 // Poses of a world that was not joined to the map are in that world, between comments that say so.

@@ -47,7 +47,8 @@ class LoopResults {
   void WriteFinalTrajectory() const;
 
   std::string folder_;
-  std::shared_ptr<const CameraModel> camera_;
+  std::shared_ptr<const CameraModel> camera_;  // as configured
+  CameraParameters refined_camera_;            // as of the last pose in M: of the keyframes' rays
   LoopCloser loops_;
   TimedFile trajectory_;
   TimedFile covariance_;

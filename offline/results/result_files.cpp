@@ -182,7 +182,7 @@ void ResultFiles::WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv:
                       {cv::IMWRITE_JPEG_QUALITY, kTrackImageQuality});
 }
 
-void ResultFiles::Finish(RunSummary::Run run, const Config& config, const Json& loops) {
+void ResultFiles::Finish(RunSummary::Run run, const Config& config, const Json& parts) {
   EndWorld();
   map_.Finish();
   trajectory_.Close();
@@ -194,7 +194,7 @@ void ResultFiles::Finish(RunSummary::Run run, const Config& config, const Json& 
   if (summary_.poses() > 0 && RefinesCalibration(config.sensor)) {
     SaveCalibratedConfig(summary_.calibration(), config, File(kCalibratedConfigFile));
   }
-  WriteSummary(run, config, loops);  // last: it says that all is there
+  WriteSummary(run, config, parts);  // last: it says that all is there
 }
 
 void ResultFiles::WriteLines() const {
@@ -207,9 +207,9 @@ void ResultFiles::WriteLines() const {
 }
 
 void ResultFiles::WriteSummary(const RunSummary::Run& run, const Config& config,
-                               const Json& loops) const {
+                               const Json& parts) const {
   Json summary = summary_.ToJson(run);
-  if (!loops.is_null()) summary["loops"] = loops;
+  for (const auto& [name, part] : parts.items()) summary[name] = part;
   summary["version"] = PLM_VINS_VERSION;
   summary["config"] = ToJson(config);
   ReplacedFile file(File("summary.json"));

@@ -37,9 +37,9 @@ class ResultFiles {
   // tracks/STAMP_NS.jpg: points and lines side by side, in half the size.
   void WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines);
 
-  // Completes all files; the counts of the map in `run` are filled in here. `loops` goes into
-  // summary.json as it is; null: no loops were looked for.
-  void Finish(RunSummary::Run run, const Config& config, const Json& loops);
+  // Completes all files; the counts of the map in `run` are filled in here. `parts` go into
+  // summary.json as they are, by name; null: there are none.
+  void Finish(RunSummary::Run run, const Config& config, const Json& parts);
 
   const std::string& folder() const { return folder_; }
   const RunSummary& summary() const { return summary_; }
@@ -56,7 +56,7 @@ class ResultFiles {
   // ... and ids start over.
   void EndWorld();
   void WriteLines() const;
-  void WriteSummary(const RunSummary::Run& run, const Config& config, const Json& loops) const;
+  void WriteSummary(const RunSummary::Run& run, const Config& config, const Json& parts) const;
 
   std::string folder_;
   TimedFile trajectory_;

@@ -44,8 +44,15 @@ struct EdgeCost {
 }  // namespace
 
 int PoseGraph::AddNode(const LevelTransform& T_M_L) {
-  nodes_.push_back({T_M_L});
-  return size() - 1;
+  const int number = size();
+  nodes_.push_back({T_M_L, -1, static_cast<int>(kept_.size())});
+  kept_.push_back({number, {}});
+  return number;
+}
+
+int PoseGraph::PlaceOf(int number) const {
+  const Node& node = nodes_[number];
+  return node.anchor < 0 ? node.place : nodes_[node.anchor].place;
 }
 
 LevelTransform PoseGraph::node(int number) const {
@@ -82,10 +89,15 @@ void PoseGraph::Remove(int number, int anchor) {
 // Those that are taken out are seen from one that is not, so no search is needed.
 void PoseGraph::Anchor(int number, int anchor) {
   const LevelTransform T_A_L = node(anchor).Inverse() * node(number);
-  nodes_[number] = {T_A_L, anchor};
-  for (Node& node : nodes_) {
-    if (node.anchor == number) node = {T_A_L * node.T_M_L, anchor};
+  const auto removed = kept_.begin() + PlaceOf(number);
+  std::vector<int>& anchored = kept_[PlaceOf(anchor)].anchored;
+  for (const int other : removed->anchored) {
+    nodes_[other] = {T_A_L * nodes_[other].T_M_L, anchor};
+    anchored.push_back(other);
   }
+  nodes_[number] = {T_A_L, anchor};
+  anchored.push_back(number);
+  for (auto next = kept_.erase(removed); next != kept_.end(); ++next) --nodes_[next->number].place;
 }
 
 // Steps and loops are compared with their like alone: steps are never doubted.
@@ -126,22 +138,24 @@ std::vector<LevelEdge> PoseGraph::Optimize() {
 
 void PoseGraph::Solve() {
   std::vector<Vector4d> values;
-  for (const Node& node : nodes_) values.push_back(node.T_M_L.ToVector());
+  for (const KeptNode& kept : kept_) values.push_back(nodes_[kept.number].T_M_L.ToVector());
   ceres::Problem problem;
   for (const LevelEdge& edge : edges_) {
     const Vector4d measured = edge.T_from_to.ToVector();
-    const double excess = values[edge.to](3) - values[edge.from](3) - measured(3);
+    Vector4d& from = values[PlaceOf(edge.from)];
+    Vector4d& to = values[PlaceOf(edge.to)];
+    const double excess = to(3) - from(3) - measured(3);
     auto* cost = new ceres::AutoDiffCostFunction<EdgeCost, 4, 4, 4>(
         new EdgeCost{measured, Whitening(edge.covariance), std::round(excess / (2 * M_PI))});
     // Where odometry jumped, a right loop is off by much at first: it must not be doubted before it
     // is taken out.
     problem.AddResidualBlock(cost,
                              edge.is_loop ? new ceres::CauchyLoss(kThreeSigmaOf4Dof) : nullptr,
-                             values[edge.from].data(), values[edge.to].data());
+                             from.data(), to.data());
   }
   const std::vector<int> parts = Parts();
-  for (int i = 0; i < size(); ++i) {
-    if (parts[i] == i && problem.HasParameterBlock(values[i].data())) {
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (parts[i] == static_cast<int>(i) && problem.HasParameterBlock(values[i].data())) {
       problem.SetParameterBlockConstant(values[i].data());
     }
   }
@@ -166,73 +180,77 @@ void PoseGraph::Solve() {
 // where it was.
 void PoseGraph::TakeOver(const std::vector<Vector4d>& values, const std::vector<int>& parts) {
   std::map<int, LevelFit> fits;
-  for (int i = 0; i < size(); ++i) {
-    if (Has(i)) fits[parts[i]].Add(LevelTransform::FromVector(values[i]), nodes_[i].T_M_L);
+  for (size_t i = 0; i < kept_.size(); ++i) {
+    fits[parts[i]].Add(LevelTransform::FromVector(values[i]), nodes_[kept_[i].number].T_M_L);
   }
-  for (int i = 0; i < size(); ++i) {
-    if (Has(i)) {
-      nodes_[i].T_M_L = fits[parts[i]].Transform() * LevelTransform::FromVector(values[i]);
-    }
+  for (size_t i = 0; i < kept_.size(); ++i) {
+    nodes_[kept_[i].number].T_M_L =
+        fits[parts[i]].Transform() * LevelTransform::FromVector(values[i]);
   }
 }
 
 std::vector<int> PoseGraph::Parts() const {
-  std::vector<int> part(nodes_.size());
+  std::vector<int> part(kept_.size());
   std::iota(part.begin(), part.end(), 0);
-  const auto first_of = [&](int node) {
-    while (part[node] != node) node = part[node] = part[part[node]];
-    return node;
+  const auto first_of = [&](int place) {
+    while (part[place] != place) place = part[place] = part[part[place]];
+    return place;
   };
   for (const LevelEdge& edge : edges_) {
-    const auto [low, high] = std::minmax({first_of(edge.from), first_of(edge.to)});
+    const auto [low, high] =
+        std::minmax({first_of(PlaceOf(edge.from)), first_of(PlaceOf(edge.to))});
     part[high] = low;
   }
-  for (int i = 0; i < size(); ++i) part[i] = first_of(Has(i) ? i : nodes_[i].anchor);
+  for (int& place : part) place = first_of(place);
   return part;
 }
 
 bool PoseGraph::AreConnected(int a, int b) const {
   const std::vector<int> parts = Parts();
-  return parts[a] == parts[b];
+  return parts[PlaceOf(a)] == parts[PlaceOf(b)];
 }
 
 std::vector<bool> PoseGraph::ConnectedWith(int node) const {
   const std::vector<int> parts = Parts();
   std::vector<bool> connected;
-  connected.reserve(parts.size());
-  for (const int part : parts) connected.push_back(part == parts[node]);
+  connected.reserve(nodes_.size());
+  for (int i = 0; i < size(); ++i) {
+    connected.push_back(parts[PlaceOf(i)] == parts[PlaceOf(node)]);
+  }
   return connected;
 }
 
 void PoseGraph::MovePart(int node, const LevelTransform& T_new_old) {
-  const std::vector<bool> moves = ConnectedWith(node);
-  for (int i = 0; i < size(); ++i) {
-    if (moves[i] && Has(i)) nodes_[i].T_M_L = T_new_old * nodes_[i].T_M_L;
+  const std::vector<int> parts = Parts();
+  for (size_t i = 0; i < kept_.size(); ++i) {
+    if (parts[i] != parts[PlaceOf(node)]) continue;
+    LevelTransform& T_M_L = nodes_[kept_[i].number].T_M_L;
+    T_M_L = T_new_old * T_M_L;
   }
 }
 
 double PoseGraph::Distance(int from, int to) const {
-  std::vector<std::vector<std::pair<int, double>>> neighbours(nodes_.size());
+  std::vector<std::vector<std::pair<int, double>>> neighbours(kept_.size());  // by place
   for (const LevelEdge& edge : edges_) {
-    neighbours[edge.from].emplace_back(edge.to, edge.way);
-    neighbours[edge.to].emplace_back(edge.from, edge.way);
+    neighbours[PlaceOf(edge.from)].emplace_back(PlaceOf(edge.to), edge.way);
+    neighbours[PlaceOf(edge.to)].emplace_back(PlaceOf(edge.from), edge.way);
   }
-  std::vector<double> distances(nodes_.size(), std::numeric_limits<double>::infinity());
-  using Reached = std::pair<double, int>;  // distance, node
+  std::vector<double> distances(kept_.size(), std::numeric_limits<double>::infinity());
+  using Reached = std::pair<double, int>;  // distance, place
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> front;
-  distances[from] = 0;
-  front.emplace(0, from);
-  while (!front.empty() && front.top().second != to) {
-    const auto [distance, node] = front.top();
+  distances[PlaceOf(from)] = 0;
+  front.emplace(0, PlaceOf(from));
+  while (!front.empty() && front.top().second != PlaceOf(to)) {
+    const auto [distance, place] = front.top();
     front.pop();
-    if (distance > distances[node]) continue;
-    for (const auto& [next, length] : neighbours[node]) {
+    if (distance > distances[place]) continue;
+    for (const auto& [next, length] : neighbours[place]) {
       if (distance + length >= distances[next]) continue;
       distances[next] = distance + length;
       front.emplace(distances[next], next);
     }
   }
-  return distances[to];
+  return distances[PlaceOf(to)];
 }
 
 }  // namespace plm_vins

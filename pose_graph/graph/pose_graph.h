@@ -50,15 +50,25 @@ class PoseGraph {
   struct Node {
     LevelTransform T_M_L;  // of one that is taken out: T_A_L, A being its anchor's L
     int anchor = -1;       // -1: it is not taken out
+    int place = -1;        // in `kept_`, if it is not taken out
+  };
+  struct KeptNode {
+    int number = -1;
+    std::vector<int> anchored;  // those that are seen from it
   };
 
+  // Where in `kept_` a node is, or its anchor.
+  int PlaceOf(int number) const;
   void Anchor(int number, int anchor);
   void AddSurer(const LevelEdge& edge);
-  std::vector<int> Parts() const;  // by node: the first node of its part
+  std::vector<int> Parts() const;  // by place: that of the first node of its part
   void Solve();
   void TakeOver(const std::vector<Vector4d>& values, const std::vector<int>& parts);
 
   std::vector<Node> nodes_;
+  // Those that are not taken out, in order: what is done with each keyframe looks at these alone,
+  // so that it takes no longer the more there have been.
+  std::vector<KeptNode> kept_;
   std::vector<LevelEdge> edges_;
 };
 

@@ -24,9 +24,20 @@ struct ColmapPoint {
   std::vector<std::pair<int, size_t>> views;  // keyframe, corner
 };
 
-std::map<PointName, ColmapPoint> CollectPoints(const KeyframeMap& map) {
-  std::map<PointName, ColmapPoint> points;
+// Those that are kept and have a place in the map.
+std::vector<int> KeyframesInMap(const KeyframeMap& map) {
+  const std::vector<bool> connected = map.graph.ConnectedWith(0);
+  std::vector<int> numbers;
   for (int i = 0; i < map.graph.size(); ++i) {
+    if (connected[i] && map.graph.Has(i)) numbers.push_back(i);
+  }
+  return numbers;
+}
+
+std::map<PointName, ColmapPoint> CollectPoints(const KeyframeMap& map,
+                                               const std::vector<int>& keyframes) {
+  std::map<PointName, ColmapPoint> points;
+  for (const int i : keyframes) {
     const Keyframe& keyframe = map.keyframes[i];
     for (size_t corner = 0; corner < keyframe.corners.size(); ++corner) {
       const DescribedCorner& seen = keyframe.corners[corner];
@@ -87,13 +98,6 @@ void WriteImage(const CameraParameters& camera, const KeyframeMap& map, int numb
   *stream << '\n';
 }
 
-void WriteImages(const CameraParameters& camera, const KeyframeMap& map,
-                 const std::map<PointName, ColmapPoint>& points, std::ostream* stream) {
-  for (int i = 0; i < map.graph.size(); ++i) {
-    if (map.graph.Has(i)) WriteImage(camera, map, i, points, stream);
-  }
-}
-
 void WritePoints(const std::map<PointName, ColmapPoint>& points, std::ostream* stream) {
   for (const auto& [name, point] : points) {
     *stream << point.id;
@@ -115,10 +119,12 @@ void WriteColmapModel(const std::string& folder, const CameraParameters& camera,
   CameraParameters shifted = camera;
   shifted.cx += 0.5;
   shifted.cy += 0.5;
-  const std::map<PointName, ColmapPoint> points = CollectPoints(map);
+  const std::vector<int> keyframes = KeyframesInMap(map);
+  const std::map<PointName, ColmapPoint> points = CollectPoints(map, keyframes);
   WriteFile(folder, "cameras.txt", [&](std::ostream* stream) { WriteCamera(shifted, stream); });
-  WriteFile(folder, "images.txt",
-            [&](std::ostream* stream) { WriteImages(camera, map, points, stream); });
+  WriteFile(folder, "images.txt", [&](std::ostream* stream) {
+    for (const int i : keyframes) WriteImage(camera, map, i, points, stream);
+  });
   WriteFile(folder, "points3D.txt", [&](std::ostream* stream) { WritePoints(points, stream); });
 }
 

@@ -2,6 +2,7 @@
 #include "pose_graph/output/map_file.h"
 
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -11,7 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "pose_graph/output/map_archive.h"
+#include "common/io/binary_archive.h"
+#include "pose_graph/output/map_check.h"
 
 namespace plm_vins {
 namespace {
@@ -75,10 +77,8 @@ void Frame(Archive* archive, Struct& keyframe) {
   Numbers(archive, keyframe.covariance);
   Pose(archive, keyframe.T_B_C);
   if (archive->Has(keyframe.R_O_Manhattan)) Numbers(archive, keyframe.R_O_Manhattan->coeffs());
-  archive->Resize(keyframe.corners);
-  for (auto& corner : keyframe.corners) Corner(archive, corner);
-  archive->Resize(keyframe.segments);
-  for (auto& segment : keyframe.segments) Segment(archive, segment);
+  archive->List(keyframe.corners, [](auto* a, auto& corner) { Corner(a, corner); });
+  archive->List(keyframe.segments, [](auto* a, auto& segment) { Segment(a, segment); });
 }
 
 template <typename Archive, typename Struct>
@@ -93,31 +93,28 @@ void Edge(Archive* archive, Struct& edge) {
 
 template <typename Archive, typename Keyframes, typename Nodes, typename Edges>
 void Map(Archive* archive, Keyframes& keyframes, Nodes& nodes, Edges& edges) {
-  archive->Resize(keyframes);
-  for (auto& keyframe : keyframes) Frame(archive, keyframe);
-  archive->Resize(nodes);
-  for (auto& node : nodes) Level(archive, node);
-  archive->Resize(edges);
-  for (auto& edge : edges) Edge(archive, edge);
+  archive->List(keyframes, [](auto* a, auto& keyframe) { Frame(a, keyframe); });
+  archive->List(nodes, [](auto* a, auto& node) { Level(a, node); });
+  archive->List(edges, [](auto* a, auto& edge) { Edge(a, edge); });
 }
 
-// Takes the numbers of a graph only where they are of this map.
-KeyframeMap ParseMap(const std::string& bytes) {
+// The checksum does not show who wrote it.
+KeyframeMap ParseMap(const std::string& bytes) try {
   KeyframeMap map;
   std::vector<LevelTransform> nodes;
   std::vector<LevelEdge> edges;
-  MapReader reader(bytes);
+  std::istringstream stream(bytes);
+  BinaryReader reader(&stream);
   Map(&reader, map.keyframes, nodes, edges);
-  if (nodes.size() != map.keyframes.size()) throw std::runtime_error("is damaged");
+  RequireOfMap(stream.peek() == std::istream::traits_type::eof(), "it goes on after its end");
+  MapNumberCheck numbers;
+  Map(&numbers, map.keyframes, nodes, edges);
+  CheckMap(map.keyframes, nodes, edges);
   for (const LevelTransform& node : nodes) map.graph.AddNode(node);
-  for (const LevelEdge& edge : edges) {
-    const int lowest = std::min(edge.from, edge.to);
-    if (lowest < 0 || std::max(edge.from, edge.to) >= map.graph.size()) {
-      throw std::runtime_error("is damaged");
-    }
-    map.graph.AddEdge(edge);
-  }
+  for (const LevelEdge& edge : edges) map.graph.AddEdge(edge);
   return map;
+} catch (const std::runtime_error& error) {
+  throw std::runtime_error(error.what() + std::string(": save the map again"));
 }
 
 std::string ReadPayload(std::istream* stream) {
@@ -158,13 +155,14 @@ void WriteStream(const std::string& bytes, std::ostream* stream) {
 }  // namespace
 
 void SaveMap(const KeyframeMap& map, ReplacedFile* file) {
-  MapWriter writer;
+  std::ostringstream payload;
+  BinaryWriter writer(&payload);
   const KeyframeMap kept = map.Compact();
   std::vector<LevelTransform> nodes;
   nodes.reserve(kept.graph.size());
   for (int i = 0; i < kept.graph.size(); ++i) nodes.push_back(kept.graph.node(i));
   Map(&writer, kept.keyframes, std::as_const(nodes), kept.graph.edges());
-  WriteStream(writer.bytes(), &file->stream());
+  WriteStream(payload.str(), &file->stream());
   file->Commit();
 }
 
@@ -175,7 +173,10 @@ void SaveMap(const std::string& file, const KeyframeMap& map) {
 
 KeyframeMap LoadMap(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::runtime_error(file + ": there is no such map");
+  if (!stream && errno == ENOENT) throw std::runtime_error(file + ": there is no such map");
+  if (!stream) {
+    throw std::runtime_error(file + " cannot be read: " + std::generic_category().message(errno));
+  }
   try {
     return ParseMap(ReadPayload(&stream));
   } catch (const std::runtime_error& error) {

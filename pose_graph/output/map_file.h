@@ -15,7 +15,8 @@ void SaveMap(const std::string& file, const KeyframeMap& map);
 void SaveMap(const KeyframeMap& map, ReplacedFile* file);
 
 // Reads it back, bit by bit. Throws std::runtime_error with one message where there is no such
-// file, it is none of a map, of another version, or damaged.
+// file, or it cannot be read, is none of a map, of another version, damaged, or holds what no map
+// can: whatever it returns can be worked with.
 KeyframeMap LoadMap(const std::string& file);
 
 struct PreviousMap {

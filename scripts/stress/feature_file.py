@@ -7,7 +7,7 @@ import numpy as np
 
 from .measurements import Measurements
 
-SIGNATURE = b"plm_features v1\n"
+SIGNATURE = b"plm_features v2\n"  # behind it the values of the trackers, as text
 IMU, POINTS, POINTS_AND_LINES = 1, 2, 3
 IMU_LAYOUT = struct.Struct("<q6d")
 TRACKING = struct.Struct("<q2?d")  # stamp, restart, publish, milliseconds
@@ -26,7 +26,8 @@ class Features:
         with open(path, "rb") as file:
             self._bytes = file.read()
         if not self._bytes.startswith(SIGNATURE):
-            raise ValueError(f"{path}: no features of this version")
+            raise self._error("no features of this version")
+        self._begin = self._end_of_list(len(SIGNATURE), 1)  # of the first item
         self._imu, self._images = [], []  # of each: where it begins in the file
         self._items = []  # (kind, index, begin, end)
         self._split()
@@ -44,7 +45,7 @@ class Features:
     def write(self, path, measurements):
         was_ns = self.measurements().image_ns
         with open(path, "wb") as file:
-            file.write(SIGNATURE)
+            file.write(self._bytes[:self._begin])
             for kind, index, begin, end in self._items:
                 if kind == IMU:
                     file.write(_imu_item(measurements, index))
@@ -52,7 +53,7 @@ class Features:
                     file.write(self._image_item(measurements, was_ns, index, begin, end))
 
     def _split(self):
-        at = len(SIGNATURE)
+        at = self._begin
         while at < len(self._bytes):
             kind, begin = self._bytes[at], at
             if kind not in (IMU, POINTS, POINTS_AND_LINES):
@@ -82,7 +83,7 @@ class Features:
         return items_at + SIZE.unpack_from(self._bytes, size_at)[0] * item_size
 
     def _error(self, what):
-        return ValueError(f"{self._path}: {what}; write it again with --save-features")
+        return ValueError(f"{self._path}: {what}; record it again with --save-features")
 
     def _image_item(self, measurements, was_ns, index, begin, end):
         t_ns, end_of_points = int(measurements.image_ns[index]), self._end_of_points(begin)

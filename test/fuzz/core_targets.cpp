@@ -5,7 +5,7 @@
 namespace plm_vins::fuzz {
 
 std::vector<Target> Targets() {
-  return {ConfigTarget(),     AslTarget(),          StageTarget(),
+  return {ConfigTarget(),     AslTarget(),          MapTarget(),        StageTarget(),
           DivergenceTarget(), PointTrackerTarget(), LineTrackerTarget()};
 }
 

@@ -26,6 +26,7 @@ std::vector<Target> Targets();
 
 Target ConfigTarget();
 Target AslTarget();
+Target MapTarget();
 Target StageTarget();
 Target DivergenceTarget();
 Target PointTrackerTarget();

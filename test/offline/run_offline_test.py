@@ -5,7 +5,9 @@
 Usage: run_offline_test.py RUN_OFFLINE [unittest option ...]
 """
 
+import json
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -39,6 +41,9 @@ class RunOffline(unittest.TestCase):
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn(message, result.stderr)
 
+    def summary(self):
+        return json.loads((self.folder / "results" / "summary.json").read_text(encoding="utf-8"))
+
     def test_bad_options(self):
         self.assert_refuses("expected seconds, zero to 1e9, instead of nan", "--start", "nan")
         self.assert_refuses("expected seconds, zero to 1e9, instead of -2", "--duration", "-2")
@@ -70,6 +75,31 @@ class RunOffline(unittest.TestCase):
     def test_track_images_without_images(self):
         self.assert_refuses("--save-track-images needs images", "--save-track-images", "0.5",
                             source=("--features", "none.features"))
+
+    def test_features_that_were_recorded_with_other_values(self):
+        features = self.folder / "flight.features"
+        values = {"freq": 10.0, "max_cnt": 150, "use_lines": False, "min_dist": 30.0}
+        text = json.dumps(values).encode()
+        features.write_bytes(b"plm_features v2\n" + struct.pack("<I", len(text)) + text)
+        recorded = ["--set", "freq=10", "max_cnt=150", "use_lines=0", "min_dist=30"]
+        other = ["--set", "freq=5", "max_cnt=30", "use_lines=1", "min_dist=30"]
+        warning = f"warning: {features} was recorded with other values of freq, max_cnt, use_lines"
+        self.assert_refuses(warning, *other, source=("--features", features))
+        self.assertEqual(self.summary()["features_recorded_with"],
+                         {"freq": 10.0, "max_cnt": 150, "use_lines": False})
+        self.assert_refuses("no trajectory", *recorded, source=("--features", features))
+        self.assertNotIn("features_recorded_with", self.summary())
+        again = self.folder / "again.features"  # has the values of its features, not of its run
+        self.assert_refuses(warning, *other, "--save-features", again,
+                            source=("--features", features))
+        self.assert_refuses(warning.replace(str(features), str(again)), *other,
+                            source=("--features", again))
+
+    def test_features_of_another_version(self):
+        features = self.folder / "flight.features"
+        features.write_bytes(b"plm_features v1\n")
+        self.assert_refuses("flight.features: is of another version of this program; record it "
+                            "again with --save-features", source=("--features", features))
 
     def test_features_that_would_overwrite_themselves(self):
         features = self.folder / "flight.features"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 #include "test/pose_graph/two_visits.h"
@@ -165,6 +166,27 @@ TEST_F(LoopCloserTest, DropsALoopThatTheGraphContradicts) {
   EXPECT_LT(*loop.odometry_error, kThreeSigmaOf4Dof);
   EXPECT_GT(*loop.graph_error, kThreeSigmaOf4Dof);
   EXPECT_LT(refused.fix->T_M_O.ToVector().norm(), 1e-6);
+}
+
+// Odometry jumps after the first loop of the second visit. The next one, which contradicts it,
+// knows the place less surely.
+TEST_F(LoopCloserTest, KnowsNoPlaceByALoopThatTheGraphDropsLater) {
+  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  Slide(&loops, 0, LevelTransform());
+  first_track_ += 100'000'000;
+  LoopClosure closure;
+  for (int i = 0; i <= 10 && closure.dropped == 0; ++i) {
+    const LevelTransform T_O_W = {0, {0, i < 4 ? 0.2 : 0, 0}};
+    OdometryFrame frame = FrameAt(-3 + 0.4 * i, 60 + 0.4 * i, T_O_W);
+    frame.covariance.diagonal().head<3>().setConstant(0.006);  // without drift in this visit
+    closure = loops.Add(frame);
+  }
+  ASSERT_EQ(closure.dropped, 1);
+  const std::vector<LevelEdge>& edges = loops.map().graph.edges();
+  EXPECT_TRUE(std::any_of(edges.begin(), edges.end(), [&](const LevelEdge& edge) {
+    const Keyframe& later = loops.map().keyframes[edge.to];
+    return edge.is_loop && later.T_O_B.translation == closure.fix->T_O_L.translation;
+  }));
 }
 
 TEST_F(LoopCloserTest, IsNotLargerAfterManyVisitsThanAfterAFew) {

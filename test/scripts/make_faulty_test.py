@@ -23,6 +23,7 @@ from stress.feature_file import (IMU, IMU_LAYOUT, LINE_SIZE, LINE_STATISTICS_SIZ
 from stress.measurements import Measurements  # noqa: E402
 
 START_NS = 1403636579758555392
+HEADER = SIGNATURE + SIZE.pack(11) + b'{"freq":10}'
 
 
 def flight(seconds=4):
@@ -96,7 +97,7 @@ class Files(RefusalTest):
 
     def features(self):
         """Twenty samples, with an image of two points after every tenth."""
-        content = SIGNATURE
+        content = HEADER
         for i in range(20):
             content += bytes([IMU]) + IMU_LAYOUT.pack(START_NS + 5_000_000 * i, *range(6))
             if i % 10 == 0:
@@ -243,7 +244,7 @@ class Files(RefusalTest):
 
     def test_features_that_are_cut_off_or_damaged(self):
         head, points = TRACKING.pack(START_NS, False, True, 1), bytes(2 * POINT.itemsize)
-        content = (SIGNATURE + bytes([IMU]) + IMU_LAYOUT.pack(START_NS, *range(6))
+        content = (HEADER + bytes([IMU]) + IMU_LAYOUT.pack(START_NS, *range(6))
                    + bytes([POINTS_AND_LINES]) + head + bytes(POINT_STATISTICS_SIZE)
                    + SIZE.pack(2) + points + head + bytes(LINE_STATISTICS_SIZE) + SIZE.pack(2)
                    + bytes(2 * LINE_SIZE))

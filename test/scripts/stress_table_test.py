@@ -29,7 +29,7 @@ class StressTable(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = folder.name
-        self.write("good.feat", SIGNATURE + b"".join(
+        self.write("good.feat", SIGNATURE + SIZE.pack(2) + b"{}" + b"".join(
             bytes([IMU]) + IMU_LAYOUT.pack(t_ns, *range(6))
             + bytes([POINTS]) + TRACKING.pack(t_ns, False, True, 1)
             + bytes(POINT_STATISTICS_SIZE) + SIZE.pack(0)

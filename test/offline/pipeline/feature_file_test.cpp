@@ -39,10 +39,13 @@ TrackedItem FrameItem() {
   return item;
 }
 
+const Json kValues = {{"freq", 10.0}, {"corner_detector", "harris"}, {"use_lines", true}};
+constexpr size_t kItemsBegin = 16 + 4 + 57;  // behind signature, size of the values, values
+
 class FeatureFile : public ::testing::Test {
  protected:
   void Write() {
-    FeatureFileWriter writer(file_);
+    FeatureFileWriter writer(file_, kValues);
     writer.Add(ImuItem());
     writer.Add(FrameItem());
     writer.Close();
@@ -66,6 +69,7 @@ std::string ErrorOf(const std::string& file) {
 TEST_F(FeatureFile, GivesBackWhatWasWritten) {
   Write();
   FeatureFileReader reader(file_);
+  EXPECT_EQ(reader.tracker_values(), kValues);
   const auto imu = reader.Next();
   ASSERT_TRUE(imu && !imu->frame);
   EXPECT_EQ(imu->t_ns(), kStart - 5);
@@ -95,19 +99,37 @@ TEST_F(FeatureFile, GivesBackWhatWasWritten) {
 TEST_F(FeatureFile, NamesTheFileThatCannotBeUsed) {
   EXPECT_NE(ErrorOf(file_).find(file_ + ": cannot be read"), std::string::npos);
   std::ofstream(file_) << "a text that is longer than the signature of such a file";
-  EXPECT_NE(ErrorOf(file_).find(file_ + ": no features of this version"), std::string::npos);
-  EXPECT_THROW(FeatureFileWriter(folder_.path() + "/missing/file"), std::runtime_error);
+  EXPECT_NE(ErrorOf(file_).find(file_ + ": is no file of features"), std::string::npos);
+  EXPECT_THROW(FeatureFileWriter(folder_.path() + "/missing/file", kValues), std::runtime_error);
+}
+
+TEST_F(FeatureFile, SaysOfOneOfAnotherVersionThatItMustBeRecordedAgain) {
+  std::ofstream(file_) << "plm_features v1\n" << std::string(100, '\1');
+  EXPECT_EQ(ErrorOf(file_), file_ +
+                                ": is of another version of this program; record it again with "
+                                "--save-features");
+}
+
+TEST_F(FeatureFile, SaysWhereItsValuesAreDamagedOrCutOff) {
+  Write();
+  std::string bytes = folder_.Read("flight.features");
+  ASSERT_EQ(bytes.substr(kItemsBegin - 1, 2), "}\1");
+  std::ofstream(file_) << bytes.substr(0, kItemsBegin - 1);
+  EXPECT_NE(ErrorOf(file_).find(file_ + ": ends too early"), std::string::npos);
+  bytes[kItemsBegin - 1] = ']';
+  std::ofstream(file_) << bytes;
+  EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
 }
 
 TEST_F(FeatureFile, SaysWhereAFileEndsTooEarlyOrIsDamaged) {
   Write();
   const auto size = std::filesystem::file_size(file_);
   std::filesystem::resize_file(file_, size - 9);
-  EXPECT_NE(ErrorOf(file_).find(file_ + ": ends in an item"), std::string::npos);
+  EXPECT_NE(ErrorOf(file_).find(file_ + ": ends too early"), std::string::npos);
   Write();
   {
     std::fstream file(file_, std::ios::in | std::ios::out | std::ios::binary);
-    file.seekp(16);
+    file.seekp(kItemsBegin);
     file.put('\x77');  // no kind of item
   }
   EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
@@ -126,7 +148,7 @@ TEST_F(FeatureFile, TakesNoFeaturesThatNoTrackerGives) {
   TrackedItem with_a_line = FrameItem();
   with_a_line.frame->lines->features.lines[0].end.x() = std::nan("");
   for (const TrackedItem* item : {&with_a_point, &with_a_line}) {
-    FeatureFileWriter writer(file_);
+    FeatureFileWriter writer(file_, kValues);
     writer.Add(*item);
     writer.Close();
     EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "offline/pipeline/tracker_values.h"
 #include "test/testing/still_scene.h"
 #include "test/testing/temporary_folder.h"
 #include "vins_estimator/output/tum_format.h"
@@ -175,7 +176,7 @@ TEST(OdometryPipeline, SavedFeaturesGiveTheSameBytesAsTheImages) {
   const testing::TemporaryFolder folder;
   const std::string file = folder.File("flight.features");
   const Result images = [&] {
-    FeatureFileWriter writer(file);
+    FeatureFileWriter writer(file, TrackerValues(StillConfig()));
     Result result = RunPipeline(StillRecording(3000), 2, {}, &writer);
     writer.Close();
     return result;
@@ -188,6 +189,30 @@ TEST(OdometryPipeline, SavedFeaturesGiveTheSameBytesAsTheImages) {
   EXPECT_EQ(features.frames, images.frames);
   EXPECT_EQ(features.trajectory, images.trajectory);
   EXPECT_EQ(pipeline.images(), 60);
+}
+
+TEST(OdometryPipeline, CountsImagesWithoutTheLinesThatItWants) {
+  const testing::TemporaryFolder folder;
+  const std::string file = folder.File("flight.features");
+  Config config = StillConfig();
+  config.use_lines = false;
+  {
+    MemoryRecording recording = StillRecording(1000);
+    OdometryPipeline pipeline(config);
+    FeatureFileWriter writer(file, TrackerValues(config));
+    pipeline.SaveFeatures(&writer);
+    pipeline.Run(&recording, {}, 1, [](const PipelineFrame&) {});
+    writer.Close();
+  }
+  for (const bool use_lines : {false, true}) {
+    config.use_lines = use_lines;
+    OdometryPipeline pipeline(config);
+    FeatureFileReader reader(file);
+    pipeline.Run(&reader, {}, [](const PipelineFrame&) {});
+    const DropCount last = pipeline.drops().back();
+    EXPECT_EQ(last.cause, "frames_without_lines");
+    EXPECT_EQ(last.count, use_lines ? 20 : 0);
+  }
 }
 
 TEST(OdometryPipeline, ProcessesTheInterval) {

@@ -111,7 +111,7 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
   frame.output.departed_lines = {{1, {1, 1, 1}, {1, 2, 1}}};
   frame.output.lines = {{2, {1, 0, 0}, {2, 0, 0}}, {3, {0, 1, 0}, {0, 2, 0}}};
   results.Add(frame);
-  results.Finish(RunSummary::Run(), Config(), Json());
+  results.Finish(RunSummary::Run(), Config(), {{"loops", {{"accepted", 3}}}});
 
   const std::string trajectory = folder.Read("new/folder/trajectory.tum");
   EXPECT_EQ(trajectory.substr(0, 12), "2.000000000 ");
@@ -128,6 +128,7 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
   const auto summary = nlohmann::json::parse(folder.Read("new/folder/summary.json"));
   EXPECT_EQ(summary["frames"], 3);
   EXPECT_EQ(summary["poses"], 2);
+  EXPECT_EQ(summary["loops"]["accepted"], 3);
   EXPECT_EQ(summary["points"], 2);
   EXPECT_EQ(summary["config"]["window_size"], EstimatorConfig().window_size);
   EXPECT_FALSE(summary["version"].get<std::string>().empty());

@@ -196,6 +196,39 @@ TEST(PoseGraph, GoesOnKnowingWhereTheRemovedWere) {
   EXPECT_NEAR(graph.node(2).translation.z() - before, 5, 1e-12);
 }
 
+// Places in the graph are not numbers of nodes any more once some are removed.
+TEST(PoseGraph, TreatsTheRestAsIfTheRemovedHadNeverBeen) {
+  PoseGraph graph = Straight(6);
+  graph.AddEdge(Edge(0, 6, {0.02, {6, 0, 0.1}}, true, Variance(0.1, 0.01)));
+  graph.AddNode({1.0, {50, 0, 0}});
+  for (const int number : {2, 3, 0}) graph.Remove(number, 1);
+  const std::vector<int> kept = {1, 4, 5, 6, 7};
+  PoseGraph rest;
+  for (const int number : kept) rest.AddNode(graph.node(number));
+  const auto new_number = [&](int number) {
+    return static_cast<int>(std::find(kept.begin(), kept.end(), number) - kept.begin());
+  };
+  for (LevelEdge edge : graph.edges()) {
+    edge.from = new_number(edge.from);
+    edge.to = new_number(edge.to);
+    rest.AddEdge(edge);
+  }
+  EXPECT_TRUE(graph.Optimize().empty());
+  EXPECT_TRUE(rest.Optimize().empty());
+  for (const int number : kept) {
+    const int other = new_number(number);
+    EXPECT_EQ(graph.node(number).ToVector(), rest.node(other).ToVector()) << number;
+    EXPECT_EQ(graph.Distance(4, number), rest.Distance(1, other)) << number;
+    EXPECT_EQ(graph.AreConnected(4, number), rest.AreConnected(1, other)) << number;
+  }
+  EXPECT_EQ(graph.ConnectedWith(7),
+            (std::vector<bool>{false, false, false, false, false, false, false, true}));
+  graph.MovePart(7, {0, {0, 0, 3}});
+  EXPECT_EQ(graph.node(7).translation.z(), rest.node(4).translation.z() + 3);
+  EXPECT_EQ(graph.node(6).translation.z(), rest.node(3).translation.z());
+  EXPECT_NEAR((graph.node(2).translation - graph.node(1).translation).norm(), 1, 1e-12);
+}
+
 // The same optimum without a node of the chain: what is passed on says as much as what was there.
 TEST(PoseGraph, OptimizesTheRestTheSameWithoutANode) {
   PoseGraph all = Straight(4);

@@ -31,12 +31,17 @@ class PlaceInMapTest : public ::testing::Test {
  protected:
   // A keyframe at the origin, of which odometry states that variance of each coordinate.
   void Add(int world, double variance) {
-    const bool continues = !map_.keyframes.empty() && map_.keyframes.back().world == world;
     Keyframe& keyframe = map_.keyframes.emplace_back();
     keyframe.world = world;
     keyframe.covariance = Variance(variance);
     map_.graph.AddNode({});
-    place_.AddKeyframe(map_, continues);
+    place_.AddKeyframe(map_);
+  }
+
+  // A loop that stays in the graph.
+  void AddToGraph(const LevelEdge& loop, bool joins) {
+    map_.graph.AddEdge(loop);
+    place_.AddLoop(map_, loop, joins);
   }
 
   // Of each coordinate in the map, of a pose now of which odometry states `variance`.
@@ -91,6 +96,42 @@ TEST_F(PlaceInMapTest, TakesALoadedMapForExact) {
   EXPECT_NEAR(VarianceInMap(0.01), 0.2, 1e-12);
 }
 
+TEST_F(PlaceInMapTest, ForgetsWhatALoopToldThatTheGraphDropped) {
+  for (const double variance : {0.1, 0.2}) Add(0, variance);
+  AddToGraph(Loop(0, 1, 0.02), /*joins=*/false);
+  Add(0, 0.9);
+  EXPECT_NEAR(VarianceInMap(0.9), 0.1 + 0.02 + 0.7, 1e-12);
+  place_.AddLoop(map_, Loop(0, 2, 0.05), /*joins=*/false);
+  Add(0, 1.0);
+  EXPECT_NEAR(VarianceInMap(1.0), 0.1 + 0.05 + 0.1, 1e-12);
+  place_.Recompute(map_);
+  EXPECT_NEAR(VarianceInMap(1.0), 0.1 + 0.02 + 0.8, 1e-12);
+}
+
+TEST_F(PlaceInMapTest, KnowsTheSameOfLoopsThatRemain) {
+  Add(0, 0.1);
+  for (const double variance : {0.01, 0.02, 0.04}) Add(1, variance);
+  AddToGraph(Loop(0, 3, 0.5), /*joins=*/true);
+  Add(1, 0.07);
+  AddToGraph(Reversed(Loop(1, 4, 0.001)), /*joins=*/false);
+  for (const double variance : {0.3, 0.5}) Add(2, variance);
+  AddToGraph(Loop(3, 6, 0.2), /*joins=*/true);
+  const double before = VarianceInMap(0.6);
+  place_.Recompute(map_);
+  EXPECT_NEAR(VarianceInMap(0.6), before, 1e-12);
+}
+
+TEST_F(PlaceInMapTest, GoesOnTakingALoadedMapForExactWithoutALoop) {
+  map_.keyframes.emplace_back().covariance = Variance(7);
+  map_.graph.AddNode({});
+  place_.SetMap(map_);
+  for (const double variance : {0.01, 0.03}) Add(1, variance);
+  AddToGraph(Loop(0, 1, 0.2), /*joins=*/true);
+  place_.AddLoop(map_, Loop(0, 2, 0.1), /*joins=*/false);
+  place_.Recompute(map_);
+  EXPECT_NEAR(VarianceInMap(0.03), 0.2 + 0.02, 1e-12);
+}
+
 // A way there and back in steps of 0.3 m, each with an error of 0.1 m in each coordinate that
 // odometry knows of.
 class Way {
@@ -143,7 +184,7 @@ class Way {
     Keyframe& keyframe = map_.keyframes.emplace_back();
     keyframe.T_O_B.translation = p_O_;
     keyframe.covariance = Variance(number * kStep * kStep);
-    place_.AddKeyframe(map_, number > 0);
+    place_.AddKeyframe(map_);
     if (number == 0) return;
     LevelEdge step;
     step.from = number - 1;

@@ -13,7 +13,9 @@
 namespace plm_vins {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 // Two keyframes, the second of which is a metre aside, in a map that is turned by a quarter.
@@ -107,6 +109,18 @@ TEST_F(ColmapTest, ProjectsItsPointsToItsCorners) {
   EXPECT_NEAR(uv_px->x() + 0.5, u, 0.05);
   EXPECT_NEAR(uv_px->y() + 0.5, v, 0.05);
   EXPECT_EQ(point[8], "1");  // seen in the first image
+}
+
+// Its frame is another one.
+TEST_F(ColmapTest, HasNothingOfAWorldThatWasNotJoined) {
+  const std::string points = folder_.Read("model/points3D.txt");
+  testing::VisitOptions options;
+  options.world = 1;
+  map_.keyframes.push_back(testing::Visit(testing::Wall(), *camera_, Rigid3d(), 9, options));
+  map_.graph.AddNode({});
+  WriteColmapModel(folder_.File("model"), camera_->parameters(), map_);
+  EXPECT_THAT(folder_.Read("model/images.txt"), AllOf(HasSubstr(" 8.png"), Not(HasSubstr(" 9."))));
+  EXPECT_EQ(folder_.Read("model/points3D.txt"), points);
 }
 
 TEST_F(ColmapTest, SaysWhereItCannotBeWritten) {

@@ -4,18 +4,34 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <string_view>
+#include <limits>
 
-#include "pose_graph/output/map_archive.h"
 #include "test/pose_graph/two_visits.h"
 #include "test/testing/temporary_folder.h"
 
 namespace plm_vins {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr size_t kHeaderSize = 13 + 4 + 8 + 8;                // signature, version, size, checksum
+constexpr size_t kEdgeSize = 2 * 4 + 4 * 8 + 16 * 8 + 1 + 8;  // the last one is the file's end
+
+uint64_t Checksum(const std::string& bytes) {
+  uint64_t hash = 14695981039346656037ULL;
+  for (const char byte : bytes) hash = (hash ^ static_cast<uint8_t>(byte)) * 1099511628211ULL;
+  return hash;
+}
+
+template <typename T>
+void Replace(const T& value, size_t at, std::string* bytes) {
+  bytes->replace(at, sizeof(T), reinterpret_cast<const char*>(&value), sizeof(T));
+}
 
 class MapFileTest : public ::testing::Test {
  protected:
@@ -42,6 +58,27 @@ class MapFileTest : public ::testing::Test {
   }
 
   void Write(const std::string& bytes) const { folder_.Write("map.plm", bytes); }
+
+  // What a program that means harm saves: `spoil(keyframe, edge)` changes one of each.
+  template <typename Spoil>
+  void ExpectRefused(const std::string& why, const Spoil& spoil) const {
+    KeyframeMap map;
+    map.keyframes = map_.keyframes;
+    for (int i = 0; i < map_.graph.size(); ++i) map.graph.AddNode(map_.graph.node(i));
+    LevelEdge edge = map_.graph.edges().back();
+    spoil(&map.keyframes[1], &edge);
+    map.graph.AddEdge(edge);
+    SaveMap(file_, map);
+    EXPECT_THAT(ErrorOfLoading(), AllOf(HasSubstr("map.plm: is damaged"), HasSubstr(why),
+                                        HasSubstr(": save the map again")));
+  }
+
+  // The map with another number in that place.
+  void WriteWith(int32_t number, size_t at, std::string bytes) const {
+    Replace(number, at, &bytes);
+    Replace(Checksum(bytes.substr(kHeaderSize)), kHeaderSize - sizeof(uint64_t), &bytes);
+    Write(bytes);
+  }
 
   testing::TemporaryFolder folder_;
   std::string file_ = folder_.File("map.plm");
@@ -79,10 +116,16 @@ TEST_F(MapFileTest, OfAPreviousRunIsEmptyWhereThereIsNoneAndSaysSo) {
   EXPECT_THROW(LoadPreviousMap(file_), std::runtime_error);
 }
 
-TEST_F(MapFileTest, TakesAboutFifteenKilobytesForAKeyframe) {
-  map_.keyframes[0].corners.resize(300);
-  SaveMap(file_, map_);
-  EXPECT_LT(std::filesystem::file_size(file_), 3u * 20'000);
+// Half of the corners being landmarks, and some lines in view.
+TEST_F(MapFileTest, TakesAboutTwentyKilobytesForAKeyframe) {
+  KeyframeMap map;
+  map.graph.AddNode({});
+  Keyframe& keyframe = map.keyframes.emplace_back();
+  keyframe.corners.resize(300);
+  for (int i = 0; i < 150; ++i) keyframe.corners[i].p_O = Eigen::Vector3f::Zero();
+  keyframe.segments.resize(20);
+  SaveMap(file_, map);
+  EXPECT_NEAR(static_cast<double>(std::filesystem::file_size(file_)), 20'000, 2'000);
 }
 
 TEST_F(MapFileTest, LeavesNoUnfinishedFile) {
@@ -102,6 +145,12 @@ TEST_F(MapFileTest, SaysWhereTheFileCannotBeWritten) {
 
 TEST_F(MapFileTest, SaysThatThereIsNone) {
   EXPECT_THAT(ErrorOfLoading(), HasSubstr("map.plm: there is no such map"));
+}
+
+TEST_F(MapFileTest, DoesNotSayThatThereIsNoneOfOneThatCannotBeRead) {
+  std::filesystem::create_symlink(file_, file_);
+  EXPECT_THAT(ErrorOfLoading(),
+              AllOf(HasSubstr("map.plm cannot be read: "), Not(HasSubstr("no such map"))));
 }
 
 TEST_F(MapFileTest, KnowsWhatIsNoMap) {
@@ -134,18 +183,65 @@ TEST_F(MapFileTest, FindsEveryDamage) {
   }
 }
 
-// As of damage that the checksum does not show.
-TEST(MapReaderTest, TakesNothingButOneForTrueAndZeroForFalse) {
-  const std::string_view bytes("\1\0\2\2", 4);
-  bool value = false;
-  MapReader reader(bytes);
-  reader.Value(value);
-  EXPECT_TRUE(value);
-  reader.Value(value);
-  EXPECT_FALSE(value);
-  EXPECT_THROW(reader.Value(value), std::runtime_error);
-  std::optional<double> number;
-  EXPECT_THROW(reader.Has(number), std::runtime_error);
+// Each with a right checksum: all of it is in what is saved.
+TEST_F(MapFileTest, RefusesAnEdgeFromAKeyframeToItself) {
+  ExpectRefused("an edge leads from a keyframe to itself",
+                [](auto*, auto* edge) { edge->to = edge->from; });
+}
+
+TEST_F(MapFileTest, RefusesNumbersThatAreNone) {
+  const double none = std::nan("");
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const double number : {none, infinite, -infinite, 1e200}) {
+    ExpectRefused("a number", [=](auto*, auto* edge) { edge->T_from_to.yaw = number; });
+    ExpectRefused("a number", [=](auto*, auto* edge) { edge->covariance(2, 1) = number; });
+    ExpectRefused("a number", [=](auto* keyframe, auto*) { keyframe->path = number; });
+    ExpectRefused("a number",
+                  [=](auto* keyframe, auto*) { keyframe->T_B_C.translation.y() = number; });
+    ExpectRefused("a number", [=](auto* keyframe, auto*) {
+      keyframe->corners[7].p_O->z() = static_cast<float>(number);
+    });
+  }
+}
+
+TEST_F(MapFileTest, RefusesRotationsThatAreNone) {
+  ExpectRefused("a rotation", [](auto* keyframe, auto*) { keyframe->T_O_B.rotation.w() = 2; });
+  ExpectRefused("a rotation",
+                [](auto* keyframe, auto*) { keyframe->T_B_C.rotation.coeffs().setZero(); });
+  ExpectRefused("a rotation", [](auto* keyframe, auto*) {
+    keyframe->R_O_Manhattan = Eigen::Quaterniond(0.6, 0, 0, 0.9);
+  });
+}
+
+TEST_F(MapFileTest, RefusesCovariancesThatAreNotPositiveDefinite) {
+  ExpectRefused("the covariance", [](auto*, auto* edge) { edge->covariance(3, 3) = -1; });
+  ExpectRefused("the covariance", [](auto*, auto* edge) { edge->covariance.setZero(); });
+  ExpectRefused("the covariance", [](auto*, auto* edge) { edge->covariance.setOnes(); });
+  ExpectRefused("the covariance", [](auto*, auto* edge) { edge->covariance(0, 3) = 1; });
+}
+
+TEST_F(MapFileTest, RefusesWorldsStampsAndWaysThatAreNone) {
+  for (const int world : {-1, std::numeric_limits<int>::max()}) {
+    ExpectRefused("the world", [world](auto* keyframe, auto*) { keyframe->world = world; });
+  }
+  ExpectRefused("the stamp", [](auto* keyframe, auto*) {
+    keyframe->t_ns = std::numeric_limits<int64_t>::min();
+  });
+  ExpectRefused("a negative length", [](auto*, auto* edge) { edge->way = -1; });
+}
+
+// What SaveMap() does not write.
+TEST_F(MapFileTest, RefusesEdgesAndKeyframesThatAreNotThere) {
+  SaveMap(file_, map_);
+  const std::string good = folder_.Read("map.plm");
+  for (const int32_t number : {-1, 3}) {
+    WriteWith(number, good.size() - kEdgeSize, good);
+    EXPECT_THAT(ErrorOfLoading(), HasSubstr("an edge leads to a keyframe that is not there"));
+  }
+  for (const int32_t count : {2, 4, static_cast<int32_t>(good.size() - kHeaderSize), -1}) {
+    WriteWith(count, kHeaderSize, good);
+    EXPECT_THAT(ErrorOfLoading(), HasSubstr(": save the map again")) << count;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <istream>
+#include <optional>
+#include <ostream>
+#include <stdexcept>
+#include <type_traits>
+
+namespace plm_vins {
+
+// To and from bytes. Both have the same interface, so that one function per struct, a template of
+// the archive, defines its layout. Little-endian, as all machines that we know of.
+class BinaryWriter {
+ public:
+  explicit BinaryWriter(std::ostream* stream) : stream_(stream) {}
+
+  template <typename T>
+  void Value(const T& value) {
+    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
+    stream_->write(reinterpret_cast<const char*>(&value), sizeof(value));
+  }
+  // Each item by `layout(archive, item)`.
+  template <typename Items, typename Layout>
+  void List(const Items& items, const Layout& layout) {
+    Value(static_cast<uint32_t>(items.size()));
+    for (const auto& item : items) layout(this, item);
+  }
+  template <typename T>
+  bool Has(const std::optional<T>& value) {
+    Value(value.has_value());
+    return value.has_value();
+  }
+
+ private:
+  std::ostream* stream_;
+};
+
+// Throws std::runtime_error where the bytes end early or are damaged.
+class BinaryReader {
+ public:
+  explicit BinaryReader(std::istream* stream) : stream_(stream) {}
+
+  template <typename T>
+  void Value(T& value) {
+    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
+    std::array<char, sizeof(T)> bytes;
+    if (!stream_->read(bytes.data(), bytes.size())) throw std::runtime_error("ends too early");
+    std::memcpy(&value, bytes.data(), sizeof(T));
+  }
+  void Value(bool& value) {
+    uint8_t byte = 0;
+    Value(byte);
+    if (byte > 1) throw std::runtime_error("is damaged");
+    value = byte == 1;
+  }
+  // Makes an item when it comes to its bytes: a count alone asks for no memory.
+  template <typename Items, typename Layout>
+  void List(Items& items, const Layout& layout) {
+    uint32_t size = 0;
+    Value(size);
+    items.clear();
+    items.reserve(std::min<uint32_t>(size, kMostReserved));
+    for (; size > 0; --size) {
+      items.push_back({});
+      layout(this, items.back());
+    }
+  }
+  template <typename T>
+  bool Has(std::optional<T>& value) {
+    bool has = false;
+    Value(has);
+    if (has) value.emplace();
+    return has;
+  }
+
+ private:
+  static constexpr uint32_t kMostReserved = 1000;  // items
+
+  std::istream* stream_;
+};
+
+}  // namespace plm_vins

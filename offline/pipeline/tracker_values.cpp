@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "offline/pipeline/tracker_values.h"
+
+#include <set>
+#include <variant>
+
+#include "common/config/camera_keys.h"
+
+namespace plm_vins {
+namespace {
+
+template <typename Section>
+void AddNames(const ConfigKeys<Section>& keys, std::set<std::string>* names) {
+  for (const ConfigKey<Section>& key : keys) names->insert(key.name);
+}
+
+std::set<std::string> NamesFor(const Config& config) {
+  std::set<std::string> names = {"freq", "use_lines"};
+  AddNames(CameraKeys(ModelType(config.sensor.camera.model)), &names);
+  AddNames(PointTrackerKeys(), &names);
+  if (config.use_lines) AddNames(LineTrackerKeys(), &names);
+  return names;
+}
+
+}  // namespace
+
+Json TrackerValues(const Config& config) {
+  const std::set<std::string> names = NamesFor(config);
+  Json values = Json::object();
+  for (const auto& [name, value] : EffectiveValues(config)) {
+    if (names.count(name) == 0) continue;
+    std::visit([&place = values[name]](const auto& v) { place = v; }, value);
+  }
+  // As a file gives them back: a path may be no UTF-8.
+  return Json::parse(values.dump(-1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace));
+}
+
+// Keys that only one of the two has go with another value that both have, but for lines that are
+// there and not used: these are left out, as asked for.
+Json RecordedOtherwise(const Json& recorded, const Config& config) {
+  const Json wanted = TrackerValues(config);
+  Json otherwise = Json::object();
+  for (const auto& [name, value] : recorded.items()) {
+    if (wanted.contains(name) && wanted.at(name) != value) otherwise[name] = value;
+  }
+  if (!config.use_lines) otherwise.erase("use_lines");
+  return otherwise;
+}
+
+std::string RecordedOtherwiseWarning(const std::string& file, const Json& otherwise) {
+  std::string names;
+  for (const auto& [name, value] : otherwise.items()) names += (names.empty() ? "" : ", ") + name;
+  return file + " was recorded with other values of " + names +
+         ", and its features stay as of these; record it again with --save-features";
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "common/measurements.h"
+#include "pose_graph/map/keyframe_map.h"
+
+namespace plm_vins {
+
+// What must hold of a map that was read, whoever wrote it, before anything is made of it: one edge
+// with a NaN makes every solution of the graph fail, and one from a node to itself ends the
+// program. Throws std::runtime_error.
+
+inline void RequireOfMap(bool holds, const char* otherwise) {
+  if (!holds) throw std::runtime_error(std::string("is damaged, ") + otherwise);
+}
+
+// An archive that looks at all numbers: they are finite, and so are products of a few of them.
+class MapNumberCheck {
+ public:
+  template <typename T>
+  void Value(const T& value) const {
+    if constexpr (std::is_floating_point_v<T>) {
+      RequireOfMap(std::abs(value) < kMost, "a number in it is not finite or absurd");
+    }
+  }
+  template <typename Items, typename Layout>
+  void List(const Items& items, const Layout& layout) const {
+    for (const auto& item : items) layout(this, item);
+  }
+  template <typename T>
+  bool Has(const std::optional<T>& value) const {
+    return value.has_value();
+  }
+
+ private:
+  static constexpr double kMost = 1e30;
+};
+
+inline bool IsUnit(const Eigen::Quaterniond& q) {
+  constexpr double kTolerance = 1e-2;  // of the length
+  return std::abs(q.norm() - 1) < kTolerance;
+}
+
+// Symmetric, and nothing in it is known for sure.
+inline bool IsCovariance(const Matrix4d& covariance) {
+  constexpr double kTolerance = 1e-3;       // of both halves, which are computed
+  constexpr double kLeastDeviation = 1e-9;  // [m, rad]
+  const Eigen::LLT<Matrix4d> factor(covariance);
+  return factor.info() == Eigen::Success &&
+         factor.matrixLLT().diagonal().minCoeff() > kLeastDeviation &&
+         covariance.isApprox(covariance.transpose(), kTolerance);
+}
+
+inline void CheckKeyframe(const Keyframe& keyframe) {
+  constexpr int kMostWorlds = 1 << 30;  // each run adds one to those of the map
+  RequireOfMap(IsStamp(keyframe.t_ns), "the stamp of a keyframe is none");
+  RequireOfMap(keyframe.world >= 0 && keyframe.world < kMostWorlds,
+               "the world of a keyframe is none");
+  RequireOfMap(IsUnit(keyframe.T_O_B.rotation) && IsUnit(keyframe.T_B_C.rotation) &&
+                   IsUnit(keyframe.R_O_Manhattan.value_or(Eigen::Quaterniond::Identity())),
+               "a rotation in it is none");
+}
+
+// A way of less than nothing would make the shortest one infinitely long to look for.
+inline void CheckEdge(const LevelEdge& edge, int nodes) {
+  RequireOfMap(std::min(edge.from, edge.to) >= 0 && std::max(edge.from, edge.to) < nodes,
+               "an edge leads to a keyframe that is not there");
+  RequireOfMap(edge.from != edge.to, "an edge leads from a keyframe to itself");
+  RequireOfMap(edge.way >= 0, "an edge has a negative length");
+  RequireOfMap(IsCovariance(edge.covariance), "the covariance of an edge is none");
+}
+
+// Once the numbers are checked.
+inline void CheckMap(const std::vector<Keyframe>& keyframes,
+                     const std::vector<LevelTransform>& nodes,
+                     const std::vector<LevelEdge>& edges) {
+  RequireOfMap(nodes.size() == keyframes.size(), "it has not one place for each keyframe");
+  for (const Keyframe& keyframe : keyframes) CheckKeyframe(keyframe);
+  for (const LevelEdge& edge : edges) CheckEdge(edge, static_cast<int>(nodes.size()));
+}
+
+}  // namespace plm_vins

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 // Of this process; it stays behind where the target crashes.
 fs::path Folder() {
-  const fs::path folder = fs::temp_directory_path() / ("plm_vins_fuzz_" + std::to_string(getpid()));
+  fs::path folder = fs::temp_directory_path() / ("plm_vins_fuzz_" + std::to_string(getpid()));
   fs::create_directories(folder);
   return folder;
 }
@@ -49,7 +49,7 @@ std::string ImagesCsv() {
   std::string text = "#timestamp [ns],filename\n";
   for (int i = 0; i < 4; ++i) {
     const std::string stamp = std::to_string(1403636579758555392 + 50'000'000 * i);
-    text += stamp + "," + stamp + ".png\n";
+    text.append(stamp).append(",").append(stamp).append(".png\n");
   }
   return text;
 }

@@ -109,6 +109,7 @@ cv::Mat Texture(const cv::Size& size, simulator::Random* random) {
 std::vector<Eigen::Vector2f> RandomPlaces(int count, const cv::Size& size,
                                           simulator::Random* random) {
   std::vector<Eigen::Vector2f> places;
+  places.reserve(count);
   for (int i = 0; i < count; ++i) {
     places.emplace_back(static_cast<float>(random->Index(10 * size.width)) / 10,
                         static_cast<float>(random->Index(10 * size.height)) / 10);

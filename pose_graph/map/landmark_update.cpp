@@ -21,14 +21,14 @@ PlacesByTrack PlacesOf(const Keyframe& keyframe) {
 // Whether any track is one of those whose places are known.
 bool TakeOver(const PlacesByTrack& places, double max_error, Keyframe* keyframe) {
   const Rigid3d T_O_C = keyframe->T_O_C();
-  const LevelTransform T_O_G = {0, T_O_C.translation};
+  const Viewpoint viewpoint({0, T_O_C.translation}, T_O_C.rotation);
   bool shares_tracks = false;
   for (DescribedCorner& corner : keyframe->corners) {
     const auto place = places.find(corner.track);
     if (place == places.end()) continue;
     shares_tracks = true;
     const SeenPoint seen = {place->second.cast<double>(), corner.xy.cast<double>()};
-    if (SightingError(seen, T_O_G, T_O_C.rotation) < max_error) corner.p_O = place->second;
+    if (viewpoint.Error(seen) < max_error) corner.p_O = place->second;
   }
   return shares_tracks;
 }

@@ -74,12 +74,13 @@ Search SearchAroundImages(const LoopVerificationOptions& options,
                           const std::vector<DescribedCorner>& corners,
                           const std::vector<DescribedLandmark>& landmarks,
                           const LevelTransform& T_O_G, const Eigen::Quaterniond& R_G_C) {
+  const Viewpoint viewpoint(T_O_G, R_G_C);
   Search search;
   for (const LandmarkMatch& match :
        MatchAroundImages(options.matching, corners, landmarks, T_O_G, R_G_C)) {
     ++search.matches;
     const SeenPoint seen = ToSeenPoint(match, corners, landmarks);
-    if (SightingError(seen, T_O_G, R_G_C) > options.ransac.max_error) continue;
+    if (viewpoint.Error(seen) > options.ransac.max_error) continue;
     search.inliers.push_back(seen);
     search.corners_px.push_back(corners[match.corner].uv_px);
   }

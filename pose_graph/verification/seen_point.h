@@ -34,8 +34,4 @@ class Viewpoint {
   Eigen::Quaterniond R_C_G_;
 };
 
-// The error of one sighting.
-double SightingError(const SeenPoint& sighting, const LevelTransform& T_O_G,
-                     const Eigen::Quaterniond& R_G_C);
-
 }  // namespace plm_vins

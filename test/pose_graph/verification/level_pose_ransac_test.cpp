@@ -80,9 +80,10 @@ TEST_F(FindLevelPoseTest, NamesAllThatAgreeWithThePose) {
   const LevelPoseRansacOptions options(kFocalLength);
   const auto pose = FindLevelPose(options, sightings, R_G_C_);
   ASSERT_TRUE(pose);
+  const Viewpoint viewpoint(pose->T_O_G, R_G_C_);
   std::vector<size_t> agree;
   for (size_t i = 0; i < sightings.size(); ++i) {
-    if (SightingError(sightings[i], pose->T_O_G, R_G_C_) <= options.max_error) agree.push_back(i);
+    if (viewpoint.Error(sightings[i]) <= options.max_error) agree.push_back(i);
   }
   EXPECT_EQ(pose->inliers, agree);
 }

@@ -10,10 +10,10 @@
 namespace plm_vins {
 namespace {
 
-TEST(SightingError, IsInfiniteBehindTheCamera) {
-  const Eigen::Quaterniond R_G_C = testing::LookingAhead().rotation;
-  EXPECT_NEAR(SightingError({{2, 0, 0}, {0.1, 0}}, LevelTransform(), R_G_C), 0.1, 1e-12);
-  EXPECT_TRUE(std::isinf(SightingError({{-2, 0, 0}, {0.1, 0}}, LevelTransform(), R_G_C)));
+TEST(Viewpoint, IsInfinitelyFarFromWhatIsBehindTheCamera) {
+  const Viewpoint viewpoint(LevelTransform(), testing::LookingAhead().rotation);
+  EXPECT_NEAR(viewpoint.Error({{2, 0, 0}, {0.1, 0}}), 0.1, 1e-12);
+  EXPECT_TRUE(std::isinf(viewpoint.Error({{-2, 0, 0}, {0.1, 0}})));
 }
 
 TEST(Viewpoint, TellsHowFarAPointIsFromItsImage) {
@@ -24,7 +24,8 @@ TEST(Viewpoint, TellsHowFarAPointIsFromItsImage) {
                               p_C.hnormalized() + Eigen::Vector2d(0.03, 0.04)};
   const Viewpoint viewpoint(T_O_G, R_G_C);
   EXPECT_NEAR(viewpoint.Error(sighting), 0.05, 1e-12);
-  EXPECT_EQ(viewpoint.Error(sighting), SightingError(sighting, T_O_G, R_G_C));
+  const Eigen::Vector3d seen_C = R_G_C.conjugate() * (T_O_G.Inverse() * sighting.p_O);
+  EXPECT_EQ(viewpoint.Error(sighting), (seen_C.hnormalized() - sighting.xy).norm());
 }
 
 }  // namespace

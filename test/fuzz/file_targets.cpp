@@ -12,6 +12,7 @@
 #include "pose_graph/loop_closer.h"
 #include "pose_graph/output/map_file.h"
 #include "test/fuzz/target.h"
+#include "test/pose_graph/map_checksum.h"
 #include "test/pose_graph/two_visits.h"
 
 namespace plm_vins::fuzz {
@@ -88,10 +89,7 @@ Bytes SavedMap(const CameraModel& camera) {
 // So that what was damaged is not refused by its checksum and size.
 std::string Sealed(const std::string& payload, const Bytes& seed) {
   std::string file(seed.begin(), seed.begin() + kMapHeader);
-  uint64_t numbers[] = {payload.size(), 14695981039346656037ULL};
-  for (const char byte : payload) {
-    numbers[1] = (numbers[1] ^ static_cast<uint8_t>(byte)) * 1099511628211ULL;
-  }
+  const uint64_t numbers[] = {payload.size(), testing::MapChecksum(payload)};
   std::memcpy(file.data() + kMapHeader - sizeof(numbers), numbers, sizeof(numbers));
   return file + payload;
 }

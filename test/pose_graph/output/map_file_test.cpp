@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "test/pose_graph/map_checksum.h"
 #include "test/pose_graph/two_visits.h"
 #include "test/testing/temporary_folder.h"
 
@@ -21,12 +22,6 @@ using ::testing::Not;
 
 constexpr size_t kHeaderSize = 13 + 4 + 8 + 8;                // signature, version, size, checksum
 constexpr size_t kEdgeSize = 2 * 4 + 4 * 8 + 16 * 8 + 1 + 8;  // the last one is the file's end
-
-uint64_t Checksum(const std::string& bytes) {
-  uint64_t hash = 14695981039346656037ULL;
-  for (const char byte : bytes) hash = (hash ^ static_cast<uint8_t>(byte)) * 1099511628211ULL;
-  return hash;
-}
 
 template <typename T>
 void Replace(const T& value, size_t at, std::string* bytes) {
@@ -76,7 +71,8 @@ class MapFileTest : public ::testing::Test {
   // The map with another number in that place.
   void WriteWith(int32_t number, size_t at, std::string bytes) const {
     Replace(number, at, &bytes);
-    Replace(Checksum(bytes.substr(kHeaderSize)), kHeaderSize - sizeof(uint64_t), &bytes);
+    Replace(testing::MapChecksum(bytes.substr(kHeaderSize)), kHeaderSize - sizeof(uint64_t),
+            &bytes);
     Write(bytes);
   }
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace plm_vins::testing {
+
+// That of a map file's content (FNV-1a), so that what is damaged on purpose is not refused by it.
+inline uint64_t MapChecksum(const std::string& bytes) {
+  uint64_t hash = 14695981039346656037ULL;
+  for (const char byte : bytes) hash = (hash ^ static_cast<uint8_t>(byte)) * 1099511628211ULL;
+  return hash;
+}
+
+}  // namespace plm_vins::testing

@@ -6,6 +6,7 @@
 
 #include "common/format.h"
 #include "vins_estimator/estimator.h"
+#include "vins_estimator/imu/imu_gap.h"
 
 namespace plm_vins {
 namespace {
@@ -64,8 +65,12 @@ void EstimationStage::AddPoints(PointFrame frame) {
 }
 
 std::string EstimationStage::ImuContradiction() const {
-  if (imu_noise_scale_ <= 1 && !delay_) return "";
   const double imu_interval = imu_rhythm_.Interval();
+  if (imu_interval > kMaxImuInterval) {
+    return Format("the IMU comes at %.1f Hz, of which nothing can be made: give %.0f Hz or more",
+                  1 / imu_interval, 1 / kMaxImuInterval);
+  }
+  if (imu_noise_scale_ <= 1 && !delay_) return "";
   const double rate = imu_interval > 0 ? 1 / imu_interval : imu_rate_;
   const double imu_jitter_ms = 1e3 * imu_rhythm_.Jitter();
   const double image_jitter_ms = 1e3 * image_rhythm_.Jitter();

@@ -56,8 +56,8 @@ class EstimationStage {
   // next output, which announces the new world frame.
   void Reset(const std::string& reason);
 
-  // Where the camera contradicts the IMU lastingly: by how much, and what in the stamps may be the
-  // cause. Empty where they fit.
+  // Where the IMU comes too seldom to be integrated: that. Where the camera contradicts it
+  // lastingly: by how much, and what in the stamps may be the cause. Empty where they fit.
   std::string ImuContradiction() const;
 
   int64_t frames() const { return frames_; }  // estimated so far

@@ -78,9 +78,9 @@ FrameMeasurement Estimator::Correct(FrameMeasurement measurement) {
 }
 
 void Estimator::Use(const FrameMeasurement& measurement, EstimatorOutput* output) {
-  const bool stands_still = StandsStill(measurement);
+  const std::optional<int64_t> still_since_ns = StillSince(measurement);
   if (state_.initialized) {
-    Track(measurement, stands_still, output);
+    Track(measurement, still_since_ns, output);
   } else {
     Initialize(measurement, output);
   }
@@ -150,13 +150,13 @@ void Estimator::SolveFirstWindow(EstimatorOutput* output) {
   }
 }
 
-void Estimator::Track(const FrameMeasurement& measurement, bool stands_still,
+void Estimator::Track(const FrameMeasurement& measurement, std::optional<int64_t> still_since_ns,
                       EstimatorOutput* output) {
   LocalMap& map = state_.estimate.map;
   const bool keep_second_newest = IsKeyframe(options_.keyframes, map.window, map.points);
   if (keep_second_newest) state_.keyframe = {map.window.newest().state.t_ns};
   AddFrame(measurement);
-  map.window.newest().stationary = stands_still;
+  map.window.SetStillSince(still_since_ns);
   PlaceNewest(output);
   const ImuNoiseLearning noise_before = state_.imu_noise;
   bool solve_window = !PlacementSuffices();
@@ -188,18 +188,20 @@ std::optional<Failure> Estimator::CheckEstimate(const EstimatorCounts& counts) {
                                       state_.newest_covariance.topLeftCorner<6, 6>(), counts});
 }
 
-// All but the bridge starts over, with the measurement that follows this one.
+// All but the bridge and the camera's rotation starts over, with the measurement after this one.
 void Estimator::GiveUp(const Failure& failure, EstimatorOutput* output) {
   State lost = std::exchange(state_, State(config_, options_));
   state_.newest = lost.newest;
+  state_.initializer.KeepRotation(lost.initializer);
   output->status = EstimatorStatus::kLost;
   output->reason = failure.why;
   output->restarted = failure.has_drifted || !lost.bridge.Begin(failure.why);
   if (!output->restarted) state_.bridge = std::move(lost.bridge);
 }
 
-bool Estimator::StandsStill(const FrameMeasurement& measurement) {
-  return config_.estimator.zero_velocity_update && state_.standstill_detector.Add(measurement);
+std::optional<int64_t> Estimator::StillSince(const FrameMeasurement& measurement) {
+  if (!config_.estimator.zero_velocity_update) return std::nullopt;
+  return state_.standstill_detector.Add(measurement);
 }
 
 void Estimator::AddFrame(const FrameMeasurement& measurement) {

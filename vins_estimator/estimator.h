@@ -74,7 +74,8 @@ class Estimator {
   // Hands the image on to Initialize() or Track().
   void Use(const FrameMeasurement& measurement, EstimatorOutput* output);
   void Initialize(const FrameMeasurement& measurement, EstimatorOutput* output);
-  void Track(const FrameMeasurement& measurement, bool stands_still, EstimatorOutput* output);
+  void Track(const FrameMeasurement& measurement, std::optional<int64_t> still_since_ns,
+             EstimatorOutput* output);
 
   // Puts a new window into the frame of the world before the loss, where there was one and the
   // bridge leads from there to here. False where that world has to be given up.
@@ -92,7 +93,8 @@ class Estimator {
   PointMap::Fit FitOfNewest(int64_t keyframe_ns) const;
   std::optional<Failure> CheckEstimate(const EstimatorCounts& counts);
   void GiveUp(const Failure& failure, EstimatorOutput* output);
-  bool StandsStill(const FrameMeasurement& measurement);
+  // See StandstillDetector::Add(); nothing where standstill is not to be used.
+  std::optional<int64_t> StillSince(const FrameMeasurement& measurement);
   void Optimize(const SolverOptions& options, EstimatorOutput* output);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
   void SlideOldest(EstimatorOutput* output);

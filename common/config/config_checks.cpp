@@ -65,7 +65,7 @@ void CheckImage(const Config& config, const Report& report) {
 }
 
 bool IsName(const std::string& text) {
-  return !text.empty() && text.find_first_of(" \t") == std::string::npos;
+  return !text.empty() && text.find_first_of(" \t\r\n") == std::string::npos;
 }
 
 void CheckTopics(const SensorConfig& sensor, const Report& report) {

@@ -98,7 +98,7 @@ ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type) {
           "imu_noise_model",
           {{"vins", S::ImuNoiseModel::kVins}, {"continuous", S::ImuNoiseModel::kContinuous}},
           &S::imu_noise_model),
-      Key::Number("imu_rate", "Hz", {10, 10000}, &S::imu_rate),
+      Key::Number("imu_rate", "Hz", {25, 10000}, &S::imu_rate),
       Key::Number("g_norm", "m/s^2", {9, 10.5}, &S::gravity_norm),
   };
   return Join<S>({Required(topics), Within(&S::camera, CameraKeys(model_type)), intrinsics,

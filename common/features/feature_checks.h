@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <unordered_set>
 #include <vector>
@@ -14,6 +16,7 @@ namespace plm_vins {
 constexpr double kMaxImageCoordinate = 100;  // normalised: half a degree from the image plane
 constexpr double kMaxPixel = 1e5;            // no image is as large
 constexpr double kMaxImageVelocity = 1e4;    // [1/s], at that place where the camera spins
+constexpr size_t kMaxFeatures = 5000;        // of an image: as max_cnt and max_line_cnt may ask for
 
 // False for what is not finite, too.
 inline bool IsWithin(const Eigen::Vector2d& xy, double limit) {
@@ -35,14 +38,15 @@ bool IsPossibleAndNew(const Observation& observation, std::unordered_set<int64_t
   return IsPossible(observation) && ids->insert(observation.id).second;
 }
 
-// Removes impossible observations, and those of an id that is in the image already. Returns how
-// many went.
+// Removes impossible observations, those of an id that is in the image already, and those beyond
+// the first kMaxFeatures. Returns how many went.
 template <typename Observation>
 int64_t RemoveImpossible(std::vector<Observation>* observations) {
   std::unordered_set<int64_t> ids;
   std::vector<Observation> possible;
-  possible.reserve(observations->size());
+  possible.reserve(std::min(observations->size(), kMaxFeatures));
   for (const Observation& observation : *observations) {
+    if (possible.size() == kMaxFeatures) break;
     if (IsPossibleAndNew(observation, &ids)) possible.push_back(observation);
   }
   const size_t removed = observations->size() - possible.size();

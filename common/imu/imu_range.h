@@ -22,9 +22,10 @@ inline bool IsInRange(const ImuSample& sample, const ImuRange& range = kAnyImuRa
 }
 
 // What an inertial sensor may have read: false also for zeros throughout, which drivers give where
-// they could not read it.
+// they could not read it, and with a stamp that is none.
 inline bool IsPlausible(const ImuSample& sample) {
-  return IsInRange(sample) && !(sample.gyro.isZero(0.0) && sample.accel.isZero(0.0));
+  return IsStamp(sample.t_ns) && IsInRange(sample) &&
+         !(sample.gyro.isZero(0.0) && sample.accel.isZero(0.0));
 }
 
 }  // namespace plm_vins

@@ -16,10 +16,11 @@ constexpr int64_t kMillisecond = 1'000'000;
 
 class EstimationStageTest : public ::testing::Test {
  protected:
-  EstimationStageTest() {
+  void SetUp() override {
     Config config = testing::StillConfig();
     config.use_lines = false;
     stage_.emplace(config);
+    outputs_.clear();
   }
 
   void AddImu(int milliseconds) { stage_->AddImu(testing::StillImu(milliseconds * kMillisecond)); }
@@ -108,6 +109,36 @@ TEST_F(EstimationStageTest, StartsOverWhereAllStampsJumpBack) {
   EXPECT_EQ(outputs_.back().t_ns, 3000 * kMillisecond);
 }
 
+// As NTP sets a clock: by so little that stamps pass the last one before they are enough to judge,
+// or those of the images alone are.
+TEST_F(EstimationStageTest, StartsOverWhereAllStampsStepBackALittle) {
+  for (const int step : {100, 200, 400, 600}) {
+    SetUp();
+    Rest(5000, 7000);
+    for (int i = 0; i < 400; ++i) {
+      const int t = 7003 - step + 5 * i;
+      AddImu(t);
+      if (i % 10 == 0) AddPoints(t);
+      Take();
+    }
+    EXPECT_EQ(Restarts(), (std::vector<std::string>{"stamps jumped back"})) << step;
+    EXPECT_EQ(stage_->statistics().jumps_back, 1);
+    EXPECT_TRUE(outputs_.back().has_pose);
+  }
+}
+
+TEST_F(EstimationStageTest, StragglersAndRepeatedSamplesAreNoJump) {
+  Rest(5000, 7000);
+  for (int t = 7105; t <= 7200; t += 5) AddImu(t);
+  for (int t = 7005; t <= 7100; t += 5) AddImu(t);  // a batch that was overtaken
+  for (int begin = 7205; begin < 8000; begin += 100) {
+    for (int t = begin; t < begin + 100; t += 5) AddImu(t);
+    for (int t = begin; t < begin + 100; t += 5) AddImu(t);
+  }
+  EXPECT_EQ(stage_->statistics().jumps_back, 0);
+  EXPECT_EQ(stage_->statistics().imu_out_of_order, 20 + 160);
+}
+
 // The clock of one sensor alone was set back, and that of the other follows.
 TEST_F(EstimationStageTest, StartsOverWhereTheImuAloneJumpsBack) {
   Rest(5000, 6000);
@@ -148,6 +179,17 @@ TEST_F(EstimationStageTest, APauseIsNoLeap) {
   EXPECT_EQ(stage_->statistics().leaps_ahead, 0);
   EXPECT_EQ(stage_->statistics().imu_gaps, 1);
   EXPECT_TRUE(outputs_.back().has_pose);
+}
+
+TEST_F(EstimationStageTest, SaysThatTheImuComesTooSeldom) {
+  for (int t = 0; t <= 8000; t += 60) {
+    AddImu(t);
+    AddPoints(t + 20);
+    Take();
+  }
+  EXPECT_EQ(stage_->frames(), 0);
+  EXPECT_EQ(stage_->ImuContradiction(),
+            "the IMU comes at 16.7 Hz, of which nothing can be made: give 20 Hz or more");
 }
 
 TEST_F(EstimationStageTest, StraysAndAClockThatStandsStillAreNoJump) {

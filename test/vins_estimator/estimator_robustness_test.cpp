@@ -182,7 +182,9 @@ TEST(EstimatorRobustness, StampsThatJitterCostLittle) {
 
 TEST(EstimatorRobustness, AGoodImuIsNeverDoubted) {
   for (const Motion motion : {Motion::kGentle, Motion::kFast}) {
-    for (const EstimatorOutput& output : testing::Estimate(Simulate(motion, 3, 15)).outputs) {
+    const EstimatedFlight flight = testing::Estimate(Simulate(motion, 3, 15));
+    EXPECT_GT(flight.outputs.size(), 200u);
+    for (const EstimatorOutput& output : flight.outputs) {
       EXPECT_FALSE(output.imu_doubted);
       EXPECT_EQ(output.imu_noise_scale, 1);
     }
@@ -248,11 +250,16 @@ TEST(EstimatorRobustness, PointsThatAreAllNewHoldNothing) {
   SimulatedFlight simulated = Simulate(Motion::kFast, 1, 11);
   RenamePoints(180, &simulated);
   Estimator estimator(testing::ConfigFor(simulated));
+  int held = 0, on_imu_alone = 0;
   for (size_t i = 0; i < simulated.frames.size(); ++i) {
     const EstimatorOutput output = estimator.Process(simulated.frames[i]);
     EXPECT_EQ(output.on_imu_alone, output.has_pose && i >= 180) << i;
     EXPECT_FALSE(output.contradicted);
+    held += output.has_pose && i < 180 ? 1 : 0;
+    on_imu_alone += output.on_imu_alone ? 1 : 0;
   }
+  EXPECT_GT(held, 100);
+  EXPECT_GT(on_imu_alone, 30);
 }
 
 TEST(EstimatorRobustness, TenSecondsOfPointsThatHoldNothingEndInARestart) {

@@ -64,6 +64,22 @@ TEST(EstimatorTest, OutliersCostLittle) {
   }
 }
 
+// Corners that jump in one image seem to move, and until the next keyframe all would be free.
+TEST(EstimatorTest, IsHeldInPlaceThroughImagesThatOnlySeemToMove) {
+  SimulatedFlight still = testing::SimulateFlight(Options(Motion::kStill, 1));
+  const EstimatedFlight undisturbed = testing::Estimate(still);
+  for (PointObservation& point : still.frames[105].points.points) point.uv_px.x() += 3;
+  const EstimatedFlight flight = testing::Estimate(still);
+  ASSERT_EQ(flight.outputs.size(), undisturbed.outputs.size());
+  int seem_to_move = 0;
+  for (size_t i = 0; i < flight.outputs.size(); ++i) {
+    const EstimatorOutput &output = flight.outputs[i], &expected = undisturbed.outputs[i];
+    seem_to_move += expected.stationary && !output.stationary ? 1 : 0;
+    EXPECT_LT((output.state.position() - expected.state.position()).norm(), 0.0005) << i;
+  }
+  EXPECT_EQ(seem_to_move, 2) << "there, and where another is compared with it";
+}
+
 TEST(EstimatorTest, StaysInPlaceWhenNothingMoves) {
   const EstimatedFlight flight = Fly(Options(Motion::kStill, 1));
   EXPECT_TRUE(flight.restarts.empty());

@@ -39,10 +39,10 @@ double LargestDeviation(const std::vector<Eigen::Vector3d>& values) {
 StandstillDetector::StandstillDetector(const ImuNoise& noise, const Options& options)
     : noise_(noise), options_(options) {}
 
-bool StandstillDetector::Add(const FrameMeasurement& measurement) {
+std::optional<int64_t> StandstillDetector::Add(const FrameMeasurement& measurement) {
   if (measurement.imu.empty()) {
     Reset();
-    return false;
+    return std::nullopt;
   }
   Interval interval;
   interval.t_ns = measurement.t_ns;
@@ -58,7 +58,8 @@ bool StandstillDetector::Add(const FrameMeasurement& measurement) {
   while (intervals_.size() > 1 && intervals_[1].t_ns <= start_ns) intervals_.pop_front();
   const bool full = intervals_.front().t_ns <= start_ns &&
                     static_cast<int>(intervals_.size()) > options_.min_intervals;
-  return full && ImuIsQuiet() && PointsStay();
+  if (!full || !ImuIsQuiet() || !PointsStay()) return std::nullopt;
+  return intervals_.front().t_ns;
 }
 
 bool StandstillDetector::ImuIsQuiet() const {

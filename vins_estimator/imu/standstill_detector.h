@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <deque>
+#include <optional>
 
 #include "common/imu/imu_noise.h"
 #include "common/measurements.h"
@@ -31,9 +33,10 @@ class StandstillDetector {
   StandstillDetector(const ImuNoise& noise, const Options& options);
   explicit StandstillDetector(const ImuNoise& noise) : StandstillDetector(noise, Options()) {}
 
-  // Takes the next image with the IMU samples that lead to it; true where the body stood still from
-  // the start of the window to this image. False until the window is full.
-  bool Add(const FrameMeasurement& measurement);
+  // Takes the next image with the IMU samples that lead to it. Where the body stood still from the
+  // start of the window to this image, the stamp of the image that opens the window; else, and
+  // until the window is full, nothing.
+  std::optional<int64_t> Add(const FrameMeasurement& measurement);
 
   void Reset() { intervals_.clear(); }
 

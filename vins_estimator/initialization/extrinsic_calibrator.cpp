@@ -56,6 +56,8 @@ std::optional<RotationPair> ExtrinsicCalibrator::MeasurePair(
       EstimateRelativePose(correspondences, AlignRays(correspondences), noise_, reason);
   if (!pose || Eigen::AngleAxisd(pose->R_C1_C0).angle() < kMinTurn) return std::nullopt;
   const double variance = pose->rotation_information.inverse().trace() / 3;
+  // Where all points are in one place, it is rounding.
+  if (!(std::isfinite(variance) && variance >= 0)) return std::nullopt;
   return RotationPair{imu.delta_q(), pose->R_C1_C0.conjugate(), imu.duration(),
                       std::sqrt(variance + kExcessDeviation * kExcessDeviation)};
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/frame_selection.h"
 
+#include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "common/median.h"
@@ -40,7 +42,11 @@ std::vector<double> Progress(const std::deque<FrameMeasurement>& frames) {
 }  // namespace
 
 int CountCommonPoints(const PointFrame& first, const PointFrame& second) {
-  return static_cast<int>(CommonPoints(first, second).size());
+  std::unordered_set<int64_t> ids;
+  for (const PointObservation& point : first.points) ids.insert(point.id);
+  return static_cast<int>(
+      std::count_if(second.points.begin(), second.points.end(),
+                    [&ids](const PointObservation& point) { return ids.count(point.id) > 0; }));
 }
 
 double MedianFlow(const PointFrame& first, const PointFrame& second) {

@@ -44,6 +44,12 @@ Initializer::Initializer(const Config& config)
   }
 }
 
+void Initializer::KeepRotation(const Initializer& other) {
+  if (other.calibrator_) return;
+  sensor_.T_B_C.rotation = other.sensor_.T_B_C.rotation;
+  calibrator_.reset();
+}
+
 void Initializer::StartOver(const std::string& reason) {
   buffer_.clear();
   standstill_.Reset();
@@ -69,7 +75,7 @@ void Initializer::Append(const FrameMeasurement& measurement) {
 std::optional<InitializationResult> Initializer::Add(const FrameMeasurement& measurement) {
   if (!start_ns_) start_ns_ = measurement.t_ns;
   Append(measurement);
-  const bool stands_still = standstill_.Add(buffer_.back());
+  const bool stands_still = standstill_.Add(buffer_.back()).has_value();
   if (calibrator_) CalibrateRotation();
   if (calibrator_) return std::nullopt;
   return stands_still ? TryStandstill() : TryMotion();

@@ -39,6 +39,9 @@ class Initializer {
  public:
   explicit Initializer(const Config& config);
 
+  // Takes over the camera's rotation where `other` has calibrated it, instead of doing so anew.
+  void KeepRotation(const Initializer& other);
+
   // Takes the next image, one that CheckMeasurement() does not refuse after the one before. Returns
   // at most window_size + 1 frames as soon as their states can be determined.
   std::optional<InitializationResult> Add(const FrameMeasurement& measurement);

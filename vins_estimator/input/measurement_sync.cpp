@@ -45,11 +45,16 @@ void MeasurementSync::AddImu(const ImuSample& sample) {
     ++statistics_.imu_implausible;
     return;
   }
-  if (last_imu_ns_ && sample.t_ns <= *last_imu_ns_) {
+  const bool follows = !last_imu_ns_ || sample.t_ns > *last_imu_ns_;
+  if (!follows) {
     ++statistics_.imu_out_of_order;
-    if (!imu_jump_.Refuse(sample.t_ns)) return;
+    if (IsQueued(sample)) return;  // sent twice, which says nothing of the clock
+  }
+  if (follows ? imu_jump_.EndsStepBack(sample.t_ns) : imu_jump_.Refuse(sample.t_ns)) {
     ++statistics_.jumps_back;
     Clear();
+  } else if (!follows) {
+    return;
   }
   imu_jump_.Accept();
   JudgeImuAfterGap(sample.t_ns);
@@ -136,6 +141,7 @@ void MeasurementSync::AddLines(LineFrame frame) {
 void MeasurementSync::Clear() {
   imu_.clear();
   imu_gate_.Clear();
+  imu_jump_.Accept();  // whatever comes next
   last_imu_ns_.reset();
   imu_after_gap_.reset();
   points_.clear();
@@ -149,7 +155,7 @@ void MeasurementSync::Clear() {
 std::optional<FrameMeasurement> MeasurementSync::Pop() {
   DropUnusableFrames();
   if (points_.empty() || imu_.empty() || imu_.back().t_ns < CutTime()) return std::nullopt;
-  if (!LinesAreDecided()) return std::nullopt;
+  if (!LinesAreDecided(0)) return std::nullopt;
   return TakeFrame();
 }
 
@@ -172,10 +178,16 @@ size_t MeasurementSync::FirstImuNotBefore(int64_t t_ns) const {
   return static_cast<size_t>(std::distance(imu_.begin(), first));
 }
 
-bool MeasurementSync::LinesAreDecided() const {
+bool MeasurementSync::IsQueued(const ImuSample& sample) const {
+  const size_t i = FirstImuNotBefore(sample.t_ns);
+  return i < imu_.size() && imu_[i].t_ns == sample.t_ns && imu_[i].gyro == sample.gyro &&
+         imu_[i].accel == sample.accel;
+}
+
+bool MeasurementSync::LinesAreDecided(size_t frame) const {
   if (!options_.expect_lines || lines_are_missing()) return true;
-  const bool there_or_passed = !lines_.empty() && lines_.back().t_ns >= points_.front().t_ns;
-  return there_or_passed || static_cast<int>(points_.size()) > options_.max_line_lag;
+  const bool there_or_passed = !lines_.empty() && lines_.back().t_ns >= points_[frame].t_ns;
+  return there_or_passed || static_cast<int>(points_.size() - frame) > options_.max_line_lag;
 }
 
 bool MeasurementSync::IsInTime(int64_t lines_ns) const {
@@ -215,8 +227,9 @@ void MeasurementSync::Count(FrameDefect defect) {
 }
 
 bool MeasurementSync::IsTooLate() const {
+  if (points_.size() < 2 || !LinesAreDecided(1)) return false;  // nothing newer could be used
   const int64_t newest_ns = imu_.back().t_ns;
-  return points_.size() > 1 && ToSeconds(newest_ns - CutTime()) > options_.max_wait &&
+  return ToSeconds(newest_ns - CutTime()) > options_.max_wait &&
          newest_ns >= points_[1].t_ns + ToNanoseconds(options_.td);
 }
 

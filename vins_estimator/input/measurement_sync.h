@@ -18,7 +18,7 @@ namespace plm_vins {
 // What came in and what could not be used, by cause. All counts are since construction.
 struct SyncStatistics {
   int64_t imu_not_finite = 0;    // NaN or infinity
-  int64_t imu_implausible = 0;   // beyond any sensor's range, or zeros throughout
+  int64_t imu_implausible = 0;   // beyond any sensor's range, zeros throughout, or not a stamp
   int64_t imu_replaced = 0;      // did not fit the samples around them (ImuGate)
   int64_t imu_saturated = 0;     // at the end of the sensor's range
   int64_t imu_out_of_order = 0;  // stamp not after the one before, or alone in the future
@@ -53,9 +53,9 @@ struct SyncStatistics {
 // the IMU samples before it then lead to the next one: of the samples between the first and the
 // last frame none is lost or used twice, also when td changes.
 //
-// Where the IMU or the images go back in time for good (a bag played again, a clock set back), or
-// the IMU leaps ahead by more than a minute (a clock set on), all is forgotten but the statistics,
-// and a new recording begins.
+// Where the IMU or the images go back in time for good (a bag played again, a clock set back, by a
+// tenth of a second or more), or the IMU leaps ahead by more than a minute (a clock set on), all is
+// forgotten but the statistics, and a new recording begins.
 class MeasurementSync {
  public:
   struct Options {
@@ -111,7 +111,9 @@ class MeasurementSync {
   int64_t CutTime() const;  // of the oldest queued frame, in IMU time
   // Index of the first IMU sample at or after the time.
   size_t FirstImuNotBefore(int64_t t_ns) const;
-  bool LinesAreDecided() const;
+  bool IsQueued(const ImuSample& sample) const;
+  // Whether the lines of a queued frame need not be waited for; those of newer frames may.
+  bool LinesAreDecided(size_t frame) const;
   // While frames do not wait for lines: the one of that image would still wait if they did.
   bool IsInTime(int64_t lines_ns) const;
   void DropUnusableFrames();

@@ -5,11 +5,10 @@
 
 #include "common/camera/readout_share.h"
 #include "common/features/feature_checks.h"
+#include "vins_estimator/input/track_velocities.h"
 
 namespace plm_vins {
 namespace {
-
-constexpr double kMinInterval = 0.005;  // [s]: less is no interval to divide by
 
 // Mean angular rate in B from `from_ns`, or earlier where no sample is later, to the last sample.
 Eigen::Vector3d MeanRate(const std::vector<ImuSample>& imu, int64_t from_ns) {
@@ -118,7 +117,7 @@ std::optional<Eigen::Vector2d> RollingShutter::MoveEnd(const Motion& motion,
 std::optional<Eigen::Vector2d> RollingShutter::Velocity(const Motion& motion, const Sight& before,
                                                         const Sight& now) {
   const double interval = motion.interval + motion.readout * (now.share - before.share);
-  if (interval < kMinInterval) return std::nullopt;
+  if (interval < kMinTrackInterval) return std::nullopt;
   const Eigen::Vector2d velocity =
       (now.xy - before.xy) / interval + RotationalFlow(now.xy, motion.rate_change_C);
   if (!IsWithin(velocity, kMaxImageVelocity)) return std::nullopt;

@@ -8,15 +8,13 @@
 namespace plm_vins {
 namespace {
 
-// [s] between images: less is no interval to divide by, more says little about now.
-constexpr double kMinInterval = 0.005;
-constexpr double kMaxInterval = 1.0;
+constexpr double kMaxInterval = 1.0;  // [s] between images: more says little about now
 
 }  // namespace
 
 void TrackVelocities::Fill(PointFrame* frame) {
   const double interval = ToSeconds(frame->t_ns - t_ns_);
-  const bool follows = interval >= kMinInterval && interval <= kMaxInterval;
+  const bool follows = interval >= kMinTrackInterval && interval <= kMaxInterval;
   std::unordered_map<int64_t, Eigen::Vector2d> places;
   for (PointObservation& point : frame->points) {
     const auto before = places_.find(point.id);

@@ -9,6 +9,9 @@
 
 namespace plm_vins {
 
+// [s]: less between two sights of a track is no interval to divide by.
+constexpr double kMinTrackInterval = 0.005;
+
 // Velocities of points for a tracker that sends none (PL-VINS): as the others do, from the places
 // in this image and the one before.
 class TrackVelocities {

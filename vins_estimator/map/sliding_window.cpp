@@ -44,12 +44,23 @@ FrameState& SlidingWindow::StateAt(int64_t t_ns) {
   return const_cast<FrameState&>(static_cast<const SlidingWindow*>(this)->StateAt(t_ns));
 }
 
+void SlidingWindow::SetStillSince(std::optional<int64_t> still_since_ns) {
+  newest().stationary = still_since_ns.has_value();
+  newest().moving_since_ns = second_newest().state.t_ns;
+  if (still_since_ns && second_newest().moving_since_ns >= *still_since_ns) {
+    second_newest().stationary = true;
+  }
+}
+
 void SlidingWindow::RemoveSecondNewest() {
   const WindowFrame& second = second_newest();
   const std::shared_ptr<Preintegration> joined = second.motion_since_previous;
   joined->Join(*newest().motion_since_previous);
   newest().motion_since_previous = joined;
-  newest().stationary = newest().stationary && second.stationary;
+  if (!second.stationary) {
+    newest().stationary = false;
+    newest().moving_since_ns = second.moving_since_ns;
+  }
   frames.erase(frames.end() - 2);
 }
 

@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/camera/camera_model.h"
@@ -20,7 +22,8 @@ struct WindowFrame {
   ImageTiming timing;
   // Motion since the frame before in the window; null in the first frame.
   std::shared_ptr<Preintegration> motion_since_previous;
-  bool stationary = false;  // stood still ever since the frame before
+  bool stationary = false;      // stood still ever since the frame before
+  int64_t moving_since_ns = 0;  // else: stamp of the last image before it seemed to move
 };
 
 // A frame that has left the window while its pose stays in the estimate, for what it has seen of
@@ -70,6 +73,10 @@ struct SlidingWindow {
   Rigid3d T_W_C(const FrameState& state) const { return state.T_W_B() * T_B_C(); }
   Rigid3d T_W_C(const WindowFrame& frame) const { return T_W_C(frame.state); }
   Rigid3d T_W_C(int64_t t_ns) const { return T_W_C(StateAt(t_ns)); }
+
+  // Says since which image the body has stood still up to the newest frame, which has just come;
+  // nothing: it has not. The frame before may have seemed to move only.
+  void SetStillSince(std::optional<int64_t> still_since_ns);
 
   // Takes out the frame before the newest; the newest frame's motion then starts one frame earlier.
   void RemoveSecondNewest();

@@ -13,6 +13,8 @@ namespace {
 constexpr double kMaxRejectedShare = 0.25;  // a few per cent in flight
 constexpr int kMinRejected = 5;             // at first; what is rejected leaves fewer
 constexpr double kMaxContradiction = 0.5;   // [s]
+// That one image adds to it: a pause of images contradicts nothing.
+const int64_t kMaxInterval_ns = ToNanoseconds(kMaxContradiction / 2);
 
 bool IsFinite(const FrameState& state) {
   const auto finite = [](double value) { return std::isfinite(value); };
@@ -48,7 +50,7 @@ std::optional<std::string> DetectFailure(const FailureLimits& limits, const Fram
 }
 
 std::optional<std::string> ContradictionMonitor::Add(int64_t t_ns, int landmarks, int rejected) {
-  const int64_t interval_ns = t_ns - newest_ns_;
+  const int64_t interval_ns = std::min(t_ns - newest_ns_, kMaxInterval_ns);
   newest_ns_ = t_ns;
   const bool fits = rejected == 0 || rejected < kMaxRejectedShare * landmarks;
   const bool by_chance = !contradicts_ && rejected < kMinRejected;

@@ -128,9 +128,10 @@ class EndOfGain final : public ceres::IterationCallback {
 // Of the trust region: as good as none.
 constexpr double kInitialRadius = 1e5;
 
-ceres::Solver::Options ToCeres(const SolverOptions& options) {
+ceres::Solver::Options ToCeres(const SolverOptions& options, CeresEquations equations) {
   ceres::Solver::Options result;
-  result.linear_solver_type = ceres::DENSE_SCHUR;
+  result.linear_solver_type =
+      equations == CeresEquations::kDense ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
   result.num_threads = 1;
   result.logging_type = ceres::SILENT;
   result.max_num_iterations = options.max_iterations;
@@ -143,9 +144,10 @@ ceres::Solver::Options ToCeres(const SolverOptions& options) {
 
 }  // namespace
 
-SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& window) {
+SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& window,
+                           CeresEquations equations) {
   CeresProblem problem(window);
-  ceres::Solver::Options ceres_options = ToCeres(options);
+  ceres::Solver::Options ceres_options = ToCeres(options, equations);
   ceres_options.linear_solver_ordering = problem.Ordering();
   EndOfGain end_of_gain(LeastGain(options, window));
   ceres_options.callbacks.push_back(&end_of_gain);

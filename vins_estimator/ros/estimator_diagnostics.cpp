@@ -15,12 +15,14 @@ constexpr double kMaxPoseAge = 0.5;  // [s], beyond it is worth a warning
 
 }  // namespace
 
-EstimatorDiagnostics::EstimatorDiagnostics(const Config& config, const std::string& points_topic,
+EstimatorDiagnostics::EstimatorDiagnostics(const ImuNoise& configured_noise,
+                                           const std::string& imu_topic,
+                                           const std::string& points_topic,
                                            const std::string& lines_topic)
-    : imu_topic_(config.sensor.imu_topic),
+    : imu_topic_(imu_topic),
       points_topic_(points_topic),
       lines_topic_(lines_topic),
-      configured_noise_(config.sensor.imu_noise) {}
+      configured_noise_(configured_noise) {}
 
 void EstimatorDiagnostics::Update(const EstimatorOutput& output, int64_t frames, double age) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -75,7 +77,7 @@ void EstimatorDiagnostics::Report(size_t queued,
   status->add("lines_in_window", counts_.lines_in_window);
   status->add("frames_without_lines", frames_without_lines_);
   status->add("lines_without_points", lines_without_points_);
-  DropCounts drops = input_.Drops();
+  DropCounts drops = FeatureDrops();
   Append(drops_, &drops);
   for (const DropCount& drop : drops) status->add(drop.cause, drop.count);
 }

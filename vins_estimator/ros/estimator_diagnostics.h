@@ -7,27 +7,12 @@
 #include <mutex>
 #include <string>
 
-#include "common/config/config.h"
+#include "common/imu/imu_noise.h"
 #include "common/ros/stream_monitor.h"
 #include "common/streams/drop_counts.h"
 #include "vins_estimator/estimation_stage.h"
 
 namespace plm_vins {
-
-// What was wrong with the messages of features.
-struct FeatureMessageCounts {
-  int64_t malformed = 0;        // messages of another layout
-  std::string first_malformed;  // what was wrong
-  int64_t left_out = 0;         // impossible features, ids that were there twice
-
-  void CountMalformed(const std::string& what) {
-    if (malformed++ == 0) first_malformed = what;
-  }
-  DropCounts Drops() const {
-    return {{"feature_messages_malformed", malformed, first_malformed},
-            {"features_impossible", left_out, ""}};
-  }
-};
 
 // What /diagnostics says of the estimator: waiting (for what), initializing (why not yet), tracking
 // or lost; rates and delays of what comes in and goes out; counts. The IMU's monitor is for the
@@ -35,13 +20,19 @@ struct FeatureMessageCounts {
 // one that estimates.
 class EstimatorDiagnostics {
  public:
-  EstimatorDiagnostics(const Config& config, const std::string& points_topic,
-                       const std::string& lines_topic);
+  // The topics as they are subscribed, in full.
+  EstimatorDiagnostics(const ImuNoise& configured_noise, const std::string& imu_topic,
+                       const std::string& points_topic, const std::string& lines_topic);
 
   StreamMonitor& imu() { return imu_; }
   StreamMonitor& points() { return points_; }
   StreamMonitor& lines() { return lines_; }
-  FeatureMessageCounts& input() { return input_; }
+
+  // Messages of features that have another layout, and features that are impossible or whose ids
+  // were there twice.
+  void CountMalformed(const std::string& what) { malformed_.Add(what); }
+  void CountLeftOut(int64_t features) { left_out_.count += features; }
+  DropCounts FeatureDrops() const { return {malformed_, left_out_}; }
 
   // After each image, and with an output that only says why when all starts over. `frames`:
   // estimated so far; `age`: of the image when its pose came [s].
@@ -63,7 +54,8 @@ class EstimatorDiagnostics {
   StreamMonitor imu_{"imu"};
   StreamMonitor points_{"points"};
   StreamMonitor lines_{"lines"};
-  FeatureMessageCounts input_;
+  DropCount malformed_{"feature_messages_malformed", 0, ""};
+  DropCount left_out_{"features_impossible", 0, ""};
 
   std::mutex mutex_;  // guards what follows
   StreamMonitor poses_{"odometry"};

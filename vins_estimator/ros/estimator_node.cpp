@@ -43,11 +43,13 @@ EstimatorNode::EstimatorNode(const Config& config, const ros::NodeHandle& node,
       queue_(kQueueCapacity),
       propagation_(config, private_node_),
       calibration_(config),
-      file_at_end_(private_node_.hasParam("trajectory_file") ? TrajectoryFile() : ""),
-      diagnostics_(config, node_.resolveName(kPointTopic), node_.resolveName(kLineTopic)),
+      file_at_end_(TrajectoryFile("")),
+      diagnostics_(config.sensor.imu_noise, node_.resolveName(config.sensor.imu_topic),
+                   node_.resolveName(kPointTopic), node_.resolveName(kLineTopic)),
       stage_(config, kMaxWait),
       publisher_(config.output, private_node_),
       diagnostics_updater_(node, private_node, private_node.getNamespace()) {
+  WarnWithoutFileAtEnd();
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {
       in_place_.Receiver(node_).subscribe(config_.sensor.imu_topic, kSubscriberQueue,
@@ -94,26 +96,30 @@ void EstimatorNode::AddImu(const sensor_msgs::Imu& message) {
 void EstimatorNode::AddPoints(const FeatureEvent& event) {
   diagnostics_.points().Add(ToNanoseconds(event.getMessage()->header.stamp));
   try {
-    PointFrame frame = ToPointFrame(*event.getMessage(), &diagnostics_.input().left_out);
+    int64_t left_out = 0;
+    PointFrame frame = ToPointFrame(*event.getMessage(), &left_out);
+    diagnostics_.CountLeftOut(left_out);
     RestoreIds(event.getConnectionHeaderPtr(), &frame.points, &point_source_);
     if (!HasVelocities(*event.getMessage())) velocities_.Fill(&frame);
     queue_.Push(std::move(frame));
   } catch (const std::exception& error) {
-    diagnostics_.input().CountMalformed(error.what());
+    diagnostics_.CountMalformed(error.what());
   }
-  callback_warner_.Check(diagnostics_.input().Drops());
+  callback_warner_.Check(diagnostics_.FeatureDrops());
 }
 
 void EstimatorNode::AddLines(const FeatureEvent& event) {
   diagnostics_.lines().Add(ToNanoseconds(event.getMessage()->header.stamp));
   try {
-    LineFrame frame = ToLineFrame(*event.getMessage(), &diagnostics_.input().left_out);
+    int64_t left_out = 0;
+    LineFrame frame = ToLineFrame(*event.getMessage(), &left_out);
+    diagnostics_.CountLeftOut(left_out);
     RestoreIds(event.getConnectionHeaderPtr(), &frame.lines, &line_source_);
     queue_.Push(std::move(frame));
   } catch (const std::exception& error) {
-    diagnostics_.input().CountMalformed(error.what());
+    diagnostics_.CountMalformed(error.what());
   }
-  callback_warner_.Check(diagnostics_.input().Drops());
+  callback_warner_.Check(diagnostics_.FeatureDrops());
 }
 
 // A tracker that was started again counts from zero once more.
@@ -140,7 +146,7 @@ bool EstimatorNode::Reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Respon
 bool EstimatorNode::SaveTrajectory(std_srvs::Trigger::Request&,
                                    std_srvs::Trigger::Response& response) {
   try {
-    const std::string file = TrajectoryFile();
+    const std::string file = TrajectoryFile("trajectory.tum");
     const size_t poses = Save(file);
     response.success = true;
     response.message = std::to_string(poses) + " poses saved to " + file;
@@ -151,9 +157,21 @@ bool EstimatorNode::SaveTrajectory(std_srvs::Trigger::Request&,
   return true;
 }
 
-std::string EstimatorNode::TrajectoryFile() const {
-  const auto file = FindParameter<std::string>(private_node_, "trajectory_file");
-  return std::filesystem::absolute(file.value_or("trajectory.tum")).string();
+std::string EstimatorNode::TrajectoryFile(const std::string& otherwise) const {
+  const auto file = FindParameter<std::string>(private_node_, "trajectory_file").value_or("");
+  return FullPath(file.empty() ? otherwise : file);
+}
+
+// While there is time to do something about it: at the end the flight would be lost.
+void EstimatorNode::WarnWithoutFileAtEnd() const {
+  if (file_at_end_.empty()) return;
+  try {
+    TrajectoryLog::CheckWritable(file_at_end_);
+  } catch (const std::runtime_error& error) {
+    ROS_WARN_STREAM(error.what() << "; the trajectory will be lost, unless "
+                                 << private_node_.resolveName("save_trajectory")
+                                 << " saves it to another trajectory_file");
+  }
 }
 
 size_t EstimatorNode::Save(const std::string& trajectory_file) const {

@@ -72,7 +72,9 @@ class EstimatorNode {
   void Restart(const std_msgs::Bool& message);
   bool Reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool SaveTrajectory(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  std::string TrajectoryFile() const;
+  // In full; `otherwise` where the parameter is not set or empty.
+  std::string TrajectoryFile(const std::string& otherwise) const;
+  void WarnWithoutFileAtEnd() const;
   // Returns the number of poses; throws std::runtime_error where a file cannot be written.
   size_t Save(const std::string& trajectory_file) const;
 

@@ -73,6 +73,7 @@ void LineHistory::Remove(const std::vector<int64_t>& ids) {
 
 std::vector<visualization_msgs::Marker> LineHistory::Add(const std::vector<MapLine>& lines,
                                                          int64_t t_ns) {
+  t_ns_ = t_ns;
   for (const MapLine& line : lines) {
     const Place place = PlaceOf(line.id);
     parts_[place.part][place.line] = line;
@@ -80,8 +81,16 @@ std::vector<visualization_msgs::Marker> LineHistory::Add(const std::vector<MapLi
   }
   std::vector<visualization_msgs::Marker> markers;
   markers.reserve(changed_.size());
-  for (const size_t part : changed_) markers.push_back(MakeMarker(part, t_ns));
+  for (const size_t part : changed_) markers.push_back(MakeMarker(part));
   changed_.clear();
+  return markers;
+}
+
+std::vector<visualization_msgs::Marker> LineHistory::All() const {
+  std::vector<visualization_msgs::Marker> markers;
+  for (size_t part = 0; part < parts_.size(); ++part) {
+    if (!parts_[part].empty()) markers.push_back(MakeMarker(part));
+  }
   return markers;
 }
 
@@ -111,8 +120,8 @@ void LineHistory::StartNextPart() {
   parts_[newest_part_].clear();
 }
 
-visualization_msgs::Marker LineHistory::MakeMarker(size_t part, int64_t t_ns) const {
-  visualization_msgs::Marker marker = ToLineMarker(parts_[part], t_ns, frame_id_, kHistoryName);
+visualization_msgs::Marker LineHistory::MakeMarker(size_t part) const {
+  visualization_msgs::Marker marker = ToLineMarker(parts_[part], t_ns_, frame_id_, kHistoryName);
   marker.id = static_cast<int>(part);
   marker.scale.x = kHistoryWidth;
   return marker;

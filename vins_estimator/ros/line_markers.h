@@ -35,6 +35,9 @@ class LineHistory {
   // Adds lines; returns the markers that changed, each once.
   std::vector<visualization_msgs::Marker> Add(const std::vector<MapLine>& lines, int64_t t_ns);
 
+  // The markers of all lines, with the stamp of the last Add(): for who has none of them yet.
+  std::vector<visualization_msgs::Marker> All() const;
+
   // Forgets all lines; returns the marker that makes the display forget them, too.
   visualization_msgs::Marker Clear();
 
@@ -46,11 +49,12 @@ class LineHistory {
 
   Place PlaceOf(int64_t id);
   void StartNextPart();
-  visualization_msgs::Marker MakeMarker(size_t part, int64_t t_ns) const;
+  visualization_msgs::Marker MakeMarker(size_t part) const;
 
   std::string frame_id_;
   std::vector<std::vector<MapLine>> parts_;  // by id of their marker
   size_t newest_part_ = 0;
+  int64_t t_ns_ = 0;                           // of the last Add()
   std::unordered_map<int64_t, Place> places_;  // of all lines, by id
   std::set<size_t> changed_;                   // parts, since the last Add()
 };

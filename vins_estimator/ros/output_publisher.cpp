@@ -38,6 +38,7 @@ double Distance(const geometry_msgs::Point& a, const geometry_msgs::Point& b) {
 
 OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle private_node)
     : frames_(frames),
+      line_history_(frames.world_frame),
       restart_(private_node.advertise<std_msgs::Bool>("restart", 10)),
       odometry_(private_node.advertise<nav_msgs::Odometry>("odometry", kQueue)),
       path_publisher_(private_node.advertise<nav_msgs::Path>("path", 10, /*latch=*/true)),
@@ -46,20 +47,28 @@ OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle pri
       point_cloud_(private_node.advertise<sensor_msgs::PointCloud>("point_cloud", kQueue)),
       history_cloud_(private_node.advertise<sensor_msgs::PointCloud>("history_cloud", kQueue)),
       lines_cloud_(private_node.advertise<visualization_msgs::Marker>("lines_cloud", kQueue)),
-      history_lines_cloud_(
-          private_node.advertise<visualization_msgs::Marker>("history_lines_cloud", kQueue)),
+      history_lines_cloud_(AdvertiseLineHistory(private_node)),
       camera_pose_visual_(
           private_node.advertise<visualization_msgs::MarkerArray>("camera_pose_visual", kQueue)),
       extrinsic_(private_node.advertise<nav_msgs::Odometry>("extrinsic", kQueue)),
       camera_info_(private_node.advertise<sensor_msgs::CameraInfo>("camera_info", 10)),
       keyframe_line_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_line", kQueue)),
       keyframe_point_(private_node.advertise<sensor_msgs::PointCloud>("keyframe_point", kQueue)),
-      keyframe_pose_(private_node.advertise<nav_msgs::Odometry>("keyframe_pose", kQueue)),
-      line_history_(frames.world_frame) {
+      keyframe_pose_(private_node.advertise<nav_msgs::Odometry>("keyframe_pose", kQueue)) {
   path_.header.frame_id = frames_.world_frame;
   if (frames.publish_tf && !frames.base_frame.empty()) {
     base_.emplace(frames.body_frame, frames.base_frame);
   }
+}
+
+// Whoever subscribes gets the lines as they are, as of a latched topic, which would have the marker
+// alone that was sent last.
+ros::Publisher OutputPublisher::AdvertiseLineHistory(ros::NodeHandle private_node) {
+  return private_node.advertise<visualization_msgs::Marker>(
+      "history_lines_cloud", kQueue, [this](const ros::SingleSubscriberPublisher& subscriber) {
+        const std::lock_guard<std::mutex> lock(history_mutex_);
+        for (const auto& marker : line_history_.All()) subscriber.publish(marker);
+      });
 }
 
 void OutputPublisher::Publish(const EstimatedFrame& frame) {
@@ -98,7 +107,9 @@ void OutputPublisher::Clear() {
   departed_lines_.clear();
   absorbed_lines_.clear();
   history_ns_ = 0;
-  history_lines_cloud_.publish(line_history_.Clear());
+  const std::lock_guard<std::mutex> lock(history_mutex_);
+  const visualization_msgs::Marker nothing = line_history_.Clear();
+  PublishIfWanted(history_lines_cloud_, [&] { return nothing; });
 }
 
 // The newest image, which comes with a keyframe. What may be missing comes first: who has it waits
@@ -130,13 +141,18 @@ void OutputPublisher::PublishHistory(const EstimatorOutput& output) {
   history_ns_ = output.t_ns;
   PublishIfWanted(history_cloud_,
                   [&] { return ToPointCloud(departed_points_, output.t_ns, frames_.world_frame); });
-  for (const auto& marker : line_history_.Add(departed_lines_, output.t_ns)) {
-    history_lines_cloud_.publish(marker);
-  }
-  line_history_.Remove(absorbed_lines_);  // after Add(), as they may have departed before
+  PublishLineHistory(output.t_ns);
   departed_points_.clear();
   departed_lines_.clear();
   absorbed_lines_.clear();
+}
+
+void OutputPublisher::PublishLineHistory(int64_t t_ns) {
+  const std::lock_guard<std::mutex> lock(history_mutex_);
+  for (const auto& marker : line_history_.Add(departed_lines_, t_ns)) {
+    PublishIfWanted(history_lines_cloud_, [&] { return marker; });
+  }
+  line_history_.Remove(absorbed_lines_);  // after Add(), as they may have departed before
 }
 
 void OutputPublisher::PublishPath(const FrameState& state) {
@@ -162,7 +178,7 @@ void OutputPublisher::PublishTransforms(const EstimatorOutput& output) {
     transforms.push_back(
         ToTransform(MakeHeader(output.t_ns, frames_.world_frame), frames_.manhattan_frame, T_W_M));
   }
-  broadcaster_.sendTransform(transforms);
+  if (!transforms.empty()) broadcaster_.sendTransform(transforms);
 }
 
 std::vector<geometry_msgs::TransformStamped> OutputPublisher::BodyTransforms(

@@ -6,6 +6,7 @@
 #include <ros/node_handle.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -23,8 +24,9 @@ namespace plm_vins {
 // camera, world -> manhattan once known. In a robot's own tree, which base_frame names, tf2 has
 // world -> base instead of body and camera. The histories have, as in VINS-Mono and PL-VINS, the
 // landmarks that leave the window, those of one second in a message. Messages that nobody listens
-// to are not made, but for odometry, tf, the path and the lines of the past, which a display shows
-// that is opened later. For one thread.
+// to are not sent, but for odometry, tf and the path. A display that is opened later has the whole
+// path and all lines of the past: the latter come by a callback of the node's queue. All else is
+// for one thread.
 class OutputPublisher {
  public:
   OutputPublisher(const OutputConfig& frames, ros::NodeHandle private_node);
@@ -35,13 +37,17 @@ class OutputPublisher {
   void Clear();
 
  private:
+  ros::Publisher AdvertiseLineHistory(ros::NodeHandle private_node);
   void PublishPath(const FrameState& state);
   void PublishKeyframe(const EstimatedFrame& frame);
   void PublishHistory(const EstimatorOutput& output);
+  void PublishLineHistory(int64_t t_ns);
   void PublishTransforms(const EstimatorOutput& output);
   std::vector<geometry_msgs::TransformStamped> BodyTransforms(const EstimatorOutput& output);
 
   OutputConfig frames_;
+  std::mutex history_mutex_;  // guards line_history_, and the order in which it is sent
+  LineHistory line_history_;
   // What waits to be sent goes in this order: a new world before its first pose.
   ros::Publisher restart_;
   ros::Publisher odometry_;
@@ -61,8 +67,7 @@ class OutputPublisher {
   tf2_ros::TransformBroadcaster broadcaster_;
   std::optional<RobotBase> base_;
   nav_msgs::Path path_;
-  int new_path_poses_ = 0;  // since it was published
-  LineHistory line_history_;
+  int new_path_poses_ = 0;                 // since it was published
   std::vector<MapPoint> departed_points_;  // since history_ns_, when the histories were published
   std::vector<MapLine> departed_lines_;
   std::vector<int64_t> absorbed_lines_;

@@ -14,7 +14,18 @@ namespace {
 
 constexpr size_t kMaxPoses = 1'000'000;
 
+void MakeFolderOf(const std::string& file) {
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
+  if (error) throw std::runtime_error("cannot write " + file + ": " + error.message());
+}
+
 }  // namespace
+
+std::string FullPath(const std::string& file) {
+  if (file.empty()) return "";  // which std::filesystem takes for an error
+  return std::filesystem::absolute(file).lexically_normal().string();
+}
 
 void TrajectoryLog::Add(int64_t t_ns, const Rigid3d& T_W_B) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -33,14 +44,17 @@ bool TrajectoryLog::empty() const {
   return poses_.empty();
 }
 
+void TrajectoryLog::CheckWritable(const std::string& file) {
+  MakeFolderOf(file);
+  const ReplacedFile not_committed(file);
+}
+
 size_t TrajectoryLog::Save(const std::string& file) const {
   const std::deque<Pose> poses = Poses();
   if (poses.empty()) {
     throw std::runtime_error("there is no pose to save yet; " + file + " stays as it is");
   }
-  std::error_code error;
-  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
-  if (error) throw std::runtime_error("cannot write " + file + ": " + error.message());
+  MakeFolderOf(file);
   ReplacedFile output(file);
   for (const Pose& pose : poses) {
     if (!pose.new_world.empty()) output.stream() << FormatTumRestart(pose.new_world);

@@ -10,6 +10,9 @@
 
 namespace plm_vins {
 
+// A file's path from the root on; empty where the name is.
+std::string FullPath(const std::string& file);
+
 // The poses so far, to be saved on request. Keeps the newest million (14 hours at 20 Hz), and none
 // from before their stamps jumped back: time runs forward in a file. For several threads: Add()
 // does not wait while another one saves.
@@ -21,6 +24,10 @@ class TrajectoryLog {
   void BeginWorld(const std::string& reason);
 
   bool empty() const;
+
+  // Makes the folder of a file that is to be saved later. Throws std::runtime_error, which says
+  // why, where it could not be written.
+  static void CheckWritable(const std::string& file);
 
   // Replaces a TUM file in one step, and makes its folder where it is missing. Returns the number
   // of poses; throws std::runtime_error, which says why, where there is none or the file cannot be

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 #include "test/common/config/config_files.h"
@@ -187,6 +188,8 @@ TEST_F(ConfigTest, MaskIsRelativeToTheFileAndCanBeSwitchedOff) {
 TEST_F(ConfigTest, MissingFile) {
   ExpectOneProblem(ProblemsOf((folder_ / "nothing.yaml").string()),
                    {"nothing.yaml", "cannot be read"});
+  ExpectOneProblem(ProblemsOf("nothing.yaml"),
+                   {(std::filesystem::current_path() / "nothing.yaml").string()});
   ExpectOneProblem(ProblemsOf(folder_.string()), {folder_.string(), "is no regular file"});
 }
 
@@ -225,6 +228,7 @@ TEST_F(ConfigTest, OutOfRange) {
   ExpectProblem("acc_n: 0\ngyr_n: 0.1\nacc_w: 0.1\ngyr_w: 0.1",
                 {"must be 1e-06 to 10 [m/s^2/sqrt(Hz); vins: m/s^2] (default 0.002)"});
   ExpectProblem("max_cnt: 0", {"\"0\" out of range, must be 20 to 5000 [corners] (default 150)"});
+  ExpectProblem("imu_rate: 20", {"\"20\" out of range, must be 25 to 10000 [Hz]"});
   ExpectProblem("td: -1.5", {"must be -1 to 1 [s]"});
   ExpectProblem("g_norm: 981", {"must be 9 to 10.5 [m/s^2]"});
   ExpectProblem("max_line_cnt: 0", {"must be 1 to 5000 [lines] (default 60)"});
@@ -327,6 +331,7 @@ TEST_F(ConfigTest, Contradictions) {
   ExpectProblem("base_frame: camera", {"base_frame: is the same as camera_frame"});
   ExpectProblem("manhattan_frame: body", {"manhattan_frame: is the same as body_frame"});
   ExpectProblem("world_frame: my world", {"world_frame: must be a name without spaces"});
+  ExpectProblem("world_frame: \"map\\n\"", {"world_frame: must be a name without spaces"});
   ExpectProblem("world_frame: /map", {"world_frame: must not begin with a slash"});
   ExpectProblem("min_dist: 490", {"min_dist: must be smaller than the image"});
   ExpectProblem("line_border: 250", {"line_border: leaves nothing of the image"});

@@ -61,6 +61,25 @@ INSTANTIATE_TEST_SUITE_P(Encodings, ImageEncodings,
                                            EncodingCase{encodings::TYPE_16UC1, {0x00, 0x80}, 127.5},
                                            EncodingCase{encodings::BAYER_RGGB8, {60}, 60}));
 
+TEST(ImageConversion, TakesPixelsThatComeHighByteFirst) {
+  for (const std::string& encoding :
+       {encodings::MONO16, encodings::TYPE_16UC1, encodings::BAYER_RGGB16}) {
+    sensor_msgs::Image image = MakeImage(encoding, {0x80, 0x10});
+    image.width = 5;  // with bytes to spare in each row
+    image.is_bigendian = 1;
+    const cv::Mat grey = ToImageSample(image).gray;
+    ASSERT_EQ(grey.type(), CV_8UC1) << encoding;
+    ASSERT_EQ(grey.size(), cv::Size(5, 4)) << encoding;
+    for (const uint8_t pixel : cv::Mat_<uint8_t>(grey)) EXPECT_NEAR(pixel, 127.7, 1) << encoding;
+  }
+}
+
+TEST(ImageConversion, LooksForTheOrderOfBytesWhereThereAreTwoOnly) {
+  sensor_msgs::Image image = MakeImage(encodings::BGR8, {10, 100, 200});
+  image.is_bigendian = 1;
+  EXPECT_NEAR(ToImageSample(image).gray.at<uint8_t>(2, 3), 119.6, 1);
+}
+
 TEST(ImageConversion, SharesGreyPixelsAndKeepsThem) {
   for (const std::string& encoding : {encodings::MONO8, encodings::TYPE_8UC1}) {
     auto message = boost::make_shared<const sensor_msgs::Image>(MakeImage(encoding, {90}));

@@ -181,6 +181,32 @@ TEST(FeatureMessage, ImpossiblePointsAndRepeatedIdsAreLeftOutAndCounted) {
   EXPECT_EQ(back.points[1].id, 2);
 }
 
+TEST(FeatureMessage, FeaturesBeyondFiveThousandAreLeftOutAndCounted) {
+  PointFrame points;
+  LineFrame lines;
+  for (int i = 0; i < 6000; ++i) {
+    points.points.push_back({i, {0.25, -0.5}, {0, 0}, {0, 0}});
+    lines.lines.push_back({i, {0.25, -0.5}, {0.5, 0.125}});
+  }
+  int64_t left_out = 0;
+  EXPECT_EQ(ToPointFrame(ToMessage(points, "camera"), &left_out).points.back().id, 4999);
+  EXPECT_EQ(left_out, 1000);
+  EXPECT_EQ(ToLineFrame(ToMessage(lines, "camera"), &left_out).lines.size(), 5000u);
+  EXPECT_EQ(left_out, 2000);
+}
+
+TEST(FeatureMessage, AStampThatIsNoneIsRefused) {
+  sensor_msgs::PointCloud points = ToMessage(PointFrame{kStamp, {}}, "camera");
+  sensor_msgs::PointCloud lines = ToMessage(LineFrame{kStamp, {}}, "camera");
+  points.header.stamp.sec = lines.header.stamp.sec = std::numeric_limits<uint32_t>::max();
+  points.header.stamp.nsec = lines.header.stamp.nsec = 999'999'999;
+  EXPECT_NO_THROW(ReadPoints(points));
+  EXPECT_NO_THROW(ReadLines(lines));
+  points.header.stamp.nsec = lines.header.stamp.nsec = 1'000'000'000;
+  EXPECT_THROW(ReadPoints(points), std::invalid_argument);
+  EXPECT_THROW(ReadLines(lines), std::invalid_argument);
+}
+
 TEST(FeatureMessage, ImpossibleLinesAndRepeatedIdsAreLeftOutAndCounted) {
   LineFrame frame;
   frame.lines.push_back({1, {0.25, -0.5}, {0.5, 0.125}});

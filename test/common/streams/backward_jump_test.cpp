@@ -28,6 +28,31 @@ TEST(BackwardJumpDetector, TakesAcceptedStampsAsASignThatTheOldStreamGoesOn) {
   EXPECT_EQ(FindJump(&detector, {40, 50, 60}), -1);
 }
 
+// Refuses so many stamps, ten apart, and says what the detector makes of the one that is accepted.
+bool EndsStepBack(int64_t begin, int count, int64_t accepted) {
+  BackwardJumpDetector detector(1000);
+  for (int i = 0; i < count; ++i) EXPECT_FALSE(detector.Refuse(begin + 10 * i));
+  return detector.EndsStepBack(accepted);
+}
+
+TEST(BackwardJumpDetector, FindsASmallStepBack) {
+  EXPECT_TRUE(EndsStepBack(1007, 20, 1207));
+  EXPECT_TRUE(EndsStepBack(1007, 20, 1247)) << "some got lost";
+  EXPECT_TRUE(EndsStepBack(-3, 10, 97));
+}
+
+TEST(BackwardJumpDetector, DoesNotTakeStragglersForAStepBack) {
+  EXPECT_FALSE(EndsStepBack(1007, 9, 1097)) << "too few";
+  EXPECT_FALSE(EndsStepBack(1000, 20, 1400)) << "those that overtook them are in between";
+  BackwardJumpDetector detector(1000);
+  EXPECT_FALSE(detector.EndsStepBack(0));
+  for (int i = 0; i < 50; ++i) EXPECT_FALSE(detector.Refuse(1000 - 10 * (i % 5)));
+  EXPECT_FALSE(detector.EndsStepBack(1010)) << "not one after the other";
+  for (int i = 0; i < 20; ++i) detector.Refuse(2000 + 10 * i);
+  detector.Accept();
+  EXPECT_FALSE(detector.EndsStepBack(2200)) << "over";
+}
+
 TEST(BackwardJumpDetector, DoesNotTakeAClockThatStandsStillForANewStream) {
   BackwardJumpDetector detector(3);
   EXPECT_EQ(FindJump(&detector, {50, 50, 50, 50, 50, 50}), -1);

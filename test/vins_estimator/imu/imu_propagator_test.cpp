@@ -92,6 +92,9 @@ TEST_F(ImuPropagatorTest, IgnoresBadSamples) {
   EXPECT_FALSE(propagator_.Add(bad).has_value());
   const ImuSample not_read{samples_[101].t_ns - kMillisecond};  // zeros throughout
   EXPECT_FALSE(propagator_.Add(not_read).has_value());
+  ImuSample beyond_time = samples_[101];
+  beyond_time.t_ns = kEndOfTime_ns;
+  EXPECT_FALSE(propagator_.Add(beyond_time).has_value());
   EXPECT_FALSE(propagator_.Add(samples_[100]).has_value());  // repeated
   EXPECT_FALSE(propagator_.Add(samples_[50]).has_value());   // backwards
   ExpectSame(propagator_.Add(samples_[101]), Predict(samples_[100].t_ns, 101));

@@ -46,7 +46,7 @@ class StandstillDetectorTest : public ::testing::Test {
   template <typename Gyro, typename Accel, typename Shift>
   int CountStill(int count, const Gyro& gyro, const Accel& accel, const Shift& shift_px) {
     int still = 0;
-    for (int i = 0; i < count; ++i) still += detector_.Add(Next(gyro, accel, shift_px));
+    for (int i = 0; i < count; ++i) still += detector_.Add(Next(gyro, accel, shift_px)).has_value();
     return still;
   }
 
@@ -66,6 +66,12 @@ class StandstillDetectorTest : public ::testing::Test {
 TEST_F(StandstillDetectorTest, RecognisesStandstillOnceTheWindowIsFull) {
   EXPECT_EQ(CountStill(10, Nothing, Nothing, NoShift), 0);
   EXPECT_EQ(CountStill(50, Nothing, Nothing, NoShift), 50);
+}
+
+TEST_F(StandstillDetectorTest, SaysSinceWhichImage) {
+  CountStill(30, Nothing, Nothing, NoShift);
+  const FrameMeasurement frame = Next(Nothing, Nothing, NoShift);
+  EXPECT_EQ(detector_.Add(frame), frame.t_ns - 10 * frame_ns_);
 }
 
 TEST_F(StandstillDetectorTest, DecidesAbove6Hz) {
@@ -118,7 +124,7 @@ TEST_F(StandstillDetectorTest, WithoutImuOrAfterResetItStartsOver) {
   EXPECT_GT(CountStill(30, Nothing, Nothing, NoShift), 0);
   FrameMeasurement blind = Next(Nothing, Nothing, NoShift);
   blind.imu.clear();
-  EXPECT_FALSE(detector_.Add(blind));
+  EXPECT_FALSE(detector_.Add(blind).has_value());
   EXPECT_EQ(CountStill(10, Nothing, Nothing, NoShift), 0);
   EXPECT_EQ(CountStill(5, Nothing, Nothing, NoShift), 5);
   detector_.Reset();
@@ -137,7 +143,7 @@ TEST_F(StandstillDetectorTest, SimulatedFlightIsNeverStill) {
     FrameMeasurement frame = Next(Nothing, Nothing, NoShift);
     frame.imu.assign(imu.begin() + static_cast<std::ptrdiff_t>(i),
                      imu.begin() + static_cast<std::ptrdiff_t>(i) + 11);
-    still += detector_.Add(frame);
+    still += detector_.Add(frame).has_value();
   }
   EXPECT_EQ(still, 0);
 }

@@ -49,6 +49,21 @@ TEST(ExtrinsicCalibratorTest, FindsTheRotationInFlight) {
   }
 }
 
+// As of a tracker that has lost its mind for two seconds: they say nothing, not even how little.
+TEST(ExtrinsicCalibratorTest, PointsInOnePlaceDoNoHarm) {
+  auto options = FlightOptions(Motion::kFast, 1);
+  options.trajectory.duration = 12;
+  SimulatedFlight flight = SimulateFlight(options);
+  for (size_t i = 0; i < 40; ++i) {
+    for (PointObservation& point : flight.frames[i].points.points) {
+      point.xy = {0.1 * std::sin(i), 0.1 * std::cos(i)};
+    }
+  }
+  const Calibration calibration = Calibrate(flight);
+  ASSERT_TRUE(calibration.R_B_C) << calibration.reason;
+  EXPECT_LT(calibration.R_B_C->angularDistance(flight.sensor.T_B_C.rotation), 2.5 * kDegree);
+}
+
 TEST(ExtrinsicCalibratorTest, RefusesAFlightThatDoesNotTurn) {
   auto options = FlightOptions(Motion::kCorridor, 1);
   options.trajectory.lead_in = 0;
@@ -74,19 +89,27 @@ double AbsoluteError(const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& t
   return std::sqrt((aligned - truth).squaredNorm() / static_cast<double>(truth.cols()));
 }
 
-// The whole estimator, without any knowledge of the camera's pose in the body.
-TEST(ExtrinsicCalibratorTest, EstimatorStartsWithoutAnyCameraPose) {
+SimulatedFlight FlightToCalibrateIn() {
   auto options = FlightOptions(Motion::kGentle, 1);
   options.trajectory.duration = 15;
   options.trajectory.rest = 2;  // no reason to start before the rotation is known
   options.max_points = 80;
-  const SimulatedFlight flight = SimulateFlight(options);
+  return SimulateFlight(options);
+}
+
+Config WithoutCameraPose(const SimulatedFlight& flight) {
   Config config;
   config.sensor = flight.sensor;
   config.sensor.T_B_C = Rigid3d();
   config.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kCalibrateRotation;
-  config.estimator.point_noise = options.point_noise_px;
-  Estimator estimator(config);
+  config.estimator.point_noise = simulator::FeatureSimulationOptions().point_noise_px;
+  return config;
+}
+
+// The whole estimator, without any knowledge of the camera's pose in the body.
+TEST(ExtrinsicCalibratorTest, EstimatorStartsWithoutAnyCameraPose) {
+  const SimulatedFlight flight = FlightToCalibrateIn();
+  Estimator estimator(WithoutCameraPose(flight));
   Eigen::Matrix3Xd estimate(3, flight.frames.size()), truth = estimate;
   Eigen::Index poses = 0;
   Rigid3d T_B_C;
@@ -103,6 +126,29 @@ TEST(ExtrinsicCalibratorTest, EstimatorStartsWithoutAnyCameraPose) {
   EXPECT_LT(AbsoluteError(estimate.leftCols(poses), truth.leftCols(poses)), 0.03);
   EXPECT_LT(T_B_C.rotation.angularDistance(flight.sensor.T_B_C.rotation), 0.2 * kDegree);
   EXPECT_LT((T_B_C.translation - flight.sensor.T_B_C.translation).norm(), 0.04);
+}
+
+TEST(ExtrinsicCalibratorTest, TheRotationSurvivesALoss) {
+  const SimulatedFlight flight = FlightToCalibrateIn();
+  Estimator estimator(WithoutCameraPose(flight));
+  size_t i = 0;
+  EstimatorOutput output;
+  for (; i < 200; ++i) output = estimator.Process(flight.frames[i]);
+  ASSERT_TRUE(output.has_pose) << output.reason;
+  FrameMeasurement broken = flight.frames[i++];
+  broken.imu[1].accel_doubt = 1e160;
+  EXPECT_EQ(estimator.Process(broken).status, EstimatorStatus::kLost);
+  for (output = {}; !output.has_pose && i < 260; ++i) {
+    output = estimator.Process(flight.frames[i]);
+    EXPECT_EQ(output.reason.find("calibrating"), std::string::npos) << output.reason;
+  }
+  ASSERT_TRUE(output.has_pose) << output.reason;
+  EXPECT_LT(output.calibration.T_B_C.rotation.angularDistance(flight.sensor.T_B_C.rotation),
+            2.5 * kDegree);
+  estimator.Reset();
+  output = estimator.Process(flight.frames[i]);
+  output = estimator.Process(flight.frames[i + 1]);
+  EXPECT_NE(output.reason.find("calibrating"), std::string::npos) << output.reason;
 }
 
 }  // namespace

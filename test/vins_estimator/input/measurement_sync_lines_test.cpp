@@ -64,16 +64,17 @@ TEST(LinePairing, MissingLinesDelayNoLongerThanTheLag) {
   EXPECT_EQ(sync.statistics().lines_late, 1);
 }
 
-// Feeds images from..to every 50 ms, with lines that arrive `lag` images late (none: negative).
-// Returns how many images ahead of each frame handed out the newest one was.
-std::vector<int> FeedWithLines(int64_t from, int64_t to, int lag, MeasurementSync* sync) {
+// Feeds images from..to, one in so many ms, with lines that arrive `lag` images late (none:
+// negative). Returns how many images ahead of each frame handed out the newest one was.
+std::vector<int> FeedWithLines(int64_t from, int64_t to, int lag, MeasurementSync* sync,
+                               int64_t interval = 50) {
   std::vector<int> delays;
-  for (int64_t t = from; t <= to; t += 50) {
-    AddImu(sync, t - 45, t);
+  for (int64_t t = from; t <= to; t += interval) {
+    AddImu(sync, t - interval + 5, t);
     sync->AddPoints(Points(t * kMs));
-    if (lag >= 0) sync->AddLines(Lines((t - 50 * lag) * kMs));
+    if (lag >= 0) sync->AddLines(Lines((t - interval * lag) * kMs));
     for (const FrameMeasurement& frame : PopAll(sync)) {
-      delays.push_back(static_cast<int>((t * kMs - frame.t_ns) / (50 * kMs)));
+      delays.push_back(static_cast<int>((t * kMs - frame.t_ns) / (interval * kMs)));
     }
   }
   return delays;
@@ -89,6 +90,33 @@ TEST(LinePairing, ADeadLineTrackerDelaysNoLongerThanItsPatience) {
   EXPECT_EQ(std::count(delays.begin(), delays.end(), 3), 10);
   EXPECT_EQ(delays.size(), 40u) << "every image is handed out";
   EXPECT_TRUE(sync.lines_are_missing());
+}
+
+// At 5 Hz images wait for their lines for longer than `max_wait`: nothing newer could be used.
+TEST(LinePairing, ImagesThatWaitForLinesAreNotTooLate) {
+  MeasurementSync::Options options = WithLines();
+  options.max_wait = 0.5;
+  for (const int lag : {-1, 3}) {
+    MeasurementSync sync(options);
+    const std::vector<int> delays = FeedWithLines(200, 6000, lag, &sync, 200);
+    EXPECT_EQ(delays.size(), lag < 0 ? 30u : 27u);
+    EXPECT_EQ(delays.front(), 3);
+    EXPECT_EQ(delays.back(), lag < 0 ? 0 : 3);
+    EXPECT_EQ(sync.lines_are_missing(), lag < 0);
+    EXPECT_EQ(sync.statistics().frames_too_late, 0);
+  }
+}
+
+TEST(LinePairing, ImagesAreLeftOutUpToThoseThatWaitForLines) {
+  MeasurementSync::Options options = WithLines();
+  options.max_wait = 0.1;
+  MeasurementSync sync(options);
+  AddImu(&sync, 0, 1000);
+  for (int64_t t = 50; t <= 1000; t += 50) sync.AddPoints(Points(t * kMs));
+  const auto frames = PopAll(&sync);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].t_ns, 850 * kMs);
+  EXPECT_EQ(sync.statistics().frames_too_late, 16);
 }
 
 TEST(LinePairing, LinesThatComeBackAreUsedAgain) {

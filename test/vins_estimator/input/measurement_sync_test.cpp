@@ -162,12 +162,13 @@ TEST(MeasurementSync, SamplesThatNoSensorGivesAreDroppedAndCounted) {
   sync.AddImu({25 * kMs, {0, -1000, 0}, {0, 9.81, 0}});
   sync.AddImu({30 * kMs, {0, 0, 0}, {0, 0, 2000}});
   sync.AddImu({35 * kMs, {0, 0, 0}, {0, 0, 0}});
+  sync.AddImu({kEndOfTime_ns, {0, 0, 0}, {0, 9.81, 0}});
   AddImu(&sync, 40, 60);
   sync.AddPoints(Points(50 * kMs));
   const auto frames = PopAll(&sync);
   ASSERT_EQ(frames.size(), 1u);
   for (const ImuSample& sample : frames[0].imu) ExpectOnTheLine(sample);
-  EXPECT_EQ(sync.statistics().imu_implausible, 3);
+  EXPECT_EQ(sync.statistics().imu_implausible, 4);
 }
 
 TEST(MeasurementSync, ASampleThatDoesNotFitTheOthersIsReplacedAndCounted) {

@@ -103,6 +103,33 @@ TEST(SlidingWindow, JoinedFramesStoodStillWhereBothDid) {
   }
 }
 
+TEST(SlidingWindow, AFrameThatSeemedToMoveStoodStillWhereTheNextOneTellsSo) {
+  SlidingWindow window = MakeWindow(4);
+  window.frames.pop_back();
+  window.SetStillSince(std::nullopt);
+  EXPECT_FALSE(window.newest().stationary);
+  const SlidingWindow moving = window;
+  for (const bool far_enough_back : {false, true}) {
+    window = moving;
+    window.frames.push_back(MakeWindow(4).newest());
+    window.SetStillSince(kInterval + (far_enough_back ? 0 : 1));
+    EXPECT_TRUE(window.newest().stationary);
+    EXPECT_EQ(window.second_newest().stationary, far_enough_back);
+  }
+}
+
+TEST(SlidingWindow, JoinedFramesMoveSinceTheFirstOfThemDid) {
+  for (const bool second : {false, true}) {
+    SlidingWindow window = MakeWindow(3);
+    window.frames[1].stationary = second;
+    window.frames[1].moving_since_ns = 7;
+    window.frames[2].stationary = false;
+    window.frames[2].moving_since_ns = 8;
+    window.RemoveSecondNewest();
+    EXPECT_EQ(window.newest().moving_since_ns, second ? 8 : 7);
+  }
+}
+
 TEST(SlidingWindow, FirstFrameHasNoMotionBeforeIt) {
   SlidingWindow window = MakeWindow(3);
   window.RemoveOldest();

@@ -94,9 +94,16 @@ TEST(ContradictionMonitor, AlarmsAfterHalfASecondOfContradiction) {
 
 TEST(ContradictionMonitor, SaysHowMuchContradicts) {
   ContradictionMonitor monitor;
-  monitor.Add(0, 100, 60);
-  EXPECT_EQ(monitor.Add(ToNanoseconds(1.2), 80, 40).value_or(""),
-            "the camera contradicts the state: 40 of 80 landmarks rejected, for 1.2 s");
+  EXPECT_EQ(FirstAlarm(&monitor, 100, 60, 10), -1);
+  EXPECT_EQ(monitor.Add(ToNanoseconds(0.62), 80, 40).value_or(""),
+            "the camera contradicts the state: 40 of 80 landmarks rejected, for 0.6 s");
+}
+
+TEST(ContradictionMonitor, APauseOfImagesIsNoContradiction) {
+  ContradictionMonitor monitor;
+  EXPECT_FALSE(monitor.Add(0, 100, 60));
+  EXPECT_FALSE(monitor.Add(ToNanoseconds(0.6), 100, 60));
+  EXPECT_TRUE(monitor.Add(ToNanoseconds(1.2), 100, 60)) << "three images say it";
 }
 
 TEST(ContradictionMonitor, ToleratesOutliersAndWhatMayBeChance) {

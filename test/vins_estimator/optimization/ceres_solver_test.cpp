@@ -107,6 +107,22 @@ TEST_F(CeresSolverTest, ReachesTheMinimumOfOurSolver) {
   }
 }
 
+TEST_F(CeresSolverTest, EndsAtTheSameWithSparseEquations) {
+  Disturb(0.003);
+  const std::vector<double> values = testing::CopyValues(problem());
+  const SolverSummary dense = SolveByCeres(thorough_, problem());
+  const std::vector<WindowFrame> expected(estimate_.map.window.frames.begin(),
+                                          estimate_.map.window.frames.end());
+  testing::RestoreValues(values, problem());
+  const SolverSummary sparse = SolveByCeres(thorough_, problem(), CeresEquations::kSparse);
+  ASSERT_TRUE(dense.solved && sparse.solved);
+  EXPECT_NEAR(sparse.final_cost / dense.final_cost, 1, 1e-9);
+  for (size_t i = 0; i < expected.size(); ++i) {
+    const FrameState& state = estimate_.map.window.frames[i].state;
+    EXPECT_MATRIX_NEAR(state.position(), expected[i].state.position(), 1e-7);
+  }
+}
+
 TEST_F(CeresSolverTest, IsBoundedByIterations) {
   Disturb(0.01);
   SolverOptions options;

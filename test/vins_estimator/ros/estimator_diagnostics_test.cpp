@@ -31,7 +31,7 @@ class EstimatorDiagnosticsTest : public ::testing::Test {
     output_.has_pose = true;
   }
 
-  EstimatorDiagnostics diagnostics_{Config(), "/points", "/lines"};
+  EstimatorDiagnostics diagnostics_{ImuNoise(), "/robot1/imu", "/points", "/lines"};
   EstimatorOutput output_;
   int64_t frames_ = 0;
 };
@@ -52,9 +52,9 @@ TEST_F(EstimatorDiagnosticsTest, WarnOfPosesOlderThanHalfASecond) {
 }
 
 TEST_F(EstimatorDiagnosticsTest, StateTheNoiseOfTheImuAsConfiguredUntilItIsLearned) {
-  Config config;
-  config.sensor.imu_noise.accel_density = 0.5;
-  EstimatorDiagnostics diagnostics(config, "/points", "/lines");
+  ImuNoise configured;
+  configured.accel_density = 0.5;
+  EstimatorDiagnostics diagnostics(configured, "/imu", "/points", "/lines");
   const auto density = [&] {
     Status status;
     diagnostics.Report(0, &status);
@@ -79,12 +79,14 @@ TEST_F(EstimatorDiagnosticsTest, WarnWhereThePoseIsDoubtful) {
 }
 
 TEST_F(EstimatorDiagnosticsTest, WarnWhereNothingThatComesIsUsable) {
-  diagnostics_.input().CountMalformed("two channels");
+  diagnostics_.CountMalformed("two channels");
+  diagnostics_.CountLeftOut(3);
   Status status;
   diagnostics_.Report(0, &status);
   EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
   EXPECT_EQ(status.message, "waiting: no usable image yet");
   EXPECT_EQ(Value(status, "feature_messages_malformed"), "1");
+  EXPECT_EQ(Value(status, "features_impossible"), "3");
 }
 
 TEST_F(EstimatorDiagnosticsTest, KeepWhyItLastStartedAnew) {

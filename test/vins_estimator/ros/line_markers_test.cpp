@@ -107,6 +107,25 @@ TEST(LineHistory, ForgetsLinesThatArePartOfOthers) {
   EXPECT_EQ(history.Add(last, 4).at(0).points.size(), 2 * (kFull - 2));
 }
 
+TEST(LineHistory, HasAllMarkersThatAreNotEmpty) {
+  constexpr size_t kFull = LineHistory::kLinesPerMarker;
+  LineHistory history("world");
+  EXPECT_TRUE(history.All().empty());
+  history.Add(MakeLines(0, 2 * kFull + 1), 1);
+  history.Remove({2 * static_cast<int64_t>(kFull)});
+  history.Add(MakeLines(0, 1), 2);
+  const auto all = history.All();
+  ASSERT_EQ(all.size(), 2u);
+  for (int i : {0, 1}) {
+    EXPECT_EQ(all[i].id, i);
+    EXPECT_EQ(all[i].action, Marker::ADD);
+    EXPECT_EQ(all[i].points.size(), 2 * kFull);
+    EXPECT_EQ(all[i].header.stamp, ros::Time(0, 2));
+  }
+  history.Clear();
+  EXPECT_TRUE(history.All().empty());
+}
+
 TEST(LineHistory, StaysBoundedInALongRun) {
   constexpr size_t kFull = LineHistory::kLinesPerMarker;
   LineHistory history("world");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -76,6 +77,23 @@ TEST_F(TrajectoryLogTest, MakesTheFolder) {
   log_.Add(2'500'000'000, kPose);
   EXPECT_EQ(log_.Save(folder_.File("new/folder/a.tum")), 1u);
   EXPECT_EQ(folder_.Read("new/folder/a.tum"), kRow);
+}
+
+TEST(FullPath, IsEmptyWhereNothingIsNamed) {
+  EXPECT_EQ(FullPath(""), "");
+  EXPECT_EQ(FullPath("/a/../b.tum"), "/b.tum");
+  EXPECT_EQ(FullPath("a.tum"), (std::filesystem::current_path() / "a.tum").string());
+}
+
+TEST_F(TrajectoryLogTest, KnowsBeforeItSavesWhetherAFileCanBeWritten) {
+  folder_.Write("a.tum", "of the flight before");
+  TrajectoryLog::CheckWritable(folder_.File("a.tum"));
+  EXPECT_EQ(folder_.Read("a.tum"), "of the flight before");
+  TrajectoryLog::CheckWritable(folder_.File("new/a.tum"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.File("new")));
+  for (const std::string file : {"/dev/null/a.tum", "/", "/proc/a.tum"}) {
+    EXPECT_THROW(TrajectoryLog::CheckWritable(file), std::runtime_error) << file;
+  }
 }
 
 TEST_F(TrajectoryLogTest, SaysWhyAFileCannotBeWritten) {

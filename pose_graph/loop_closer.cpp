@@ -20,6 +20,12 @@ std::vector<LoopCandidate*> NewLoops(LoopClosure* closure) {
   return loops;
 }
 
+bool Holds(const std::vector<LevelEdge>& edges, const LoopCandidate& loop) {
+  return std::any_of(edges.begin(), edges.end(), [&loop](const LevelEdge& edge) {
+    return edge.from == loop.earlier && edge.to == loop.later;
+  });
+}
+
 }  // namespace
 
 LoopCloser::LoopCloser(const LoopCloserOptions& options, std::shared_ptr<const CameraModel> camera)
@@ -33,6 +39,7 @@ LoopCloser::LoopCloser(const LoopCloserOptions& options, std::shared_ptr<const C
 
 void LoopCloser::SetMap(KeyframeMap map) {
   map_ = std::move(map);
+  map_.graph.HoldFrame();
   place_.SetMap(map_);
   thinning_.StartBehind(map_);
   for (size_t i = 0; i < map_.keyframes.size(); ++i) {
@@ -101,7 +108,9 @@ void LoopCloser::ConnectToPrevious(int number) {
   edge.T_from_to = from.T_O_L().Inverse() * to.T_O_L();
   edge.covariance = StepCovariance(options_.odometry, edge.T_from_to.translation,
                                    to.covariance - from.covariance);
-  edge.way = edge.T_from_to.translation.norm();
+  // Farther where odometry knows that it is worse than after its way, as where it saw nothing.
+  edge.way = std::max(edge.T_from_to.translation.norm(),
+                      options_.acceptance.drift.DistanceOf(edge.covariance.diagonal()));
   map_.graph.AddEdge(edge);
 }
 
@@ -118,12 +127,12 @@ void LoopCloser::LookForLoops(LoopClosure* closure) {
   }
   const std::vector<LoopCandidate*> loops = NewLoops(closure);
   if (loops.empty()) return;
-  const bool had_place = Fix().has_value();
   AddLoops(loops);
   Optimize(loops, closure);
-  if (closure->dropped > 0) return place_.Recompute(map_);
+  const bool is_reversed = Reconsider(loops, closure);
+  if (is_reversed || closure->dropped > 0) return place_.Recompute(map_);
   for (const LoopCandidate* loop : loops) {
-    if (!loop->failed) place_.AddLoop(map_, EdgeOf(*loop), /*joins=*/!had_place && Fix());
+    if (!loop->failed) place_.AddLoop(map_, EdgeOf(*loop));
   }
 }
 
@@ -156,13 +165,15 @@ Island LoopCloser::IslandOf(int number) const {
   return island;
 }
 
-// Of two parts that a loop joins, the later one moves to where the loop says.
+// Of two parts that a loop joins, the later one moves to where the loop says, but never that of the
+// map.
 void LoopCloser::AddLoops(const std::vector<LoopCandidate*>& loops) {
   for (const LoopCandidate* loop : loops) {
     const LevelEdge edge = EdgeOf(*loop);
     if (!map_.graph.AreConnected(edge.from, edge.to)) {
-      const LevelTransform T_M_L = map_.graph.node(edge.from) * edge.T_from_to;
-      map_.graph.MovePart(edge.to, T_M_L * map_.graph.node(edge.to).Inverse());
+      const LevelEdge move = map_.graph.AreConnected(0, edge.to) ? Reversed(edge) : edge;
+      const LevelTransform T_M_L = map_.graph.node(move.from) * move.T_from_to;
+      map_.graph.MovePart(move.to, T_M_L * map_.graph.node(move.to).Inverse());
     }
     map_.graph.AddEdge(edge);
   }
@@ -172,22 +183,59 @@ void LoopCloser::Optimize(const std::vector<LoopCandidate*>& loops, LoopClosure*
   const std::vector<LevelEdge> dropped = map_.graph.Optimize();
   closure->dropped = static_cast<int>(dropped.size());
   for (LoopCandidate* loop : loops) {
-    const LevelEdge edge = EdgeOf(*loop);
-    loop->graph_error = map_.graph.Deviations(edge);
-    const bool is_dropped = std::any_of(
-        dropped.begin(), dropped.end(),
-        [&](const LevelEdge& other) { return other.from == edge.from && other.to == edge.to; });
-    if (is_dropped) {
+    loop->graph_error = map_.graph.Deviations(EdgeOf(*loop));
+    if (Holds(dropped, *loop)) {
       loop->failed = LoopGate::kGraph;
       --closure->dropped;
     }
   }
 }
 
+// One loop that is wrong, and came first, contradicts each right one after it, which the graph then
+// refuses one by one. Taken all at once, they may outnumber it.
+bool LoopCloser::Reconsider(const std::vector<LoopCandidate*>& loops, LoopClosure* closure) {
+  const size_t refused_before = refused_.size();
+  for (const LoopCandidate* loop : loops) {
+    if (loop->failed) refused_.push_back(*loop);
+  }
+  if (refused_.size() == refused_before) return false;
+  constexpr size_t kFewestRefused = 3, kMostRefused = 8;
+  if (refused_.size() < kFewestRefused) return false;
+  if (refused_.size() > kMostRefused) refused_.erase(refused_.begin());
+
+  const PoseGraph before = map_.graph;
+  for (const LoopCandidate& loop : refused_) map_.graph.AddEdge(EdgeOf(loop));
+  const std::vector<LevelEdge> dropped = map_.graph.Optimize();
+  std::vector<LoopCandidate> right, wrong;
+  for (LoopCandidate& loop : refused_) (Holds(dropped, loop) ? wrong : right).push_back(loop);
+  const size_t given_up = dropped.size() - wrong.size();
+  if (right.size() < given_up + 2) {
+    map_.graph = before;
+    return false;
+  }
+  closure->dropped += static_cast<int>(given_up);
+  for (LoopCandidate& loop : right) {
+    loop.failed.reset();
+    loop.graph_error = map_.graph.Deviations(EdgeOf(loop));
+    closure->confirmed.push_back(loop);
+  }
+  refused_ = std::move(wrong);
+  return true;
+}
+
+void LoopCloser::ForgetRefused(int keyframe) {
+  refused_.erase(std::remove_if(refused_.begin(), refused_.end(),
+                                [keyframe](const LoopCandidate& loop) {
+                                  return loop.earlier == keyframe || loop.later == keyframe;
+                                }),
+                 refused_.end());
+}
+
 void LoopCloser::Thin() {
   while (const auto keyframe = thinning_.Next(map_)) {
     recognition_.Remove(map_.keyframes[keyframe->number], keyframe->number);
     acceptance_.Forget(keyframe->number);
+    ForgetRefused(keyframe->number);
     map_.Remove(keyframe->number, keyframe->nearest);
   }
 }

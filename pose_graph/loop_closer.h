@@ -49,10 +49,11 @@ struct RecognisedPlace {
 struct LoopClosure {
   bool is_keyframe = false;
   std::vector<LoopCandidate> candidates;  // that were looked at
-  std::vector<LoopCandidate> confirmed;   // waited for one that agrees, and count from now on
-  int dropped = 0;                        // loops of before that the graph contradicts by now
-  std::optional<RecognisedPlace> place;   // passed all gates but the graph's
-  std::optional<MapFix> fix;              // nothing while the place in the map is unknown
+  // That had to wait for others that agree, or that the graph had refused; they count from now on.
+  std::vector<LoopCandidate> confirmed;
+  int dropped = 0;                       // loops of before that the graph contradicts by now
+  std::optional<RecognisedPlace> place;  // passed all gates but the graph's
+  std::optional<MapFix> fix;             // nothing while the place in the map is unknown
 };
 
 // Recognises places and corrects the odometry's drift: the map M is the world of the first odometry
@@ -83,6 +84,10 @@ class LoopCloser {
   void AddLoops(const std::vector<LoopCandidate*>& loops);
   // Says of the new loops which the graph contradicts.
   void Optimize(const std::vector<LoopCandidate*>& loops, LoopClosure* closure);
+  // Takes loops that the graph has refused so far, if they are right together and those wrong that
+  // contradict them. Says whether it did.
+  bool Reconsider(const std::vector<LoopCandidate*>& loops, LoopClosure* closure);
+  void ForgetRefused(int keyframe);
   void Thin();
   std::optional<MapFix> Fix() const;
 
@@ -94,6 +99,7 @@ class LoopCloser {
   MapThinning thinning_;
   KeyframeMap map_;
   PlaceInMap place_;
+  std::vector<LoopCandidate> refused_;  // by the graph; the newest of them
   int world_ = 0;
   double path_ = 0;                                 // in this world [m]
   std::optional<Eigen::Vector3d> last_position_O_;  // for path_

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "pose_graph/geometry/level_transform.h"
 
 namespace plm_vins {
@@ -21,6 +24,14 @@ struct DriftBudget {
   }
 
   Matrix4d Covariance(double distance) const { return Variances(distance).asDiagonal(); }
+
+  // The way after which it may be off by so much: zero where it may at once.
+  double DistanceOf(const Vector4d& variances) const {
+    const double position = std::sqrt(variances.head<3>().maxCoeff());
+    const double yaw = std::sqrt(variances(3));
+    return std::max(
+        {0.0, (position - position_floor) / position_rate, (yaw - yaw_floor) / yaw_rate});
+  }
 };
 
 }  // namespace plm_vins

@@ -12,7 +12,7 @@ struct LevelEdge {
   LevelTransform T_from_to;
   Matrix4d covariance = Matrix4d::Identity();  // of (x, y, z, yaw) of T_from_to [m, rad]
   bool is_loop = false;
-  double way = 0;  // of odometry that is in it [m]
+  double way = 0;  // of odometry that is in it, as far as it may have drifted [m]
 };
 
 // The same, told the other way round.

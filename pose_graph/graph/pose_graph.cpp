@@ -17,7 +17,10 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMaxIterations = 10;  // from the last solution, few do
+constexpr int kMaxIterations = 50;  // from the last solution, a few do
+// Gauss-Newton as long as that leads down: with Ceres' default, long chains of steps, which bend
+// easily as a whole, would be solved slowly.
+constexpr double kTrustRegion = 1e12;
 
 // The whitened error of an edge. The variables of a node: (x, y, z, yaw) of T_M_L.
 struct EdgeCost {
@@ -113,6 +116,22 @@ void PoseGraph::AddSurer(const LevelEdge& edge) {
   }
 }
 
+std::vector<int> PoseGraph::Kept() const {
+  std::vector<int> numbers;
+  numbers.reserve(kept_.size());
+  for (const KeptNode& kept : kept_) numbers.push_back(kept.number);
+  return numbers;
+}
+
+void PoseGraph::HoldFrame() {
+  const std::vector<bool> connected = ConnectedWith(0);
+  for (int i = 0; i < size(); ++i) nodes_[i].holds_frame = connected[i];
+}
+
+void PoseGraph::TakeNodesAsMeasured() {
+  for (LevelEdge& edge : edges_) edge.T_from_to = node(edge.from).Inverse() * node(edge.to);
+}
+
 double PoseGraph::Deviations(const LevelEdge& edge) const {
   const LevelTransform actual = node(edge.from).Inverse() * node(edge.to);
   return plm_vins::Deviations(EdgeError(edge.T_from_to, actual), edge.covariance);
@@ -120,8 +139,8 @@ double PoseGraph::Deviations(const LevelEdge& edge) const {
 
 std::vector<LevelEdge> PoseGraph::Optimize() {
   std::vector<LevelEdge> dropped;
-  while (true) {
-    Solve();
+  const std::vector<Vector4d> before = Values();
+  while (Solve()) {
     auto worst = edges_.end();
     double worst_deviations = kThreeSigmaOf4Dof;
     for (auto edge = edges_.begin(); edge != edges_.end(); ++edge) {
@@ -133,12 +152,26 @@ std::vector<LevelEdge> PoseGraph::Optimize() {
     if (worst == edges_.end()) return dropped;
     dropped.push_back(*worst);
     edges_.erase(worst);
+    Place(before);  // not where the dropped one bent them to
+  }
+  return dropped;
+}
+
+std::vector<Vector4d> PoseGraph::Values() const {
+  std::vector<Vector4d> values;
+  values.reserve(kept_.size());
+  for (const KeptNode& kept : kept_) values.push_back(nodes_[kept.number].T_M_L.ToVector());
+  return values;
+}
+
+void PoseGraph::Place(const std::vector<Vector4d>& values) {
+  for (size_t i = 0; i < kept_.size(); ++i) {
+    nodes_[kept_[i].number].T_M_L = LevelTransform::FromVector(values[i]);
   }
 }
 
-void PoseGraph::Solve() {
-  std::vector<Vector4d> values;
-  for (const KeptNode& kept : kept_) values.push_back(nodes_[kept.number].T_M_L.ToVector());
+bool PoseGraph::Solve() {
+  std::vector<Vector4d> values = Values();
   ceres::Problem problem;
   for (const LevelEdge& edge : edges_) {
     const Vector4d measured = edge.T_from_to.ToVector();
@@ -167,22 +200,29 @@ void PoseGraph::Solve() {
     options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   }
   options.max_num_iterations = kMaxIterations;
+  options.initial_trust_region_radius = kTrustRegion;
   options.num_threads = 1;  // sums of several would differ from run to run
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable()) return;
+  if (!summary.IsSolutionUsable()) return false;
   TakeOver(values, parts);
+  return summary.termination_type == ceres::CONVERGENCE;
 }
 
 // The solver left the first node of each part where it was. But that any one node stays is worth
 // nothing: a turn of the first step would swing all others about it. So each part is laid onto
-// where it was.
+// where it was, by those nodes that hold the frame where it has some.
 void PoseGraph::TakeOver(const std::vector<Vector4d>& values, const std::vector<int>& parts) {
   std::map<int, LevelFit> fits;
+  std::map<int, LevelFit> fits_of_all;
   for (size_t i = 0; i < kept_.size(); ++i) {
-    fits[parts[i]].Add(LevelTransform::FromVector(values[i]), nodes_[kept_[i].number].T_M_L);
+    const Node& node = nodes_[kept_[i].number];
+    const LevelTransform solved = LevelTransform::FromVector(values[i]);
+    if (node.holds_frame) fits[parts[i]].Add(solved, node.T_M_L);
+    fits_of_all[parts[i]].Add(solved, node.T_M_L);
   }
+  fits.merge(fits_of_all);
   for (size_t i = 0; i < kept_.size(); ++i) {
     nodes_[kept_[i].number].T_M_L =
         fits[parts[i]].Transform() * LevelTransform::FromVector(values[i]);
@@ -210,13 +250,19 @@ bool PoseGraph::AreConnected(int a, int b) const {
   return parts[PlaceOf(a)] == parts[PlaceOf(b)];
 }
 
-std::vector<bool> PoseGraph::ConnectedWith(int node) const {
+std::vector<int> PoseGraph::FirstConnected() const {
   const std::vector<int> parts = Parts();
+  std::vector<int> first;
+  first.reserve(nodes_.size());
+  for (int i = 0; i < size(); ++i) first.push_back(kept_[parts[PlaceOf(i)]].number);
+  return first;
+}
+
+std::vector<bool> PoseGraph::ConnectedWith(int node) const {
+  const std::vector<int> first = FirstConnected();
   std::vector<bool> connected;
   connected.reserve(nodes_.size());
-  for (int i = 0; i < size(); ++i) {
-    connected.push_back(parts[PlaceOf(i)] == parts[PlaceOf(node)]);
-  }
+  for (const int other : first) connected.push_back(other == first[node]);
   return connected;
 }
 

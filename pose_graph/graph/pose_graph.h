@@ -22,15 +22,31 @@ class PoseGraph {
   // landmarks. node() goes on telling where it was, as seen from `anchor`, one of its part.
   void Remove(int number, int anchor);
   bool Has(int number) const { return nodes_[number].anchor < 0; }
+  std::vector<int> Kept() const;  // the numbers of those that are not taken out, in order
 
-  // Takes the nodes to where all edges fit best. Each part as a whole stays where it is.
+  // From now on the nodes that are connected with the first one hold the frame M: what comes to
+  // them later adapts to it. They may still move against each other.
+  void HoldFrame();
+
+  // Takes the nodes to where all edges fit best. Each part stays where it is: by its nodes that
+  // hold the frame or, where it has none, as a whole.
   // Loops count robustly; those that are off by more than kThreeSigmaOf4Dof in the end are taken
-  // out, the worst first, and it is done again. Returns them.
+  // out, the worst first, and it is done again from the beginning. Returns them. As long as the
+  // solver does not get to the end, no loop is judged.
   std::vector<LevelEdge> Optimize();
+
+  // Takes a node, which is not taken out, to a place that is known better. Those that are seen from
+  // it follow.
+  void SetNode(int number, const LevelTransform& T_M_L) { nodes_[number].T_M_L = T_M_L; }
+
+  // Takes what lies between the nodes now for what was measured, as surely as before: Optimize()
+  // leaves them there.
+  void TakeNodesAsMeasured();
 
   // Whether edges lead from one node to the other.
   bool AreConnected(int a, int b) const;
   std::vector<bool> ConnectedWith(int node) const;  // by node
+  std::vector<int> FirstConnected() const;          // by node: the first that is connected with it
 
   // Moves all nodes that are connected with `node`.
   void MovePart(int node, const LevelTransform& T_new_old);
@@ -51,6 +67,7 @@ class PoseGraph {
     LevelTransform T_M_L;  // of one that is taken out: T_A_L, A being its anchor's L
     int anchor = -1;       // -1: it is not taken out
     int place = -1;        // in `kept_`, if it is not taken out
+    bool holds_frame = false;
   };
   struct KeptNode {
     int number = -1;
@@ -61,8 +78,10 @@ class PoseGraph {
   int PlaceOf(int number) const;
   void Anchor(int number, int anchor);
   void AddSurer(const LevelEdge& edge);
-  std::vector<int> Parts() const;  // by place: that of the first node of its part
-  void Solve();
+  std::vector<int> Parts() const;        // by place: that of the first node of its part
+  std::vector<Vector4d> Values() const;  // by place: of T_M_L
+  void Place(const std::vector<Vector4d>& values);
+  bool Solve();  // whether the solver got to the end
   void TakeOver(const std::vector<Vector4d>& values, const std::vector<int>& parts);
 
   std::vector<Node> nodes_;

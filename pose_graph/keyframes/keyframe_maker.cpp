@@ -34,7 +34,7 @@ std::vector<DescribedCorner> FollowedCorners(const OdometryFrame& frame) {
     corner.track = tracked.observation.id;
     corner.uv_px = uv_px;
     corner.xy = tracked.observation.xy.cast<float>();
-    if (tracked.p_O) corner.p_O = tracked.p_O->cast<float>();
+    if (tracked.p_O && corner.track >= 0) corner.p_O = tracked.p_O->cast<float>();
   }
   return corners;
 }

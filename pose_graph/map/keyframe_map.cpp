@@ -10,17 +10,12 @@ void KeyframeMap::Remove(int keyframe, int anchor) {
   removed.segments = std::vector<TrackedSegment>();
 }
 
-int KeyframeMap::CountKept() const {
-  int count = 0;
-  for (int i = 0; i < graph.size(); ++i) count += graph.Has(i) ? 1 : 0;
-  return count;
-}
+int KeyframeMap::CountKept() const { return static_cast<int>(graph.Kept().size()); }
 
 KeyframeMap KeyframeMap::Compact() const {
   KeyframeMap compact;
   std::vector<int> new_number(keyframes.size(), -1);
-  for (int i = 0; i < graph.size(); ++i) {
-    if (!graph.Has(i)) continue;
+  for (const int i : graph.Kept()) {
     new_number[i] = compact.graph.AddNode(graph.node(i));
     compact.keyframes.push_back(keyframes[i]);
   }

@@ -36,8 +36,8 @@ std::vector<int> MapThinning::Like(const KeyframeMap& map, int number) const {
   const auto camera = [&](int i) { return map.T_M_O(i).ToRigid() * map.keyframes[i].T_O_C(); };
   const Rigid3d T_M_C = camera(number);
   std::vector<int> like;
-  for (int i = 0; i < number; ++i) {
-    if (!map.graph.Has(i)) continue;
+  for (const int i : map.graph.Kept()) {
+    if (i >= number) break;
     const Rigid3d other = camera(i);
     if ((other.translation - T_M_C.translation).norm() <= options_.distance &&
         other.rotation.angularDistance(T_M_C.rotation) <= options_.angle &&

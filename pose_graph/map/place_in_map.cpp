@@ -2,47 +2,70 @@
 #include "pose_graph/map/place_in_map.h"
 
 #include <map>
-#include <set>
 
 namespace plm_vins {
 
 void PlaceInMap::SetMap(const KeyframeMap& map) {
-  loaded_ = map.keyframes.size();
-  covariances_.assign(loaded_, Matrix4d::Zero());
+  loaded_.clear();
+  for (const int part : map.graph.FirstConnected()) {
+    const Keyframe& keyframe = map.keyframes[loaded_.size()];
+    loaded_.push_back({part == 0 ? Matrix4d::Zero() : keyframe.covariance, part});
+  }
+  places_ = loaded_;
 }
 
 void PlaceInMap::AddKeyframe(const KeyframeMap& map) {
-  const size_t number = covariances_.size();
+  const int number = newest() + 1;
   const Keyframe& keyframe = map.keyframes[number];
-  covariances_.push_back(keyframe.covariance);
   if (number > 0 && map.keyframes[number - 1].world == keyframe.world) {
-    covariances_.back() = CovarianceOf(keyframe, Fix(map));
+    places_.push_back(places_.back());
+    places_.back().covariance = CovarianceOf(keyframe, Fix(map));
   } else {
-    anchor_ = newest();
+    places_.push_back({keyframe.covariance, number});
+    anchor_ = number;
+  }
+}
+
+void PlaceInMap::AddLoop(const KeyframeMap& map, const LevelEdge& loop) {
+  if (places_[loop.from].part == places_[loop.to].part) {
+    Improve(map, loop);
+  } else if (places_[loop.to].part == 0) {
+    Join(map, Reversed(loop));
+  } else {
+    Join(map, loop);
+    anchor_ = loop.to;
   }
 }
 
 // A loop that is less sure than odometry since the last one tells nothing new.
-void PlaceInMap::AddLoop(const KeyframeMap& map, const LevelEdge& loop, bool joins) {
-  const MapFix fix = FixBy(
-      map, loop.to, CovarianceInMap(map.graph.node(loop.from), covariances_[loop.from], loop));
+void PlaceInMap::Improve(const KeyframeMap& map, const LevelEdge& loop) {
+  const MapFix fix =
+      FixBy(map, loop.to, CovarianceInMap(map.graph.node(loop.from), Covariance(loop.from), loop));
   const auto position_variance = [](const Matrix4d& covariance) {
     return covariance.topLeftCorner<3, 3>().trace();
   };
-  const Keyframe& keyframe = map.keyframes[newest()];
-  const Matrix4d newest_covariance = CovarianceOf(keyframe, fix);
-  joins = joins && map.keyframes[loop.from].world != keyframe.world;
-  if (!joins && position_variance(newest_covariance) >= position_variance(covariances_.back())) {
-    return;
-  }
+  const Matrix4d newest_covariance = CovarianceOf(map.keyframes[newest()], fix);
+  if (position_variance(newest_covariance) >= position_variance(Covariance(newest()))) return;
   anchor_ = loop.to;
-  covariances_[anchor_] = fix.covariance;
-  covariances_.back() = newest_covariance;
-  for (size_t i = 0; joins && i < covariances_.size(); ++i) {
-    if (map.keyframes[i].world == keyframe.world) {
-      covariances_[i] = CovarianceOf(map.keyframes[i], fix);
-    }
+  places_[anchor_].covariance = fix.covariance;
+  places_.back().covariance = newest_covariance;
+}
+
+// What is known of the part's keyframes relative to each other stays, as if they were steps of
+// odometry.
+void PlaceInMap::Join(const KeyframeMap& map, const LevelEdge& loop) {
+  const PoseGraph& graph = map.graph;
+  const Place end = places_[loop.to];
+  const Matrix4d covariance = CovarianceInMap(graph.node(loop.from), Covariance(loop.from), loop);
+  for (int i = 0; i <= newest(); ++i) {
+    if (places_[i].part != end.part) continue;
+    LevelEdge since;
+    since.T_from_to = graph.node(loop.to).Inverse() * graph.node(i);
+    since.covariance =
+        StepCovariance(noise_, since.T_from_to.translation, Covariance(i) - end.covariance);
+    places_[i] = {CovarianceInMap(graph.node(loop.to), covariance, since), places_[loop.from].part};
   }
+  places_[loop.to].covariance = covariance;
 }
 
 // As if each loop had come with the later of its keyframes. Those that were removed have passed
@@ -54,17 +77,11 @@ void PlaceInMap::Recompute(const KeyframeMap& map) {
     const LevelEdge loop = edge.from < edge.to ? edge : Reversed(edge);
     loops.emplace(loop.to, loop);
   }
-  covariances_.resize(loaded_);
-  std::set<int> worlds = {map.keyframes.front().world};  // that have a place in M
-  for (size_t i = 0; i < loaded_; ++i) worlds.insert(map.keyframes[i].world);
-  while (covariances_.size() < map.keyframes.size()) {
+  places_ = loaded_;
+  while (places_.size() < map.keyframes.size()) {
     AddKeyframe(map);
     const auto [begin, end] = loops.equal_range(newest());
-    for (auto loop = begin; loop != end; ++loop) {
-      const bool joins = worlds.count(map.keyframes[loop->second.from].world) > 0 &&
-                         worlds.insert(map.keyframes[newest()].world).second;
-      AddLoop(map, loop->second, joins);
-    }
+    for (auto loop = begin; loop != end; ++loop) AddLoop(map, loop->second);
   }
 }
 

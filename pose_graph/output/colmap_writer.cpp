@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <iomanip>
 #include <map>
+#include <memory>
 #include <ostream>
+#include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -28,8 +30,8 @@ struct ColmapPoint {
 std::vector<int> KeyframesInMap(const KeyframeMap& map) {
   const std::vector<bool> connected = map.graph.ConnectedWith(0);
   std::vector<int> numbers;
-  for (int i = 0; i < map.graph.size(); ++i) {
-    if (connected[i] && map.graph.Has(i)) numbers.push_back(i);
+  for (const int i : map.graph.Kept()) {
+    if (connected[i]) numbers.push_back(i);
   }
   return numbers;
 }
@@ -72,22 +74,44 @@ void WriteCamera(const CameraParameters& camera, std::ostream* stream) {
   *stream << '\n';
 }
 
-// COLMAP counts pixels from the corner of the image, we from the middle of the first pixel.
-Eigen::Vector2d ToColmapPixel(const CameraParameters& camera, const DescribedCorner& corner) {
-  const Eigen::Vector2d half(0.5, 0.5);
-  if (camera.model != CameraParameters::Model::kMei) return corner.uv_px.cast<double>() + half;
-  const Eigen::Vector2d xy = corner.xy.cast<double>();
-  return Eigen::Vector2d(camera.fx * xy.x() + camera.cx, camera.fy * xy.y() + camera.cy) + half;
+// The camera that makes pixels of rays: of MEI, which COLMAP has not, the ideal pinhole.
+std::unique_ptr<const CameraModel> WrittenCamera(CameraParameters camera) {
+  if (camera.model == CameraParameters::Model::kMei) {
+    camera.model = CameraParameters::Model::kPinholeRadtan;
+    camera.distortion.setZero();
+  }
+  return CameraModel::Create(camera);
 }
 
-void WriteImage(const CameraParameters& camera, const KeyframeMap& map, int number,
-                const std::map<PointName, ColmapPoint>& points, std::ostream* stream) {
+// By the ray: the keyframe may have been seen by another camera, or by this one as it was known
+// then. COLMAP counts pixels from the corner of the image, we from the middle of the first pixel.
+Eigen::Vector2d ToColmapPixel(const CameraModel& camera, const DescribedCorner& corner) {
+  const auto uv_px = camera.Project(corner.xy.cast<double>().homogeneous());
+  return uv_px.value_or(corner.uv_px.cast<double>()) + Eigen::Vector2d(0.5, 0.5);
+}
+
+// By keyframe: their stamps, as in an ASL folder. Where maps were flown with one clock from zero,
+// or in one recording, a later one of the same stamp has its number as well.
+std::map<int, std::string> ImageNames(const KeyframeMap& map, const std::vector<int>& keyframes) {
+  std::map<int, std::string> names;
+  std::set<int64_t> stamps;
+  for (const int i : keyframes) {
+    const int64_t t_ns = map.keyframes[i].t_ns;
+    const bool is_new = stamps.insert(t_ns).second;
+    names[i] = std::to_string(t_ns) + (is_new ? "" : "_" + std::to_string(i + 1)) + ".png";
+  }
+  return names;
+}
+
+void WriteImage(const CameraModel& camera, const KeyframeMap& map, int number,
+                const std::string& name, const std::map<PointName, ColmapPoint>& points,
+                std::ostream* stream) {
   const Keyframe& keyframe = map.keyframes[number];
   const Rigid3d T_C_M = (map.T_M_O(number).ToRigid() * keyframe.T_O_C()).Inverse();
   const Eigen::Quaterniond& q = T_C_M.rotation;
   *stream << number + 1 << ' ' << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z();
   for (int i = 0; i < 3; ++i) *stream << ' ' << T_C_M.translation(i);
-  *stream << " 1 " << keyframe.t_ns << ".png\n";
+  *stream << " 1 " << name << '\n';
   const char* space = "";
   for (const DescribedCorner& corner : keyframe.corners) {
     const Eigen::Vector2d uv = ToColmapPixel(camera, corner);
@@ -122,8 +146,11 @@ void WriteColmapModel(const std::string& folder, const CameraParameters& camera,
   const std::vector<int> keyframes = KeyframesInMap(map);
   const std::map<PointName, ColmapPoint> points = CollectPoints(map, keyframes);
   WriteFile(folder, "cameras.txt", [&](std::ostream* stream) { WriteCamera(shifted, stream); });
+  const std::unique_ptr<const CameraModel> written = WrittenCamera(camera);
   WriteFile(folder, "images.txt", [&](std::ostream* stream) {
-    for (const int i : keyframes) WriteImage(camera, map, i, points, stream);
+    for (const auto& [i, name] : ImageNames(map, keyframes)) {
+      WriteImage(*written, map, i, name, points, stream);
+    }
   });
   WriteFile(folder, "points3D.txt", [&](std::ostream* stream) { WritePoints(points, stream); });
 }

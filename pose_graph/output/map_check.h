@@ -60,6 +60,7 @@ inline bool IsCovariance(const Matrix4d& covariance) {
          covariance.isApprox(covariance.transpose(), kTolerance);
 }
 
+// Corners without a track would be one landmark, all of them.
 inline void CheckKeyframe(const Keyframe& keyframe) {
   constexpr int kMostWorlds = 1 << 30;  // each run adds one to those of the map
   RequireOfMap(IsStamp(keyframe.t_ns), "the stamp of a keyframe is none");
@@ -68,6 +69,9 @@ inline void CheckKeyframe(const Keyframe& keyframe) {
   RequireOfMap(IsUnit(keyframe.T_O_B.rotation) && IsUnit(keyframe.T_B_C.rotation) &&
                    IsUnit(keyframe.R_O_Manhattan.value_or(Eigen::Quaterniond::Identity())),
                "a rotation in it is none");
+  for (const DescribedCorner& corner : keyframe.corners) {
+    RequireOfMap(corner.track >= 0 || !corner.p_O, "a corner without a track has a place");
+  }
 }
 
 // A way of less than nothing would make the shortest one infinitely long to look for.

@@ -129,7 +129,8 @@ std::string ReadPayload(std::istream* stream) {
   stream->read(reinterpret_cast<char*>(&version), sizeof(version));
   if (*stream && version != kVersion) {
     throw std::runtime_error("is a map of version " + std::to_string(version) +
-                             ", this program reads version " + std::to_string(kVersion));
+                             ", this program reads version " + std::to_string(kVersion) +
+                             ": fly again for a new one, or take the program that saved it");
   }
   stream->read(reinterpret_cast<char*>(&size), sizeof(size));
   stream->read(reinterpret_cast<char*>(&checksum), sizeof(checksum));
@@ -172,6 +173,10 @@ void SaveMap(const std::string& file, const KeyframeMap& map) {
 }
 
 KeyframeMap LoadMap(const std::string& file) {
+  std::error_code error;  // shows where the file is opened
+  if (std::filesystem::is_directory(file, error)) {
+    throw std::runtime_error(file + " is a folder: name the map in it");
+  }
   std::ifstream stream(file, std::ios::binary);
   if (!stream && errno == ENOENT) throw std::runtime_error(file + ": there is no such map");
   if (!stream) {

@@ -28,6 +28,14 @@ double ScoreOf(const std::map<int, double>& scores, int number) {
   return found == scores.end() ? 0.0 : found->second;
 }
 
+// The score of the image's predecessor. The first of a world has none: what it would mostly be.
+double ReferenceScore(const std::map<int, double>& scores, const std::vector<Keyframe>& keyframes) {
+  constexpr double kUsualShare = 0.24;  // of the image's with itself: the median of V1_02
+  const int newest = static_cast<int>(keyframes.size()) - 1;
+  const bool is_first = newest == 0 || keyframes[newest - 1].world != keyframes[newest].world;
+  return is_first ? kUsualShare * ScoreOf(scores, newest) : ScoreOf(scores, newest - 1);
+}
+
 double IslandScore(const std::map<int, double>& scores, const std::vector<Keyframe>& keyframes,
                    int number, int radius) {
   double sum = 0;
@@ -59,7 +67,7 @@ std::vector<PlaceCandidate> PlaceRecognition::Find(const std::vector<Keyframe>& 
   std::stable_sort(islands.begin(), islands.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
 
-  const double reference = ScoreOf(scores, newest - 1);
+  const double reference = ReferenceScore(scores, keyframes);
   std::vector<PlaceCandidate> candidates;
   for (const auto& [island_score, number] : islands) {
     if (static_cast<int>(candidates.size()) == options_.max_islands) break;

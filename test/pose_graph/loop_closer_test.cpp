@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "test/pose_graph/two_visits.h"
@@ -52,13 +53,22 @@ class LoopCloserTest : public ::testing::Test {
     return frame;
   }
 
-  // Slides from y = -3 to 3 from time `t` on; the newest closure.
+  struct Range {
+    double from = -3;
+    double to = 3;
+  };
+
+  // Slides along y from time `t` on; the newest closure.
   LoopClosure Slide(LoopCloser* loops, double t, const LevelTransform& T_O_W,
                     bool restarted = false) {
+    return Slide(loops, t, T_O_W, restarted, Range());
+  }
+  LoopClosure Slide(LoopCloser* loops, double t, const LevelTransform& T_O_W, bool restarted,
+                    const Range& range) {
     first_track_ += 100'000'000;
     LoopClosure last;
-    for (int i = 0; i <= 15; ++i) {
-      OdometryFrame frame = FrameAt(-3 + 0.4 * i, t + 0.4 * i, T_O_W);
+    for (int i = 0; i <= std::lround((range.to - range.from) / 0.4); ++i) {
+      OdometryFrame frame = FrameAt(range.from + 0.4 * i, t + 0.4 * i, T_O_W);
       frame.restarted = restarted && i == 0;
       last = loops->Add(frame);
       for (const LoopCandidate& candidate : last.candidates) {
@@ -130,6 +140,60 @@ TEST_F(LoopCloserTest, StartsInAMapOfEarlier) {
   EXPECT_LT((found.fix->T_M_O * T_O_W).translation.norm(), 0.05);
 }
 
+TEST_F(LoopCloserTest, LeavesALoadedMapWhereItIs) {
+  LoopCloser before(LoopCloserOptions(*camera_), camera_);
+  Slide(&before, 0, LevelTransform());
+  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  loops.SetMap(before.map());
+  Slide(&loops, 10, LevelTransform());
+  const LevelTransform drift = {0, {0.5, 0, 0}};
+  constexpr int kSteps = 60;  // away and back, in the dark
+  for (int i = 0; i <= kSteps; ++i) {
+    const double y = 3 + 0.5 * std::min(i, kSteps - i);
+    OdometryFrame frame = FrameAt(0, 20 + 0.4 * i, LevelTransform());
+    frame.T_O_B.translation = Eigen::Vector3d(0, y, 0) + drift.translation * i / kSteps;
+    frame.gray = cv::Scalar(100);
+    frame.corners.clear();
+    loops.Add(frame);
+  }
+  accepted_ = 0;
+  const LoopClosure back = Slide(&loops, 60, drift);
+  EXPECT_GT(accepted_, 3);
+  EXPECT_LT((back.fix->T_M_O * drift).translation.norm(), 0.05);
+  for (int i = 0; i < before.map().graph.size(); ++i) {
+    const LevelTransform& was = before.map().graph.node(i);
+    EXPECT_LT((loops.map().graph.node(i).translation - was.translation).norm(), 0.02) << i;
+  }
+}
+
+// A world that is in the map meets one that is not.
+TEST_F(LoopCloserTest, BringsAWorldToTheMapAndNotTheMapToTheWorld) {
+  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  Slide(&loops, 0, LevelTransform(), false, {-9, -5});
+  const int second = loops.map().graph.size();
+  EXPECT_FALSE(Slide(&loops, 60, {2.0, {70, 80, 9}}, /*restarted=*/true, {5, 9}).fix);
+  const LevelTransform T_O_W = {-1.0, {5, 6, 7}};
+  const LoopClosure last = Slide(&loops, 120, T_O_W, /*restarted=*/true, {-9, 9});
+  ASSERT_TRUE(last.fix);
+  EXPECT_TRUE(loops.map().graph.AreConnected(0, second));
+  EXPECT_LT((last.fix->T_M_O * T_O_W).translation.norm(), 0.05);
+  EXPECT_LT((loops.map().graph.node(0).translation - Eigen::Vector3d(0, -9, 0)).norm(), 0.05);
+  EXPECT_LT((loops.map().graph.node(second).translation - Eigen::Vector3d(0, 5, 0)).norm(), 0.05);
+}
+
+// As after a blind stretch over which the IMU alone leads.
+TEST_F(LoopCloserTest, BelievesALoopWhereOdometryKnowsThatItIsOff) {
+  variance_rate_ = 0;
+  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  Slide(&loops, 0, LevelTransform());
+  variance_rate_ = 16.0 / 60;  // 4 m by the second visit
+  const LevelTransform drift = {0, {0, 4, 0}};
+  const LoopClosure second = Slide(&loops, 60, drift);
+  EXPECT_GT(accepted_, 3);
+  const LevelTransform rest = loops.map().T_M_O(0).Inverse() * second.fix->T_M_O * drift;
+  EXPECT_LT(rest.translation.norm(), 0.05);
+}
+
 TEST_F(LoopCloserTest, DoesNotTakeATwinOfAPlaceForThePlace) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());
@@ -170,6 +234,21 @@ TEST_F(LoopCloserTest, DropsALoopThatTheGraphContradicts) {
 
 // Odometry jumps after the first loop of the second visit. The next one, which contradicts it,
 // knows the place less surely.
+// As where odometry has just started, and does not know its scale yet.
+TEST_F(LoopCloserTest, GivesUpALoopThatAllLaterOnesContradict) {
+  LoopCloser loops(LoopCloserOptions(*camera_), camera_);
+  Slide(&loops, 0, LevelTransform());
+  variance_rate_ = 1e-7;
+  const LevelTransform at_first = {0.03, {0.3, -0.2, 0.1}};
+  Slide(&loops, 60, at_first, /*restarted=*/true, {-3, -2.2});
+  EXPECT_GT(accepted_, 0);
+  const LoopClosure last = Slide(&loops, 62, kDrift, /*restarted=*/false, {-1.8, 3});
+  ASSERT_TRUE(last.fix);
+  const LevelTransform rest = last.fix->T_M_O * kDrift;
+  EXPECT_LT(rest.translation.norm(), 0.05);
+  EXPECT_NEAR(rest.yaw, 0, 0.01);
+}
+
 TEST_F(LoopCloserTest, KnowsNoPlaceByALoopThatTheGraphDropsLater) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());

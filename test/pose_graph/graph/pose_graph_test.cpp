@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <random>
 
 namespace plm_vins {
 namespace {
@@ -33,6 +35,19 @@ PoseGraph Straight(int count) {
 // A node as the first one sees it: the graph as a whole may lie anywhere.
 LevelTransform FromFirst(const PoseGraph& graph, int node) {
   return graph.node(0).Inverse() * graph.node(node);
+}
+
+// A circle of so many steps, the yaw of each being wrong by an error times its deviation.
+template <typename Error>
+PoseGraph Circle(int count, double yaw_deviation, const Error& error) {
+  PoseGraph graph;
+  graph.AddNode({});
+  for (int i = 0; i < count; ++i) {
+    const LevelTransform step = {2 * M_PI / count + yaw_deviation * error(), {0.3, 0, 0}};
+    graph.AddNode(graph.node(i) * step);
+    graph.AddEdge(Edge(i, i + 1, step, false, Variance(0.002, yaw_deviation)));
+  }
+  return graph;
 }
 
 TEST(PoseGraph, LeavesAGraphThatFits) {
@@ -99,6 +114,42 @@ TEST(PoseGraph, TakesOutALoopThatContradictsTheOthers) {
   EXPECT_NEAR(FromFirst(graph, 20).translation.x(), 20, 0.02);
 }
 
+// Such a chain bends easily as a whole, but each of its steps hardly: that takes iterations.
+TEST(PoseGraph, ClosesALongWayByARightLoop) {
+  constexpr int kSteps = 2000;
+  for (const uint32_t seed : {1, 2, 3, 4, 5}) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    PoseGraph graph = Circle(kSteps, 6e-4, [&] { return normal(random); });
+    const LevelEdge loop = Edge(0, kSteps, {}, true, Variance(0.02, 1e-3));
+    EXPECT_GT(graph.Deviations(loop), 10) << seed;
+    graph.AddEdge(loop);
+    EXPECT_TRUE(graph.Optimize().empty()) << seed;
+    EXPECT_LT(graph.Deviations(loop), 0.5) << seed;
+  }
+}
+
+TEST(PoseGraph, IsNotBentByALoopThatItTakesOut) {
+  constexpr int kSteps = 2000;
+  PoseGraph graph = Circle(kSteps, 3e-4, [] { return 0; });
+  const PoseGraph before = graph;
+  graph.AddEdge(Edge(0, kSteps, {0.1, {0, 4, 0}}, true, Variance(0.02, 1e-3)));
+  ASSERT_EQ(graph.Optimize().size(), 1u);
+  for (int i = 0; i <= kSteps; ++i) {
+    ASSERT_LT((graph.node(i).ToVector() - before.node(i).ToVector()).norm(), 1e-6) << i;
+  }
+}
+
+TEST(PoseGraph, JudgesNoLoopByWhatIsNotSolved) {
+  PoseGraph graph = Straight(5);
+  graph.AddEdge(Edge(0, 4, {0, {9, 0, 0}}, true, Variance(0.01, 0.01)));
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  graph.AddEdge(Edge(0, 5, {0, {none, 0, 0}}, false, Variance(0.1, 0.01)));
+  EXPECT_TRUE(graph.Optimize().empty());
+  EXPECT_EQ(graph.edges().size(), 7u);
+  EXPECT_EQ(graph.node(5).translation.x(), 5);
+}
+
 // A wrong turn of the first step would swing all that follows if the first node stayed.
 TEST(PoseGraph, StaysWhereItIsAsAWhole) {
   PoseGraph graph = Straight(20);
@@ -108,6 +159,48 @@ TEST(PoseGraph, StaysWhereItIsAsAWhole) {
   EXPECT_LT((graph.node(20).translation - Eigen::Vector3d(20, 0, 0)).norm(), 0.05);
 }
 
+// Far more of what came later moves than there was before.
+TEST(PoseGraph, AdaptsToTheNodesThatHoldTheFrame) {
+  PoseGraph graph = Straight(5);
+  graph.HoldFrame();
+  for (int i = 6; i <= 60; ++i) {
+    const LevelTransform step = {0, {i <= 33 ? 1.0 : -1.0, 0.01, 0.01}};
+    graph.AddNode(graph.node(i - 1) * step);
+    graph.AddEdge(Edge(i - 1, i, step, false, Variance(0.1, 0.01)));
+  }
+  graph.AddEdge(Edge(5, 60, {0, {1, 0, 0}}, true, Variance(0.01, 0.001)));
+  EXPECT_TRUE(graph.Optimize().empty());
+  EXPECT_GT((graph.node(60).translation - Eigen::Vector3d(6, 0.55, 0.55)).norm(), 0.5);
+  for (int i = 0; i <= 5; ++i) {
+    EXPECT_LT((graph.node(i).translation - Eigen::Vector3d(i, 0, 0)).norm(), 0.01) << i;
+  }
+}
+
+TEST(PoseGraph, MovesANodeWithThoseThatAreSeenFromIt) {
+  PoseGraph graph = Straight(4);
+  graph.Remove(2, 3);
+  graph.SetNode(3, {M_PI / 2, {3, 0, 7}});
+  EXPECT_LT((graph.node(3).translation - Eigen::Vector3d(3, 0, 7)).norm(), 1e-12);
+  EXPECT_LT((graph.node(2).translation - Eigen::Vector3d(3, -1, 7)).norm(), 1e-12);
+  EXPECT_EQ(graph.node(4).translation.x(), 4);
+}
+
+TEST(PoseGraph, RestsWhereItsNodesAreTakenAsMeasured) {
+  PoseGraph graph = Straight(4);
+  graph.AddEdge(Edge(0, 4, {0, {4, 0.1, 0}}, true, Variance(0.1, 0.01)));
+  graph.SetNode(2, {0.3, {2, 1, 1}});
+  const PoseGraph before = graph;
+  graph.TakeNodesAsMeasured();
+  EXPECT_TRUE(graph.Optimize().empty());
+  for (int i = 0; i <= 4; ++i) {
+    EXPECT_LT((graph.node(i).ToVector() - before.node(i).ToVector()).norm(), 1e-9) << i;
+  }
+  for (size_t i = 0; i < graph.edges().size(); ++i) {
+    EXPECT_NEAR(graph.Deviations(graph.edges()[i]), 0, 1e-9);
+    EXPECT_EQ(graph.edges()[i].covariance, before.edges()[i].covariance);
+  }
+}
+
 TEST(PoseGraph, KeepsPartsThatNothingConnectsApart) {
   PoseGraph graph = Straight(2);
   graph.AddNode({1.0, {50, 0, 0}});
@@ -115,6 +208,7 @@ TEST(PoseGraph, KeepsPartsThatNothingConnectsApart) {
   graph.AddEdge(Edge(3, 4, {0, {0, 2, 0}}, false, Variance(0.1, 0.01)));
   EXPECT_TRUE(graph.AreConnected(0, 2));
   EXPECT_FALSE(graph.AreConnected(2, 3));
+  EXPECT_EQ(graph.FirstConnected(), (std::vector<int>{0, 0, 0, 3, 3}));
   graph.Optimize();
   EXPECT_NEAR(graph.node(3).translation.y() + graph.node(4).translation.y(), 1, 1e-6);  // as before
   EXPECT_NEAR((graph.node(4).translation - graph.node(3).translation).norm(), 2, 1e-6);
@@ -153,6 +247,7 @@ TEST(PoseGraph, TellsTheNeighboursWhatWasMeasuredToANodeThatGoes) {
   graph.AddEdge(Edge(0, 2, {0, {2, 0, 0}}, true, Variance(0.3, 0.01)));
   graph.Remove(2, 0);
   EXPECT_FALSE(graph.Has(2));
+  EXPECT_EQ(graph.Kept(), (std::vector<int>{0, 1, 3, 4}));
   ASSERT_EQ(graph.edges().size(), 4u);
   const LevelEdge& step = graph.edges()[2];
   EXPECT_EQ(step.from, 1);

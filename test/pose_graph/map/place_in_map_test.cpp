@@ -39,9 +39,9 @@ class PlaceInMapTest : public ::testing::Test {
   }
 
   // A loop that stays in the graph.
-  void AddToGraph(const LevelEdge& loop, bool joins) {
+  void AddToGraph(const LevelEdge& loop) {
     map_.graph.AddEdge(loop);
-    place_.AddLoop(map_, loop, joins);
+    place_.AddLoop(map_, loop);
   }
 
   // Of each coordinate in the map, of a pose now of which odometry states `variance`.
@@ -61,17 +61,17 @@ TEST_F(PlaceInMapTest, IsAsSureAsOdometryWhereNothingIsSeenAgain) {
 
 TEST_F(PlaceInMapTest, IsAsSureAsALoopAndWhatOdometryAddsSince) {
   for (const double variance : {0.1, 0.2, 0.9}) Add(0, variance);
-  place_.AddLoop(map_, Loop(0, 2, 0.05), /*joins=*/false);
+  place_.AddLoop(map_, Loop(0, 2, 0.05));
   EXPECT_NEAR(VarianceInMap(0.9), 0.1 + 0.05, 1e-12);
   EXPECT_NEAR(VarianceInMap(1.2), 0.1 + 0.05 + 0.3, 1e-12);
   Add(0, 1.0);
-  place_.AddLoop(map_, Loop(2, 3, 0.01), /*joins=*/false);
+  place_.AddLoop(map_, Loop(2, 3, 0.01));
   EXPECT_NEAR(VarianceInMap(1.0), 0.1 + 0.05 + 0.01, 1e-12);
 }
 
 TEST_F(PlaceInMapTest, LearnsNothingFromALoopThatIsLessSure) {
   for (const double variance : {0.1, 0.2}) Add(0, variance);
-  place_.AddLoop(map_, Loop(0, 1, 0.5), /*joins=*/false);
+  place_.AddLoop(map_, Loop(0, 1, 0.5));
   EXPECT_NEAR(VarianceInMap(0.2), 0.2, 1e-12);
 }
 
@@ -79,9 +79,9 @@ TEST_F(PlaceInMapTest, LearnsNothingFromALoopThatIsLessSure) {
 TEST_F(PlaceInMapTest, KnowsANewWorldByTheLoopThatJoinsIt) {
   Add(0, 0.1);
   for (const double variance : {0.01, 0.02, 0.04}) Add(1, variance);
-  place_.AddLoop(map_, Loop(0, 2, 0.5), /*joins=*/true);
+  place_.AddLoop(map_, Loop(0, 2, 0.5));
   EXPECT_NEAR(VarianceInMap(0.04), 0.1 + 0.5 + 0.02, 1e-12);
-  place_.AddLoop(map_, Loop(1, 3, 0.001), /*joins=*/false);  // its earlier keyframes, too
+  place_.AddLoop(map_, Loop(1, 3, 0.001));  // its earlier keyframes, too
   EXPECT_NEAR(VarianceInMap(0.04), 0.1 + 0.5 + 0.01 + 0.001, 1e-12);
 }
 
@@ -92,16 +92,16 @@ TEST_F(PlaceInMapTest, TakesALoadedMapForExact) {
   map_ = loaded;
   place_.SetMap(map_);
   Add(1, 0.01);
-  place_.AddLoop(map_, Loop(0, 1, 0.2), /*joins=*/true);
+  place_.AddLoop(map_, Loop(0, 1, 0.2));
   EXPECT_NEAR(VarianceInMap(0.01), 0.2, 1e-12);
 }
 
 TEST_F(PlaceInMapTest, ForgetsWhatALoopToldThatTheGraphDropped) {
   for (const double variance : {0.1, 0.2}) Add(0, variance);
-  AddToGraph(Loop(0, 1, 0.02), /*joins=*/false);
+  AddToGraph(Loop(0, 1, 0.02));
   Add(0, 0.9);
   EXPECT_NEAR(VarianceInMap(0.9), 0.1 + 0.02 + 0.7, 1e-12);
-  place_.AddLoop(map_, Loop(0, 2, 0.05), /*joins=*/false);
+  place_.AddLoop(map_, Loop(0, 2, 0.05));
   Add(0, 1.0);
   EXPECT_NEAR(VarianceInMap(1.0), 0.1 + 0.05 + 0.1, 1e-12);
   place_.Recompute(map_);
@@ -111,11 +111,11 @@ TEST_F(PlaceInMapTest, ForgetsWhatALoopToldThatTheGraphDropped) {
 TEST_F(PlaceInMapTest, KnowsTheSameOfLoopsThatRemain) {
   Add(0, 0.1);
   for (const double variance : {0.01, 0.02, 0.04}) Add(1, variance);
-  AddToGraph(Loop(0, 3, 0.5), /*joins=*/true);
+  AddToGraph(Loop(0, 3, 0.5));
   Add(1, 0.07);
-  AddToGraph(Reversed(Loop(1, 4, 0.001)), /*joins=*/false);
+  AddToGraph(Reversed(Loop(1, 4, 0.001)));
   for (const double variance : {0.3, 0.5}) Add(2, variance);
-  AddToGraph(Loop(3, 6, 0.2), /*joins=*/true);
+  AddToGraph(Loop(3, 6, 0.2));
   const double before = VarianceInMap(0.6);
   place_.Recompute(map_);
   EXPECT_NEAR(VarianceInMap(0.6), before, 1e-12);
@@ -126,10 +126,61 @@ TEST_F(PlaceInMapTest, GoesOnTakingALoadedMapForExactWithoutALoop) {
   map_.graph.AddNode({});
   place_.SetMap(map_);
   for (const double variance : {0.01, 0.03}) Add(1, variance);
-  AddToGraph(Loop(0, 1, 0.2), /*joins=*/true);
-  place_.AddLoop(map_, Loop(0, 2, 0.1), /*joins=*/false);
+  AddToGraph(Loop(0, 1, 0.2));
+  place_.AddLoop(map_, Loop(0, 2, 0.1));
   place_.Recompute(map_);
   EXPECT_NEAR(VarianceInMap(0.03), 0.2 + 0.02, 1e-12);
+}
+
+// Its covariance is about an origin of its own, which is not that of the map.
+TEST_F(PlaceInMapTest, KnowsAWorldThatTheNewestJoinsByTheNewest) {
+  Add(0, 0.1);
+  for (const double variance : {0.01, 0.02}) Add(1, variance);
+  for (const double variance : {0.3, 0.4}) Add(2, variance);
+  AddToGraph(Loop(0, 3, 0.05));
+  AddToGraph(Loop(1, 4, 0.001));
+  EXPECT_NEAR(VarianceInMap(0.4), 0.1 + 0.05 + 0.1, 1e-12);
+  Add(2, 0.9);
+  AddToGraph(Loop(2, 5, 0.001));
+  const double of_keyframe_2 = 0.25 + 0.001 + 0.01;
+  EXPECT_NEAR(VarianceInMap(0.9), of_keyframe_2 + 0.001, 1e-12);
+  place_.Recompute(map_);
+  EXPECT_NEAR(VarianceInMap(0.9), of_keyframe_2 + 0.001, 1e-12);
+}
+
+TEST_F(PlaceInMapTest, KnowsWorldsThatAreJoinedFirstByTheLoopThatJoinsThemToTheMap) {
+  Add(0, 0.1);
+  for (const double variance : {0.01, 0.02}) Add(1, variance);
+  for (const double variance : {0.3, 0.4}) Add(2, variance);
+  AddToGraph(Loop(1, 3, 0.05));  // neither has a place in the map
+  AddToGraph(Loop(0, 4, 0.5));
+  EXPECT_NEAR(VarianceInMap(0.4), 0.1 + 0.5, 1e-12);
+  Add(2, 0.9);
+  AddToGraph(Loop(1, 5, 0.001));  // known by the way over keyframe 3
+  EXPECT_NEAR(VarianceInMap(0.9), 0.6 + (0.1 + 0.05) + 0.001, 1e-12);
+}
+
+TEST_F(PlaceInMapTest, DoesNotTakeAWorldOfALoadedMapForExactThatIsNotJoinedToIt) {
+  for (const int world : {0, 1, 1}) {
+    Keyframe& keyframe = map_.keyframes.emplace_back();
+    keyframe.world = world;
+    keyframe.covariance = Variance(map_.graph.AddNode({}));
+  }
+  LevelEdge step;
+  step.from = 1;
+  step.to = 2;
+  map_.graph.AddEdge(step);
+  place_.SetMap(map_);
+  for (const double variance : {0.01, 0.04}) Add(2, variance);
+  AddToGraph(Loop(0, 3, 0.2));
+  AddToGraph(Loop(1, 4, 0.001));
+  EXPECT_NEAR(VarianceInMap(0.04), 0.2 + 0.03, 1e-12);
+  Add(2, 4.0);
+  AddToGraph(Loop(2, 5, 0.001));
+  for (const bool again : {false, true}) {
+    if (again) place_.Recompute(map_);
+    EXPECT_NEAR(VarianceInMap(4.0), 0.2 + 0.03 + 0.001 + 1 + 0.001, 1e-12);
+  }
 }
 
 // A way there and back in steps of 0.3 m, each with an error of 0.1 m in each coordinate that
@@ -154,7 +205,7 @@ class Way {
     loop.T_from_to.translation = truth_ + Error(kLoop);
     map_.graph.AddEdge(loop);
     map_.graph.Optimize();
-    place_.AddLoop(map_, loop, /*joins=*/false);
+    place_.AddLoop(map_, loop);
   }
 
   // The squared error of the last place, as the first keyframe sees it, over its stated variance.

@@ -22,9 +22,11 @@ using ::testing::StartsWith;
 KeyframeMap SmallMap(const CameraModel& camera) {
   KeyframeMap map;
   const LevelTransform T_M_O = {M_PI / 2, {0, 0, 1}};
+  testing::VisitOptions options;
+  options.noise = 0;
   for (int i = 0; i < 2; ++i) {
     const Rigid3d T_O_B(Eigen::Quaterniond::Identity(), {0, 1.0 * i, 0});
-    map.keyframes.push_back(testing::Visit(testing::Wall(), camera, T_O_B, 7 + i, {}));
+    map.keyframes.push_back(testing::Visit(testing::Wall(), camera, T_O_B, 7 + i, options));
     map.graph.AddNode(T_M_O * map.keyframes.back().T_O_L());
   }
   map.graph.AddEdge({0, 1, {0, {0, 1, 0}}, 0.25 * Matrix4d::Identity(), false});
@@ -75,6 +77,34 @@ class ColmapTest : public ::testing::Test {
     WriteColmapModel(folder_.File("model"), camera_->parameters(), map_);
   }
 
+  // The first corner of the first image is where `camera` sees its point.
+  void ExpectConsistent(const CameraModel& camera) const {
+    std::istringstream images(folder_.Read("model/images.txt"));
+    std::string pose, corners;
+    std::getline(images, pose);
+    std::getline(images, corners);
+    const auto words = Words(pose);
+    ASSERT_EQ(words.size(), 10u);
+    EXPECT_EQ(words[9], "7.png");
+    const auto number = [&](int i) { return std::stod(words[i]); };
+    const Rigid3d T_C_M(Eigen::Quaterniond(number(1), number(2), number(3), number(4)),
+                        {number(5), number(6), number(7)});
+    double u, v;
+    int64_t id;
+    std::istringstream(corners) >> u >> v >> id;
+
+    std::istringstream points(folder_.Read("model/points3D.txt"));
+    std::string line;
+    while (std::getline(points, line) && Words(line)[0] != std::to_string(id)) continue;
+    const auto point = Words(line);
+    const Eigen::Vector3d p_M(std::stod(point[1]), std::stod(point[2]), std::stod(point[3]));
+    const auto uv_px = camera.Project(T_C_M * p_M);
+    ASSERT_TRUE(uv_px);
+    EXPECT_NEAR(uv_px->x() + 0.5, u, 0.05);
+    EXPECT_NEAR(uv_px->y() + 0.5, v, 0.05);
+    EXPECT_EQ(point[8], "1");  // seen in the first image
+  }
+
   testing::TemporaryFolder folder_;
   std::shared_ptr<const CameraModel> camera_;
   KeyframeMap map_;
@@ -84,31 +114,19 @@ TEST_F(ColmapTest, HasTheCamera) {
   EXPECT_EQ(folder_.Read("model/cameras.txt"), "1 OPENCV 752 480 460 460 376.5 240.5 0 0 0 0\n");
 }
 
-TEST_F(ColmapTest, ProjectsItsPointsToItsCorners) {
-  std::istringstream images(folder_.Read("model/images.txt"));
-  std::string pose, corners;
-  std::getline(images, pose);
-  std::getline(images, corners);
-  const auto words = Words(pose);
-  ASSERT_EQ(words.size(), 10u);
-  EXPECT_EQ(words[9], "7.png");
-  const auto number = [&](int i) { return std::stod(words[i]); };
-  const Rigid3d T_C_M(Eigen::Quaterniond(number(1), number(2), number(3), number(4)),
-                      {number(5), number(6), number(7)});
-  double u, v;
-  int64_t id;
-  std::istringstream(corners) >> u >> v >> id;
+TEST_F(ColmapTest, ProjectsItsPointsToItsCorners) { ExpectConsistent(*camera_); }
 
-  std::istringstream points(folder_.Read("model/points3D.txt"));
-  std::string line;
-  while (std::getline(points, line) && Words(line)[0] != std::to_string(id)) continue;
-  const auto point = Words(line);
-  const Eigen::Vector3d p_M(std::stod(point[1]), std::stod(point[2]), std::stod(point[3]));
-  const auto uv_px = camera_->Project(T_C_M * p_M);
-  ASSERT_TRUE(uv_px);
-  EXPECT_NEAR(uv_px->x() + 0.5, u, 0.05);
-  EXPECT_NEAR(uv_px->y() + 0.5, v, 0.05);
-  EXPECT_EQ(point[8], "1");  // seen in the first image
+// As of a map that was loaded: the model has one camera for all.
+TEST_F(ColmapTest, HasThePixelsOfItsCameraOfKeyframesOfAnother) {
+  const auto other = testing::SimpleCamera(300);
+  WriteColmapModel(folder_.File("model"), other->parameters(), map_);
+  ExpectConsistent(*other);
+}
+
+TEST_F(ColmapTest, HasOneNameForEachImage) {
+  map_.keyframes[1].t_ns = map_.keyframes[0].t_ns;
+  WriteColmapModel(folder_.File("model"), camera_->parameters(), map_);
+  EXPECT_THAT(folder_.Read("model/images.txt"), AllOf(HasSubstr(" 7.png"), HasSubstr(" 7_2.png")));
 }
 
 // Its frame is another one.

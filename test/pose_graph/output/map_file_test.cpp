@@ -156,12 +156,19 @@ TEST_F(MapFileTest, KnowsWhatIsNoMap) {
   EXPECT_THAT(ErrorOfLoading(), HasSubstr("is no map of plm_vins"));
 }
 
+TEST_F(MapFileTest, SaysOfAFolderThatItIsOne) {
+  std::filesystem::create_directory(file_);
+  EXPECT_THAT(ErrorOfLoading(), HasSubstr("map.plm is a folder: name the map in it"));
+}
+
 TEST_F(MapFileTest, RefusesAnotherVersion) {
   SaveMap(file_, map_);
   std::string bytes = folder_.Read("map.plm");
   bytes[sizeof("plm_vins map")] = 9;
   Write(bytes);
-  EXPECT_THAT(ErrorOfLoading(), HasSubstr("is a map of version 9, this program reads version 2"));
+  EXPECT_THAT(ErrorOfLoading(),
+              AllOf(HasSubstr("is a map of version 9, this program reads version 2"),
+                    HasSubstr(": fly again for a new one")));
 }
 
 TEST_F(MapFileTest, FindsEveryDamage) {
@@ -198,6 +205,11 @@ TEST_F(MapFileTest, RefusesNumbersThatAreNone) {
       keyframe->corners[7].p_O->z() = static_cast<float>(number);
     });
   }
+}
+
+TEST_F(MapFileTest, RefusesPlacesOfCornersWithoutTracks) {
+  ExpectRefused("a corner without a track",
+                [](auto* keyframe, auto*) { keyframe->corners[7].track = -1; });
 }
 
 TEST_F(MapFileTest, RefusesRotationsThatAreNone) {

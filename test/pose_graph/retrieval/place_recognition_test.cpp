@@ -85,5 +85,14 @@ TEST_F(PlaceRecognitionTest, MeasuresSimilarityByTheImageBefore) {
   EXPECT_FALSE(candidates.front().similar);
 }
 
+// Its predecessor is of another world and shows nothing of it.
+TEST_F(PlaceRecognitionTest, MeasuresTheFirstOfAWorldByItself) {
+  SeeTen();
+  See(40, 10);
+  const auto candidates = See(5, 30, /*world=*/1);
+  ASSERT_FALSE(candidates.empty());
+  EXPECT_TRUE(candidates.front().similar);
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -16,6 +16,7 @@
 #include "feature_tracker/following/optical_flow.h"
 #include "feature_tracker/following/outlier_rejection.h"
 #include "feature_tracker/point_tracker.h"
+#include "tracking/image_mask.h"
 
 namespace plm_vins {
 namespace {
@@ -42,7 +43,8 @@ cv::Mat Equalized(const cv::Mat& image) {
 }
 
 void TrackWhole(benchmark::State& state, const Input& input) {
-  PointTracker tracker(input.config.points, CameraModel::Create(input.config.sensor.camera));
+  PointTracker tracker(input.config.points, CameraModel::Create(input.config.sensor.camera),
+                       ReadMask(input.config.points.fisheye_mask, input.Image(0).size()));
   size_t i = 0;
   for (auto _ : state) {
     if (i % input.images.size() == 0) tracker.Reset();

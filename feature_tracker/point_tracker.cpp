@@ -2,14 +2,10 @@
 #include "feature_tracker/point_tracker.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "common/features/feature_checks.h"
-#include "common/io/grey_image.h"
 #include "feature_tracker/contrast_equalizer.h"
 #include "feature_tracker/detection/corner_detector.h"
 #include "feature_tracker/detection/spacing_grid.h"
@@ -18,6 +14,7 @@
 #include "feature_tracker/point_track.h"
 #include "feature_tracker/track_drawing.h"
 #include "tracking/image_check.h"
+#include "tracking/image_mask.h"
 
 namespace plm_vins {
 namespace {
@@ -28,21 +25,6 @@ constexpr double kRefillShare = 0.1;
 Eigen::Vector2d ToEigen(const cv::Point2f& point) { return {point.x, point.y}; }
 cv::Point2f ToOpenCv(const Eigen::Vector2d& point) {
   return {static_cast<float>(point.x()), static_cast<float>(point.y())};
-}
-
-std::string ToText(const cv::Size& size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-cv::Mat ReadMask(const std::string& file, const cv::Size& image_size) {
-  if (file.empty()) return {};
-  cv::Mat mask = cv::imread(file, kReadGreyAsStored);
-  if (mask.empty()) throw std::invalid_argument("fisheye_mask: cannot read the image " + file);
-  if (mask.size() != image_size) {
-    throw std::invalid_argument("fisheye_mask: " + file + " has " + ToText(mask.size()) +
-                                " pixels, image_width and image_height say " + ToText(image_size));
-  }
-  return mask;
 }
 
 // Removes the tracks of which `keep` is false; returns how many.
@@ -60,12 +42,13 @@ int RemoveTracks(const std::vector<bool>& keep, std::vector<PointTrack>* tracks)
 
 class PointTracker::Implementation {
  public:
-  Implementation(const PointTrackerConfig& config, std::shared_ptr<const CameraModel> camera)
+  Implementation(const PointTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
+                 const cv::Mat& mask)
       : config_(config),
         camera_(std::move(camera)),
         image_size_(camera_->parameters().width, camera_->parameters().height),
-        mask_(ReadMask(config.fisheye_mask, image_size_)),
-        detector_(config, mask_),
+        mask_(mask),
+        detector_(config, mask),
         flow_(config),
         equalizer_(image_size_) {}
 
@@ -197,8 +180,7 @@ class PointTracker::Implementation {
     std::vector<bool> keep;
     keep.reserve(tracks_.size());
     for (const PointTrack& track : tracks_) {
-      const bool is_visible = mask_.empty() || mask_.at<uint8_t>(cv::Point(track.uv_px)) != 0;
-      keep.push_back(is_visible && occupied.IsFree(track.uv_px));
+      keep.push_back(MaskAllows(mask_, track.uv_px) && occupied.IsFree(track.uv_px));
       if (keep.back()) occupied.Add(track.uv_px);
     }
     statistics_.crowded = RemoveTracks(keep, &tracks_);
@@ -255,8 +237,8 @@ class PointTracker::Implementation {
 };
 
 PointTracker::PointTracker(const PointTrackerConfig& config,
-                           std::shared_ptr<const CameraModel> camera)
-    : implementation_(std::make_unique<Implementation>(config, std::move(camera))) {}
+                           std::shared_ptr<const CameraModel> camera, const cv::Mat& mask)
+    : implementation_(std::make_unique<Implementation>(config, std::move(camera), mask)) {}
 
 PointTracker::~PointTracker() = default;
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <opencv2/core.hpp>
 #include <optional>
 
 #include "common/camera/camera_model.h"
@@ -29,7 +30,9 @@ class PointTracker {
   using Features = PointFrame;
   using Statistics = PointTrackerStatistics;
 
-  PointTracker(const PointTrackerConfig& config, std::shared_ptr<const CameraModel> camera);
+  // No corner lies where the mask forbids it: as of ReadMask().
+  PointTracker(const PointTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
+               const cv::Mat& mask = {});
   ~PointTracker();
 
   // `R_C1_C0` takes directions of the previous camera frame C0 to the current one C1 (from the

@@ -50,12 +50,13 @@ Eigen::Vector2d MotionAcross(const LineSegment& from, const LineSegment& to) {
 
 class LineTracker::Implementation {
  public:
-  Implementation(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera)
+  Implementation(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
+                 const cv::Mat& mask)
       : config_(config),
         camera_(std::move(camera)),
         image_size_(camera_->parameters().width, camera_->parameters().height),
         finder_(config, camera_),
-        refinement_(config, camera_),
+        refinement_(config, camera_, mask),
         flow_(camera_),
         gate_(config, camera_->FocalLength()),
         lbd_(config, camera_->FocalLength()) {}
@@ -289,8 +290,9 @@ class LineTracker::Implementation {
   int64_t next_id_ = 0;
 };
 
-LineTracker::LineTracker(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera)
-    : implementation_(std::make_unique<Implementation>(config, std::move(camera))) {}
+LineTracker::LineTracker(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
+                         const cv::Mat& mask)
+    : implementation_(std::make_unique<Implementation>(config, std::move(camera), mask)) {}
 
 LineTracker::~LineTracker() = default;
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <opencv2/core.hpp>
 #include <optional>
 
 #include "common/camera/camera_model.h"
@@ -16,7 +17,7 @@ struct LineTrackerStatistics {
   int previous = 0;         // lines to follow
   int match_lost = 0;       // flow failed or looks different; LBD: no match
   int inconsistent = 0;     // too far from the prediction
-  int edge_lost = 0;        // no edge, too short a one or out of sight, where the flow led
+  int edge_lost = 0;        // no edge, too short a one, out of sight or masked, where the flow led
   int duplicates = 0;       // came to lie on an older one
   bool detected = false;    // this image was searched for new lines
   int fragments = 0;        // found by the detector
@@ -35,7 +36,9 @@ class LineTracker {
   using Features = LineFrame;
   using Statistics = LineTrackerStatistics;
 
-  LineTracker(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera);
+  // Lines end where the mask begins to forbid them: as of ReadMask().
+  LineTracker(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
+              const cv::Mat& mask = {});
   ~LineTracker();
 
   // `R_C1_C0` takes directions of the previous camera frame C0 to the current one C1 (from the

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tracking/image_check.h"
+#include "common/camera/image_format.h"
 
 namespace plm_vins {
 namespace {
@@ -35,7 +35,7 @@ ImageQueue::ImageQueue(const Config& config)
 
 void ImageQueue::AddImage(ImageSample image) {
   ++counts_.images;
-  if (!HasTheFormat(image)) return;
+  if (!AcceptFormat(image)) return;
   const int64_t t_ns = image.t_ns;
   bool restart = false;
   if (accepted_ns_ && t_ns <= *accepted_ns_) {
@@ -56,9 +56,9 @@ void ImageQueue::AddImage(ImageSample image) {
   images_.push_back({std::move(image), restart});
 }
 
-bool ImageQueue::HasTheFormat(const ImageSample& image) {
+bool ImageQueue::AcceptFormat(const ImageSample& image) {
   try {
-    CheckImage(image, sensor_.camera, std::nullopt);
+    CheckImageFormat(image.gray, sensor_.camera);
     return true;
   } catch (const std::invalid_argument& error) {
     if (counts_.wrong_format++ == 0) counts_.wrong_format_detail = error.what();
@@ -83,17 +83,13 @@ std::optional<ReadyImage> ImageQueue::Flush() {
     rate_limiter_.Reset();
     handed_out_ns_.reset();
   }
-  ready.R_C1_C0 = PredictRotation(ready.image.t_ns);
+  if (handed_out_ns_ && uses_gyro_) {
+    ready.R_C1_C0 = gyro_.Rotation(*handed_out_ns_, ready.image.t_ns);
+    if (!ready.R_C1_C0) ++counts_.without_gyro;
+  }
   ready.publish = rate_limiter_.Take(ready.image.t_ns);
   handed_out_ns_ = ready.image.t_ns;
   return ready;
-}
-
-std::optional<Eigen::Quaterniond> ImageQueue::PredictRotation(int64_t t_ns) {
-  if (!handed_out_ns_ || !uses_gyro_) return std::nullopt;
-  const auto R_C1_C0 = gyro_.Rotation(*handed_out_ns_, t_ns);
-  if (!R_C1_C0) ++counts_.without_gyro;
-  return R_C1_C0;
 }
 
 }  // namespace plm_vins

@@ -72,8 +72,8 @@ class ImageQueue {
     bool restart = false;
   };
 
-  bool HasTheFormat(const ImageSample& image);
-  std::optional<Eigen::Quaterniond> PredictRotation(int64_t t_ns);
+  // False, and counted, where the image is not grey or not of the calibrated size.
+  bool AcceptFormat(const ImageSample& image);
 
   SensorConfig sensor_;
   bool uses_gyro_;

@@ -9,6 +9,7 @@
 #include "common/config/config.h"
 #include "common/measurements.h"
 #include "common/stopwatch.h"
+#include "tracking/image_mask.h"
 #include "tracking/image_queue.h"
 
 namespace plm_vins {
@@ -51,10 +52,12 @@ class TrackingStage {
   Tracker& tracker() { return tracker_; }
 
  private:
-  // A tracker knows the key that it refuses, but not the file.
+  // The key that is refused is known there, but not the file.
   static Tracker MakeTracker(const Config& config) {
     try {
-      return Tracker(config.*kSection, CameraModel::Create(config.sensor.camera));
+      const CameraParameters& camera = config.sensor.camera;
+      return Tracker(config.*kSection, CameraModel::Create(camera),
+                     ReadMask(config.points.fisheye_mask, {camera.width, camera.height}));
     } catch (const std::invalid_argument& error) {
       throw ConfigError({config.file + ": " + error.what()});
     }

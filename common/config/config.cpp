@@ -116,7 +116,7 @@ class Loader {
     }
     if (LacksMask(entries_, config_)) {
       config_.warnings.push_back(At("fisheye") +
-                                 "no fisheye_mask is named, so corners are allowed everywhere; "
+                                 "no fisheye_mask is named, so features are allowed everywhere; "
                                  "name an image file, or set fisheye: 0");
     }
     if (LeavesMaskOut(config_)) {

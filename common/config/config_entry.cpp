@@ -56,6 +56,14 @@ std::string AppearsTwice(const ConfigEntry& first) {
   return "appears twice (first at " + first.location + "); remove one";
 }
 
+// A relative path begins where the program was started: under roslaunch in ~/.ros.
+std::string TriedAt(const std::string& file) {
+  std::error_code error;
+  const std::filesystem::path path(file);
+  if (path.empty() || path.is_absolute()) return "";
+  return ", which was looked for at " + std::filesystem::absolute(path, error).string();
+}
+
 void AddProblem(const std::string& location, const std::string& key, const std::string& problem,
                 std::vector<std::string>* problems) {
   problems->push_back(location + ": " + key + ": " + problem);
@@ -91,7 +99,8 @@ std::optional<YAML::Node> ReadRoot(const std::string& file, std::vector<std::str
   }
   const auto text = ReadText(file);
   if (!text) {
-    problems->push_back(file + ": cannot be read; check the path of the configuration file");
+    problems->push_back(file + ": cannot be read; check the path of the configuration file" +
+                        TriedAt(file));
     return std::nullopt;
   }
   if (static_cast<std::streamsize>(text->size()) > kMaxBytes) {

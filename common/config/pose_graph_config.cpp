@@ -14,6 +14,7 @@ ConfigKeys<PoseGraphConfig> PoseGraphKeys() {
   using P = PoseGraphConfig;
   return {
       Key::Flag("loop_closure", &P::loop_closure),
+      Key::Flag("bundle_adjustment", &P::bundle_adjustment),
       Key::Text("pose_graph_save_path", &P::save_path),
       Key::Flag("load_previous_pose_graph", &P::load_previous),
   };

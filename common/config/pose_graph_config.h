@@ -8,9 +8,10 @@
 namespace plm_vins {
 
 struct PoseGraphConfig {
-  bool loop_closure = false;   // recognise places and correct the drift of odometry in a map
-  std::string save_path;       // folder of the map; empty: the current one
-  bool load_previous = false;  // start in the map that was saved there
+  bool loop_closure = false;      // recognise places and correct the drift of odometry in a map
+  bool bundle_adjustment = true;  // of the map, in the end of an offline run
+  std::string save_path;          // folder of the map; empty: the current one
+  bool load_previous = false;     // start in the map that was saved there
 
   // Where the map is saved, and read from.
   std::string MapFile() const;

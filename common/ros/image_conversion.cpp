@@ -9,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/io/grey_image.h"
@@ -29,6 +30,21 @@ void CheckSize(const sensor_msgs::Image& image) {
                               std::to_string(image.height) + " rows of " +
                               std::to_string(image.step) + " bytes for " +
                               std::to_string(image.width) + " pixels");
+}
+
+// Pixels of 16 bits that come high byte first, turned round: cv_bridge would make them two channels
+// of 8 bits.
+sensor_msgs::ImageConstPtr LowByteFirst(const sensor_msgs::ImageConstPtr& message) {
+  namespace encodings = sensor_msgs::image_encodings;
+  if (!message->is_bigendian || encodings::bitDepth(message->encoding) != 16) return message;
+  const auto turned = boost::make_shared<sensor_msgs::Image>(*message);
+  turned->is_bigendian = 0;
+  for (size_t row = 0; row < turned->data.size(); row += turned->step) {
+    for (size_t i = 0; i + 1 < turned->step; i += 2) {
+      std::swap(turned->data[row + i], turned->data[row + i + 1]);
+    }
+  }
+  return turned;
 }
 
 // Shares the message's pixels where they are grey. Drivers that do not care announce grey images by
@@ -58,7 +74,8 @@ cv::Mat Decode(const std::vector<uint8_t>& bytes) {
 ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message) {
   try {
     CheckSize(*message);
-    const cv_bridge::CvImageConstPtr gray = ToGrey(message);
+    const cv_bridge::CvImageConstPtr gray = ToGrey(LowByteFirst(message));
+    if (gray->image.type() != CV_8UC1) throw std::invalid_argument("it does not become 8-bit grey");
     return {ToNanoseconds(message->header.stamp), gray->image,
             std::make_shared<cv_bridge::CvImageConstPtr>(gray)};
   } catch (const std::exception& error) {  // cv_bridge's and cv's exceptions among others

@@ -17,19 +17,24 @@ namespace plm_vins {
 void ImageSubscription::Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node,
                                   const std::string& topic, uint32_t queue, Callback callback) {
   callback_ = std::move(callback);
+  const std::string base = node.resolveName(topic);  // as a remapping of it is meant
   const auto transport =
       FindParameter<std::string>(private_node, "image_transport").value_or("raw");
   if (transport == "compressed") {
     compressed_subscriber_ = node.subscribe<sensor_msgs::CompressedImage>(
-        topic + "/compressed", queue, [this](const sensor_msgs::CompressedImageConstPtr& message) {
+        base + "/compressed", queue, [this](const sensor_msgs::CompressedImageConstPtr& message) {
           Read(message->header, *message);
         });
   } else {
     subscriber_ = image_transport::ImageTransport(node).subscribe(
-        topic, queue,
+        base, queue,
         [this](const sensor_msgs::ImageConstPtr& message) { Read(message->header, message); },
         nullptr, image_transport::TransportHints(transport, ros::TransportHints(), private_node));
   }
+}
+
+std::string ImageSubscription::topic() const {
+  return compressed_subscriber_ ? compressed_subscriber_.getTopic() : subscriber_.getTopic();
 }
 
 // A message, or a pointer to one whose pixels are shared.

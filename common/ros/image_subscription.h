@@ -30,6 +30,9 @@ class ImageSubscription {
   void Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node,
                  const std::string& topic, uint32_t queue, Callback callback);
 
+  // What is subscribed, in full: with namespace, remapping and transport.
+  std::string topic() const;
+
   // For any threads. Of all messages, and the wall time since the last that was an image [s].
   StreamMonitor& stream() { return stream_; }
   double SilenceOfImages() const { return readable_.Silence(); }

@@ -37,6 +37,13 @@ void Append(const Eigen::Vector2d& xy, const std::array<double, kSize>& values,
   }
 }
 
+// The stamp of a message of features. A message may have one that ROS itself cannot write.
+int64_t StampOf(const sensor_msgs::PointCloud& cloud) {
+  const int64_t t_ns = ToNanoseconds(cloud.header.stamp);
+  if (!IsStamp(t_ns)) throw std::invalid_argument("feature message with a stamp that is none");
+  return t_ns;
+}
+
 void CheckChannels(const sensor_msgs::PointCloud& cloud, size_t count, const char* expected) {
   bool valid = cloud.channels.size() >= count;
   for (size_t i = 0; valid && i < count; ++i) {
@@ -85,7 +92,7 @@ PointFrame ToPointFrame(const sensor_msgs::PointCloud& message, int64_t* left_ou
   const bool has_cameras = layout.channels == 6;
   const bool has_velocities = HasVelocities(message);
   PointFrame frame;
-  frame.t_ns = ToNanoseconds(message.header.stamp);
+  frame.t_ns = StampOf(message);
   frame.points.reserve(message.points.size());
   const auto value = [&](size_t channel, size_t i) { return message.channels[channel].values[i]; };
   for (size_t i = 0; i < message.points.size(); ++i) {
@@ -115,7 +122,7 @@ sensor_msgs::PointCloud ToMessage(const LineFrame& frame, const std::string& fra
 LineFrame ToLineFrame(const sensor_msgs::PointCloud& message, int64_t* left_out) {
   CheckChannels(message, 3, "id, x_end, y_end");
   LineFrame frame;
-  frame.t_ns = ToNanoseconds(message.header.stamp);
+  frame.t_ns = StampOf(message);
   frame.lines.resize(message.points.size());
   const auto value = [&](int channel, size_t i) { return message.channels[channel].values[i]; };
   for (size_t i = 0; i < frame.lines.size(); ++i) {

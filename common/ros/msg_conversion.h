@@ -17,8 +17,9 @@ ImuSample ToImuSample(const sensor_msgs::Imu& message);
 // /feature_tracker/feature as in VINS-Mono: points (x, y, 1), channels id, u, v, vx, vy. Ids travel
 // modulo kTransportableIds; IdRestorer takes that back. Reading takes the layouts of PL-VINS (id,
 // u, v) and VINS-Fusion (id, camera, u, v, vx, vy, ...) as well, of the latter the points of camera
-// 0 alone. It throws std::invalid_argument where channels are missing and where an id is none that
-// travels; what RemoveImpossible() would remove is left out, and `left_out` grows by its number.
+// 0 alone. It throws std::invalid_argument where channels are missing, the stamp is none, or an id
+// is none that travels; what RemoveImpossible() would remove is left out, and `left_out` grows by
+// its number.
 sensor_msgs::PointCloud ToMessage(const PointFrame& frame, const std::string& frame_id);
 PointFrame ToPointFrame(const sensor_msgs::PointCloud& message, int64_t* left_out);
 

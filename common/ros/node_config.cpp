@@ -13,7 +13,7 @@ namespace plm_vins {
 namespace {
 
 // Who subscribes to a name that ROS refuses gets an exception that knows neither file nor key.
-void CheckTopics(const ros::NodeHandle& node, const Config& config) {
+void CheckTopicNames(const ros::NodeHandle& node, const Config& config) {
   std::vector<std::string> problems;
   const auto check = [&](const std::string& key, const std::string& topic) {
     try {
@@ -42,7 +42,7 @@ Config LoadNodeConfig(const ros::NodeHandle& private_node) {
                        "/KEY must be texts (in a launch file: type=\"str\")"});
   }
   Config config = LoadConfig(file, overrides);
-  CheckTopics(private_node, config);
+  CheckTopicNames(private_node, config);
   for (const std::string& warning : config.warnings) ROS_WARN_STREAM(warning);
   return config;
 }

@@ -21,8 +21,9 @@ constexpr double kClockPatience = 10;  // [s]: a player opens its bag first
 void WarnWithoutClock() {
   if (ros::Time::isValid()) return;
   ROS_WARN(
-      "/use_sim_time is set, but no time comes on /clock: play the bag with --clock; for live "
-      "sensors, rosparam delete /use_sim_time and start all nodes again");
+      "/use_sim_time is set, but no time comes on /clock: play the bag with --clock, or the player "
+      "could not open its bag (absolute path?); for live sensors, rosparam delete /use_sim_time "
+      "and start all nodes again");
 }
 
 }  // namespace

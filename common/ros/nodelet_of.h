@@ -17,14 +17,11 @@ namespace plm_vins {
 template <typename Node>
 class NodeletOf : public nodelet::Nodelet {
  private:
-  // False: the nodelet is loaded, but does nothing.
-  virtual bool IsWanted(const Config&) const { return true; }
-
   void onInit() override {
     try {
       const Config config = LoadNodeConfig(getPrivateNodeHandle());
       // Not the multi-threaded handles: one callback at a time.
-      if (IsWanted(config)) node_.emplace(config, getNodeHandle(), getPrivateNodeHandle());
+      node_.emplace(config, getNodeHandle(), getPrivateNodeHandle());
     } catch (const std::exception& error) {
       LogFatal(error);
       throw;

@@ -8,6 +8,7 @@
 #include "feature_tracker/detection/corner_refinement.h"
 #include "feature_tracker/detection/corner_response.h"
 #include "feature_tracker/detection/region_queue.h"
+#include "tracking/image_mask.h"
 
 namespace plm_vins {
 namespace {
@@ -87,8 +88,7 @@ float CornerDetector::MinResponse(const cv::Mat& response) const {
 }
 
 bool CornerDetector::IsAllowed(const cv::Point2f& position, const cv::Size& image_size) const {
-  if (!IsRefinementWindowInside(image_size, position)) return false;
-  return mask_.empty() || mask_.at<uint8_t>(cv::Point(position)) != 0;
+  return IsRefinementWindowInside(image_size, position) && MaskAllows(mask_, position);
 }
 
 }  // namespace plm_vins

@@ -10,6 +10,7 @@
 #include "common/median.h"
 #include "linefeature_tracker/segments/line_offset.h"
 #include "linefeature_tracker/segments/line_profile.h"
+#include "tracking/image_mask.h"
 
 namespace plm_vins {
 namespace {
@@ -66,9 +67,10 @@ LineOffset FitOffset(const std::vector<EdgePoint>& points) {
 }  // namespace
 
 LineRefinement::LineRefinement(const LineTrackerConfig& config,
-                               std::shared_ptr<const CameraModel> camera)
+                               std::shared_ptr<const CameraModel> camera, const cv::Mat& mask)
     : config_(config),
       camera_(std::move(camera)),
+      mask_(mask),
       min_length_px_(config.min_length *
                      std::min(camera_->parameters().width, camera_->parameters().height)) {}
 
@@ -140,11 +142,16 @@ std::vector<LineRefinement::EdgePoint> LineRefinement::LocateEdges(const cv::Mat
     point.sample.offset_per_pixel = 1;
     if (sample) {
       point.sample = *sample;
-      if (camera_->IsInImage(sample->pixel, config_.border)) LocateEdge(image, search_px, &point);
+      if (IsVisible(sample->pixel)) LocateEdge(image, search_px, &point);
     }
     points.push_back(point);
   }
   return points;
+}
+
+bool LineRefinement::IsVisible(const Eigen::Vector2d& pixel) const {
+  return camera_->IsInImage(pixel, config_.border) &&
+         MaskAllows(mask_, {cvRound(pixel.x()), cvRound(pixel.y())});
 }
 
 // The steepest rise across the line, those closer to the sample preferred, with the vertex of the

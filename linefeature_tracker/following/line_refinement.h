@@ -20,11 +20,12 @@ namespace plm_vins {
 // directed: the brighter side is that of Normal(), so an edge of the other sign is not mistaken.
 class LineRefinement {
  public:
-  LineRefinement(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera);
+  LineRefinement(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
+                 const cv::Mat& mask = {});
 
   // The edge at most `search_px` pixels beside the guess. Its ends may lie beyond the guess's by a
-  // few samples. Nothing where too little of the guess shows an edge, or that is too short or too
-  // close to the image's border.
+  // few samples. Nothing where too little of the guess shows an edge, or that is too short, too
+  // close to the image's border or under the mask.
   std::optional<LineSegment> Refine(const cv::Mat& image, const LineSegment& guess,
                                     int search_px) const;
 
@@ -43,12 +44,14 @@ class LineRefinement {
   double Step(const LineSegment& segment, double max_samples) const;
   std::vector<EdgePoint> LocateEdges(const cv::Mat& image, const LineSegment& segment, double step,
                                      int extension, int search_px) const;
+  bool IsVisible(const Eigen::Vector2d& pixel) const;
   void LocateEdge(const cv::Mat& image, int search_px, EdgePoint* point) const;
   std::optional<LineSegment> SupportedPart(const LineSegment& line, double step,
                                            const std::vector<EdgePoint>& points) const;
 
   LineTrackerConfig config_;
   std::shared_ptr<const CameraModel> camera_;
+  cv::Mat mask_;  // as of ReadMask()
   double min_length_px_;
 };
 

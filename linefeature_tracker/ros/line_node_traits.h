@@ -2,21 +2,15 @@
 #pragma once
 
 #include <plm_vins/LineFeatureTrackerConfig.h>
-#include <ros/console.h>
 
 #include <cstdint>
 
 #include "common/config/config.h"
+#include "common/ros/optional_node.h"
 #include "linefeature_tracker/line_tracking_stage.h"
+#include "tracking/ros/tracker_node.h"
 
 namespace plm_vins {
-
-// Whether there is anything to do for the line tracker. Says so where there is not.
-inline bool WantsLines(const Config& config) {
-  if (config.use_lines) return true;
-  ROS_INFO("not needed: use_lines is 0 in %s", config.file.c_str());
-  return false;
-}
 
 // What is particular to the line tracker under ROS, as TrackerNode describes it.
 struct LineNodeTraits {
@@ -42,5 +36,12 @@ struct LineNodeTraits {
     tracker->SetMaxLines(settings.max_line_cnt);
   }
 };
+
+struct LineSwitch {
+  static constexpr char kKey[] = "use_lines";
+  static bool IsOn(const Config& config) { return config.use_lines; }
+};
+
+using LineTrackerNode = OptionalNode<TrackerNode<LineNodeTraits>, LineSwitch>;
 
 }  // namespace plm_vins

@@ -5,15 +5,9 @@
 
 #include "common/ros/nodelet_of.h"
 #include "linefeature_tracker/ros/line_node_traits.h"
-#include "tracking/ros/tracker_node.h"
 
 namespace plm_vins {
-
-class LineFeatureTrackerNodelet : public NodeletOf<TrackerNode<LineNodeTraits>> {
- private:
-  bool IsWanted(const Config& config) const override { return WantsLines(config); }
-};
-
+using LineFeatureTrackerNodelet = NodeletOf<LineTrackerNode>;
 }  // namespace plm_vins
 
 PLUGINLIB_EXPORT_CLASS(plm_vins::LineFeatureTrackerNodelet, nodelet::Nodelet)

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/camera/image_format.h"
 #include "common/ros/camera_info_conversion.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/keyframe_conversion.h"
@@ -45,6 +46,14 @@ bool KeyframeInput::Accepts(const nav_msgs::Odometry& message) {
                            Eigen::Map<const RowMajor6d>(message.pose.covariance.data()).allFinite();
   if (!is_possible) ++poses_.count;
   return is_possible;
+}
+
+// Descriptors of another image than calibrated would be of other places.
+void KeyframeInput::AddImage(const ImageSample& image) {
+  CountFailure(&images_, [&] {
+    CheckImageFormat(image.gray, sensor_.camera);
+    assembly_.AddImage(image);
+  });
 }
 
 void KeyframeInput::AddPose(const nav_msgs::Odometry& message) {

@@ -20,7 +20,7 @@ class KeyframeInput {
  public:
   explicit KeyframeInput(const SensorConfig& sensor) : sensor_(sensor) {}
 
-  void AddImage(const ImageSample& image) { assembly_.AddImage(image); }
+  void AddImage(const ImageSample& image);
   void AddPose(const nav_msgs::Odometry& message);
   void AddPoints(const sensor_msgs::PointCloud& message);
   void AddLines(const sensor_msgs::PointCloud& message);
@@ -39,11 +39,8 @@ class KeyframeInput {
   bool Accepts(const nav_msgs::Odometry& message);
 
   DropCounts Drops() const {
-    return {malformed_,
-            poses_,
-            features_,
-            {"keyframes_without_image", assembly_.without_image(), ""},
-            cameras_};
+    const DropCount without_image = {"keyframes_without_image", assembly_.without_image(), ""};
+    return {malformed_, poses_, features_, without_image, images_, cameras_};
   }
 
  private:
@@ -55,6 +52,7 @@ class KeyframeInput {
   DropCount poses_{"poses_impossible", 0, ""};
   DropCount features_{"places_impossible", 0, ""};
   DropCount cameras_{"cameras_refused", 0, ""};
+  DropCount images_{"images_wrong_format", 0, ""};
 };
 
 }  // namespace plm_vins

@@ -6,8 +6,7 @@
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "pose_graph", [](const plm_vins::Config& config) {
-    if (!plm_vins::WantsLoopClosure(config)) return;
-    const plm_vins::PoseGraphNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
-    plm_vins::Spin();
+    const plm_vins::OptionalPoseGraphNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
+    if (node.is_on()) plm_vins::Spin();
   });
 }

@@ -28,7 +28,9 @@ constexpr double kMaxLag = 2;  // [s] of keyframes behind their images
 std::string MapFile(PoseGraphConfig config, const ros::NodeHandle& private_node) {
   const auto output = FindParameter<std::string>(private_node, "output");
   if (config.save_path.empty() && output) config.save_path = *output;
-  return FindParameter<std::string>(private_node, "map_file").value_or(config.MapFile());
+  const auto named = FindParameter<std::string>(private_node, "map_file").value_or("");
+  const std::filesystem::path file = named.empty() ? config.MapFile() : named;
+  return std::filesystem::absolute(file).lexically_normal().string();
 }
 
 KeyframeMap MapToStartIn(const std::string& file) {
@@ -38,12 +40,6 @@ KeyframeMap MapToStartIn(const std::string& file) {
 }
 
 }  // namespace
-
-bool WantsLoopClosure(const Config& config) {
-  if (config.pose_graph.loop_closure) return true;
-  ROS_INFO("not needed: loop_closure is 0 in %s", config.file.c_str());
-  return false;
-}
 
 PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
                              const ros::NodeHandle& private_node)
@@ -225,8 +221,7 @@ bool PoseGraphNode::SaveMapFile(Trigger::Request&, Trigger::Response& response) 
     return true;
   }
   try {
-    const auto folder = std::filesystem::path(map_file_).parent_path();
-    if (!folder.empty()) std::filesystem::create_directories(folder);
+    std::filesystem::create_directories(std::filesystem::path(map_file_).parent_path());
     SaveMap(map_file_, loops_->map());
     response.success = true;
     response.message = std::to_string(keyframes) + " keyframes saved to " + map_file_;
@@ -367,7 +362,7 @@ void PoseGraphNode::ReportState(diagnostic_updater::DiagnosticStatusWrapper* sta
     status->summary(DiagnosticStatus::WARN,
                     std::string("keyframes without images: ") +
                         (silent ? "no image comes on " : "nothing can be made an image of ") +
-                        config_.sensor.image_topic);
+                        image_subscription_.topic());
   } else if (odometry_stream_.Silence() > StreamMonitor::kSilence) {
     status->summary(
         DiagnosticStatus::WARN,

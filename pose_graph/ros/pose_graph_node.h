@@ -27,6 +27,7 @@
 #include "common/ros/image_subscription.h"
 #include "common/ros/in_place_queue.h"
 #include "common/ros/node_setup.h"
+#include "common/ros/optional_node.h"
 #include "common/ros/publisher_watch.h"
 #include "common/ros/stream_monitor.h"
 #include "common/streams/bounded_queue.h"
@@ -36,9 +37,6 @@
 #include "pose_graph/ros/keyframe_input.h"
 
 namespace plm_vins {
-
-// False, and a line in the log, where the configuration has it switched off.
-bool WantsLoopClosure(const Config& config);
 
 // Loop closure under ROS, as a node or in a nodelet: the keyframes of an estimator, ours or that of
 // VINS-Mono, and the images in; tf map -> world, ~odometry, ~path, ~graph and ~match_image out.
@@ -165,5 +163,12 @@ class PoseGraphNode {
   ImageSubscription image_subscription_;
   ros::WallTimer diagnostics_timer_;
 };
+
+struct LoopClosureSwitch {
+  static constexpr char kKey[] = "loop_closure";
+  static bool IsOn(const Config& config) { return config.pose_graph.loop_closure; }
+};
+
+using OptionalPoseGraphNode = OptionalNode<PoseGraphNode, LoopClosureSwitch>;
 
 }  // namespace plm_vins

@@ -7,12 +7,7 @@
 #include "pose_graph/ros/pose_graph_node.h"
 
 namespace plm_vins {
-
-class PoseGraphNodelet : public NodeletOf<PoseGraphNode> {
- private:
-  bool IsWanted(const Config& config) const override { return WantsLoopClosure(config); }
-};
-
+using PoseGraphNodelet = NodeletOf<OptionalPoseGraphNode>;
 }  // namespace plm_vins
 
 PLUGINLIB_EXPORT_CLASS(plm_vins::PoseGraphNodelet, nodelet::Nodelet)

@@ -82,6 +82,7 @@ sensor_msgs::Image AnyImage(Reader* reader) {
                                           "32FC1", "",       "8UC99", "yuv422"};
   sensor_msgs::Image image;
   image.encoding = encodings[reader->Byte() % std::size(encodings)];
+  image.is_bigendian = reader->Byte() % 2;
   const bool small = reader->Byte() % 4 != 0;
   image.width = small ? reader->Byte() : reader->Value<uint32_t>();
   image.height = small ? reader->Byte() : reader->Value<uint32_t>();

@@ -150,10 +150,17 @@ class LaunchFiles(unittest.TestCase):
                     self.assertEqual(parameters[f"/{node}/config_file"], "/mine.yaml")
 
     def test_nodelets_join_the_manager_of_a_driver(self):
-        nodes = load("euroc.launch", nodelets="true", manager="/camera/manager")[0]
-        for node, nodelet in NODELETS.items():
-            self.assertEqual(nodes[node].args, f"load {nodelet} /camera/manager")
-        self.assertNotIn("vins_manager", nodes)
+        for name in ALL:
+            nodes = load(name, config="c.yaml", manager="/camera/manager")[0]
+            for node, nodelet in NODELETS.items():
+                self.assertEqual(nodes[node].args, f"load {nodelet} /camera/manager")
+            self.assertNotIn("vins_manager", nodes)
+
+    def test_nodes_are_no_nodelets_where_that_is_said(self):
+        for arguments in ({}, {"nodelets": "false", "manager": "/camera/manager"}):
+            nodes = load("euroc.launch", **arguments)[0]
+            for node in NODELETS:
+                self.assertEqual(nodes[node].package, "plm_vins")
 
     def test_nodelets_are_described_where_the_manager_looks(self):
         package = rospkg.RosPack().get_path("plm_vins")
@@ -190,6 +197,7 @@ class LaunchFiles(unittest.TestCase):
         for option, value in (("--start", "5"), ("--duration", "2.5"), ("--rate", "0.5")):
             self.assertEqual(words[words.index(option) + 1], value)
         self.assertIn("--clock", words)
+        self.assertIn("--quiet", words)  # or its progress overwrites what the nodes say
         self.assertNotIn("--duration", player_words(bag="/a.bag"))
         for name in ALL:
             self.assertTrue(load(name, config="c.yaml", bag="/a.bag")[1]["/use_sim_time"])
@@ -285,6 +293,13 @@ class Px4(unittest.TestCase):
         self.assertEqual(parameters["/mavros_relay/imu_to_base"], "-0.1 0 0 0 0 3.14")
         self.assertTrue(all(nodes[name].respawn for name in ("vins_estimator", "mavros_relay")))
         self.assertNotIn("/mavros/fcu_url", parameters)
+
+    def test_the_gate_of_the_relay_is_set(self):
+        for arguments, values in (({}, (0.5, 1.0)),
+                                  ({"max_age": "0.3", "min_pause": "2"}, (0.3, 2))):
+            parameters = load("px4.launch", config="c.yaml", **arguments)[1]
+            self.assertEqual((parameters["/mavros_relay/max_age"],
+                              parameters["/mavros_relay/min_pause"]), values)
 
     def test_a_bag_is_played_at_a_speed_of_its_own(self):
         for arguments, speed in (({}, "1"), ({"rate": "0.5"}, "0.5")):

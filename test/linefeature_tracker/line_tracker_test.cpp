@@ -42,10 +42,10 @@ LineScene ConfusingScene() {
 
 class LineTrackerTest : public testing::TestWithParam<LineMatcherType> {
  protected:
-  void Show(LineScene scene, LineTrackerConfig config = {}) {
+  void Show(LineScene scene, LineTrackerConfig config = {}, const cv::Mat& mask = {}) {
     config.line_matcher = GetParam();
     scene_ = std::make_unique<LineScene>(std::move(scene));
-    tracker_ = std::make_unique<LineTracker>(config, scene_->camera());
+    tracker_ = std::make_unique<LineTracker>(config, scene_->camera(), mask);
   }
 
   LineFrame Track(const cv::Mat& image,
@@ -160,6 +160,19 @@ TEST_P(LineTrackerTest, DirectionsNeverFlip) {
     }
   }
   EXPECT_GT(compared, 150);
+}
+
+TEST_P(LineTrackerTest, KeepsLinesWhereTheMaskAllowsThem) {
+  cv::Mat mask(480, 752, CV_8UC1, cv::Scalar(0));
+  mask.colRange(0, 376).setTo(255);
+  Show(BarScene(PlainParameters()), {}, mask);
+  for (int i = 0; i < 6; ++i) {  // lines move out of the allowed half
+    const LineFrame frame = Track(scene_->View(Flight(3 * i)));
+    EXPECT_GT(frame.lines.size(), 15u);
+    for (const LineObservation& line : frame.lines) {
+      EXPECT_LT(kFocal * std::max(line.start.x(), line.end.x()) + 375.5, 376 + 2);
+    }
+  }
 }
 
 TEST_P(LineTrackerTest, RotationPredictsLargeTurns) {

@@ -8,6 +8,7 @@
 
 #include "linefeature_tracker/detection/line_detector.h"
 #include "test/linefeature_tracker/bar_scene.h"
+#include "test/testing/message_of.h"
 
 namespace plm_vins {
 namespace {
@@ -87,6 +88,15 @@ TEST(LineTrackingStage, ADetectorThatOpenCvLacksNamesTheFileOfTheConfiguration) 
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), ::testing::StartsWith("camera.yaml: line_detector: OpenCV "));
   }
+}
+
+TEST(LineTrackingStage, TakesTheMaskOfThePoints) {
+  Config config;
+  config.file = "camera.yaml";
+  config.sensor.camera = PlainParameters();
+  config.points.fisheye_mask = "no_such_file.png";
+  EXPECT_EQ(testing::MessageOf([&] { LineTrackingStage stage(config); }),
+            "camera.yaml: fisheye_mask: cannot read the image no_such_file.png");
 }
 
 TEST_F(LineTrackingStageTest, FollowsAThousandLines) {

@@ -56,6 +56,24 @@ class Namespace(unittest.TestCase):
         self.assertNotIn("manhattan", frames)
         self.assertEqual(self.topics_outside(), [])
 
+    def test_names_in_full_the_topics_that_are_silent(self):
+        listener = Listener("/robot1")
+        for name in NAMES[:3]:
+            self.processes.start_node(NODES / name, *SETTINGS, "cam0/image_raw:=front/image",
+                                      "imu0:=front/imu", ROS_NAMESPACE="robot1")
+        for name, topic in (("feature_tracker", "/robot1/front/image"),
+                            ("linefeature_tracker", "/robot1/front/image"),
+                            ("vins_estimator", "/robot1/front/imu and ")):
+            listener.wait_for_message(name, f"waiting: nothing comes on {topic}")
+
+    def test_remaps_compressed_images(self):
+        listener = Listener("/robot2")
+        self.processes.start_node(NODES / "feature_tracker", *SETTINGS,
+                                  "_image_transport:=compressed", "cam0/image_raw:=front/image",
+                                  ROS_NAMESPACE="robot2")
+        listener.wait_for_message("feature_tracker",
+                                  "waiting: nothing comes on /robot2/front/image/compressed")
+
     def topics_outside(self):
         topics = {name for kind in rosgraph.Master("/namespace_test").getSystemState()[:2]
                   for name, _ in kind}

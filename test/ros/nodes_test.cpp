@@ -221,6 +221,19 @@ TEST_F(Nodes, KeepThePathForWhoComesLate) {
   EXPECT_EQ(late.messages[0].poses.size(), log_->path.messages.back().poses.size());
 }
 
+// The log does not listen to them: a process has one connection to a topic.
+TEST_F(Nodes, KeepTheLinesOfThePastForWhoComesLate) {
+  const Listener<visualization_msgs::Marker> late("/vins_estimator/history_lines_cloud");
+  for (int i = 0; i < 50 && late.messages.empty(); ++i) Spin(0.1);
+  Spin(0.5);  // all come at once
+  ASSERT_FALSE(late.messages.empty());
+  std::set<int> ids;
+  for (const auto& marker : late.messages) {
+    EXPECT_FALSE(marker.points.empty());
+    EXPECT_TRUE(ids.insert(marker.id).second) << marker.id;
+  }
+}
+
 TEST_F(Nodes, PublishPathCameraAndMap) {
   EXPECT_FALSE(log_->path.messages.empty());
   EXPECT_FALSE(log_->key_poses.messages.empty());

@@ -78,6 +78,12 @@ class Parameters(OperationsTest):
                           self.processes.log(name))
             rospy.delete_param(f"/{name}/{parameter}")
 
+    def test_a_file_that_cannot_be_written_is_named_before_the_flight(self):
+        self.addCleanup(rospy.delete_param, "/vins_estimator/trajectory_file")
+        self.processes.start_node(NODES / "vins_estimator", "_trajectory_file:=/dev/null/./a.tum")
+        wait_until(lambda: "cannot write /dev/null/a.tum" in
+                   self.processes.log("vins_estimator"), "a warning")
+
 
 class Restart(OperationsTest):
     def check(self, end, *player_options):

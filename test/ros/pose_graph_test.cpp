@@ -256,6 +256,17 @@ TEST_F(PoseGraphNodeTest, SaysWhereNothingThatComesIsAnImage) {
   })) << status_.Value("message");
 }
 
+TEST_F(PoseGraphNodeTest, SaysInFullWhereItsMapIs) {
+  std_srvs::Trigger save;
+  ASSERT_TRUE(ros::service::call("/pose_graph/save_map", save));
+  const std::string& message = save.response.message;
+  EXPECT_FALSE(save.response.success);
+  const size_t file = message.find("; /");
+  ASSERT_NE(file, std::string::npos) << message;
+  EXPECT_NE(message.find("/pose_graph.plm stays as it is", file), std::string::npos) << message;
+  EXPECT_EQ(message.find("/./"), std::string::npos) << message;
+}
+
 // In a namespace, and with nobody who looks at it before.
 TEST(PoseGraphOfARobot, TakesCompressedImagesAndShowsItsPathToWhomComesLater) {
   const std::string node = "/robot/pose_graph";

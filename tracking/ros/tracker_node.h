@@ -131,8 +131,7 @@ class TrackerNode {
   void ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
     if (images_.stream().Silence() > StreamMonitor::kSilence) {
-      status.summary(DiagnosticStatus::WARN,
-                     "waiting: nothing comes on " + config_.sensor.image_topic);
+      status.summary(DiagnosticStatus::WARN, "waiting: nothing comes on " + images_.topic());
     } else if ((ros::WallTime::now() - last_tracked_).toSec() > StreamMonitor::kSilence) {
       status.summary(DiagnosticStatus::WARN, stage_.counts().images == 0
                                                  ? "waiting: no usable image yet"

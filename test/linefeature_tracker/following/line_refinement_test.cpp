@@ -133,6 +133,19 @@ TEST_F(SingleBarTest, KeepsOffTheBorder) {
   EXPECT_LE(kFocal * line.end.x() + 375.5, 751 - LineTrackerConfig().border);
 }
 
+TEST_F(SingleBarTest, EndsWhereTheMaskBegins) {
+  cv::Mat mask(image_.size(), CV_8UC1, cv::Scalar(255));
+  mask.colRange(350, mask.cols).setTo(0);
+  const LineRefinement masked(LineTrackerConfig(), scene_.camera(), mask);
+  const auto refined = masked.Refine(image_, Upper(), 4);
+  ASSERT_TRUE(refined);
+  EXPECT_NEAR(kFocal * refined->start.x() + 375.5, 200, 12);
+  EXPECT_NEAR(kFocal * refined->end.x() + 375.5, 344, 6);
+  mask.setTo(0);
+  EXPECT_FALSE(
+      LineRefinement(LineTrackerConfig(), scene_.camera(), mask).Refine(image_, Upper(), 4));
+}
+
 TEST_F(SingleBarTest, RefusesShortLines) {
   const LineSegment guess{scene_.ToNormalised({180, 180}), scene_.ToNormalised({220, 180})};
   EXPECT_FALSE(refinement_.Refine(image_, guess, 2));  // about 30 px of it are edge

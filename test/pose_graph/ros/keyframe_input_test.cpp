@@ -31,6 +31,7 @@ class KeyframeInputTest : public ::testing::Test {
   KeyframeInputTest() {
     sensor_.camera = testing::SimpleCamera()->parameters();
     sensor_.T_B_C = testing::LookingAhead();
+    image_.create(sensor_.camera.height, sensor_.camera.width, CV_8UC1);
     for (int i = 0; i < 4; ++i) {
       corners_.emplace_back().observation.id = segments_.emplace_back().observation.id = i;
       corners_.back().p_O = Eigen::Vector3d(1, 2, 3);
@@ -43,7 +44,7 @@ class KeyframeInputTest : public ::testing::Test {
     return Assemble(pose, &input);
   }
   std::optional<OdometryFrame> Assemble(const nav_msgs::Odometry& pose, KeyframeInput* input) {
-    input->AddImage({5, cv::Mat(4, 4, CV_8UC1)});
+    input->AddImage({5, image_});
     input->AddPose(pose);
     input->AddPoints(ToKeyframePoints(corners_, 5, "world"));
     input->AddLines(ToKeyframeLines(segments_, R_O_Manhattan_, 5, "world"));
@@ -52,6 +53,7 @@ class KeyframeInputTest : public ::testing::Test {
   }
 
   SensorConfig sensor_;
+  cv::Mat image_;
   std::vector<TrackedCorner> corners_;
   std::vector<TrackedSegment> segments_;
   std::optional<Eigen::Quaterniond> R_O_Manhattan_;
@@ -89,6 +91,15 @@ TEST_F(KeyframeInputTest, TakesAnUnknownCovarianceForNone) {
   const auto frame = Assemble(pose);
   ASSERT_TRUE(frame);
   EXPECT_TRUE(frame->covariance.isZero());
+}
+
+TEST_F(KeyframeInputTest, RefusesImagesOfAnotherFormat) {
+  const cv::Mat whole = image_;
+  for (const cv::Mat& image : {cv::Mat(whole.rowRange(0, 4)), cv::Mat(whole.size(), CV_8UC3)}) {
+    image_ = image;
+    EXPECT_FALSE(Assemble(Pose()));
+    EXPECT_EQ(drops_["images_wrong_format"], 1);
+  }
 }
 
 TEST_F(KeyframeInputTest, RefusesPosesThatCannotBeTrue) {

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "common/camera/camera_model.h"
+
+namespace plm_vins {
+
+// Throws std::invalid_argument, which says what it is, where the image is not CV_8UC1 of the
+// calibrated size.
+void CheckImageFormat(const cv::Mat& gray, const CameraParameters& camera);
+
+}  // namespace plm_vins

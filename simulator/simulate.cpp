@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Renders a flight through a simulated world: images, IMU and exact ground truth.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/format.h"
 #include "common/io/progress_display.h"
 #include "simulator/recording/asl_recorder.h"
 #include "simulator/recording/bag_recorder.h"
@@ -34,11 +39,35 @@ void AddChoice(CLI::App* app, const std::string& name, T* value, const std::stri
       ->check(CLI::IsMember(choices));
 }
 
-// The message of what is wrong with the argument of --output; empty where nothing is.
+// The message of what is wrong with a path; empty where nothing is.
+std::string CheckPath(const std::string& path) {
+  return path.empty() ? "expected a path, which is empty" : "";
+}
+
+// The same of the argument of --output.
 std::string CheckBag(const std::string& file) {
+  if (file.empty()) return CheckPath(file);
   const std::string extension = std::filesystem::path(file).extension().string();
   const bool is_truth = extension == ".tum" || extension == ".csv";
   return is_truth ? "expected a bag instead of " + file + ", where the ground truth is to go" : "";
+}
+
+// ... of a number, for which CLI::Range would take "nan".
+std::function<std::string(const std::string&)> Between(double least, double most) {
+  return [=](const std::string& text) {
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    const bool is_number = end != text.c_str() && *end == '\0';
+    const bool valid = is_number && number >= least && number <= most;
+    return valid ? "" : Format("expected %g to %g instead of ", least, most) + text;
+  };
+}
+
+// ... of a seed, for which CLI would take "-1", as the greatest of all.
+std::string CheckSeed(const std::string& text) {
+  const bool valid = std::all_of(text.begin(), text.end(),
+                                 [](unsigned char digit) { return std::isdigit(digit) != 0; });
+  return valid ? "" : "expected a whole number, zero or more, instead of " + text;
 }
 
 void Declare(Arguments* arguments, CLI::App* app) {
@@ -48,10 +77,12 @@ void Declare(Arguments* arguments, CLI::App* app) {
       ->add_option("--output", arguments->output,
                    "ROS bag; the ground truth goes beside it as .tum and .csv")
       ->check(CheckBag);
-  output->add_option("--asl", arguments->asl, "folder in ASL format (EuRoC), new");
+  output->add_option("--asl", arguments->asl, "folder in ASL format (EuRoC), new")
+      ->check(CheckPath);
   output->require_option(1, 2);
   app->add_option("--config", arguments->config,
-                  "sensors: topics, camera, shutter, extrinsics, IMU noise, td (default: EuRoC's)");
+                  "sensors: topics, camera, shutter, extrinsics, IMU noise, td (default: EuRoC's)")
+      ->check(CheckPath);
   AddChoice<WorldKind>(app, "--world", &flight.world,
                        "where to fly; atlanta: a room of two frames, irregular: one without, "
                        "twins: two equal rooms, "
@@ -74,16 +105,18 @@ void Declare(Arguments* arguments, CLI::App* app) {
                      {"rotation", Motion::kPureRotation},
                      {"straight", Motion::kCorridor},
                      {"still", Motion::kStill}});
-  app->add_option("--duration", flight.duration, "length of the flight [s]")
-      ->check(CLI::Range(2.0, 3600.0))
+  app->add_option("--duration", flight.duration, "length of the flight, 2 to 3600 [s]")
+      ->check(Between(2, 3600))
       ->capture_default_str();
-  app->add_option("--frame-rate", flight.frame_rate_hz, "images per second [Hz]")
-      ->check(CLI::Range(1.0, 200.0))
+  app->add_option("--frame-rate", flight.frame_rate_hz, "images per second, 1 to 200 [Hz]")
+      ->check(Between(1, 200))
       ->capture_default_str();
-  app->add_option("--exposure", flight.imaging.exposure, "of an image [s]")
-      ->check(CLI::Range(0.0, 0.05))
+  app->add_option("--exposure", flight.imaging.exposure, "of an image, 0 to 0.05 [s]")
+      ->check(Between(0, 0.05))
       ->capture_default_str();
-  app->add_option("--seed", flight.seed, "same seed, same recording")->capture_default_str();
+  app->add_option("--seed", flight.seed, "same seed, same recording")
+      ->check(CheckSeed)
+      ->capture_default_str();
 }
 
 std::vector<std::unique_ptr<Recorder>> OpenRecorders(const Arguments& arguments) {
@@ -118,12 +151,12 @@ void WriteGroundTruth(const Arguments& arguments, const std::vector<FrameState>&
 void Run(Arguments arguments) {
   FlightOptions& options = arguments.flight;
   if (!arguments.config.empty()) options.sensors = LoadConfig(arguments.config).sensor;
+  const Flight flight(options);  // first, as it may refuse: an earlier bag then stays
   const auto owned = OpenRecorders(arguments);
   std::vector<Recorder*> recorders;
   recorders.reserve(owned.size());
   for (const auto& recorder : owned) recorders.push_back(recorder.get());
 
-  const Flight flight(options);
   WriteGroundTruth(arguments, flight.GroundTruth());
   ProgressDisplay progress(flight.imu().samples.back().t_ns);
   flight.Record(recorders, [&](int64_t t_ns) { progress.Update(t_ns); });

@@ -93,6 +93,21 @@ void RequireStamp(int64_t t_ns) {
   if (!IsStamp(t_ns)) throw std::runtime_error("is damaged");
 }
 
+// No value is more than a list of numbers, and deeper ones, which may go deeper than the stack
+// does, make all of it worthless.
+Json ParseShallow(const std::string& text) {
+  bool is_shallow = true;
+  const auto is_taken = [&](int depth, Json::parse_event_t event, const Json&) {
+    const bool opens =
+        event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+    const bool too_deep = opens && depth > 1;
+    is_shallow = is_shallow && !too_deep;
+    return !too_deep;
+  };
+  const Json json = Json::parse(text, is_taken, /*allow_exceptions=*/false);
+  return is_shallow ? json : Json();
+}
+
 // Trackers give nothing else.
 template <typename Observation>
 void RequirePossible(std::vector<Observation>* observations) {
@@ -147,7 +162,7 @@ void FeatureFileReader::ReadTrackerValues() {
   } catch (const std::runtime_error& error) {
     throw Unusable(error.what());
   }
-  tracker_values_ = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  tracker_values_ = ParseShallow(text);
   if (!tracker_values_.is_object()) throw Unusable("is damaged");
 }
 

@@ -16,6 +16,16 @@ constexpr size_t kMaxUnfinished = 300;
 
 bool IsPowerOfTwo(int64_t count) { return (count & (count - 1)) == 0; }
 
+void ReleasePixels(ImageSample* image) {
+  image->gray.release();
+  image->owner.reset();
+}
+
+void ReleasePixels(TrackedFeatures* frame) {
+  ReleasePixels(&frame->points.image);
+  if (frame->lines) ReleasePixels(&frame->lines->image);
+}
+
 RecordingEvent EventOf(const TrackedItem& item) {
   using Kind = RecordingEvent::Kind;
   return {item.frame ? Kind::kImage : Kind::kImu, item.t_ns(), item.imu};
@@ -24,7 +34,11 @@ RecordingEvent EventOf(const TrackedItem& item) {
 }  // namespace
 
 OdometryPipeline::OdometryPipeline(const Config& config)
-    : use_lines_(config.use_lines), trackers_(config), back_end_(config) {}
+    : use_lines_(config.use_lines),
+      keeps_pixels_(config.pose_graph.loop_closure),
+      trackers_(config),
+      back_end_(config),
+      imu_(config.sensor.imu_range) {}
 
 DropCounts OdometryPipeline::drops() const {
   DropCounts counts = ToDropCounts(trackers_.image_counts());
@@ -59,7 +73,8 @@ void OdometryPipeline::Run(Recording* recording, RecordingInterval interval, int
 
 void OdometryPipeline::Run(FeatureFileReader* features, RecordingInterval interval,
                            const FrameCallback& on_frame) {
-  while (auto item = features->Next()) {
+  while (auto item = is_end_() ? std::nullopt : features->Next()) {
+    if (!item->frame) first_imu_.Add(item->t_ns());
     const RecordingInterval::Part part = interval.Locate(EventOf(*item));
     if (part == RecordingInterval::Part::kEnd) break;
     if (part == RecordingInterval::Part::kSkip) continue;
@@ -75,7 +90,8 @@ void OdometryPipeline::Run(FeatureFileReader* features, RecordingInterval interv
 
 void OdometryPipeline::Read(Recording* recording, RecordingInterval interval,
                             const EventReceiver& emit) {
-  while (const auto event = recording->Next()) {
+  while (const auto event = is_end_() ? std::nullopt : recording->Next()) {
+    if (event->kind == RecordingEvent::Kind::kImu) first_imu_.Add(event->t_ns);
     const RecordingInterval::Part part = interval.Locate(*event);
     if (part == RecordingInterval::Part::kEnd) return;
     if (part == RecordingInterval::Part::kSkip) continue;
@@ -123,6 +139,8 @@ bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const TrackedReceiver&
     lines_image_ = trackers_.DrawLines();
   }
   if (on_track_images_) ShowTracksIfDue(frame.points.features.t_ns);
+  // Features may wait for the IMU for long.
+  if (!keeps_pixels_) ReleasePixels(&frame);
   return emit({{}, std::make_unique<TrackedFeatures>(std::move(frame))});
 }
 
@@ -139,14 +157,23 @@ void OdometryPipeline::Consume(TrackedItem item, const FrameCallback& on_frame) 
   if (item.frame) {
     AddFeatures(std::move(*item.frame));
   } else {
-    back_end_.AddImu(item.imu);
+    AddImu(item.imu);
   }
   while (auto estimated = back_end_.Pop()) Report(std::move(*estimated), on_frame);
+}
+
+void OdometryPipeline::AddImu(const ImuSample& sample) {
+  back_end_.AddImu(sample);
+  const int64_t jumps_back = back_end_.statistics().jumps_back;
+  if (jumps_back > jumps_back_) imu_.Clear();
+  jumps_back_ = jumps_back;
+  imu_.Add(sample);
 }
 
 void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
   if (tracked.points.restart) {
     back_end_.Reset("stamps jumped back");
+    imu_.Clear();
     unfinished_.clear();
   }
   if (!tracked.points.publish) {
@@ -167,6 +194,7 @@ void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
 
 void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_frame) {
   ++estimated_images_;
+  last_frame_ns_ = estimated.output.t_ns;
   const std::string contradiction = back_end_.ImuContradiction();
   if (!contradiction.empty()) imu_contradiction_ = contradiction;
   PipelineFrame frame;
@@ -175,6 +203,7 @@ void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_
     frame = std::move(reported->second);
     unfinished_.erase(unfinished_.begin(), std::next(reported));
   }
+  frame.imu = imu_.Take(estimated.imu_ns);
   frame.output = std::move(estimated.output);
   frame.points = std::move(estimated.points);
   frame.lines = std::move(estimated.lines);

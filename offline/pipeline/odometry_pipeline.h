@@ -7,11 +7,14 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "common/config/config.h"
 #include "common/streams/drop_counts.h"
 #include "offline/pipeline/feature_file.h"
 #include "offline/pipeline/feature_trackers.h"
+#include "offline/pipeline/frame_imu.h"
 #include "offline/pipeline/run_ahead.h"
 #include "offline/recordings/confirmed_stamp.h"
 #include "offline/recordings/recording.h"
@@ -23,7 +26,8 @@ namespace plm_vins {
 // What the pipeline says about one image.
 struct PipelineFrame {
   EstimatorOutput output;
-  ImageSample image;  // without pixels where saved features are run
+  ImageSample image;           // without pixels where loops are not closed
+  std::vector<ImuSample> imu;  // since the frame before, in order of time, as of FrameImu
   PointFrame points;
   LineFrame lines;
   double point_tracking_ms = 0;
@@ -53,6 +57,9 @@ class OdometryPipeline {
   // Calls back about every `interval` [s] of the recording, in the thread of the trackers.
   void ShowTracks(double interval, TrackImageCallback on_images);
 
+  // Asked before each measurement, in the thread that reads: once true, the recording ends there.
+  void EndWhere(std::function<bool()> is_end) { is_end_ = std::move(is_end); }
+
   // Processes the recording; `on_frame` is called in the caller's thread, in order of time.
   void Run(Recording* recording, RecordingInterval interval, int threads,
            const FrameCallback& on_frame);
@@ -66,6 +73,9 @@ class OdometryPipeline {
   // Images that should have come to the estimator and did not.
   int64_t unused_images() const { return images() - thinned_images_ - estimated_images_; }
   std::optional<int64_t> first_image_ns() const { return first_image_.t_ns(); }
+  std::optional<int64_t> last_frame_ns() const { return last_frame_ns_; }  // that was estimated
+  // Of the samples that were read, whether they were used or not.
+  std::optional<int64_t> first_imu_ns() const { return first_imu_.t_ns(); }
   DropCounts drops() const;
   // The last EstimationStage::ImuContradiction() that was not empty.
   const std::string& imu_contradiction() const { return imu_contradiction_; }
@@ -83,26 +93,32 @@ class OdometryPipeline {
   using EventReceiver = ItemReceiver<LoadedEvent>;
   using TrackedReceiver = ItemReceiver<TrackedItem>;
 
-  static void Read(Recording* recording, RecordingInterval interval, const EventReceiver& emit);
+  void Read(Recording* recording, RecordingInterval interval, const EventReceiver& emit);
   void RunTrackers(Recording* recording, const RecordingInterval& interval, bool reads_ahead,
                    const TrackedReceiver& emit);
   bool Feed(LoadedEvent loaded, const TrackedReceiver& emit);
   bool EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit);
   void ShowTracksIfDue(int64_t t_ns);
   void Consume(TrackedItem item, const FrameCallback& on_frame);
+  void AddImu(const ImuSample& sample);
   void AddFeatures(TrackedFeatures tracked);
   void Report(EstimatedFrame estimated, const FrameCallback& on_frame);
 
   const bool use_lines_;
+  const bool keeps_pixels_;
   FeatureTrackers trackers_;
   EstimationStage back_end_;
-  ConfirmedStamp first_image_;
+  std::function<bool()> is_end_ = [] { return false; };
+  ConfirmedStamp first_image_, first_imu_;
   std::string imu_contradiction_;
+  std::optional<int64_t> last_frame_ns_;
   int64_t images_ = 0;
   int64_t unreadable_images_ = 0;
   int64_t tracked_images_ = 0;
   int64_t thinned_images_ = 0;  // left out for the sake of the rate `freq`
   int64_t estimated_images_ = 0;
+  FrameImu imu_;
+  int64_t jumps_back_ = 0;  // of the back end's input, followed so far
   FeatureFileWriter* saved_features_ = nullptr;
   TrackImageCallback on_track_images_;
   int64_t track_image_interval_ns_ = 0;

@@ -28,24 +28,26 @@ class RecordingInterval {
     if (!first_image_.Admits(event.t_ns)) return start_ > 0 ? Part::kSkip : Part::kUse;
     const double margin = is_image ? 0 : kImuMargin;
     const double t = ToSeconds(event.t_ns - *first_image_.t_ns()) - start_;
-    if (is_image) {
-      const bool beyond = t > duration_ + kImuMargin;
-      if (beyond && beyond_) return Part::kEnd;
-      beyond_ = beyond;
+    const bool beyond = t > duration_ + kImuMargin;
+    if (is_image && beyond && image_beyond_ && (imu_beyond_ || t > duration_ + kLongestLead)) {
+      return Part::kEnd;
     }
+    (is_image ? image_beyond_ : imu_beyond_) = beyond;
     if (t > duration_ + margin) return Part::kSkip;
     begun_ = begun_ || t >= 0;
     return begun_ || t >= -margin ? Part::kUse : Part::kSkip;
   }
 
  private:
-  static constexpr double kImuMargin = 0.2;  // [s], more than any time offset
+  static constexpr double kImuMargin = 0.2;    // [s], more than any time offset
+  static constexpr double kLongestLead = 5.0;  // [s] of images before the IMU in a recording
 
   double start_;
   double duration_;
   ConfirmedStamp first_image_;
-  bool beyond_ = false;  // the end, the last image; one alone may have a wrong stamp
-  bool begun_ = false;   // from here on, stamps may jump back: that is for the next stages to judge
+  // Whether the last one is beyond the end. An image alone may have a wrong stamp.
+  bool image_beyond_ = false, imu_beyond_ = false;
+  bool begun_ = false;  // from here on, stamps may jump back: that is for the next stages to judge
 };
 
 }  // namespace plm_vins

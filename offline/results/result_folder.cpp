@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
-#include <vector>
 
 #include "offline/results/timed_file.h"
 #include "vins_estimator/output/calibrated_config.h"
@@ -65,6 +65,8 @@ void RemoveTrackImages(const fs::path& folder) {
 }
 
 }  // namespace
+
+std::vector<std::string> ResultNames() { return {std::begin(kResults), std::end(kResults)}; }
 
 void MakeResultFolder(const std::string& folder) {
   std::error_code error;

@@ -2,10 +2,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace plm_vins {
 
 constexpr char kTrackImages[] = "tracks";  // folder of small images, STAMP_NS.jpg
+
+// What a run may write into its folder, and what may be evaluated there: paths from it, but for
+// images in tracks/ and parts of before stamps jumped back.
+std::vector<std::string> ResultNames();
 
 // Makes the folder of results of a run where it is missing. Throws std::runtime_error where it
 // cannot be made.

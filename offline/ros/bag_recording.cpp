@@ -24,8 +24,6 @@ constexpr char kRaw[] = "sensor_msgs/Image";
 constexpr char kCompressed[] = "sensor_msgs/CompressedImage";
 constexpr char kImu[] = "sensor_msgs/Imu";
 
-using Topics = std::map<std::string, std::string>;  // topic -> message type
-
 void RequireReadable(const std::string& file) {
   std::error_code error;
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) {
@@ -48,12 +46,12 @@ IndexedBag OpenIndexedBag(const std::string& file) {
   }
 }
 
-// The name by which a bag has a topic of this type: with a leading slash or, from some recorders,
-// without. Nothing where it has none.
-std::optional<std::string> Find(const Topics& topics, const std::string& topic,
-                                const std::string& type) {
-  for (const auto& [name, its_type] : topics) {
-    if (AbsoluteTopic(name) == AbsoluteTopic(topic) && its_type == type) return name;
+// The topic of this type as a bag has it: with a leading slash or, from some recorders, without.
+// Nothing where it has none.
+std::optional<TypedTopic> Find(const TypedTopics& topics, const std::string& topic,
+                               const std::string& type) {
+  for (const TypedTopic& typed : topics) {
+    if (AbsoluteTopic(typed.first) == AbsoluteTopic(topic) && typed.second == type) return typed;
   }
   return std::nullopt;
 }
@@ -62,7 +60,7 @@ std::string Missing(const std::string& key, const std::string& topic, const std:
   return " no topic " + AbsoluteTopic(topic) + " (" + type + ") for the key " + key + ",";
 }
 
-std::string ToText(const Topics& topics) {
+std::string ToText(const TypedTopics& topics) {
   std::string text;
   for (const auto& [topic, type] : topics) text.append(" " + topic).append(" (" + type + ")");
   return text.empty() ? " nothing" : text;
@@ -114,17 +112,19 @@ class BagRecording : public Recording {
   BagRecording(const std::string& file, const std::string& image_topic,
                const std::string& imu_topic)
       : file_(file), bag_(OpenIndexedBag(file)) {
-    const Topics topics = bag_.topics();
-    ChooseImageTopic(image_topic, topics);
-    imu_topic_ = Find(topics, imu_topic, kImu).value_or("");
+    const TypedTopics topics = bag_.topics();
+    const auto images = FindImages(topics, image_topic);
+    const auto imu = Find(topics, imu_topic, kImu);
     std::string missing;
-    if (image_topic_.empty()) {
+    if (!images) {
       missing += Missing("image_topic", image_topic, kRaw + std::string(" or ") + kCompressed);
     }
-    if (imu_topic_.empty()) missing += Missing("imu_topic", imu_topic, kImu);
+    if (!imu) missing += Missing("imu_topic", imu_topic, kImu);
     if (!missing.empty()) {
       throw std::runtime_error(file + " has" + missing + " but:" + ToText(topics));
     }
+    image_topic_ = *images;
+    imu_topic_ = *imu;
     bag_.Select({image_topic_, imu_topic_});
   }
 
@@ -133,7 +133,7 @@ class BagRecording : public Recording {
       try {
         return message->topic == imu_topic_ ? ImuEvent(*message) : ImageEvent(*message);
       } catch (const ros::serialization::StreamOverrunException&) {
-        ++malformed_;
+        malformed_.Add(message->topic.second + " on " + message->topic.first);
       }
     }
     return std::nullopt;
@@ -141,7 +141,8 @@ class BagRecording : public Recording {
 
   std::optional<cv::Mat> LoadImage() override {
     try {
-      return compressed_ ? ToImageSample(compressed_image_).gray : ToImageSample(raw_image_).gray;
+      return is_compressed() ? ToImageSample(compressed_image_).gray
+                             : ToImageSample(raw_image_).gray;
     } catch (const std::invalid_argument& error) {
       unreadable_images_.Add(error.what());
       return std::nullopt;
@@ -150,26 +151,27 @@ class BagRecording : public Recording {
 
   std::string name() const override { return file_; }
   std::string Source(RecordingEvent::Kind kind) const override {
-    return kind == RecordingEvent::Kind::kImage ? "image_topic " + image_topic_
-                                                : "imu_topic " + imu_topic_;
+    return kind == RecordingEvent::Kind::kImage ? "image_topic " + image_topic_.first
+                                                : "imu_topic " + imu_topic_.first;
   }
   std::optional<int64_t> end_ns() const override { return bag_.end_ns(); }
 
   DropCounts problems() const override {
     DropCounts counts = bag_.problems();
     counts.push_back(unreadable_images_);
-    counts.push_back({"messages_malformed", malformed_, ""});
+    counts.push_back(malformed_);
     return counts;
   }
 
  private:
-  void ChooseImageTopic(const std::string& topic, const Topics& topics) {
-    auto name = Find(topics, topic, kRaw);
-    compressed_ = !name;
-    if (!name) name = Find(topics, topic, kCompressed);
-    if (!name) name = Find(topics, topic + "/compressed", kCompressed);
-    image_topic_ = name.value_or("");
+  static std::optional<TypedTopic> FindImages(const TypedTopics& topics, const std::string& topic) {
+    auto images = Find(topics, topic, kRaw);
+    if (!images) images = Find(topics, topic, kCompressed);
+    if (!images) images = Find(topics, topic + "/compressed", kCompressed);
+    return images;
   }
+
+  bool is_compressed() const { return image_topic_.second == kCompressed; }
 
   RecordingEvent ImuEvent(const BagMessage& message) const {
     const ImuSample sample = ToImuSample(Deserialize<sensor_msgs::Imu>(message));
@@ -178,7 +180,7 @@ class BagRecording : public Recording {
 
   RecordingEvent ImageEvent(const BagMessage& message) {
     ros::Time stamp;
-    if (compressed_) {
+    if (is_compressed()) {
       compressed_image_ = DeserializeImage<sensor_msgs::CompressedImage>(message);
       stamp = compressed_image_.header.stamp;
     } else {
@@ -190,13 +192,11 @@ class BagRecording : public Recording {
 
   std::string file_;
   IndexedBag bag_;
-  std::string image_topic_;
-  std::string imu_topic_;
-  bool compressed_ = false;
+  TypedTopic image_topic_, imu_topic_;
   sensor_msgs::Image raw_image_;
   sensor_msgs::CompressedImage compressed_image_;
   DropCount unreadable_images_{"images_unreadable", 0, ""};
-  int64_t malformed_ = 0;
+  DropCount malformed_{"messages_malformed", 0, ""};
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
+#include <iterator>
 #include <stdexcept>
 
 namespace plm_vins {
@@ -13,6 +14,13 @@ constexpr char kSignature[] = "#ROSBAG V2.0\n";
 constexpr uint64_t kFirstRecord = sizeof(kSignature) - 1;
 constexpr uint64_t kIndexEntrySize = 12;  // seconds, nanoseconds, offset into the chunk
 constexpr int64_t kSecond_ns = 1'000'000'000;
+constexpr size_t kMaxUnpacked = 4;  // chunks at hand, mostly under 1 MB each
+
+// Whether there is this topic, be it of another type.
+bool HasTopic(const TypedTopics& topics, const std::string& topic) {
+  return std::any_of(topics.begin(), topics.end(),
+                     [&](const TypedTopic& typed) { return typed.first == topic; });
+}
 
 }  // namespace
 
@@ -26,15 +34,20 @@ IndexedBag::IndexedBag(const std::string& file) : name_(file), file_(file) {
   ReadIndex(head);
 }
 
-std::map<std::string, std::string> IndexedBag::topics() const {
-  std::map<std::string, std::string> types;
-  for (const auto& [id, connection] : connections_) types[connection.topic] = connection.type;
-  return types;
+TypedTopics IndexedBag::topics() const {
+  TypedTopics topics;
+  for (const auto& [id, topic] : connections_) topics.insert(topic);
+  return topics;
 }
 
-void IndexedBag::Select(const std::set<std::string>& topics) {
+void IndexedBag::Select(const TypedTopics& topics) {
   const auto is_other = [&](const Entry& entry) {
-    return topics.count(connections_.at(entry.connection).topic) == 0;
+    const TypedTopic& topic = connections_.at(entry.connection);
+    const bool is_selected = topics.count(topic) > 0;
+    if (!is_selected && HasTopic(topics, topic.first)) {
+      of_another_type_.Add(topic.second + " on " + topic.first);
+    }
+    return !is_selected;
   };
   entries_.erase(std::remove_if(entries_.begin(), entries_.end(), is_other), entries_.end());
   std::stable_sort(entries_.begin(), entries_.end(),
@@ -60,7 +73,9 @@ std::optional<int64_t> IndexedBag::end_ns() const {
   return entries_.back().t_ns;
 }
 
-DropCounts IndexedBag::problems() const { return {{"bag_damaged", damaged_, problem_}}; }
+DropCounts IndexedBag::problems() const {
+  return {{"bag_damaged", damaged_, problem_}, of_another_type_};
+}
 
 void IndexedBag::ReadIndex(const BagRecord& head) {
   uint64_t at = head.Field<uint64_t>("index_pos");
@@ -120,25 +135,29 @@ void IndexedBag::AddEntry(const char* bytes, uint32_t connection, uint64_t chunk
 
 BagMessage IndexedBag::ReadMessage(const Entry& entry, const Chunk& chunk) {
   const bool is_packed = chunk.is_packed();
-  if (is_packed) Unpack(entry.chunk);
-  BagBytes& bytes = is_packed ? *unpacked_ : file_;
+  BagBytes& bytes = is_packed ? Unpack(entry.chunk) : file_;
   const uint64_t begin = is_packed ? 0 : chunk.record.data;
   const uint64_t end = is_packed ? bytes.size() : chunk.record.end;
   const BagRecord record = bytes.ReadRecord(BagOp::kMessage, begin + entry.offset, end);
   if (record.Field<uint32_t>("conn") != entry.connection) {
     throw std::runtime_error("a message of another topic");
   }
-  return {connections_.at(entry.connection).topic,
-          bytes.Read(record.data, record.end - record.data)};
+  return {connections_.at(entry.connection), bytes.Read(record.data, record.end - record.data)};
 }
 
-void IndexedBag::Unpack(uint32_t number) {
-  if (unpacked_ != nullptr && unpacked_chunk_ == number) return;
-  Chunk& chunk = chunks_[number];
-  chunk.damaged = true;
-  unpacked_ = UnpackChunk(chunk.record, &file_);
-  unpacked_chunk_ = number;
-  chunk.damaged = false;
+BagBytes& IndexedBag::Unpack(uint32_t number) {
+  const auto at_hand = std::find_if(unpacked_.begin(), unpacked_.end(),
+                                    [&](const UnpackedChunk& one) { return one.number == number; });
+  if (at_hand != unpacked_.end()) {
+    std::rotate(at_hand, std::next(at_hand), unpacked_.end());
+  } else {
+    if (unpacked_.size() == kMaxUnpacked) unpacked_.erase(unpacked_.begin());
+    Chunk& chunk = chunks_[number];
+    chunk.damaged = true;
+    unpacked_.push_back({number, UnpackChunk(chunk.record, &file_)});
+    chunk.damaged = false;
+  }
+  return *unpacked_.back().bytes;
 }
 
 std::string IndexedBag::Describe(const std::string& error, const Chunk& chunk) const {

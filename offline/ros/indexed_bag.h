@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/streams/drop_counts.h"
@@ -14,9 +15,13 @@
 
 namespace plm_vins {
 
+// A topic and the type of messages on it, of which it may have several.
+using TypedTopic = std::pair<std::string, std::string>;
+using TypedTopics = std::set<TypedTopic>;
+
 // One serialised message of a bag.
 struct BagMessage {
-  std::string topic;
+  TypedTopic topic;
   std::string data;
 };
 
@@ -29,10 +34,10 @@ class IndexedBag {
   // Throws std::exception where there is no index that can be read.
   explicit IndexedBag(const std::string& file);
 
-  std::map<std::string, std::string> topics() const;  // topic -> message type
+  TypedTopics topics() const;
 
-  // Chooses what Next() gives; before the first Next().
-  void Select(const std::set<std::string>& topics);
+  // Chooses what Next() gives; before the first Next(). What else is on these topics is counted.
+  void Select(const TypedTopics& topics);
 
   std::optional<BagMessage> Next();
 
@@ -53,8 +58,9 @@ class IndexedBag {
     uint32_t connection = 0, chunk = 0, offset = 0;
   };
 
-  struct Connection {
-    std::string topic, type;
+  struct UnpackedChunk {
+    uint32_t number = 0;
+    std::unique_ptr<BagBytes> bytes;
   };
 
   void ReadIndex(const BagRecord& head);
@@ -62,18 +68,20 @@ class IndexedBag {
   uint64_t ReadChunkIndex(uint64_t place, uint32_t lists);
   void AddEntry(const char* bytes, uint32_t connection, uint64_t chunk_size);
   BagMessage ReadMessage(const Entry& entry, const Chunk& chunk);
-  // Makes this chunk the one that is at hand; where that fails, all of it is left out.
-  void Unpack(uint32_t number);
+  // The content of a packed chunk; where it does not unpack, all of it is left out.
+  BagBytes& Unpack(uint32_t number);
   std::string Describe(const std::string& error, const Chunk& chunk) const;
 
   std::string name_;
   BagFile file_;
-  std::map<uint32_t, Connection> connections_;
+  std::map<uint32_t, TypedTopic> connections_;
   std::vector<Chunk> chunks_;
   std::vector<Entry> entries_;  // of the selected topics, by time
   size_t next_ = 0;
-  std::unique_ptr<BagBytes> unpacked_;
-  uint32_t unpacked_chunk_ = 0;
+  // Several, as topics that were written one after the other lie in different chunks; the one used
+  // last is the last.
+  std::vector<UnpackedChunk> unpacked_;
+  DropCount of_another_type_{"messages_of_another_type", 0, ""};
   int64_t damaged_ = 0;
   std::string problem_;
 };

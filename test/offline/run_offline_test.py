@@ -50,6 +50,10 @@ class RunOffline(unittest.TestCase):
         self.assert_refuses("expected key=value instead of freq", "--set", "freq")
         self.assert_refuses("[--bag,--asl,--features]", "--bag", "flight.bag")
 
+    def test_paths_that_are_empty(self):
+        for option in ["--map-in", "--map-out", "--save-features", "--output", "--config", "--asl"]:
+            self.assert_refuses(f"{option}: expected a path, which is empty", option, "")
+
     def test_bad_config(self):
         self.assert_refuses("nothing.yaml", config=self.folder / "nothing.yaml")
         self.assert_refuses("frequ: unknown key; did you mean freq?", "--set", "frequ=3")
@@ -127,6 +131,31 @@ class RunOffline(unittest.TestCase):
                 self.assert_refuses(f"{option} would overwrite the input", option,
                                     self.folder / "asl" / table)
 
+    def test_files_whose_place_a_result_would_take(self):
+        results = self.folder / "results"
+        results.mkdir()
+        link = self.folder / "link"
+        link.symlink_to(results)
+        for name in ["map.ply", "summary.json", "trajectory.tum", "colmap/images.txt"]:
+            for folder in [results, link]:
+                for option in ["--map-in", "--map-out", "--save-features"]:
+                    self.assert_refuses(f"which the run replaces by its own {name}; choose another",
+                                        option, folder / name)
+        config = results / "summary.json"
+        config.write_text(CONFIG.read_text(encoding="utf-8"), encoding="utf-8")
+        self.assert_refuses("by its own summary.json", config=config)
+        self.assertEqual(list(results.iterdir()), [config])
+
+    def test_a_configuration_whose_place_the_calibration_would_take(self):
+        results = self.folder / "results"
+        results.mkdir()
+        config = results / "calibrated.yaml"
+        text = CONFIG.read_text(encoding="utf-8")
+        config.write_text(text, encoding="utf-8")
+        self.assert_refuses(f"--config names {config}, which the run replaces by its own "
+                            "calibrated.yaml", "--set", "estimate_intrinsics=1", config=config)
+        self.assertEqual(config.read_text(encoding="utf-8"), text)
+
     def test_earlier_results_stay_where_nothing_can_be_run(self):
         results = self.folder / "results"
         results.mkdir()
@@ -174,7 +203,7 @@ class RunOffline(unittest.TestCase):
         config.write_text(CONFIG.read_text(encoding="utf-8"), encoding="utf-8")
         for name in ["evaluation.json", "run.html", "loops.csv"]:
             (results / name).write_text("of before", encoding="utf-8")
-        self.assert_refuses("none was usable", config=config)
+        self.assert_refuses("none was usable", "--set", "estimate_intrinsics=0", config=config)
         self.assertTrue(config.is_file())
         self.assertFalse((results / "evaluation.json").exists())
 

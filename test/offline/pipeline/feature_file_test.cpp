@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -119,6 +120,26 @@ TEST_F(FeatureFile, SaysWhereItsValuesAreDamagedOrCutOff) {
   bytes[kItemsBegin - 1] = ']';
   std::ofstream(file_) << bytes;
   EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
+}
+
+// Deeper than the stack goes.
+TEST_F(FeatureFile, RefusesValuesWithinValues) {
+  constexpr uint32_t kDepth = 300'000;
+  for (const std::string& text :
+       {R"({"freq":)" + std::string(kDepth, '[') + std::string(kDepth, ']') + "}",
+        std::string(R"({"camera":{"names":{"freq":10}}})")}) {
+    const auto size = static_cast<uint32_t>(text.size());
+    std::ofstream(file_, std::ios::binary)
+        << "plm_features v2\n"
+        << std::string(reinterpret_cast<const char*>(&size), sizeof(size)) << text;
+    EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
+  }
+}
+
+TEST_F(FeatureFile, TakesListsOfNumbersAsValues) {
+  const Json values = {{"freq", 10.0}, {"coefficients", {0.1, 0.2}}};
+  FeatureFileWriter(file_, values).Close();
+  EXPECT_EQ(FeatureFileReader(file_).tracker_values(), values);
 }
 
 TEST_F(FeatureFile, SaysWhereAFileEndsTooEarlyOrIsDamaged) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "offline/pipeline/tracker_values.h"
+#include "test/offline/pipeline/memory_recording.h"
 #include "test/testing/still_scene.h"
 #include "test/testing/temporary_folder.h"
 #include "vins_estimator/output/tum_format.h"
@@ -17,58 +18,12 @@
 namespace plm_vins {
 namespace {
 
+using testing::kMillisecond;
+using testing::kStart;
+using testing::MemoryRecording;
 using testing::StillConfig;
-using testing::StillImu;
 using testing::StillPicture;
-
-constexpr int64_t kStart = 1403636579763555584;
-constexpr int64_t kMillisecond = 1'000'000;
-
-// A recording in memory: the same picture all the time, or none (unreadable).
-class MemoryRecording : public Recording {
- public:
-  void AddImage(int64_t milliseconds, const cv::Mat& picture = StillPicture()) {
-    events_.push_back(
-        {RecordingEvent::Kind::kImage, kStart + milliseconds * kMillisecond, ImuSample()});
-    pictures_[events_.size()] = picture;
-  }
-  void AddImu(int64_t milliseconds) {
-    const ImuSample sample = StillImu(kStart + milliseconds * kMillisecond);
-    events_.push_back({RecordingEvent::Kind::kImu, sample.t_ns, sample});
-  }
-  void Fail() { failing_ = true; }  // at the end, as a disk does
-  std::vector<RecordingEvent>& events() { return events_; }
-
-  std::optional<RecordingEvent> Next() override {
-    if (next_ == events_.size() && failing_) throw std::runtime_error("disk error");
-    if (next_ == events_.size()) return std::nullopt;
-    return events_[next_++];
-  }
-  std::optional<cv::Mat> LoadImage() override {
-    const cv::Mat picture = pictures_.at(next_);
-    return picture.empty() ? std::nullopt : std::make_optional(picture);
-  }
-  std::string name() const override { return "memory"; }
-  std::string Source(RecordingEvent::Kind) const override { return "memory"; }
-  std::optional<int64_t> end_ns() const override { return std::nullopt; }
-  DropCounts problems() const override { return {}; }
-
- private:
-  std::vector<RecordingEvent> events_;
-  std::map<size_t, cv::Mat> pictures_;  // by the number of events up to and with the image
-  size_t next_ = 0;
-  bool failing_ = false;
-};
-
-// IMU at 200 Hz, images at 20 Hz.
-MemoryRecording StillRecording(int milliseconds) {
-  MemoryRecording recording;
-  for (int t = 0; t <= milliseconds; t += 5) {
-    recording.AddImu(t);
-    if (t % 50 == 10) recording.AddImage(t);
-  }
-  return recording;
-}
+using testing::StillRecording;
 
 struct Result {
   std::string trajectory;
@@ -113,14 +68,26 @@ TEST(OdometryPipeline, DrawsPointsAndLinesOfOneImage) {
   }
 }
 
-TEST(OdometryPipeline, KeepsFewOfTheImagesThatTheImuDoesNotCover) {
-  MemoryRecording recording;
-  const cv::Mat picture = StillPicture().clone();
-  for (int i = 0; i < 500; ++i) recording.AddImage(50 * i, picture);
-  const int in_recording = picture.u->refcount;
+TEST(OdometryPipeline, EndsWhereItIsAskedTo) {
+  const testing::TemporaryFolder folder;
+  for (const int threads : {1, 4}) {
+    MemoryRecording recording = StillRecording(3000);
+    OdometryPipeline pipeline(StillConfig());
+    FeatureFileWriter writer(folder.File("features"), TrackerValues(StillConfig()));
+    pipeline.SaveFeatures(&writer);
+    int measurements = 0;  // 11 for every image
+    pipeline.EndWhere([&] { return ++measurements > 220; });
+    pipeline.Run(&recording, {}, threads, [](const PipelineFrame&) {});
+    writer.Close();
+    EXPECT_EQ(pipeline.images(), 20);
+    EXPECT_EQ(pipeline.last_frame_ns(), kStart + 960 * kMillisecond);
+  }
+  FeatureFileReader reader(folder.File("features"));
   OdometryPipeline pipeline(StillConfig());
-  pipeline.Run(&recording, {}, 1, [](const PipelineFrame&) {});
-  EXPECT_LT(picture.u->refcount - in_recording, 350);
+  int measurements = 0;
+  pipeline.EndWhere([&] { return ++measurements > 110; });
+  pipeline.Run(&reader, {}, [](const PipelineFrame&) {});
+  EXPECT_LT(pipeline.images(), 11);
 }
 
 TEST(OdometryPipeline, ShowsTracksEverySoOften) {
@@ -323,6 +290,16 @@ TEST(OdometryPipeline, WithoutImuItGivesNothingAndSaysWhy) {
   const Result result = RunPipeline(std::move(recording));
   EXPECT_TRUE(result.frames.empty());
   EXPECT_EQ(result.drops.at("frames_without_imu"), 10);
+}
+
+TEST(OdometryPipeline, TellsWhereTheImuBeginsThatIsNotUsed) {
+  MemoryRecording recording;
+  for (int t = 0; t < 500; t += 50) recording.AddImage(t);
+  for (int t = 100'000; t < 100'500; t += 5) recording.AddImu(t);
+  OdometryPipeline pipeline(StillConfig());
+  pipeline.Run(&recording, RecordingInterval(0, 2), 1, [](const PipelineFrame&) {});
+  EXPECT_EQ(pipeline.first_image_ns(), kStart);
+  EXPECT_EQ(pipeline.first_imu_ns(), kStart + 100'000 * kMillisecond);
 }
 
 TEST(OdometryPipeline, PassesOnWhatTheRecordingThrows) {

@@ -69,6 +69,27 @@ TEST(RecordingInterval, AnImageFromTheFutureDoesNotEndIt) {
   }
 }
 
+// As where the IMU comes late into the bag.
+TEST(RecordingInterval, WaitsForTheImuWhereImagesAreRecordedBeforeIt) {
+  RecordingInterval interval(0, 3);
+  for (const double t : {0.0, 0.05, 3.0}) EXPECT_EQ(interval.Locate(Image(t)), Part::kUse);
+  for (const double lead : {0.3, 0.5, 1.5, 2.0}) {
+    EXPECT_EQ(interval.Locate(Image(3 + lead)), Part::kSkip);
+    EXPECT_EQ(interval.Locate(Image(3.05 + lead)), Part::kSkip);
+    EXPECT_EQ(interval.Locate(Imu(1 + lead)), Part::kUse);
+  }
+  EXPECT_EQ(interval.Locate(Imu(3.25)), Part::kSkip);
+  EXPECT_EQ(interval.Locate(Image(5.1)), Part::kEnd);
+}
+
+TEST(RecordingInterval, DoesNotWaitForAnImuThatHasEnded) {
+  RecordingInterval interval(0, 3);
+  for (const double t : {0.0, 0.05, 3.0}) interval.Locate(Image(t));
+  interval.Locate(Imu(1));
+  for (const double t : {4.0, 6.0, 7.9}) EXPECT_EQ(interval.Locate(Image(t)), Part::kSkip);
+  EXPECT_EQ(interval.Locate(Image(8.1)), Part::kEnd);
+}
+
 TEST(RecordingInterval, CountsFromAnImageThatTheNextOneConfirms) {
   for (const double wrong : {-1e9, 1e6}) {
     RecordingInterval all(0, 3);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace plm_vins {
+
+// The options of run_offline. A path is empty where its option is not given.
+struct Arguments {
+  std::string config;
+  std::string bag;
+  std::string asl;
+  std::string features;
+  std::string output;
+  std::string saved_features;
+  std::string map_in;
+  std::string map_out;
+  double start = 0;                                           // [s]
+  double duration = std::numeric_limits<double>::infinity();  // [s]
+  std::vector<std::string> overrides;                         // "key=value"
+  double track_image_interval = 0;                            // [s]; 0: none
+  int threads = 4;
+};
+
+// Tells the parser about them; they are filled as it parses.
+void Declare(Arguments* arguments, CLI::App* app);
+
+// key -> value
+std::map<std::string, std::string> ParseOverrides(const std::vector<std::string>& texts);
+
+}  // namespace plm_vins

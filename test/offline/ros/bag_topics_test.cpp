@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <ros/message_traits.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <std_msgs/Bool.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "common/ros/geometry_conversion.h"
+#include "offline/recordings/bag_recording.h"
+#include "test/offline/recording_contents.h"
+#include "test/testing/temporary_folder.h"
+
+namespace plm_vins {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::ReadAll;
+using testing::RecordingContents;
+
+constexpr int64_t kStart = 1'500'000'000'000'000'000;
+constexpr int64_t kStep = 10'000'000;  // IMU at 100 Hz, every fifth time an image
+constexpr int kSamples = 100;
+constexpr int kImages = 20;
+
+ros::Time Stamp(int i) { return ToRosTime(kStart + i * kStep); }
+
+sensor_msgs::Image Image(int i) {
+  sensor_msgs::Image image;
+  image.header.stamp = Stamp(i);
+  image.encoding = "mono8";
+  image.width = image.step = 64;
+  image.height = 48;
+  image.data.assign(64 * 48, static_cast<uint8_t>(i));
+  return image;
+}
+
+sensor_msgs::Imu Imu(int i) {
+  sensor_msgs::Imu imu;
+  imu.header.stamp = Stamp(i);
+  imu.linear_acceleration.z = 9.81;
+  return imu;
+}
+
+// As of a publisher of its own. Without this header all that is on a topic has one type in the bag.
+template <typename Message>
+void WriteApart(const std::string& topic, int i, const Message& message, rosbag::Bag* bag) {
+  const auto header = boost::make_shared<ros::M_string>();
+  (*header)["topic"] = topic;
+  (*header)["type"] = ros::message_traits::datatype<Message>();
+  (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
+  (*header)["message_definition"] = ros::message_traits::definition<Message>();
+  bag->write(topic, Stamp(i), message, header);
+}
+
+class BagTopics : public ::testing::Test {
+ protected:
+  void WriteImages(rosbag::Bag* bag) {
+    for (int i = 0; i < kSamples; i += 5) bag->write("/cam0/image_raw", Stamp(i), Image(i));
+  }
+  void WriteImu(rosbag::Bag* bag) {
+    for (int i = 0; i < kSamples; ++i) bag->write("/imu0", Stamp(i), Imu(i));
+  }
+
+  std::unique_ptr<Recording> Open() { return OpenBag(file_, "/cam0/image_raw", "/imu0"); }
+
+  void ExpectComplete(const RecordingContents& contents) {
+    EXPECT_EQ(contents.images.size(), size_t{kImages});
+    EXPECT_EQ(contents.imu.size(), size_t{kSamples});
+    EXPECT_EQ(contents.problems.at("messages_malformed"), 0);
+    EXPECT_EQ(contents.problems.at("bag_damaged"), 0);
+  }
+
+  testing::TemporaryFolder folder_;
+  std::string file_ = folder_.File("test.bag");
+};
+
+// Before the images, or behind them.
+TEST_F(BagTopics, MessagesOfAnotherTypeAreCountedAndDoNotKeepFromTheOthers) {
+  for (const int stray_at : {-1, kSamples}) {
+    {
+      rosbag::Bag bag(file_, rosbag::bagmode::Write);
+      WriteApart("/imu0", stray_at, std_msgs::Bool(), &bag);
+      WriteApart("/cam0/image_raw", stray_at, std_msgs::Bool(), &bag);
+      WriteApart("/cam0/image_raw", stray_at, sensor_msgs::CompressedImage(), &bag);
+      WriteImages(&bag);
+      WriteImu(&bag);
+    }
+    const auto recording = Open();
+    const RecordingContents contents = ReadAll(recording.get());
+    ExpectComplete(contents);
+    EXPECT_EQ(contents.problems.at("messages_of_another_type"), 3);
+    const DropCounts problems = recording->problems();
+    const auto others = std::find_if(problems.begin(), problems.end(), [](const DropCount& drop) {
+      return drop.cause == "messages_of_another_type";
+    });
+    EXPECT_THAT(others->detail, HasSubstr("std_msgs/Bool on /"));
+  }
+}
+
+TEST_F(BagTopics, ATopicMayHaveImagesAndSamples) {
+  {
+    rosbag::Bag bag(file_, rosbag::bagmode::Write);
+    for (int i = 0; i < kSamples; ++i) {
+      bag.write("/data", Stamp(i), Imu(i));
+      if (i % 5 == 0) WriteApart("/data", i, Image(i), &bag);
+    }
+  }
+  ExpectComplete(ReadAll(OpenBag(file_, "/data", "/data").get()));
+}
+
+TEST_F(BagTopics, NamesTheTopicOfAMessageThatIsMalformed) {
+  {
+    rosbag::Bag bag(file_, rosbag::bagmode::Write);
+    WriteImages(&bag);
+    WriteImu(&bag);
+  }
+  std::string bytes = folder_.Read("test.bag");
+  const std::string before_size = std::string("mono8") + '\0' + std::string("\x40\0\0\0", 4);
+  bytes.replace(bytes.find(before_size) + before_size.size(), 4, "\xff\xff\xff\xff");
+  folder_.Write("test.bag", bytes);
+  const auto recording = Open();
+  ReadAll(recording.get());
+  EXPECT_EQ(ToString(recording->problems().back()),
+            "messages_malformed: 1 (first: sensor_msgs/Image on /cam0/image_raw)");
+}
+
+// What is not kept cannot be read again from a file that is empty by then.
+TEST_F(BagTopics, ChunksOfTopicsWrittenOneAfterTheOtherAreUnpackedOnce) {
+  {
+    rosbag::Bag bag(file_, rosbag::bagmode::Write);
+    bag.setCompression(rosbag::compression::LZ4);
+    WriteImages(&bag);
+    bag.setChunkThreshold(1'000'000);  // begins a new chunk
+    WriteImu(&bag);
+  }
+  const auto recording = Open();
+  ASSERT_TRUE(recording->Next());
+  ASSERT_TRUE(recording->Next());
+  std::filesystem::resize_file(file_, 0);
+  const RecordingContents rest = ReadAll(recording.get());
+  EXPECT_EQ(rest.stamps.size(), size_t{kImages + kSamples - 2});
+  EXPECT_EQ(rest.problems.at("bag_damaged"), 0);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,179 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What run_offline makes of a simulated flight where something comes in between, and of a second
+one in the map of the first.
+
+Usage: run_flight_test.py SIMULATE RUN_OFFLINE [unittest option ...]
+"""
+
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+
+from evaluation import metrics  # noqa: E402
+from evaluation.trajectory import read_trajectory  # noqa: E402
+
+CONFIG = ROOT / "config" / "euroc.yaml"
+SIMULATE, RUN_OFFLINE = sys.argv[1:3] if len(sys.argv) > 2 else sys.exit(__doc__)
+RATE_HZ = 10
+IMAGES = 100  # of the first flight
+CLOCK_ERROR_NS = 100_000_000_000
+PATIENCE = 300  # [s]
+
+
+def simulate(folder, motion, seconds):
+    command = [SIMULATE, "--asl", folder, "--config", CONFIG, "--motion", motion, "--duration",
+               seconds, "--frame-rate", RATE_HZ, "--exposure", 0]
+    subprocess.run([str(word) for word in command], stderr=subprocess.DEVNULL, check=True)
+
+
+def heed_signals():
+    """In the background of a shell programs are made to ignore them."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def start(*options):
+    command = [RUN_OFFLINE, "--config", CONFIG, *options]
+    return subprocess.Popen([str(word) for word in command], stderr=subprocess.PIPE,
+                            encoding="utf-8", preexec_fn=heed_signals)
+
+
+def wait_until(is_so):
+    deadline = time.monotonic() + PATIENCE
+    while not is_so() and time.monotonic() < deadline:
+        time.sleep(0.005)
+
+
+class RunFlight(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.flights = pathlib.Path(folder.name)
+        simulate(cls.flights / "first", "gentle", IMAGES / RATE_HZ)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.results = self.folder / "results"
+
+    def run_flight(self, flight, *options, exit_code=0):
+        """What the program says."""
+        process = start("--asl", flight, "--output", self.results, *options)
+        error = process.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(process.returncode, exit_code, error)
+        return error
+
+    def start_first(self, *options, images=1):
+        """Returns the process once it has done so many of the images."""
+        shutil.rmtree(self.results, ignore_errors=True)
+        process = start("--asl", self.flights / "first", "--output", self.results,
+                        "--save-track-images", 1e-3, "--threads", 1, *options)
+        self.addCleanup(process.stderr.close)
+        wait_until(lambda: process.poll() is not None
+                   or len(list(self.results.glob("tracks/*.jpg"))) >= images)
+        self.assertIsNone(process.poll())
+        return process
+
+    def summary(self):
+        return json.loads((self.results / "summary.json").read_text(encoding="utf-8"))
+
+    def test_an_interrupted_run_leaves_complete_files(self):
+        saved = ["--map-out", self.folder / "map.plm", "--save-features", self.folder / "features"]
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = self.start_first(*saved, images=40)
+            process.send_signal(number)
+            error = process.communicate(timeout=PATIENCE)[1]
+            self.assertEqual(process.returncode, 128 + number, error)
+            self.assertRegex(error, r"\nrun_offline: interrupted at \d+\.\d s\n$")
+            frames = self.summary()["frames"]
+            self.assertLess(frames, IMAGES - 1)
+            rows = (self.results / "timing.csv").read_text(encoding="utf-8").split("\n")
+            self.assertEqual(len(rows), frames + 2)  # the header, and an end of the last line
+            self.assertEqual(len(rows[0].split(",")), len(rows[-2].split(",")))
+            self.assertFalse(list(self.folder.rglob("*.part")))
+            again = start("--features", self.folder / "features", "--output", self.folder / "again")
+            again.communicate(timeout=PATIENCE)
+            summary = (self.folder / "again" / "summary.json").read_text(encoding="utf-8")
+            self.assertEqual(json.loads(summary)["frames"], frames)
+        self.run_flight(self.flights / "first", "--map-in", self.folder / "map.plm")
+
+    def test_a_second_signal_ends_the_program_at_once(self):
+        process = self.start_first()
+        os.mkfifo(self.results / "lines.ply")  # which holds up its end, as nobody reads
+        process.send_signal(signal.SIGINT)
+        picture = self.results / "line_tracks.png"
+        wait_until(lambda: process.poll() is not None or picture.exists())
+        time.sleep(0.2)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=PATIENCE), -signal.SIGTERM)
+
+    def test_results_stay_where_the_map_and_features_cannot_be_saved(self):
+        gone = self.folder / "gone"
+        gone.mkdir()
+        process = self.start_first("--map-out", gone / "map.plm", "--save-features",
+                                   gone / "flight.features")
+        shutil.rmtree(gone)
+        error = process.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(process.returncode, 1, error)
+        for name in ("map.plm", "flight.features"):
+            self.assertIn(f"cannot write {gone / name}", error)
+        self.assertIn("loops", self.summary())
+        self.assertEqual(len(read_trajectory(self.results / "trajectory_final.tum")),
+                         self.summary()["poses"])
+
+    def test_two_clocks(self):
+        flight = self.folder / "flight"
+        shutil.copytree(self.flights / "first", flight)
+        table = flight / "mav0" / "imu0" / "data.csv"
+        header, *rows = table.read_text(encoding="utf-8").splitlines()
+        shifted = [f"{int(stamp) + CLOCK_ERROR_NS},{values}"
+                   for stamp, values in (row.split(",", 1) for row in rows)]
+        table.write_text("\n".join([header, *shifted]) + "\n", encoding="utf-8")
+        begin = "warning: images begin at 1600000000.100 s and "
+        for options, imu in [((), "IMU samples at 1600000100.000 s"),
+                             (("--duration", 2), "no IMU sample has come by their end")]:
+            error = self.run_flight(flight, *options, exit_code=1)
+            self.assertIn(begin + imu + "; both must have one clock\n", error)
+
+    def test_a_second_flight_in_the_map_of_the_first(self):
+        second = self.flights / "second"
+        simulate(second, "fast", 14)
+        plm = self.folder / "map.plm"
+        self.run_flight(self.flights / "first", "--map-out", plm)
+        mapped = read_trajectory(self.results / "trajectory_final.tum")
+        truth = read_trajectory(self.flights / "first" / "groundtruth.tum")
+        rotation, translation = metrics.alignment(mapped, truth.at(mapped.stamps), "se3")
+
+        self.run_flight(second, "--map-in", plm)
+        self.assertLess(self.summary()["loops"]["first_fix_s"], 5)
+        poses = read_trajectory(self.results / "trajectory_map.tum")
+        self.assertGreater(len(poses), 50)
+        poses = poses.transformed(rotation, translation)
+        truth = read_trajectory(second / "groundtruth.tum").at(poses.stamps)
+        errors = np.linalg.norm(poses.positions - truth.positions, axis=1)
+        steps = np.linalg.norm(np.diff(poses.positions - truth.positions, axis=0), axis=1)
+        print(f"{self.id()}: {len(poses)} poses in the map, off by {1000 * errors.mean():.0f} mm,"
+              f" {1000 * errors.max():.0f} mm at most; largest step {1000 * steps.max():.0f} mm")
+        self.assertLess(errors.mean(), 0.03)
+        self.assertLess(errors.max(), 0.06)
+        self.assertLess(steps.max(), 0.03)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -11,8 +11,8 @@ Usage: demo.sh [--bag FILE | --asl DIR] [--config FILE] [--groundtruth FILE] [--
   --asl DIR           an EuRoC ASL folder (the one with mav0/ inside)
                       without either: a simulated recording, made once
   --config FILE       camera, IMU and options (default: config/euroc.yaml)
-  --groundtruth FILE  TUM file or EuRoC csv to compare with (default: FILE.tum beside FILE.bag,
-                      or the one in the ASL folder)
+  --groundtruth FILE  TUM file, EuRoC csv or ASL folder to compare with (default: FILE.tum beside
+                      FILE.bag, or the one in the ASL folder)
   --output DIR        where results go (default: output/demo)
   --rviz              run the nodes, rosbag play and rviz instead of the offline runner
 EOF
@@ -43,7 +43,7 @@ done
 [[ -z "$bag" || -z "$asl" ]] || fail "give either --bag or --asl"
 [[ -z "$bag" || -f "$bag" ]] || fail "$bag: no such bag"
 [[ -z "$asl" || -d "$asl" ]] || fail "$asl: no such folder"
-[[ -z "$truth" || -f "$truth" ]] || fail "$truth: no such ground truth"
+[[ -z "$truth" || -e "$truth" ]] || fail "$truth: no such ground truth"
 [[ "$rviz" == false || -z "$asl" ]] || fail "--rviz plays bags, not ASL folders"
 [[ "$rviz" == false || -z "$truth" ]] || fail "--rviz compares nothing; leave --groundtruth out"
 [[ -f "$config" ]] || fail "$config: no such config"

@@ -3,7 +3,9 @@
 """Compares a trajectory with ground truth: APE and RPE as evo computes them, and coverage."""
 
 import argparse
+import contextlib
 import json
+import math
 import sys
 
 import numpy as np
@@ -11,7 +13,7 @@ import numpy as np
 from evaluation import consistency, evo_backend, metrics
 from evaluation.evo_zip import write_evo_zip
 from evaluation.run_results import read_estimate
-from evaluation.trajectory import TrajectoryError, read_trajectory
+from evaluation.trajectory import TrajectoryError, read_truth
 
 FIGURES = ("rmse", "mean", "median", "std", "min", "max")
 LABELS = {
@@ -130,33 +132,46 @@ def _format_row(figures):
 def parse_arguments(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("estimate", help="trajectory in TUM format")
-    parser.add_argument("ground_truth", help="TUM file or EuRoC csv (.../data.csv)")
+    parser.add_argument("ground_truth", help="TUM file, EuRoC csv (.../data.csv) or ASL folder")
     parser.add_argument("--plots", metavar="DIR", help="write PNG figures there")
     parser.add_argument("--json", metavar="FILE", help="write all figures there")
     parser.add_argument("--evo-zip", metavar="FILE",
                         help="write the APE there, for evo_res, which names it as the file")
     parser.add_argument("--align", choices=metrics.ALIGNMENTS, default="se3",
                         help="alignment without scale before the errors are taken (default: se3)")
-    parser.add_argument("--max-diff", type=float, default=metrics.MAX_DIFFERENCE, metavar="S",
+    parser.add_argument("--max-diff", type=_seconds, default=metrics.MAX_DIFFERENCE, metavar="S",
                         help="largest difference between paired stamps [s] (default: %(default)s)")
-    parser.add_argument("--t-offset", type=float, metavar="S",
+    parser.add_argument("--t-offset", type=_finite, metavar="S",
                         help="added to the stamps of the estimate [s] (default: td_s in the"
                         " summary.json beside it, 0 where there is none)")
-    parser.add_argument("--max-gap", type=float, default=metrics.MAX_GAP, metavar="S",
+    parser.add_argument("--max-gap", type=_seconds, default=metrics.MAX_GAP, metavar="S",
                         help="longer gaps between poses count as not covered [s] (default:"
                         " %(default)s)")
     parser.add_argument("--covariance", metavar="FILE",
                         help="covariance.csv of the run: compares errors with it")
-    parser.add_argument("--nees-after", type=float, default=10.0, metavar="S",
+    parser.add_argument("--nees-after", type=_seconds, default=10.0, metavar="S",
                         help="for --covariance, so long after the first pose [s] (default: 10)")
     return parser.parse_args(arguments)
+
+
+def _finite(text):
+    with contextlib.suppress(ValueError):
+        if math.isfinite(float(text)):
+            return float(text)
+    raise argparse.ArgumentTypeError(f"expected seconds instead of {text}")
+
+
+def _seconds(text):
+    if _finite(text) < 0:
+        raise argparse.ArgumentTypeError(f"expected seconds, zero or more, instead of {text}")
+    return float(text)
 
 
 def main(arguments=None):
     options = parse_arguments(arguments)
     try:
         estimate = read_estimate(options.estimate, options.t_offset)
-        truth = read_trajectory(options.ground_truth)
+        truth = read_truth(options.ground_truth)
         paired_estimate, paired_truth, result = evaluate(estimate, truth, options.align,
                                                          options.max_diff, options.max_gap)
         if options.covariance:

@@ -13,7 +13,7 @@ from evaluate import evaluate
 from evaluation import loops as loop_metrics
 from evaluation import metrics
 from evaluation.run_results import read_estimate
-from evaluation.trajectory import LEAST_POSES, TrajectoryError, read_trajectory
+from evaluation.trajectory import LEAST_POSES, TrajectoryError, read_truth
 
 FALSE_DISTANCE = 0.3  # a loop that is off by more is false [m]
 FALSE_TURN = 5.0  # [deg]
@@ -25,7 +25,7 @@ TRAJECTORIES = {ODOMETRY: "odometry", IN_MAP: "map, as known at each time",
 def evaluate_loops(folder, truth_path, t_offset=None):
     """All figures of the results of a run in `folder`, as a dictionary. `t_offset` [s] goes before
     the `td` of the run."""
-    truth = read_trajectory(truth_path)
+    truth = read_truth(truth_path)
     odometry = read_estimate(folder / ODOMETRY, t_offset)
     trajectories = {ODOMETRY: odometry,
                     # Empty where the place in the map is never found.
@@ -80,9 +80,7 @@ def format_closed(share, seconds, what):
 
 def format_report(result):
     lines = [
-        f"{result['loops']} loops, {result['false_loops']} false (off by more than"
-        f" {FALSE_DISTANCE} m or {FALSE_TURN:.0f} deg), the largest error"
-        f" {1000 * result['largest_error_m']:.0f} mm, {result['largest_error_deg']:.1f} deg",
+        _loops_line(result),
         format_closed(result["closed_share"], result["revisited_s"], "revisits"),
         format_closed(result["closed_share_of_returns"], result["returned_s"],
                       "returns after having left"),
@@ -102,6 +100,14 @@ def format_report(result):
     return "\n".join(lines)
 
 
+def _loops_line(result):
+    if result["loops"] == 0:
+        return "no loops to compare"
+    return (f"{result['loops']} loops, {result['false_loops']} false (off by more than"
+            f" {FALSE_DISTANCE} m or {FALSE_TURN:.0f} deg), the largest error"
+            f" {1000 * result['largest_error_m']:.0f} mm, {result['largest_error_deg']:.1f} deg")
+
+
 def _ape_line(result, name):
     ape, poses, worlds = (result[key][name] for key in ("ape_m", "poses", "worlds"))
     if ape is None:
@@ -116,7 +122,7 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("results", type=pathlib.Path,
                         help="folder that run_offline wrote with loop_closure: 1")
-    parser.add_argument("ground_truth", help="TUM file or EuRoC csv (.../data.csv)")
+    parser.add_argument("ground_truth", help="TUM file, EuRoC csv (.../data.csv) or ASL folder")
     parser.add_argument("--json", metavar="FILE", help="write all figures there")
     parser.add_argument("--t-offset", type=float, metavar="S",
                         help="added to the stamps of the run [s] (default: td_s in its"

@@ -87,17 +87,24 @@ def image_topic(config):
         text = file.read()
     # OpenCV begins its YAML with a directive that is none.
     lines = [line for line in text.splitlines() if not line.startswith("%YAML")]
-    return yaml.safe_load("\n".join(lines).replace("!!opencv-matrix", ""))["image_topic"]
+    contents = yaml.safe_load("\n".join(lines).replace("!!opencv-matrix", ""))
+    topic = contents.get("image_topic") if isinstance(contents, dict) else None
+    if not isinstance(topic, str):
+        raise RuntimeError(f"{config}: has no image_topic; give the configuration of the sensors")
+    return topic
 
 
-def subscribe(options, latencies):
-    """Returns the topic of the images."""
-    topic, kind = image_topic(options.config), Image
+def image_source(options):
+    """Topic and type of the images."""
+    topic = image_topic(options.config)
     if options.image_transport == "compressed":
-        topic, kind = topic + "/compressed", CompressedImage
+        return topic + "/compressed", CompressedImage
+    return topic, Image
+
+
+def subscribe(topic, kind, latencies):
     rospy.Subscriber(topic, kind, latencies.add_image, queue_size=100, buff_size=1 << 24)
     rospy.Subscriber("/vins_estimator/odometry", Odometry, latencies.add_odometry, queue_size=100)
-    return topic
 
 
 def launch_file():
@@ -107,16 +114,20 @@ def launch_file():
 
 
 def launch(options, output):
-    command = ["roslaunch", *launch_file(), f"bag:={os.path.abspath(options.bag)}",
-               f"config:={os.path.abspath(options.config)}", f"rate:={options.rate}",
+    command = ["roslaunch", *launch_file(), f"config:={os.path.abspath(options.config)}",
                f"nodelets:={str(options.nodelets).lower()}", f"output:={output}",
                "use_sim_time:=false",  # no sensor publishes a clock, which costs each node
                f"image_transport:={options.image_transport}"]
     if options.loop_closure:
         command.append("loop_closure:=true")
-    if options.duration:
-        command.append(f"duration:={options.duration}")
     return subprocess.Popen(command, stdout=subprocess.DEVNULL)
+
+
+def play(options):
+    """The delay gives the nodes time to subscribe."""
+    span = ["--duration", str(options.duration)] if options.duration else []
+    return subprocess.Popen(["rosbag", "play", "--quiet", "--delay", "3", "--rate",
+                             str(options.rate), *span, options.bag], stdout=subprocess.DEVNULL)
 
 
 def wait_for_master(process):
@@ -129,28 +140,48 @@ def wait_for_master(process):
 
 def measure(options, output):
     """Latencies and the processor's seconds by node."""
-    latencies, costs = Latencies(), {}
-    process = launch(options, output)
+    (topic, kind), latencies = image_source(options), Latencies()
+    running = [launch(options, output)]
     try:
-        wait_for_master(process)
+        wait_for_master(running[0])
         rospy.init_node("measure_latency", anonymous=True, disable_signals=True)
-        topic = subscribe(options, latencies)
-        processes, deadline = {}, time.monotonic() + START_TIMEOUT
-        while process.poll() is None and not latencies.ended:
-            if not latencies.begun and time.monotonic() > deadline:
-                raise RuntimeError(f"no image came on {topic} in {START_TIMEOUT} s: see"
-                                   f" image_topic in {options.config} and --image-transport")
-            find_nodes(processes)
-            for node, identity in processes.items():
-                if os.path.exists(f"/proc/{identity}"):
-                    costs[node] = processor_seconds(identity)
-            time.sleep(0.2)
+        subscribe(topic, kind, latencies)
+        running.append(play(options))
+        return latencies, watch(options, topic, latencies, *running)
     finally:
-        process.send_signal(signal.SIGINT)
-        process.wait()
+        for process in reversed(running):
+            process.send_signal(signal.SIGINT)
+            process.wait()
+
+
+def watch(options, topic, latencies, nodes, player):
+    """The processor's seconds by node, once images come no more or the nodes have ended.
+    RuntimeError where no image comes at all."""
+    costs, processes, deadline = {}, {}, time.monotonic() + START_TIMEOUT
+    while nodes.poll() is None and not latencies.ended:
+        find_nodes(processes)
+        for node, identity in processes.items():
+            if os.path.exists(f"/proc/{identity}"):
+                costs[node] = processor_seconds(identity)
+        played = player.poll()  # what it sent last may still be on its way
+        time.sleep(0.2)
+        if not latencies.begun:
+            check_player(options, topic, played, time.monotonic() > deadline)
     if not latencies.begun:
         raise RuntimeError(f"the nodes ended before an image came on {topic}")
-    return latencies, costs
+    return costs
+
+
+def check_player(options, topic, exit_code, is_late):
+    """RuntimeError where no image is to be expected any more; `exit_code` is None of one that still
+    plays."""
+    if exit_code:
+        raise RuntimeError(f"rosbag play ended with code {exit_code}: is {options.bag} a whole"
+                           " bag?")
+    if exit_code == 0 or is_late:
+        when = f"in {START_TIMEOUT} s" if exit_code is None else f"from {options.bag}"
+        raise RuntimeError(f"no image came on {topic} {when}: see image_topic in {options.config}"
+                           " and --image-transport")
 
 
 def report(latencies, costs):
@@ -169,7 +200,9 @@ def report(latencies, costs):
 
 
 def check_files(options):
-    for file in (options.bag, options.config):
+    for file, wanted in ((options.bag, "ROS bag"), (options.config, "configuration")):
+        if os.path.isdir(file):
+            raise RuntimeError(f"{file}: a folder; give the file of the {wanted}")
         if not os.path.isfile(file):
             raise RuntimeError(f"{file}: no such file")
 
@@ -194,7 +227,7 @@ def main(arguments=None):
         check_files(options)
         with tempfile.TemporaryDirectory() as output:
             latencies, costs = measure(options, output)
-    except (RuntimeError, OSError, KeyError, yaml.YAMLError) as error:
+    except (RuntimeError, OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         print(f"measure_latency.py: {error}", file=sys.stderr)
         return 1
     print(report(latencies, costs))

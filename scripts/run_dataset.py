@@ -14,7 +14,8 @@ import os
 import sys
 
 from dataset.comparison import write_comparison
-from dataset.environment import find_config, find_program, machine, usable_cores
+from dataset.environment import (check_config, find_config, find_program, machine,
+                                 usable_cores)
 from dataset.errors import DatasetError
 from dataset.executors import open_executor
 from dataset.progress import Progress
@@ -120,8 +121,11 @@ def locked(folder):
         yield
 
 
-def announce(sequences, runs, unfinished, where):
+def announce(sequences, evaluator, runs, unfinished, where):
     for sequence in sequences:
+        if sequence.name in evaluator.unreadable:
+            print(f"run_dataset.py: {sequence.name}: {evaluator.unreadable[sequence.name]}; it runs"
+                  " without", file=sys.stderr)
         truth = sequence.truth or "none, so no APE (put it beside the recording as"\
             f" {sequence.name}.tum or .csv)"
         print(f"{sequence.name}: {sequence.path}; ground truth: {truth}")
@@ -162,14 +166,16 @@ def run_dataset(options):
     with locked(settings.output), open_executor(
             options.scheduler, options.jobs) as (executor, where):
         unfinished = [run for run in runs if not run.is_finished()]
-        announce(sequences, runs, unfinished, where)
+        if unfinished:
+            check_config(settings.program, settings.config, settings.overrides)
+        announce(sequences, evaluator, runs, unfinished, where)
         progress = Progress(len(unfinished), lambda run: describe(evaluator.result(run)))
         if not carry_out(unfinished, executor, settings.output, progress):
             left = sum(not run.is_finished() for run in runs)
             print(f"run_dataset.py: interrupted with {left} of {len(runs)} runs left; the same"
                   " command goes on from here", file=sys.stderr)
             return INTERRUPTED
-        results = Results(evaluator.result(run) for run in runs)
+        results = Results((evaluator.result(run) for run in runs), options.duration)
         if settings.fingerprint() != fingerprint:
             print("run_dataset.py: the program or the configuration has changed meanwhile, so runs"
                   " may not be comparable; the same command repeats them all", file=sys.stderr)

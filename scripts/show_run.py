@@ -8,7 +8,7 @@ import os
 import sys
 
 from dataset.sequences import find_truth
-from evaluation.trajectory import TrajectoryError, read_trajectory
+from evaluation.trajectory import TrajectoryError, read_truth
 from pages.html import embedded_plotly
 from pages.run_folder import RunFolder
 from pages.run_page import run_page
@@ -18,8 +18,8 @@ def parse_arguments(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("run", metavar="RUN_DIR", help="folder that run_offline wrote")
     parser.add_argument("--groundtruth", metavar="FILE",
-                        help="TUM file or EuRoC csv (default: that of the recording, if it is still"
-                        " where it was)")
+                        help="TUM file, EuRoC csv or ASL folder (default: that of the recording, if"
+                        " it is still where it was)")
     parser.add_argument("--output", metavar="FILE", help="the page (default: RUN_DIR/run.html)")
     return parser.parse_args(arguments)
 
@@ -31,7 +31,7 @@ def main(arguments=None):
         run = RunFolder.read(options.run)
         recording = run.summary.get("input")
         truth = options.groundtruth or (recording and find_truth(recording))
-        text = run_page(run, truth and read_trajectory(truth), embedded_plotly())
+        text = run_page(run, truth and read_truth(truth), embedded_plotly())
         with open(output, "w", encoding="utf-8") as file:
             file.write(text)
     except (TrajectoryError, OSError) as error:

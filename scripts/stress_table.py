@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-from evaluation.trajectory import TrajectoryError, read_trajectory
+from evaluation.trajectory import TrajectoryError, read_truth
 from stress import feature_file
 from stress.damage import assess
 from stress.faults import FAULTS
@@ -27,7 +27,7 @@ NAMED = ("imu_implausible", "imu_replaced", "imu_saturated", "imu_gaps", *FOUND)
 def parse_arguments(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("features", help="what run_offline --save-features wrote")
-    parser.add_argument("ground_truth", help="TUM file or EuRoC csv")
+    parser.add_argument("ground_truth", help="TUM file, EuRoC csv or ASL folder")
     parser.add_argument("--begin", type=float, default=24.0, metavar="S",
                         help="when the faults begin, since the first image [s] (default: 24)")
     parser.add_argument("--faults", nargs="+", choices=FAULTS, default=list(FAULTS), metavar="NAME")
@@ -77,11 +77,11 @@ def _noticed(output):
 def main(arguments=None):
     options = parse_arguments(arguments)
     try:
-        truth = read_trajectory(options.ground_truth)
-        print(HEAD)
+        truth = read_truth(options.ground_truth)
         with tempfile.TemporaryDirectory() as folder:
-            for name in options.faults:
-                print(row(name, options, truth, folder), flush=True)
+            for number, name in enumerate(options.faults):
+                line = row(name, options, truth, folder)
+                print(*([] if number else [HEAD]), line, sep="\n", flush=True)
     except (TrajectoryError, OSError, ValueError) as error:
         print(f"stress_table.py: {error}", file=sys.stderr)
         return 1

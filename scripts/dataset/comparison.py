@@ -39,9 +39,7 @@ def _write_pictures(output, results, evaluator):
                                                 METRIC["ape_m"].title)
         pictures["All sequences"] = paths
     for sequence in results.sequences:
-        typical = {v: results.typical(sequence, v) for v in results.variants}
-        pairs = {variant: evaluator.compare(result.run, result.summary)[:2]
-                 for variant, result in typical.items() if result}
+        pairs = evaluator.typical_pairs(results, sequence)
         if pairs:
             folder = os.path.join(output, "plots", sequence)
             pictures[sequence] = comparison_plots.write_comparison(folder, pairs)

@@ -4,6 +4,8 @@
 import os
 import platform
 import shutil
+import subprocess
+import tempfile
 
 from .errors import DatasetError
 
@@ -39,6 +41,24 @@ def find_config(given=None):
         if os.path.isfile(path):
             return os.path.abspath(path)
     raise DatasetError(f"--config {candidates[0]}: no such file")
+
+
+def check_config(program, config, overrides):
+    """Raises DatasetError with all that run_offline finds wrong with the configuration. It is given
+    an empty folder for a recording, which it looks at last."""
+    with tempfile.TemporaryDirectory() as empty:
+        command = [program, "--config", config, "--asl", empty, "--output",
+                   os.path.join(empty, "output")]
+        for key, value in overrides.items():
+            command += ["--set", f"{key}={value}"]
+        run = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                             stderr=subprocess.PIPE, encoding="utf-8", errors="replace",
+                             check=False)
+    said = f"run_offline: {config}"
+    problems = [line[len("run_offline: "):] for line in run.stderr.splitlines()
+                if line.startswith((f"{said}:", f"{said} (override):"))]
+    if problems:
+        raise DatasetError("\n".join(problems))
 
 
 def usable_cores():

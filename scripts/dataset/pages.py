@@ -26,7 +26,7 @@ def write_pages(output, results, evaluator, facts):
     sections = [("About", html.table([[html.text(cell) for cell in fact] for fact in facts])),
                 ("Runs", _run_table(results, links))]
     for number, sequence in enumerate(results.sequences):
-        pairs = _typical_pairs(results, evaluator, sequence)
+        pairs = evaluator.typical_pairs(results, sequence)
         if pairs:
             sections.append((sequence, _sequence_figures(pairs, number)))
     path = os.path.join(output, "index.html")
@@ -62,13 +62,6 @@ def _run_table(results, links):
                    for name in COLUMNS]
         rows.append([name, *figures, html.text(result.failure or result.not_compared or "")])
     return html.table(rows, heading)
-
-
-def _typical_pairs(results, evaluator, sequence):
-    """Of each variant the run with the median APE: aligned estimate and truth at its poses."""
-    typical = {v: results.typical(sequence, v) for v in results.variants}
-    return {variant: evaluator.compare(result.run, result.summary)[:2]
-            for variant, result in typical.items() if result}
 
 
 def _sequence_figures(pairs, number):

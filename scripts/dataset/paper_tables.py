@@ -24,7 +24,8 @@ class _Column:
 
 def paper_table(table, results):
     """One table of the paper as markdown: its columns, then ours. A recording of ours belongs to
-    the sequence whose name it contains; sequences without one have a line too."""
+    the sequence whose name it contains; sequences without one have a line too. Differences to the
+    paper and averages are of whole sequences only: of recordings that have just its name, uncut."""
     lines = [(sequence, name) for sequence in SEQUENCES
              for name in [n for n in results.sequences if paper_sequence(n) == sequence] or [None]]
     paper, ours = _paper_columns(table), _our_columns(table, results)
@@ -32,9 +33,14 @@ def paper_table(table, results):
             + [name or cells.NONE] + [column.text(sequence, name) for column in ours]
             for sequence, name in lines]
     if table.with_differences:
-        rows += _averages(lines, paper, ours)
+        rows += _averages([line for line in lines if _is_the_same(*line, results)], paper, ours)
     heading = ["sequence", *(c.heading for c in paper), "recording", *(c.heading for c in ours)]
     return f"### Table {table.number}. {table.title}\n\n{Table(heading, rows)}"
+
+
+def _is_the_same(sequence, name, results):
+    """Whether a recording of ours is the paper's sequence, as far as can be seen."""
+    return name == sequence and results.whole
 
 
 def _paper_columns(table):
@@ -63,15 +69,20 @@ def _our_columns(table, results):
         return _Column(f"ours: {variant}", value, text, metric.decimals)
 
     columns = [column(variant) for variant in table.variants]
-    return columns + [_our_difference(table, columns)] if table.with_differences else columns
+    if not table.with_differences:
+        return columns
+    return columns + [_our_difference(table, columns, results)]
 
 
-def _our_difference(table, ours):
+def _our_difference(table, ours, results):
     """Of our two variants, or of the paper's first column and our only variant."""
     heading, first = "ours: difference", ours[0].value
     if len(ours) == 1:
         name, figures = next(iter(table.columns.items()))
-        heading, first = f"{name} - ours", lambda sequence, _: figures[sequence]
+        heading = f"{name} - ours"
+
+        def first(sequence, name):
+            return figures[sequence] if _is_the_same(sequence, name, results) else None
 
     def value(*line):
         before, after = first(*line), ours[-1].value(*line)
@@ -82,8 +93,8 @@ def _our_difference(table, ours):
 
 
 def _averages(lines, paper, ours):
-    """Rows of averages over all sequences, and over those of which every column of ours has a
-    figure where these are fewer."""
+    """Rows of averages over all sequences, and over those `lines` of which every column of ours has
+    a figure where these are fewer."""
     complete = [line for line in lines if all(c.value(*line) is not None for c in ours)]
     every = [(sequence, None) for sequence in SEQUENCES]
     have_all = {sequence for sequence, _ in complete} == set(SEQUENCES)

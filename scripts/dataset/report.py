@@ -114,10 +114,12 @@ def _paper_part(results, time_notes):
     if not any(paper_sequence(name) for name in results.sequences):
         return "## Beside the paper\n\nNone of the sequences is one of the paper's."
     return ("## Beside the paper\n\nThe paper's figures, and ours of the recordings whose name has"
-            " the name of its sequence: a part of a sequence or a recording made after it is"
-            " another task. The paper gives no coverage; its times are of another computer. Ours"
-            " are means over the images that lines are extracted from; in the others they are only"
-            " followed.\n\n" + "\n\n".join([time_notes] * bool(time_notes) + tables))
+            " the name of its sequence. A part of a sequence, or a recording made after it, is"
+            " another task: only recordings with just that name, run uncut, have a difference to"
+            " the paper and count in averages. The paper gives no coverage; its times are of"
+            " another computer. Ours are means over the images that lines are extracted from; in"
+            " the others they are only followed.\n\n"
+            + "\n\n".join([time_notes] * bool(time_notes) + tables))
 
 
 def _pictures(figures):

@@ -120,9 +120,9 @@ class Spread:
 
 
 class Results:
-    """The results of all runs, by sequence and variant."""
+    """The results of all runs, by sequence and variant. `duration` [s]: None for all of it."""
 
-    def __init__(self, results):
+    def __init__(self, results, duration=None):
         self._cells = {}
         for result in results:
             key = (result.run.sequence.name, result.run.variant)
@@ -130,6 +130,7 @@ class Results:
         self.sequences = list(dict.fromkeys(sequence for sequence, _ in self._cells))
         self.variants = list(dict.fromkeys(variant for _, variant in self._cells))
         self.starts = sorted({result.run.start for result in self.all()})
+        self.whole = self.starts == [0.0] and duration is None
 
     def runs(self, sequence, variant):
         """From every start, with every repetition."""
@@ -185,11 +186,16 @@ class Results:
 class Evaluator:
     """Reads the results of runs and compares them with the ground truth of their sequences.
 
-    Raises TrajectoryError at once if a ground truth is not readable.
+    A ground truth that cannot be read counts as none; `unreadable` has the reasons by sequence.
     """
 
     def __init__(self, sequences, duration=None):
-        self._truths = {s.name: read_trajectory(s.truth) for s in sequences if s.truth}
+        self._truths, self.unreadable = {}, {}
+        for sequence in (s for s in sequences if s.truth):
+            try:
+                self._truths[sequence.name] = read_trajectory(sequence.truth)
+            except (TrajectoryError, OSError) as error:
+                self.unreadable[sequence.name] = f"no readable ground truth: {error}"
         self._duration = float("inf") if duration is None else duration
 
     def result(self, run):
@@ -206,6 +212,9 @@ class Evaluator:
         if run.sequence.truth is None:
             result.not_compared = "no ground truth"
             return result
+        if run.sequence.name in self.unreadable:
+            result.not_compared = self.unreadable[run.sequence.name]
+            return result
         try:
             result.evaluation = self.compare(run, result.summary)[2]
         except TrajectoryError as error:
@@ -218,6 +227,13 @@ class Evaluator:
         check_whole(path)  # else the first pose is not the one that init_time_s leads to
         estimate = read_estimate(path)
         return evaluate(estimate, self.truth(run, summary, estimate))
+
+    def typical_pairs(self, results, sequence):
+        """Of each variant the run with the median APE, by a name that says where it starts: aligned
+        estimate and truth at its poses."""
+        typical = [results.typical(sequence, variant) for variant in results.variants]
+        return {_label(result.run, results): self.compare(result.run, result.summary)[:2]
+                for result in typical if result}
 
     def truth(self, run, summary, estimate):
         """The ground truth of the part that was run, or None. `estimate`: all of its poses, on the
@@ -233,6 +249,10 @@ class Evaluator:
         if inside.sum() < 3:
             raise TrajectoryError("no ground truth in the part of the recording that was run")
         return truth.select(inside)
+
+
+def _label(run, results):
+    return run.variant if results.starts == [0.0] else f"{run.variant}, from {run.start:g} s"
 
 
 def _mean_line_extraction(folder):

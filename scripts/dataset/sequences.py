@@ -6,9 +6,11 @@ import os
 from dataclasses import dataclass
 from typing import Optional
 
+from evaluation.trajectory import TRUTH_IN_FOLDER
+
 from .errors import DatasetError
 
-ASL_TRUTH = os.path.join("mav0", "state_groundtruth_estimate0", "data.csv")
+ASL_TRUTH = os.path.join("mav0", TRUTH_IN_FOLDER)
 ASL_IMAGES = os.path.join("mav0", "cam0", "data.csv")
 ASL_IMU = os.path.join("mav0", "imu0", "data.csv")
 

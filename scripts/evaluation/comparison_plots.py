@@ -30,9 +30,10 @@ def write_overview(folder, name, values, label):
                                    constrained_layout=True)
     width, places = 0.85 / len(values), np.arange(len(sequences))
     for index, (variant, figures) in enumerate(values.items()):
-        heights, deviations = zip(*(figures[s] for s in sequences))
+        heights, deviations = np.array([figures[s] for s in sequences], dtype=float).T
+        errors = [np.fmin(heights, deviations), deviations]  # no error is below 0
         axis.bar(places + (index - (len(values) - 1) / 2) * width, heights, width, label=variant,
-                 color=COLOURS[index % len(COLOURS)], yerr=deviations)
+                 color=COLOURS[index % len(COLOURS)], yerr=errors)
     axis.set_xticks(places)
     axis.set_xticklabels(sequences, rotation=20, ha="right")
     axis.set_ylabel(label)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Whether the errors of a trajectory are as large as its stated covariance says."""
 
+import warnings
+
 import numpy as np
 
 from . import metrics
@@ -13,7 +15,9 @@ def read_covariances(path, stamps):
     """Covariances (n, 6, 6) of the poses at `stamps` [s]: position in the world, then rotation in
     the body, from the covariance.csv of `run_offline`."""
     try:
-        table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of files without rows; the check below says it
+            table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
     except (OSError, ValueError) as error:
         raise TrajectoryError(f"{path}: {error}") from None
     if table.shape[1] != _COLUMNS or len(table) < 2:

@@ -37,13 +37,13 @@ def save_figures(folder, figures):
 
 
 def draw_trajectory(axis, estimate, truth, plane, highest_error=None):
-    """Draws the estimate coloured by its position errors over the ground truth; returns the dots,
+    """Draws the estimate coloured by its position errors under the ground truth; returns the dots,
     to which a colour bar belongs. `plane`: indices of the axes to the right and upwards."""
     horizontal, vertical = plane
-    draw_path(axis, truth, plane, "--", color="0.55", label="ground truth")
     dots = axis.scatter(estimate.positions[:, horizontal], estimate.positions[:, vertical],
-                        c=position_errors(estimate, truth), cmap="viridis", s=5, label="estimate",
+                        c=position_errors(estimate, truth), cmap="viridis", s=14, label="estimate",
                         vmin=0 if highest_error else None, vmax=highest_error)
+    draw_path(axis, truth, plane, "--", color="black", label="ground truth", zorder=3)
     return dots
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 LEAST_POSES = 3  # that an alignment needs
+TRUTH_IN_FOLDER = os.path.join("state_groundtruth_estimate0", "data.csv")  # of an ASL folder
 RESTART = "# the world frame starts anew"  # the comment of run_offline and the nodes
 
 
@@ -73,6 +74,8 @@ class Trajectory:
 def read_trajectory(path, least=LEAST_POSES):
     """Reads `stamp[s] x y z qx qy qz qw` (TUM) or `stamp[ns],x,y,z,qw,qx,qy,qz,...` (EuRoC csv);
     TrajectoryError with fewer than `least` poses."""
+    if os.path.isdir(path):
+        raise TrajectoryError(f"{path}: a folder; give a file in it, such as trajectory.tum")
     if not os.path.isfile(path):
         raise TrajectoryError(f"{path}: no such file")
     rows, worlds, begins = [], 0, True
@@ -86,6 +89,17 @@ def read_trajectory(path, least=LEAST_POSES):
         raise TrajectoryError(f"{path}: {len(rows)} poses, at least {least} are needed")
     table = np.array(rows).reshape(-1, 8)
     return Trajectory(table[:, 0], table[:, 1:4], _rotations(table[:, 4:8]), worlds)
+
+
+def read_truth(path):
+    """As read_trajectory(); of an ASL folder, or its mav0/, the ground truth in it."""
+    if not os.path.isdir(path):
+        return read_trajectory(path)
+    files = [os.path.join(path, *names) for names in (("mav0", TRUTH_IN_FOLDER),
+                                                      (TRUTH_IN_FOLDER,))]
+    for file in filter(os.path.isfile, files):
+        return read_trajectory(file)
+    raise TrajectoryError(f"{path}: a folder without {files[0]}; give a TUM file or EuRoC csv")
 
 
 def format_tum(trajectory):

@@ -14,6 +14,8 @@ TRUTH = "ground truth"
 POINT_COLOUR = "#9aa5b1"
 LINE_COLOURS = {"along x": "#dc2828", "along y": "#28a028", "along z": "#325ae6", "free": "#8c8c8c"}
 NOTHING = np.empty((0, 3))
+DIRECTION = np.array([0.56, 0.56, 0.61])  # of the first look, from the scene to the camera
+VIEW_DISTANCE = 2.6  # of the camera, in radii of what it is to see
 TOOLBAR = 35  # height of what plotly shows above a figure [px]
 MAX_POINTS = 20000  # more make the browser slow and the picture no clearer
 STAGES = ("point_tracking", "line_tracking", "line_merging", "optimization", "marginalization",
@@ -25,7 +27,12 @@ COUNTS = ("points_observed", "points_in_window", "lines_observed", "lines_in_win
 def scene_figure(trajectories, points=NOTHING, lines=None, loops=NOTHING):
     """The map in 3-D [m]. `trajectories`: positions (n, 3) by name; points (n, 3); lines: ends
     (n, 2, 3) by axis; loops: ends (n, 2, 3)."""
-    inside = _view(points, trajectories.values())
+    paths = np.concatenate(list(trajectories.values()))
+    low, high = _box(points, paths)
+
+    def inside(places):
+        return ((places >= low) & (places <= high)).all(axis=-1)
+
     points = points[inside(points)]
     points = points[::1 + len(points) // MAX_POINTS]
     data = [_spatial("points", points, mode="markers",
@@ -38,9 +45,8 @@ def scene_figure(trajectories, points=NOTHING, lines=None, loops=NOTHING):
     data += [_spatial(name, positions, mode="lines", line={
         "color": TRUTH_COLOUR if name == TRUTH else next(colours), "width": 5})
              for name, positions in trajectories.items()]
-    axes = {f"{axis}axis": {"title": {"text": f"{axis} [m]"}} for axis in "xyz"}
     return {"data": [trace for trace in data if trace["x"]],
-            "layout": {"scene": dict(axes, aspectmode="data"),
+            "layout": {"scene": _first_view(points, paths, low, high),
                        "margin": {"l": 0, "r": 0, "t": TOOLBAR, "b": 0}}}
 
 
@@ -63,18 +69,35 @@ def columns_figure(frames, columns, title):
     return _over_time(data, title)
 
 
-def _view(points, paths):
-    """A function that says which of coordinates (..., 3) lie in the box of the paths and of all but
-    the outer points, which would make everything else small."""
-    corners = np.concatenate([_extent(path) for path in paths]
-                             + ([np.percentile(points, (10, 90), axis=0)] if len(points) else []))
+def _box(points, paths):
+    """Corners of a box around the paths and all but the outer points, which would make everything
+    else small."""
+    corners = paths
+    if len(points):
+        corners = np.concatenate([paths, np.percentile(points, (5, 95), axis=0)])
     low, high = corners.min(axis=0), corners.max(axis=0)
-    margin = 0.1 * (high - low)
-    return lambda places: ((places >= low - margin) & (places <= high + margin)).all(axis=-1)
+    margin = np.maximum(0.1 * (high - low), 0.02 * (high - low).max() + 1e-3)
+    return low - margin, high + margin
 
 
-def _extent(positions):
-    return np.stack([positions.min(axis=0), positions.max(axis=0)])
+def _first_view(points, paths, low, high):
+    """Axes in the same scale, and a camera that looks at the middle of the paths from where it sees
+    them and half of the points."""
+    middle = (paths.min(axis=0) + paths.max(axis=0)) / 2
+    radius = np.linalg.norm(paths - middle, axis=1).max()
+    if len(points):
+        radius = max(radius, np.median(np.linalg.norm(points - middle, axis=1)))
+    size = (high - low).max()  # plotly's unit for the camera, whose origin is the middle of the box
+    centre = (middle - (low + high) / 2) / size
+    eye = centre + DIRECTION * VIEW_DISTANCE * radius / size
+    scene = {f"{axis}axis": {"title": {"text": f"{axis} [m]"}, "range": [first, last]}
+             for axis, first, last in zip("xyz", low.tolist(), high.tolist())}
+    return {**scene, "aspectmode": "manual", "aspectratio": _xyz((high - low) / size),
+            "camera": {"center": _xyz(centre), "eye": _xyz(eye)}}
+
+
+def _xyz(vector):
+    return dict(zip("xyz", vector.tolist()))
 
 
 def _spatial(name, positions, **style):

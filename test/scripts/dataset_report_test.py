@@ -126,7 +126,20 @@ class PaperTables(unittest.TestCase):
         self.assertEqual(row(self.table(4, ours), "MH_05_difficult")[3::4], ["0.07", "0.0533"])
         self.assertEqual(row(self.table(5, ours), "MH_05_difficult"),
                          ["MH_05_difficult", "0.35", "0.31", "0.04", "MH_05_difficult-weak-s1",
-                          "0.1234 (98 %)", "0.2266"])
+                          "0.1234 (98 %)", "–"])
+        self.assertEqual(set(row(self.table(5, ours), "average")[5:]), {"–"})
+        self.assertNotIn("average of ours", self.table(4, ours))
+
+    def test_only_whole_sequences_differ_from_those_of_the_paper(self):
+        ours = [result("MH_05_difficult", "improved", 0.1234)]
+        text = self.table(5, ours)
+        self.assertEqual(row(text, "MH_05_difficult")[-2:], ["0.1234 (98 %)", "0.2266"])
+        self.assertIn("of 1", row(text, "average of ours"))
+        for cut in (Results(ours, duration=60.0),
+                    Results([result("MH_05_difficult", "improved", 0.1234, start=5.0)])):
+            text = paper_table(TABLES[4], cut)
+            self.assertEqual(row(text, "MH_05_difficult")[-2:], ["0.1234 (98 %)", "–"])
+            self.assertNotIn("average of ours", text)
 
     def test_averages_are_those_that_the_paper_prints(self):
         for number, difference in ((4, "0.04"), (5, "0.02"), (6, "1.49")):  # 1.5 in the paper

@@ -245,6 +245,13 @@ class Folder(unittest.TestCase):
             self.assertEqual(result["poses"]["trajectory_map.tum"], poses)
             self.assertLess(result["coverage"]["trajectory_map.tum"], 0.01)
 
+    def test_no_loops_have_no_largest_error(self):
+        self.write_loops(self.row("pose"))
+        run = self.run_script(self.folder, self.folder / "truth.tum")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("no loops to compare\n", run.stdout)
+        self.assertNotIn("largest error", run.stdout)
+
     def write_run_with_time_offset(self, td):
         """A run with images stamped `td` [s] early: by whole poses, which find a partner anyway."""
         self.truth = rounds(sway=0.5)

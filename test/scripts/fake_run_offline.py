@@ -98,9 +98,13 @@ def main():
     options = parse_arguments()
     settings = dict(text.split("=", 1) for text in options.set)
     folder = os.path.dirname(os.path.abspath(__file__))
+    if "nonsense" in settings:
+        sys.exit(f"run_offline: {options.config} (override): nonsense: unknown key; remove it")
+    recording = options.bag or os.path.join(options.asl, "mav0", "cam0", "data.csv")
+    if not os.path.isfile(recording):
+        sys.exit(f"run_offline: not an ASL folder: {recording} is missing")
     with open(os.path.join(folder, "calls.txt"), "a", encoding="utf-8") as file:
         file.write(" ".join(sys.argv[1:]) + "\n")
-    recording = options.bag or os.path.join(options.asl, "mav0", "cam0", "data.csv")
     with open(recording, encoding="utf-8") as file:
         words = file.read().split()
     if "fail" in words or ("stumble" in words and options.start >= STUMBLE):

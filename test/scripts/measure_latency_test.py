@@ -13,11 +13,13 @@ import tempfile
 import unittest
 from unittest import mock
 
+from refusal_case import RefusalTest
+
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 
 
 @unittest.skipUnless(importlib.util.find_spec("rospy"), "needs ROS")
-class MeasureLatency(unittest.TestCase):
+class MeasureLatency(RefusalTest):
     def setUp(self):
         config = tempfile.NamedTemporaryFile("w", suffix=".yaml")
         self.addCleanup(config.close)
@@ -26,19 +28,21 @@ class MeasureLatency(unittest.TestCase):
         config.flush()
         self.config = config.name
 
-    def measure(self, command, transport="raw"):
-        """With a process in the place of roslaunch; returns the topics with their types."""
+    def measure(self, command, transport="raw", player=("sleep", "60"), timeout=0.1):
+        """With processes in the place of roslaunch and rosbag; returns the topics with their
+        types."""
         import measure_latency
         topics = {}
 
         def subscribe(topic, kind, callback, **_):
             topics[topic] = kind.__name__
 
-        options = argparse.Namespace(config=self.config, image_transport=transport)
+        options = argparse.Namespace(bag="a.bag", config=self.config, image_transport=transport)
         with contextlib.ExitStack() as replaced:
             for name, value in (("launch", lambda *_: subprocess.Popen(command)),
+                                ("play", lambda *_: subprocess.Popen(player)),
                                 ("wait_for_master", mock.Mock()), ("find_nodes", mock.Mock()),
-                                ("START_TIMEOUT", 0.1)):
+                                ("START_TIMEOUT", timeout)):
                 replaced.enter_context(mock.patch.object(measure_latency, name, value))
             replaced.enter_context(mock.patch("rospy.init_node"))
             replaced.enter_context(mock.patch("rospy.Subscriber", subscribe))
@@ -60,6 +64,29 @@ class MeasureLatency(unittest.TestCase):
     def test_nodes_that_end(self):
         _, message = self.measure(["true"])
         self.assertIn("ended before an image came on /cam0/image_raw", message)
+
+    def test_a_player_that_ends_is_not_waited_for(self):
+        _, message = self.measure(["sleep", "60"], player=("false",), timeout=60)
+        self.assertEqual(message, "rosbag play ended with code 1: is a.bag a whole bag?")
+        _, message = self.measure(["sleep", "60"], player=("true",), timeout=60)
+        self.assertEqual(message, "no image came on /cam0/image_raw from a.bag: see image_topic in"
+                                  f" {self.config} and --image-transport")
+
+    def test_what_is_no_configuration_or_no_bag(self):
+        from measure_latency import main
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as empty:
+            for text in ("", "%YAML:1.0\n", "- 1\n", "image_topic:\n"):
+                empty.seek(0)
+                empty.truncate()
+                empty.write(text)
+                empty.flush()
+                self.assert_refused(main, f"{empty.name}: has no image_topic", __file__,
+                                    "--config", empty.name)
+        folder = os.path.dirname(__file__)
+        self.assert_refused(main, f"{folder}: a folder; give the file of the ROS bag", folder,
+                            "--config", self.config)
+        self.assert_refused(main, f"{folder}: a folder; give the file of the configuration",
+                            __file__, "--config", folder)
 
     def test_other_transports_are_refused(self):
         import measure_latency

@@ -103,6 +103,17 @@ class Results(DatasetTest):
         self.assertIn("Not compared", self.report())
         self.assertNotIn(".png", self.report())
 
+    def test_ground_truth_that_cannot_be_read_is_none(self):
+        self.add("hall")
+        self.add("room")
+        self.write(os.path.join("bags", "hall.tum"), "1 2 3\n")
+        result = self.call("--variants", "improved", "--starts", "0", "5")
+        self.assertIn("hall.tum:1: 3 columns, expected 8 columns (TUM); it runs without",
+                      result.stderr)
+        self.assertEqual([row["status"] == "compared" for row in self.rows()],
+                         [False, False, True, True])
+        self.assertIn("no readable ground truth: ", self.rows()[0]["status"])
+
     def test_ground_truth_of_another_time(self):
         self.add("hall")
         stamps, positions = flight()
@@ -315,8 +326,9 @@ class BadCalls(DatasetTest):
         self.assert_refused("--starts: not allowed with argument --start", "--start", "1",
                             "--starts", "1", "2", exit_code=2)
         self.assert_refused("key=value instead of max_cnt", "--set", "max_cnt", exit_code=2)
-        self.write(os.path.join("bags", "hall.tum"), "1 2 3\n")
-        self.assert_refused("hall.tum:1: 3 columns, expected 8")
+        self.assert_refused("config.yaml (override): nonsense: unknown key; remove it\n",
+                            "--set", "nonsense=1")
+        self.assertFalse(os.path.exists(os.path.join(self.output, "runs")))
         os.symlink(self.path("nowhere"), self.path("bags", "gone.bag"))
         self.assert_refused("gone.bag: No such file", "--sequences", "gone")
 

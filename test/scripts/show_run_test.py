@@ -198,6 +198,22 @@ class Figures(unittest.TestCase):
         self.assertLess(max(traces["points"]["x"]), 20)
         self.assertGreater(len(traces["points"]["x"]), 50)
 
+    def test_the_first_look_is_at_the_trajectory(self):
+        path = np.random.default_rng(1).uniform(-0.3, 0.3, (100, 3)) + [0, 0, 1]
+        points = np.random.default_rng(2).uniform([0, 0, 0], [20, 6, 3], (400, 3))
+        scene = run_figures.scene_figure({"estimate": path}, points)["layout"]["scene"]
+        ranges = np.array([scene[f"{axis}axis"]["range"] for axis in "xyz"])
+        sizes = ranges[:, 1] - ranges[:, 0]
+        np.testing.assert_allclose([scene["aspectratio"][axis] for axis in "xyz"],
+                                   sizes / sizes.max())
+        centre = ranges.mean(axis=1) + sizes.max() * np.array(
+            [scene["camera"]["center"][axis] for axis in "xyz"])
+        np.testing.assert_allclose(centre, (path.min(axis=0) + path.max(axis=0)) / 2)
+        self.assertGreater(scene["camera"]["eye"]["z"], scene["camera"]["center"]["z"])
+        inside = (points >= ranges[:, 0]) & (points <= ranges[:, 1])
+        self.assertGreater(inside.mean(), 0.95)
+        json.dumps(scene)
+
     def test_segments_are_apart(self):
         lines = {"free": np.array([[[0.0, 0, 0], [1, 0, 0]], [[0, 1, 0], [1, 1, 0]]])}
         figure = run_figures.scene_figure({"estimate": np.array([[0.0, 0, 0], [1, 1, 1]])},

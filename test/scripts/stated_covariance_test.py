@@ -5,6 +5,7 @@
 import os
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 
@@ -64,6 +65,12 @@ class StatedCovariance(unittest.TestCase):
             with open(path, "w", encoding="utf-8") as file:
                 file.write("a,b\n1,2\n3,4\n")
             with self.assertRaisesRegex(TrajectoryError, "not the covariance.csv"):
+                consistency.read_covariances(path, np.array([1.0]))
+            with open(path, "w", encoding="utf-8"):
+                pass
+            with warnings.catch_warnings(), \
+                    self.assertRaisesRegex(TrajectoryError, "not the covariance.csv"):
+                warnings.simplefilter("error")
                 consistency.read_covariances(path, np.array([1.0]))
             with self.assertRaisesRegex(TrajectoryError, "missing.csv"):
                 consistency.read_covariances(os.path.join(folder, "missing.csv"), np.array([1.0]))

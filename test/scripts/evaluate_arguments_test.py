@@ -1,0 +1,69 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What scripts/evaluate.py takes as files and as numbers."""
+
+import contextlib
+import io
+import os
+import tempfile
+import unittest
+
+from known_flight import flight  # first: it names the folder
+from evaluate import main, parse_arguments
+from evaluation.trajectory import TRUTH_IN_FOLDER, TrajectoryError, format_tum, read_truth
+from refusal_case import RefusalTest
+
+
+class Folders(RefusalTest):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.file = self.write("flight.tum")
+
+    def write(self, *names):
+        path = os.path.join(self.folder, *names)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(format_tum(flight()))
+        return path
+
+    def test_an_asl_folder_has_its_ground_truth(self):
+        self.write("MH_01_easy", "mav0", TRUTH_IN_FOLDER)
+        for folder in ("MH_01_easy", os.path.join("MH_01_easy", "mav0")):
+            path = os.path.join(self.folder, folder)
+            self.assertEqual(len(read_truth(path)), len(flight()))
+            with contextlib.redirect_stdout(io.StringIO()) as output:
+                self.assertEqual(main([self.file, path]), 0)
+            self.assertIn("coverage 100.0 %", output.getvalue())
+
+    def test_other_folders_are_said_to_be_folders(self):
+        self.assert_refused(main, f"{self.folder}: a folder; give a file in it, such as"
+                                  " trajectory.tum", self.folder, self.file)
+        self.assert_refused(main, f"{self.folder}: a folder without "
+                                  + os.path.join(self.folder, "mav0", TRUTH_IN_FOLDER),
+                            self.file, self.folder)
+        with self.assertRaisesRegex(TrajectoryError, "no such file"):
+            read_truth(os.path.join(self.folder, "missing"))
+
+
+class Seconds(unittest.TestCase):
+    def assert_refused(self, message, *arguments):
+        with contextlib.redirect_stderr(io.StringIO()) as errors, self.assertRaises(SystemExit):
+            parse_arguments(["a.tum", "b.tum", *arguments])
+        self.assertIn(message, errors.getvalue())
+
+    def test_what_is_none_is_refused(self):
+        for option in ("--max-diff", "--max-gap", "--nees-after"):
+            self.assert_refused(f"{option}: expected seconds, zero or more, instead of -1",
+                                f"{option}=-1")
+            for text in ("nan", "inf", "soon"):
+                self.assert_refused(f"{option}: expected seconds instead of {text}", option, text)
+        self.assert_refused("--t-offset: expected seconds instead of nan", "--t-offset", "nan")
+
+    def test_an_offset_may_be_negative(self):
+        self.assertEqual(parse_arguments(["a", "b", "--t-offset", "-1.5"]).t_offset, -1.5)
+
+
+if __name__ == "__main__":
+    unittest.main()

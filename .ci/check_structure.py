@@ -108,8 +108,13 @@ LAYERS = {
     "vins_estimator/ros": COMMON | ROS_EDGE | {"vins_estimator"} | ESTIMATOR_OUTPUT | inside(
         "vins_estimator", ["imu", "input"]),
     **layers_of_part("pose_graph", POSE_GRAPH_LAYERS, COMMON),
+    **layers_of_part("map_bundle", {}, COMMON | {"pose_graph"} | inside(
+        "pose_graph", ["geometry", "keyframes", "map", "verification"]) | inside(
+            "vins_estimator", ["state", "imu", "factors", "problem", "optimization",
+                               "initialization"])),
     **layers_of_part("offline", OFFLINE_LAYERS,
-                     TRACKING | TRACKERS | {"vins_estimator", "pose_graph"} | ESTIMATOR_OUTPUT
+                     TRACKING | TRACKERS | ESTIMATOR_OUTPUT
+                     | {"vins_estimator", "pose_graph", "map_bundle"}
                      | inside("pose_graph", POSE_GRAPH_LAYERS)),
     **layers_of_part("mavros_relay", {}, COMMON),
     **layers_of_part("simulator", {}, COMMON | ESTIMATOR_OUTPUT),

@@ -4,26 +4,25 @@
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
-#include <filesystem>
-#include <limits>
-#include <map>
+#include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <utility>
-#include <vector>
 
 #include "common/append.h"
 #include "common/config/config.h"
+#include "common/format.h"
 #include "common/io/output_file.h"
 #include "common/io/progress_display.h"
 #include "common/process_setup.h"
 #include "common/stopwatch.h"
+#include "offline/arguments.h"
+#include "offline/interruption.h"
+#include "offline/output_checks.h"
 #include "offline/pipeline/odometry_pipeline.h"
 #include "offline/pipeline/tracker_values.h"
 #include "offline/recordings/asl_recording.h"
@@ -36,83 +35,22 @@
 namespace plm_vins {
 namespace {
 
-struct Arguments {
-  std::string config;
-  std::string bag;
-  std::string asl;
-  std::string features;
-  std::string output;
-  std::string saved_features;
-  std::string map_in;
-  std::string map_out;
-  double start = 0;                                           // [s]
-  double duration = std::numeric_limits<double>::infinity();  // [s]
-  std::vector<std::string> overrides;                         // "key=value"
-  double track_image_interval = 0;                            // [s]; 0: none
-  int threads = 4;
+// One of the two.
+struct Input {
+  std::unique_ptr<Recording> recording;
+  std::optional<FeatureFileReader> features;
 };
 
-constexpr double kMostSeconds = 1e9;  // stamps count nanoseconds in 64 bits
-
-// The message of what is wrong with the argument of --set; empty where nothing is.
-std::string CheckOverride(const std::string& text) {
-  const size_t equals = text.find('=');
-  const bool valid = equals != 0 && equals != std::string::npos;
-  return valid ? "" : "expected key=value instead of " + text;
-}
-
-// The same of a time span.
-std::string CheckSeconds(const std::string& text) {
-  char* end = nullptr;
-  const double seconds = std::strtod(text.c_str(), &end);
-  const bool is_number = end != text.c_str() && *end == '\0';
-  const bool valid = is_number && seconds >= 0 && seconds <= kMostSeconds;
-  return valid ? "" : "expected seconds, zero to 1e9, instead of " + text;
-}
-
-void Declare(Arguments* arguments, CLI::App* app) {
-  app->add_option("--config", arguments->config, "configuration file (VINS YAML)")->required();
-  auto* source = app->add_option_group("input");
-  source->add_option("--bag", arguments->bag, "ROS bag");
-  source->add_option("--asl", arguments->asl, "folder in ASL format (EuRoC)");
-  source->add_option("--features", arguments->features,
-                     "features that --save-features wrote, instead of images");
-  source->require_option(1);
-  app->add_option("--output", arguments->output, "folder for the results, made where missing")
-      ->required();
-  app->add_option("--start", arguments->start, "skip this much after the first image [s]")
-      ->check(CheckSeconds);
-  app->add_option("--duration", arguments->duration, "process this much [s]")->check(CheckSeconds);
-  app->add_option("--save-features", arguments->saved_features,
-                  "write the tracked features to this file, for runs without images");
-  app->add_option("--save-track-images", arguments->track_image_interval,
-                  "write a small image with its points and lines to tracks/ every so often [s]")
-      ->check(CheckSeconds);
-  app->add_option("--map-in", arguments->map_in,
-                  "start in this map (--map-out of another run); switches loop_closure on");
-  app->add_option("--map-out", arguments->map_out,
-                  "save the map to this file in the end; switches loop_closure on");
-  app->add_option("--set", arguments->overrides, "replace values of the configuration: key=value")
-      ->check(CheckOverride);
-  app->add_option("--threads", arguments->threads,
-                  "1: all in turn, 2: trackers beside the estimator, 3: and beside each other, 4: "
-                  "and images read ahead; the results are the same")
-      ->check(CLI::Range(1, 4))
-      ->capture_default_str();
-}
-
-std::map<std::string, std::string> ParseOverrides(const std::vector<std::string>& texts) {
-  std::map<std::string, std::string> overrides;
-  for (const std::string& text : texts) {
-    const size_t equals = text.find('=');
-    overrides[text.substr(0, equals)] = text.substr(equals + 1);
+Input Open(const Arguments& arguments, const SensorConfig& sensor) {
+  Input input;
+  if (!arguments.features.empty()) {
+    input.features.emplace(arguments.features);
+  } else if (!arguments.asl.empty()) {
+    input.recording = OpenAslFolder(arguments.asl);
+  } else {
+    input.recording = OpenBag(arguments.bag, sensor.image_topic, sensor.imu_topic);
   }
-  return overrides;
-}
-
-std::unique_ptr<Recording> Open(const Arguments& arguments, const SensorConfig& sensor) {
-  if (!arguments.asl.empty()) return OpenAslFolder(arguments.asl);
-  return OpenBag(arguments.bag, sensor.image_topic, sensor.imu_topic);
+  return input;
 }
 
 void Warn(const std::string& text) {
@@ -151,6 +89,21 @@ std::string UnusedWarning(int64_t unused, int64_t images) {
   return std::to_string(unused) + " of " + std::to_string(images) + " images were not used";
 }
 
+// The warning where the IMU does not cover most images, as with two clocks; empty where it does.
+std::string UncoveredWarning(const RunSummary::Run& run, const OdometryPipeline& pipeline) {
+  const auto is_uncovered = [&](const DropCount& drop) {
+    return drop.cause == "frames_without_imu" && 2 * drop.count > run.images;
+  };
+  if (!run.first_image_ns || std::none_of(run.drops.begin(), run.drops.end(), is_uncovered)) {
+    return "";
+  }
+  const auto& first_imu_ns = pipeline.first_imu_ns();
+  return "images begin at " + Format("%.3f s", ToSeconds(*run.first_image_ns)) +
+         (first_imu_ns ? " and IMU samples at " + Format("%.3f s", ToSeconds(*first_imu_ns))
+                       : " and no IMU sample has come by their end") +
+         "; both must have one clock";
+}
+
 // The warning where time does not run forward in a recording; empty where it does.
 std::string PartsWarning(const TimedFile& trajectory) {
   if (trajectory.parts() == 0) return "";
@@ -159,12 +112,13 @@ std::string PartsWarning(const TimedFile& trajectory) {
 }
 
 // Says how it went. Exit code: 0 where there is a trajectory.
-int Report(const RunSummary::Run& run, const Source& source, int64_t unused_images,
+int Report(const RunSummary::Run& run, const Source& source, const OdometryPipeline& pipeline,
            const ResultFiles& results) {
   const RunSummary& summary = results.summary();
   for (const DropCount& drop : run.drops) Warn(drop, source);
   Warn(results.unwritten_pictures(), source);
-  Warn(UnusedWarning(unused_images, run.images));
+  Warn(UncoveredWarning(run, pipeline));
+  Warn(UnusedWarning(pipeline.unused_images(), run.images));
   Warn(PartsWarning(results.trajectory()));
   if (summary.poses() == 0) {
     std::fprintf(stderr, "run_offline: no trajectory from %" PRId64 " images: %s\n", run.images,
@@ -206,47 +160,6 @@ Source RunFromFeatures(const Arguments& arguments, FeatureFileReader* features,
                        const FrameCallback& on_frame, OdometryPipeline* pipeline) {
   pipeline->Run(features, RecordingInterval(arguments.start, arguments.duration), on_frame);
   return {arguments.features, "", "", {}};
-}
-
-std::filesystem::path FullName(const std::string& path) {
-  std::error_code error;  // of an empty path, which has none
-  return std::filesystem::absolute(path, error).lexically_normal();
-}
-
-// By their names where they are not there yet.
-bool AreOneFile(const std::string& a, const std::string& b) {
-  std::error_code error;
-  return std::filesystem::equivalent(a, b, error) || (!a.empty() && FullName(a) == FullName(b));
-}
-
-std::vector<std::string> InputFiles(const Arguments& arguments) {
-  std::vector<std::string> files = {arguments.config, arguments.bag, arguments.features};
-  if (arguments.asl.empty()) return files;
-  for (const char* table : {"imu0/data.csv", "cam0/data.csv"}) {
-    files.push_back(arguments.asl + "/" + table);
-    files.push_back(arguments.asl + "/mav0/" + table);
-  }
-  return files;
-}
-
-void CheckOutput(const char* option, const std::string& output,
-                 const std::vector<std::string>& inputs) {
-  for (const std::string& input : inputs) {
-    if (AreOneFile(input, output)) {
-      throw std::runtime_error(std::string(option) + " would overwrite the input, " + input);
-    }
-  }
-}
-
-// An input would be lost where an output takes its place at the end. But a map may be continued.
-void CheckOutputs(const Arguments& arguments) {
-  std::vector<std::string> inputs = InputFiles(arguments);
-  CheckOutput("--map-out", arguments.map_out, inputs);
-  inputs.push_back(arguments.map_in);
-  CheckOutput("--save-features", arguments.saved_features, inputs);
-  if (AreOneFile(arguments.map_out, arguments.saved_features)) {
-    throw std::runtime_error("--save-features and --map-out both name " + arguments.map_out);
-  }
 }
 
 // The configuration as the arguments change it.
@@ -297,20 +210,45 @@ Json ValuesToSave(const std::optional<FeatureFileReader>& features, const Config
   return values;
 }
 
+void SaveMapTo(const std::string& path, const KeyframeMap& map, ReplacedFile* file) {
+  if (map.CountKept() > 0) {
+    SaveMap(map, file);
+  } else {
+    Warn("there is no keyframe, so --map-out " + path + " is not written");
+  }
+}
+
+// Adds why it failed, where it did: the other results of a finished run are worth having still.
+void Try(const std::function<void()>& save, std::string* failures) {
+  try {
+    save();
+  } catch (const std::exception& error) {
+    *failures += (failures->empty() ? "" : "; ") + std::string(error.what());
+  }
+}
+
+void Finish(LoopResults* loops, Json* summary_parts) {
+  loops->Finish();
+  (*summary_parts)["loops"] = loops->Summary();
+}
+
+// Exit code: that of a shell for a program that a signal has ended.
+int ReportInterruption(const OdometryPipeline& pipeline) {
+  const auto first_ns = pipeline.first_image_ns(), last_ns = pipeline.last_frame_ns();
+  const double seconds = first_ns && last_ns ? ToSeconds(*last_ns - *first_ns) : 0;
+  std::fprintf(stderr, "run_offline: interrupted at %.1f s\n", seconds);
+  return 128 + Interruption();
+}
+
 int Run(const Arguments& arguments) {
   CheckOutputs(arguments);
   const Config config = Configure(arguments);
+  CheckCalibrationOutput(arguments, config.sensor);
   for (const std::string& warning : config.warnings) Warn(warning);
   // What may be missing, or not writable, comes first: then earlier results stay as they are.
-  std::unique_ptr<Recording> recording;
-  std::optional<FeatureFileReader> features;
-  if (arguments.features.empty()) {
-    recording = Open(arguments, config.sensor);
-  } else {
-    features.emplace(arguments.features);
-  }
+  Input input = Open(arguments, config.sensor);
   Json summary_parts = Json::object();
-  if (features) CheckFeatures(*features, config, &summary_parts);
+  if (input.features) CheckFeatures(*input.features, config, &summary_parts);
   std::optional<KeyframeMap> map = MapToStartIn(arguments, config.pose_graph);
   MakeResultFolder(arguments.output);
   std::optional<ReplacedFile> map_out;
@@ -319,7 +257,7 @@ int Run(const Arguments& arguments) {
   std::optional<FeatureFileWriter> saved_features;
   if (!arguments.saved_features.empty()) {
     pipeline.SaveFeatures(
-        &saved_features.emplace(arguments.saved_features, ValuesToSave(features, config)));
+        &saved_features.emplace(arguments.saved_features, ValuesToSave(input.features, config)));
   }
   ResultFiles results(arguments.output, arguments.config);
   ShowTracks(arguments.track_image_interval, &results, &pipeline);
@@ -330,24 +268,26 @@ int Run(const Arguments& arguments) {
     if (loops) loops->Add(frame);
   };
   const Stopwatch stopwatch;
-  const Source source = features ? RunFromFeatures(arguments, &*features, on_frame, &pipeline)
-                                 : RunFromImages(arguments, recording.get(), on_frame, &pipeline);
+  WatchForInterruption();
+  pipeline.EndWhere([] { return Interruption() != 0; });
+  const Source source = input.features
+                            ? RunFromFeatures(arguments, &*input.features, on_frame, &pipeline)
+                            : RunFromImages(arguments, input.recording.get(), on_frame, &pipeline);
   RunSummary::Run run = Describe(source, pipeline);
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
   Warn(pipeline.imu_contradiction());
   // What may be on another disk comes first, and the summary, which says that all is there, last.
-  if (saved_features) saved_features->Close();
-  if (map_out && loops->map().CountKept() > 0) {
-    SaveMap(loops->map(), &*map_out);
-  } else if (map_out) {
-    Warn("there is no keyframe, so --map-out " + arguments.map_out + " is not written");
-  }
-  if (loops) loops->Finish();
+  if (loops) loops->AdjustMap();
+  std::string failures;
+  if (saved_features) Try([&] { saved_features->Close(); }, &failures);
+  if (map_out) Try([&] { SaveMapTo(arguments.map_out, loops->map(), &*map_out); }, &failures);
+  if (loops) Finish(&*loops, &summary_parts);
   results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
   results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());
-  if (loops) summary_parts["loops"] = loops->Summary();
   results.Finish(run, config, summary_parts);
-  return Report(run, source, pipeline.unused_images(), results);
+  const int exit_code = Report(run, source, pipeline, results);
+  if (!failures.empty()) throw std::runtime_error(failures);
+  return Interruption() == 0 ? exit_code : ReportInterruption(pipeline);
 }
 
 }  // namespace

@@ -17,12 +17,27 @@
 
 namespace plm_vins {
 
+namespace {
+
+// The camera's rows are taken to be of one time: not so with a rolling shutter.
+std::optional<MapBundle> BundleOf(const Config& config, const CameraModel& camera) {
+  const SensorConfig& sensor = config.sensor;
+  if (!config.pose_graph.bundle_adjustment || sensor.rolling_shutter) return std::nullopt;
+  MapBundleOptions options;
+  options.gravity_norm = sensor.gravity_norm;
+  options.point_noise = config.estimator.point_noise / camera.FocalLength();
+  return MapBundle(options);
+}
+
+}  // namespace
+
 LoopResults::LoopResults(const Config& config, const std::string& folder,
                          std::optional<KeyframeMap> map)
     : folder_(folder),
       camera_(CameraModel::Create(config.sensor.camera)),
       refined_camera_(camera_->parameters()),
       loops_(LoopCloserOptions(*camera_), camera_),
+      bundle_(BundleOf(config, *camera_)),
       trajectory_(File("trajectory_map.tum")),
       covariance_(File("covariance_map.csv"), CovarianceHeader()),
       table_(File("loops.csv")) {
@@ -35,6 +50,9 @@ std::string LoopResults::File(const std::string& name) const {
 }
 
 void LoopResults::Add(const PipelineFrame& frame) {
+  if (bundle_) {
+    for (const ImuSample& sample : frame.imu) bundle_->AddImu(sample);
+  }
   if (frame.output.restarted) restart_reason_ = frame.output.reason;
   if (!frame.output.has_pose) return;
   if (frame.image.gray.empty()) {
@@ -47,8 +65,9 @@ void LoopResults::Add(const PipelineFrame& frame) {
   const Stopwatch stopwatch;
   const LoopClosure closure = loops_.Add(ToOdometryFrame(frame, restarted));
   Count(closure, stopwatch.Milliseconds());
+  if (bundle_) Remember(frame, closure);
   const Rigid3d T_O_B = frame.output.state.T_W_B();
-  const int newest = map().graph.size() - 1;
+  const int newest = loops_.map().graph.size() - 1;
   poses_.push_back({frame.output.t_ns, T_O_B, newest});
   if (!closure.fix) return;
   refined_camera_ = frame.output.calibration.camera;
@@ -69,6 +88,25 @@ void LoopResults::Count(const LoopClosure& closure, double milliseconds) {
   keyframe_ms_.push_back({milliseconds});
 }
 
+void LoopResults::Remember(const PipelineFrame& frame, const LoopClosure& closure) {
+  if (closure.is_keyframe) bundle_->AddKeyframe(loops_.map(), frame.output);
+  if (closure.place && !closure.candidates.back().failed) {
+    bundle_->AddPlace(loops_.map(), *closure.place);
+  }
+}
+
+void LoopResults::AdjustMap() {
+  if (!bundle_) return;
+  const Stopwatch stopwatch;
+  if (const std::optional<AdjustedMap> found = bundle_->Adjust(loops_.map())) {
+    adjusted_.emplace();
+    adjusted_->moved = loops_.map();
+    MoveNodes(*found, &adjusted_->moved);
+    adjusted_->rebuilt = RebuiltMap(*found, adjusted_->moved);
+  }
+  bundle_ms_ = stopwatch.Milliseconds();
+}
+
 void LoopResults::Finish() {
   trajectory_.Close();
   covariance_.Close();
@@ -86,16 +124,32 @@ void LoopResults::WriteFinalTrajectory() const {
   auto world = worlds_.begin();
   std::string reason = "it is not found in the map";
   bool was_in_map = true;
-  const std::vector<bool> connected = map().graph.ConnectedWith(0);
+  const KeyframeMap& moved = adjusted_ ? adjusted_->moved : loops_.map();
+  const std::vector<bool> connected = moved.graph.ConnectedWith(0);
   for (size_t i = 0; i < poses_.size(); ++i) {
     const bool in_map = connected[poses_[i].keyframe];
     const bool begins = world != worlds_.end() && world->first == i;
     if (begins) reason = (world++)->second;
     if (in_map != was_in_map || (begins && !in_map)) file.Comment(FormatTumRestart(reason));
     was_in_map = in_map;
-    file.Row(poses_[i].t_ns) << FormatTumRow(poses_[i].t_ns, PoseInMap(map(), poses_[i]));
+    file.Row(poses_[i].t_ns) << FormatTumRow(poses_[i].t_ns, PoseInMap(moved, poses_[i]));
   }
   file.Close();
+}
+
+// Null where the map was not adjusted as a whole.
+Json LoopResults::BundleSummary() const {
+  if (!adjusted_) return nullptr;
+  const MapBundleSummary& bundle = bundle_->summary();
+  const double focal_length = camera_->FocalLength();
+  Json json;
+  json["keyframes"] = bundle.keyframes;
+  json["landmarks"] = bundle.landmarks;
+  json["sightings_again"] = bundle.sightings_again;
+  json["noise_px"] = bundle.noise.followed * focal_length;
+  json["noise_again_px"] = bundle.noise.again * focal_length;
+  json["ms"] = bundle_ms_;
+  return json;
 }
 
 Json LoopResults::Summary() const {
@@ -113,6 +167,7 @@ Json LoopResults::Summary() const {
   json["dropped"] = tally_.dropped;
   json["refused"] = refused;
   json["first_fix_s"] = first_fix_ ? Json(*first_fix_) : Json(nullptr);
+  json["bundle"] = BundleSummary();
   json["keyframe_ms"] = {{"mean", timing.mean}, {"p95", timing.p95}};
   return json;
 }

@@ -11,6 +11,7 @@
 
 #include "common/config/config.h"
 #include "common/io/output_file.h"
+#include "map_bundle/map_bundle.h"
 #include "offline/pipeline/odometry_pipeline.h"
 #include "offline/results/timed_file.h"
 #include "pose_graph/loop_closer.h"
@@ -23,7 +24,7 @@ namespace plm_vins {
 // Loop closure over an offline run and its files in the folder of results: trajectory_map.tum (as
 // known at each time, once the place in the map is known) with covariance_map.csv,
 // trajectory_final.tum (as known in the end), loops.csv, pose_graph.g2o and the COLMAP model in
-// colmap/.
+// colmap/. In the end the map is adjusted as a whole.
 class LoopResults {
  public:
   // Opens the files; starts in a map where there is one. Here and in Finish() std::runtime_error
@@ -33,23 +34,38 @@ class LoopResults {
   // Takes the next image. Throws std::runtime_error where it has no pixels.
   void Add(const PipelineFrame& frame);
 
+  // After the last image, before all that follows.
+  void AdjustMap();
+
   // Completes all files.
   void Finish();
 
-  const KeyframeMap& map() const { return loops_.map(); }
+  // As another run may start in it.
+  const KeyframeMap& map() const { return adjusted_ ? adjusted_->rebuilt : loops_.map(); }
 
   // Counts and times, for summary.json.
   Json Summary() const;
 
  private:
+  // The map after the bundle adjustment.
+  struct Adjusted {
+    KeyframeMap moved;    // with odometry as it was
+    KeyframeMap rebuilt;  // with all as if odometry had found it so
+  };
+
   std::string File(const std::string& name) const;
   void Count(const LoopClosure& closure, double milliseconds);
+  void Remember(const PipelineFrame& frame, const LoopClosure& closure);
   void WriteFinalTrajectory() const;
+  Json BundleSummary() const;
 
   std::string folder_;
   std::shared_ptr<const CameraModel> camera_;  // as configured
   CameraParameters refined_camera_;            // as of the last pose in M: of the keyframes' rays
   LoopCloser loops_;
+  std::optional<MapBundle> bundle_;
+  std::optional<Adjusted> adjusted_;
+  double bundle_ms_ = 0;
   TimedFile trajectory_;
   TimedFile covariance_;
   OutputFile table_;

@@ -76,6 +76,7 @@ std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>
   std::vector<DescribedLandmark> landmarks;
   for (size_t i = 0; i < views.size(); ++i) {
     if (i == 0 || views[i]->track != views[i - 1]->track) landmarks.emplace_back();
+    landmarks.back().track = views[i]->track;
     landmarks.back().p_O = views[i]->p_O->cast<double>();
     landmarks.back().descriptors.push_back(views[i]->descriptor);
   }

@@ -13,6 +13,7 @@ namespace plm_vins {
 struct DescribedLandmark {
   Eigen::Vector3d p_O = Eigen::Vector3d::Zero();  // [m]
   std::vector<Descriptor> descriptors;
+  int64_t track = -1;
 };
 
 // The landmarks of keyframes of one world but those of the tracks `without`, which are sorted. Each

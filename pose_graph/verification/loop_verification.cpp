@@ -56,7 +56,8 @@ std::vector<SpaceSegment> LinesOf(const Island& island) {
 
 SeenPoint ToSeenPoint(const LandmarkMatch& match, const std::vector<DescribedCorner>& corners,
                       const std::vector<DescribedLandmark>& landmarks) {
-  return {landmarks[match.landmark].p_O, corners[match.corner].xy.cast<double>()};
+  const DescribedLandmark& landmark = landmarks[match.landmark];
+  return {landmark.p_O, corners[match.corner].xy.cast<double>(), landmark.track};
 }
 
 // Landmarks looked for around their images, and the corners that are where they should be.

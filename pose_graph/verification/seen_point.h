@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <limits>
 
 #include "common/geometry/rigid3.h"
@@ -14,6 +15,7 @@ namespace plm_vins {
 struct SeenPoint {
   Eigen::Vector3d p_O = Eigen::Vector3d::Zero();  // [m]
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();   // normalised
+  int64_t track = -1;                             // of the landmark, in its world
 };
 
 // A pose that points are seen from, turned round once for many of them. `R_G_C` is level.

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_bundle/adjusted_map.h"
+
+#include "common/geometry/so3.h"
+
+namespace plm_vins {
+namespace {
+
+// Moves all that the keyframe says of its world.
+void Move(const LevelTransform& T_new_old, Keyframe* keyframe) {
+  keyframe->T_O_B = T_new_old.ToRigid() * keyframe->T_O_B;
+  if (keyframe->R_O_Manhattan) {
+    keyframe->R_O_Manhattan = T_new_old.rotation() * *keyframe->R_O_Manhattan;
+  }
+  for (DescribedCorner& corner : keyframe->corners) {
+    if (corner.p_O) corner.p_O = (T_new_old * corner.p_O->cast<double>()).cast<float>();
+  }
+  for (TrackedSegment& segment : keyframe->segments) {
+    if (!segment.landmark) continue;
+    segment.landmark->start_O = T_new_old * segment.landmark->start_O;
+    segment.landmark->end_O = T_new_old * segment.landmark->end_O;
+  }
+}
+
+void TakeLandmarks(const AdjustedMap& adjusted, const LevelTransform& T_O_M, Keyframe* keyframe) {
+  for (DescribedCorner& corner : keyframe->corners) {
+    const auto landmark = adjusted.p_M.find({keyframe->world, corner.track});
+    if (!corner.p_O || landmark == adjusted.p_M.end()) continue;
+    corner.p_O = (T_O_M * landmark->second).cast<float>();
+  }
+}
+
+}  // namespace
+
+void MoveNodes(const AdjustedMap& adjusted, KeyframeMap* map) {
+  for (const auto& [number, T_M_B] : adjusted.T_M_B) {
+    const Rigid3d& T_O_B = map->keyframes[number].T_O_B;
+    const double yaw = Yaw(T_M_B.rotation * T_O_B.rotation.conjugate());
+    map->graph.SetNode(number, {yaw, T_M_B.translation});
+  }
+}
+
+KeyframeMap RebuiltMap(const AdjustedMap& adjusted, const KeyframeMap& map) {
+  KeyframeMap rebuilt = map;
+  std::map<int, LevelTransform> worlds;  // T_M_O: one for all keyframes, where drift had many
+  for (const auto& [number, T_M_B] : adjusted.T_M_B) {
+    Keyframe& keyframe = rebuilt.keyframes[number];
+    const LevelTransform former_T_M_O = map.T_M_O(number);
+    const LevelTransform& T_M_O = worlds.emplace(keyframe.world, former_T_M_O).first->second;
+    const LevelTransform T_O_M = T_M_O.Inverse();
+    Move(T_O_M * former_T_M_O, &keyframe);
+    TakeLandmarks(adjusted, T_O_M, &keyframe);
+    keyframe.T_O_B = T_O_M.ToRigid() * T_M_B;
+    rebuilt.graph.SetNode(number, T_M_O * keyframe.T_O_L());
+  }
+  rebuilt.graph.TakeNodesAsMeasured();
+  return rebuilt.Compact();
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_bundle/bundle_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "common/median.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr size_t kMinFollowed = 4;  // sightings of a landmark, for its own error to tell the noise
+constexpr size_t kMinSamples = 30;
+constexpr double kMaxChange = 8;  // of the configured deviation, both ways
+
+double SquaredError(const BundleState& bundle, const LandmarkTrack& landmark,
+                    const LandmarkSighting& sighting) {
+  const Eigen::Vector3d p_C = bundle.T_M_C(sighting.keyframe).Inverse() * landmark.p_M;
+  if (p_C.z() <= 0) return std::numeric_limits<double>::infinity();
+  return (p_C.hnormalized() - sighting.xy).squaredNorm();
+}
+
+double Deviation(const std::vector<double>& variances, double configured) {
+  if (variances.size() < kMinSamples) return configured;
+  const double deviation = std::sqrt(Median(variances));
+  return std::clamp(deviation, configured / kMaxChange, configured * kMaxChange);
+}
+
+}  // namespace
+
+SightingNoise EstimateNoise(const BundleState& bundle, const SightingNoise& configured) {
+  std::vector<double> followed, again;
+  for (const LandmarkTrack& landmark : bundle.landmarks) {
+    double sum = 0;
+    size_t count = 0;
+    for (const LandmarkSighting& sighting : landmark.sightings) {
+      const double squared_error = SquaredError(bundle, landmark, sighting);
+      if (sighting.again) {
+        again.push_back(squared_error / (2 * M_LN2));  // its median by that of a variance
+      } else {
+        sum += squared_error;
+        ++count;
+      }
+    }
+    constexpr double kUnknowns = 3;  // of the landmark
+    if (count >= kMinFollowed)
+      followed.push_back(sum / (2.0 * static_cast<double>(count) - kUnknowns));
+  }
+  return {Deviation(followed, configured.followed), Deviation(again, configured.again)};
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_bundle/bundle_problem.h"
+
+#include <ceres/loss_function.h>
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "vins_estimator/factors/imu_factor.h"
+#include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/factors/zero_velocity_factor.h"
+#include "vins_estimator/initialization/bundle_priors.h"
+#include "vins_estimator/optimization/ceres_solver.h"
+#include "vins_estimator/problem/window_problem.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kGaugeDeviation = 1e-3;  // [m] and [rad]; any small value will do
+// Of the biases at the start of a world about those of odometry.
+constexpr double kAccelBiasDeviation = 0.1;  // [m/s^2]
+constexpr double kGyroBiasDeviation = 0.05;  // [rad/s]
+constexpr double kStillVelocity = 0.005;     // of one that stands still [m/s]
+
+// The bundle in the terms of the solver.
+class BundleProblem {
+ public:
+  BundleProblem(const ImuHistory& imu, const BundleOptions& options, BundleState* bundle);
+
+  const WindowProblem& problem() const { return problem_; }
+  void TakeOverLandmarks();
+
+ private:
+  void AddKeyframes();
+  void AddImu(const BundleKeyframe& from, const BundleKeyframe& to);
+  void HoldFirst(const BundleKeyframe& first);
+  void AddLandmark(const LandmarkTrack& landmark);
+  int Pose(const BundleKeyframe& keyframe) const;
+  int Motion(const BundleKeyframe& keyframe) const;
+
+  const BundleOptions options_;
+  const Eigen::Vector3d gravity_M_;
+  BundleState* bundle_;
+  const ImuHistory& imu_;
+  FrameState extrinsics_;
+  double time_offset_ = 0;
+  int extrinsic_variable_ = -1, td_variable_ = -1;
+  std::map<const BundleKeyframe*, std::pair<int, int>> variables_;  // pose and motion
+  std::deque<Preintegration> preintegrations_;
+  std::vector<std::array<double, kPointSize>> points_;  // image point and inverse depth in the host
+  ceres::CauchyLoss loss_{1.0};
+  WindowProblem problem_;
+};
+
+BundleProblem::BundleProblem(const ImuHistory& imu, const BundleOptions& options,
+                             BundleState* bundle)
+    : options_(options), gravity_M_(0, 0, -options.gravity_norm), bundle_(bundle), imu_(imu) {
+  extrinsics_.SetPose(bundle->T_B_C);
+  AddKeyframes();
+  constexpr bool kConstant = true;
+  extrinsic_variable_ =
+      problem_.AddVariable({BlockKind::kExtrinsic, 0}, extrinsics_.pose.data(), kConstant);
+  td_variable_ = problem_.AddVariable({BlockKind::kTimeOffset, 0}, &time_offset_, kConstant);
+  points_.reserve(bundle->landmarks.size());  // the problem holds pointers to the elements
+  for (const LandmarkTrack& landmark : bundle->landmarks) AddLandmark(landmark);
+}
+
+void BundleProblem::AddKeyframes() {
+  const BundleKeyframe* before = nullptr;
+  for (auto& [number, keyframe] : bundle_->keyframes) {
+    FrameState& state = keyframe.state;
+    const bool constant = !keyframe.moves();
+    const int pose = problem_.AddVariable({BlockKind::kPose, number}, state.pose.data(), constant);
+    const int motion =
+        problem_.AddVariable({BlockKind::kMotion, number}, state.motion.data(), constant);
+    variables_[&keyframe] = {pose, motion};
+    if (keyframe.moves()) {
+      const bool continues =
+          before != nullptr && before->moves() && before->world == keyframe.world;
+      if (continues) {
+        AddImu(*before, keyframe);
+      } else {
+        problem_.AddTerm(BiasPrior(state.bias(), kAccelBiasDeviation, kGyroBiasDeviation), nullptr,
+                         {motion});
+      }
+    }
+    if (keyframe.stationary) {
+      problem_.AddTerm(ZeroVelocityFactor(kStillVelocity), nullptr, {motion});
+    }
+    before = &keyframe;
+  }
+  const BundleKeyframe& first = bundle_->keyframes.begin()->second;
+  if (first.moves()) {
+    problem_.AddTerm(GaugePrior(first.state, kGaugeDeviation), nullptr, {Pose(first)});
+  }
+}
+
+void BundleProblem::AddImu(const BundleKeyframe& from, const BundleKeyframe& to) {
+  auto preintegration = imu_.Between(from.state.t_ns, to.state.t_ns, *to.noise, from.state.bias());
+  if (!preintegration) return;
+  preintegrations_.push_back(std::move(*preintegration));
+  problem_.AddTerm(ImuFactor(&preintegrations_.back(), gravity_M_), nullptr,
+                   {Pose(from), Motion(from), Pose(to), Motion(to)});
+}
+
+int BundleProblem::Pose(const BundleKeyframe& keyframe) const {
+  return variables_.at(&keyframe).first;
+}
+
+int BundleProblem::Motion(const BundleKeyframe& keyframe) const {
+  return variables_.at(&keyframe).second;
+}
+
+// The point in the first sighting; one factor per sighting.
+void BundleProblem::AddLandmark(const LandmarkTrack& landmark) {
+  const LandmarkSighting& host = landmark.sightings.front();
+  const Eigen::Vector3d p_C = bundle_->T_M_C(host.keyframe).Inverse() * landmark.p_M;
+  const BlockId id{BlockKind::kPoint, static_cast<int64_t>(points_.size())};
+  points_.push_back({p_C.x() / p_C.z(), p_C.y() / p_C.z(), 1 / p_C.z()});
+  const int index = problem_.AddLandmark(id, points_.back().data());
+  const int point = problem_.Find(id);
+  const auto bearing = [](const LandmarkSighting& sighting) {
+    return TimedBearing{sighting.xy, Eigen::Vector2d::Zero(), 0};
+  };
+  problem_.AddLandmarkTerm(index, PointHostFactor(bearing(host), 1 / options_.noise.followed),
+                           &loss_, {td_variable_, point});
+  const int host_pose = Pose(bundle_->keyframes.at(host.keyframe));
+  for (const LandmarkSighting& sighting : landmark.sightings) {
+    if (sighting.keyframe == host.keyframe) continue;
+    const double noise = sighting.again ? options_.noise.again : options_.noise.followed;
+    const int pose = Pose(bundle_->keyframes.at(sighting.keyframe));
+    problem_.AddLandmarkTerm(index, PointFactor(bearing(sighting), 1 / noise), &loss_,
+                             {host_pose, pose, extrinsic_variable_, td_variable_, point});
+  }
+}
+
+void BundleProblem::TakeOverLandmarks() {
+  for (size_t i = 0; i < points_.size(); ++i) {
+    LandmarkTrack& landmark = bundle_->landmarks[i];
+    const auto& [x, y, inverse_depth] = points_[i];
+    landmark.p_M = bundle_->T_M_C(landmark.sightings.front().keyframe) *
+                   (Eigen::Vector3d(x, y, 1) / inverse_depth);
+  }
+}
+
+}  // namespace
+
+bool AdjustBundle(const ImuHistory& imu, const BundleOptions& options, BundleState* bundle) {
+  BundleProblem problem(imu, options, bundle);
+  SolverOptions solver;
+  solver.max_iterations = options.max_iterations;
+  solver.deviation_tolerance = 0.02;
+  if (!SolveByCeres(solver, problem.problem(), CeresEquations::kSparse).solved) return false;
+  problem.TakeOverLandmarks();
+  return true;
+}
+
+}  // namespace plm_vins

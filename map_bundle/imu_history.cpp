@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_bundle/imu_history.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "common/imu/imu_interpolation.h"
+
+namespace plm_vins {
+
+void ImuHistory::Add(const ImuSample& sample) {
+  if (!samples_.empty()) {
+    if (sample.t_ns == samples_.back().t_ns) return;
+    if (sample.t_ns < samples_.back().t_ns) samples_.clear();
+  }
+  samples_.push_back(sample);
+}
+
+std::optional<Preintegration> ImuHistory::Between(int64_t from_ns, int64_t to_ns,
+                                                  const ImuNoise& noise,
+                                                  const ImuBias& bias) const {
+  if (samples_.empty() || from_ns >= to_ns) return std::nullopt;
+  if (from_ns < samples_.front().t_ns || to_ns > samples_.back().t_ns) return std::nullopt;
+  const auto at_or_after = [this](int64_t t_ns) {
+    return std::lower_bound(
+        samples_.begin(), samples_.end(), t_ns,
+        [](const ImuSample& sample, int64_t time_ns) { return sample.t_ns < time_ns; });
+  };
+  const auto interpolated = [&](int64_t t_ns) {
+    const auto after = at_or_after(t_ns);
+    return after->t_ns == t_ns ? *after : InterpolateImu(*std::prev(after), *after, t_ns);
+  };
+  Preintegration result(noise, bias);
+  result.Append(interpolated(from_ns));
+  for (auto sample = at_or_after(from_ns + 1); sample->t_ns < to_ns; ++sample) {
+    result.Append(*sample);
+  }
+  result.Append(interpolated(to_ns));
+  return result;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_bundle/landmark_tracks.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace plm_vins {
+namespace {
+
+struct Sightings {
+  std::optional<Eigen::Vector3d> p_M;  // as of the newest keyframe that knows it
+  std::vector<LandmarkSighting> all;
+};
+
+bool IsBeforeAllCameras(const KeyframeMap& map, const Eigen::Vector3d& p_M,
+                        const std::vector<LandmarkSighting>& sightings) {
+  constexpr double kMinDepth = 0.1;  // [m]
+  return std::all_of(sightings.begin(), sightings.end(), [&](const LandmarkSighting& sighting) {
+    const Rigid3d T_M_C =
+        map.T_M_O(sighting.keyframe).ToRigid() * map.keyframes[sighting.keyframe].T_O_C();
+    return (T_M_C.Inverse() * p_M).z() >= kMinDepth;
+  });
+}
+
+}  // namespace
+
+std::vector<LandmarkTrack> CollectLandmarks(const KeyframeMap& map,
+                                            const std::vector<int>& keyframes,
+                                            const std::vector<SightingAgain>& again) {
+  std::map<LandmarkKey, Sightings> by_key;
+  for (const int number : keyframes) {
+    const Keyframe& keyframe = map.keyframes[number];
+    for (const DescribedCorner& corner : keyframe.corners) {
+      if (corner.track < 0) continue;
+      Sightings& sightings = by_key[{keyframe.world, corner.track}];
+      if (corner.p_O) sightings.p_M = map.T_M_O(number) * corner.p_O->cast<double>();
+      sightings.all.push_back({number, corner.xy.cast<double>(), /*again=*/false});
+    }
+  }
+  for (const SightingAgain& sighting : again) {
+    const auto seen = by_key.find(sighting.landmark);
+    if (seen == by_key.end()) continue;
+    if (!std::binary_search(keyframes.begin(), keyframes.end(), sighting.keyframe)) continue;
+    seen->second.all.push_back({sighting.keyframe, sighting.xy, /*again=*/true});
+  }
+  std::vector<LandmarkTrack> tracks;
+  for (auto& [key, seen] : by_key) {
+    if (!seen.p_M || seen.all.size() < 2) continue;
+    if (!IsBeforeAllCameras(map, *seen.p_M, seen.all)) continue;
+    tracks.push_back({key, *seen.p_M, std::move(seen.all)});
+  }
+  return tracks;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_bundle/map_bundle.h"
+
+#include <algorithm>
+
+#include "map_bundle/bundle_noise.h"
+#include "map_bundle/bundle_problem.h"
+
+namespace plm_vins {
+namespace {
+
+// The kept keyframes of the part of the map that the first one is in.
+std::vector<int> KeyframesInMap(const KeyframeMap& map) {
+  const std::vector<bool> connected = map.graph.ConnectedWith(0);
+  std::vector<int> numbers;
+  for (int i = 0; i < map.graph.size(); ++i) {
+    if (map.graph.Has(i) && connected[i]) numbers.push_back(i);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry) {
+  FrameState state = odometry.state;
+  state.t_ns += ToNanoseconds(odometry.calibration.td);
+  motions_[map.graph.size() - 1] = {state, odometry.imu_noise, odometry.stationary};
+}
+
+void MapBundle::AddPlace(const KeyframeMap& map, const RecognisedPlace& place) {
+  const int newest = map.graph.size() - 1;
+  const auto add = [&](const std::vector<SeenPoint>& seen, int of, int by) {
+    for (const SeenPoint& point : seen) {
+      again_.push_back({{map.keyframes[of].world, point.track}, by, point.xy});
+    }
+  };
+  add(place.sightings.of_earlier, place.earlier, newest);
+  add(place.sightings.of_later, newest, place.earlier);
+  ++places_;
+}
+
+BundleState MapBundle::StateOf(const KeyframeMap& map) const {
+  const std::vector<int> numbers = KeyframesInMap(map);
+  BundleState bundle;
+  bundle.T_B_C = map.keyframes.back().T_B_C;
+  for (const int number : numbers) {
+    const Keyframe& keyframe = map.keyframes[number];
+    const LevelTransform T_M_O = map.T_M_O(number);
+    BundleKeyframe& member = bundle.keyframes[number];
+    member.world = keyframe.world;
+    const auto motion = motions_.find(number);
+    if (motion != motions_.end()) {
+      member.state = motion->second.state;
+      member.state.velocity() = T_M_O.rotation() * motion->second.state.velocity();
+      member.noise = motion->second.noise;
+      member.stationary = motion->second.stationary;
+    }
+    member.state.SetPose(T_M_O.ToRigid() * keyframe.T_O_B);
+  }
+  bundle.landmarks = CollectLandmarks(map, numbers, again_);
+  return bundle;
+}
+
+std::optional<AdjustedMap> MapBundle::Adjust(const KeyframeMap& map) {
+  if (places_ < options_.min_places) return std::nullopt;
+  BundleState bundle = StateOf(map);
+  if (bundle.keyframes.size() < options_.min_keyframes) return std::nullopt;
+  summary_ = {bundle.keyframes.size(), bundle.landmarks.size(), again_.size(), {}};
+  BundleOptions options;
+  options.gravity_norm = options_.gravity_norm;
+  const SightingNoise configured = {options_.point_noise, options_.point_noise};
+  options.noise = configured;
+  constexpr int kRounds = 3;  // the noise of one from the residuals of the one before
+  for (int round = 0; round < kRounds; ++round) {
+    if (!AdjustBundle(imu_, options, &bundle)) return std::nullopt;
+    options.noise = EstimateNoise(bundle, configured);
+  }
+  summary_.noise = options.noise;
+
+  AdjustedMap adjusted;
+  for (const auto& [number, keyframe] : bundle.keyframes) {
+    adjusted.T_M_B[number] = keyframe.state.T_W_B();
+  }
+  for (const LandmarkTrack& landmark : bundle.landmarks) adjusted.p_M[landmark.key] = landmark.p_M;
+  return adjusted;
+}
+
+}  // namespace plm_vins

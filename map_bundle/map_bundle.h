@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "common/imu/imu_noise.h"
+#include "common/measurements.h"
+#include "map_bundle/adjusted_map.h"
+#include "map_bundle/bundle_state.h"
+#include "map_bundle/imu_history.h"
+#include "map_bundle/landmark_tracks.h"
+#include "pose_graph/loop_closer.h"
+#include "vins_estimator/state/estimator_output.h"
+#include "vins_estimator/state/frame_state.h"
+
+namespace plm_vins {
+
+struct MapBundleOptions {
+  double gravity_norm = 9.81;  // [m/s^2]
+  double point_noise = 1e-3;   // standard deviation of a corner to begin with (normalised)
+  size_t min_places = 10;      // that were recognised
+  size_t min_keyframes = 60;   // with fewer of both, odometry knows as much
+};
+
+// How it went.
+struct MapBundleSummary {
+  size_t keyframes = 0;
+  size_t landmarks = 0;
+  size_t sightings_again = 0;  // of landmarks by keyframes of another visit
+  SightingNoise noise;         // as found
+};
+
+// Bundle adjustment of a whole map with the IMU: what a run remembers of its keyframes beside the
+// map, and the solution in the end. Where the graph has a place by its loops alone, with the scale
+// of each piece of odometry, the bundle takes all pieces as one.
+class MapBundle {
+ public:
+  explicit MapBundle(const MapBundleOptions& options) : options_(options) {}
+
+  void AddImu(const ImuSample& sample) { imu_.Add(sample); }
+
+  // What odometry says of the map's newest keyframe.
+  void AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry);
+
+  // The newest keyframe shows a place again.
+  void AddPlace(const KeyframeMap& map, const RecognisedPlace& place);
+
+  // Adjusts the keyframes that are kept and joined to the first one. Nothing where the measurements
+  // do not determine them, or too few places were recognised.
+  std::optional<AdjustedMap> Adjust(const KeyframeMap& map);
+
+  const MapBundleSummary& summary() const { return summary_; }
+
+ private:
+  struct Motion {
+    FrameState state;  // in the odometry's world, at the time of the image by the clock of the IMU
+    ImuNoise noise;
+    bool stationary = false;
+  };
+
+  BundleState StateOf(const KeyframeMap& map) const;
+
+  MapBundleOptions options_;
+  ImuHistory imu_;
+  std::map<int, Motion> motions_;  // by number of the keyframe
+  std::vector<SightingAgain> again_;
+  size_t places_ = 0;
+  MapBundleSummary summary_;
+};
+
+}  // namespace plm_vins

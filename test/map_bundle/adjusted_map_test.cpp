@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_bundle/adjusted_map.h"
+
+#include <gtest/gtest.h>
+
+#include "common/geometry/so3.h"
+#include "pose_graph/map/map_trajectory.h"
+#include "test/map_bundle/drifting_flight.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::DriftingFlight;
+using testing::DriftingFlightOptions;
+
+// What a perfect bundle would find.
+AdjustedMap TruthOf(const DriftingFlight& flight) {
+  AdjustedMap truth;
+  for (int i = 0; i < flight.map().graph.size(); ++i) truth.T_M_B[i] = flight.True(i);
+  return truth;
+}
+
+TEST(AdjustedMapTest, MovesNodesToTheirKeyframes) {
+  const DriftingFlight flight(DriftingFlightOptions{});
+  KeyframeMap map = flight.map();
+  MoveNodes(TruthOf(flight), &map);
+  for (int i = 0; i < map.graph.size(); ++i) {
+    const Keyframe& keyframe = map.keyframes[i];
+    EXPECT_EQ(keyframe.T_O_B.translation, flight.map().keyframes[i].T_O_B.translation);
+    const Rigid3d T_M_B = PoseInMap(map, {keyframe.t_ns, keyframe.T_O_B, i});
+    EXPECT_LT((T_M_B.translation - flight.True(i).translation).norm(), 1e-9) << i;
+    EXPECT_LT(T_M_B.rotation.angularDistance(flight.True(i).rotation), 1e-6) << i;
+  }
+}
+
+TEST(AdjustedMapTest, RebuildsAMapThatRests) {
+  const DriftingFlight flight(DriftingFlightOptions{});
+  AdjustedMap truth = TruthOf(flight);
+  const int64_t track = flight.map().keyframes[3].corners.front().track;
+  const Eigen::Vector3d p_M(4, 5, 6);
+  truth.p_M[{0, track}] = p_M;
+  KeyframeMap moved = flight.map();
+  MoveNodes(truth, &moved);
+
+  KeyframeMap rebuilt = RebuiltMap(truth, moved);
+  rebuilt.graph.Optimize();
+
+  const LevelTransform T_M_O = rebuilt.T_M_O(0);
+  for (int i = 0; i < rebuilt.graph.size(); ++i) {
+    const Keyframe& keyframe = rebuilt.keyframes[i];
+    EXPECT_LT((rebuilt.T_M_O(i).translation - T_M_O.translation).norm(), 1e-6) << i;
+    const Rigid3d T_M_B = rebuilt.T_M_O(i).ToRigid() * keyframe.T_O_B;
+    EXPECT_LT((T_M_B.translation - flight.True(i).translation).norm(), 1e-6) << i;
+  }
+  const DescribedCorner& corner = rebuilt.keyframes[3].corners.front();
+  ASSERT_TRUE(corner.p_O);
+  EXPECT_LT((rebuilt.T_M_O(3) * corner.p_O->cast<double>() - p_M).norm(), 1e-5);
+}
+
+}  // namespace
+}  // namespace plm_vins

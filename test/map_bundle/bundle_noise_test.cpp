@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_bundle/bundle_noise.h"
+
+#include <gtest/gtest.h>
+
+#include "simulator/random.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr SightingNoise kConfigured = {1e-3, 1e-3};
+
+// Eight keyframes that see landmarks with noise; their true places are known.
+BundleState BundleWith(int landmarks, double followed, double again) {
+  simulator::Random random(3);
+  BundleState bundle;
+  for (int i = 0; i < 8; ++i) {
+    FrameState state;
+    state.SetPose({Eigen::Quaterniond::Identity(), {0.3 * i, 0, 0}});
+    bundle.keyframes[i] = {0, state, std::nullopt};
+  }
+  for (int i = 0; i < landmarks; ++i) {
+    LandmarkTrack landmark;
+    landmark.p_M = {random.Uniform(-2, 2), random.Uniform(-1, 1), random.Uniform(3, 6)};
+    for (int k = 0; k < 8; ++k) {
+      const bool is_again = k >= 6;
+      const double noise = is_again ? again : followed;
+      const Eigen::Vector3d p_C = bundle.T_M_C(k).Inverse() * landmark.p_M;
+      const Eigen::Vector2d error(noise * random.Normal(), noise * random.Normal());
+      landmark.sightings.push_back({k, p_C.hnormalized() + error, is_again});
+    }
+    bundle.landmarks.push_back(landmark);
+  }
+  return bundle;
+}
+
+// Nothing was adjusted here, so the errors are by a third greater than the noise would tell.
+TEST(BundleNoiseTest, TellsBothKindsApart) {
+  const SightingNoise noise = EstimateNoise(BundleWith(400, 5e-4, 2e-3), kConfigured);
+  EXPECT_NEAR(noise.followed, 5e-4 * std::sqrt(12.0 / 9.0), 3e-5);
+  EXPECT_NEAR(noise.again, 2e-3, 1.5e-4);
+}
+
+TEST(BundleNoiseTest, KeepsWhatIsConfiguredWhereThereIsLittle) {
+  const SightingNoise noise = EstimateNoise(BundleWith(10, 5e-4, 2e-3), kConfigured);
+  EXPECT_EQ(noise.followed, kConfigured.followed);
+  EXPECT_EQ(noise.again, kConfigured.again);
+}
+
+TEST(BundleNoiseTest, HasBounds) {
+  const SightingNoise small = EstimateNoise(BundleWith(100, 1e-9, 1e-9), kConfigured);
+  EXPECT_DOUBLE_EQ(small.followed, 1e-3 / 8);
+  const SightingNoise large = EstimateNoise(BundleWith(100, 1, 1), kConfigured);
+  EXPECT_DOUBLE_EQ(large.again, 8e-3);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_bundle/imu_history.h"
+
+#include <gtest/gtest.h>
+
+namespace plm_vins {
+namespace {
+
+constexpr int64_t kStep_ns = 5'000'000;
+
+ImuSample SampleAt(int64_t t_ns) {
+  const double t = 1e-9 * static_cast<double>(t_ns);
+  ImuSample sample;
+  sample.t_ns = t_ns;
+  sample.gyro = {0.1 * t, 0.2, -0.1};
+  sample.accel = {t, 0.5, 9.8};
+  return sample;
+}
+
+ImuHistory SecondOfSamples() {
+  ImuHistory history;
+  for (int i = 0; i <= 200; ++i) history.Add(SampleAt(i * kStep_ns));
+  return history;
+}
+
+TEST(ImuHistoryTest, IntegratesWhatIsBetween) {
+  const ImuHistory history = SecondOfSamples();
+
+  const auto between = history.Between(102'500'000, 900'000'000, ImuNoise{}, ImuBias{});
+
+  ASSERT_TRUE(between);
+  Preintegration expected(ImuNoise{}, ImuBias{});
+  expected.Append(SampleAt(102'500'000));  // readings grow evenly
+  for (int i = 21; i <= 180; ++i) expected.Append(SampleAt(i * kStep_ns));
+  EXPECT_EQ(between->samples().size(), expected.samples().size());
+  EXPECT_NEAR(between->duration(), 0.7975, 1e-12);
+  EXPECT_LT((between->delta_p() - expected.delta_p()).norm(), 1e-12);
+  EXPECT_LT((between->delta_v() - expected.delta_v()).norm(), 1e-12);
+}
+
+TEST(ImuHistoryTest, SaysNothingBeyondItsSamples) {
+  const ImuHistory history = SecondOfSamples();
+  EXPECT_FALSE(history.Between(-1, 500'000'000, ImuNoise{}, ImuBias{}));
+  EXPECT_FALSE(history.Between(500'000'000, 1'000'000'001, ImuNoise{}, ImuBias{}));
+  EXPECT_FALSE(history.Between(500'000'000, 500'000'000, ImuNoise{}, ImuBias{}));
+  EXPECT_FALSE(ImuHistory().Between(0, 1, ImuNoise{}, ImuBias{}));
+}
+
+TEST(ImuHistoryTest, TakesAStampOnce) {
+  ImuHistory history = SecondOfSamples();
+  history.Add(SampleAt(200 * kStep_ns));
+  EXPECT_TRUE(history.Between(0, 1'000'000'000, ImuNoise{}, ImuBias{}));
+}
+
+TEST(ImuHistoryTest, BeginsAnewWhereStampsJumpBack) {
+  ImuHistory history = SecondOfSamples();
+  for (int i = 20; i <= 60; ++i) history.Add(SampleAt(i * kStep_ns));
+  EXPECT_FALSE(history.Between(0, 200'000'000, ImuNoise{}, ImuBias{}));
+  EXPECT_TRUE(history.Between(100'000'000, 300'000'000, ImuNoise{}, ImuBias{}));
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_bundle/landmark_tracks.h"
+
+#include <gtest/gtest.h>
+
+namespace plm_vins {
+namespace {
+
+constexpr float kDepth = 4;
+
+// Keyframes side by side that look along z, each of a world of its own number.
+KeyframeMap MapOf(const std::vector<int>& worlds) {
+  KeyframeMap map;
+  for (size_t i = 0; i < worlds.size(); ++i) {
+    Keyframe keyframe;
+    keyframe.world = worlds[i];
+    keyframe.T_O_B.translation = {0.5 * static_cast<double>(i), 0, 0};
+    map.graph.AddNode(keyframe.T_O_L());
+    map.keyframes.push_back(keyframe);
+  }
+  return map;
+}
+
+void See(int64_t track, std::optional<Eigen::Vector3f> p_O, Keyframe* keyframe) {
+  DescribedCorner& corner = keyframe->corners.emplace_back();
+  corner.track = track;
+  corner.xy = {0.1f, 0.2f};
+  corner.p_O = p_O;
+}
+
+const Eigen::Vector3f kPlace(1, 2, kDepth);
+
+TEST(LandmarkTracksTest, JoinsTheCornersOfATrack) {
+  KeyframeMap map = MapOf({0, 0, 0});
+  See(7, std::nullopt, &map.keyframes[0]);
+  See(7, kPlace, &map.keyframes[2]);
+  const auto tracks = CollectLandmarks(map, {0, 1, 2}, {});
+  ASSERT_EQ(tracks.size(), 1u);
+  EXPECT_EQ(tracks[0].key.track, 7);
+  EXPECT_EQ(tracks[0].p_M, kPlace.cast<double>());
+  ASSERT_EQ(tracks[0].sightings.size(), 2u);
+  EXPECT_EQ(tracks[0].sightings[0].keyframe, 0);
+  EXPECT_EQ(tracks[0].sightings[1].keyframe, 2);
+}
+
+TEST(LandmarkTracksTest, KeepsTracksOfTwoWorldsApart) {
+  KeyframeMap map = MapOf({0, 1});
+  See(7, kPlace, &map.keyframes[0]);
+  See(7, kPlace, &map.keyframes[1]);
+  EXPECT_TRUE(CollectLandmarks(map, {0, 1}, {}).empty());
+}
+
+TEST(LandmarkTracksTest, AddsWhatWasSeenAgain) {
+  KeyframeMap map = MapOf({0, 1, 1});
+  See(7, kPlace, &map.keyframes[0]);
+  const Eigen::Vector2d xy(0.3, -0.1);
+  const auto tracks =
+      CollectLandmarks(map, {0, 1}, {{{0, 7}, 1, xy}, {{0, 7}, 2, xy}, {{0, 8}, 1, xy}});
+  ASSERT_EQ(tracks.size(), 1u);
+  ASSERT_EQ(tracks[0].sightings.size(), 2u);  // keyframe 2 was not asked for
+  EXPECT_FALSE(tracks[0].sightings[0].again);
+  EXPECT_TRUE(tracks[0].sightings[1].again);
+  EXPECT_EQ(tracks[0].sightings[1].xy, xy);
+}
+
+TEST(LandmarkTracksTest, LeavesOutWhatHasNoPlaceOrLiesBehind) {
+  KeyframeMap map = MapOf({0, 0});
+  for (Keyframe& keyframe : map.keyframes) {
+    See(1, std::nullopt, &keyframe);
+    See(2, Eigen::Vector3f(1, 2, -kDepth), &keyframe);
+    See(-1, std::nullopt, &keyframe);
+  }
+  EXPECT_TRUE(CollectLandmarks(map, {0, 1}, {}).empty());
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_bundle/map_bundle.h"
+
+#include <gtest/gtest.h>
+
+#include "test/map_bundle/drifting_flight.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::DriftingFlight;
+using testing::DriftingFlightOptions;
+using testing::PositionError;
+
+double ErrorOf(const DriftingFlight& flight, const AdjustedMap& adjusted) {
+  return PositionError(flight, [&](int number) { return adjusted.T_M_B.at(number); });
+}
+
+double ErrorOfOdometry(const DriftingFlight& flight) {
+  return PositionError(flight, [&](int number) { return flight.InMap(number); });
+}
+
+TEST(MapBundleTest, TakesOutDriftAndScale) {
+  const DriftingFlight flight(DriftingFlightOptions{});
+  MapBundle bundle(MapBundleOptions{});
+  flight.Tell(&bundle);
+
+  const auto adjusted = bundle.Adjust(flight.map());
+
+  ASSERT_TRUE(adjusted);
+  EXPECT_EQ(adjusted->T_M_B.size(), flight.map().keyframes.size());
+  EXPECT_GT(ErrorOfOdometry(flight), 0.1);
+  EXPECT_LT(ErrorOf(flight, *adjusted), 0.015);
+  EXPECT_GT(bundle.summary().sightings_again, 500u);
+}
+
+TEST(MapBundleTest, FindsTheNoiseOfWhatIsSeen) {
+  DriftingFlightOptions options;
+  options.noise = 3e-3;
+  const DriftingFlight flight(options);
+  MapBundle bundle(MapBundleOptions{});
+  flight.Tell(&bundle);
+
+  ASSERT_TRUE(bundle.Adjust(flight.map()));
+
+  EXPECT_NEAR(bundle.summary().noise.followed, 3e-3, 3e-4);
+  EXPECT_NEAR(bundle.summary().noise.again, 3e-3, 1e-3);
+}
+
+TEST(MapBundleTest, BearsWrongMatches) {
+  DriftingFlightOptions options;
+  options.wrong_share = 0.2;
+  const DriftingFlight flight(options);
+  MapBundle bundle(MapBundleOptions{});
+  flight.Tell(&bundle);
+
+  const auto adjusted = bundle.Adjust(flight.map());
+
+  ASSERT_TRUE(adjusted);
+  EXPECT_LT(ErrorOf(flight, *adjusted), 0.03);
+}
+
+TEST(MapBundleTest, LeavesKeyframesOfALoadedMapWhereTheyAre) {
+  DriftingFlightOptions options;
+  options.drift = 0;
+  options.scale = 1;
+  const DriftingFlight flight(options);
+  MapBundle bundle(MapBundleOptions{});
+  flight.Tell(&bundle, /*loaded=*/20);
+
+  const auto adjusted = bundle.Adjust(flight.map());
+
+  ASSERT_TRUE(adjusted);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(adjusted->T_M_B.at(i).translation, flight.InMap(i).translation) << i;
+  }
+}
+
+TEST(MapBundleTest, NeedsPlacesThatWereRecognised) {
+  const DriftingFlight flight(DriftingFlightOptions{});
+  MapBundleOptions options;
+  options.min_places = 1000;
+  MapBundle bundle(options);
+  flight.Tell(&bundle);
+
+  EXPECT_FALSE(bundle.Adjust(flight.map()));
+}
+
+TEST(MapBundleTest, HasNothingToSayOfAnEmptyMap) {
+  MapBundle bundle(MapBundleOptions{});
+  EXPECT_FALSE(bundle.Adjust(KeyframeMap{}));
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -209,7 +209,8 @@ bool LoopCloser::Reconsider(const std::vector<LoopCandidate*>& loops, LoopClosur
   std::vector<LoopCandidate> right, wrong;
   for (LoopCandidate& loop : refused_) (Holds(dropped, loop) ? wrong : right).push_back(loop);
   const size_t given_up = dropped.size() - wrong.size();
-  if (right.size() < given_up + 2) {
+  const bool are_more = given_up > 0 && right.size() >= given_up + 2;
+  if (!are_more) {
     map_.graph = before;
     return false;
   }

@@ -20,7 +20,7 @@ namespace plm_vins {
 struct MapBundleOptions {
   double gravity_norm = 9.81;  // [m/s^2]
   double point_noise = 1e-3;   // standard deviation of a corner to begin with (normalised)
-  size_t min_places = 10;      // that were recognised
+  size_t min_places = 3;       // that were recognised
   size_t min_keyframes = 60;   // with fewer of both, odometry knows as much
 };
 

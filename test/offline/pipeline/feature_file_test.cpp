@@ -28,8 +28,8 @@ TrackedItem FrameItem() {
   item.frame = std::make_unique<TrackedFeatures>();
   TrackedPoints& points = item.frame->points;
   points.features.t_ns = kStart;
-  points.features.points = {{7, {0.1, 0.2}, {300.25, 200.5}, {-1, 2}},
-                            {9, {1 / 3.0, -0.2}, {}, {}}};
+  points.features.points.push_back({7, {0.1, 0.2}, {300.25, 200.5}, {-1, 2}});
+  points.features.points.push_back({9, {1 / 3.0, -0.2}, {0, 0}, {0, 0}});
   points.statistics.epipolar_outliers = 3;
   points.publish = false;
   TrackedLines& lines = item.frame->lines.emplace();

@@ -21,7 +21,7 @@ KeyframeMap MapOf(const std::vector<int>& worlds) {
   return map;
 }
 
-void See(int64_t track, std::optional<Eigen::Vector3f> p_O, Keyframe* keyframe) {
+void See(int64_t track, const std::optional<Eigen::Vector3f>& p_O, Keyframe* keyframe) {
   DescribedCorner& corner = keyframe->corners.emplace_back();
   corner.track = track;
   corner.xy = {0.1f, 0.2f};

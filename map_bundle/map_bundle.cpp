@@ -7,19 +7,6 @@
 #include "map_bundle/bundle_problem.h"
 
 namespace plm_vins {
-namespace {
-
-// The kept keyframes of the part of the map that the first one is in.
-std::vector<int> KeyframesInMap(const KeyframeMap& map) {
-  const std::vector<bool> connected = map.graph.ConnectedWith(0);
-  std::vector<int> numbers;
-  for (int i = 0; i < map.graph.size(); ++i) {
-    if (map.graph.Has(i) && connected[i]) numbers.push_back(i);
-  }
-  return numbers;
-}
-
-}  // namespace
 
 void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry) {
   FrameState state = odometry.state;
@@ -40,7 +27,7 @@ void MapBundle::AddPlace(const KeyframeMap& map, const RecognisedPlace& place) {
 }
 
 BundleState MapBundle::StateOf(const KeyframeMap& map) const {
-  const std::vector<int> numbers = KeyframesInMap(map);
+  const std::vector<int> numbers = map.NumbersInMap();
   BundleState bundle;
   bundle.T_B_C = map.keyframes.back().T_B_C;
   for (const int number : numbers) {

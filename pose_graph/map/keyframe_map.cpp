@@ -12,6 +12,15 @@ void KeyframeMap::Remove(int keyframe, int anchor) {
 
 int KeyframeMap::CountKept() const { return static_cast<int>(graph.Kept().size()); }
 
+std::vector<int> KeyframeMap::NumbersInMap() const {
+  const std::vector<bool> connected = graph.ConnectedWith(0);
+  std::vector<int> numbers;
+  for (const int i : graph.Kept()) {
+    if (connected[i]) numbers.push_back(i);
+  }
+  return numbers;
+}
+
 KeyframeMap KeyframeMap::Compact() const {
   KeyframeMap compact;
   std::vector<int> new_number(keyframes.size(), -1);

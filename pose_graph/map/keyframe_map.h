@@ -19,6 +19,9 @@ struct KeyframeMap {
 
   int CountKept() const;
 
+  // Of those that are not removed and joined to the first one, in order.
+  std::vector<int> NumbersInMap() const;
+
   // Of those alone that were not removed, numbered anew.
   KeyframeMap Compact() const;
 

@@ -26,16 +26,6 @@ struct ColmapPoint {
   std::vector<std::pair<int, size_t>> views;  // keyframe, corner
 };
 
-// Those that are kept and have a place in the map.
-std::vector<int> KeyframesInMap(const KeyframeMap& map) {
-  const std::vector<bool> connected = map.graph.ConnectedWith(0);
-  std::vector<int> numbers;
-  for (const int i : map.graph.Kept()) {
-    if (connected[i]) numbers.push_back(i);
-  }
-  return numbers;
-}
-
 std::map<PointName, ColmapPoint> CollectPoints(const KeyframeMap& map,
                                                const std::vector<int>& keyframes) {
   std::map<PointName, ColmapPoint> points;
@@ -143,7 +133,7 @@ void WriteColmapModel(const std::string& folder, const CameraParameters& camera,
   CameraParameters shifted = camera;
   shifted.cx += 0.5;
   shifted.cy += 0.5;
-  const std::vector<int> keyframes = KeyframesInMap(map);
+  const std::vector<int> keyframes = map.NumbersInMap();
   const std::map<PointName, ColmapPoint> points = CollectPoints(map, keyframes);
   WriteFile(folder, "cameras.txt", [&](std::ostream* stream) { WriteCamera(shifted, stream); });
   const std::unique_ptr<const CameraModel> written = WrittenCamera(camera);

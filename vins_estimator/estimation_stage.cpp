@@ -134,7 +134,8 @@ std::optional<EstimatedFrame> EstimationStage::Process(
     frame.output.reason = *std::exchange(restart_reason_, std::nullopt);
   }
   sync_.SetTimeOffset(estimator_->time_offset());
-  const std::vector<ImuSample>& imu = measurement->imu;
+  frame.imu = measurement->imu;
+  const std::vector<ImuSample>& imu = frame.imu;
   frame.imu_ns = imu.back().t_ns;
   if (imu.size() > 1) {
     const double interval =

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/config/config.h"
 #include "common/measurements.h"
@@ -25,9 +26,10 @@ DropCounts ToDropCounts(const SyncStatistics& statistics);
 // What the estimator says about an image, and what else there is to publish.
 struct EstimatedFrame {
   EstimatorOutput output;
-  PointFrame points;   // that were estimated from
-  LineFrame lines;     // the same; empty where there were none
-  int64_t imu_ns = 0;  // on the IMU's clock, what the state stands for
+  PointFrame points;           // that were estimated from
+  LineFrame lines;             // the same; empty where there were none
+  std::vector<ImuSample> imu;  // the same; to begin with, the last one of the frame before
+  int64_t imu_ns = 0;          // on the IMU's clock, what the state stands for
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // of B, bias removed [rad/s]
   // Of each of its components, by the noise of one gyro sample [rad^2/s^2].
   double angular_velocity_variance = 0;

@@ -37,8 +37,7 @@ OdometryPipeline::OdometryPipeline(const Config& config)
     : use_lines_(config.use_lines),
       keeps_pixels_(config.pose_graph.loop_closure),
       trackers_(config),
-      back_end_(config),
-      imu_(config.sensor.imu_range) {}
+      back_end_(config) {}
 
 DropCounts OdometryPipeline::drops() const {
   DropCounts counts = ToDropCounts(trackers_.image_counts());
@@ -157,23 +156,14 @@ void OdometryPipeline::Consume(TrackedItem item, const FrameCallback& on_frame) 
   if (item.frame) {
     AddFeatures(std::move(*item.frame));
   } else {
-    AddImu(item.imu);
+    back_end_.AddImu(item.imu);
   }
   while (auto estimated = back_end_.Pop()) Report(std::move(*estimated), on_frame);
-}
-
-void OdometryPipeline::AddImu(const ImuSample& sample) {
-  back_end_.AddImu(sample);
-  const int64_t jumps_back = back_end_.statistics().jumps_back;
-  if (jumps_back > jumps_back_) imu_.Clear();
-  jumps_back_ = jumps_back;
-  imu_.Add(sample);
 }
 
 void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
   if (tracked.points.restart) {
     back_end_.Reset("stamps jumped back");
-    imu_.Clear();
     unfinished_.clear();
   }
   if (!tracked.points.publish) {
@@ -203,7 +193,10 @@ void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_
     frame = std::move(reported->second);
     unfinished_.erase(unfinished_.begin(), std::next(reported));
   }
-  frame.imu = imu_.Take(estimated.imu_ns);
+  frame.imu = std::move(estimated.imu);
+  const bool continues = frame.imu.front().t_ns == last_imu_ns_;
+  if (continues) frame.imu.erase(frame.imu.begin());
+  last_imu_ns_ = estimated.imu_ns;
   frame.output = std::move(estimated.output);
   frame.points = std::move(estimated.points);
   frame.lines = std::move(estimated.lines);

@@ -14,7 +14,6 @@
 #include "common/streams/drop_counts.h"
 #include "offline/pipeline/feature_file.h"
 #include "offline/pipeline/feature_trackers.h"
-#include "offline/pipeline/frame_imu.h"
 #include "offline/pipeline/run_ahead.h"
 #include "offline/recordings/confirmed_stamp.h"
 #include "offline/recordings/recording.h"
@@ -27,7 +26,7 @@ namespace plm_vins {
 struct PipelineFrame {
   EstimatorOutput output;
   ImageSample image;           // without pixels where loops are not closed
-  std::vector<ImuSample> imu;  // since the frame before, in order of time, as of FrameImu
+  std::vector<ImuSample> imu;  // since the frame before, as the estimator has them
   PointFrame points;
   LineFrame lines;
   double point_tracking_ms = 0;
@@ -100,7 +99,6 @@ class OdometryPipeline {
   bool EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit);
   void ShowTracksIfDue(int64_t t_ns);
   void Consume(TrackedItem item, const FrameCallback& on_frame);
-  void AddImu(const ImuSample& sample);
   void AddFeatures(TrackedFeatures tracked);
   void Report(EstimatedFrame estimated, const FrameCallback& on_frame);
 
@@ -117,8 +115,7 @@ class OdometryPipeline {
   int64_t tracked_images_ = 0;
   int64_t thinned_images_ = 0;  // left out for the sake of the rate `freq`
   int64_t estimated_images_ = 0;
-  FrameImu imu_;
-  int64_t jumps_back_ = 0;  // of the back end's input, followed so far
+  std::optional<int64_t> last_imu_ns_;  // of the frame before
   FeatureFileWriter* saved_features_ = nullptr;
   TrackImageCallback on_track_images_;
   int64_t track_image_interval_ns_ = 0;

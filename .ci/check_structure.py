@@ -110,7 +110,7 @@ LAYERS = {
     **layers_of_part("pose_graph", POSE_GRAPH_LAYERS, COMMON),
     **layers_of_part("map_bundle", {}, COMMON | {"pose_graph"} | inside(
         "pose_graph", ["geometry", "keyframes", "map", "verification"]) | inside(
-            "vins_estimator", ["state", "imu", "factors", "problem", "optimization",
+            "vins_estimator", ["state", "geometry", "imu", "factors", "problem", "optimization",
                                "initialization"])),
     **layers_of_part("offline", OFFLINE_LAYERS,
                      TRACKING | TRACKERS | ESTIMATOR_OUTPUT

@@ -3,10 +3,8 @@
 
 #include <ceres/loss_function.h>
 
-#include <algorithm>
 #include <array>
 #include <deque>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -35,12 +33,13 @@ class BundleProblem {
   void TakeOverLandmarks();
 
  private:
-  void AddKeyframes();
-  void AddImu(const BundleKeyframe& from, const BundleKeyframe& to);
-  void HoldFirst(const BundleKeyframe& first);
+  void AddVariables();
+  void AddMotions();
+  void AddImu(int from, int to);
+  void HoldFirst();
   void AddLandmark(const LandmarkTrack& landmark);
-  int Pose(const BundleKeyframe& keyframe) const;
-  int Motion(const BundleKeyframe& keyframe) const;
+  int Pose(int keyframe) const { return problem_.Find({BlockKind::kPose, keyframe}); }
+  int Motion(int keyframe) const { return problem_.Find({BlockKind::kMotion, keyframe}); }
 
   const BundleOptions options_;
   const Eigen::Vector3d gravity_M_;
@@ -49,7 +48,6 @@ class BundleProblem {
   FrameState extrinsics_;
   double time_offset_ = 0;
   int extrinsic_variable_ = -1, td_variable_ = -1;
-  std::map<const BundleKeyframe*, std::pair<int, int>> variables_;  // pose and motion
   std::deque<Preintegration> preintegrations_;
   std::vector<std::array<double, kPointSize>> points_;  // image point and inverse depth in the host
   ceres::CauchyLoss loss_{1.0};
@@ -60,59 +58,61 @@ BundleProblem::BundleProblem(const ImuHistory& imu, const BundleOptions& options
                              BundleState* bundle)
     : options_(options), gravity_M_(0, 0, -options.gravity_norm), bundle_(bundle), imu_(imu) {
   extrinsics_.SetPose(bundle->T_B_C);
-  AddKeyframes();
-  constexpr bool kConstant = true;
-  extrinsic_variable_ =
-      problem_.AddVariable({BlockKind::kExtrinsic, 0}, extrinsics_.pose.data(), kConstant);
-  td_variable_ = problem_.AddVariable({BlockKind::kTimeOffset, 0}, &time_offset_, kConstant);
+  AddVariables();
+  AddMotions();
+  HoldFirst();
   points_.reserve(bundle->landmarks.size());  // the problem holds pointers to the elements
   for (const LandmarkTrack& landmark : bundle->landmarks) AddLandmark(landmark);
 }
 
-void BundleProblem::AddKeyframes() {
-  const BundleKeyframe* before = nullptr;
+void BundleProblem::AddVariables() {
   for (auto& [number, keyframe] : bundle_->keyframes) {
     FrameState& state = keyframe.state;
     const bool constant = !keyframe.moves();
-    const int pose = problem_.AddVariable({BlockKind::kPose, number}, state.pose.data(), constant);
-    const int motion =
-        problem_.AddVariable({BlockKind::kMotion, number}, state.motion.data(), constant);
-    variables_[&keyframe] = {pose, motion};
-    if (keyframe.moves()) {
-      const bool continues =
-          before != nullptr && before->moves() && before->world == keyframe.world;
-      if (continues) {
-        AddImu(*before, keyframe);
-      } else {
-        problem_.AddTerm(BiasPrior(state.bias(), kAccelBiasDeviation, kGyroBiasDeviation), nullptr,
-                         {motion});
-      }
+    problem_.AddVariable({BlockKind::kPose, number}, state.pose.data(), constant);
+    problem_.AddVariable({BlockKind::kMotion, number}, state.motion.data(), constant);
+  }
+  constexpr bool kConstant = true;
+  extrinsic_variable_ =
+      problem_.AddVariable({BlockKind::kExtrinsic, 0}, extrinsics_.pose.data(), kConstant);
+  td_variable_ = problem_.AddVariable({BlockKind::kTimeOffset, 0}, &time_offset_, kConstant);
+}
+
+void BundleProblem::AddMotions() {
+  int before = -1;  // the keyframe before, if it moves
+  for (const auto& [number, keyframe] : bundle_->keyframes) {
+    if (!keyframe.moves()) {
+      before = -1;
+      continue;
+    }
+    if (before >= 0 && bundle_->keyframes.at(before).world == keyframe.world) {
+      AddImu(before, number);
+    } else {
+      problem_.AddTerm(BiasPrior(keyframe.state.bias(), kAccelBiasDeviation, kGyroBiasDeviation),
+                       nullptr, {Motion(number)});
     }
     if (keyframe.stationary) {
-      problem_.AddTerm(ZeroVelocityFactor(kStillVelocity), nullptr, {motion});
+      problem_.AddTerm(ZeroVelocityFactor(kStillVelocity), nullptr, {Motion(number)});
     }
-    before = &keyframe;
-  }
-  const BundleKeyframe& first = bundle_->keyframes.begin()->second;
-  if (first.moves()) {
-    problem_.AddTerm(GaugePrior(first.state, kGaugeDeviation), nullptr, {Pose(first)});
+    before = number;
   }
 }
 
-void BundleProblem::AddImu(const BundleKeyframe& from, const BundleKeyframe& to) {
-  auto preintegration = imu_.Between(from.state.t_ns, to.state.t_ns, *to.noise, from.state.bias());
+void BundleProblem::AddImu(int from, int to) {
+  const BundleKeyframe& begin = bundle_->keyframes.at(from);
+  const BundleKeyframe& end = bundle_->keyframes.at(to);
+  auto preintegration =
+      imu_.Between(begin.state.t_ns, end.state.t_ns, *end.noise, begin.state.bias());
   if (!preintegration) return;
   preintegrations_.push_back(std::move(*preintegration));
   problem_.AddTerm(ImuFactor(&preintegrations_.back(), gravity_M_), nullptr,
                    {Pose(from), Motion(from), Pose(to), Motion(to)});
 }
 
-int BundleProblem::Pose(const BundleKeyframe& keyframe) const {
-  return variables_.at(&keyframe).first;
-}
-
-int BundleProblem::Motion(const BundleKeyframe& keyframe) const {
-  return variables_.at(&keyframe).second;
+void BundleProblem::HoldFirst() {
+  const auto& [number, first] = *bundle_->keyframes.begin();
+  if (!first.moves()) return;  // a loaded map holds all
+  problem_.AddTerm(GaugePrior(first.state, kGaugeDeviation), nullptr, {Pose(number)});
 }
 
 // The point in the first sighting; one factor per sighting.
@@ -128,13 +128,13 @@ void BundleProblem::AddLandmark(const LandmarkTrack& landmark) {
   };
   problem_.AddLandmarkTerm(index, PointHostFactor(bearing(host), 1 / options_.noise.followed),
                            &loss_, {td_variable_, point});
-  const int host_pose = Pose(bundle_->keyframes.at(host.keyframe));
+  const int host_pose = Pose(host.keyframe);
   for (const LandmarkSighting& sighting : landmark.sightings) {
     if (sighting.keyframe == host.keyframe) continue;
     const double noise = sighting.again ? options_.noise.again : options_.noise.followed;
-    const int pose = Pose(bundle_->keyframes.at(sighting.keyframe));
-    problem_.AddLandmarkTerm(index, PointFactor(bearing(sighting), 1 / noise), &loss_,
-                             {host_pose, pose, extrinsic_variable_, td_variable_, point});
+    problem_.AddLandmarkTerm(
+        index, PointFactor(bearing(sighting), 1 / noise), &loss_,
+        {host_pose, Pose(sighting.keyframe), extrinsic_variable_, td_variable_, point});
   }
 }
 

@@ -16,7 +16,7 @@ namespace plm_vins {
 // A keyframe of the bundle.
 struct BundleKeyframe {
   int world = 0;
-  FrameState state;  // in the map M, at the time of the image by the clock of the IMU
+  FrameState state;  // at the time of the image by the clock of the IMU
   // As it counted when the image came. Nothing where the keyframe is of a map that was loaded: then
   // it stays where it is.
   std::optional<ImuNoise> noise;
@@ -25,7 +25,7 @@ struct BundleKeyframe {
   bool moves() const { return noise.has_value(); }
 };
 
-// What is adjusted: keyframes by their numbers in the map, and what they see.
+// What is adjusted: keyframes by their numbers in the map, their states in M, and what they see.
 struct BundleState {
   Rigid3d T_B_C;
   std::map<int, BundleKeyframe> keyframes;

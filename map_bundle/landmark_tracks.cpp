@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
+
+#include "vins_estimator/geometry/depth_limits.h"
 
 namespace plm_vins {
 namespace {
@@ -15,11 +18,10 @@ struct Sightings {
 
 bool IsBeforeAllCameras(const KeyframeMap& map, const Eigen::Vector3d& p_M,
                         const std::vector<LandmarkSighting>& sightings) {
-  constexpr double kMinDepth = 0.1;  // [m]
   return std::all_of(sightings.begin(), sightings.end(), [&](const LandmarkSighting& sighting) {
     const Rigid3d T_M_C =
         map.T_M_O(sighting.keyframe).ToRigid() * map.keyframes[sighting.keyframe].T_O_C();
-    return (T_M_C.Inverse() * p_M).z() >= kMinDepth;
+    return (T_M_C.Inverse() * p_M).z() >= kMinTriangulatedDepth;
   });
 }
 

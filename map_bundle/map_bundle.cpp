@@ -9,9 +9,10 @@
 namespace plm_vins {
 
 void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry) {
-  FrameState state = odometry.state;
-  state.t_ns += ToNanoseconds(odometry.calibration.td);
-  motions_[map.graph.size() - 1] = {state, odometry.imu_noise, odometry.stationary};
+  const int newest = map.graph.size() - 1;
+  BundleKeyframe& keyframe = keyframes_[newest];
+  keyframe = {map.keyframes[newest].world, odometry.state, odometry.imu_noise, odometry.stationary};
+  keyframe.state.t_ns += ToNanoseconds(odometry.calibration.td);
 }
 
 void MapBundle::AddPlace(const KeyframeMap& map, const RecognisedPlace& place) {
@@ -34,15 +35,10 @@ BundleState MapBundle::StateOf(const KeyframeMap& map) const {
     const Keyframe& keyframe = map.keyframes[number];
     const LevelTransform T_M_O = map.T_M_O(number);
     BundleKeyframe& member = bundle.keyframes[number];
-    member.world = keyframe.world;
-    const auto motion = motions_.find(number);
-    if (motion != motions_.end()) {
-      member.state = motion->second.state;
-      member.state.velocity() = T_M_O.rotation() * motion->second.state.velocity();
-      member.noise = motion->second.noise;
-      member.stationary = motion->second.stationary;
-    }
+    const auto of_this_run = keyframes_.find(number);
+    if (of_this_run != keyframes_.end()) member = of_this_run->second;
     member.state.SetPose(T_M_O.ToRigid() * keyframe.T_O_B);
+    member.state.velocity() = T_M_O.rotation() * Eigen::Vector3d(member.state.velocity());
   }
   bundle.landmarks = CollectLandmarks(map, numbers, again_);
   return bundle;

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "common/imu/imu_noise.h"
 #include "common/measurements.h"
 #include "map_bundle/adjusted_map.h"
 #include "map_bundle/bundle_state.h"
@@ -13,7 +12,6 @@
 #include "map_bundle/landmark_tracks.h"
 #include "pose_graph/loop_closer.h"
 #include "vins_estimator/state/estimator_output.h"
-#include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {
 
@@ -54,17 +52,11 @@ class MapBundle {
   const MapBundleSummary& summary() const { return summary_; }
 
  private:
-  struct Motion {
-    FrameState state;  // in the odometry's world, at the time of the image by the clock of the IMU
-    ImuNoise noise;
-    bool stationary = false;
-  };
-
   BundleState StateOf(const KeyframeMap& map) const;
 
   MapBundleOptions options_;
   ImuHistory imu_;
-  std::map<int, Motion> motions_;  // by number of the keyframe
+  std::map<int, BundleKeyframe> keyframes_;  // of this run, by number; their states in O
   std::vector<SightingAgain> again_;
   size_t places_ = 0;
   MapBundleSummary summary_;

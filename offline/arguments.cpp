@@ -2,7 +2,8 @@
 #include "offline/arguments.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdlib>
+
+#include "common/io/option_checks.h"
 
 namespace plm_vins {
 namespace {
@@ -18,16 +19,9 @@ std::string CheckOverride(const std::string& text) {
 
 // The same of a time span.
 std::string CheckSeconds(const std::string& text) {
-  char* end = nullptr;
-  const double seconds = std::strtod(text.c_str(), &end);
-  const bool is_number = end != text.c_str() && *end == '\0';
-  const bool valid = is_number && seconds >= 0 && seconds <= kMostSeconds;
-  return valid ? "" : "expected seconds, zero to 1e9, instead of " + text;
-}
-
-// ... and of a path: an empty one comes of a variable that is not set.
-std::string CheckPath(const std::string& text) {
-  return text.empty() ? "expected a path, which is empty" : "";
+  return IsNumberBetween(0, kMostSeconds, text)
+             ? ""
+             : "expected seconds, zero to 1e9, instead of " + text;
 }
 
 void DeclareFiles(Arguments* arguments, CLI::App* app) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -15,6 +14,7 @@
 
 #include "common/config/config.h"
 #include "common/format.h"
+#include "common/io/option_checks.h"
 #include "common/io/progress_display.h"
 #include "simulator/recording/asl_recorder.h"
 #include "simulator/recording/bag_recorder.h"
@@ -39,12 +39,7 @@ void AddChoice(CLI::App* app, const std::string& name, T* value, const std::stri
       ->check(CLI::IsMember(choices));
 }
 
-// The message of what is wrong with a path; empty where nothing is.
-std::string CheckPath(const std::string& path) {
-  return path.empty() ? "expected a path, which is empty" : "";
-}
-
-// The same of the argument of --output.
+// The message of what is wrong with the argument of --output; empty where nothing is.
 std::string CheckBag(const std::string& file) {
   if (file.empty()) return CheckPath(file);
   const std::string extension = std::filesystem::path(file).extension().string();
@@ -52,13 +47,10 @@ std::string CheckBag(const std::string& file) {
   return is_truth ? "expected a bag instead of " + file + ", where the ground truth is to go" : "";
 }
 
-// ... of a number, for which CLI::Range would take "nan".
+// The same of a number, for which CLI::Range would take "nan".
 std::function<std::string(const std::string&)> Between(double least, double most) {
   return [=](const std::string& text) {
-    char* end = nullptr;
-    const double number = std::strtod(text.c_str(), &end);
-    const bool is_number = end != text.c_str() && *end == '\0';
-    const bool valid = is_number && number >= least && number <= most;
+    const bool valid = IsNumberBetween(least, most, text);
     return valid ? "" : Format("expected %g to %g instead of ", least, most) + text;
   };
 }

@@ -66,7 +66,7 @@ POSE_GRAPH_LAYERS = {
     "graph": "geometry",
     "verification": "geometry keyframes graph",
     "map": "geometry keyframes graph verification",
-    "output": "verification map",
+    "output": "keyframes verification map",
 }
 OFFLINE_LAYERS = {
     "recordings": "",

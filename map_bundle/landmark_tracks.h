@@ -2,23 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <tuple>
 #include <vector>
 
+#include "pose_graph/keyframes/landmark_key.h"
 #include "pose_graph/map/keyframe_map.h"
 
 namespace plm_vins {
-
-// Tracks have their numbers anew in each world.
-struct LandmarkKey {
-  int world = 0;
-  int64_t track = -1;
-
-  bool operator<(const LandmarkKey& other) const {
-    return std::tie(world, track) < std::tie(other.world, other.track);
-  }
-};
 
 // A landmark that a loop found in a keyframe of another visit.
 struct SightingAgain {

@@ -201,7 +201,7 @@ bool LoopCloser::Reconsider(const std::vector<LoopCandidate*>& loops, LoopClosur
   if (refused_.size() == refused_before) return false;
   constexpr size_t kFewestRefused = 3, kMostRefused = 8;
   if (refused_.size() < kFewestRefused) return false;
-  if (refused_.size() > kMostRefused) refused_.erase(refused_.begin());
+  while (refused_.size() > kMostRefused) refused_.erase(refused_.begin());
 
   const PoseGraph before = map_.graph;
   for (const LoopCandidate& loop : refused_) map_.graph.AddEdge(EdgeOf(loop));
@@ -224,19 +224,11 @@ bool LoopCloser::Reconsider(const std::vector<LoopCandidate*>& loops, LoopClosur
   return true;
 }
 
-void LoopCloser::ForgetRefused(int keyframe) {
-  refused_.erase(std::remove_if(refused_.begin(), refused_.end(),
-                                [keyframe](const LoopCandidate& loop) {
-                                  return loop.earlier == keyframe || loop.later == keyframe;
-                                }),
-                 refused_.end());
-}
-
 void LoopCloser::Thin() {
   while (const auto keyframe = thinning_.Next(map_)) {
     recognition_.Remove(map_.keyframes[keyframe->number], keyframe->number);
     acceptance_.Forget(keyframe->number);
-    ForgetRefused(keyframe->number);
+    ForgetLoopsOf(keyframe->number, &refused_);
     map_.Remove(keyframe->number, keyframe->nearest);
   }
 }

@@ -87,7 +87,6 @@ class LoopCloser {
   // Takes loops that the graph has refused so far, if they are right together and those wrong that
   // contradict them. Says whether it did.
   bool Reconsider(const std::vector<LoopCandidate*>& loops, LoopClosure* closure);
-  void ForgetRefused(int keyframe);
   void Thin();
   std::optional<MapFix> Fix() const;
 

@@ -13,12 +13,10 @@
 #include <vector>
 
 #include "common/io/output_file.h"
+#include "pose_graph/keyframes/landmark_key.h"
 
 namespace plm_vins {
 namespace {
-
-// A landmark of the whole map: tracks count anew in each world.
-using PointName = std::pair<int, int64_t>;  // world, track
 
 struct ColmapPoint {
   int64_t id = 0;
@@ -26,9 +24,9 @@ struct ColmapPoint {
   std::vector<std::pair<int, size_t>> views;  // keyframe, corner
 };
 
-std::map<PointName, ColmapPoint> CollectPoints(const KeyframeMap& map,
-                                               const std::vector<int>& keyframes) {
-  std::map<PointName, ColmapPoint> points;
+std::map<LandmarkKey, ColmapPoint> CollectPoints(const KeyframeMap& map,
+                                                 const std::vector<int>& keyframes) {
+  std::map<LandmarkKey, ColmapPoint> points;
   for (const int i : keyframes) {
     const Keyframe& keyframe = map.keyframes[i];
     for (size_t corner = 0; corner < keyframe.corners.size(); ++corner) {
@@ -94,7 +92,7 @@ std::map<int, std::string> ImageNames(const KeyframeMap& map, const std::vector<
 }
 
 void WriteImage(const CameraModel& camera, const KeyframeMap& map, int number,
-                const std::string& name, const std::map<PointName, ColmapPoint>& points,
+                const std::string& name, const std::map<LandmarkKey, ColmapPoint>& points,
                 std::ostream* stream) {
   const Keyframe& keyframe = map.keyframes[number];
   const Rigid3d T_C_M = (map.T_M_O(number).ToRigid() * keyframe.T_O_C()).Inverse();
@@ -112,7 +110,7 @@ void WriteImage(const CameraModel& camera, const KeyframeMap& map, int number,
   *stream << '\n';
 }
 
-void WritePoints(const std::map<PointName, ColmapPoint>& points, std::ostream* stream) {
+void WritePoints(const std::map<LandmarkKey, ColmapPoint>& points, std::ostream* stream) {
   for (const auto& [name, point] : points) {
     *stream << point.id;
     for (int i = 0; i < 3; ++i) *stream << ' ' << point.p_M(i);
@@ -134,7 +132,7 @@ void WriteColmapModel(const std::string& folder, const CameraParameters& camera,
   shifted.cx += 0.5;
   shifted.cy += 0.5;
   const std::vector<int> keyframes = map.NumbersInMap();
-  const std::map<PointName, ColmapPoint> points = CollectPoints(map, keyframes);
+  const std::map<LandmarkKey, ColmapPoint> points = CollectPoints(map, keyframes);
   WriteFile(folder, "cameras.txt", [&](std::ostream* stream) { WriteCamera(shifted, stream); });
   const std::unique_ptr<const CameraModel> written = WrittenCamera(camera);
   WriteFile(folder, "images.txt", [&](std::ostream* stream) {

@@ -53,14 +53,6 @@ std::vector<LoopCandidate> LoopAcceptance::Judge(const std::vector<Keyframe>& ke
   return {confirmed};
 }
 
-void LoopAcceptance::Forget(int keyframe) {
-  waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(),
-                                [keyframe](const LoopCandidate& loop) {
-                                  return loop.earlier == keyframe || loop.later == keyframe;
-                                }),
-                 waiting_.end());
-}
-
 bool LoopAcceptance::Agree(const std::vector<Keyframe>& keyframes, const PoseGraph& graph,
                            const LoopCandidate& a, const LoopCandidate& b) const {
   const Keyframe& later_a = keyframes[a.later];

@@ -29,7 +29,7 @@ class LoopAcceptance {
                                    LoopCandidate* candidate);
 
   // Drops loops that wait and lead to this keyframe, which leaves the map.
-  void Forget(int keyframe);
+  void Forget(int keyframe) { ForgetLoopsOf(keyframe, &waiting_); }
 
  private:
   bool Agree(const std::vector<Keyframe>& keyframes, const PoseGraph& graph, const LoopCandidate& a,

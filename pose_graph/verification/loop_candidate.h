@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "pose_graph/geometry/level_transform.h"
 #include "pose_graph/graph/level_edge.h"
@@ -60,6 +61,9 @@ struct LoopCandidate {
   LevelTransform T_earlier_later;
   Matrix4d covariance = Matrix4d::Zero();
 };
+
+// Takes out those that begin or end at the keyframe.
+void ForgetLoopsOf(int keyframe, std::vector<LoopCandidate>* loops);
 
 // The loop as the graph takes it.
 inline LevelEdge EdgeOf(const LoopCandidate& loop) {

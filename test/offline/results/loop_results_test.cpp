@@ -115,7 +115,7 @@ TEST_F(LoopResultsTest, HasAModelWhosePointsProjectToTheirCornersWithItsCamera) 
   frame.output.calibration.camera = refined;
   for (int i = 0; i < 6; ++i) {
     const Eigen::Vector2d uv_px(50 + 40 * i, 40 + 30 * i);
-    frame.points.points.push_back({i, *configured_camera->Unproject(uv_px), uv_px, {}});
+    frame.points.points.push_back({i, *configured_camera->Unproject(uv_px), uv_px, {0, 0}});
     frame.output.points.push_back({i, (4 + i) * refined_camera->Unproject(uv_px)->homogeneous()});
   }
   LoopResults results(config_, folder_.path(), std::nullopt);

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <tuple>
+
+namespace plm_vins {
+
+// Names a landmark of the whole map: tracks have their numbers anew in each world.
+struct LandmarkKey {
+  int world = 0;
+  int64_t track = -1;
+
+  bool operator<(const LandmarkKey& other) const {
+    return std::tie(world, track) < std::tie(other.world, other.track);
+  }
+};
+
+}  // namespace plm_vins

@@ -62,7 +62,7 @@ class MeasureLatency(RefusalTest):
         self.assertIn("no image came on /cam0/image_raw/compressed", message)
 
     def test_nodes_that_end(self):
-        _, message = self.measure(["true"])
+        _, message = self.measure(["true"], timeout=60)
         self.assertIn("ended before an image came on /cam0/image_raw", message)
 
     def test_a_player_that_ends_is_not_waited_for(self):

@@ -19,9 +19,7 @@ struct Sightings {
 bool IsBeforeAllCameras(const KeyframeMap& map, const Eigen::Vector3d& p_M,
                         const std::vector<LandmarkSighting>& sightings) {
   return std::all_of(sightings.begin(), sightings.end(), [&](const LandmarkSighting& sighting) {
-    const Rigid3d T_M_C =
-        map.T_M_O(sighting.keyframe).ToRigid() * map.keyframes[sighting.keyframe].T_O_C();
-    return (T_M_C.Inverse() * p_M).z() >= kMinTriangulatedDepth;
+    return (map.T_M_C(sighting.keyframe).Inverse() * p_M).z() >= kMinTriangulatedDepth;
   });
 }
 

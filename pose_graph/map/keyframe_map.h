@@ -29,6 +29,11 @@ struct KeyframeMap {
   LevelTransform T_M_O(int keyframe) const {
     return graph.node(keyframe) * keyframes[keyframe].T_O_L().Inverse();
   }
+
+  // Where the camera was.
+  Rigid3d T_M_C(int keyframe) const {
+    return T_M_O(keyframe).ToRigid() * keyframes[keyframe].T_O_C();
+  }
 };
 
 }  // namespace plm_vins

@@ -33,12 +33,11 @@ bool MapThinning::IsOld(const Keyframe& keyframe, const Keyframe& newest) const 
 
 // Keyframes of before that are surely near and look the same way.
 std::vector<int> MapThinning::Like(const KeyframeMap& map, int number) const {
-  const auto camera = [&](int i) { return map.T_M_O(i).ToRigid() * map.keyframes[i].T_O_C(); };
-  const Rigid3d T_M_C = camera(number);
+  const Rigid3d T_M_C = map.T_M_C(number);
   std::vector<int> like;
   for (const int i : map.graph.Kept()) {
     if (i >= number) break;
-    const Rigid3d other = camera(i);
+    const Rigid3d other = map.T_M_C(i);
     if ((other.translation - T_M_C.translation).norm() <= options_.distance &&
         other.rotation.angularDistance(T_M_C.rotation) <= options_.angle &&
         map.graph.Distance(number, i) <= options_.way) {

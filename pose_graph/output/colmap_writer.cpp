@@ -95,7 +95,7 @@ void WriteImage(const CameraModel& camera, const KeyframeMap& map, int number,
                 const std::string& name, const std::map<LandmarkKey, ColmapPoint>& points,
                 std::ostream* stream) {
   const Keyframe& keyframe = map.keyframes[number];
-  const Rigid3d T_C_M = (map.T_M_O(number).ToRigid() * keyframe.T_O_C()).Inverse();
+  const Rigid3d T_C_M = map.T_M_C(number).Inverse();
   const Eigen::Quaterniond& q = T_C_M.rotation;
   *stream << number + 1 << ' ' << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z();
   for (int i = 0; i < 3; ++i) *stream << ' ' << T_C_M.translation(i);

@@ -218,7 +218,7 @@ bool LoopCloser::Reconsider(const std::vector<LoopCandidate*>& loops, LoopClosur
   for (LoopCandidate& loop : right) {
     loop.failed.reset();
     loop.graph_error = map_.graph.Deviations(EdgeOf(loop));
-    closure->confirmed.push_back(loop);
+    closure->reconsidered.push_back(loop);
   }
   refused_ = std::move(wrong);
   return true;

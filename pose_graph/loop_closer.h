@@ -48,12 +48,12 @@ struct RecognisedPlace {
 // What an image brought.
 struct LoopClosure {
   bool is_keyframe = false;
-  std::vector<LoopCandidate> candidates;  // that were looked at
-  // That had to wait for others that agree, or that the graph had refused; they count from now on.
-  std::vector<LoopCandidate> confirmed;
-  int dropped = 0;                       // loops of before that the graph contradicts by now
-  std::optional<RecognisedPlace> place;  // passed all gates but the graph's
-  std::optional<MapFix> fix;             // nothing while the place in the map is unknown
+  std::vector<LoopCandidate> candidates;    // that were looked at
+  std::vector<LoopCandidate> confirmed;     // that had waited for one that agrees, judged again
+  std::vector<LoopCandidate> reconsidered;  // that the graph had refused, accepted by now
+  int dropped = 0;                          // loops of before that the graph contradicts by now
+  std::optional<RecognisedPlace> place;     // passed all gates but the graph's
+  std::optional<MapFix> fix;                // nothing while the place in the map is unknown
 };
 
 // Recognises places and corrects the odometry's drift: the map M is the world of the first odometry

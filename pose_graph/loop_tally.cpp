@@ -6,13 +6,12 @@ namespace plm_vins {
 void LoopTally::Add(const LoopClosure& closure) {
   candidates += static_cast<int64_t>(closure.candidates.size());
   dropped += closure.dropped;
-  for (const auto* loops : {&closure.candidates, &closure.confirmed}) {
+  for (const auto* loops : {&closure.candidates, &closure.confirmed, &closure.reconsidered}) {
     for (const LoopCandidate& loop : *loops) ++(loop.failed ? refused[*loop.failed] : accepted);
   }
-  // They were refused for lack of one that agrees, and have another verdict now.
-  if (!closure.confirmed.empty()) {
-    refused[LoopGate::kAgreement] -= static_cast<int64_t>(closure.confirmed.size());
-  }
+  // They were counted before, under the gate that they did not pass then.
+  for (size_t i = 0; i < closure.confirmed.size(); ++i) --refused[LoopGate::kAgreement];
+  for (size_t i = 0; i < closure.reconsidered.size(); ++i) --refused[LoopGate::kGraph];
 }
 
 }  // namespace plm_vins

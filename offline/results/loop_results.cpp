@@ -80,7 +80,7 @@ void LoopResults::Add(const PipelineFrame& frame) {
 
 void LoopResults::Count(const LoopClosure& closure, double milliseconds) {
   tally_.Add(closure);
-  for (const auto* loops : {&closure.candidates, &closure.confirmed}) {
+  for (const auto* loops : {&closure.candidates, &closure.confirmed, &closure.reconsidered}) {
     for (const LoopCandidate& loop : *loops) WriteLoopRow(loop, &table_.stream());
   }
   if (!closure.is_keyframe) return;

@@ -75,6 +75,7 @@ class LoopCloserTest : public ::testing::Test {
         if (!candidate.failed) ++accepted_;
       }
       confirmed_ += last.confirmed.size();
+      reconsidered_ += last.reconsidered.size();
     }
     return last;
   }
@@ -85,6 +86,7 @@ class LoopCloserTest : public ::testing::Test {
   double variance_rate_ = 1e-4;  // of odometry's position, as it states it [m^2/s]
   int accepted_ = 0;
   size_t confirmed_ = 0;
+  size_t reconsidered_ = 0;
 };
 
 const LevelTransform kDrift = {0.001, {0.05, -0.08, 0.03}};
@@ -232,8 +234,6 @@ TEST_F(LoopCloserTest, DropsALoopThatTheGraphContradicts) {
   EXPECT_LT(refused.fix->T_M_O.ToVector().norm(), 1e-6);
 }
 
-// Odometry jumps after the first loop of the second visit. The next one, which contradicts it,
-// knows the place less surely.
 // As where odometry has just started, and does not know its scale yet.
 TEST_F(LoopCloserTest, GivesUpALoopThatAllLaterOnesContradict) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
@@ -242,13 +242,18 @@ TEST_F(LoopCloserTest, GivesUpALoopThatAllLaterOnesContradict) {
   const LevelTransform at_first = {0.016, {0.12, -0.1, 0.05}};
   Slide(&loops, 60, at_first, /*restarted=*/true, {-3, -2.2});
   EXPECT_GT(accepted_, 0);
+  const size_t confirmed_before = confirmed_;
   Slide(&loops, 62, kDrift, /*restarted=*/false, {-1.8, 3});
+  EXPECT_EQ(confirmed_, confirmed_before);
+  EXPECT_GE(reconsidered_, 3u);
   const KeyframeMap& map = loops.map();
   const LevelTransform rest = map.T_M_O(0).Inverse() * map.T_M_O(map.graph.size() - 1) * kDrift;
   EXPECT_LT(rest.translation.norm(), 0.03);
   EXPECT_NEAR(rest.yaw, 0, 0.003);
 }
 
+// Odometry jumps after the first loop of the second visit. The next one, which contradicts it,
+// knows the place less surely.
 TEST_F(LoopCloserTest, KnowsNoPlaceByALoopThatTheGraphDropsLater) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());

@@ -52,5 +52,20 @@ TEST(LoopTallyTest, CountsAConfirmedLoopThatTheGraphRefusesUnderItsLastGate) {
   EXPECT_EQ(tally.refused[LoopGate::kGraph], 1);
 }
 
+TEST(LoopTallyTest, CountsALoopThatTheGraphTakesLaterOnce) {
+  LoopClosure first;
+  first.candidates = {RefusedBy(LoopGate::kGraph), RefusedBy(LoopGate::kGraph)};
+  LoopClosure second;
+  second.candidates = {RefusedBy(LoopGate::kGraph)};
+  second.reconsidered = {LoopCandidate(), LoopCandidate()};  // the newest and one of the first
+  LoopTally tally;
+  tally.Add(first);
+  tally.Add(second);
+  EXPECT_EQ(tally.candidates, 3);
+  EXPECT_EQ(tally.accepted, 2);
+  EXPECT_EQ(tally.refused[LoopGate::kAgreement], 0);
+  EXPECT_EQ(tally.refused[LoopGate::kGraph], 1);
+}
+
 }  // namespace
 }  // namespace plm_vins

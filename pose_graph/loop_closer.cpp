@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/append.h"
 #include "pose_graph/keyframes/keyframe_maker.h"
 #include "pose_graph/keyframes/keyframe_neighbours.h"
 #include "pose_graph/map/landmark_update.h"
@@ -20,10 +21,15 @@ std::vector<LoopCandidate*> NewLoops(LoopClosure* closure) {
   return loops;
 }
 
-bool Holds(const std::vector<LevelEdge>& edges, const LoopCandidate& loop) {
-  return std::any_of(edges.begin(), edges.end(), [&loop](const LevelEdge& edge) {
+// Takes the loop out. Says whether it was there.
+bool Take(const LoopCandidate& loop, std::vector<LevelEdge>* edges) {
+  const auto is_loop = [&loop](const LevelEdge& edge) {
     return edge.from == loop.earlier && edge.to == loop.later;
-  });
+  };
+  const auto found = std::find_if(edges->begin(), edges->end(), is_loop);
+  if (found == edges->end()) return false;
+  edges->erase(found);
+  return true;
 }
 
 }  // namespace
@@ -130,7 +136,7 @@ void LoopCloser::LookForLoops(LoopClosure* closure) {
   AddLoops(loops);
   Optimize(loops, closure);
   const bool is_reversed = Reconsider(loops, closure);
-  if (is_reversed || closure->dropped > 0) return place_.Recompute(map_);
+  if (is_reversed || !closure->dropped.empty()) return place_.Recompute(map_);
   for (const LoopCandidate* loop : loops) {
     if (!loop->failed) place_.AddLoop(map_, EdgeOf(*loop));
   }
@@ -180,14 +186,10 @@ void LoopCloser::AddLoops(const std::vector<LoopCandidate*>& loops) {
 }
 
 void LoopCloser::Optimize(const std::vector<LoopCandidate*>& loops, LoopClosure* closure) {
-  const std::vector<LevelEdge> dropped = map_.graph.Optimize();
-  closure->dropped = static_cast<int>(dropped.size());
+  closure->dropped = map_.graph.Optimize();
   for (LoopCandidate* loop : loops) {
     loop->graph_error = map_.graph.Deviations(EdgeOf(*loop));
-    if (Holds(dropped, *loop)) {
-      loop->failed = LoopGate::kGraph;
-      --closure->dropped;
-    }
+    if (Take(*loop, &closure->dropped)) loop->failed = LoopGate::kGraph;
   }
 }
 
@@ -205,16 +207,15 @@ bool LoopCloser::Reconsider(const std::vector<LoopCandidate*>& loops, LoopClosur
 
   const PoseGraph before = map_.graph;
   for (const LoopCandidate& loop : refused_) map_.graph.AddEdge(EdgeOf(loop));
-  const std::vector<LevelEdge> dropped = map_.graph.Optimize();
+  std::vector<LevelEdge> given_up = map_.graph.Optimize();
   std::vector<LoopCandidate> right, wrong;
-  for (LoopCandidate& loop : refused_) (Holds(dropped, loop) ? wrong : right).push_back(loop);
-  const size_t given_up = dropped.size() - wrong.size();
-  const bool are_more = given_up > 0 && right.size() >= given_up + 2;
+  for (LoopCandidate& loop : refused_) (Take(loop, &given_up) ? wrong : right).push_back(loop);
+  const bool are_more = !given_up.empty() && right.size() >= given_up.size() + 2;
   if (!are_more) {
     map_.graph = before;
     return false;
   }
-  closure->dropped += static_cast<int>(given_up);
+  Append(given_up, &closure->dropped);
   for (LoopCandidate& loop : right) {
     loop.failed.reset();
     loop.graph_error = map_.graph.Deviations(EdgeOf(loop));

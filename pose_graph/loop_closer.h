@@ -51,7 +51,7 @@ struct LoopClosure {
   std::vector<LoopCandidate> candidates;    // that were looked at
   std::vector<LoopCandidate> confirmed;     // that had waited for one that agrees, judged again
   std::vector<LoopCandidate> reconsidered;  // that the graph had refused, accepted by now
-  int dropped = 0;                          // loops of before that the graph contradicts by now
+  std::vector<LevelEdge> dropped;           // loops of before that the graph contradicts by now
   std::optional<RecognisedPlace> place;     // passed all gates but the graph's
   std::optional<MapFix> fix;                // nothing while the place in the map is unknown
 };

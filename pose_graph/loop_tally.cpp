@@ -5,7 +5,7 @@ namespace plm_vins {
 
 void LoopTally::Add(const LoopClosure& closure) {
   candidates += static_cast<int64_t>(closure.candidates.size());
-  dropped += closure.dropped;
+  dropped += static_cast<int64_t>(closure.dropped.size());
   for (const auto* loops : {&closure.candidates, &closure.confirmed, &closure.reconsidered}) {
     for (const LoopCandidate& loop : *loops) ++(loop.failed ? refused[*loop.failed] : accepted);
   }

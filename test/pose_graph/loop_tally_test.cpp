@@ -15,7 +15,7 @@ LoopCandidate RefusedBy(LoopGate gate) {
 TEST(LoopTallyTest, CountsEachVerdict) {
   LoopClosure closure;
   closure.candidates = {RefusedBy(LoopGate::kScore), LoopCandidate(), RefusedBy(LoopGate::kScore)};
-  closure.dropped = 1;
+  closure.dropped = {LevelEdge()};
   LoopTally tally;
   tally.Add(closure);
   EXPECT_EQ(tally.candidates, 3);

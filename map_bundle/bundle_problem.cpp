@@ -24,6 +24,10 @@ constexpr double kAccelBiasDeviation = 0.1;  // [m/s^2]
 constexpr double kGyroBiasDeviation = 0.05;  // [rad/s]
 constexpr double kStillVelocity = 0.005;     // of one that stands still [m/s]
 
+bool AreOfOneFlight(const BundleKeyframe& a, const BundleKeyframe& b) {
+  return a.world == b.world && a.recording == b.recording;
+}
+
 // The bundle in the terms of the solver.
 class BundleProblem {
  public:
@@ -85,7 +89,7 @@ void BundleProblem::AddMotions() {
       before = -1;
       continue;
     }
-    if (before >= 0 && bundle_->keyframes.at(before).world == keyframe.world) {
+    if (before >= 0 && AreOfOneFlight(bundle_->keyframes.at(before), keyframe)) {
       AddImu(before, number);
     } else {
       problem_.AddTerm(BiasPrior(keyframe.state.bias(), kAccelBiasDeviation, kGyroBiasDeviation),
@@ -101,8 +105,8 @@ void BundleProblem::AddMotions() {
 void BundleProblem::AddImu(int from, int to) {
   const BundleKeyframe& begin = bundle_->keyframes.at(from);
   const BundleKeyframe& end = bundle_->keyframes.at(to);
-  auto preintegration =
-      imu_.Between(begin.state.t_ns, end.state.t_ns, *end.noise, begin.state.bias());
+  auto preintegration = imu_.Between(begin.recording, begin.state.t_ns, end.state.t_ns, *end.noise,
+                                     begin.state.bias());
   if (!preintegration) return;
   preintegrations_.push_back(std::move(*preintegration));
   problem_.AddTerm(ImuFactor(&preintegrations_.back(), gravity_M_), nullptr,

@@ -9,21 +9,22 @@
 namespace plm_vins {
 
 void ImuHistory::Add(const ImuSample& sample) {
-  if (!samples_.empty()) {
-    if (sample.t_ns == samples_.back().t_ns) return;
-    if (sample.t_ns < samples_.back().t_ns) samples_.clear();
+  if (recordings_.empty() || sample.t_ns < recordings_.back().back().t_ns) {
+    recordings_.push_back({sample});
+  } else if (sample.t_ns > recordings_.back().back().t_ns) {
+    recordings_.back().push_back(sample);
   }
-  samples_.push_back(sample);
 }
 
-std::optional<Preintegration> ImuHistory::Between(int64_t from_ns, int64_t to_ns,
+std::optional<Preintegration> ImuHistory::Between(int recording, int64_t from_ns, int64_t to_ns,
                                                   const ImuNoise& noise,
                                                   const ImuBias& bias) const {
-  if (samples_.empty() || from_ns >= to_ns) return std::nullopt;
-  if (from_ns < samples_.front().t_ns || to_ns > samples_.back().t_ns) return std::nullopt;
-  const auto at_or_after = [this](int64_t t_ns) {
+  if (recording < 0 || recording > newest() || from_ns >= to_ns) return std::nullopt;
+  const std::vector<ImuSample>& samples = recordings_[recording];
+  if (from_ns < samples.front().t_ns || to_ns > samples.back().t_ns) return std::nullopt;
+  const auto at_or_after = [&samples](int64_t t_ns) {
     return std::lower_bound(
-        samples_.begin(), samples_.end(), t_ns,
+        samples.begin(), samples.end(), t_ns,
         [](const ImuSample& sample, int64_t time_ns) { return sample.t_ns < time_ns; });
   };
   const auto interpolated = [&](int64_t t_ns) {

@@ -11,19 +11,23 @@
 
 namespace plm_vins {
 
-// The IMU samples of a run.
+// The IMU samples of a run. Where stamps jump back another recording begins, of which stamps may
+// be those of one before; recordings count up from zero.
 class ImuHistory {
  public:
-  // Where stamps jump back the history begins anew. A stamp for the second time is left out.
+  // A stamp for the second time is left out.
   void Add(const ImuSample& sample);
 
-  // What was measured between two times, each end interpolated. Nothing where the samples do not
-  // reach over both.
-  std::optional<Preintegration> Between(int64_t from_ns, int64_t to_ns, const ImuNoise& noise,
-                                        const ImuBias& bias) const;
+  // The recording of the newest sample; -1: there is none.
+  int newest() const { return static_cast<int>(recordings_.size()) - 1; }
+
+  // What was measured between two times of a recording, each end interpolated. Nothing where its
+  // samples do not reach over both.
+  std::optional<Preintegration> Between(int recording, int64_t from_ns, int64_t to_ns,
+                                        const ImuNoise& noise, const ImuBias& bias) const;
 
  private:
-  std::vector<ImuSample> samples_;  // in order of time
+  std::vector<std::vector<ImuSample>> recordings_;  // each in order of time
 };
 
 }  // namespace plm_vins

@@ -11,8 +11,12 @@ namespace plm_vins {
 void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry) {
   const int newest = map.graph.size() - 1;
   BundleKeyframe& keyframe = keyframes_[newest];
-  keyframe = {map.keyframes[newest].world, odometry.state, odometry.imu_noise, odometry.stationary};
+  keyframe.world = map.keyframes[newest].world;
+  keyframe.recording = imu_.newest();
+  keyframe.state = odometry.state;
   keyframe.state.t_ns += ToNanoseconds(odometry.calibration.td);
+  keyframe.noise = odometry.imu_noise;
+  keyframe.stationary = odometry.stationary;
 }
 
 void MapBundle::AddPlace(const KeyframeMap& map, const RecognisedPlace& place) {

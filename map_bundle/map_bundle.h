@@ -39,7 +39,7 @@ class MapBundle {
 
   void AddImu(const ImuSample& sample) { imu_.Add(sample); }
 
-  // What odometry says of the map's newest keyframe.
+  // What odometry says of the map's newest keyframe. The samples up to it come before.
   void AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry);
 
   // The newest keyframe shows a place again.

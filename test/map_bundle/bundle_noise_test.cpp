@@ -17,7 +17,7 @@ BundleState BundleWith(int landmarks, double followed, double again) {
   for (int i = 0; i < 8; ++i) {
     FrameState state;
     state.SetPose({Eigen::Quaterniond::Identity(), {0.3 * i, 0, 0}});
-    bundle.keyframes[i] = {0, state, std::nullopt};
+    bundle.keyframes[i].state = state;
   }
   for (int i = 0; i < landmarks; ++i) {
     LandmarkTrack landmark;

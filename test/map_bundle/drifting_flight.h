@@ -21,6 +21,7 @@ struct DriftingFlightOptions {
   double scale = 1.02;          // of odometry
   double drift = 0.002;         // of its heading from keyframe to keyframe [rad]
   double wrong_share = 0;       // of sightings again, that show another landmark
+  double restart = 0;  // here the clock starts anew, and so does odometry's world; 0: nowhere [s]
   uint64_t seed = 1;
 };
 
@@ -51,11 +52,13 @@ class DriftingFlight {
   // All that a run tells the bundle; of the first keyframes, as if they were of a loaded map,
   // nothing.
   void Tell(MapBundle* bundle, int loaded = 0) const {
-    for (const ImuSample& sample : imu_.samples) bundle->AddImu(sample);
     KeyframeMap map;
+    auto sample = imu_.samples.begin();
     for (size_t i = 0; i < map_.keyframes.size(); ++i) {
       const int number = map.graph.AddNode(map_.graph.node(static_cast<int>(i)));
       map.keyframes.push_back(map_.keyframes[i]);
+      const int64_t t_ns = ToNanoseconds(Seconds(number));
+      for (; sample->t_ns <= t_ns; ++sample) bundle->AddImu(Told(*sample));
       if (number >= loaded) bundle->AddKeyframe(map, odometry_[i]);
       const auto place = places_.find(number);
       if (place != places_.end()) bundle->AddPlace(map, place->second);
@@ -75,6 +78,19 @@ class DriftingFlight {
 
   static double Seconds(int number) { return 1 + kInterval * number; }
 
+  bool IsRestarted(int64_t t_ns) const {
+    return options_.restart > 0 && t_ns >= ToNanoseconds(options_.restart);
+  }
+
+  // By the clock that starts anew.
+  int64_t Told_ns(int64_t t_ns) const {
+    return IsRestarted(t_ns) ? t_ns - ToNanoseconds(options_.restart) : t_ns;
+  }
+  ImuSample Told(ImuSample sample) const {
+    sample.t_ns = Told_ns(sample.t_ns);
+    return sample;
+  }
+
   void AddKeyframe(int number) {
     const int64_t t_ns = ToNanoseconds(Seconds(number));
     const simulator::BodyState truth = trajectory_.At(Seconds(number));
@@ -83,7 +99,8 @@ class DriftingFlight {
       return T_O_W * (options_.scale * p_W);
     };
     Keyframe keyframe;
-    keyframe.t_ns = t_ns;
+    keyframe.t_ns = Told_ns(t_ns);
+    keyframe.world = IsRestarted(t_ns) ? 1 : 0;
     keyframe.T_O_B = {T_O_W.rotation() * truth.T_W_B.rotation, in_O(truth.T_W_B.translation)};
     keyframe.T_B_C = {Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.1, 0, 0.05}};
     keyframe.covariance = 1e-4 * (number + 1) * Matrix4d::Identity();
@@ -106,7 +123,7 @@ class DriftingFlight {
     }
     map_.keyframes.push_back(keyframe);
     EstimatorOutput& odometry = odometry_.emplace_back();
-    odometry.state = simulator::TrueState(t_ns, truth, imu_.BiasAt(t_ns));
+    odometry.state = simulator::TrueState(keyframe.t_ns, truth, imu_.BiasAt(t_ns));
     odometry.state.SetPose(keyframe.T_O_B);
     odometry.state.velocity() = options_.scale * (T_O_W.rotation() * truth.v_W);
     odometry.imu_noise = noise_;

@@ -26,7 +26,7 @@ ImuHistory SecondOfSamples() {
 TEST(ImuHistoryTest, IntegratesWhatIsBetween) {
   const ImuHistory history = SecondOfSamples();
 
-  const auto between = history.Between(102'500'000, 900'000'000, ImuNoise{}, ImuBias{});
+  const auto between = history.Between(0, 102'500'000, 900'000'000, ImuNoise{}, ImuBias{});
 
   ASSERT_TRUE(between);
   Preintegration expected(ImuNoise{}, ImuBias{});
@@ -40,23 +40,33 @@ TEST(ImuHistoryTest, IntegratesWhatIsBetween) {
 
 TEST(ImuHistoryTest, SaysNothingBeyondItsSamples) {
   const ImuHistory history = SecondOfSamples();
-  EXPECT_FALSE(history.Between(-1, 500'000'000, ImuNoise{}, ImuBias{}));
-  EXPECT_FALSE(history.Between(500'000'000, 1'000'000'001, ImuNoise{}, ImuBias{}));
-  EXPECT_FALSE(history.Between(500'000'000, 500'000'000, ImuNoise{}, ImuBias{}));
-  EXPECT_FALSE(ImuHistory().Between(0, 1, ImuNoise{}, ImuBias{}));
+  EXPECT_FALSE(history.Between(0, -1, 500'000'000, ImuNoise{}, ImuBias{}));
+  EXPECT_FALSE(history.Between(0, 500'000'000, 1'000'000'001, ImuNoise{}, ImuBias{}));
+  EXPECT_FALSE(history.Between(0, 500'000'000, 500'000'000, ImuNoise{}, ImuBias{}));
+  EXPECT_FALSE(ImuHistory().Between(-1, 0, 1, ImuNoise{}, ImuBias{}));
 }
 
 TEST(ImuHistoryTest, TakesAStampOnce) {
   ImuHistory history = SecondOfSamples();
   history.Add(SampleAt(200 * kStep_ns));
-  EXPECT_TRUE(history.Between(0, 1'000'000'000, ImuNoise{}, ImuBias{}));
+  EXPECT_TRUE(history.Between(0, 0, 1'000'000'000, ImuNoise{}, ImuBias{}));
 }
 
-TEST(ImuHistoryTest, BeginsAnewWhereStampsJumpBack) {
+TEST(ImuHistoryTest, KeepsRecordingsApartWhereStampsJumpBack) {
   ImuHistory history = SecondOfSamples();
-  for (int i = 20; i <= 60; ++i) history.Add(SampleAt(i * kStep_ns));
-  EXPECT_FALSE(history.Between(0, 200'000'000, ImuNoise{}, ImuBias{}));
-  EXPECT_TRUE(history.Between(100'000'000, 300'000'000, ImuNoise{}, ImuBias{}));
+  EXPECT_EQ(history.newest(), 0);
+  for (int i = 20; i <= 60; ++i) {
+    ImuSample sample = SampleAt(i * kStep_ns);
+    sample.accel *= 2;
+    history.Add(sample);
+  }
+  EXPECT_EQ(history.newest(), 1);
+  const auto first = history.Between(0, 100'000'000, 300'000'000, ImuNoise{}, ImuBias{});
+  const auto second = history.Between(1, 100'000'000, 300'000'000, ImuNoise{}, ImuBias{});
+  ASSERT_TRUE(first && second);
+  EXPECT_LT((second->delta_v() - 2 * first->delta_v()).norm(), 1e-12);
+  EXPECT_FALSE(history.Between(1, 0, 200'000'000, ImuNoise{}, ImuBias{}));
+  EXPECT_FALSE(history.Between(2, 100'000'000, 300'000'000, ImuNoise{}, ImuBias{}));
 }
 
 }  // namespace

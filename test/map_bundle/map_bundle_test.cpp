@@ -60,6 +60,20 @@ TEST(MapBundleTest, BearsWrongMatches) {
   EXPECT_LT(ErrorOf(flight, *adjusted), 0.03);
 }
 
+// As where a bag is played again.
+TEST(MapBundleTest, KeepsWorldsWithEqualStampsApart) {
+  DriftingFlightOptions options;
+  options.restart = 20;
+  const DriftingFlight flight(options);
+  MapBundle bundle(MapBundleOptions{});
+  flight.Tell(&bundle);
+
+  const auto adjusted = bundle.Adjust(flight.map());
+
+  ASSERT_TRUE(adjusted);
+  EXPECT_LT(ErrorOf(flight, *adjusted), 0.015);
+}
+
 TEST(MapBundleTest, LeavesKeyframesOfALoadedMapWhereTheyAre) {
   DriftingFlightOptions options;
   options.drift = 0;

@@ -17,7 +17,7 @@ namespace plm_vins {
 struct BundleKeyframe {
   int world = 0;
   int recording = -1;  // of the IMU (ImuHistory)
-  FrameState state;    // at the time of the image by the clock of the IMU
+  FrameState state;    // by the clock of the IMU
   // As it counted when the image came. Nothing where the keyframe is of a map that was loaded: then
   // it stays where it is.
   std::optional<ImuNoise> noise;

@@ -8,13 +8,14 @@
 
 namespace plm_vins {
 
-void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry) {
+void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry,
+                            int64_t imu_ns) {
   const int newest = map.graph.size() - 1;
   BundleKeyframe& keyframe = keyframes_[newest];
   keyframe.world = map.keyframes[newest].world;
   keyframe.recording = imu_.newest();
   keyframe.state = odometry.state;
-  keyframe.state.t_ns += ToNanoseconds(odometry.calibration.td);
+  keyframe.state.t_ns = imu_ns;
   keyframe.noise = odometry.imu_noise;
   keyframe.stationary = odometry.stationary;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <vector>
@@ -39,8 +41,9 @@ class MapBundle {
 
   void AddImu(const ImuSample& sample) { imu_.Add(sample); }
 
-  // What odometry says of the map's newest keyframe. The samples up to it come before.
-  void AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry);
+  // What odometry says of the map's newest keyframe, at `imu_ns` by the clock of the IMU. The
+  // samples up to there come before.
+  void AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry, int64_t imu_ns);
 
   // The newest keyframe shows a place again.
   void AddPlace(const KeyframeMap& map, const RecognisedPlace& place);

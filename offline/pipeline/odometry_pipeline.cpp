@@ -196,6 +196,7 @@ void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_
   frame.imu = std::move(estimated.imu);
   const bool continues = frame.imu.front().t_ns == last_imu_ns_;
   if (continues) frame.imu.erase(frame.imu.begin());
+  frame.imu_ns = estimated.imu_ns;
   last_imu_ns_ = estimated.imu_ns;
   frame.output = std::move(estimated.output);
   frame.points = std::move(estimated.points);

@@ -26,7 +26,8 @@ namespace plm_vins {
 struct PipelineFrame {
   EstimatorOutput output;
   ImageSample image;           // without pixels where loops are not closed
-  std::vector<ImuSample> imu;  // since the frame before, as the estimator has them
+  std::vector<ImuSample> imu;  // as the estimator took them, without those of the frame before
+  int64_t imu_ns = 0;          // on the IMU's clock, what the state stands for: the last of them
   PointFrame points;
   LineFrame lines;
   double point_tracking_ms = 0;

@@ -22,6 +22,7 @@ struct DriftingFlightOptions {
   double drift = 0.002;         // of its heading from keyframe to keyframe [rad]
   double wrong_share = 0;       // of sightings again, that show another landmark
   double restart = 0;  // here the clock starts anew, and so does odometry's world; 0: nowhere [s]
+  double camera_clock = 0;  // less that of the IMU [s]
   uint64_t seed = 1;
 };
 
@@ -59,7 +60,7 @@ class DriftingFlight {
       map.keyframes.push_back(map_.keyframes[i]);
       const int64_t t_ns = ToNanoseconds(Seconds(number));
       for (; sample->t_ns <= t_ns; ++sample) bundle->AddImu(Told(*sample));
-      if (number >= loaded) bundle->AddKeyframe(map, odometry_[i]);
+      if (number >= loaded) bundle->AddKeyframe(map, odometry_[i], Told_ns(t_ns));
       const auto place = places_.find(number);
       if (place != places_.end()) bundle->AddPlace(map, place->second);
     }
@@ -123,7 +124,8 @@ class DriftingFlight {
     }
     map_.keyframes.push_back(keyframe);
     EstimatorOutput& odometry = odometry_.emplace_back();
-    odometry.state = simulator::TrueState(keyframe.t_ns, truth, imu_.BiasAt(t_ns));
+    const int64_t camera_ns = keyframe.t_ns + ToNanoseconds(options_.camera_clock);
+    odometry.state = simulator::TrueState(camera_ns, truth, imu_.BiasAt(t_ns));
     odometry.state.SetPose(keyframe.T_O_B);
     odometry.state.velocity() = options_.scale * (T_O_W.rotation() * truth.v_W);
     odometry.imu_noise = noise_;

@@ -58,6 +58,8 @@ void ExpectImuOf(const std::vector<PipelineFrame>& frames) {
       EXPECT_LE(sample.t_ns, frame.output.t_ns);
       t_ns += 5 * kMillisecond;
     }
+    ASSERT_FALSE(frame.imu.empty());
+    EXPECT_EQ(frame.imu.back().t_ns, frame.imu_ns);
     EXPECT_GT(t_ns, frame.output.t_ns);
   }
 }

@@ -92,7 +92,7 @@ void BundleProblem::AddMotions() {
     if (before >= 0 && AreOfOneFlight(bundle_->keyframes.at(before), keyframe)) {
       AddImu(before, number);
     } else {
-      problem_.AddTerm(BiasPrior(keyframe.state.bias(), kAccelBiasDeviation, kGyroBiasDeviation),
+      problem_.AddTerm(BiasPrior(keyframe.start.bias(), kAccelBiasDeviation, kGyroBiasDeviation),
                        nullptr, {Motion(number)});
     }
     if (keyframe.stationary) {
@@ -116,7 +116,7 @@ void BundleProblem::AddImu(int from, int to) {
 void BundleProblem::HoldFirst() {
   const auto& [number, first] = *bundle_->keyframes.begin();
   if (!first.moves()) return;  // a loaded map holds all
-  problem_.AddTerm(GaugePrior(first.state, kGaugeDeviation), nullptr, {Pose(number)});
+  problem_.AddTerm(GaugePrior(first.start, kGaugeDeviation), nullptr, {Pose(number)});
 }
 
 // The point in the first sighting; one factor per sighting.

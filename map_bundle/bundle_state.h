@@ -18,6 +18,7 @@ struct BundleKeyframe {
   int world = 0;
   int recording = -1;  // of the IMU (ImuHistory)
   FrameState state;    // by the clock of the IMU
+  FrameState start;    // the state to begin with: what nothing else determines stays there
   // As it counted when the image came. Nothing where the keyframe is of a map that was loaded: then
   // it stays where it is.
   std::optional<ImuNoise> noise;

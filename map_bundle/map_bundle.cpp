@@ -44,6 +44,7 @@ BundleState MapBundle::StateOf(const KeyframeMap& map) const {
     if (of_this_run != keyframes_.end()) member = of_this_run->second;
     member.state.SetPose(T_M_O.ToRigid() * keyframe.T_O_B);
     member.state.velocity() = T_M_O.rotation() * Eigen::Vector3d(member.state.velocity());
+    member.start = member.state;
   }
   bundle.landmarks = CollectLandmarks(map, numbers, again_);
   return bundle;

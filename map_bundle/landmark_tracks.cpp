@@ -14,6 +14,14 @@ namespace {
 struct Sightings {
   std::optional<Eigen::Vector3d> p_M;  // as of the newest keyframe that knows it
   std::vector<LandmarkSighting> all;
+
+  // One of each keyframe: the first one that is told.
+  void Add(const LandmarkSighting& sighting) {
+    const auto is_of_same = [&](const LandmarkSighting& other) {
+      return other.keyframe == sighting.keyframe;
+    };
+    if (std::none_of(all.begin(), all.end(), is_of_same)) all.push_back(sighting);
+  }
 };
 
 bool IsBeforeAllCameras(const KeyframeMap& map, const Eigen::Vector3d& p_M,
@@ -35,14 +43,14 @@ std::vector<LandmarkTrack> CollectLandmarks(const KeyframeMap& map,
       if (corner.track < 0) continue;
       Sightings& sightings = by_key[{keyframe.world, corner.track}];
       if (corner.p_O) sightings.p_M = map.T_M_O(number) * corner.p_O->cast<double>();
-      sightings.all.push_back({number, corner.xy.cast<double>(), /*again=*/false});
+      sightings.Add({number, corner.xy.cast<double>(), /*again=*/false});
     }
   }
   for (const SightingAgain& sighting : again) {
     const auto seen = by_key.find(sighting.landmark);
     if (seen == by_key.end()) continue;
     if (!std::binary_search(keyframes.begin(), keyframes.end(), sighting.keyframe)) continue;
-    seen->second.all.push_back({sighting.keyframe, sighting.xy, /*again=*/true});
+    seen->second.Add({sighting.keyframe, sighting.xy, /*again=*/true});
   }
   std::vector<LandmarkTrack> tracks;
   for (auto& [key, seen] : by_key) {

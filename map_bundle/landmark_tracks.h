@@ -22,7 +22,8 @@ struct LandmarkSighting {
   bool again = false;  // of another visit
 };
 
-// A landmark with all that is seen of it: first by the track, in order of keyframes, then again.
+// A landmark with all that is seen of it, once by each keyframe: first by the track, in order of
+// keyframes, then again.
 struct LandmarkTrack {
   LandmarkKey key;
   Eigen::Vector3d p_M = Eigen::Vector3d::Zero();  // [m]

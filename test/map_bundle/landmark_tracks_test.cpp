@@ -63,6 +63,21 @@ TEST(LandmarkTracksTest, AddsWhatWasSeenAgain) {
   EXPECT_EQ(tracks[0].sightings[1].xy, xy);
 }
 
+// Each later keyframe that matches the same earlier one tells the same sighting once more.
+TEST(LandmarkTracksTest, CountsAKeyframeOnce) {
+  KeyframeMap map = MapOf({0, 0, 1});
+  See(7, kPlace, &map.keyframes[0]);
+  See(7, kPlace, &map.keyframes[1]);
+  const Eigen::Vector2d first(0.3, -0.1), second(0.31, -0.1);
+  const auto tracks = CollectLandmarks(
+      map, {0, 1, 2}, {{{0, 7}, 2, first}, {{0, 7}, 1, first}, {{0, 7}, 2, second}});
+  ASSERT_EQ(tracks.size(), 1u);
+  ASSERT_EQ(tracks[0].sightings.size(), 3u);
+  EXPECT_FALSE(tracks[0].sightings[1].again);
+  EXPECT_EQ(tracks[0].sightings[2].keyframe, 2);
+  EXPECT_EQ(tracks[0].sightings[2].xy, first);
+}
+
 TEST(LandmarkTracksTest, LeavesOutWhatHasNoPlaceOrLiesBehind) {
   KeyframeMap map = MapOf({0, 0});
   for (Keyframe& keyframe : map.keyframes) {

@@ -2,6 +2,7 @@
 #include "map_bundle/landmark_tracks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -10,6 +11,8 @@
 
 namespace plm_vins {
 namespace {
+
+const double kMaxCosine = std::cos(M_PI / 180);  // of the angle between two rays
 
 struct Sightings {
   std::optional<Eigen::Vector3d> p_M;  // as of the newest keyframe that knows it
@@ -23,6 +26,19 @@ struct Sightings {
     if (std::none_of(all.begin(), all.end(), is_of_same)) all.push_back(sighting);
   }
 };
+
+// Whether a ray forms enough of an angle with the first one. Where none does, the depth is not
+// known, and a step may take the landmark beyond infinity, which Ceres takes for a failure of the
+// step.
+bool IsSeenFromTwoSides(const KeyframeMap& map, const std::vector<LandmarkSighting>& sightings) {
+  const auto ray_M = [&](const LandmarkSighting& sighting) -> Eigen::Vector3d {
+    return map.T_M_C(sighting.keyframe).rotation * sighting.xy.homogeneous().normalized();
+  };
+  const Eigen::Vector3d first = ray_M(sightings.front());
+  return std::any_of(sightings.begin(), sightings.end(), [&](const LandmarkSighting& sighting) {
+    return ray_M(sighting).dot(first) < kMaxCosine;
+  });
+}
 
 bool IsBeforeAllCameras(const KeyframeMap& map, const Eigen::Vector3d& p_M,
                         const std::vector<LandmarkSighting>& sightings) {
@@ -54,7 +70,7 @@ std::vector<LandmarkTrack> CollectLandmarks(const KeyframeMap& map,
   }
   std::vector<LandmarkTrack> tracks;
   for (auto& [key, seen] : by_key) {
-    if (!seen.p_M || seen.all.size() < 2) continue;
+    if (!seen.p_M || !IsSeenFromTwoSides(map, seen.all)) continue;
     if (!IsBeforeAllCameras(map, *seen.p_M, seen.all)) continue;
     tracks.push_back({key, *seen.p_M, std::move(seen.all)});
   }

@@ -30,7 +30,7 @@ struct LandmarkTrack {
   std::vector<LandmarkSighting> sightings;
 };
 
-// The landmarks of these keyframes, which are given in order, that are seen twice or more and lie
+// The landmarks of these keyframes, which are given in order, that are seen from two sides and lie
 // before each camera that sees them. In order of their keys.
 std::vector<LandmarkTrack> CollectLandmarks(const KeyframeMap& map,
                                             const std::vector<int>& keyframes,

@@ -23,6 +23,7 @@ struct DriftingFlightOptions {
   double wrong_share = 0;       // of sightings again, that show another landmark
   double restart = 0;  // here the clock starts anew, and so does odometry's world; 0: nowhere [s]
   double camera_clock = 0;  // less that of the IMU [s]
+  int far_points = 0;       // beside the others, kilometres away
   uint64_t seed = 1;
 };
 
@@ -35,6 +36,10 @@ class DriftingFlight {
       const Eigen::Vector3d direction =
           Eigen::Vector3d(random_.Normal(), random_.Normal(), random_.Normal()).normalized();
       points_.push_back(Eigen::Vector3d(0, 0, 1.5) + random_.Uniform(4, 8) * direction);
+    }
+    for (int i = 0; i < options.far_points; ++i) {
+      const double angle = 2 * M_PI * i / options.far_points;
+      points_.push_back(5000 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0));
     }
     simulator::ImuSimulationOptions imu;
     imu.noise = noise_;

@@ -21,19 +21,21 @@ KeyframeMap MapOf(const std::vector<int>& worlds) {
   return map;
 }
 
-void See(int64_t track, const std::optional<Eigen::Vector3f>& p_O, Keyframe* keyframe) {
+const Eigen::Vector3f kPlace(1, 2, kDepth);
+
+// The landmark is at `p_O`, whether that is known or not.
+void See(int64_t track, Keyframe* keyframe, const Eigen::Vector3f& p_O = kPlace,
+         bool is_known = true) {
   DescribedCorner& corner = keyframe->corners.emplace_back();
   corner.track = track;
-  corner.xy = {0.1f, 0.2f};
-  corner.p_O = p_O;
+  corner.xy = (p_O - keyframe->T_O_B.translation.cast<float>()).hnormalized();
+  if (is_known) corner.p_O = p_O;
 }
-
-const Eigen::Vector3f kPlace(1, 2, kDepth);
 
 TEST(LandmarkTracksTest, JoinsTheCornersOfATrack) {
   KeyframeMap map = MapOf({0, 0, 0});
-  See(7, std::nullopt, &map.keyframes[0]);
-  See(7, kPlace, &map.keyframes[2]);
+  See(7, &map.keyframes[0], kPlace, /*is_known=*/false);
+  See(7, &map.keyframes[2]);
   const auto tracks = CollectLandmarks(map, {0, 1, 2}, {});
   ASSERT_EQ(tracks.size(), 1u);
   EXPECT_EQ(tracks[0].key.track, 7);
@@ -45,14 +47,14 @@ TEST(LandmarkTracksTest, JoinsTheCornersOfATrack) {
 
 TEST(LandmarkTracksTest, KeepsTracksOfTwoWorldsApart) {
   KeyframeMap map = MapOf({0, 1});
-  See(7, kPlace, &map.keyframes[0]);
-  See(7, kPlace, &map.keyframes[1]);
+  See(7, &map.keyframes[0]);
+  See(7, &map.keyframes[1]);
   EXPECT_TRUE(CollectLandmarks(map, {0, 1}, {}).empty());
 }
 
 TEST(LandmarkTracksTest, AddsWhatWasSeenAgain) {
   KeyframeMap map = MapOf({0, 1, 1});
-  See(7, kPlace, &map.keyframes[0]);
+  See(7, &map.keyframes[0]);
   const Eigen::Vector2d xy(0.3, -0.1);
   const auto tracks =
       CollectLandmarks(map, {0, 1}, {{{0, 7}, 1, xy}, {{0, 7}, 2, xy}, {{0, 8}, 1, xy}});
@@ -66,8 +68,8 @@ TEST(LandmarkTracksTest, AddsWhatWasSeenAgain) {
 // Each later keyframe that matches the same earlier one tells the same sighting once more.
 TEST(LandmarkTracksTest, CountsAKeyframeOnce) {
   KeyframeMap map = MapOf({0, 0, 1});
-  See(7, kPlace, &map.keyframes[0]);
-  See(7, kPlace, &map.keyframes[1]);
+  See(7, &map.keyframes[0]);
+  See(7, &map.keyframes[1]);
   const Eigen::Vector2d first(0.3, -0.1), second(0.31, -0.1);
   const auto tracks = CollectLandmarks(
       map, {0, 1, 2}, {{{0, 7}, 2, first}, {{0, 7}, 1, first}, {{0, 7}, 2, second}});
@@ -78,12 +80,23 @@ TEST(LandmarkTracksTest, CountsAKeyframeOnce) {
   EXPECT_EQ(tracks[0].sightings[2].xy, first);
 }
 
+TEST(LandmarkTracksTest, LeavesOutWhatIsFarAway) {
+  KeyframeMap map = MapOf({0, 0});  // half a metre apart
+  for (Keyframe& keyframe : map.keyframes) {
+    See(1, &keyframe, Eigen::Vector3f(0, 0, 20));
+    See(2, &keyframe, Eigen::Vector3f(0, 0, 40));
+  }
+  const auto tracks = CollectLandmarks(map, {0, 1}, {});
+  ASSERT_EQ(tracks.size(), 1u);
+  EXPECT_EQ(tracks[0].key.track, 1);
+}
+
 TEST(LandmarkTracksTest, LeavesOutWhatHasNoPlaceOrLiesBehind) {
   KeyframeMap map = MapOf({0, 0});
   for (Keyframe& keyframe : map.keyframes) {
-    See(1, std::nullopt, &keyframe);
-    See(2, Eigen::Vector3f(1, 2, -kDepth), &keyframe);
-    See(-1, std::nullopt, &keyframe);
+    See(1, &keyframe, kPlace, /*is_known=*/false);
+    See(2, &keyframe, Eigen::Vector3f(1, 2, -kDepth));
+    See(-1, &keyframe);
   }
   EXPECT_TRUE(CollectLandmarks(map, {0, 1}, {}).empty());
 }

@@ -60,6 +60,19 @@ TEST(MapBundleTest, BearsWrongMatches) {
   EXPECT_LT(ErrorOf(flight, *adjusted), 0.03);
 }
 
+TEST(MapBundleTest, BearsWhatIsFarAway) {
+  DriftingFlightOptions options;
+  options.far_points = 5;
+  const DriftingFlight flight(options);
+  MapBundle bundle(MapBundleOptions{});
+  flight.Tell(&bundle);
+
+  const auto adjusted = bundle.Adjust(flight.map());
+
+  ASSERT_TRUE(adjusted);
+  EXPECT_LT(ErrorOf(flight, *adjusted), 0.015);
+}
+
 TEST(MapBundleTest, GoesByTheClockOfTheImu) {
   DriftingFlightOptions options;
   options.camera_clock = 0.2;

@@ -43,15 +43,19 @@ void MoveNodes(const AdjustedMap& adjusted, KeyframeMap* map) {
 KeyframeMap RebuiltMap(const AdjustedMap& adjusted, const KeyframeMap& map) {
   KeyframeMap rebuilt = map;
   std::map<int, LevelTransform> worlds;  // T_M_O: one for all keyframes, where drift had many
-  for (const auto& [number, T_M_B] : adjusted.T_M_B) {
+  for (const int number : map.NumbersInMap()) {
     Keyframe& keyframe = rebuilt.keyframes[number];
-    const LevelTransform former_T_M_O = map.T_M_O(number);
-    const LevelTransform& T_M_O = worlds.emplace(keyframe.world, former_T_M_O).first->second;
-    const LevelTransform T_O_M = T_M_O.Inverse();
-    Move(T_O_M * former_T_M_O, &keyframe);
-    TakeLandmarks(adjusted, T_O_M, &keyframe);
-    keyframe.T_O_B = T_O_M.ToRigid() * T_M_B;
-    rebuilt.graph.SetNode(number, T_M_O * keyframe.T_O_L());
+    LevelTransform T_M_O = map.T_M_O(number);
+    const auto found = adjusted.T_M_B.find(number);
+    if (found != adjusted.T_M_B.end()) {
+      const LevelTransform former_T_M_O = T_M_O;
+      T_M_O = worlds.emplace(keyframe.world, former_T_M_O).first->second;
+      Move(T_M_O.Inverse() * former_T_M_O, &keyframe);
+      keyframe.T_O_B = T_M_O.Inverse().ToRigid() * found->second;
+      keyframe.T_B_C = adjusted.T_B_C;
+      rebuilt.graph.SetNode(number, T_M_O * keyframe.T_O_L());
+    }
+    TakeLandmarks(adjusted, T_M_O.Inverse(), &keyframe);
   }
   rebuilt.graph.TakeNodesAsMeasured();
   return rebuilt.Compact();

@@ -12,7 +12,8 @@ namespace plm_vins {
 
 // What the bundle found.
 struct AdjustedMap {
-  std::map<int, Rigid3d> T_M_B;                // by number of the keyframe
+  Rigid3d T_B_C;                               // of all keyframes that were adjusted
+  std::map<int, Rigid3d> T_M_B;                // of these alone, by number
   std::map<LandmarkKey, Eigen::Vector3d> p_M;  // [m]
 };
 
@@ -20,8 +21,8 @@ struct AdjustedMap {
 // that its poses between keyframes can still be corrected.
 void MoveNodes(const AdjustedMap& adjusted, KeyframeMap* map);
 
-// The map, its nodes moved by MoveNodes(), for another run to start in: the keyframes that are
-// kept, with poses and landmarks as if odometry had found them so.
+// The map, its nodes moved by MoveNodes(), for another run to start in: with poses, landmarks and
+// T_B_C as if odometry had found them so. Keyframes that were not adjusted stay where they are.
 KeyframeMap RebuiltMap(const AdjustedMap& adjusted, const KeyframeMap& map);
 
 }  // namespace plm_vins

@@ -20,7 +20,7 @@ struct BundleKeyframe {
   FrameState state;    // by the clock of the IMU
   FrameState start;    // the state to begin with: what nothing else determines stays there
   // As it counted when the image came. Nothing where the keyframe is of a map that was loaded: then
-  // it stays where it is.
+  // it stays where it is, and its state is that of a body which has its camera at T_B_C.
   std::optional<ImuNoise> noise;
   bool stationary = false;
 

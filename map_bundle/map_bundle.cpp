@@ -37,12 +37,15 @@ BundleState MapBundle::StateOf(const KeyframeMap& map) const {
   BundleState bundle;
   bundle.T_B_C = map.keyframes.back().T_B_C;
   for (const int number : numbers) {
-    const Keyframe& keyframe = map.keyframes[number];
-    const LevelTransform T_M_O = map.T_M_O(number);
     BundleKeyframe& member = bundle.keyframes[number];
     const auto of_this_run = keyframes_.find(number);
-    if (of_this_run != keyframes_.end()) member = of_this_run->second;
-    member.state.SetPose(T_M_O.ToRigid() * keyframe.T_O_B);
+    if (of_this_run == keyframes_.end()) {  // its camera stays, however that was mounted
+      member.state.SetPose(map.T_M_C(number) * bundle.T_B_C.Inverse());
+      continue;
+    }
+    member = of_this_run->second;
+    const LevelTransform T_M_O = map.T_M_O(number);
+    member.state.SetPose(T_M_O.ToRigid() * map.keyframes[number].T_O_B);
     member.state.velocity() = T_M_O.rotation() * Eigen::Vector3d(member.state.velocity());
     member.start = member.state;
   }
@@ -67,8 +70,9 @@ std::optional<AdjustedMap> MapBundle::Adjust(const KeyframeMap& map) {
   summary_.noise = options.noise;
 
   AdjustedMap adjusted;
+  adjusted.T_B_C = bundle.T_B_C;
   for (const auto& [number, keyframe] : bundle.keyframes) {
-    adjusted.T_M_B[number] = keyframe.state.T_W_B();
+    if (keyframe.moves()) adjusted.T_M_B[number] = keyframe.state.T_W_B();
   }
   for (const LandmarkTrack& landmark : bundle.landmarks) adjusted.p_M[landmark.key] = landmark.p_M;
   return adjusted;

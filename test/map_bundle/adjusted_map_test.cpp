@@ -16,6 +16,7 @@ using testing::DriftingFlightOptions;
 // What a perfect bundle would find.
 AdjustedMap TruthOf(const DriftingFlight& flight) {
   AdjustedMap truth;
+  truth.T_B_C = flight.map().keyframes.back().T_B_C;
   for (int i = 0; i < flight.map().graph.size(); ++i) truth.T_M_B[i] = flight.True(i);
   return truth;
 }
@@ -54,6 +55,42 @@ TEST(AdjustedMapTest, RebuildsAMapThatRests) {
   }
   const DescribedCorner& corner = rebuilt.keyframes[3].corners.front();
   ASSERT_TRUE(corner.p_O);
+  EXPECT_LT((rebuilt.T_M_O(3) * corner.p_O->cast<double>() - p_M).norm(), 1e-5);
+}
+
+TEST(AdjustedMapTest, TakesOverTheMountOfTheCamera) {
+  const DriftingFlight flight(DriftingFlightOptions{});
+  AdjustedMap truth = TruthOf(flight);
+  truth.T_B_C.translation.x() += 0.05;
+  KeyframeMap moved = flight.map();
+  MoveNodes(truth, &moved);
+
+  const KeyframeMap rebuilt = RebuiltMap(truth, moved);
+
+  for (int i = 0; i < rebuilt.graph.size(); ++i) {
+    const Rigid3d T_M_C = flight.True(i) * truth.T_B_C;
+    EXPECT_LT((rebuilt.T_M_C(i).translation - T_M_C.translation).norm(), 1e-6) << i;
+  }
+}
+
+// As those of a map that was loaded.
+TEST(AdjustedMapTest, LeavesKeyframesThatWereNotAdjusted) {
+  const DriftingFlight flight(DriftingFlightOptions{});
+  AdjustedMap truth = TruthOf(flight);
+  truth.T_B_C.translation.x() += 0.05;
+  for (int i = 0; i < 10; ++i) truth.T_M_B.erase(i);
+  const Eigen::Vector3d p_M(4, 5, 6);
+  truth.p_M[{0, flight.map().keyframes[3].corners.front().track}] = p_M;
+  KeyframeMap moved = flight.map();
+  MoveNodes(truth, &moved);
+
+  const KeyframeMap rebuilt = RebuiltMap(truth, moved);
+
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(rebuilt.T_M_C(i).translation, flight.map().T_M_C(i).translation) << i;
+    EXPECT_EQ(rebuilt.keyframes[i].T_B_C.translation, flight.map().keyframes[i].T_B_C.translation);
+  }
+  const DescribedCorner& corner = rebuilt.keyframes[3].corners.front();
   EXPECT_LT((rebuilt.T_M_O(3) * corner.p_O->cast<double>() - p_M).norm(), 1e-5);
 }
 

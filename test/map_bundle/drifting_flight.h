@@ -24,6 +24,7 @@ struct DriftingFlightOptions {
   double restart = 0;  // here the clock starts anew, and so does odometry's world; 0: nowhere [s]
   double camera_clock = 0;  // less that of the IMU [s]
   int far_points = 0;       // beside the others, kilometres away
+  int loaded = 0;  // keyframes of a map that was loaded, with their camera elsewhere on the body
   uint64_t seed = 1;
 };
 
@@ -55,9 +56,8 @@ class DriftingFlight {
     return map_.T_M_O(number).ToRigid() * map_.keyframes[number].T_O_B;
   }
 
-  // All that a run tells the bundle; of the first keyframes, as if they were of a loaded map,
-  // nothing.
-  void Tell(MapBundle* bundle, int loaded = 0) const {
+  // All that a run tells the bundle.
+  void Tell(MapBundle* bundle) const {
     KeyframeMap map;
     auto sample = imu_.samples.begin();
     for (size_t i = 0; i < map_.keyframes.size(); ++i) {
@@ -65,7 +65,7 @@ class DriftingFlight {
       map.keyframes.push_back(map_.keyframes[i]);
       const int64_t t_ns = ToNanoseconds(Seconds(number));
       for (; sample->t_ns <= t_ns; ++sample) bundle->AddImu(Told(*sample));
-      if (number >= loaded) bundle->AddKeyframe(map, odometry_[i], Told_ns(t_ns));
+      if (number >= options_.loaded) bundle->AddKeyframe(map, odometry_[i], Told_ns(t_ns));
       const auto place = places_.find(number);
       if (place != places_.end()) bundle->AddPlace(map, place->second);
     }
@@ -109,6 +109,7 @@ class DriftingFlight {
     keyframe.world = IsRestarted(t_ns) ? 1 : 0;
     keyframe.T_O_B = {T_O_W.rotation() * truth.T_W_B.rotation, in_O(truth.T_W_B.translation)};
     keyframe.T_B_C = {Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.1, 0, 0.05}};
+    if (number < options_.loaded) keyframe.T_B_C.translation.y() += 0.3;
     keyframe.covariance = 1e-4 * (number + 1) * Matrix4d::Identity();
     const int visit = number / options_.keyframes_of_visit;
     const Rigid3d T_C_W = (truth.T_W_B * keyframe.T_B_C).Inverse();

@@ -58,7 +58,7 @@ KeyframeMap RebuiltMap(const AdjustedMap& adjusted, const KeyframeMap& map) {
     TakeLandmarks(adjusted, T_M_O.Inverse(), &keyframe);
   }
   rebuilt.graph.TakeNodesAsMeasured();
-  return rebuilt.Compact();
+  return rebuilt;
 }
 
 }  // namespace plm_vins

@@ -113,7 +113,7 @@ void LoopResults::Finish() {
   table_.Close();
   WriteFinalTrajectory();
   OutputFile g2o(File("pose_graph.g2o"));
-  WriteG2o(map(), &g2o.stream());
+  WriteG2o(measured_map(), &g2o.stream());
   g2o.Close();
   WriteColmapModel(File("colmap"), refined_camera_, map());
 }
@@ -124,7 +124,7 @@ void LoopResults::WriteFinalTrajectory() const {
   auto world = worlds_.begin();
   std::string reason = "it is not found in the map";
   bool was_in_map = true;
-  const KeyframeMap& moved = adjusted_ ? adjusted_->moved : loops_.map();
+  const KeyframeMap& moved = measured_map();
   const std::vector<bool> connected = moved.graph.ConnectedWith(0);
   for (size_t i = 0; i < poses_.size(); ++i) {
     const bool in_map = connected[poses_[i].keyframe];

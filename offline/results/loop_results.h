@@ -40,7 +40,7 @@ class LoopResults {
   // Completes all files.
   void Finish();
 
-  // As another run may start in it.
+  // As another run may start in it. With numbers as in loops.csv.
   const KeyframeMap& map() const { return adjusted_ ? adjusted_->rebuilt : loops_.map(); }
 
   // Counts and times, for summary.json.
@@ -56,6 +56,8 @@ class LoopResults {
   std::string File(const std::string& name) const;
   void Count(const LoopClosure& closure, double milliseconds);
   void Remember(const PipelineFrame& frame, const LoopClosure& closure);
+  // The map as of loops and bundle, with what odometry and loops measured.
+  const KeyframeMap& measured_map() const { return adjusted_ ? adjusted_->moved : loops_.map(); }
   void WriteFinalTrajectory() const;
   Json BundleSummary() const;
 

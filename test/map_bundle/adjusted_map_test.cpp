@@ -94,5 +94,19 @@ TEST(AdjustedMapTest, LeavesKeyframesThatWereNotAdjusted) {
   EXPECT_LT((rebuilt.T_M_O(3) * corner.p_O->cast<double>() - p_M).norm(), 1e-5);
 }
 
+TEST(AdjustedMapTest, KeepsTheNumbersOfKeyframes) {
+  const DriftingFlight flight(DriftingFlightOptions{});
+  AdjustedMap truth = TruthOf(flight);
+  KeyframeMap moved = flight.map();
+  moved.Remove(2, 3);
+  truth.T_M_B.erase(2);
+  MoveNodes(truth, &moved);
+
+  const KeyframeMap rebuilt = RebuiltMap(truth, moved);
+
+  EXPECT_EQ(rebuilt.NumbersInMap(), moved.NumbersInMap());
+  EXPECT_EQ(rebuilt.keyframes[5].t_ns, moved.keyframes[5].t_ns);
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/append.h"
 #include "map_bundle/bundle_noise.h"
 #include "map_bundle/bundle_problem.h"
 
@@ -20,16 +21,41 @@ void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odome
   keyframe.stationary = odometry.stationary;
 }
 
-void MapBundle::AddPlace(const KeyframeMap& map, const RecognisedPlace& place) {
+void MapBundle::AddLoops(const KeyframeMap& map, const LoopClosure& closure) {
+  if (closure.place) AddPlace(map, *closure.place, !closure.candidates.back().failed);
+  for (const LoopCandidate& loop : closure.reconsidered) SetCounts(loop.earlier, loop.later, true);
+  for (const LevelEdge& edge : closure.dropped) SetCounts(edge.from, edge.to, false);
+}
+
+void MapBundle::AddPlace(const KeyframeMap& map, const RecognisedPlace& place, bool counts) {
   const int newest = map.graph.size() - 1;
+  Place& added = places_[{newest, place.earlier}];
+  added.counts = counts;
   const auto add = [&](const std::vector<SeenPoint>& seen, int of, int by) {
     for (const SeenPoint& point : seen) {
-      again_.push_back({{map.keyframes[of].world, point.track}, by, point.xy});
+      added.sightings.push_back({{map.keyframes[of].world, point.track}, by, point.xy});
     }
   };
   add(place.sightings.of_earlier, place.earlier, newest);
   add(place.sightings.of_later, newest, place.earlier);
-  ++places_;
+}
+
+void MapBundle::SetCounts(int a, int b, bool counts) {
+  const auto place = places_.find({std::max(a, b), std::min(a, b)});
+  if (place != places_.end()) place->second.counts = counts;
+}
+
+size_t MapBundle::CountPlaces() const {
+  return static_cast<size_t>(std::count_if(places_.begin(), places_.end(),
+                                           [](const auto& place) { return place.second.counts; }));
+}
+
+std::vector<SightingAgain> MapBundle::Sightings() const {
+  std::vector<SightingAgain> sightings;
+  for (const auto& [keyframes, place] : places_) {
+    if (place.counts) Append(place.sightings, &sightings);
+  }
+  return sightings;
 }
 
 BundleState MapBundle::StateOf(const KeyframeMap& map) const {
@@ -49,15 +75,15 @@ BundleState MapBundle::StateOf(const KeyframeMap& map) const {
     member.state.velocity() = T_M_O.rotation() * Eigen::Vector3d(member.state.velocity());
     member.start = member.state;
   }
-  bundle.landmarks = CollectLandmarks(map, numbers, again_);
+  bundle.landmarks = CollectLandmarks(map, numbers, Sightings());
   return bundle;
 }
 
 std::optional<AdjustedMap> MapBundle::Adjust(const KeyframeMap& map) {
-  if (places_ < options_.min_places) return std::nullopt;
+  if (CountPlaces() < options_.min_places) return std::nullopt;
   BundleState bundle = StateOf(map);
   if (bundle.keyframes.size() < options_.min_keyframes) return std::nullopt;
-  summary_ = {bundle.keyframes.size(), bundle.landmarks.size(), again_.size(), {}};
+  summary_ = {bundle.keyframes.size(), bundle.landmarks.size(), Sightings().size(), {}};
   BundleOptions options;
   options.gravity_norm = options_.gravity_norm;
   const SightingNoise configured = {options_.point_noise, options_.point_noise};

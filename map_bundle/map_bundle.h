@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/measurements.h"
@@ -45,8 +46,10 @@ class MapBundle {
   // samples up to there come before.
   void AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry, int64_t imu_ns);
 
-  // The newest keyframe shows a place again.
-  void AddPlace(const KeyframeMap& map, const RecognisedPlace& place);
+  // What loop closure says of the map's newest keyframe. A place counts as long as the graph
+  // accepts its loop. Left alone are places that had to wait for agreement, whose sightings are
+  // gone, and loops that were thinned out, by the numbers of which the graph drops others.
+  void AddLoops(const KeyframeMap& map, const LoopClosure& closure);
 
   // Adjusts the keyframes that are kept and joined to the first one. Nothing where the measurements
   // do not determine them, or too few places were recognised.
@@ -55,13 +58,21 @@ class MapBundle {
   const MapBundleSummary& summary() const { return summary_; }
 
  private:
+  struct Place {
+    std::vector<SightingAgain> sightings;
+    bool counts = false;
+  };
+
+  void AddPlace(const KeyframeMap& map, const RecognisedPlace& place, bool counts);
+  void SetCounts(int a, int b, bool counts);
+  size_t CountPlaces() const;
+  std::vector<SightingAgain> Sightings() const;
   BundleState StateOf(const KeyframeMap& map) const;
 
   MapBundleOptions options_;
   ImuHistory imu_;
-  std::map<int, BundleKeyframe> keyframes_;  // of this run, by number; their states in O
-  std::vector<SightingAgain> again_;
-  size_t places_ = 0;
+  std::map<int, BundleKeyframe> keyframes_;      // of this run, by number; their states in O
+  std::map<std::pair<int, int>, Place> places_;  // by the later keyframe and the earlier one
   MapBundleSummary summary_;
 };
 

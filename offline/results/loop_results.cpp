@@ -90,9 +90,7 @@ void LoopResults::Count(const LoopClosure& closure, double milliseconds) {
 
 void LoopResults::Remember(const PipelineFrame& frame, const LoopClosure& closure) {
   if (closure.is_keyframe) bundle_->AddKeyframe(loops_.map(), frame.output, frame.imu_ns);
-  if (closure.place && !closure.candidates.back().failed) {
-    bundle_->AddPlace(loops_.map(), *closure.place);
-  }
+  bundle_->AddLoops(loops_.map(), closure);
 }
 
 void LoopResults::AdjustMap() {

@@ -25,6 +25,7 @@ struct DriftingFlightOptions {
   double camera_clock = 0;  // less that of the IMU [s]
   int far_points = 0;       // beside the others, kilometres away
   int loaded = 0;  // keyframes of a map that was loaded, with their camera elsewhere on the body
+  bool refused = false;  // the graph takes none of its loops
   uint64_t seed = 1;
 };
 
@@ -51,6 +52,7 @@ class DriftingFlight {
   }
 
   const KeyframeMap& map() const { return map_; }
+  const std::map<int, RecognisedPlace>& places() const { return places_; }  // by keyframe
   Rigid3d True(int number) const { return trajectory_.At(Seconds(number)).T_W_B; }
   Rigid3d InMap(int number) const {
     return map_.T_M_O(number).ToRigid() * map_.keyframes[number].T_O_B;
@@ -66,8 +68,7 @@ class DriftingFlight {
       const int64_t t_ns = ToNanoseconds(Seconds(number));
       for (; sample->t_ns <= t_ns; ++sample) bundle->AddImu(Told(*sample));
       if (number >= options_.loaded) bundle->AddKeyframe(map, odometry_[i], Told_ns(t_ns));
-      const auto place = places_.find(number);
-      if (place != places_.end()) bundle->AddPlace(map, place->second);
+      bundle->AddLoops(map, LoopsOf(number));
     }
   }
 
@@ -83,6 +84,19 @@ class DriftingFlight {
   }
 
   static double Seconds(int number) { return 1 + kInterval * number; }
+
+  // What loop closure says of a keyframe.
+  LoopClosure LoopsOf(int number) const {
+    LoopClosure closure;
+    const auto place = places_.find(number);
+    if (place == places_.end()) return closure;
+    closure.place = place->second;
+    LoopCandidate& loop = closure.candidates.emplace_back();
+    loop.earlier = place->second.earlier;
+    loop.later = number;
+    if (options_.refused) loop.failed = LoopGate::kGraph;
+    return closure;
+  }
 
   bool IsRestarted(int64_t t_ns) const {
     return options_.restart > 0 && t_ns >= ToNanoseconds(options_.restart);

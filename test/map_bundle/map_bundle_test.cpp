@@ -131,6 +131,40 @@ TEST(MapBundleTest, NeedsPlacesThatWereRecognised) {
   EXPECT_FALSE(bundle.Adjust(flight.map()));
 }
 
+TEST(MapBundleTest, LeavesOutPlacesThatTheGraphRefuses) {
+  DriftingFlightOptions options;
+  options.refused = true;
+  const DriftingFlight flight(options);
+  MapBundle bundle(MapBundleOptions{});
+  flight.Tell(&bundle);
+  EXPECT_FALSE(bundle.Adjust(flight.map()));
+
+  LoopClosure later;
+  for (const auto& [number, place] : flight.places()) {
+    LoopCandidate& loop = later.reconsidered.emplace_back();
+    loop.earlier = place.earlier;
+    loop.later = number;
+  }
+  bundle.AddLoops(flight.map(), later);
+  EXPECT_TRUE(bundle.Adjust(flight.map()));
+}
+
+TEST(MapBundleTest, ForgetsPlacesThatTheGraphDropsLater) {
+  const DriftingFlight flight(DriftingFlightOptions{});
+  MapBundle bundle(MapBundleOptions{});
+  flight.Tell(&bundle);
+  EXPECT_TRUE(bundle.Adjust(flight.map()));
+
+  LoopClosure later;
+  for (const auto& [number, place] : flight.places()) {
+    LevelEdge& edge = later.dropped.emplace_back();
+    edge.from = place.earlier;
+    edge.to = number;
+  }
+  bundle.AddLoops(flight.map(), later);
+  EXPECT_FALSE(bundle.Adjust(flight.map()));
+}
+
 TEST(MapBundleTest, HasNothingToSayOfAnEmptyMap) {
   MapBundle bundle(MapBundleOptions{});
   EXPECT_FALSE(bundle.Adjust(KeyframeMap{}));

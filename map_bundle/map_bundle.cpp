@@ -8,6 +8,17 @@
 #include "map_bundle/bundle_problem.h"
 
 namespace plm_vins {
+namespace {
+
+size_t CountAgain(const std::vector<LandmarkTrack>& landmarks) {
+  size_t count = 0;
+  for (const LandmarkTrack& landmark : landmarks) {
+    for (const LandmarkSighting& sighting : landmark.sightings) count += sighting.again ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
 
 void MapBundle::AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry,
                             int64_t imu_ns) {
@@ -79,21 +90,40 @@ BundleState MapBundle::StateOf(const KeyframeMap& map) const {
   return bundle;
 }
 
-std::optional<AdjustedMap> MapBundle::Adjust(const KeyframeMap& map) {
-  if (CountPlaces() < options_.min_places) return std::nullopt;
-  BundleState bundle = StateOf(map);
-  if (bundle.keyframes.size() < options_.min_keyframes) return std::nullopt;
-  summary_ = {bundle.keyframes.size(), bundle.landmarks.size(), Sightings().size(), {}};
+size_t MapBundle::KeyframesToAdjust(const KeyframeMap& map) const {
+  if (CountPlaces() < options_.min_places) return 0;
+  const size_t keyframes = map.NumbersInMap().size();
+  return keyframes < options_.min_keyframes ? 0 : keyframes;
+}
+
+// The noise of a round is that of the residuals of the one before.
+void MapBundle::AdjustInRounds(const std::function<bool()>& is_end, BundleState* bundle) {
+  const SightingNoise configured = {options_.point_noise, options_.point_noise};
   BundleOptions options;
   options.gravity_norm = options_.gravity_norm;
-  const SightingNoise configured = {options_.point_noise, options_.point_noise};
   options.noise = configured;
-  constexpr int kRounds = 3;  // the noise of one from the residuals of the one before
-  for (int round = 0; round < kRounds; ++round) {
-    if (!AdjustBundle(imu_, options, &bundle)) return std::nullopt;
-    options.noise = EstimateNoise(bundle, configured);
+  constexpr int kRounds = 3;
+  while (summary_.rounds < kRounds) {
+    summary_.ended = is_end();
+    if (summary_.ended) break;
+    summary_.failed = !AdjustBundle(imu_, options, bundle);
+    if (summary_.failed) break;
+    ++summary_.rounds;
+    options.noise = EstimateNoise(*bundle, configured);
   }
   summary_.noise = options.noise;
+}
+
+std::optional<AdjustedMap> MapBundle::Adjust(const KeyframeMap& map,
+                                             const std::function<bool()>& is_end) {
+  summary_ = MapBundleSummary();
+  if (KeyframesToAdjust(map) == 0) return std::nullopt;
+  BundleState bundle = StateOf(map);
+  summary_.keyframes = bundle.keyframes.size();
+  summary_.landmarks = bundle.landmarks.size();
+  summary_.sightings_again = CountAgain(bundle.landmarks);
+  AdjustInRounds(is_end, &bundle);
+  if (summary_.rounds == 0) return std::nullopt;
 
   AdjustedMap adjusted;
   adjusted.T_B_C = bundle.T_B_C;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -29,7 +30,10 @@ struct MapBundleOptions {
 struct MapBundleSummary {
   size_t keyframes = 0;
   size_t landmarks = 0;
-  size_t sightings_again = 0;  // of landmarks by keyframes of another visit
+  size_t sightings_again = 0;  // of these landmarks by keyframes of another visit
+  int rounds = 0;              // that are done; zero: nothing was found
+  bool failed = false;         // the equations of the next round could not be solved
+  bool ended = false;          // was asked to end before the last round
   SightingNoise noise;         // as found
 };
 
@@ -47,13 +51,19 @@ class MapBundle {
   void AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry, int64_t imu_ns);
 
   // What loop closure says of the map's newest keyframe. A place counts as long as the graph
-  // accepts its loop. Left alone are places that had to wait for agreement, whose sightings are
-  // gone, and loops that were thinned out, by the numbers of which the graph drops others.
+  // accepts its loop. Not so one that had to wait for agreement, whose sightings nobody keeps; and
+  // a loop that goes by another keyframe, as its own was thinned out, is not known when it is
+  // dropped.
   void AddLoops(const KeyframeMap& map, const LoopClosure& closure);
 
-  // Adjusts the keyframes that are kept and joined to the first one. Nothing where the measurements
-  // do not determine them, or too few places were recognised.
-  std::optional<AdjustedMap> Adjust(const KeyframeMap& map);
+  // How many keyframes Adjust() takes: those that are kept and joined to the first one. Zero where
+  // they are too few, or the places that were recognised.
+  size_t KeyframesToAdjust(const KeyframeMap& map) const;
+
+  // Adjusts them in rounds, before each of which `is_end` is asked. Of the last round that is done;
+  // nothing where there is none, of which summary() knows the reason.
+  std::optional<AdjustedMap> Adjust(
+      const KeyframeMap& map, const std::function<bool()>& is_end = [] { return false; });
 
   const MapBundleSummary& summary() const { return summary_; }
 
@@ -68,6 +78,7 @@ class MapBundle {
   size_t CountPlaces() const;
   std::vector<SightingAgain> Sightings() const;
   BundleState StateOf(const KeyframeMap& map) const;
+  void AdjustInRounds(const std::function<bool()>& is_end, BundleState* bundle);
 
   MapBundleOptions options_;
   ImuHistory imu_;

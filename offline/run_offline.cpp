@@ -210,6 +210,43 @@ Json ValuesToSave(const std::optional<FeatureFileReader>& features, const Config
   return values;
 }
 
+// What a run writes.
+struct Outputs {
+  std::optional<ReplacedFile> map;
+  std::optional<FeatureFileWriter> features;
+  ResultFiles results;
+  std::optional<LoopResults> loops;
+
+  // What may not be writable comes first: then earlier results stay as they are.
+  Outputs(const Arguments& arguments, const Config& config,
+          const std::optional<FeatureFileReader>& input, std::optional<KeyframeMap> start)
+      : map(MapFile(arguments)),
+        features(FeatureFile(arguments, config, input)),
+        results(arguments.output, arguments.config) {
+    if (config.pose_graph.loop_closure) loops.emplace(config, arguments.output, std::move(start));
+  }
+
+  void Add(const PipelineFrame& frame) {
+    results.Add(frame);
+    if (loops) loops->Add(frame);
+  }
+
+ private:
+  static std::optional<ReplacedFile> MapFile(const Arguments& arguments) {
+    MakeResultFolder(arguments.output);
+    if (arguments.map_out.empty()) return std::nullopt;
+    return std::optional<ReplacedFile>(std::in_place, arguments.map_out);
+  }
+
+  static std::optional<FeatureFileWriter> FeatureFile(
+      const Arguments& arguments, const Config& config,
+      const std::optional<FeatureFileReader>& input) {
+    if (arguments.saved_features.empty()) return std::nullopt;
+    return std::optional<FeatureFileWriter>(std::in_place, arguments.saved_features,
+                                            ValuesToSave(input, config));
+  }
+};
+
 void SaveMapTo(const std::string& path, const KeyframeMap& map, ReplacedFile* file) {
   if (map.CountKept() > 0) {
     SaveMap(map, file);
@@ -227,17 +264,57 @@ void Try(const std::function<void()>& save, std::string* failures) {
   }
 }
 
-void Finish(LoopResults* loops, Json* summary_parts) {
-  loops->Finish();
-  (*summary_parts)["loops"] = loops->Summary();
+// What a signal has cut short.
+struct Cuts {
+  bool recording = false;
+  bool adjustment = false;
+};
+
+void AdjustMap(LoopResults* loops, Cuts* cuts) {
+  const size_t keyframes = loops->KeyframesToAdjust();
+  if (keyframes == 0) return;
+  std::fprintf(stderr, "adjusting the map of %zu keyframes\n", keyframes);
+  const MapBundleSummary adjusted = loops->AdjustMap([] { return Interruption() != 0; });
+  cuts->adjustment = adjusted.ended;
+  if (!adjusted.failed) return;
+  Warn(adjusted.rounds == 0
+           ? "the bundle adjustment cannot be solved, so the map is that of the loops"
+           : "the bundle adjustment ended before its last round, which cannot be solved");
 }
 
 // Exit code: that of a shell for a program that a signal has ended.
-int ReportInterruption(const OdometryPipeline& pipeline) {
-  const auto first_ns = pipeline.first_image_ns(), last_ns = pipeline.last_frame_ns();
-  const double seconds = first_ns && last_ns ? ToSeconds(*last_ns - *first_ns) : 0;
-  std::fprintf(stderr, "run_offline: interrupted at %.1f s\n", seconds);
+int ReportInterruption(const OdometryPipeline& pipeline, const Cuts& cuts) {
+  if (cuts.recording) {
+    const auto first_ns = pipeline.first_image_ns(), last_ns = pipeline.last_frame_ns();
+    const double seconds = first_ns && last_ns ? ToSeconds(*last_ns - *first_ns) : 0;
+    std::fprintf(stderr, "run_offline: interrupted at %.1f s\n", seconds);
+  } else {
+    std::fprintf(stderr, "run_offline: interrupted while the map was adjusted\n");
+  }
   return 128 + Interruption();
+}
+
+Source Fly(const Arguments& arguments, Input* input, OdometryPipeline* pipeline, Outputs* outputs,
+           Cuts* cuts) {
+  const auto on_frame = [outputs](const PipelineFrame& frame) { outputs->Add(frame); };
+  if (outputs->features) pipeline->SaveFeatures(&*outputs->features);
+  ShowTracks(arguments.track_image_interval, &outputs->results, pipeline);
+  WatchForInterruption();
+  pipeline->EndWhere([cuts] { return cuts->recording = Interruption() != 0; });
+  return input->features ? RunFromFeatures(arguments, &*input->features, on_frame, pipeline)
+                         : RunFromImages(arguments, input->recording.get(), on_frame, pipeline);
+}
+
+// Completes the files in the folder of results; the summary, which says that all is there, last.
+void Finish(const RunSummary::Run& run, const Config& config, const OdometryPipeline& pipeline,
+            Json summary_parts, Outputs* outputs) {
+  if (outputs->loops) {
+    outputs->loops->Finish();
+    summary_parts["loops"] = outputs->loops->Summary();
+  }
+  outputs->results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
+  outputs->results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());
+  outputs->results.Finish(run, config, summary_parts);
 }
 
 int Run(const Arguments& arguments) {
@@ -245,49 +322,33 @@ int Run(const Arguments& arguments) {
   const Config config = Configure(arguments);
   CheckCalibrationOutput(arguments, config.sensor);
   for (const std::string& warning : config.warnings) Warn(warning);
-  // What may be missing, or not writable, comes first: then earlier results stay as they are.
+  // What may be missing comes first: then earlier results stay as they are.
   Input input = Open(arguments, config.sensor);
   Json summary_parts = Json::object();
   if (input.features) CheckFeatures(*input.features, config, &summary_parts);
-  std::optional<KeyframeMap> map = MapToStartIn(arguments, config.pose_graph);
-  MakeResultFolder(arguments.output);
-  std::optional<ReplacedFile> map_out;
-  if (!arguments.map_out.empty()) map_out.emplace(arguments.map_out);
   OdometryPipeline pipeline(config);
-  std::optional<FeatureFileWriter> saved_features;
-  if (!arguments.saved_features.empty()) {
-    pipeline.SaveFeatures(
-        &saved_features.emplace(arguments.saved_features, ValuesToSave(input.features, config)));
-  }
-  ResultFiles results(arguments.output, arguments.config);
-  ShowTracks(arguments.track_image_interval, &results, &pipeline);
-  std::optional<LoopResults> loops;
-  if (config.pose_graph.loop_closure) loops.emplace(config, arguments.output, std::move(map));
-  const auto on_frame = [&](const PipelineFrame& frame) {
-    results.Add(frame);
-    if (loops) loops->Add(frame);
-  };
+  Outputs outputs(arguments, config, input.features, MapToStartIn(arguments, config.pose_graph));
   const Stopwatch stopwatch;
-  WatchForInterruption();
-  pipeline.EndWhere([] { return Interruption() != 0; });
-  const Source source = input.features
-                            ? RunFromFeatures(arguments, &*input.features, on_frame, &pipeline)
-                            : RunFromImages(arguments, input.recording.get(), on_frame, &pipeline);
+  Cuts cuts;
+  const Source source = Fly(arguments, &input, &pipeline, &outputs, &cuts);
   RunSummary::Run run = Describe(source, pipeline);
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
   Warn(pipeline.imu_contradiction());
-  // What may be on another disk comes first, and the summary, which says that all is there, last.
-  if (loops) loops->AdjustMap();
+  // What may be on another disk, or take long, comes before the rest.
   std::string failures;
-  if (saved_features) Try([&] { saved_features->Close(); }, &failures);
-  if (map_out) Try([&] { SaveMapTo(arguments.map_out, loops->map(), &*map_out); }, &failures);
-  if (loops) Finish(&*loops, &summary_parts);
-  results.WriteAnnotatedImage("tracks.png", pipeline.points_image());
-  results.WriteAnnotatedImage("line_tracks.png", pipeline.lines_image());
-  results.Finish(run, config, summary_parts);
-  const int exit_code = Report(run, source, pipeline, results);
+  if (outputs.features) Try([&] { outputs.features->Close(); }, &failures);
+  if (outputs.loops && !cuts.recording) Try([&] { AdjustMap(&*outputs.loops, &cuts); }, &failures);
+  if (outputs.map) {
+    Try([&] { SaveMapTo(arguments.map_out, outputs.loops->map(), &*outputs.map); }, &failures);
+  }
+  int exit_code = 1;
+  const auto finish = [&] {
+    Finish(run, config, pipeline, summary_parts, &outputs);
+    exit_code = Report(run, source, pipeline, outputs.results);
+  };
+  Try(finish, &failures);
   if (!failures.empty()) throw std::runtime_error(failures);
-  return Interruption() == 0 ? exit_code : ReportInterruption(pipeline);
+  return cuts.recording || cuts.adjustment ? ReportInterruption(pipeline, cuts) : exit_code;
 }
 
 }  // namespace

@@ -93,16 +93,22 @@ void LoopResults::Remember(const PipelineFrame& frame, const LoopClosure& closur
   bundle_->AddLoops(loops_.map(), closure);
 }
 
-void LoopResults::AdjustMap() {
-  if (!bundle_) return;
+size_t LoopResults::KeyframesToAdjust() const {
+  return bundle_ ? bundle_->KeyframesToAdjust(loops_.map()) : 0;
+}
+
+MapBundleSummary LoopResults::AdjustMap(const std::function<bool()>& is_end) {
+  if (!bundle_) return {};
   const Stopwatch stopwatch;
-  if (const std::optional<AdjustedMap> found = bundle_->Adjust(loops_.map())) {
-    adjusted_.emplace();
-    adjusted_->moved = loops_.map();
-    MoveNodes(*found, &adjusted_->moved);
-    adjusted_->rebuilt = RebuiltMap(*found, adjusted_->moved);
+  if (const std::optional<AdjustedMap> found = bundle_->Adjust(loops_.map(), is_end)) {
+    Adjusted adjusted;
+    adjusted.moved = loops_.map();
+    MoveNodes(*found, &adjusted.moved);
+    adjusted.rebuilt = RebuiltMap(*found, adjusted.moved);
+    adjusted_ = std::move(adjusted);
   }
   bundle_ms_ = stopwatch.Milliseconds();
+  return bundle_->summary();
 }
 
 void LoopResults::Finish() {
@@ -144,6 +150,7 @@ Json LoopResults::BundleSummary() const {
   json["keyframes"] = bundle.keyframes;
   json["landmarks"] = bundle.landmarks;
   json["sightings_again"] = bundle.sightings_again;
+  json["rounds"] = bundle.rounds;
   json["noise_px"] = bundle.noise.followed * focal_length;
   json["noise_again_px"] = bundle.noise.again * focal_length;
   json["ms"] = bundle_ms_;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,8 +36,12 @@ class LoopResults {
   // Takes the next image. Throws std::runtime_error where it has no pixels.
   void Add(const PipelineFrame& frame);
 
-  // After the last image, before all that follows.
-  void AdjustMap();
+  // How many keyframes AdjustMap() would take; zero: it has nothing to do.
+  size_t KeyframesToAdjust() const;
+
+  // After the last image, before all that follows. Ends early where `is_end` says so, with what is
+  // found by then.
+  MapBundleSummary AdjustMap(const std::function<bool()>& is_end);
 
   // Completes all files.
   void Finish();

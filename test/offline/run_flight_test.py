@@ -29,6 +29,7 @@ CONFIG = ROOT / "config" / "euroc.yaml"
 SIMULATE, RUN_OFFLINE = sys.argv[1:3] if len(sys.argv) > 2 else sys.exit(__doc__)
 RATE_HZ = 10
 IMAGES = 100  # of the first flight
+SECONDS = 24  # of the second one, which comes back to where it was 15 s before
 CLOCK_ERROR_NS = 100_000_000_000
 PATIENCE = 300  # [s]
 
@@ -51,6 +52,14 @@ def start(*options):
                             encoding="utf-8", preexec_fn=heed_signals)
 
 
+def length(words):
+    return float(np.linalg.norm([float(word) for word in words]))
+
+
+def distance(words, others):
+    return length([float(word) - float(other) for word, other in zip(words, others)])
+
+
 def wait_until(is_so):
     deadline = time.monotonic() + PATIENCE
     while not is_so() and time.monotonic() < deadline:
@@ -64,6 +73,7 @@ class RunFlight(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.flights = pathlib.Path(folder.name)
         simulate(cls.flights / "first", "gentle", IMAGES / RATE_HZ)
+        simulate(cls.flights / "second", "fast", SECONDS)
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -78,10 +88,10 @@ class RunFlight(unittest.TestCase):
         self.assertEqual(process.returncode, exit_code, error)
         return error
 
-    def start_first(self, *options, images=1):
+    def start_first(self, *options, images=1, flight="first"):
         """Returns the process once it has done so many of the images."""
         shutil.rmtree(self.results, ignore_errors=True)
-        process = start("--asl", self.flights / "first", "--output", self.results,
+        process = start("--asl", self.flights / flight, "--output", self.results,
                         "--save-track-images", 1e-3, "--threads", 1, *options)
         self.addCleanup(process.stderr.close)
         wait_until(lambda: process.poll() is not None
@@ -123,6 +133,60 @@ class RunFlight(unittest.TestCase):
         process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(timeout=PATIENCE), -signal.SIGTERM)
 
+    def test_a_signal_after_the_last_image_that_cuts_nothing_short(self):
+        process = self.start_first()
+        pipe = self.results / "lines.ply"
+        os.mkfifo(pipe)
+        picture = self.results / "line_tracks.png"
+        wait_until(lambda: process.poll() is not None or picture.exists())
+        process.send_signal(signal.SIGINT)
+        pipe.read_text(encoding="utf-8")
+        error = process.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(process.returncode, 0, error)
+        self.assertNotIn("interrupted", error)
+
+    def test_an_interrupted_run_does_not_adjust_its_map(self):
+        process = self.start_first("--set", "loop_closure=1", flight="second",
+                                   images=(SECONDS - 2) * RATE_HZ)
+        process.send_signal(signal.SIGINT)
+        error = process.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(process.returncode, 128 + signal.SIGINT, error)
+        self.assertGreater(self.summary()["loops"]["accepted"], 3)
+        self.assertNotIn("adjusting the map", error)
+
+    def test_a_signal_while_the_map_is_adjusted(self):
+        process = self.start_first("--set", "loop_closure=1", flight="second")
+        for line in process.stderr:
+            if line.startswith("adjusting the map"):
+                break
+        process.send_signal(signal.SIGINT)
+        error = process.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(process.returncode, 128 + signal.SIGINT, error)
+        self.assertIn("interrupted while the map was adjusted", error)
+        bundle = self.summary()["loops"]["bundle"]
+        self.assertTrue(bundle is None or bundle["rounds"] < 3, bundle)
+        self.assertEqual(len(read_trajectory(self.results / "trajectory_final.tum")),
+                         self.summary()["poses"])
+
+    def test_the_graph_of_an_adjusted_map_has_what_was_measured(self):
+        error = self.run_flight(self.flights / "second", "--set", "loop_closure=1")
+        loops = self.summary()["loops"]
+        self.assertIn(f"adjusting the map of {loops['bundle']['keyframes']} keyframes\n", error)
+        self.assertEqual(loops["bundle"]["rounds"], 3)
+        rows = [line.split() for line in
+                (self.results / "pose_graph.g2o").read_text(encoding="utf-8").splitlines()]
+        nodes = {row[1]: row[2:5] for row in rows if row[0].startswith("VERTEX")}
+        accepted = [row.split(",") for row in
+                    (self.results / "loops.csv").read_text(encoding="utf-8").splitlines()
+                    if ",accepted," in row]
+        self.assertTrue({row[2] for row in accepted} <= set(nodes))
+        steps = [row for row in rows if row[0].startswith("EDGE")]
+        self.assertGreater(max(abs(length(row[3:6]) - distance(nodes[row[1]], nodes[row[2]]))
+                               for row in steps), 1e-3)
+        images = (self.results / "colmap" / "images.txt").read_text(encoding="utf-8").splitlines()
+        self.assertEqual([int(line.split()[0]) - 1 for line in images[::2]],
+                         [int(number) for number in nodes])
+
     def test_results_stay_where_the_map_and_features_cannot_be_saved(self):
         gone = self.folder / "gone"
         gone.mkdir()
@@ -136,6 +200,17 @@ class RunFlight(unittest.TestCase):
         self.assertIn("loops", self.summary())
         self.assertEqual(len(read_trajectory(self.results / "trajectory_final.tum")),
                          self.summary()["poses"])
+
+    def test_all_that_cannot_be_written_is_named(self):
+        gone = self.folder / "gone"
+        gone.mkdir()
+        process = self.start_first("--map-out", gone / "map.plm")
+        shutil.rmtree(gone)
+        (self.results / "pose_graph.g2o").mkdir()
+        error = process.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(process.returncode, 1, error)
+        self.assertIn(f"cannot write {gone / 'map.plm'}", error)
+        self.assertIn("pose_graph.g2o", error)
 
     def test_two_clocks(self):
         flight = self.folder / "flight"
@@ -153,14 +228,13 @@ class RunFlight(unittest.TestCase):
 
     def test_a_second_flight_in_the_map_of_the_first(self):
         second = self.flights / "second"
-        simulate(second, "fast", 14)
         plm = self.folder / "map.plm"
         self.run_flight(self.flights / "first", "--map-out", plm)
         mapped = read_trajectory(self.results / "trajectory_final.tum")
         truth = read_trajectory(self.flights / "first" / "groundtruth.tum")
         rotation, translation = metrics.alignment(mapped, truth.at(mapped.stamps), "se3")
 
-        self.run_flight(second, "--map-in", plm)
+        self.run_flight(second, "--map-in", plm, "--duration", 14)
         self.assertLess(self.summary()["loops"]["first_fix_s"], 5)
         poses = read_trajectory(self.results / "trajectory_map.tum")
         self.assertGreater(len(poses), 50)

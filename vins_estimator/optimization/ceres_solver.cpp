@@ -130,6 +130,7 @@ constexpr double kInitialRadius = 1e5;
 
 ceres::Solver::Options ToCeres(const SolverOptions& options, CeresEquations equations) {
   ceres::Solver::Options result;
+  // Sparse by SuiteSparse, where Ceres has it: a map takes a quarter longer by Eigen's own.
   result.linear_solver_type =
       equations == CeresEquations::kDense ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
   result.num_threads = 1;

@@ -17,9 +17,10 @@ namespace plm_vins {
 void ImageSubscription::Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node,
                                   const std::string& topic, uint32_t queue, Callback callback) {
   callback_ = std::move(callback);
-  const std::string base = node.resolveName(topic);  // as a remapping of it is meant
   const auto transport =
       FindParameter<std::string>(private_node, "image_transport").value_or("raw");
+  // A remapping means the topic without the transport. It must take effect once.
+  const std::string base = transport == "raw" ? topic : node.resolveName(topic);
   if (transport == "compressed") {
     compressed_subscriber_ = node.subscribe<sensor_msgs::CompressedImage>(
         base + "/compressed", queue, [this](const sensor_msgs::CompressedImageConstPtr& message) {

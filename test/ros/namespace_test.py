@@ -74,6 +74,15 @@ class Namespace(unittest.TestCase):
         listener.wait_for_message("feature_tracker",
                                   "waiting: nothing comes on /robot2/front/image/compressed")
 
+    def test_remaps_images_once(self):
+        """Where the topics of two cameras are exchanged."""
+        listener = Listener("/robot3")
+        self.processes.start_node(NODES / "feature_tracker", *SETTINGS,
+                                  "cam0/image_raw:=cam1/image_raw",
+                                  "cam1/image_raw:=cam0/image_raw", ROS_NAMESPACE="robot3")
+        listener.wait_for_message("feature_tracker",
+                                  "waiting: nothing comes on /robot3/cam1/image_raw")
+
     def topics_outside(self):
         topics = {name for kind in rosgraph.Master("/namespace_test").getSystemState()[:2]
                   for name, _ in kind}

@@ -53,9 +53,9 @@ struct SyncStatistics {
 // the IMU samples before it then lead to the next one: of the samples between the first and the
 // last frame none is lost or used twice, also when td changes.
 //
-// Where the IMU or the images go back in time for good (a bag played again, a clock set back, by a
-// tenth of a second or more), or the IMU leaps ahead by more than a minute (a clock set on), all is
-// forgotten but the statistics, and a new recording begins.
+// Where the IMU goes back in time for good by ten samples or more, or the images by more than ten
+// (a bag played again, a clock set back), or the IMU leaps ahead by more than a minute (a clock set
+// on), all is forgotten but the statistics, and a new recording begins.
 class MeasurementSync {
  public:
   struct Options {

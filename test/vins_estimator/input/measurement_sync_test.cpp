@@ -244,6 +244,24 @@ TEST(MeasurementSync, RepeatedAndBackwardImagesAreDropped) {
   EXPECT_EQ(sync.statistics().frames_out_of_order, 3);
 }
 
+TEST(MeasurementSync, AClockThatIsSetBackShowsAfterTenSamplesOfTheImu) {
+  for (const int samples : {9, 10}) {
+    MeasurementSync sync({});
+    AddImu(&sync, 0, 200);
+    AddImu(&sync, 202 - 5 * samples, 202);
+    EXPECT_EQ(sync.statistics().jumps_back, samples == 10 ? 1 : 0);
+  }
+}
+
+TEST(MeasurementSync, AClockThatIsSetBackShowsAfterMoreThanTenImages) {
+  for (const int images : {10, 11}) {
+    MeasurementSync sync({});
+    for (int64_t t = 0; t <= 1000; t += 50) sync.AddPoints(Points(t * kMs));
+    for (int64_t t = 1020 - 50 * images; t <= 1020; t += 50) sync.AddPoints(Points(t * kMs));
+    EXPECT_EQ(sync.statistics().jumps_back, images == 11 ? 1 : 0);
+  }
+}
+
 TEST(MeasurementSync, AFrameAloneInTheFutureIsDropped) {
   MeasurementSync sync({});
   AddImu(&sync, 0, 300);

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "common/ros/parameter.h"
+
 namespace plm_vins {
 namespace {
 
@@ -36,12 +38,9 @@ Config LoadNodeConfig(const ros::NodeHandle& private_node) {
     throw ConfigError({"parameter " + private_node.resolveName("config_file") +
                        " is not set: give the path of a configuration file"});
   }
-  std::map<std::string, std::string> overrides;
-  if (private_node.hasParam("set") && !private_node.getParam("set", overrides)) {
-    throw ConfigError({"parameters " + private_node.resolveName("set") +
-                       "/KEY must be texts (in a launch file: type=\"str\")"});
-  }
-  Config config = LoadConfig(file, overrides);
+  using TextsByKey = std::map<std::string, std::string>;
+  const auto overrides = FindParameter<TextsByKey>(private_node, "set");
+  Config config = LoadConfig(file, overrides.value_or(TextsByKey()));
   CheckTopicNames(private_node, config);
   for (const std::string& warning : config.warnings) ROS_WARN_STREAM(warning);
   return config;

@@ -3,6 +3,7 @@
 
 #include <ros/node_handle.h>
 
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -11,6 +12,9 @@ namespace plm_vins {
 
 inline const char* KindOf(const std::string&) { return "a text (in a launch file: type=\"str\")"; }
 inline const char* KindOf(double) { return "a number"; }
+inline const char* KindOf(const std::map<std::string, std::string>&) {
+  return "texts by their names (in a launch file: type=\"str\")";
+}
 
 // A parameter of the node, or nothing where it is not set. Throws std::runtime_error, which names
 // it, where it is of another kind: ros::NodeHandle takes that for not set.

@@ -130,8 +130,8 @@ class LaunchFiles(unittest.TestCase):
 
     def test_nodes_that_end_take_all_with_them_or_come_back(self):
         for respawn in (False, True):
-            for nodelets in (False, True):
-                nodes, _ = load("plm_vins.launch", config="c.yaml", nodelets=nodelets,
+            for manager in ("", "/camera/manager"):
+                nodes, _ = load("plm_vins.launch", config="c.yaml", manager=manager,
                                 loop_closure=True, **({"respawn": True} if respawn else {}))
                 for name in ("linefeature_tracker", "pose_graph"):
                     self.assertTrue(nodes.pop(name).respawn, f"{name} is no must")
@@ -139,20 +139,35 @@ class LaunchFiles(unittest.TestCase):
                     self.assertEqual((node.respawn, node.required), (respawn, not respawn),
                                      node.name)
 
-    def test_nodelets_instead_of_nodes(self):
+    def test_one_process_that_ends_takes_all_with_it_or_comes_back(self):
+        for respawn in (False, True):
+            nodes, _ = load("plm_vins.launch", config="c.yaml", nodelets=True,
+                            **({"respawn": True} if respawn else {}))
+            self.assertEqual(list(nodes), ["vins_manager"])
+            manager = nodes["vins_manager"]
+            self.assertEqual((manager.respawn, manager.required), (respawn, not respawn))
+
+    def test_one_process_instead_of_nodes(self):
         for name in ALL:
             with self.subTest(name):
                 nodes, parameters = load(name, config="/mine.yaml", bag="/a.bag", nodelets="true")
                 self.assertEqual(nodes["vins_manager"].type, "vins_manager")
+                self.assertFalse(NODELETS.keys() & nodes.keys())
                 for node, nodelet in NODELETS.items():
-                    self.assertEqual(nodes[node].package, "nodelet")
-                    self.assertEqual(nodes[node].args, f"load {nodelet} vins_manager")
+                    self.assertEqual(parameters[f"/vins_manager/nodelets/{node}"], nodelet)
                     self.assertEqual(parameters[f"/{node}/config_file"], "/mine.yaml")
+
+    def test_one_process_without_lines_and_loops(self):
+        parameters = load("euroc.launch", nodelets="true", lines="false", loop_closure="false")[1]
+        self.assertEqual(sorted(name for name in parameters if "/nodelets/" in name),
+                         ["/vins_manager/nodelets/feature_tracker",
+                          "/vins_manager/nodelets/vins_estimator"])
 
     def test_nodelets_join_the_manager_of_a_driver(self):
         for name in ALL:
             nodes = load(name, config="c.yaml", manager="/camera/manager")[0]
             for node, nodelet in NODELETS.items():
+                self.assertEqual(nodes[node].package, "nodelet")
                 self.assertEqual(nodes[node].args, f"load {nodelet} /camera/manager")
             self.assertNotIn("vins_manager", nodes)
 
@@ -216,10 +231,9 @@ class LaunchFiles(unittest.TestCase):
             for nodelets in (False, True):
                 config = configuration(LAUNCH / name, config="c.yaml", bag="/a.bag",
                                        loop_closure="true", nodelets=nodelets)
-                ours = [f"/{node.name}/" for node in config.nodes
-                        if node.package in ("plm_vins", "nodelet")]
-                self.assertIn("/pose_graph/", ours)
-                self.assertEqual(sorted(config.clear_params), sorted(ours))
+                ours = {node.name for node in config.nodes if node.package == "plm_vins"}
+                self.assertEqual(sorted(config.clear_params),
+                                 sorted(f"/{name}/" for name in ours | NODELETS.keys()))
 
     def test_the_configuration_decides_on_loop_closure(self):
         nodes, parameters = load("euroc.launch", output="/results")

@@ -96,7 +96,7 @@ std::vector<Status> Statuses(const Listener<diagnostic_msgs::DiagnosticArray>& l
   std::vector<Status> statuses;
   for (const auto& array : log.messages) {
     for (const auto& status : array.status) {
-      if (status.name != name) continue;
+      if (status.name != name || status.values.empty()) continue;  // it is starting up
       statuses.push_back({{"message", status.message}});
       for (const auto& value : status.values) statuses.back()[value.key] = value.value;
     }

@@ -78,6 +78,19 @@ class Parameters(OperationsTest):
                           self.processes.log(name))
             rospy.delete_param(f"/{name}/{parameter}")
 
+    def test_a_nodelet_that_cannot_be_loaded_ends_the_manager(self):
+        for options, why in ((["_nodelets/tracker:=plm_vins/Nothing"],
+                              "cannot load /tracker (plm_vins/Nothing), see above"),
+                             (["_nodelets:=7"],
+                              "parameter /vins_manager/nodelets must be texts by their names"),
+                             (["_nodelets/tracker:=plm_vins/FeatureTracker"],
+                              "parameter /tracker/config_file is not set")):
+            if rospy.has_param("/vins_manager"):
+                rospy.delete_param("/vins_manager")
+            manager = self.processes.start_node(NODES / "vins_manager", *options)
+            self.assertEqual(manager.wait(END_LIMIT), 1)
+            self.assertIn(why, self.processes.log("vins_manager"))
+
     def test_a_file_that_cannot_be_written_is_named_before_the_flight(self):
         self.addCleanup(rospy.delete_param, "/vins_estimator/trajectory_file")
         self.processes.start_node(NODES / "vins_estimator", "_trajectory_file:=/dev/null/./a.tum")

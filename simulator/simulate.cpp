@@ -67,7 +67,7 @@ void Declare(Arguments* arguments, CLI::App* app) {
   auto* output = app->add_option_group("output");
   output
       ->add_option("--output", arguments->output,
-                   "ROS bag; the ground truth goes beside it as .tum and .csv")
+                   "ROS bag, new; the ground truth goes beside it as .tum and .csv")
       ->check(CheckBag);
   output->add_option("--asl", arguments->asl, "folder in ASL format (EuRoC), new")
       ->check(CheckPath);
@@ -111,16 +111,35 @@ void Declare(Arguments* arguments, CLI::App* app) {
       ->capture_default_str();
 }
 
+struct TruthFiles {
+  std::string tum, csv;
+};
+
+TruthFiles TruthBeside(const std::string& bag) {
+  const std::filesystem::path path = bag;
+  return {std::filesystem::path(path).replace_extension(".tum").string(),
+          std::filesystem::path(path).replace_extension(".csv").string()};
+}
+
+// A name is easily that of a recording of one's own.
+void RefuseToReplace(const std::string& bag) {
+  const TruthFiles truth = TruthBeside(bag);
+  for (const std::string& file : {bag, truth.tum, truth.csv}) {
+    if (!std::filesystem::exists(file)) continue;
+    throw std::runtime_error(file + " is there already: remove it or choose another");
+  }
+}
+
 std::vector<std::unique_ptr<Recorder>> OpenRecorders(const Arguments& arguments) {
   std::vector<std::unique_ptr<Recorder>> recorders;
-  // First the folder, which may refuse: an earlier bag then stays. But not before there is a place
-  // for the bag: a folder that is begun refuses the next time.
+  // Not before there is a place for the bag: a folder that is begun refuses the next time.
   const auto is_in_folder = [](const std::string& file) {
     return std::filesystem::is_directory(std::filesystem::absolute(file).parent_path());
   };
   if (!arguments.output.empty() && !is_in_folder(arguments.output)) {
     throw std::runtime_error("cannot write " + arguments.output + ": no such folder");
   }
+  if (!arguments.output.empty()) RefuseToReplace(arguments.output);
   if (!arguments.asl.empty()) recorders.push_back(std::make_unique<AslRecorder>(arguments.asl));
   if (!arguments.output.empty()) {
     recorders.push_back(MakeBagRecorder(arguments.output, arguments.flight.sensors));
@@ -130,9 +149,9 @@ std::vector<std::unique_ptr<Recorder>> OpenRecorders(const Arguments& arguments)
 
 void WriteGroundTruth(const Arguments& arguments, const std::vector<FrameState>& states) {
   if (!arguments.output.empty()) {
-    const std::filesystem::path bag = arguments.output;
-    WriteTum(std::filesystem::path(bag).replace_extension(".tum"), states);
-    WriteEurocCsv(std::filesystem::path(bag).replace_extension(".csv"), states);
+    const TruthFiles files = TruthBeside(arguments.output);
+    WriteTum(files.tum, states);
+    WriteEurocCsv(files.csv, states);
   }
   if (!arguments.asl.empty()) {
     WriteEurocCsv(AslRecorder::GroundTruthFile(arguments.asl), states);
@@ -143,7 +162,7 @@ void WriteGroundTruth(const Arguments& arguments, const std::vector<FrameState>&
 void Run(Arguments arguments) {
   FlightOptions& options = arguments.flight;
   if (!arguments.config.empty()) options.sensors = LoadConfig(arguments.config).sensor;
-  const Flight flight(options);  // first, as it may refuse: an earlier bag then stays
+  const Flight flight(options);  // first, as it may refuse: no folder is begun then
   const auto owned = OpenRecorders(arguments);
   std::vector<Recorder*> recorders;
   recorders.reserve(owned.size());

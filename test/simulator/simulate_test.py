@@ -5,6 +5,7 @@
 Usage: simulate_test.py SIMULATE [unittest option ...]
 """
 
+import os
 import pathlib
 import subprocess
 import sys
@@ -24,7 +25,9 @@ class Simulate(unittest.TestCase):
 
     def assert_refuses(self, message, *options):
         """The program exits with 1, says `message`, and leaves an earlier bag as it is."""
-        command = [SIMULATE, "--output", self.bag, *options]
+        command = [SIMULATE, *options]
+        if "--output" not in options:
+            command += ["--output", self.bag]
         result = subprocess.run([str(word) for word in command], stderr=subprocess.PIPE,
                                 encoding="utf-8", timeout=60, check=False)
         self.assertEqual(result.returncode, 1, result.stderr)
@@ -49,6 +52,17 @@ class Simulate(unittest.TestCase):
 
     def test_a_bag_in_the_place_of_the_ground_truth(self):
         self.assert_refuses("where the ground truth is to go", "--output", "flight.tum")
+
+    def test_files_that_are_there_already(self):
+        self.assert_refuses(f"{self.bag} is there already: remove it or choose another")
+        for name in ["other.tum", "other.csv"]:
+            truth = self.folder / name
+            truth.write_text("of another flight", encoding="utf-8")
+            self.assert_refuses(f"{truth} is there already", "--output", self.folder / "other.bag",
+                                "--asl", self.folder / "asl")
+            self.assertEqual(truth.read_text(encoding="utf-8"), "of another flight")
+            truth.unlink()
+        self.assertEqual(os.listdir(self.folder), ["flight.bag"])
 
 
 if __name__ == "__main__":

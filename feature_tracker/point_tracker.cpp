@@ -12,6 +12,7 @@
 #include "feature_tracker/following/optical_flow.h"
 #include "feature_tracker/following/outlier_rejection.h"
 #include "feature_tracker/point_track.h"
+#include "feature_tracker/ray_mask.h"
 #include "feature_tracker/track_drawing.h"
 #include "tracking/image_check.h"
 #include "tracking/image_mask.h"
@@ -47,8 +48,8 @@ class PointTracker::Implementation {
       : config_(config),
         camera_(std::move(camera)),
         image_size_(camera_->parameters().width, camera_->parameters().height),
-        mask_(mask),
-        detector_(config, mask),
+        mask_(WithinRays(*camera_, mask)),
+        detector_(config, mask_),
         flow_(config),
         equalizer_(image_size_) {}
 
@@ -160,10 +161,10 @@ class PointTracker::Implementation {
     }
   }
 
-  // False where the camera model has no ray for the new position.
+  // False where the new position has no ray.
   bool Advance(const cv::Point2f& uv_px, const cv::Point2f& turned_px, double dt,
                PointTrack* track) const {
-    const auto xy = camera_->Unproject(ToEigen(uv_px));
+    const auto xy = RayOf(*camera_, ToEigen(uv_px));
     if (!xy) return false;
     track->motion_px = uv_px - track->uv_px;
     track->parallax_px = uv_px - turned_px;
@@ -193,7 +194,7 @@ class PointTracker::Implementation {
     std::vector<cv::Point2f> existing;
     for (const PointTrack& track : tracks_) existing.push_back(track.uv_px);
     for (const cv::Point2f& corner : detector_.Detect(image, existing, MissingTracks())) {
-      const auto xy = camera_->Unproject(ToEigen(corner));
+      const auto xy = RayOf(*camera_, ToEigen(corner));
       if (!xy) continue;
       PointTrack track;
       track.id = next_id_++;
@@ -204,7 +205,7 @@ class PointTracker::Implementation {
     }
   }
 
-  // Without what lies at right angles to the axis of a fisheye: it has no image in the plane z = 1.
+  // Without what jumps too fast to be true, as next to the image plane of a fisheye.
   PointFrame MakeFrame() const {
     PointFrame frame;
     frame.t_ns = *t_ns_;
@@ -219,7 +220,7 @@ class PointTracker::Implementation {
   PointTrackerConfig config_;
   std::shared_ptr<const CameraModel> camera_;
   cv::Size image_size_;
-  cv::Mat mask_;
+  cv::Mat mask_;  // of what has rays
   CornerDetector detector_;
   OpticalFlow flow_;
   ContrastEqualizer equalizer_;

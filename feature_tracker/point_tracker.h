@@ -30,7 +30,7 @@ class PointTracker {
   using Features = PointFrame;
   using Statistics = PointTrackerStatistics;
 
-  // No corner lies where the mask forbids it: as of ReadMask().
+  // No corner lies where the mask forbids it (as of ReadMask()), or the camera has no ray.
   PointTracker(const PointTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
                const cv::Mat& mask = {});
   ~PointTracker();

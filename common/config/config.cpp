@@ -123,6 +123,12 @@ class Loader {
       config_.warnings.push_back(At("fisheye_mask") +
                                  "is without effect with fisheye: 0; set fisheye: 1 to use it");
     }
+    if (const int percent = PercentBeyondFold(config_)) {
+      config_.warnings.push_back(
+          At("model_type") + std::to_string(percent) +
+          " % of the image has no ray with this distortion, so no features; are its coefficients "
+          "those of this model, and of images of this size?");
+    }
   }
 
   void Add(const std::string& key, const std::string& problem) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/config/config_checks.h"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -9,9 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "common/camera/camera_model.h"
+
 namespace plm_vins {
 namespace {
 
+constexpr double kHardlyAnything = 0.01;  // of the image
 constexpr const char* kNoiseKeys[] = {"acc_n", "gyr_n", "acc_w", "gyr_w"};
 
 bool Has(const ConfigEntries& entries, const std::string& key) { return entries.count(key) > 0; }
@@ -99,6 +104,19 @@ void CheckFrames(const Config& config, const Report& report) {
   }
 }
 
+// Of a grid over the image.
+double ShareWithoutRay(const CameraModel& camera) {
+  constexpr int kColumns = 40, kRows = 30;
+  const CameraParameters& parameters = camera.parameters();
+  int without = 0;
+  for (int i = 0; i < kColumns * kRows; ++i) {
+    const Eigen::Vector2d share((i % kColumns + 0.5) / kColumns, (i / kColumns + 0.5) / kRows);
+    const Eigen::Vector2d size(parameters.width, parameters.height);
+    if (!camera.Unproject(share.cwiseProduct(size))) ++without;
+  }
+  return static_cast<double>(without) / (kColumns * kRows);
+}
+
 void CheckMask(const Config& config, const Report& report) {
   const std::string mask = MaskPath(config);
   std::error_code error;  // a path may be too long for a file
@@ -125,6 +143,15 @@ bool LacksMask(const ConfigEntries& entries, const Config& config) {
 
 bool LeavesMaskOut(const Config& config) {
   return !config.points.fisheye_mask.empty() && !config.points.fisheye;
+}
+
+int PercentBeyondFold(const Config& config) {
+  if (!MaskPath(config).empty()) return 0;
+  const auto camera = CameraModel::Create(config.sensor.camera);
+  const Eigen::Vector3d sideways(1, 0, 0.02);
+  if (camera->Project(sideways)) return 0;  // then only what is not in front has no ray
+  const double share = ShareWithoutRay(*camera);
+  return share > kHardlyAnything ? static_cast<int>(std::lround(100 * share)) : 0;
 }
 
 void FinishConfig(const ConfigEntries& entries, Config* config) {

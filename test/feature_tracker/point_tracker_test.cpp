@@ -367,8 +367,20 @@ TEST(PointTracker, LeavesOutWhatLiesAtRightAnglesToTheAxis) {
   cv::GaussianBlur(image, image, {5, 5}, 1.5);
   for (int i = 1; i <= 3; ++i) {
     const PointFrame frame = tracker.Track({i * kFrame_ns, image}, std::nullopt);
-    EXPECT_GT(frame.points.size(), 20u);
+    EXPECT_EQ(frame.points.size(), 80u);
     for (const PointObservation& point : frame.points) EXPECT_TRUE(IsPossible(point)) << point.xy;
+  }
+}
+
+// Half of this image is beyond the fold of the distortion.
+TEST(PointTracker, WhatHasNoRaysUsesUpNoCorners) {
+  CameraParameters parameters = TestCameraParameters();
+  parameters.distortion[0] = -0.5;
+  PointTracker tracker(TestConfig(), CameraModel::Create(parameters));
+  const TexturedScene scene;
+  for (int i = 1; i <= 6; ++i) {
+    const cv::Mat view = scene.View(Translation(6 * i, 0));
+    EXPECT_GE(tracker.Track({i * kFrame_ns, view}, std::nullopt).points.size(), 72u);
   }
 }
 

@@ -57,6 +57,23 @@ TEST_F(ConfigTest, TheReadoutTimeCountsWithARollingShutter) {
   EXPECT_EQ(Load(kShortFile + readout + "rolling_shutter: 1\n").sensor.ReadoutTime(), 0.03);
 }
 
+TEST_F(ConfigTest, WarnsWhereTheDistortionLeavesTheImageWithoutRays) {
+  const std::string folded = Replaced(kShortFile, "k1: 0", "k1: -0.5");
+  EXPECT_THAT(Load(folded).warnings,
+              ElementsAre(AllOf(HasSubstr("camera.yaml:4: model_type: "),
+                                HasSubstr(" % of the image has no ray with this distortion"))));
+  const std::string hardly = Replaced(kShortFile, "k1: 0", "k1: -0.15");
+  EXPECT_TRUE(Load(hardly).warnings.empty());
+}
+
+TEST_F(ConfigTest, WhatAFisheyeSeesBesideItIsNoWarning) {
+  std::string wide = Replaced(kShortFile, "PINHOLE", "EQUIDISTANT");
+  wide = Replaced(wide, "fx: 400, fy: 400", "fx: 150, fy: 150");
+  wide = Replaced(wide, "p1: 0, p2: 0", "k3: 0, k4: 0");
+  EXPECT_TRUE(Load(wide).warnings.empty());
+  EXPECT_EQ(Load(Replaced(wide, "k2: 0", "k2: -0.15")).warnings.size(), 1u);
+}
+
 TEST_F(ConfigTest, IgnoredKeysAreOneWarning) {
   const std::string file = (folder_ / "camera.yaml").string();
   EXPECT_THAT(Load(kVinsMonoFile).warnings,

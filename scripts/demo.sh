@@ -10,7 +10,7 @@ Usage: demo.sh [--bag FILE | --asl DIR] [--config FILE] [--groundtruth FILE] [--
   --bag FILE          a ROS bag with the config's image and IMU topics
   --asl DIR           an EuRoC ASL folder (the one with mav0/ inside)
                       without either: a simulated recording, made once
-  --config FILE       camera, IMU and options (default: config/euroc.yaml)
+  --config FILE       camera, IMU and options of the recording (default: config/euroc.yaml)
   --groundtruth FILE  TUM file, EuRoC csv or ASL folder to compare with (default: FILE.tum beside
                       FILE.bag, or the one in the ASL folder)
   --output DIR        where results go (default: output/demo)
@@ -23,7 +23,7 @@ fail() {
   exit 1
 }
 
-bag='' asl='' config="$root/config/euroc.yaml" truth='' output="$root/output/demo" rviz=false
+bag='' asl='' config='' truth='' output="$root/output/demo" rviz=false
 while (($#)); do
   case "$1" in
     --rviz) rviz=true; shift; continue ;;
@@ -46,6 +46,11 @@ done
 [[ -z "$truth" || -e "$truth" ]] || fail "$truth: no such ground truth"
 [[ "$rviz" == false || -z "$asl" ]] || fail "--rviz plays bags, not ASL folders"
 [[ "$rviz" == false || -z "$truth" ]] || fail "--rviz compares nothing; leave --groundtruth out"
+if [[ -n "$config" && -z "$bag$asl" ]]; then
+  fail "--config needs --bag or --asl: the simulated recording is of config/euroc.yaml" \
+    "(simulate --config FILE --output NEW.bag makes one of your sensors)"
+fi
+config="${config:-$root/config/euroc.yaml}"
 [[ -f "$config" ]] || fail "$config: no such config"
 
 # A recording of 30 s with its ground truth; complete once the folder has its final name.

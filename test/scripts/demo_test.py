@@ -32,7 +32,10 @@ class DemoOptions(unittest.TestCase):
         self.assert_refused("either --bag or --asl", "--bag", "x.bag", "--asl", "x")
         self.assert_refused("missing.bag: no such bag", "--bag", "missing.bag")
         self.assert_refused("missing: no such folder", "--asl", "missing")
-        self.assert_refused("missing.yaml: no such config", "--config", "missing.yaml")
+        self.assert_refused("missing.yaml: no such config", "--config", "missing.yaml", "--asl",
+                            SCRIPTS)
+        self.assert_refused("--config needs --bag or --asl: the simulated recording is of"
+                            " config/euroc.yaml", "--config", __file__)
         self.assert_refused("no such ground truth", "--groundtruth", "missing.tum")
         self.assert_refused("not ASL folders", "--asl", SCRIPTS, "--rviz")
         self.assert_refused("--rviz compares nothing", "--groundtruth", __file__, "--rviz")

@@ -73,10 +73,17 @@ def error_statistics(estimate, truth):
     return {name: metrics.statistics(values) for name, values in zip(LABELS, errors)}
 
 
-def add_consistency(result, estimate, truth, covariances, seconds):
-    """Adds `position_nees`, so long after the first pose, of paired trajectories."""
-    result["position_nees"] = consistency.position_nees(estimate, truth, covariances, seconds)
-    result["position_nees_s"] = seconds
+def add_consistency(result, estimate, truth, options):
+    """Adds `position_nees`, --nees-after the first pose; says why where the run is too short."""
+    pair = metrics.associate(estimate, truth, options.max_diff)
+    covariances = consistency.read_covariances(
+        options.covariance, pair[0].stamps - estimate.shift)  # as the run wrote them
+    try:
+        result["position_nees"] = consistency.position_nees(*pair, covariances, options.nees_after)
+        result["position_nees_s"] = options.nees_after
+    except consistency.NoPoseThenError as error:
+        print(f"evaluate.py: --covariance: {error}; --nees-after takes another time",
+              file=sys.stderr)
 
 
 def _replace_by_evo(result, estimate, truth):
@@ -175,10 +182,7 @@ def main(arguments=None):
         paired_estimate, paired_truth, result = evaluate(estimate, truth, options.align,
                                                          options.max_diff, options.max_gap)
         if options.covariance:
-            pair = metrics.associate(estimate, truth, options.max_diff)
-            covariances = consistency.read_covariances(
-                options.covariance, pair[0].stamps - estimate.shift)  # as the run wrote them
-            add_consistency(result, *pair, covariances, options.nees_after)
+            add_consistency(result, estimate, truth, options)
         print(format_report(result))
         if options.json:
             with open(options.json, "w", encoding="utf-8") as file:

@@ -11,6 +11,10 @@ from .trajectory import TrajectoryError
 _COLUMNS = 22  # of covariance.csv: a stamp and the upper triangle of 6 x 6
 
 
+class NoPoseThenError(TrajectoryError):
+    """The trajectory has no pose at that time."""
+
+
 def read_covariances(path, stamps):
     """Covariances (n, 6, 6) of the poses at `stamps` [s]: position in the world, then rotation in
     the body, from the covariance.csv of `run_offline`."""
@@ -43,7 +47,7 @@ def position_nees(estimate, truth, covariances, seconds):
     """
     last = metrics.nearest_indices(estimate.stamps, estimate.stamps[:1] + seconds)[0]
     if abs(estimate.stamps[last] - estimate.stamps[0] - seconds) > 0.1:
-        raise TrajectoryError(f"no pose {seconds:g} s after the first, the last one is"
+        raise NoPoseThenError(f"no pose {seconds:g} s after the first, the last one is"
                               f" {estimate.duration:.2f} s after it")
     stretch = np.arange(last + 1)
     rotation, _ = metrics.alignment(truth.select(stretch), estimate.select(stretch), "yaw")

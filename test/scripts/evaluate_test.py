@@ -343,12 +343,15 @@ class CommandLine(unittest.TestCase):
         self.assert_fails("no overlap", late, truth)
         self.assertEqual(self.run_script(late, truth, "--t-offset", "-100").returncode, 0)
 
-    def test_covariances_are_those_of_the_stamps_before_the_offset(self):
-        estimate = self.write("estimate.tum", self.spiral(" "))
+    def unit_covariance(self, estimate):
         unit = ",".join("1" if i in (0, 6, 11, 15, 18, 20) else "0" for i in range(21))
         stamps = [round(1e9 * stamp) for stamp in read_trajectory(estimate).stamps]
-        covariance = self.write("covariance.csv", "stamp_ns\n" + "".join(
+        return self.write("covariance.csv", "stamp_ns\n" + "".join(
             f"{stamp},{unit}\n" for stamp in stamps))
+
+    def test_covariances_are_those_of_the_stamps_before_the_offset(self):
+        estimate = self.write("estimate.tum", self.spiral(" "))
+        covariance = self.unit_covariance(estimate)
         report = os.path.join(self.folder.name, "report.json")
         for offset in ("0", "0.005"):
             result = self.run_script(estimate, estimate, "--covariance", covariance, "--t-offset",
@@ -356,6 +359,17 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(result.returncode, 0, result.stderr)
             with open(report, encoding="utf-8") as file:
                 self.assertLess(json.load(file)["position_nees"], 1e-6)
+
+    def test_a_run_too_short_for_its_covariance_loses_no_figures(self):
+        estimate = self.write("estimate.tum", self.spiral(" "))
+        report = os.path.join(self.folder.name, "report.json")
+        result = self.run_script(estimate, estimate, "--covariance",
+                                 self.unit_covariance(estimate), "--json", report)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, "no pose 10 s after the first.*--nees-after")
+        self.assertIn("APE [m]", result.stdout)
+        with open(report, encoding="utf-8") as file:
+            self.assertNotIn("position_nees", json.load(file))
 
     def test_attitude_of_both_formats(self):
         tum = read_trajectory(self.write("truth.tum", self.spiral(" ")))

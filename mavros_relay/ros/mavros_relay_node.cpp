@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
+#include "common/config/config_checks.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/node_setup.h"
 #include "common/ros/parameter.h"
@@ -58,13 +60,12 @@ class MavrosRelayNode {
   void ReportStop(const char* why);
   void ReportGoingOn();
   RelayGate::Options ReadOptions() const;
+  std::string ReadFrame(const std::string& parameter, const std::string& otherwise) const;
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_{"~"};
-  const std::string odom_frame_ =
-      FindParameter<std::string>(private_node_, "odom_frame").value_or("odom");
-  const std::string base_frame_ =
-      FindParameter<std::string>(private_node_, "base_frame").value_or("base_link");
+  const std::string odom_frame_ = ReadFrame("odom_frame", "odom");
+  const std::string base_frame_ = ReadFrame("base_frame", "base_link");
   RelayGate gate_{ReadOptions()};
   bool is_relayed_ = false;                          // as was reported last
   int64_t reported_resets_ = 0;                      // the same
@@ -81,7 +82,10 @@ class MavrosRelayNode {
 MavrosRelayNode::MavrosRelayNode() {
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   const auto imu_to_base = FindParameter<std::string>(private_node_, "imu_to_base");
-  if (imu_to_base) T_body_base_ = ParseTransform(*imu_to_base);
+  if (imu_to_base) {
+    T_body_base_ =
+        ParseTransform("parameter " + private_node_.resolveName("imu_to_base"), *imu_to_base);
+  }
   counter_.publish(std_msgs::UInt8());
   images_ =
       node_.subscribe("vins_estimator/odometry", 100, &MavrosRelayNode::AddImage, this, no_delay);
@@ -103,6 +107,16 @@ RelayGate::Options MavrosRelayNode::ReadOptions() const {
   read("max_age", &options.max_age);
   read("min_pause", &options.min_pause);
   return options;
+}
+
+std::string MavrosRelayNode::ReadFrame(const std::string& parameter,
+                                       const std::string& otherwise) const {
+  const auto frame = FindParameter<std::string>(private_node_, parameter).value_or(otherwise);
+  if (const auto problem = CheckFrameName(frame)) {
+    throw std::runtime_error("parameter " + private_node_.resolveName(parameter) + ": \"" + frame +
+                             "\" " + *problem);
+  }
+  return frame;
 }
 
 void MavrosRelayNode::AddState(const nav_msgs::Odometry& odometry) {

@@ -29,9 +29,11 @@ bool IsInGroup(const std::string& key, const std::string& group) {
 // One loading of a file; collects problems along the way.
 class Loader {
  public:
-  Loader(const std::string& file, const std::map<std::string, std::string>& overrides) {
+  Loader(const std::string& file, const std::map<std::string, std::string>& overrides,
+         const std::string& override_prefix) {
     config_.file = file;
-    const auto entries = ReadConfigEntries(file, overrides, &problems_);
+    config_.overrides = overrides;
+    const auto entries = ReadConfigEntries(file, overrides, override_prefix, &problems_);
     if (!entries) throw ConfigError(problems_);
     entries_ = *entries;
     const std::string model_type = ModelTypeAsWritten();
@@ -80,6 +82,9 @@ class Loader {
       ignored_.push_back(name);
       return;
     }
+    if (IsUnsupportedCoefficient(name)) {
+      return Add(name, "is not supported: calibrate with k1, k2, p1, p2 alone");
+    }
     const auto keys = KeysOfGroup(name);
     if (!keys.empty()) {
       return Add(name, "must be a group of keys, indented below it: " + Join(keys, ", "));
@@ -89,6 +94,13 @@ class Loader {
     if (of_camera && !knows_model_) return;
     const auto nearest = NearestWord(name, known_);
     Add(name, "unknown key" + (nearest ? "; did you mean " + *nearest + "?" : "; remove it"));
+  }
+
+  // Of longer polynomials, as OpenCV's.
+  bool IsUnsupportedCoefficient(const std::string& name) const {
+    const std::string group = "distortion_parameters.";
+    return Contains(known_, group + "p1") && name.size() == group.size() + 2 &&
+           name >= group + "k3" && name <= group + "k6";
   }
 
   std::vector<std::string> KeysOfGroup(const std::string& group) const {
@@ -135,10 +147,10 @@ class Loader {
     problems_.push_back(At(key) + problem);
   }
 
-  // "FILE:LINE: KEY: ".
+  // "FILE:LINE: KEY: ", or an override by how it was given.
   std::string At(const std::string& key) const {
     const auto entry = entries_.find(key);
-    return (entry == entries_.end() ? config_.file : entry->second.location) + ": " + key + ": ";
+    return (entry == entries_.end() ? config_.file + ": " + key : entry->second.name) + ": ";
   }
 
   Config config_;
@@ -155,8 +167,9 @@ class Loader {
 ConfigError::ConfigError(const std::vector<std::string>& problems)
     : std::runtime_error(Join(problems, "\n")), problems_(problems) {}
 
-Config LoadConfig(const std::string& file, const std::map<std::string, std::string>& overrides) {
-  return Loader(file, overrides).Load();
+Config LoadConfig(const std::string& file, const std::map<std::string, std::string>& overrides,
+                  const std::string& override_prefix) {
+  return Loader(file, overrides, override_prefix).Load();
 }
 
 std::vector<std::pair<std::string, ConfigValue>> EffectiveValues(const Config& config) {

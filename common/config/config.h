@@ -21,7 +21,8 @@
 namespace plm_vins {
 
 struct Config {
-  std::string file;                   // where it was read from, for messages
+  std::string file;                              // where it was read from, for messages
+  std::map<std::string, std::string> overrides;  // texts that replaced those of the file, by key
   std::vector<std::string> warnings;  // of what is accepted, but not followed; each names the file
   SensorConfig sensor;
   double publish_rate = 0;  // images whose features the estimator gets [Hz]; 0: all
@@ -44,11 +45,11 @@ class ConfigError : public std::runtime_error {
   std::vector<std::string> problems_;
 };
 
-// Reads a VINS-format YAML file ("%YAML:1.0"); `overrides` replace scalar keys by their text.
-// Throws ConfigError with *all* problems: missing, unknown (with the nearest known key), of a wrong
-// type, out of range, contradictory.
-Config LoadConfig(const std::string& file,
-                  const std::map<std::string, std::string>& overrides = {});
+// Reads a VINS-format YAML file ("%YAML:1.0"); `overrides` replace scalar keys by their text, and
+// messages name them by `override_prefix` and key. Throws ConfigError with *all* problems: missing,
+// unknown (with the nearest known key), of a wrong type, out of range, contradictory.
+Config LoadConfig(const std::string& file, const std::map<std::string, std::string>& overrides = {},
+                  const std::string& override_prefix = "--set ");
 
 // Every key with the value that is in effect: defaults, overrides, noise as densities, the mask
 // with its folder. A file of them gives the same configuration.

@@ -82,7 +82,7 @@ void CheckTopics(const SensorConfig& sensor, const Report& report) {
   if (sensor.image_topic == sensor.imu_topic) report("imu_topic", "is the same as image_topic");
 }
 
-// tf2 refuses names with a leading slash, and each frame has one parent.
+// Each frame has one parent.
 void CheckFrames(const Config& config, const Report& report) {
   const OutputConfig& output = config.output;
   std::vector<std::pair<const char*, std::string>> frames = {
@@ -94,11 +94,7 @@ void CheckFrames(const Config& config, const Report& report) {
   if (!output.base_frame.empty()) frames.emplace_back("base_frame", output.base_frame);
   std::map<std::string, std::string> key_of_name;
   for (const auto& [key, name] : frames) {
-    if (!IsName(name)) {
-      report(key, "must be a name without spaces");
-    } else if (name.front() == '/') {
-      report(key, "must not begin with a slash: tf2 refuses it");
-    }
+    if (const Problem problem = CheckFrameName(name)) report(key, *problem);
     const auto [other, is_new] = key_of_name.emplace(name, key);
     if (!is_new) report(key, "is the same as " + other->second);
   }
@@ -126,6 +122,12 @@ void CheckMask(const Config& config, const Report& report) {
 }
 
 }  // namespace
+
+Problem CheckFrameName(const std::string& name) {
+  if (!IsName(name)) return "must be a name without spaces";
+  if (name.front() == '/') return "must not begin with a slash: tf2 refuses it";
+  return std::nullopt;
+}
 
 void CheckTogether(const ConfigEntries& entries, const Config& config, const Report& report) {
   CheckExtrinsics(entries, config, report);

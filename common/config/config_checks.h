@@ -6,11 +6,15 @@
 
 #include "common/config/config.h"
 #include "common/config/config_entry.h"
+#include "common/config/config_key.h"
 
 namespace plm_vins {
 
 // Reports what is wrong with a key.
 using Report = std::function<void(const std::string& key, const std::string& problem)>;
+
+// What is wrong with the name of a frame, nothing where it is fine.
+Problem CheckFrameName(const std::string& name);
 
 // Reports values that are fine alone but not together, and keys that others make necessary.
 void CheckTogether(const ConfigEntries& entries, const Config& config, const Report& report);

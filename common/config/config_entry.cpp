@@ -6,6 +6,8 @@
 #include <iterator>
 #include <system_error>
 
+#include "common/config/yaml_hint.h"
+
 namespace plm_vins {
 namespace {
 
@@ -85,10 +87,36 @@ bool Flatten(const YAML::Node& map, const std::string& prefix, int depth, const 
       if (!Flatten(value, key + ".", depth + 1, file, entries, problems)) return false;
       continue;
     }
-    const auto [entry, is_new] = entries->insert({key, ConfigEntry{value, location}});
+    const auto [entry, is_new] =
+        entries->insert({key, ConfigEntry{value, location, location + ": " + key}});
     if (!is_new) AddProblem(location, key, AppearsTwice(entry->second), problems);
   }
   return true;
+}
+
+// Of some, all but one would be ignored.
+std::optional<YAML::Node> TheOne(const std::vector<YAML::Node>& documents, const std::string& file,
+                                 std::vector<std::string>* problems) {
+  for (size_t i = 1; i < documents.size(); ++i) {
+    if (documents[i].IsNull()) continue;
+    problems->push_back(Location(file, documents[i].Mark()) +
+                        ": a second YAML document begins; remove the line --- or ... before it");
+    return std::nullopt;
+  }
+  if (!documents.empty() && documents[0].IsMap()) return documents[0];
+  problems->push_back(file + ": has no \"key: value\" lines; is this a configuration file?");
+  return std::nullopt;
+}
+
+std::optional<YAML::Node> ParseRoot(const std::string& file, const std::string& text,
+                                    std::vector<std::string>* problems) {
+  try {
+    return TheOne(YAML::LoadAll(text), file, problems);
+  } catch (const YAML::Exception& error) {
+    const std::string hint = error.mark.is_null() ? "" : "; " + YamlHint(text, error.mark.line);
+    problems->push_back(Location(file, error.mark) + ": not valid YAML: " + error.msg + hint);
+    return std::nullopt;
+  }
 }
 
 // The top-level map of the file, or nothing and a problem.
@@ -107,20 +135,14 @@ std::optional<YAML::Node> ReadRoot(const std::string& file, std::vector<std::str
     problems->push_back(file + ": longer than 1 MiB; is this a configuration file?");
     return std::nullopt;
   }
-  try {
-    const YAML::Node root = YAML::Load(WithoutDirective(*text));
-    if (root.IsMap()) return root;
-    problems->push_back(file + ": has no \"key: value\" lines; is this a configuration file?");
-  } catch (const YAML::Exception& error) {
-    problems->push_back(Location(file, error.mark) + ": not valid YAML: " + error.msg);
-  }
-  return std::nullopt;
+  return ParseRoot(file, WithoutDirective(*text), problems);
 }
 
 }  // namespace
 
 std::optional<ConfigEntries> ReadConfigEntries(const std::string& file,
                                                const std::map<std::string, std::string>& overrides,
+                                               const std::string& override_prefix,
                                                std::vector<std::string>* problems) {
   const auto root = ReadRoot(file, problems);
   if (!root) return std::nullopt;
@@ -128,7 +150,7 @@ std::optional<ConfigEntries> ReadConfigEntries(const std::string& file,
   if (!Flatten(*root, "", 1, file, &entries, problems)) return std::nullopt;
   for (const auto& [key, text] : overrides) {
     entries.erase(key);
-    entries.emplace(key, ConfigEntry{YAML::Node(text), file + " (override)"});
+    entries.emplace(key, ConfigEntry{YAML::Node(text), override_prefix, override_prefix + key});
   }
   return entries;
 }

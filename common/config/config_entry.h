@@ -13,16 +13,19 @@ namespace plm_vins {
 // One key with its value, as written.
 struct ConfigEntry {
   YAML::Node value;
-  std::string location;  // "FILE:LINE" or "FILE (override)", for messages
+  std::string location;  // "FILE:LINE"; of an override, what its key comes after
+  std::string name;      // "FILE:LINE: KEY" or "--set KEY", for messages
 };
 
 // Keys of nested maps are joined by a dot: "projection_parameters.fx".
 using ConfigEntries = std::map<std::string, ConfigEntry>;
 
-// Reads the file into entries and replaces or adds the overrides. Adds duplicate keys to
-// `problems`; where there is no such file or it is not YAML, adds that and returns nothing.
+// Reads the file into entries and replaces or adds the overrides, which messages name by
+// `override_prefix` and key. Adds duplicate keys to `problems`; where there is no such file or it
+// is not YAML, or more than one document, adds that and returns nothing.
 std::optional<ConfigEntries> ReadConfigEntries(const std::string& file,
                                                const std::map<std::string, std::string>& overrides,
+                                               const std::string& override_prefix,
                                                std::vector<std::string>* problems);
 
 }  // namespace plm_vins

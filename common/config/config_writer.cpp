@@ -30,6 +30,22 @@ std::string ValueText(const ConfigValue& value) {
   return ToText(value);
 }
 
+// A line break would end the comment.
+std::string OnOneLine(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  }
+  return text;
+}
+
+void WriteOverrides(const Config& config, std::ostream* stream) {
+  if (config.overrides.empty()) return;
+  *stream << OnOneLine("# From " + config.file) << ", in which these were replaced for the run:\n";
+  for (const auto& [key, text] : config.overrides) {
+    *stream << OnOneLine("#   " + key + ": " + text) << "\n";
+  }
+}
+
 }  // namespace
 
 void WriteConfig(const Config& config, std::ostream* stream) {
@@ -37,6 +53,7 @@ void WriteConfig(const Config& config, std::ostream* stream) {
   std::string& mask = movable.points.fisheye_mask;
   if (!mask.empty()) mask = std::filesystem::absolute(mask).string();
   *stream << "%YAML:1.0\n";
+  WriteOverrides(config, stream);
   std::string open_group;
   for (const auto& [name, value] : EffectiveValues(movable)) {
     const size_t dot = name.find('.');

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/ros/node_config.h"
 
+#include <XmlRpcValue.h>
 #include <ros/console.h>
 #include <ros/exceptions.h>
 
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "common/config/config_value.h"
 #include "common/ros/parameter.h"
 
 namespace plm_vins {
@@ -30,18 +33,51 @@ void CheckTopicNames(const ros::NodeHandle& node, const Config& config) {
   if (!problems.empty()) throw ConfigError(problems);
 }
 
+// A shell's `_set/max_cnt:=100` is a number to ROS.
+std::string TextOf(XmlRpc::XmlRpcValue value, const std::string& name) {
+  switch (value.getType()) {
+    case XmlRpc::XmlRpcValue::TypeString:
+      return value;
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      return static_cast<bool>(value) ? "1" : "0";
+    case XmlRpc::XmlRpcValue::TypeInt:
+      return std::to_string(static_cast<int>(value));
+    case XmlRpc::XmlRpcValue::TypeDouble:
+      return ToText(static_cast<double>(value));
+    default:
+      throw std::runtime_error(name + " must be a text, a number or a flag");
+  }
+}
+
+// ~set/KEY by KEY. `prefix` and KEY name one in messages.
+std::map<std::string, std::string> FindOverrides(const ros::NodeHandle& private_node,
+                                                 const std::string& prefix) {
+  XmlRpc::XmlRpcValue values;
+  if (!private_node.getParam("set", values)) return {};
+  if (values.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
+    throw std::runtime_error("parameter " + private_node.resolveName("set") +
+                             " must have the keys below it, as in set/max_cnt");
+  }
+  std::map<std::string, std::string> overrides;
+  for (const auto& [key, value] : values) overrides[key] = TextOf(value, prefix + key);
+  return overrides;
+}
+
 }  // namespace
 
 Config LoadNodeConfig(const ros::NodeHandle& private_node) {
-  std::string file;
-  if (!private_node.getParam("config_file", file)) {
+  const auto file = FindParameter<std::string>(private_node, "config_file");
+  if (!file) {
     throw ConfigError({"parameter " + private_node.resolveName("config_file") +
-                       " is not set: give the path of a configuration file"});
+                       " is not set: give the path of a configuration file (_config_file:=PATH)"});
   }
-  using TextsByKey = std::map<std::string, std::string>;
-  const auto overrides = FindParameter<TextsByKey>(private_node, "set");
-  Config config = LoadConfig(file, overrides.value_or(TextsByKey()));
+  const std::string prefix = "parameter " + private_node.resolveName("set") + "/";
+  const auto overrides = FindOverrides(private_node, prefix);
+  Config config = LoadConfig(*file, overrides, prefix);
   CheckTopicNames(private_node, config);
+  for (const auto& [key, text] : overrides) {
+    ROS_INFO_STREAM(prefix << key << " replaces the value of " << *file << ": " << text);
+  }
   for (const std::string& warning : config.warnings) ROS_WARN_STREAM(warning);
   return config;
 }

@@ -9,9 +9,9 @@
 
 namespace plm_vins {
 
-// The configuration of the file ~config_file, in which texts ~set/KEY replace scalar keys. Warns of
-// keys without effect. Throws ConfigError, also where a topic has a name that ROS
-// refuses.
+// The configuration of the file ~config_file, in which ~set/KEY replace scalar keys, each of which
+// is logged. Warns of keys without effect. Throws ConfigError, also where a topic has a name that
+// ROS refuses, and std::runtime_error where a parameter is of another kind.
 Config LoadNodeConfig(const ros::NodeHandle& private_node);
 
 // One fatal log line per line of the error's text: one per problem of a configuration.

@@ -3,9 +3,11 @@
 
 #include <ros/callback_queue.h>
 #include <ros/console.h>
+#include <ros/exception.h>
 #include <ros/init.h>
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 
@@ -26,6 +28,17 @@ void WarnWithoutClock() {
       "and start all nodes again");
 }
 
+// False, and said, where an argument has a name that ROS refuses: its log does not run yet.
+bool InitRos(int argc, char** argv, const std::string& name) {
+  try {
+    ros::init(argc, argv, name);
+    return true;
+  } catch (const ros::Exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name.c_str(), error.what());
+    return false;
+  }
+}
+
 }  // namespace
 
 int RunNode(int argc, char** argv, const std::string& name, const std::function<void()>& body) {
@@ -33,7 +46,7 @@ int RunNode(int argc, char** argv, const std::string& name, const std::function<
   std::signal(SIGINT, [](int) { std::_Exit(0); });
   std::signal(SIGTERM, [](int) { std::_Exit(0); });
   SetUpProcess();
-  ros::init(argc, argv, name);
+  if (!InitRos(argc, argv, name)) return 1;
   const ros::NodeHandle keeps_ros_running;
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });  // of SIGINT, ROS does so itself
   try {

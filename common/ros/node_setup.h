@@ -15,10 +15,11 @@ namespace plm_vins {
 
 // main() of every node: starts ROS under `name` once there is a master, and runs `body` until
 // shutdown. Threads and memory are used as by SetUpProcess(). Returns the exit code: 0 after
-// SIGINT or SIGTERM; 1 where `body` threw, each line of what it says being a fatal log line.
+// SIGINT or SIGTERM; 1 where `body` threw, each line of what it says being a fatal log line, and
+// where ROS refuses a name among the arguments.
 int RunNode(int argc, char** argv, const std::string& name, const std::function<void()>& body);
 
-// The same with the configuration of the file ~config_file, in which texts ~set/KEY replace scalar
+// The same with the configuration of the file ~config_file, in which ~set/KEY replace scalar
 // keys. Returns 1 also where that has problems.
 int RunNode(int argc, char** argv, const std::string& name,
             const std::function<void(const Config&)>& body);

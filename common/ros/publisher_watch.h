@@ -4,6 +4,8 @@
 #include <ros/datatypes.h>
 
 #include <boost/shared_ptr.hpp>
+#include <cstddef>
+#include <deque>
 #include <utility>
 #include <vector>
 
@@ -38,6 +40,23 @@ class PublisherWatch {
   };
 
   std::vector<Source> sources_;
+};
+
+// Tells publishers that send in turn from one that is started again and again.
+class TurnsWatch {
+ public:
+  // For each change of the publisher, at `now` [s] of any clock. True where changes follow each
+  // other within less than it takes to start a process.
+  bool AddChange(double now) {
+    changes_.push_back(now);
+    if (changes_.size() > kChanges) changes_.pop_front();
+    return changes_.size() == kChanges && now - changes_.front() < kSpan;
+  }
+
+ private:
+  static constexpr size_t kChanges = 3;
+  static constexpr double kSpan = 1.0;  // [s]
+  std::deque<double> changes_;          // the newest
 };
 
 }  // namespace plm_vins

@@ -54,9 +54,8 @@ def check_config(program, config, overrides):
         run = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                              stderr=subprocess.PIPE, encoding="utf-8", errors="replace",
                              check=False)
-    said = f"run_offline: {config}"
     problems = [line[len("run_offline: "):] for line in run.stderr.splitlines()
-                if line.startswith((f"{said}:", f"{said} (override):"))]
+                if line.startswith((f"run_offline: {config}:", "run_offline: --set "))]
     if problems:
         raise DatasetError("\n".join(problems))
 

@@ -7,7 +7,9 @@ Usage: operations_test.py NODES BAG FOLDER [unittest option ...]
 NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs and results.
 """
 
+import contextlib
 import os
+import shutil
 import signal
 import sys
 import time
@@ -17,7 +19,8 @@ import rosgraph
 import rospy
 from std_srvs.srv import Trigger
 
-from node_processes import Listener, Processes, arguments, free_port, start_master, wait_until
+from node_processes import (CONFIG, Listener, Processes, arguments, free_port, start_master,
+                            wait_until)
 
 NODES, BAG, FOLDER = arguments(__doc__)
 NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator")
@@ -71,7 +74,8 @@ class Parameters(OperationsTest):
     def test_one_of_another_kind_is_refused_by_name(self):
         for name, parameter, value, kind in (("mavros_relay", "rate", "fast", "a number"),
                                              ("feature_tracker", "image_transport", "5", "a text"),
-                                             ("vins_estimator", "trajectory_file", "8", "a text")):
+                                             ("vins_estimator", "trajectory_file", "8", "a text"),
+                                             ("feature_tracker", "config_file", "8", "a text")):
             node = self.processes.start_node(NODES / name, f"_{parameter}:={value}")
             self.assertEqual(node.wait(END_LIMIT), 1, name)
             self.assertIn(f"parameter /{name}/{parameter} must be {kind}",
@@ -91,11 +95,96 @@ class Parameters(OperationsTest):
             self.assertEqual(manager.wait(END_LIMIT), 1)
             self.assertIn(why, self.processes.log("vins_manager"))
 
+    def assert_refused(self, name, argument, why):
+        """The node ends at once, and says why."""
+        node = self.processes.start_node(NODES / name, argument)
+        self.assertEqual(node.wait(END_LIMIT), 1, name)
+        self.assertIn(why, self.processes.log(name))
+        with contextlib.suppress(KeyError):
+            rospy.delete_param(f"/{name}")
+
+    def test_values_of_the_configuration_come_as_a_shell_gives_them(self):
+        self.addCleanup(rospy.delete_param, "/feature_tracker")
+        values = {"max_cnt": ("100", "100"), "F_threshold": ("0.5", "0.5"),
+                  "equalize": ("false", "0"), "corner_detector": ("harris", "harris")}
+        self.processes.start_node(NODES / "feature_tracker", *(
+            f"_set/{key}:={value}" for key, (value, _) in values.items()),
+            ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
+        for key, (_, text) in values.items():
+            wait_until(lambda text=f"parameter /feature_tracker/set/{key} replaces the value of"
+                       f" {CONFIG}: {text}": text in self.processes.log("feature_tracker"), key)
+
+    def test_values_of_the_configuration_are_refused_by_their_parameter(self):
+        self.assert_refused("feature_tracker", "_set/max_cnt:=7",
+                            'parameter /feature_tracker/set/max_cnt: "7" out of range')
+        rospy.set_param("/vins_estimator/set/max_cnt", [1, 2])
+        self.assert_refused("vins_estimator", "_trajectory_file:=",
+                            "parameter /vins_estimator/set/max_cnt must be a text, a number or a"
+                            " flag")
+        self.assert_refused("vins_estimator", "_set:=3",
+                            "parameter /vins_estimator/set must have the keys below it")
+
+    def test_frames_and_angles_of_the_relay_are_checked(self):
+        self.assert_refused("mavros_relay", "_base_frame:=/base_link",
+                            'parameter /mavros_relay/base_frame: "/base_link" must not begin with a'
+                            " slash")
+        self.assert_refused("mavros_relay", "_odom_frame:=", "parameter /mavros_relay/odom_frame:")
+        self.assert_refused("mavros_relay", "_imu_to_base:=0 0 0 0 0 180",
+                            "parameter /mavros_relay/imu_to_base: yaw pitch roll are in rad")
+
+    def test_a_name_that_ros_refuses_ends_the_node(self):
+        self.assert_refused("feature_tracker", "__name:=front/tracker",
+                            "feature_tracker: Invalid node name [front/tracker]")
+        node = self.processes.start("nameless", [NODES / "feature_tracker"])
+        self.assertEqual(node.wait(END_LIMIT), 1)
+        self.assertIn("config_file is not set: give the path of a configuration file"
+                      " (_config_file:=PATH)", self.processes.log("nameless"))
+
     def test_a_file_that_cannot_be_written_is_named_before_the_flight(self):
         self.addCleanup(rospy.delete_param, "/vins_estimator/trajectory_file")
         self.processes.start_node(NODES / "vins_estimator", "_trajectory_file:=/dev/null/./a.tum")
         wait_until(lambda: "cannot write /dev/null/a.tum" in
                    self.processes.log("vins_estimator"), "a warning")
+
+
+class Turns(OperationsTest):
+    def test_of_two_publishers_are_named(self):
+        """As of a bag that was recorded with all topics, played to running nodes."""
+        self.start_node("vins_estimator", ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
+        for topic in ("/feature_tracker/feature", "/linefeature_tracker/linefeature"):
+            for player in range(2):
+                self.processes.start(f"player{player}", [
+                    "rostopic", "pub", "-s", "-r", "10", topic, "sensor_msgs/PointCloud",
+                    "{header: {stamp: now}, channels: [{}, {}, {}]}"])  # an image without features
+            wait_until(lambda topic=topic: f"publishers take turns on {topic}" in
+                       self.processes.log("vins_estimator"), topic)
+
+
+class CalibrationInUse(OperationsTest):
+    def test_stays_as_it_is_and_the_trajectory_is_saved(self):
+        folder = self.processes.folder
+        config, trajectory = folder / "calibrated.yaml", folder / "trajectory.tum"
+        shutil.copy(CONFIG, config)
+        trajectory.unlink(missing_ok=True)
+        self.addCleanup(rospy.delete_param, "/vins_estimator")
+        listener = Listener()
+        self.start_node("feature_tracker")
+        estimator = self.processes.start("vins_estimator", [
+            NODES / "vins_estimator", f"_config_file:={config}", "_set/use_lines:=0",
+            f"_trajectory_file:={trajectory}"])
+        wait_until(lambda: f"{config} is the configuration in use" in
+                   self.processes.log("vins_estimator"), "a warning")
+        listener.wait_for_message("feature_tracker", "")
+        self.play()
+        listener.wait_for_odometry()
+        response = rospy.ServiceProxy("/vins_estimator/save_trajectory", Trigger)()
+        self.assertFalse(response.success)
+        self.assertRegex(response.message, f"poses saved to {trajectory}, but not the calibration: "
+                         f"{config} is the configuration in use")
+        trajectory.unlink()
+        self.assert_end_on(signal.SIGINT, {"vins_estimator": estimator})
+        self.assertTrue(trajectory.exists())
+        self.assertEqual(config.read_bytes(), CONFIG.read_bytes())
 
 
 class Restart(OperationsTest):

@@ -99,7 +99,7 @@ def main():
     settings = dict(text.split("=", 1) for text in options.set)
     folder = os.path.dirname(os.path.abspath(__file__))
     if "nonsense" in settings:
-        sys.exit(f"run_offline: {options.config} (override): nonsense: unknown key; remove it")
+        sys.exit("run_offline: --set nonsense: unknown key; remove it")
     recording = options.bag or os.path.join(options.asl, "mav0", "cam0", "data.csv")
     if not os.path.isfile(recording):
         sys.exit(f"run_offline: not an ASL folder: {recording} is missing")

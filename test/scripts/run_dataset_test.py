@@ -326,7 +326,7 @@ class BadCalls(DatasetTest):
         self.assert_refused("--starts: not allowed with argument --start", "--start", "1",
                             "--starts", "1", "2", exit_code=2)
         self.assert_refused("key=value instead of max_cnt", "--set", "max_cnt", exit_code=2)
-        self.assert_refused("config.yaml (override): nonsense: unknown key; remove it\n",
+        self.assert_refused("--set nonsense: unknown key; remove it\n",
                             "--set", "nonsense=1")
         self.assertFalse(os.path.exists(os.path.join(self.output, "runs")))
         os.symlink(self.path("nowhere"), self.path("bags", "gone.bag"))

@@ -2,10 +2,19 @@
 #include "vins_estimator/ros/calibration_log.h"
 
 #include <filesystem>
+#include <stdexcept>
+#include <system_error>
 
 #include "vins_estimator/output/calibrated_config.h"
 
 namespace plm_vins {
+namespace {
+
+std::string FileIn(const std::string& folder) {
+  return (std::filesystem::path(folder) / kCalibratedConfigFile).string();
+}
+
+}  // namespace
 
 void CalibrationLog::Set(const Calibration& calibration) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -15,8 +24,17 @@ void CalibrationLog::Set(const Calibration& calibration) {
 void CalibrationLog::Save(const std::string& folder) const {
   const std::optional<Calibration> newest = Newest();
   if (!newest || !RefinesCalibration(config_.sensor)) return;
-  const std::filesystem::path file = std::filesystem::path(folder) / kCalibratedConfigFile;
-  SaveCalibratedConfig(*newest, config_, file.string());
+  CheckFolder(folder);
+  SaveCalibratedConfig(*newest, config_, FileIn(folder));
+}
+
+void CalibrationLog::CheckFolder(const std::string& folder) const {
+  if (!RefinesCalibration(config_.sensor)) return;
+  std::error_code error;  // where there is no such file
+  if (!std::filesystem::equivalent(FileIn(folder), config_.file, error)) return;
+  throw std::runtime_error(FileIn(folder) +
+                           " is the configuration in use, which the refined one does not replace: "
+                           "name a trajectory_file in another folder");
 }
 
 std::optional<Calibration> CalibrationLog::Newest() const {

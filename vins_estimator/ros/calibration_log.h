@@ -19,8 +19,13 @@ class CalibrationLog {
   void Set(const Calibration& calibration);
 
   // Writes the configuration with this calibration into the folder, where the configuration has it
-  // refined and there was a pose. Throws std::runtime_error where that cannot be written.
+  // refined and there was a pose. Throws std::runtime_error where that cannot be written, and as
+  // CheckFolder().
   void Save(const std::string& folder) const;
+
+  // Throws std::runtime_error where the file in that folder is the configuration in use, which
+  // would be lost.
+  void CheckFolder(const std::string& folder) const;
 
  private:
   std::optional<Calibration> Newest() const;

@@ -26,6 +26,10 @@ constexpr size_t kQueueCapacity = 5000;  // inputs, most of them IMU samples
 constexpr size_t kImuBatch = 20;
 constexpr double kMaxWait = 0.5;  // [s]: images that wait for longer are left out
 
+std::string FolderOf(const std::string& file) {
+  return std::filesystem::path(file).parent_path().string();
+}
+
 template <typename... Handlers>
 struct Overloaded : Handlers... {
   using Handlers::operator()...;
@@ -50,6 +54,7 @@ EstimatorNode::EstimatorNode(const Config& config, const ros::NodeHandle& node,
       publisher_(config.output, private_node_),
       diagnostics_updater_(node, private_node, private_node.getNamespace()) {
   WarnWithoutFileAtEnd();
+  WarnWithoutCalibrationAtEnd();
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {
       in_place_.Receiver(node_).subscribe(config_.sensor.imu_topic, kSubscriberQueue,
@@ -99,7 +104,7 @@ void EstimatorNode::AddPoints(const FeatureEvent& event) {
     int64_t left_out = 0;
     PointFrame frame = ToPointFrame(*event.getMessage(), &left_out);
     diagnostics_.CountLeftOut(left_out);
-    RestoreIds(event.getConnectionHeaderPtr(), &frame.points, &point_source_);
+    RestoreIds(event, kPointTopic, &frame.points, &point_source_);
     if (!HasVelocities(*event.getMessage())) velocities_.Fill(&frame);
     queue_.Push(std::move(frame));
   } catch (const std::exception& error) {
@@ -114,7 +119,7 @@ void EstimatorNode::AddLines(const FeatureEvent& event) {
     int64_t left_out = 0;
     LineFrame frame = ToLineFrame(*event.getMessage(), &left_out);
     diagnostics_.CountLeftOut(left_out);
-    RestoreIds(event.getConnectionHeaderPtr(), &frame.lines, &line_source_);
+    RestoreIds(event, kLineTopic, &frame.lines, &line_source_);
     queue_.Push(std::move(frame));
   } catch (const std::exception& error) {
     diagnostics_.CountMalformed(error.what());
@@ -124,9 +129,21 @@ void EstimatorNode::AddLines(const FeatureEvent& event) {
 
 // A tracker that was started again counts from zero once more.
 template <typename Observation>
-void EstimatorNode::RestoreIds(const boost::shared_ptr<ros::M_string>& connection,
+void EstimatorNode::RestoreIds(const FeatureEvent& event, const char* topic,
                                std::vector<Observation>* observations, FeatureSource* source) {
-  if (source->publisher.HasChanged(0, connection)) source->ids.BeginTracker();
+  if (source->publisher.HasChanged(0, event.getConnectionHeaderPtr())) {
+    source->ids.BeginTracker();
+    if (source->turns.AddChange(ros::WallTime::now().toSec())) {
+      ROS_WARN_STREAM_THROTTLE(
+          10.0,
+          "publishers take turns on "
+              << node_.resolveName(topic)
+              << ", so that no feature lasts: stop all but one (rostopic info names them); of "
+                 "a bag with features, play images and IMU alone (rosbag play FILE --topics "
+              << node_.resolveName(config_.sensor.image_topic) << " "
+              << node_.resolveName(config_.sensor.imu_topic) << ")");
+    }
+  }
   for (Observation& observation : *observations) {
     observation.id = source->ids.Restore(observation.id);
   }
@@ -146,10 +163,8 @@ bool EstimatorNode::Reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Respon
 bool EstimatorNode::SaveTrajectory(std_srvs::Trigger::Request&,
                                    std_srvs::Trigger::Response& response) {
   try {
-    const std::string file = TrajectoryFile("trajectory.tum");
-    const size_t poses = Save(file);
+    response.message = Save(TrajectoryFile("trajectory.tum"));
     response.success = true;
-    response.message = std::to_string(poses) + " poses saved to " + file;
   } catch (const std::runtime_error& error) {
     response.success = false;
     response.message = error.what();
@@ -174,10 +189,25 @@ void EstimatorNode::WarnWithoutFileAtEnd() const {
   }
 }
 
-size_t EstimatorNode::Save(const std::string& trajectory_file) const {
-  const size_t poses = trajectory_.Save(trajectory_file);
-  calibration_.Save(std::filesystem::path(trajectory_file).parent_path().string());
-  return poses;
+// The same of the configuration that would be replaced.
+void EstimatorNode::WarnWithoutCalibrationAtEnd() const {
+  if (file_at_end_.empty()) return;
+  try {
+    calibration_.CheckFolder(FolderOf(file_at_end_));
+  } catch (const std::runtime_error& error) {
+    ROS_WARN_STREAM(error.what());
+  }
+}
+
+std::string EstimatorNode::Save(const std::string& trajectory_file) const {
+  const std::string saved =
+      std::to_string(trajectory_.Save(trajectory_file)) + " poses saved to " + trajectory_file;
+  try {
+    calibration_.Save(FolderOf(trajectory_file));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(saved + ", but not the calibration: " + error.what());
+  }
+  return saved;
 }
 
 void EstimatorNode::Work() {

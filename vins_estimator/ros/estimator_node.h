@@ -56,6 +56,7 @@ class EstimatorNode {
   // Ids of one tracker's messages, as long as it is connected.
   struct FeatureSource {
     PublisherWatch publisher{1};
+    TurnsWatch turns;
     IdRestorer ids;
   };
 
@@ -67,16 +68,17 @@ class EstimatorNode {
   void AddPoints(const FeatureEvent& event);
   void AddLines(const FeatureEvent& event);
   template <typename Observation>
-  static void RestoreIds(const boost::shared_ptr<ros::M_string>& connection,
-                         std::vector<Observation>* observations, FeatureSource* source);
+  void RestoreIds(const FeatureEvent& event, const char* topic,
+                  std::vector<Observation>* observations, FeatureSource* source);
   void Restart(const std_msgs::Bool& message);
   bool Reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool SaveTrajectory(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   // In full; `otherwise` where the parameter is not set or empty.
   std::string TrajectoryFile(const std::string& otherwise) const;
   void WarnWithoutFileAtEnd() const;
-  // Returns the number of poses; throws std::runtime_error where a file cannot be written.
-  size_t Save(const std::string& trajectory_file) const;
+  void WarnWithoutCalibrationAtEnd() const;
+  // Returns what was saved; throws std::runtime_error where a file cannot be written.
+  std::string Save(const std::string& trajectory_file) const;
 
   // In the worker thread.
   void Work();

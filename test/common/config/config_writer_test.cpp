@@ -60,6 +60,19 @@ TEST_F(ConfigWriter, HasTheFormatOfOpenCV) {
   }
 }
 
+TEST_F(ConfigWriter, ListsTheOverridesAtItsHead) {
+  const Config config = Load("camera.yaml", kVinsMonoFile,
+                             {{"use_lines", "0"}, {"pose_graph_save_path", "a\nmax_cnt: 9"}});
+  EXPECT_EQ(Written(config).rfind(
+                "%YAML:1.0\n# From " + config.file +
+                    ", in which these were replaced for the run:\n"
+                    "#   pose_graph_save_path: a max_cnt: 9\n#   use_lines: 0\nimage_topic",
+                0),
+            0u)
+      << Written(config);
+  EXPECT_FALSE(Load("again.yaml", Written(config)).use_lines);
+}
+
 TEST_F(ConfigWriter, FindsTheMaskFromAnotherFolder) {
   folder_.Write("mask.png", "x");
   const Config config = Load("camera.yaml", std::string(kShortFile) + "fisheye_mask: mask.png\n");

@@ -46,7 +46,7 @@ class ReferenceFile : public ::testing::Test {
     std::ifstream stream(kFile);
     for (std::string line; std::getline(stream, line);) lines_.push_back(line);
     std::vector<std::string> problems;
-    entries_ = ReadConfigEntries(kFile, {}, &problems).value();
+    entries_ = ReadConfigEntries(kFile, {}, "", &problems).value();
   }
 
   // The comment on the line of a key.

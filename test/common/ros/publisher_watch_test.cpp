@@ -49,5 +49,13 @@ TEST(PublisherWatch, MissesNoProcessOfWhichOneTopicComes) {
   EXPECT_TRUE(watch.HasChanged(1, Connect()));
 }
 
+TEST(TurnsWatch, TellsTurnsFromStarts) {
+  TurnsWatch starts;
+  for (const double t : {0.0, 2.0, 2.6, 4.0, 5.5}) EXPECT_FALSE(starts.AddChange(t)) << t;
+  TurnsWatch turns;
+  for (const double t : {0.0, 0.05}) EXPECT_FALSE(turns.AddChange(t));
+  for (const double t : {0.1, 0.15, 0.2}) EXPECT_TRUE(turns.AddChange(t));
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <stdexcept>
+
 #include "test/testing/temporary_folder.h"
 #include "test/vins_estimator/ros/busy_disk.h"
 
@@ -31,6 +34,21 @@ TEST(CalibrationLog, SavesNothingWhereNothingIsRefined) {
   log.Set(Calibration());
   log.Save(folder.path());
   EXPECT_EQ(folder.Read("calibrated.yaml"), "");
+}
+
+TEST(CalibrationLog, KeepsTheConfigurationInUse) {
+  const testing::TemporaryFolder folder;
+  folder.Write("calibrated.yaml", "in use");
+  Config config;
+  config.file = folder.path() + "/../" + std::filesystem::path(folder.path()).filename().string() +
+                "/calibrated.yaml";
+  CalibrationLog(config).CheckFolder(folder.path());  // nothing is refined, so nothing is written
+  config.sensor.estimate_td = true;
+  CalibrationLog log(config);
+  log.Set(Calibration());
+  EXPECT_THROW(log.CheckFolder(folder.path()), std::runtime_error);
+  EXPECT_THROW(log.Save(folder.path()), std::runtime_error);
+  EXPECT_EQ(folder.Read("calibrated.yaml"), "in use");
 }
 
 TEST(CalibrationLog, TakesANewOneWhileItSaves) {

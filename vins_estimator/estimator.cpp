@@ -78,9 +78,9 @@ FrameMeasurement Estimator::Correct(FrameMeasurement measurement) {
 }
 
 void Estimator::Use(const FrameMeasurement& measurement, EstimatorOutput* output) {
-  const std::optional<int64_t> still_since_ns = StillSince(measurement);
+  const auto standstill = DetectStandstill(measurement);
   if (state_.initialized) {
-    Track(measurement, still_since_ns, output);
+    Track(measurement, standstill, output);
   } else {
     Initialize(measurement, output);
   }
@@ -150,13 +150,14 @@ void Estimator::SolveFirstWindow(EstimatorOutput* output) {
   }
 }
 
-void Estimator::Track(const FrameMeasurement& measurement, std::optional<int64_t> still_since_ns,
+void Estimator::Track(const FrameMeasurement& measurement,
+                      const std::optional<StandstillDetector::Standstill>& standstill,
                       EstimatorOutput* output) {
   LocalMap& map = state_.estimate.map;
   const bool keep_second_newest = IsKeyframe(options_.keyframes, map.window, map.points);
   if (keep_second_newest) state_.keyframe = {map.window.newest().state.t_ns};
   AddFrame(measurement);
-  map.window.SetStillSince(still_since_ns);
+  map.window.SetStillSince(StillSince(standstill));
   PlaceNewest(output);
   const ImuNoiseLearning noise_before = state_.imu_noise;
   bool solve_window = !PlacementSuffices();
@@ -199,9 +200,21 @@ void Estimator::GiveUp(const Failure& failure, EstimatorOutput* output) {
   if (!output->restarted) state_.bridge = std::move(lost.bridge);
 }
 
-std::optional<int64_t> Estimator::StillSince(const FrameMeasurement& measurement) {
+std::optional<StandstillDetector::Standstill> Estimator::DetectStandstill(
+    const FrameMeasurement& measurement) {
   if (!config_.estimator.zero_velocity_update) return std::nullopt;
   return state_.standstill_detector.Add(measurement);
+}
+
+// Where points are known they tell a slow motion better than the assumption that there is none.
+// Without them, an estimate that is held to the place that it rocks about is better than none.
+std::optional<int64_t> Estimator::StillSince(
+    const std::optional<StandstillDetector::Standstill>& standstill) const {
+  if (!standstill) return std::nullopt;
+  const LocalMap& map = state_.estimate.map;
+  const bool moves = standstill->common_px > options_.max_motion_at_rest_px;
+  if (moves && map.points.MedianDepthInNewest(map.window)) return std::nullopt;
+  return standstill->since_ns;
 }
 
 void Estimator::AddFrame(const FrameMeasurement& measurement) {
@@ -268,6 +281,11 @@ ProblemOptions Estimator::CurrentProblem(JacobiansAt jacobians_at) const {
   options.jacobians_at = jacobians_at;
   if (config_.estimator.manhattan_constraints) options.R_W_M = state_.structure.manhattan().R_W_M();
   options.SetNoise(state_.noise.point(), state_.noise.line());
+  const LocalMap& map = state_.estimate.map;
+  if (const auto depth = map.points.MedianDepthInNewest(map.window)) {
+    options.passing_velocity = options_.passing_flow * *depth;
+    options.passing_turn_rate = options_.passing_flow;
+  }
   return options;
 }
 

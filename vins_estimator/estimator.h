@@ -74,7 +74,8 @@ class Estimator {
   // Hands the image on to Initialize() or Track().
   void Use(const FrameMeasurement& measurement, EstimatorOutput* output);
   void Initialize(const FrameMeasurement& measurement, EstimatorOutput* output);
-  void Track(const FrameMeasurement& measurement, std::optional<int64_t> still_since_ns,
+  void Track(const FrameMeasurement& measurement,
+             const std::optional<StandstillDetector::Standstill>& standstill,
              EstimatorOutput* output);
 
   // Puts a new window into the frame of the world before the loss, where there was one and the
@@ -94,7 +95,11 @@ class Estimator {
   std::optional<Failure> CheckEstimate(const EstimatorCounts& counts);
   void GiveUp(const Failure& failure, EstimatorOutput* output);
   // See StandstillDetector::Add(); nothing where standstill is not to be used.
-  std::optional<int64_t> StillSince(const FrameMeasurement& measurement);
+  std::optional<StandstillDetector::Standstill> DetectStandstill(
+      const FrameMeasurement& measurement);
+  // Since which image; nothing where the newest image shows that it is a slow motion.
+  std::optional<int64_t> StillSince(
+      const std::optional<StandstillDetector::Standstill>& standstill) const;
   void Optimize(const SolverOptions& options, EstimatorOutput* output);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
   void SlideOldest(EstimatorOutput* output);

@@ -9,6 +9,11 @@ namespace {
 constexpr double kMinTriangulationAngle_px = 2.0;  // in pixels of motion: well above corner noise
 constexpr double kMaxReprojectionError_px = 3.0;
 constexpr double kMaxRayError_px = 0.02;  // a tenth of the noise of the best corners
+
+// Over half a second: eight times what noise does to the median of a hundred corners.
+constexpr double kMaxMotionAtRest_px = 0.15;
+constexpr double kPassingFlow_px = kMaxMotionAtRest_px / 0.5;  // [px/s]
+
 constexpr SolverOptions kFirstSolution = {20, 0.01};
 constexpr SolverOptions kNewestSolution = {5, 0.1};
 constexpr double kEarlyTolerance = 0.1;  // of a standard deviation
@@ -32,6 +37,8 @@ EstimatorOptions::EstimatorOptions(const Config& config, double focal_length)
       min_triangulation_angle(kMinTriangulationAngle_px / focal_length),
       max_reprojection_error(kMaxReprojectionError_px / focal_length),
       max_ray_error(kMaxRayError_px / focal_length),
+      max_motion_at_rest_px(kMaxMotionAtRest_px),
+      passing_flow(kPassingFlow_px / focal_length),
       line_limits(config.estimator.line_noise / focal_length,
                   config.estimator.line_outlier_distance),
       same_line(config.estimator, focal_length),

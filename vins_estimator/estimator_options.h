@@ -23,6 +23,8 @@ struct EstimatorOptions {
   double min_triangulation_angle;  // between the rays of a point [rad]
   double max_reprojection_error;   // of a point, mean over its views, normalised
   double max_ray_error;            // of rays by intrinsics that were refined since, normalised
+  double max_motion_at_rest_px;    // in common to corners, where points are known that tell it [px]
+  double passing_flow;             // by which these may go on at that [1/s], normalised
   LineLimits line_limits;
   SameLineLimits same_line;
   AnchorPolicyOptions anchors;

@@ -2,8 +2,10 @@
 #include "vins_estimator/map/point_map.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/camera/readout_share.h"
+#include "common/median.h"
 #include "vins_estimator/geometry/depth_limits.h"
 #include "vins_estimator/geometry/point_triangulation.h"
 
@@ -11,6 +13,7 @@ namespace plm_vins {
 namespace {
 
 constexpr size_t kMinViewsToTriangulate = 2;
+constexpr size_t kMinDepths = 10;  // fewer tell little of the scene
 
 PointSighting SightingOf(const PointView& view, const SlidingWindow& window) {
   return {window.T_W_C(view.t_ns), window.AtState(view.bearing)};
@@ -92,6 +95,15 @@ PointMap::Fit PointMap::FitOfNewest(const SlidingWindow& window, int64_t keyfram
     fit.contradicted += !error || *error > max_error ? 1 : 0;
   }
   return fit;
+}
+
+std::optional<double> PointMap::MedianDepthInNewest(const SlidingWindow& window) const {
+  std::vector<double> depths;
+  for (const auto& [id, landmark] : landmarks_) {
+    if (IsOptimizedInNewest(landmark, window)) depths.push_back(1 / landmark.coordinates[2]);
+  }
+  if (depths.size() < kMinDepths) return std::nullopt;
+  return Median(std::move(depths));
 }
 
 int PointMap::RemoveOutliers(const SlidingWindow& window, double max_error) {

@@ -32,6 +32,9 @@ class PointMap : public LandmarkMap<PointLandmark> {
   };
   Fit FitOfNewest(const SlidingWindow& window, int64_t keyframe_ns, double max_error) const;
 
+  // Of the optimised points that the newest image shows [m]; nothing where those are few.
+  std::optional<double> MedianDepthInNewest(const SlidingWindow& window) const;
+
   // Removes landmarks behind a camera or with a mean reprojection error above `max_error`, and
   // single views above twice that (normalised image units). Returns how many landmarks and views
   // were removed.

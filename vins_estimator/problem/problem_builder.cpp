@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/problem/problem_builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -127,9 +128,14 @@ void ProblemBuilder::AddMotion(size_t index) {
   problem_.AddTerm(ImuFactor(to.motion_since_previous.get(), window_->gravity_W), nullptr,
                    {pose_i, motion_i, pose_j, motion_j});
   if (!to.stationary) return;
-  problem_.AddTerm(ZeroVelocityFactor(options_.standstill_velocity), nullptr, {motion_j});
-  problem_.AddTerm(SamePoseFactor(options_.standstill_position, options_.standstill_rotation),
-                   nullptr, {pose_i, pose_j});
+  const double interval = ToSeconds(to.state.t_ns - from.state.t_ns);
+  const double velocity = std::max(options_.standstill_velocity, options_.passing_velocity);
+  const double position =
+      std::max(options_.standstill_position, options_.passing_velocity * interval);
+  const double rotation =
+      std::max(options_.standstill_rotation, options_.passing_turn_rate * interval);
+  problem_.AddTerm(ZeroVelocityFactor(velocity), nullptr, {motion_j});
+  problem_.AddTerm(SamePoseFactor(position, rotation), nullptr, {pose_i, pose_j});
 }
 
 template <typename FactorType, int kCount>

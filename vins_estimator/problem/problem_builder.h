@@ -40,6 +40,9 @@ struct ProblemOptions {
   double standstill_velocity = 0.005;   // standard deviation while standing still [m/s]
   double standstill_position = 0.001;   // ... of the position between two frames [m]
   double standstill_rotation = 0.0005;  // ... of the rotation between two frames [rad]
+  // What of steady motion passes as standstill, which is then no better known than by that.
+  double passing_velocity = 0;   // [m/s]
+  double passing_turn_rate = 0;  // [rad/s]
   bool estimate_extrinsic;
   bool estimate_td;
   bool estimate_readout;  // time of a rolling shutter

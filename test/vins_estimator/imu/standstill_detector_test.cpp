@@ -35,7 +35,10 @@ class StandstillDetectorTest : public ::testing::Test {
     for (int id = 0; id < points_; ++id) {
       PointObservation point;
       point.id = first_id_ + id;
-      point.uv_px = Eigen::Vector2d(10.0 * id + shift_px(ToSeconds(frame.t_ns)), 5.0 * id) +
+      const double t = ToSeconds(frame.t_ns);
+      const Eigen::Vector2d from_middle = Eigen::Vector2d(10.0, 5.0) * (id - 0.5 * (points_ - 1));
+      point.uv_px = (1 + zoom_ * t) * (Eigen::Rotation2Dd(turn_ * t) * from_middle) +
+                    Eigen::Vector2d(shift_px(t), 0) +
                     0.1 * Eigen::Vector2d(random_.Normal(), random_.Normal());
       frame.points.points.push_back(point);
     }
@@ -59,6 +62,7 @@ class StandstillDetectorTest : public ::testing::Test {
   simulator::Random random_{3};
   int64_t t_ns_ = 0;
   int64_t frame_ns_ = 50'000'000;  // 20 Hz
+  double zoom_ = 0, turn_ = 0;     // of the image [1/s], [rad/s]
   int points_ = 60;
   int first_id_ = 0;
 };
@@ -71,15 +75,47 @@ TEST_F(StandstillDetectorTest, RecognisesStandstillOnceTheWindowIsFull) {
 TEST_F(StandstillDetectorTest, SaysSinceWhichImage) {
   CountStill(30, Nothing, Nothing, NoShift);
   const FrameMeasurement frame = Next(Nothing, Nothing, NoShift);
-  EXPECT_EQ(detector_.Add(frame), frame.t_ns - 10 * frame_ns_);
+  const auto standstill = detector_.Add(frame);
+  ASSERT_TRUE(standstill.has_value());
+  EXPECT_EQ(standstill->since_ns, frame.t_ns - 10 * frame_ns_);
 }
 
-TEST_F(StandstillDetectorTest, DecidesAbove6Hz) {
-  frame_ns_ = 150'000'000;
-  EXPECT_GT(CountStill(30, Nothing, Nothing, NoShift), 0);
+TEST_F(StandstillDetectorTest, DecidesOnEveryImageDownTo3Hz) {
+  for (const int64_t frame_ns : {150'000'000, 200'000'000, 330'000'000}) {
+    frame_ns_ = frame_ns;
+    detector_.Reset();
+    CountStill(4, Nothing, Nothing, NoShift);
+    EXPECT_EQ(CountStill(30, Nothing, Nothing, NoShift), 30) << frame_ns;
+  }
   detector_.Reset();
-  frame_ns_ = 170'000'000;
+  frame_ns_ = 400'000'000;
   EXPECT_EQ(CountStill(30, Nothing, Nothing, NoShift), 0);
+}
+
+TEST_F(StandstillDetectorTest, AfterAPauseOfImagesItStartsOver) {
+  CountStill(30, Nothing, Nothing, NoShift);
+  frame_ns_ = 2'000'000'000;
+  EXPECT_EQ(CountStill(1, Nothing, Nothing, NoShift), 0);
+  frame_ns_ = 50'000'000;
+  EXPECT_EQ(CountStill(9, Nothing, Nothing, NoShift), 0);
+  EXPECT_EQ(CountStill(10, Nothing, Nothing, NoShift), 10);
+}
+
+TEST_F(StandstillDetectorTest, TellsWhatCornersHaveInCommonBelowTheirNoise) {
+  const auto common_px = [this](double shift, double zoom, double turn) {
+    zoom_ = zoom, turn_ = turn;
+    detector_.Reset();
+    CountStill(20, Nothing, Nothing, [shift](double t) { return shift * t; });
+    return detector_.Add(Next(Nothing, Nothing, [shift](double t) { return shift * t; }))
+        .value()
+        .common_px;
+  };
+  EXPECT_LT(common_px(0, 0, 0), 0.08);
+  EXPECT_NEAR(common_px(0.6, 0, 0), 0.3, 0.08);
+  EXPECT_NEAR(common_px(-0.6, 0, 0), 0.3, 0.08);
+  // The median corner is 168 px from the middle.
+  EXPECT_NEAR(common_px(0, 0.003, 0), 0.25, 0.08);
+  EXPECT_NEAR(common_px(0, 0, -0.003), 0.25, 0.08);
 }
 
 TEST_F(StandstillDetectorTest, PropellersMayShakeTheBodyOnTheGround) {

@@ -71,6 +71,16 @@ TEST_F(PointMapTest, CountsWhatTheNewestFrameShowsOfThoseThatAreOptimised) {
   EXPECT_EQ(map_.CountInNewest(window_), 18) << "seen twice";
 }
 
+TEST_F(PointMapTest, DepthIsToldByTenPointsOfTheNewestFrame) {
+  EXPECT_FALSE(map_.MedianDepthInNewest(window_).has_value()) << "not triangulated";
+  map_.Triangulate(window_, kMinAngle);
+  EXPECT_NEAR(map_.MedianDepthInNewest(window_).value(), 5.5, 1);
+  for (int id = 0; id < 10; ++id) Landmark(id).views.pop_back();
+  EXPECT_TRUE(map_.MedianDepthInNewest(window_).has_value());
+  Landmark(10).views.pop_back();
+  EXPECT_FALSE(map_.MedianDepthInNewest(window_).has_value());
+}
+
 TEST_F(PointMapTest, FitOfTheNewestIsOfPointsThatWereOptimisedAtTheKeyframe) {
   constexpr double kMaxError = 0.01;
   map_.Triangulate(window_, kMinAngle);

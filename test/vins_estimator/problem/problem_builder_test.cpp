@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/geometry/so3.h"
+#include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_window.h"
 #include "vins_estimator/optimization/levenberg_marquardt.h"
 #include "vins_estimator/problem/initial_prior.h"
@@ -69,6 +70,33 @@ TEST_F(ProblemBuilderTest, StandstillAddsZeroVelocityAndSamePose) {
   EXPECT_EQ(terms[2].cost->num_residuals(), 6);
   EXPECT_EQ(terms[2].variables[0], builder.problem().Find({BlockKind::kPose, Stamp(1)}));
   EXPECT_EQ(terms[2].variables[1], builder.problem().Find({BlockKind::kPose, Stamp(2)}));
+}
+
+// Deviations are in inverse proportion to residuals.
+TEST_F(ProblemBuilderTest, StandstillIsNoFirmerThanWhatPassesAsIt) {
+  window().frames[2].stationary = true;
+  const auto residuals = [this](int term) {
+    ProblemBuilder builder(options_, &window(), &no_prior_);
+    builder.AddMotion(2);
+    const auto& evaluated = builder.problem().terms()[static_cast<size_t>(term)];
+    std::vector<const double*> values;
+    for (const int variable : evaluated.variables) {
+      values.push_back(builder.problem().variables()[static_cast<size_t>(variable)].values);
+    }
+    Eigen::VectorXd result(evaluated.cost->num_residuals());
+    evaluated.cost->Evaluate(values.data(), result.data(), nullptr);
+    return result;
+  };
+  const Eigen::VectorXd velocity = residuals(1), pose = residuals(2);
+  options_.passing_velocity = 0.0049;
+  EXPECT_MATRIX_NEAR(residuals(1), velocity, 1e-12);
+  options_.passing_velocity = 0.05;
+  options_.passing_turn_rate = 0.02;
+  const double interval = ToSeconds(Stamp(2) - Stamp(1));
+  EXPECT_MATRIX_NEAR(residuals(1), velocity / 10, 1e-9);
+  const Eigen::VectorXd weaker = residuals(2);
+  EXPECT_MATRIX_NEAR(weaker.head<3>(), pose.head<3>() * 0.001 / (0.05 * interval), 1e-9);
+  EXPECT_MATRIX_NEAR(weaker.tail<3>(), pose.tail<3>() * 0.0005 / (0.02 * interval), 1e-9);
 }
 
 // With all that may be estimated.

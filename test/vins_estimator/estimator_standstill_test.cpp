@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The estimator where the vehicle rests, or seems to.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "test/vins_estimator/estimated_flight.h"
+#include "test/vins_estimator/planned_flight.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::EstimatedFlight;
+using testing::FlightPlan;
+using testing::GentleFlight;
+
+EstimatedFlight Fly(const FlightPlan& plan) {
+  return testing::Estimate(testing::PlannedFlight(plan).Simulate());
+}
+
+// Of the last position, aligned at an image so long before [m].
+double ErrorOver(double duration, const EstimatedFlight& flight) {
+  const auto images = static_cast<size_t>(duration / 0.05);
+  const size_t last = flight.outputs.size() - 1, first = last - images;
+  const Rigid3d T = testing::AlignHeading(flight.outputs[first].state, flight.truth[first]);
+  return (T * Eigen::Vector3d(flight.outputs[last].state.position()) -
+          flight.truth[last].position())
+      .norm();
+}
+
+// Too slow for the IMU, and within a pixel in half a second for the camera.
+TEST(EstimatorStandstill, ACreepingFlightIsNotHeldInPlace) {
+  for (const double v : {0.02, 0.05}) {
+    FlightPlan plan;
+    plan.duration = 40;
+    plan.room = {40, 40, 20};
+    plan.T_W_V = [v](double t) {
+      Rigid3d T_W_V = GentleFlight(t, 2, 12);
+      const double s = std::max(0.0, t - 14);  // it creeps from then on
+      T_W_V.translation += Eigen::Vector3d(0, v * (s - std::tanh(s)), 8);
+      return T_W_V;
+    };
+    EXPECT_LT(ErrorOver(26, Fly(plan)), 0.05) << v;
+  }
+}
+
+}  // namespace
+}  // namespace plm_vins

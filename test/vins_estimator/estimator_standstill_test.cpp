@@ -45,5 +45,15 @@ TEST(EstimatorStandstill, ACreepingFlightIsNotHeldInPlace) {
   }
 }
 
+// After minutes on the ground points with known depths are still there.
+TEST(EstimatorStandstill, TheMapOutlastsARest) {
+  FlightPlan plan;
+  plan.duration = 82;
+  plan.T_W_V = [](double t) { return GentleFlight(t, 2, 12); };
+  const EstimatedFlight flight = Fly(plan);
+  EXPECT_TRUE(flight.outputs.back().stationary);
+  EXPECT_GT(flight.outputs.back().counts.known_seen, 50);
+}
+
 }  // namespace
 }  // namespace plm_vins

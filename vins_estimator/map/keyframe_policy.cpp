@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/map/keyframe_policy.h"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace plm_vins {
 namespace {
 
@@ -32,6 +35,13 @@ TrackedPoints Compare(const PointMap& points, int64_t before_ns, int64_t newest_
   return result;
 }
 
+// In all of its newest frames, that many.
+bool RestsFor(size_t count, const SlidingWindow& window) {
+  return window.frames.size() >= count &&
+         std::all_of(window.frames.rbegin(), window.frames.rbegin() + count,
+                     [](const WindowFrame& frame) { return frame.stationary; });
+}
+
 }  // namespace
 
 bool IsKeyframe(const KeyframePolicyOptions& options, const SlidingWindow& window,
@@ -42,7 +52,9 @@ bool IsKeyframe(const KeyframePolicyOptions& options, const SlidingWindow& windo
   const double interval = ToSeconds(newest_ns - before_ns);
   const TrackedPoints tracked = Compare(points, before_ns, newest_ns);
   if (tracked.in_newest < options.min_points_to_see) return interval > options.max_blind_interval;
-  return interval > options.max_interval || tracked.in_both < options.min_tracked ||
+  const bool at_rest = RestsFor(options.min_keyframes_at_rest + 1, window);
+  const double max_interval = at_rest ? options.max_interval_at_rest : options.max_interval;
+  return interval > max_interval || tracked.in_both < options.min_tracked ||
          tracked.in_both < options.min_tracked_share * tracked.in_newest ||
          tracked.mean_parallax > options.min_parallax;
 }

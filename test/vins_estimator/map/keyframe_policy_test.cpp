@@ -15,6 +15,7 @@ struct Case {
   int tracked = 100;
   int fresh = 0;
   double parallax = 0.0;  // normalised
+  size_t at_rest = 0;     // frames, the newest ones
 };
 
 void AddPoints(int64_t first_id, int count, double x, PointFrame* frame) {
@@ -33,8 +34,10 @@ bool Keyframe(const Case& c, size_t frame_count = 2) {
     frame.state.t_ns = ToNanoseconds(static_cast<double>(i) * c.interval);
     window.frames.push_back(frame);
   }
+  for (size_t i = frame_count - c.at_rest; i < frame_count; ++i) window.frames[i].stationary = true;
   PointFrame before, newest;
   newest.t_ns = window.newest().state.t_ns;
+  if (frame_count > 1) before.t_ns = window.second_newest().state.t_ns;
   AddPoints(0, 150, 0.1, &before);
   AddPoints(0, c.tracked, 0.1 + c.parallax, &newest);
   AddPoints(1000, c.fresh, 0, &newest);
@@ -62,6 +65,15 @@ TEST(KeyframePolicy, LostTracksMakeOne) {
 TEST(KeyframePolicy, TimeMakesOne) {
   EXPECT_FALSE(Keyframe({0.95}));
   EXPECT_TRUE(Keyframe({1.05}));
+}
+
+// So that landmarks outlast the rest, once keyframes know what it tells of the IMU.
+TEST(KeyframePolicy, AtRestItTakesLonger) {
+  EXPECT_FALSE(Keyframe({9.5, 100, 0, 0, 4}, 4));
+  EXPECT_TRUE(Keyframe({10.5, 100, 0, 0, 4}, 4));
+  EXPECT_TRUE(Keyframe({1.05, 100, 0, 0, 3}, 4));
+  EXPECT_TRUE(Keyframe({1.05, 100, 0, 0, 3}, 3));
+  EXPECT_TRUE(Keyframe({1.05, 19, 0, 0, 4}, 4)) << "lost tracks";
 }
 
 TEST(KeyframePolicy, BlindImagesAreNone) {

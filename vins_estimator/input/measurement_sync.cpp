@@ -48,7 +48,7 @@ void MeasurementSync::AddImu(const ImuSample& sample) {
   const bool follows = !last_imu_ns_ || sample.t_ns > *last_imu_ns_;
   if (!follows) {
     ++statistics_.imu_out_of_order;
-    if (IsQueued(sample)) return;  // sent twice, which says nothing of the clock
+    if (imu_memory_.Contains(sample)) return;
   }
   if (follows ? imu_jump_.EndsStepBack(sample.t_ns) : imu_jump_.Refuse(sample.t_ns)) {
     ++statistics_.jumps_back;
@@ -83,6 +83,7 @@ void MeasurementSync::JudgeImuAfterGap(int64_t next_ns) {
 
 void MeasurementSync::TakeImu(const ImuSample& sample) {
   last_imu_ns_ = sample.t_ns;
+  imu_memory_.Add(sample);
   for (const ImuSample& decided : imu_gate_.Add(sample)) QueueImu(decided);
   statistics_.imu_replaced = imu_gate_.replaced();
   statistics_.imu_saturated = imu_gate_.saturated();
@@ -140,6 +141,7 @@ void MeasurementSync::AddLines(LineFrame frame) {
 
 void MeasurementSync::Clear() {
   imu_.clear();
+  imu_memory_.Clear();
   imu_gate_.Clear();
   imu_jump_.Accept();  // whatever comes next
   last_imu_ns_.reset();
@@ -176,12 +178,6 @@ size_t MeasurementSync::FirstImuNotBefore(int64_t t_ns) const {
       std::lower_bound(imu_.begin(), imu_.end(), t_ns,
                        [](const ImuSample& sample, int64_t t) { return sample.t_ns < t; });
   return static_cast<size_t>(std::distance(imu_.begin(), first));
-}
-
-bool MeasurementSync::IsQueued(const ImuSample& sample) const {
-  const size_t i = FirstImuNotBefore(sample.t_ns);
-  return i < imu_.size() && imu_[i].t_ns == sample.t_ns && imu_[i].gyro == sample.gyro &&
-         imu_[i].accel == sample.accel;
 }
 
 bool MeasurementSync::LinesAreDecided(size_t frame) const {

@@ -12,6 +12,7 @@
 #include "common/streams/backward_jump.h"
 #include "common/streams/forward_jump.h"
 #include "vins_estimator/imu/imu_gap.h"
+#include "vins_estimator/input/imu_memory.h"
 
 namespace plm_vins {
 
@@ -55,7 +56,8 @@ struct SyncStatistics {
 //
 // Where the IMU goes back in time for good by ten samples or more, or the images by more than ten
 // (a bag played again, a clock set back), or the IMU leaps ahead by more than a minute (a clock set
-// on), all is forgotten but the statistics, and a new recording begins.
+// on), all is forgotten but the statistics, and a new recording begins. Samples of the IMU that are
+// sent again within a second are none of that.
 class MeasurementSync {
  public:
   struct Options {
@@ -111,7 +113,6 @@ class MeasurementSync {
   int64_t CutTime() const;  // of the oldest queued frame, in IMU time
   // Index of the first IMU sample at or after the time.
   size_t FirstImuNotBefore(int64_t t_ns) const;
-  bool IsQueued(const ImuSample& sample) const;
   // Whether the lines of a queued frame need not be waited for; those of newer frames may.
   bool LinesAreDecided(size_t frame) const;
   // While frames do not wait for lines: the one of that image would still wait if they did.
@@ -128,6 +129,7 @@ class MeasurementSync {
   Options options_;
   SyncStatistics statistics_;
   std::deque<ImuSample> imu_;  // the front is the boundary of the last cut, once there was one
+  ImuMemory imu_memory_;       // of those that went to the gate
   ImuGate imu_gate_;
   std::optional<int64_t> last_imu_ns_;  // of the newest sample that went to the gate
   // After a gap a sample waits for the next one: a single wrong stamp must not void what follows.

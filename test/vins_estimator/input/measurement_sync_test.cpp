@@ -253,6 +253,29 @@ TEST(MeasurementSync, AClockThatIsSetBackShowsAfterTenSamplesOfTheImu) {
   }
 }
 
+// Also those that were handed out already, and one that the gate replaced.
+TEST(MeasurementSync, SamplesThatAreSentAgainSayNothingOfTheClock) {
+  MeasurementSync sync({});
+  const auto send = [&sync](int64_t begin_ms, int64_t end_ms) {
+    for (int64_t t = begin_ms; t <= end_ms; t += 5) {
+      ImuSample sample = testing::Sample(t * kMs);
+      if (t == 900) sample.gyro.x() = 30;
+      sync.AddImu(sample);
+    }
+  };
+  send(0, 1000);
+  for (int64_t t = 50; t <= 1000; t += 50) sync.AddPoints(Points(t * kMs));
+  auto frames = PopAll(&sync);
+  send(805, 1000);
+  send(1005, 1500);
+  for (int64_t t = 1050; t <= 1500; t += 50) sync.AddPoints(Points(t * kMs));
+  for (auto& frame : PopAll(&sync)) frames.push_back(std::move(frame));
+  EXPECT_EQ(sync.statistics().imu_replaced, 1);
+  EXPECT_EQ(sync.statistics().imu_out_of_order, 40);
+  EXPECT_EQ(sync.statistics().jumps_back, 0);
+  EXPECT_EQ(frames.size(), 30u);
+}
+
 TEST(MeasurementSync, AClockThatIsSetBackShowsAfterMoreThanTenImages) {
   for (const int images : {10, 11}) {
     MeasurementSync sync({});

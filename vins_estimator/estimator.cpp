@@ -184,9 +184,10 @@ void Estimator::Track(const FrameMeasurement& measurement,
 }
 
 std::optional<Failure> Estimator::CheckEstimate(const EstimatorCounts& counts) {
-  const FrameState& newest = state_.estimate.map.window.newest().state;
-  return state_.estimate_monitor.Add({state_.solved, state_.predicted, newest,
-                                      state_.newest_covariance.topLeftCorner<6, 6>(), counts});
+  const SlidingWindow& window = state_.estimate.map.window;
+  return state_.estimate_monitor.Add({state_.solved, state_.predicted, window.newest().state,
+                                      state_.newest_covariance.topLeftCorner<6, 6>(), counts,
+                                      window.td - config_.sensor.td});
 }
 
 // All but the bridge and the camera's rotation starts over, with the measurement after this one.

@@ -16,6 +16,9 @@ std::optional<Failure> EstimateMonitor::Add(const Evidence& evidence) {
                                                     newest, evidence.pose_covariance)) {
     return Failure{*blindness, /*has_drifted=*/true};
   }
+  if (const auto runaway = DetectRunaway(FailureLimits(), evidence.time_offset_change)) {
+    return Failure{*runaway, /*has_drifted=*/true};
+  }
   if (const auto jump = DetectFailure(FailureLimits(), evidence.predicted, newest)) {
     return Failure{*jump};
   }

@@ -28,6 +28,7 @@ class EstimateMonitor {
     FrameState newest;                            // the same, solved for
     Eigen::Matrix<double, 6, 6> pose_covariance;  // of that; zero where it is not known
     EstimatorCounts counts;
+    double time_offset_change = 0;  // td as estimated, from what is configured [s]
   };
 
   // Why the estimate cannot be kept; nothing where it can.

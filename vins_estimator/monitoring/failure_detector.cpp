@@ -49,6 +49,11 @@ std::optional<std::string> DetectFailure(const FailureLimits& limits, const Fram
   return std::nullopt;
 }
 
+std::optional<std::string> DetectRunaway(const FailureLimits& limits, double time_offset_change) {
+  if (!std::isfinite(time_offset_change)) return "td is not finite";
+  return Exceeds("change of td", std::abs(time_offset_change), limits.time_offset, "s");
+}
+
 std::optional<std::string> ContradictionMonitor::Add(int64_t t_ns, int landmarks, int rejected) {
   const int64_t interval_ns = std::min(t_ns - newest_ns_, kMaxInterval_ns);
   newest_ns_ = t_ns;

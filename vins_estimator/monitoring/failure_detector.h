@@ -19,12 +19,17 @@ struct FailureLimits {
   double velocity_jump = 3.0;  // correction of the velocity by one image [m/s]
   double position_jump = 2.0;  // correction of the position by one image [m]
   double rotation_jump = 0.7;  // correction of the rotation by one image [rad]
+  double time_offset = 0.2;    // between td as estimated and as configured [s]
 };
 
 // Why the newest state, optimised, cannot be believed, given what the IMU predicted; nothing where
 // it can be believed.
 std::optional<std::string> DetectFailure(const FailureLimits& limits, const FrameState& predicted,
                                          const FrameState& optimized);
+
+// Why a time offset that was estimated cannot be believed, by how far it is from the configured
+// one [s]; nothing where it can.
+std::optional<std::string> DetectRunaway(const FailureLimits& limits, double time_offset_change);
 
 // Notices when the camera goes on contradicting the state: image after image, a large share of the
 // landmarks that it shows does not fit. A single bad IMU sample can do that, and no other limit

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "common/measurements.h"
 
 namespace plm_vins {
@@ -60,6 +62,22 @@ TEST(EstimateMonitor, NoBridgeLeadsOnFromBlindDrift) {
   const auto failure = monitor.Add(evidence);
   ASSERT_TRUE(failure);
   EXPECT_TRUE(failure->has_drifted);
+}
+
+TEST(EstimateMonitor, GivesUpWhereTheTimeOffsetRanAway) {
+  for (const double change : {0.19, -0.19}) {
+    EstimateMonitor::Evidence evidence = Good(0);
+    evidence.time_offset_change = change;
+    EXPECT_FALSE(EstimateMonitor().Add(evidence));
+  }
+  for (const double change : {0.21, -0.21, std::nan("")}) {
+    EstimateMonitor::Evidence evidence = Good(0);
+    evidence.time_offset_change = change;
+    const auto failure = EstimateMonitor().Add(evidence);
+    ASSERT_TRUE(failure);
+    EXPECT_EQ(failure->why.substr(0, 2), std::isnan(change) ? "td" : "ch") << failure->why;
+    EXPECT_TRUE(failure->has_drifted);
+  }
 }
 
 TEST(EstimateMonitor, GivesUpWhereTheStateJumps) {

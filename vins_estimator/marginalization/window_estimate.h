@@ -12,8 +12,10 @@
 namespace plm_vins {
 
 // The local map, and the prior in which all that left it lives on. Both move in step: what is taken
-// out of the map is folded into the prior and never lost. Nothing is used twice but the views that
-// anchors keep of lines, which count less when the line comes back (docs/merging.md).
+// out of the map is folded into the prior and never lost. Two things are used twice: the newest
+// view of a landmark that goes into the prior and is still seen, which hosts it from then on, and
+// the views that anchors keep of lines, which count less when the line comes back
+// (docs/merging.md).
 struct WindowEstimate {
   explicit WindowEstimate(LocalMap local_map) : map(std::move(local_map)) {}
 

@@ -25,6 +25,9 @@ class BackwardJumpDetector {
     return refused_in_a_row_ > patience_;
   }
 
+  // The last stamp did not follow.
+  bool Refuses() const { return refused_in_a_row_ > 0; }
+
   // To be asked of a stamp that follows the last accepted one, before Accept(). True: the stream
   // began anew with those that were refused.
   bool EndsStepBack(int64_t t_ns) const {

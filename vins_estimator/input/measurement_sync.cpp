@@ -48,7 +48,8 @@ void MeasurementSync::AddImu(const ImuSample& sample) {
   const bool follows = !last_imu_ns_ || sample.t_ns > *last_imu_ns_;
   if (!follows) {
     ++statistics_.imu_out_of_order;
-    if (imu_memory_.Contains(sample)) return;
+    // Where a recording is played again, what leads up to them was refused.
+    if (!imu_jump_.Refuses() && imu_memory_.Contains(sample)) return;
   }
   if (follows ? imu_jump_.EndsStepBack(sample.t_ns) : imu_jump_.Refuse(sample.t_ns)) {
     ++statistics_.jumps_back;

@@ -21,6 +21,15 @@ TEST(BackwardJumpDetector, FindsAStreamThatBeginsAnew) {
   EXPECT_EQ(FindJump(&detector, {10, 20, 30, 40}), 3);
 }
 
+TEST(BackwardJumpDetector, RefusesFromTheFirstThatDoesNotFollowUntilOneDoes) {
+  BackwardJumpDetector detector(3);
+  EXPECT_FALSE(detector.Refuses());
+  detector.Refuse(10);
+  EXPECT_TRUE(detector.Refuses());
+  detector.Accept();
+  EXPECT_FALSE(detector.Refuses());
+}
+
 TEST(BackwardJumpDetector, TakesAcceptedStampsAsASignThatTheOldStreamGoesOn) {
   BackwardJumpDetector detector(3);
   EXPECT_EQ(FindJump(&detector, {10, 20, 30}), -1);

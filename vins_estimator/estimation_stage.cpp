@@ -7,12 +7,18 @@
 #include "common/format.h"
 #include "vins_estimator/estimator.h"
 #include "vins_estimator/imu/imu_gap.h"
+#include "vins_estimator/imu/imu_noise_estimate.h"
 
 namespace plm_vins {
 namespace {
 
 constexpr double kRateTolerance = 0.2;  // share of the configured rate
 constexpr double kMaxJitter_ms = 1.0;  // a turn of 1 rad/s moves a corner by half a pixel meanwhile
+
+// All of the noise that is believed.
+bool IsAtLimit(double density, double configured_density) {
+  return density > 0.999 * kMostNoise * configured_density;
+}
 
 MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) {
   MeasurementSync::Options options;
@@ -49,8 +55,10 @@ DropCounts ToDropCounts(const SyncStatistics& statistics) {
 
 EstimationStage::EstimationStage(const Config& config, double max_wait)
     : imu_rate_(config.sensor.imu_rate),
+      configured_noise_(config.sensor.imu_noise),
       estimator_(std::make_unique<Estimator>(config)),
-      sync_(MakeSyncOptions(config, max_wait)) {}
+      sync_(MakeSyncOptions(config, max_wait)),
+      imu_noise_(config.sensor.imu_noise) {}
 
 EstimationStage::~EstimationStage() = default;
 
@@ -70,7 +78,9 @@ std::string EstimationStage::ImuContradiction() const {
     return Format("the IMU comes at %.1f Hz, of which nothing can be made: give %.0f Hz or more",
                   1 / imu_interval, 1 / kMaxImuInterval);
   }
-  if (imu_noise_scale_ <= 1 && !delay_) return "";
+  const bool accel_at_limit = IsAtLimit(imu_noise_.accel_density, configured_noise_.accel_density);
+  const bool gyro_at_limit = IsAtLimit(imu_noise_.gyro_density, configured_noise_.gyro_density);
+  if (imu_noise_scale_ <= 1 && !delay_ && !accel_at_limit && !gyro_at_limit) return "";
   const double rate = imu_interval > 0 ? 1 / imu_interval : imu_rate_;
   const double imu_jitter_ms = 1e3 * imu_rhythm_.Jitter();
   const double image_jitter_ms = 1e3 * image_rhythm_.Jitter();
@@ -78,6 +88,9 @@ std::string EstimationStage::ImuContradiction() const {
   if (imu_noise_scale_ > 1) {
     text += Format(", which counts as %.0f times noisier", std::sqrt(imu_noise_scale_));
   }
+  if (accel_at_limit)
+    text += Format("; acc_n seems to be %.0f times too small or more", kMostNoise);
+  if (gyro_at_limit) text += Format("; gyr_n seems to be %.0f times too small or more", kMostNoise);
   if (std::abs(rate / imu_rate_ - 1) > kRateTolerance) {
     text += Format("; the IMU comes at %.0f Hz", rate) + Format(", imu_rate is %.0f", imu_rate_);
   }
@@ -98,6 +111,7 @@ void EstimationStage::Reset(const std::string& reason) {
 // Without an output since the last start no world frame is given up, so none is announced.
 void EstimationStage::StartOver(const std::string& reason) {
   estimator_->Reset();
+  imu_noise_ = configured_noise_;
   imu_noise_scale_ = 1;
   delay_.reset();
   sync_.SetTimeOffset(estimator_->time_offset());
@@ -125,6 +139,7 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   frame.points = measurement->points;
   if (measurement->lines) frame.lines = *measurement->lines;
   ++frames_;
+  if (frame.output.has_pose) imu_noise_ = frame.output.imu_noise;
   imu_noise_scale_ = frame.output.imu_noise_scale;
   delay_ = frame.output.delay;
   if (frame.output.restarted) ++resets_;

@@ -59,7 +59,8 @@ class EstimationStage {
   void Reset(const std::string& reason);
 
   // Where the IMU comes too seldom to be integrated: that. Where the camera contradicts it
-  // lastingly: by how much, and what in the stamps may be the cause. Empty where they fit.
+  // lastingly, or shows as much noise as is believed: by how much, and what in the stamps may be
+  // the cause. Empty where they fit.
   std::string ImuContradiction() const;
 
   int64_t frames() const { return frames_; }  // estimated so far
@@ -75,10 +76,12 @@ class EstimationStage {
   // Starts over where a clock was set: what was estimated has nothing to do with what comes.
   void FollowClock();
 
-  const double imu_rate_;                       // as configured [Hz]
+  const double imu_rate_;  // as configured [Hz]
+  const ImuNoise configured_noise_;
   const std::unique_ptr<Estimator> estimator_;  // so that users do not see the solver
   MeasurementSync sync_;
   StreamRhythm imu_rhythm_, image_rhythm_;
+  ImuNoise imu_noise_;
   double imu_noise_scale_ = 1;
   std::optional<double> delay_;  // [s]
   int64_t frames_ = 0;

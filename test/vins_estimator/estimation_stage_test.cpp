@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the back end starts over: on demand, and where stamps go back or leap ahead.
+// How the back end starts over: on demand, and where stamps go back or leap ahead; what it says of
+// the IMU.
 #include "vins_estimator/estimation_stage.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +9,8 @@
 #include <vector>
 
 #include "test/testing/still_scene.h"
+#include "test/vins_estimator/estimated_flight.h"
+#include "test/vins_estimator/planned_flight.h"
 
 namespace plm_vins {
 namespace {
@@ -190,6 +193,31 @@ TEST_F(EstimationStageTest, SaysThatTheImuComesTooSeldom) {
   EXPECT_EQ(stage_->frames(), 0);
   EXPECT_EQ(stage_->ImuContradiction(),
             "the IMU comes at 16.7 Hz, of which nothing can be made: give 20 Hz or more");
+}
+
+// In flight, where the camera shows it.
+TEST(EstimationStage, SaysThatTheImuIsFarNoisierThanConfigured) {
+  testing::FlightPlan plan;
+  plan.duration = 12;
+  plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
+  for (const double noise : {1, 20}) {
+    plan.imu_noise = noise;
+    const testing::SimulatedFlight flight = testing::PlannedFlight(plan).Simulate();
+    Config config = testing::ConfigFor(flight);
+    config.use_lines = false;
+    EstimationStage stage(config);
+    for (size_t i = 0; i < flight.frames.size(); ++i) {
+      const FrameMeasurement& frame = flight.frames[i];
+      for (size_t k = i > 0 ? 1 : 0; k < frame.imu.size(); ++k) stage.AddImu(frame.imu[k]);
+      stage.AddPoints(frame.points);
+      while (stage.Pop()) continue;
+    }
+    const std::string limits =
+        "; acc_n seems to be 16 times too small or more; gyr_n seems to be 16 times too small or "
+        "more";
+    EXPECT_EQ(stage.ImuContradiction().find(limits) != std::string::npos, noise > 1) << noise;
+    EXPECT_EQ(stage.ImuContradiction().empty(), noise == 1) << noise;
+  }
 }
 
 TEST_F(EstimationStageTest, StraysAndAClockThatStandsStillAreNoJump) {

@@ -26,6 +26,7 @@ struct FlightPlan {
   double duration = 10;                    // [s]
   Eigen::Vector3d room{10, 8, 4};          // size [m], the floor's centre at the origin
   double corner_noise_px = 0.15;
+  double imu_noise = 1;  // times what is configured
 };
 
 // From 0 to 1 between two times, with smooth velocity and acceleration.
@@ -110,7 +111,7 @@ class PlannedFlight {
     const Rigid3d before = BodyAt(t - kStep), now = BodyAt(t), after = BodyAt(t + kStep);
     const Eigen::Vector3d a_W =
         (after.translation - 2 * now.translation + before.translation) / (kStep * kStep);
-    const double share = 1 / std::sqrt(kSampleInterval);
+    const double share = plan_.imu_noise / std::sqrt(kSampleInterval);
     ImuSample sample;
     sample.t_ns = Stamp(index);
     sample.gyro = SO3Log(before.rotation.conjugate() * after.rotation) / (2 * kStep) +

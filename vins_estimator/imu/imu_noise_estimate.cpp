@@ -12,9 +12,9 @@ namespace {
 constexpr double kOfConfigured = 5;
 constexpr double kRemembered = 100;  // tell a density to 7 %
 
-constexpr double kLeastExpected = 1e-3;   // less is rounding
-constexpr double kGreatestRatio = 9;      // more of an interval may be an outlier
-constexpr double kLeast = 1, kMost = 16;  // times the configured density
+constexpr double kLeastExpected = 1e-3;  // less is rounding
+constexpr double kGreatestRatio = 9;     // more of an interval may be an outlier
+constexpr double kLeast = 1;             // times the configured density
 
 // What shakes a vehicle is not white: over a second, the variance of an accelerometer in flight is
 // two to six times what intervals between keyframes show of it (docs/noise.md).
@@ -62,7 +62,8 @@ void DensityEstimate::Add(const DensityEvidence& evidence) {
 }
 
 double DensityEstimate::density() const {
-  return std::clamp(std::sqrt(squares_ / redundancy_), kLeast * configured_, kMost * configured_);
+  return std::clamp(std::sqrt(squares_ / redundancy_), kLeast * configured_,
+                    kMostNoise * configured_);
 }
 
 ImuNoiseEstimate::ImuNoiseEstimate(const ImuNoise& configured)
@@ -79,7 +80,7 @@ ImuNoise ImuNoiseEstimate::noise() const {
   ImuNoise noise = configured_;
   noise.accel_density =
       std::min(WithExcess(kSlowShaking, configured_.accel_density, accel_.density()),
-               kMost * configured_.accel_density);
+               kMostNoise * configured_.accel_density);
   noise.gyro_density = gyro_.density();
   return noise;
 }

@@ -21,6 +21,8 @@ class DensityEstimate {
   double squares_, redundancy_;  // sums that forget; the variance is their quotient
 };
 
+constexpr double kMostNoise = 16;  // that is believed, in times of the configured density
+
 // Noise of the IMU on this vehicle, as the camera shows it in flight. Data sheets are of a sensor
 // at rest; propellers shake it. Only ever noisier than configured, and by 16 times at most: what is
 // configured also covers what no calm piece of flight shows.

@@ -78,7 +78,9 @@ FrameMeasurement Estimator::Correct(FrameMeasurement measurement) {
 }
 
 void Estimator::Use(const FrameMeasurement& measurement, EstimatorOutput* output) {
-  const auto standstill = DetectStandstill(measurement);
+  const auto standstill = config_.estimator.zero_velocity_update
+                              ? state_.standstill_detector.Add(measurement)
+                              : std::nullopt;
   if (state_.initialized) {
     Track(measurement, standstill, output);
   } else {
@@ -201,12 +203,6 @@ void Estimator::GiveUp(const Failure& failure, EstimatorOutput* output) {
   if (!output->restarted) state_.bridge = std::move(lost.bridge);
 }
 
-std::optional<StandstillDetector::Standstill> Estimator::DetectStandstill(
-    const FrameMeasurement& measurement) {
-  if (!config_.estimator.zero_velocity_update) return std::nullopt;
-  return state_.standstill_detector.Add(measurement);
-}
-
 // Where points are known they tell a slow motion better than the assumption that there is none.
 // Without them, an estimate that is held to the place that it rocks about is better than none.
 std::optional<int64_t> Estimator::StillSince(
@@ -257,16 +253,6 @@ void Estimator::FindStructure(bool keep_second_newest, EstimatorOutput* output) 
   output->timings.line_merging = stopwatch.Milliseconds();
 }
 
-void Estimator::MoveRays() {
-  SlidingWindow& window = state_.estimate.map.window;
-  const CameraParameters& camera = config_.sensor.camera;
-  const Recalibration recalibration(camera.With(window.ray_intrinsics),
-                                    camera.With(window.intrinsics));
-  if (recalibration.LargestMove() < options_.max_ray_error) return;
-  recalibration.Move(&state_.estimate.map);
-  window.ray_intrinsics = window.intrinsics;
-}
-
 // With the newest frame it is one more than it keeps.
 bool Estimator::WindowIsFull() const {
   const auto frames = static_cast<int>(state_.estimate.map.window.frames.size());
@@ -283,10 +269,7 @@ ProblemOptions Estimator::CurrentProblem(JacobiansAt jacobians_at) const {
   if (config_.estimator.manhattan_constraints) options.R_W_M = state_.structure.manhattan().R_W_M();
   options.SetNoise(state_.noise.point(), state_.noise.line());
   const LocalMap& map = state_.estimate.map;
-  if (const auto depth = map.points.MedianDepthInNewest(map.window)) {
-    options.passing_velocity = options_.passing_flow * *depth;
-    options.passing_turn_rate = options_.passing_flow;
-  }
+  options.LetPass(options_.passing_flow, map.points.MedianDepthInNewest(map.window));
   return options;
 }
 
@@ -334,7 +317,9 @@ void Estimator::Optimize(const SolverOptions& options, EstimatorOutput* output) 
   if (config_.estimator.adapt_imu_noise) {
     state_.imu_noise.Learn(map.window, !state_.initialized, &equations);
   }
-  if (options_.problem.estimate_intrinsics) MoveRays();
+  if (options_.problem.estimate_intrinsics) {
+    FollowIntrinsics(config_.sensor.camera, options_.max_ray_error, &map);
+  }
   output->timings.optimization += stopwatch.Milliseconds();  // it may be done twice
 }
 
@@ -389,11 +374,10 @@ void Estimator::SlideOldest(EstimatorOutput* output) {
 }
 
 void Estimator::Describe(EstimatorOutput* output) const {
-  const LocalMap& map = state_.estimate.map;
-  const SlidingWindow& window = map.window;
+  const SlidingWindow& window = state_.estimate.map.window;
   output->status = EstimatorStatus::kTracking;
   output->has_pose = true;
-  output->state = window.newest().state;
+  DescribeMap(state_.estimate.map, output);
   output->pose_covariance = state_.newest_covariance.topLeftCorner<6, 6>();
   output->velocity_covariance = state_.newest_covariance.block<3, 3>(6, 6);
   output->body_velocity_covariance =
@@ -405,15 +389,10 @@ void Estimator::Describe(EstimatorOutput* output) const {
   output->imu_noise = state_.imu_noise.noise();
   output->imu_noise_scale = state_.imu_agreement.noise_scale();
   output->delay = state_.imu_agreement.delay();
-  output->stationary = window.newest().stationary;
   output->contradicted = state_.estimate_monitor.contradicted();
   const int fitting = output->counts.known_seen - output->counts.known_rejected;
   output->on_imu_alone =
       state_.estimate_monitor.blind() || (!output->stationary && fitting < kFewFeatures);
-  output->window.reserve(window.frames.size());
-  for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
-  output->points = map.points.Optimized(window);
-  output->lines = map.lines.Optimized(window);
 }
 
 }  // namespace plm_vins

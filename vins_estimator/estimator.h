@@ -94,9 +94,6 @@ class Estimator {
   PointMap::Fit FitOfNewest(int64_t keyframe_ns) const;
   std::optional<Failure> CheckEstimate(const EstimatorCounts& counts);
   void GiveUp(const Failure& failure, EstimatorOutput* output);
-  // See StandstillDetector::Add(); nothing where standstill is not to be used.
-  std::optional<StandstillDetector::Standstill> DetectStandstill(
-      const FrameMeasurement& measurement);
   // Since which image; nothing where the newest image shows that it is a slow motion.
   std::optional<int64_t> StillSince(
       const std::optional<StandstillDetector::Standstill>& standstill) const;
@@ -104,9 +101,6 @@ class Estimator {
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
   void SlideOldest(EstimatorOutput* output);
   void Describe(EstimatorOutput* output) const;
-
-  // Brings all rays to the intrinsics as they are now, once they have moved far enough to matter.
-  void MoveRays();
 
   bool WindowIsFull() const;
   const SolverOptions& CurrentSolution() const;

@@ -90,4 +90,14 @@ std::optional<MapLine> LocalMap::DepartingSegment(const LineLandmark& line) cons
   return MapLine{line.id, known->seen_W.start_F, known->seen_W.end_F, line.axis};
 }
 
+void DescribeMap(const LocalMap& map, EstimatorOutput* output) {
+  const SlidingWindow& window = map.window;
+  output->state = window.newest().state;
+  output->stationary = window.newest().stationary;
+  output->window.reserve(window.frames.size());
+  for (const WindowFrame& frame : window.frames) output->window.push_back(frame.state);
+  output->points = map.points.Optimized(window);
+  output->lines = map.lines.Optimized(window);
+}
+
 }  // namespace plm_vins

@@ -11,6 +11,7 @@
 #include "vins_estimator/map/line_memory.h"
 #include "vins_estimator/map/point_map.h"
 #include "vins_estimator/map/sliding_window.h"
+#include "vins_estimator/state/estimator_output.h"
 #include "vins_estimator/state/map_elements.h"
 
 namespace plm_vins {
@@ -71,5 +72,8 @@ struct LocalMap {
   void RememberDeparting(int64_t frame_ns, bool stays_as_anchor);
   std::optional<MapLine> DepartingSegment(const LineLandmark& line) const;
 };
+
+// What the estimator says of its map: the states of the window and the landmarks in use.
+void DescribeMap(const LocalMap& map, EstimatorOutput* output);
 
 }  // namespace plm_vins

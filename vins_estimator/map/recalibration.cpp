@@ -53,4 +53,13 @@ void Recalibration::Move(LocalMap* map) const {
   map->memory.ChangeViews([this](LineView* view) { Move(view); });
 }
 
+void FollowIntrinsics(const CameraParameters& camera, double max_error, LocalMap* map) {
+  SlidingWindow& window = map->window;
+  const Recalibration recalibration(camera.With(window.ray_intrinsics),
+                                    camera.With(window.intrinsics));
+  if (recalibration.LargestMove() < max_error) return;
+  recalibration.Move(map);
+  window.ray_intrinsics = window.intrinsics;
+}
+
 }  // namespace plm_vins

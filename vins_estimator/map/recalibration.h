@@ -36,4 +36,8 @@ class Recalibration {
   std::shared_ptr<const CameraModel> from_, to_;
 };
 
+// Brings all rays of a map to the intrinsics of its window, once one of them is wrong by
+// `max_error` (normalised). `camera`: as configured.
+void FollowIntrinsics(const CameraParameters& camera, double max_error, LocalMap* map);
+
 }  // namespace plm_vins

@@ -40,6 +40,12 @@ void ProblemOptions::SetNoise(double point_noise, double line_noise) {
   anchor_weight = line_weight / kAnchorNoise;
 }
 
+void ProblemOptions::LetPass(double flow, std::optional<double> depth) {
+  if (!depth) return;
+  passing_velocity = flow * *depth;
+  passing_turn_rate = flow;
+}
+
 ProblemBuilder::ProblemBuilder(const ProblemOptions& options, SlidingWindow* window,
                                const MarginalizationPrior* prior)
     : options_(options),

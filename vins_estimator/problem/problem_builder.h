@@ -30,6 +30,10 @@ struct ProblemOptions {
   // Weighs the views of points and lines by their noise, normalised.
   void SetNoise(double point_noise, double line_noise);
 
+  // Lets a flow of this much [1/s] pass as standstill, where the depth [m] of what is seen is
+  // known.
+  void LetPass(double flow, std::optional<double> depth);
+
   double point_weight;                  // one over the noise of a corner, normalised
   double point_loss_scale = 1.0;        // Cauchy loss, in standard deviations
   double line_weight;                   // ... of a line's ends across it

@@ -123,7 +123,7 @@ class PlannedFlight {
 
   std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& p_C) const {
     if (p_C.z() < 0.3) return std::nullopt;
-    const auto uv_px = camera_->Project(p_C);
+    auto uv_px = camera_->Project(p_C);
     if (!uv_px || !camera_->IsInImage(*uv_px)) return std::nullopt;
     return uv_px;
   }

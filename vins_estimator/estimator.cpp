@@ -269,7 +269,9 @@ ProblemOptions Estimator::CurrentProblem(JacobiansAt jacobians_at) const {
   if (config_.estimator.manhattan_constraints) options.R_W_M = state_.structure.manhattan().R_W_M();
   options.SetNoise(state_.noise.point(), state_.noise.line());
   const LocalMap& map = state_.estimate.map;
-  options.LetPass(options_.passing_flow, map.points.MedianDepthInNewest(map.window));
+  if (map.window.HasStationary()) {
+    options.LetPass(options_.passing_flow, map.points.MedianDepthInNewest(map.window));
+  }
   return options;
 }
 

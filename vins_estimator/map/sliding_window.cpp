@@ -52,6 +52,11 @@ void SlidingWindow::SetStillSince(std::optional<int64_t> still_since_ns) {
   }
 }
 
+bool SlidingWindow::HasStationary() const {
+  return std::any_of(frames.begin(), frames.end(),
+                     [](const WindowFrame& frame) { return frame.stationary; });
+}
+
 void SlidingWindow::RemoveSecondNewest() {
   const WindowFrame& second = second_newest();
   const std::shared_ptr<Preintegration> joined = second.motion_since_previous;

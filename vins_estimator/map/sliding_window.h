@@ -78,6 +78,9 @@ struct SlidingWindow {
   // nothing: it has not. The frame before may have seemed to move only.
   void SetStillSince(std::optional<int64_t> still_since_ns);
 
+  // Whether any of the frames is stationary.
+  bool HasStationary() const;
+
   // Takes out the frame before the newest; the newest frame's motion then starts one frame earlier.
   void RemoveSecondNewest();
   void RemoveOldest();

@@ -30,7 +30,8 @@ def make_faulty(source, target, apply, begin):
            [[measurements.imu_ns[i], *measurements.gyro[i], *measurements.accel[i]]
             for i in np.flatnonzero(measurements.imu_kept)])
     _write(os.path.join(target, IMAGES), image_head,
-           [[t_ns, *row[1:]] for t_ns, row in zip(measurements.image_ns, images)])
+           [[t_ns, *images[shown][1:]]
+            for t_ns, shown in zip(measurements.image_ns, measurements.shown)])
 
 
 def _read(path):

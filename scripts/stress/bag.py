@@ -44,9 +44,12 @@ def _measurements(bag, imu_topics, image_topics):
 
 
 def _copy(bag, output, measurements, imu_topics, image_topics):
-    imu, image = 0, 0
+    imu, image, repeated = 0, 0, None
     for topic, message, received in bag.read_messages():
         if topic in image_topics:
+            if measurements.shown[image] == image:
+                repeated = message.data
+            message.data = repeated
             message.header.stamp = _time(measurements.image_ns[image])
             image += 1
         elif topic in imu_topics:

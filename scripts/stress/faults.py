@@ -90,6 +90,13 @@ def _shift_images(seconds):
     return apply
 
 
+def _freeze(seconds):
+    def apply(measurements, begin):
+        first, last = measurements.image_at(begin), measurements.image_at(begin + seconds)
+        measurements.shown[first:last] = max(0, first - 1)
+    return apply
+
+
 def _blind(seconds, *features):
     def apply(measurements, begin):
         first, last = measurements.image_at(begin), measurements.image_at(begin + seconds)
@@ -117,6 +124,7 @@ FAULTS = {
     "image_delay": Fault("stamps of images + 30 ms, from the first one on",
                          lambda measurements, begin: _shift_images(0.03)(measurements, 0),
                          ignores_begin=True),
+    "image_frozen_3s": Fault("the camera repeats its last image for 3 s", _freeze(3)),
     "points_gone_10s": Fault("no points for 10 s", _blind(10, "points_kept"), True),
     "blind_10s": Fault("neither points nor lines for 10 s",
                        _blind(10, "points_kept", "lines_kept"), True),

@@ -50,7 +50,7 @@ class Features:
                 if kind == IMU:
                     file.write(_imu_item(measurements, index))
                 else:
-                    file.write(self._image_item(measurements, was_ns, index, begin, end))
+                    file.write(self._image_item(measurements, was_ns, index, begin))
 
     def _split(self):
         at = self._begin
@@ -85,22 +85,35 @@ class Features:
     def _error(self, what):
         return ValueError(f"{self._path}: {what}; record it again with --save-features")
 
-    def _image_item(self, measurements, was_ns, index, begin, end):
+    def _image_item(self, measurements, was_ns, index, begin):
         t_ns, end_of_points = int(measurements.image_ns[index]), self._end_of_points(begin)
         head_end = begin + 1 + TRACKING.size + POINT_STATISTICS_SIZE
-        points = np.frombuffer(self._bytes[head_end + SIZE.size:end_of_points], dtype=POINT).copy()
-        points["velocity"] *= _stretch(was_ns, measurements.image_ns, index)
+        points = self._points_of(measurements.shown[index])
+        points["velocity"] *= (_stretch(was_ns, measurements.image_ns, index)
+                               if measurements.shown[index] == index else 0)
         if not measurements.points_kept[index]:
             points = points[:0]
         item = bytearray(self._bytes[begin:head_end] + SIZE.pack(len(points)) + points.tobytes())
         struct.pack_into("<q", item, 1, t_ns)
         if self._bytes[begin] == POINTS:
             return bytes(item)
-        lines = bytearray(self._bytes[end_of_points:end])
-        struct.pack_into("<q", lines, 0, t_ns)
-        if not measurements.lines_kept[index]:
-            lines = lines[:TRACKING.size + LINE_STATISTICS_SIZE] + SIZE.pack(0)
-        return bytes(item + lines)
+        lines = self._lines_of(measurements.shown[index]) if measurements.lines_kept[index] else b""
+        lines_at, size_at = len(item), end_of_points + TRACKING.size + LINE_STATISTICS_SIZE
+        item += self._bytes[end_of_points:size_at] + SIZE.pack(len(lines) // LINE_SIZE) + lines
+        struct.pack_into("<q", item, lines_at, t_ns)
+        return bytes(item)
+
+    def _points_of(self, image):
+        begin = self._images[image] - 1
+        items_at = begin + 1 + TRACKING.size + POINT_STATISTICS_SIZE + SIZE.size
+        return np.frombuffer(self._bytes[items_at:self._end_of_points(begin)], dtype=POINT).copy()
+
+    def _lines_of(self, image):
+        begin = self._images[image] - 1
+        if self._bytes[begin] == POINTS:
+            return b""
+        items_at = self._end_of_points(begin) + TRACKING.size + LINE_STATISTICS_SIZE + SIZE.size
+        return self._bytes[items_at:self._end_of_image(begin)]
 
 
 def _imu_item(measurements, index):

@@ -17,11 +17,13 @@ class Measurements:
     imu_kept: np.ndarray = None  # (n,) bool; False: the sample is left out
     points_kept: np.ndarray = None  # (m,) bool; False: no point is followed in the image
     lines_kept: np.ndarray = None  # (m,) bool
+    shown: np.ndarray = None  # (m,) int; the image that is shown in its place
 
     def __post_init__(self):
         self.imu_kept = np.ones(len(self.imu_ns), dtype=bool)
         self.points_kept = np.ones(len(self.image_ns), dtype=bool)
         self.lines_kept = np.ones(len(self.image_ns), dtype=bool)
+        self.shown = np.arange(len(self.image_ns))
 
     @property
     def duration(self):

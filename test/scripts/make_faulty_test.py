@@ -118,6 +118,27 @@ class Files(RefusalTest):
             self.assertEqual(len(self.read("bad.feat")) - len(self.read("good.feat")), size, fault)
         self.assertEqual(Features(self.path("bad.feat")).measurements().accel[0, 0], 150)
 
+    def test_features_of_a_repeated_image(self):
+        content = HEADER + bytes([IMU]) + IMU_LAYOUT.pack(START_NS, *range(6))
+        for i in range(3):
+            points = np.zeros(1 + i, POINT)
+            points["uv"], points["velocity"] = 7 * i, 0.5
+            head = TRACKING.pack(START_NS + 50_000_000 * i, False, True, 1)
+            content += (bytes([POINTS_AND_LINES]) + head + bytes(POINT_STATISTICS_SIZE)
+                        + SIZE.pack(len(points)) + points.tobytes() + head
+                        + bytes(LINE_STATISTICS_SIZE) + SIZE.pack(1) + bytes([i]) * LINE_SIZE)
+        content += bytes([IMU]) + IMU_LAYOUT.pack(START_NS + 200_000_000, *range(6))
+        self.write("good.feat", content)
+        self.assertEqual(main([self.path("good.feat"), self.path("bad.feat"), "--fault",
+                               "image_frozen_3s", "--begin", "0.09"]), 0)
+        repeated = np.zeros(2, POINT)
+        repeated["uv"] = 7
+        bad = self.read("bad.feat")
+        self.assertIn(TRACKING.pack(START_NS + 100_000_000, False, True, 1)
+                      + bytes(POINT_STATISTICS_SIZE) + SIZE.pack(2) + repeated.tobytes(), bad)
+        self.assertEqual((bad.count(bytes([1]) * LINE_SIZE), bad.count(bytes([2]) * LINE_SIZE)),
+                         (2, 0))
+
     def write_asl(self):
         imu = "".join(f"{START_NS + 5_000_000 * i},0,0,0,0,0,9.81\n" for i in range(20))
         self.write("good/mav0/imu0/data.csv", b"#timestamp [ns],w,w,w,a,a,a\n" + imu.encode())
@@ -136,6 +157,13 @@ class Files(RefusalTest):
         self.assertEqual(self.read("bad/cam0/data/a.png"), b"picture")
         self.assertEqual(self.read("bad/body.yaml"), b"comment: body")
         self.assertIn("a.png", self.read("bad/cam0/data.csv").decode())
+
+    def test_asl_folder_with_a_repeated_image(self):
+        self.write_asl()
+        self.assertEqual(main([self.path("good"), self.path("bad"), "--fault", "image_frozen_3s",
+                               "--begin", "0.05"]), 0)
+        self.assertEqual(self.read("bad/cam0/data.csv").decode().splitlines()[1:],
+                         [f"{START_NS},a.png", f"{START_NS + 95_000_000},a.png"])
 
     def test_a_fault_after_the_end_of_a_file(self):
         self.write_asl()
@@ -187,7 +215,17 @@ class Files(RefusalTest):
             self.assertEqual(len(images), 4)
             step_ns = 20_000_000 if fault == "image_step" else 0
             self.assertEqual(images[1].header.stamp.to_nsec(), START_NS + 50_000_000 + step_ns)
-            self.assertEqual(images[1].data, bytes(16))
+            self.assertEqual(images[1].data, bytes([1]) * 16)
+
+    @unittest.skipUnless(importlib.util.find_spec("rosbag"), "needs ROS")
+    def test_a_repeated_image_in_a_bag(self):
+        self.write_bag(self.path("good.bag"))
+        self.assertEqual(main([self.path("good.bag"), self.path("bad.bag"), "--fault",
+                               "image_frozen_3s", "--begin", "0.05"]), 0)
+        _, images = self.read_bag(self.path("bad.bag"))
+        self.assertEqual([image.data[0] for image in images], [0, 0, 0, 0])
+        self.assertEqual([image.header.stamp.to_nsec() for image in images],
+                         [START_NS + 50_000_000 * i for i in range(4)])
 
     @unittest.skipUnless(importlib.util.find_spec("rosbag"), "needs ROS")
     def test_readings_in_a_bag(self):
@@ -223,7 +261,8 @@ class Files(RefusalTest):
                 imu.header.stamp, imu.linear_acceleration.z = stamp, 9.81
                 bag.write("/imu0", imu, stamp)
                 if i % 10 == 0:
-                    image = Image(encoding="mono8", width=4, height=4, step=4, data=bytes(16))
+                    grey = bytes([i // 10]) * 16
+                    image = Image(encoding="mono8", width=4, height=4, step=4, data=grey)
                     image.header.stamp = stamp
                     bag.write("/cam0/image_raw", image, stamp)
 

@@ -68,7 +68,7 @@ class EstimationStage {
   size_t queued_frames() const { return sync_.queued_frames(); }
   bool lines_are_missing() const { return sync_.lines_are_missing(); }
   bool lines_are_of_other_images() const { return sync_.lines_are_of_other_images(); }
-  const SyncStatistics& statistics() const { return sync_.statistics(); }
+  SyncStatistics statistics() const { return sync_.statistics(); }
 
  private:
   std::optional<EstimatedFrame> Process(const std::optional<FrameMeasurement>& measurement);

@@ -5,26 +5,20 @@
 #include <deque>
 #include <limits>
 #include <optional>
-#include <vector>
 
-#include "common/imu/imu_gate.h"
+#include "common/imu/imu_range.h"
 #include "common/measurements.h"
 #include "common/streams/backward_jump.h"
 #include "common/streams/forward_jump.h"
 #include "vins_estimator/imu/imu_gap.h"
-#include "vins_estimator/input/imu_memory.h"
+#include "vins_estimator/input/imu_stream.h"
+#include "vins_estimator/input/line_pairing.h"
 
 namespace plm_vins {
 
-// What came in and what could not be used, by cause. All counts are since construction.
-struct SyncStatistics {
-  int64_t imu_not_finite = 0;    // NaN or infinity
-  int64_t imu_implausible = 0;   // beyond any sensor's range, zeros throughout, or not a stamp
-  int64_t imu_replaced = 0;      // did not fit the samples around them (ImuGate)
-  int64_t imu_saturated = 0;     // at the end of the sensor's range
-  int64_t imu_out_of_order = 0;  // stamp not after the one before, or alone in the future
-  int64_t imu_gaps = 0;          // intervals longer than the allowed gap, bridged
-  int64_t imu_dropped_full = 0;  // no image came for long: oldest dropped
+// What images came in and could not be used, by cause, and how often a new recording began. All
+// counts are since construction.
+struct FrameStatistics {
   int64_t frames = 0;
   int64_t frames_out_of_order = 0;     // stamp not after the one before (repeated or backwards)
   int64_t frames_ahead_of_time = 0;    // leaped ahead, and alone there so far
@@ -34,30 +28,24 @@ struct SyncStatistics {
   int64_t frames_too_close = 0;        // under 1 ms of IMU time after the frame before
   int64_t frames_dropped_full = 0;     // queue full: oldest dropped
   int64_t frames_with_few_points = 0;  // under ten: dark, blank or blurred; the IMU carries on
-  int64_t frames_without_lines = 0;    // handed out without the line frame that was expected
-  int64_t lines_out_of_order = 0;      // stamp not after the one before
-  int64_t lines_late = 0;            // came after a frame of that time or later had been handed out
-  int64_t lines_without_points = 0;  // line frame whose point frame never came
   // All was forgotten: IMU or images went back in time for good, or the IMU ahead by a minute.
   int64_t jumps_back = 0;
   int64_t leaps_ahead = 0;
 };
 
+struct SyncStatistics : ImuStatistics, LinePairingStatistics, FrameStatistics {};
+
 // Pairs point and line features by equal stamp and cuts the IMU stream at the image times.
 // Synchronous and single-threaded: the caller feeds in order of arrival and pops until nothing is
 // ready.
 //
-// A frame is ready when the IMU reaches t_image + td and, where lines are expected, when its line
-// frame is there, a later line frame is there, or a newer point frame `max_line_lag` images ahead
-// is there. Where line frames fail to come at all, frames no longer wait for them, until one of
-// an image that has points comes in time again. A frame that cannot be used is dropped and counted;
-// the IMU samples before it then lead to the next one: of the samples between the first and the
-// last frame none is lost or used twice, also when td changes.
+// A frame is ready when the IMU reaches t_image + td and its lines need not be waited for
+// (LinePairing). A frame that cannot be used is dropped and counted; the IMU samples before it then
+// lead to the next one: of the samples between the first and the last frame none is lost or used
+// twice, also when td changes (ImuStream).
 //
-// Where the IMU goes back in time for good by ten samples or more, or the images by more than ten
-// (a bag played again, a clock set back), or the IMU leaps ahead by more than a minute (a clock set
-// on), all is forgotten but the statistics, and a new recording begins. Samples of the IMU that are
-// sent again within a second are none of that.
+// Where the clock of the IMU was set (ImuStream), or images go back in time for good by more than
+// ten (a bag played again), all is forgotten but the statistics, and a new recording begins.
 class MeasurementSync {
  public:
   struct Options {
@@ -91,58 +79,39 @@ class MeasurementSync {
   std::optional<FrameMeasurement> Flush();
 
   // Lines are expected but fail to come: frames are handed out without.
-  bool lines_are_missing() const {
-    return options_.expect_lines && frames_without_lines_in_a_row_ >= options_.line_patience;
-  }
+  bool lines_are_missing() const { return lines_.are_missing(); }
 
   // The lines that are missing do come, but of images of which no points come.
-  bool lines_are_of_other_images() const {
-    return lines_are_missing() && 2 * unpaired_lines_in_a_row_ >= options_.line_patience;
-  }
+  bool lines_are_of_other_images() const { return lines_.are_of_other_images(); }
 
   size_t queued_frames() const { return points_.size(); }
-  const SyncStatistics& statistics() const { return statistics_; }
+  SyncStatistics statistics() const {
+    return {imu_.statistics(), lines_.statistics(), statistics_};
+  }
 
  private:
   enum class FrameDefect { kTooClose, kWithoutImu, kInImuGap, kTooLate };
 
-  // Decides on the sample after a gap, now that the stamp of the next one is known.
-  void JudgeImuAfterGap(int64_t next_ns);
-  void TakeImu(const ImuSample& sample);
-  void QueueImu(const ImuSample& sample);
-  int64_t CutTime() const;  // of the oldest queued frame, in IMU time
-  // Index of the first IMU sample at or after the time.
-  size_t FirstImuNotBefore(int64_t t_ns) const;
+  // Images and lines.
+  void ClearFrames();
+  int64_t CutTime(size_t frame) const;  // of a queued frame, the oldest being 0, in IMU time
+  // There is a queued frame, and the IMU reaches the oldest one.
+  bool OldestIsReached() const { return !points_.empty() && imu_.Reaches(CutTime(0)); }
   // Whether the lines of a queued frame need not be waited for; those of newer frames may.
   bool LinesAreDecided(size_t frame) const;
-  // While frames do not wait for lines: the one of that image would still wait if they did.
-  bool IsInTime(int64_t lines_ns) const;
   void DropUnusableFrames();
   // Why the oldest queued frame cannot be used; nothing: it can. The IMU must reach it.
   std::optional<FrameDefect> FindDefect() const;
   void Count(FrameDefect defect);
   bool IsTooLate() const;
   FrameMeasurement TakeFrame();
-  std::vector<ImuSample> CutImu(int64_t cut_ns);
-  std::optional<LineFrame> TakeLines(int64_t t_ns);
 
   Options options_;
-  SyncStatistics statistics_;
-  std::deque<ImuSample> imu_;  // the front is the boundary of the last cut, once there was one
-  ImuMemory imu_memory_;       // of those that went to the gate
-  ImuGate imu_gate_;
-  std::optional<int64_t> last_imu_ns_;  // of the newest sample that went to the gate
-  // After a gap a sample waits for the next one: a single wrong stamp must not void what follows.
-  std::optional<ImuSample> imu_after_gap_;
+  ImuStream imu_;
+  LinePairing lines_;
+  FrameStatistics statistics_;
   std::deque<PointFrame> points_;
-  std::deque<LineFrame> lines_;
-  std::optional<int64_t> last_cut_ns_;     // IMU time
-  std::optional<int64_t> last_points_ns_;  // stamps of the last frames accepted and handed out
-  std::optional<int64_t> last_lines_ns_;
-  std::deque<int64_t> last_popped_ns_;  // as many as a line frame may lag behind, oldest first
-  int frames_without_lines_in_a_row_ = 0;
-  int unpaired_lines_in_a_row_ = 0;
-  BackwardJumpDetector imu_jump_;
+  std::optional<int64_t> last_points_ns_;  // stamp of the last frame accepted
   BackwardJumpDetector points_jump_;
   ForwardJumpDetector points_leap_;
 };

@@ -18,7 +18,7 @@ using testing::PopAll;
 using testing::Sample;
 using testing::WithLines;
 
-TEST(LinePairing, PairsLinesByEqualStamp) {
+TEST(MeasurementSyncLines, PairsLinesByEqualStamp) {
   MeasurementSync sync(WithLines());
   AddImu(&sync, 0, 200);
   sync.AddLines(Lines(50 * kMs));  // before its points
@@ -36,7 +36,7 @@ TEST(LinePairing, PairsLinesByEqualStamp) {
   EXPECT_EQ(sync.statistics().frames_without_lines, 0);
 }
 
-TEST(LinePairing, ALaterLineFrameTellsThatOneIsLost) {
+TEST(MeasurementSyncLines, ALaterLineFrameTellsThatOneIsLost) {
   MeasurementSync sync(WithLines());
   AddImu(&sync, 0, 200);
   sync.AddPoints(Points(50 * kMs));
@@ -49,7 +49,7 @@ TEST(LinePairing, ALaterLineFrameTellsThatOneIsLost) {
   EXPECT_EQ(sync.statistics().frames_without_lines, 1);
 }
 
-TEST(LinePairing, MissingLinesDelayNoLongerThanTheLag) {
+TEST(MeasurementSyncLines, MissingLinesDelayNoLongerThanTheLag) {
   MeasurementSync sync(WithLines());
   AddImu(&sync, 0, 400);
   for (int64_t t : {50, 100, 150}) sync.AddPoints(Points(t * kMs));
@@ -80,7 +80,7 @@ std::vector<int> FeedWithLines(int64_t from, int64_t to, int lag, MeasurementSyn
   return delays;
 }
 
-TEST(LinePairing, ADeadLineTrackerDelaysNoLongerThanItsPatience) {
+TEST(MeasurementSyncLines, ADeadLineTrackerDelaysNoLongerThanItsPatience) {
   MeasurementSync sync(WithLines());
   FeedWithLines(50, 1000, 0, &sync);
   EXPECT_EQ(sync.statistics().frames_without_lines, 0);
@@ -93,7 +93,7 @@ TEST(LinePairing, ADeadLineTrackerDelaysNoLongerThanItsPatience) {
 }
 
 // At 5 Hz images wait for their lines for longer than `max_wait`: nothing newer could be used.
-TEST(LinePairing, ImagesThatWaitForLinesAreNotTooLate) {
+TEST(MeasurementSyncLines, ImagesThatWaitForLinesAreNotTooLate) {
   MeasurementSync::Options options = WithLines();
   options.max_wait = 0.5;
   for (const int lag : {-1, 3}) {
@@ -107,7 +107,7 @@ TEST(LinePairing, ImagesThatWaitForLinesAreNotTooLate) {
   }
 }
 
-TEST(LinePairing, ImagesAreLeftOutUpToThoseThatWaitForLines) {
+TEST(MeasurementSyncLines, ImagesAreLeftOutUpToThoseThatWaitForLines) {
   MeasurementSync::Options options = WithLines();
   options.max_wait = 0.1;
   MeasurementSync sync(options);
@@ -119,7 +119,7 @@ TEST(LinePairing, ImagesAreLeftOutUpToThoseThatWaitForLines) {
   EXPECT_EQ(sync.statistics().frames_too_late, 16);
 }
 
-TEST(LinePairing, LinesThatComeBackAreUsedAgain) {
+TEST(MeasurementSyncLines, LinesThatComeBackAreUsedAgain) {
   for (const int lag : {0, 1, 2}) {
     MeasurementSync sync(WithLines());
     FeedWithLines(50, 1000, -1, &sync);
@@ -130,7 +130,7 @@ TEST(LinePairing, LinesThatComeBackAreUsedAgain) {
   }
 }
 
-TEST(LinePairing, AHopelesslySlowLineTrackerDelaysNothing) {
+TEST(MeasurementSyncLines, AHopelesslySlowLineTrackerDelaysNothing) {
   MeasurementSync sync(WithLines());
   const std::vector<int> delays = FeedWithLines(50, 3000, 6, &sync);
   EXPECT_EQ(delays.back(), 0);
@@ -139,7 +139,7 @@ TEST(LinePairing, AHopelesslySlowLineTrackerDelaysNothing) {
 }
 
 // As of two trackers that use every second image, each the other ones.
-TEST(LinePairing, LinesOfOtherImagesAreMissingForGood) {
+TEST(MeasurementSyncLines, LinesOfOtherImagesAreMissingForGood) {
   MeasurementSync sync(WithLines());
   AddImu(&sync, 0, 6000);
   size_t frames = 0;
@@ -160,7 +160,7 @@ TEST(LinePairing, LinesOfOtherImagesAreMissingForGood) {
   EXPECT_TRUE(sync.lines_are_of_other_images());
 }
 
-TEST(LinePairing, LateLinesAreNotOfOtherImages) {
+TEST(MeasurementSyncLines, LateLinesAreNotOfOtherImages) {
   MeasurementSync sync(WithLines());
   FeedWithLines(50, 3000, 6, &sync);
   EXPECT_TRUE(sync.lines_are_missing());
@@ -168,7 +168,7 @@ TEST(LinePairing, LateLinesAreNotOfOtherImages) {
 }
 
 // The line tracker does not know which images the tracker of points uses.
-TEST(LinePairing, LinesOfEveryImagePairWithPointsOfSome) {
+TEST(MeasurementSyncLines, LinesOfEveryImagePairWithPointsOfSome) {
   for (const int64_t phase : {0, 50}) {
     MeasurementSync sync(WithLines());
     AddImu(&sync, 0, 3000);
@@ -182,7 +182,7 @@ TEST(LinePairing, LinesOfEveryImagePairWithPointsOfSome) {
   }
 }
 
-TEST(LinePairing, LinesOfAnEarlierRecordingDoNotBlockThoseOfThisOne) {
+TEST(MeasurementSyncLines, LinesOfAnEarlierRecordingDoNotBlockThoseOfThisOne) {
   MeasurementSync sync(WithLines());
   sync.AddLines(Lines(90000 * kMs));  // left over, arrives after the restart
   FeedWithLines(50, 1000, 0, &sync);
@@ -190,7 +190,7 @@ TEST(LinePairing, LinesOfAnEarlierRecordingDoNotBlockThoseOfThisOne) {
   EXPECT_EQ(sync.statistics().lines_out_of_order, 1);
 }
 
-TEST(LinePairing, NoLinesAndAThousandLinesAreFramesLikeOthers) {
+TEST(MeasurementSyncLines, NoLinesAndAThousandLinesAreFramesLikeOthers) {
   MeasurementSync sync(WithLines());
   AddImu(&sync, 0, 200);
   for (const size_t count : {0, 1000}) {
@@ -205,7 +205,7 @@ TEST(LinePairing, NoLinesAndAThousandLinesAreFramesLikeOthers) {
   }
 }
 
-TEST(LinePairing, LinesWithoutPointsAndOutOfOrderAreCounted) {
+TEST(MeasurementSyncLines, LinesWithoutPointsAndOutOfOrderAreCounted) {
   MeasurementSync sync(WithLines());
   AddImu(&sync, 0, 200);
   sync.AddLines(Lines(25 * kMs));  // its points never come

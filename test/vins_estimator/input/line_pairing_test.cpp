@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/input/line_pairing.h"
+
+#include <gtest/gtest.h>
+
+#include "test/vins_estimator/input/sync_input.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::kMs;
+using testing::Lines;
+
+constexpr int kMaxLag = 3, kPatience = 10;
+
+LinePairing Pairing(bool expected = true, int max_frames = 200) {
+  return LinePairing({expected, kMaxLag, kPatience, max_frames});
+}
+
+void Add(LinePairing* pairing, int64_t t_ms, bool image_waits = false) {
+  pairing->Add(Lines(t_ms * kMs), image_waits);
+}
+
+bool Take(LinePairing* pairing, int64_t t_ms) {
+  const auto lines = pairing->Take(t_ms * kMs);
+  if (lines) {
+    EXPECT_EQ(lines->t_ns, t_ms * kMs);
+  }
+  return lines.has_value();
+}
+
+// Images without lines until these are missing. The last image is 10 ms.
+LinePairing Missing() {
+  LinePairing pairing = Pairing();
+  for (int i = 1; i <= kPatience; ++i) {
+    EXPECT_FALSE(pairing.are_missing());
+    Take(&pairing, i);
+  }
+  EXPECT_TRUE(pairing.are_missing());
+  return pairing;
+}
+
+TEST(LinePairing, LinesAreDecidedWhereTheyAreThereOrPassed) {
+  LinePairing pairing = Pairing();
+  Add(&pairing, 50);
+  EXPECT_TRUE(pairing.AreDecided(49 * kMs, 0));
+  EXPECT_TRUE(pairing.AreDecided(50 * kMs, 0));
+  EXPECT_FALSE(pairing.AreDecided(51 * kMs, 0));
+}
+
+TEST(LinePairing, LinesAreDecidedWhereTheImageWaitedForLong) {
+  EXPECT_FALSE(Pairing().AreDecided(0, kMaxLag - 1));
+  EXPECT_TRUE(Pairing().AreDecided(0, kMaxLag));
+}
+
+TEST(LinePairing, WhatIsNotExpectedIsNotWaitedForButTaken) {
+  LinePairing pairing = Pairing(/*expected=*/false);
+  EXPECT_TRUE(pairing.AreDecided(50 * kMs, 0));
+  Add(&pairing, 50);
+  EXPECT_TRUE(Take(&pairing, 50));
+  for (int i = 51; i < 100; ++i) EXPECT_FALSE(Take(&pairing, i));
+  EXPECT_EQ(pairing.statistics().frames_without_lines, 0);
+  EXPECT_FALSE(pairing.are_missing());
+}
+
+TEST(LinePairing, TakesTheLinesOfTheImageAndDropsThoseBefore) {
+  LinePairing pairing = Pairing();
+  for (const int64_t t : {10, 20, 30, 50}) Add(&pairing, t);
+  EXPECT_TRUE(Take(&pairing, 30));
+  EXPECT_EQ(pairing.statistics().lines_without_points, 2);
+  EXPECT_FALSE(Take(&pairing, 40));
+  EXPECT_EQ(pairing.statistics().frames_without_lines, 1);
+  EXPECT_TRUE(Take(&pairing, 50));
+  EXPECT_EQ(pairing.statistics().lines_without_points, 2);
+}
+
+TEST(LinePairing, LinesOfImagesThatAreGoneAreLate) {
+  LinePairing pairing = Pairing();
+  Take(&pairing, 20);
+  Add(&pairing, 10);
+  Add(&pairing, 20);
+  Add(&pairing, 30);
+  EXPECT_EQ(pairing.statistics().lines_late, 2);
+  EXPECT_TRUE(Take(&pairing, 30));
+}
+
+TEST(LinePairing, ATrackerThatStartsOverTakesBackWhatItSaidOfLaterTimes) {
+  LinePairing pairing = Pairing();
+  for (const int64_t t : {10, 90, 95, 95, 20, 30}) Add(&pairing, t);
+  EXPECT_EQ(pairing.statistics().lines_out_of_order, 2);
+  EXPECT_FALSE(pairing.AreDecided(90 * kMs, 0));
+  for (const int64_t t : {10, 20, 30}) EXPECT_TRUE(Take(&pairing, t));
+}
+
+TEST(LinePairing, TheQueueIsBounded) {
+  LinePairing pairing = Pairing(/*expected=*/true, /*max_frames=*/3);
+  for (int64_t t = 1; t <= 5; ++t) Add(&pairing, t);
+  EXPECT_EQ(pairing.statistics().lines_without_points, 2);
+  EXPECT_TRUE(Take(&pairing, 3));
+}
+
+TEST(LinePairing, MissingLinesAreNotWaitedFor) {
+  EXPECT_TRUE(Missing().AreDecided(100 * kMs, 0));
+  EXPECT_FALSE(Missing().are_of_other_images());
+}
+
+TEST(LinePairing, MissingLinesAreBackWithThoseOfAnImageThatWouldStillWait) {
+  LinePairing late = Missing();
+  Add(&late, 7);  // more than the lag behind
+  EXPECT_TRUE(late.are_missing());
+  Add(&late, 8);
+  EXPECT_FALSE(late.are_missing());
+
+  LinePairing early = Missing();
+  Add(&early, 11, /*image_waits=*/false);
+  EXPECT_TRUE(early.are_missing());
+  Add(&early, 12, /*image_waits=*/true);
+  EXPECT_FALSE(early.are_missing());
+}
+
+TEST(LinePairing, MissingLinesMayBeThoseOfOtherImages) {
+  LinePairing pairing = Pairing();
+  for (int i = 0; i < kPatience; ++i) {
+    Add(&pairing, 20 * i + 10);
+    Take(&pairing, 20 * i + 20);
+  }
+  EXPECT_TRUE(pairing.are_missing());
+  EXPECT_TRUE(pairing.are_of_other_images());
+}
+
+TEST(LinePairing, ClearForgetsTimeNotThatLinesAreMissing) {
+  LinePairing pairing = Missing();
+  Add(&pairing, 20);
+  pairing.Clear();
+  EXPECT_TRUE(pairing.are_missing());
+  Add(&pairing, 5);
+  EXPECT_EQ(pairing.statistics().lines_out_of_order, 0);
+  EXPECT_EQ(pairing.statistics().lines_late, 0);
+  EXPECT_TRUE(Take(&pairing, 5));
+  EXPECT_EQ(pairing.statistics().frames_without_lines, kPatience);
+}
+
+}  // namespace
+}  // namespace plm_vins

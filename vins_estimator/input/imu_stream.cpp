@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/input/imu_stream.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "common/imu/imu_interpolation.h"
+
+namespace plm_vins {
+namespace {
+
+// Stamps in a row that go back until a new recording begins. Trackers check stamps, too, and should
+// be the first to decide.
+constexpr int kJumpPatience = 1000;
+
+// A longer gap means that the clock was set on: the IMU bridges no pause of that length.
+constexpr int64_t kLeap_ns = 60'000'000'000;
+
+}  // namespace
+
+ImuStream::ImuStream(const ImuRange& range, double max_gap, int max_samples)
+    : max_gap_(max_gap), max_samples_(max_samples), gate_(range), jump_(kJumpPatience) {}
+
+ImuStream::Clock ImuStream::Add(const ImuSample& sample) {
+  if (!IsReading(sample)) return Clock::kRunsOn;
+  const bool follows = !last_ns_ || sample.t_ns > *last_ns_;
+  if (!follows) {
+    ++statistics_.imu_out_of_order;
+    // Where a recording is played again, what leads up to them was refused.
+    if (!jump_.Refuses() && memory_.Contains(sample)) return Clock::kRunsOn;
+  }
+  const bool set_back = follows ? jump_.EndsStepBack(sample.t_ns) : jump_.Refuse(sample.t_ns);
+  if (!follows && !set_back) return Clock::kRunsOn;
+  if (set_back) Clear();
+  jump_.Accept();
+  const bool set_on = JudgeSampleAfterGap(sample.t_ns);
+  if (LeavesGap(sample.t_ns)) {
+    after_gap_ = sample;
+  } else {
+    Take(sample);
+  }
+  if (set_back) return Clock::kSetBack;
+  return set_on ? Clock::kSetOn : Clock::kRunsOn;
+}
+
+bool ImuStream::IsReading(const ImuSample& sample) {
+  if (!sample.gyro.allFinite() || !sample.accel.allFinite()) {
+    ++statistics_.imu_not_finite;
+    return false;
+  }
+  if (!IsPlausible(sample)) {
+    ++statistics_.imu_implausible;
+    return false;
+  }
+  return true;
+}
+
+bool ImuStream::IsGap(int64_t begin_ns, int64_t end_ns) const {
+  return ToSeconds(end_ns - begin_ns) > max_gap_;
+}
+
+bool ImuStream::JudgeSampleAfterGap(int64_t next_ns) {
+  if (!after_gap_) return false;
+  const ImuSample sample = *std::exchange(after_gap_, std::nullopt);
+  if (next_ns <= sample.t_ns) {
+    ++statistics_.imu_out_of_order;
+    return false;
+  }
+  const bool set_on = sample.t_ns - *last_ns_ > kLeap_ns;
+  if (set_on) {
+    Clear();
+  } else {
+    ++statistics_.imu_gaps;
+  }
+  Take(sample);
+  return set_on;
+}
+
+void ImuStream::Take(const ImuSample& sample) {
+  last_ns_ = sample.t_ns;
+  memory_.Add(sample);
+  for (const ImuSample& decided : gate_.Add(sample)) Queue(decided);
+  statistics_.imu_replaced = gate_.replaced();
+  statistics_.imu_saturated = gate_.saturated();
+}
+
+void ImuStream::Queue(const ImuSample& sample) {
+  samples_.push_back(sample);
+  if (static_cast<int>(samples_.size()) > max_samples_) {
+    // The boundary of the last cut stays, so that the next interval keeps its length.
+    samples_.erase(samples_.begin() + (last_cut_ns_ ? 1 : 0));
+    ++statistics_.imu_dropped_full;
+  }
+}
+
+void ImuStream::Clear() {
+  samples_.clear();
+  last_cut_ns_.reset();
+  gate_.Clear();
+  memory_.Clear();
+  last_ns_.reset();
+  after_gap_.reset();
+  jump_.Accept();  // whatever comes next
+}
+
+bool ImuStream::IsInGap(int64_t t_ns) const {
+  const size_t next = FirstNotBefore(t_ns);
+  return samples_[next].t_ns > t_ns && IsGap(samples_[next - 1].t_ns, samples_[next].t_ns);
+}
+
+std::vector<ImuSample> ImuStream::Cut(int64_t t_ns) {
+  const size_t next = FirstNotBefore(t_ns);
+  const ImuSample boundary =
+      next == 0 ? samples_.front() : InterpolateImu(samples_[next - 1], samples_[next], t_ns);
+  const auto end = samples_.begin() + static_cast<std::ptrdiff_t>(next);
+  std::vector<ImuSample> cut(samples_.begin(), end);
+  cut.push_back(boundary);
+
+  // The boundary takes the place of all that was handed out: it opens the next interval.
+  const bool on_sample = samples_[next].t_ns == t_ns;
+  samples_.erase(samples_.begin(), on_sample ? std::next(end) : end);
+  samples_.push_front(boundary);
+  last_cut_ns_ = t_ns;
+  return cut;
+}
+
+size_t ImuStream::FirstNotBefore(int64_t t_ns) const {
+  const auto first =
+      std::lower_bound(samples_.begin(), samples_.end(), t_ns,
+                       [](const ImuSample& sample, int64_t t) { return sample.t_ns < t; });
+  return static_cast<size_t>(std::distance(samples_.begin(), first));
+}
+
+}  // namespace plm_vins

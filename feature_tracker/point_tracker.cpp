@@ -28,6 +28,13 @@ cv::Point2f ToOpenCv(const Eigen::Vector2d& point) {
   return {static_cast<float>(point.x()), static_cast<float>(point.y())};
 }
 
+bool AreSame(const cv::Mat& a, const cv::Mat& b) {
+  for (int row = 0; row < a.rows; ++row) {
+    if (!std::equal(a.ptr(row), a.ptr(row) + a.cols, b.ptr(row))) return false;
+  }
+  return true;
+}
+
 // Removes the tracks of which `keep` is false; returns how many.
 int RemoveTracks(const std::vector<bool>& keep, std::vector<PointTrack>* tracks) {
   size_t kept = 0;
@@ -60,7 +67,12 @@ class PointTracker::Implementation {
     statistics_ = {};
     statistics_.previous = static_cast<int>(tracks_.size());
     if (!tracks_.empty()) {
-      Follow(pyramid, sample.gray, ToSeconds(sample.t_ns - *t_ns_), R_C1_C0);
+      const double dt = ToSeconds(sample.t_ns - *t_ns_);
+      if (AreSame(sample.gray, sample_.gray)) {
+        Stay(dt);
+      } else {
+        Follow(pyramid, sample.gray, dt, R_C1_C0);
+      }
       Spread();
     }
     if (IsRefillDue()) Refill(image);
@@ -129,6 +141,17 @@ class PointTracker::Implementation {
     const double threshold = config_.f_threshold / camera_->FocalLength();
     statistics_.epipolar_outliers =
         RemoveTracks(FindEpipolarInliers(pairs, R_C1_C0, threshold), &tracks_);
+  }
+
+  // In an image that is the one before, sent again. (Followed, tracks would move by what their
+  // alignment leaves.)
+  void Stay(double dt) {
+    previous_dt_ = dt;
+    for (PointTrack& track : tracks_) {
+      track.motion_px = track.parallax_px = cv::Point2f();
+      track.velocity.setZero();
+      ++track.length;
+    }
   }
 
   // Where the track's pixel goes when the camera only turns; unchanged if not projectable.

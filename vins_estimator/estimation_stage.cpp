@@ -31,7 +31,28 @@ MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) 
 
 }  // namespace
 
-DropCounts ToDropCounts(const SyncStatistics& statistics) {
+EstimationStage::EstimationStage(const Config& config, double max_wait)
+    : imu_rate_(config.sensor.imu_rate),
+      configured_noise_(config.sensor.imu_noise),
+      estimator_(std::make_unique<Estimator>(config)),
+      sync_(MakeSyncOptions(config, max_wait)),
+      repeated_images_(config.sensor.imu_noise),
+      imu_noise_(config.sensor.imu_noise) {}
+
+EstimationStage::~EstimationStage() = default;
+
+void EstimationStage::AddImu(const ImuSample& sample) {
+  imu_rhythm_.Add(sample.t_ns);
+  sync_.AddImu(sample);
+}
+
+void EstimationStage::AddPoints(PointFrame frame) {
+  image_rhythm_.Add(frame.t_ns);
+  sync_.AddPoints(std::move(frame));
+}
+
+DropCounts EstimationStage::Drops() const {
+  const SyncStatistics& statistics = sync_.statistics();
   return {{"imu_not_finite", statistics.imu_not_finite, ""},
           {"imu_implausible", statistics.imu_implausible, ""},
           {"imu_replaced", statistics.imu_replaced, ""},
@@ -47,29 +68,11 @@ DropCounts ToDropCounts(const SyncStatistics& statistics) {
           {"frames_too_close", statistics.frames_too_close, ""},
           {"frames_dropped_full", statistics.frames_dropped_full, ""},
           {"frames_with_few_points", statistics.frames_with_few_points, ""},
+          {"frames_repeated", frames_repeated_, ""},
           {"lines_out_of_order", statistics.lines_out_of_order, ""},
           {"lines_late", statistics.lines_late, ""},
           {"jumps_back", statistics.jumps_back, ""},
           {"leaps_ahead", statistics.leaps_ahead, ""}};
-}
-
-EstimationStage::EstimationStage(const Config& config, double max_wait)
-    : imu_rate_(config.sensor.imu_rate),
-      configured_noise_(config.sensor.imu_noise),
-      estimator_(std::make_unique<Estimator>(config)),
-      sync_(MakeSyncOptions(config, max_wait)),
-      imu_noise_(config.sensor.imu_noise) {}
-
-EstimationStage::~EstimationStage() = default;
-
-void EstimationStage::AddImu(const ImuSample& sample) {
-  imu_rhythm_.Add(sample.t_ns);
-  sync_.AddImu(sample);
-}
-
-void EstimationStage::AddPoints(PointFrame frame) {
-  image_rhythm_.Add(frame.t_ns);
-  sync_.AddPoints(std::move(frame));
 }
 
 std::string EstimationStage::ImuContradiction() const {
@@ -111,6 +114,7 @@ void EstimationStage::Reset(const std::string& reason) {
 // Without an output since the last start no world frame is given up, so none is announced.
 void EstimationStage::StartOver(const std::string& reason) {
   estimator_->Reset();
+  repeated_images_.Reset();
   imu_noise_ = configured_noise_;
   imu_noise_scale_ = 1;
   delay_.reset();
@@ -131,9 +135,14 @@ void EstimationStage::FollowClock() {
 }
 
 std::optional<EstimatedFrame> EstimationStage::Process(
-    const std::optional<FrameMeasurement>& measurement) {
+    std::optional<FrameMeasurement> measurement) {
   if (!measurement) return std::nullopt;
   FollowClock();
+  if (repeated_images_.Add(*measurement)) {
+    ++frames_repeated_;
+    measurement->points.points.clear();
+    measurement->lines.reset();
+  }
   EstimatedFrame frame;
   frame.output = estimator_->Process(*measurement);
   frame.points = measurement->points;

@@ -15,13 +15,12 @@
 #include "common/streams/drop_counts.h"
 #include "common/streams/stream_rhythm.h"
 #include "vins_estimator/input/measurement_sync.h"
+#include "vins_estimator/input/repeated_image_detector.h"
 #include "vins_estimator/state/estimator_output.h"
 
 namespace plm_vins {
 
 class Estimator;
-
-DropCounts ToDropCounts(const SyncStatistics& statistics);
 
 // What the estimator says about an image, and what else there is to publish.
 struct EstimatedFrame {
@@ -69,9 +68,10 @@ class EstimationStage {
   bool lines_are_missing() const { return sync_.lines_are_missing(); }
   bool lines_are_of_other_images() const { return sync_.lines_are_of_other_images(); }
   SyncStatistics statistics() const { return sync_.statistics(); }
+  DropCounts Drops() const;  // what could not be used, by cause
 
  private:
-  std::optional<EstimatedFrame> Process(const std::optional<FrameMeasurement>& measurement);
+  std::optional<EstimatedFrame> Process(std::optional<FrameMeasurement> measurement);
   void StartOver(const std::string& reason);
   // Starts over where a clock was set: what was estimated has nothing to do with what comes.
   void FollowClock();
@@ -80,11 +80,13 @@ class EstimationStage {
   const ImuNoise configured_noise_;
   const std::unique_ptr<Estimator> estimator_;  // so that users do not see the solver
   MeasurementSync sync_;
+  RepeatedImageDetector repeated_images_;
   StreamRhythm imu_rhythm_, image_rhythm_;
   ImuNoise imu_noise_;
   double imu_noise_scale_ = 1;
   std::optional<double> delay_;  // [s]
   int64_t frames_ = 0;
+  int64_t frames_repeated_ = 0;  // what they show was not used
   int64_t resets_ = 0;
   int64_t jumps_back_ = 0, leaps_ahead_ = 0;   // followed so far
   bool anew_ = true;                           // no image since the start or since starting over

@@ -41,7 +41,7 @@ OdometryPipeline::OdometryPipeline(const Config& config)
 
 DropCounts OdometryPipeline::drops() const {
   DropCounts counts = ToDropCounts(trackers_.image_counts());
-  Append(ToDropCounts(back_end_.statistics()), &counts);
+  Append(back_end_.Drops(), &counts);
   counts.push_back({"frames_without_lines", back_end_.statistics().frames_without_lines, ""});
   return counts;
 }

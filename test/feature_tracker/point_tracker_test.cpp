@@ -205,6 +205,17 @@ TEST_F(PointTrackerTest, PureRotationAndStandstillKeepPoints) {
   }
 }
 
+TEST_F(PointTrackerTest, CornersOfARepeatedImageStayToTheLastBit) {
+  const cv::Mat image = scene_.View();
+  const auto before = ById(Track(image));
+  const PointFrame frame = Track(image.clone(), SO3Exp(Eigen::Vector3d(0, 0.01, 0)));
+  EXPECT_EQ(frame.points.size(), before.size());
+  for (const PointObservation& point : frame.points) {
+    EXPECT_EQ(point.uv_px, before.at(point.id).uv_px);
+    EXPECT_EQ(point.velocity, Eigen::Vector2d::Zero());
+  }
+}
+
 TEST_F(PointTrackerTest, RejectsAPatchThatMovesOnItsOwn) {
   // The background moves sideways, a patch also upwards: off its epipolar lines.
   const TexturedScene other(77);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -196,6 +197,39 @@ TEST_F(EstimationStageTest, SaysThatTheImuComesTooSeldom) {
 }
 
 // In flight, where the camera shows it.
+// Taken for true, two seconds of the same image hold the position while the vehicle goes on.
+TEST(EstimationStage, ARepeatedImageIsNoStandstill) {
+  testing::FlightPlan plan;
+  plan.duration = 12;
+  plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
+  const testing::SimulatedFlight flight = testing::PlannedFlight(plan).Simulate();
+  Config config = testing::ConfigFor(flight);
+  config.use_lines = false;
+  EstimationStage stage(config);
+  constexpr size_t kFrozen = 160, kThawed = 200;  // images
+  testing::EstimatedFlight estimated;
+  size_t aligned_at = 0, on_imu_alone = 0;
+  for (size_t i = 0; i < flight.frames.size(); ++i) {
+    const FrameMeasurement& frame = flight.frames[i];
+    for (size_t k = i > 0 ? 1 : 0; k < frame.imu.size(); ++k) stage.AddImu(frame.imu[k]);
+    PointFrame points = flight.frames[i < kThawed ? std::min(i, kFrozen - 1) : i].points;
+    points.t_ns = frame.t_ns;
+    stage.AddPoints(points);
+    while (const auto estimate = stage.Pop()) {
+      EXPECT_FALSE(estimate->output.restarted);
+      if (!estimate->output.has_pose) continue;
+      if (i == kFrozen - 1) aligned_at = estimated.outputs.size();
+      on_imu_alone += estimate->output.on_imu_alone;
+      estimated.outputs.push_back(estimate->output);
+      estimated.truth.push_back(flight.truth[i]);
+    }
+  }
+  EXPECT_EQ(on_imu_alone, kThawed - kFrozen);
+  EXPECT_GT((estimated.truth.back().position() - estimated.truth[aligned_at].position()).norm(),
+            0.5);
+  EXPECT_LT(testing::GreatestError(estimated, aligned_at), 0.3);
+}
+
 TEST(EstimationStage, SaysThatTheImuIsFarNoisierThanConfigured) {
   testing::FlightPlan plan;
   plan.duration = 12;

@@ -56,75 +56,26 @@ double CommonMotion(const CornerMotions& corners) {
   return greatest;
 }
 
-// Standard deviation of the axis that varies most.
-double LargestDeviation(const std::vector<Eigen::Vector3d>& values) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& value : values) mean += value / static_cast<double>(values.size());
-  Eigen::Vector3d variance = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& value : values) {
-    variance += (value - mean).cwiseAbs2() / static_cast<double>(values.size());
-  }
-  return std::sqrt(variance.maxCoeff());
-}
-
 }  // namespace
 
 StandstillDetector::StandstillDetector(const ImuNoise& noise, const Options& options)
-    : noise_(noise), options_(options) {}
+    : options_(options), imu_(noise, options.imu) {}
 
 std::optional<StandstillDetector::Standstill> StandstillDetector::Add(
     const FrameMeasurement& measurement) {
-  if (measurement.imu.empty()) {
-    Reset();
-    return std::nullopt;
-  }
-  Interval interval;
-  interval.t_ns = measurement.t_ns;
-  interval.points = measurement.points;
-  for (const ImuSample& sample : measurement.imu) {
-    interval.gyro += sample.gyro / static_cast<double>(measurement.imu.size());
-    interval.accel += sample.accel / static_cast<double>(measurement.imu.size());
-  }
-  intervals_.push_back(std::move(interval));
-
-  // The front image opens the window: the last one that is old enough.
-  const int64_t start_ns = measurement.t_ns - ToNanoseconds(options_.window);
-  while (HasIntervals(options_.min_intervals + 1) && intervals_[1].t_ns <= start_ns) {
-    intervals_.pop_front();
-  }
-  if (!IsFull() || !ImuIsQuiet()) return std::nullopt;
-  const CornerMotions corners = MotionsBetween(intervals_.front().points, intervals_.back().points);
+  imu_.Add(measurement);
+  points_.push_back(measurement.points);
+  while (points_.size() > imu_.images()) points_.pop_front();
+  if (!imu_.IsQuiet()) return std::nullopt;
+  const CornerMotions corners = MotionsBetween(points_.front(), points_.back());
   if (static_cast<int>(corners.motions.size()) < options_.min_points) return std::nullopt;
   if (MedianDistance(corners) > options_.max_motion_px) return std::nullopt;
-  return Standstill{intervals_.front().t_ns, CommonMotion(corners)};
+  return Standstill{imu_.since_ns(), CommonMotion(corners)};
 }
 
-double StandstillDetector::Duration() const {
-  return ToSeconds(intervals_.back().t_ns - intervals_.front().t_ns);
-}
-
-bool StandstillDetector::HasIntervals(int count) const {
-  return static_cast<int>(intervals_.size()) > count;
-}
-
-bool StandstillDetector::IsFull() const {
-  return HasIntervals(options_.min_intervals) && Duration() >= options_.window &&
-         Duration() <= options_.max_window;
-}
-
-bool StandstillDetector::ImuIsQuiet() const {
-  std::vector<Eigen::Vector3d> gyro, accel;
-  for (size_t i = 1; i < intervals_.size(); ++i) {
-    gyro.push_back(intervals_[i].gyro);
-    accel.push_back(intervals_[i].accel);
-  }
-  // An average of white noise over an interval deviates by density / sqrt(interval).
-  const double interval = Duration() / static_cast<double>(gyro.size());
-  const double factor = options_.noise_factor / std::sqrt(interval);
-  return LargestDeviation(gyro) <=
-             std::max(factor * noise_.gyro_density, options_.min_gyro_deviation) &&
-         LargestDeviation(accel) <=
-             std::max(factor * noise_.accel_density, options_.min_accel_deviation);
+void StandstillDetector::Reset() {
+  imu_.Reset();
+  points_.clear();
 }
 
 }  // namespace plm_vins

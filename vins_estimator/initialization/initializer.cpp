@@ -27,7 +27,7 @@ constexpr double kMaxScaleDeviation = 0.075;
 
 StandstillDetector::Options StandstillOptions() {
   StandstillDetector::Options options;
-  options.window = kStandstillDuration;
+  options.imu.window = kStandstillDuration;
   return options;
 }
 

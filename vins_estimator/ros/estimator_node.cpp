@@ -244,7 +244,7 @@ void EstimatorNode::Take(Input input) {
 }
 
 void EstimatorNode::ReportDrops() {
-  DropCounts drops = ToDropCounts(stage_.statistics());
+  DropCounts drops = stage_.Drops();
   drops.push_back({"imu_refused_full", imu_refused_, ""});
   drops.push_back(worker_errors_.count());
   worker_warner_.Check(drops);

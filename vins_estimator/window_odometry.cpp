@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/window_odometry.h"
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "common/append.h"
+#include "common/stopwatch.h"
+#include "vins_estimator/map/recalibration.h"
+#include "vins_estimator/map/wandering_lines.h"
+#include "vins_estimator/optimization/window_solver.h"
+#include "vins_estimator/problem/placed_covariance.h"
+#include "vins_estimator/problem/state_covariance.h"
+#include "vins_estimator/state/derived_covariance.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr int kMaxReweighings = 3;  // each finds three times the noise at most
+
+// Points of an image that hold its state without the window being solved, and which share of them
+// may be outliers: a few per cent are.
+constexpr int kMinPointsToPlace = 20;
+constexpr double kDoubtfulShare = 0.1;
+
+}  // namespace
+
+WindowOdometry::WindowOdometry(const Config& config, const EstimatorOptions& options)
+    : config_(&config),
+      options_(&options),
+      estimate_(EmptyWindow(config.sensor, options.map)),
+      structure_(options.same_line),
+      noise_(1 / options.problem.point_weight, 1 / options.problem.line_weight),
+      imu_noise_(config.sensor.imu_noise) {}
+
+void WindowOdometry::Start(const InitializationResult& result,
+                           const InitialUncertainty& uncertainty, EstimatorOutput* output) {
+  Fill(result, uncertainty);
+  Triangulate(output);
+  const Solution solution = SolveFirstWindow(output);
+  CountLandmarks(output);
+  started_ = true;
+  Describe(solution, output);
+}
+
+void WindowOdometry::Fill(const InitializationResult& result,
+                          const InitialUncertainty& uncertainty) {
+  SlidingWindow& window = estimate_.map.window;
+  window.SetExtrinsic(result.T_B_C);
+  for (const InitialFrame& frame : result.frames) {
+    AddFrame(frame.measurement);
+    window.newest().state = frame.state;
+  }
+  window.newest().stationary = result.from_standstill;
+  const size_t frames = window.frames.size();
+  keyframe_ = {window.frames[frames > 1 ? frames - 2 : 0].state.t_ns};
+  estimate_.prior = InitialPrior(uncertainty, options_->problem, window);
+}
+
+// Again with the noise of the IMU that the window shows, where it is far from what is configured.
+WindowOdometry::Solution WindowOdometry::SolveFirstWindow(EstimatorOutput* output) {
+  Solution solution = SolveWindow(options_->first_solution, output);
+  for (int i = 0; i < kMaxReweighings; ++i) {
+    if (!imu_noise_.Reweigh(&estimate_.map.window)) break;
+    imu_noise_.Reset();  // the next solution tells anew
+    solution = SolveWindow(CurrentSolution(), output);
+  }
+  return solution;
+}
+
+WindowOdometry::Tracked WindowOdometry::Track(
+    const FrameMeasurement& measurement,
+    const std::optional<StandstillDetector::Standstill>& standstill, EstimatorOutput* output) {
+  LocalMap& map = estimate_.map;
+  const bool keep_second_newest = IsKeyframe(options_->keyframes, map.window, map.points);
+  if (keep_second_newest) keyframe_ = {map.window.newest().state.t_ns};
+  const FrameState predicted = AddFrame(measurement);
+  map.window.SetStillSince(StillSince(standstill));
+  const Solution solution = Solve(keep_second_newest, output);
+  Tracked tracked;
+  tracked.newest = {map.window.newest().state, solution.covariance};
+  tracked.failure = Check(solution, predicted, output->counts);
+  if (tracked.failure) return tracked;
+  output->keyframe = keep_second_newest;
+  Describe(solution, output);
+  SlideWindow(keep_second_newest, output);
+  return tracked;
+}
+
+WindowOdometry::Solution WindowOdometry::Solve(bool keep_second_newest, EstimatorOutput* output) {
+  const LocalMap& map = estimate_.map;
+  const ImuNoiseLearning noise_before = imu_noise_;
+  Solution solution = PlaceNewest(output);
+  bool window_is_solved = !Suffices(solution);
+  if (window_is_solved) {
+    Triangulate(output);
+    FindStructure(keep_second_newest, output);
+    solution = SolveWindow(CurrentSolution(), output);
+  }
+  const PointMap::Fit fit = FitOfNewest(map.window.newest().state.t_ns);
+  if (const auto variance_scale = imu_agreement_.Add(map.window, fit)) {
+    DoubtInterval(Scaled(imu_noise_.noise(), *variance_scale),
+                  map.window.newest().motion_since_previous.get());
+    imu_noise_ = noise_before;  // the first solution, which is distorted, teaches nothing
+    output->imu_doubted = window_is_solved = true;
+    solution = SolveWindow(CurrentSolution(), output);
+  }
+  CountLandmarks(output);
+  if (window_is_solved) LearnFromWindow(output);
+  return solution;
+}
+
+std::optional<Failure> WindowOdometry::Check(const Solution& solution, const FrameState& predicted,
+                                             const EstimatorCounts& counts) {
+  const SlidingWindow& window = estimate_.map.window;
+  return estimate_monitor_.Add({solution.exists, predicted, window.newest().state,
+                                solution.PoseCovariance(), counts, window.td - config_->sensor.td});
+}
+
+// Where points are known they tell a slow motion better than the assumption that there is none.
+// Without them, an estimate that is held to the place that it rocks about is better than none.
+std::optional<int64_t> WindowOdometry::StillSince(
+    const std::optional<StandstillDetector::Standstill>& standstill) const {
+  if (!standstill) return std::nullopt;
+  const LocalMap& map = estimate_.map;
+  const bool moves = standstill->common_px > options_->max_motion_at_rest_px;
+  if (moves && map.points.MedianDepthInNewest(map.window)) return std::nullopt;
+  return standstill->since_ns;
+}
+
+FrameState WindowOdometry::AddFrame(const FrameMeasurement& measurement) {
+  LocalMap& map = estimate_.map;
+  WindowFrame frame;
+  frame.timing = {measurement.time_offset, map.window.readout, config_->sensor.camera.height};
+  if (!map.window.frames.empty()) {
+    const FrameState& before = map.window.newest().state;
+    const ImuNoise noise = Scaled(imu_noise_.noise(), imu_agreement_.noise_scale());
+    frame.motion_since_previous = std::make_shared<Preintegration>(noise, before.bias());
+    for (const ImuSample& sample : measurement.imu) frame.motion_since_previous->Append(sample);
+    frame.state = frame.motion_since_previous->Predict(before, map.window.gravity_W);
+    frame.motion_since_previous->AllowStampErrors(
+        StampErrorsOf(imu_agreement_.stamp_deviation(), *frame.motion_since_previous,
+                      map.window.gravity_W, before, frame.state));
+  }
+  frame.state.t_ns = measurement.t_ns;
+  const FrameState predicted = frame.state;
+  map.AddFrame(std::move(frame), measurement.points, measurement.lines);
+  return predicted;
+}
+
+void WindowOdometry::Triangulate(EstimatorOutput* output) {
+  LocalMap& map = estimate_.map;
+  map.points.Triangulate(map.window, options_->min_triangulation_angle);
+  output->counts.line_triangulation = map.lines.Triangulate(map.window, options_->line_limits);
+}
+
+// What the lines say of the scene, and, where a frame is kept, of each other.
+void WindowOdometry::FindStructure(bool keep_second_newest, EstimatorOutput* output) {
+  const Stopwatch stopwatch;
+  LocalMap& map = estimate_.map;
+  structure_.FindAxes(&map);
+  if (config_->estimator.line_merging && keep_second_newest) {
+    UnitedLines united = structure_.Unite(&map);
+    output->counts.line_merging = united.merging;
+    output->counts.lines_recognised = united.recognised;
+    output->absorbed_lines = std::move(united.absorbed);
+  }
+  output->timings.line_merging = stopwatch.Milliseconds();
+}
+
+// With the newest frame it is one more than it keeps.
+bool WindowOdometry::WindowIsFull() const {
+  const auto frames = static_cast<int>(estimate_.map.window.frames.size());
+  return frames > config_->estimator.window_size;
+}
+
+const SolverOptions& WindowOdometry::CurrentSolution() const {
+  return WindowIsFull() ? options_->solution : options_->early_solution;
+}
+
+ProblemOptions WindowOdometry::CurrentProblem(JacobiansAt jacobians_at) const {
+  ProblemOptions options = options_->problem;
+  options.jacobians_at = jacobians_at;
+  if (config_->estimator.manhattan_constraints) options.R_W_M = structure_.manhattan().R_W_M();
+  options.SetNoise(noise_.point(), noise_.line());
+  const LocalMap& map = estimate_.map;
+  if (map.window.HasStationary()) {
+    options.LetPass(options_->passing_flow, map.points.MedianDepthInNewest(map.window));
+  }
+  return options;
+}
+
+// Solves for the states after the newest keyframe, with all else constant: near enough to the
+// minimum for the window's equations to be linear, or to leave it at that.
+WindowOdometry::Solution WindowOdometry::PlaceNewest(EstimatorOutput* output) {
+  const Stopwatch stopwatch;
+  LocalMap& map = estimate_.map;
+  ProblemOptions problem = CurrentProblem(JacobiansAt::kValues);
+  problem.estimate_intrinsics = false;  // rays are near enough to those of the intrinsics
+  ProblemBuilder builder(problem, &map.window, &estimate_.prior);
+  builder.AddStatesAfter(keyframe_.t_ns, &map.points, &map.lines);
+  NormalEquations equations(builder.problem());
+  Solution solution;
+  solution.exists =
+      SolveBy(config_->estimator.solver, options_->newest_solution, builder.problem(), &equations)
+          .solved;
+  if (keyframe_.covariance) {
+    solution.covariance =
+        PlacedCovariance(map.window, keyframe_.t_ns, *keyframe_.covariance, &equations);
+  }
+  output->timings.optimization += stopwatch.Milliseconds();
+  return solution;
+}
+
+// Between keyframes, once the window is full, where nothing is in doubt.
+bool WindowOdometry::Suffices(const Solution& placement) const {
+  const SlidingWindow& window = estimate_.map.window;
+  const bool is_known = placement.exists && keyframe_.covariance;
+  if (!WindowIsFull() || !is_known || window.newest().stationary) return false;
+  if (!imu_agreement_.IsUndoubted(window, keyframe_.t_ns)) return false;
+  const PointMap::Fit fit = FitOfNewest(keyframe_.t_ns);
+  return fit.seen >= kMinPointsToPlace && fit.contradicted <= kDoubtfulShare * fit.seen;
+}
+
+WindowOdometry::Solution WindowOdometry::SolveWindow(const SolverOptions& options,
+                                                     EstimatorOutput* output) {
+  const Stopwatch stopwatch;
+  LocalMap& map = estimate_.map;
+  ProblemBuilder builder(CurrentProblem(JacobiansAt::kValues), &map.window, &estimate_.prior);
+  builder.AddAll(&map.points, &map.lines);
+  NormalEquations equations(builder.problem());
+  Solution solution;
+  solution.exists =
+      SolveBy(config_->estimator.solver, options, builder.problem(), &equations).solved;
+  solution.covariance =
+      StateCovariance(map.window.newest().state.t_ns, &equations).value_or(Matrix15d::Zero());
+  keyframe_.covariance = StateCovariance(keyframe_.t_ns, &equations);
+  if (config_->estimator.adapt_imu_noise) {
+    imu_noise_.Learn(map.window, !started_, &equations);
+  }
+  if (options_->problem.estimate_intrinsics) {
+    FollowIntrinsics(config_->sensor.camera, options_->max_ray_error, &map);
+  }
+  output->timings.optimization += stopwatch.Milliseconds();  // it may be done twice
+  return solution;
+}
+
+void WindowOdometry::CountLandmarks(EstimatorOutput* output) const {
+  const LocalMap& map = estimate_.map;
+  output->counts.points_in_window = map.points.CountOptimized();
+  output->counts.lines_in_window = map.lines.CountOptimized();
+  output->counts.known_seen = map.CountInNewest();
+}
+
+PointMap::Fit WindowOdometry::FitOfNewest(int64_t keyframe_ns) const {
+  const LocalMap& map = estimate_.map;
+  return map.points.FitOfNewest(map.window, keyframe_ns, options_->max_reprojection_error);
+}
+
+// Which landmarks do not fit, and how noisy features and IMU are.
+void WindowOdometry::LearnFromWindow(EstimatorOutput* output) {
+  LocalMap& map = estimate_.map;
+  EstimatorCounts& counts = output->counts;
+  counts.points_rejected = map.points.RemoveOutliers(map.window, options_->max_reprojection_error);
+  counts.lines_wandering = NoteWandering(map.window, noise_.line(), &map.lines);
+  counts.lines_rejected = map.lines.RemoveOutliers(map.window, options_->line_limits);
+  counts.known_rejected = counts.known_seen - map.CountInNewest();
+  if (config_->estimator.adapt_noise) noise_.Update(map);
+  imu_noise_.Reweigh(&map.window);
+}
+
+void WindowOdometry::SlideWindow(bool keep_second_newest, EstimatorOutput* output) {
+  const Stopwatch stopwatch;
+  const LocalMap& map = estimate_.map;
+  const auto window_size = static_cast<size_t>(config_->estimator.window_size);
+  if (!keep_second_newest) {
+    estimate_.DropSecondNewest();
+  } else {
+    // Twice right after a start, which may fill a small window by one frame too many.
+    while (map.window.frames.size() > window_size) SlideOldest(output);
+  }
+  output->timings.marginalization = stopwatch.Milliseconds();
+}
+
+void WindowOdometry::SlideOldest(EstimatorOutput* output) {
+  const bool stays = StaysAsAnchor(options_->anchors, estimate_.map.window, estimate_.map.lines);
+  if (stays) {
+    const auto replaced_ns = AnchorToReplace(options_->anchors, estimate_.map.window);
+    if (replaced_ns) estimate_.RemoveAnchor(*replaced_ns);
+  }
+  const DepartedLandmarks departed =
+      estimate_.SlideOldest(CurrentProblem(JacobiansAt::kFirstEstimates), stays);
+  Append(departed.points, &output->departed_points);
+  Append(departed.lines, &output->departed_lines);
+}
+
+void WindowOdometry::Describe(const Solution& solution, EstimatorOutput* output) const {
+  const SlidingWindow& window = estimate_.map.window;
+  output->status = EstimatorStatus::kTracking;
+  output->has_pose = true;
+  DescribeMap(estimate_.map, output);
+  output->pose_covariance = solution.PoseCovariance();
+  output->velocity_covariance = solution.covariance.block<3, 3>(6, 6);
+  output->body_velocity_covariance =
+      BodyVelocityCovariance(output->state, solution.covariance.block<6, 6>(3, 3));
+  output->bias_covariance = solution.covariance.bottomRightCorner<6, 6>();
+  output->calibration = {config_->sensor.camera.With(window.intrinsics), window.T_B_C(), window.td,
+                         window.readout};
+  output->R_W_M = structure_.manhattan().R_W_M();
+  output->imu_noise = imu_noise_.noise();
+  output->imu_noise_scale = imu_agreement_.noise_scale();
+  output->delay = imu_agreement_.delay();
+  output->contradicted = estimate_monitor_.contradicted();
+  const int fitting = output->counts.known_seen - output->counts.known_rejected;
+  output->on_imu_alone =
+      estimate_monitor_.blind() || (!output->stationary && fitting < kFewFeatures);
+}
+
+}  // namespace plm_vins

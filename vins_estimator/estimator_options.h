@@ -8,7 +8,7 @@
 #include "vins_estimator/map/local_map.h"
 #include "vins_estimator/optimization/levenberg_marquardt.h"
 #include "vins_estimator/problem/initial_prior.h"
-#include "vins_estimator/problem/problem_builder.h"
+#include "vins_estimator/problem/problem_options.h"
 #include "vins_estimator/recall/anchor_policy.h"
 
 namespace plm_vins {

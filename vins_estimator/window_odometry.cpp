@@ -10,7 +10,10 @@
 #include "vins_estimator/map/recalibration.h"
 #include "vins_estimator/map/wandering_lines.h"
 #include "vins_estimator/optimization/window_solver.h"
+#include "vins_estimator/problem/normal_equations.h"
 #include "vins_estimator/problem/placed_covariance.h"
+#include "vins_estimator/problem/placement_problem.h"
+#include "vins_estimator/problem/problem_builder.h"
 #include "vins_estimator/problem/state_covariance.h"
 #include "vins_estimator/state/derived_covariance.h"
 
@@ -196,14 +199,11 @@ ProblemOptions WindowOdometry::CurrentProblem(JacobiansAt jacobians_at) const {
 WindowOdometry::Solution WindowOdometry::PlaceNewest(EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = estimate_.map;
-  ProblemOptions problem = CurrentProblem(JacobiansAt::kValues);
-  problem.estimate_intrinsics = false;  // rays are near enough to those of the intrinsics
-  ProblemBuilder builder(problem, &map.window, &estimate_.prior);
-  builder.AddStatesAfter(keyframe_.t_ns, &map.points, &map.lines);
-  NormalEquations equations(builder.problem());
+  const PlacementProblem placement(CurrentProblem(JacobiansAt::kValues), &map, keyframe_.t_ns);
+  NormalEquations equations(placement.problem());
   Solution solution;
   solution.exists =
-      SolveBy(config_->estimator.solver, options_->newest_solution, builder.problem(), &equations)
+      SolveBy(config_->estimator.solver, options_->newest_solution, placement.problem(), &equations)
           .solved;
   if (keyframe_.covariance) {
     solution.covariance =

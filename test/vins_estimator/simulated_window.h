@@ -11,7 +11,7 @@
 #include "test/vins_estimator/initialization/simulated_frames.h"
 #include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/map/local_map.h"
-#include "vins_estimator/problem/problem_builder.h"
+#include "vins_estimator/problem/problem_options.h"
 
 namespace plm_vins::testing {
 

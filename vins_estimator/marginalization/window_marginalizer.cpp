@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vins_estimator/problem/normal_equations.h"
+#include "vins_estimator/problem/problem_builder.h"
 
 namespace plm_vins {
 namespace {

@@ -4,7 +4,7 @@
 #include "common/config/sensor_config.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/problem/marginalization_prior.h"
-#include "vins_estimator/problem/problem_builder.h"
+#include "vins_estimator/problem/problem_options.h"
 
 namespace plm_vins {
 

@@ -10,7 +10,7 @@
 namespace plm_vins {
 
 // Covariance of the newest state where only the states after a keyframe were solved for
-// (ProblemBuilder::AddStatesAfter), by the covariance of the keyframe's state and by `equations` at
+// (PlacementProblem), by the covariance of the keyframe's state and by `equations` at
 // their last linearisation. An error of the keyframe moves the landmarks with it, as a rigid body,
 // and the IMU carries it on; it is taken into account, but not estimated ([Schmidt1966]). Zero
 // where the equations do not determine the states.

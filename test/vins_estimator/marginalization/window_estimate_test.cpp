@@ -5,6 +5,7 @@
 
 #include "test/vins_estimator/simulated_window.h"
 #include "vins_estimator/problem/initial_prior.h"
+#include "vins_estimator/problem/problem_builder.h"
 
 namespace plm_vins {
 namespace {

@@ -13,6 +13,7 @@
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/problem/initial_prior.h"
+#include "vins_estimator/problem/placement_problem.h"
 #include "vins_estimator/problem/state_covariance.h"
 
 namespace plm_vins {
@@ -43,10 +44,8 @@ Matrix15d Scaled(const Matrix15d& covariance) {
 
 Matrix15d Placed(const ProblemOptions& options, int64_t keyframe_ns,
                  const Matrix15d& keyframe_covariance, LocalMap* map) {
-  const MarginalizationPrior no_prior;
-  ProblemBuilder builder(options, &map->window, &no_prior);
-  builder.AddStatesAfter(keyframe_ns, &map->points, &map->lines);
-  NormalEquations equations(builder.problem());
+  const PlacementProblem placement(options, map, keyframe_ns);
+  NormalEquations equations(placement.problem());
   equations.Linearize();
   return PlacedCovariance(map->window, keyframe_ns, keyframe_covariance, &equations);
 }

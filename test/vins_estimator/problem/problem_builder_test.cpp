@@ -9,10 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/geometry/so3.h"
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_window.h"
-#include "vins_estimator/optimization/levenberg_marquardt.h"
 #include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/problem/normal_equations.h"
 #include "vins_estimator/problem/term_evaluation.h"
@@ -97,59 +95,6 @@ TEST_F(ProblemBuilderTest, StandstillIsNoFirmerThanWhatPassesAsIt) {
   const Eigen::VectorXd weaker = residuals(2);
   EXPECT_MATRIX_NEAR(weaker.head<3>(), pose.head<3>() * 0.001 / (0.05 * interval), 1e-9);
   EXPECT_MATRIX_NEAR(weaker.tail<3>(), pose.tail<3>() * 0.0005 / (0.02 * interval), 1e-9);
-}
-
-// With all that may be estimated.
-TEST_F(ProblemBuilderTest, TheStatesAfterAFrameAloneAreFree) {
-  options_.estimate_extrinsic = options_.estimate_td = true;
-  options_.estimate_intrinsics = options_.estimate_readout = true;
-  simulated_ = testing::SimulateWindow(4);
-  for (const size_t last_known : {1, 2}) {
-    const int64_t known_ns = Stamp(last_known);
-    ProblemBuilder builder(options_, &window(), &no_prior_);
-    builder.AddStatesAfter(known_ns, &simulated_.points, &simulated_.lines);
-    const WindowProblem& problem = builder.problem();
-    EXPECT_TRUE(problem.landmarks().empty());
-    for (const Variable& variable : problem.variables()) {
-      const bool of_frame =
-          variable.id.kind == BlockKind::kPose || variable.id.kind == BlockKind::kMotion;
-      EXPECT_EQ(variable.constant, !of_frame || variable.id.key <= known_ns);
-    }
-    // The IMU, and the views of each landmark that two known frames have seen.
-    size_t seen = 0;
-    const auto count = [&](const auto& landmarks) {
-      for (const auto& [id, landmark] : landmarks) {
-        if (!IsOptimized(landmark) || landmark.views[1].t_ns > known_ns) continue;
-        seen += std::count_if(landmark.views.begin(), landmark.views.end(),
-                              [&](const auto& view) { return view.t_ns > known_ns; });
-      }
-    };
-    count(simulated_.points.landmarks());
-    count(simulated_.lines.landmarks());
-    EXPECT_GT(seen, 20u);
-    EXPECT_EQ(problem.terms().size(), 3 - last_known + seen);
-  }
-}
-
-TEST_F(ProblemBuilderTest, StatesAreFoundWhereTheRestIsKnown) {
-  simulated_ = testing::SimulateWindow(4);
-  for (const size_t last_known : {1, 2}) {
-    testing::SimulatedWindow moved = simulated_;
-    for (size_t i = last_known + 1; i < 4; ++i) {
-      FrameState& state = moved.window.frames[i].state;
-      state.SetPose({state.rotation() * SO3Exp({0.01, -0.02, 0.01}),
-                     state.position() + Eigen::Vector3d(0.05, -0.03, 0.04)});
-    }
-    ProblemBuilder builder(options_, &moved.window, &no_prior_);
-    builder.AddStatesAfter(Stamp(last_known), &moved.points, &moved.lines);
-    NormalEquations equations(builder.problem());
-    EXPECT_TRUE(Solve(SolverOptions(), builder.problem(), &equations).solved);
-    for (size_t i = 0; i < 4; ++i) {
-      const FrameState &found = moved.window.frames[i].state, &truth = window().frames[i].state;
-      EXPECT_LT((found.position() - truth.position()).norm(), 0.005);
-      EXPECT_LT(found.rotation().angularDistance(truth.rotation()), 0.002);
-    }
-  }
 }
 
 TEST_F(ProblemBuilderTest, PointHasATermForEveryView) {

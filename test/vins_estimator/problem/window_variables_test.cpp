@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/problem/window_variables.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <stdexcept>
+
+#include "test/vins_estimator/simulated_window.h"
+#include "vins_estimator/problem/initial_prior.h"
+
+namespace plm_vins {
+namespace {
+
+class WindowVariablesTest : public ::testing::Test {
+ protected:
+  WindowVariablesTest() : simulated_(testing::SimulateWindow(3)) {}
+
+  SlidingWindow& window() { return simulated_.window; }
+  FrameState& State(size_t frame) { return window().frames[frame].state; }
+  const Variable& At(int index) const { return problem_.variables()[static_cast<size_t>(index)]; }
+
+  testing::SimulatedWindow simulated_;
+  WindowProblem problem_;
+};
+
+bool Nothing(const BlockId& /*id*/) { return false; }
+
+TEST_F(WindowVariablesTest, EachIsAddedOnceWithItsValues) {
+  WindowVariables variables(&window(), Nothing, nullptr, &problem_);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(At(variables.Pose(State(1).t_ns)).values, State(1).pose.data());
+    EXPECT_EQ(At(variables.Motion(State(1).t_ns)).values, State(1).motion.data());
+    EXPECT_EQ(At(variables.Extrinsic()).values, window().extrinsic.data());
+    EXPECT_EQ(At(variables.TimeOffset()).values, &window().td);
+    EXPECT_EQ(At(variables.Readout()).values, &window().readout);
+    EXPECT_EQ(At(variables.Intrinsics()).values, window().intrinsics.data());
+    EXPECT_EQ(problem_.variables().size(), 6u);
+  }
+}
+
+TEST_F(WindowVariablesTest, ThePoseOfAnAnchorIsOne) {
+  const int64_t anchor_ns = State(0).t_ns;
+  window().TurnOldestIntoAnchor();
+  WindowVariables variables(&window(), Nothing, nullptr, &problem_);
+  EXPECT_EQ(At(variables.Pose(anchor_ns)).values, window().anchors[0].state.pose.data());
+  EXPECT_THROW(variables.Motion(anchor_ns), std::logic_error);
+}
+
+TEST_F(WindowVariablesTest, LandmarksAreNot) {
+  WindowVariables variables(&window(), Nothing, nullptr, &problem_);
+  EXPECT_THROW(variables.Add({BlockKind::kPoint, 1}), std::logic_error);
+  EXPECT_THROW(variables.Add({BlockKind::kLine, 1}), std::logic_error);
+}
+
+TEST_F(WindowVariablesTest, WhatIsConstantIsAsked) {
+  const auto is_motion = [](const BlockId& id) { return id.kind == BlockKind::kMotion; };
+  WindowVariables variables(&window(), is_motion, nullptr, &problem_);
+  EXPECT_TRUE(At(variables.Motion(State(1).t_ns)).constant);
+  EXPECT_FALSE(At(variables.Pose(State(1).t_ns)).constant);
+}
+
+TEST_F(WindowVariablesTest, FirstEstimatesAreThoseOfThePrior) {
+  const MarginalizationPrior prior =
+      InitialPrior(InitialUncertainty(), testing::OnePixelOptions(), window());
+  const BlockId first{BlockKind::kPose, State(0).t_ns};
+  ASSERT_NE(prior.Linearization(first), nullptr);
+  WindowVariables variables(&window(), Nothing, &prior, &problem_);
+  EXPECT_EQ(At(variables.Add(first)).linearization, prior.Linearization(first));
+  EXPECT_EQ(At(variables.Pose(State(1).t_ns)).linearization, nullptr);
+}
+
+}  // namespace
+}  // namespace plm_vins

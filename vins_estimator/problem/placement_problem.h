@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "vins_estimator/map/local_map.h"
+#include "vins_estimator/problem/motion_terms.h"
+#include "vins_estimator/problem/problem_options.h"
+#include "vins_estimator/problem/view_terms.h"
+#include "vins_estimator/problem/window_problem.h"
+#include "vins_estimator/problem/window_variables.h"
+
+namespace plm_vins {
+
+// The problem that places the newest frames of a window: their states are solved for by the IMU,
+// and by what they show of landmarks that are optimised and were seen twice before. All else is
+// constant, and Jacobians are taken at the values.
+class PlacementProblem {
+ public:
+  // Places the frames after `known_until_ns`. The map must outlive the problem.
+  PlacementProblem(const ProblemOptions& options, LocalMap* map, int64_t known_until_ns);
+
+  const WindowProblem& problem() const { return problem_; }
+
+ private:
+  template <typename Landmark>
+  void AddNewViews(Landmark* landmark);
+
+  const ProblemOptions options_;
+  const int64_t known_until_ns_;
+  WindowProblem problem_;
+  WindowVariables variables_;
+  MotionTerms motion_;
+  ViewTerms views_;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "vins_estimator/map/sliding_window.h"
+#include "vins_estimator/problem/block_id.h"
+#include "vins_estimator/problem/marginalization_prior.h"
+#include "vins_estimator/problem/window_problem.h"
+
+namespace plm_vins {
+
+// The variables of a window other than landmarks, added to a problem as terms ask for them. All are
+// known by their index in it.
+class WindowVariables {
+ public:
+  using IsConstant = std::function<bool(const BlockId&)>;
+
+  // Jacobians by the variables of `first_estimates` are taken where that was linearised; null: all
+  // are taken at the values. The others must outlive the problem.
+  WindowVariables(SlidingWindow* window, IsConstant is_constant,
+                  const MarginalizationPrior* first_estimates, WindowProblem* problem);
+
+  int Pose(int64_t t_ns) { return Add({BlockKind::kPose, t_ns}); }  // of a frame or an anchor
+  int Motion(int64_t t_ns) { return Add({BlockKind::kMotion, t_ns}); }
+  int Extrinsic() { return Add({BlockKind::kExtrinsic, 0}); }
+  int TimeOffset() { return Add({BlockKind::kTimeOffset, 0}); }
+  int Readout() { return Add({BlockKind::kReadout, 0}); }
+  int Intrinsics() { return Add({BlockKind::kIntrinsics, 0}); }
+  // Any of these.
+  int Add(const BlockId& id);
+
+ private:
+  double* Values(const BlockId& id);
+
+  SlidingWindow* window_;
+  IsConstant is_constant_;
+  const MarginalizationPrior* first_estimates_;
+  WindowProblem* problem_;
+};
+
+}  // namespace plm_vins

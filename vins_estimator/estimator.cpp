@@ -18,7 +18,7 @@ Estimator::State::State(const Config& config, const EstimatorOptions& options)
 }
 
 Estimator::Estimator(const Config& config)
-    : config_(config), options_(config), state_(config, options_) {}
+    : config_(config), options_(config_), state_(config_, options_) {}
 
 void Estimator::Reset() { state_ = State(config_, options_); }
 

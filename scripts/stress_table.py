@@ -21,7 +21,7 @@ HEAD = ("| fault | APE [m] | largest error [m] | restarts after [s] | coverage |
         + 6 * "|---" + "|")
 # Counts in summary.json that name a fault.
 FOUND = ("imu_doubts", "bridged_losses")
-NAMED = ("imu_implausible", "imu_replaced", "imu_saturated", "imu_gaps", *FOUND)
+NAMED = ("imu_implausible", "imu_replaced", "imu_saturated", "imu_gaps", "frames_repeated", *FOUND)
 
 
 def parse_arguments(arguments):

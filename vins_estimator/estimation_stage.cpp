@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/estimation_stage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,6 +15,13 @@ namespace {
 
 constexpr double kRateTolerance = 0.2;  // share of the configured rate
 constexpr double kMaxJitter_ms = 1.0;  // a turn of 1 rad/s moves a corner by half a pixel meanwhile
+
+// By three standard deviations, as far as it is known [m/s].
+double LeastSpeed(const EstimatorOutput& output) {
+  if (!output.has_pose) return 0;
+  const double deviation = std::sqrt(output.velocity_covariance.diagonal().maxCoeff());
+  return std::max(0.0, output.state.velocity().norm() - 3 * deviation);
+}
 
 // All of the noise that is believed.
 bool IsAtLimit(double density, double configured_density) {
@@ -115,6 +123,7 @@ void EstimationStage::Reset(const std::string& reason) {
 void EstimationStage::StartOver(const std::string& reason) {
   estimator_->Reset();
   repeated_images_.Reset();
+  least_speed_ = 0;
   imu_noise_ = configured_noise_;
   imu_noise_scale_ = 1;
   delay_.reset();
@@ -138,7 +147,7 @@ std::optional<EstimatedFrame> EstimationStage::Process(
     std::optional<FrameMeasurement> measurement) {
   if (!measurement) return std::nullopt;
   FollowClock();
-  if (repeated_images_.Add(*measurement)) {
+  if (repeated_images_.Add(*measurement, least_speed_)) {
     ++frames_repeated_;
     measurement->points.points.clear();
     measurement->lines.reset();
@@ -149,6 +158,7 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   if (measurement->lines) frame.lines = *measurement->lines;
   ++frames_;
   if (frame.output.has_pose) imu_noise_ = frame.output.imu_noise;
+  least_speed_ = LeastSpeed(frame.output);
   imu_noise_scale_ = frame.output.imu_noise_scale;
   delay_ = frame.output.delay;
   if (frame.output.restarted) ++resets_;

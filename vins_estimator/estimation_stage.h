@@ -81,6 +81,7 @@ class EstimationStage {
   const std::unique_ptr<Estimator> estimator_;  // so that users do not see the solver
   MeasurementSync sync_;
   RepeatedImageDetector repeated_images_;
+  double least_speed_ = 0;  // of the newest image [m/s]
   StreamRhythm imu_rhythm_, image_rhythm_;
   ImuNoise imu_noise_;
   double imu_noise_scale_ = 1;

@@ -208,7 +208,7 @@ TEST(EstimationStage, ARepeatedImageIsNoStandstill) {
   EstimationStage stage(config);
   constexpr size_t kFrozen = 160, kThawed = 200;  // images
   testing::EstimatedFlight estimated;
-  size_t aligned_at = 0, on_imu_alone = 0;
+  size_t aligned_at = 0;
   for (size_t i = 0; i < flight.frames.size(); ++i) {
     const FrameMeasurement& frame = flight.frames[i];
     for (size_t k = i > 0 ? 1 : 0; k < frame.imu.size(); ++k) stage.AddImu(frame.imu[k]);
@@ -219,15 +219,14 @@ TEST(EstimationStage, ARepeatedImageIsNoStandstill) {
       EXPECT_FALSE(estimate->output.restarted);
       if (!estimate->output.has_pose) continue;
       if (i == kFrozen - 1) aligned_at = estimated.outputs.size();
-      on_imu_alone += estimate->output.on_imu_alone;
+      if (i >= kFrozen && i < kThawed) EXPECT_TRUE(estimate->output.on_imu_alone);
       estimated.outputs.push_back(estimate->output);
       estimated.truth.push_back(flight.truth[i]);
     }
   }
-  EXPECT_EQ(on_imu_alone, kThawed - kFrozen);
   EXPECT_GT((estimated.truth.back().position() - estimated.truth[aligned_at].position()).norm(),
             0.5);
-  EXPECT_LT(testing::GreatestError(estimated, aligned_at), 0.3);
+  EXPECT_LT(testing::GreatestError(estimated, aligned_at), 0.1);
 }
 
 TEST(EstimationStage, SaysThatTheImuIsFarNoisierThanConfigured) {

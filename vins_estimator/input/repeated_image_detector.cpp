@@ -6,7 +6,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMinCorners = 10;  // in both images
+constexpr int kMinCorners = 10;     // in both images
+constexpr double kMinSpeed = 0.05;  // [m/s]
 
 bool ShowTheSame(const PointFrame& before, const PointFrame& after) {
   std::unordered_map<int64_t, Eigen::Vector2d> places;
@@ -23,11 +24,12 @@ bool ShowTheSame(const PointFrame& before, const PointFrame& after) {
 
 }  // namespace
 
-bool RepeatedImageDetector::Add(const FrameMeasurement& measurement) {
+bool RepeatedImageDetector::Add(const FrameMeasurement& measurement, double least_speed) {
   imu_.Add(measurement);
   const bool same = ShowTheSame(before_, measurement.points);
   before_ = measurement.points;
-  return same && imu_.IsKnown() && !imu_.IsQuiet();
+  const bool moves = least_speed > kMinSpeed || (imu_.IsKnown() && !imu_.IsQuiet());
+  return same && moves;
 }
 
 void RepeatedImageDetector::Reset() {

@@ -28,7 +28,7 @@ class RepeatedImageDetectorTest : public ::testing::Test {
       point.uv_px = {10.5 * id + shift_px, 7.25 * id};
       frame.points.points.push_back(point);
     }
-    return detector_.Add(frame);
+    return detector_.Add(frame, least_speed_);
   }
 
   // How many of a second's images count as repeated, each corner a little beside that before.
@@ -42,6 +42,7 @@ class RepeatedImageDetectorTest : public ::testing::Test {
   int64_t t_ns_ = 0;
   int corners_ = 30;
   int first_id_ = 0;
+  double least_speed_ = 0;
 };
 
 TEST_F(RepeatedImageDetectorTest, WhatRestsWhileTheImuMovesIsRepeated) {
@@ -58,6 +59,14 @@ TEST_F(RepeatedImageDetectorTest, TheLeastMotionOfOneCornerIsNone) {
 TEST_F(RepeatedImageDetectorTest, WhatRestsWithTheImuIsNone) {
   EXPECT_EQ(CountRepeated(0, 0), 0);
   EXPECT_EQ(CountRepeated(0, 0.01), 0);
+}
+
+TEST_F(RepeatedImageDetectorTest, WhatRestsInASteadyFlightIsRepeated) {
+  least_speed_ = 0.2;
+  EXPECT_EQ(CountRepeated(1, 0), 0);
+  EXPECT_TRUE(Next(20, 0));
+  least_speed_ = 0;
+  EXPECT_FALSE(Next(20, 0));
 }
 
 TEST_F(RepeatedImageDetectorTest, OnceTheImuRestsImagesCountAgain) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -85,12 +86,17 @@ class FaultMaker {
     const int64_t delay_ns = ToNanoseconds(SignedSize(1e-4, 0.1));
     const double share = Size(0.05, 1);
     const auto same = DrawViewFault();
-    switch (Below(4)) {
+    switch (Below(5)) {
       case 0:
         return [](PointFrame* frame) { frame->points.clear(); };
       case 1:
         return [=](PointFrame* frame) { frame->t_ns += delay_ns; };
-      case 2:
+      case 2:  // the first one is sent again
+        return [first = std::optional<PointFrame>()](PointFrame* frame) mutable {
+          if (!first) first = *frame;
+          frame->points = first->points;
+        };
+      case 3:
         return [=](PointFrame* frame) {
           for (PointObservation& view : frame->points) {
             if (Uniform(0, 1) < share) same(&view);
@@ -142,7 +148,7 @@ inline int64_t CountFaults(const simulator::FeatureDataset& good,
   for (size_t i = 0; i < good.points.size(); ++i) {
     const PointFrame &before = good.points[i], &after = damaged.points[i];
     faults += before.t_ns != after.t_ns || before.points.size() != after.points.size();
-    for (size_t k = 0; k < after.points.size(); ++k) {
+    for (size_t k = 0; k < std::min(before.points.size(), after.points.size()); ++k) {
       faults +=
           before.points[k].id != after.points[k].id || before.points[k].xy != after.points[k].xy;
     }

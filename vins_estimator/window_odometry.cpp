@@ -27,6 +27,9 @@ constexpr int kMaxReweighings = 3;  // each finds three times the noise at most
 constexpr int kMinPointsToPlace = 20;
 constexpr double kDoubtfulShare = 0.1;
 
+// Of the robust losses, where blindness ends: outliers of some ten pixels hardly count for less.
+constexpr double kWidened = 30;
+
 }  // namespace
 
 WindowOdometry::WindowOdometry(const Config& config, const EstimatorOptions& options)
@@ -94,6 +97,7 @@ WindowOdometry::Tracked WindowOdometry::Track(
 WindowOdometry::Solution WindowOdometry::Solve(bool keep_second_newest, EstimatorOutput* output) {
   const LocalMap& map = estimate_.map;
   const ImuNoiseLearning noise_before = imu_noise_;
+  if (estimate_monitor_.blind() && map.CountInNewest() >= kFewFeatures) FindBack(output);
   Solution solution = PlaceNewest(output);
   bool window_is_solved = !Suffices(solution);
   if (window_is_solved) {
@@ -221,6 +225,22 @@ bool WindowOdometry::Suffices(const Solution& placement) const {
   if (!imu_agreement_.IsUndoubted(window, keyframe_.t_ns)) return false;
   const PointMap::Fit fit = FitOfNewest(keyframe_.t_ns);
   return fit.seen >= kMinPointsToPlace && fit.contradicted <= kDoubtfulShare * fit.seen;
+}
+
+// After images without features the IMU may have led so far astray that all that is known lies
+// where outliers do, and nothing pulls the estimate back. With wide losses first, the minimum that
+// most landmarks agree on is near (graduated non-convexity, [Yang2020]).
+void WindowOdometry::FindBack(EstimatorOutput* output) {
+  const Stopwatch stopwatch;
+  LocalMap& map = estimate_.map;
+  ProblemOptions problem = CurrentProblem(JacobiansAt::kValues);
+  problem.point_loss_scale *= kWidened;
+  problem.line_loss_scale *= kWidened;
+  ProblemBuilder builder(problem, &map.window, &estimate_.prior);
+  builder.AddAll(&map.points, &map.lines);
+  NormalEquations equations(builder.problem());
+  SolveBy(config_->estimator.solver, CurrentSolution(), builder.problem(), &equations);
+  output->timings.optimization += stopwatch.Milliseconds();
 }
 
 WindowOdometry::Solution WindowOdometry::SolveWindow(const SolverOptions& options,

@@ -74,6 +74,7 @@ class WindowOdometry {
   Solution Solve(bool keep_second_newest, EstimatorOutput* output);
   Solution PlaceNewest(EstimatorOutput* output);
   bool Suffices(const Solution& placement) const;
+  void FindBack(EstimatorOutput* output);
   Solution SolveWindow(const SolverOptions& options, EstimatorOutput* output);
   void Triangulate(EstimatorOutput* output);
   void FindStructure(bool keep_second_newest, EstimatorOutput* output);

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "test/vins_estimator/estimated_flight.h"
+#include "test/vins_estimator/planned_flight.h"
 #include "vins_estimator/estimator.h"
 
 namespace plm_vins {
@@ -70,6 +71,37 @@ TEST(EstimatorRobustness, ASecondWithoutPointsCostsCentimetres) {
       EXPECT_LT(testing::GreatestError(flight, first_blind - 1), 0.1);
     }
   }
+}
+
+// With the losses as they are, none of the points would pull the estimate back by 0.3 m.
+TEST(EstimatorRobustness, KnownPointsLeadBackFromWhereTheImuLed) {
+  testing::FlightPlan plan;
+  plan.duration = 12;
+  plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
+  SimulatedFlight flight = testing::PlannedFlight(plan).Simulate();
+  constexpr size_t kBlind = 160, kSees = 220;  // images
+  for (size_t i = kBlind; i < kSees; ++i) {
+    flight.frames[i].points.points.clear();
+    for (ImuSample& sample : flight.frames[i].imu) sample.accel += Eigen::Vector3d::Constant(0.05);
+  }
+  for (size_t i = kSees; i < flight.frames.size(); ++i) {
+    for (PointObservation& point : flight.frames[i].points.points) {
+      if (point.id % 2 != 0) point.id += 1'000'000;  // was lost meanwhile
+    }
+  }
+  const EstimatedFlight estimated = testing::Estimate(flight);
+  const size_t aligned_at = estimated.truth.size() - (flight.frames.size() - kBlind) - 1;
+  const size_t sees_at = aligned_at + kSees - kBlind + 1;
+  const Rigid3d T =
+      testing::AlignHeading(estimated.outputs[aligned_at].state, estimated.truth[aligned_at]);
+  const auto error_at = [&](size_t i) {
+    const Eigen::Vector3d p = T * Eigen::Vector3d(estimated.outputs[i].state.position());
+    return (p - estimated.truth[i].position()).norm();
+  };
+  EXPECT_TRUE(estimated.restarts.empty());
+  EXPECT_GT(error_at(sees_at - 1), 0.25);
+  EXPECT_LT(error_at(sees_at), 0.05);
+  EXPECT_LT(error_at(estimated.truth.size() - 1), 0.05);
 }
 
 TEST(EstimatorRobustness, AbsurdImuRestartsWithAReasonAndTracksAgain) {

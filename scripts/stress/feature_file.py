@@ -29,7 +29,7 @@ class Features:
             raise self._error("no features of this version")
         self._begin = self._end_of_list(len(SIGNATURE), 1)  # of the first item
         self._imu, self._images = [], []  # of each: where it begins in the file
-        self._items = []  # (kind, index, begin, end)
+        self._items = []  # (kind, index, begin)
         self._split()
         if not self._imu or not self._images:
             raise ValueError(f"{path}: no IMU sample or no image in it")
@@ -46,7 +46,7 @@ class Features:
         was_ns = self.measurements().image_ns
         with open(path, "wb") as file:
             file.write(self._bytes[:self._begin])
-            for kind, index, begin, end in self._items:
+            for kind, index, begin in self._items:
                 if kind == IMU:
                     file.write(_imu_item(measurements, index))
                 else:
@@ -61,20 +61,20 @@ class Features:
             places = self._imu if kind == IMU else self._images
             places.append(at + 1)
             at = at + 1 + IMU_LAYOUT.size if kind == IMU else self._end_of_image(at)
-            self._items.append((kind, len(places) - 1, begin, at))
+            self._items.append((kind, len(places) - 1, begin))
         if at > len(self._bytes):
             raise self._error("ends in an item")
 
     def _end_of_points(self, begin):
-        size_at = begin + 1 + TRACKING.size + POINT_STATISTICS_SIZE
-        return self._end_of_list(size_at, POINT.itemsize)
+        return self._end_of_list(_points_size_at(begin), POINT.itemsize)
+
+    def _lines_size_at(self, begin):
+        return self._end_of_points(begin) + TRACKING.size + LINE_STATISTICS_SIZE
 
     def _end_of_image(self, begin):
-        end = self._end_of_points(begin)
         if self._bytes[begin] == POINTS:
-            return end
-        size_at = end + TRACKING.size + LINE_STATISTICS_SIZE
-        return self._end_of_list(size_at, LINE_SIZE)
+            return self._end_of_points(begin)
+        return self._end_of_list(self._lines_size_at(begin), LINE_SIZE)
 
     def _end_of_list(self, size_at, item_size):
         items_at = size_at + SIZE.size
@@ -86,34 +86,37 @@ class Features:
         return ValueError(f"{self._path}: {what}; record it again with --save-features")
 
     def _image_item(self, measurements, was_ns, index, begin):
-        t_ns, end_of_points = int(measurements.image_ns[index]), self._end_of_points(begin)
-        head_end = begin + 1 + TRACKING.size + POINT_STATISTICS_SIZE
-        points = self._points_of(measurements.shown[index])
+        t_ns, shown = int(measurements.image_ns[index]), measurements.shown[index]
+        points = self._points_of(shown)
         points["velocity"] *= (_stretch(was_ns, measurements.image_ns, index)
-                               if measurements.shown[index] == index else 0)
+                               if shown == index else 0)
         if not measurements.points_kept[index]:
             points = points[:0]
-        item = bytearray(self._bytes[begin:head_end] + SIZE.pack(len(points)) + points.tobytes())
+        item = bytearray(self._bytes[begin:_points_size_at(begin)])
         struct.pack_into("<q", item, 1, t_ns)
+        item += SIZE.pack(len(points)) + points.tobytes()
         if self._bytes[begin] == POINTS:
             return bytes(item)
-        lines = self._lines_of(measurements.shown[index]) if measurements.lines_kept[index] else b""
-        lines_at, size_at = len(item), end_of_points + TRACKING.size + LINE_STATISTICS_SIZE
-        item += self._bytes[end_of_points:size_at] + SIZE.pack(len(lines) // LINE_SIZE) + lines
-        struct.pack_into("<q", item, lines_at, t_ns)
-        return bytes(item)
+        lines = self._lines_of(shown) if measurements.lines_kept[index] else b""
+        head = bytearray(self._bytes[self._end_of_points(begin):self._lines_size_at(begin)])
+        struct.pack_into("<q", head, 0, t_ns)
+        return bytes(item + head + SIZE.pack(len(lines) // LINE_SIZE) + lines)
 
     def _points_of(self, image):
         begin = self._images[image] - 1
-        items_at = begin + 1 + TRACKING.size + POINT_STATISTICS_SIZE + SIZE.size
+        items_at = _points_size_at(begin) + SIZE.size
         return np.frombuffer(self._bytes[items_at:self._end_of_points(begin)], dtype=POINT).copy()
 
     def _lines_of(self, image):
         begin = self._images[image] - 1
         if self._bytes[begin] == POINTS:
             return b""
-        items_at = self._end_of_points(begin) + TRACKING.size + LINE_STATISTICS_SIZE + SIZE.size
-        return self._bytes[items_at:self._end_of_image(begin)]
+        return self._bytes[self._lines_size_at(begin) + SIZE.size:self._end_of_image(begin)]
+
+
+def _points_size_at(begin):
+    """Where the number of points is, of the image that begins there."""
+    return begin + 1 + TRACKING.size + POINT_STATISTICS_SIZE
 
 
 def _imu_item(measurements, index):

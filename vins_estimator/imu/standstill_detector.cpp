@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <unordered_map>
 #include <vector>
 
+#include "common/features/common_points.h"
 #include "common/median.h"
 
 namespace plm_vins {
@@ -18,14 +18,10 @@ struct CornerMotions {
 };
 
 CornerMotions MotionsBetween(const PointFrame& from, const PointFrame& to) {
-  std::unordered_map<int64_t, Eigen::Vector2d> start;
-  for (const PointObservation& point : from.points) start.emplace(point.id, point.uv_px);
   CornerMotions result;
-  for (const PointObservation& point : to.points) {
-    const auto found = start.find(point.id);
-    if (found == start.end()) continue;
-    result.starts.push_back(found->second);
-    result.motions.push_back(point.uv_px - found->second);
+  for (const CommonPoint& point : CommonPoints(from, to)) {
+    result.starts.push_back(point.first->uv_px);
+    result.motions.push_back(point.second->uv_px - point.first->uv_px);
   }
   return result;
 }

@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/frame_selection.h"
 
-#include <algorithm>
-#include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
+#include "common/features/common_points.h"
 #include "common/median.h"
-#include "vins_estimator/initialization/tracks.h"
 
 namespace plm_vins {
 namespace {
-
-std::vector<Correspondence> CommonPoints(const PointFrame& first, const PointFrame& second) {
-  std::unordered_map<int64_t, Eigen::Vector2d> xy_by_id;
-  for (const PointObservation& point : first.points) xy_by_id.emplace(point.id, point.xy);
-  std::vector<Correspondence> common;
-  for (const PointObservation& point : second.points) {
-    const auto before = xy_by_id.find(point.id);
-    if (before != xy_by_id.end()) common.push_back({before->second, point.xy});
-  }
-  return common;
-}
 
 // How far each frame is along the sequence, 0 to 1: the mean of its share of the time and its share
 // of the image motion.
@@ -42,17 +28,14 @@ std::vector<double> Progress(const std::deque<FrameMeasurement>& frames) {
 }  // namespace
 
 int CountCommonPoints(const PointFrame& first, const PointFrame& second) {
-  std::unordered_set<int64_t> ids;
-  for (const PointObservation& point : first.points) ids.insert(point.id);
-  return static_cast<int>(
-      std::count_if(second.points.begin(), second.points.end(),
-                    [&ids](const PointObservation& point) { return ids.count(point.id) > 0; }));
+  return static_cast<int>(CommonPoints(first, second).size());
 }
 
 double MedianFlow(const PointFrame& first, const PointFrame& second) {
   std::vector<double> ways;
-  for (const Correspondence& c : CommonPoints(first, second))
-    ways.push_back((c.xy1 - c.xy0).norm());
+  for (const CommonPoint& point : CommonPoints(first, second)) {
+    ways.push_back((point.second->xy - point.first->xy).norm());
+  }
   return Median(std::move(ways));
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/input/repeated_image_detector.h"
 
-#include <unordered_map>
+#include <algorithm>
+#include <vector>
+
+#include "common/features/common_points.h"
 
 namespace plm_vins {
 namespace {
@@ -10,16 +13,11 @@ constexpr int kMinCorners = 10;     // in both images
 constexpr double kMinSpeed = 0.05;  // [m/s]
 
 bool ShowTheSame(const PointFrame& before, const PointFrame& after) {
-  std::unordered_map<int64_t, Eigen::Vector2d> places;
-  for (const PointObservation& point : before.points) places.emplace(point.id, point.uv_px);
-  int common = 0;
-  for (const PointObservation& point : after.points) {
-    const auto place = places.find(point.id);
-    if (place == places.end()) continue;
-    if (place->second != point.uv_px) return false;
-    ++common;
-  }
-  return common >= kMinCorners;
+  const std::vector<CommonPoint> common = CommonPoints(before, after);
+  return common.size() >= kMinCorners &&
+         std::all_of(common.begin(), common.end(), [](const CommonPoint& point) {
+           return point.first->uv_px == point.second->uv_px;
+         });
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ void EstimationStage::AddPoints(PointFrame frame) {
 }
 
 DropCounts EstimationStage::Drops() const {
-  const SyncStatistics& statistics = sync_.statistics();
+  const SyncStatistics statistics = sync_.statistics();
   return {{"imu_not_finite", statistics.imu_not_finite, ""},
           {"imu_implausible", statistics.imu_implausible, ""},
           {"imu_replaced", statistics.imu_replaced, ""},
@@ -135,7 +135,7 @@ void EstimationStage::StartOver(const std::string& reason) {
 }
 
 void EstimationStage::FollowClock() {
-  const SyncStatistics& now = sync_.statistics();
+  const SyncStatistics now = sync_.statistics();
   if (now.leaps_ahead > leaps_ahead_)
     StartOver("no IMU for more than a minute, or its clock was set on");
   if (now.jumps_back > jumps_back_) StartOver("stamps jumped back");

@@ -39,7 +39,7 @@ class WindowOdometry {
              EstimatorOutput* output);
   bool started() const { return started_; }
 
-  // The next image; before the start it is not taken.
+  // Takes the next image, once started.
   Tracked Track(const FrameMeasurement& measurement,
                 const std::optional<StandstillDetector::Standstill>& standstill,
                 EstimatorOutput* output);

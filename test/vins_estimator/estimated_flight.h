@@ -79,14 +79,18 @@ inline Rigid3d AlignHeading(const FrameState& estimate, const FrameState& truth)
   return {R, truth.position() - R * estimate.position()};
 }
 
-// Greatest distance of the estimated position from the truth, aligned at one image, from there
-// on [m].
-inline double GreatestError(const EstimatedFlight& flight, size_t aligned_at) {
+// Distance of an estimated position from the truth, aligned at another image [m].
+inline double ErrorAt(const EstimatedFlight& flight, size_t aligned_at, size_t index) {
   const Rigid3d T = AlignHeading(flight.outputs[aligned_at].state, flight.truth[aligned_at]);
+  const Eigen::Vector3d p = T * Eigen::Vector3d(flight.outputs[index].state.position());
+  return (p - flight.truth[index].position()).norm();
+}
+
+// The greatest one from there on [m].
+inline double GreatestError(const EstimatedFlight& flight, size_t aligned_at) {
   double greatest = 0;
   for (size_t i = aligned_at; i < flight.truth.size(); ++i) {
-    const Eigen::Vector3d p = T * Eigen::Vector3d(flight.outputs[i].state.position());
-    greatest = std::max(greatest, (p - flight.truth[i].position()).norm());
+    greatest = std::max(greatest, ErrorAt(flight, aligned_at, i));
   }
   return greatest;
 }

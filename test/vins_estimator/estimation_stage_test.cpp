@@ -195,7 +195,6 @@ TEST_F(EstimationStageTest, SaysThatTheImuComesTooSeldom) {
             "the IMU comes at 16.7 Hz, of which nothing can be made: give 20 Hz or more");
 }
 
-// In flight, where the camera shows it.
 // What the stage makes of a flight with points alone.
 testing::EstimatedFlight Fly(const testing::SimulatedFlight& flight, EstimationStage* stage) {
   testing::EstimatedFlight estimated;
@@ -262,6 +261,7 @@ TEST(EstimationStage, ACameraWithoutNoiseMayRest) {
   EXPECT_LT(testing::GreatestError(estimated, 0), 0.02);
 }
 
+// In flight, where the camera shows it.
 TEST(EstimationStage, SaysThatTheImuIsFarNoisierThanConfigured) {
   testing::FlightPlan plan;
   plan.duration = 12;

@@ -92,16 +92,10 @@ TEST(EstimatorRobustness, KnownPointsLeadBackFromWhereTheImuLed) {
   const EstimatedFlight estimated = testing::Estimate(flight);
   const size_t aligned_at = estimated.truth.size() - (flight.frames.size() - kBlind) - 1;
   const size_t sees_at = aligned_at + kSees - kBlind + 1;
-  const Rigid3d T =
-      testing::AlignHeading(estimated.outputs[aligned_at].state, estimated.truth[aligned_at]);
-  const auto error_at = [&](size_t i) {
-    const Eigen::Vector3d p = T * Eigen::Vector3d(estimated.outputs[i].state.position());
-    return (p - estimated.truth[i].position()).norm();
-  };
   EXPECT_TRUE(estimated.restarts.empty());
-  EXPECT_GT(error_at(sees_at - 1), 0.25);
-  EXPECT_LT(error_at(sees_at), 0.05);
-  EXPECT_LT(error_at(estimated.truth.size() - 1), 0.05);
+  EXPECT_GT(testing::ErrorAt(estimated, aligned_at, sees_at - 1), 0.25);
+  EXPECT_LT(testing::ErrorAt(estimated, aligned_at, sees_at), 0.05);
+  EXPECT_LT(testing::ErrorAt(estimated, aligned_at, estimated.truth.size() - 1), 0.05);
 }
 
 TEST(EstimatorRobustness, AbsurdImuRestartsWithAReasonAndTracksAgain) {

@@ -44,12 +44,26 @@ struct ImuSample {
   double accel_doubt = 0;  // [m/s^2]
 };
 
+// What came of the search for a feature in the image of the second camera.
+enum class RightSearch : uint8_t {
+  kNotDue,       // not searched for in this image, or there is no second camera
+  kNoImage,      // the second camera has no image of this stamp
+  kNotFound,     // nothing there looks like it, or more than one place does
+  kOffEpipolar,  // what looks like it is not where the stated mounting allows it
+  kFound,
+};
+
 // One tracked corner in one image.
 struct PointObservation {
   int64_t id = -1;                                     // stable along the track, never reused
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();        // normalised, undistorted
   Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();     // raw pixel
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // d(xy)/dt [1/s]; zero when new
+  // The same point in the second camera C1 at the same stamp: of a ray (x, y, 1) in C1. Present
+  // where `right_search` is kFound.
+  std::optional<Eigen::Vector2d> right = {};
+  RightSearch right_search = RightSearch::kNotDue;
+  std::optional<double> depth = {};  // measured, along the optical axis of C [m]
 };
 
 // All corners of one image, in the order of the tracker. May be empty (a blind image).
@@ -58,11 +72,22 @@ struct PointFrame {
   std::vector<PointObservation> points;
 };
 
+// What the second camera C1 sees of a line segment. Its ends need not be the ends of the segment in
+// the first camera: only the line through them is measured.
+struct RightSegment {
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();  // normalised, undistorted, in C1
+  Eigen::Vector2d end = Eigen::Vector2d::Zero();    // the same
+  // Standard deviations of start and end across the line, normalised. The closer the line is to the
+  // epipolar direction, the larger they are.
+  Eigen::Vector2d deviation = Eigen::Vector2d::Zero();
+};
+
 // One tracked line segment in one image.
 struct LineObservation {
   int64_t id = -1;                                  // stable along the track, never reused
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  // normalised, undistorted
   Eigen::Vector2d end = Eigen::Vector2d::Zero();    // normalised, undistorted
+  std::optional<RightSegment> right = {};           // as of the same stamp, where it was matched
 };
 
 // All line segments of one image. May be empty.

@@ -10,11 +10,11 @@
 namespace plm_vins {
 namespace {
 
-// Contradictions are noticed after half a second (ContradictionMonitor), and not all begin at once.
+// Contradictions are noticed after half a second (ContradictionMonitor), and may begin gradually.
 constexpr int64_t kTrouble_ns = 1'000'000'000;
 
 constexpr int64_t kMaxDuration_ns = 2'000'000'000;
-constexpr double kMaxDeviation = 0.1;  // that the bridge may add to the position [m]
+constexpr double kMaxDeviation = 0.1;  // position uncertainty that the bridge may add [m]
 
 bool IsCertain(const UncertainState& start, const UncertainState& end) {
   const auto variance = [&start](const UncertainState& estimate) {

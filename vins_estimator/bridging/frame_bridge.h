@@ -14,52 +14,54 @@
 
 namespace plm_vins {
 
-// Carries the world frame over a loss of the estimate: the IMU leads from the last estimate that
-// can be believed to the first image of the next window. A window that starts in motion looks back
-// to the images right after the loss, so that the bridge need not last for as long as its
-// initialisation takes. It ends where the IMU leaves the position uncertain.
+// Carries the world frame across a loss of tracking: propagates the IMU from the last trustworthy
+// estimate to the first image of the next window, so that the reinitialized estimate continues in
+// the previous world frame. A window that is initialized in motion begins with images right after
+// the loss, which keeps the bridge shorter than its initialization. The bridge ends when IMU
+// propagation makes the position uncertain.
 class FrameBridge {
  public:
   // `gravity_W` is (0, 0, -g) [m/s^2].
   FrameBridge(const ImuNoise& noise, const Eigen::Vector3d& gravity_W)
       : noise_(noise), gravity_W_(gravity_W) {}
 
-  // An image that is tracked: the samples from the image before to it, and what is known of it; a
-  // covariance of zero: nothing.
+  // Adds an image while tracking: the IMU samples since the previous image and the estimate at this
+  // image. A zero covariance means unknown.
   void AddTracked(const std::vector<ImuSample>& samples, const UncertainState& estimate);
 
-  // The estimate is lost with the image that was tracked last. False, and nothing begins, where
-  // there is no estimate from before the trouble, which may have gone unnoticed for a second.
+  // Starts the bridge after the image that was tracked last. Returns false if there is no estimate
+  // from before the failure, which may have gone unnoticed for a second.
   bool Begin(const std::string& why);
 
-  // The samples from the image before to the next one after the loss.
+  // Adds an image after the loss, with the IMU samples since the previous one.
   void AddLost(const std::vector<ImuSample>& samples, int64_t t_ns);
 
-  // True until a loss, and as long after it as a window that begins at `begin_ns`, or with an image
-  // to come where that is nothing, can be connected.
+  // Returns whether a window that starts at `begin_ns`, or at a future image if nullopt, can still
+  // be connected. Always true before a loss.
   bool CanConnect(std::optional<int64_t> begin_ns) const;
 
-  // What is known of an image after the loss; null where the bridge does not reach it.
+  // Returns the propagated estimate at an image after the loss, or null if the bridge does not
+  // reach it.
   const UncertainState* At(int64_t t_ns) const;
 
   void Clear();
 
   bool begun() const { return begun_; }
-  const std::string& why() const { return why_; }  // the estimate was lost
+  const std::string& why() const { return why_; }  // reason for the loss
 
  private:
   struct Image {
-    std::vector<ImuSample> samples;  // from the image before
+    std::vector<ImuSample> samples;  // since the previous image
     UncertainState estimate;
   };
 
-  // By the motion as it was measured, whatever the camera has made of the noise of the IMU
-  // meanwhile: which of the two was wrong shows where the new window does or does not fit.
+  // Propagates with the configured IMU noise, not the noise learned meanwhile: whether the IMU or
+  // the camera was wrong shows when the new window is compared.
   void Cross(const Image& from, Image* to) const;
 
   ImuNoise noise_;
   Eigen::Vector3d gravity_W_;
-  std::deque<Image> images_;  // after the loss: as the IMU leads on from the first one
+  std::deque<Image> images_;  // after a loss: propagated from the first one
   bool begun_ = false;
   bool ended_ = false;
   std::string why_;

@@ -34,7 +34,8 @@ bool DifferByFrame(const UncertainState& known, const FrameState& fresh,
   difference << SO3Log(placed.rotation() * known.state.rotation().conjugate()).head<2>(),
       placed.velocity() - known.state.velocity();
 
-  // The velocity is compared at equal headings: an error of the heading turns it with the frame.
+  // Velocities are compared at equal headings, so an error of the known heading rotates the
+  // velocity difference.
   Eigen::Matrix<double, 5, 15> d_difference_d_known = Eigen::Matrix<double, 5, 15>::Zero();
   d_difference_d_known.block<2, 3>(0, Index::kRotation) = R_W_B.topRows<2>();
   d_difference_d_known.block<3, 3>(2, Index::kRotation) =

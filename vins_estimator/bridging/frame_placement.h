@@ -8,20 +8,20 @@
 
 namespace plm_vins {
 
-// What a new window knows by itself, apart from the world frame that it is put into.
+// Standard deviations of a newly initialized window, relative to its own world frame.
 struct FreshDeviations {
   double inclination = 0.02;  // [rad]
   double velocity = 0.1;      // [m/s]
 };
 
-// True where two states of one time differ in nothing but their world frames, that is in position
-// and heading: a test of chi-square. `known` is what the IMU says, `fresh` a new initialisation.
-// Half a metre per second between the two is found, and with it the faults of an IMU that would
-// move the position by more than some decimetres within a second.
+// Chi-square test of whether two states of the same time differ only by their world frames, that is
+// by position and heading. `known` is propagated by the IMU, `fresh` is newly initialized. It
+// detects velocity differences of half a metre per second, and so IMU faults that would move the
+// position by more than some decimetres within a second.
 bool DifferByFrame(const UncertainState& known, const FrameState& fresh,
                    const FreshDeviations& deviations = FreshDeviations());
 
-// Takes states, the first of which is `fresh`, to the world frame of `known`.
+// Transforms states, the first of which is `fresh`, into the world frame of `known`.
 class FramePlacement {
  public:
   FramePlacement(const FrameState& known, const FrameState& fresh);
@@ -29,7 +29,7 @@ class FramePlacement {
   FrameState Apply(FrameState state) const;
 
  private:
-  Rigid3d T_known_fresh_;  // keeps gravity along -z
+  Rigid3d T_known_fresh_;  // about z only, so that gravity stays along -z
 };
 
 }  // namespace plm_vins

@@ -8,8 +8,8 @@
 
 namespace plm_vins {
 
-// The residual between the two states is the noise n of the interval: with its Jacobians,
-// J_0 dx_0 + J_1 dx_1 = n.
+// The residual between the two states is the noise n of the interval; linearized, J_0 dx_0 + J_1
+// dx_1 = n.
 UncertainState Propagate(const UncertainState& start, const Preintegration& motion,
                          const Eigen::Vector3d& gravity_W) {
   UncertainState end{motion.Predict(start.state, gravity_W)};

@@ -8,18 +8,18 @@
 
 namespace plm_vins {
 
-// A state with its covariance in the tangents of pose and motion: (p_W, rotation in B, v_W,
-// accelerometer bias, gyro bias).
+// A state with its covariance in the tangent space: (p_W, rotation in B, v_W, accelerometer bias,
+// gyroscope bias).
 struct UncertainState {
   FrameState state;
   Matrix15d covariance = Matrix15d::Zero();
 };
 
-// The state at the end of the interval; the noise of the IMU adds to its covariance.
+// Propagates a state and its covariance over the interval of `motion`, adding the IMU noise.
 UncertainState Propagate(const UncertainState& start, const Preintegration& motion,
                          const Eigen::Vector3d& gravity_W);
 
-double PositionDeviation(const UncertainState& estimate);  // of the axis known worst [m]
+double PositionDeviation(const UncertainState& estimate);  // along the least certain axis [m]
 double HeadingDeviation(const UncertainState& estimate);   // [rad]
 
 }  // namespace plm_vins

@@ -8,12 +8,13 @@ namespace plm_vins {
 namespace {
 
 constexpr double kQuarterTurn = M_PI / 2;
-constexpr int kBins = 90;  // of 1 deg, to search for the best heading
+constexpr int kBins = 90;  // of 1 deg each, to search for the best heading
 constexpr double kForgottenWeight = 0.03;
 
-// Logarithm of a bound on the probability that votes of total weight `total`, each with probability
-// `chance` in favour, give `weight` or more. Hoeffding's bound for equal votes; it holds for
-// weights w <= 1 as well, because the logarithm of E[exp(s w X)] is convex in w and zero at w = 0.
+// Returns the logarithm of a bound on the probability that independent votes of total weight
+// `total`, each supporting with probability `chance`, give at least `weight`. This is Hoeffding's
+// bound for equal votes; it holds for weights w <= 1 as well, because the logarithm of E[exp(s w
+// X)] is convex in w and zero at w = 0.
 double LogTail(double weight, double total, double chance) {
   const double share = total > 0 ? std::min(weight / total, 1.0) : 0.0;
   if (share <= chance) return 0;
@@ -81,7 +82,7 @@ HeadingSupport HeadingVotes::At(double heading) const {
 
 HeadingSupport HeadingVotes::Best() const {
   HeadingSupport best = At(DensestHeading());
-  constexpr int kRefinements = 3;  // the window follows the mean of the votes inside
+  constexpr int kRefinements = 3;  // mean-shift steps
   for (int i = 0; i < kRefinements; ++i) {
     const HeadingSupport moved = At(best.heading);
     if (moved.weight < best.weight) break;
@@ -90,8 +91,8 @@ HeadingSupport HeadingVotes::Best() const {
   return best;
 }
 
-// The centre of the window with the greatest weight, to the bin. All bins summed lie wholly within
-// half_width of it.
+// Returns the centre of the window with the greatest weight, at the resolution of the bins. All
+// summed bins lie entirely within half_width of it.
 double HeadingVotes::DensestHeading() const {
   constexpr double kBinWidth = kQuarterTurn / kBins;
   std::array<double, kBins> histogram{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What passes between the line landmarks and the Manhattan frame: their directions one way, the
-// names of their axes the other.
+// Exchange between the line landmarks and the Manhattan frame: line directions in one direction,
+// axis labels in the other.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,15 @@
 
 namespace plm_vins {
 
-// Directions of the triangulated lines, with the standard deviation that the views in the window
-// leave them, for end points with a deviation of `noise` (normalised) across the line.
+// Returns the directions of all triangulated lines, with standard deviations from the observations
+// in the window. `noise` is the standard deviation of an end point across its line, in normalized
+// coordinates.
 std::vector<LineDirection> LineDirections(const SlidingWindow& window, const LineMap& lines,
                                           double noise);
 
-// Names the axis of the lines whose direction is known well. The others keep the name that they
-// have: their older views may have left the window, but not the line its axis.
+// Labels each line whose direction is accurate enough with its Manhattan axis. Other lines keep
+// their label: a line stays parallel to its axis even when the observations that proved it have
+// left the window.
 void NameAxes(const ManhattanFrame& frame, const std::vector<LineDirection>& directions,
               LineMap* lines);
 

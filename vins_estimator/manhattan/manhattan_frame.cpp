@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-// How far the direction of a line is from an axis [rad].
+// Returns the angle between a line's direction and an axis, regardless of sign [rad].
 double AngleBetween(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis) {
   return std::atan2(direction.cross(axis).norm(), std::abs(direction.dot(axis)));
 }
@@ -37,7 +37,7 @@ void ManhattanFrame::Vote(const std::vector<LineDirection>& lines, double elapse
   }
 }
 
-// Follows the heading with most support until it has had enough of it for long enough.
+// Tracks the best supported heading and locks it once it was significant for long enough.
 void ManhattanFrame::Search(int64_t t_ns) {
   support_ = votes_.Best();
   const bool goes_on =
@@ -59,7 +59,7 @@ void ManhattanFrame::Search(int64_t t_ns) {
   since_ns_.reset();
 }
 
-// Holds the heading unless the lines contradict it for some time.
+// Keeps the locked heading unless the lines contradict it for some time.
 void ManhattanFrame::Check(int64_t t_ns) {
   support_ = votes_.At(heading_);
   if (!Contradicted()) {
@@ -79,7 +79,8 @@ bool ManhattanFrame::Significant(const HeadingSupport& support) const {
          support.sigma < options_.lock_sigma;
 }
 
-// The lines follow another heading, or one beside it.
+// Returns whether the lines significantly support another heading, or their mean heading has
+// shifted.
 bool ManhattanFrame::Contradicted() const {
   if (support_.log_false_alarms > std::log(options_.keep_false_alarms)) {
     return Significant(votes_.Best());

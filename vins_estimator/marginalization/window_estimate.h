@@ -11,18 +11,18 @@
 
 namespace plm_vins {
 
-// The local map, and the prior in which all that left it lives on. Both move in step: what is taken
-// out of the map is folded into the prior and never lost. Two things are used twice: the newest
-// view of a landmark that goes into the prior and is still seen, which hosts it from then on, and
-// the views that anchors keep of lines, which count less when the line comes back
+// The local map and the marginalization prior, kept in step: whatever leaves the map is
+// marginalized into the prior. Two kinds of observation are used twice: the newest observation of a
+// landmark that is marginalized but still tracked, since that frame becomes its host; and the line
+// observations that anchors keep, which are down-weighted when the line is re-observed
 // (docs/merging.md).
 struct WindowEstimate {
   explicit WindowEstimate(LocalMap local_map) : map(std::move(local_map)) {}
 
-  // Marginalises the frame before the newest, which is no keyframe: what it has seen is given up.
+  // Marginalizes the second newest frame, a non-keyframe, and drops its observations.
   void DropSecondNewest();
 
-  // Marginalises the oldest frame with the landmarks that it hosts; see LocalMap::SlideOldest().
+  // Marginalizes the oldest frame with the landmarks that it hosts; see LocalMap::SlideOldest().
   DepartedLandmarks SlideOldest(const ProblemOptions& options, bool stays_as_anchor);
 
   void RemoveAnchor(int64_t t_ns);
@@ -31,7 +31,7 @@ struct WindowEstimate {
   MarginalizationPrior prior;
 };
 
-// Without frames, with the calibration as configured.
+// Returns a window without frames and with the configured calibration.
 WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& options);
 
 }  // namespace plm_vins

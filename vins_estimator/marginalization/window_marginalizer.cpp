@@ -11,7 +11,7 @@
 namespace plm_vins {
 namespace {
 
-// All that a problem says about its frame variables, as a prior on them.
+// Eliminates the landmarks of a problem and returns a prior on its frame variables.
 MarginalizationPrior Summarize(const WindowProblem& problem) {
   NormalEquations equations(problem);
   equations.Linearize();
@@ -29,12 +29,13 @@ MarginalizationPrior Summarize(const WindowProblem& problem) {
     blocks.push_back(MarginalizationPrior::MakeBlock(variable.id, offset, x0));
     variable.type().minus(variable.values, x0, &delta[offset]);
   }
-  // The equations' b is the gradient at the values; the prior counts from the linearisation points.
+  // The equations' b is the gradient at the current values; the prior's b refers to the
+  // linearization points.
   quadratic.b -= quadratic.H * delta;
   return {std::move(blocks), std::move(quadratic)};
 }
 
-// Selects the velocity and biases of one frame.
+// Returns a predicate that selects the velocity and biases of one frame.
 std::function<bool(const BlockId&)> IsMotionOfFrame(int64_t t_ns) {
   return [t_ns](const BlockId& id) { return id.kind == BlockKind::kMotion && id.key == t_ns; };
 }

@@ -11,12 +11,13 @@
 
 namespace plm_vins {
 
-// Selects the variables of one frame.
+// Returns a predicate that selects the pose, velocity and biases of one frame.
 std::function<bool(const BlockId&)> IsOfFrame(int64_t t_ns);
 
-// The prior with the oldest frame folded in: its motion to the next frame, and every landmark that
-// it hosts with all views. Its pose stays a variable of the prior where `keep_pose` says so. The
-// map stays as it is; what was folded in must not be used again (WindowEstimate sees to it).
+// Returns the prior with the oldest frame marginalized: its preintegrated measurement to the next
+// frame, and every landmark that it hosts with all observations. If `keep_pose`, its pose stays a
+// variable of the prior. The map is not changed; the caller must drop from it what was marginalized
+// (see WindowEstimate).
 MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
                                        const MarginalizationPrior& prior, LocalMap* map,
                                        bool keep_pose);

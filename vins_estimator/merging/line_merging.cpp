@@ -12,16 +12,18 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Each line's newest segment from the image of the other line.
+// Returns the greater of the distances between each line's newest segment and the image of the
+// other line.
 double DistanceInImages(const SlidingWindow& window, const LineLandmark& a, const LineLandmark& b) {
   return std::max(DistanceInImage(window, LineInWorld(a, window), b.views.back()),
                   DistanceInImage(window, LineInWorld(b, window), a.views.back()));
 }
 
-// Two segments of one image that run beside each other, further apart than their noise.
+// Returns whether two segments of one image overlap along their direction but are farther apart
+// than their noise, so that they cannot be one line.
 bool AreSideBySide(const LineSegmentView& a, const LineSegmentView& b, double noise) {
   constexpr double kNoiseFactor = 3.0;
-  constexpr double kLeastOverlap = 0.2;  // of the shorter
+  constexpr double kLeastOverlap = 0.2;  // of the shorter one
   const Vector2d along = (a.end - a.start).normalized();
   const auto [a_low, a_high] = std::minmax({along.dot(a.start), along.dot(a.end)});
   const auto [b_low, b_high] = std::minmax({along.dot(b.start), along.dot(b.end)});
@@ -41,7 +43,8 @@ bool AreSeenSideBySide(const LineLandmark& a, const LineLandmark& b, double nois
   return false;
 }
 
-// The views of both by time; where one image shows both, the longer segment.
+// Merges the observations of both lines by time; where one image has both, the longer segment is
+// kept.
 std::vector<LineView> JoinViews(const LineLandmark& a, const LineLandmark& b) {
   std::vector<LineView> views;
   std::merge(
@@ -59,14 +62,14 @@ std::vector<LineView> JoinViews(const LineLandmark& a, const LineLandmark& b) {
   return views;
 }
 
-// What a chi-square variable exceeds once in a thousand times ([Wilson1931]).
+// Returns the 99.9 % quantile of the chi-square distribution ([Wilson1931]).
 double ChiSquareLimit(int degrees_of_freedom) {
   constexpr double kNormalLimit = 3.09;
   const double v = 2.0 / (9.0 * degrees_of_freedom);
   return degrees_of_freedom * std::pow(1.0 - v + kNormalLimit * std::sqrt(v), 3);
 }
 
-// The best fit to the views of a line whose coordinates are about `line_W`.
+// Fits a line to the observations `views`, starting from `line_W`.
 std::optional<LineFit> Fit(const SlidingWindow& window, double noise,
                            const std::vector<LineView>& views, const PluckerLine& line_W) {
   const auto sightings = SightingsOf(views, window);
@@ -74,8 +77,8 @@ std::optional<LineFit> Fit(const SlidingWindow& window, double noise,
   return FitLine(sightings, noise, ToOrthonormal(initial));
 }
 
-// The older line with the views of both, where one line fits all of them, and not significantly
-// worse than two lines do.
+// Returns the older line with the observations of both, refitted; nullopt if no single line fits
+// them, or if it fits significantly worse than two lines do.
 std::optional<LineLandmark> Join(const SlidingWindow& window, double noise,
                                  const LineLandmark& older, const LineLandmark& newer) {
   LineLandmark joint = older;
@@ -96,7 +99,7 @@ std::optional<LineLandmark> Join(const SlidingWindow& window, double noise,
   return joint;
 }
 
-// The landmarks that may be merged, by ascending id, and their seen parts.
+// The landmarks that may be merged, by ascending id, and their observed segments in F.
 struct Candidates {
   std::vector<LineLandmark*> landmarks;
   std::vector<SeenLine> seen;
@@ -116,7 +119,8 @@ Candidates Collect(const Eigen::Quaterniond& R_F_W, double noise, LocalMap* map)
 
 enum class MergeRefusal { kDirection, kDistance, kGap, kSideBySide, kDistanceInImages, kFit };
 
-// The first condition that two lines fail, in space or in the images; nothing where they meet all.
+// Returns the first condition, in space or in the images, that two lines violate; nullopt if they
+// meet all.
 std::optional<MergeRefusal> FindRefusal(const SameLineLimits& limits, const SlidingWindow& window,
                                         const LineLandmark& a, const LineLandmark& b,
                                         const LinePairGeometry& pair) {
@@ -155,7 +159,7 @@ MergedLines MergeLines(const SameLineLimits& limits, const Eigen::Quaterniond& R
   MergedLines result;
   LineMergingCounts& counts = result.counts;
   for (const auto& [newer, older] : FindNearPairs(seen, limits.distance)) {
-    if (landmarks[newer] == nullptr || landmarks[older] == nullptr) continue;  // gone already
+    if (landmarks[newer] == nullptr || landmarks[older] == nullptr) continue;  // merged already
     ++counts.candidates;
     const auto refusal = FindRefusal(limits, window, *landmarks[older], *landmarks[newer],
                                      Compare(seen[older], seen[newer]));

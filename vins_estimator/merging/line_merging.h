@@ -13,18 +13,20 @@ namespace plm_vins {
 
 struct MergedLines {
   LineMergingCounts counts;
-  std::vector<int64_t> absorbed;  // ids that are no more
+  std::vector<int64_t> absorbed;  // ids of the landmarks that were merged into others
 };
 
-// Deletes redundant line landmarks after triangulation ([Paper], section III.C): when the track of
-// a line breaks, it comes back under a new id and would be one more landmark. A line is absorbed by
-// an older one where, in the Manhattan frame, they are less than `limits.distance` apart, and where
-// in the images, too, each lies on the other. Beyond the paper, they must have the same direction,
-// and overlap or touch along it; no image may show them side by side; and the views of both must
-// fit one line. Where the views determine direction or place less well than the limits, the fit
-// decides. The views of the newer go to the older, and later ones follow by way of its alias.
+// Merges redundant line landmarks after triangulation ([Paper], section III.C): when the track of a
+// line breaks, the line is detected again under a new id and becomes a second landmark. A line is
+// merged into an older one if they are less than `limits.distance` apart in the Manhattan frame and
+// if each projects onto the other's segment in the images. Beyond the paper, their directions must
+// agree, they must overlap or touch along the line, no image may show them side by side, and one
+// line must fit the observations of both. Where the observations constrain direction or position
+// less well than the limits require, the fit decides. The older landmark takes over the
+// observations of the newer one; later observations are redirected by an alias.
 //
-// Pairs are found by boxes along the axes of F: the Manhattan frame, or W where there is none.
+// Candidate pairs are found by bounding boxes along the axes of F, which is the Manhattan frame, or
+// W while that is unknown.
 MergedLines MergeLines(const SameLineLimits& limits, const Eigen::Quaterniond& R_F_W,
                        LocalMap* map);
 

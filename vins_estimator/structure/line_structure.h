@@ -13,24 +13,24 @@
 
 namespace plm_vins {
 
-// What became of the lines of the map in one frame.
+// What was done with the lines of the map at one frame.
 struct UnitedLines {
   LineMergingCounts merging;
-  int recognised = 0;             // that had left the window
-  std::vector<int64_t> absorbed;  // ids of merged lines that are no more
+  int recognised = 0;             // lines re-observed after they had left the window
+  std::vector<int64_t> absorbed;  // ids of lines that were merged into others
 };
 
-// What the lines of the map say of the scene and of each other: the Manhattan frame that they run
-// along, and which of them are one.
+// Finds structure among the line landmarks: the Manhattan frame that they are parallel to, and
+// which of them are observations of one line.
 class LineStructure {
  public:
   explicit LineStructure(const SameLineLimits& same_line) : same_line_(same_line) {}
 
-  // Lets the triangulated lines vote at the newest frame, and names their axes.
+  // Lets the triangulated lines vote at the newest frame and labels their axes.
   void FindAxes(LocalMap* map);
 
-  // Merges lines that are one, and those that are back with what they were (MergeLines,
-  // RecogniseLines). They go on as one line, with one vote on the Manhattan frame.
+  // Merges duplicate lines (MergeLines) and recognizes re-observed ones (RecogniseLines). Merged
+  // lines continue as one landmark with one vote on the Manhattan frame.
   UnitedLines Unite(LocalMap* map);
 
   const ManhattanFrame& manhattan() const { return manhattan_; }

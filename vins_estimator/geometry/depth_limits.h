@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How near to a camera a landmark may be [m]. Each step accepts what the one before has made, with
-// room to move.
+// Least depths of landmarks in a camera [m]. Each step's limit is below that of the previous step,
+// so that a landmark may move a little.
 #pragma once
 
 namespace plm_vins {
 
-constexpr double kMinTriangulatedDepth = 0.1;  // of a new landmark: nearer, it is a wrong match
-constexpr double kMinLandmarkDepth = 0.05;     // of one that has moved: nearer, it is removed
-constexpr double kMinProjectedDepth = 0.01;    // in a projection: nearer, the step is refused
+constexpr double kMinTriangulatedDepth = 0.1;  // triangulation: a nearer landmark is a wrong match
+constexpr double kMinLandmarkDepth = 0.05;     // outlier rejection: a nearer landmark is removed
+constexpr double kMinProjectedDepth = 0.01;    // projection: nearer, a solver step is rejected
 
 }  // namespace plm_vins

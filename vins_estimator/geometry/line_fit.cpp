@@ -16,8 +16,8 @@ constexpr double kConverged = 1e-6;  // relative decrease of the cost
 
 using LineJacobian = Eigen::Matrix<double, 2, kLineTangentSize>;
 
-// What takes a line from the first camera's frame into another one's: its moment becomes
-// R moment + [t]x R direction.
+// Transforms the moment of a line from the first camera's frame into another camera's: R moment +
+// [t]x R direction.
 struct LineCamera {
   Eigen::Matrix3d R;
   Eigen::Matrix3d tR;  // [t]x R
@@ -56,7 +56,7 @@ std::optional<LineFit> Evaluate(const std::vector<LineCamera>& cameras, double n
   return fit;
 }
 
-// A prior of one radian on each coordinate of the tangent keeps the inverse finite.
+// A prior of one radian on each tangent coordinate keeps the covariance finite.
 Eigen::Matrix4d Covariance(const LineFit& fit) {
   const Eigen::Matrix4d information = fit.information + Eigen::Matrix4d::Identity();
   return information.ldlt().solve(Eigen::Matrix4d::Identity());
@@ -69,7 +69,7 @@ std::optional<LineFit> EvaluateLine(const std::vector<LineSighting>& sightings, 
   return Evaluate(CamerasOf(sightings), noise, line);
 }
 
-// Levenberg-Marquardt: from a poor start, a full step may lead astray.
+// Uses Levenberg-Marquardt, because full Gauss-Newton steps may diverge from a poor start.
 std::optional<LineFit> FitLine(const std::vector<LineSighting>& sightings, double noise,
                                const OrthonormalLine& initial) {
   const std::vector<LineCamera> cameras = CamerasOf(sightings);
@@ -105,7 +105,7 @@ double DirectionDeviation(const LineFit& fit) {
 double PlaceDeviation(const LineFit& fit, const Eigen::Vector3d& p_C0) {
   const PluckerLine line = ToPlucker(fit.line.data());
   const PluckerJacobian J = ToPluckerJacobian(fit.line.data());
-  // The line nears p where moment = p x direction; across it, it is off by
+  // The line is nearest to p where moment = p x direction; its perpendicular offset from p is
   // direction x (moment - p x direction) / |direction|^2.
   const Eigen::Matrix<double, 3, kLineTangentSize> d_place =
       Skew(line.direction) * (J.d_moment - Skew(p_C0) * J.d_direction) /

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The least-squares problem of one line seen by several cameras whose poses are known.
+// Least-squares fit of a line to its observations in several cameras with known poses.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,34 +12,37 @@
 
 namespace plm_vins {
 
-// A camera that sees a segment of a line.
+// Observation of a line segment by a camera with known pose.
 struct LineSighting {
   Rigid3d T_W_C;
   LineSegmentView segment;
 };
 
-// A line in the frame of the first camera that sees it, and how well it fits.
+// A line in the frame of the first observing camera, with its normal equations.
 struct LineFit {
   OrthonormalLine line = {0, 0, 0, 1, 0};
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // of the line's tangent
-  Eigen::Vector4d gradient = Eigen::Vector4d::Zero();     // of cost / 2, by the tangent
-  double cost = 0;  // sum of the squared distances of all end points, in units of the noise
+  Eigen::Vector4d gradient = Eigen::Vector4d::Zero();     // of cost / 2, in the line's tangent
+  double cost = 0;  // sum of squared end point distances, in units of the noise
 };
 
-// How well `line` fits, as it is. `noise`: deviation of an end point across the line, normalised.
-// Nothing where the line passes through a camera.
+// Evaluates cost, gradient and information of `line` without changing it. `noise` is the standard
+// deviation of an end point across the line, in normalized coordinates. Returns nullopt if the line
+// passes through a camera.
 std::optional<LineFit> EvaluateLine(const std::vector<LineSighting>& sightings, double noise,
                                     const OrthonormalLine& line);
 
-// The line near `initial` that fits best ([Bartoli2005], section 5).
+// Returns the least-squares line near `initial` ([Bartoli2005], section 5); nullopt if it
+// degenerates.
 std::optional<LineFit> FitLine(const std::vector<LineSighting>& sightings, double noise,
                                const OrthonormalLine& initial);
 
-// Standard deviation of the line's direction where it is known least [rad]; 1 at most.
+// Returns the standard deviation of the line's direction along its least certain axis [rad], at
+// most 1.
 double DirectionDeviation(const LineFit& fit);
 
-// Standard deviation of the line's place across itself, near its point `p_C0`, where it is known
-// least [m].
+// Returns the standard deviation of the line's position perpendicular to itself, near its point
+// `p_C0`, along the least certain axis [m].
 double PlaceDeviation(const LineFit& fit, const Eigen::Vector3d& p_C0);
 
 }  // namespace plm_vins

@@ -27,7 +27,7 @@ Vector3d CommonDirection(const SeenLine& a, const SeenLine& b) {
 std::vector<std::pair<size_t, size_t>> FindNearPairs(const std::vector<SeenLine>& lines,
                                                      double distance) {
   std::vector<AlignedBox3d> boxes;
-  std::vector<size_t> upwards;  // by the lower side
+  std::vector<size_t> upwards;  // indices by the boxes' lower z
   for (const SeenLine& line : lines) {
     upwards.push_back(boxes.size());
     boxes.push_back(BoxAround(line, 0.5 * distance + kLineDeviations * line.place_sigma));
@@ -36,7 +36,7 @@ std::vector<std::pair<size_t, size_t>> FindNearPairs(const std::vector<SeenLine>
     return boxes[a].min().z() < boxes[b].min().z();
   });
   std::vector<std::pair<size_t, size_t>> pairs;
-  std::vector<size_t> open;  // boxes that the sweep is inside of
+  std::vector<size_t> open;  // boxes that overlap the current z
   for (const size_t next : upwards) {
     const auto lies_below = [&](size_t i) { return boxes[i].max().z() < boxes[next].min().z(); };
     open.erase(std::remove_if(open.begin(), open.end(), lies_below), open.end());

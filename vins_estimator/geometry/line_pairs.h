@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs of line landmarks that are near each other in space, and how near.
+// Search for pairs of line landmarks that are close in space, and their relative geometry.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,38 +11,39 @@
 
 namespace plm_vins {
 
-// The seen part of a line in some frame F; the axis is one of F.
+// The observed segment of a line in a frame F; `axis` is an axis of F.
 struct SeenLine {
   Eigen::Vector3d start_F = Eigen::Vector3d::Zero();  // [m]
   Eigen::Vector3d end_F = Eigen::Vector3d::Zero();    // [m]
   LineAxis axis = LineAxis::kFree;
   double direction_sigma = 0;  // standard deviation of the direction [rad]
-  double place_sigma = 0;      // and of the place across it [m]
+  double place_sigma = 0;      // standard deviation of the position across the line [m]
 
   Eigen::Vector3d Direction() const { return (end_F - start_F).normalized(); }
 };
 
-// How far lines that are one may be apart, in standard deviations. Who looks for pairs allows no
-// less than who judges them (FindDifference), so that none is missed.
+// Greatest distance between observations of one line, in standard deviations. FindNearPairs and
+// FindDifference share it: the search radius is at least the acceptance threshold.
 constexpr double kLineDeviations = 3.0;
 
-// Indices (greater, smaller) of the lines whose boxes along the axes of F are less than `distance`
-// [m] apart, allowing for their deviations; sorted. A sweep along z: time grows with the number of
-// pairs that overlap in z. In the Manhattan frame the box of a line along an axis is a needle, so
-// that hardly any two boxes touch unless the lines do.
+// Returns index pairs (greater, smaller), sorted, of the lines whose bounding boxes along the axes
+// of F are less than `distance` [m] apart, allowing for their standard deviations. Sweeps along z;
+// its cost grows with the number of pairs that overlap in z. In the Manhattan frame the box of a
+// line along an axis is thin, so boxes hardly touch unless the lines do.
 std::vector<std::pair<size_t, size_t>> FindNearPairs(const std::vector<SeenLine>& lines,
                                                      double distance);
 
-// The position of two lines relative to each other.
+// Relative position of two lines.
 struct LinePairGeometry {
-  double angle = 0;        // between the directions, whichever way they point [rad]
-  double distance = 0;     // beside each other, from middle to middle [m]
-  double gap = 0;          // between the ends, along their common direction; negative: overlap [m]
-  double angle_sigma = 0;  // standard deviations [rad], [m]
-  double distance_sigma = 0;
+  double angle = 0;           // between the directions, regardless of sign [rad]
+  double distance = 0;        // perpendicular to the common direction, between the midpoints [m]
+  double gap = 0;             // along the common direction, between the ends; negative: overlap [m]
+  double angle_sigma = 0;     // standard deviation of the angle [rad] ...
+  double distance_sigma = 0;  // ... and of the distance [m]
 };
 
-// The common direction is the axis of both, else the mean of their directions.
+// Compares two lines along their common direction: their axis if it is the same, otherwise the mean
+// of their directions.
 LinePairGeometry Compare(const SeenLine& a, const SeenLine& b);
 
 }  // namespace plm_vins

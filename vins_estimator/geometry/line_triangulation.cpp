@@ -14,13 +14,13 @@ namespace {
 using Matrix4d = Eigen::Matrix4d;
 using Matrix34d = Eigen::Matrix<double, 3, kLineTangentSize>;
 
-// The plane through a camera and the segment that it sees, normal . (x - camera) = 0, in the frame
+// Plane through a camera and the segment that it observes, normal . (x - camera) = 0, in the frame
 // of the first camera.
 struct ViewingPlane {
   Eigen::Vector3d camera = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // of length 1
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit vector
   double offset = 0;                                 // normal . camera
-  double deviation = 0;  // of the normal's angle about the line of sight, for unit noise
+  double deviation = 0;  // of the normal's angle about the viewing ray, for unit noise
 };
 
 ViewingPlane PlaneOf(const LineSighting& sighting, const Rigid3d& T_C0_W) {
@@ -35,14 +35,14 @@ ViewingPlane PlaneOf(const LineSighting& sighting, const Rigid3d& T_C0_W) {
   return plane;
 }
 
-// How far each camera is off the other's plane: what makes the angle between them. The angle itself
-// would be mostly noise where segments are short.
+// Returns the distance of each camera from the other's viewing plane, the smaller of both. The
+// angle between the planes would be mostly noise for short segments.
 double BaselineAcross(const ViewingPlane& a, const ViewingPlane& b) {
   const Eigen::Vector3d baseline = b.camera - a.camera;
   return std::min(std::abs(a.normal.dot(baseline)), std::abs(b.normal.dot(baseline)));
 }
 
-// The intersection of the two planes with the widest baseline in terms of their noise.
+// Intersects the two planes with the widest baseline relative to their noise.
 std::optional<OrthonormalLine> BestIntersection(const std::vector<ViewingPlane>& planes) {
   double widest = 0;
   PluckerLine best;
@@ -59,7 +59,7 @@ std::optional<OrthonormalLine> BestIntersection(const std::vector<ViewingPlane>&
   return ToOrthonormal(best);
 }
 
-// Relative deviation of an end's depth in the camera of the line's frame.
+// Returns the relative standard deviation of an end's depth in the first camera.
 double DepthDeviation(const Matrix4d& covariance, const OrthonormalLine& line,
                       const Eigen::Vector3d& across, const Eigen::Vector3d& end) {
   const PluckerLine plucker = ToPlucker(line.data());
@@ -72,7 +72,8 @@ double DepthDeviation(const Matrix4d& covariance, const OrthonormalLine& line,
   return std::sqrt((d_depth * covariance * d_depth.transpose()).value()) / std::abs(end.z());
 }
 
-// Normal of the plane through the camera and an end point, across the segment.
+// Returns the normal of the plane through the camera and an end point, perpendicular to the
+// segment.
 Eigen::Vector3d PlaneAcross(const Eigen::Vector2d& end_point, const LineSegmentView& segment) {
   const Eigen::Vector2d along = segment.end - segment.start;
   const Eigen::Vector3d across(-along.y(), along.x(), 0);

@@ -14,42 +14,44 @@ namespace plm_vins {
 struct LineTriangulationOptions {
   explicit LineTriangulationOptions(double noise) : noise(noise) {}
 
-  double noise;                      // deviation of an end point across the line, normalised
-  double max_depth_deviation = 0.2;  // of the ends' depths in the first camera, relative to them
+  double noise;  // standard deviation of an end point across the line, normalized
+  double max_depth_deviation = 0.2;  // of the depth of the ends in the first camera, relative
   double max_mean_error = 2.5;       // root mean square of the residuals, in units of `noise`
 };
 
-// Why a line was refused, or kOk.
+// Reason for which a line was rejected, or kOk.
 enum class LineTriangulationResult {
   kOk,
-  kDegenerate,    // the geometry leaves the depth open: little baseline, or along the line
-  kBehind,        // an end is not in front of a camera that sees it
-  kInconsistent,  // the sightings disagree: not one line
-  kTooLong,       // its ends are farther apart than allowed
+  kDegenerate,    // depth unobservable: short baseline, or motion in the viewing plane
+  kBehind,        // an end is behind a camera that observed it
+  kInconsistent,  // the observations do not fit one line
+  kTooLong,       // the ends are farther apart than allowed
 };
 
-// The line in the frame of the first camera, and how well it is known.
+// The triangulated line in the frame of the first camera, and the result.
 struct TriangulatedLine {
   LineTriangulationResult result = LineTriangulationResult::kDegenerate;
-  OrthonormalLine line = {0, 0, 0, 1, 0};  // valid where the result is kOk
+  OrthonormalLine line = {0, 0, 0, 1, 0};  // valid if the result is kOk
 };
 
-// The line that all sightings agree on best: from the pair of views whose cameras are farthest off
-// each other's plane (through camera and segment) in terms of its noise, refined on the end points'
-// distances in all images ([Bartoli2005]). Degenerate geometry (planes nearly alike: no baseline,
-// or a motion in the plane, such as along the line) is recognised by the deviation that `noise`
+// Triangulates the line that fits all observations best. It is initialized from the pair of
+// observations with the widest baseline relative to its noise (distance of each camera from the
+// other's viewing plane, the plane through camera and segment), then refined on the end point
+// distances in all images ([Bartoli2005]). Degenerate geometry (almost equal viewing planes, from a
+// short baseline or motion within the plane) is detected by the standard deviation that `noise`
 // causes in the depths of the ends.
 TriangulatedLine TriangulateLine(const LineTriangulationOptions& options,
                                  const std::vector<LineSighting>& sightings);
 
-// Where the line, given in a camera's frame, passes the end points of its segment in that camera:
-// for each, the point of the line in the plane through camera and end point, across the segment.
+// Points of the line that correspond to the end points of its segment, in the camera frame: the
+// intersections of the line with the planes through the camera and each end point, perpendicular to
+// the segment in the image.
 struct LineEnds {
   Eigen::Vector3d start, end;
 };
 LineEnds EndsOf(const PluckerLine& line_C, const LineSegmentView& segment);
 
-// Both ends are in front of the camera.
+// Returns whether both ends are in front of the camera.
 bool IsInFront(const LineEnds& ends_C);
 
 }  // namespace plm_vins

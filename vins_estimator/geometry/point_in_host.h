@@ -5,12 +5,12 @@
 
 namespace plm_vins {
 
-// A point is given by its normalised image point and inverse depth in a host camera, (x, y, lambda
-// [1/m]):
-//   p_Ch = (x, y, 1) / lambda   ([Civera2008], with the host's own noise estimated as well).
+// Size of a point landmark's parameters: normalized image point and inverse depth in the host
+// camera, (x, y, lambda [1/m]),
+//   p_Ch = (x, y, 1) / lambda   ([Civera2008]; the host observation's noise is estimated, too).
 constexpr int kPointSize = 3;
 
-// Position in the host camera [m].
+// Returns the position in the host camera [m].
 inline Eigen::Vector3d PointInHost(const double* point) {
   return Eigen::Vector3d(point[0], point[1], 1.0) / point[2];
 }

@@ -10,13 +10,13 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kRefinements = 3;  // the point nearest to all rays is a good start
+constexpr int kRefinements = 3;  // the point nearest to all rays is a good initial value
 
 Eigen::Vector3d RayInWorld(const PointSighting& sighting) {
   return (sighting.T_W_C.rotation * sighting.xy.homogeneous()).normalized();
 }
 
-// The greatest angle between the first ray and any other.
+// Returns the greatest angle between the first ray and any other.
 double GreatestAngle(const std::vector<PointSighting>& sightings) {
   const Eigen::Vector3d first = RayInWorld(sightings.front());
   double greatest = 0;
@@ -26,7 +26,7 @@ double GreatestAngle(const std::vector<PointSighting>& sightings) {
   return std::asin(std::min(1.0, greatest));
 }
 
-// The point with the least sum of squared distances to all rays.
+// Returns the point with the least sum of squared distances to all rays.
 Eigen::Vector3d ClosestPoint(const std::vector<PointSighting>& sightings) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
@@ -39,7 +39,7 @@ Eigen::Vector3d ClosestPoint(const std::vector<PointSighting>& sightings) {
   return A.ldlt().solve(b);
 }
 
-// By Gauss-Newton on the image errors.
+// Refines the point by Gauss-Newton on the reprojection errors.
 Eigen::Vector3d RefineOnImages(const std::vector<PointSighting>& sightings, Eigen::Vector3d p_W) {
   for (int iteration = 0; iteration < kRefinements; ++iteration) {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();

@@ -9,15 +9,15 @@
 
 namespace plm_vins {
 
-// A camera that sees a point: its pose and the normalised image point.
+// Observation of a point: pose of the camera and normalized image point.
 struct PointSighting {
   Rigid3d T_W_C;
   Eigen::Vector2d xy;
 };
 
-// The point p_W that all sightings agree on best: least distance to the rays, then refined on the
-// image errors. Nothing where no ray forms an angle of at least `min_angle` [rad] with the first
-// one, or where the point is not in front of all cameras.
+// Triangulates p_W: the point nearest to all rays, refined on the reprojection errors. Returns
+// nullopt if no ray forms an angle of at least `min_angle` [rad] with the first one, or if the
+// point is behind a camera.
 std::optional<Eigen::Vector3d> TriangulatePoint(const std::vector<PointSighting>& sightings,
                                                 double min_angle);
 

@@ -7,10 +7,10 @@
 
 namespace plm_vins {
 
-// How far an observed ray moves with the intrinsics c of the camera, to first order about those
-// that it was computed with: d_xy_d_intrinsics (c - reference), normalised.
+// Shift of an observed ray by the camera intrinsics c, linearized at the intrinsics with which the
+// ray was computed: d_xy_d_intrinsics (c - reference), normalized.
 struct RayShift {
-  // Of rays near (x, y, 1) in `camera`. Zero where that is beyond what the camera can describe.
+  // For a ray (x, y, 1) of `camera`; the shift is zero outside the range of the camera model.
   RayShift(const CameraModel& camera, const Eigen::Vector2d& xy)
       : reference(camera.parameters().intrinsics()),
         d_xy_d_intrinsics(camera.RayByIntrinsics(xy).value_or(IntrinsicsJacobian::Zero())) {}

@@ -35,7 +35,7 @@ TrackedPoints Compare(const PointMap& points, int64_t before_ns, int64_t newest_
   return result;
 }
 
-// In all of its newest frames, that many.
+// Returns whether the newest `count` frames are all stationary.
 bool RestsFor(size_t count, const SlidingWindow& window) {
   return window.frames.size() >= count &&
          std::all_of(window.frames.rbegin(), window.frames.rbegin() + count,

@@ -10,24 +10,25 @@
 namespace plm_vins {
 
 struct KeyframePolicyOptions {
-  // `focal_length` [px] turns pixels into normalised coordinates.
+  // `focal_length` [px] converts pixels to normalized coordinates.
   KeyframePolicyOptions(const EstimatorConfig& config, double focal_length)
       : min_parallax(config.keyframe_parallax / focal_length) {}
 
-  double min_parallax;             // mean motion of corners that makes a keyframe [normalised]
-  int min_tracked = 20;            // fewer corners left from the last keyframe make one
+  double min_parallax;             // mean corner motion that makes a keyframe, normalized
+  int min_tracked = 20;            // keyframe if fewer corners of the last keyframe are tracked
   double min_tracked_share = 0.5;  // ... or a smaller share of the image's corners
-  int min_points_to_see = 10;      // an image with fewer corners is blind, and seldom a keyframe
-  double max_interval = 1.0;       // a keyframe at least this often while the camera sees [s]
-  // ... but less often at rest [s], once that many keyframes know of it: without parallax they push
-  // those out that know the depths.
+  int min_points_to_see = 10;      // an image with fewer corners is blind
+  double max_interval = 1.0;       // longest interval between keyframes in motion [s]
+  // Longest interval at standstill [s], once at least `min_keyframes_at_rest` keyframes are
+  // stationary: without parallax, more of them would only push out the keyframes that constrain the
+  // depths.
   double max_interval_at_rest = 10.0;
   size_t min_keyframes_at_rest = 3;
-  double max_blind_interval = 3.0;  // ... and this often while it is blind [s]
+  double max_blind_interval = 3.0;  // longest interval between blind images [s]
 };
 
-// Whether the newest frame adds enough to the one before it to stay in the window as a keyframe
-// once the next image is there. Must be asked before that image is added.
+// Returns whether the newest frame differs enough from the previous one to become a keyframe when
+// the next image arrives. Must be called before that image is added.
 bool IsKeyframe(const KeyframePolicyOptions& options, const SlidingWindow& window,
                 const PointMap& points);
 

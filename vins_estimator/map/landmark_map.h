@@ -10,31 +10,32 @@
 
 namespace plm_vins {
 
-// What points and lines have in common: tracks with views in frames of the window, the oldest of
-// which hosts the landmark's coordinates. A Landmark has `id`, `views` (by time, each with t_ns),
-// `triangulated`, host(), and
+// Base of the point and line maps: tracks with observations in frames of the window, the oldest of
+// which hosts the landmark's coordinates. A Landmark has `id`, `views` (observations by time, each
+// with t_ns), `triangulated`, host(), and
 //   void MoveHost(const SlidingWindow&, size_t view, Landmark*)
-// that expresses its coordinates in the camera of another of its views, or declares them void.
+// which transforms its coordinates to the camera of another observation, or marks it as not
+// triangulated.
 template <typename Landmark>
 class LandmarkMap {
  public:
-  // Ordered by id, so that every sum over landmarks is the same in every run.
+  // Ordered by id, so that sums over landmarks are the same in every run.
   using Landmarks = std::map<int64_t, Landmark>;
 
-  // Removes all views in a frame, and landmarks without views. Where it was the host, the
-  // coordinates move to the next view.
+  // Removes all observations in a frame, and landmarks without any left. If the frame was the host,
+  // the next observation becomes the host.
   void RemoveFrame(const SlidingWindow& window, int64_t t_ns);
 
-  // For the landmarks that go into the prior with a frame (LeavesWith) and must not count again:
-  // those still seen keep only their newest view, as host of a fresh start at the same place; the
-  // others are removed, after `on_departure` had a look at them.
+  // Handles the landmarks that are marginalized with a frame (LeavesWith), whose observations must
+  // not be used again: landmarks still tracked keep only their newest observation as the new host,
+  // at the same position; the others are passed to `on_departure` and removed.
   void StartAnew(const SlidingWindow& window, int64_t host_ns,
                  const std::function<void(const Landmark&)>& on_departure);
 
-  // Removes the landmarks that `condition` selects.
+  // Removes the landmarks that satisfy `condition`.
   void RemoveIf(const std::function<bool(const Landmark&)>& condition);
 
-  // How many landmarks are optimised, and how many of them the newest image shows.
+  // Counts the optimized landmarks: all of them, or those observed in the newest image.
   int CountOptimized() const;
   int CountInNewest(const SlidingWindow& window) const;
 
@@ -45,40 +46,42 @@ class LandmarkMap {
   Landmarks landmarks_;
 };
 
-// Takes part in the optimisation: its views can contradict each other.
+// Returns whether the landmark is part of the optimization: it has enough observations to be
+// overdetermined.
 template <typename Landmark>
 bool IsOptimized(const Landmark& landmark) {
   constexpr size_t kMinViews = 3;
   return landmark.triangulated && landmark.views.size() >= kMinViews;
 }
 
-// ... and the newest image shows it.
+// Returns whether an optimized landmark is observed in the newest image.
 template <typename Landmark>
 bool IsOptimizedInNewest(const Landmark& landmark, const SlidingWindow& window) {
   return IsOptimized(landmark) && landmark.views.back().t_ns == window.newest().state.t_ns;
 }
 
-// ... and a keyframe was solved for together with it. Where only one view is as old as the
-// keyframe, it was not.
+// Returns whether the landmark was optimized when the keyframe was. It was not if only one of its
+// observations is as old as the keyframe.
 template <typename Landmark>
 bool WasOptimizedAt(int64_t keyframe_ns, const Landmark& landmark) {
   return IsOptimized(landmark) && landmark.views[1].t_ns <= keyframe_ns;
 }
 
-// The landmark goes into the prior with the frame that hosts it: other frames know it as well.
+// Returns whether the landmark is marginalized with its host frame: other frames observe it as
+// well.
 template <typename Landmark>
 bool LeavesWith(int64_t host_ns, const Landmark& landmark) {
   return landmark.triangulated && landmark.host().t_ns == host_ns && landmark.views.size() > 1;
 }
 
-// Leaves one view of a landmark, as its host.
+// Keeps a single observation of a landmark, which becomes its host.
 template <typename Landmark>
 void KeepOnlyView(const SlidingWindow& window, size_t view, Landmark* landmark) {
   MoveHost(window, view, landmark);
   landmark->views = {landmark->views[view]};
 }
 
-// Takes out one view of a landmark.
+// Removes one observation of a landmark.
 template <typename Landmark>
 void RemoveView(const SlidingWindow& window, size_t index, Landmark* landmark) {
   const bool is_host = index == 0 && landmark->triangulated && landmark->views.size() > 1;

@@ -9,25 +9,25 @@
 
 namespace plm_vins {
 
-// Which landmark the observations of a track belong to, after several tracks turned out to be one
-// line. An alias always leads from a newer to an older id, in one step. It is dropped when its
-// track has not been seen for kMemory images, which bounds the table.
+// Maps line tracks to landmarks after several tracks were found to be one line. An alias leads from
+// a newer id to an older one, in one step. It is dropped when its track was not observed for
+// kMemory images, which bounds the table.
 class LineAliases {
  public:
   static constexpr int64_t kMemory = 100;  // [images]
 
-  // From here on the observations of `newer`, and of all tracks that led there, belong to `older`
-  // (std::invalid_argument unless older < newer).
+  // Assigns the observations of `newer`, and of all tracks that were mapped to it, to `older`.
+  // Throws std::invalid_argument unless older < newer.
   void Add(int64_t newer, int64_t older);
 
-  // The landmark of a track; the track itself where it has no alias.
+  // Returns the landmark of a track; the track's own id if it has no alias.
   int64_t Resolve(int64_t id) const;
 
-  // One image's lines under the ids of their landmarks. Where several tracks of one landmark are
-  // seen at once, the longest segment stays.
+  // Returns one image's lines under their landmarks' ids. If several segments belong to one
+  // landmark, the longest is kept.
   LineFrame Redirect(const LineFrame& frame);
 
-  // Drops the aliases that lead to landmarks that are no more.
+  // Drops the aliases of landmarks that no longer exist.
   void RemoveUnless(const std::function<bool(int64_t)>& landmark_exists);
 
   size_t size() const { return aliases_.size(); }

@@ -19,11 +19,12 @@ LineDifference FindDifference(const SameLineLimits& limits, const LinePairGeomet
   return pair.gap > limits.distance ? LineDifference::kGap : LineDifference::kNone;
 }
 
-// Few views are left of a line that started anew, but many have put it where it is: its standard
-// deviations stay zero then.
+// A line that was just marginalized has few observations left, but its position is based on many:
+// its standard deviations are set to zero.
 std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W,
                             double noise, const LineLandmark& line) {
-  constexpr double kGreatestSigma = 0.5;  // [rad], [m]: beyond it, all lines look alike anyway
+  constexpr double kGreatestSigma = 0.5;  // [rad], [m]: with more, all lines would be considered
+                                          // the same
   const auto segment = ObservedSegment(line, window);
   if (!segment) return std::nullopt;
   SeenLine seen{R_F_W * segment->start_W, R_F_W * segment->end_W, line.axis};

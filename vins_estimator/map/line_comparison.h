@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether two lines of the map are one, for merging and recognition.
+// Tests of whether two line landmarks are the same line, for merging and recognition.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,9 +15,9 @@
 
 namespace plm_vins {
 
-// Limits within which two lines are taken for one.
+// Limits within which two lines count as the same line.
 struct SameLineLimits {
-  // `focal_length` [px] turns pixels into normalised coordinates.
+  // `focal_length` [px] converts pixels to normalized coordinates.
   SameLineLimits(const EstimatorConfig& config, double focal_length)
       : distance(config.line_merge_distance),
         image_distance(config.line_merge_image_distance / focal_length),
@@ -25,26 +25,28 @@ struct SameLineLimits {
         noise(config.line_noise / focal_length) {}
 
   double distance;        // between the lines in space, and between their ends [m]
-  double image_distance;  // between line and segment in an image, normalised
+  double image_distance;  // between line and segment in an image, normalized
   double angle;           // between the directions [rad]
-  double noise;           // deviation of an end point across the line, normalised
+  double noise;           // standard deviation of an end point across the line, normalized
 };
 
-// The condition in space that two lines fail; kNone where they meet all. Where direction or place
-// are known less well than the limits, kLineDeviations times their deviations take their place.
+// Returns the first condition in space that two lines violate; kNone if they meet all. Where
+// direction or position are less certain than the limits, kLineDeviations times their standard
+// deviations are the limits.
 enum class LineDifference { kNone, kDirection, kDistance, kGap };
 LineDifference FindDifference(const SameLineLimits& limits, const LinePairGeometry& pair);
 
-// Enough views to estimate how well a line is known.
+// Returns whether the observations suffice to estimate the line's covariance.
 inline bool HasEnoughViews(const LineLandmark& line) { return line.views.size() >= 3; }
 
-// The seen part of a triangulated line in a frame F, and how well its views determine its place,
-// where there are enough. Nothing where it has no image in a camera that saw it.
+// Returns the observed segment of a triangulated line in a frame F, with its standard deviations,
+// which are zero if there are too few observations to estimate them. Returns nullopt if the line
+// has no projection in a camera that observed it.
 std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W,
                             double noise, const LineLandmark& line);
 
-// How far the ends of a seen segment are from the image of a line, at most; normalised. Infinite
-// where the line has no image.
+// Returns the greater distance of a segment's end points from the projection of a line, normalized.
+// Infinite if the line has no projection.
 double DistanceInImage(const SlidingWindow& window, const PluckerLine& line_W,
                        const LineView& view);
 

@@ -10,7 +10,7 @@ namespace plm_vins {
 namespace {
 
 constexpr size_t kMinViewsToTriangulate = 3;
-constexpr double kMinSegment = 1e-3;   // normalised
+constexpr double kMinSegment = 1e-3;   // normalized
 constexpr double kMinDistance = 1e-6;  // of a line from its host's camera [m]
 
 LineTriangulationResult TriangulateLandmark(const SlidingWindow& window,
@@ -38,7 +38,7 @@ bool IsTooLong(const LineLandmark& landmark, const SlidingWindow& window, double
   return segment && Length(*segment) > max_length;
 }
 
-// Mean square of a view's two residuals in units of the noise; infinite where it has no image.
+// Returns the mean square of the two residuals in units of the noise; infinite without projection.
 double MeanSquareError(const PluckerLine& line_W, const LineView& view, double noise,
                        const SlidingWindow& window) {
   const auto distances = DistancesOf(view, line_W, window);
@@ -46,7 +46,7 @@ double MeanSquareError(const PluckerLine& line_W, const LineView& view, double n
   return 0.5 * distances->squaredNorm() / (noise * noise);
 }
 
-// Takes out what anchors have seen and does not fit. Returns how many views went.
+// Removes outliers among the observations in anchors. Returns the number of removed observations.
 int RemoveBadAnchorViews(const SlidingWindow& window, const LineLimits& limits,
                          LineLandmark* landmark) {
   const PluckerLine line_W = LineInWorld(*landmark, window);
@@ -62,8 +62,8 @@ int RemoveBadAnchorViews(const SlidingWindow& window, const LineLimits& limits,
   return static_cast<int>(before - views.size());
 }
 
-// Takes out views that do not fit, but the host's. Returns how many went and the mean square error
-// of those that stay.
+// Removes outlier observations except the host's. Returns the number of removed observations, and
+// the mean square error of the remaining ones.
 int RemoveBadViews(const SlidingWindow& window, const LineLimits& limits, LineLandmark* landmark,
                    double* mean_square) {
   const PluckerLine line_W = LineInWorld(*landmark, window);

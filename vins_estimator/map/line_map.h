@@ -15,59 +15,59 @@
 
 namespace plm_vins {
 
-// Limits that a line must meet to be triangulated, and from then on.
+// Limits of a triangulated line, checked at triangulation and after each optimization.
 struct LineLimits {
   LineLimits(double noise, double max_length) : triangulation(noise), max_length(max_length) {}
 
-  LineTriangulationOptions triangulation;  // the mean error of all views stays as limited there
-  double max_view_error = 5.0;             // of one view, root mean square in units of the noise
+  LineTriangulationOptions triangulation;  // its mean error limit holds later, too
+  double max_view_error = 5.0;             // of one observation: rms in units of the noise
   double max_length;                       // between the ends [m]
 };
 
-// All line tracks with views in the window. Every view belongs to a frame of the window.
+// All line tracks with observations in the window. Every observation belongs to a frame of it.
 class LineMap : public LandmarkMap<LineLandmark> {
  public:
-  // Adds one image's lines as views. A segment without length is left out.
+  // Adds one image's lines as observations. Segments of zero length are ignored.
   void AddFrame(const LineFrame& frame);
 
-  // Triangulates what can be. Lines whose sightings contradict each other are removed, those with
-  // too little baseline wait.
+  // Triangulates the lines with enough observations. Lines with inconsistent observations are
+  // removed; degenerate ones are kept until there is more baseline.
   LineTriangulationCounts Triangulate(const SlidingWindow& window, const LineLimits& limits);
 
-  // Those that are optimised, in the world, as far as ObservedSegment() knows them.
+  // Returns the optimized lines in the world, except those without an ObservedSegment().
   std::vector<MapLine> Optimized(const SlidingWindow& window) const;
 
-  // Judges the triangulated lines by all their views: removes single views that do not fit, lines
-  // behind a camera, longer than allowed or with too large a mean error. Returns how many lines and
-  // views were removed.
+  // Checks all observations of the triangulated lines: removes outlier observations, and lines that
+  // are behind a camera, too long or have too large a mean error. Returns the number of removed
+  // lines and observations.
   int RemoveOutliers(const SlidingWindow& window, const LineLimits& limits);
 
-  // Removes what an anchor has seen.
+  // Removes the observations in an anchor.
   void RemoveAnchor(int64_t t_ns);
 };
 
-// Expresses a triangulated line in the camera of another of its views; not triangulated where it
-// passes through that camera.
+// Transforms a triangulated line to the camera of another of its observations; marks it as not
+// triangulated if it passes through that camera.
 void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark);
 
-// Leaves one view of a line, as its host.
+// Keeps a single observation of a line, which becomes its host.
 void KeepOnlyView(const SlidingWindow& window, size_t view, LineLandmark* landmark);
 
-// A view, and views, of a line with the cameras' poses.
+// Returns observations of a line together with their cameras' poses.
 LineSighting SightingOf(const LineView& view, const SlidingWindow& window);
 std::vector<LineSighting> SightingsOf(const std::vector<LineView>& views,
                                       const SlidingWindow& window);
 
-// How far the start and the end of a view are from a line in the world, across it, normalised.
-// Nothing where the line has no image there.
+// Returns the distances of the start and end of an observation from the projection of a line,
+// normalized; nullopt if there is no projection.
 std::optional<Eigen::Vector2d> DistancesOf(const LineView& view, const PluckerLine& line_W,
                                            const SlidingWindow& window);
 
-// A triangulated line in the world.
+// Returns a triangulated line in the world.
 PluckerLine LineInWorld(const LineLandmark& landmark, const SlidingWindow& window);
 
-// The part of a triangulated line that its views have seen together, in the world. Nothing where
-// an end is not in front of a camera that saw it.
+// Returns the segment of a triangulated line that its observations cover together, in the world;
+// nullopt if an end is behind a camera that observed it.
 std::optional<MapLine> ObservedSegment(const LineLandmark& landmark, const SlidingWindow& window);
 
 }  // namespace plm_vins

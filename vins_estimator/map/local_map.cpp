@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMaxPlaceSigma = 0.2;  // [m]: a line known less well would not be recognised
+constexpr double kMaxPlaceSigma = 0.2;  // [m]: a less certain line could not be recognized
 
 }  // namespace
 
@@ -71,7 +71,7 @@ void LocalMap::ForgetIdleAliases() {
   aliases.RemoveUnless([this](int64_t id) { return lines.landmarks().count(id) > 0; });
 }
 
-// Takes note of the lines that go into the prior with a frame.
+// Stores the lines that are marginalized with a frame in the memory.
 void LocalMap::RememberDeparting(int64_t frame_ns, bool stays_as_anchor) {
   for (const auto& [id, landmark] : lines.landmarks()) {
     if (!LeavesWith(frame_ns, landmark) || !MayLast(landmark)) continue;
@@ -83,7 +83,7 @@ void LocalMap::RememberDeparting(int64_t frame_ns, bool stays_as_anchor) {
   }
 }
 
-// All that was seen of a line, from its first view on.
+// Returns the whole observed segment of a line, since its first observation.
 std::optional<MapLine> LocalMap::DepartingSegment(const LineLandmark& line) const {
   const RememberedLine* known = memory.Find(line.id);
   if (known == nullptr) return ObservedSegment(line, window);

@@ -20,52 +20,54 @@ struct LocalMapOptions {
   LocalMapOptions(double line_noise, bool remember_lines)
       : line_noise(line_noise), remember_lines(remember_lines) {}
 
-  double line_noise;    // deviation of an end point across the line, normalised
-  bool remember_lines;  // that leave, for when they come back
+  double line_noise;    // standard deviation of an end point across the line, normalized
+  bool remember_lines;  // keep lines that leave the window, to recognize them later
 };
 
-// The landmarks that left the map with a frame and had a place in the world.
+// Triangulated landmarks that left the map with a frame.
 struct DepartedLandmarks {
   std::vector<MapPoint> points;
-  std::vector<MapLine> lines;  // all that was seen of each; where none is remembered, in its views
+  std::vector<MapLine> lines;  // their whole observed extent if remembered, else that in the window
 };
 
-// The frames of the window and the landmarks that they see. Values are anybody's to change, but
-// frames and anchors come and go through here only, because several things must move in step:
-// every view of a landmark, and every anchor's view in the memory, is of a frame that is there.
+// The frames of the window and the landmarks that they observe. Anyone may change values, but
+// frames and anchors are added and removed only by these methods, which keep an invariant: every
+// observation of a landmark, and every anchor observation in the memory, belongs to an existing
+// frame.
 struct LocalMap {
   explicit LocalMap(const LocalMapOptions& map_options) : options(map_options) {}
 
-  // Adds the newest image. Its lines go to the landmarks that their tracks were found to be.
+  // Adds the newest image. Aliases redirect its lines to the landmarks of their tracks.
   void AddFrame(WindowFrame frame, const PointFrame& point_frame,
                 const std::optional<LineFrame>& line_frame);
 
-  // Takes out the frame before the newest; its IMU samples go to the newest.
+  // Removes the second newest frame; its IMU samples are joined to the newest frame's.
   void DropSecondNewest();
 
-  // Takes out the oldest frame once the prior has it. Its pose stays as an anchor where that is
-  // asked for, with what it has seen of the lines that are remembered.
+  // Removes the oldest frame, which must be marginalized already. If `stays_as_anchor`, it becomes
+  // an anchor and keeps its observations of remembered lines.
   DepartedLandmarks SlideOldest(bool stays_as_anchor);
 
   void RemoveAnchor(int64_t t_ns);
 
-  // The tracks of two lines are one: `joint`, under the older id, takes over from `newer`.
+  // Replaces the line `newer` by `joint`, the merged line under the older id.
   void AbsorbLine(int64_t newer, const LineLandmark& joint);
 
-  // A line is one that had left: it goes on under that one's id, with what anchors saw of it.
+  // Replaces the id of a recognized line by the id that it had before it left the window, and
+  // restores its anchor observations.
   void ReviveLine(int64_t newer, int64_t older);
 
-  // How many landmarks that are optimised, points and lines, the newest image shows.
+  // Counts the optimized landmarks, points and lines, that the newest image observes.
   int CountInNewest() const { return points.CountInNewest(window) + lines.CountInNewest(window); }
 
-  // Forgets which tracks belong to lines that are no more.
+  // Drops the aliases of lines that no longer exist.
   void ForgetIdleAliases();
 
   LocalMapOptions options;
   SlidingWindow window;
   PointMap points;
   LineMap lines;
-  LineMemory memory;  // of lines that have been in the window
+  LineMemory memory;  // lines that have left the window
   LineAliases aliases;
 
  private:
@@ -73,7 +75,7 @@ struct LocalMap {
   std::optional<MapLine> DepartingSegment(const LineLandmark& line) const;
 };
 
-// What the estimator says of its map: the states of the window and the landmarks in use.
+// Writes the states of the window and the optimized landmarks to `output`.
 void DescribeMap(const LocalMap& map, EstimatorOutput* output);
 
 }  // namespace plm_vins

@@ -10,18 +10,18 @@
 
 namespace plm_vins {
 
-// One image's view of a landmark.
+// Observation of a point landmark in one image.
 struct PointView {
-  int64_t t_ns = 0;  // names the frame
+  int64_t t_ns = 0;  // identifies the frame
   TimedBearing bearing;
 };
 
-// A corner track over the frames of the window, and the point in space behind it. The first view is
-// the host that the coordinates refer to.
+// A corner track over the frames of the window, and the point in space. The first observation is
+// the host, in whose camera frame the coordinates are.
 struct PointLandmark {
   int64_t id = -1;
   std::vector<PointView> views;  // by time
-  // Normalised image point and inverse depth [1/m] in the host camera, see PointInHost.
+  // Normalized image point and inverse depth [1/m] in the host camera, see PointInHost.
   std::array<double, kPointSize> coordinates = {0, 0, 0};
   bool triangulated = false;
 

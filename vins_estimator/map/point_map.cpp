@@ -13,14 +13,14 @@ namespace plm_vins {
 namespace {
 
 constexpr size_t kMinViewsToTriangulate = 2;
-constexpr size_t kMinDepths = 10;  // fewer tell little of the scene
+constexpr size_t kMinDepths = 10;  // fewer do not represent the scene
 
 PointSighting SightingOf(const PointView& view, const SlidingWindow& window) {
   return {window.T_W_C(view.t_ns), window.AtState(view.bearing)};
 }
 
-// Expresses a point in the camera of one of the landmark's views; not triangulated where it is not
-// in front of it.
+// Sets the coordinates of a landmark in the camera of one of its observations; marks it as not
+// triangulated if it is behind that camera.
 void SetPosition(const Eigen::Vector3d& p_W, const SlidingWindow& window, const PointView& view,
                  PointLandmark* landmark) {
   const Rigid3d T_W_C = window.T_W_C(view.t_ns);

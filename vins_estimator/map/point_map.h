@@ -13,43 +13,45 @@
 
 namespace plm_vins {
 
-// All corner tracks with views in the window. Every view belongs to a frame of the window.
+// All corner tracks with observations in the window. Every observation belongs to a frame of it.
 class PointMap : public LandmarkMap<PointLandmark> {
  public:
-  // Adds one image's corners as views.
+  // Adds one image's corners as observations.
   void AddFrame(const PointFrame& frame, const ImageTiming& timing);
 
-  // Triangulates what can be; `min_angle` [rad] is the least angle between rays.
+  // Triangulates the points with enough observations; `min_angle` [rad] is the least angle between
+  // rays.
   void Triangulate(const SlidingWindow& window, double min_angle);
 
-  // Those that are optimised, in the world.
+  // Returns the optimized points in the world.
   std::vector<MapPoint> Optimized(const SlidingWindow& window) const;
 
-  // How many of the landmarks that were optimised at a keyframe the newest image shows, and how
-  // many of them further than `max_error` from where they should be.
+  // Counts the landmarks that were optimized at a keyframe and are observed in the newest image,
+  // and those of them whose reprojection error there exceeds `max_error`.
   struct Fit {
     int seen = 0, contradicted = 0;
   };
   Fit FitOfNewest(const SlidingWindow& window, int64_t keyframe_ns, double max_error) const;
 
-  // Of the optimised points that the newest image shows [m]; nothing where those are few.
+  // Returns the median depth of the optimized points in the newest image [m]; nullopt for few
+  // points.
   std::optional<double> MedianDepthInNewest(const SlidingWindow& window) const;
 
-  // Removes landmarks behind a camera or with a mean reprojection error above `max_error`, and
-  // single views above twice that (normalised image units). Returns how many landmarks and views
-  // were removed.
+  // Removes landmarks that are behind a camera or have a mean reprojection error above `max_error`,
+  // and single observations with more than twice that (normalized). Returns the number of removed
+  // landmarks and observations.
   int RemoveOutliers(const SlidingWindow& window, double max_error);
 };
 
-// Expresses a landmark's coordinates in the camera of another of its views; not triangulated where
-// it is not in front of that.
+// Transforms a landmark's coordinates to the camera of another observation; marks it as not
+// triangulated if it is behind that camera.
 void MoveHost(const SlidingWindow& window, size_t view, PointLandmark* landmark);
 
-// Position of a triangulated landmark in the world.
+// Returns the position of a triangulated landmark in the world.
 Eigen::Vector3d PositionInWorld(const PointLandmark& landmark, const SlidingWindow& window);
 
-// Reprojection error of a triangulated landmark in one of its views, in normalised image units.
-// Nothing where it is behind that camera.
+// Returns the reprojection error of a landmark in one of its observations, normalized; nullopt if
+// it is behind that camera.
 std::optional<double> ReprojectionError(const Eigen::Vector3d& p_W, const PointView& view,
                                         const SlidingWindow& window);
 

@@ -10,23 +10,24 @@
 
 namespace plm_vins {
 
-// Moves rays from one calibration of the camera to another: to where that sees the same pixels.
+// Transforms rays from one camera calibration to another, such that they project to the same
+// pixels.
 class Recalibration {
  public:
   Recalibration(const CameraParameters& from, const CameraParameters& to)
       : from_(CameraModel::Create(from)), to_(CameraModel::Create(to)) {}
 
-  // How far it moves rays at most: of a grid over the image, normalised.
+  // Returns the greatest shift of a ray over a grid in the image, normalized.
   double LargestMove() const;
 
-  // A ray (x, y, 1) by its normalised image point. One that either calibration does not see, at the
-  // rim of what a distortion can describe, stays where it is.
+  // Transforms a ray (x, y, 1), given by its normalized image point. Rays outside the range of
+  // either calibration, at the rim of the distortion model, are not changed.
   void Move(Eigen::Vector2d* xy) const;
 
-  // The same, with its velocity in the image.
+  // Transforms a ray together with its velocity in the image.
   void Move(Eigen::Vector2d* xy, Eigen::Vector2d* velocity) const;
 
-  // All rays of an image, and of a map.
+  // Transforms all rays of a measurement or a map.
   void Move(FrameMeasurement* measurement) const;
   void Move(LocalMap* map) const;
 
@@ -36,8 +37,8 @@ class Recalibration {
   std::shared_ptr<const CameraModel> from_, to_;
 };
 
-// Brings all rays of a map to the intrinsics of its window, once one of them is wrong by
-// `max_error` (normalised). `camera`: as configured.
+// Recomputes all rays of a map with the current intrinsics of its window, once these shift a ray by
+// `max_error` (normalized). `camera` is the configured camera.
 void FollowIntrinsics(const CameraParameters& camera, double max_error, LocalMap* map);
 
 }  // namespace plm_vins

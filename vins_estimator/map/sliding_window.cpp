@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-// Null where no frame has this stamp.
+// Returns null if no frame has this time.
 template <typename Frames>
 auto FindIn(Frames* frames, int64_t t_ns) {
   const auto found = std::find_if(frames->begin(), frames->end(),

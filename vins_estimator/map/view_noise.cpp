@@ -11,12 +11,12 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMinLandmarks = 24;    // fewer are no sample
-constexpr double kGreatestRatio = 9.0;  // of variances, to the median landmark's
+constexpr size_t kMinLandmarks = 24;    // least sample size
+constexpr double kGreatestRatio = 9.0;  // of variances, relative to the median landmark's
 constexpr double kGreatestCorrelation = 0.8;
-constexpr double kTimeConstant = 2.5;        // [s]
-constexpr double kMinMotion = 0.3;           // from one end of the window to the other [m]
-constexpr double kLeast = 0.5, kMost = 4.0;  // times what is assumed at first
+constexpr double kTimeConstant = 2.5;  // [s]
+constexpr double kMinMotion = 0.3;     // between the first and the last frame of the window [m]
+constexpr double kLeast = 0.5, kMost = 4.0;  // bounds, times the configured noise
 
 template <typename Landmarks>
 std::vector<ViewSpread> CollectSpreads(const Landmarks& landmarks, const SlidingWindow& window) {
@@ -34,7 +34,7 @@ double MedianVariance(const std::vector<ViewSpread>& spreads) {
   return Median(std::move(variances));
 }
 
-// Moves `noise` towards what was seen, by ratios.
+// Moves `noise` towards the observed value, in logarithmic scale.
 void Follow(std::optional<double> seen, double first, double share, double* noise) {
   if (!seen) return;
   const double goal = std::clamp(*seen, kLeast * first, kMost * first);

@@ -10,27 +10,28 @@
 
 namespace plm_vins {
 
-// The standard deviation with which independent views would contain as much information as these.
-// Errors of a track are not independent: a template drifts, an outline wanders with the viewpoint.
-// The share that follows on from view to view, rho = 1 - difference / variance, makes n views worth
-// n (1 - rho) / (1 + rho) independent ones (autoregression of first order, [Bayley1946]). Landmarks
-// that stand out count as much as three times the median one. Nothing for too few landmarks.
+// Returns the standard deviation at which independent observations would carry as much information
+// as the given ones; nullopt for too few landmarks. Errors along a track are correlated: a template
+// drifts, an outline shifts with the viewpoint. With the correlation of consecutive errors, rho = 1
+// - difference / variance, n observations are worth n (1 - rho) / (1 + rho) independent ones
+// (first-order autoregression, [Bayley1946]). Outlier landmarks are clipped to three times the
+// median standard deviation.
 std::optional<double> EffectiveNoise(const std::vector<ViewSpread>& spreads);
 
-// Noise of corners and of lines' ends, as the optimised window shows it rather than as configured:
-// texture, blur, compression and calibration make it differ from camera to camera. Follows slowly
-// and within bounds, so that no single window decides on its own weight.
+// Estimates the noise of corners and line end points from the residuals of the optimized window,
+// because texture, blur, compression and calibration make it differ between cameras. Adapts slowly
+// and within bounds, so that no single window determines its own weight.
 class ViewNoise {
  public:
-  // What is assumed at first, normalised.
+  // Takes the configured noise, normalized.
   ViewNoise(double point_noise, double line_noise)
       : first_point_(point_noise),
         first_line_(line_noise),
         point_(first_point_),
         line_(first_line_) {}
 
-  // Learns from a window that was just optimised. Ignores windows of standing still or nearly so:
-  // there, errors are the same in all views.
+  // Updates the estimate from a window that was just optimized. Ignores windows with little motion,
+  // in which errors are the same in all observations.
   void Update(const LocalMap& map);
 
   double point() const { return point_; }

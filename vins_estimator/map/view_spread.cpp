@@ -13,9 +13,9 @@ namespace {
 
 constexpr size_t kMinViews = 6;
 constexpr int kPointParameters = 3, kLineParameters = 4;
-constexpr double kGreatestLength = 3.0;  // of one view's residual, to the median view's
+constexpr double kGreatestLength = 3.0;  // of a residual, relative to the median one
 
-// Makes a view that is another thing altogether count as one that is just far off.
+// Clips outlier residuals, which may belong to another scene point.
 void ShortenOutliers(std::vector<Eigen::Vector2d>* residuals) {
   std::vector<double> lengths;
   lengths.reserve(residuals->size());
@@ -27,7 +27,7 @@ void ShortenOutliers(std::vector<Eigen::Vector2d>* residuals) {
   }
 }
 
-// By time.
+// Returns the residuals by time.
 std::vector<Eigen::Vector2d> ResidualsOf(const PointLandmark& point, const SlidingWindow& window) {
   const Eigen::Vector3d p_W = PositionInWorld(point, window);
   std::vector<Eigen::Vector2d> residuals;

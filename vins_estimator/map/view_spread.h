@@ -11,20 +11,20 @@
 
 namespace plm_vins {
 
-// How far the views of one landmark are from it, once it is estimated: without the share that its
-// own parameters took up.
+// Residual statistics of one landmark after optimization, corrected for the degrees of freedom of
+// its own parameters.
 struct ViewSpread {
-  double variance = 0;    // of one coordinate of the residuals
-  double difference = 0;  // half the variance of the step from one view to the next
+  double variance = 0;    // of one residual coordinate
+  double difference = 0;  // half the variance of the step between consecutive residuals
 };
 
-// `residuals` by time, at least two, of a landmark with so many parameters.
-// Single views far off count as three times the median one.
+// Computes the statistics of at least two residuals, by time, of a landmark with `parameters`
+// degrees of freedom. Outlier residuals are clipped to three times the median length.
 ViewSpread SpreadOf(std::vector<Eigen::Vector2d> residuals, int parameters);
 
-// Of a triangulated landmark's views in the window, normalised: of a point in x and y, of a line at
-// the start and the end of the segment, across the line. Nothing for fewer than six views, which
-// hardly show how their errors follow on each other.
+// Returns the statistics of a triangulated landmark in the window, normalized: of a point in x and
+// y, of a line at the start and end of the segment, across the line. Returns nullopt for fewer than
+// six observations, from which the correlation cannot be estimated.
 std::optional<ViewSpread> SpreadOf(const PointLandmark& point, const SlidingWindow& window);
 std::optional<ViewSpread> SpreadOf(const LineLandmark& line, const SlidingWindow& window);
 

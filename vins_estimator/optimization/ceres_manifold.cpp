@@ -44,7 +44,7 @@ bool TangentManifold::ComputeJacobian(const double* /*x*/, double* jacobian) con
 }
 
 void SetManifold(ceres::Problem* problem, double* values, const VariableType& type) {
-  problem->SetParameterization(values, new TangentManifold(type));  // ... takes ownership
+  problem->SetParameterization(values, new TangentManifold(type));  // the problem takes ownership
 }
 #endif
 

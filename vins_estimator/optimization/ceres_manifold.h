@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one place that knows Ceres' two interfaces for manifolds: Manifold (2.1 and later) and
-// LocalParameterization (before).
+// Adapter to Ceres' two interfaces for manifolds: Manifold (since 2.1) and LocalParameterization
+// (before).
 #pragma once
 
 #include <ceres/problem.h>
@@ -18,9 +18,9 @@
 
 namespace plm_vins {
 
-// The manifold that variables of a type live on, as Ceres wants it. The Jacobians of the factors
-// are tangent already (factors/manifolds.h), padded with zero columns: PlusJacobian() is [I; 0], so
-// that Ceres' product of both is the tangent Jacobian itself.
+// Manifold of a variable type, in Ceres' interface. The factors' Jacobians are already with respect
+// to the tangent (factors/manifolds.h) and padded with zero columns. PlusJacobian() is therefore
+// [I; 0], so that Ceres' product of both is the tangent Jacobian itself.
 #if PLM_CERES_HAS_MANIFOLD
 class TangentManifold final : public ceres::Manifold {
  public:
@@ -51,7 +51,7 @@ class TangentManifold final : public ceres::LocalParameterization {
 };
 #endif
 
-// Declares `values`, a parameter block that `problem` has already, to be a variable of this type.
+// Sets the manifold of `values`, a parameter block of `problem`, to that of the variable type.
 void SetManifold(ceres::Problem* problem, double* values, const VariableType& type);
 
 }  // namespace plm_vins

@@ -23,9 +23,9 @@ ceres::Problem::Options BorrowedCosts() {
   return options;
 }
 
-// A WindowProblem in Ceres' terms, over a copy of its values: Ceres eliminates in order of
-// addresses, and in one array that is the order of the variables, so that the result has the same
-// bytes wherever the window is in memory.
+// A WindowProblem as a ceres::Problem, on a copy of its values. Ceres eliminates blocks in the
+// order of their addresses; in one array that is the order of the variables, so the result is
+// bitwise the same wherever the window is in memory.
 class CeresProblem {
  public:
   explicit CeresProblem(const WindowProblem& window) : window_(window), problem_(BorrowedCosts()) {
@@ -39,10 +39,10 @@ class CeresProblem {
 
   ceres::Problem* problem() { return &problem_; }
 
-  // The constant by which the costs of Ceres exceed those of the window.
+  // Offset of Ceres' costs relative to those of the window.
   double constant() const { return prior_ ? prior_->constant() : 0; }
 
-  // Landmarks first, then the frames.
+  // Returns the elimination order: landmarks first, then frames.
   std::shared_ptr<ceres::ParameterBlockOrdering> Ordering() const {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (double* block : blocks_) ordering->AddElementToGroup(block, 1);
@@ -95,7 +95,7 @@ class CeresProblem {
     Add(prior_.get(), nullptr, blocks);
   }
 
-  // Ceres asks for more than it needs: neither cost nor loss has anything to change.
+  // Ceres' interface takes non-const pointers, but neither cost nor loss has mutable state.
   void Add(const ceres::CostFunction* cost, const ceres::LossFunction* loss,
            const std::vector<double*>& blocks) {
     problem_.AddResidualBlock(const_cast<ceres::CostFunction*>(cost),
@@ -104,13 +104,13 @@ class CeresProblem {
 
   const WindowProblem& window_;
   std::vector<double> values_;
-  std::vector<double*> blocks_;  // of the values, by variable
+  std::vector<double*> blocks_;  // parameter blocks, by variable
   std::vector<std::unique_ptr<const FactorCost>> costs_;
   std::unique_ptr<const PriorCost> prior_;
-  ceres::Problem problem_;  // last: refers to all the others
+  ceres::Problem problem_;  // last: it refers to the members above
 };
 
-// Ends the solution once a step gains no more than this.
+// Stops the solver when a step gains at most `least_gain`.
 class EndOfGain final : public ceres::IterationCallback {
  public:
   explicit EndOfGain(double least_gain) : least_gain_(least_gain) {}
@@ -125,19 +125,20 @@ class EndOfGain final : public ceres::IterationCallback {
   const double least_gain_;
 };
 
-// Of the trust region: as good as none.
+// Initial radius of the trust region: practically undamped.
 constexpr double kInitialRadius = 1e5;
 
 ceres::Solver::Options ToCeres(const SolverOptions& options, CeresEquations equations) {
   ceres::Solver::Options result;
-  // Sparse by SuiteSparse, where Ceres has it: a map takes a quarter longer by Eigen's own.
+  // For SPARSE_SCHUR, Ceres uses SuiteSparse if available; a map takes 25 % longer with Eigen's
+  // solver.
   result.linear_solver_type =
       equations == CeresEquations::kDense ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
   result.num_threads = 1;
   result.logging_type = ceres::SILENT;
   result.max_num_iterations = options.max_iterations;
   result.initial_trust_region_radius = kInitialRadius;
-  result.function_tolerance = 0;  // relative to the cost; see EndOfGain
+  result.function_tolerance = 0;  // relative to the cost; EndOfGain is used instead
   result.parameter_tolerance = options.step_tolerance;
   result.gradient_tolerance = 0;
   return result;
@@ -158,7 +159,7 @@ SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& wi
   SolverSummary summary;
   summary.initial_cost = ceres_summary.initial_cost - problem.constant();
   summary.final_cost = ceres_summary.final_cost - problem.constant();
-  // The first entry is the evaluation at the start.
+  // The first entry is the initial evaluation.
   summary.iterations = std::max(static_cast<int>(ceres_summary.iterations.size()) - 1, 0);
   summary.solved = ceres_summary.IsSolutionUsable();
   if (summary.solved) problem.CopyValuesToWindow();

@@ -6,16 +6,17 @@
 
 namespace plm_vins {
 
-// How the equations of the frames are solved: dense for a window, sparse for a map.
+// Linear solver for the reduced (frame) equations: dense for a window, sparse for a map.
 enum class CeresEquations { kDense, kSparse };
 
-// The same as Solve(), by ceres::Solve: the same terms and prior, the same limits, one thread;
-// landmarks are eliminated first. All Jacobians are taken at the values. A term that cannot be
-// evaluated at the start (a landmark behind a camera) is left out, since Ceres solves nothing then.
+// Solves the problem by ceres::Solve instead of Solve(): same terms, prior and limits, one thread;
+// landmarks are eliminated first. All Jacobians are evaluated at the current values. A term that
+// cannot be evaluated at the start (a landmark behind a camera) is dropped, because Ceres would
+// fail.
 //
-// Both end at the minimum, if they are given the iterations. On the way they differ: in the
-// damping, in the tolerance of steps, which Ceres takes relative to the length of all values, and
-// in that Ceres does not stop where a step gained what was predicted.
+// Given enough iterations, both solvers reach the same minimum. They differ in damping, in the step
+// tolerance, which Ceres takes relative to the norm of all values, and in that Ceres does not stop
+// when a step gained what was predicted.
 SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& problem,
                            CeresEquations equations = CeresEquations::kDense);
 

@@ -9,10 +9,10 @@
 
 namespace plm_vins {
 
-// A factor as Ceres takes it. The factor is not owned.
+// Adapts a Factor to ceres::CostFunction. The factor is not owned.
 class FactorCost final : public ceres::CostFunction {
  public:
-  // `block_sizes`: of the factor's variables, ambient.
+  // `block_sizes` are the ambient sizes of the factor's variables.
   FactorCost(const Factor* factor, const std::vector<int>& block_sizes) : factor_(factor) {
     set_num_residuals(factor->num_residuals());
     mutable_parameter_block_sizes()->assign(block_sizes.begin(), block_sizes.end());

@@ -9,13 +9,13 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kFirstDamping = 1e-5;  // none is needed until a step goes wrong
+constexpr double kFirstDamping = 1e-5;  // used from the first rejected step on
 constexpr double kDampingIncrease = 10.0;
 constexpr double kDampingDecrease = 0.1;
-constexpr double kMinDamping = 1e-7;  // below that, none
+constexpr double kMinDamping = 1e-7;  // smaller damping becomes zero
 constexpr double kMaxDamping = 1e3;
 
-// The values of all variables, to go back to after a step that did not help.
+// Values of all variables, to restore after a rejected step.
 class Snapshot {
  public:
   explicit Snapshot(const std::vector<Variable>& variables) : variables_(variables) { Take(); }
@@ -50,10 +50,11 @@ void Move(const Variable& variable, const double* step) {
 
 struct Step {
   double size = 0;            // largest component of its dense part
-  double predicted_gain = 0;  // of the cost, were the equations undamped and the whole truth
+  double predicted_gain = 0;  // of the cost, if undamped and exactly quadratic
 };
 
-// Moves every variable along the solution of the damped equations; where there is none, nothing.
+// Moves every variable by the solution of the damped equations; returns nullopt, moving nothing, if
+// there is none.
 std::optional<Step> TakeStep(const WindowProblem& problem, double damping,
                              NormalEquations* equations) {
   const Eigen::VectorXd dense_step = equations->DenseStep(damping);
@@ -77,8 +78,8 @@ std::optional<Step> TakeStep(const WindowProblem& problem, double damping,
   return step;
 }
 
-// Whether another step has nothing left to gain: this one gained little, or, what takes no second
-// step to tell, just what the equations said that there was.
+// Returns whether another step would gain little: this one did, or its gain was as predicted, which
+// shows the same without a second step.
 bool HasConverged(const Step& step, double gain, double least_gain, double step_tolerance) {
   return gain <= least_gain || std::abs(gain - step.predicted_gain) <= least_gain ||
          step.size < step_tolerance;

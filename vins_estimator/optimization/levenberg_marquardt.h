@@ -8,30 +8,30 @@ namespace plm_vins {
 
 struct SolverOptions {
   int max_iterations = 8;
-  // Stop when an iteration gains, or misses of what it was predicted to gain, no more than
+  // Stop when the gain of an iteration, or its difference from the prediction, is at most
   // LeastGain.
   double deviation_tolerance = 0.15;
-  double step_tolerance = 1e-6;  // stop when no component of the step is longer [m, rad, ...]
+  double step_tolerance = 1e-6;  // stop when every component of the step is smaller [m, rad, ...]
 };
 
 struct SolverSummary {
   double initial_cost = 0;
   double final_cost = 0;
   int iterations = 0;
-  // The cost of the start is finite, and the equations have a solution; whether or not there was
-  // anything to gain.
+  // True if the initial cost is finite and the equations have a solution, even if nothing was
+  // gained.
   bool solved = false;
 };
 
-// By how much the cost falls as each unknown moves by `deviation_tolerance` of its standard
-// deviations to the minimum. A share of the cost would say nothing: the prior is known but for a
-// constant, so the cost falls below zero, and further with each frame that leaves the window.
+// Returns the decrease of the cost if each unknown is `deviation_tolerance` standard deviations
+// from the minimum. A tolerance relative to the cost would be meaningless: the prior is known up to
+// a constant only, so the cost may be negative and falls with each marginalized frame.
 double LeastGain(const SolverOptions& options, const WindowProblem& problem);
 
-// Minimises the problem's cost from the current values of its variables, which are replaced by the
-// result (Levenberg-Marquardt; never ends above the initial cost). Work is bounded by iterations,
-// not by time. `equations` are those of the problem; they stay linearised one step before the
-// result at most.
+// Minimizes the problem's cost by Levenberg-Marquardt, starting from the current values of its
+// variables, which are replaced by the result. The final cost never exceeds the initial one. The
+// number of iterations is bounded, not the time. `equations` are those of the problem; on return
+// they are linearized at most one step before the result.
 SolverSummary Solve(const SolverOptions& options, const WindowProblem& problem,
                     NormalEquations* equations);
 

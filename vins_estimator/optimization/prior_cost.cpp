@@ -6,7 +6,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMinPivot = 1e-13;  // of a matrix with a unit diagonal: below is rounding
+constexpr double kMinPivot = 1e-13;  // relative to the unit diagonal; smaller pivots are rounding
+                                     // errors
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 

@@ -9,11 +9,12 @@
 
 namespace plm_vins {
 
-// The prior 0.5 d^T H d + b^T d as squared residuals, which is all that Ceres takes:
+// The marginalization prior 0.5 d^T H d + b^T d as squared residuals, the form that Ceres takes:
 //   r = J d + e  with  J^T J = H,  J^T e = b,   so   0.5 |r|^2 = 0.5 d^T H d + b^T d + constant().
 // J = D^1/2 L^T P S^-1 from the pivoted Cholesky factors P^T L D L^T P of S H S, where S gives H a
-// unit diagonal. What H says nothing about (up to rounding) has rows of zeros.
-// Blocks: those of the prior, in its order. Jacobians follow factors/manifolds.h, taken at d = 0.
+// unit diagonal. Directions in the null space of H (up to rounding) have zero rows. The parameter
+// blocks are those of the prior, in its order. Jacobians follow factors/manifolds.h and are
+// evaluated at d = 0.
 class PriorCost final : public ceres::CostFunction {
  public:
   // `prior` must outlive this object and not be empty.

@@ -6,8 +6,8 @@
 
 namespace plm_vins {
 
-// Solves the problem by either solver. `equations` are those of the problem; they stay linearised
-// one step before the result at most.
+// Solves the problem by the given solver. `equations` are those of the problem; on return they are
+// linearized at most one step before the result.
 SolverSummary SolveBy(SolverType solver, const SolverOptions& options, const WindowProblem& problem,
                       NormalEquations* equations);
 

@@ -3,15 +3,15 @@
 
 namespace plm_vins {
 
-// A residual by some blocks of variables, with Jacobians as of factors/manifolds.h. What a
-// ceres::CostFunction is, without its list of the blocks' sizes: to allocate one for each view of
-// the window takes longer than to evaluate it. Nor is it ever destroyed. Each kind of factor says
-// how many blocks it has: kBlocks.
+// A residual as a function of several variable blocks, with Jacobians as defined in
+// factors/manifolds.h. It is a ceres::CostFunction without the list of block sizes: allocating that
+// list for each observation of the window would take longer than the evaluation. Factors are never
+// destroyed (trivial destructors). Each type states its number of blocks, kBlocks.
 class Factor {
  public:
   int num_residuals() const { return num_residuals_; }
 
-  // As ceres::CostFunction::Evaluate().
+  // Same contract as ceres::CostFunction::Evaluate().
   virtual bool Evaluate(double const* const* parameters, double* residuals,
                         double** jacobians) const = 0;
 
@@ -25,7 +25,7 @@ class Factor {
   int num_residuals_;
 };
 
-// One whose blocks have these sizes.
+// A factor with block sizes known at compile time.
 template <int kResiduals, int... kSizes>
 class SizedFactor : public Factor {
  public:

@@ -12,7 +12,7 @@ using Index = ImuErrorIndex;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Columns of the tangents of pose and motion.
+// Columns in the tangents of pose and motion.
 constexpr int kPosition = 0, kRotation = 3;
 constexpr int kVelocity = 0, kAccelBias = 3, kGyroBias = 6;
 
@@ -23,8 +23,8 @@ FrameState MakeState(const double* pose, const double* motion) {
   return state;
 }
 
-// Rows of position and velocity. `p_Bi` and `v_Bi` are the changes without gravity, in the
-// coordinates of frame i.
+// Fills the rows of position and velocity. `p_Bi` and `v_Bi` are the changes of position and
+// velocity without gravity, in frame i.
 void SetTranslationRows(const Preintegration& preintegration, const Matrix3d& R_Bi_W,
                         const Vector3d& p_Bi, const Vector3d& v_Bi, ImuResidualJacobians* J) {
   J->d_residual_d_pose_i.block<3, 3>(Index::kPosition, kPosition) = -R_Bi_W;
@@ -42,7 +42,7 @@ void SetTranslationRows(const Preintegration& preintegration, const Matrix3d& R_
   }
 }
 
-// Rows of rotation. `R_Bi_Bj` is the states' relative rotation, `error` its residual.
+// Fills the rows of rotation. `R_Bi_Bj` is the states' relative rotation, `error` its residual.
 void SetRotationRows(const Preintegration& preintegration, const ImuBias& bias,
                      const Matrix3d& R_Bi_Bj, const Vector3d& error, ImuResidualJacobians* J) {
   const Matrix3d right_inverse = SO3RightJacobianInverse(error);
@@ -64,7 +64,7 @@ void SetBiasRows(ImuResidualJacobians* J) {
   J->d_residual_d_motion_j.block<6, 6>(Index::kAccelBias, kAccelBias).diagonal().setConstant(1);
 }
 
-// A whitened tangent Jacobian in Ceres' layout, padded with zero columns to the ambient size.
+// Stores a whitened tangent Jacobian in Ceres' layout, padded with zero columns to ambient size.
 template <int kAmbient, int kTangent>
 void StoreJacobian(const Matrix15d& sqrt_information,
                    const Eigen::Matrix<double, 15, kTangent>& tangent_jacobian, double* jacobian) {

@@ -14,7 +14,7 @@ struct ImuResidualJacobians {
   Eigen::Matrix<double, 15, 6> d_residual_d_pose_i, d_residual_d_pose_j;
   Eigen::Matrix<double, 15, 9> d_residual_d_motion_i, d_residual_d_motion_j;
 
-  // By the whole states, pose before motion.
+  // Derivatives with respect to whole states, pose before motion.
   Matrix15d ByFirst() const {
     return (Matrix15d() << d_residual_d_pose_i, d_residual_d_motion_i).finished();
   }
@@ -23,8 +23,8 @@ struct ImuResidualJacobians {
   }
 };
 
-// What two states differ by, beyond the motion that the IMU measured between them; rows as in
-// ImuErrorIndex, not whitened. [Forster2017] Eq. (45), plus the change of the biases:
+// Computes the difference between two states and the preintegrated measurement, not whitened; rows
+// as in ImuErrorIndex. [Forster2017] Eq. (45), plus the bias changes:
 //   r_p  = R_i^T (p_j - p_i - v_i T - g T^2 / 2) - delta_p(b_i)
 //   r_th = Log(delta_q(b_i)^-1 q_i^-1 q_j)
 //   r_v  = R_i^T (v_j - v_i - g T) - delta_v(b_i)
@@ -34,11 +34,11 @@ Vector15d ImuResidual(const Preintegration& preintegration, const Eigen::Vector3
                       const FrameState& state_i, const FrameState& state_j,
                       ImuResidualJacobians* jacobians);
 
-// Squared norm of the whitened residual.
+// Returns the squared Mahalanobis norm of the residual.
 double ImuChiSquare(const Preintegration& preintegration, const Eigen::Vector3d& gravity_W,
                     const FrameState& state_i, const FrameState& state_j);
 
-// ImuResidual, whitened, as cost function of pose_i, motion_i, pose_j, motion_j. The preintegration
+// Whitened ImuResidual as a factor on pose_i, motion_i, pose_j, motion_j. The preintegration
 // belongs to the window: it must outlive the factor and not change while the factor is in use.
 class ImuFactor final : public SizedFactor<15, 7, 9, 7, 9> {
  public:

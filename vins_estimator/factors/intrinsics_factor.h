@@ -7,15 +7,15 @@
 
 namespace plm_vins {
 
-// A corner's factor, PointFactor, PointHostFactor or a ReadoutFactor of these, with the intrinsics
-// of the camera as one more variable: the corner is seen at xy + shift(c), which the residual
-// weight * (m_t - xy) depends on directly. Blocks: those of the factor, intrinsics (8).
+// Extends a corner's factor (PointFactor, PointHostFactor or a ReadoutFactor of these) by the
+// camera intrinsics c as a variable: the corner is observed at xy + shift(c), which the residual
+// weight * (m_t - xy) depends on directly. Blocks: those of the inner factor, intrinsics (8).
 template <typename Inner>
 class PointIntrinsicsFactor final : public Factor {
  public:
   static constexpr int kBlocks = Inner::kBlocks + 1;
 
-  // `weight`: that of `factor`.
+  // `weight` must be that of `factor`.
   PointIntrinsicsFactor(const Inner& factor, const RayShift& shift, double weight);
 
   bool Evaluate(double const* const* parameters, double* residuals,
@@ -27,8 +27,8 @@ class PointIntrinsicsFactor final : public Factor {
   double weight_;
 };
 
-// A line's factor, LineFactor or LineHostFactor, likewise: the factor of the segment whose ends are
-// seen at xy + shift(c). Blocks: those of the factor, intrinsics (8).
+// Extends a line's factor (LineFactor or LineHostFactor) by the camera intrinsics c: the ends of
+// the segment are observed at xy + shift(c). Blocks: those of the inner factor, intrinsics (8).
 template <typename Inner>
 class LineIntrinsicsFactor final : public Factor {
  public:

@@ -13,13 +13,13 @@ using Matrix23d = Eigen::Matrix<double, 2, 3>;
 using Vector2Map = Eigen::Map<Eigen::Vector2d>;
 using LineJacobian = Eigen::Map<Eigen::Matrix<double, 2, kLineSize, Eigen::RowMajor>>;
 
-// A line of the frame that the pose belongs to, in its parent frame.
+// Transforms a line from the frame whose pose is given to its parent frame.
 PluckerLine ToParent(const PoseBlock& pose, const PluckerLine& line) {
   const Eigen::Vector3d direction = pose.R * line.direction;
   return {pose.R * line.moment + pose.p.cross(direction), direction};
 }
 
-// The reverse.
+// Transforms a line from the parent frame to the frame whose pose is given.
 PluckerLine ToChild(const PoseBlock& pose, const PluckerLine& line) {
   return {pose.R.transpose() * (line.moment - pose.p.cross(line.direction)),
           pose.R.transpose() * line.direction};
@@ -52,8 +52,8 @@ bool LineFactor::EvaluateWithNormal(double const* const* parameters, double* res
   if (normal != nullptr) *normal = L_Ct.moment.head<2>().normalized();
   if (jacobians == nullptr) return true;
 
-  // Back along the chain: the derivative by each frame's moment, then by its direction, which acts
-  // through the lever arms on the way.
+  // Chain rule, backwards: derivatives with respect to each frame's moment, then its direction,
+  // which changes the moments of the frames further along through the lever arms.
   d_r_d_mCt *= weight_;
   const Matrix23d d_r_d_mBt = d_r_d_mCt * T_B_C.R.transpose();
   const Matrix23d d_r_d_vBt = -d_r_d_mBt * Skew(T_B_C.p);

@@ -7,10 +7,10 @@
 
 namespace plm_vins {
 
-// A line, given in its host camera, seen from another frame:
+// Reprojection of a line into a frame other than its host:
 //   r = weight * EndPointDistances(view, moment of T_B_C^-1 T_W_Bt^-1 T_W_Bh T_B_C L_Ch)
-// Blocks: pose of host (7), pose of target (7), extrinsics T_B_C (7), line (5). Jacobians are taken
-// as factors/manifolds.h defines them.
+// Blocks: pose of host (7), pose of target (7), extrinsics T_B_C (7), line (5). Jacobians follow
+// factors/manifolds.h.
 class LineFactor final : public SizedFactor<2, 7, 7, 7, kLineSize> {
  public:
   // `weight`: focal length over the standard deviation of an end point across the line, in pixels.
@@ -20,8 +20,8 @@ class LineFactor final : public SizedFactor<2, 7, 7, 7, kLineSize> {
                 double** jacobians) const override {
     return EvaluateWithNormal(parameters, residuals, jacobians, nullptr);
   }
-  // The same, with the unit normal of the line's image, by which both distances grow as their ends
-  // move; null: not wanted.
+  // Evaluates and also returns the unit normal of the projected line, which is the derivative of
+  // each distance with respect to its end point; `normal` may be null.
   bool EvaluateWithNormal(double const* const* parameters, double* residuals, double** jacobians,
                           Eigen::Vector2d* normal) const;
 
@@ -30,7 +30,8 @@ class LineFactor final : public SizedFactor<2, 7, 7, 7, kLineSize> {
   double weight_;
 };
 
-// The host's own view: r = weight * EndPointDistances(view, moment of L_Ch). Block: line (5).
+// Observation in the host frame: r = weight * EndPointDistances(view, moment of L_Ch). Block: line
+// (5).
 class LineHostFactor final : public SizedFactor<2, kLineSize> {
  public:
   LineHostFactor(const LineSegmentView& view, double weight) : view_(view), weight_(weight) {}
@@ -39,7 +40,7 @@ class LineHostFactor final : public SizedFactor<2, kLineSize> {
                 double** jacobians) const override {
     return EvaluateWithNormal(parameters, residuals, jacobians, nullptr);
   }
-  // As that of LineFactor.
+  // See LineFactor.
   bool EvaluateWithNormal(double const* const* parameters, double* residuals, double** jacobians,
                           Eigen::Vector2d* normal) const;
 

@@ -23,7 +23,7 @@ bool ManhattanFactor::Evaluate(double const* const* parameters, double* residual
                                double** jacobians) const {
   const PoseBlock T_W_B(parameters[0]), T_B_C(parameters[1]);
   const Eigen::Matrix3d U = Eigen::Map<const Eigen::Quaterniond>(parameters[2]).toRotationMatrix();
-  const Eigen::Vector3d d_C = U.col(1);  // ToPlucker(), of length 1
+  const Eigen::Vector3d d_C = U.col(1);  // unit direction, see ToPlucker()
   const Eigen::Vector3d d_B = T_B_C.R * d_C;
   const Matrix23d d_r_d_dB = across_ * T_W_B.R;
   Vector2Map{residuals} = d_r_d_dB * d_B;

@@ -8,15 +8,15 @@
 
 namespace plm_vins {
 
-// A line, given in its host camera, that runs along a known axis of W:
+// Constrains a line, given in its host camera, to be parallel to a known axis of W:
 //   r = weight * E^T d_W,   d_W = R_W_Bh R_B_C d_Ch,
 // with the line's unit direction d and the two columns of E perpendicular to the axis. |r| / weight
-// is the sine of the angle between line and axis, whichever way the line points. Blocks: pose of
-// host (7), extrinsics T_B_C (7), line (5). Jacobians follow factors/manifolds.h. A vertical axis
-// constrains roll and pitch, a horizontal one the heading as well.
+// is the sine of the angle between line and axis, regardless of sign. Blocks: pose of host (7),
+// extrinsics T_B_C (7), line (5). Jacobians follow factors/manifolds.h. A vertical axis constrains
+// roll and pitch, a horizontal one the heading as well.
 class ManhattanFactor final : public SizedFactor<2, 7, 7, kLineSize> {
  public:
-  // `axis_W` of length 1; `weight`: one over the standard deviation of that angle [1/rad].
+  // `axis_W` is a unit vector; `weight` is the inverse standard deviation of that angle [1/rad].
   ManhattanFactor(const Eigen::Vector3d& axis_W, double weight);
 
   bool Evaluate(double const* const* parameters, double* residuals,

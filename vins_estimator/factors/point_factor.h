@@ -10,8 +10,8 @@ namespace plm_vins {
 // Reprojection of a point into a frame other than its host:
 //   r = weight * ( pi(T_B_C^-1 T_W_Bt^-1 T_W_Bh T_B_C p_Ch) - m_t(td) )
 // Blocks: pose of host (7), pose of target (7), extrinsics T_B_C (7), time offset td (1), point
-// (3). Jacobians follow factors/manifolds.h. Evaluate() fails where the point is not in front of
-// the target.
+// (3). Jacobians follow factors/manifolds.h. Evaluate() fails if the point is behind the target
+// camera.
 class PointFactor final : public SizedFactor<2, 7, 7, 7, 1, kPointSize> {
  public:
   static constexpr int kTdBlock = 3;
@@ -27,7 +27,8 @@ class PointFactor final : public SizedFactor<2, 7, 7, 7, 1, kPointSize> {
   double weight_;
 };
 
-// The host's own view: r = weight * ( (x, y) - m_h(td) ). Blocks: time offset td (1), point (3).
+// Observation in the host frame: r = weight * ( (x, y) - m_h(td) ). Blocks: time offset td (1),
+// point (3).
 class PointHostFactor final : public SizedFactor<2, 1, kPointSize> {
  public:
   static constexpr int kTdBlock = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the visual factors read a pose (factors/manifolds.h) and write the Jacobian by it.
+// Access of the visual factors to poses (factors/manifolds.h) and to their Jacobians.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace plm_vins {
 
-// A pose variable, its rotation as a matrix.
+// A pose variable with its rotation as a matrix.
 struct PoseBlock {
   explicit PoseBlock(const double* values)
       : p(values), R(Eigen::Map<const Eigen::Quaterniond>(values + 3).toRotationMatrix()) {}

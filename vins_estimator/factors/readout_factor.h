@@ -6,9 +6,9 @@
 
 namespace plm_vins {
 
-// A corner's factor, PointFactor or PointHostFactor, with the read-out time of a rolling shutter as
-// one more variable: the factor at the time offset td + Delay(readout). Blocks: those of the
-// factor, read-out time (1).
+// Extends a corner's factor (PointFactor or PointHostFactor) by the readout time of a rolling
+// shutter as a variable: evaluates it at the time offset td + Delay(readout). Blocks: those of the
+// inner factor, readout time (1).
 template <typename Inner>
 class ReadoutFactor final : public Factor {
  public:

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of a body that stands still (imu/standstill_detector.h): its velocity is zero and
-// its pose does not change. Both soft, with standard deviations that say how still "still" is.
+// Soft constraints of a standstill (imu/standstill_detector.h): zero velocity and constant pose.
+// The standard deviations state the motion that still counts as standstill.
 #pragma once
 
 #include "vins_estimator/factors/factor.h"
 
 namespace plm_vins {
 
-// residual = v_W / sigma, for one motion block.
+// residual = v_W / sigma, on one motion block.
 class ZeroVelocityFactor final : public SizedFactor<3, 9> {
  public:
   explicit ZeroVelocityFactor(double sigma_velocity)  // [m/s]
@@ -20,7 +20,7 @@ class ZeroVelocityFactor final : public SizedFactor<3, 9> {
   double weight_;
 };
 
-// residual = [(p_j - p_i) / sigma_position, Log(q_i^-1 q_j) / sigma_rotation], for two poses.
+// residual = [(p_j - p_i) / sigma_position, Log(q_i^-1 q_j) / sigma_rotation], on two poses.
 class SamePoseFactor final : public SizedFactor<6, 7, 7> {
  public:
   SamePoseFactor(double sigma_position, double sigma_rotation)  // [m], [rad]

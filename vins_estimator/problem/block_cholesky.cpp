@@ -4,7 +4,7 @@
 namespace plm_vins {
 namespace {
 
-// The rows of `columns` that are not zero.
+// Returns the rows of `columns` that are not zero.
 template <typename Columns>
 std::vector<ColumnRun> RunsOf(const Columns& columns) {
   std::vector<ColumnRun> runs;
@@ -38,7 +38,7 @@ bool BlockCholesky::Eliminate(int offset, Eigen::MatrixXd* S) {
   for (const ColumnRun& run : block.runs) {
     block.W.middleCols(run.local, run.size) = columns.middleRows(run.dense, run.size).transpose();
   }
-  if (!block.runs.empty()) {  // Eigen refers to the first element, which there must be
+  if (!block.runs.empty()) {  // solveInPlace accesses the first element
     block.factor.matrixL().solveInPlace(block.W);
     SubtractGram(block.W, block.runs, S);
   }

@@ -9,24 +9,24 @@
 
 namespace plm_vins {
 
-// Cholesky factors of a symmetric, positive definite matrix, whose last variables come in blocks
-// that know few others: they are eliminated first, from the last on, over the columns that are not
-// zero. The rest is taken as dense.
+// Cholesky factorization of a symmetric positive definite matrix whose last variables form blocks
+// coupled to few others. These blocks are eliminated first, from the last to the first, using only
+// their nonzero columns; the remainder is factorized as a dense matrix.
 class BlockCholesky {
  public:
   static constexpr int kBlockSize = 9;
 
-  // Factors S, of which it reads and overwrites the upper triangle. `sparse`: how many of its last
-  // variables are in blocks, a multiple of kBlockSize.
+  // Factorizes S in place, using its upper triangle only. `sparse` is the number of trailing
+  // variables that form blocks, a multiple of kBlockSize.
   BlockCholesky(int sparse, Eigen::MatrixXd* S);
 
-  // S is positive definite; else nothing below has a meaning.
+  // Returns whether S is positive definite; if not, the functions below must not be called.
   bool success() const { return success_; }
 
-  // S^-1 b.
+  // Returns S^-1 b.
   Eigen::VectorXd Solve(Eigen::VectorXd b) const;
 
-  // These rows and columns of S^-1.
+  // Returns the given rows and columns of S^-1.
   Eigen::MatrixXd InverseBlock(const std::vector<int>& rows) const;
 
  private:
@@ -34,17 +34,17 @@ class BlockCholesky {
 
   struct Block {
     int offset = 0;
-    Eigen::LLT<Matrix9d> factor;  // L L^T of the block on the diagonal
-    std::vector<ColumnRun> runs;  // the others that it knows
-    Rows<kBlockSize> W;           // L^-1 of the block's rows over the runs
+    Eigen::LLT<Matrix9d> factor;  // L L^T of the diagonal block
+    std::vector<ColumnRun> runs;  // columns of the coupled variables
+    Rows<kBlockSize> W;           // L^-1 times the block's rows, over the runs
   };
 
   bool Eliminate(int offset, Eigen::MatrixXd* S);
-  // Makes y of x, such that x^T S^-1 x = y^T y.
+  // Forward substitution: replaces x by y such that x^T S^-1 x = y^T y.
   template <typename Matrix>
   void SolveHalf(Matrix* x) const;
 
-  std::vector<Block> blocks_;  // in the order of their elimination
+  std::vector<Block> blocks_;  // in elimination order
   Eigen::LLT<Eigen::MatrixXd, Eigen::Upper> dense_;
   bool success_ = false;
 };

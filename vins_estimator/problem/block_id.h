@@ -17,8 +17,8 @@ enum class BlockKind : uint8_t {
   kIntrinsics
 };
 
-// Names one variable of the estimator for good, wherever its values are stored: a frame's pose or
-// motion by the frame's stamp, a landmark by its id, the calibration by 0.
+// Persistent identifier of a variable, independent of where its values are stored: a frame's pose
+// or motion by the frame's time, a landmark by its id, the calibration by 0.
 struct BlockId {
   BlockKind kind = BlockKind::kPose;
   int64_t key = 0;

@@ -10,7 +10,7 @@ namespace {
 
 using DenseBlock = std::pair<int, int>;  // offset, size
 
-// Keeps the slots in order of their columns.
+// Inserts a slot in order of the dense columns.
 void Insert(const Slot& slot, TermLayout* layout) {
   int position = layout->slot_count++;
   for (; position > 0; --position) {
@@ -20,7 +20,7 @@ void Insert(const Slot& slot, TermLayout* layout) {
   layout->slots[position] = slot;
 }
 
-// The dense variables of some terms, each once, in order of their columns.
+// Returns the dense variables of some terms, each once, in order of their columns.
 std::vector<DenseBlock> DenseBlocks(const TermLayout* begin, const TermLayout* end) {
   std::vector<DenseBlock> blocks;
   blocks.reserve(ResidualTerm::kMaxVariables * (end - begin));
@@ -32,7 +32,7 @@ std::vector<DenseBlock> DenseBlocks(const TermLayout* begin, const TermLayout* e
   return blocks;
 }
 
-// The column of H_ld that belongs to a dense one.
+// Returns the column of H_ld for a dense column.
 int LocalColumn(const std::vector<ColumnRun>& runs, int dense) {
   const auto after =
       std::upper_bound(runs.begin(), runs.end(), dense,

@@ -9,7 +9,7 @@
 
 namespace plm_vins {
 
-// Where one variable of a term goes: columns of its Jacobian to columns of the equations.
+// Maps the Jacobian columns of one variable of a term to columns of the equations.
 struct Slot {
   int block = 0;         // position among the term's variables
   int size = 0;          // tangent size
@@ -18,7 +18,7 @@ struct Slot {
   int local_offset = 0;  // first column in its landmark's H_ld
 };
 
-// A term together with its dense variables, in order of their columns.
+// A term with its dense variables, in order of their columns.
 struct TermLayout {
   const ResidualTerm* term = nullptr;
   std::array<Slot, ResidualTerm::kMaxVariables> slots;
@@ -31,22 +31,23 @@ struct TermLayout {
   const Slot* end() const { return slots.data() + slot_count; }
 };
 
-// Where the variables of a problem are in its equations (see NormalEquations): frame variables in
-// dense columns, motions last and by time, as BlockCholesky likes them (each knows its neighbours,
-// and only the oldest is in the prior); each landmark in equations of its own; constants nowhere.
+// Positions of a problem's variables in its equations (see NormalEquations). Frame variables have
+// dense columns, motions last and by time: each motion is coupled to its neighbours only, and only
+// the oldest is in the prior, which BlockCholesky exploits. Each landmark has equations of its own;
+// constants have none.
 class EquationLayout {
  public:
   // `problem` must outlive this object and keep its structure.
   explicit EquationLayout(const WindowProblem& problem);
 
-  // First dense column by variable; -1 for constants and landmarks.
+  // First dense column of each variable; -1 for constants and landmarks.
   const std::vector<int>& dense_offset() const { return dense_offset_; }
   int dense_size() const { return dense_size_; }
-  int motion_size() const { return motion_size_; }  // the columns of all motions
+  int motion_size() const { return motion_size_; }  // number of columns of all motions
 
-  // The terms among frames, then those of each landmark.
+  // Terms among frames, then the terms of each landmark.
   const std::vector<TermLayout>& terms() const { return terms_; }
-  // The dense columns that the terms of each landmark touch, as few runs as possible.
+  // Dense columns that each landmark's terms use, in as few runs as possible.
   const std::vector<std::vector<ColumnRun>>& landmarks() const { return landmarks_; }
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a view should see its landmark, by the state of the window.
+// Predicted observations of landmarks, given the state of the window.
 //
-// Derivatives by the intrinsics are taken there. Taken at the rays that were observed, each would
-// share the noise of its residual, and all together would say that the focal length is too short.
+// They are the linearization points for the intrinsics. Derivatives at the observed rays would be
+// correlated with the noise of the residuals and would bias the focal length to be too short.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,12 +13,12 @@
 
 namespace plm_vins {
 
-// As it was observed where the landmark is not in front of the camera.
+// Returns the predicted ray; the observed one if the landmark is behind the camera.
 Eigen::Vector2d ExpectedRay(const PointLandmark& landmark, const PointView& view,
                             const SlidingWindow& window);
 
-// The points of the line's image nearest to the ends that were observed; those themselves where it
-// has no image.
+// Returns the points of the projected line nearest to the observed end points; these themselves if
+// the line has no projection.
 LineSegmentView ExpectedEnds(const LineLandmark& landmark, const LineView& view,
                              const SlidingWindow& window);
 

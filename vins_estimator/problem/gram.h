@@ -8,12 +8,12 @@
 
 namespace plm_vins {
 
-// Some rows over the columns of a few runs, each row in one piece.
+// Rows over the columns of a few runs, row-major.
 template <int kRows>
 using Rows = Eigen::Matrix<double, kRows, Eigen::Dynamic, Eigen::RowMajor>;
 
-// S -= W^T W, upper triangle, for W, Rows or a map of them, whose columns belong to `runs` of
-// columns of S.
+// Computes S -= W^T W in the upper triangle of S. W is of type Rows, or a map of it, and its
+// columns belong to the columns `runs` of S.
 template <typename RowsOfW>
 void SubtractGram(const RowsOfW& W, const std::vector<ColumnRun>& runs, Eigen::MatrixXd* S) {
   constexpr int kRows = RowsOfW::RowsAtCompileTime;

@@ -8,15 +8,15 @@
 namespace plm_vins {
 namespace {
 
-// Of corners along their velocity [s]. Further, their way is not straight, and what that adds to
-// the residual is no noise of the IMU: so noise is not learned before the time offset.
+// Greatest shift of corners along their velocity [s]. Beyond it their motion is not linear, which
+// adds residuals that are not IMU noise; so noise is learned only after the time offset.
 constexpr double kMaxShift = 0.002;
 
 bool ShiftsCorners(const WindowFrame& frame, double td) {
   return std::abs(td - frame.timing.cut_time_offset) > kMaxShift;
 }
 
-// What is wrong with these is not noise, or not of one kind.
+// Returns whether the interval's residuals are due to something else than noise of one density.
 bool IsNoEvidence(const WindowFrame& end) {
   const Preintegration& motion = *end.motion_since_previous;
   return end.stationary || motion.HasGap() || motion.HasBiasStep() || !motion.HasOneNoise();
@@ -45,7 +45,8 @@ bool ImuNoiseLearning::Reweigh(SlidingWindow* window) const {
   for (WindowFrame& frame : window->frames) {
     if (!frame.motion_since_previous) continue;
     Preintegration& motion = *frame.motion_since_previous;
-    // Integrated anew, a doubted interval that was joined with others would be trusted again.
+    // Re-integration would remove the bias step, and a doubted interval joined into this one would
+    // be trusted again.
     if (motion.HasBiasStep()) continue;
     const ImuNoise& before = motion.noise();
     if (!AreFarNoisier(noise, before)) continue;

@@ -11,18 +11,17 @@
 
 namespace plm_vins {
 
-// Finds the noise of the IMU in the windows that are solved, and gives it to their intervals.
+// Estimates the noise of the IMU from the solved windows and applies it to their intervals.
 class ImuNoiseLearning {
  public:
   explicit ImuNoiseLearning(const ImuNoise& configured) : estimate_(configured) {}
 
-  // Takes in the intervals of the older half of the window but for those that it knows: images on
-  // both sides tell them best. All of them where the window is the first. `equations` are those of
-  // the solution.
+  // Adds the intervals of the older half of the window that are new, because images on both sides
+  // constrain them best; all intervals if this is the first window. `equations` are those of the
+  // solution.
   void Learn(const SlidingWindow& window, bool is_first, NormalEquations* equations);
 
-  // Integrates the intervals anew that count as far less noisy than is known now. False where there
-  // are none.
+  // Re-integrates intervals whose assumed noise is far too low. Returns false if there are none.
   bool Reweigh(SlidingWindow* window) const;
 
   void Reset() { *this = ImuNoiseLearning(estimate_.configured()); }
@@ -31,7 +30,7 @@ class ImuNoiseLearning {
 
  private:
   ImuNoiseEstimate estimate_;
-  std::optional<int64_t> known_ns_;  // begin of the newest interval that was taken in
+  std::optional<int64_t> known_ns_;  // start of the newest interval that was used
 };
 
 }  // namespace plm_vins

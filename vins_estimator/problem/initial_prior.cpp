@@ -9,10 +9,10 @@
 namespace plm_vins {
 namespace {
 
-// A prior on some variables, each by itself.
+// Builds a prior of independent variables.
 class PriorBuilder {
  public:
-  // The next variable, with this information on its tangent space.
+  // Adds a variable with the given information on its tangent space.
   void Add(const BlockId& id, const double* values, const Eigen::MatrixXd& information) {
     const auto offset = H_.rows();
     const auto size = offset + information.rows();
@@ -21,7 +21,7 @@ class PriorBuilder {
     H_.bottomRightCorner(information.rows(), information.rows()) = information;
   }
 
-  // The same by standard deviations.
+  // Adds a variable with the given standard deviations.
   void Add(const BlockId& id, const double* values, const Eigen::VectorXd& sigmas) {
     Add(id, values, Eigen::MatrixXd(sigmas.cwiseAbs2().cwiseInverse().asDiagonal()));
   }
@@ -35,15 +35,15 @@ class PriorBuilder {
   Eigen::MatrixXd H_;
 };
 
-// So many of each standard deviation, one after the other.
+// Returns a vector with `count` copies of each standard deviation, in sequence.
 Eigen::VectorXd Sigmas(std::initializer_list<std::pair<int, double>> counts_and_values) {
   std::vector<double> sigmas;
   for (const auto& [count, value] : counts_and_values) sigmas.insert(sigmas.end(), count, value);
   return Eigen::Map<const Eigen::VectorXd>(sigmas.data(), static_cast<Eigen::Index>(sigmas.size()));
 }
 
-// Information on a pose: on the position in the world, and on the rotation of the body, from the
-// uncertainty of its heading and its inclination in the world.
+// Returns the information matrix of a pose, of position in W and rotation in B, from the standard
+// deviations of heading and inclination in W.
 Eigen::MatrixXd PoseInformation(const InitialUncertainty& uncertainty, const FrameState& state) {
   const Eigen::Matrix3d R_W_B = state.rotation().toRotationMatrix();
   const Eigen::Vector3d sigma(uncertainty.inclination, uncertainty.inclination,

@@ -10,8 +10,8 @@ namespace plm_vins {
 
 // Standard deviations of the first state of a window.
 struct InitialUncertainty {
-  double position = 1e-3;     // the world's origin is where the body is: fixed by definition [m]
-  double heading = 1e-3;      // so is its heading [rad]
+  double position = 1e-3;     // fixes the gauge: the world's origin is the initial position [m]
+  double heading = 1e-3;      // fixes the gauge [rad]
   double inclination = 0.03;  // roll and pitch [rad]
   double velocity = 0.3;      // [m/s]
   double accel_bias = 0.1;    // [m/s^2]
@@ -23,7 +23,7 @@ struct InitialUncertainty {
   IntrinsicsDeviation intrinsics;
 };
 
-// The prior of a new window: its first frame is where it was put, and the calibration about right.
+// Returns the prior of a new window: on its first frame's state and on the calibration.
 MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
                                   const ProblemOptions& options, const SlidingWindow& window);
 

@@ -10,10 +10,10 @@
 namespace plm_vins {
 namespace {
 
-// Keeps the equations of an unobserved landmark solvable; far below any real information.
+// Keeps the equations of a degenerate landmark solvable; far below any real information.
 constexpr double kMinLandmarkInformation = 1e-9;
 
-// The damped H_ll as L L^T.
+// Returns the Cholesky factor of the damped H_ll.
 template <int kSize>
 Eigen::LLT<Eigen::Matrix<double, kSize, kSize>> DampedFactor(const LandmarkMatrix& H_ll,
                                                              double damping) {
@@ -23,7 +23,7 @@ Eigen::LLT<Eigen::Matrix<double, kSize, kSize>> DampedFactor(const LandmarkMatri
   return Eigen::LLT<Eigen::Matrix<double, kSize, kSize>>(H);
 }
 
-// Takes one landmark of kSize parameters out of the dense equations. `memory` is for its H_ld.
+// Eliminates one landmark of kSize parameters. `memory` is workspace for its H_ld.
 template <int kSize>
 void Eliminate(const LandmarkEquations& equations, double damping, double* memory,
                Eigen::MatrixXd* S, Eigen::VectorXd* g) {

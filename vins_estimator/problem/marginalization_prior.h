@@ -11,12 +11,12 @@
 
 namespace plm_vins {
 
-// What is known of the window's variables from everything that left it, as a quadratic
+// Information on the window's variables from everything that was marginalized, as a quadratic
 //   0.5 delta^T H delta + b^T delta,   delta = x [-] x0,
-// about fixed linearisation points x0. A variable keeps its x0 as long as the prior holds it, and
-// what is marginalised later takes its Jacobians there as well, so that the unobservable directions
-// (position and heading) gain no information they must not have ([Huang2010]). The solution and
-// the covariance that is published take theirs at the values (JacobiansAt).
+// about fixed linearization points x0. A variable keeps its x0 as long as it is in the prior, and
+// what is marginalized later is linearized at x0, too (first-estimate Jacobians), so that the
+// unobservable directions, position and heading, gain no spurious information ([Huang2010]). The
+// solution and the published covariance are linearized at the current values (JacobiansAt).
 class MarginalizationPrior {
  public:
   struct Block {
@@ -25,7 +25,7 @@ class MarginalizationPrior {
     std::array<double, kMaxAmbientSize> linearization = {};
   };
 
-  // A block whose linearisation point is at `values`.
+  // Returns a block that is linearized at `values`.
   static Block MakeBlock(const BlockId& id, int offset, const double* values);
 
   MarginalizationPrior() = default;
@@ -36,18 +36,18 @@ class MarginalizationPrior {
   const std::vector<Block>& blocks() const { return blocks_; }
   const Quadratic& quadratic() const { return quadratic_; }
 
-  // Linearisation point of a variable, or null where the prior does not hold it.
+  // Returns the linearization point of a variable, or null if it is not in the prior.
   const double* Linearization(const BlockId& id) const;
 
-  // Value of the quadratic (up to a constant) at the problem's values.
+  // Returns the value of the quadratic at the problem's values, up to a constant.
   double Cost(const WindowProblem& problem) const;
 
-  // Adds the quadratic to dense equations (upper triangle of H); returns Cost().
-  // `dense_offset`: first dense row by variable index, -1 for constants, which count as they are.
+  // Adds the quadratic to dense equations (upper triangle of H); returns Cost(). `dense_offset` is
+  // the first dense row by variable index, -1 for constants, which are held fixed.
   double AddTo(const WindowProblem& problem, const std::vector<int>& dense_offset,
                Eigen::MatrixXd* H, Eigen::VectorXd* b) const;
 
-  // The prior without the variables that `drop` selects, marginalised.
+  // Returns the prior with the variables that `drop` selects marginalized.
   MarginalizationPrior Marginalize(const std::function<bool(const BlockId&)>& drop) const;
 
  private:

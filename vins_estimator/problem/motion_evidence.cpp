@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-// That of the same samples with no other noise than this, nor any doubt about them.
+// Returns the covariance of the same samples if `noise` were the only noise, without doubts.
 Matrix15d CovarianceFrom(const ImuNoise& noise, const Preintegration& motion) {
   Preintegration alone(noise, motion.linearization_bias());
   for (ImuSample sample : motion.samples()) {
@@ -18,7 +18,7 @@ Matrix15d CovarianceFrom(const ImuNoise& noise, const Preintegration& motion) {
   return alone.Covariance();
 }
 
-// Of the residual, from that of the states at both ends.
+// Returns the covariance of the IMU residual, propagated from the covariance of both states.
 std::optional<Matrix15d> SolutionCovariance(int64_t begin_ns, int64_t end_ns,
                                             const ImuResidualJacobians& jacobians,
                                             NormalEquations* equations) {

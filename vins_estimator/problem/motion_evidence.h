@@ -9,13 +9,13 @@
 
 namespace plm_vins {
 
-// What the IMU's residual between two neighbouring frames says of the noise of accelerometer and
-// gyro: variance components by restricted maximum likelihood, [Patterson1971]. `equations` are
-// those of the solved window. Let r be the residual, S its covariance as assumed, S_k what of it is
-// due to one source, C the covariance of the residual as the solution knows it. Then r^T S^-1 S_k
-// S^-1 r has the mean tr(P S_k) with P = S^-1 - S^-1 C S^-1, and tr(P S_k P S_k) more for each time
-// that the variance of this source is more than assumed in this interval alone. Nothing where the
-// equations do not determine the two states.
+// Computes the evidence of the IMU residual between two consecutive frames on the noise of
+// accelerometer and gyroscope: variance components by restricted maximum likelihood,
+// [Patterson1971]. `equations` are those of the solved window. Let r be the residual, S its assumed
+// covariance, S_k the part of S due to source k, and C the covariance of the residual in the
+// solution. With P = S^-1 - S^-1 C S^-1, the statistic r^T S^-1 S_k S^-1 r has the mean tr(P S_k);
+// it increases by (s - 1) tr(P S_k P S_k) if the source's variance in this interval is s times the
+// assumed one. Returns nullopt if the two states are unobservable.
 std::optional<ImuNoiseEvidence> EvidenceOfMotion(const SlidingWindow& window,
                                                  const WindowFrame& begin, const WindowFrame& end,
                                                  NormalEquations* equations);

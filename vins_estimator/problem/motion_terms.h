@@ -10,15 +10,16 @@
 
 namespace plm_vins {
 
-// Adds what joins the frames of a window to a problem.
+// Adds the terms between consecutive frames of a window to a problem.
 class MotionTerms {
  public:
-  // All must outlive this.
+  // All arguments must outlive this object.
   MotionTerms(const ProblemOptions* options, const SlidingWindow* window,
               WindowVariables* variables, WindowProblem* problem)
       : options_(options), window_(window), variables_(variables), problem_(problem) {}
 
-  // The IMU between frame `index` - 1 and `index`, and that they stood still where they did.
+  // Adds the IMU factor between frames `index` - 1 and `index`, and the standstill factors if frame
+  // `index` is stationary.
   void Add(size_t index);
 
  private:

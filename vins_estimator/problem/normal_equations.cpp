@@ -49,7 +49,7 @@ double NormalEquations::Cost() const {
   return cost;
 }
 
-// False where the term cannot be evaluated.
+// Returns false if the term cannot be evaluated.
 bool NormalEquations::AddTerm(const TermLayout& layout, double* cost) {
   TermEvaluation evaluation;
   if (!EvaluateTerm(*layout.term, problem_.variables(), &evaluation)) return false;

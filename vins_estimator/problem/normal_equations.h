@@ -18,9 +18,9 @@ namespace plm_vins {
 //   [ H_ld  H_ll ] [ step_l ] = - [ b_l ]      l: landmarks, H_ll block-diagonal
 //
 // with H = J^T W J, b = J^T W r, W = rho' (robust weight of each term). Landmarks are eliminated
-// one by one (Schur complement). Where a variable has a linearisation point, J is taken there and r
-// at the values. A term that cannot be evaluated when the equations are first linearised (a
-// landmark behind a camera) is left out for good.
+// one by one (Schur complement). If a variable has a linearization point, J is evaluated there and
+// r at the current values. A term that cannot be evaluated at the first linearization (a landmark
+// behind a camera) is ignored from then on.
 class NormalEquations {
  public:
   // `problem` must outlive this object and keep its structure; its values may change.
@@ -28,33 +28,33 @@ class NormalEquations {
   NormalEquations(const NormalEquations&) = delete;
   NormalEquations& operator=(const NormalEquations&) = delete;
 
-  // Fills the equations at the current values. Returns the cost.
+  // Linearizes at the current values. Returns the cost.
   double Linearize();
 
-  // The cost alone. Infinite where a term that is not left out cannot be evaluated, so that no step
-  // goes there.
+  // Returns the cost only. Infinite if a term cannot be evaluated, unless it is ignored, so that
+  // the solver rejects such a step.
   double Cost() const;
 
-  // The dense equations with all landmarks eliminated: S step_d = -g, S upper triangle. Diagonals
-  // are scaled by 1 + `damping` before.
+  // Computes the dense equations with all landmarks eliminated: S step_d = -g, S upper triangle.
+  // Diagonals are scaled by 1 + `damping` before.
   void Reduce(double damping, Eigen::MatrixXd* S, Eigen::VectorXd* g) const;
 
-  // step_d of the equations with the same damping; empty where they do not determine it.
+  // Returns step_d with the same damping; empty if the equations are rank deficient.
   Eigen::VectorXd DenseStep(double damping);
 
-  // step_l of landmark `index` that belongs to `dense_step`, with the same damping.
+  // Returns step_l of landmark `index` for `dense_step`, with the same damping.
   LandmarkVector LandmarkStep(int index, const Eigen::VectorXd& dense_step, double damping) const;
 
-  // The gradient of the cost: b_d, and b_l of landmark `index`.
+  // Gradient of the cost: b_d, and b_l of landmark `index`.
   const Eigen::VectorXd& DenseGradient() const { return b_d_; }
   const LandmarkVector& LandmarkGradient(int index) const { return landmarks_[index].b_l; }
 
-  // Joint covariance of some dense variables, in the order given, at the last linearisation. Empty
-  // where the equations do not determine them. Throws std::invalid_argument for what is no dense
-  // variable of the problem, or is constant.
+  // Returns the joint covariance of dense variables, in the given order, at the last linearization;
+  // empty if they are unobservable. Throws std::invalid_argument for landmarks, constants and
+  // variables that are not in the problem.
   Eigen::MatrixXd Covariance(const std::vector<BlockId>& ids);
 
-  // First row of a variable in the dense equations; -1 for constants and landmarks.
+  // Returns the first row of a variable in the dense equations; -1 for constants and landmarks.
   int DenseOffset(int variable) const { return layout_.dense_offset()[variable]; }
   int dense_size() const { return layout_.dense_size(); }
 
@@ -66,14 +66,14 @@ class NormalEquations {
   const WindowProblem& problem_;
   const EquationLayout layout_;
   std::vector<bool> left_out_;  // by term
-  Eigen::VectorXd H_ld_;        // memory for that of all landmarks
+  Eigen::VectorXd H_ld_;        // memory for all landmarks' H_ld
   std::vector<LandmarkEquations> landmarks_;
   Eigen::MatrixXd H_dd_;  // upper triangle
   Eigen::VectorXd b_d_;
-  Eigen::MatrixXd S_;  // reduced, with g_
+  Eigen::MatrixXd S_;  // reduced equations, with g_
   Eigen::VectorXd g_;
   std::optional<BlockCholesky> factor_;  // of S_
-  double factor_damping_ = 0;            // the damping of S_, where there is a factor
+  double factor_damping_ = 0;            // damping of S_, valid if there is a factor
 };
 
 }  // namespace plm_vins

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kStateSize = 15;
 
-// How a state moves where the frame `base` and all landmarks turn and move as one rigid body. The
-// motion stays.
+// Returns the derivative of a state if the frame `base` and all landmarks move as one rigid body.
+// Velocity and biases do not change.
 Matrix15d RigidMove(const FrameState& base, const FrameState& state) {
   const Eigen::Matrix3d R_W_B0 = base.rotation().toRotationMatrix();
   Matrix15d move = Matrix15d::Zero();
@@ -25,10 +25,11 @@ Matrix15d RigidMove(const FrameState& base, const FrameState& state) {
 
 }  // namespace
 
-// With errors x_0 of the keyframe, P of the states after it given x_0 = 0, J_0 and J the Jacobians
-// of the IMU by x_0 and by those states, and T their rigid move, the minimum is at
+// Let x_0 be the error of the keyframe, P the covariance of the states after it given x_0 = 0, J_0
+// and J the IMU Jacobians with respect to x_0 and to those states, and T their rigid motion. The
+// minimum is at
 //   S x_0,   S = T - P J^T (J T + J_0),
-// as the terms of the landmarks do not change along T.
+// because the landmark terms are invariant along T.
 Matrix15d PlacedCovariance(const SlidingWindow& window, int64_t keyframe_ns,
                            const Matrix15d& keyframe_covariance, NormalEquations* equations) {
   size_t base = window.frames.size() - 1;
@@ -37,7 +38,7 @@ Matrix15d PlacedCovariance(const SlidingWindow& window, int64_t keyframe_ns,
   const FrameState& keyframe = window.frames[base].state;
 
   std::vector<BlockId> ids;
-  Matrix15d move = Matrix15d::Identity();  // that of the state before, T
+  Matrix15d move = Matrix15d::Identity();  // of the previous state, T
   Eigen::MatrixXd pull = Eigen::MatrixXd::Zero(kStateSize * (states + 1), kStateSize);
   for (int i = 0; i < states; ++i) {
     const FrameState& from = window.frames[base + i].state;

@@ -9,11 +9,11 @@
 
 namespace plm_vins {
 
-// Covariance of the newest state where only the states after a keyframe were solved for
-// (PlacementProblem), by the covariance of the keyframe's state and by `equations` at
-// their last linearisation. An error of the keyframe moves the landmarks with it, as a rigid body,
-// and the IMU carries it on; it is taken into account, but not estimated ([Schmidt1966]). Zero
-// where the equations do not determine the states.
+// Returns the covariance of the newest state if only the states after a keyframe were solved for
+// (PlacementProblem), from the covariance of the keyframe's state and `equations` at their last
+// linearization. An error of the keyframe moves the landmarks rigidly with it and is propagated by
+// the IMU; it is considered, but not estimated ([Schmidt1966]). Zero if the states are
+// unobservable.
 Matrix15d PlacedCovariance(const SlidingWindow& window, int64_t keyframe_ns,
                            const Matrix15d& keyframe_covariance, NormalEquations* equations);
 

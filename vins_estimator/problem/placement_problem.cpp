@@ -7,13 +7,13 @@
 namespace plm_vins {
 namespace {
 
-// Rays are near enough to those of the intrinsics.
+// Rays are not corrected for intrinsics here: they were computed with almost the current ones.
 ProblemOptions WithoutIntrinsics(ProblemOptions options) {
   options.estimate_intrinsics = false;
   return options;
 }
 
-// All but the states of later frames.
+// Holds everything fixed except the states of later frames.
 WindowVariables::IsConstant KnownUntil(int64_t t_ns) {
   return [t_ns](const BlockId& id) {
     const bool of_frame = id.kind == BlockKind::kPose || id.kind == BlockKind::kMotion;

@@ -12,12 +12,12 @@
 
 namespace plm_vins {
 
-// The problem that places the newest frames of a window: their states are solved for by the IMU,
-// and by what they show of landmarks that are optimised and were seen twice before. All else is
-// constant, and Jacobians are taken at the values.
+// The problem that estimates only the newest frames of a window: their states are constrained by
+// the IMU and by observations of landmarks that were already optimized. Everything else is held
+// fixed. Jacobians are evaluated at the current values.
 class PlacementProblem {
  public:
-  // Places the frames after `known_until_ns`. The map must outlive the problem.
+  // Estimates the frames after `known_until_ns`. The map must outlive the problem.
   PlacementProblem(const ProblemOptions& options, LocalMap* map, int64_t known_until_ns);
 
   const WindowProblem& problem() const { return problem_; }

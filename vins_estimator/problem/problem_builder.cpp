@@ -6,7 +6,8 @@
 namespace plm_vins {
 namespace {
 
-// The calibration as far as it is known; what else is not estimated is no variable.
+// Selects the calibration variables that are not estimated; the other ones, if not estimated, are
+// not part of the problem.
 WindowVariables::IsConstant KnownCalibration(const ProblemOptions& options) {
   const bool knows_extrinsic = !options.estimate_extrinsic, knows_td = !options.estimate_td;
   return [knows_extrinsic, knows_td](const BlockId& id) {

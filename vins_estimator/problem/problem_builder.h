@@ -17,24 +17,24 @@
 
 namespace plm_vins {
 
-// Puts the parts of the window into a WindowProblem: one place that knows which variables and
-// factors belong together, for the optimisation (all parts) and the marginalisation (the parts that
-// leave the window).
+// Assembles a WindowProblem from parts of the window. It alone defines which variables and factors
+// belong together, for optimization (all parts) and marginalization (the parts that leave).
 class ProblemBuilder {
  public:
   // The window and the prior must outlive the problem.
   ProblemBuilder(const ProblemOptions& options, SlidingWindow* window,
                  const MarginalizationPrior* prior);
 
-  // The whole window, with the landmarks that are optimised.
+  // Adds the whole window with the optimized landmarks.
   void AddAll(PointMap* points, LineMap* lines);
 
   void AddPrior();
-  // The IMU between frame `index` - 1 and `index`, and that they stood still where they did.
+  // Adds the IMU factor between frames `index` - 1 and `index`, and standstill factors if
+  // stationary.
   void AddMotion(size_t index) { motion_.Add(index); }
-  // All views of a triangulated landmark.
+  // Adds a triangulated landmark with all its observations.
   void AddPoint(PointLandmark* landmark);
-  // The same, with what anchors have seen of it, and that it runs along its Manhattan axis, if any.
+  // Adds a line with all its observations, those in anchors, and its Manhattan axis, if any.
   void AddLine(LineLandmark* landmark);
 
   const WindowProblem& problem() const { return problem_; }

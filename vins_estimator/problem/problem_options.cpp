@@ -6,9 +6,9 @@
 namespace plm_vins {
 namespace {
 
-// What an anchor has seen of a line that comes back is part of the prior already, and the line may
-// be another one that looks the same; so it counts less.
-constexpr double kAnchorNoise = 5.0;  // in units of the noise of lines
+// Anchor observations of a recognized line are already contained in the prior, and the line may be
+// confused with a similar one; so they are down-weighted.
+constexpr double kAnchorNoise = 5.0;  // times the noise of lines
 
 }  // namespace
 

@@ -9,43 +9,45 @@
 
 namespace plm_vins {
 
-// Where Jacobians by the variables of the prior are taken. At the values, the solution is the
-// minimum of the cost. At the first estimates, which the prior was linearised at, equations say
-// nothing of position and heading that cannot be known ([Huang2010]): for what stays in the prior.
+// Linearization point of the variables in the prior. With kValues, the solution is the minimum of
+// the cost. With kFirstEstimates, the points at which the prior was linearized, the equations carry
+// no information on the unobservable position and heading ([Huang2010]); this is used to
+// marginalize.
 enum class JacobiansAt { kValues, kFirstEstimates };
 
-// What weighs the terms of the window problem, and which calibration it estimates.
+// Weights of the terms in the window problem, and the calibration that it estimates.
 struct ProblemOptions {
-  // `focal_length` [px] turns pixels into normalised coordinates.
+  // `focal_length` [px] converts pixels to normalized coordinates.
   ProblemOptions(const Config& config, double focal_length);
 
-  // Weighs the views of points and lines by their noise, normalised.
+  // Sets the weights of points and lines from their noise, normalized.
   void SetNoise(double point_noise, double line_noise);
 
-  // Lets a flow of this much [1/s] pass as standstill, where the depth [m] of what is seen is
-  // known.
+  // Limits the certainty of standstill: image flow up to `flow` [1/s] is indistinguishable from it.
+  // Has no effect if the scene's median depth [m] is unknown.
   void LetPass(double flow, std::optional<double> depth);
 
-  double point_weight;                  // one over the noise of a corner, normalised
-  double point_loss_scale = 1.0;        // Cauchy loss, in standard deviations
-  double line_weight;                   // ... of a line's ends across it
-  double line_loss_scale = 1.0;         // Cauchy loss, in standard deviations
-  double anchor_weight;                 // the same, of what anchors have seen
-  double manhattan_weight;              // one over the deviation of a line from its axis [1/rad]
-  double manhattan_loss_scale = 3.0;    // Tukey loss, in standard deviations
-  double standstill_velocity = 0.005;   // standard deviation while standing still [m/s]
+  double point_weight;                // inverse standard deviation of a corner, normalized
+  double point_loss_scale = 1.0;      // Cauchy loss, in standard deviations
+  double line_weight;                 // ... of a line's end points across it
+  double line_loss_scale = 1.0;       // Cauchy loss, in standard deviations
+  double anchor_weight;               // ... of lines in anchors
+  double manhattan_weight;            // inverse standard deviation of the angle to the axis [1/rad]
+  double manhattan_loss_scale = 3.0;  // Tukey loss, in standard deviations
+  double standstill_velocity = 0.005;   // standard deviation at standstill [m/s]
   double standstill_position = 0.001;   // ... of the position between two frames [m]
   double standstill_rotation = 0.0005;  // ... of the rotation between two frames [rad]
-  // What of steady motion passes as standstill, which is then no better known than by that.
+  // Steady motion that is indistinguishable from standstill: a lower bound on its standard
+  // deviations.
   double passing_velocity = 0;   // [m/s]
   double passing_turn_rate = 0;  // [rad/s]
   bool estimate_extrinsic;
   bool estimate_td;
-  bool estimate_readout;  // time of a rolling shutter
+  bool estimate_readout;  // readout time of a rolling shutter
   bool estimate_intrinsics;
   CameraParameters camera;  // as configured
   JacobiansAt jacobians_at = JacobiansAt::kFirstEstimates;
-  // Lines on its axes are held to them; none where there is no such frame.
+  // Manhattan frame to whose axes lines are constrained; nullopt if there is none.
   std::optional<Eigen::Quaterniond> R_W_M;
 };
 

@@ -7,12 +7,12 @@ namespace plm_vins {
 
 Quadratic MarginalizeFirst(const Quadratic& quadratic, int count) {
   const int rest = static_cast<int>(quadratic.b.size()) - count;
-  // Eigen refers to the first element of what it solves for, which there must be.
+  // Eigen's solver accesses the first element, so empty systems are handled separately.
   if (count == 0) return quadratic;
   if (rest == 0) return {Eigen::MatrixXd(0, 0), Eigen::VectorXd(0)};
   const auto H_mr = quadratic.H.topRightCorner(count, rest);
 
-  // Unit diagonal first: metres, radians and biases differ by many orders of magnitude.
+  // Scaled to a unit diagonal: metres, radians and biases differ by many orders of magnitude.
   const Eigen::VectorXd diagonal = quadratic.H.diagonal().head(count);
   const Eigen::VectorXd scale =
       (diagonal.array() > 0).select(diagonal.array().max(1e-300).rsqrt(), 0.0);

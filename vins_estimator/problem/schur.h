@@ -12,13 +12,13 @@ struct Quadratic {
   Eigen::VectorXd b;
 };
 
-// Minimises over the first `count` components of x: the quadratic of what remains,
+// Minimizes over the first `count` components of x and returns the quadratic of the remaining ones,
 //   H' = H_rr - H_rm H_mm^-1 H_mr,  b' = b_r - H_rm H_mm^-1 b_m.
-// Pivots of H_mm that are zero drop out; right-hand sides are in the range of H_mm, as of every sum
-// of squares, so directions without information do no harm.
+// Zero pivots of H_mm are skipped: b_m and H_mr are in the range of H_mm, as for every sum of
+// squares, so directions without information have no effect.
 Quadratic MarginalizeFirst(const Quadratic& quadratic, int count);
 
-// The same quadratic with component i moved to position new_position[i].
+// Moves component i to position new_position[i].
 Quadratic Permute(const Quadratic& quadratic, const std::vector<int>& new_position);
 
 }  // namespace plm_vins

@@ -9,8 +9,8 @@
 
 namespace plm_vins {
 
-// Covariance of the state of a frame, pose before motion, by the window's equations at their last
-// linearisation. Nothing where these do not determine it.
+// Returns the covariance of a frame's state, pose before motion, from the window's equations at
+// their last linearization; nullopt if it is unobservable.
 inline std::optional<Matrix15d> StateCovariance(int64_t t_ns, NormalEquations* equations) {
   const Eigen::MatrixXd covariance =
       equations->Covariance({{BlockKind::kPose, t_ns}, {BlockKind::kMotion, t_ns}});

@@ -11,14 +11,14 @@
 namespace plm_vins {
 namespace {
 
-// Most terms are views: two rows, by poses, by a landmark and perhaps by the intrinsics. They are
-// worth products of fixed size.
+// Most terms are observations: two rows, with poses, a landmark and possibly intrinsics as
+// variables. Matrix products of fixed size pay off for them.
 constexpr int kViewRows = 2;
 
 template <int kSize>
 using Size = std::integral_constant<int, kSize>;
 
-// Calls `body` with the size as a constant, where it is one of those, else with Eigen::Dynamic.
+// Calls `body` with the size as a constant if it is a common one, otherwise with Eigen::Dynamic.
 template <typename Body>
 void WithFixed(int size, const Body& body) {
   if (size == kPoseTangentSize) return body(Size<kPoseTangentSize>());
@@ -26,7 +26,7 @@ void WithFixed(int size, const Body& body) {
   body(Size<Eigen::Dynamic>());
 }
 
-// The Jacobian of a term by one of its variables, in the tangent space.
+// Returns the tangent-space Jacobian of a term with respect to one of its variables.
 template <int kRows = Eigen::Dynamic, int kColumns = Eigen::Dynamic>
 auto BlockOf(const TermEvaluation& evaluation, int block, int size, int stride) {
   using Matrix = Eigen::Matrix<double, kRows, kColumns, Eigen::RowMajor>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How one term adds to the equations: J^T J and J^T r, where its variables are.
+// Accumulation of J^T J and J^T r of single terms in the normal equations.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,11 +10,11 @@
 
 namespace plm_vins {
 
-// Adds to the dense equations: to the upper triangle of H, and to b.
+// Adds a term to the dense equations: to the upper triangle of H, and to b.
 void AddToDense(const TermLayout& layout, const TermEvaluation& evaluation, Eigen::MatrixXd* H,
                 Eigen::VectorXd* b);
 
-// Adds to the equations of the term's landmark.
+// Adds a term to the equations of its landmark.
 void AddToLandmark(const TermLayout& layout, const TermEvaluation& evaluation,
                    LandmarkEquations* equations);
 

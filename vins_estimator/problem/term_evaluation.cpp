@@ -10,7 +10,7 @@ namespace {
 
 using ParameterPointers = std::array<const double*, ResidualTerm::kMaxVariables>;
 
-// Value and first derivative of rho at the squared norm.
+// Returns value and first derivative of rho at the squared norm.
 std::array<double, 2> Robustify(const ceres::LossFunction* loss, double squared_norm) {
   if (loss == nullptr) return {squared_norm, 1.0};
   double rho[3];
@@ -22,7 +22,7 @@ double SquaredNorm(const double* residual, int rows) {
   return Eigen::Map<const Eigen::VectorXd>(residual, rows).squaredNorm();
 }
 
-// Current values; where Jacobians are to be taken elsewhere, `linearization` differs from `values`.
+// Collects the current values and the linearization points; returns whether they differ.
 bool GatherParameters(const ResidualTerm& term, const std::vector<Variable>& variables,
                       ParameterPointers* values, ParameterPointers* linearization) {
   bool differs = false;
@@ -38,7 +38,7 @@ bool GatherParameters(const ResidualTerm& term, const std::vector<Variable>& var
   return differs;
 }
 
-// Constants have no Jacobian.
+// Multiplies residual and Jacobians by `factor`; constants have no Jacobian.
 void ScaleBy(double factor, const ResidualTerm& term, const std::vector<Variable>& variables,
              TermEvaluation* evaluation) {
   for (int i = 0; i < evaluation->rows; ++i) evaluation->residual[i] *= factor;

@@ -8,8 +8,9 @@
 
 namespace plm_vins {
 
-// Residual and Jacobians of one term, robust weight applied: |residual|^2 and J^T J can be summed
-// as they are. Jacobian rows are of ambient size; only the first tangent-size columns count.
+// Residual and Jacobians of one term with the robust weight applied, so that |residual|^2 and J^T J
+// can be summed directly. Jacobian rows have ambient size; only the first tangent-size columns are
+// used.
 struct TermEvaluation {
   static constexpr int kMaxRows = 15;
 
@@ -19,15 +20,15 @@ struct TermEvaluation {
   std::array<std::array<double, kMaxRows * kMaxAmbientSize>, ResidualTerm::kMaxVariables> jacobians;
 };
 
-// The cost 0.5 rho(|r|^2) of a term at the current values; infinite where it cannot be evaluated (a
-// landmark behind a camera).
+// Returns the cost 0.5 rho(|r|^2) of a term at the current values; infinite if it cannot be
+// evaluated (a landmark behind a camera).
 double EvaluateTermCost(const ResidualTerm& term, const std::vector<Variable>& variables);
 
-// Whether the residual can be evaluated at the current values and at the linearisation points.
+// Returns whether the residual can be evaluated at the current values and linearization points.
 bool CanBeEvaluated(const ResidualTerm& term, const std::vector<Variable>& variables);
 
-// Residual and cost at the current values, Jacobians at the linearisation points. False where
-// either cannot be evaluated; `evaluation` then means nothing.
+// Evaluates residual and cost at the current values, Jacobians at the linearization points. Returns
+// false if either fails; `evaluation` is then undefined.
 bool EvaluateTerm(const ResidualTerm& term, const std::vector<Variable>& variables,
                   TermEvaluation* evaluation);
 

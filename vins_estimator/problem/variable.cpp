@@ -20,8 +20,8 @@ void VectorMinus(const double* y, const double* x, double* y_minus_x) {
   for (int i = 0; i < kSize; ++i) y_minus_x[i] = y[i] - x[i];
 }
 
-// A point stays in front of its host: steps towards and beyond infinity end far away, or where the
-// point is, if that is further still.
+// Keeps the inverse depth positive, so that a point stays in front of its host: steps to or beyond
+// infinity are clipped at a large depth, or at the current one if that is larger.
 void PointPlus(const double* x, const double* delta, double* x_plus_delta) {
   constexpr double kFarInverseDepth = 1e-3;  // [1/m]
   const double least = std::min(x[2], kFarInverseDepth);
@@ -29,7 +29,7 @@ void PointPlus(const double* x, const double* delta, double* x_plus_delta) {
   x_plus_delta[2] = std::max(x_plus_delta[2], least);
 }
 
-// Focal lengths stay positive.
+// Keeps focal lengths positive.
 void IntrinsicsPlus(const double* x, const double* delta, double* x_plus_delta) {
   constexpr double kMinFocalLength = 1;  // [px]
   VectorPlus<kIntrinsicsSize>(x, delta, x_plus_delta);

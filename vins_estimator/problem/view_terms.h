@@ -16,15 +16,15 @@
 
 namespace plm_vins {
 
-// A point of a problem, and the variables that all its views depend on, by their indices.
+// A point of a problem, with the indices of the variables that all its observations depend on.
 struct ProblemPoint {
   const PointLandmark* landmark;
   int point;
-  std::optional<int> eliminated;  // as this one of the problem's landmarks; none: it is a constant
+  std::optional<int> eliminated;  // index among the problem's landmarks; nullopt if constant
   int host_pose, extrinsic, td;
 };
 
-// The same of a line.
+// A line of a problem; see ProblemPoint.
 struct ProblemLine {
   const LineLandmark* landmark;
   int line;
@@ -32,24 +32,24 @@ struct ProblemLine {
   int host_pose, extrinsic;
 };
 
-// Adds landmarks and their views to a problem. A view depends on the readout time and on the
-// intrinsics, too, where these are estimated.
+// Adds landmarks and their observations to a problem. Observations also depend on the readout time
+// and on the intrinsics if these are estimated.
 class ViewTerms {
  public:
-  // All must outlive this, and this the problem.
+  // All arguments must outlive this object, and this object the problem.
   ViewTerms(const ProblemOptions* options, const SlidingWindow* window, WindowVariables* variables,
             WindowProblem* problem);
 
-  // A landmark, without views yet: as one of those that the problem solves for, or as it is.
+  // Adds a landmark without observations: as a variable to be eliminated, or as a constant.
   ProblemPoint AddEliminated(PointLandmark* landmark);
   ProblemLine AddEliminated(LineLandmark* landmark);
   ProblemPoint AddConstant(PointLandmark* landmark);
   ProblemLine AddConstant(LineLandmark* landmark);
 
-  // In the host frame, where a landmark is seen the same from wherever that is.
+  // Adds the observation in the host frame, which does not depend on the pose.
   void AddHostView(const ProblemPoint& point);
   void AddHostView(const ProblemLine& line);
-  // In another frame.
+  // Adds an observation in another frame; those in anchors have lower weight.
   void AddView(const ProblemPoint& point, const PointView& view);
   void AddView(const ProblemLine& line, const LineView& view);
   void AddAnchorView(const ProblemLine& line, const LineView& view);
@@ -60,7 +60,7 @@ class ViewTerms {
   ProblemLine WithVariables(const LineLandmark& landmark, int index, std::optional<int> eliminated);
   template <typename ViewFactor, typename... Indices>
   void AddPointTerm(const ProblemPoint& point, const PointView& view, Indices... variables);
-  // The same, with the factor as it is but for the intrinsics.
+  // Adds `factor`, extended by the intrinsics if these are estimated.
   template <typename ViewFactor, typename... Indices>
   void AddPointFactor(const ProblemPoint& point, const PointView& view, const ViewFactor& factor,
                       Indices... variables);
@@ -76,7 +76,8 @@ class ViewTerms {
   const SlidingWindow* window_;
   WindowVariables* variables_;
   WindowProblem* problem_;
-  std::unique_ptr<const CameraModel> camera_;  // as it is known; null: it is not estimated
+  std::unique_ptr<const CameraModel> camera_;  // with the current intrinsics; null if these are not
+                                               // estimated
   ceres::CauchyLoss point_loss_;
   ceres::CauchyLoss line_loss_;
 };

@@ -17,45 +17,46 @@ namespace plm_vins {
 
 class MarginalizationPrior;
 
-// One term 0.5 rho(|r|^2) of the cost. Jacobians of the factor follow factors/manifolds.h:
-// taken in the tangent space and padded with zero columns to the ambient size.
+// One term 0.5 rho(|r|^2) of the cost. Jacobians of the factor follow factors/manifolds.h: with
+// respect to the tangent space and padded with zero columns to the ambient size.
 struct ResidualTerm {
   static constexpr int kMaxVariables = 7;
 
   const Factor* cost = nullptr;
-  const ceres::LossFunction* loss = nullptr;      // null: squared
+  const ceres::LossFunction* loss = nullptr;      // null: squared loss
   std::array<int, kMaxVariables> variables = {};  // indices of WindowProblem::variables()
   int variable_count = 0;
 };
 
-// A landmark: its variable is eliminated from the linear system before it is solved.
+// A landmark: its variable is eliminated before the linear system is solved.
 struct LandmarkTerms {
   int variable = -1;                     // index of WindowProblem::variables()
   std::pmr::vector<ResidualTerm> terms;  // every term that depends on it
 };
 
-// A nonlinear least-squares problem over the window, in the form that both solving and
-// marginalising take: variables, terms among frames, terms grouped by landmark, and the prior.
-// Variables are ordered as added; a variable is added once, later additions return the same index.
-// It is made anew for each image, of thousands of small parts: they lie in one piece of memory.
+// A nonlinear least-squares problem over the window, in the form that both the solver and
+// marginalization use: variables, terms among frames, terms grouped by landmark, and the prior.
+// Variables are in order of addition; adding one again returns its index. The problem is rebuilt
+// for each image from thousands of small parts, which are allocated from one arena.
 class WindowProblem {
  public:
   WindowProblem() = default;
   WindowProblem(const WindowProblem&) = delete;
   WindowProblem& operator=(const WindowProblem&) = delete;
 
-  // `linearization` as in Variable.
+  // For `linearization`, see Variable.
   int AddVariable(const BlockId& id, double* values, bool constant = false,
                   const double* linearization = nullptr);
 
-  // With a copy of the factor; of the loss, only the address. One variable for each of its blocks.
+  // Adds a term with one variable for each block of the factor. The factor is copied; the loss must
+  // outlive the problem.
   template <typename FactorType, int kCount>
   void AddTerm(const FactorType& factor, const ceres::LossFunction* loss,
                const int (&variables)[kCount]) {
     terms_.push_back(MakeTerm(factor, loss, variables));
   }
 
-  // A landmark, and the terms that see it. Returns the landmark's index.
+  // Adds a landmark and, below, its terms. Returns the landmark's index.
   int AddLandmark(const BlockId& id, double* values);
   template <typename FactorType, int kCount>
   void AddLandmarkTerm(int landmark, const FactorType& factor, const ceres::LossFunction* loss,
@@ -66,10 +67,10 @@ class WindowProblem {
     landmarks_[landmark].terms.reserve(count);
   }
 
-  // The prior's variables must have been added. Not owned.
+  // Sets the prior, which is not owned; its variables must have been added.
   void SetPrior(const MarginalizationPrior* prior) { prior_ = prior; }
 
-  // Index of a variable, or -1.
+  // Returns the index of a variable, or -1.
   int Find(const BlockId& id) const;
 
   const std::vector<Variable>& variables() const { return variables_; }
@@ -78,7 +79,7 @@ class WindowProblem {
   const MarginalizationPrior* prior() const { return prior_; }
 
  private:
-  static constexpr size_t kUsualSize = 400'000;  // of a window [bytes]
+  static constexpr size_t kUsualSize = 400'000;  // for a typical window [bytes]
 
   template <typename FactorType>
   const Factor* Keep(const FactorType& factor) {

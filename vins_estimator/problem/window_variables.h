@@ -11,14 +11,15 @@
 
 namespace plm_vins {
 
-// The variables of a window other than landmarks, added to a problem as terms ask for them. All are
-// known by their index in it.
+// Adds the variables of a window other than landmarks to a problem when terms first use them, and
+// returns their indices in the problem.
 class WindowVariables {
  public:
   using IsConstant = std::function<bool(const BlockId&)>;
 
-  // Jacobians by the variables of `first_estimates` are taken where that was linearised; null: all
-  // are taken at the values. The others must outlive the problem.
+  // `first_estimates` is the prior whose variables are linearized at its linearization points; if
+  // null, all variables are linearized at the current values. The other arguments must outlive the
+  // problem.
   WindowVariables(SlidingWindow* window, IsConstant is_constant,
                   const MarginalizationPrior* first_estimates, WindowProblem* problem);
 
@@ -28,7 +29,7 @@ class WindowVariables {
   int TimeOffset() { return Add({BlockKind::kTimeOffset, 0}); }
   int Readout() { return Add({BlockKind::kReadout, 0}); }
   int Intrinsics() { return Add({BlockKind::kIntrinsics, 0}); }
-  // Any of these.
+  // Adds any of these variables.
   int Add(const BlockId& id);
 
  private:

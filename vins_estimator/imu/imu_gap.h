@@ -8,10 +8,10 @@
 
 namespace plm_vins {
 
-// Samples further apart than this leave a gap: the motion between them is unknown, not just noisy.
+// Samples farther apart than this leave a gap: the motion between them is unknown, not just noisy.
 constexpr double kMaxImuInterval = 0.05;  // [s]
 
-// Whether these samples, in order of time, leave one.
+// Returns whether these samples, ordered by time, leave a gap.
 inline bool LeaveGap(const std::vector<ImuSample>& samples) {
   const auto is_gap = [](const ImuSample& begin, const ImuSample& end) {
     return ToSeconds(end.t_ns - begin.t_ns) > kMaxImuInterval;

@@ -7,22 +7,22 @@
 namespace plm_vins {
 namespace {
 
-// Redundancies; an interval between keyframes has up to five of the accelerometer, three of the
-// gyro.
+// Redundancies; an interval between keyframes has up to five for the accelerometer, three for the
+// gyroscope.
 constexpr double kOfConfigured = 5;
-constexpr double kRemembered = 100;  // tell a density to 7 %
+constexpr double kRemembered = 100;  // determines a density to 7 %
 
-constexpr double kLeastExpected = 1e-3;  // less is rounding
-constexpr double kGreatestRatio = 9;     // more of an interval may be an outlier
+constexpr double kLeastExpected = 1e-3;  // below: rounding errors
+constexpr double kGreatestRatio = 9;     // above, an interval may be an outlier
 constexpr double kLeast = 1;             // times the configured density
 
-// What shakes a vehicle is not white: over a second, the variance of an accelerometer in flight is
-// two to six times what intervals between keyframes show of it (docs/noise.md).
+// Vibration is not white noise: over a second, the variance of an accelerometer in flight is two to
+// six times what intervals between keyframes show (docs/noise.md).
 constexpr double kSlowShaking = 3;
 
-// Shares of the variance that residuals show. A robust loss lets images count for less than they
-// tell, so the IMU has more of a say in the solution, and its residuals are smaller, than the
-// equations state. Found in simulated flights with the true noise configured.
+// Ratio of the residuals' variance to the expected one. The robust loss down-weights images, so the
+// solution follows the IMU more closely, and its residuals are smaller, than the equations state.
+// Calibrated in simulated flights with the true noise configured.
 constexpr double kShownOfAccel = 0.79, kShownOfGyro = 0.53;
 
 DensityEvidence Shown(double share, DensityEvidence evidence) {
@@ -30,7 +30,7 @@ DensityEvidence Shown(double share, DensityEvidence evidence) {
   return evidence;
 }
 
-// What the same residual would be expected to be, had this density been assumed.
+// Returns the evidence of the same residual as if this density had been assumed.
 DensityEvidence Assuming(double density, DensityEvidence evidence) {
   const double ratio = density / evidence.assumed;
   evidence.expected += (ratio * ratio - 1) * evidence.slope;
@@ -38,7 +38,7 @@ DensityEvidence Assuming(double density, DensityEvidence evidence) {
   return evidence;
 }
 
-// The density with `times` the variance that it has beyond the configured one.
+// Returns the density whose variance exceeds the configured one by `times` the given excess.
 double WithExcess(double times, double configured, double density) {
   const double excess = std::max(0.0, density * density - configured * configured);
   return std::sqrt(configured * configured + times * excess);

@@ -6,8 +6,8 @@
 
 namespace plm_vins {
 
-// Density of one source of noise: the root of the mean variance over what was seen last. It begins
-// as configured, which counts as a little evidence.
+// Estimates the density of one source of noise: the root of the mean variance with exponential
+// forgetting. Starts at the configured density with a small weight.
 class DensityEstimate {
  public:
   explicit DensityEstimate(double configured);
@@ -18,22 +18,22 @@ class DensityEstimate {
 
  private:
   double configured_;
-  double squares_, redundancy_;  // sums that forget; the variance is their quotient
+  double squares_, redundancy_;  // forgetting sums; the variance is their quotient
 };
 
-constexpr double kMostNoise = 16;  // that is believed, in times of the configured density
+constexpr double kMostNoise = 16;  // upper limit, times the configured density
 
-// Noise of the IMU on this vehicle, as the camera shows it in flight. Data sheets are of a sensor
-// at rest; propellers shake it. Only ever noisier than configured, and by 16 times at most: what is
-// configured also covers what no calm piece of flight shows.
+// Estimates the noise of the IMU on this vehicle from the camera. Data sheets describe a sensor at
+// rest, but propellers cause vibration. The estimate is between 1 and 16 times the configured
+// noise, which also covers effects that calm flight does not show.
 class ImuNoiseEstimate {
  public:
   explicit ImuNoiseEstimate(const ImuNoise& configured);
 
   void Add(const ImuNoiseEvidence& evidence);
 
-  // Of the accelerometer for times of a second, over which shaking is more than intervals between
-  // keyframes show. The biases wander as configured.
+  // Noise in use. The accelerometer's density holds for about a second, over which vibration has
+  // more effect than intervals between keyframes show. Bias random walks are as configured.
   ImuNoise noise() const;
   const ImuNoise& configured() const { return configured_; }
 

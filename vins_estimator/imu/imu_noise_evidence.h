@@ -3,13 +3,12 @@
 
 namespace plm_vins {
 
-// What the solved window says of one source of the IMU's noise, from one interval between
-// keyframes.
+// Evidence of one interval between keyframes of the optimized window on one source of IMU noise.
 struct DensityEvidence {
   double assumed = 0;   // density of its white noise, in the units of ImuNoise
-  double squared = 0;   // the squared residual, as far as this source accounts for it
-  double expected = 0;  // the mean of `squared`, were the noise as assumed
-  double slope = 0;     // how much more it would be for each time of the assumed variance more
+  double squared = 0;   // squared residual attributed to this source
+  double expected = 0;  // mean of `squared` if the noise is as assumed
+  double slope = 0;     // increase of `expected` per multiple of the assumed variance
 };
 
 struct ImuNoiseEvidence {

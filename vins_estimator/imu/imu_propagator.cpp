@@ -20,7 +20,7 @@ void ImuPropagator::Reset(const FrameState& state, int64_t t_imu_ns) {
   state_ = state;
   state_->t_ns = t_imu_ns;
   t_reset_ns_ = t_imu_ns;
-  // The last sample at or before the state stays: the first interval starts on the line from it.
+  // Keeps the last sample at or before the state, from which the first interval is interpolated.
   while (samples_.size() > 1 && samples_[1].t_ns <= t_imu_ns) samples_.pop_front();
   for (size_t i = 0; i < samples_.size(); ++i) Advance(i);
 }
@@ -55,7 +55,7 @@ void ImuPropagator::Clear() {
 void ImuPropagator::Advance(size_t index) {
   const ImuSample& end = samples_[index];
   if (end.t_ns <= state_->t_ns) return;
-  // Without a sample before the state, the first one is held back to its time.
+  // If there is no sample before the state, the first one is assumed constant back to its time.
   ImuSample begin = end;
   begin.t_ns = state_->t_ns;
   if (index > 0) begin = InterpolateImu(samples_[index - 1], end, state_->t_ns);

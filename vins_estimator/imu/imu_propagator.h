@@ -13,44 +13,43 @@
 
 namespace plm_vins {
 
-// The state at IMU rate: takes the latest optimised state forward through the IMU samples after it.
-// A new state arrives late, so the newer samples are kept and applied to it again.
+// Propagates the latest optimized state at IMU rate. Optimized states arrive late, so newer samples
+// are stored and applied again.
 //
-// It never reaches further than kHorizonSeconds past the optimised state, nor keeps older samples;
-// beyond, it says nothing until the next Reset().
+// It propagates at most kHorizonSeconds past the optimized state and stores no older samples; after
+// that it returns nullopt until the next Reset().
 class ImuPropagator {
  public:
   static constexpr double kHorizonSeconds = 2.0;
 
   explicit ImuPropagator(const Eigen::Vector3d& gravity_W, const ImuRange& imu_range = ImuRange());
 
-  // Starts from `state`, valid at `t_imu_ns` of the IMU clock.
+  // Restarts from `state`, valid at `t_imu_ns` of the IMU clock.
   void Reset(const FrameState& state, int64_t t_imu_ns);
 
-  // The state at this sample, its t_ns being the sample's stamp. Nothing without a state to start
-  // from (none yet, too old, or newer than the sample) or where the sample is nothing that a sensor
-  // gives, out of order, the first after a leap in time, or waits for others to confirm it
-  // (ImuGate).
+  // Returns the state at this sample, with t_ns in IMU time. Returns nullopt if there is no state
+  // to start from (none yet, too old, or newer than the sample), or if the sample is implausible,
+  // out of order, the first after a jump in time, or still unconfirmed (ImuGate).
   std::optional<FrameState> Add(const ImuSample& sample);
 
-  // Stamp of the newest sample; nothing without one.
+  // Returns the time of the newest sample; nullopt if there is none.
   std::optional<int64_t> newest_ns() const;
 
-  // Forgets the state and the samples.
+  // Drops the state and the samples.
   void Clear();
 
  private:
   void Take(const ImuSample& sample);
-  // Takes state_ from its own time to that of samples_[index], which closes the interval.
+  // Propagates state_ from its own time to that of samples_[index], the end of the interval.
   void Advance(size_t index);
 
   Eigen::Vector3d gravity_W_;
-  std::deque<ImuSample> samples_;    // increasing stamps
+  std::deque<ImuSample> samples_;    // ordered by time
   std::optional<FrameState> state_;  // t_ns in IMU time
   int64_t t_reset_ns_ = 0;
   ForwardJumpDetector leap_;
   ImuGate gate_;
-  std::optional<int64_t> last_ns_;  // of the newest sample that went to the gate
+  std::optional<int64_t> last_ns_;  // of the newest sample passed to the gate
 };
 
 }  // namespace plm_vins

@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-// Standard deviation of the axis that varies most.
+// Returns the standard deviation of the axis that varies most.
 double LargestDeviation(const std::vector<Eigen::Vector3d>& values) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& value : values) mean += value / static_cast<double>(values.size());
@@ -37,7 +37,7 @@ void ImuStillness::Add(const FrameMeasurement& measurement) {
   }
   intervals_.push_back(interval);
 
-  // The front image opens the window: the last one that is old enough.
+  // The front image is the start of the window: the last one that is old enough.
   const int64_t start_ns = measurement.t_ns - ToNanoseconds(options_.window);
   while (HasIntervals(options_.min_intervals + 1) && intervals_[1].t_ns <= start_ns) {
     intervals_.pop_front();
@@ -64,7 +64,7 @@ bool ImuStillness::IsQuiet() const {
     gyro.push_back(intervals_[i].gyro);
     accel.push_back(intervals_[i].accel);
   }
-  // An average of white noise over an interval deviates by density / sqrt(interval).
+  // The mean of white noise over an interval has the standard deviation density / sqrt(interval).
   const double interval = Duration() / static_cast<double>(gyro.size());
   const double factor = options_.noise_factor / std::sqrt(interval);
   return LargestDeviation(gyro) <=

@@ -15,35 +15,35 @@ namespace {
 
 using Index = ImuErrorIndex;
 
-// How a vehicle's motion wanders in a gap: random walks of angular rate and specific force.
-// Bridging 0.2 s of EuRoC's flights errs like walks of 0.2 ... 0.7 and 1 ... 10.
+// Random walks of angular rate and specific force that model the unknown motion in a gap. Errors
+// when bridging 0.2 s of the EuRoC flights correspond to walks of 0.2 ... 0.7 and 1 ... 10.
 constexpr double kRateWalk = 1.0;   // [rad/s/sqrt(s)]
 constexpr double kForceWalk = 5.0;  // [m/s^2/sqrt(s)]
 
-// Squared density of the white noise that stands for sensor noise `density` over an interval. In a
-// gap the integral of a random walk pinned at both ends comes on top; its variance is walk^2 dt^3
+// Returns the squared density of white noise equivalent to sensor noise `density` over an interval.
+// In a gap, the integral of a random walk pinned at both ends is added; its variance is walk^2 dt^3
 // / 12.
 double EffectiveDensitySquared(double density, double walk, double dt) {
   const double sensor = density * density;
   return dt <= kMaxImuInterval ? sensor : sensor + walk * walk * dt * dt / 12.0;
 }
 
-// The same of the doubt about the readings at both ends. A reading counts by half in each of the
-// two intervals beside it, with one error: as variances of intervals add up, each has half of the
-// whole.
+// Returns the squared density equivalent to the doubt about the readings at both ends. A reading
+// counts by half in each of its two intervals, with the same error; as variances of intervals add
+// up, each interval has half of the whole.
 double DoubtSquared(double begin, double end, double dt) {
   return (begin * begin + end * end) / 2 * dt;
 }
 
-// Linearised error propagation over one interval: the blocks of F in error' = F error that are
-// neither zero nor identity. Rows of position follow from those of velocity: dp' = dp + dt dv +
+// Linearized error propagation over one interval: the blocks of F in error' = F error that are
+// neither zero nor identity. The rows of position follow from those of velocity: dp' = dp + dt dv +
 // dt/2 (dv' - dv).
 struct Transition {
   double dt;
   Eigen::Matrix3d rotation_rotation, rotation_gyro;
   Eigen::Matrix3d velocity_rotation, velocity_accel, velocity_gyro;
 
-  // m <- F m.
+  // Computes m <- F m.
   void Apply(Matrix15d* m) const {
     const Eigen::Matrix<double, 3, 15> velocity_change =
         velocity_rotation * m->middleRows<3>(Index::kRotation) +
@@ -58,7 +58,7 @@ struct Transition {
     m->middleRows<3>(Index::kVelocity) += velocity_change;
   }
 
-  // covariance <- F covariance F^T; F is applied to the rows, then to the columns.
+  // Computes covariance <- F covariance F^T, applying F to the rows, then to the columns.
   void Propagate(Matrix15d* covariance) const {
     Apply(covariance);
     covariance->transposeInPlace();
@@ -66,9 +66,9 @@ struct Transition {
   }
 };
 
-// Covariance that white noise on rate, force and the bias derivatives adds within one interval. The
-// gyro noise acts like a gyro bias of that interval; the force noise is doubly integrated exactly,
-// so that a single interval already gives full rank.
+// Adds the covariance of white noise on rate, force and bias derivatives over one interval.
+// Gyroscope noise acts like a gyroscope bias of that interval; force noise is doubly integrated
+// exactly, so that a single interval already gives full rank.
 void AddNoise(const ImuNoise& noise, const ImuSample& begin, const ImuSample& end,
               const Transition& transition, Matrix15d* covariance) {
   const double dt = transition.dt;
@@ -148,7 +148,7 @@ void Preintegration::AllowStampErrors(const StampErrors& errors) {
   sqrt_information_valid_ = false;
 }
 
-// A step at the start of the interval acts on all of it, as an error of the start does.
+// A bias step at the start of the interval propagates like an error of the initial state.
 Matrix15d Preintegration::Covariance() const {
   Matrix15d covariance = covariance_;
   if (HasBiasStep()) {
@@ -237,7 +237,7 @@ FrameState Preintegration::Predict(const FrameState& start,
 
 const Matrix15d& Preintegration::SqrtInformation() const {
   if (sqrt_information_valid_) return sqrt_information_;
-  // Cholesky from the last row up: covariance = V V^T with V upper triangular, hence U = V^-1.
+  // Cholesky from the last row upwards: covariance = V V^T with V upper triangular, hence U = V^-1.
   const Matrix15d reversed = Covariance().reverse();
   const Eigen::LLT<Matrix15d> llt(reversed);
   if (llt.info() != Eigen::Success) {

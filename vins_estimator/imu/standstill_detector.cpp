@@ -12,7 +12,7 @@
 namespace plm_vins {
 namespace {
 
-// From where to where the corners moved that both images show [px].
+// Positions and motions of the corners that both images observe [px].
 struct CornerMotions {
   std::vector<Eigen::Vector2d> starts, motions;
 };
@@ -32,7 +32,8 @@ double MedianDistance(const CornerMotions& corners) {
   return Median(distances);
 }
 
-// The greatest median of the motions' components to the right, down, outwards and about the middle.
+// Returns the greatest median of the motions' components: right, down, radial and tangential about
+// the mean position.
 double CommonMotion(const CornerMotions& corners) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& start : corners.starts) {

@@ -11,11 +11,12 @@
 
 namespace plm_vins {
 
-// Says whether the body stands still, from the last half second of IMU samples and tracked corners:
-// where the IMU is still (ImuStillness), and the median corner is where it was at the start of the
-// window. Both must agree: a smooth flight can fool the IMU, a view of the far horizon the camera.
+// Detects standstill from the last half second of IMU samples and tracked corners: the IMU is still
+// (ImuStillness), and the median corner is where it was at the start of the window. Both are
+// required: smooth flight resembles standstill for the IMU, a distant scene for the camera.
 //
-// What corners have in common tells of less motion than their distances, which noise adds up in.
+// The common motion of the corners is a more sensitive measure than their distances, to which noise
+// contributes.
 class StandstillDetector {
  public:
   struct Options {
@@ -25,15 +26,15 @@ class StandstillDetector {
   };
 
   struct Standstill {
-    int64_t since_ns = 0;  // stamp of the image that opens the window
-    double common_px = 0;  // motion that corners have in common, from that image to this [px]
+    int64_t since_ns = 0;  // time of the image at the start of the window
+    double common_px = 0;  // common motion of the corners since that image [px]
   };
 
   StandstillDetector(const ImuNoise& noise, const Options& options);
   explicit StandstillDetector(const ImuNoise& noise) : StandstillDetector(noise, Options()) {}
 
-  // Takes the next image with the IMU samples that lead to it. Nothing where the body did not stand
-  // still from the start of the window to this image, and until the window is full.
+  // Adds the next image with the IMU samples since the previous one. Returns nullopt if the body
+  // moved within the window, and until the window is full.
   std::optional<Standstill> Add(const FrameMeasurement& measurement);
 
   void Reset();
@@ -41,7 +42,7 @@ class StandstillDetector {
  private:
   Options options_;
   ImuStillness imu_;
-  std::deque<PointFrame> points_;  // of the images since the start of the window
+  std::deque<PointFrame> points_;  // of the images in the window
 };
 
 }  // namespace plm_vins

@@ -12,8 +12,8 @@
 namespace plm_vins {
 namespace {
 
-// Standard deviation that blindness may add [m]: with errors of three of them, the pose is still
-// good for a vehicle to stop by.
+// Standard deviation that the pose may gain while blind [m]: even with an error of three sigma, it
+// is good enough for a vehicle to stop.
 constexpr double kMaxDeviation = 0.5;
 
 }  // namespace

@@ -10,19 +10,18 @@
 
 namespace plm_vins {
 
-// Ends a flight on the IMU alone once the position has become too uncertain for what is said of it.
-// A second without features is bridged this way; after ten the IMU has drifted by metres. The same
-// holds for seconds without any image or IMU sample, and where nothing of what is seen fits.
+// Declares tracking lost once dead reckoning has made the position too uncertain. A second without
+// features is bridged by the IMU; after ten seconds it has drifted by metres. The same holds for
+// seconds without images or IMU samples, and if all observations are outliers.
 class BlindnessMonitor {
  public:
-  // Takes how many features the newest image shows, how many of them hold the position (known
-  // landmarks where they should be), and its state, with the covariance of (p_W, rotation in B),
-  // zero where that is not known, which says nothing. The reason once the state cannot be kept;
-  // nothing before.
+  // Adds an image: the number of observed features, the number of them that constrain the position
+  // (inliers of known landmarks), and its state with the covariance of (p_W, rotation in B); zero:
+  // unknown, the image is ignored. Returns the reason once tracking is lost, otherwise nullopt.
   std::optional<std::string> Add(int features_seen, int features_holding, const FrameState& state,
                                  const Eigen::Matrix<double, 6, 6>& pose_covariance);
 
-  bool blind() const { return blind_; }  // the newest image shows next to nothing
+  bool blind() const { return blind_; }  // the newest image has too few features
 
  private:
   struct Hold {
@@ -31,7 +30,7 @@ class BlindnessMonitor {
     double variance;  // of the position, summed over the axes [m^2]
   };
 
-  std::optional<Hold> hold_;  // by the last image that held the position, or the first one of all
+  std::optional<Hold> hold_;  // at the last image that constrained the position, or the first image
   bool blind_ = false;
 };
 

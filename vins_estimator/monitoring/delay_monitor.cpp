@@ -8,10 +8,10 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kForgetting = 0.01;     // per image: five seconds at 20 Hz
-constexpr double kMinCorrelation = 0.5;  // of a hundred images: chance stays below 0.2
-constexpr double kMinDelay = 0.003;  // [s]; the optimisation gives in to much of ten milliseconds
-constexpr double kMinChange = 0.01;  // [rad^2/s^2], sum: without turns there is nothing to see
+constexpr double kForgetting = 0.01;     // per image: 5 s at 20 Hz
+constexpr double kMinCorrelation = 0.5;  // random correlation of 100 images is below 0.2
+constexpr double kMinDelay = 0.003;      // [s]; the optimization adapts to most of 10 ms
+constexpr double kMinChange = 0.01;      // [rad^2/s^2], sum: unobservable without rotation
 
 }  // namespace
 

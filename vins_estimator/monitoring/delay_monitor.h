@@ -6,21 +6,21 @@
 
 namespace plm_vins {
 
-// Notices that the images are stamped too late or too early. An error d of td makes the gyro
-// integrate the turn from d earlier or later than the camera saw it, so that the two differ by d
-// times the change of the rate over the interval; other errors do not follow that change.
+// Detects an error d of the time offset td between camera and IMU. The gyroscope is then integrated
+// from d too early or too late, so its rotation differs from the camera's by d times the change of
+// angular rate over the interval. Other errors are not correlated with that change.
 class DelayMonitor {
  public:
-  // `rotation_residual` [rad]: the turn between two images beyond the gyro's; `rate_change`
-  // [rad/s]: the rate at the second one less that at the first.
+  // `rotation_residual` is the rotation between two images minus the gyroscope's [rad],
+  // `rate_change` the angular rate at the second image minus that at the first [rad/s].
   void Add(const Eigen::Vector3d& rotation_residual, const Eigen::Vector3d& rate_change);
 
-  // The error of td [s], roughly: what the optimisation has given in to is missing. Nothing where
-  // there is none to be seen.
+  // Returns the approximate error of td [s], without the part that the optimization has absorbed;
+  // nullopt if it is not significant.
   std::optional<double> delay() const;
 
  private:
-  // Sums that forget: of products of change and residual.
+  // Exponentially forgetting sums of products of rate change and residual.
   double change_residual_ = 0, change_change_ = 0, residual_residual_ = 0;
 };
 

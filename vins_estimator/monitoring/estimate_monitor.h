@@ -12,26 +12,26 @@
 
 namespace plm_vins {
 
-// Why an estimate cannot be kept.
+// Reason to declare tracking lost.
 struct Failure {
   std::string why;
-  bool has_drifted = false;  // further on the IMU alone than a bridge may lead on from
+  bool has_drifted = false;  // too uncertain for a FrameBridge to start from
 };
 
-// Whether an estimate can be kept, image after image.
+// Decides after each image whether the estimate is still valid.
 class EstimateMonitor {
  public:
-  // What an image says of the estimate.
+  // Evidence from one image.
   struct Evidence {
     bool solved = false;                          // the equations had a solution
-    FrameState predicted;                         // the newest state, from the IMU alone
-    FrameState newest;                            // the same, solved for
-    Eigen::Matrix<double, 6, 6> pose_covariance;  // of that; zero where it is not known
+    FrameState predicted;                         // newest state, propagated by the IMU alone
+    FrameState newest;                            // newest state, optimized
+    Eigen::Matrix<double, 6, 6> pose_covariance;  // of `newest`; zero if unknown
     EstimatorCounts counts;
-    double time_offset_change = 0;  // td as estimated, from what is configured [s]
+    double time_offset_change = 0;  // estimated minus configured td [s]
   };
 
-  // Why the estimate cannot be kept; nothing where it can.
+  // Returns the reason to declare tracking lost; nullopt if the estimate is valid.
   std::optional<Failure> Add(const Evidence& evidence);
 
   bool contradicted() const { return contradiction_monitor_.contradicts(); }  // by the camera

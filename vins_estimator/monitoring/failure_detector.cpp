@@ -10,10 +10,10 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMaxRejectedShare = 0.25;  // a few per cent in flight
-constexpr int kMinRejected = 5;             // at first; what is rejected leaves fewer
+constexpr double kMaxRejectedShare = 0.25;  // a few per cent in normal flight
+constexpr int kMinRejected = 5;             // at first; outlier rejection leaves fewer later
 constexpr double kMaxContradiction = 0.5;   // [s]
-// That one image adds to it: a pause of images contradicts nothing.
+// Limits the contribution of one image, because a gap between images is no contradiction.
 const int64_t kMaxInterval_ns = ToNanoseconds(kMaxContradiction / 2);
 
 bool IsFinite(const FrameState& state) {

@@ -3,7 +3,7 @@
 
 namespace plm_vins {
 
-// Adds to a sum that forgets `share` of itself with each addend.
+// Adds to an exponentially forgetting sum, which loses `share` of itself with each addend.
 template <typename Value>
 void AddForgetting(double share, const Value& addend, Value* sum) {
   *sum += addend - share * *sum;

@@ -6,10 +6,10 @@
 namespace plm_vins {
 namespace {
 
-// Of the residual of an interval: twice its mean, or more, in flights with the right noise.
+// Limit for the residual of an interval: at least twice its mean in flights with correct noise.
 constexpr double kUndoubtedChiSquare = 1.5;
 
-// What a shock, or a sensor that is heated or fails, may do to the biases.
+// Standard deviations of bias steps that a shock, warm-up or sensor failure may cause.
 constexpr BiasStep kBiasStep = {0.1, 0.2};  // [rad/s], [m/s^2]
 
 }  // namespace

@@ -14,30 +14,29 @@
 
 namespace plm_vins {
 
-// Weighs an interval that contradicts the camera anew: with more noise, and with biases free to
-// step.
+// Re-weights an interval that contradicts the camera: with more noise, and with bias steps allowed.
 void DoubtInterval(const ImuNoise& noise, Preintegration* motion);
 
-// Whether IMU and camera agree on the motion from image to image, and if not, what may be the
-// cause: noise, a bias that stepped, or stamps of images that are late or jitter.
+// Checks whether IMU and camera agree on the motion between images, and finds the cause if they do
+// not: noise, a bias step, or timestamps of images that are delayed or jitter.
 class ImuAgreement {
  public:
-  // Takes the newest interval of a window that was solved for, and how the known points of the
-  // newest image fit. Where the interval is to be doubted: by how much to scale the variance of its
-  // noise.
+  // Adds the newest interval of an optimized window and the inlier counts of the newest image.
+  // Returns the factor on the variance of its noise if the interval must be doubted
+  // (DoubtInterval), otherwise nullopt.
   std::optional<double> Add(const SlidingWindow& window, const PointMap::Fit& fit);
 
-  // Nothing contradicts, neither before nor in the intervals after `t_ns` of a window, the states
-  // of which were solved for.
+  // Returns whether IMU and camera agree: no noise scale is active, and the intervals of an
+  // optimized window after `t_ns` have small residuals.
   bool IsUndoubted(const SlidingWindow& window, int64_t t_ns) const;
 
-  // By how much to scale the variance of the IMU's noise in the next interval; 1 where it fits.
+  // Factor on the variance of the IMU noise in the next interval; 1 if the noise is correct.
   double noise_scale() const { return imu_monitor_.noise_scale(); }
 
-  // The error of td [s], roughly; nothing where there is none to be seen.
+  // Approximate error of td [s]; nullopt if it is not significant.
   std::optional<double> delay() const { return delay_monitor_.delay(); }
 
-  // Standard deviation of an image's stamp [s]; zero where there is no error to be seen.
+  // Standard deviation of the image timestamps [s]; zero if it is not significant.
   double stamp_deviation() const { return stamp_jitter_.deviation(); }
 
  private:

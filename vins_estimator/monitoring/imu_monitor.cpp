@@ -8,29 +8,31 @@
 namespace plm_vins {
 namespace {
 
-// Of the excess that is added up.
-constexpr double kNormal = 3.0;  // flights with the right noise exceed it once in a hundred images
-constexpr double kAlarm = 24.0;  // by one image: beyond the 1 - 1e-4 quantile of chi-square with 6
+// Limits of the accumulated excess of chi-square.
+constexpr double kNormal = 3.0;  // exceeded by 1 % of images with correct noise
+constexpr double kAlarm = 24.0;  // for one image: above the 1 - 1e-4 quantile of chi-square with 6
+                                 // dof
 
-constexpr int64_t kSettling_ns = 1'000'000'000;  // until the camera has told the new biases
+constexpr int64_t kSettling_ns = 1'000'000'000;  // until the camera has corrected the biases
 
-// Of the noise that is followed.
-constexpr double kExpected = 1.0;    // its mean is 0.2 ... 0.7 on flights with the right noise
-constexpr double kFollowing = 0.1;   // share of an image: half a second at 20 Hz
-constexpr double kMaxGrowth = 1.5;   // by one image, which may be an outlier
-constexpr double kMaxScale = 1e4;    // a hundred times the deviation
-constexpr double kLeastScale = 4.0;  // less is chance
+// Adaptation of the noise scale.
+constexpr double kExpected = 1.0;    // its mean is 0.2 ... 0.7 in flights with correct noise
+constexpr double kFollowing = 0.1;   // weight of an image: time constant of 0.5 s at 20 Hz
+constexpr double kMaxGrowth = 1.5;   // per image, which may be an outlier
+constexpr double kMaxScale = 1e4;    // a hundred times the standard deviation
+constexpr double kLeastScale = 4.0;  // smaller scales are not significant
 
-// Of the turns: their mean square is of the square of their mean by this share. Of noise it is an
-// eightieth; what errors of stamps and saturation make goes to and fro with the turns.
-constexpr double kForgetting = 0.025;  // per image: two seconds at 20 Hz
+// Rotation residuals have one direction if the squared mean exceeds this share of the mean square.
+// For noise the ratio is 1/80; errors of timestamps and saturation change sign with the rotation.
+constexpr double kForgetting = 0.025;  // per image: 2 s at 20 Hz
 constexpr double kOneDirection = 0.5;
-constexpr double kMinTurnImages = 20;  // fewer may have one direction by chance
+constexpr double kMinTurnImages = 20;  // fewer may agree by chance
 
 constexpr int kMinPoints = 20;              // fewer are no evidence
-constexpr double kContradictedShare = 0.5;  // outliers are a few per cent
+constexpr double kContradictedShare = 0.5;  // a few per cent are outliers anyway
 
-// Too far for the robust loss: the optimisation gave them up instead of the IMU.
+// Returns whether the displacement of points is so large that the robust loss rejected them instead
+// of the IMU.
 bool PointsAreDisplaced(const ImuMonitor::Evidence& evidence) {
   return evidence.points >= kMinPoints &&
          evidence.contradicted > kContradictedShare * evidence.points;

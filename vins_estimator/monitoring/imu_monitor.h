@@ -7,33 +7,35 @@
 
 namespace plm_vins {
 
-// Compares what the IMU says of the motion to each image with what the camera shows, and says how
-// far the IMU can be trusted. Where both fit, it says nothing, and nothing changes.
+// Compares the IMU's motion up to each image with the camera's, and decides how far the IMU can be
+// trusted. As long as both agree it has no effect. Otherwise it distinguishes:
 //
-//  - Images that contradict at once, or several in a row that contradict by less: a bias may have
-//    stepped, and the biases are set free in the newest interval.
-//  - Contradictions that go on (stamps that jitter, samples that are missing): the IMU counts as
-//    noisier by what they show.
-//  - What counts as noise, but turns the same way image after image, is a bias of the gyro that
-//    stepped by too little to contradict at once: it is set free, and the noise is forgotten.
+//  - Abrupt contradictions, by one image or by several in a row: a bias may have stepped, and the
+//    biases are set free in the newest interval.
+//  - Persistent contradictions (jittering timestamps, missing samples): the assumed IMU noise is
+//    scaled up accordingly.
+//  - Apparent noise whose rotation has the same direction in each image: a gyroscope bias has
+//    stepped by too little for an abrupt contradiction. It is set free, and the noise scale is
+//    reset.
 class ImuMonitor {
  public:
-  // What the newest image shows after the optimisation.
+  // Evidence from the newest image after the optimization.
   struct Evidence {
     int64_t t_ns = 0;
-    // Squared residual of the IMU term of the newest interval, in standard deviations. The camera
-    // tells the six degrees of freedom of a pose, so that its mean is six at most.
+    // Squared Mahalanobis distance of the IMU residual in the newest interval. The camera
+    // constrains the six degrees of freedom of a pose, so its mean is at most six.
     double chi_square = 0;
     int points = 0;                                           // known points in the newest image
-    int contradicted = 0;                                     // of them: not where they should be
-    Eigen::Vector3d turn_residual = Eigen::Vector3d::Zero();  // beyond the gyro's [rad]
+    int contradicted = 0;                                     // of these: outliers
+    Eigen::Vector3d turn_residual = Eigen::Vector3d::Zero();  // rotation minus the gyroscope's
+                                                              // [rad]
   };
 
-  // Where the newest interval is to be weighed anew, with free biases: by how much to scale the
-  // variance of its noise.
+  // Returns the factor on the noise variance if the newest interval must be re-weighted with free
+  // biases, otherwise nullopt.
   std::optional<double> Add(const Evidence& evidence);
 
-  // By how much to scale it in the next interval; 1 where the configured noise fits.
+  // Returns the factor on the noise variance in the next interval; 1 if the noise is correct.
   double noise_scale() const;
 
  private:
@@ -42,9 +44,9 @@ class ImuMonitor {
   bool NoiseHasOneDirection() const;
 
   double followed_scale_ = 1;
-  double excess_ = 0;                  // of chi_square over what is normal, added up
+  double excess_ = 0;                  // accumulated excess of chi_square over its normal value
   std::optional<int64_t> doubted_ns_;  // when the biases were last set free
-  // Sums that forget: of residual turns, of their squares, and of ones.
+  // Exponentially forgetting sums of residual rotations, of their squares, and of ones.
   Eigen::Vector3d turns_ = Eigen::Vector3d::Zero();
   double squared_turns_ = 0, images_ = 0;
 };

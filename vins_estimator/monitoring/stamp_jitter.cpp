@@ -8,13 +8,13 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kForgetting = 0.02;    // per image: two and a half seconds at 20 Hz
-constexpr double kMinRatio = 4.0;       // of the variance along the turn to that across it
+constexpr double kForgetting = 0.02;    // per image: 2.5 s at 20 Hz
+constexpr double kMinRatio = 4.0;       // of variances along and across the rotation axis
 constexpr double kMinDeviation = 1e-3;  // [s]
-// Sum of the products of two squared rates [rad^4/s^4]: without turns there is nothing to see.
+// Sum of products of two squared rates [rad^4/s^4]: jitter is unobservable without rotation.
 constexpr double kMinSquaredRates = 1e-2;
 
-// How a state changes with time, in the coordinates of R_B_W [per second].
+// Returns the time derivative of a state, in the frame of R_B_W [per second].
 Vector15d Change(const Eigen::Matrix3d& R_B_W, const FrameState& state, const ImuSample& sample,
                  const Eigen::Vector3d& gravity_W) {
   const Eigen::Vector3d accel_W =
@@ -42,7 +42,7 @@ void StampJitterMonitor::Add(const Eigen::Vector3d& rotation_residual,
 
 void StampJitterMonitor::Skip() { along_before_ = squared_rate_before_ = 0; }
 
-// Across the turn there are two directions.
+// There are two directions across the rotation axis, hence the division by two.
 double StampJitterMonitor::deviation() const {
   if (squared_rates_ < kMinSquaredRates || along_ < kMinRatio * across_ / 2 || common_ >= 0)
     return 0;

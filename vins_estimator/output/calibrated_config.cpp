@@ -20,7 +20,7 @@ Config WithCalibration(const Calibration& calibration, Config config) {
   sensor.T_B_C = calibration.T_B_C;
   sensor.td = calibration.td;
   if (sensor.rolling_shutter) sensor.rolling_shutter_tr = calibration.readout;
-  // What was unknown is known now.
+  // The rotation is known now, so it only needs refinement.
   if (sensor.estimate_extrinsic == ExtrinsicMode::kCalibrateRotation) {
     sensor.estimate_extrinsic = ExtrinsicMode::kRefine;
   }
@@ -33,7 +33,7 @@ Config WithCalibration(const Calibration& calibration, Config config) {
 
 void SaveCalibratedConfig(const Calibration& calibration, const Config& config,
                           const std::string& file) {
-  ReplacedFile output(file);  // it may be the one that the program was started with
+  ReplacedFile output(file);  // may be the file that the program was started with
   WriteConfig(WithCalibration(calibration, config), &output.stream());
   output.Commit();
 }

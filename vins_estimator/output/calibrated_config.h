@@ -10,15 +10,15 @@ namespace plm_vins {
 
 constexpr char kCalibratedConfigFile[] = "calibrated.yaml";
 
-// Whether the estimator is asked to refine anything of the calibration.
+// Returns whether the estimator is configured to refine any of the calibration.
 bool RefinesCalibration(const SensorConfig& sensor);
 
-// The configuration with the calibration as it was estimated, but within what LoadConfig() takes:
-// without a rolling shutter where its read-out time came out as none.
+// Returns the configuration with the estimated calibration, clamped to what LoadConfig() accepts;
+// without a rolling shutter if the estimated readout time is not positive.
 Config WithCalibration(const Calibration& calibration, Config config);
 
-// Writes that as a file, ready to be run with. Throws std::runtime_error where it cannot be
-// written.
+// Writes the configuration with the estimated calibration, ready to be used. Throws
+// std::runtime_error if the file cannot be written.
 void SaveCalibratedConfig(const Calibration& calibration, const Config& config,
                           const std::string& file);
 

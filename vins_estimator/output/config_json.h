@@ -6,8 +6,8 @@
 
 namespace plm_vins {
 
-// The values in effect, defaults and overrides included, under the names and in the groups of the
-// configuration file; beside them, under "file", its path. Matrices are row-major lists.
+// Returns the effective values, including defaults and overrides, in the groups and under the names
+// of the configuration file, and its path under "file". Matrices are row-major lists.
 Json ToJson(const Config& config);
 
 }  // namespace plm_vins

@@ -6,42 +6,42 @@
 
 namespace plm_vins {
 
-// What is counted in one frame, in the order of the columns of timing.csv.
+// Feature counts of one frame, in the order of the columns of timing.csv.
 enum FrameCount : size_t {
-  kPointsFollowed,  // from the image before to this one
+  kPointsFollowed,  // tracked from the previous image
   kPointsFlowLost,  // lost: flow failed or left the image
-  kPointsNotBack,   // lost: followed back, it did not return
-  kPointsEpipolar,  // lost: against the epipolar geometry
-  kPointsCrowded,   // dropped: too near an older one, or under the mask
+  kPointsNotBack,   // lost: backward flow did not return to the start
+  kPointsEpipolar,  // lost: epipolar outlier
+  kPointsCrowded,   // dropped: too near an older one, or masked
   kPointsAdded,     // new in this image
-  kPointsObserved,  // that the estimator got
-  kPointsInWindow,  // landmarks in the optimisation
-  kPointsRejected,  // landmarks or observations thrown out
-  kLinesFollowed,   // from the image before to this one
-  kLinesUnmatched,  // lost: flow failed or looks different, no match
+  kPointsObserved,  // given to the estimator
+  kPointsInWindow,  // optimized landmarks
+  kPointsRejected,  // landmarks or observations removed as outliers
+  kLinesFollowed,   // tracked from the previous image
+  kLinesUnmatched,  // lost: flow failed or appearance differs
   kLinesOffCourse,  // lost: too far from the prediction
-  kLinesEdgeLost,   // lost: no edge where the flow led
-  kLinesDuplicate,  // lost: came to lie on an older one
-  kLinesDetected,   // found by the detector, joined and long enough; zero where it did not run
+  kLinesEdgeLost,   // lost: no edge at the predicted position
+  kLinesDuplicate,  // lost: coincides with an older one
+  kLinesDetected,   // by the detector, joined and long enough; zero if it did not run
   kLinesAdded,      // new in this image
-  kLinesObserved,   // that the estimator got
+  kLinesObserved,   // given to the estimator
   kLinesTriangulated,
-  kLinesDegenerate,    // not triangulated: wait for more baseline
+  kLinesDegenerate,    // not triangulated: kept until there is more baseline
   kLinesBehind,        // not triangulated, removed: behind a camera
-  kLinesInconsistent,  // not triangulated, removed: views contradict each other
+  kLinesInconsistent,  // not triangulated, removed: observations do not fit one line
   kLinesTooLong,       // not triangulated, removed: longer than line_outlier_distance
-  kLinesMerged,        // landmarks absorbed by an older one
-  kLinesRecognised,    // landmarks that are a line which had left the window
-  kMergeCandidates,    // pairs of lines looked at, and why some were not merged:
+  kLinesMerged,        // landmarks merged into an older one
+  kLinesRecognised,    // re-observed lines that had left the window
+  kMergeCandidates,    // pairs of lines compared; the reasons not to merge them follow
   kMergeOtherDirection,
-  kMergeDistant,         // beside each other in space
-  kMergeApart,           // one behind the other, with a gap
-  kMergeDistantInImage,  // beside each other in an image
-  kMergeSideBySide,      // one image shows both
-  kMergeInconsistent,    // the views do not fit one line
-  kLinesInWindow,        // landmarks in the optimisation
-  kLinesRejected,        // landmarks or observations thrown out after it
-  kLinesWandering,       // landmarks that turned out to wander (NoteWandering)
+  kMergeDistant,         // distance across the lines in space
+  kMergeApart,           // gap along the lines
+  kMergeDistantInImage,  // distance across the lines in an image
+  kMergeSideBySide,      // observed in one image
+  kMergeInconsistent,    // the observations do not fit one line
+  kLinesInWindow,        // optimized landmarks
+  kLinesRejected,        // landmarks or observations removed as outliers
+  kLinesWandering,       // landmarks with inconsistent residuals (NoteWandering)
   kFrameCounts
 };
 

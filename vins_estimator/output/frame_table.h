@@ -9,8 +9,8 @@
 
 namespace plm_vins {
 
-// timing.csv: a line of names, then one row per frame with stamp [ns], milliseconds (four decimals)
-// and counts.
+// Writes timing.csv: a header, then one row per frame with timestamp [ns], durations [ms, four
+// decimals] and counts.
 void WriteFrameHeader(std::ostream* stream);
 void WriteFrameRow(int64_t t_ns, const FrameTimings& timings, const FrameCounts& counts,
                    std::ostream* stream);

@@ -6,16 +6,16 @@
 
 namespace plm_vins {
 
-// The stages of one frame in the order of the columns of timing.csv.
+// Stages of one frame, in the order of the columns of timing.csv.
 enum TimingStage : size_t {
   kPointTracking,
   kLineDetection,
-  kLineTracking,  // all of the line front end, detection included
+  kLineTracking,  // the whole line front end, including detection
   kInitialization,
-  kLineMerging,  // with the search for the Manhattan frame
+  kLineMerging,  // includes the search for the Manhattan frame
   kOptimization,
   kMarginalization,
-  kEstimator,  // all of the back end
+  kEstimator,  // the whole back end
   kTotal,      // front ends and back end
   kTimingStages
 };
@@ -24,7 +24,7 @@ constexpr std::array<const char*, kTimingStages> kTimingNames = {
     "point_tracking", "line_detection",  "line_tracking", "initialization", "line_merging",
     "optimization",   "marginalization", "estimator",     "total"};
 
-// What the stages of one frame took [ms].
+// Processing times of one frame's stages [ms].
 using FrameTimings = std::array<double, kTimingStages>;
 
 }  // namespace plm_vins

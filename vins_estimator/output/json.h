@@ -5,8 +5,8 @@
 
 namespace plm_vins {
 
-// JSON whose objects keep the order in which they were filled; in alphabetical order where the
-// library (before 3.9, as in Ubuntu 20.04) has nothing else.
+// JSON whose objects keep insertion order; alphabetical with library versions before 3.9 (Ubuntu
+// 20.04), which offer nothing else.
 #if NLOHMANN_JSON_VERSION_MAJOR > 3 || \
     (NLOHMANN_JSON_VERSION_MAJOR == 3 && NLOHMANN_JSON_VERSION_MINOR >= 9)
 using Json = nlohmann::ordered_json;

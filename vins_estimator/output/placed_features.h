@@ -9,8 +9,8 @@
 
 namespace plm_vins {
 
-// The features of an image with the places of their landmarks. A line that goes on under the id of
-// another landmark has none.
+// Returns the features of an image together with the positions of their landmarks. A line that was
+// merged into another landmark has no position.
 std::vector<TrackedCorner> PlaceCorners(const PointFrame& frame,
                                         const std::vector<MapPoint>& landmarks);
 std::vector<TrackedSegment> PlaceSegments(const LineFrame& frame,

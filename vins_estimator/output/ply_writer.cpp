@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kCountWidth = 12;  // room for the number of points, padded with blanks
+constexpr int kCountWidth = 12;  // reserved for the number of points, padded with blanks
 
 std::string FormatPoint(const Eigen::Vector3d& p) {
   return Format("%.4f %.4f %.4f\n", p.x(), p.y(), p.z());

@@ -12,8 +12,8 @@
 
 namespace plm_vins {
 
-// A point cloud as ASCII PLY, written point by point, so that a long run needs no memory for it.
-// The file is complete after Finish(). What cannot be written throws as OutputFile does.
+// Writes a point cloud as ASCII PLY, point by point, so that its size is not limited by memory. The
+// file is complete after Finish(). Write errors throw as OutputFile does.
 class PlyPointWriter {
  public:
   explicit PlyPointWriter(const std::string& path);
@@ -29,8 +29,8 @@ class PlyPointWriter {
   int64_t size_ = 0;
 };
 
-// Seen parts of lines as edges between vertices (ASCII PLY), red, green and blue along the axes x,
-// y and z, grey where free; and as Wavefront OBJ, without.
+// Write observed line segments as edges between vertices: as ASCII PLY, coloured red, green and
+// blue by the axes x, y and z, grey if free; and as Wavefront OBJ, without colours.
 void WriteSegmentsPly(const std::vector<MapLine>& lines, std::ostream* stream);
 void WriteSegmentsObj(const std::vector<MapLine>& lines, std::ostream* stream);
 

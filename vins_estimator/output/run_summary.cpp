@@ -9,7 +9,7 @@ namespace {
 
 constexpr int64_t kLongestPause_ns = 60'000'000'000;
 
-// What passed between two frames: nothing where the clock was set back or far on.
+// Returns the time between two frames; zero if the clock was set back or far ahead.
 int64_t Elapsed(int64_t from_ns, int64_t to_ns) {
   const int64_t elapsed = to_ns - from_ns;
   return elapsed > 0 && elapsed <= kLongestPause_ns ? elapsed : 0;

@@ -14,26 +14,26 @@
 
 namespace plm_vins {
 
-// Adds up a run, frame by frame, to summary.json. Keeps only the timings and counts of each frame.
+// Accumulates summary.json frame by frame. Stores only the timings and counts of each frame.
 class RunSummary {
  public:
-  // Frames in order of time.
+  // Adds a frame; frames must be in order of time.
   void Add(const EstimatorOutput& output, const FrameTimings& timings, const FrameCounts& counts);
 
   int64_t frames() const { return frames_; }
   int64_t poses() const { return poses_; }
-  // As of the last pose.
+  // Calibration at the last pose.
   const Calibration& calibration() const { return calibration_; }
   const std::string& last_reason() const { return last_reason_; }  // why there was no pose
 
-  // What the run knows beside its frames.
+  // Properties of the run other than those of its frames.
   struct Run {
     std::string input;
     int64_t images = 0;  // read, whether usable or not
     std::optional<int64_t> first_image_ns;
     double wall_time = 0;    // [s]
     int64_t map_points = 0;  // landmarks written to the map
-    int64_t map_lines = 0;   // the same
+    int64_t map_lines = 0;   // lines written to the map
     DropCounts drops;
   };
   Json ToJson(const Run& run) const;
@@ -46,17 +46,17 @@ class RunSummary {
   int64_t stationary_ = 0;
   int64_t keyframes_ = 0;
   int64_t resets_ = 0;
-  int64_t bridged_losses_ = 0;  // of the estimate, but not of the world frame
+  int64_t bridged_losses_ = 0;  // tracking losses without a new world frame
   int64_t imu_doubts_ = 0;
-  double accel_density_ = 0, gyro_density_ = 0;  // sums over poses of the IMU's noise
-  int64_t imu_noisy_ = 0;                        // poses with a noise beyond that
+  double accel_density_ = 0, gyro_density_ = 0;  // sums over all poses
+  int64_t imu_noisy_ = 0;                        // poses with a noise scale above 1
   int64_t merged_lines_ = 0;
   int64_t recognised_lines_ = 0;
-  int64_t wandering_lines_ = 0;  // (NoteWandering)
+  int64_t wandering_lines_ = 0;  // see NoteWandering
   int64_t manhattan_ = 0;        // poses with a Manhattan frame
   double path_length_ = 0;       // [m]
   std::optional<Eigen::Vector3d> last_position_;
-  Calibration calibration_;  // as of the last pose
+  Calibration calibration_;  // at the last pose
   std::optional<int64_t> first_pose_ns_;
   std::optional<int64_t> last_frame_ns_;
   int64_t duration_ns_ = 0;

@@ -9,7 +9,7 @@
 
 namespace plm_vins {
 
-// Mean, median, 95th and 99th percentile (nearest rank) of values; zeros for none.
+// Mean, median, 95th and 99th percentile (nearest rank); zeros if there are no values.
 struct SeriesSummary {
   double mean = 0;
   double median = 0;
@@ -17,7 +17,7 @@ struct SeriesSummary {
   double p99 = 0;
 };
 
-// Of entry `index` of each frame's values.
+// Summarizes entry `index` of each frame's values.
 template <typename T, size_t kSize>
 SeriesSummary Summarize(const std::vector<std::array<T, kSize>>& frames, size_t index) {
   if (frames.empty()) return {};

@@ -8,11 +8,11 @@
 
 namespace plm_vins {
 
-// One line of a TUM trajectory: "timestamp tx ty tz qx qy qz qw" with nine decimals each; the stamp
-// in seconds, exact to the nanosecond.
+// Formats one row of a TUM trajectory, "timestamp tx ty tz qx qy qz qw", with nine decimals each.
+// The timestamp is in seconds, exact to the nanosecond.
 std::string FormatTumRow(int64_t t_ns, const Rigid3d& T_W_B);
 
-// A comment between rows: the world frame of the next one is another than that of those before.
+// Formats a comment between rows: the following poses are in a new world frame.
 std::string FormatTumRestart(const std::string& reason);
 
 }  // namespace plm_vins

@@ -6,12 +6,13 @@
 
 namespace plm_vins {
 
-// What the estimator may refine of the camera and its place and time beside the IMU.
+// Calibration that the estimator may refine: camera intrinsics, extrinsics, time offset and readout
+// time.
 struct Calibration {
   CameraParameters camera;
   Rigid3d T_B_C;
   double td = 0;       // t_imu = t_image + td [s]
-  double readout = 0;  // time of a rolling shutter; 0: a global one [s]
+  double readout = 0;  // readout time of a rolling shutter; 0: global shutter [s]
 };
 
 }  // namespace plm_vins

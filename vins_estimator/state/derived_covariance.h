@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the covariance of a state says of quantities that follow from it. Rotations are perturbed
-// from the right, R_W_B Exp(theta).
+// Covariances of quantities derived from a state. Rotations are perturbed on the right, R_W_B
+// Exp(theta).
 #pragma once
 
 #include <Eigen/Core>
@@ -10,9 +10,9 @@
 
 namespace plm_vins {
 
-// Variance of the position, summed over the axes [m^2], without what the error of the heading does
-// on the way from `pivot_W`: where the whole flight is turned about the vertical through it, the
-// position moves across that way, and nothing has drifted. `pose_covariance`: of (p_W, theta).
+// Returns the position variance, summed over the axes [m^2], without the part due to the heading
+// error since `pivot_W`: that error rotates the whole trajectory about the vertical through the
+// pivot, which is a change of the frame and not drift. `pose_covariance` is that of (p_W, theta).
 inline double PositionVarianceFrom(const Eigen::Vector3d& pivot_W, const FrameState& state,
                                    const Eigen::Matrix<double, 6, 6>& pose_covariance) {
   const Eigen::Vector3d up_B = state.rotation().conjugate() * Eigen::Vector3d::UnitZ();
@@ -22,8 +22,8 @@ inline double PositionVarianceFrom(const Eigen::Vector3d& pivot_W, const FrameSt
   return (J * pose_covariance * J.transpose()).trace();
 }
 
-// Covariance of v_B = R_W_B^T v_W [m^2/s^2]. What heading and v_W have in common does not show in
-// the body. `covariance`: of (theta, v_W).
+// Returns the covariance of v_B = R_W_B^T v_W [m^2/s^2]. Heading errors that rotate v_W as well
+// cancel out in the body frame. `covariance` is that of (theta, v_W).
 inline Eigen::Matrix3d BodyVelocityCovariance(const FrameState& state,
                                               const Eigen::Matrix<double, 6, 6>& covariance) {
   const Eigen::Matrix3d R_B_W = state.rotation().toRotationMatrix().transpose();

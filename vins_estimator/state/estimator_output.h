@@ -30,46 +30,46 @@ inline const char* ToString(EstimatorStatus status) {
   }
 }
 
-// Milliseconds that the stages of one frame took.
+// Processing time of the stages of one frame [ms].
 struct EstimatorTimings {
   double initialization = 0;
-  double line_merging = 0;  // with the search for the Manhattan frame
+  double line_merging = 0;  // includes the search for the Manhattan frame
   double optimization = 0;
   double marginalization = 0;
   double total = 0;
 };
 
-// Everything the estimator says about one image. The state is that of this image, as far as it is
-// known when the image has been processed.
+// Output of the estimator for one image. The state is the estimate at that image right after it was
+// processed.
 struct EstimatorOutput {
   int64_t t_ns = 0;
   EstimatorStatus status = EstimatorStatus::kInitializing;
-  std::string reason;     // why not tracking, or why restarted; empty otherwise
+  std::string reason;     // why not tracking, or why reinitialized; otherwise empty
   bool has_pose = false;  // `state`, covariances, calibration and `imu_noise` are valid
   FrameState state;
   // Covariance of (p_W [m], rotation in B [rad]), right perturbation R_W_B Exp(theta).
   Matrix6d pose_covariance = Matrix6d::Zero();
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();       // of v_W [m/s]
   Eigen::Matrix3d body_velocity_covariance = Eigen::Matrix3d::Zero();  // of v_B = R_W_B^T v_W
-  Matrix6d bias_covariance = Matrix6d::Zero();  // of the accelerometer [m/s^2] and gyro [rad/s]
+  Matrix6d bias_covariance = Matrix6d::Zero();  // accelerometer [m/s^2], gyroscope [rad/s]
   Calibration calibration;
-  std::optional<Eigen::Quaterniond> R_W_M;  // the Manhattan frame, where the scene has one
-  ImuNoise imu_noise;                       // as it counts: configured, or as flight shows it
-  double imu_noise_scale = 1;               // of its variance beyond that (ImuMonitor)
-  bool imu_doubted = false;                 // in this image, at once
-  std::optional<double> delay;              // error of td that shows, roughly [s] (DelayMonitor)
-  bool contradicted = false;                // much of what is known is not where it should be
-  bool on_imu_alone = false;                // next to nothing that is known holds the pose
-  bool keyframe = false;           // the image before this one stays in the window as a keyframe
-  bool stationary = false;         // standing still was recognised
-  bool restarted = false;          // the world frame is a new one from here on
-  bool bridged = false;            // tracks again after a loss, in the same world frame
-  std::vector<FrameState> window;  // states of the sliding window, oldest first
-  std::vector<MapPoint> points;    // landmarks in the window
-  std::vector<MapPoint> departed_points;  // landmarks that left the window with this frame
-  std::vector<MapLine> lines;             // the same for lines
+  std::optional<Eigen::Quaterniond> R_W_M;  // Manhattan frame; nullopt if not found
+  ImuNoise imu_noise;                       // in use: as configured, or as estimated in flight
+  double imu_noise_scale = 1;               // factor on its variance (ImuMonitor)
+  bool imu_doubted = false;                 // the newest IMU interval was re-weighted
+  std::optional<double> delay;              // rough error of td, if noticeable [s] (DelayMonitor)
+  bool contradicted = false;                // many known landmarks are outliers
+  bool on_imu_alone = false;                // too few features to constrain the pose
+  bool keyframe = false;                    // the previous image becomes a keyframe of the window
+  bool stationary = false;                  // standstill detected
+  bool restarted = false;                   // poses are in a new world frame from here on
+  bool bridged = false;                     // tracking again after a loss, in the same world frame
+  std::vector<FrameState> window;           // states of the window, oldest first
+  std::vector<MapPoint> points;             // landmarks in the window
+  std::vector<MapPoint> departed_points;    // landmarks that left the window with this frame
+  std::vector<MapLine> lines;               // lines in the window
   std::vector<MapLine> departed_lines;
-  std::vector<int64_t> absorbed_lines;  // ids: others go on with them, departed ones as well
+  std::vector<int64_t> absorbed_lines;  // ids of lines that were merged into others
   EstimatorCounts counts;
   EstimatorTimings timings;
 };

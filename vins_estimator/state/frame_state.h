@@ -15,7 +15,7 @@ struct ImuBias {
   Eigen::Vector3d gyro = Eigen::Vector3d::Zero();   // [rad/s]
 };
 
-// State of the body at one image, in solver layout: the arrays *are* the optimiser's variables.
+// State of the body at one image, in solver layout: the arrays *are* the solver's variables.
 //   pose   = [p_W (3), q_W_B (x, y, z, w)]      T_W_B; W is z up, gravity along -z
 //   motion = [v_W (3), accel bias (3), gyro bias (3)]
 struct FrameState {

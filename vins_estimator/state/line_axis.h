@@ -6,10 +6,10 @@
 
 namespace plm_vins {
 
-// The axis of the Manhattan frame M that a line runs along; free where it runs along none.
+// Axis of the Manhattan frame M that a line is parallel to; kFree if none.
 enum class LineAxis { kFree, kX, kY, kZ };
 
-// Unit vector in M; not for kFree.
+// Returns the unit vector in M; not defined for kFree.
 inline Eigen::Vector3d UnitVector(LineAxis axis) {
   switch (axis) {
     case LineAxis::kX:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the estimator says of its landmarks.
+// Landmarks as the estimator outputs them.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,12 +15,12 @@ struct MapPoint {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // [m]
 };
 
-// A line landmark in the world, cut to the part that was seen.
+// A line landmark in the world, reduced to the observed segment.
 struct MapLine {
   int64_t id = -1;
   Eigen::Vector3d start_W = Eigen::Vector3d::Zero();  // [m]
   Eigen::Vector3d end_W = Eigen::Vector3d::Zero();    // [m]
-  LineAxis axis = LineAxis::kFree;                    // of the Manhattan frame, that it runs along
+  LineAxis axis = LineAxis::kFree;                    // parallel axis of the Manhattan frame
 };
 
 }  // namespace plm_vins

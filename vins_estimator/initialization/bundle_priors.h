@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a bundle of images and IMU leaves undetermined is held at what it starts from.
+// Priors that fix the unobservable directions of a visual-inertial bundle at their initial values.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,13 +10,13 @@
 
 namespace plm_vins {
 
-// Holds position and heading of a pose:
+// Fixes position and heading of a pose:
 //   r = [p - p0, e_z^T R0 Log(R0^T R)] / deviation,
-// the last of which is the turn about the world's z. Block: pose (7), with the Jacobian of
-// factors/manifolds.h.
+// whose last component is the rotation about the world's z axis. Block: pose (7), with the Jacobian
+// of factors/manifolds.h.
 class GaugePrior final : public SizedFactor<4, kPoseSize> {
  public:
-  // `deviation`: [m] and [rad] alike.
+  // `deviation` is the standard deviation, in [m] and in [rad].
   GaugePrior(const FrameState& state, double deviation) : state_(state), deviation_(deviation) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
@@ -27,7 +27,8 @@ class GaugePrior final : public SizedFactor<4, kPoseSize> {
   double deviation_;
 };
 
-// Holds the biases of a frame softly: r = [(b_a - b_a0) / deviation_a, (b_g - b_g0) / deviation_g].
+// Gaussian prior on the biases of a frame:
+//   r = [(b_a - b_a0) / deviation_a, (b_g - b_g0) / deviation_g].
 // Block: motion (9).
 class BiasPrior final : public SizedFactor<6, 9> {
  public:

@@ -13,14 +13,14 @@ namespace plm_vins {
 namespace {
 
 constexpr double kPairDuration = 0.3;  // between the two images of a pair [s]
-constexpr double kPairStride = 0.1;    // from pair to pair [s]
-constexpr double kMinTurn = 0.02;      // below this a pair says nothing about directions [rad]
-// Uncertainty of a pair beside the stated one, which wrong tracks make optimistic [rad].
+constexpr double kPairStride = 0.1;    // between consecutive pairs [s]
+constexpr double kMinTurn = 0.02;  // with less rotation, a pair has no information on axes [rad]
+// Uncertainty of a pair in addition to its covariance, which wrong tracks make too small [rad].
 constexpr double kExcessDeviation = 0.003;
 constexpr size_t kMaxPairs = 200;
 
-// The rotation that turns the rays of the first image nearest to those of the second, as if all
-// points were far away: off by the parallax, a few degrees.
+// Returns the rotation that aligns the rays of the first image best with those of the second, as if
+// all points were at infinity; parallax makes it wrong by a few degrees.
 Eigen::Quaterniond AlignRays(const std::vector<Correspondence>& correspondences) {
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
   for (const Correspondence& c : correspondences) {
@@ -33,7 +33,7 @@ Eigen::Quaterniond AlignRays(const std::vector<Correspondence>& correspondences)
       Eigen::Matrix3d(svd.matrixU() * diagonal.asDiagonal() * svd.matrixV().transpose()));
 }
 
-// The last frame that is old enough to make a pair with the newest one.
+// Returns the last frame that is old enough to form a pair with the newest one.
 std::optional<size_t> FindPartner(const std::deque<FrameMeasurement>& frames) {
   for (size_t i = frames.size(); i-- > 0;) {
     if (ToSeconds(frames.back().t_ns - frames[i].t_ns) > kPairDuration - 1e-3) return i;
@@ -56,7 +56,7 @@ std::optional<RotationPair> ExtrinsicCalibrator::MeasurePair(
       EstimateRelativePose(correspondences, AlignRays(correspondences), noise_, reason);
   if (!pose || Eigen::AngleAxisd(pose->R_C1_C0).angle() < kMinTurn) return std::nullopt;
   const double variance = pose->rotation_information.inverse().trace() / 3;
-  // Where all points are in one place, it is rounding.
+  // If all points coincide, the variance is a rounding error.
   if (!(std::isfinite(variance) && variance >= 0)) return std::nullopt;
   return RotationPair{imu.delta_q(), pose->R_C1_C0.conjugate(), imu.duration(),
                       std::sqrt(variance + kExcessDeviation * kExcessDeviation)};

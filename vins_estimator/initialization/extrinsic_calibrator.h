@@ -14,16 +14,16 @@
 
 namespace plm_vins {
 
-// Collects turns of the rig, image after image, until they determine the camera's rotation in the
-// body. No initial guess is needed. Bounded memory; deterministic.
+// Calibrates the camera's rotation in the body from rotations of the rig, image by image, until it
+// is observable. Needs no initial guess. Its memory is bounded; its result is deterministic.
 class ExtrinsicCalibrator {
  public:
-  // `noise`: standard deviation of a normalised coordinate.
+  // `noise` is the standard deviation of a normalized coordinate.
   ExtrinsicCalibrator(const ImuNoise& imu_noise, double noise)
       : imu_noise_(imu_noise), noise_(noise) {}
 
-  // Takes the newest of `frames`, which lead without gap to it; R_B_C as soon as it is determined.
-  // Else nothing, and the reason in words.
+  // Adds the newest of `frames`, which must be contiguous. Returns R_B_C once it is certain enough;
+  // otherwise nullopt, with the reason.
   std::optional<Eigen::Quaterniond> Add(const std::deque<FrameMeasurement>& frames,
                                         std::string* reason);
 
@@ -34,7 +34,7 @@ class ExtrinsicCalibrator {
   ImuNoise imu_noise_;
   double noise_;
   std::vector<RotationPair> pairs_;  // oldest first
-  std::optional<int64_t> last_ns_;   // newest image of the last pair tried
+  std::optional<int64_t> last_ns_;   // newest image of the last attempted pair
 };
 
 }  // namespace plm_vins

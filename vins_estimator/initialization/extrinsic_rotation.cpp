@@ -13,7 +13,7 @@
 namespace plm_vins {
 namespace {
 
-// What a pair may disagree by while the gyro bias is not known yet [rad].
+// Tolerance for the residual of a pair while the gyroscope bias is unknown [rad].
 constexpr double kLinearTolerance = 0.03;
 constexpr int kLinearIterations = 10;
 constexpr int kRefinements = 8;
@@ -25,9 +25,10 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 double Angle(const Eigen::Quaterniond& q) { return SO3Log(q).norm(); }
 
-// The matrix M with M q = R_B0_B1 q - q R_C0_C1, quaternions as (x, y, z, w).
+// Returns the matrix M with M q = R_B0_B1 q - q R_C0_C1, quaternions as (x, y, z, w).
 Eigen::Matrix4d Constraint(const RotationPair& pair) {
-  // Both with w >= 0, as turns are below half a turn: else one is the other's negative.
+  // Chooses w >= 0 for both, since rotations are below 180 deg; otherwise they could have opposite
+  // signs.
   const auto positive = [](Eigen::Quaterniond q) {
     if (q.w() < 0) q.coeffs() = -q.coeffs();
     return q;
@@ -44,8 +45,8 @@ Eigen::Matrix4d Constraint(const RotationPair& pair) {
 struct LinearSolution {
   Eigen::Quaterniond R_B_C;
   // Second smallest singular value over the root of the weights. With the true R_B_C, M^T M of a
-  // pair that turns by alpha about a is 4 sin^2(alpha / 2) (I - a a^T) across q and 0 along q: the
-  // value is the rms of the turns about axes other than the main one [rad].
+  // pair that rotates by alpha about a is 4 sin^2(alpha / 2) (I - a a^T) across q and 0 along q:
+  // the value is the rms rotation about axes other than the main one [rad].
   double second_turn = 0;
 };
 
@@ -66,7 +67,7 @@ LinearSolution SolveLinear(const std::vector<RotationPair>& pairs,
 }
 
 LinearSolution SolveLinear(const std::vector<RotationPair>& pairs) {
-  // The angles of both rotations are equal whatever R_B_C is, so that most outliers show at once.
+  // Both rotation angles are equal for any R_B_C, which reveals most outliers at once.
   std::vector<double> weights;
   weights.reserve(pairs.size());
   for (const RotationPair& pair : pairs) {
@@ -85,14 +86,14 @@ LinearSolution SolveLinear(const std::vector<RotationPair>& pairs) {
   return solution;
 }
 
-// R_B_C and gyro bias together, by Gauss-Newton.
+// Estimates R_B_C and the gyroscope bias together by Gauss-Newton.
 class Refiner {
  public:
   Refiner(const std::vector<RotationPair>& pairs, const Eigen::Quaterniond& R_B_C,
           double bias_deviation)
       : pairs_(pairs), R_B_C_(R_B_C), bias_deviation_(bias_deviation) {}
 
-  // Lenient at first, while the bias is not known.
+  // Runs with a wide tolerance at first, while the bias is unknown.
   void Run() {
     for (int k = 0; k < kRefinements; ++k) Step(kLinearTolerance);
     for (int k = 0; k < kRefinements; ++k) Step(0);
@@ -112,9 +113,9 @@ class Refiner {
   double inlier_share_ = 0;
 };
 
-// One step over R_B_C <- Exp(theta) R_B_C and the bias. A bias b turns R_B0_B1 into
-// R_B0_B1 Exp(-Jr(phi) b duration) where phi, its logarithm, was turned at a steady rate.
-// `tolerance`: what a pair may disagree by at least [rad].
+// Takes one step over R_B_C <- Exp(theta) R_B_C and the bias. A bias b changes R_B0_B1 to R_B0_B1
+// Exp(-Jr(phi) b duration), where phi is its logarithm, if the rate was constant. `tolerance` is
+// the least scale of the robust loss [rad].
 void Refiner::Step(double tolerance) {
   information_.setZero();
   Vector6d gradient = Vector6d::Zero();
@@ -137,14 +138,16 @@ void Refiner::Step(double tolerance) {
     inliers += residual.norm() < kInlierSigmas;
   }
   inlier_share_ = static_cast<double>(inliers) / static_cast<double>(pairs_.size());
-  // A turn about one axis leaves theta open along it; the floor of ten radians keeps it solvable.
+  // Rotations about one axis leave theta unobservable along it; a prior of ten radians keeps the
+  // equations solvable.
   information_.topLeftCorner<3, 3>().diagonal().array() += 0.01;
   const Vector6d step = -information_.ldlt().solve(gradient);
   R_B_C_ = (SO3Exp(step.head<3>()) * R_B_C_).normalized();
   bias_ += step.tail<3>();
 }
 
-// Standard deviation of R_B_C about its worst axis, the bias not known [rad].
+// Returns the standard deviation of R_B_C about its least certain axis, with the bias marginalized
+// [rad].
 double Refiner::Deviation() const {
   const Eigen::Matrix3d covariance = information_.inverse().topLeftCorner<3, 3>();
   return std::sqrt(

@@ -9,8 +9,8 @@
 namespace plm_vins {
 namespace {
 
-// How far each frame is along the sequence, 0 to 1: the mean of its share of the time and its share
-// of the image motion.
+// Returns the progress of each frame in the sequence, 0 to 1: the mean of its share of the time and
+// its share of the image motion.
 std::vector<double> Progress(const std::deque<FrameMeasurement>& frames) {
   std::vector<double> flow(frames.size(), 0.0);
   for (size_t i = 1; i < frames.size(); ++i) {
@@ -44,7 +44,7 @@ std::vector<size_t> SelectFrames(const std::deque<FrameMeasurement>& frames, siz
   const std::vector<double> progress = Progress(frames);
   for (size_t k = 1; k < max_frames; ++k) {
     const double target = static_cast<double>(k) / static_cast<double>(max_frames - 1);
-    // The first frame at the target, up to rounding.
+    // Finds the first frame at the target, up to rounding.
     size_t i = selected.back() + 1;
     while (i + 1 < frames.size() && progress[i] < target - 1e-9) ++i;
     if (i < frames.size()) selected.push_back(i);

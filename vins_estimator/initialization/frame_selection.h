@@ -9,17 +9,19 @@
 
 namespace plm_vins {
 
-// Number of points that both images saw.
+// Returns the number of points that both images observe.
 int CountCommonPoints(const PointFrame& first, const PointFrame& second);
 
-// Median way of the points that both images saw, normalised; 0 without any.
+// Returns the median displacement of the points that both images observe, normalized; 0 if there
+// are none.
 double MedianFlow(const PointFrame& first, const PointFrame& second);
 
-// At most `max_frames` indices, the oldest and the newest frame among them, spread evenly over time
-// and image motion together: motion draws frames, and a still part is not left empty.
+// Returns at most `max_frames` indices, always with the oldest and the newest frame, evenly spread
+// over the mean of time and image motion: more frames where there is motion, but some at
+// standstill, too.
 std::vector<size_t> SelectFrames(const std::deque<FrameMeasurement>& frames, size_t max_frames);
 
-// The frames at `indices`, the IMU samples between them joined.
+// Returns the frames at `indices`, with the IMU samples between them joined.
 std::vector<FrameMeasurement> JoinFrames(const std::deque<FrameMeasurement>& frames,
                                          const std::vector<size_t>& indices);
 

@@ -12,24 +12,27 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMinCommonPoints = 20;  // of the pair that starts
+constexpr size_t kMinCommonPoints = 20;  // of the initial pair
 constexpr int kMinPointsToResect = 10;
-constexpr int kMinPoints = 20;                   // of the whole structure
-constexpr double kParallaxCap = 0.2;             // more of it makes a pair no better [rad]
-constexpr double kMinTriangulationSigmas = 4.0;  // angle between rays of a point, in noise
+constexpr int kMinPoints = 20;        // in the whole structure
+constexpr double kParallaxCap = 0.2;  // parallax above it does not improve the score of a pair
+                                      // [rad]
+constexpr double kMinTriangulationSigmas = 4.0;  // least angle between the rays of a point, in
+                                                 // standard deviations
 constexpr double kMaxReprojectionSigmas = 3.0;
 constexpr double kMinDepth = 1e-3;  // in units of the first baseline
 constexpr int kBundleIterations = 12;
-constexpr double kBundleTolerance = 1e-2;  // the adjustment with the IMU goes on from there
+constexpr double kBundleTolerance = 1e-2;  // coarse: the visual-inertial bundle adjustment refines
+                                           // it
 constexpr int kIntersectionIterations = 4;
 
-// A line in G: all points origin + depth * direction (unit length).
+// A line in G: all points origin + depth * direction (unit vector).
 struct Line {
   Eigen::Vector3d origin, direction;
 };
 
-// The point that the lines see under the smallest angles, robustly. It is the position of a point
-// from several cameras, and just as well the position of a camera from several points.
+// Returns the point with the smallest angular distances from the lines, robustly. It triangulates a
+// point from several cameras, and also resects a camera from several points.
 std::optional<Eigen::Vector3d> IntersectLines(const std::vector<Line>& lines, double noise) {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   for (int iteration = 0; iteration < kIntersectionIterations; ++iteration) {
@@ -59,7 +62,7 @@ bool IsSeenBy(int view, const Track& track) {
                      [view](const ViewObservation& o) { return o.view == view; });
 }
 
-// Reprojection of a point into a view of known rotation. Blocks: p_G_C, p_G.
+// Reprojection of a point into a view with known rotation. Blocks: p_G_C, p_G.
 class PositionCost {
  public:
   PositionCost(const Eigen::Quaterniond& R_G_C, const Eigen::Vector2d& xy, double noise)
@@ -82,7 +85,7 @@ class PositionCost {
   double noise_;
 };
 
-// The growing reconstruction.
+// Incremental reconstruction.
 class Builder {
  public:
   Builder(const std::vector<Track>& tracks, const std::vector<Eigen::Quaterniond>& R_G_C,
@@ -119,13 +122,13 @@ class Builder {
   const std::vector<Track>& tracks_;
   const std::vector<Eigen::Quaterniond>& R_G_C_;
   GlobalSfmOptions options_;
-  double noise_;  // of a normalised coordinate
+  double noise_;  // of a normalized coordinate
   std::vector<bool> posed_;
   Structure structure_;
 };
 
-// The pair with the largest sum of (capped) parallax angles over its common points; without any
-// parallax, the one with most points.
+// Returns the pair with the largest sum of (capped) parallax angles over its common points; without
+// parallax, the pair with the most points.
 std::pair<int, int> Builder::BestPair() const {
   const int n = static_cast<int>(R_G_C_.size());
   Eigen::MatrixXd score = Eigen::MatrixXd::Zero(n, n);
@@ -183,7 +186,7 @@ std::optional<Eigen::Vector3d> Builder::TriangulateTrack(const Track& track) con
   return point;
 }
 
-// Sets the position of a view, and anew those of the points that it sees.
+// Sets the position of a view and re-triangulates the points that it observes.
 void Builder::Place(int view, const Eigen::Vector3d& p_G_C) {
   structure_.p_G_C[view] = p_G_C;
   posed_[view] = true;
@@ -192,7 +195,7 @@ void Builder::Place(int view, const Eigen::Vector3d& p_G_C) {
   }
 }
 
-// The view without position that sees most of the points; -1 where none sees enough.
+// Returns the view without position that observes the most points; -1 if none observes enough.
 int Builder::NextView() const {
   std::vector<int> seen(posed_.size(), 0);
   for (size_t i = 0; i < tracks_.size(); ++i) {
@@ -228,7 +231,7 @@ bool Builder::AdjustBundle() {
                                structure_.p_G[i]->data());
     }
   }
-  // The scale and the origin stay free: the damping of the solver keeps them where they are.
+  // Scale and origin are not fixed: the solver's damping keeps them in place.
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
   options.max_num_iterations = kBundleIterations;
@@ -240,7 +243,7 @@ bool Builder::AdjustBundle() {
   return summary.IsSolutionUsable();
 }
 
-// True where all observations of the track agree with the point.
+// Returns whether all observations of the track are inliers.
 bool Builder::Fits(const Track& track, const Eigen::Vector3d& p_G) const {
   for (const ViewObservation& o : track.observations) {
     const Eigen::Vector3d p_C = InCamera(o.view, p_G);

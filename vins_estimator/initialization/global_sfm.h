@@ -13,22 +13,22 @@ namespace plm_vins {
 
 struct GlobalSfmOptions {
   double focal_length;     // [px]
-  double noise_px;         // standard deviation of a corner
+  double noise_px;         // standard deviation of a corner [px]
   double min_parallax_px;  // median over the points of the best pair of views
 };
 
-// Camera centres and points in a frame G, up to one unknown scale.
+// Camera centres and points in a frame G, up to an unknown scale.
 struct Structure {
   std::vector<Eigen::Vector3d> p_G_C;               // one per view, the first at the origin
-  std::vector<std::optional<Eigen::Vector3d>> p_G;  // one per track; nothing where not reliable
+  std::vector<std::optional<Eigen::Vector3d>> p_G;  // one per track; nullopt if not reliable
   int num_points = 0;
 };
 
-// Structure from motion for views whose rotations R_G_C are known (from the gyro): positions are
-// left, which makes every step linear. The pair of views with the most parallax starts; the other
-// views are resected and further points triangulated in turn; a bundle adjustment over positions
-// and points ends it. Nothing, and the reason in words, where there is too little parallax or there
-// are too few common points.
+// Computes structure from motion for views whose rotations R_G_C are known from the gyroscope, so
+// that only positions are unknown and every step is linear. It starts with the pair of views with
+// the most parallax, then alternately resects the other views and triangulates points; a bundle
+// adjustment over positions and points completes it. Returns nullopt, with the reason, if there is
+// too little parallax or there are too few common points.
 std::optional<Structure> ReconstructStructure(const std::vector<Track>& tracks,
                                               const std::vector<Eigen::Quaterniond>& R_G_C,
                                               const GlobalSfmOptions& options, std::string* reason);

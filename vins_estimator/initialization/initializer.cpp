@@ -15,13 +15,13 @@ namespace {
 constexpr double kStandstillDuration = 0.75;  // [s]
 constexpr double kMinMotionDuration = 1.5;    // [s]
 constexpr double kMaxDuration = 3.0;          // of the buffer [s]
-constexpr int kMinCommonPoints = 12;          // of neighbouring images
+constexpr int kMinCommonPoints = 12;          // of consecutive images
 constexpr size_t kMinFrames = 6;
 constexpr size_t kMaxFrames = 11;
-constexpr double kAttemptInterval = 0.125;  // each takes as long as several images [s]
-// The longer the wait, the larger the scale uncertainty that is accepted: a vehicle that has not
-// moved enough for seconds may not do so soon. Where propellers shake the IMU, the estimated
-// uncertainty is half the true one.
+constexpr double kAttemptInterval = 0.125;  // an attempt takes as long as several images [s]
+// The accepted scale uncertainty grows with the waiting time, because a vehicle that has moved too
+// little for seconds may continue so. If propellers cause vibration, the estimated uncertainty is
+// half the true one.
 constexpr double kScaleDeviationPerSecond = 0.015;  // relative [1/s]
 constexpr double kMaxScaleDeviation = 0.075;
 
@@ -56,8 +56,8 @@ void Initializer::StartOver(const std::string& reason) {
   reason_ = reason;
 }
 
-// Adds an image; forgets the older ones where IMU samples or tracks do not lead to it. Of the first
-// image's samples only the last one, at the image itself, counts.
+// Adds an image; drops older ones if they are not connected to it by IMU samples and tracks. Of the
+// first image's samples only the last one, at the image itself, is kept.
 void Initializer::Append(const FrameMeasurement& measurement) {
   if (!buffer_.empty() && LeaveGap(measurement.imu)) StartOver("gap in the IMU samples");
   if (!buffer_.empty()) {

@@ -13,7 +13,7 @@
 namespace plm_vins {
 namespace {
 
-// One attempt; the members are filled step by step.
+// One attempt at initialization, step by step.
 class Attempt {
  public:
   Attempt(const std::vector<FrameMeasurement>& frames, const SensorConfig& sensor,
@@ -41,7 +41,7 @@ class Attempt {
   std::string* reason_;
 
   std::vector<Track> tracks_;
-  std::vector<Preintegration> preintegrations_;      // interval i leads from frame i to i + 1
+  std::vector<Preintegration> preintegrations_;      // interval i is from frame i to i + 1
   std::vector<Eigen::Quaterniond> R_G_B_;            // G: body frame of the first image
   Structure structure_;                              // in G
   Alignment alignment_;                              // in G
@@ -68,7 +68,7 @@ Attempt::Attempt(const std::vector<FrameMeasurement>& frames, const SensorConfig
   }
 }
 
-// Rotation of the body over the interval as the camera sees it.
+// Returns the rotation of the body over the interval, measured by the camera.
 std::optional<RotationMeasurement> Attempt::MeasureRotation(int interval) const {
   const Preintegration& imu = preintegrations_[interval];
   const Eigen::Quaterniond R_B_C = sensor_.T_B_C.rotation;
@@ -88,7 +88,7 @@ bool Attempt::EstimateBias() {
     if (const auto rotation = MeasureRotation(static_cast<int>(i))) {
       rotations.push_back(*rotation);
     } else if (2 * ++failed > preintegrations_.size()) {
-      return false;  // the last pair's reason; the search where none is to be found takes longest
+      return false;  // with the last pair's reason; RANSAC without solution takes longest
     }
   }
   const auto gyro_bias = EstimateGyroBias(rotations, reason_);
@@ -126,7 +126,7 @@ bool Attempt::Align() {
   return alignment.has_value();
 }
 
-// The aligned states and points in a world with gravity along -z.
+// Transforms the aligned states and points into a world with gravity along -z.
 void Attempt::SetStates() {
   const Eigen::Quaterniond R_W_G =
       ShortestRotation(-alignment_.gravity_G, Eigen::Vector3d::UnitZ());

@@ -15,16 +15,16 @@ struct MotionInitializerOptions {
   double min_parallax_px = 15;        // median over the points of the best pair of images
   double max_scale_deviation = 0.05;  // relative, of the adjusted states
   double max_reprojection_rms = 2;    // in standard deviations of a corner
-  double max_imu_rms = 3;             // in standard deviations of the preintegrated motion
+  double max_imu_rms = 3;             // in standard deviations of the preintegrated measurements
   double max_accel_bias = 1.0;        // [m/s^2]
   double max_gyro_bias = 0.5;         // [rad/s]
 };
 
-// The states of a few images in motion, from nothing but their points and IMU samples: gyro bias
-// from relative poses, structure up to scale, alignment (velocities, gravity, scale),
-// visual-inertial bundle adjustment, checks. `frames[i + 1].imu` leads from frame i to frame i + 1;
-// `frames[0].imu` is not used. World: origin and heading 0 at the first frame. Nothing, and the
-// reason in words, where any step or check fails.
+// Initializes the states of a few images in motion from their points and IMU samples alone:
+// gyroscope bias from relative poses, structure up to scale, alignment (velocities, gravity,
+// scale), visual-inertial bundle adjustment, checks. `frames[i + 1].imu` is from frame i to frame i
+// + 1; `frames[0].imu` is not used. World: origin and zero heading at the first frame. Returns
+// nullopt, with the reason, if a step or check fails.
 std::optional<std::vector<FrameState>> InitializeFromMotion(
     const std::vector<FrameMeasurement>& frames, const SensorConfig& sensor, double point_noise_px,
     const MotionInitializerOptions& options, std::string* reason);

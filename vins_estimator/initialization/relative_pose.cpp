@@ -19,14 +19,14 @@ namespace {
 constexpr size_t kMinCorrespondences = 15;
 constexpr int kMinInliers = 12;
 constexpr double kConfidence = 0.999;
-// As many find what half of the points agree on: ln(1 - kConfidence) / ln(1 - 0.5^5). Less than
-// half is refused.
+// Enough iterations to find the model of at least 50 % inliers: ln(1 - kConfidence) / ln(1 -
+// 0.5^5). With less than half, the result is rejected.
 constexpr int kMaxIterations = 218;
 constexpr double kInlierSigmas = 3.0;  // distance to the epipolar line, in standard deviations
 constexpr int kRefinements = 8;
-constexpr double kClearShare = 0.95;  // of inliers: five points would find nothing better
-// How far the gyro's rotation may be off, before its bias is known: decides between the two
-// solutions of a plane and weighs next to nothing elsewhere [rad].
+constexpr double kClearShare = 0.95;  // of inliers: RANSAC would not improve the result
+// Standard deviation of the gyroscope's rotation before its bias is known: it selects one of the
+// two solutions of a planar scene and has hardly any weight elsewhere [rad].
 constexpr double kGyroDeviation = 0.05;
 
 using Vector5d = Eigen::Matrix<double, 5, 1>;
@@ -41,7 +41,8 @@ Eigen::Matrix3d ToEigen(const cv::Mat& m) {
 }
 
 // First-order distance of a correspondence to the epipolar constraint f1 . (t x R f0) = 0, and its
-// derivative for R <- Exp(theta) R and t <- t + B eta, the weight of the constraint held constant.
+// derivative for R <- Exp(theta) R and t <- t + B eta, with the weight of the constraint held
+// constant.
 struct EpipolarResidual {
   double distance;
   Vector5d gradient;
@@ -61,7 +62,7 @@ EpipolarResidual Evaluate(const Correspondence& c, const Eigen::Matrix3d& R,
   return residual;
 }
 
-// A pose to refine, and the gyro's rotation that holds it loosely.
+// Refines a relative pose, with the gyroscope's rotation as a weak prior.
 class PoseRefiner {
  public:
   PoseRefiner(const std::vector<Correspondence>& correspondences,
@@ -85,7 +86,7 @@ class PoseRefiner {
   double noise_;
 };
 
-// Cauchy cost of the whitened distances and squared error of the gyro.
+// Returns the Cauchy cost of the whitened distances plus the squared error of the gyroscope.
 double PoseRefiner::Cost(const RelativePose& pose) const {
   const Eigen::Matrix3d R = pose.R_C1_C0.toRotationMatrix();
   const Eigen::Matrix<double, 3, 2> B = TangentBasis(pose.t_C1_C0);
@@ -97,7 +98,8 @@ double PoseRefiner::Cost(const RelativePose& pose) const {
   return cost;
 }
 
-// One Gauss-Newton step over all correspondences with Cauchy weights; also sets the information.
+// Takes one Gauss-Newton step over all correspondences with Cauchy weights; also sets the
+// information.
 void PoseRefiner::Step(RelativePose* pose) const {
   const Eigen::Matrix3d R = pose->R_C1_C0.toRotationMatrix();
   const Eigen::Matrix<double, 3, 2> B = TangentBasis(pose->t_C1_C0);
@@ -134,7 +136,8 @@ cv::Mat FindEssentialMatrix(const std::vector<cv::Point2d>& points0,
 #endif
 }
 
-// The pose of the five-point consensus: of the decompositions of E, the one nearest to the gyro.
+// Returns the pose of the five-point RANSAC: of the decompositions of E, the one nearest to the
+// gyroscope's rotation.
 std::optional<RelativePose> FivePointPose(const std::vector<Correspondence>& correspondences,
                                           const Eigen::Quaterniond& R_C1_C0_gyro, double noise) {
   std::vector<cv::Point2d> points0, points1;
@@ -154,7 +157,8 @@ std::optional<RelativePose> FivePointPose(const std::vector<Correspondence>& cor
   return pose;
 }
 
-// The gyro's rotation and the direction nearest to the epipolar planes of all points under it.
+// Returns the gyroscope's rotation with the translation direction that fits all epipolar planes
+// best.
 RelativePose GyroPose(const std::vector<Correspondence>& correspondences,
                       const Eigen::Quaterniond& R_C1_C0_gyro) {
   Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
@@ -169,7 +173,7 @@ RelativePose GyroPose(const std::vector<Correspondence>& correspondences,
   return pose;
 }
 
-// Marks who agrees within the gate.
+// Marks the inliers.
 void Classify(const std::vector<Correspondence>& correspondences, double noise,
               RelativePose* pose) {
   const Eigen::Matrix3d R = pose->R_C1_C0.toRotationMatrix();
@@ -183,7 +187,8 @@ void Classify(const std::vector<Correspondence>& correspondences, double noise,
   }
 }
 
-// The fit from the gyro's start, or the better one from five points where that leaves many out.
+// Returns the fit that starts from the gyroscope's rotation, or the RANSAC solution if the former
+// has many outliers and the latter has a lower cost.
 RelativePose FitPose(const std::vector<Correspondence>& correspondences,
                      const Eigen::Quaterniond& R_C1_C0_gyro, double noise) {
   const PoseRefiner refiner(correspondences, R_C1_C0_gyro, noise);
@@ -199,14 +204,14 @@ RelativePose FitPose(const std::vector<Correspondence>& correspondences,
   return *candidate;
 }
 
-// Turns the translation so that most inliers have positive depth.
+// Chooses the sign of the translation that gives most inliers positive depth.
 void ChooseTranslationSign(const std::vector<Correspondence>& correspondences, RelativePose* pose) {
   int votes = 0;
   for (size_t i = 0; i < correspondences.size(); ++i) {
     if (!pose->inliers[i]) continue;
     const Eigen::Vector3d f1 = correspondences[i].xy1.homogeneous();
     const Eigen::Vector3d rotated = pose->R_C1_C0 * correspondences[i].xy0.homogeneous();
-    // depth1 f1 = depth0 R f0 + t, multiplied by f1 x: depth0 (f1 x R f0) = -f1 x t.
+    // Multiplying depth1 f1 = depth0 R f0 + t by f1 x gives depth0 (f1 x R f0) = -f1 x t.
     votes += f1.cross(rotated).dot(f1.cross(pose->t_C1_C0)) < 0 ? 1 : -1;
   }
   if (votes < 0) pose->t_C1_C0 = -pose->t_C1_C0;

@@ -10,11 +10,11 @@
 
 namespace plm_vins {
 
-// The state of a body that stands still, from the mean of its IMU samples: roll and pitch from the
-// specific force, the gyro bias from the rate; position, heading, velocity and accelerometer bias
-// 0. The accelerometer bias tilts the result: 0.1 m/s^2 by 0.6 degrees. The caller knows that the
-// body stands still. `t_ns` of the state is left to the caller. Nothing, and the reason in words,
-// where the means cannot be those of a body at rest.
+// Initializes the state at standstill from the mean of the IMU samples: roll and pitch from the
+// specific force, the gyroscope bias from the rate; position, heading, velocity and accelerometer
+// bias are zero. The true accelerometer bias tilts the result: 0.1 m/s^2 by 0.6 deg. The caller
+// must know that the body stands still, and sets `t_ns` of the state. Returns nullopt, with the
+// reason, if the means are impossible at standstill.
 std::optional<FrameState> InitializeFromStandstill(const std::vector<ImuSample>& samples,
                                                    double gravity_norm, std::string* reason);
 

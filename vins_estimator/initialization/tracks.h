@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Point tracks over a handful of views, for the steps of initialisation.
+// Point tracks over a few views, for the steps of the initialization.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,25 +11,25 @@
 namespace plm_vins {
 
 struct ViewObservation {
-  int view = 0;        // index of the view, 0 the oldest
-  Eigen::Vector2d xy;  // normalised, undistorted
+  int view = 0;        // index of the view, 0 is the oldest
+  Eigen::Vector2d xy;  // normalized, undistorted
 };
 
-// One point and the views that saw it, in ascending order.
+// A point and its observations, in ascending order of views.
 struct Track {
   int64_t id = -1;
   std::vector<ViewObservation> observations;
 };
 
-// The same point in two views, normalised and undistorted.
+// Observations of one point in two views, normalized and undistorted.
 struct Correspondence {
   Eigen::Vector2d xy0, xy1;
 };
 
-// All points seen in at least two of the views, by ascending id.
+// Returns all points that are observed in at least two views, by ascending id.
 std::vector<Track> CollectTracks(const std::vector<const PointFrame*>& views);
 
-// The points that both views saw, in the order of the tracks.
+// Returns the points that both views observe, in the order of the tracks.
 std::vector<Correspondence> FindCorrespondences(const std::vector<Track>& tracks, int view0,
                                                 int view1);
 

@@ -17,18 +17,18 @@ constexpr int kGyroIterations = 5;
 constexpr double kGyroBiasPrior = 0.5;  // standard deviation [rad/s]
 constexpr int kGravityIterations = 4;
 constexpr double kAccelBiasPrior = 0.1;        // standard deviation [m/s^2]
-constexpr double kPositionDeviation = 0.005;   // of the structure's camera centres, roughly [m]
+constexpr double kPositionDeviation = 0.005;   // of the structure's camera centres, rough [m]
 constexpr double kGravityNormTolerance = 0.2;  // relative, of the estimate with free norm
 
-// Normal equations of the alignment. Unknowns: one velocity per view, then gravity (3 numbers, or 2
-// on the tangent plane), scale, accelerometer bias.
+// Normal equations of the alignment. Unknowns: one velocity per view, then gravity (3 parameters,
+// or 2 in the tangent plane), scale, accelerometer bias.
 class AlignmentSystem {
  public:
   AlignmentSystem(const std::vector<AlignmentView>& views,
                   const std::vector<const Preintegration*>& preintegrations, const Rigid3d& T_B_C)
       : views_(views), preintegrations_(preintegrations), T_B_C_(T_B_C) {}
 
-  // gravity_G = fixed_gravity + gravity_basis * unknown.
+  // Solves for gravity_G = fixed_gravity + gravity_basis * unknown and the other unknowns.
   bool Solve(const Eigen::Vector3d& fixed_gravity, const Eigen::MatrixXd& gravity_basis,
              Alignment* result) const;
 
@@ -45,7 +45,8 @@ class AlignmentSystem {
   Rigid3d T_B_C_;
 };
 
-// Position and velocity rows of the interval from view i to view i + 1, in the body frame at i:
+// Adds the position and velocity rows of the interval from view i to view i + 1, in the body frame
+// at i:
 //   R_i^T (p_j - p_i - v_i T - g T^2 / 2) - J_p ba = delta_p,  p = scale q - R_G_B p_B_C
 //   R_i^T (v_j - v_i - g T) - J_v ba = delta_v
 void AlignmentSystem::AddInterval(size_t i, const Eigen::Vector3d& fixed_gravity,

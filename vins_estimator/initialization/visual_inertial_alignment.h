@@ -12,19 +12,19 @@
 
 namespace plm_vins {
 
-// The rotation of the body between two images as the camera sees it.
+// Rotation of the body between two images, measured by the camera.
 struct RotationMeasurement {
   const Preintegration* preintegration;  // over the same interval
   Eigen::Quaterniond R_B0_B1;
   Eigen::Matrix3d information;  // of a right perturbation R_B0_B1 Exp(theta) [1/rad^2]
 };
 
-// The gyro bias under which the integrated rotations agree best with the camera's [rad/s];
-// robust. Nothing, and the reason in words, where the rotations do not determine it.
+// Estimates the gyroscope bias for which the integrated rotations agree best with the camera's
+// [rad/s]; robust. Returns nullopt, with the reason, if the bias is unobservable.
 std::optional<Eigen::Vector3d> EstimateGyroBias(
     const std::vector<RotationMeasurement>& measurements, std::string* reason);
 
-// What the alignment knows of one image: B in the frame G, in which gravity is not yet known.
+// Pose of an image before the alignment, in a frame G with unknown gravity direction.
 struct AlignmentView {
   Eigen::Quaterniond R_G_B;
   Eigen::Vector3d q_G_C;  // camera centre up to scale: p_G_C = scale * q_G_C + constant
@@ -37,11 +37,11 @@ struct Alignment {
   std::vector<Eigen::Vector3d> velocity_G;  // of B, one per view [m/s]
 };
 
-// Velocities, gravity and scale from preintegrated motion and positions up to scale: weighted
-// linear least squares ([Qin2018], section V.B, in another frame), first with free gravity, then
-// with gravity of the known norm on its tangent plane and with the accelerometer bias.
-// `preintegrations[i]` leads from view i to view i + 1 and is linearised at the gyro bias.
-// Nothing, and the reason in words, where gravity or scale come out impossible.
+// Estimates velocities, gravity and scale from preintegrated measurements and positions up to scale
+// by weighted linear least squares ([Qin2018], section V.B, in another frame): first with free
+// gravity, then with gravity of known norm in its tangent plane and with the accelerometer bias.
+// `preintegrations[i]` is from view i to view i + 1 and is linearized at the gyroscope bias.
+// Returns nullopt, with the reason, if gravity or scale are impossible.
 std::optional<Alignment> AlignVisualInertial(
     const std::vector<AlignmentView>& views,
     const std::vector<const Preintegration*>& preintegrations, const Rigid3d& T_B_C,

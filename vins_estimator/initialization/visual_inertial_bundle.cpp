@@ -21,10 +21,10 @@
 namespace plm_vins {
 namespace {
 
-constexpr SolverOptions kSolution = {12, 0.01};  // the window is optimised further
-constexpr double kGaugeDeviation = 1e-3;         // [m] and [rad]; any small value will do
+constexpr SolverOptions kSolution = {12, 0.01};  // coarse: the window is optimized again
+constexpr double kGaugeDeviation = 1e-3;  // [m] and [rad]; any small value has the same effect
 
-// The adjustment as a problem for the solver of the window, over the given states.
+// The bundle adjustment as a problem for the window's solver, over the given states.
 class Bundle {
  public:
   Bundle(const std::vector<Track>& tracks, const std::vector<std::optional<Eigen::Vector3d>>& p_W,
@@ -52,7 +52,7 @@ class Bundle {
   double time_offset_ = 0;
   std::vector<std::array<double, kPointSize>> points_;  // image point and inverse depth in the host
   ceres::CauchyLoss loss_{1.0};
-  std::vector<int> poses_, motions_;  // variables, by view
+  std::vector<int> poses_, motions_;  // variable indices, by view
   int extrinsic_variable_ = -1, td_variable_ = -1;
   WindowProblem problem_;
 };
@@ -68,7 +68,7 @@ Bundle::Bundle(const std::vector<Track>& tracks,
   FrameState extrinsics;
   extrinsics.SetPose(options.T_B_C);
   extrinsics_ = extrinsics.pose;
-  points_.reserve(tracks.size());  // the problem holds pointers to the elements
+  points_.reserve(tracks.size());  // the problem stores pointers to the elements
   AddVariables();
   AddImu();
   AddPriors();
@@ -107,7 +107,7 @@ Eigen::Vector3d Bundle::InCamera(int view, const Eigen::Vector3d& p_W) const {
   return (states_[view].T_W_B() * options_.T_B_C).Inverse() * p_W;
 }
 
-// The point in the first view of the track; one factor per view.
+// Adds a point, hosted by the first view of its track, with one factor per view.
 void Bundle::AddTrack(const Track& track, const Eigen::Vector3d& p_W) {
   const ViewObservation& host = track.observations.front();
   for (const ViewObservation& o : track.observations) {
@@ -132,8 +132,8 @@ void Bundle::AddTrack(const Track& track, const Eigen::Vector3d& p_W) {
   }
 }
 
-// Root mean square of the whitened and weighted residuals, less the unknowns that only they
-// determine.
+// Returns the root mean square of the whitened and weighted residuals, with the degrees of freedom
+// reduced by the points' parameters.
 double Bundle::ReprojectionRms() const {
   double squared_sum = 0;
   int freedom = 0;
@@ -158,8 +158,8 @@ double Bundle::ImuRms() const {
   return std::sqrt(squared_sum / (Vector15d::SizeAtCompileTime * preintegrations_.size()));
 }
 
-// The change of the logarithm of the trajectory's size with each pose, to first order: positions
-// about their mean, projected onto themselves.
+// Returns the derivative of the logarithm of the trajectory's size with respect to each pose:
+// positions relative to their mean, projected onto themselves.
 Eigen::VectorXd Bundle::ScaleDirection() const {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const FrameState& state : states_) mean += state.position() / states_.size();

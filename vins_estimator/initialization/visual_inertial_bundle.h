@@ -16,22 +16,22 @@ namespace plm_vins {
 struct VisualInertialBundleOptions {
   Rigid3d T_B_C;
   double gravity_norm;            // [m/s^2]
-  double noise;                   // standard deviation of a normalised coordinate
+  double noise;                   // standard deviation of a normalized coordinate
   double accel_bias_prior = 0.1;  // standard deviation of the accelerometer bias about 0 [m/s^2]
-  double gyro_bias_prior = 0.05;  // of the gyro bias about its initial value [rad/s]
+  double gyro_bias_prior = 0.05;  // of the gyroscope bias about its initial value [rad/s]
 };
 
-// How well the adjusted states explain the measurements, in standard deviations (1 is ideal).
+// Residuals of the adjusted states, in standard deviations (1 is ideal), and the scale uncertainty.
 struct VisualInertialBundle {
   double reprojection_rms = 0;
   double imu_rms = 0;
-  double relative_scale_deviation = 0;  // of the trajectory's size, from the covariance
+  double relative_scale_deviation = 0;  // standard deviation of the trajectory's size
 };
 
-// Refines poses, velocities and biases of a few frames together with their points, over IMU and
-// reprojection errors. Position and heading of the first frame stay. `p_W` has one entry per track;
-// tracks without are left out. `preintegrations[i]` leads from state i to state i + 1.
-// Nothing, and the reason in words, where the measurements do not determine the states.
+// Refines poses, velocities and biases of a few frames together with their points by the IMU and
+// reprojection residuals. Position and heading of the first frame are fixed. `p_W` has one entry
+// per track; tracks with nullopt are ignored. `preintegrations[i]` is from state i to state i + 1.
+// Returns nullopt, with the reason, if the states are unobservable.
 std::optional<VisualInertialBundle> AdjustVisualInertialBundle(
     const std::vector<Track>& tracks, const std::vector<std::optional<Eigen::Vector3d>>& p_W,
     const std::vector<Preintegration>& preintegrations, const VisualInertialBundleOptions& options,

@@ -8,14 +8,14 @@
 
 namespace plm_vins {
 
-// The samples of the last second as they came, to tell those that are sent twice, which say nothing
-// of the clock. They may have been used long since, and not as they came.
+// Stores the raw samples of the last second, to detect samples that are sent twice and are no
+// evidence of a clock change. The samples in the stream may have been used or modified since.
 class ImuMemory {
  public:
-  // In order of time.
+  // Adds a sample; samples must be in order of time.
   void Add(const ImuSample& sample);
 
-  // One of the same stamp and values.
+  // Returns whether a sample with the same timestamp and values is stored.
   bool Contains(const ImuSample& sample) const;
 
   void Clear() { samples_.clear(); }

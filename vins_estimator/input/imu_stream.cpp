@@ -10,11 +10,11 @@
 namespace plm_vins {
 namespace {
 
-// Stamps in a row that go back until a new recording begins. Trackers check stamps, too, and should
-// be the first to decide.
+// Consecutive samples with timestamps back in time after which a new sequence starts. Larger than
+// the trackers' own limit, so that these decide first.
 constexpr int kJumpPatience = 1000;
 
-// A longer gap means that the clock was set on: the IMU bridges no pause of that length.
+// Longer gaps mean that the clock was set ahead, as no propagation bridges them.
 constexpr int64_t kLeap_ns = 60'000'000'000;
 
 }  // namespace
@@ -27,7 +27,8 @@ ImuStream::Clock ImuStream::Add(const ImuSample& sample) {
   const bool follows = !last_ns_ || sample.t_ns > *last_ns_;
   if (!follows) {
     ++statistics_.imu_out_of_order;
-    // Where a recording is played again, what leads up to them was refused.
+    // A duplicate is no evidence of a clock change, unless samples before it were rejected: then a
+    // recording is played again.
     if (!jump_.Refuses() && memory_.Contains(sample)) return Clock::kRunsOn;
   }
   const bool set_back = follows ? jump_.EndsStepBack(sample.t_ns) : jump_.Refuse(sample.t_ns);
@@ -88,7 +89,7 @@ void ImuStream::Take(const ImuSample& sample) {
 void ImuStream::Queue(const ImuSample& sample) {
   samples_.push_back(sample);
   if (static_cast<int>(samples_.size()) > max_samples_) {
-    // The boundary of the last cut stays, so that the next interval keeps its length.
+    // Keeps the boundary of the last cut, so that the next interval keeps its length.
     samples_.erase(samples_.begin() + (last_cut_ns_ ? 1 : 0));
     ++statistics_.imu_dropped_full;
   }
@@ -101,7 +102,7 @@ void ImuStream::Clear() {
   memory_.Clear();
   last_ns_.reset();
   after_gap_.reset();
-  jump_.Accept();  // whatever comes next
+  jump_.Accept();  // accept any next sample
 }
 
 bool ImuStream::IsInGap(int64_t t_ns) const {
@@ -117,7 +118,7 @@ std::vector<ImuSample> ImuStream::Cut(int64_t t_ns) {
   std::vector<ImuSample> cut(samples_.begin(), end);
   cut.push_back(boundary);
 
-  // The boundary takes the place of all that was handed out: it opens the next interval.
+  // The boundary replaces the samples that were output: it starts the next interval.
   const bool on_sample = samples_[next].t_ns == t_ns;
   samples_.erase(samples_.begin(), on_sample ? std::next(end) : end);
   samples_.push_front(boundary);

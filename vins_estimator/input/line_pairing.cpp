@@ -10,7 +10,7 @@ void LinePairing::Add(LineFrame frame, bool image_waits) {
   if (newest_ns_ && frame.t_ns <= *newest_ns_) {
     ++statistics_.lines_out_of_order;
     if (frame.t_ns == *newest_ns_) return;
-    // The tracker started over: what it said of later times is not of this recording.
+    // The tracker was restarted: its later timestamps belong to the previous sequence.
     while (!frames_.empty() && frames_.back().t_ns >= frame.t_ns) frames_.pop_back();
   }
   newest_ns_ = frame.t_ns;

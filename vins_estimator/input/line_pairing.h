@@ -9,47 +9,47 @@
 
 namespace plm_vins {
 
-// What of the lines could not be used, by cause. All counts are since construction.
+// Counts of unusable line frames by cause, since construction.
 struct LinePairingStatistics {
-  int64_t frames_without_lines = 0;  // handed out without the line frame that was expected
-  int64_t lines_out_of_order = 0;    // stamp not after the one before
-  int64_t lines_late = 0;            // came after a frame of that time or later had been handed out
-  int64_t lines_without_points = 0;  // line frame whose point frame never came
+  int64_t frames_without_lines = 0;  // images output without the expected lines
+  int64_t lines_out_of_order = 0;    // timestamp not increasing
+  int64_t lines_late = 0;            // arrived after the image had been output
+  int64_t lines_without_points = 0;  // whose point frame never arrived
 };
 
-// Keeps line frames for the images that they are of, by equal stamp, and knows how long an image
-// should wait for its own: until it is there, a later one is there, or there is an image `max_lag`
-// images ahead. Where line frames fail to come at all, images no longer wait for them, until one of
-// an image that has points comes in time again.
+// Pairs line frames with images by equal timestamps and decides how long an image waits for its
+// lines: until they arrive, a later line frame arrives, or the image is `max_lag` images behind. If
+// line frames are missing permanently, images no longer wait, until the lines of an image with
+// points arrive in time again.
 class LinePairing {
  public:
   struct Options {
-    bool expected;   // images wait (a little) for their line frames
-    int max_lag;     // images to wait
-    int patience;    // images in a row without lines until the lines count as missing
-    int max_frames;  // queued line frames; beyond, the oldest is dropped
+    bool expected;   // images wait (up to max_lag) for their line frames
+    int max_lag;     // longest wait [images]
+    int patience;    // consecutive images without lines after which lines are missing
+    int max_frames;  // longest queue of line frames; beyond, the oldest is dropped
   };
 
   explicit LinePairing(const Options& options) : options_(options) {}
 
-  // `image_waits`: the points of that image are there and were not handed out yet.
+  // `image_waits`: the points of that image have arrived and were not output yet.
   void Add(LineFrame frame, bool image_waits);
 
-  // Whether the lines of this image need not be waited for, `newer_images` being there.
+  // Returns whether the image need not wait for its lines, given the number of newer images.
   bool AreDecided(int64_t image_ns, int newer_images) const;
 
-  // The lines of an image that is handed out, if they are there. In order of time.
+  // Returns the lines of an image that is output, if available. Images must be in order of time.
   std::optional<LineFrame> Take(int64_t image_ns);
 
-  // Forgets frames and stamps; not that lines are missing, nor the statistics.
+  // Drops frames and timestamps, keeps the statistics and whether lines are missing.
   void Clear();
 
-  // Lines are expected but fail to come.
+  // Returns whether expected lines are missing permanently.
   bool are_missing() const {
     return options_.expected && images_without_in_a_row_ >= options_.patience;
   }
 
-  // The lines that are missing do come, but of images of which no points come.
+  // Returns whether lines do arrive, but their timestamps match no image.
   bool are_of_other_images() const {
     return are_missing() && 2 * unpaired_in_a_row_ >= options_.patience;
   }
@@ -57,15 +57,15 @@ class LinePairing {
   const LinePairingStatistics& statistics() const { return statistics_; }
 
  private:
-  // The image was handed out so lately that it would still wait for its lines if images did.
+  // Returns whether the image was output recently enough that it would still wait for its lines.
   bool WasTakenLately(int64_t image_ns) const;
   void DropBefore(int64_t image_ns);
 
   const Options options_;
   LinePairingStatistics statistics_;
-  std::deque<LineFrame> frames_;      // in order of time
-  std::optional<int64_t> newest_ns_;  // stamp of the last frame that was not a repetition
-  std::deque<int64_t> taken_ns_;      // images handed out, as many as a line frame may lag behind
+  std::deque<LineFrame> frames_;      // ordered by time
+  std::optional<int64_t> newest_ns_;  // time of the newest frame, repeated frames excluded
+  std::deque<int64_t> taken_ns_;      // the last `max_lag` images that were output
   int images_without_in_a_row_ = 0;
   int unpaired_in_a_row_ = 0;
 };

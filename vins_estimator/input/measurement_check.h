@@ -8,7 +8,7 @@
 
 namespace plm_vins {
 
-// Where a measurement ends, for the next one to follow.
+// End of a measurement, which the next one must follow.
 struct MeasurementEnd {
   int64_t t_ns = 0;    // of the image
   int64_t imu_ns = 0;  // of the last IMU sample
@@ -18,10 +18,11 @@ inline MeasurementEnd EndOf(const FrameMeasurement& measurement) {
   return {measurement.t_ns, measurement.imu.back().t_ns};
 }
 
-// Throws std::invalid_argument, which says why, where the estimator must not take a measurement:
-// its stamp is not after that of the one before, its points or lines are of another image, an id is
-// there twice, a feature is impossible (common/features/feature_checks.h), or its IMU samples are
-// not what FrameMeasurement says: in order of time, finite, and from those before to this image.
+// Throws std::invalid_argument with the reason if a measurement is invalid: its timestamp is not
+// after the previous one, its points or lines have another timestamp, an id occurs twice, a feature
+// is impossible (common/features/feature_checks.h), or its IMU samples violate the contract of
+// FrameMeasurement: ordered by time, finite, and contiguous from the previous measurement to this
+// image.
 void CheckMeasurement(const FrameMeasurement& measurement,
                       const std::optional<MeasurementEnd>& previous);
 

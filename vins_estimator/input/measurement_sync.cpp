@@ -7,17 +7,17 @@
 namespace plm_vins {
 namespace {
 
-// Between images whose IMU cuts are closer than this, motion is lost in the noise.
+// Between images that are closer than this, the motion is below the noise.
 constexpr int64_t kMinInterval_ns = 1'000'000;
 
-// Stamps in a row that go back until a new recording begins. Trackers check stamps, too, and should
-// be the first to decide.
+// Consecutive images with timestamps back in time after which a new sequence starts. Larger than
+// the trackers' own limit, so that these decide first.
 constexpr int kJumpPatience = 10;
 
-// Our trackers are stricter; this check is for those of others.
+// Larger than the limit of our trackers; this check is for third-party trackers.
 constexpr int64_t kLeap_ns = 10'000'000'000;
 
-constexpr size_t kFewPoints = 10;  // too few to estimate the motion of the camera
+constexpr size_t kFewPoints = 10;  // too few to estimate the camera's motion
 
 }  // namespace
 
@@ -126,7 +126,7 @@ void MeasurementSync::Count(FrameDefect defect) {
 }
 
 bool MeasurementSync::IsTooLate() const {
-  if (points_.size() < 2 || !LinesAreDecided(1)) return false;  // nothing newer could be used
+  if (points_.size() < 2 || !LinesAreDecided(1)) return false;  // no newer frame is usable
   return ToSeconds(imu_.newest_ns() - CutTime(0)) > options_.max_wait && imu_.Reaches(CutTime(1));
 }
 

@@ -7,16 +7,16 @@
 
 namespace plm_vins {
 
-// Recognises images that a camera, its driver or the network sends again under a new stamp: all
-// corners are where they were, to the last bit, and yet the body moves, by the IMU or by what is
-// known of its velocity. Noise moves the corners of every real image; those of a simulated camera
-// without noise rest for as long as it does.
+// Detects images that a camera, driver or network sends again under a new timestamp: all corners
+// are bitwise equal although the body moves, according to the IMU or to the estimated velocity. In
+// real images noise moves the corners; in noise-free simulated images they are equal only at
+// standstill.
 class RepeatedImageDetector {
  public:
   explicit RepeatedImageDetector(const ImuNoise& noise) : imu_(noise, ImuStillness::Options()) {}
 
-  // Takes the next image with the IMU samples that lead to it, and how fast the body is at least
-  // [m/s]. Whether it repeats the one before.
+  // Adds the next image with the IMU samples since the previous one, and a lower bound on the
+  // body's speed [m/s]. Returns whether the image repeats the previous one.
   bool Add(const FrameMeasurement& measurement, double least_speed);
 
   void Reset();

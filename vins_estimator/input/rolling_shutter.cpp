@@ -10,7 +10,8 @@
 namespace plm_vins {
 namespace {
 
-// Mean angular rate in B from `from_ns`, or earlier where no sample is later, to the last sample.
+// Returns the mean angular rate in B from the last sample at or before `from_ns`, to the last
+// sample.
 Eigen::Vector3d MeanRate(const std::vector<ImuSample>& imu, int64_t from_ns) {
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   size_t first = imu.size() - 1;
@@ -23,21 +24,22 @@ Eigen::Vector3d MeanRate(const std::vector<ImuSample>& imu, int64_t from_ns) {
   return duration > 0 ? Eigen::Vector3d(turn / duration) : imu.back().gyro;
 }
 
-// How much faster the body turns at the image than on average since the image before. Now is the
-// half of the read-out that the samples reach; a single one would take a vibration for a turn.
+// Returns the angular rate at the image minus its mean since the previous image. The rate at the
+// image is averaged over the half of the readout that the samples cover, because a single sample is
+// dominated by vibration.
 Eigen::Vector3d RateChange(const std::vector<ImuSample>& imu, double readout) {
   if (imu.size() < 2) return Eigen::Vector3d::Zero();
   return MeanRate(imu, imu.back().t_ns - ToNanoseconds(readout / 2)) -
          MeanRate(imu, imu.front().t_ns);
 }
 
-// Velocity in the image of what stands still, while the camera turns.
+// Returns the image velocity of a static point due to rotation of the camera.
 Eigen::Vector2d RotationalFlow(const Eigen::Vector2d& xy, const Eigen::Vector3d& rate_C) {
   const Eigen::Vector3d change = xy.homogeneous().cross(rate_C);
   return change.head<2>() - xy * change.z();
 }
 
-// The point nearest to `xy` of the line through both ends.
+// Returns the point of the line nearest to `xy`.
 Eigen::Vector2d FootOnLine(const LineObservation& line, const Eigen::Vector2d& xy) {
   const Eigen::Vector2d along = (line.end - line.start).normalized();
   return line.start + along.dot(xy - line.start) * along;

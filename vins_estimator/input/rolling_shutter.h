@@ -14,49 +14,50 @@
 
 namespace plm_vins {
 
-// Moves what a rolling shutter has seen row by row to the time of the image's stamp, that of the
-// middle row: x(stamp) = x(row) - share * readout * v, with the row's share (ReadoutShare()) and
-// the velocity v in the image. v is what the track has moved by since the image before, and the
-// turn of the camera now where the gyro says that it has changed since. Of a line's end only the
-// velocity across the line is known, and only that counts: it comes from the end's distance from
-// the line in the image before.
+// Corrects the features of a rolling-shutter camera, row by row, to the time of the image's
+// timestamp, which is that of the middle row: x(stamp) = x(row) - share * readout * v, with the
+// row's share of the readout (ReadoutShare()) and the velocity v in the image. v is the motion of
+// the track since the previous image, corrected by the gyroscope for the change of angular rate
+// since then. For a line's end only the velocity across the line is observable and relevant; it is
+// computed from the end's distance to the line in the previous image.
 //
-// What is new in an image has no velocity and is left out: it would be off by pixels.
+// Features that are new in an image have no velocity and are dropped: they would be off by pixels.
 class RollingShutter {
  public:
   explicit RollingShutter(const CameraParameters& camera) : camera_(CameraModel::Create(camera)) {}
 
-  // The measurement as a global shutter at its stamp would have given it, with the velocities of
-  // its points. `R_B_C` as known so far; `readout`: time from the first row to the last [s].
+  // Returns the measurement that a global shutter would have given at the timestamp, with the
+  // velocities of its points. `R_B_C` is the current estimate, `readout` the time from the first
+  // row to the last [s].
   FrameMeasurement ToStamp(FrameMeasurement measurement, const Eigen::Quaterniond& R_B_C,
                            double readout);
 
  private:
-  // A place in an image, normalised and undistorted, and when in the read-out it was seen.
+  // Position in an image, normalized and undistorted, and its time as a share of the readout.
   struct Sight {
     Eigen::Vector2d xy;
     double share;
   };
-  // What an image has in common.
+  // Quantities common to all features of an image.
   struct Motion {
-    double interval;                // since the image before, from stamp to stamp [s]
+    double interval;                // between the timestamps of the previous image and this one [s]
     double readout;                 // [s]
-    Eigen::Vector3d rate_change_C;  // angular rate now less its mean over the interval [rad/s]
+    Eigen::Vector3d rate_change_C;  // angular rate now minus its mean over the interval [rad/s]
   };
 
   void MovePoints(const Motion& motion, std::vector<PointObservation>* points);
   void MoveLines(const Motion& motion, std::vector<LineObservation>* lines);
   Sight SightOf(const PointObservation& point) const;
-  // Nothing where the camera has no pixel for it.
+  // Returns nullopt outside the camera model's range.
   std::optional<Sight> SightOf(const Eigen::Vector2d& xy) const;
-  // An end of a line, moved to the stamp; `before` is the line in the image before.
+  // Moves an end of a line to the timestamp; `before` is the line in the previous image.
   std::optional<Eigen::Vector2d> MoveEnd(const Motion& motion, const LineObservation& before,
                                          const Eigen::Vector2d& end) const;
   static std::optional<Eigen::Vector2d> Velocity(const Motion& motion, const Sight& before,
                                                  const Sight& now);
 
   std::shared_ptr<const CameraModel> camera_;
-  // Of the image before, as it was seen.
+  // Previous image, as observed.
   int64_t t_ns_ = 0;
   std::unordered_map<int64_t, Sight> points_;
   std::unordered_map<int64_t, LineObservation> lines_;

@@ -8,7 +8,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMaxInterval = 1.0;  // [s] between images: more says little about now
+constexpr double kMaxInterval = 1.0;  // [s] between images; longer intervals say little about the
+                                      // current velocity
 
 }  // namespace
 

@@ -9,18 +9,18 @@
 
 namespace plm_vins {
 
-// [s]: less between two sights of a track is no interval to divide by.
+// [s]: shorter intervals are not used to compute velocities.
 constexpr double kMinTrackInterval = 0.005;
 
-// Velocities of points for a tracker that sends none (PL-VINS): as the others do, from the places
-// in this image and the one before.
+// Computes point velocities for trackers that send none (PL-VINS), as other trackers do: from the
+// positions in this image and the previous one.
 class TrackVelocities {
  public:
-  // Zero where the point is not in the image before, or that was long ago.
+  // Sets the velocities; zero if the point is not in the previous image, or that image is too old.
   void Fill(PointFrame* frame);
 
  private:
-  int64_t t_ns_ = 0;  // of the image before
+  int64_t t_ns_ = 0;  // time of the previous image
   std::unordered_map<int64_t, Eigen::Vector2d> places_;
 };
 

@@ -4,13 +4,14 @@
 
 import argparse
 import contextlib
+import dataclasses
 import json
 import math
 import sys
 
 import numpy as np
 
-from evaluation import consistency, evo_backend, metrics
+from evaluation import consistency, evo_backend, metrics, steps
 from evaluation.evo_zip import write_evo_zip
 from evaluation.run_results import read_estimate
 from evaluation.trajectory import TrajectoryError, read_truth
@@ -29,7 +30,11 @@ LABELS = {
 
 def evaluate(estimate, truth, align="se3", max_diff=metrics.MAX_DIFFERENCE,
              max_gap=metrics.MAX_GAP):
-    """Returns the paired trajectories (the estimate aligned) and a dictionary of all figures."""
+    """Returns the paired trajectories (the estimate aligned) and a dictionary of all figures.
+
+    Steps that were left out of the ground truth (steps.without_steps()) divide it into pieces: one
+    transform aligns them all, and no relative error spans two of them.
+    """
     paired_estimate, paired_truth = metrics.associate(estimate, truth, max_diff)
     yaw_drift = metrics.yaw_drift(paired_estimate, paired_truth)
     rotation, translation = metrics.alignment(paired_estimate, paired_truth, align)
@@ -48,11 +53,18 @@ def evaluate(estimate, truth, align="se3", max_diff=metrics.MAX_DIFFERENCE,
         "worlds": estimate.worlds,
         "yaw_drift_deg": yaw_drift,
         "local_scale": local_scale(paired_estimate, paired_truth),
+        "without_steps": bool(truth.steps_left_out),
+        "ground_truth_steps": [dataclasses.asdict(step) for step in _steps(truth, paired_truth)],
         "computed_by": "numpy",
     }
     result.update(error_statistics(paired_estimate, paired_truth))
     _replace_by_evo(result, paired_estimate, paired_truth)
     return paired_estimate, paired_truth, result
+
+
+def _steps(truth, paired_truth):
+    """The steps of the ground truth that disturb the pairs, or that would if not left out."""
+    return steps.affecting(truth.steps_left_out or steps.find_steps(truth), paired_truth.stamps)
 
 
 def local_scale(estimate, truth):
@@ -66,8 +78,9 @@ def local_scale(estimate, truth):
 
 def error_statistics(estimate, truth):
     """Statistics of all errors in LABELS, of paired and aligned trajectories."""
-    path_errors = metrics.relative_errors(estimate, truth, metrics.pairs_by_path(estimate, 1.0))
-    time_errors = metrics.relative_errors(estimate, truth, metrics.pairs_by_time(estimate, 1.0))
+    path_errors, time_errors = (
+        metrics.relative_errors(estimate, truth, metrics.within_pieces(pairs, estimate, truth))
+        for pairs in (metrics.pairs_by_path(estimate, 1.0), metrics.pairs_by_time(estimate, 1.0)))
     errors = (metrics.position_errors(estimate, truth), metrics.rotation_errors(estimate, truth),
               metrics.yaw_errors(estimate, truth), *path_errors, *time_errors)
     return {name: metrics.statistics(values) for name, values in zip(LABELS, errors)}
@@ -87,7 +100,7 @@ def add_consistency(result, estimate, truth, options):
 
 
 def _replace_by_evo(result, estimate, truth):
-    if not evo_backend.is_available():
+    if truth.steps_left_out or not evo_backend.is_available():  # evo knows no pieces
         return
     try:
         result.update(evo_backend.evo_statistics(estimate, truth))
@@ -124,10 +137,21 @@ def format_report(result):
     if "position_nees" in result:
         lines.append(f"squared error of the first {result['position_nees_s']:g} s' way, in units"
                      f" of its covariance: {result['position_nees']:.2f}; exact: 3 on average")
+    if result["ground_truth_steps"]:
+        lines.append(_step_note(result))
     if result["worlds"] > 1:
         lines.append(f"the world frame starts anew {result['worlds'] - 1} times: APE and yaw over"
                      " all of them mean little, look at the RPE")
     return "\n".join(lines)
+
+
+def _step_note(result):
+    found = steps.describe([steps.Step(**step) for step in result["ground_truth_steps"]])
+    around = f"{steps.BEFORE:g} s before and {steps.AFTER:g} s after each"
+    if result["without_steps"]:
+        return f"left out of the ground truth: steps of {found}, with {around}"
+    return (f"warning: the ground truth has steps of {found}, and drifts before them;"
+            f" --without-steps leaves out {around}")
 
 
 def _format_row(figures):
@@ -154,6 +178,9 @@ def parse_arguments(arguments):
     parser.add_argument("--max-gap", type=_seconds, default=metrics.MAX_GAP, metavar="S",
                         help="longer gaps between poses count as not covered [s] (default:"
                         " %(default)s)")
+    parser.add_argument("--without-steps", action="store_true",
+                        help=f"leave out {steps.BEFORE:g} s before and {steps.AFTER:g} s after each"
+                        " step of the ground truth, where a tracker lost its target")
     parser.add_argument("--covariance", metavar="FILE",
                         help="covariance.csv of the run: compares errors with it")
     parser.add_argument("--nees-after", type=_seconds, default=10.0, metavar="S",
@@ -179,6 +206,8 @@ def main(arguments=None):
     try:
         estimate = read_estimate(options.estimate, options.t_offset)
         truth = read_truth(options.ground_truth)
+        if options.without_steps:
+            truth = steps.without_steps(truth)
         paired_estimate, paired_truth, result = evaluate(estimate, truth, options.align,
                                                          options.max_diff, options.max_gap)
         if options.covariance:

@@ -24,6 +24,7 @@ from dataset.run import Run, Settings
 from dataset.run_queue import carry_out
 from dataset.sequences import find_sequences, select_sequences
 from dataset.variants import VARIANTS, describe_variants, select_variants
+from evaluation.steps import describe as describe_steps
 from evaluation.trajectory import TrajectoryError
 
 INTERRUPTED = 130  # exit code, as shells have it
@@ -51,6 +52,9 @@ def parse_arguments(arguments):
                        help="run each sequence and variant from each of these [s after the first"
                        " image]: the tables have means and spreads over them")
     parser.add_argument("--duration", type=_seconds, metavar="S", help="process this much [s]")
+    parser.add_argument("--without-steps", action="store_true",
+                        help="leave out the times around steps of the ground truth, as evaluate.py"
+                        " does")
     parser.add_argument("--config", metavar="FILE", help="configuration (default: euroc.yaml)")
     parser.add_argument("--set", action="append", default=[], type=_override, metavar="KEY=VALUE",
                         help="a change to the configuration of all variants; keys that a variant"
@@ -126,6 +130,9 @@ def announce(sequences, evaluator, runs, unfinished, where):
         if sequence.name in evaluator.unreadable:
             print(f"run_dataset.py: {sequence.name}: {evaluator.unreadable[sequence.name]}; it runs"
                   " without", file=sys.stderr)
+        if evaluator.steps.get(sequence.name):
+            print(f"run_dataset.py: {sequence.name}: the ground truth has steps of"
+                  f" {describe_steps(evaluator.steps[sequence.name])}", file=sys.stderr)
         truth = sequence.truth or "none, so no APE (put it beside the recording as"\
             f" {sequence.name}.tum or .csv)"
         print(f"{sequence.name}: {sequence.path}; ground truth: {truth}")
@@ -162,7 +169,7 @@ def facts(options, settings, fingerprint, where):
 
 def run_dataset(options):
     settings, fingerprint, sequences, runs = plan(options)
-    evaluator = Evaluator(sequences, options.duration)
+    evaluator = Evaluator(sequences, options.duration, options.without_steps)
     with locked(settings.output), open_executor(
             options.scheduler, options.jobs) as (executor, where):
         unfinished = [run for run in runs if not run.is_finished()]

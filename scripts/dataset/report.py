@@ -3,6 +3,8 @@
 
 import os
 
+from evaluation.steps import AFTER, BEFORE
+
 from . import cells
 from .markdown import Table
 from .paper import TABLES, paper_sequence
@@ -88,6 +90,7 @@ def _ape_notes(results):
     if len(results.starts) > 1:
         note += (" Figures are mean ± standard deviation [minimum, maximum] over those of"
                  f" {len(results.starts)} starts that have them.")
+    note += _step_notes(results)
     shifts = [abs(r.evaluation.get("t_offset_s", 0.0)) for r in results.all() if r.evaluation]
     if any(shifts):
         note += (" Stamps are shifted by the `td` that each run ended with, by up to"
@@ -96,6 +99,24 @@ def _ape_notes(results):
         note += (" Repetitions count with their median, and in brackets with their minimum and"
                  " maximum.")
     return note
+
+
+def _step_notes(results):
+    """Which ground truths have steps, and whether they count."""
+    sizes = {}  # by sequence and stamp
+    compared = [r for r in results.all() if r.evaluation and r.evaluation["ground_truth_steps"]]
+    for r in compared:
+        sizes.setdefault(r.run.sequence.name, {}).update(
+            (step["stamp"], step["size"]) for step in r.evaluation["ground_truth_steps"])
+    if not sizes:
+        return ""
+    named = "; ".join(f"{name}: {len(by_stamp)}, of up to {1000 * max(by_stamp.values()):.0f} mm"
+                      for name, by_stamp in sizes.items())
+    if compared[0].evaluation["without_steps"]:
+        return (f" Ground truth without {BEFORE:g} s before and {AFTER:g} s after each of its steps"
+                f" ({named}); one transform aligns what is between.")
+    return (f" **The ground truth has steps** ({named}), and drifts before them; `--without-steps`"
+            " leaves them out.")
 
 
 def _time_notes(results):

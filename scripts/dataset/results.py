@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Callable, Optional
 
 from evaluate import evaluate
+from evaluation import steps
 from evaluation.csv_columns import read_columns
 from evaluation.run_results import check_whole, read_estimate
 from evaluation.trajectory import TrajectoryError, read_trajectory
@@ -186,14 +187,17 @@ class Results:
 class Evaluator:
     """Reads the results of runs and compares them with the ground truth of their sequences.
 
-    A ground truth that cannot be read counts as none; `unreadable` has the reasons by sequence.
+    A ground truth that cannot be read counts as none; `unreadable` has the reasons by sequence,
+    `steps` the steps of the others. `without_steps` leaves out the times around these.
     """
 
-    def __init__(self, sequences, duration=None):
-        self._truths, self.unreadable = {}, {}
+    def __init__(self, sequences, duration=None, without_steps=False):
+        self._truths, self.steps, self.unreadable = {}, {}, {}
         for sequence in (s for s in sequences if s.truth):
             try:
-                self._truths[sequence.name] = read_trajectory(sequence.truth)
+                truth = read_trajectory(sequence.truth)
+                self.steps[sequence.name] = steps.find_steps(truth)
+                self._truths[sequence.name] = steps.without_steps(truth) if without_steps else truth
             except (TrajectoryError, OSError) as error:
                 self.unreadable[sequence.name] = f"no readable ground truth: {error}"
         self._duration = float("inf") if duration is None else duration

@@ -3,7 +3,8 @@
 
 import numpy as np
 
-from .trajectory import TrajectoryError
+from .steps import describe, trusted
+from .trajectory import LEAST_POSES, TrajectoryError
 
 ALIGNMENTS = ("se3", "yaw", "none")
 MAX_DIFFERENCE = 0.01  # between the stamps of paired poses [s]
@@ -15,18 +16,29 @@ def associate(estimate, truth, max_difference=MAX_DIFFERENCE):
     """Pairs of poses with the nearest stamps, as evo does: each pose of the shorter trajectory
     takes the nearest one of the longer, if that is at most `max_difference` [s] away.
 
-    Returns the two trajectories reduced to the pairs.
+    Returns the two trajectories reduced to the pairs, without those around steps of the ground
+    truth that are to be left out.
     """
-    swapped = len(estimate) <= len(truth)
-    shorter, longer = (estimate, truth) if swapped else (truth, estimate)
+    swapped = len(truth) < len(estimate)
+    shorter, longer = (truth, estimate) if swapped else (estimate, truth)
     nearest = nearest_indices(longer.stamps, shorter.stamps)
     near = np.abs(longer.stamps[nearest] - shorter.stamps) <= max_difference
     shorter, longer = shorter.select(near), longer.select(nearest[near])
-    if len(shorter) < 3:
+    if len(shorter) < LEAST_POSES:
         raise TrajectoryError(
             f"{len(shorter)} poses have a partner within {max_difference} s, no overlap in time"
             f" (estimate {_span(estimate)}, ground truth {_span(truth)})")
-    return (shorter, longer) if swapped else (longer, shorter)
+    pair = (longer, shorter) if swapped else (shorter, longer)
+    return _without_steps(*pair) if truth.steps_left_out else pair
+
+
+def _without_steps(estimate, truth):
+    kept = trusted(truth.stamps, truth.steps_left_out)
+    if kept.sum() < LEAST_POSES:
+        raise TrajectoryError(f"{kept.sum()} poses are left without the time around steps of the"
+                              f" ground truth, {LEAST_POSES} are needed; it has steps of"
+                              f" {describe(truth.steps_left_out)}")
+    return estimate.select(kept), truth.select(kept)
 
 
 def nearest_indices(sorted_stamps, queries):
@@ -100,19 +112,30 @@ def yaw_drift(estimate, truth, seconds=1.0):
     return float(np.abs(np.degrees(np.angle(last * np.conj(first)))))
 
 
+def within_pieces(pairs, estimate, truth):
+    """Those of the index pairs of `estimate` between which no step of the ground truth was left
+    out."""
+    piece = np.searchsorted([step.stamp for step in truth.steps_left_out], estimate.stamps)
+    first, second = pairs
+    together = piece[first] == piece[second]
+    return first[together], second[together]
+
+
 def local_scale_errors(estimate, truth, seconds=5.0, every=0.5, after=10.0, least_extent=0.15):
     """By how much [%] pieces of a trajectory are too large: the inverse of the scale of
     [Umeyama1991] that fits each to its ground truth best.
 
     Pieces last `seconds`, begin `every` so often from `after` the first pose on [s], and extend
-    over `least_extent` [m] at least, the root mean square from their middle. Of paired
-    trajectories, whatever their alignment.
+    over `least_extent` [m] at least, the root mean square from their middle. Those with a step of
+    the ground truth that was left out do not count. Of paired trajectories, whatever their
+    alignment.
     """
     errors = []
     first, last = estimate.stamps[0] + after, estimate.stamps[-1] - seconds
     for begin in np.arange(first, last + SAME_STAMP, every):
         piece = (begin <= estimate.stamps) & (estimate.stamps <= begin + seconds)
-        if piece.sum() < 3:
+        if piece.sum() < 3 or any(begin <= step.stamp <= begin + seconds
+                                  for step in truth.steps_left_out):
             continue
         from_middle = [trajectory.positions[piece] - trajectory.positions[piece].mean(axis=0)
                        for trajectory in (estimate, truth)]

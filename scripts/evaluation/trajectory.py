@@ -24,6 +24,7 @@ class Trajectory:
     rotations: np.ndarray  # (n, 3, 3) body to world
     worlds: int = 1
     shift: float = 0.0  # what was added to the stamps of the file [s]
+    steps_left_out: tuple = ()  # of a ground truth: around these it does not count
 
     def __len__(self):
         return len(self.stamps)

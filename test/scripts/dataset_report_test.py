@@ -24,7 +24,8 @@ def result(sequence, variant, ape=None, repetition=1, failure=None, extraction=N
                           repetition=repetition)
     if failure:
         return RunResult(run, failure=failure)
-    evaluation = None if ape is None else {"ape_m": {"rmse": ape}, "coverage": 0.975}
+    evaluation = None if ape is None else {"ape_m": {"rmse": ape}, "coverage": 0.975,
+                                           "ground_truth_steps": [], "without_steps": False}
     return RunResult(run, summary={}, evaluation=evaluation, line_extraction_ms=extraction,
                      not_compared=None if evaluation else "no ground truth")
 
@@ -203,6 +204,24 @@ class Report(unittest.TestCase):
         text = markdown_report(Results([result("hall", "lines", 0.1), shifted]), [], {})
         self.assertIn("Stamps are shifted by the `td` that each run ended with, by up to 12.30 ms",
                       text)
+
+    def test_steps_of_the_ground_truth_are_told(self):
+        def with_steps(start, *steps):
+            cell = result("hall", "points", 0.1, start=start)
+            cell.evaluation["ground_truth_steps"] = [
+                {"stamp": 5.0 + time, "time": time, "size": size} for time, size in steps]
+            return cell
+
+        runs = [with_steps(0.0, (3.0, 0.02), (9.0, 0.03)), with_steps(5.0, (9.0, 0.03)),
+                result("room", "points", 0.1)]
+        text = markdown_report(Results(runs), [], {})
+        self.assertIn("**The ground truth has steps** (hall: 2, of up to 30 mm)", text)
+        for cell in runs:
+            cell.evaluation["without_steps"] = True
+        text = markdown_report(Results(runs), [], {})
+        self.assertIn("Ground truth without 1.5 s before and 0.3 s after each of its steps (hall:"
+                      " 2, of up to 30 mm)", text)
+        self.assertNotIn("steps", markdown_report(Results(runs[2:]), [], {}))
 
     def test_times_beside_other_work_are_not_passed_over(self):
         quiet, busy = result("MH_01_easy", "points", 0.1), result("MH_02_easy", "points", 0.1)

@@ -71,6 +71,22 @@ class Results(DatasetTest):
         self.assertIn("--start 5.0 --duration 10.0", self.calls()[0])
         self.assertAlmostEqual(float(self.rows()[0]["coverage_percent"]), 90.0, 0)
 
+    def test_steps_of_the_ground_truth(self):
+        self.add("hall")
+        stamps, positions = flight(rate=100.0)
+        positions[abs(stamps - stamps[0] - 11.505) < 0.5, 0] += 0.5
+        write_tum(self.path("bags", "hall.tum"), stamps, positions)
+        arguments = ("--no-plots", "--variants", "improved", "--duration", "13.5")
+        result = self.call(*arguments)
+        self.assertIn("hall: the ground truth has steps of 500 mm at 11.0 s, 500 mm at"
+                      " 12.0 s after its first pose", result.stderr)
+        self.assertIn("**The ground truth has steps** (hall: 2, of up to 500 mm)", self.report())
+        disturbed = float(self.rows()[0]["ape_m"])
+        self.call(*arguments, "--without-steps")
+        self.assertEqual(len(self.calls()), 1)  # the run itself is not repeated
+        self.assertGreater(disturbed, float(self.rows()[0]["ape_m"]) + 0.02)
+        self.assertIn("Ground truth without 1.5 s before", self.report())
+
     def test_starts(self):
         self.add("hall", "fly drift stumble")
         result = self.call("--variants", "baseline", "improved", "--starts", "5", "0", "10",

@@ -13,17 +13,17 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kRateTolerance = 0.2;  // share of the configured rate
-constexpr double kMaxJitter_ms = 1.0;  // a turn of 1 rad/s moves a corner by half a pixel meanwhile
+constexpr double kRateTolerance = 0.2;  // relative to the configured rate
+constexpr double kMaxJitter_ms = 1.0;   // at 1 rad/s this moves a corner by half a pixel
 
-// By three standard deviations, as far as it is known [m/s].
+// Returns a lower bound on the speed, three standard deviations below the estimate [m/s].
 double LeastSpeed(const EstimatorOutput& output) {
   if (!output.has_pose) return 0;
   const double deviation = std::sqrt(output.velocity_covariance.diagonal().maxCoeff());
   return std::max(0.0, output.state.velocity().norm() - 3 * deviation);
 }
 
-// All of the noise that is believed.
+// Returns whether the estimated noise is at its upper limit.
 bool IsAtLimit(double density, double configured_density) {
   return density > 0.999 * kMostNoise * configured_density;
 }
@@ -119,7 +119,7 @@ void EstimationStage::Reset(const std::string& reason) {
   StartOver(reason);
 }
 
-// Without an output since the last start no world frame is given up, so none is announced.
+// If there was no output since the last start, there is no world frame to end and to announce.
 void EstimationStage::StartOver(const std::string& reason) {
   estimator_->Reset();
   repeated_images_.Reset();

@@ -22,23 +22,24 @@ namespace plm_vins {
 
 class Estimator;
 
-// What the estimator says about an image, and what else there is to publish.
+// The estimate of an image, with the other data to publish.
 struct EstimatedFrame {
   EstimatorOutput output;
-  PointFrame points;           // that were estimated from
-  LineFrame lines;             // the same; empty where there were none
-  std::vector<ImuSample> imu;  // the same; to begin with, the last one of the frame before
-  int64_t imu_ns = 0;          // on the IMU's clock, what the state stands for
-  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // of B, bias removed [rad/s]
-  // Of each of its components, by the noise of one gyro sample [rad^2/s^2].
+  PointFrame points;           // from which it was estimated
+  LineFrame lines;             // from which it was estimated; empty if there were none
+  std::vector<ImuSample> imu;  // since the previous frame, starting with its last sample
+  int64_t imu_ns = 0;          // time of the state on the IMU's clock
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // of B, without bias [rad/s]
+  // Variance of each component due to the noise of one gyroscope sample [rad^2/s^2].
   double angular_velocity_variance = 0;
 };
 
-// The back end as the node and the offline runner use it: pairs features with IMU samples and hands
-// them to the estimator. Synchronous; feed in order of arrival and pop until nothing is ready.
+// The back end as used by the node and the offline runner: synchronizes features with IMU samples
+// and passes them to the estimator. Synchronous; add input in order of arrival, then call Pop()
+// until it returns nullopt.
 class EstimationStage {
  public:
-  // `max_wait` [s]: images that wait for longer are left out (MeasurementSync::Options).
+  // Images that wait longer than `max_wait` [s] are dropped (MeasurementSync::Options).
   explicit EstimationStage(const Config& config,
                            double max_wait = std::numeric_limits<double>::infinity());
   ~EstimationStage();
@@ -47,50 +48,50 @@ class EstimationStage {
   void AddPoints(PointFrame frame);
   void AddLines(LineFrame frame) { sync_.AddLines(std::move(frame)); }
 
-  // The estimate for the next image, or nothing yet.
+  // Returns the estimate of the next image; nullopt if none is ready.
   std::optional<EstimatedFrame> Pop() { return Process(sync_.Pop()); }
 
-  // The same when no more input comes.
+  // To be called instead of Pop() after the end of the input.
   std::optional<EstimatedFrame> Flush() { return Process(sync_.Flush()); }
 
-  // Starts over: queued data and the state are forgotten, statistics go on. `reason` is that of the
-  // next output, which announces the new world frame.
+  // Reinitializes: drops queued data and the state, keeps the statistics. `reason` is reported with
+  // the next output, which announces the new world frame.
   void Reset(const std::string& reason);
 
-  // Where the IMU comes too seldom to be integrated: that. Where the camera contradicts it
-  // lastingly, or shows as much noise as is believed: by how much, and what in the stamps may be
-  // the cause. Empty where they fit.
+  // Describes the problem if the IMU rate is too low to be integrated, or if the camera
+  // persistently contradicts the IMU or its estimated noise is at the limit, with possible causes
+  // in the timestamps. Empty if IMU and camera agree.
   std::string ImuContradiction() const;
 
   int64_t frames() const { return frames_; }  // estimated so far
-  int64_t resets() const { return resets_; }  // times that a world frame was given up
+  int64_t resets() const { return resets_; }  // number of world frames that were given up
   size_t queued_frames() const { return sync_.queued_frames(); }
   bool lines_are_missing() const { return sync_.lines_are_missing(); }
   bool lines_are_of_other_images() const { return sync_.lines_are_of_other_images(); }
   SyncStatistics statistics() const { return sync_.statistics(); }
-  DropCounts Drops() const;  // what could not be used, by cause
+  DropCounts Drops() const;  // unusable inputs by cause
 
  private:
   std::optional<EstimatedFrame> Process(std::optional<FrameMeasurement> measurement);
   void StartOver(const std::string& reason);
-  // Starts over where a clock was set: what was estimated has nothing to do with what comes.
+  // Reinitializes after a clock change: the estimate is unrelated to the new timestamps.
   void FollowClock();
 
   const double imu_rate_;  // as configured [Hz]
   const ImuNoise configured_noise_;
-  const std::unique_ptr<Estimator> estimator_;  // so that users do not see the solver
+  const std::unique_ptr<Estimator> estimator_;  // hides the solver from users of this header
   MeasurementSync sync_;
   RepeatedImageDetector repeated_images_;
-  double least_speed_ = 0;  // of the newest image [m/s]
+  double least_speed_ = 0;  // lower bound at the newest image [m/s]
   StreamRhythm imu_rhythm_, image_rhythm_;
   ImuNoise imu_noise_;
   double imu_noise_scale_ = 1;
   std::optional<double> delay_;  // [s]
   int64_t frames_ = 0;
-  int64_t frames_repeated_ = 0;  // what they show was not used
+  int64_t frames_repeated_ = 0;  // whose features were ignored
   int64_t resets_ = 0;
-  int64_t jumps_back_ = 0, leaps_ahead_ = 0;   // followed so far
-  bool anew_ = true;                           // no image since the start or since starting over
+  int64_t jumps_back_ = 0, leaps_ahead_ = 0;   // handled so far
+  bool anew_ = true;                           // no image since the start or the last reset
   std::optional<std::string> restart_reason_;  // for the next output
 };
 

@@ -108,7 +108,8 @@ void Estimator::Track(const FrameMeasurement& measurement,
   if (tracked.failure) GiveUp(*tracked.failure, output);
 }
 
-// All but the bridge and the camera's rotation starts over, with the measurement after this one.
+// Resets everything but the bridge and the camera's rotation; reinitializes with the next
+// measurement.
 void Estimator::GiveUp(const Failure& failure, EstimatorOutput* output) {
   State lost = std::exchange(state_, State(config_, options_));
   state_.newest = lost.newest;

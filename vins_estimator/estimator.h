@@ -16,45 +16,46 @@
 
 namespace plm_vins {
 
-// Visual-inertial odometry: starts, tracks in a sliding window, and starts again after a loss, in
-// the same world where the IMU leads back to it. One call per image. Synchronous and deterministic:
-// the same measurements give the same output, bit by bit.
+// Visual-inertial odometry: initializes, tracks in a sliding window, and reinitializes after a
+// loss, in the same world frame if the IMU bridges the loss. One call per image. Synchronous and
+// deterministic: the same measurements give the same output, bit by bit.
 class Estimator {
  public:
   explicit Estimator(const Config& config);
   Estimator(const Estimator&) = delete;
   Estimator& operator=(const Estimator&) = delete;
 
-  // Takes the next image's features and IMU samples. Throws std::invalid_argument, and is as
-  // before, where CheckMeasurement() refuses them.
+  // Processes the next image's features and IMU samples. Throws std::invalid_argument and does not
+  // change if CheckMeasurement() rejects them.
   EstimatorOutput Process(const FrameMeasurement& measurement);
 
-  // Forgets everything but the configuration and starts over with initialisation.
+  // Drops everything except the configuration and reinitializes.
   void Reset();
 
-  // Time offset td as estimated so far [s]: what MeasurementSync should cut the IMU with.
+  // Current estimate of the time offset td [s], with which MeasurementSync should cut the IMU
+  // samples.
   double time_offset() const { return state_.odometry.window().td; }
 
  private:
-  // All that an image leaves behind for the next.
+  // All state that is carried from image to image.
   struct State {
     State(const Config& config, const EstimatorOptions& options);
 
     std::optional<MeasurementEnd> newest;
     Initializer initializer;
     StandstillDetector standstill_detector;
-    std::optional<RollingShutter> rolling_shutter;  // where the camera has one
+    std::optional<RollingShutter> rolling_shutter;  // if the camera has one
     WindowOdometry odometry;
     FrameBridge bridge;
   };
 
-  // The image as a global shutter would have taken it, in rays of the camera as it is known so far.
+  // Returns the image as a global shutter would have taken it, with rays of the current intrinsics.
   FrameMeasurement Correct(FrameMeasurement measurement);
-  // Hands the image on to Initialize() or Track().
+  // Passes the image to Initialize() or Track().
   void Use(const FrameMeasurement& measurement, EstimatorOutput* output);
   void Initialize(const FrameMeasurement& measurement, EstimatorOutput* output);
-  // Puts a new window into the frame of the world before the loss, where there was one and the
-  // bridge leads from there to here. False where that world has to be given up.
+  // Transforms a new window to the world frame before the loss, if the bridge reaches it and both
+  // agree. Returns false if a new world frame must begin.
   bool KeepFrame(InitializationResult* result, InitialUncertainty* uncertainty) const;
   void BeginWorld(EstimatorOutput* output);
   void Track(const FrameMeasurement& measurement,

@@ -10,7 +10,7 @@ constexpr double kMinTriangulationAngle_px = 2.0;  // in pixels of motion: well 
 constexpr double kMaxReprojectionError_px = 3.0;
 constexpr double kMaxRayError_px = 0.02;  // a tenth of the noise of the best corners
 
-// Over half a second: eight times what noise does to the median of a hundred corners.
+// Over half a second: eight times the effect of noise on the median of a hundred corners.
 constexpr double kMaxMotionAtRest_px = 0.15;
 constexpr double kPassingFlow_px = kMaxMotionAtRest_px / 0.5;  // [px/s]
 
@@ -18,11 +18,11 @@ constexpr SolverOptions kFirstSolution = {20, 0.01};
 constexpr SolverOptions kNewestSolution = {5, 0.1};
 constexpr double kEarlyTolerance = 0.1;  // of a standard deviation
 
-// After a start from standstill, for which a hover may be taken.
+// After initialization from standstill, which may have been a hover.
 constexpr double kStandstillVelocity = 0.03;   // [m/s]
 constexpr double kStandstillGyroBias = 0.003;  // [rad/s]
 
-// Of a camera of whose pose nothing was known: the rotation has just been calibrated.
+// If the camera's rotation was just calibrated and its position is unknown.
 constexpr double kUnknownCameraRotation = 0.1;  // [rad]
 constexpr double kUnknownCameraPosition = 0.1;  // [m]
 

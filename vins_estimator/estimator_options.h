@@ -13,25 +13,26 @@
 
 namespace plm_vins {
 
-// What the configuration asks of each part of the estimator, in the part's own units: image
-// distances and noise divided by the focal length.
+// The configuration, converted to the options and units of each part of the estimator: image
+// distances and noise are divided by the focal length.
 struct EstimatorOptions {
   explicit EstimatorOptions(const Config& config);
 
   LocalMapOptions map;
   KeyframePolicyOptions keyframes;
   double min_triangulation_angle;  // between the rays of a point [rad]
-  double max_reprojection_error;   // of a point, mean over its views, normalised
-  double max_ray_error;            // of rays by intrinsics that were refined since, normalised
-  double max_motion_at_rest_px;    // in common to corners, where points are known that tell it [px]
-  double passing_flow;             // by which these may go on at that [1/s], normalised
+  double max_reprojection_error;   // of a point, mean over its observations, normalized
+  double max_ray_error;            // of rays due to refined intrinsics, before they are recomputed,
+                                   // normalized
+  double max_motion_at_rest_px;    // common corner motion at standstill, if the depth is known [px]
+  double passing_flow;             // the same per time [1/s], normalized
   LineLimits line_limits;
   SameLineLimits same_line;
   AnchorPolicyOptions anchors;
   ProblemOptions problem;
-  SolverOptions newest_solution;  // of the states after the newest keyframe alone
-  SolverOptions first_solution;   // of the window that was just initialised
-  // While the window fills: the first frames hardly tell the scale, which is far from linear.
+  SolverOptions newest_solution;  // of the states after the newest keyframe only
+  SolverOptions first_solution;   // of the window that was just initialized
+  // While the window fills: the scale is hardly observable and strongly nonlinear at first.
   SolverOptions early_solution;
   SolverOptions solution;
 
@@ -39,7 +40,7 @@ struct EstimatorOptions {
   EstimatorOptions(const Config& config, double focal_length);  // [px]
 };
 
-// Of the first window.
+// Returns the initial uncertainty of the first window.
 InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstill);
 
 }  // namespace plm_vins

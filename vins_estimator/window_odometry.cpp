@@ -20,14 +20,14 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMaxReweighings = 3;  // each finds three times the noise at most
+constexpr int kMaxReweighings = 3;  // each increases the noise by at most three times
 
-// Points of an image that hold its state without the window being solved, and which share of them
-// may be outliers: a few per cent are.
+// Least number of points that constrain the newest state without optimizing the window, and
+// greatest share of outliers among them (normally a few per cent).
 constexpr int kMinPointsToPlace = 20;
 constexpr double kDoubtfulShare = 0.1;
 
-// Of the robust losses, where blindness ends: outliers of some ten pixels hardly count for less.
+// Widens the robust losses after blindness: outliers of about ten pixels keep almost full weight.
 constexpr double kWidened = 30;
 
 }  // namespace
@@ -64,12 +64,12 @@ void WindowOdometry::Fill(const InitializationResult& result,
   estimate_.prior = InitialPrior(uncertainty, options_->problem, window);
 }
 
-// Again with the noise of the IMU that the window shows, where it is far from what is configured.
+// Repeats the solution with the estimated IMU noise if that is far from the configured one.
 WindowOdometry::Solution WindowOdometry::SolveFirstWindow(EstimatorOutput* output) {
   Solution solution = SolveWindow(options_->first_solution, output);
   for (int i = 0; i < kMaxReweighings; ++i) {
     if (!imu_noise_.Reweigh(&estimate_.map.window)) break;
-    imu_noise_.Reset();  // the next solution tells anew
+    imu_noise_.Reset();  // re-estimated from the next solution
     solution = SolveWindow(CurrentSolution(), output);
   }
   return solution;
@@ -109,7 +109,7 @@ WindowOdometry::Solution WindowOdometry::Solve(bool keep_second_newest, Estimato
   if (const auto variance_scale = imu_agreement_.Add(map.window, fit)) {
     DoubtInterval(Scaled(imu_noise_.noise(), *variance_scale),
                   map.window.newest().motion_since_previous.get());
-    imu_noise_ = noise_before;  // the first solution, which is distorted, teaches nothing
+    imu_noise_ = noise_before;  // the first solution is distorted
     output->imu_doubted = window_is_solved = true;
     solution = SolveWindow(CurrentSolution(), output);
   }
@@ -125,8 +125,8 @@ std::optional<Failure> WindowOdometry::Check(const Solution& solution, const Fra
                                 solution.PoseCovariance(), counts, window.td - config_->sensor.td});
 }
 
-// Where points are known they tell a slow motion better than the assumption that there is none.
-// Without them, an estimate that is held to the place that it rocks about is better than none.
+// If the depth is known, points constrain a slow motion better than the assumption of standstill.
+// Without them, an estimate held near the mean position is better than none.
 std::optional<int64_t> WindowOdometry::StillSince(
     const std::optional<StandstillDetector::Standstill>& standstill) const {
   if (!standstill) return std::nullopt;
@@ -162,7 +162,7 @@ void WindowOdometry::Triangulate(EstimatorOutput* output) {
   output->counts.line_triangulation = map.lines.Triangulate(map.window, options_->line_limits);
 }
 
-// What the lines say of the scene, and, where a frame is kept, of each other.
+// Finds the Manhattan frame and, at keyframes, merges and recognizes lines.
 void WindowOdometry::FindStructure(bool keep_second_newest, EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = estimate_.map;
@@ -176,7 +176,7 @@ void WindowOdometry::FindStructure(bool keep_second_newest, EstimatorOutput* out
   output->timings.line_merging = stopwatch.Milliseconds();
 }
 
-// With the newest frame it is one more than it keeps.
+// The newest frame counts in addition to the window size.
 bool WindowOdometry::WindowIsFull() const {
   const auto frames = static_cast<int>(estimate_.map.window.frames.size());
   return frames > config_->estimator.window_size;
@@ -198,8 +198,8 @@ ProblemOptions WindowOdometry::CurrentProblem(JacobiansAt jacobians_at) const {
   return options;
 }
 
-// Solves for the states after the newest keyframe, with all else constant: near enough to the
-// minimum for the window's equations to be linear, or to leave it at that.
+// Estimates the states after the newest keyframe with everything else held fixed. The result is
+// close enough to the minimum for the window's equations to be linear, or to be used as it is.
 WindowOdometry::Solution WindowOdometry::PlaceNewest(EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = estimate_.map;
@@ -217,7 +217,8 @@ WindowOdometry::Solution WindowOdometry::PlaceNewest(EstimatorOutput* output) {
   return solution;
 }
 
-// Between keyframes, once the window is full, where nothing is in doubt.
+// Returns whether the window need not be optimized: between keyframes, once the window is full, if
+// nothing is in doubt.
 bool WindowOdometry::Suffices(const Solution& placement) const {
   const SlidingWindow& window = estimate_.map.window;
   const bool is_known = placement.exists && keyframe_.covariance;
@@ -227,9 +228,9 @@ bool WindowOdometry::Suffices(const Solution& placement) const {
   return fit.seen >= kMinPointsToPlace && fit.contradicted <= kDoubtfulShare * fit.seen;
 }
 
-// After images without features the IMU may have led so far astray that all that is known lies
-// where outliers do, and nothing pulls the estimate back. With wide losses first, the minimum that
-// most landmarks agree on is near (graduated non-convexity, [Yang2020]).
+// Recovers after blindness: dead reckoning may have drifted so far that all known landmarks are
+// outliers and do not constrain the estimate any more. Wide losses first make the minimum reachable
+// that most landmarks agree on (graduated non-convexity, [Yang2020]).
 void WindowOdometry::FindBack(EstimatorOutput* output) {
   const Stopwatch stopwatch;
   LocalMap& map = estimate_.map;
@@ -262,7 +263,7 @@ WindowOdometry::Solution WindowOdometry::SolveWindow(const SolverOptions& option
   if (options_->problem.estimate_intrinsics) {
     FollowIntrinsics(config_->sensor.camera, options_->max_ray_error, &map);
   }
-  output->timings.optimization += stopwatch.Milliseconds();  // it may be done twice
+  output->timings.optimization += stopwatch.Milliseconds();  // may run twice per image
   return solution;
 }
 
@@ -278,7 +279,7 @@ PointMap::Fit WindowOdometry::FitOfNewest(int64_t keyframe_ns) const {
   return map.points.FitOfNewest(map.window, keyframe_ns, options_->max_reprojection_error);
 }
 
-// Which landmarks do not fit, and how noisy features and IMU are.
+// Removes outliers and updates the noise of features and IMU.
 void WindowOdometry::LearnFromWindow(EstimatorOutput* output) {
   LocalMap& map = estimate_.map;
   EstimatorCounts& counts = output->counts;
@@ -297,7 +298,7 @@ void WindowOdometry::SlideWindow(bool keep_second_newest, EstimatorOutput* outpu
   if (!keep_second_newest) {
     estimate_.DropSecondNewest();
   } else {
-    // Twice right after a start, which may fill a small window by one frame too many.
+    // Runs twice right after initialization, which may fill a small window by one extra frame.
     while (map.window.frames.size() > window_size) SlideOldest(output);
   }
   output->timings.marginalization = stopwatch.Milliseconds();

@@ -21,43 +21,44 @@
 
 namespace plm_vins {
 
-// Odometry in a sliding window, from a start to a loss: one call per image, one stage per line of
-// Track().
+// Odometry in a sliding window, from initialization to loss: one call per image, one stage per line
+// of Track().
 class WindowOdometry {
  public:
-  // Both must outlive it.
+  // Both arguments must outlive this object.
   WindowOdometry(const Config& config, const EstimatorOptions& options);
 
-  // What came of an image.
+  // Result of one image.
   struct Tracked {
-    UncertainState newest;           // covariance of zero: not known
-    std::optional<Failure> failure;  // the estimate cannot be kept: begin with another one
+    UncertainState newest;           // zero covariance: unknown
+    std::optional<Failure> failure;  // if set, tracking is lost: reinitialize
   };
 
-  // Fills the window and solves it.
+  // Fills the window with the initial frames and optimizes it.
   void Start(const InitializationResult& result, const InitialUncertainty& uncertainty,
              EstimatorOutput* output);
   bool started() const { return started_; }
 
-  // Takes the next image, once started.
+  // Processes the next image; requires started().
   Tracked Track(const FrameMeasurement& measurement,
                 const std::optional<StandstillDetector::Standstill>& standstill,
                 EstimatorOutput* output);
 
-  // With calibration and gravity; before the start as configured.
+  // The window with calibration and gravity; as configured before the start.
   const SlidingWindow& window() const { return estimate_.map.window; }
 
  private:
-  // The newest frame that stays.
+  // The newest keyframe.
   struct Keyframe {
     int64_t t_ns = 0;
-    std::optional<Matrix15d> covariance = std::nullopt;  // once the window was solved with it
+    std::optional<Matrix15d> covariance = std::nullopt;  // set once the window was optimized with
+                                                         // it
   };
 
-  // What came of solving for the newest frame.
+  // Result of solving for the newest frame.
   struct Solution {
-    bool exists = false;  // the equations had one
-    // Of the newest state; zero where that is not known.
+    bool exists = false;  // the equations had a solution
+    // Of the newest state; zero if unknown.
     Matrix15d covariance = Matrix15d::Zero();
 
     Matrix6d PoseCovariance() const { return covariance.topLeftCorner<6, 6>(); }
@@ -65,12 +66,12 @@ class WindowOdometry {
 
   void Fill(const InitializationResult& result, const InitialUncertainty& uncertainty);
   Solution SolveFirstWindow(EstimatorOutput* output);
-  // Returns its state by the IMU alone.
+  // Adds the newest frame and returns its state, propagated by the IMU alone.
   FrameState AddFrame(const FrameMeasurement& measurement);
-  // Since which image; nothing where the newest image shows that it is a slow motion.
+  // Returns the image at which standstill began; nullopt if the body moves, also if slowly.
   std::optional<int64_t> StillSince(
       const std::optional<StandstillDetector::Standstill>& standstill) const;
-  // Places the newest frame, and solves the window where that does not suffice.
+  // Places the newest frame and, if that is not sufficient, optimizes the window.
   Solution Solve(bool keep_second_newest, EstimatorOutput* output);
   Solution PlaceNewest(EstimatorOutput* output);
   bool Suffices(const Solution& placement) const;
@@ -81,7 +82,7 @@ class WindowOdometry {
   void LearnFromWindow(EstimatorOutput* output);
   void CountLandmarks(EstimatorOutput* output) const;
   PointMap::Fit FitOfNewest(int64_t keyframe_ns) const;
-  // Why the estimate cannot be kept; nothing where it can.
+  // Returns the reason to declare tracking lost; nullopt if the estimate is valid.
   std::optional<Failure> Check(const Solution& solution, const FrameState& predicted,
                                const EstimatorCounts& counts);
   void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
@@ -90,7 +91,7 @@ class WindowOdometry {
 
   bool WindowIsFull() const;
   const SolverOptions& CurrentSolution() const;
-  // The problem's options with Manhattan frame and noise as they are now.
+  // Returns the problem's options with the current Manhattan frame and noise.
   ProblemOptions CurrentProblem(JacobiansAt jacobians_at) const;
 
   const Config* config_;

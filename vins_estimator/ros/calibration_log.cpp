@@ -30,7 +30,7 @@ void CalibrationLog::Save(const std::string& folder) const {
 
 void CalibrationLog::CheckFolder(const std::string& folder) const {
   if (!RefinesCalibration(config_.sensor)) return;
-  std::error_code error;  // where there is no such file
+  std::error_code error;  // set if there is no such file
   if (!std::filesystem::equivalent(FileIn(folder), config_.file, error)) return;
   throw std::runtime_error(FileIn(folder) +
                            " is the configuration in use, which the refined one does not replace: "

@@ -10,21 +10,21 @@
 
 namespace plm_vins {
 
-// The newest calibration, to be saved on request. For several threads: Set() does not wait while
-// another one saves.
+// Holds the newest calibration, to be saved on request. Thread-safe: Set() does not block while
+// another thread saves.
 class CalibrationLog {
  public:
   explicit CalibrationLog(const Config& config) : config_(config) {}
 
   void Set(const Calibration& calibration);
 
-  // Writes the configuration with this calibration into the folder, where the configuration has it
-  // refined and there was a pose. Throws std::runtime_error where that cannot be written, and as
-  // CheckFolder().
+  // Writes the configuration with the newest calibration into the folder. Does nothing if the
+  // calibration is not refined, or if there was no pose yet. Throws std::runtime_error if the file
+  // cannot be written, or as CheckFolder() does.
   void Save(const std::string& folder) const;
 
-  // Throws std::runtime_error where the file in that folder is the configuration in use, which
-  // would be lost.
+  // Throws std::runtime_error if the file in that folder is the configuration in use, which would
+  // be overwritten.
   void CheckFolder(const std::string& folder) const;
 
  private:

@@ -11,7 +11,7 @@ using diagnostic_msgs::DiagnosticStatus;
 
 namespace {
 
-constexpr double kMaxPoseAge = 0.5;  // [s], beyond it is worth a warning
+constexpr double kMaxPoseAge = 0.5;  // [s], above this a warning is reported
 
 }  // namespace
 

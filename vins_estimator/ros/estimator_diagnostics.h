@@ -14,13 +14,13 @@
 
 namespace plm_vins {
 
-// What /diagnostics says of the estimator: waiting (for what), initializing (why not yet), tracking
-// or lost; rates and delays of what comes in and goes out; counts. The IMU's monitor is for the
-// thread that receives its samples, those of features for the thread that reports, Update for the
-// one that estimates.
+// Publishes the estimator's state on /diagnostics: waiting (for which topic), initializing (and
+// why), tracking or lost; rates and delays of inputs and outputs; counts. Threads: the monitor
+// imu() belongs to the thread that receives IMU samples, points() and lines() to the thread that
+// calls Report(), and Update() to the thread that estimates.
 class EstimatorDiagnostics {
  public:
-  // The topics as they are subscribed, in full.
+  // Takes the resolved names of the subscribed topics.
   EstimatorDiagnostics(const ImuNoise& configured_noise, const std::string& imu_topic,
                        const std::string& points_topic, const std::string& lines_topic);
 
@@ -28,26 +28,27 @@ class EstimatorDiagnostics {
   StreamMonitor& points() { return points_; }
   StreamMonitor& lines() { return lines_; }
 
-  // Messages of features that have another layout, and features that are impossible or whose ids
-  // were there twice.
+  // Count feature messages of unknown layout, and features that are impossible or have duplicate
+  // ids.
   void CountMalformed(const std::string& what) { malformed_.Add(what); }
   void CountLeftOut(int64_t features) { left_out_.count += features; }
   DropCounts FeatureDrops() const { return {malformed_, left_out_}; }
 
-  // After each image, and with an output that only says why when all starts over. `frames`:
-  // estimated so far; `age`: of the image when its pose came [s].
+  // To be called after each image, and with an output that only has a reason after a reset.
+  // `frames` is the number of estimated images, `age` the age of the image when its pose was ready
+  // [s].
   void Update(const EstimatorOutput& output, int64_t frames, double age);
 
-  // After each input, whether or not an image came of it.
+  // To be called after each input, whether or not it completed an image.
   void UpdateCounts(const EstimationStage& stage, const DropCounts& drops);
 
-  // `queued`: inputs that wait for the estimator.
+  // `queued` is the number of inputs waiting for the estimator.
   void Report(size_t queued, diagnostic_updater::DiagnosticStatusWrapper* status);
 
  private:
   void ReportState(diagnostic_updater::DiagnosticStatusWrapper* status);
-  std::string State() const;     // and the reason for it
-  std::string WaitsFor() const;  // the silent topics; empty: none
+  std::string State() const;     // including the reason
+  std::string WaitsFor() const;  // the silent topics; empty if none
 
   const std::string imu_topic_, points_topic_, lines_topic_;
   const ImuNoise configured_noise_;
@@ -57,7 +58,7 @@ class EstimatorDiagnostics {
   DropCount malformed_{"feature_messages_malformed", 0, ""};
   DropCount left_out_{"features_impossible", 0, ""};
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the following members
   StreamMonitor poses_{"odometry"};
   EstimatorStatus state_ = EstimatorStatus::kInitializing;
   std::string reason_;
@@ -69,7 +70,7 @@ class EstimatorDiagnostics {
   int64_t imu_doubts_ = 0;
   std::string imu_contradiction_;
   double pose_age_ = 0;       // [s]
-  std::string last_restart_;  // why
+  std::string last_restart_;  // its reason
   EstimatorCounts counts_;
   double estimator_ms_ = 0;
   int64_t frames_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The back end as a node.
+// Runs the back end as a ROS node.
 
 #include "common/ros/node_setup.h"
 #include "vins_estimator/ros/estimator_node.h"

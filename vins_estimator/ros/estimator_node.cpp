@@ -16,15 +16,16 @@ namespace plm_vins {
 namespace {
 
 constexpr int kSubscriberQueue = 2000;
-// In the namespace of the node, so that each robot may have one of its own.
+// Topics in the node's namespace, so that each robot may have its own.
 constexpr char kPointTopic[] = "feature_tracker/feature";
 constexpr char kLineTopic[] = "linefeature_tracker/linefeature";
 constexpr char kRestartTopic[] = "feature_tracker/restart";
 constexpr char kInternalError[] = "internal error, see the log";
 constexpr size_t kQueueCapacity = 5000;  // inputs, most of them IMU samples
-// IMU samples that gather while no image waits for them: waking a thread costs more than a sample.
+// IMU samples are processed in batches while no image waits for them: waking a thread is more
+// expensive than a sample.
 constexpr size_t kImuBatch = 20;
-constexpr double kMaxWait = 0.5;  // [s]: images that wait for longer are left out
+constexpr double kMaxWait = 0.5;  // [s]: images that wait longer are dropped
 
 std::string FolderOf(const std::string& file) {
   return std::filesystem::path(file).parent_path().string();
@@ -80,13 +81,13 @@ EstimatorNode::EstimatorNode(const Config& config, const ros::NodeHandle& node,
 
 EstimatorNode::~EstimatorNode() {
   queue_.Close();
-  services_.clear();  // waits for one that saves: to the same files
+  services_.clear();  // waits for a running service call, which writes the same files
   worker_.join();
   if (file_at_end_.empty() || trajectory_.empty()) return;
   try {
     Save(file_at_end_);
   } catch (const std::runtime_error& error) {
-    std::cerr << error.what() << std::endl;  // ROS has shut its log down by now
+    std::cerr << error.what() << std::endl;  // the log of ROS is shut down by now
   }
 }
 
@@ -127,7 +128,7 @@ void EstimatorNode::AddLines(const FeatureEvent& event) {
   callback_warner_.Check(diagnostics_.FeatureDrops());
 }
 
-// A tracker that was started again counts from zero once more.
+// Restores unique ids: a tracker that was restarted counts from zero again.
 template <typename Observation>
 void EstimatorNode::RestoreIds(const FeatureEvent& event, const char* topic,
                                std::vector<Observation>* observations, FeatureSource* source) {
@@ -177,7 +178,7 @@ std::string EstimatorNode::TrajectoryFile(const std::string& otherwise) const {
   return FullPath(file.empty() ? otherwise : file);
 }
 
-// While there is time to do something about it: at the end the flight would be lost.
+// Warns at the start, while the user can still react: at the end the trajectory would be lost.
 void EstimatorNode::WarnWithoutFileAtEnd() const {
   if (file_at_end_.empty()) return;
   try {
@@ -189,7 +190,7 @@ void EstimatorNode::WarnWithoutFileAtEnd() const {
   }
 }
 
-// The same of the configuration that would be replaced.
+// Warns at the start that the configuration in use would be overwritten.
 void EstimatorNode::WarnWithoutCalibrationAtEnd() const {
   if (file_at_end_.empty()) return;
   try {
@@ -212,7 +213,7 @@ std::string EstimatorNode::Save(const std::string& trajectory_file) const {
 
 void EstimatorNode::Work() {
   while (auto input = queue_.Pop()) {
-    if (!ros::ok()) return queue_.Close();  // a callback may wait for room in it
+    if (!ros::ok()) return queue_.Close();  // a callback may be waiting for space in it
     const bool done = worker_errors_.Run([&] {
       Take(std::move(*input));
       TakeAllThatWaits();
@@ -228,7 +229,7 @@ void EstimatorNode::Work() {
   }
 }
 
-// What came while an image was estimated decides which one is next.
+// Takes all inputs that arrived during an estimate, since they decide which image is next.
 void EstimatorNode::TakeAllThatWaits() {
   for (size_t waiting = queue_.size(); waiting > 0; --waiting) {
     if (auto input = queue_.Pop()) Take(std::move(*input));

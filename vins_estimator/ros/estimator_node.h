@@ -32,14 +32,14 @@
 
 namespace plm_vins {
 
-// The back end under ROS, as a node or in a nodelet. The callbacks only queue what comes in and
-// publish the state at IMU rate; a thread of its own takes everything from the queue, in order of
-// arrival, through the synchronous core. Where that thread cannot keep up, images that have waited
-// for too long are left out, so that the newest one has its turn.
+// The back end under ROS, as a node or in a nodelet. The callbacks only queue the inputs and
+// publish the state at IMU rate; a worker thread passes the inputs to the synchronous core in order
+// of arrival. If the worker cannot keep up, images that have waited too long are dropped in favour
+// of the newest one.
 //
-// Services: ~reset starts over; ~save_trajectory writes the poses so far to ~trajectory_file
-// (default trajectory.tum in the node's working folder), and beside it calibrated.yaml where the
-// calibration is refined, as the end of the node does where that parameter is set.
+// Services: ~reset reinitializes; ~save_trajectory writes the poses so far to ~trajectory_file
+// (default trajectory.tum in the node's working folder) and, if the calibration is refined,
+// calibrated.yaml beside it. The node also saves both when it exits if ~trajectory_file is set.
 class EstimatorNode {
  public:
   EstimatorNode(const Config& config, const ros::NodeHandle& node,
@@ -53,18 +53,18 @@ class EstimatorNode {
   using Input = std::variant<ImuSample, PointFrame, LineFrame, ResetCommand>;
   using FeatureEvent = ros::MessageEvent<const sensor_msgs::PointCloud>;
 
-  // Ids of one tracker's messages, as long as it is connected.
+  // State of one tracker's messages while it is connected.
   struct FeatureSource {
     PublisherWatch publisher{1};
     TurnsWatch turns;
     IdRestorer ids;
   };
 
-  // In the thread that receives the samples. A driver in this process holds a lock of ROS
-  // meanwhile, without which the worker cannot publish: so it does not wait for room in the queue.
+  // Called in the thread that receives the samples. A driver in this process holds a lock of ROS
+  // meanwhile, without which the worker cannot publish; so this never waits for space in the queue.
   void AddImu(const sensor_msgs::Imu& message);
 
-  // In the thread of the callbacks.
+  // Called in the callback thread.
   void AddPoints(const FeatureEvent& event);
   void AddLines(const FeatureEvent& event);
   template <typename Observation>
@@ -73,14 +73,15 @@ class EstimatorNode {
   void Restart(const std_msgs::Bool& message);
   bool Reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool SaveTrajectory(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  // In full; `otherwise` where the parameter is not set or empty.
+  // Returns the full path; that of `otherwise` if the parameter is empty or not set.
   std::string TrajectoryFile(const std::string& otherwise) const;
   void WarnWithoutFileAtEnd() const;
   void WarnWithoutCalibrationAtEnd() const;
-  // Returns what was saved; throws std::runtime_error where a file cannot be written.
+  // Saves all files and returns a description; throws std::runtime_error if a file cannot be
+  // written.
   std::string Save(const std::string& trajectory_file) const;
 
-  // In the worker thread.
+  // Called in the worker thread.
   void Work();
   void Take(Input input);
   void TakeAllThatWaits();
@@ -97,18 +98,18 @@ class EstimatorNode {
 
   BoundedQueue<Input> queue_;
   std::atomic<bool> frames_wait_ = false;  // in the worker, for the IMU or for lines
-  std::atomic<int64_t> imu_refused_ = 0;   // samples that found the queue full
+  std::atomic<int64_t> imu_refused_ = 0;   // samples dropped because the queue was full
   PropagationPublisher propagation_;
   TrajectoryLog trajectory_;
   CalibrationLog calibration_;
-  std::string file_at_end_;  // empty: none
+  std::string file_at_end_;  // empty: nothing is saved
   EstimatorDiagnostics diagnostics_;
   FeatureSource point_source_;
   FeatureSource line_source_;
   TrackVelocities velocities_;
   DropWarner callback_warner_;
 
-  // Only for the worker.
+  // Used by the worker only.
   EstimationStage stage_;
   OutputPublisher publisher_;
   DropWarner worker_warner_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The back end as the nodelet plm_vins/VinsEstimator.
+// Runs the back end as the nodelet plm_vins/VinsEstimator.
 #include <pluginlib/class_list_macros.hpp>
 
 #include "common/ros/nodelet_of.h"

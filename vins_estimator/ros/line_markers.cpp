@@ -10,7 +10,7 @@ namespace plm_vins {
 namespace {
 
 constexpr double kWidth = 0.02;          // [m]
-constexpr double kHistoryWidth = 0.007;  // [m]: lines in use stand out
+constexpr double kHistoryWidth = 0.007;  // [m]: thinner than lines in use
 constexpr char kHistoryName[] = "history_lines";
 
 std_msgs::ColorRGBA MakeColor(float r, float g, float b) {
@@ -56,7 +56,7 @@ visualization_msgs::Marker ToLineMarker(const std::vector<MapLine>& lines, int64
   return marker;
 }
 
-// The last line of the part takes the place.
+// Moves the last line of the part to the removed line's place.
 void LineHistory::Remove(const std::vector<int64_t>& ids) {
   for (const int64_t id : ids) {
     const auto known = places_.find(id);
@@ -104,7 +104,7 @@ visualization_msgs::Marker LineHistory::Clear() {
   return marker;
 }
 
-// Where the line is, or where there is room for it.
+// Returns the place of the line, or a new place.
 LineHistory::Place LineHistory::PlaceOf(int64_t id) {
   const auto known = places_.find(id);
   if (known != places_.end()) return known->second;

@@ -10,7 +10,7 @@
 namespace plm_vins {
 namespace {
 
-// `covariance`; where that is none, a diagonal of `variance`.
+// Returns `covariance` if it is known, otherwise a diagonal of `variance`.
 template <typename Matrix>
 Matrix KnownOr(double variance, const Matrix& covariance) {
   const bool known = covariance.allFinite() && covariance.diagonal().minCoeff() > 0;

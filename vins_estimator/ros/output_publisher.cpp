@@ -18,10 +18,10 @@ namespace plm_vins {
 namespace {
 
 constexpr int kQueue = 1000;
-constexpr double kPathStep = 0.02;      // [m] between the poses of the path
-constexpr size_t kMaxPathPoses = 5000;  // then every second one goes: the path gets coarser
-// The path is sent again when so many poses are new, which shows no lag where all of it is in view,
-// and takes the same bandwidth however long it gets.
+constexpr double kPathStep = 0.02;      // [m] between poses of the path
+constexpr size_t kMaxPathPoses = 5000;  // then every second pose is removed: the path gets coarser
+// Share of new poses after which the path is published again: no visible lag if the whole path is
+// in view, and constant bandwidth however long the path is.
 constexpr double kNewPathShare = 0.01;
 constexpr int64_t kHistoryInterval_ns = 1'000'000'000;
 
@@ -61,8 +61,7 @@ OutputPublisher::OutputPublisher(const OutputConfig& frames, ros::NodeHandle pri
   }
 }
 
-// Whoever subscribes gets the lines as they are, as of a latched topic, which would have the marker
-// alone that was sent last.
+// New subscribers get all lines; a latched topic would only send the last marker.
 ros::Publisher OutputPublisher::AdvertiseLineHistory(ros::NodeHandle private_node) {
   return private_node.advertise<visualization_msgs::Marker>(
       "history_lines_cloud", kQueue, [this](const ros::SingleSubscriberPublisher& subscriber) {
@@ -112,8 +111,8 @@ void OutputPublisher::Clear() {
   PublishIfWanted(history_lines_cloud_, [&] { return nothing; });
 }
 
-// The newest image, which comes with a keyframe. What may be missing comes first: who has it waits
-// for nothing.
+// Publishes the newest image, which arrives together with a keyframe. The pose is last, so that a
+// subscriber that has it need not wait for the other messages.
 void OutputPublisher::PublishKeyframe(const EstimatedFrame& frame) {
   const EstimatorOutput& output = frame.output;
   const std::string& world = frames_.world_frame;
@@ -132,7 +131,7 @@ void OutputPublisher::PublishKeyframe(const EstimatedFrame& frame) {
   });
 }
 
-// In one message per interval: a display keeps each message as an object of its own.
+// Publishes one message per interval, because displays store each message as a separate object.
 void OutputPublisher::PublishHistory(const EstimatorOutput& output) {
   Append(output.departed_points, &departed_points_);
   Append(output.departed_lines, &departed_lines_);
@@ -152,7 +151,8 @@ void OutputPublisher::PublishLineHistory(int64_t t_ns) {
   for (const auto& marker : line_history_.Add(departed_lines_, t_ns)) {
     PublishIfWanted(history_lines_cloud_, [&] { return marker; });
   }
-  line_history_.Remove(absorbed_lines_);  // after Add(), as they may have departed before
+  line_history_.Remove(absorbed_lines_);  // after Add(): they may have departed in the same
+                                          // interval
 }
 
 void OutputPublisher::PublishPath(const FrameState& state) {
@@ -167,7 +167,7 @@ void OutputPublisher::PublishPath(const FrameState& state) {
   path_.header.stamp = pose.header.stamp;
   if (++new_path_poses_ < kNewPathShare * static_cast<double>(path_.poses.size())) return;
   new_path_poses_ = 0;
-  path_publisher_.publish(path_);  // whoever listens: displays may be opened during a standstill
+  path_publisher_.publish(path_);  // latched, as displays may be opened during a standstill
 }
 
 void OutputPublisher::PublishTransforms(const EstimatorOutput& output) {

@@ -17,23 +17,22 @@
 
 namespace plm_vins {
 
-// Publishes what the estimator says about an image, under the node's private namespace: odometry,
-// path, camera_pose, key_poses, point_cloud, history_cloud, lines_cloud, history_lines_cloud,
-// camera_pose_visual, extrinsic, what a pose graph takes (camera_info, keyframe_pose,
-// keyframe_point, keyframe_line, and restart where another world begins), and tf2 world -> body ->
-// camera, world -> manhattan once known. In a robot's own tree, which base_frame names, tf2 has
-// world -> base instead of body and camera. The histories have, as in VINS-Mono and PL-VINS, the
-// landmarks that leave the window, those of one second in a message. Messages that nobody listens
-// to are not sent, but for odometry, tf and the path. A display that is opened later has the whole
-// path and all lines of the past: the latter come by a callback of the node's queue. All else is
-// for one thread.
+// Publishes the estimate of an image in the node's private namespace: odometry, path, camera_pose,
+// key_poses, point_cloud, history_cloud, lines_cloud, history_lines_cloud, camera_pose_visual,
+// extrinsic, the inputs of a pose graph (camera_info, keyframe_pose, keyframe_point, keyframe_line,
+// and restart when a new world frame begins), and tf2 world -> body -> camera and, once known,
+// world -> manhattan. If base_frame names a frame of a robot's own tf tree, tf2 has world -> base
+// instead of body and camera. As in VINS-Mono and PL-VINS, the history topics contain the landmarks
+// that leave the window, one message per second. Messages without subscribers are not sent, except
+// odometry, tf and path. A display that is opened later receives the whole path and all past lines,
+// the latter by a callback of the node's queue; everything else must be called from one thread.
 class OutputPublisher {
  public:
   OutputPublisher(const OutputConfig& frames, ros::NodeHandle private_node);
 
   void Publish(const EstimatedFrame& frame);
 
-  // Forgets path and lines: another world frame begins.
+  // Drops path and lines: a new world frame begins.
   void Clear();
 
  private:
@@ -46,9 +45,9 @@ class OutputPublisher {
   std::vector<geometry_msgs::TransformStamped> BodyTransforms(const EstimatorOutput& output);
 
   OutputConfig frames_;
-  std::mutex history_mutex_;  // guards line_history_, and the order in which it is sent
+  std::mutex history_mutex_;  // guards line_history_ and the order of its messages
   LineHistory line_history_;
-  // What waits to be sent goes in this order: a new world before its first pose.
+  // Pending messages are sent in this order: a new world frame before its first pose.
   ros::Publisher restart_;
   ros::Publisher odometry_;
   ros::Publisher path_publisher_;
@@ -67,8 +66,9 @@ class OutputPublisher {
   tf2_ros::TransformBroadcaster broadcaster_;
   std::optional<RobotBase> base_;
   nav_msgs::Path path_;
-  int new_path_poses_ = 0;                 // since it was published
-  std::vector<MapPoint> departed_points_;  // since history_ns_, when the histories were published
+  int new_path_poses_ = 0;                 // since it was last published
+  std::vector<MapPoint> departed_points_;  // since history_ns_, when the histories were last
+                                           // published
   std::vector<MapLine> departed_lines_;
   std::vector<int64_t> absorbed_lines_;
   int64_t history_ns_ = 0;

@@ -12,8 +12,9 @@
 
 namespace plm_vins {
 
-// ~imu_propagate: the newest state taken forward to each IMU sample, at once. Its covariance is
-// that of the image it started from. IMU samples and estimates may come from different threads.
+// Publishes ~imu_propagate: the newest state, propagated to each IMU sample as it arrives. Its
+// covariance is that of the image it starts from. Thread-safe: IMU samples and estimates may come
+// from different threads.
 class PropagationPublisher {
  public:
   PropagationPublisher(const Config& config, ros::NodeHandle private_node);
@@ -22,14 +23,14 @@ class PropagationPublisher {
   void SetEstimate(const EstimatedFrame& frame);
   void Clear();
 
-  // How far the IMU is ahead of the image of `output` [s]; zero without samples.
+  // Returns the time from the image of `output` to the newest IMU sample [s]; zero without samples.
   double Age(const EstimatorOutput& output) const;
 
  private:
   OutputConfig frames_;
   ros::Publisher publisher_;
   mutable std::mutex mutex_;
-  ImuPropagator propagator_;  // guarded by mutex_, as what follows
+  ImuPropagator propagator_;  // guarded by mutex_, as the following member
   StateCovariance covariance_;
 };
 

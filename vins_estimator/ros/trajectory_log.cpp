@@ -23,7 +23,7 @@ void MakeFolderOf(const std::string& file) {
 }  // namespace
 
 std::string FullPath(const std::string& file) {
-  if (file.empty()) return "";  // which std::filesystem takes for an error
+  if (file.empty()) return "";  // an error for std::filesystem
   return std::filesystem::absolute(file).lexically_normal().string();
 }
 

@@ -7,9 +7,9 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 source "$root/scripts/usage.sh"
 
 common_packages=(
-  build-essential cmake libboost-dev libbz2-dev libceres-dev libeigen3-dev libgmock-dev libgtest-dev
+  build-essential cmake curl libboost-dev libbz2-dev libceres-dev libeigen3-dev libgmock-dev libgtest-dev
   libopencv-contrib-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev
-  python3-matplotlib python3-numpy python3-pil python3-tqdm python3-yaml)
+  python3-matplotlib python3-numpy python3-pil python3-tqdm python3-yaml unzip)
 optional_packages=(python3-distributed python3-plotly)  # for --scheduler, and for pages in 3-D
 debian_packages=(
   catkin libcli11-dev libcv-bridge-dev libdiagnostic-updater-dev

@@ -6,11 +6,11 @@ import os
 from dataclasses import dataclass
 from typing import Optional
 
-from evaluation.trajectory import TRUTH_IN_FOLDER
+from evaluation.trajectory import TRUTHS_IN_FOLDER
 
 from .errors import DatasetError
 
-ASL_TRUTH = os.path.join("mav0", TRUTH_IN_FOLDER)
+ASL_TRUTHS = tuple(os.path.join("mav0", name) for name in TRUTHS_IN_FOLDER)
 ASL_IMAGES = os.path.join("mav0", "cam0", "data.csv")
 ASL_IMU = os.path.join("mav0", "imu0", "data.csv")
 
@@ -61,9 +61,9 @@ def find_truth(path):
     with the same name."""
     path = _folder_of_mav0(os.path.normpath(path))
     stem = path[:-len(".bag")] if _is_bag(path) else path
-    candidates = [os.path.join(stem, ASL_TRUTH), stem + ".tum", stem + ".csv"]
+    candidates = [*(os.path.join(stem, name) for name in ASL_TRUTHS), stem + ".tum", stem + ".csv"]
     if _is_bag(path):
-        candidates.append(os.path.join(os.path.dirname(path), ASL_TRUTH))
+        candidates += [os.path.join(os.path.dirname(path), name) for name in ASL_TRUTHS]
     return next((file for file in candidates if os.path.isfile(file)), None)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 LEAST_POSES = 3  # that an alignment needs
 TRUTH_IN_FOLDER = os.path.join("state_groundtruth_estimate0", "data.csv")  # of an ASL folder
+TRUTHS_IN_FOLDER = (TRUTH_IN_FOLDER, os.path.join("mocap0", "data.csv"))  # EuRoC, TUM VI
 RESTART = "# the world frame starts anew"  # the comment of run_offline and the nodes
 
 
@@ -96,8 +97,8 @@ def read_truth(path):
     """As read_trajectory(); of an ASL folder, or its mav0/, the ground truth in it."""
     if not os.path.isdir(path):
         return read_trajectory(path)
-    files = [os.path.join(path, *names) for names in (("mav0", TRUTH_IN_FOLDER),
-                                                      (TRUTH_IN_FOLDER,))]
+    files = [os.path.join(path, parent, name)
+             for name in TRUTHS_IN_FOLDER for parent in ("mav0", "")]
     for file in filter(os.path.isfile, files):
         return read_trajectory(file)
     raise TrajectoryError(f"{path}: a folder without {files[0]}; give a TUM file or EuRoC csv")

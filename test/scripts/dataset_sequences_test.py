@@ -10,7 +10,7 @@ import unittest
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 from dataset.errors import DatasetError  # noqa: E402
 from dataset.paper import paper_sequence  # noqa: E402
-from dataset.sequences import (ASL_IMAGES, ASL_IMU, ASL_TRUTH, find_sequences,  # noqa: E402
+from dataset.sequences import (ASL_IMAGES, ASL_IMU, ASL_TRUTHS, find_sequences,  # noqa: E402
                                select_sequences)
 
 
@@ -36,12 +36,12 @@ class SequencesTest(unittest.TestCase):
 class Layouts(SequencesTest):
     def test_asl_folder_at_any_depth_with_its_truth(self):
         for parent in ("MH_01_easy/", "machine_hall/MH_02_easy/", "vicon/V1_01_easy/V1_01_easy/"):
-            self.touch(parent + ASL_IMAGES, parent + ASL_TRUTH)
+            self.touch(parent + ASL_IMAGES, parent + ASL_TRUTHS[0])
         found = self.find()
         self.assertEqual(list(found), ["MH_01_easy", "MH_02_easy", "V1_01_easy"])
         nested = self.path("vicon/V1_01_easy/V1_01_easy")
         self.assertEqual(found["V1_01_easy"].path, nested)
-        self.assertEqual(found["V1_01_easy"].truth, os.path.join(nested, ASL_TRUTH))
+        self.assertEqual(found["V1_01_easy"].truth, os.path.join(nested, ASL_TRUTHS[0]))
         self.assertFalse(found["V1_01_easy"].is_bag)
 
     def test_content_is_that_of_all_sensors(self):
@@ -59,12 +59,16 @@ class Layouts(SequencesTest):
             self.assertIsNone(found["MH_01_easy"].truth)
 
     def test_truth_of_bags(self):
-        self.touch("a.bag", "a.tum", "b.bag", "b.csv", "c.bag", "d/d.bag", "d/" + ASL_TRUTH,
-                   "e.bag", "e/" + ASL_TRUTH)
+        self.touch("a.bag", "a.tum", "b.bag", "b.csv", "c.bag", "d/d.bag", "d/" + ASL_TRUTHS[0],
+                   "e.bag", "e/" + ASL_TRUTHS[0])
         truths = {name: s.truth and os.path.relpath(s.truth, self.folder)
                   for name, s in self.find().items()}
-        self.assertEqual(truths, {"a": "a.tum", "b": "b.csv", "c": None, "d": "d/" + ASL_TRUTH,
-                                  "e": "e/" + ASL_TRUTH})
+        self.assertEqual(truths, {"a": "a.tum", "b": "b.csv", "c": None, "d": "d/" + ASL_TRUTHS[0],
+                                  "e": "e/" + ASL_TRUTHS[0]})
+
+    def test_truth_of_tum_vi(self):
+        self.touch("room1/" + ASL_IMAGES, "room1/" + ASL_TRUTHS[1])
+        self.assertEqual(self.find()["room1"].truth, self.path("room1/" + ASL_TRUTHS[1]))
 
     def test_truth_beside_an_asl_folder(self):
         self.touch("x/" + ASL_IMAGES, "x.tum")

@@ -119,7 +119,8 @@ class EurocTest(unittest.TestCase):
 
     def test_downloads_each_archive_once_and_announces_the_size(self):
         result = self.call("MH_01_easy", "MH_02_easy", "room1")
-        self.assertRegex(result.stdout, r"To download: (hall.zip room1.tar|room1.tar hall.zip), 0 MB")
+        self.assertRegex(result.stdout,
+                         r"To download: (hall.zip room1.tar|room1.tar hall.zip), 0 MB")
         self.assert_unpacked("MH_01_easy", "one")
         self.assert_unpacked("MH_02_easy", "two")
         self.assert_unpacked("room1", "three")

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Parts of kalibr_to_config.py: what Kalibr's files say."""

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checked values of the maps in Kalibr's files."""
+
+import math
+
+import numpy as np
+import yaml
+
+MAX_ROTATION_ERROR = 5e-3  # what the configuration reader accepts
+
+
+class KalibrError(Exception):
+    """One problem of an input file; its text names file and key."""
+
+
+class Section:
+    """A map of a Kalibr file. Reads checked values and names file and key where that fails."""
+
+    def __init__(self, file, path, values):
+        self.file, self.path, self.values = file, path, values
+        if not isinstance(values, dict):
+            raise self.error("", "is not a map of keys")
+
+    def error(self, key, problem):
+        name = ".".join(part for part in (self.path, key) if part)
+        return KalibrError(f"{self.file}: {name + ': ' if name else ''}{problem}")
+
+    def get(self, key, hint="add it"):
+        if key not in self.values:
+            raise self.error(key, f"is missing; {hint}")
+        return self.values[key]
+
+    def section(self, key):
+        known = ", ".join(str(name) for name in self.values)
+        return Section(self.file, key, self.get(key, f"there is {known}"))
+
+    def text(self, key):
+        value = self.get(key)
+        if not isinstance(value, str) or not value or '"' in value:
+            raise self.error(key, f"must be a name, not {value!r}")
+        return value
+
+    def number(self, key):
+        return self._as_number(key, self.get(key))
+
+    def numbers(self, key, size):
+        values = self.get(key)
+        if not isinstance(values, list) or len(values) != size:
+            raise self.error(key, f"must be a list of {size} numbers")
+        return [self._as_number(key, value) for value in values]
+
+    def transform(self, key, hint="add it"):
+        """A 4x4 rigid transform, as rotation (3x3) and translation (3)."""
+        rows = self.get(key, hint)
+        if not isinstance(rows, list) or len(rows) != 4:
+            raise self.error(key, "must have 4 rows")
+        if any(not isinstance(row, list) or len(row) != 4 for row in rows):
+            raise self.error(key, "must have 4 numbers in each row")
+        matrix = np.array([[self._as_number(key, value) for value in row] for row in rows])
+        rotation = matrix[:3, :3]
+        error = np.abs(rotation @ rotation.T - np.eye(3)).max()
+        if error > MAX_ROTATION_ERROR or np.linalg.det(rotation) < 0:
+            raise self.error(key, "its upper left 3x3 block is not a rotation")
+        if not np.array_equal(matrix[3], [0, 0, 0, 1]):
+            raise self.error(key, "its last row must be 0 0 0 1")
+        return rotation, matrix[:3, 3]
+
+    def _as_number(self, key, value):
+        try:  # YAML 1.1 takes 1e-3 for a text
+            number = math.nan if isinstance(value, bool) else float(value)
+        except (TypeError, ValueError):
+            number = math.nan
+        if not math.isfinite(number):
+            raise self.error(key, f"must be a number, not {value!r}")
+        return number
+
+
+def read_section(file):
+    """The whole file as a Section."""
+    try:
+        with open(file, encoding="utf-8") as stream:
+            text = stream.read()
+        # OpenCV's header, which other programs want in Kalibr's files, is no valid YAML.
+        header, _, rest = text.partition("\n")
+        return Section(file, "", yaml.safe_load(rest if header.startswith("%YAML:") else text))
+    except OSError as error:
+        raise KalibrError(f"{file}: {error.strerror}") from error
+    except (UnicodeDecodeError, yaml.YAMLError) as error:
+        raise KalibrError(f"{file}: is not YAML: {' '.join(str(error).split())}") from error

@@ -44,12 +44,12 @@ struct ImuSample {
   double accel_doubt = 0;  // [m/s^2]
 };
 
-// What came of the search for a feature in the image of the second camera.
+// Result of the search for a feature in the image of the second camera.
 enum class RightSearch : uint8_t {
-  kNotDue,       // not searched for in this image, or there is no second camera
-  kNoImage,      // the second camera has no image of this stamp
-  kNotFound,     // nothing there looks like it, or more than one place does
-  kOffEpipolar,  // what looks like it is not where the stated mounting allows it
+  kNotDue,       // not searched in this image, or no second camera
+  kNoImage,      // the second camera has no image with this timestamp
+  kNotFound,     // no match, or an ambiguous one
+  kOffEpipolar,  // match rejected by the configured extrinsics
   kFound,
 };
 
@@ -59,8 +59,8 @@ struct PointObservation {
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();        // normalised, undistorted
   Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();     // raw pixel
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // d(xy)/dt [1/s]; zero when new
-  // The same point in the second camera C1 at the same stamp: of a ray (x, y, 1) in C1. Present
-  // where `right_search` is kFound.
+  // Normalized image point in the second camera C1 at the same timestamp, of a ray (x, y, 1) in C1.
+  // Set if `right_search` is kFound.
   std::optional<Eigen::Vector2d> right = {};
   RightSearch right_search = RightSearch::kNotDue;
   std::optional<double> depth = {};  // measured, along the optical axis of C [m]
@@ -72,11 +72,11 @@ struct PointFrame {
   std::vector<PointObservation> points;
 };
 
-// What the second camera C1 sees of a line segment. Its ends need not be the ends of the segment in
+// Observation of a line segment in the second camera C1. Its ends need not correspond to those in
 // the first camera: only the line through them is measured.
 struct RightSegment {
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  // normalised, undistorted, in C1
-  Eigen::Vector2d end = Eigen::Vector2d::Zero();    // the same
+  Eigen::Vector2d end = Eigen::Vector2d::Zero();    // normalised, undistorted, in C1
   // Standard deviations of start and end across the line, normalised. The closer the line is to the
   // epipolar direction, the larger they are.
   Eigen::Vector2d deviation = Eigen::Vector2d::Zero();
@@ -87,7 +87,7 @@ struct LineObservation {
   int64_t id = -1;                                  // stable along the track, never reused
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  // normalised, undistorted
   Eigen::Vector2d end = Eigen::Vector2d::Zero();    // normalised, undistorted
-  std::optional<RightSegment> right = {};           // as of the same stamp, where it was matched
+  std::optional<RightSegment> right = {};           // at the same timestamp, if matched
 };
 
 // All line segments of one image. May be empty.
@@ -96,17 +96,18 @@ struct LineFrame {
   std::vector<LineObservation> lines;
 };
 
-// What the estimator takes per image: its features and the IMU samples that lead to it.
+// Input of the estimator for one image: its features and the IMU samples up to it.
 //
-// `imu` leads from the frame handed out before to this one, ready to be integrated as it is: it
-// opens with the sample interpolated at the time of that frame (the last of that frame's `imu`, bit
-// by bit), continues with the samples between, and closes with the one interpolated at exactly t_ns
-// + time_offset. The first frame's opens with the first sample there is and may hold only that one.
+// `imu` covers the interval from the previous frame to this one and can be integrated directly: it
+// starts with the sample interpolated at the time of that frame (bitwise the last one of that
+// frame's `imu`), continues with the samples in between, and ends with the sample interpolated at
+// exactly t_ns + time_offset. That of the first frame starts with the first sample and may contain
+// only one.
 struct FrameMeasurement {
   int64_t t_ns = 0;          // image stamp
   double time_offset = 0.0;  // td [s] with which the IMU samples were cut
   PointFrame points;
-  std::optional<LineFrame> lines;  // absent where no line front end is at work
+  std::optional<LineFrame> lines;  // nullopt without a line front end
   std::vector<ImuSample> imu;
 };
 

@@ -51,14 +51,13 @@ class WindowOdometry {
   // The newest keyframe.
   struct Keyframe {
     int64_t t_ns = 0;
-    std::optional<Matrix15d> covariance = std::nullopt;  // set once the window was optimized with
-                                                         // it
+    std::optional<Matrix15d> covariance = std::nullopt;  // set once optimized with the window
   };
 
   // Result of solving for the newest frame.
   struct Solution {
     bool exists = false;  // the equations had a solution
-    // Of the newest state; zero if unknown.
+    // Covariance of the newest state; zero if unknown.
     Matrix15d covariance = Matrix15d::Zero();
 
     Matrix6d PoseCovariance() const { return covariance.topLeftCorner<6, 6>(); }

@@ -195,7 +195,7 @@ TEST_F(EstimationStageTest, SaysThatTheImuComesTooSeldom) {
             "the IMU comes at 16.7 Hz, of which nothing can be made: give 20 Hz or more");
 }
 
-// What the stage makes of a flight with points alone.
+// Runs the stage over a flight with points alone.
 testing::EstimatedFlight Fly(const testing::SimulatedFlight& flight, EstimationStage* stage) {
   testing::EstimatedFlight estimated;
   for (size_t i = 0; i < flight.frames.size(); ++i) {

@@ -23,8 +23,8 @@ class DensityEstimate {
 
 constexpr double kMostNoise = 16;  // upper limit, times the configured density
 
-// Estimates the noise of the IMU on this vehicle from the camera. Data sheets describe a sensor at
-// rest, but propellers cause vibration. The estimate is between 1 and 16 times the configured
+// Estimates the noise of the IMU on this vehicle from the camera. Data sheets describe a sensor
+// without vibration, but propellers shake it. The estimate is between 1 and 16 times the configured
 // noise, which also covers effects that calm flight does not show.
 class ImuNoiseEstimate {
  public:

@@ -30,13 +30,10 @@ class ImuStillness {
   // Adds the samples between the previous image and this one.
   void Add(const FrameMeasurement& measurement);
 
-  bool IsKnown() const;  // the window is full
-  bool IsQuiet() const;  // false if unknown
-  int64_t since_ns() const {
-    return intervals_.front().t_ns;
-  }                                                    // image at the start of a full
-                                                       // window
-  size_t images() const { return intervals_.size(); }  // in the window, including that one
+  bool IsKnown() const;                                         // the window is full
+  bool IsQuiet() const;                                         // false if unknown
+  int64_t since_ns() const { return intervals_.front().t_ns; }  // first image of a full window
+  size_t images() const { return intervals_.size(); }           // in the window, including that one
 
   void Reset() { intervals_.clear(); }
 

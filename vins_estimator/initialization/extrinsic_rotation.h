@@ -18,8 +18,7 @@ struct RotationPair {
 
 struct ExtrinsicRotationOptions {
   size_t min_pairs = 30;
-  double min_second_turn = 0.015;    // rms rotation about axes other than the main one, per pair
-                                     // [rad]
+  double min_second_turn = 0.015;    // rms rotation per pair about all but the main axis [rad]
   double max_deviation = 0.015;      // of the result about its least certain axis [rad]
   double gyro_bias_deviation = 0.1;  // of the bias about 0 [rad/s]
 };

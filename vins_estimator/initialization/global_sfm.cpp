@@ -14,16 +14,13 @@ namespace {
 
 constexpr size_t kMinCommonPoints = 20;  // of the initial pair
 constexpr int kMinPointsToResect = 10;
-constexpr int kMinPoints = 20;        // in the whole structure
-constexpr double kParallaxCap = 0.2;  // parallax above it does not improve the score of a pair
-                                      // [rad]
-constexpr double kMinTriangulationSigmas = 4.0;  // least angle between the rays of a point, in
-                                                 // standard deviations
+constexpr int kMinPoints = 20;                   // in the whole structure
+constexpr double kParallaxCap = 0.2;             // more does not improve the score of a pair [rad]
+constexpr double kMinTriangulationSigmas = 4.0;  // least angle between rays, in standard deviations
 constexpr double kMaxReprojectionSigmas = 3.0;
 constexpr double kMinDepth = 1e-3;  // in units of the first baseline
 constexpr int kBundleIterations = 12;
-constexpr double kBundleTolerance = 1e-2;  // coarse: the visual-inertial bundle adjustment refines
-                                           // it
+constexpr double kBundleTolerance = 1e-2;  // coarse: the visual-inertial bundle refines it
 constexpr int kIntersectionIterations = 4;
 
 // A line in G: all points origin + depth * direction (unit vector).

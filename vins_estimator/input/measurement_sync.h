@@ -26,8 +26,7 @@ struct FrameStatistics {
   int64_t frames_in_imu_gap = 0;       // in a gap of the IMU samples
   int64_t frames_too_close = 0;        // less than 1 ms of IMU time after the previous frame
   int64_t frames_dropped_full = 0;     // queue full: oldest dropped
-  int64_t frames_with_few_points = 0;  // fewer than ten: dark, blank or blurred; used, but mostly
-                                       // dead reckoning
+  int64_t frames_with_few_points = 0;  // fewer than ten: dark, blank or blurred; still used
   // Resets: IMU or images went back in time permanently, or the IMU jumped ahead by a minute.
   int64_t jumps_back = 0;
   int64_t leaps_ahead = 0;
@@ -58,9 +57,8 @@ class MeasurementSync {
     // If the IMU is further ahead of a frame than this [s], it is dropped in favour of newer usable
     // ones: the frames that an estimator too slow for the rate skips.
     double max_wait = std::numeric_limits<double>::infinity();
-    int max_frames = 200;  // longest queue of images and of line frames; beyond, the oldest is
-                           // dropped
-    int max_imu_samples = 50000;  // longest queue of samples; beyond, the oldest is dropped
+    int max_frames = 200;  // longest queue of images and of line frames; beyond, drops the oldest
+    int max_imu_samples = 50000;  // longest queue of samples; beyond, drops the oldest
   };
 
   explicit MeasurementSync(const Options& options);

@@ -8,8 +8,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMaxInterval = 1.0;  // [s] between images; longer intervals say little about the
-                                      // current velocity
+constexpr double kMaxInterval = 1.0;  // [s] between images: longer, the mean is no current velocity
 
 }  // namespace
 

@@ -14,8 +14,7 @@ struct HeadingVotesOptions {
   double half_width = M_PI / 60;  // votes this close support a heading (3 deg) [rad]
   double memory = 15.0;           // time constant with which the vote of a lost line decays [s]
   double maturity = 0.5;          // a line tracked for this long has its full vote [s]
-  double reference_sigma = M_PI / 90;  // a line with this standard deviation (2 deg) has half a
-                                       // vote [rad]
+  double reference_sigma = M_PI / 90;  // standard deviation (2 deg) that halves the vote [rad]
 };
 
 // Support of one heading by the votes.

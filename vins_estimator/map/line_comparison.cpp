@@ -23,8 +23,7 @@ LineDifference FindDifference(const SameLineLimits& limits, const LinePairGeomet
 // its standard deviations are set to zero.
 std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaterniond& R_F_W,
                             double noise, const LineLandmark& line) {
-  constexpr double kGreatestSigma = 0.5;  // [rad], [m]: with more, all lines would be considered
-                                          // the same
+  constexpr double kGreatestSigma = 0.5;  // [rad], [m]: with more, all lines would be one
   const auto segment = ObservedSegment(line, window);
   if (!segment) return std::nullopt;
   SeenLine seen{R_F_W * segment->start_W, R_F_W * segment->end_W, line.axis};

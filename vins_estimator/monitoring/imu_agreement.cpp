@@ -48,7 +48,7 @@ bool ImuAgreement::IsUndoubted(const SlidingWindow& window, int64_t t_ns) const 
 }
 
 void ImuAgreement::AddTurn(const Preintegration& motion, const Eigen::Vector3d& residual) {
-  if (motion.HasGap()) {  // what the gyro missed in it says nothing about stamps
+  if (motion.HasGap()) {  // the rotation in a gap is unknown
     stamp_jitter_.Skip();
     return;
   }

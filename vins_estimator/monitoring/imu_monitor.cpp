@@ -10,8 +10,7 @@ namespace {
 
 // Limits of the accumulated excess of chi-square.
 constexpr double kNormal = 3.0;  // exceeded by 1 % of images with correct noise
-constexpr double kAlarm = 24.0;  // for one image: above the 1 - 1e-4 quantile of chi-square with 6
-                                 // dof
+constexpr double kAlarm = 24.0;  // in one image: about the 1 - 1e-4 quantile of chi-square
 
 constexpr int64_t kSettling_ns = 1'000'000'000;  // until the camera has corrected the biases
 

@@ -27,8 +27,7 @@ class ImuMonitor {
     double chi_square = 0;
     int points = 0;                                           // known points in the newest image
     int contradicted = 0;                                     // of these: outliers
-    Eigen::Vector3d turn_residual = Eigen::Vector3d::Zero();  // rotation minus the gyroscope's
-                                                              // [rad]
+    Eigen::Vector3d turn_residual = Eigen::Vector3d::Zero();  // camera minus gyroscope [rad]
   };
 
   // Returns the factor on the noise variance if the newest interval must be re-weighted with free

@@ -76,8 +76,7 @@ class ViewTerms {
   const SlidingWindow* window_;
   WindowVariables* variables_;
   WindowProblem* problem_;
-  std::unique_ptr<const CameraModel> camera_;  // with the current intrinsics; null if these are not
-                                               // estimated
+  std::unique_ptr<const CameraModel> camera_;  // null if the intrinsics are not estimated
   ceres::CauchyLoss point_loss_;
   ceres::CauchyLoss line_loss_;
 };

@@ -18,7 +18,7 @@ class CalibrationLog {
 
   void Set(const Calibration& calibration);
 
-  // Writes the configuration with the newest calibration into the folder. Does nothing if the
+  // Writes the configuration with the newest calibration into the folder. Has no effect if the
   // calibration is not refined, or if there was no pose yet. Throws std::runtime_error if the file
   // cannot be written, or as CheckFolder() does.
   void Save(const std::string& folder) const;

@@ -151,8 +151,7 @@ void OutputPublisher::PublishLineHistory(int64_t t_ns) {
   for (const auto& marker : line_history_.Add(departed_lines_, t_ns)) {
     PublishIfWanted(history_lines_cloud_, [&] { return marker; });
   }
-  line_history_.Remove(absorbed_lines_);  // after Add(): they may have departed in the same
-                                          // interval
+  line_history_.Remove(absorbed_lines_);  // after Add(), which may add them
 }
 
 void OutputPublisher::PublishPath(const FrameState& state) {

@@ -67,11 +67,10 @@ class OutputPublisher {
   std::optional<RobotBase> base_;
   nav_msgs::Path path_;
   int new_path_poses_ = 0;                 // since it was last published
-  std::vector<MapPoint> departed_points_;  // since history_ns_, when the histories were last
-                                           // published
+  std::vector<MapPoint> departed_points_;  // since history_ns_
   std::vector<MapLine> departed_lines_;
   std::vector<int64_t> absorbed_lines_;
-  int64_t history_ns_ = 0;
+  int64_t history_ns_ = 0;  // when the histories were last published
 };
 
 }  // namespace plm_vins

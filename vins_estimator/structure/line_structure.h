@@ -13,7 +13,7 @@
 
 namespace plm_vins {
 
-// What was done with the lines of the map at one frame.
+// Merged and recognized lines of the map at one frame.
 struct UnitedLines {
   LineMergingCounts merging;
   int recognised = 0;             // lines re-observed after they had left the window

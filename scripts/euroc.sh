@@ -100,7 +100,7 @@ unpack() {
   mv "$part" "$folder"
 }
 
-# What is missing: neither unpacked nor there as an archive of its own.
+# Missing sequences: neither unpacked nor present as an archive.
 declare -A missing=()
 total=0
 for sequence in "${sequences[@]}"; do

@@ -41,14 +41,14 @@ class CheckWords(unittest.TestCase):
 
     def test_glossary(self):
         self.assert_problem("'at rest': standstill", "// The body is at\n// rest.\n")
-        self.assert_problem("'refused': reject", "int a;  // it is refused\n")
+        self.assert_problem("'is refused': reject", "int a;  // it is refused\n")
         self.assert_problem("'ten or more': at least", "Takes ten or more images.\n", "a.md")
         self.assert_clean('// The key `at rest` and "left out".\nconst char* a = "refused";\n')
 
     def test_trailing_comments_go_on_in_the_next_line(self):
         text = "int a;  // it is\n        // refused\n// Of b.\n"
         refused, opening = self.problems(text)
-        self.assertIn("a.h:1: 'refused'", refused)
+        self.assertIn("a.h:1: 'is refused'", refused)
         self.assertIn("a.h:3: opens", opening)
         self.assertEqual(self.problems(text, lines={2}), [refused])
         self.assertEqual(self.problems(text, lines={3}), [opening])

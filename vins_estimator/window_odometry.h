@@ -67,7 +67,7 @@ class WindowOdometry {
   Solution SolveFirstWindow(EstimatorOutput* output);
   // Adds the newest frame and returns its state, propagated by the IMU alone.
   FrameState AddFrame(const FrameMeasurement& measurement);
-  // Returns the image at which standstill began; nullopt if the body moves, also if slowly.
+  // Returns the time of the image at which standstill began; nullopt in motion, even if slow.
   std::optional<int64_t> StillSince(
       const std::optional<StandstillDetector::Standstill>& standstill) const;
   // Places the newest frame and, if that is not sufficient, optimizes the window.

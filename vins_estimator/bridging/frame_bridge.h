@@ -55,8 +55,8 @@ class FrameBridge {
     UncertainState estimate;
   };
 
-  // Propagates with the configured IMU noise, not the noise learned meanwhile: whether the IMU or
-  // the camera was wrong shows when the new window is compared.
+  // Propagates with the configured IMU noise, not the noise learned meanwhile: the comparison with
+  // the new window decides whether the IMU or the camera was wrong.
   void Cross(const Image& from, Image* to) const;
 
   ImuNoise noise_;

@@ -18,7 +18,7 @@ struct ImageTiming {
 // time the corner is at xy - (td - cut_time_offset) v. A later correction of the rolling-shutter
 // readout time delays the corner's row, which adds to td.
 struct TimedBearing {
-  Eigen::Vector2d xy = Eigen::Vector2d::Zero();        // normalised, undistorted
+  Eigen::Vector2d xy = Eigen::Vector2d::Zero();        // normalized, undistorted
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // [1/s]
   double cut_time_offset = 0;                          // [s]
   double share = 0;        // position of its row in the readout: ReadoutShare()

@@ -38,10 +38,10 @@ struct SyncStatistics : ImuStatistics, LinePairingStatistics, FrameStatistics {}
 // cuts the IMU stream at the image times. Synchronous and single-threaded: add input in order of
 // arrival, then call Pop() until it returns nullopt.
 //
-// A frame is ready when the IMU reaches t_image + td and its lines are decided (LinePairing). An
-// unusable frame is dropped and counted; the IMU samples before it then belong to the next frame,
-// so that between the first and the last frame no sample is lost or used twice, even if td changes
-// (ImuStream).
+// A frame is ready when the IMU reaches t_image + td and the frame need not wait for its lines
+// (LinePairing). An unusable frame is dropped and counted; the IMU samples before it then belong to
+// the next frame, so that between the first and the last frame no sample is lost or used twice,
+// even if td changes (ImuStream).
 //
 // If the IMU's clock was set (ImuStream), or images go back in time permanently (a bag played
 // again), everything except the statistics is reset and a new sequence starts.

@@ -72,7 +72,7 @@ bool ImuMonitor::NoiseHasOneDirection() const {
          turns_.squaredNorm() > kOneDirection * images_ * squared_turns_;
 }
 
-// A scale that is right leaves chi_square as expected.
+// With the correct scale, chi_square has its expected mean.
 void ImuMonitor::FollowNoise(double chi_square) {
   const double growth = 1 + kFollowing * (chi_square / kExpected - 1);
   followed_scale_ = std::clamp(followed_scale_ * std::min(growth, kMaxGrowth), 1.0, kMaxScale);

@@ -36,7 +36,8 @@ struct ProblemLine {
 // and on the intrinsics if these are estimated.
 class ViewTerms {
  public:
-  // All arguments must outlive this object, and this object the problem.
+  // All arguments must outlive this object. The problem refers to its losses, so the problem must
+  // not be evaluated after its destruction.
   ViewTerms(const ProblemOptions* options, const SlidingWindow* window, WindowVariables* variables,
             WindowProblem* problem);
 

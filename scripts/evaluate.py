@@ -11,7 +11,7 @@ import sys
 
 import numpy as np
 
-from evaluation import consistency, evo_backend, metrics, steps
+from evaluation import consistency, evo_backend, metrics, mistakes, steps
 from evaluation.evo_zip import write_evo_zip
 from evaluation.run_results import read_estimate
 from evaluation.trajectory import TrajectoryError, read_truth
@@ -210,6 +210,9 @@ def main(arguments=None):
             truth = steps.without_steps(truth)
         paired_estimate, paired_truth, result = evaluate(estimate, truth, options.align,
                                                          options.max_diff, options.max_gap)
+        for note in mistakes.notes((options.estimate, options.ground_truth), estimate, truth,
+                                   options.align, options.max_diff):
+            print(f"evaluate.py: warning: {note}", file=sys.stderr)
         if options.covariance:
             add_consistency(result, estimate, truth, options)
         print(format_report(result))

@@ -27,7 +27,8 @@ def associate(estimate, truth, max_difference=MAX_DIFFERENCE):
     if len(shorter) < LEAST_POSES:
         raise TrajectoryError(
             f"{len(shorter)} poses have a partner within {max_difference} s, no overlap in time"
-            f" (estimate {_span(estimate)}, ground truth {_span(truth)})")
+            f" (estimate {_span(estimate)}, ground truth {_span(truth)}); where their clocks"
+            " differ, give --t-offset")
     pair = (longer, shorter) if swapped else (shorter, longer)
     return _without_steps(*pair) if truth.steps_left_out else pair
 

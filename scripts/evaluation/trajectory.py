@@ -9,6 +9,7 @@ import numpy as np
 LEAST_POSES = 3  # that an alignment needs
 TRUTH_IN_FOLDER = os.path.join("state_groundtruth_estimate0", "data.csv")  # of an ASL folder
 TRUTHS_IN_FOLDER = (TRUTH_IN_FOLDER, os.path.join("mocap0", "data.csv"))  # EuRoC, TUM VI
+UNITS = {"seconds": 1.0, "milliseconds": 1e3, "microseconds": 1e6, "nanoseconds": 1e9}
 RESTART = "# the world frame starts anew"  # the comment of run_offline and the nodes
 
 
@@ -73,11 +74,24 @@ class Trajectory:
                        rotations=rotation @ self.rotations)
 
 
+def with_first_component_last(trajectory):
+    """The trajectory if its file has quaternions as w x y z where x y z w was read."""
+    return replace(trajectory, rotations=_rotations(
+        np.roll(_quaternions(trajectory.rotations), -1, axis=1)))
+
+
+def with_last_component_first(trajectory):
+    """The trajectory if its file has quaternions as x y z w where w x y z was read."""
+    return replace(trajectory, rotations=_rotations(
+        np.roll(_quaternions(trajectory.rotations), 1, axis=1)))
+
+
 def read_trajectory(path, least=LEAST_POSES):
     """Reads `stamp[s] x y z qx qy qz qw` (TUM) or `stamp[ns],x,y,z,qw,qx,qy,qz,...` (EuRoC csv);
     TrajectoryError with fewer than `least` poses."""
     if os.path.isdir(path):
-        raise TrajectoryError(f"{path}: a folder; give a file in it, such as trajectory.tum")
+        raise TrajectoryError(f"{path}: a folder; give a file in it, such as trajectory.tum, first"
+                              " and the ground truth second")
     if not os.path.isfile(path):
         raise TrajectoryError(f"{path}: no such file")
     rows, worlds, begins = [], 0, True
@@ -90,6 +104,8 @@ def read_trajectory(path, least=LEAST_POSES):
     if len(rows) < least:
         raise TrajectoryError(f"{path}: {len(rows)} poses, at least {least} are needed")
     table = np.array(rows).reshape(-1, 8)
+    if len(rows) > 1:
+        _check_unit(path, table[:, 0], is_csv="," in line)
     return Trajectory(table[:, 0], table[:, 1:4], _rotations(table[:, 4:8]), worlds)
 
 
@@ -117,11 +133,13 @@ def _parse_row(line, where, previous_stamp):
     words = line.split(",") if is_csv else line.split()
     if len(words) < 8 or (not is_csv and len(words) != 8):
         expected = "at least 8 columns (EuRoC csv)" if is_csv else "8 columns (TUM)"
-        raise TrajectoryError(f"{where}: {len(words)} columns, expected {expected}")
+        hint = "; replace the semicolons by spaces" if ";" in line else ""
+        raise TrajectoryError(f"{where}: {len(words)} columns, expected {expected}{hint}")
     try:
         row = [float(word) for word in words[:8]]
     except ValueError as error:
-        raise TrajectoryError(f"{where}: not a number ({error})") from None
+        hint = "; begin a heading with #" if previous_stamp is None else ""
+        raise TrajectoryError(f"{where}: not a number ({error}){hint}") from None
     if is_csv:
         row = [row[0] * 1e-9, *row[1:4], *row[5:8], row[4]]
     if not np.all(np.isfinite(row)):
@@ -131,6 +149,25 @@ def _parse_row(line, where, previous_stamp):
     if previous_stamp is not None and row[0] <= previous_stamp:
         raise TrajectoryError(f"{where}: the stamp does not increase")
     return row
+
+
+def _check_unit(path, stamps, is_csv):
+    """TrajectoryError where stamps as read [s] show that the file has another unit."""
+    expected = "nanoseconds" if is_csv else "seconds"
+    interval = np.median(np.diff(stamps))
+    if 1e-4 < interval < 1e2 and (is_csv or stamps[0] < 1e11):
+        return
+    first, interval = stamps[0] * UNITS[expected], interval * UNITS[expected]  # as in the file
+    looks_like = [unit for unit, per_second in UNITS.items() if unit != expected
+                  and 1e-4 < interval / per_second < 2.0 and first / per_second < 1e10]
+    if looks_like == ["seconds"]:
+        raise TrajectoryError(f"{path}: has commas, but its stamps look like seconds; for rows of"
+                              " stamp x y z qx qy qz qw, replace the commas by spaces (EuRoC csv"
+                              " has nanoseconds, and qw before qx)")
+    if looks_like:
+        factor = UNITS[expected] / UNITS[looks_like[-1]]
+        raise TrajectoryError(f"{path}: its stamps look like {looks_like[-1]} instead of"
+                              f" {expected}; multiply the first column by {factor:g}")
 
 
 def _rotations(quaternions):

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is often wrong with two trajectory files, as notes that say what to do."""
+
+import os
+
+import numpy as np
+
+from . import metrics
+from .trajectory import with_first_component_last, with_last_component_first
+
+_WRONG_ATTITUDE = 20.0  # larger errors [deg] call for an explanation
+_RIGHT_ATTITUDE = 5.0  # smaller ones [deg] are no chance
+_DENSER = 3.0  # times as many poses per second have ground truths as estimates, where they differ
+
+
+def notes(paths, estimate, truth, align, max_difference):
+    """All that is found in the two files, the estimate's first; see metrics.associate() and
+    metrics.alignment() for the last two."""
+    pair = metrics.associate(estimate, truth, max_difference)
+    found = (_swapped(*paths, estimate, truth), _quaternion_order(*paths, *pair, align))
+    return [note for note in found if note]
+
+
+def _swapped(estimate_path, truth_path, estimate, truth):
+    """A note if the first file is the ground truth, by what is beside it or by rate and time."""
+    estimate_is_run, truth_is_run = (
+        os.path.isfile(os.path.join(os.path.dirname(path), "summary.json")) or poses.worlds > 1
+        for path, poses in ((estimate_path, estimate), (truth_path, truth)))
+    denser = _rate(estimate) > _DENSER * _rate(truth)
+    around = estimate.stamps[0] <= truth.stamps[0] and estimate.stamps[-1] >= truth.stamps[-1]
+    if not (truth_is_run and not estimate_is_run) and not (
+            denser and around and not estimate_is_run):
+        return None
+    return (f"{estimate_path} looks like the ground truth and {truth_path} like the estimate; give"
+            " the estimate first")
+
+
+def _rate(trajectory):
+    return 1.0 / np.median(np.diff(trajectory.stamps))
+
+
+def _quaternion_order(estimate_path, truth_path, estimate, truth, align):
+    """A note if the attitudes of paired trajectories agree as soon as quaternions are taken in
+    another order. They are aligned by their positions, in which quaternions have no part."""
+    rotation, translation = metrics.alignment(estimate, truth, align)
+
+    def attitude_error(estimate, truth):
+        aligned = estimate.transformed(rotation, translation)
+        return np.median(metrics.rotation_errors(aligned, truth))
+
+    error = attitude_error(estimate, truth)
+    if error < _WRONG_ATTITUDE:
+        return None
+    for reorder, order in ((with_first_component_last, "qw qx qy qz"),
+                           (with_last_component_first, "qx qy qz qw")):
+        for which, first, second in ((estimate_path, reorder(estimate), truth),
+                                     (truth_path, estimate, reorder(truth)),
+                                     ("both files", reorder(estimate), reorder(truth))):
+            left = attitude_error(first, second)
+            if left < _RIGHT_ATTITUDE:
+                return (f"attitudes differ by {error:.0f} deg, but by {left:.1f} deg if the"
+                        f" quaternions of {which} are {order}; reorder the columns (TUM has"
+                        " qx qy qz qw, EuRoC csv qw qx qy qz)")
+    return None

@@ -8,6 +8,7 @@
 #include "common/config/config_entry.h"
 #include "common/config/config_keys.h"
 #include "common/config/nearest_word.h"
+#include "common/config/vins_fusion.h"
 
 namespace plm_vins {
 namespace {
@@ -36,16 +37,24 @@ class Loader {
     const auto entries = ReadConfigEntries(file, overrides, override_prefix, &problems_);
     if (!entries) throw ConfigError(problems_);
     entries_ = *entries;
-    const std::string model_type = ModelTypeAsWritten();
-    knows_model_ = IsModelType(model_type);
-    keys_ = AllKeys(model_type);
+    if (!ReplaceVinsFusionKeys(file, &entries_, &ignored_, &problems_)) {
+      throw ConfigError(problems_);
+    }
+    const std::string model_type = ModelTypeAsWritten("");
+    std::optional<std::string> second_model_type;
+    if (CameraCount(entries_) == 2) second_model_type = ModelTypeAsWritten(kSecondCameraPrefix);
+    if (!IsModelType(model_type)) unknown_cameras_.push_back("");
+    if (second_model_type && !IsModelType(*second_model_type)) {
+      unknown_cameras_.push_back(kSecondCameraPrefix);
+    }
+    keys_ = AllKeys(model_type, second_model_type);
     for (const ConfigKey<Config>& key : keys_) known_.push_back(key.name);
   }
 
   Config Load() {
     for (const ConfigKey<Config>& key : keys_) Read(key);
     for (const auto& [name, entry] : entries_) CheckKnown(name);
-    if (!knows_model_) CheckCalibrationGroups();
+    for (const std::string& prefix : unknown_cameras_) CheckCalibrationGroups(prefix);
     CheckTogether(entries_, config_, [this](const auto& key, const auto& text) { Add(key, text); });
     if (!problems_.empty()) throw ConfigError(problems_);
     AddWarnings();
@@ -54,8 +63,8 @@ class Loader {
   }
 
  private:
-  std::string ModelTypeAsWritten() const {
-    const auto entry = entries_.find("model_type");
+  std::string ModelTypeAsWritten(const std::string& prefix) const {
+    const auto entry = entries_.find(prefix + "model_type");
     return entry == entries_.end() ? "" : ScalarText(entry->second.value).value_or("");
   }
 
@@ -91,16 +100,16 @@ class Loader {
     }
     // Without a model it is not known which calibration keys there should be.
     const bool of_camera = name.find("_parameters") != std::string::npos;
-    if (of_camera && !knows_model_) return;
+    if (of_camera && !unknown_cameras_.empty()) return;
     const auto nearest = NearestWord(name, known_);
     Add(name, "unknown key" + (nearest ? "; did you mean " + *nearest + "?" : "; remove it"));
   }
 
   // Of longer polynomials, as OpenCV's.
   bool IsUnsupportedCoefficient(const std::string& name) const {
-    const std::string group = "distortion_parameters.";
-    return Contains(known_, group + "p1") && name.size() == group.size() + 2 &&
-           name >= group + "k3" && name <= group + "k6";
+    const size_t length = name.size() - std::min<size_t>(name.size(), 2);
+    const std::string group = name.substr(0, length), coefficient = name.substr(length);
+    return Contains(known_, group + "p1") && coefficient >= "k3" && coefficient <= "k6";
   }
 
   std::vector<std::string> KeysOfGroup(const std::string& group) const {
@@ -111,8 +120,9 @@ class Loader {
     return keys;
   }
 
-  void CheckCalibrationGroups() {
-    for (const std::string group : {"projection_parameters", "distortion_parameters"}) {
+  void CheckCalibrationGroups(const std::string& prefix) {
+    for (const char* name : {"projection_parameters", "distortion_parameters"}) {
+      const std::string group = prefix + name;
       const bool has_keys = std::any_of(entries_.begin(), entries_.end(), [&](const auto& entry) {
         return IsInGroup(entry.first, group);
       });
@@ -135,12 +145,19 @@ class Loader {
       config_.warnings.push_back(At("fisheye_mask") +
                                  "is without effect with fisheye: 0; set fisheye: 1 to use it");
     }
-    if (const int percent = PercentBeyondFold(config_)) {
-      config_.warnings.push_back(
-          At("model_type") + std::to_string(percent) +
-          " % of the image has no ray with this distortion, so no features; are its coefficients "
-          "those of this model, and of images of this size?");
+    WarnOfFold(config_.sensor.camera, "");
+    if (const auto& second = config_.sensor.second_camera) {
+      WarnOfFold(second->camera, kSecondCameraPrefix);
     }
+  }
+
+  void WarnOfFold(const CameraParameters& camera, const std::string& prefix) {
+    const int percent = PercentBeyondFold(config_, camera);
+    if (percent == 0) return;
+    config_.warnings.push_back(
+        At(prefix + "model_type") + std::to_string(percent) +
+        " % of the image has no ray with this distortion, so no features; are its coefficients "
+        "those of this model, and of images of this size?");
   }
 
   void Add(const std::string& key, const std::string& problem) {
@@ -155,7 +172,7 @@ class Loader {
 
   Config config_;
   ConfigEntries entries_;
-  bool knows_model_ = false;
+  std::vector<std::string> unknown_cameras_;  // prefixes of those whose model there is not
   ConfigKeys<Config> keys_;
   std::vector<std::string> known_;    // names of the keys
   std::vector<std::string> ignored_;  // the same, without effect here
@@ -174,7 +191,7 @@ Config LoadConfig(const std::string& file, const std::map<std::string, std::stri
 
 std::vector<std::pair<std::string, ConfigValue>> EffectiveValues(const Config& config) {
   std::vector<std::pair<std::string, ConfigValue>> values;
-  for (const ConfigKey<Config>& key : AllKeys(ModelType(config.sensor.camera.model))) {
+  for (const ConfigKey<Config>& key : KeysOf(config)) {
     values.emplace_back(key.name, key.value(config));
   }
   return values;

@@ -16,7 +16,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kHardlyAnything = 0.01;  // of the image
+constexpr double kHardlyAnything = 0.01;    // of the image
+constexpr double kShortestBaseline = 1e-3;  // [m]
 constexpr const char* kNoiseKeys[] = {"acc_n", "gyr_n", "acc_w", "gyr_w"};
 
 bool Has(const ConfigEntries& entries, const std::string& key) { return entries.count(key) > 0; }
@@ -33,11 +34,53 @@ std::string MaskPath(const Config& config) {
   return (std::filesystem::path(config.file).parent_path() / mask).string();
 }
 
-void CheckExtrinsics(const ConfigEntries& entries, const Config& config, const Report& report) {
-  if (config.sensor.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) return;
-  for (const char* key : {"extrinsicRotation", "extrinsicTranslation"}) {
-    if (!Has(entries, key)) report(key, "is missing; add it, or set estimate_extrinsic: 2");
+// A size that is missing or wrong is reported on its own.
+bool HasSize(const CameraParameters& camera) { return camera.width > 0 && camera.height > 0; }
+
+void CheckPrincipalPoint(const CameraParameters& camera, const std::string& prefix,
+                         const Report& report) {
+  if (!HasSize(camera)) return;
+  if (camera.cx > camera.width) {
+    report(prefix + "image_width", "the principal point is right of the image");
   }
+  if (camera.cy > camera.height) {
+    report(prefix + "image_height", "the principal point is below the image");
+  }
+}
+
+void CheckExtrinsics(const ConfigEntries& entries, const Config& config, const Report& report) {
+  const bool is_unknown =
+      config.sensor.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation;
+  const bool has_pair = config.sensor.second_camera.has_value();
+  if (is_unknown && !has_pair) return;
+  for (const char* key : {"extrinsicRotation", "extrinsicTranslation"}) {
+    if (Has(entries, key)) continue;
+    report(key, is_unknown ? "is missing; it says how the two cameras stand to each other"
+                           : "is missing; add it, or set estimate_extrinsic: 2");
+  }
+}
+
+void CheckSecondCamera(const ConfigEntries& entries, const SensorConfig& sensor,
+                       const Report& report) {
+  if (!sensor.second_camera) return;
+  const CameraParameters& left = sensor.camera;
+  const CameraParameters& right = sensor.second_camera->camera;
+  const std::string prefix = kSecondCameraPrefix;
+  const auto check_size = [&](const std::string& key, int size, int expected) {
+    if (size != 0 && expected != 0 && size != expected) {
+      report(prefix + key, std::to_string(size) + " differs from the first camera's " +
+                               std::to_string(expected) + "; both images must be of one size");
+    }
+  };
+  check_size("image_width", right.width, left.width);
+  check_size("image_height", right.height, left.height);
+  CheckPrincipalPoint(right, prefix, report);
+  const Rigid3d T_C0_C1 = sensor.T_B_C.Inverse() * sensor.second_camera->T_B_C;
+  const bool has_transforms = Has(entries, "extrinsicTranslation") && Has(entries, "body_T_cam1");
+  if (has_transforms && T_C0_C1.translation.norm() < kShortestBaseline) {
+    report("body_T_cam1", "puts the second camera where the first one is");
+  }
+  if (sensor.depth) report("depth_topic", "is for one camera; remove it, or set num_of_cam: 1");
 }
 
 void CheckShutter(const SensorConfig& sensor, const Report& report) {
@@ -58,9 +101,8 @@ void CheckNoise(const ConfigEntries& entries, const Report& report) {
 
 void CheckImage(const Config& config, const Report& report) {
   const CameraParameters& camera = config.sensor.camera;
-  if (camera.width == 0 || camera.height == 0) return;  // reported on their own
-  if (camera.cx > camera.width) report("image_width", "the principal point is right of the image");
-  if (camera.cy > camera.height) report("image_height", "the principal point is below the image");
+  CheckPrincipalPoint(camera, "", report);
+  if (!HasSize(camera)) return;
   if (config.points.min_dist >= std::min(camera.width, camera.height)) {
     report("min_dist", "must be smaller than the image");
   }
@@ -73,31 +115,39 @@ bool IsName(const std::string& text) {
   return !text.empty() && text.find_first_of(" \t\r\n") == std::string::npos;
 }
 
+using NamedKeys = std::vector<std::pair<const char*, std::string>>;  // keys and their values
+
+void CheckDistinct(const NamedKeys& keys, const Report& report) {
+  std::map<std::string, std::string> key_of_name;
+  for (const auto& [key, name] : keys) {
+    const auto [other, is_new] = key_of_name.emplace(name, key);
+    if (!is_new) report(key, "is the same as " + other->second);
+  }
+}
+
 void CheckTopics(const SensorConfig& sensor, const Report& report) {
-  const std::pair<const char*, std::string> topics[] = {{"image_topic", sensor.image_topic},
-                                                        {"imu_topic", sensor.imu_topic}};
+  NamedKeys topics = {{"image_topic", sensor.image_topic}, {"imu_topic", sensor.imu_topic}};
+  if (sensor.second_camera) topics.emplace_back("image1_topic", sensor.second_camera->image_topic);
+  if (sensor.depth) topics.emplace_back("depth_topic", sensor.depth->topic);
   for (const auto& [key, topic] : topics) {
     if (!IsName(topic)) report(key, "must be a name without spaces");
   }
-  if (sensor.image_topic == sensor.imu_topic) report("imu_topic", "is the same as image_topic");
+  CheckDistinct(topics, report);
 }
 
 // Each frame has one parent.
 void CheckFrames(const Config& config, const Report& report) {
   const OutputConfig& output = config.output;
-  std::vector<std::pair<const char*, std::string>> frames = {
-      {"world_frame", output.world_frame},
-      {"body_frame", output.body_frame},
-      {"camera_frame", output.camera_frame},
-      {"manhattan_frame", output.manhattan_frame}};
+  NamedKeys frames = {{"world_frame", output.world_frame},
+                      {"body_frame", output.body_frame},
+                      {"camera_frame", output.camera_frame},
+                      {"manhattan_frame", output.manhattan_frame}};
   if (config.pose_graph.loop_closure) frames.emplace_back("map_frame", output.map_frame);
   if (!output.base_frame.empty()) frames.emplace_back("base_frame", output.base_frame);
-  std::map<std::string, std::string> key_of_name;
   for (const auto& [key, name] : frames) {
     if (const Problem problem = CheckFrameName(name)) report(key, *problem);
-    const auto [other, is_new] = key_of_name.emplace(name, key);
-    if (!is_new) report(key, "is the same as " + other->second);
   }
+  CheckDistinct(frames, report);
 }
 
 // Of a grid over the image.
@@ -131,6 +181,7 @@ Problem CheckFrameName(const std::string& name) {
 
 void CheckTogether(const ConfigEntries& entries, const Config& config, const Report& report) {
   CheckExtrinsics(entries, config, report);
+  CheckSecondCamera(entries, config.sensor, report);
   CheckShutter(config.sensor, report);
   CheckNoise(entries, report);
   CheckImage(config, report);
@@ -147,9 +198,9 @@ bool LeavesMaskOut(const Config& config) {
   return !config.points.fisheye_mask.empty() && !config.points.fisheye;
 }
 
-int PercentBeyondFold(const Config& config) {
+int PercentBeyondFold(const Config& config, const CameraParameters& parameters) {
   if (!MaskPath(config).empty()) return 0;
-  const auto camera = CameraModel::Create(config.sensor.camera);
+  const auto camera = CameraModel::Create(parameters);
   const Eigen::Vector3d sideways(1, 0, 0.02);
   if (camera->Project(sideways)) return 0;  // then only what is not in front has no ray
   const double share = ShareWithoutRay(*camera);

@@ -26,10 +26,10 @@ bool LacksMask(const ConfigEntries& entries, const Config& config);
 // True where a mask is named that `fisheye: 0` switches off.
 bool LeavesMaskOut(const Config& config);
 
-// How much of the image has no ray, and so no features, as the distortion folds back before its
-// edge; 0 where that is hardly anything, or a mask says where features are. What a fisheye sees
-// beside and behind it does not count.
-int PercentBeyondFold(const Config& config);
+// How much of the camera's image has no ray, and so no features, as the distortion folds back
+// before its edge; 0 where that is hardly anything, or a mask says where features are. What a
+// fisheye sees beside and behind it does not count.
+int PercentBeyondFold(const Config& config, const CameraParameters& parameters);
 
 // Turns what is written into what the modules take: noise densities, path of the mask.
 void FinishConfig(const ConfigEntries& entries, Config* config);

@@ -150,7 +150,8 @@ std::optional<ConfigEntries> ReadConfigEntries(const std::string& file,
   if (!Flatten(*root, "", 1, file, &entries, problems)) return std::nullopt;
   for (const auto& [key, text] : overrides) {
     entries.erase(key);
-    entries.emplace(key, ConfigEntry{YAML::Node(text), override_prefix, override_prefix + key});
+    entries.emplace(key,
+                    ConfigEntry{YAML::Node(text), override_prefix, override_prefix + key, true});
   }
   return entries;
 }

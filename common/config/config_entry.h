@@ -15,6 +15,7 @@ struct ConfigEntry {
   YAML::Node value;
   std::string location;  // "FILE:LINE"; of an override, what its key comes after
   std::string name;      // "FILE:LINE: KEY" or "--set KEY", for messages
+  bool is_override = false;
 };
 
 // Keys of nested maps are joined by a dot: "projection_parameters.fx".

@@ -154,20 +154,39 @@ ConfigKeys<Section> Required(ConfigKeys<Section> keys) {
   return keys;
 }
 
-// The keys of a part as those of the whole.
-template <typename Whole, typename Part>
-ConfigKeys<Whole> Within(Part Whole::*part, const ConfigKeys<Part>& keys) {
+// The keys of a part as those of the whole. `find` returns a pointer to the part, or nullptr if it
+// is absent: its keys are then read but not kept, and have the values of a default part.
+template <typename Whole, typename Part, typename Find>
+ConfigKeys<Whole> KeysOfPart(Find find, const ConfigKeys<Part>& keys) {
   ConfigKeys<Whole> result;
   for (const ConfigKey<Part>& key : keys) {
-    const auto read = [part, key](const YAML::Node& value, Whole& whole) {
-      return key.read(value, whole.*part);
+    const auto read = [find, key](const YAML::Node& value, Whole& whole) {
+      Part* part = find(whole);
+      Part absent;
+      return key.read(value, part ? *part : absent);
     };
-    const auto value = [part, key](const Whole& whole) { return key.value(whole.*part); };
+    const auto value = [find, key](const Whole& whole) {
+      const Part* part = find(whole);
+      return key.value(part ? *part : Part());
+    };
     result.push_back({key.name, key.unit, key.allowed, read, value, key.required, key.has_default});
     if (!key.keep_in_range) continue;
-    result.back().keep_in_range = [part, key](Whole& whole) { key.keep_in_range(whole.*part); };
+    result.back().keep_in_range = [find, key](Whole& whole) {
+      if (Part* part = find(whole)) key.keep_in_range(*part);
+    };
   }
   return result;
+}
+
+template <typename Whole, typename Part>
+ConfigKeys<Whole> Within(Part Whole::*part, const ConfigKeys<Part>& keys) {
+  return KeysOfPart<Whole>([part](auto& whole) { return &(whole.*part); }, keys);
+}
+
+template <typename Whole, typename Part>
+ConfigKeys<Whole> Within(std::optional<Part> Whole::*part, const ConfigKeys<Part>& keys) {
+  return KeysOfPart<Whole>([part](auto& whole) { return whole.*part ? &*(whole.*part) : nullptr; },
+                           keys);
 }
 
 template <typename Section>

@@ -18,25 +18,46 @@ ConfigKeys<Config> SharedKeys() {
 
 }  // namespace
 
-ConfigKeys<Config> AllKeys(const std::string& model_type) {
+ConfigKeys<Config> AllKeys(const std::string& model_type,
+                           const std::optional<std::string>& second_model_type) {
   return Join<Config>(
-      {Within(&Config::sensor, SensorKeys(model_type)), SharedKeys(),
+      {Within(&Config::sensor, SensorKeys(model_type, second_model_type)), SharedKeys(),
        Within(&Config::points, PointTrackerKeys()), Within(&Config::lines, LineTrackerKeys()),
        Within(&Config::estimator, EstimatorKeys()), Within(&Config::pose_graph, PoseGraphKeys()),
        Within(&Config::output, OutputKeys())});
 }
 
+ConfigKeys<Config> KeysOf(const Config& config) {
+  const SensorConfig& sensor = config.sensor;
+  std::optional<std::string> second_model_type;
+  if (sensor.second_camera) second_model_type = ModelType(sensor.second_camera->camera.model);
+  return AllKeys(ModelType(sensor.camera.model), second_model_type);
+}
+
 void KeepInRange(Config* config) {
-  for (const ConfigKey<Config>& key : AllKeys(ModelType(config->sensor.camera.model))) {
+  for (const ConfigKey<Config>& key : KeysOf(*config)) {
     if (key.keep_in_range) key.keep_in_range(*config);
   }
 }
 
 const std::vector<std::string>& IgnoredKeys() {
-  static const std::vector<std::string> keys = {
-      "camera_name",  "ex_calib_result_path",  "fast_relocalization",   "max_solver_time",
-      "min_loop_num", "output_path",           "pattern_file",          "save_image",
-      "support_path", "visualize_camera_size", "visualize_imu_forward", "voc_file"};
+  static const std::vector<std::string> keys = {"camera_name",
+                                                "ex_calib_result_path",
+                                                "fast_relocalization",
+                                                "fisheye_mask_path",
+                                                "flow_back",
+                                                "max_solver_time",
+                                                "min_loop_num",
+                                                "multiple_thread",
+                                                "output_path",
+                                                "pattern_file",
+                                                "save_image",
+                                                "support_path",
+                                                "use_gpu",
+                                                "use_gpu_acc_flow",
+                                                "visualize_camera_size",
+                                                "visualize_imu_forward",
+                                                "voc_file"};
   return keys;
 }
 

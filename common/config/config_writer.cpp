@@ -18,9 +18,11 @@ std::string Quoted(const std::string& text) {
   return quoted + "\"";
 }
 
-// Every matrix of a configuration has three rows.
+// Every matrix of a configuration has three rows, or is 4x4.
 std::string MatrixText(const std::vector<double>& entries) {
-  return "!!opencv-matrix\n   rows: 3\n   cols: " + std::to_string(entries.size() / 3) +
+  const size_t rows = entries.size() == 16 ? 4 : 3;
+  return "!!opencv-matrix\n   rows: " + std::to_string(rows) +
+         "\n   cols: " + std::to_string(entries.size() / rows) +
          "\n   dt: d\n   data: " + ToText(ConfigValue(entries));
 }
 

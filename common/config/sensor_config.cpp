@@ -14,20 +14,20 @@ using Key = ConfigKey<S>;
 constexpr double kRotationTolerance = 5e-3;     // three decimals are enough
 constexpr Range kTranslationRange = {-10, 10};  // [m]
 
-Problem SetRotation(const Eigen::MatrixXd& R_B_C, SensorConfig& sensor) {
+Problem SetRotation(const Eigen::MatrixXd& R_B_C, Rigid3d* T_B_C) {
   const Eigen::Matrix3d error = R_B_C * R_B_C.transpose() - Eigen::Matrix3d::Identity();
   if (error.cwiseAbs().maxCoeff() > kRotationTolerance || R_B_C.determinant() < 0) {
     return "is not a rotation (its rows must be of length 1, at right angles, right-handed)";
   }
-  sensor.T_B_C.rotation = Eigen::Quaterniond(Eigen::Matrix3d(R_B_C)).normalized();
+  T_B_C->rotation = Eigen::Quaterniond(Eigen::Matrix3d(R_B_C)).normalized();
   return std::nullopt;
 }
 
-Problem SetTranslation(const Eigen::MatrixXd& p_B_C, SensorConfig& sensor) {
+Problem SetTranslation(const Eigen::MatrixXd& p_B_C, Rigid3d* T_B_C) {
   if (p_B_C.minCoeff() < kTranslationRange.min || p_B_C.maxCoeff() > kTranslationRange.max) {
     return "out of range, each must be " + ToText(kTranslationRange) + " [m]";
   }
-  sensor.T_B_C.translation = p_B_C;
+  T_B_C->translation = p_B_C;
   return std::nullopt;
 }
 
@@ -39,14 +39,65 @@ ConfigKeys<S> ExtrinsicKeys() {
       &S::estimate_extrinsic);
   mode.value = [](const S& sensor) { return static_cast<int>(sensor.estimate_extrinsic); };
   Key rotation = Key::Matrix(
-      "extrinsicRotation", [](const S& sensor) { return sensor.T_B_C.R(); }, SetRotation);
+      "extrinsicRotation", [](const S& sensor) { return sensor.T_B_C.R(); },
+      [](const auto& R_B_C, S& sensor) { return SetRotation(R_B_C, &sensor.T_B_C); });
   rotation.allowed = "orthonormal within " + ToText(kRotationTolerance);
   Key translation = Key::Matrix(
       "extrinsicTranslation", [](const S& sensor) { return sensor.T_B_C.translation; },
-      SetTranslation);
+      [](const auto& p_B_C, S& sensor) { return SetTranslation(p_B_C, &sensor.T_B_C); });
   translation.unit = "m";
   translation.allowed = "each " + ToText(kTranslationRange);
   return {mode, rotation, translation};
+}
+
+Eigen::MatrixXd Matrix4(const Rigid3d& transform) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(4, 4);
+  matrix.topLeftCorner(3, 3) = transform.R();
+  matrix.topRightCorner(3, 1) = transform.translation;
+  return matrix;
+}
+
+// Its value decides whether there is a second camera, so it precedes the keys of that.
+Key CameraCountKey() {
+  const auto read = [](const YAML::Node& value, S& sensor) {
+    int count = 1;
+    const Problem problem = ReadInteger(value, "cameras", kCameraCounts, &count);
+    if (count == 2) sensor.second_camera.emplace();
+    return problem;
+  };
+  const auto value = [](const S& sensor) { return ConfigValue(sensor.second_camera ? 2 : 1); };
+  return {"num_of_cam", "cameras", ToText(kCameraCounts), read, value};
+}
+
+ConfigKeys<SecondCamera> SecondCameraKeys(const std::string& model_type) {
+  using Key = ConfigKey<SecondCamera>;
+  ConfigKeys<CameraParameters> calibration = CameraKeys(model_type);
+  for (auto& key : calibration) key.name = kSecondCameraPrefix + key.name;
+  const Key transform = Key::Matrix(
+      "body_T_cam1", [](const SecondCamera& second) { return Matrix4(second.T_B_C); },
+      [](const auto& T_B_C, SecondCamera& second) { return SetTransform(T_B_C, &second.T_B_C); });
+  return Required(Join<SecondCamera>({{Key::Text("image1_topic", &SecondCamera::image_topic)},
+                                      Within(&SecondCamera::camera, calibration),
+                                      {transform}}));
+}
+
+// A topic makes a depth sensor, so its key precedes the others.
+ConfigKeys<S> DepthKeys() {
+  const auto read = [](const YAML::Node& value, S& sensor) {
+    DepthSensor depth;
+    const Problem problem = ReadText(value, &depth.topic);
+    if (!depth.topic.empty()) sensor.depth = depth;
+    return problem;
+  };
+  const auto value = [](const S& sensor) {
+    return ConfigValue(sensor.depth.value_or(DepthSensor()).topic);
+  };
+  using D = DepthSensor;
+  const ConfigKeys<D> others = {
+      ConfigKey<D>::Number("depth_noise", "1/m", {1e-6, 1}, &D::noise),
+      ConfigKey<D>::Number("depth_max", "m", {0.1, 1000}, &D::max),
+  };
+  return Join<S>({{{"depth_topic", "", "", read, value}}, Within(&S::depth, others)});
 }
 
 ConfigKeys<IntrinsicsDeviation> IntrinsicsDeviationKeys() {
@@ -80,7 +131,14 @@ ConfigKeys<ImuRange> ImuRangeKeys() {
 
 }  // namespace
 
-ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type) {
+Problem SetTransform(const Eigen::MatrixXd& T_B_C, Rigid3d* transform) {
+  if (T_B_C.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) return "must have 0, 0, 0, 1 as its last row";
+  const Problem problem = SetRotation(T_B_C.topLeftCorner(3, 3), transform);
+  return problem ? problem : SetTranslation(T_B_C.topRightCorner(3, 1), transform);
+}
+
+ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type,
+                                    const std::optional<std::string>& second_model_type) {
   const ConfigKeys<S> topics = {
       Key::Text("image_topic", &S::image_topic),
       Key::Text("imu_topic", &S::imu_topic),
@@ -101,9 +159,14 @@ ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type) {
       Key::Number("imu_rate", "Hz", {25, 10000}, &S::imu_rate),
       Key::Number("g_norm", "m/s^2", {9, 10.5}, &S::gravity_norm),
   };
+  ConfigKeys<S> second_camera = {CameraCountKey()};
+  if (second_model_type) {
+    second_camera =
+        Join<S>({second_camera, Within(&S::second_camera, SecondCameraKeys(*second_model_type))});
+  }
   return Join<S>({Required(topics), Within(&S::camera, CameraKeys(model_type)), intrinsics,
                   Within(&S::intrinsics_deviation, IntrinsicsDeviationKeys()), ExtrinsicKeys(),
-                  timing, noise, Within(&S::imu_noise, ImuNoiseKeys()),
+                  second_camera, DepthKeys(), timing, noise, Within(&S::imu_noise, ImuNoiseKeys()),
                   Within(&S::imu_range, ImuRangeKeys())});
 }
 

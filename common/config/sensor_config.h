@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/camera/camera_model.h"
@@ -18,6 +19,20 @@ struct IntrinsicsDeviation {
   double distortion = 0.005;   // of each coefficient [1]
 };
 
+// The right camera of a pair.
+struct SecondCamera {
+  std::string image_topic = "/cam1/image_raw";
+  CameraParameters camera;
+  Rigid3d T_B_C;  // camera in the body (IMU) frame
+};
+
+// Depth images that are registered to the camera: of its size, with its lens.
+struct DepthSensor {
+  std::string topic;
+  double noise = 0.002;  // standard deviation of a depth z is noise * z^2 [1/m]
+  double max = 6;        // largest depth that is used [m]
+};
+
 // The sensors: topics, calibration, noise.
 struct SensorConfig {
   std::string image_topic = "/cam0/image_raw";
@@ -26,6 +41,8 @@ struct SensorConfig {
   bool estimate_intrinsics = false;
   IntrinsicsDeviation intrinsics_deviation;
   Rigid3d T_B_C;  // camera in the body (IMU) frame
+  std::optional<SecondCamera> second_camera;
+  std::optional<DepthSensor> depth;
   enum class ExtrinsicMode { kFixed = 0, kRefine = 1, kCalibrateRotation = 2 };
   ExtrinsicMode estimate_extrinsic = ExtrinsicMode::kFixed;
   double td = 0.0;  // t_imu = t_image + td [s]
@@ -45,7 +62,16 @@ struct SensorConfig {
   double ReadoutTime() const { return rolling_shutter ? rolling_shutter_tr : 0.0; }
 };
 
-// All keys, where the camera is of this `model_type`.
-ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type);
+constexpr Range kCameraCounts = {1, 2};
+
+// What precedes the keys of the second camera's calibration: "cam1_model_type".
+constexpr const char* kSecondCameraPrefix = "cam1_";
+
+// Takes the transform from a 4x4 matrix, unless it is not a rotation and a translation.
+Problem SetTransform(const Eigen::MatrixXd& T_B_C, Rigid3d* transform);
+
+// All keys, where the cameras are of these types; those of the second one only if it has a type.
+ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type,
+                                    const std::optional<std::string>& second_model_type);
 
 }  // namespace plm_vins

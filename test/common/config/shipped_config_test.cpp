@@ -115,5 +115,16 @@ TEST_F(ReferenceFile, NamesTheKeysOfTheOtherCameraModels) {
   }
 }
 
+TEST_F(ReferenceFile, NamesTheKeysOfTheSecondCamera) {
+  std::string comments;
+  for (const std::string& line : lines_) {
+    if (line.rfind('#', 0) == 0) comments += line + " ";
+  }
+  for (const auto& key : AllKeys("PINHOLE", "MEI")) {
+    const std::string name = key.name.substr(0, key.name.find('.'));
+    EXPECT_TRUE(entries_.count(key.name) > 0 || comments.find(name) != std::string::npos) << name;
+  }
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the benchmarks of the front ends share: CONFIG IMAGE_FOLDER as arguments, one thread.
+// Shared code of the front-end benchmarks: arguments CONFIG IMAGE_FOLDER, one thread.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -17,7 +17,7 @@
 
 namespace plm_vins {
 
-// The first images of a folder, grey, in order of their names.
+// Returns the first images of a folder in the order of their names, CV_8UC1.
 inline std::vector<cv::Mat> ReadImages(const std::string& folder, size_t max_images) {
   std::vector<cv::String> files;
   cv::glob(folder + "/*.png", files);
@@ -28,7 +28,8 @@ inline std::vector<cv::Mat> ReadImages(const std::string& folder, size_t max_ima
   return images;
 }
 
-// Main function of program `name`: reads the input, registers the benchmarks on it, runs them.
+// The main function of program `name`: reads the input, registers the benchmarks on it and runs
+// them.
 template <typename Input>
 int RunImageBenchmark(int argc, char** argv, const std::string& name,
                       Input (*read)(const std::string& config_file, const std::string& folder),

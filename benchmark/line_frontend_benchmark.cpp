@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time of the line front end per image beside that of detection from scratch by LSD with LBD
-// descriptors, on one thread, and the quality of both: counters of the benchmarks named quality_*.
+// Compares the line front end with detection from scratch by LSD and matching by LBD descriptors,
+// on one thread: time for each image, and quality as counters of the benchmarks named quality_*.
 // Usage: line_frontend_benchmark CONFIG IMAGE_FOLDER [--benchmark_...]
 #include <benchmark/benchmark.h>
 
@@ -40,7 +40,7 @@ Input ReadInput(const std::string& config_file, const std::string& folder) {
           ReadImages(folder, kMaxImages)};
 }
 
-// What both pipelines have in common here: lines of one image after the other, normalised.
+// Common interface of both pipelines: tracks the lines (normalized) of consecutive images.
 class FrontEnd {
  public:
   virtual ~FrontEnd() = default;
@@ -57,9 +57,9 @@ class OurFrontEnd : public FrontEnd {
   LineTracker tracker_;
 };
 
-// LSD with the settings that are usual for it here (scale 0.5, sigma 0.6, quantisation 2,
-// angle 22.5 degrees, density 0.6, lines of at least an eighth of the short side), LBD descriptors,
-// and for each line the best of the previous image by Hamming distance that is close to it.
+// LSD with common settings (scale 0.5, sigma 0.6, quantization 2, angle 22.5 degrees, density 0.6,
+// lines of at least an eighth of the short side) and LBD descriptors. Each line is matched with the
+// nearby line of the previous image that has the smallest Hamming distance.
 class LsdLbdFrontEnd : public FrontEnd {
  public:
   explicit LsdLbdFrontEnd(std::shared_ptr<const CameraModel> camera) : camera_(std::move(camera)) {}
@@ -183,7 +183,7 @@ std::set<int64_t> Ids(const LineFrame& frame) {
   return ids;
 }
 
-// Share of the lines of an image that are still followed `later` images later, over all images.
+// Share of the lines that are still tracked `later` images later, over all images.
 double Survival(const std::vector<LineFrame>& frames, size_t later) {
   double lines = 0, alive = 0;
   for (size_t i = 0; i + later < frames.size(); ++i) {
@@ -235,7 +235,7 @@ void JudgeOnImages(benchmark::State& state, const Input& input, MakeFrontEnd mak
   state.counters["alive_10"] = Survival(frames, 10);
 }
 
-// The view of simulated image i: a flight past a plane of bars, with rotation.
+// Homography of simulated image i: a flight with rotation past a plane of bars.
 Eigen::Matrix3d SimulatedMotion(int i) {
   Eigen::Matrix3d H = Eigen::AngleAxisd(0.006 * i, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   H(0, 2) += 0.004 * i;
@@ -244,7 +244,7 @@ Eigen::Matrix3d SimulatedMotion(int i) {
   return H;
 }
 
-// Index of the edge on which the line lies, -1 where there is none.
+// Index of the edge on which the line lies; -1 if there is none.
 int EdgeOf(const std::vector<LineSegment>& edges, const LineSegment& line, double focal) {
   constexpr double kMaxError_px = 3;
   int best = -1;

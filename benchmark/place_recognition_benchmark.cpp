@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well retrieval finds places again: images with known poses, each compared with all others by
-// brute force, which is the ceiling, and by the index of words. Prints recall at full precision,
-// the share of true pairs above the best false one, for several indices. Pairs of neighbours in
-// time do not count, nor those of which it is hard to say whether they show one place.
+// Measures place recognition on images with known poses, by brute-force comparison of all
+// descriptors (the upper bound) and by the index of words with several settings. Prints the recall
+// at full precision: the share of true pairs that score above the best false pair. Pairs close in
+// time and ambiguous pairs are ignored.
 //
 // Usage: place_recognition_benchmark CONFIG FOLDER    FOLDER/*.jpg, named by stamp, and poses.tum
 #include <algorithm>
@@ -33,7 +33,7 @@ struct Place {
   std::vector<Descriptor> descriptors;
 };
 
-// Similarity of a pair of images, and whether they show one place.
+// Similarity of two images, and whether they show the same place.
 struct Pair {
   double score;
   bool same_place;
@@ -83,7 +83,7 @@ std::vector<Place> LoadPlaces(const Config& config, const std::string& folder) {
   return places;
 }
 
-// Whether two images show one place, or surely do not; nothing where neither can be said.
+// Returns whether two images show the same place; nullopt if ambiguous.
 std::optional<bool> SamePlace(const Place& a, const Place& b) {
   const double distance = (a.T_W_C.translation - b.T_W_C.translation).norm();
   const double angle = a.T_W_C.rotation.angularDistance(b.T_W_C.rotation);
@@ -93,7 +93,7 @@ std::optional<bool> SamePlace(const Place& a, const Place& b) {
   return std::nullopt;
 }
 
-// As CornerIndex does it, but comparing all with all.
+// Computes the same scores as CornerIndex, but by comparing all descriptors with each other.
 std::map<int, double> ScoresByBruteForce(const std::vector<Place>& places, int query,
                                          int max_distance) {
   std::map<int, double> scores;
@@ -113,7 +113,7 @@ std::map<int, double> ScoresByBruteForce(const std::vector<Place>& places, int q
 
 using ScoreFunction = std::function<std::map<int, double>(int query)>;
 
-// How many images whose place was seen before have one of the same place as the best candidate.
+// Counts the images with earlier images of the same place, and those whose best candidate is one.
 struct TopHits {
   int queries = 0;
   int hits = 0;

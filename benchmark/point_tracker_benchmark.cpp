@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time of the point front end per image, as a whole and stage by stage, on one thread.
+// Time of the point front end for each image, in total and by stage, on one thread.
 // Usage: point_tracker_benchmark CONFIG IMAGE_FOLDER [--benchmark_...]
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What loop closure costs over a long time in one place: flies the keyframes of a map again and
-// again, each round with new tracks and some drift, and prints after each round how many keyframes
-// are kept and how long one took. In the end, how long the graph takes to optimise.
+// Measures the cost of loop closure during long operation in one place: repeats the keyframes of a
+// map in rounds with new tracks and some drift, and prints after each round the number of keyframes
+// kept and the time for each. Finally it measures the graph optimization.
 //
 // Usage: pose_graph_benchmark CONFIG MAP HOURS    MAP: run_offline --map-out of a flight
 #include <algorithm>
@@ -20,11 +20,12 @@
 namespace plm_vins {
 namespace {
 
-const Vector4d kDrift(0.05, -0.03, 0.02, 0.3 * M_PI / 180);  // of a round [m, rad]
-constexpr int64_t kTracks = 1'000'000'000;                   // more than a round has
-constexpr double kPause = 1;                                 // between two rounds [s]
+const Vector4d kDrift(0.05, -0.03, 0.02, 0.3 * M_PI / 180);  // drift of each round [m, rad]
+constexpr int64_t kTracks = 1'000'000'000;                   // exceeds the track numbers of a round
+constexpr double kPause = 1;                                 // between rounds [s]
 
-// The keyframe as it is in a later round, `share` of the round later than its first.
+// Returns the keyframe as observed in a later round. `share` is its temporal position in the round,
+// from 0 to 1.
 Keyframe InRound(Keyframe keyframe, int round, double share, int64_t length_ns, double path) {
   const LevelTransform T_O_first = LevelTransform::FromVector((round + share) * kDrift);
   keyframe.t_ns += round * length_ns;
@@ -46,7 +47,7 @@ Keyframe InRound(Keyframe keyframe, int round, double share, int64_t length_ns, 
 }
 
 struct Round {
-  std::vector<double> ms;  // by keyframe
+  std::vector<double> ms;  // for each keyframe
   int loops = 0;
 };
 
@@ -75,7 +76,7 @@ void Print(const Round& round, double minutes, const KeyframeMap& map) {
       "%.1f, 95th percentile %.1f\n",
       minutes, map.graph.size(), map.CountKept(), map.graph.edges().size(), round.loops,
       sum / static_cast<double>(sorted.size()), sorted[sorted.size() * 95 / 100]);
-  std::fflush(stdout);  // rounds are slow
+  std::fflush(stdout);  // shows the row at once, since rounds are slow
 }
 
 void Run(const Config& config, const std::vector<Keyframe>& keyframes, double hours) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time of the window optimisation per image, covariance included, by our solver and by Ceres: the
-// same features of a recording go through an estimator with each. Iterations are windows.
+// Compares the time of the window optimization for each image, covariance included, by our solver
+// and by Ceres. The same features of a recording are processed by an estimator with each.
+// Iterations are windows.
 // Usage: solver_benchmark CONFIG ASL_FOLDER [--benchmark_...]
 #include <benchmark/benchmark.h>
 
@@ -29,7 +30,7 @@ void Take(TrackedFeatures frame, MeasurementSync* sync) {
   if (frame.lines) sync->AddLines(std::move(frame.lines->features));
 }
 
-// What the estimator is given over the whole recording.
+// Returns the estimator's input for the whole recording.
 std::vector<FrameMeasurement> Measure(const Config& config, Recording* recording) {
   FeatureTrackers trackers(config);
   MeasurementSync::Options options;
@@ -70,7 +71,7 @@ void Optimize(benchmark::State& state, Config config, SolverType solver,
   state.counters["landmarks"] = landmarks / static_cast<double>(times_ms.size());
 }
 
-// Images of which the estimator knows the pose.
+// Number of images for which the estimator has a pose.
 int64_t CountWindows(const Config& config, const std::vector<FrameMeasurement>& measurements) {
   Estimator estimator(config);
   return std::count_if(measurements.begin(), measurements.end(),

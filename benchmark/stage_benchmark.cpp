@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time of every stage per image, all in one thread, over the images of a recording: mean, median,
-// 95th and 99th percentile, and each stage's share. Last, the processor's time of the whole run,
-// decoding included.
+// Time of every stage for each image of a recording, all in one thread: mean, median, 95th and 99th
+// percentile, and each stage's share. It ends with the CPU time of the whole run, including
+// decoding.
 // Usage: stage_benchmark CONFIG ASL_FOLDER [PAUSE]
-// PAUSE: after each image [ms], as between those of a camera, when caches go cold.
+// PAUSE: time to wait after each image [ms]; it lets the caches go cold, as between live images.
 #include <chrono>
 #include <cstdio>
 #include <ctime>

@@ -9,16 +9,16 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kClipLimit = 3.0;  // of the share of a level, times the mean
-// Fixed point of 16 bits, of which the processor multiplies eight at once.
-constexpr int kBlendedBits = 6;  // behind the point
+constexpr double kClipLimit = 3.0;  // of a histogram bin, relative to the mean bin
+// Fixed-point formats of 16 bits, of which SIMD multiplies eight at once.
+constexpr int kBlendedBits = 6;  // fractional bits
 constexpr int kWeightBits = 14;
 constexpr int kShareBits = 15;
 constexpr int kPixelsAtOnce = 16;
 
 int TileStart(int tile, int tiles, int size) { return tile * size / tiles; }
 
-// Shares out what is above the limit among all levels.
+// Clips the histogram at `limit` and redistributes the excess over all levels.
 template <typename Histogram>
 void Clip(int limit, Histogram* histogram) {
   const int levels = static_cast<int>(histogram->size());
@@ -47,7 +47,7 @@ ContrastEqualizer::ContrastEqualizer(const cv::Size& image_size)
   }
 }
 
-// Beyond the centres of the outermost tiles, these alone count.
+// Pixels beyond the centres of the outermost tiles use these tiles only.
 ContrastEqualizer::Position ContrastEqualizer::PositionOf(int pixel, int size) {
   const float tiles = static_cast<float>(pixel) * kTiles / static_cast<float>(size) - 0.5F;
   const int tile = std::clamp(static_cast<int>(std::floor(tiles)), 0, kTiles - 2);
@@ -76,7 +76,8 @@ void ContrastEqualizer::FillTables(const cv::Mat& image) {
 }
 
 void ContrastEqualizer::FillTable(const cv::Mat& tile, int tile_column, Table* table) const {
-  // Two, as neighbours often are of one level, and to count it again waits for the first count.
+  // Two histograms, since neighbouring pixels often have the same level, and incrementing the same
+  // counter twice in a row stalls.
   std::array<std::array<int, kLevels>, 2> halves = {};
   for (int y = 0; y < tile.rows; ++y) {
     const auto* levels = tile.ptr<uint8_t>(y);
@@ -98,7 +99,7 @@ void ContrastEqualizer::FillTable(const cv::Mat& tile, int tile_column, Table* t
   }
 }
 
-// With half a grey level more, so that to cut off what is behind the point rounds.
+// Adds half a grey level, so that truncating the fractional bits later rounds.
 void ContrastEqualizer::BlendTables(const Position& row) {
   constexpr int kOne = 1 << kShareBits;
   constexpr int kDifferenceBits = 16 - kShareBits + kBlendedBits;

@@ -8,24 +8,26 @@
 
 namespace plm_vins {
 
-// Contrast limited adaptive histogram equalisation (CLAHE, [Zuiderveld1994]) of grey images of one
-// size: to one grey level what cv::CLAHE gives, in half the time. The tables of neighbouring tiles
-// are blended down the image once per row, then per pixel only across. Tiles of a size that is not
-// divisible by their number differ by a pixel; OpenCV extends the image instead.
+// Contrast limited adaptive histogram equalization (CLAHE, [Zuiderveld1994]) for grey images of a
+// fixed size. Results agree with cv::CLAHE to one grey level, in half the time: the lookup tables
+// of vertically adjacent tiles are blended once per image row, and pixels are interpolated only
+// horizontally. If the image size is not divisible by the number of tiles, tile sizes differ by one
+// pixel; OpenCV pads the image instead.
 class ContrastEqualizer {
  public:
   explicit ContrastEqualizer(const cv::Size& image_size);
 
-  // `image` is CV_8UC1 of the size given, at least eight pixels each way. Not in place.
+  // `image` is CV_8UC1 of the given size, at least 8 x 8 pixels. Does not work in place.
   void Apply(const cv::Mat& image, cv::Mat* equalized);
 
  private:
-  static constexpr int kTiles = 8;  // each way
+  static constexpr int kTiles = 8;  // in each direction
   static constexpr int kLevels = 256;
-  // What becomes of a grey level in the tiles side by side.
+  // Output level for each input level, in all tiles of a row.
   using Table = std::array<std::array<int16_t, kTiles>, kLevels>;
 
-  // Between which two tiles a row or column lies: the one before, and the share of the one after.
+  // Position of a row or column between two tile centres: the preceding tile and the weight of the
+  // next.
   struct Position {
     int tile = 0;
     float share = 0;
@@ -38,11 +40,11 @@ class ContrastEqualizer {
   void EqualizeRow(const uint8_t* levels, uint8_t* equalized);
 
   cv::Size size_;
-  std::array<int, kTiles> first_column_ = {};  // of those that lie between a tile and the next
-  std::vector<int16_t> weights_;               // of these two, per column
-  std::array<Table, kTiles> tables_ = {};      // of the rows of tiles
-  Table blended_ = {};                         // for one row of pixels, finer than grey levels
-  std::vector<int16_t> pairs_;                 // of that row, what both tiles make of the pixel
+  std::array<int, kTiles> first_column_ = {};  // first column after the tile's centre
+  std::vector<int16_t> weights_;  // interpolation weights of the two tiles, for each column
+  std::array<Table, kTiles> tables_ = {};  // lookup tables, one for each row of tiles
+  Table blended_ = {};                     // for the current image row, with fractional bits
+  std::vector<int16_t> pairs_;  // outputs of the two tiles for each pixel of the current row
 };
 
 }  // namespace plm_vins

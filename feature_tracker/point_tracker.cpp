@@ -20,7 +20,8 @@
 namespace plm_vins {
 namespace {
 
-// Corners are searched for once this share is missing: a search takes as long as following many.
+// New corners are detected once this share of max_cnt is missing: a detection takes as long as
+// tracking many corners.
 constexpr double kRefillShare = 0.1;
 
 Eigen::Vector2d ToEigen(const cv::Point2f& point) { return {point.x, point.y}; }
@@ -35,7 +36,7 @@ bool AreSame(const cv::Mat& a, const cv::Mat& b) {
   return true;
 }
 
-// Removes the tracks of which `keep` is false; returns how many.
+// Removes the tracks whose `keep` is false; returns their number.
 int RemoveTracks(const std::vector<bool>& keep, std::vector<PointTrack>* tracks) {
   size_t kept = 0;
   for (size_t i = 0; i < tracks->size(); ++i) {
@@ -91,7 +92,7 @@ class PointTracker::Implementation {
     statistics_ = {};
   }
 
-  // The youngest tracks go first.
+  // Tracks are ordered by age, so the youngest are dropped.
   void SetMaxCorners(int count) {
     config_.max_cnt = count;
     detector_ = CornerDetector(config_, mask_);
@@ -108,8 +109,8 @@ class PointTracker::Implementation {
     return equalized_;
   }
 
-  // Takes the tracks to the image of `pyramid`, `gray` as it came from the camera, `dt` seconds
-  // later, and drops those that got lost.
+  // Advances the tracks to the image of `pyramid`, `dt` seconds later, and drops lost ones. `gray`
+  // is the same image before equalization.
   void Follow(const OpticalFlow::Pyramid& pyramid, const cv::Mat& gray, double dt,
               const std::optional<Eigen::Quaterniond>& R_C1_C0) {
     std::vector<cv::Point2f> points, turned, predicted;
@@ -143,8 +144,8 @@ class PointTracker::Implementation {
         RemoveTracks(FindEpipolarInliers(pairs, R_C1_C0, threshold), &tracks_);
   }
 
-  // In an image that is the one before, sent again. (Followed, tracks would move by what their
-  // alignment leaves.)
+  // Keeps the tracks in place in a repeated image. Tracking would move them by the errors of
+  // alignment.
   void Stay(double dt) {
     previous_dt_ = dt;
     for (PointTrack& track : tracks_) {
@@ -154,14 +155,14 @@ class PointTracker::Implementation {
     }
   }
 
-  // Where the track's pixel goes when the camera only turns; unchanged if not projectable.
+  // Predicts the track's pixel for a pure rotation; unchanged if it cannot be projected.
   cv::Point2f Turn(const PointTrack& track, const Eigen::Quaterniond& R_C1_C0) const {
     const auto pixel = camera_->Project(R_C1_C0 * track.xy.homogeneous());
     return pixel ? ToOpenCv(*pixel) : track.uv_px;
   }
 
-  // Where the track's patch lies, near `uv_px`. There itself, and without that patch from now on,
-  // where it is not found.
+  // Aligns the track's patch near `uv_px` and returns its position. If the alignment fails, returns
+  // `uv_px` and drops the patch.
   static cv::Point2f Align(const cv::Mat& gray, const cv::Point2f& uv_px, PointTrack* track) {
     if (!track->patch) return uv_px;
     const auto pose = track->patch->Align(gray, {track->patch_linear, ToEigen(uv_px)});
@@ -173,7 +174,7 @@ class PointTracker::Implementation {
     return ToOpenCv(pose->center);
   }
 
-  // For the corners that are new, and those that look different by now.
+  // Extracts patches for new corners and those whose appearance has changed.
   void CutMissingPatches(const cv::Mat& gray) {
     for (PointTrack& track : tracks_) {
       if (track.patch) continue;
@@ -184,7 +185,7 @@ class PointTracker::Implementation {
     }
   }
 
-  // False where the new position has no ray.
+  // Returns false if the new position has no ray.
   bool Advance(const cv::Point2f& uv_px, const cv::Point2f& turned_px, double dt,
                PointTrack* track) const {
     const auto xy = RayOf(*camera_, ToEigen(uv_px));
@@ -198,7 +199,7 @@ class PointTracker::Implementation {
     return true;
   }
 
-  // Drops tracks that came too close to an older one, or under the mask.
+  // Drops tracks that came too close to an older one, or that the mask excludes.
   void Spread() {
     SpacingGrid occupied(image_size_, config_.min_dist);
     std::vector<bool> keep;
@@ -228,7 +229,7 @@ class PointTracker::Implementation {
     }
   }
 
-  // Without what jumps too fast to be true, as next to the image plane of a fisheye.
+  // Omits points with impossibly fast motion, which occur near the image plane of a fisheye.
   PointFrame MakeFrame() const {
     PointFrame frame;
     frame.t_ns = *t_ns_;
@@ -239,23 +240,23 @@ class PointTracker::Implementation {
     return frame;
   }
 
-  // Read-only after construction, but for SetMaxCorners.
+  // Constant after construction, except for SetMaxCorners().
   PointTrackerConfig config_;
   std::shared_ptr<const CameraModel> camera_;
   cv::Size image_size_;
-  cv::Mat mask_;  // of what has rays
+  cv::Mat mask_;  // with pixels without rays excluded
   CornerDetector detector_;
   OpticalFlow flow_;
   ContrastEqualizer equalizer_;
 
-  // As of the newest image.
+  // State at the newest image.
   std::optional<int64_t> t_ns_;
   double previous_dt_ = 0;  // between the two newest images [s]
-  ImageSample sample_;      // the pyramid may look at its pixels
+  ImageSample sample_;      // keeps the pixels that the pyramid may refer to
   OpticalFlow::Pyramid pyramid_;
-  OpticalFlow::Pyramid unused_pyramid_;  // memory for the next
-  cv::Mat equalized_;                    // the same, of an image
-  std::vector<PointTrack> tracks_;       // from the oldest to the youngest
+  OpticalFlow::Pyramid unused_pyramid_;  // its memory is reused for the next pyramid
+  cv::Mat equalized_;                    // equalized image; its memory is reused
+  std::vector<PointTrack> tracks_;       // in descending order of age
   PointTrackerStatistics statistics_;
   int64_t next_id_ = 0;
 };

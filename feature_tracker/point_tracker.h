@@ -12,43 +12,43 @@
 
 namespace plm_vins {
 
-// What happened to the corners of one image.
+// Statistics of tracking one image.
 struct PointTrackerStatistics {
-  int previous = 0;           // corners to follow
-  int flow_lost = 0;          // KLT failed or left the image
-  int forward_backward = 0;   // did not come back
-  int epipolar_outliers = 0;  // against the epipolar geometry
-  int crowded = 0;            // came too close to an older one, or under the mask
+  int previous = 0;           // tracks before this image
+  int flow_lost = 0;          // flow failed or left the image
+  int forward_backward = 0;   // failed the forward-backward check
+  int epipolar_outliers = 0;  // rejected by the epipolar RANSAC
+  int crowded = 0;            // too close to an older track, or masked
   int detected = 0;           // new corners
 };
 
-// Follows corners from image to image and refills with new ones (façade of the point front end):
-// CLAHE -> KLT with prediction -> forward-backward check -> alignment with the patch that the
-// corner was found in -> epipolar RANSAC -> spread -> refill.
+// Facade of the point front end. Tracks corners from image to image and adds new ones: CLAHE -> KLT
+// with prediction -> forward-backward check -> alignment with the patch of the corner's detection
+// -> epipolar RANSAC -> spacing -> detection.
 class PointTracker {
  public:
   using Features = PointFrame;
   using Statistics = PointTrackerStatistics;
 
-  // No corner lies where the mask forbids it (as of ReadMask()), or the camera has no ray.
+  // Corners are restricted to pixels that `mask` (see ReadMask()) allows and that have a ray.
   PointTracker(const PointTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
                const cv::Mat& mask = {});
   ~PointTracker();
 
-  // `R_C1_C0` takes directions of the previous camera frame C0 to the current one C1 (from the
-  // gyro); without it the corners' own motion predicts. Throws std::invalid_argument where the
-  // image is not CV_8UC1 of the calibrated size or its stamp not after the one before; the tracker
-  // is then unchanged.
+  // `R_C1_C0` rotates the previous camera frame C0 to the current one C1 (from the gyroscope);
+  // without it, the tracks' own motion predicts. Throws std::invalid_argument if the image is not
+  // CV_8UC1 of the calibrated size or its timestamp does not increase; the tracker is then
+  // unchanged.
   PointFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0);
 
-  void Reset();  // forgets all tracks; ids go on
+  void Reset();  // drops all tracks; ids continue
 
-  // Replaces max_cnt from the next image on; of too many tracks the oldest stay.
+  // Replaces max_cnt from the next image on; drops the youngest tracks if there are too many.
   void SetMaxCorners(int count);
 
   const PointTrackerStatistics& statistics() const;
 
-  // The last image with its tracks drawn (CV_8UC3), coloured by age.
+  // Returns the last image with its tracks drawn (CV_8UC3), coloured by age.
   cv::Mat DrawTracks() const;
 
  private:

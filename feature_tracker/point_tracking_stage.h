@@ -6,7 +6,7 @@
 
 namespace plm_vins {
 
-// The point front end as the node and the offline runner use it.
+// The point front end, as used by the node and the offline runner.
 using PointTrackingStage = TrackingStage<PointTracker, &Config::points>;
 using TrackedPoints = PointTrackingStage::Frame;
 

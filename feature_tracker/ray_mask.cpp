@@ -9,11 +9,12 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kBlock = 4;  // [px]: without a ray, a pixel takes a hundred times as long
+constexpr int kBlock = 4;  // [px]; finding that a pixel has no ray takes a hundred times as long
 
 bool HasRay(const CameraModel& camera, int x, int y) { return RayOf(camera, {x, y}).has_value(); }
 
-// What has rays is in one piece about the axis, so where the border has them, all within has.
+// Pixels with rays form a connected region around the principal point, so testing the border
+// suffices.
 bool BorderHasRays(const CameraModel& camera) {
   const int right = camera.parameters().width - 1, bottom = camera.parameters().height - 1;
   for (int x = 0; x <= right; ++x) {
@@ -25,7 +26,7 @@ bool BorderHasRays(const CameraModel& camera) {
   return true;
 }
 
-// 255 in blocks of which all four corners have a ray, 0 elsewhere.
+// Returns 255 in blocks whose four corners have rays, 0 elsewhere.
 cv::Mat RayBlocks(const CameraModel& camera) {
   const int width = camera.parameters().width, height = camera.parameters().height;
   cv::Mat nodes((height - 1) / kBlock + 2, (width - 1) / kBlock + 2, CV_8UC1);

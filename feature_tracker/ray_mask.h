@@ -9,12 +9,12 @@
 
 namespace plm_vins {
 
-// The normalised image point of the pixel, as Unproject(). Nothing also where it is beyond
-// kMaxImageCoordinate, at right angles to the axis of a fisheye.
+// Returns the normalized image point of the pixel, as Unproject() does. Returns nullopt also if it
+// exceeds kMaxImageCoordinate, that is for rays perpendicular to the optical axis of a fisheye.
 std::optional<Eigen::Vector2d> RayOf(const CameraModel& camera, const Eigen::Vector2d& pixel);
 
-// `mask` (as of ReadMask()) without the blocks of a few pixels that RayOf() has nothing for, in
-// part or all. It is returned as it is, may be empty, where the whole image has rays.
+// Removes from `mask` (see ReadMask()) all blocks of a few pixels in which RayOf() returns nullopt
+// anywhere. Returns `mask` itself, which may be empty, if the whole image has rays.
 cv::Mat WithinRays(const CameraModel& camera, const cv::Mat& mask);
 
 }  // namespace plm_vins

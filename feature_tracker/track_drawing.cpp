@@ -9,7 +9,7 @@ namespace plm_vins {
 namespace {
 
 constexpr int kDiscRadius_px = 3;
-constexpr float kMotionScale = 4;  // motions between images are short
+constexpr float kMotionScale = 4;  // enlarges the short motions between images
 
 }  // namespace
 

@@ -8,8 +8,8 @@
 
 namespace plm_vins {
 
-// The grey image as CV_8UC3 with a disc on each corner, from blue (new) to red (long followed), and
-// a line that shows where it is going. Empty where there is no image.
+// Draws the grey image as CV_8UC3 with a disc for each corner, from blue (new) to red (long
+// tracked), and a line along its motion. Returns an empty image if `gray` is empty.
 cv::Mat DrawPointTracks(const cv::Mat& gray, const std::vector<PointTrack>& tracks);
 
 }  // namespace plm_vins

@@ -8,8 +8,8 @@
 
 namespace plm_vins {
 
-// The grey image as CV_8UC3 with its lines, from blue (new) to red (long followed), and their ids.
-// Empty where there is no image.
+// Draws the grey image as CV_8UC3 with lines from blue (new) to red (long tracked) and their ids.
+// Returns an empty image if `gray` is empty.
 cv::Mat DrawLineTracks(const cv::Mat& gray, const std::vector<LineTrack>& tracks);
 
 }  // namespace plm_vins

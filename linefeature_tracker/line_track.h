@@ -8,15 +8,15 @@
 
 namespace plm_vins {
 
-// One line that is being followed, as of the newest image. The brighter side is that of Normal().
+// A tracked line in the newest image. The brighter side is that of Normal().
 struct LineTrack {
   int64_t id = -1;
-  int length = 1;          // images it was seen in
-  LineSegment segment;     // normalised, undistorted
+  int length = 1;          // number of images that it was observed in
+  LineSegment segment;     // normalized, undistorted
   LineSegment segment_px;  // raw pixels
-  // Normalised motion across the line since the image before, the turn taken out.
+  // Motion across the line since the previous image (normalized), with the camera rotation removed.
   Eigen::Vector2d parallax = Eigen::Vector2d::Zero();
-  cv::Mat descriptor;  // 1 x 32 bytes; only where LBD matches
+  cv::Mat descriptor;  // 1 x 32 bytes; empty unless matching by LBD
 };
 
 }  // namespace plm_vins

@@ -26,9 +26,9 @@ namespace {
 
 constexpr int kSearchAfterFlow_px = 2;
 constexpr int kSearchAfterDetection_px = 4;
-constexpr int kLbdChoice = 2;  // lines described per line wanted
+constexpr int kLbdChoice = 2;  // described lines relative to max_lines
 
-// Where the camera's turn takes the segment; it stays where an end would get behind the camera.
+// Predicts the segment for a pure rotation; unchanged if an endpoint would be behind the camera.
 LineSegment Turn(const LineSegment& segment, const std::optional<Eigen::Quaterniond>& R_C1_C0) {
   if (!R_C1_C0) return segment;
   const Eigen::Vector3d start = *R_C1_C0 * segment.start.homogeneous();
@@ -41,7 +41,7 @@ LineSegment Moved(const LineSegment& segment, const Eigen::Vector2d& motion) {
   return {segment.start + motion, segment.end + motion};
 }
 
-// The part of the motion that shows: across the line.
+// Returns the observable part of the motion: across the line.
 Eigen::Vector2d MotionAcross(const LineSegment& from, const LineSegment& to) {
   return from.Distance(to.Midpoint()) * from.Normal();
 }
@@ -91,7 +91,7 @@ class LineTracker::Implementation {
     statistics_ = {};
   }
 
-  // The youngest lines are at the end.
+  // Lines are ordered by age, so the youngest are dropped.
   void SetMaxLines(int count) {
     config_.max_lines = count;
     tracks_.resize(std::min(tracks_.size(), static_cast<size_t>(count)));
@@ -101,7 +101,7 @@ class LineTracker::Implementation {
   cv::Mat DrawTracks() const { return DrawLineTracks(sample_.gray, tracks_); }
 
  private:
-  // Takes the tracks to the image of `pyramid` and drops those that got lost.
+  // Advances the tracks to the image of `pyramid` and drops lost ones.
   void FollowByFlow(const LineFlow::Pyramid& pyramid, double dt_ratio,
                     const std::optional<Eigen::Quaterniond>& R_C1_C0) {
     std::vector<LineTrack> followed;
@@ -131,7 +131,7 @@ class LineTracker::Implementation {
     return refined;
   }
 
-  // Detects all lines and gives those that match a track its id.
+  // Detects all lines and assigns the ids of matching tracks.
   void FollowByLbd(const LineFlow::Pyramid& pyramid, double dt_ratio,
                    const std::optional<Eigen::Quaterniond>& R_C1_C0) {
     std::vector<FoundLine> lines = DescribedLines(pyramid);
@@ -157,7 +157,7 @@ class LineTracker::Implementation {
     Refill(pyramid.front(), lines);
   }
 
-  // All lines of the image that an edge confirms, longest first, with their descriptors.
+  // Returns all lines of the image with a confirmed edge, longest first, with their descriptors.
   std::vector<FoundLine> DescribedLines(const LineFlow::Pyramid& pyramid) {
     const cv::Mat& image = pyramid.front();
     LineOccupancy occupied(config_.spacing);
@@ -177,7 +177,8 @@ class LineTracker::Implementation {
     return lines;
   }
 
-  // `turned` is where the track would be by rotation alone. False where the camera does not see it.
+  // `turned` is the track predicted by rotation only. Returns false if the line cannot be
+  // projected.
   bool Advance(const LineSegment& segment, const LineSegment& turned, LineTrack* track) {
     const auto segment_px = ProjectSegment(*camera_, segment);
     if (!segment_px) {
@@ -191,7 +192,7 @@ class LineTracker::Implementation {
     return true;
   }
 
-  // Keeps the older of two tracks that came to lie on one line.
+  // Drops the younger of two tracks that lie on the same line.
   void DropDuplicates() {
     LineOccupancy occupied(config_.spacing);
     std::vector<LineTrack> kept;
@@ -222,7 +223,7 @@ class LineTracker::Implementation {
     return lines;
   }
 
-  // Adds lines where there are none yet.
+  // Adds tracks where there are none yet.
   void Refill(const cv::Mat& image, const std::vector<FoundLine>& lines) {
     LineOccupancy occupied(config_.spacing);
     LineQueue queue(image_size_);
@@ -245,7 +246,7 @@ class LineTracker::Implementation {
     }
   }
 
-  // A track without an id yet; nothing where no edge confirms the line.
+  // Returns a track without an id, or nullopt if no edge confirms the line.
   std::optional<LineTrack> MakeTrack(const cv::Mat& image, const FoundLine& line) const {
     const auto refined = refinement_.Refine(image, line.segment, kSearchAfterDetection_px);
     if (!refined) return std::nullopt;
@@ -258,7 +259,8 @@ class LineTracker::Implementation {
     return track;
   }
 
-  // Without what lies at right angles to the axis of a fisheye: it has no image in the plane z = 1.
+  // Omits lines perpendicular to the optical axis of a fisheye, which have no image in the plane z
+  // = 1.
   LineFrame MakeFrame() const {
     LineFrame frame;
     frame.t_ns = *t_ns_;
@@ -269,7 +271,7 @@ class LineTracker::Implementation {
     return frame;
   }
 
-  // Read-only after construction, but for the detector's buffers and SetMaxLines.
+  // Constant after construction, except for the detector's buffers and SetMaxLines().
   LineTrackerConfig config_;
   std::shared_ptr<const CameraModel> camera_;
   cv::Size image_size_;
@@ -279,12 +281,12 @@ class LineTracker::Implementation {
   LineGate gate_;
   LbdMatcher lbd_;
 
-  // As of the newest image.
+  // State at the newest image.
   std::optional<int64_t> t_ns_;
   double previous_dt_ = 0;  // between the two newest images [s]
-  ImageSample sample_;      // the pyramid may look at its pixels
+  ImageSample sample_;      // keeps the pixels that the pyramid may refer to
   LineFlow::Pyramid pyramid_;
-  std::vector<LineTrack> tracks_;  // from the oldest to the youngest
+  std::vector<LineTrack> tracks_;  // in descending order of age
   std::optional<int> images_since_detection_;
   LineTrackerStatistics statistics_;
   int64_t next_id_ = 0;

@@ -12,49 +12,50 @@
 
 namespace plm_vins {
 
-// What happened to the lines of one image.
+// Statistics of tracking one image.
 struct LineTrackerStatistics {
-  int previous = 0;         // lines to follow
-  int match_lost = 0;       // flow failed or looks different; LBD: no match
+  int previous = 0;         // tracks before this image
+  int match_lost = 0;       // flow failed or changed appearance; LBD: no match
   int inconsistent = 0;     // too far from the prediction
-  int edge_lost = 0;        // no edge, too short a one, out of sight or masked, where the flow led
-  int duplicates = 0;       // came to lie on an older one
-  bool detected = false;    // this image was searched for new lines
-  int fragments = 0;        // found by the detector
-  int candidates = 0;       // of them, after joining and the length filter
-  int added = 0;            // new lines
-  double detection_ms = 0;  // [ms], for reports only
+  int edge_lost = 0;        // no edge at the result of the flow, or too short, outside or masked
+  int duplicates = 0;       // coincides with an older track
+  bool detected = false;    // lines were detected in this image
+  int fragments = 0;        // detected fragments
+  int candidates = 0;       // lines after joining and the length filter
+  int added = 0;            // new tracks
+  double detection_ms = 0;  // [ms], for statistics only
 };
 
-// Follows line segments from image to image and refills with new ones (façade of the line front
-// end). Flow: predict -> align -> gate -> refine -> drop duplicates -> detect where lines are
-// missing. LBD: detect -> refine -> describe -> match around the prediction -> refill.
+// Facade of the line front end. Tracks line segments from image to image and adds new ones. Flow:
+// predict -> align -> gate -> refine -> drop duplicates -> detect if lines are missing. LBD: detect
+// -> refine -> describe -> match around the prediction -> add.
 //
-// A line's direction start -> end is fixed by its brighter side and never flips along a track.
+// The direction of a line (start to end) follows from its brighter side and never flips along a
+// track.
 class LineTracker {
  public:
   using Features = LineFrame;
   using Statistics = LineTrackerStatistics;
 
-  // Lines end where the mask begins to forbid them: as of ReadMask().
+  // Lines are cut off where `mask` (see ReadMask()) excludes pixels.
   LineTracker(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
               const cv::Mat& mask = {});
   ~LineTracker();
 
-  // `R_C1_C0` takes directions of the previous camera frame C0 to the current one C1 (from the
-  // gyro); without it the lines' own motion predicts. Throws std::invalid_argument where the image
-  // is not CV_8UC1 of the calibrated size or its stamp not after the one before; the tracker is
-  // then unchanged.
+  // `R_C1_C0` rotates the previous camera frame C0 to the current one C1 (from the gyroscope);
+  // without it, the tracks' own motion predicts. Throws std::invalid_argument if the image is not
+  // CV_8UC1 of the calibrated size or its timestamp does not increase; the tracker is then
+  // unchanged.
   LineFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0);
 
-  void Reset();  // forgets all lines; ids go on
+  void Reset();  // drops all tracks; ids continue
 
-  // Replaces max_line_cnt from the next image on; of too many lines the oldest stay.
+  // Replaces max_line_cnt from the next image on; drops the youngest tracks if there are too many.
   void SetMaxLines(int count);
 
   const LineTrackerStatistics& statistics() const;
 
-  // The last image with its lines drawn (CV_8UC3), coloured by age.
+  // Returns the last image with its tracks drawn (CV_8UC3), coloured by age.
   cv::Mat DrawTracks() const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace plm_vins {
 
-// The line front end as the node and the offline runner use it.
+// The line front end, as used by the node and the offline runner.
 using LineTrackingStage = TrackingStage<LineTracker, &Config::lines>;
 using TrackedLines = LineTrackingStage::Frame;
 

@@ -6,7 +6,7 @@
 namespace plm_vins {
 namespace {
 
-// Moves all that the keyframe says of its world.
+// Transforms all members of the keyframe that are expressed in the odometry world O.
 void Move(const LevelTransform& T_new_old, Keyframe* keyframe) {
   keyframe->T_O_B = T_new_old.ToRigid() * keyframe->T_O_B;
   if (keyframe->R_O_Manhattan) {
@@ -42,7 +42,7 @@ void MoveNodes(const AdjustedMap& adjusted, KeyframeMap* map) {
 
 KeyframeMap RebuiltMap(const AdjustedMap& adjusted, const KeyframeMap& map) {
   KeyframeMap rebuilt = map;
-  std::map<int, LevelTransform> worlds;  // T_M_O: one for all keyframes, where drift had many
+  std::map<int, LevelTransform> worlds;  // T_M_O, one for all keyframes of a world
   for (const int number : map.NumbersInMap()) {
     Keyframe& keyframe = rebuilt.keyframes[number];
     LevelTransform T_M_O = map.T_M_O(number);

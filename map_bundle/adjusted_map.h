@@ -10,19 +10,19 @@
 
 namespace plm_vins {
 
-// What the bundle found.
+// Result of the map bundle adjustment.
 struct AdjustedMap {
-  Rigid3d T_B_C;                               // of all keyframes that were adjusted
-  std::map<int, Rigid3d> T_M_B;                // of these alone, by number
+  Rigid3d T_B_C;                               // shared by all adjusted keyframes
+  std::map<int, Rigid3d> T_M_B;                // adjusted keyframes only, by number
   std::map<LandmarkKey, Eigen::Vector3d> p_M;  // [m]
 };
 
-// Takes the graph's nodes to where the bundle has their keyframes. What odometry said stays, so
-// that its poses between keyframes can still be corrected.
+// Moves the graph's nodes to the adjusted keyframe poses. The keyframes keep their odometry poses,
+// so that odometry poses between keyframes can still be corrected.
 void MoveNodes(const AdjustedMap& adjusted, KeyframeMap* map);
 
-// The map, its nodes moved by MoveNodes(), for another run to start in: with poses, landmarks and
-// T_B_C as if odometry had found them so. Keyframes that were not adjusted stay where they are.
+// Returns the map, after MoveNodes(), as the starting map of another run: odometry poses, landmarks
+// and T_B_C are replaced by the adjusted ones. Keyframes that were not adjusted keep their poses.
 KeyframeMap RebuiltMap(const AdjustedMap& adjusted, const KeyframeMap& map);
 
 }  // namespace plm_vins

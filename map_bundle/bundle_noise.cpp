@@ -11,9 +11,9 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMinFollowed = 4;  // sightings of a landmark, for its own error to tell the noise
+constexpr size_t kMinFollowed = 4;  // observations per landmark, to estimate a variance
 constexpr size_t kMinSamples = 30;
-constexpr double kMaxChange = 8;  // of the configured deviation, both ways
+constexpr double kMaxChange = 8;  // largest ratio to the configured deviation, and inverse
 
 double SquaredError(const BundleState& bundle, const LandmarkTrack& landmark,
                     const LandmarkSighting& sighting) {
@@ -38,13 +38,13 @@ SightingNoise EstimateNoise(const BundleState& bundle, const SightingNoise& conf
     for (const LandmarkSighting& sighting : landmark.sightings) {
       const double squared_error = SquaredError(bundle, landmark, sighting);
       if (sighting.again) {
-        again.push_back(squared_error / (2 * M_LN2));  // its median by that of a variance
+        again.push_back(squared_error / (2 * M_LN2));  // median of chi-square with 2 dof
       } else {
         sum += squared_error;
         ++count;
       }
     }
-    constexpr double kUnknowns = 3;  // of the landmark
+    constexpr double kUnknowns = 3;  // degrees of freedom of the landmark
     if (count >= kMinFollowed)
       followed.push_back(sum / (2.0 * static_cast<double>(count) - kUnknowns));
   }

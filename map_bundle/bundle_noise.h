@@ -5,8 +5,8 @@
 
 namespace plm_vins {
 
-// What the bundle's residuals show: medians, so that wrong matches do not count. `configured` where
-// there are too few.
+// Estimates the observation noise from the residuals of the bundle. Medians make it robust against
+// wrong matches. Returns `configured` if there are too few residuals.
 SightingNoise EstimateNoise(const BundleState& bundle, const SightingNoise& configured);
 
 }  // namespace plm_vins

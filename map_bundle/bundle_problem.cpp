@@ -18,17 +18,17 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kGaugeDeviation = 1e-3;  // [m] and [rad]; any small value will do
-// Of the biases at the start of a world about those of odometry.
+constexpr double kGaugeDeviation = 1e-3;  // [m] and [rad]; any small value fixes the gauge
+// Standard deviations of the bias prior at the start of a world, about the odometry's estimate.
 constexpr double kAccelBiasDeviation = 0.1;  // [m/s^2]
 constexpr double kGyroBiasDeviation = 0.05;  // [rad/s]
-constexpr double kStillVelocity = 0.005;     // of one that stands still [m/s]
+constexpr double kStillVelocity = 0.005;     // at standstill [m/s]
 
 bool AreOfOneFlight(const BundleKeyframe& a, const BundleKeyframe& b) {
   return a.world == b.world && a.recording == b.recording;
 }
 
-// The bundle in the terms of the solver.
+// Builds the bundle adjustment as a WindowProblem and writes its solution back to `bundle`.
 class BundleProblem {
  public:
   BundleProblem(const ImuHistory& imu, const BundleOptions& options, BundleState* bundle);
@@ -53,7 +53,7 @@ class BundleProblem {
   double time_offset_ = 0;
   int extrinsic_variable_ = -1, td_variable_ = -1;
   std::deque<Preintegration> preintegrations_;
-  std::vector<std::array<double, kPointSize>> points_;  // image point and inverse depth in the host
+  std::vector<std::array<double, kPointSize>> points_;  // image point, inverse depth in the host
   ceres::CauchyLoss loss_{1.0};
   WindowProblem problem_;
 };
@@ -65,7 +65,7 @@ BundleProblem::BundleProblem(const ImuHistory& imu, const BundleOptions& options
   AddVariables();
   AddMotions();
   HoldFirst();
-  points_.reserve(bundle->landmarks.size());  // the problem holds pointers to the elements
+  points_.reserve(bundle->landmarks.size());  // the problem keeps pointers to the elements
   for (const LandmarkTrack& landmark : bundle->landmarks) AddLandmark(landmark);
 }
 
@@ -83,7 +83,7 @@ void BundleProblem::AddVariables() {
 }
 
 void BundleProblem::AddMotions() {
-  int before = -1;  // the keyframe before, if it moves
+  int before = -1;  // the previous keyframe; -1 if it is fixed
   for (const auto& [number, keyframe] : bundle_->keyframes) {
     if (!keyframe.moves()) {
       before = -1;
@@ -115,11 +115,12 @@ void BundleProblem::AddImu(int from, int to) {
 
 void BundleProblem::HoldFirst() {
   const auto& [number, first] = *bundle_->keyframes.begin();
-  if (!first.moves()) return;  // a loaded map holds all
+  if (!first.moves()) return;  // the keyframes of a loaded map fix the gauge
   problem_.AddTerm(GaugePrior(first.start, kGaugeDeviation), nullptr, {Pose(number)});
 }
 
-// The point in the first sighting; one factor per sighting.
+// Parameterizes the landmark by its first observation (host) and inverse depth, with one factor for
+// each other observation.
 void BundleProblem::AddLandmark(const LandmarkTrack& landmark) {
   const LandmarkSighting& host = landmark.sightings.front();
   const Eigen::Vector3d p_C = bundle_->T_M_C(host.keyframe).Inverse() * landmark.p_M;

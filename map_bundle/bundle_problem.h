@@ -12,10 +12,10 @@ struct BundleOptions {
   int max_iterations = 15;
 };
 
-// Adjusts keyframes and landmarks over what is seen of them and what the IMU measured between
-// keyframes of one world ([Campos2021]: full visual-inertial bundle adjustment). Where no
-// keyframe is of a loaded map, position and heading of the first one stay. Says whether the
-// equations could be solved; else nothing has moved.
+// Jointly optimizes keyframe states, landmarks and T_B_C over the observations and the
+// preintegrated IMU between keyframes of one world ([Campos2021]: full visual-inertial bundle
+// adjustment). Position and heading of the first keyframe are held fixed if no keyframe belongs to
+// a loaded map. Returns false, and changes nothing, if the solver fails.
 bool AdjustBundle(const ImuHistory& imu, const BundleOptions& options, BundleState* bundle);
 
 }  // namespace plm_vins

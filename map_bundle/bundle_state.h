@@ -13,21 +13,22 @@
 
 namespace plm_vins {
 
-// A keyframe of the bundle.
+// State of a keyframe in the bundle adjustment.
 struct BundleKeyframe {
   int world = 0;
-  int recording = -1;  // of the IMU (ImuHistory)
-  FrameState state;    // by the clock of the IMU
-  FrameState start;    // the state to begin with: what nothing else determines stays there
-  // As it counted when the image came. Nothing where the keyframe is of a map that was loaded: then
-  // it stays where it is, and its state is that of a body which has its camera at T_B_C.
+  int recording = -1;  // IMU recording (ImuHistory)
+  FrameState state;    // at the IMU's timestamp
+  FrameState start;    // initial state; unobservable directions stay there
+  // IMU noise that was in use when the image came. nullopt for a keyframe of a loaded map: it is
+  // held fixed, and its state is the body pose whose camera, at T_B_C, is the mapped one.
   std::optional<ImuNoise> noise;
   bool stationary = false;
 
   bool moves() const { return noise.has_value(); }
 };
 
-// What is adjusted: keyframes by their numbers in the map, their states in M, and what they see.
+// Variables of the bundle adjustment: keyframe states in M, by keyframe number, and landmarks with
+// their observations.
 struct BundleState {
   Rigid3d T_B_C;
   std::map<int, BundleKeyframe> keyframes;
@@ -36,10 +37,10 @@ struct BundleState {
   Rigid3d T_M_C(int keyframe) const { return keyframes.at(keyframe).state.T_W_B() * T_B_C; }
 };
 
-// Standard deviations of sightings (normalised).
+// Standard deviations of observations (normalized image coordinates).
 struct SightingNoise {
-  double followed = 0;  // of a corner that is followed
-  double again = 0;     // of one that a loop matched with a landmark
+  double followed = 0;  // corner tracked from image to image
+  double again = 0;     // corner matched with a landmark of another visit by a loop
 };
 
 }  // namespace plm_vins

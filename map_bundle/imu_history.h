@@ -11,23 +11,23 @@
 
 namespace plm_vins {
 
-// The IMU samples of a run. Where stamps jump back another recording begins, of which stamps may
-// be those of one before; recordings count up from zero.
+// Stores the IMU samples of a run. A backward jump of the timestamps starts another recording,
+// whose timestamps may overlap those of earlier recordings. Recordings are numbered from zero.
 class ImuHistory {
  public:
-  // A stamp for the second time is left out.
+  // Ignores a repeated timestamp.
   void Add(const ImuSample& sample);
 
-  // The recording of the newest sample; -1: there is none.
+  // Number of the newest sample's recording; -1 if there are no samples.
   int newest() const { return static_cast<int>(recordings_.size()) - 1; }
 
-  // What was measured between two times of a recording, each end interpolated. Nothing where its
-  // samples do not reach over both.
+  // Preintegrates the samples between two times of a recording, interpolated at both ends. Returns
+  // nullopt if the samples do not cover the interval.
   std::optional<Preintegration> Between(int recording, int64_t from_ns, int64_t to_ns,
                                         const ImuNoise& noise, const ImuBias& bias) const;
 
  private:
-  std::vector<std::vector<ImuSample>> recordings_;  // each in order of time
+  std::vector<std::vector<ImuSample>> recordings_;  // each in temporal order
 };
 
 }  // namespace plm_vins

@@ -12,13 +12,13 @@
 namespace plm_vins {
 namespace {
 
-const double kMaxCosine = std::cos(M_PI / 180);  // of the angle between two rays
+const double kMaxCosine = std::cos(M_PI / 180);  // cosine of the smallest parallax angle
 
 struct Sightings {
-  std::optional<Eigen::Vector3d> p_M;  // as of the newest keyframe that knows it
+  std::optional<Eigen::Vector3d> p_M;  // from the newest keyframe that triangulated the landmark
   std::vector<LandmarkSighting> all;
 
-  // One of each keyframe: the first one that is told.
+  // Adds an observation, unless its keyframe already has one.
   void Add(const LandmarkSighting& sighting) {
     const auto is_of_same = [&](const LandmarkSighting& other) {
       return other.keyframe == sighting.keyframe;
@@ -27,9 +27,8 @@ struct Sightings {
   }
 };
 
-// Whether a ray forms enough of an angle with the first one. Where none does, the depth is not
-// known, and a step may take the landmark beyond infinity, which Ceres takes for a failure of the
-// step.
+// Returns whether a ray has enough parallax to the first one. Otherwise the depth is unobservable,
+// and a solver step may move the landmark beyond infinity, which Ceres treats as a failed step.
 bool IsSeenFromTwoSides(const KeyframeMap& map, const std::vector<LandmarkSighting>& sightings) {
   const auto ray_M = [&](const LandmarkSighting& sighting) -> Eigen::Vector3d {
     return map.T_M_C(sighting.keyframe).rotation * sighting.xy.homogeneous().normalized();

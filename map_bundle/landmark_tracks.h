@@ -9,29 +9,29 @@
 
 namespace plm_vins {
 
-// A landmark that a loop found in a keyframe of another visit.
+// Observation of a landmark, matched by a loop, in a keyframe of another visit.
 struct SightingAgain {
   LandmarkKey landmark;
-  int keyframe = -1;                             // by number
-  Eigen::Vector2d xy = Eigen::Vector2d::Zero();  // normalised
+  int keyframe = -1;                             // number in the map
+  Eigen::Vector2d xy = Eigen::Vector2d::Zero();  // normalized
 };
 
 struct LandmarkSighting {
-  int keyframe = -1;  // by number
+  int keyframe = -1;  // number in the map
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();
-  bool again = false;  // of another visit
+  bool again = false;  // matched by a loop closure in another visit
 };
 
-// A landmark with all that is seen of it, once by each keyframe: first by the track, in order of
-// keyframes, then again.
+// A landmark with its observations, at most one for each keyframe: first those of the track in
+// keyframe order, then those of other visits.
 struct LandmarkTrack {
   LandmarkKey key;
   Eigen::Vector3d p_M = Eigen::Vector3d::Zero();  // [m]
   std::vector<LandmarkSighting> sightings;
 };
 
-// The landmarks of these keyframes, which are given in order, that are seen from two sides and lie
-// before each camera that sees them. In order of their keys.
+// Collects the landmarks of `keyframes` (in ascending order) that have enough parallax and positive
+// depth in each observing camera, ordered by key.
 std::vector<LandmarkTrack> CollectLandmarks(const KeyframeMap& map,
                                             const std::vector<int>& keyframes,
                                             const std::vector<SightingAgain>& again);

@@ -76,7 +76,7 @@ BundleState MapBundle::StateOf(const KeyframeMap& map) const {
   for (const int number : numbers) {
     BundleKeyframe& member = bundle.keyframes[number];
     const auto of_this_run = keyframes_.find(number);
-    if (of_this_run == keyframes_.end()) {  // its camera stays, however that was mounted
+    if (of_this_run == keyframes_.end()) {  // of the loaded map: its camera pose is fixed
       member.state.SetPose(map.T_M_C(number) * bundle.T_B_C.Inverse());
       continue;
     }
@@ -96,7 +96,7 @@ size_t MapBundle::KeyframesToAdjust(const KeyframeMap& map) const {
   return keyframes < options_.min_keyframes ? 0 : keyframes;
 }
 
-// The noise of a round is that of the residuals of the one before.
+// Estimates the observation noise of each round from the residuals of the previous round.
 void MapBundle::AdjustInRounds(const std::function<bool()>& is_end, BundleState* bundle) {
   const SightingNoise configured = {options_.point_noise, options_.point_noise};
   BundleOptions options;

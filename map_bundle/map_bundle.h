@@ -21,47 +21,48 @@ namespace plm_vins {
 
 struct MapBundleOptions {
   double gravity_norm = 9.81;  // [m/s^2]
-  double point_noise = 1e-3;   // standard deviation of a corner to begin with (normalised)
-  size_t min_places = 3;       // that were recognised
-  size_t min_keyframes = 60;   // with fewer of both, odometry knows as much
+  double point_noise = 1e-3;   // initial standard deviation of a corner (normalized)
+  size_t min_places = 3;       // recognized places
+  size_t min_keyframes = 60;   // below both minima, bundle adjustment does not improve on odometry
 };
 
-// How it went.
+// Statistics of the last call of MapBundle::Adjust().
 struct MapBundleSummary {
   size_t keyframes = 0;
   size_t landmarks = 0;
-  size_t sightings_again = 0;  // of these landmarks by keyframes of another visit
-  int rounds = 0;              // that are done; zero: nothing was found
-  bool failed = false;         // the equations of the next round could not be solved
-  bool ended = false;          // was asked to end before the last round
-  SightingNoise noise;         // as found
+  size_t sightings_again = 0;  // observations of these landmarks in keyframes of another visit
+  int rounds = 0;              // completed rounds; zero means no result
+  bool failed = false;         // the solver failed in the following round
+  bool ended = false;          // stopped by `is_end` before the last round
+  SightingNoise noise;         // estimated from the residuals
 };
 
-// Bundle adjustment of a whole map with the IMU: what a run remembers of its keyframes beside the
-// map, and the solution in the end. Where the graph has a place by its loops alone, with the scale
-// of each piece of odometry, the bundle takes all pieces as one.
+// Visual-inertial bundle adjustment of a whole map at the end of a run. It records the IMU samples,
+// keyframe states and loop observations during the run. The pose graph corrects each odometry
+// segment rigidly through its loops, with the scale that odometry had; the bundle adjusts all
+// segments jointly.
 class MapBundle {
  public:
   explicit MapBundle(const MapBundleOptions& options) : options_(options) {}
 
   void AddImu(const ImuSample& sample) { imu_.Add(sample); }
 
-  // What odometry says of the map's newest keyframe, at `imu_ns` by the clock of the IMU. The
-  // samples up to there come before.
+  // Records the odometry state of the map's newest keyframe. `imu_ns` is its timestamp in IMU time;
+  // the samples up to it must have been added.
   void AddKeyframe(const KeyframeMap& map, const EstimatorOutput& odometry, int64_t imu_ns);
 
-  // What loop closure says of the map's newest keyframe. A place counts as long as the graph
-  // accepts its loop. Not so one that had to wait for agreement, whose sightings nobody keeps; and
-  // a loop that goes by another keyframe, as its own was thinned out, is not known when it is
-  // dropped.
+  // Records the loop observations of the map's newest keyframe. They are used while the pose graph
+  // keeps the loop. Loops that were accepted only after waiting for agreement are not used, since
+  // their observations are not kept. A loop re-attached to another keyframe after map thinning is
+  // not removed when the graph drops it.
   void AddLoops(const KeyframeMap& map, const LoopClosure& closure);
 
-  // How many keyframes Adjust() takes: those that are kept and joined to the first one. Zero where
-  // they are too few, or the places that were recognised.
+  // Number of keyframes that Adjust() would optimize: those not removed and connected with the
+  // first one. Zero if there are too few keyframes or recognized places.
   size_t KeyframesToAdjust(const KeyframeMap& map) const;
 
-  // Adjusts them in rounds, before each of which `is_end` is asked. Of the last round that is done;
-  // nothing where there is none, of which summary() knows the reason.
+  // Optimizes in rounds and calls `is_end` before each. Returns the result of the last completed
+  // round, or nullopt if there is none; summary() tells why.
   std::optional<AdjustedMap> Adjust(
       const KeyframeMap& map, const std::function<bool()>& is_end = [] { return false; });
 
@@ -82,8 +83,8 @@ class MapBundle {
 
   MapBundleOptions options_;
   ImuHistory imu_;
-  std::map<int, BundleKeyframe> keyframes_;      // of this run, by number; their states in O
-  std::map<std::pair<int, int>, Place> places_;  // by the later keyframe and the earlier one
+  std::map<int, BundleKeyframe> keyframes_;      // of this run, by number; states in O
+  std::map<std::pair<int, int>, Place> places_;  // by (later, earlier) keyframe number
   MapBundleSummary summary_;
 };
 

@@ -10,9 +10,9 @@ namespace {
 
 using Matrix6d = BodyOdometry::Matrix6d;
 
-constexpr double kMaxNormError = 1e-6;  // of a rotation's quaternion
+constexpr double kMaxNormError = 1e-6;  // of a quaternion's norm
 
-// p_A = p_B + R_W_B t with t from B to A: turning by theta about W's axes moves it by
+// p_A = p_B + R_W_B t, with t from B to A: a rotation by theta about the axes of W moves p_A by
 // theta x (R_W_B t).
 Matrix6d PoseJacobian(const Eigen::Vector3d& lever_W) {
   Matrix6d J = Matrix6d::Identity();

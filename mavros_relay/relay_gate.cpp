@@ -10,9 +10,9 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMaxGap = 0.2;  // between states [s]: no restart of the estimator takes less
+constexpr double kMaxGap = 0.2;  // between states [s]; any restart of the estimator takes longer
 
-// Throws for what is not finite, too.
+// Throws for NaN as well.
 void RequireWithin(double value, double min, double max, const std::string& text) {
   if (!(value >= min && value <= max)) throw std::invalid_argument(text);
 }

@@ -6,32 +6,32 @@
 
 namespace plm_vins {
 
-// Which of the states at IMU rate go on to an autopilot, by their stamps alone: those at a given
-// mean rate, as long as images support them. An estimator that is lost sends no states; one without
-// images still sends the IMU's, which are soon worth nothing. Stamps of images do not count: they
-// are of the camera's clock, which td may set off by as much as a second.
+// Selects, by timestamp only, which of the states at IMU rate are relayed to an autopilot: those at
+// a given mean rate, as long as images are processed. An estimator that has lost tracking sends no
+// states; one without images still propagates the IMU, which soon becomes useless. The timestamps
+// of images are ignored: they are in camera time, which td may shift by as much as a second.
 //
-// After every interruption the world may be a new one, so the autopilot must begin anew. It has to
-// notice: there is a pause, and a count.
+// After every interruption the world frame may be a new one, so the autopilot has to reset its
+// estimate. A pause and a reset counter tell it.
 class RelayGate {
  public:
   struct Options {
     double rate = 30;        // [Hz], 0.1 to 1000
-    double max_age = 0.5;    // since an image's estimate came [s], 0.001 to 1000
-    double min_pause = 1.0;  // of what goes on, at an interruption [s], 0.001 to 1000
+    double max_age = 0.5;    // age of the last image's estimate [s], 0.001 to 1000
+    double min_pause = 1.0;  // of the relayed states at an interruption [s], 0.001 to 1000
   };
 
-  // Throws std::invalid_argument, which names the option, where one is out of its range.
+  // Throws std::invalid_argument that names the option if an option is out of range.
   explicit RelayGate(const Options& options);
 
-  // An image has been estimated: it supports the states from the newest one on.
+  // Reports a processed image, which supports the states from the newest one on.
   void AddImage() { image_ns_ = state_ns_; }
 
-  // Whether the state of this time goes on.
+  // Returns whether to relay the state of this time.
   bool Pass(int64_t t_ns);
 
   bool is_interrupted() const { return is_interrupted_; }
-  // Interruptions after which it went on.
+  // Number of interruptions after which relaying resumed.
   int64_t resets() const { return resets_; }
 
  private:
@@ -39,10 +39,10 @@ class RelayGate {
   bool IsDue(int64_t t_ns);
 
   const Options options_;
-  std::optional<int64_t> image_ns_;   // of the state that was the newest when an image came
-  std::optional<int64_t> state_ns_;   // the newest
-  std::optional<int64_t> passed_ns_;  // the newest that went on
-  int64_t due_ns_ = 0;                // when the next one is to go on
+  std::optional<int64_t> image_ns_;   // newest state when the last image came
+  std::optional<int64_t> state_ns_;   // newest state
+  std::optional<int64_t> passed_ns_;  // newest relayed state
+  int64_t due_ns_ = 0;                // time of the next state to relay
   bool is_interrupted_ = true;
   int64_t resets_ = 0;
 };

@@ -9,7 +9,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMostRadians = 6.3;  // a turn, rounded up
+constexpr double kMostRadians = 6.3;  // a full turn, rounded up
 
 }  // namespace
 

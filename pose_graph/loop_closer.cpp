@@ -21,7 +21,7 @@ std::vector<LoopCandidate*> NewLoops(LoopClosure* closure) {
   return loops;
 }
 
-// Takes the loop out. Says whether it was there.
+// Removes the loop from `edges`. Returns whether it was found.
 bool Take(const LoopCandidate& loop, std::vector<LevelEdge>* edges) {
   const auto is_loop = [&loop](const LevelEdge& edge) {
     return edge.from == loop.earlier && edge.to == loop.later;
@@ -93,7 +93,7 @@ LoopClosure LoopCloser::Add(Keyframe keyframe) {
   return closure;
 }
 
-// The newest keyframes are those of the newest world.
+// The newest keyframes belong to the newest world, so checking the last one suffices.
 bool LoopCloser::HasKeyframeOf(int world) const {
   return !map_.keyframes.empty() && map_.keyframes.back().world == world;
 }
@@ -114,7 +114,8 @@ void LoopCloser::ConnectToPrevious(int number) {
   edge.T_from_to = from.T_O_L().Inverse() * to.T_O_L();
   edge.covariance = StepCovariance(options_.odometry, edge.T_from_to.translation,
                                    to.covariance - from.covariance);
-  // Farther where odometry knows that it is worse than after its way, as where it saw nothing.
+  // Extends the distance if the estimated covariance exceeds the drift over that distance, as after
+  // images without features.
   edge.way = std::max(edge.T_from_to.translation.norm(),
                       options_.acceptance.drift.DistanceOf(edge.covariance.diagonal()));
   map_.graph.AddEdge(edge);
@@ -129,7 +130,7 @@ void LoopCloser::LookForLoops(LoopClosure* closure) {
     }
     if (!candidate.failed) closure->place = {candidate.earlier, std::move(sightings)};
     closure->candidates.push_back(candidate);
-    if (!candidate.failed) break;  // another would say the same once more
+    if (!candidate.failed) break;  // another candidate would add no information
   }
   const std::vector<LoopCandidate*> loops = NewLoops(closure);
   if (loops.empty()) return;
@@ -171,8 +172,8 @@ Island LoopCloser::IslandOf(int number) const {
   return island;
 }
 
-// Of two parts that a loop joins, the later one moves to where the loop says, but never that of the
-// map.
+// If a loop connects two parts, the later part is moved to satisfy the loop; the part of the first
+// keyframe never moves.
 void LoopCloser::AddLoops(const std::vector<LoopCandidate*>& loops) {
   for (const LoopCandidate* loop : loops) {
     const LevelEdge edge = EdgeOf(*loop);
@@ -193,8 +194,8 @@ void LoopCloser::Optimize(const std::vector<LoopCandidate*>& loops, LoopClosure*
   }
 }
 
-// One loop that is wrong, and came first, contradicts each right one after it, which the graph then
-// refuses one by one. Taken all at once, they may outnumber it.
+// A wrong loop that was accepted first contradicts every correct loop after it, so that the graph
+// rejects them one by one. Added together, they may outvote it.
 bool LoopCloser::Reconsider(const std::vector<LoopCandidate*>& loops, LoopClosure* closure) {
   const size_t refused_before = refused_.size();
   for (const LoopCandidate* loop : loops) {

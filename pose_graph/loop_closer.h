@@ -29,7 +29,7 @@ struct LoopCloserOptions {
   explicit LoopCloserOptions(const CameraModel& camera) : verification(camera.FocalLength()) {}
 
   KeyframeSpacing spacing;
-  // While the place in the map is unknown, to find it soon.
+  // Denser keyframes while the pose in the map is unknown, to find it soon.
   KeyframeSpacing lost_spacing = {0.1, 5 * M_PI / 180, 0.5};
   CornerSelectionOptions corners;
   OdometryNoise odometry;
@@ -39,37 +39,37 @@ struct LoopCloserOptions {
   MapThinningOptions thinning;
 };
 
-// A place that the newest keyframe sees again.
+// A place recognized in the newest keyframe.
 struct RecognisedPlace {
-  int earlier = -1;         // keyframe of the earlier visit, by number
-  LoopSightings sightings;  // of what both visits see
+  int earlier = -1;         // number of the earlier visit's keyframe
+  LoopSightings sightings;  // of landmarks and lines observed in both visits
 };
 
-// What an image brought.
+// Result of processing one image.
 struct LoopClosure {
   bool is_keyframe = false;
-  std::vector<LoopCandidate> candidates;    // that were looked at
-  std::vector<LoopCandidate> confirmed;     // that had waited for one that agrees, judged again
-  std::vector<LoopCandidate> reconsidered;  // that the graph had refused, accepted by now
-  std::vector<LevelEdge> dropped;           // loops of before that the graph contradicts by now
-  std::optional<RecognisedPlace> place;     // passed all gates but the graph's
-  std::optional<MapFix> fix;                // nothing while the place in the map is unknown
+  std::vector<LoopCandidate> candidates;    // all that were examined
+  std::vector<LoopCandidate> confirmed;     // waited for an agreeing loop before; now judged again
+  std::vector<LoopCandidate> reconsidered;  // rejected by the graph before; now accepted
+  std::vector<LevelEdge> dropped;           // earlier loops that now contradict the graph
+  std::optional<RecognisedPlace> place;     // passed all gates before the graph's
+  std::optional<MapFix> fix;                // nullopt while the pose in the map is unknown
 };
 
-// Recognises places and corrects the odometry's drift: the map M is the world of the first odometry
-// or that of a map which is loaded; the poses of odometry themselves are never touched. One call
-// per image, synchronous and deterministic.
+// Loop closure: recognizes places and corrects odometry drift in a pose graph. The map frame M is
+// the world of the first odometry or that of a loaded map. Odometry poses themselves are not
+// changed. One call for each image; synchronous and deterministic.
 class LoopCloser {
  public:
   LoopCloser(const LoopCloserOptions& options, std::shared_ptr<const CameraModel> camera);
 
-  // Starts in a map of earlier. Before the first Add().
+  // Starts from a loaded map. Must be called before the first Add().
   void SetMap(KeyframeMap map);
 
-  // Takes the next image that odometry has a pose for.
+  // Processes the next image for which odometry has a pose.
   LoopClosure Add(const OdometryFrame& frame);
 
-  // Takes a keyframe that is made already, as those of a map are.
+  // Processes a complete keyframe, for example one of a saved map.
   LoopClosure Add(Keyframe keyframe);
 
   const KeyframeMap& map() const { return map_; }
@@ -82,10 +82,10 @@ class LoopCloser {
   LoopCandidate Examine(const PlaceCandidate& place, LoopSightings* sightings);
   Island IslandOf(int number) const;
   void AddLoops(const std::vector<LoopCandidate*>& loops);
-  // Says of the new loops which the graph contradicts.
+  // Optimizes the graph and marks the new loops that it rejects.
   void Optimize(const std::vector<LoopCandidate*>& loops, LoopClosure* closure);
-  // Takes loops that the graph has refused so far, if they are right together and those wrong that
-  // contradict them. Says whether it did.
+  // Accepts loops that the graph has rejected so far, if they are consistent with each other and
+  // the loops that contradict them are then dropped. Returns whether it did.
   bool Reconsider(const std::vector<LoopCandidate*>& loops, LoopClosure* closure);
   void Thin();
   std::optional<MapFix> Fix() const;
@@ -98,9 +98,9 @@ class LoopCloser {
   MapThinning thinning_;
   KeyframeMap map_;
   PlaceInMap place_;
-  std::vector<LoopCandidate> refused_;  // by the graph; the newest of them
+  std::vector<LoopCandidate> refused_;  // the newest loops that the graph rejected
   int world_ = 0;
-  double path_ = 0;                                 // in this world [m]
+  double path_ = 0;                                 // distance travelled in this world [m]
   std::optional<Eigen::Vector3d> last_position_O_;  // for path_
 };
 

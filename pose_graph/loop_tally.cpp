@@ -9,7 +9,7 @@ void LoopTally::Add(const LoopClosure& closure) {
   for (const auto* loops : {&closure.candidates, &closure.confirmed, &closure.reconsidered}) {
     for (const LoopCandidate& loop : *loops) ++(loop.failed ? refused[*loop.failed] : accepted);
   }
-  // They were counted before, under the gate that they did not pass then.
+  // These loops were counted before under the gate that then rejected them.
   for (size_t i = 0; i < closure.confirmed.size(); ++i) --refused[LoopGate::kAgreement];
   for (size_t i = 0; i < closure.reconsidered.size(); ++i) --refused[LoopGate::kGraph];
 }

@@ -8,11 +8,11 @@
 
 namespace plm_vins {
 
-// What became of the loops of a run.
+// Loop statistics of a run.
 struct LoopTally {
   int64_t candidates = 0;
   int64_t accepted = 0;
-  int64_t dropped = 0;  // of the accepted, by the graph later on
+  int64_t dropped = 0;  // accepted loops that the graph dropped later
   std::map<LoopGate, int64_t> refused;
 
   void Add(const LoopClosure& closure);

@@ -5,8 +5,8 @@
 
 namespace plm_vins::simulator {
 
-// A rig like EuRoC's: 752 x 480 wide-angle camera with radial distortion, its image upright where
-// the body's x axis points up, and a tactical-grade IMU.
+// Returns sensors similar to EuRoC's: a 752 x 480 wide-angle camera with radial distortion, whose
+// image is upright if the body's x axis points up, and a tactical-grade IMU.
 SensorConfig DefaultSensors();
 
 }  // namespace plm_vins::simulator

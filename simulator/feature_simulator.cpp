@@ -16,9 +16,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kNearest = 0.2;  // [m]; nothing is seen closer than this
+constexpr double kNearest = 0.2;  // [m]; closer landmarks are invisible
 
-// Independent random streams of one seed.
+// Independent random streams derived from one seed.
 enum Stream : uint64_t { kWorld, kImu, kPointTracks, kLineTracks, kPointNoise, kLineNoise };
 
 uint64_t StreamSeed(uint64_t seed, Stream stream) { return seed * 64 + stream; }
@@ -41,7 +41,7 @@ ImuSimulationOptions ImuOptions(const FeatureSimulationOptions& options) {
   return imu;
 }
 
-// The front ends on the flight: each call adds one image to the dataset.
+// Simulates the front ends during the flight; each Expose() adds one image to the dataset.
 class FeatureCamera {
  public:
   FeatureCamera(const FeatureSimulationOptions& options, FeatureDataset* dataset)
@@ -55,7 +55,7 @@ class FeatureCamera {
         point_random_(StreamSeed(options.seed, kPointNoise)),
         line_random_(StreamSeed(options.seed, kLineNoise)) {}
 
-  // The image stamped `t_ns`, of `time` seconds after the start.
+  // Adds the image with timestamp `t_ns`, exposed `time` seconds after the start.
   void Expose(int64_t t_ns, const Trajectory& trajectory, double time) {
     const double readout = options_.sensors.ReadoutTime();
     const int height = options_.sensors.camera.height;
@@ -72,8 +72,8 @@ class FeatureCamera {
   const TrackSelector& line_tracks() const { return line_tracks_; }
 
  private:
-  // Raw pixel of a point of W, where it is in view: seen from where the camera is when it reads
-  // that pixel's row.
+  // Returns the raw pixel of a point of W, or nullopt if it is not visible. Iterates to find the
+  // camera pose at the readout of the pixel's row.
   std::optional<Vector2d> Project(const Vector3d& p_W) const {
     constexpr int kRollingIterations = 4;
     const int rows = static_cast<int>(T_C_W_.size());
@@ -89,7 +89,7 @@ class FeatureCamera {
     if (p_C.z() < kNearest) return std::nullopt;
     auto pixel = camera_->Project(p_C);
     if (!pixel || !camera_->IsInImage(*pixel)) return std::nullopt;
-    // Beyond its field of view a distortion polynomial folds back into the image.
+    // Outside the field of view, a distortion polynomial may fold back into the image.
     const auto xy = camera_->Unproject(*pixel);
     if (!xy || (*xy - p_C.head<2>() / p_C.z()).norm() > 1e-4) return std::nullopt;
     return pixel;
@@ -146,7 +146,7 @@ class FeatureCamera {
     Vector2d start, end;
   };
 
-  // The longest piece of a line in view, between the first and last visible of its samples.
+  // Returns the longest visible piece of a line, between its first and last visible samples.
   std::optional<PixelSegment> ProjectLine(const LineSegment3d& line) const {
     constexpr int kSamples = 50;
     std::optional<PixelSegment> longest, piece;
@@ -185,7 +185,7 @@ class FeatureCamera {
     return frame;
   }
 
-  // The ends slide along the straight (undistorted) line, then noise is added in raw pixels.
+  // Moves the endpoints along the straight (undistorted) line, then adds noise in raw pixels.
   std::optional<LineObservation> ObserveSegment(const PixelSegment& segment) {
     const auto start = camera_->Unproject(segment.start), end = camera_->Unproject(segment.end);
     if (!start || !end) return std::nullopt;
@@ -210,7 +210,7 @@ class FeatureCamera {
   std::unique_ptr<const CameraModel> camera_;
   TrackSelector point_tracks_, line_tracks_;
   Random point_random_, line_random_;
-  std::vector<Rigid3d> T_C_W_;  // at each row; of a global shutter one for all
+  std::vector<Rigid3d> T_C_W_;  // for each row; a single one for a global shutter
   std::map<int64_t, Vector2d> previous_xy_;
   int64_t previous_t_ns_ = 0;
 };
@@ -226,7 +226,7 @@ FeatureDataset SimulateFeatures(const FeatureSimulationOptions& options) {
 
   FeatureCamera camera(options, &dataset);
   const int64_t td_ns = ToNanoseconds(options.sensors.td);
-  for (int i = 1;; ++i) {  // the first image has IMU samples before it
+  for (int i = 1;; ++i) {  // the first image has preceding IMU samples
     const int64_t exposure_ns = ToNanoseconds(i / options.frame_rate_hz);  // since the start
     if (ToSeconds(exposure_ns) > trajectory.duration()) break;
     const int64_t t_ns = options.start_ns + exposure_ns - td_ns;

@@ -12,9 +12,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kMinLineLength = 0.6, kMaxLineLength = 2.5;  // [m]
-constexpr double kMaxLean = 0.3;                              // of irregular lines, per axis [rad]
+constexpr double kMaxLean = 0.3;  // tilt of irregular lines about each axis [rad]
 
-// A random wall of the room, chosen by area, as the axis normal to it and the side (+-1).
+// A wall of the room: the axis normal to it and its side (+-1).
 struct Wall {
   int axis;
   double side;
@@ -27,7 +27,7 @@ Wall RandomWall(const Vector3d& size, Random& random) {
   return {axis, random.Uniform() < 0.5 ? -1.0 : 1.0};
 }
 
-// Coordinates relative to the centre of the room.
+// Returns a random point relative to the centre of the room.
 Vector3d PointOnWall(const Vector3d& size, const Wall& wall, Random& random) {
   Vector3d point = random.UniformInBox(0.5 * size);
   point[wall.axis] = 0.5 * wall.side * size[wall.axis];
@@ -45,11 +45,12 @@ LineSegment3d LineOnWall(const Vector3d& size, double oblique_share, Random& ran
   direction[v] = std::sin(angle);
   const Vector3d half = 0.5 * random.Uniform(kMinLineLength, kMaxLineLength) * direction;
   Vector3d center = PointOnWall(size, wall, random);
-  for (int axis : {u, v}) center[axis] *= 1.0 - 2.0 * half[axis] / size[axis];  // ends in the room
+  for (int axis : {u, v})
+    center[axis] *= 1.0 - 2.0 * half[axis] / size[axis];  // stay inside the room
   return {center - half, center + half};
 }
 
-// What turns a line of the room into one of the layout.
+// Returns the rotation that turns an axis-aligned line into one of the layout.
 Eigen::Quaterniond TurnFor(LineLayout layout, Random& random) {
   const bool chosen = layout != LineLayout::kManhattan && random.Uniform() < 0.5;
   if (layout != LineLayout::kIrregular) return SO3Exp({0, 0, chosen ? kAtlantaTurn : 0.0});

@@ -10,8 +10,9 @@
 
 namespace plm_vins::simulator {
 
-// Uniform B-spline of degree 5 with exact derivatives: four times continuously differentiable and
-// inside the convex hull of its control points. Basis by the Cox-de Boor recurrence.
+// Uniform B-spline of degree 5 with exact derivatives. It is four times continuously differentiable
+// and inside the convex hull of its control points. The basis follows from the Cox-de Boor
+// recurrence.
 template <int kDimension>
 class QuinticSpline {
  public:
@@ -20,7 +21,7 @@ class QuinticSpline {
     Vector position, velocity, acceleration;
   };
 
-  // n + 5 control points make n segments of `knot_spacing` [s] each.
+  // n + 5 control points define n segments of `knot_spacing` [s] each.
   QuinticSpline(double knot_spacing, std::vector<Vector> controls)
       : knot_spacing_(knot_spacing), controls_(std::move(controls)) {
     if (controls_.size() < kOrder) throw std::invalid_argument("a quintic spline needs 6 controls");
@@ -30,7 +31,7 @@ class QuinticSpline {
     return knot_spacing_ * static_cast<double>(controls_.size() - kDegree);
   }
 
-  // Value and its first two derivatives in time; `t` is clamped to [0, duration()].
+  // Returns the value with its first two time derivatives; `t` is clamped to [0, duration()].
   Value At(double t) const {
     const int last_segment = static_cast<int>(controls_.size() - kOrder);
     const double position = std::clamp(t, 0.0, duration()) / knot_spacing_;
@@ -46,12 +47,12 @@ class QuinticSpline {
 
  private:
   static constexpr int kDegree = 5, kOrder = 6;
-  // Basis functions that are not zero at u; those of degree d are the first d + 1.
+  // Basis functions that are non-zero at u; those of degree d are the first d + 1.
   using Weights = std::array<double, kOrder>;
 
   static double Before(const Weights& weights, int j) { return j > 0 ? weights[j - 1] : 0.0; }
 
-  // Basis of `degree` from that of degree - 1.
+  // Computes the basis of `degree` from that of degree - 1.
   static Weights Raise(const Weights& lower, int degree, double u) {
     Weights raised{};
     for (int j = 0; j <= degree; ++j) {
@@ -60,7 +61,7 @@ class QuinticSpline {
     return raised;
   }
 
-  // Derivative of a combination of degree - 1 weights, as weights of `degree`.
+  // Expresses the derivative of a combination of degree - 1 weights as weights of `degree`.
   static Weights Differentiate(const Weights& lower, int degree) {
     Weights result{};
     for (int j = 0; j <= degree; ++j) result[j] = Before(lower, j) - lower[j];

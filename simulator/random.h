@@ -9,9 +9,9 @@
 
 namespace plm_vins::simulator {
 
-// Seeded random numbers that are the same with every standard library: the distributions of
-// <random> are not specified bit by bit, so the transforms are our own. The `stream`s of a seed are
-// independent of each other.
+// Seeded random numbers that do not depend on the standard library: the results of the
+// distributions in <random> are implementation-defined, so they are implemented here. The `stream`s
+// of a seed are independent of each other.
 class Random {
  public:
   explicit Random(uint64_t seed, uint64_t stream = 0) : engine_(Mix(seed ^ Mix(stream + 1))) {}
@@ -24,7 +24,7 @@ class Random {
   // Uniform in 0 ... count - 1.
   int Index(int count) { return static_cast<int>(Uniform(0.0, count)); }
 
-  // Standard normal (Box-Muller, which makes two at a time).
+  // Standard normal by Box-Muller, which generates two numbers at a time.
   double Normal() {
     if (spare_normal_) {
       const double spare = *spare_normal_;
@@ -37,7 +37,7 @@ class Random {
     return radius * std::cos(angle);
   }
 
-  // Each coordinate uniform in +-limit.
+  // Each coordinate is uniform in +-limit.
   Eigen::Vector3d UniformInBox(const Eigen::Vector3d& limit) {
     const double x = Uniform(-1, 1), y = Uniform(-1, 1), z = Uniform(-1, 1);
     return limit.cwiseProduct(Eigen::Vector3d(x, y, z));
@@ -49,7 +49,7 @@ class Random {
   }
 
  private:
-  // SplitMix64 finaliser: spreads neighbouring seeds.
+  // The finalizer of SplitMix64, which decorrelates consecutive seeds.
   static uint64_t Mix(uint64_t x) {
     x += 0x9E3779B97F4A7C15ull;
     x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Renders a flight through a simulated world: images, IMU and exact ground truth.
+// Renders a flight through a simulated world: images, IMU samples and exact ground truth.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
@@ -39,7 +39,7 @@ void AddChoice(CLI::App* app, const std::string& name, T* value, const std::stri
       ->check(CLI::IsMember(choices));
 }
 
-// The message of what is wrong with the argument of --output; empty where nothing is.
+// Validates the argument of --output; returns an error message, or an empty string if it is valid.
 std::string CheckBag(const std::string& file) {
   if (file.empty()) return CheckPath(file);
   const std::string extension = std::filesystem::path(file).extension().string();
@@ -47,7 +47,7 @@ std::string CheckBag(const std::string& file) {
   return is_truth ? "expected a bag instead of " + file + ", where the ground truth is to go" : "";
 }
 
-// The same of a number, for which CLI::Range would take "nan".
+// Validates a number in a range. CLI::Range would accept "nan".
 std::function<std::string(const std::string&)> Between(double least, double most) {
   return [=](const std::string& text) {
     const bool valid = IsNumberBetween(least, most, text);
@@ -55,7 +55,7 @@ std::function<std::string(const std::string&)> Between(double least, double most
   };
 }
 
-// ... of a seed, for which CLI would take "-1", as the greatest of all.
+// Validates a seed. CLI would accept "-1", as the largest unsigned number.
 std::string CheckSeed(const std::string& text) {
   const bool valid = std::all_of(text.begin(), text.end(),
                                  [](unsigned char digit) { return std::isdigit(digit) != 0; });
@@ -121,7 +121,7 @@ TruthFiles TruthBeside(const std::string& bag) {
           std::filesystem::path(path).replace_extension(".csv").string()};
 }
 
-// A name is easily that of a recording of one's own.
+// The name may be that of a recording of real data, so existing files are not overwritten.
 void RefuseToReplace(const std::string& bag) {
   const TruthFiles truth = TruthBeside(bag);
   for (const std::string& file : {bag, truth.tum, truth.csv}) {
@@ -132,7 +132,7 @@ void RefuseToReplace(const std::string& bag) {
 
 std::vector<std::unique_ptr<Recorder>> OpenRecorders(const Arguments& arguments) {
   std::vector<std::unique_ptr<Recorder>> recorders;
-  // Not before there is a place for the bag: a folder that is begun refuses the next time.
+  // Tested first: an ASL folder that has been created would be rejected at the next attempt.
   const auto is_in_folder = [](const std::string& file) {
     return std::filesystem::is_directory(std::filesystem::absolute(file).parent_path());
   };
@@ -162,7 +162,7 @@ void WriteGroundTruth(const Arguments& arguments, const std::vector<FrameState>&
 void Run(Arguments arguments) {
   FlightOptions& options = arguments.flight;
   if (!arguments.config.empty()) options.sensors = LoadConfig(arguments.config).sensor;
-  const Flight flight(options);  // first, as it may refuse: no folder is begun then
+  const Flight flight(options);  // first, since it may throw; no folder is created then
   const auto owned = OpenRecorders(arguments);
   std::vector<Recorder*> recorders;
   recorders.reserve(owned.size());
@@ -197,6 +197,6 @@ int main(int argc, char** argv) try {
     std::fprintf(stderr, "simulate: %s\n", error.what());
   }
   return 1;
-} catch (...) {  // of the handlers above
+} catch (...) {  // an exception of the handlers above
   return 1;
 }

@@ -9,8 +9,8 @@
 
 namespace plm_vins::simulator {
 
-// Plays the tracker's bookkeeping: landmarks stay tracked while in view, free places are given to
-// new ones, a landmark that was out of view or whose track broke comes back under a new id.
+// Simulates the id assignment of a tracker: landmarks stay tracked while visible and free places
+// are assigned to new ones. A landmark that was invisible, or whose track broke, gets a new id.
 class TrackSelector {
  public:
   struct Track {
@@ -21,10 +21,10 @@ class TrackSelector {
   TrackSelector(int max_tracks, double break_probability, uint64_t seed)
       : max_tracks_(max_tracks), break_probability_(break_probability), random_(seed) {}
 
-  // Tracks of the next image, given the landmarks in view; oldest tracks first.
+  // Returns the tracks of the next image, given the visible landmarks; oldest tracks first.
   std::vector<Track> Update(const std::vector<int>& visible);
 
-  // The landmark behind each id handed out so far.
+  // Landmark of each id assigned so far.
   const std::map<int64_t, int>& landmark_of_id() const { return landmark_of_id_; }
 
  private:

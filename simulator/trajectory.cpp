@@ -14,13 +14,13 @@ using Eigen::AngleAxisd;
 using Eigen::Vector3d;
 using Control = QuinticSpline<6>::Vector;
 
-// How the random controls of one kind of motion are drawn.
+// Parameters of the random control points for one kind of motion.
 struct MotionProfile {
-  Vector3d sway;     // of the position about its anchor [m]; never beyond the extent
-  double patrol;     // speed of the anchor where the extent leaves it room beside the sway [m/s]
-  Vector3d tilt;     // of roll, pitch and yaw [rad]
-  double yaw_rate;   // steady turn [rad/s]
-  bool holds_place;  // anchored where the lead-in ended instead of at the centre
+  Vector3d sway;     // amplitude about the anchor [m], limited by the extent
+  double patrol;     // speed of the anchor in the space that the sway leaves [m/s]
+  Vector3d tilt;     // amplitude of roll, pitch and yaw [rad]
+  double yaw_rate;   // constant rate of rotation [rad/s]
+  bool holds_place;  // anchored at the end of the lead-in instead of the centre
 };
 
 MotionProfile ProfileOf(Motion motion) {
@@ -44,7 +44,7 @@ bool HasLeadIn(Motion motion) {
   return motion == Motion::kHover || motion == Motion::kPureRotation;
 }
 
-// Draws the controls one after the other.
+// Generates the control points in sequence.
 class ControlGenerator {
  public:
   explicit ControlGenerator(const TrajectoryOptions& options)
@@ -53,11 +53,11 @@ class ControlGenerator {
   std::vector<Control> Generate() {
     const double spacing = KnotSpacing(options_.motion);
     const int count = static_cast<int>(std::ceil(options_.duration / spacing)) + 5;
-    // A segment is at rest where all six controls that it depends on are equal.
+    // A segment is stationary if all six control points that it depends on are equal.
     const int resting = static_cast<int>(std::ceil(options_.rest / spacing)) + 5;
     std::vector<Control> controls{First()};
     for (int i = 1; i < count; ++i) {
-      const double t = (i - 2.5) * spacing;  // half a knot before this control has its peak
+      const double t = (i - 2.5) * spacing;  // half a knot before the control's largest weight
       controls.push_back(i < resting ? controls.front() : Next(t, spacing, controls.back()));
     }
     return controls;
@@ -94,7 +94,8 @@ class ControlGenerator {
     return control;
   }
 
-  // To and fro through what the sway leaves of the box, on each axis with a period of its own.
+  // Oscillation of the anchor through the space that the sway leaves, with a different period for
+  // each axis.
   Vector3d Patrol(const MotionProfile& profile, double t) const {
     const Vector3d amplitude = (options_.extent - profile.sway).cwiseMax(0.0);
     Vector3d offset = Vector3d::Zero();
@@ -105,7 +106,7 @@ class ControlGenerator {
     return offset;
   }
 
-  // Way along the corridor at time t, relative to its middle.
+  // Position along the corridor at time t, relative to its middle.
   Vector3d Progress(double t) const {
     if (options_.motion != Motion::kCorridor) return Vector3d::Zero();
     const double share = (t - options_.rest) / (options_.duration - options_.rest);
@@ -134,7 +135,7 @@ BodyState Trajectory::At(double t) const {
   const Eigen::Quaterniond R_W_V(AngleAxisd(yaw, Vector3d::UnitZ()) *
                                  AngleAxisd(pitch, Vector3d::UnitY()) *
                                  AngleAxisd(roll, Vector3d::UnitX()));
-  // Each angle turns about an axis that the angles after it have moved.
+  // Converts Euler angle rates to angular velocity.
   const double sr = std::sin(roll), cr = std::cos(roll);
   const double sp = std::sin(pitch), cp = std::cos(pitch);
   const Vector3d rate_V(rates[0] - sp * rates[2], cr * rates[1] + sr * cp * rates[2],

@@ -15,39 +15,39 @@ struct BodyState {
   Rigid3d T_W_B;
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();     // [m/s]
   Eigen::Vector3d a_W = Eigen::Vector3d::Zero();     // [m/s^2], without gravity
-  Eigen::Vector3d gyro_B = Eigen::Vector3d::Zero();  // angular rate in B [rad/s]
+  Eigen::Vector3d gyro_B = Eigen::Vector3d::Zero();  // angular velocity in B [rad/s]
 };
 
 enum class Motion {
-  kGentle,        // 0.7 m/s and 0.25 rad/s on average, all axes
-  kFast,          // 1.3 m/s and 0.5 rad/s on average, peaks of 3 m/s and 1.2 rad/s
-  kHover,         // in one place but for a few centimetres, after the lead-in
-  kPureRotation,  // B turns about its origin, after the lead-in
+  kGentle,        // average 0.7 m/s and 0.25 rad/s, all axes
+  kFast,          // average 1.3 m/s and 0.5 rad/s, peaks of 3 m/s and 1.2 rad/s
+  kHover,         // position constant to a few centimetres, after the lead-in
+  kPureRotation,  // rotation of B about its origin, after the lead-in
   kCorridor,      // straight along x with a little sway
-  kStill          // nothing moves at all
+  kStill          // constant pose
 };
 
 struct TrajectoryOptions {
   Motion motion = Motion::kGentle;
   double duration = 60.0;  // [s]
-  double rest = 1.0;       // standing still at the start [s]
-  double lead_in = 8.0;    // gentle flight between the rest and hover or pure rotation [s]
+  double rest = 1.0;       // standstill at the start [s]
+  double lead_in = 8.0;    // gentle flight between standstill and hover or pure rotation [s]
   Eigen::Vector3d center{0, 0, 1.5};    // of the box that B never leaves [m]
-  Eigen::Vector3d extent{2, 1.5, 0.6};  // half size of that box [m]
+  Eigen::Vector3d extent{2, 1.5, 0.6};  // half the size of that box [m]
   // Attitude of B in the vehicle frame V (x forward, y left, z up).
   Eigen::Quaterniond R_V_B = Eigen::Quaterniond::Identity();
   uint64_t seed = 1;
 };
 
-// A smooth flight with exact derivatives: a quintic B-spline through random controls of position
-// and of the vehicle's yaw, pitch and roll. Immutable.
+// A smooth flight with exact derivatives: a quintic B-spline through random control points of the
+// position and of the vehicle's yaw, pitch and roll. Immutable.
 class Trajectory {
  public:
   explicit Trajectory(const TrajectoryOptions& options);
 
   double duration() const { return duration_; }  // [s]
 
-  // State at `t` seconds after the start, clamped to [0, duration()].
+  // State at `t` seconds after the start; `t` is clamped to [0, duration()].
   BodyState At(double t) const;
 
  private:
@@ -56,7 +56,7 @@ class Trajectory {
   QuinticSpline<6> spline_;  // x, y, z, roll, pitch, yaw of V
 };
 
-// R_V_B of a body whose camera looks forward, horizontally and upright.
+// Returns R_V_B of a body whose camera looks forward, horizontally and upright.
 Eigen::Quaterniond ForwardLookingBody(const Rigid3d& T_B_C);
 
 }  // namespace plm_vins::simulator

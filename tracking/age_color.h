@@ -6,10 +6,10 @@
 
 namespace plm_vins {
 
-// How trackers paint a feature that has been followed for `length` images (BGR): from blue, new, to
-// red, long followed.
+// Returns the colour (BGR) of a feature that has been tracked for `length` images: from blue (new)
+// to red (long tracked).
 inline cv::Scalar AgeColor(int length) {
-  constexpr int kOldLength = 20;  // fully red from here on
+  constexpr int kOldLength = 20;  // pure red from here on
   const double age = std::min(1.0, static_cast<double>(length) / kOldLength);
   return {255 * (1 - age), 0, 255 * age};
 }

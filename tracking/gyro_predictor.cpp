@@ -11,8 +11,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr int64_t kHistory_ns = 5'000'000'000;  // longer than any image waits
-constexpr int64_t kMaxGap_ns = 100'000'000;     // rotation inside a longer gap is anybody's guess
+constexpr int64_t kHistory_ns = 5'000'000'000;  // exceeds the time that any image waits
+constexpr int64_t kMaxGap_ns = 100'000'000;     // the rotation within a longer gap is unknown
 constexpr int kJumpPatience = 100;              // samples
 
 }  // namespace

@@ -14,22 +14,22 @@
 
 namespace plm_vins {
 
-// The camera's rotation between two images from the gyro alone, to predict where features move.
-// Keeps a bounded history; samples that no sensor gives, out of order, or the first after a leap in
-// time are ignored, those that do not fit the others replaced (ImuGate); where all stamps go back,
-// the history begins anew.
+// Integrates the gyroscope to the camera's rotation between two images, which predicts the motion
+// of features. Keeps a bounded history. Ignores samples that are not finite or out of range, out of
+// order, or the first after a forward jump in time, and replaces outliers (ImuGate). A permanent
+// backward jump of the timestamps clears the history.
 class GyroPredictor {
  public:
-  // `td`: t_imu = t_image + td [s].
+  // `td` satisfies t_imu = t_image + td [s].
   GyroPredictor(const Rigid3d& T_B_C, double td, const ImuRange& imu_range = ImuRange());
 
   void AddImu(const ImuSample& sample);
 
-  // True when the samples reach the time of the image.
+  // Returns whether the samples reach the time of the image.
   bool Covers(int64_t t_image_ns) const;
 
-  // R_C1_C0: directions of the camera at t0 to the camera at t1. Nothing where the samples do not
-  // cover the interval or leave a gap in it.
+  // Returns R_C1_C0, which rotates directions from the camera at t0 to the camera at t1. Returns
+  // nullopt if the samples do not cover the interval or have a gap in it.
   std::optional<Eigen::Quaterniond> Rotation(int64_t t0_ns, int64_t t1_ns) const;
 
  private:
@@ -38,7 +38,7 @@ class GyroPredictor {
   Eigen::Quaterniond R_B_C_;
   int64_t td_ns_;
   std::deque<ImuSample> samples_;
-  std::optional<int64_t> last_ns_;  // of the newest sample that went to the gate
+  std::optional<int64_t> last_ns_;  // newest sample passed to the gate
   ImuGate gate_;
   ForwardJumpDetector leap_;
   BackwardJumpDetector jump_;

@@ -9,8 +9,8 @@
 
 namespace plm_vins {
 
-// Throws std::invalid_argument where the image is not grey, not of the calibrated size, or cannot
-// follow the one at `previous_ns`.
+// Throws std::invalid_argument if the image is not CV_8UC1, not of the calibrated size, or its
+// timestamp is not later than `previous_ns`.
 void CheckImage(const ImageSample& image, const CameraParameters& camera,
                 const std::optional<int64_t>& previous_ns);
 

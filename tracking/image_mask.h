@@ -7,13 +7,14 @@
 
 namespace plm_vins {
 
-// The mask of the image file that the key fisheye_mask names, CV_8UC1 with 255 where features are
-// allowed and 0 elsewhere; empty where `file` is. What is darker than half is masked: lossy files
-// are not black and white only. Throws std::invalid_argument, which names key and file, where that
-// cannot be read, is not of the images' size, or allows nothing.
+// Reads the image file of the key fisheye_mask as CV_8UC1 with 255 where features are allowed and 0
+// elsewhere. Returns an empty mask if `file` is empty. Pixels darker than half are masked, since
+// lossy files are not purely black and white. Throws std::invalid_argument with key and file name
+// if the file cannot be read, has another size, or masks everything.
 cv::Mat ReadMask(const std::string& file, const cv::Size& image_size);
 
-// False where the mask forbids the pixel, which is of the image. An empty one forbids none.
+// Returns whether the mask allows the pixel, which must be inside the image. An empty mask allows
+// all.
 inline bool MaskAllows(const cv::Mat& mask, const cv::Point& pixel) {
   return mask.empty() || mask.at<uint8_t>(pixel) != 0;
 }

@@ -9,7 +9,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMaxWaiting = 2;  // newer images that an image lets pass for the gyro
+constexpr size_t kMaxWaiting = 2;  // newer images that end the wait for the gyroscope
 constexpr int64_t kImageGap_ns = 1'000'000'000;
 constexpr int kJumpPatience = 10;  // images
 
@@ -24,7 +24,7 @@ DropCounts ToDropCounts(const ImageCounts& counts) {
           {"images_without_gyro", counts.without_gyro, ""}};
 }
 
-// The gyro says nothing about images while the rotation between the two is yet to be calibrated.
+// The gyroscope cannot predict while the rotation between camera and IMU is still to be calibrated.
 ImageQueue::ImageQueue(const Config& config)
     : sensor_(config.sensor),
       uses_gyro_(sensor_.estimate_extrinsic != SensorConfig::ExtrinsicMode::kCalibrateRotation),

@@ -17,50 +17,50 @@
 
 namespace plm_vins {
 
-// An image whose turn it is, and what a tracker needs to know of it.
+// The next image to be tracked, with its prediction and flags.
 struct ReadyImage {
   ImageSample image;
-  // Takes directions of the camera at the image before to this one. Nothing where the gyro does not
-  // provide it.
+  // Rotates directions from the camera frame of the previous image to this one's. nullopt if the
+  // gyroscope does not cover the interval.
   std::optional<Eigen::Quaterniond> R_C1_C0;
-  bool restart = false;  // stamps jumped back: a new recording begins here, what was before is void
-  bool publish = true;   // false: the features of this image are not for the estimator (`freq`)
+  bool restart = false;  // timestamps jumped back: a new recording begins; drop earlier state
+  bool publish = true;   // false: not for the estimator, by the rate `freq`
 };
 
-// Images that came in and what was wrong with them. All counts are since construction.
+// Counts of received images and their faults since construction.
 struct ImageCounts {
   int64_t images = 0;
-  int64_t out_of_order = 0;  // stamp not after the one before (repeated or backwards)
-  int64_t ahead = 0;         // more than a second after the one before, and alone there so far
-  int64_t restarts = 0;      // stamps jumped back for good: a new recording
-  int64_t wrong_format = 0;  // not grey or not of the calibrated size
-  int64_t gaps = 0;          // more than a second without images
-  int64_t without_gyro = 0;  // handed out without R_C1_C0, as the gyro did not cover it
+  int64_t out_of_order = 0;  // timestamp repeated or earlier than the previous one
+  int64_t ahead = 0;         // more than a second ahead, not confirmed by the next image
+  int64_t restarts = 0;      // permanent backward jumps: new recordings
+  int64_t wrong_format = 0;  // not CV_8UC1 or not of the calibrated size
+  int64_t gaps = 0;          // intervals of more than a second without images
+  int64_t without_gyro = 0;  // returned without R_C1_C0, since the gyroscope did not cover it
   std::string wrong_format_detail;
 };
 
 DropCounts ToDropCounts(const ImageCounts& counts);
 
-// Brings images to a tracker: checks them and lets each wait (a little) until the gyro reaches it.
-// Two queues that are given the same input decide the same on every image, so that the features of
-// different trackers have equal stamps. Synchronous; feed in order of arrival and pop until nothing
-// is ready, as with MeasurementSync.
+// Input queue of a tracker: checks images and holds each back briefly until the gyroscope samples
+// reach it. The result depends on the input only: queues of different trackers select the same
+// images, so that their features have equal timestamps. Synchronous; add in order of arrival and
+// pop until nullopt, as with MeasurementSync.
 class ImageQueue {
  public:
   explicit ImageQueue(const Config& config);
 
   void AddImu(const ImuSample& sample) { gyro_.AddImu(sample); }
 
-  // Stamps must increase; an image that goes back in time is dropped, unless more and more of them
-  // follow: then it is a new recording. An image that leaps ahead is dropped, too, unless the next
-  // one confirms the leap.
+  // Timestamps must increase. An image that goes back in time is dropped, unless enough images
+  // follow it there: then a new recording begins. An image that jumps ahead is dropped, unless the
+  // next one confirms the jump.
   void AddImage(ImageSample image);
 
-  // The next image in order of time, or nothing yet. An image waits for the gyro until two newer
-  // images have come.
+  // Returns the next image in temporal order, or nullopt if it still waits. An image waits for the
+  // gyroscope until two newer images have arrived.
   std::optional<ReadyImage> Pop();
 
-  // The same without waiting for the gyro.
+  // Returns the next image without waiting for the gyroscope.
   std::optional<ReadyImage> Flush();
 
   bool empty() const { return images_.empty(); }
@@ -72,7 +72,7 @@ class ImageQueue {
     bool restart = false;
   };
 
-  // False, and counted, where the image is not grey or not of the calibrated size.
+  // Returns false, and counts the image, if it is not CV_8UC1 or not of the calibrated size.
   bool AcceptFormat(const ImageSample& image);
 
   SensorConfig sensor_;
@@ -81,8 +81,8 @@ class ImageQueue {
   RateLimiter rate_limiter_;
   ImageCounts counts_;
   std::deque<WaitingImage> images_;
-  std::optional<int64_t> accepted_ns_;    // stamp of the last image taken in
-  std::optional<int64_t> handed_out_ns_;  // stamp of the last image handed out
+  std::optional<int64_t> accepted_ns_;    // timestamp of the last image that was accepted
+  std::optional<int64_t> handed_out_ns_;  // timestamp of the last image that was returned
   BackwardJumpDetector jump_;
   ForwardJumpDetector leap_;
 };

@@ -7,8 +7,8 @@
 
 namespace plm_vins {
 
-// Brightness between pixels of a CV_8UC1 image, bilinear. The point must lie inside of the image,
-// by less than its last row and column.
+// Bilinear interpolation of a CV_8UC1 image. The point must be inside the image, before its last
+// row and column.
 inline float Interpolate(const cv::Mat& image, float x, float y) {
   const int column = static_cast<int>(x);
   const int row = static_cast<int>(y);
@@ -21,9 +21,9 @@ inline float Interpolate(const cv::Mat& image, float x, float y) {
   return top + dy * (bottom - top);
 }
 
-// The same at `count` points in a row, `step` from one to the next, rounded otherwise in the last
-// bits; followed by zeros up to kStride. The work is laid out so that the compiler does it for
-// several points at once, but for the loading of pixels.
+// Interpolates `count` equidistant points, with different rounding in the last bits, and pads with
+// zeros to kStride. The loops are written such that the compiler vectorizes all but the loading of
+// pixels.
 template <int kStride>
 void InterpolateRow(const cv::Mat& image, const cv::Point2f& start, const cv::Point2f& step,
                     int count, float* brightness) {
@@ -39,7 +39,7 @@ void InterpolateRow(const cv::Mat& image, const cv::Point2f& start, const cv::Po
     dy[i] = y - static_cast<float>(row);
     offset[i] = row * row_step + column;
   }
-  // Each pixel with its right neighbour, which is the higher byte: both come in one load.
+  // Loads each pixel together with its right neighbour, which is the higher byte.
   static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
   std::array<uint16_t, kStride> upper = {}, lower = {};
   for (int i = 0; i < count; ++i) {
@@ -56,7 +56,7 @@ void InterpolateRow(const cv::Mat& image, const cv::Point2f& start, const cv::Po
   }
 }
 
-// True where a profile of this radius around the point can be interpolated in any direction.
+// Returns whether a profile of this radius around the point can be interpolated in any direction.
 inline bool IsInterpolable(const cv::Mat& image, float x, float y, float radius) {
   return x >= radius && y >= radius && x < static_cast<float>(image.cols - 1) - radius &&
          y < static_cast<float>(image.rows - 1) - radius;

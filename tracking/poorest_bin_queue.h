@@ -6,17 +6,17 @@
 
 namespace plm_vins {
 
-// Spreads a choice over bins, such as parts of an image: it is always the turn of the bin that has
-// the fewest items, and there of its best candidate.
+// Distributes selected items over bins, such as image regions: Pop() returns the best candidate of
+// the bin that has the fewest items.
 template <typename Item>
 class PoorestBinQueue {
  public:
   explicit PoorestBinQueue(size_t bin_count) : bins_(bin_count) {}
 
-  // To be added best first.
+  // Candidates must be added best first.
   void AddCandidate(size_t bin, const Item& item) { bins_[bin].candidates.push_back(item); }
 
-  // An item that exists, or a candidate that was taken.
+  // Counts an existing item, or a candidate that was selected.
   void Count(size_t bin) { ++bins_[bin].count; }
 
   std::optional<Item> Pop() {

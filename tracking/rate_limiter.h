@@ -9,19 +9,19 @@
 
 namespace plm_vins {
 
-// Thins a stream of images to a mean rate, by the stamps alone.
+// Reduces a stream of images to a mean rate, by timestamps only.
 //
-// It takes the same images as the trackers of VINS-Mono and PL-VINS, so that features of theirs and
-// ours can be paired: of the first image, and the first after a gap or a jump back, only the stamp
-// is used; a later one is taken where the count since then (of which that first one is one) is not
-// above the rate, to the nearest whole number; once it is the rate within 1 %, the count begins
-// anew at this image.
+// It selects the same images as the trackers of VINS-Mono and PL-VINS, so that their features and
+// ours can be paired. The first image, and the first after a gap or backward jump, is not selected
+// but starts the count. A later image is selected if the mean rate since then, rounded to a whole
+// number, does not exceed `rate`; once the mean rate agrees within 1 %, the count restarts at this
+// image.
 class RateLimiter {
  public:
-  // `rate` [Hz]; zero or less lets everything through.
+  // `rate` [Hz]; a rate of at most zero selects all images.
   explicit RateLimiter(double rate) : rate_(rate) {}
 
-  // True where the image of this time is to be used.
+  // Returns whether to use the image of this time.
   bool Take(int64_t t_ns) {
     if (rate_ <= 0) return true;
     const bool continues = last_ns_ && t_ns > *last_ns_ && t_ns - *last_ns_ <= kGap_ns;
@@ -51,7 +51,7 @@ class RateLimiter {
 
   double rate_;
   std::optional<int64_t> last_ns_;
-  int64_t begin_ns_ = 0;  // since when it is counted
+  int64_t begin_ns_ = 0;  // start of the count
   double count_ = 0;
 };
 

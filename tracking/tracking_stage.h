@@ -14,45 +14,45 @@
 
 namespace plm_vins {
 
-// The features of one image, how the tracker came to them, and what they cost.
+// The features of one image with statistics and processing time.
 template <typename Tracker>
 struct Tracked {
-  ImageSample image;  // that they were found in
+  ImageSample image;  // the image with these features
   typename Tracker::Features features;
   typename Tracker::Statistics statistics;
-  bool restart = false;    // as of ReadyImage
-  bool publish = true;     // as of ReadyImage
+  bool restart = false;    // see ReadyImage
+  bool publish = true;     // see ReadyImage
   double tracking_ms = 0;  // [ms]
 };
 
-// A front end as nodes and the offline runner use it: images wait their turn, then are tracked.
-// `kSection` is the tracker's part of the configuration. Synchronous; feed in order of arrival and
-// pop until nothing is ready.
+// A front end, as used by the nodes and the offline runner: an ImageQueue followed by a tracker.
+// `kSection` is the tracker's part of the configuration. Synchronous; add in order of arrival and
+// pop until nullopt.
 template <typename Tracker, auto kSection>
 class TrackingStage {
  public:
   using Frame = Tracked<Tracker>;
 
-  // Throws ConfigError where the tracker refuses its part.
+  // Throws ConfigError if the tracker rejects its part of the configuration.
   explicit TrackingStage(const Config& config) : queue_(config), tracker_(MakeTracker(config)) {}
 
-  // As of ImageQueue.
+  // See ImageQueue.
   void AddImu(const ImuSample& sample) { queue_.AddImu(sample); }
   void AddImage(ImageSample image) { queue_.AddImage(std::move(image)); }
   bool waiting() const { return !queue_.empty(); }
   const ImageCounts& counts() const { return queue_.counts(); }
 
-  // Features of the next image in order of time, or nothing yet.
+  // Returns the features of the next image in temporal order, or nullopt if it still waits.
   std::optional<Frame> Pop() { return Track(queue_.Pop()); }
 
-  // The same without waiting for the gyro.
+  // Returns the features of the next image without waiting for the gyroscope.
   std::optional<Frame> Flush() { return Track(queue_.Flush()); }
 
   const Tracker& tracker() const { return tracker_; }
   Tracker& tracker() { return tracker_; }
 
  private:
-  // The key that is refused is known there, but not the file.
+  // Adds the file name to errors of the tracker, which name the key only.
   static Tracker MakeTracker(const Config& config) {
     try {
       const CameraParameters& camera = config.sensor.camera;

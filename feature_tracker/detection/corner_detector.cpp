@@ -13,10 +13,10 @@
 namespace plm_vins {
 namespace {
 
-// White noise of 2 grey levels stays below this even when CLAHE amplifies it; corners of a lit
-// scene reach 0.1 (gradients are in units of the full grey range).
+// White noise of 2 grey levels stays below this threshold even when CLAHE amplifies it; corners of
+// a lit scene reach 0.1 (gradients are in units of the full grey range).
 constexpr float kMinEigenvalue = 5e-4F;
-constexpr int kCornersPerRegion = 8;  // on average, of the regions that they are spread over
+constexpr int kCornersPerRegion = 8;  // mean number for each region of RegionQueue
 
 }  // namespace
 
@@ -50,7 +50,7 @@ std::vector<cv::Point2f> CornerDetector::Detect(const cv::Mat& image,
   return corners;
 }
 
-// Local maxima of the response, best first; equal ones in order of position.
+// Returns the local maxima of the response, strongest first; equal ones in order of position.
 std::vector<CornerDetector::Candidate> CornerDetector::FindCandidates(
     const cv::Mat& image, const SpacingGrid& occupied) const {
   cv::Mat half_image, local_maximum;
@@ -75,7 +75,7 @@ std::vector<CornerDetector::Candidate> CornerDetector::FindCandidates(
   return candidates;
 }
 
-// Harris' response is a product of two eigenvalues, so its thresholds are squares.
+// The thresholds are squared for Harris, whose response is a product of two eigenvalues.
 float CornerDetector::MinResponse(const cv::Mat& response) const {
   double best = 0;
   cv::minMaxLoc(response, nullptr, &best);

@@ -9,24 +9,24 @@
 
 namespace plm_vins {
 
-// Finds new corners where there are none yet, spread evenly over the image.
+// Detects new corners where there are none yet, distributed evenly over the image.
 //
-// The Shi-Tomasi [Shi1994] or Harris response is taken at half resolution: that costs a quarter,
-// and corners that only the full resolution shows are poor ones to follow. Refinement then places
-// them at full resolution.
+// The Shi-Tomasi [Shi1994] or Harris response is computed at half resolution, which takes a quarter
+// of the time; corners that only the full resolution shows are hard to track. Refinement then
+// locates the corners at full resolution.
 class CornerDetector {
  public:
-  // `mask` (CV_8UC1, of the images' size, non-zero where corners are allowed) may be empty.
+  // `mask` (CV_8UC1 of the image size, non-zero where corners are allowed) may be empty.
   CornerDetector(const PointTrackerConfig& config, cv::Mat mask);
 
-  // At most `max_count` new corners [px] of the CV_8UC1 image, at least min_dist from the
-  // `existing` ones and from each other, in the order in which they were chosen.
+  // Returns at most `max_count` new corners [px] of the CV_8UC1 image, at least min_dist from the
+  // `existing` ones and from each other, in order of selection.
   std::vector<cv::Point2f> Detect(const cv::Mat& image, const std::vector<cv::Point2f>& existing,
                                   int max_count) const;
 
  private:
   struct Candidate {
-    cv::Point2f position;  // in the full image [px]
+    cv::Point2f position;  // at full resolution [px]
     float response = 0;
   };
 

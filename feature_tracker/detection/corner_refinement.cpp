@@ -15,7 +15,7 @@ constexpr int kMaxIterations = 20;
 constexpr float kConverged_px = 0.01F;
 constexpr double kMinConditioning = 1e-3;  // smallest over largest eigenvalue of the equations
 
-// Gaussian that falls to 1/e at the window's edge.
+// Gaussian weights, falling to 1/e at the window's edge.
 std::array<float, 2 * kRadius + 1> WindowWeights() {
   std::array<float, 2 * kRadius + 1> weights{};
   for (int i = -kRadius; i <= kRadius; ++i) {
@@ -24,7 +24,8 @@ std::array<float, 2 * kRadius + 1> WindowWeights() {
   return weights;
 }
 
-// From the patch around a point to its correction [px]. `patch` has one pixel around the window.
+// Returns the correction of the corner [px] from the patch around it. `patch` has a margin of one
+// pixel around the window.
 std::optional<cv::Point2f> Step(const cv::Mat_<float>& patch) {
   static const auto weights = WindowWeights();
   Eigen::Matrix2d A = Eigen::Matrix2d::Zero();

@@ -6,19 +6,19 @@
 
 namespace plm_vins {
 
-constexpr int kRefinementRadius_px = 5;  // the window is a square of 2 * 5 + 1 pixels
+constexpr int kRefinementRadius_px = 5;  // the window has 2 * 5 + 1 pixels on each side
 
-// The subpixel position of the corner near `start` [px]: the point q at which every gradient g(p)
-// of the window is at right angles to p - q, found by iterating the weighted least squares sum w g
-// g^T (p - q) = 0 ([Paper], section III.A). Nothing under the image border constraint: where the
-// window (and the pixel around it that its gradients take) leaves the image, or the corner leaves
-// the window around `start`; nothing either where the gradients fix no point.
+// Refines the corner near `start` [px] to subpixel accuracy: finds the point q for which each
+// gradient g(p) of the window is perpendicular to p - q, by iterating the weighted least squares
+// sum w g g^T (p - q) = 0 ([Paper], section III.A). Returns nullopt under the image border
+// constraint, that is if the window (plus the margin of its gradients) leaves the image or the
+// corner leaves the window around `start`, and if the gradients are degenerate.
 //
-// cv::cornerSubPix solves the same equations but hands a corner that left its window back
-// unrefined, so that it looks like a good one.
+// cv::cornerSubPix solves the same equations, but returns a corner that left its window unrefined,
+// so that it cannot be told from a good one.
 std::optional<cv::Point2f> RefineCorner(const cv::Mat& image, const cv::Point2f& start);
 
-// True where the refinement window around the point is inside of the image.
+// Returns whether the refinement window around the point is inside the image.
 bool IsRefinementWindowInside(const cv::Size& image_size, const cv::Point2f& point);
 
 }  // namespace plm_vins

@@ -9,7 +9,7 @@ namespace plm_vins {
 namespace {
 
 constexpr float kHarrisK = 0.04F;
-// One over the weights of Sobel's kernel, the pixels of a block's side, and the grey levels.
+// Scale of gradients: 1 / (sum of Sobel's weights * block size * number of grey levels).
 constexpr float kUnit = 1.0F / (4 * 3 * 255);
 
 struct Gradients {
@@ -17,8 +17,8 @@ struct Gradients {
   cv::Mat y;
 };
 
-// Products of gradients, each the sum over the three rows of a block: one per column, and at both
-// ends one more, as reflected.
+// Products of gradients, summed over the three rows of a block: one element for each column, plus a
+// reflected one at both ends.
 struct ColumnSums {
   std::vector<int> xx;
   std::vector<int> xy;
@@ -29,7 +29,7 @@ void AddProducts(const int16_t* a, const int16_t* b, size_t columns, int* sums) 
   for (size_t x = 0; x < columns; ++x) sums[x] += static_cast<int>(a[x]) * b[x];
 }
 
-// Of the block's rows around row `y`.
+// Sums over the three rows of the blocks centred at row `y`.
 void SumColumns(const Gradients& gradients, int y, ColumnSums* sums) {
   const auto columns = static_cast<size_t>(gradients.x.cols);
   for (std::vector<int>* sum : {&sums->xx, &sums->xy, &sums->yy}) sum->assign(columns + 2, 0);
@@ -47,7 +47,7 @@ void SumColumns(const Gradients& gradients, int y, ColumnSums* sums) {
   }
 }
 
-// The response of each pixel of a row, by `measure` of the covariance (xx, xy; xy, yy).
+// Computes the response of each pixel of a row by `measure` of the covariance (xx, xy; xy, yy).
 template <typename Measure>
 void MeasureRow(const ColumnSums& sums, const Measure& measure, float* responses) {
   const auto block = [](const std::vector<int>& sum, size_t x) {

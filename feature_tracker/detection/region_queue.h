@@ -8,19 +8,19 @@
 
 namespace plm_vins {
 
-// Spreads a choice of points over the image: hands candidates out such that it is always the turn
-// of the region that has the fewest points, and there the turn of its best candidate.
+// Distributes selected points over the image: Pop() returns the best candidate of the region that
+// has the fewest points.
 class RegionQueue {
  public:
-  // About `region_count` square regions.
+  // Divides the image into about `region_count` square regions.
   RegionQueue(const cv::Size& image_size, int region_count);
 
-  // To be added best first.
+  // Candidates must be added best first.
   void AddCandidate(const cv::Point2f& position) {
     queue_.AddCandidate(RegionOf(position), position);
   }
 
-  // A point that exists, or a candidate that was taken.
+  // Counts an existing point, or a candidate that was selected.
   void CountPoint(const cv::Point2f& position) { queue_.Count(RegionOf(position)); }
 
   std::optional<cv::Point2f> Pop() { return queue_.Pop(); }

@@ -6,16 +6,16 @@
 
 namespace plm_vins {
 
-// Points of an image, sorted into cells so that "is there one closer than the minimum distance?"
-// costs a look into nine cells only.
+// Enforces a minimum distance between image points. Points are sorted into cells, so that a query
+// inspects nine cells only.
 class SpacingGrid {
  public:
-  // `min_distance` in pixels, positive. Points must lie inside of an image of this size.
+  // `min_distance` is positive [px]. Points must be inside an image of this size.
   SpacingGrid(cv::Size image_size, double min_distance);
 
   void Add(const cv::Point2f& point);
 
-  // True where no point added so far is closer than the minimum distance.
+  // Returns whether no added point is closer than the minimum distance.
   bool IsFree(const cv::Point2f& point) const;
 
  private:
@@ -27,7 +27,7 @@ class SpacingGrid {
   double min_distance_;
   int columns_;
   int rows_;
-  std::vector<Cell> cells_;  // row by row
+  std::vector<Cell> cells_;  // row-major
 };
 
 }  // namespace plm_vins

@@ -11,16 +11,16 @@
 namespace plm_vins {
 namespace {
 
-constexpr float kSigma_px = 5.0F;  // of the weights: what is far from the corner may be elsewhere
+constexpr float kSigma_px = 5.0F;  // of the weights: distant pixels may be at another depth
 constexpr int kMaxIterations = 12;
 constexpr double kConverged_px = 0.03;
-constexpr double kMaxShift_px = 1.5;      // from where the flow ended; else one of them is wrong
-constexpr float kMinCorrelation = 0.85F;  // of what is seen with the patch
-constexpr double kMaxGrowth = 3.0;        // of its area, or one over it
+constexpr double kMaxShift_px = 1.5;      // from the result of the flow; otherwise one is wrong
+constexpr float kMinCorrelation = 0.85F;  // of the aligned pixels with the patch
+constexpr double kMaxGrowth = 3.0;        // of the patch's area, and inverse
 constexpr float kMinGain = 0.3F;
-constexpr double kMinPivot = 1e-6;  // of the normal equations; less of a flat patch
+constexpr double kMinPivot = 1e-6;  // of the normal equations; flat patches have less
 
-// With one pixel more around it, for derivatives.
+// Returns whether the patch, with a margin of one pixel for derivatives, is inside the image.
 bool IsInside(const cv::Mat& image, const PatchPose& pose, int radius) {
   const Eigen::Vector2d reach =
       radius * (pose.linear.col(0).cwiseAbs() + pose.linear.col(1).cwiseAbs());
@@ -64,7 +64,7 @@ CornerPatch::Pixels CornerPatch::SampleInside(const cv::Mat& image, const PatchP
   return pixels;
 }
 
-// Of half the weighted squares of `difference`: J W difference.
+// Gradient of half the weighted squared error: J W difference.
 CornerPatch::Parameters CornerPatch::Gradient(const Pixels& difference) const {
   constexpr int kLanes = 4;
   const Pixels& weights = Weights();
@@ -130,7 +130,7 @@ std::optional<PatchPose> CornerPatch::Align(const cv::Mat& image, const PatchPos
     if (!pixels) return std::nullopt;
     const Parameters step =
         (covariance_ * Gradient(*pixels - pixels_).cast<double>()).cast<float>();
-    // Gain scales the gradients as well.
+    // A gain scales the image gradients, and so the step.
     const Eigen::Matrix<double, 6, 1> warp =
         step.head<6>().cast<double>() / std::max(1 + step[6], kMinGain);
     Eigen::Matrix2d deformation;
@@ -147,7 +147,7 @@ std::optional<PatchPose> CornerPatch::Align(const cv::Mat& image, const PatchPos
   return std::nullopt;
 }
 
-// By the weighted correlation, which gain and offset do not change.
+// Compares by weighted correlation, which is invariant to gain and offset.
 bool CornerPatch::LooksLike(const Pixels& pixels) const {
   const auto product_of = [](const Pixels& a, const Pixels& b) {
     return a.cwiseProduct(Weights()).cwiseProduct(b).sum();

@@ -7,33 +7,34 @@
 
 namespace plm_vins {
 
-// Where a patch lies in an image: its pixel p, from its centre, at  linear * p + center.
+// Pose of a patch in an image: the patch pixel p, relative to its centre, is at linear * p +
+// center.
 struct PatchPose {
   Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
   Eigen::Vector2d center = Eigen::Vector2d::Zero();  // [px]
 };
 
-// What a corner looked like when it was found. Aligning every image with that, rather than each
-// with the one before, keeps the errors of the flow from adding up, and follows how the patch
-// turns, grows and shears, which flow takes for motion.
+// Appearance of a corner at its detection. Aligning each image with this patch instead of the
+// previous image keeps the errors of the flow from accumulating, and models rotation, scale and
+// shear of the patch, which flow would confuse with translation.
 class CornerPatch {
  public:
-  // The pixels around `center` of a grey image of 8 bits. Nothing where they leave the image, or
-  // do not fix an affine warp.
+  // Extracts the patch around `center` from a CV_8UC1 image. Returns nullopt if it leaves the image
+  // or its texture does not constrain an affine warp.
   static std::optional<CornerPatch> Cut(const cv::Mat& image, const Eigen::Vector2d& center);
 
-  // Where the patch lies in another image, beginning at `start`: the least squares over an affine
-  // warp, gain and offset, by the inverse compositional algorithm [Baker2004]. Nothing where it
-  // leaves the image, does not converge near `start`, or what is there looks different.
+  // Finds the patch in another image, starting at `start`: least squares over an affine warp, gain
+  // and offset by the inverse compositional algorithm [Baker2004]. Returns nullopt if it leaves the
+  // image, does not converge near `start`, or looks different there.
   std::optional<PatchPose> Align(const cv::Mat& image, const PatchPose& start) const;
 
  private:
   static constexpr int kRadius = 7;  // [px]
   static constexpr int kSide = 2 * kRadius + 1;
-  static constexpr int kStride = kSide + 1;  // of rows in memory, for the processor's vectors
-  static constexpr int kParameters = 8;      // linear, by rows; shift; gain; offset
+  static constexpr int kStride = kSide + 1;  // row length in memory, a multiple of the SIMD width
+  static constexpr int kParameters = 8;      // linear (row-major), shift, gain, offset
 
-  // A column for each row of the patch. The last row holds nothing and has no weight.
+  // Each column is a row of the patch. The last matrix row is padding with zero weight.
   using Pixels = Eigen::Matrix<float, kStride, kSide>;
   using Parameters = Eigen::Matrix<float, kParameters, 1>;
   using Information = Eigen::Matrix<double, kParameters, kParameters>;
@@ -45,7 +46,7 @@ class CornerPatch {
   bool LooksLike(const Pixels& pixels) const;
 
   Pixels pixels_;
-  Pixels d_pixels_dx_;  // with their weights
+  Pixels d_pixels_dx_;  // multiplied by the weights
   Pixels d_pixels_dy_;
   Information covariance_;  // (J W J^T)^-1
 };

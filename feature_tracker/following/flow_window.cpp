@@ -9,17 +9,17 @@ namespace plm_vins {
 namespace {
 
 constexpr int kLanes = 8;
-constexpr int kColumnBits = 8;                            // of the weights of neighbours in a row
-constexpr int kRowBits = 15;                              // of those in a column
-constexpr int kSampleBits = kColumnBits + kRowBits - 16;  // of samples, behind the point
-// Sums over a row of the largest window stay within 32 bits.
+constexpr int kColumnBits = 8;  // of the interpolation weights within a row
+constexpr int kRowBits = 15;    // of the interpolation weights within a column
+constexpr int kSampleBits = kColumnBits + kRowBits - 16;  // fractional bits of samples
+// Leaves room for the sums over a row of the largest window within 32 bits.
 constexpr int kDifferenceBits = 5;
-constexpr int kSlopeBits = 5;  // slopes are 32 times those per pixel: the sum of Scharr's weights
-constexpr float kMinSquaredSlope = 0.1F;  // mean, in the direction where it is least [1/px^2]
+constexpr int kSlopeBits = 5;             // gradients are scaled by 32, the sum of Scharr's weights
+constexpr float kMinSquaredSlope = 0.1F;  // mean squared gradient in the weakest direction [1/px^2]
 
 int InWholeVectors(int columns) { return (columns + kLanes - 1) / kLanes * kLanes; }
 
-// A place between pixels: the pixel above and to the left of it, and the weights of its neighbours.
+// A subpixel position: the pixel above and to the left of it, and the interpolation weights.
 struct Subpixel {
   explicit Subpixel(const cv::Point2f& point) : x(cvFloor(point.x)), y(cvFloor(point.y)) {
     const auto part_of = [](float share, int bits) {
@@ -35,7 +35,7 @@ struct Subpixel {
   uint16_t left, right, above, below;
 };
 
-// Samples a block whose first pixel lies at `corner`. `columns` are whole vectors.
+// Samples a block whose first pixel is at `corner`. `columns` is a multiple of the SIMD width.
 void Sample(const cv::Mat& image, const Subpixel& corner, int rows, int columns, int16_t* samples) {
   const cv::v_uint16x8 left = cv::v_setall_u16(corner.left);
   const cv::v_uint16x8 right = cv::v_setall_u16(corner.right);
@@ -84,7 +84,7 @@ cv::Point2f FlowWindow::CornerOf(const cv::Point2f& center) const {
   return {center.x - half, center.y - half};
 }
 
-// False for what is not a number, too.
+// Returns false for NaN as well.
 bool FlowWindow::ShowsImage(const cv::Mat& image, const cv::Point2f& corner) const {
   const auto side = static_cast<float>(side_);
   return corner.x > -side && corner.x < static_cast<float>(image.cols) &&  //
@@ -99,7 +99,7 @@ bool FlowWindow::Cut(const cv::Mat& image, const cv::Point2f& center) {
   return InvertInformation();
 }
 
-// By Scharr's operator, as OpenCV's flow does.
+// Computes gradients by Scharr's operator, as OpenCV's flow does.
 void FlowWindow::TakeSlopes() {
   constexpr int kInputBits = 3;  // the greatest sum fits 16 bits
   const cv::v_int16x8 three = cv::v_setall_s16(3), ten = cv::v_setall_s16(10);

@@ -9,24 +9,24 @@
 
 namespace plm_vins {
 
-// A square window around a point of one image, which is looked for in another: one step of
-// Lucas-Kanade flow [Lucas1981, Bouguet2001]. Pixels are sampled in fixed point, of which the
-// processor handles eight at once. Slopes are taken of the samples; those of whole images would
-// be kept from one image to the next, and by then have left the processor's caches.
+// A square window around a point of one image, to be found in another: one step of Lucas-Kanade
+// flow [Lucas1981, Bouguet2001]. Pixels are sampled in fixed point, of which SIMD processes eight
+// at once. Gradients are computed from these samples: gradient images computed in advance would
+// have left the caches by the time they are used.
 //
-// The images are grey, of 8 bits, and parts of larger ones, with a border on each side.
+// The images are CV_8UC1 regions of larger images, with a border on each side.
 class FlowWindow {
  public:
-  static int Border(int side);  // that images need at least [px]
+  static int Border(int side);  // smallest border that images need [px]
 
   explicit FlowWindow(int side);
 
-  // Takes the window around `center` [px]. False where nothing of it lies in the image, or where
-  // too little texture shows both directions of motion.
+  // Extracts the window around `center` [px]. Returns false if it is entirely outside the image, or
+  // if its texture does not constrain both directions of motion.
   bool Cut(const cv::Mat& image, const cv::Point2f& center);
 
-  // From `center` [px] in another image towards where the window lies, to first order. Nothing
-  // where nothing of it lies in the image.
+  // Returns the first-order step from `center` [px] in another image towards the window. Returns
+  // nullopt if the window is entirely outside the image.
   std::optional<cv::Point2f> Step(const cv::Mat& image, const cv::Point2f& center);
 
  private:
@@ -36,13 +36,13 @@ class FlowWindow {
   bool InvertInformation();
 
   int side_;
-  int columns_;                    // of a row in memory: the side, in whole vectors
-  int wide_columns_;               // of one with a pixel more on each side
-  std::vector<int16_t> wide_;      // samples of the window, with a pixel more on each side
-  std::vector<int16_t> samples_;   // of the other image
-  std::vector<int16_t> slopes_x_;  // without weight beyond the side
+  int columns_;                    // of a row in memory: the side, rounded up to the SIMD width
+  int wide_columns_;               // of a row with a margin of one pixel
+  std::vector<int16_t> wide_;      // samples of the window with a margin of one pixel
+  std::vector<int16_t> samples_;   // samples of the other image
+  std::vector<int16_t> slopes_x_;  // zero beyond the side
   std::vector<int16_t> slopes_y_;
-  Eigen::Matrix2f covariance_;  // of a step, for samples of unit noise
+  Eigen::Matrix2f covariance_;  // of a step, for unit noise of the samples
 };
 
 }  // namespace plm_vins

@@ -13,15 +13,15 @@ namespace {
 
 constexpr int kMaxIterations = 30;
 constexpr double kConverged_px = 0.03;
-constexpr float kStandstill_px = 0.01F;  // a step that takes back the one before
-constexpr int kBackwardLevels = 0;       // the way back begins at its expected end
+constexpr float kStandstill_px = 0.01F;  // oscillation: a step that reverts the previous one
+constexpr int kBackwardLevels = 0;  // coarsest level of the backward search, whose end is known
 
 bool IsInside(const cv::Mat& image, const cv::Point2f& point) {
   return point.x >= 0 && point.y >= 0 && point.x <= static_cast<float>(image.cols - 1) &&
          point.y <= static_cast<float>(image.rows - 1);
 }
 
-// Moves `point` of a level to where the window lies; false where it leaves the image.
+// Moves `point` of a pyramid level to the window's position; returns false if it leaves the image.
 bool Converge(const cv::Mat& level, FlowWindow* window, cv::Point2f* point) {
   cv::Point2f before;
   for (int i = 0; i < kMaxIterations; ++i) {
@@ -39,8 +39,8 @@ bool Converge(const cv::Mat& level, FlowWindow* window, cv::Point2f* point) {
   return true;
 }
 
-// Where `point` of `from` lies in `to`, from the coarsest of some levels to the finest, beginning
-// at `start`. Nothing where it is not found at the finest.
+// Tracks `point` of `from` in `to`, from level `levels` to the finest, beginning at `start`.
+// Returns nullopt if it is not found at the finest level.
 std::optional<cv::Point2f> Search(const OpticalFlow::Pyramid& from, const OpticalFlow::Pyramid& to,
                                   int levels, const cv::Point2f& point, const cv::Point2f& start,
                                   FlowWindow* window) {

@@ -8,29 +8,29 @@
 
 namespace plm_vins {
 
-// Where one point went.
+// Tracking result of one point.
 struct FlowResult {
   enum class Status {
     kTracked,
-    kLost,          // not found again, or outside of the image
-    kInconsistent,  // tracked backwards it does not return to where it came from
+    kLost,          // not found, or outside the image
+    kInconsistent,  // failed the forward-backward check
   };
   cv::Point2f position;  // [px]
   Status status = Status::kLost;
 };
 
-// Pyramidal Lucas-Kanade flow [Bouguet2001] with a forward-backward check. Each image's pyramid is
-// built once and serves as current and then as previous one.
+// Pyramidal Lucas-Kanade flow [Bouguet2001] with a forward-backward check. The pyramid of each
+// image is built once, and used as the current and then as the previous one.
 class OpticalFlow {
  public:
-  using Pyramid = std::vector<cv::Mat>;  // levels, each with a border for the window
+  using Pyramid = std::vector<cv::Mat>;  // levels, each with a border for the flow window
 
   explicit OpticalFlow(const PointTrackerConfig& config) : config_(config) {}
 
-  // In the memory of a pyramid that is no longer needed, where there is one.
+  // Reuses the memory of `unused`, a pyramid that is no longer needed.
   Pyramid BuildPyramid(const cv::Mat& image, Pyramid unused = {}) const;
 
-  // Follows `points` from `previous` to `current`, beginning at their `predicted` positions [px].
+  // Tracks `points` from `previous` to `current`, starting at the `predicted` positions [px].
   std::vector<FlowResult> Track(const Pyramid& previous, const Pyramid& current,
                                 const std::vector<cv::Point2f>& points,
                                 const std::vector<cv::Point2f>& predicted) const;

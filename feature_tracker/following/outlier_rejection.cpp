@@ -18,19 +18,19 @@ namespace {
 constexpr size_t kMinPairs = 8;
 constexpr int kHypothesesOfTwo = 40;    // (1 - 0.5^2)^40 = 1e-5: half may be outliers
 constexpr int kHypothesesOfFive = 100;  // (1 - 0.6^5)^100 = 3e-4: 40 % may be outliers
-constexpr double kCoarseFactor = 3.0;   // of the threshold, while the rotation is only guessed
+constexpr double kCoarseFactor = 3.0;   // of the threshold, for the first fit of the rotation
 constexpr int kRotationIterations = 10;
 constexpr int kSolverIterations = 4;
-constexpr double kNotRobust = 1.0;  // [rad], larger than any error
+constexpr double kNotRobust = 1.0;  // [rad], exceeds any error
 
-// Motion of the camera up to scale: p_C1 ~ R p_C0 + s t.
+// Relative camera pose up to scale: p_C1 ~ R p_C0 + s t.
 struct EpipolarGeometry {
   Eigen::Matrix3d R_C1_C0 = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t_C1 = Eigen::Vector3d::UnitZ();  // unit length
 };
 
-// The pair's epipolar constraint t . (a x b) = 0 with a = R ray_C0, b = ray_C1, over its noise in
-// units of the angular error of either ray (first-order or Sampson error): [rad].
+// Residual of the epipolar constraint t . (a x b) = 0 with a = R ray_C0, b = ray_C1, normalized to
+// the angular error of either ray (first-order or Sampson error) [rad].
 struct EpipolarResidual {
   EpipolarResidual(const EpipolarGeometry& geometry, const RayPair& pair)
       : a(geometry.R_C1_C0 * pair.ray_C0),
@@ -40,13 +40,13 @@ struct EpipolarResidual {
                                kEpipole)),
         error(weight * geometry.t_C1.dot(a.cross(b))) {}
 
-  static constexpr double kEpipole = 1e-9;  // keeps rays along t from dividing by zero
+  static constexpr double kEpipole = 1e-9;  // avoids a division by zero for rays along t
   Eigen::Vector3d a, b;
   double weight;
   double error;  // [rad]
 };
 
-// Truncated squared errors (MSAC), smaller is better; not all of them where they reach `limit`.
+// Sum of truncated squared errors (MSAC); the summation stops once it reaches `limit`.
 double Cost(const std::vector<RayPair>& pairs, const EpipolarGeometry& geometry, double threshold,
             double limit) {
   double cost = 0;
@@ -58,7 +58,7 @@ double Cost(const std::vector<RayPair>& pairs, const EpipolarGeometry& geometry,
   return cost;
 }
 
-// The rotation alone that takes most rays of C0 to those of C1: Gauss-Newton on b - R a.
+// Robust rotation-only fit of the rays by Gauss-Newton on b - R a.
 Eigen::Matrix3d FitRotation(const std::vector<RayPair>& pairs, double scale) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   for (int i = 0; i < kRotationIterations; ++i) {
@@ -78,7 +78,7 @@ Eigen::Matrix3d FitRotation(const std::vector<RayPair>& pairs, double scale) {
   return R;
 }
 
-// The direction of translation that two pairs leave: t . (a x b) = 0 for both.
+// Translation direction from two pairs: t . (a x b) = 0 for both.
 std::optional<Eigen::Vector3d> TranslationOfTwo(const Eigen::Matrix3d& R_C1_C0,
                                                 const RayPair& pair0, const RayPair& pair1) {
   const Eigen::Vector3d normal0 = (R_C1_C0 * pair0.ray_C0).cross(pair0.ray_C1);
@@ -89,8 +89,8 @@ std::optional<Eigen::Vector3d> TranslationOfTwo(const Eigen::Matrix3d& R_C1_C0,
   return t / length;
 }
 
-// One robust Gauss-Newton step on rotation (R <- Exp(w) R) and direction of translation. Damped,
-// as without parallax the latter is free.
+// One robust Gauss-Newton step on rotation (R <- Exp(w) R) and translation direction. It is damped,
+// since the latter is unobservable without parallax.
 EpipolarGeometry Refine(const std::vector<RayPair>& pairs, const EpipolarGeometry& geometry,
                         double scale) {
   using Matrix5d = Eigen::Matrix<double, 5, 5>;
@@ -112,18 +112,18 @@ EpipolarGeometry Refine(const std::vector<RayPair>& pairs, const EpipolarGeometr
           (geometry.t_C1 + basis * step.tail<2>()).normalized()};
 }
 
-// `count` pairs, drawn with repetition.
+// Draws `count` pairs with replacement.
 std::vector<RayPair> Draw(const std::vector<RayPair>& pairs, size_t count, std::mt19937* random) {
   std::vector<RayPair> sample;
   while (sample.size() < count) sample.push_back(pairs[(*random)() % pairs.size()]);
   return sample;
 }
 
-// RANSAC. The translation comes from two pairs and the given rotation; a rotation that is not known
-// is then solved for together with the translation from all pairs of the (larger) sample.
+// RANSAC. The translation is computed from two pairs and the given rotation. If the rotation is
+// unknown, it is optimized together with the translation over the (larger) sample.
 EpipolarGeometry FindGeometry(const std::vector<RayPair>& pairs, const Eigen::Matrix3d& R,
                               bool is_rotation_known, double threshold) {
-  std::mt19937 random;  // default seed: same input, same result
+  std::mt19937 random;  // default seed, for reproducible results
   EpipolarGeometry best{R, Eigen::Vector3d::UnitZ()};
   double best_cost = Cost(pairs, best, threshold, std::numeric_limits<double>::infinity());
   const int hypotheses = is_rotation_known ? kHypothesesOfTwo : kHypothesesOfFive;

@@ -7,22 +7,21 @@
 
 namespace plm_vins {
 
-// A direction seen in two images, of unit length, each in its camera frame.
+// Unit rays of a point in two images, each in its camera frame.
 struct RayPair {
   Eigen::Vector3d ray_C0;
   Eigen::Vector3d ray_C1;
 };
 
-// Which pairs agree with one rigid motion of the camera, p_C1 = R_C1_C0 p_C0 + t: the epipolar
-// error of a good one is at most `threshold` [rad].
+// Returns which pairs are inliers of one rigid camera motion, p_C1 = R_C1_C0 p_C0 + t: their
+// angular epipolar error is at most `threshold` [rad].
 //
-// `R_C1_C0` is a first guess (from the gyro, so off by its bias); without it the rotation that
-// explains the pairs best stands in. RANSAC, with a generator of its own of fixed seed, draws two
-// pairs for a translation direction, or five for that and the rotation where none is given; the
-// best geometry is then refined over all pairs, robustly. Angles instead of distances in a plane
-// make it valid for any field of view. Without parallax (standstill, pure rotation) every
-// translation fits and all good pairs stay. All pairs are returned as good where there are fewer
-// than eight.
+// `R_C1_C0` is the initial rotation (integrated from the gyroscope, so wrong by its bias); if
+// nullopt, a rotation-only fit replaces it. RANSAC with a fixed seed draws two pairs for the
+// translation direction, or five for rotation and translation if no rotation is given. The best
+// hypothesis is refined robustly over all pairs. Angular errors make the test valid for any field
+// of view. Without parallax (standstill, pure rotation) every translation is consistent and all
+// true pairs are inliers. Returns all pairs as inliers if there are fewer than eight.
 std::vector<bool> FindEpipolarInliers(const std::vector<RayPair>& pairs,
                                       const std::optional<Eigen::Quaterniond>& R_C1_C0,
                                       double threshold);

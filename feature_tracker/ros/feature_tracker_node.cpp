@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The point front end as a node: ~feature, ~feature_img and ~restart out.
+// The point front end as a node. Publishes ~feature, ~feature_img and ~restart.
 
 #include "feature_tracker/ros/point_node_traits.h"
 #include "tracking/ros/tracker_node.h"

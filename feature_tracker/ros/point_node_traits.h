@@ -10,7 +10,7 @@
 
 namespace plm_vins {
 
-// What is particular to the point tracker under ROS, as TrackerNode describes it.
+// Traits of the point tracker for TrackerNode.
 struct PointNodeTraits {
   using Stage = PointTrackingStage;
   using Settings = FeatureTrackerConfig;
@@ -19,11 +19,12 @@ struct PointNodeTraits {
   static constexpr char kAnnotatedTopic[] = "feature_img";
   static constexpr char kDiagnostics[] = "point tracking";
   static constexpr bool kEveryImage = false;
-  // Enough to get over a short delay without a loss; then the newest images are wanted.
+  // Long enough to bridge a short delay without dropping images; after a longer one the newest
+  // images matter.
   static constexpr uint32_t kImageQueue = 10;
 
   static Settings ToSettings(const Config& config) {
-    Settings settings = Settings::__getDefault__();  // its groups, too, have values then
+    Settings settings = Settings::__getDefault__();  // initializes its groups as well
     settings.max_cnt = config.points.max_cnt;
     settings.show_track = config.show_track;
     return settings;

@@ -25,7 +25,7 @@ struct Line {
   }
 };
 
-// The line of least squared distances from pixels, by their sums, which are exact.
+// Total least squares fit of a line to pixels, from exact running sums.
 class LineFit {
  public:
   void Add(const cv::Point& pixel) {
@@ -63,7 +63,7 @@ class ChainCutter {
     return true;
   }
 
-  // The segment that begins at `first`; `next` becomes the first pixel after it.
+  // Returns the segment that begins at `first`; `next` is set to the first pixel after it.
   LineSegment SegmentFrom(size_t first, size_t* next) const {
     LineFit fit;
     size_t end = first;

@@ -9,13 +9,13 @@
 namespace plm_vins {
 
 struct StraightnessLimits {
-  int min_steps;            // from the first to the last pixel of a segment
+  int min_steps;            // between the first and last pixel of a segment
   double max_deviation_px;  // of a pixel from the line
 };
 
-// Appends the straight segments of a chain [px], in its order [Lee2014]: one begins where
-// `min_steps` pixels are straight, goes on while the next ones are near the line through those
-// before, and ends at the feet of its first and last pixel on that line.
+// Appends the straight segments of a chain [px], in chain order [Lee2014]. A segment begins with
+// `min_steps` collinear pixels, continues while the next pixels are close to the line fitted so
+// far, and ends at the projections of its first and last pixel onto that line.
 void AppendSegments(const EdgeChain& chain, const StraightnessLimits& limits,
                     std::vector<LineSegment>* segments);
 

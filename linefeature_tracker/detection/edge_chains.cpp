@@ -52,7 +52,7 @@ bool EdgeChains::Next(EdgeChain* chain) {
   return true;
 }
 
-// Few pixels are edges, so the others are skipped by memchr.
+// Skips by memchr, since few pixels are edges.
 bool EdgeChains::FindSeed() {
   for (; seed_.y < edges_.rows; ++seed_.y, seed_.x = 0) {
     const uint8_t* row = edges_.ptr(seed_.y);
@@ -68,7 +68,7 @@ bool EdgeChains::Continue(EdgeChain* chain) {
   const cv::Point last = chain->back() + cv::Point(kRim, kRim);
   const uint8_t* const rows[] = {edges_.ptr(last.y - 1) + last.x, edges_.ptr(last.y) + last.x,
                                  edges_.ptr(last.y + 1) + last.x};
-  const bool begins = chain->size() == 1;  // in any direction
+  const bool begins = chain->size() == 1;  // the first step may take any direction
   const Step* best = nullptr;
   float least_turn = kRightAngle;
   for (const Step& step : kSteps) {

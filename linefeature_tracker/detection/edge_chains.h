@@ -6,18 +6,19 @@
 
 namespace plm_vins {
 
-// Pixels of an edge, each next to the one before.
+// Pixels of an edge, each adjacent to the previous one.
 using EdgeChain = std::vector<cv::Point>;
 
-// Takes edges, one pixel wide, apart into chains [Lee2014]: each begins at the first pixel left, by
-// rows, and goes on to the neighbour that turns least from the mean direction so far, unless that
-// is a right angle or more.
+// Decomposes edges, one pixel wide, into chains [Lee2014]. A chain begins at the first remaining
+// edge pixel in row-major order and continues with the neighbour that deviates least from its mean
+// direction, as long as the deviation is below a right angle.
 class EdgeChains {
  public:
-  // Edges of a CV_8UC1 image by Canny, apertures of 3 pixels, with thresholds of its gradient.
+  // Detects edges of a CV_8UC1 image by Canny with 3 x 3 apertures; `low` and `high` are thresholds
+  // of the gradient.
   EdgeChains(const cv::Mat& image, double low, double high);
 
-  // The next chain; false where none is left.
+  // Finds the next chain; returns false if none is left.
   bool Next(EdgeChain* chain);
 
  private:
@@ -25,7 +26,7 @@ class EdgeChains {
   bool Continue(EdgeChain* chain);
   void Take(cv::Point pixel, EdgeChain* chain);
 
-  cv::Mat edges_;  // with a rim of one pixel without edges; pixels of chains are taken out
+  cv::Mat edges_;  // with a margin of one pixel; pixels of chains are erased
   cv::Point seed_{0, 0};
   float mean_direction_ = 0;  // of the chain [45 deg]
 };

@@ -9,7 +9,7 @@
 #include "linefeature_tracker/detection/chain_segments.h"
 #include "linefeature_tracker/detection/edge_chains.h"
 
-// OpenCV 4.1 to 4.5.3 have neither LSD nor EDLines.
+// OpenCV 4.1 to 4.5.3 include neither LSD nor EDLines.
 #define HAS_LSD_AND_EDLINES PLM_OPENCV_IS_AT_LEAST(4, 5, 4)
 #if HAS_LSD_AND_EDLINES
 #include <opencv2/ximgproc/edge_drawing.hpp>
@@ -67,7 +67,7 @@ class LsdDetector : public LineDetector {
   }
 
  private:
-  // The image is already scaled by the caller.
+  // The caller has scaled the image already.
   cv::Ptr<cv::LineSegmentDetector> detector_ =
       cv::createLineSegmentDetector(cv::LSD_REFINE_STD, 1.0);
 };

@@ -10,19 +10,19 @@
 
 namespace plm_vins {
 
-// Finds line segments in an image, from scratch, to about a pixel. Not const: OpenCV's detectors
-// keep buffers.
+// Detects line segments in an image, to about one pixel. Not const, since OpenCV's detectors keep
+// buffers.
 class LineDetector {
  public:
-  // FLD [Lee2014], LSD [Gioi2010] or EDLines [Akinlar2011]. Throws std::invalid_argument where the
-  // version of OpenCV lacks it.
+  // Creates FLD [Lee2014], LSD [Gioi2010] or EDLines [Akinlar2011]. Throws std::invalid_argument if
+  // the installed OpenCV lacks it.
   static std::unique_ptr<LineDetector> Create(LineDetectorType type);
   static bool IsAvailable(LineDetectorType type);
 
   virtual ~LineDetector() = default;
 
-  // Segments of at least `min_length_px` of the CV_8UC1 image [px], in the detector's order and
-  // with directions that mean nothing.
+  // Returns segments of at least `min_length_px` of the CV_8UC1 image [px], in the detector's
+  // order. Their directions (start to end) are arbitrary.
   virtual std::vector<LineSegment> Detect(const cv::Mat& image, double min_length_px) = 0;
 };
 

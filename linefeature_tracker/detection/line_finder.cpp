@@ -11,7 +11,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMinFragment = 0.7;  // of the least length of a line, where fragments are joined
+constexpr double kMinFragment = 0.7;  // minimum length of fragments, relative to that of lines
 
 }  // namespace
 
@@ -47,7 +47,7 @@ std::vector<FoundLine> LineFinder::Find(const std::vector<cv::Mat>& pyramid, int
   return lines;
 }
 
-// Fragments close to the border are cut off by it, and seen differently in every image.
+// Fragments close to the border are dropped: the border cuts them off differently in each image.
 std::vector<LineSegment> LineFinder::Undistort(const cv::Mat& image,
                                                const std::vector<LineSegment>& fragments_px,
                                                double scale) const {

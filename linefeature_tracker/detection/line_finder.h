@@ -12,22 +12,22 @@
 
 namespace plm_vins {
 
-// A line that the detector found, in both coordinates.
+// A detected line in normalized and pixel coordinates.
 struct FoundLine {
-  LineSegment segment;  // normalised, undistorted
+  LineSegment segment;  // normalized, undistorted
   LineSegment segment_px;
-  cv::Mat descriptor;  // 1 x 32 bytes; only where LBD matches
+  cv::Mat descriptor;  // 1 x 32 bytes; empty unless matching by LBD
 };
 
-// Detects the lines of an image: fragments from the detector, only their ends undistorted, joined
-// where collinear, filtered by length and border. Good to about a pixel; the brighter side is that
-// of Normal(), so edges of opposite sign are not joined.
+// Detects the lines of an image: orients the detector's fragments, undistorts their endpoints,
+// joins collinear fragments and filters by length and border. Accurate to about one pixel. The
+// brighter side is that of Normal(), so edges of opposite polarity are not joined.
 class LineFinder {
  public:
   LineFinder(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera);
 
-  // Longest first. `pyramid` is the CV_8UC1 image and its halves; `fragments` counts what the
-  // detector found.
+  // Returns lines in descending order of length. `pyramid` starts with the CV_8UC1 image, each
+  // level half the size of the previous one; `fragments` receives the number of detected fragments.
   std::vector<FoundLine> Find(const std::vector<cv::Mat>& pyramid, int* fragments);
 
  private:

@@ -6,9 +6,9 @@
 namespace plm_vins {
 namespace {
 
-constexpr float kReach_px = 2;      // to either side
+constexpr float kReach_px = 2;      // to each side
 constexpr double kSpacing_px = 4;   // between samples
-constexpr double kMaxSamples = 16;  // of long lines
+constexpr double kMaxSamples = 16;  // for long lines
 
 }  // namespace
 

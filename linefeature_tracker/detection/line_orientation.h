@@ -7,8 +7,8 @@
 
 namespace plm_vins {
 
-// The segment [px] of the CV_8UC1 image, reversed where the brighter side is not that of its
-// normal. The segment may be off its edge by a pixel.
+// Returns the segment [px] of the CV_8UC1 image, reversed if necessary, such that the brighter side
+// is that of its normal. The segment may be off its edge by one pixel.
 LineSegment OrientByBrightness(const cv::Mat& image, const LineSegment& segment_px);
 
 }  // namespace plm_vins

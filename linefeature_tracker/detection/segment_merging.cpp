@@ -9,7 +9,7 @@
 namespace plm_vins {
 namespace {
 
-// All ends of the segments, to be looked up by place.
+// Spatial index of the endpoints of all segments.
 class EndGrid {
  public:
   EndGrid(const std::vector<LineSegment>& segments, double cell_size) : cell_size_(cell_size) {
@@ -19,7 +19,7 @@ class EndGrid {
     }
   }
 
-  // Calls visit(i) for each segment with an end in the cells around the point.
+  // Calls visit(i) for each segment with an endpoint in the cells around the point.
   template <typename Visitor>
   void VisitAround(const Eigen::Vector2d& point, const Visitor& visit) const {
     const int64_t column = Cell(point.x());
@@ -43,7 +43,7 @@ class EndGrid {
   std::unordered_map<int64_t, std::vector<size_t>> cells_;
 };
 
-// `other` continues the segment at its end.
+// Returns whether `other` continues the segment at its end.
 bool Continues(const LineSegment& segment, const LineSegment& other,
                const SegmentMergingLimits& limits) {
   return (other.start - segment.end).norm() <= limits.gap &&
@@ -53,7 +53,8 @@ bool Continues(const LineSegment& segment, const LineSegment& other,
          std::abs(segment.Distance(other.end)) <= limits.distance;
 }
 
-// Lengthens the segment at its end as far as unused fragments reach; `reversed` turns these round.
+// Extends the segment at its end while unused fragments continue it; `reversed` reverses the
+// fragments.
 LineSegment ExtendEnd(LineSegment segment, bool reversed, const std::vector<LineSegment>& fragments,
                       const EndGrid& grid, const SegmentMergingLimits& limits,
                       std::vector<bool>* used) {

@@ -6,8 +6,8 @@
 namespace plm_vins {
 namespace {
 
-// What a pixel between a line and its prediction counts among equally good descriptors: repeated
-// structure looks the same everywhere.
+// Penalty for the distance from the prediction, added to the Hamming distance: repetitive structure
+// has equal descriptors everywhere.
 constexpr double kBitsPerPixel = 2;
 
 using cv::line_descriptor::BinaryDescriptor;

@@ -14,23 +14,23 @@ namespace {
 
 constexpr int kTopLevel = 3;
 constexpr int kBottomLevel = 1;
-constexpr int kRadius = 5;  // of a profile, in pixels of its level
+constexpr int kRadius = 5;  // of a profile [px of its level]
 constexpr int kProfileSize = 2 * kRadius + 1;
 static_assert(kRadius + 1 <= kMaxProfileRadius);
 constexpr double kSpacing_px = 10;  // between profiles along the line
 constexpr int kMinProfiles = 5;
 constexpr int kMaxProfiles = 12;
 constexpr int kMaxIterations = 8;
-constexpr double kConverged_px = 0.1;  // of a level: the edge is located afterwards
-constexpr double kMinTurnLength = 10;  // shorter lines do not turn, in pixels of a level
+constexpr double kConverged_px = 0.1;  // [px of a level]; refinement follows
+constexpr double kMinTurnLength = 10;  // shorter lines are not rotated [px of a level]
 
-// The same part of the line in both images.
+// Corresponding samples of the line in both images.
 struct SamplePair {
   SegmentSample previous;
   SegmentSample current;
 };
 
-// The brightness across the line before, with its derivative.
+// Brightness profile across the line in the previous image, with its derivative.
 struct Template {
   const SegmentSample* current = nullptr;
   LineProfile value = LineProfile::Zero();
@@ -39,7 +39,7 @@ struct Template {
   float slope_sum = 0;
 };
 
-// Sums over profiles, for the correlation.
+// Running sums for the correlation of profiles.
 struct CorrelationSums {
   double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
 
@@ -55,7 +55,7 @@ double OffsetInPixels(const LineOffset& offset, const SegmentSample& sample) {
   return offset.At(sample.along) / sample.offset_per_pixel;
 }
 
-// Aligns one level of the pyramids.
+// Aligns the line at one pyramid level.
 class LevelAlignment {
  public:
   LevelAlignment(const cv::Mat& previous, const cv::Mat& current,
@@ -67,7 +67,7 @@ class LevelAlignment {
 
   bool HasEnough() const { return templates_.size() >= kMinProfiles; }
 
-  // Improves the offset; false where too little of the line is seen.
+  // Updates the offset; returns false if too little of the line is visible.
   bool Align(double length_px, LineOffset* offset) const {
     const bool may_turn = length_px * scale_ >= kMinTurnLength;
     for (int i = 0; i < kMaxIterations; ++i) {
@@ -120,8 +120,9 @@ class LevelAlignment {
                        kRadius, profile);
   }
 
-  // One Gauss-Newton step of the inverse compositional kind: the template is moved, not the image,
-  // so that its derivatives serve all iterations. The third unknown is the change of brightness.
+  // Computes one Gauss-Newton step of the inverse compositional kind: the template is warped
+  // instead of the image, so its derivatives are computed once. The third variable is the
+  // brightness change.
   std::optional<LineOffset> Step(bool may_turn, const LineOffset& offset) const {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
@@ -193,7 +194,7 @@ std::optional<LineFlowResult> LineFlow::Track(const Pyramid& previous, const Pyr
   for (int level = kTopLevel; level >= kBottomLevel; --level) {
     const LevelAlignment alignment(previous[level], current[level], samples, level);
     const bool is_aligned = alignment.HasEnough() && alignment.Align(length_px, &offset);
-    if (level > kBottomLevel) continue;  // close to the border, only fine levels see enough
+    if (level > kBottomLevel) continue;  // near the border, coarse levels may fail
     if (!is_aligned) return std::nullopt;
     correlation = alignment.Correlation(offset);
   }

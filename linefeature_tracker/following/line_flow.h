@@ -11,27 +11,27 @@
 
 namespace plm_vins {
 
-// Where a line went.
+// Tracking result of a line.
 struct LineFlowResult {
-  LineSegment segment;     // normalised
-  double correlation = 0;  // of the brightness across the line before and now, -1 to 1
+  LineSegment segment;     // normalized
+  double correlation = 0;  // of the profiles across the line in both images, -1 to 1
 };
 
-// Lucas-Kanade flow [Lucas1981] of whole lines: the brightness along profiles across the line is
-// aligned from image to image, coarse to fine, over the line's two degrees of freedom and a change
-// of brightness. The motion along the line, which an edge does not show (the aperture problem), is
-// not asked for, so the alignment is well conditioned where the flow of single points is not.
+// Lucas-Kanade flow [Lucas1981] of whole lines: aligns brightness profiles across the line between
+// images, coarse to fine, over the line's two degrees of freedom and a brightness change. The
+// motion along the line is unobservable (aperture problem) and not estimated, so the alignment is
+// well conditioned where flow of single points on the line is not.
 class LineFlow {
  public:
-  using Pyramid = std::vector<cv::Mat>;  // the image, then halves of the level before
+  using Pyramid = std::vector<cv::Mat>;  // the image, then levels of half the previous size
 
   explicit LineFlow(std::shared_ptr<const CameraModel> camera) : camera_(std::move(camera)) {}
 
   static Pyramid BuildPyramid(const cv::Mat& image);
 
-  // Follows the normalised segment of the previous image to the current one, beginning at
-  // `predicted`. Accurate to some tenths of a pixel: the finest level is left to refinement.
-  // Nothing where too little of it is seen.
+  // Tracks the segment (normalized) from the previous to the current image, starting at
+  // `predicted`. Accurate to some tenths of a pixel; refinement handles the finest level. Returns
+  // nullopt if too little of the line is visible.
   std::optional<LineFlowResult> Track(const Pyramid& previous, const Pyramid& current,
                                       const LineSegment& segment,
                                       const LineSegment& predicted) const;

@@ -6,8 +6,8 @@
 
 namespace plm_vins {
 
-// Whether a line may be the one that was predicted: by its direction (brighter side included),
-// distance and overlap. Segments are normalised.
+// Tests whether a line may be the predicted one by direction (with brighter side), distance and
+// overlap. Segments are normalized.
 class LineGate {
  public:
   // `focal_length` [px/rad].

@@ -7,14 +7,15 @@
 
 namespace plm_vins {
 
-// The lines of an image, to check whether another line would be a second copy of one of them.
+// Lines of an image, to detect duplicates.
 class LineOccupancy {
  public:
   explicit LineOccupancy(double spacing_px) : spacing_px_(spacing_px) {}
 
   void Add(const LineSegment& segment_px) { segments_px_.push_back(segment_px); }
 
-  // True where a line lies beside the segment, nearly parallel and closer than the spacing.
+  // Returns whether an added line is nearly parallel to the segment, overlaps it and is closer than
+  // the spacing.
   bool IsTaken(const LineSegment& segment_px) const;
 
  private:

@@ -9,18 +9,18 @@
 
 namespace plm_vins {
 
-// Spreads a choice of lines over the image and over directions: it is always the turn of the region
-// and direction that has the fewest lines, and there of its best candidate.
+// Distributes selected lines over the image and over directions: Pop() returns the best candidate
+// of the region and direction that has the fewest lines.
 class LineQueue {
  public:
   explicit LineQueue(const cv::Size& image_size);
 
-  // To be added best first; `index` is what Pop() hands out.
+  // Candidates must be added best first; Pop() returns their `index`.
   void AddCandidate(const LineSegment& segment_px, size_t index) {
     queue_.AddCandidate(BinOf(segment_px), index);
   }
 
-  // A line that exists, or a candidate that was taken.
+  // Counts an existing line, or a candidate that was selected.
   void CountLine(const LineSegment& segment_px) { queue_.Count(BinOf(segment_px)); }
 
   std::optional<size_t> Pop() { return queue_.Pop(); }

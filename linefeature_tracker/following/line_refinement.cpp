@@ -16,19 +16,19 @@ namespace plm_vins {
 namespace {
 
 constexpr double kStep_px = 4;      // between samples along a line
-constexpr double kMaxSamples = 32;  // of long lines; the step grows
+constexpr double kMaxSamples = 32;  // longer lines have a larger step
 constexpr double kMaxRoughSamples = 12;
-constexpr int kMaxSearch_px = 5;       // to either side
-constexpr int kFineSearch_px = 2;      // once the line is known roughly
-constexpr int kExtension = 3;          // samples beyond each end
-constexpr int kMaxGap = 2;             // samples without an edge within a line
-constexpr double kMinSupport = 0.6;    // share of a line's samples that show its edge
-constexpr double kMaxResidual_px = 1;  // of a sample that shows it
+constexpr int kMaxSearch_px = 5;       // to each side
+constexpr int kFineSearch_px = 2;      // after the rough placement
+constexpr int kExtension = 3;          // samples beyond each endpoint
+constexpr int kMaxGap = 2;             // samples without an edge inside a line
+constexpr double kMinSupport = 0.6;    // share of samples with an edge
+constexpr double kMaxResidual_px = 1;  // of a supporting sample
 constexpr size_t kMinPoints = 5;
-constexpr size_t kMinFinalPoints = 3;  // between the ends: two would fit any line
+constexpr size_t kMinFinalPoints = 3;  // between the endpoints; two would be fitted by any line
 constexpr std::array<double, 3> kRobustScales_px = {2.0, 1.0, 0.5};
 
-// Those of the points that show an edge.
+// Returns the points at which an edge was found.
 template <typename EdgePoint>
 std::vector<EdgePoint> OnEdges(std::vector<EdgePoint> points) {
   const auto is_missing = [](const EdgePoint& point) { return !point.found; };
@@ -36,8 +36,8 @@ std::vector<EdgePoint> OnEdges(std::vector<EdgePoint> points) {
   return points;
 }
 
-// Weighted least squares of the offsets, with Geman-McClure weights of residuals in pixels whose
-// scale shrinks. Begins at the median offset. `points` is not empty.
+// Weighted least squares fit of the offsets, starting at the median, with Geman-McClure weights of
+// decreasing scale [px]. `points` must not be empty.
 template <typename EdgePoint>
 LineOffset FitOffset(const std::vector<EdgePoint>& points) {
   std::vector<double> offsets;
@@ -103,7 +103,7 @@ std::optional<LineSegment> LineRefinement::Place(const cv::Mat& image,
   }
   const auto part = SupportedPart(rough, step, points);
   if (!part) return std::nullopt;
-  // Once more without what lies beyond the ends, which may belong to another edge.
+  // Fits again without the points beyond the ends, which may belong to another edge.
   const double first = rough.Along(part->start);
   const double last = rough.Along(part->end);
   for (EdgePoint& point : points) {
@@ -119,7 +119,7 @@ std::optional<LineSegment> LineRefinement::Place(const cv::Mat& image,
   return LineSegment{on_line(part->start), on_line(part->end)};
 }
 
-// Normalised distance between at most so many samples along the segment.
+// Normalized distance of samples, such that the segment has at most `max_samples`.
 double LineRefinement::Step(const LineSegment& segment, double max_samples) const {
   const auto segment_px = ProjectSegment(*camera_, segment);
   const double length_px =
@@ -127,7 +127,8 @@ double LineRefinement::Step(const LineSegment& segment, double max_samples) cons
   return segment.Length() / std::clamp(std::round(length_px / kStep_px), 1.0, max_samples);
 }
 
-// The edge at every sample from `extension` steps before the start to as many behind the end.
+// Locates the edge at every sample, from `extension` steps before the start to `extension` steps
+// after the end.
 std::vector<LineRefinement::EdgePoint> LineRefinement::LocateEdges(const cv::Mat& image,
                                                                    const LineSegment& segment,
                                                                    double step, int extension,
@@ -154,8 +155,8 @@ bool LineRefinement::IsVisible(const Eigen::Vector2d& pixel) const {
          MaskAllows(mask_, {cvRound(pixel.x()), cvRound(pixel.y())});
 }
 
-// The steepest rise across the line, those closer to the sample preferred, with the vertex of the
-// parabola through it and its neighbours as the subpixel position.
+// Finds the steepest brightness increase across the line, with preference for positions near the
+// sample, and refines it to the vertex of the parabola through its neighbours.
 void LineRefinement::LocateEdge(const cv::Mat& image, int search_px, EdgePoint* point) const {
   const int radius = search_px + 2;
   const Eigen::Vector2f center = point->sample.pixel.cast<float>();
@@ -183,7 +184,7 @@ void LineRefinement::LocateEdge(const cv::Mat& image, int search_px, EdgePoint* 
   }
 }
 
-// The longest part of the line whose samples show its edge, small gaps allowed.
+// Returns the longest part of the line whose samples show an edge, with small gaps allowed.
 std::optional<LineSegment> LineRefinement::SupportedPart(
     const LineSegment& line, double step, const std::vector<EdgePoint>& points) const {
   const int count = static_cast<int>(points.size());
@@ -206,7 +207,7 @@ std::optional<LineSegment> LineRefinement::SupportedPart(
   const int samples = best_last - best_first + 1;
   if (samples < static_cast<int>(kMinPoints) || best_support < kMinSupport * samples)
     return std::nullopt;
-  // A line of which most has gone is not the same one any more.
+  // A line of which only a small part is left counts as lost.
   const int expected = static_cast<int>(std::lround(line.Length() / step));
   if (best_support < kMinSupport * kMinSupport * expected) return std::nullopt;
   const double length_px =

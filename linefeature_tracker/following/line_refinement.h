@@ -13,19 +13,20 @@
 
 namespace plm_vins {
 
-// Places line segments on the edges of an image, to a few hundredths of a pixel across the line.
+// Aligns line segments with image edges, to a few hundredths of a pixel across the line.
 //
-// Samples along the segment look for the steepest rise of brightness across it; a line is fitted to
-// these robustly, and its ends are set to how far the edge goes. Segments are normalised and
-// directed: the brighter side is that of Normal(), so an edge of the other sign is not mistaken.
+// Samples along the segment search for the steepest brightness increase across it. A line is fitted
+// robustly to these, and its endpoints are set to the extent of the edge. Segments are normalized
+// and directed: the brighter side is that of Normal(), so edges of opposite polarity are not
+// confused.
 class LineRefinement {
  public:
   LineRefinement(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
                  const cv::Mat& mask = {});
 
-  // The edge at most `search_px` pixels beside the guess. Its ends may lie beyond the guess's by a
-  // few samples. Nothing where too little of the guess shows an edge, or that is too short, too
-  // close to the image's border or under the mask.
+  // Finds the edge within `search_px` pixels of the guess. Its endpoints may exceed those of the
+  // guess by a few samples. Returns nullopt if too little of the guess shows an edge, or if the
+  // result is too short, too close to the image border or masked.
   std::optional<LineSegment> Refine(const cv::Mat& image, const LineSegment& guess,
                                     int search_px) const;
 
@@ -33,13 +34,13 @@ class LineRefinement {
   struct EdgePoint {
     SegmentSample sample;
     bool found = false;
-    double offset_px = 0;  // of the edge from the sample, along its normal
+    double offset_px = 0;  // of the edge from the sample, along the normal
   };
 
-  // On few samples, in the whole range of the search.
+  // Fits a few samples, searching the full range.
   std::optional<LineSegment> PlaceRoughly(const cv::Mat& image, const LineSegment& guess,
                                           int search_px) const;
-  // On all samples of a line that is known to a pixel or two, and its ends.
+  // Fits all samples of a line known to one or two pixels, and finds its endpoints.
   std::optional<LineSegment> Place(const cv::Mat& image, const LineSegment& rough) const;
   double Step(const LineSegment& segment, double max_samples) const;
   std::vector<EdgePoint> LocateEdges(const cv::Mat& image, const LineSegment& segment, double step,
@@ -51,7 +52,7 @@ class LineRefinement {
 
   LineTrackerConfig config_;
   std::shared_ptr<const CameraModel> camera_;
-  cv::Mat mask_;  // as of ReadMask()
+  cv::Mat mask_;  // see ReadMask()
   double min_length_px_;
 };
 

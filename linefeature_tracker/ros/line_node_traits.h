@@ -12,7 +12,7 @@
 
 namespace plm_vins {
 
-// What is particular to the line tracker under ROS, as TrackerNode describes it.
+// Traits of the line tracker for TrackerNode.
 struct LineNodeTraits {
   using Stage = LineTrackingStage;
   using Settings = LineFeatureTrackerConfig;
@@ -20,14 +20,15 @@ struct LineNodeTraits {
   static constexpr char kFeatureTopic[] = "linefeature";
   static constexpr char kAnnotatedTopic[] = "linefeature_img";
   static constexpr char kDiagnostics[] = "line tracking";
-  // The points decide which images are used, and which tracker sends the points is not known here.
+  // Processes every image: the point tracker, possibly another program, decides which images are
+  // used.
   static constexpr bool kEveryImage = true;
-  // The estimator waits for lines for three images at most, so a tracker that cannot keep up leaves
-  // out images instead of falling back further.
+  // The estimator waits for lines for at most three images, so a slow tracker drops images instead
+  // of falling further behind.
   static constexpr uint32_t kImageQueue = 3;
 
   static Settings ToSettings(const Config& config) {
-    Settings settings = Settings::__getDefault__();  // its groups, too, have values then
+    Settings settings = Settings::__getDefault__();  // initializes its groups as well
     settings.max_line_cnt = config.lines.max_lines;
     settings.show_track = config.show_track;
     return settings;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The line front end as a node: ~linefeature, ~linefeature_img and ~restart out. Where the
-// configuration does without lines it stays idle: launch files start it again if it ends.
+// The line front end as a node. Publishes ~linefeature, ~linefeature_img and ~restart. It is idle,
+// instead of exiting, if the configuration disables lines, since launch files restart nodes that
+// exit.
 
 #include "linefeature_tracker/ros/line_node_traits.h"
 

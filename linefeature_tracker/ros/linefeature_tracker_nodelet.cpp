@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The line front end as the nodelet plm_vins/LineFeatureTracker, which does nothing where the
-// configuration does without lines.
+// The line front end as the nodelet plm_vins/LineFeatureTracker. It is idle if the configuration
+// disables lines.
 #include <pluginlib/class_list_macros.hpp>
 
 #include "common/ros/nodelet_of.h"

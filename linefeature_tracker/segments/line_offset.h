@@ -7,16 +7,16 @@
 
 namespace plm_vins {
 
-// How far a line lies from a segment, on the side of its Normal(), normalised.
+// Signed distance of a line from a segment, positive on the side of its Normal() (normalized).
 struct LineOffset {
   double at_start = 0;
-  double slope = 0;  // along the segment
+  double slope = 0;  // change along the segment
 
-  // `along` from the segment's start.
+  // `along` is measured from the segment's start.
   double At(double along) const { return at_start + slope * along; }
 };
 
-// The segment moved to where the line is.
+// Returns the segment moved by the offset.
 inline LineSegment Shifted(const LineSegment& segment, const LineOffset& offset) {
   const Eigen::Vector2d normal = segment.Normal();
   return {segment.start + offset.at_start * normal,

@@ -8,13 +8,13 @@
 
 namespace plm_vins {
 
-// Brightness across a line, followed by zeros.
+// Brightness profile across a line, padded with zeros.
 using LineProfile = Eigen::Array<float, 16, 1>;
 constexpr int kMaxProfileRadius = 7;  // [px]
 static_assert(2 * kMaxProfileRadius + 1 <= LineProfile::SizeAtCompileTime);
 
-// From -radius to radius [px] along the line's unit `normal`. False, and nothing read, where that
-// leaves the image.
+// Samples the profile from -radius to radius [px] along the line's unit `normal`. Returns false,
+// without reading, if it leaves the image.
 inline bool ReadProfile(const cv::Mat& image, const Eigen::Vector2f& center,
                         const Eigen::Vector2f& normal, int radius, LineProfile* profile) {
   constexpr float kRounding_px = 0.01F;

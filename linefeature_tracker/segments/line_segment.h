@@ -7,8 +7,8 @@
 
 namespace plm_vins {
 
-// A directed segment of a plane: of the raw image [px] or of the normalised, undistorted one; names
-// of the former end in _px.
+// A directed segment, either in the raw image [px] or in the normalized, undistorted image plane;
+// names of the former end in _px.
 struct LineSegment {
   Eigen::Vector2d start = Eigen::Vector2d::Zero();
   Eigen::Vector2d end = Eigen::Vector2d::Zero();
@@ -21,15 +21,15 @@ struct LineSegment {
   }
   Eigen::Vector2d Midpoint() const { return 0.5 * (start + end); }
 
-  // Distance of the point from the infinite line, positive on the side of Normal().
+  // Signed distance of the point from the infinite line, positive on the side of Normal().
   double Distance(const Eigen::Vector2d& point) const { return Normal().dot(point - start); }
-  // How far along the line the foot of the point lies; `start` is 0, `end` is Length().
+  // Position of the point's projection along the line; 0 at `start`, Length() at `end`.
   double Along(const Eigen::Vector2d& point) const { return Direction().dot(point - start); }
 
   LineSegment Reversed() const { return {end, start}; }
 };
 
-// Angle between the directions, 0 to pi: pi where they point opposite ways.
+// Angle between the directions, 0 to pi.
 inline double DirectedAngle(const LineSegment& a, const LineSegment& b) {
   const Eigen::Vector2d u = a.end - a.start;
   const Eigen::Vector2d v = b.end - b.start;
@@ -42,10 +42,10 @@ inline double UndirectedAngle(const LineSegment& a, const LineSegment& b) {
   return std::min(angle, M_PI - angle);
 }
 
-// The position of two segments relative to each other, seen along the first.
+// Relative position of two segments, measured along and across the first one.
 struct SegmentRelation {
-  double overlap = 0;   // length that they share as a part of the shorter one; negative: a gap
-  double distance = 0;  // across the first, in the middle of what they share
+  double overlap = 0;   // shared length relative to the shorter segment; negative for a gap
+  double distance = 0;  // across the first one, at the middle of the shared part
 };
 
 inline SegmentRelation Relate(const LineSegment& a, const LineSegment& b) {

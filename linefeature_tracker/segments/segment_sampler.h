@@ -9,20 +9,21 @@
 
 namespace plm_vins {
 
-// One point of a line, where the camera sees it. Under distortion a straight line is curved in the
-// raw image: sampling it in normalised coordinates follows the curve exactly.
+// A point of a line and its projection. Under distortion a straight line is curved in the raw
+// image; sampling in normalized coordinates follows the curve exactly.
 struct SegmentSample {
-  double along = 0;  // from the segment's start, normalised
+  double along = 0;  // distance from the segment's start (normalized)
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  Eigen::Vector2d normal_px = Eigen::Vector2d::Zero();  // across the curve, of unit length
-  double offset_per_pixel = 0;  // normalised distance across the line per pixel along normal_px
+  Eigen::Vector2d normal_px = Eigen::Vector2d::Zero();  // unit normal of the curve
+  double offset_per_pixel = 0;  // normalized distance across the line per pixel along normal_px
 };
 
-// The sample `along` from the start of the normalised segment. Nothing where the camera does not
-// see it.
+// Samples the segment (normalized) at distance `along` from its start. Returns nullopt if the point
+// cannot be projected.
 //
-// With J = d_pixel/d_xy, u the segment's direction and n its normal: the curve's tangent is J u,
-// and a pixel's step across it moves by n . J^-1 (J u)_perp / |J u| = |J u| / det J.
+// With J = d_pixel/d_xy, u the segment's direction and n its normal, the curve's tangent is J u,
+// and a step of one pixel across the curve moves the point by n . J^-1 (J u)_perp / |J u| = |J u| /
+// det J.
 inline std::optional<SegmentSample> SampleSegment(const CameraModel& camera,
                                                   const LineSegment& segment, double along) {
   const Eigen::Vector2d direction = segment.Direction();
@@ -37,7 +38,8 @@ inline std::optional<SegmentSample> SampleSegment(const CameraModel& camera,
                        norm / J.determinant()};
 }
 
-// The normalised segment in raw pixels and back; nothing where the camera does not see an end.
+// Convert a segment from normalized coordinates to raw pixels, and back. Return nullopt if an
+// endpoint cannot be converted.
 inline std::optional<LineSegment> ProjectSegment(const CameraModel& camera,
                                                  const LineSegment& segment) {
   const auto start = camera.Project(segment.start.homogeneous());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Relays the estimate to an autopilot by way of mavros; see docs/px4.md.
+// Relays the estimate to an autopilot through mavros; see docs/px4.md.
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <std_msgs/UInt8.h>
@@ -21,7 +21,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kSilence = 1.0;  // [s] of wall time: then the states have ceased
+constexpr double kSilence = 1.0;  // wall time without states that counts as silence [s]
 
 BodyOdometry ToBodyOdometry(const nav_msgs::Odometry& message) {
   const auto& twist = message.twist.twist;
@@ -44,10 +44,10 @@ nav_msgs::Odometry ToMessage(const BodyOdometry& odometry) {
   return message;
 }
 
-// Parameters: ~rate [Hz], ~max_age [s] and ~min_pause [s] as in RelayGate; ~odom_frame and
-// ~base_frame, names that mavros has in its tf tree; ~imu_to_base, the base on the IMU, as
-// ParseTransform() reads it, or else tf is asked. ~reset_counter (latched) counts, modulo 256,
-// after how many interruptions the estimate went on.
+// Parameters: ~rate [Hz], ~max_age [s] and ~min_pause [s] of RelayGate; ~odom_frame and
+// ~base_frame, names in the tf tree of mavros; ~imu_to_base, the pose of the base in the IMU frame
+// in the format of ParseTransform(), by default from tf. ~reset_counter (latched) counts, modulo
+// 256, the interruptions after which relaying resumed.
 class MavrosRelayNode {
  public:
   MavrosRelayNode();
@@ -55,7 +55,7 @@ class MavrosRelayNode {
  private:
   void AddImage(const nav_msgs::Odometry&) { gate_.AddImage(); }
   void AddState(const nav_msgs::Odometry& odometry);
-  // The base in the body frame; none as long as tf does not know it.
+  // Pose of the base in the body frame; nullopt while tf does not have it.
   std::optional<Rigid3d> LocateBase(const std::string& body_frame);
   void ReportStop(const char* why);
   void ReportGoingOn();
@@ -67,11 +67,11 @@ class MavrosRelayNode {
   const std::string odom_frame_ = ReadFrame("odom_frame", "odom");
   const std::string base_frame_ = ReadFrame("base_frame", "base_link");
   RelayGate gate_{ReadOptions()};
-  bool is_relayed_ = false;                          // as was reported last
-  int64_t reported_resets_ = 0;                      // the same
-  ros::WallTime last_state_ = ros::WallTime::now();  // of which the stamp counts
+  bool is_relayed_ = false;                          // as last reported
+  int64_t reported_resets_ = 0;                      // as last reported
+  ros::WallTime last_state_ = ros::WallTime::now();  // arrival of the last valid state
   std::optional<Rigid3d> T_body_base_;
-  std::optional<RobotBase> base_;  // where that is not given
+  std::optional<RobotBase> base_;  // from tf, if ~imu_to_base is not given
   ros::Publisher publisher_ = node_.advertise<nav_msgs::Odometry>("mavros/odometry/out", 10);
   ros::Publisher counter_ = private_node_.advertise<std_msgs::UInt8>("reset_counter", 1, true);
   ros::Subscriber images_;
@@ -150,7 +150,8 @@ void MavrosRelayNode::ReportStop(const char* why) {
   ROS_WARN("the estimate is not relayed: %s", why);
 }
 
-// Of a pause of all that comes the gate may know with the first state after it only, which goes on.
+// If all input paused, the gate detects the pause only at the first state after it, which it
+// relays.
 void MavrosRelayNode::ReportGoingOn() {
   if (is_relayed_ && gate_.resets() == reported_resets_) return;
   is_relayed_ = true;

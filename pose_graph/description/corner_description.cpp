@@ -8,8 +8,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr float kPatchSize_px = 31;  // that the pattern was learned for
-constexpr double kSmallStep = 1e-3;  // along gravity, for its direction in the image [rad]
+constexpr float kPatchSize_px = 31;  // patch size that the ORB pattern was trained on
+constexpr double kSmallStep = 1e-3;  // step along gravity to compute its image direction [rad]
 constexpr double kDegreesPerRadian = 180 / M_PI;
 
 }  // namespace
@@ -31,7 +31,7 @@ std::vector<std::optional<Descriptor>> DescribeCorners(const cv::Mat& gray,
                                                        const std::vector<float>& angles) {
   std::vector<cv::KeyPoint> corners;
   for (size_t i = 0; i < uv_px.size(); ++i) {
-    // ORB drops corners at the border and may sort the rest; class_id says which one is which.
+    // ORB drops corners at the border and may reorder the rest; class_id keeps their index.
     corners.emplace_back(uv_px[i].x(), uv_px[i].y(), kPatchSize_px, angles[i], /*response=*/1.0F,
                          /*octave=*/0, /*class_id=*/static_cast<int>(i));
   }

@@ -12,14 +12,14 @@
 
 namespace plm_vins {
 
-// Where "down" points in the image at a pixel whose ray is (xy, 1) [deg, from u towards v]. A
-// camera that turns about its axis sees a corner and the direction turn alike.
+// Returns the image direction of gravity at the pixel with the ray (xy, 1) [deg, from u towards v].
+// A rotation about the optical axis rotates it together with the image patch.
 float GravityAngle(const CameraModel& camera, const Eigen::Quaterniond& R_O_C,
                    const Eigen::Vector2d& xy);
 
-// BRIEF descriptors, rotated so that gravity is the same direction in each: [Rublee2011] with the
-// angle from gravity instead of the brightness, which is steadier. Nothing for a corner too near to
-// the border. `angles` [deg], one for each corner.
+// Computes BRIEF descriptors with the orientation of [Rublee2011] taken from gravity instead of the
+// intensity centroid, which is more repeatable. `angles` [deg] has one element for each corner.
+// Returns nullopt for corners too close to the image border.
 std::vector<std::optional<Descriptor>> DescribeCorners(const cv::Mat& gray,
                                                        const std::vector<Eigen::Vector2f>& uv_px,
                                                        const std::vector<float>& angles);

@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kFastReach_px = 4;     // its circle, and that of the neighbours it compares with
+constexpr int kFastReach_px = 4;     // radius of FAST's circle plus that of non-maximum suppression
 constexpr int kClearThreshold = 25;  // [grey levels]
 
 cv::Point TopRight(const cv::Rect& pixels) { return {pixels.x + pixels.width, pixels.y}; }
@@ -19,8 +19,8 @@ cv::Rect Grown(const cv::Rect& pixels, int by_px) {
 
 struct Cell {
   cv::Rect pixels;
-  bool is_taken = false;                  // by a known corner
-  std::optional<cv::KeyPoint> strongest;  // of those offered
+  bool is_taken = false;                  // contains a known corner
+  std::optional<cv::KeyPoint> strongest;  // of the detected corners
 
   bool IsOpen() const { return !is_taken && !strongest; }
 };
@@ -46,7 +46,7 @@ class Grid {
     }
   }
 
-  // Of the open cells, those side by side as one.
+  // Returns the open cells, with horizontally adjacent cells merged.
   std::vector<cv::Rect> OpenPixels() const {
     std::vector<cv::Rect> open;
     for (const Cell& cell : cells_) {
@@ -60,7 +60,7 @@ class Grid {
     return open;
   }
 
-  // The strongest of each cell, in order of strength.
+  // Returns the strongest corner of each cell, in descending order of response.
   std::vector<cv::KeyPoint> Strongest() const {
     std::vector<cv::KeyPoint> corners;
     for (const Cell& cell : cells_) {
@@ -79,10 +79,10 @@ class Grid {
 
   int cell_px_;
   int columns_;
-  std::vector<Cell> cells_;  // row by row
+  std::vector<Cell> cells_;  // row-major
 };
 
-// The corners among these pixels that FAST finds in the whole image.
+// Returns the corners inside `pixels` that FAST would detect in the whole image.
 std::vector<cv::KeyPoint> FindCorners(const cv::Mat& gray, const cv::Rect& pixels, int threshold) {
   std::vector<cv::KeyPoint> corners;
   if (pixels.empty()) return corners;
@@ -94,8 +94,9 @@ std::vector<cv::KeyPoint> FindCorners(const cv::Mat& gray, const cv::Rect& pixel
   return corners;
 }
 
-// A corner's strength is the highest threshold that finds it. So clear corners, which take less
-// time, are the strongest of their cells, and the other cells' corners come after them.
+// FAST's response is the highest threshold that still detects the corner. Detecting with a high
+// threshold first is faster, and yields the strongest corners of their cells; only the other cells
+// are searched with the low threshold.
 void OfferCorners(const CornerSelectionOptions& options, const cv::Mat& gray, size_t room,
                   Grid* grid) {
   const cv::Rect inside = Grown(cv::Rect({}, gray.size()), -options.border_px);

@@ -10,14 +10,14 @@
 namespace plm_vins {
 
 struct CornerSelectionOptions {
-  int max_corners = 300;                 // with those that are there already
-  int cell_px = 32;                      // of the grid, one new corner in each
+  int max_corners = 300;                 // including the known corners
+  int cell_px = 32;                      // grid cell size; each cell takes one new corner
   int fast_threshold = 12;               // [grey levels]
-  int border_px = kDescriptorBorder_px;  // without corners: a descriptor does not fit there
+  int border_px = kDescriptorBorder_px;  // margin without corners, where descriptors do not fit
 };
 
-// Corners that fill up an image: the strongest by FAST in each cell of a grid that has none in
-// `known_px`, the strongest cells first. Raw pixels, in order of strength.
+// Selects the strongest FAST corner of each grid cell without a corner in `known_px`, up to
+// `max_corners` in total. Returns raw pixels in descending order of response.
 std::vector<Eigen::Vector2f> SelectCorners(const CornerSelectionOptions& options,
                                            const cv::Mat& gray,
                                            const std::vector<Eigen::Vector2f>& known_px);

@@ -8,14 +8,14 @@
 
 namespace plm_vins {
 
-// How far odometry may be off after a way: standard deviations.
+// Standard deviations of odometry drift, as linear functions of the distance travelled.
 struct DriftBudget {
   double position_floor;  // [m]
-  double position_rate;   // of the way [1]
+  double position_rate;   // per distance travelled [1]
   double yaw_floor;       // [rad]
   double yaw_rate;        // [rad/m]
 
-  // Of (x, y, z, yaw), after so many metres.
+  // Variances of (x, y, z, yaw) after `distance` [m].
   Vector4d Variances(double distance) const {
     Vector4d deviations;
     deviations << Eigen::Vector3d::Constant(position_floor + position_rate * distance),
@@ -25,7 +25,8 @@ struct DriftBudget {
 
   Matrix4d Covariance(double distance) const { return Variances(distance).asDiagonal(); }
 
-  // The way after which it may be off by so much: zero where it may at once.
+  // Returns the distance travelled after which drift reaches these variances [m]; zero if they are
+  // below the floor.
   double DistanceOf(const Vector4d& variances) const {
     const double position = std::sqrt(variances.head<3>().maxCoeff());
     const double yaw = std::sqrt(variances(3));

@@ -7,21 +7,22 @@
 
 namespace plm_vins {
 
-// The level transform that takes frames to where others are, with the least sum of squares of
-// (x, y, z) and of what the turn of a heading is at 1 m: the closed form of [Umeyama1991] about z.
+// Least-squares alignment of frames by a level transform: the closed form of [Umeyama1991]
+// restricted to rotations about z. Minimizes the squared errors of (x, y, z) and of the heading,
+// expressed as the displacement it causes at 1 m.
 class LevelFit {
  public:
   void Add(const LevelTransform& from, const LevelTransform& to) {
     ++count_;
     mean_from_ += (from.translation - mean_from_) / count_;
-    const Eigen::Vector3d offset = from.translation - mean_from_;  // from the mean with it
-    const Eigen::Vector3d before = to.translation - mean_to_;      // from the mean without it
+    const Eigen::Vector3d offset = from.translation - mean_from_;  // from the updated mean
+    const Eigen::Vector3d before = to.translation - mean_to_;  // from the mean before the update
     mean_to_ += before / count_;
     dot_ += before.head<2>().dot(offset.head<2>()) + std::cos(to.yaw - from.yaw);
     cross_ += offset.x() * before.y() - offset.y() * before.x() + std::sin(to.yaw - from.yaw);
   }
 
-  // T_to_from; the identity where nothing was added.
+  // T_to_from; identity if no frames were added.
   LevelTransform Transform() const {
     LevelTransform T;
     T.yaw = std::atan2(cross_, dot_);

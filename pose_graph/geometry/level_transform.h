@@ -9,7 +9,8 @@
 
 namespace plm_vins {
 
-// (x, y, z [m], yaw [rad]): what odometry drifts in, since gravity shows the rest.
+// (x, y, z [m], yaw [rad]): the degrees of freedom in which odometry drifts; gravity makes roll and
+// pitch observable.
 using Vector4d = Eigen::Vector4d;
 using Matrix4d = Eigen::Matrix4d;
 

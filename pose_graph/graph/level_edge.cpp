@@ -6,7 +6,7 @@
 namespace plm_vins {
 namespace {
 
-// The derivative by yaw of what yaw turns to v.
+// Derivative of Rz(yaw) u by yaw, for v = Rz(yaw) u.
 Eigen::Vector3d Turning(const Eigen::Vector3d& v) { return Eigen::Vector3d::UnitZ().cross(v); }
 
 }  // namespace

@@ -5,28 +5,27 @@
 
 namespace plm_vins {
 
-// What was measured between two nodes of the pose graph.
+// A relative-pose measurement between two nodes of the pose graph.
 struct LevelEdge {
   int from = -1;
   int to = -1;
   LevelTransform T_from_to;
-  Matrix4d covariance = Matrix4d::Identity();  // of (x, y, z, yaw) of T_from_to [m, rad]
+  Matrix4d covariance = Matrix4d::Identity();  // of T_from_to as (x, y, z, yaw) [m, rad]
   bool is_loop = false;
-  double way = 0;  // of odometry that is in it, as far as it may have drifted [m]
+  double way = 0;  // odometry distance that the edge spans, over which it may have drifted [m]
 };
 
-// The same, told the other way round.
+// Returns the inverse measurement.
 LevelEdge Reversed(const LevelEdge& edge);
 
-// What two edges, a to b and b to c, say of a and c. They are taken for independent.
+// Composes the edges a to b and b to c, assuming that they are independent.
 LevelEdge Chained(const LevelEdge& a_b, const LevelEdge& b_c);
 
-// Covariance of the place of an edge's end in the map, where its beginning has this place and
-// covariance there.
+// Covariance of the pose T_M_to in the map, given pose and covariance of the edge's start.
 Matrix4d CovarianceInMap(const LevelTransform& T_M_from, const Matrix4d& covariance,
                          const LevelEdge& edge);
 
-// Measured less actual T_from_to, as (x, y, z, yaw).
+// Residual: measured minus actual T_from_to, as (x, y, z, yaw).
 inline Vector4d EdgeError(const LevelTransform& measured, const LevelTransform& actual) {
   Vector4d error = measured.ToVector() - actual.ToVector();
   error(3) = WrapAngle(error(3));
@@ -36,11 +35,11 @@ inline Vector4d EdgeError(const LevelTransform& measured, const LevelTransform& 
 // W with W^T W = covariance^-1.
 Matrix4d Whitening(const Matrix4d& covariance);
 
-// The Mahalanobis distance of an error from zero [standard deviations].
+// Mahalanobis distance of the residual [standard deviations].
 double Deviations(const Vector4d& error, const Matrix4d& covariance);
 
-// Of four variables of which nothing is wrong, the deviations stay below in 997 of 1000 cases: as
-// those of one below three. [Wilson1931] gives chi-square; 16.3 is its square.
+// Bound of the Mahalanobis distance of four Gaussian variables, exceeded with the probability of 3
+// sigma in one dimension (0.3 %). Its square, 16.3, is the chi-square quantile by [Wilson1931].
 constexpr double kThreeSigmaOf4Dof = 4.03;
 
 }  // namespace plm_vins

@@ -17,16 +17,16 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMaxIterations = 50;  // from the last solution, a few do
-// Gauss-Newton as long as that leads down: with Ceres' default, long chains of steps, which bend
-// easily as a whole, would be solved slowly.
+constexpr int kMaxIterations = 50;  // a few suffice from the previous solution
+// A huge trust region makes steps pure Gauss-Newton as long as the cost decreases. Ceres' default
+// converges slowly on long chains of edges, which bend easily as a whole.
 constexpr double kTrustRegion = 1e12;
 
-// The whitened error of an edge. The variables of a node: (x, y, z, yaw) of T_M_L.
+// Whitened residual of an edge. The parameters of a node are (x, y, z, yaw) of T_M_L.
 struct EdgeCost {
   template <typename T>
   bool operator()(const T* from, const T* to, T* residual) const {
-    using std::cos;  // of Jets, Ceres has its own
+    using std::cos;  // for Jets, argument-dependent lookup finds those of Ceres
     using std::sin;
     const T c = cos(from[3]);
     const T s = sin(from[3]);
@@ -41,7 +41,7 @@ struct EdgeCost {
   }
   Vector4d measured;
   Matrix4d whitening;
-  double turns;  // full ones, by which the yaws differ more than was measured
+  double turns;  // full turns to subtract from the difference of the yaws
 };
 
 }  // namespace
@@ -76,7 +76,8 @@ void PoseGraph::Remove(int number, int anchor) {
     }
   }
   edges_ = std::move(others);
-  // A step if there is one: were steps told by a loop, they would go where it is taken out.
+  // Odometry edges are preferred: odometry edges chained through a loop would be lost with it if it
+  // is dropped.
   const auto rank = [](const LevelEdge& edge) {
     return std::make_pair(edge.is_loop, edge.covariance.determinant());
   };
@@ -89,7 +90,7 @@ void PoseGraph::Remove(int number, int anchor) {
   Anchor(number, anchor);
 }
 
-// Those that are taken out are seen from one that is not, so no search is needed.
+// Every removed node is anchored at a kept one, so the chain needs no search.
 void PoseGraph::Anchor(int number, int anchor) {
   const LevelTransform T_A_L = node(anchor).Inverse() * node(number);
   const auto removed = kept_.begin() + PlaceOf(number);
@@ -103,7 +104,8 @@ void PoseGraph::Anchor(int number, int anchor) {
   for (auto next = kept_.erase(removed); next != kept_.end(); ++next) --nodes_[next->number].place;
 }
 
-// Steps and loops are compared with their like alone: steps are never doubted.
+// Odometry edges and loops are each compared with their own kind only, since odometry edges are
+// never dropped.
 void PoseGraph::AddSurer(const LevelEdge& edge) {
   const auto same = std::find_if(edges_.begin(), edges_.end(), [&](const LevelEdge& other) {
     return edge.is_loop == other.is_loop &&
@@ -152,7 +154,7 @@ std::vector<LevelEdge> PoseGraph::Optimize() {
     if (worst == edges_.end()) return dropped;
     dropped.push_back(*worst);
     edges_.erase(worst);
-    Place(before);  // not where the dropped one bent them to
+    Place(before);  // resets to the values that the dropped loop has not distorted
   }
   return dropped;
 }
@@ -180,8 +182,8 @@ bool PoseGraph::Solve() {
     const double excess = to(3) - from(3) - measured(3);
     auto* cost = new ceres::AutoDiffCostFunction<EdgeCost, 4, 4, 4>(
         new EdgeCost{measured, Whitening(edge.covariance), std::round(excess / (2 * M_PI))});
-    // Where odometry jumped, a right loop is off by much at first: it must not be doubted before it
-    // is taken out.
+    // The loss has the scale of the test that drops loops: after a jump of odometry, a correct loop
+    // has a large residual at first, and must pull the graph before it is tested.
     problem.AddResidualBlock(cost,
                              edge.is_loop ? new ceres::CauchyLoss(kThreeSigmaOf4Dof) : nullptr,
                              from.data(), to.data());
@@ -194,14 +196,14 @@ bool PoseGraph::Solve() {
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  // That of Eigen works in this thread alone; that of SuiteSparse wakes others, for less than it
-  // costs.
+  // Eigen's solver is single-threaded; SuiteSparse wakes other threads, which costs more than it
+  // gains.
   if (ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::EIGEN_SPARSE)) {
     options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   }
   options.max_num_iterations = kMaxIterations;
   options.initial_trust_region_radius = kTrustRegion;
-  options.num_threads = 1;  // sums of several would differ from run to run
+  options.num_threads = 1;  // multithreaded sums are not reproducible
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
@@ -210,9 +212,9 @@ bool PoseGraph::Solve() {
   return summary.termination_type == ceres::CONVERGENCE;
 }
 
-// The solver left the first node of each part where it was. But that any one node stays is worth
-// nothing: a turn of the first step would swing all others about it. So each part is laid onto
-// where it was, by those nodes that hold the frame where it has some.
+// The solver holds the first node of each part fixed, which would rotate the whole part by any
+// change of its first edge. So each part is aligned with its previous poses: by its nodes that hold
+// the frame, or by all if there are none.
 void PoseGraph::TakeOver(const std::vector<Vector4d>& values, const std::vector<int>& parts) {
   std::map<int, LevelFit> fits;
   std::map<int, LevelFit> fits_of_all;
@@ -276,13 +278,13 @@ void PoseGraph::MovePart(int node, const LevelTransform& T_new_old) {
 }
 
 double PoseGraph::Distance(int from, int to) const {
-  std::vector<std::vector<std::pair<int, double>>> neighbours(kept_.size());  // by place
+  std::vector<std::vector<std::pair<int, double>>> neighbours(kept_.size());  // by index in `kept_`
   for (const LevelEdge& edge : edges_) {
     neighbours[PlaceOf(edge.from)].emplace_back(PlaceOf(edge.to), edge.way);
     neighbours[PlaceOf(edge.to)].emplace_back(PlaceOf(edge.from), edge.way);
   }
   std::vector<double> distances(kept_.size(), std::numeric_limits<double>::infinity());
-  using Reached = std::pair<double, int>;  // distance, place
+  using Reached = std::pair<double, int>;  // distance, index in `kept_`
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> front;
   distances[PlaceOf(from)] = 0;
   front.emplace(0, PlaceOf(from));

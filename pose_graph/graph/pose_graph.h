@@ -7,86 +7,84 @@
 
 namespace plm_vins {
 
-// Keyframes in the map M with four degrees of freedom each, and what was measured between them.
-// A node is T_M_L of its keyframe. Nodes that are not needed any more can be taken out, and what
-// was measured to them is kept between the others. Parts that no edge connects lie apart.
-// Deterministic.
+// Four-degree-of-freedom pose graph over keyframes in the map M. A node is the pose T_M_L of its
+// keyframe. Nodes can be removed; their edges are then transferred to the remaining nodes. Nodes
+// that no path of edges connects belong to different parts. Deterministic.
 class PoseGraph {
  public:
-  // Returns the node's number: they count up from zero.
+  // Returns the node's number, counted from zero.
   int AddNode(const LevelTransform& T_M_L);
   void AddEdge(const LevelEdge& edge) { edges_.push_back(edge); }
 
-  // Takes a node out. Its edges are told of that neighbour which it is tied to best instead; of two
-  // edges that then join the same nodes the surer one stays, since both are mostly of the same
-  // landmarks. node() goes on telling where it was, as seen from `anchor`, one of its part.
+  // Removes a node. Its edges are transferred to its most certain neighbour. If two edges then
+  // connect the same nodes, the one with the smaller covariance stays, since both derive mostly
+  // from the same landmarks. node() still returns the removed node's pose, which is fixed relative
+  // to `anchor`, a node of the same part.
   void Remove(int number, int anchor);
   bool Has(int number) const { return nodes_[number].anchor < 0; }
-  std::vector<int> Kept() const;  // the numbers of those that are not taken out, in order
+  std::vector<int> Kept() const;  // numbers of the nodes that were not removed, in ascending order
 
-  // From now on the nodes that are connected with the first one hold the frame M: what comes to
-  // them later adapts to it. They may still move against each other.
+  // Makes the nodes that are now connected with the first one hold the frame M: nodes that are
+  // connected later are aligned with them. Their relative poses can still change.
   void HoldFrame();
 
-  // Takes the nodes to where all edges fit best. Each part stays where it is: by its nodes that
-  // hold the frame or, where it has none, as a whole.
-  // Loops count robustly; those that are off by more than kThreeSigmaOf4Dof in the end are taken
-  // out, the worst first, and it is done again from the beginning. Returns them. As long as the
-  // solver does not get to the end, no loop is judged.
+  // Optimizes all nodes. Each part is kept in place by its nodes that hold the frame, or as a whole
+  // if it has none. |Loops have a robust loss. Loops whose residual exceeds kThreeSigmaOf4Dof are
+  // dropped, the worst first, and the optimization is repeated from the start. Returns the dropped
+  // loops. No loop is dropped unless the solver converges.
   std::vector<LevelEdge> Optimize();
 
-  // Takes a node, which is not taken out, to a place that is known better. Those that are seen from
-  // it follow.
+  // Sets the pose of a node that was not removed. Nodes anchored at it move along.
   void SetNode(int number, const LevelTransform& T_M_L) { nodes_[number].T_M_L = T_M_L; }
 
-  // Takes what lies between the nodes now for what was measured, as surely as before: Optimize()
-  // leaves them there.
+  // Sets all measurements to the current relative poses, with unchanged covariances, so that
+  // Optimize() leaves the nodes there.
   void TakeNodesAsMeasured();
 
-  // Whether edges lead from one node to the other.
+  // Returns whether a path of edges connects the two nodes.
   bool AreConnected(int a, int b) const;
   std::vector<bool> ConnectedWith(int node) const;  // by node
-  std::vector<int> FirstConnected() const;          // by node: the first that is connected with it
+  std::vector<int> FirstConnected() const;          // by node: the first node connected with it
 
   // Moves all nodes that are connected with `node`.
   void MovePart(int node, const LevelTransform& T_new_old);
 
-  // Length of the shortest way along the edges [m], a loop being no way at all: what odometry may
-  // have drifted over. Infinite where there is none.
+  // Length of the shortest path along the edges [m], over which odometry may have drifted; loops
+  // have length zero. Infinite if there is no path.
   double Distance(int from, int to) const;
 
-  // Of an edge, by its own covariance [standard deviations].
+  // Mahalanobis distance of the edge's residual by its own covariance [standard deviations].
   double Deviations(const LevelEdge& edge) const;
 
-  int size() const { return static_cast<int>(nodes_.size()); }  // with those taken out
+  int size() const { return static_cast<int>(nodes_.size()); }  // including removed nodes
   LevelTransform node(int number) const;
   const std::vector<LevelEdge>& edges() const { return edges_; }
 
  private:
   struct Node {
-    LevelTransform T_M_L;  // of one that is taken out: T_A_L, A being its anchor's L
-    int anchor = -1;       // -1: it is not taken out
-    int place = -1;        // in `kept_`, if it is not taken out
+    LevelTransform T_M_L;  // T_A_L of a removed node, where A is its anchor's L
+    int anchor = -1;       // -1 if not removed
+    int place = -1;        // index in `kept_`, if not removed
     bool holds_frame = false;
   };
   struct KeptNode {
     int number = -1;
-    std::vector<int> anchored;  // those that are seen from it
+    std::vector<int> anchored;  // removed nodes relative to this one
   };
 
-  // Where in `kept_` a node is, or its anchor.
+  // Index in `kept_` of a node, or of its anchor if it was removed.
   int PlaceOf(int number) const;
   void Anchor(int number, int anchor);
   void AddSurer(const LevelEdge& edge);
-  std::vector<int> Parts() const;        // by place: that of the first node of its part
-  std::vector<Vector4d> Values() const;  // by place: of T_M_L
+  std::vector<int> Parts() const;        // by index in `kept_`: that of the first node of its part
+  std::vector<Vector4d> Values() const;  // by index in `kept_`: T_M_L
   void Place(const std::vector<Vector4d>& values);
-  bool Solve();  // whether the solver got to the end
+  bool Solve();  // returns whether the solver converged
   void TakeOver(const std::vector<Vector4d>& values, const std::vector<int>& parts);
 
   std::vector<Node> nodes_;
-  // Those that are not taken out, in order: what is done with each keyframe looks at these alone,
-  // so that it takes no longer the more there have been.
+  // Nodes that were not removed, in ascending order. The work for each keyframe is proportional to
+  // their number, not to that of all nodes ever added.
   std::vector<KeptNode> kept_;
   std::vector<LevelEdge> edges_;
 };

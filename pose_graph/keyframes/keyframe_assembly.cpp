@@ -8,13 +8,13 @@
 namespace plm_vins {
 namespace {
 
-// Odometry says within these whether an image is a keyframe: three seconds of them at 20 Hz. At
-// higher rates there are more, up to as many as 100 MB of small images.
+// The estimator decides within these images whether an image is a keyframe: three seconds at 20 Hz.
+// More images are kept at higher rates, up to 100 MB of small images.
 constexpr size_t kFewStamps = 60;
 constexpr size_t kMaxStamps = 300;
 constexpr int64_t kMaxAge_ns = 2'000'000'000;
 constexpr int kJumpPatience = 10;                   // images
-constexpr int64_t kMaxInterval_ns = 1'000'000'000;  // more to the next image is a leap
+constexpr int64_t kMaxInterval_ns = 1'000'000'000;  // a longer interval is a forward jump
 
 }  // namespace
 

@@ -12,11 +12,12 @@
 
 namespace plm_vins {
 
-// Puts keyframes together whose parts come one by one, in any order: image, pose, corners, lines.
-// Equal stamps belong together. Lines may be missing: a keyframe does not wait for them longer than
-// until the next one is complete. Keeps the parts of the newest stamps only, of two seconds at
-// least but of 300 stamps at most, and begins anew where the stamps of images go back for good: a
-// recording is played again. An image after a leap in time is dropped, as its stamp may be wrong.
+// Assembles keyframes from parts that arrive separately in any order: image, pose, corners, lines.
+// Parts are joined by equal timestamps. Lines are optional: a keyframe waits for them until the
+// next keyframe is complete. Keeps the parts of the newest timestamps only (at least two seconds,
+// at most 300 timestamps) and restarts after a permanent backward jump of the image timestamps, as
+// when a recording is replayed. An image after a forward jump is dropped, since its timestamp may
+// be wrong.
 class KeyframeAssembly {
  public:
   KeyframeAssembly();
@@ -27,12 +28,12 @@ class KeyframeAssembly {
   void AddSegments(int64_t t_ns, std::vector<TrackedSegment> segments,
                    const std::optional<Eigen::Quaterniond>& R_O_Manhattan);
 
-  // The next keyframe in order of time, or nothing yet.
+  // Returns the next keyframe in temporal order, or nullopt if none is complete yet.
   std::optional<OdometryFrame> Pop();
 
   void Clear();
 
-  // Those that had to go before their image came.
+  // Number of keyframes dropped because their image did not arrive in time.
   int64_t without_image() const { return without_image_; }
 
  private:
@@ -50,11 +51,11 @@ class KeyframeAssembly {
 
   Parts& PartsAt(int64_t t_ns);
   bool HasTooMany() const;
-  // Counts those that lack their image; returns `end`.
+  // Erases the range, counting keyframes that lack their image; returns `end`.
   Stamps::iterator Forget(Stamps::iterator begin, Stamps::iterator end);
 
   Stamps parts_;
-  std::optional<int64_t> image_ns_;  // stamp of the newest image
+  std::optional<int64_t> image_ns_;  // timestamp of the newest image
   BackwardJumpDetector jump_;
   ForwardJumpDetector leap_;
   int64_t without_image_ = 0;

@@ -11,7 +11,7 @@
 namespace plm_vins {
 namespace {
 
-// The frame with all rays as the refined camera has them.
+// Returns the frame with all rays recomputed by the refined camera.
 OdometryFrame Refined(const CameraModel& camera, const CameraModel& refined, OdometryFrame frame) {
   for (TrackedCorner& corner : frame.corners) {
     TransferRay(camera, refined, &corner.observation.xy);
@@ -52,7 +52,7 @@ void AddFoundCorners(const CornerSelectionOptions& options, const CameraModel& c
   }
 }
 
-// Fills in the descriptors and takes out the corners that have none.
+// Computes the descriptors and removes corners that have none.
 void Describe(const CameraModel& camera, const Eigen::Quaterniond& R_O_C, const cv::Mat& gray,
               std::vector<DescribedCorner>* corners) {
   std::vector<Eigen::Vector2f> uv_px;

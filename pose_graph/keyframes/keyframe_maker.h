@@ -10,8 +10,8 @@
 
 namespace plm_vins {
 
-// The keyframe of an image: the corners that odometry follows, filled up with others, all with
-// descriptors. `world` and `path` are left to the caller. `camera` is the one that the rays of the
+// Makes the keyframe of an image from the tracked corners, supplemented by newly detected ones, all
+// with descriptors. The caller sets `world` and `path`. `camera` is the model that the rays of the
 // frame were computed with.
 Keyframe MakeKeyframe(const CornerSelectionOptions& options, const CameraModel& camera,
                       const OdometryFrame& frame);

@@ -8,7 +8,8 @@
 
 namespace plm_vins {
 
-// The numbers of a keyframe and of those of its world among the next `radius` to each side.
+// Returns the numbers of the keyframes at most `radius` before and after `number` in the same
+// world, including itself.
 inline std::vector<int> NumbersAround(const std::vector<Keyframe>& keyframes, int number,
                                       int radius) {
   std::vector<int> numbers;

@@ -9,7 +9,7 @@
 
 namespace plm_vins {
 
-// An image becomes a keyframe where it is this far from the last one in any of the three.
+// An image becomes a keyframe if it differs from the previous keyframe by at least one of these.
 struct KeyframeSpacing {
   double distance = 0.2;  // [m]
   double angle = 0.2;     // [rad]

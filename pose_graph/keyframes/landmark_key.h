@@ -6,7 +6,7 @@
 
 namespace plm_vins {
 
-// Names a landmark of the whole map: tracks have their numbers anew in each world.
+// Identifies a landmark in the whole map; track numbers are unique within a world only.
 struct LandmarkKey {
   int world = 0;
   int64_t track = -1;

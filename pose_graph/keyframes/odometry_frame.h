@@ -15,20 +15,20 @@
 
 namespace plm_vins {
 
-// One image with what odometry says about it: all that loop closure takes. O is the odometry's
-// world, z up, which starts anew with the odometry.
+// Input of loop closure: an image with the odometry's results for it. O is the odometry's world,
+// with z up; each start of odometry begins a new one.
 struct OdometryFrame {
   int64_t t_ns = 0;
-  bool restarted = false;  // O is a new one from here on
+  bool restarted = false;  // O is new from this image on
   Rigid3d T_O_B;
   Rigid3d T_B_C;
-  std::optional<CameraParameters> camera;  // as refined by now: all rays are taken anew by it
+  std::optional<CameraParameters> camera;  // the refined camera; all rays are recomputed by it
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  // (p_O, theta_B)
-  std::optional<Eigen::Quaterniond> R_O_Manhattan;  // the Manhattan frame, where one is locked
+  std::optional<Eigen::Quaterniond> R_O_Manhattan;  // if a Manhattan frame was found
   std::vector<TrackedCorner> corners;
   std::vector<TrackedSegment> segments;
-  cv::Mat gray;                       // CV_8UC1, as the camera delivered it
-  std::shared_ptr<const void> owner;  // of the pixels, where `gray` is not
+  cv::Mat gray;                       // CV_8UC1, distorted, as delivered by the camera
+  std::shared_ptr<const void> owner;  // owner of the pixels, if `gray` does not own them
 };
 
 }  // namespace plm_vins

@@ -6,7 +6,7 @@ namespace plm_vins {
 Matrix4d LevelCovariance(const Rigid3d& T_O_B, const Eigen::Matrix<double, 6, 6>& covariance) {
   Eigen::Matrix<double, 4, 6> J = Eigen::Matrix<double, 4, 6>::Zero();
   J.topLeftCorner<3, 3>().setIdentity();
-  J.bottomRightCorner<1, 3>() = T_O_B.R().row(2);  // a rotation of B, about z of O
+  J.bottomRightCorner<1, 3>() = T_O_B.R().row(2);  // yaw about z of O, from a rotation in B
   return J * covariance * J.transpose();
 }
 

@@ -6,7 +6,7 @@ namespace plm_vins {
 void KeyframeMap::Remove(int keyframe, int anchor) {
   graph.Remove(keyframe, anchor);
   Keyframe& removed = keyframes[keyframe];
-  removed.corners = std::vector<DescribedCorner>();  // gives its memory back, which `= {}` keeps
+  removed.corners = std::vector<DescribedCorner>();  // frees the memory, which `= {}` would keep
   removed.segments = std::vector<TrackedSegment>();
 }
 

@@ -8,29 +8,31 @@
 
 namespace plm_vins {
 
-// Keyframes and the graph that joins them: what a map file holds.
+// Keyframes and their pose graph: the content of a map file.
 struct KeyframeMap {
   std::vector<Keyframe> keyframes;
   PoseGraph graph;  // node i is keyframe i
 
-  // Forgets what a keyframe saw and takes it out of the graph; its pose stays known, as seen from
-  // `anchor`.
+  // Removes a keyframe: deletes its features and removes it from the graph. Its pose is kept
+  // relative to `anchor`.
   void Remove(int keyframe, int anchor);
 
   int CountKept() const;
 
-  // Of those that are not removed and joined to the first one, in order.
+  // Numbers of the keyframes that were not removed and are connected with the first one, in
+  // ascending order.
   std::vector<int> NumbersInMap() const;
 
-  // Of those alone that were not removed, numbered anew.
+  // Returns a copy without removed keyframes, renumbered.
   KeyframeMap Compact() const;
 
-  // Where the world of a keyframe's odometry was in the map when it was taken, as known now.
+  // Current estimate of the map pose of the odometry world O at the time of this keyframe; drift
+  // changes it from keyframe to keyframe.
   LevelTransform T_M_O(int keyframe) const {
     return graph.node(keyframe) * keyframes[keyframe].T_O_L().Inverse();
   }
 
-  // Where the camera was.
+  // Camera pose in the map.
   Rigid3d T_M_C(int keyframe) const {
     return T_M_O(keyframe).ToRigid() * keyframes[keyframe].T_O_C();
   }

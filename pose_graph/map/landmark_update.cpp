@@ -18,7 +18,8 @@ PlacesByTrack PlacesOf(const Keyframe& keyframe) {
   return places;
 }
 
-// Whether any track is one of those whose places are known.
+// Sets the landmarks of `keyframe` that have a known position. Returns whether it shares any track
+// with `places`.
 bool TakeOver(const PlacesByTrack& places, double max_error, Keyframe* keyframe) {
   const Rigid3d T_O_C = keyframe->T_O_C();
   const Viewpoint viewpoint({0, T_O_C.translation}, T_O_C.rotation);
@@ -41,7 +42,7 @@ void UpdateLandmarks(double max_error, std::vector<Keyframe>* keyframes) {
   const PlacesByTrack places = PlacesOf(newest);
   for (auto earlier = keyframes->rbegin() + 1; earlier != keyframes->rend(); ++earlier) {
     if (earlier->world != newest.world) return;
-    if (earlier->corners.empty()) continue;  // it was removed
+    if (earlier->corners.empty()) continue;  // it was removed from the map
     if (!TakeOver(places, max_error, &*earlier)) return;
   }
 }

@@ -7,10 +7,10 @@
 
 namespace plm_vins {
 
-// Gives landmarks of the newest keyframe, the last one, their places in those before it that follow
-// the same tracks: a place gets better with each view. Where it does not fit what an earlier
-// keyframe saw (to `max_error`, normalised), as odometry jumped or the track slipped since, that
-// one keeps its own.
+// Copies the landmark positions of the last keyframe to the preceding keyframes that share its
+// tracks, since triangulation improves with each observation. A keyframe keeps its own position if
+// the new one has a reprojection error above `max_error` (normalized), as after a jump of odometry
+// or a slipped track.
 void UpdateLandmarks(double max_error, std::vector<Keyframe>* keyframes);
 
 }  // namespace plm_vins

@@ -7,23 +7,23 @@
 
 namespace plm_vins {
 
-// The place of an odometry's world O in the map M, as known by a keyframe L from which odometry
-// leads on, and drifts.
+// Pose of the odometry's world O in the map M, known at a keyframe with frame L, from which
+// odometry continues and drifts.
 struct MapFix {
   LevelTransform T_M_O;
   LevelTransform T_O_L;
-  Matrix4d odometry_covariance = Matrix4d::Zero();  // of (x, y, z, yaw) of T_O_L, as it states it
-  Matrix4d covariance = Matrix4d::Zero();           // of (x, y, z, yaw) of T_M_L
+  Matrix4d odometry_covariance = Matrix4d::Zero();  // of T_O_L as (x, y, z, yaw)
+  Matrix4d covariance = Matrix4d::Zero();           // of T_M_L as (x, y, z, yaw)
   OdometryNoise drift;
 };
 
-// Covariance of (x, y, z, yaw) in M of a pose at `p_O`, from what odometry states of it: that of
-// the keyframe, and what odometry has drifted since.
+// Covariance of (x, y, z, yaw) in M of an odometry pose at `p_O`: that of the keyframe plus the
+// drift of odometry since.
 Matrix4d LevelCovarianceInMap(const MapFix& fix, const Eigen::Vector3d& p_O,
                               const Matrix4d& odometry_covariance);
 
-// The same of (p_M, theta_B), from that of (p_O, theta_B). Roll and pitch, which the map knows no
-// better, stay.
+// Covariance of (p_M, theta_B) from that of (p_O, theta_B). Roll and pitch keep the odometry's
+// covariance, which the map does not improve.
 Eigen::Matrix<double, 6, 6> CovarianceInMap(const MapFix& fix, const Rigid3d& T_O_B,
                                             const Eigen::Matrix<double, 6, 6>& odometry_covariance);
 

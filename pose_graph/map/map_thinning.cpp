@@ -31,7 +31,7 @@ bool MapThinning::IsOld(const Keyframe& keyframe, const Keyframe& newest) const 
          ToSeconds(newest.t_ns - keyframe.t_ns) >= options_.min_age;
 }
 
-// Keyframes of before that are surely near and look the same way.
+// Returns the earlier keyframes with a similar viewpoint and little drift in between.
 std::vector<int> MapThinning::Like(const KeyframeMap& map, int number) const {
   const Rigid3d T_M_C = map.T_M_C(number);
   std::vector<int> like;

@@ -10,30 +10,32 @@
 namespace plm_vins {
 
 struct MapThinningOptions {
-  double min_age = 20;             // younger ones are neighbours of the newest one [s]
+  double min_age = 20;             // younger keyframes are always kept [s]
   double distance = 0.5;           // [m]
   double angle = 20 * M_PI / 180;  // [rad]
-  double way = 3;                  // of odometry, a loop being none: more may be drift [m]
-  int enough = 5;                  // keyframes for all that is seen from there
+  double way = 3;  // max. odometry path between the two; drift makes more uncertain [m]
+  int enough = 5;  // keyframes that suffice for one viewpoint
 };
 
-// A keyframe that is not needed, and of those that make up for it the nearest.
+// A redundant keyframe and the nearest of those that make it redundant.
 struct DispensableKeyframe {
   int number = -1;
   int nearest = -1;
 };
 
-// Keeps a map as large as the space that was seen, however long one flies there: a keyframe that
-// has become old goes if enough of before show the same. Each is looked at once, so what was there
-// first stays.
+// Bounds the map's size by the explored space instead of the flight time: a keyframe that has
+// become old is removed if enough earlier keyframes have a similar viewpoint. Each keyframe is
+// examined once, so the oldest ones of a viewpoint are kept.
 class MapThinning {
  public:
   explicit MapThinning(const MapThinningOptions& options) : options_(options) {}
 
-  // A map that was thinned when it was made: looks only at those that were too young then.
+  // Starts with a map that is thinned already: examines only the keyframes that were too young
+  // then.
   void StartBehind(const KeyframeMap& map);
 
-  // The next one that has become old and is not needed; it must be removed before the next call.
+  // Returns the next redundant keyframe that has become old, or nullopt. The caller must remove it
+  // before the next call.
   std::optional<DispensableKeyframe> Next(const KeyframeMap& map);
 
  private:
@@ -41,7 +43,7 @@ class MapThinning {
   std::vector<int> Like(const KeyframeMap& map, int number) const;
 
   MapThinningOptions options_;
-  int next_ = 0;  // not looked at yet
+  int next_ = 0;  // first keyframe not examined yet
 };
 
 }  // namespace plm_vins

@@ -16,7 +16,7 @@ Rigid3d PoseInMap(const KeyframeMap& map, const OdometryPose& pose) {
   }
   const double share = static_cast<double>(pose.t_ns - before.t_ns) /
                        static_cast<double>(keyframes[next].t_ns - before.t_ns);
-  // Both corrections say where the pose is, and how the world is turned.
+  // Interpolates between the corrections of both keyframes, in position and in yaw.
   const LevelTransform T_O_L = {0, pose.T_O_B.translation};
   const LevelTransform from = T_M_O * T_O_L;
   const LevelTransform to = map.T_M_O(next) * T_O_L;

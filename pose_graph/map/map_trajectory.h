@@ -7,15 +7,15 @@
 
 namespace plm_vins {
 
-// A pose of odometry and the keyframe before it, by number.
+// An odometry pose and the number of the preceding keyframe.
 struct OdometryPose {
   int64_t t_ns = 0;
   Rigid3d T_O_B;
   int keyframe = -1;
 };
 
-// Where the pose is in the map as known now. Between two keyframes of its world the corrections
-// pass into each other, so that there is no step.
+// Returns the pose in the map by the current estimate. The correction is interpolated between the
+// two adjacent keyframes of the same world, which avoids steps.
 Rigid3d PoseInMap(const KeyframeMap& map, const OdometryPose& pose);
 
 }  // namespace plm_vins

@@ -37,7 +37,7 @@ void PlaceInMap::AddLoop(const KeyframeMap& map, const LevelEdge& loop) {
   }
 }
 
-// A loop that is less sure than odometry since the last one tells nothing new.
+// A loop that is less certain than odometry since the last loop does not improve the estimate.
 void PlaceInMap::Improve(const KeyframeMap& map, const LevelEdge& loop) {
   const MapFix fix =
       FixBy(map, loop.to, CovarianceInMap(map.graph.node(loop.from), Covariance(loop.from), loop));
@@ -51,8 +51,8 @@ void PlaceInMap::Improve(const KeyframeMap& map, const LevelEdge& loop) {
   places_.back().covariance = newest_covariance;
 }
 
-// What is known of the part's keyframes relative to each other stays, as if they were steps of
-// odometry.
+// The relative uncertainty of the part's keyframes is kept, treated like that of odometry between
+// keyframes.
 void PlaceInMap::Join(const KeyframeMap& map, const LevelEdge& loop) {
   const PoseGraph& graph = map.graph;
   const Place end = places_[loop.to];
@@ -68,10 +68,10 @@ void PlaceInMap::Join(const KeyframeMap& map, const LevelEdge& loop) {
   places_[loop.to].covariance = covariance;
 }
 
-// As if each loop had come with the later of its keyframes. Those that were removed have passed
-// theirs on to their neighbours.
+// Replays all loops, each at the later one of its keyframes. Loops of removed keyframes have been
+// transferred to their neighbours.
 void PlaceInMap::Recompute(const KeyframeMap& map) {
-  std::multimap<int, LevelEdge> loops;  // by the later keyframe
+  std::multimap<int, LevelEdge> loops;  // by the later keyframe's number
   for (const LevelEdge& edge : map.graph.edges()) {
     if (!edge.is_loop) continue;
     const LevelEdge loop = edge.from < edge.to ? edge : Reversed(edge);

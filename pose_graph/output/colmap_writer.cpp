@@ -21,7 +21,7 @@ namespace {
 struct ColmapPoint {
   int64_t id = 0;
   Eigen::Vector3d p_M;
-  std::vector<std::pair<int, size_t>> views;  // keyframe, corner
+  std::vector<std::pair<int, size_t>> views;  // observations: keyframe number, corner index
 };
 
 std::map<LandmarkKey, ColmapPoint> CollectPoints(const KeyframeMap& map,
@@ -42,7 +42,7 @@ std::map<LandmarkKey, ColmapPoint> CollectPoints(const KeyframeMap& map,
   return points;
 }
 
-// Writes a file of the model by `write(stream)`.
+// Writes a file of the model with `write(stream)`.
 template <typename Write>
 void WriteFile(const std::string& folder, const std::string& name, const Write& write) {
   OutputFile file((std::filesystem::path(folder) / name).string());
@@ -62,7 +62,8 @@ void WriteCamera(const CameraParameters& camera, std::ostream* stream) {
   *stream << '\n';
 }
 
-// The camera that makes pixels of rays: of MEI, which COLMAP has not, the ideal pinhole.
+// Returns the camera model that projects the rays: COLMAP lacks MEI, which is replaced by an ideal
+// pinhole.
 std::unique_ptr<const CameraModel> WrittenCamera(CameraParameters camera) {
   if (camera.model == CameraParameters::Model::kMei) {
     camera.model = CameraParameters::Model::kPinholeRadtan;
@@ -71,15 +72,16 @@ std::unique_ptr<const CameraModel> WrittenCamera(CameraParameters camera) {
   return CameraModel::Create(camera);
 }
 
-// By the ray: the keyframe may have been seen by another camera, or by this one as it was known
-// then. COLMAP counts pixels from the corner of the image, we from the middle of the first pixel.
+// Projects the ray instead of using the stored pixel: the keyframe's camera may have been another
+// one, or may have been refined since. COLMAP's pixel coordinates start at the corner of the first
+// pixel, ours at its centre.
 Eigen::Vector2d ToColmapPixel(const CameraModel& camera, const DescribedCorner& corner) {
   const auto uv_px = camera.Project(corner.xy.cast<double>().homogeneous());
   return uv_px.value_or(corner.uv_px.cast<double>()) + Eigen::Vector2d(0.5, 0.5);
 }
 
-// By keyframe: their stamps, as in an ASL folder. Where maps were flown with one clock from zero,
-// or in one recording, a later one of the same stamp has its number as well.
+// Image names by keyframe number: the timestamp, as in an ASL folder. The keyframe number is
+// appended to a repeated timestamp, as in maps of several runs whose clocks start from zero.
 std::map<int, std::string> ImageNames(const KeyframeMap& map, const std::vector<int>& keyframes) {
   std::map<int, std::string> names;
   std::set<int64_t> stamps;
@@ -114,7 +116,7 @@ void WritePoints(const std::map<LandmarkKey, ColmapPoint>& points, std::ostream*
   for (const auto& [name, point] : points) {
     *stream << point.id;
     for (int i = 0; i < 3; ++i) *stream << ' ' << point.p_M(i);
-    *stream << " 128 128 128 0";  // grey; the error is not known
+    *stream << " 128 128 128 0";  // colour grey; the error is unknown
     for (const auto& [keyframe, corner] : point.views) {
       *stream << ' ' << keyframe + 1 << ' ' << corner;
     }
@@ -126,7 +128,7 @@ void WritePoints(const std::map<LandmarkKey, ColmapPoint>& points, std::ostream*
 
 void WriteColmapModel(const std::string& folder, const CameraParameters& camera,
                       const KeyframeMap& map) {
-  std::error_code error;  // shows with the first file
+  std::error_code error;  // an error is reported when the first file is opened
   std::filesystem::create_directories(folder, error);
   CameraParameters shifted = camera;
   shifted.cx += 0.5;

@@ -8,13 +8,13 @@
 
 namespace plm_vins {
 
-// Writes the keyframes and their landmarks as a COLMAP text model: cameras.txt, images.txt and
-// points3D.txt in `folder`, which is made where missing. Those of a world that is not connected
-// with the first keyframe are left out: they are in another frame. Images are named by stamp, as
-// those of an ASL folder, and by number as well where stamps repeat. All pixels are where `camera`,
-// the only one of the model, sees the rays: the keyframes of a map that was loaded may be of
-// another. COLMAP has no MEI camera: the model has an ideal pinhole instead. Throws
-// std::runtime_error where a file cannot be written.
+// Writes keyframes and landmarks as a COLMAP text model (cameras.txt, images.txt, points3D.txt)
+// into `folder`, which is created if missing. Worlds that are not connected with the first keyframe
+// are omitted, since they have another frame. Images are named by timestamp as in an ASL folder,
+// with the keyframe number appended where timestamps repeat. All pixels are projections into
+// `camera`, the only camera of the model, since keyframes of a loaded map may have another one.
+// COLMAP has no MEI model; it is replaced by an ideal pinhole. Throws std::runtime_error if a file
+// cannot be written.
 void WriteColmapModel(const std::string& folder, const CameraParameters& camera,
                       const KeyframeMap& map);
 

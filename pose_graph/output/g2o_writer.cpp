@@ -6,7 +6,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kLevelWeight = 1e6;  // of roll and pitch [1/rad^2]
+constexpr double kLevelWeight = 1e6;  // information of roll and pitch [1/rad^2]
 
 void WriteTransform(const LevelTransform& transform, std::ostream* stream) {
   const Eigen::Quaterniond q = transform.rotation();
@@ -14,8 +14,9 @@ void WriteTransform(const LevelTransform& transform, std::ostream* stream) {
   *stream << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << ' ' << q.w();
 }
 
-// The upper triangle, row by row. g2o's error has the axes of `to` as measured, ours those of
-// `from`; its rotation is the vector of the quaternion: half the angle.
+// Writes the upper triangle, row-major. The error of g2o is expressed in the axes of the measured
+// `to`, that of LevelEdge in those of `from`. g2o's rotation error is the vector part of the
+// quaternion: half the angle.
 void WriteInformation(const LevelEdge& edge, std::ostream* stream) {
   Matrix4d from_axes_of_to = Matrix4d::Identity();
   from_axes_of_to.topLeftCorner<3, 3>() = edge.T_from_to.rotation().toRotationMatrix();

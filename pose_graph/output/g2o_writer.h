@@ -7,8 +7,9 @@
 
 namespace plm_vins {
 
-// The pose graph in the text format of g2o [Kuemmerle2011], as VERTEX_SE3:QUAT T_M_L and
-// EDGE_SE3:QUAT: roll and pitch, which gravity holds, are zero and firmly weighted.
+// Writes the pose graph in the text format of g2o [Kuemmerle2011], with vertices VERTEX_SE3:QUAT
+// T_M_L and edges EDGE_SE3:QUAT. Roll and pitch, which gravity determines, are zero and have a
+// large weight.
 void WriteG2o(const KeyframeMap& map, std::ostream* stream);
 
 }  // namespace plm_vins

@@ -7,8 +7,8 @@
 
 namespace plm_vins {
 
-// The rows of loops.csv: one candidate each, with every gate's value, empty where it was not
-// reached, and the gate that refused it, or "accepted".
+// Writes loops.csv, one row for each candidate: the values of all gates, empty for gates that were
+// not reached, and the gate that rejected it, or "accepted".
 void WriteLoopHeader(std::ostream* stream);
 void WriteLoopRow(const LoopCandidate& candidate, std::ostream* stream);
 

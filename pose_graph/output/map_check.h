@@ -15,15 +15,16 @@
 
 namespace plm_vins {
 
-// What must hold of a map that was read, whoever wrote it, before anything is made of it: one edge
-// with a NaN makes every solution of the graph fail, and one from a node to itself ends the
-// program. Throws std::runtime_error.
+// Validates a map that was read from a file of any origin: a NaN in an edge makes every
+// optimization fail, and an edge from a node to itself aborts the program. Throws
+// std::runtime_error if the condition does not hold.
 
 inline void RequireOfMap(bool holds, const char* otherwise) {
   if (!holds) throw std::runtime_error(std::string("is damaged, ") + otherwise);
 }
 
-// An archive that looks at all numbers: they are finite, and so are products of a few of them.
+// An archive that checks that all numbers are finite and small enough for products of a few of them
+// to be finite.
 class MapNumberCheck {
  public:
   template <typename T>
@@ -46,13 +47,13 @@ class MapNumberCheck {
 };
 
 inline bool IsUnit(const Eigen::Quaterniond& q) {
-  constexpr double kTolerance = 1e-2;  // of the length
+  constexpr double kTolerance = 1e-2;  // of the quaternion's norm
   return std::abs(q.norm() - 1) < kTolerance;
 }
 
-// Symmetric, and nothing in it is known for sure.
+// Returns whether the matrix is symmetric and positive definite, with a minimum variance.
 inline bool IsCovariance(const Matrix4d& covariance) {
-  constexpr double kTolerance = 1e-3;       // of both halves, which are computed
+  constexpr double kTolerance = 1e-3;       // of the symmetry, relative
   constexpr double kLeastDeviation = 1e-9;  // [m, rad]
   const Eigen::LLT<Matrix4d> factor(covariance);
   return factor.info() == Eigen::Success &&
@@ -60,9 +61,9 @@ inline bool IsCovariance(const Matrix4d& covariance) {
          covariance.isApprox(covariance.transpose(), kTolerance);
 }
 
-// Corners without a track would be one landmark, all of them.
+// Corners with a position need a track: without it they would all be the same landmark.
 inline void CheckKeyframe(const Keyframe& keyframe) {
-  constexpr int kMostWorlds = 1 << 30;  // each run adds one to those of the map
+  constexpr int kMostWorlds = 1 << 30;  // upper bound, since each run adds one
   RequireOfMap(IsStamp(keyframe.t_ns), "the stamp of a keyframe is none");
   RequireOfMap(keyframe.world >= 0 && keyframe.world < kMostWorlds,
                "the world of a keyframe is none");
@@ -74,7 +75,7 @@ inline void CheckKeyframe(const Keyframe& keyframe) {
   }
 }
 
-// A way of less than nothing would make the shortest one infinitely long to look for.
+// Negative lengths would make the search for the shortest path endless.
 inline void CheckEdge(const LevelEdge& edge, int nodes) {
   RequireOfMap(std::min(edge.from, edge.to) >= 0 && std::max(edge.from, edge.to) < nodes,
                "an edge leads to a keyframe that is not there");
@@ -83,7 +84,7 @@ inline void CheckEdge(const LevelEdge& edge, int nodes) {
   RequireOfMap(IsCovariance(edge.covariance), "the covariance of an edge is none");
 }
 
-// Once the numbers are checked.
+// Requires that MapNumberCheck has passed.
 inline void CheckMap(const std::vector<Keyframe>& keyframes,
                      const std::vector<LevelTransform>& nodes,
                      const std::vector<LevelEdge>& edges) {

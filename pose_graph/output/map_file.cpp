@@ -21,7 +21,7 @@ namespace {
 constexpr char kSignature[] = "plm_vins map";
 constexpr uint32_t kVersion = 2;
 
-// [FNV]: 64-bit FNV-1a. It is there against damage, not against malice.
+// [FNV]: 64-bit FNV-1a. Detects accidental damage, not manipulation.
 uint64_t Checksum(const std::string& bytes) {
   uint64_t hash = 14695981039346656037ULL;
   for (const char byte : bytes) {
@@ -31,7 +31,7 @@ uint64_t Checksum(const std::string& bytes) {
   return hash;
 }
 
-// Layouts; Struct is const where it is written.
+// Layouts for reading, writing and checking; Struct is const for writing.
 template <typename Archive, typename Matrix>
 void Numbers(Archive* archive, Matrix& matrix) {
   for (Eigen::Index i = 0; i < matrix.size(); ++i) archive->Value(matrix.data()[i]);
@@ -98,7 +98,7 @@ void Map(Archive* archive, Keyframes& keyframes, Nodes& nodes, Edges& edges) {
   archive->List(edges, [](auto* a, auto& edge) { Edge(a, edge); });
 }
 
-// The checksum does not show who wrote it.
+// Validates the content as well, since a correct checksum does not tell who wrote the file.
 KeyframeMap ParseMap(const std::string& bytes) try {
   KeyframeMap map;
   std::vector<LevelTransform> nodes;
@@ -173,7 +173,7 @@ void SaveMap(const std::string& file, const KeyframeMap& map) {
 }
 
 KeyframeMap LoadMap(const std::string& file) {
-  std::error_code error;  // shows where the file is opened
+  std::error_code error;  // an error is reported when the file is opened
   if (std::filesystem::is_directory(file, error)) {
     throw std::runtime_error(file + " is a folder: name the map in it");
   }
@@ -190,7 +190,7 @@ KeyframeMap LoadMap(const std::string& file) {
 }
 
 PreviousMap LoadPreviousMap(const std::string& file) {
-  std::error_code error;  // a folder that is closed to us has no map for us
+  std::error_code error;  // an inaccessible folder counts as one without a map
   if (std::filesystem::exists(file, error)) return {LoadMap(file), ""};
   return {{},
           "load_previous_pose_graph: there is no map " + file +

@@ -8,24 +8,25 @@
 
 namespace plm_vins {
 
-// Writes a map: signature with version, size and checksum of what follows, then keyframes, nodes
-// and edges. The file is there completely or, where that fails, as it was before. Throws
-// std::runtime_error, which names the file and says why.
+// Writes a map: signature with version, size and checksum, then keyframes, nodes and edges. The
+// file is replaced atomically: on failure the previous one remains. Throws std::runtime_error with
+// file name and reason.
 void SaveMap(const std::string& file, const KeyframeMap& map);
 void SaveMap(const KeyframeMap& map, ReplacedFile* file);
 
-// Reads it back, bit by bit. Throws std::runtime_error with one message where there is no such
-// file, or it cannot be read, is none of a map, of another version, damaged, or holds what no map
-// can: whatever it returns can be worked with.
+// Reads a map; numbers are restored exactly. Throws std::runtime_error with one message if the file
+// is missing, unreadable, not a map, of another version, damaged or invalid. Any map that it
+// returns is safe to use.
 KeyframeMap LoadMap(const std::string& file);
 
 struct PreviousMap {
   KeyframeMap map;
-  std::string warning;  // why it is empty; empty: it is not
+  std::string warning;  // reason why the map is empty, or an empty string
 };
 
-// The map that load_previous_pose_graph asks for: an empty one where there is no such file, as in
-// configurations of VINS-Mono and PL-VINS, whose folder is on another machine. Else as LoadMap().
+// Loads the map of load_previous_pose_graph. A missing file yields an empty map with a warning,
+// since configurations of VINS-Mono and PL-VINS name folders of other machines. Otherwise the same
+// as LoadMap().
 PreviousMap LoadPreviousMap(const std::string& file);
 
 }  // namespace plm_vins

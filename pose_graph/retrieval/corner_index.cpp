@@ -9,8 +9,8 @@ namespace plm_vins {
 CornerIndex::CornerIndex(const CornerIndexOptions& options)
     : options_(options), buckets_(static_cast<size_t>(options.tables) << options.bits) {}
 
-// The tables take turns in the first bits: the pattern was learned, and its most telling
-// comparisons come first [Rublee2011].
+// Table t uses the bits t, t + tables, t + 2 tables, ...: the ORB pattern is sorted, with the most
+// discriminative comparisons first [Rublee2011], and so all tables share the best bits.
 uint64_t CornerIndex::Word(const Descriptor& descriptor, int table) const {
   uint64_t word = static_cast<uint64_t>(table);
   for (int i = 0; i < options_.bits; ++i) {

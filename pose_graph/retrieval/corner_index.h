@@ -12,21 +12,21 @@ namespace plm_vins {
 
 struct CornerIndexOptions {
   int tables = 4;
-  int bits = 12;          // of the descriptor, that make a word of each table
-  int max_distance = 32;  // between descriptors of what is taken for one corner [bits]
+  int bits = 12;          // descriptor bits that form a word of each table
+  int max_distance = 32;  // between descriptors of the same corner [bits]
 };
 
-// Which images show the same corners, without a vocabulary: fixed bits of a descriptor are its
-// words, one per table, as in [Usenko2020], and only descriptors that share a word are compared.
+// Image retrieval without a trained vocabulary: each table maps a fixed subset of descriptor bits
+// to a word, as in [Usenko2020], and only descriptors that share a word are compared.
 class CornerIndex {
  public:
   explicit CornerIndex(const CornerIndexOptions& options);
 
   void Add(int image, const std::vector<Descriptor>& descriptors);
-  void Remove(int image, const std::vector<Descriptor>& descriptors);  // that were added
+  void Remove(int image, const std::vector<Descriptor>& descriptors);  // must have been added
 
-  // How similar the images are to one with these descriptors: each that an image has a like of
-  // counts the more, the fewer images have. By image; those not named have none.
+  // Similarity of the indexed images to an image with these descriptors: matches are weighted by
+  // inverse document frequency. Images without a match are missing in the result.
   std::map<int, double> Scores(const std::vector<Descriptor>& descriptors) const;
 
  private:
@@ -36,11 +36,11 @@ class CornerIndex {
   };
 
   uint64_t Word(const Descriptor& descriptor, int table) const;
-  std::vector<int> ImagesWith(const Descriptor& descriptor) const;  // each once
+  std::vector<int> ImagesWith(const Descriptor& descriptor) const;  // without duplicates
 
   CornerIndexOptions options_;
   std::set<int> images_;
-  std::vector<std::vector<Entry>> buckets_;  // table by table, by word
+  std::vector<std::vector<Entry>> buckets_;  // tables one after another, each indexed by word
 };
 
 }  // namespace plm_vins

@@ -18,7 +18,7 @@ std::vector<Descriptor> DescriptorsOf(const Keyframe& keyframe) {
   return descriptors;
 }
 
-// Another visit: of another world, or long enough ago.
+// Returns whether the keyframe belongs to another visit: another world, or long enough ago.
 bool IsEarlierVisit(const Keyframe& newest, const Keyframe& other, double min_time) {
   return other.world != newest.world || ToSeconds(newest.t_ns - other.t_ns) >= min_time;
 }
@@ -28,9 +28,10 @@ double ScoreOf(const std::map<int, double>& scores, int number) {
   return found == scores.end() ? 0.0 : found->second;
 }
 
-// The score of the image's predecessor. The first of a world has none: what it would mostly be.
+// Score of the preceding image, which normalizes the other scores. For the first image of a world
+// it is estimated from the image's score with itself.
 double ReferenceScore(const std::map<int, double>& scores, const std::vector<Keyframe>& keyframes) {
-  constexpr double kUsualShare = 0.24;  // of the image's with itself: the median of V1_02
+  constexpr double kUsualShare = 0.24;  // typical ratio to the score with itself: median of V1_02
   const int newest = static_cast<int>(keyframes.size()) - 1;
   const bool is_first = newest == 0 || keyframes[newest - 1].world != keyframes[newest].world;
   return is_first ? kUsualShare * ScoreOf(scores, newest) : ScoreOf(scores, newest - 1);
@@ -59,7 +60,7 @@ void PlaceRecognition::Remove(const Keyframe& keyframe, int number) {
 std::vector<PlaceCandidate> PlaceRecognition::Find(const std::vector<Keyframe>& keyframes) {
   const int newest = static_cast<int>(keyframes.size()) - 1;
   const std::map<int, double> scores = index_.Scores(DescriptorsOf(keyframes[newest]));
-  std::vector<std::pair<double, int>> islands;  // score, keyframe
+  std::vector<std::pair<double, int>> islands;  // score, keyframe number
   for (const auto& [number, score] : scores) {
     if (!IsEarlierVisit(keyframes[newest], keyframes[number], options_.min_time)) continue;
     islands.emplace_back(IslandScore(scores, keyframes, number, options_.island_radius), number);

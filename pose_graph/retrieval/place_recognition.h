@@ -11,32 +11,32 @@ namespace plm_vins {
 
 struct PlaceRecognitionOptions {
   CornerIndexOptions index;
-  double min_time = 15;           // since an image that counts as another visit [s]
-  int island_radius = 3;          // keyframes to each side that show the same place
-  int max_islands = 3;            // looked at for one image
-  double min_score_share = 0.05;  // of the score of the image's predecessor
-  int memory = 2;                 // images before, one of which must have led to the same island
+  double min_time = 15;           // age of an image that counts as another visit [s]
+  int island_radius = 3;          // neighbouring keyframes on each side that show the same place
+  int max_islands = 3;            // candidates for each image
+  double min_score_share = 0.05;  // relative to the score of the preceding image
+  int memory = 2;                 // preceding images, one of which must have led to the same island
 };
 
-// An island of keyframes, neighbours in time, that look like an image.
+// An island (keyframes adjacent in time) that is similar to the newest image.
 struct PlaceCandidate {
-  int keyframe = -1;       // the most similar
-  double score_share = 0;  // of the score of the image's own predecessor, with which it shares most
-  bool similar = false;    // the share is enough
-  bool repeated = false;   // one of the images before led here as well
+  int keyframe = -1;       // number of the most similar keyframe
+  double score_share = 0;  // relative to the score of the preceding image
+  bool similar = false;    // `score_share` reaches the minimum
+  bool repeated = false;   // a preceding image led to the same island
 };
 
-// Names keyframes of earlier visits that may show the same place as the newest, without vocabulary.
+// Proposes keyframes of earlier visits that may show the same place as the newest one.
 class PlaceRecognition {
  public:
   explicit PlaceRecognition(const PlaceRecognitionOptions& options);
 
-  // Takes in a keyframe, which is keyframes[number] in each Find() that follows.
+  // Adds a keyframe, which must be keyframes[number] in each following Find().
   void Add(const Keyframe& keyframe, int number);
 
   void Remove(const Keyframe& keyframe, int number);
 
-  // Candidates for the newest keyframe, the best first. It has been added before.
+  // Returns candidates for the newest keyframe, best first. The keyframe must have been added.
   std::vector<PlaceCandidate> Find(const std::vector<Keyframe>& keyframes);
 
  private:
@@ -45,7 +45,7 @@ class PlaceRecognition {
 
   PlaceRecognitionOptions options_;
   CornerIndex index_;
-  std::deque<std::vector<int>> recent_;  // candidates of the images before, newest last
+  std::deque<std::vector<int>> recent_;  // candidates of the preceding images, newest last
 };
 
 }  // namespace plm_vins

@@ -9,17 +9,17 @@
 
 namespace plm_vins {
 
-// What keyframes looked like, to be shown when the camera comes back: at half resolution and
-// compressed, which takes less memory than the keyframe itself.
+// Stores keyframe images for the display of loops, at half resolution and compressed; they take
+// less memory than the keyframes themselves.
 class KeyframeImages {
  public:
-  // `gray`: CV_8UC1, at full resolution.
+  // `gray` is CV_8UC1 at full resolution.
   void Add(int keyframe, const cv::Mat& gray);
 
-  // CV_8UC1 at half resolution; empty where there is none, as of the keyframes of a loaded map.
+  // Returns CV_8UC1 at half resolution; empty if not stored, as for keyframes of a loaded map.
   cv::Mat Find(int keyframe) const;
 
-  // Forgets all others.
+  // Deletes the images of all other keyframes.
   void Keep(const std::function<bool(int keyframe)>& is_kept);
 
  private:

@@ -15,11 +15,11 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kUnitTolerance = 1e-2;  // of a quaternion's length; single precision is enough
+constexpr double kUnitTolerance = 1e-2;  // of a quaternion's norm, as single precision has
 
 bool IsUnit(const Eigen::Quaterniond& q) { return std::abs(q.norm() - 1) < kUnitTolerance; }
 
-// Of another camera than ours, its rays would be nonsense.
+// Rejects another camera than the configured one: its rays would not match.
 void CheckSameKind(const CameraParameters& ours, const CameraParameters& refined) {
   if (refined.model == ours.model && refined.width == ours.width && refined.height == ours.height) {
     return;
@@ -27,7 +27,7 @@ void CheckSameKind(const CameraParameters& ours, const CameraParameters& refined
   throw std::invalid_argument("it is not the camera of the configuration");
 }
 
-// Runs `take`; an exception says what is wrong with a message, and counts.
+// Runs `take` and counts exceptions, whose text tells what is wrong with a message.
 void CountFailure(DropCount* failures, const std::function<void()>& take) {
   try {
     take();
@@ -48,7 +48,7 @@ bool KeyframeInput::Accepts(const nav_msgs::Odometry& message) {
   return is_possible;
 }
 
-// Descriptors of another image than calibrated would be of other places.
+// Rejects images of another size than calibrated: descriptors would be taken at wrong pixels.
 void KeyframeInput::AddImage(const ImageSample& image) {
   CountFailure(&images_, [&] {
     CheckImageFormat(image.gray, sensor_.camera);
@@ -58,7 +58,7 @@ void KeyframeInput::AddImage(const ImageSample& image) {
 
 void KeyframeInput::AddPose(const nav_msgs::Odometry& message) {
   if (!Accepts(message)) return;
-  // Zeros, where it is not known, leave a step its floor.
+  // An unknown covariance becomes zero, so that odometry edges get the minimum of OdometryNoise.
   const auto covariance = CovarianceOf(message.pose).value_or(Eigen::Matrix<double, 6, 6>::Zero());
   assembly_.AddPose(ToNanoseconds(message.header.stamp), ToRigid(message.pose.pose), covariance);
 }
@@ -76,7 +76,7 @@ void KeyframeInput::AddLines(const sensor_msgs::PointCloud& message) {
   });
 }
 
-// A model without rays throws as well.
+// CameraModel::Create() throws if the model is invalid.
 void KeyframeInput::AddCamera(const sensor_msgs::CameraInfo& message) {
   CountFailure(&cameras_, [&] {
     const CameraParameters camera = ToCameraParameters(message);

@@ -14,8 +14,8 @@
 
 namespace plm_vins {
 
-// From the messages of odometry, and images, to keyframes. What cannot be true stays out, and is
-// counted: one pose that is not finite would spoil a map for good. For one thread.
+// Converts odometry messages and images to keyframes. Invalid messages are dropped and counted: a
+// single pose that is not finite would damage the map permanently. For use by one thread.
 class KeyframeInput {
  public:
   explicit KeyframeInput(const SensorConfig& sensor) : sensor_(sensor) {}
@@ -24,18 +24,18 @@ class KeyframeInput {
   void AddPose(const nav_msgs::Odometry& message);
   void AddPoints(const sensor_msgs::PointCloud& message);
   void AddLines(const sensor_msgs::PointCloud& message);
-  // The camera as refined by now, for the keyframes that follow.
+  // Sets the refined camera, which applies to the following keyframes.
   void AddCamera(const sensor_msgs::CameraInfo& message);
-  // T_B_C as estimated by now, the same way.
+  // Sets the refined T_B_C, which applies to the following keyframes.
   void AddExtrinsics(const nav_msgs::Odometry& message);
 
-  // The next keyframe in order of time, or nothing yet.
+  // Returns the next keyframe in temporal order, or nullopt if none is complete yet.
   std::optional<OdometryFrame> Pop();
 
-  // Forgets what waits for other parts.
+  // Discards incomplete keyframes.
   void Clear() { assembly_.Clear(); }
 
-  // False, and counted, where the position, the quaternion or the covariance cannot be true.
+  // Returns false, and counts the message, if position, quaternion or covariance is invalid.
   bool Accepts(const nav_msgs::Odometry& message);
 
   DropCounts Drops() const {

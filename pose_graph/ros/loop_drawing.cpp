@@ -7,19 +7,19 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kScale = 0.5;  // of the picture to the camera's images
+constexpr double kScale = 0.5;  // of the drawing relative to the camera images
 constexpr int kDiscRadius_px = 3;
 constexpr int kLineThickness_px = 2;
 const cv::Scalar kCornerColor(80, 220, 80);  // blue, green, red
 const cv::Scalar kLineColor(0, 140, 255);
 
-// One half of the picture: `offset_x_px` is where it begins.
+// One half of the drawing, which begins at column `offset_x_px`.
 class Half {
  public:
   Half(const CameraModel& camera, double offset_x_px)
       : camera_(camera), offset_px_(offset_x_px, 0) {}
 
-  // Where the picture shows the point; nothing outside the half.
+  // Returns the position of the point in the drawing, or nullopt if it is outside the half.
   std::optional<cv::Point2d> Find(const Eigen::Vector3d& p_C) const {
     const auto uv_px = camera_.Project(p_C);
     if (!uv_px || !camera_.IsInImage(*uv_px)) return std::nullopt;

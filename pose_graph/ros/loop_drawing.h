@@ -8,10 +8,10 @@
 
 namespace plm_vins {
 
-// Both visits of a place side by side, the earlier one on the left, as CV_8UC3 at half resolution:
-// each landmark where the earlier camera saw it, joined with the corner where the later one sees it
-// (green), and the lines that both see (orange). The images are CV_8UC1 of any size; the left half
-// stays black where `earlier` is empty.
+// Draws both visits of a place side by side, the earlier one on the left, as CV_8UC3 at half
+// resolution: each landmark in the earlier image joined with its corner in the later one (green),
+// and the lines observed in both (orange). The images are CV_8UC1 of any size; the left half is
+// black if `earlier` is empty.
 cv::Mat DrawLoop(const CameraModel& camera, const LoopSightings& sightings, const cv::Mat& earlier,
                  const cv::Mat& later);
 

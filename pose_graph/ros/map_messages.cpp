@@ -11,7 +11,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMaxPathPoses = 5000;  // the newest; the message is sent anew with each keyframe
+constexpr int kMaxPathPoses = 5000;  // the newest; each keyframe sends the whole message
 constexpr double kStepWidth = 0.01;  // [m]
 constexpr double kLoopWidth = 0.02;  // [m]
 

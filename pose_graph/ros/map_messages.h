@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the pose graph says, as messages.
+// Messages of the pose graph.
 #pragma once
 
 #include <nav_msgs/Odometry.h>
@@ -13,18 +13,18 @@
 
 namespace plm_vins {
 
-// Odometry's message in the map: its pose moved, with its covariance there; one that is not known
-// stays so. The twist stays, too, as it is in the body's frame.
+// Transforms odometry's message to the map frame: pose and covariance; an unknown covariance stays
+// unknown. The twist is unchanged, since it is expressed in the body frame.
 nav_msgs::Odometry ToMap(const nav_msgs::Odometry& odometry, const MapFix& fix,
                          const std::string& map_frame);
 
-// The keyframes that are connected with the newest, where they are as known now: in the map, or in
-// the odometry's world where that has no place in the map yet. At most the newest 5000.
+// Path of the keyframes connected with the newest one, in the map frame, or in the odometry's world
+// if it is not connected with the map yet. At most the newest 5000 poses.
 nav_msgs::Path ToPath(const KeyframeMap& map, const std::string& map_frame,
                       const std::string& world_frame);
 
-// Two lists of lines in the map: odometry's edges in grey, loops in green, with the stamp of the
-// newest keyframe. One that is empty is deleted, since rviz takes it for an error.
+// Two line lists in the map frame: odometry edges (grey) and loops (green), with the timestamp of
+// the newest keyframe. An empty list becomes a deletion, since rviz reports it as an error.
 visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map,
                                                const std::string& map_frame);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loop closure as a node, which ends at once where the configuration has it switched off.
+// The loop closure node. It exits at once if loop closure is disabled in the configuration.
 
 #include "common/ros/node_setup.h"
 #include "pose_graph/ros/pose_graph_node.h"

@@ -23,7 +23,7 @@ namespace {
 constexpr char kEstimator[] = "vins_estimator/";
 constexpr int kQueue = 100;
 constexpr size_t kWaitingKeyframes = 50;
-constexpr double kMaxLag = 2;  // [s] of keyframes behind their images
+constexpr double kMaxLag = 2;  // of keyframes behind the images [s]
 
 std::string MapFile(PoseGraphConfig config, const ros::NodeHandle& private_node) {
   const auto output = FindParameter<std::string>(private_node, "output");
@@ -59,7 +59,7 @@ PoseGraphNode::PoseGraphNode(const Config& config, const ros::NodeHandle& node,
   diagnostics_.add("map", this, &PoseGraphNode::ReportStatus);
   AdvertiseMap();
   Subscribe();
-  worker_ = std::thread(&PoseGraphNode::Work, this);  // last: what throws would end all with it
+  worker_ = std::thread(&PoseGraphNode::Work, this);  // last: an exception after it would abort
 }
 
 PoseGraphNode::~PoseGraphNode() {
@@ -67,8 +67,8 @@ PoseGraphNode::~PoseGraphNode() {
   worker_.join();
 }
 
-// Whoever subscribes gets the map as it is, as from a latched topic. To make these messages for
-// nobody would cost more with each keyframe of the map.
+// A new subscriber gets the current map, as from a latched topic. Latched topics would build these
+// messages without subscribers, at a cost that grows with the map.
 void PoseGraphNode::AdvertiseMap() {
   const auto advertise = [this](const char* topic, const auto& make) {
     using Message = decltype(make());
@@ -82,7 +82,8 @@ void PoseGraphNode::AdvertiseMap() {
   graph_publisher_ = advertise("graph", [this] { return Graph(); });
 }
 
-// In place, as to wake a thread of its own for each message costs more than to take it in.
+// Runs callbacks in the receiving thread (InPlaceQueue): waking a thread of its own for each
+// message costs more than processing it.
 template <typename Parameter>
 ros::Subscriber PoseGraphNode::Receive(const std::string& topic,
                                        const boost::function<void(Parameter)>& callback) {
@@ -104,8 +105,8 @@ void PoseGraphNode::TakeIn(const std::function<void()>& add) {
   errors_.Run(add);
 }
 
-// To publish takes a lock of ROS, which a driver in this process holds while its image waits here
-// for input_mutex_: so nothing is published with that held.
+// Publishes without holding input_mutex_: publishing takes a lock of ROS, which a driver in this
+// process may hold while its image waits here for input_mutex_.
 void PoseGraphNode::PassOnInMap(const OdometryEvent& event) {
   std::optional<MapFix> fix;
   TakeIn([&] { fix = AddOdometry(event); });
@@ -191,7 +192,7 @@ void PoseGraphNode::NoteNewWorld(const std::string& reason) {
   BeginWorld();
 }
 
-// Keyframes of before that wait for a part are of a world that is no more.
+// Waiting keyframes belong to the previous world, so they are dropped.
 void PoseGraphNode::BeginWorld() {
   input_.Clear();
   const std::lock_guard<std::mutex> lock(status_mutex_);
@@ -249,8 +250,7 @@ bool PoseGraphNode::Reset(Trigger::Request&, Trigger::Response& response) {
   return true;
 }
 
-// Odometry's world counts as another one from here on: the keyframes of before that still wait
-// belong to the map of before.
+// Begins a new odometry world: waiting keyframes belong to the previous map.
 void PoseGraphNode::StartWith(KeyframeMap map) {
   {
     const std::lock_guard<std::mutex> lock(input_mutex_);
@@ -289,7 +289,7 @@ void PoseGraphNode::AddToMap(WaitingKeyframe* keyframe) {
   Remember(frame);
 }
 
-// A newer world may have begun by now, for which a fix of this one is wrong.
+// Ignores the fix if a newer world has begun meanwhile.
 void PoseGraphNode::UpdateStatus(const LoopClosure& closure, int world, double milliseconds) {
   const std::lock_guard<std::mutex> lock(status_mutex_);
   if (world == world_) status_.fix = closure.fix;
@@ -318,8 +318,8 @@ void PoseGraphNode::PublishMatch(const OdometryFrame& frame, const LoopClosure& 
   match_publisher_.publish(ToMessage(picture, frame.t_ns, config_.output.camera_frame));
 }
 
-// The newest keyframe is that of the frame. Thinning may have taken others away. Nothing is kept
-// until somebody wants to see it; from then on all is, as displays close and open again.
+// The newest keyframe is that of the frame; thinning may have removed others. Images are stored
+// only after the first subscription of ~match_image, and then always, since displays reconnect.
 void PoseGraphNode::Remember(const OdometryFrame& frame) {
   shows_matches_ = shows_matches_ || match_publisher_.getNumSubscribers() > 0;
   if (!shows_matches_) return;

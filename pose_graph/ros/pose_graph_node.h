@@ -38,21 +38,19 @@
 
 namespace plm_vins {
 
-// Loop closure under ROS, as a node or in a nodelet: the keyframes of an estimator, ours or that of
-// VINS-Mono, and the images in; tf map -> world, ~odometry, ~path, ~graph and ~match_image out.
-// Keyframes are put together in the thread that receives their messages; a thread of its own looks
-// for loops and optimises. No callback waits for it, but those of the services and of displays that
-// begin to listen: where it cannot keep up, the oldest keyframes go. ~image_transport: as of
-// ImageSubscription.
-//
-// A new world of odometry begins where it says so (restart), and where its messages begin to come
-// from another process: from an estimator that was started again, or a recording played again.
-//
-// Services: ~save_map and ~load_map, to and from the file that the configuration names (parameter
+// Loop closure under ROS, as a node or nodelet. Subscribes to the images and to the keyframes of an
+// estimator (that of this package or VINS-Mono). Publishes tf map -> world, ~odometry, ~path,
+// ~graph and ~match_image. The receiving thread assembles keyframes; a worker thread searches for
+// loops and optimizes. Only the callbacks of services and of new subscribers wait for the worker.
+// If it cannot keep up, the oldest keyframes are dropped. For ~image_transport see
+// ImageSubscription.||A new odometry world begins when odometry announces it (restart), and when
+// its messages come from another process: the estimator was restarted, or a recording is
+// replayed.||Services: ~save_map and ~load_map use the file named in the configuration (or
+// parameter ~map_file); ~reset starts an empty map.
 // ~map_file: another one); ~reset starts an empty map.
 class PoseGraphNode {
  public:
-  // Throws std::runtime_error where a previous map is asked for and cannot be read.
+  // Throws std::runtime_error if the configured previous map cannot be read.
   PoseGraphNode(const Config& config, const ros::NodeHandle& node,
                 const ros::NodeHandle& private_node);
   ~PoseGraphNode();
@@ -65,7 +63,7 @@ class PoseGraphNode {
 
   struct WaitingKeyframe {
     OdometryFrame frame;
-    int world = 0;  // of its pose
+    int world = 0;  // odometry world of its pose
   };
 
   void AdvertiseMap();
@@ -79,14 +77,14 @@ class PoseGraphNode {
   void PassOnInMap(const OdometryEvent& event);
   void PublishInMap(const nav_msgs::Odometry& odometry, const MapFix& fix);
 
-  // With input_mutex_ held.
+  // These are called with input_mutex_ held.
   void AddImage(const std::optional<ImageSample>& image);
   void AddCamera(const sensor_msgs::CameraInfo& message);
   void AddExtrinsics(const nav_msgs::Odometry& message);
   void AddPose(const OdometryEvent& event);
   void AddPoints(const sensor_msgs::PointCloud& message);
   void AddLines(const sensor_msgs::PointCloud& message);
-  // Returns what to pass it on with, where its place in the map is known.
+  // Returns the fix to publish the pose with, or nullopt if the pose in the map is unknown.
   std::optional<MapFix> AddOdometry(const OdometryEvent& event);
   void Restart(const std_msgs::Bool& message);
   void NoteNewWorld(const std::string& reason);
@@ -94,7 +92,7 @@ class PoseGraphNode {
   void PassOn();
   DropCounts Drops() const;
 
-  // In the thread of the services and timers.
+  // These run in the thread of the services and timers.
   bool SaveMapFile(Trigger::Request& request, Trigger::Response& response);
   bool LoadMapFile(Trigger::Request& request, Trigger::Response& response);
   bool Reset(Trigger::Request& request, Trigger::Response& response);
@@ -102,7 +100,7 @@ class PoseGraphNode {
   void ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status);
   void ReportState(diagnostic_updater::DiagnosticStatusWrapper* status);
 
-  // In the worker thread; where a map begins, in that of the services.
+  // These run in the worker thread, or in that of the services when a map is loaded.
   void Work();
   void AddToMap(WaitingKeyframe* keyframe);
   void UpdateStatus(const LoopClosure& closure, int world, double milliseconds);
@@ -115,7 +113,7 @@ class PoseGraphNode {
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   InPlaceQueue in_place_;
-  ros::NodeHandle receiver_;  // its callbacks run in place
+  ros::NodeHandle receiver_;  // its callbacks run in the receiving thread
   const Config config_;
   const std::shared_ptr<const CameraModel> camera_;
   const std::string map_file_;
@@ -123,7 +121,7 @@ class PoseGraphNode {
   StreamMonitor keyframe_stream_{"keyframes"};
   StreamMonitor odometry_stream_{"odometry"};
 
-  std::mutex input_mutex_;  // never held for long; before the others, where two are held
+  std::mutex input_mutex_;  // held briefly only; lock order: before the other mutexes
   KeyframeInput input_;
   PublisherWatch estimator_{kWatchedTopics};
   int64_t keyframes_too_late_ = 0;
@@ -132,22 +130,22 @@ class PoseGraphNode {
   ErrorCounter errors_;
   BoundedQueue<WaitingKeyframe> queue_;
 
-  std::mutex loops_mutex_;  // held while a keyframe is worked on
+  std::mutex loops_mutex_;  // held while a keyframe is processed
   std::unique_ptr<LoopCloser> loops_;
-  int map_world_ = 0;           // of its newest keyframe; older ones are of the map before
-  KeyframeImages images_;       // of its keyframes
-  bool shows_matches_ = false;  // somebody has asked for them
+  int map_world_ = 0;      // world of the newest keyframe; older worlds belong to the previous map
+  KeyframeImages images_;  // images of the map's keyframes
+  bool shows_matches_ = false;  // ~match_image has been subscribed to
 
-  // What is needed at once, whatever is worked on.
+  // Data that must be available without waiting for the worker.
   struct Status {
     std::optional<MapFix> fix;
     int keyframes = 0;
     LoopTally loops;
-    double keyframe_ms = 0;  // of the last keyframe
+    double keyframe_ms = 0;  // processing time of the last keyframe
   };
-  std::mutex status_mutex_;  // never held for long
+  std::mutex status_mutex_;  // held briefly only
   Status status_;
-  int world_ = 0;  // that odometry is in now, changed with input_mutex_ held, too
+  int world_ = 0;  // current odometry world; changed with input_mutex_ held as well
 
   ros::Publisher odometry_publisher_;
   ros::Publisher path_publisher_;
@@ -157,7 +155,7 @@ class PoseGraphNode {
   diagnostic_updater::Updater diagnostics_;
   std::thread worker_;
 
-  // Last, so that no callback comes any more while the rest ends.
+  // Declared last, so that they are destroyed first and no callback runs during destruction.
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Subscriber> subscribers_;
   ImageSubscription image_subscription_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loop closure as the nodelet plm_vins/PoseGraph, which does nothing where the configuration has it
-// switched off.
+// Loop closure as the nodelet plm_vins/PoseGraph. It is idle if loop closure is disabled in the
+// configuration.
 #include <pluginlib/class_list_macros.hpp>
 
 #include "common/ros/nodelet_of.h"

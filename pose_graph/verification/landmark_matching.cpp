@@ -16,7 +16,7 @@ int Distance(const Descriptor& descriptor, const DescribedLandmark& landmark) {
   return distance;
 }
 
-// The nearest of several, and how near the next one comes.
+// The nearest candidate and the distance of the second nearest, for the ratio test.
 struct Nearest {
   size_t index = 0;
   int distance = kFar;
@@ -33,7 +33,7 @@ struct Nearest {
   }
 };
 
-// Of each corner the nearest landmark, and the other way round.
+// Nearest landmark of each corner, and nearest corner of each landmark.
 class NearestTable {
  public:
   NearestTable(size_t corners, size_t landmarks) : of_corner_(corners), of_landmark_(landmarks) {}

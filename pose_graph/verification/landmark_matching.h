@@ -9,15 +9,15 @@
 
 namespace plm_vins {
 
-// A point in space with what it looked like in several images.
+// A landmark with its descriptors from several images.
 struct DescribedLandmark {
   Eigen::Vector3d p_O = Eigen::Vector3d::Zero();  // [m]
   std::vector<Descriptor> descriptors;
   int64_t track = -1;
 };
 
-// The landmarks of keyframes of one world but those of the tracks `without`, which are sorted. Each
-// once, in order of the tracks: the place is that of its newest keyframe.
+// Returns the landmarks of keyframes of one world, except those of the tracks `without` (sorted).
+// Each landmark appears once, in track order, with the position of its newest keyframe.
 std::vector<DescribedLandmark> MergeLandmarks(const std::vector<const Keyframe*>& island,
                                               const std::vector<int64_t>& without = {});
 
@@ -28,8 +28,8 @@ struct MatchingOptions {
       : search_radius(kSearchRadius_px / focal_length) {}
 
   int max_distance = 72;   // [bits]
-  double max_ratio = 0.9;  // of the distances of the best and the second best landmark
-  double search_radius;    // around where a landmark should be seen (normalised)
+  double max_ratio = 0.9;  // distance ratio of the best and second best landmark
+  double search_radius;    // around the predicted image of a landmark (normalized)
 };
 
 struct LandmarkMatch {
@@ -37,13 +37,14 @@ struct LandmarkMatch {
   size_t landmark = 0;
 };
 
-// Pairs of corner and landmark that are each other's nearest, clearly so for the corner.
+// Returns mutually nearest pairs of corner and landmark that pass the ratio test for the corner.
 std::vector<LandmarkMatch> MatchLandmarks(const MatchingOptions& options,
                                           const std::vector<DescribedCorner>& corners,
                                           const std::vector<DescribedLandmark>& landmarks);
 
-// The same where a pose is known already: each landmark among the corners around its image, but
-// those far from it, too, so that the pose can still turn out to be wrong. `R_G_C` is level.
+// Matches with a known pose: each landmark against the corners around its predicted image. Matches
+// far from the prediction are included, so that a wrong pose is recognized by its few inliers.
+// `R_G_C` has a level frame G.
 std::vector<LandmarkMatch> MatchAroundImages(const MatchingOptions& options,
                                              const std::vector<DescribedCorner>& corners,
                                              const std::vector<DescribedLandmark>& landmarks,

@@ -8,10 +8,10 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMinInliers = 3;  // two agree always
+constexpr size_t kMinInliers = 3;  // two observations always agree
 constexpr uint32_t kSeed = 1;
 
-// Samples needed to meet one of inliers alone.
+// Number of samples needed to draw one of inliers only, with this confidence.
 int IterationsFor(double inlier_share, double confidence) {
   const double hit = inlier_share * inlier_share;
   if (hit >= 1) return 1;
@@ -42,8 +42,8 @@ std::vector<LevelTransform> SolveTwoPoints(const Eigen::Vector3d& ray1_G,
                                            const Eigen::Vector3d& p1_O,
                                            const Eigen::Vector3d& ray2_G,
                                            const Eigen::Vector3d& p2_O) {
-  // p1_O - p2_O = Rz(yaw) (l1 ray1_G - l2 ray2_G). Heights leave a line of lengths (l1, l2) =
-  // nearest + s along.
+  // p1_O - p2_O = Rz(yaw) (l1 ray1_G - l2 ray2_G). The z components restrict the ray lengths (l1,
+  // l2) to a line: nearest + s along.
   const Eigen::Vector3d difference = p1_O - p2_O;
   const Eigen::Vector2d heights(ray1_G.z(), -ray2_G.z());
   if (heights.squaredNorm() < 1e-12) return {};
@@ -80,7 +80,7 @@ std::optional<LevelPose> FindLevelPose(const LevelPoseRansacOptions& options,
   if (sightings.size() < 2) return std::nullopt;
   std::mt19937 random(kSeed);
   LevelTransform best;
-  size_t most = 0;  // inliers
+  size_t most = 0;  // inlier count
   int iterations = options.max_iterations;
   for (int i = 0; i < iterations; ++i) {
     const SeenPoint& first = sightings[random() % sightings.size()];

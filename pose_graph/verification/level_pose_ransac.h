@@ -10,9 +10,10 @@
 
 namespace plm_vins {
 
-// The poses from which two points are seen along two rays, where gravity is known: up to two
-// T_O_G, G having the camera's place and z up. `ray_G` have any length. [Kukelova2010] by other
-// means: the rays' lengths from one linear equation (heights) and one quadratic (distance).
+// Computes the camera poses from two points and their rays with known gravity: up to two solutions
+// T_O_G, where G has the camera's position and z up. `ray_G` may have any length. This solves the
+// problem of [Kukelova2010] differently: the ray lengths follow from a linear equation (heights)
+// and a quadratic one (distance).
 std::vector<LevelTransform> SolveTwoPoints(const Eigen::Vector3d& ray1_G,
                                            const Eigen::Vector3d& p1_O,
                                            const Eigen::Vector3d& ray2_G,
@@ -24,7 +25,7 @@ struct LevelPoseRansacOptions {
   explicit LevelPoseRansacOptions(double focal_length)  // [px]
       : max_error(kMaxError_px / focal_length) {}
 
-  double max_error;  // of an inlier (normalised)
+  double max_error;  // reprojection error of an inlier (normalized)
   int max_iterations = 400;
   double confidence = 0.999;
 };
@@ -34,8 +35,8 @@ struct LevelPose {
   std::vector<size_t> inliers;
 };
 
-// The pose that most sightings agree on. Nothing from fewer than two, or where none agree. The
-// same input gives the same result.
+// Returns the pose with the most inliers, or nullopt if there are fewer than two observations or no
+// consensus. Deterministic.
 std::optional<LevelPose> FindLevelPose(const LevelPoseRansacOptions& options,
                                        const std::vector<SeenPoint>& sightings,
                                        const Eigen::Quaterniond& R_G_C);

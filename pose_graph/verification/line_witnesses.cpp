@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMinDepth = 0.1;  // [m]
 
-// A line's image between its two ends (normalised).
+// Image of a line segment (normalized).
 struct Stretch {
   Eigen::Vector2d start;
   Eigen::Vector2d direction;  // unit
@@ -29,7 +29,8 @@ std::optional<Stretch> MakeStretch(const Eigen::Vector2d& start, const Eigen::Ve
   return Stretch{start, (end - start) / length, length};
 }
 
-// Nothing where the line is not in view: both its ends in front and its middle in the image.
+// Returns nullopt if the line is not in view: both ends must be in front of the camera and the
+// midpoint inside the image.
 std::optional<Stretch> Project(const CameraModel& camera, const Rigid3d& T_C_O,
                                const SpaceSegment& line) {
   const Eigen::Vector3d start_C = T_C_O * line.start_O;

@@ -14,12 +14,12 @@ struct LineWitnessOptions {
   explicit LineWitnessOptions(double focal_length)  // [px]
       : max_distance(kMaxDistance_px / focal_length) {}
 
-  double max_angle = 5 * M_PI / 180;  // between a line's image and a segment [rad]
-  double max_distance;                // of the segment's ends from it (normalised)
-  double min_overlap = 0.3;           // of the two, share of the shorter
+  double max_angle = 5 * M_PI / 180;  // between the projected line and a segment [rad]
+  double max_distance;       // of the segment's endpoints from the projected line (normalized)
+  double min_overlap = 0.3;  // overlap relative to the shorter of the two
 };
 
-// Lines of an earlier visit that would be in view from a camera, and those that are seen there.
+// Lines of an earlier visit that should be visible, and those found in the image.
 struct LineWitnesses {
   int visible = 0;
   std::vector<SeenSegment> seen;
@@ -27,7 +27,7 @@ struct LineWitnesses {
   double share() const { return visible > 0 ? static_cast<double>(seen.size()) / visible : 0.0; }
 };
 
-// `lines_O` as seen by a camera at `T_O_C` with these `segments`.
+// Projects `lines_O` into a camera at `T_O_C` and compares them with the detected `segments`.
 LineWitnesses FindWitnesses(const LineWitnessOptions& options, const CameraModel& camera,
                             const Rigid3d& T_O_C, const std::vector<SpaceSegment>& lines_O,
                             const std::vector<TrackedSegment>& segments);

@@ -9,7 +9,7 @@
 namespace plm_vins {
 namespace {
 
-// Where the world of the later keyframe's odometry is in the map, as the loop says.
+// Returns T_M_O of the later keyframe's odometry world as measured by the loop.
 LevelTransform MapFromOdometry(const std::vector<Keyframe>& keyframes, const PoseGraph& graph,
                                const LoopCandidate& loop) {
   return graph.node(loop.earlier) * loop.T_earlier_later * keyframes[loop.later].T_O_L().Inverse();

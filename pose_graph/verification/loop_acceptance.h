@@ -12,23 +12,23 @@ namespace plm_vins {
 
 struct LoopAcceptanceOptions {
   DriftBudget drift = {0.05, 0.02, 0.5 * M_PI / 180, 0.05 * M_PI / 180};
-  double max_deviations = 2 * kThreeSigmaOf4Dof;  // that two loops which agree may ask for
-  double max_wait = 10;                           // for a loop that agrees [s]
+  double max_deviations = 2 * kThreeSigmaOf4Dof;  // of two loops that agree
+  double max_wait = 10;                           // time to wait for an agreeing loop [s]
 };
 
-// Decides on loops that are right as far as the images show: against odometry, and against each
-// other where they ask for much. Two loops agree where they say the same of where the odometry's
-// world is in the map.
+// Decides on loops that passed the image-based gates: checks them against odometry, and against
+// each other if they request a large correction. Two loops agree if they imply the same T_M_O of
+// the odometry's world.
 class LoopAcceptance {
  public:
   explicit LoopAcceptance(const LoopAcceptanceOptions& options) : options_(options) {}
 
-  // Takes the candidate through the gates kOdometry and kAgreement. Returns the loops that waited
-  // for it and are to be believed with it: one or none.
+  // Passes the candidate through the gates kOdometry and kAgreement. Returns the waiting loops, at
+  // most one, that are accepted together with it.
   std::vector<LoopCandidate> Judge(const std::vector<Keyframe>& keyframes, const PoseGraph& graph,
                                    LoopCandidate* candidate);
 
-  // Drops loops that wait and lead to this keyframe, which leaves the map.
+  // Drops the waiting loops of a keyframe that is removed from the map.
   void Forget(int keyframe) { ForgetLoopsOf(keyframe, &waiting_); }
 
  private:

@@ -10,36 +10,36 @@
 
 namespace plm_vins {
 
-// What a loop must pass, in this order; but kRefinement already after kPose as well, and again
+// Gates that a loop passes, in this order; kRefinement runs additionally after kPose, and again
 // with the lines.
 enum class LoopGate {
-  kScore,       // the images look alike
-  kRepeated,    // an image before led to the same place
-  kApart,       // few tracks are seen in both: it is another visit
-  kMatches,     // corners have a like among the landmarks
-  kPose,        // there is a pose from which some of them are seen
+  kScore,       // the images are similar
+  kRepeated,    // a preceding image led to the same place
+  kApart,       // few common tracks: the keyframe belongs to another visit
+  kMatches,     // enough corners match landmarks
+  kPose,        // RANSAC finds a pose with enough inliers
   kManhattan,   // the Manhattan frames agree on the heading
-  kInliers,     // looked for around their images, enough landmarks are just there
-  kSpread,      // they lie all over the image
-  kBackwards,   // the earlier image sees the later landmarks, too
-  kRefinement,  // the pose can be refined
-  kLines,       // lines in view are there
+  kInliers,     // a guided search finds enough landmarks at their predicted pixels
+  kSpread,      // the inliers are distributed over the image
+  kBackwards,   // the earlier image observes the later landmarks as well
+  kRefinement,  // the pose refinement succeeds
+  kLines,       // enough predicted lines are found
   kOdometry,    // odometry does not contradict
-  kAgreement,   // a large correction is asked for by two loops
-  kGraph,       // the optimised graph does not contradict
+  kAgreement,   // a second loop confirms a large correction
+  kGraph,       // the optimized graph does not contradict
 };
 constexpr int kLoopGates = static_cast<int>(LoopGate::kGraph) + 1;
 
 const char* ToString(LoopGate gate);
 
-// A pair of keyframes that may show one place, with what each gate said. Values of gates that were
-// not reached are empty.
+// A pair of keyframes that may show the same place, with the values of all gates. Values of gates
+// that were not reached are nullopt.
 struct LoopCandidate {
-  int earlier = -1;  // keyframes by number
+  int earlier = -1;  // keyframe numbers
   int later = -1;
   int64_t earlier_ns = 0;
   int64_t later_ns = 0;
-  std::optional<LoopGate> failed;  // the gate that refused it; empty: accepted
+  std::optional<LoopGate> failed;  // gate that rejected it; nullopt if accepted
 
   double score_share = 0;
   bool repeated = false;
@@ -49,7 +49,7 @@ struct LoopCandidate {
   std::optional<int> inliers;
   std::optional<double> inlier_share;
   std::optional<double> manhattan_error;  // [rad]
-  std::optional<int> cells;               // of the image with inliers
+  std::optional<int> cells;               // image cells with inliers
   std::optional<int> backward_inliers;
   std::optional<double> backward_share;
   std::optional<int> visible_lines;
@@ -57,15 +57,16 @@ struct LoopCandidate {
   std::optional<double> odometry_error;  // [standard deviations]
   std::optional<double> graph_error;     // [standard deviations]
 
-  // Where the later keyframe is, with the axes of the earlier one's world O: T_L_L of the two.
+  // Pose of the later keyframe relative to the earlier one, with the axes of the earlier one's
+  // world O: T_L_L of the two.
   LevelTransform T_earlier_later;
   Matrix4d covariance = Matrix4d::Zero();
 };
 
-// Takes out those that begin or end at the keyframe.
+// Removes the loops that begin or end at the keyframe.
 void ForgetLoopsOf(int keyframe, std::vector<LoopCandidate>* loops);
 
-// The loop as the graph takes it.
+// Converts the loop to an edge of the pose graph.
 inline LevelEdge EdgeOf(const LoopCandidate& loop) {
   return {loop.earlier, loop.later, loop.T_earlier_later, loop.covariance, /*is_loop=*/true};
 }

@@ -15,8 +15,8 @@ constexpr double kRobustWidth = 2.0;  // [standard deviations]
 using PlaceVector = Eigen::Matrix<double, kPlaceSize, 1>;
 using PlaceMatrix = Eigen::Matrix<double, kPlaceSize, kPlaceSize>;
 
-// Of a landmark's image. `ray_C` leads to it from where it was seen before: along the image of that
-// ray its depth is in error, the more the farther apart both places are.
+// Whitening of a landmark's reprojection error. `ray_C` is its ray from the host camera: the depth
+// error shifts the projection along the image of this ray, in proportion to the baseline.
 Eigen::Matrix2d WhiteningOf(const LoopRefinementOptions& options, const Eigen::Vector3d& p_C,
                             const Eigen::Vector3d& ray_C) {
   Eigen::Matrix2d covariance =
@@ -28,7 +28,7 @@ Eigen::Matrix2d WhiteningOf(const LoopRefinementOptions& options, const Eigen::V
   return covariance.llt().matrixL().solve(Eigen::Matrix2d::Identity());
 }
 
-// Both visits' landmarks with their noise as it is at `place`.
+// Adds the observations of both visits, with covariances linearized at `place`.
 void AddCosts(const LoopRefinementOptions& options, const LoopSightings& sightings, double* place,
               ceres::Problem* problem) {
   const Rigid3d& T_O1_C = sightings.T_O1_C;
@@ -56,11 +56,11 @@ void AddCosts(const LoopRefinementOptions& options, const LoopSightings& sightin
   add(TiltCost{1 / options.tilt});
 }
 
-// The inverse of J^T J at the solution, of place and yaw; nothing where it has none.
+// Covariance of position and yaw at the solution, (J^T J)^-1; nullopt if it is rank deficient.
 std::optional<Matrix4d> CovarianceAt(ceres::Problem* problem) {
   ceres::CRSMatrix sparse;
   problem->Evaluate(ceres::Problem::EvaluateOptions(), nullptr, nullptr, nullptr, &sparse);
-  // One block of variables: every row is full.
+  // There is a single parameter block, so every row is dense.
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, kPlaceSize, Eigen::RowMajor>;
   const Eigen::Map<const RowMajor> J(sparse.values.data(), sparse.num_rows, kPlaceSize);
   const PlaceMatrix H = J.transpose() * J;

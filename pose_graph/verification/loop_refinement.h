@@ -16,23 +16,22 @@ struct LoopRefinementOptions {
   explicit LoopRefinementOptions(double focal_length)  // [px]
       : point_noise(kPointNoise_px / focal_length), line_noise(kLineNoise_px / focal_length) {}
 
-  double point_noise;              // (normalised) of a corner that another patch of the place gave
-  double depth_noise = 0.05;       // of a landmark along its ray, share of its distance
-  double line_noise;               // (normalised) of an end across the line
-  double tilt = 0.2 * M_PI / 180;  // by which roll and pitch of one visit err against the other's
-  // Of the result, on top of what the sightings say: what landmarks have wrong in common.
+  double point_noise;              // of a corner matched across visits (normalized)
+  double depth_noise = 0.05;       // of a landmark along its ray, relative to its distance
+  double line_noise;               // of an endpoint perpendicular to the line (normalized)
+  double tilt = 0.2 * M_PI / 180;  // standard deviation of roll and pitch between the visits
+  // Standard deviations added to those of the result, for errors that all landmarks have in common.
   double floor_position = 0.02;          // [m]
   double floor_yaw = 0.06 * M_PI / 180;  // [rad]
 };
 
 struct RefinedLoop {
   LevelTransform T_O1_O2;
-  Matrix4d covariance;  // of the later visit's place and heading, with the axes of O1, as LevelEdge
-                        // has it
+  Matrix4d covariance;  // of the later visit's position and heading, as in LevelEdge
 };
 
-// The transform that fits all sightings best, from `start`; robust against some that are wrong.
-// Nothing where the solver fails.
+// Minimizes the robust residuals of all observations from `start`. Returns nullopt if the solver
+// fails.
 std::optional<RefinedLoop> RefineLoop(const LoopRefinementOptions& options,
                                       const LoopSightings& sightings, const LevelTransform& start);
 

@@ -10,20 +10,20 @@
 
 namespace plm_vins {
 
-// A line in space and where it is seen.
+// A 3-D line segment and its observation in an image.
 struct SeenSegment {
   SpaceSegment line;
   LineObservation segment;
 };
 
-// What ties two visits of a place together. O1: the odometry's world of the earlier one, O2: that
-// of the later one.
+// Observations that connect two visits of a place. O1 is the odometry world of the earlier visit,
+// O2 that of the later one.
 struct LoopSightings {
-  Rigid3d T_O1_C;                     // the camera of the earlier visit
-  Rigid3d T_O2_C;                     // that of the later visit
-  std::vector<SeenPoint> of_earlier;  // landmarks in O1, seen by the later camera
-  std::vector<SeenPoint> of_later;    // landmarks in O2, seen by the earlier camera
-  std::vector<SeenSegment> lines;     // in O1, seen by the later camera
+  Rigid3d T_O1_C;                     // camera pose of the earlier visit
+  Rigid3d T_O2_C;                     // camera pose of the later visit
+  std::vector<SeenPoint> of_earlier;  // landmarks in O1, observed by the later camera
+  std::vector<SeenPoint> of_later;    // landmarks in O2, observed by the earlier camera
+  std::vector<SeenSegment> lines;     // in O1, observed by the later camera
 };
 
 }  // namespace plm_vins

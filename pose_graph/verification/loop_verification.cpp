@@ -17,7 +17,7 @@ namespace {
 constexpr int kCellColumns = 4;
 constexpr int kCellRows = 3;
 
-// Sorted.
+// Returns the tracks observed in the island, sorted.
 std::vector<int64_t> TracksOf(const Island& island) {
   std::vector<int64_t> tracks;
   for (const Keyframe* keyframe : island.all) {
@@ -30,7 +30,7 @@ std::vector<int64_t> TracksOf(const Island& island) {
   return tracks;
 }
 
-// The tracks that are seen in both, sorted.
+// Returns the tracks observed in both islands, sorted.
 std::vector<int64_t> CommonTracks(const Island& earlier, const Island& later) {
   std::vector<int64_t> common;
   if (earlier.keyframe->world != later.keyframe->world) return common;
@@ -40,7 +40,7 @@ std::vector<int64_t> CommonTracks(const Island& earlier, const Island& later) {
   return common;
 }
 
-// The lines of an island, each once, as its newest keyframe has them.
+// Returns the lines of an island without duplicates, each from its newest keyframe.
 std::vector<SpaceSegment> LinesOf(const Island& island) {
   std::map<int64_t, SpaceSegment> by_track;
   for (const Keyframe* keyframe : island.all) {
@@ -60,7 +60,8 @@ SeenPoint ToSeenPoint(const LandmarkMatch& match, const std::vector<DescribedCor
   return {landmark.p_O, corners[match.corner].xy.cast<double>(), landmark.track};
 }
 
-// Landmarks looked for around their images, and the corners that are where they should be.
+// Result of the guided search around predicted pixels: the number of matches and the inliers among
+// them.
 struct Search {
   size_t matches = 0;
   std::vector<SeenPoint> inliers;
@@ -100,9 +101,10 @@ int CountCells(const std::vector<Eigen::Vector2f>& corners_px, const CameraParam
 
 }  // namespace
 
-// What is known of a candidate on its way through the gates. O1 and O2 as in LoopSightings.
+// Intermediate results of a candidate between the gates. O1 and O2 are those of LoopSightings.
 struct LoopVerification::Evidence {
-  // Sorted. They say nothing about another visit: odometry has followed them.
+  // Sorted. These tracks are no evidence for another visit, since odometry has tracked them
+  // throughout.
   std::vector<int64_t> common_tracks;
   std::vector<DescribedLandmark> landmarks_O1;
   LevelTransform T_O1_O2;
@@ -168,7 +170,8 @@ bool LoopVerification::ManhattanAgrees(const Keyframe& earlier, const Keyframe& 
   if (!earlier.R_O_Manhattan || !later.R_O_Manhattan) return true;
   const double turn_in_O =
       std::remainder(Yaw(*later.R_O_Manhattan) - Yaw(*earlier.R_O_Manhattan), M_PI / 2);
-  // A scene may have several frames. Where odometry itself sees two, they say nothing here.
+  // A scene may have several Manhattan frames. If odometry itself found two, they do not constrain
+  // the loop.
   const bool are_two = std::abs(turn_in_O) > options_.max_manhattan_error;
   if (earlier.world == later.world && are_two) return true;
   candidate->manhattan_error = std::remainder(evidence.T_O1_O2.yaw + turn_in_O, M_PI / 2);
@@ -218,7 +221,7 @@ bool LoopVerification::Refine(LoopCandidate* candidate, Evidence* evidence) cons
   return true;
 }
 
-// Lines take part in the pose once the points have found it.
+// Lines refine the pose after the points have determined it.
 bool LoopVerification::LinesAgree(const Island& earlier, const Keyframe& later,
                                   LoopCandidate* candidate, Evidence* evidence) const {
   candidate->failed = LoopGate::kLines;

@@ -25,43 +25,42 @@ struct LoopVerificationOptions {
   LevelPoseRansacOptions ransac;
   LoopRefinementOptions refinement;
   LineWitnessOptions witnesses;
-  int max_common_tracks = 40;  // more, and it is the same visit
+  int max_common_tracks = 40;  // more mean that it is the same visit
   int min_matches = 15;
-  int min_pose_inliers = 8;  // of them, for a pose that is looked into
-  int min_inliers = 12;      // of the later image
+  int min_pose_inliers = 8;  // of the matches
+  int min_inliers = 12;      // in the later image
   double min_inlier_share = 0.3;
   double max_manhattan_error = 3 * M_PI / 180;  // [rad]
-  int min_cells = 4;                            // of 4 x 3, with inliers
+  int min_cells = 4;                            // cells of the 4 x 3 grid with inliers
   int min_backward_inliers = 8;
   double min_backward_share = 0.15;
-  int min_inliers_of_both = 28;  // of both images together
-  int min_visible_lines = 5;     // fewer say nothing
+  int min_inliers_of_both = 28;  // sum over both images
+  int min_visible_lines = 5;     // fewer are not tested
   double min_line_share = 0.15;
 };
 
-// A keyframe and its neighbours in time, whose landmarks it knows as well. The keyframe is one of
-// the island.
+// A keyframe (an element of `all`) and its temporal neighbours, whose landmarks supplement its own.
 struct Island {
   const Keyframe* keyframe = nullptr;
   std::vector<const Keyframe*> all;
 };
 
-// Whether two keyframes show one place, by all that can be seen in them alone.
+// Decides from images and landmarks alone whether two keyframes show the same place.
 class LoopVerification {
  public:
   LoopVerification(const LoopVerificationOptions& options,
                    std::shared_ptr<const CameraModel> camera);
 
-  // Takes the candidate through the gates from kApart to kLines. Fills in the gates' values, the
-  // one that refused it and, where none did, the transform with its covariance. Returns the
-  // sightings that agree, as far as the gates were reached.
+  // Passes the candidate through the gates from kApart to kLines. Sets the gates' values, the gate
+  // that rejected it, or else the relative pose with covariance. Returns the consistent
+  // observations, as far as the gates were reached.
   LoopSightings Verify(const Island& earlier, const Island& later, LoopCandidate* candidate) const;
 
  private:
   struct Evidence;
 
-  // Whether a gate, or several, let the candidate pass. Each names itself in `failed` before it
-  // looks; the last one clears that.
+  // Each function returns whether the candidate passes at least one gate. Each gate sets `failed`
+  // to itself before it is tested; the last one clears it.
   bool AreApart(const Island& earlier, const Island& later, LoopCandidate* candidate,
                 Evidence* evidence) const;
   bool FindPose(const Island& earlier, const Keyframe& later, LoopCandidate* candidate,

@@ -11,20 +11,20 @@
 
 namespace plm_vins {
 
-// A point in space and where it is seen.
+// A landmark and its observation in an image.
 struct SeenPoint {
   Eigen::Vector3d p_O = Eigen::Vector3d::Zero();  // [m]
-  Eigen::Vector2d xy = Eigen::Vector2d::Zero();   // normalised
-  int64_t track = -1;                             // of the landmark, in its world
+  Eigen::Vector2d xy = Eigen::Vector2d::Zero();   // normalized
+  int64_t track = -1;                             // landmark's track number in its world
 };
 
-// A pose that points are seen from, turned round once for many of them. `R_G_C` is level.
+// A camera pose, inverted once for many reprojection errors. `R_G_C` has a level frame G.
 class Viewpoint {
  public:
   Viewpoint(const LevelTransform& T_O_G, const Eigen::Quaterniond& R_G_C)
       : T_G_O_(T_O_G.Inverse().ToRigid()), R_C_G_(R_G_C.conjugate()) {}
 
-  // Error of a sighting (normalised); infinite behind the camera.
+  // Reprojection error (normalized); infinite behind the camera.
   double Error(const SeenPoint& sighting) const {
     const Eigen::Vector3d p_C = R_C_G_ * (T_G_O_ * sighting.p_O);
     if (p_C.z() <= 0) return std::numeric_limits<double>::infinity();

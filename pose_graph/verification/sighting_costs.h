@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What sightings say about where the camera of a later visit is: residuals for Ceres, whitened. O1
-// and O2 as in LoopSightings.
+// Whitened residuals for Ceres that estimate the pose of a later visit's camera. O1 and O2 are
+// those of LoopSightings.
 #pragma once
 
 #include <ceres/rotation.h>
@@ -12,10 +12,9 @@
 
 namespace plm_vins {
 
-// The variables: the place of the later camera in O1, the yaw of T_O1_O2, and a turn of O2 about
-// its level axes, since odometry's roll and pitch are in error at one visit other than at the
-// other. (That camera's place and the yaw hardly correlate, other than the yaw and the translation
-// of T_O1_O2, which is that of a far origin.)
+// Parameters: position of the later camera in O1, yaw of T_O1_O2, and a tilt of O2 about its level
+// axes, since the roll and pitch errors of odometry differ between the visits. (The camera's
+// position hardly correlates with the yaw, unlike the translation of T_O1_O2, whose origin is far.)
 constexpr int kPlaceSize = 6;
 
 constexpr double kMinDepth = 1e-3;  // [m]
@@ -30,7 +29,7 @@ Eigen::Matrix<T, 3, 3> RotationFromO2(const T* place) {
   return about_z * about_level;
 }
 
-// A point of O1 in the later camera.
+// Transforms a point from O1 to the later camera.
 template <typename T>
 Eigen::Matrix<T, 3, 1> ToLaterCamera(const T* place, const Eigen::Vector3d& p_O1,
                                      const Rigid3d& T_O2_C) {
@@ -39,7 +38,7 @@ Eigen::Matrix<T, 3, 1> ToLaterCamera(const T* place, const Eigen::Vector3d& p_O1
   return T_O2_C.R().transpose().cast<T>() * (RotationFromO2(place).transpose() * offset);
 }
 
-// A point of O2 in the earlier camera.
+// Transforms a point from O2 to the earlier camera.
 template <typename T>
 Eigen::Matrix<T, 3, 1> ToEarlierCamera(const T* place, const Eigen::Vector3d& p_O2,
                                        const Rigid3d& T_O2_C, const Rigid3d& T_O1_C) {
@@ -58,7 +57,7 @@ bool ReprojectionError(const Eigen::Matrix<T, 3, 1>& p_C, const Eigen::Vector2d&
   return true;
 }
 
-// A landmark of the earlier visit in the later image.
+// Reprojection error of an earlier visit's landmark in the later image.
 struct EarlierLandmarkCost {
   template <typename T>
   bool operator()(const T* place, T* residual) const {
@@ -70,20 +69,20 @@ struct EarlierLandmarkCost {
   Eigen::Matrix2d whitening;
 };
 
-// A landmark of the later visit in the earlier image.
+// Reprojection error of a later visit's landmark in the earlier image.
 struct LaterLandmarkCost {
   template <typename T>
   bool operator()(const T* place, T* residual) const {
     return ReprojectionError<T>(ToEarlierCamera(place, sighting.p_O, T_O2_C, T_O1_C), sighting.xy,
                                 whitening, residual);
   }
-  SeenPoint sighting;  // its point is one of O2
+  SeenPoint sighting;  // with its point in O2
   Rigid3d T_O1_C;
   Rigid3d T_O2_C;
   Eigen::Matrix2d whitening;
 };
 
-// Both ends of the segment on the image of the line.
+// Distances of the segment's endpoints from the projected line.
 struct LineCost {
   template <typename T>
   bool operator()(const T* place, T* residual) const {
@@ -104,7 +103,7 @@ struct LineCost {
   double weight;
 };
 
-// What is known of the turn about the level axes before.
+// Prior of the tilt about the level axes.
 struct TiltCost {
   template <typename T>
   bool operator()(const T* place, T* residual) const {

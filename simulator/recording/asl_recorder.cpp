@@ -39,7 +39,7 @@ void AslRecorder::Write(const ImuSample& sample) {
 
 void AslRecorder::Write(const ImageSample& image) {
   const std::string name = std::to_string(image.t_ns) + ".png";
-  // Sensor noise hardly compresses: the fastest level is nearly the smallest.
+  // Sensor noise is hardly compressible, so the fastest level is nearly the smallest.
   if (!cv::imwrite(image_folder_ + name, image.gray, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
     throw std::runtime_error("cannot write " + image_folder_ + name);
   }

@@ -8,8 +8,8 @@
 
 namespace plm_vins::simulator {
 
-// Writes the folders of the EuRoC data set: DIR/mav0/cam0 and imu0. DIR must not contain a
-// recording yet.
+// Writes the folders of the EuRoC dataset: DIR/mav0/cam0 and imu0. DIR must not contain a recording
+// yet.
 class AslRecorder : public Recorder {
  public:
   explicit AslRecorder(const std::string& folder);
@@ -18,7 +18,7 @@ class AslRecorder : public Recorder {
   void Write(const ImageSample& image) override;
   void Finish() override;
 
-  // Where the ground truth of this recording belongs; the folder exists.
+  // Path of the recording's ground truth; the folder exists.
   static std::string GroundTruthFile(const std::string& folder);
 
  private:

@@ -9,7 +9,7 @@
 
 namespace plm_vins::simulator {
 
-// Writes a ROS bag with the topics of the configuration. Throws std::runtime_error where the file
+// Creates a ROS bag with the topics of the configuration. Throws std::runtime_error if the file
 // cannot be written or the program was built without ROS.
 std::unique_ptr<Recorder> MakeBagRecorder(const std::string& file, const SensorConfig& sensors);
 

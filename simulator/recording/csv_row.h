@@ -9,7 +9,7 @@
 
 namespace plm_vins::simulator {
 
-// "stamp,a,b,c\n" with twelve significant digits each.
+// Formats "stamp,a,b,c\n" with twelve significant digits for each value.
 inline std::string CsvRow(int64_t t_ns, std::initializer_list<double> values) {
   std::string row = std::to_string(t_ns);
   for (const double value : values) row += Format(",%.12g", value);

@@ -6,7 +6,7 @@
 namespace plm_vins::simulator {
 namespace {
 
-// Turn-on biases as of a small MEMS unit.
+// Turn-on biases of a small MEMS unit.
 constexpr double kGyroBias = 0.01;   // standard deviation [rad/s]
 constexpr double kAccelBias = 0.05;  // standard deviation [m/s^2]
 
@@ -54,7 +54,7 @@ Flight::Flight(const FlightOptions& options)
 void Flight::Record(const std::vector<Recorder*>& recorders,
                     const std::function<void(int64_t t_ns)>& progress) const {
   const int64_t td_ns = ToNanoseconds(options_.sensors.td);
-  int64_t image_index = 1;  // the first image has IMU samples before it
+  int64_t image_index = 1;  // the first image has preceding IMU samples
   const auto exposure_ns = [&] { return ToNanoseconds(image_index / options_.frame_rate_hz); };
   for (const ImuSample& sample : imu_.samples) {
     for (Recorder* recorder : recorders) recorder->Write(sample);

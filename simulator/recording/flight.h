@@ -21,27 +21,26 @@ struct FlightOptions {
   Motion motion = Motion::kGentle;
   double duration = 60.0;                   // [s]
   SensorConfig sensors = DefaultSensors();  // camera, shutter, T_B_C, td, IMU, gravity
-  ImagingOptions imaging;                   // but its read-out and seed, which are those here
+  ImagingOptions imaging;                   // its readout and seed are overwritten by those here
   double frame_rate_hz = 20.0;
-  int64_t start_ns = 1'600'000'000'000'000'000;  // IMU stamp of the start
+  int64_t start_ns = 1'600'000'000'000'000'000;  // IMU timestamp of the start
   uint64_t seed = 1;
 };
 
-// A flight through a rendered world. Images are stamped in the middle of their exposure (with a
-// rolling shutter that of the middle row), less td;
-// the IMU and the ground truth are on the IMU's clock.
+// A flight through a rendered world. The timestamp of an image is the middle of its exposure (with
+// a rolling shutter, that of the middle row) minus td; IMU and ground truth are in IMU time.
 class Flight {
  public:
   explicit Flight(const FlightOptions& options);
-  Flight(const Flight&) = delete;  // its parts refer to each other
+  Flight(const Flight&) = delete;  // its members refer to each other
   Flight& operator=(const Flight&) = delete;
 
-  // Hands all samples to the recorders in order of time and finishes them; `progress` gets each
-  // image's stamp.
+  // Passes all samples to the recorders in temporal order and finishes them; calls `progress` with
+  // the timestamp of each image.
   void Record(const std::vector<Recorder*>& recorders,
               const std::function<void(int64_t t_ns)>& progress) const;
 
-  // True states at the IMU samples.
+  // True states at the timestamps of the IMU samples.
   std::vector<FrameState> GroundTruth() const;
 
   const ImuSimulation& imu() const { return imu_; }

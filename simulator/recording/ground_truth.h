@@ -8,10 +8,10 @@
 
 namespace plm_vins::simulator {
 
-// "timestamp tx ty tz qx qy qz qw", the stamp in seconds.
+// Writes rows "timestamp tx ty tz qx qy qz qw" with the timestamp in seconds.
 void WriteTum(const std::string& path, const std::vector<FrameState>& states);
 
-// As in EuRoC's state_groundtruth_estimate0/data.csv: pose, velocity and both biases.
+// Writes the format of EuRoC's state_groundtruth_estimate0/data.csv: pose, velocity and biases.
 void WriteEurocCsv(const std::string& path, const std::vector<FrameState>& states);
 
 }  // namespace plm_vins::simulator

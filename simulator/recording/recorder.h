@@ -5,14 +5,14 @@
 
 namespace plm_vins::simulator {
 
-// Takes a recording sample by sample, in order of time. A file that cannot be written throws
-// std::runtime_error naming it, on a full disk in Finish() at the latest.
+// Writes a recording sample by sample in temporal order. Throws std::runtime_error with the name of
+// a file that cannot be written; if the disk is full, in Finish() at the latest.
 class Recorder {
  public:
   virtual ~Recorder() = default;
   virtual void Write(const ImuSample& sample) = 0;
   virtual void Write(const ImageSample& image) = 0;
-  // Nothing is written afterwards.
+  // Flushes all files; must be the last call.
   virtual void Finish() = 0;
 };
 

@@ -33,7 +33,7 @@ cv::Mat CameraSimulator::Expose(double t, uint64_t index) const {
   return Digitize(sum.mul(gain_, 1.0 / steps), index);
 }
 
-// The scene at one instant, with a rolling shutter at one instant per row.
+// Adds the scene at one instant; with a rolling shutter, at one instant for each row.
 void CameraSimulator::Accumulate(double t, int subpixel, cv::Mat1f* sum) const {
   if (options_.readout > 0) {
     const auto T_W_C = [&](int row) {
@@ -46,7 +46,8 @@ void CameraSimulator::Accumulate(double t, int subpixel, cv::Mat1f* sum) const {
   }
 }
 
-// Enough for a step of about a pixel; whole rounds of the subpixels.
+// Number of exposure steps such that the image moves by about a pixel between them; a multiple of
+// the number of subpixels.
 int CameraSimulator::ExposureSteps(double t) const {
   constexpr double kTypicalDistance = 3.0;  // [m]
   constexpr int kMaxRounds = 6;
@@ -76,7 +77,7 @@ cv::Mat CameraSimulator::Digitize(const cv::Mat1f& brightness, uint64_t index) c
   cv::Mat1b image(brightness.size());
   cv::parallel_for_(cv::Range(0, image.rows), [&](const cv::Range& rows) {
     for (int y = rows.start; y < rows.end; ++y) {
-      Random random(options_.seed, index * image.rows + y);  // a row does not depend on its thread
+      Random random(options_.seed, index * image.rows + y);  // rows must not depend on threads
       for (int x = 0; x < image.cols; ++x) {
         const double value = brightness(y, x);
         const double variance = options_.read_noise * options_.read_noise +

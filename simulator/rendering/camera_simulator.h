@@ -13,25 +13,25 @@ namespace plm_vins::simulator {
 
 struct ImagingOptions {
   double exposure = 0.006;    // [s]
-  double readout = 0;         // of a rolling shutter, top to bottom; 0: a global one [s]
+  double readout = 0;         // of a rolling shutter, top to bottom; 0 for a global one [s]
   double full_scale = 0.78;   // brightness that saturates a pixel
-  double lens_blur_px = 0.6;  // standard deviation of a point's image
-  double vignetting = 0.35;   // light lost in the image corners
+  double lens_blur_px = 0.6;  // standard deviation of the point spread function
+  double vignetting = 0.35;   // relative loss of light in the image corners
   double read_noise = 1.2;    // standard deviation [grey levels]
-  double shot_noise = 0.25;   // standard deviation at one grey level, grows with its root
+  double shot_noise = 0.25;   // standard deviation at one grey level; grows with its square root
   bool add_noise = true;
   uint64_t seed = 1;
 };
 
-// A camera on the trajectory: lens distortion, blur over the exposure, vignetting and sensor noise.
+// Simulates a camera on the trajectory with lens distortion, motion blur, vignetting and noise.
 class CameraSimulator {
  public:
   // The trajectory and the scene must outlive the camera.
   CameraSimulator(const Trajectory& trajectory, const Scene& scene, const CameraParameters& camera,
                   const Rigid3d& T_B_C, const ImagingOptions& options);
 
-  // Image `index` (it seeds the noise), whose exposure is centred `t` seconds after the start, with
-  // a rolling shutter that of its middle row.
+  // Renders image `index`, which seeds the noise. Its exposure (with a rolling shutter, that of the
+  // middle row) is centred `t` seconds after the start.
   cv::Mat Expose(double t, uint64_t index) const;
 
  private:
@@ -45,7 +45,7 @@ class CameraSimulator {
   Rigid3d T_B_C_;
   ImagingOptions options_;
   Renderer renderer_;
-  cv::Mat1f gain_;  // grey levels per brightness
+  cv::Mat1f gain_;  // grey levels per unit of brightness
 };
 
 }  // namespace plm_vins::simulator

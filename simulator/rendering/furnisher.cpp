@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr double kObjectTexel = 0.0025;  // [m]
 constexpr double kMaterialSize = 2.0;    // of the shared textures [m]
 constexpr double kTile = 0.5;            // [m]
-constexpr double kGap = 0.004;           // between a picture and what it hangs on [m]
+constexpr double kGap = 0.004;           // between a picture and its wall [m]
 
 double Detail(TextureStyle style) { return style == TextureStyle::kRich ? 1.0 : 0.06; }
 
@@ -73,7 +73,7 @@ std::vector<Wall> Furnisher::AddRoom(const std::vector<Eigen::Vector2d>& corners
                             surfaces[i % surfaces.size()]));
     box.extend(corners[i]);
   }
-  // What of these is outside is behind the walls.
+  // Parts outside the room are hidden by the walls.
   const Eigen::Vector2d low = box.min(), high = box.max(), size = box.sizes();
   scene_->AddRectangle({{low.x(), low.y(), 0},
                         Vector3d::UnitX(),
@@ -103,7 +103,7 @@ Wall Furnisher::AddWall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, 
 
 void Furnisher::AddBoxOnWall(const Wall& wall, const Vector3d& corner, const Vector3d& size,
                              int texture) {
-  // The frame of a box has z upwards, that of a wall y.
+  // The z axis points upwards in the frame of a box, and y in that of a wall.
   Eigen::Matrix3d R_F_O;
   R_F_O << 1, 0, 0,  //
       0, 0, 1,       //
@@ -213,7 +213,7 @@ void Furnisher::AddTable(const Vector3d& floor_center, double yaw) {
 void Furnisher::AddCrate(const Vector3d& floor_center, double size, double yaw) {
   const Rigid3d T_W_O = Upright(floor_center + Vector3d(0, 0, 0.5 * size), yaw);
   scene_->AddBox(T_W_O, Vector3d::Constant(size), materials_.wood);
-  // Planks that stand out along the edges of the sides.
+  // Planks protrude along the edges of the sides.
   const double plank = 0.12 * size, proud = size + 0.04;
   for (const double z : {-0.5, 0.5}) {
     const Vector3d center(0, 0, z * (size - plank) * 1.001);

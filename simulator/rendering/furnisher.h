@@ -14,22 +14,22 @@ namespace plm_vins::simulator {
 
 enum class TextureStyle { kRich, kWeak };
 
-// A wall with a frame F of its own: origin in its lower left corner seen from the room, x to the
+// A wall with its own frame F: origin in the lower left corner as seen from the room, x to the
 // right, y upwards, z into the room.
 struct Wall {
   Rigid3d T_W_F;
   double width, height;  // [m]
 };
 
-// The materials that objects of a scene share.
+// Texture indices of materials that objects of a scene share.
 struct Materials {
   int wood, dark_wood, metal, white, black, cardboard;
 };
 
-// Puts things into a scene. Places on walls are coordinates of the wall's frame [m].
+// Adds objects to a scene. Positions on walls are in the wall's frame [m].
 class Furnisher {
  public:
-  // `texel`: size of the finest detail on the walls [m].
+  // `texel` is the size of the finest detail on the walls [m].
   Furnisher(Scene* scene, TextureStyle style, double texel, uint64_t seed);
 
   enum class Surface {
@@ -37,16 +37,16 @@ class Furnisher {
     kBricks,
     kTiles,
     kPanels,
-    kMosaic,  // each tile is like the other
-    kOpen     // there is no wall
+    kMosaic,  // identical tiles with a print
+    kOpen     // no wall
   };
 
-  // The inner faces of a room with upright walls and its floor at z = 0. `corners`: of the floor,
-  // counterclockwise [m]; wall i runs from corner i to the next one.
+  // Adds the inner faces of a room with vertical walls and its floor at z = 0. `corners` are those
+  // of the floor, counterclockwise [m]; wall i extends from corner i to the next one.
   std::vector<Wall> AddRoom(const std::vector<Eigen::Vector2d>& corners, double height,
                             const std::vector<Surface>& walls, Surface floor, Surface ceiling);
 
-  // A wall above an edge of the floor, which lies to the left of the way from `from` to `to`.
+  // Adds a wall above an edge of the floor, which is on the left when walking from `from` to `to`.
   Wall AddWall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double height,
                Surface surface);
 
@@ -55,7 +55,7 @@ class Furnisher {
   void AddFrame(const Wall& wall, double x, double y, double width, double height, int texture);
   void AddDoor(const Wall& wall, double x);
   void AddWindow(const Wall& wall, double x, double y, double width, double height);
-  // `tilt`: turned about the wall's normal [rad].
+  // `tilt` is a rotation about the wall's normal [rad].
   void AddPoster(const Wall& wall, double x, double y, double width, double height, double tilt);
   void AddShelf(const Wall& wall, double x, double width, double height);
   void AddPipe(const Wall& wall, const Eigen::Vector3d& start, const Eigen::Vector3d& end,
@@ -66,7 +66,7 @@ class Furnisher {
   void AddTable(const Eigen::Vector3d& floor_center, double yaw);
   void AddCrate(const Eigen::Vector3d& floor_center, double size, double yaw);
   void AddPillar(const Eigen::Vector3d& floor_center, double width, double height);
-  // A plank that leans against something.
+  // Adds a plank that leans against something.
   void AddPlank(const Eigen::Vector3d& foot, const Eigen::Vector3d& head, double width);
 
   bool rich() const { return rich_; }
@@ -83,7 +83,7 @@ class Furnisher {
   Random random_;
   TexturePainter walls_, objects_;
   Materials materials_;
-  std::optional<int> mosaic_;  // texture of one tile, once it is painted
+  std::optional<int> mosaic_;  // texture of one tile, once painted
 };
 
 }  // namespace plm_vins::simulator

@@ -9,7 +9,8 @@
 namespace plm_vins::simulator {
 namespace {
 
-// The two texels about a coordinate of at least 0, wrapped around, and the weight of the second.
+// The two texels next to a non-negative coordinate, wrapped around, and the weight of the second
+// one.
 struct TexelPair {
   int first, second;
   float weight;
@@ -19,7 +20,7 @@ TexelPair Locate(float position, int count) {
   const float wrapped =
       (position - static_cast<float>(static_cast<int>(position))) * static_cast<float>(count) -
       0.5f;
-  const int below = static_cast<int>(wrapped + 1.0f) - 1;  // floor: wrapped is at least -0.5
+  const int below = static_cast<int>(wrapped + 1.0f) - 1;  // floor, since wrapped is at least -0.5
   return {below < 0 ? count - 1 : std::min(below, count - 1), below + 1 >= count ? 0 : below + 1,
           wrapped - static_cast<float>(below)};
 }
@@ -34,7 +35,7 @@ MipTexture::MipTexture(const cv::Mat& image, double width, double height)
       texel_(static_cast<float>(height / image.rows)) {
   if (image.empty() || image.type() != CV_8UC1) throw std::invalid_argument("texture is not grey");
   levels_.emplace_back();
-  cv::flip(image, levels_.back(), 0);  // row 0 is now at v = 0
+  cv::flip(image, levels_.back(), 0);  // row 0 moves to v = 0
   while (levels_.back().cols > 1 || levels_.back().rows > 1) {
     const cv::Mat1b& finer = levels_.back();
     cv::Mat1b coarser;

@@ -6,22 +6,22 @@
 
 namespace plm_vins::simulator {
 
-// A grey picture of known size in metres that repeats in both directions, with prefiltered smaller
-// copies so that a far surface does not flicker. Immutable.
+// A grey texture of known size [m], repeated in both directions, with a mipmap pyramid to avoid
+// aliasing of distant surfaces. Immutable.
 class MipTexture {
  public:
-  // `image` is CV_8UC1, its row 0 at the top (largest v).
+  // `image` is CV_8UC1 with row 0 at the top (largest v).
   MipTexture(const cv::Mat& image, double width, double height);
 
-  // Brightness, 0 to 1, at (u, v) from the lower left corner, averaged over about `footprint`; all
-  // lengths in [m].
+  // Returns the brightness, 0 to 1, at (u, v) from the lower left corner, averaged over about
+  // `footprint`. All lengths are in [m].
   float Sample(float u, float v, float footprint) const;
 
  private:
   float SampleLevel(int level, float u, float v) const;
 
   float per_width_, per_height_;  // repetitions per metre
-  float texel_;                   // of the full picture [m]
+  float texel_;                   // at full resolution [m]
   std::vector<cv::Mat1b> levels_;
 };
 

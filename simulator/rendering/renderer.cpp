@@ -20,9 +20,9 @@ constexpr double kNearPlane = 0.05;  // [m]
 
 using PixelOffsets = std::array<std::array<Vector2d, Renderer::kRays>, Renderer::kSubpixels>;
 
-// Where a pixel is sampled. Each sixteenth of its columns and of its rows is hit once, at random,
-// so that an edge in any direction covers the right share of the samples; the second half mirrors
-// the first, so that they are centred.
+// Draws the sample positions of a pixel (Latin hypercube): each sixteenth of its columns and of its
+// rows has one sample, so that edges in any direction cover a proportionate share of the samples.
+// The second half mirrors the first, which centres the samples.
 PixelOffsets DrawOffsets(Random* random) {
   constexpr std::array<int, 4> kOrder = {1, 3, 0, 2};
   const double sign = random->Uniform() < 0.5 ? -1.0 : 1.0;
@@ -40,12 +40,12 @@ PixelOffsets DrawOffsets(Random* random) {
 
 }  // namespace
 
-// A rectangle in front of the camera, as linear functions of the ray d = (x, y, 1):
-// inverse depth w = n d, place on the rectangle (a, b) = (p d, q d) / w.
+// A rectangle in front of the camera, as linear functions of the ray d = (x, y, 1): inverse depth w
+// = n d, position on the rectangle (a, b) = (p d, q d) / w.
 struct Renderer::VisibleRectangle {
   const Rectangle* rectangle;
   Vector3f n, p, q;
-  Vector2f min, max;  // bounds on the plane z = 1
+  Vector2f min, max;  // bounds in the plane z = 1
 
   float width() const { return static_cast<float>(rectangle->width); }
   float height() const { return static_cast<float>(rectangle->height); }
@@ -53,7 +53,8 @@ struct Renderer::VisibleRectangle {
 
 namespace {
 
-// Bounds on z = 1 of a polygon cut off at the near plane; nothing where all of it is behind.
+// Computes the bounds in the plane z = 1 of a polygon, clipped at the near plane. Returns false if
+// it is entirely behind the near plane.
 bool ProjectedBounds(const std::array<Vector3d, 4>& corners, Vector2f* min, Vector2f* max) {
   Vector2d low = Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   const auto include = [&](const Vector3d& p) {
@@ -141,7 +142,7 @@ std::vector<Renderer::VisibleRectangle> Renderer::FindVisible(const Rigid3d& T_W
     const Vector3d corner = T_C_W * r.corner;
     const Vector3d u = T_C_W.rotation * r.u, v = T_C_W.rotation * r.v, normal = u.cross(v);
     const double distance = normal.dot(corner);
-    if (distance > -1e-6) continue;  // seen from behind
+    if (distance > -1e-6) continue;  // back-face culling
     const Vector3d right = r.width * u, up = r.height * v;
     VisibleRectangle surface;
     if (!ProjectedBounds({corner, corner + right, corner + right + up, corner + up}, &surface.min,
@@ -158,12 +159,12 @@ std::vector<Renderer::VisibleRectangle> Renderer::FindVisible(const Rigid3d& T_W
   return visible;
 }
 
-// Conservative: false only where no ray of the tile meets the rectangle.
+// Conservative test: returns false only if no ray of the tile intersects the rectangle.
 bool Renderer::Overlaps(const RayTile& tile, const VisibleRectangle& r) {
   if ((r.min.array() > tile.max.array()).any() || (r.max.array() < tile.min.array()).any()) {
     return false;
   }
-  // Each edge is a linear function of the ray, negative outside.
+  // Each edge is a linear function of the ray, negative outside the rectangle.
   const auto reaches_inside = [&](const Vector3f& edge) {
     return edge.z() + std::max(edge.x() * tile.min.x(), edge.x() * tile.max.x()) +
                std::max(edge.y() * tile.min.y(), edge.y() * tile.max.y()) >=
@@ -200,7 +201,7 @@ void Renderer::RenderTile(const RayTile& tile, const std::vector<VisibleRectangl
   }
 }
 
-// Each surface is shaded once, in the middle of the rays that hit it.
+// Shades each surface once, at the mean of the rays that hit it.
 float Renderer::ShadePixel(const RayTile& tile, const std::vector<VisibleRectangle>& visible,
                            const std::array<int, kRaysPerTile>& surface, int pixel) const {
   const int pixels = tile.pixels.area();
@@ -228,7 +229,7 @@ float Renderer::Shade(const VisibleRectangle& surface, float x, float y) const {
   const Vector3f ray(x, y, 1.0f);
   const float depth = 1.0f / surface.n.dot(ray);
   const float a = depth * surface.p.dot(ray), b = depth * surface.q.dot(ray);
-  // Area on the rectangle per area of the image; each subpixel stands for its share.
+  // Area on the rectangle per unit area of the image; each subpixel covers its share of the pixel.
   const Vector2f d_a = depth * (surface.p.head<2>() - a * surface.n.head<2>());
   const Vector2f d_b = depth * (surface.q.head<2>() - b * surface.n.head<2>());
   const float area = std::abs(d_a.x() * d_b.y() - d_a.y() * d_b.x());

@@ -15,17 +15,17 @@
 
 namespace plm_vins::simulator {
 
-// Draws a scene through a calibrated lens: rays through each pixel, tabulated once, against the
-// rectangles whose bounds overlap the pixel's tile. The number of threads does not change a bit.
+// Renders a scene through a calibrated lens by casting rays, tabulated for each pixel, against the
+// rectangles whose bounds overlap the pixel's tile. Results do not depend on the number of threads.
 class Renderer {
  public:
-  // Halves of each pixel's samples, to be taken in turn; together they cover it.
+  // The samples of a pixel are divided into halves, used alternately; together they cover the
+  // pixel.
   static constexpr int kSubpixels = 2;
-  // Rays of each half that look for surfaces; what they find is shaded once.
+  // Number of rays of each half; each surface that they hit is shaded once.
   static constexpr int kRays = 8;
 
-  // Sizes of tiles [px]: square ones are drawn fastest; those of one row let each row be drawn from
-  // a place of its own.
+  // Tile sizes [px]: square tiles are fastest; tiles of one row allow a camera pose for each row.
   static constexpr int kTilePixels = 256;
   static cv::Size SquareTile() { return {16, 16}; }
   static cv::Size RowTile() { return {kTilePixels, 1}; }
@@ -34,19 +34,19 @@ class Renderer {
   Renderer(const Scene& scene, std::shared_ptr<const CameraModel> camera,
            const cv::Size& tile = SquareTile());
 
-  // Adds the brightness of one half of each pixel to `sum` (CV_32F). A white wall in full light has
-  // a brightness of 1.
+  // Adds the brightness of one half of each pixel's samples to `sum` (CV_32F). A fully lit white
+  // wall has brightness 1.
   void Accumulate(const Rigid3d& T_W_C, int subpixel, cv::Mat1f* sum) const;
 
-  // The same with a pose for the top row of each row of tiles. `T_W_C` is called by many threads.
+  // Renders each row of tiles with the pose of its top row. Multiple threads call `T_W_C`.
   void AccumulateByRows(const std::function<Rigid3d(int row)>& T_W_C, int subpixel,
                         cv::Mat1f* sum) const;
 
  private:
   static constexpr int kRaysPerTile = kRays * kTilePixels;
 
-  // Rays (x, y, 1) of one half of a tile's samples: the first ray of all pixels, the second, ...
-  // NaN where the lens has none.
+  // Rays (x, y, 1) of one half of a tile's samples: the first ray of all pixels, then the second,
+  // ... NaN for pixels without a ray.
   struct RayTile {
     RayTile() { x.fill(std::numeric_limits<float>::quiet_NaN()); }
     void SetRay(int index, const Eigen::Vector2d& xy);
@@ -71,7 +71,7 @@ class Renderer {
   const Scene& scene_;
   std::shared_ptr<const CameraModel> camera_;
   int tiles_per_row_;
-  std::vector<RayTile> tiles_[kSubpixels];  // row by row
+  std::vector<RayTile> tiles_[kSubpixels];  // row-major
 };
 
 }  // namespace plm_vins::simulator

@@ -8,13 +8,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Diffuse sky from above plus a distant lamp: the brightness of a wall depends on its direction.
+// Light on a surface by its normal: a diffuse sky from above and a distant lamp.
 double LightOn(const Vector3d& normal) {
   const Vector3d towards_lamp = Vector3d(0.45, 0.25, 0.6).normalized();
   return 0.72 + 0.08 * normal.z() + 0.22 * normal.dot(towards_lamp);
 }
 
-// Shared textures must not show the same spot on every object.
+// Pseudo-random texture offset, so that objects with a shared texture look different.
 double Scatter(double coordinate) { return 7.31 * coordinate - std::floor(7.31 * coordinate); }
 
 }  // namespace
@@ -32,7 +32,7 @@ void Scene::AddRectangle(Rectangle rectangle) {
 void Scene::AddBox(const Rigid3d& T_W_O, const Vector3d& size, int texture) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
-      // v points up wherever the face stands upright.
+      // For vertical faces, v points up.
       const int v_axis = axis == 2 ? 1 : 2, u_axis = 3 - axis - v_axis;
       Vector3d normal = side * Vector3d::Unit(axis), v = Vector3d::Unit(v_axis),
                u = v.cross(normal);

@@ -25,8 +25,8 @@ cv::Mat1f TexturePainter::Canvas(double width, double height, double brightness)
   return cv::Mat1f(Pixels(height), Pixels(width), static_cast<float>(brightness));
 }
 
-// Sum of smooth random fields, each half as coarse and about 0.7 times as strong as the one before;
-// about +-1. `stretch` lengthens the blotches along the height.
+// Returns a sum of smooth random fields, each with half the scale and 0.7 times the amplitude of
+// the previous one; its values are about +-1. `stretch` elongates the structures vertically.
 cv::Mat1f TexturePainter::FractalNoise(const cv::Size& size, double coarsest, double finest,
                                        double stretch) {
   cv::Mat1f sum(size, 0.0f), layer;
@@ -58,7 +58,7 @@ void TexturePainter::AddStains(cv::Mat1f* canvas) {
   }
 }
 
-// Less light reaches the corners of a room.
+// Simulates the lower illumination in the corners of a room.
 void TexturePainter::DarkenEdges(cv::Mat1f* canvas) const {
   constexpr double kReach = 0.5, kDepth = 0.22;  // [m], share of the light
   const auto remaining = [&](int count) {
@@ -115,7 +115,7 @@ cv::Mat1b TexturePainter::Tiles(double width, double height, double brightness, 
   cv::Mat1f canvas = Canvas(width, height, brightness);
   canvas += 0.12 * detail_ * FractalNoise(canvas.size(), 0.3, 0.01, 1.0);
   AddStains(&canvas);
-  // The joints are lines: they stay visible where there is no other detail.
+  // The joints are lines that remain visible without any other detail.
   DrawGrid(&canvas, tile_size, tile_size, 0.012, false, 0.55 * brightness, 0.08 * detail_);
   DarkenEdges(&canvas);
   return ToGrey(canvas);
@@ -150,7 +150,7 @@ void TexturePainter::DrawShapes(cv::Mat1f* canvas, int count) {
   for (int i = 0; i < count; ++i) {
     const cv::Point center(random_.Index(canvas->cols), random_.Index(canvas->rows));
     const double radius = random_.Uniform(0.03, 0.22) * size, turn = random_.Uniform(0, M_PI);
-    const int corners = 3 + random_.Index(5);  // seven stands for a circle
+    const int corners = 3 + random_.Index(5);  // seven corners approximate a circle
     std::vector<cv::Point> outline;
     for (int k = 0; k < corners; ++k) {
       const double angle = turn + 2 * M_PI * k / corners;
@@ -166,7 +166,7 @@ void TexturePainter::DrawShapes(cv::Mat1f* canvas, int count) {
   }
 }
 
-// Rows of words made of small blocks.
+// Draws rows of words that consist of small blocks.
 void TexturePainter::DrawText(cv::Mat1f* canvas) {
   const double line_height = random_.Uniform(0.03, 0.08);
   for (double y = line_height; y < canvas->rows * texel_ - line_height; y += 1.6 * line_height) {

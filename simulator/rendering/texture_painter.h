@@ -8,25 +8,25 @@
 
 namespace plm_vins::simulator {
 
-// Paints pictures of materials. Sizes in metres, brightness from 0 (black) to 1 (white).
-// `detail` scales all contrast: 1 is a lively surface, 0 a perfectly plain one.
+// Paints textures of materials. Sizes are in metres, brightness from 0 (black) to 1 (white).
+// `detail` scales all contrast, from 0 (uniform) to 1 (richly textured).
 class TexturePainter {
  public:
   TexturePainter(double texel, double detail, uint64_t seed)
       : texel_(texel), detail_(detail), random_(seed) {}
 
   cv::Mat1b Plain(double width, double height, double brightness);
-  // Blotches of all sizes, stains and scratches; darker towards the edges.
+  // Structures of all sizes, stains and scratches; darker towards the edges.
   cv::Mat1b Plaster(double width, double height, double brightness);
-  // Plaster joints around bricks.
+  // Bricks with plaster joints.
   cv::Mat1b Bricks(double width, double height, double brightness);
   cv::Mat1b Tiles(double width, double height, double brightness, double tile_size);
   // One tile with a print.
   cv::Mat1b Mosaic(double tile_size, double brightness);
-  // Grain along the height.
+  // Wood with vertical grain.
   cv::Mat1b Wood(double width, double height, double brightness);
   cv::Mat1b Panels(double width, double height, double brightness, double panel_size);
-  // A print with a light margin: a diagram, a picture or a text.
+  // A print with a light margin: a diagram, a picture or text.
   cv::Mat1b Poster(double width, double height);
   // Spines of books.
   cv::Mat1b Books(double width, double height);

@@ -14,14 +14,14 @@ using Surface = Furnisher::Surface;
 
 constexpr double kSomeAskew = 0.3;
 
-// The floor of a box-shaped room centred in x and y. Its walls lie towards +x, +y, -x, -y.
+// Floor of a box-shaped room centred in x and y, whose walls face towards +x, +y, -x, -y.
 std::vector<Vector2d> BoxFloor(const Vector3d& size) {
   const double x = 0.5 * size.x(), y = 0.5 * size.y();
   return {{x, -y}, {x, y}, {-x, y}, {-x, -y}};
 }
 
-// The floor of a room whose walls touch a circle about the origin. `headings`: where the walls lie,
-// increasing by less than pi each [rad].
+// Floor of a room whose walls are tangent to a circle about the origin. `headings` are the
+// directions of the walls from the origin, increasing by less than pi each [rad].
 std::vector<Vector2d> FloorAroundCircle(double radius, const std::vector<double>& headings) {
   std::vector<Vector2d> corners;
   double previous = headings.back() - 2 * M_PI;
@@ -34,7 +34,7 @@ std::vector<Vector2d> FloorAroundCircle(double radius, const std::vector<double>
   return corners;
 }
 
-// Posters side by side along a wall, at uneven heights, a share of them hung askew.
+// Hangs posters side by side along a wall at different heights. A share of `askew` is rotated.
 void HangPosters(Furnisher* furnisher, const Wall& wall, double from, double to, double height,
                  double askew = kSomeAskew) {
   Random& random = furnisher->random();
@@ -47,7 +47,7 @@ void HangPosters(Furnisher* furnisher, const Wall& wall, double from, double to,
   }
 }
 
-// A pipe along the whole wall with branches down to the floor.
+// Adds a pipe along the whole wall with branches down to the floor.
 void RunPipe(Furnisher* furnisher, const Wall& wall, double height, double radius, double spacing) {
   const double out = 0.12;
   furnisher->AddPipe(wall, {0, height, out}, {wall.width, height, out}, radius);
@@ -170,7 +170,7 @@ World MakeHall(TextureStyle style, uint64_t seed) {
   return world;
 }
 
-// One kind of things per wall, in turn.
+// Furnishes each wall with one kind of objects, in turn.
 void FurnishWall(Furnisher* furnisher, const Wall& wall, size_t index, double askew) {
   switch (index % 3) {
     case 0:
@@ -187,8 +187,8 @@ void FurnishWall(Furnisher* furnisher, const Wall& wall, size_t index, double as
   }
 }
 
-// A room as large as MakeRoom's whose walls lie towards `headings` [rad]. `turn` draws how a thing
-// stands on the floor, `askew` is the share of askew posters.
+// Makes a room of the size of MakeRoom's with walls in the directions `headings` [rad]. `turn`
+// draws the heading of an object on the floor, `askew` is the share of rotated posters.
 World MakePolygonalRoom(const std::vector<double>& headings, double askew,
                         const std::function<double(Random&)>& turn, TextureStyle style,
                         uint64_t seed) {
@@ -231,7 +231,7 @@ World MakeAtlanta(TextureStyle style, uint64_t seed) {
 }
 
 World MakeIrregular(TextureStyle style, uint64_t seed) {
-  constexpr int kWalls = 7;  // no two of them at a right angle
+  constexpr int kWalls = 7;  // no two of them are perpendicular
   Random random(seed, 1);
   std::vector<double> walls;
   for (int i = 0; i < kWalls; ++i) {
@@ -241,7 +241,7 @@ World MakeIrregular(TextureStyle style, uint64_t seed) {
   return MakePolygonalRoom(walls, /*askew=*/1, turn, style, seed);
 }
 
-// One of two equal rooms, 6 x 5 m about x = -5, half of the corridor on either side of it.
+// Adds one of two identical rooms, 6 x 5 m about x = -5, with half of the corridor on both sides.
 void MakeTwin(Furnisher* furnisher, double height) {
   constexpr Surface kPlaster = Surface::kPlaster;
   const auto walls =
@@ -286,9 +286,9 @@ World MakeTwins(TextureStyle style, uint64_t seed) {
   return world;
 }
 
-// Four rows of equal shelves back to back, with an aisle along x in the middle.
+// Makes four rows of identical shelves back to back, with an aisle along x in the middle.
 World MakeShelves(TextureStyle style, uint64_t seed) {
-  constexpr double kHeight = 3.4, kBay = 1.3, kAisles = 2.4;  // apart [m]
+  constexpr double kHeight = 3.4, kBay = 1.3, kAisles = 2.4;  // spacing of aisles [m]
   constexpr int kBays = 8;
   const double start = -0.5 * kBays * kBay;
   World world;

@@ -13,14 +13,14 @@ enum class WorldKind {
   kRoom,
   kCorridor,
   kHall,
-  kAtlanta,   // a room of two frames: half of its walls and things are turned against the others
-  kTwins,     // two equal rooms, joined by a corridor
-  kShelves,   // a store room: aisles between rows of equal shelves
-  kTiles,     // a room whose walls and floor are of equal tiles with a print
-  kIrregular  // a room of walls and things that stand anyhow
+  kAtlanta,   // room of two Manhattan frames: half of the walls and objects are rotated
+  kTwins,     // two identical rooms, connected by a corridor
+  kShelves,   // storage room: aisles between rows of identical shelves
+  kTiles,     // room whose walls and floor have identical printed tiles
+  kIrregular  // room with arbitrary directions of walls and objects
 };
 
-// A scene and the box within it that is free to fly in.
+// A scene and the box of free space for the flight.
 struct World {
   Scene scene;
   Eigen::Vector3d flight_center, flight_extent;  // [m]

@@ -16,8 +16,8 @@
 namespace plm_vins::simulator {
 namespace {
 
-// The destructor of a bag closes it, and ends the program where that fails: such a one is left
-// alone.
+// Closes and deletes a bag. A bag that cannot be closed is leaked, since its destructor would close
+// it again and terminate the program.
 struct CloseOrLeave {
   void operator()(rosbag::Bag* bag) const {
     try {
@@ -38,7 +38,7 @@ class BagRecorder : public Recorder {
   void Write(const ImuSample& sample) override {
     sensor_msgs::Imu message;
     message.header = NextHeader(sample.t_ns, "imu0", &imu_count_);
-    message.orientation_covariance[0] = -1;  // there is no orientation in here
+    message.orientation_covariance[0] = -1;  // marks the orientation as not available
     message.angular_velocity = ToVector3(sample.gyro);
     message.linear_acceleration = ToVector3(sample.accel);
     Guard([&] { bag_->write(AbsoluteTopic(sensors_.imu_topic), message.header.stamp, message); });
@@ -51,7 +51,7 @@ class BagRecorder : public Recorder {
   }
 
   void Finish() override {
-    rosbag::Bag* bag = bag_.release();  // one that cannot be closed must not be closed again
+    rosbag::Bag* bag = bag_.release();  // a bag that cannot be closed must not be closed again
     Guard([bag] {
       bag->close();
       delete bag;

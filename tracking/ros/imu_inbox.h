@@ -18,9 +18,9 @@
 
 namespace plm_vins {
 
-// IMU samples for the thread of a node's callbacks, which wakes for images and not for each of
-// them: they gather here until it takes them. `notice`, a callback of that thread, comes once it
-// waits for the next sample, and where many have gathered.
+// Collects IMU samples for the callback thread of a node, so that the thread wakes for images
+// instead of every sample. It calls `notice` in that thread when the thread waits for the next
+// sample, and after every batch of samples.
 class ImuInbox {
  public:
   ImuInbox(const ros::NodeHandle& node, const std::string& topic, std::function<void()> notice)
@@ -34,13 +34,13 @@ class ImuInbox {
     node_.getCallbackQueue()->removeByID(NoticeId());
   }
 
-  // All that have come since the last call, in order of arrival.
+  // Returns all samples since the last call, in order of arrival.
   std::vector<ImuSample> Take() {
     const std::lock_guard<std::mutex> lock(mutex_);
     return std::exchange(samples_, {});
   }
 
-  // Asks for a notice of the next sample. False where there is one already.
+  // Requests a notice at the next sample. Returns false if a sample is available already.
   bool WaitForNext() {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_wanted_ = samples_.empty();
@@ -67,7 +67,7 @@ class ImuInbox {
     stream_.Add(sample.t_ns);
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      const bool is_full = samples_.size() == kQueue;  // nobody takes them, nor the notices
+      const bool is_full = samples_.size() == kQueue;  // the thread takes no samples
       if (is_full) samples_.erase(samples_.begin());
       samples_.push_back(sample);
       if (!is_wanted_ && (is_full || samples_.size() % kBatch != 0)) return;
@@ -81,7 +81,7 @@ class ImuInbox {
   ros::NodeHandle node_;
   const boost::shared_ptr<Notice> notice_;
   StreamMonitor stream_{"imu"};
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the following members
   std::vector<ImuSample> samples_;
   bool is_wanted_ = false;
 

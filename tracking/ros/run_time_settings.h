@@ -9,10 +9,10 @@
 
 namespace plm_vins {
 
-// What rqt_reconfigure and dynparam may change while a node runs. `Settings` is generated from a
-// file of cfg/. They begin with `initial`, the values of the configuration file: what an earlier
-// run left on the parameter server does not count. `apply` gets them at once and with each change,
-// as a callback of `private_node`'s queue.
+// Settings that rqt_reconfigure and dynparam can change while a node runs. `Settings` is generated
+// from a file in cfg/. The initial values come from the configuration file: values of an earlier
+// run on the parameter server are overwritten. `apply` is called at once and after each change, in
+// a callback of `private_node`'s queue.
 template <typename Settings>
 class RunTimeSettings {
  public:
@@ -25,7 +25,7 @@ class RunTimeSettings {
   }
 
  private:
-  boost::recursive_mutex mutex_;  // of server_
+  boost::recursive_mutex mutex_;  // guards server_
   dynamic_reconfigure::Server<Settings> server_;
 };
 

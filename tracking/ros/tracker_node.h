@@ -24,15 +24,15 @@
 
 namespace plm_vins {
 
-// A tracker under ROS, as a node or in a nodelet: images (and the IMU, where it comes) in;
-// features, annotated image and ~restart out. All callbacks come from the queue of the two node
-// handles, one at a time: images queue in their subscriber while one is tracked.
+// A tracker under ROS, as a node or nodelet. Subscribes to images and the IMU (optional); publishes
+// features, an annotated image and ~restart. All callbacks run in the queue of the two node
+// handles, one at a time; images wait in their subscriber's queue while one is tracked.
 //
-// `Traits` says what is particular to a tracker: the types Stage (a TrackingStage) and Settings
+// `Traits` defines what differs between trackers: the types Stage (a TrackingStage) and Settings
 // (of dynamic_reconfigure, with show_track), ToSettings(config) and Apply(settings, tracker), the
-// private topics kFeatureTopic and kAnnotatedTopic, the status kDiagnostics, kImageQueue, how many
-// images wait while one is tracked (beyond, the oldest goes), and kEveryImage, whether the features
-// of all images are published or only at the rate `freq`.
+// private topics kFeatureTopic and kAnnotatedTopic, the diagnostic status kDiagnostics, the queue
+// length kImageQueue (the oldest image is dropped), and kEveryImage, whether features of all images
+// are published instead of those at the rate `freq`.
 template <typename Traits>
 class TrackerNode {
  public:
@@ -65,7 +65,7 @@ class TrackerNode {
   using Settings = typename Traits::Settings;
 
   static constexpr uint32_t kOutputQueue = 200;
-  // [s] of wall time: then an image is tracked without the gyro.
+  // Wall time after which an image is tracked without the gyroscope [s].
   static constexpr double kMaxWaitForImu = 0.1;
 
   void Apply(const Settings& settings) {
@@ -73,7 +73,7 @@ class TrackerNode {
     Traits::Apply(settings, &stage_.tracker());
   }
 
-  // Tracks the images whose turn it is by what the IMU says so far.
+  // Tracks the images that the IMU samples so far allow.
   void TrackWhatIsReady() {
     do {
       for (const ImuSample& sample : imu_.Take()) stage_.AddImu(sample);
@@ -88,7 +88,8 @@ class TrackerNode {
     drop_warner_.Check(Drops());
   }
 
-  // Publishes the frames that `next` gives. After an error the tracks may contradict each other.
+  // Publishes the frames that `next` returns. Tracks may be inconsistent after an error, so they
+  // are dropped.
   template <typename NextFrame>
   void Track(const NextFrame& next) {
     const bool done = errors_.Run([&] {
@@ -160,7 +161,7 @@ class TrackerNode {
   DropWarner drop_warner_;
   ErrorCounter errors_;
   size_t features_in_last_image_ = 0;
-  double tracking_ms_ = 0;  // of the last image [ms]
+  double tracking_ms_ = 0;  // for the last image [ms]
   StreamMonitor feature_stream_{"features"};
 
   ros::WallTime last_image_arrival_ = ros::WallTime::now();
@@ -171,9 +172,10 @@ class TrackerNode {
   diagnostic_updater::Updater diagnostics_;
   RunTimeSettings<Settings> settings_;
 
-  // Last, so that they end first, the inbox after the others: a nodelet is unloaded while callbacks
-  // run in other threads. Each of these waits for its own to return, and those of images and timers
-  // take from the IMU's inbox, whose own, in the thread that receives, touch nothing else.
+  // Declared last, so that they are destroyed first, and the inbox after the others: a nodelet is
+  // unloaded while callbacks run in other threads. Each destructor waits for its own callbacks.
+  // Those of images and timers use the IMU inbox, whose own callback, in the receiving thread, uses
+  // nothing else.
   ImuInbox imu_{node_, config_.sensor.imu_topic, [this] { TrackWhatIsReady(); }};
   ImageSubscription images_;
   ros::WallTimer flush_timer_;

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "common/camera/camera_model.h"
 #include "common/config/config.h"
 #include "common/config/config_entry.h"
 #include "common/config/config_keys.h"
@@ -32,12 +34,30 @@ TEST(ShippedConfig, EveryFileLoads) {
   EXPECT_GE(files, 2);
 }
 
-TEST(ShippedConfig, EurocHasTheCalibrationOfTheDataset) {
-  const Config config = LoadConfig(CONFIG_DIR "/euroc.yaml");
+TEST(ShippedConfig, EurocRadtanHasTheCalibrationOfTheDataset) {
+  const Config config = LoadConfig(CONFIG_DIR "/euroc_radtan.yaml");
   EXPECT_EQ(config.sensor.camera.fx, 458.654);
   EXPECT_EQ(config.sensor.T_B_C.translation.x(), -0.0216401454975);
   EXPECT_EQ(config.sensor.imu_noise.accel_walk, 3.0e-3);
   EXPECT_EQ(config.publish_rate, 0);
+}
+
+// Ray through a pixel in the IMU frame, of unit length.
+Eigen::Vector3d BodyRay(const Config& config, const Eigen::Vector2d& pixel) {
+  const auto camera = CameraModel::Create(config.sensor.camera);
+  const Eigen::Vector3d ray = camera->Unproject(pixel).value().homogeneous().normalized();
+  return config.sensor.T_B_C.rotation * ray;
+}
+
+// A mount belongs to its lens: two calibrations of one camera give the same rays, nearly.
+TEST(ShippedConfig, BothCalibrationsOfEurocGiveSimilarRays) {
+  const Config equidistant = LoadConfig(CONFIG_DIR "/euroc.yaml");
+  const Config radtan = LoadConfig(CONFIG_DIR "/euroc_radtan.yaml");
+  EXPECT_EQ(equidistant.sensor.camera.model, CameraParameters::Model::kPinholeEquidistant);
+  for (const Eigen::Vector2d pixel : {Eigen::Vector2d(376, 240), {150, 100}, {600, 400}}) {
+    const double angle = std::acos(BodyRay(equidistant, pixel).dot(BodyRay(radtan, pixel)));
+    EXPECT_LT(angle, 0.3 * M_PI / 180) << pixel.transpose();
+  }
 }
 
 class ReferenceFile : public ::testing::Test {

@@ -5,7 +5,7 @@
 
 namespace plm_vins {
 
-// What printf would write. The compiler holds the format to its arguments.
+// Formats a string as printf does. The compiler checks the arguments against the format.
 [[gnu::format(printf, 1, 2)]] std::string Format(const char* format, ...);
 
 }  // namespace plm_vins

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All data that flows between the modules. Read this file first.
+// Data that the modules exchange. Read this file first.
 //
-// Stamps are int64 nanoseconds; data of one image share its stamp exactly. Image coordinates "_px"
-// are pixels of the raw image; all others are normalised and undistorted: (x, y) of a ray (x, y, 1)
-// in C.
+// Timestamps are int64 nanoseconds; data of one image have exactly equal timestamps. Image
+// coordinates with the suffix "_px" are pixels of the raw image; all others are normalized and
+// undistorted: (x, y) of a ray (x, y, 1) in C.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,24 +22,24 @@ inline int64_t ToNanoseconds(double seconds) {
   return static_cast<int64_t>(seconds * kNanosecondsPerSecond + (seconds < 0 ? -0.5 : 0.5));
 }
 
-// Stamps are from zero to before kEndOfTime_ns, which is what ROS can write: then differences of
-// any two, and sums with a time offset, are numbers, too.
+// Valid timestamps are from zero to before kEndOfTime_ns, the range of ROS timestamps. Differences
+// of any two, and sums with a time offset, do not overflow.
 constexpr int64_t kEndOfTime_ns = (int64_t{1} << 32) * 1'000'000'000;
 inline bool IsStamp(int64_t t_ns) { return t_ns >= 0 && t_ns < kEndOfTime_ns; }
 
 // One grey image (CV_8UC1) as the camera delivered it, with lens distortion.
 struct ImageSample {
   int64_t t_ns = 0;
-  cv::Mat gray;                            // read only: others may look at the same pixels
-  std::shared_ptr<const void> owner = {};  // of the pixels, where `gray` is not: keep both
+  cv::Mat gray;                            // read-only: the pixels may be shared
+  std::shared_ptr<const void> owner = {};  // owner of the pixels if `gray` is not; keep both
 };
 
 // One IMU reading in the body frame B.
 struct ImuSample {
   int64_t t_ns = 0;
-  Eigen::Vector3d gyro = Eigen::Vector3d::Zero();   // angular rate [rad/s]
+  Eigen::Vector3d gyro = Eigen::Vector3d::Zero();   // angular velocity [rad/s]
   Eigen::Vector3d accel = Eigen::Vector3d::Zero();  // specific force [m/s^2]
-  // Standard deviations on top of the sensor's noise, where the reading is not the sensor's own.
+  // Standard deviations in addition to the sensor noise, for replaced or saturated readings.
   double gyro_doubt = 0;   // [rad/s]
   double accel_doubt = 0;  // [m/s^2]
 };
@@ -53,10 +53,10 @@ enum class RightSearch : uint8_t {
   kFound,
 };
 
-// One tracked corner in one image.
+// Observation of a tracked corner in one image.
 struct PointObservation {
-  int64_t id = -1;                                     // stable along the track, never reused
-  Eigen::Vector2d xy = Eigen::Vector2d::Zero();        // normalised, undistorted
+  int64_t id = -1;                                     // constant along the track, never reused
+  Eigen::Vector2d xy = Eigen::Vector2d::Zero();        // normalized, undistorted
   Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();     // raw pixel
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // d(xy)/dt [1/s]; zero when new
   // Normalized image point in the second camera C1 at the same timestamp, of a ray (x, y, 1) in C1.
@@ -66,27 +66,27 @@ struct PointObservation {
   std::optional<double> depth = {};  // measured, along the optical axis of C [m]
 };
 
-// All corners of one image, in the order of the tracker. May be empty (a blind image).
+// All corners of one image, in the order of the tracker. May be empty.
 struct PointFrame {
   int64_t t_ns = 0;
   std::vector<PointObservation> points;
 };
 
-// Observation of a line segment in the second camera C1. Its ends need not correspond to those in
-// the first camera: only the line through them is measured.
+// Observation of a line segment in the second camera C1. Its endpoints need not correspond to those
+// in the first camera: only the line through them is measured.
 struct RightSegment {
-  Eigen::Vector2d start = Eigen::Vector2d::Zero();  // normalised, undistorted, in C1
-  Eigen::Vector2d end = Eigen::Vector2d::Zero();    // normalised, undistorted, in C1
-  // Standard deviations of start and end across the line, normalised. The closer the line is to the
-  // epipolar direction, the larger they are.
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();  // normalized, undistorted, in C1
+  Eigen::Vector2d end = Eigen::Vector2d::Zero();    // normalized, undistorted, in C1
+  // Standard deviations of start and end across the line (normalized). The closer the line is to
+  // the epipolar direction, the larger they are.
   Eigen::Vector2d deviation = Eigen::Vector2d::Zero();
 };
 
-// One tracked line segment in one image.
+// Observation of a tracked line segment in one image.
 struct LineObservation {
-  int64_t id = -1;                                  // stable along the track, never reused
-  Eigen::Vector2d start = Eigen::Vector2d::Zero();  // normalised, undistorted
-  Eigen::Vector2d end = Eigen::Vector2d::Zero();    // normalised, undistorted
+  int64_t id = -1;                                  // constant along the track, never reused
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();  // normalized, undistorted
+  Eigen::Vector2d end = Eigen::Vector2d::Zero();    // normalized, undistorted
   std::optional<RightSegment> right = {};           // at the same timestamp, if matched
 };
 
@@ -99,19 +99,19 @@ struct LineFrame {
 // Input of the estimator for one image: its features and the IMU samples up to it.
 //
 // `imu` covers the interval from the previous frame to this one and can be integrated directly: it
-// starts with the sample interpolated at the time of that frame (bitwise the last one of that
-// frame's `imu`), continues with the samples in between, and ends with the sample interpolated at
-// exactly t_ns + time_offset. That of the first frame starts with the first sample and may contain
-// only one.
+// starts with the sample interpolated at the time of the previous frame (identical to the last one
+// of that frame's `imu`), continues with the samples in between, and ends with the sample
+// interpolated at exactly t_ns + time_offset. For the first frame it starts with the first sample
+// and may contain only one.
 struct FrameMeasurement {
-  int64_t t_ns = 0;          // image stamp
-  double time_offset = 0.0;  // td [s] with which the IMU samples were cut
+  int64_t t_ns = 0;          // image timestamp
+  double time_offset = 0.0;  // td [s] that the IMU interval was computed with
   PointFrame points;
   std::optional<LineFrame> lines;  // nullopt without a line front end
   std::vector<ImuSample> imu;
 };
 
-// Appends samples that continue `joined`, without repeating the sample that they share.
+// Appends samples that continue `joined`, without repeating the shared sample.
 inline void JoinImu(const std::vector<ImuSample>& next, std::vector<ImuSample>* joined) {
   for (const ImuSample& sample : next) {
     if (joined->empty() || sample.t_ns > joined->back().t_ns) joined->push_back(sample);

@@ -7,7 +7,7 @@
 
 namespace plm_vins {
 
-// The middle value, of an even number of them the greater of the two in the middle; zero of none.
+// Median; for an even number of values the greater of the middle two, and zero without values.
 inline double Median(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -13,8 +13,8 @@ void SetUpProcess() {
   cv::setNumThreads(1);
 #ifdef M_MMAP_THRESHOLD
   constexpr int kMegabyte = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, 32 * kMegabyte);   // the most that it takes
-  mallopt(M_TRIM_THRESHOLD, 256 * kMegabyte);  // what is free beyond goes back
+  mallopt(M_MMAP_THRESHOLD, 32 * kMegabyte);   // the largest accepted value
+  mallopt(M_TRIM_THRESHOLD, 256 * kMegabyte);  // more free memory is returned to the system
 #endif
 }
 

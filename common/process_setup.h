@@ -3,13 +3,12 @@
 
 namespace plm_vins {
 
-// How threads and memory are used by a process that runs nothing but this: for the main() of
+// Configures threads and memory of a process that runs this program only: for the main() of
 // programs and nodes, not for a nodelet.
 //
-// OpenCV gets no threads besides the one that calls it: to share out work on images this small
-// costs more of the processor than it saves time. And memory that is freed stays with the process:
-// each image takes and frees a few megabytes, which the C library of Linux otherwise gives back to
-// the system and fetches again, page by page.
+// OpenCV is limited to the calling thread: distributing images this small costs more CPU time than
+// it saves. Freed memory stays with the process: each image allocates and frees a few megabytes,
+// which glibc would otherwise return to the system and request again, page by page.
 void SetUpProcess();
 
 }  // namespace plm_vins

@@ -5,7 +5,7 @@
 
 namespace plm_vins {
 
-// Milliseconds since construction, for timing reports only: no result may depend on it.
+// Milliseconds since construction, for timing reports only: results must not depend on it.
 class Stopwatch {
  public:
   double Milliseconds() const {

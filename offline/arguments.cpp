@@ -8,16 +8,16 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMostSeconds = 1e9;  // stamps count nanoseconds in 64 bits
+constexpr double kMostSeconds = 1e9;  // timestamps are nanoseconds in 64 bits
 
-// The message of what is wrong with the argument of --set; empty where nothing is.
+// Validates the argument of --set; returns an error message, or an empty string if it is valid.
 std::string CheckOverride(const std::string& text) {
   const size_t equals = text.find('=');
   const bool valid = equals != 0 && equals != std::string::npos;
   return valid ? "" : "expected key=value instead of " + text;
 }
 
-// The same of a time span.
+// Validates a time span.
 std::string CheckSeconds(const std::string& text) {
   return IsNumberBetween(0, kMostSeconds, text)
              ? ""

@@ -12,7 +12,7 @@ class App;
 
 namespace plm_vins {
 
-// The options of run_offline. A path is empty where its option is not given.
+// The options of run_offline. A path is empty if its option is not given.
 struct Arguments {
   std::string config;
   std::string bag;
@@ -29,10 +29,10 @@ struct Arguments {
   int threads = 4;
 };
 
-// Tells the parser about them; they are filled as it parses.
+// Registers the options with the parser, which fills them when it parses.
 void Declare(Arguments* arguments, CLI::App* app);
 
-// key -> value
+// Returns values by key.
 std::map<std::string, std::string> ParseOverrides(const std::vector<std::string>& texts);
 
 }  // namespace plm_vins

@@ -7,7 +7,7 @@
 namespace plm_vins {
 namespace {
 
-// Handlers of signals get nothing else; threads read it, too.
+// The only state that a signal handler may set; threads read it as well.
 std::atomic<int> interruption{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 

@@ -3,11 +3,12 @@
 
 namespace plm_vins {
 
-// From here on the first SIGINT or SIGTERM asks the run to come to an end, and the second ends the
-// program at once. One that whoever started the program ignores stays ignored, as with nohup.
+// Installs signal handlers: the first SIGINT or SIGTERM requests the end of the run, the second
+// terminates the program at once. A signal that is ignored at program start, as with nohup, stays
+// ignored.
 void WatchForInterruption();
 
-// The signal that has come; zero: none has.
+// The received signal; zero if none.
 int Interruption();
 
 }  // namespace plm_vins

@@ -16,13 +16,13 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path FullName(const std::string& path) {
-  std::error_code error;  // of a folder in a closed one
+  std::error_code error;  // for a path below an inaccessible folder
   const fs::path full = fs::absolute(path, error).lexically_normal();
   const fs::path real = fs::weakly_canonical(full, error);
   return error ? full : real;
 }
 
-// By their names where they are not there yet.
+// Compares by name if the files do not exist yet.
 bool AreOneFile(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return false;
   std::error_code error;
@@ -62,7 +62,7 @@ void CheckResults(const Arguments& arguments) {
     CheckNoResult("--map-in", arguments.map_in, arguments.output, name);
     CheckNoResult("--features", arguments.features, arguments.output, name);
     CheckNoResult("--bag", arguments.bag, arguments.output, name);
-    if (name == kCalibratedConfigFile) continue;  // is another check, and may be all right
+    if (name == kCalibratedConfigFile) continue;  // may be the input; see CheckCalibrationOutput()
     CheckNoResult("--config", arguments.config, arguments.output, name);
   }
 }

@@ -6,11 +6,11 @@
 
 namespace plm_vins {
 
-// An input would be lost where an output takes its place, and so would one of two outputs. Throws
-// std::runtime_error that names the option where that is so. But a map may be continued.
+// Throws std::runtime_error with the option if an output would overwrite an input or another
+// output. A map may be read and written back.
 void CheckOutputs(const Arguments& arguments);
 
-// The same of the configuration, where the calibration that is found would take its place.
+// Throws if the refined calibration would overwrite the configuration.
 void CheckCalibrationOutput(const Arguments& arguments, const SensorConfig& sensor);
 
 }  // namespace plm_vins

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the odometry over a recording without a ROS master, as fast as the machine goes.
+// Runs the odometry over a recording without a ROS master, as fast as possible.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cinttypes>
@@ -35,7 +35,7 @@
 namespace plm_vins {
 namespace {
 
-// One of the two.
+// Exactly one of the two is set.
 struct Input {
   std::unique_ptr<Recording> recording;
   std::optional<FeatureFileReader> features;
@@ -57,14 +57,14 @@ void Warn(const std::string& text) {
   if (!text.empty()) std::fprintf(stderr, "warning: %s\n", text.c_str());
 }
 
-// What was run, as far as its source knows.
+// Origin of the data that was processed, for messages.
 struct Source {
   std::string name;
   std::string images, imu;  // where they come from
   DropCounts problems;
 };
 
-// Where the input comes from that was dropped, as far as its cause says.
+// Returns the source of dropped input, derived from the prefix of its cause.
 std::string Origin(const DropCount& drop, const Source& source) {
   const auto begins_with = [&](const char* word) { return drop.cause.rfind(word, 0) == 0; };
   return begins_with("image") ? source.images : begins_with("imu") ? source.imu : "";
@@ -83,13 +83,14 @@ std::string WhyNone(const RunSummary::Run& run, const RunSummary& summary) {
   return dropped ? "none was usable, see the warnings" : "none between --start and --duration";
 }
 
-// The warning where most of a recording was of no use; empty where it was not.
+// Returns a warning if most images were not used, else an empty string.
 std::string UnusedWarning(int64_t unused, int64_t images) {
   if (2 * unused <= images) return "";
   return std::to_string(unused) + " of " + std::to_string(images) + " images were not used";
 }
 
-// The warning where the IMU does not cover most images, as with two clocks; empty where it does.
+// Returns a warning if the IMU does not cover most images, as with two clocks, else an empty
+// string.
 std::string UncoveredWarning(const RunSummary::Run& run, const OdometryPipeline& pipeline) {
   const auto is_uncovered = [&](const DropCount& drop) {
     return drop.cause == "frames_without_imu" && 2 * drop.count > run.images;
@@ -104,14 +105,14 @@ std::string UncoveredWarning(const RunSummary::Run& run, const OdometryPipeline&
          "; both must have one clock";
 }
 
-// The warning where time does not run forward in a recording; empty where it does.
+// Returns a warning if timestamps jumped back, else an empty string.
 std::string PartsWarning(const TimedFile& trajectory) {
   if (trajectory.parts() == 0) return "";
   return "stamps jumped back " + std::to_string(trajectory.parts()) +
          " times: poses of before are in trajectory_1.tum, covariance_1.csv, ...";
 }
 
-// Says how it went. Exit code: 0 where there is a trajectory.
+// Prints the outcome. Returns the exit code: 0 if there is a trajectory.
 int Report(const RunSummary::Run& run, const Source& source, const OdometryPipeline& pipeline,
            const ResultFiles& results) {
   const RunSummary& summary = results.summary();
@@ -162,7 +163,7 @@ Source RunFromFeatures(const Arguments& arguments, FeatureFileReader* features,
   return {arguments.features, "", "", {}};
 }
 
-// The configuration as the arguments change it.
+// Loads the configuration and applies the arguments to it.
 Config Configure(const Arguments& arguments) {
   Config config = LoadConfig(arguments.config, ParseOverrides(arguments.overrides));
   PoseGraphConfig& pose_graph = config.pose_graph;
@@ -194,7 +195,7 @@ void ShowTracks(double interval, ResultFiles* results, OdometryPipeline* pipelin
                        });
 }
 
-// Warns where features are not those that the configuration asks for, and tells the summary.
+// Warns, and notes in the summary, if features were recorded with another configuration.
 void CheckFeatures(const FeatureFileReader& features, const Config& config, Json* summary_parts) {
   const Json otherwise = RecordedOtherwise(features.tracker_values(), config);
   if (otherwise.empty()) return;
@@ -202,7 +203,7 @@ void CheckFeatures(const FeatureFileReader& features, const Config& config, Json
   (*summary_parts)["features_recorded_with"] = otherwise;
 }
 
-// By which the features were recorded that are saved now.
+// Returns the configuration that the saved features were tracked with.
 Json ValuesToSave(const std::optional<FeatureFileReader>& features, const Config& config) {
   if (!features) return TrackerValues(config);
   Json values = features->tracker_values();
@@ -210,14 +211,15 @@ Json ValuesToSave(const std::optional<FeatureFileReader>& features, const Config
   return values;
 }
 
-// What a run writes.
+// All outputs of a run.
 struct Outputs {
   std::optional<ReplacedFile> map;
   std::optional<FeatureFileWriter> features;
   ResultFiles results;
   std::optional<LoopResults> loops;
 
-  // What may not be writable comes first: then earlier results stay as they are.
+  // Outputs that may not be writable are opened first, so that failure leaves earlier results
+  // unchanged.
   Outputs(const Arguments& arguments, const Config& config,
           const std::optional<FeatureFileReader>& input, std::optional<KeyframeMap> start)
       : map(MapFile(arguments)),
@@ -255,7 +257,8 @@ void SaveMapTo(const std::string& path, const KeyframeMap& map, ReplacedFile* fi
   }
 }
 
-// Adds why it failed, where it did: the other results of a finished run are worth having still.
+// Runs `save` and appends its error to `failures`, so that the other results of the run are still
+// saved.
 void Try(const std::function<void()>& save, std::string* failures) {
   try {
     save();
@@ -264,7 +267,7 @@ void Try(const std::function<void()>& save, std::string* failures) {
   }
 }
 
-// What a signal has cut short.
+// Parts of the run that a signal interrupted.
 struct Cuts {
   bool recording = false;
   bool adjustment = false;
@@ -282,7 +285,7 @@ void AdjustMap(LoopResults* loops, Cuts* cuts) {
            : "the bundle adjustment ended before its last round, which cannot be solved");
 }
 
-// Exit code: that of a shell for a program that a signal has ended.
+// Returns the exit code of a shell for a program terminated by this signal.
 int ReportInterruption(const OdometryPipeline& pipeline, const Cuts& cuts) {
   if (cuts.recording) {
     const auto first_ns = pipeline.first_image_ns(), last_ns = pipeline.last_frame_ns();
@@ -305,7 +308,7 @@ Source Fly(const Arguments& arguments, Input* input, OdometryPipeline* pipeline,
                          : RunFromImages(arguments, input->recording.get(), on_frame, pipeline);
 }
 
-// Completes the files in the folder of results; the summary, which says that all is there, last.
+// Completes the files in the result folder; the summary, which marks them as complete, comes last.
 void Finish(const RunSummary::Run& run, const Config& config, const OdometryPipeline& pipeline,
             Json summary_parts, Outputs* outputs) {
   if (outputs->loops) {
@@ -322,7 +325,7 @@ int Run(const Arguments& arguments) {
   const Config config = Configure(arguments);
   CheckCalibrationOutput(arguments, config.sensor);
   for (const std::string& warning : config.warnings) Warn(warning);
-  // What may be missing comes first: then earlier results stay as they are.
+  // Inputs that may be missing are opened first, so that failure leaves earlier results unchanged.
   Input input = Open(arguments, config.sensor);
   Json summary_parts = Json::object();
   if (input.features) CheckFeatures(*input.features, config, &summary_parts);
@@ -334,7 +337,7 @@ int Run(const Arguments& arguments) {
   RunSummary::Run run = Describe(source, pipeline);
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
   Warn(pipeline.imu_contradiction());
-  // What may be on another disk, or take long, comes before the rest.
+  // Outputs that may be on another disk or take long are saved before the rest.
   std::string failures;
   if (outputs.features) Try([&] { outputs.features->Close(); }, &failures);
   if (outputs.loops && !cuts.recording) Try([&] { AdjustMap(&*outputs.loops, &cuts); }, &failures);
@@ -374,6 +377,6 @@ int main(int argc, char** argv) try {
     std::fprintf(stderr, "run_offline: %s\n", error.what());
   }
   return 1;
-} catch (...) {  // of the handlers above
+} catch (...) {  // an exception of the handlers above
   return 1;
 }

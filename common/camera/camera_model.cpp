@@ -54,7 +54,8 @@ std::unique_ptr<const CameraModel> CameraModel::Create(const CameraParameters& p
   throw std::invalid_argument("camera model: unknown model");
 }
 
-// The pixel stays: 0 = d_pixel_d_xy d_xy + d_pixel_d_intrinsics d_intrinsics.
+// Implicit differentiation at constant pixel: 0 = d_pixel_d_xy d_xy + d_pixel_d_intrinsics
+// d_intrinsics.
 std::optional<IntrinsicsJacobian> CameraModel::RayByIntrinsics(const Eigen::Vector2d& xy) const {
   Eigen::Matrix<double, 2, 3> d_pixel_d_ray;
   const auto pixel = Project(xy.homogeneous(), &d_pixel_d_ray);

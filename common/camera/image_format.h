@@ -7,8 +7,8 @@
 
 namespace plm_vins {
 
-// Throws std::invalid_argument, which says what it is, where the image is not CV_8UC1 of the
-// calibrated size.
+// Throws std::invalid_argument with the actual format if the image is not CV_8UC1 of the calibrated
+// size.
 void CheckImageFormat(const cv::Mat& gray, const CameraParameters& camera);
 
 }  // namespace plm_vins

@@ -8,12 +8,14 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// The matrix with the eigenvalue `radial` along the unit vector `u` and `tangential` across it.
+// Returns the symmetric matrix with eigenvalue `radial` along the unit vector `u` and `tangential`
+// perpendicular to it.
 Eigen::Matrix2d RadialTangential(const Eigen::Vector2d& u, double radial, double tangential) {
   return tangential * Eigen::Matrix2d::Identity() + (radial - tangential) * u * u.transpose();
 }
 
-// Direction of `v`; any where it is zero, since radial and tangential scale agree there.
+// Returns the direction of `v`; any direction if it is zero, since radial and tangential scale are
+// equal there.
 Eigen::Vector2d Direction(const Eigen::Vector2d& v, double norm) {
   return norm > 0 ? Eigen::Vector2d(v / norm) : Eigen::Vector2d::UnitX();
 }
@@ -33,7 +35,7 @@ double KannalaBrandt::DistortDerivative(double theta) const {
   return 1 + t * (3 * k_[0] + t * (5 * k_[1] + t * (7 * k_[2] + t * 9 * k_[3])));
 }
 
-// Walks outwards as long as theta_d grows, then on with ever smaller steps.
+// Searches outwards while theta_d increases, with decreasing step size.
 double KannalaBrandt::FindMaxTheta() const {
   double theta = 0;
   for (double step = 1e-3; step > 1e-12; step *= 0.5) {
@@ -42,7 +44,7 @@ double KannalaBrandt::FindMaxTheta() const {
   return theta;
 }
 
-// Newton's method inside a shrinking bracket, which the growth of theta_d guarantees.
+// Newton's method inside a shrinking bracket, which is valid since theta_d is monotonic.
 double KannalaBrandt::Undistort(double theta_d) const {
   double low = 0, high = max_theta_;
   double theta = theta_d < max_theta_ ? theta_d : 0.5 * max_theta_;

@@ -6,8 +6,9 @@
 namespace plm_vins {
 
 // Fisheye camera [Kannala2006], "equidistant" in Kalibr, cv::fisheye in OpenCV: a ray at angle
-// theta to the optical axis lands theta_d = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4
-// theta^8) from the centre. Projects rays behind the camera too, as far as theta_d grows.
+// theta to the optical axis projects to distance theta_d = theta (1 + k1 theta^2 + k2 theta^4 + k3
+// theta^6 + k4 theta^8) from the centre. Projects rays behind the camera as well, while theta_d
+// increases.
 class KannalaBrandt final : public CameraModel {
  public:
   explicit KannalaBrandt(const CameraParameters& parameters);
@@ -26,7 +27,7 @@ class KannalaBrandt final : public CameraModel {
   double Undistort(double theta_d) const;  // for theta_d < Distort(max_theta_)
 
   Eigen::Vector4d k_;
-  double max_theta_;  // theta_d grows up to here, at most pi [rad]
+  double max_theta_;  // theta_d increases up to here; at most pi [rad]
 };
 
 }  // namespace plm_vins

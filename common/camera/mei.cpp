@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMargin = 1e-9;  // distance kept from singular rays
+constexpr double kMargin = 1e-9;  // distance from singular rays
 
 }  // namespace
 
@@ -37,9 +37,9 @@ std::optional<Eigen::Vector2d> Mei::Project(const Eigen::Vector3d& p_C,
   return PlaneToPixel(*distorted);
 }
 
-// With q = |point|^2 and root = sqrt(1 + (1 - xi^2) q) the point lifts to the sphere as
-// (lambda point, lambda - xi), lambda = (xi + root) / (1 + q)  [Mei2007, Eq. (6)];
-// hence xy = point / g(q), g = 1 - xi / lambda.
+// With q = |point|^2 and root = sqrt(1 + (1 - xi^2) q), the point is lifted to the sphere as
+// (lambda point, lambda - xi), lambda = (xi + root) / (1 + q)  [Mei2007, Eq. (6)]; hence xy = point
+// / g(q), g = 1 - xi / lambda.
 std::optional<Eigen::Vector2d> Mei::PlaneToRay(const Eigen::Vector2d& point,
                                                Eigen::Matrix2d* d_xy_d_point) const {
   const double q = point.squaredNorm();

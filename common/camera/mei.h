@@ -6,9 +6,9 @@
 
 namespace plm_vins {
 
-// Unified omnidirectional camera [Mei2007]: the point is moved onto the unit sphere and projected
-// from a centre xi behind the sphere's own, (X, Y) / (Z + xi |p|); then radial and tangential
-// distortion and scaling by gamma1, gamma2. With xi = 0 this is PinholeRadtan.
+// Unified omnidirectional camera [Mei2007]: the point is projected onto the unit sphere and then
+// from a centre at distance xi behind the sphere's centre, (X, Y) / (Z + xi |p|); then radial and
+// tangential distortion and scaling by gamma1, gamma2. With xi = 0 it equals PinholeRadtan.
 class Mei final : public CameraModel {
  public:
   explicit Mei(const CameraParameters& parameters);
@@ -21,12 +21,12 @@ class Mei final : public CameraModel {
 
  private:
   Eigen::Matrix<double, 2, 4> PlaneByDistortion(const Eigen::Vector2d& xy) const override;
-  // The ray (x, y, 1) through a point of the undistorted image plane.
+  // Returns the ray (x, y, 1) through a point of the undistorted image plane.
   std::optional<Eigen::Vector2d> PlaneToRay(const Eigen::Vector2d& point,
                                             Eigen::Matrix2d* d_xy_d_point) const;
 
   double xi_;
-  double min_cosine_;  // the projection is one-to-one for rays with Z > min_cosine_ |p|
+  double min_cosine_;  // the projection is injective for rays with Z > min_cosine_ |p|
   RadtanDistortion distortion_;
 };
 

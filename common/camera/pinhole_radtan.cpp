@@ -4,7 +4,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMinCosine = 1e-9;  // rays closer to the image plane than this are not in front
+constexpr double kMinCosine = 1e-9;  // rays closer to the image plane are rejected
 
 }  // namespace
 

@@ -6,7 +6,7 @@
 
 namespace plm_vins {
 
-// A pinhole with radial and tangential distortion: (X / Z, Y / Z), distorted, in pixels.
+// A pinhole camera with radial and tangential distortion of (X / Z, Y / Z).
 class PinholeRadtan final : public CameraModel {
  public:
   explicit PinholeRadtan(const CameraParameters& parameters);

@@ -9,17 +9,16 @@ namespace plm_vins {
 namespace {
 
 constexpr int kMaxIterations = 50;
-constexpr int kMaxHalvings = 60;  // from far outside, where the distortion is of fifth order
+constexpr int kMaxHalvings = 60;  // for distant points, where the distortion is of fifth order
 constexpr double kTolerance = 4 * std::numeric_limits<double>::epsilon();
 
-// Smallest s = r^2 > 0 where r (1 + k1 s + k2 s^2) stops growing: 1 + 3 k1 s + 5 k2 s^2 = 0.
+// Smallest s = r^2 > 0 at which r (1 + k1 s + k2 s^2) stops increasing: 1 + 3 k1 s + 5 k2 s^2 = 0.
 double FoldRadiusSquared(double k1, double k2) {
   const double a = 5 * k2;
   const double b = 3 * k1;
   const double discriminant = b * b - 4 * a;
   if (discriminant < 0) return std::numeric_limits<double>::infinity();
-  // This form of the root stays exact as a goes to zero. It is the smallest positive root, if there
-  // is one.
+  // The smallest positive root, if any, in a form that is numerically stable as a goes to zero.
   const double denominator = -b + std::sqrt(discriminant);
   return denominator > 0 ? 2 / denominator : std::numeric_limits<double>::infinity();
 }
@@ -39,7 +38,7 @@ std::optional<Eigen::Vector2d> RadtanDistortion::Distort(
   const double r2 = point.squaredNorm();
   if (!(r2 < max_radius_squared_)) return std::nullopt;
   const double radial = 1 + r2 * (k1_ + r2 * k2_);
-  const double d_radial = 2 * (k1_ + 2 * r2 * k2_);  // gradient of `radial` is d_radial * (x, y)
+  const double d_radial = 2 * (k1_ + 2 * r2 * k2_);  // gradient is d_radial * (x, y)
 
   Eigen::Matrix2d jacobian;
   jacobian(0, 0) = radial + d_radial * x * x + 2 * p1_ * y + 6 * p2_ * x;
@@ -62,7 +61,7 @@ Eigen::Matrix<double, 2, 4> RadtanDistortion::DistortedByCoefficients(
   return derivative;
 }
 
-// Newton's method; a step that leaves the invertible disc or does not improve is halved.
+// Newton's method; a step that leaves the invertible disc or increases the error is halved.
 std::optional<Eigen::Vector2d> RadtanDistortion::Undistort(
     const Eigen::Vector2d& distorted, Eigen::Matrix2d* d_point_d_distorted) const {
   if (!distorted.allFinite()) return std::nullopt;

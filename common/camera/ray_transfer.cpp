@@ -9,15 +9,15 @@ namespace plm_vins {
 namespace {
 
 constexpr int kMaxSteps = 4;
-constexpr double kMaxError = 1e-9;  // normalised
+constexpr double kMaxError = 1e-9;  // normalized
 
 struct UnprojectedPixel {
   Eigen::Vector2d xy;
   Eigen::Matrix2d d_xy_d_pixel;
 };
 
-// Newton's method from where the ray was: calibrations that differ little need a step or two, where
-// unprojecting from scratch takes five. Each step leaves an error of the order of its square.
+// Newton's method from the previous ray: similar calibrations need one or two steps, while
+// unprojection from scratch needs five. Convergence is quadratic.
 std::optional<UnprojectedPixel> UnprojectNear(const CameraModel& camera,
                                               const Eigen::Vector2d& pixel,
                                               const Eigen::Vector2d& guess) {

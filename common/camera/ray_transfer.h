@@ -7,10 +7,10 @@
 
 namespace plm_vins {
 
-// Moves a ray (x, y, 1), by its normalised image point, from one calibration of a camera to where
-// another one sees the same pixel, to a millionth of a pixel, and its velocity in the image with
-// it. One that either does not see, at the rim of what a distortion can describe, stays where it
-// is.
+// Replaces a ray (x, y, 1), given by its normalized image point, of one calibration by the ray of
+// the same pixel in another calibration, to a millionth of a pixel, and transforms its image
+// velocity. A ray at the limit of the distortion that either calibration cannot project stays
+// unchanged.
 void TransferRay(const CameraModel& from, const CameraModel& to, Eigen::Vector2d* xy,
                  Eigen::Vector2d* velocity);
 void TransferRay(const CameraModel& from, const CameraModel& to, Eigen::Vector2d* xy);

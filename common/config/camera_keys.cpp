@@ -10,7 +10,7 @@ namespace {
 using C = CameraParameters;
 using Key = ConfigKey<C>;
 
-// What a model's parameters are called in a file.
+// Key names of a camera model's parameters.
 struct ModelNames {
   std::string model_type;
   C::Model model;
@@ -31,7 +31,7 @@ const std::vector<ModelNames>& AllModels() {
        {"fx", "fy", "cx", "cy"},
        "distortion_parameters",
        {"k1", "k2", "k3", "k4"}},
-      // Names of VINS: k2 to k5 are k1 to k4 of everybody else.
+      // Names of VINS-Mono, where k2 to k5 are k1 to k4 of [Kannala2006].
       {"KANNALA_BRANDT",
        C::Model::kPinholeEquidistant,
        {"mu", "mv", "u0", "v0"},

@@ -8,15 +8,15 @@
 
 namespace plm_vins {
 
-// The calibration of a camera under the names that go with this `model_type`; without those of the
-// model where there is no such type. All are required.
+// Returns the calibration keys for this `model_type`; without the model's parameters if the type is
+// unknown. All keys are required.
 ConfigKeys<CameraParameters> CameraKeys(const std::string& model_type);
 
-// Whether there is such a `model_type`.
+// Returns whether `model_type` is supported.
 bool IsModelType(const std::string& model_type);
 
-// The `model_type` of a model. A fisheye is EQUIDISTANT, even where the file uses its other name,
-// which is KANNALA_BRANDT.
+// Returns the `model_type` of a model. A fisheye is always EQUIDISTANT, even if the file uses the
+// alternative name KANNALA_BRANDT.
 std::string ModelType(CameraParameters::Model model);
 
 }  // namespace plm_vins

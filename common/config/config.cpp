@@ -27,7 +27,7 @@ bool IsInGroup(const std::string& key, const std::string& group) {
   return key.rfind(group + ".", 0) == 0;
 }
 
-// One loading of a file; collects problems along the way.
+// Loads one file and collects problems.
 class Loader {
  public:
   Loader(const std::string& file, const std::map<std::string, std::string>& overrides,
@@ -98,14 +98,15 @@ class Loader {
     if (!keys.empty()) {
       return Add(name, "must be a group of keys, indented below it: " + Join(keys, ", "));
     }
-    // Without a model it is not known which calibration keys there should be.
+    // Calibration keys are not reported if the camera model is unknown, since the model determines
+    // the valid ones.
     const bool of_camera = name.find("_parameters") != std::string::npos;
     if (of_camera && !unknown_cameras_.empty()) return;
     const auto nearest = NearestWord(name, known_);
     Add(name, "unknown key" + (nearest ? "; did you mean " + *nearest + "?" : "; remove it"));
   }
 
-  // Of longer polynomials, as OpenCV's.
+  // Returns whether the coefficient belongs to a longer polynomial, such as OpenCV's.
   bool IsUnsupportedCoefficient(const std::string& name) const {
     const size_t length = name.size() - std::min<size_t>(name.size(), 2);
     const std::string group = name.substr(0, length), coefficient = name.substr(length);
@@ -164,7 +165,7 @@ class Loader {
     problems_.push_back(At(key) + problem);
   }
 
-  // "FILE:LINE: KEY: ", or an override by how it was given.
+  // Returns "FILE:LINE: KEY: ", or the override option and key.
   std::string At(const std::string& key) const {
     const auto entry = entries_.find(key);
     return (entry == entries_.end() ? config_.file + ": " + key : entry->second.name) + ": ";
@@ -172,10 +173,10 @@ class Loader {
 
   Config config_;
   ConfigEntries entries_;
-  std::vector<std::string> unknown_cameras_;  // prefixes of those whose model there is not
+  std::vector<std::string> unknown_cameras_;  // prefixes of cameras with an unknown model
   ConfigKeys<Config> keys_;
   std::vector<std::string> known_;    // names of the keys
-  std::vector<std::string> ignored_;  // the same, without effect here
+  std::vector<std::string> ignored_;  // names of keys without effect
   std::vector<std::string> problems_;
 };
 

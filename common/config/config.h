@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole configuration of the suite. One YAML file serves all nodes, so every node checks all of
-// it. A module's values and their keys are in common/config/MODULE_config.{h,cpp}; what they mean
-// is in config/reference.yaml.
+// The whole configuration of the suite. All nodes share one YAML file, so every node validates all
+// of it. A module's values and keys are in common/config/MODULE_config.{h,cpp};
+// config/reference.yaml documents them.
 #pragma once
 
 #include <map>
@@ -21,21 +21,21 @@
 namespace plm_vins {
 
 struct Config {
-  std::string file;                              // where it was read from, for messages
-  std::map<std::string, std::string> overrides;  // texts that replaced those of the file, by key
-  std::vector<std::string> warnings;  // of what is accepted, but not followed; each names the file
+  std::string file;                              // path of the file, for messages
+  std::map<std::string, std::string> overrides;  // overriding texts by key
+  std::vector<std::string> warnings;             // of keys without effect; each names the file
   SensorConfig sensor;
-  double publish_rate = 0;  // images whose features the estimator gets [Hz]; 0: all
+  double publish_rate = 0;  // rate of images passed to the estimator [Hz]; 0: all
   bool show_track = true;   // publish annotated images
   PointTrackerConfig points;
-  bool use_lines = true;  // beside the points
+  bool use_lines = true;  // in addition to the points
   LineTrackerConfig lines;
   EstimatorConfig estimator;
   PoseGraphConfig pose_graph;
   OutputConfig output;
 };
 
-// Every problem of a configuration, one per line, each naming file and key.
+// All problems of a configuration, one per line, each with file and key.
 class ConfigError : public std::runtime_error {
  public:
   explicit ConfigError(const std::vector<std::string>& problems);
@@ -45,14 +45,15 @@ class ConfigError : public std::runtime_error {
   std::vector<std::string> problems_;
 };
 
-// Reads a VINS-format YAML file ("%YAML:1.0"); `overrides` replace scalar keys by their text, and
-// messages name them by `override_prefix` and key. Throws ConfigError with *all* problems: missing,
-// unknown (with the nearest known key), of a wrong type, out of range, contradictory.
+// Reads a YAML file in VINS-Mono's format ("%YAML:1.0"). `overrides` replace scalar keys by their
+// text; messages name them by `override_prefix` and key. Throws ConfigError with *all* problems:
+// missing and unknown keys (with the most similar known key), wrong types, values out of range,
+// contradictions.
 Config LoadConfig(const std::string& file, const std::map<std::string, std::string>& overrides = {},
                   const std::string& override_prefix = "--set ");
 
-// Every key with the value that is in effect: defaults, overrides, noise as densities, the mask
-// with its folder. A file of them gives the same configuration.
+// Returns every key with its effective value: defaults, overrides, noise as densities, the mask
+// with its folder. A file of these values gives the same configuration.
 std::vector<std::pair<std::string, ConfigValue>> EffectiveValues(const Config& config);
 
 }  // namespace plm_vins

@@ -16,7 +16,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kHardlyAnything = 0.01;    // of the image
+constexpr double kHardlyAnything = 0.01;    // share of the image
 constexpr double kShortestBaseline = 1e-3;  // [m]
 constexpr const char* kNoiseKeys[] = {"acc_n", "gyr_n", "acc_w", "gyr_w"};
 
@@ -27,14 +27,15 @@ bool HasNoise(const ConfigEntries& entries) {
                      [&](const char* key) { return Has(entries, key); });
 }
 
-// A mask is named relative to the configuration file. Empty where none is to be used.
+// Returns the path of the mask, which is relative to the configuration file; empty if no mask is
+// used.
 std::string MaskPath(const Config& config) {
   const std::string& mask = config.points.fisheye_mask;
   if (mask.empty() || !config.points.fisheye) return "";
   return (std::filesystem::path(config.file).parent_path() / mask).string();
 }
 
-// A size that is missing or wrong is reported on its own.
+// A missing or wrong size is reported separately.
 bool HasSize(const CameraParameters& camera) { return camera.width > 0 && camera.height > 0; }
 
 void CheckPrincipalPoint(const CameraParameters& camera, const std::string& prefix,
@@ -115,7 +116,7 @@ bool IsName(const std::string& text) {
   return !text.empty() && text.find_first_of(" \t\r\n") == std::string::npos;
 }
 
-using NamedKeys = std::vector<std::pair<const char*, std::string>>;  // keys and their values
+using NamedKeys = std::vector<std::pair<const char*, std::string>>;  // keys with their values
 
 void CheckDistinct(const NamedKeys& keys, const Report& report) {
   std::map<std::string, std::string> key_of_name;
@@ -135,7 +136,7 @@ void CheckTopics(const SensorConfig& sensor, const Report& report) {
   CheckDistinct(topics, report);
 }
 
-// Each frame has one parent.
+// Frame names must be distinct, since each frame has one parent.
 void CheckFrames(const Config& config, const Report& report) {
   const OutputConfig& output = config.output;
   NamedKeys frames = {{"world_frame", output.world_frame},
@@ -150,7 +151,7 @@ void CheckFrames(const Config& config, const Report& report) {
   CheckDistinct(frames, report);
 }
 
-// Of a grid over the image.
+// Estimates the share of the image without rays on a grid of pixels.
 double ShareWithoutRay(const CameraModel& camera) {
   constexpr int kColumns = 40, kRows = 30;
   const CameraParameters& parameters = camera.parameters();
@@ -165,7 +166,7 @@ double ShareWithoutRay(const CameraModel& camera) {
 
 void CheckMask(const Config& config, const Report& report) {
   const std::string mask = MaskPath(config);
-  std::error_code error;  // a path may be too long for a file
+  std::error_code error;  // the path may exceed the length limit of the file system
   if (!mask.empty() && !std::filesystem::is_regular_file(mask, error)) {
     report("fisheye_mask", "there is no file " + mask);
   }
@@ -202,7 +203,7 @@ int PercentBeyondFold(const Config& config, const CameraParameters& parameters) 
   if (!MaskPath(config).empty()) return 0;
   const auto camera = CameraModel::Create(parameters);
   const Eigen::Vector3d sideways(1, 0, 0.02);
-  if (camera->Project(sideways)) return 0;  // then only what is not in front has no ray
+  if (camera->Project(sideways)) return 0;  // only pixels not in front of the camera lack rays
   const double share = ShareWithoutRay(*camera);
   return share > kHardlyAnything ? static_cast<int>(std::lround(100 * share)) : 0;
 }

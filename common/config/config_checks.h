@@ -10,28 +10,28 @@
 
 namespace plm_vins {
 
-// Reports what is wrong with a key.
+// Reports a problem of a key.
 using Report = std::function<void(const std::string& key, const std::string& problem)>;
 
-// What is wrong with the name of a frame, nothing where it is fine.
+// Returns what is wrong with a frame name; nullopt if it is valid.
 Problem CheckFrameName(const std::string& name);
 
-// Reports values that are fine alone but not together, and keys that others make necessary.
+// Reports values that are valid alone but contradict each other, and keys that other keys require.
 void CheckTogether(const ConfigEntries& entries, const Config& config, const Report& report);
 
-// True where `fisheye: 1` stands without a mask. VINS takes one of its own then, which is not to be
-// had here.
+// Returns whether `fisheye: 1` is set without a mask. VINS-Mono then uses a mask of its own, which
+// does not exist here.
 bool LacksMask(const ConfigEntries& entries, const Config& config);
 
-// True where a mask is named that `fisheye: 0` switches off.
+// Returns whether a mask is given but disabled by `fisheye: 0`.
 bool LeavesMaskOut(const Config& config);
 
-// How much of the camera's image has no ray, and so no features, as the distortion folds back
-// before its edge; 0 where that is hardly anything, or a mask says where features are. What a
-// fisheye sees beside and behind it does not count.
+// Returns the percentage of the image without rays, and so without features, because the distortion
+// folds back inside the image. Returns 0 if it is negligible, or if a mask is given. Pixels of a
+// fisheye at 90 degrees and beyond do not count.
 int PercentBeyondFold(const Config& config, const CameraParameters& parameters);
 
-// Turns what is written into what the modules take: noise densities, path of the mask.
+// Converts file values to those of the modules: noise densities, path of the mask.
 void FinishConfig(const ConfigEntries& entries, Config* config);
 
 }  // namespace plm_vins

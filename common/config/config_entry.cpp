@@ -15,13 +15,13 @@ std::string Location(const std::string& file, const YAML::Mark& mark) {
   return mark.is_null() ? file : file + ":" + std::to_string(mark.line + 1);
 }
 
-// A configuration has some 100 lines. The limits end what would otherwise hardly end: a recording
-// by mistake, an alias that leads back to itself, aliases of aliases of aliases.
+// Size limits; a configuration has about 100 lines. They reject files given by mistake, such as a
+// recording, and recursive or exponentially growing YAML aliases.
 constexpr std::streamsize kMaxBytes = 1 << 20;
 constexpr size_t kMaxEntries = 1000;
 constexpr int kMaxDepth = 2;  // keys and groups of keys
 
-// Not more than one byte beyond kMaxBytes.
+// Reads at most one byte more than kMaxBytes.
 std::optional<std::string> ReadText(const std::string& file) {
   std::ifstream stream(file);
   if (!stream) return std::nullopt;
@@ -31,20 +31,22 @@ std::optional<std::string> ReadText(const std::string& file) {
   return text;
 }
 
-// OpenCV's "%YAML:1.0" is no directive of the YAML standard: blanked, so that line numbers stay.
+// Removes OpenCV's "%YAML:1.0", an invalid YAML directive; keeps the line, so that line numbers are
+// right.
 std::string WithoutDirective(std::string text) {
   if (text.rfind("%YAML", 0) == 0) text.erase(0, text.find('\n'));
   return text;
 }
 
-// An OpenCV matrix is one value, complete or not; any other map with keys is a group of them.
+// An OpenCV matrix, complete or not, is a single value; any other map with keys is a group.
 bool IsGroup(const YAML::Node& node) {
   return node.IsMap() && node.size() > 0 && !node["data"] && !node["rows"];
 }
 
-// To open a pipe waits for its other end; a device may have no end.
+// Returns whether the path is not a regular file: opening a pipe could block, and reading a device
+// could be endless.
 bool IsSomethingElse(const std::string& file) {
-  std::error_code error;  // a path may be too long for a file
+  std::error_code error;  // the path may exceed the length limit of the file system
   return std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error);
 }
 
@@ -58,7 +60,7 @@ std::string AppearsTwice(const ConfigEntry& first) {
   return "appears twice (first at " + first.location + "); remove one";
 }
 
-// A relative path begins where the program was started: under roslaunch in ~/.ros.
+// A relative path is relative to the working directory: ~/.ros under roslaunch.
 std::string TriedAt(const std::string& file) {
   std::error_code error;
   const std::filesystem::path path(file);
@@ -71,7 +73,7 @@ void AddProblem(const std::string& location, const std::string& key, const std::
   problems->push_back(location + ": " + key + ": " + problem);
 }
 
-// Stops at the first problem of size.
+// Stops at the first exceeded size limit.
 bool Flatten(const YAML::Node& map, const std::string& prefix, int depth, const std::string& file,
              ConfigEntries* entries, std::vector<std::string>* problems) {
   for (const auto& item : map) {
@@ -94,7 +96,7 @@ bool Flatten(const YAML::Node& map, const std::string& prefix, int depth, const 
   return true;
 }
 
-// Of some, all but one would be ignored.
+// Returns the only YAML document. More than one is a problem, since the others would be ignored.
 std::optional<YAML::Node> TheOne(const std::vector<YAML::Node>& documents, const std::string& file,
                                  std::vector<std::string>* problems) {
   for (size_t i = 1; i < documents.size(); ++i) {
@@ -119,7 +121,7 @@ std::optional<YAML::Node> ParseRoot(const std::string& file, const std::string& 
   }
 }
 
-// The top-level map of the file, or nothing and a problem.
+// Returns the top-level map of the file, or nullopt and adds a problem.
 std::optional<YAML::Node> ReadRoot(const std::string& file, std::vector<std::string>* problems) {
   if (IsSomethingElse(file)) {
     problems->push_back(file + ": is no regular file; give the path of a configuration file");

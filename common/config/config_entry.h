@@ -10,10 +10,10 @@
 
 namespace plm_vins {
 
-// One key with its value, as written.
+// A key with its unparsed value.
 struct ConfigEntry {
   YAML::Node value;
-  std::string location;  // "FILE:LINE"; of an override, what its key comes after
+  std::string location;  // "FILE:LINE", or the prefix of an override
   std::string name;      // "FILE:LINE: KEY" or "--set KEY", for messages
   bool is_override = false;
 };
@@ -21,9 +21,9 @@ struct ConfigEntry {
 // Keys of nested maps are joined by a dot: "projection_parameters.fx".
 using ConfigEntries = std::map<std::string, ConfigEntry>;
 
-// Reads the file into entries and replaces or adds the overrides, which messages name by
-// `override_prefix` and key. Adds duplicate keys to `problems`; where there is no such file or it
-// is not YAML, or more than one document, adds that and returns nothing.
+// Reads the entries of the file and replaces or adds the overrides, which messages name by
+// `override_prefix` and key. Adds duplicate keys to `problems`. Returns nullopt, and adds a
+// problem, if the file cannot be read, is not YAML, or has more than one document.
 std::optional<ConfigEntries> ReadConfigEntries(const std::string& file,
                                                const std::map<std::string, std::string>& overrides,
                                                const std::string& override_prefix,

@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-// "must be 1 to 500 [px]".
+// Formats "must be 1 to 500 [px]".
 std::string MustBeIn(Range range, const std::string& unit) {
   return "must be " + ToText(range) + (unit.empty() ? "" : " [" + unit + "]");
 }

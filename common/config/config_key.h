@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kinds of configuration keys. A key knows all that is to know about a value: its name in the
-// file, its unit and range, how to read it into a field and how to write it from there.
+// The kinds of configuration keys. A key describes a value completely: name in the file, unit and
+// range, and how to read it into a field and write it back.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ class Node;
 
 namespace plm_vins {
 
-// What is wrong with a value, as the end of the sentence "KEY: ..."; nothing where it is fine.
+// Problem of a value, as the end of the sentence "KEY: ..."; nullopt if it is valid.
 using Problem = std::optional<std::string>;
 
 struct Range {
@@ -27,32 +27,32 @@ struct Range {
   double max;
 };
 
-// "2 to 500".
+// Formats "2 to 500".
 std::string ToText(Range range);
 
-// The text of a scalar, or nothing for a list, a map or an empty value.
+// Returns the text of a scalar, or nullopt for a list, a map or an empty value.
 std::optional<std::string> ScalarText(const YAML::Node& value);
 
-// Each reads a value of one kind; where it is refused, the last argument stays as it was.
+// These read a value of one kind. If they return a problem, the last argument is unchanged.
 Problem ReadNumber(const YAML::Node& value, const std::string& unit, Range range, double* number);
 Problem ReadInteger(const YAML::Node& value, const std::string& unit, Range range, int* number);
 Problem ReadFlag(const YAML::Node& value, bool* flag);
 Problem ReadText(const YAML::Node& value, std::string* text);
-// The matrix has the size that is expected.
+// `matrix` must have the expected size.
 Problem ReadMatrix(const YAML::Node& value, Eigen::MatrixXd* matrix);
 
-// A key of the struct `Section`. A `field` is a pointer to a member or a function that takes the
-// struct and returns a reference into it.
+// A key of the struct `Section`. `field` is a pointer to a member, or a function that returns a
+// reference into its argument.
 template <typename Section>
 struct ConfigKey {
   std::string name;     // "td", or "group.name"
   std::string unit;     // "px"; empty: none
-  std::string allowed;  // "2 to 500", "one of fld, lsd, edlines"; empty: whatever `read` takes
+  std::string allowed;  // "2 to 500", "one of fld, lsd, edlines"; empty: see `read`
   std::function<Problem(const YAML::Node& value, Section& section)> read;
   std::function<ConfigValue(const Section& section)> value;
   bool required = false;
   bool has_default = true;
-  // Brings a number that a program has set into its range; empty for what has none.
+  // Clamps a number that a program has set to its range; empty for other types.
   std::function<void(Section& section)> keep_in_range = nullptr;
 
   template <typename Field>
@@ -94,7 +94,8 @@ struct ConfigKey {
     return {name, "", "", read, ValueOf(field)};
   }
 
-  // One of several words; two may mean the same, which is then written as the first.
+  // A choice among words. Several words may have the same value, which is then written as the first
+  // one.
   template <typename T>
   static ConfigKey Choice(const std::string& name, std::vector<std::pair<std::string, T>> choices,
                           T Section::*field) {
@@ -118,7 +119,7 @@ struct ConfigKey {
     return {name, "", allowed, read, value};
   }
 
-  // An OpenCV matrix of the size of `get`'s, which `set` may refuse.
+  // An OpenCV matrix of the size that `get` returns; `set` may reject it.
   static ConfigKey Matrix(const std::string& name,
                           std::function<Eigen::MatrixXd(const Section& section)> get,
                           std::function<Problem(const Eigen::MatrixXd&, Section& section)> set) {
@@ -154,8 +155,9 @@ ConfigKeys<Section> Required(ConfigKeys<Section> keys) {
   return keys;
 }
 
-// The keys of a part as those of the whole. `find` returns a pointer to the part, or nullptr if it
-// is absent: its keys are then read but not kept, and have the values of a default part.
+// Converts the keys of a part to keys of the whole. `find` returns a pointer to the part, or
+// nullptr if it is absent: its keys are then read but not stored, and have the values of a default
+// part.
 template <typename Whole, typename Part, typename Find>
 ConfigKeys<Whole> KeysOfPart(Find find, const ConfigKeys<Part>& keys) {
   ConfigKeys<Whole> result;

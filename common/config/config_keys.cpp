@@ -6,7 +6,7 @@
 namespace plm_vins {
 namespace {
 
-// What concerns several modules.
+// Keys that concern several modules.
 ConfigKeys<Config> SharedKeys() {
   using Key = ConfigKey<Config>;
   return {

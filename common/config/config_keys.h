@@ -10,20 +10,20 @@
 
 namespace plm_vins {
 
-// Every key of a file whose cameras are of these types: those of all modules. To add one, add a
-// line to the list of its module and one to config/reference.yaml.
+// Returns all keys of all modules for cameras of these types. A new key needs a line in the list of
+// its module and one in config/reference.yaml.
 ConfigKeys<Config> AllKeys(const std::string& model_type,
                            const std::optional<std::string>& second_model_type = std::nullopt);
 
-// Every key of a file that would say the same as this configuration.
+// Returns all keys of a file that is equivalent to this configuration.
 ConfigKeys<Config> KeysOf(const Config& config);
 
-// Brings every number that a program has set into the range of its key, so that a file of them can
-// be read.
+// Clamps every number that a program has set to the range of its key, so that a file of them can be
+// read.
 void KeepInRange(Config* config);
 
-// Keys of the VINS family without effect here (vocabulary, output paths, threads, wall-clock
-// limits).
+// Keys of VINS-Mono and its successors without effect here (vocabulary, output paths, threads,
+// wall-clock limits).
 const std::vector<std::string>& IgnoredKeys();
 
 }  // namespace plm_vins

@@ -18,7 +18,7 @@ std::string Quoted(const std::string& text) {
   return quoted + "\"";
 }
 
-// Every matrix of a configuration has three rows, or is 4x4.
+// Every matrix of a configuration is 4x4 or has three rows.
 std::string MatrixText(const std::vector<double>& entries) {
   const size_t rows = entries.size() == 16 ? 4 : 3;
   return "!!opencv-matrix\n   rows: " + std::to_string(rows) +
@@ -32,7 +32,7 @@ std::string ValueText(const ConfigValue& value) {
   return ToText(value);
 }
 
-// A line break would end the comment.
+// Replaces control characters, since a line break would end the comment.
 std::string OnOneLine(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < ' ') c = ' ';

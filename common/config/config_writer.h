@@ -7,8 +7,8 @@
 
 namespace plm_vins {
 
-// Writes a configuration as a file that LoadConfig() reads from any folder: every key with the
-// value in effect, in the format of OpenCV. A comment at its head lists the overrides among them.
+// Writes a configuration file that LoadConfig() can read from any folder: every key with its
+// effective value, in OpenCV's format. A comment at its head lists the overrides.
 void WriteConfig(const Config& config, std::ostream* stream);
 
 }  // namespace plm_vins

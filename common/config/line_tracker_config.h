@@ -11,19 +11,19 @@ enum class LineMatcherType { kFlow, kLbd };
 struct LineTrackerConfig {
   LineDetectorType line_detector = LineDetectorType::kFld;
   LineMatcherType line_matcher = LineMatcherType::kFlow;
-  bool half_resolution = true;       // detect at half resolution; lines are refined at the full one
-  bool join_fragments = true;        // join collinear fragments of one image
-  int max_lines = 60;                // lines per image
-  double min_length = 0.08;          // shortest line, as a share of the image's short side
-  double border = 4;                 // lines keep this far from the image's edge [px]
-  double min_gradient = 5;           // least slope across a line [grey levels/px]
-  double spacing = 5;                // least distance between parallel lines side by side [px]
-  double refill_below = 0.9;         // detect where fewer than this share of max_lines is tracked
-  int refill_interval = 3;           // and at most every so many images
-  double max_angle = 10;             // between where a line is predicted and found [deg]
-  double max_distance = 40;          // the same, across the line [px]
-  double min_overlap = 0.5;          // the same, as a share of the shorter one
-  double min_correlation = 0.6;      // of the brightness around a line from image to image
+  bool half_resolution = true;   // detect at half resolution; refinement is at full resolution
+  bool join_fragments = true;    // join collinear fragments of an image
+  int max_lines = 60;            // lines per image
+  double min_length = 0.08;      // minimum length, relative to the image's short side
+  double border = 4;             // minimum distance from the image border [px]
+  double min_gradient = 5;       // minimum gradient across a line [grey levels/px]
+  double spacing = 5;            // minimum distance between parallel lines side by side [px]
+  double refill_below = 0.9;     // share of max_lines below which lines are detected
+  int refill_interval = 3;       // minimum number of images between detections
+  double max_angle = 10;         // between the predicted and the observed line [deg]
+  double max_distance = 40;      // between the predicted and the observed line [px]
+  double min_overlap = 0.5;      // of the predicted and the observed line, relative to the shorter
+  double min_correlation = 0.6;  // of the brightness profiles across a line in consecutive images
   int max_descriptor_distance = 50;  // LBD: differing bits of 256
 };
 

@@ -7,7 +7,7 @@
 namespace plm_vins {
 
 int EditDistance(const std::string& a, const std::string& b) {
-  std::vector<int> row(b.size() + 1);  // distances of a[0, i) to all beginnings of b
+  std::vector<int> row(b.size() + 1);  // distances of a[0, i) to all prefixes of b
   std::iota(row.begin(), row.end(), 0);
   for (size_t i = 0; i < a.size(); ++i) {
     int diagonal = row[0];

@@ -7,11 +7,12 @@
 
 namespace plm_vins {
 
-// Insertions, deletions and replacements of letters that turn `a` into `b` (Levenshtein distance).
+// Number of insertions, deletions and replacements of letters that turn `a` into `b` (Levenshtein
+// distance).
 int EditDistance(const std::string& a, const std::string& b);
 
-// The word that `misspelt` was probably meant to be, where "x" may stand for "group.x"; nothing
-// where none is near.
+// Returns the word most similar to `misspelt`, where "x" may stand for "group.x"; nullopt if no
+// word is similar.
 std::optional<std::string> NearestWord(const std::string& misspelt,
                                        const std::vector<std::string>& words);
 

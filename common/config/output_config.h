@@ -7,14 +7,14 @@
 
 namespace plm_vins {
 
-// The frames of tf.
+// Names of the tf frames.
 struct OutputConfig {
   std::string map_frame = "map";
   std::string world_frame = "world";
   std::string body_frame = "body";
   std::string camera_frame = "camera";
   std::string manhattan_frame = "manhattan";
-  std::string base_frame;  // of a robot whose own tree leads to the body; empty: none
+  std::string base_frame;  // base of a robot whose own tf tree contains the body; empty: none
   bool publish_tf = true;
 };
 

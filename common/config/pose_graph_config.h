@@ -8,12 +8,12 @@
 namespace plm_vins {
 
 struct PoseGraphConfig {
-  bool loop_closure = false;      // recognise places and correct the drift of odometry in a map
-  bool bundle_adjustment = true;  // of the map, in the end of an offline run
-  std::string save_path;          // folder of the map; empty: the current one
-  bool load_previous = false;     // start in the map that was saved there
+  bool loop_closure = false;      // recognize places and correct odometry drift in a map
+  bool bundle_adjustment = true;  // of the map, at the end of an offline run
+  std::string save_path;          // folder of the map; empty: the current folder
+  bool load_previous = false;     // start from the map that was saved there
 
-  // Where the map is saved, and read from.
+  // Path to which the map is saved and from which it is loaded.
   std::string MapFile() const;
 };
 

@@ -11,7 +11,7 @@ namespace {
 using S = SensorConfig;
 using Key = ConfigKey<S>;
 
-constexpr double kRotationTolerance = 5e-3;     // three decimals are enough
+constexpr double kRotationTolerance = 5e-3;     // allows matrices with three decimals
 constexpr Range kTranslationRange = {-10, 10};  // [m]
 
 Problem SetRotation(const Eigen::MatrixXd& R_B_C, Rigid3d* T_B_C) {
@@ -57,7 +57,8 @@ Eigen::MatrixXd Matrix4(const Rigid3d& transform) {
   return matrix;
 }
 
-// Its value decides whether there is a second camera, so it precedes the keys of that.
+// The value decides whether there is a second camera, so this key precedes the second camera's
+// keys.
 Key CameraCountKey() {
   const auto read = [](const YAML::Node& value, S& sensor) {
     int count = 1;
@@ -81,7 +82,7 @@ ConfigKeys<SecondCamera> SecondCameraKeys(const std::string& model_type) {
                                       {transform}}));
 }
 
-// A topic makes a depth sensor, so its key precedes the others.
+// A topic enables the depth sensor, so its key precedes the others.
 ConfigKeys<S> DepthKeys() {
   const auto read = [](const YAML::Node& value, S& sensor) {
     DepthSensor depth;

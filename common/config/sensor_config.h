@@ -12,21 +12,21 @@
 
 namespace plm_vins {
 
-// How far the intrinsics of a camera may be from those configured: standard deviations.
+// Standard deviations of the configured intrinsics.
 struct IntrinsicsDeviation {
-  double focal_length = 0.01;  // share of it [1]
+  double focal_length = 0.01;  // relative [1]
   double principal_point = 5;  // [px]
   double distortion = 0.005;   // of each coefficient [1]
 };
 
-// The right camera of a pair.
+// The right camera of a stereo pair.
 struct SecondCamera {
   std::string image_topic = "/cam1/image_raw";
   CameraParameters camera;
   Rigid3d T_B_C;  // camera in the body (IMU) frame
 };
 
-// Depth images that are registered to the camera: of its size, with its lens.
+// Depth images registered to the camera: with its size and lens.
 struct DepthSensor {
   std::string topic;
   double noise = 0.002;  // standard deviation of a depth z is noise * z^2 [1/m]
@@ -48,9 +48,10 @@ struct SensorConfig {
   double td = 0.0;  // t_imu = t_image + td [s]
   bool estimate_td = false;
   bool rolling_shutter = false;
-  double rolling_shutter_tr = 0.0;  // read-out time of the whole image, rows top to bottom [s]
+  double rolling_shutter_tr = 0.0;  // readout time of the whole image, rows top to bottom [s]
   bool estimate_rolling_shutter_tr = false;
-  // How a file means its noise, and the rate [Hz] that kVins refers to. Once loaded: kContinuous.
+  // Convention of the noise values in a file, and the rate [Hz] that kVins refers to. Always
+  // kContinuous after loading.
   enum class ImuNoiseModel { kVins, kContinuous };
   ImuNoiseModel imu_noise_model = ImuNoiseModel::kVins;
   double imu_rate = 200;
@@ -58,19 +59,19 @@ struct SensorConfig {
   ImuRange imu_range;
   double gravity_norm = 9.81;  // [m/s^2]
 
-  // Read-out time of the whole image [s]; 0 with a global shutter.
+  // Readout time of the whole image [s]; 0 with a global shutter.
   double ReadoutTime() const { return rolling_shutter ? rolling_shutter_tr : 0.0; }
 };
 
 constexpr Range kCameraCounts = {1, 2};
 
-// What precedes the keys of the second camera's calibration: "cam1_model_type".
+// Key prefix of the second camera's calibration: "cam1_model_type".
 constexpr const char* kSecondCameraPrefix = "cam1_";
 
-// Takes the transform from a 4x4 matrix, unless it is not a rotation and a translation.
+// Sets the transform from a 4x4 matrix. Returns a problem if it is not a rigid transform.
 Problem SetTransform(const Eigen::MatrixXd& T_B_C, Rigid3d* transform);
 
-// All keys, where the cameras are of these types; those of the second one only if it has a type.
+// Returns all keys for cameras of these types; those of the second camera only if it has a type.
 ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type,
                                     const std::optional<std::string>& second_model_type);
 

@@ -35,7 +35,7 @@ YAML::Node MatrixNode(const Eigen::MatrixXd& matrix) {
   return node;
 }
 
-// One replacement of the keys of a file.
+// Replaces the keys of one file.
 class Replacement {
  public:
   Replacement(const std::string& file, ConfigEntries* entries, std::vector<std::string>* ignored,
@@ -98,7 +98,7 @@ class Replacement {
     if (const auto entry = Take(from)) Put(to, *entry);
   }
 
-  // VINS-Fusion names one, but never uses it.
+  // VINS-Fusion configurations name a mask that is never used and may not exist.
   void UseMaskThatExists() {
     const auto entry = entries_.find("fisheye_mask_path");
     if (entry == entries_.end()) return;
@@ -127,7 +127,7 @@ class Replacement {
     put("extrinsicTranslation", T_B_C.topRightCorner(3, 1));
   }
 
-  // Adds the calibration that the file named by `key` holds, its keys with the prefix.
+  // Adds the calibration in the file named by `key`, with the prefix added to its keys.
   bool Include(const std::string& key, const std::string& prefix) {
     const auto naming = Take(key);
     if (!naming) return true;

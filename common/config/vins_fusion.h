@@ -11,11 +11,11 @@ namespace plm_vins {
 // Number of cameras that the entries ask for by `num_of_cam`; 1 if it is missing or not a number.
 int CameraCount(const ConfigEntries& entries);
 
-// Replaces keys that only VINS-Fusion has by those that mean the same: image0_topic, body_T_cam0,
-// and the calibrations in the files cam0_calib and cam1_calib, relative to the configuration
-// `file`. Adds keys that have no effect to `ignored`. A camera's file that cannot be read, values
-// that contradict each other, and odometry without an IMU are added to `problems`. Returns false
-// if a calibration could not be read.
+// Replaces the keys that only VINS-Fusion has by equivalent ones: image0_topic, body_T_cam0, and
+// the calibrations in the files cam0_calib and cam1_calib, relative to the configuration `file`.
+// Adds keys that have no effect to `ignored`. Adds to `problems` an unreadable camera file,
+// contradictory values, and odometry without an IMU. Returns false if a calibration could not be
+// read.
 bool ReplaceVinsFusionKeys(const std::string& file, ConfigEntries* entries,
                            std::vector<std::string>* ignored, std::vector<std::string>* problems);
 

@@ -14,7 +14,7 @@ bool IsTabIndented(const std::string& line) {
   return line.substr(0, line.find_first_not_of(kBlanks)).find('\t') != std::string::npos;
 }
 
-// "max_cnt:100", which is one word to YAML.
+// Detects "max_cnt:100", which is a single word in YAML.
 bool LacksSpace(const std::string& line) {
   size_t i = line.find_first_not_of(kBlanks);
   if (i == std::string::npos) return false;
@@ -32,7 +32,7 @@ std::string HintOn(const std::string& line) {
   return "";
 }
 
-// The lines up to `last`, from 0.
+// Returns the lines up to `last`, counted from 0.
 std::vector<std::string> LinesUpTo(int last, const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
@@ -44,7 +44,7 @@ std::vector<std::string> LinesUpTo(int last, const std::string& text) {
 
 }  // namespace
 
-// Of a line that ends too early the parser tells with the next one.
+// Inspects the previous line as well, since the parser reports a truncated line at the next one.
 std::string YamlHint(const std::string& text, int line) {
   const std::vector<std::string> lines = LinesUpTo(line, text);
   for (size_t i = lines.size(); i > 0 && i + 2 > lines.size(); --i) {

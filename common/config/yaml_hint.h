@@ -5,8 +5,8 @@
 
 namespace plm_vins {
 
-// What may be wrong with a text that the YAML parser refuses at `line` (from 0), for messages: the
-// parser says what it did not find, which is mostly not what was mistyped.
+// Returns a hint about the likely mistake in a text that the YAML parser rejects at `line` (from
+// 0). The parser reports what it expected, which is rarely what was mistyped.
 std::string YamlHint(const std::string& text, int line);
 
 }  // namespace plm_vins

@@ -9,13 +9,14 @@
 
 namespace plm_vins {
 
-// A point as two images show it.
+// Two observations of a point.
 struct CommonPoint {
   const PointObservation* first;
   const PointObservation* second;
 };
 
-// The points that both images show, in the order of the second one. Both must outlive the result.
+// Returns the points observed in both images, in the order of the second one. Both must outlive the
+// result.
 inline std::vector<CommonPoint> CommonPoints(const PointFrame& first, const PointFrame& second) {
   std::unordered_map<int64_t, const PointObservation*> by_id;
   for (const PointObservation& point : first.points) by_id.emplace(point.id, &point);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which features can be true: those that trackers give, and others take from elsewhere.
+// Plausibility checks of features, from the trackers or from other programs.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,12 +13,12 @@
 
 namespace plm_vins {
 
-constexpr double kMaxImageCoordinate = 100;  // normalised: half a degree from the image plane
-constexpr double kMaxPixel = 1e5;            // no image is as large
-constexpr double kMaxImageVelocity = 1e4;    // [1/s], at that place where the camera spins
-constexpr size_t kMaxFeatures = 5000;        // of an image: as max_cnt and max_line_cnt may ask for
+constexpr double kMaxImageCoordinate = 100;  // normalized: half a degree from the image plane
+constexpr double kMaxPixel = 1e5;            // larger than any image
+constexpr double kMaxImageVelocity = 1e4;    // [1/s], at kMaxImageCoordinate in fast rotation
+constexpr size_t kMaxFeatures = 5000;        // per image; upper limit of max_cnt and max_line_cnt
 
-// False for what is not finite, too.
+// Returns false for NaN as well.
 inline bool IsWithin(const Eigen::Vector2d& xy, double limit) {
   return xy.allFinite() && xy.cwiseAbs().maxCoeff() <= limit;
 }
@@ -32,14 +32,14 @@ inline bool IsPossible(const LineObservation& line) {
   return IsWithin(line.start, kMaxImageCoordinate) && IsWithin(line.end, kMaxImageCoordinate);
 }
 
-// Whether it can be true, and its id is none of `ids`, which it joins.
+// Returns whether the observation is plausible and its id is not in `ids`; inserts the id.
 template <typename Observation>
 bool IsPossibleAndNew(const Observation& observation, std::unordered_set<int64_t>* ids) {
   return IsPossible(observation) && ids->insert(observation.id).second;
 }
 
-// Removes impossible observations, those of an id that is in the image already, and those beyond
-// the first kMaxFeatures. Returns how many went.
+// Removes implausible observations, repeated ids, and observations beyond the first kMaxFeatures.
+// Returns the number of removed observations.
 template <typename Observation>
 int64_t RemoveImpossible(std::vector<Observation>* observations) {
   std::unordered_set<int64_t> ids;

@@ -9,14 +9,14 @@
 
 namespace plm_vins {
 
-// Feature messages carry ids as float32, which is exact for whole numbers up to here.
+// Feature messages carry ids as float32, which represents whole numbers exactly up to here.
 constexpr int64_t kTransportableIds = int64_t{1} << 24;
 
-// An id as it travels: modulo kTransportableIds.
+// The id as transmitted: modulo kTransportableIds.
 inline int64_t WrapId(int64_t id) { return id % kTransportableIds; }
 
-// An id that has travelled. From kTransportableIds on, a float32 is taken for its neighbours; so
-// what is no such id throws std::invalid_argument.
+// Converts a received id. Throws std::invalid_argument if it is not a transmittable id, since a
+// float32 from kTransportableIds on is ambiguous.
 inline int64_t ReadId(float value) {
   if (!(value >= 0 && value < static_cast<float>(kTransportableIds)) ||
       value != std::floor(value)) {
@@ -26,17 +26,17 @@ inline int64_t ReadId(float value) {
   return static_cast<int64_t>(value);
 }
 
-// Restores the ids of a tracker from wrapped ones, and keeps apart those of a tracker that was
-// started again and counts from zero once more.
+// Restores the full ids of a tracker from transmitted ones, and distinguishes them from those of a
+// restarted tracker, which counts from zero again.
 class IdRestorer {
  public:
-  // What comes from here on is of another tracker.
+  // The following ids belong to another tracker.
   void BeginTracker() {
     begin_ = highest_ + 1;
     wrap_ = 0;
   }
 
-  // The id that is nearest to the highest one of this tracker; new ids come in order.
+  // Returns the id nearest to the highest one of this tracker, since new ids increase.
   int64_t Restore(int64_t wrapped) {
     int64_t id = begin_ + wrap_ + wrapped;
     if (id + kTransportableIds / 2 < highest_) id += kTransportableIds;
@@ -47,9 +47,9 @@ class IdRestorer {
   }
 
  private:
-  int64_t begin_ = 0;     // of the ids of this tracker
-  int64_t wrap_ = 0;      // multiple of kTransportableIds that this tracker has reached
-  int64_t highest_ = -1;  // id given out so far
+  int64_t begin_ = 0;     // first id of this tracker
+  int64_t wrap_ = 0;      // largest multiple of kTransportableIds reached by this tracker
+  int64_t highest_ = -1;  // highest restored id
 };
 
 }  // namespace plm_vins

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Features of an image with their places in space: what odometry hands on to who builds maps.
+// Features of an image with their 3-D positions, as passed from odometry to mapping.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,19 +9,19 @@
 
 namespace plm_vins {
 
-// A corner that is followed, and its place in the odometry's world O where that is known.
+// A tracked corner with its position in the odometry's world O, if triangulated.
 struct TrackedCorner {
   PointObservation observation;
   std::optional<Eigen::Vector3d> p_O;  // [m]
 };
 
-// A piece of a straight line in O, by its two ends.
+// A 3-D line segment in O, by its two endpoints.
 struct SpaceSegment {
   Eigen::Vector3d start_O = Eigen::Vector3d::Zero();  // [m]
   Eigen::Vector3d end_O = Eigen::Vector3d::Zero();    // [m]
 };
 
-// A line that is followed, and its place where that is known.
+// A tracked line with its position, if triangulated.
 struct TrackedSegment {
   LineObservation observation;
   std::optional<SpaceSegment> landmark;

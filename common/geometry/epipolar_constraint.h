@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The epipolar constraint of one direction seen by two cameras, for the refinement of their
-// relative pose.
+// Epipolar constraint of a direction observed by two cameras, for the refinement of their relative
+// pose.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,9 +8,9 @@
 
 namespace plm_vins {
 
-// Derivative of weight * t . (a x b), where a = R f0 and b = f1 are one direction in the frame of
-// the second camera: by theta in R <- Exp(theta) R, then by eta in t <- t + basis * eta. The weight
-// is held constant.
+// Derivative of weight * t . (a x b), where a = R f0 and b = f1 are the observations in the frame
+// of the second camera: by theta in R <- Exp(theta) R, then by eta in t <- t + basis * eta. The
+// weight is held constant.
 inline Eigen::Matrix<double, 5, 1> EpipolarGradient(double weight, const Eigen::Vector3d& a,
                                                     const Eigen::Vector3d& b,
                                                     const Eigen::Vector3d& t,

@@ -6,8 +6,8 @@
 
 namespace plm_vins {
 
-// A rigid transform T_A_B, which takes points of frame B to frame A: p_A = T_A_B * p_B = R_A_B p_B
-// + p_A_B.
+// A rigid transform T_A_B, which transforms points from frame B to frame A: p_A = T_A_B * p_B =
+// R_A_B p_B + p_A_B.
 struct Rigid3d {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  // origin of B in A [m]
@@ -18,7 +18,7 @@ struct Rigid3d {
 
   Eigen::Matrix3d R() const { return rotation.toRotationMatrix(); }
 
-  // T_B_A of this T_A_B.
+  // Returns T_B_A, the inverse of this T_A_B.
   Rigid3d Inverse() const {
     const Eigen::Quaterniond R_B_A = rotation.conjugate();
     return {R_B_A, -(R_B_A * translation)};

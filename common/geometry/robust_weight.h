@@ -3,8 +3,8 @@
 
 namespace plm_vins {
 
-// Weight of the Geman-McClure loss in iteratively reweighted least squares ([Zhang1997]): one for
-// no error, and next to nothing for errors of several times `scale`, so that an outlier has no say.
+// Weight of the Geman-McClure loss in iteratively reweighted least squares ([Zhang1997]): one at
+// zero error, and nearly zero for errors of several times `scale`.
 inline double GemanMcClureWeight(double error, double scale) {
   const double ratio = error / scale;
   return 1 / ((1 + ratio * ratio) * (1 + ratio * ratio));

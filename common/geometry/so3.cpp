@@ -8,7 +8,7 @@ namespace plm_vins {
 Eigen::Quaterniond SO3Exp(const Eigen::Vector3d& phi) {
   const double angle_squared = phi.squaredNorm();
   const double angle = std::sqrt(angle_squared);
-  // sin(a/2)/a, by its series where a is too small to divide by.
+  // sin(a/2)/a, by its Taylor series for small a.
   const double scale = angle < 1e-6 ? 0.5 - angle_squared / 48.0 : std::sin(0.5 * angle) / angle;
   Eigen::Quaterniond q;
   q.w() = angle < 1e-6 ? 1.0 - angle_squared / 8.0 : std::cos(0.5 * angle);

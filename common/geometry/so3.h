@@ -8,7 +8,7 @@
 
 namespace plm_vins {
 
-// The matrix [v]x with [v]x w = v x w.
+// The skew-symmetric matrix [v]x with [v]x w = v x w.
 inline Eigen::Matrix3d Skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
@@ -18,7 +18,7 @@ inline Eigen::Matrix3d Skew(const Eigen::Vector3d& v) {
 // Rotation by the angle |phi| about phi, as a unit quaternion.
 Eigen::Quaterniond SO3Exp(const Eigen::Vector3d& phi);
 
-// The inverse of SO3Exp, with |result| <= pi. `q` must have unit length; q and -q give the same.
+// Inverse of SO3Exp, with |result| <= pi. `q` must have unit length; q and -q are equivalent.
 Eigen::Vector3d SO3Log(const Eigen::Quaterniond& q);
 
 // Right Jacobian: Exp(phi + d) = Exp(phi) Exp(Jr(phi) d) to first order in d.
@@ -27,10 +27,10 @@ Eigen::Matrix3d SO3RightJacobian(const Eigen::Vector3d& phi);
 // Inverse of SO3RightJacobian: Log(Exp(phi) Exp(d)) = phi + Jr^-1(phi) d to first order in d.
 Eigen::Matrix3d SO3RightJacobianInverse(const Eigen::Vector3d& phi);
 
-// The shortest rotation that turns direction `from` into direction `to`: to ~ R from.
+// The shortest rotation from direction `from` to direction `to`: to ~ R from.
 Eigen::Quaterniond ShortestRotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-// The heading (yaw) of `q` in the z-up world: of its x axis, about z [rad].
+// Heading (yaw) of `q` in the z-up world: that of its x axis, about z [rad].
 double Yaw(const Eigen::Quaterniond& q);
 
 }  // namespace plm_vins

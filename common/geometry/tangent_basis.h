@@ -6,7 +6,7 @@
 
 namespace plm_vins {
 
-// Two directions, the columns, that with the unit vector `v` make an orthonormal basis.
+// Two orthonormal columns that are perpendicular to the unit vector `v`.
 inline Eigen::Matrix<double, 3, 2> TangentBasis(const Eigen::Vector3d& v) {
   Eigen::Matrix<double, 3, 2> basis;
   basis.col(0) = v.unitOrthogonal();

@@ -9,32 +9,32 @@
 namespace plm_vins {
 namespace {
 
-// What a tap on a body at rest may do from one reading to the next.
+// Largest change between readings that a tap on a stationary body may cause.
 constexpr double kAlwaysAllowedGyro = 1.0;    // [rad/s]
 constexpr double kAlwaysAllowedAccel = 15.0;  // [m/s^2]
 
-// Beyond this multiple of the usual leap one is suspect; propellers reach four times.
+// A change is suspect beyond this multiple of the typical one; propellers reach four times.
 constexpr double kLeapFactor = 6.0;
-constexpr double kLearningRate = 0.01;  // per sample: usual is what half a second was like
+constexpr double kLearningRate = 0.01;  // per sample; averages over half a second
 
-// Of saturated readings. Sensors end somewhat below the round numbers that their ranges are given
-// in: 2000 deg/s are 34.9 rad/s, 16 g are 156.9 m/s^2.
+// Saturation limits. Sensors saturate slightly below the nominal values of their ranges: 2000 deg/s
+// are 34.9 rad/s, 16 g are 156.9 m/s^2.
 constexpr double kEndOfRange = 0.98;  // share of the range
-constexpr double kCutOff = 0.5;       // what may be missing, as a share of the range
+constexpr double kCutOff = 0.5;       // possible excess of the true value, as a share of the range
 
-constexpr int64_t kMaxInterval_ns = 50'000'000;  // readings further apart have nothing to say
+constexpr int64_t kMaxInterval_ns = 50'000'000;  // readings further apart are not compared
 
-// Of the axis that differs most.
+// Largest absolute difference over the axes.
 double Difference(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return (b - a).cwiseAbs().maxCoeff();
 }
 
-// How far a reading, cut off where the sensor ends, is from its replacement.
+// Difference between a reading, clamped to the sensor's range, and its replacement.
 double Doubt(const Eigen::Vector3d& reading, const Eigen::Vector3d& replacement, double range) {
   return Difference(reading.cwiseMax(-range).cwiseMin(range), replacement);
 }
 
-// Whether the sample is at the end of the range; it is doubted there.
+// Returns whether the sample is saturated; if so, increases its doubt.
 bool DoubtSaturated(const ImuRange& range, ImuSample* sample) {
   const bool gyro = sample->gyro.cwiseAbs().maxCoeff() >= kEndOfRange * range.gyro;
   const bool accel = sample->accel.cwiseAbs().maxCoeff() >= kEndOfRange * range.accel;
@@ -49,7 +49,8 @@ double ImuGate::Leaps::Limit() const {
   return always_allowed + kLeapFactor * std::sqrt(mean_square);
 }
 
-// Cut off, a few outliers do not spoil the limit; where leaps go on, the limit yields.
+// Clamps the change to the limit, so that single outliers hardly raise it, while persistent changes
+// do.
 void ImuGate::Leaps::Learn(double leap) {
   const double counted = std::min(leap, Limit());
   mean_square += kLearningRate * (counted * counted - mean_square);

@@ -7,8 +7,8 @@
 
 namespace plm_vins {
 
-// The reading at `t_ns` on the straight line between two; `a` must be before `b`. At the stamp of
-// one of them it is that one, bit by bit.
+// Interpolates linearly at `t_ns` between two readings; `a` must be earlier than `b`. Returns `a`
+// or `b` unchanged if `t_ns` equals its timestamp.
 inline ImuSample InterpolateImu(const ImuSample& a, const ImuSample& b, int64_t t_ns) {
   if (t_ns == a.t_ns) return a;
   if (t_ns == b.t_ns) return b;

@@ -5,24 +5,24 @@
 
 namespace plm_vins {
 
-// Largest reading of any axis of an IMU.
+// Largest absolute reading of any axis of an IMU.
 struct ImuRange {
   double gyro = 35.0;    // [rad/s], 2000 deg/s
   double accel = 160.0;  // [m/s^2], 16 g
 };
 
-// Beyond the inertial sensors of vehicles and hands.
+// Exceeds the readings of IMUs on vehicles and handheld devices.
 constexpr ImuRange kAnyImuRange = {100.0, 500.0};
 
-// False for what is not finite, too.
+// Returns false for NaN as well.
 inline bool IsInRange(const ImuSample& sample, const ImuRange& range = kAnyImuRange) {
   return sample.gyro.allFinite() && sample.accel.allFinite() &&
          sample.gyro.cwiseAbs().maxCoeff() <= range.gyro &&
          sample.accel.cwiseAbs().maxCoeff() <= range.accel;
 }
 
-// What an inertial sensor may have read: false also for zeros throughout, which drivers give where
-// they could not read it, and with a stamp that is none.
+// Returns whether a sample may come from an inertial sensor. All-zero readings, which drivers send
+// after read errors, and invalid timestamps are not plausible.
 inline bool IsPlausible(const ImuSample& sample) {
   return IsStamp(sample.t_ns) && IsInRange(sample) &&
          !(sample.gyro.isZero(0.0) && sample.accel.isZero(0.0));

@@ -13,8 +13,8 @@
 
 namespace plm_vins {
 
-// To and from bytes. Both have the same interface, so that one function per struct, a template of
-// the archive, defines its layout. Little-endian, as all machines that we know of.
+// Binary serialization. BinaryWriter and BinaryReader have the same interface, so that one function
+// template for each struct defines its layout. Little-endian, as all supported machines are.
 class BinaryWriter {
  public:
   explicit BinaryWriter(std::ostream* stream) : stream_(stream) {}
@@ -24,7 +24,7 @@ class BinaryWriter {
     static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
     stream_->write(reinterpret_cast<const char*>(&value), sizeof(value));
   }
-  // Each item by `layout(archive, item)`.
+  // Writes each item with `layout(archive, item)`.
   template <typename Items, typename Layout>
   void List(const Items& items, const Layout& layout) {
     Value(static_cast<uint32_t>(items.size()));
@@ -40,7 +40,7 @@ class BinaryWriter {
   std::ostream* stream_;
 };
 
-// Throws std::runtime_error where the bytes end early or are damaged.
+// Throws std::runtime_error if the data end early or are damaged.
 class BinaryReader {
  public:
   explicit BinaryReader(std::istream* stream) : stream_(stream) {}
@@ -58,7 +58,7 @@ class BinaryReader {
     if (byte > 1) throw std::runtime_error("is damaged");
     value = byte == 1;
   }
-  // Makes an item when it comes to its bytes: a count alone asks for no memory.
+  // Appends items as they are read, so that a damaged count cannot allocate much memory.
   template <typename Items, typename Layout>
   void List(Items& items, const Layout& layout) {
     uint32_t size = 0;

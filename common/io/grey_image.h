@@ -5,8 +5,8 @@
 
 namespace plm_vins {
 
-// Reads an image as grey levels, its rows as the camera gave them: a calibration knows nothing of
-// the orientation that a camera notes in the file.
+// Flags for reading a grey image with its rows as the camera delivered them: the calibration does
+// not apply to an image rotated by the orientation tag of its file.
 constexpr int kReadGreyAsStored = cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION;
 
 }  // namespace plm_vins

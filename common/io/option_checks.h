@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the options of programs are checked for where their parser is too lenient.
+// Validation of command line options where the parser is too lenient.
 #pragma once
 
 #include <cstdlib>
@@ -7,13 +7,13 @@
 
 namespace plm_vins {
 
-// The message of what is wrong with a path; empty where nothing is. An empty one comes of a
-// variable of the shell that is not set.
+// Returns an error message if the path is empty, as from an unset shell variable; otherwise an
+// empty string.
 inline std::string CheckPath(const std::string& path) {
   return path.empty() ? "expected a path, which is empty" : "";
 }
 
-// Whether all of the text is one number between the two: "nan" is none.
+// Returns whether the whole text is one number in the range; "nan" is not.
 inline bool IsNumberBetween(double least, double most, const std::string& text) {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);

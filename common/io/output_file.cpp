@@ -19,8 +19,8 @@ std::string Unfinished(const std::string& path) { return path + ".part"; }
   throw std::runtime_error("cannot write " + name + ": " + reason);
 }
 
-// Waits until the disk has what was written to `path`, which errors call `name`. Where a file
-// system does not offer that, it has been written as well as can be.
+// Waits until the data of `path`, which errors call `name`, are on the disk. File systems that do
+// not support this are tolerated.
 void Synchronize(const std::string& path, const std::string& name) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const int failed = descriptor < 0 || ::fsync(descriptor) < 0 ? errno : 0;
@@ -30,7 +30,7 @@ void Synchronize(const std::string& path, const std::string& name) {
   }
 }
 
-// What a link leads to. A device or a folder is not to be replaced by a file.
+// Resolves symbolic links. Throws if a device or folder would be replaced.
 std::string ToReplace(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return path;

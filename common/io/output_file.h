@@ -7,17 +7,17 @@
 
 namespace plm_vins {
 
-// A file being written. What cannot be written throws std::runtime_error that names the file: where
-// it cannot be opened at once, on a full disk at a later stream(), and in Close() at the latest.
+// A file being written. Throws std::runtime_error with the file name if it cannot be opened, or, as
+// on a full disk, at a later stream() or in Close() at the latest.
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path) : OutputFile(path, path) {}
-  // Errors call it `name`.
+  // Errors call the file `name`.
   OutputFile(const std::string& path, const std::string& name);
 
   std::ostream& stream();
 
-  // Everything is on its way to the disk afterwards.
+  // Flushes all data to the operating system.
   void Close();
 
  private:
@@ -27,12 +27,12 @@ class OutputFile {
   std::ofstream stream_;
 };
 
-// A file that is replaced in one step: readers see the old one until Commit(), then the new one,
-// never half of it, not even after a loss of power. What is not committed leaves no trace, but
-// for PATH.part where the program is killed meanwhile.
+// A file that is replaced atomically: readers see the old content until Commit(), then the new one,
+// even after a power loss. Without Commit() the file is unchanged; only PATH.part is left if the
+// program is killed.
 class ReplacedFile {
  public:
-  // Begins to write beside the file. Throws as OutputFile does.
+  // Starts writing next to the file. Throws as OutputFile does.
   explicit ReplacedFile(const std::string& path);
   ~ReplacedFile();
   ReplacedFile(const ReplacedFile&) = delete;

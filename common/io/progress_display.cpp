@@ -36,7 +36,7 @@ void ProgressDisplay::Update(int64_t t_ns) {
   terminal_ ? DrawBar(seconds, share, speed) : PrintLine(seconds, share, speed);
 }
 
-// Of the run, zero where its length is not known.
+// Progress of the run, 0 to 1; zero if its length is unknown.
 double ProgressDisplay::Share(double seconds) const {
   const double left = end_ns_ ? ToSeconds(*end_ns_ - *first_ns_) : duration_;
   const double length = std::min(left, duration_);

@@ -8,16 +8,16 @@
 
 namespace plm_vins {
 
-// Progress through a recording on stderr: a bar that is redrawn where that is a terminal, else a
-// line now and then.
+// Displays the progress through a recording on stderr: a progress bar on a terminal, otherwise
+// occasional lines.
 class ProgressDisplay {
  public:
-  // `end_ns`: stamp at which the recording ends, where that is known; `duration`: after which the
-  // run does [s], may be infinite.
+  // `end_ns` is the timestamp at which the recording ends, if known; `duration` [s] is the length
+  // of the run, may be infinite.
   explicit ProgressDisplay(std::optional<int64_t> end_ns,
                            double duration = std::numeric_limits<double>::infinity());
 
-  // A frame of this stamp is done.
+  // Reports that the frame with this timestamp is done.
   void Update(int64_t t_ns);
 
   // Clears the bar.

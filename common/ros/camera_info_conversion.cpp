@@ -34,7 +34,7 @@ Model ModelOf(const std::string& name) {
                               "\", not plumb_bob, equidistant or mei");
 }
 
-// Coefficients in D: radtan has a k3, which we do without, and MEI has xi.
+// Number of coefficients in D: radtan has an unused k3, and MEI has xi.
 size_t CoefficientsOf(Model model) { return model == Model::kPinholeEquidistant ? 4 : 5; }
 
 }  // namespace

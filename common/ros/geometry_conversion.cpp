@@ -19,7 +19,7 @@ Rigid3d ToRigid(const Position& p, const geometry_msgs::Quaternion& q) {
   return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), {p.x, p.y, p.z}};
 }
 
-// The covariance of a pose whose rotation is told by theta before, by R theta after.
+// Covariance of a pose whose rotation error is transformed from theta to R theta.
 Eigen::Matrix<double, 6, 6> TurnRotation(const Eigen::Matrix3d& R,
                                          const Eigen::Matrix<double, 6, 6>& covariance) {
   Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Identity();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What messages are made of: stamps, headers, points and poses.
+// Conversion of basic message types: timestamps, headers, points and poses.
 #pragma once
 
 #include <geometry_msgs/Point.h>
@@ -34,20 +34,20 @@ geometry_msgs::Vector3 ToVector3(const Eigen::Vector3d& v);
 geometry_msgs::Quaternion ToQuaternion(const Eigen::Quaterniond& q);
 geometry_msgs::Pose ToPose(const Rigid3d& T);
 geometry_msgs::Transform ToTransform(const Rigid3d& T);
-// Of the child in the frame of the header.
+// Transform of the child frame in the frame of the header.
 geometry_msgs::TransformStamped ToTransform(const std_msgs::Header& header,
                                             const std::string& child_frame, const Rigid3d& T);
 Rigid3d ToRigid(const geometry_msgs::Pose& pose);
 Rigid3d ToRigid(const geometry_msgs::Transform& transform);
 
-// How messages of poses and twists lay out a covariance.
+// Layout of covariances in pose and twist messages.
 using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
-// A variance as large stands for one that is not known, in SI units, as in MAVLink.
+// A variance of at least this value means unknown (SI units), as in MAVLink.
 constexpr double kUnknownVariance = 1e6;
 
-// The covariance of a message's pose T_W_B, as (p_W, theta_B), R_W_B Exp(theta_B): the message has
-// it about the axes of W. Nothing where it is not known.
+// Covariance of a message's pose T_W_B as (p_W, theta_B) with R_W_B Exp(theta_B); the message has
+// the rotation about the axes of W. Returns nullopt if it is unknown.
 std::optional<Eigen::Matrix<double, 6, 6>> CovarianceOf(
     const geometry_msgs::PoseWithCovariance& pose);
 void SetCovariance(const Eigen::Matrix<double, 6, 6>& covariance,

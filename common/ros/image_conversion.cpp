@@ -18,8 +18,8 @@
 namespace plm_vins {
 namespace {
 
-// cv_bridge counts the bytes in 32 bits, which rows far apart overflow: it would take the image,
-// and its pixels would lie far behind the message.
+// Validates the size, since cv_bridge computes it in 32 bits: an overflow by a large row step would
+// make it read behind the message.
 void CheckSize(const sensor_msgs::Image& image) {
   namespace encodings = sensor_msgs::image_encodings;
   const auto pixel_bits = static_cast<uint64_t>(encodings::numChannels(image.encoding)) *
@@ -32,8 +32,8 @@ void CheckSize(const sensor_msgs::Image& image) {
                               std::to_string(image.width) + " pixels");
 }
 
-// Pixels of 16 bits that come high byte first, turned round: cv_bridge would make them two channels
-// of 8 bits.
+// Swaps the bytes of big-endian 16-bit pixels, which cv_bridge would interpret as two channels of 8
+// bits.
 sensor_msgs::ImageConstPtr LowByteFirst(const sensor_msgs::ImageConstPtr& message) {
   namespace encodings = sensor_msgs::image_encodings;
   if (!message->is_bigendian || encodings::bitDepth(message->encoding) != 16) return message;
@@ -47,8 +47,8 @@ sensor_msgs::ImageConstPtr LowByteFirst(const sensor_msgs::ImageConstPtr& messag
   return turned;
 }
 
-// Shares the message's pixels where they are grey. Drivers that do not care announce grey images by
-// their OpenCV type, which cv_bridge converts only to itself.
+// Shares the pixels of a grey message. Some drivers name only the OpenCV type of grey images, which
+// cv_bridge cannot convert to mono8.
 cv_bridge::CvImageConstPtr ToGrey(const sensor_msgs::ImageConstPtr& message) {
   namespace encodings = sensor_msgs::image_encodings;
   const std::string& encoding = message->encoding;
@@ -59,7 +59,7 @@ cv_bridge::CvImageConstPtr ToGrey(const sensor_msgs::ImageConstPtr& message) {
   return gray;
 }
 
-// Empty where that fails. OpenCV throws where the header claims too large an image.
+// Returns an empty image on failure. OpenCV throws if the header claims too large an image.
 cv::Mat Decode(const std::vector<uint8_t>& bytes) {
   if (bytes.empty()) return {};
   try {
@@ -78,7 +78,7 @@ ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message) {
     if (gray->image.type() != CV_8UC1) throw std::invalid_argument("it does not become 8-bit grey");
     return {ToNanoseconds(message->header.stamp), gray->image,
             std::make_shared<cv_bridge::CvImageConstPtr>(gray)};
-  } catch (const std::exception& error) {  // cv_bridge's and cv's exceptions among others
+  } catch (const std::exception& error) {  // exceptions of cv_bridge, OpenCV and others
     throw std::invalid_argument("image of encoding '" + message->encoding +
                                 "' cannot be made grey: " + error.what());
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Images to ROS messages and back. Apart from other messages: a node that takes no images loads
-// none of the libraries that read them.
+// Conversion of images to and from ROS messages. Separate from other messages, so that a node
+// without images does not load the image libraries.
 #pragma once
 
 #include <sensor_msgs/CompressedImage.h>
@@ -13,16 +13,16 @@
 
 namespace plm_vins {
 
-// Grey image of any encoding that cv_bridge can turn into one (mono8, mono16, bgr8, rgb8, Bayer,
-// ...). Throws std::invalid_argument that names the encoding where there is no way, or where the
-// bytes are not those of an image of that size. Pixels that are grey already stay where they are:
-// the sample then owns a share of the message.
+// Converts a grey image of any encoding that cv_bridge supports (mono8, mono16, bgr8, rgb8, Bayer,
+// ...). Throws std::invalid_argument with the encoding if it is not supported or the data do not
+// have the size of the image. Pixels that are grey already are shared with the message, which the
+// sample then co-owns.
 ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message);
-// The same from a message that may go: with pixels of its own.
+// Copies the pixels, so that the message need not outlive the sample.
 ImageSample ToImageSample(const sensor_msgs::Image& message);
 ImageSample ToImageSample(const sensor_msgs::CompressedImage& message);
 
-// A picture of type CV_8UC3 (BGR).
+// `bgr` is CV_8UC3.
 sensor_msgs::ImagePtr ToMessage(const cv::Mat& bgr, int64_t t_ns, const std::string& frame_id);
 
 }  // namespace plm_vins

@@ -19,7 +19,7 @@ void ImageSubscription::Subscribe(ros::NodeHandle node, const ros::NodeHandle& p
   callback_ = std::move(callback);
   const auto transport =
       FindParameter<std::string>(private_node, "image_transport").value_or("raw");
-  // A remapping means the topic without the transport. It must take effect once.
+  // A remapping refers to the topic without the transport suffix, and must be applied only once.
   const std::string base = transport == "raw" ? topic : node.resolveName(topic);
   if (transport == "compressed") {
     compressed_subscriber_ = node.subscribe<sensor_msgs::CompressedImage>(
@@ -38,7 +38,7 @@ std::string ImageSubscription::topic() const {
   return compressed_subscriber_ ? compressed_subscriber_.getTopic() : subscriber_.getTopic();
 }
 
-// A message, or a pointer to one whose pixels are shared.
+// `message` is a message, or a pointer to one whose pixels are shared.
 template <typename Message>
 void ImageSubscription::Read(const std_msgs::Header& header, const Message& message) {
   stream_.Add(ToNanoseconds(header.stamp));

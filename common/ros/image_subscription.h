@@ -18,22 +18,22 @@
 
 namespace plm_vins {
 
-// Grey images of a topic, by the transport that ~image_transport names: raw (default), compressed
-// (decoded here, no plugin needed) or any plugin's name. Ends with the subscription, which waits
-// for a callback that runs.
+// Subscribes to grey images with the transport named by ~image_transport: raw (default), compressed
+// (decoded here without a plugin) or the name of any plugin. The destructor unsubscribes and waits
+// for a running callback.
 class ImageSubscription {
  public:
-  // An image, or nothing where a message cannot be made one, which is counted.
+  // Receives an image, or nullopt if a message cannot be converted, which is counted.
   using Callback = std::function<void(std::optional<ImageSample>)>;
 
-  // Once. Callbacks come by the queue of `node` from here on, at most `queue` of them waiting.
+  // Must be called once. Callbacks come through the queue of `node`, with at most `queue` waiting.
   void Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node,
                  const std::string& topic, uint32_t queue, Callback callback);
 
-  // What is subscribed, in full: with namespace, remapping and transport.
+  // Full name of the subscribed topic, with namespace, remapping and transport.
   std::string topic() const;
 
-  // For any threads. Of all messages, and the wall time since the last that was an image [s].
+  // Thread-safe: statistics of all messages, and wall time since the last readable image [s].
   StreamMonitor& stream() { return stream_; }
   double SilenceOfImages() const { return readable_.Silence(); }
   DropCount unreadable() const {

@@ -6,12 +6,12 @@
 
 namespace plm_vins {
 
-// Callbacks of subscriptions with this queue run in the thread that receives their messages: to
-// wake another one costs more than to take in an IMU sample. They may come beside all other
-// callbacks, and hold up what else is received. Must outlive the subscriptions.
+// A callback queue that runs callbacks in the thread that receives the messages, since waking
+// another thread costs more than processing an IMU sample. Such callbacks may run concurrently with
+// all others, and delay other messages. The queue must outlive its subscriptions.
 class InPlaceQueue : public ros::CallbackQueueInterface {
  public:
-  // The same node, for subscriptions with this queue.
+  // Returns a handle of the same node for subscriptions with this queue.
   ros::NodeHandle Receiver(ros::NodeHandle node) {
     node.setCallbackQueue(this);
     return node;
@@ -20,7 +20,7 @@ class InPlaceQueue : public ros::CallbackQueueInterface {
   void addCallback(const ros::CallbackInterfacePtr& callback, uint64_t) override {
     callback->call();
   }
-  void removeByID(uint64_t) override {}  // none waits here
+  void removeByID(uint64_t) override {}  // no callback ever waits
 };
 
 }  // namespace plm_vins

@@ -37,7 +37,7 @@ bool HasManhattanFrame(const sensor_msgs::PointCloud& message) {
   return !message.channels.empty() && message.channels.back().name == kManhattan;
 }
 
-// One channel for each feature, which has `points_each` points.
+// Validates that there is one channel for each feature, which has `points_each` points.
 void CheckLayout(const sensor_msgs::PointCloud& message, size_t points_each) {
   const size_t features = message.channels.size() - (HasManhattanFrame(message) ? 1 : 0);
   if (message.points.size() != points_each * features) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keyframes of the estimator for those who build maps, as messages.
+// Messages with the estimator's keyframes, for mapping.
 #pragma once
 
 #include <sensor_msgs/PointCloud.h>
@@ -14,20 +14,20 @@
 
 namespace plm_vins {
 
-// ~keyframe_point as in VINS-Mono: the places of the corners that have one, and one channel for
-// each, with x, y (normalised), u, v [px] and the id, which travels as that of features does.
-// Reading throws std::invalid_argument where a channel is missing or too short, or an id is none
-// that travels. It leaves out, and counts, what cannot be true (common/features/feature_checks.h),
-// a place that is not finite, and the second of an id.
+// ~keyframe_point has VINS-Mono's format: the positions of corners that have one, and one channel
+// for each, with x, y (normalized), u, v [px] and the id (modulo kTransportableIds). Reading throws
+// std::invalid_argument if a channel is missing or too short, or an id is invalid. It drops, and
+// counts, implausible observations (common/features/feature_checks.h), positions that are not
+// finite, and repeated ids.
 sensor_msgs::PointCloud ToKeyframePoints(const std::vector<TrackedCorner>& corners, int64_t t_ns,
                                          const std::string& frame_id);
 std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message, int64_t* left_out);
 
-// ~keyframe_line: both ends in space of each line, not a number where it has no place, and one
-// channel for each line, with the ends x, y, x, y (normalised) and the id. Lines without a place
-// count as well: they show that what was there at an earlier visit still is. Where the scene has a
-// Manhattan frame, a last channel of that name has R_O_Manhattan as w, x, y, z. Reading is as
-// above, and throws where that is no rotation.
+// ~keyframe_line has both 3-D endpoints of each line, NaN without a position, and one channel for
+// each line, with the endpoints x, y, x, y (normalized) and the id. Lines without a position matter
+// as well: they confirm lines of an earlier visit. If the scene has a Manhattan frame, the last
+// channel, named after it, has R_O_Manhattan as w, x, y, z. Reading is as above, and throws if that
+// is not a rotation.
 sensor_msgs::PointCloud ToKeyframeLines(const std::vector<TrackedSegment>& segments,
                                         const std::optional<Eigen::Quaterniond>& R_O_Manhattan,
                                         int64_t t_ns, const std::string& frame_id);

@@ -8,8 +8,8 @@
 
 namespace plm_vins {
 
-// An empty marker of this type (such as visualization_msgs::Marker::LINE_LIST) in the namespace
-// `name`: black and opaque, its lines as wide and its spheres as large as `size` [m].
+// Returns an empty marker of this type (such as visualization_msgs::Marker::LINE_LIST) in the
+// namespace `name`: black and opaque, with line width or sphere diameter `size` [m].
 visualization_msgs::Marker MakeMarker(const std_msgs::Header& header, const std::string& name,
                                       int type, double size);
 

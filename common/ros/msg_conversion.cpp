@@ -37,7 +37,8 @@ void Append(const Eigen::Vector2d& xy, const std::array<double, kSize>& values,
   }
 }
 
-// The stamp of a message of features. A message may have one that ROS itself cannot write.
+// Returns the timestamp of a feature message. A message may have an invalid timestamp that ROS
+// itself cannot create.
 int64_t StampOf(const sensor_msgs::PointCloud& cloud) {
   const int64_t t_ns = ToNanoseconds(cloud.header.stamp);
   if (!IsStamp(t_ns)) throw std::invalid_argument("feature message with a stamp that is none");
@@ -54,9 +55,10 @@ void CheckChannels(const sensor_msgs::PointCloud& cloud, size_t count, const cha
   }
 }
 
-// What the channels of points are, by their number: VINS-Fusion names a camera after the id.
+// Channel layout of point messages, by the number of channels: VINS-Fusion has a camera id after
+// the feature id.
 struct PointLayout {
-  size_t channels = 0;  // that must be there
+  size_t channels = 0;  // required number
   size_t first_pixel = 0;
   const char* names = "";
 };

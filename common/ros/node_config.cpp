@@ -17,7 +17,7 @@
 namespace plm_vins {
 namespace {
 
-// Who subscribes to a name that ROS refuses gets an exception that knows neither file nor key.
+// Validates topic names here, since the exception of a subscription names neither file nor key.
 void CheckTopicNames(const ros::NodeHandle& node, const Config& config) {
   std::vector<std::string> problems;
   const auto check = [&](const std::string& key, const std::string& topic) {
@@ -33,7 +33,7 @@ void CheckTopicNames(const ros::NodeHandle& node, const Config& config) {
   if (!problems.empty()) throw ConfigError(problems);
 }
 
-// A shell's `_set/max_cnt:=100` is a number to ROS.
+// Converts to text, since ROS parses `_set/max_cnt:=100` from a shell as a number.
 std::string TextOf(XmlRpc::XmlRpcValue value, const std::string& name) {
   switch (value.getType()) {
     case XmlRpc::XmlRpcValue::TypeString:
@@ -49,7 +49,7 @@ std::string TextOf(XmlRpc::XmlRpcValue value, const std::string& name) {
   }
 }
 
-// ~set/KEY by KEY. `prefix` and KEY name one in messages.
+// Returns the values of ~set/KEY by KEY. `prefix` plus KEY is the name in messages.
 std::map<std::string, std::string> FindOverrides(const ros::NodeHandle& private_node,
                                                  const std::string& prefix) {
   XmlRpc::XmlRpcValue values;

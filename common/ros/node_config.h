@@ -9,12 +9,12 @@
 
 namespace plm_vins {
 
-// The configuration of the file ~config_file, in which ~set/KEY replace scalar keys, each of which
-// is logged. Warns of keys without effect. Throws ConfigError, also where a topic has a name that
-// ROS refuses, and std::runtime_error where a parameter is of another kind.
+// Loads the configuration file ~config_file; ~set/KEY replace scalar keys and are logged. Warns of
+// keys without effect. Throws ConfigError, also if a topic name is invalid in ROS, and
+// std::runtime_error if a parameter has another type.
 Config LoadNodeConfig(const ros::NodeHandle& private_node);
 
-// One fatal log line per line of the error's text: one per problem of a configuration.
+// Logs each line of the error's text as fatal: one for each problem of a configuration.
 void LogFatal(const std::exception& error);
 
 }  // namespace plm_vins

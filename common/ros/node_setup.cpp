@@ -17,9 +17,9 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kClockPatience = 10;  // [s]: a player opens its bag first
+constexpr double kClockPatience = 10;  // [s]; a player first opens its bag
 
-// Parameters outlive a launch: a bag's leaves live sensors with a clock that stands still.
+// Parameters outlive a launch: /use_sim_time of an earlier bag leaves live sensors without a clock.
 void WarnWithoutClock() {
   if (ros::Time::isValid()) return;
   ROS_WARN(
@@ -28,7 +28,8 @@ void WarnWithoutClock() {
       "and start all nodes again");
 }
 
-// False, and said, where an argument has a name that ROS refuses: its log does not run yet.
+// Returns false, after printing why, if an argument has an invalid ROS name; logging does not work
+// yet.
 bool InitRos(int argc, char** argv, const std::string& name) {
   try {
     ros::init(argc, argv, name);
@@ -42,13 +43,13 @@ bool InitRos(int argc, char** argv, const std::string& name) {
 }  // namespace
 
 int RunNode(int argc, char** argv, const std::string& name, const std::function<void()>& body) {
-  // Until ROS runs and handles signals, there is nothing to save.
+  // Exits at once until ROS handles signals, since there is nothing to save yet.
   std::signal(SIGINT, [](int) { std::_Exit(0); });
   std::signal(SIGTERM, [](int) { std::_Exit(0); });
   SetUpProcess();
   if (!InitRos(argc, argv, name)) return 1;
   const ros::NodeHandle keeps_ros_running;
-  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });  // of SIGINT, ROS does so itself
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });  // ROS itself handles SIGINT
   try {
     body();
   } catch (const std::exception& error) {
@@ -69,8 +70,8 @@ void Spin() {
       /*oneshot=*/true);
   while (ros::ok()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
-    // A queue that is shut down does not wait: ros::spin() is busy from then on, for a tenth of a
-    // second of each node.
+    // After shutdown the queue no longer waits, and ros::spin() would busy-wait for a tenth of a
+    // second.
     if (ros::isShuttingDown()) ros::WallDuration(0.01).sleep();
   }
 }

@@ -13,36 +13,36 @@
 
 namespace plm_vins {
 
-// main() of every node: starts ROS under `name` once there is a master, and runs `body` until
-// shutdown. Threads and memory are used as by SetUpProcess(). Returns the exit code: 0 after
-// SIGINT or SIGTERM; 1 where `body` threw, each line of what it says being a fatal log line, and
-// where ROS refuses a name among the arguments.
+// The main() of every node: starts ROS under `name` once there is a master, and runs `body` until
+// shutdown. Configures threads and memory by SetUpProcess(). Returns the exit code: 0 after SIGINT
+// or SIGTERM; 1 if `body` threw, with each line of its message logged as fatal, or if ROS rejects a
+// name among the arguments.
 int RunNode(int argc, char** argv, const std::string& name, const std::function<void()>& body);
 
-// The same with the configuration of the file ~config_file, in which ~set/KEY replace scalar
-// keys. Returns 1 also where that has problems.
+// Runs `body` with the configuration of LoadNodeConfig(). Also returns 1 if the configuration has
+// problems.
 int RunNode(int argc, char** argv, const std::string& name,
             const std::function<void(const Config&)>& body);
 
-// Calls the callbacks of the global queue until ROS has shut down. Warns where the time is to come
-// from /clock, and does not.
+// Processes callbacks of the global queue until ROS has shut down. Warns if simulated time is
+// configured but /clock is silent.
 void Spin();
 
-// Runs what must not end a node, whatever came in: an exception is logged (not all of them where
-// there are many) and counted. For any threads.
+// Runs code whose exceptions must not terminate the node: logs (throttled) and counts them.
+// Thread-safe.
 class ErrorCounter {
  public:
-  // False where `body` threw.
+  // Returns false if `body` threw.
   bool Run(const std::function<void()>& body);
 
   DropCount count() const;
 
  private:
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards the following member
   DropCount errors_{"internal_errors", 0, ""};
 };
 
-// Warns when a kind of unusable input turns up for the first time.
+// Warns when a kind of unusable input occurs for the first time.
 class DropWarner {
  public:
   void Check(const DropCounts& counts);

@@ -11,16 +11,16 @@
 
 namespace plm_vins {
 
-// A Node(config, node, private_node) as a nodelet: what another nodelet of the same manager
-// publishes comes without a copy. Where the configuration has problems they are logged as by the
-// node, and loading fails; the manager goes on.
+// Runs a Node(config, node, private_node) as a nodelet, which receives messages of other nodelets
+// in the same manager without copying. Problems of the configuration are logged as by the node, and
+// loading fails, but the manager continues.
 template <typename Node>
 class NodeletOf : public nodelet::Nodelet {
  private:
   void onInit() override {
     try {
       const Config config = LoadNodeConfig(getPrivateNodeHandle());
-      // Not the multi-threaded handles: one callback at a time.
+      // Uses the single-threaded handles, so that callbacks run one at a time.
       node_.emplace(config, getNodeHandle(), getPrivateNodeHandle());
     } catch (const std::exception& error) {
       LogFatal(error);

@@ -10,8 +10,8 @@
 
 namespace plm_vins {
 
-// A Node(config, node, private_node) that the configuration may do without: it does nothing then,
-// and the log says so. `Switch` has the key, kKey, and says by IsOn(config) what it is.
+// A Node(config, node, private_node) that the configuration can disable: it is then idle and logs
+// why. `Switch` defines the key, kKey, and its value, IsOn(config).
 template <typename Node, typename Switch>
 class OptionalNode {
  public:

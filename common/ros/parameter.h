@@ -16,8 +16,8 @@ inline const char* KindOf(const std::map<std::string, std::string>&) {
   return "texts by their names (in a launch file: type=\"str\")";
 }
 
-// A parameter of the node, or nothing where it is not set. Throws std::runtime_error, which names
-// it, where it is of another kind: ros::NodeHandle takes that for not set.
+// Returns a parameter of the node, or nullopt if it is not set. Throws std::runtime_error with its
+// name if it has another type, which ros::NodeHandle treats as not set.
 template <typename Value>
 std::optional<Value> FindParameter(const ros::NodeHandle& node, const std::string& name) {
   Value value{};

@@ -5,7 +5,7 @@
 
 namespace plm_vins {
 
-// Makes and sends a message where somebody listens.
+// Creates and publishes a message if there are subscribers.
 template <typename MakeMessage>
 void PublishIfWanted(const ros::Publisher& publisher, const MakeMessage& make_message) {
   if (publisher.getNumSubscribers() > 0) publisher.publish(make_message());

@@ -11,20 +11,19 @@
 
 namespace plm_vins {
 
-// Tells where the messages of a process begin to come from another one: a process that was started
-// again has connections of its own. So has one whose link was lost and made again, which cannot be
-// told apart.
+// Detects when messages begin to come from another process: a restarted process has new
+// connections. A connection that was lost and re-established is indistinguishable from a restart.
 class PublisherWatch {
  public:
-  // Of so many topics, which the process publishes all.
+  // `topics` is the number of topics, all published by the watched process.
   explicit PublisherWatch(size_t topics) : sources_(topics) {}
 
-  // For each message of a topic, with the header of its connection. True once for each process but
-  // the first, whichever of its topics comes first.
+  // To be called for each message with the header of its connection. Returns true once for each new
+  // process except the first, at the first message of any of its topics.
   bool HasChanged(size_t topic, const boost::shared_ptr<ros::M_string>& connection) {
     Source& source = sources_[topic];
     if (source.connection == connection) {
-      source.is_behind = false;  // its process goes on: another topic's link alone was made again
+      source.is_behind = false;  // same process: only the other topic reconnected
       return false;
     }
     const auto before = std::exchange(source.connection, connection);
@@ -35,18 +34,18 @@ class PublisherWatch {
 
  private:
   struct Source {
-    boost::shared_ptr<ros::M_string> connection;  // held, so that no other takes its address
-    bool is_behind = false;                       // another topic came by a new one already
+    boost::shared_ptr<ros::M_string> connection;  // held, so that its address is not reused
+    bool is_behind = false;                       // another topic has a new connection already
   };
 
   std::vector<Source> sources_;
 };
 
-// Tells publishers that send in turn from one that is started again and again.
+// Distinguishes alternating publishers from one that is restarted repeatedly.
 class TurnsWatch {
  public:
-  // For each change of the publisher, at `now` [s] of any clock. True where changes follow each
-  // other within less than it takes to start a process.
+  // To be called at each change of the publisher, at `now` [s] of any clock. Returns true if
+  // changes follow each other faster than a process can start.
   bool AddChange(double now) {
     changes_.push_back(now);
     if (changes_.size() > kChanges) changes_.pop_front();
@@ -56,7 +55,7 @@ class TurnsWatch {
  private:
   static constexpr size_t kChanges = 3;
   static constexpr double kSpan = 1.0;  // [s]
-  std::deque<double> changes_;          // the newest
+  std::deque<double> changes_;          // newest changes
 };
 
 }  // namespace plm_vins

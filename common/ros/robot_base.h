@@ -12,20 +12,21 @@
 
 namespace plm_vins {
 
-// Where the base of a robot is relative to the body (IMU), from the robot's own tf tree, in which
-// the two are rigidly connected. For one thread.
+// Looks up the pose of a robot's base relative to the body (IMU) in the robot's own tf tree, in
+// which both are rigidly connected. Not thread-safe.
 class RobotBase {
  public:
   RobotBase(const std::string& body_frame, const std::string& base_frame);
 
-  // The base in the body frame, looked up once. Until tf has it: nothing, with a rare warning.
+  // Returns the pose of the base in the body frame, which is looked up once. Until tf has it,
+  // returns nullopt and warns rarely.
   std::optional<Rigid3d> Locate();
 
  private:
   std::string body_frame_;
   std::string base_frame_;
   tf2_ros::Buffer buffer_;
-  std::unique_ptr<tf2_ros::TransformListener> listener_;  // until it is known
+  std::unique_ptr<tf2_ros::TransformListener> listener_;  // until the pose is known
   std::optional<Rigid3d> T_body_base_;
 };
 

@@ -6,7 +6,7 @@
 
 namespace plm_vins {
 
-// Not by ros::Duration, which throws beyond 68 years: a stamp may be anything.
+// Avoids ros::Duration, which throws beyond 68 years, since a timestamp can have any value.
 void StreamMonitor::Add(int64_t t_ns) {
   const std::lock_guard<std::mutex> lock(mutex_);
   last_arrival_ = ros::WallTime::now();

@@ -10,30 +10,30 @@
 
 namespace plm_vins {
 
-// How the messages of one topic come along, for diagnostics: rate, age, silence. For any threads.
+// Monitors the messages of one topic for diagnostics: rate, delay, silence. Thread-safe.
 class StreamMonitor {
  public:
-  static constexpr double kSilence = 1.0;  // [s] without a message: the topic is waited for
+  static constexpr double kSilence = 1.0;  // [s] until the status is "waiting"
 
   explicit StreamMonitor(const std::string& name) : name_(name) {}
 
-  // A message of this stamp came, or was sent, now.
+  // Reports a message with this timestamp, received or sent now.
   void Add(int64_t t_ns);
 
-  // Wall time since the last message, or since construction where there was none [s].
+  // Wall time since the last message, or since construction if there was none [s].
   double Silence() const;
 
-  // Adds NAME_rate_hz and, where messages came, NAME_delay_ms, the mean age of their stamps on
-  // arrival. Both are of the messages since the last call.
+  // Adds NAME_rate_hz and, if there were messages, NAME_delay_ms, their mean age on arrival, both
+  // since the last call.
   void Report(diagnostic_updater::DiagnosticStatusWrapper* status);
 
  private:
   const std::string name_;
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards the following members
   ros::WallTime last_arrival_ = ros::WallTime::now();
   ros::WallTime last_report_ = ros::WallTime::now();
   int messages_ = 0;         // since the last report
-  double summed_delay_ = 0;  // of these [s]
+  double summed_delay_ = 0;  // their total delay [s]
 };
 
 }  // namespace plm_vins

@@ -5,7 +5,7 @@
 
 namespace plm_vins {
 
-// The name by which a recording has a topic: as of a node in no namespace.
+// Name of a topic in a recording: absolute, as of a node without a namespace.
 inline std::string AbsoluteTopic(const std::string& topic) {
   return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One process for all parts: a manager of nodelets, as that of the package nodelet, which uses
-// threads and memory as our nodes do. The nodelets that ~nodelets names (NAME: TYPE; names are
-// relative to the manager's namespace) are there from the beginning, without a process that loads
-// each of them; where one cannot be loaded, the manager ends.
+// A nodelet manager, like that of the package nodelet, that runs all parts in one process and
+// configures threads and memory as the nodes do. It loads the nodelets in ~nodelets (NAME: TYPE;
+// names are relative to the manager's namespace) itself, without a loader process for each of them.
+// If one cannot be loaded, the manager exits.
 #include <nodelet/loader.h>
 #include <ros/node_handle.h>
 

@@ -5,18 +5,19 @@
 
 namespace plm_vins {
 
-// Distinguishes a stream of stamps that begins anew (a bag played again, a clock set back) from
-// single stamps out of order: more than `patience` in a row are refused, each after the one before.
-// Where it was set back by less, the refused ones lead up to the stamp at which it had been, and
-// are followed in their own rhythm by one that is accepted; stragglers are not.
+// Distinguishes a restart of a stream's timestamps (a replayed bag, a clock set back) from single
+// timestamps out of order. A restart is recognized after more than `patience` consecutive
+// increasing rejected timestamps. After a smaller step back, the rejected timestamps catch up with
+// the last accepted one, and the next timestamp follows them at their own rate; late single
+// messages do not show this pattern.
 class BackwardJumpDetector {
  public:
   explicit BackwardJumpDetector(int patience) : patience_(patience) {}
 
-  // A stamp that follows the last accepted one.
+  // Reports a timestamp that follows the last accepted one.
   void Accept() { refused_in_a_row_ = 0; }
 
-  // A stamp that does not. True: with it the stream begins anew.
+  // Reports a timestamp that does not follow. Returns true if the stream restarts with it.
   bool Refuse(int64_t t_ns) {
     const bool in_a_row = refused_in_a_row_ > 0 && t_ns > refused_ns_;
     refused_in_a_row_ = in_a_row ? refused_in_a_row_ + 1 : 1;
@@ -25,22 +26,22 @@ class BackwardJumpDetector {
     return refused_in_a_row_ > patience_;
   }
 
-  // The last stamp did not follow.
+  // Returns whether the last timestamp was rejected.
   bool Refuses() const { return refused_in_a_row_ > 0; }
 
-  // To be asked of a stamp that follows the last accepted one, before Accept(). True: the stream
-  // began anew with those that were refused.
+  // To be called for a timestamp that follows the last accepted one, before Accept(). Returns true
+  // if the stream was restarted at the rejected timestamps.
   bool EndsStepBack(int64_t t_ns) const {
     return refused_in_a_row_ >= kShortestStep &&
            t_ns - refused_ns_ <= (refused_ns_ - first_refused_ns_) / 2;
   }
 
  private:
-  static constexpr int kShortestStep = 10;  // stamps: fewer may be stragglers
+  static constexpr int kShortestStep = 10;  // timestamps; fewer may be late single messages
 
   int patience_;
   int refused_in_a_row_ = 0;
-  int64_t first_refused_ns_ = 0;  // of those in a row
+  int64_t first_refused_ns_ = 0;  // of the consecutive ones
   int64_t refused_ns_ = 0;        // the last one
 };
 

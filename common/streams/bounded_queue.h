@@ -9,15 +9,15 @@
 
 namespace plm_vins {
 
-// First in, first out between threads, never more than `capacity` items: a full queue makes the
-// producer wait, so that nothing is lost and memory stays bounded. A producer that must not wait
-// pushes over the oldest, or quietly, and a full queue refuses the item.
+// Thread-safe FIFO with at most `capacity` items: a full queue blocks the producer, so that nothing
+// is lost and memory is bounded. A producer that must not block can drop the oldest item instead
+// (PushOverOldest), or the new one (PushQuietly).
 template <typename T>
 class BoundedQueue {
  public:
   explicit BoundedQueue(size_t capacity) : capacity_(capacity) {}
 
-  // Waits while the queue is full. False, and the item is gone, once the queue is closed.
+  // Blocks while the queue is full. Returns false, and drops the item, if the queue is closed.
   bool Push(T item) {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return closed_ || items_.size() < capacity_; });
@@ -27,8 +27,8 @@ class BoundedQueue {
     return true;
   }
 
-  // Never waits, and wakes no consumer unless it fills the queue: Wake() or the next Push() does.
-  // False, and the item is gone, where the queue is full or closed.
+  // Does not block and wakes no consumer, unless the item fills the queue; Wake() or the next
+  // Push() does. Returns false, and drops the item, if the queue is full or closed.
   bool PushQuietly(T item) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (closed_ || items_.size() == capacity_) return false;
@@ -38,7 +38,7 @@ class BoundedQueue {
   }
   void Wake() { changed_.notify_all(); }
 
-  // Never waits: of a full queue the oldest item goes, which is true then.
+  // Does not block. Drops the oldest item if the queue is full, and returns whether it did.
   bool PushOverOldest(T item) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (closed_) return false;
@@ -49,7 +49,7 @@ class BoundedQueue {
     return is_full;
   }
 
-  // Waits while the queue is empty. Nothing once it is closed and all items are taken.
+  // Blocks while the queue is empty. Returns nullopt once the queue is closed and empty.
   std::optional<T> Pop() {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return closed_ || !items_.empty(); });
@@ -60,14 +60,14 @@ class BoundedQueue {
     return item;
   }
 
-  // No more items come in; wakes everyone who waits.
+  // Rejects further items and wakes all waiting threads.
   void Close() {
     const std::lock_guard<std::mutex> lock(mutex_);
     closed_ = true;
     changed_.notify_all();
   }
 
-  // The same, and what still waits is gone.
+  // Closes the queue and drops the waiting items.
   void Abandon() {
     const std::lock_guard<std::mutex> lock(mutex_);
     items_.clear();

@@ -7,11 +7,11 @@
 
 namespace plm_vins {
 
-// How often one kind of unusable input occurred.
+// Number of occurrences of one kind of unusable input.
 struct DropCount {
-  std::string cause;  // a key for reports, e.g. "imu_not_finite"
+  std::string cause;  // key for reports, e.g. "imu_not_finite"
   int64_t count = 0;
-  std::string detail;  // what the first one was, for the message; may be empty
+  std::string detail;  // description of the first occurrence; may be empty
 
   void Add(const std::string& what) {
     if (count++ == 0) detail = what;
@@ -20,7 +20,7 @@ struct DropCount {
 
 using DropCounts = std::vector<DropCount>;
 
-// "imu_not_finite: 3 (first: ...)".
+// Formats "imu_not_finite: 3 (first: ...)".
 inline std::string ToString(const DropCount& drop) {
   const std::string text = drop.cause + ": " + std::to_string(drop.count);
   return drop.detail.empty() ? text : text + " (first: " + drop.detail + ")";

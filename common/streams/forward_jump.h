@@ -6,15 +6,15 @@
 
 namespace plm_vins {
 
-// Distinguishes a gap in a stream of stamps from a single wrong stamp in the future, which would
-// make all that follow look late: the first stamp after a leap is refused, the next one confirms
-// the leap.
+// Distinguishes a gap in a stream of timestamps from a single wrong timestamp in the future, after
+// which all others would seem late: the first timestamp after a jump is rejected, and the next one
+// confirms the jump.
 class ForwardJumpDetector {
  public:
-  // More than `limit_ns` from one stamp to the next is a leap.
+  // A jump is more than `limit_ns` from one timestamp to the next.
   explicit ForwardJumpDetector(int64_t limit_ns) : limit_ns_(limit_ns) {}
 
-  // False where the stamp must be refused, `last_ns` being the last that was not.
+  // Returns whether the timestamp is accepted; `last_ns` is the last accepted one.
   bool Accept(int64_t last_ns, int64_t t_ns) {
     const bool leaps = t_ns - last_ns > limit_ns_;
     const bool confirmed = refused_ns_ && t_ns > *refused_ns_;
@@ -25,7 +25,7 @@ class ForwardJumpDetector {
 
  private:
   int64_t limit_ns_;
-  std::optional<int64_t> refused_ns_;  // the stamp before, where that was refused
+  std::optional<int64_t> refused_ns_;  // the previous timestamp, if it was rejected
 };
 
 }  // namespace plm_vins

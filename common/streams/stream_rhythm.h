@@ -12,7 +12,7 @@
 
 namespace plm_vins {
 
-// The rhythm of a stream's newest hundred stamps, which increase.
+// Interval statistics of a stream's newest 101 timestamps, which must increase.
 class StreamRhythm {
  public:
   void Add(int64_t t_ns) {
@@ -21,11 +21,11 @@ class StreamRhythm {
     if (stamps_.size() > kStamps) stamps_.pop_front();
   }
 
-  // Median interval [s]; zero while there are few stamps.
+  // Median interval [s]; zero while there are too few timestamps.
   double Interval() const { return stamps_.size() < kStamps ? 0 : Median(Intervals()); }
 
-  // Root mean square by which intervals differ from the median or, where stamps are missing, from a
-  // multiple of it [s].
+  // Root mean square deviation of intervals from the median, or from a multiple of it if timestamps
+  // are missing [s].
   double Jitter() const {
     const double usual = Interval();
     if (usual == 0) return 0;

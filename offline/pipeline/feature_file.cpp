@@ -16,7 +16,7 @@ constexpr char kVersion[] = "2\n";
 
 enum class ItemKind : uint8_t { kImu = 1, kPoints = 2, kPointsAndLines = 3 };
 
-// Layouts; Struct is const where it is written.
+// Layouts for reading and writing; Struct is const for writing.
 template <typename Archive, typename Vector>
 void Coordinates(Archive* archive, Vector& vector) {
   for (Eigen::Index i = 0; i < vector.size(); ++i) archive->Value(vector[i]);
@@ -93,8 +93,8 @@ void RequireStamp(int64_t t_ns) {
   if (!IsStamp(t_ns)) throw std::runtime_error("is damaged");
 }
 
-// No value is more than a list of numbers, and deeper ones, which may go deeper than the stack
-// does, make all of it worthless.
+// Parses JSON whose values are at most lists of numbers. Deeper nesting, which might overflow the
+// stack, makes the whole text invalid.
 Json ParseShallow(const std::string& text) {
   bool is_shallow = true;
   const auto is_taken = [&](int depth, Json::parse_event_t event, const Json&) {
@@ -108,7 +108,7 @@ Json ParseShallow(const std::string& text) {
   return is_shallow ? json : Json();
 }
 
-// Trackers give nothing else.
+// Trackers never produce implausible observations.
 template <typename Observation>
 void RequirePossible(std::vector<Observation>* observations) {
   if (RemoveImpossible(observations) > 0) throw std::runtime_error("is damaged");

@@ -15,21 +15,21 @@
 
 namespace plm_vins {
 
-// What flows from the trackers to the estimator, in order.
+// An item of the stream from the trackers to the estimator.
 struct TrackedItem {
   ImuSample imu;
-  std::unique_ptr<TrackedFeatures> frame;  // instead of `imu`
+  std::unique_ptr<TrackedFeatures> frame;  // null for `imu`
 
   int64_t t_ns() const { return frame ? frame->points.features.t_ns : imu.t_ns; }
 };
 
-// Writes what the trackers hand to the estimator, so that runs which differ in the estimator alone
-// need no images, and before it the configuration of the trackers. The format is binary, of this
-// version of the program and this kind of machine: good for comparisons, not for keeping.
+// Saves the output of the trackers and their configuration, so that runs which differ only in the
+// estimator do not need images. The binary format is specific to this version of the program and
+// this kind of machine: suitable for comparisons, not for archiving.
 class FeatureFileWriter {
  public:
-  // `tracker_values`: TrackerValues(). What cannot be written, here or in Close(), throws
-  // std::runtime_error that names the file.
+  // `tracker_values` is that of TrackerValues(). Throws std::runtime_error with the file name if it
+  // cannot be written; Close() as well.
   FeatureFileWriter(const std::string& file, const Json& tracker_values);
 
   void Add(const TrackedItem& item);
@@ -39,16 +39,16 @@ class FeatureFileWriter {
   ReplacedFile file_;
 };
 
-// Reads such a file: the same items, bit by bit.
+// Reads a file of FeatureFileWriter; values are restored exactly.
 class FeatureFileReader {
  public:
-  // Throws std::runtime_error where the file cannot be read or is not one of features.
+  // Throws std::runtime_error if the file cannot be read or is not a feature file.
   explicit FeatureFileReader(const std::string& file);
 
-  // By which the features were recorded.
+  // Configuration that the features were recorded with.
   const Json& tracker_values() const { return tracker_values_; }
 
-  // The next item; nothing at the end. Throws std::runtime_error where the file is damaged.
+  // Returns the next item, or nullopt at the end. Throws std::runtime_error if the file is damaged.
   std::optional<TrackedItem> Next();
 
   const std::string& file() const { return file_; }

@@ -11,19 +11,19 @@
 
 namespace plm_vins {
 
-// The features of one image. Points and lines share its stamp and the flags of ReadyImage.
+// The features of one image. Points and lines have its timestamp and the flags of ReadyImage.
 struct TrackedFeatures {
   TrackedPoints points;
-  std::optional<TrackedLines> lines;  // absent where lines are not used
+  std::optional<TrackedLines> lines;  // nullopt if lines are not used
 };
 
-// The trackers of points and, where they are used, lines, fed with the same images.
+// The trackers of points and, if used, lines, which process the same images.
 class FeatureTrackers {
  public:
   explicit FeatureTrackers(const Config& config);
 
-  // Whether the lines of an image are tracked in a thread of their own, beside its points. The
-  // results are the same.
+  // Sets whether the lines of an image are tracked in a separate thread, concurrently with its
+  // points. The results are the same.
   void TrackSideBySide(bool side_by_side) { side_by_side_ = side_by_side; }
 
   void AddImu(const ImuSample& sample);
@@ -33,7 +33,7 @@ class FeatureTrackers {
 
   const ImageCounts& image_counts() const { return points_.counts(); }
 
-  // The newest image with its points or lines drawn (CV_8UC3); empty where there are none.
+  // The newest image with its points or lines drawn (CV_8UC3); empty if there are none.
   cv::Mat DrawPoints() const { return points_.tracker().DrawTracks(); }
   cv::Mat DrawLines() const { return lines_ ? lines_->tracker().DrawTracks() : cv::Mat(); }
 

@@ -9,9 +9,10 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kQueueCapacity = 200;  // items, most of them IMU samples: about a second
+constexpr size_t kQueueCapacity = 200;  // items, mostly IMU samples of about a second
 
-// Images that the back end may yet report. More than it lets wait: what it drops it never reports.
+// Upper bound of the images that the back end may still report. It exceeds the number that may
+// wait, since dropped images are never reported.
 constexpr size_t kMaxUnfinished = 300;
 
 bool IsPowerOfTwo(int64_t count) { return (count & (count - 1)) == 0; }
@@ -132,13 +133,13 @@ bool OdometryPipeline::Feed(LoadedEvent loaded, const TrackedReceiver& emit) {
 }
 
 bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit) {
-  // The last power of two lies in the second half of any run, however long it turns out to be.
+  // The last power of two is in the second half of any run, whatever its length.
   if (IsPowerOfTwo(++tracked_images_)) {
     points_image_ = trackers_.DrawPoints();
     lines_image_ = trackers_.DrawLines();
   }
   if (on_track_images_) ShowTracksIfDue(frame.points.features.t_ns);
-  // Features may wait for the IMU for long.
+  // Frees the pixels, since features may wait long for the IMU.
   if (!keeps_pixels_) ReleasePixels(&frame);
   return emit({{}, std::make_unique<TrackedFeatures>(std::move(frame))});
 }

@@ -22,73 +22,73 @@
 
 namespace plm_vins {
 
-// What the pipeline says about one image.
+// Results of the pipeline for one image.
 struct PipelineFrame {
   EstimatorOutput output;
-  ImageSample image;           // without pixels where loops are not closed
-  std::vector<ImuSample> imu;  // as the estimator took them, without those of the frame before
-  int64_t imu_ns = 0;          // on the IMU's clock, what the state stands for: the last of them
+  ImageSample image;           // without pixels unless loops are closed
+  std::vector<ImuSample> imu;  // as used by the estimator, without those of the previous frame
+  int64_t imu_ns = 0;          // time of the state in IMU time: that of the last sample
   PointFrame points;
   LineFrame lines;
   double point_tracking_ms = 0;
-  double line_tracking_ms = 0;  // detection included
+  double line_tracking_ms = 0;  // including detection
   PointTrackerStatistics point_tracking;
   LineTrackerStatistics line_tracking;
 };
 
-// Front ends and back end in a row, fed from a recording.
+// Runs front ends and back end over a recording.
 //
-// With two threads the front runs ahead of the back by a few images; from three on, points and
-// lines are tracked side by side as well; from four on, images are read and decoded ahead of both.
-// What each is given, and in which order, does not depend on that, so the results are the same bit
-// by bit.
+// With two threads the front end runs ahead of the back end by a few images; with three, points and
+// lines are tracked concurrently as well; with four, images are read and decoded ahead of both. The
+// input of each stage and its order do not depend on the threads, so the results are bit-identical.
 class OdometryPipeline {
  public:
   using FrameCallback = std::function<void(const PipelineFrame&)>;
-  // An image with its points, and with its lines (CV_8UC3; empty where lines are not used).
+  // Receives an image with its points, and with its lines (CV_8UC3; empty if lines are not used).
   using TrackImageCallback =
       std::function<void(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines)>;
 
   explicit OdometryPipeline(const Config& config);
 
-  // What the trackers find from here on goes to this file as well; null: nowhere.
+  // Saves the tracked features to this file from now on; null disables saving.
   void SaveFeatures(FeatureFileWriter* file) { saved_features_ = file; }
 
   // Calls back about every `interval` [s] of the recording, in the thread of the trackers.
   void ShowTracks(double interval, TrackImageCallback on_images);
 
-  // Asked before each measurement, in the thread that reads: once true, the recording ends there.
+  // `is_end` is called before each measurement, in the reading thread; once true, the recording
+  // ends.
   void EndWhere(std::function<bool()> is_end) { is_end_ = std::move(is_end); }
 
-  // Processes the recording; `on_frame` is called in the caller's thread, in order of time.
+  // Processes the recording; `on_frame` is called in the caller's thread, in temporal order.
   void Run(Recording* recording, RecordingInterval interval, int threads,
            const FrameCallback& on_frame);
 
-  // The same from saved features instead of images: the results are those of the run that saved
-  // them, bit by bit, where the configuration of the estimator is the same.
+  // Processes saved features instead of images. With the same estimator configuration, the results
+  // are bit-identical to those of the run that saved them.
   void Run(FeatureFileReader* features, RecordingInterval interval, const FrameCallback& on_frame);
 
-  // After Run().
+  // Statistics, valid after Run().
   int64_t images() const { return images_; }
-  // Images that should have come to the estimator and did not.
+  // Number of images that were not thinned out by `freq` but did not reach the estimator either.
   int64_t unused_images() const { return images() - thinned_images_ - estimated_images_; }
   std::optional<int64_t> first_image_ns() const { return first_image_.t_ns(); }
-  std::optional<int64_t> last_frame_ns() const { return last_frame_ns_; }  // that was estimated
-  // Of the samples that were read, whether they were used or not.
+  std::optional<int64_t> last_frame_ns() const { return last_frame_ns_; }  // last estimated frame
+  // Over all samples read, used or not.
   std::optional<int64_t> first_imu_ns() const { return first_imu_.t_ns(); }
   DropCounts drops() const;
-  // The last EstimationStage::ImuContradiction() that was not empty.
+  // The last non-empty EstimationStage::ImuContradiction().
   const std::string& imu_contradiction() const { return imu_contradiction_; }
 
   // An image of the second half of the run with its points or lines drawn (CV_8UC3); empty without
-  // images, or where lines are not used.
+  // images, or if lines are not used.
   const cv::Mat& points_image() const { return points_image_; }
   const cv::Mat& lines_image() const { return lines_image_; }
 
  private:
   struct LoadedEvent {
     RecordingEvent event;
-    std::optional<cv::Mat> image;  // where the event is one that can be read
+    std::optional<cv::Mat> image;  // nullopt if the event is not a readable image
   };
   using EventReceiver = ItemReceiver<LoadedEvent>;
   using TrackedReceiver = ItemReceiver<TrackedItem>;
@@ -114,16 +114,16 @@ class OdometryPipeline {
   int64_t images_ = 0;
   int64_t unreadable_images_ = 0;
   int64_t tracked_images_ = 0;
-  int64_t thinned_images_ = 0;  // left out for the sake of the rate `freq`
+  int64_t thinned_images_ = 0;  // skipped to reach the rate `freq`
   int64_t estimated_images_ = 0;
-  std::optional<int64_t> last_imu_ns_;  // of the frame before
+  std::optional<int64_t> last_imu_ns_;  // of the previous frame
   FeatureFileWriter* saved_features_ = nullptr;
   TrackImageCallback on_track_images_;
   int64_t track_image_interval_ns_ = 0;
   std::optional<int64_t> last_track_image_ns_;
   cv::Mat points_image_;
   cv::Mat lines_image_;
-  std::map<int64_t, PipelineFrame> unfinished_;  // by stamp: what the back end has yet to add to
+  std::map<int64_t, PipelineFrame> unfinished_;  // by timestamp: not estimated yet
 };
 
 }  // namespace plm_vins

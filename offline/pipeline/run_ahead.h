@@ -10,13 +10,13 @@
 
 namespace plm_vins {
 
-// Takes items one by one; false: no more are wanted.
+// Receives items one by one; returns false if no more are wanted.
 template <typename Item>
 using ItemReceiver = std::function<bool(Item)>;
 
-// Runs `produce` in a thread of its own, up to `capacity` items ahead of `consume`, which is given
-// the same items in the same order in the caller's thread. What `produce` throws goes on to the
-// caller after the items before it; what `consume` throws, once `produce` has ended.
+// Runs `produce` in a separate thread, up to `capacity` items ahead of `consume`, which receives
+// the same items in the same order in the caller's thread. An exception of `produce` is rethrown to
+// the caller after all previous items; one of `consume`, after `produce` has ended.
 template <typename Item>
 void RunAhead(size_t capacity, const std::function<void(const ItemReceiver<Item>&)>& produce,
               const ItemReceiver<Item>& consume) {

@@ -31,12 +31,13 @@ Json TrackerValues(const Config& config) {
     if (names.count(name) == 0) continue;
     std::visit([&place = values[name]](const auto& v) { place = v; }, value);
   }
-  // As a file gives them back: a path may be no UTF-8.
+  // Normalizes the values to those read back from a file, since a path may not be valid UTF-8.
   return Json::parse(values.dump(-1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace));
 }
 
-// Keys that only one of the two has go with another value that both have, but for lines that are
-// there and not used: these are left out, as asked for.
+// Ignores keys that only one of the two has: they accompany another value that both have and that
+// differs. Recorded lines that the configuration disables are no difference: they are dropped on
+// request.
 Json RecordedOtherwise(const Json& recorded, const Config& config) {
   const Json wanted = TrackerValues(config);
   Json otherwise = Json::object();

@@ -8,16 +8,16 @@
 
 namespace plm_vins {
 
-// What decides on the features of an image, and is without effect where they are given: the values
-// of the camera, of the trackers that are used, and of which images and features are passed on, by
-// the names of their keys. (Trackers look ahead with the gyro by a few keys more, of the rig; these
-// do not go without effect, as the estimator follows them.)
+// Returns the configuration values that determine the features and have no effect if features are
+// given: those of the camera, of the trackers in use, and of the selection of images and features,
+// by key. (A few more keys of the rig affect the trackers' gyroscope prediction; these still have
+// an effect, since the estimator uses them.)
 Json TrackerValues(const Config& config);
 
-// Of the values by which features were recorded, those that `config` has otherwise.
+// Returns the values with which features were recorded that differ from those of `config`.
 Json RecordedOtherwise(const Json& recorded, const Config& config);
 
-// What there is to say of these.
+// Warning about these differences.
 std::string RecordedOtherwiseWarning(const std::string& file, const Json& otherwise);
 
 }  // namespace plm_vins

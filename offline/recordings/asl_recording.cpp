@@ -26,13 +26,13 @@ std::optional<ImuSample> ToImuSample(const CsvRow& row) {
   return ImuSample{row.t_ns, Eigen::Vector3d(values), Eigen::Vector3d(values + 3)};
 }
 
-// Empty where it cannot be read.
+// Returns an empty image if the file cannot be read.
 cv::Mat ReadImage(const fs::path& file) {
   std::error_code error;
-  if (!fs::exists(file, error)) return {};  // without OpenCV's own warning
+  if (!fs::exists(file, error)) return {};  // avoids a warning of OpenCV
   try {
     return cv::imread(file.string(), kReadGreyAsStored);
-  } catch (const cv::Exception&) {  // a damaged header may ask for more pixels than OpenCV allows
+  } catch (const cv::Exception&) {  // a damaged header may claim too many pixels for OpenCV
     return {};
   }
 }
@@ -69,7 +69,7 @@ constexpr SortedRows<ImuSample>::Format kImuFormat = {
     "imu", "IMU sample", "stamp [ns],gyro x,y,z [rad/s],accelerometer x,y,z [m/s^2]", 6,
     ToImuSample};
 
-// The two csv files merged by stamp; an IMU sample comes before an image of the same time.
+// Merges the two csv files by timestamp; an IMU sample precedes an image of the same time.
 class AslRecording : public Recording {
  public:
   explicit AslRecording(const std::string& folder)

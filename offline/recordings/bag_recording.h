@@ -8,10 +8,10 @@
 
 namespace plm_vins {
 
-// Opens a ROS bag without a ROS master. The images may be raw or compressed (on the topic itself or
-// on topic + "/compressed"). Throws std::runtime_error where the file is not a bag, where it is
-// truncated or was never closed (`rosbag reindex` helps), and where a topic is missing or of
-// another type, naming its key and the topics that there are. A build without ROS always throws.
+// Opens a ROS bag without a ROS master. Images may be raw or compressed (on the topic itself or on
+// topic + "/compressed"). Throws std::runtime_error if the file is not a bag, is truncated or was
+// never closed (`rosbag reindex` helps), or if a topic is missing or has another type; the message
+// names its key and the available topics. Always throws in a build without ROS.
 std::unique_ptr<Recording> OpenBag(const std::string& file, const std::string& image_topic,
                                    const std::string& imu_topic);
 

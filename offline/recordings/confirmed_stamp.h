@@ -7,8 +7,9 @@
 
 namespace plm_vins {
 
-// The first stamp of a stream, which the second confirms by lying within ten seconds. Where it does
-// not, that one takes its place: a single wrong stamp (zero, or far in the future) is no beginning.
+// The first timestamp of a stream, confirmed by a second one within ten seconds. If the second one
+// is further away, it replaces the first: a single wrong timestamp (zero, or far in the future)
+// does not count as the beginning.
 class ConfirmedStamp {
  public:
   void Add(int64_t t_ns) {
@@ -18,8 +19,7 @@ class ConfirmedStamp {
     seen_ = true;
   }
 
-  // False where there is no stamp yet, or where this one, of another stream, is a reason to doubt
-  // it.
+  // Returns whether the timestamp is confirmed, or supported by this one of another stream.
   bool Admits(int64_t t_ns) const { return confirmed_ || IsNear(t_ns); }
 
   std::optional<int64_t> t_ns() const { return seen_ ? std::make_optional(t_ns_) : std::nullopt; }

@@ -9,26 +9,25 @@
 
 namespace plm_vins {
 
-// One line of an ASL csv file: the stamp and the texts after it.
+// One line of an ASL csv file: the timestamp and the texts after it.
 struct CsvRow {
   int64_t t_ns = 0;
   std::vector<std::string> values;
 };
 
-// Reads "stamp,value,..." lines one by one. Comments (#), empty lines and a byte order mark are
-// passed over; a line that is not of this form, or whose stamp is no IsStamp(), is counted and
-// passed over.
+// Reads "stamp,value,..." lines one by one. Skips comments (#), empty lines and a byte order mark;
+// skips and counts lines that do not have this form or whose timestamp is invalid (IsStamp()).
 class CsvReader {
  public:
-  // Throws std::runtime_error that names the file where it cannot be opened.
+  // Throws std::runtime_error with the file name if it cannot be opened.
   CsvReader(const std::string& file, size_t values_per_row);
 
   std::optional<CsvRow> Next();
 
-  // Counts the line that Next() gave last among the bad ones: its values are of no use.
+  // Counts the last line returned by Next() as bad, since its values are invalid.
   void Reject();
 
-  // Where the line is that Next() gave last: "FILE:LINE".
+  // Place of the last line returned by Next(): "FILE:LINE".
   std::string Place() const { return file_ + ":" + std::to_string(line_number_); }
 
   int64_t bad_lines() const { return bad_lines_; }

@@ -11,35 +11,34 @@
 
 namespace plm_vins {
 
-// One measurement of a recording. The pixels of an image are fetched apart, since they are costly.
+// One measurement of a recording. The pixels of an image are loaded separately, since that is slow.
 struct RecordingEvent {
   enum class Kind { kImage, kImu };
   Kind kind = Kind::kImu;
-  int64_t t_ns = 0;  // the sensor's stamp
-  ImuSample imu;     // where kind is kImu
+  int64_t t_ns = 0;  // the sensor's timestamp
+  ImuSample imu;     // if kind is kImu
 };
 
-// Images and IMU samples of one camera-IMU recording, in the order in which they were recorded,
-// read as they are asked for.
+// Images and IMU samples of a recording, in the order of recording. Read on demand.
 class Recording {
  public:
   virtual ~Recording() = default;
 
-  // The next measurement; nothing at the end of what is readable.
+  // Returns the next measurement, or nullopt at the end of the readable data.
   virtual std::optional<RecordingEvent> Next() = 0;
 
-  // The grey image of the event that Next() gave last. Nothing where it is unreadable; problems()
-  // count that.
+  // Returns the grey image of the event that Next() returned last, or nullopt, counted by
+  // problems(), if it is unreadable.
   virtual std::optional<cv::Mat> LoadImage() = 0;
 
   virtual std::string name() const = 0;  // for reports
-  // Where its images or IMU samples come from: a file, or a topic and its key.
+  // Origin of its images or IMU samples: a file, or a topic and its key.
   virtual std::string Source(RecordingEvent::Kind kind) const = 0;
 
-  // About when the recording ends; nothing where that is not known beforehand.
+  // Approximate end of the recording; nullopt if not known in advance.
   virtual std::optional<int64_t> end_ns() const = 0;
 
-  // What could not be read so far.
+  // Counts of unreadable data so far.
   virtual DropCounts problems() const = 0;
 };
 

@@ -10,18 +10,18 @@
 
 namespace plm_vins {
 
-// The part of a recording to process, counted from its first image. IMU samples are used a little
-// beyond both ends, so that the first and the last image are covered.
+// The part of a recording to process, relative to its first image. IMU samples are used slightly
+// beyond both ends, so that the first and last images are covered.
 class RecordingInterval {
  public:
   enum class Part { kSkip, kUse, kEnd };
 
-  // `start` and `duration` in seconds; both zero or more.
+  // `start` and `duration` are in seconds and not negative.
   RecordingInterval(double start, double duration) : start_(start), duration_(duration) {}
   RecordingInterval() : RecordingInterval(0, std::numeric_limits<double>::infinity()) {}
 
-  // Where the event lies; events are shown in the order of the recording. kEnd: nothing is used
-  // from here on.
+  // Locates an event relative to the interval; to be called for all events in the order of the
+  // recording. kEnd: no later event will be used.
   Part Locate(const RecordingEvent& event) {
     const bool is_image = event.kind == RecordingEvent::Kind::kImage;
     if (is_image) first_image_.Add(event.t_ns);
@@ -39,15 +39,16 @@ class RecordingInterval {
   }
 
  private:
-  static constexpr double kImuMargin = 0.2;    // [s], more than any time offset
+  static constexpr double kImuMargin = 0.2;    // [s], exceeds any time offset
   static constexpr double kLongestLead = 5.0;  // [s] of images before the IMU in a recording
 
   double start_;
   double duration_;
   ConfirmedStamp first_image_;
-  // Whether the last one is beyond the end. An image alone may have a wrong stamp.
+  // Whether the last event of the kind is beyond the end; a single image may have a wrong
+  // timestamp.
   bool image_beyond_ = false, imu_beyond_ = false;
-  bool begun_ = false;  // from here on, stamps may jump back: that is for the next stages to judge
+  bool begun_ = false;  // after the start, backward jumps are left to the next stages
 };
 
 }  // namespace plm_vins

@@ -14,21 +14,21 @@
 
 namespace plm_vins {
 
-// The rows of an ASL csv file, each with its t_ns, one by one in order of time; those of equal
-// stamps in the order of the file. Tools list images in any order, and a row that is late, or far
-// in the future, would hold up all that follow where two files are merged.
+// Provides the rows of an ASL csv file in temporal order; rows with equal timestamps keep the order
+// of the file. Sorting is needed since tools list images in any order, and one row with a wrong
+// timestamp would delay all others when two files are merged.
 template <typename Row>
 class SortedRows {
  public:
   struct Format {
     const char* key;   // of the sensor, for reports
-    const char* name;  // of what a line holds
-    const char* line;  // its form
-    size_t values;     // in it, after the stamp
+    const char* name;  // of the content of a line
+    const char* line;  // expected format
+    size_t values;     // number of values after the timestamp
     std::optional<Row> (*parse)(const CsvRow& row);
   };
 
-  // Throws std::runtime_error where the file holds no such row.
+  // Throws std::runtime_error if the file contains no valid row.
   SortedRows(const std::string& file, const Format& format)
       : key_(format.key), file_(file), reader_(file, format.values) {
     while (const auto row = reader_.Next()) Add(format.parse(*row));
@@ -39,11 +39,11 @@ class SortedRows {
 
   const std::string& file() const { return file_; }
 
-  // The row that Take() gives; null at the end.
+  // The row that Take() returns next; null at the end.
   const Row* next() const { return next_ < rows_.size() ? &rows_[next_] : nullptr; }
   const Row& Take() { return rows_[next_++]; }
 
-  // The last stamp, unless it is a wrong one, alone in the future.
+  // The last timestamp, ignoring a single wrong one in the future.
   std::optional<int64_t> end_ns() const {
     ConfirmedStamp end;
     for (auto row = rows_.rbegin(); row != rows_.rend(); ++row) end.Add(row->t_ns);
@@ -72,7 +72,7 @@ class SortedRows {
   CsvReader reader_;
   std::vector<Row> rows_;
   size_t next_ = 0;
-  DropCount unsorted_{key_ + "_csv_lines_not_in_order", 0, ""};  // they are sorted, not dropped
+  DropCount unsorted_{key_ + "_csv_lines_not_in_order", 0, ""};  // sorted, not dropped
 };
 
 }  // namespace plm_vins

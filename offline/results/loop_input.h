@@ -6,8 +6,8 @@
 
 namespace plm_vins {
 
-// What loop closure takes of an image that has a pose. `restarted`: the world frame is a new one
-// since the last image that had one.
+// Converts the result of an image with a pose to the input of loop closure. `restarted` means that
+// the world frame has changed since the previous image with a pose.
 OdometryFrame ToOdometryFrame(const PipelineFrame& frame, bool restarted);
 
 }  // namespace plm_vins

@@ -19,7 +19,8 @@ namespace plm_vins {
 
 namespace {
 
-// The camera's rows are taken to be of one time: not so with a rolling shutter.
+// Returns nullopt with a rolling shutter, since the bundle adjustment assumes that all rows of an
+// image are exposed at the same time.
 std::optional<MapBundle> BundleOf(const Config& config, const CameraModel& camera) {
   const SensorConfig& sensor = config.sensor;
   if (!config.pose_graph.bundle_adjustment || sensor.rolling_shutter) return std::nullopt;
@@ -122,7 +123,8 @@ void LoopResults::Finish() {
   WriteColmapModel(File("colmap"), refined_camera_, map());
 }
 
-// Poses of a world that was not joined to the map are in that world, between comments that say so.
+// Poses of a world that is not connected with the map are written in that world, delimited by
+// comments.
 void LoopResults::WriteFinalTrajectory() const {
   TimedFile file(File("trajectory_final.tum"));
   auto world = worlds_.begin();
@@ -141,7 +143,7 @@ void LoopResults::WriteFinalTrajectory() const {
   file.Close();
 }
 
-// Null where the map was not adjusted as a whole.
+// Null if the map was not bundle-adjusted.
 Json LoopResults::BundleSummary() const {
   if (!adjusted_) return nullptr;
   const MapBundleSummary& bundle = bundle_->summary();

@@ -23,53 +23,53 @@
 
 namespace plm_vins {
 
-// Loop closure over an offline run and its files in the folder of results: trajectory_map.tum (as
-// known at each time, once the place in the map is known) with covariance_map.csv,
-// trajectory_final.tum (as known in the end), loops.csv, pose_graph.g2o and the COLMAP model in
-// colmap/. In the end the map is adjusted as a whole.
+// Runs loop closure in an offline run and writes its files to the result folder: trajectory_map.tum
+// (causal estimates, from the first fix in the map on) with covariance_map.csv,
+// trajectory_final.tum (final estimates), loops.csv, pose_graph.g2o and the COLMAP model in
+// colmap/. At the end the whole map is bundle-adjusted.
 class LoopResults {
  public:
-  // Opens the files; starts in a map where there is one. Here and in Finish() std::runtime_error
-  // names the file that cannot be written.
+  // Opens the files and starts from `map` if given. Throws std::runtime_error with the file name if
+  // a file cannot be written; Finish() as well.
   LoopResults(const Config& config, const std::string& folder, std::optional<KeyframeMap> map);
 
-  // Takes the next image. Throws std::runtime_error where it has no pixels.
+  // Processes the next image. Throws std::runtime_error if it has no pixels.
   void Add(const PipelineFrame& frame);
 
-  // How many keyframes AdjustMap() would take; zero: it has nothing to do.
+  // Number of keyframes that AdjustMap() would optimize; zero if there is nothing to adjust.
   size_t KeyframesToAdjust() const;
 
-  // After the last image, before all that follows. Ends early where `is_end` says so, with what is
-  // found by then.
+  // To be called after the last image and before the functions below. Stops early, with the result
+  // so far, if `is_end` returns true.
   MapBundleSummary AdjustMap(const std::function<bool()>& is_end);
 
   // Completes all files.
   void Finish();
 
-  // As another run may start in it. With numbers as in loops.csv.
+  // The map in the form from which another run can start. Keyframe numbers are those of loops.csv.
   const KeyframeMap& map() const { return adjusted_ ? adjusted_->rebuilt : loops_.map(); }
 
   // Counts and times, for summary.json.
   Json Summary() const;
 
  private:
-  // The map after the bundle adjustment.
+  // The map after bundle adjustment.
   struct Adjusted {
-    KeyframeMap moved;    // with odometry as it was
-    KeyframeMap rebuilt;  // with all as if odometry had found it so
+    KeyframeMap moved;    // with unchanged odometry poses
+    KeyframeMap rebuilt;  // with odometry poses replaced by adjusted ones
   };
 
   std::string File(const std::string& name) const;
   void Count(const LoopClosure& closure, double milliseconds);
   void Remember(const PipelineFrame& frame, const LoopClosure& closure);
-  // The map as of loops and bundle, with what odometry and loops measured.
+  // The map after loop closure and bundle adjustment, with the measurements of odometry and loops.
   const KeyframeMap& measured_map() const { return adjusted_ ? adjusted_->moved : loops_.map(); }
   void WriteFinalTrajectory() const;
   Json BundleSummary() const;
 
   std::string folder_;
   std::shared_ptr<const CameraModel> camera_;  // as configured
-  CameraParameters refined_camera_;            // as of the last pose in M: of the keyframes' rays
+  CameraParameters refined_camera_;            // at the last pose in M: that of the keyframes' rays
   LoopCloser loops_;
   std::optional<MapBundle> bundle_;
   std::optional<Adjusted> adjusted_;
@@ -77,9 +77,9 @@ class LoopResults {
   TimedFile trajectory_;
   TimedFile covariance_;
   OutputFile table_;
-  std::string restart_reason_;  // of a world without a pose yet; empty: there is none
+  std::string restart_reason_;  // of a world without a pose yet; empty if none
   std::vector<OdometryPose> poses_;
-  std::vector<std::pair<size_t, std::string>> worlds_;  // first pose of each but the first, reason
+  std::vector<std::pair<size_t, std::string>> worlds_;  // first pose, reason; without the first
   std::optional<double> first_fix_;                     // since the first pose [s]
   int64_t keyframes_ = 0;
   LoopTally tally_;

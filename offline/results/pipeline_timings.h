@@ -6,7 +6,7 @@
 
 namespace plm_vins {
 
-// What each stage took for one image [ms].
+// Processing time of each stage for one image [ms].
 FrameTimings TimingsOf(const PipelineFrame& frame);
 
 }  // namespace plm_vins

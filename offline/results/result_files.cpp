@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kTrackImageQuality = 70;  // of JPEG: a few ten kB per image
+constexpr int kTrackImageQuality = 70;  // JPEG; a few ten kB for each image
 
 void SetPointTracking(const PointTrackerStatistics& points, FrameCounts* counts) {
   (*counts)[kPointsFollowed] = points.previous - points.flow_lost - points.forward_backward -
@@ -75,7 +75,8 @@ FrameCounts MakeCounts(const PipelineFrame& frame) {
   return counts;
 }
 
-// The landmarks that stay in the window. Those that leave belong to the frame that they leave with.
+// Returns the landmarks that stay in the window. Departed ones are reported with the frame that
+// removes them.
 template <typename Landmark>
 std::vector<Landmark> Staying(const std::vector<Landmark>& in_window,
                               const std::vector<Landmark>& departed) {
@@ -88,7 +89,7 @@ std::vector<Landmark> Staying(const std::vector<Landmark>& in_window,
   return staying;
 }
 
-// A path that is no UTF-8 is no reason to do without a summary.
+// Replaces invalid UTF-8 in paths, so that the summary can be written.
 std::string ToText(const Json& json) {
   return json.dump(2, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
 }
@@ -176,7 +177,7 @@ void ResultFiles::WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv:
   cv::Mat image = points;
   if (!lines.empty()) cv::hconcat(points, lines, image);
   cv::resize(image, image, {}, 0.5, 0.5, cv::INTER_AREA);
-  std::error_code error;  // shows where the picture cannot be written
+  std::error_code error;  // an error is reported when the picture is written
   fs::create_directories(File(kTrackImages), error);
   WriteAnnotatedImage(fs::path(kTrackImages) / (std::to_string(t_ns) + ".jpg"), image,
                       {cv::IMWRITE_JPEG_QUALITY, kTrackImageQuality});
@@ -194,7 +195,7 @@ void ResultFiles::Finish(RunSummary::Run run, const Config& config, const Json& 
   if (summary_.poses() > 0 && RefinesCalibration(config.sensor)) {
     SaveCalibratedConfig(summary_.calibration(), config, File(kCalibratedConfigFile));
   }
-  WriteSummary(run, config, parts);  // last: it says that all is there
+  WriteSummary(run, config, parts);  // last: it marks the results as complete
 }
 
 void ResultFiles::WriteLines() const {

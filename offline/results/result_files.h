@@ -18,27 +18,27 @@
 
 namespace plm_vins {
 
-// Results of an offline run in their folder: trajectory.tum, covariance.csv, timing.csv,
+// Writes the results of an offline run to their folder: trajectory.tum, covariance.csv, timing.csv,
 // summary.json, map.ply, lines.ply, lines.obj, tracks.png, line_tracks.png, tracks/, and
-// calibrated.yaml where the calibration is refined. Rows are written as frames come, which keeps
-// memory small.
+// calibrated.yaml if the calibration is refined. Rows are written as frames come, which bounds the
+// memory.
 class ResultFiles {
  public:
-  // Makes the folder, removes earlier results from it, but for `config_file`, and opens the files.
-  // What cannot be written, here or later, throws std::runtime_error that names it.
+  // Creates the folder, removes earlier results except `config_file`, and opens the files. Throws
+  // std::runtime_error with the name of a file that cannot be written; so do the other functions.
   explicit ResultFiles(const std::string& folder, const std::string& config_file = "");
 
   void Add(const PipelineFrame& frame);
 
-  // Nothing where the image is empty. A picture that cannot be written is counted, and no error.
+  // Ignores an empty image. A picture that cannot be written is counted, but is no error.
   void WriteAnnotatedImage(const std::string& name, const cv::Mat& image,
                            const std::vector<int>& format = {});
 
-  // tracks/STAMP_NS.jpg: points and lines side by side, in half the size.
+  // Writes tracks/STAMP_NS.jpg: points and lines side by side at half resolution.
   void WriteTrackImage(int64_t t_ns, const cv::Mat& points, const cv::Mat& lines);
 
-  // Completes all files; the counts of the map in `run` are filled in here. `parts` go into
-  // summary.json as they are, by name; null: there are none.
+  // Completes all files and sets the map counts in `run`. `parts` are copied into summary.json by
+  // name; null: none.
   void Finish(RunSummary::Run run, const Config& config, const Json& parts);
 
   const std::string& folder() const { return folder_; }
@@ -49,11 +49,11 @@ class ResultFiles {
  private:
   std::string File(const std::string& name) const;
   void AddMapPoints(const std::vector<MapPoint>& points);
-  // A line that is there already, since it came back into view, is replaced.
+  // Replaces a line that was added before, since it was re-observed.
   void AddMapLines(const std::vector<MapLine>& lines);
-  // The landmarks in the window go into the map.
+  // Adds the landmarks in the window to the map.
   void EndWindow();
-  // ... and ids start over.
+  // Ends the world frame as well, after which ids start again.
   void EndWorld();
   void WriteLines() const;
   void WriteSummary(const RunSummary::Run& run, const Config& config, const Json& parts) const;
@@ -63,9 +63,9 @@ class ResultFiles {
   TimedFile covariance_;
   OutputFile timing_;
   PlyPointWriter map_;
-  std::vector<MapLine> lines_;              // of world frames that have ended
-  std::map<int64_t, MapLine> world_lines_;  // of this one, by id
-  std::vector<MapPoint> window_points_;     // of the newest frame with a pose: not in the map yet
+  std::vector<MapLine> lines_;              // of previous world frames
+  std::map<int64_t, MapLine> world_lines_;  // of the current world frame, by id
+  std::vector<MapPoint> window_points_;     // of the newest frame with a pose, not in the map yet
   std::vector<MapLine> window_lines_;
   RunSummary summary_;
   DropCount unwritten_pictures_{"pictures_not_written", 0, ""};

@@ -37,7 +37,7 @@ constexpr const char* kResults[] = {"trajectory.tum",
                                     "evaluation.json",
                                     "run.html"};
 
-// Of these there may be parts, of before stamps jumped back.
+// These may have parts, one before each backward jump of the timestamps.
 constexpr const char* kTimedResults[] = {"trajectory.tum", "covariance.csv", "trajectory_map.tum",
                                          "covariance_map.csv", "trajectory_final.tum"};
 
@@ -54,14 +54,14 @@ bool IsTrackImage(const fs::path& file) {
 }
 
 void RemoveTrackImages(const fs::path& folder) {
-  std::error_code error;  // where there is no such folder
+  std::error_code error;  // ignored if there is no such folder
   std::vector<fs::path> images;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     if (IsTrackImage(entry.path())) images.push_back(entry.path());
   }
   if (images.empty()) return;
   for (const fs::path& image : images) fs::remove(image, error);
-  fs::remove(folder, error);  // unless there is something else in it
+  fs::remove(folder, error);  // fails, as intended, if other files are in it
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ std::vector<std::string> ResultNames() { return {std::begin(kResults), std::end(
 void MakeResultFolder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  std::error_code unknown;  // of a folder in a closed one
+  std::error_code unknown;  // for a path below an inaccessible folder
   if (!fs::is_directory(folder, unknown)) {
     throw std::runtime_error("cannot make the output folder " + folder + ": " +
                              (error ? error.message() : "not a folder"));
@@ -79,13 +79,13 @@ void MakeResultFolder(const std::string& folder) {
 }
 
 void RemoveEarlierResults(const std::string& folder, const std::string& config_file) {
-  std::error_code error;  // where there is no such file
+  std::error_code error;  // ignored if there is no such file
   for (const char* name : kResults) {
     const fs::path file = fs::path(folder) / name;
     if (!fs::equivalent(file, config_file, error)) fs::remove(file, error);
   }
   for (const char* name : kTimedResults) RemoveParts(fs::path(folder) / name);
-  fs::remove(fs::path(folder) / "colmap", error);  // unless there is something else in it
+  fs::remove(fs::path(folder) / "colmap", error);  // fails, as intended, if other files are in it
   RemoveTrackImages(fs::path(folder) / kTrackImages);
 }
 

@@ -10,23 +10,23 @@
 
 namespace plm_vins {
 
-// A file of rows in order of time, as readers expect. Where stamps jump back it goes on in a new
-// file, and the old one is kept as PartOf(path, 1), at the next jump (path, 2). What cannot be
-// written throws as OutputFile does.
+// A file of rows in temporal order, as readers expect. After a backward jump of the timestamps, the
+// file is kept as PartOf(path, 1), at the next jump (path, 2), and a new file begins. Throws as
+// OutputFile does.
 class TimedFile {
  public:
-  // `header`: lines at the beginning of each file.
+  // `header` is written at the beginning of each file.
   explicit TimedFile(const std::string& path, const std::string& header = "");
 
-  // Takes the row of that time.
+  // Returns the stream for the row of that time.
   std::ostream& Row(int64_t t_ns);
 
-  // Lines to come before the next row.
+  // Adds lines to be written before the next row.
   void Comment(const std::string& lines) { comments_ += lines; }
 
   void Close();
 
-  int parts() const { return parts_; }  // files that are kept beside the last one
+  int parts() const { return parts_; }  // number of files before the last one
 
   // NAME.EXT -> NAME_1.EXT
   static std::string PartOf(const std::string& path, int number);

@@ -39,15 +39,15 @@ IndexedBag OpenIndexedBag(const std::string& file) {
   RequireReadable(file);
   try {
     return IndexedBag(file);
-  } catch (const std::exception& error) {  // of a bad place, or std::bad_alloc
+  } catch (const std::exception& error) {  // exceptions of bag parsing, or std::bad_alloc
     throw std::runtime_error(
         file + " is not a ROS bag of format 2.0, or it was cut off, damaged or never closed (" +
         error.what() + "); then \"rosbag reindex " + file + "\" makes it whole");
   }
 }
 
-// The topic of this type as a bag has it: with a leading slash or, from some recorders, without.
-// Nothing where it has none.
+// Returns the topic of this type as named in the bag: with a leading slash or, from some recorders,
+// without. Returns nullopt if there is none.
 std::optional<TypedTopic> Find(const TypedTopics& topics, const std::string& topic,
                                const std::string& type) {
   for (const TypedTopic& typed : topics) {
@@ -69,7 +69,7 @@ std::string ToText(const TypedTopics& topics) {
 using ros::serialization::IStream;
 
 IStream StreamOf(const BagMessage& message) {
-  // Only read; the stream wants it so.
+  // The stream requires a non-const pointer, but only reads.
   auto* bytes = reinterpret_cast<uint8_t*>(const_cast<char*>(message.data.data()));
   return {bytes, static_cast<uint32_t>(message.data.size())};
 }
@@ -96,7 +96,8 @@ Message Deserialize(const BagMessage& message) {
   return result;
 }
 
-// roscpp makes room for as many pixels as a message claims before it looks whether they are there.
+// Checks the size first, since roscpp allocates the claimed number of pixels before it compares it
+// with the message.
 template <typename Message>
 Message DeserializeImage(const BagMessage& message) {
   IStream stream = StreamOf(message);

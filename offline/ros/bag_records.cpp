@@ -11,7 +11,7 @@
 namespace plm_vins {
 namespace {
 
-// Not initialised: a claimed size of 4 GiB costs no memory until so much is unpacked.
+// Uninitialized memory: a claimed size of 4 GiB uses no physical memory until it is filled.
 class UnpackedBytes : public BagBytes {
  public:
   explicit UnpackedBytes(uint32_t size)

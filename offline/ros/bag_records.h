@@ -11,9 +11,9 @@
 
 namespace plm_vins {
 
-// The records of a bag of format 2.0, see https://wiki.ros.org/Bags/Format/2.0. Whatever sizes and
-// places the file claims, nothing is read beyond its end or that of an unpacked chunk; what does
-// not fit throws std::runtime_error.
+// Reader of the records of a bag of format 2.0, see https://wiki.ros.org/Bags/Format/2.0. Whatever
+// sizes and offsets the file claims, nothing is read beyond its end or that of an unpacked chunk;
+// invalid values throw std::runtime_error.
 
 enum class BagOp : uint8_t {
   kMessage = 2,
@@ -38,7 +38,7 @@ T BagValue(const std::string& bytes) {
 
 struct BagRecord {
   BagFields fields;
-  uint64_t data = 0, end = 0;  // where its data begin and end
+  uint64_t data = 0, end = 0;  // offsets of its data
 
   const std::string& Text(const std::string& name) const;
   template <typename T>
@@ -47,7 +47,7 @@ struct BagRecord {
   }
 };
 
-// What has records in it: the file, or an unpacked chunk.
+// A container of records: the file, or an unpacked chunk.
 class BagBytes {
  public:
   explicit BagBytes(uint64_t size) : size_(size) {}
@@ -55,7 +55,7 @@ class BagBytes {
 
   uint64_t size() const { return size_; }
   std::string Read(uint64_t at, uint64_t size);
-  // The record at a place, which must be of this kind and end by `limit`.
+  // Reads the record at an offset, which must have this op code and end by `limit`.
   BagRecord ReadRecord(BagOp op, uint64_t at, uint64_t limit);
   BagRecord ReadRecord(BagOp op, uint64_t at) { return ReadRecord(op, at, size_); }
 
@@ -75,7 +75,7 @@ class BagFile : public BagBytes {
   std::ifstream stream_;
 };
 
-// The content of a compressed chunk, whose checksums have been found right.
+// Returns the content of a compressed chunk after verifying its checksums.
 std::unique_ptr<BagBytes> UnpackChunk(const BagRecord& chunk, BagFile* file);
 
 }  // namespace plm_vins

@@ -12,11 +12,11 @@ namespace {
 
 constexpr char kSignature[] = "#ROSBAG V2.0\n";
 constexpr uint64_t kFirstRecord = sizeof(kSignature) - 1;
-constexpr uint64_t kIndexEntrySize = 12;  // seconds, nanoseconds, offset into the chunk
+constexpr uint64_t kIndexEntrySize = 12;  // seconds, nanoseconds, offset in the chunk
 constexpr int64_t kSecond_ns = 1'000'000'000;
-constexpr size_t kMaxUnpacked = 4;  // chunks at hand, mostly under 1 MB each
+constexpr size_t kMaxUnpacked = 4;  // cached chunks, mostly below 1 MB each
 
-// Whether there is this topic, be it of another type.
+// Returns whether the topic exists, with any type.
 bool HasTopic(const TypedTopics& topics, const std::string& topic) {
   return std::any_of(topics.begin(), topics.end(),
                      [&](const TypedTopic& typed) { return typed.first == topic; });
@@ -61,7 +61,7 @@ std::optional<BagMessage> IndexedBag::Next() {
     if (chunk.damaged) continue;
     try {
       return ReadMessage(entry, chunk);
-    } catch (const std::exception& error) {  // of a bad place, or std::bad_alloc
+    } catch (const std::exception& error) {  // exceptions of bag parsing, or std::bad_alloc
       if (damaged_++ == 0) problem_ = Describe(error.what(), chunk);
     }
   }
@@ -88,13 +88,13 @@ void IndexedBag::ReadIndex(const BagRecord& head) {
     connections_[record.Field<uint32_t>("conn")] = {record.Text("topic"), type->second};
     at = record.end;
   }
-  std::multimap<uint64_t, uint32_t> chunks;  // place -> number of its lists
+  std::multimap<uint64_t, uint32_t> chunks;  // offset -> number of index records
   for (uint32_t i = head.Field<uint32_t>("chunk_count"); i > 0; --i) {
     const BagRecord info = file_.ReadRecord(BagOp::kChunkInfo, at);
     chunks.emplace(info.Field<uint64_t>("chunk_pos"), info.Field<uint32_t>("count"));
     at = info.end;
   }
-  // Were one place read again and again, a small file would ask for any time and memory.
+  // Rejects overlapping chunks: a small file could otherwise require any amount of time and memory.
   uint64_t end = 0;
   for (const auto& [place, lists] : chunks) {
     if (place < end) throw std::runtime_error("chunks that overlap");

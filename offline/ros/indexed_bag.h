@@ -15,38 +15,39 @@
 
 namespace plm_vins {
 
-// A topic and the type of messages on it, of which it may have several.
+// A topic and a message type; a topic may have several types.
 using TypedTopic = std::pair<std::string, std::string>;
 using TypedTopics = std::set<TypedTopic>;
 
-// One serialised message of a bag.
+// One serialized message of a bag.
 struct BagMessage {
   TypedTopic topic;
   std::string data;
 };
 
-// The messages of a bag in the order of their time of recording, by the index at its end.
+// Reads the messages of a bag in the order of their recording time, using the index at its end.
 //
-// rosbag follows the index and the sizes in messages without a look at where they lead; so bags are
-// read here, and what leads nowhere is left out.
+// rosbag follows offsets and sizes in a bag without validating them; this reader drops invalid
+// records instead.
 class IndexedBag {
  public:
-  // Throws std::exception where there is no index that can be read.
+  // Throws std::exception if there is no readable index.
   explicit IndexedBag(const std::string& file);
 
   TypedTopics topics() const;
 
-  // Chooses what Next() gives; before the first Next(). What else is on these topics is counted.
+  // Selects the topics that Next() returns; must precede the first Next(). Messages of other types
+  // on these topics are counted.
   void Select(const TypedTopics& topics);
 
   std::optional<BagMessage> Next();
 
   std::optional<int64_t> end_ns() const;  // time of the last selected message
-  DropCounts problems() const;            // what was left out
+  DropCounts problems() const;            // counts of dropped messages
 
  private:
   struct Chunk {
-    uint64_t at = 0;  // in the file
+    uint64_t at = 0;  // offset in the file
     BagRecord record;
     bool damaged = false;
 
@@ -64,11 +65,12 @@ class IndexedBag {
   };
 
   void ReadIndex(const BagRecord& head);
-  // The lists behind the chunk at a place, one for each of its connections. Returns where they end.
+  // Reads the index records after the chunk at an offset, one for each of its connections. Returns
+  // their end.
   uint64_t ReadChunkIndex(uint64_t place, uint32_t lists);
   void AddEntry(const char* bytes, uint32_t connection, uint64_t chunk_size);
   BagMessage ReadMessage(const Entry& entry, const Chunk& chunk);
-  // The content of a packed chunk; where it does not unpack, all of it is left out.
+  // Returns the content of a packed chunk. If it cannot be unpacked, the whole chunk is dropped.
   BagBytes& Unpack(uint32_t number);
   std::string Describe(const std::string& error, const Chunk& chunk) const;
 
@@ -76,10 +78,10 @@ class IndexedBag {
   BagFile file_;
   std::map<uint32_t, TypedTopic> connections_;
   std::vector<Chunk> chunks_;
-  std::vector<Entry> entries_;  // of the selected topics, by time
+  std::vector<Entry> entries_;  // of the selected topics, in temporal order
   size_t next_ = 0;
-  // Several, as topics that were written one after the other lie in different chunks; the one used
-  // last is the last.
+  // Cache of several chunks, since topics that were written in turn may be in different chunks; in
+  // order of last use.
   std::vector<UnpackedChunk> unpacked_;
   DropCount of_another_type_{"messages_of_another_type", 0, ""};
   int64_t damaged_ = 0;

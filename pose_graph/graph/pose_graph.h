@@ -29,7 +29,7 @@ class PoseGraph {
   void HoldFrame();
 
   // Optimizes all nodes. Each part is kept in place by its nodes that hold the frame, or as a whole
-  // if it has none. |Loops have a robust loss. Loops whose residual exceeds kThreeSigmaOf4Dof are
+  // if it has none. Loops have a robust loss. Loops whose residual exceeds kThreeSigmaOf4Dof are
   // dropped, the worst first, and the optimization is repeated from the start. Returns the dropped
   // loops. No loop is dropped unless the solver converges.
   std::vector<LevelEdge> Optimize();

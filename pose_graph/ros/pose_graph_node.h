@@ -43,11 +43,13 @@ namespace plm_vins {
 // ~graph and ~match_image. The receiving thread assembles keyframes; a worker thread searches for
 // loops and optimizes. Only the callbacks of services and of new subscribers wait for the worker.
 // If it cannot keep up, the oldest keyframes are dropped. For ~image_transport see
-// ImageSubscription.||A new odometry world begins when odometry announces it (restart), and when
-// its messages come from another process: the estimator was restarted, or a recording is
-// replayed.||Services: ~save_map and ~load_map use the file named in the configuration (or
-// parameter ~map_file); ~reset starts an empty map.
-// ~map_file: another one); ~reset starts an empty map.
+// ImageSubscription.
+//
+// A new odometry world begins when odometry announces it (restart), and when its messages come from
+// another process: the estimator was restarted, or a recording is replayed.
+//
+// Services: ~save_map and ~load_map use the file named in the configuration (or parameter
+// ~map_file); ~reset starts an empty map.
 class PoseGraphNode {
  public:
   // Throws std::runtime_error if the configured previous map cannot be read.

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kMuchLessCertain = 2.0;  // ratio of standard deviations
 
-// `line`, prolonged to where `other` ends.
+// Extends `line` to the endpoints of `other`.
 SeenLine Prolonged(const SeenLine& line, const SeenLine& other) {
   const Eigen::Vector3d along = line.Direction();
   const auto place = [&](const Eigen::Vector3d& end) { return along.dot(end - line.start_F); };

@@ -12,36 +12,36 @@
 
 namespace plm_vins {
 
-// What is known of a line once its views went into the prior.
+// A line whose observations have been marginalized.
 struct RememberedLine {
-  SeenLine seen_W;                     // the part that was seen; F is W
-  std::vector<LineView> anchor_views;  // by frames that stay as anchors, by time
-  int64_t note = 0;                    // number of the last note on it
+  SeenLine seen_W;                     // the observed part; F is W
+  std::vector<LineView> anchor_views;  // observations by anchor frames, in temporal order
+  int64_t note = 0;                    // sequence number of its last update
 };
 
-// The lines that have been in the window, so that one which comes into view again is recognised.
-// Holds at most kCapacity lines; beyond, the one without news for longest is forgotten.
+// Remembers lines that have left the window, so that re-observed lines are recognized. Holds at
+// most kCapacity lines; beyond that, the least recently updated line is dropped.
 class LineMemory {
  public:
   static constexpr size_t kCapacity = 1000;
 
-  // Takes note of a line. Of two notes under one id the newer stays, unless it is much less
-  // certain; the parts that were seen then and now become one.
+  // Adds or updates a line. The newer of two estimates with the same id is kept, unless it is much
+  // less certain; the observed parts are united.
   void Keep(int64_t id, const SeenLine& line_W);
 
-  // Adds what an anchor has seen of a line, if that is known.
+  // Adds an anchor's observation of a line; ignored if the line is unknown.
   void KeepView(int64_t id, const LineView& anchor_view);
 
-  // Two lines are one: the older takes over what is known of the newer.
+  // Merges two ids of the same line: the older id takes over the observations of the newer.
   void Join(int64_t newer, int64_t older);
 
-  // Changes what anchors have seen, view by view.
+  // Modifies all observations by anchors.
   void ChangeViews(const std::function<void(LineView*)>& change);
 
-  // Forgets what an anchor has seen.
+  // Removes the observations by an anchor.
   void RemoveAnchor(int64_t t_ns);
 
-  // Null where there is no such line.
+  // Returns null if the line is unknown.
   const RememberedLine* Find(int64_t id) const;
 
   const std::map<int64_t, RememberedLine>& lines() const { return lines_; }
@@ -49,7 +49,7 @@ class LineMemory {
  private:
   void ForgetLeastRecent();
 
-  std::map<int64_t, RememberedLine> lines_;  // ordered, so that every run searches alike
+  std::map<int64_t, RememberedLine> lines_;  // ordered, for reproducible searches
   int64_t notes_ = 0;
 };
 

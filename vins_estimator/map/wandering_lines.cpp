@@ -6,8 +6,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMinSpread = 1.5;  // in units of the noise
-constexpr double kMaxRatio = 0.25;  // of steps to spread; independent views: 1
+constexpr double kMinSpread = 1.5;  // relative to the noise
+constexpr double kMaxRatio = 0.25;  // of `difference` to `variance`; 1 if residuals are independent
 
 }  // namespace
 

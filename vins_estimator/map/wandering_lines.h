@@ -7,16 +7,16 @@
 
 namespace plm_vins {
 
-// The views of a line of this noise (deviation across it, normalised) are off it by more than
-// noise, and go from side to side slowly: neighbouring ones are off alike. That tells what wanders
-// with the viewpoint or the light, as the outline of a round thing, a shadow or a reflection do,
-// from a line that is seen badly: there, von Neumann's ratio of the mean square of steps to the
+// Returns whether the residuals of a line's observations exceed the noise (standard deviation
+// across it, normalized) and consecutive residuals are correlated. Such lines move with the
+// viewpoint or the light: outlines of round objects, shadows, reflections. For a static line with
+// noisy observations, von Neumann's ratio of the mean square of successive differences to the
 // variance is about 2 ([vonNeumann1941]).
 bool Wanders(const ViewSpread& spread, double noise);
 
-// Finds the triangulated lines that wander, each once. The window goes on using them, as far as
-// they fit: leaving out lines by their residuals leaves out what contradicts the estimate. But they
-// are neither merged nor remembered (MayLast). Returns how many were found.
+// Marks the triangulated wandering lines, each once. The window still uses them as far as their
+// residuals permit, since rejecting lines by residuals would reject what contradicts the estimate.
+// They are neither merged nor remembered (MayLast). Returns the number of newly marked lines.
 int NoteWandering(const SlidingWindow& window, double noise, LineMap* lines);
 
 }  // namespace plm_vins

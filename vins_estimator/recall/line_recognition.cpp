@@ -15,14 +15,14 @@ SeenLine Rotated(const Eigen::Quaterniond& R_F_W, const SeenLine& line_W) {
   return line_F;
 }
 
-// Whether two lines could be near each other: the spheres around them touch.
+// Returns whether two lines could be close: whether their bounding spheres touch.
 bool MayTouch(const SeenLine& a, const SeenLine& b, double distance) {
-  const double between = (a.start_F + a.end_F - b.start_F - b.end_F).norm();  // twice
+  const double between = (a.start_F + a.end_F - b.start_F - b.end_F).norm();  // doubled
   const double lengths = (a.end_F - a.start_F).norm() + (b.end_F - b.start_F).norm();
   return between < lengths + 2 * (distance + kLineDeviations * (a.place_sigma + b.place_sigma));
 }
 
-// How far the views of a landmark are from the image of another line, at most.
+// Largest distance of a landmark's observations from the projection of another line.
 double DistanceInImages(const SlidingWindow& window, const PluckerLine& line_W,
                         const std::vector<LineView>& views) {
   double farthest = 0;
@@ -32,8 +32,9 @@ double DistanceInImages(const SlidingWindow& window, const PluckerLine& line_W,
   return farthest;
 }
 
-// The remembered line that a landmark is, the nearest where several could be. All views of the
-// landmark must show it where that line is: the images are more precise than a first triangulation.
+// Returns the id of the remembered line that a landmark matches, the nearest if there are several.
+// All observations of the landmark must agree with it, since images are more precise than a first
+// triangulation.
 std::optional<int64_t> Recognise(const SameLineLimits& limits, const Eigen::Quaterniond& R_F_W,
                                  const LocalMap& map, const LineLandmark& landmark,
                                  const SeenLine& seen_F) {
@@ -54,8 +55,8 @@ std::optional<int64_t> Recognise(const SameLineLimits& limits, const Eigen::Quat
   return nearest;
 }
 
-// The lines to look for in the memory, by ascending id: those with enough views that are not in the
-// memory themselves.
+// Returns the ids of the landmarks to search for in the memory, ascending: those with enough
+// observations that are not in the memory.
 std::vector<int64_t> CollectCandidates(const LocalMap& map) {
   std::vector<int64_t> candidates;
   for (const auto& [id, landmark] : map.lines.landmarks()) {

@@ -10,11 +10,11 @@
 
 namespace plm_vins {
 
-// Finds the lines of the map that have been there before: a line is one of the memory where they
-// are as near each other in space as lines that merge (MergeLines), in directions and distances of
-// a frame F, and where all its views show it in that place. It goes on under the older id, and what
-// anchors have seen of it counts as well: this ties the window to where the line was seen first.
-// Returns the ids that are no more.
+// Recognizes lines of the map that were observed before. A landmark matches a remembered line if
+// they are close enough to be merged (MergeLines), in directions and distances of a frame F, and
+// all its observations agree with that line. It continues with the older id and the observations by
+// anchors, which constrains the window to where the line was first observed. Returns the ids that
+// no longer exist.
 std::vector<int64_t> RecogniseLines(const SameLineLimits& limits, const Eigen::Quaterniond& R_F_W,
                                     LocalMap* map);
 

@@ -19,8 +19,9 @@ import rospkg
 
 LAUNCH = pathlib.Path(rospkg.RosPack().get_path("plm_vins")) / "launch"
 # Files with a configuration of their own, and those that ask for one.
-SENSORS = {"euroc.launch": "euroc.yaml", "realsense_d435i.launch": "realsense_d435i.yaml",
-           "tum_vi.launch": "tum_vi.yaml"}
+SENSORS = {f"{name}.launch": f"{name}.yaml" for name in (
+    "euroc", "euroc_stereo", "realsense_d435i", "realsense_d435i_depth", "realsense_d435i_stereo",
+    "tum_vi")}
 TEMPLATES = ("own_sensor.launch", "plm_vins.launch", "px4.launch")
 ALL = (*SENSORS, *TEMPLATES)
 TRACKERS = ("feature_tracker", "linefeature_tracker")
@@ -30,9 +31,9 @@ NODELETS = {"feature_tracker": "plm_vins/FeatureTracker",
             "pose_graph": "plm_vins/PoseGraph"}
 
 # Of rs_camera.launch in the driver, realsense2_camera 2.3.
-DRIVER_ARGUMENTS = ("enable_infra1", "enable_depth", "enable_color", "infra_width", "infra_height",
-                    "infra_fps", "enable_gyro", "enable_accel", "gyro_fps", "unite_imu_method",
-                    "enable_sync")
+DRIVER_ARGUMENTS = ("enable_infra1", "enable_infra2", "enable_depth", "enable_color", "infra_width",
+                    "infra_height", "infra_fps", "depth_width", "depth_height", "depth_fps",
+                    "enable_gyro", "enable_accel", "gyro_fps", "unite_imu_method", "enable_sync")
 
 
 PACKAGE_PATH = os.environ["ROS_PACKAGE_PATH"]
@@ -283,6 +284,14 @@ class RealSense(unittest.TestCase):
         config = pathlib.Path(parameters["/vins_estimator/config_file"]).read_text(encoding="utf-8")
         for side in ("width", "height"):
             self.assertIn(f"image_{side}: {parameters['/driver/infra_' + side]} ", config)
+
+    def test_what_the_driver_publishes(self):
+        for name, values in (("realsense_d435i", (False, False)),
+                             ("realsense_d435i_stereo", (True, False)),
+                             ("realsense_d435i_depth", (False, True))):
+            parameters = load(name + ".launch")[1]
+            self.assertEqual((parameters["/driver/enable_infra2"],
+                              parameters["/driver/enable_depth"]), values)
 
     def test_bag_instead_of_the_camera(self):
         self.assertNotIn("/driver/enable_gyro", load("realsense_d435i.launch", bag="/a.bag")[1])

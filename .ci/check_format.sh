@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Lists the source files that clang-format would change. Exit code 77 (skipped) without
-# clang-format 14, as other versions format a little differently.
+# Lists the source files that clang-format would change. Exit code 77 (skipped) without clang-format
+# 14, since other versions format slightly differently.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks what CONTRIBUTING.md asks for and a script can see: layers, ROS, sizes, headers, paths and
-links.
+"""Checks the rules in CONTRIBUTING.md that a script can check: layers, ROS, sizes, headers, paths
+and links.
 
 Usage: check_structure.py [ROOT]. Prints one line per problem; exit code 1 if there are any.
 """
@@ -13,9 +13,9 @@ import shutil
 import subprocess
 import sys
 
-# The layers of each part, from the bottom to the top, each with those of its part that it may
-# include beside itself, all of them listed before it. What is in no folder of its part is above
-# them, and ros/ above that.
+# The layers of each part, from bottom to top, each with the layers of its part that it may include
+# besides itself; these must precede it. Files outside the folders of a part are above its layers,
+# and ros/ is above those.
 COMMON_LAYERS = {
     "append.h": "",
     "format.h": "",
@@ -80,7 +80,8 @@ def inside(part, layers):
 
 
 def layers_of_part(part, folders, others=frozenset()):
-    """The layers of a part, each with all that it may include; `others` are other parts' layers."""
+    """Returns the layers of a part with everything that each may include; `others` are layers of
+    other parts."""
     layers = {}
     for layer, below in folders.items():
         below = inside(part, below.split())
@@ -96,8 +97,8 @@ TRACKING = COMMON | {"tracking"}
 TRACKERS = {"feature_tracker", "linefeature_tracker"}
 ESTIMATOR_OUTPUT = inside("vins_estimator", ["state", "output"])
 
-# What each layer, a folder or a file, may include beside itself; the longest match counts. Tests
-# and benchmarks may include anything, ROS too.
+# Everything that each layer (a folder or a file) may include besides itself; the longest match
+# applies. Tests and benchmarks may include anything, also ROS.
 LAYERS = {
     **layers_of_part("common", COMMON_LAYERS),
     **layers_of_part("tracking", {}, COMMON),
@@ -119,7 +120,8 @@ LAYERS = {
     **layers_of_part("mavros_relay", {}, COMMON),
     **layers_of_part("simulator", {}, COMMON | ESTIMATOR_OUTPUT),
 }
-# Who only reads what the estimator says gets by without the solver, however far the includes lead.
+# Parts that must not depend on Ceres, directly or indirectly, since they only use the estimator's
+# results.
 WITHOUT_CERES = ["common", "tracking", "feature_tracker", "linefeature_tracker",
                  "vins_estimator/state", "vins_estimator/map", "vins_estimator/output",
                  "vins_estimator/ros", "offline", "mavros_relay", "simulator"]
@@ -193,13 +195,13 @@ def check_code(root, path):
 
 
 def layer_of(name):
-    """The layer that a file belongs to, or None for a file of no layer."""
+    """Returns the layer of a file, or None if it belongs to no layer."""
     layers = [layer for layer in LAYERS if is_inside(name, layer)]
     return max(layers, key=len) if layers else None
 
 
 def is_inside(name, folder):
-    """Also true where `folder` is the file itself."""
+    """Returns whether the file is in the folder; `folder` may also be the file itself."""
     path = pathlib.PurePath(name)
     return pathlib.PurePath(folder) in (path, *path.parents)
 
@@ -214,8 +216,8 @@ def may_include(name, included):
 
 
 def check_circles(root):
-    """Pairs of layers that include each other."""
-    includes = {}  # by the two layers: an example
+    """Yields pairs of layers that include each other."""
+    includes = {}  # by layer pair: an example
     for path in code_files(root):
         name = path.relative_to(root)
         for included in INCLUDE.findall(path.read_text(encoding="utf-8")):
@@ -226,7 +228,7 @@ def check_circles(root):
 
 
 def check_ceres(root):
-    """Headers and sources that get Ceres by their includes, directly or not, and must not."""
+    """Yields files in WITHOUT_CERES that include Ceres, directly or indirectly."""
     for path in code_files(root):
         name = path.relative_to(root)
         if any(is_inside(name, folder) for folder in WITHOUT_CERES):
@@ -236,7 +238,7 @@ def check_ceres(root):
 
 
 def way_to_ceres(root, name, seen):
-    """The includes that lead from a file to Ceres; nothing where none do."""
+    """Returns the chain of includes from a file to Ceres, or None."""
     seen.add(str(name))
     text = (root / name).read_text(encoding="utf-8") if (root / name).is_file() else ""
     if CERES_INCLUDE.search(text):
@@ -255,14 +257,14 @@ def check_paths(root, path):
 
 
 def check_columns(root, path):
-    """Python; the columns of C++ are clang-format's business."""
+    """Checks Python only; clang-format checks the columns of C++."""
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
         if len(line) > MAX_COLUMNS:
             yield f"{path.relative_to(root)}:{number}: {len(line)} columns, at most {MAX_COLUMNS}"
 
 
 def check_links(root, path):
-    """Links of a page to files and headings of this repository."""
+    """Yields broken links of a page to files and headings of this repository."""
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
         for file, anchor in LINK.findall(line):
             target = path.parent / file if file else path
@@ -273,18 +275,18 @@ def check_links(root, path):
 
 
 def headings(page):
-    """The anchors that the headings of a Markdown page get."""
+    """Returns the anchors of a Markdown page's headings."""
     titles = re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
 
 
 def check_types(root):
-    """Types that two headers define under one name: the linker takes one for the other."""
-    homes = {}  # by the full name: the header
+    """Yields types with the same name in two headers, which the linker would confuse."""
+    homes = {}  # by qualified name: the header
     for path in code_files(root):
         name = path.relative_to(root)
         if path.suffix != ".h" or not layer_of(name):
-            continue  # tests are programs of their own
+            continue  # tests are separate programs
         text = path.read_text(encoding="utf-8")
         space = NAMESPACE.search(text)
         for defined in sorted(set(TYPE.findall(text))):
@@ -294,7 +296,7 @@ def check_types(root):
 
 
 def check_functions(root):
-    """Function lengths by universal-ctags; not checked where that is missing."""
+    """Checks function lengths by universal-ctags; skipped if it is not installed."""
     ctags, files = find_ctags(), code_files(root)
     if ctags is None or not files:
         return []
@@ -312,7 +314,7 @@ def check_functions(root):
 
 
 def find_ctags():
-    """The ctags program if it is the universal one, which knows where a function ends."""
+    """Returns the path of ctags if it is Universal Ctags, which reports the ends of functions."""
     ctags = shutil.which("ctags")
     return ctags if ctags and "Universal Ctags" in run(ctags, "--version") else None
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Runs clang-tidy on the sources that were changed last: on a branch since it left main, else in the
-# last 20 commits; at most 20 of them, the newest. Usage: check_tidy.sh [SOURCE ...]
+# Runs clang-tidy on the most recently changed sources: those of the branch since it left main, or
+# of the last 20 commits; at most 20 of them. Usage: check_tidy.sh [SOURCE ...]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=build/tidy
 limit=20
 
-# Newest first; a header stands for the source of its name.
+# Newest first; a header stands for the source of the same name.
 changed_sources() {
   local range=(-n 20) base
   base="$(git merge-base origin/main HEAD 2>/dev/null || true)"
@@ -28,7 +28,7 @@ fi
 echo "clang-tidy: ${#sources[@]} changed sources, at most $limit checked"
 ((${#sources[@]})) || exit 0
 
-# The commands of a full build; clang cannot read the precompiled headers of GCC.
+# Uses the compile commands of a full build; clang cannot read the precompiled headers of GCC.
 cmake -S . -B "$build" -DPLM_PRECOMPILED_HEADERS=OFF -DBUILD_FUZZ=ON >/dev/null
 cmake --build "$build" --target plm_vins_gencfg >/dev/null
 printf '%s\n' "${sources[@]:0:limit}" |

@@ -64,7 +64,7 @@ def main(names):
 
 
 def changed_lines():
-    """The numbers of the added lines, by file."""
+    """Returns the numbers of the added lines, by file."""
     base = git("merge-base", "origin/main", "HEAD").strip()
     if not base or base == git("rev-parse", "HEAD").strip():
         base = git("rev-list", "--max-count=21", "HEAD").split()[-1]
@@ -85,7 +85,7 @@ def git(*arguments):
 
 
 def check(name, text, lines=None):
-    """Problems of the comments that have one of these lines; of all without `lines`."""
+    """Yields the problems of comments that overlap `lines`, or of all comments without `lines`."""
     for comment in comments(text, SUFFIXES[pathlib.Path(name).suffix]):
         if lines is not None and not lines.intersection(range(comment.first, comment.last + 1)):
             continue
@@ -101,7 +101,8 @@ def check(name, text, lines=None):
 
 
 def comments(text, mark):
-    """Comments, those below each other joined; the lines of a page, which has no mark."""
+    """Yields the comments, with adjacent lines joined, or the lines of a page, which has no
+    mark."""
     block = None
     for number, line in enumerate(text.splitlines(), start=1):
         found = re.match(rf"(.*\S  +|\s*){mark}(?!/)\s?(.*)$" if mark else "()(.+)$", line)

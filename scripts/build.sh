@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
 # Builds this checkout in Release into build/. Usage: build.sh [-DOPTION=VALUE ...]
-# TARGETS, names with spaces between, builds these only.
-# JOBS limits the parallel compilers; by default one per core and 1.5 GB of free memory.
+# TARGETS (names separated by spaces) restricts the build to these.
+# JOBS limits the parallel compilers; by default one per core, at most one per 1.5 GB of free memory.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 # shellcheck source=scripts/usage.sh
 source "$root/scripts/usage.sh"
 
 if [[ -z "${ROS_PACKAGE_PATH:-}" && -f /opt/ros/noetic/setup.bash ]]; then
-  set +u  # ROS's script reads variables that are not set
+  set +u  # ROS's script reads unset variables
   # shellcheck disable=SC1091
-  source /opt/ros/noetic/setup.bash --  # else it reads our options
+  source /opt/ros/noetic/setup.bash --  # otherwise it reads our options
   set -u
 fi
 

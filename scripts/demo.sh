@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, runs the odometry on a recording and shows the result.
+# Installs missing packages, builds, runs the odometry on a recording and shows the result.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 programs="$root/build/devel/lib/plm_vins"
@@ -53,7 +53,7 @@ fi
 config="${config:-$root/config/euroc.yaml}"
 [[ -f "$config" ]] || fail "$config: no such config"
 
-# A recording of 30 s with its ground truth; complete once the folder has its final name.
+# Makes a recording of 30 s with ground truth. It is complete once the folder has its final name.
 simulate() {
   local folder="$root/output/simulated"
   if [[ ! -d "$folder" ]]; then
@@ -69,7 +69,7 @@ simulate() {
 
 run_online() {
   mkdir -p "$output"
-  set +u  # ROS's script reads variables that are not set
+  set +u  # ROS's script reads unset variables
   # shellcheck disable=SC1091
   source "$root/build/devel/setup.bash"
   set -u

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Downloads EuRoC, runs all variants over it and writes a report beside the figures of the paper.
+# Downloads EuRoC, runs all variants on it and writes a report next to the figures of the paper.
 # Usage: euroc.sh [--data DIR] [--output DIR] [--archives FILE] [--download-only] [SEQUENCE ...]
 #   SEQUENCE         such as MH_01_easy (default: all eleven); of TUM VI: room1 to room6
 #   --data DIR       where archives are, or are downloaded to (default: output/euroc/data)
 #   --output DIR     where results go (default: output/euroc)
 #   --archives FILE  another table of archives (default: scripts/dataset/archives.txt), as of a mirror
 #   --download-only  runs nothing
-# The same command again carries on where it was interrupted.
+# The same command again resumes an interrupted run.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 # shellcheck source=scripts/usage.sh
@@ -39,7 +39,7 @@ fi
 [[ -f "$archives" ]] || fail "$archives: no such table of archives"
 mkdir -p "$data" "$output"
 
-# archive_of SEQUENCE: MD5 sum, URL and file name of the archive that holds it.
+# archive_of SEQUENCE: prints MD5 sum, URL and file name of the archive that contains it.
 archive_of() {
   local pattern md5 url name
   while read -r pattern md5 url name; do
@@ -54,14 +54,14 @@ archive_of() {
 
 folder_of() { echo "$data/$1"; }
 
-# The server of EuRoC refuses curl's own name.
+# The server of EuRoC rejects curl's default user agent.
 fetch() { curl --fail --silent --show-error --location --user-agent plm_vins/1.0 "$@"; }
 
 remote_size() {
   fetch --head "$1" | tr -d '\r' | awk 'tolower($1) == "content-length:" {size = $2} END {print size + 0}'
 }
 
-# Carries on with a file that is there in part, and checks its MD5 sum.
+# Resumes a partial download and verifies the MD5 sum.
 download() {
   local md5="$1" url="$2" file="$3" complete=true
   [[ ! -f "$file" ]] || return 0
@@ -78,8 +78,8 @@ download() {
   mv "$file.part" "$file"
 }
 
-# unpack SEQUENCE ARCHIVE: into the sequence's folder, which has its name once it is complete. EuRoC's
-# archives hold one zip for each sequence.
+# unpack SEQUENCE ARCHIVE: unpacks into the sequence's folder, which gets its name once complete.
+# EuRoC's archives contain one zip for each sequence.
 unpack() {
   local folder part inner
   folder="$(folder_of "$1")"
@@ -133,7 +133,7 @@ for sequence in "${sequences[@]}"; do
 done
 [[ "$run" == true ]] || exit 0
 
-# evaluate NAME OPTION...: a report of its own over the sequences of one camera.
+# evaluate NAME OPTION...: writes a separate report on the sequences of one camera.
 evaluate() {
   local report="$1"
   shift

@@ -32,8 +32,8 @@ def evaluate(estimate, truth, align="se3", max_diff=metrics.MAX_DIFFERENCE,
              max_gap=metrics.MAX_GAP):
     """Returns the paired trajectories (the estimate aligned) and a dictionary of all figures.
 
-    Steps that were left out of the ground truth (steps.without_steps()) divide it into pieces: one
-    transform aligns them all, and no relative error spans two of them.
+    Ignored steps of the ground truth (steps.without_steps()) divide it into pieces: one transform
+    aligns all of them, and no relative error spans two pieces.
     """
     paired_estimate, paired_truth = metrics.associate(estimate, truth, max_diff)
     yaw_drift = metrics.yaw_drift(paired_estimate, paired_truth)
@@ -63,12 +63,12 @@ def evaluate(estimate, truth, align="se3", max_diff=metrics.MAX_DIFFERENCE,
 
 
 def _steps(truth, paired_truth):
-    """The steps of the ground truth that disturb the pairs, or that would if not left out."""
+    """Returns the steps of the ground truth that affect the pairs, or would unless ignored."""
     return steps.affecting(truth.steps_left_out or steps.find_steps(truth), paired_truth.stamps)
 
 
 def local_scale(estimate, truth):
-    """How large pieces of 5 s are, or None where none is large enough to say."""
+    """Returns the scale errors of pieces of 5 s, or None if no piece is long enough."""
     errors = metrics.local_scale_errors(estimate, truth)
     if len(errors) == 0:
         return None
@@ -77,7 +77,7 @@ def local_scale(estimate, truth):
 
 
 def error_statistics(estimate, truth):
-    """Statistics of all errors in LABELS, of paired and aligned trajectories."""
+    """Returns statistics of all errors in LABELS for paired and aligned trajectories."""
     path_errors, time_errors = (
         metrics.relative_errors(estimate, truth, metrics.within_pieces(pairs, estimate, truth))
         for pairs in (metrics.pairs_by_path(estimate, 1.0), metrics.pairs_by_time(estimate, 1.0)))
@@ -87,10 +87,10 @@ def error_statistics(estimate, truth):
 
 
 def add_consistency(result, estimate, truth, options):
-    """Adds `position_nees`, --nees-after the first pose; says why where the run is too short."""
+    """Adds `position_nees`, --nees-after the first pose; prints why if the run is too short."""
     pair = metrics.associate(estimate, truth, options.max_diff)
     covariances = consistency.read_covariances(
-        options.covariance, pair[0].stamps - estimate.shift)  # as the run wrote them
+        options.covariance, pair[0].stamps - estimate.shift)  # as in the run's files
     try:
         result["position_nees"] = consistency.position_nees(*pair, covariances, options.nees_after)
         result["position_nees_s"] = options.nees_after
@@ -110,7 +110,7 @@ def _replace_by_evo(result, estimate, truth):
 
 
 def format_report(result):
-    """The figures as a text table, coverage beside the APE."""
+    """Returns the figures as a text table, coverage next to the APE."""
     lines = [
         f"ground truth  {result['ground_truth_poses']} poses, path"
         f" {result['ground_truth_path_m']:.2f} m in {result['ground_truth_duration_s']:.1f} s",

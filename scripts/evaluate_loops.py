@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares the loops of a run with ground truth: how many are false, how far they are off, and how
-many of the true revisits they close. Prints what happened to the APE as well, with coverage and
-number of worlds."""
+"""Compares the loops of a run with ground truth: how many are false, how large their errors are,
+and how many of the true revisits they close. Also prints the APE before and after, with coverage
+and number of worlds."""
 
 import argparse
 import json
@@ -15,7 +15,7 @@ from evaluation import metrics
 from evaluation.run_results import read_estimate
 from evaluation.trajectory import LEAST_POSES, TrajectoryError, read_truth
 
-FALSE_DISTANCE = 0.3  # a loop that is off by more is false [m]
+FALSE_DISTANCE = 0.3  # loops with larger errors are false [m]
 FALSE_TURN = 5.0  # [deg]
 ODOMETRY, IN_MAP, FINAL = "trajectory.tum", "trajectory_map.tum", "trajectory_final.tum"
 TRAJECTORIES = {ODOMETRY: "odometry", IN_MAP: "map, as known at each time",
@@ -23,12 +23,12 @@ TRAJECTORIES = {ODOMETRY: "odometry", IN_MAP: "map, as known at each time",
 
 
 def evaluate_loops(folder, truth_path, t_offset=None):
-    """All figures of the results of a run in `folder`, as a dictionary. `t_offset` [s] goes before
+    """Returns all figures of a run's results in `folder` as a dictionary. `t_offset` [s] overrides
     the `td` of the run."""
     truth = read_truth(truth_path)
     odometry = read_estimate(folder / ODOMETRY, t_offset)
     trajectories = {ODOMETRY: odometry,
-                    # Empty where the place in the map is never found.
+                    # Empty if the pose in the map is never found.
                     IN_MAP: read_estimate(folder / IN_MAP, t_offset, least=0),
                     FINAL: read_estimate(folder / FINAL, t_offset)}
     figures = {name: _figures(trajectory, folder / name, truth, truth_path)
@@ -40,7 +40,7 @@ def evaluate_loops(folder, truth_path, t_offset=None):
 
 
 def _loop_figures(accepted, odometry, truth):
-    # Where the poses of an earlier recording's map are in this one's world is not known.
+    # The map of an earlier recording has an unknown transform to this one's world.
     own = accepted.between(odometry.stamps)
     loops = own.with_truth(truth)
     distances, turns = loop_metrics.loop_errors(loops, odometry, truth)
@@ -61,7 +61,7 @@ def _loop_figures(accepted, odometry, truth):
 
 
 def _figures(trajectory, path, truth, truth_path):
-    """Poses, APE [m] or None with too few poses for one, coverage and worlds."""
+    """Returns poses, APE [m] (None with too few poses), coverage and worlds."""
     figures = {"poses": len(trajectory), "ape_m": None, "worlds": trajectory.worlds,
                "coverage": metrics.coverage(trajectory, truth)}
     if len(trajectory) < LEAST_POSES:

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# Builds the fuzz targets under AddressSanitizer and UndefinedBehaviorSanitizer and runs each of them.
-# Usage: fuzz.sh [SECONDS [TARGET [FIRST [COUNT]]]]; by default ten minutes each. A finding names the
-# target and the index of the input, which as FIRST runs it again. SANITIZE=OFF is ten times as fast:
-# a million faults are SANITIZE=OFF fuzz.sh inf divergence 0 1300, or parts of that side by side.
+# Builds the fuzz targets under AddressSanitizer and UndefinedBehaviorSanitizer and runs each of
+# them.
+# Usage: fuzz.sh [SECONDS [TARGET [FIRST [COUNT]]]]; by default ten minutes each. A finding names
+# the target and the index of the input; pass the index as FIRST to run it again. SANITIZE=OFF is
+# ten times as fast: for a million faults run SANITIZE=OFF fuzz.sh inf divergence 0 1300, or parts
+# of it in parallel.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 # shellcheck source=scripts/usage.sh

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Turns the results of Kalibr into a configuration of one camera and one IMU.
+"""Converts the results of Kalibr to a configuration of one camera and one IMU.
 
 Format of the inputs: https://github.com/ethz-asl/kalibr/wiki/yaml-formats
 The files of OpenVINS, kalibr_imucam_chain.yaml and kalibr_imu_chain.yaml, have it as well.
@@ -18,7 +18,7 @@ NOISE_KEYS = {"acc_n": "accelerometer_noise_density", "gyr_n": "gyroscope_noise_
 
 
 def matrix_lines(key, matrix, unit):
-    """A matrix in OpenCV's notation."""
+    """Returns a matrix in OpenCV's notation."""
     rows = [", ".join(repr(float(value)) for value in row) for row in matrix]
     return [f"{key}: !!opencv-matrix  # [{unit}]", f"   rows: {len(matrix)}",
             f"   cols: {len(matrix[0])}", "   dt: d",
@@ -26,7 +26,7 @@ def matrix_lines(key, matrix, unit):
 
 
 def camera_in_imu(camera):
-    """R_B_C and p_B_C. Kalibr gives p_C = T_cam_imu p_B, OpenVINS p_B = T_imu_cam p_C."""
+    """Returns R_B_C and p_B_C. Kalibr gives p_C = T_cam_imu p_B, OpenVINS p_B = T_imu_cam p_C."""
     if "T_imu_cam" in camera.values:
         return camera.transform("T_imu_cam")
     hint = "give the camchain-imucam file of kalibr_calibrate_imu_camera"
@@ -35,7 +35,7 @@ def camera_in_imu(camera):
 
 
 def extrinsic_lines(camera):
-    """The time offset is Kalibr's: t_imu = t_cam + shift."""
+    """Returns the extrinsics as lines. The time offset is Kalibr's: t_imu = t_cam + shift."""
     R_B_C, p_B_C = camera_in_imu(camera)
     td = camera.number("timeshift_cam_imu") if "timeshift_cam_imu" in camera.values else 0.0
     return ["# Camera in the IMU frame, T_B_C.", "estimate_extrinsic: 0",
@@ -46,7 +46,8 @@ def extrinsic_lines(camera):
 
 
 def imu_section(imu_file):
-    """The IMU: the whole file as given to Kalibr, imu0 in the file that Kalibr writes."""
+    """Returns the IMU section: the whole file as given to Kalibr, or imu0 in the file that Kalibr
+    writes."""
     imu = read_section(imu_file)
     if "imu0" in imu.values:
         imu = imu.section("imu0")
@@ -72,7 +73,7 @@ def noise_lines(imu):
 
 
 def convert(camchain_file, imu_file, camera_name):
-    """The configuration as text; raises KalibrError."""
+    """Returns the configuration as text; raises KalibrError."""
     camera = read_section(camchain_file).section(camera_name)
     imu = imu_section(imu_file)
     paragraphs = [

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes a faulty recording of a good one: of a bag, an ASL folder or a file of features."""
+"""Makes a faulty copy of a recording: of a bag, an ASL folder or a feature file."""
 
 import argparse
 import os
@@ -23,7 +23,7 @@ def parse_arguments(arguments):
 
 
 def adapter_of(source):
-    """The module that can make `source` faulty."""
+    """Returns the module that can make `source` faulty."""
     if os.path.isdir(source):
         from stress import asl_folder
         return asl_folder

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plays a bag to the nodes and measures what they cost: the time from an image's arrival to the
-odometry of that image, and the processor's time of each node."""
+"""Plays a bag to the nodes and measures their cost: the time from an image's arrival to the
+odometry of that image, and the CPU time of each node."""
 
 import argparse
 import os
@@ -29,10 +29,11 @@ SECONDS_PER_TICK = 1 / os.sysconf("SC_CLK_TCK")
 
 
 class Latencies:
-    """Time from the arrival of an image to the arrival of its odometry, both seen from here."""
+    """Time from the arrival of an image to the arrival of its odometry, both measured in this
+    process."""
 
     def __init__(self):
-        self._arrivals = {}  # by stamp
+        self._arrivals = {}  # by timestamp
         self._last_arrival = None
         self.seconds = []
 
@@ -51,17 +52,17 @@ class Latencies:
 
     @property
     def ended(self):
-        """Images came, and come no more."""
+        """Whether images came, but no longer do."""
         return self.begun and time.monotonic() - self._last_arrival > END_AFTER
 
     @property
     def images(self):
-        """Those that came, answered or not."""
+        """The number of images that came, with or without odometry."""
         return len(self._arrivals) + len(self.seconds)
 
 
 def process_of(node):
-    """The id of a node's process, or None where it does not run."""
+    """Returns the id of a node's process, or None if it does not run."""
     try:
         uri = rosgraph.Master("/measure_latency").lookupNode(node)
         return xmlrpc.client.ServerProxy(uri).getPid("/measure_latency")[2]
@@ -70,7 +71,7 @@ def process_of(node):
 
 
 def find_nodes(processes):
-    """Adds the nodes that are there by now to their processes."""
+    """Adds the running nodes to `processes`."""
     for node in NODES:
         if node not in processes and (found := process_of(node)):
             processes[node] = found
@@ -85,7 +86,7 @@ def processor_seconds(process):
 def image_topic(config):
     with open(config, encoding="utf-8") as file:
         text = file.read()
-    # OpenCV begins its YAML with a directive that is none.
+    # OpenCV starts its YAML with an invalid directive.
     lines = [line for line in text.splitlines() if not line.startswith("%YAML")]
     contents = yaml.safe_load("\n".join(lines).replace("!!opencv-matrix", ""))
     topic = contents.get("image_topic") if isinstance(contents, dict) else None
@@ -95,7 +96,7 @@ def image_topic(config):
 
 
 def image_source(options):
-    """Topic and type of the images."""
+    """Returns topic and type of the images."""
     topic = image_topic(options.config)
     if options.image_transport == "compressed":
         return topic + "/compressed", CompressedImage
@@ -108,7 +109,8 @@ def subscribe(topic, kind, latencies):
 
 
 def launch_file():
-    """As arguments of roslaunch: that of this checkout, or of the package that is installed."""
+    """Returns the launch file as arguments of roslaunch: that of this checkout, or of the installed
+    package."""
     file = pathlib.Path(__file__).resolve().parents[1] / "launch" / "plm_vins.launch"
     return [str(file)] if file.is_file() else ["plm_vins", file.name]
 
@@ -116,7 +118,7 @@ def launch_file():
 def launch(options, output):
     command = ["roslaunch", *launch_file(), f"config:={os.path.abspath(options.config)}",
                f"nodelets:={str(options.nodelets).lower()}", f"output:={output}",
-               "use_sim_time:=false",  # no sensor publishes a clock, which costs each node
+               "use_sim_time:=false",  # no sensor publishes a clock, which has a cost for each node
                f"image_transport:={options.image_transport}"]
     if options.loop_closure:
         command.append("loop_closure:=true")
@@ -124,7 +126,7 @@ def launch(options, output):
 
 
 def play(options):
-    """The delay gives the nodes time to subscribe."""
+    """Plays the bag with a delay that gives the nodes time to subscribe."""
     span = ["--duration", str(options.duration)] if options.duration else []
     return subprocess.Popen(["rosbag", "play", "--quiet", "--delay", "3", "--rate",
                              str(options.rate), *span, options.bag], stdout=subprocess.DEVNULL)
@@ -139,7 +141,7 @@ def wait_for_master(process):
 
 
 def measure(options, output):
-    """Latencies and the processor's seconds by node."""
+    """Returns the latencies and the CPU time [s] by node."""
     (topic, kind), latencies = image_source(options), Latencies()
     running = [launch(options, output)]
     try:
@@ -155,15 +157,15 @@ def measure(options, output):
 
 
 def watch(options, topic, latencies, nodes, player):
-    """The processor's seconds by node, once images come no more or the nodes have ended.
-    RuntimeError where no image comes at all."""
+    """Returns the CPU time [s] by node, once images have ended or the nodes have exited. Raises
+    RuntimeError if no image comes at all."""
     costs, processes, deadline = {}, {}, time.monotonic() + START_TIMEOUT
     while nodes.poll() is None and not latencies.ended:
         find_nodes(processes)
         for node, identity in processes.items():
             if os.path.exists(f"/proc/{identity}"):
                 costs[node] = processor_seconds(identity)
-        played = player.poll()  # what it sent last may still be on its way
+        played = player.poll()  # its last messages may still be in transit
         time.sleep(0.2)
         if not latencies.begun:
             check_player(options, topic, played, time.monotonic() > deadline)
@@ -173,8 +175,8 @@ def watch(options, topic, latencies, nodes, player):
 
 
 def check_player(options, topic, exit_code, is_late):
-    """RuntimeError where no image is to be expected any more; `exit_code` is None of one that still
-    plays."""
+    """Raises RuntimeError if no more images can be expected; `exit_code` is None while the player
+    runs."""
     if exit_code:
         raise RuntimeError(f"rosbag play ended with code {exit_code}: is {options.bag} a whole"
                            " bag?")

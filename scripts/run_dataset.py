@@ -3,7 +3,8 @@
 """Runs the odometry over many recordings, in several variants, and compares the results.
 
 Writes to the output folder: report.md, runs.csv, table.csv, plots/ and runs/ with the results of
-every run. The same command again carries out only what is missing; Ctrl-C stops it."""
+every run. The same command again executes only missing runs; Ctrl-C stops it.
+"""
 
 import argparse
 import contextlib
@@ -27,7 +28,7 @@ from dataset.variants import VARIANTS, describe_variants, select_variants
 from evaluation.steps import describe as describe_steps
 from evaluation.trajectory import TrajectoryError
 
-INTERRUPTED = 130  # exit code, as shells have it
+INTERRUPTED = 130  # exit code, as of shells
 THREADS_PER_RUN = 2  # of run_offline
 
 
@@ -98,7 +99,7 @@ def _override(text):
 
 
 def plan(options):
-    """The settings, their fingerprint, and all runs, finished or not."""
+    """Returns the settings, their fingerprint, and all runs, finished or not."""
     sequences = find_sequences(options.recordings)
     if options.sequences:
         sequences = select_sequences(sequences, options.sequences)
@@ -114,7 +115,7 @@ def plan(options):
 
 @contextlib.contextmanager
 def locked(folder):
-    """Makes the folder and keeps other calls of this program out of it."""
+    """Creates the folder and locks it against other instances of this program."""
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, ".lock"), "w", encoding="utf-8") as file:
         try:
@@ -141,7 +142,7 @@ def announce(sequences, evaluator, runs, unfinished, where):
 
 
 def describe(result):
-    """How a run went, in one line."""
+    """Describes the outcome of a run in one line."""
     if result.failure is not None:
         return f"FAILED: {result.failure}"
     speed = f"{result.summary['real_time_factor']:.1f} x real time"
@@ -152,7 +153,7 @@ def describe(result):
 
 
 def facts(options, settings, fingerprint, where):
-    """What the report says about the whole."""
+    """Returns the facts about the whole run for the report."""
     starts = ", ".join(f"{start:g}" for start in options.starts)
     part = "all" if starts == "0" and options.duration is None else (
         f"from {starts} s on" + ("" if options.duration is None else f", {options.duration:g} s"))

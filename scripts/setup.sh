@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs with apt what is missing to build, test and run: Debian 12, or Ubuntu 20.04 with ROS
-# Noetic. Usage: setup.sh [further package ...]
+# Installs missing packages for building, testing and running with apt: on Debian 12, or Ubuntu
+# 20.04 with ROS Noetic. Usage: setup.sh [further package ...]
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 # shellcheck source=scripts/usage.sh
@@ -10,7 +10,7 @@ common_packages=(
   build-essential cmake curl libboost-dev libbz2-dev libceres-dev libeigen3-dev libgmock-dev libgtest-dev
   libopencv-contrib-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev
   python3-matplotlib python3-numpy python3-pil python3-tqdm python3-yaml unzip)
-optional_packages=(python3-distributed python3-plotly)  # for --scheduler, and for pages in 3-D
+optional_packages=(python3-distributed python3-plotly)  # for --scheduler, and for 3-D pages
 debian_packages=(
   catkin libcli11-dev libcv-bridge-dev libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev libimage-transport-dev
@@ -42,7 +42,7 @@ install_packages() {
     -o Dpkg::Use-Pty=0 install -qq -y --no-install-recommends "${missing[@]}"
 }
 
-# CLI11 into build/deps, where CMake looks for it too: Ubuntu 20.04 has no package of it.
+# Installs CLI11 into build/deps, where CMake searches as well: Ubuntu 20.04 has no package of it.
 install_cli11() {
   [[ ! -d "$root/build/deps" ]] || return 0
   rm -rf "$root/build/cli11"

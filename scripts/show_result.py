@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints a short table of a results folder: summary.json and, where present, evaluation.json."""
+"""Prints a short table of a results folder: summary.json and, if present, evaluation.json."""
 
 import argparse
 import json
@@ -9,7 +9,7 @@ import sys
 
 
 def rows(summary, evaluation):
-    """Pairs of label and text; `evaluation` is None without ground truth."""
+    """Returns pairs of label and text; `evaluation` is None without ground truth."""
     def number(key, text):
         value = summary.get(key)
         return "-" if value is None else text.format(value)
@@ -30,7 +30,8 @@ def rows(summary, evaluation):
 
 
 def read_json(path):
-    """The object in the file, or None where there is no file; ValueError where it is damaged."""
+    """Returns the object in the file, or None if there is no file; raises ValueError if it is
+    damaged."""
     if not os.path.isfile(path):
         return None
     try:

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes one HTML page on a run of run_offline, with all that it needs inside: trajectory, points,
-lines by axis and loops in 3-D, errors, counts and timings over time, and images with tracks."""
+"""Writes one self-contained HTML page on a run of run_offline: trajectory, points, lines by axis
+and loops in 3-D, errors, counts and timings over time, and images with tracks."""
 
 import argparse
 import os

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plays a bag to the nodes again and again, and watches what must not grow: their memory, their
-open files and threads, and the age of the poses. Ends with code 1 where something does."""
+"""Plays a bag to the nodes repeatedly and monitors values that must not grow: their memory, open
+files and threads, and the age of the poses. Exit code 1 if one grows."""
 
 import argparse
 import os
@@ -18,17 +18,17 @@ from diagnostic_msgs.msg import DiagnosticArray
 
 from measure_latency import check_files, find_nodes, launch_file, wait_for_master
 
-# What may be added from the second quarter of the time to the last; in the first one caches and
-# pools fill up.
+# Permitted increase from the second quarter of the time to the last; caches and pools fill up in
+# the first.
 LIMITS = {"memory_MB": 20, "files": 3, "threads": 2, "pose_age_ms": 50}
 HEAD = "| node | what | second quarter | last quarter |\n|---|---|---|---|"
 
 
 class PoseAge:
-    """The last age of a pose that the estimator stated [ms]."""
+    """The last age of a pose that the estimator reported [ms]."""
 
     def __init__(self):
-        self.value = None  # none yet
+        self.value = None  # unknown
         self.resets = 0
         rospy.Subscriber("/diagnostics", DiagnosticArray, self._add)
 
@@ -37,12 +37,12 @@ class PoseAge:
             values = {value.key: value.value for value in status.values}
             if "pose_age_ms" in values:
                 self.resets = int(values["resets"])
-                if "odometry_delay_ms" in values:  # poses came; the age is 0 before the first one
+                if "odometry_delay_ms" in values:  # the age is 0 before the first pose
                     self.value = float(values["pose_age_ms"])
 
 
 def usage(process):
-    """Of a process now, or None where there is none."""
+    """Returns the current usage of a process, or None if it does not exist."""
     try:
         with open(f"/proc/{process}/status", encoding="ascii") as file:
             fields = dict(line.split(":", 1) for line in file)
@@ -53,7 +53,7 @@ def usage(process):
 
 
 class Series:
-    """Samples by node and what was measured."""
+    """Samples by node and quantity."""
 
     def __init__(self):
         self.samples = {}
@@ -63,7 +63,7 @@ class Series:
             self.samples.setdefault((node, what), []).append(value)
 
     def growth(self):
-        """(node, what, mean of the second quarter, of the last one) of all that was measured."""
+        """Yields (node, quantity, mean of the second quarter, mean of the last quarter)."""
         for (node, what), values in self.samples.items():
             quarter = max(1, len(values) // 4)
             yield (node, what, float(np.mean(values[quarter:2 * quarter] or values)),
@@ -82,8 +82,8 @@ def launch(config, output):
 
 
 def watch(options, nodes, player):
-    """Samples of every node that runs, until the time is over. RuntimeError where something that is
-    to run has ended, or no pose ever came."""
+    """Returns samples of every running node, until the time is over. Raises RuntimeError if a
+    process has ended that should run, or if no pose came."""
     series, age = Series(), PoseAge()
     end = time.monotonic() + 60 * options.minutes
     processes = {}
@@ -109,7 +109,7 @@ def watch(options, nodes, player):
 
 
 def soak(options, output):
-    """Starts the nodes and the player, and ends them after the time."""
+    """Starts the nodes and the player, and stops them after the time."""
     running = [launch(options.config, output)]
     try:
         wait_for_master(running[0])
@@ -123,7 +123,7 @@ def soak(options, output):
 
 
 def report(series):
-    """Prints the table; True where nothing has grown."""
+    """Prints the table; returns True if nothing has grown."""
     print(HEAD)
     grown = []
     for node, what, before, after in series.growth():

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the odometry on saved features with each fault in turn, and prints what each costs."""
+"""Runs the odometry on saved features with each fault in turn, and prints the effect of each."""
 
 import argparse
 import json
@@ -19,7 +19,7 @@ RUN_OFFLINE = os.path.join(ROOT, "build", "devel", "lib", "plm_vins", "run_offli
 CONFIG = os.path.join(ROOT, "config", "euroc.yaml")
 HEAD = ("| fault | APE [m] | largest error [m] | restarts after [s] | coverage | noticed |\n"
         + 6 * "|---" + "|")
-# Counts in summary.json that name a fault.
+# Counts in summary.json that indicate a fault.
 FOUND = ("imu_doubts", "bridged_losses")
 NAMED = ("imu_implausible", "imu_replaced", "imu_saturated", "imu_gaps", "frames_repeated", *FOUND)
 
@@ -59,7 +59,7 @@ def row(name, options, truth, folder):
 
 
 def _why(run):
-    """The last thing that run_offline said of its end."""
+    """Returns the last error message of run_offline."""
     said = [line for line in run.stderr.splitlines() if line.startswith("run_offline:")]
     return said[-1] if said else f"run_offline ended with {run.returncode}"
 

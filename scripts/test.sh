@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds in Release and runs every test.
+# Installs missing packages, builds in Release and runs all tests.
 # Usage: test.sh [ctest option ...], for instance: test.sh -R preintegration
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The odometry over many recordings: finding them, running, comparing; see ../run_dataset.py."""
+"""Finds recordings, runs the odometry over them and compares the results; see ../run_dataset.py."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The text of single cells of the report's tables."""
+"""Text of single cells of the report's tables."""
 
 from .results import METRIC
 
@@ -12,8 +12,8 @@ def number(value, decimals):
 
 
 def figure(results, metric, sequence, variant):
-    """A mean with its spread over the starts, the coverage beside the APE, over how many of
-    several starts it is, and failures."""
+    """Returns the mean with its spread over starts, the number of starts that have the figure,
+    failures, and for the APE the coverage."""
     runs = results.runs(sequence, variant)
     failed = sum(r.failure is not None for r in runs)
     if not runs:

@@ -11,8 +11,8 @@ from .results import METRIC
 
 
 def write_comparison(output, results, evaluator, facts, with_plots):
-    """Writes report.md, runs.csv, table.csv, plots/ and pages for the browser; returns the paths of
-    what to look at first."""
+    """Writes report.md, runs.csv, table.csv, plots/ and HTML pages; returns the paths to print, the
+    most important first."""
     pictures = _write_pictures(output, results, evaluator) if with_plots else {}
     path = os.path.join(output, "report.md")
     with open(path, "w", encoding="utf-8") as file:
@@ -22,7 +22,7 @@ def write_comparison(output, results, evaluator, facts, with_plots):
 
 
 def _write_pages(output, results, evaluator, facts):
-    """What to look at first, or why there is nothing."""
+    """Returns the path of the first page, or the reason why there are no pages."""
     try:
         return [write_pages(output, results, evaluator, facts)]
     except ImportError as error:
@@ -30,8 +30,8 @@ def _write_pages(output, results, evaluator, facts):
 
 
 def _write_pictures(output, results, evaluator):
-    """Paths relative to `output`, by heading."""
-    from evaluation import comparison_plots  # takes a second to load, and only here
+    """Returns the paths relative to `output`, by heading."""
+    from evaluation import comparison_plots  # only here, since loading takes a second
     pictures = {}
     overview = _overview(results)
     if overview:
@@ -48,7 +48,8 @@ def _write_pictures(output, results, evaluator):
 
 
 def _overview(results):
-    """Mean APE and its deviation by variant and sequence, of those that have any."""
+    """Returns mean APE and standard deviation by variant and sequence, for sequences that have
+    any."""
     spreads = {variant: {sequence: results.spread(METRIC["ape_m"], sequence, variant)
                          for sequence in results.sequences} for variant in results.variants}
     sequences = [s for s in results.sequences
@@ -58,5 +59,5 @@ def _overview(results):
 
 
 def _bar(spread):
-    """Its height and deviation."""
+    """Returns the height and the deviation of a bar."""
     return (spread.mean, spread.deviation or 0.0) if spread else (math.nan, 0.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The results for spreadsheets: every run, and means and spread over starts."""
+"""CSV files for spreadsheets: all runs, and means and spread over starts."""
 
 import csv
 import os
@@ -8,7 +8,7 @@ from .results import METRICS
 
 
 def write_csv(folder, results):
-    """Returns the paths of both files."""
+    """Writes both files and returns their paths."""
     runs = [_run_row(result) for result in results.all()]
     table = [_table_row(results, sequence, variant)
              for sequence in results.sequences for variant in results.variants]

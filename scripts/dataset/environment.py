@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where this package's program and configuration are, and on what machine this runs."""
+"""Locations of the program and the configuration, and a description of the machine."""
 
 import os
 import platform
@@ -10,13 +10,14 @@ import tempfile
 from .errors import DatasetError
 
 _SCRIPTS = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-_ROOT = os.path.dirname(_SCRIPTS)  # of the checkout; where it is installed: the folder lib
+_ROOT = os.path.dirname(_SCRIPTS)  # of the checkout; if installed: the folder lib
 _PROGRAM = os.path.join("lib", "plm_vins", "run_offline")
 
 
 def find_program(given=None):
-    """Path of run_offline: the given one, this checkout's, the one installed beside this script,
-    of the sourced workspaces (as rosrun finds it), or on PATH. Raises DatasetError."""
+    """Returns the path of run_offline: the given one, that of this checkout, the one installed next
+    to this script, of the sourced workspaces (as rosrun finds it), or on PATH. Raises
+    DatasetError."""
     workspaces = os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
     candidates = [given] if given else [
         os.path.join(_ROOT, "build", "devel", _PROGRAM), os.path.join(_SCRIPTS, "run_offline"),
@@ -32,7 +33,8 @@ def find_program(given=None):
 
 
 def find_config(given=None):
-    """Path of the configuration: the given one or config/euroc.yaml. Raises DatasetError."""
+    """Returns the path of the configuration: the given one or config/euroc.yaml. Raises
+    DatasetError."""
     default = os.path.join("config", "euroc.yaml")
     candidates = [given] if given else [
         os.path.join(_ROOT, default),
@@ -44,8 +46,8 @@ def find_config(given=None):
 
 
 def check_config(program, config, overrides):
-    """Raises DatasetError with all that run_offline finds wrong with the configuration. It is given
-    an empty folder for a recording, which it looks at last."""
+    """Raises DatasetError with all problems that run_offline finds in the configuration. It passes
+    an empty folder as recording, which run_offline reads last."""
     with tempfile.TemporaryDirectory() as empty:
         command = [program, "--config", config, "--asl", empty, "--output",
                    os.path.join(empty, "output")]
@@ -65,7 +67,7 @@ def usable_cores():
 
 
 def machine():
-    """One line: processor and cores."""
+    """Returns processor and number of cores in one line."""
     try:
         with open("/proc/cpuinfo", encoding="utf-8") as file:
             models = [line.split(":", 1)[1].strip() for line in file if line[:10] == "model name"]

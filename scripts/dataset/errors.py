@@ -3,4 +3,4 @@
 
 
 class DatasetError(Exception):
-    """Something that the user has to put right; the text names it and says how, in one line."""
+    """An error that the user can correct; its text names the cause and the remedy in one line."""

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where runs are carried out: in threads of this program, or by the workers of a Dask cluster. Each
-is a concurrent.futures.Executor, whose thread waits for a process of its own."""
+"""Executors of runs: threads of this program, or the workers of a Dask cluster. Both are
+concurrent.futures.Executor; each of their threads waits for a separate process."""
 
 import concurrent.futures
 import contextlib
@@ -12,21 +12,21 @@ CONNECT_TIMEOUT = 10  # [s]
 
 @contextlib.contextmanager
 def open_executor(scheduler, jobs):
-    """An executor, and where it works, in words. `scheduler`: address of a Dask scheduler, or None
-    for this machine, which then carries out `jobs` runs at a time."""
+    """Yields an executor and a description of it. `scheduler` is the address of a Dask scheduler,
+    or None for this machine, which then executes `jobs` runs at a time."""
     if scheduler is None:
         with concurrent.futures.ThreadPoolExecutor(jobs) as executor:
             yield executor, f"{jobs} at a time"
     else:
         with _connect(scheduler) as client:
             workers = len(client.scheduler_info()["workers"])
-            # Not pure: the same run may be wanted again. A run whose worker dies goes to another.
+            # Not pure, since a run may be repeated. If a worker dies, its run is given to another.
             yield client.get_executor(pure=False), f"by {workers} workers of {scheduler}"
 
 
 def _connect(scheduler):
     try:
-        import distributed  # takes a second to load, and only here
+        import distributed  # only here, since loading takes a second
     except ImportError:
         raise DatasetError("--scheduler needs Dask: install python3-distributed") from None
     try:

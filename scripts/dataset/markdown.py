@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables in markdown, readable as plain text too."""
+"""Markdown tables that are readable as plain text."""
 
 from dataclasses import dataclass
 from typing import List

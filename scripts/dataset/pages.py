@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The results for the browser: index.html, and a page on every run."""
+"""HTML pages of the results: index.html, and a page for each run."""
 
 import os
 
@@ -11,14 +11,14 @@ from pages.run_page import run_page
 from . import cells
 from .results import METRIC
 
-LIBRARY = "plotly.js"  # shared by all pages: it has more bytes than they
+LIBRARY = "plotly.js"  # shared by all pages, since it is larger than they are
 COLUMNS = ("ape_m", "coverage_percent", "rpe_1m_m", "yaw_drift_deg", "init_time_s",
            "real_time_factor")
 
 
 def write_pages(output, results, evaluator, facts):
     """Writes index.html with plotly.js, and run.html into the folders of the runs; returns the path
-    of the first. Raises ImportError without plotly."""
+    of index.html. Raises ImportError without plotly."""
     with open(os.path.join(output, LIBRARY), "w", encoding="utf-8") as file:
         file.write(html.plotly_source())
     links = {result.run.name: _write_run_page(output, result, evaluator)
@@ -36,7 +36,7 @@ def write_pages(output, results, evaluator, facts):
 
 
 def _write_run_page(output, result, evaluator):
-    """Its path relative to the index, or None where there is too little for a page."""
+    """Returns its path relative to the index, or None if there are too few data for a page."""
     folder = result.run.folder
     try:
         run = RunFolder.read(folder)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The figures of the paper: [Paper] of docs/references.md.
 
-Its Tables 1 and 2 are repeated with differences and averages as Tables 4 and 5, Table 3 as
-Table 6. The averages here are computed from the rows: the paper prints those of the differences
-only.
+The paper repeats its Tables 1 and 2 with differences and averages as Tables 4 and 5, and Table 3 as
+Table 6. Averages are computed here from the rows, since the paper prints only those of the
+differences.
 """
 
 import re
@@ -23,20 +23,20 @@ def _by_sequence(*values):
 PL_VINS_APE = _by_sequence(0.18, 0.18, 0.27, 0.36, 0.38, 0.14, 0.31, 0.31, 0.12, 0.25, 0.28)
 PLS_VINS_APE = _by_sequence(0.16, 0.14, 0.24, 0.35, 0.35, 0.12, 0.31, 0.29, 0.12, 0.22, 0.25)
 IMPROVED_APE = _by_sequence(0.14, 0.13, 0.22, 0.30, 0.31, 0.12, 0.30, 0.25, 0.12, 0.20, 0.24)
-# Line extraction, LSD in PL-VINS and FLD in the improved one [ms per image]
+# Line extraction time, LSD in PL-VINS and FLD in the improved one [ms per image]
 PL_VINS_TIME = _by_sequence(6.29, 7.50, 8.76, 7.12, 8.10, 4.33, 7.21, 3.66, 4.24, 5.62, 9.68)
 IMPROVED_TIME = _by_sequence(6.02, 4.97, 5.54, 5.63, 5.47, 5.82, 4.58, 3.32, 5.11, 4.86, 4.75)
 
 
 @dataclass(frozen=True)
 class PaperTable:
-    """Two columns of the paper and what of ours belongs beside them."""
+    """Two columns of the paper and the results to compare with them."""
 
     number: int
     title: str
     columns: Dict[str, Dict[str, float]]  # heading -> sequence -> figure
-    metric: str  # name of the metric of ours
-    variants: Tuple[str, ...]  # of ours, in the order of columns
+    metric: str  # name of our metric
+    variants: Tuple[str, ...]  # our variants, in the order of columns
     with_differences: bool  # of the two columns, and averages
 
 
@@ -58,8 +58,8 @@ _KEY = re.compile(r"(MH|V1|V2)_?(0[1-5])(?!\d)")
 
 
 def paper_sequence(name):
-    """The paper's name of the sequence that `name` contains (MH_01, V102, MH_05_difficult-weak),
-    or None."""
+    """Returns the paper's name of the sequence that `name` contains (MH_01, V102,
+    MH_05_difficult-weak), or None."""
     match = _KEY.search(name)
     if match is None:
         return None

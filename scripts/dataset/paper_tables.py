@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of the paper with our figures beside."""
+"""The tables of the paper with our results next to them."""
 
 import statistics
 from dataclasses import dataclass
@@ -13,8 +13,8 @@ from .results import METRIC
 
 @dataclass
 class _Column:
-    """`value` and `text` take the paper's name of a sequence and the one of our recording, which
-    may be None."""
+    """`value` and `text` take the paper's name of a sequence and that of our recording, which may
+    be None."""
 
     heading: str
     value: Callable[[str, Optional[str]], Optional[float]]
@@ -23,9 +23,10 @@ class _Column:
 
 
 def paper_table(table, results):
-    """One table of the paper as markdown: its columns, then ours. A recording of ours belongs to
-    the sequence whose name it contains; sequences without one have a line too. Differences to the
-    paper and averages are of whole sequences only: of recordings that have just its name, uncut."""
+    """Returns one table of the paper as markdown: its columns, then ours. Our recording is assigned
+    to the sequence whose name it contains; sequences without one have a line as well. Differences
+    to the paper and averages use complete sequences only: recordings with exactly that name,
+    uncut."""
     lines = [(sequence, name) for sequence in SEQUENCES
              for name in [n for n in results.sequences if paper_sequence(n) == sequence] or [None]]
     paper, ours = _paper_columns(table), _our_columns(table, results)
@@ -39,7 +40,7 @@ def paper_table(table, results):
 
 
 def _is_the_same(sequence, name, results):
-    """Whether a recording of ours is the paper's sequence, as far as can be seen."""
+    """Returns whether our recording is, by its name and length, the paper's sequence."""
     return name == sequence and results.whole
 
 
@@ -75,7 +76,8 @@ def _our_columns(table, results):
 
 
 def _our_difference(table, ours, results):
-    """Of our two variants, or of the paper's first column and our only variant."""
+    """Returns the difference of our two variants, or of the paper's first column and our only
+    variant."""
     heading, first = "ours: difference", ours[0].value
     if len(ours) == 1:
         name, figures = next(iter(table.columns.items()))
@@ -93,8 +95,8 @@ def _our_difference(table, ours, results):
 
 
 def _averages(lines, paper, ours):
-    """Rows of averages over all sequences, and over those `lines` of which every column of ours has
-    a figure where these are fewer."""
+    """Returns rows of averages over all sequences and, if different, over those `lines` for which
+    all our columns have a figure."""
     complete = [line for line in lines if all(c.value(*line) is not None for c in ours)]
     every = [(sequence, None) for sequence in SEQUENCES]
     have_all = {sequence for sequence, _ in complete} == set(SEQUENCES)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shows how far the runs are: a bar on a terminal, a line per run in a log."""
+"""Displays the progress of the runs: a bar on a terminal, a line per run in a log."""
 
 import sys
 
@@ -7,7 +7,7 @@ import tqdm
 
 
 class Progress:
-    """Writes to `stream`. `describe(run)` is the text of a run that has ended."""
+    """Writes to `stream`. `describe(run)` returns the text about a finished run."""
 
     def __init__(self, total, describe, stream=None):
         self._stream = stream or sys.stderr
@@ -18,7 +18,7 @@ class Progress:
                               disable=not self._stream.isatty(), leave=False)
 
     def show(self, running):
-        """Refreshes the bar; `running` are the names of the runs under way, as far as known."""
+        """Refreshes the bar; `running` are the names of the current runs, as far as known."""
         self._bar.set_postfix_str(", ".join(running))
 
     def ended(self, run, seconds):
@@ -30,5 +30,5 @@ class Progress:
         self._bar.update()
 
     def close(self):
-        """Takes the bar away."""
+        """Removes the bar."""
         self._bar.close()

@@ -16,9 +16,9 @@ COVERAGE = METRIC["coverage_percent"]
 
 
 def markdown_report(results, facts, figures):
-    """The report's text.
+    """Returns the text of the report.
 
-    facts: pairs of a label and a text about the whole; figures: paths of pictures, relative to the
+    facts: pairs of a label and a text about the whole run; figures: picture paths relative to the
     report, by heading.
     """
     errors = [metric for metric in METRICS if metric.is_error]
@@ -102,8 +102,8 @@ def _ape_notes(results):
 
 
 def _step_notes(results):
-    """Which ground truths have steps, and whether they count."""
-    sizes = {}  # by sequence and stamp
+    """Returns a note on steps in ground truths, and whether the times around them are ignored."""
+    sizes = {}  # by sequence and timestamp
     compared = [r for r in results.all() if r.evaluation and r.evaluation["ground_truth_steps"]]
     for r in compared:
         sizes.setdefault(r.run.sequence.name, {}).update(
@@ -120,7 +120,7 @@ def _step_notes(results):
 
 
 def _time_notes(results):
-    """A warning where other work made the runs slower."""
+    """Returns a warning if other work slowed down the runs."""
     known = [(r.load, r.cores) for r in results.all() if None not in (r.load, r.cores)]
     busy = [(load, cores) for load, cores in known if load > cores + 1]
     if not busy:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of runs, and their means and spread over starts and repetitions."""
+"""The figures of runs, with means and spread over starts and repetitions."""
 
 import json
 import os
@@ -18,21 +18,21 @@ from .run import Run
 
 @dataclass
 class RunResult:
-    """What came of a run: `failure` or a summary; `evaluation` or the reason for `not_compared`."""
+    """Result of a run: `failure` or a summary; `evaluation` or the reason for `not_compared`."""
 
     run: Run
     failure: Optional[str] = None
     summary: Optional[dict] = None  # summary.json
     line_extraction_ms: Optional[float] = None
-    evaluation: Optional[dict] = None  # as of evaluate.py
+    evaluation: Optional[dict] = None  # see evaluate.py
     not_compared: Optional[str] = None
-    load: Optional[float] = None  # of the machine, in the run's last minute
-    cores: Optional[int] = None  # of the machine, that the run could use
+    load: Optional[float] = None  # of the machine, in the last minute of the run
+    cores: Optional[int] = None  # of the machine, usable by the run
 
 
 @dataclass(frozen=True)
 class Metric:
-    """A figure of a run. `of(result)` may raise KeyError or TypeError where there is none."""
+    """A figure of a run. `of(result)` may raise KeyError or TypeError if there is none."""
 
     name: str
     title: str
@@ -41,7 +41,7 @@ class Metric:
     is_error: bool = False  # against ground truth, the smaller the better
 
     def value(self, result):
-        """The figure, or None where the run has none."""
+        """Returns the figure, or None if the run has none."""
         try:
             value = self.of(result)
         except (KeyError, TypeError):
@@ -97,21 +97,21 @@ METRIC = {metric.name: metric for metric in METRICS}
 
 @dataclass(frozen=True)
 class Spread:
-    """Of a figure over starts.
+    """Spread of a figure over starts.
 
-    Each start counts once, with the median of its repetitions: these repeat the trajectory, and a
-    disturbed one says nothing of the time.
+    Each start counts once, with the median of its repetitions: these repeat the trajectory, so only
+    the times differ, and the median ignores disturbed ones.
     """
 
     mean: float
-    deviation: Optional[float]  # of the sample, over starts; None of a single one
+    deviation: Optional[float]  # of the sample, over starts; None for a single one
     low: float  # of all runs
     high: float
-    starts: int  # that have the figure
+    starts: int  # number of starts that have the figure
 
     @classmethod
     def of(cls, values_by_start):
-        """None where no start has the figure."""
+        """Returns None if no start has the figure."""
         if not values_by_start:
             return None
         medians = [statistics.median(values) for values in values_by_start.values()]
@@ -121,7 +121,8 @@ class Spread:
 
 
 class Results:
-    """The results of all runs, by sequence and variant. `duration` [s]: None for all of it."""
+    """The results of all runs, by sequence and variant. `duration` [s] is None for complete
+    runs."""
 
     def __init__(self, results, duration=None):
         self._cells = {}
@@ -134,11 +135,11 @@ class Results:
         self.whole = self.starts == [0.0] and duration is None
 
     def runs(self, sequence, variant):
-        """From every start, with every repetition."""
+        """Returns the runs from every start, with all repetitions."""
         return self._cells.get((sequence, variant), [])
 
     def lost_starts(self, sequence, variant):
-        """Those from which no run gave a trajectory."""
+        """Returns the starts from which no run produced a trajectory."""
         runs = self.runs(sequence, variant)
         return sorted({r.run.start for r in runs}
                       - {r.run.start for r in runs if r.failure is None})
@@ -150,12 +151,13 @@ class Results:
         return Spread.of(self._values_by_start(metric, sequence, variant))
 
     def cases(self):
-        """What every variant has been tried on: pairs of a sequence and a start."""
+        """Returns all pairs of a sequence and a start."""
         return [(sequence, start) for sequence in self.sequences for start in self.starts]
 
     def means(self, metric):
-        """The mean over cases of each variant's medians over repetitions, of the cases for which
-        every variant has the figure; with these cases. Variants without any figure are left out."""
+        """Returns, for each variant, the mean over cases of its medians over repetitions, for the
+        cases in which every variant has the figure; also returns these cases. Ignores variants
+        without any figure."""
         medians = {variant: {(sequence, start): statistics.median(values)
                              for sequence in self.sequences for start, values in
                              self._values_by_start(metric, sequence, variant).items()}
@@ -168,7 +170,7 @@ class Results:
                 for variant, by_case in medians.items()}, common
 
     def _values_by_start(self, metric, sequence, variant):
-        """Of the repetitions that have the figure; starts without any are left out."""
+        """Returns the values of the repetitions that have the figure; omits starts without any."""
         values = {}
         for result in self.runs(sequence, variant):
             value = metric.value(result)
@@ -177,7 +179,7 @@ class Results:
         return values
 
     def typical(self, sequence, variant):
-        """The run with the (lower) median APE, or None where none could be compared."""
+        """Returns the run with the (lower) median APE, or None if none could be compared."""
         ape = METRIC["ape_m"]
         compared = [r for r in self.runs(sequence, variant) if ape.value(r) is not None]
         compared.sort(key=ape.value)
@@ -187,8 +189,8 @@ class Results:
 class Evaluator:
     """Reads the results of runs and compares them with the ground truth of their sequences.
 
-    A ground truth that cannot be read counts as none; `unreadable` has the reasons by sequence,
-    `steps` the steps of the others. `without_steps` leaves out the times around these.
+    An unreadable ground truth is ignored; `unreadable` has the reasons by sequence, `steps` the
+    steps of the others. `without_steps` ignores the times around these.
     """
 
     def __init__(self, sequences, duration=None, without_steps=False):
@@ -226,29 +228,31 @@ class Evaluator:
         return result
 
     def compare(self, run, summary):
-        """As evaluate(): the paired trajectories and their figures. Raises TrajectoryError."""
+        """Returns the paired trajectories and their figures, as evaluate() does. Raises
+        TrajectoryError."""
         path = os.path.join(run.folder, "trajectory.tum")
-        check_whole(path)  # else the first pose is not the one that init_time_s leads to
+        check_whole(path)  # otherwise init_time_s refers to another pose than the first
         estimate = read_estimate(path)
         return evaluate(estimate, self.truth(run, summary, estimate))
 
     def typical_pairs(self, results, sequence):
-        """Of each variant the run with the median APE, by a name that says where it starts: aligned
-        estimate and truth at its poses."""
+        """Returns for each variant the run with the median APE, by a name with its start: the
+        aligned estimate and the truth at its poses."""
         typical = [results.typical(sequence, variant) for variant in results.variants]
         return {_label(result.run, results): self.compare(result.run, result.summary)[:2]
                 for result in typical if result}
 
     def truth(self, run, summary, estimate):
-        """The ground truth of the part that was run, or None. `estimate`: all of its poses, on the
-        clock of the IMU. Raises TrajectoryError."""
+        """Returns the ground truth of the processed part, or None. `estimate` has all its poses, in
+        IMU time. Raises TrajectoryError."""
         truth = self._truths.get(run.sequence.name)
         if truth is None or (not run.start and self._duration == float("inf")):
             return truth
         return self._during_run(truth, estimate.stamps[0] - summary["init_time_s"])
 
     def _during_run(self, truth, begin):
-        """The part of the ground truth that a run of a part of the recording could cover."""
+        """Returns the part of the ground truth that a run over a part of the recording can
+        cover."""
         inside = (truth.stamps >= begin) & (truth.stamps <= begin + self._duration)
         if inside.sum() < 3:
             raise TrajectoryError("no ground truth in the part of the recording that was run")
@@ -260,7 +264,7 @@ def _label(run, results):
 
 
 def _mean_line_extraction(folder):
-    """Mean over the frames that extract lines [ms], or None: not every frame does."""
+    """Returns the mean over frames that extract lines [ms], or None; not every frame does."""
     values = read_columns(os.path.join(folder, "timing.csv"))["line_detection"]
     values = values[values > 0]
     return float(values.mean()) if len(values) else None

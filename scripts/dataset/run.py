@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One run of run_offline: what it is given, its folder, and how it ended."""
+"""One run of run_offline: its input, its folder and its outcome."""
 
 import contextlib
 import dataclasses
@@ -22,12 +22,12 @@ from .sequences import Sequence
 RESULTS = ("trajectory.tum", "timing.csv", "summary.json")
 OUTCOME = "run.json"
 LOG = "run.log"
-PERIOD = 0.1  # between two looks whether the run is still wanted [s]
+PERIOD = 0.1  # between checks whether the run is still wanted [s]
 
 
 @dataclasses.dataclass(frozen=True)
 class Settings:
-    """What all runs have in common."""
+    """Settings that all runs share."""
 
     program: str  # run_offline
     config: str
@@ -36,17 +36,19 @@ class Settings:
     overrides: Dict[str, str] = dataclasses.field(default_factory=dict)
 
     def fingerprint(self):
-        """Changes whenever a run may end differently; of program and config the content counts."""
+        """Returns values that change whenever the outcome of a run may change; program and
+        configuration are compared by content."""
         return {"program_sha256": _sha256(self.program), "config_sha256": _sha256(self.config),
                 "duration": self.duration}
 
 
 class Run:
-    """A sequence with a variant of the configuration from a start on [s], for the n-th time.
+    """One repetition of a sequence with a variant of the configuration, from a start [s] on.
 
-    The folder OUTPUT/runs/SEQUENCE/VARIANT/REPETITION, or .../VARIANT/from_STARTs/REPETITION where
-    the run does not start with the recording, has what run_offline writes, its messages (run.log)
-    and how it ended (run.json). A run under way has a folder beside it, whose name has an ending.
+    The folder OUTPUT/runs/SEQUENCE/VARIANT/REPETITION, or .../VARIANT/from_STARTs/REPETITION if the
+    run does not begin at the start of the recording, contains the files of run_offline, its
+    messages (run.log) and its outcome (run.json). A run in progress has a folder next to it, with a
+    suffix.
     """
 
     def __init__(self, settings, fingerprint, sequence: Sequence, variant: str,
@@ -68,13 +70,13 @@ class Run:
         return " ".join(self._labels)
 
     def is_finished(self):
-        """Whether an earlier run with the same settings left complete results."""
+        """Returns whether an earlier run with the same settings left complete results."""
         outcome = self.outcome()
         return (outcome is not None and outcome["identity"] == self._identity
                 and outcome["failure"] is None and _missing_result(self.folder) is None)
 
     def outcome(self):
-        """What run.json says, or None."""
+        """Returns the contents of run.json, or None."""
         try:
             with open(os.path.join(self.folder, OUTCOME), encoding="utf-8") as file:
                 return json.load(file)
@@ -82,11 +84,11 @@ class Run:
             return None
 
     def carry_out(self, session):
-        """Runs to the end; returns how long that took [s], with the outcome on disk.
+        """Executes the run; returns its duration [s], with the outcome on disk.
 
-        Returns None, without an outcome, as soon as the file `session` is gone. Whoever else began
-        this run and was lost may still write: nobody reads it, as each attempt has a folder of its
-        own, which gets its name when it is complete.
+        Returns None, without an outcome, as soon as the file `session` has disappeared. An earlier
+        attempt whose worker was lost may still be writing, but is ignored: each attempt has its own
+        folder, which is renamed when it is complete.
         """
         for abandoned in glob.glob(glob.escape(self.folder) + ".*"):
             shutil.rmtree(abandoned, ignore_errors=True)
@@ -106,14 +108,15 @@ class Run:
         return seconds
 
     def save_failure(self, reason):
-        """The outcome of a run that nobody could carry out."""
+        """Saves the outcome of a run that could not be executed."""
         os.makedirs(self.folder, exist_ok=True)
         self._save_outcome(self.folder, reason, None, 0.0)
 
     def _run_program(self, folder, session):
-        """Its exit code, or None where it was stopped since `session` is gone."""
+        """Returns the exit code, or None if the run was stopped because `session` has
+        disappeared."""
         with open(os.path.join(folder, LOG), "wb") as log:
-            # In a session of its own: Ctrl-C reaches it through this program only.
+            # A separate process session, so that Ctrl-C reaches it through this program only.
             process = subprocess.Popen(self._command(folder), stdin=subprocess.DEVNULL, stdout=log,
                                        stderr=subprocess.STDOUT, start_new_session=True)
         while os.path.exists(session):
@@ -144,8 +147,8 @@ class Run:
             json.dump(outcome, file, indent=2)
 
     def _failure(self, folder, exit_code):
-        """Why there is no complete result, or None where there is one."""
-        log = os.path.join(self.folder, LOG)  # where it will be
+        """Returns why there is no complete result, or None if there is one."""
+        log = os.path.join(self.folder, LOG)  # its final place
         if exit_code < 0:
             return f"ended by {_signal_name(-exit_code)}; see {log}"
         if exit_code > 0:
@@ -169,7 +172,8 @@ def _stop(process, patience=5.0):
 
 
 def _content(sequence):
-    """What distinguishes a recording from one of the same name, without reading all of it."""
+    """Returns values that distinguish a recording from others of the same name without reading
+    it."""
     statuses = [os.stat(path) for path in sequence.content_files]
     return [{"bytes": s.st_size, "modified_ns": s.st_mtime_ns} for s in statuses]
 
@@ -187,7 +191,7 @@ def _signal_name(number):
 
 
 def _last_error(log):
-    """run_offline's own message of its end, or None; several lines become one."""
+    """Returns run_offline's own error message, or None; several lines are joined."""
     with open(log, encoding="utf-8", errors="replace") as file:
         errors = re.findall(r"^run_offline: *(.*)$", file.read(), re.MULTILINE)
     return "; ".join(errors) or None

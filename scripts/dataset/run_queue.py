@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Carries out runs, several at a time."""
+"""Executes runs, several at a time."""
 
 import concurrent.futures
 import os
@@ -8,17 +8,15 @@ import uuid
 
 from .errors import DatasetError
 
-PERIOD = 0.1  # between two looks at signals and at the display [s]
-PATIENCE = 10.0  # with runs that are to stop [s]
+PERIOD = 0.1  # between checks of signals and display updates [s]
+PATIENCE = 10.0  # to wait for runs that are being stopped [s]
 
 
 def carry_out(runs, executor, output, progress):
-    """Carries out all runs in the executor's threads, on whatever machines these are, and reports
-    each to `progress`.
+    """Executes all runs in the executor's threads, on any machine, and reports each to `progress`.
 
-    Returns False where SIGINT or SIGTERM ended it early. However it ends, no process stays behind,
-    and runs that had not ended are left without an outcome. Raises DatasetError where the executor
-    cannot do its work.
+    Returns False if SIGINT or SIGTERM ended it early. In any case no process is left running, and
+    unfinished runs have no outcome. Raises DatasetError if the executor fails.
     """
     with _Interruption() as interruption, _Session(output) as session:
         pending = {executor.submit(run.carry_out, session.path): run for run in runs}
@@ -40,7 +38,7 @@ def carry_out(runs, executor, output, progress):
 
 
 def _seconds(future, run, output):
-    """How long the run took; a run that could not be carried out gets its outcome here."""
+    """Returns the duration of the run; saves an outcome for a run that could not be executed."""
     try:
         seconds = future.result()
     except concurrent.futures.CancelledError:
@@ -49,7 +47,7 @@ def _seconds(future, run, output):
     except ModuleNotFoundError as error:
         raise DatasetError(f"a worker lacks {error.name}; start the workers with this checkout's"
                            " scripts/ in PYTHONPATH") from None
-    except Exception as error:  # whatever the executor or the other machine comes up with
+    except Exception as error:  # any error of the executor or the other machine
         run.save_failure(f"not carried out: {type(error).__name__}: {error}")
         return 0.0
     if seconds is None:
@@ -59,8 +57,8 @@ def _seconds(future, run, output):
 
 
 class _Session:
-    """A file in the output folder that is there as long as runs are wanted: whoever carries one out
-    sees it go, on this machine or another."""
+    """A file in the output folder that exists as long as the runs are wanted: workers, on this
+    machine or another, stop when it disappears."""
 
     def __init__(self, output):
         self.path = os.path.join(output, f".session-{uuid.uuid4().hex}")
@@ -78,7 +76,7 @@ class _Session:
 
 
 class _Interruption:
-    """Notes SIGINT and SIGTERM instead of ending the program between any two statements."""
+    """Records SIGINT and SIGTERM instead of ending the program at an arbitrary statement."""
 
     SIGNALS = (signal.SIGINT, signal.SIGTERM)
 

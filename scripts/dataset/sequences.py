@@ -17,7 +17,7 @@ ASL_IMU = os.path.join("mav0", "imu0", "data.csv")
 
 @dataclass(frozen=True)
 class Sequence:
-    """A recording: a ROS bag, or an ASL folder (the one with mav0/ inside)."""
+    """A recording: a ROS bag, or an ASL folder (the one that contains mav0/)."""
 
     name: str
     path: str
@@ -29,18 +29,18 @@ class Sequence:
 
     @property
     def content_files(self):
-        """The files that show whether the recording is still the same one."""
+        """The files whose change means that the recording has changed."""
         if self.is_bag:
             return [self.path]
         images, imu = (os.path.join(self.path, name) for name in (ASL_IMAGES, ASL_IMU))
-        return [images, imu] if os.path.isfile(imu) else [images]  # run_offline says what it lacks
+        return [images, imu] if os.path.isfile(imu) else [images]  # run_offline reports it
 
 
 def find_sequences(places):
-    """All sequences below `places` (folders, or single bags), sorted by name.
+    """Returns all sequences below `places` (folders, or single bags), sorted by name.
 
-    An ASL folder goes before a bag of the same name. Raises DatasetError where there is nothing,
-    or where two recordings have the same name.
+    An ASL folder takes precedence over a bag of the same name. Raises DatasetError if there are
+    none, or if two recordings have the same name.
     """
     found = {}
     for path in (path for place in places for path in _recordings_at(place)):
@@ -57,8 +57,8 @@ def find_sequences(places):
 
 
 def find_truth(path):
-    """The ground truth of a recording, or None: inside of its ASL folder, or beside the recording
-    with the same name."""
+    """Returns the ground truth of a recording, or None: inside its ASL folder, or next to the
+    recording with the same name."""
     path = _folder_of_mav0(os.path.normpath(path))
     stem = path[:-len(".bag")] if _is_bag(path) else path
     candidates = [*(os.path.join(stem, name) for name in ASL_TRUTHS), stem + ".tum", stem + ".csv"]
@@ -68,9 +68,10 @@ def find_truth(path):
 
 
 def select_sequences(sequences, patterns):
-    """Those whose name matches one of `patterns`: a name, its beginning, or with wildcards.
+    """Returns the sequences whose name matches one of `patterns`: a name, its beginning, or with
+    wildcards.
 
-    Raises DatasetError for a pattern that matches none.
+    Raises DatasetError for a pattern without a match.
     """
     chosen = set()
     for pattern in patterns:
@@ -93,7 +94,7 @@ def _recordings_at(place):
 
 
 def _folder_of_mav0(path):
-    """The path itself, or, where it is an ASL folder's mav0/, the folder."""
+    """Returns the ASL folder if the path is its mav0/, else the path itself."""
     return os.path.dirname(path) if os.path.basename(path) == "mav0" else path
 
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The variants that are compared, each a set of changes to the configuration."""
+"""The compared variants, each a set of changes to the configuration."""
 
 from .errors import DatasetError
 
-# What the paper improves: PL-VINS's corners and lines, without merging.
+# The baseline that the paper improves: PL-VINS's corners and lines, without merging.
 _BASELINE = {"use_lines": "1", "corner_detector": "harris", "corner_subpixel": "0",
              "line_detector": "lsd", "line_merging": "0", "line_anchors": "0",
              "manhattan_constraints": "0"}
@@ -39,7 +39,7 @@ DESCRIPTIONS = {
 
 
 def select_variants(names):
-    """The names in the order of VARIANTS; raises DatasetError for one that there is not."""
+    """Returns the names in the order of VARIANTS; raises DatasetError for an unknown name."""
     for name in names:
         if name not in VARIANTS:
             raise DatasetError(f"--variants {name}: no such variant; there are "
@@ -48,7 +48,7 @@ def select_variants(names):
 
 
 def describe_variants():
-    """One line per variant, and what some of them need."""
+    """Returns one line per variant, and the requirements of some of them."""
     lines = [f"  {name:<10} {DESCRIPTIONS[name]}" for name in VARIANTS]
     with_lsd = [name for name, keys in VARIANTS.items() if keys.get("line_detector") == "lsd"]
     return "\n".join([*lines, f"{', '.join(with_lsd)}: OpenCV has LSD from 4.5.4 on (Ubuntu 20.04:"

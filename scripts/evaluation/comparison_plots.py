@@ -12,7 +12,7 @@ COLOURS = pyplot.get_cmap("tab10").colors
 
 
 def write_comparison(folder, pairs):
-    """Draws `pairs`, by name: an aligned estimate and the ground truth of its poses. Returns the
+    """Draws `pairs`, by name: an aligned estimate and the ground truth at its poses. Returns the
     file names."""
     return save_figures(folder, {
         "trajectory_errors.png": _trajectory_errors_figure(pairs),
@@ -23,8 +23,8 @@ def write_comparison(folder, pairs):
 
 
 def write_overview(folder, name, values, label):
-    """A bar per sequence and variant. `values`: variant -> sequence -> figure and its standard
-    deviation, the same sequences for all, NaN and 0 where there is none. Returns the file names."""
+    """Draws a bar per sequence and variant. `values`: variant -> sequence -> figure and standard
+    deviation, the same sequences for all, NaN and 0 without a figure. Returns the file names."""
     sequences = list(next(iter(values.values())))
     figure, axis = pyplot.subplots(figsize=(max(6, 1 + 1.6 * len(sequences)), 4.5),
                                    constrained_layout=True)
@@ -43,7 +43,7 @@ def write_overview(folder, name, values, label):
 
 
 def _panels(count, size):
-    """A figure and its first `count` panels, in rows of at most two."""
+    """Returns a figure and its first `count` panels, in rows of at most two."""
     columns = min(count, 2)
     rows = math.ceil(count / columns)
     figure, axes = pyplot.subplots(rows, columns, squeeze=False, constrained_layout=True,

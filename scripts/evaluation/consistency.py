@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether the errors of a trajectory are as large as its stated covariance says."""
+"""Tests whether the errors of a trajectory agree with its estimated covariance."""
 
 import warnings
 
@@ -8,7 +8,7 @@ import numpy as np
 from . import metrics
 from .trajectory import TrajectoryError
 
-_COLUMNS = 22  # of covariance.csv: a stamp and the upper triangle of 6 x 6
+_COLUMNS = 22  # of covariance.csv: a timestamp and the upper triangle of 6 x 6
 
 
 class NoPoseThenError(TrajectoryError):
@@ -16,11 +16,11 @@ class NoPoseThenError(TrajectoryError):
 
 
 def read_covariances(path, stamps):
-    """Covariances (n, 6, 6) of the poses at `stamps` [s]: position in the world, then rotation in
-    the body, from the covariance.csv of `run_offline`."""
+    """Returns the covariances (n, 6, 6) of the poses at `stamps` [s]: position in the world, then
+    rotation in the body, from the covariance.csv of `run_offline`."""
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of files without rows; the check below says it
+            warnings.simplefilter("ignore")  # files without rows are reported below
             table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
     except (OSError, ValueError) as error:
         raise TrajectoryError(f"{path}: {error}") from None
@@ -37,13 +37,13 @@ def read_covariances(path, stamps):
 
 
 def position_nees(estimate, truth, covariances, seconds):
-    """Squared error of the way from the first pose to the one `seconds` later, in units of its
-    covariance: 3 on average where that is true [BarShalom2001].
+    """Returns the NEES of the displacement from the first pose to the one `seconds` later: 3 on
+    average for a consistent covariance [BarShalom2001].
 
-    The trajectories are paired. Both poses have errors, the first one those of a start; they are
-    taken as independent, so their covariances add. Headings agree as the positions up to the pose
-    in question do: ground truth may state headings that its own path does not have. So the figure
-    is a little too small, as a part of the error is aligned away.
+    The trajectories are paired. The covariances of both poses, assumed independent, are added.
+    Headings are aligned by the positions up to the second pose, since the headings of ground truth
+    may contradict its own path. The alignment removes a part of the error, so the NEES is slightly
+    too small.
     """
     last = metrics.nearest_indices(estimate.stamps, estimate.stamps[:1] + seconds)[0]
     if abs(estimate.stamps[last] - estimate.stamps[0] - seconds) > 0.1:

@@ -7,8 +7,8 @@ import numpy as np
 
 
 def read_columns(path):
-    """The columns by their headings. Raises ValueError, which names the line, for a file without
-    rows or with one that is cut off: what a run leaves that was not finished."""
+    """Returns the columns by heading. Raises ValueError with the line if there are no rows or one
+    is truncated, as in the files of an unfinished run."""
     rows = []
     with open(path, encoding="utf-8", newline="") as file:
         reader = csv.reader(file)

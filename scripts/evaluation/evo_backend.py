@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The same figures from evo itself, where it is installed."""
+"""Figures computed by evo itself, if it is installed."""
 
 import importlib.util
 
@@ -11,7 +11,7 @@ def is_available():
 
 
 def evo_statistics(estimate, truth):
-    """Statistics of APE [m], APE rotation [deg] and RPE over 1 m [m] of paired, aligned
+    """Returns statistics of APE [m], APE rotation [deg] and RPE over 1 m [m] for paired, aligned
     trajectories, under the names that `evaluate()` uses."""
     from evo.core.metrics import APE, RPE, PoseRelation, Unit
     wanted = {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A result file for evo_res, as `evo_ape --save_results` writes it; evo itself is not needed."""
+"""A result file for evo_res in the format of `evo_ape --save_results`; evo itself is not needed."""
 
 import io
 import json
@@ -11,7 +11,7 @@ import numpy as np
 from .metrics import position_errors, statistics
 from .trajectory import format_tum
 
-# evo_res asks before it puts results of different titles in one table, so these are evo's words.
+# evo_res asks before it combines results with different titles, so evo's titles are used.
 TITLE = "APE w.r.t. translation part (m)\n"
 ALIGNMENT_TITLES = {"se3": "(with SE(3) Umeyama alignment)", "yaw": "(with yaw alignment)",
                     "none": "(not aligned)"}
@@ -19,9 +19,9 @@ REFERENCE = "reference"
 
 
 def write_evo_zip(path, estimate, truth, alignment):
-    """Writes the APE [m] of paired, aligned trajectories. `alignment`: of metrics.ALIGNMENTS.
+    """Writes the APE [m] of paired, aligned trajectories. `alignment` is one of metrics.ALIGNMENTS.
 
-    evo_res shows the result under the name of the file, so that the files need different ones.
+    evo_res labels the result with the file name, so file names must differ.
     """
     name = os.path.splitext(os.path.basename(path))[0]
     errors = position_errors(estimate, truth)
@@ -46,7 +46,7 @@ def _evo_statistics(errors):
 
 
 def _npy_bytes(array):
-    """A plain .npy; evo calls it .npz all the same."""
+    """Returns the contents of a plain .npy file, which evo names .npz."""
     stream = io.BytesIO()
     np.save(stream, array)
     return stream.getvalue()

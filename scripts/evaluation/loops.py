@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The loops that a run closed, by its loops.csv, against ground truth."""
+"""Compares the accepted loops of a run, from its loops.csv, with ground truth."""
 
 import csv
 from dataclasses import dataclass, replace
@@ -9,22 +9,22 @@ import numpy as np
 from .metrics import SAME_STAMP, are_among, nearest_indices, signed_yaw_errors
 from .trajectory import TrajectoryError
 
-# A true revisit: the body is near where it was before, and looks nearly the same way.
+# A true revisit: the body is close to an earlier pose with nearly the same orientation.
 REVISIT_DISTANCE = 1.0  # [m]
 REVISIT_ANGLE = np.radians(30)  # [rad]
 REVISIT_PAUSE = 15.0  # [s]
-SAMPLING = 0.25  # of time, where revisits are looked for [s]
-CLOSED_WITHIN = 1.0  # of a revisit, before or after it [s]
-LONGEST_TRUTH_GAP = 0.2  # between true poses, so that the places between them are known [s]
+SAMPLING = 0.25  # of the times at which revisits are searched [s]
+CLOSED_WITHIN = 1.0  # before or after a revisit [s]
+LONGEST_TRUTH_GAP = 0.2  # between true poses, for interpolation [s]
 
 
 @dataclass
 class Loops:
-    """Accepted loops: where a later pose is, seen from an earlier one, with the axes of its
-    world."""
+    """Accepted loops: the later pose relative to the earlier one, with the axes of the world of the
+    earlier one."""
 
-    earlier: np.ndarray  # (n,) stamps [s]
-    later: np.ndarray  # (n,) stamps [s]
+    earlier: np.ndarray  # (n,) timestamps [s]
+    later: np.ndarray  # (n,) timestamps [s]
     positions: np.ndarray  # (n, 3) [m]
     yaws: np.ndarray  # (n,) [rad]
 
@@ -32,11 +32,11 @@ class Loops:
         return len(self.later)
 
     def between(self, stamps):
-        """Those whose both ends have one of `stamps`."""
+        """Returns the loops whose both ends are in `stamps`."""
         return self._select(are_among(self.earlier, stamps) & are_among(self.later, stamps))
 
     def with_truth(self, truth):
-        """Those whose both ends have a true place."""
+        """Returns the loops whose both ends have a true pose."""
         return self._select(_is_known(self.earlier, truth) & _is_known(self.later, truth))
 
     def shifted(self, seconds):
@@ -47,7 +47,7 @@ class Loops:
 
 
 def read_loops(path):
-    """The accepted ones of a loops.csv; raises TrajectoryError where it is none."""
+    """Returns the accepted loops of a loops.csv; raises TrajectoryError if it is invalid."""
     try:
         with open(path, encoding="utf-8", newline="") as file:
             rows = [_parse_row(row) for row in csv.DictReader(file) if row["result"] == "accepted"]
@@ -64,8 +64,8 @@ def _parse_row(row):
 
 
 def loop_errors(loops, odometry, truth):
-    """Distances [m] and turns [deg], both (n,), by which the loops are off, all of them between
-    poses of `odometry` that have true ones. Its worlds may be turned against that of `truth`, and
+    """Returns the errors of loops between poses of `odometry` with true poses: distances [m] and
+    rotations [deg], both (n,). The odometry's worlds may be rotated against that of `truth`, and
     drift."""
     earlier, earlier_turns = _true_places(loops.earlier, odometry, truth)
     later, later_turns = _true_places(loops.later, odometry, truth)
@@ -78,14 +78,15 @@ def loop_errors(loops, odometry, truth):
 
 
 def _true_places(stamps, odometry, truth):
-    """True positions, and how far the odometry's world is turned against the true one [rad]."""
+    """Returns true positions, and the rotation of the odometry's world against the true one
+    [rad]."""
     true = truth.at(stamps)
     estimated = odometry.select(nearest_indices(odometry.stamps, stamps))
     return true.positions, signed_yaw_errors(estimated, true)
 
 
 def _is_known(stamps, truth):
-    """Whether each stamp is that of a true pose, or in a short gap between two."""
+    """Returns whether each timestamp is that of a true pose, or in a short gap between two."""
     before, after = truth.neighbours(stamps)
     inside = (truth.stamps[before] <= stamps) & (stamps <= truth.stamps[after])
     is_short = truth.stamps[after] - truth.stamps[before] <= LONGEST_TRUTH_GAP + SAME_STAMP
@@ -93,9 +94,9 @@ def _is_known(stamps, truth):
 
 
 def revisits(truth):
-    """Times (n,) [s], SAMPLING apart, at which the body is where it was REVISIT_PAUSE before, and
-    whether it has been elsewhere in between, (n,): one that stays where it starts has not. Gaps of
-    the ground truth are left out."""
+    """Returns times (n,) [s], at intervals of SAMPLING, at which the body revisits a pose of at
+    least REVISIT_PAUSE before, and whether it has been elsewhere in between, (n,), which is false
+    at standstill. Ignores gaps of the ground truth."""
     times = np.arange(truth.stamps[0], truth.stamps[-1], SAMPLING)
     times = times[are_among(times, truth.stamps, SAMPLING)]
     poses = truth.select(nearest_indices(truth.stamps, times))
@@ -110,7 +111,7 @@ def revisits(truth):
 
 
 def _is_near(poses, index):
-    """Whether each of the poses up to this one is at its place."""
+    """Returns whether each pose up to this one is close to it."""
     until = slice(index + 1)
     distances = np.linalg.norm(poses.positions[until] - poses.positions[index], axis=1)
     traces = np.einsum("nij,ij->n", poses.rotations[until], poses.rotations[index])
@@ -119,7 +120,7 @@ def _is_near(poses, index):
 
 
 def closed_share(loops, revisit_times):
-    """Share of the revisits that a loop closes; None where there are none."""
+    """Returns the share of revisits that a loop closes; None if there are no revisits."""
     if len(revisit_times) == 0:
         return None
     if len(loops) == 0:

@@ -7,17 +7,17 @@ from .steps import describe, trusted
 from .trajectory import LEAST_POSES, TrajectoryError
 
 ALIGNMENTS = ("se3", "yaw", "none")
-MAX_DIFFERENCE = 0.01  # between the stamps of paired poses [s]
+MAX_DIFFERENCE = 0.01  # between the timestamps of paired poses [s]
 MAX_GAP = 0.5  # between poses, so that the time between them counts as covered [s]
-SAME_STAMP = 1e-4  # two files write one stamp that differently, at most [s]
+SAME_STAMP = 1e-4  # largest difference of a timestamp between two files [s]
 
 
 def associate(estimate, truth, max_difference=MAX_DIFFERENCE):
-    """Pairs of poses with the nearest stamps, as evo does: each pose of the shorter trajectory
-    takes the nearest one of the longer, if that is at most `max_difference` [s] away.
+    """Pairs poses by nearest timestamps, as evo does: each pose of the shorter trajectory is paired
+    with the nearest one of the longer, if it is at most `max_difference` [s] away.
 
-    Returns the two trajectories reduced to the pairs, without those around steps of the ground
-    truth that are to be left out.
+    Returns both trajectories reduced to the pairs, without those around ignored steps of the ground
+    truth.
     """
     swapped = len(truth) < len(estimate)
     shorter, longer = (truth, estimate) if swapped else (estimate, truth)
@@ -43,14 +43,14 @@ def _without_steps(estimate, truth):
 
 
 def nearest_indices(sorted_stamps, queries):
-    """Index of the stamp that is nearest to each query."""
+    """Returns the index of the timestamp nearest to each query."""
     right = np.clip(np.searchsorted(sorted_stamps, queries), 1, len(sorted_stamps) - 1)
     left_is_nearer = queries - sorted_stamps[right - 1] <= sorted_stamps[right] - queries
     return right - left_is_nearer
 
 
 def are_among(queries, sorted_stamps, within=SAME_STAMP):
-    """Whether each query is one of the stamps, or `within` of one [s]."""
+    """Returns whether each query is within `within` [s] of one of the timestamps."""
     nearest = sorted_stamps[nearest_indices(sorted_stamps, queries)]
     return np.abs(nearest - queries) <= within
 
@@ -60,7 +60,7 @@ def _span(trajectory):
 
 
 def alignment(estimate, truth, kind):
-    """Rotation and translation that bring `estimate` onto `truth` in the least-squares sense.
+    """Returns rotation and translation that align `estimate` with `truth` by least squares.
 
     `se3`: Umeyama's closed form without scale; `yaw`: rotation about z only, the gauge freedom of
     visual-inertial odometry; `none`: identity.
@@ -89,24 +89,25 @@ def _best_yaw(covariance):
 
 
 def position_errors(estimate, truth):
-    """Distances [m] of paired, aligned poses."""
+    """Returns the distances [m] between paired, aligned poses."""
     return np.linalg.norm(estimate.positions - truth.positions, axis=1)
 
 
 def rotation_errors(estimate, truth):
-    """Angles [deg] between paired, aligned poses."""
+    """Returns the angles [deg] between paired, aligned poses."""
     return _angles(_transposed(truth.rotations) @ estimate.rotations)
 
 
 def yaw_errors(estimate, truth):
-    """Absolute heading errors [deg] about the vertical axis of the ground truth's world."""
+    """Returns absolute heading errors [deg] about the vertical axis of the ground truth's world."""
     return np.abs(np.degrees(signed_yaw_errors(estimate, truth)))
 
 
 def yaw_drift(estimate, truth, seconds=1.0):
-    """Absolute heading error [deg] at the end, once the heading at the beginning agrees; beginning
-    and end are the means of the first and the last `seconds`. Of paired trajectories in worlds with
-    z up, not aligned: the alignment of a short path tilts them."""
+    """Returns the absolute heading error [deg] at the end, with the heading at the beginning
+    aligned; beginning and end are means over the first and the last `seconds`. The trajectories
+    must be paired, in worlds with z up, and not aligned, since the alignment of a short path tilts
+    them."""
     unit = np.exp(1j * signed_yaw_errors(estimate, truth))
     first = unit[truth.stamps <= truth.stamps[0] + seconds].mean()
     last = unit[truth.stamps >= truth.stamps[-1] - seconds].mean()
@@ -114,8 +115,8 @@ def yaw_drift(estimate, truth, seconds=1.0):
 
 
 def within_pieces(pairs, estimate, truth):
-    """Those of the index pairs of `estimate` between which no step of the ground truth was left
-    out."""
+    """Returns the index pairs of `estimate` that have no ignored step of the ground truth in
+    between."""
     piece = np.searchsorted([step.stamp for step in truth.steps_left_out], estimate.stamps)
     first, second = pairs
     together = piece[first] == piece[second]
@@ -123,13 +124,12 @@ def within_pieces(pairs, estimate, truth):
 
 
 def local_scale_errors(estimate, truth, seconds=5.0, every=0.5, after=10.0, least_extent=0.15):
-    """By how much [%] pieces of a trajectory are too large: the inverse of the scale of
-    [Umeyama1991] that fits each to its ground truth best.
+    """Returns the scale errors [%] of pieces of a trajectory, positive if too large: the inverse of
+    the scale of [Umeyama1991] that fits each piece to its ground truth.
 
-    Pieces last `seconds`, begin `every` so often from `after` the first pose on [s], and extend
-    over `least_extent` [m] at least, the root mean square from their middle. Those with a step of
-    the ground truth that was left out do not count. Of paired trajectories, whatever their
-    alignment.
+    Pieces last `seconds`, begin every `every` [s] from `after` the first pose on [s], and have a
+    root mean square extent of at least `least_extent` [m]. Pieces with an ignored step of the
+    ground truth are omitted. The trajectories must be paired; their alignment does not matter.
     """
     errors = []
     first, last = estimate.stamps[0] + after, estimate.stamps[-1] - seconds
@@ -150,13 +150,14 @@ def local_scale_errors(estimate, truth, seconds=5.0, every=0.5, after=10.0, leas
 
 
 def signed_yaw_errors(estimate, truth):
-    """Heading errors [rad] in (-pi, pi]."""
+    """Returns heading errors [rad] in (-pi, pi]."""
     error = estimate.rotations @ _transposed(truth.rotations)
     return np.arctan2(error[:, 1, 0] - error[:, 0, 1], error[:, 0, 0] + error[:, 1, 1])
 
 
 def pairs_by_path(trajectory, metres):
-    """Consecutive index pairs, `metres` of the trajectory's own path apart (evo_rpe -d 1 -u m)."""
+    """Returns consecutive index pairs, `metres` of the trajectory's path apart (evo_rpe -d 1 -u
+    m)."""
     steps = np.linalg.norm(np.diff(trajectory.positions, axis=0, prepend=trajectory.positions[:1]),
                            axis=1)
     marks, walked = [], 0.0
@@ -169,7 +170,7 @@ def pairs_by_path(trajectory, metres):
 
 
 def pairs_by_time(trajectory, seconds, tolerance=0.01):
-    """All index pairs that are `seconds` apart, to within `tolerance` [s]."""
+    """Returns all index pairs that are `seconds` apart, within `tolerance` [s]."""
     nearest = nearest_indices(trajectory.stamps, trajectory.stamps + seconds)
     difference = trajectory.stamps[nearest] - trajectory.stamps
     first = np.flatnonzero(np.abs(difference - seconds) <= tolerance)
@@ -177,7 +178,7 @@ def pairs_by_time(trajectory, seconds, tolerance=0.01):
 
 
 def relative_errors(estimate, truth, pairs):
-    """Errors of the motion between the poses of each pair: translation [m] and rotation [deg]."""
+    """Returns errors of the relative motion of each pair: translation [m] and rotation [deg]."""
     estimated_rotation, estimated_translation = _relative_motion(estimate, *pairs)
     true_rotation, true_translation = _relative_motion(truth, *pairs)
     return (np.linalg.norm(estimated_translation - true_translation, axis=1),
@@ -191,15 +192,15 @@ def _relative_motion(trajectory, first, second):
 
 
 def coverage(estimate, truth, max_gap=MAX_GAP):
-    """Share of the ground truth's time span with a pose; longer gaps than `max_gap` [s] count as
-    without."""
+    """Returns the share of the ground truth's time span that has poses; gaps longer than `max_gap`
+    [s] count as not covered."""
     begin = np.clip(estimate.stamps[:-1], truth.stamps[0], truth.stamps[-1])
     end = np.clip(estimate.stamps[1:], truth.stamps[0], truth.stamps[-1])
     return float((end - begin)[np.diff(estimate.stamps) <= max_gap].sum() / truth.duration)
 
 
 def statistics(errors):
-    """The figures that evo prints, or None where there are no errors."""
+    """Returns the statistics that evo prints, or None if there are no errors."""
     if len(errors) == 0:
         return None
     return {
@@ -218,7 +219,7 @@ def _transposed(matrices):
 
 
 def _angles(rotations):
-    """Rotation angles [deg], exact for small ones too."""
+    """Returns rotation angles [deg], accurate for small angles as well."""
     twice_sine = np.linalg.norm(np.stack([rotations[:, 2, 1] - rotations[:, 1, 2],
                                           rotations[:, 0, 2] - rotations[:, 2, 0],
                                           rotations[:, 1, 0] - rotations[:, 0, 1]], axis=1), axis=1)

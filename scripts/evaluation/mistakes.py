@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is often wrong with two trajectory files, as notes that say what to do."""
+"""Detects frequent mistakes in two trajectory files and suggests remedies."""
 
 import os
 
@@ -8,21 +8,22 @@ import numpy as np
 from . import metrics
 from .trajectory import with_first_component_last, with_last_component_first
 
-_WRONG_ATTITUDE = 20.0  # larger errors [deg] call for an explanation
-_RIGHT_ATTITUDE = 5.0  # smaller ones [deg] are no chance
-_DENSER = 3.0  # times as many poses per second have ground truths as estimates, where they differ
+_WRONG_ATTITUDE = 20.0  # larger errors [deg] need an explanation
+_RIGHT_ATTITUDE = 5.0  # smaller ones [deg] are not by chance
+_DENSER = 3.0  # ratio of pose rates above which a file is likely to be the ground truth
 
 
 def notes(paths, estimate, truth, align, max_difference):
-    """All that is found in the two files, the estimate's first; see metrics.associate() and
-    metrics.alignment() for the last two."""
+    """Returns all notes on the two files, the estimate's first; see metrics.associate() and
+    metrics.alignment() for the last two arguments."""
     pair = metrics.associate(estimate, truth, max_difference)
     found = (_swapped(*paths, estimate, truth), _quaternion_order(*paths, *pair, align))
     return [note for note in found if note]
 
 
 def _swapped(estimate_path, truth_path, estimate, truth):
-    """A note if the first file is the ground truth, by what is beside it or by rate and time."""
+    """Returns a note if the first file is the ground truth, by neighbouring files or by rate and
+    time."""
     estimate_is_run, truth_is_run = (
         os.path.isfile(os.path.join(os.path.dirname(path), "summary.json")) or poses.worlds > 1
         for path, poses in ((estimate_path, estimate), (truth_path, truth)))
@@ -40,8 +41,8 @@ def _rate(trajectory):
 
 
 def _quaternion_order(estimate_path, truth_path, estimate, truth, align):
-    """A note if the attitudes of paired trajectories agree as soon as quaternions are taken in
-    another order. They are aligned by their positions, in which quaternions have no part."""
+    """Returns a note if the attitudes of paired trajectories agree with another component order of
+    the quaternions. The alignment uses positions only, which do not depend on the order."""
     rotation, translation = metrics.alignment(estimate, truth, align)
 
     def attitude_error(estimate, truth):

@@ -37,8 +37,9 @@ def save_figures(folder, figures):
 
 
 def draw_trajectory(axis, estimate, truth, plane, highest_error=None):
-    """Draws the estimate coloured by its position errors under the ground truth; returns the dots,
-    to which a colour bar belongs. `plane`: indices of the axes to the right and upwards."""
+    """Draws the ground truth over the estimate, which is coloured by its position errors; returns
+    the dots, to which a colour bar belongs. `plane`: indices of the axes to the right and
+    upwards."""
     horizontal, vertical = plane
     dots = axis.scatter(estimate.positions[:, horizontal], estimate.positions[:, vertical],
                         c=position_errors(estimate, truth), cmap="viridis", s=14, label="estimate",
@@ -48,7 +49,7 @@ def draw_trajectory(axis, estimate, truth, plane, highest_error=None):
 
 
 def draw_path(axis, trajectory, plane, style="-", **options):
-    """Draws positions as a line, both axes in the same scale."""
+    """Draws positions as a line, with the same scale on both axes."""
     horizontal, vertical = plane
     axis.plot(trajectory.positions[:, horizontal], trajectory.positions[:, vertical], style,
               linewidth=1.0, **options)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A trajectory as run_offline leaves it in its folder."""
+"""Trajectory files of run_offline."""
 
 import json
 import math
@@ -9,15 +9,15 @@ from .trajectory import LEAST_POSES, TrajectoryError, read_trajectory
 
 
 def read_estimate(path, offset=None, least=LEAST_POSES):
-    """The trajectory on the clock of the IMU, on which ground truth is: rows carry the stamp of the
-    image, but stand for `td` later. `offset` [s] goes before the `td` of the run."""
+    """Returns the trajectory in IMU time, like ground truth: rows have the image timestamp, but are
+    valid `td` later. `offset` [s] overrides the `td` of the run."""
     trajectory = read_trajectory(path, least)
     return trajectory.shifted(time_offset(path) if offset is None else offset)
 
 
 def time_offset(path):
-    """The `td` [s] that the run of a trajectory ended with, by the summary.json beside it; 0 where
-    that is not there or states none."""
+    """Returns the final `td` [s] of the run from the summary.json next to a trajectory; 0 if it is
+    missing or does not state any."""
     summary = os.path.join(os.path.dirname(path), "summary.json")
     if not os.path.isfile(summary):
         return 0.0
@@ -33,7 +33,7 @@ def time_offset(path):
 
 
 def check_whole(path):
-    """TrajectoryError where the trajectory is only the last part of a run."""
+    """Raises TrajectoryError if the trajectory is only the last part of a run."""
     stem, extension = os.path.splitext(path)
     part = f"{stem}_1{extension}"
     if os.path.isfile(part):

@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Steps of a ground truth: a tracker that lost its target jumps when it finds it again.
+"""Steps of a ground truth: a tracker that has lost its target jumps when it finds it again.
 
-Before a step the ground truth drifts, so errors against it mean little there.
+Ground truth drifts before a step, so errors relative to it are unreliable there.
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-# Smaller ones exist: up to 8.7 mm in the shaken beginnings of EuRoC's MH_01 and MH_02.
+# Smaller steps exist: up to 8.7 mm in the shaken beginnings of EuRoC's MH_01 and MH_02.
 LEAST_SIZE = 9e-3  # [m]
-BEFORE, AFTER = 1.5, 0.3  # around a step, where the ground truth is not to be trusted [s]
-_WINDOW = 5  # increments whose median velocity is that of the one in their middle
-_AROUND = 0.5  # before and after an increment, where the usual deviation is taken [s]
-_LONGEST = 0.5  # longer increments are gaps, over which the motion is not known [s]
-_USUAL = 3.0  # times the usual deviation are no step yet: motion that is coarsely sampled
+BEFORE, AFTER = 1.5, 0.3  # around a step, where the ground truth is unreliable [s]
+_WINDOW = 5  # increments for the median velocity of the middle one
+_AROUND = 0.5  # before and after an increment, for the typical deviation [s]
+_LONGEST = 0.5  # longer increments are gaps with unknown motion [s]
+_USUAL = 3.0  # multiples of the typical deviation, for coarsely sampled motion
 
 
 @dataclass(frozen=True)
@@ -27,15 +27,15 @@ class Step:
 
 
 def find_steps(truth):
-    """The steps of a trajectory: increments that differ from those of the velocity around them by
-    more than LEAST_SIZE and by more than is usual there."""
+    """Returns the steps of a trajectory: increments that differ from those of the velocity around
+    them by more than LEAST_SIZE and by more than the typical deviation."""
     intervals = np.diff(truth.stamps)
     increments = np.diff(truth.positions, axis=0)
     if len(intervals) < _WINDOW:
         return ()
     excess = increments - intervals[:, None] * _running_median(increments / intervals[:, None])
     deviations = np.linalg.norm(excess, axis=1)
-    # Motion makes increments deviate with the square of their interval, or more.
+    # Deviations of increments grow at least with the square of the interval.
     by_square = deviations / intervals ** 2
     found = [i for i in np.flatnonzero((deviations > LEAST_SIZE) & (intervals <= _LONGEST))
              if deviations[i] > LEAST_SIZE + _USUAL * intervals[i] ** 2
@@ -46,12 +46,13 @@ def find_steps(truth):
 
 
 def without_steps(truth):
-    """The ground truth, with its steps as those around which associate() leaves out all pairs."""
+    """Returns the ground truth with its steps marked, so that associate() drops the pairs around
+    them."""
     return replace(truth, steps_left_out=find_steps(truth))
 
 
 def trusted(stamps, steps):
-    """Whether each of the stamps is out of the time around all of the steps."""
+    """Returns whether each timestamp is outside the times around all steps."""
     result = np.ones(len(stamps), dtype=bool)
     for step in steps:
         result &= (stamps < step.stamp - BEFORE) | (stamps > step.stamp + AFTER)
@@ -59,19 +60,20 @@ def trusted(stamps, steps):
 
 
 def affecting(steps, stamps):
-    """Those of the steps that are, with the time around them, within a trajectory's `stamps`."""
+    """Returns the steps whose surrounding times overlap the timestamps of a trajectory."""
     return tuple(step for step in steps if step.stamp + AFTER >= stamps[0]
                  and step.stamp - BEFORE <= stamps[-1])
 
 
 def describe(steps):
-    """Where they are and how large, in words."""
+    """Describes times and sizes of steps in words."""
     return (", ".join(f"{1000 * step.size:.0f} mm at {step.time:.1f} s" for step in steps)
             + " after its first pose")
 
 
 def _running_median(velocities):
-    """The median over _WINDOW rows around each; at both ends over the outermost ones."""
+    """Returns the median over _WINDOW rows around each row; at both ends over the outermost
+    window."""
     windows = np.lib.stride_tricks.sliding_window_view(velocities, _WINDOW, axis=0)
     first = np.clip(np.arange(len(velocities)) - _WINDOW // 2, 0, len(windows) - 1)
     return np.median(windows, axis=-1)[first]

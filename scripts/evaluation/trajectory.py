@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-LEAST_POSES = 3  # that an alignment needs
-TRUTH_IN_FOLDER = os.path.join("state_groundtruth_estimate0", "data.csv")  # of an ASL folder
+LEAST_POSES = 3  # required by an alignment
+TRUTH_IN_FOLDER = os.path.join("state_groundtruth_estimate0", "data.csv")  # in an ASL folder
 TRUTHS_IN_FOLDER = (TRUTH_IN_FOLDER, os.path.join("mocap0", "data.csv"))  # EuRoC, TUM VI
 UNITS = {"seconds": 1.0, "milliseconds": 1e3, "microseconds": 1e6, "nanoseconds": 1e9}
 RESTART = "# the world frame starts anew"  # the comment of run_offline and the nodes
@@ -19,14 +19,14 @@ class TrajectoryError(Exception):
 
 @dataclass
 class Trajectory:
-    """Poses of the body in a world frame, in the order of time; in several where it starts anew."""
+    """Poses of the body in temporal order, in one or more consecutive world frames."""
 
     stamps: np.ndarray  # (n,) [s], strictly increasing
     positions: np.ndarray  # (n, 3) [m]
     rotations: np.ndarray  # (n, 3, 3) body to world
     worlds: int = 1
-    shift: float = 0.0  # what was added to the stamps of the file [s]
-    steps_left_out: tuple = ()  # of a ground truth: around these it does not count
+    shift: float = 0.0  # added to the timestamps of the file [s]
+    steps_left_out: tuple = ()  # of a ground truth, around which it is ignored
 
     def __len__(self):
         return len(self.stamps)
@@ -53,13 +53,14 @@ class Trajectory:
         return replace(self, stamps=self.stamps + seconds, shift=self.shift + seconds)
 
     def neighbours(self, stamps):
-        """Indices of the poses before and after each stamp; the outer ones beyond both ends."""
+        """Returns the indices of the poses before and after each timestamp; the outermost beyond
+        both ends."""
         after = np.clip(np.searchsorted(self.stamps, stamps), 1, len(self) - 1)
         return after - 1, after
 
     def at(self, stamps):
-        """The poses at other stamps, on the straight way and the shortest turn between those before
-        and after; at the ends, the outer ones."""
+        """Interpolates the poses at other timestamps, linearly and by slerp; the outermost poses
+        beyond both ends."""
         before, after = self.neighbours(stamps)
         gaps = self.stamps[after] - self.stamps[before]
         share = np.clip((stamps - self.stamps[before]) / gaps, 0, 1)[:, None]
@@ -69,26 +70,26 @@ class Trajectory:
         return replace(self, stamps=stamps, positions=positions, rotations=_rotations(quaternions))
 
     def transformed(self, rotation, translation):
-        """The same motion seen from another world frame: p' = rotation * p + translation."""
+        """Transforms the motion to another world frame: p' = rotation * p + translation."""
         return replace(self, positions=self.positions @ rotation.T + translation,
                        rotations=rotation @ self.rotations)
 
 
 def with_first_component_last(trajectory):
-    """The trajectory if its file has quaternions as w x y z where x y z w was read."""
+    """Reinterprets quaternions that were read as x y z w, but are w x y z in the file."""
     return replace(trajectory, rotations=_rotations(
         np.roll(_quaternions(trajectory.rotations), -1, axis=1)))
 
 
 def with_last_component_first(trajectory):
-    """The trajectory if its file has quaternions as x y z w where w x y z was read."""
+    """Reinterprets quaternions that were read as w x y z, but are x y z w in the file."""
     return replace(trajectory, rotations=_rotations(
         np.roll(_quaternions(trajectory.rotations), 1, axis=1)))
 
 
 def read_trajectory(path, least=LEAST_POSES):
-    """Reads `stamp[s] x y z qx qy qz qw` (TUM) or `stamp[ns],x,y,z,qw,qx,qy,qz,...` (EuRoC csv);
-    TrajectoryError with fewer than `least` poses."""
+    """Reads `stamp[s] x y z qx qy qz qw` (TUM) or `stamp[ns],x,y,z,qw,qx,qy,qz,...` (EuRoC csv).
+    Raises TrajectoryError with fewer than `least` poses."""
     if os.path.isdir(path):
         raise TrajectoryError(f"{path}: a folder; give a file in it, such as trajectory.tum, first"
                               " and the ground truth second")
@@ -110,7 +111,8 @@ def read_trajectory(path, least=LEAST_POSES):
 
 
 def read_truth(path):
-    """As read_trajectory(); of an ASL folder, or its mav0/, the ground truth in it."""
+    """Reads a trajectory as read_trajectory() does, or the ground truth in an ASL folder or its
+    mav0/."""
     if not os.path.isdir(path):
         return read_trajectory(path)
     files = [os.path.join(path, parent, name)
@@ -121,14 +123,14 @@ def read_truth(path):
 
 
 def format_tum(trajectory):
-    """The trajectory as the text of a TUM file, stamps to the nanosecond."""
+    """Returns the trajectory as the text of a TUM file, with timestamps to the nanosecond."""
     rows = np.column_stack([trajectory.positions, _quaternions(trajectory.rotations)])
     return "".join(f"{stamp:.9f} " + " ".join(f"{value:.9f}" for value in row) + "\n"
                    for stamp, row in zip(trajectory.stamps, rows))
 
 
 def _parse_row(line, where, previous_stamp):
-    """One row as [stamp, x, y, z, qx, qy, qz, qw]; `where` names it in error messages."""
+    """Returns one row as [stamp, x, y, z, qx, qy, qz, qw]; `where` names it in error messages."""
     is_csv = "," in line
     words = line.split(",") if is_csv else line.split()
     if len(words) < 8 or (not is_csv and len(words) != 8):
@@ -152,7 +154,7 @@ def _parse_row(line, where, previous_stamp):
 
 
 def _check_unit(path, stamps, is_csv):
-    """TrajectoryError where stamps as read [s] show that the file has another unit."""
+    """Raises TrajectoryError if the timestamps as read [s] show that the file has another unit."""
     expected = "nanoseconds" if is_csv else "seconds"
     interval = np.median(np.diff(stamps))
     if 1e-4 < interval < 1e2 and (is_csv or stamps[0] < 1e11):
@@ -171,7 +173,8 @@ def _check_unit(path, stamps, is_csv):
 
 
 def _rotations(quaternions):
-    """Rotation matrices (n, 3, 3) of quaternions (n, 4) in the order x y z w, of any length."""
+    """Returns rotation matrices (n, 3, 3) of quaternions (n, 4) in the order x y z w, of any
+    length."""
     x, y, z, w = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T
     return np.stack([
         1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),
@@ -181,10 +184,12 @@ def _rotations(quaternions):
 
 
 def _quaternions(rotations):
-    """Unit quaternions (n, 4) in the order x y z w, with w >= 0, of rotation matrices (n, 3, 3).
+    """Returns unit quaternions (n, 4) in the order x y z w, with w >= 0, of rotation matrices (n,
+    3, 3).
 
-    It is the eigenvector to the largest eigenvalue of a symmetric matrix [BarItzhack2000], which is
-    exact for all angles; formulas with the trace need cases.
+    The quaternion is the eigenvector of the largest eigenvalue of a symmetric matrix
+    [BarItzhack2000], which is accurate for all angles; formulas with the trace need case
+    distinctions.
     """
     trace = np.trace(rotations, axis1=1, axis2=2)
     matrices = np.empty((len(rotations), 4, 4))
@@ -199,10 +204,11 @@ def _quaternions(rotations):
 
 
 def _slerp(first, second, share):
-    """Quaternions (n, 4), of any length, at these shares (n, 1) of the turn between unit ones."""
+    """Interpolates between unit quaternions at shares (n, 1) of the rotation; returns quaternions
+    (n, 4) of any length."""
     second = second * np.where(np.sum(first * second, axis=1, keepdims=True) < 0, -1.0, 1.0)
     angles = 2 * np.arctan2(np.linalg.norm(second - first, axis=1, keepdims=True),
                             np.linalg.norm(second + first, axis=1, keepdims=True))
-    # sinc(x / pi) = sin(x) / x: the common divisor sin(angle), zero without a turn, is left out.
+    # sinc(x / pi) = sin(x) / x. The common divisor sin(angle), zero without a rotation, is omitted.
     return ((1 - share) * np.sinc((1 - share) * angles / np.pi) * first
             + share * np.sinc(share * angles / np.pi) * second)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parts of kalibr_to_config.py: what Kalibr's files say."""
+"""Parts of kalibr_to_config.py that read Kalibr's files."""

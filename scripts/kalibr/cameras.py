@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The intrinsics of a camera of Kalibr as lines of a configuration."""
+"""Converts the intrinsics of a Kalibr camera to lines of a configuration."""
 
 import math
 
@@ -7,7 +7,7 @@ import numpy as np
 
 from . import radial_models
 
-MAX_RESIDUAL = 0.05  # of an equidistant model in the place of another one [px]
+MAX_RESIDUAL = 0.05  # of an equidistant model that replaces another one [px]
 DISTORTION_SIZES = {"radtan": 4, "plumb_bob": 4, "equidistant": 4, "none": 0}
 MODEL_TYPES = {("pinhole", "radtan"): "PINHOLE", ("pinhole", "plumb_bob"): "PINHOLE",
                ("pinhole", "none"): "PINHOLE", ("pinhole", "equidistant"): "EQUIDISTANT",
@@ -16,9 +16,9 @@ PROJECTION_NAMES = {"PINHOLE": ("fx", "fy", "cx", "cy"), "EQUIDISTANT": ("fx", "
                     "MEI": ("gamma1", "gamma2", "u0", "v0")}
 DISTORTION_NAMES = {"PINHOLE": ("k1", "k2", "p1", "p2"), "EQUIDISTANT": ("k1", "k2", "k3", "k4"),
                     "MEI": ("k1", "k2", "p1", "p2")}
-# Models without a counterpart: their parameters in Kalibr's order, each with its least and greatest
-# value, and the key of a list that has nothing else (intrinsics end with the focal lengths and the
-# principal point).
+# Models that are replaced: their parameters in Kalibr's order, each with minimum and maximum, and
+# the key of the list that contains them ("intrinsics" ends with the focal lengths and the principal
+# point).
 RADIAL_MODELS = {
     ("ds", "none"): (radial_models.ds, {"xi": (-1, math.inf), "alpha": (0, 1)}, "intrinsics"),
     ("eucm", "none"): (radial_models.eucm, {"alpha": (0, 1), "beta": (1e-6, math.inf)},
@@ -28,7 +28,7 @@ RADIAL_MODELS = {
 
 
 def camera_lines(camera):
-    """The intrinsics. `camera` is a section of the camera chain."""
+    """Returns the intrinsics as lines. `camera` is a section of the camera chain."""
     _refuse_rolling_shutter(camera)
     kind = camera.text("camera_model"), camera.text("distortion_model")
     size = camera.numbers("resolution", 2)
@@ -64,7 +64,8 @@ def _lines(model_type, size, mirror, projection, coefficients):
 
 
 def _equidistant_lines(camera, kind, size):
-    """The equidistant camera that is nearest to one of RADIAL_MODELS, with its largest residual."""
+    """Returns the equidistant camera that best fits one of RADIAL_MODELS, with its largest
+    residual."""
     lens, projection = _radial_lens(camera, kind)
     focal, centre = np.array(projection[:2]), np.array(projection[2:])
     farthest = np.maximum(centre, np.array(size) - 1 - centre)
@@ -82,7 +83,7 @@ def _equidistant_lines(camera, kind, size):
 
 
 def _radial_lens(camera, kind):
-    """The lens as a function of the angle, and fx, fy, cx, cy of the camera [px]."""
+    """Returns the lens as a function of the angle, and fx, fy, cx, cy of the camera [px]."""
     function, limits, key = RADIAL_MODELS[kind]
     own_list = key != "intrinsics"
     intrinsics = camera.numbers("intrinsics", 4 if own_list else 4 + len(limits))

@@ -1,35 +1,35 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lenses that the estimator does not know, and the equidistant model that takes their place.
+"""Lens models that the estimator does not support, and the equidistant model that replaces them.
 
-They are symmetric about the optical axis: a ray at the angle theta from it comes to lie at the
-radius r(theta) of the image plane, in focal lengths. Formulas: [Usenko2018] for `ds` and `eucm`
-(the latter by [Khomutenko2016]), [Devernay2001] for `fov`.
+They are symmetric about the optical axis: a ray at angle theta to the axis projects to the radius
+r(theta) in the image plane, in focal lengths. Formulas: [Usenko2018] for `ds` and `eucm` (the
+latter by [Khomutenko2016]), [Devernay2001] for `fov`.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-MAX_ANGLE = np.radians(89.9)  # the estimator takes no rays from beside or behind the camera
+MAX_ANGLE = np.radians(89.9)  # the estimator rejects rays at 90 degrees and beyond
 _ANGLES = np.linspace(0, MAX_ANGLE, 4001)
 _NODES = 200
 _POWERS = (1, 3, 5, 7, 9)  # of theta in the equidistant model
 
 
 def ds(theta, xi, alpha):
-    """The radius of a double-sphere camera; NaN where it sees nothing."""
+    """Returns the radius of a double-sphere camera; NaN outside its field of view."""
     shifted = xi + np.cos(theta)
     return _seen(np.sin(theta), alpha * np.hypot(np.sin(theta), shifted) + (1 - alpha) * shifted)
 
 
 def eucm(theta, alpha, beta):
-    """The radius of an extended unified camera; NaN where it sees nothing."""
+    """Returns the radius of an extended unified camera; NaN outside its field of view."""
     distance = np.sqrt(beta * np.sin(theta) ** 2 + np.cos(theta) ** 2)
     return _seen(np.sin(theta), alpha * distance + (1 - alpha) * np.cos(theta))
 
 
 def fov(theta, w):
-    """The radius of a pinhole camera with the distortion of the field-of-view model."""
+    """Returns the radius of a pinhole camera with the distortion of the field-of-view model."""
     return np.arctan(2 * np.tan(theta) * np.tan(w / 2)) / w
 
 
@@ -44,18 +44,17 @@ class EquidistantFit:
     scale: float
     coefficients: list  # k1 to k4
     angle: float  # up to which it was fitted [rad]
-    residual: float  # the largest one, in focal lengths of the lens
+    residual: float  # maximum, in focal lengths of the lens
 
     def radius(self, theta):
         return self.scale * (_powers(theta) @ [1.0, *self.coefficients])
 
 
 def fit_equidistant(lens, largest_radius):
-    """The equidistant model of a lens, a function as above, for all rays in front of the camera up
-    to a radius. Returns None where the lens sees no more than its axis.
+    """Fits the equidistant model to a lens, a function as above, for all rays in front of the
+    camera up to a radius. Returns None if the lens sees nothing but its axis.
 
-    Nodes that are dense towards both ends make least squares nearly the fit whose largest error is
-    smallest.
+    Nodes that are dense towards both ends make the least squares fit nearly a minimax fit.
     """
     radii = lens(_ANGLES)
     grows = np.append(True, np.diff(radii) > 0)  # False from NaN on

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import yaml
 
-MAX_ROTATION_ERROR = 5e-3  # what the configuration reader accepts
+MAX_ROTATION_ERROR = 5e-3  # accepted by the configuration reader
 
 
 class KalibrError(Exception):
@@ -14,7 +14,7 @@ class KalibrError(Exception):
 
 
 class Section:
-    """A map of a Kalibr file. Reads checked values and names file and key where that fails."""
+    """A map of a Kalibr file. Returns checked values; errors name file and key."""
 
     def __init__(self, file, path, values):
         self.file, self.path, self.values = file, path, values
@@ -50,7 +50,7 @@ class Section:
         return [self._as_number(key, value) for value in values]
 
     def transform(self, key, hint="add it"):
-        """A 4x4 rigid transform, as rotation (3x3) and translation (3)."""
+        """Returns a 4x4 rigid transform as rotation (3x3) and translation (3)."""
         rows = self.get(key, hint)
         if not isinstance(rows, list) or len(rows) != 4:
             raise self.error(key, "must have 4 rows")
@@ -66,7 +66,7 @@ class Section:
         return rotation, matrix[:3, 3]
 
     def _as_number(self, key, value):
-        try:  # YAML 1.1 takes 1e-3 for a text
+        try:  # YAML 1.1 reads 1e-3 as a string
             number = math.nan if isinstance(value, bool) else float(value)
         except (TypeError, ValueError):
             number = math.nan
@@ -76,11 +76,11 @@ class Section:
 
 
 def read_section(file):
-    """The whole file as a Section."""
+    """Reads the whole file as a Section."""
     try:
         with open(file, encoding="utf-8") as stream:
             text = stream.read()
-        # OpenCV's header, which other programs want in Kalibr's files, is no valid YAML.
+        # OpenCV's header, which other programs require in Kalibr's files, is not valid YAML.
         header, _, rest = text.partition("\n")
         return Section(file, "", yaml.safe_load(rest if header.startswith("%YAML:") else text))
     except OSError as error:

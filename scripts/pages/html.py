@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A page of sections with figures of plotly, which are dictionaries with `data` and `layout`."""
+"""A page of sections with plotly figures, which are dictionaries with `data` and `layout`."""
 
 import html
 import json
@@ -13,8 +13,8 @@ border-bottom: 1px solid #ddd } img { max-width: 100% } input[type=range] { widt
 
 
 def page(title, sections, script):
-    """The text of a page. `sections`: pairs of a heading and its contents in HTML; `script`: what
-    brings plotly, of embedded_plotly() or linked_plotly()."""
+    """Returns the text of a page. `sections`: pairs of a heading and its contents in HTML;
+    `script`: the script element of plotly, from embedded_plotly() or linked_plotly()."""
     parts = [f"<h2>{html.escape(heading)}</h2>\n{contents}" for heading, contents in sections]
     return ("<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
             f"<title>{html.escape(title)}</title><style>{STYLE}</style>\n{script}</head>\n"
@@ -22,8 +22,8 @@ def page(title, sections, script):
 
 
 def plotly_source():
-    """The library itself, as JavaScript. Raises ImportError where it is not installed."""
-    from plotly.offline import get_plotlyjs  # takes a second to load, and only here
+    """Returns the library itself, as JavaScript. Raises ImportError if it is not installed."""
+    from plotly.offline import get_plotlyjs  # only here, since loading takes a second
     return get_plotlyjs()
 
 
@@ -32,19 +32,19 @@ def embedded_plotly():
 
 
 def linked_plotly(path):
-    """`path`: of a file with plotly_source(), relative to the page."""
+    """`path` is that of a file with plotly_source(), relative to the page."""
     return f"<script src='{html.escape(path, quote=True)}'></script>"
 
 
 def figure(name, contents, height=450):
-    """A figure; `name` is its element's id, `height` in pixels."""
+    """Returns a figure; `name` is its element's id, `height` in pixels."""
     return (f"<div id='{name}' style='height:{height}px'></div>\n<script>"
             f"Plotly.newPlot('{name}', {as_json(contents['data'])}, {as_json(contents['layout'])},"
             " {responsive: true, displaylogo: false})</script>")
 
 
 def table(rows, heading=()):
-    """Cells are HTML; see text()."""
+    """Returns a table; cells are HTML, see text()."""
     lines = ["<tr>" + "".join(f"<th>{cell}</th>" for cell in heading) + "</tr>"] * bool(heading)
     lines += ["<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows]
     return "<table>" + "\n".join(lines) + "</table>"
@@ -59,5 +59,5 @@ def link(path, label):
 
 
 def as_json(value):
-    """For a script element, which a closing tag inside of a string would end."""
+    """Returns JSON for a script element, which a closing tag inside a string would end."""
     return json.dumps(value, allow_nan=False).replace("</", "<\\/")

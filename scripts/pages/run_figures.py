@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of a run's page, as plotly wants them."""
+"""The figures of a run's page, in plotly's format."""
 
 import itertools
 
@@ -14,10 +14,10 @@ TRUTH = "ground truth"
 POINT_COLOUR = "#9aa5b1"
 LINE_COLOURS = {"along x": "#dc2828", "along y": "#28a028", "along z": "#325ae6", "free": "#8c8c8c"}
 NOTHING = np.empty((0, 3))
-DIRECTION = np.array([0.56, 0.56, 0.61])  # of the first look, from the scene to the camera
-VIEW_DISTANCE = 2.6  # of the camera, in radii of what it is to see
-TOOLBAR = 35  # height of what plotly shows above a figure [px]
-MAX_POINTS = 20000  # more make the browser slow and the picture no clearer
+DIRECTION = np.array([0.56, 0.56, 0.61])  # of the initial view, from the scene to the camera
+VIEW_DISTANCE = 2.6  # of the camera, in radii of the visible scene
+TOOLBAR = 35  # height of plotly's toolbar above a figure [px]
+MAX_POINTS = 20000  # more points make the browser slow, but the picture no clearer
 STAGES = ("point_tracking", "line_tracking", "line_merging", "optimization", "marginalization",
           "total")
 COUNTS = ("points_observed", "points_in_window", "lines_observed", "lines_in_window",
@@ -25,8 +25,8 @@ COUNTS = ("points_observed", "points_in_window", "lines_observed", "lines_in_win
 
 
 def scene_figure(trajectories, points=NOTHING, lines=None, loops=NOTHING):
-    """The map in 3-D [m]. `trajectories`: positions (n, 3) by name; points (n, 3); lines: ends
-    (n, 2, 3) by axis; loops: ends (n, 2, 3)."""
+    """Returns the map in 3-D [m]. `trajectories`: positions (n, 3) by name; points (n, 3); lines:
+    endpoints (n, 2, 3) by axis; loops: endpoints (n, 2, 3)."""
     paths = np.concatenate(list(trajectories.values()))
     low, high = _box(points, paths)
 
@@ -51,7 +51,8 @@ def scene_figure(trajectories, points=NOTHING, lines=None, loops=NOTHING):
 
 
 def error_figure(pairs):
-    """The APE over time. `pairs`, by name: an aligned estimate and the truth at its poses."""
+    """Returns the APE over time. `pairs`, by name: an aligned estimate and the truth at its
+    poses."""
     begin = min(truth.stamps[0] for _, truth in pairs.values())
     data = []
     for (name, (estimate, truth)), colour in zip(pairs.items(), itertools.cycle(PATH_COLOURS)):
@@ -62,7 +63,7 @@ def error_figure(pairs):
 
 
 def columns_figure(frames, columns, title):
-    """Columns of timing.csv over time; those that it lacks are left out."""
+    """Returns columns of timing.csv over time; missing columns are ignored."""
     seconds = 1e-9 * (frames["stamp_ns"] - frames["stamp_ns"][0])
     data = [_curve(column.replace("_", " "), seconds, frames[column])
             for column in columns if column in frames]
@@ -70,8 +71,8 @@ def columns_figure(frames, columns, title):
 
 
 def _box(points, paths):
-    """Corners of a box around the paths and all but the outer points, which would make everything
-    else small."""
+    """Returns the corners of a box around the paths and all points except outliers, which would
+    make everything else small."""
     corners = paths
     if len(points):
         corners = np.concatenate([paths, np.percentile(points, (5, 95), axis=0)])
@@ -81,8 +82,8 @@ def _box(points, paths):
 
 
 def _first_view(points, paths, low, high):
-    """Axes in the same scale, and a camera that looks at the middle of the paths from where it sees
-    them and half of the points."""
+    """Returns axes with equal scale, and a camera directed at the middle of the paths from which
+    they and half of the points are visible."""
     middle = (paths.min(axis=0) + paths.max(axis=0)) / 2
     radius = np.linalg.norm(paths - middle, axis=1).max()
     if len(points):
@@ -106,7 +107,7 @@ def _spatial(name, positions, **style):
 
 
 def _segments(name, ends, colour, width):
-    """Ends (n, 2, 3) as one curve with gaps."""
+    """Returns endpoints (n, 2, 3) as one curve with gaps."""
     ends = ends.reshape(-1, 2, 3)
     gaps = np.full((len(ends), 1, 3), np.nan)
     return _spatial(name, np.concatenate([ends, gaps], axis=1).reshape(-1, 3), mode="lines",
@@ -114,7 +115,7 @@ def _segments(name, ends, colour, width):
 
 
 def _curve(name, seconds, values, colour=None):
-    """`colour`: plotly's own choice where there is none."""
+    """Returns a curve; plotly selects the colour if it is None."""
     return {"type": "scatter", "mode": "lines", "name": name, "x": _plain(seconds),
             "y": _plain(values), "line": {"width": 1.2, "color": colour}}
 
@@ -127,5 +128,5 @@ def _over_time(data, title):
 
 
 def _plain(values):
-    """As JSON has them: to a tenth of a millimetre or microsecond, null for NaN."""
+    """Returns values for JSON: rounded to a tenth of a millimetre or microsecond, null for NaN."""
     return [None if np.isnan(value) else round(float(value), 4) for value in values]

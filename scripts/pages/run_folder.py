@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What run_offline left in its folder, as arrays."""
+"""The files of run_offline in a result folder, as arrays."""
 
 import glob
 import json
@@ -16,7 +16,7 @@ from evaluation.run_results import read_estimate
 from evaluation.trajectory import Trajectory, TrajectoryError
 
 TRAJECTORY = "trajectory.tum"
-# Of the edges in lines.ply, by their colour there.
+# Categories of the edges in lines.ply, by their colour there.
 LINE_COLOURS = {(220, 40, 40): "along x", (40, 160, 40): "along y", (50, 90, 230): "along z"}
 FREE = "free"
 NO_LOOPS = Loops(np.empty(0), np.empty(0), np.empty((0, 3)), np.empty(0))
@@ -24,21 +24,21 @@ NO_LOOPS = Loops(np.empty(0), np.empty(0), np.empty((0, 3)), np.empty(0))
 
 @dataclass
 class RunFolder:
-    """Coordinates are in the world of the estimate [m]."""
+    """The results of a run. Coordinates are in the world of the estimate [m]."""
 
     path: str
     summary: dict
-    trajectory: Trajectory  # on the clock of the IMU, as the loops
+    trajectory: Trajectory  # in IMU time, like the loops
     frames: Dict[str, np.ndarray]  # the columns of timing.csv
     points: np.ndarray  # (n, 3)
-    lines: Dict[str, np.ndarray]  # (n, 2, 3) ends, by Manhattan axis
+    lines: Dict[str, np.ndarray]  # (n, 2, 3) endpoints, by Manhattan axis
     loops: Loops  # between poses of the trajectory
-    loops_left_out: int  # those to poses of a map of earlier
+    loops_left_out: int  # number of loops to poses of an earlier map
     images: Dict[str, str] = field(default_factory=dict)  # files with tracks, by caption
 
     @classmethod
     def read(cls, path):
-        """Raises TrajectoryError where trajectory, summary or timing is missing, or any file is
+        """Raises TrajectoryError if trajectory, summary or timing is missing, or any file is
         damaged."""
         try:
             with open(os.path.join(path, "summary.json"), encoding="utf-8") as file:
@@ -57,15 +57,15 @@ class RunFolder:
 
 
 def _read_ply(path):
-    """Vertices (n, 3), and the ends (m, 2, 3) and colours (m, 3) of edges, of an ASCII PLY; none
-    where there is no file."""
+    """Returns vertices (n, 3), and endpoints (m, 2, 3) and colours (m, 3) of edges, of an ASCII
+    PLY; empty arrays if there is no file."""
     if not os.path.isfile(path):
         return np.empty((0, 3)), np.empty((0, 2, 3)), np.empty((0, 3), dtype=int)
     with open(path, encoding="utf-8") as file:
         header, _, body = file.read().partition("end_header\n")
     rows = [line.split() for line in body.splitlines()]
     try:
-        # The number comes last: a run that did not finish leaves a blank.
+        # The number is written last: it is blank after an unfinished run.
         count = int(re.search(r"^element vertex +(\d*)", header, re.MULTILINE)[1])
         vertices = np.array(rows[:count], dtype=float).reshape(count, 3)
         edges = np.array(rows[count:], dtype=int).reshape(-1, 5)
@@ -85,7 +85,7 @@ def _read_loops(path):
 
 
 def _find_images(path, first_stamp):
-    """tracks/STAMP_NS.jpg in order of time, or what every run writes."""
+    """Returns tracks/STAMP_NS.jpg in temporal order, or else the pictures that every run writes."""
     stems = {os.path.basename(file)[:-len(".jpg")]: file
              for file in glob.glob(os.path.join(glob.escape(path), "tracks", "*.jpg"))}
     files = {int(stem): file for stem, file in stems.items() if stem.isdecimal()}

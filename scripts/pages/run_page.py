@@ -31,9 +31,9 @@ show(0);
 
 
 def run_page(run, truth, script, reason=""):
-    """The text of the page. run: a RunFolder; truth: a Trajectory or None; script: see html.page().
-    Where the two cannot be compared, the page says why and goes without the truth; `reason`: why
-    there is None although there is ground truth."""
+    """Returns the text of the page. run: a RunFolder; truth: a Trajectory or None; script: see
+    html.page(). If the two cannot be compared, the page tells why and omits the truth; `reason`
+    tells why the truth is None although there is ground truth."""
     pair, figures, note = _compare(run, truth, reason)
     table = html.table([[html.text(cell) for cell in row] for row in rows(run.summary, figures)])
     left_out = run.loops_left_out and f"Loops to a map of earlier, left out: {run.loops_left_out}"
@@ -57,7 +57,8 @@ def _paragraph(note):
 
 
 def _compare(run, truth, reason):
-    """The aligned estimate and the truth at its poses, their figures, and why there are none."""
+    """Returns the aligned estimate and the truth at its poses, their figures, and the reason if
+    there are none."""
     if truth is None:
         return None, None, _not_compared(reason) if reason else "No ground truth."
     try:
@@ -73,7 +74,7 @@ def _not_compared(reason):
 
 
 def _scene(run, truth, pair):
-    """Everything in the world of the truth, where there is one to compare with."""
+    """Returns the scene, aligned with the world of the truth if they can be compared."""
     rotation, translation = np.eye(3), np.zeros(3)
     if pair:
         partners = associate(run.trajectory, truth)
@@ -89,7 +90,7 @@ def _scene(run, truth, pair):
 
 
 def _loops(loops, estimate):
-    """The positions (n, 2, 3) of both ends."""
+    """Returns the positions (n, 2, 3) of both ends."""
     ends = np.stack([loops.later, loops.earlier], axis=1)
     return estimate.positions[nearest_indices(estimate.stamps, ends)]
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Faulty recordings made of good ones, and what they do to the odometry."""
+"""Makes faulty copies of recordings and measures their effect on the odometry."""

@@ -12,7 +12,7 @@ IMU, IMAGES = os.path.join("imu0", "data.csv"), os.path.join("cam0", "data.csv")
 
 
 def make_faulty(source, target, apply, begin):
-    """The images and all else stay where they are: `target`, a new folder, links to them."""
+    """Makes `target`, a new folder, which links to the images and all other files of the source."""
     if os.path.lexists(target) and not (os.path.isdir(target) and not os.listdir(target)):
         raise ValueError(f"{target}: exists already; remove it or give another target")
     nested = os.path.join(source, "mav0")
@@ -47,7 +47,7 @@ def _write(path, head, rows):
 
 
 def _link_the_rest(source, target):
-    """What the sensors have, and files beside them, such as EuRoC's body.yaml."""
+    """Links the other files of the sensors and those next to them, such as EuRoC's body.yaml."""
     for name in os.listdir(source):
         if os.path.isdir(os.path.join(source, name)):
             for inner in os.listdir(os.path.join(source, name)):

@@ -12,7 +12,7 @@ IMAGE_TYPES = ("sensor_msgs/Image", "sensor_msgs/CompressedImage")
 
 
 def make_faulty(source, target, apply, begin):
-    """Every topic of these types is taken for the one of its kind; other messages are copied."""
+    """Modifies all topics of these types; copies other messages."""
     with _open(source) as bag:
         topics = bag.get_type_and_topic_info().topics
         types = {name: topic.msg_type for name, topic in topics.items()}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a fault did to a trajectory."""
+"""The effect of a fault on a trajectory."""
 
 from dataclasses import dataclass
 
@@ -12,14 +12,15 @@ from evaluation.trajectory import RESTART, Trajectory, TrajectoryError
 
 @dataclass
 class Damage:
-    ape: float  # RMSE [m]; each world frame is aligned on its own
+    ape: float  # RMSE [m]; each world frame is aligned separately
     jump: float  # largest position error before a restart, aligned up to the fault [m]
-    restarts: list  # when, since the fault [s]
+    restarts: list  # times since the fault [s]
     coverage: float  # share of the true time with a pose
 
 
 def read_worlds(path):
-    """The trajectories between restarts, and the stamp of the last pose before each of these."""
+    """Returns the trajectories between restarts, and the timestamp of the last pose before each
+    restart."""
     poses = read_estimate(path)
     starts, row = [0], 0
     with open(path, encoding="utf-8") as file:
@@ -35,7 +36,7 @@ def read_worlds(path):
 
 
 def assess(path, truth, fault_at):
-    """`fault_at` [s] on the clock of the IMU. TrajectoryError where nothing can be compared."""
+    """`fault_at` [s] is in IMU time. Raises TrajectoryError if nothing can be compared."""
     worlds, restarts = read_worlds(path)
     poses = read_estimate(path)
     squares = np.concatenate([_squared_errors(world, truth) for world in worlds])

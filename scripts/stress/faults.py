@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The faults by name. Each takes Measurements and the time since the first image [s] at which it
-begins; faults that last begin there and go on to the end unless their name says how long."""
+"""The faults by name. Each takes Measurements and its begin, as the time since the first image [s].
+Permanent faults last to the end, unless their name states a duration."""
 
 from dataclasses import dataclass
 from typing import Callable
@@ -13,7 +13,8 @@ SEED = 1  # of the jitter
 
 @dataclass
 class Fault:
-    """`change(measurements, begin)`; `needs_features` where images would have to change."""
+    """`change(measurements, begin)` applies the fault; `needs_features` means that images would
+    have to change."""
 
     what: str
     change: Callable
@@ -21,7 +22,7 @@ class Fault:
     ignores_begin: bool = False
 
     def apply(self, measurements, begin):
-        """ValueError where the recording ends before the fault begins."""
+        """Raises ValueError if the recording ends before the fault begins."""
         duration = measurements.duration
         if not self.ignores_begin and begin > duration:
             raise ValueError(f"--begin {begin:g}: the recording lasts {duration:.1f} s")
@@ -35,7 +36,7 @@ def _step(field, size):
 
 
 def _spikes(field, value, samples=1, period=None):
-    """`value` in place of the reading of the first axis, once or every `period` seconds."""
+    """Replaces the reading of the first axis by `value`, once or every `period` seconds."""
     def apply(measurements, begin):
         last = measurements.imu_ns[-1] - measurements.image_ns[0]
         times = [begin] if period is None else np.arange(begin, last * 1e-9, period)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files of run_offline --save-features (offline/pipeline/feature_file.cpp has their layout)."""
+"""The files of run_offline --save-features (offline/pipeline/feature_file.cpp defines their
+layout)."""
 
 import struct
 
@@ -7,10 +8,10 @@ import numpy as np
 
 from .measurements import Measurements
 
-SIGNATURE = b"plm_features v2\n"  # behind it the values of the trackers, as text
+SIGNATURE = b"plm_features v2\n"  # followed by the trackers' values, as text
 IMU, POINTS, POINTS_AND_LINES = 1, 2, 3
 IMU_LAYOUT = struct.Struct("<q6d")
-TRACKING = struct.Struct("<q2?d")  # stamp, restart, publish, milliseconds
+TRACKING = struct.Struct("<q2?d")  # timestamp, restart, publish, milliseconds
 POINT_STATISTICS_SIZE = 6 * 4
 LINE_STATISTICS_SIZE = 5 * 4 + 1 + 3 * 4 + 8
 SIZE = struct.Struct("<I")
@@ -19,7 +20,7 @@ LINE_SIZE = 8 + 4 * 8
 
 
 class Features:
-    """A file of features in memory, item by item as it lies on disk."""
+    """A feature file in memory, item by item as stored on disk."""
 
     def __init__(self, path):
         self._path = path
@@ -28,7 +29,7 @@ class Features:
         if not self._bytes.startswith(SIGNATURE):
             raise self._error("no features of this version")
         self._begin = self._end_of_list(len(SIGNATURE), 1)  # of the first item
-        self._imu, self._images = [], []  # of each: where it begins in the file
+        self._imu, self._images = [], []  # offsets in the file
         self._items = []  # (kind, index, begin)
         self._split()
         if not self._imu or not self._images:
@@ -115,7 +116,7 @@ class Features:
 
 
 def _points_size_at(begin):
-    """Where the number of points is, of the image that begins there."""
+    """Returns the offset of the number of points of the image that begins there."""
     return begin + 1 + TRACKING.size + POINT_STATISTICS_SIZE
 
 
@@ -127,7 +128,8 @@ def _imu_item(measurements, index):
 
 
 def _stretch(was_ns, is_ns, index):
-    """Velocities are differences over the interval of the stamps."""
+    """Returns the factor of velocities, which are differences over the interval of the
+    timestamps."""
     if index == 0:
         return 1.0
     return (was_ns[index] - was_ns[index - 1]) / (is_ns[index] - is_ns[index - 1])

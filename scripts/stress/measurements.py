@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What of a recording can be made faulty: IMU samples, stamps of images, what images show."""
+"""The modifiable parts of a recording: IMU samples, image timestamps, image contents."""
 
 from dataclasses import dataclass
 
@@ -8,16 +8,17 @@ import numpy as np
 
 @dataclass
 class Measurements:
-    """A fault changes the arrays in place; their lengths stay, as they refer to the recording."""
+    """A fault changes the arrays in place; their lengths stay, since they refer to the
+    recording."""
 
     imu_ns: np.ndarray  # (n,) int64
     gyro: np.ndarray  # (n, 3) [rad/s]
     accel: np.ndarray  # (n, 3) [m/s^2]
     image_ns: np.ndarray  # (m,) int64
-    imu_kept: np.ndarray = None  # (n,) bool; False: the sample is left out
-    points_kept: np.ndarray = None  # (m,) bool; False: no point is followed in the image
+    imu_kept: np.ndarray = None  # (n,) bool; False: the sample is dropped
+    points_kept: np.ndarray = None  # (m,) bool; False: no point is tracked in the image
     lines_kept: np.ndarray = None  # (m,) bool
-    shown: np.ndarray = None  # (m,) int; the image that is shown in its place
+    shown: np.ndarray = None  # (m,) int; index of the image that replaces it
 
     def __post_init__(self):
         self.imu_kept = np.ones(len(self.imu_ns), dtype=bool)
@@ -27,15 +28,15 @@ class Measurements:
 
     @property
     def duration(self):
-        """From the first image on, as long as there are both images and IMU samples [s]."""
+        """Time from the first image to the end of images or IMU samples [s]."""
         return (min(self.imu_ns.max(), self.image_ns.max()) - self.image_ns[0]) * 1e-9
 
     def image_at(self, seconds):
-        """Index of the first image at or after a time since the first image."""
+        """Returns the index of the first image at or after a time since the first image."""
         return int(np.searchsorted(self.image_ns, self._nanoseconds(seconds)))
 
     def imu_at(self, seconds):
-        """Index of the first IMU sample at or after a time since the first image."""
+        """Returns the index of the first IMU sample at or after a time since the first image."""
         return int(np.searchsorted(self.imu_ns, self._nanoseconds(seconds)))
 
     def _nanoseconds(self, seconds):

@@ -12,7 +12,7 @@ find_package(CLI11 2 REQUIRED HINTS ${PROJECT_SOURCE_DIR}/build/deps)  # see scr
 find_package(nlohmann_json REQUIRED)
 
 if(BUILD_ROS)
-  # ROS packages of a distribution live in its own Python, not in a pyenv or conda found in PATH.
+  # ROS packages of a distribution need its own Python, not a pyenv or conda found in PATH.
   if(EXISTS /usr/bin/python3)
     set(PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python of catkin")
     set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python of ament")
@@ -21,7 +21,7 @@ if(BUILD_ROS)
     cv_bridge diagnostic_updater dynamic_reconfigure geometry_msgs image_transport nav_msgs nodelet
     pluginlib rosbag roscpp roslz4 sensor_msgs std_msgs std_srvs tf2_ros visualization_msgs)
   generate_dynamic_reconfigure_options(cfg/FeatureTracker.cfg cfg/LineFeatureTracker.cfg)
-  set_directory_properties(PROPERTIES INCLUDE_DIRECTORIES "")  # it adds its headers for all
+  set_directory_properties(PROPERTIES INCLUDE_DIRECTORIES "")  # added to all targets by the previous line
   catkin_package()
   find_package(Boost REQUIRED)
   find_package(BZip2 REQUIRED)
@@ -43,8 +43,8 @@ endif()
 
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
-  if(NOT TARGET GTest::gmock)  # CMake before 3.23 does not look for it
-    # By its file: Noetic's catkin has a target gmock, which brings a second gtest.
+  if(NOT TARGET GTest::gmock)  # not provided by CMake before 3.23
+    # By file, since the target gmock of Noetic's catkin adds a second gtest.
     find_library(GMOCK_LIBRARY gmock)
     if(NOT GMOCK_LIBRARY)
       message(FATAL_ERROR "gmock is missing: install libgmock-dev or set BUILD_TESTING=OFF")

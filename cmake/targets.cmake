@@ -1,10 +1,10 @@
-# plm_add_library(NAME SOURCES... ): a core library; included from the package root.
+# plm_add_library(NAME SOURCES...): a core library; headers are included relative to the package root.
 function(plm_add_library name)
   plm_add_static_library(${name} ${ARGN})
   plm_use_header_set(core ${name})
 endfunction()
 
-# plm_add_ros_library(NAME SOURCES...): a library of a ros/ folder, the only kind that sees ROS.
+# plm_add_ros_library(NAME SOURCES...): a library of a ros/ folder; only these may use ROS.
 function(plm_add_ros_library name)
   plm_add_static_library(${name} ${ARGN})
   target_include_directories(${name} SYSTEM PUBLIC ${ROS_INCLUDE_DIRS})
@@ -12,14 +12,14 @@ function(plm_add_ros_library name)
   plm_use_header_set(ros ${name})
 endfunction()
 
-# What both have in common.
+# plm_add_static_library(NAME SOURCES...): the common part of both.
 function(plm_add_static_library name)
   add_library(${name} STATIC ${ARGN})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_include_directories(${name} SYSTEM PUBLIC ${EIGEN3_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
 endfunction()
 
-# plm_add_nodelet(NAME SOURCES...): a library of nodelets, named in nodelet_plugins.xml.
+# plm_add_nodelet(NAME SOURCES...): a library of nodelets, listed in nodelet_plugins.xml.
 function(plm_add_nodelet name)
   add_library(${name} SHARED ${ARGN})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
@@ -28,7 +28,7 @@ function(plm_add_nodelet name)
 endfunction()
 
 # plm_add_tests(PROGRAM TESTS NAME... LIBRARIES LIBRARY...): builds the NAME_test.cpp of this folder
-# into one GoogleTest program, which ctest runs file by file, as NAME_test.
+# into one GoogleTest program, which ctest runs once for each file, as NAME_test.
 function(plm_add_tests program)
   cmake_parse_arguments(ARG "" "" "TESTS;LIBRARIES" ${ARGN})
   list(TRANSFORM ARG_TESTS APPEND _test.cpp OUTPUT_VARIABLE sources)
@@ -42,8 +42,8 @@ function(plm_add_tests program)
   endforeach()
 endfunction()
 
-# plm_test_suites(FILE OUT): the GoogleTest filter of all suites in a file; those with parameters
-# have a prefix.
+# plm_test_suites(FILE OUT): sets OUT to the GoogleTest filter of all suites in a file; parameterized
+# suites have a prefix.
 function(plm_test_suites file out)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(STRINGS ${file} tests REGEX "^TEST(_F|_P)?\\(")
@@ -54,14 +54,14 @@ function(plm_test_suites file out)
   set(${out} ${filter} PARENT_SCOPE)
 endfunction()
 
-# plm_add_executable(NAME SOURCES...): a program that rosrun and roslaunch find.
+# plm_add_executable(NAME SOURCES...): a program that rosrun and roslaunch can find.
 function(plm_add_executable name)
   add_executable(${name} ${ARGN})
   plm_use_header_set(core ${name})
   install(TARGETS ${name} RUNTIME DESTINATION lib/${PROJECT_NAME})
 endfunction()
 
-# plm_add_node(NAME SOURCES...): the same, for a ROS node.
+# plm_add_node(NAME SOURCES...): a ROS node that rosrun and roslaunch can find.
 function(plm_add_node name)
   add_executable(${name} ${ARGN})
   plm_use_header_set(ros ${name})

@@ -2,5 +2,5 @@
 # Runs a command in the environment of the built package.
 set -e
 # shellcheck disable=SC1091
-source /plm_vins/build/devel/setup.bash --  # else it takes the command's options for its own
+source /plm_vins/build/devel/setup.bash --  # otherwise it reads the command's options
 exec "$@"

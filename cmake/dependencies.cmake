@@ -22,7 +22,7 @@ if(BUILD_ROS)
     pluginlib rosbag roscpp roslz4 sensor_msgs std_msgs std_srvs tf2_ros visualization_msgs)
   generate_dynamic_reconfigure_options(cfg/FeatureTracker.cfg cfg/LineFeatureTracker.cfg)
   set_directory_properties(PROPERTIES INCLUDE_DIRECTORIES "")  # added to all targets by the previous line
-  catkin_package()
+  catkin_package(CFG_EXTRAS plm_vins-extras.cmake)
   find_package(Boost REQUIRED)
   find_package(BZip2 REQUIRED)
   # Debian nests the headers that rosbag/bag.h needs one folder deeper than ROS does.

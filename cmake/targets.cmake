@@ -4,6 +4,11 @@ function(plm_add_library name)
   plm_use_header_set(core ${name})
 endfunction()
 
+# plm_export(NAME...): other packages may link these libraries (find_package(plm_vins)).
+function(plm_export)
+  install(TARGETS ${ARGN} EXPORT plm_vinsTargets ARCHIVE DESTINATION lib)
+endfunction()
+
 # plm_add_ros_library(NAME SOURCES...): a library of a ros/ folder; only these may use ROS.
 function(plm_add_ros_library name)
   plm_add_static_library(${name} ${ARGN})
@@ -15,7 +20,8 @@ endfunction()
 # plm_add_static_library(NAME SOURCES...): the common part of both.
 function(plm_add_static_library name)
   add_library(${name} STATIC ${ARGN})
-  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                             $<INSTALL_INTERFACE:include/${PROJECT_NAME}>)
   target_include_directories(${name} SYSTEM PUBLIC ${EIGEN3_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
 endfunction()
 
@@ -32,13 +38,15 @@ endfunction()
 function(plm_add_tests program)
   cmake_parse_arguments(ARG "" "" "TESTS;LIBRARIES" ${ARGN})
   list(TRANSFORM ARG_TESTS APPEND _test.cpp OUTPUT_VARIABLE sources)
-  add_executable(${program} ${sources})
+  add_executable(${program} EXCLUDE_FROM_ALL ${sources})
+  add_dependencies(tests ${program})
   plm_use_header_set(test ${program})
   target_link_libraries(${program} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::GTest GTest::Main)
   set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   foreach(name ${ARG_TESTS})
     plm_test_suites(${name}_test.cpp suites)
-    add_test(NAME ${name}_test COMMAND ${program} --gtest_filter=${suites})
+    add_test(NAME ${name}_test COMMAND ${program} --gtest_filter=${suites}
+             --gtest_output=xml:${PLM_TEST_RESULTS}/${name}_test.xml)
   endforeach()
 endfunction()
 
@@ -56,14 +64,20 @@ endfunction()
 
 # plm_add_executable(NAME SOURCES...): a program that rosrun and roslaunch can find.
 function(plm_add_executable name)
-  add_executable(${name} ${ARGN})
-  plm_use_header_set(core ${name})
-  install(TARGETS ${name} RUNTIME DESTINATION lib/${PROJECT_NAME})
+  plm_add_program(core ${name} ${ARGN})
 endfunction()
 
 # plm_add_node(NAME SOURCES...): a ROS node that rosrun and roslaunch can find.
 function(plm_add_node name)
+  plm_add_program(ros ${name} ${ARGN})
+endfunction()
+
+# The common part of plm_add_executable and plm_add_node.
+function(plm_add_program header_set name)
   add_executable(${name} ${ARGN})
-  plm_use_header_set(ros ${name})
+  plm_use_header_set(${header_set} ${name})
   install(TARGETS ${name} RUNTIME DESTINATION lib/${PROJECT_NAME})
+  if(BUILD_TESTING)
+    add_dependencies(tests ${name})
+  endif()
 endfunction()

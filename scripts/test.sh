@@ -7,6 +7,6 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 source "$root/scripts/usage.sh"
 
 "$root/scripts/setup.sh"
-"$root/scripts/build.sh" -DBUILD_TESTING=ON
+TARGETS="all tests" "$root/scripts/build.sh" -DBUILD_TESTING=ON
 cd "$root/build"
 ctest --output-on-failure -j2 "$@"

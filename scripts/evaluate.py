@@ -14,6 +14,7 @@ import numpy as np
 from evaluation import consistency, evo_backend, metrics, mistakes, steps
 from evaluation.evo_zip import write_evo_zip
 from evaluation.run_results import read_estimate
+from evaluation.side_by_side import side_by_side
 from evaluation.trajectory import TrajectoryError, read_truth
 
 FIGURES = ("rmse", "mean", "median", "std", "min", "max")
@@ -181,6 +182,9 @@ def parse_arguments(arguments):
     parser.add_argument("--without-steps", action="store_true",
                         help=f"leave out {steps.BEFORE:g} s before and {steps.AFTER:g} s after each"
                         " step of the ground truth, where a tracker lost its target")
+    parser.add_argument("--compare", nargs="+", default=[], metavar="FILE",
+                        help="further trajectories, TUM or VINS-Mono's vins_result_no_loop.csv: a"
+                        " table of all, also over the time that all cover")
     parser.add_argument("--covariance", metavar="FILE",
                         help="covariance.csv of the run: compares errors with it")
     parser.add_argument("--nees-after", type=_seconds, default=10.0, metavar="S",
@@ -216,6 +220,10 @@ def main(arguments=None):
         if options.covariance:
             add_consistency(result, estimate, truth, options)
         print(format_report(result))
+        if options.compare:
+            estimates = {options.estimate: estimate}
+            estimates.update((file, read_estimate(file)) for file in options.compare)
+            print(side_by_side(estimates, truth, options.align, options.max_diff, options.max_gap))
         if options.json:
             with open(options.json, "w", encoding="utf-8") as file:
                 json.dump(result, file, indent=2)

@@ -143,10 +143,21 @@ def local_scale_errors(estimate, truth, seconds=5.0, every=0.5, after=10.0, leas
         extent = np.sqrt(np.mean(np.sum(from_middle[1] ** 2, axis=1)))
         if extent < least_extent:
             continue
-        u, singular_values, v_transposed = np.linalg.svd(from_middle[1].T @ from_middle[0])
-        singular_values[2] *= np.sign(np.linalg.det(u) * np.linalg.det(v_transposed))
-        errors.append(100 * (np.sum(from_middle[0] ** 2) / singular_values.sum() - 1))
+        errors.append(100 * (_scale(*from_middle) - 1))
     return np.array(errors)
+
+
+def scale(estimate, truth):
+    """How many times too large a paired trajectory is, whatever its alignment."""
+    return _scale(*(trajectory.positions - trajectory.positions.mean(axis=0)
+                    for trajectory in (estimate, truth)))
+
+
+def _scale(estimate, truth):
+    """The inverse of the scale of [Umeyama1991], of positions (n, 3) about their mean."""
+    u, singular_values, v_transposed = np.linalg.svd(truth.T @ estimate)
+    singular_values[2] *= np.sign(np.linalg.det(u) * np.linalg.det(v_transposed))
+    return np.sum(estimate ** 2) / singular_values.sum()
 
 
 def signed_yaw_errors(estimate, truth):

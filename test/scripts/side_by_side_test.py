@@ -1,0 +1,58 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""evaluate.py --compare: several estimates over the same ground truth."""
+
+import contextlib
+import io
+import os
+import tempfile
+import unittest
+
+import numpy as np
+
+from known_flight import flight, moved  # first: it names the folder
+from evaluate import main
+from evaluation import metrics
+from evaluation.trajectory import Trajectory, format_tum
+
+
+def vins_mono_csv(trajectory):
+    """As VINS-Mono writes it: stamp [ns], position, quaternion (w first), velocity, a comma."""
+    rows = [line.split() for line in format_tum(trajectory).splitlines()]
+    return "".join(f"{1e9 * float(t):.0f},{x},{y},{z},{qw},{qx},{qy},{qz},0,0,0,\n"
+                   for t, x, y, z, qx, qy, qz, qw in rows)
+
+
+class SideBySide(unittest.TestCase):
+    def test_the_scale_is_that_of_the_estimate(self):
+        truth = flight()
+        larger = Trajectory(truth.stamps, 1.03 * truth.positions + 5, truth.rotations)
+        self.assertAlmostEqual(metrics.scale(larger, truth), 1.03)
+
+    def test_files_of_others(self):
+        truth = flight()
+        late = truth.select(truth.stamps > truth.stamps[0] + 4)
+        wrong = moved(truth, 0.1 * np.sin(7 * truth.stamps)[:, np.newaxis])
+        with tempfile.TemporaryDirectory() as folder:
+            def write(name, text):
+                path = os.path.join(folder, name)
+                with open(path, "w", encoding="utf-8") as file:
+                    file.write(text)
+                return path
+
+            files = (write("ours.tum", format_tum(truth)), write("truth.tum", format_tum(truth)),
+                     write("vins_result_no_loop.csv", vins_mono_csv(late)),
+                     write("wrong.tum", format_tum(wrong)))
+            with contextlib.redirect_stdout(io.StringIO()) as output:
+                self.assertEqual(main([*files[:2], "--compare", *files[2:]]), 0)
+        rows = output.getvalue().splitlines()[-3:]
+        ours, vins, other = (row.split()[1:] for row in rows)
+        self.assertEqual(ours, ["0.0000", "100.0", "%", "0.00", "0.0000", "+0.00"])
+        self.assertEqual((vins[0], vins[3]), ("0.0000", "4.05"))
+        self.assertLess(float(vins[1]), 61)
+        self.assertGreater(float(other[0]), 0.05)
+        self.assertNotEqual(other[0], other[4])  # the common time is shorter
+
+
+if __name__ == "__main__":
+    unittest.main()

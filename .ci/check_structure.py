@@ -6,6 +6,7 @@ and links.
 Usage: check_structure.py [ROOT]. Prints one line per problem; exit code 1 if there are any.
 """
 
+import ast
 import json
 import pathlib
 import re
@@ -144,13 +145,14 @@ SPDX = "// SPDX-License-Identifier: BSD-3-Clause"
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60
 MAX_COLUMNS = 100
+OLDEST_PYTHON = (3, 8)
 
 
 def main(root):
     problems = [problem for path in code_files(root) for problem in check_code(root, path)]
     problems += [problem for path in text_files(root) for problem in check_paths(root, path)]
     problems += [problem for path in text_files(root) if path.suffix == ".py"
-                 for problem in check_columns(root, path)]
+                 for problem in (*check_columns(root, path), *check_python(root, path))]
     problems += [problem for path in text_files(root) if path.suffix == ".md"
                  for problem in check_links(root, path)]
     problems += check_circles(root)
@@ -261,6 +263,14 @@ def check_columns(root, path):
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
         if len(line) > MAX_COLUMNS:
             yield f"{path.relative_to(root)}:{number}: {len(line)} columns, at most {MAX_COLUMNS}"
+
+
+def check_python(root, path):
+    """Syntax that the Python of ROS Noetic does not know."""
+    try:
+        ast.parse(path.read_text(encoding="utf-8"), feature_version=OLDEST_PYTHON)
+    except SyntaxError as error:
+        yield f"{path.relative_to(root)}:{error.lineno}: {error.msg} (Python 3.8)"
 
 
 def check_links(root, path):

@@ -53,6 +53,10 @@ class CheckStructure(unittest.TestCase):
         self.assert_clean("scripts/a.py", "#" * 100 + "\n")
         self.assert_problem("scripts/a.py", "#" * 101 + "\n", "101 columns")
 
+    def test_python_of_noetic(self):
+        self.assert_problem("scripts/a.py", "match x:\n    case 1:\n        pass\n",
+                            "Pattern matching")
+
     def test_types_of_one_name(self):
         def header(space, definition):
             return HEADER + f"namespace {space} {{\n{definition}\n}}\n"

@@ -1,0 +1,125 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Makes a moving picture of a run: an image with its tracks, and the map from above as it grows.
+
+The run needs images with tracks (run_offline --save-track-images 0.15). Writes an animated WebP."""
+
+import argparse
+import io
+import os
+import sys
+
+import matplotlib
+import numpy as np
+from PIL import Image
+
+from evaluation.trajectory import TrajectoryError
+from pages.run_folder import RunFolder
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+
+LINE_COLOURS = {"along x": "#dc2828", "along y": "#28a028", "along z": "#325ae6", "free": "#8c8c8c"}
+SIZE_IN = (7.52, 3.6)  # of the map [inches]
+REACH = 8  # a landmark appears once the camera faces it from this near [m]
+HALF_VIEW = np.cos(np.radians(45))  # of the camera
+
+
+def parse_arguments(arguments):
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", help="the output folder of run_offline")
+    parser.add_argument("--output", metavar="FILE", help="default: run.webp in that folder")
+    parser.add_argument("--width", type=int, default=752, help="of the picture [px] (752)")
+    parser.add_argument("--quality", type=int, default=45, help="of the WebP, 1 to 100 (45)")
+    return parser.parse_args(arguments)
+
+
+def optical_axes(run):
+    """Directions of the camera's optical axis in the world (n, 3), one per pose."""
+    x, y, z, w = run.summary["calibration"]["q_B_C_xyzw"]
+    axis_B = np.array([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)])
+    return run.trajectory.rotations @ axis_B
+
+
+def first_views(places, positions, axes):
+    """Index of the first pose that has each place (n, 3) in view; of the last pose if none has."""
+    first = np.full(len(places), len(positions) - 1)
+    for index in range(len(positions) - 1, -1, -1):
+        rays = places - positions[index]
+        distances = np.linalg.norm(rays, axis=1)
+        first[(distances < REACH) & (rays @ axes[index] > HALF_VIEW * distances)] = index
+    return first
+
+
+class GrowingMap:
+    """Draws the map from above as it is known at a pose."""
+
+    def __init__(self, run):
+        self._path = run.trajectory.positions
+        axes = optical_axes(run)
+        self._points = run.points
+        self._points_from = first_views(run.points, self._path, axes)
+        self._lines = [(LINE_COLOURS[axis], ends, first_views(ends.mean(axis=1), self._path, axes))
+                       for axis, ends in run.lines.items()]
+        ahead = self._path + REACH / 2 * axes
+        self._low, self._high = (bound(np.concatenate([self._path, ahead])[:, :2], axis=0)
+                                 for bound in (np.min, np.max))
+
+    def draw(self, index, width):
+        figure = pyplot.figure(figsize=SIZE_IN, dpi=width / SIZE_IN[0])
+        axes = figure.add_axes((0, 0, 1, 1))
+        axes.set(xlim=(self._low[0], self._high[0]), ylim=(self._low[1], self._high[1]))
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.set_axis_off()
+        axes.plot(*self._points[self._points_from <= index, :2].T, ".", color="#7a8794",
+                  markersize=2.5)
+        for colour, ends, first in self._lines:
+            for start, end in ends[first <= index]:
+                axes.plot(*zip(start[:2], end[:2]), color=colour, linewidth=1.2)
+        axes.plot(*self._path[:index + 1, :2].T, color="#d0008f", linewidth=2)
+        axes.plot(*self._path[index, :2], "o", color="#d0008f", markersize=6)
+        picture = io.BytesIO()
+        figure.savefig(picture, format="png")
+        pyplot.close(figure)
+        return Image.open(picture).convert("RGB")
+
+
+def frames_of(run, width):
+    """Pictures (PIL), one per image with tracks, and the stamps of those images [s]."""
+    growing, pictures, stamps = GrowingMap(run), [], []
+    for file in run.images.values():
+        stem = os.path.splitext(os.path.basename(file))[0]
+        if not stem.isdecimal():
+            raise TrajectoryError(f"{run.path}: no tracks/STAMP.jpg; run run_offline with"
+                                  " --save-track-images 0.15")
+        stamp = 1e-9 * int(stem) + run.trajectory.shift
+        index = int(np.searchsorted(run.trajectory.stamps, stamp).clip(0, len(run.trajectory) - 1))
+        tracks = Image.open(file).convert("RGB")
+        tracks = tracks.resize((width, round(tracks.height * width / tracks.width)))
+        map_now = growing.draw(index, width)
+        picture = Image.new("RGB", (width, tracks.height + map_now.height), "white")
+        picture.paste(tracks, (0, 0))
+        picture.paste(map_now, (0, tracks.height))
+        pictures.append(picture)
+        stamps.append(stamp)
+    return pictures, stamps
+
+
+def main(arguments):
+    options = parse_arguments(arguments)
+    try:
+        pictures, stamps = frames_of(RunFolder.read(options.results), options.width)
+    except TrajectoryError as error:
+        print(f"animate_run.py: {error}", file=sys.stderr)
+        return 1
+    output = options.output or os.path.join(options.results, "run.webp")
+    interval_ms = 1000 * (stamps[-1] - stamps[0]) / max(1, len(stamps) - 1)
+    pictures[0].save(output, save_all=True, append_images=pictures[1:], duration=round(interval_ms),
+                     loop=0, quality=options.quality, method=6)
+    print(f"{output}: {len(pictures)} images, {os.path.getsize(output) / 1e6:.1f} MB")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

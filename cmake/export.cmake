@@ -1,6 +1,7 @@
-# Installs all that other packages need to link the core: headers, static libraries, and a CMake package that
-# defines plm_vins::plm_estimation_stage and so on. With ROS, catkin writes plm_vinsConfig.cmake, which
-# includes plm_vins-extras.cmake; without ROS, plm_vins-extras.cmake is the package itself.
+# Installs all that other packages need to link the core: headers, static libraries, and a CMake
+# package that defines plm_vins::plm_estimation_stage and so on. With ROS, catkin writes
+# plm_vinsConfig.cmake, which includes plm_vins-extras.cmake; without ROS, plm_vins-extras.cmake is
+# the package itself.
 include(CMakePackageConfigHelpers)
 
 set(package_folder share/${PROJECT_NAME}/cmake)

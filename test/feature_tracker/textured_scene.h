@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A plane of random texture, seen under a known homography: every pixel's way is known exactly.
+// A plane of random texture, observed through a known homography: the motion of every pixel is
+// known exactly.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,7 +18,7 @@ constexpr int kHeight = 240;
 constexpr double kFocal = 230;
 constexpr int64_t kFrame_ns = 50'000'000;
 
-// A pinhole without distortion.
+// A pinhole camera without distortion.
 inline CameraParameters TestCameraParameters() {
   CameraParameters parameters;
   parameters.width = kWidth;
@@ -37,7 +38,7 @@ inline cv::Matx33d CameraMatrix() {
   return {p.fx, 0, p.cx, 0, p.fy, p.cy, 0, 0, 1};
 }
 
-// How pixels move when the camera turns.
+// Homography of the pixels under a pure camera rotation.
 inline cv::Matx33d RotationHomography(const Eigen::Quaterniond& R_C1_C0) {
   const Eigen::Matrix3d R = R_C1_C0.toRotationMatrix();
   const cv::Matx33d R_cv(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1),
@@ -54,8 +55,8 @@ inline cv::Point2d Move(const cv::Matx33d& H, const cv::Point2d& p) {
   return {q[0] / q[2], q[1] / q[2]};
 }
 
-// The texture is drawn much finer than it is seen, so that plain interpolation of it is exact to a
-// hundredth of a pixel.
+// The texture has a higher resolution than the images, so that linear interpolation is accurate to
+// a hundredth of a pixel.
 class TexturedScene {
  public:
   explicit TexturedScene(uint64_t seed = 1)
@@ -67,7 +68,7 @@ class TexturedScene {
     cv::normalize(texture_, texture_, 0, 255, cv::NORM_MINMAX);
   }
 
-  // What the camera sees where the pixel p of the reference view has moved to H p.
+  // Returns the image in which the pixel p of the reference view is at H p.
   cv::Mat View(const cv::Matx33d& H = cv::Matx33d::eye()) const {
     const cv::Matx33d scale(1.0 / kFineness, 0, 0, 0, 1.0 / kFineness, 0, 0, 0, 1);
     cv::Mat view, gray;
@@ -78,7 +79,7 @@ class TexturedScene {
   }
 
  private:
-  static constexpr int kMargin = 200;  // the texture goes on beyond the reference view [px]
+  static constexpr int kMargin = 200;  // margin of the texture around the reference view [px]
   static constexpr int kFineness = 4;  // texture elements per pixel
   cv::Mat texture_;
 };

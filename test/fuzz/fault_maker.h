@@ -14,15 +14,15 @@
 
 namespace plm_vins::fuzz {
 
-// Draws faults of IMU and images and does them to a flight. An incident is one fault that lasts, or
-// many within a while that have nothing to do with each other.
+// Draws random faults of IMU and images and applies them to a flight. An incident is either one
+// lasting fault, or many independent ones within a period.
 class FaultMaker {
  public:
-  // `begin`: before it, as a share of the flight, nothing is touched.
+  // `begin` is the share of the flight at the start that has no faults.
   FaultMaker(double begin, std::mt19937_64* random, simulator::FeatureDataset* flight)
       : begin_(begin), random_(*random), flight_(*flight) {}
 
-  // Each order of magnitude between both is as likely.
+  // Draws a size with log-uniform distribution.
   double Size(double least, double most) { return least * std::pow(most / least, Uniform(0, 1)); }
 
   void MakeIncident() {
@@ -77,7 +77,7 @@ class FaultMaker {
         return [=](ImuSample* sample) { sample->t_ns += delay_ns; };
       case 3:
         return [=](ImuSample* sample) { sample->gyro = held.gyro, sample->accel = held.accel; };
-      default:  // as good as missing
+      default:  // equivalent to a missing sample
         return [=](ImuSample* sample) { sample->gyro[axis] = std::nan(""); };
     }
   }
@@ -91,7 +91,7 @@ class FaultMaker {
         return [](PointFrame* frame) { frame->points.clear(); };
       case 1:
         return [=](PointFrame* frame) { frame->t_ns += delay_ns; };
-      case 2:  // the first one is sent again
+      case 2:  // repeats the first image
         return [first = std::optional<PointFrame>()](PointFrame* frame) mutable {
           if (!first) first = *frame;
           frame->points = first->points;
@@ -111,8 +111,8 @@ class FaultMaker {
     }
   }
 
-  // Of one point in one image: moved, mistaken for another one (which may then be there twice),
-  // taken for a new one, or not finite.
+  // Draws a fault of one observation: moved, confused with another point (whose id may then occur
+  // twice), given a new id, or not finite.
   Fault<PointObservation> DrawViewFault() {
     const auto axis = static_cast<Eigen::Index>(Below(2));
     const double shift = SignedSize(1e-3, 0.3);
@@ -129,15 +129,15 @@ class FaultMaker {
     }
   }
 
-  static constexpr int64_t kNewIds = 1'000'000;  // beyond all of a flight
+  static constexpr int64_t kNewIds = 1'000'000;  // beyond the ids of any flight
 
   double begin_;
   std::mt19937_64& random_;
   simulator::FeatureDataset& flight_;
 };
 
-// IMU samples, images and views that differ: each is a fault, an image that lost all of its points
-// is one.
+// Counts the IMU samples, images and observations that differ; an image without any points counts
+// once.
 inline int64_t CountFaults(const simulator::FeatureDataset& good,
                            const simulator::FeatureDataset& damaged) {
   int64_t faults = 0;

@@ -16,15 +16,15 @@ using Bytes = std::vector<uint8_t>;
 inline Bytes ToBytes(const std::string& text) { return {text.begin(), text.end()}; }
 inline std::string ToText(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
 
-// Damages inputs. The same seed does the same damage.
+// Damages inputs reproducibly: equal seeds cause equal damage.
 class Mutator {
  public:
   explicit Mutator(uint64_t seed) : random_(seed) {}
 
   size_t Below(size_t limit) { return limit == 0 ? 0 : random_() % limit; }
 
-  // A few changes at random places: bits, numbers that are rarely thought of, parts left out,
-  // doubled or moved.
+  // Makes a few changes at random places: flipped bits, unusual numbers, parts removed, duplicated
+  // or moved.
   Bytes Mutate(Bytes bytes) {
     for (size_t changes = 1 + Below(8); changes > 0; --changes) Change(&bytes);
     return bytes;

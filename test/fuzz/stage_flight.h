@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The estimation stage on a simulated flight, with a bound on the time of each image.
+// Runs the estimation stage on a simulated flight, with a limit on the time for each image.
 #pragma once
 
 #include <cstdio>
@@ -26,7 +26,7 @@ inline simulator::FeatureDataset SimulateFastFlight(double seconds) {
 }
 
 inline void CheckFrame(const EstimatedFrame& frame, double milliseconds) {
-  constexpr double kMaxFrame_ms = 1000;  // of processor time, sanitizers included
+  constexpr double kMaxFrame_ms = 1000;  // CPU time, including sanitizers
   const FrameState& state = frame.output.state;
   const bool finite = state.position().allFinite() && state.velocity().allFinite() &&
                       state.rotation().coeffs().allFinite() &&
@@ -41,7 +41,7 @@ inline void CheckFrame(const EstimatedFrame& frame, double milliseconds) {
   }
 }
 
-// Duplicate ids and absurd coordinates are left out where messages are converted.
+// Removes duplicate ids and implausible coordinates, as the conversion of messages does.
 inline PointFrame Converted(PointFrame frame) {
   RemoveImpossible(&frame.points);
   return frame;

@@ -9,19 +9,19 @@
 
 namespace plm_vins::fuzz {
 
-// What takes input from outside. `run` may throw std::exception, as callers do catch that; whatever
-// else ends the program is a finding.
+// A function that processes external input. `run` may throw std::exception, which callers catch;
+// any other abnormal end is a finding.
 struct Target {
   std::string name;
-  std::vector<Bytes> seeds;  // good inputs
+  std::vector<Bytes> seeds;  // valid inputs
   std::function<void(const Bytes&)> run;
   std::function<std::string()> report = [] { return std::string("no finding"); };
 };
 
-// Says something about the input that is being run.
+// Adds a remark about the current input.
 void Note(const std::string& what);
 
-// Those of the program.
+// Returns the targets of this program.
 std::vector<Target> Targets();
 
 Target ConfigTarget();
@@ -32,7 +32,7 @@ Target DivergenceTarget();
 Target PointTrackerTarget();
 Target LineTrackerTarget();
 
-// The numbers in an input, one after the other; zeros after its end.
+// Reads consecutive numbers from an input; zeros after its end.
 class Reader {
  public:
   explicit Reader(const Bytes& bytes) : bytes_(bytes) {}

@@ -5,7 +5,7 @@
 
 namespace plm_vins {
 
-// Bars of many directions and widths all over the image, a mixture of long and short ones.
+// A scene of bars with various directions, widths and lengths, distributed over the image.
 inline LineScene BarScene(const CameraParameters& parameters) {
   LineScene scene(parameters, 110);
   cv::RNG random(3);

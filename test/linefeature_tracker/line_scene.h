@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bright and dark polygons in a plane, seen by a camera: all edges are known exactly.
+// Bright and dark polygons in a plane, observed by a camera: all edges are known exactly.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@ namespace plm_vins {
 
 constexpr int64_t kFrame_ns = 50'000'000;
 
-// A pinhole without distortion, as large as the EuRoC camera.
+// A pinhole camera without distortion and with the image size of EuRoC's.
 inline CameraParameters PlainParameters() {
   CameraParameters parameters;
   parameters.width = 752;
@@ -27,7 +27,7 @@ inline CameraParameters PlainParameters() {
   return parameters;
 }
 
-// The same with a distortion that bends straight lines by many pixels.
+// Returns PlainParameters() with a distortion that bends straight lines by many pixels.
 inline CameraParameters DistortedParameters() {
   CameraParameters parameters = PlainParameters();
   parameters.distortion = {-0.28, 0.074, 0.0002, 0.00002};
@@ -41,12 +41,12 @@ class LineScene {
 
   std::shared_ptr<const CameraModel> camera() const { return camera_; }
 
-  // Corners in normalised coordinates of the reference view.
+  // `corners` are normalized coordinates of the reference view.
   void AddPolygon(std::vector<Eigen::Vector2d> corners, int gray) {
     polygons_.push_back({std::move(corners), gray});
   }
 
-  // A bar around the segment, given in pixels of an undistorted reference view.
+  // Adds a bar around the segment, which is given in pixels of an undistorted reference view.
   void AddBar(const Eigen::Vector2d& start_px, const Eigen::Vector2d& end_px, double width_px,
               int gray) {
     const Eigen::Vector2d side = 0.5 * width_px * LineSegment{start_px, end_px}.Normal();
@@ -64,7 +64,7 @@ class LineScene {
     return {(pixel.x() - p.cx) / p.fx, (pixel.y() - p.cy) / p.fy};
   }
 
-  // All edges where the view's H has taken the normalised points.
+  // Returns all edges after the homography H of the normalized points.
   std::vector<LineSegment> Edges(const Eigen::Matrix3d& H = Eigen::Matrix3d::Identity()) const {
     std::vector<LineSegment> edges;
     for (const Polygon& polygon : polygons_) {
@@ -76,8 +76,8 @@ class LineScene {
     return edges;
   }
 
-  // The image, drawn finely and averaged (fillPoly draws polygons half a fine pixel larger, 0.06 px
-  // of the image); optionally with noise of `noise` grey levels.
+  // Renders the image by drawing at high resolution and averaging (fillPoly enlarges polygons by
+  // half a fine pixel, 0.06 px of the image), optionally with noise of `noise` grey levels.
   cv::Mat View(const Eigen::Matrix3d& H = Eigen::Matrix3d::Identity(), double noise = 0) const {
     const CameraParameters& p = camera_->parameters();
     cv::Mat fine(kFineness * p.height, kFineness * p.width, CV_8UC1, cv::Scalar(background_));
@@ -108,7 +108,7 @@ class LineScene {
 
   static constexpr int kFineness = 8;
   static constexpr int kShift = 4;           // fractional bits of drawn points
-  static constexpr int kPointsPerEdge = 24;  // edges are curved where there is distortion
+  static constexpr int kPointsPerEdge = 24;  // edges are curved under distortion
 
   std::vector<cv::Point> Outline(const Polygon& polygon, const Eigen::Matrix3d& H) const {
     std::vector<cv::Point> outline;
@@ -134,7 +134,8 @@ class LineScene {
   std::vector<Polygon> polygons_;
 };
 
-// Largest distance of the found line's ends from the infinite edge, in pixels of the image centre.
+// Largest distance of the found line's endpoints from the infinite edge, in pixels at the image
+// centre.
 inline double NormalErrorInPixels(const LineSegment& edge, const LineSegment& found, double focal) {
   return focal * std::max(std::abs(edge.Distance(found.start)), std::abs(edge.Distance(found.end)));
 }

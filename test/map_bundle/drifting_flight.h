@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight among points, as odometry that drifts sees it, with places seen again.
+// A flight past points, as observed by drifting odometry, with repeated visits.
 #pragma once
 
 #include <map>
@@ -16,20 +16,20 @@ namespace plm_vins::testing {
 
 struct DriftingFlightOptions {
   double seconds = 40;
-  int keyframes_of_visit = 10;  // each visit has tracks of its own
-  double noise = 1e-3;          // of corners (normalised)
+  int keyframes_of_visit = 10;  // tracks differ between visits
+  double noise = 1e-3;          // of corners (normalized)
   double scale = 1.02;          // of odometry
   double drift = 0.002;         // of its heading from keyframe to keyframe [rad]
-  double wrong_share = 0;       // of sightings again, that show another landmark
-  double restart = 0;  // here the clock starts anew, and so does odometry's world; 0: nowhere [s]
-  double camera_clock = 0;  // less that of the IMU [s]
-  int far_points = 0;       // beside the others, kilometres away
-  int loaded = 0;  // keyframes of a map that was loaded, with their camera elsewhere on the body
-  bool refused = false;  // the graph takes none of its loops
+  double wrong_share = 0;       // share of wrong loop observations, of another landmark
+  double restart = 0;       // time at which the clock and odometry's world restart; 0: never [s]
+  double camera_clock = 0;  // camera clock minus IMU clock [s]
+  int far_points = 0;       // additional points, kilometres away
+  int loaded = 0;           // number of keyframes of a loaded map, which has another T_B_C
+  bool refused = false;     // the graph rejects all of its loops
   uint64_t seed = 1;
 };
 
-// Keyframes are half a second apart; the first one is where the true one is.
+// Keyframes are half a second apart; the first one has its true pose.
 class DriftingFlight {
  public:
   explicit DriftingFlight(const DriftingFlightOptions& options)
@@ -52,13 +52,13 @@ class DriftingFlight {
   }
 
   const KeyframeMap& map() const { return map_; }
-  const std::map<int, RecognisedPlace>& places() const { return places_; }  // by keyframe
+  const std::map<int, RecognisedPlace>& places() const { return places_; }  // by keyframe number
   Rigid3d True(int number) const { return trajectory_.At(Seconds(number)).T_W_B; }
   Rigid3d InMap(int number) const {
     return map_.T_M_O(number).ToRigid() * map_.keyframes[number].T_O_B;
   }
 
-  // All that a run tells the bundle.
+  // Passes all data of a run to the bundle.
   void Tell(MapBundle* bundle) const {
     KeyframeMap map;
     auto sample = imu_.samples.begin();
@@ -85,7 +85,7 @@ class DriftingFlight {
 
   static double Seconds(int number) { return 1 + kInterval * number; }
 
-  // What loop closure says of a keyframe.
+  // Result of loop closure for a keyframe.
   LoopClosure LoopsOf(int number) const {
     LoopClosure closure;
     const auto place = places_.find(number);
@@ -102,7 +102,7 @@ class DriftingFlight {
     return options_.restart > 0 && t_ns >= ToNanoseconds(options_.restart);
   }
 
-  // By the clock that starts anew.
+  // Timestamp of the restarted clock.
   int64_t Told_ns(int64_t t_ns) const {
     return IsRestarted(t_ns) ? t_ns - ToNanoseconds(options_.restart) : t_ns;
   }
@@ -152,7 +152,7 @@ class DriftingFlight {
     if (!place.sightings.of_earlier.empty()) places_[node] = place;
   }
 
-  // A landmark of the visit before the last one.
+  // Adds a loop observation of the landmark from two visits before.
   void SeeAgain(int visit, size_t point, const DescribedCorner& corner, RecognisedPlace* place) {
     const int earlier_visit = visit - 2;
     if (earlier_visit < 0) return;
@@ -182,7 +182,7 @@ class DriftingFlight {
   std::map<int, RecognisedPlace> places_;
 };
 
-// Of positions, as seen from the first keyframe [m].
+// Root mean square error of positions relative to the first keyframe [m].
 template <typename PoseFunction>
 double PositionError(const DriftingFlight& flight, const PoseFunction& pose) {
   const Rigid3d T_W_M = flight.True(0) * pose(0).Inverse();

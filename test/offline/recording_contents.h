@@ -10,7 +10,7 @@
 
 namespace plm_vins::testing {
 
-// All that a recording gives.
+// All data of a recording.
 struct RecordingContents {
   std::string order;  // one letter per event: m for IMU, i for an image, x for an unreadable one
   std::vector<int64_t> stamps;

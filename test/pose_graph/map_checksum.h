@@ -6,7 +6,7 @@
 
 namespace plm_vins::testing {
 
-// That of a map file's content (FNV-1a), so that what is damaged on purpose is not refused by it.
+// Checksum of a map file's content (FNV-1a), for damaged files that pass the checksum test.
 inline uint64_t MapChecksum(const std::string& bytes) {
   uint64_t hash = 14695981039346656037ULL;
   for (const char byte : bytes) hash = (hash ^ static_cast<uint8_t>(byte)) * 1099511628211ULL;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keyframes of a camera that flies along a wall of points and lines, twice.
+// Keyframes of a camera that flies twice along a wall of points and lines.
 #pragma once
 
 #include <memory>
@@ -44,7 +44,7 @@ struct WallPoint {
   Descriptor descriptor;
 };
 
-// What there is to see, ahead along x.
+// The landmarks of the scene, ahead along x.
 struct Wall {
   explicit Wall(uint64_t seed = 1, int point_count = 150) {
     simulator::Random random(seed);
@@ -63,23 +63,23 @@ struct Wall {
 };
 
 struct VisitOptions {
-  LevelTransform T_O_W;  // odometry's error: its world O beside the true one
+  LevelTransform T_O_W;  // error of odometry: pose of the true world in O
   int world = 0;
-  int64_t first_track = 0;            // each visit has tracks of its own
-  double noise = 0.3 / kFocalLength;  // of corners (normalised)
+  int64_t first_track = 0;            // tracks differ between visits
+  double noise = 0.3 / kFocalLength;  // of corners (normalized)
   int flipped_bits = 10;              // of a descriptor
   bool with_lines = true;
   uint64_t seed = 2;
 };
 
-// The camera looks along x of the body, z up.
+// Camera that looks along x of the body, which has z up.
 inline Rigid3d LookingAhead() {
   Eigen::Matrix3d R_B_C;
   R_B_C << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   return {Eigen::Quaterniond(R_B_C), {0.1, 0, 0.05}};
 }
 
-// The keyframe that a camera at T_W_B makes of the wall.
+// Returns the keyframe of the wall from T_W_B.
 inline Keyframe Visit(const Wall& wall, const CameraModel& camera, const Rigid3d& T_W_B,
                       int64_t t_ns, const VisitOptions& options) {
   simulator::Random random(options.seed + static_cast<uint64_t>(t_ns));

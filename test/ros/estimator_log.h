@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the estimator's node said.
+// Records the output of the estimator's node.
 #pragma once
 
 #include <diagnostic_msgs/DiagnosticArray.h>
@@ -13,7 +13,7 @@
 
 namespace plm_vins::testing {
 
-// Turns ROS until the condition holds. False: it did not within `seconds` of wall time.
+// Processes ROS callbacks until the condition holds. Returns false after `seconds` of wall time.
 inline bool SpinUntil(double seconds, const std::function<bool()>& condition) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
   while (ros::ok() && ros::WallTime::now() < end) {
@@ -28,7 +28,7 @@ class EstimatorLog {
  public:
   std::vector<nav_msgs::Odometry> odometry;
 
-  // The last status: its values by key, its text as "message".
+  // The last status: its values by key, and its text as "message".
   std::string Value(const std::string& key) const {
     const auto value = status_.find(key);
     return value == status_.end() ? "" : value->second;
@@ -38,13 +38,14 @@ class EstimatorLog {
     return value.empty() ? -1 : std::stoll(value);
   }
 
-  // Turns ROS until the next status comes.
+  // Waits for the next status.
   bool NextStatus() {
     const int seen = statuses_;
     return SpinUntil(20, [&] { return statuses_ > seen; });
   }
 
-  // Turns ROS until the estimator has done with all that was published: the counts stand still.
+  // Waits until the estimator has processed all published messages: until the counts no longer
+  // change.
   bool WaitUntilDone() {
     int64_t before = -1;
     do {
@@ -54,7 +55,7 @@ class EstimatorLog {
     return true;
   }
 
-  // Turns ROS until a status satisfies the condition.
+  // Waits for a status that satisfies the condition.
   bool WaitForStatus(double seconds, const std::function<bool(const EstimatorLog&)>& condition) {
     return SpinUntil(seconds, [&] { return statuses_ > 0 && condition(*this); });
   }

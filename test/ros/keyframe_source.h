@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An estimator and a camera, as far as the pose graph sees them.
+// Publishers in place of an estimator and a camera, for tests of the pose graph.
 #pragma once
 
 #include <nav_msgs/Odometry.h>
@@ -19,7 +19,7 @@
 
 namespace plm_vins::testing {
 
-// That of the configuration for EuRoC.
+// A camera as in the configuration for EuRoC.
 class Camera {
  public:
   explicit Camera(const std::string& transport) {
@@ -53,7 +53,7 @@ class Camera {
     publisher_.publish(message);
   }
 
-  // Of an encoding that is no brightness.
+  // Publishes an image with an encoding that cannot be converted to grey.
   void PublishDepth(const ros::Time& stamp) const {
     sensor_msgs::Image message;
     message.header.stamp = stamp;
@@ -69,8 +69,8 @@ class Camera {
   ros::Publisher publisher_;
 };
 
-// Keyframes 0.5 m and 0.5 s apart, by their number. Each object is a publisher of its own, as an
-// estimator is that was started again.
+// Publishes keyframes 0.5 m and 0.5 s apart, by number. Each object is a separate publisher, like a
+// restarted estimator.
 class KeyframeSource {
  public:
   explicit KeyframeSource(const std::string& name_space)
@@ -123,7 +123,7 @@ class KeyframeSource {
     restart_.publish(message);
   }
 
-  // With its image.
+  // Publishes a keyframe with its image.
   void Publish(int number, const Camera& camera, const cv::Mat& gray) const {
     camera.Publish(Stamp(number), gray);
     PublishLines(number);

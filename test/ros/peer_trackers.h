@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The trackers of VINS-Mono and PL-VINS, as far as their messages go, on a simulated flight.
+// Publishes messages in the formats of VINS-Mono's and PL-VINS' trackers on a simulated flight.
 #pragma once
 
 #include <ros/ros.h>
@@ -16,7 +16,7 @@
 
 namespace plm_vins::testing {
 
-// What is published of one image: point and line frames by their number, in this order.
+// Messages for one image: point and line frames by number, in this order.
 struct ImageMessages {
   enum class Kind { kPoints, kLines };
   struct Message {
@@ -24,8 +24,8 @@ struct ImageMessages {
     size_t image;
   };
   std::vector<Message> messages;
-  bool with_imu = true;         // the samples up to this image
-  bool with_features = true;    // false: nothing is seen
+  bool with_imu = true;         // publish the samples up to this image
+  bool with_features = true;    // false: no features are observed
   bool with_velocities = true;  // false: as from the point tracker of PL-VINS
 };
 
@@ -35,7 +35,7 @@ class PeerTrackers {
 
   size_t images() const { return flight_.points.size(); }
 
-  // Until the estimator listens to all topics.
+  // Waits until the estimator has subscribed to all topics.
   void WaitForEstimator() const {
     while (ros::ok() && (imu_.getNumSubscribers() == 0 || points_.getNumSubscribers() == 0 ||
                          lines_.getNumSubscribers() == 0 || restart_.getNumSubscribers() == 0)) {
@@ -49,8 +49,8 @@ class PeerTrackers {
     restart_.publish(restart);
   }
 
-  // The images from `begin` to before `end`, each `period` [s] of wall time after the one before at
-  // a ~rate of 1; lower, for an estimator that cannot keep up.
+  // Publishes the images from `begin` to before `end` at intervals of `period` [s] of wall time,
+  // divided by the parameter ~rate, for slow estimators.
   void Play(size_t begin, size_t end, double period,
             const std::function<ImageMessages(size_t)>& messages_of) const {
     for (size_t i = begin; i < end && ros::ok(); ++i) {
@@ -62,7 +62,7 @@ class PeerTrackers {
     }
   }
 
-  // Channels without names: id, u, v, velocity x, velocity y; ids of the only camera of one.
+  // Unnamed channels: id, u, v, velocity x, velocity y; ids as with a single camera.
   static sensor_msgs::PointCloud ToVinsMono(const PointFrame& frame) {
     sensor_msgs::PointCloud cloud = EmptyCloud(frame.t_ns, 5);
     for (const PointObservation& point : frame.points) {
@@ -75,7 +75,7 @@ class PeerTrackers {
     return cloud;
   }
 
-  // Points are where lines start; channels without names: id, x and y of the end.
+  // Points are the starts of lines; unnamed channels: id, x and y of the end.
   static sensor_msgs::PointCloud ToPlVins(const LineFrame& frame) {
     sensor_msgs::PointCloud cloud = EmptyCloud(frame.t_ns, 3);
     for (const LineObservation& line : frame.lines) {
@@ -121,7 +121,7 @@ class PeerTrackers {
     for (size_t i = 0; i < values.size(); ++i) cloud->channels[i].values.push_back(values[i]);
   }
 
-  // The samples between the image before and the first one that is not before this image.
+  // Publishes the samples from the previous image up to this one.
   void PublishImu(size_t image) const {
     const int64_t begin = image == 0 ? 0 : flight_.points[image - 1].t_ns;
     for (size_t i = 0; i < flight_.imu.size(); ++i) {

@@ -14,7 +14,7 @@
 
 namespace plm_vins::testing {
 
-// One parameter block: 7 numbers are a pose, 5 a line, all others a vector space.
+// One parameter block: size 7 is a pose, 5 a line, all others a vector space.
 using Block = Eigen::VectorXd;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -42,7 +42,7 @@ inline std::vector<const double*> Pointers(const std::vector<Block>& blocks) {
   return pointers;
 }
 
-// `Cost`: a Factor or a ceres::CostFunction.
+// `Cost` is a Factor or a ceres::CostFunction.
 template <typename Cost>
 Eigen::VectorXd Residual(const Cost& cost, const std::vector<Block>& blocks) {
   Eigen::VectorXd residual(cost.num_residuals());
@@ -50,8 +50,8 @@ Eigen::VectorXd Residual(const Cost& cost, const std::vector<Block>& blocks) {
   return residual;
 }
 
-// Every Jacobian of `cost`, asked for together and alone, is the derivative through Plus, padded
-// with zeros. `tolerance` is per entry.
+// Expects that every Jacobian of `cost`, evaluated together and separately, is the derivative
+// through Plus, padded with zeros. `tolerance` is per entry.
 template <typename Cost>
 void ExpectTangentJacobians(const Cost& cost, const std::vector<Block>& blocks, double tolerance,
                             double step = 1e-6) {

@@ -6,7 +6,7 @@
 
 namespace plm_vins::testing {
 
-// The message of the exception that `function` throws; empty where it throws none.
+// Returns the message of the exception that `function` throws; empty if it does not throw.
 template <typename Function>
 std::string MessageOf(const Function& function) {
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numeric derivatives for tests of analytic Jacobians, and the comparison of matrices.
+// Numeric derivatives for tests of analytic Jacobians, and comparison of matrices.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Eigen::MatrixXd NumericJacobian(const Function& function, const Point& x, int ta
   return jacobian;
 }
 
-// The same for a function of a vector.
+// Central differences for a function of a vector.
 template <typename Function, int kSize>
 Eigen::MatrixXd NumericJacobian(const Function& function, const Eigen::Matrix<double, kSize, 1>& x,
                                 double step = 1e-6) {
@@ -36,7 +36,7 @@ Eigen::MatrixXd NumericJacobian(const Function& function, const Eigen::Matrix<do
   return NumericJacobian(function, x, static_cast<int>(x.size()), plus, step);
 }
 
-// Equal sizes and every entry within `tolerance`; NaN is never near.
+// Succeeds if sizes are equal and all entries agree within `tolerance`; NaN never does.
 inline ::testing::AssertionResult MatrixNear(const char* actual_text, const char* expected_text,
                                              const char* /*tolerance_text*/,
                                              const Eigen::MatrixXd& actual,

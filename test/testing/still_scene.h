@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a rig that stands still delivers: always the same picture, gravity and no rotation.
+// Sensor data at standstill: constant images, gravity and no rotation.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -22,7 +22,7 @@ inline Config StillConfig() {
   return config;
 }
 
-// Blobs with corners everywhere.
+// A picture of random blobs with many corners.
 inline cv::Mat StillPicture(cv::Size size = {320, 240}) {
   cv::Mat noise(size.height / 8, size.width / 8, CV_8UC1);
   cv::RNG generator(1);

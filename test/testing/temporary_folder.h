@@ -10,7 +10,7 @@
 
 namespace plm_vins::testing {
 
-// An empty folder of the running test's own, gone with the object.
+// An empty folder for the running test, deleted with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -27,7 +27,7 @@ class TemporaryFolder {
   std::string path() const { return path_.string(); }
   std::string File(const std::string& name) const { return (path_ / name).string(); }
 
-  // Writes a file, with the folders it is in.
+  // Writes a file and creates its folder.
   void Write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name) << text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The estimator on simulated flights, and how good it is there.
+// Runs the estimator on simulated flights and measures its errors.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -23,9 +23,9 @@ inline Config ConfigFor(const SimulatedFlight& flight) {
 }
 
 struct EstimatedFlight {
-  std::vector<EstimatorOutput> outputs;  // of images with a pose
-  std::vector<FrameState> truth;         // of the same images
-  FrameState anchor, true_anchor;        // oldest state of the first window, which fixes the world
+  std::vector<EstimatorOutput> outputs;  // for images with a pose
+  std::vector<FrameState> truth;         // for the same images
+  FrameState anchor, true_anchor;        // oldest state of the first window
   std::vector<std::string> restarts;     // their reasons
   double path = 0;                       // length of the true path [m]
 };
@@ -56,7 +56,7 @@ inline EstimatedFlight Estimate(const SimulatedFlight& flight) {
   return Estimate(flight, &estimator);
 }
 
-// Root mean square distance of the positions after the best rigid alignment of `flight` [m].
+// Root mean square distance of the positions after rigid alignment [m].
 inline double AbsoluteError(const EstimatedFlight& flight) {
   const Eigen::Index count = static_cast<Eigen::Index>(flight.truth.size());
   Eigen::Matrix3Xd estimate(3, count), truth(3, count);
@@ -69,7 +69,7 @@ inline double AbsoluteError(const EstimatedFlight& flight) {
   return std::sqrt((aligned - truth).squaredNorm() / static_cast<double>(count));
 }
 
-// The pose that moves the estimate's world onto the true one, by position and heading of one state.
+// Transform of the estimate's world to the true one that aligns position and heading of one state.
 inline Rigid3d AlignHeading(const FrameState& estimate, const FrameState& truth) {
   const Eigen::Matrix3d difference =
       (truth.rotation() * estimate.rotation().conjugate()).toRotationMatrix();
@@ -79,14 +79,14 @@ inline Rigid3d AlignHeading(const FrameState& estimate, const FrameState& truth)
   return {R, truth.position() - R * estimate.position()};
 }
 
-// Distance of an estimated position from the truth, aligned at another image [m].
+// Position error of an image after alignment at another image [m].
 inline double ErrorAt(const EstimatedFlight& flight, size_t aligned_at, size_t index) {
   const Rigid3d T = AlignHeading(flight.outputs[aligned_at].state, flight.truth[aligned_at]);
   const Eigen::Vector3d p = T * Eigen::Vector3d(flight.outputs[index].state.position());
   return (p - flight.truth[index].position()).norm();
 }
 
-// The greatest one from there on [m].
+// Largest position error from the alignment on [m].
 inline double GreatestError(const EstimatedFlight& flight, size_t aligned_at) {
   double greatest = 0;
   for (size_t i = aligned_at; i < flight.truth.size(); ++i) {
@@ -95,8 +95,7 @@ inline double GreatestError(const EstimatedFlight& flight, size_t aligned_at) {
   return greatest;
 }
 
-// Normalised squared errors: with the right covariances, 6 for the pose, 3 for the velocity and 6
-// for the biases in the mean.
+// NEES of pose, velocity and biases: on average 6, 3 and 6 with consistent covariances.
 struct Consistency {
   double pose = 0, velocity = 0, biases = 0;
 };
@@ -118,7 +117,7 @@ inline Consistency MeasureConsistencyAt(const EstimatedFlight& flight, size_t in
           biases.dot(output.bias_covariance.ldlt().solve(biases))};
 }
 
-// The means over a flight.
+// Means over a flight.
 inline Consistency MeasureConsistency(const EstimatedFlight& flight) {
   Consistency mean;
   const double share = 1.0 / static_cast<double>(flight.truth.size());

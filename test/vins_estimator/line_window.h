@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames of known pose and the lines that they see, for the tests of merging and recognition.
+// Frames with known poses and the lines observed in them, for tests of merging and recognition.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ constexpr double kFocalLength = 460.0;
 constexpr double kNoise = 1.0 / kFocalLength;
 constexpr size_t kWindowSize = 10;
 
-// Frames of known pose, and the lines that they see, as the estimator would have them.
+// Builds a local map of frames with known poses, as the estimator would.
 class LineWindow {
  public:
   static SameLineLimits Limits() {
@@ -39,7 +39,7 @@ class LineWindow {
     return structure_.Unite(&map_);
   }
 
-  // As the estimator does: drops the frame before the newest, or else the oldest.
+  // Slides the window as the estimator does: drops the second newest frame or the oldest.
   void Slide(bool keep_second_newest, size_t size) {
     if (!keep_second_newest && map_.window.frames.size() > 1) {
       map_.DropSecondNewest();
@@ -60,7 +60,7 @@ class LineWindow {
     map_.SlideOldest(stays);
   }
 
-  // Stands for the optimisation.
+  // Replaces the optimization.
   void Refit() {
     for (auto& [id, landmark] : map_.lines.landmarks()) {
       if (!landmark.triangulated || landmark.views.size() < 3) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flights along given poses in a room of points, where those of the simulator do not go.
+// Flights along given poses in a room of points, which the simulator's trajectories do not cover.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -22,21 +22,21 @@
 namespace plm_vins::testing {
 
 struct FlightPlan {
-  std::function<Rigid3d(double t)> T_W_V;  // of the vehicle, x forward, z up; smooth
+  std::function<Rigid3d(double t)> T_W_V;  // vehicle pose, x forward, z up; smooth
   double duration = 10;                    // [s]
-  Eigen::Vector3d room{10, 8, 4};          // size [m], the floor's centre at the origin
+  Eigen::Vector3d room{10, 8, 4};          // size [m], with the floor's centre at the origin
   double corner_noise_px = 0.15;
-  double imu_noise = 1;  // times what is configured
+  double imu_noise = 1;  // factor of the configured noise
 };
 
-// From 0 to 1 between two times, with smooth velocity and acceleration.
+// Rises from 0 to 1 between two times, with continuous velocity and acceleration.
 inline double SmoothStep(double t, double begin, double end) {
   const double u = std::clamp((t - begin) / (end - begin), 0.0, 1.0);
   return u * u * u * (10 + u * (-15 + 6 * u));
 }
 
-// A metre to and fro on all axes from one time to another, two seconds of which it sets out and
-// comes back in; at rest before and after.
+// Oscillation by about a metre on all axes between two times, with a smooth start and end of two
+// seconds each; standstill before and after.
 inline Rigid3d GentleFlight(double t, double begin, double end) {
   const double share = SmoothStep(t, begin, begin + 2) * (1 - SmoothStep(t, end - 2, end));
   const double s = t - begin;
@@ -47,7 +47,7 @@ inline Rigid3d GentleFlight(double t, double begin, double end) {
   return {R_W_V, Eigen::Vector3d(0, 0, 1.5) + share * p_W};
 }
 
-// Images at 20 Hz, the IMU at 200 Hz.
+// Simulates images at 20 Hz and the IMU at 200 Hz.
 class PlannedFlight {
  public:
   explicit PlannedFlight(const FlightPlan& plan)
@@ -103,7 +103,7 @@ class PlannedFlight {
     return state;
   }
 
-  // The same, whenever it is asked for.
+  // Cached, so that repeated calls return the same noise.
   ImuSample SampleAt(int index) {
     const auto known = samples_.find(index);
     if (known != samples_.end()) return known->second;
@@ -128,7 +128,7 @@ class PlannedFlight {
     return uv_px;
   }
 
-  // Points that are followed come first; those that left the image come back as others.
+  // Tracked points come first; points that left the image get new ids.
   PointFrame PointsAt(double t, int64_t t_ns) {
     const Rigid3d T_C_W = (BodyAt(t) * sensor_.T_B_C).Inverse();
     PointFrame frame;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The least-squares problem of a simulated window, for the tests of solving and marginalising.
+// The least-squares problem of a simulated window, for tests of solving and marginalization.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace plm_vins::testing {
 
-// All that is in the window, and the prior.
+// Adds the prior, motion and all landmarks of the window.
 inline void AddAll(SimulatedWindow* simulated, ProblemBuilder* builder) {
   builder->AddPrior();
   for (size_t i = 1; i < simulated->window.frames.size(); ++i) builder->AddMotion(i);
@@ -22,7 +22,7 @@ inline void AddAll(SimulatedWindow* simulated, ProblemBuilder* builder) {
   }
 }
 
-// The values of all variables, in their order.
+// Copies the values of all variables, in their order.
 inline std::vector<double> CopyValues(const WindowProblem& problem) {
   std::vector<double> values;
   for (const Variable& variable : problem.variables()) {

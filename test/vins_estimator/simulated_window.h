@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sliding window in mid-flight with known truth, for the tests of optimisation and
-// marginalisation.
+// A sliding window in mid-flight with known ground truth, for tests of optimization and
+// marginalization.
 #pragma once
 
 #include <memory>
@@ -25,10 +25,10 @@ inline ProblemOptions OnePixelOptions() {
   return {config, kSimulatedFocalLength};
 }
 
-// At the truth; landmarks are triangulated there.
+// The states are the true ones; landmarks are triangulated from them.
 using SimulatedWindow = LocalMap;
 
-// `frame_count` keyframes of a flight, `stride` images of 20 Hz apart.
+// Returns `frame_count` keyframes of a flight, `stride` images (at 20 Hz) apart.
 inline SimulatedWindow SimulateWindow(simulator::FeatureSimulationOptions options,
                                       size_t frame_count, size_t stride) {
   options.trajectory.duration = 3.5 + static_cast<double>(frame_count * stride) / 20.0;
@@ -57,7 +57,7 @@ inline SimulatedWindow SimulateWindow(simulator::FeatureSimulationOptions option
   return result;
 }
 
-// The same of a fast flight, in which up to `max_points` corners are followed.
+// Simulates a fast flight with up to `max_points` tracked corners.
 inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, size_t stride = 5,
                                       int max_points = 25) {
   simulator::FeatureSimulationOptions options = FlightOptions(simulator::Motion::kFast, seed);
@@ -65,7 +65,8 @@ inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, siz
   return SimulateWindow(options, frame_count, stride);
 }
 
-// With an IMU as noisy as propellers make it, which corners of any window tell.
+// Simulates strong IMU noise as from propellers, which is observable from the corners of any
+// window.
 inline SimulatedWindow SimulateShakenWindow(uint64_t seed) {
   simulator::FeatureSimulationOptions options = FlightOptions(simulator::Motion::kFast, seed);
   options.max_points = 80;
@@ -74,7 +75,7 @@ inline SimulatedWindow SimulateShakenWindow(uint64_t seed) {
   return SimulateWindow(options, 7, 5);
 }
 
-// Lets all intervals take the variance of the IMU's noise for another.
+// Scales the IMU noise variance that all intervals assume.
 inline void ScaleAssumedNoise(double variance_scale, SlidingWindow* window) {
   for (WindowFrame& frame : window->frames) {
     const auto& motion = frame.motion_since_previous;
@@ -88,7 +89,7 @@ inline Eigen::VectorXd NormalVector(Eigen::Index size, simulator::Random* random
   return result;
 }
 
-// Moves the state by normal noise: [m], [rad], [m/s] times `scale`; biases by a tenth of it.
+// Adds normal noise to the state: [m], [rad], [m/s] times `scale`; a tenth of it to the biases.
 inline void Disturb(double scale, simulator::Random* random, FrameState* state) {
   const Eigen::VectorXd delta = scale * NormalVector(6, random);
   PosePlus(state->pose.data(), delta.data(), state->pose.data());

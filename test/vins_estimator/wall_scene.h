@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A camera that passes a wall with lines, for the tests of merging and recognition.
+// A camera that passes a wall with lines, for tests of merging and recognition.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace plm_vins::testing {
 
-// A wall five metres ahead of a camera that moves sideways and up. Lines lie on the wall, in metres
-// right and down from the point ahead.
+// Line on a wall five metres ahead of a camera that moves sideways and up, in metres right and down
+// from the point ahead.
 struct WallLine {
   int64_t id;
   Eigen::Vector2d start, end;
-  int first_frame = 0, last_frame = 100;  // that show it
+  int first_frame = 0, last_frame = 100;  // frames that observe it
   bool wanders = false;
 };
 

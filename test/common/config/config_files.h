@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Configuration files in the manner of VINS-Mono and PL-VINS, with the keys that those have.
+// Configuration files in the style of VINS-Mono and PL-VINS, with their keys.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 namespace plm_vins {
 
-// The file with one of its texts replaced.
+// Returns the file with one text replaced.
 inline std::string Replaced(std::string text, const std::string& from, const std::string& to) {
   const size_t position = text.find(from);
   EXPECT_NE(position, std::string::npos) << from;
@@ -148,7 +148,7 @@ min_loop_num: 25
 
 )";
 
-// The least that a file must say.
+// A minimal valid configuration.
 inline constexpr const char* kShortFile = R"(%YAML:1.0
 image_topic: "/image"
 imu_topic: "/imu"

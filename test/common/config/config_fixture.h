@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Configurations from texts, and what is wrong with them.
+// Loads configurations from texts and checks their problems.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -47,7 +47,8 @@ class ConfigTest : public ::testing::Test {
     return {};
   }
 
-  // The short file with `more` lines has exactly one problem, which says all of `words`.
+  // Expects that the short file with `more` lines has exactly one problem, which contains all
+  // `words`.
   void ExpectProblem(const std::string& more, const std::vector<std::string>& words) const {
     ExpectOneProblem(ProblemsOf(Write(kShortFile + more + "\n")), words);
   }

@@ -15,7 +15,7 @@ namespace plm_vins::testing {
 inline constexpr int64_t kStart = 1403636579763555584;
 inline constexpr int64_t kMillisecond = 1'000'000;
 
-// A recording in memory: the same picture all the time, or none (unreadable).
+// A recording in memory with constant images, or unreadable ones.
 class MemoryRecording : public Recording {
  public:
   void AddImage(int64_t milliseconds, const cv::Mat& picture = StillPicture()) {
@@ -27,7 +27,7 @@ class MemoryRecording : public Recording {
     const ImuSample sample = StillImu(kStart + milliseconds * kMillisecond);
     events_.push_back({RecordingEvent::Kind::kImu, sample.t_ns, sample});
   }
-  void Fail() { failing_ = true; }  // at the end, as a disk does
+  void Fail() { failing_ = true; }  // throws at the end, as on a disk failure
   std::vector<RecordingEvent>& events() { return events_; }
 
   std::optional<RecordingEvent> Next() override {
@@ -46,12 +46,12 @@ class MemoryRecording : public Recording {
 
  private:
   std::vector<RecordingEvent> events_;
-  std::map<size_t, cv::Mat> pictures_;  // by the number of events up to and with the image
+  std::map<size_t, cv::Mat> pictures_;  // by the number of events up to and including the image
   size_t next_ = 0;
   bool failing_ = false;
 };
 
-// IMU at 200 Hz, images at 20 Hz.
+// IMU samples at 200 Hz, images at 20 Hz.
 inline MemoryRecording StillRecording(int milliseconds) {
   MemoryRecording recording;
   for (int t = 0; t <= milliseconds; t += 5) {

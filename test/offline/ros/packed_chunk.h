@@ -10,11 +10,11 @@
 
 namespace plm_vins::testing {
 
-// A bag of one chunk in its parts, so that what is in the chunk can be damaged before it is packed:
-// its checksums are then right.
+// A bag with a single chunk, split into parts, so that the chunk's content can be damaged before it
+// is packed with correct checksums.
 class BagWithOneChunk {
  public:
-  // `bag`: as rosbag writes it, not compressed.
+  // `bag` is an uncompressed bag written by rosbag.
   explicit BagWithOneChunk(const std::string& bag) {
     const size_t signature = bag.find('\n') + 1;
     const size_t head_data = signature + 4 + SizeAt(bag, signature);
@@ -26,7 +26,7 @@ class BagWithOneChunk {
     index_ = bag.substr(end);
   }
 
-  // The bag with its content packed; `compression`: "bz2" or "lz4".
+  // Returns the bag with its content packed; `compression` is "bz2" or "lz4".
   std::string Packed(const std::string& compression) const {
     const std::string packed = compression == "bz2" ? Bz2() : Lz4();
     const std::string header = Field("op", "\x05") + Field("compression", compression) +
@@ -58,7 +58,7 @@ class BagWithOneChunk {
     return Sized(name + "=" + value);
   }
 
-  // How long the lists of messages are, which end with the first connection.
+  // Length of the index records, which end at the first connection record.
   size_t IndexLists() const {
     size_t at = 0;
     while (at < index_.size()) {

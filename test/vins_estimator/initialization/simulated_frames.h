@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Simulated flights as the estimator receives them, for the tests of initialisation.
+// Simulated flights as input of the estimator, for tests of initialization.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,16 +14,16 @@ namespace plm_vins::testing {
 struct SimulatedFlight {
   SensorConfig sensor;
   std::vector<FrameMeasurement> frames;
-  std::vector<FrameState> truth;  // one per frame
+  std::vector<FrameState> truth;  // one for each frame
 };
 
-// As a point tracker alone would deliver it.
+// Removes the lines, as with a point tracker only.
 inline SimulatedFlight WithoutLines(SimulatedFlight flight) {
   for (FrameMeasurement& frame : flight.frames) frame.lines.reset();
   return flight;
 }
 
-// What the stage makes of a simulation, from `skip` seconds after the start on.
+// Converts a simulation to estimator input, from `skip` seconds after the start on.
 inline SimulatedFlight ToFlight(const simulator::FeatureDataset& data, const SensorConfig& sensor,
                                 double skip = 0) {
   MeasurementSync::Options sync_options;
@@ -45,13 +45,13 @@ inline SimulatedFlight ToFlight(const simulator::FeatureDataset& data, const Sen
   return flight;
 }
 
-// From `skip` seconds after the start on, so that a flight can begin in motion.
+// Simulates a flight from `skip` seconds after the start on, so that it can begin in motion.
 inline SimulatedFlight SimulateFlight(const simulator::FeatureSimulationOptions& options,
                                       double skip = 0) {
   return ToFlight(simulator::SimulateFeatures(options), options.sensors, skip);
 }
 
-// A flight with EuRoC-like biases and no rest.
+// A flight with biases similar to EuRoC's and without standstill.
 inline simulator::FeatureSimulationOptions FlightOptions(simulator::Motion motion, uint64_t seed) {
   simulator::FeatureSimulationOptions options;
   options.trajectory.motion = motion;
@@ -79,13 +79,13 @@ inline double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// Angle between the directions of gravity that two states see in the body [rad].
+// Angle between the gravity directions of two states in the body frame [rad].
 inline double GravityError(const FrameState& a, const FrameState& b) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
   return AngleBetween(a.rotation().conjugate() * z, b.rotation().conjugate() * z);
 }
 
-// Difference of the velocities in the body frame, which does not depend on the heading [m/s].
+// Difference of the velocities in the body frame, which is independent of the heading [m/s].
 inline double VelocityError(const FrameState& a, const FrameState& b) {
   const Eigen::Vector3d v_a = a.rotation().conjugate() * a.velocity();
   const Eigen::Vector3d v_b = b.rotation().conjugate() * b.velocity();

@@ -11,7 +11,7 @@ namespace plm_vins::testing {
 
 constexpr int64_t kMs = 1'000'000;
 
-// A sample whose values are linear in time, so that interpolated ones are known.
+// A sample whose values are linear in time, so that interpolated values are known.
 inline ImuSample Sample(int64_t t_ns) {
   const double t = ToSeconds(t_ns);
   return {t_ns, {t, 2 * t, 3 * t}, {-t, 9.81, 5 * t}};
@@ -31,7 +31,7 @@ inline LineFrame Lines(int64_t t_ns) {
   return frame;
 }
 
-// Adds samples every 5 ms over [begin, end] (ms).
+// Adds samples at intervals of 5 ms in [begin, end] (ms).
 inline void AddImu(MeasurementSync* sync, int64_t begin_ms, int64_t end_ms) {
   for (int64_t t = begin_ms; t <= end_ms; t += 5) sync->AddImu(Sample(t * kMs));
 }

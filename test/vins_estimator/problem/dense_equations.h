@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Gauss-Newton equations of a WindowProblem by brute force: all Jacobians stacked into one
-// dense matrix.
+// The Gauss-Newton equations of a WindowProblem from all Jacobians stacked in one dense matrix.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +19,7 @@ struct DenseEquations {
   Eigen::MatrixXd H;
   Eigen::VectorXd b;
   double cost = 0;
-  std::vector<int> offset;  // first column by variable; -1 for constants
+  std::vector<int> offset;  // first column of each variable; -1 for constants
 };
 
 class DenseEquationsBuilder {
@@ -85,7 +84,7 @@ class DenseEquationsBuilder {
     equations_.b += rho[1] * J.transpose() * r;
   }
 
-  // 0.5 delta^T H delta + b^T delta by the selection matrix of its variables.
+  // Adds 0.5 delta^T H delta + b^T delta through the selection matrix of its variables.
   void AddPrior(const MarginalizationPrior& prior) {
     const Quadratic& quadratic = prior.quadratic();
     Eigen::VectorXd delta(quadratic.b.size());
@@ -113,7 +112,8 @@ inline DenseEquations BuildDenseEquations(const WindowProblem& problem,
   return DenseEquationsBuilder(problem, columns).Build();
 }
 
-// Scales that give H a unit diagonal: metres, radians and biases differ by orders of magnitude.
+// Scale factors that give H a unit diagonal, since metres, radians and biases differ by orders of
+// magnitude.
 inline Eigen::VectorXd UnitDiagonalScale(const Eigen::MatrixXd& H) {
   return H.diagonal().cwiseSqrt().cwiseInverse();
 }
@@ -122,7 +122,7 @@ inline Eigen::MatrixXd ScaleBothSides(const Eigen::MatrixXd& H, const Eigen::Vec
   return scale.asDiagonal() * H * scale.asDiagonal();
 }
 
-// Solves H x = right.
+// Solves H x = right with scaling.
 inline Eigen::MatrixXd SolveScaled(const Eigen::MatrixXd& H, const Eigen::MatrixXd& right) {
   const Eigen::VectorXd scale = UnitDiagonalScale(H);
   return scale.asDiagonal() *

@@ -15,8 +15,8 @@
 
 namespace plm_vins::testing {
 
-// Whether `other` ends while `save` waits for a disk to take a ReplacedFile, for which there is a
-// full pipe until then.
+// Returns whether `other` finishes while `save` is blocked by a slow disk, simulated by a full pipe
+// in place of the file.
 inline bool EndsWhileSaving(const std::string& file, const std::function<void()>& save,
                             const std::function<void()>& other) {
   using std::chrono::milliseconds;
@@ -27,7 +27,7 @@ inline bool EndsWhileSaving(const std::string& file, const std::function<void()>
   while (::write(pipe, block.data(), block.size()) > 0) {
   }
   const auto saving = std::async(std::launch::async, save);
-  std::this_thread::sleep_for(milliseconds(50));  // until it waits
+  std::this_thread::sleep_for(milliseconds(50));  // until it blocks
   const auto beside = std::async(std::launch::async, other);
   const bool ends = beside.wait_for(milliseconds(2000)) == std::future_status::ready;
   while (saving.wait_for(milliseconds(1)) != std::future_status::ready) {

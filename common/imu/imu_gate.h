@@ -11,8 +11,8 @@
 namespace plm_vins {
 
 // Replaces outlier readings of the IMU (a flipped bit on the bus, a shock) by linear interpolation
-// between their neighbours. The doubt of the replacement equals the removed difference, since a
-// shock may have moved the body after all.
+// between their neighbours. The doubt of the replacement (an additional standard deviation) equals
+// the removed difference, since a shock may have moved the body after all.
 //
 // A reading is suspect if it exceeds the sensor's range, or differs from the last one by much more
 // than previous readings did. A suspect waits for the next readings: if these return to the

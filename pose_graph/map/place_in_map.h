@@ -10,9 +10,10 @@
 
 namespace plm_vins {
 
-// Tracks the covariances of keyframe poses in the map M, or in the frame of their own part until a
-// loop connects it with M. Odometry continues from an anchor: the first keyframe of its world, or
-// the last one whose pose a loop has improved. A loaded part of M is exact by definition.
+// Tracks the covariances of keyframe poses in the map M, or in the frame of their own part (a
+// connected component of the pose graph) until a loop connects it with M. Odometry continues from
+// an anchor: the first keyframe of its world, or the last one whose pose a loop has improved. A
+// loaded map is exact by definition.
 class PlaceInMap {
  public:
   explicit PlaceInMap(const OdometryNoise& noise) : noise_(noise) {}

@@ -22,8 +22,8 @@ int64_t PageFaults() {
   return usage.ru_minflt;
 }
 
-// How many pages come from the system where so many blocks of a megabyte are taken and filled
-// together, then freed, again and again.
+// Counts page faults while this number of megabyte blocks is allocated, filled and freed,
+// repeatedly.
 int64_t FaultsOfBlocks(size_t blocks, int times) {
   const int64_t before = PageFaults();
   for (int i = 0; i < times; ++i) {

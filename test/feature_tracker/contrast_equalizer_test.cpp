@@ -38,7 +38,7 @@ TEST(ContrastEqualizer, TakesTheBrightestAndTheDarkest) {
   EXPECT_LE(cv::norm(Equalized(image), ByOpenCv(image), cv::NORM_INF), 1);
 }
 
-// OpenCV extends such an image, so that its tiles are others by some pixels.
+// OpenCV pads such an image, so that its tiles differ by some pixels.
 TEST(ContrastEqualizer, TakesSizesThatAreNoMultipleOfItsTiles) {
   const cv::Mat image = TexturedScene().View()(cv::Rect(3, 5, 357, 227));
   EXPECT_LT(cv::norm(Equalized(image), ByOpenCv(image), cv::NORM_L1) / image.total(), 4);

@@ -31,7 +31,7 @@ std::map<int64_t, PointObservation> ById(const PointFrame& frame) {
   return points;
 }
 
-// Distances between where points common to both frames were seen and where H took them, sorted.
+// Returns the sorted distances of the points in both frames from their positions by H.
 std::vector<double> TrackErrors(const PointFrame& frame0, const PointFrame& frame1,
                                 const cv::Matx33d& H) {
   std::vector<double> errors;
@@ -99,7 +99,7 @@ TEST_F(PointTrackerTest, HardlyDriftsUnderTranslation) {
   EXPECT_LT(errors[errors.size() / 2], 0.1);
 }
 
-// Flow alone adds up to 1 px: it takes part of the deformation for motion.
+// Flow alone drifts by up to 1 px, since it confuses a part of the deformation with translation.
 TEST_F(PointTrackerTest, HardlyDriftsWhileTheImageTurnsAndGrows) {
   const cv::Matx33d step(1.004, 0.01, -1.2, -0.01, 1.004, 1.4, 0, 0, 1);
   cv::Matx33d H = cv::Matx33d::eye();
@@ -217,7 +217,7 @@ TEST_F(PointTrackerTest, CornersOfARepeatedImageStayToTheLastBit) {
 }
 
 TEST_F(PointTrackerTest, RejectsAPatchThatMovesOnItsOwn) {
-  // The background moves sideways, a patch also upwards: off its epipolar lines.
+  // The background moves sideways, a patch also upwards, off its epipolar lines.
   const TexturedScene other(77);
   const cv::Rect patch0(150, 60, 110, 110);
   const cv::Point motion(2, -5);
@@ -366,7 +366,8 @@ TEST(PointTracker, IsDeterministicWhateverTheNumberOfThreads) {
   EXPECT_EQ(numbers, run(4));
 }
 
-// Column 271 of this fisheye lies at right angles to its axis, where rays meet no image plane.
+// Column 271 of this fisheye is perpendicular to the optical axis, so its rays have no image in z =
+// 1.
 TEST(PointTracker, LeavesOutWhatLiesAtRightAnglesToTheAxis) {
   CameraParameters parameters = TestCameraParameters();
   parameters.model = CameraParameters::Model::kPinholeEquidistant;

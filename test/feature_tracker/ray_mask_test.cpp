@@ -48,7 +48,7 @@ TEST(RayMask, KeepsWhatTheMaskForbids) {
             cv::countNonZero(WithinRays(*FoldedCamera(), {}).colRange(kWidth / 2, kWidth)));
 }
 
-// The ray of column 271 of this fisheye is at right angles to its axis.
+// The ray of column 271 of this fisheye is perpendicular to the optical axis.
 TEST(RayMask, ARayNextToTheImagePlaneIsNone) {
   CameraParameters parameters = TestCameraParameters();
   parameters.model = CameraParameters::Model::kPinholeEquidistant;

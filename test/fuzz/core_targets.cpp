@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The targets of plm_fuzz: all but those that take what ROS brings.
+// The targets of plm_fuzz: all except those for ROS input.
 #include "test/fuzz/target.h"
 
 namespace plm_vins::fuzz {

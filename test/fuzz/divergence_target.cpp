@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random faults of IMU and images on a simulated flight: where the estimate goes astray, it says so
-// in time. Many faults at once can still fool it; how often is counted, and bounded.
+// Random faults of IMU and images on a simulated flight: an estimate that diverges must report it
+// in time. Many simultaneous faults can still prevent that; their rate is counted and bounded.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -22,7 +22,7 @@ using simulator::FeatureDataset;
 constexpr double kFlight = 20;                                // [s]
 constexpr double kFaultsBegin = 3;                            // when the estimator has started [s]
 constexpr double kFewestIncidents = 4, kMostIncidents = 100;  // per flight
-constexpr double kMaxError = 1;                               // that may go unsaid [m]
+constexpr double kMaxError = 1;                               // that may stay unreported [m]
 constexpr double kMaxUnsaidShare = 0.002;                     // of the flights; 0 of 1072 were seen
 constexpr int kFewUnsaid = 2;                                 // chance
 constexpr int64_t kInTime_ns = 1'000'000'000;
@@ -38,10 +38,10 @@ const FeatureDataset& Flight() {
   return flight;
 }
 
-// Follows one run, the truth beside it.
+// Compares one run with the ground truth.
 class Witness {
  public:
-  // True positions and headings by stamp, which a fault may have moved.
+  // True positions and headings by timestamp, which a fault may have changed.
   explicit Witness(const FeatureDataset& flight) {
     for (size_t i = 0; i < flight.points.size(); ++i) {
       truth_[flight.points[i].t_ns] = flight.truth[i].T_W_B();
@@ -73,8 +73,8 @@ class Witness {
            output.imu_doubted || output.imu_noise_scale > 1 || output.delay;
   }
 
-  // Of the position, the world frame being aligned after the last announcement: what was wrong
-  // until then has been said [m]. What the covariance admits is no error.
+  // Position error after alignment of the world frame at the last report, since earlier errors have
+  // been reported [m]. Errors within the covariance count as zero.
   double Error(const EstimatorOutput& output) {
     const Rigid3d& T_true_B = truth_.at(output.t_ns);
     if (!T_true_W_) {
@@ -91,7 +91,7 @@ class Witness {
   std::map<int64_t, Rigid3d> truth_;
   std::optional<Rigid3d> T_true_W_;
   std::optional<int64_t> diverged_ns_;
-  bool unsaid_ = false;  // this divergence, for too long
+  bool unsaid_ = false;  // this divergence was not reported in time
 };
 
 std::string Report() {

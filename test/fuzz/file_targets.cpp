@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of this process; it stays behind where the target crashes.
+// Folder of this process; it remains if the target crashes.
 fs::path Folder() {
   fs::path folder = fs::temp_directory_path() / ("plm_vins_fuzz_" + std::to_string(getpid()));
   fs::create_directories(folder);
@@ -57,7 +57,7 @@ std::string ImagesCsv() {
 
 constexpr size_t kMapHeader = 33;  // signature, version, size and checksum of what follows
 
-// A part of a flight along a wall; `world` names it.
+// A part of a flight along a wall in the odometry world `world`.
 std::vector<Keyframe> FlightAlongAWall(const CameraModel& camera, int world, int64_t start_ns) {
   std::vector<Keyframe> keyframes;
   for (int i = 0; i < 4; ++i) {
@@ -86,7 +86,7 @@ Bytes SavedMap(const CameraModel& camera) {
   return ReadFile(file);
 }
 
-// So that what was damaged is not refused by its checksum and size.
+// Updates checksum and size, so that they do not reject the damaged file.
 std::string Sealed(const std::string& payload, const Bytes& seed) {
   std::string file(seed.begin(), seed.begin() + kMapHeader);
   const uint64_t numbers[] = {payload.size(), testing::MapChecksum(payload)};
@@ -101,7 +101,7 @@ Target ConfigTarget() {
   for (const auto& entry : fs::directory_iterator(CONFIG_DIR)) {
     if (entry.path().extension() == ".yaml") seeds.push_back(ReadFile(entry.path()));
   }
-  std::sort(seeds.begin(), seeds.end());  // the order of a folder is any
+  std::sort(seeds.begin(), seeds.end());  // directory order is arbitrary
   return {"config", seeds, [](const Bytes& bytes) {
             const fs::path file = Folder() / "config.yaml";
             Write(file, ToText(bytes));
@@ -109,7 +109,7 @@ Target ConfigTarget() {
           }};
 }
 
-// One input is both tables, with a zero byte between them.
+// An input consists of both tables, with a zero byte in between.
 Target AslTarget() {
   const std::string seed = ImuCsv() + std::string(1, '\0') + ImagesCsv();
   return {"asl", {ToBytes(seed)}, [](const Bytes& bytes) {
@@ -125,7 +125,7 @@ Target AslTarget() {
           }};
 }
 
-// A map that is loaded, and flown in. One input is what follows the checksum.
+// Loads a map and continues it. An input consists of the data after the checksum.
 Target MapTarget() {
   const std::shared_ptr<const CameraModel> camera = testing::SimpleCamera();
   const Bytes seed = SavedMap(*camera);

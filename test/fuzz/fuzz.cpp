@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gives damaged inputs to what takes input from outside, for some seconds each. The input of an
-// index is always the same, so that a finding can be run again: TARGET SECONDS FIRST COUNT.
+// Passes damaged inputs to functions that process external input, for some seconds each. The input
+// of an index is reproducible, so that a finding can be repeated: TARGET SECONDS FIRST COUNT.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -16,9 +16,9 @@
 namespace plm_vins::fuzz {
 namespace {
 
-constexpr double kHang = 10;  // of one input, the machine being busy or not [s of processor time]
+constexpr double kHang = 10;  // for one input, in CPU time [s]
 
-// What ends a target's run: the first of both.
+// The run of a target ends at the first of these limits.
 struct Limits {
   double seconds = 5;
   uint64_t inputs = std::numeric_limits<uint64_t>::max();
@@ -27,7 +27,8 @@ struct Limits {
 const char* current_target = "";
 volatile unsigned long long current_index = 0;
 
-// Where a finding ends the program: which input it was. The sanitizers must abort for that.
+// Prints the current input when a finding aborts the program; sanitizers must be configured to
+// abort.
 void NameInput(int signal) {
   std::fprintf(stderr, "fuzz: %s, input %llu\n", current_target, current_index);
   std::signal(signal, SIG_DFL);
@@ -45,7 +46,7 @@ void RunOne(const Target& target, uint64_t index) {
   const std::clock_t begin = std::clock();
   try {
     target.run(Input(target, index));
-  } catch (const std::exception&) {  // callers do catch these
+  } catch (const std::exception&) {  // callers catch these
   }
   const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   if (seconds > kHang) {
@@ -65,7 +66,7 @@ void RunTarget(const Target& target, const Limits& limits, uint64_t first) {
                static_cast<unsigned long long>(inputs), target.report().c_str());
 }
 
-// False where there is no such target.
+// Returns false if there is no such target.
 bool RunTargets(const std::string& name, const Limits& limits, uint64_t first) {
   bool found = false;
   for (const Target& target : Targets()) {

@@ -57,7 +57,8 @@ void ReadBag(const std::string& bytes) {
   }
 }
 
-// Messages of any content, as a node's callback may get them; roscpp has read their lengths.
+// A message with arbitrary content, as a node's callback may receive it; roscpp has checked
+// lengths.
 sensor_msgs::PointCloud AnyCloud(Reader* reader) {
   sensor_msgs::PointCloud cloud;
   cloud.header.stamp.sec = reader->Value<uint32_t>();
@@ -88,12 +89,12 @@ sensor_msgs::Image AnyImage(Reader* reader) {
   image.height = small ? reader->Byte() : reader->Value<uint32_t>();
   image.step = small ? image.width * (1 + reader->Byte() % 8) : reader->Value<uint32_t>();
   if (reader->Byte() % 4 == 0) image.step += 1U << (24 + reader->Byte() % 8);
-  const uint32_t whole = image.step * image.height;  // in 32 bits, as cv_bridge counts the bytes
+  const uint32_t whole = image.step * image.height;  // in 32 bits, as cv_bridge computes the size
   image.data.resize(std::min<size_t>(small ? whole : reader->Value<uint16_t>(), 1 << 20));
   return image;
 }
 
-// One conversion after the other, whatever the one before says.
+// Runs a conversion, whatever the previous ones threw.
 template <typename Conversion>
 void Try(Conversion conversion) {
   try {
@@ -109,7 +110,7 @@ Target BagTarget() {
   return {"bag", seeds, [](const Bytes& bytes) { ReadBag(ToText(bytes)); }};
 }
 
-// The content of a chunk, which is packed when it is damaged, so that checksums do not find it.
+// The content of a chunk, which is packed after it is damaged, so that its checksum is correct.
 Target ChunkTarget() {
   const testing::BagWithOneChunk good(SmallBag(rosbag::compression::Uncompressed));
   return {"chunk", {ToBytes(good.content)}, [good](const Bytes& bytes) {
@@ -124,7 +125,7 @@ Target ChunkTarget() {
 Target MessagesTarget() {
   Bytes seed;
   for (int i = 0; i < 600; ++i) seed.push_back(static_cast<uint8_t>(7 * i));
-  // AnyImage() makes of it: mono8, 128 x 128 pixels, rows of 128 + 2^25 bytes.
+  // AnyImage() converts this to mono8, 128 x 128 pixels, with rows of 128 + 2^25 bytes.
   const Bytes rows_far_apart = {0, 1, 128, 128, 0, 0, 1};
   return {
       "messages", {seed, rows_far_apart}, [](const Bytes& bytes) {

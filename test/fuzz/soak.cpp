@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A long simulated flight through the estimation stage, with points and lines: what that needs must
-// not grow. plm_soak [SECONDS of flight, by default an hour] ends with code 1 where memory or time
-// per image has grown from the second tenth of the flight to the last. A minute is the least.
+// A long simulated flight through the estimation stage, with points and lines, whose memory and
+// time must not grow. plm_soak [SECONDS of flight, at least 60, default 3600] exits with code 1 if
+// memory or time per image has grown from the second tenth of the flight to the last.
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ constexpr double kMaxSlowdown = 1.3;  // other programs share the caches
 
 struct Part {
   int64_t images = 0, poses = 0, restarts = 0;
-  double milliseconds = 0;  // of processor time per image
+  double milliseconds = 0;  // CPU time per image
   double memory_MB = 0;     // at its end
 };
 
@@ -51,7 +51,7 @@ std::vector<Part> Soak(double seconds) {
     part.memory_MB = MegabytesInUse();
     std::printf("%" PRId64 " images, %" PRId64 " poses, %" PRId64 " restarts, %.2f ms, %.1f MB\n",
                 part.images, part.poses, part.restarts, part.milliseconds, part.memory_MB);
-    std::fflush(stdout);  // to be watched, also in a file
+    std::fflush(stdout);  // for watching, also in a file
     begin = end;
     parts.emplace_back();
   });

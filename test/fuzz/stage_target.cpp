@@ -12,15 +12,14 @@ const simulator::FeatureDataset& Flight() {
   return flight;
 }
 
-// A number of any size, most often of an everyday one.
+// A number of any magnitude, most often a moderate one.
 double Size(Reader* reader) {
   const int8_t exponent = static_cast<int8_t>(reader->Byte());
   const double sign = exponent % 2 == 0 ? 1 : -1;
   return exponent == -128 ? std::nan("") : sign * std::pow(10.0, exponent / 16.0);
 }
 
-// Faults as an input describes them: five bytes each, the kind, the sample or image that it begins
-// with, how many it takes, how large it is.
+// Applies faults as encoded in an input, five bytes each: kind, first sample or image, count, size.
 void Damage(const Bytes& bytes, simulator::FeatureDataset* flight) {
   for (Reader reader(bytes); !reader.empty();) {
     const uint8_t kind = reader.Byte();

@@ -21,7 +21,7 @@ Config SmallCamera() {
   return config;
 }
 
-// A box that moves, over noise.
+// A moving box in front of noise.
 cv::Mat Picture(int x) {
   cv::Mat picture(kHeight, kWidth, CV_8UC1);
   cv::RNG(1).fill(picture, cv::RNG::UNIFORM, 0, 40);
@@ -29,8 +29,8 @@ cv::Mat Picture(int x) {
   return picture;
 }
 
-// Each image of an input: a byte of what it is (four bits of its size too), two of the step of its
-// stamp, then bytes that are thrown over its pixels.
+// Each image of an input: a byte for its kind (including four bits for its size), two for the step
+// of its timestamp, then bytes that overwrite its pixels.
 template <typename Stage>
 void Track(const Bytes& bytes) {
   Stage stage(SmallCamera());

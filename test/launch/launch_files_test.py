@@ -30,7 +30,7 @@ NODELETS = {"feature_tracker": "plm_vins/FeatureTracker",
             "vins_estimator": "plm_vins/VinsEstimator",
             "pose_graph": "plm_vins/PoseGraph"}
 
-# Of rs_camera.launch in the driver, realsense2_camera 2.3.
+# Arguments of rs_camera.launch in the driver, realsense2_camera 2.3.
 DRIVER_ARGUMENTS = ("enable_infra1", "enable_infra2", "enable_depth", "enable_color", "infra_width",
                     "infra_height", "infra_fps", "depth_width", "depth_height", "depth_fps",
                     "enable_gyro", "enable_accel", "gyro_fps", "unite_imu_method", "enable_sync")

@@ -18,7 +18,7 @@ constexpr double kFocal = 458;
 
 LineSegment Segment(const LineObservation& line) { return {line.start, line.end}; }
 
-// A view that moves, turns and comes closer from image to image.
+// Homography of a view that translates, rotates and approaches from image to image.
 Eigen::Matrix3d Flight(int i) {
   Eigen::Matrix3d H = Eigen::AngleAxisd(0.008 * i, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   H(0, 2) += 0.006 * i;
@@ -28,7 +28,7 @@ Eigen::Matrix3d Flight(int i) {
   return H;
 }
 
-// Two lines next to each other that are easily taken for one, and crossing ones.
+// Pairs of adjacent lines that are easily confused, and crossing ones.
 LineScene ConfusingScene() {
   LineScene scene(PlainParameters(), 110);
   for (int i = 0; i < 5; ++i)  // 8 px wide, 8 px apart
@@ -54,7 +54,7 @@ class LineTrackerTest : public testing::TestWithParam<LineMatcherType> {
     return tracker_->Track({t_ns_, image}, R_C1_C0);
   }
 
-  // The edge on which the line lies (with either direction), or -1.
+  // Index of the edge on which the line lies (in either direction), or -1.
   int EdgeOf(const LineObservation& line, const Eigen::Matrix3d& H) const {
     const auto edges = scene_->Edges(H);
     for (size_t i = 0; i < edges.size(); ++i) {
@@ -65,11 +65,11 @@ class LineTrackerTest : public testing::TestWithParam<LineMatcherType> {
     return -1;
   }
 
-  // How well the lines of a sequence of views keep to the edges.
+  // Statistics of how the lines of a sequence of views follow the edges.
   struct Account {
     int observations = 0;
     int off_edge = 0;   // on no edge
-    int switched = 0;   // on another edge than when the track began
+    int switched = 0;   // on another edge than at the start of the track
     int survivors = 0;  // of the first image, in the last one
     int first = 0;      // lines of the first image
     double largest_error_px = 0;
@@ -280,7 +280,9 @@ TEST_P(LineTrackerTest, KeepsTheOldestOfTooManyLines) {
   tracker_->SetMaxLines(6);
   const LineFrame fewer = Track(image);
   ASSERT_EQ(fewer.lines.size(), 6U);
-  if (GetParam() == LineMatcherType::kLbd) return;  // describes, so matches, fewer lines, too
+  if (GetParam() == LineMatcherType::kLbd)
+    return;  // describes, and so matches, fewer lines as
+             // well
   for (const LineObservation& line : fewer.lines) EXPECT_LT(line.id, 6);
 }
 
@@ -296,7 +298,8 @@ TEST_P(LineTrackerTest, DrawsTheNewestImage) {
 INSTANTIATE_TEST_SUITE_P(Matchers, LineTrackerTest,
                          testing::Values(LineMatcherType::kFlow, LineMatcherType::kLbd));
 
-// Column 271 of this fisheye lies at right angles to its axis, where rays meet no image plane.
+// Column 271 of this fisheye is perpendicular to the optical axis, so its rays have no image in z =
+// 1.
 TEST(LineTracker, LeavesOutWhatLiesAtRightAnglesToTheAxis) {
   CameraParameters parameters = PlainParameters();
   parameters.model = CameraParameters::Model::kPinholeEquidistant;

@@ -13,7 +13,7 @@ namespace {
 using testing::DriftingFlight;
 using testing::DriftingFlightOptions;
 
-// What a perfect bundle would find.
+// The result of a perfect bundle adjustment.
 AdjustedMap TruthOf(const DriftingFlight& flight) {
   AdjustedMap truth;
   truth.T_B_C = flight.map().keyframes.back().T_B_C;
@@ -73,7 +73,7 @@ TEST(AdjustedMapTest, TakesOverTheMountOfTheCamera) {
   }
 }
 
-// As those of a map that was loaded.
+// Keyframes of a loaded map are not adjusted.
 TEST(AdjustedMapTest, LeavesKeyframesThatWereNotAdjusted) {
   const DriftingFlight flight(DriftingFlightOptions{});
   AdjustedMap truth = TruthOf(flight);

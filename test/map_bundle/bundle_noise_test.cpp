@@ -10,7 +10,7 @@ namespace {
 
 constexpr SightingNoise kConfigured = {1e-3, 1e-3};
 
-// Eight keyframes that see landmarks with noise; their true places are known.
+// Eight keyframes with known poses that observe landmarks with noise.
 BundleState BundleWith(int landmarks, double followed, double again) {
   simulator::Random random(3);
   BundleState bundle;
@@ -34,7 +34,8 @@ BundleState BundleWith(int landmarks, double followed, double again) {
   return bundle;
 }
 
-// Nothing was adjusted here, so the errors are by a third greater than the noise would tell.
+// Landmarks are not adjusted here, so residuals of tracked corners exceed the assumption by a
+// third.
 TEST(BundleNoiseTest, TellsBothKindsApart) {
   const SightingNoise noise = EstimateNoise(BundleWith(400, 5e-4, 2e-3), kConfigured);
   EXPECT_NEAR(noise.followed, 5e-4 * std::sqrt(12.0 / 9.0), 3e-5);

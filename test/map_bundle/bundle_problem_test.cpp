@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-// Keyframes side by side that see some landmarks, without any IMU sample between them.
+// Keyframes side by side that observe some landmarks, without IMU samples in between.
 BundleState SmallBundle() {
   simulator::Random random(5);
   BundleState bundle;

@@ -30,7 +30,7 @@ TEST(ImuHistoryTest, IntegratesWhatIsBetween) {
 
   ASSERT_TRUE(between);
   Preintegration expected(ImuNoise{}, ImuBias{});
-  expected.Append(SampleAt(102'500'000));  // readings grow evenly
+  expected.Append(SampleAt(102'500'000));  // readings are linear in time
   for (int i = 21; i <= 180; ++i) expected.Append(SampleAt(i * kStep_ns));
   EXPECT_EQ(between->samples().size(), expected.samples().size());
   EXPECT_NEAR(between->duration(), 0.7975, 1e-12);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kDepth = 4;
 
-// Keyframes side by side that look along z, each of a world of its own number.
+// Keyframes side by side that look along z, with the given worlds.
 KeyframeMap MapOf(const std::vector<int>& worlds) {
   KeyframeMap map;
   for (size_t i = 0; i < worlds.size(); ++i) {
@@ -23,7 +23,7 @@ KeyframeMap MapOf(const std::vector<int>& worlds) {
 
 const Eigen::Vector3f kPlace(1, 2, kDepth);
 
-// The landmark is at `p_O`, whether that is known or not.
+// Adds an observation of a landmark at `p_O`, whether its position is known or not.
 void See(int64_t track, Keyframe* keyframe, const Eigen::Vector3f& p_O = kPlace,
          bool is_known = true) {
   DescribedCorner& corner = keyframe->corners.emplace_back();
@@ -59,13 +59,13 @@ TEST(LandmarkTracksTest, AddsWhatWasSeenAgain) {
   const auto tracks =
       CollectLandmarks(map, {0, 1}, {{{0, 7}, 1, xy}, {{0, 7}, 2, xy}, {{0, 8}, 1, xy}});
   ASSERT_EQ(tracks.size(), 1u);
-  ASSERT_EQ(tracks[0].sightings.size(), 2u);  // keyframe 2 was not asked for
+  ASSERT_EQ(tracks[0].sightings.size(), 2u);  // keyframe 2 was not requested
   EXPECT_FALSE(tracks[0].sightings[0].again);
   EXPECT_TRUE(tracks[0].sightings[1].again);
   EXPECT_EQ(tracks[0].sightings[1].xy, xy);
 }
 
-// Each later keyframe that matches the same earlier one tells the same sighting once more.
+// Several later keyframes that match the same earlier one repeat the same observation.
 TEST(LandmarkTracksTest, CountsAKeyframeOnce) {
   KeyframeMap map = MapOf({0, 0, 1});
   See(7, &map.keyframes[0]);

@@ -22,7 +22,7 @@ double ErrorOfOdometry(const DriftingFlight& flight) {
   return PositionError(flight, [&](int number) { return flight.InMap(number); });
 }
 
-// [m], after the adjustment of such a flight; infinite where it is not adjusted.
+// Error after the adjustment of such a flight [m]; infinite if it is not adjusted.
 double ErrorAfterAdjustment(const DriftingFlightOptions& options) {
   const DriftingFlight flight(options);
   MapBundle bundle(MapBundleOptions{});
@@ -77,14 +77,14 @@ TEST(MapBundleTest, GoesByTheClockOfTheImu) {
   EXPECT_LT(ErrorAfterAdjustment(options), 0.015);
 }
 
-// As where a bag is played again.
+// Timestamps repeat if a bag is replayed.
 TEST(MapBundleTest, KeepsWorldsWithEqualStampsApart) {
   DriftingFlightOptions options;
   options.restart = 20;
   EXPECT_LT(ErrorAfterAdjustment(options), 0.015);
 }
 
-// They were seen by a camera in another place on the body.
+// Keyframes of a loaded map may have another T_B_C.
 TEST(MapBundleTest, LeavesCamerasOfALoadedMapWhereTheyAre) {
   DriftingFlightOptions options;
   options.drift = 0;
@@ -196,7 +196,7 @@ TEST(MapBundleTest, CountsSightingsThatTakePart) {
   ASSERT_TRUE(bundle.Adjust(flight.map()));
 
   EXPECT_GT(bundle.summary().sightings_again, told / 10);
-  EXPECT_LT(bundle.summary().sightings_again, told);  // some landmarks were seen but once
+  EXPECT_LT(bundle.summary().sightings_again, told);  // some landmarks were observed only once
 }
 
 TEST(MapBundleTest, HasNothingToSayOfAnEmptyMap) {

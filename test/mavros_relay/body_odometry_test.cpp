@@ -19,7 +19,7 @@ Eigen::Quaterniond About(const Eigen::Vector3d& axis, double degrees) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * M_PI / 180, axis));
 }
 
-// An IMU with x forward, y right, z down, as flight controllers have it, 0.1 m ahead of the base.
+// An IMU with x forward, y right, z down, as in flight controllers, 0.1 m ahead of the base.
 const Rigid3d kImuToBase{About(Eigen::Vector3d::UnitX(), 180), {-0.1, 0, 0}};
 
 BodyOdometry Flying() {
@@ -39,12 +39,12 @@ TEST(BodyOdometry, OfALevelImuWithZDownIsThatOfABaseWithZUp) {
   imu.T_W_B = {About(Eigen::Vector3d::UnitZ(), 90) * About(Eigen::Vector3d::UnitX(), 180),
                {5, 6, 7}};
   imu.v_B = {1, 0.2, -0.3};       // forward, right, up
-  imu.omega_B = {0.0, 0.0, 0.5};  // turns right
+  imu.omega_B = {0.0, 0.0, 0.5};  // rotates to the right
   const BodyOdometry base = MoveTo(kImuToBase, imu);
   EXPECT_MATRIX_NEAR(base.T_W_B.translation, Eigen::Vector3d(5, 5.9, 7), 1e-12);
   EXPECT_MATRIX_NEAR(base.T_W_B.R(), About(Eigen::Vector3d::UnitZ(), 90).toRotationMatrix(), 1e-12);
   EXPECT_MATRIX_NEAR(base.omega_B, Eigen::Vector3d(0, 0, -0.5), 1e-12);
-  // Forward, left, up; the base is behind the IMU, so turning right moves it to the left.
+  // Forward, left, up; the base is behind the IMU, so a rotation to the right moves it to the left.
   EXPECT_MATRIX_NEAR(base.v_B, Eigen::Vector3d(1, -0.2 + 0.05, 0.3), 1e-12);
 }
 
@@ -61,7 +61,7 @@ TEST(BodyOdometry, VelocityIsThatOfTheMovedOrigin) {
                      1e-8);
 }
 
-// Draws errors in the order x, y, z, rotation about x, y, z, as the message has them.
+// Draws errors in the order of the message: x, y, z, rotation about x, y, z.
 TEST(BodyOdometry, CovariancesFollowTheFrames) {
   const BodyOdometry imu = Flying();
   const BodyOdometry base = MoveTo(kImuToBase, imu);
@@ -91,7 +91,7 @@ TEST(BodyOdometry, CovariancesFollowTheFrames) {
                      1e-9);
 }
 
-// What is uncertain to the right of an IMU with z down is so to the left of the base.
+// The variance to the right of an IMU with z down is that to the left of the base.
 TEST(BodyOdometry, VariancesKeepTheirAxes) {
   BodyOdometry imu;
   imu.pose_covariance.diagonal() << 1, 2, 3, 4, 5, 6;
@@ -112,7 +112,7 @@ TEST(BodyOdometry, KnowsWhatIsOfNoUse) {
   bad.T_W_B.translation.x() = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(bad.IsUsable());
   bad = Flying();
-  bad.T_W_B.rotation.coeffs().setZero();  // of a message that nobody filled in
+  bad.T_W_B.rotation.coeffs().setZero();  // as in an uninitialized message
   EXPECT_FALSE(bad.IsUsable());
 }
 

@@ -16,12 +16,12 @@ namespace {
 constexpr int64_t kMillisecond = 1'000'000;  // [ns]
 constexpr int64_t kStart = 1403636579'000 * kMillisecond;
 
-// Feeds states every 5 ms and, in between, estimates of images every 50 ms.
+// Passes states every 5 ms and estimates of images every 50 ms.
 class Feed {
  public:
   explicit Feed(const RelayGate::Options& options = {}) : gate(options) {}
 
-  // Stamps [ms since the start] in [begin, end) that went on.
+  // Returns the relayed timestamps in [begin, end) [ms since the start].
   std::vector<int64_t> Send(int64_t begin, int64_t end, bool with_images = true) {
     std::vector<int64_t> passed;
     for (int64_t t = begin; t < end; t += 5) {
@@ -57,7 +57,7 @@ void ExpectRefused(double RelayGate::Options::*option, double value, const std::
   }
 }
 
-// What the period, as a number of nanoseconds, cannot hold would end the program.
+// A period that overflows int64 nanoseconds would otherwise abort the program.
 TEST(RelayGate, RefusesOptionsOutOfTheirRange) {
   using Options = RelayGate::Options;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -91,12 +91,12 @@ TEST(RelayGate, StopsWhereImagesNoLongerSupportTheStates) {
 TEST(RelayGate, AGapIsLongEnoughToBeNoticed) {
   Feed feed;
   const int64_t last = feed.Send(0, 1000).back();
-  // The estimator starts anew within 0.3 s.
+  // The estimator is reinitialized within 0.3 s.
   EXPECT_EQ(feed.Send(1300, 3000).front(), last + 1000);
   EXPECT_EQ(feed.gate.resets(), 1);
 }
 
-// States and images, as of an estimator that is lost and begins anew.
+// Neither states nor images come while an estimator has lost tracking.
 TEST(RelayGate, APauseOfAllIsAnInterruptionThatCounts) {
   Feed feed;
   feed.Send(0, 1000);
@@ -104,7 +104,7 @@ TEST(RelayGate, APauseOfAllIsAnInterruptionThatCounts) {
   EXPECT_EQ(feed.gate.resets(), 1);
 }
 
-// Where the interruption shows in nothing but the count.
+// Only the count shows such an interruption.
 TEST(RelayGate, GoesOnAtOnceAfterAPauseOfTheLengthThatIsAskedFor) {
   RelayGate::Options options;
   options.min_pause = 0.3;

@@ -13,10 +13,10 @@ namespace plm_vins {
 namespace {
 
 constexpr double kDepth = 4;             // of the painted wall, along x [m]
-constexpr double kPixelsPerMeter = 115;  // of the painting: as the camera sees it
+constexpr double kPixelsPerMeter = 115;  // of the painting, as observed by the camera
 
-// A camera that slides along a painted wall, looking at it. Each pixel it sees is one of the
-// painting, which makes images simple to cut out.
+// A camera that slides along a painted wall, looking at it. Its pixels are pixels of the painting,
+// so images are simple crops.
 class LoopCloserTest : public ::testing::Test {
  protected:
   LoopCloserTest() {
@@ -26,7 +26,7 @@ class LoopCloserTest : public ::testing::Test {
     cv::resize(small, painting_, cv::Size(3200, 1040), 0, 0, cv::INTER_CUBIC);
   }
 
-  // The image at y [m] along the wall, and what odometry says of it: T_O_W of its drift.
+  // The image at y [m] along the wall, with odometry that has drifted by T_O_W.
   OdometryFrame FrameAt(double y, double t, const LevelTransform& T_O_W) {
     const int left = 1600 - static_cast<int>(std::lround(y * kPixelsPerMeter)) - 376;
     OdometryFrame frame;
@@ -38,7 +38,7 @@ class LoopCloserTest : public ::testing::Test {
     const Rigid3d T_O_C = frame.T_O_B * frame.T_B_C;
     for (int u = 40; u < 720; u += 40) {
       for (int v = 40; v < 450; v += 40) {
-        // One id for one place of the painting within a visit.
+        // One id for each place of the painting within a visit.
         TrackedCorner corner;
         const int place_u = (left + u) / 40 * 40;
         const int in_image_u = place_u - left;
@@ -58,7 +58,7 @@ class LoopCloserTest : public ::testing::Test {
     double to = 3;
   };
 
-  // Slides along y from time `t` on; the newest closure.
+  // Slides along y from time `t` on; returns the last closure.
   LoopClosure Slide(LoopCloser* loops, double t, const LevelTransform& T_O_W,
                     bool restarted = false) {
     return Slide(loops, t, T_O_W, restarted, Range());
@@ -83,7 +83,7 @@ class LoopCloserTest : public ::testing::Test {
   std::shared_ptr<const CameraModel> camera_ = testing::SimpleCamera();
   cv::Mat painting_;
   int64_t first_track_ = 0;
-  double variance_rate_ = 1e-4;  // of odometry's position, as it states it [m^2/s]
+  double variance_rate_ = 1e-4;  // of odometry's position estimate [m^2/s]
   int accepted_ = 0;
   size_t confirmed_ = 0;
   size_t reconsidered_ = 0;
@@ -108,7 +108,7 @@ TEST_F(LoopCloserTest, UndoesTheDriftOfASecondVisit) {
   const LevelTransform rest = loops.map().T_M_O(0).Inverse() * second.fix->T_M_O * kDrift;
   EXPECT_LT(rest.translation.norm(), 0.05);
   EXPECT_NEAR(rest.yaw, 0, 0.01);
-  // The loops are surer than odometry, which states more and more.
+  // The loops are more certain than odometry, whose covariance increases.
   EXPECT_LT(second.fix->covariance(0, 0), 0.5 * second.fix->odometry_covariance(0, 0));
 }
 
@@ -149,7 +149,7 @@ TEST_F(LoopCloserTest, LeavesALoadedMapWhereItIs) {
   loops.SetMap(before.map());
   Slide(&loops, 10, LevelTransform());
   const LevelTransform drift = {0, {0.5, 0, 0}};
-  constexpr int kSteps = 60;  // away and back, in the dark
+  constexpr int kSteps = 60;  // away and back, with dark images
   for (int i = 0; i <= kSteps; ++i) {
     const double y = 3 + 0.5 * std::min(i, kSteps - i);
     OdometryFrame frame = FrameAt(0, 20 + 0.4 * i, LevelTransform());
@@ -168,7 +168,7 @@ TEST_F(LoopCloserTest, LeavesALoadedMapWhereItIs) {
   }
 }
 
-// A world that is in the map meets one that is not.
+// A world that is connected with the map meets one that is not.
 TEST_F(LoopCloserTest, BringsAWorldToTheMapAndNotTheMapToTheWorld) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform(), false, {-9, -5});
@@ -183,7 +183,7 @@ TEST_F(LoopCloserTest, BringsAWorldToTheMapAndNotTheMapToTheWorld) {
   EXPECT_LT((loops.map().graph.node(second).translation - Eigen::Vector3d(0, 5, 0)).norm(), 0.05);
 }
 
-// As after a blind stretch over which the IMU alone leads.
+// Odometry after a blind stretch with dead reckoning has a large covariance.
 TEST_F(LoopCloserTest, BelievesALoopWhereOdometryKnowsThatItIsOff) {
   variance_rate_ = 0;
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
@@ -199,7 +199,7 @@ TEST_F(LoopCloserTest, BelievesALoopWhereOdometryKnowsThatItIsOff) {
 TEST_F(LoopCloserTest, DoesNotTakeATwinOfAPlaceForThePlace) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());
-  // The same images, to which odometry came by a way of 10 m.
+  // Odometry reaches the same images by a path of 10 m.
   OdometryFrame on_the_way = FrameAt(0, 30, {0, {0, 5, 0}});
   on_the_way.gray = cv::Scalar(100);
   loops.Add(on_the_way);
@@ -210,7 +210,7 @@ TEST_F(LoopCloserTest, DoesNotTakeATwinOfAPlaceForThePlace) {
   EXPECT_EQ(twin.fix->T_M_O.ToVector(), Vector4d::Zero());
 }
 
-// The wall was moved by more than odometry says that it may be off, but by less than it may drift.
+// The wall was moved by more than the covariance of odometry, but by less than its possible drift.
 TEST_F(LoopCloserTest, DropsALoopThatTheGraphContradicts) {
   const LevelTransform moved = {0, {0, 0.3, 0}};
   LoopCloser unsure(LoopCloserOptions(*camera_), camera_);
@@ -234,7 +234,7 @@ TEST_F(LoopCloserTest, DropsALoopThatTheGraphContradicts) {
   EXPECT_LT(refused.fix->T_M_O.ToVector().norm(), 1e-6);
 }
 
-// As where odometry has just started, and does not know its scale yet.
+// Odometry that has just started may have a wrong scale.
 TEST_F(LoopCloserTest, GivesUpALoopThatAllLaterOnesContradict) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());
@@ -252,8 +252,8 @@ TEST_F(LoopCloserTest, GivesUpALoopThatAllLaterOnesContradict) {
   EXPECT_NEAR(rest.yaw, 0, 0.003);
 }
 
-// Odometry jumps after the first loop of the second visit. The next one, which contradicts it,
-// knows the place less surely.
+// Odometry jumps after the first loop of the second visit. The next loop, which contradicts it, is
+// less certain.
 TEST_F(LoopCloserTest, KnowsNoPlaceByALoopThatTheGraphDropsLater) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());
@@ -263,7 +263,7 @@ TEST_F(LoopCloserTest, KnowsNoPlaceByALoopThatTheGraphDropsLater) {
   for (int i = 0; i <= 10 && closure.dropped.empty(); ++i) {
     const LevelTransform T_O_W = {0, {0, i < 4 ? 0.2 : 0, 0}};
     OdometryFrame frame = FrameAt(-3 + 0.4 * i, 60 + 0.4 * i, T_O_W);
-    frame.covariance.diagonal().head<3>().setConstant(0.006);  // without drift in this visit
+    frame.covariance.diagonal().head<3>().setConstant(0.006);  // no drift in this visit
     closure = loops.Add(frame);
     if (first.second < 0 && closure.place)
       first = {closure.place->earlier, loops.map().graph.size() - 1};

@@ -30,7 +30,7 @@ TEST(LoopTallyTest, CountsALoopThatWaitedOnce) {
   first.candidates = {RefusedBy(LoopGate::kAgreement), RefusedBy(LoopGate::kAgreement)};
   LoopClosure second;
   second.candidates = {LoopCandidate()};
-  second.confirmed = {LoopCandidate()};  // one of the first
+  second.confirmed = {LoopCandidate()};  // one of the first closure
   LoopTally tally;
   tally.Add(first);
   tally.Add(second);
@@ -57,7 +57,7 @@ TEST(LoopTallyTest, CountsALoopThatTheGraphTakesLaterOnce) {
   first.candidates = {RefusedBy(LoopGate::kGraph), RefusedBy(LoopGate::kGraph)};
   LoopClosure second;
   second.candidates = {RefusedBy(LoopGate::kGraph)};
-  second.reconsidered = {LoopCandidate(), LoopCandidate()};  // the newest and one of the first
+  second.reconsidered = {LoopCandidate(), LoopCandidate()};  // the newest, one of the first
   LoopTally tally;
   tally.Add(first);
   tally.Add(second);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The estimator's node in the process of a driver: messages published by pointer are received at
-// once, in the thread that publishes them. Run by estimator_input.test.
+// once, in the publishing thread. Run by estimator_input.test.
 #include <gtest/gtest.h>
 #include <ros/console.h>
 #include <ros/ros.h>
@@ -27,7 +27,7 @@ using testing::SpinUntil;
 
 constexpr double kPatience = 20;  // [s]
 
-// Holds up the thread that logs a text with these words.
+// Blocks the thread that logs a text with these words.
 class BusyLog : public ros::console::LogAppender {
  public:
   explicit BusyLog(std::string words) : words_(std::move(words)) {
@@ -56,7 +56,7 @@ class BusyLog : public ros::console::LogAppender {
 
  private:
   const std::string words_;
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the following members
   std::condition_variable changed_;
   bool holds_ = false;
   bool released_ = false;
@@ -81,7 +81,8 @@ class Driver {
   ros::Time stamp_{1000};
 };
 
-// Where it waited for the estimator, which waits for ROS to publish, both would wait for ever.
+// If the driver waited for the estimator, which waits for ROS to publish, there would be a
+// deadlock.
 TEST(EstimatorInput, NeverHoldsUpADriverInItsProcess) {
   const ros::NodeHandle private_node("vins_estimator");
   Driver driver;

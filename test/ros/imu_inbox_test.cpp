@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// IMU samples on their way to the thread of the callbacks, which is this one. Messages published by
-// pointer within a process are received at once. Run by imu_inbox.test.
+// IMU samples on their way to the callback thread, which is this one. Messages published by pointer
+// within a process are received at once. Run by imu_inbox.test.
 #include "tracking/ros/imu_inbox.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ class ImuInboxTest : public ::testing::Test {
     }
   }
 
-  // What the callbacks' thread has been told by now.
+  // Number of notices that the callback thread has received.
   int Notices() {
     ros::getGlobalCallbackQueue()->callAvailable();
     return notices_;
@@ -84,7 +84,7 @@ TEST_F(ImuInboxTest, ForgetsTheOldestWhereNobodyTakesThem) {
   EXPECT_EQ(samples.back().t_ns, 2100 * kStep);
 }
 
-// Notices wait for that thread, too, and nothing else bounds them.
+// Notices wait for that thread as well, and nothing else limits their number.
 TEST_F(ImuInboxTest, GivesNoMoreNoticesWhereNobodyTakesThem) {
   Publish(2100);
   EXPECT_EQ(Notices(), 2000 / 20);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Feeds the estimator's node with points, lines and IMU samples as nodes of the VINS family publish
-// them, the lines in time, late or not at all. Run by lines.test.
+// Sends points, lines and IMU samples in the format of VINS-Mono and PL-VINS to the estimator's
+// node, with lines in time, late or missing. Run by lines.test.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
@@ -22,7 +22,7 @@ constexpr int kImuPerImage = 10;
 
 ros::Time ImageStamp(int image) { return ros::Time(kStart + kPeriod * image); }
 
-// `count` features that do not move.
+// `count` stationary features.
 sensor_msgs::PointCloud Features(int image, int count, const std::vector<std::string>& channels) {
   sensor_msgs::PointCloud cloud;
   cloud.header.stamp = ImageStamp(image);
@@ -51,8 +51,8 @@ class Lines : public ::testing::Test {
   static void SetUpTestSuite() { feed_ = new Feed(); }
   static void TearDownTestSuite() { delete feed_; }
 
-  // Publishes as many images; lines `lag` images late (negative: none), before or after the points.
-  // Returns what the node did with them.
+  // Publishes `images` images with lines `lag` images late (none if negative), before or after the
+  // points. Returns the counts of the node.
   static Counts Play(int images, int lag, bool lines_first = false) {
     const Counts before = feed_->Read();
     for (int i = 0; i < images; ++i) feed_->PublishImage(lag, lines_first);
@@ -90,7 +90,7 @@ class Lines : public ::testing::Test {
       ros::spinOnce();
     }
 
-    // After all that was published.
+    // Reads the counts after all published messages are processed.
     Counts Read() {
       EXPECT_TRUE(log.WaitUntilDone());
       return {log.Count("frames"), log.Count("frames_without_lines"), log.Value("message")};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands on both sides of the relay: an estimator, and mavros. Run by mavros_relay.test.
+// Takes the places of the estimator and of mavros on both sides of the relay. Run by
+// mavros_relay.test.
 #include <geometry_msgs/TransformStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
@@ -21,7 +22,7 @@ using plm_vins::testing::SpinUntil;
 
 constexpr double kPatience = 10;  // [s]
 
-// An estimator whose IMU has z down, is level and moves forward while it turns right.
+// An estimator whose IMU has z down, is level and moves forward while it rotates to the right.
 class FakeEstimator {
  public:
   FakeEstimator() {
@@ -38,7 +39,7 @@ class FakeEstimator {
     }
   }
 
-  double image_offset = 0;  // of the stamps of images from those of states [s]
+  double image_offset = 0;  // of image timestamps relative to state timestamps [s]
 
   ros::Time newest() const { return state_.header.stamp; }
 
@@ -46,7 +47,7 @@ class FakeEstimator {
     return images_.getNumSubscribers() == 2 && states_.getNumSubscribers() == 2;  // relays
   }
 
-  // States at 100 Hz and images at 10 Hz, by their stamps, however slow this machine is.
+  // Publishes states at 100 Hz and images at 10 Hz by timestamp, however slow the machine is.
   void Fly(double seconds, bool with_images) {
     for (int i = 0; i < 100 * seconds; ++i) {
       state_.header.stamp += ros::Duration(0.01);
@@ -57,7 +58,7 @@ class FakeEstimator {
     }
   }
 
-  // Neither states nor images.
+  // Publishes neither states nor images.
   void Pause(double seconds) {
     state_.header.stamp += ros::Duration(seconds);
     ros::WallDuration(seconds).sleep();
@@ -87,7 +88,7 @@ class FakeMavros {
     return odometry_.getNumPublishers() > 0 && counter_.getNumPublishers() > 0;
   }
 
-  // Until what the estimator said last has come; before it, all that was to come.
+  // Waits until the estimator's last message has arrived, and so all earlier ones.
   bool WaitForNewest(const FakeEstimator& estimator) const {
     return SpinUntil(kPatience, [&] {
       return !messages.empty() &&
@@ -99,7 +100,7 @@ class FakeMavros {
     return SpinUntil(kPatience, [&] { return reset_counter == count; });
   }
 
-  // With stamps from after `begin` to `end`.
+  // Counts messages with timestamps after `begin` and up to `end`.
   auto CountWithin(const ros::Time& begin, const ros::Time& end) const {
     return std::count_if(messages.begin(), messages.end(), [&](const nav_msgs::Odometry& message) {
       return message.header.stamp > begin && message.header.stamp <= end;
@@ -141,7 +142,7 @@ TEST(MavrosRelay, SendsWhatMavrosWantsAsLongAsTheEstimateHolds) {
   EXPECT_NEAR(sent.twist.twist.linear.y, 0.05, 1e-9);
   EXPECT_NEAR(sent.twist.twist.angular.z, -0.5, 1e-9);
   EXPECT_NEAR(sent.pose.covariance[0], 0.01, 1e-9);
-  // Heading along z and pitch about y move the base across and up.
+  // Errors of heading about z and pitch about y move the base sideways and up.
   EXPECT_NEAR(sent.pose.covariance[7], 0.02 + 0.01 * 0.06, 1e-9);
   EXPECT_NEAR(sent.pose.covariance[14], 0.03 + 0.01 * 0.05, 1e-9);
   EXPECT_NEAR(sent.twist.covariance[35], 0.6, 1e-9);
@@ -166,14 +167,14 @@ TEST(MavrosRelay, SendsWhatMavrosWantsAsLongAsTheEstimateHolds) {
   EXPECT_TRUE(mavros.WaitForCounter(2)) << mavros.reset_counter;
 }
 
-// By as much as td may be, more than an image's estimate may be old.
+// The offset is the largest td, which exceeds the permitted age of an image's estimate.
 TEST(MavrosRelay, TakesImagesWhoseStampsAreFarFromThoseOfTheStates) {
   FakeEstimator estimator;
   FakeMavros mavros("/mavros_relay", "/mavros/odometry/out");
   WaitFor(estimator, mavros);
   for (const double offset : {0.6, -0.6}) {
     estimator.image_offset = offset;
-    estimator.Fly(2.0, true);  // an interruption, perhaps
+    estimator.Fly(2.0, true);  // possibly an interruption
     const ros::Time begin = estimator.newest();
     estimator.Fly(1.0, true);
     ASSERT_TRUE(mavros.WaitForNewest(estimator)) << offset;
@@ -181,7 +182,7 @@ TEST(MavrosRelay, TakesImagesWhoseStampsAreFarFromThoseOfTheStates) {
   }
 }
 
-// Its images may be so old that the first state after a pause goes on at once.
+// Images may be so old that the first state after a pause is relayed at once.
 TEST(MavrosRelay, AsksTfWhereTheBaseIsAndCountsAPauseOfAll) {
   std::string log;
   const ros::Subscriber log_subscriber = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(

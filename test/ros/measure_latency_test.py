@@ -17,7 +17,7 @@ from node_processes import CONFIG, ROOT, arguments, free_port
 _, BAG, FOLDER = arguments(__doc__)
 SCRIPT = ROOT / "scripts" / "measure_latency.py"
 BOUND_MS = 1000  # on a busy machine: the queues are short, and what is late is dropped
-LEAST_SHARE = 0.3  # of the images with a pose: the rest is initialisation and overload
+LEAST_SHARE = 0.3  # of the images with a pose: initialization and overload lose the rest
 
 
 def measure(*options):

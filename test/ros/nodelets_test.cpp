@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loads trackers and estimator as nodelets beside the same trackers as nodes, and feeds both with
-// one bag. Run by nodelets.test.
+// Loads trackers and estimator as nodelets next to the same trackers as nodes, and sends both the
+// same bag. Run by nodelets.test.
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
@@ -33,7 +33,7 @@ using testing::SpinUntil;
 
 constexpr double kTimeout = 20;  // [s]
 
-// The newest features of one tracker.
+// The newest features of a tracker.
 struct Features {
   explicit Features(const std::string& topic)
       : subscriber(ros::NodeHandle().subscribe(topic, 1000, &Features::Add, this)) {}
@@ -45,7 +45,7 @@ struct Features {
   sensor_msgs::PointCloudConstPtr newest;
 };
 
-// Those of the manager.
+// Controls the nodelets of the manager.
 class Nodelets {
  public:
   static bool Load(const std::string& name, const std::string& type) {
@@ -75,7 +75,7 @@ class Nodelets {
   }
 };
 
-// The messages of the bag, one image after the other.
+// Publishes the messages of the bag, image by image.
 class Feed {
  public:
   explicit Feed(const std::string& file) : bag_(file), view_(bag_), next_(view_.begin()) {}
@@ -86,7 +86,7 @@ class Feed {
     });
   }
 
-  // Publishes an image after the IMU samples that reach beyond it. Returns its stamp.
+  // Publishes an image after IMU samples that extend beyond it. Returns its timestamp.
   ros::Time PublishImage() {
     constexpr size_t kSamplesBeyond = 4;
     size_t beyond = 0;
@@ -130,7 +130,7 @@ class OurNodelets : public ::testing::Test {
   }
   static void TearDownTestSuite() { feed_.reset(); }
 
-  // Here, since tests are but skipped where it fails for the suite, and rostest takes that for
+  // Asserted here, since failures in SetUpTestSuite() only skip the tests, which rostest counts as
   // success.
   void SetUp() override { ASSERT_TRUE(are_loaded_) << "the nodelets do not receive anything"; }
 
@@ -138,7 +138,7 @@ class OurNodelets : public ::testing::Test {
     return ros::param::param<std::string>("~output", ".") + "/nodelets_trajectory.tum";
   }
 
-  // Images and IMU go to the manager, once for all nodelets, and to the two nodes.
+  // Images and IMU samples are sent to the manager, once for all nodelets, and to the two nodes.
   static constexpr uint32_t kProcesses = 3;
   static std::unique_ptr<Feed> feed_;
   static bool are_loaded_;
@@ -172,7 +172,7 @@ TEST_F(OurNodelets, GiveTheSameFeaturesAsTheNodes) {
   EXPECT_GT(lines.newest->points.size(), 5U);
 }
 
-// After the images of the test before, which are enough to begin with.
+// The images of the previous test suffice for the initialization.
 TEST_F(OurNodelets, EstimateAndSaveWhatTheyHaveWhenUnloaded) {
   std::filesystem::remove(TrajectoryFile());
   nav_msgs::Odometry newest;
@@ -218,7 +218,8 @@ TEST_F(OurNodelets, ChangeTheNumberOfFeaturesWhileTheyRun) {
   }
 }
 
-// Of an unknown encoding, of a size beyond its bytes and any memory, of another time.
+// Images with an unknown encoding, with a size beyond their data and any memory, and of another
+// time.
 TEST_F(OurNodelets, GoOnAfterImagesThatNoCameraSends) {
   const Features points("/feature_tracker/feature");
   const Features node_lines("/nodes/linefeature_tracker/linefeature");
@@ -283,7 +284,7 @@ TEST_F(OurNodelets, WithAFaultyConfigurationAreNotLoadedAndSayWhy) {
   EXPECT_EQ(Nodelets::List(), Nodelets::All()) << "the others go on";
 }
 
-// Names that ROS refuses, and a topic that the manager knows of another type.
+// Invalid ROS names, and a topic that the manager knows with another type.
 TEST_F(OurNodelets, GoOnWhereOneBesideThemCannotSubscribe) {
   ros::param::set("/graph/config_file", ros::param::param<std::string>("~config_file", ""));
   ros::param::set("/graph/set/imu_topic", "/another_imu");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Listens to the nodes while a short bag is played, and judges what came. Run by nodes.test.
+// Records the output of the nodes while a short bag is played, and checks it. Run by nodes.test.
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
@@ -33,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string program_folder;  // where this program and the nodes are
+std::string program_folder;  // folder of this program and the nodes
 
 // All messages of a topic.
 template <typename Message>
@@ -87,16 +87,16 @@ void Spin(double seconds) {
   }
 }
 
-// A status as "message" and its values.
+// The message and the values of a status, by key.
 using Status = std::map<std::string, std::string>;
 
-// Those of this name, oldest first.
+// Returns the statuses of this name, oldest first.
 std::vector<Status> Statuses(const Listener<diagnostic_msgs::DiagnosticArray>& log,
                              const std::string& name) {
   std::vector<Status> statuses;
   for (const auto& array : log.messages) {
     for (const auto& status : array.status) {
-      if (status.name != name || status.values.empty()) continue;  // it is starting up
+      if (status.name != name || status.values.empty()) continue;  // still starting
       statuses.push_back({{"message", status.message}});
       for (const auto& value : status.values) statuses.back()[value.key] = value.value;
     }
@@ -104,7 +104,7 @@ std::vector<Status> Statuses(const Listener<diagnostic_msgs::DiagnosticArray>& l
   return statuses;
 }
 
-// The last one whose message begins so; empty: there is none.
+// Returns the last status whose message begins with this text; empty if there is none.
 Status LastStatus(const std::vector<Status>& statuses, const std::string& message) {
   const auto found = std::find_if(statuses.rbegin(), statuses.rend(), [&](const Status& status) {
     return status.at("message").rfind(message, 0) == 0;
@@ -112,7 +112,7 @@ Status LastStatus(const std::vector<Status>& statuses, const std::string& messag
   return found == statuses.rend() ? Status() : *found;
 }
 
-// The tests look at one and the same run of the nodes.
+// All tests check the same run of the nodes.
 class Nodes : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -140,8 +140,8 @@ TEST_F(Nodes, TrackEveryImage) {
   EXPECT_EQ(log_->feature_img.messages.back().encoding, "bgr8");
 }
 
-// VINS-Mono reads the channels by their place, rounds the ids, holds two points of the same id for
-// two cameras, and stops where a z is not 1. It skips the first message.
+// VINS-Mono reads channels by position, rounds the ids, treats two points of the same id as a
+// stereo pair, and aborts if z is not 1. It ignores the first message.
 TEST_F(Nodes, GivePointsAsVinsMonoReadsThem) {
   for (const auto& frame : log_->feature.messages) {
     ASSERT_GE(frame.channels.size(), 5u);
@@ -160,7 +160,7 @@ TEST_F(Nodes, GivePointsAsVinsMonoReadsThem) {
   }
 }
 
-// A line tracker that is too slow may leave out images, but only whole ones.
+// A slow line tracker may drop images, but only complete ones.
 TEST_F(Nodes, FollowLines) {
   const std::vector<ros::Time> images = log_->image.Stamps();
   const std::vector<ros::Time> lines = log_->linefeature.Stamps();
@@ -213,7 +213,7 @@ TEST_F(Nodes, PropagateAtTheRateOfTheImu) {
   EXPECT_GT(log_->imu_propagate.messages.back().pose.covariance[0], 0);
 }
 
-// The last image has come long ago.
+// The last image has passed long ago.
 TEST_F(Nodes, KeepThePathForWhoComesLate) {
   const Listener<nav_msgs::Path> late("/vins_estimator/path");
   for (int i = 0; i < 50 && late.messages.empty(); ++i) Spin(0.1);
@@ -221,11 +221,11 @@ TEST_F(Nodes, KeepThePathForWhoComesLate) {
   EXPECT_EQ(late.messages[0].poses.size(), log_->path.messages.back().poses.size());
 }
 
-// The log does not listen to them: a process has one connection to a topic.
+// The log does not subscribe to these, since a process has only one connection to a topic.
 TEST_F(Nodes, KeepTheLinesOfThePastForWhoComesLate) {
   const Listener<visualization_msgs::Marker> late("/vins_estimator/history_lines_cloud");
   for (int i = 0; i < 50 && late.messages.empty(); ++i) Spin(0.1);
-  Spin(0.5);  // all come at once
+  Spin(0.5);  // all arrive together
   ASSERT_FALSE(late.messages.empty());
   std::set<int> ids;
   for (const auto& marker : late.messages) {
@@ -274,7 +274,7 @@ TEST_F(Nodes, SayWhatTheyDoAndWhatTheyWaitFor) {
   EXPECT_EQ(end["images"], std::to_string(log_->image.messages.size()));
 }
 
-// The bag is played in its own time, against which delays are measured.
+// The bag is played in its own time, which is the reference of delays.
 TEST_F(Nodes, TellRatesAndDelays) {
   const auto statuses = Statuses(log_->diagnostics, "vins_estimator: odometry");
   std::map<std::string, double> greatest;
@@ -295,7 +295,7 @@ TEST_F(Nodes, TellRatesAndDelays) {
   EXPECT_LT(std::stod(tracking["odometry_delay_ms"]), 5000);
 }
 
-// Last, as it ends the run.
+// Runs last, since it ends the run.
 TEST_F(Nodes, SaveTheTrajectoryAndResetByService) {
   std_srvs::Trigger save;
   ASSERT_TRUE(ros::service::call("/vins_estimator/save_trajectory", save));

@@ -24,7 +24,7 @@ from node_processes import (CONFIG, Listener, Processes, arguments, free_port, s
 
 NODES, BAG, FOLDER = arguments(__doc__)
 NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator")
-MAX_WAIT = 0.5  # [s]: images that wait for longer are left out
+MAX_WAIT = 0.5  # [s]: images that wait longer are dropped
 IMAGE_INTERVAL = 0.05  # [s], of the recording
 END_LIMIT = 20  # [s] from SIGINT to the end; takes well below one where the machine is not busy
 
@@ -222,7 +222,7 @@ class Restart(OperationsTest):
         self.assertFalse(response.success)
         self.assertEqual(response.message, "cannot write /dev/null/a.tum: Not a directory")
         rospy.set_param(parameter, str(self.trajectory))
-        for _ in range(2):  # the second takes the place of the first
+        for _ in range(2):  # the second replaces the first
             response = save()
             self.assertTrue(response.success, response.message)
             self.assertEqual(response.message,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The estimator's node fed by the trackers of VINS-Mono and PL-VINS: messages in their layouts, in
-// any order, late, missing; restarts with and without notice. Run by peers.test.
+// The estimator's node with input as from the trackers of VINS-Mono and PL-VINS: messages in their
+// formats, in any order, late or missing; announced and unannounced restarts. Run by peers.test.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -22,7 +22,7 @@ using testing::ImageMessages;
 using testing::PeerTrackers;
 using Kind = ImageMessages::Kind;
 
-constexpr double kPeriod = 0.025;  // [s] of wall time per image: twice as fast as they are stamped
+constexpr double kPeriod = 0.025;  // [s] of wall time per image: twice real time
 constexpr double kPatience = 60;   // [s]
 
 simulator::FeatureDataset MakeFlight() {
@@ -39,7 +39,7 @@ ImageMessages PointsThenLines(size_t image) {
   return {{{Kind::kPoints, image}, {Kind::kLines, image}}};
 }
 
-// The tests are parts of one run of the estimator.
+// The tests are consecutive parts of one run of the estimator.
 class Peers : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -61,7 +61,7 @@ class Peers : public ::testing::Test {
 
   static void WaitUntilDone() { ASSERT_TRUE(log_->WaitUntilDone()); }
 
-  // Root mean square distance from the truth after the best alignment of all poses [m].
+  // Root mean square distance from the truth after alignment of all poses [m].
   static double Error() {
     std::map<int64_t, Eigen::Vector3d> truth;
     for (const FrameState& state : flight_->truth) truth[state.t_ns] = state.position();
@@ -93,7 +93,7 @@ std::unique_ptr<simulator::FeatureDataset> Peers::flight_;
 std::unique_ptr<PeerTrackers> Peers::trackers_;
 std::unique_ptr<EstimatorLog> Peers::log_;
 
-// VINS-Mono's tracker leaves out the first image, which has no velocities.
+// VINS-Mono's tracker does not publish the first image, which has no velocities.
 TEST_F(Peers, AreUnderstood) {
   trackers_->Play(1, trackers_->images(), kPeriod, PointsThenLines);
   WaitUntilDone();
@@ -106,7 +106,8 @@ TEST_F(Peers, AreUnderstood) {
   EXPECT_GT(log_->Count("lines_in_window"), 10);
 }
 
-// The recording begins anew, with notice; lines come up to three images late, some messages never.
+// The recording restarts with an announcement; lines are up to three images late, some messages are
+// missing.
 TEST_F(Peers, MayBeLateOutOfStepAndIncomplete) {
   trackers_->PublishRestart();
   std::mt19937 random(1);
@@ -132,7 +133,7 @@ TEST_F(Peers, MayBeLateOutOfStepAndIncomplete) {
   EXPECT_TRUE(TimeRunsForward());
 }
 
-// Without notice, as from a tracker that does not look at stamps.
+// An unannounced restart, as from a tracker that ignores timestamps.
 TEST_F(Peers, MayJumpBackInTimeWithoutAWord) {
   trackers_->Play(0, trackers_->images(), kPeriod, PointsThenLines);
   WaitUntilDone();
@@ -195,7 +196,7 @@ TEST_F(Peers, OfPlVinsSendNoVelocities) {
   EXPECT_EQ(log_->Count("feature_messages_malformed"), 0);
 }
 
-// Stamps of any time, ids that are there twice, numbers that are none.
+// Arbitrary timestamps, duplicate ids, and invalid numbers.
 TEST_F(Peers, MaySendWhatTheyLikeAndEndNothing) {
   ros::NodeHandle node;
   ros::Publisher imu = node.advertise<sensor_msgs::Imu>("/imu0", 10);

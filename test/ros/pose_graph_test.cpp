@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pose graph's node fed with keyframes: worlds that end, images that do not come or come
-// compressed, numbers that are none, displays that are opened later. Run by pose_graph.test.
+// The pose graph's node with keyframes of ended worlds, with missing or compressed images, with
+// invalid numbers, and with displays that are opened later. Run by pose_graph.test.
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Path.h>
@@ -25,7 +25,7 @@ using testing::SpinUntil;
 
 constexpr double kPatience = 20;  // [s]
 
-// The newest message of a topic.
+// Keeps the newest message of a topic.
 template <typename Message>
 class Newest {
  public:
@@ -53,18 +53,18 @@ class Newest {
   ros::Subscriber subscriber_;
 };
 
-// What a node said last in /diagnostics, by key; its text as "message".
+// The last diagnostics of a node, by key; its text is "message".
 class Status {
  public:
   explicit Status(std::string name) : name_(std::move(name)) {}
 
-  // Turns ROS until the value contains the text.
+  // Waits until the value contains the text.
   bool WaitFor(const std::string& key, const std::string& text) {
     return SpinUntil(kPatience, [&] { return values_[key].find(text) != std::string::npos; });
   }
   const std::string& Value(const std::string& key) { return values_[key]; }
 
-  // A count as it is now: what comes next may have been on its way before.
+  // Waits for the current count, since the next status may have been in transit already.
   int Count(const std::string& key) {
     const int seen = statuses_;
     EXPECT_TRUE(SpinUntil(kPatience, [&] { return statuses_ >= seen + 2; }));
@@ -96,7 +96,7 @@ bool Reset(const std::string& node) {
 
 cv::Mat Blank() { return {480, 752, CV_8UC1, cv::Scalar(100)}; }
 
-// What takes long to describe.
+// An image with many corners, which takes long to describe.
 cv::Mat Noise() {
   cv::Mat noise(480, 752, CV_8UC1);
   cv::randu(noise, 0, 256);
@@ -114,14 +114,14 @@ class PoseGraphNodeTest : public ::testing::Test {
     ASSERT_TRUE(Reset("/pose_graph"));
   }
 
-  // An estimator, in the place of the one before.
+  // Replaces the estimator by a new one.
   void Start() {
     estimator_.reset();
     estimator_ = std::make_unique<KeyframeSource>("/vins_estimator/");
     ASSERT_TRUE(estimator_->WaitForSubscriber());
   }
 
-  // Keyframes from `begin` to before `end`, until the node has the last one.
+  // Publishes keyframes from `begin` to before `end` and waits until the node has the last one.
   void Fly(int begin, int end) {
     for (int i = begin; i < end; ++i) {
       estimator_->Publish(i, camera_, Blank());
@@ -130,7 +130,7 @@ class PoseGraphNodeTest : public ::testing::Test {
     ASSERT_TRUE(WaitForKeyframe(end - 1)) << status_.Value("message");
   }
 
-  // Ends with the world before, the `worlds`-th, once the node knows.
+  // Ends the current world, the `worlds`-th, and waits until the node has noticed.
   void Restart(int worlds) {
     estimator_->PublishRestart();
     ASSERT_TRUE(status_.WaitFor("worlds", std::to_string(worlds + 1)));
@@ -142,7 +142,7 @@ class PoseGraphNodeTest : public ::testing::Test {
     });
   }
 
-  // Odometry in the map for a while, as the node takes it.
+  // Counts odometry messages in the map during this time.
   int CountInMap(double seconds) {
     in_map_.Forget();
     SpinUntil(seconds, [&] {
@@ -166,7 +166,7 @@ TEST_F(PoseGraphNodeTest, PutsKeyframesInOrderAndOdometryInTheMap) {
   EXPECT_EQ(in_map_->header.frame_id, "map");
 }
 
-// The new one says nothing of the world that it begins.
+// The new estimator does not announce its new world.
 TEST_F(PoseGraphNodeTest, TakesAnEstimatorThatWasStartedAgainForANewWorld) {
   Fly(0, 4);
   EXPECT_GT(CountInMap(0.5), 0);
@@ -177,8 +177,7 @@ TEST_F(PoseGraphNodeTest, TakesAnEstimatorThatWasStartedAgainForANewWorld) {
   EXPECT_EQ(CountInMap(0.5), 0);
 }
 
-// As of a recording without odometry. The first keyframe is lost where its pose comes after its
-// points.
+// A recording without odometry. The first keyframe is lost if its pose arrives after its points.
 TEST_F(PoseGraphNodeTest, TakesKeyframesOfAnotherPublisherForANewWorld) {
   Fly(0, 4);
   Start();
@@ -200,7 +199,7 @@ TEST_F(PoseGraphNodeTest, KnowsNoPlaceOfANewWorldByTheKeyframesOfTheOneBefore) {
   const cv::Mat noise = Noise();
   for (int i = 0; i < 40; ++i) estimator_->Publish(i, camera_, noise);
   ASSERT_TRUE(SpinUntil(kPatience, [&] { return path_.has() && !path_->poses.empty(); }));
-  Restart(worlds);  // while keyframes of before wait
+  Restart(worlds);  // while keyframes of the previous world wait
   EXPECT_EQ(CountInMap(1.5), 0);
 }
 
@@ -267,7 +266,7 @@ TEST_F(PoseGraphNodeTest, SaysInFullWhereItsMapIs) {
   EXPECT_EQ(message.find("/./"), std::string::npos) << message;
 }
 
-// In a namespace, and with nobody who looks at it before.
+// The node runs in a namespace, and nothing subscribes to its output before.
 TEST(PoseGraphOfARobot, TakesCompressedImagesAndShowsItsPathToWhomComesLater) {
   const std::string node = "/robot/pose_graph";
   const Camera camera("compressed");

@@ -74,7 +74,7 @@ class SaveAndRelocalise(unittest.TestCase):
         rospy.set_param(SETTINGS, {"loop_closure": "1", "load_previous_pose_graph": "1"})
         listener = self.fly("second")
         listener.wait_for_message("pose_graph", "located in the map")
-        # The same images are of the same places.
+        # Both flights replay one recording, so equal stamps mean equal positions.
         stamp = wait_until(lambda: max(first.keys() & self.in_map.keys(), default=0),
                            "an image with a pose in both flights")
         self.assertLess(math.dist(first[stamp], self.in_map[stamp]), 0.2)

@@ -26,7 +26,7 @@ from pages.run_folder import RunFolder  # noqa: E402
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))),
                 None)
-# Of WebGL in software; plotly asks for pixels, which is slow but right.
+# Warning of WebGL in software: reading pixels back, as plotly does, is slow but correct.
 HARMLESS = "Canvas2D: Multiple readback operations"
 
 POINTS = "ply\nformat ascii 1.0\nelement vertex 400 \nproperty float x\nproperty float y\n" \

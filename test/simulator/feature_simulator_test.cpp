@@ -32,7 +32,7 @@ Rigid3d CameraFromWorld(const FeatureSimulationOptions& options, const FrameStat
   return (state.T_W_B() * options.sensors.T_B_C).Inverse();
 }
 
-// Calls `f(observation, true normalised point)` for every point observation.
+// Calls `f(observation, true normalized point)` for every point observation.
 template <typename F>
 void ForEachPoint(const FeatureSimulationOptions& options, const FeatureDataset& data, F f) {
   for (size_t i = 0; i < data.truth.size(); ++i) {
@@ -137,7 +137,7 @@ TEST(FeatureSimulator, ARollingShutterSeesEachRowAtItsOwnTime) {
       const double share = ReadoutShare(point.uv_px.y(), options.sensors.camera.height);
       const Rigid3d T_W_B = trajectory.At(stamp + 0.03 * share).T_W_B;
       const Vector3d p_C = (T_W_B * options.sensors.T_B_C).Inverse() * p_W;
-      EXPECT_LT((point.xy - p_C.hnormalized()).norm(), 4e-4);  // to the row
+      EXPECT_LT((point.xy - p_C.hnormalized()).norm(), 4e-4);  // to the precision of a row
       greatest_shift = std::max(greatest_shift, (point.xy - (T_C_W * p_W).hnormalized()).norm());
     }
   }

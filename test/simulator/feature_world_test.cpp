@@ -22,7 +22,7 @@ Vector3d Direction(const LineSegment3d& line) { return (line.end - line.start).n
 
 bool IsLevel(const LineSegment3d& line) { return std::abs(Direction(line).z()) < 1e-9; }
 
-// Share of the level lines whose heading is `heading` modulo 90 deg, to a degree.
+// Share of the horizontal lines whose heading is `heading` modulo 90 deg, to one degree.
 double ShareAt(double heading, const FeatureWorld& world) {
   int level = 0, there = 0;
   for (const LineSegment3d& line : world.lines) {

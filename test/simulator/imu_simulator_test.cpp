@@ -27,7 +27,7 @@ ImuSimulationOptions NoiseFree(double rate_hz) {
   return options;
 }
 
-// Midpoint integration from the true start.
+// Midpoint integration from the true initial state.
 BodyState Integrate(const BodyState& start, const std::vector<ImuSample>& imu, double gravity) {
   BodyState state = start;
   for (size_t i = 1; i < imu.size(); ++i) {

@@ -11,7 +11,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int64_t kStart = 1'403'636'579'000'000'000;  // as large as real stamps are
+constexpr int64_t kStart = 1'403'636'579'000'000'000;  // the magnitude of real timestamps
 constexpr int64_t kPeriod = 5'000'000;                 // 200 Hz
 const Rigid3d T_B_C(SO3Exp({0.4, -1.3, 0.8}), {0.1, 0.2, 0.3});
 
@@ -19,7 +19,7 @@ ImuSample Sample(int64_t t_ns, const Eigen::Vector3d& gyro) {
   return {t_ns, gyro, Eigen::Vector3d(0, 0, 9.81)};
 }
 
-// Samples of `rate`(seconds since start) over `seconds`.
+// Adds samples of `rate` (by seconds since start) for `seconds`.
 template <typename Rate>
 void Feed(GyroPredictor* predictor, double seconds, const Rate& rate) {
   for (int64_t t = 0; t <= ToNanoseconds(seconds); t += kPeriod) {
@@ -32,7 +32,7 @@ TEST(GyroPredictor, ConstantRateBetweenArbitraryTimes) {
   GyroPredictor predictor(T_B_C, 0);
   Feed(&predictor, 0.5, [&](double) -> const Eigen::Vector3d& { return rate; });
   const int64_t t0 = kStart + 12'345'678, t1 = t0 + 50'000'000;
-  // A direction fixed in the world: d_C1 = R_C_B Exp(-rate dt) R_B_C d_C0.
+  // Direction fixed in the world: d_C1 = R_C_B Exp(-rate dt) R_B_C d_C0.
   const Eigen::Quaterniond R_B_C = T_B_C.rotation;
   const Eigen::Quaterniond expected = R_B_C.conjugate() * SO3Exp(-0.05 * rate) * R_B_C;
   const auto rotation = predictor.Rotation(t0, t1);
@@ -94,11 +94,11 @@ TEST(GyroPredictor, IgnoresBadSamples) {
   GyroPredictor predictor(Rigid3d(), 0);
   for (int64_t t = kStart; t <= kStart + 100'000'000; t += kPeriod) {
     predictor.AddImu(Sample(t, rate));
-    predictor.AddImu(Sample(t, 100 * rate));            // repeated stamp
+    predictor.AddImu(Sample(t, 100 * rate));            // repeated timestamp
     predictor.AddImu(Sample(t - kPeriod, 100 * rate));  // backwards
     predictor.AddImu(
         Sample(t + 1, Eigen::Vector3d(0, std::numeric_limits<double>::quiet_NaN(), 0)));
-    predictor.AddImu({t + 2, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});  // not read
+    predictor.AddImu({t + 2, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});  // read error
   }
   const auto rotation = predictor.Rotation(kStart, kStart + 100'000'000);
   ASSERT_TRUE(rotation);
@@ -112,7 +112,7 @@ TEST(GyroPredictor, ForgetsWhatIsOld) {
   EXPECT_TRUE(predictor.Rotation(kStart + 19'000'000'000, kStart + 20'000'000'000));
 }
 
-// As from a clock that was wrong for a moment.
+// The clock was wrong for a moment.
 TEST(GyroPredictor, BeginsAnewWhereAllStampsGoBack) {
   GyroPredictor predictor(Rigid3d(), 0);
   for (const int64_t t : {0, 1, 2}) {

@@ -26,7 +26,7 @@ class ImageQueueTest : public ::testing::Test {
     queue_.AddImage({kStart + milliseconds * kMillisecond, picture});
   }
 
-  // IMU samples every 5 ms.
+  // Adds IMU samples every 5 ms.
   void AddImu(int from, int to, const Eigen::Vector3d& gyro = Eigen::Vector3d::Zero()) {
     for (int t = from; t <= to; t += 5) {
       ImuSample sample = StillImu(kStart + t * kMillisecond);
@@ -35,7 +35,7 @@ class ImageQueueTest : public ::testing::Test {
     }
   }
 
-  // Stamps of what is ready [ms].
+  // Returns the timestamps of ready images [ms].
   std::vector<int> Pop() {
     return Take([this] { return queue_.Pop(); });
   }
@@ -105,11 +105,11 @@ TEST_F(ImageQueueTest, BeginsAnewWhenTheRecordingDoes) {
   for (int t = 5000; t < 5500; t += 50) AddImage(t);
   EXPECT_EQ(Flush().size(), 10u);
   EXPECT_FALSE(last_.restart);
-  for (int t = 0; t < 550; t += 50) AddImage(t);  // ten are refused, the next begins anew
+  for (int t = 0; t < 550; t += 50) AddImage(t);  // ten are rejected, the next restarts the queue
   EXPECT_EQ(Flush(), (std::vector<int>{500}));
   EXPECT_TRUE(last_.restart);
   EXPECT_EQ(queue_.counts().restarts, 1);
-  AddImu(500, 600);  // the gyro's history begins anew, too
+  AddImu(500, 600);  // the history of the gyroscope restarts as well
   AddImage(550);
   EXPECT_EQ(Pop(), (std::vector<int>{550}));
   EXPECT_FALSE(last_.restart);
@@ -168,7 +168,7 @@ TEST(ImageQueue, ThinsToTheRateButHandsOutAll) {
   for (int i = 2; i < 10; ++i) EXPECT_NE(published[i], published[i - 1]) << i;
 }
 
-// The gyro says nothing about the images while the camera's rotation is unknown.
+// The gyroscope cannot predict while the rotation of the camera is unknown.
 TEST(ImageQueue, DoesWithoutTheGyroWhereTheCameraRotationIsUnknown) {
   Config config = StillConfig();
   config.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kCalibrateRotation;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int64_t kMillisecond = 1'000'000;
 
-// Which of the stamps [ms] are taken at `rate` [Hz].
+// Returns the timestamps [ms] that are selected at `rate` [Hz].
 std::vector<int> Take(double rate, const std::vector<int>& stamps) {
   RateLimiter limiter(rate);
   std::vector<int> taken;
@@ -44,8 +44,8 @@ TEST(RateLimiter, BeginsAnewAfterAGapAndAJumpBack) {
   EXPECT_EQ(Take(10, {500, 550, 600, 0, 50, 100}), (std::vector<int>{600, 100}));
 }
 
-// What the trackers of VINS-Mono and PL-VINS do, by their own words: a count that begins with one,
-// and its rate since the first image.
+// The rule of the trackers of VINS-Mono and PL-VINS: a count that starts with one, and its rate
+// since the first image.
 std::vector<int> TakeAsTheOthersDo(double rate, const std::vector<int>& stamps) {
   std::vector<int> taken;
   int first = stamps[0], count = 1;

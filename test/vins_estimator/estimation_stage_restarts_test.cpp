@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of the world frame in every kind of trouble that the back end may get into: it goes
-// on, or a new one is announced.
+// The world frame after every kind of failure of the back end: it either continues, or a new one is
+// announced.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using simulator::FeatureDataset;
 
 constexpr size_t kTroubleImage = 180;  // of 300
 constexpr size_t kImuPerImage = 10;
-constexpr double kMaxError = 0.3;  // three seconds after the trouble and more [m]
+constexpr double kMaxError = 0.3;  // at least three seconds after the trouble [m]
 constexpr size_t kScattered = 16;  // images
 
 FeatureDataset GoodFlight() {
@@ -29,7 +29,7 @@ FeatureDataset GoodFlight() {
   return simulator::SimulateFeatures(options);
 }
 
-// One kind of trouble: done to the flight before it begins, or to the stage at kTroubleImage.
+// A kind of failure, applied to the flight in advance, or to the stage at kTroubleImage.
 struct Trouble {
   std::string name;
   std::function<void(FeatureDataset*)> damage = [](FeatureDataset*) {};
@@ -38,7 +38,7 @@ struct Trouble {
   bool bridged = false;
 };
 
-// Nothing is where it should be, image after image.
+// Moves all points to random positions in several consecutive images.
 void ScatterPoints(FeatureDataset* flight) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> anywhere(-0.5, 0.5);
@@ -71,7 +71,7 @@ void Blindfold(FeatureDataset* flight) {
   }
 }
 
-// Nothing comes for four seconds, in which every track ends.
+// Removes all input for four seconds, in which every track ends.
 void Pause(FeatureDataset* flight) {
   BreakTracks(flight);
   const auto drop = [](size_t begin, size_t end, auto* stream) {
@@ -111,7 +111,7 @@ std::vector<Trouble> Troubles() {
 std::vector<EstimatorOutput> Fly(const FeatureDataset& flight, const Trouble& trouble) {
   Config config;
   config.sensor = simulator::FeatureSimulationOptions().sensors;
-  config.sensor.imu_noise.accel_density = 0.03;  // a shaking vehicle: blind, it drifts by metres
+  config.sensor.imu_noise.accel_density = 0.03;  // strong vibrations, large drift
   config.use_lines = false;
   EstimationStage stage(config);
   std::vector<EstimatorOutput> outputs;
@@ -129,7 +129,7 @@ std::vector<EstimatorOutput> Fly(const FeatureDataset& flight, const Trouble& tr
   return outputs;
 }
 
-// Distance of the last position from the truth, the world frame being aligned before the trouble.
+// Distance of the last position from the truth, with the world frame aligned before the failure.
 double ErrorAtTheEnd(const std::vector<EstimatorOutput>& outputs, const FeatureDataset& flight) {
   const Rigid3d T =
       testing::AlignHeading(outputs[kTroubleImage - 1].state, flight.truth[kTroubleImage - 1]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the back end starts over: on demand, and where stamps go back or leap ahead; what it says of
-// the IMU.
+// Restarts of the back end on request and after jumps of the timestamps, and its warnings about the
+// IMU.
 #include "vins_estimator/estimation_stage.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ class EstimationStageTest : public ::testing::Test {
     stage_->AddPoints(frame);
   }
 
-  // At rest from `begin` to `end` [ms]: IMU samples at 200 Hz, images at 20 Hz.
+  // Adds input at standstill from `begin` to `end` [ms]: IMU samples at 200 Hz, images at 20 Hz.
   void Rest(int begin, int end) {
     for (int t = begin; t <= end; t += 5) {
       AddImu(t);
@@ -112,8 +112,8 @@ TEST_F(EstimationStageTest, StartsOverWhereAllStampsJumpBack) {
   EXPECT_EQ(outputs_.back().t_ns, 3000 * kMillisecond);
 }
 
-// As NTP sets a clock: by so little that stamps pass the last one before they are enough to judge,
-// or those of the images alone are.
+// NTP may set a clock back by so little that timestamps pass the last one before they suffice for a
+// decision, or only those of images do.
 TEST_F(EstimationStageTest, StartsOverWhereAllStampsStepBackALittle) {
   for (const int step : {100, 200, 400, 600}) {
     SetUp();
@@ -133,7 +133,7 @@ TEST_F(EstimationStageTest, StartsOverWhereAllStampsStepBackALittle) {
 TEST_F(EstimationStageTest, StragglersAndRepeatedSamplesAreNoJump) {
   Rest(5000, 7000);
   for (int t = 7105; t <= 7200; t += 5) AddImu(t);
-  for (int t = 7005; t <= 7100; t += 5) AddImu(t);  // a batch that was overtaken
+  for (int t = 7005; t <= 7100; t += 5) AddImu(t);  // a delayed batch
   for (int begin = 7205; begin < 8000; begin += 100) {
     for (int t = begin; t < begin + 100; t += 5) AddImu(t);
     for (int t = begin; t < begin + 100; t += 5) AddImu(t);
@@ -142,7 +142,7 @@ TEST_F(EstimationStageTest, StragglersAndRepeatedSamplesAreNoJump) {
   EXPECT_EQ(stage_->statistics().imu_out_of_order, 20 + 160);
 }
 
-// The clock of one sensor alone was set back, and that of the other follows.
+// Only one sensor's clock was set back, and that of the other follows.
 TEST_F(EstimationStageTest, StartsOverWhereTheImuAloneJumpsBack) {
   Rest(5000, 6000);
   for (int t = 0; t <= 5500; t += 5) AddImu(t);
@@ -161,7 +161,7 @@ TEST_F(EstimationStageTest, StartsOverWhereImagesAloneJumpBack) {
   EXPECT_TRUE(outputs_.back().has_pose);
 }
 
-// The time that NTP sets a clock on by may be months.
+// NTP may set a clock forward by months.
 TEST_F(EstimationStageTest, StartsOverWhereAllStampsLeapAhead) {
   Rest(5000, 7000);
   ASSERT_TRUE(outputs_.back().has_pose);
@@ -175,7 +175,7 @@ TEST_F(EstimationStageTest, StartsOverWhereAllStampsLeapAhead) {
   EXPECT_EQ(outputs_.back().t_ns, (kLeap + 3000) * kMillisecond);
 }
 
-// The longest pause that is none of these is left to the estimator.
+// The estimator handles the longest pause that is not a jump.
 TEST_F(EstimationStageTest, APauseIsNoLeap) {
   Rest(5000, 7000);
   Rest(66'000, 68'000);
@@ -195,7 +195,7 @@ TEST_F(EstimationStageTest, SaysThatTheImuComesTooSeldom) {
             "the IMU comes at 16.7 Hz, of which nothing can be made: give 20 Hz or more");
 }
 
-// Runs the stage over a flight with points alone.
+// Runs the stage on a flight with points only.
 testing::EstimatedFlight Fly(const testing::SimulatedFlight& flight, EstimationStage* stage) {
   testing::EstimatedFlight estimated;
   for (size_t i = 0; i < flight.frames.size(); ++i) {
@@ -225,7 +225,8 @@ int64_t CountRepeated(const EstimationStage& stage) {
   return -1;
 }
 
-// Taken for true, two seconds of the same image hold the position while the vehicle goes on.
+// If repeated images counted as observations, they would hold the position for two seconds while
+// the vehicle moves.
 TEST(EstimationStage, ARepeatedImageIsNoStandstill) {
   testing::FlightPlan plan;
   plan.duration = 12;
@@ -246,7 +247,7 @@ TEST(EstimationStage, ARepeatedImageIsNoStandstill) {
   EXPECT_LT(testing::GreatestError(estimated, frozen_at - 1), 0.1);
 }
 
-// A simulated one, which gives the same image to the last bit while the vehicle rests.
+// A simulated camera delivers identical images while the vehicle stands still.
 TEST(EstimationStage, ACameraWithoutNoiseMayRest) {
   testing::FlightPlan plan;
   plan.duration = 15;
@@ -261,7 +262,7 @@ TEST(EstimationStage, ACameraWithoutNoiseMayRest) {
   EXPECT_LT(testing::GreatestError(estimated, 0), 0.02);
 }
 
-// In flight, where the camera shows it.
+// Vibrations in flight are observable from the images.
 TEST(EstimationStage, SaysThatTheImuIsFarNoisierThanConfigured) {
   testing::FlightPlan plan;
   plan.duration = 12;
@@ -282,7 +283,7 @@ TEST(EstimationStage, SaysThatTheImuIsFarNoisierThanConfigured) {
 TEST_F(EstimationStageTest, StraysAndAClockThatStandsStillAreNoJump) {
   Rest(5000, 6000);
   for (int i = 0; i < 200; ++i) {
-    AddImu(3000 + i % 50);  // some stale messages, again and again
+    AddImu(3000 + i % 50);  // repeated old messages
     AddPoints(4000);
     Take();
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the covariances that the estimator states are those of its errors, with each of the
-// stages that work on lines.
+// Tests whether the estimator's covariances agree with its errors, with each of the stages for
+// lines.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kFlights = 20;
 
-// Bounds of the mean of a chi-squared variable over the flights, two-sided 95 %.
+// Bounds of the mean of a chi-square variable over the flights, two-sided 95 %.
 struct Bounds {
   double low, high;
 };
@@ -53,7 +53,7 @@ void ExpectWithin(const Bounds& bounds, double sum, const char* what) {
 
 class EstimatorConsistency : public ::testing::TestWithParam<Stages> {};
 
-// Errors at the ends of flights, which know nothing of each other.
+// Errors at the ends of flights, which are independent of each other.
 TEST_P(EstimatorConsistency, ErrorsAreAsLargeAsStated) {
   testing::Consistency sum;
   for (uint64_t seed = 1; seed <= kFlights; ++seed) {
@@ -76,12 +76,12 @@ INSTANTIATE_TEST_SUITE_P(AllStages, EstimatorConsistency,
                                            Stages{"manhattan", true, true, true, 0},
                                            Stages{"anchors", true, true, true, 24}));
 
-// Flights with an IMU that propellers shake, of which the configuration knows a share.
+// Flights with strong vibrations, of which the configuration contains only a share.
 class ImuNoiseIsLearned : public ::testing::Test {
  protected:
   struct Result {
-    double pose = 0, velocity = 0;               // mean normalised squared errors at the ends
-    double accel_density = 0, gyro_density = 0;  // mean at the ends, over the true ones
+    double pose = 0, velocity = 0;               // mean NEES at the ends
+    double accel_density = 0, gyro_density = 0;  // mean at the ends, relative to the true ones
   };
 
   static Result Fly(double configured_share, bool learns) {
@@ -110,8 +110,8 @@ class ImuNoiseIsLearned : public ::testing::Test {
   }
 };
 
-// The gyro is so much more precise than images that they tell little of its noise. That of the
-// accelerometer is white here, so that what real shaking has beyond that is allowed for in vain.
+// The gyroscope is so much more precise than images that these contain little information on its
+// noise. The accelerometer noise is white here, so the allowance for coloured noise is too large.
 TEST_F(ImuNoiseIsLearned, OfTheAccelerometerWhereItIsConfiguredAsAQuarter) {
   const Result fixed = Fly(0.25, false), learned = Fly(0.25, true);
   EXPECT_GT(learned.accel_density, 1);

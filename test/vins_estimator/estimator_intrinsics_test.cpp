@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wrong intrinsics are found in flight, and then cost little.
+// Wrong intrinsics are estimated in flight, and then cost little accuracy.
 #include <gtest/gtest.h>
 
 #include "test/vins_estimator/estimated_flight.h"
@@ -20,7 +20,7 @@ simulator::FeatureSimulationOptions Options(uint64_t seed) {
   return options;
 }
 
-// The flight as trackers with a wrong calibration see it: focal lengths off by 1 %, the principal
+// The flight as observed by trackers with a wrong calibration: focal lengths off by 1 %, principal
 // point by 5 px.
 SimulatedFlight WithWrongIntrinsics(SimulatedFlight flight) {
   const CameraParameters truth = flight.sensor.camera;

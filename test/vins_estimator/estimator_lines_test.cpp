@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines do the estimator no harm where they are absent, missing for a while or wrong.
+// Lines that are missing, interrupted or wrong do not degrade the estimate.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using testing::EstimatedFlight;
 using testing::SimulatedFlight;
 using testing::WithoutLines;
 
-constexpr size_t kFewPointsFrom = 60;  // image from which points are few: three seconds
+constexpr size_t kFewPointsFrom = 60;  // image from which points are few: after three seconds
 
 SimulatedFlight Simulate(Motion motion, uint64_t seed, double duration = 12) {
   auto options = testing::FlightOptions(motion, seed);
@@ -26,7 +26,7 @@ SimulatedFlight Simulate(Motion motion, uint64_t seed, double duration = 12) {
   return testing::SimulateFlight(options);
 }
 
-// Leaves the oldest `count` point tracks of every image after the start.
+// Keeps only the oldest `count` point tracks of every image after the start.
 void LeaveFewPoints(size_t count, SimulatedFlight* flight) {
   for (size_t i = kFewPointsFrom; i < flight->frames.size(); ++i) {
     auto& points = flight->frames[i].points.points;
@@ -34,7 +34,7 @@ void LeaveFewPoints(size_t count, SimulatedFlight* flight) {
   }
 }
 
-// In every image, one line in `every` carries the id of another.
+// Swaps the ids of lines in every image, one pair in 2 * `every` lines.
 void MixUpLines(size_t every, SimulatedFlight* flight) {
   for (size_t i = 0; i < flight->frames.size(); ++i) {
     auto& lines = flight->frames[i].lines->lines;
@@ -50,7 +50,7 @@ double MeanLinesInWindow(const EstimatedFlight& flight) {
   return sum / static_cast<double>(flight.outputs.size());
 }
 
-// Mean error of a few flights, in shares of their paths, with lines and without.
+// Mean error of several flights relative to their paths, with and without lines.
 struct Comparison {
   double with_lines = 0, without_lines = 0;
 };

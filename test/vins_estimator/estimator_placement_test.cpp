@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Images between keyframes, for which the window is not solved anew.
+// Images between keyframes, for which the window is not optimized again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 using testing::EstimatedFlight;
 
-// Of the frames that both know, none but the second newest has moved.
+// Returns whether only the second newest of the common frames has changed.
 bool WasPlaced(const EstimatorOutput& before, const EstimatorOutput& output) {
   const auto in_output = [&](const FrameState& state) {
     return std::find_if(output.window.begin(), output.window.end(),
@@ -31,8 +31,7 @@ struct Images {
 
 class EstimatorPlacement : public ::testing::Test {
  protected:
-  // Adds the second half of gentle flights to the images that were placed and those that were
-  // solved for.
+  // Adds the second half of gentle flights to the statistics of placed and of optimized images.
   void Fly(int flights, double duration, double outlier_ratio) {
     for (int seed = 1; seed <= flights; ++seed) {
       auto options = testing::FlightOptions(simulator::Motion::kGentle, seed);
@@ -72,13 +71,13 @@ TEST_F(EstimatorPlacement, IsAsGoodAsTheWindowsSolution) {
   EXPECT_NEAR(ratio(&Images::velocity), 1, 0.3);
 }
 
-// A fifth of the points is wrong: too many to rely on them.
+// A fifth of the points is wrong: too many for placement.
 TEST_F(EstimatorPlacement, IsNotReliedOnWherePointsContradict) {
   Fly(/*flights=*/1, /*duration=*/8, /*outlier_ratio=*/0.2);
   EXPECT_LT(placed_.count, 0.1 * solved_.count);
 }
 
-// A tracker that starts again, in the middle of the flight: no point of before holds a state.
+// The tracker restarts in mid-flight: no known point constrains a state.
 TEST_F(EstimatorPlacement, IsNotReliedOnWhereAllPointsAreNew) {
   testing::SimulatedFlight flight =
       testing::SimulateFlight(testing::FlightOptions(simulator::Motion::kGentle, 1));

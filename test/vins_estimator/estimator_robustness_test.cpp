@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The estimator when things go wrong, and that the same input always gives the same output.
+// The estimator under disturbances, and its determinism.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -73,7 +73,7 @@ TEST(EstimatorRobustness, ASecondWithoutPointsCostsCentimetres) {
   }
 }
 
-// With the losses as they are, none of the points would pull the estimate back by 0.3 m.
+// With unchanged robust losses, the points would not correct an error of 0.3 m.
 TEST(EstimatorRobustness, KnownPointsLeadBackFromWhereTheImuLed) {
   testing::FlightPlan plan;
   plan.duration = 12;
@@ -86,7 +86,7 @@ TEST(EstimatorRobustness, KnownPointsLeadBackFromWhereTheImuLed) {
   }
   for (size_t i = kSees; i < flight.frames.size(); ++i) {
     for (PointObservation& point : flight.frames[i].points.points) {
-      if (point.id % 2 != 0) point.id += 1'000'000;  // was lost meanwhile
+      if (point.id % 2 != 0) point.id += 1'000'000;  // lost meanwhile
     }
   }
   const EstimatedFlight estimated = testing::Estimate(flight);
@@ -119,15 +119,15 @@ TEST(EstimatorRobustness, AbsurdImuRestartsWithAReasonAndTracksAgain) {
     const bool names_a_limit = output.reason.find(", more than ") != std::string::npos;
     const bool names_the_camera = output.reason.find("camera contradicts") != std::string::npos;
     EXPECT_TRUE(names_a_limit || names_the_camera) << output.reason;
-    EXPECT_LT(output.t_ns, flight.frames[150].t_ns);  // within a second and a half
+    EXPECT_LT(output.t_ns, flight.frames[150].t_ns);  // within one and a half seconds
   }
   EXPECT_GE(losses, 1u);
-  EXPECT_EQ(restarts, losses);  // no bridge leads over what such an IMU says
+  EXPECT_EQ(restarts, losses);  // no bridge is possible with such an IMU
   EXPECT_EQ(outputs.back().status, EstimatorStatus::kTracking);
   EXPECT_TRUE(outputs[200].has_pose) << outputs[200].reason;
 }
 
-// Adds to all IMU readings from an image on, as a bias does.
+// Adds a bias to all IMU readings from an image on.
 void AddBias(const ImuBias& bias, size_t first, SimulatedFlight* flight) {
   for (size_t i = first; i < flight->frames.size(); ++i) {
     for (ImuSample& sample : flight->frames[i].imu) {
@@ -152,7 +152,7 @@ TEST(EstimatorRobustness, AStepOfTheGyroBiasIsAbsorbed) {
   EXPECT_LT((last.gyro_bias() - truth.gyro_bias() - Eigen::Vector3d(0.05, 0, 0)).norm(), 0.005);
 }
 
-// No single image contradicts enough to tell, and the noise that is followed hides it for a while.
+// No single image contradicts enough, and the learned noise hides it for a while.
 TEST(EstimatorRobustness, ASmallStepOfTheGyroBiasIsAbsorbed) {
   SimulatedFlight simulated = Simulate(Motion::kFast, 1, 15);
   simulated.sensor.imu_noise.accel_density = 0.03;  // as in euroc.yaml
@@ -167,7 +167,7 @@ TEST(EstimatorRobustness, ASmallStepOfTheGyroBiasIsAbsorbed) {
   EXPECT_EQ(last.imu_noise_scale, 1);
 }
 
-// The stamps of images err by up to 5 ms, from the hundredth on.
+// From the hundredth image on, image timestamps have errors of up to 5 ms.
 SimulatedFlight SimulateJitter(uint64_t seed) {
   const auto options = Options(Motion::kFast, seed, 20);
   simulator::FeatureDataset data = simulator::SimulateFeatures(options);
@@ -190,8 +190,8 @@ double SpeedError(const EstimatedFlight& flight) {
   return std::sqrt(sum / static_cast<double>(flight.truth.size()));
 }
 
-// Without StampJitterMonitor the speed is wrong by 0.066 m/s, with it by 0.03 m/s: noise that
-// counts as larger keeps positions near, but not the speed.
+// The speed error is 0.066 m/s without StampJitterMonitor and 0.03 m/s with it: learned noise keeps
+// positions accurate, but not the speed.
 TEST(EstimatorRobustness, StampsThatJitterCostLittle) {
   double speed_error = 0;
   for (uint64_t seed = 1; seed <= 2; ++seed) {
@@ -217,7 +217,7 @@ TEST(EstimatorRobustness, AGoodImuIsNeverDoubted) {
   }
 }
 
-// Leaves out images and the IMU samples that lead to them.
+// Removes images and the IMU samples before them.
 void CutOut(size_t first, size_t count, SimulatedFlight* flight) {
   auto& frames = flight->frames;
   auto& after = frames[first + count].imu;
@@ -249,7 +249,7 @@ TEST(EstimatorRobustness, TenSecondsOfBlindnessEndInARestart) {
     simulated.frames[i].lines.reset();
   }
   Config config = testing::ConfigFor(simulated);
-  config.sensor.imu_noise.accel_density = 0.03;  // a shaking vehicle: it drifts by metres
+  config.sensor.imu_noise.accel_density = 0.03;  // strong vibrations: it drifts by metres
   config.sensor.imu_noise.gyro_density = 0.001;
   Estimator estimator(config);
   std::vector<std::string> reasons;
@@ -262,7 +262,7 @@ TEST(EstimatorRobustness, TenSecondsOfBlindnessEndInARestart) {
   EXPECT_NE(reasons[0].find("nothing has held the position"), std::string::npos) << reasons[0];
 }
 
-// From an image on there are no lines, and no point is followed to the next image.
+// From an image on there are no lines, and no point is tracked to the next image.
 void RenamePoints(size_t first, SimulatedFlight* flight) {
   for (size_t i = first; i < flight->frames.size(); ++i) {
     flight->frames[i].lines.reset();
@@ -292,7 +292,7 @@ TEST(EstimatorRobustness, TenSecondsOfPointsThatHoldNothingEndInARestart) {
   SimulatedFlight simulated = Simulate(Motion::kFast, 1, 20);
   RenamePoints(180, &simulated);
   Config config = testing::ConfigFor(simulated);
-  config.sensor.imu_noise.accel_density = 0.03;  // a shaking vehicle: it drifts by metres
+  config.sensor.imu_noise.accel_density = 0.03;  // strong vibrations: it drifts by metres
   config.sensor.imu_noise.gyro_density = 0.001;
   Estimator estimator(config);
   std::vector<size_t> restarts;
@@ -308,7 +308,7 @@ TEST(EstimatorRobustness, TenSecondsOfPointsThatHoldNothingEndInARestart) {
   EXPECT_LT(restarts[0], 300u);  // within six seconds
 }
 
-// Lines are seen, and known points are in the window; but what is seen contradicts the IMU.
+// Lines are observed and known points are in the window, but the observations contradict the IMU.
 TEST(EstimatorRobustness, AnAccelerometerThatFailsWhileOnlyLinesAreSeenIsNoticed) {
   SimulatedFlight simulated = Simulate(Motion::kFast, 1, 11);
   for (size_t i = 180; i < simulated.frames.size(); ++i) {
@@ -327,7 +327,7 @@ TEST(EstimatorRobustness, AnAccelerometerThatFailsWhileOnlyLinesAreSeenIsNoticed
   EXPECT_NE(reason.find("camera contradicts"), std::string::npos) << reason;
 }
 
-// A doubt so large that the term of the IMU is no number.
+// A doubt so large that the IMU term overflows.
 TEST(EstimatorRobustness, WhatCannotBeOptimisedIsALoss) {
   const SimulatedFlight flight = Simulate(Motion::kFast, 1, 10);
   for (const SolverType solver : {SolverType::kSchur, SolverType::kCeres}) {

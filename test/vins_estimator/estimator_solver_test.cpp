@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The estimator flies the same with either solver.
+// The estimator gives the same results with both solvers.
 #include <gtest/gtest.h>
 
 #include "test/vins_estimator/estimated_flight.h"

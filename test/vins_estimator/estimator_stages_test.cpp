@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each stage that works on lines is worth on long flights. The margins are what 24 flights (of
-// the Manhattan frame, 16) gave for the ratio of the mean errors, plus two standard deviations of
-// that ratio, by bootstrap, for as many flights as here.
+// The benefit of each stage for lines on long flights. The bounds are the ratios of mean errors in
+// 24 flights (16 for the Manhattan frame) plus two standard deviations of the ratio, by bootstrap,
+// for the number of flights here.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace plm_vins {
 namespace {
 
-// Tracks of lines end often, as in real images, so that many are seen again.
+// Line tracks end often, as in real images, so that many lines are re-observed.
 testing::SimulatedFlight SimulateLongFlight(uint64_t seed, double duration) {
   auto options = testing::FlightOptions(simulator::Motion::kFast, seed);
   options.trajectory.duration = duration;
@@ -31,7 +31,7 @@ std::vector<testing::SimulatedFlight> SimulateLongFlights(int count, double dura
   return flights;
 }
 
-// Root mean square of the heading's error, from the beginning of the flight on [rad].
+// Root mean square heading error from the beginning of the flight on [rad].
 double HeadingError(const testing::EstimatedFlight& flight) {
   const Rigid3d T = testing::AlignHeading(flight.anchor, flight.true_anchor);
   double sum = 0;
@@ -98,8 +98,8 @@ TEST_F(EstimatorStages, AnchorsHelp) {
   EXPECT_LT(with_all_.position, 0.95 * without.position);
 }
 
-// It holds the heading where no line comes back. Where lines do, anchors hold it as well, and the
-// frame adds nothing that 24 flights of 50 s or 16 of 150 s could tell.
+// Tested without anchors: with anchors, recognized lines constrain the heading as well, and the
+// Manhattan frame adds nothing measurable in 24 flights of 50 s or 16 of 150 s.
 TEST_F(EstimatorStages, TheManhattanFrameHoldsTheHeading) {
   const auto flights = SimulateLongFlights(8, 150);
   const auto with = MeanErrors(flights, [](EstimatorConfig* c) { c->line_anchors = 0; });
@@ -108,7 +108,7 @@ TEST_F(EstimatorStages, TheManhattanFrameHoldsTheHeading) {
     c->manhattan_constraints = false;
   });
   EXPECT_LT(with.heading, 0.85 * without.heading);
-  EXPECT_LT(with.position, 1.03 * without.position);  // it costs none: so few tell 3 %
+  EXPECT_LT(with.position, 1.03 * without.position);  // within the precision
 }
 
 }  // namespace

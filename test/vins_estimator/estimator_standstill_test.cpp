@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The estimator where the vehicle rests, or seems to.
+// The estimator at true and apparent standstill.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ EstimatedFlight Fly(const FlightPlan& plan) {
   return testing::Estimate(testing::PlannedFlight(plan).Simulate());
 }
 
-// Of the last position, aligned at an image so long before [m].
+// Error of the last position, aligned at an image `duration` seconds before [m].
 double ErrorOver(double duration, const EstimatedFlight& flight) {
   const auto images = static_cast<size_t>(duration / 0.05);
   const size_t last = flight.outputs.size() - 1, first = last - images;
@@ -29,7 +29,7 @@ double ErrorOver(double duration, const EstimatedFlight& flight) {
       .norm();
 }
 
-// Too slow for the IMU, and within a pixel in half a second for the camera.
+// Motion too slow for the IMU, and within a pixel in half a second for the camera.
 TEST(EstimatorStandstill, ACreepingFlightIsNotHeldInPlace) {
   for (const double v : {0.02, 0.05}) {
     FlightPlan plan;
@@ -37,7 +37,7 @@ TEST(EstimatorStandstill, ACreepingFlightIsNotHeldInPlace) {
     plan.room = {40, 40, 20};
     plan.T_W_V = [v](double t) {
       Rigid3d T_W_V = GentleFlight(t, 2, 12);
-      const double s = std::max(0.0, t - 14);  // it creeps from then on
+      const double s = std::max(0.0, t - 14);  // slow motion from then on
       T_W_V.translation += Eigen::Vector3d(0, v * (s - std::tanh(s)), 8);
       return T_W_V;
     };
@@ -45,7 +45,7 @@ TEST(EstimatorStandstill, ACreepingFlightIsNotHeldInPlace) {
   }
 }
 
-// After minutes on the ground points with known depths are still there.
+// Points with known depth survive minutes on the ground.
 TEST(EstimatorStandstill, TheMapOutlastsARest) {
   FlightPlan plan;
   plan.duration = 82;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole estimator in simulated worlds: how accurate and how honest it is, and what it learns of
-// its calibration. What it does when things go wrong: estimator_robustness_test.cpp.
+// The whole estimator in simulated worlds: accuracy, consistency and calibration. For disturbances
+// see estimator_robustness_test.cpp.
 #include "vins_estimator/estimator.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ EstimatedFlight Fly(const simulator::FeatureSimulationOptions& options) {
 TEST(EstimatorTest, IsAccurateAndHonestInFlight) {
   struct Case {
     Motion motion;
-    double max_error;  // share of the path
+    double max_error;  // relative to the path
   };
   for (const auto& [motion, max_error] : {Case{Motion::kGentle, 0.003}, {Motion::kFast, 0.001}}) {
     SCOPED_TRACE(motion == Motion::kFast ? "fast" : "gentle");
@@ -45,7 +45,7 @@ TEST(EstimatorTest, IsAccurateAndHonestInFlight) {
       mean.pose += consistency.pose / kSeeds;
       mean.velocity += consistency.velocity / kSeeds;
     }
-    // 6 and 3 were exact. Measured: 7.3 and 4.6 (gentle), 4.3 and 3.2 (fast).
+    // Exact consistency would be 6 and 3. Measured: 7.3 and 4.6 (gentle), 4.3 and 3.2 (fast).
     EXPECT_GT(mean.pose, 2);
     EXPECT_LT(mean.pose, 11);
     EXPECT_GT(mean.velocity, 1);
@@ -64,7 +64,8 @@ TEST(EstimatorTest, OutliersCostLittle) {
   }
 }
 
-// Corners that jump in one image seem to move, and until the next keyframe all would be free.
+// Corners that jump in one image look like motion, which would release the state until the next
+// keyframe.
 TEST(EstimatorTest, IsHeldInPlaceThroughImagesThatOnlySeemToMove) {
   SimulatedFlight still = testing::SimulateFlight(Options(Motion::kStill, 1));
   const EstimatedFlight undisturbed = testing::Estimate(still);
@@ -119,7 +120,7 @@ TEST(EstimatorTest, LearnsTheRotationOfTheCamera) {
   EXPECT_LT(testing::AbsoluteError(flight), 0.003 * flight.path);
 }
 
-// Time offset [s] learned in a flight; the IMU is cut with what is known so far, as in operation.
+// Learns the time offset [s] in a flight; IMU intervals use the current estimate, as in operation.
 double LearnTimeOffset(const simulator::FeatureSimulationOptions& options) {
   const simulator::FeatureDataset data = simulator::SimulateFeatures(options);
   Config config;
@@ -145,11 +146,11 @@ TEST(EstimatorTest, LearnsTheTimeOffset) {
   options.sensors.td = 0.01;
   options.point_noise_px = 0.1;
   EXPECT_NEAR(LearnTimeOffset(options), 0.01, 0.001);
-  options.sensors.td = 0.025;  // so far off that its errors could count as noise of the IMU
+  options.sensors.td = 0.025;  // large enough for its errors to be confused with IMU noise
   EXPECT_NEAR(LearnTimeOffset(options), 0.025, 0.002);
   options.sensors.td = 0.01;
-  // A corner's velocity is the difference to the image before, so it has noise in common with the
-  // corner: that pulls the offset, by one to five milliseconds at half a pixel.
+  // The velocity of a corner is a difference from the previous image, so it shares noise with the
+  // corner. This biases the offset by one to five milliseconds at half a pixel.
   options.point_noise_px = 0.5;
   EXPECT_NEAR(LearnTimeOffset(options), 0.01, 0.003);
 }
@@ -161,7 +162,7 @@ TEST(EstimatorTest, ASmallWindowHasItsSizeAfterAnyStart) {
   Estimator estimator(config);
   const EstimatedFlight flight = testing::Estimate(simulated, &estimator);
   ASSERT_GT(flight.outputs.size(), 50u);
-  EXPECT_EQ(flight.outputs.back().window.size(), 7u);  // with the image that has just come
+  EXPECT_EQ(flight.outputs.back().window.size(), 7u);  // including the newest image
 }
 
 TEST(EstimatorTest, DescribesItsWindow) {

@@ -204,7 +204,7 @@ TEST(PinholeRadtan, AgreesWithOpenCV) {
 }
 
 TEST(PinholeRadtan, RefusesTheFoldOfItsDistortion) {
-  // r (1 - 0.4 r^2) grows up to r = sqrt(1 / 1.2) = 0.913, where it is 0.609.
+  // r (1 - 0.4 r^2) increases up to r = sqrt(1 / 1.2) = 0.913, where it is 0.609.
   const auto camera =
       CameraModel::Create(Parameters(Model::kPinholeRadtan, {400, 400, 0, 0}, {-0.4, 0, 0, 0}));
   EXPECT_TRUE(camera->Project({0.91, 0, 1}));
@@ -260,7 +260,7 @@ TEST(KannalaBrandt, SeesBehindItselfButHasNoNormalisedPointThere) {
 }
 
 TEST(KannalaBrandt, RefusesTheFoldOfItsDistortion) {
-  // theta (1 - theta^2 / 3) grows up to theta = 1, where it is 2/3.
+  // theta (1 - theta^2 / 3) increases up to theta = 1, where it is 2/3.
   const auto camera = CameraModel::Create(
       Parameters(Model::kPinholeEquidistant, {300, 300, 0, 0}, {-1.0 / 3, 0, 0, 0}));
   EXPECT_TRUE(camera->Project({std::sin(0.999), 0, std::cos(0.999)}));
@@ -282,9 +282,9 @@ TEST(Mei, WithoutMirrorIsThePinhole) {
 TEST(Mei, ProjectsFromTheSphere) {
   const auto camera =
       CameraModel::Create(Parameters(Model::kMei, {100, 100, 0, 0}, Eigen::Vector4d::Zero(), 0.5));
-  // (3, 0, 4) lies at (0.6, 0, 0.8) on the sphere: 0.6 / (0.8 + 0.5).
+  // (3, 0, 4) is projected to (0.6, 0, 0.8) on the sphere: 0.6 / (0.8 + 0.5).
   EXPECT_NEAR(camera->Project({3, 0, 4})->x(), 100 * 0.6 / 1.3, 1e-12);
-  // A ray at 90 degrees is still seen, but has no normalised point.
+  // A ray at 90 degrees can be projected, but has no normalized image point.
   const auto sideways = camera->Project({1, 0, 0});
   ASSERT_TRUE(sideways);
   EXPECT_FALSE(camera->Unproject(*sideways));

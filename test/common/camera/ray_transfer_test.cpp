@@ -15,11 +15,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kMillionthOfAPixel = 1e-6 / 460;  // normalised
+constexpr double kMillionthOfAPixel = 1e-6 / 460;  // normalized
 
 CameraParameters Camera() { return simulator::DefaultSensors().camera; }
 
-// From that camera to one whose intrinsics all differ by `share` of 10 %.
+// Transfers rays to a camera whose intrinsics all differ by `share` of 10 %.
 class RayTransfer : public ::testing::TestWithParam<double> {
  protected:
   static CameraParameters Other(double share) {
@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Shares, RayTransfer, ::testing::Values(0, 1e-4, 0.01, 0
 
 TEST(RayTransferAtTheRim, LeavesRaysAloneThatACameraDoesNotSee) {
   CameraParameters narrow = Camera();
-  narrow.distortion << -0.28, 0, 0, 0;  // sees nothing beyond a radius of 1.09
+  narrow.distortion << -0.28, 0, 0, 0;  // observes nothing beyond a radius of 1.09
   CameraParameters wide = narrow;
   wide.distortion.setZero();
   const auto narrow_camera = CameraModel::Create(narrow), wide_camera = CameraModel::Create(wide);

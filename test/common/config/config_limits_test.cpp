@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Configurations that would run away: endless, or endlessly nested.
+// Configurations that are endless or endlessly nested.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

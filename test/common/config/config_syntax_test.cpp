@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is said of files that are no YAML, or more of it than one configuration.
+// Messages about files that are not YAML, or more than one document.
 #include <gtest/gtest.h>
 
 #include <string>

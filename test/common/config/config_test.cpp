@@ -20,7 +20,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// ---- What must load ----------------------------------------------------------------------------
+// ---- Valid configurations ----------------------------------------------------------------------
 
 TEST_F(ConfigTest, ShortFileGivesTheDefaults) {
   const Config config = Load(kShortFile);
@@ -95,7 +95,7 @@ TEST_F(ConfigTest, MapAndWorldAreTwoFramesWhereThereIsAMap) {
   ExpectProblem("world_frame: map\nloop_closure: 1", {"map_frame: is the same as world_frame"});
 }
 
-// VINS has a mask of its own for them.
+// VINS-Mono has its own mask for fisheyes.
 TEST_F(ConfigTest, AFisheyeOfVinsGoesOnWithoutAMask) {
   const Config config = Load(kShortFile + std::string("fisheye: 1\n"));
   EXPECT_THAT(config.warnings, ElementsAre(AllOf(HasSubstr("camera.yaml:10: fisheye: "),
@@ -200,7 +200,7 @@ TEST_F(ConfigTest, MaskIsRelativeToTheFileAndCanBeSwitchedOff) {
   EXPECT_THAT(without.warnings, ElementsAre(HasSubstr("fisheye_mask: is without effect")));
 }
 
-// ---- What must be refused ----------------------------------------------------------------------
+// ---- Invalid configurations --------------------------------------------------------------------
 
 TEST_F(ConfigTest, MissingFile) {
   ExpectOneProblem(ProblemsOf((folder_ / "nothing.yaml").string()),

@@ -47,7 +47,8 @@ TEST(EffectiveValues, HoldEveryKey) {
   EXPECT_NEAR(R_B_C[3], 0.999557249008, 1e-9);
 }
 
-// As in a file of VINS: noise of samples, a mask without folder, the fisheye under its old name.
+// A configuration as of VINS-Mono: noise of samples, a mask without folder, the fisheye model by
+// its old name.
 TEST(EffectiveValues, AsAFileSayTheSame) {
   const testing::TemporaryFolder folder;
   folder.Write("mask.png", "x");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The configuration files that come with the package.
+// Tests of the configuration files in the package.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,14 +42,14 @@ TEST(ShippedConfig, EurocRadtanHasTheCalibrationOfTheDataset) {
   EXPECT_EQ(config.publish_rate, 0);
 }
 
-// Ray through a pixel in the IMU frame, of unit length.
+// Unit ray through a pixel in the IMU frame.
 Eigen::Vector3d BodyRay(const Config& config, const Eigen::Vector2d& pixel) {
   const auto camera = CameraModel::Create(config.sensor.camera);
   const Eigen::Vector3d ray = camera->Unproject(pixel).value().homogeneous().normalized();
   return config.sensor.T_B_C.rotation * ray;
 }
 
-// A mount belongs to its lens: two calibrations of one camera give the same rays, nearly.
+// T_B_C depends on the lens: two calibrations of one camera give nearly the same rays.
 TEST(ShippedConfig, BothCalibrationsOfEurocGiveSimilarRays) {
   const Config equidistant = LoadConfig(CONFIG_DIR "/euroc.yaml");
   const Config radtan = LoadConfig(CONFIG_DIR "/euroc_radtan.yaml");
@@ -69,14 +69,14 @@ class ReferenceFile : public ::testing::Test {
     entries_ = ReadConfigEntries(kFile, {}, "", &problems).value();
   }
 
-  // The comment on the line of a key.
+  // Returns the comment on the line of a key.
   std::string CommentOn(const std::string& key) const {
     const std::string& location = entries_.at(key).location;  // FILE:LINE
     const std::string& line = lines_.at(std::stoul(location.substr(location.rfind(':') + 1)) - 1);
     return line.substr(std::min(line.find('#'), line.size()));
   }
 
-  // Numbers and matrices; flags, choices and texts have no unit.
+  // Returns whether the key has a unit: numbers and matrices do, flags, choices and texts do not.
   static bool IsMeasured(const ConfigKey<Config>& key) {
     const ConfigValue value = key.value(Config());
     return std::holds_alternative<double>(value) ||
@@ -113,7 +113,7 @@ TEST_F(ReferenceFile, TellsUnitRangeAndDefault) {
 
 TEST_F(ReferenceFile, HasTheDefaultsAsValues) {
   for (const auto& key : AllKeys("PINHOLE")) {
-    // The noise is said in densities; there is no mask to use.
+    // The noise values are densities; there is no mask.
     if (key.name == "imu_noise_model" || key.name == "fisheye" || !key.has_default) continue;
     const std::string value = entries_.at(key.name).value.Scalar();
     EXPECT_EQ(ToText(ConfigValue(value)), ToText(key.value(Config()))) << key.name;

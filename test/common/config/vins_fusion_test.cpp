@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The second camera and depth, under the names of VINS-Fusion and ours.
+// The second camera and depth, by the key names of VINS-Fusion and of this package.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -42,7 +42,7 @@ TEST(FeatureIds, OfATrackerThatStartsAgainAreNew) {
   EXPECT_EQ(restorer.Restore(0), 705);
 }
 
-// A tracker of another package may begin with any id.
+// The ids of another tracker may start anywhere.
 TEST(FeatureIds, MayBeginAnywhere) {
   IdRestorer restorer;
   EXPECT_EQ(restorer.Restore(kTransportableIds - 1), kTransportableIds - 1);

@@ -12,7 +12,7 @@ namespace {
 
 using testing::NumericJacobian;
 
-// Small, middling and nearly half-turn rotations, on both sides of the series' thresholds.
+// Small, medium and nearly half-turn rotations, on both sides of the series' thresholds.
 std::vector<Eigen::Vector3d> RotationVectors() {
   const Eigen::Vector3d axis = Eigen::Vector3d(1, -2, 0.5).normalized();
   std::vector<Eigen::Vector3d> vectors = {Eigen::Vector3d::Zero()};
@@ -77,7 +77,7 @@ TEST(SO3, ShortestRotationTurnsOneDirectionIntoTheOther) {
   const Eigen::Vector3d from(1, 2, -0.5), to(-3, 0.1, 0.7);
   const Eigen::Quaterniond q = ShortestRotation(from, to);
   EXPECT_MATRIX_NEAR((q * from).normalized(), to.normalized(), 1e-14);
-  EXPECT_NEAR(SO3Log(q).dot(from), 0, 1e-13);  // turns about an axis across both
+  EXPECT_NEAR(SO3Log(q).dot(from), 0, 1e-13);  // the axis is perpendicular to both
 }
 
 TEST(SO3, YawIsTheHeading) {

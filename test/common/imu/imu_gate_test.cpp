@@ -12,8 +12,8 @@ namespace {
 
 constexpr int64_t kStep_ns = 5'000'000;
 
-// A flight: a slow turn and propellers that shake the accelerometer by 5 m/s^2 from sample to
-// sample.
+// A flight with a slow rotation and propellers that shake the accelerometer by 5 m/s^2 from sample
+// to sample.
 std::vector<ImuSample> Flight(int count, int64_t step_ns = kStep_ns) {
   std::vector<ImuSample> samples;
   for (int i = 0; i < count; ++i) {
@@ -92,7 +92,7 @@ TEST(ImuGate, YieldsToShakingThatGoesOn) {
   for (size_t i = 100; i < samples.size(); ++i) samples[i].accel.x() = i % 2 == 0 ? 30 : -30;
   const Decided decided = Pass(samples);
   EXPECT_GT(decided.replaced, 0);
-  EXPECT_LT(decided.replaced, 50);  // for half a second at most
+  EXPECT_LT(decided.replaced, 50);  // at most half a second
 }
 
 TEST(ImuGate, OneSpikeASecondDoesNotWidenItMuch) {
@@ -103,7 +103,7 @@ TEST(ImuGate, OneSpikeASecondDoesNotWidenItMuch) {
 
 TEST(ImuGate, NeverBelievesASpikeBeyondTheRange) {
   std::vector<ImuSample> samples = Flight(10);
-  samples[0].gyro.x() = 3;  // nothing to compare it with
+  samples[0].gyro.x() = 3;  // there is no previous reading
   EXPECT_EQ(Pass(samples).replaced, 0);
   const ImuRange two_turns{2, 160};
   const Decided decided = Pass(samples, two_turns);
@@ -132,7 +132,7 @@ TEST(ImuGate, DoubtsReadingsAtTheEndOfTheRange) {
 TEST(ImuGate, ASpikeAmongSaturatedReadingsKeepsItsDoubt) {
   std::vector<ImuSample> samples = Flight(200);
   for (size_t i = 100; i < 120; ++i) samples[i].gyro.z() = 34.9;
-  samples[110].gyro.z() = -34.9;  // the sign's bit flipped
+  samples[110].gyro.z() = -34.9;  // a flipped sign bit
   ImuGate gate{ImuRange()};
   std::vector<ImuSample> decided;
   for (const ImuSample& sample : samples) {
@@ -154,7 +154,7 @@ TEST(ImuGate, ComparesNothingAcrossAGap) {
   for (const ImuSample& sample : samples) EXPECT_EQ(gate.Add(sample).size(), 1u);
 }
 
-// The turn meanwhile is not how much a reading usually differs from the one before.
+// The rotation during the gap is not a typical difference of consecutive readings.
 TEST(ImuGate, LearnsNothingAcrossAGap) {
   std::vector<ImuSample> samples = Flight(200);
   for (size_t i = 100; i < samples.size(); ++i) {

@@ -69,7 +69,7 @@ TEST(BinaryReader, SaysWhereTheBytesEndTooEarly) {
   EXPECT_EQ(MessageOf([&] { reader.Value(value); }), "ends too early");
 }
 
-// A million are claimed, and there are bytes of two.
+// The count claims a million items, but there are data for two.
 TEST(BinaryReader, MakesNoItemsThatAreNotThere) {
   std::ostringstream written;
   BinaryWriter(&written).List(std::vector<Item>(2), kLayout);

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using testing::MessageOf;
 using testing::TemporaryFolder;
 
-constexpr char kFullDisk[] = "/dev/full";  // takes what fits into a buffer, and then nothing
+constexpr char kFullDisk[] = "/dev/full";  // accepts only what fits into a buffer
 
 TEST(OutputFile, NamesWhatCannotBeOpened) {
   const TemporaryFolder folder;

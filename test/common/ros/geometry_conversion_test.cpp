@@ -9,7 +9,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int64_t kStamp = 1403636579763555584;  // of EuRoC; a double cannot hold it
+constexpr int64_t kStamp = 1403636579763555584;  // from EuRoC; exceeds the precision of a double
 
 TEST(PoseMessage, HasTheRotationsCovarianceAboutTheAxesOfTheWorld) {
   geometry_msgs::PoseWithCovariance pose;
@@ -17,7 +17,7 @@ TEST(PoseMessage, HasTheRotationsCovarianceAboutTheAxesOfTheWorld) {
       {Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ())), {1, 2, 3}});
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   covariance.diagonal() << 1, 2, 3, 4, 5, 6;
-  covariance(0, 3) = covariance(3, 0) = 0.5;  // of x and a turn about x of the body, y of the world
+  covariance(0, 3) = covariance(3, 0) = 0.5;  // of x, and rotation about x of B, y of W
   SetCovariance(covariance, &pose);
   EXPECT_NEAR(pose.covariance[0], 1, 1e-12);
   EXPECT_NEAR(pose.covariance[4], 0.5, 1e-12);

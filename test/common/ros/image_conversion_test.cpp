@@ -19,9 +19,9 @@ namespace {
 
 namespace encodings = sensor_msgs::image_encodings;
 
-constexpr int64_t kStamp = 1403636579763555584;  // of EuRoC; a double cannot hold it
+constexpr int64_t kStamp = 1403636579763555584;  // from EuRoC; exceeds the precision of a double
 
-// A 6 x 4 image of which every pixel has the bytes `pixel`.
+// A 6 x 4 image whose pixels all consist of the bytes `pixel`.
 sensor_msgs::Image MakeImage(const std::string& encoding, const std::vector<uint8_t>& pixel) {
   sensor_msgs::Image image;
   image.header.stamp = ToRosTime(kStamp);
@@ -65,7 +65,7 @@ TEST(ImageConversion, TakesPixelsThatComeHighByteFirst) {
   for (const std::string& encoding :
        {encodings::MONO16, encodings::TYPE_16UC1, encodings::BAYER_RGGB16}) {
     sensor_msgs::Image image = MakeImage(encoding, {0x80, 0x10});
-    image.width = 5;  // with bytes to spare in each row
+    image.width = 5;  // each row has unused bytes
     image.is_bigendian = 1;
     const cv::Mat grey = ToImageSample(image).gray;
     ASSERT_EQ(grey.type(), CV_8UC1) << encoding;
@@ -129,7 +129,7 @@ void ExpectRefused(const std::string& encoding, cv::Size size, uint32_t step, si
   EXPECT_THROW(ToImageSample(image), std::invalid_argument) << encoding;
 }
 
-// In 32 bits, height * step is the number of bytes, and width * 4 is the step.
+// In 32-bit arithmetic, height * step equals the number of bytes, and width * 4 equals the step.
 TEST(ImageConversion, RefusesSizesThatFitIn32BitsOnly) {
   ExpectRefused(encodings::MONO8, {752, 480}, (1U << 27) + 752, 752 * 480);
   ExpectRefused(encodings::BGRA8, {(1 << 30) + 6, 4}, 24, 96);
@@ -149,7 +149,7 @@ TEST(ImageConversion, DecodesCompressedImages) {
   EXPECT_THROW(ToImageSample(image), std::invalid_argument);
 }
 
-// Headers alone: OpenCV throws on them before it looks for pixels.
+// Headers only: OpenCV throws before it reads pixels.
 TEST(ImageConversion, RefusesCompressedImagesThatClaimAbsurdSizes) {
   for (const auto& [width, height] : {std::pair(40000, 40000), std::pair((1 << 20) + 1, 1)}) {
     sensor_msgs::CompressedImage image;

@@ -33,7 +33,7 @@ TEST(KeyframePoints, HaveTheLayoutOfVinsMono) {
   const auto message = ToKeyframePoints(TwoCorners(), 1'500'000'000, "world");
   EXPECT_EQ(message.header.frame_id, "world");
   EXPECT_EQ(message.header.stamp.nsec, 500'000'000u);
-  ASSERT_EQ(message.points.size(), 1u);  // the first has no place
+  ASSERT_EQ(message.points.size(), 1u);  // the first has no position
   EXPECT_EQ(message.points[0].z, 3);
   ASSERT_EQ(message.channels.size(), 1u);
   EXPECT_EQ(message.channels[0].values, (std::vector<float>{0.25F, -0.5F, 300.5F, 20, 5}));
@@ -58,7 +58,7 @@ TEST(KeyframePoints, AreRefusedWithoutAChannelForEach) {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Three corners, of which the second is to be spoiled.
+// Three corners, whose second one will be damaged.
 sensor_msgs::PointCloud ThreePoints() {
   std::vector<TrackedCorner> corners(3);
   for (size_t i = 0; i < corners.size(); ++i) {
@@ -139,7 +139,7 @@ TEST(KeyframeLines, ComeBack) {
   EXPECT_FALSE(ToManhattanFrame(message));
   const auto back = Segments(message);
   ASSERT_EQ(back.size(), 2u);
-  EXPECT_FALSE(back[1].landmark);  // seen, but without a place
+  EXPECT_FALSE(back[1].landmark);  // observed, but without a position
   EXPECT_EQ(back[0].observation.id, 8);
   EXPECT_EQ(back[0].observation.end, Eigen::Vector2d(0.5, 0.75));
   EXPECT_EQ(back[0].landmark->start_O, Eigen::Vector3d(1, 2, 3));

@@ -13,7 +13,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int64_t kStamp = 1403636579763555584;  // of EuRoC; a double cannot hold it
+constexpr int64_t kStamp = 1403636579763555584;  // from EuRoC; exceeds the precision of a double
 
 PointFrame ReadPoints(const sensor_msgs::PointCloud& message) {
   int64_t left_out = 0;
@@ -71,7 +71,7 @@ TEST(FeatureMessage, PointsOfPlVinsComeWithoutVelocities) {
   EXPECT_TRUE(read.points[0].velocity.isZero(0));
 }
 
-// Also with the channels that it may send after these: the true places of the points.
+// Includes the additional channels that VINS-Fusion may send: the true positions of the points.
 TEST(FeatureMessage, OfVinsFusionThePointsOfTheFirstCameraAreTaken) {
   for (const size_t channels : {6, 9}) {
     sensor_msgs::PointCloud message;
@@ -136,7 +136,7 @@ TEST(FeatureMessage, NoLinesAndAThousandLinesComeBack) {
 
 TEST(FeatureMessage, IdsTravelModulo24Bits) {
   LineFrame frame;
-  frame.lines.push_back({(int64_t{1} << 24) + 1, {0, 0}, {1, 1}});  // no float32 is this number
+  frame.lines.push_back({(int64_t{1} << 24) + 1, {0, 0}, {1, 1}});  // not representable as float32
   EXPECT_EQ(ReadBack(frame).lines[0].id, 1);
 }
 

@@ -12,7 +12,7 @@
 namespace plm_vins {
 namespace {
 
-// The delay that is reported of messages with these stamps, which all come at the same time [ms].
+// Returns the reported delay of messages with these timestamps, which all arrive at `now` [ms].
 double DelayOf(const std::vector<int64_t>& stamps, const ros::Time& now) {
   ros::Time::init();
   ros::Time::setNow(now);
@@ -31,7 +31,7 @@ TEST(StreamMonitor, TellsTheMeanDelay) {
   EXPECT_NEAR(DelayOf({999'000'000'000, 999'500'000'000}, ros::Time(1000)), 750, 0.1);
 }
 
-// ros::Duration ends at 2^31 s.
+// The range of ros::Duration ends at 2^31 s.
 TEST(StreamMonitor, TakesEveryStampThatAMessageCanHave) {
   constexpr double kMsPerSecond = 1e3;
   EXPECT_NEAR(DelayOf({kEndOfTime_ns - 1}, ros::Time(1)), (1 - 0x1p32) * kMsPerSecond, 1);

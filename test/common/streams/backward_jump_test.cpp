@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-// Index of the stamp with which the stream begins anew; -1: it does not.
+// Returns the index of the timestamp at which the stream restarts; -1 if it does not.
 int FindJump(BackwardJumpDetector* detector, const std::vector<int64_t>& refused) {
   for (size_t i = 0; i < refused.size(); ++i) {
     if (detector->Refuse(refused[i])) return static_cast<int>(i);
@@ -37,7 +37,7 @@ TEST(BackwardJumpDetector, TakesAcceptedStampsAsASignThatTheOldStreamGoesOn) {
   EXPECT_EQ(FindJump(&detector, {40, 50, 60}), -1);
 }
 
-// Refuses so many stamps, ten apart, and says what the detector makes of the one that is accepted.
+// Rejects `count` timestamps, ten apart, and returns the result for the one accepted after them.
 bool EndsStepBack(int64_t begin, int count, int64_t accepted) {
   BackwardJumpDetector detector(1000);
   for (int i = 0; i < count; ++i) EXPECT_FALSE(detector.Refuse(begin + 10 * i));

@@ -11,7 +11,7 @@
 namespace plm_vins {
 namespace {
 
-// Another thread is where it waits by then.
+// Waits until another thread blocks.
 void LetItWait() { std::this_thread::sleep_for(std::chrono::milliseconds(50)); }
 
 TEST(BoundedQueue, KeepsTheOrder) {

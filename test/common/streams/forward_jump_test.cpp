@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-// Those of the stamps that are accepted, where 10 are a step and more a leap.
+// Returns the accepted timestamps, where more than 10 from one to the next is a jump.
 std::vector<int64_t> Accepted(const std::vector<int64_t>& stamps) {
   ForwardJumpDetector detector(10);
   std::vector<int64_t> accepted = {stamps.front()};

@@ -25,7 +25,7 @@ void ExpectSpacing(const std::vector<cv::Point2f>& corners, double min_distance)
   }
 }
 
-// Squares of 20 px with sides on multiples of 40 px.
+// Squares of 20 px with sides at multiples of 40 px.
 cv::Mat Squares() {
   cv::Mat image(kHeight, kWidth, CV_8UC1, cv::Scalar(60));
   for (int y = 40; y + 40 < kHeight; y += 40) {
@@ -45,7 +45,7 @@ TEST_P(CornerDetectorTest, FindsCornersOfSquares) {
   EXPECT_GT(corners.size(), 80U);
   for (const cv::Point2f& corner : corners) {
     for (const float value : {corner.x, corner.y}) {
-      // An edge lies between the pixels 39 and 40 or 59 and 60.
+      // Edges lie between the pixels 39 and 40, or 59 and 60.
       const float nearest = 20 * std::round((value + 0.5F) / 20) - 0.5F;
       EXPECT_NEAR(value, nearest, 0.5);
     }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kSize = 80;
 
-// A saddle of a chessboard at `corner`, tilted, anti-aliased by 16 x 16 samples per pixel.
+// A tilted chessboard saddle at `corner`, anti-aliased by 16 x 16 samples per pixel.
 cv::Mat Saddle(const cv::Point2d& corner) {
   constexpr int kSamples = 16;
   cv::Mat image(kSize, kSize, CV_8UC1);
@@ -56,7 +56,7 @@ TEST(RefineCorner, RejectsAWindowThatLeavesTheImage) {
   const double border = kRefinementRadius_px + 1;
   EXPECT_TRUE(RefineCorner(Saddle({border + 0.4, 40}), {border + 1, 40}));
   EXPECT_FALSE(RefineCorner(Saddle({border - 0.6, 40}), {border - 1, 40}));
-  // The window begins inside and moves out.
+  // The window starts inside and moves out of the image.
   EXPECT_FALSE(RefineCorner(Saddle({border - 1.5, 40}), {border + 0.5, 40}));
   EXPECT_FALSE(RefineCorner(Saddle({40, kSize - border}), {40, kSize - border}));
 }

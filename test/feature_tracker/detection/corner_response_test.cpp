@@ -10,7 +10,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kRounding = 1e-6;  // of single precision, to the greatest response
+constexpr double kRounding = 1e-6;  // of single precision, relative to the strongest response
 
 class CornerResponseTest : public testing::TestWithParam<CornerDetectorType> {
  protected:
@@ -48,7 +48,7 @@ TEST_P(CornerResponseTest, IsThatOfOpenCvAtTheBordersOfAnySize) {
   }
 }
 
-// The sums of the strongest gradients that there are: nothing may overflow.
+// Tests for overflow of the sums with the strongest possible gradients.
 TEST_P(CornerResponseTest, IsThatOfOpenCvWhereContrastIsGreatest) {
   cv::Mat image(40, 40, CV_8UC1, cv::Scalar(0));
   for (int y = 0; y < image.rows; ++y) {

@@ -11,7 +11,7 @@ RegionQueue FourRegions() { return {{199, 199}, 4}; }
 
 TEST(RegionQueue, ServesThePoorestRegionFirst) {
   RegionQueue queue = FourRegions();
-  queue.AddCandidate({10, 10});  // better, but of a region that has points already
+  queue.AddCandidate({10, 10});  // better, but its region has points already
   queue.AddCandidate({150, 150});
   queue.CountPoint({50, 50});
   EXPECT_EQ(queue.Pop(), cv::Point2f(150, 150));

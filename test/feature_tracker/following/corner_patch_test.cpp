@@ -19,7 +19,7 @@ Eigen::Matrix2d Linear(double turn, double growth, double shear) {
   return growth * Eigen::Rotation2Dd(turn).toRotationMatrix() * sheared;
 }
 
-// The homography that takes the surroundings of kCenter to `pose`.
+// Homography that maps the surroundings of kCenter to `pose`.
 cv::Matx33d Warp(const PatchPose& pose) {
   const Eigen::Matrix2d& A = pose.linear;
   const Eigen::Vector2d t = pose.center - A * kCenter;
@@ -80,7 +80,7 @@ TEST_F(CornerPatchTest, StaysInsideOfTheImage) {
     EXPECT_FALSE(CornerPatch::Cut(view, outside)) << outside.transpose();
     EXPECT_FALSE(patch_.Align(view, {Linear(0, 1, 0), outside})) << outside.transpose();
   }
-  // The grown patch leaves the image although the centre is where the plain one would fit.
+  // The scaled patch leaves the image, although its centre is where the unscaled one would fit.
   EXPECT_FALSE(patch_.Align(view, {Linear(0, 1.6, 0), {10, 100}}));
 }
 

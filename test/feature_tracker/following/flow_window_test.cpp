@@ -13,7 +13,7 @@ namespace {
 constexpr int kSize = 160;
 const cv::Point2f kCenter(80.3F, 75.6F);
 
-// With a border, as the window asks for.
+// Adds the border that the window requires.
 cv::Mat Bordered(const cv::Mat& image, int side) {
   const int border = FlowWindow::Border(side);
   cv::Mat whole;
@@ -21,7 +21,7 @@ cv::Mat Bordered(const cv::Mat& image, int side) {
   return whole(cv::Rect(border, border, image.cols, image.rows));
 }
 
-// Two waves, moved by `shift`.
+// Two waves, translated by `shift`.
 cv::Mat Waves(int side, const cv::Point2d& shift = {}, double height = 60) {
   cv::Mat image(kSize, kSize, CV_8UC1);
   for (int y = 0; y < kSize; ++y) {
@@ -67,7 +67,7 @@ TEST_P(FlowWindowTest, SeesNothingBeyondItsSide) {
   const cv::Point2f guess = center + cv::Point2f(0.4F, 0.3F);
   const auto step = window_.Step(image, guess);
   cv::Mat changed = Waves(side);
-  // What the samples at `guess` lie between, and no more.
+  // The pixels that the samples at `guess` interpolate; all others are replaced by noise.
   const int first = cvFloor(80 - 0.5 * (side - 1) + 0.3), pixels = side + 2;
   const cv::Rect inside(first, first, pixels, pixels);
   cv::Mat noise(changed.size(), CV_8UC1);
@@ -77,7 +77,7 @@ TEST_P(FlowWindowTest, SeesNothingBeyondItsSide) {
   EXPECT_EQ(window_.Step(changed, guess), step);
 }
 
-// The greatest difference and the steepest slopes of all: no sum runs over.
+// Tests for overflow with the largest difference and the steepest gradients.
 TEST_P(FlowWindowTest, HoldsTheStrongestContrast) {
   cv::Mat squares(kSize, kSize, CV_8UC1), inverse;
   for (int y = 0; y < kSize; ++y) {

@@ -30,7 +30,7 @@ class OpticalFlowTest : public testing::Test {
     return flow_.Track(flow_.BuildPyramid(image0), flow_.BuildPyramid(image1), points_, predicted);
   }
 
-  // Distances to the truth of those that were tracked, sorted.
+  // Returns the sorted errors of the tracked points.
   std::vector<double> Errors(const std::vector<FlowResult>& results, const cv::Matx33d& H) const {
     std::vector<double> errors;
     for (size_t i = 0; i < results.size(); ++i) {
@@ -54,7 +54,7 @@ TEST_F(OpticalFlowTest, FollowsTranslationToSubpixels) {
   EXPECT_LT(errors.back(), 0.2);
 }
 
-// An implementation of others, which takes slopes of whole images.
+// Comparison with an independent implementation, which computes gradients of whole images.
 TEST_F(OpticalFlowTest, AgreesWithOpenCv) {
   const PointTrackerConfig config;
   const cv::Mat image0 = scene_.View();

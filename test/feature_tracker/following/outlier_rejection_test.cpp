@@ -30,7 +30,7 @@ class EpipolarTest : public testing::Test {
     return pairs;
   }
 
-  // Moves the first `count` rays off by 8 to 30 pixels; most leave their epipolar line by that.
+  // Moves the first `count` rays by 8 to 30 pixels, most of them off their epipolar line.
   void Spoil(size_t count, std::vector<RayPair>* pairs) {
     for (size_t i = 0; i < count; ++i) {
       const double angle = Uniform(-M_PI, M_PI);
@@ -63,7 +63,7 @@ TEST_F(EpipolarTest, SeparatesOutliersWithTheGyro) {
   auto pairs = Simulate(R_C1_C0_, t_C1_);
   Spoil(50, &pairs);
   const auto inliers = FindEpipolarInliers(pairs, R_C1_C0_, kThreshold);
-  EXPECT_LT(Share(inliers, 0, 50), 0.15);  // those moved along their epipolar line
+  EXPECT_LT(Share(inliers, 0, 50), 0.15);  // those that moved along their epipolar line
   EXPECT_EQ(Share(inliers, 50, 150), 1.0);
 }
 

@@ -61,7 +61,7 @@ TEST(EdgeChains, EndWhereTheyWouldTurnBack) {
   cv::Mat image(120, 160, CV_8UC1, cv::Scalar(40));
   image(cv::Rect(40, 40, 60, 60)).setTo(200);
   const std::vector<EdgeChain> chains = ChainsOf(image);
-  for (const EdgeChain& chain : chains) EXPECT_LT(chain.size(), 130u);  // two sides of four at most
+  for (const EdgeChain& chain : chains) EXPECT_LT(chain.size(), 130u);  // at most two of four sides
   EXPECT_GE(chains.size(), 2u);
 }
 

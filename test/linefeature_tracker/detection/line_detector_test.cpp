@@ -47,13 +47,13 @@ TEST_P(LineDetectorTest, FindsNothingInUniformImages) {
     EXPECT_TRUE(detector_->Detect(cv::Mat(480, 752, CV_8UC1, cv::Scalar(gray)), 20).empty());
 }
 
-// Half of the ends' distances, whichever way the segments run.
+// Half the sum of the endpoints' distances, independent of the direction of the segments.
 double EndErrorInPixels(const LineSegment& a, const LineSegment& b) {
   return 0.5 * std::min((a.start - b.start).norm() + (a.end - b.end).norm(),
                         (a.start - b.end).norm() + (a.end - b.start).norm());
 }
 
-// OpenCV takes twice as long and rounds one end to pixels on its way; versions begin chains
+// OpenCV takes twice as long and rounds one endpoint to pixels; its versions start chains
 // differently.
 TEST(FastLineDetector, FindsWhatThatOfOpenCvFinds) {
   LineScene scene(PlainParameters(), 60);

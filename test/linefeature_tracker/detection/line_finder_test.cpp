@@ -9,7 +9,7 @@
 namespace plm_vins {
 namespace {
 
-// Edges on which one of the lines lies, to about a pixel.
+// Counts the edges that coincide with a line, to about one pixel.
 int CountFound(const std::vector<LineSegment>& edges, const std::vector<FoundLine>& lines) {
   return static_cast<int>(std::count_if(edges.begin(), edges.end(), [&](const LineSegment& edge) {
     return std::any_of(lines.begin(), lines.end(), [&](const FoundLine& line) {
@@ -41,7 +41,7 @@ TEST(LineFinderTest, FindsTheLongEdgesAtFullAndHalfResolution) {
   }
 }
 
-// Detectors cut a line that the lens bends into pieces; without distortion it is one again.
+// Detectors split a line that the lens bends; without distortion it is joined again.
 TEST(LineFinderTest, JoinsABentLine) {
   LineScene scene(DistortedParameters(), 60);
   scene.AddBar({30, 5}, {720, 5}, 60, 200);

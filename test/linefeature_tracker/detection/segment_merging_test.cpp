@@ -16,7 +16,7 @@ TEST(SegmentMergingTest, JoinsAChainFromItsMiddle) {
   EXPECT_NEAR(joined[0].Length(), 130, 1e-9);
 }
 
-TEST(SegmentMergingTest, JoinsUprightLines) {  // the angle wraps there
+TEST(SegmentMergingTest, JoinsUprightLines) {  // the angle wraps at vertical lines
   const auto joined = JoinFragments({{{5, 0}, {5.2, 30}}, {{5.3, 35}, {5.1, 65}}}, kLimits);
   ASSERT_EQ(joined.size(), 1U);
   EXPECT_NEAR(joined[0].Length(), 65, 0.01);

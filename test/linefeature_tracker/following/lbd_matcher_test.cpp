@@ -11,7 +11,7 @@ namespace {
 
 class LbdMatcherTest : public testing::Test {
  protected:
-  // The long edges of the bars where H takes them, described.
+  // The long edges of the bars after the homography H, with descriptors.
   std::vector<LbdMatcher::Line> Lines(const Eigen::Matrix3d& H) const {
     std::vector<LineSegment> segments, segments_px;
     for (const LineSegment& edge : scene_.Edges(H)) {

@@ -19,7 +19,7 @@ Eigen::Matrix3d Motion(double angle, double x_px, double y_px) {
 
 class LineFlowTest : public testing::Test {
  protected:
-  // Where the long edge of a single bar is found after the motion, which is not predicted.
+  // Tracks the long edge of a single bar through the motion, which is not predicted.
   std::optional<LineFlowResult> Follow(const Eigen::Matrix3d& H, double gain = 1, double bias = 0) {
     cv::Mat moved;
     scene_.View(H).convertTo(moved, CV_8U, gain, bias);

@@ -15,7 +15,7 @@ TEST(LineOccupancyTest, TellsCopiesFromNeighbours) {
   EXPECT_TRUE(occupied.IsTaken({{40, 0}, {60, 0}}));      // a part of it
   EXPECT_FALSE(occupied.IsTaken({{0, 6}, {100, 6}}));     // parallel
   EXPECT_FALSE(occupied.IsTaken({{50, -50}, {50, 50}}));  // crossing
-  EXPECT_FALSE(occupied.IsTaken({{105, 0}, {200, 0}}));   // behind it
+  EXPECT_FALSE(occupied.IsTaken({{105, 0}, {200, 0}}));   // beyond its end
   EXPECT_FALSE(occupied.IsTaken({{90, 0}, {200, 0}}));    // hardly beside it
 }
 

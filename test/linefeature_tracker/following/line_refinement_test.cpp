@@ -21,7 +21,7 @@ LineSegment Orient(const LineScene& scene, const cv::Mat& image, const LineSegme
   return *UnprojectSegment(camera, OrientByBrightness(image, *ProjectSegment(camera, guess)));
 }
 
-// Largest error of all edges long enough, from guesses that are off by up to 2.5 px.
+// Largest error over all sufficiently long edges, from guesses that are off by up to 2.5 px.
 double LargestErrorInPixels(const LineScene& scene, const cv::Mat& image, int* refined_count) {
   const LineRefinement refinement(LineTrackerConfig(), scene.camera());
   double largest = 0;
@@ -44,7 +44,8 @@ TEST(LineRefinementTest, FindsEdgesToTenthsOfAPixel) {
   EXPECT_EQ(refined, 48);
 }
 
-// Distortion shrinks the corners of the image: errors there count more in normalised coordinates.
+// Distortion compresses the corners of the image, so errors there are larger in normalized
+// coordinates.
 TEST(LineRefinementTest, DistortionCostsLittle) {
   const LineScene scene = BarScene(DistortedParameters());
   int refined = 0;
@@ -59,7 +60,7 @@ TEST(LineRefinementTest, NoiseCostsLittle) {
   EXPECT_GE(refined, 44);
 }
 
-// A line across the whole of a strongly distorted image, bent by more than the search reaches.
+// A line across a strongly distorted image, bent by more than the search range.
 TEST(LineRefinementTest, FollowsTheBendOfALongLine) {
   LineScene scene(DistortedParameters(), 60);
   scene.AddBar({20, 60}, {730, 40}, 40, 200);
@@ -148,7 +149,7 @@ TEST_F(SingleBarTest, EndsWhereTheMaskBegins) {
 
 TEST_F(SingleBarTest, RefusesShortLines) {
   const LineSegment guess{scene_.ToNormalised({180, 180}), scene_.ToNormalised({220, 180})};
-  EXPECT_FALSE(refinement_.Refine(image_, guess, 2));  // about 30 px of it are edge
+  EXPECT_FALSE(refinement_.Refine(image_, guess, 2));  // about 30 px of it are an edge
 }
 
 }  // namespace

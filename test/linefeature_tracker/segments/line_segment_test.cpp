@@ -39,7 +39,7 @@ TEST(LineSegmentTest, RelationOfSegmentsSideBySide) {
   EXPECT_LT(Relate(a, {{12, 0}, {20, 0}}).overlap, 0);
   EXPECT_DOUBLE_EQ(Relate(a, {{4, 0}, {6, 0}}).overlap, 1);
   EXPECT_DOUBLE_EQ(Relate(a, {{0, -1}, {10, 3}}).distance, 1);  // in the middle
-  EXPECT_DOUBLE_EQ(Relate(a, {{0, 0}, {20, 4}}).distance, 1);   // in the middle of what is shared
+  EXPECT_DOUBLE_EQ(Relate(a, {{0, 0}, {20, 4}}).distance, 1);   // in the middle of the shared part
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TrackedItem FrameItem() {
 }
 
 const Json kValues = {{"freq", 10.0}, {"corner_detector", "harris"}, {"use_lines", true}};
-constexpr size_t kItemsBegin = 16 + 4 + 57;  // behind signature, size of the values, values
+constexpr size_t kItemsBegin = 16 + 4 + 57;  // after signature, size of the values, values
 
 class FeatureFile : public ::testing::Test {
  protected:
@@ -122,7 +122,7 @@ TEST_F(FeatureFile, SaysWhereItsValuesAreDamagedOrCutOff) {
   EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
 }
 
-// Deeper than the stack goes.
+// The nesting exceeds the stack.
 TEST_F(FeatureFile, RefusesValuesWithinValues) {
   constexpr uint32_t kDepth = 300'000;
   for (const std::string& text :
@@ -151,12 +151,12 @@ TEST_F(FeatureFile, SaysWhereAFileEndsTooEarlyOrIsDamaged) {
   {
     std::fstream file(file_, std::ios::in | std::ios::out | std::ios::binary);
     file.seekp(kItemsBegin);
-    file.put('\x77');  // no kind of item
+    file.put('\x77');  // no valid kind of item
   }
   EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
 }
 
-// As a file has them that was being written when the power went.
+// A power failure while writing can leave zeros at the end of a file.
 TEST_F(FeatureFile, DoesNotTakeZerosForAnImage) {
   Write();
   std::ofstream(file_, std::ios::app | std::ios::binary) << std::string(46, '\0');
@@ -165,7 +165,7 @@ TEST_F(FeatureFile, DoesNotTakeZerosForAnImage) {
 
 TEST_F(FeatureFile, TakesNoFeaturesThatNoTrackerGives) {
   TrackedItem with_a_point = FrameItem();
-  with_a_point.frame->points.features.points[1].id = 7;  // twice
+  with_a_point.frame->points.features.points[1].id = 7;  // duplicate id
   TrackedItem with_a_line = FrameItem();
   with_a_line.frame->lines->features.lines[0].end.x() = std::nan("");
   for (const TrackedItem* item : {&with_a_point, &with_a_line}) {
@@ -188,7 +188,7 @@ TEST_F(FeatureFile, WithstandsDamageOfEveryByte) {
       refused += ErrorOf(file_).empty() ? 0 : 1;
     }
   }
-  EXPECT_GT(refused, 4 * 16);  // those of the signature, and others
+  EXPECT_GT(refused, 4 * 16);  // those of the signature and more
 }
 
 }  // namespace

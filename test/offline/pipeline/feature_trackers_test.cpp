@@ -14,8 +14,8 @@ using testing::StillPicture;
 
 constexpr int64_t kMillisecond = 1'000'000;
 
-// All that is awkward: a repeated image, one of another size, a gap in the gyro, a gap between
-// images, stamps that start over.
+// A run with irregular input: a repeated image, one of another size, a gap of the gyroscope, a gap
+// between images, and timestamps that start again.
 std::vector<TrackedFeatures> AwkwardRun(FeatureTrackers* trackers) {
   std::vector<TrackedFeatures> frames;
   const auto add = [&](int t, const cv::Mat& picture) {

@@ -75,7 +75,7 @@ TEST(OdometryPipeline, EndsWhereItIsAskedTo) {
     OdometryPipeline pipeline(StillConfig());
     FeatureFileWriter writer(folder.File("features"), TrackerValues(StillConfig()));
     pipeline.SaveFeatures(&writer);
-    int measurements = 0;  // 11 for every image
+    int measurements = 0;  // 11 for each image
     pipeline.EndWhere([&] { return ++measurements > 220; });
     pipeline.Run(&recording, {}, threads, [](const PipelineFrame&) {});
     writer.Close();
@@ -272,7 +272,7 @@ TEST(OdometryPipeline, CountsUnreadableImages) {
 
 TEST(OdometryPipeline, CountsTheImagesThatItDidNotUse) {
   Config config = StillConfig();
-  config.publish_rate = 10;  // what is left out for that is no loss
+  config.publish_rate = 10;  // skipped images are not lost
   OdometryPipeline pipeline(config);
   MemoryRecording recording = StillRecording(1000);
   int64_t images = 0;

@@ -48,7 +48,7 @@ TEST(PipelineFrame, GivesPixelsToClosedLoopsOnly) {
   }
 }
 
-// All the samples that it is given, each once.
+// Expects that the frames contain all input samples exactly once.
 void ExpectImuOf(const std::vector<PipelineFrame>& frames) {
   ASSERT_FALSE(frames.empty());
   int64_t t_ns = kStart;  // of the next sample

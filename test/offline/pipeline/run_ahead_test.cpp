@@ -55,7 +55,7 @@ TEST(RunAhead, ProducesNoFurtherAheadThanItMay) {
         for (; produced < kItems; ++produced) emit(produced);
       },
       [&](int) {
-        // One more is in the consumer's hands.
+        // The consumer holds one more item.
         EXPECT_LE(produced - consumed, static_cast<int>(kCapacity) + 1);
         ++consumed;
         return true;

@@ -60,7 +60,7 @@ TEST(RecordedOtherwise, HasWhatWasRecordedAndAWarningThatNamesIt) {
   }
 }
 
-// Lines that are there need not be used, and how they were found is then of no interest.
+// Recorded lines may be ignored, and then their configuration does not matter.
 TEST(RecordedOtherwise, IsNothingWhereLinesAreLeftOut) {
   Config config = StillConfig();
   const Json recorded = TrackerValues(config);

@@ -53,7 +53,7 @@ TEST_F(AslRecording, MergesByTimeWithTheImuFirst) {
   EXPECT_EQ(contents.imu[1].accel, Eigen::Vector3d(4, 5, 6));
 }
 
-// Merged by time, each would hold up all that follows.
+// Merged by time, each of these rows would delay all others.
 TEST_F(AslRecording, GivesStampsInTheFutureLast) {
   const std::string hour = "3600000000000";
   folder_.Write("mav0/cam0/data.csv", "10,a.png\n" + hour + ",b.png\n20,b.png\n30,c.png\n");
@@ -105,7 +105,7 @@ TEST_F(AslRecording, CountsBadCsvLinesAndGoesOn) {
   folder_.Write("mav0/cam0/data.csv", "10,a.png\nnonsense\n20,b.png\n");
   const auto contents = ReadAll(OpenAslFolder(folder_.path()).get());
   EXPECT_EQ(contents.order, "mmii");
-  EXPECT_TRUE(std::isnan(contents.imu[1].gyro.x()));  // for the sync to refuse
+  EXPECT_TRUE(std::isnan(contents.imu[1].gyro.x()));  // to be rejected by the sync
   EXPECT_EQ(contents.problems.at("imu_csv_lines_bad"), 2);
   EXPECT_EQ(contents.problems.at("image_csv_lines_bad"), 1);
 }

@@ -69,7 +69,7 @@ TEST(RecordingInterval, AnImageFromTheFutureDoesNotEndIt) {
   }
 }
 
-// As where the IMU comes late into the bag.
+// IMU samples may be recorded later than images of the same time.
 TEST(RecordingInterval, WaitsForTheImuWhereImagesAreRecordedBeforeIt) {
   RecordingInterval interval(0, 3);
   for (const double t : {0.0, 0.05, 3.0}) EXPECT_EQ(interval.Locate(Image(t)), Part::kUse);

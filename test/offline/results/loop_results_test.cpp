@@ -33,7 +33,7 @@ class LoopResultsTest : public ::testing::Test {
     camera.cy = 120;
   }
 
-  // An image of random grey levels at x [m], half a second after the last one.
+  // An image of random grey levels at x [m], half a second after the previous one.
   PipelineFrame FrameAt(double x) {
     t_ns_ += ToNanoseconds(0.5);
     PipelineFrame frame;
@@ -54,7 +54,7 @@ class LoopResultsTest : public ::testing::Test {
     return rows;
   }
 
-  // COLMAP counts pixels from the corner of the image.
+  // The camera of the COLMAP model; COLMAP's pixel coordinates start at the image corner.
   std::unique_ptr<const CameraModel> ColmapCamera() const {
     std::istringstream text(folder_.Read("colmap/cameras.txt"));
     std::string number, model;
@@ -68,7 +68,7 @@ class LoopResultsTest : public ::testing::Test {
     return CameraModel::Create(camera);
   }
 
-  // Of the first image, by landmark [px].
+  // Corners of the first image in the COLMAP model, by landmark [px].
   std::map<int64_t, Eigen::Vector2d> ColmapCorners() const {
     std::istringstream text(folder_.Read("colmap/images.txt"));
     std::string pose, line;
@@ -91,7 +91,7 @@ TEST_F(LoopResultsTest, WritesAllFilesOfARun) {
   for (int i = 0; i < 4; ++i) results.Add(FrameAt(0.15 * i));
   results.Finish();
   EXPECT_EQ(Rows("trajectory_map.tum"), 4);
-  EXPECT_EQ(Rows("covariance_map.csv"), 1 + 4);  // names first
+  EXPECT_EQ(Rows("covariance_map.csv"), 1 + 4);  // including the header
   EXPECT_EQ(Rows("trajectory_final.tum"), 4);
   EXPECT_THAT(folder_.Read("loops.csv"), HasSubstr("result"));
   EXPECT_THAT(folder_.Read("pose_graph.g2o"), HasSubstr("EDGE_SE3:QUAT 0 1"));
@@ -103,7 +103,7 @@ TEST_F(LoopResultsTest, WritesAllFilesOfARun) {
   EXPECT_EQ(summary["first_fix_s"], 0.0);
 }
 
-// Rays of keyframes and landmarks are by the camera as it is refined.
+// Rays of keyframes and landmarks refer to the refined camera.
 TEST_F(LoopResultsTest, HasAModelWhosePointsProjectToTheirCornersWithItsCamera) {
   CameraParameters refined = config_.sensor.camera;
   refined.fx = 206;
@@ -155,7 +155,7 @@ TEST_F(LoopResultsTest, SaysInTheTrajectoryWhereAWorldBeginsThatIsNotInTheMap) {
   results.Finish();
   EXPECT_THAT(folder_.Read("trajectory_final.tum"), HasSubstr("no image for 3 s"));
   EXPECT_EQ(Rows("trajectory_final.tum"), 4);
-  EXPECT_EQ(Rows("trajectory_map.tum"), 3);  // where the new world is, is not known
+  EXPECT_EQ(Rows("trajectory_map.tum"), 3);  // the pose of the new world is unknown
 }
 
 TEST_F(LoopResultsTest, StartsInAMap) {
@@ -170,7 +170,7 @@ TEST_F(LoopResultsTest, StartsInAMap) {
   EXPECT_EQ(results.Summary()["map_keyframes"], 4);
   EXPECT_TRUE(results.Summary()["first_fix_s"].is_null());
   results.Finish();
-  // Its only world is not joined to the map, so that its pose is not in the map's frame.
+  // Its only world is not connected with the map, so its pose is not in the map frame.
   EXPECT_THAT(folder_.Read("trajectory_final.tum"), StartsWith("# the world frame starts anew"));
 }
 

@@ -134,7 +134,7 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
   EXPECT_FALSE(summary["version"].get<std::string>().empty());
 }
 
-// A loss that is bridged begins no new world, but another window with other landmarks.
+// A bridged loss keeps the world frame, but starts another window with new landmarks.
 TEST(ResultFiles, KeepTheLandmarksOfAWindowThatWasLost) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());
@@ -208,7 +208,7 @@ TEST(ResultFiles, KeepThePosesOfBeforeAJumpBackInFilesOfTheirOwn) {
   EXPECT_FALSE(fs::exists(folder.File("trajectory_1.tum")));
 }
 
-// Lines 7 and 8 leave the window with it.
+// Lines 7 and 8 leave the window with this frame.
 PipelineFrame FrameThatLosesTwoLines() {
   PipelineFrame frame = MakeFrame(1'000'000'000, true);
   frame.output.departed_lines = {{7, {1, 0, 0}, {1, 0, 1}}, {8, {2, 0, 0}, {2, 0, 1}}};

@@ -33,7 +33,7 @@ using testing::ReadAll;
 using testing::RecordingContents;
 
 constexpr int64_t kStart = 1'500'000'000'000'000'000;
-constexpr int64_t kStep = 10'000'000;  // IMU at 100 Hz, every fifth time an image
+constexpr int64_t kStep = 10'000'000;  // IMU at 100 Hz, an image every fifth time
 constexpr int kSamples = 200;
 constexpr int kImages = 40;
 constexpr rosbag::CompressionType kCompressions[] = {
@@ -55,15 +55,15 @@ void Replace(uint32_t number, size_t at, std::string* bytes) {
   bytes->replace(at, sizeof(number), reinterpret_cast<const char*>(&number), sizeof(number));
 }
 
-// Where the data of a record begin, behind their size. `field`: the first one of its header, whose
-// size is before it, and before that the header's.
+// Offset of a record's data, after their size. `field` is the offset of the first header field,
+// which is preceded by its size and the header's size.
 size_t DataOf(const std::string& bytes, size_t field) {
   return field - 4 + Number(bytes, field - 8) + 4;
 }
 
 ros::Time Stamp(int i) { return ToRosTime(kStart + i * kStep); }
 
-// A picture that does not compress to nothing, and that has its number in the first pixel.
+// A picture that is not very compressible, with its number in the first pixel.
 cv::Mat Picture(int i) {
   cv::Mat picture(48, 64, CV_8UC1);
   cv::randu(picture, 0, 256);
@@ -104,7 +104,7 @@ class BagRecording : public ::testing::Test {
   template <typename MakeImage>
   void WriteBag(const std::string& image_topic, const MakeImage& make_image,
                 rosbag::CompressionType compression = rosbag::compression::Uncompressed,
-                uint32_t chunk_size = 20000) {  // several chunks in a small bag
+                uint32_t chunk_size = 20000) {  // several chunks even in a small bag
     rosbag::Bag bag(file_, rosbag::bagmode::Write);
     bag.setCompression(compression);
     bag.setChunkThreshold(chunk_size);
@@ -120,8 +120,8 @@ class BagRecording : public ::testing::Test {
     std::filesystem::resize_file(file_, static_cast<uintmax_t>(share * size));
   }
 
-  // Of an IMU sample in its chunk, as the second list of the index has it (the first is of another
-  // topic): behind the fields of the list's header, the size of the list and the sample's time.
+  // Sets the offset of an IMU sample in its chunk in the second index record (the first belongs to
+  // another topic): it follows the header fields, the data size and the sample's time.
   void SetImuOffset(int32_t offset) {
     const std::string list = "op=\x04";
     const std::string last_field = "ver=";
@@ -216,8 +216,8 @@ TEST_F(BagRecording, NamesTheRemedyForAnIndexThatLeadsAstray) {
   }
 }
 
-// 2 MB that ask for 40: each copy of the chunk's entry in the index names all messages again. Where
-// they name lists without messages, they ask for time alone.
+// A bag of 2 MB that would require 40 MB: each copy of the chunk's index entry lists all messages
+// again. Entries that list index records without messages would only take time.
 TEST_F(BagRecording, RefusesAnIndexThatNamesOneChunkAgainAndAgain) {
   for (const uint32_t lists : {3u, 0u}) {
     WriteBag("/cam0/image_raw", RawImage, rosbag::compression::Uncompressed, 10'000'000);
@@ -232,7 +232,7 @@ TEST_F(BagRecording, RefusesAnIndexThatNamesOneChunkAgainAndAgain) {
   }
 }
 
-// The second one is said to end where the third one does, and has its lists of messages.
+// The second chunk claims to end where the third one does, and has its index records.
 TEST_F(BagRecording, RefusesChunksThatOverlap) {
   WriteBag("/cam0/image_raw", RawImage);
   std::string bytes = folder_.Read("test.bag");
@@ -258,7 +258,7 @@ TEST_F(BagRecording, LeavesOutAMessageThatIsNotWhereTheIndexSays) {
   }
 }
 
-// What is behind it is read all the same.
+// The data after the chunk are still read.
 TEST_F(BagRecording, LeavesOutAChunkThatDoesNotUnpack) {
   for (const auto compression : {rosbag::compression::BZ2, rosbag::compression::LZ4}) {
     WriteBag("/cam0/image_raw", RawImage, compression);
@@ -277,7 +277,7 @@ TEST_F(BagRecording, LeavesOutAChunkThatDoesNotUnpack) {
   }
 }
 
-// What checksums do not find: the content was wrong before it was packed.
+// The content was damaged before packing, so checksums do not detect it.
 TEST_F(BagRecording, LeavesOutWhatIsWrongInsideOfACompressedChunk) {
   WriteBag("/cam0/image_raw", RawImage, rosbag::compression::Uncompressed, 10'000'000);
   const testing::BagWithOneChunk good(folder_.Read("test.bag"));
@@ -285,7 +285,7 @@ TEST_F(BagRecording, LeavesOutWhatIsWrongInsideOfACompressedChunk) {
     folder_.Write("test.bag", good.Packed(compression));
     ExpectComplete(Read());
 
-    testing::BagWithOneChunk bag = good;  // whose messages are said to be of no kind that there is
+    testing::BagWithOneChunk bag = good;  // its messages have an unknown op code
     for (size_t at = 0; (at = bag.content.find("op=\x02", at + 1)) != std::string::npos;) {
       bag.content[at + 3] = '\x77';
     }
@@ -301,7 +301,7 @@ TEST_F(BagRecording, LeavesOutWhatIsWrongInsideOfACompressedChunk) {
   }
 }
 
-// Of the pixels, which take most of the message: 4 GiB instead of 3 KiB.
+// The message claims 4 GiB of pixels instead of 3 KiB.
 TEST_F(BagRecording, MakesNoRoomForPixelsThatAreNotThere) {
   WriteBag("/cam0/image_raw", RawImage);
   std::string bytes = folder_.Read("test.bag");
@@ -323,7 +323,7 @@ TEST_F(BagRecording, NamesTheRemedyForABagThatWasNeverClosed) {
   EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("rosbag reindex"));
 }
 
-// As fuzzing finds them: the size of a chunk, as its header claims it, is 4 GiB.
+// An input found by fuzzing: the header of a chunk claims 4 GiB.
 TEST_F(BagRecording, RefusesChunksThatClaimToBeHuge) {
   for (const auto compression : kCompressions) {
     WriteBag("/cam0/image_raw", RawImage, compression);

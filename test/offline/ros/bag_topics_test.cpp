@@ -27,7 +27,7 @@ using testing::ReadAll;
 using testing::RecordingContents;
 
 constexpr int64_t kStart = 1'500'000'000'000'000'000;
-constexpr int64_t kStep = 10'000'000;  // IMU at 100 Hz, every fifth time an image
+constexpr int64_t kStep = 10'000'000;  // IMU at 100 Hz, an image every fifth time
 constexpr int kSamples = 100;
 constexpr int kImages = 20;
 
@@ -50,7 +50,8 @@ sensor_msgs::Imu Imu(int i) {
   return imu;
 }
 
-// As of a publisher of its own. Without this header all that is on a topic has one type in the bag.
+// Writes as a separate publisher. Without this header, all messages of a topic have one type in the
+// bag.
 template <typename Message>
 void WriteApart(const std::string& topic, int i, const Message& message, rosbag::Bag* bag) {
   const auto header = boost::make_shared<ros::M_string>();
@@ -83,7 +84,7 @@ class BagTopics : public ::testing::Test {
   std::string file_ = folder_.File("test.bag");
 };
 
-// Before the images, or behind them.
+// The messages come before or after the images.
 TEST_F(BagTopics, MessagesOfAnotherTypeAreCountedAndDoNotKeepFromTheOthers) {
   for (const int stray_at : {-1, kSamples}) {
     {
@@ -133,7 +134,7 @@ TEST_F(BagTopics, NamesTheTopicOfAMessageThatIsMalformed) {
             "messages_malformed: 1 (first: sensor_msgs/Image on /cam0/image_raw)");
 }
 
-// What is not kept cannot be read again from a file that is empty by then.
+// The file is emptied, so chunks that are not cached could not be read again.
 TEST_F(BagTopics, ChunksOfTopicsWrittenOneAfterTheOtherAreUnpackedOnce) {
   {
     rosbag::Bag bag(file_, rosbag::bagmode::Write);

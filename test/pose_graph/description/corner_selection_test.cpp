@@ -23,7 +23,7 @@ cv::Mat Squares(const std::vector<cv::Point>& places, const std::vector<int>& br
   for (size_t i = 0; i < places.size(); ++i) {
     cv::rectangle(gray, cv::Rect(places[i], cv::Size(12, 12)), cv::Scalar(brightness[i]), -1);
   }
-  cv::GaussianBlur(gray, gray, cv::Size(3, 3), 0.7);  // else neighbours are equally strong
+  cv::GaussianBlur(gray, gray, cv::Size(3, 3), 0.7);  // otherwise neighbours are equally strong
   return gray;
 }
 
@@ -56,7 +56,7 @@ TEST(SelectCorners, KeepsAwayFromTheBorder) {
               testing::IsEmpty());
 }
 
-// The same in one pass over the whole image.
+// Selects the corners in a single pass over the whole image.
 std::vector<Eigen::Vector2f> SelectInOnePass(const CornerSelectionOptions& options,
                                              const cv::Mat& gray,
                                              const std::vector<Eigen::Vector2f>& known_px) {
@@ -88,8 +88,8 @@ std::vector<Eigen::Vector2f> SelectInOnePass(const CornerSelectionOptions& optio
   return selected;
 }
 
-// Noise of two sizes, the stronger the farther to the right: from cells without a corner, by faint
-// ones alone, to many clear ones.
+// Noise of two scales with amplitude increasing to the right: the cells contain no corners, only
+// weak ones, or many strong ones.
 cv::Mat Texture(const cv::Size& size, simulator::Random* random) {
   cv::Mat fine(size, CV_32FC1), coarse;
   for (float& value : cv::Mat_<float>(fine)) value = static_cast<float>(random->Normal());

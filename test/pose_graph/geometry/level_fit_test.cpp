@@ -35,7 +35,7 @@ TEST(LevelFit, TakesTheHeadingOfOneFrame) {
 
 TEST(LevelFit, IsTheIdentityOfNothing) { ExpectNear(Fit({}, {}), LevelTransform()); }
 
-// Two frames that came nearer to each other: their middle stays, so that both move alike.
+// The distance of two frames has decreased: their midpoint stays, so both move equally.
 TEST(LevelFit, SharesWhatDoesNotFit) {
   const LevelTransform T = Fit({{0, {-1, 0, 0}}, {0, {1, 0, 0}}}, {{0, {0, 0, 0}}, {0, {1, 0, 0}}});
   ExpectNear(T, {0, {0.5, 0, 0}});

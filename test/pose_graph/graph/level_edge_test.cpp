@@ -14,7 +14,7 @@ LevelEdge EdgeWith(const LevelTransform& T_from_to, double variance) {
   return {1, 2, T_from_to, variance * root * root.transpose(), false, 5};
 }
 
-// Of a function of T as (x, y, z, yaw).
+// Numeric Jacobian of a function of T as (x, y, z, yaw).
 Matrix4d Jacobian(const std::function<LevelTransform(const LevelTransform&)>& function,
                   const LevelTransform& T) {
   constexpr double kStep = 1e-6;

@@ -22,7 +22,7 @@ LevelEdge Edge(int from, int to, const LevelTransform& T_from_to, bool is_loop,
   return {from, to, T_from_to, covariance, is_loop, is_loop ? 0 : T_from_to.translation.norm()};
 }
 
-// A way of `count` metres along x.
+// A straight path of `count` metres along x.
 PoseGraph Straight(int count) {
   PoseGraph graph;
   for (int i = 0; i <= count; ++i) {
@@ -32,12 +32,12 @@ PoseGraph Straight(int count) {
   return graph;
 }
 
-// A node as the first one sees it: the graph as a whole may lie anywhere.
+// A node relative to the first one, since the whole graph may be anywhere.
 LevelTransform FromFirst(const PoseGraph& graph, int node) {
   return graph.node(0).Inverse() * graph.node(node);
 }
 
-// A circle of so many steps, the yaw of each being wrong by an error times its deviation.
+// A circle of `count` edges whose yaws have errors of error() standard deviations.
 template <typename Error>
 PoseGraph Circle(int count, double yaw_deviation, const Error& error) {
   PoseGraph graph;
@@ -59,8 +59,8 @@ TEST(PoseGraph, LeavesAGraphThatFits) {
   }
 }
 
-// n steps of variance s^2 and one loop of variance s^2 share an error of height equally: each takes
-// 1 / (n + 1) of it. The loop is within the robust loss' width, where it is nearly quadratic.
+// n edges of variance s^2 and a loop of variance s^2 share a height error equally, 1 / (n + 1)
+// each. The loop's residual is small, so that its robust loss is nearly quadratic.
 TEST(PoseGraph, DistributesAnErrorOverAllEdgesAlike) {
   PoseGraph graph = Straight(9);
   const double error = 0.02;
@@ -83,7 +83,7 @@ TEST(PoseGraph, GivesTheErrorToTheUncertainEdge) {
 }
 
 TEST(PoseGraph, ClosesACircleThatDriftedInYaw) {
-  // A square: at each corner a quarter turn, of which odometry missed a bit.
+  // A square with a quarter turn at each corner, of which odometry missed a bit.
   constexpr double kDrift = 0.01;
   PoseGraph graph;
   LevelTransform at;
@@ -114,7 +114,7 @@ TEST(PoseGraph, TakesOutALoopThatContradictsTheOthers) {
   EXPECT_NEAR(FromFirst(graph, 20).translation.x(), 20, 0.02);
 }
 
-// Such a chain bends easily as a whole, but each of its steps hardly: that takes iterations.
+// Such a chain bends easily as a whole, but hardly at a single edge, which takes many iterations.
 TEST(PoseGraph, ClosesALongWayByARightLoop) {
   constexpr int kSteps = 2000;
   for (const uint32_t seed : {1, 2, 3, 4, 5}) {
@@ -150,7 +150,7 @@ TEST(PoseGraph, JudgesNoLoopByWhatIsNotSolved) {
   EXPECT_EQ(graph.node(5).translation.x(), 5);
 }
 
-// A wrong turn of the first step would swing all that follows if the first node stayed.
+// A correction of the first edge would rotate all others if the first node were fixed.
 TEST(PoseGraph, StaysWhereItIsAsAWhole) {
   PoseGraph graph = Straight(20);
   graph.AddEdge(Edge(0, 1, {0.02, {1, 0, 0}}, true, Variance(0.1, 1e-4)));
@@ -159,7 +159,7 @@ TEST(PoseGraph, StaysWhereItIsAsAWhole) {
   EXPECT_LT((graph.node(20).translation - Eigen::Vector3d(20, 0, 0)).norm(), 0.05);
 }
 
-// Far more of what came later moves than there was before.
+// Far more nodes are added than hold the frame.
 TEST(PoseGraph, AdaptsToTheNodesThatHoldTheFrame) {
   PoseGraph graph = Straight(5);
   graph.HoldFrame();
@@ -256,7 +256,7 @@ TEST(PoseGraph, TellsTheNeighboursWhatWasMeasuredToANodeThatGoes) {
   EXPECT_NEAR(step.T_from_to.translation.x(), 2, 1e-12);
   EXPECT_NEAR(step.covariance(0, 0), 2 * 0.01, 1e-12);
   EXPECT_TRUE(graph.edges()[3].is_loop);
-  EXPECT_NEAR(graph.edges()[3].way, 1, 1e-12);  // from 2 to 1, which it leads to now
+  EXPECT_NEAR(graph.edges()[3].way, 1, 1e-12);  // from 2 to 1, its new node
   EXPECT_TRUE(graph.AreConnected(2, 4));
 }
 
@@ -273,25 +273,25 @@ TEST(PoseGraph, KeepsTheSurerOfTwoEdgesThatComeToJoinTheSameNodes) {
   PoseGraph graph = Straight(3);
   graph.AddEdge(Edge(0, 2, {0, {2, 0, 0}}, true, Variance(0.3, 0.1)));
   graph.AddEdge(Edge(0, 3, {0, {3, 0, 0}}, true, Variance(0.5, 0.1)));
-  graph.Remove(2, 0);  // its loop comes to 1 or to 3
+  graph.Remove(2, 0);  // its loop is transferred to 1 or 3
   graph.Remove(1, 0);
   size_t loops = 0;
   for (const LevelEdge& edge : graph.edges()) loops += edge.is_loop;
   EXPECT_EQ(loops, 1u);
-  EXPECT_EQ(graph.edges().size(), 2u);  // and the steps
+  EXPECT_EQ(graph.edges().size(), 2u);  // and the odometry edges
 }
 
 TEST(PoseGraph, GoesOnKnowingWhereTheRemovedWere) {
   PoseGraph graph = Straight(4);
   graph.Remove(2, 3);
-  graph.Remove(3, 1);  // the anchor of another one
+  graph.Remove(3, 1);  // the anchor of another node
   EXPECT_NEAR(graph.node(2).translation.x(), 2, 1e-12);
   const double before = graph.node(2).translation.z();
   graph.MovePart(0, {0, {0, 0, 5}});
   EXPECT_NEAR(graph.node(2).translation.z() - before, 5, 1e-12);
 }
 
-// Places in the graph are not numbers of nodes any more once some are removed.
+// After a removal, indices in the graph differ from node numbers.
 TEST(PoseGraph, TreatsTheRestAsIfTheRemovedHadNeverBeen) {
   PoseGraph graph = Straight(6);
   graph.AddEdge(Edge(0, 6, {0.02, {6, 0, 0.1}}, true, Variance(0.1, 0.01)));
@@ -324,7 +324,7 @@ TEST(PoseGraph, TreatsTheRestAsIfTheRemovedHadNeverBeen) {
   EXPECT_NEAR((graph.node(2).translation - graph.node(1).translation).norm(), 1, 1e-12);
 }
 
-// The same optimum without a node of the chain: what is passed on says as much as what was there.
+// Removing a node of the chain preserves the optimum, since the transferred edges are equivalent.
 TEST(PoseGraph, OptimizesTheRestTheSameWithoutANode) {
   PoseGraph all = Straight(4);
   all.AddEdge(Edge(0, 4, {0, {4, 0, 0.05}}, true, Variance(0.1, 0.01)));

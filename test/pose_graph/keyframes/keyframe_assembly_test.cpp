@@ -52,7 +52,7 @@ TEST_F(KeyframeAssemblyTest, PutsTogetherWhatHasOneStampInAnyOrder) {
   EXPECT_FALSE(assembly_.Pop());
 }
 
-// As under ROS, where the pixels go with their message.
+// Under ROS the pixels belong to the message.
 TEST_F(KeyframeAssemblyTest, KeepsTheOwnerOfThePixelsWithTheFrame) {
   auto pixels = std::make_shared<std::array<uint8_t, 16>>();
   assembly_.AddImage({5, cv::Mat(4, 4, CV_8UC1, pixels->data()), pixels});
@@ -109,7 +109,7 @@ TEST_F(KeyframeAssemblyTest, ForgetsWhatWaitsForTooLong) {
   EXPECT_EQ(assembly_.without_image(), 0);
 }
 
-// As where images come compressed, and are waited for raw.
+// Images may be missing if they are published compressed, but subscribed raw.
 TEST_F(KeyframeAssemblyTest, ForgetsAsMuchWhereNoImagesCome) {
   AddImage(kPeriod);
   for (int i = 2; i < 100; ++i) {
@@ -126,7 +126,7 @@ TEST_F(KeyframeAssemblyTest, CountsAKeyframeWhoseImageWasLostOnTheWay) {
   AddImage(kPeriod);  // of no keyframe
   AddPose(2 * kPeriod);
   AddTheRest(2 * kPeriod);
-  AddPose(3 * kPeriod);  // its corners are lost, too
+  AddPose(3 * kPeriod);  // its corners are lost as well
   AddAllButLines(4 * kPeriod);
   assembly_.AddSegments(4 * kPeriod, {}, std::nullopt);
   EXPECT_TRUE(assembly_.Pop());

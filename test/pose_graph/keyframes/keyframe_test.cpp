@@ -42,7 +42,7 @@ TEST(StepCovariance, IsByHowMuchThePoseBecameLessCertain) {
   EXPECT_NEAR(step(3, 3), 0.2, 1e-12);
 }
 
-// A pose that became more certain was corrected, by as much as it became more certain.
+// A decrease of the pose covariance stems from a correction of that size.
 TEST(StepCovariance, HasTheCorrectionsOfOdometry) {
   const Matrix4d growth = Vector4d(-0.4, 0, 0, -0.1).asDiagonal();
   const Matrix4d step = StepCovariance(OdometryNoise(), Eigen::Vector3d::Zero(), growth);
@@ -58,7 +58,7 @@ TEST(LevelCovariance, HasYawAboutTheVerticalOfABodyThatIsNotLevel) {
   const Matrix4d covariance = LevelCovariance(frame.T_O_B, frame.covariance);
   EXPECT_NEAR(covariance(2, 2), 0.2, 1e-9);
   EXPECT_NEAR(covariance(3, 3), 0.3, 1e-9);
-  EXPECT_NEAR(covariance(2, 3), -0.1, 1e-9);  // about x of B is the other way about z of O
+  EXPECT_NEAR(covariance(2, 3), -0.1, 1e-9);  // x of B is opposite to z of O
 }
 
 TEST(StepCovariance, IsNotBelowTheFloorOfTheWay) {
@@ -67,7 +67,7 @@ TEST(StepCovariance, IsNotBelowTheFloorOfTheWay) {
   EXPECT_NEAR(StepCovariance(noise, {0, 3, 0}, Matrix4d::Zero())(2, 2), expected * expected, 1e-12);
 }
 
-// Random grey levels, blurred by their size alone.
+// Random grey levels, smoothed by the resize only.
 cv::Mat Noise() {
   cv::Mat small(60, 94, CV_8UC1);
   cv::RNG random(3);
@@ -87,7 +87,7 @@ TEST(MakeKeyframe, DescribesFollowedCornersAndFillsUp) {
   corner.observation.uv_px = {300, 200};
   corner.p_O = Eigen::Vector3d(4, 1, 2);
   frame.corners.push_back(corner);
-  corner.observation.uv_px = {-2, 200};  // a track may be predicted outside
+  corner.observation.uv_px = {-2, 200};  // a predicted track may be outside
   frame.corners.push_back(corner);
   const Keyframe keyframe = MakeKeyframe(CornerSelectionOptions(), *camera, frame);
   ASSERT_GT(keyframe.corners.size(), 100u);

@@ -10,9 +10,9 @@ namespace {
 
 using testing::Wall;
 
-constexpr double kMaxError = 4 / testing::kFocalLength;  // normalised
+constexpr double kMaxError = 4 / testing::kFocalLength;  // normalized
 
-// Three keyframes a metre apart, which follow the same points.
+// Three keyframes a metre apart with the same tracks.
 class UpdateLandmarksTest : public ::testing::Test {
  protected:
   UpdateLandmarksTest() {
@@ -24,7 +24,7 @@ class UpdateLandmarksTest : public ::testing::Test {
     }
   }
 
-  // Moves what a keyframe knows of the places along the rays, so that its image stays right.
+  // Moves the landmarks of a keyframe along their rays, so that their images stay the same.
   static void SpoilDepths(Keyframe* keyframe) {
     const Eigen::Vector3f from = keyframe->T_O_C().translation.cast<float>();
     for (DescribedCorner& corner : keyframe->corners) {
@@ -39,7 +39,7 @@ class UpdateLandmarksTest : public ::testing::Test {
     return nullptr;
   }
 
-  // The largest error of a keyframe's places of tracks that the newest one follows as well [m].
+  // Largest landmark error of a keyframe over the tracks of the newest one [m].
   double LargestError(const Keyframe& keyframe) const {
     double largest = 0;
     for (const DescribedCorner& corner : keyframe.corners) {

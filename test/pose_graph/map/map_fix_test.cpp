@@ -54,7 +54,8 @@ TEST(CovarianceInMap, HasWhatATurnOfTheKeyframeMovesFarFromIt) {
   EXPECT_NEAR(covariance(0, 5), -2 * 0.01, 1e-12);
 }
 
-// The map says about the vertical, odometry about the rest, however the body lies.
+// The map determines the heading about the vertical, odometry the other directions, at any
+// attitude.
 TEST(CovarianceInMap, KeepsRollAndPitchOfATiltedBody) {
   MapFix fix = FixWith({0, 0, 0, 0.01});
   const Rigid3d T_O_B(

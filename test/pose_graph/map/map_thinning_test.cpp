@@ -11,8 +11,8 @@ namespace {
 
 class MapThinningTest : public ::testing::Test {
  protected:
-  // A keyframe at x [m] that looks `turn` to the left [deg], connected with the last one of its
-  // world.
+  // Adds a keyframe at x [m], rotated by `turn` to the left [deg] and connected with the previous
+  // one of its world.
   void Visit(double t, double x, double turn = 0, int world = 0) {
     Keyframe keyframe;
     keyframe.t_ns = ToNanoseconds(t);
@@ -52,17 +52,17 @@ class MapThinningTest : public ::testing::Test {
 
   KeyframeMap map_;
   MapThinning thinning_{Options()};
-  double way_ = 0;  // of the edges that follow
+  double way_ = 0;  // of the following edges
   std::vector<int> nearest_;
 };
 
 TEST_F(MapThinningTest, LetsAKeyframeGoThatEnoughOfBeforeAreLike) {
   for (int visit = 0; visit < 4; ++visit) Visit(100 * visit, 0.1 * visit);
-  EXPECT_TRUE(Dispensable().empty());  // the fourth is young
+  EXPECT_TRUE(Dispensable().empty());  // the fourth is too young
   Visit(400, 10);
   EXPECT_EQ(Dispensable(), std::vector<int>{3});
   EXPECT_EQ(nearest_, std::vector<int>{2});
-  EXPECT_TRUE(Dispensable().empty());  // each is looked at once
+  EXPECT_TRUE(Dispensable().empty());  // each is examined once
 }
 
 TEST_F(MapThinningTest, KeepsWhatWasSeenFromAfarOrTowardsElsewhere) {
@@ -90,7 +90,7 @@ TEST_F(MapThinningTest, DoesNotCompareWorldsThatNothingJoins) {
 TEST_F(MapThinningTest, DoesNotCountThoseThatAreGone) {
   for (const double x : {0.0, 0.2, 0.3}) Visit(x, x);
   Visit(100, 0.4);
-  Visit(200, 0.65);  // three are near, of which one goes
+  Visit(200, 0.65);  // three are near, one of which is removed
   Visit(300, 10);
   EXPECT_EQ(Dispensable(), std::vector<int>{3});
 }

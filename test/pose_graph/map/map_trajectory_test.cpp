@@ -27,7 +27,7 @@ OdometryPose At(double t, int keyframe) {
 TEST(PoseInMap, PassesFromOneCorrectionToTheNext) {
   const KeyframeMap map = TwoKeyframes();
   EXPECT_TRUE(PoseInMap(map, At(0, 0)).translation.isApprox(Eigen::Vector3d(0, 0, 0), 1e-9));
-  // No step where the keyframe changes.
+  // There is no step at the keyframe.
   EXPECT_TRUE(PoseInMap(map, At(1, 0)).translation.isApprox(Eigen::Vector3d(1, 0.4, 0), 1e-9));
   EXPECT_TRUE(PoseInMap(map, At(1, 1)).translation.isApprox(Eigen::Vector3d(1, 0.4, 0), 1e-9));
   const Rigid3d between = PoseInMap(map, At(0.5, 0));

@@ -29,7 +29,7 @@ LevelEdge Loop(int from, int to, double variance) {
 
 class PlaceInMapTest : public ::testing::Test {
  protected:
-  // A keyframe at the origin, of which odometry states that variance of each coordinate.
+  // Adds a keyframe at the origin with this variance of each coordinate.
   void Add(int world, double variance) {
     Keyframe& keyframe = map_.keyframes.emplace_back();
     keyframe.world = world;
@@ -38,13 +38,13 @@ class PlaceInMapTest : public ::testing::Test {
     place_.AddKeyframe(map_);
   }
 
-  // A loop that stays in the graph.
+  // Adds a loop to the graph as well.
   void AddToGraph(const LevelEdge& loop) {
     map_.graph.AddEdge(loop);
     place_.AddLoop(map_, loop);
   }
 
-  // Of each coordinate in the map, of a pose now of which odometry states `variance`.
+  // Variance of each coordinate in the map for a current pose with `variance` in odometry.
   double VarianceInMap(double variance) const {
     return LevelCovarianceInMap(place_.Fix(map_), Eigen::Vector3d::Zero(), Variance(variance))(0,
                                                                                                0);
@@ -75,13 +75,13 @@ TEST_F(PlaceInMapTest, LearnsNothingFromALoopThatIsLessSure) {
   EXPECT_NEAR(VarianceInMap(0.2), 0.2, 1e-12);
 }
 
-// What its own odometry states is about an origin that has nothing to do with the map's.
+// The covariance of odometry refers to an origin that is unrelated to the map's.
 TEST_F(PlaceInMapTest, KnowsANewWorldByTheLoopThatJoinsIt) {
   Add(0, 0.1);
   for (const double variance : {0.01, 0.02, 0.04}) Add(1, variance);
   place_.AddLoop(map_, Loop(0, 2, 0.5));
   EXPECT_NEAR(VarianceInMap(0.04), 0.1 + 0.5 + 0.02, 1e-12);
-  place_.AddLoop(map_, Loop(1, 3, 0.001));  // its earlier keyframes, too
+  place_.AddLoop(map_, Loop(1, 3, 0.001));  // also improves its earlier keyframes
   EXPECT_NEAR(VarianceInMap(0.04), 0.1 + 0.5 + 0.01 + 0.001, 1e-12);
 }
 
@@ -132,7 +132,7 @@ TEST_F(PlaceInMapTest, GoesOnTakingALoadedMapForExactWithoutALoop) {
   EXPECT_NEAR(VarianceInMap(0.03), 0.2 + 0.02, 1e-12);
 }
 
-// Its covariance is about an origin of its own, which is not that of the map.
+// The covariance of the other world refers to its own origin, not the map's.
 TEST_F(PlaceInMapTest, KnowsAWorldThatTheNewestJoinsByTheNewest) {
   Add(0, 0.1);
   for (const double variance : {0.01, 0.02}) Add(1, variance);
@@ -152,11 +152,11 @@ TEST_F(PlaceInMapTest, KnowsWorldsThatAreJoinedFirstByTheLoopThatJoinsThemToTheM
   Add(0, 0.1);
   for (const double variance : {0.01, 0.02}) Add(1, variance);
   for (const double variance : {0.3, 0.4}) Add(2, variance);
-  AddToGraph(Loop(1, 3, 0.05));  // neither has a place in the map
+  AddToGraph(Loop(1, 3, 0.05));  // neither is connected with the map
   AddToGraph(Loop(0, 4, 0.5));
   EXPECT_NEAR(VarianceInMap(0.4), 0.1 + 0.5, 1e-12);
   Add(2, 0.9);
-  AddToGraph(Loop(1, 5, 0.001));  // known by the way over keyframe 3
+  AddToGraph(Loop(1, 5, 0.001));  // known through keyframe 3
   EXPECT_NEAR(VarianceInMap(0.9), 0.6 + (0.1 + 0.05) + 0.001, 1e-12);
 }
 
@@ -183,8 +183,8 @@ TEST_F(PlaceInMapTest, DoesNotTakeAWorldOfALoadedMapForExactThatIsNotJoinedToIt)
   }
 }
 
-// A way there and back in steps of 0.3 m, each with an error of 0.1 m in each coordinate that
-// odometry knows of.
+// A path there and back in steps of 0.3 m, each with an error of 0.1 m in each coordinate that
+// odometry's covariance contains.
 class Way {
  public:
   explicit Way(std::mt19937* random) : random_(random) {
@@ -198,7 +198,7 @@ class Way {
     }
   }
 
-  // A loop from the first keyframe to the last, with an error of 0.02 m.
+  // Adds a loop from the first keyframe to the last, with an error of 0.02 m.
   void CloseLoop() {
     LevelEdge loop = Loop(0, Last(), kLoop * kLoop);
     loop.covariance(3, 3) = kSureYaw;
@@ -208,7 +208,7 @@ class Way {
     place_.AddLoop(map_, loop);
   }
 
-  // The squared error of the last place, as the first keyframe sees it, over its stated variance.
+  // Squared error of the last position relative to the first keyframe, over its estimated variance.
   double NormalisedSquaredError() const {
     const Eigen::Vector3d error =
         map_.graph.node(Last()).translation - map_.graph.node(0).translation - truth_;
@@ -253,8 +253,7 @@ class Way {
   Eigen::Vector3d p_O_ = Eigen::Vector3d::Zero();
 };
 
-// The graph makes use of odometry and of the loop; the latter is as good as all, with 0.0004
-// against 0.3 m^2.
+// The graph combines odometry and the loop, which dominates: 0.0004 against 0.3 m^2.
 TEST(PlaceInMap, ErrsByWhatItStates) {
   constexpr int kWays = 300;
   std::mt19937 random(5);
@@ -265,7 +264,7 @@ TEST(PlaceInMap, ErrsByWhatItStates) {
     way.CloseLoop();
     map += way.NormalisedSquaredError();
   }
-  EXPECT_NEAR(odometry / kWays, 1, 0.15);  // three deviations by chance
+  EXPECT_NEAR(odometry / kWays, 1, 0.15);  // three standard deviations
   EXPECT_NEAR(map / kWays, 1, 0.15);
 }
 

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// Two keyframes, the second of which is a metre aside, in a map that is turned by a quarter.
+// Two keyframes a metre apart, in a map that is rotated by a quarter turn.
 KeyframeMap SmallMap(const CameraModel& camera) {
   KeyframeMap map;
   const LevelTransform T_M_O = {M_PI / 2, {0, 0, 1}};
@@ -56,8 +56,8 @@ TEST(WriteG2o, HasNodesAndEdgesWithInformation) {
   EXPECT_FALSE(std::getline(lines, line));
 }
 
-// A loop between worlds that are turned to each other. Along x of `from` it is sure, which is along
-// -y of `to`.
+// A loop between worlds with different headings. It is certain along x of `from`, which is -y of
+// `to`.
 TEST(WriteG2o, HasInformationInTheAxesOfTheLaterNode) {
   KeyframeMap map = SmallMap(*testing::SimpleCamera());
   LevelEdge loop = {0, 1, {M_PI / 2, {0, 1, 0}}, Matrix4d::Identity(), true};
@@ -77,7 +77,7 @@ class ColmapTest : public ::testing::Test {
     WriteColmapModel(folder_.File("model"), camera_->parameters(), map_);
   }
 
-  // The first corner of the first image is where `camera` sees its point.
+  // Expects that the first corner of the first image is the projection of its point.
   void ExpectConsistent(const CameraModel& camera) const {
     std::istringstream images(folder_.Read("model/images.txt"));
     std::string pose, corners;

@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 constexpr size_t kHeaderSize = 13 + 4 + 8 + 8;                // signature, version, size, checksum
-constexpr size_t kEdgeSize = 2 * 4 + 4 * 8 + 16 * 8 + 1 + 8;  // the last one is the file's end
+constexpr size_t kEdgeSize = 2 * 4 + 4 * 8 + 16 * 8 + 1 + 8;  // at the end of the file
 
 template <typename T>
 void Replace(const T& value, size_t at, std::string* bytes) {
@@ -54,7 +54,8 @@ class MapFileTest : public ::testing::Test {
 
   void Write(const std::string& bytes) const { folder_.Write("map.plm", bytes); }
 
-  // What a program that means harm saves: `spoil(keyframe, edge)` changes one of each.
+  // Expects that a map saved by a malicious program is rejected: `spoil(keyframe, edge)` changes
+  // one of each.
   template <typename Spoil>
   void ExpectRefused(const std::string& why, const Spoil& spoil) const {
     KeyframeMap map;
@@ -68,7 +69,7 @@ class MapFileTest : public ::testing::Test {
                                         HasSubstr(": save the map again")));
   }
 
-  // The map with another number in that place.
+  // Writes the map with another number at the offset.
   void WriteWith(int32_t number, size_t at, std::string bytes) const {
     Replace(number, at, &bytes);
     Replace(testing::MapChecksum(bytes.substr(kHeaderSize)), kHeaderSize - sizeof(uint64_t),
@@ -93,7 +94,7 @@ TEST_F(MapFileTest, ComesBackAsItWas) {
   EXPECT_EQ(loaded.keyframes[0].corners[5].descriptor, map_.keyframes[0].corners[5].descriptor);
   EXPECT_EQ(loaded.keyframes[0].segments.size(), map_.keyframes[0].segments.size());
 
-  // What is saved again has the same bytes, so nothing was lost.
+  // Saving the map again gives the same bytes, so no information was lost.
   const std::string first = folder_.Read("map.plm");
   SaveMap(file_, loaded);
   EXPECT_EQ(folder_.Read("map.plm"), first);
@@ -112,7 +113,7 @@ TEST_F(MapFileTest, OfAPreviousRunIsEmptyWhereThereIsNoneAndSaysSo) {
   EXPECT_THROW(LoadPreviousMap(file_), std::runtime_error);
 }
 
-// Half of the corners being landmarks, and some lines in view.
+// Half of the corners are landmarks, and some lines are in view.
 TEST_F(MapFileTest, TakesAboutTwentyKilobytesForAKeyframe) {
   KeyframeMap map;
   map.graph.AddNode({});
@@ -186,7 +187,7 @@ TEST_F(MapFileTest, FindsEveryDamage) {
   }
 }
 
-// Each with a right checksum: all of it is in what is saved.
+// All checksums are correct, since the content is changed before saving.
 TEST_F(MapFileTest, RefusesAnEdgeFromAKeyframeToItself) {
   ExpectRefused("an edge leads from a keyframe to itself",
                 [](auto*, auto* edge) { edge->to = edge->from; });
@@ -238,7 +239,7 @@ TEST_F(MapFileTest, RefusesWorldsStampsAndWaysThatAreNone) {
   ExpectRefused("a negative length", [](auto*, auto* edge) { edge->way = -1; });
 }
 
-// What SaveMap() does not write.
+// SaveMap() does not write such maps.
 TEST_F(MapFileTest, RefusesEdgesAndKeyframesThatAreNotThere) {
   SaveMap(file_, map_);
   const std::string good = folder_.Read("map.plm");

@@ -35,7 +35,7 @@ class CornerIndexTest : public ::testing::Test {
 TEST_F(CornerIndexTest, FindsTheImageItself) {
   const auto scores = index_.Scores(images_[3]);
   ASSERT_EQ(scores.count(3), 1u);
-  EXPECT_NEAR(scores.at(3), 100 * std::log(6.0), 1e-9);  // each is of one in five images
+  EXPECT_NEAR(scores.at(3), 100 * std::log(6.0), 1e-9);  // each occurs in one of five images
   EXPECT_EQ(scores.size(), 1u);
 }
 
@@ -48,7 +48,7 @@ TEST_F(CornerIndexTest, FindsMostCornersOfWhichSomeBitsDiffer) {
 
 TEST_F(CornerIndexTest, DoesNotTakeDescriptorsThatShareAWordAlone) {
   Descriptor other = images_[0].front();
-  other[2] = ~other[2];  // the words are of the first bits
+  other[2] = ~other[2];  // the words consist of the first bits
   EXPECT_TRUE(index_.Scores({other}).empty());
 }
 

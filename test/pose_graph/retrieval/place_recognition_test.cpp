@@ -10,7 +10,7 @@ namespace {
 
 constexpr int64_t kSecond = 1'000'000'000;
 
-// Keyframes of places, of each of which a few corners are seen by the one before and after as well.
+// Keyframes of places that share a few corners with the previous and the next place.
 class PlaceRecognitionTest : public ::testing::Test {
  protected:
   std::vector<PlaceCandidate> See(int place, double t, int world = 0) {
@@ -24,7 +24,7 @@ class PlaceRecognitionTest : public ::testing::Test {
     return recognition_.Find(keyframes_);
   }
 
-  // Places 0 to 9, one in a second.
+  // Observes the places 0 to 9, one per second.
   void SeeTen() {
     for (int place = 0; place < 10; ++place) See(place, place);
   }
@@ -63,7 +63,7 @@ TEST_F(PlaceRecognitionTest, TakesAnotherWorldForAnotherVisitAtAnyTime) {
 TEST_F(PlaceRecognitionTest, WantsToBeLedToAPlaceTwice) {
   SeeTen();
   See(3, 29);
-  const auto first = See(4, 30);  // the first that looks like its predecessor as well
+  const auto first = See(4, 30);  // the first that is similar to its predecessor as well
   EXPECT_TRUE(first.front().similar);
   EXPECT_FALSE(first.front().repeated);
   EXPECT_TRUE(See(5, 31).front().repeated);
@@ -80,12 +80,12 @@ TEST_F(PlaceRecognitionTest, MeasuresSimilarityByTheImageBefore) {
   SeeTen();
   See(40, 30);
   See(41, 31);
-  const auto candidates = See(5, 32);  // its predecessor shows nothing of it
+  const auto candidates = See(5, 32);  // its predecessor shows another place
   ASSERT_FALSE(candidates.empty());
   EXPECT_FALSE(candidates.front().similar);
 }
 
-// Its predecessor is of another world and shows nothing of it.
+// The predecessor belongs to another world and shows another place.
 TEST_F(PlaceRecognitionTest, MeasuresTheFirstOfAWorldByItself) {
   SeeTen();
   See(40, 10);

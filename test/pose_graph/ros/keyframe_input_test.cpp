@@ -38,7 +38,7 @@ class KeyframeInputTest : public ::testing::Test {
     }
   }
 
-  // A keyframe of all parts; nothing where one was refused.
+  // Returns a keyframe of all parts, or nullopt if a part was rejected.
   std::optional<OdometryFrame> Assemble(const nav_msgs::Odometry& pose) {
     KeyframeInput input(sensor_);
     return Assemble(pose, &input);
@@ -57,7 +57,7 @@ class KeyframeInputTest : public ::testing::Test {
   std::vector<TrackedCorner> corners_;
   std::vector<TrackedSegment> segments_;
   std::optional<Eigen::Quaterniond> R_O_Manhattan_;
-  std::map<std::string, int64_t> drops_;  // of the last keyframe
+  std::map<std::string, int64_t> drops_;  // for the last keyframe
 };
 
 TEST_F(KeyframeInputTest, HasTheFramesOfAKeyframe) {
@@ -84,7 +84,7 @@ TEST_F(KeyframeInputTest, TakesTheExtrinsicsAsTheyAreEstimated) {
   EXPECT_NEAR(frame->T_B_C.rotation.z(), std::sqrt(0.5), 1e-12);
 }
 
-// As 1e6 in the message; a step between such keyframes would be free.
+// An unknown covariance is 1e6 in the message, which would make the odometry edge useless.
 TEST_F(KeyframeInputTest, TakesAnUnknownCovarianceForNone) {
   nav_msgs::Odometry pose = Pose();
   for (size_t i = 0; i < 36; i += 7) pose.pose.covariance[i] = 1e6;

@@ -11,22 +11,23 @@ namespace {
 constexpr int kEarlierGrey = 40;
 constexpr int kLaterGrey = 90;
 
-// Two visits of the camera of two_visits.h, 752 x 480 with 460 px, the halves of the picture being
-// 376 x 240. The earlier camera is 1 m above the origin of its world and looks along z.
+// Two visits of the camera of two_visits.h, with 752 x 480 px and a focal length of 460 px; the
+// halves of the drawing are 376 x 240 px. The earlier camera is 1 m above the origin of its world
+// and looks along z.
 class LoopDrawingTest : public ::testing::Test {
  protected:
   LoopDrawingTest() { sightings_.T_O1_C.translation = {0, 0, 1}; }
 
   cv::Mat Draw() const { return DrawLoop(*camera_, sightings_, earlier_, later_); }
 
-  // Whether the picture is other than grey there.
+  // Returns whether the drawing is coloured at the pixel.
   static bool IsColored(const cv::Mat& picture, int x, int y) {
     const auto& color = picture.at<cv::Vec3b>(y, x);
     return color[0] != color[1] || color[1] != color[2];
   }
 
   std::shared_ptr<const CameraModel> camera_ = testing::SimpleCamera();
-  cv::Mat earlier_{240, 376, CV_8UC1, cv::Scalar(kEarlierGrey)};  // at half resolution, as kept
+  cv::Mat earlier_{240, 376, CV_8UC1, cv::Scalar(kEarlierGrey)};  // at half resolution, as stored
   cv::Mat later_{480, 752, CV_8UC1, cv::Scalar(kLaterGrey)};
   LoopSightings sightings_;
 };
@@ -47,17 +48,17 @@ TEST_F(LoopDrawingTest, LeavesAnEarlierImageThatIsUnknownBlack) {
 }
 
 TEST_F(LoopDrawingTest, JoinsALandmarkWithItsCorner) {
-  // 92 px above the middle of the earlier image, 92 px below that of the later one.
+  // 92 px above the centre of the earlier image, 92 px below the centre of the later one.
   sightings_.of_earlier = {{{0, -0.4, 3}, {0, 0.2}}};
   const cv::Mat picture = Draw();
   EXPECT_TRUE(IsColored(picture, 188 - 2, 120 - 46));  // left of the line: the disc
   EXPECT_TRUE(IsColored(picture, 376 + 188 + 2, 120 + 46));
-  EXPECT_TRUE(IsColored(picture, 376, 120));  // half way
+  EXPECT_TRUE(IsColored(picture, 376, 120));  // halfway
   EXPECT_FALSE(IsColored(picture, 188, 120 + 46));
 }
 
 TEST_F(LoopDrawingTest, LeavesOutWhatTheEarlierCameraDidNotSee) {
-  sightings_.of_earlier = {{{0, 0, 0.5}, {0, 0}}, {{5, 0, 2}, {0, 0}}};  // behind, beside
+  sightings_.of_earlier = {{{0, 0, 0.5}, {0, 0}}, {{5, 0, 2}, {0, 0}}};  // behind, outside
   EXPECT_FALSE(IsColored(Draw(), 376 + 188, 120));
 }
 
@@ -71,7 +72,7 @@ TEST_F(LoopDrawingTest, DrawsALineInBothImages) {
   for (const int y : {80, 120, 160}) {
     EXPECT_TRUE(IsColored(picture, 188 + 46, y));
     EXPECT_TRUE(IsColored(picture, 376 + 188 - 46, y));
-    EXPECT_FALSE(IsColored(picture, 376, y));  // lines are not joined
+    EXPECT_FALSE(IsColored(picture, 376, y));  // lines are not connected
   }
   EXPECT_FALSE(IsColored(picture, 188 + 46, 120 + 60));
 }

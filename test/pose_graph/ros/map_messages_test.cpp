@@ -48,7 +48,7 @@ TEST(ToMap, LeavesACovarianceThatIsNotKnown) {
   EXPECT_EQ(ToMap(odometry, QuarterTurn(), "map").pose.covariance, odometry.pose.covariance);
 }
 
-// Two keyframes that are joined by a step and a loop, and one of another world.
+// Two keyframes connected by an odometry edge and a loop, and one of another world.
 KeyframeMap SmallMap() {
   KeyframeMap map;
   for (int i = 0; i < 3; ++i) {

@@ -92,7 +92,7 @@ TEST_F(LandmarkMatchingTest, MergesTheLandmarksOfAnIsland) {
     DescribedCorner corner = CornerOf(a_);
     corner.track = 5;
     corner.p_O = Eigen::Vector3f(1, 2, keyframe == &first ? 3 : 4);
-    keyframe->corners = {corner, CornerOf(b_)};  // the other is nowhere in space
+    keyframe->corners = {corner, CornerOf(b_)};  // the second corner has no position
   }
   const auto landmarks = MergeLandmarks({&first, &second});
   ASSERT_EQ(landmarks.size(), 1u);

@@ -28,7 +28,7 @@ TEST(SolveTwoPoints, HasTheTruthAmongItsSolutions) {
     const LevelTransform T_O_G = RandomPose(&random);
     const Eigen::Vector3d p_G1 = random.UniformInBox({5, 5, 5});
     const Eigen::Vector3d p_G2 = random.UniformInBox({5, 5, 5});
-    // The rays' lengths are of no matter.
+    // The lengths of the rays do not matter.
     const auto poses = SolveTwoPoints(0.3 * p_G1, T_O_G * p_G1, 2.0 * p_G2, T_O_G * p_G2);
     double best = std::numeric_limits<double>::infinity();
     for (const LevelTransform& pose : poses) best = std::min(best, Difference(pose, T_O_G));
@@ -38,11 +38,11 @@ TEST(SolveTwoPoints, HasTheTruthAmongItsSolutions) {
 }
 
 TEST(SolveTwoPoints, HasNoSolutionWhereTheHeightsCannotBe) {
-  // Both seen at the height of the camera, but one is higher than the other.
+  // Both are observed at the height of the camera, but one is higher than the other.
   EXPECT_TRUE(SolveTwoPoints({1, 0, 0}, {3, 0, 0}, {0, 1, 0}, {0, 3, 1}).empty());
 }
 
-// Sightings from a pose, a share of them wrong.
+// Observations from a pose, a share of which is wrong.
 std::vector<SeenPoint> See(const LevelTransform& T_O_G, const Eigen::Quaterniond& R_G_C, int count,
                            double wrong_share, double noise, simulator::Random* random) {
   std::vector<SeenPoint> sightings;

@@ -35,14 +35,14 @@ TEST_F(FindWitnessesTest, FindsFewFromAWrongPlace) {
 TEST_F(FindWitnessesTest, CountsOnlyLinesInView) {
   std::vector<SpaceSegment> lines = wall_.lines;
   lines.push_back({{-5, 0, -1}, {-5, 0, 1}});  // behind
-  lines.push_back({{5, 20, -1}, {5, 20, 1}});  // beside the image
+  lines.push_back({{5, 20, -1}, {5, 20, 1}});  // outside the image
   EXPECT_EQ(Find(Rigid3d(), lines).visible, 12);
 }
 
 TEST_F(FindWitnessesTest, WantsASegmentThatOverlaps) {
   const SpaceSegment& line = wall_.lines[6];
   const Eigen::Vector3d along = line.end_O - line.start_O;
-  // The next piece of the same straight line, beyond its end.
+  // Another piece of the same infinite line, beyond the segment's end.
   const SpaceSegment beyond = {line.end_O + 0.05 * along, line.end_O + 0.4 * along};
   EXPECT_EQ(Find(Rigid3d(), {beyond}).visible, 1);
   EXPECT_EQ(Find(Rigid3d(), {beyond}).seen.size(), 0u);

@@ -6,8 +6,8 @@
 namespace plm_vins {
 namespace {
 
-// A way of 40 keyframes, one in a second and a metre, there and back: keyframe 20 + i is where
-// 20 - i was.
+// A path of 40 keyframes there and back, at intervals of a second and a metre: keyframe 20 + i is
+// at the place of 20 - i.
 class LoopAcceptanceTest : public ::testing::Test {
  protected:
   LoopAcceptanceTest() { AddWay(/*world=*/0, 41); }
@@ -29,7 +29,7 @@ class LoopAcceptanceTest : public ::testing::Test {
     }
   }
 
-  // A loop that asks for a correction of odometry.
+  // A loop that requests a correction of odometry.
   LoopCandidate Loop(int earlier, int later, const Eigen::Vector3d& correction) {
     LoopCandidate loop;
     loop.earlier = earlier;
@@ -41,7 +41,7 @@ class LoopAcceptanceTest : public ::testing::Test {
     return loop;
   }
 
-  // How many loops are to be believed.
+  // Returns the number of accepted loops.
   size_t Judge(LoopCandidate* loop) {
     const size_t confirmed = acceptance_.Judge(keyframes_, graph_, loop).size();
     return confirmed + (loop->failed ? 0 : 1);
@@ -92,8 +92,7 @@ TEST_F(LoopAcceptanceTest, ForgetsAWitnessOfLongAgo) {
   EXPECT_EQ(Judge(&first) + Judge(&second), 0u);
 }
 
-// The map has turned since: what is uncertain along the way of the one is so along that of the
-// other.
+// The map has been rotated since: the uncertain direction of one loop is also that of the other.
 TEST_F(LoopAcceptanceTest, ComparesLoopsAlongTheAxesOfTheMap) {
   AddWay(/*world=*/1, 21);
   graph_.MovePart(0, {M_PI / 2, {0, 0, 0}});
@@ -112,7 +111,7 @@ TEST_F(LoopAcceptanceTest, JoinsAnotherWorldWithTwoLoopsThatAgree) {
   LoopCandidate first = Loop(10, 41 + 10, {3, 4, 5});
   LoopCandidate second = Loop(12, 41 + 12, {3, 4, 5});
   EXPECT_EQ(Judge(&first), 0u);
-  EXPECT_FALSE(first.odometry_error);  // odometry says nothing of it
+  EXPECT_FALSE(first.odometry_error);  // odometry cannot predict it
   EXPECT_EQ(Judge(&second), 2u);
 }
 

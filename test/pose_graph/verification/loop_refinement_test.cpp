@@ -17,14 +17,14 @@ using testing::kFocalLength;
 
 const LevelTransform kTruth = {0.4, {5, -3, 0.5}};  // T_O1_O2
 
-// Standard deviations of what is wrong with sightings.
+// Standard deviations of errors of the observations.
 struct Noise {
-  double image = 0;  // normalised
-  double depth = 0;  // of a landmark along its ray, share of its distance
+  double image = 0;  // normalized
+  double depth = 0;  // of a landmark along its ray, relative to its distance
   double tilt = 0;   // of O2 about its level axes [rad]
 };
 
-// Two cameras before the same points and lines, each of which it knows in its own world.
+// Two cameras that observe the same points and lines, whose positions are known in both worlds.
 LoopSightings See(int points, bool lines, const Noise& noise, simulator::Random* random) {
   LoopSightings all;
   const Rigid3d T_O1_earlier({Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()))},
@@ -36,7 +36,7 @@ LoopSightings See(int points, bool lines, const Noise& noise, simulator::Random*
   const Rigid3d T_C_O1_later = (kTruth.ToRigid() * all.T_O2_C).Inverse();
   const Eigen::Vector3d tilt(noise.tilt * random->Normal(), noise.tilt * random->Normal(), 0);
   const Eigen::Quaterniond R_tilted_O2 = SO3Exp(tilt);
-  all.T_O2_C.rotation = R_tilted_O2 * all.T_O2_C.rotation;  // all of O2 is turned about the camera
+  all.T_O2_C.rotation = R_tilted_O2 * all.T_O2_C.rotation;  // all of O2 is rotated about the camera
   const auto place = [&](const Rigid3d& T_W_C, const Eigen::Vector3d& p_C) {
     return Eigen::Vector3d(T_W_C * Eigen::Vector3d((1 + noise.depth * random->Normal()) * p_C));
   };
@@ -64,7 +64,7 @@ LoopSightings See(int points, bool lines, const Noise& noise, simulator::Random*
 
 LevelTransform Disturbed() { return kTruth * LevelTransform{0.05, {0.1, -0.1, 0.05}}; }
 
-// Of the place of the later camera and the yaw.
+// Error of the later camera's position and of the yaw.
 Vector4d ErrorOf(const LevelTransform& T_O1_O2, const LoopSightings& sightings) {
   Vector4d error;
   error << T_O1_O2 * sightings.T_O2_C.translation - kTruth * sightings.T_O2_C.translation,
@@ -97,7 +97,7 @@ TEST(RefineLoop, StandsSomeWrongSightings) {
   EXPECT_LT(ErrorOf(loop->T_O1_O2, sightings).norm(), 0.03);
 }
 
-// Mean normalised error squared, of four degrees of freedom, where the noise is what is assumed.
+// Mean NEES for four degrees of freedom, with the noise that the options assume.
 double MeanNees(const Noise& noise, uint64_t seed) {
   LoopRefinementOptions options(kFocalLength);
   options.point_noise = options.line_noise = noise.image;
@@ -118,7 +118,7 @@ double MeanNees(const Noise& noise, uint64_t seed) {
 }
 
 TEST(RefineLoop, HasTheCovarianceThatItsErrorsHave) {
-  // Images alone, then with landmarks of uncertain depth, then with roll and pitch in error too.
+  // With image noise only, then with uncertain depths, then with errors of roll and pitch as well.
   for (const Noise& noise :
        {Noise{1.0 / kFocalLength, 1e-6, 1e-6}, Noise{1.0 / kFocalLength, 0.1, 1e-6},
         Noise{1.0 / kFocalLength, 0.1, 0.01}}) {
@@ -128,7 +128,7 @@ TEST(RefineLoop, HasTheCovarianceThatItsErrorsHave) {
   }
 }
 
-// What the two visits' attitudes are off by must not be taken for a way.
+// An attitude error between the visits must not be confused with a translation.
 TEST(RefineLoop, TellsATiltFromAWay) {
   const Noise noise = {0, 0, 0.5 * M_PI / 180};
   LoopRefinementOptions without(kFocalLength);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each gate has a case that it alone refuses.
+// Each gate has a test case that it alone rejects.
 #include "pose_graph/verification/loop_verification.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,8 @@ class LoopVerificationTest : public ::testing::Test {
   LevelTransform error_;
 };
 
-// Gates in pixels: corners of a wide lens are as many pixels off, and more in angles.
+// Gates are in pixels: corners of a wide-angle lens have the same pixel errors, and larger angular
+// ones.
 TEST_F(LoopVerificationTest, AllowsTheSamePixelsToEveryLens) {
   constexpr double kWide = 191;  // [px]
   camera_ = testing::SimpleCamera(kWide);
@@ -76,13 +77,13 @@ TEST_F(LoopVerificationTest, AcceptsTheSamePlaceAndMeasuresTheDrift) {
 }
 
 TEST_F(LoopVerificationTest, RefusesTheSameVisit) {
-  later_.first_track = earlier_.first_track;  // tracks go on
+  later_.first_track = earlier_.first_track;  // tracks continue
   EXPECT_EQ(Verify().failed, LoopGate::kApart);
 }
 
 TEST_F(LoopVerificationTest, LeavesOutTracksThatGoOn) {
   const int inliers = Verify().inliers.value();
-  later_.first_track = earlier_.first_track + 120;  // of 150: some tracks have both visits
+  later_.first_track = earlier_.first_track + 120;  // of 150: some tracks are in both visits
   const LoopCandidate candidate = Verify();
   EXPECT_FALSE(candidate.failed) << ToString(*candidate.failed);
   EXPECT_GT(*candidate.common_tracks, 10);
@@ -109,11 +110,11 @@ TEST_F(LoopVerificationTest, RefusesTheSameThingsInAnotherOrder) {
   EXPECT_EQ(Verify().failed, LoopGate::kPose);
 }
 
-// A poster that hangs somewhere else: a part of the image agrees on a pose, the rest does not.
+// A displaced poster: a part of the image agrees on a pose, the rest does not.
 TEST_F(LoopVerificationTest, RefusesWhereMostIsNotWhereItShouldBe) {
   second_wall_ = wall_;
   constexpr double kShifts[] = {0, 0.15, -0.2, 0.3};  // a quarter of the points agrees on a pose
-  options_.matching.search_radius = 0.15;             // so that the others are seen to be off
+  options_.matching.search_radius = 0.15;             // shows that the others are off
   for (size_t i = 0; i < second_wall_->points.size(); ++i) {
     second_wall_->points[i].p_W.y() += kShifts[i % 4];
   }
@@ -129,7 +130,7 @@ TEST_F(LoopVerificationTest, RefusesATurnedManhattanFrame) {
   Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
   first.R_O_Manhattan = Turned(0);
   later.world = first.world + 1;
-  later.R_O_Manhattan = Turned(100);  // the world is turned by 10, the frame by a quarter
+  later.R_O_Manhattan = Turned(100);  // the world is rotated by 10, the frame by a quarter turn
   EXPECT_FALSE(VerifyPair(first, later).failed);
   later.R_O_Manhattan = Turned(105);
   EXPECT_EQ(VerifyPair(first, later).failed, LoopGate::kManhattan);
@@ -139,7 +140,7 @@ TEST_F(LoopVerificationTest, ComparesNoTwoManhattanFramesOfOneWorld) {
   Keyframe first = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
   Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
   first.R_O_Manhattan = Turned(0);
-  later.R_O_Manhattan = Turned(2);  // one frame, but the loop says that its world is turned by 10
+  later.R_O_Manhattan = Turned(2);  // equal frames, but the loop rotates its world by 10
   EXPECT_EQ(VerifyPair(first, later).failed, LoopGate::kManhattan);
   later.R_O_Manhattan = Turned(30);  // another frame
   const LoopCandidate candidate = VerifyPair(first, later);
@@ -161,11 +162,11 @@ TEST_F(LoopVerificationTest, RefusesWhatIsSeenInACornerOfTheImageAlone) {
 TEST_F(LoopVerificationTest, RefusesWhatDoesNotHoldBackwards) {
   const Keyframe earlier = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
   Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
-  for (DescribedCorner& corner : later.corners) *corner.p_O *= 1.3F;  // its scale is wrong
+  for (DescribedCorner& corner : later.corners) *corner.p_O *= 1.3F;  // wrong scale
   EXPECT_EQ(VerifyPair(earlier, later).failed, LoopGate::kBackwards);
 }
 
-// As many landmarks as in the one direction are not needed in the other, but so many in all.
+// The two directions have different minimum numbers, and their sum has another.
 TEST_F(LoopVerificationTest, RefusesFewInBothDirectionsTogether) {
   wall_ = Wall(/*seed=*/1, /*point_count=*/19);
   const Keyframe earlier = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
@@ -183,7 +184,7 @@ TEST_F(LoopVerificationTest, RefusesFewInBothDirectionsTogether) {
   EXPECT_FALSE(verify_with_places(backwards).failed);
 }
 
-// No comparison finds anything wrong with a place that is no number.
+// Comparisons with NaN positions are false.
 TEST_F(LoopVerificationTest, RefusesLandmarksThatAreNowhere) {
   const Keyframe earlier = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
   Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
@@ -202,7 +203,7 @@ TEST_F(LoopVerificationTest, RefusesWhereTheLinesAreMissing) {
   later_.with_lines = false;
   EXPECT_EQ(Verify().failed, LoopGate::kLines);
   earlier_.with_lines = false;
-  EXPECT_FALSE(Verify().failed);  // no lines, no witnesses
+  EXPECT_FALSE(Verify().failed);  // without lines the gate passes
 }
 
 }  // namespace

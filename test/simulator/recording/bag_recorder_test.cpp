@@ -39,7 +39,7 @@ std::string Bytes(const std::string& path) {
   return bytes.str();
 }
 
-// No file gets larger than this while it lives: as on a full disk.
+// Limits the size of files during its lifetime, like a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -57,8 +57,8 @@ class FileSizeLimit {
   sighandler_t handler_;
 };
 
-// The destructor of a bag throws where the disk is full, which would end the program. What is
-// buffered fails as late as at the end.
+// The destructor of a bag throws if the disk is full, which would abort the program. Buffered data
+// may fail only at the end.
 TEST(BagRecorder, NoticesAFullDisk) {
   const std::string file = testing::TempDir() + "plm_vins_bag_too_large.bag";
   for (const rlim_t limit : {4200, 100'000}) {

@@ -8,7 +8,7 @@
 namespace plm_vins::simulator {
 namespace {
 
-// Keeps a recording in memory.
+// Stores a recording in memory.
 class MemoryRecorder : public Recorder {
  public:
   void Write(const ImuSample& sample) override {
@@ -107,7 +107,7 @@ TEST(Flight, GroundTruthBelongsToTheImuSamples) {
   const Flight flight(SmallFlight());
   const std::vector<FrameState> truth = flight.GroundTruth();
   ASSERT_EQ(truth.size(), flight.imu().samples.size());
-  // The first second is at rest: what the accelerometer feels is gravity and its bias.
+  // During the standstill of the first second, the accelerometer measures gravity and its bias.
   const FrameState& state = truth[100];
   EXPECT_EQ(state.t_ns, flight.imu().samples[100].t_ns);
   const Eigen::Vector3d expected =

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr int kMiddleRow = 240;
 
-// The camera sits in the body without rotation: V looks along x, C along z.
+// The camera is mounted without rotation: V looks along x, C along z.
 struct Rig {
   SensorConfig sensors = DefaultSensors();
   TrajectoryOptions options;
@@ -28,7 +28,7 @@ struct Rig {
   }
 };
 
-// A wall 4 m ahead of the trajectory's box whose left half (y > 0) is bright.
+// A wall 4 m ahead of the trajectory's box, whose left half (y > 0) is bright.
 Scene HalfBrightWall() {
   Scene scene;
   const int bright = scene.AddTexture(cv::Mat1b(2, 2, uchar(200)), 1, 1);
@@ -52,18 +52,19 @@ ImagingOptions Ideal() {
   return imaging;
 }
 
-// Column where the rows about the middle one pass from bright to dark, from their total brightness.
+// Column of the transition from bright to dark in the rows near the middle, from their total
+// brightness.
 double EdgeColumn(const cv::Mat& image) {
   const cv::Mat rows = image.rowRange(kMiddleRow - 4, kMiddleRow + 5);
   const double bright = rows.at<uchar>(0, 0), dark = rows.at<uchar>(0, rows.cols - 1);
   return (cv::sum(rows)[0] / rows.rows - dark * rows.cols) / (bright - dark) - 0.5;
 }
 
-// Where the edge of HalfBrightWall is seen in the middle row, if it is well in view.
+// Column of the edge of HalfBrightWall in the middle row, or nullopt if it is not well in view.
 std::optional<double> EdgeInMiddleRow(const CameraModel& camera, const Rigid3d& T_W_C) {
   if ((T_W_C.rotation * Vector3d::UnitZ()).x() < 0.8) return std::nullopt;
   const Rigid3d T_C_W = T_W_C.Inverse();
-  double below = -4, above = 8;  // heights on the edge whose rows enclose the middle one
+  double below = -4, above = 8;  // heights on the edge whose rows enclose the middle row
   for (int i = 0; i < 40; ++i) {
     const double z = 0.5 * (below + above);
     const auto pixel = camera.Project(T_C_W * Vector3d(6, 0, z));

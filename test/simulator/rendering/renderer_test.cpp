@@ -18,7 +18,7 @@ int AddPlain(Scene* scene, double brightness) {
   return scene->AddTexture(cv::Mat1b(4, 4, cv::saturate_cast<uchar>(255 * brightness)), 1, 1);
 }
 
-// A rectangle that faces a camera which looks along +z of W with y down.
+// A rectangle that faces a camera looking along +z of W with y down.
 Rectangle Facing(double left, double bottom, double depth, double width, double height,
                  int texture) {
   return {{left, bottom, depth}, Vector3d::UnitX(), -Vector3d::UnitY(), width, height, texture};
@@ -30,7 +30,7 @@ cv::Mat1f Render(const Renderer& renderer, const CameraParameters& camera, const
   return sum / Renderer::kSubpixels;
 }
 
-// Where two white squares of a black wall meet corner to corner.
+// The common corner of two white squares on a black wall.
 struct SaddleScene {
   Scene scene;
   std::vector<Vector3d> saddles;
@@ -66,7 +66,7 @@ TEST(Renderer, KnownPointsAppearWhereTheCameraModelProjectsThem) {
     const Renderer renderer(world.scene, camera);
     for (const Vector3d& tilt : {Vector3d(0, 0, 0), Vector3d(0.2, -0.25, 0.4)}) {
       const Rigid3d T_W_C(SO3Exp(tilt), {0.1, -0.05, 0.2});
-      // cornerSubPix alone is off by 0.1 px where edges are sharper than a lens makes them.
+      // cornerSubPix itself is off by 0.1 px if edges are sharper than those of a lens.
       cv::Mat1f image = Render(renderer, parameters, T_W_C);
       cv::GaussianBlur(image, image, {9, 9}, 1.5);
       int checked = 0;

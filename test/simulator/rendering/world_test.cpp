@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 class EachWorld : public testing::TestWithParam<WorldKind> {};
 
-// Least distance of the rectangle's points, sampled every 5 cm, from the box; 1 where it is more.
+// Smallest distance of the rectangle's points, sampled every 5 cm, from the box; at most 1.
 double DistanceFromBox(const Rectangle& r, const Vector3d& center, const Vector3d& extent) {
   double least = 1;
   const double radius = 0.5 * std::hypot(r.width, r.height);
@@ -29,7 +29,7 @@ double DistanceFromBox(const Rectangle& r, const Vector3d& center, const Vector3
   return least;
 }
 
-// Whether a ray meets the front of the rectangle.
+// Returns whether a ray hits the front of the rectangle.
 bool Meets(const Vector3d& origin, const Vector3d& direction, const Rectangle& r) {
   const double approach = -direction.dot(r.Normal());
   if (approach <= 0) return false;
@@ -39,7 +39,7 @@ bool Meets(const Vector3d& origin, const Vector3d& direction, const Rectangle& r
   return distance > 0 && a >= 0 && a <= r.width && b >= 0 && b <= r.height;
 }
 
-// Directions over the whole sphere, 5 degrees or less apart.
+// Directions over the whole sphere, at most 5 degrees apart.
 std::vector<Vector3d> AllDirections() {
   std::vector<Vector3d> directions;
   for (double elevation = -90; elevation <= 90; elevation += 5) {
@@ -72,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(Worlds, EachWorld,
                                          WorldKind::kShelves, WorldKind::kTiles,
                                          WorldKind::kIrregular));
 
-// By heading modulo 90 deg, in bins of 1 deg: the length of all level edges of upright rectangles,
-// as shares of their sum.
+// Total length of all horizontal edges of vertical rectangles by heading modulo 90 deg, in bins of
+// 1 deg, as shares of their sum.
 std::vector<double> LevelEdges(WorldKind kind, uint64_t seed) {
   std::vector<double> shares(90, 0.0);
   double sum = 0;
@@ -110,7 +110,7 @@ TEST(World, OfTwinsHasAllButTheEndsOfTheCorridorTwice) {
     });
   }
   EXPECT_GT(repeated, 100u);
-  constexpr size_t kEnds = 2 * 7;  // a wall and the skirting board on it, a box
+  constexpr size_t kEnds = 2 * 7;  // a wall with its skirting board, and a box
   EXPECT_EQ(rectangles.size(), 2 * repeated + kEnds);
 }
 

@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 constexpr int64_t kImage_ns = 50'000'000;
 constexpr int kLost = 30;  // the first image after the loss
 
-// Flies along x at 2 m/s, with an IMU that feels gravity only.
+// Flies along x at 2 m/s, with an IMU that measures gravity only.
 class FrameBridgeTest : public ::testing::Test {
  protected:
   static std::vector<ImuSample> ImuBefore(int image) {
@@ -51,7 +51,7 @@ class FrameBridgeTest : public ::testing::Test {
   const ImuNoise noise_;
   double deviation_ = 1e-3;
   double heading_deviation_ = 0;  // of the world, about its origin [rad]
-  double way_ = 0;                // from there to the first image [m]
+  double way_ = 0;                // from the origin to the first image [m]
   FrameBridge bridge_{noise_, Vector3d(0, 0, -9.81)};
 };
 
@@ -95,13 +95,13 @@ TEST_F(FrameBridgeTest, ConnectsWhatBeginsAsFarAsItReaches) {
   ASSERT_TRUE(bridge_.Begin("why"));
   Lose(kLost, 40);
   EXPECT_TRUE(bridge_.CanConnect(std::nullopt));
-  Lose(40, 60);  // more than two seconds after the last estimate that was believed
+  Lose(40, 60);  // more than two seconds after the last trustworthy estimate
   EXPECT_FALSE(bridge_.CanConnect(std::nullopt));
   EXPECT_TRUE(bridge_.CanConnect(32 * kImage_ns));
   EXPECT_FALSE(bridge_.CanConnect(55 * kImage_ns));
 }
 
-// A heading that is uncertain by half a degree moves this place by metres, but is no drift.
+// A heading uncertainty of half a degree moves this position by metres, but is not drift.
 TEST_F(FrameBridgeTest, LeadsOnFarFromTheOriginOfTheWorld) {
   heading_deviation_ = 0.01;
   for (const double way : {1000.0, -1000.0}) {
@@ -115,7 +115,7 @@ TEST_F(FrameBridgeTest, LeadsOnFarFromTheOriginOfTheWorld) {
 }
 
 TEST_F(FrameBridgeTest, EndsWhereThePositionHasBecomeUncertain) {
-  deviation_ = 0.006;  // of the inclination, too: twelve centimetres after two seconds
+  deviation_ = 0.006;  // of the inclination as well: twelve centimetres after two seconds
   Track(0, kLost);
   ASSERT_TRUE(bridge_.Begin("why"));
   Lose(kLost, 49);

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Somewhere in flight, known well.
+// An arbitrary state in flight with a small covariance.
 UncertainState Known() {
   UncertainState known;
   known.state.SetPose({SO3Exp(Vector3d(0.2, -0.1, 2.5)), {3, -4, 5}});
@@ -22,7 +22,7 @@ UncertainState Known() {
   return known;
 }
 
-// The same as a window with a world of its own sees it.
+// Transforms the state to the world of another window.
 FrameState InAnotherWorld(FrameState state) {
   const Rigid3d T_new_W(SO3Exp(Vector3d(0, 0, -1.2)), {-7, 1, 2});
   state.SetPose(T_new_W * state.T_W_B());
@@ -87,7 +87,7 @@ TEST(DifferByFrame, WhatIsNotKnownWellMayDiffer) {
   EXPECT_FALSE(DifferByFrame(known, fresh));
 }
 
-// An odometry that has lost its heading over an hour still knows how fast it moves in the body.
+// Odometry whose heading has become uncertain still knows its velocity in the body frame.
 TEST(DifferByFrame, AnUnknownHeadingDoesNotHideAWrongVelocity) {
   UncertainState known = Known();
   const FrameState& state = known.state;

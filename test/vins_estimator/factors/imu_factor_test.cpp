@@ -22,7 +22,7 @@ Preintegration Integrate(const std::vector<ImuSample>& samples, const ImuBias& b
   return preintegration;
 }
 
-// Two seconds of flight without noise, with known biases; long enough for large rotations.
+// Two seconds of noise-free flight with known biases; long enough for large rotations.
 class ImuFactorTest : public ::testing::Test {
  protected:
   static constexpr double kStart = 3.0, kEnd = 5.0;  // [s]
@@ -55,7 +55,7 @@ class ImuFactorTest : public ::testing::Test {
     return state;
   }
 
-  // The states' blocks in the order of the factor.
+  // The parameter blocks in the order of the factor.
   static std::vector<Block> Blocks(const FrameState& i, const FrameState& j) {
     return {Eigen::Map<const Block>(i.pose.data(), 7), Eigen::Map<const Block>(i.motion.data(), 9),
             Eigen::Map<const Block>(j.pose.data(), 7), Eigen::Map<const Block>(j.motion.data(), 9)};
@@ -100,8 +100,9 @@ TEST_F(ImuFactorTest, RowsAreTheStatedDifferences) {
 }
 
 TEST_F(ImuFactorTest, JacobiansAreExactFarFromTheTruth) {
-  // Another linearisation bias than the states', and residuals far from zero in every row.
-  ImuNoise noise;  // of order one, so that the whitened entries are
+  // The bias of linearization differs from the states', and residuals are far from zero in every
+  // row.
+  ImuNoise noise;  // of order one, like the whitened entries
   noise.gyro_density = noise.accel_density = noise.gyro_walk = noise.accel_walk = 1.0;
   Preintegration preintegration(noise, {{0.3, 0.1, 0.2}, {0.1, -0.1, 0.05}});
   for (const ImuSample& sample : samples_) preintegration.Append(sample);

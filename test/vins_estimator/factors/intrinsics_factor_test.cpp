@@ -22,7 +22,7 @@ using testing::Block;
 
 constexpr double kWeight = 2;
 
-// The camera that the rays were computed with, and intrinsics near its own.
+// The camera with which the rays were computed, and similar intrinsics.
 class IntrinsicsFactorTest : public ::testing::Test {
  protected:
   IntrinsicsFactorTest() : identity_(Block::Zero(7)), turned_(7), intrinsics_(kIntrinsicsSize) {
@@ -49,7 +49,7 @@ class IntrinsicsFactorTest : public ::testing::Test {
     return {view_, kWeight, RayShift(*camera_, view_.start), RayShift(*camera_, view_.end)};
   }
 
-  // Where other intrinsics, with which the pixel of xy stays, see it.
+  // The ray of the pixel of `xy` with other intrinsics.
   Vector2d Recalibrated(const Vector2d& xy, const Block& intrinsics) const {
     const auto other = CameraModel::Create(camera_->parameters().With(Intrinsics(intrinsics)));
     return *other->Unproject(*camera_->Project(xy.homogeneous()));
@@ -114,7 +114,7 @@ TEST_F(IntrinsicsFactorTest, HasExactJacobiansForLines) {
 
 TEST_F(IntrinsicsFactorTest, ARayThatTheCameraDoesNotSeeStays) {
   CameraParameters folded = camera_->parameters();
-  folded.distortion = {-0.4, 0, 0, 0};  // up to a radius of 0.91
+  folded.distortion = {-0.4, 0, 0, 0};  // valid up to a radius of 0.91
   const RayShift shift(*CameraModel::Create(folded), Vector2d(0.9, 0.9));
   EXPECT_EQ(shift.At(intrinsics_.data()), Vector2d(0, 0));
 }

@@ -26,7 +26,7 @@ Block LineBlock(const PluckerLine& line) {
   return Eigen::Map<const Eigen::Matrix<double, kLineSize, 1>>(coordinates.data());
 }
 
-// Two cameras on a body at different poses, and a line that both see.
+// Two cameras on a body at different poses, and a line that both observe.
 struct Scene {
   explicit Scene(uint64_t seed) {
     simulator::Random random(seed);
@@ -46,7 +46,7 @@ struct Scene {
 
   Rigid3d T_Ct_Ch() const { return (T_W_Bt * T_B_C).Inverse() * T_W_Bh * T_B_C; }
 
-  // What the target sees of the line's ends.
+  // The target's observation of the line's endpoints.
   LineSegmentView View() const {
     return {(T_Ct_Ch() * start_Ch).hnormalized(), (T_Ct_Ch() * end_Ch).hnormalized()};
   }
@@ -60,7 +60,7 @@ struct Scene {
   Vector3d start_Ch, end_Ch;
 };
 
-// Unit normal of a view in the image.
+// Unit normal of an observation in the image.
 Vector2d Across(const LineSegmentView& view) {
   const Vector2d along = (view.end - view.start).normalized();
   return {-along.y(), along.x()};
@@ -87,7 +87,7 @@ TEST(LineFactor, IsTheWeightedDistanceAcrossTheLineOnly) {
     const LineSegmentView view{truth.start + 0.3 * along + 0.002 * across,
                                truth.end - 0.1 * along - 0.001 * across};
     const Eigen::VectorXd residual = testing::Residual(LineFactor(view, 100), scene.Blocks());
-    const double sign = residual[0] > 0 ? 1 : -1;  // that of the moment
+    const double sign = residual[0] > 0 ? 1 : -1;  // sign of the moment
     EXPECT_MATRIX_NEAR(sign * residual, Vector2d(0.2, -0.1), 1e-9);
   }
 }
@@ -137,7 +137,7 @@ TEST(LineHostFactor, ComparesTheLineWithTheHostsOwnView) {
   }
 }
 
-// A target where the host is, with the host's view: the same residual.
+// If the target is at the host's pose with the host's observation, the residuals are equal.
 TEST(LineHostFactor, IsALineFactorWithoutMotion) {
   Scene scene(3);
   scene.T_W_Bt = scene.T_W_Bh;
@@ -148,7 +148,7 @@ TEST(LineHostFactor, IsALineFactorWithoutMotion) {
 }
 
 TEST(LineHostFactor, FailsOnTheLineAtInfinity) {
-  // Its moment is along the line of sight: no image within reach.
+  // Its moment is along the line of sight, so its image is far away.
   const PluckerLine line{Vector3d(0, 0, 1), Vector3d(1e-3, 0, 0)};
   EXPECT_FALSE(Evaluates(LineHostFactor({{0, 0}, {1, 0}}, 460), {LineBlock(line)}));
 }

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::Block;
 
-// A body with a camera that looks at a line.
+// A body with a camera that observes a line.
 struct Scene {
   explicit Scene(uint64_t seed) {
     simulator::Random random(seed);
@@ -80,7 +80,7 @@ TEST(ManhattanFactor, TellsHeadingFromHorizontalLinesOnly) {
     Scene other = scene;
     other.T_W_B.rotation = SO3Exp({0, 0, 0.02}) * scene.T_W_B.rotation;
     std::vector<Block> moved = other.Blocks();
-    moved[2] = blocks[2];  // the line as the camera has it
+    moved[2] = blocks[2];  // the line in the camera frame
     return testing::Residual(ManhattanFactor(axis, 1), moved).norm();
   };
   EXPECT_NEAR(turned(Vector3d::UnitX()), std::sin(0.02), 1e-9);

@@ -23,7 +23,7 @@ Block PoseBlock(const Rigid3d& T) {
   return block;
 }
 
-// Two cameras on a body at different poses, and a point that both see.
+// Two cameras on a body at different poses, and a point that both observe.
 struct Scene {
   explicit Scene(uint64_t seed) {
     simulator::Random random(seed);

@@ -22,7 +22,7 @@ TimedBearing Bearing() {
   return bearing;
 }
 
-// Blocks: td, point, read-out time.
+// Blocks: td, point, readout time.
 ReadoutFactor<PointHostFactor> HostFactor() { return {PointHostFactor(Bearing(), 100), Bearing()}; }
 
 TEST(ReadoutFactor, IsTheFactorAtTheTimeOfTheRow) {

@@ -16,7 +16,7 @@ using Eigen::Vector4d;
 
 constexpr double kNoise = 1.0 / 460.0;
 
-// A line four metres ahead of cameras that move sideways, seen with noise at its ends.
+// A line four metres ahead of cameras that move sideways, observed with noise at its endpoints.
 struct Scene {
   explicit Scene(uint64_t seed, double noise = kNoise) {
     simulator::Random random(seed);
@@ -91,9 +91,8 @@ TEST(FitLine, FindsTheTruthFromNearby) {
   }
 }
 
-// Over many noisy lines, the cost is as large as its degrees of freedom, and the errors of the
-// direction are as large as their deviation says: that bounds both of its components, of which one
-// is the greater by far.
+// Over many noisy lines, the cost equals its degrees of freedom, and the direction errors agree
+// with their standard deviation, which bounds both components; one is by far the larger.
 TEST(FitLine, KnowsItsNoise) {
   double cost = 0, squared_ratio = 0;
   constexpr int kScenes = 400;

@@ -25,7 +25,7 @@ TEST(FindNearPairs, FindsLinesWhoseBoxesAreNear) {
   EXPECT_EQ(FindNearPairs(lines, 0.1), (Pairs{{2, 0}, {4, 1}}));
 }
 
-// The sweep finds what a comparison of all pairs finds.
+// The sweep finds the same pairs as a comparison of all pairs.
 TEST(FindNearPairs, MissesNone) {
   simulator::Random random(1);
   std::vector<SeenLine> lines;
@@ -61,7 +61,7 @@ TEST(Compare, MeasuresAngleDistanceAndGap) {
   EXPECT_NEAR(Compare(a, {{0, 0, 0}, {0, -1, 1}}).angle, M_PI / 2, 1e-12);
 }
 
-// Two pieces of one edge, each turned a little by noise: along their axis they are one line.
+// Two pieces of an edge, each slightly rotated by noise: along their axis they are one line.
 TEST(Compare, MeasuresAlongTheAxisOfBoth) {
   SeenLine a{{0, 0, 0}, {2, 0.06, 0}}, b{{2, 0.06, 0}, {4, 0, 0}};
   a.axis = b.axis = LineAxis::kX;

@@ -21,7 +21,7 @@ using Result = LineTriangulationResult;
 
 constexpr double kNoise = 1.0 / 460.0;
 
-const Vector3d kAlong = Vector3d::UnitX();  // of the line of most tests
+const Vector3d kAlong = Vector3d::UnitX();  // direction of the line in most tests
 const Vector3d kAcross = Vector3d::UnitY();
 const Vector3d kTowards = Vector3d::UnitZ();
 
@@ -29,7 +29,7 @@ struct Segment {
   Vector3d start{-1, 0, 4}, end{1, 0, 4};  // four metres ahead of a camera at the origin
 };
 
-// What a camera sees of a segment, with `noise` at its ends.
+// Observation of a segment by a camera, with `noise` at its endpoints.
 LineSighting See(const Segment& segment, const Rigid3d& T_W_C, double noise = 0,
                  simulator::Random* random = nullptr) {
   const auto see = [&](const Vector3d& p_W) -> Vector2d {
@@ -41,7 +41,7 @@ LineSighting See(const Segment& segment, const Rigid3d& T_W_C, double noise = 0,
   return {T_W_C, {see(segment.start), see(segment.end)}};
 }
 
-// Ten views from cameras that move by `travel` on the whole and turn a little.
+// Ten observations from cameras that move by `travel` in total and rotate slightly.
 std::vector<LineSighting> SeeOnTheWay(const Vector3d& travel, double noise, uint64_t seed,
                                       const Segment& segment = {}) {
   constexpr int kViews = 10;
@@ -54,7 +54,7 @@ std::vector<LineSighting> SeeOnTheWay(const Vector3d& travel, double noise, uint
   return sightings;
 }
 
-// Distance of a point of the world from the line found in the first camera.
+// Distance of a world point from the line triangulated in the first camera.
 double Distance(const Vector3d& p_W, const TriangulatedLine& found,
                 const std::vector<LineSighting>& sightings) {
   const PluckerLine line_W = sightings.front().T_W_C * ToPlucker(found.line.data());
@@ -65,7 +65,7 @@ Result ResultOf(const std::vector<LineSighting>& sightings, double noise = kNois
   return TriangulateLine(LineTriangulationOptions(noise), sightings).result;
 }
 
-// How many of `trials` noisy flights of the kind give a line.
+// Number of the `trials` noisy flights that yield a line.
 int CountAccepted(const Vector3d& travel, int trials) {
   int accepted = 0;
   for (int seed = 1; seed <= trials; ++seed) {
@@ -112,7 +112,7 @@ TEST(TriangulateLine, ViewsMayShowDifferentPartsEitherWayRound) {
   EXPECT_LT(Distance(whole.end, found, sightings), 1e-6);
 }
 
-// The error is the one that the propagation of the noise predicts: no estimator does better.
+// The error equals the propagated noise, which is the lower bound of any estimator.
 TEST(TriangulateLine, NoiseCostsWhatItMust) {
   constexpr int kTrials = 400;
   double nees = 0;
@@ -138,8 +138,8 @@ TEST(TriangulateLine, NeedsTwoViews) {
   EXPECT_EQ(ResultOf({See({}, Rigid3d()), See({}, {SO3Exp({0, 0, 0}), kAcross})}), Result::kOk);
 }
 
-// The same view again and again, turns about the camera, and motions in the plane of camera and
-// line: exactly, where a division by zero threatens.
+// Repeated poses, pure rotations, and motions in the plane of camera and line: exactly degenerate,
+// with possible divisions by zero.
 TEST(TriangulateLine, RefusesExactDegeneracy) {
   for (const Vector3d& travel :
        {Vector3d(0, 0, 0), kAlong, kTowards, Vector3d(kAlong + kTowards), Vector3d(-kAlong)}) {
@@ -157,7 +157,7 @@ TEST(TriangulateLine, RefusesExactDegeneracy) {
   }
 }
 
-// Noise makes up angles between planes that are one: it must not be taken for depth.
+// Noise between identical planes must not be confused with depth.
 TEST(TriangulateLine, IsNotFooledByNoiseInDegeneracy) {
   constexpr int kTrials = 300;
   EXPECT_EQ(CountAccepted(Vector3d::Zero(), kTrials), 0);
@@ -172,7 +172,7 @@ TEST(TriangulateLine, AcceptsTheSameTravelAcrossTheLine) {
   EXPECT_EQ(CountAccepted(0.5 * kAcross + kAlong, kTrials), kTrials);
 }
 
-// The planes of short segments turn about the line of sight by noise, more than by parallax.
+// Noise rotates the planes of short segments about the line of sight by more than the parallax.
 TEST(TriangulateLine, AcceptsShortLines) {
   const Segment segment{{-0.2, 0.1, 4}, {0.1, -0.1, 4.1}};  // 45 pixels
   for (int seed = 1; seed <= 300; ++seed) {
@@ -182,7 +182,7 @@ TEST(TriangulateLine, AcceptsShortLines) {
 }
 
 TEST(TriangulateLine, WaitsForABaselineThatRisesAboveTheNoise) {
-  // Parallax of the whole travel in units of the noise: 4.6, 460.
+  // Parallax of the whole path relative to the noise: 4.6, 460.
   for (const double noise : {0.1 * kNoise, kNoise}) {
     EXPECT_EQ(ResultOf(SeeOnTheWay(2 * noise * kAcross, 0, 1), noise), Result::kDegenerate);
     EXPECT_EQ(ResultOf(SeeOnTheWay(200 * noise * kAcross, 0, 1), noise), Result::kOk);
@@ -193,7 +193,7 @@ TEST(TriangulateLine, RefusesTheSameGeometryWithMoreNoise) {
   const auto sightings = SeeOnTheWay(0.2 * kAcross, 0, 1);
   EXPECT_EQ(ResultOf(sightings, 0.3 * kNoise), Result::kOk);
   EXPECT_EQ(ResultOf(sightings, 10 * kNoise), Result::kDegenerate);
-  // The deviation of the depth is proportional to the noise.
+  // The standard deviation of the depth is proportional to the noise.
   const auto is_known = [&](double max_deviation, double noise) {
     LineTriangulationOptions options(noise);
     options.max_depth_deviation = max_deviation;
@@ -205,7 +205,7 @@ TEST(TriangulateLine, RefusesTheSameGeometryWithMoreNoise) {
   EXPECT_FALSE(is_known(9.8 * limit, 10 * kNoise));
 }
 
-// Of lines just known well enough, the depths are about as good as was asked for.
+// The depth errors of barely accepted lines agree with the permitted standard deviation.
 TEST(TriangulateLine, KnowsHowGoodItsDepthIs) {
   constexpr int kTrials = 400;
   const Vector3d travel = 0.06 * kAcross;
@@ -231,11 +231,11 @@ TEST(TriangulateLine, KnowsHowGoodItsDepthIs) {
 }
 
 TEST(TriangulateLine, RefusesLinesBehindACamera) {
-  // Vertical lines whose planes meet five metres behind both cameras.
+  // Vertical lines whose planes intersect five metres behind both cameras.
   const auto upright = [](double x) { return LineSegmentView{{x, -0.3}, {x, 0.3}}; };
   EXPECT_EQ(ResultOf({{Rigid3d(), upright(-0.1)}, {{SO3Exp({0, 0, 0}), kAlong}, upright(0.1)}}),
             Result::kBehind);
-  // A third camera looks the other way: the plane through it is right all the same.
+  // A third camera looks the other way; its plane is correct nevertheless.
   const Rigid3d turned(SO3Exp({0, M_PI, 0}), 2 * kAcross);
   EXPECT_EQ(ResultOf({See({}, Rigid3d()), See({}, {SO3Exp({0, 0, 0}), kAcross}), See({}, turned)}),
             Result::kBehind);
@@ -244,7 +244,7 @@ TEST(TriangulateLine, RefusesLinesBehindACamera) {
 TEST(TriangulateLine, RefusesViewsThatContradictEachOther) {
   auto sightings = SeeOnTheWay(kAcross, kNoise, 1);
   EXPECT_EQ(ResultOf(sightings), Result::kOk);
-  // Half of the views show another line, parallel to the first.
+  // Half of the observations are of another, parallel line.
   const Segment other{Segment().start + 0.3 * kAcross, Segment().end + 0.3 * kAcross};
   for (size_t i = 0; i < sightings.size(); i += 2) {
     sightings[i] = See(other, sightings[i].T_W_C);

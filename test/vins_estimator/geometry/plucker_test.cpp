@@ -23,7 +23,7 @@ Vector6d Stack(const PluckerLine& line) {
   return coordinates;
 }
 
-// One of the two unit vectors that stand for the line.
+// One of the two unit vectors that represent the line.
 Vector6d Normalized(const PluckerLine& line) { return Stack(line).normalized(); }
 
 Line ToVector(const PluckerLine& line) {
@@ -173,7 +173,7 @@ TEST(LinePlus, IsInvertedByMinus) {
   }
 }
 
-// Each of the four moves what [Bartoli2005] says it does.
+// Each of the four tangent directions has the effect described in [Bartoli2005].
 TEST(LinePlus, HasATangentForEveryFreedom) {
   const PluckerLine line = LineThrough({0, 2, 0}, {1, 2, 0});  // moment along -z
   const Line x = ToVector(line);

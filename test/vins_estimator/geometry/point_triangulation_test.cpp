@@ -50,7 +50,7 @@ TEST(TriangulatePoint, TakesAnyPosesOfTheCamera) {
   }
 }
 
-// The error is the one that the propagation of the noise predicts: no estimator does better.
+// The error equals the propagated noise, which is the lower bound of any estimator.
 TEST(TriangulatePoint, NoiseCostsWhatItMust) {
   constexpr double kNoise = 0.5 / 460;
   constexpr int kTrials = 400;
@@ -79,7 +79,7 @@ TEST(TriangulatePoint, NoiseCostsWhatItMust) {
 }
 
 TEST(TriangulatePoint, RefusesRaysThatAreTooParallel) {
-  const Vector3d p_W(0, 0, 100);  // seen under 0.01 rad from one metre
+  const Vector3d p_W(0, 0, 100);  // subtends 0.01 rad from one metre
   const auto sightings = [&p_W](double baseline) {
     return std::vector<PointSighting>{SeeFrom(p_W, {0, 0, 0}), SeeFrom(p_W, {baseline, 0, 0})};
   };
@@ -91,7 +91,7 @@ TEST(TriangulatePoint, RefusesRaysThatAreTooParallel) {
 }
 
 TEST(TriangulatePoint, RefusesPointsBehindACamera) {
-  // The rays diverge: they would meet behind both cameras.
+  // The rays diverge; they would intersect behind both cameras.
   const std::vector<PointSighting> diverging = {
       {{Quaterniond::Identity(), {0, 0, 0}}, {-0.1, 0}},
       {{Quaterniond::Identity(), {1, 0, 0}}, {0.1, 0}},

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kConfigured = 0.01;
 
-// Adds what intervals show of a noise where images tell the motion to the deviation `images`, and
-// the noise is assumed as estimated so far.
+// Adds evidence of intervals with noise `truth` whose motion is known from images to the standard
+// deviation `images`. The noise is assumed as estimated so far.
 void AddIntervals(int count, double truth, double images, simulator::Random* random,
                   DensityEstimate* estimate) {
   constexpr double kDegrees = 3;
@@ -32,7 +32,7 @@ TEST(DensityEstimate, FindsTheDensity) {
   for (const double images : {0.0, 1.0, 2.0}) {
     DensityEstimate estimate(kConfigured);
     AddIntervals(400, 5 * kConfigured, images * kConfigured, &random, &estimate);
-    // 7 % is the deviation from as much as it remembers.
+    // The standard deviation is 7 % with the estimate's memory.
     EXPECT_NEAR(estimate.density(), 5 * kConfigured, 0.21 * 5 * kConfigured) << images;
   }
 }
@@ -74,8 +74,9 @@ TEST(DensityEstimate, IgnoresIntervalsThatSayNothing) {
   EXPECT_DOUBLE_EQ(estimate.density(), kConfigured);
 }
 
-// Robust losses hide a part of the noise: 0.21 of the accelerometer's variance, 0.47 of the gyro's.
-// Of the former, three times the variance that shaking adds is expected of a second.
+// Robust losses hide a part of the noise: 0.21 of the accelerometer's variance, 0.47 of the
+// gyroscope's. The accelerometer is expected to have up to three times the variance that vibrations
+// add.
 TEST(ImuNoiseEstimate, TellsAccelerometerAndGyroApart) {
   const ImuNoise configured = {1e-4, 1e-2, 1e-5, 1e-3};
   ImuNoiseEstimate estimate(configured);

@@ -31,7 +31,7 @@ class ImuPropagatorTest : public ::testing::Test {
     start_.SetBias({{0.1, 0.05, -0.1}, {0.01, 0, -0.02}});
   }
 
-  // Prediction by one preintegration from time `t_ns` to the sample `last`.
+  // Predicts by a single preintegration from time `t_ns` to the sample `last`.
   FrameState Predict(int64_t t_ns, size_t last) const {
     Preintegration preintegration(ImuNoise(), start_.bias());
     size_t i = 0;
@@ -72,7 +72,7 @@ TEST_F(ImuPropagatorTest, EqualsThePreintegratedPrediction) {
 
 TEST_F(ImuPropagatorTest, ALateStateIsTakenThroughTheNewerSamples) {
   const int64_t t_ns = 502 * kMillisecond;
-  propagator_.Reset(FrameState(), 0);  // another one before
+  propagator_.Reset(FrameState(), 0);  // an earlier state
   for (size_t i = 0; i <= 150; ++i) propagator_.Add(samples_[i]);
   propagator_.Reset(start_, t_ns);
   ExpectSame(propagator_.Add(samples_[151]), Predict(t_ns, 151));
@@ -90,7 +90,7 @@ TEST_F(ImuPropagatorTest, IgnoresBadSamples) {
   ImuSample bad = samples_[101];
   bad.accel.y() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(propagator_.Add(bad).has_value());
-  const ImuSample not_read{samples_[101].t_ns - kMillisecond};  // zeros throughout
+  const ImuSample not_read{samples_[101].t_ns - kMillisecond};  // all zero
   EXPECT_FALSE(propagator_.Add(not_read).has_value());
   ImuSample beyond_time = samples_[101];
   beyond_time.t_ns = kEndOfTime_ns;

@@ -48,7 +48,7 @@ simulator::Trajectory FastFlight() {
   return simulator::Trajectory(options);
 }
 
-// Samples of the fast flight from `start` to `end` [s], without noise.
+// Noise-free samples of the fast flight from `start` to `end` [s].
 std::vector<ImuSample> Flight(double start, double end, double rate_hz = 200.0) {
   simulator::ImuSimulationOptions options;
   options.add_noise = false;
@@ -61,8 +61,8 @@ std::vector<ImuSample> Flight(double start, double end, double rate_hz = 200.0) 
   return samples;
 }
 
-// Integrals over [0, T] of a constant force f in a body that turns at a constant rate w:
-// once, and twice. From Exp(w t) = I + sin/|w| K + (1 - cos)/|w|^2 K^2.
+// Single and double integrals over [0, T] of a constant force f in a body that rotates at a
+// constant rate w, from Exp(w t) = I + sin/|w| K + (1 - cos)/|w|^2 K^2.
 struct ClosedForm {
   Vector3d velocity, position;
 };
@@ -169,7 +169,7 @@ TEST(Preintegration, BiasCorrectionIsOffOnlyToSecondOrder) {
 TEST(Preintegration, RepropagationEqualsIntegratingAnew) {
   const ImuBias bias{{0.1, 0, 0}, {0, 0.1, 0}};
   Preintegration repropagated = Integrate(Flight(3.0, 3.2));
-  repropagated.SqrtInformation();  // the kept one must not survive
+  repropagated.SqrtInformation();  // the cached value must be invalidated
   repropagated.Repropagate(bias);
   const Preintegration anew = Integrate(Flight(3.0, 3.2), bias);
   EXPECT_MATRIX_NEAR(repropagated.delta_p(), anew.delta_p(), 0.0);
@@ -179,7 +179,7 @@ TEST(Preintegration, RepropagationEqualsIntegratingAnew) {
 }
 
 TEST(Preintegration, SqrtInformationIsTheUpperFactorOfTheInverse) {
-  for (const double duration : {0.005, 0.05, 1.0}) {  // a single interval must do
+  for (const double duration : {0.005, 0.05, 1.0}) {  // a single interval must suffice
     const Preintegration result = Integrate(Flight(3.0, 3.0 + duration));
     const Matrix15d& U = result.SqrtInformation();
     EXPECT_TRUE(U.isUpperTriangular(0.0));
@@ -196,7 +196,7 @@ TEST(Preintegration, RefusesStampsThatDoNotIncreaseAndEmptyIntervals) {
   EXPECT_THROW(result.SqrtInformation(), std::logic_error);
 }
 
-// Draws the errors of the preintegration, true minus estimated, that its covariance speaks of.
+// Draws errors of the preintegration, true minus estimated, to which its covariance refers.
 class MonteCarlo {
  public:
   explicit MonteCarlo(const ImuNoise& noise)
@@ -231,14 +231,14 @@ class MonteCarlo {
 };
 
 // For `runs` draws of a Gaussian, the mean of a squared Mahalanobis distance over its degrees of
-// freedom is 1 within sqrt(2 / (runs * degrees)). Bounds are five times that plus 2 % for what the
-// covariance leaves out: the white noise's end effects (half a sample in a hundred).
+// freedom is 1 within sqrt(2 / (runs * degrees)). Bounds are five times that, plus 2 % for what the
+// covariance neglects: end effects of the white noise (half a sample in a hundred).
 double ChiSquareBound(int runs, int degrees) {
   return 0.02 + 5.0 * std::sqrt(2.0 / (static_cast<double>(runs) * degrees));
 }
 
 TEST(Preintegration, CovarianceMatchesMonteCarlo) {
-  // Walks as strong as the white noise, so that each part of the covariance counts.
+  // Bias random walks as strong as the white noise, so that each part of the covariance matters.
   ImuNoise noise;
   noise.gyro_density = 1e-3;
   noise.accel_density = 1e-2;
@@ -274,7 +274,7 @@ TEST(Preintegration, AGapAddsTheUncertaintyOfARandomWalkBetweenItsEnds) {
   const Preintegration over_gap = Integrate({begin, end});
   EXPECT_TRUE(over_gap.HasGap());
   const Matrix15d gap = over_gap.Covariance();
-  const double bridge = std::pow(0.2, 3) / 12.0;  // walks of 1 rad/s/sqrt(s), 5 m/s^2/sqrt(s)
+  const double bridge = std::pow(0.2, 3) / 12.0;  // walks: 1 rad/s/sqrt(s), 5 m/s^2/sqrt(s)
   EXPECT_NEAR(gap(Index::kRotation, Index::kRotation), bridge, 0.01 * bridge);
   EXPECT_NEAR(gap(Index::kVelocity, Index::kVelocity), 25 * bridge, 0.25 * bridge);
 
@@ -292,7 +292,7 @@ TEST(Preintegration, ADoubtfulReadingAddsItsDoubtOverTheTimeThatItStandsFor) {
   samples[10].gyro_doubt = 4;
   samples[10].accel_doubt = 20;
   const Matrix15d doubtful = Integrate(samples).Covariance();
-  const double share = std::pow(0.005, 2);  // its error lasts for as long as it stands for
+  const double share = std::pow(0.005, 2);  // its error lasts for the sample's interval
   const Matrix15d added = doubtful - sure;
   EXPECT_NEAR(added(Index::kRotation, Index::kRotation), 16 * share, 0.01 * 16 * share);
   EXPECT_NEAR(added(Index::kVelocity, Index::kVelocity), 400 * share, 0.01 * 400 * share);
@@ -348,7 +348,7 @@ TEST(Preintegration, JoinedIntervalsKeepTheirNoiseAndSteps) {
               0.05 * alone);
 }
 
-// An interval that was found to be noisy stays so, whichever of both it is.
+// Joining keeps the greater noise of the two intervals.
 TEST(Preintegration, JoinedIntervalsThatAreIntegratedAnewHaveTheGreaterNoise) {
   const auto samples = ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.1, 200);
   const ImuNoise usual, high = Scaled(usual, 9);
@@ -365,7 +365,7 @@ TEST(Preintegration, JoinedIntervalsThatAreIntegratedAnewHaveTheGreaterNoise) {
   }
 }
 
-// Where two intervals are joined, the stamp between them no longer matters.
+// The timestamp between two joined intervals no longer matters.
 TEST(Preintegration, JoinedIntervalsErrByTheStampsOfTheirEnds) {
   const std::vector<ImuSample> samples = Flight(3.0, 3.4);
   const std::vector<ImuSample> first(samples.begin(), samples.begin() + 41);

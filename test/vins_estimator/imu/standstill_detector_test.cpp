@@ -15,10 +15,10 @@ using Eigen::Vector3d;
 
 constexpr int64_t kSample_ns = 5'000'000;  // 200 Hz
 
-// A made-up sensor: IMU readings and corner positions as functions of time.
+// An artificial sensor: IMU readings and corner positions as functions of time.
 class StandstillDetectorTest : public ::testing::Test {
  protected:
-  // The next image, by what the body does at time t [s].
+  // Returns the next image for the motion at time t [s].
   template <typename Gyro, typename Accel, typename Shift>
   FrameMeasurement Next(const Gyro& gyro, const Accel& accel, const Shift& shift_px) {
     FrameMeasurement frame;
@@ -45,7 +45,7 @@ class StandstillDetectorTest : public ::testing::Test {
     return frame;
   }
 
-  // How many of `count` images in this motion are taken as standing still.
+  // Number of images classified as standstill among `count` in this motion.
   template <typename Gyro, typename Accel, typename Shift>
   int CountStill(int count, const Gyro& gyro, const Accel& accel, const Shift& shift_px) {
     int still = 0;
@@ -113,7 +113,7 @@ TEST_F(StandstillDetectorTest, TellsWhatCornersHaveInCommonBelowTheirNoise) {
   EXPECT_LT(common_px(0, 0, 0), 0.08);
   EXPECT_NEAR(common_px(0.6, 0, 0), 0.3, 0.08);
   EXPECT_NEAR(common_px(-0.6, 0, 0), 0.3, 0.08);
-  // The median corner is 168 px from the middle.
+  // The median corner is 168 px from the centre.
   EXPECT_NEAR(common_px(0, 0.003, 0), 0.25, 0.08);
   EXPECT_NEAR(common_px(0, 0, -0.003), 0.25, 0.08);
 }
@@ -167,7 +167,7 @@ TEST_F(StandstillDetectorTest, WithoutImuOrAfterResetItStartsOver) {
   EXPECT_EQ(CountStill(10, Nothing, Nothing, NoShift), 0);
 }
 
-// The IMU of simulated flights, with an image that never moves: the worst case for the IMU part.
+// The IMU of simulated flights with constant images: the worst case for the IMU part.
 TEST_F(StandstillDetectorTest, SimulatedFlightIsNeverStill) {
   simulator::TrajectoryOptions options;
   options.motion = simulator::Motion::kFast;

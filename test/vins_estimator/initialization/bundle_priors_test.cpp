@@ -23,7 +23,7 @@ Block PoseOf(const FrameState& state) {
   return Eigen::Map<const Block>(state.pose.data(), kPoseSize);
 }
 
-// The state turned about an axis of the world.
+// Rotates the state about an axis of the world.
 Block Turned(const FrameState& state, const Eigen::Vector3d& theta_W) {
   FrameState turned = state;
   turned.SetPose({SO3Exp(theta_W) * Eigen::Quaterniond(state.rotation()), state.position()});

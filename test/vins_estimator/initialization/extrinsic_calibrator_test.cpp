@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The camera's rotation from simulated flights, alone and as the estimator uses it.
+// The camera's rotation from simulated flights, by the calibrator alone and in the estimator.
 #include "vins_estimator/initialization/extrinsic_calibrator.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ constexpr double kDegree = M_PI / 180;
 
 struct Calibration {
   std::optional<Eigen::Quaterniond> R_B_C;
-  std::string reason;  // the last one
+  std::string reason;  // the last reason
 };
 
 Calibration Calibrate(const SimulatedFlight& flight) {
@@ -49,7 +49,7 @@ TEST(ExtrinsicCalibratorTest, FindsTheRotationInFlight) {
   }
 }
 
-// As of a tracker that has lost its mind for two seconds: they say nothing, not even how little.
+// A tracker that fails for two seconds; all its points coincide, so they contain no information.
 TEST(ExtrinsicCalibratorTest, PointsInOnePlaceDoNoHarm) {
   auto options = FlightOptions(Motion::kFast, 1);
   options.trajectory.duration = 12;
@@ -82,7 +82,7 @@ TEST(ExtrinsicCalibratorTest, RefusesTheGyroOfAnotherFlight) {
   EXPECT_FALSE(Calibrate(flight).R_B_C);
 }
 
-// Root mean square distance of the positions after the best rigid alignment [m].
+// Root mean square distance of the positions after rigid alignment [m].
 double AbsoluteError(const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& truth) {
   const Eigen::Matrix4d T = Eigen::umeyama(estimate, truth, /*with_scaling=*/false);
   const Eigen::Matrix3Xd aligned = (T * estimate.colwise().homogeneous()).topRows<3>();
@@ -92,7 +92,7 @@ double AbsoluteError(const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& t
 SimulatedFlight FlightToCalibrateIn() {
   auto options = FlightOptions(Motion::kGentle, 1);
   options.trajectory.duration = 15;
-  options.trajectory.rest = 2;  // no reason to start before the rotation is known
+  options.trajectory.rest = 2;  // must not start before the rotation is known
   options.max_points = 80;
   return SimulateFlight(options);
 }
@@ -106,7 +106,7 @@ Config WithoutCameraPose(const SimulatedFlight& flight) {
   return config;
 }
 
-// The whole estimator, without any knowledge of the camera's pose in the body.
+// The whole estimator, with unknown extrinsics.
 TEST(ExtrinsicCalibratorTest, EstimatorStartsWithoutAnyCameraPose) {
   const SimulatedFlight flight = FlightToCalibrateIn();
   Estimator estimator(WithoutCameraPose(flight));

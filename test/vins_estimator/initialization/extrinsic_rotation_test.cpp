@@ -24,7 +24,7 @@ Quaterniond RandomRotation(Random* random) {
   return SO3Exp(random->Uniform(0, 3.1) * RandomVector(random).normalized());
 }
 
-// Turns of a few degrees, each component of the rotation vector scaled by `spread` [rad].
+// Rotations of a few degrees, with components of the rotation vector scaled by `spread` [rad].
 struct Turns {
   Quaterniond R_B_C;
   Vector3d spread{0.06, 0.06, 0.06};
@@ -71,7 +71,7 @@ TEST(ExtrinsicRotationTest, FindsItUnderNoiseBiasAndOutliers) {
   }
 }
 
-// Two axes are enough, whichever they are.
+// Any two axes suffice.
 TEST(ExtrinsicRotationTest, TurnsAboutTwoAxesSuffice) {
   Random random(3);
   for (const Vector3d& spread : {Vector3d(0.08, 0.08, 0), Vector3d(0, 0.1, 0.07)}) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int64_t kFrame_ns = 50'000'000;
 
-// Images of 20 points that have moved by `shifts[i]` altogether; three IMU samples lead to each.
+// Images of 20 points with total displacements `shifts[i]`, each with three IMU samples.
 std::deque<FrameMeasurement> MakeFrames(const std::vector<double>& shifts) {
   std::deque<FrameMeasurement> frames;
   for (size_t i = 0; i < shifts.size(); ++i) {
@@ -48,7 +48,7 @@ TEST(FrameSelectionTest, MotionDrawsFramesFromTheStillPart) {
   EXPECT_EQ(selected.back(), 60u);
   const auto moving =
       std::count_if(selected.begin(), selected.end(), [](size_t i) { return i > 40; });
-  EXPECT_GE(moving, 6);  // two thirds of the progress for a third of the time
+  EXPECT_GE(moving, 6);  // two thirds of the displacement in a third of the time
   EXPECT_LE(moving, 8);
 }
 
@@ -74,7 +74,7 @@ TEST(FrameSelectionTest, JoinsTheImuSamplesBetween) {
 
 TEST(FrameSelectionTest, FlowIsTheMedianOfCommonPoints) {
   auto frames = MakeFrames({0, 0.02});
-  for (int i = 0; i < 5; ++i) frames[1].points.points[i].xy.x() += 1;  // five lost their way
+  for (int i = 0; i < 5; ++i) frames[1].points.points[i].xy.x() += 1;  // five wrong tracks
   frames[1].points.points.resize(18);
   EXPECT_EQ(CountCommonPoints(frames[0].points, frames[1].points), 18);
   EXPECT_NEAR(MedianFlow(frames[0].points, frames[1].points), 0.02, 1e-12);

@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 const GlobalSfmOptions kOptions = {/*focal_length=*/460, /*noise_px=*/1, /*min_parallax_px=*/15};
 constexpr int kViews = 8;
 
-// Cameras on an arc before a cloud of points; each point is seen by four views in a row, so that
-// the first and the last view have none in common.
+// Cameras on an arc in front of a point cloud; each point is observed by four consecutive cameras,
+// so that the first and the last camera have no common points.
 struct Scene {
   std::vector<Quaterniond> R_G_C;
   std::vector<Vector3d> p_G_C;
@@ -52,7 +52,7 @@ struct Scene {
   }
 };
 
-// Largest error of the positions after scaling to the truth, relative to its size.
+// Largest position error after alignment of the scale, relative to the scene's size.
 double RelativeError(const Structure& structure, const Scene& scene) {
   double product = 0, squares = 0;
   for (int i = 0; i < kViews; ++i) {

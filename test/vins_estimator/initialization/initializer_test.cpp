@@ -24,7 +24,7 @@ Config ConfigFor(const SimulatedFlight& flight) {
 
 struct Start {
   InitializationResult result;
-  size_t index;  // of the image that brought it
+  size_t index;  // of the image at which it succeeded
 };
 
 std::optional<Start> Feed(const SimulatedFlight& flight, Initializer* initializer) {
@@ -49,7 +49,7 @@ double ScaleError(const Start& start, const SimulatedFlight& flight) {
   return testing::SizeOf(estimate) / testing::SizeOf(truth) - 1;
 }
 
-// Many starts in mid-flight: none is far off, the typical one is good.
+// Many starts in mid-flight: the typical error is small, and none is large.
 TEST(InitializerTest, StartsInFlight) {
   for (const auto motion : {simulator::Motion::kGentle, simulator::Motion::kFast}) {
     double squared_scale_error = 0;
@@ -128,11 +128,12 @@ TEST(InitializerTest, StandstillIsEnough) {
   EXPECT_EQ(state.t_ns, flight.truth[start->index].t_ns);
   EXPECT_EQ(state.velocity(), Eigen::Vector3d::Zero());
   EXPECT_LT((state.gyro_bias() - options.initial_bias.gyro).norm(), 1e-3);
-  // An accelerometer bias of 0.09 m/s^2 tilts by half a degree.
+  // An accelerometer bias of 0.09 m/s^2 causes a tilt of half a degree.
   EXPECT_LT(testing::GravityError(state, flight.truth[start->index]), 0.012);
 }
 
-// Half a second on the ground is too short for a start from standstill and must not harm the other.
+// Half a second on the ground is too short for a start from standstill, and must not disturb the
+// start in motion.
 TEST(InitializerTest, StartsFromMotionAfterAStillPart) {
   for (uint64_t seed = 1; seed <= 5; ++seed) {
     auto options = FlightOptions(simulator::Motion::kFast, seed);
@@ -141,7 +142,7 @@ TEST(InitializerTest, StartsFromMotionAfterAStillPart) {
     Initializer initializer(ConfigFor(flight));
     const auto start = Feed(flight, &initializer);
     ASSERT_TRUE(start) << "seed " << seed << ": " << initializer.reason();
-    if (start->result.from_standstill) continue;  // a slow lift-off
+    if (start->result.from_standstill) continue;  // a slow take-off
     EXPECT_LT(std::abs(ScaleError(*start, flight)), 0.15) << "seed " << seed;
   }
 }
@@ -164,7 +165,7 @@ TEST(InitializerTest, RefusesBlindImages) {
 
 TEST(InitializerTest, GapInTheImuStartsOver) {
   SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kFast, 1), 4);
-  constexpr size_t kGap = 20;  // this image is lost, and the samples on both sides of it
+  constexpr size_t kGap = 20;  // this image is lost, with the samples on both sides of it
   std::vector<FrameMeasurement>& frames = flight.frames;
   frames[kGap + 1].imu = {frames[kGap].imu.front(), frames[kGap + 1].imu.back()};
   frames.erase(frames.begin() + kGap);
@@ -200,7 +201,8 @@ TEST(InitializerTest, CalibratesTheRotationOfTheCameraFirst) {
   }
 }
 
-// Neither rest nor a flight without turns determines the rotation; without it there is no start.
+// The rotation is unobservable at standstill and in flight without rotations, and there is no start
+// without it.
 TEST(InitializerTest, WaitsForTurnsWhereTheCameraRotationIsUnknown) {
   const SimulatedFlight still =
       ForgetTheCameraPose(SimulateFlight(FlightOptions(simulator::Motion::kStill, 1)));

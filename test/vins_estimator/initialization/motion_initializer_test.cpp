@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 
 constexpr int kFrames = 11;
 
-// A body that glides level, without rotation and at constant velocity, before a wall of points.
-// Exact data.
+// Exact data of a body that moves horizontally, without rotation and at constant velocity, in front
+// of a wall of points.
 std::vector<FrameMeasurement> Glide(const SensorConfig& sensor, const Vector3d& velocity) {
   simulator::Random random(7);
   const Eigen::Quaterniond R_W_B = simulator::ForwardLookingBody(sensor.T_B_C);
@@ -49,7 +49,7 @@ class MotionInitializerTest : public ::testing::Test {
     return InitializeFromMotion(frames, simulator::DefaultSensors(), 0.5, {}, &reason_);
   }
 
-  // Every fifth frame of a flight, its IMU samples joined.
+  // Keeps every fifth frame of a flight, with joined IMU samples.
   void Thin(const testing::SimulatedFlight& flight) {
     std::vector<ImuSample> imu;
     for (size_t i = 0; i < 5 * kFrames; ++i) {

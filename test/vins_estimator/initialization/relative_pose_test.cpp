@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double kNoise = 0.5 / 460;
 
-// Two views of points 2 to 8 m away, or on a plane 5 m away.
+// Two images of points 2 to 8 m away, or on a plane 5 m away.
 struct TwoViews {
   Quaterniond R_C1_C0;
   Vector3d t_C1_C0;
@@ -40,9 +40,9 @@ struct TwoViews {
   }
 };
 
-// About what hovering and turning gives in a quarter of a second.
+// Typical motion of a quarter of a second of hovering and rotating.
 const TwoViews kViews{SO3Exp({0.05, -0.1, 0.03}), {0.3, -0.05, 0.1}};
-// The gyro's rotation, wrong by a bias of 0.1 rad/s over that time.
+// The gyroscope's rotation, with the error of a bias of 0.1 rad/s over that time.
 const Quaterniond kGyro = SO3Exp({0.02, -0.01, 0.01}) * kViews.R_C1_C0;
 
 TEST(RelativePoseTest, FindsRotationAndDirectionUnderNoiseAndOutliers) {
@@ -61,7 +61,7 @@ TEST(RelativePoseTest, ExactPointsGiveThePose) {
   std::string reason;
   const auto pose = EstimateRelativePose(kViews.Observe(60, 0, 0, 1), kGyro, kNoise, &reason);
   ASSERT_TRUE(pose) << reason;
-  // What is left is the pull of the gyro.
+  // The remaining error is caused by the gyroscope prior.
   EXPECT_LT(pose->R_C1_C0.angularDistance(kViews.R_C1_C0), 1e-4);
   EXPECT_LT(testing::AngleBetween(pose->t_C1_C0, kViews.t_C1_C0), 1e-4);
   EXPECT_NEAR(pose->t_C1_C0.norm(), 1, 1e-12);
@@ -78,7 +78,7 @@ TEST(RelativePoseTest, StatedInformationMatchesTheSpread) {
     const Vector3d error = SO3Log(pose->R_C1_C0 * kViews.R_C1_C0.conjugate());
     normalized += error.dot(pose->rotation_information * error) / 3 / kRuns;
   }
-  // Cauchy weights make the stated information a little small.
+  // Cauchy weights make the estimated information slightly too small.
   EXPECT_GT(normalized, 0.3);
   EXPECT_LT(normalized, 1.5);
 }
@@ -92,7 +92,7 @@ TEST(RelativePoseTest, PureRotationStillGivesTheRotation) {
   EXPECT_LT(pose->R_C1_C0.angularDistance(turning.R_C1_C0), 0.005);
 }
 
-// A plane has two solutions, and noise alone can make the wrong one fit better: the gyro decides.
+// A plane has two solutions, and with noise the wrong one may fit better; the gyroscope decides.
 TEST(RelativePoseTest, GyroDecidesBetweenTheSolutionsOfAPlane) {
   constexpr int kRuns = 40;
   int right = 0;

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// Exact states every quarter of a second and the IMU between them.
+// Exact states every quarter of a second with the IMU samples in between.
 class AlignmentTest : public ::testing::Test {
  protected:
   void Simulate(simulator::Motion motion, uint64_t seed, bool noise) {
@@ -46,7 +46,7 @@ class AlignmentTest : public ::testing::Test {
     return rotations;
   }
 
-  // Camera centres in the unit `scale` [m] and a frame G that is turned against W.
+  // Camera centres in units of `scale` [m], in a frame G that is rotated against W.
   std::optional<Alignment> Align(double scale, double gravity_norm = 9.81) {
     std::vector<AlignmentView> views;
     std::vector<const Preintegration*> preintegrations;
@@ -89,7 +89,7 @@ TEST_F(AlignmentTest, NoiseAndAccelBiasCostLittle) {
     const auto alignment = Align(0.4);
     ASSERT_TRUE(alignment) << "seed " << seed << ": " << reason_;
     EXPECT_NEAR(alignment->scale, 0.4, 0.02) << "seed " << seed;
-    // The accelerometer bias of 0.09 m/s^2 tilts gravity by half a degree where it is not seen.
+    // If unobservable, the accelerometer bias of 0.09 m/s^2 tilts gravity by half a degree.
     EXPECT_LT(testing::AngleBetween(alignment->gravity_G, kR_G_W * Vector3d(0, 0, -1)), 0.02);
     EXPECT_LT((alignment->velocity_G.back() - kR_G_W * truth_.back().velocity()).norm(), 0.06);
   }

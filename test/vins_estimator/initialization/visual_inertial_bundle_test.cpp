@@ -14,9 +14,9 @@ namespace {
 
 constexpr int kViews = 11;
 constexpr int kImagesPerView = 5;
-constexpr double kMinAngle = 0.01;  // between the rays of a point that is used [rad]
+constexpr double kMinAngle = 0.01;  // between the rays of a usable point [rad]
 
-// A few views of a fast flight, with the true states and what the images and the IMU say.
+// Some images of a fast flight, with true states, observations and IMU samples.
 struct Problem {
   std::vector<FrameState> truth;
   std::vector<Track> tracks;
@@ -58,7 +58,7 @@ struct Problem {
     return TriangulatePoint(sightings, kMinAngle);
   }
 
-  // Makes the points larger by `factor`, about the first position; returns the states to match.
+  // Scales the points by `factor` about the first position; returns the states accordingly.
   std::vector<FrameState> Scale(double factor) {
     const Eigen::Vector3d origin = truth.front().position();
     std::vector<FrameState> states = truth;
@@ -90,8 +90,8 @@ TEST(VisualInertialBundle, FindsTheStatesAndHowWellItKnowsTheirScale) {
     const auto bundle = AdjustVisualInertialBundle(
         problem.tracks, problem.p_W, problem.preintegrations, problem.options, &states, &reason);
     ASSERT_TRUE(bundle) << reason;
-    EXPECT_NEAR(bundle->reprojection_rms, 0.55, 0.1);  // of Gaussian noise under Cauchy weights
-    EXPECT_LT(bundle->imu_rms, 0.5);                   // few equations more than unknowns
+    EXPECT_NEAR(bundle->reprojection_rms, 0.55, 0.1);  // for Gaussian noise with Cauchy weights
+    EXPECT_LT(bundle->imu_rms, 0.5);  // there are few more equations than variables
     const double error = std::log(SizeOf(states) / SizeOf(problem.truth));
     EXPECT_LT(std::abs(error), 0.05);
     squared_sum += std::pow(error / bundle->relative_scale_deviation, 2);

@@ -18,10 +18,10 @@ constexpr int64_t kMinute_ms = 60'000;
 
 ImuStream Stream(int max_samples = 1000) { return {ImuRange(), kMaxGap, max_samples}; }
 
-// Linear in time, and slow enough for any stamp here.
+// A reading that is linear in time, and small at any timestamp used here.
 ImuSample Reading(int64_t t_ns) { return {t_ns, {1e-3 * ToSeconds(t_ns), 0, 0}, {0, 9.81, 0}}; }
 
-// Every 5 ms over [begin, end] (ms). Returns what came of the clock with each of them.
+// Adds samples every 5 ms in [begin, end] (ms). Returns the clock state after each of them.
 std::vector<Clock> Add(ImuStream* stream, int64_t begin_ms, int64_t end_ms) {
   std::vector<Clock> clocks;
   for (int64_t t = begin_ms; t <= end_ms; t += 5) clocks.push_back(stream->Add(Reading(t * kMs)));
@@ -77,7 +77,7 @@ TEST(ImuStream, AGapHasNoEnds) {
   for (const int64_t outside : {0, 98, 100, 200, 202}) EXPECT_FALSE(stream.IsInGap(outside * kMs));
 }
 
-// It is decided on with the next one.
+// The next sample decides about it.
 TEST(ImuStream, TheSampleAfterAGapWaitsForTheNext) {
   ImuStream stream = Stream();
   Add(&stream, 0, 100);

@@ -29,7 +29,7 @@ bool Take(LinePairing* pairing, int64_t t_ms) {
   return lines.has_value();
 }
 
-// Images without lines until these are missing. The last image is 10 ms.
+// Adds images without lines until lines count as missing. The last image is at 10 ms.
 LinePairing Missing() {
   LinePairing pairing = Pairing();
   for (int i = 1; i <= kPatience; ++i) {
@@ -106,7 +106,7 @@ TEST(LinePairing, MissingLinesAreNotWaitedFor) {
 
 TEST(LinePairing, MissingLinesAreBackWithThoseOfAnImageThatWouldStillWait) {
   LinePairing late = Missing();
-  Add(&late, 7);  // more than the lag behind
+  Add(&late, 7);  // later than the lag
   EXPECT_TRUE(late.are_missing());
   Add(&late, 8);
   EXPECT_FALSE(late.are_missing());

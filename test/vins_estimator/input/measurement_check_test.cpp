@@ -26,7 +26,7 @@ FrameMeasurement Good() {
   return measurement;
 }
 
-// The image after that.
+// The image after Good().
 FrameMeasurement Next() {
   FrameMeasurement measurement = Good();
   measurement.t_ns = measurement.points.t_ns = measurement.lines->t_ns = kStamp + 10;
@@ -45,14 +45,14 @@ void ExpectRefused(Estimator* estimator, const FrameMeasurement& measurement,
   }
 }
 
-// Refused with these words by the estimator, which takes a good one after it.
+// Expects that the estimator rejects it with these words, and accepts a valid one afterwards.
 void ExpectRefused(const FrameMeasurement& measurement, const std::string& words) {
   Estimator estimator(testing::StillConfig());
   ExpectRefused(&estimator, measurement, words);
   EXPECT_NO_THROW(estimator.Process(Good()));
 }
 
-// The same of one that comes after a good one.
+// Expects that the estimator rejects it after a valid one.
 void ExpectRefusedNext(const FrameMeasurement& measurement, const std::string& words) {
   Estimator estimator(testing::StillConfig());
   estimator.Process(Good());

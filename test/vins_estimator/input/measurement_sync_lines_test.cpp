@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How MeasurementSync pairs lines with points.
+// Pairing of lines with points in MeasurementSync.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -64,8 +64,8 @@ TEST(MeasurementSyncLines, MissingLinesDelayNoLongerThanTheLag) {
   EXPECT_EQ(sync.statistics().lines_late, 1);
 }
 
-// Feeds images from..to, one in so many ms, with lines that arrive `lag` images late (none:
-// negative). Returns how many images ahead of each frame handed out the newest one was.
+// Adds images from `from` to `to` at this interval [ms], with lines `lag` images late (none if
+// negative). Returns for each frame how many images ahead the newest image was.
 std::vector<int> FeedWithLines(int64_t from, int64_t to, int lag, MeasurementSync* sync,
                                int64_t interval = 50) {
   std::vector<int> delays;
@@ -92,7 +92,7 @@ TEST(MeasurementSyncLines, ADeadLineTrackerDelaysNoLongerThanItsPatience) {
   EXPECT_TRUE(sync.lines_are_missing());
 }
 
-// At 5 Hz images wait for their lines for longer than `max_wait`: nothing newer could be used.
+// At 5 Hz, images wait for their lines longer than `max_wait`, but there is nothing newer to use.
 TEST(MeasurementSyncLines, ImagesThatWaitForLinesAreNotTooLate) {
   MeasurementSync::Options options = WithLines();
   options.max_wait = 0.5;
@@ -138,7 +138,7 @@ TEST(MeasurementSyncLines, AHopelesslySlowLineTrackerDelaysNothing) {
   EXPECT_GT(sync.statistics().lines_late, 40);
 }
 
-// As of two trackers that use every second image, each the other ones.
+// Two trackers that use every second image, but not the same ones.
 TEST(MeasurementSyncLines, LinesOfOtherImagesAreMissingForGood) {
   MeasurementSync sync(WithLines());
   AddImu(&sync, 0, 6000);
@@ -167,7 +167,7 @@ TEST(MeasurementSyncLines, LateLinesAreNotOfOtherImages) {
   EXPECT_FALSE(sync.lines_are_of_other_images());
 }
 
-// The line tracker does not know which images the tracker of points uses.
+// The line tracker does not know which images the point tracker uses.
 TEST(MeasurementSyncLines, LinesOfEveryImagePairWithPointsOfSome) {
   for (const int64_t phase : {0, 50}) {
     MeasurementSync sync(WithLines());
@@ -184,7 +184,7 @@ TEST(MeasurementSyncLines, LinesOfEveryImagePairWithPointsOfSome) {
 
 TEST(MeasurementSyncLines, LinesOfAnEarlierRecordingDoNotBlockThoseOfThisOne) {
   MeasurementSync sync(WithLines());
-  sync.AddLines(Lines(90000 * kMs));  // left over, arrives after the restart
+  sync.AddLines(Lines(90000 * kMs));  // left over from before the restart
   FeedWithLines(50, 1000, 0, &sync);
   EXPECT_EQ(sync.statistics().frames_without_lines, 0);
   EXPECT_EQ(sync.statistics().lines_out_of_order, 1);
@@ -208,7 +208,7 @@ TEST(MeasurementSyncLines, NoLinesAndAThousandLinesAreFramesLikeOthers) {
 TEST(MeasurementSyncLines, LinesWithoutPointsAndOutOfOrderAreCounted) {
   MeasurementSync sync(WithLines());
   AddImu(&sync, 0, 200);
-  sync.AddLines(Lines(25 * kMs));  // its points never come
+  sync.AddLines(Lines(25 * kMs));  // its points never arrive
   sync.AddLines(Lines(50 * kMs));
   sync.AddLines(Lines(50 * kMs));
   sync.AddPoints(Points(50 * kMs));

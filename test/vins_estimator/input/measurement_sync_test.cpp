@@ -30,8 +30,8 @@ bool SameSample(const ImuSample& a, const ImuSample& b) {
   return a.t_ns == b.t_ns && a.gyro == b.gyro && a.accel == b.accel;
 }
 
-// The IMU of the frames joins without hole or overlap: increasing stamps, each frame opening with
-// the sample that closed the one before, closing at t + td.
+// Expects that the IMU samples of the frames join without gap or overlap: timestamps increase, and
+// each frame starts with the last sample of the previous one and ends at t + td.
 void ExpectSeamless(const std::vector<FrameMeasurement>& frames) {
   for (size_t i = 0; i < frames.size(); ++i) {
     const std::vector<ImuSample>& imu = frames[i].imu;
@@ -53,7 +53,7 @@ TEST(MeasurementSync, CutsTheImuAtTheImageTimes) {
   ExpectSeamless(frames);
   EXPECT_EQ(frames[0].imu.front().t_ns, 0);
   EXPECT_EQ(frames[0].imu.size(), 6u);   // 0 ... 20, 22
-  EXPECT_EQ(frames[1].imu.size(), 12u);  // 22, 25 ... 75: a sample on the image is not doubled
+  EXPECT_EQ(frames[1].imu.size(), 12u);  // 22, 25 ... 75: no duplicate at the image time
   EXPECT_EQ(frames[2].imu.size(), 11u);  // 75, 80 ... 120, 123
   for (const auto& frame : frames) {
     for (const ImuSample& sample : frame.imu) ExpectOnTheLine(sample);
@@ -110,7 +110,7 @@ TEST(MeasurementSync, AChangingTimeOffsetNeitherLosesNorDoublesSamples) {
     frames.push_back(std::move(*frame));
   }
   ExpectSeamless(frames);
-  size_t originals = 0;  // samples of the stream, strictly inside the intervals or closing them
+  size_t originals = 0;  // samples of the stream inside or at the end of the intervals
   for (const auto& frame : frames) {
     for (size_t k = &frame == &frames[0] ? 0 : 1; k < frame.imu.size(); ++k) {
       originals += frame.imu[k].t_ns % (5 * kMs) == 0;
@@ -214,7 +214,7 @@ TEST(MeasurementSync, AnImuGapIsCountedAndBridgedByTheNextFrameWithSamples) {
   EXPECT_EQ(frames[1].t_ns, 300 * kMs);
   const std::vector<ImuSample>& imu = frames[1].imu;
   EXPECT_EQ(imu.back().t_ns - imu[imu.size() - 2].t_ns,
-            200 * kMs);  // whole: not cut into harmless bits
+            200 * kMs);  // a single interval, not divided into acceptable ones
   EXPECT_EQ(sync.statistics().imu_gaps, 1);
   EXPECT_EQ(sync.statistics().frames_in_imu_gap, 3);
 }
@@ -223,7 +223,7 @@ TEST(MeasurementSync, ImagesBeforeTheFirstImuSampleAreDropped) {
   MeasurementSync sync({});
   sync.AddPoints(Points(10 * kMs));
   sync.AddPoints(Points(60 * kMs));
-  EXPECT_FALSE(sync.Pop().has_value());  // the IMU may still come
+  EXPECT_FALSE(sync.Pop().has_value());  // IMU samples may still arrive
   EXPECT_EQ(sync.statistics().frames_without_imu, 0);
   AddImu(&sync, 60, 100);
   const auto frames = PopAll(&sync);
@@ -238,7 +238,7 @@ TEST(MeasurementSync, RepeatedAndBackwardImagesAreDropped) {
   AddImu(&sync, 0, 200);
   for (int64_t t : {50, 50, 40, 100}) sync.AddPoints(Points(t * kMs));
   EXPECT_EQ(PopAll(&sync).size(), 2u);
-  sync.AddPoints(Points(100 * kMs));  // also when the first is gone already
+  sync.AddPoints(Points(100 * kMs));  // also if the first one has been returned already
   EXPECT_FALSE(sync.Pop().has_value());
   EXPECT_EQ(sync.statistics().frames, 5);
   EXPECT_EQ(sync.statistics().frames_out_of_order, 3);
@@ -253,7 +253,7 @@ TEST(MeasurementSync, AClockThatIsSetBackShowsAfterTenSamplesOfTheImu) {
   }
 }
 
-// Also those that were handed out already, and one that the gate replaced.
+// Includes samples that were returned already, and one that the gate replaced.
 TEST(MeasurementSync, SamplesThatAreSentAgainSayNothingOfTheClock) {
   MeasurementSync sync({});
   const auto send = [&sync](int64_t begin_ms, int64_t end_ms) {
@@ -307,7 +307,7 @@ TEST(MeasurementSync, FramesThatWaitedForTooLongAreLeftOut) {
   EXPECT_EQ(sync.statistics().frames_too_late, 15);
 }
 
-// A slow camera, or a slow network: there is nothing newer.
+// With a slow camera or network, there is nothing newer.
 TEST(MeasurementSync, TheNewestFrameIsUsedHoweverLate) {
   MeasurementSync::Options options;
   options.max_wait = 0.2;
@@ -347,7 +347,7 @@ TEST(MeasurementSync, QueuesAreBounded) {
   ASSERT_EQ(frames.size(), 3u);
   EXPECT_EQ(frames[0].t_ns, 30 * kMs);
 
-  AddImu(&sync, 65, 300);  // no image for long: the interval keeps its length, but not all samples
+  AddImu(&sync, 65, 300);  // a long time without images: the interval is kept, but not all samples
   EXPECT_GT(sync.statistics().imu_dropped_full, 0);
   sync.AddPoints(Points(300 * kMs));
   for (auto& frame : PopAll(&sync)) frames.push_back(std::move(frame));
@@ -379,7 +379,7 @@ TEST(MeasurementSync, ClearForgetsTimeAndKeepsTheCounts) {
   sync.Clear();
   EXPECT_EQ(sync.queued_frames(), 0u);
 
-  AddImu(&sync, 0, 100);  // a recording started over
+  AddImu(&sync, 0, 100);  // the recording restarts
   sync.AddPoints(Points(50 * kMs));
   sync.AddLines(Lines(50 * kMs));
   const auto frame = sync.Pop();

@@ -13,7 +13,8 @@ constexpr int64_t kSample_ns = 5'000'000;     // 200 Hz
 
 class RepeatedImageDetectorTest : public ::testing::Test {
  protected:
-  // The next image, with its corners as far to the right as said; `rate` is what the IMU turns by.
+  // Adds the next image, with corners shifted to the right; `rate` is the angular velocity of the
+  // IMU.
   bool Next(double shift_px, double rate) {
     FrameMeasurement frame;
     for (int64_t t = t_ns_; t <= t_ns_ + kInterval_ns; t += kSample_ns) {
@@ -31,7 +32,7 @@ class RepeatedImageDetectorTest : public ::testing::Test {
     return detector_.Add(frame, least_speed_);
   }
 
-  // How many of a second's images count as repeated, each corner a little beside that before.
+  // Number of a second's images that count as repeated, with a shift of each corner between images.
   int CountRepeated(double shift_px, double rate) {
     int repeated = 0;
     for (int i = 1; i <= 20; ++i) repeated += Next(i * shift_px, rate);
@@ -48,7 +49,7 @@ class RepeatedImageDetectorTest : public ::testing::Test {
 TEST_F(RepeatedImageDetectorTest, WhatRestsWhileTheImuMovesIsRepeated) {
   EXPECT_EQ(CountRepeated(1, 0.2), 0);
   EXPECT_TRUE(Next(20, 0.2));
-  EXPECT_EQ(CountRepeated(0, 0.2), 19);  // the first one is another image
+  EXPECT_EQ(CountRepeated(0, 0.2), 19);  // the first one is a new image
 }
 
 TEST_F(RepeatedImageDetectorTest, TheLeastMotionOfOneCornerIsNone) {
@@ -89,7 +90,7 @@ TEST_F(RepeatedImageDetectorTest, AfterAResetItStartsOver) {
   CountRepeated(1, 0.2);
   detector_.Reset();
   EXPECT_FALSE(Next(20, 0.2));
-  EXPECT_FALSE(Next(20, 0.2));  // of the IMU no half second is known
+  EXPECT_FALSE(Next(20, 0.2));  // less than half a second of IMU samples
 }
 
 }  // namespace

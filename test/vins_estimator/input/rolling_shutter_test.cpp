@@ -20,7 +20,8 @@ using Eigen::Vector3d;
 constexpr double kReadout = 0.03;   // [s]
 constexpr double kInterval = 0.05;  // between images [s]
 
-// A camera that flies and turns ever faster past points and lines. B is C, but for its attitude.
+// A camera that moves and rotates with acceleration past points and lines. B and C differ in
+// attitude only.
 class RollingCamera {
  public:
   explicit RollingCamera(const Vector3d& angular_acceleration_C)
@@ -35,10 +36,10 @@ class RollingCamera {
   const Eigen::Quaterniond& R_B_C() const { return R_B_C_; }
   double focal_length() const { return camera_->FocalLength(); }
 
-  // Angular rate in C at a time since the first image.
+  // Angular velocity in C at a time since the first image.
   Vector3d Rate(double t) const { return Vector3d(0.5, -0.6, 0.7) + t * angular_acceleration_C_; }
 
-  // Where a point of the first camera is in that of a time.
+  // Transforms a point from the first camera to the camera at a time.
   Vector3d InCamera(const Vector3d& p_C0, double t) const {
     const Vector3d turn = t * (Rate(0) + Rate(t)) / 2;
     return SO3Exp(turn).conjugate() * (p_C0 - t * Vector3d(1.5, -0.8, 0.6));
@@ -46,7 +47,7 @@ class RollingCamera {
 
   Vector2d AtStamp(const Vector3d& p_C0, double t) const { return InCamera(p_C0, t).hnormalized(); }
 
-  // What is seen of it in the image of that time; nothing where it is not in view.
+  // Pixel of the point in the image of that time, or nullopt if it is not in view.
   std::optional<Vector2d> Pixel(const Vector3d& p_C0, double t) const {
     double share = 0;
     std::optional<Vector2d> pixel;
@@ -58,7 +59,7 @@ class RollingCamera {
     return pixel;
   }
 
-  // The image with the points, and lines from each point to the next, but every third.
+  // Returns the image with the points, and lines from each point to the next, except every third.
   FrameMeasurement Image(double t) const {
     FrameMeasurement image;
     image.t_ns = image.points.t_ns = ToNanoseconds(1000 + t);
@@ -91,7 +92,7 @@ class RollingCamera {
   std::vector<Vector3d> points_C0_;
 };
 
-// Root mean square distance of an image's points from where they are at the stamp [px].
+// Root mean square distance of an image's points from their positions at the timestamp [px].
 double PointError(const RollingCamera& camera, double t, const FrameMeasurement& image) {
   double sum = 0;
   for (const PointObservation& point : image.points.points) {
@@ -100,7 +101,7 @@ double PointError(const RollingCamera& camera, double t, const FrameMeasurement&
   return camera.focal_length() * std::sqrt(sum / static_cast<double>(image.points.points.size()));
 }
 
-// Of the lines' ends from the lines through where their ends are at the stamp [px].
+// Root mean square distance of the lines' endpoints from the true lines at the timestamp [px].
 double LineError(const RollingCamera& camera, double t, const FrameMeasurement& image) {
   double sum = 0;
   for (const LineObservation& line : image.lines->lines) {
@@ -115,7 +116,7 @@ double LineError(const RollingCamera& camera, double t, const FrameMeasurement& 
   return camera.focal_length() * std::sqrt(sum / static_cast<double>(image.lines->lines.size()));
 }
 
-// The second image of a flight, moved.
+// The corrected second image of a flight.
 FrameMeasurement Moved(const RollingCamera& camera) {
   RollingShutter shutter(camera.parameters());
   shutter.ToStamp(camera.Image(0), camera.R_B_C(), kReadout);

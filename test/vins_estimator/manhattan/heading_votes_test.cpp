@@ -18,7 +18,7 @@ TEST(WrapQuarterTurn, KeepsTheAngleModuloNinetyDegrees) {
   EXPECT_NEAR(WrapQuarterTurn(-M_PI), 0, 1e-12);
 }
 
-// Follows `count` lines around `heading` for `duration`, in steps of 0.1 s.
+// Tracks `count` lines with directions around `heading` for `duration`, in steps of 0.1 s.
 void Poll(HeadingVotes* votes, int first_id, int count, double heading, double spread,
           double duration, uint64_t seed = 1) {
   for (int step = 0; step < duration / 0.1; ++step) {
@@ -61,7 +61,7 @@ TEST(HeadingVotes, CountAccurateLinesMore) {
 TEST(HeadingVotes, KeepTheMostCertainVoteOfALine) {
   HeadingVotes votes;
   votes.Cast(1, 0.1, kDegree, 1.0);
-  votes.Cast(1, 0.2, 3 * kDegree, 1.0);  // started anew
+  votes.Cast(1, 0.2, 3 * kDegree, 1.0);  // restarted
   EXPECT_NEAR(votes.Best().heading, 0.1, 1e-9);
   votes.Cast(1, 0.12, 0.5 * kDegree, 1.0);
   EXPECT_NEAR(votes.Best().heading, 0.12, 1e-9);
@@ -115,7 +115,8 @@ TEST(HeadingVotes, FindTheStrongerOfTwoHeadings) {
   EXPECT_NEAR(votes.At(5 * kDegree).share(), 12.0 / 32, 0.05);
 }
 
-// The bound is one: among random headings, a false alarm below exp(-x) is rarer than exp(-x).
+// The bound holds: among random headings, a false alarm rate below exp(-x) occurs less often than
+// exp(-x).
 TEST(HeadingVotes, RarelyTakeChanceForSupport) {
   simulator::Random random(7);
   constexpr int kPolls = 4000;

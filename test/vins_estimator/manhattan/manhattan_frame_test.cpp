@@ -30,7 +30,7 @@ Vector3d AnyDirection(Random* random) { return random->NormalVector3().normalize
 
 Vector3d AnyHorizontal(Random* random) { return Horizontal(random->Uniform(0, M_PI)); }
 
-// Along one of the axes of a built scene, of either sign.
+// A direction along one of the axes of a man-made scene, of either sign.
 Vector3d Along(double heading, Random* random) {
   const double sign = random->Uniform() < 0.5 ? -1 : 1;
   const int axis = random->Index(3);
@@ -38,15 +38,15 @@ Vector3d Along(double heading, Random* random) {
   return sign * Horizontal(heading + axis * M_PI / 2);
 }
 
-// A stream of lines: 30 in sight, each for about two seconds, then replaced by a new one.
+// A stream of lines: 30 are visible, each for about two seconds, and then replaced by a new one.
 class LineStream {
  public:
   using MakeDirection = std::function<Vector3d(Random*)>;
 
   LineStream(uint64_t seed, double sigma) : random_(seed), sigma_(sigma) {}
 
-  // The frames of `seconds`, with new lines as `make` draws them, seen in a world that has turned
-  // by `yaw_rate` [rad/s].
+  // Adds frames for `seconds`, with new lines drawn by `make`, observed in a world that rotates by
+  // `yaw_rate` [rad/s].
   void Feed(double seconds, const MakeDirection& make, ManhattanFrame* frame, double yaw_rate = 0) {
     const int frames = static_cast<int>(seconds / kFrameInterval);
     for (int i = 0; i < frames; ++i) {
@@ -83,7 +83,7 @@ double HeadingError(const ManhattanFrame& frame, double heading) {
   return std::abs(WrapQuarterTurn(Yaw(*frame.R_W_M()) - heading));
 }
 
-// A built scene of this heading, with a share of lines anywhere.
+// A man-made scene with this heading and a share of arbitrary lines.
 LineStream::MakeDirection Built(double heading, double outliers) {
   return [=](Random* random) {
     return random->Uniform() < outliers ? AnyDirection(random) : Along(heading, random);
@@ -148,7 +148,7 @@ TEST(ManhattanFrame, StaysAbsentAmongRandomDirections) {
   }
 }
 
-// The hardest of chance: all lines are horizontal, so all of them vote.
+// The most difficult random case: all lines are horizontal, so all of them vote.
 TEST(ManhattanFrame, StaysAbsentAmongRandomHeadings) {
   for (uint64_t seed = 1; seed <= 1000; ++seed) {
     ManhattanFrame frame;
@@ -242,7 +242,7 @@ TEST(ManhattanFrame, IsRevokedWhenTheWorldTurnsAndFoundAnew) {
     stream.Feed(15, Built(0.3, 0.2), &frame);
     ASSERT_EQ(frame.state(), ManhattanState::kLocked);
     bool was_revoked = false;
-    for (int i = 0; i < 600; ++i) {  // turns by 6 deg
+    for (int i = 0; i < 600; ++i) {  // rotates by 6 deg
       stream.Feed(0.1, Built(0.3, 0.2), &frame, 0.1 * kDegree);
       was_revoked |= frame.state() == ManhattanState::kRevoked;
     }

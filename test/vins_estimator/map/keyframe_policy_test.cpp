@@ -8,14 +8,14 @@ namespace {
 
 constexpr double kFocalLength = 400;  // [px]
 
-// Two frames. The newest has `tracked` corners of the first, moved by `parallax`, and as many new
-// ones as `fresh` says.
+// Two frames. The newest has `tracked` corners of the first, displaced by `parallax`, and `fresh`
+// new ones.
 struct Case {
   double interval = 0.1;  // [s]
   int tracked = 100;
   int fresh = 0;
-  double parallax = 0.0;  // normalised
-  size_t at_rest = 0;     // frames, the newest ones
+  double parallax = 0.0;  // normalized
+  size_t at_rest = 0;     // number of newest frames at standstill
 };
 
 void AddPoints(int64_t first_id, int count, double x, PointFrame* frame) {
@@ -67,7 +67,7 @@ TEST(KeyframePolicy, TimeMakesOne) {
   EXPECT_TRUE(Keyframe({1.05}));
 }
 
-// So that landmarks outlast the rest, once keyframes know what it tells of the IMU.
+// Landmarks outlast a standstill once keyframes have provided its information on the IMU.
 TEST(KeyframePolicy, AtRestItTakesLonger) {
   EXPECT_FALSE(Keyframe({9.5, 100, 0, 0, 4}, 4));
   EXPECT_TRUE(Keyframe({10.5, 100, 0, 0, 4}, 4));
@@ -81,7 +81,7 @@ TEST(KeyframePolicy, BlindImagesAreNone) {
   EXPECT_FALSE(Keyframe({1.05, 0}));
   EXPECT_FALSE(Keyframe({1.05, 9}));
   EXPECT_TRUE(Keyframe({1.05, 10}));
-  EXPECT_TRUE(Keyframe({3.1, 0}));  // the IMU alone must not be integrated for ever
+  EXPECT_TRUE(Keyframe({3.1, 0}));  // limits the interval of integration without images
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ TEST(LineAliases, LeaveUnknownTracksAlone) {
 TEST(LineAliases, LeadToTheOldestInOneStep) {
   LineAliases aliases;
   aliases.Add(9, 4);
-  aliases.Add(4, 2);  // takes 9 along
-  aliases.Add(7, 4);  // joins 4 where it went
+  aliases.Add(4, 2);  // includes 9
+  aliases.Add(7, 4);  // follows 4 to its alias
   for (const int64_t id : {9, 4, 7, 2}) EXPECT_EQ(aliases.Resolve(id), 2);
 }
 

@@ -45,7 +45,7 @@ TEST(FindDifference, AllowsForWhatIsNotKnown) {
   EXPECT_EQ(FindDifference(limits, pair), LineDifference::kNone);
 }
 
-// Three cameras, each to the side of and above the one before, that see one line.
+// Three cameras, each to the side of and above the previous one, that observe one line.
 class SeeTest : public ::testing::Test {
  protected:
   SeeTest() {

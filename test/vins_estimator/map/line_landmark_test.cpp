@@ -21,7 +21,7 @@ TEST(AddAnchorView, KeepsTheFirstAndTheNewestByTime) {
   EXPECT_EQ(Stamps(views), (std::vector<int64_t>{10, 30, 40, 50}));
 }
 
-// As of two parts of a line that are merged.
+// Two parts of a merged line may have observations by one anchor.
 TEST(AddAnchorView, OfOneAnchorKeepsTheLongerSegment) {
   std::vector<LineView> views = {View(10, 0.3)};
   AddAnchorView(View(10, 0.5), &views);

@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kMaxLength = 10;
-constexpr double kNoise = 1.0 / 460;  // normalised
+constexpr double kNoise = 1.0 / 460;  // normalized
 constexpr int kLines = 20;
 
 struct Segment {
@@ -31,7 +31,8 @@ Vector3d RandomPoint(simulator::Random* random) {
   return {x, y, random->Uniform(4, 7)};
 }
 
-// Four frames, each beside and above the one before, that see the same twenty lines without noise.
+// Four frames, each to the side of and above the previous one, that observe twenty lines without
+// noise.
 class LineMapTest : public ::testing::Test {
  protected:
   LineMapTest() {
@@ -58,7 +59,7 @@ class LineMapTest : public ::testing::Test {
 
   Rigid3d T_C_W(int frame) const { return window_.T_W_C(window_.frames[frame]).Inverse(); }
 
-  // Segment i under id i.
+  // Observes segment i with id i.
   LineFrame Observe(const std::vector<Segment>& segments_W, int frame) const {
     LineFrame lines;
     lines.t_ns = Stamp(frame);
@@ -94,7 +95,7 @@ class LineMapTest : public ::testing::Test {
 
   LineLandmark& Landmark(int64_t id) { return map_.landmarks().at(id); }
 
-  // The first frame leaves the window; what it has seen stays.
+  // The first frame leaves the window and becomes an anchor with its observations.
   void TurnOldestIntoAnchor() {
     for (auto& [id, landmark] : map_.landmarks()) {
       MoveHost(window_, 1, &landmark);
@@ -104,7 +105,7 @@ class LineMapTest : public ::testing::Test {
     window_.TurnOldestIntoAnchor();
   }
 
-  // Moves a view across itself.
+  // Moves an observation perpendicular to itself.
   static void Shift(double distance, LineView* view) {
     const Vector2d along = (view->segment.end - view->segment.start).normalized();
     const Vector2d shift = distance * Vector2d(-along.y(), along.x());
@@ -190,7 +191,7 @@ TEST_F(LineMapTest, CountsByCauseAndRemovesWhatCannotBe) {
   EXPECT_EQ(counts.too_long, 1);
   EXPECT_EQ(counts.triangulated, kLines - 4);
   EXPECT_EQ(map_.landmarks().size(), kLines - 3u);
-  EXPECT_FALSE(Landmark(1).triangulated);  // waits
+  EXPECT_FALSE(Landmark(1).triangulated);  // waits for more observations
   for (const int64_t id : {2, 3, 4}) EXPECT_EQ(map_.landmarks().count(id), 0u);
 }
 
@@ -229,7 +230,7 @@ TEST_F(LineMapTest, AHostInTheLineCannotHoldIt) {
 
 TEST_F(LineMapTest, StartAnewKeepsPlaceAndNewestView) {
   Triangulate();
-  Landmark(7).views.pop_back();        // not seen any more
+  Landmark(7).views.pop_back();        // no longer observed
   MoveHost(window_, 1, &Landmark(8));  // has another host
   Landmark(8).views.erase(Landmark(8).views.begin());
   map_.RemoveFrame(window_, -1);  // of no frame: changes nothing
@@ -260,7 +261,7 @@ TEST_F(LineMapTest, ObservedSegmentIsWhatWasSeenAltogether) {
     return whole.start + share * (whole.end - whole.start);
   };
   Landmark(3).views[0].segment = See({at(0.3), at(0.6)}, 0);
-  Landmark(3).views[1].segment = See({at(0.7), at(0.4)}, 1);  // the other way round
+  Landmark(3).views[1].segment = See({at(0.7), at(0.4)}, 1);  // reversed
   Landmark(3).views[2].segment = See({at(0.5), at(0.55)}, 2);
   Landmark(3).views[3].segment = See({at(0.2), at(0.3)}, 3);
   const auto seen = ObservedSegment(Landmark(3), window_);
@@ -283,10 +284,10 @@ TEST_F(LineMapTest, ObservedSegmentIsInFrontOfItsCameras) {
 TEST_F(LineMapTest, RemovesOutlyingViewsAndLines) {
   const LineLimits limits(kNoise, kMaxLength);
   Triangulate();
-  Shift(6 * kNoise, &Landmark(1).views[2]);                              // one bad view
-  for (int i = 0; i < 4; ++i) Shift(4 * kNoise, &Landmark(2).views[i]);  // on average
-  for (int i = 1; i < 4; ++i) Shift(6 * kNoise, &Landmark(3).views[i]);  // all bad
-  Shift(4 * kNoise, &Landmark(5).views[2]);                              // the mean is still good
+  Shift(6 * kNoise, &Landmark(1).views[2]);                              // one outlier
+  for (int i = 0; i < 4; ++i) Shift(4 * kNoise, &Landmark(2).views[i]);  // outlier on average
+  for (int i = 1; i < 4; ++i) Shift(6 * kNoise, &Landmark(3).views[i]);  // all outliers
+  Shift(4 * kNoise, &Landmark(5).views[2]);                              // the mean is an inlier
   EXPECT_EQ(map_.RemoveOutliers(window_, limits), 1 + 1 + (3 + 1));
   EXPECT_EQ(Landmark(1).views.size(), 3u);
   EXPECT_EQ(Landmark(5).views.size(), 4u);
@@ -300,7 +301,7 @@ TEST_F(LineMapTest, RemovesOutlyingViewsAndLines) {
 TEST_F(LineMapTest, RemovesLinesBehindTheirCamerasAndLinesTooLong) {
   Triangulate();
   const Rigid3d T_C_W0 = T_C_W(0);
-  const Segment& segment = segments_W_[4];  // mirrored in the camera: the host sees it just so
+  const Segment& segment = segments_W_[4];  // mirrored in the camera: same image
   Landmark(4).coordinates =
       ToOrthonormal(LineThrough(-(T_C_W0 * segment.start), -(T_C_W0 * segment.end)));
   Landmark(4).views.resize(1);
@@ -363,7 +364,7 @@ TEST_F(LineMapTest, StartAnewLeavesNoAnchorViews) {
   map_.StartAnew(window_, Stamp(1), [](const LineLandmark&) { FAIL(); });
   EXPECT_EQ(Landmark(7).views.size(), 1u);
   EXPECT_TRUE(Landmark(7).anchor_views.empty());
-  EXPECT_EQ(Landmark(8).anchor_views.size(), 1u);  // did not go into the prior
+  EXPECT_EQ(Landmark(8).anchor_views.size(), 1u);  // was not marginalized
   ExpectInPlace(Landmark(7));
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Along x at a height, from `start` to `end`.
+// A line along x at a height, from `start` to `end`.
 SeenLine LineAlongX(double start, double end, double height = 0, double sigma = 0.02) {
   SeenLine line;
   line.start_F = {start, 0, height};
@@ -70,7 +70,7 @@ TEST_F(LineMemoryTest, JoinsThePartsThatWereSeen) {
   memory_.Keep(3, LineAlongX(1, 2));
   memory_.Keep(3, LineAlongX(1.5, 3));
   ExpectSeen(3, {1, 0, 0}, {3, 0, 0});
-  memory_.Keep(3, LineAlongX(2.5, 0));  // the other way round
+  memory_.Keep(3, LineAlongX(2.5, 0));  // reversed
   ExpectSeen(3, {3, 0, 0}, {0, 0, 0});
   memory_.Keep(3, LineAlongX(1, 2));
   ExpectSeen(3, {0, 0, 0}, {3, 0, 0});

@@ -20,7 +20,7 @@ const Vector3d kStart_W(-1, 0.5, 5), kEnd_W(1, 0.6, 5);
 
 int64_t Stamp(int frame) { return 100 + frame; }
 
-// Cameras that move sideways and up, and see a point and a line.
+// Cameras that move sideways and up, and observe a point and a line.
 class LocalMapTest : public ::testing::Test {
  protected:
   void AddFrame(int index, bool with_landmarks = true, int64_t line_id = kLine) {
@@ -45,7 +45,7 @@ class LocalMapTest : public ::testing::Test {
     map_.lines.Triangulate(map_.window, LineLimits(kNoise, /*max_length=*/10));
   }
 
-  // Throws where a view is of a frame that is no more.
+  // Throws if an observation is by a removed frame.
   void ExpectInStep() const {
     std::set<int64_t> frames, anchors;
     for (const WindowFrame& frame : map_.window.frames) frames.insert(frame.state.t_ns);

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double kMinAngle = 0.01;
 
-// Four frames side by side that all look at the same twenty points, without noise.
+// Four frames side by side that observe the same twenty points without noise.
 class PointMapTest : public ::testing::Test {
  protected:
   PointMapTest() {
@@ -144,7 +144,7 @@ TEST_F(PointMapTest, HostsPassTheirPointsOn) {
 
 TEST_F(PointMapTest, StartAnewKeepsPlaceAndNewestView) {
   map_.Triangulate(window_, kMinAngle);
-  Landmark(7).views.pop_back();        // not seen any more
+  Landmark(7).views.pop_back();        // no longer observed
   MoveHost(window_, 1, &Landmark(8));  // has another host
   Landmark(8).views.erase(Landmark(8).views.begin());
   map_.RemoveFrame(window_, -1);  // of no frame: changes nothing
@@ -200,13 +200,13 @@ TEST_F(PointMapTest, ReprojectionErrorHeedsTheTimeOffset) {
 TEST_F(PointMapTest, RemovesOutlyingViewsAndPoints) {
   constexpr double kMaxError = 0.01;
   map_.Triangulate(window_, kMinAngle);
-  Landmark(1).views[2].bearing.xy.x() += 0.03;                               // one bad view
-  for (int i = 1; i < 4; ++i) Landmark(2).views[i].bearing.xy.y() += 0.015;  // bad on average
+  Landmark(1).views[2].bearing.xy.x() += 0.03;                               // one outlier
+  for (int i = 1; i < 4; ++i) Landmark(2).views[i].bearing.xy.y() += 0.015;  // outlier on average
   Landmark(3).coordinates[2] *= -1;                                          // behind its host
   Landmark(4).views.resize(2);
   Landmark(4).views[1].bearing.xy.x() += 0.03;            // no good view beside the host's
-  Landmark(5).views[2].bearing.xy.x() += 0.015;           // the mean is still good
-  EXPECT_EQ(map_.RemoveOutliers(window_, kMaxError), 5);  // views of 1 and 4; points 2, 3 and 4
+  Landmark(5).views[2].bearing.xy.x() += 0.015;           // the mean is an inlier
+  EXPECT_EQ(map_.RemoveOutliers(window_, kMaxError), 5);  // observations of 1, 4; points 2, 3, 4
   EXPECT_EQ(Landmark(1).views.size(), 3u);
   EXPECT_EQ(Landmark(5).views.size(), 4u);
   EXPECT_EQ(map_.landmarks().size(), 17u);

@@ -21,7 +21,7 @@ class RecalibrationTest : public ::testing::Test {
     return camera;
   }
 
-  // Where the other camera sees what the first sees at xy.
+  // Returns the image point of the other camera for the pixel of `xy` in the first.
   Vector2d Expected(const Vector2d& xy) const {
     return *to_->Unproject(*from_->Project(xy.homogeneous()));
   }
@@ -65,7 +65,7 @@ TEST_F(RecalibrationTest, MovesVelocitiesAlong) {
 TEST_F(RecalibrationTest, LeavesARayThatNobodySees) {
   const Vector2d beyond(0.9, 0.9);
   CameraParameters folded = Other();
-  folded.distortion = {-0.4, 0, 0, 0};  // up to a radius of 0.91
+  folded.distortion = {-0.4, 0, 0, 0};  // valid up to a radius of 0.91
   ASSERT_FALSE(CameraModel::Create(folded)->Project(beyond.homogeneous()));
   Vector2d xy = beyond, velocity(1, 2);
   Recalibration(folded, Other()).Move(&xy, &velocity);

@@ -17,9 +17,8 @@ constexpr double kSigma = 0.002;
 constexpr int kViews = 10;
 constexpr int kLandmarks = 4000;
 
-// Residuals of many landmarks whose errors follow on from view to view with this correlation,
-// after two parameters, their mean, were fitted to them; of each landmark one view is off by
-// `mistake`.
+// Residuals of many landmarks with this correlation between consecutive errors, after a fit of two
+// parameters, their mean. One observation of each landmark is off by `mistake`.
 std::vector<ViewSpread> Simulate(double correlation, int landmarks = kLandmarks,
                                  double mistake = 0) {
   std::mt19937 generator(1);
@@ -53,7 +52,8 @@ TEST(EffectiveNoise, GrowsWhereErrorsFollowOnEachOther) {
     EXPECT_GT(noise, 1.05 * before) << correlation;
     before = noise;
   }
-  // The mean of correlated views is less certain by this; part of it is lost with the fit.
+  // The mean of correlated observations is less certain by this factor, a part of which is lost in
+  // the fit.
   const double expected = std::sqrt((1 + 0.3) / (1 - 0.3));
   EXPECT_NEAR(EffectiveNoise(Simulate(0.3)).value() / independent, expected, 0.15 * expected);
 }
@@ -78,7 +78,7 @@ TEST(EffectiveNoise, IsUnknownOfTooFewLandmarksAndOfExactOnes) {
   EXPECT_FALSE(EffectiveNoise(std::vector<ViewSpread>(20)));
 }
 
-// What is learnt of the noise of points from two windows, which moved or stood.
+// Point noise learned from two windows, in motion or at standstill.
 double LearnPointNoise(double first, bool moved) {
   ViewNoise noise(first, first);
   for (const size_t frames : {7, 9}) {

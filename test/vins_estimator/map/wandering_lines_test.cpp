@@ -17,14 +17,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kNoise = 0.5 / 460;  // normalised
+constexpr double kNoise = 0.5 / 460;  // normalized
 constexpr int kFrames = 12;
 constexpr double kDistance = 3;  // of the camera from the z axis [m]
-constexpr double kArc = 0.8;     // that it flies around it [rad]
+constexpr double kArc = 0.8;     // of the flight around it [rad]
 
 double AngleOf(int frame) { return kArc * frame / (kFrames - 1); }
 
-// Cameras on an arc around the z axis, which they look at from the side.
+// Cameras on an arc around the z axis, looking at it horizontally.
 SlidingWindow FlyAround() {
   SlidingWindow window;
   for (int i = 0; i < kFrames; ++i) {
@@ -39,11 +39,11 @@ SlidingWindow FlyAround() {
   return window;
 }
 
-// What each frame sees as an upright line 1.2 m long: where that stands in the x-y plane.
+// Position in the x-y plane at which each frame observes a vertical line 1.2 m long.
 using Place = std::function<Vector2d(int frame)>;
 
-// The right edge of a round column of this radius, as seen from a frame: where the line of sight
-// touches it.
+// The right outline of a round column of this radius, observed from a frame: the tangent point of
+// the line of sight.
 Place OutlineOf(double radius) {
   return [radius](int frame) {
     const double side = std::acos(radius / kDistance);
@@ -56,7 +56,7 @@ Place Edge() {
   return [](int) { return Vector2d(0.3, 0.4); };
 }
 
-// Goes somewhere and comes back.
+// A shadow that moves away and returns.
 Place Shadow() {
   return [](int frame) { return Vector2d(0.3, 0.4 + 0.04 * std::sin(M_PI * frame / kFrames)); };
 }
@@ -88,7 +88,7 @@ void Triangulate(const SlidingWindow& window, LineMap* map) {
   map->Triangulate(window, LineLimits(5 * kNoise, /*max_length=*/10));
 }
 
-// Of this many with other noise each, how many are found to wander?
+// Number of lines classified as wandering among this many with different noise.
 int CountWandering(const Place& place, double noise, int lines) {
   const SlidingWindow window = FlyAround();
   int found = 0;

@@ -10,7 +10,7 @@
 namespace plm_vins {
 namespace {
 
-// Six keyframes whose oldest has become an anchor.
+// Six keyframes, the oldest of which has become an anchor.
 class WindowEstimateTest : public ::testing::Test {
  protected:
   WindowEstimateTest() : estimate_(testing::SimulateWindow(7)) {
@@ -19,7 +19,7 @@ class WindowEstimateTest : public ::testing::Test {
     estimate_.SlideOldest(options_, /*stays_as_anchor=*/true);
   }
 
-  // Every variable of the prior is in the map: else the problem cannot be built.
+  // Expects that every variable of the prior is in the map; otherwise the problem cannot be built.
   void ExpectInStep() {
     ProblemBuilder builder(options_, &estimate_.map.window, &estimate_.prior);
     EXPECT_NO_THROW(builder.AddPrior());

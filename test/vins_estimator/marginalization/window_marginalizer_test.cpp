@@ -30,7 +30,7 @@ std::unique_ptr<const ProblemBuilder> BuildProblem(const ProblemOptions& options
 
 struct Step {
   std::vector<BlockId> ids;
-  std::vector<VectorXd> deltas;  // of each
+  std::vector<VectorXd> deltas;  // for each id
 
   const VectorXd* Find(const BlockId& id) const {
     const auto found = std::find(ids.begin(), ids.end(), id);
@@ -67,7 +67,7 @@ void ExpectSameStep(const Step& kept, const Step& full) {
   }
 }
 
-// Up to rounding, on the scale of each variable's own information.
+// Equal up to rounding, relative to the information of each variable.
 void ExpectSamePrior(const MarginalizationPrior& a, const MarginalizationPrior& b) {
   ASSERT_EQ(a.blocks().size(), b.blocks().size());
   for (size_t i = 0; i < a.blocks().size(); ++i) {
@@ -82,7 +82,8 @@ void ExpectSamePrior(const MarginalizationPrior& a, const MarginalizationPrior& 
                      1e-7 * scaled_b.norm());
 }
 
-// One Gauss-Newton step of the reduced window is the step of the whole, at the same linearisation.
+// A Gauss-Newton step of the reduced window equals that of the whole, at the same linearization
+// point.
 class MarginalizeOldestTest : public ::testing::TestWithParam<JacobiansAt> {
  protected:
   MarginalizeOldestTest() : estimate_(testing::SimulateWindow(6)), random_(1) {
@@ -105,7 +106,7 @@ TEST_P(MarginalizeOldestTest, LeavesTheGaussNewtonStepAsItWas) {
     const Step kept = GaussNewtonStep(BuildProblem(options_, &estimate_)->problem());
     EXPECT_EQ(kept.ids.size() + (keep_pose ? 1 : 2), full.ids.size());
     ExpectSameStep(kept, full);
-    testing::Disturb(0.0005, &random_, &estimate_.map.window);  // as an optimisation would
+    testing::Disturb(0.0005, &random_, &estimate_.map.window);  // as an optimization would
   }
 }
 
@@ -158,7 +159,7 @@ TEST_P(MarginalizeOldestTest, ForgetsTheOldestFrame) {
 INSTANTIATE_TEST_SUITE_P(JacobiansAt, MarginalizeOldestTest,
                          ::testing::Values(JacobiansAt::kFirstEstimates, JacobiansAt::kValues));
 
-// Vectors along which all states move as one: world translation and rotation about an axis of W.
+// Tangent vectors of a common motion of all states: translation and rotation about an axis of W.
 VectorXd Motion(const MarginalizationPrior& prior, const Vector3d& translation,
                 const Vector3d& axis) {
   VectorXd direction = VectorXd::Zero(prior.quadratic().b.size());
@@ -175,7 +176,7 @@ VectorXd Motion(const MarginalizationPrior& prior, const Vector3d& translation,
   return direction;
 }
 
-// Information along a direction of length one (position in metres, rotation in radians).
+// Information along a unit direction (position in metres, rotation in radians).
 double Information(const MarginalizationPrior& prior, const Vector3d& translation,
                    const Vector3d& axis) {
   const VectorXd direction = Motion(prior, translation, axis);
@@ -187,7 +188,8 @@ struct GaugeInformation {
 };
 
 // Information of the prior about the four unobservable directions and the observable inclination
-// after some marginalisations without anchor; the states are off the truth and move in between.
+// after several marginalizations without anchor; the states differ from the truth and change in
+// between.
 GaugeInformation SlideWithoutAnchor(JacobiansAt jacobians_at, int rounds) {
   WindowEstimate estimate(testing::SimulateWindow(8));
   ProblemOptions options = testing::OnePixelOptions();
@@ -210,14 +212,14 @@ TEST(UnobservableDirections, StayWithoutInformation) {
   for (const int rounds : {1, 2, 5}) {
     const GaugeInformation information = SlideWithoutAnchor(JacobiansAt::kFirstEstimates, rounds);
     EXPECT_LT(information.position, 1e-4) << rounds;    // known to 100 m at best
-    EXPECT_LT(information.heading, 1e-4) << rounds;     // ... 100 rad
-    EXPECT_GT(information.inclination, 100) << rounds;  // known to 0.1 rad and better
+    EXPECT_LT(information.heading, 1e-4) << rounds;     // standard deviation of 100 rad
+    EXPECT_GT(information.inclination, 100) << rounds;  // standard deviation below 0.1 rad
   }
 }
 
 TEST(UnobservableDirections, WouldGainInformationWithoutFirstEstimates) {
   const GaugeInformation information = SlideWithoutAnchor(JacobiansAt::kValues, 5);
-  // known to 0.1 rad, by mistake
+  // A false standard deviation of 0.1 rad.
   EXPECT_GT(information.heading, 100);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Merging and recognition on simulated flights, judged by the true identity of each line.
+// Merging and recognition on simulated flights, compared with the true identity of each line.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -17,20 +17,20 @@ namespace {
 using testing::kWindowSize;
 using testing::LineWindow;
 
-// Merging on a simulated flight through a room, judged by the true identity of each line.
+// Results of merging on a simulated flight through a room.
 struct FlightScore {
   int merged = 0, recognised = 0, wrong = 0;
-  int redundant = 0, absorbed = 0;            // landmarks beside an older one of their line
-  double landmarks = 0, lines_in_map = 0;     // triangulated, summed over the frames
+  int redundant = 0, absorbed = 0;            // landmarks of lines that have an older one
+  double landmarks = 0, lines_in_map = 0;     // triangulated, sum over frames
   int whole_map = 0, whole_map_unmerged = 0;  // landmarks of the whole flight
 
   double precision() const { return 1.0 - wrong / double(merged + recognised); }
   double recall() const { return absorbed / double(redundant); }
 };
 
-using Identities = std::map<int64_t, int>;  // track to line of the world
+using Identities = std::map<int64_t, int>;  // line of the world by track
 
-// The landmarks beside an older one of the same line.
+// Returns the landmarks of lines that have an older landmark.
 std::set<int64_t> FindRedundant(const LineMap& lines, const Identities& identities,
                                 FlightScore* score) {
   std::set<int> seen;
@@ -44,7 +44,7 @@ std::set<int64_t> FindRedundant(const LineMap& lines, const Identities& identiti
   return redundant;
 }
 
-// Lines nearer than this look like one: their noise in the image is as large, some metres away.
+// Lines closer than this are indistinguishable, since image noise is as large at some metres.
 constexpr double kIndistinguishable = 0.05;  // [m]
 
 bool IsOneLine(const simulator::LineSegment3d& a, const simulator::LineSegment3d& b) {
@@ -55,12 +55,12 @@ bool IsOneLine(const simulator::LineSegment3d& a, const simulator::LineSegment3d
 simulator::FeatureDataset Fly(uint64_t seed, double duration) {
   auto options = testing::FlightOptions(simulator::Motion::kFast, seed);
   options.max_points = 1;
-  options.line_break_probability = 0.03;  // half of the tracks break within 23 images
+  options.line_break_probability = 0.03;  // half of the tracks end within 23 images
   options.trajectory.duration = duration;
   return simulator::SimulateFeatures(options);
 }
 
-// Calls `at_frame` with the window at each image of a flight, before anything is merged.
+// Calls `at_frame` with the window at each image of a flight, before merging.
 void FlyThrough(const simulator::FeatureDataset& data,
                 const std::function<void(LineWindow*)>& at_frame) {
   LineWindow window;

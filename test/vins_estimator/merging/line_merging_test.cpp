@@ -27,7 +27,7 @@ TEST(LineMerging, JoinsTheTracksOfOneLine) {
   EXPECT_EQ(counts.merging.merged, 1);
   ASSERT_EQ(window.map().lines.landmarks().size(), 1u);
   const LineLandmark& line = window.map().lines.landmarks().at(4);
-  EXPECT_EQ(line.views.size(), 10u);  // later ones of the new track, too
+  EXPECT_EQ(line.views.size(), 10u);  // including later ones of the new track
   const PluckerLine line_W = LineInWorld(line, window.map().window);
   EXPECT_MATRIX_NEAR(Vector3d(line_W.direction.normalized().cwiseAbs()),
                      Vector3d(2, 0.1, 0).normalized(), 1e-6);
@@ -55,7 +55,7 @@ TEST(LineMerging, KeepsWhatAnchorsHaveSeenOfBoth) {
   ASSERT_EQ(merged.counts.merged, 1);
   std::vector<int64_t> stamps;
   for (const LineView& view : lines.at(4).anchor_views) stamps.push_back(view.t_ns);
-  EXPECT_EQ(stamps, (std::vector<int64_t>{1, 3, 4, 5}));  // the first and the newest
+  EXPECT_EQ(stamps, (std::vector<int64_t>{1, 3, 4, 5}));  // the first one and the newest
 }
 
 TEST(LineMerging, NeverJoinsWhatWanders) {
@@ -111,7 +111,7 @@ TEST(LineMerging, NeverJoinsCollinearLinesWithAGap) {
 TEST(LineMerging, LetsOnlyOlderTracksAbsorb) {
   LineWindow window;
   UniteOnWall({{7, {-1, 0.5}, {1, 0.5}, 0, 3},
-               {5, {-1, 0.5}, {1, 0.5}, 3, 6},  // triangulated later, but older by its id
+               {5, {-1, 0.5}, {1, 0.5}, 3, 6},  // triangulated later, but older by id
                {9, {-1, 0.5}, {1, 0.5}, 6}},
               &window);
   ASSERT_EQ(window.map().lines.landmarks().size(), 1u);

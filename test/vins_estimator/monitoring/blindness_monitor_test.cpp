@@ -17,7 +17,7 @@ FrameState At(int64_t t_ns, const Eigen::Vector3d& p_W = Eigen::Vector3d::Zero()
   return state;
 }
 
-// Of a position known to this deviation, in all directions together.
+// Covariance of a position with this standard deviation over all directions.
 Matrix6d Known(double deviation) {
   Matrix6d covariance = Matrix6d::Zero();
   covariance.diagonal().head<3>().setConstant(deviation * deviation / 3);
@@ -68,9 +68,9 @@ TEST(BlindnessMonitor, TakesNothingFromAnUnknownCovariance) {
   EXPECT_TRUE(monitor.Add(5, 5, At(5), Known(3.1)));
 }
 
-// Far from the origin of the world, an unknown heading moves the position by metres.
+// Far from the origin of the world, an uncertain heading moves the position by metres.
 TEST(BlindnessMonitor, ATurnOfTheWorldIsNoDrift) {
-  constexpr double kHeading = 0.014;  // deviation [rad]
+  constexpr double kHeading = 0.014;  // standard deviation [rad]
   BlindnessMonitor monitor;
   for (const double speed : {20.0, -20.0}) {
     for (int i = 0; i <= 20; ++i) {
@@ -81,7 +81,7 @@ TEST(BlindnessMonitor, ATurnOfTheWorldIsNoDrift) {
       covariance += kHeading * kHeading * turn * turn.transpose();
       EXPECT_FALSE(monitor.Add(100, i == 0 ? 100 : 0, state, covariance)) << speed << ' ' << i;
       if (i < 20) continue;
-      covariance.diagonal().head<3>().array() += 0.1;  // drift, in one direction or the other
+      covariance.diagonal().head<3>().array() += 0.1;  // drift, in either direction
       EXPECT_TRUE(monitor.Add(100, 0, state, covariance)) << speed;
     }
   }

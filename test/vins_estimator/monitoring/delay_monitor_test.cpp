@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-// Two hundred images of a flight that turns, with a delay [s] and other errors of this size [rad].
+// Two hundred images of a flight with rotations, a delay [s] and other errors of this size [rad].
 std::optional<double> Fly(double delay, double noise, double turns = 0.3) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;

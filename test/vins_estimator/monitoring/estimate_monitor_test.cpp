@@ -10,7 +10,7 @@
 namespace plm_vins {
 namespace {
 
-// At rest, known to 1 cm, with a hundred points that fit.
+// A state at standstill with a standard deviation of 1 cm and a hundred inlier points.
 EstimateMonitor::Evidence Good(double t) {
   EstimateMonitor::Evidence evidence;
   evidence.solved = true;

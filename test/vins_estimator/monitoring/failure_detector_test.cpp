@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 class FailureDetectorTest : public ::testing::Test {
  protected:
-  // What is wrong, or nothing.
+  // Returns the failure, or an empty string.
   std::string Detect() const {
     return DetectFailure(FailureLimits(), predicted_, optimized_).value_or("");
   }
@@ -77,7 +77,8 @@ TEST_F(FailureDetectorTest, NamesValuesThatAreNotFinite) {
   }
 }
 
-// Images at 20 Hz from 0 s on, all with the same counts; the stamp [s] of the first alarm, or -1.
+// Adds images at 20 Hz from 0 s on with constant counts; returns the time [s] of the first alarm,
+// or -1.
 double FirstAlarm(ContradictionMonitor* monitor, int landmarks, int rejected, int images) {
   for (int i = 0; i < images; ++i) {
     if (monitor->Add(ToNanoseconds(0.05 * i), landmarks, rejected)) return 0.05 * i;

@@ -13,10 +13,10 @@ namespace {
 
 const ImuNoise kNoise = {1e-3, 1e-2, 1e-5, 1e-3};
 constexpr double kInterval = 0.05;  // [s]
-constexpr int kFrames = 5;          // of the window, the third of which is the keyframe
+constexpr int kFrames = 5;          // in the window; the third one is the keyframe
 constexpr PointMap::Fit kFits = {100, 0};
 
-// At rest, with exact readings.
+// A window at standstill with exact readings.
 class ImuAgreementTest : public ::testing::Test {
  protected:
   ImuAgreementTest() {
@@ -43,7 +43,7 @@ class ImuAgreementTest : public ::testing::Test {
 
   int64_t Keyframe() const { return window_.frames[2].state.t_ns; }
 
-  // Moves the end of an interval until it contradicts the IMU by so much.
+  // Changes the end of an interval until it contradicts the IMU by this chi-square.
   void Contradict(size_t end, double chi_square) {
     FrameState& state = window_.frames[end].state;
     state.velocity().x() += 1e-3;
@@ -77,7 +77,7 @@ TEST_F(ImuAgreementTest, LooksNoFurtherBackThanTheKeyframe) {
   window_.frames[0].state.velocity().x() += 1;
   ASSERT_GT(ChiSquare(1), 10);
   EXPECT_TRUE(agreement_.IsUndoubted(window_, Keyframe()));
-  window_.frames[2].state.velocity().x() += 1;  // its end and the begin of the next one
+  window_.frames[2].state.velocity().x() += 1;  // end of one interval and start of the next
   EXPECT_FALSE(agreement_.IsUndoubted(window_, Keyframe()));
 }
 

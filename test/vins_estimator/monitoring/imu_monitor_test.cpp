@@ -31,7 +31,7 @@ TEST(ImuMonitor, DoubtsAtOnceWhereAnImageContradicts) {
   const auto scale = monitor.Add(At(0.05, 90));
   ASSERT_TRUE(scale.has_value());
   EXPECT_DOUBLE_EQ(*scale, 30);
-  EXPECT_EQ(monitor.noise_scale(), 1);  // one image may be an outlier
+  EXPECT_EQ(monitor.noise_scale(), 1);  // a single image may be an outlier
 }
 
 TEST(ImuMonitor, DoubtsWhereSeveralImagesContradictALittle) {
@@ -65,7 +65,8 @@ TEST(ImuMonitor, FollowsNoiseThatGoesOnAndForgetsIt) {
   EXPECT_EQ(monitor.noise_scale(), 1);
 }
 
-// An image that contradicts a little, and by a turn about one axis or to and fro.
+// An image with a small contradiction: a rotation residual along a constant axis or of alternating
+// sign.
 ImuMonitor::Evidence Turned(int image, double turn) {
   ImuMonitor::Evidence evidence = At(0.05 * image, image < 10 ? 4 : 1.5);
   evidence.turn_residual = turn * Eigen::Vector3d(1, -1, 1);

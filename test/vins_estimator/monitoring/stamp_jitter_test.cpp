@@ -16,9 +16,9 @@ namespace {
 
 const Eigen::Vector3d kGravity_W(0, 0, -9.81);
 
-// What two hundred images of a flight show, the stamps of which err by `jitter` [s] at most; other
-// errors [rad] go in all directions, or are the same share of each turn [s]. Where `gaps`, every
-// third interval tells nothing.
+// Jitter measured in two hundred images of a flight with timestamp errors of at most `jitter` [s].
+// Other errors are random in all directions [rad], or a constant share of each rotation [s]. With
+// `gaps`, every third interval is missing.
 double Measure(double jitter, double noise, double rate = 0.5, double same = 0, bool gaps = false) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;

@@ -27,8 +27,8 @@ Pose RandomPose(simulator::Random* random) {
   return pose;
 }
 
-// Ceres multiplies a cost function's padded Jacobian by PlusJacobian, which must leave the tangent
-// part as it is.
+// Ceres multiplies a cost function's padded Jacobian by PlusJacobian, which must preserve the
+// tangent part.
 TEST(TangentManifold, CeresSolvesWithTangentJacobians) {
   simulator::Random random(6);
   Pose fixed = RandomPose(&random);

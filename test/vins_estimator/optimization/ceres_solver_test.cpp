@@ -20,7 +20,7 @@
 namespace plm_vins {
 namespace {
 
-// A window with points, lines on Manhattan axes, and the prior of a frame that has left it.
+// A window with points, lines on Manhattan axes, and the prior of a marginalized frame.
 class CeresSolverTest : public ::testing::Test {
  protected:
   CeresSolverTest()
@@ -133,7 +133,7 @@ TEST_F(CeresSolverTest, IsBoundedByIterations) {
   EXPECT_NEAR(NormalEquations(problem()).Cost() / summary.final_cost, 1, 1e-9);
 }
 
-// Ceres orders the variables to eliminate by their addresses.
+// Ceres orders the eliminated variables by address.
 TEST_F(CeresSolverTest, GivesTheSameBytesWhereverTheValuesAre) {
   Disturb(0.01);
   Build();

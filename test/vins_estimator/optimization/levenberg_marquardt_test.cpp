@@ -16,7 +16,7 @@
 namespace plm_vins {
 namespace {
 
-// Its Jacobian has the wrong sign, so that each step leads uphill.
+// A factor whose Jacobian has the wrong sign, so that each step increases the cost.
 class Misleading final : public SizedFactor<1, 1> {
  public:
   bool Evaluate(double const* const* parameters, double* residuals,
@@ -27,7 +27,7 @@ class Misleading final : public SizedFactor<1, 1> {
   }
 };
 
-// Five frames with IMU and points; the first pose, extrinsics and time offset are known.
+// Five frames with IMU and points; first pose, extrinsics and time offset are constant.
 class LevenbergMarquardtTest : public ::testing::Test {
  protected:
   LevenbergMarquardtTest() : simulated_(testing::SimulateWindow(5)), loss_(1.0) {
@@ -72,7 +72,7 @@ class LevenbergMarquardtTest : public ::testing::Test {
     }
   }
 
-  // All states but the first pose, and the depths.
+  // Disturbs all states except the first pose, and the depths.
   void Disturb(double scale, uint64_t seed) {
     simulator::Random random(seed);
     const auto first_pose = simulated_.window.frames.front().state.pose;
@@ -95,12 +95,13 @@ TEST_F(LevenbergMarquardtTest, FewDefaultIterationsAreEnoughFromAPrediction) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     Disturb(0.003, seed);
     const double cost = Solve(SolverOptions(), problem_, &*equations_).final_cost;
-    // What the last step missed stands for what is left, which may be somewhat more.
+    // The error of the last prediction approximates the remaining gain, which may be slightly
+    // larger.
     EXPECT_LT(cost - lowest, 2 * LeastGain(SolverOptions(), problem_)) << seed;
   }
 }
 
-// Without a second step that would tell that there is nothing left to gain.
+// No second step is needed to find that there is nothing left to gain.
 TEST_F(LevenbergMarquardtTest, StopsAfterAStepThatGainsWhatWasPredicted) {
   const double lowest = Solve(thorough_, problem_, &*equations_).final_cost;
   Disturb(0.0002, 1);
@@ -111,7 +112,7 @@ TEST_F(LevenbergMarquardtTest, StopsAfterAStepThatGainsWhatWasPredicted) {
   EXPECT_EQ(summary.iterations, 1);
 }
 
-// As a prior does, whose constant nobody knows.
+// A prior adds an unknown constant to the cost.
 TEST_F(LevenbergMarquardtTest, StopsWhereverTheCostCountsFrom) {
   const std::vector<double> truth = testing::CopyValues(problem_);
   Disturb(0.01, 1);
@@ -150,7 +151,7 @@ TEST_F(LevenbergMarquardtTest, ReachesTheMinimumFromABadStart) {
   Disturb(0.1, 3);
   const SolverSummary summary = Solve(thorough_, problem_, &*equations_);
   EXPECT_GT(summary.initial_cost, 10 * from_truth.final_cost);
-  // The loss may leave a point or two in a minimum of their own.
+  // The robust loss may leave a point or two in local minima.
   EXPECT_LT(summary.final_cost, 1.02 * from_truth.final_cost);
 }
 
@@ -173,7 +174,7 @@ TEST(LevenbergMarquardt, HasSolvedWhatThereIsNothingToGainFrom) {
   EXPECT_EQ(value, 2);
 }
 
-// Of two variables only the sum is known: the equations have a solution where they are damped.
+// Only the sum of the two variables is observable, so the equations need damping.
 class Sum final : public SizedFactor<1, 1, 1> {
  public:
   bool Evaluate(double const* const* parameters, double* residuals,
@@ -203,7 +204,7 @@ TEST(LevenbergMarquardt, CountsNoIterationWhereTheUndampedEquationsHaveNoSolutio
 
 TEST(LevenbergMarquardt, LeavesWhatCannotBeSolvedAsItIs) {
   WindowProblem problem;
-  std::array<double, 9> motion = {1, 2, 3, 4, 5, 6, 7, 8, 9};  // nothing is known of the biases
+  std::array<double, 9> motion = {1, 2, 3, 4, 5, 6, 7, 8, 9};  // the biases are unobservable
   const int index = problem.AddVariable({BlockKind::kMotion, 1}, motion.data());
   problem.AddTerm(ZeroVelocityFactor(1.0), nullptr, {index});
   NormalEquations equations(problem);

@@ -13,7 +13,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// A prior on a pose and a time offset, its information of the given rank, on scales far apart.
+// A prior on a pose and a time offset, with information of the given rank and very different
+// scales.
 class PriorCostTest : public ::testing::TestWithParam<int> {
  protected:
   static constexpr int kSize = 7;

@@ -39,7 +39,7 @@ TEST(CalibratedConfig, IsWantedWhereAnythingIsRefined) {
 TEST(CalibratedConfig, RunsAsItIs) {
   const testing::TemporaryFolder folder;
   Config config;
-  config.points.fisheye = false;  // as the loader leaves it without a mask
+  config.points.fisheye = false;  // as set by the loader without a mask
   config.estimator.window_size = 12;
   config.sensor.rolling_shutter = true;
   SaveCalibratedConfig(SomeCalibration(), config, folder.File("calibrated.yaml"));
@@ -52,7 +52,7 @@ TEST(CalibratedConfig, RunsAsItIs) {
   EXPECT_EQ(read.sensor.rolling_shutter_tr, 0.03);
 }
 
-// Read by the loader, whatever it was that was estimated.
+// Saves any estimated calibration and loads it again.
 Config ReadBack(const Calibration& calibration) {
   const testing::TemporaryFolder folder;
   Config config;

@@ -10,7 +10,7 @@ TEST(SeriesSummary, IsOfOneEntryOfTheFrames) {
   std::vector<std::array<double, 3>> frames(100);
   for (int i = 0; i < 100; ++i) {
     frames[i].fill(-1);
-    frames[i][1] = (i * 37) % 100 + 1;  // 1 ... 100 in some order
+    frames[i][1] = (i * 37) % 100 + 1;  // 1 ... 100 in arbitrary order
   }
   const SeriesSummary summary = Summarize(frames, 1);
   EXPECT_DOUBLE_EQ(summary.mean, 50.5);

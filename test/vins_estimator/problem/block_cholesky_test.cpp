@@ -16,7 +16,7 @@ namespace {
 constexpr int kDense = 13, kBlocks = 4, kBlock = BlockCholesky::kBlockSize;
 constexpr int kSize = kDense + kBlocks * kBlock;
 
-// Random information over what each of these columns stands for.
+// Adds random information on the variables of these columns.
 void AddInformation(const std::vector<int>& columns, std::mt19937* random, Eigen::MatrixXd* S) {
   std::normal_distribution<double> normal;
   const auto size = static_cast<Eigen::Index>(columns.size());
@@ -32,8 +32,8 @@ void Append(int offset, int size, std::vector<int>* columns) {
   for (int i = 0; i < size; ++i) columns->push_back(offset + i);
 }
 
-// As a window's equations: neighbouring blocks know each other and a few dense variables, the first
-// block knows all dense ones; variables are of very different scales.
+// Equations like those of a window: adjacent blocks are coupled with each other and with some dense
+// variables, the first block with all dense ones; variables have very different scales.
 Eigen::MatrixXd ChainOfBlocks() {
   std::mt19937 random(3);
   Eigen::MatrixXd S = Eigen::MatrixXd::Zero(kSize, kSize);

@@ -15,7 +15,8 @@ namespace {
 
 using ::testing::ElementsAre;
 
-// Three frames' poses, one motion, calibration, and a point that the first and the last frame see.
+// Poses of three frames, one motion, calibration, and a point that the first and last frames
+// observe.
 class EquationLayoutTest : public ::testing::Test {
  protected:
   EquationLayoutTest() {
@@ -72,7 +73,7 @@ TEST_F(EquationLayoutTest, LandmarksHaveTheColumnsOfTheirTermsInRuns) {
   const EquationLayout layout(problem_);
   const std::vector<ColumnRun>& runs = layout.landmarks()[0];
   EXPECT_EQ(CountColumns(runs), 13);
-  ASSERT_EQ(runs.size(), 2u);  // the time offset and the first pose are neighbours
+  ASSERT_EQ(runs.size(), 2u);  // the time offset and the first pose are adjacent
   EXPECT_EQ(runs[0].size, 7);
   EXPECT_EQ(runs[1].dense, 13);
   EXPECT_EQ(runs[1].local, 7);

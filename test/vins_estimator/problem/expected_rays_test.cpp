@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Two cameras, half a metre apart; the second is frame 2.
+// Two cameras half a metre apart; the second one is frame 2.
 SlidingWindow TwoFrames() {
   SlidingWindow window;
   window.frames.resize(2);
@@ -23,7 +23,7 @@ SlidingWindow TwoFrames() {
   return window;
 }
 
-// 4 m away from the first frame.
+// A point 4 m from the first frame.
 PointLandmark PointOfBoth() {
   PointLandmark landmark;
   landmark.views.resize(2);
@@ -61,7 +61,8 @@ TEST(ExpectedEnds, AreNearestToThoseObserved) {
 TEST(ExpectedEnds, AreThoseObservedOfALineWithoutAnImage) {
   LineLandmark landmark;
   landmark.views = {{1, {}}, {2, {{-0.1, 0.3}, {0.2, 0.22}}}};
-  landmark.coordinates = ToOrthonormal(LineThrough({0.5, 1, 0}, {0.5, 2, 0}));  // through frame 2
+  landmark.coordinates =
+      ToOrthonormal(LineThrough({0.5, 1, 0}, {0.5, 2, 0}));  // through the camera of frame 2
   const LineSegmentView ends = ExpectedEnds(landmark, landmark.views[1], TwoFrames());
   EXPECT_EQ(ends.start, Vector2d(-0.1, 0.3));
   EXPECT_EQ(ends.end, Vector2d(0.2, 0.22));

@@ -9,7 +9,7 @@
 namespace plm_vins {
 namespace {
 
-// A window at the truth, in which the IMU has a noise that the configuration does not know.
+// A window at the true states with more IMU noise than configured.
 class ImuNoiseLearningTest : public ::testing::Test {
  protected:
   ImuNoiseLearningTest() : simulated_(testing::SimulateShakenWindow(1)) {

@@ -14,7 +14,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A prior on a pose, a motion and the time offset, and a problem that holds them in another order.
+// A prior on a pose, a motion and the time offset, and a problem that contains them in another
+// order.
 class MarginalizationPriorTest : public ::testing::Test {
  protected:
   static constexpr BlockId kPose{BlockKind::kPose, 5}, kMotion{BlockKind::kMotion, 5},
@@ -51,7 +52,7 @@ class MarginalizationPriorTest : public ::testing::Test {
   double td_ = 0.01;
   MarginalizationPrior prior_;
   WindowProblem problem_;
-  // Dense rows by variable of the problem: pose first, then the time offset, other, motion.
+  // Dense rows by variable of the problem: pose first, then time offset, other, motion.
   const std::vector<int> dense_offset_ = {7, 6, 16, 0};
   static constexpr int kDenseSize = 25;
 };
@@ -82,7 +83,7 @@ TEST_F(MarginalizationPriorTest, AddsGradientAndInformationWhereTheVariablesAre)
   VectorXd b = VectorXd::Zero(kDenseSize);
   EXPECT_NEAR(prior_.AddTo(problem_, dense_offset_, &H, &b), prior_.Cost(problem_), 1e-12);
 
-  MatrixXd S = MatrixXd::Zero(kSize, kDenseSize);  // from dense to the prior's order
+  MatrixXd S = MatrixXd::Zero(kSize, kDenseSize);  // dense order to prior order
   S.block<6, 6>(0, 0).setIdentity();
   S.block<9, 9>(6, 16).setIdentity();
   S(15, 6) = 1;

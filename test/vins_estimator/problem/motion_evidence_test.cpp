@@ -26,7 +26,7 @@ ProblemOptions Options() {
   return {config, testing::kSimulatedFocalLength};
 }
 
-// Knows all states as they are, to `deviation` in all their units.
+// A prior at all current states with standard deviation `deviation` in all units.
 MarginalizationPrior KnownStates(double deviation, const SlidingWindow& window) {
   std::vector<MarginalizationPrior::Block> blocks;
   int size = 0;
@@ -46,8 +46,8 @@ MarginalizationPrior KnownStates(double deviation, const SlidingWindow& window) 
   return {blocks, quadratic};
 }
 
-// What the equations of the motions and the prior alone, linearised at the values, say of the
-// interval from frame 1 to frame 2.
+// Evidence on the interval from frame 1 to frame 2 from motion terms and prior only, linearized at
+// the current values.
 ImuNoiseEvidence EvidenceWithoutImages(const MarginalizationPrior& prior, SlidingWindow* window) {
   ProblemBuilder builder(Options(), window, &prior);
   builder.AddPrior();
@@ -57,7 +57,7 @@ ImuNoiseEvidence EvidenceWithoutImages(const MarginalizationPrior& prior, Slidin
   return EvidenceOfMotion(*window, window->frames[1], window->frames[2], &equations).value();
 }
 
-// The covariance of the residual is then S, to which three independent sources contribute.
+// The residual then has the covariance S, with contributions of three independent sources.
 TEST(EvidenceOfMotion, ExpectsTheWholeResidualOfStatesThatAreKnown) {
   SimulatedWindow simulated = testing::SimulateWindow(4);
   SlidingWindow& window = simulated.window;
@@ -112,9 +112,9 @@ TEST(EvidenceOfMotion, IsNothingWhereTheStatesAreNotDetermined) {
   EXPECT_FALSE(EvidenceOfMotion(window, window.frames[0], window.frames[1], &equations));
 }
 
-constexpr size_t kFrame = 4;  // the interval that ends with it is looked at
+constexpr size_t kFrame = 4;  // index of the frame that ends the tested interval
 
-// Lets this interval take its noise for another.
+// Changes the noise that this interval assumes.
 void Assume(double share_of_accel, double share_of_gyro, SlidingWindow* window) {
   Preintegration& motion = *window->frames[kFrame].motion_since_previous;
   ImuNoise noise = motion.noise();
@@ -129,7 +129,7 @@ void AddEvidence(const DensityEvidence& evidence, DensityEvidence* sum) {
   sum->slope += evidence.slope;
 }
 
-// Sums over windows with noise that were solved after `assume` had changed what they assume of it.
+// Sums over windows with noise, optimized after `assume` has changed their assumed noise.
 ImuNoiseEvidence SumOverWindows(const std::function<void(SlidingWindow*)>& assume) {
   ImuNoiseEvidence sum;
   for (uint64_t seed = 1; seed <= 30; ++seed) {
@@ -152,7 +152,7 @@ ImuNoiseEvidence SumOverWindows(const std::function<void(SlidingWindow*)>& assum
   return sum;
 }
 
-// A quotient of n redundancies has the standard deviation sqrt(2 / n).
+// A ratio with n degrees of freedom has the standard deviation sqrt(2 / n).
 double Tolerance(const DensityEvidence& sum) { return 3 * std::sqrt(2 / sum.expected); }
 
 TEST(EvidenceOfMotion, IsAsExpectedWhereTheNoiseIsAsAssumed) {
@@ -170,7 +170,7 @@ TEST(EvidenceOfMotion, ShowsNoiseThatIsGreaterThanAssumed) {
   EXPECT_GT(sum.gyro.squared / sum.gyro.expected, 6);
 }
 
-// The variance of one source in this interval is four times, or a quarter of, what is assumed.
+// The variance of one source in this interval is four times the assumed one, or a quarter of it.
 TEST(EvidenceOfMotion, GrowsWithTheNoiseByTheSlope) {
   for (const double share : {0.5, 2.0}) {
     const double more = 1 / (share * share) - 1;

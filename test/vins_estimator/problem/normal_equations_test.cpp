@@ -19,8 +19,8 @@ namespace {
 
 using testing::DenseEquations;
 
-// A window of four frames with IMU, points, lines, prior and calibration to estimate, away from the
-// true values.
+// A window of four frames with IMU, points, lines, prior and estimated calibration, at other values
+// than the true ones.
 class NormalEquationsTest : public ::testing::Test {
  protected:
   NormalEquationsTest() : simulated_(testing::SimulateWindow(4)) {
@@ -28,7 +28,7 @@ class NormalEquationsTest : public ::testing::Test {
     simulator::Random random(1);
     testing::Disturb(0.01, &random, &simulated_.window);
     prior_ = InitialPrior(InitialUncertainty(), options_, simulated_.window);
-    testing::Disturb(0.003, &random, &simulated_.window);  // leaves the linearisation points
+    testing::Disturb(0.003, &random, &simulated_.window);  // leaves the linearization points
     simulated_.window.frames.back().stationary = true;
     Build();
   }

@@ -19,7 +19,7 @@
 namespace plm_vins {
 namespace {
 
-// Standard deviations of a state as in flight, that of its position 2 cm.
+// Standard deviations of a state in flight, 2 cm for its position.
 Vector15d StandardDeviations() {
   Vector15d deviations;
   deviations << 0.02, 0.02, 0.02, 0.01, 0.01, 0.01, 0.03, 0.03, 0.03, 0.02, 0.02, 0.02, 1e-3, 1e-3,
@@ -27,7 +27,7 @@ Vector15d StandardDeviations() {
   return deviations;
 }
 
-// With correlations.
+// A covariance with correlations.
 Matrix15d SomeCovariance() {
   simulator::Random random(4);
   Matrix15d root = Matrix15d::Identity();
@@ -36,7 +36,7 @@ Matrix15d SomeCovariance() {
   return root * root.transpose();
 }
 
-// In units that suit each entry.
+// Scales the covariance to units suited to each entry.
 Matrix15d Scaled(const Matrix15d& covariance) {
   const Vector15d scale = StandardDeviations().cwiseInverse();
   return scale.asDiagonal() * covariance * scale.asDiagonal();
@@ -63,7 +63,7 @@ std::vector<int> RowsOf(const WindowProblem& problem, const testing::DenseEquati
   return rows;
 }
 
-// The third of four frames and the newest are placed, by the second one as keyframe.
+// The third of four frames and the newest are placed relative to the second one, the keyframe.
 class PlacedCovarianceTest : public ::testing::Test {
  protected:
   static constexpr size_t kKeyframe = 1;
@@ -79,7 +79,7 @@ class PlacedCovarianceTest : public ::testing::Test {
                                 simulated_.window.StateAt(t_ns).pose.data());
   }
 
-  // Those from the keyframe on, and the IMU between them.
+  // Adds the states from the keyframe on, and the IMU terms between them.
   void AddStates(WindowProblem* problem) {
     const auto motion = [&](size_t i) {
       return problem->AddVariable({BlockKind::kMotion, state(i).t_ns}, state(i).motion.data());
@@ -93,7 +93,7 @@ class PlacedCovarianceTest : public ::testing::Test {
     }
   }
 
-  // Points as constants in the keyframe's camera, and their later views.
+  // Adds points as constants in the keyframe's camera, with their later observations.
   void AddPoints(PointMap* in_keyframe, WindowProblem* problem) {
     SlidingWindow& window = simulated_.window;
     const int extrinsic =
@@ -132,8 +132,8 @@ TEST_F(PlacedCovarianceTest, WithoutLandmarksTheImuCarriesItOn) {
   EXPECT_MATRIX_NEAR(Scaled(Placed()), Scaled(expected.covariance), 1e-6);
 }
 
-// Points that are constants in the keyframe's camera move with it exactly: the minimum of the
-// equations follows its state as they say.
+// Points that are constant in the keyframe's camera move exactly with it, so the minimum follows
+// the keyframe's state as predicted.
 TEST_F(PlacedCovarianceTest, LandmarksMoveWithTheKeyframe) {
   simulated_.lines.RemoveIf([](const auto&) { return true; });
   simulated_.points.RemoveIf([&](const PointLandmark& landmark) {
@@ -156,7 +156,8 @@ TEST_F(PlacedCovarianceTest, LandmarksMoveWithTheKeyframe) {
   EXPECT_MATRIX_NEAR(Scaled(Placed()), Scaled(exact.bottomRightCorner<15, 15>()), 1e-6);
 }
 
-// The window as a whole says nearly the same, though landmarks do not quite move as one body.
+// The whole window gives nearly the same result, although landmarks do not move exactly like a
+// rigid body.
 TEST(PlacedCovariance, IsNearThatOfTheWholeWindow) {
   testing::SimulatedWindow simulated = testing::SimulateWindow(10, /*seed=*/2, /*stride=*/3, 80);
   SlidingWindow& window = simulated.window;

@@ -17,7 +17,7 @@ int64_t Stamp(const testing::SimulatedWindow& simulated, size_t frame) {
   return simulated.window.frames[frame].state.t_ns;
 }
 
-// With all that may be estimated.
+// All optional variables are estimated.
 TEST(PlacementProblem, TheStatesAfterAFrameAloneAreFree) {
   ProblemOptions options = testing::OnePixelOptions();
   options.estimate_extrinsic = options.estimate_td = true;
@@ -33,7 +33,8 @@ TEST(PlacementProblem, TheStatesAfterAFrameAloneAreFree) {
           variable.id.kind == BlockKind::kPose || variable.id.kind == BlockKind::kMotion;
       EXPECT_EQ(variable.constant, !of_frame || variable.id.key <= known_ns);
     }
-    // The IMU, and the views of each landmark that two known frames have seen.
+    // Counts the IMU terms, and the observations of each landmark observed by at least two known
+    // frames.
     size_t seen = 0;
     const auto count = [&](const auto& landmarks) {
       for (const auto& [id, landmark] : landmarks) {

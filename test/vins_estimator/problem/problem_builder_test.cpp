@@ -70,7 +70,7 @@ TEST_F(ProblemBuilderTest, StandstillAddsZeroVelocityAndSamePose) {
   EXPECT_EQ(terms[2].variables[1], builder.problem().Find({BlockKind::kPose, Stamp(2)}));
 }
 
-// Deviations are in inverse proportion to residuals.
+// Standard deviations are inversely proportional to residuals.
 TEST_F(ProblemBuilderTest, StandstillIsNoFirmerThanWhatPassesAsIt) {
   window().frames[2].stationary = true;
   const auto residuals = [this](int term) {
@@ -105,7 +105,7 @@ TEST_F(ProblemBuilderTest, PointHasATermForEveryView) {
   const WindowProblem& problem = builder.problem();
   ASSERT_EQ(problem.landmarks().size(), 1u);
   EXPECT_EQ(problem.landmarks()[0].terms.size(), 3u);
-  EXPECT_EQ(problem.landmarks()[0].terms[0].variable_count, 2);  // the host's own view
+  EXPECT_EQ(problem.landmarks()[0].terms[0].variable_count, 2);  // the host's own observation
   EXPECT_EQ(problem.variables()[problem.landmarks()[0].variable].values,
             landmark->coordinates.data());
   EXPECT_EQ(problem.variables().size(), 6u);  // three poses, point, extrinsics, time offset
@@ -120,7 +120,7 @@ TEST_F(ProblemBuilderTest, LineHasATermForEveryView) {
   ASSERT_EQ(problem.landmarks().size(), 1u);
   const LandmarkTerms& line = problem.landmarks()[0];
   ASSERT_EQ(line.terms.size(), 3u);
-  EXPECT_EQ(line.terms[0].variable_count, 1);  // the host's own view
+  EXPECT_EQ(line.terms[0].variable_count, 1);  // the host's own observation
   EXPECT_EQ(line.variable, problem.Find({BlockKind::kLine, landmark->id}));
   EXPECT_EQ(problem.variables()[line.variable].values, landmark->coordinates.data());
   EXPECT_EQ(problem.variables().size(), 5u);  // three poses, line, extrinsics
@@ -140,7 +140,7 @@ TEST_F(ProblemBuilderTest, AnchorsSeeALineWithTheirOwnWeight) {
   const BlockId anchor_pose{BlockKind::kPose, Stamp(0)};
   window().TurnOldestIntoAnchor();
   const auto cost_of_views = [&] {
-    options_.line_loss_scale = 1e6;  // as good as none
+    options_.line_loss_scale = 1e6;  // practically none
     ProblemBuilder builder(options_, &window(), &no_prior_);
     builder.AddLine(landmark);
     const WindowProblem& problem = builder.problem();

@@ -20,7 +20,7 @@ MatrixXd RandomMatrix(int rows, int columns, simulator::Random* random) {
   return result;
 }
 
-// The quadratic of |J x - r|^2 / 2.
+// The quadratic function |J x - r|^2 / 2.
 Quadratic LeastSquares(const MatrixXd& J, const VectorXd& r) {
   return {J.transpose() * J, -J.transpose() * r};
 }
@@ -57,13 +57,14 @@ TEST(MarginalizeFirst, IsTheMinimumOverTheFirstComponents) {
   }
 }
 
-// Early data is folded into a prior before late data arrives: the same answer as all at once.
+// Early data is marginalized into a prior before late data arrives; the result equals the batch
+// solution.
 TEST(MarginalizeFirst, FilteringEqualsTheBatchSolution) {
   simulator::Random random(3);
   const MatrixXd early = RandomMatrix(12, 6, &random), late = RandomMatrix(10, 4, &random);
   const VectorXd early_r = RandomMatrix(12, 1, &random), late_r = RandomMatrix(10, 1, &random);
 
-  MatrixXd batch(22, 6);  // the late data does not see the first two components
+  MatrixXd batch(22, 6);  // the late data does not depend on the first two components
   batch << early, MatrixXd::Zero(10, 2), late;
   VectorXd batch_r(22);
   batch_r << early_r, late_r;
@@ -97,7 +98,7 @@ TEST(MarginalizeFirst, ScalesOfManyOrdersOfMagnitudeDoNoHarm) {
   EXPECT_MATRIX_NEAR(back.asDiagonal() * kept.b, expected.b, 1e-9);
 }
 
-// Directions that the data does not determine drop out, whichever way they point.
+// Unobservable directions are dropped, whatever their orientation.
 TEST(MarginalizeFirst, TakesSemiDefiniteBlocks) {
   for (uint64_t seed = 1; seed <= 50; ++seed) {
     simulator::Random random(seed);

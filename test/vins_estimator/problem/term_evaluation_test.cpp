@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector2d;
 using Jacobian = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
 
-// r = (x y - 1, x^2 + z), whose Jacobian depends on where it is taken. Defined for x > 0.
+// r = (x y - 1, x^2 + z), whose Jacobian depends on the linearization point. Defined for x > 0.
 class Bilinear final : public SizedFactor<2, 3> {
  public:
   bool Evaluate(double const* const* parameters, double* residuals,

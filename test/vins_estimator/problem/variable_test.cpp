@@ -16,7 +16,7 @@ constexpr BlockKind kKinds[] = {
     BlockKind::kPose,  BlockKind::kMotion, BlockKind::kExtrinsic, BlockKind::kTimeOffset,
     BlockKind::kPoint, BlockKind::kLine,   BlockKind::kReadout,   BlockKind::kIntrinsics};
 
-// Values that are well inside the domain of every kind.
+// Values well inside the domain of every kind.
 Eigen::VectorXd SomeValues(BlockKind kind, simulator::Random* random) {
   Eigen::VectorXd values = testing::NormalVector(VariableTypeOf(kind).ambient_size, random);
   if (values.size() == 7) values.tail<4>().normalize();

@@ -24,7 +24,7 @@ FrameState StateAt(double seconds, const Vector3d& p_W = Vector3d::Zero(),
   return state;
 }
 
-// Three frames at the origin, 10 s to 12 s; a line that the first two have seen.
+// Three frames at the origin, at 10 s to 12 s, and a line that the first two have observed.
 class AnchorPolicyTest : public ::testing::Test {
  protected:
   AnchorPolicyTest() {

@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 using testing::LineWindow;
 using testing::UniteOnWall;
 
-// A line that leaves the window, and another of a new track once it has left.
+// A line that leaves the window, and one of a new track afterwards.
 constexpr int64_t kGone = 4, kComeBack = 9;
 constexpr int kFramesAndBack = 30;
 
@@ -34,7 +34,7 @@ TEST(LineRecognition, RecognisesALineThatComesBack) {
   ASSERT_EQ(window.map().lines.landmarks().size(), 1u);
   const LineLandmark& line = window.map().lines.landmarks().at(kGone);
   EXPECT_EQ(line.id, kGone);
-  EXPECT_EQ(line.views.size(), 10u);  // later ones of the new track, too
+  EXPECT_EQ(line.views.size(), 10u);  // including later ones of the new track
   ASSERT_EQ(line.anchor_views.size(), 1u);
   EXPECT_EQ(line.anchor_views[0].t_ns, 100'000'000);
   const AnchorFrame& anchor = window.map().window.AnchorAt(line.anchor_views[0].t_ns);
@@ -72,7 +72,7 @@ TEST(LineRecognition, DoesNotTakeAnotherLineForOneThatLeft) {
   }
 }
 
-// The two are nearer than the limits, but images show them side by side.
+// The distance of the two is below the limits, but images show them side by side.
 TEST(LineRecognition, DoesNotRecogniseALineThatIsStillThere) {
   LineWindow window;
   const auto counts = UniteOnWall(

@@ -42,7 +42,7 @@ TEST(CalibrationLog, KeepsTheConfigurationInUse) {
   Config config;
   config.file = folder.path() + "/../" + std::filesystem::path(folder.path()).filename().string() +
                 "/calibrated.yaml";
-  CalibrationLog(config).CheckFolder(folder.path());  // nothing is refined, so nothing is written
+  CalibrationLog(config).CheckFolder(folder.path());  // nothing is refined or written
   config.sensor.estimate_td = true;
   CalibrationLog log(config);
   log.Set(Calibration());

@@ -8,7 +8,7 @@ namespace {
 
 using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
-// What is said of a tracked image, with its pose this old.
+// Reports the diagnostics of a tracked image with a pose of this age.
 class EstimatorDiagnosticsTest : public ::testing::Test {
  protected:
   Status Report(double age) {
@@ -64,7 +64,7 @@ TEST_F(EstimatorDiagnosticsTest, StateTheNoiseOfTheImuAsConfiguredUntilItIsLearn
   output_.imu_noise.accel_density = 0.7;
   diagnostics.Update(output_, 1, 0);
   EXPECT_EQ(density(), "0.7");
-  diagnostics.Update(EstimatorOutput(), 1, 0);  // all starts over
+  diagnostics.Update(EstimatorOutput(), 1, 0);  // everything restarts
   EXPECT_EQ(density(), "0.5");
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 using visualization_msgs::Marker;
 
-// With the ids from `first` on; each begins at x = its id.
+// Lines with ids from `first` on, each beginning at x = id.
 std::vector<MapLine> MakeLines(int64_t first, size_t count) {
   std::vector<MapLine> lines(count);
   for (size_t i = 0; i < count; ++i) {
@@ -48,7 +48,7 @@ TEST(LineMarker, ShowsTheAxesInDifferentColours) {
   EXPECT_EQ(colors.size(), 4u);
 }
 
-// As rviz calls an empty list an error.
+// An empty list would be an error in rviz.
 TEST(LineMarker, GoesWhereThereAreNoLines) {
   const Marker marker = ToLineMarker({}, 1, "world", "lines");
   EXPECT_EQ(marker.action, Marker::DELETE);
@@ -103,7 +103,7 @@ TEST(LineHistory, ForgetsLinesThatArePartOfOthers) {
   for (const auto& point : changed[0].points) EXPECT_NE(point.x, 3);
   EXPECT_EQ(changed[1].action, visualization_msgs::Marker::DELETE);
   EXPECT_TRUE(history.Add({}, 3).empty());
-  const auto last = MakeLines(static_cast<int64_t>(kFull) - 2, 1);  // it has taken a place
+  const auto last = MakeLines(static_cast<int64_t>(kFull) - 2, 1);  // it has a place already
   EXPECT_EQ(history.Add(last, 4).at(0).points.size(), 2 * (kFull - 2));
 }
 

@@ -23,7 +23,7 @@ FrameState MakeState() {
   return state;
 }
 
-// Some positive definite matrix.
+// An arbitrary positive definite matrix.
 template <int kSize>
 Eigen::Matrix<double, kSize, kSize> MakeCovariance() {
   std::mt19937 generator(1);
@@ -75,7 +75,7 @@ TEST(OdometryMessage, ACovarianceThatIsNoneIsVeryLarge) {
   }
 }
 
-// Draws errors of the state and compares their covariance, expressed as the message wants it.
+// Draws errors of the state and compares their covariance in the convention of the message.
 TEST(OdometryMessage, CovariancesAreAboutTheAxesOfTheMessage) {
   StateCovariance covariance;
   covariance.pose = MakeCovariance<6>();

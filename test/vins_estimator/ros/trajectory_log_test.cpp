@@ -23,7 +23,7 @@ const Rigid3d kPose(Eigen::Quaterniond::Identity(), {1, 2, 3});
 
 class TrajectoryLogTest : public ::testing::Test {
  protected:
-  // Content of the file after saving.
+  // Returns the content of the file after saving.
   std::string Saved() {
     log_.Save(folder_.File("a.tum"));
     return folder_.Read("a.tum");
@@ -111,7 +111,7 @@ TEST_F(TrajectoryLogTest, SaysWhyAFileCannotBeWritten) {
 }
 
 TEST_F(TrajectoryLogTest, TakesAPoseWhileItSaves) {
-  for (int i = 1; i <= 1000; ++i) log_.Add(i, kPose);  // more than a stream keeps to itself
+  for (int i = 1; i <= 1000; ++i) log_.Add(i, kPose);  // more than a stream buffers
   EXPECT_TRUE(testing::EndsWhileSaving(
       folder_.File("a.tum"), [&] { EXPECT_EQ(log_.Save(folder_.File("a.tum")), 1000u); },
       [&] { log_.Add(1001, kPose); }));

@@ -19,7 +19,8 @@ FrameState SomeState(const Vector3d& p_W) {
   return state;
 }
 
-// Of a world whose only error is a turn about the vertical through `origin_W`, of 0.02 rad.
+// Pose covariance if the only error is a world rotation of 0.02 rad about the vertical through
+// `origin_W`.
 Matrix6d TurnedAbout(const Vector3d& origin_W, const FrameState& state) {
   Vector6d error;
   error << Vector3d::UnitZ().cross(state.position() - origin_W),
@@ -59,7 +60,7 @@ TEST(DerivedCovariance, BodyVelocityIsAsErrorsMoveIt) {
 
 TEST(DerivedCovariance, AnUnknownHeadingDoesNotBlurTheBodyVelocity) {
   const FrameState state = SomeState({0, 0, 0});
-  Vector6d error;  // by a turn of the world
+  Vector6d error;  // of a world rotation
   error << state.rotation().conjugate() * Vector3d::UnitZ(),
       Vector3d::UnitZ().cross(state.velocity());
   EXPECT_TRUE(BodyVelocityCovariance(state, error * error.transpose()).isZero(1e-12));

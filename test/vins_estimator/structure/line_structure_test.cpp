@@ -15,7 +15,7 @@ using testing::WallLine;
 constexpr int kFrames = 30;
 const WallLine kOther = {2, {-1, 1}, {2, 1}};
 
-// Of the heading with most votes, after a line of each of these tracks and another one.
+// Support of the heading with the most votes, for lines of these tracks and another one.
 HeadingSupport SupportBy(std::vector<WallLine> tracks, UnitedLines* united) {
   LineWindow window;
   tracks.push_back(kOther);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulated flights through simulate, run_offline, evaluate.py and evaluate_loops.py.
+"""Tests simulate, run_offline, evaluate.py and evaluate_loops.py together on simulated flights.
 
 Usage: end_to_end_test.py SIMULATE RUN_OFFLINE [unittest option ...]
 """
@@ -23,7 +23,7 @@ LOOP_RESULTS = ("trajectory_map.tum", "covariance_map.csv", "trajectory_final.tu
 
 
 def run(*command):
-    """Runs a program; where it fails, so does the test, with what it said."""
+    """Runs a program; if it fails, the test fails with the program's output."""
     result = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE, encoding="utf-8", check=False)
     if result.returncode != 0:
@@ -35,7 +35,7 @@ def read_json(path):
 
 
 class Flight:
-    """A simulated recording with its ground truth, in a folder of its own."""
+    """A simulated recording with its ground truth, in a temporary folder."""
 
     def __init__(self, *options, duration=DURATION):
         self._folder = tempfile.TemporaryDirectory()
@@ -58,14 +58,14 @@ class Flight:
                 self._evaluate("evaluate.py", results / "trajectory.tum"))
 
     def close_loops(self, *options):
-        """Returns how many loop candidates each gate refused, and the comparison of the loops with
-        the ground truth."""
+        """Returns the number of loop candidates rejected by each gate, and the comparison of the
+        loops with the ground truth."""
         summary, _ = self.estimate("--set", "loop_closure=1", *options)
         return (summary["loops"]["refused"],
                 self._evaluate("evaluate_loops.py", self.path / "results"))
 
     def results(self, names):
-        """What is in these files of results."""
+        """Returns the contents of these result files."""
         return {name: (self.path / "results" / name).read_bytes() for name in names}
 
     def _evaluate(self, script, results):
@@ -76,7 +76,8 @@ class Flight:
 
 
 def with_turned_camera(text, angle):
-    """The config `text` with its camera turned about its own optical axis by `angle` [rad]."""
+    """Returns the configuration `text` with the camera rotated about its optical axis by `angle`
+    [rad]."""
     matrix = re.search(r"(extrinsicRotation:.*?data: \[)(.*?)\]", text, re.DOTALL)
     values = [float(value) for value in matrix.group(2).split(",")]
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -87,22 +88,23 @@ def with_turned_camera(text, angle):
 
 
 def angle_between(first, second):
-    """Angle between two unit quaternions [rad]."""
+    """Returns the angle between two unit quaternions [rad]."""
     return 2 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(first, second)))))
 
 
 class Odometry(unittest.TestCase):
     def assert_accurate(self, evaluation, greatest_share):
-        """The APE is at most this share of the path, and a pose is there nearly all the time."""
+        """Expects an APE of at most this share of the path, and poses for nearly the whole
+        flight."""
         share = evaluation["ape_m"]["rmse"] / evaluation["ground_truth_path_m"]
         print(f"{self.id()}: APE {1000 * evaluation['ape_m']['rmse']:.1f} mm,"
               f" {100 * share:.2f} % of the path, coverage {100 * evaluation['coverage']:.1f} %")
         self.assertLessEqual(share, greatest_share)
         self.assertGreater(evaluation["coverage"], 0.9)
 
-    # Each bound is about twice what was measured or more: 0.3 % of the path in the gentle flight,
-    # 0.2 % in the fast one, 0.4 % in the hover, 0.8 % in the corridor (where the steady speed
-    # hardly shows the scale).
+    # Each bound is at least twice the measured value: 0.3 % of the path in the gentle flight, 0.2 %
+    # in the fast one, 0.4 % in the hover, 0.8 % in the corridor (where the scale is hardly
+    # observable at constant speed).
 
     def test_gentle_flight_through_a_room(self):
         with Flight("--world", "room", "--motion", "gentle") as flight:
@@ -140,8 +142,8 @@ class Odometry(unittest.TestCase):
 
 
 def fast_flight(world):
-    """Comes back to where it was. Drawing is what takes the time, so there are half as many images
-    as usual, without blur."""
+    """Returns a flight that revisits its start. Rendering dominates the run time, so the frame rate
+    is half the usual one, without motion blur."""
     return Flight("--world", world, "--motion", "fast", "--frame-rate", 10, "--exposure", 0,
                   duration=30)
 
@@ -174,7 +176,7 @@ class LoopsAmongEquals(unittest.TestCase):
     def test_two_equal_rooms_are_not_taken_for_one(self):
         with fast_flight("twins") as flight:
             refused, loops = flight.close_loops()
-        self.assertGreater(refused["odometry"], 0)  # the other room was there to be taken
+        self.assertGreater(refused["odometry"], 0)  # the equal room caused loop candidates
         self.assertEqual(loops["false_loops"], 0)
 
 

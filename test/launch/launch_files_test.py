@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the launch files of the package plm_vins would start, without starting it.
+"""Tests which nodes and parameters the launch files of the package plm_vins would start.
 
-The environment of ROS decides which one: that of the build or an installed one.
+The environment of ROS selects the package: the one of the build or an installed one.
 """
 
 import os
@@ -18,7 +18,7 @@ import roslib.packages
 import rospkg
 
 LAUNCH = pathlib.Path(rospkg.RosPack().get_path("plm_vins")) / "launch"
-# Files with a configuration of their own, and those that ask for one.
+# Launch files with a default configuration, and those that require an argument.
 SENSORS = {f"{name}.launch": f"{name}.yaml" for name in (
     "euroc", "euroc_stereo", "realsense_d435i", "realsense_d435i_depth", "realsense_d435i_stereo",
     "tum_vi")}
@@ -40,8 +40,8 @@ PACKAGE_PATH = os.environ["ROS_PACKAGE_PATH"]
 
 
 def setUpModule():
-    """Packages in place of the camera's driver and of mavros, for all tests: ROS caches what it
-    finds."""
+    """Creates packages that replace the camera's driver and mavros in all tests, since ROS caches
+    the packages that it finds."""
     folder = tempfile.TemporaryDirectory()
     unittest.addModuleCleanup(folder.cleanup)
     make_package(folder.name, "realsense2_camera", "rs_camera.launch", "driver", DRIVER_ARGUMENTS)
@@ -50,7 +50,7 @@ def setUpModule():
 
 
 def make_package(folder, name, launch_file, namespace, arguments):
-    """A package whose launch file makes parameters of its arguments."""
+    """Creates a package whose launch file sets its arguments as parameters."""
     package = pathlib.Path(folder) / name
     (package / "launch").mkdir(parents=True)
     (package / "package.xml").write_text(f"<package><name>{name}</name></package>")
@@ -60,21 +60,22 @@ def make_package(folder, name, launch_file, namespace, arguments):
 
 
 def configuration(file, **arguments):
-    """All that a launch file gives with these arguments."""
+    """Returns the configuration that a launch file yields with these arguments."""
     words = [f"{key}:={value}" for key, value in arguments.items()]
     return roslaunch.config.load_config_default([(str(file), words)], None, verbose=False,
                                                 assign_machines=False)
 
 
 def load(name, **arguments):
-    """The nodes by name, and the parameters, of one of our launch files."""
+    """Returns the nodes by name and the parameters of one of our launch files."""
     config = configuration(LAUNCH / name, **arguments)
     return ({node.name: node for node in config.nodes},
             {key: parameter.value for key, parameter in config.params.items()})
 
 
 def robot_configuration(name, **arguments):
-    """As configuration() of one of our launch files, which a robot's own includes."""
+    """Returns the configuration of one of our launch files, included by a robot's launch file in a
+    namespace."""
     with tempfile.NamedTemporaryFile("w", suffix=".launch") as file:
         file.write(f'<launch><group ns="robot1"><include file="{LAUNCH / name}"'
                    ' pass_all_args="true"/></group></launch>')
@@ -87,7 +88,7 @@ def player_words(name="plm_vins.launch", **arguments):
 
 
 def rviz_layout(nodes):
-    """The name of the file that rviz starts with."""
+    """Returns the name of the configuration file with which rviz starts."""
     file = pathlib.Path(shlex.split(nodes["rviz"].args)[1])
     assert file.is_file(), file
     return file.name
@@ -98,7 +99,7 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(sorted(ALL), sorted(path.name for path in LAUNCH.glob("*.launch")))
 
     def test_every_file_is_found_by_its_name(self):
-        """Neither missing nor ambiguous, as roslaunch refuses two of one name."""
+        """No name is missing or ambiguous: roslaunch rejects two files of the same name."""
         for name in ALL:
             self.assertEqual(roslib.packages.find_resource("plm_vins", name),
                              [str(LAUNCH / name)])
@@ -111,7 +112,7 @@ class LaunchFiles(unittest.TestCase):
                 for node in ours.values():
                     self.assertTrue(roslib.packages.find_node(
                         "plm_vins", node.type), node.type)
-                ours.pop("mavros_relay", None)  # it needs no configuration
+                ours.pop("mavros_relay", None)  # needs no configuration
                 self.assertEqual(sorted(ours),
                                  ["feature_tracker", "linefeature_tracker", "pose_graph",
                                   "vins_estimator"])
@@ -213,7 +214,7 @@ class LaunchFiles(unittest.TestCase):
         for option, value in (("--start", "5"), ("--duration", "2.5"), ("--rate", "0.5")):
             self.assertEqual(words[words.index(option) + 1], value)
         self.assertIn("--clock", words)
-        self.assertIn("--quiet", words)  # or its progress overwrites what the nodes say
+        self.assertIn("--quiet", words)  # progress output would overwrite messages of the nodes
         self.assertNotIn("--duration", player_words(bag="/a.bag"))
         for name in ALL:
             self.assertTrue(load(name, config="c.yaml", bag="/a.bag")[1]["/use_sim_time"])
@@ -227,7 +228,7 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(rviz_layout(nodes), "plm_vins.rviz")
 
     def test_nodes_forget_the_options_of_an_earlier_launch(self):
-        """As parameters stay with the master."""
+        """Parameters remain on the master after a launch ends, so each launch must clear them."""
         for name in ALL:
             for nodelets in (False, True):
                 config = configuration(LAUNCH / name, config="c.yaml", bag="/a.bag",

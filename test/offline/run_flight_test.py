@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What run_offline makes of a simulated flight where something comes in between, and of a second
-one in the map of the first.
+"""Tests run_offline on simulated flights: interrupts, and a second flight in the map of the first.
 
 Usage: run_flight_test.py SIMULATE RUN_OFFLINE [unittest option ...]
 """
@@ -29,7 +28,7 @@ CONFIG = ROOT / "config" / "euroc.yaml"
 SIMULATE, RUN_OFFLINE = sys.argv[1:3] if len(sys.argv) > 2 else sys.exit(__doc__)
 RATE_HZ = 10
 IMAGES = 100  # of the first flight
-SECONDS = 24  # of the second one, which comes back to where it was 15 s before
+SECONDS = 24  # of the second flight, which revisits positions after 15 s
 CLOCK_ERROR_NS = 100_000_000_000
 PATIENCE = 300  # [s]
 
@@ -41,7 +40,8 @@ def simulate(folder, motion, seconds):
 
 
 def heed_signals():
-    """In the background of a shell programs are made to ignore them."""
+    """Restores the default signal handlers, since programs in the background of a shell ignore
+    SIGINT."""
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_DFL)
 
@@ -82,14 +82,14 @@ class RunFlight(unittest.TestCase):
         self.results = self.folder / "results"
 
     def run_flight(self, flight, *options, exit_code=0):
-        """What the program says."""
+        """Returns the error output of the program."""
         process = start("--asl", flight, "--output", self.results, *options)
         error = process.communicate(timeout=PATIENCE)[1]
         self.assertEqual(process.returncode, exit_code, error)
         return error
 
     def start_first(self, *options, images=1, flight="first"):
-        """Returns the process once it has done so many of the images."""
+        """Returns the process as soon as it has processed `images` images."""
         shutil.rmtree(self.results, ignore_errors=True)
         process = start("--asl", self.flights / flight, "--output", self.results,
                         "--save-track-images", 1e-3, "--threads", 1, *options)
@@ -113,7 +113,7 @@ class RunFlight(unittest.TestCase):
             frames = self.summary()["frames"]
             self.assertLess(frames, IMAGES - 1)
             rows = (self.results / "timing.csv").read_text(encoding="utf-8").split("\n")
-            self.assertEqual(len(rows), frames + 2)  # the header, and an end of the last line
+            self.assertEqual(len(rows), frames + 2)  # a header, and a newline at the end
             self.assertEqual(len(rows[0].split(",")), len(rows[-2].split(",")))
             self.assertFalse(list(self.folder.rglob("*.part")))
             again = start("--features", self.folder / "features", "--output", self.folder / "again")
@@ -124,7 +124,7 @@ class RunFlight(unittest.TestCase):
 
     def test_a_second_signal_ends_the_program_at_once(self):
         process = self.start_first()
-        os.mkfifo(self.results / "lines.ply")  # which holds up its end, as nobody reads
+        os.mkfifo(self.results / "lines.ply")  # blocks the program's exit, since nobody reads it
         process.send_signal(signal.SIGINT)
         picture = self.results / "line_tracks.png"
         wait_until(lambda: process.poll() is not None or picture.exists())

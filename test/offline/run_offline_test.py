@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What run_offline says where it cannot give a trajectory.
+"""Tests the messages of run_offline if it cannot estimate a trajectory.
 
 Usage: run_offline_test.py RUN_OFFLINE [unittest option ...]
 """
@@ -33,7 +33,7 @@ class RunOffline(unittest.TestCase):
         path.write_text(text, encoding="utf-8")
 
     def assert_refuses(self, message, *options, config=CONFIG, source=None, output="results"):
-        """The program exits with 1 and one of its lines holds `message`."""
+        """Expects exit code 1 and a line of output that contains `message`."""
         command = [RUN_OFFLINE, "--config", config, *(source or ("--asl", self.asl)),
                    "--output", self.folder / output, *options]
         result = subprocess.run([str(word) for word in command], stderr=subprocess.PIPE,
@@ -93,7 +93,7 @@ class RunOffline(unittest.TestCase):
                          {"freq": 10.0, "max_cnt": 150, "use_lines": False})
         self.assert_refuses("no trajectory", *recorded, source=("--features", features))
         self.assertNotIn("features_recorded_with", self.summary())
-        again = self.folder / "again.features"  # has the values of its features, not of its run
+        again = self.folder / "again.features"  # keeps the values used for the features
         self.assert_refuses(warning, *other, "--save-features", again,
                             source=("--features", features))
         self.assert_refuses(warning.replace(str(features), str(again)), *other,

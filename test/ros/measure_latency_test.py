@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What measure_latency.py says of the nodes, of a bag that is played at three times its speed.
+"""Tests measure_latency.py on the nodes, with a bag played at three times its speed.
 
 Usage: measure_latency_test.py NODES BAG FOLDER [unittest option ...]
 NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs.
@@ -16,7 +16,7 @@ from node_processes import CONFIG, ROOT, arguments, free_port
 
 _, BAG, FOLDER = arguments(__doc__)
 SCRIPT = ROOT / "scripts" / "measure_latency.py"
-BOUND_MS = 1000  # on a busy machine: the queues are short, and what is late is dropped
+BOUND_MS = 1000  # on a busy machine; queues are short, and late images are dropped
 LEAST_SHARE = 0.3  # of the images with a pose: initialization and overload lose the rest
 
 

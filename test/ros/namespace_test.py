@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The nodes of a robot that has a namespace: all they say and hear is in it.
+"""Tests that nodes in a namespace use only topics within it.
 
 Usage: namespace_test.py NODES BAG FOLDER [unittest option ...]
 NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs.
@@ -20,7 +20,7 @@ from node_processes import Listener, Processes, arguments, start_master, wait_un
 NODES, BAG, FOLDER = arguments(__doc__)
 NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator", "mavros_relay")
 SHARED = ("/rosout", "/rosout_agg", "/diagnostics", "/tf", "/tf_static", "/clock")
-# As a configuration of its own has them.
+# Values that a robot's own configuration would contain.
 SETTINGS = ("_set/image_topic:=cam0/image_raw", "_set/imu_topic:=imu0",
             "_set/manhattan_frame:=robot1_manhattan")
 
@@ -75,7 +75,7 @@ class Namespace(unittest.TestCase):
                                   "waiting: nothing comes on /robot2/front/image/compressed")
 
     def test_remaps_images_once(self):
-        """Where the topics of two cameras are exchanged."""
+        """The image topics of two cameras are swapped by remapping."""
         listener = Listener("/robot3")
         self.processes.start_node(NODES / "feature_tracker", *SETTINGS,
                                   "cam0/image_raw:=cam1/image_raw",

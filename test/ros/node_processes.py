@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A ROS master and nodes as processes of a test, and what the nodes say."""
+"""Starts a ROS master and nodes as processes of a test, and collects their messages."""
 
 import contextlib
 import os
@@ -19,18 +19,18 @@ from sensor_msgs.msg import PointCloud
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CONFIG = ROOT / "config" / "euroc.yaml"
-PATIENCE = 60  # [s], generous for a machine that is busy
+PATIENCE = 60  # [s], generous for a busy machine
 
 
 def arguments(usage):
-    """NODES, BAG and FOLDER as they were given; ends with the usage where one is missing."""
+    """Returns the arguments NODES, BAG and FOLDER; prints the usage and exits if one is missing."""
     if len(sys.argv) < 4:
         sys.exit(usage)
     return pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])
 
 
 def wait_until(condition, what, seconds=PATIENCE):
-    """Returns what `condition` does as soon as that is true; AssertionError where it never is."""
+    """Returns the value of `condition` as soon as it is true; AssertionError on timeout."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         result = condition()
@@ -47,7 +47,7 @@ def free_port():
 
 
 class Processes:
-    """Starts programs; close() ends those that still run. Their output is in FOLDER/NAME.log."""
+    """Starts programs with output to FOLDER/NAME.log; close() terminates those still running."""
 
     def __init__(self, folder, master_uri):
         self.folder = pathlib.Path(folder)
@@ -67,7 +67,7 @@ class Processes:
         return process
 
     def start_node(self, program, *arguments, prefix=(), **environment):
-        """One of the package's nodes, by the path of its program."""
+        """Starts one of the package's nodes by the path of its program."""
         return self.start(pathlib.Path(program).name,
                           [*prefix, program, f"_config_file:={CONFIG}", *arguments], **environment)
 
@@ -82,7 +82,7 @@ class Processes:
 
 
 def start_master(folder, name):
-    """A master of the module's own, up to the module's end, with this process as its node NAME."""
+    """Runs a master until the end of the test module, with this process as its node NAME."""
     port = free_port()
     os.environ["ROS_MASTER_URI"] = f"http://localhost:{port}"
     master = Processes(pathlib.Path(folder) / "master", os.environ["ROS_MASTER_URI"])
@@ -93,8 +93,8 @@ def start_master(folder, name):
 
 
 class Listener:
-    """Stamps [s] of odometry and features as they come, and the last status of each node, all of
-    them in a namespace."""
+    """Collects timestamps [s] of odometry and features, and the last status of each node, within a
+    namespace."""
 
     def __init__(self, namespace=""):
         self._prefix = f"{namespace[1:]}/" if namespace else ""
@@ -123,7 +123,7 @@ class Listener:
         self.wait_for_value(node, "message", lambda message: message and part in message)
 
     def wait_for_odometry(self, count=10):
-        """So many more poses than now; returns their stamps."""
+        """Waits for `count` more poses; returns their timestamps."""
         before = len(self.odometry)
         wait_until(lambda: len(self.odometry) >= before + count,
                    lambda: "odometry: " + self.value("vins_estimator", "message"))

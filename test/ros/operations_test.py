@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The nodes when bags are played again, when one of them dies or has to wait for the processor, and
-when they are asked to end.
+"""Tests the nodes in operation: repeated bags, killed or suspended nodes, and termination.
 
 Usage: operations_test.py NODES BAG FOLDER [unittest option ...]
 NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs and results.
@@ -26,7 +25,7 @@ NODES, BAG, FOLDER = arguments(__doc__)
 NAMES = ("feature_tracker", "linefeature_tracker", "vins_estimator")
 MAX_WAIT = 0.5  # [s]: images that wait longer are dropped
 IMAGE_INTERVAL = 0.05  # [s], of the recording
-END_LIMIT = 20  # [s] from SIGINT to the end; takes well below one where the machine is not busy
+END_LIMIT = 20  # [s] from SIGINT to exit; well below 1 s on an idle machine
 
 
 def setUpModule():
@@ -62,7 +61,7 @@ class OperationsTest(unittest.TestCase):
         self.assertLess(time.monotonic() - begin, END_LIMIT)
 
     def stamps_in_file(self):
-        """Those of the trajectory in the file, which run forward."""
+        """Returns the timestamps in the trajectory file; expects that they increase."""
         rows = [line for line in self.trajectory.read_text(encoding="utf-8").splitlines()
                 if not line.startswith("#")]
         stamps = [float(row.split()[0]) for row in rows]
@@ -96,7 +95,7 @@ class Parameters(OperationsTest):
             self.assertIn(why, self.processes.log("vins_manager"))
 
     def assert_refused(self, name, argument, why):
-        """The node ends at once, and says why."""
+        """Expects that the node exits at once with a message that contains `why`."""
         node = self.processes.start_node(NODES / name, argument)
         self.assertEqual(node.wait(END_LIMIT), 1, name)
         self.assertIn(why, self.processes.log(name))
@@ -149,7 +148,7 @@ class Parameters(OperationsTest):
 
 class Turns(OperationsTest):
     def test_of_two_publishers_are_named(self):
-        """As of a bag that was recorded with all topics, played to running nodes."""
+        """A bag with recorded feature topics is played while the trackers run."""
         self.start_node("vins_estimator", ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
         for topic in ("/feature_tracker/feature", "/linefeature_tracker/linefeature"):
             for player in range(2):
@@ -253,7 +252,7 @@ class WithoutLines(OperationsTest):
         name = "linefeature_tracker"
         node = self.start_node(name, ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
         wait_until(lambda: "use_lines is 0" in self.processes.log(name), "what it says")
-        time.sleep(1)  # what it would subscribe to is known by then
+        time.sleep(1)  # time to subscribe to other topics
         publishers, subscribers, _ = rosgraph.Master("/operations_test").getSystemState()
         of_node = [topic for topic, nodes in publishers + subscribers if f"/{name}" in nodes]
         self.assertEqual(of_node, ["/rosout"])
@@ -299,8 +298,9 @@ class Death(OperationsTest):
 
 class Overload(OperationsTest):
     def test_leaves_out_what_is_too_late(self):
-        """A processor that is busy elsewhere for two seconds; played more slowly, so that the poses
-        that follow are the estimator's choice, not its speed."""
+        """The estimator is suspended for a second of the recording. The bag is played at half
+        speed, so that only the estimator's policy determines which images it processes
+        afterwards."""
         self.start_all()
         listener = self.listener
         self.play("--rate", "0.5")
@@ -313,7 +313,7 @@ class Overload(OperationsTest):
         finally:
             estimator.send_signal(signal.SIGCONT)
         newest = listener.features[-1]
-        third_after = listener.wait_for_odometry(3)[2]  # what had been received may come first
+        third_after = listener.wait_for_odometry(3)[2]  # earlier images may come first
         self.assertGreater(third_after, newest - MAX_WAIT - 2 * IMAGE_INTERVAL)
         listener.wait_for_value("vins_estimator", "frames_too_late", lambda count: int(count) > 0)
         self.assertEqual(listener.value("vins_estimator", "resets"), "0")

@@ -1,11 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A place is recognised in flight; the map is saved, all nodes end, and new ones find their place
-in it.
+"""Tests that new nodes relocalize in a map saved by previous ones.
 
 Usage: saved_map_test.py NODES BAG FOLDER [unittest option ...]
-NODES: folder of the nodes' programs; BAG: a recording that comes back to a place; FOLDER: for logs
-and results.
+NODES: folder of the nodes' programs; BAG: a recording that revisits a place; FOLDER: for logs and
+results.
 """
 
 import math
@@ -33,8 +32,8 @@ def setUpModule():
 class SaveAndRelocalise(unittest.TestCase):
     def setUp(self):
         MAP.unlink(missing_ok=True)
-        self.in_map = {}  # by stamp: position [m]
-        self.frames = set()  # asserted in the test: rospy swallows what a callback raises
+        self.in_map = {}  # position by timestamp [m]
+        self.frames = set()  # asserted in the test, since rospy catches exceptions of callbacks
         rospy.Subscriber("/pose_graph/odometry", Odometry, self.add)
 
     def add(self, message):
@@ -43,7 +42,7 @@ class SaveAndRelocalise(unittest.TestCase):
         self.in_map[message.header.stamp.to_nsec()] = (p.x, p.y, p.z)
 
     def fly(self, name):
-        """Starts all nodes and plays the bag; ends without ending them."""
+        """Starts all nodes and plays the bag; leaves the nodes running."""
         self.in_map.clear()
         self.processes = Processes(FOLDER / name, os.environ["ROS_MASTER_URI"])
         self.addCleanup(self.processes.close)
@@ -65,7 +64,7 @@ class SaveAndRelocalise(unittest.TestCase):
         rospy.set_param(SETTINGS, {"loop_closure": "1"})
         listener = self.fly("first")
         listener.wait_for_value("pose_graph", "loops", lambda count: int(count or 0) > 0)
-        self.assertFalse(self.call("load_map").success)  # there is none yet
+        self.assertFalse(self.call("load_map").success)  # no map has been saved yet
         saved = self.call("save_map")
         self.assertTrue(saved.success, saved.message)
         first = dict(self.in_map)

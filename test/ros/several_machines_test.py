@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Camera, IMU, trackers and master on one host, the estimator on another; the link fails for
-a while.
+"""Tests the estimator on another host than camera, IMU, trackers and master, with an interrupted
+link.
 
-The hosts are network namespaces, which only root can make; else the test is skipped (exit code 77).
+The hosts are network namespaces, which only root can create; otherwise the test is skipped (exit
+code 77).
 
 Usage: several_machines_test.py NODES BAG FOLDER [unittest option ...]
 NODES: folder of the nodes' programs; BAG: a recording; FOLDER: for logs.
@@ -28,7 +29,7 @@ SKIPPED = 77
 ROBOT, STATION = f"robot{os.getpid()}", f"station{os.getpid()}"  # the two hosts
 ROBOT_IP, STATION_IP = "10.213.7.1", "10.213.7.2"
 ON_ROBOT = ("ip", "netns", "exec", ROBOT)
-LINK = "to_robot"  # the station's end of it
+LINK = "to_robot"  # name of the link on the station
 OUTAGE = 5  # [s]
 
 
@@ -54,7 +55,7 @@ def remove_hosts():
 
 
 def move_to(host):
-    """This process, and those it starts, to another host."""
+    """Moves this process and its later children to another host."""
     libc = ctypes.CDLL(None, use_errno=True)
     with open(f"/run/netns/{host}", encoding="utf-8") as namespace:
         if libc.setns(namespace.fileno(), 0) != 0:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-""".ci/check_structure.py finds what it is there to find, and nothing in clean code."""
+"""Tests of .ci/check_structure.py: problems that it reports, code that it accepts."""
 
 import contextlib
 import io
@@ -20,7 +20,7 @@ HEADER = check_structure.SPDX + "\n#pragma once\n"
 
 class CheckStructure(unittest.TestCase):
     def check(self, name, text):
-        """Exit code and output for a tree with this one file."""
+        """Returns exit code and output for a source tree with only this file."""
         return self.check_tree({name: text})
 
     def check_tree(self, texts):

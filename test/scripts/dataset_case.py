@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/run_dataset.py as it is called, with fake_run_offline.py in the place of run_offline."""
+"""Test fixture that runs scripts/run_dataset.py with fake_run_offline.py instead of run_offline."""
 
 import csv
 import glob
@@ -36,7 +36,7 @@ class DatasetTest(unittest.TestCase):
             file.write(text)
 
     def add(self, name, words="fly", truth=True):
-        """A recording that does as the words say, with its ground truth."""
+        """Adds a recording with the behaviour given by `words`, and its ground truth."""
         self.write(os.path.join("bags", name + ".bag"), words)
         if truth:
             write_tum(self.path("bags", name + ".tum"), *flight(rate=100.0))
@@ -53,7 +53,7 @@ class DatasetTest(unittest.TestCase):
         return result
 
     def calls(self):
-        """The arguments of every run so far."""
+        """Returns the arguments of all runs so far."""
         try:
             with open(self.path("calls.txt"), encoding="utf-8") as file:
                 return file.read().splitlines()
@@ -61,7 +61,7 @@ class DatasetTest(unittest.TestCase):
             return []
 
     def hanging_run(self):
-        """Waits until a run hangs; returns the ids of its process and of that which started it."""
+        """Waits until a run hangs; returns its process id and that of its parent."""
         deadline = time.monotonic() + 120
         while time.monotonic() < deadline:
             for path in glob.glob(os.path.join(self.output, "runs", "*", "*", "*", "pid")):

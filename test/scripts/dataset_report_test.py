@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/dataset: medians, means and the tables of the report, from results given here."""
+"""Tests of scripts/dataset: medians, means and report tables for given results."""
 
 import os
 import sys
@@ -31,7 +31,7 @@ def result(sequence, variant, ape=None, repetition=1, failure=None, extraction=N
 
 
 def cells_of(markdown):
-    """The cells of the rows of a table, stripped."""
+    """Returns the stripped cells of the rows of a table."""
     return [[cell.strip() for cell in line.strip("|").split(" | ")]
             for line in markdown.splitlines() if line.startswith("| ")]
 
@@ -143,7 +143,7 @@ class PaperTables(unittest.TestCase):
             self.assertNotIn("average of ours", text)
 
     def test_averages_are_those_that_the_paper_prints(self):
-        for number, difference in ((4, "0.04"), (5, "0.02"), (6, "1.49")):  # 1.5 in the paper
+        for number, difference in ((4, "0.04"), (5, "0.02"), (6, "1.49")):  # the paper prints 1.5
             average = row(self.table(number, [result("hall", "points", 1)]), "average")
             self.assertEqual(average[3], difference)
             self.assertEqual(set(average[4:]), {"–"})
@@ -229,7 +229,7 @@ class Report(unittest.TestCase):
         busy.load, busy.cores = 7.2, 2
         warning = "1 of 2 runs shared their machine with other work (load average up to 7, on 2"
         text = markdown_report(Results([quiet, busy]), [], {})
-        self.assertEqual(text.count(warning), 2)  # at our times, and beside the paper's
+        self.assertEqual(text.count(warning), 2)  # at our run times, and beside those of the paper
         busy.cores = 8
         text = markdown_report(Results([quiet, busy]), [], {})
         self.assertNotIn("shared their machine", text)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/dataset/sequences.py: which recordings and which ground truth it finds."""
+"""Tests of scripts/dataset/sequences.py: search for recordings and ground truth."""
 
 import os
 import sys

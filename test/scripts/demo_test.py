@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/demo.sh refuses bad options before it does anything; show_result.py's table."""
+"""Tests that scripts/demo.sh rejects invalid options before it starts; tests show_result.py's
+table."""
 
 import json
 import os

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/euroc.sh against a local HTTP server with small archives."""
+"""Tests of scripts/euroc.sh with a local HTTP server and small archives."""
 
 import functools
 import hashlib
@@ -19,7 +19,7 @@ IMAGES = "mav0/cam0/data.csv"
 
 
 class Server(http.server.SimpleHTTPRequestHandler):
-    """Serves files, also from an offset on; `broken` ends each answer after so many bytes."""
+    """Serves files, also from an offset; closes the connection after `broken` bytes unless None."""
 
     requests = []
     broken = None

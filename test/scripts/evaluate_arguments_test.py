@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What scripts/evaluate.py takes as files and as numbers."""
+"""Tests which files and numbers scripts/evaluate.py accepts as arguments."""
 
 import contextlib
 import io

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/evaluate_loops.py against loops whose errors are known by hand."""
+"""Tests of scripts/evaluate_loops.py with loops of known errors."""
 
 import json
 import pathlib
@@ -17,7 +17,7 @@ from evaluate_loops import evaluate_loops  # noqa: E402
 from evaluation.loops import Loops, closed_share, loop_errors, revisits  # noqa: E402
 from evaluation.trajectory import RESTART, Trajectory, format_tum  # noqa: E402
 
-START = 1403636580.0  # [s], as large as real stamps are
+START = 1403636580.0  # [s], as large as real timestamps
 ROUND = 20.0  # [s]
 HEADER = "later_ns,earlier_ns,result,x_m,y_m,z_m,yaw_deg\n"
 
@@ -29,7 +29,7 @@ def about_z(angles):
 
 
 def rounds(count=2, sway=0.0):
-    """Rounds of 4 m radius, looking ahead, at a speed that changes with `sway` [rad]."""
+    """Rounds of 4 m radius that face forward, at a speed that varies with `sway` [rad]."""
     t = np.arange(0.0, count * ROUND, 0.05)
     angles = 2 * np.pi * t / ROUND + sway * np.sin(t)
     positions = np.stack([4 * np.cos(angles), 4 * np.sin(angles), 0 * t], axis=1)
@@ -37,14 +37,15 @@ def rounds(count=2, sway=0.0):
 
 
 def drifting(truth, turn=1.0, turn_rate=0.01):
-    """Odometry whose world is turned about the true one by `turn` [rad], and ever more."""
+    """Odometry whose world is rotated by `turn` [rad] relative to the true one, with increasing
+    drift."""
     turns = about_z(turn + turn_rate * (truth.stamps - START))
     positions = np.einsum("nij,nj->ni", turns, truth.positions) + [5, 6, 7]
     return Trajectory(truth.stamps, positions, turns @ truth.rotations)
 
 
 def true_loop(truth, earlier, later, turn=1.0, turn_rate=0.01):
-    """What a loop between two stamps [s since START] says that is right: position and yaw."""
+    """Returns position and yaw of an error-free loop between two timestamps [s since START]."""
     first, second = (truth.positions[int(round(t / 0.05))] for t in (earlier, later))
     position = about_z(np.array(turn + turn_rate * earlier)) @ (second - first)
     return position, turn_rate * (earlier - later)
@@ -84,7 +85,7 @@ class TruthBetweenItsPoses(unittest.TestCase):
         every_tenth_second = self.truth.select(slice(None, None, 2))
         self.assertEqual(len(self.loops.with_truth(every_tenth_second)), 1)
         distances, turns = loop_errors(self.loops, self.odometry, every_tenth_second)
-        self.assertLess(distances[0], 0.01)  # 0.042 with the nearest pose instead
+        self.assertLess(distances[0], 0.01)  # 0.042 with the nearest pose instead of interpolation
         self.assertLess(turns[0], 0.1)  # 0.6
 
     def test_position_is_on_the_straight_way_and_rotation_on_the_shortest_turn(self):
@@ -104,7 +105,7 @@ class TruthBetweenItsPoses(unittest.TestCase):
                             (np.abs(stamps - 22.55) % 1 < 0.01, 0)):
             truth = self.truth.select(kept)
             self.assertEqual(len(self.loops.with_truth(truth)), known)
-        # At a pose beside a gap the place is known.
+        # At a pose next to a gap the position is known.
         self.assertEqual(len(self.loops.with_truth(self.truth.select(
             (np.abs(stamps - 2.05) < 0.01) | (np.abs(stamps - 22.55) < 0.01) | (stamps > 30)))), 1)
 
@@ -113,13 +114,13 @@ class Revisits(unittest.TestCase):
     def test_only_the_second_round_is_one(self):
         times, returned = revisits(rounds())
         times -= START
-        self.assertAlmostEqual(times[0], ROUND - 0.8, delta=0.25)  # 1 m before where it began
+        self.assertAlmostEqual(times[0], ROUND - 0.8, delta=0.25)  # 1 m before the start
         self.assertEqual(len(times), 1 + round((times[-1] - times[0]) / 0.25))
         self.assertTrue(returned.all())
 
     def test_who_stays_has_not_returned(self):
         truth = rounds(count=1)
-        truth.positions *= 0.1  # 0.4 m about one place
+        truth.positions *= 0.1  # radius 0.4 m
         truth.rotations[:] = np.eye(3)
         truth.stamps = np.linspace(START, START + 30, len(truth.stamps))
         times, returned = revisits(truth)
@@ -135,7 +136,7 @@ class Revisits(unittest.TestCase):
     def test_a_gap_of_the_truth_is_none(self):
         turn = rounds(count=1)
         left, back = turn.stamps < START + 5, turn.stamps > START + 12
-        turn.stamps[back] += 200.0  # to where the first half ends
+        turn.stamps[back] += 200.0  # position where the first half ends
         turn.positions[back] = turn.positions[left][-1] + [2, 0, 0]
         self.assertEqual(len(revisits(turn.select(left | back))[0]), 0)
 
@@ -253,7 +254,8 @@ class Folder(unittest.TestCase):
         self.assertNotIn("largest error", run.stdout)
 
     def write_run_with_time_offset(self, td):
-        """A run with images stamped `td` [s] early: by whole poses, which find a partner anyway."""
+        """Writes a run with timestamps shifted by -`td` [s]; whole intervals, so associations still
+        succeed."""
         self.truth = rounds(sway=0.5)
         self.write("truth.tum", self.truth)
         self.write("trajectory.tum", drifting(self.truth).shifted(-td))

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What scripts/evaluate.py says of files that are not what it takes them for."""
+"""Tests the messages of scripts/evaluate.py on unsuitable files."""
 
 import contextlib
 import io
@@ -26,7 +26,7 @@ class MistakeTest(RefusalTest):
 
     @staticmethod
     def text():
-        """A flight of 9 s, turned and noisy, as TUM."""
+        """Returns a flight of 9 s, rotated and noisy, in TUM format."""
         estimate = flight(seconds=9.0)
         noise = np.random.default_rng(1).normal(0, 0.01, estimate.positions.shape)
         return format_tum(moved(estimate, noise).transformed(rotation((0, 0.6, 0.8), 50),
@@ -45,7 +45,7 @@ class MistakeTest(RefusalTest):
         return path
 
     def messages(self, *arguments):
-        """What a call that succeeds writes on stderr."""
+        """Returns the stderr output of a successful call."""
         with contextlib.redirect_stdout(io.StringIO()), \
                 contextlib.redirect_stderr(io.StringIO()) as errors:
             self.assertEqual(main(list(arguments)), 0)

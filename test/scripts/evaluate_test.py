@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/evaluate.py against cases whose numbers are known by hand."""
+"""Tests of scripts/evaluate.py on cases with known results."""
 
 import io
 import json
@@ -50,7 +50,7 @@ class AbsoluteError(unittest.TestCase):
         self.assertLess(rmse["yaw"], 1e-9)
 
     def test_scale_is_not_corrected(self):
-        # Scaling about the mean by 1.1 leaves 0.1 times the standard deviation of the positions.
+        # Scaling by 1.1 about the mean leaves 0.1 times the standard deviation of the positions.
         truth = flight()
         centred = truth.positions - truth.positions.mean(axis=0)
         estimate = Trajectory(truth.stamps, 1.1 * truth.positions, truth.rotations)
@@ -106,7 +106,7 @@ class AbsoluteError(unittest.TestCase):
         turn = rotation((0.6, 0, 0.8), 50.0)
         estimate = Trajectory(stamps, (1.02 * positions + drift) @ turn.T, truth.rotations)
         errors = metrics.local_scale_errors(estimate, truth, seconds=4.9, every=5.0)
-        self.assertEqual(len(errors), 6)  # between which it jumps
+        self.assertEqual(len(errors), 6)  # the estimate jumps between these intervals
         np.testing.assert_allclose(errors, 2.0, atol=1e-6)
         scale = evaluate(Trajectory(stamps, 0.97 * positions, truth.rotations), truth)[2]
         self.assertAlmostEqual(scale["local_scale"]["mean_error_percent"], -3.0, 6)
@@ -130,7 +130,7 @@ class AbsoluteError(unittest.TestCase):
 
 class RelativeError(unittest.TestCase):
     def straight(self, speed):
-        t = np.arange(0.0, 10.0, 0.125)  # steps that binary fractions express
+        t = np.arange(0.0, 10.0, 0.125)  # steps that are exact in binary
         positions = np.stack([speed * t, np.zeros_like(t), np.zeros_like(t)], axis=1)
         return Trajectory(START + t, positions, np.tile(rotation((0, 0, 1), 90), (len(t), 1, 1)))
 
@@ -230,7 +230,7 @@ class CommandLine(unittest.TestCase):
         return path
 
     def spiral(self, separator, rows=100, stamp_unit=1.0):
-        """Rows of a rising spiral with the attitude 90 degrees about z, in TUM or csv order."""
+        """Returns rows of a rising spiral with a yaw of 90 degrees, in TUM or csv order."""
         quaternion = [0, 0, 0.5, 0.5] if separator == " " else [0.5, 0, 0, 0.5]
         text = "# a comment\n"
         for i in range(rows):
@@ -271,7 +271,7 @@ class CommandLine(unittest.TestCase):
         truth = self.write("truth.tum", self.spiral(" "))
         report = os.path.join(self.folder.name, "report.json")
         rows = self.spiral(" ").splitlines(keepends=True)
-        # A world without poses is none.
+        # A world without poses does not count.
         for comment_at, worlds in ((len(rows), 1), (50, 2), (30, 3), (30, 3), (0, 3)):
             rows.insert(comment_at, "# the world frame starts anew: lost\n")
             result = self.run_script(self.write("estimate.tum", "".join(rows)), truth,
@@ -289,7 +289,7 @@ class CommandLine(unittest.TestCase):
         self.assertIn("100 pairs", self.run_script(estimate, truth).stdout)
 
     def evo_zip(self, *options):
-        """The parts of a result file of an estimate that is 0.3 m off, now here, now there."""
+        """Returns the parts of a result file of an estimate with alternating errors of 0.3 m."""
         estimate = self.write("estimate.tum", "".join(
             line if i % 2 else line.replace(" 0.", " 0.3", 1)
             for i, line in enumerate(self.spiral(" ").splitlines(keepends=True))))

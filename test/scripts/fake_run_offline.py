@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stands in for run_offline in tests of run_dataset.py.
+"""Replaces run_offline in tests of run_dataset.py.
 
-The "recording" is a text file whose words say what happens: `fly` gives results, `fail`, `crash`,
-`hang`, `hang_once` (the first run only), `lose` (ends well without results), `meet` (flies once
-another run is under way too), `stumble` (fails from STUMBLE on), `jump` (flies twice, the second
-time with the stamps of the first). The estimate is FLIGHT with
-offsets of alternating sign, so that the APE is known: OFFSETS, and with `drift` DRIFT more for
-every second that is skipped. Every call leaves a line in calls.txt beside the program.
+The "recording" is a text file whose words select the behaviour: `fly` writes results; `fail`,
+`crash` and `hang` write none; `hang_once` hangs only in the first run; `lose` ends with exit code 0
+but without results; `meet` flies as soon as another run is active too; `stumble` fails from STUMBLE
+on; `jump` flies twice, the second time with the timestamps of the first. The estimate is flight()
+with offsets of alternating sign, so that the APE is known: OFFSETS, with `drift` increased by DRIFT
+for every second that is skipped. Every call appends a line to calls.txt in the program's folder.
 """
 
 import argparse
@@ -22,15 +22,15 @@ import numpy as np
 
 START = 1403636580.0  # [s]
 RATE, SECONDS = 20.0, 20.0
-LATE = 1.0  # the first pose comes this much after the first image [s]
+LATE = 1.0  # delay of the first pose after the first image [s]
 OFFSETS = {"harris": 0.2, "shi_tomasi": 0.1}  # by corner detector [m]
 DRIFT = 0.01  # [m/s]
 STUMBLE = 8.0  # [s]
-EXTRACTION_MS = {"lsd": 8.0, "fld": 2.0}  # in every second frame
+EXTRACTION_MS = {"lsd": 8.0, "fld": 2.0}  # for every second frame
 
 
 def flight(rate=RATE):
-    """Stamps [s] and positions (n, 3) [m]."""
+    """Returns timestamps [s] and positions (n, 3) [m]."""
     t = np.arange(round(SECONDS * rate) + 1) / rate
     return START + t, np.stack([3 * np.cos(t), 2 * np.sin(0.7 * t), 0.5 * np.sin(1.3 * t)], axis=1)
 
@@ -75,7 +75,7 @@ def write_results(options, settings, drift):
 
 
 def meet(folder):
-    """Waits until another run is under way; says whether one came."""
+    """Waits until another run is active; returns whether one started."""
     with open(os.path.join(folder, f"{os.getpid()}.here"), "w", encoding="utf-8"):
         pass
     deadline = time.monotonic() + 60

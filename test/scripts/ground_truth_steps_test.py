@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Steps of a ground truth, in flights whose steps are known."""
+"""Tests the detection of steps in ground truth on flights with known steps."""
 
 import contextlib
 import io
@@ -18,7 +18,8 @@ from evaluation.trajectory import TrajectoryError, format_tum
 
 
 def jump(trajectory, *jumps):
-    """The trajectory with jumps: pairs of a time after START [s] and a vector [m]."""
+    """Returns the trajectory with jumps, given as pairs of a time after START [s] and a vector
+    [m]."""
     offsets = sum(np.where(trajectory.stamps[:, None] - START > time, vector, 0.0)
                   for time, vector in jumps)
     return moved(trajectory, offsets)
@@ -75,7 +76,7 @@ class LeaveOut(unittest.TestCase):
         self.estimate = flight(rate=20.0, seconds=30.0)
         truth = flight(rate=200.0, seconds=30.0)
         since = truth.stamps - START - 11.0
-        drift = np.where((since > 0) & (since <= 1.0), 0.2 * since, 0.0)  # drifts, and jumps back
+        drift = np.where((since > 0) & (since <= 1.0), 0.2 * since, 0.0)  # drifts, then jumps back
         self.truth = moved(truth, np.outer(drift, [0.6, 0, 0.8]))
 
     def test_drift_before_the_step_does_not_count(self):
@@ -91,7 +92,7 @@ class LeaveOut(unittest.TestCase):
                       " pose, with 1.5 s before and 0.3 s after each", format_report(figures))
 
     def test_one_transform_aligns_all_pieces(self):
-        truth = jump(self.truth, (12.0, (0.1, 0, 0)))  # it does not jump back to where it was
+        truth = jump(self.truth, (12.0, (0.1, 0, 0)))  # jumps, but not back to the true position
         figures = evaluate(self.estimate, steps.without_steps(truth))[2]
         self.assertGreater(figures["ape_m"]["rmse"], 0.02)
 

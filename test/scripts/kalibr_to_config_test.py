@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/kalibr_to_config.py on files as Kalibr writes them, read back by run_offline.
+"""Tests of scripts/kalibr_to_config.py on files in Kalibr's format; run_offline reads the result.
 
 Usage: kalibr_to_config_test.py RUN_OFFLINE [unittest option ...]
 """
@@ -25,8 +25,8 @@ from kalibr import radial_models  # noqa: E402
 
 RUN_OFFLINE = sys.argv[1] if len(sys.argv) > 1 else sys.exit(__doc__)
 
-# The IMU frame is the camera frame turned by 90 degrees about z; the IMU sits 1 m right of the
-# camera, 2 m below and 3 m before it. So the camera is at (-2, 1, -3) of the IMU frame.
+# The IMU frame is the camera frame rotated by 90 degrees about z; the IMU is 1 m right of the
+# camera, 2 m below and 3 m in front of it. So the camera is at (-2, 1, -3) in the IMU frame.
 CAMERA = {
     "T_cam_imu": [[0.0, -1.0, 0.0, 1.0], [1.0, 0.0, 0.0, 2.0], [0.0, 0.0, 1.0, 3.0],
                   [0.0, 0.0, 0.0, 1.0]],
@@ -40,7 +40,7 @@ CAMERA = {
     "timeshift_cam_imu": 0.0125,
 }
 P_B_C = [-2.0, 1.0, -3.0]
-R_B_C = [0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0]  # row by row
+R_B_C = [0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0]  # row-major
 IMU = {
     "accelerometer_noise_density": 0.002,
     "accelerometer_random_walk": 0.003,
@@ -52,14 +52,14 @@ IMU = {
 
 
 def edited(values, **changes):
-    """A copy with other values; None removes a key."""
+    """Returns a copy with other values; None removes a key."""
     result = copy.deepcopy(values)
     result.update(changes)
     return {key: value for key, value in result.items() if value is not None}
 
 
 def named(names, values):
-    """The values under the names that the configuration gives them."""
+    """Returns the values by their names in the configuration."""
     return dict(zip(names.split(), values))
 
 
@@ -81,12 +81,13 @@ class Kalibr(unittest.TestCase):
         return path
 
     def convert(self, *options, chain=None, imu=None):
-        """Runs the script on two maps."""
+        """Runs the script on a camera chain and an IMU, given as maps."""
         return run(SCRIPT, self.write("chain.yaml", yaml.safe_dump(chain or {"cam0": CAMERA})),
                    self.write("imu.yaml", yaml.safe_dump(imu or IMU)), *options)
 
     def load(self, **inputs):
-        """The configuration as run_offline understands it; its folder has no image."""
+        """Returns the configuration as read by run_offline, from a recording without readable
+        images."""
         config = self.folder / "config.yaml"
         result = self.convert("--output", config, *inputs.pop("options", []), **inputs)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -183,7 +184,7 @@ def ray(theta, phi):
 
 
 def equidistant_pixel(camera, theta, phi):
-    """Pixel of a ray by the formula of docs/references.md [Kannala2006]."""
+    """Returns the pixel of a ray by the model of docs/references.md [Kannala2006]."""
     k = [camera["distortion_parameters"][name] for name in ("k1", "k2", "k3", "k4")]
     fx, fy, cx, cy = (camera["projection_parameters"][name] for name in ("fx", "fy", "cx", "cy"))
     radius = theta * (1 + sum(k[i] * theta ** (2 * i + 2) for i in range(4)))
@@ -206,13 +207,15 @@ def field_of_view_pixel(x, y, z, w):
 
 
 class Fitted(Kalibr):
-    """Models that become equidistant: each pixel of the image is where the lens has it."""
+    """Tests lens models that are approximated by the equidistant one: pixels agree in the whole
+    image."""
 
     FOCAL, CENTRE = np.array([310.0, 306.0]), np.array([340.5, 251.5])
-    CORNER = math.hypot((751 - 340.5) / 310.0, 251.5 / 306.0)  # the farthest, in focal lengths
+    CORNER = math.hypot((751 - 340.5) / 310.0, 251.5 / 306.0)  # farthest corner, in focal lengths
 
     def assert_fits(self, pixel, values, **changes):
-        """`pixel`: the closed form of the lens, in focal lengths, of a ray and its `values`."""
+        """Expects agreement with `pixel`, the lens's projection of a ray with `values`, in focal
+        lengths."""
         intrinsics = changes.pop("before", []) + [*self.FOCAL.tolist(), *self.CENTRE.tolist()]
         chain = {"cam0": edited(CAMERA, intrinsics=intrinsics, **changes)}
         text = self.convert(chain=chain).stdout
@@ -257,7 +260,7 @@ class Fitted(Kalibr):
 
 class BadInput(Kalibr):
     def assert_refused(self, file, key, problem, **inputs):
-        """One line on stderr with the file, the key and the problem; nothing is written."""
+        """Expects one line on stderr with the file, the key and the problem; nothing is written."""
         output = self.folder / "config.yaml"
         result = self.convert("--output", output, *inputs.pop("options", []), **inputs)
         self.assertEqual(result.returncode, 1, result.stdout)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A flight whose poses are known by their formula, for the tests of scripts/evaluation."""
+"""A flight with closed-form poses for the tests of scripts/evaluation."""
 
 import os
 import sys
@@ -10,7 +10,7 @@ SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "
 sys.path.insert(0, SCRIPTS)
 from evaluation.trajectory import Trajectory  # noqa: E402
 
-START = 1403636580.0  # [s], as large as real stamps are
+START = 1403636580.0  # [s], as large as real timestamps
 
 
 def rotation(axis, degrees):
@@ -21,7 +21,7 @@ def rotation(axis, degrees):
 
 
 def flight(rate=20.0, seconds=10.0):
-    """A curved motion in all axes while the body turns."""
+    """Returns a curved motion along all axes with rotation of the body."""
     t = np.arange(0.0, seconds + 1e-9, 1.0 / rate)
     positions = np.stack([2 * np.cos(t), 3 * np.sin(0.7 * t), 0.5 * np.sin(1.3 * t)], axis=1)
     rotations = np.array([rotation((0, 0, 1), 20 * s) @ rotation((1, 0, 0), 5 * s) for s in t])

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/make_faulty.py: what becomes of recordings, and what does not."""
+"""Tests which data scripts/make_faulty.py changes, and which it keeps."""
 
 import importlib.util
 import os
@@ -53,14 +53,14 @@ class Faults(unittest.TestCase):
             good, bad = flight(), self.damaged(name)
             same = all(np.array_equal(getattr(good, field), getattr(bad, field))
                        for field in vars(good))
-            # The flight is still and so far from the limits of a sensor.
+            # The flight is at standstill and thus far from the limits of a sensor.
             self.assertEqual(same, name in ("none", "imu_saturated", "imu_held_100ms"), name)
 
     def test_a_fault_that_would_begin_after_the_end(self):
         for name in set(FAULTS) - {"none", "image_delay"}:
             with self.assertRaisesRegex(ValueError, "--begin 9: the recording lasts 4.0 s"):
                 self.damaged(name, begin=9)
-            with self.assertRaisesRegex(ValueError, "--begin 3.99: "):  # no image comes then
+            with self.assertRaisesRegex(ValueError, "--begin 3.99: "):  # there is no later image
                 self.damaged(name, begin=3.99)
         self.damaged("none", begin=9)
         self.damaged("image_delay", begin=9)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/measure_latency.py: which images it waits for, and for how long."""
+"""Tests which images scripts/measure_latency.py waits for, and for how long."""
 
 import argparse
 import contextlib
@@ -29,8 +29,8 @@ class MeasureLatency(RefusalTest):
         self.config = config.name
 
     def measure(self, command, transport="raw", player=("sleep", "60"), timeout=0.1):
-        """With processes in the place of roslaunch and rosbag; returns the topics with their
-        types."""
+        """Runs a measurement with dummy processes instead of roslaunch and rosbag; returns topics
+        and types."""
         import measure_latency
         topics = {}
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of scripts/evaluation and what scripts/dataset calls their parts."""
+"""Tests the figures of scripts/evaluation and the labels by scripts/dataset."""
 
 import math
 import unittest
@@ -16,7 +16,7 @@ from evaluation import comparison_plots, plots
 
 class Figures(unittest.TestCase):
     def draw(self, write, *arguments):
-        """The figure that `write` would save."""
+        """Returns the figure that `write` would save."""
         with mock.patch("evaluation.comparison_plots.save_figures",
                         lambda _, figures: list(figures.values())):
             figure = write("folder", *arguments)[0]

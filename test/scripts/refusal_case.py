@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A script's main() that refuses its arguments with one line."""
+"""Test case for scripts whose main() rejects its arguments with a single line."""
 
 import contextlib
 import io

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/run_dataset.py on a Dask cluster."""
+"""Tests of scripts/run_dataset.py on a Dask cluster."""
 
 import importlib.util
 import os
@@ -15,7 +15,7 @@ from dataset_case import RUN_DATASET, DatasetTest
 
 @unittest.skipUnless(importlib.util.find_spec("distributed"), "Dask is not installed")
 class Cluster(DatasetTest):
-    """A Dask scheduler and two workers, as on three machines that share a folder."""
+    """A Dask scheduler and two workers that simulate three machines with a shared folder."""
 
     def setUp(self):
         super().setUp()
@@ -27,7 +27,7 @@ class Cluster(DatasetTest):
         self.address = self.wait_for_workers(2)
 
     def start(self, kind, *options, **environment):
-        """A process of Dask's, ended with the test."""
+        """Starts a Dask process, which is terminated with the test."""
         process = subprocess.Popen(
             [sys.executable, "-B", "-m", f"distributed.cli.dask_{kind}", "--scheduler-file",
              self.scheduler_file, *options], cwd=self.folder, env=dict(os.environ, **environment),

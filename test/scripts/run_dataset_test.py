@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/run_dataset.py on one machine: results, failures, stops, bad calls."""
+"""Tests of scripts/run_dataset.py on one machine: results, failures, interrupts, invalid calls."""
 
 import importlib.util
 import os
@@ -83,7 +83,7 @@ class Results(DatasetTest):
         self.assertIn("**The ground truth has steps** (hall: 2, of up to 500 mm)", self.report())
         disturbed = float(self.rows()[0]["ape_m"])
         self.call(*arguments, "--without-steps")
-        self.assertEqual(len(self.calls()), 1)  # the run itself is not repeated
+        self.assertEqual(len(self.calls()), 1)  # only the evaluation is repeated
         self.assertGreater(disturbed, float(self.rows()[0]["ape_m"]) + 0.02)
         self.assertIn("Ground truth without 1.5 s before", self.report())
 
@@ -191,7 +191,7 @@ class Resuming(DatasetTest):
         self.add("hall")
         arguments = ("--no-plots", "--variants", "baseline", "improved")
         self.call(*arguments)
-        before = self.report().split("##", 1)[1]  # without the time of writing
+        before = self.report().split("##", 1)[1]  # without the time of creation
         result = self.call(*arguments)
         self.assertEqual(len(self.calls()), 2)
         self.assertIn("2 runs, 2 of them finished before", result.stdout)
@@ -287,7 +287,7 @@ class Parallel(DatasetTest):
         self.add("b_hangs", "hang")
         with subprocess.Popen(self.command("--variants", "improved"), stdout=subprocess.PIPE,
                               stderr=subprocess.DEVNULL) as process:
-            process.stdout.readline()  # it has begun
+            process.stdout.readline()  # the run has started
             result = self.call("--variants", "improved", exit_code=1)
             process.send_signal(signal.SIGINT)
             process.communicate(timeout=120)
@@ -310,7 +310,7 @@ class Terminal(DatasetTest):
 
     @staticmethod
     def read_all(terminal):
-        """What is written there until nobody has its other side open any more."""
+        """Returns the output on the terminal until its other side is closed everywhere."""
         text = b""
         while True:
             try:

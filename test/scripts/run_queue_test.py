@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What run_queue.py makes of executors that cannot do their work."""
+"""Tests run_queue.py with executors that fail."""
 
 import concurrent.futures
 import os

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/show_run.py on a run with a known map; Chromium opens its page where it is installed."""
+"""Tests scripts/show_run.py on a run with a known map; opens its page in Chromium if installed."""
 
 import importlib.util
 import json
@@ -57,8 +57,8 @@ end_header
 
 
 def make_run(folder, td=0.0):
-    """A run of FLIGHT without errors, in a world that is turned by 90 degrees and moved, whose
-    images are stamped `td` early [s]."""
+    """Writes a run of FLIGHT without errors, in a world that is rotated by 90 degrees and
+    translated, with timestamps of images that are `td` too early [s]."""
     stamps, positions = flight()
     stamps = stamps - td
     turned = np.stack([-positions[:, 1], positions[:, 0], positions[:, 2]], axis=1) + [7, 8, 9]

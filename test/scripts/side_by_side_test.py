@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""evaluate.py --compare: several estimates over the same ground truth."""
+"""Tests evaluate.py --compare: several estimates for the same ground truth."""
 
 import contextlib
 import io
@@ -17,7 +17,8 @@ from evaluation.trajectory import Trajectory, format_tum
 
 
 def vins_mono_csv(trajectory):
-    """As VINS-Mono writes it: stamp [ns], position, quaternion (w first), velocity, a comma."""
+    """Returns VINS-Mono's format: timestamp [ns], position, quaternion (w first), velocity, a
+    comma."""
     rows = [line.split() for line in format_tum(trajectory).splitlines()]
     return "".join(f"{1e9 * float(t):.0f},{x},{y},{z},{qw},{qx},{qy},{qz},0,0,0,\n"
                    for t, x, y, z, qx, qy, qz, qw in rows)
@@ -51,7 +52,7 @@ class SideBySide(unittest.TestCase):
         self.assertEqual((vins[0], vins[3]), ("0.0000", "4.05"))
         self.assertLess(float(vins[1]), 61)
         self.assertGreater(float(other[0]), 0.05)
-        self.assertNotEqual(other[0], other[4])  # the common time is shorter
+        self.assertNotEqual(other[0], other[4])  # the common interval is shorter
 
 
 if __name__ == "__main__":

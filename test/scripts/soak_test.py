@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/soak.py: what counts as grown, and as not having run at all."""
+"""Tests of scripts/soak.py: detection of growth and of runs without any data."""
 
 import argparse
 import contextlib
@@ -56,7 +56,8 @@ class Soak(RefusalTest):
             self.assert_refused(main, "roslaunch", __file__, "--config", __file__)
 
     def watch(self, values, player_ended=False):
-        """With this process in the place of the estimator, which states the values once."""
+        """Runs watch() with this process instead of the estimator; its status has the given
+        values."""
         from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
         from soak import watch
         array = DiagnosticArray(status=[DiagnosticStatus(

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What scripts/evaluation/consistency.py says of covariances, against cases known by hand."""
+"""Tests of scripts/evaluation/consistency.py with covariances of known consistency."""
 
 import os
 import tempfile
@@ -17,13 +17,13 @@ from evaluation.trajectory import TrajectoryError
 class StatedCovariance(unittest.TestCase):
     def test_error_is_taken_in_units_of_its_covariance(self):
         truth = flight(seconds=6.0)
-        # A curve that is out by 0.2 m at one pose only, which turns the alignment by little.
+        # A single pose has an error of 0.2 m, which hardly affects the alignment.
         offsets = np.zeros((len(truth), 3))
         offsets[100, 2] = 0.2
         estimate = moved(truth.transformed(rotation((0, 0, 1), 70), np.array([5.0, -3.0, 2.0])),
                          offsets)
         covariances = np.tile(np.diag([0.04, 0.04, 0.01, 1, 1, 1]), (len(truth), 1, 1))
-        covariances[0] = 0.0  # the first pose is known
+        covariances[0] = 0.0  # the first pose is exact
         self.assertAlmostEqual(
             consistency.position_nees(estimate, truth, covariances, 5.0), 4.0, places=6)
         self.assertLess(consistency.position_nees(estimate, truth, covariances, 4.0), 1e-6)

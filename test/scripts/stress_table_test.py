@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/stress_table.py with a script in the place of run_offline."""
+"""Tests of scripts/stress_table.py with a shell script instead of run_offline."""
 
 import contextlib
 import io
@@ -44,7 +44,7 @@ class StressTable(unittest.TestCase):
             file.write(content)
 
     def write_trajectory(self):
-        """Poses without error up to 8 s, where another world begins, 7 m away."""
+        """Writes exact poses up to 8 s, after which a new world starts 7 m away."""
         poses = flight()
         first, second = (poses.select(part) for part in (slice(0, 160), slice(160, None)))
         text = format_tum(first) + RESTART + ": lost\n" + format_tum(moved(second, [7, 0, 0]))
@@ -54,7 +54,7 @@ class StressTable(unittest.TestCase):
         self.write("summary.json", json.dumps(summary).encode())
 
     def table(self, script, *arguments):
-        """Exit code, output and errors."""
+        """Returns exit code, output and errors."""
         self.write("run_offline", b"#!/bin/sh\n" + script.encode())
         os.chmod(self.path("run_offline"), 0o755)
         output, errors = io.StringIO(), io.StringIO()

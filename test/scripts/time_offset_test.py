@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Trajectories of runs whose camera has a time offset, compared with ground truth on the clock of
-the IMU."""
+"""Compares trajectories of runs with a camera time offset with ground truth on the IMU's clock."""
 
 import contextlib
 import io
@@ -21,12 +20,12 @@ from evaluation.trajectory import TrajectoryError, format_tum
 from stress.damage import assess
 
 TD = 0.03  # [s]
-RIGHT = 1e-4  # more than the error of the estimate, by rounding [m]
+RIGHT = 1e-4  # greater than the rounding error of the estimate [m]
 UNIT = ",".join("1" if i in (0, 6, 11, 15, 18, 20) else "0" for i in range(21))
 
 
 class TimeOffset(unittest.TestCase):
-    """The estimate has no error, but states stand for TD after their stamps."""
+    """The estimate has no error, but each state refers to TD after its timestamp."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -50,7 +49,7 @@ class TimeOffset(unittest.TestCase):
         self.write("summary.json", json.dumps({"init_time_s": 1.0, "calibration": calibration}))
 
     def evaluate(self, *options):
-        """What is printed, and all figures."""
+        """Returns the printed text and all figures."""
         output, report = io.StringIO(), self.path("figures.json")
         with contextlib.redirect_stdout(output):
             self.assertEqual(main([self.estimate, self.truth, "--json", report, *options]), 0)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What simulate says of options that it cannot fly with.
+"""Tests the messages of simulate on invalid options.
 
 Usage: simulate_test.py SIMULATE [unittest option ...]
 """
@@ -24,7 +24,7 @@ class Simulate(unittest.TestCase):
         self.bag.write_text("of before", encoding="utf-8")
 
     def assert_refuses(self, message, *options):
-        """The program exits with 1, says `message`, and leaves an earlier bag as it is."""
+        """Expects exit code 1, an error `message`, and that an existing bag stays unchanged."""
         command = [SIMULATE, *options]
         if "--output" not in options:
             command += ["--output", self.bag]

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes a moving picture of a run: an image with its tracks, and the map from above as it grows.
+"""Makes an animation of a run: images with tracks, and the growing map from above.
 
 The run needs images with tracks (run_offline --save-track-images 0.15). Writes an animated WebP."""
 
@@ -20,9 +20,9 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 
 LINE_COLOURS = {"along x": "#dc2828", "along y": "#28a028", "along z": "#325ae6", "free": "#8c8c8c"}
-SIZE_IN = (7.52, 3.6)  # of the map [inches]
-REACH = 8  # a landmark appears once the camera faces it from this near [m]
-HALF_VIEW = np.cos(np.radians(45))  # of the camera
+SIZE_IN = (7.52, 3.6)  # size of the map [inches]
+REACH = 8  # a landmark appears when it is in view within this distance [m]
+HALF_VIEW = np.cos(np.radians(45))  # cosine of half the field of view
 
 
 def parse_arguments(arguments):
@@ -36,14 +36,14 @@ def parse_arguments(arguments):
 
 
 def optical_axes(run):
-    """Directions of the camera's optical axis in the world (n, 3), one per pose."""
+    """Returns the optical axis in the world (n, 3) for each pose."""
     x, y, z, w = run.summary["calibration"]["q_B_C_xyzw"]
     axis_B = np.array([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)])
     return run.trajectory.rotations @ axis_B
 
 
 def first_views(places, positions, axes):
-    """Index of the first pose that has each place (n, 3) in view; of the last pose if none has."""
+    """Index of the first pose that views each place (n, 3); of the last pose if none does."""
     first = np.full(len(places), len(positions) - 1)
     for index in range(len(positions) - 1, -1, -1):
         rays = places - positions[index]
@@ -86,7 +86,7 @@ class GrowingMap:
 
 
 def frames_of(run, width):
-    """Pictures (PIL), one per image with tracks, and the stamps of those images [s]."""
+    """Returns a picture (PIL) for each image with tracks, and the timestamps of the images [s]."""
     growing, pictures, stamps = GrowingMap(run), [], []
     for file in run.images.values():
         stem = os.path.splitext(os.path.basename(file))[0]

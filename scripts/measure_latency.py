@@ -52,12 +52,12 @@ class Latencies:
 
     @property
     def ended(self):
-        """Whether images came, but no longer do."""
+        """True if images arrived, but no more have for END_AFTER seconds."""
         return self.begun and time.monotonic() - self._last_arrival > END_AFTER
 
     @property
     def images(self):
-        """The number of images that came, with or without odometry."""
+        """Number of images received, with or without odometry."""
         return len(self._arrivals) + len(self.seconds)
 
 

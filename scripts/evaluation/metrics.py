@@ -148,13 +148,13 @@ def local_scale_errors(estimate, truth, seconds=5.0, every=0.5, after=10.0, leas
 
 
 def scale(estimate, truth):
-    """How many times too large a paired trajectory is, whatever its alignment."""
+    """Returns the scale of a paired trajectory relative to the truth, independent of alignment."""
     return _scale(*(trajectory.positions - trajectory.positions.mean(axis=0)
                     for trajectory in (estimate, truth)))
 
 
 def _scale(estimate, truth):
-    """The inverse of the scale of [Umeyama1991], of positions (n, 3) about their mean."""
+    """Returns the inverse of the scale in [Umeyama1991], for positions (n, 3) about their mean."""
     u, singular_values, v_transposed = np.linalg.svd(truth.T @ estimate)
     singular_values[2] *= np.sign(np.linalg.det(u) * np.linalg.det(v_transposed))
     return np.sum(estimate ** 2) / singular_values.sum()

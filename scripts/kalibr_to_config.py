@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Converts the results of Kalibr to a configuration of one camera and one IMU.
+"""Converts the results of Kalibr to a configuration of one or two cameras and one IMU.
 
 Format of the inputs: https://github.com/ethz-asl/kalibr/wiki/yaml-formats
 The files of OpenVINS, kalibr_imucam_chain.yaml and kalibr_imu_chain.yaml, have it as well.
@@ -11,81 +11,47 @@ import os
 import sys
 
 from kalibr.cameras import camera_lines
+from kalibr.imu import Imu
+from kalibr.mounting import camera_in_imu, matrix_lines
 from kalibr.sections import KalibrError, read_section
 
-NOISE_KEYS = {"acc_n": "accelerometer_noise_density", "gyr_n": "gyroscope_noise_density",
-              "acc_w": "accelerometer_random_walk", "gyr_w": "gyroscope_random_walk"}
 
-
-def matrix_lines(key, matrix, unit):
-    """Returns a matrix in OpenCV's notation."""
-    rows = [", ".join(repr(float(value)) for value in row) for row in matrix]
-    return [f"{key}: !!opencv-matrix  # [{unit}]", f"   rows: {len(matrix)}",
-            f"   cols: {len(matrix[0])}", "   dt: d",
-            "   data: [" + ",\n          ".join(rows) + "]"]
-
-
-def camera_in_imu(camera):
-    """Returns R_B_C and p_B_C. Kalibr gives p_C = T_cam_imu p_B, OpenVINS p_B = T_imu_cam p_C."""
-    if "T_imu_cam" in camera.values:
-        return camera.transform("T_imu_cam")
-    hint = "give the camchain-imucam file of kalibr_calibrate_imu_camera"
-    R_C_B, p_C_B = camera.transform("T_cam_imu", hint)
-    return R_C_B.T, -R_C_B.T @ p_C_B
-
-
-def extrinsic_lines(camera):
-    """Returns the extrinsics as lines. The time offset is Kalibr's: t_imu = t_cam + shift."""
-    R_B_C, p_B_C = camera_in_imu(camera)
-    td = camera.number("timeshift_cam_imu") if "timeshift_cam_imu" in camera.values else 0.0
+def extrinsic_lines(T_B_C, td):
     return ["# Camera in the IMU frame, T_B_C.", "estimate_extrinsic: 0",
-            *matrix_lines("extrinsicRotation", R_B_C, "1"),
-            *matrix_lines("extrinsicTranslation", p_B_C.reshape(3, 1), "m"),
+            *matrix_lines("extrinsicRotation", T_B_C[:3, :3], "1"),
+            *matrix_lines("extrinsicTranslation", T_B_C[:3, 3:], "m"),
             f"td: {td!r}  # t_imu = t_image + td [s]",
             "estimate_td: 0"]
 
 
-def imu_section(imu_file):
-    """Returns the IMU section: the whole file as given to Kalibr, or imu0 in the file that Kalibr
-    writes."""
-    imu = read_section(imu_file)
-    if "imu0" in imu.values:
-        imu = imu.section("imu0")
-    if imu.values.get("model", "calibrated") not in ("calibrated", "kalibr"):
-        raise imu.error("model", f"{imu.values['model']} has scale and misalignment, which are not"
-                        " supported; calibrate with the model calibrated")
-    return imu
+def second_camera_lines(camera, T_B_C):
+    calibration = [line if line.startswith((" ", "#")) else "cam1_" + line
+                   for line in camera_lines(camera)]
+    return ["# The right camera, in the IMU frame as well.", "num_of_cam: 2",
+            f'image1_topic: "{camera.text("rostopic")}"', *calibration,
+            *matrix_lines("body_T_cam1", T_B_C, "m")]
 
 
-def noise_lines(imu):
-    lines = ["# Densities as given to Kalibr. What flight shows beyond is learned: docs/tuning.md.",
-             "imu_noise_model: continuous"]
-    units = {"acc_n": "m/s^2/sqrt(Hz)", "gyr_n": "rad/s/sqrt(Hz)",
-             "acc_w": "m/s^3/sqrt(Hz)", "gyr_w": "rad/s^2/sqrt(Hz)"}
-    for name, key in NOISE_KEYS.items():
-        value = imu.number(key)
-        if value <= 0:
-            raise imu.error(key, "must be positive")
-        lines.append(f"{name}: {value!r}  # [{units[name]}]")
-    if "update_rate" in imu.values:
-        lines.append(f"imu_rate: {imu.number('update_rate')!r}  # [Hz]")
-    return lines
-
-
-def convert(camchain_file, imu_file, camera_name):
+def convert(camchain_file, imu_file, camera_name, second_name):
     """Returns the configuration as text; raises KalibrError."""
-    camera = read_section(camchain_file).section(camera_name)
-    imu = imu_section(imu_file)
+    chain = read_section(camchain_file)
+    camera = chain.section(camera_name)
+    imu = Imu(imu_file)
+    T_I_B = imu.pose()
+    names = f"{camera_name} and {second_name}" if second_name else camera_name
     paragraphs = [
         ["%YAML:1.0",
-         f"# {camera_name} of {os.path.basename(camchain_file)}, IMU of"
+         f"# {names} of {os.path.basename(camchain_file)}, IMU of"
          f" {os.path.basename(imu_file)}; by kalibr_to_config.py.",
          "# Every key with unit, range and default: reference.yaml."],
-        [f'image_topic: "{camera.text("rostopic")}"', f'imu_topic: "{imu.text("rostopic")}"'],
+        [f'image_topic: "{camera.text("rostopic")}"', f'imu_topic: "{imu.topic()}"'],
         camera_lines(camera),
-        extrinsic_lines(camera),
-        noise_lines(imu)]
-    return "\n\n".join("\n".join(lines) for lines in paragraphs) + "\n"
+        extrinsic_lines(T_I_B @ camera_in_imu(chain, camera_name), imu.time_offset_of(camera))]
+    if second_name:
+        paragraphs.append(second_camera_lines(chain.section(second_name),
+                                              T_I_B @ camera_in_imu(chain, second_name)))
+    paragraphs += [imu.noise_lines(), imu.correction_lines()]
+    return "\n\n".join("\n".join(lines) for lines in paragraphs if lines) + "\n"
 
 
 def parse_arguments(arguments):
@@ -96,6 +62,8 @@ def parse_arguments(arguments):
     parser.add_argument("imu", help="imu-*.yaml of Kalibr, the imu.yaml given to it, or"
                         " kalibr_imu_chain.yaml of OpenVINS")
     parser.add_argument("--cam", default="cam0", help="camera of the chain (default: cam0)")
+    parser.add_argument("--second", metavar="CAM", help="the right camera of a pair: adds the keys"
+                        " of num_of_cam: 2 (default: none)")
     parser.add_argument("--output", metavar="FILE", help="new file (default: standard output)")
     return parser.parse_args(arguments)
 
@@ -103,7 +71,7 @@ def parse_arguments(arguments):
 def main(arguments=None):
     options = parse_arguments(arguments)
     try:
-        text = convert(options.camchain, options.imu, options.cam)
+        text = convert(options.camchain, options.imu, options.cam, options.second)
         if options.output is None:
             sys.stdout.write(text)
         else:

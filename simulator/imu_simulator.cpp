@@ -42,7 +42,7 @@ ImuSimulation SimulateImu(const Trajectory& trajectory, const ImuSimulationOptio
     sample.t_ns = options.start_ns + ToNanoseconds(t);
     sample.gyro += bias.gyro + noise_scale * noise.gyro_density * random.NormalVector3();
     sample.accel += bias.accel + noise_scale * noise.accel_density * random.NormalVector3();
-    result.samples.push_back(sample);
+    result.samples.push_back(Uncorrected(sample, options.sensor));
     result.biases.push_back(bias);
     bias.gyro += walk_scale * noise.gyro_walk * random.NormalVector3();
     bias.accel += walk_scale * noise.accel_walk * random.NormalVector3();

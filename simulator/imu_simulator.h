@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/imu/imu_noise.h"
+#include "common/imu/imu_sensor.h"
 #include "common/measurements.h"
 #include "simulator/trajectory.h"
 #include "vins_estimator/state/frame_state.h"
@@ -12,6 +13,7 @@
 namespace plm_vins::simulator {
 
 struct ImuSimulationOptions {
+  ImuSensor sensor;            // its corrections are undone in the samples
   ImuNoise noise;              // white noise densities and bias random walks
   bool add_noise = true;       // false: no noise and constant biases
   double gravity_norm = 9.81;  // [m/s^2], along -z of W
@@ -30,7 +32,7 @@ struct ImuSimulation {
 };
 
 // Samples an ideal strapdown IMU along the trajectory and adds biases and noise: gyro = omega_B +
-// b_g + n_g, accel = R_B_W (a_W + (0, 0, g)) + b_a + n_a.
+// b_g + n_g, accel = R_B_W (a_W + (0, 0, g)) + b_a + n_a, both before the corrections are undone.
 ImuSimulation SimulateImu(const Trajectory& trajectory, const ImuSimulationOptions& options);
 
 // Combines the true state of the body with timestamp and biases.

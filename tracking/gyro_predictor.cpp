@@ -17,10 +17,10 @@ constexpr int kJumpPatience = 100;              // samples
 
 }  // namespace
 
-GyroPredictor::GyroPredictor(const Rigid3d& T_B_C, double td, const ImuRange& imu_range)
+GyroPredictor::GyroPredictor(const Rigid3d& T_B_C, double td, const ImuSensor& imu)
     : R_B_C_(T_B_C.rotation),
       td_ns_(ToNanoseconds(td)),
-      gate_(imu_range),
+      gate_(imu),
       leap_(kMaxGap_ns),
       jump_(kJumpPatience) {}
 

@@ -21,7 +21,7 @@ namespace plm_vins {
 class GyroPredictor {
  public:
   // `td` satisfies t_imu = t_image + td [s].
-  GyroPredictor(const Rigid3d& T_B_C, double td, const ImuRange& imu_range = ImuRange());
+  GyroPredictor(const Rigid3d& T_B_C, double td, const ImuSensor& imu = ImuSensor());
 
   void AddImu(const ImuSample& sample);
 

@@ -28,7 +28,7 @@ DropCounts ToDropCounts(const ImageCounts& counts) {
 ImageQueue::ImageQueue(const Config& config)
     : sensor_(config.sensor),
       uses_gyro_(sensor_.estimate_extrinsic != SensorConfig::ExtrinsicMode::kCalibrateRotation),
-      gyro_(sensor_.T_B_C, sensor_.td, sensor_.imu_range),
+      gyro_(sensor_.T_B_C, sensor_.td, sensor_.imu),
       rate_limiter_(config.publish_rate),
       jump_(kJumpPatience),
       leap_(kImageGap_ns) {}
@@ -43,7 +43,7 @@ void ImageQueue::AddImage(ImageSample image) {
     if (!jump_.Refuse(t_ns)) return;
     restart = true;
     ++counts_.restarts;
-    gyro_ = GyroPredictor(sensor_.T_B_C, sensor_.td, sensor_.imu_range);
+    gyro_ = GyroPredictor(sensor_.T_B_C, sensor_.td, sensor_.imu);
   } else if (accepted_ns_) {
     if (!leap_.Accept(*accepted_ns_, t_ns)) {
       ++counts_.ahead;

@@ -31,7 +31,7 @@ bool IsAtLimit(double density, double configured_density) {
 MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) {
   MeasurementSync::Options options;
   options.td = config.sensor.td;
-  options.imu_range = config.sensor.imu_range;
+  options.imu = config.sensor.imu;
   options.expect_lines = config.use_lines;
   options.max_wait = max_wait;
   return options;

@@ -2,6 +2,7 @@
 #include "common/config/sensor_config.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 #include "common/config/camera_keys.h"
 
@@ -13,6 +14,7 @@ using Key = ConfigKey<S>;
 
 constexpr double kRotationTolerance = 5e-3;     // allows matrices with three decimals
 constexpr Range kTranslationRange = {-10, 10};  // [m]
+constexpr Range kScaleRange = {0.5, 2};         // of corrections of an IMU [1]
 
 Problem SetRotation(const Eigen::MatrixXd& R_B_C, Rigid3d* T_B_C) {
   const Eigen::Matrix3d error = R_B_C * R_B_C.transpose() - Eigen::Matrix3d::Identity();
@@ -122,11 +124,33 @@ ConfigKeys<ImuNoise> ImuNoiseKeys() {
   };
 }
 
-ConfigKeys<ImuRange> ImuRangeKeys() {
-  using Key = ConfigKey<ImuRange>;
+// The scale factors of a matrix are its singular values.
+ConfigKey<ImuSensor> CorrectionKey(const std::string& name, Eigen::Matrix3d ImuSensor::*field) {
+  const auto set = [field](const Eigen::MatrixXd& matrix, ImuSensor& sensor) -> Problem {
+    const Eigen::VectorXd scales = matrix.jacobiSvd().singularValues();
+    if (scales.minCoeff() < kScaleRange.min || scales.maxCoeff() > kScaleRange.max) {
+      return "is no correction of an IMU: its scale factors must be " + ToText(kScaleRange);
+    }
+    sensor.*field = matrix;
+    return std::nullopt;
+  };
+  auto key = ConfigKey<ImuSensor>::Matrix(
+      name, [field](const ImuSensor& sensor) { return sensor.*field; }, set);
+  key.allowed = "scale factors " + ToText(kScaleRange);
+  return key;
+}
+
+ConfigKeys<ImuSensor> ImuSensorKeys() {
+  using Key = ConfigKey<ImuSensor>;
   return {
-      Key::Number("acc_range", "m/s^2", {15, 500}, &ImuRange::accel),
-      Key::Number("gyr_range", "rad/s", {0.5, 100}, &ImuRange::gyro),
+      Key::Number(
+          "acc_range", "m/s^2", {15, 500},
+          [](auto& sensor) -> auto& { return sensor.range.accel; }),
+      Key::Number(
+          "gyr_range", "rad/s", {0.5, 100},
+          [](auto& sensor) -> auto& { return sensor.range.gyro; }),
+      CorrectionKey("acc_correction", &ImuSensor::accel_correction),
+      CorrectionKey("gyr_correction", &ImuSensor::gyro_correction),
   };
 }
 
@@ -168,7 +192,7 @@ ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type,
   return Join<S>({Required(topics), Within(&S::camera, CameraKeys(model_type)), intrinsics,
                   Within(&S::intrinsics_deviation, IntrinsicsDeviationKeys()), ExtrinsicKeys(),
                   second_camera, DepthKeys(), timing, noise, Within(&S::imu_noise, ImuNoiseKeys()),
-                  Within(&S::imu_range, ImuRangeKeys())});
+                  Within(&S::imu, ImuSensorKeys())});
 }
 
 }  // namespace plm_vins

@@ -8,7 +8,7 @@
 #include "common/config/config_key.h"
 #include "common/geometry/rigid3.h"
 #include "common/imu/imu_noise.h"
-#include "common/imu/imu_range.h"
+#include "common/imu/imu_sensor.h"
 
 namespace plm_vins {
 
@@ -56,7 +56,7 @@ struct SensorConfig {
   ImuNoiseModel imu_noise_model = ImuNoiseModel::kVins;
   double imu_rate = 200;
   ImuNoise imu_noise;
-  ImuRange imu_range;
+  ImuSensor imu;
   double gravity_norm = 9.81;  // [m/s^2]
 
   // Readout time of the whole image [s]; 0 with a global shutter.

@@ -56,8 +56,8 @@ void ImuGate::Leaps::Learn(double leap) {
   mean_square += kLearningRate * (counted * counted - mean_square);
 }
 
-ImuGate::ImuGate(const ImuRange& range)
-    : range_(range), gyro_leaps_{kAlwaysAllowedGyro}, accel_leaps_{kAlwaysAllowedAccel} {}
+ImuGate::ImuGate(const ImuSensor& sensor)
+    : sensor_(sensor), gyro_leaps_{kAlwaysAllowedGyro}, accel_leaps_{kAlwaysAllowedAccel} {}
 
 std::vector<ImuSample> ImuGate::Add(const ImuSample& sample) {
   const bool suspect = IsSuspect(sample);
@@ -71,7 +71,8 @@ std::vector<ImuSample> ImuGate::Add(const ImuSample& sample) {
   last_ = sample;
   for (ImuSample& next : decided) {
     const bool is_reading = suspect || next.t_ns == sample.t_ns;  // not a replacement
-    if (DoubtSaturated(range_, &next) && is_reading) ++saturated_;
+    if (DoubtSaturated(sensor_.range, &next) && is_reading) ++saturated_;
+    next = Corrected(next, sensor_);
   }
   return decided;
 }
@@ -83,7 +84,7 @@ void ImuGate::Clear() {
 }
 
 bool ImuGate::IsSuspect(const ImuSample& sample) const {
-  if (!IsInRange(sample, range_)) return true;
+  if (!IsInRange(sample, sensor_.range)) return true;
   if (!last_ || sample.t_ns - Newest().t_ns > kMaxInterval_ns) return false;
   return Difference(last_->gyro, sample.gyro) > gyro_leaps_.Limit() ||
          Difference(last_->accel, sample.accel) > accel_leaps_.Limit();
@@ -111,8 +112,8 @@ std::vector<ImuSample> ImuGate::TakeSuspects(bool believed, const ImuSample& nex
 ImuSample ImuGate::Replace(const ImuSample& suspect, const ImuSample& next) const {
   ImuSample replacement = last_ ? InterpolateImu(*last_, next, suspect.t_ns) : next;
   replacement.t_ns = suspect.t_ns;
-  replacement.gyro_doubt = Doubt(suspect.gyro, replacement.gyro, range_.gyro);
-  replacement.accel_doubt = Doubt(suspect.accel, replacement.accel, range_.accel);
+  replacement.gyro_doubt = Doubt(suspect.gyro, replacement.gyro, sensor_.range.gyro);
+  replacement.accel_doubt = Doubt(suspect.accel, replacement.accel, sensor_.range.accel);
   return replacement;
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/imu/imu_range.h"
+#include "common/imu/imu_sensor.h"
 #include "common/measurements.h"
 
 namespace plm_vins {
@@ -21,11 +21,14 @@ namespace plm_vins {
 //
 // A saturated reading is accepted as well, with a doubt of at least half the range, since the true
 // value may be larger.
+//
+// Readings are judged as the sensor delivers them, and returned corrected (ImuSensor): whatever
+// integrates samples takes them from a gate.
 class ImuGate {
  public:
   static constexpr int kMaxRun = 5;  // consecutive suspects, 25 ms at 200 Hz
 
-  explicit ImuGate(const ImuRange& range);
+  explicit ImuGate(const ImuSensor& sensor);
 
   // Adds the next sample, which must be finite and later than the previous one. Returns the samples
   // that are now decided, in temporal order: none, or several that end with this one.
@@ -54,7 +57,7 @@ class ImuGate {
   std::vector<ImuSample> TakeSuspects(bool believed, const ImuSample& next);
   ImuSample Replace(const ImuSample& suspect, const ImuSample& next) const;
 
-  ImuRange range_;
+  ImuSensor sensor_;
   std::optional<ImuSample> last_;    // newest accepted sample
   std::vector<ImuSample> suspects_;  // all samples after it
   Leaps gyro_leaps_, accel_leaps_;

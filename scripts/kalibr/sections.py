@@ -32,7 +32,8 @@ class Section:
 
     def section(self, key):
         known = ", ".join(str(name) for name in self.values)
-        return Section(self.file, key, self.get(key, f"there is {known}"))
+        path = ".".join(part for part in (self.path, key) if part)
+        return Section(self.file, path, self.get(key, f"there is {known}"))
 
     def text(self, key):
         value = self.get(key)
@@ -49,21 +50,33 @@ class Section:
             raise self.error(key, f"must be a list of {size} numbers")
         return [self._as_number(key, value) for value in values]
 
-    def transform(self, key, hint="add it"):
-        """Returns a 4x4 rigid transform as rotation (3x3) and translation (3)."""
+    def matrix(self, key, size, hint="add it"):
+        """Returns a square matrix."""
         rows = self.get(key, hint)
-        if not isinstance(rows, list) or len(rows) != 4:
-            raise self.error(key, "must have 4 rows")
-        if any(not isinstance(row, list) or len(row) != 4 for row in rows):
-            raise self.error(key, "must have 4 numbers in each row")
-        matrix = np.array([[self._as_number(key, value) for value in row] for row in rows])
-        rotation = matrix[:3, :3]
-        error = np.abs(rotation @ rotation.T - np.eye(3)).max()
-        if error > MAX_ROTATION_ERROR or np.linalg.det(rotation) < 0:
-            raise self.error(key, "its upper left 3x3 block is not a rotation")
+        if not isinstance(rows, list) or len(rows) != size:
+            raise self.error(key, f"must have {size} rows")
+        if any(not isinstance(row, list) or len(row) != size for row in rows):
+            raise self.error(key, f"must have {size} numbers in each row")
+        return np.array([[self._as_number(key, value) for value in row] for row in rows])
+
+    def transform(self, key, hint="add it"):
+        """Returns a 4x4 rigid transform."""
+        matrix = self.matrix(key, 4, hint)
+        self._check_rotation(key, matrix[:3, :3], "its upper left 3x3 block is not a rotation")
         if not np.array_equal(matrix[3], [0, 0, 0, 1]):
             raise self.error(key, "its last row must be 0 0 0 1")
-        return rotation, matrix[:3, 3]
+        return matrix
+
+    def rotation(self, key):
+        """Returns a 3x3 rotation."""
+        matrix = self.matrix(key, 3)
+        self._check_rotation(key, matrix, "is not a rotation")
+        return matrix
+
+    def _check_rotation(self, key, matrix, problem):
+        error = np.abs(matrix @ matrix.T - np.eye(3)).max()
+        if error > MAX_ROTATION_ERROR or np.linalg.det(matrix) < 0:
+            raise self.error(key, problem)
 
     def _as_number(self, key, value):
         try:  # YAML 1.1 reads 1e-3 as a string

@@ -167,6 +167,54 @@ class RoundTrip(Kalibr):
         self.assert_all_close(sensor["extrinsicTranslation"], P_B_C)
         self.assert_all_close(sensor["extrinsicRotation"], R_B_C)
 
+    def test_an_imu_that_is_not_where_the_body_is(self):
+        """The sensor is turned by 90 degrees about z, and moved by (1, 2, 3); its stamps are 50 ms
+        early."""
+        T_i_b = [[0.0, -1.0, 0.0, 1.0], [1.0, 0.0, 0.0, 2.0], [0.0, 0.0, 1.0, 3.0],
+                 [0.0, 0.0, 0.0, 1.0]]
+        sensor = self.load(imu={"imu0": edited(IMU, T_i_b=T_i_b, time_offset=0.05)})
+        self.assert_all_close(sensor["extrinsicTranslation"], [0, 0, 0])
+        self.assert_all_close(sensor["extrinsicRotation"], [1, 0, 0, 0, 1, 0, 0, 0, 1])
+        self.assertAlmostEqual(sensor["td"], 0.0125 - 0.05)
+
+    def test_intrinsics_of_an_imu_of_openvins(self):
+        """A gyro of scale 2 whose axes are turned by 90 degrees reads (2 y, -2 x, 2 z) of a rate
+        (x, y, z); the accelerometer's z axis is too long and takes some of y."""
+        sensor = self.load(imu={"imu0": edited(
+            IMU, model="kalibr", Tw=[[2, 0, 0], [0, 2, 0], [0, 0, 2]],
+            R_IMUtoGYRO=[[0, 1, 0], [-1, 0, 0], [0, 0, 1]],
+            Ta=[[1, 0, 0], [0, 1, 0], [0, 0.5, 1.25]], Tg=[[0.0] * 3] * 3)})
+        self.assert_all_close(sensor["gyr_correction"], [0, -0.5, 0, 0.5, 0, 0, 0, 0, 0.5])
+        self.assert_all_close(sensor["acc_correction"], [1, 0, 0, 0, 1, 0, 0, -0.4, 0.8])
+
+    def test_intrinsics_of_an_imu_of_kalibr(self):
+        sensor = self.load(imu={"imu0": edited(
+            IMU, model="scale-misalignment",
+            gyroscopes={"M": [[2, 0, 0], [0, 2, 0], [0, 0, 2]], "A": [[0.0] * 3] * 3,
+                        "C_gyro_i": [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]},
+            accelerometers={"M": [[1, 0, 0], [0, 1, 0], [0, 0.5, 1.25]]})})
+        self.assert_all_close(sensor["gyr_correction"], [0, -0.5, 0, 0.5, 0, 0, 0, 0, 0.5])
+        self.assert_all_close(sensor["acc_correction"], [1, 0, 0, 0, 1, 0, 0, -0.4, 0.8])
+
+    def test_pair_of_cameras(self):
+        """The right camera, 0.1 m to the right: at (-2, 0.9, -3) of the IMU frame."""
+        T_cn_cnm1 = [[1.0, 0.0, 0.0, -0.1], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0],
+                     [0.0, 0.0, 0.0, 1.0]]
+        right = edited(CAMERA, rostopic="/right/image_raw", T_cam_imu=None, T_cn_cnm1=T_cn_cnm1,
+                       distortion_model="equidistant", distortion_coeffs=[0.1, 0.2, 0.3, 0.4])
+        sensor = self.load(chain={"cam0": CAMERA, "cam1": right}, options=["--second", "cam1"])
+        self.assertEqual(sensor["num_of_cam"], 2)
+        self.assertEqual(sensor["image_topic"], "/left/image_raw")
+        self.assertEqual(sensor["image1_topic"], "/right/image_raw")
+        self.assertEqual(sensor["cam1_model_type"], "EQUIDISTANT")
+        self.assertEqual(sensor["cam1_distortion_parameters"],
+                         named("k1 k2 k3 k4", [0.1, 0.2, 0.3, 0.4]))
+        self.assertEqual(sensor["cam1_projection_parameters"],
+                         named("fx fy cx cy", CAMERA["intrinsics"]))
+        self.assert_all_close(sensor["body_T_cam1"], [0, 1, 0, -2, -1, 0, 0, 0.9, 0, 0, 1, -3,
+                                                      0, 0, 0, 1])
+        self.assert_all_close(sensor["extrinsicTranslation"], P_B_C)
+
     def test_numbers_that_yaml_takes_for_text(self):
         imu = self.write("imu.yaml", "accelerometer_noise_density: 2e-3\n"
                          "accelerometer_random_walk: 3e-3\ngyroscope_noise_density: 2e-4\n"
@@ -279,8 +327,22 @@ class BadInput(Kalibr):
             self.assert_camera_refused("camera_model", f"{model}-{distortion} is not supported",
                                        camera_model=model, distortion_model=distortion)
         self.assert_camera_refused("line_delay", "rolling-shutter", line_delay=3e-5)
-        self.assert_refused("imu.yaml", "imu0.model", "scale-misalignment",
-                            imu={"imu0": edited(IMU, model="scale-misalignment")})
+        self.assert_refused("imu.yaml", "imu0.model", "size-effect is not supported",
+                            imu={"imu0": edited(IMU, model="scale-misalignment-size-effect")})
+
+    def test_intrinsics_of_an_imu(self):
+        one = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+        for key, value, problem in (
+                ("Tg", [[0, 0, 1e-3], [0, 0, 0], [0, 0, 0]], "acceleration on the gyro"),
+                ("Tw", [[0.1, 0, 0], [0, 1, 0], [0, 0, 1]], "scale factors must be 0.5 to 2"),
+                ("Ta", [[1, 0, 0]], "must have 3 rows"),
+                ("R_IMUtoGYRO", [[1, 0, 0], [0, 1, 0], [0, 0, -1]], "is not a rotation"),
+                ("T_i_b", one, "must have 4 rows"), ("time_offset", "x", "must be a number")):
+            self.assert_refused("imu.yaml", f"imu0.{key}", problem,
+                                imu={"imu0": edited(IMU, **{key: value})})
+        self.assert_refused("imu.yaml", "imu0.gyroscopes.A", "acceleration on the gyro", imu={
+            "imu0": edited(IMU, model="scale-misalignment", accelerometers={"M": one},
+                           gyroscopes={"M": one, "A": one})})
 
     def test_lenses_that_no_equidistant_model_fits(self):
         self.assert_camera_refused("camera_model", "nearest to this pinhole-fov camera is off by up"

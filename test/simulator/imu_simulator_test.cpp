@@ -97,5 +97,21 @@ TEST(ImuSimulator, BiasesWalkWithTheRequestedDensity) {
   EXPECT_EQ(imu.BiasAt(7'000'000).gyro, imu.biases[1].gyro);
 }
 
+TEST(ImuSimulator, CorrectionsAreWhatTheReadingsNeed) {
+  ImuSimulationOptions options = NoiseFree(200.0);
+  options.initial_bias = {Vector3d(0.1, -0.2, 0.3), Vector3d(0.01, 0.02, -0.03)};
+  const Trajectory trajectory = MakeTrajectory(Motion::kFast, 4.0);
+  const auto ideal = SimulateImu(trajectory, options);
+  options.sensor.gyro_correction << 0, -0.98, 0, 1.02, 0.01, 0, 0, 0, 1;
+  options.sensor.accel_correction << 1.05, 0, 0, 0, 1, 0, 0, 0.02, 0.95;
+  const auto distorted = SimulateImu(trajectory, options);
+  for (size_t i = 0; i < ideal.samples.size(); ++i) {
+    const ImuSample corrected = Corrected(distorted.samples[i], options.sensor);
+    EXPECT_LT((corrected.gyro - ideal.samples[i].gyro).norm(), 1e-12);
+    EXPECT_LT((corrected.accel - ideal.samples[i].accel).norm(), 1e-12);
+  }
+  EXPECT_GT((distorted.samples[0].accel - ideal.samples[0].accel).norm(), 0.3);
+}
+
 }  // namespace
 }  // namespace plm_vins::simulator

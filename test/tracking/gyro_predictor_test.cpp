@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <limits>
 
 #include "common/geometry/so3.h"
@@ -38,6 +39,18 @@ TEST(GyroPredictor, ConstantRateBetweenArbitraryTimes) {
   const auto rotation = predictor.Rotation(t0, t1);
   ASSERT_TRUE(rotation);
   EXPECT_LT(rotation->angularDistance(expected), 1e-9);
+}
+
+TEST(GyroPredictor, TakesReadingsCorrected) {
+  ImuSensor imu;
+  imu.gyro_correction << 0, -1.02, 0, 0.98, 0, 0, 0.01, 0, 1;
+  const Eigen::Vector3d rate(0.5, -1.0, 2.0);
+  const Eigen::Vector3d reading = imu.gyro_correction.inverse() * rate;
+  GyroPredictor predictor(Rigid3d(), 0, imu);
+  Feed(&predictor, 0.5, [&](double) -> const Eigen::Vector3d& { return reading; });
+  const auto rotation = predictor.Rotation(kStart, kStart + 50'000'000);
+  ASSERT_TRUE(rotation);
+  EXPECT_LT(rotation->angularDistance(SO3Exp(-0.05 * rate)), 1e-9);
 }
 
 TEST(GyroPredictor, ChangingRateAboutOneAxisIntegratesExactly) {

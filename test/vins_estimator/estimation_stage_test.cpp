@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "test/testing/numeric_jacobian.h"
 #include "test/testing/still_scene.h"
 #include "test/vins_estimator/estimated_flight.h"
 #include "test/vins_estimator/planned_flight.h"
@@ -91,6 +92,25 @@ TEST_F(EstimationStageTest, AResetIsCountedAndToldWithTheNextImage) {
   EXPECT_EQ(Restarts(), (std::vector<std::string>{"why"}));
   EXPECT_TRUE(outputs_.back().has_pose);
   EXPECT_EQ(stage_->resets(), 1);
+}
+
+TEST_F(EstimationStageTest, TakesReadingsCorrected) {
+  Config config = testing::StillConfig();
+  config.use_lines = false;
+  config.sensor.imu.accel_correction << 0, -1.05, 0, 0.95, 0, 0, 0, 0, 1;
+  stage_.emplace(config);
+  size_t samples = 0;
+  for (int t = 0; t <= 1000; t += 5) {
+    stage_->AddImu(Uncorrected(testing::StillImu(t * kMillisecond), config.sensor.imu));
+    if (t % 50 == 0) AddPoints(t);
+    while (const auto frame = stage_->Pop()) {
+      for (const ImuSample& sample : frame->imu) {
+        EXPECT_MATRIX_NEAR(sample.accel, testing::StillImu(0).accel, 1e-12);
+        ++samples;
+      }
+    }
+  }
+  EXPECT_GT(samples, 100u);
 }
 
 TEST_F(EstimationStageTest, WhatHasNotBegunNeedNotStartOver) {

@@ -13,8 +13,8 @@ const int64_t kHorizon_ns = ToNanoseconds(ImuPropagator::kHorizonSeconds);
 
 }  // namespace
 
-ImuPropagator::ImuPropagator(const Eigen::Vector3d& gravity_W, const ImuRange& imu_range)
-    : gravity_W_(gravity_W), leap_(ToNanoseconds(kMaxImuInterval)), gate_(imu_range) {}
+ImuPropagator::ImuPropagator(const Eigen::Vector3d& gravity_W, const ImuSensor& imu)
+    : gravity_W_(gravity_W), leap_(ToNanoseconds(kMaxImuInterval)), gate_(imu) {}
 
 void ImuPropagator::Reset(const FrameState& state, int64_t t_imu_ns) {
   state_ = state;

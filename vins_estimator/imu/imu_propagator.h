@@ -22,7 +22,7 @@ class ImuPropagator {
  public:
   static constexpr double kHorizonSeconds = 2.0;
 
-  explicit ImuPropagator(const Eigen::Vector3d& gravity_W, const ImuRange& imu_range = ImuRange());
+  explicit ImuPropagator(const Eigen::Vector3d& gravity_W, const ImuSensor& imu = ImuSensor());
 
   // Restarts from `state`, valid at `t_imu_ns` of the IMU clock.
   void Reset(const FrameState& state, int64_t t_imu_ns);

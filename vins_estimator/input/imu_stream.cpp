@@ -19,8 +19,8 @@ constexpr int64_t kLeap_ns = 60'000'000'000;
 
 }  // namespace
 
-ImuStream::ImuStream(const ImuRange& range, double max_gap, int max_samples)
-    : max_gap_(max_gap), max_samples_(max_samples), gate_(range), jump_(kJumpPatience) {}
+ImuStream::ImuStream(const ImuSensor& sensor, double max_gap, int max_samples)
+    : max_gap_(max_gap), max_samples_(max_samples), gate_(sensor), jump_(kJumpPatience) {}
 
 ImuStream::Clock ImuStream::Add(const ImuSample& sample) {
   if (!IsReading(sample)) return Clock::kRunsOn;

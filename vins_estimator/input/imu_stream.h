@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/imu/imu_gate.h"
-#include "common/imu/imu_range.h"
+#include "common/imu/imu_sensor.h"
 #include "common/measurements.h"
 #include "common/streams/backward_jump.h"
 #include "vins_estimator/input/imu_memory.h"
@@ -41,7 +41,7 @@ class ImuStream {
 
   // `max_gap` is the longest interval between samples that is not a gap [s]. Beyond `max_samples`,
   // the oldest samples are dropped.
-  ImuStream(const ImuRange& range, double max_gap, int max_samples);
+  ImuStream(const ImuSensor& sensor, double max_gap, int max_samples);
 
   // Adds a sample; unless kRunsOn is returned, the clock was set, and all earlier samples were
   // dropped.

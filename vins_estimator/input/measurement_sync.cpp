@@ -23,7 +23,7 @@ constexpr size_t kFewPoints = 10;  // too few to estimate the camera's motion
 
 MeasurementSync::MeasurementSync(const Options& options)
     : options_(options),
-      imu_(options.imu_range, options.max_imu_gap, options.max_imu_samples),
+      imu_(options.imu, options.max_imu_gap, options.max_imu_samples),
       lines_(
           {options.expect_lines, options.max_line_lag, options.line_patience, options.max_frames}),
       points_jump_(kJumpPatience),

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "common/imu/imu_range.h"
+#include "common/imu/imu_sensor.h"
 #include "common/measurements.h"
 #include "common/streams/backward_jump.h"
 #include "common/streams/forward_jump.h"
@@ -49,7 +49,7 @@ class MeasurementSync {
  public:
   struct Options {
     double td = 0;  // t_imu = t_image + td [s]
-    ImuRange imu_range;
+    ImuSensor imu;
     bool expect_lines = false;  // wait (up to max_line_lag) for each image's line frame
     int max_line_lag = 3;       // longest wait for a line frame [images]
     int line_patience = 10;     // consecutive frames without lines after which lines are missing

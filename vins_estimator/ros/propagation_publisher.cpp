@@ -8,7 +8,7 @@ namespace plm_vins {
 PropagationPublisher::PropagationPublisher(const Config& config, ros::NodeHandle private_node)
     : frames_(config.output),
       publisher_(private_node.advertise<nav_msgs::Odometry>("imu_propagate", 1000)),
-      propagator_(Eigen::Vector3d(0, 0, -config.sensor.gravity_norm), config.sensor.imu_range) {}
+      propagator_(Eigen::Vector3d(0, 0, -config.sensor.gravity_norm), config.sensor.imu) {}
 
 void PropagationPublisher::AddImu(const ImuSample& sample) {
   const std::lock_guard<std::mutex> lock(mutex_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Configurations that are endless or endlessly nested.
+// Configurations that are endless or endlessly nested, and matrices out of range.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -7,6 +7,7 @@
 #include <string>
 
 #include "test/common/config/config_fixture.h"
+#include "test/testing/numeric_jacobian.h"
 
 namespace plm_vins {
 namespace {
@@ -47,6 +48,20 @@ TEST_F(ConfigLimitsTest, AFileWithoutAnEndIsAProblem) {
 
 TEST_F(ConfigLimitsTest, AMaskWithAnOverlongPathIsAProblem) {
   ExpectProblem("fisheye_mask: " + std::string(5000, 'm'), {"fisheye_mask", "there is no file"});
+}
+
+TEST_F(ConfigLimitsTest, CorrectionsOfTheImuAreMatricesNearOne) {
+  EXPECT_TRUE(Load(kShortFile).sensor.imu.gyro_correction.isIdentity(0));
+  const std::string head =
+      "gyr_correction: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: ";
+  const Config config = Load(kShortFile + head + "[1, 2e-2, 0, 0, 0.9, 0, 0, 0, 1.1]\n");
+  Eigen::Matrix3d expected;
+  expected << 1, 2e-2, 0, 0, 0.9, 0, 0, 0, 1.1;
+  EXPECT_MATRIX_NEAR(config.sensor.imu.gyro_correction, expected, 0.0);
+  EXPECT_TRUE(config.sensor.imu.accel_correction.isIdentity(0));
+  ExpectProblem(head + "[1, 0, 0, 0, 0.4, 0, 0, 0, 1]",
+                {"gyr_correction: ", "its scale factors must be 0.5 to 2"});
+  ExpectProblem(head + "[0, 1, 0, 0, 1, 0, 0, 0, 1]", {"its scale factors must be 0.5 to 2"});
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct Decided {
 };
 
 Decided Pass(const std::vector<ImuSample>& samples, const ImuRange& range = ImuRange()) {
-  ImuGate gate(range);
+  ImuGate gate(ImuSensor{range});
   Decided decided;
   for (const ImuSample& sample : samples) {
     for (const ImuSample& next : gate.Add(sample)) decided.samples.push_back(next);
@@ -116,7 +116,7 @@ TEST(ImuGate, NeverBelievesASpikeBeyondTheRange) {
 TEST(ImuGate, DoubtsReadingsAtTheEndOfTheRange) {
   std::vector<ImuSample> samples = Flight(200);
   for (size_t i = 100; i < 110; ++i) samples[i].gyro.z() = -34.9;  // 2000 deg/s
-  ImuGate gate{ImuRange()};
+  ImuGate gate{ImuSensor()};
   std::vector<ImuSample> decided;
   for (const ImuSample& sample : samples) {
     for (const ImuSample& next : gate.Add(sample)) decided.push_back(next);
@@ -133,7 +133,7 @@ TEST(ImuGate, ASpikeAmongSaturatedReadingsKeepsItsDoubt) {
   std::vector<ImuSample> samples = Flight(200);
   for (size_t i = 100; i < 120; ++i) samples[i].gyro.z() = 34.9;
   samples[110].gyro.z() = -34.9;  // a flipped sign bit
-  ImuGate gate{ImuRange()};
+  ImuGate gate{ImuSensor()};
   std::vector<ImuSample> decided;
   for (const ImuSample& sample : samples) {
     for (const ImuSample& next : gate.Add(sample)) decided.push_back(next);
@@ -150,8 +150,39 @@ TEST(ImuGate, ComparesNothingAcrossAGap) {
     samples[i].t_ns += 100'000'000;
     samples[i].gyro.z() = 10;
   }
-  ImuGate gate{ImuRange()};
+  ImuGate gate{ImuSensor()};
   for (const ImuSample& sample : samples) EXPECT_EQ(gate.Add(sample).size(), 1u);
+}
+
+TEST(ImuGate, CorrectsWhatItDecides) {
+  ImuSensor sensor;
+  sensor.gyro_correction << 0, -2, 0, 1, 0, 0, 0, 0, 1;
+  sensor.accel_correction << 0.5, 0, 0, 0, 1, 0, 0, 0.25, 2;
+  const std::vector<ImuSample> samples = {{0, {1, 2, 3}, {4, 8, 2}},
+                                          {kStep_ns, {1, 2, 30}, {4, 8, 2}},
+                                          {2 * kStep_ns, {1, 2, 3}, {4, 8, 2}}};
+  ImuGate gate(sensor);
+  std::vector<ImuSample> decided;
+  for (const ImuSample& sample : samples) {
+    for (const ImuSample& next : gate.Add(sample)) decided.push_back(next);
+  }
+  ASSERT_EQ(decided.size(), 3u);  // the second one is replaced
+  for (const ImuSample& sample : decided) {
+    EXPECT_EQ(sample.gyro, Eigen::Vector3d(-4, 1, 3));
+    EXPECT_EQ(sample.accel, Eigen::Vector3d(2, 8, 6));
+  }
+}
+
+// A reading that a correction makes smaller is saturated all the same.
+TEST(ImuGate, TheRangeIsThatOfReadingsAsDelivered) {
+  ImuSensor sensor;
+  sensor.gyro_correction *= 0.9;
+  ImuGate gate(sensor);
+  const std::vector<ImuSample> decided = gate.Add({0, {0, 0, 34.9}, {0, 0, 9.81}});
+  ASSERT_EQ(decided.size(), 1u);
+  EXPECT_EQ(gate.saturated(), 1);
+  EXPECT_NEAR(decided[0].gyro.z(), 0.9 * 34.9, 1e-12);
+  EXPECT_GT(decided[0].gyro_doubt, 0);
 }
 
 // The rotation during the gap is not a typical difference of consecutive readings.

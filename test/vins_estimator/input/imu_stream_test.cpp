@@ -16,7 +16,7 @@ using Clock = ImuStream::Clock;
 constexpr double kMaxGap = 0.05;
 constexpr int64_t kMinute_ms = 60'000;
 
-ImuStream Stream(int max_samples = 1000) { return {ImuRange(), kMaxGap, max_samples}; }
+ImuStream Stream(int max_samples = 1000) { return {ImuSensor(), kMaxGap, max_samples}; }
 
 // A reading that is linear in time, and small at any timestamp used here.
 ImuSample Reading(int64_t t_ns) { return {t_ns, {1e-3 * ToSeconds(t_ns), 0, 0}, {0, 9.81, 0}}; }

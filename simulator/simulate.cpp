@@ -28,6 +28,8 @@ struct Arguments {
   std::string output;
   std::string asl;
   std::string config;
+  bool stereo = false;
+  bool depth = false;
   FlightOptions flight;
 };
 
@@ -75,6 +77,8 @@ void Declare(Arguments* arguments, CLI::App* app) {
   app->add_option("--config", arguments->config,
                   "sensors: topics, camera, shutter, extrinsics, IMU noise, td (default: EuRoC's)")
       ->check(CheckPath);
+  app->add_flag("--stereo", arguments->stereo, "the configuration's second camera, too");
+  app->add_flag("--depth", arguments->depth, "depth images as the configuration has them, too");
   AddChoice<WorldKind>(app, "--world", &flight.world,
                        "where to fly; atlanta: a room of two frames, irregular: one without, "
                        "twins: two equal rooms, "
@@ -159,9 +163,22 @@ void WriteGroundTruth(const Arguments& arguments, const std::vector<FrameState>&
   }
 }
 
+// Leaves those sensors that are asked for; the configuration must have them.
+void ChooseSensors(const Arguments& arguments, SensorConfig* sensors) {
+  if (arguments.stereo && !sensors->second_camera) {
+    throw std::runtime_error("--stereo: set num_of_cam: 2 in a configuration, and name it");
+  }
+  if (arguments.depth && !sensors->depth) {
+    throw std::runtime_error("--depth: set depth_topic in a configuration, and name it");
+  }
+  if (!arguments.stereo) sensors->second_camera.reset();
+  if (!arguments.depth) sensors->depth.reset();
+}
+
 void Run(Arguments arguments) {
   FlightOptions& options = arguments.flight;
   if (!arguments.config.empty()) options.sensors = LoadConfig(arguments.config).sensor;
+  ChooseSensors(arguments, &options.sensors);
   const Flight flight(options);  // first, since it may throw; no folder is created then
   const auto owned = OpenRecorders(arguments);
   std::vector<Recorder*> recorders;

@@ -10,23 +10,41 @@
 namespace plm_vins::simulator {
 namespace {
 
-std::string MakeFolders(const std::string& folder) {
+std::string MakeFolder(const std::string& folder) {
   if (std::filesystem::exists(folder + "/mav0")) {
     throw std::runtime_error(folder + " holds a recording already: remove it or choose another");
   }
-  for (const char* part : {"/mav0/cam0/data", "/mav0/imu0", "/mav0/state_groundtruth_estimate0"}) {
+  for (const char* part : {"/mav0/imu0", "/mav0/state_groundtruth_estimate0"}) {
     std::filesystem::create_directories(folder + part);
   }
   return folder + "/mav0";
 }
 
+std::string MakePictureFolder(const std::string& folder) {
+  std::filesystem::create_directories(folder + "/data");
+  return folder;
+}
+
 }  // namespace
 
+AslRecorder::Pictures::Pictures(const std::string& folder)
+    : folder_(MakePictureFolder(folder)), list_(folder + "/data.csv") {
+  list_.stream() << "#timestamp [ns],filename\n";
+}
+
+void AslRecorder::Pictures::Add(int64_t t_ns, const cv::Mat& picture) {
+  const std::string name = std::to_string(t_ns) + ".png", file = folder_ + "/data/" + name;
+  // Sensor noise hardly compresses: the fastest level is nearly the smallest.
+  if (!cv::imwrite(file, picture, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
+    throw std::runtime_error("cannot write " + file);
+  }
+  list_.stream() << t_ns << ',' << name << '\n';
+}
+
 AslRecorder::AslRecorder(const std::string& folder)
-    : image_folder_(MakeFolders(folder) + "/cam0/data/"),
-      image_list_(folder + "/mav0/cam0/data.csv"),
-      imu_list_(folder + "/mav0/imu0/data.csv") {
-  image_list_.stream() << "#timestamp [ns],filename\n";
+    : folder_(MakeFolder(folder)),
+      images_(folder_ + "/cam0"),
+      imu_list_(folder_ + "/imu0/data.csv") {
   imu_list_.stream()
       << "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
          "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n";
@@ -37,17 +55,22 @@ void AslRecorder::Write(const ImuSample& sample) {
                                              sample.accel.x(), sample.accel.y(), sample.accel.z()});
 }
 
-void AslRecorder::Write(const ImageSample& image) {
-  const std::string name = std::to_string(image.t_ns) + ".png";
-  // Sensor noise is hardly compressible, so the fastest level is nearly the smallest.
-  if (!cv::imwrite(image_folder_ + name, image.gray, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
-    throw std::runtime_error("cannot write " + image_folder_ + name);
-  }
-  image_list_.stream() << image.t_ns << ',' << name << '\n';
+void AslRecorder::Write(const ImageSample& image) { images_.Add(image.t_ns, image.gray); }
+
+void AslRecorder::WriteSecond(const ImageSample& image) {
+  if (!second_images_) second_images_.emplace(folder_ + "/cam1");
+  second_images_->Add(image.t_ns, image.gray);
+}
+
+void AslRecorder::WriteDepth(int64_t t_ns, const cv::Mat1w& depth) {
+  if (!depths_) depths_.emplace(folder_ + "/depth0");
+  depths_->Add(t_ns, depth);
 }
 
 void AslRecorder::Finish() {
-  image_list_.Close();
+  images_.Close();
+  if (second_images_) second_images_->Close();
+  if (depths_) depths_->Close();
   imu_list_.Close();
 }
 

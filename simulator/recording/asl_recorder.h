@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 
 #include "common/io/output_file.h"
@@ -8,22 +10,38 @@
 
 namespace plm_vins::simulator {
 
-// Writes the folders of the EuRoC dataset: DIR/mav0/cam0 and imu0. DIR must not contain a recording
-// yet.
+// Writes the folders of the EuRoC dataset: DIR/mav0/cam0 and imu0; cam1 and depth0 if there are
+// images of a second camera or of depth. DIR must not contain a recording yet.
 class AslRecorder : public Recorder {
  public:
   explicit AslRecorder(const std::string& folder);
 
   void Write(const ImuSample& sample) override;
   void Write(const ImageSample& image) override;
+  void WriteSecond(const ImageSample& image) override;
+  void WriteDepth(int64_t t_ns, const cv::Mat1w& depth) override;
   void Finish() override;
 
   // Path of the recording's ground truth; the folder exists.
   static std::string GroundTruthFile(const std::string& folder);
 
  private:
-  std::string image_folder_;
-  OutputFile image_list_, imu_list_;
+  // A folder of pictures and their list.
+  class Pictures {
+   public:
+    explicit Pictures(const std::string& folder);
+    void Add(int64_t t_ns, const cv::Mat& picture);
+    void Close() { list_.Close(); }
+
+   private:
+    std::string folder_;
+    OutputFile list_;
+  };
+
+  std::string folder_;  // mav0
+  Pictures images_;
+  std::optional<Pictures> second_images_, depths_;
+  OutputFile imu_list_;
 };
 
 }  // namespace plm_vins::simulator

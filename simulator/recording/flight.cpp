@@ -2,6 +2,7 @@
 #include "simulator/recording/flight.h"
 
 #include "simulator/random.h"
+#include "simulator/rendering/depth_noise.h"
 
 namespace plm_vins::simulator {
 namespace {
@@ -25,6 +26,7 @@ ImuSimulationOptions ImuOptions(const FlightOptions& options) {
   Random random(options.seed, 1);
   ImuSimulationOptions imu;
   imu.noise = options.sensors.imu_noise;
+  imu.sensor = options.sensors.imu;
   imu.gravity_norm = options.sensors.gravity_norm;
   imu.rate_hz = options.sensors.imu_rate;
   imu.start_ns = options.start_ns;
@@ -41,6 +43,9 @@ ImagingOptions Imaging(const FlightOptions& options) {
   return imaging;
 }
 
+// Offsets from the seed of the first camera, far from seeds in use.
+constexpr uint64_t kSecondCameraSeed = uint64_t{1} << 40, kDepthSeed = uint64_t{2} << 40;
+
 }  // namespace
 
 Flight::Flight(const FlightOptions& options)
@@ -49,25 +54,46 @@ Flight::Flight(const FlightOptions& options)
       trajectory_(TrajectoryThrough(world_, options)),
       imu_(SimulateImu(trajectory_, ImuOptions(options))),
       camera_(trajectory_, world_.scene, options.sensors.camera, options.sensors.T_B_C,
-              Imaging(options)) {}
+              Imaging(options)) {
+  if (const auto& second = options.sensors.second_camera) {
+    ImagingOptions imaging = Imaging(options);
+    imaging.seed += kSecondCameraSeed;
+    second_camera_.emplace(trajectory_, world_.scene, second->camera, second->T_B_C, imaging);
+  }
+}
 
 void Flight::Record(const std::vector<Recorder*>& recorders,
                     const std::function<void(int64_t t_ns)>& progress) const {
-  const int64_t td_ns = ToNanoseconds(options_.sensors.td);
   int64_t image_index = 1;  // the first image has preceding IMU samples
-  const auto exposure_ns = [&] { return ToNanoseconds(image_index / options_.frame_rate_hz); };
   for (const ImuSample& sample : imu_.samples) {
     for (Recorder* recorder : recorders) recorder->Write(sample);
-    while (options_.start_ns + exposure_ns() <= sample.t_ns) {
-      const double t = ToSeconds(exposure_ns());
-      const ImageSample image{options_.start_ns + exposure_ns() - td_ns,
-                              camera_.Expose(t, image_index)};
-      for (Recorder* recorder : recorders) recorder->Write(image);
-      progress(image.t_ns);
+    while (options_.start_ns + ExposureTime(image_index) <= sample.t_ns) {
+      progress(RecordImages(recorders, image_index));
       ++image_index;
     }
   }
   for (Recorder* recorder : recorders) recorder->Finish();
+}
+
+int64_t Flight::RecordImages(const std::vector<Recorder*>& recorders, int64_t index) const {
+  const double t = ToSeconds(ExposureTime(index));
+  const int64_t t_ns = options_.start_ns + ExposureTime(index) - ToNanoseconds(options_.sensors.td);
+  const cv::Mat image = camera_.Expose(t, index);
+  for (Recorder* recorder : recorders) recorder->Write(ImageSample{t_ns, image});
+  if (second_camera_) {
+    const cv::Mat second = second_camera_->Expose(t, index);
+    for (Recorder* recorder : recorders) recorder->WriteSecond(ImageSample{t_ns, second});
+  }
+  if (const auto& sensor = options_.sensors.depth) {
+    const cv::Mat1w depth =
+        MeasureDepth(camera_.Depth(t), *sensor, options_.seed + kDepthSeed, index);
+    for (Recorder* recorder : recorders) recorder->WriteDepth(t_ns, depth);
+  }
+  return t_ns;
+}
+
+int64_t Flight::ExposureTime(int64_t index) const {
+  return ToNanoseconds(static_cast<double>(index) / options_.frame_rate_hz);
 }
 
 std::vector<FrameState> Flight::GroundTruth() const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/config/config.h"
@@ -20,7 +21,7 @@ struct FlightOptions {
   TextureStyle texture = TextureStyle::kRich;
   Motion motion = Motion::kGentle;
   double duration = 60.0;                   // [s]
-  SensorConfig sensors = DefaultSensors();  // camera, shutter, T_B_C, td, IMU, gravity
+  SensorConfig sensors = DefaultSensors();  // cameras, depth, shutter, td, IMU, gravity
   ImagingOptions imaging;                   // its readout and seed are overwritten by those here
   double frame_rate_hz = 20.0;
   int64_t start_ns = 1'600'000'000'000'000'000;  // IMU timestamp of the start
@@ -28,7 +29,8 @@ struct FlightOptions {
 };
 
 // A flight through a rendered world. The timestamp of an image is the middle of its exposure (with
-// a rolling shutter, that of the middle row) minus td; IMU and ground truth are in IMU time.
+// a rolling shutter, that of the middle row) minus td, also for the second camera and for depth;
+// IMU and ground truth are in IMU time.
 class Flight {
  public:
   explicit Flight(const FlightOptions& options);
@@ -46,11 +48,16 @@ class Flight {
   const ImuSimulation& imu() const { return imu_; }
 
  private:
+  // Records all images of one exposure and returns their stamp.
+  int64_t RecordImages(const std::vector<Recorder*>& recorders, int64_t index) const;
+  int64_t ExposureTime(int64_t index) const;  // after the start [ns]
+
   FlightOptions options_;
   World world_;
   Trajectory trajectory_;
   ImuSimulation imu_;
   CameraSimulator camera_;
+  std::optional<CameraSimulator> second_camera_;
 };
 
 }  // namespace plm_vins::simulator

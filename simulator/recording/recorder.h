@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <opencv2/core.hpp>
+
 #include "common/measurements.h"
 
 namespace plm_vins::simulator {
@@ -12,6 +14,10 @@ class Recorder {
   virtual ~Recorder() = default;
   virtual void Write(const ImuSample& sample) = 0;
   virtual void Write(const ImageSample& image) = 0;
+  // Takes an image of the second camera.
+  virtual void WriteSecond(const ImageSample& image) = 0;
+  // Takes depths along the optical axis [mm]; 0 is unknown.
+  virtual void WriteDepth(int64_t t_ns, const cv::Mat1w& depth) = 0;
   // Flushes all files; must be the last call.
   virtual void Finish() = 0;
 };

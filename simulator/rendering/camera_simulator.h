@@ -34,6 +34,9 @@ class CameraSimulator {
   // middle row) is centred `t` seconds after the start.
   cv::Mat Expose(double t, uint64_t index) const;
 
+  // Returns the exact depth (Renderer::Depth) of all rows at `t` seconds after the start.
+  cv::Mat1f Depth(double t) const { return renderer_.Depth(trajectory_.At(t).T_W_B * T_B_C_); }
+
  private:
   void Accumulate(double t, int subpixel, cv::Mat1f* sum) const;
   int ExposureSteps(double t) const;

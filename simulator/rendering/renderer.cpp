@@ -159,6 +159,43 @@ std::vector<Renderer::VisibleRectangle> Renderer::FindVisible(const Rigid3d& T_W
   return visible;
 }
 
+inline float Renderer::InverseDepth(const VisibleRectangle& r, float x, float y) {
+  const float w = r.n.x() * x + r.n.y() * y + r.n.z();
+  const float a = r.p.x() * x + r.p.y() * y + r.p.z();
+  const float b = r.q.x() * x + r.q.y() * y + r.q.z();
+  const bool hit = (a >= 0.0f) & (a <= r.width() * w) & (b >= 0.0f) & (b <= r.height() * w);
+  return hit ? w : 0.0f;
+}
+
+cv::Mat1f Renderer::Depth(const Rigid3d& T_W_C) const {
+  const std::vector<VisibleRectangle> visible = FindVisible(T_W_C);
+  cv::Mat1f depth(camera_->parameters().height, camera_->parameters().width, 0.0f);
+  cv::parallel_for_(cv::Range(0, static_cast<int>(tiles_[0].size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) FindDepth(i, visible, &depth);
+  });
+  return depth;
+}
+
+// The middle of a pixel is that of a sample and its mirror image.
+void Renderer::FindDepth(size_t index, const std::vector<VisibleRectangle>& visible,
+                         cv::Mat1f* depth) const {
+  const RayTile &tile = tiles_[0][index], &mirrored = tiles_[1][index];
+  const int pixels = tile.pixels.area();
+  std::vector<float> nearest(pixels, 0.0f);  // inverse depth
+  for (const VisibleRectangle& rectangle : visible) {
+    if (!Overlaps(tile, rectangle) && !Overlaps(mirrored, rectangle)) continue;
+    for (int i = 0; i < pixels; ++i) {
+      const float x = 0.5f * (tile.x[i] + mirrored.x[i]), y = 0.5f * (tile.y[i] + mirrored.y[i]);
+      nearest[i] = std::max(nearest[i], InverseDepth(rectangle, x, y));
+    }
+  }
+  for (int i = 0; i < pixels; ++i) {
+    const cv::Point pixel =
+        tile.pixels.tl() + cv::Point(i % tile.pixels.width, i / tile.pixels.width);
+    if (nearest[i] > 0) (*depth)(pixel) = 1.0f / nearest[i];
+  }
+}
+
 // Conservative test: returns false only if no ray of the tile intersects the rectangle.
 bool Renderer::Overlaps(const RayTile& tile, const VisibleRectangle& r) {
   if ((r.min.array() > tile.max.array()).any() || (r.max.array() < tile.min.array()).any()) {
@@ -183,14 +220,9 @@ void Renderer::RenderTile(const RayTile& tile, const std::vector<VisibleRectangl
   for (size_t k = 0; k < visible.size(); ++k) {
     const VisibleRectangle& r = visible[k];
     if (!Overlaps(tile, r)) continue;
-    const float width = r.width(), height = r.height();
     for (int i = 0; i < rays; ++i) {
-      const float x = tile.x[i], y = tile.y[i];
-      const float w = r.n.x() * x + r.n.y() * y + r.n.z();
-      const float a = r.p.x() * x + r.p.y() * y + r.p.z();
-      const float b = r.q.x() * x + r.q.y() * y + r.q.z();
-      const bool hit =
-          (w > nearest[i]) & (a >= 0.0f) & (a <= width * w) & (b >= 0.0f) & (b <= height * w);
+      const float w = InverseDepth(r, tile.x[i], tile.y[i]);
+      const bool hit = w > nearest[i];
       nearest[i] = hit ? w : nearest[i];
       surface[i] = hit ? static_cast<int>(k) : surface[i];
     }

@@ -42,6 +42,9 @@ class Renderer {
   void AccumulateByRows(const std::function<Rigid3d(int row)>& T_W_C, int subpixel,
                         cv::Mat1f* sum) const;
 
+  // Returns the depth along the optical axis in the middle of each pixel [m]; 0 if no surface is hit.
+  cv::Mat1f Depth(const Rigid3d& T_W_C) const;
+
  private:
   static constexpr int kRaysPerTile = kRays * kTilePixels;
 
@@ -61,6 +64,9 @@ class Renderer {
 
   void AddTile(const cv::Rect& pixels);
   std::vector<VisibleRectangle> FindVisible(const Rigid3d& T_W_C) const;
+  // Returns the inverse depth of the rectangle along the ray (x, y, 1); 0 if the ray misses it.
+  static float InverseDepth(const VisibleRectangle& rectangle, float x, float y);
+  void FindDepth(size_t tile, const std::vector<VisibleRectangle>& visible, cv::Mat1f* depth) const;
   static bool Overlaps(const RayTile& tile, const VisibleRectangle& rectangle);
   void RenderTile(const RayTile& tile, const std::vector<VisibleRectangle>& visible,
                   cv::Mat1f* sum) const;

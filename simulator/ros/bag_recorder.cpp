@@ -45,9 +45,18 @@ class BagRecorder : public Recorder {
   }
 
   void Write(const ImageSample& image) override {
-    const auto header = NextHeader(image.t_ns, "cam0", &image_count_);
-    const auto message = cv_bridge::CvImage(header, "mono8", image.gray).toImageMsg();
-    Guard([&] { bag_->write(AbsoluteTopic(sensors_.image_topic), header.stamp, message); });
+    WriteImage(sensors_.image_topic, NextHeader(image.t_ns, "cam0", &image_count_), "mono8",
+               image.gray);
+  }
+
+  void WriteSecond(const ImageSample& image) override {
+    WriteImage(sensors_.second_camera.value().image_topic,
+               NextHeader(image.t_ns, "cam1", &second_count_), "mono8", image.gray);
+  }
+
+  void WriteDepth(int64_t t_ns, const cv::Mat1w& depth) override {
+    WriteImage(sensors_.depth.value().topic, NextHeader(t_ns, "cam0", &depth_count_), "16UC1",
+               depth);
   }
 
   void Finish() override {
@@ -67,6 +76,12 @@ class BagRecorder : public Recorder {
     return header;
   }
 
+  void WriteImage(const std::string& topic, const std_msgs::Header& header,
+                  const std::string& encoding, const cv::Mat& pixels) {
+    const auto message = cv_bridge::CvImage(header, encoding, pixels).toImageMsg();
+    Guard([&] { bag_->write(AbsoluteTopic(topic), header.stamp, message); });
+  }
+
   template <typename Action>
   void Guard(Action action) const {
     try {
@@ -79,7 +94,7 @@ class BagRecorder : public Recorder {
   std::string file_;
   SensorConfig sensors_;
   std::unique_ptr<rosbag::Bag, CloseOrLeave> bag_{new rosbag::Bag};
-  uint32_t imu_count_ = 0, image_count_ = 0;
+  uint32_t imu_count_ = 0, image_count_ = 0, second_count_ = 0, depth_count_ = 0;
 };
 
 }  // namespace

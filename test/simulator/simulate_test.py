@@ -50,6 +50,10 @@ class Simulate(unittest.TestCase):
         for option in ["--asl", "--config"]:
             self.assert_refuses(f"{option}: expected a path, which is empty", option, "")
 
+    def test_sensors_that_the_configuration_lacks(self):
+        self.assert_refuses("--stereo: set num_of_cam: 2 in a configuration", "--stereo")
+        self.assert_refuses("--depth: set depth_topic in a configuration", "--depth")
+
     def test_a_bag_in_the_place_of_the_ground_truth(self):
         self.assert_refuses("where the ground truth is to go", "--output", "flight.tum")
 

@@ -47,6 +47,29 @@ TEST_F(AslFolder, HoldsImagesAndListsAsEuroc) {
   EXPECT_EQ(cv::countNonZero(read != picture), 0);
 }
 
+TEST_F(AslFolder, HoldsTheSecondCameraAndDepth) {
+  const cv::Mat1b picture(6, 8, uchar(77));
+  const cv::Mat1w depth(6, 8, ushort(5432));
+  {
+    AslRecorder recorder(folder_);
+    recorder.WriteSecond(ImageSample{1'600'000'000'050'000'000, picture});
+    recorder.WriteDepth(1'600'000'000'050'000'000, depth);
+    recorder.Finish();
+  }
+  for (const std::string name : {"cam1", "depth0"}) {
+    EXPECT_NE(Read(folder_ + "/mav0/" + name + "/data.csv")
+                  .find("\n1600000000050000000,1600000000050000000.png\n"),
+              std::string::npos);
+  }
+  const auto pixel = [&](const std::string& name) {
+    const std::string file = folder_ + "/mav0/" + name + "/data/1600000000050000000.png";
+    const cv::Mat read = cv::imread(file, cv::IMREAD_UNCHANGED);
+    return read.type() == CV_16UC1 ? read.at<ushort>(5, 7) : read.at<uchar>(5, 7);
+  };
+  EXPECT_EQ(pixel("cam1"), 77);
+  EXPECT_EQ(pixel("depth0"), 5432);
+}
+
 TEST_F(AslFolder, IsNeverOverwritten) {
   { AslRecorder first(folder_); }
   EXPECT_THROW(AslRecorder second(folder_), std::runtime_error);

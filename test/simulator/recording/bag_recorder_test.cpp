@@ -9,6 +9,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "common/ros/image_conversion.h"
@@ -96,6 +97,32 @@ TEST(BagRecorder, WritesTheTopicsOfTheConfiguration) {
     EXPECT_EQ(imu[1].gyro, Eigen::Vector3d(0.4, 0.5, 0.6));
     EXPECT_EQ(images[0].t_ns, kStart + 5'000'000);
     EXPECT_EQ(images[0].gray.at<uchar>(5, 7), 77);
+  }
+  std::filesystem::remove(file);
+}
+
+TEST(BagRecorder, WritesTheSecondCameraAndDepth) {
+  const std::string file = testing::TempDir() + "plm_vins_bag_second_camera.bag";
+  SensorConfig sensors;
+  sensors.second_camera.emplace().image_topic = "camera/right";
+  sensors.depth.emplace().topic = "camera/depth";
+  const auto recorder = MakeBagRecorder(file, sensors);
+  recorder->WriteSecond(ImageSample{kStart, cv::Mat1b(6, 8, uchar(77))});
+  recorder->WriteDepth(kStart, cv::Mat1w(6, 8, ushort(5432)));
+  recorder->Finish();
+  {
+    rosbag::Bag bag(file);
+    std::map<std::string, sensor_msgs::ImageConstPtr> images;
+    for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+      images[message.getTopic()] = message.instantiate<sensor_msgs::Image>();
+    }
+    ASSERT_EQ(images.size(), 2u);
+    EXPECT_EQ(images["/camera/right"]->encoding, "mono8");
+    EXPECT_EQ(images["/camera/right"]->data[0], 77);
+    const sensor_msgs::Image& depth = *images["/camera/depth"];
+    EXPECT_EQ(depth.encoding, "16UC1");
+    EXPECT_EQ(depth.data[0] + 256 * depth.data[1], 5432);
+    EXPECT_EQ(ToNanoseconds(depth.header.stamp), kStart);
   }
   std::filesystem::remove(file);
 }

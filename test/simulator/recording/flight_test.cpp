@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "common/geometry/so3.h"
 
 namespace plm_vins::simulator {
 namespace {
@@ -19,10 +22,16 @@ class MemoryRecorder : public Recorder {
     images.push_back(image);
     order.push_back(image.t_ns);
   }
+  void WriteSecond(const ImageSample& image) override { second.push_back(image); }
+  void WriteDepth(int64_t t_ns, const cv::Mat1w& depth) override {
+    depths.push_back(depth);
+    EXPECT_EQ(t_ns, images.back().t_ns);
+  }
   void Finish() override { finished = true; }
 
   std::vector<ImuSample> imu;
-  std::vector<ImageSample> images;
+  std::vector<ImageSample> images, second;
+  std::vector<cv::Mat1w> depths;
   std::vector<int64_t> order;
   bool finished = false;
 };
@@ -114,6 +123,70 @@ TEST(Flight, GroundTruthBelongsToTheImuSamples) {
       state.rotation().conjugate() * Eigen::Vector3d(0, 0, 9.81) + state.accel_bias();
   EXPECT_LT((flight.imu().samples[100].accel - expected).norm(), 0.15);
   EXPECT_LT(state.velocity().norm(), 1e-12);
+}
+
+// Returns the mean difference in brightness of a point in both images, the depth of which is known.
+double MeanDifference(const MemoryRecorder& recording, const SensorConfig& sensors,
+                      const Rigid3d& T_C1_C0) {
+  const auto left = CameraModel::Create(sensors.camera);
+  const auto right = CameraModel::Create(sensors.second_camera->camera);
+  double sum = 0;
+  int count = 0;
+  for (size_t i = 0; i < recording.images.size(); ++i) {
+    cv::Mat1b blurred_left, blurred_right;
+    cv::GaussianBlur(recording.images[i].gray, blurred_left, {5, 5}, 1);
+    cv::GaussianBlur(recording.second[i].gray, blurred_right, {5, 5}, 1);
+    for (int y = 20; y < 100; y += 4) {
+      for (int x = 20; x < 168; x += 4) {
+        const double z = 1e-3 * recording.depths[i](y, x);
+        const auto xy = left->Unproject({x, y});
+        const auto pixel = right->Project(T_C1_C0 * (z * xy->homogeneous()));
+        if (z == 0 || !pixel || !right->IsInImage(*pixel, 1)) continue;
+        const cv::Point nearest(cvRound(pixel->x()), cvRound(pixel->y()));
+        sum += std::abs(double{1} * blurred_left(y, x) - blurred_right(nearest));
+        ++count;
+      }
+    }
+  }
+  EXPECT_GT(count, 5000);
+  return sum / count;
+}
+
+TEST(Flight, SecondCameraAndDepthAgreeOnWherePointsAre) {
+  FlightOptions options = SmallFlight();
+  options.texture = TextureStyle::kRich;
+  options.imaging.vignetting = 0;
+  SecondCamera& second = options.sensors.second_camera.emplace();
+  second.camera = options.sensors.camera;
+  second.camera.fx *= 1.03;
+  second.camera.cx += 4;
+  const Rigid3d T_C0_C1(SO3Exp({0.01, 0.02, -0.03}), {0.11, 0.01, -0.02});
+  second.T_B_C = options.sensors.T_B_C * T_C0_C1;
+  options.sensors.depth = DepthSensor{"/depth", 0, 20};
+  const MemoryRecorder recording = Record(options);
+  ASSERT_EQ(recording.second.size(), recording.images.size());
+  ASSERT_EQ(recording.depths.size(), recording.images.size());
+  const double right = MeanDifference(recording, options.sensors, T_C0_C1.Inverse());
+  const double wrong = MeanDifference(recording, options.sensors,
+                                      {T_C0_C1.rotation.conjugate(), Eigen::Vector3d::Zero()});
+  EXPECT_LT(right, 0.5 * wrong) << wrong;
+}
+
+TEST(Flight, FurtherSensorsLeaveTheImagesAsTheyAre) {
+  FlightOptions options = SmallFlight();
+  EXPECT_TRUE(Reference().second.empty());
+  EXPECT_TRUE(Reference().depths.empty());
+  options.sensors.second_camera.emplace().camera = options.sensors.camera;
+  options.sensors.second_camera->T_B_C = options.sensors.T_B_C;
+  options.sensors.depth = DepthSensor{"/depth"};
+  const MemoryRecorder recording = Record(options);
+  for (size_t i = 0; i < recording.images.size(); ++i) {
+    EXPECT_EQ(cv::countNonZero(recording.images[i].gray != Reference().images[i].gray), 0);
+    // In the same place, only the noise differs.
+    EXPECT_GT(cv::countNonZero(recording.second[i].gray != Reference().images[i].gray), 1000);
+    EXPECT_LT(cv::norm(recording.second[i].gray, Reference().images[i].gray, cv::NORM_L1),
+              4.0 * 188 * 120);
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <opencv2/imgproc.hpp>
 
 #include "common/geometry/so3.h"
@@ -55,6 +56,40 @@ CameraParameters Fisheye() {
   camera.fx = camera.fy = 300;
   camera.distortion = {-0.01, 0.02, -0.01, 0.002};
   return camera;
+}
+
+// A wall at z = 3 with a square at z = 2 before its middle.
+TEST(Renderer, DepthIsThatOfTheRayThroughThePixel) {
+  Scene scene;
+  const int white = AddPlain(&scene, 0.9);
+  scene.AddRectangle(Facing(-2, 8, 3.0, 10, 16, white));
+  scene.AddRectangle(Facing(-0.5, 0.5, 2.0, 1, 1, white));
+  for (const CameraParameters& parameters : {DefaultSensors().camera, Fisheye()}) {
+    const std::shared_ptr<const CameraModel> camera = CameraModel::Create(parameters);
+    const Rigid3d T_W_C(SO3Exp({0.2, -0.25, 0.4}), {0.1, -0.05, 0.2});
+    const cv::Mat1f depth = Renderer(scene, camera).Depth(T_W_C);
+    std::array<int, 3> counts{};
+    for (int y = 0; y < depth.rows; y += 3) {
+      for (int x = 0; x < depth.cols; x += 3) {
+        const auto xy = camera->Unproject({x, y});
+        if (!xy) continue;
+        const Vector3d ray_W = T_W_C.rotation * xy->homogeneous();
+        if (ray_W.z() < 0.05) continue;  // beside the wall or away from it
+        const auto depth_at = [&](double z) { return (z - T_W_C.translation.z()) / ray_W.z(); };
+        const auto point_at = [&](double z) -> Vector3d {
+          return T_W_C.translation + depth_at(z) * ray_W;
+        };
+        const double edge_of_square = point_at(2).head<2>().cwiseAbs().maxCoeff() - 0.5;
+        const double edge_of_wall = -2 - point_at(3).x();
+        if (std::abs(edge_of_square) < 1e-3 || std::abs(edge_of_wall) < 1e-3) continue;
+        const int surface = edge_of_square < 0 ? 2 : edge_of_wall < 0 ? 1 : 0;
+        const double expected = surface == 2 ? depth_at(2) : surface == 1 ? depth_at(3) : 0.0;
+        ASSERT_NEAR(depth(y, x), expected, 1e-4) << x << " " << y;
+        ++counts[surface];
+      }
+    }
+    for (const int count : counts) EXPECT_GT(count, 500);
+  }
 }
 
 TEST(Renderer, KnownPointsAppearWhereTheCameraModelProjectsThem) {

@@ -54,7 +54,7 @@ TEST(ShippedConfig, BothCalibrationsOfEurocGiveSimilarRays) {
   const Config equidistant = LoadConfig(CONFIG_DIR "/euroc.yaml");
   const Config radtan = LoadConfig(CONFIG_DIR "/euroc_radtan.yaml");
   EXPECT_EQ(equidistant.sensor.camera.model, CameraParameters::Model::kPinholeEquidistant);
-  for (const Eigen::Vector2d pixel : {Eigen::Vector2d(376, 240), {150, 100}, {600, 400}}) {
+  for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(376, 240), {150, 100}, {600, 400}}) {
     const double angle = std::acos(BodyRay(equidistant, pixel).dot(BodyRay(radtan, pixel)));
     EXPECT_LT(angle, 0.3 * M_PI / 180) << pixel.transpose();
   }

@@ -138,6 +138,7 @@ RunSummary::Run Describe(const Source& source, const OdometryPipeline& pipeline)
   run.input = source.name;
   run.images = pipeline.images();
   run.first_image_ns = pipeline.first_image_ns();
+  run.residual_rings = pipeline.residual_rings();
   run.drops = source.problems;
   Append(pipeline.drops(), &run.drops);
   return run;
@@ -337,6 +338,7 @@ int Run(const Arguments& arguments) {
   RunSummary::Run run = Describe(source, pipeline);
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
   Warn(pipeline.imu_contradiction());
+  Warn(pipeline.lens_warning());
   // Outputs that may be on another disk or take long are saved before the rest.
   std::string failures;
   if (outputs.features) Try([&] { outputs.features->Close(); }, &failures);

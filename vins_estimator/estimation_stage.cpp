@@ -114,6 +114,12 @@ std::string EstimationStage::ImuContradiction() const {
   return text;
 }
 
+const std::string& EstimationStage::LensWarning() const { return estimator_->lens().warning(); }
+
+std::vector<ResidualRing> EstimationStage::ResidualRings() const {
+  return estimator_->lens().Rings();
+}
+
 void EstimationStage::Reset(const std::string& reason) {
   sync_.Clear();
   StartOver(reason);

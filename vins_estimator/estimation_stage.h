@@ -17,6 +17,7 @@
 #include "vins_estimator/input/measurement_sync.h"
 #include "vins_estimator/input/repeated_image_detector.h"
 #include "vins_estimator/state/estimator_output.h"
+#include "vins_estimator/state/residual_ring.h"
 
 namespace plm_vins {
 
@@ -62,6 +63,10 @@ class EstimationStage {
   // persistently contradicts the IMU or its estimated noise is at the limit, with possible causes
   // in the timestamps. Empty if IMU and camera agree.
   std::string ImuContradiction() const;
+
+  // Describes a distortion model that does not fit the lens; empty if it fits (LensMonitor).
+  const std::string& LensWarning() const;
+  std::vector<ResidualRing> ResidualRings() const;
 
   int64_t frames() const { return frames_; }  // estimated so far
   int64_t resets() const { return resets_; }  // number of world frames that were given up

@@ -18,7 +18,7 @@ Estimator::State::State(const Config& config, const EstimatorOptions& options)
 }
 
 Estimator::Estimator(const Config& config)
-    : config_(config), options_(config_), state_(config_, options_) {}
+    : config_(config), options_(config_), state_(config_, options_), lens_(config_.sensor.camera) {}
 
 void Estimator::Reset() { state_ = State(config_, options_); }
 
@@ -105,6 +105,7 @@ void Estimator::Track(const FrameMeasurement& measurement,
                       EstimatorOutput* output) {
   const WindowOdometry::Tracked tracked = state_.odometry.Track(measurement, standstill, output);
   state_.bridge.AddTracked(measurement.imu, tracked.newest);
+  lens_.Add(tracked.residuals);
   if (tracked.failure) GiveUp(*tracked.failure, output);
 }
 

@@ -11,6 +11,7 @@
 #include "vins_estimator/initialization/initializer.h"
 #include "vins_estimator/input/measurement_check.h"
 #include "vins_estimator/input/rolling_shutter.h"
+#include "vins_estimator/monitoring/lens_monitor.h"
 #include "vins_estimator/state/estimator_output.h"
 #include "vins_estimator/window_odometry.h"
 
@@ -31,6 +32,9 @@ class Estimator {
 
   // Drops everything except the configuration and reinitializes.
   void Reset();
+
+  // Fit of the distortion model, over all world frames.
+  const LensMonitor& lens() const { return lens_; }
 
   // Current estimate of the time offset td [s], with which MeasurementSync should cut the IMU
   // samples.
@@ -66,6 +70,7 @@ class Estimator {
   const Config config_;
   const EstimatorOptions options_;
   State state_;
+  LensMonitor lens_;
 };
 
 }  // namespace plm_vins

@@ -90,6 +90,7 @@ WindowOdometry::Tracked WindowOdometry::Track(
   if (tracked.failure) return tracked;
   output->keyframe = keep_second_newest;
   Describe(solution, output);
+  if (keep_second_newest) tracked.residuals = MiddleResiduals();
   SlideWindow(keep_second_newest, output);
   return tracked;
 }
@@ -272,6 +273,14 @@ void WindowOdometry::CountLandmarks(EstimatorOutput* output) const {
   output->counts.points_in_window = map.points.CountOptimized();
   output->counts.lines_in_window = map.lines.CountOptimized();
   output->counts.known_seen = map.CountInNewest();
+}
+
+// Returns none before the window is full: then its middle is another frame at each keyframe.
+std::vector<PixelResidual> WindowOdometry::MiddleResiduals() const {
+  if (!WindowIsFull()) return {};
+  const std::vector<WindowFrame>& frames = estimate_.map.window.frames;
+  return PixelResiduals(estimate_.map, frames[frames.size() / 2].state.t_ns,
+                        config_->sensor.camera);
 }
 
 PointMap::Fit WindowOdometry::FitOfNewest(int64_t keyframe_ns) const {

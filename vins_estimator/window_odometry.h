@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "common/config/config.h"
 #include "common/measurements.h"
@@ -10,6 +11,7 @@
 #include "vins_estimator/estimator_options.h"
 #include "vins_estimator/imu/standstill_detector.h"
 #include "vins_estimator/initialization/initializer.h"
+#include "vins_estimator/map/pixel_residuals.h"
 #include "vins_estimator/map/view_noise.h"
 #include "vins_estimator/marginalization/window_estimate.h"
 #include "vins_estimator/monitoring/estimate_monitor.h"
@@ -32,6 +34,8 @@ class WindowOdometry {
   struct Tracked {
     UncertainState newest;           // zero covariance: unknown
     std::optional<Failure> failure;  // if set, tracking is lost: reinitialize
+    // Points in the middle frame of the window, whose pose is known best; each keyframe once.
+    std::vector<PixelResidual> residuals;
   };
 
   // Fills the window with the initial frames and optimizes it.
@@ -80,6 +84,7 @@ class WindowOdometry {
   void FindStructure(bool keep_second_newest, EstimatorOutput* output);
   void LearnFromWindow(EstimatorOutput* output);
   void CountLandmarks(EstimatorOutput* output) const;
+  std::vector<PixelResidual> MiddleResiduals() const;
   PointMap::Fit FitOfNewest(int64_t keyframe_ns) const;
   // Returns the reason to declare tracking lost; nullopt if the estimate is valid.
   std::optional<Failure> Check(const Solution& solution, const FrameState& predicted,

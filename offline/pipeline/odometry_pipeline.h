@@ -79,6 +79,8 @@ class OdometryPipeline {
   DropCounts drops() const;
   // The last non-empty EstimationStage::ImuContradiction().
   const std::string& imu_contradiction() const { return imu_contradiction_; }
+  const std::string& lens_warning() const { return back_end_.LensWarning(); }
+  std::vector<ResidualRing> residual_rings() const { return back_end_.ResidualRings(); }
 
   // An image of the second half of the run with its points or lines drawn (CV_8UC3); empty without
   // images, or if lines are not used.

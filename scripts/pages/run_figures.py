@@ -70,6 +70,19 @@ def columns_figure(frames, columns, title):
     return _over_time(data, title)
 
 
+def rings_figure(rings):
+    """Returns the residuals by distance from the image center: `residual_rings` of summary.json."""
+    rings = [ring for ring in rings if ring["count"]]
+    radii = np.array([(ring["inner_px"] + ring["outer_px"]) / 2 for ring in rings])
+    data = [{**_curve(name, radii, np.array([ring[key] for ring in rings])),
+             "mode": "lines+markers"} for name, key in (
+                 ("median of the radial component", "radial_px"),
+                 ("standard deviation", "deviation_px"))]
+    layout = _over_time(data, "residual [px]")["layout"]
+    layout["xaxis"]["title"]["text"] = "distance from the image center [px]"
+    return {"data": data, "layout": layout}
+
+
 def _box(points, paths):
     """Returns the corners of a box around the paths and all points except outliers, which would
     make everything else small."""

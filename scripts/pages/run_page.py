@@ -47,6 +47,10 @@ def run_page(run, truth, script, reason=""):
                                  ("timings", run_figures.STAGES, "time [ms]")):
         contents = run_figures.columns_figure(run.frames, columns, title)
         sections.append((name.capitalize(), html.figure(name, contents)))
+    rings = run.summary.get("residual_rings")
+    if rings:
+        sections.append(("Residuals of points",
+                         html.figure("rings", run_figures.rings_figure(rings))))
     if run.images:
         sections.append(("Tracks", _slider(run.images)))
     return html.page(os.path.basename(os.path.abspath(run.path)), sections, script)

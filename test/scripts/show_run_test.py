@@ -64,6 +64,9 @@ def make_run(folder, td=0.0):
     turned = np.stack([-positions[:, 1], positions[:, 0], positions[:, 2]], axis=1) + [7, 8, 9]
     write_tum(os.path.join(folder, "trajectory.tum"), stamps, turned)
     texts = {"summary.json": json.dumps({"input": "gone.bag", "poses": len(stamps), "images": 410,
+                                         "residual_rings": [
+                                             {"inner_px": 0.0, "outer_px": 60.0, "count": 9,
+                                              "radial_px": 0.1, "deviation_px": 0.2}],
                                          "calibration": {"td_s": td}}),
              "map.ply": POINTS + "".join(f"{7 + x} {8 + y} 9.5\n" for x in np.linspace(-2, 2, 20)
                                          for y in np.linspace(-3, 3, 20)),
@@ -214,6 +217,13 @@ class Figures(unittest.TestCase):
         self.assertGreater(inside.mean(), 0.95)
         json.dumps(scene)
 
+    def test_residuals_are_drawn_by_distance(self):
+        rings = [{"inner_px": 50.0 * i, "outer_px": 50.0 * (i + 1), "count": 10 * i,
+                  "radial_px": 0.01 * i, "deviation_px": 0.2} for i in range(3)]
+        radial, deviation = run_figures.rings_figure(rings)["data"]
+        self.assertEqual((radial["x"], radial["y"]), ([75.0, 125.0], [0.01, 0.02]))
+        self.assertEqual(deviation["y"], [0.2, 0.2])
+
     def test_segments_are_apart(self):
         lines = {"free": np.array([[[0.0, 0, 0], [1, 0, 0]], [[0, 1, 0], [1, 1, 0]]])}
         figure = run_figures.scene_figure({"estimate": np.array([[0.0, 0, 0], [1, 1, 1]])},
@@ -227,6 +237,7 @@ class Page(ShowRun):
         own = text.replace(plotly_source(), "")
         self.assertEqual(re.findall(r"\b(?:src|href)\s*=\s*'[^']*|url\([^)]*", own), [])
         self.assertEqual(own.count("data:image/jpeg;base64,"), 2)
+        self.assertIn("Plotly.newPlot('rings'", own)
 
     def test_map_is_in_the_world_of_the_truth(self):
         text = self.write_page("--groundtruth", self.truth())[1]

@@ -57,6 +57,18 @@ Json CountsToJson(const std::vector<FrameCounts>& frames) {
   return json;
 }
 
+Json RingsToJson(const std::vector<ResidualRing>& rings) {
+  Json json = Json::array();
+  for (const ResidualRing& ring : rings) {
+    json.push_back({{"inner_px", ring.inner_px},
+                    {"outer_px", ring.outer_px},
+                    {"count", ring.count},
+                    {"radial_px", ring.radial_px},
+                    {"deviation_px", ring.deviation_px}});
+  }
+  return json;
+}
+
 }  // namespace
 
 void RunSummary::Add(const EstimatorOutput& output, const FrameTimings& timings,
@@ -127,6 +139,7 @@ Json RunSummary::ToJson(const Run& run) const {
   json["calibration"] = poses_ > 0 ? CalibrationToJson(calibration_) : Json(nullptr);
   json["timing_ms"] = TimingsToJson(timings_);
   json["counts_per_frame"] = CountsToJson(counts_);
+  json["residual_rings"] = RingsToJson(run.residual_rings);
   json["dropped"] = DropsToJson(run.drops);
   return json;
 }

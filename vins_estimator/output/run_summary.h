@@ -11,6 +11,7 @@
 #include "vins_estimator/output/frame_timings.h"
 #include "vins_estimator/output/json.h"
 #include "vins_estimator/state/estimator_output.h"
+#include "vins_estimator/state/residual_ring.h"
 
 namespace plm_vins {
 
@@ -35,6 +36,7 @@ class RunSummary {
     int64_t map_points = 0;  // landmarks written to the map
     int64_t map_lines = 0;   // lines written to the map
     DropCounts drops;
+    std::vector<ResidualRing> residual_rings;
   };
   Json ToJson(const Run& run) const;
 

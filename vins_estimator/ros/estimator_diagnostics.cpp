@@ -47,6 +47,7 @@ void EstimatorDiagnostics::UpdateCounts(const EstimationStage& stage, const Drop
   const std::lock_guard<std::mutex> lock(mutex_);
   resets_ = stage.resets();
   imu_contradiction_ = stage.ImuContradiction();
+  lens_warning_ = stage.LensWarning();
   queued_frames_ = stage.queued_frames();
   lines_are_missing_ = stage.lines_are_missing();
   frames_without_lines_ = stage.statistics().frames_without_lines;
@@ -91,9 +92,10 @@ void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapp
     state += "; late: poses are " + std::to_string(std::lround(1e3 * pose_age_)) + " ms old";
   if (on_imu_alone_) state += "; blind: the IMU alone carries on";
   if (!imu_contradiction_.empty()) state += "; " + imu_contradiction_;
+  if (!lens_warning_.empty()) state += "; " + lens_warning_;
   if (contradicted_) state += "; the camera contradicts the state";
   const bool fine = tracking && !lines_are_missing_ && !late && !on_imu_alone_ && !contradicted_ &&
-                    imu_contradiction_.empty();
+                    imu_contradiction_.empty() && lens_warning_.empty();
   status->summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN, state);
 }
 

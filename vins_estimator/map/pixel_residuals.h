@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "common/camera/camera_model.h"
+#include "vins_estimator/map/local_map.h"
+
+namespace plm_vins {
+
+// Reprojection error of a point in the raw image.
+struct PixelResidual {
+  Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();     // of the observation
+  Eigen::Vector2d error_px = Eigen::Vector2d::Zero();  // predicted minus observed
+};
+
+// Returns the residuals of the optimized points in one frame of the window. `camera` is the
+// configured camera; rays are those of the window's ray_intrinsics.
+std::vector<PixelResidual> PixelResiduals(const LocalMap& map, int64_t t_ns,
+                                          const CameraParameters& camera);
+
+}  // namespace plm_vins

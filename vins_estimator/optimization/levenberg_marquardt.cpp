@@ -50,7 +50,7 @@ void Move(const Variable& variable, const double* step) {
 
 struct Step {
   double size = 0;            // largest component of its dense part
-  double predicted_gain = 0;  // of the cost, if undamped and exactly quadratic
+  double predicted_gain = 0;  // decrease of the cost if it is exactly quadratic
 };
 
 // Moves every variable by the solution of the damped equations; returns nullopt, moving nothing, if
@@ -64,7 +64,7 @@ std::optional<Step> TakeStep(const WindowProblem& problem, double damping,
   for (size_t i = 0; i < problem.landmarks().size(); ++i) {
     const int index = static_cast<int>(i);
     const LandmarkVector landmark_step = equations->LandmarkStep(index, dense_step, damping);
-    step.predicted_gain -= 0.5 * equations->LandmarkGradient(index).dot(landmark_step);
+    step.predicted_gain += equations->LandmarkGain(index, landmark_step, damping);
     Move(problem.variables()[problem.landmarks()[i].variable], landmark_step.data());
   }
   for (size_t i = 0; i < problem.variables().size(); ++i) {
@@ -72,7 +72,7 @@ std::optional<Step> TakeStep(const WindowProblem& problem, double damping,
     if (offset >= 0) Move(problem.variables()[i], &dense_step[offset]);
   }
   if (dense_step.size() > 0) {
-    step.predicted_gain -= 0.5 * equations->DenseGradient().dot(dense_step);
+    step.predicted_gain += equations->DenseGain(dense_step, damping);
     step.size = dense_step.lpNorm<Eigen::Infinity>();
   }
   return step;

@@ -90,6 +90,16 @@ LandmarkVector NormalEquations::LandmarkStep(int index, const Eigen::VectorXd& d
   return SolveLandmark(landmarks_[index], dense_step, damping);
 }
 
+double NormalEquations::DenseGain(const Eigen::VectorXd& step, double damping) const {
+  return -0.5 * b_d_.dot(step) + 0.5 * damping * step.cwiseAbs2().dot(H_dd_.diagonal());
+}
+
+double NormalEquations::LandmarkGain(int index, const LandmarkVector& step, double damping) const {
+  const LandmarkEquations& landmark = landmarks_[index];
+  return -0.5 * landmark.b_l.dot(step) +
+         0.5 * damping * step.cwiseAbs2().dot(landmark.H_ll.diagonal());
+}
+
 Eigen::MatrixXd NormalEquations::Covariance(const std::vector<BlockId>& ids) {
   if (!Factor(0)) return {};
 

@@ -100,6 +100,26 @@ TEST_F(NormalEquationsTest, StepsSolveTheFullSystem) {
   }
 }
 
+TEST_F(NormalEquationsTest, GainIsThatOfTheQuadraticModel) {
+  equations_->Linearize();
+  const DenseEquations dense = testing::BuildDenseEquations(problem(), *equations_);
+  for (const double damping : {0.0, 0.1, 10.0}) {
+    const Eigen::VectorXd dense_step = equations_->DenseStep(damping);
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(dense.b.size());
+    step.head(dense_step.size()) = dense_step;
+    double gain = equations_->DenseGain(dense_step, damping);
+    for (size_t i = 0; i < problem().landmarks().size(); ++i) {
+      const int index = static_cast<int>(i);
+      const LandmarkVector part = equations_->LandmarkStep(index, dense_step, damping);
+      step.segment(dense.offset[problem().landmarks()[i].variable], part.size()) = part;
+      gain += equations_->LandmarkGain(index, part, damping);
+    }
+    const double expected = -dense.b.dot(step) - 0.5 * step.dot(dense.H * step);
+    EXPECT_GT(expected, 0);
+    EXPECT_NEAR(gain / expected, 1, 1e-6) << damping;
+  }
+}
+
 TEST_F(NormalEquationsTest, CovarianceIsTheInverseOfTheFullInformation) {
   equations_->Linearize();
   const int64_t oldest = simulated_.window.frames.front().state.t_ns;

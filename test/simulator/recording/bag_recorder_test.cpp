@@ -12,6 +12,7 @@
 #include <map>
 #include <sstream>
 
+#include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
 

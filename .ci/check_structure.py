@@ -21,6 +21,7 @@ COMMON_LAYERS = {
     "append.h": "",
     "format.h": "",
     "measurements.h": "",
+    "image_companions.h": "measurements.h",
     "median.h": "",
     "stopwatch.h": "",
     "geometry": "",
@@ -31,14 +32,23 @@ COMMON_LAYERS = {
     "io": "measurements.h",
     "config": "geometry camera imu",
 }
+TRACKING_LAYERS = {
+    "image_sampling.h": "",
+    "stereo": "image_sampling.h",
+}
 POINT_TRACKER_LAYERS = {
     "detection": "",
     "following": "",
+    "point_track.h": "following",
+    "ray_mask.h": "",
+    "stereo": "following point_track.h ray_mask.h",
 }
 LINE_TRACKER_LAYERS = {
     "segments": "",
     "detection": "segments",
     "following": "segments",
+    "line_track.h": "segments",
+    "stereo": "segments following line_track.h",
 }
 ESTIMATOR_LAYERS = {
     "state": "",
@@ -94,7 +104,7 @@ def layers_of_part(part, folders, others=frozenset()):
 
 ROS_EDGE = {"common/ros", "tracking/ros"}
 COMMON = {"common"} | inside("common", COMMON_LAYERS)
-TRACKING = COMMON | {"tracking"}
+TRACKING = COMMON | {"tracking"} | inside("tracking", TRACKING_LAYERS)
 TRACKERS = {"feature_tracker", "linefeature_tracker"}
 ESTIMATOR_OUTPUT = inside("vins_estimator", ["state", "output"])
 
@@ -102,7 +112,7 @@ ESTIMATOR_OUTPUT = inside("vins_estimator", ["state", "output"])
 # applies. Tests and benchmarks may include anything, also ROS.
 LAYERS = {
     **layers_of_part("common", COMMON_LAYERS),
-    **layers_of_part("tracking", {}, COMMON),
+    **layers_of_part("tracking", TRACKING_LAYERS, COMMON),
     **layers_of_part("feature_tracker", POINT_TRACKER_LAYERS, TRACKING),
     **layers_of_part("linefeature_tracker", LINE_TRACKER_LAYERS, TRACKING),
     **layers_of_part("vins_estimator", ESTIMATOR_LAYERS, COMMON),

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/stereo/mounting_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "test/tracking/stereo/stereo_scene.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kFocal = 460;  // [px]
+constexpr double kDegree = M_PI / 180;
+
+// Points at 1 to 10 m as cameras mounted by `truth` see them, the second one `delay` [s] late.
+std::vector<StereoMatch> Matches(const Rigid3d& truth, double delay, int count = 100,
+                                 double noise_px = 0.2) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-0.6, 0.6), inverse_depth(0.1, 1.0);
+  std::normal_distribution<double> noise(0, noise_px / kFocal), speed(0.5, 0.5);
+  std::vector<StereoMatch> matches;
+  for (int i = 0; i < count; ++i) {
+    StereoMatch match;
+    match.xy = {place(random), place(random)};
+    match.velocity = {speed(random), speed(random)};
+    const Eigen::Vector2d later = match.xy + delay * match.velocity;
+    const Eigen::Vector3d p_C1 =
+        truth.rotation * later.homogeneous() + inverse_depth(random) * truth.translation;
+    match.xy_C1 = p_C1.hnormalized() + Eigen::Vector2d(noise(random), noise(random));
+    matches.push_back(match);
+  }
+  return matches;
+}
+
+Rigid3d Turned(const Eigen::Vector3d& angles) {
+  return {SO3Exp(angles) * StereoMounting().rotation, StereoMounting().translation};
+}
+
+void Feed(const std::vector<StereoMatch>& matches, MountingEstimate* estimate) {
+  for (int i = 0; i < 10; ++i) estimate->Update(matches);
+}
+
+TEST(MountingEstimateTest, LearnsHowTheCameraIsTurned) {
+  const Eigen::Vector3d angles = Eigen::Vector3d(0.3, -0.2, 0.3) * kDegree;
+  MountingEstimate estimate(StereoMounting(), kFocal);
+  Feed(Matches(Turned(angles), 0), &estimate);
+  // About the baseline's own direction and about the axis; about the other one, only the shape of
+  // the epipolar curves tells.
+  EXPECT_NEAR(estimate.rotation().x(), angles.x(), 0.02 * kDegree);
+  EXPECT_NEAR(estimate.rotation().y(), angles.y(), 0.1 * kDegree);
+  EXPECT_NEAR(estimate.rotation().z(), angles.z(), 0.1 * kDegree);
+  for (const StereoMatch& match : Matches(Turned(angles), 0, 20)) {
+    EXPECT_LT(std::abs(estimate.Error_px(match)), 1);
+    EXPECT_TRUE(estimate.Accepts(match));
+  }
+  EXPECT_NEAR(estimate.T_C1_C().translation.norm(), StereoMounting().translation.norm(), 1e-12);
+}
+
+TEST(MountingEstimateTest, LearnsByHowMuchTheSecondCameraIsLate) {
+  for (const double delay : {0.005, -0.01}) {
+    MountingEstimate estimate(StereoMounting(), kFocal);
+    const std::vector<StereoMatch> matches = Matches(StereoMounting(), delay);
+    Feed(matches, &estimate);
+    EXPECT_NEAR(estimate.delay(), delay, 1e-3);
+    const std::vector<StereoMatch> in_time = Matches(StereoMounting(), 0);
+    for (size_t i = 0; i < matches.size(); ++i) {
+      EXPECT_LT((estimate.WithoutDelay(matches[i]) - in_time[i].xy_C1).norm() * kFocal, 1);
+    }
+  }
+}
+
+TEST(MountingEstimateTest, IsNotMisledByWrongMatches) {
+  std::vector<StereoMatch> matches = Matches(StereoMounting(), 0);
+  for (size_t i = 0; i < matches.size(); i += 3) matches[i].xy_C1.y() += 0.004 * (1.0 + i % 7);
+  MountingEstimate estimate(StereoMounting(), kFocal);
+  Feed(matches, &estimate);
+  EXPECT_LT(estimate.rotation().norm(), 0.1 * kDegree);
+  int accepted = 0;
+  for (size_t i = 0; i < matches.size(); i += 3) accepted += estimate.Accepts(matches[i]);
+  EXPECT_LE(accepted, 6);  // of 34; some are wrong by less than two pixels
+}
+
+TEST(MountingEstimateTest, AcceptsWhatThePriorAllowsBeforeItKnows) {
+  const MountingEstimate estimate(StereoMounting(), kFocal);
+  EXPECT_TRUE(estimate.Accepts(Matches(Turned({0.4 * kDegree, 0, 0}), 0, 1).front()));
+  EXPECT_FALSE(estimate.Accepts(Matches(Turned({3 * kDegree, 0, 0}), 0, 1).front()));
+  EXPECT_NEAR(estimate.Deviation_px(), kFocal * 0.4 * kDegree, 1e-6);
+}
+
+TEST(MountingEstimateTest, ErrorIsTheDistanceFromTheEpipolarLine) {
+  const MountingEstimate estimate(StereoMounting(), kFocal);
+  StereoMatch match = Matches(StereoMounting(), 0, 1, 0).front();
+  EXPECT_NEAR(estimate.StatedError_px(match), 0, 1e-9);
+  const Eigen::Vector2d along =
+      (StereoMounting().translation.head<2>() - match.xy_C1 * StereoMounting().translation.z())
+          .normalized();
+  match.xy_C1 += 2 / kFocal * Eigen::Vector2d(-along.y(), along.x());
+  EXPECT_NEAR(std::abs(estimate.StatedError_px(match)), 2, 1e-6);
+}
+
+}  // namespace
+}  // namespace plm_vins

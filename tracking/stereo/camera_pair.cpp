@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/stereo/camera_pair.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plm_vins {
+namespace {
+
+// The curve is projected at nodes this far apart, and straight between them: with the strongest
+// usual lenses, it bends by a hundredth of a pixel over that length.
+constexpr double kNodeDistance_px = 10.0;
+constexpr double kMaxChange = 4.0;  // of the step of inverse depth, from node to node
+constexpr int kMaxNodes = 400;
+constexpr double kMinBaseline = 1e-6;     // [m]
+constexpr double kMinDepthRatio = 1e-3;   // of depths in the two cameras
+constexpr double kMinDeterminant = 1e-6;  // of the projection's derivative [px^2]
+
+}  // namespace
+
+CameraPair::CameraPair(std::shared_ptr<const CameraModel> first,
+                       std::shared_ptr<const CameraModel> second, const Rigid3d& T_C1_C)
+    : first_(std::move(first)), second_(std::move(second)), T_C1_C_(T_C1_C), R_C1_C_(T_C1_C.R()) {}
+
+std::optional<Eigen::Vector2d> CameraPair::Project(const Eigen::Vector2d& xy,
+                                                   double inverse_depth) const {
+  return second_->Project(R_C1_C_ * xy.homogeneous() + inverse_depth * T_C1_C_.translation);
+}
+
+std::optional<Eigen::Vector2d> CameraPair::Transfer(const Eigen::Vector2d& xy,
+                                                    double inverse_depth) const {
+  const Eigen::Vector3d p_C1 = R_C1_C_ * xy.homogeneous() + inverse_depth * T_C1_C_.translation;
+  if (!(p_C1.z() > kMinDepthRatio)) return std::nullopt;
+  return p_C1.hnormalized();
+}
+
+double CameraPair::InverseDepthPerPixel() const {
+  return 1 / (second_->FocalLength() * std::max(T_C1_C_.translation.norm(), kMinBaseline));
+}
+
+std::optional<Eigen::Matrix2d> CameraPair::Warp(const Eigen::Vector2d& xy,
+                                                double inverse_depth) const {
+  const Eigen::Vector3d p_C1 = R_C1_C_ * xy.homogeneous() + inverse_depth * T_C1_C_.translation;
+  Eigen::Matrix<double, 2, 3> d_first_d_ray, d_second_d_point;
+  if (!first_->Project(xy.homogeneous(), &d_first_d_ray)) return std::nullopt;
+  if (!second_->Project(p_C1, &d_second_d_point)) return std::nullopt;
+  const Eigen::Matrix2d d_second_d_xy = d_second_d_point * R_C1_C_.leftCols<2>();
+  const Eigen::Matrix2d d_first_d_xy = d_first_d_ray.leftCols<2>();
+  if (std::abs(d_first_d_xy.determinant()) < kMinDeterminant) return std::nullopt;
+  return d_second_d_xy * d_first_d_xy.inverse();
+}
+
+std::vector<CurvePoint> CameraPair::Curve(const Eigen::Vector2d& xy, double from, double to) const {
+  std::vector<CurvePoint> curve;
+  double step = kNodeDistance_px * InverseDepthPerPixel();
+  std::optional<CurvePoint> last;
+  double inverse_depth = from;
+  for (int i = 0; i < kMaxNodes; ++i) {
+    const auto pixel = Project(xy, inverse_depth);
+    if (!pixel && last) break;
+    if (pixel) {
+      const CurvePoint node{inverse_depth, *pixel};
+      if (last) {
+        const double length_px = (*pixel - last->pixel).norm();
+        AppendBetween(*last, node, length_px, &curve);
+        step *=
+            std::clamp(kNodeDistance_px / std::max(length_px, 1e-6), 1 / kMaxChange, kMaxChange);
+      }
+      last = node;
+    }
+    if (inverse_depth >= to) break;
+    inverse_depth = std::min(inverse_depth + step, to);
+  }
+  if (last && second_->IsInImage(last->pixel)) curve.push_back(*last);
+  return curve;
+}
+
+void CameraPair::AppendBetween(const CurvePoint& from, const CurvePoint& to, double length_px,
+                               std::vector<CurvePoint>* curve) const {
+  const int count = std::max(static_cast<int>(std::ceil(length_px)), 1);
+  for (int i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / count;
+    const CurvePoint point{from.inverse_depth + share * (to.inverse_depth - from.inverse_depth),
+                           from.pixel + share * (to.pixel - from.pixel)};
+    if (second_->IsInImage(point.pixel)) curve->push_back(point);
+  }
+}
+
+std::optional<CameraPair> CameraPairOf(const SensorConfig& sensor) {
+  if (!sensor.second_camera) return std::nullopt;
+  return CameraPair(CameraModel::Create(sensor.camera),
+                    CameraModel::Create(sensor.second_camera->camera),
+                    sensor.second_camera->T_B_C.Inverse() * sensor.T_B_C);
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/camera/camera_model.h"
+#include "common/config/sensor_config.h"
+#include "common/geometry/rigid3.h"
+
+namespace plm_vins {
+
+// A place on an epipolar curve.
+struct CurvePoint {
+  double inverse_depth = 0;  // along the optical axis of the first camera [1/m]
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // in the second camera
+};
+
+// Two rigidly mounted cameras that expose at the same time. A ray (x, y, 1) of the first camera C
+// is an epipolar curve in the raw image of the second camera C1, bent by its lens.
+class CameraPair {
+ public:
+  CameraPair(std::shared_ptr<const CameraModel> first, std::shared_ptr<const CameraModel> second,
+             const Rigid3d& T_C1_C);
+
+  // The pixel in the second camera of the point of this inverse depth [1/m] on the ray of `xy`.
+  // Negative inverse depths continue the curve beyond infinity. Returns nullopt where the second
+  // camera does not see the point.
+  std::optional<Eigen::Vector2d> Project(const Eigen::Vector2d& xy, double inverse_depth) const;
+
+  // Returns the same point in normalized, undistorted coordinates of C1; nullopt if it is not in
+  // front of that camera.
+  std::optional<Eigen::Vector2d> Transfer(const Eigen::Vector2d& xy, double inverse_depth) const;
+
+  // By how much the inverse depth of a distant point on the axis changes per pixel of disparity.
+  double InverseDepthPerPixel() const;
+
+  // How the surroundings of the pixel of `xy` in the first image look in the second one: d(pixel in
+  // the second)/d(pixel in the first), at a constant inverse depth [1/m]. Returns nullopt where
+  // either camera does not see the point.
+  std::optional<Eigen::Matrix2d> Warp(const Eigen::Vector2d& xy, double inverse_depth) const;
+
+  // The epipolar curve within the second image, from one inverse depth [1/m] to a larger one, in
+  // steps of about one pixel. It ends early where the second camera no longer sees it.
+  std::vector<CurvePoint> Curve(const Eigen::Vector2d& xy, double from, double to) const;
+
+  // Returns the pair with the roles exchanged.
+  CameraPair Swapped() const { return {second_, first_, T_C1_C_.Inverse()}; }
+  // Returns the same cameras with another mounting.
+  CameraPair With(const Rigid3d& T_C1_C) const { return {first_, second_, T_C1_C}; }
+
+  const CameraModel& first() const { return *first_; }
+  const CameraModel& second() const { return *second_; }
+  const std::shared_ptr<const CameraModel>& second_camera() const { return second_; }
+  const Rigid3d& T_C1_C() const { return T_C1_C_; }
+
+ private:
+  void AppendBetween(const CurvePoint& from, const CurvePoint& to, double length_px,
+                     std::vector<CurvePoint>* curve) const;
+
+  std::shared_ptr<const CameraModel> first_, second_;
+  Rigid3d T_C1_C_;
+  Eigen::Matrix3d R_C1_C_;
+};
+
+// The cameras of a configuration; nullopt where it has one alone. Throws std::invalid_argument as
+// CameraModel::Create() does.
+std::optional<CameraPair> CameraPairOf(const SensorConfig& sensor);
+
+}  // namespace plm_vins

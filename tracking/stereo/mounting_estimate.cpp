@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracking/stereo/mounting_estimate.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "common/geometry/epipolar_constraint.h"
+#include "common/geometry/robust_weight.h"
+#include "common/geometry/so3.h"
+#include "common/geometry/tangent_basis.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+// Standard deviations of what a stated mounting may be off.
+constexpr double kRotationPrior = 0.4 * kDegree;  // [rad]
+constexpr double kBaselinePrior = 0.4 * kDegree;  // [rad]
+constexpr double kDelayPrior = 0.01;              // [s]
+constexpr double kMatchDeviation_px = 0.5;        // of a match, with what lens models leave
+constexpr double kGate = 3.0;                     // standard deviations
+constexpr double kMemory = 0.99;  // share of its weight that an image keeps with the next
+constexpr double kScales_px[] = {4, 2, 1, 0.5};  // of the robust weights, one per iteration
+
+}  // namespace
+
+MountingEstimate::MountingEstimate(const Rigid3d& stated_T_C1_C, double focal_length)
+    : stated_T_C1_C_(stated_T_C1_C),
+      focal_length_(focal_length),
+      baseline_direction_(stated_T_C1_C.translation.normalized()),
+      baseline_tangent_(TangentBasis(baseline_direction_)) {
+  Vector deviations;
+  deviations << kRotationPrior, kRotationPrior, kRotationPrior, kBaselinePrior, kBaselinePrior,
+      kDelayPrior;
+  covariance_ = deviations.cwiseAbs2().asDiagonal();
+  prior_ = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
+}
+
+Eigen::Vector2d MountingEstimate::Velocity_C1(const StereoMatch& match) const {
+  const Eigen::Matrix3d R_C1_C = stated_T_C1_C_.R();
+  const Eigen::Vector3d ray = R_C1_C * match.xy.homogeneous();
+  const Eigen::Vector3d motion = R_C1_C.leftCols<2>() * match.velocity;
+  return (motion.head<2>() - ray.hnormalized() * motion.z()) / ray.z();
+}
+
+MountingEstimate::Linear MountingEstimate::Linearize(const StereoMatch& match) const {
+  const Eigen::Vector3d a = stated_T_C1_C_.rotation * match.xy.homogeneous();
+  const Eigen::Vector3d b = match.xy_C1.homogeneous();
+  const Eigen::Vector3d line = baseline_direction_.cross(a);
+  const double weight = focal_length_ / std::max(line.head<2>().norm(), 1e-9);
+  Linear linear;
+  linear.error = weight * line.dot(b);
+  linear.gradient.head<5>() =
+      EpipolarGradient(weight, a, b, baseline_direction_, baseline_tangent_);
+  // A match that is seen later lies further along its motion.
+  linear.gradient[kDelay] = -weight * line.head<2>().dot(Velocity_C1(match));
+  return linear;
+}
+
+void MountingEstimate::Update(const std::vector<StereoMatch>& matches) {
+  std::vector<Linear> linear;
+  linear.reserve(matches.size());
+  for (const StereoMatch& match : matches) linear.push_back(Linearize(match));
+  Matrix information;
+  Vector gradient;
+  for (const double scale : kScales_px) {
+    information = kMemory * information_;
+    gradient = kMemory * gradient_;
+    for (const Linear& one : linear) {
+      const double error = one.error + one.gradient.dot(state_);
+      const double weight =
+          GemanMcClureWeight(error, scale) / (kMatchDeviation_px * kMatchDeviation_px);
+      information += weight * one.gradient * one.gradient.transpose();
+      gradient += weight * one.gradient * one.error;
+    }
+    const Eigen::LDLT<Matrix> factor(information + prior_);
+    state_ = -factor.solve(gradient);
+    covariance_ = factor.solve(Matrix::Identity());
+  }
+  information_ = information;
+  gradient_ = gradient;
+}
+
+bool MountingEstimate::Accepts(const StereoMatch& match) const {
+  const Linear linear = Linearize(match);
+  const double variance =
+      kMatchDeviation_px * kMatchDeviation_px + linear.gradient.dot(covariance_ * linear.gradient);
+  return std::abs(linear.error + linear.gradient.dot(state_)) < kGate * std::sqrt(variance);
+}
+
+double MountingEstimate::StatedError_px(const StereoMatch& match) const {
+  return Linearize(match).error;
+}
+
+double MountingEstimate::Error_px(const StereoMatch& match) const {
+  const Linear linear = Linearize(match);
+  return linear.error + linear.gradient.dot(state_);
+}
+
+Eigen::Vector2d MountingEstimate::WithoutDelay(const StereoMatch& match) const {
+  return match.xy_C1 - delay() * Velocity_C1(match);
+}
+
+Rigid3d MountingEstimate::T_C1_C() const {
+  const Eigen::Vector3d direction =
+      (baseline_direction_ + baseline_tangent_ * state_.segment<2>(3)).normalized();
+  return {(SO3Exp(rotation()) * stated_T_C1_C_.rotation).normalized(),
+          stated_T_C1_C_.translation.norm() * direction};
+}
+
+double MountingEstimate::Deviation_px() const {
+  return focal_length_ * std::sqrt(covariance_.diagonal().head<3>().maxCoeff());
+}
+
+}  // namespace plm_vins

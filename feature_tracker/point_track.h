@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 
+#include "common/measurements.h"
 #include "feature_tracker/following/corner_patch.h"
 
 namespace plm_vins {
@@ -21,6 +23,10 @@ struct PointTrack {
   Eigen::Matrix2d patch_linear = Eigen::Matrix2d::Identity();  // of its pose at uv_px
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();                // normalized, undistorted
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();          // d(xy)/dt [1/s]; zero when new
+  std::optional<Eigen::Vector2d> right;                        // as of PointObservation
+  RightSearch right_search = RightSearch::kNotDue;
+  std::optional<double> inverse_depth;  // by the last match in the second camera [1/m]
+  std::optional<double> depth;          // the same [m]
 };
 
 }  // namespace plm_vins

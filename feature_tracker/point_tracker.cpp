@@ -5,14 +5,17 @@
 #include <utility>
 #include <vector>
 
+#include "common/camera/image_format.h"
 #include "common/features/feature_checks.h"
 #include "feature_tracker/contrast_equalizer.h"
+#include "feature_tracker/depth_sampling.h"
 #include "feature_tracker/detection/corner_detector.h"
 #include "feature_tracker/detection/spacing_grid.h"
 #include "feature_tracker/following/optical_flow.h"
 #include "feature_tracker/following/outlier_rejection.h"
 #include "feature_tracker/point_track.h"
 #include "feature_tracker/ray_mask.h"
+#include "feature_tracker/stereo/stereo_matcher.h"
 #include "feature_tracker/track_drawing.h"
 #include "tracking/image_check.h"
 #include "tracking/image_mask.h"
@@ -52,17 +55,24 @@ int RemoveTracks(const std::vector<bool>& keep, std::vector<PointTrack>* tracks)
 class PointTracker::Implementation {
  public:
   Implementation(const PointTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
-                 const cv::Mat& mask)
+                 const cv::Mat& mask, const std::optional<CameraPair>& pair)
       : config_(config),
         camera_(std::move(camera)),
         image_size_(camera_->parameters().width, camera_->parameters().height),
         mask_(WithinRays(*camera_, mask)),
         detector_(config, mask_),
         flow_(config),
-        equalizer_(image_size_) {}
+        equalizer_(image_size_) {
+    if (pair) stereo_.emplace(*pair);
+  }
 
-  PointFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+  PointFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0,
+                   const ImageCompanions& companions) {
     CheckImage(sample, camera_->parameters(), t_ns_);
+    if (stereo_ && !companions.right.gray.empty()) stereo_->CheckRight(companions.right.gray);
+    if (!companions.depth.depth.empty()) {
+      CheckDepthFormat(companions.depth.depth, camera_->parameters());
+    }
     const cv::Mat& image = Equalize(sample.gray);
     OpticalFlow::Pyramid pyramid = flow_.BuildPyramid(image, std::move(unused_pyramid_));
     statistics_ = {};
@@ -78,6 +88,7 @@ class PointTracker::Implementation {
     }
     if (IsRefillDue()) Refill(image);
     CutMissingPatches(sample.gray);
+    LookAtCompanions(sample.gray, companions);
     sample_ = sample;
     unused_pyramid_ = std::exchange(pyramid_, std::move(pyramid));
     t_ns_ = sample.t_ns;
@@ -100,9 +111,15 @@ class PointTracker::Implementation {
   }
 
   const PointTrackerStatistics& statistics() const { return statistics_; }
+  std::string SecondCameraFinding() const { return stereo_ ? stereo_->Finding() : ""; }
   cv::Mat DrawTracks() const { return DrawPointTracks(sample_.gray, tracks_); }
 
  private:
+  void LookAtCompanions(const cv::Mat& gray, const ImageCompanions& companions) {
+    if (stereo_) stereo_->Match(gray, companions.right.gray, &tracks_);
+    for (PointTrack& track : tracks_) track.depth = DepthAt(companions.depth.depth, track.uv_px);
+  }
+
   const cv::Mat& Equalize(const cv::Mat& gray) {
     if (!config_.equalize) return gray;
     equalizer_.Apply(gray, &equalized_);
@@ -234,7 +251,9 @@ class PointTracker::Implementation {
     PointFrame frame;
     frame.t_ns = *t_ns_;
     for (const PointTrack& track : tracks_) {
-      const PointObservation point = {track.id, track.xy, ToEigen(track.uv_px), track.velocity};
+      const PointObservation point = {track.id,       track.xy,    ToEigen(track.uv_px),
+                                      track.velocity, track.right, track.right_search,
+                                      track.depth};
       if (IsPossible(point)) frame.points.push_back(point);
     }
     return frame;
@@ -248,6 +267,7 @@ class PointTracker::Implementation {
   CornerDetector detector_;
   OpticalFlow flow_;
   ContrastEqualizer equalizer_;
+  std::optional<StereoMatcher> stereo_;
 
   // State at the newest image.
   std::optional<int64_t> t_ns_;
@@ -262,14 +282,16 @@ class PointTracker::Implementation {
 };
 
 PointTracker::PointTracker(const PointTrackerConfig& config,
-                           std::shared_ptr<const CameraModel> camera, const cv::Mat& mask)
-    : implementation_(std::make_unique<Implementation>(config, std::move(camera), mask)) {}
+                           std::shared_ptr<const CameraModel> camera, const cv::Mat& mask,
+                           const std::optional<CameraPair>& pair)
+    : implementation_(std::make_unique<Implementation>(config, std::move(camera), mask, pair)) {}
 
 PointTracker::~PointTracker() = default;
 
 PointFrame PointTracker::Track(const ImageSample& image,
-                               const std::optional<Eigen::Quaterniond>& R_C1_C0) {
-  return implementation_->Track(image, R_C1_C0);
+                               const std::optional<Eigen::Quaterniond>& R_C1_C0,
+                               const ImageCompanions& companions) {
+  return implementation_->Track(image, R_C1_C0, companions);
 }
 
 void PointTracker::Reset() { implementation_->Reset(); }
@@ -278,6 +300,10 @@ void PointTracker::SetMaxCorners(int count) { implementation_->SetMaxCorners(cou
 
 const PointTrackerStatistics& PointTracker::statistics() const {
   return implementation_->statistics();
+}
+
+std::string PointTracker::SecondCameraFinding() const {
+  return implementation_->SecondCameraFinding();
 }
 
 cv::Mat PointTracker::DrawTracks() const { return implementation_->DrawTracks(); }

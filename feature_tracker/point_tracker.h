@@ -5,10 +5,13 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 
 #include "common/camera/camera_model.h"
 #include "common/config/config.h"
+#include "common/image_companions.h"
 #include "common/measurements.h"
+#include "tracking/stereo/camera_pair.h"
 
 namespace plm_vins {
 
@@ -30,16 +33,17 @@ class PointTracker {
   using Features = PointFrame;
   using Statistics = PointTrackerStatistics;
 
-  // Corners are restricted to pixels that `mask` (see ReadMask()) allows and that have a ray.
+  // Corners are restricted to pixels that `mask` (see ReadMask()) allows and that have a ray. With
+  // a `pair`, whose first camera is `camera`, corners are matched in the second camera, too.
   PointTracker(const PointTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
-               const cv::Mat& mask = {});
+               const cv::Mat& mask = {}, const std::optional<CameraPair>& pair = {});
   ~PointTracker();
 
   // `R_C1_C0` rotates the previous camera frame C0 to the current one C1 (from the gyroscope);
-  // without it, the tracks' own motion predicts. Throws std::invalid_argument if the image is not
-  // CV_8UC1 of the calibrated size or its timestamp does not increase; the tracker is then
-  // unchanged.
-  PointFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0);
+  // without it, the tracks' own motion predicts. Throws std::invalid_argument if an image is not of
+  // its type and calibrated size or the timestamp does not increase; the tracker is then unchanged.
+  PointFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0,
+                   const ImageCompanions& companions = {});
 
   void Reset();  // drops all tracks; ids continue
 
@@ -47,6 +51,9 @@ class PointTracker {
   void SetMaxCorners(int count);
 
   const PointTrackerStatistics& statistics() const;
+
+  // Describes what seems to be wrong with the second camera, and what to do; empty if nothing is.
+  std::string SecondCameraFinding() const;
 
   // Returns the last image with its tracks drawn (CV_8UC3), coloured by age.
   cv::Mat DrawTracks() const;

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
 
+#include "common/measurements.h"
 #include "linefeature_tracker/segments/line_segment.h"
 
 namespace plm_vins {
@@ -16,7 +18,9 @@ struct LineTrack {
   LineSegment segment_px;  // raw pixels
   // Motion across the line since the previous image (normalized), with the camera rotation removed.
   Eigen::Vector2d parallax = Eigen::Vector2d::Zero();
-  cv::Mat descriptor;  // 1 x 32 bytes; empty unless matching by LBD
+  std::optional<RightSegment> right;              // see LineObservation
+  std::optional<Eigen::Vector2d> inverse_depths;  // of start and end, by the last match [1/m]
+  cv::Mat descriptor;                             // 1 x 32 bytes; empty unless matching by LBD
 };
 
 }  // namespace plm_vins

@@ -19,6 +19,7 @@
 #include "linefeature_tracker/line_drawing.h"
 #include "linefeature_tracker/line_track.h"
 #include "linefeature_tracker/segments/segment_sampler.h"
+#include "linefeature_tracker/stereo/line_stereo.h"
 #include "tracking/image_check.h"
 
 namespace plm_vins {
@@ -51,7 +52,7 @@ Eigen::Vector2d MotionAcross(const LineSegment& from, const LineSegment& to) {
 class LineTracker::Implementation {
  public:
   Implementation(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
-                 const cv::Mat& mask)
+                 const cv::Mat& mask, const std::optional<CameraPair>& pair)
       : config_(config),
         camera_(std::move(camera)),
         image_size_(camera_->parameters().width, camera_->parameters().height),
@@ -59,10 +60,14 @@ class LineTracker::Implementation {
         refinement_(config, camera_, mask),
         flow_(camera_),
         gate_(config, camera_->FocalLength()),
-        lbd_(config, camera_->FocalLength()) {}
+        lbd_(config, camera_->FocalLength()) {
+    if (pair) stereo_.emplace(config, *pair);
+  }
 
-  LineFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+  LineFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0,
+                  const cv::Mat& right) {
     CheckImage(sample, camera_->parameters(), t_ns_);
+    if (stereo_ && !right.empty()) stereo_->CheckRight(right);
     LineFlow::Pyramid pyramid = LineFlow::BuildPyramid(sample.gray);
     statistics_ = {};
     statistics_.previous = static_cast<int>(tracks_.size());
@@ -75,6 +80,7 @@ class LineTracker::Implementation {
     } else {
       FollowByLbd(pyramid, dt_ratio, R_C1_C0);
     }
+    if (stereo_) stereo_->Match(sample.gray, right, &tracks_);
     previous_dt_ = dt;
     sample_ = sample;
     pyramid_ = std::move(pyramid);
@@ -265,7 +271,7 @@ class LineTracker::Implementation {
     LineFrame frame;
     frame.t_ns = *t_ns_;
     for (const LineTrack& track : tracks_) {
-      const LineObservation line = {track.id, track.segment.start, track.segment.end};
+      const LineObservation line = {track.id, track.segment.start, track.segment.end, track.right};
       if (IsPossible(line)) frame.lines.push_back(line);
     }
     return frame;
@@ -280,6 +286,7 @@ class LineTracker::Implementation {
   LineFlow flow_;
   LineGate gate_;
   LbdMatcher lbd_;
+  std::optional<LineStereo> stereo_;
 
   // State at the newest image.
   std::optional<int64_t> t_ns_;
@@ -293,14 +300,15 @@ class LineTracker::Implementation {
 };
 
 LineTracker::LineTracker(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
-                         const cv::Mat& mask)
-    : implementation_(std::make_unique<Implementation>(config, std::move(camera), mask)) {}
+                         const cv::Mat& mask, const std::optional<CameraPair>& pair)
+    : implementation_(std::make_unique<Implementation>(config, std::move(camera), mask, pair)) {}
 
 LineTracker::~LineTracker() = default;
 
 LineFrame LineTracker::Track(const ImageSample& image,
-                             const std::optional<Eigen::Quaterniond>& R_C1_C0) {
-  return implementation_->Track(image, R_C1_C0);
+                             const std::optional<Eigen::Quaterniond>& R_C1_C0,
+                             const ImageCompanions& companions) {
+  return implementation_->Track(image, R_C1_C0, companions.right.gray);
 }
 
 void LineTracker::Reset() { implementation_->Reset(); }

@@ -8,7 +8,9 @@
 
 #include "common/camera/camera_model.h"
 #include "common/config/config.h"
+#include "common/image_companions.h"
 #include "common/measurements.h"
+#include "tracking/stereo/camera_pair.h"
 
 namespace plm_vins {
 
@@ -37,16 +39,18 @@ class LineTracker {
   using Features = LineFrame;
   using Statistics = LineTrackerStatistics;
 
-  // Lines are cut off where `mask` (see ReadMask()) excludes pixels.
+  // Lines are cut off where `mask` (see ReadMask()) excludes pixels. With a `pair`, whose first
+  // camera is `camera`, lines are matched in the second camera, too.
   LineTracker(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
-              const cv::Mat& mask = {});
+              const cv::Mat& mask = {}, const std::optional<CameraPair>& pair = {});
   ~LineTracker();
 
   // `R_C1_C0` rotates the previous camera frame C0 to the current one C1 (from the gyroscope);
-  // without it, the tracks' own motion predicts. Throws std::invalid_argument if the image is not
-  // CV_8UC1 of the calibrated size or its timestamp does not increase; the tracker is then
+  // without it, the tracks' own motion predicts. Throws std::invalid_argument if an image is not
+  // CV_8UC1 of the calibrated size or the timestamp does not increase; the tracker is then
   // unchanged.
-  LineFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0);
+  LineFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0,
+                  const ImageCompanions& companions = {});
 
   void Reset();  // drops all tracks; ids continue
 

@@ -46,9 +46,12 @@ Input Open(const Arguments& arguments, const SensorConfig& sensor) {
   if (!arguments.features.empty()) {
     input.features.emplace(arguments.features);
   } else if (!arguments.asl.empty()) {
-    input.recording = OpenAslFolder(arguments.asl);
+    input.recording =
+        OpenAslFolder(arguments.asl, sensor.second_camera.has_value(), sensor.depth.has_value());
   } else {
-    input.recording = OpenBag(arguments.bag, sensor.image_topic, sensor.imu_topic);
+    input.recording = OpenBag(arguments.bag, sensor.image_topic, sensor.imu_topic,
+                              sensor.second_camera ? sensor.second_camera->image_topic : "",
+                              sensor.depth ? sensor.depth->topic : "");
   }
   return input;
 }
@@ -339,6 +342,7 @@ int Run(const Arguments& arguments) {
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
   Warn(pipeline.imu_contradiction());
   Warn(pipeline.lens_warning());
+  Warn(pipeline.SecondCameraFinding());
   // Outputs that may be on another disk or take long are saved before the rest.
   std::string failures;
   if (outputs.features) Try([&] { outputs.features->Close(); }, &failures);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/camera/image_format.h"
+#include "common/format.h"
 
 namespace plm_vins {
 namespace {
@@ -13,15 +14,25 @@ constexpr size_t kMaxWaiting = 2;  // newer images that end the wait for the gyr
 constexpr int64_t kImageGap_ns = 1'000'000'000;
 constexpr int kJumpPatience = 10;  // images
 
+std::string Nearest(int64_t t_ns, const std::optional<int64_t>& last_ns) {
+  if (!last_ns) return "none has come yet";
+  return Format("the last one's timestamp is %.1f ms later", 1e3 * ToSeconds(*last_ns - t_ns));
+}
+
 }  // namespace
 
 DropCounts ToDropCounts(const ImageCounts& counts) {
-  return {{"images_out_of_order", counts.out_of_order, ""},
-          {"images_ahead_of_time", counts.ahead, ""},
-          {"images_wrong_format", counts.wrong_format, counts.wrong_format_detail},
-          {"image_gaps", counts.gaps, ""},
-          {"image_restarts", counts.restarts, ""},
-          {"images_without_gyro", counts.without_gyro, ""}};
+  DropCounts drops = {{"images_out_of_order", counts.out_of_order, ""},
+                      {"images_ahead_of_time", counts.ahead, ""},
+                      {"images_wrong_format", counts.wrong_format, counts.wrong_format_detail},
+                      {"image_gaps", counts.gaps, ""},
+                      {"image_restarts", counts.restarts, ""},
+                      {"images_without_gyro", counts.without_gyro, ""}};
+  for (const DropCount& companion :
+       {counts.without_right, counts.without_depth, counts.right_unusable, counts.depth_unusable}) {
+    if (companion.count > 0) drops.push_back(companion);
+  }
+  return drops;
 }
 
 // The gyroscope cannot predict while the rotation between camera and IMU is still to be calibrated.
@@ -66,10 +77,45 @@ bool ImageQueue::AcceptFormat(const ImageSample& image) {
   }
 }
 
+void ImageQueue::AddRight(ImageSample image) {
+  if (!sensor_.second_camera) return;
+  try {
+    CheckImageFormat(image.gray, sensor_.second_camera->camera);
+    right_.Add(std::move(image));
+  } catch (const std::invalid_argument& error) {
+    counts_.right_unusable.Add(error.what());
+  }
+}
+
+void ImageQueue::AddDepth(DepthSample image) {
+  if (!sensor_.depth) return;
+  try {
+    CheckDepthFormat(image.depth, sensor_.camera);
+    depth_.Add(std::move(image));
+  } catch (const std::invalid_argument& error) {
+    counts_.depth_unusable.Add(error.what());
+  }
+}
+
+bool ImageQueue::IsComplete(int64_t t_ns) const {
+  return (!uses_gyro_ || gyro_.Covers(t_ns)) && !right_.IsAwaited(t_ns) && !depth_.IsAwaited(t_ns);
+}
+
+ImageCompanions ImageQueue::TakeCompanions(int64_t t_ns) {
+  ImageCompanions companions;
+  auto right = right_.Take(t_ns);
+  auto depth = depth_.Take(t_ns);
+  if (sensor_.second_camera && !right) counts_.without_right.Add(Nearest(t_ns, right_.last_ns()));
+  if (sensor_.depth && !depth) counts_.without_depth.Add(Nearest(t_ns, depth_.last_ns()));
+  if (right) companions.right = std::move(*right);
+  if (depth) companions.depth = std::move(*depth);
+  return companions;
+}
+
 std::optional<ReadyImage> ImageQueue::Pop() {
   if (images_.empty()) return std::nullopt;
-  const bool wait = uses_gyro_ && images_.size() <= kMaxWaiting;
-  if (wait && !gyro_.Covers(images_.front().image.t_ns)) return std::nullopt;
+  const bool may_wait = images_.size() <= kMaxWaiting;
+  if (may_wait && !IsComplete(images_.front().image.t_ns)) return std::nullopt;
   return Flush();
 }
 
@@ -87,6 +133,7 @@ std::optional<ReadyImage> ImageQueue::Flush() {
     ready.R_C1_C0 = gyro_.Rotation(*handed_out_ns_, ready.image.t_ns);
     if (!ready.R_C1_C0) ++counts_.without_gyro;
   }
+  ready.companions = TakeCompanions(ready.image.t_ns);
   ready.publish = rate_limiter_.Take(ready.image.t_ns);
   handed_out_ns_ = ready.image.t_ns;
   return ready;

@@ -8,10 +8,12 @@
 #include <string>
 
 #include "common/config/config.h"
+#include "common/image_companions.h"
 #include "common/measurements.h"
 #include "common/streams/backward_jump.h"
 #include "common/streams/drop_counts.h"
 #include "common/streams/forward_jump.h"
+#include "tracking/companion_queue.h"
 #include "tracking/gyro_predictor.h"
 #include "tracking/rate_limiter.h"
 
@@ -23,8 +25,9 @@ struct ReadyImage {
   // Rotates directions from the camera frame of the previous image to this one's. nullopt if the
   // gyroscope does not cover the interval.
   std::optional<Eigen::Quaterniond> R_C1_C0;
-  bool restart = false;  // timestamps jumped back: a new recording begins; drop earlier state
-  bool publish = true;   // false: not for the estimator, by the rate `freq`
+  ImageCompanions companions;  // of the same timestamp
+  bool restart = false;        // timestamps jumped back: a new recording begins; drop earlier state
+  bool publish = true;         // false: not for the estimator, by the rate `freq`
 };
 
 // Counts of received images and their faults since construction.
@@ -37,6 +40,11 @@ struct ImageCounts {
   int64_t gaps = 0;          // intervals of more than a second without images
   int64_t without_gyro = 0;  // returned without R_C1_C0, since the gyroscope did not cover it
   std::string wrong_format_detail;
+  // If there is a second camera or a depth sensor.
+  DropCount without_right{"images_without_second_camera", 0, ""};
+  DropCount without_depth{"images_without_depth", 0, ""};
+  DropCount right_unusable{"second_images_wrong_format", 0, ""};
+  DropCount depth_unusable{"depth_images_wrong_format", 0, ""};
 };
 
 DropCounts ToDropCounts(const ImageCounts& counts);
@@ -56,11 +64,16 @@ class ImageQueue {
   // next one confirms the jump.
   void AddImage(ImageSample image);
 
+  // Images of other sensors for the camera images of the same timestamp, within 2 ms. Ignored if
+  // the configuration has no such sensor.
+  void AddRight(ImageSample image);
+  void AddDepth(DepthSample image);
+
   // Returns the next image in temporal order, or nullopt if it still waits. An image waits for the
-  // gyroscope until two newer images have arrived.
+  // gyroscope and its companions until two newer images have arrived.
   std::optional<ReadyImage> Pop();
 
-  // Returns the next image without waiting for the gyroscope.
+  // Returns the next image without waiting.
   std::optional<ReadyImage> Flush();
 
   bool empty() const { return images_.empty(); }
@@ -74,6 +87,8 @@ class ImageQueue {
 
   // Returns false, and counts the image, if it is not CV_8UC1 or not of the calibrated size.
   bool AcceptFormat(const ImageSample& image);
+  bool IsComplete(int64_t t_ns) const;
+  ImageCompanions TakeCompanions(int64_t t_ns);
 
   SensorConfig sensor_;
   bool uses_gyro_;
@@ -81,6 +96,8 @@ class ImageQueue {
   RateLimiter rate_limiter_;
   ImageCounts counts_;
   std::deque<WaitingImage> images_;
+  CompanionQueue<ImageSample> right_;
+  CompanionQueue<DepthSample> depth_;
   std::optional<int64_t> accepted_ns_;    // timestamp of the last image that was accepted
   std::optional<int64_t> handed_out_ns_;  // timestamp of the last image that was returned
   BackwardJumpDetector jump_;

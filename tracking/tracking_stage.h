@@ -11,6 +11,7 @@
 #include "common/stopwatch.h"
 #include "tracking/image_mask.h"
 #include "tracking/image_queue.h"
+#include "tracking/stereo/camera_pair.h"
 
 namespace plm_vins {
 
@@ -39,13 +40,15 @@ class TrackingStage {
   // See ImageQueue.
   void AddImu(const ImuSample& sample) { queue_.AddImu(sample); }
   void AddImage(ImageSample image) { queue_.AddImage(std::move(image)); }
+  void AddRight(ImageSample image) { queue_.AddRight(std::move(image)); }
+  void AddDepth(DepthSample image) { queue_.AddDepth(std::move(image)); }
   bool waiting() const { return !queue_.empty(); }
   const ImageCounts& counts() const { return queue_.counts(); }
 
   // Returns the features of the next image in temporal order, or nullopt if it still waits.
   std::optional<Frame> Pop() { return Track(queue_.Pop()); }
 
-  // Returns the features of the next image without waiting for the gyroscope.
+  // Returns the features of the next image without waiting.
   std::optional<Frame> Flush() { return Track(queue_.Flush()); }
 
   const Tracker& tracker() const { return tracker_; }
@@ -57,7 +60,8 @@ class TrackingStage {
     try {
       const CameraParameters& camera = config.sensor.camera;
       return Tracker(config.*kSection, CameraModel::Create(camera),
-                     ReadMask(config.points.fisheye_mask, {camera.width, camera.height}));
+                     ReadMask(config.points.fisheye_mask, {camera.width, camera.height}),
+                     CameraPairOf(config.sensor));
     } catch (const std::invalid_argument& error) {
       throw ConfigError({config.file + ": " + error.what()});
     }
@@ -69,7 +73,7 @@ class TrackingStage {
     const Stopwatch stopwatch;
     Frame frame;
     frame.image = next->image;
-    frame.features = tracker_.Track(next->image, next->R_C1_C0);
+    frame.features = tracker_.Track(next->image, next->R_C1_C0, next->companions);
     frame.tracking_ms = stopwatch.Milliseconds();
     frame.statistics = tracker_.statistics();
     frame.restart = next->restart;

@@ -15,6 +15,7 @@ namespace plm_vins {
 
 constexpr double kMaxImageCoordinate = 100;  // normalized: half a degree from the image plane
 constexpr double kMaxPixel = 1e5;            // larger than any image
+constexpr double kMaxDepth = 1e4;            // [m]
 constexpr double kMaxImageVelocity = 1e4;    // [1/s], at kMaxImageCoordinate in fast rotation
 constexpr size_t kMaxFeatures = 5000;        // per image; upper limit of max_cnt and max_line_cnt
 
@@ -25,11 +26,20 @@ inline bool IsWithin(const Eigen::Vector2d& xy, double limit) {
 
 inline bool IsPossible(const PointObservation& point) {
   return IsWithin(point.xy, kMaxImageCoordinate) && IsWithin(point.velocity, kMaxImageVelocity) &&
-         IsWithin(point.uv_px, kMaxPixel);
+         IsWithin(point.uv_px, kMaxPixel) &&
+         point.right.has_value() == (point.right_search == RightSearch::kFound) &&
+         point.right_search <= RightSearch::kFound &&
+         (!point.right || IsWithin(*point.right, kMaxImageCoordinate)) &&
+         (!point.depth || (*point.depth > 0 && *point.depth <= kMaxDepth));
 }
 
 inline bool IsPossible(const LineObservation& line) {
-  return IsWithin(line.start, kMaxImageCoordinate) && IsWithin(line.end, kMaxImageCoordinate);
+  if (!IsWithin(line.start, kMaxImageCoordinate)) return false;
+  if (!IsWithin(line.end, kMaxImageCoordinate)) return false;
+  if (!line.right) return true;
+  const auto& [start, end, deviation] = *line.right;
+  return IsWithin(start, kMaxImageCoordinate) && IsWithin(end, kMaxImageCoordinate) &&
+         IsWithin(deviation, kMaxImageCoordinate) && deviation.minCoeff() > 0;
 }
 
 // Returns whether the observation is plausible and its id is not in `ids`; inserts the id.

@@ -99,6 +99,24 @@ ImageSample ToImageSample(const sensor_msgs::CompressedImage& message) {
   return {ToNanoseconds(message.header.stamp), gray, nullptr};
 }
 
+DepthSample ToDepthSample(const sensor_msgs::ImageConstPtr& message) {
+  namespace encodings = sensor_msgs::image_encodings;
+  const std::string& encoding = message->encoding;
+  try {
+    CheckSize(*message);
+    const bool is_integer = encoding == encodings::TYPE_16UC1 || encoding == encodings::MONO16;
+    if (!is_integer && encoding != encodings::TYPE_32FC1) {
+      throw std::invalid_argument("16UC1 [mm] and 32FC1 [m] can be read");
+    }
+    const auto depth = cv_bridge::toCvShare(LowByteFirst(message));
+    return {ToNanoseconds(message->header.stamp), depth->image,
+            std::make_shared<cv_bridge::CvImageConstPtr>(depth)};
+  } catch (const std::exception& error) {
+    throw std::invalid_argument("depth image of encoding '" + encoding +
+                                "' cannot be read: " + error.what());
+  }
+}
+
 sensor_msgs::ImagePtr ToMessage(const cv::Mat& bgr, int64_t t_ns, const std::string& frame_id) {
   return cv_bridge::CvImage(MakeHeader(t_ns, frame_id), sensor_msgs::image_encodings::BGR8, bgr)
       .toImageMsg();

@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "common/image_companions.h"
 #include "common/measurements.h"
 
 namespace plm_vins {
@@ -21,6 +22,10 @@ ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message);
 // Copies the pixels, so that the message need not outlive the sample.
 ImageSample ToImageSample(const sensor_msgs::Image& message);
 ImageSample ToImageSample(const sensor_msgs::CompressedImage& message);
+
+// Depth of encoding 16UC1 or mono16 [mm], or 32FC1 [m]. Throws std::invalid_argument otherwise. The
+// sample owns a share of the message.
+DepthSample ToDepthSample(const sensor_msgs::ImageConstPtr& message);
 
 // `bgr` is CV_8UC3.
 sensor_msgs::ImagePtr ToMessage(const cv::Mat& bgr, int64_t t_ns, const std::string& frame_id);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "offline/pipeline/feature_file.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -14,7 +15,35 @@ namespace {
 constexpr char kKind[] = "plm_features v";
 constexpr char kVersion[] = "2\n";
 
-enum class ItemKind : uint8_t { kImu = 1, kPoints = 2, kPointsAndLines = 3 };
+enum class ItemKind : uint8_t {
+  kImu = 1,
+  kPoints = 2,
+  kPointsAndLines = 3,
+  // Followed by what the second camera or a depth sensor sees of the points, and of the lines.
+  kPointsWithCompanions = 4,
+  kPointsAndLinesWithCompanions = 5,
+};
+
+bool HasLines(ItemKind kind) {
+  return kind == ItemKind::kPointsAndLines || kind == ItemKind::kPointsAndLinesWithCompanions;
+}
+
+bool HasCompanions(ItemKind kind) {
+  return kind == ItemKind::kPointsWithCompanions || kind == ItemKind::kPointsAndLinesWithCompanions;
+}
+
+ItemKind KindOf(const TrackedFeatures& frame) {
+  const auto& points = frame.points.features.points;
+  bool companions = std::any_of(points.begin(), points.end(), [](const PointObservation& point) {
+    return point.right_search != RightSearch::kNotDue || point.depth;
+  });
+  if (!frame.lines) return companions ? ItemKind::kPointsWithCompanions : ItemKind::kPoints;
+  const auto& lines = frame.lines->features.lines;
+  companions =
+      companions || std::any_of(lines.begin(), lines.end(),
+                                [](const LineObservation& line) { return line.right.has_value(); });
+  return companions ? ItemKind::kPointsAndLinesWithCompanions : ItemKind::kPointsAndLines;
+}
 
 // Layouts for reading and writing; Struct is const for writing.
 template <typename Archive, typename Vector>
@@ -84,6 +113,23 @@ void Lines(Archive* archive, Struct& tracked) {
   });
 }
 
+// One for each point and line of the item, in their order.
+template <typename Archive, typename Struct>
+void Companions(Archive* archive, Struct& frame) {
+  for (auto& point : frame.points.features.points) {
+    archive->Value(point.right_search);
+    if (archive->Has(point.right)) Coordinates(archive, *point.right);
+    if (archive->Has(point.depth)) archive->Value(*point.depth);
+  }
+  if (!frame.lines) return;
+  for (auto& line : frame.lines->features.lines) {
+    if (!archive->Has(line.right)) continue;
+    Coordinates(archive, line.right->start);
+    Coordinates(archive, line.right->end);
+    Coordinates(archive, line.right->deviation);
+  }
+}
+
 template <typename Archive, typename String>
 void Text(Archive* archive, String& text) {
   archive->List(text, [](auto* a, auto& character) { a->Value(character); });
@@ -114,6 +160,17 @@ void RequirePossible(std::vector<Observation>* observations) {
   if (RemoveImpossible(observations) > 0) throw std::runtime_error("is damaged");
 }
 
+void ReadFrame(BinaryReader* input, ItemKind kind, TrackedFeatures* frame) {
+  Points(input, frame->points);
+  if (HasLines(kind)) Lines(input, frame->lines.emplace());
+  if (HasCompanions(kind)) Companions(input, *frame);
+  RequireStamp(frame->points.features.t_ns);
+  RequirePossible(&frame->points.features.points);
+  if (!frame->lines) return;
+  RequireStamp(frame->lines->features.t_ns);
+  RequirePossible(&frame->lines->features.lines);
+}
+
 }  // namespace
 
 FeatureFileWriter::FeatureFileWriter(const std::string& file, const Json& tracker_values)
@@ -132,9 +189,11 @@ void FeatureFileWriter::Add(const TrackedItem& item) {
     return;
   }
   const TrackedFeatures& frame = *item.frame;
-  output.Value(frame.lines ? ItemKind::kPointsAndLines : ItemKind::kPoints);
+  const ItemKind kind = KindOf(frame);
+  output.Value(kind);
   Points(&output, frame.points);
   if (frame.lines) Lines(&output, *frame.lines);
+  if (HasCompanions(kind)) Companions(&output, frame);
 }
 
 void FeatureFileWriter::Close() { file_.Commit(); }
@@ -182,18 +241,11 @@ std::optional<TrackedItem> FeatureFileReader::Next() {
       RequireStamp(item.imu.t_ns);
       return item;
     }
-    if (kind != ItemKind::kPoints && kind != ItemKind::kPointsAndLines) {
+    if (kind < ItemKind::kImu || kind > ItemKind::kPointsAndLinesWithCompanions) {
       throw std::runtime_error("is damaged");
     }
     item.frame = std::make_unique<TrackedFeatures>();
-    Points(&input, item.frame->points);
-    RequireStamp(item.t_ns());
-    RequirePossible(&item.frame->points.features.points);
-    if (kind == ItemKind::kPointsAndLines) {
-      Lines(&input, item.frame->lines.emplace());
-      RequireStamp(item.frame->lines->features.t_ns);
-      RequirePossible(&item.frame->lines->features.lines);
-    }
+    ReadFrame(&input, kind, item.frame.get());
     return item;
   } catch (const std::runtime_error& error) {
     throw Unusable(error.what());

@@ -20,6 +20,16 @@ void FeatureTrackers::AddImage(const ImageSample& image) {
   if (lines_) lines_->AddImage(image);
 }
 
+void FeatureTrackers::AddRight(const ImageSample& image) {
+  points_.AddRight(image);
+  if (lines_) lines_->AddRight(image);
+}
+
+void FeatureTrackers::AddDepth(const DepthSample& image) {
+  points_.AddDepth(image);
+  if (lines_) lines_->AddDepth(image);  // so that both wait for the same
+}
+
 template <typename TrackOne>
 std::optional<TrackedFeatures> FeatureTrackers::TrackBoth(const TrackOne& track) {
   if (!points_.waiting()) return std::nullopt;

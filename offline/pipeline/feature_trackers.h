@@ -3,8 +3,10 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 
 #include "common/config/config.h"
+#include "common/image_companions.h"
 #include "common/measurements.h"
 #include "feature_tracker/point_tracking_stage.h"
 #include "linefeature_tracker/line_tracking_stage.h"
@@ -28,9 +30,12 @@ class FeatureTrackers {
 
   void AddImu(const ImuSample& sample);
   void AddImage(const ImageSample& image);
+  void AddRight(const ImageSample& image);
+  void AddDepth(const DepthSample& image);
   std::optional<TrackedFeatures> Pop();
   std::optional<TrackedFeatures> Flush();
 
+  std::string SecondCameraFinding() const { return points_.tracker().SecondCameraFinding(); }
   const ImageCounts& image_counts() const { return points_.counts(); }
 
   // The newest image with its points or lines drawn (CV_8UC3); empty if there are none.

@@ -96,7 +96,7 @@ void OdometryPipeline::Read(Recording* recording, RecordingInterval interval,
     if (part == RecordingInterval::Part::kEnd) return;
     if (part == RecordingInterval::Part::kSkip) continue;
     LoadedEvent loaded{*event, std::nullopt};
-    if (event->kind == RecordingEvent::Kind::kImage) loaded.image = recording->LoadImage();
+    if (event->kind != RecordingEvent::Kind::kImu) loaded.image = recording->LoadImage();
     if (!emit(std::move(loaded))) return;
   }
 }
@@ -116,20 +116,32 @@ void OdometryPipeline::RunTrackers(Recording* recording, const RecordingInterval
 }
 
 bool OdometryPipeline::Feed(LoadedEvent loaded, const TrackedReceiver& emit) {
+  using Kind = RecordingEvent::Kind;
   const RecordingEvent& event = loaded.event;
-  if (event.kind == RecordingEvent::Kind::kImu) {
+  if (event.kind == Kind::kImu) {
     trackers_.AddImu(event.imu);
     if (!emit({event.imu, nullptr})) return false;
   } else if (loaded.image) {
-    first_image_.Add(event.t_ns);
-    trackers_.AddImage({event.t_ns, std::move(*loaded.image)});
-  } else {
+    AddImage(event, std::move(*loaded.image));
+  } else if (event.kind == Kind::kImage) {
     ++unreadable_images_;
   }
   while (auto frame = trackers_.Pop()) {
     if (!EmitTracked(std::move(*frame), emit)) return false;
   }
   return true;
+}
+
+void OdometryPipeline::AddImage(const RecordingEvent& event, cv::Mat image) {
+  using Kind = RecordingEvent::Kind;
+  if (event.kind == Kind::kRightImage) {
+    trackers_.AddRight({event.t_ns, std::move(image)});
+  } else if (event.kind == Kind::kDepth) {
+    trackers_.AddDepth({event.t_ns, std::move(image)});
+  } else {
+    first_image_.Add(event.t_ns);
+    trackers_.AddImage({event.t_ns, std::move(image)});
+  }
 }
 
 bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit) {

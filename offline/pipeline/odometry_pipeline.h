@@ -7,6 +7,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -81,6 +82,8 @@ class OdometryPipeline {
   const std::string& imu_contradiction() const { return imu_contradiction_; }
   const std::string& lens_warning() const { return back_end_.LensWarning(); }
   std::vector<ResidualRing> residual_rings() const { return back_end_.ResidualRings(); }
+  // Describes what seems to be wrong with the second camera; empty if nothing is.
+  std::string SecondCameraFinding() const { return trackers_.SecondCameraFinding(); }
 
   // An image of the second half of the run with its points or lines drawn (CV_8UC3); empty without
   // images, or if lines are not used.
@@ -99,6 +102,7 @@ class OdometryPipeline {
   void RunTrackers(Recording* recording, const RecordingInterval& interval, bool reads_ahead,
                    const TrackedReceiver& emit);
   bool Feed(LoadedEvent loaded, const TrackedReceiver& emit);
+  void AddImage(const RecordingEvent& event, cv::Mat image);
   bool EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit);
   void ShowTracksIfDue(int64_t t_ns);
   void Consume(TrackedItem item, const FrameCallback& on_frame);

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <system_error>
+#include <vector>
 
 #include "common/append.h"
 #include "common/io/grey_image.h"
@@ -27,11 +28,11 @@ std::optional<ImuSample> ToImuSample(const CsvRow& row) {
 }
 
 // Returns an empty image if the file cannot be read.
-cv::Mat ReadImage(const fs::path& file) {
+cv::Mat ReadImage(const fs::path& file, int flags) {
   std::error_code error;
   if (!fs::exists(file, error)) return {};  // avoids a warning of OpenCV
   try {
-    return cv::imread(file.string(), kReadGreyAsStored);
+    return cv::imread(file.string(), flags);
   } catch (const cv::Exception&) {  // a damaged header may claim too many pixels for OpenCV
     return {};
   }
@@ -69,59 +70,86 @@ constexpr SortedRows<ImuSample>::Format kImuFormat = {
     "imu", "IMU sample", "stamp [ns],gyro x,y,z [rad/s],accelerometer x,y,z [m/s^2]", 6,
     ToImuSample};
 
-// Merges the two csv files by timestamp; an IMU sample precedes an image of the same time.
+// The images of one folder: "cam0", "cam1" or "depth0".
+struct ImageStream {
+  RecordingEvent::Kind kind;
+  fs::path folder;
+  SortedRows<ImageRow> rows;
+
+  ImageStream(RecordingEvent::Kind image_kind, const fs::path& root, const char* name)
+      : kind(image_kind),
+        folder(root / name / "data"),
+        rows(Require(root / name / "data.csv"), kImageFormat) {}
+};
+
+// Merges the csv files by timestamp. At the same time, IMU samples come first and cam0 last.
 class AslRecording : public Recording {
  public:
-  explicit AslRecording(const std::string& folder)
-      : name_(folder),
-        image_folder_(SensorRoot(folder) / "cam0" / "data"),
-        images_(Require(SensorRoot(folder) / "cam0" / "data.csv"), kImageFormat),
-        imu_(Require(SensorRoot(folder) / "imu0" / "data.csv"), kImuFormat) {}
+  AslRecording(const std::string& folder, bool with_right, bool with_depth)
+      : name_(folder), imu_(Require(SensorRoot(folder) / "imu0" / "data.csv"), kImuFormat) {
+    using Kind = RecordingEvent::Kind;
+    const fs::path root = SensorRoot(folder);
+    if (with_right) images_.emplace_back(Kind::kRightImage, root, "cam1");
+    if (with_depth) images_.emplace_back(Kind::kDepth, root, "depth0");
+    images_.emplace_back(Kind::kImage, root, "cam0");
+  }
 
   std::optional<RecordingEvent> Next() override {
-    const ImageRow* image = images_.next();
+    ImageStream* earliest = nullptr;
+    for (ImageStream& stream : images_) {
+      if (stream.rows.next() == nullptr) continue;
+      if (earliest == nullptr || stream.rows.next()->t_ns < earliest->rows.next()->t_ns) {
+        earliest = &stream;
+      }
+    }
     const ImuSample* sample = imu_.next();
-    if (sample != nullptr && (image == nullptr || sample->t_ns <= image->t_ns)) {
+    if (sample != nullptr && (earliest == nullptr || sample->t_ns <= earliest->rows.next()->t_ns)) {
       return RecordingEvent{RecordingEvent::Kind::kImu, sample->t_ns, imu_.Take()};
     }
-    if (image == nullptr) return std::nullopt;
-    current_image_ = image_folder_ / images_.Take().file;
-    return RecordingEvent{RecordingEvent::Kind::kImage, image->t_ns, {}};
+    if (earliest == nullptr) return std::nullopt;
+    const ImageRow& row = earliest->rows.Take();
+    current_kind_ = earliest->kind;
+    current_image_ = earliest->folder / row.file;
+    return RecordingEvent{current_kind_, row.t_ns, {}};
   }
 
   std::optional<cv::Mat> LoadImage() override {
-    cv::Mat gray = ReadImage(current_image_);
-    if (!gray.empty()) return gray;
+    const bool is_depth = current_kind_ == RecordingEvent::Kind::kDepth;
+    cv::Mat image = ReadImage(current_image_, is_depth ? cv::IMREAD_UNCHANGED : kReadGreyAsStored);
+    if (!image.empty()) return image;
     unreadable_images_.Add(current_image_.string());
     return std::nullopt;
   }
 
   std::string name() const override { return name_; }
   std::string Source(RecordingEvent::Kind kind) const override {
-    return kind == RecordingEvent::Kind::kImage ? images_.file() : imu_.file();
+    return kind == RecordingEvent::Kind::kImage ? camera_rows().file() : imu_.file();
   }
-  std::optional<int64_t> end_ns() const override { return images_.end_ns(); }
+  std::optional<int64_t> end_ns() const override { return camera_rows().end_ns(); }
 
   DropCounts problems() const override {
     DropCounts counts = {unreadable_images_};
-    Append(images_.problems(), &counts);
+    for (const ImageStream& stream : images_) Append(stream.rows.problems(), &counts);
     Append(imu_.problems(), &counts);
     return counts;
   }
 
  private:
+  const SortedRows<ImageRow>& camera_rows() const { return images_.back().rows; }
+
   std::string name_;
-  fs::path image_folder_;
-  SortedRows<ImageRow> images_;
+  std::vector<ImageStream> images_;  // the last is cam0
   SortedRows<ImuSample> imu_;
+  RecordingEvent::Kind current_kind_ = RecordingEvent::Kind::kImage;
   fs::path current_image_;
   DropCount unreadable_images_{"images_unreadable", 0, ""};
 };
 
 }  // namespace
 
-std::unique_ptr<Recording> OpenAslFolder(const std::string& folder) {
-  return std::make_unique<AslRecording>(folder);
+std::unique_ptr<Recording> OpenAslFolder(const std::string& folder, bool with_right,
+                                         bool with_depth) {
+  return std::make_unique<AslRecording>(folder, with_right, with_depth);
 }
 
 }  // namespace plm_vins

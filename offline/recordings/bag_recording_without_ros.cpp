@@ -5,8 +5,8 @@
 
 namespace plm_vins {
 
-std::unique_ptr<Recording> OpenBag(const std::string& file, const std::string&,
-                                   const std::string&) {
+std::unique_ptr<Recording> OpenBag(const std::string& file, const std::string&, const std::string&,
+                                   const std::string&, const std::string&) {
   throw std::runtime_error("cannot read " + file + ": built without ROS (BUILD_ROS=OFF)");
 }
 

@@ -13,13 +13,14 @@ namespace plm_vins {
 
 // One measurement of a recording. The pixels of an image are loaded separately, since that is slow.
 struct RecordingEvent {
-  enum class Kind { kImage, kImu };
+  enum class Kind { kImage, kImu, kRightImage, kDepth };
   Kind kind = Kind::kImu;
   int64_t t_ns = 0;  // the sensor's timestamp
   ImuSample imu;     // if kind is kImu
 };
 
-// Images and IMU samples of a recording, in the order of recording. Read on demand.
+// Images and IMU samples of a recording, and images of a second camera and of depth if they were
+// asked for, in the order of recording. Read on demand.
 class Recording {
  public:
   virtual ~Recording() = default;
@@ -27,8 +28,8 @@ class Recording {
   // Returns the next measurement, or nullopt at the end of the readable data.
   virtual std::optional<RecordingEvent> Next() = 0;
 
-  // Returns the grey image of the event that Next() returned last, or nullopt, counted by
-  // problems(), if it is unreadable.
+  // Returns the image of the event that Next() returned last, grey or as DepthSample has it, or
+  // nullopt, counted by problems(), if it is unreadable.
   virtual std::optional<cv::Mat> LoadImage() = 0;
 
   virtual std::string name() const = 0;  // for reports

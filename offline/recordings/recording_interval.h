@@ -10,8 +10,8 @@
 
 namespace plm_vins {
 
-// The part of a recording to process, relative to its first image. IMU samples are used slightly
-// beyond both ends, so that the first and last images are covered.
+// The part of a recording to process, relative to its first image. Other measurements are used
+// slightly beyond both ends, so that the first and last images are covered.
 class RecordingInterval {
  public:
   enum class Part { kSkip, kUse, kEnd };
@@ -24,6 +24,7 @@ class RecordingInterval {
   // recording. kEnd: no later event will be used.
   Part Locate(const RecordingEvent& event) {
     const bool is_image = event.kind == RecordingEvent::Kind::kImage;
+    const bool is_imu = event.kind == RecordingEvent::Kind::kImu;
     if (is_image) first_image_.Add(event.t_ns);
     if (!first_image_.Admits(event.t_ns)) return start_ > 0 ? Part::kSkip : Part::kUse;
     const double margin = is_image ? 0 : kImuMargin;
@@ -32,7 +33,8 @@ class RecordingInterval {
     if (is_image && beyond && image_beyond_ && (imu_beyond_ || t > duration_ + kLongestLead)) {
       return Part::kEnd;
     }
-    (is_image ? image_beyond_ : imu_beyond_) = beyond;
+    if (is_image) image_beyond_ = beyond;
+    if (is_imu) imu_beyond_ = beyond;
     if (t > duration_ + margin) return Part::kSkip;
     begun_ = begun_ || t >= 0;
     return begun_ || t >= -margin ? Part::kUse : Part::kSkip;

@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
@@ -111,28 +112,41 @@ Message DeserializeImage(const BagMessage& message) {
 class BagRecording : public Recording {
  public:
   BagRecording(const std::string& file, const std::string& image_topic,
-               const std::string& imu_topic)
+               const std::string& imu_topic, const std::string& right_topic,
+               const std::string& depth_topic)
       : file_(file), bag_(OpenIndexedBag(file)) {
     const TypedTopics topics = bag_.topics();
-    const auto images = FindImages(topics, image_topic);
-    const auto imu = Find(topics, imu_topic, kImu);
     std::string missing;
-    if (!images) {
-      missing += Missing("image_topic", image_topic, kRaw + std::string(" or ") + kCompressed);
+    const auto add = [&](RecordingEvent::Kind kind, const std::optional<TypedTopic>& found,
+                         const std::string& lack) {
+      if (found) kinds_[*found] = kind;
+      if (!found) missing += lack;
+    };
+    using Kind = RecordingEvent::Kind;
+    const std::string any_image = kRaw + std::string(" or ") + kCompressed;
+    if (!right_topic.empty()) {
+      add(Kind::kRightImage, FindImages(topics, right_topic),
+          Missing("image1_topic", right_topic, any_image));
     }
-    if (!imu) missing += Missing("imu_topic", imu_topic, kImu);
+    if (!depth_topic.empty()) {
+      add(Kind::kDepth, Find(topics, depth_topic, kRaw), Missing("depth_topic", depth_topic, kRaw));
+    }
+    add(Kind::kImage, FindImages(topics, image_topic),
+        Missing("image_topic", image_topic, any_image));
+    add(Kind::kImu, Find(topics, imu_topic, kImu), Missing("imu_topic", imu_topic, kImu));
     if (!missing.empty()) {
       throw std::runtime_error(file + " has" + missing + " but:" + ToText(topics));
     }
-    image_topic_ = *images;
-    imu_topic_ = *imu;
-    bag_.Select({image_topic_, imu_topic_});
+    TypedTopics selected;
+    for (const auto& [topic, kind] : kinds_) selected.insert(topic);
+    bag_.Select(selected);
   }
 
   std::optional<RecordingEvent> Next() override {
     while (const auto message = bag_.Next()) {
       try {
-        return message->topic == imu_topic_ ? ImuEvent(*message) : ImageEvent(*message);
+        const RecordingEvent::Kind kind = kinds_.at(message->topic);
+        return kind == RecordingEvent::Kind::kImu ? ImuEvent(*message) : ImageEvent(*message, kind);
       } catch (const ros::serialization::StreamOverrunException&) {
         malformed_.Add(message->topic.second + " on " + message->topic.first);
       }
@@ -142,8 +156,12 @@ class BagRecording : public Recording {
 
   std::optional<cv::Mat> LoadImage() override {
     try {
-      return is_compressed() ? ToImageSample(compressed_image_).gray
-                             : ToImageSample(raw_image_).gray;
+      if (is_depth_) {
+        const sensor_msgs::ImageConstPtr borrowed(&raw_image_, [](const sensor_msgs::Image*) {});
+        return ToDepthSample(borrowed).depth.clone();
+      }
+      return is_compressed_ ? ToImageSample(compressed_image_).gray
+                            : ToImageSample(raw_image_).gray;
     } catch (const std::invalid_argument& error) {
       unreadable_images_.Add(error.what());
       return std::nullopt;
@@ -152,8 +170,11 @@ class BagRecording : public Recording {
 
   std::string name() const override { return file_; }
   std::string Source(RecordingEvent::Kind kind) const override {
-    return kind == RecordingEvent::Kind::kImage ? "image_topic " + image_topic_.first
-                                                : "imu_topic " + imu_topic_.first;
+    const std::string key = kind == RecordingEvent::Kind::kImage ? "image_topic " : "imu_topic ";
+    for (const auto& [topic, own_kind] : kinds_) {
+      if (own_kind == kind) return key + topic.first;
+    }
+    return key;
   }
   std::optional<int64_t> end_ns() const override { return bag_.end_ns(); }
 
@@ -172,28 +193,29 @@ class BagRecording : public Recording {
     return images;
   }
 
-  bool is_compressed() const { return image_topic_.second == kCompressed; }
-
   RecordingEvent ImuEvent(const BagMessage& message) const {
     const ImuSample sample = ToImuSample(Deserialize<sensor_msgs::Imu>(message));
     return {RecordingEvent::Kind::kImu, sample.t_ns, sample};
   }
 
-  RecordingEvent ImageEvent(const BagMessage& message) {
+  RecordingEvent ImageEvent(const BagMessage& message, RecordingEvent::Kind kind) {
     ros::Time stamp;
-    if (is_compressed()) {
+    is_depth_ = kind == RecordingEvent::Kind::kDepth;
+    is_compressed_ = message.topic.second == kCompressed;
+    if (is_compressed_) {
       compressed_image_ = DeserializeImage<sensor_msgs::CompressedImage>(message);
       stamp = compressed_image_.header.stamp;
     } else {
       raw_image_ = DeserializeImage<sensor_msgs::Image>(message);
       stamp = raw_image_.header.stamp;
     }
-    return {RecordingEvent::Kind::kImage, ToNanoseconds(stamp), {}};
+    return {kind, ToNanoseconds(stamp), {}};
   }
 
   std::string file_;
   IndexedBag bag_;
-  TypedTopic image_topic_, imu_topic_;
+  std::map<TypedTopic, RecordingEvent::Kind> kinds_;  // of the selected topics
+  bool is_depth_ = false, is_compressed_ = false;     // of the last image
   sensor_msgs::Image raw_image_;
   sensor_msgs::CompressedImage compressed_image_;
   DropCount unreadable_images_{"images_unreadable", 0, ""};
@@ -203,8 +225,9 @@ class BagRecording : public Recording {
 }  // namespace
 
 std::unique_ptr<Recording> OpenBag(const std::string& file, const std::string& image_topic,
-                                   const std::string& imu_topic) {
-  return std::make_unique<BagRecording>(file, image_topic, imu_topic);
+                                   const std::string& imu_topic, const std::string& right_topic,
+                                   const std::string& depth_topic) {
+  return std::make_unique<BagRecording>(file, image_topic, imu_topic, right_topic, depth_topic);
 }
 
 }  // namespace plm_vins

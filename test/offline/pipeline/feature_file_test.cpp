@@ -97,6 +97,35 @@ TEST_F(FeatureFile, GivesBackWhatWasWritten) {
   EXPECT_FALSE(reader.Next());
 }
 
+TEST_F(FeatureFile, GivesBackWhatFurtherSensorsSee) {
+  TrackedItem written = FrameItem();
+  auto& points = written.frame->points.features.points;
+  points[0].right = Eigen::Vector2d(0.05, 0.21);
+  points[0].right_search = RightSearch::kFound;
+  points[1].right_search = RightSearch::kOffEpipolar;
+  points[1].depth = 2.5;
+  written.frame->lines->features.lines[0].right =
+      RightSegment{{0.05, 0.1}, {-0.35, 0.7}, {1e-3, 2e-3}};
+  FeatureFileWriter writer(file_, kValues);
+  writer.Add(written);
+  writer.Close();
+  FeatureFileReader reader(file_);
+  const auto item = reader.Next();
+  ASSERT_TRUE(item && item->frame && item->frame->lines);
+  const auto& read = item->frame->points.features.points;
+  EXPECT_EQ(read[0].right, points[0].right);
+  EXPECT_EQ(read[0].right_search, RightSearch::kFound);
+  EXPECT_FALSE(read[0].depth);
+  EXPECT_FALSE(read[1].right);
+  EXPECT_EQ(read[1].right_search, RightSearch::kOffEpipolar);
+  EXPECT_EQ(read[1].depth, 2.5);
+  const auto& right = item->frame->lines->features.lines[0].right;
+  ASSERT_TRUE(right);
+  EXPECT_EQ(right->end, Eigen::Vector2d(-0.35, 0.7));
+  EXPECT_EQ(right->deviation, Eigen::Vector2d(1e-3, 2e-3));
+  EXPECT_FALSE(reader.Next());
+}
+
 TEST_F(FeatureFile, NamesTheFileThatCannotBeUsed) {
   EXPECT_NE(ErrorOf(file_).find(file_ + ": cannot be read"), std::string::npos);
   std::ofstream(file_) << "a text that is longer than the signature of such a file";

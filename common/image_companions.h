@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What further sensors see at the time of a camera image.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "common/measurements.h"
+
+namespace plm_vins {
+
+// One image of depth along the optical axis, registered to the camera: its size, its lens.
+struct DepthSample {
+  int64_t t_ns = 0;
+  cv::Mat depth;  // CV_16UC1 [mm], 0 if unknown, or CV_32FC1 [m]; read only
+  std::shared_ptr<const void> owner = {};  // of the pixels if `depth` is not: keep both
+};
+
+// Without pixels if there are none of this timestamp.
+struct ImageCompanions {
+  ImageSample right;  // of the second camera C1
+  DepthSample depth;
+};
+
+}  // namespace plm_vins

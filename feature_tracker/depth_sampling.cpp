@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "feature_tracker/depth_sampling.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/core/fast_math.hpp>
+
+namespace plm_vins {
+namespace {
+
+constexpr int kMinValid = 7;  // of the nine
+// Half the range of the values, as a share of the depth: noise and slant are within.
+constexpr double kMaxDeviation = 0.05;
+
+// In metres; zero where it is unknown.
+double ValueAt(const cv::Mat& depth, int row, int column) {
+  if (depth.type() == CV_16UC1) return 1e-3 * depth.at<uint16_t>(row, column);
+  const double value = depth.at<float>(row, column);
+  return std::isfinite(value) && value > 0 ? value : 0.0;
+}
+
+}  // namespace
+
+std::optional<double> DepthAt(const cv::Mat& depth, const cv::Point2f& pixel) {
+  const int column = cvRound(pixel.x), row = cvRound(pixel.y);
+  if (column < 1 || row < 1 || column + 1 >= depth.cols || row + 1 >= depth.rows) {
+    return std::nullopt;
+  }
+  std::array<double, 9> values = {};
+  int count = 0;
+  for (int y = row - 1; y <= row + 1; ++y) {
+    for (int x = column - 1; x <= column + 1; ++x) {
+      const double value = ValueAt(depth, y, x);
+      if (value > 0) values[count++] = value;
+    }
+  }
+  if (count < kMinValid) return std::nullopt;
+  std::sort(values.begin(), values.begin() + count);
+  const double median = values[count / 2];
+  const double deviation = std::max(median - values[0], values[count - 1] - median);
+  return deviation <= kMaxDeviation * median ? std::optional(median) : std::nullopt;
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "feature_tracker/stereo/stereo_matcher.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/camera/image_format.h"
+#include "common/format.h"
+#include "feature_tracker/ray_mask.h"
+#include "tracking/stereo/epipolar_search.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kNearest = 0.3;      // [m]
+constexpr double kBehind_px = 40.0;   // how far beyond infinity is searched: cameras may be swapped
+constexpr double kInfinity_px = 5.0;  // as far beyond infinity, the mounting may still be turned
+constexpr double kMaxBand_px = 4.5;
+constexpr double kReturn_px = 1.5;       // from where a match comes back to, to the corner
+constexpr double kAgain_px = 6.0;        // from where the last match leads to
+constexpr double kReportedDelay = 2e-3;  // [s]
+constexpr double kReportedAngle = 0.2 * M_PI / 180;  // [rad]
+constexpr double kMaxDelay = 1e-3;  // [s]; up to which the second camera counts as in time
+// Matches are by chance where too small a share of the searches finds any.
+constexpr double kMinFoundShare = 0.15;
+constexpr double kShareGain = 0.1;  // of an image
+constexpr size_t kMinSearches = 8;
+// In images: a track without a match is searched for again, one with a match is confirmed.
+constexpr int kRetryInterval = 4;
+constexpr int kConfirmInterval = 16;
+
+Eigen::Vector2d PixelOf(const PointTrack& track) { return {track.uv_px.x, track.uv_px.y}; }
+
+}  // namespace
+
+StereoMatcher::StereoMatcher(const CameraPair& pair)
+    : stated_(pair), pair_(pair), mounting_(pair.T_C1_C(), pair.second().FocalLength()) {}
+
+void StereoMatcher::CheckRight(const cv::Mat& right) const {
+  CheckImageFormat(right, pair_.second().parameters());
+}
+
+void StereoMatcher::Match(const cv::Mat& left, const cv::Mat& right,
+                          std::vector<PointTrack>* tracks) {
+  ++images_;
+  for (PointTrack& track : *tracks) {
+    track.right.reset();
+    track.right_search = right.empty() ? RightSearch::kNoImage : RightSearch::kNotDue;
+  }
+  if (right.empty()) return;
+  std::vector<Search> searches;
+  std::vector<StereoMatch> matches;
+  for (PointTrack& track : *tracks) {
+    if (!IsDue(track)) continue;
+    searches.push_back({&track, Find({left, right}, track)});
+    const auto& place = searches.back().place;
+    if (place && !IsBehind(*place)) matches.push_back(place->match);
+  }
+  mounting_.Update(matches);
+  pair_ = stated_.With(mounting_.T_C1_C());
+  Judge(&searches);
+}
+
+// Matched tracks are searched for in every image, others in some.
+bool StereoMatcher::IsDue(const PointTrack& track) const {
+  if (IsLate() && track.length == 1) return false;  // its motion is unknown yet
+  return track.inverse_depth || track.length == 1 || IsTurn(track, kRetryInterval);
+}
+
+// Cameras that are swapped, or do not look at the same scene at the same time, match by chance.
+void StereoMatcher::Judge(std::vector<Search>* searches) {
+  Shares sum;
+  for (Search& search : *searches) {
+    const bool is_behind = search.place && IsBehind(*search.place);
+    const bool is_good = search.place && !is_behind && mounting_.Accepts(search.place->match);
+    search.track->right_search = is_good        ? RightSearch::kFound
+                                 : search.place ? RightSearch::kOffEpipolar
+                                                : RightSearch::kNotFound;
+    sum.found += is_good;
+    sum.behind += is_behind;
+  }
+  if (searches->size() >= kMinSearches) {
+    const auto count = static_cast<double>(searches->size());
+    const Shares now = {sum.found / count, sum.behind / count};
+    if (!shares_) shares_ = now;
+    shares_->found += kShareGain * (now.found - shares_->found);
+    shares_->behind += kShareGain * (now.behind - shares_->behind);
+  }
+  for (Search& search : *searches) {
+    search.track->inverse_depth.reset();
+    if (search.track->right_search != RightSearch::kFound) continue;
+    if (IsTrusted()) {
+      search.track->inverse_depth = search.place->inverse_depth;
+      search.track->right = InTime(search.place->match);
+    } else {
+      search.track->right_search = RightSearch::kOffEpipolar;
+    }
+  }
+}
+
+std::optional<StereoMatcher::Place> StereoMatcher::Find(const Images& images,
+                                                        const PointTrack& track) const {
+  if (!track.patch) return std::nullopt;
+  const bool is_known = track.inverse_depth && !IsTurn(track, kConfirmInterval);
+  return is_known ? FindAgain(images, track) : FindAnywhere(images, track);
+}
+
+std::optional<StereoMatcher::Place> StereoMatcher::FindAnywhere(const Images& images,
+                                                                const PointTrack& track) const {
+  const double behind = IsTrusted() ? kBehind_px * pair_.InverseDepthPerPixel() : 1 / kNearest;
+  const SearchRange range{-behind, 1 / kNearest, band_px()};
+  const SearchedPoint point{PixelOf(track), WhenSeen(track)};
+  const auto seed = SearchAlongCurve(pair_, images.left, point, images.right, range);
+  const auto place = seed ? Align(images, *seed, track) : std::nullopt;
+  if (!place) return std::nullopt;
+  const SearchedPoint match{place->pixel, InTime(place->match)};
+  const auto back = SearchAlongCurve(pair_.Swapped(), images.right, match, images.left, range);
+  if (!back || (back->pixel - point.pixel).cwiseAbs().maxCoeff() > kReturn_px) return std::nullopt;
+  return place;
+}
+
+std::optional<StereoMatcher::Place> StereoMatcher::FindAgain(const Images& images,
+                                                             const PointTrack& track) const {
+  const double reach = kAgain_px * pair_.InverseDepthPerPixel();
+  const SearchRange range{*track.inverse_depth - reach, *track.inverse_depth + reach, 0};
+  const auto seed =
+      SearchAlongCurve(pair_, images.left, {PixelOf(track), WhenSeen(track)}, images.right, range);
+  return seed ? Align(images, *seed, track) : std::nullopt;
+}
+
+// Returns where the first camera would see the corner when the second one exposes.
+Eigen::Vector2d StereoMatcher::WhenSeen(const PointTrack& track) const {
+  return IsLate() ? Eigen::Vector2d(track.xy + mounting_.delay() * track.velocity) : track.xy;
+}
+
+Eigen::Vector2d StereoMatcher::InTime(const StereoMatch& match) const {
+  return IsLate() ? mounting_.WithoutDelay(match) : match.xy_C1;
+}
+
+bool StereoMatcher::IsLate() const { return std::abs(mounting_.delay()) > kMaxDelay; }
+
+bool StereoMatcher::IsTrusted() const { return !shares_ || shares_->found > kMinFoundShare; }
+
+std::string StereoMatcher::Finding() const {
+  if (!IsTrusted()) {
+    return shares_->behind > kMinFoundShare
+               ? "the cameras seem to be swapped; check image_topic, image1_topic and body_T_cam1"
+               : "hardly any point is found again in the second camera; check image1_topic, "
+                 "body_T_cam1, and that both cameras are triggered together";
+  }
+  if (std::abs(mounting_.delay()) > kReportedDelay) {
+    return Format("the second camera is %.1f ms late against its timestamps; trigger both together",
+                  1e3 * mounting_.delay());
+  }
+  const double angle = mounting_.rotation().norm();
+  if (angle < kReportedAngle) return "";
+  return Format("the second camera is turned by %.2f deg against body_T_cam1; calibrate it anew",
+                angle * 180 / M_PI);
+}
+
+bool StereoMatcher::IsTurn(const PointTrack& track, int interval) const {
+  return (track.id + images_) % interval == 0;
+}
+
+std::optional<StereoMatcher::Place> StereoMatcher::Align(const Images& images,
+                                                         const CurvePoint& seed,
+                                                         const PointTrack& track) const {
+  const auto warp = pair_.Warp(WhenSeen(track), seed.inverse_depth);
+  if (!warp) return std::nullopt;
+  auto pose = track.patch->Align(images.right, {*warp * track.patch_linear, seed.pixel});
+  if (!pose) {  // the corner may look different by now
+    const auto patch = CornerPatch::Cut(images.left, PixelOf(track));
+    if (patch) pose = patch->Align(images.right, {*warp, seed.pixel});
+  }
+  if (!pose) return std::nullopt;
+  const auto xy_C1 = RayOf(pair_.second(), pose->center);
+  if (!xy_C1) return std::nullopt;
+  return Place{{track.xy, track.velocity, *xy_C1}, pose->center, seed.inverse_depth};
+}
+
+bool StereoMatcher::IsBehind(const Place& place) const {
+  return place.inverse_depth < -kInfinity_px * pair_.InverseDepthPerPixel();
+}
+
+double StereoMatcher::band_px() const {
+  return std::min(2 * mounting_.Deviation_px(), kMaxBand_px);
+}
+
+}  // namespace plm_vins

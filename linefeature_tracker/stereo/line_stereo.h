@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "common/config/config.h"
+#include "common/measurements.h"
+#include "linefeature_tracker/following/line_refinement.h"
+#include "linefeature_tracker/line_track.h"
+#include "tracking/stereo/camera_pair.h"
+
+namespace plm_vins {
+
+// Finds tracked lines in the image of the second camera. A few points of a line are searched for
+// along their epipolar curves; the inverse depth is linear along a line's image, so a line through
+// most of them predicts where the second camera sees it, and the edge there is located as
+// in the first image. A line that is almost parallel to the epipolar curves has no depth to be
+// found and is not matched.
+class LineStereo {
+ public:
+  LineStereo(const LineTrackerConfig& config, const CameraPair& pair);
+
+  // Throws std::invalid_argument if the image is not CV_8UC1 of the calibrated size.
+  void CheckRight(const cv::Mat& right) const;
+
+  // Searches in `right` for the tracks of the image `left` of the same timestamp, both CV_8UC1 as
+  // they came from the cameras. Sets the tracks' `right` and `inverse_depths`.
+  void Match(const cv::Mat& left, const cv::Mat& right, std::vector<LineTrack>* tracks);
+
+ private:
+  struct Images {
+    const cv::Mat& left;
+    const cv::Mat& right;
+  };
+  // The inverse depth at a share of the way from the start of a line to its end [1/m].
+  struct DepthSample {
+    double share = 0;
+    double inverse_depth = 0;
+  };
+  void MatchOne(const Images& images, LineTrack* track) const;
+  // At the start and the end [1/m]. Near `expected` if it is known.
+  std::optional<Eigen::Vector2d> FindDepths(const Images& images, const LineSegment& segment,
+                                            const std::optional<Eigen::Vector2d>& expected) const;
+  std::optional<Eigen::Vector2d> Agree(const std::vector<DepthSample>& samples,
+                                       size_t min_agreeing) const;
+  std::optional<RightSegment> Locate(const cv::Mat& right, const LineSegment& segment,
+                                     const Eigen::Vector2d& inverse_depths) const;
+
+  CameraPair pair_;
+  LineRefinement refinement_;
+  int64_t images_ = 0;
+};
+
+}  // namespace plm_vins

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linefeature_tracker/stereo/line_stereo.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/geometry/so3.h"
+#include "linefeature_tracker/line_tracker.h"
+#include "test/linefeature_tracker/bar_scene.h"
+
+namespace plm_vins {
+namespace {
+
+const Rigid3d kMounting(SO3Exp({0.005, -0.01, 0.01}), Eigen::Vector3d(-0.11, 0.002, 0.001));
+
+class LineStereoTest : public testing::Test {
+ protected:
+  // How points of the plane n . p = 1 move from the first image to the second.
+  static Eigen::Matrix3d Homography(const Rigid3d& T_C1_C) {
+    const Eigen::Vector3d normal(0.1, 0.05, 0.6);
+    return T_C1_C.R() + T_C1_C.translation * normal.transpose();
+  }
+
+  LineFrame Match(const cv::Mat& right) {
+    LineTracker tracker(LineTrackerConfig(), scene_.camera(), {}, pair_);
+    ImageCompanions companions;
+    companions.right = {kFrame_ns, right};
+    return tracker.Track({kFrame_ns, scene_.View()}, {}, companions);
+  }
+
+  // Distance of the end that is farther from where the line is really seen, in its deviations.
+  static double Error(const LineObservation& line) {
+    const Eigen::Matrix3d H = Homography(kMounting);
+    const LineSegment truth{(H * line.start.homogeneous()).hnormalized(),
+                            (H * line.end.homogeneous()).hnormalized()};
+    const Eigen::Vector2d errors(truth.Distance(line.right->start),
+                                 truth.Distance(line.right->end));
+    return errors.cwiseAbs().cwiseQuotient(line.right->deviation).maxCoeff();
+  }
+
+  static int CountMatched(const LineFrame& frame) {
+    return static_cast<int>(
+        std::count_if(frame.lines.begin(), frame.lines.end(),
+                      [](const LineObservation& line) { return line.right.has_value(); }));
+  }
+
+  static double Slope(const LineObservation& line) {
+    const Eigen::Vector2d direction = (line.end - line.start).normalized();
+    return std::abs(direction.y());  // the epipolar curves are almost horizontal
+  }
+
+  LineScene scene_ = BarScene(DistortedParameters());
+  CameraPair pair_{scene_.camera(), scene_.camera(), kMounting};
+};
+
+TEST_F(LineStereoTest, FindsSteepLinesWhereTheyAre) {
+  const LineFrame frame = Match(scene_.View(Homography(kMounting)));
+  int steep = 0;
+  for (const LineObservation& line : frame.lines) {
+    steep += Slope(line) > 0.5;
+    if (line.right) EXPECT_LT(Error(line), 2) << line.id;
+  }
+  ASSERT_GT(steep, 10);
+  EXPECT_GT(CountMatched(frame), 0.6 * steep);
+}
+
+TEST_F(LineStereoTest, DoesNotMatchLinesAlongTheEpipolarCurves) {
+  for (const LineObservation& line : Match(scene_.View(Homography(kMounting))).lines) {
+    if (Slope(line) < 0.15) EXPECT_FALSE(line.right) << line.id;
+  }
+}
+
+TEST_F(LineStereoTest, FlatterLinesAreKnownLessWell) {
+  const LineFrame frame = Match(scene_.View(Homography(kMounting)));
+  double steepest = 0, flattest = 1, steepest_deviation = 0, flattest_deviation = 0;
+  for (const LineObservation& line : frame.lines) {
+    if (!line.right) continue;
+    if (Slope(line) > steepest) {
+      steepest = Slope(line);
+      steepest_deviation = line.right->deviation[0];
+    }
+    if (Slope(line) < flattest) {
+      flattest = Slope(line);
+      flattest_deviation = line.right->deviation[0];
+    }
+  }
+  ASSERT_LT(flattest, steepest);
+  EXPECT_LT(steepest_deviation, flattest_deviation);
+}
+
+TEST_F(LineStereoTest, FindsThemAgain) {
+  LineTracker tracker(LineTrackerConfig(), scene_.camera(), {}, pair_);
+  LineFrame frame;
+  const cv::Mat left = scene_.View(), right = scene_.View(Homography(kMounting));
+  int first = 0;
+  for (int i = 1; i <= 4; ++i) {
+    ImageCompanions companions;
+    companions.right = {i * kFrame_ns, right};
+    frame = tracker.Track({i * kFrame_ns, left}, {}, companions);
+    if (i == 1) first = CountMatched(frame);
+  }
+  EXPECT_GE(CountMatched(frame), first);
+  for (const LineObservation& line : frame.lines) {
+    if (line.right) EXPECT_LT(Error(line), 2) << line.id;
+  }
+}
+
+TEST_F(LineStereoTest, FindsNothingWithoutAnImageOrInAnotherScene) {
+  EXPECT_EQ(CountMatched(Match(cv::Mat())), 0);
+  const cv::Mat blank(480, 752, CV_8UC1, cv::Scalar(90));
+  EXPECT_EQ(CountMatched(Match(blank)), 0);
+  cv::Mat turned;
+  cv::flip(scene_.View(), turned, -1);
+  EXPECT_LE(CountMatched(Match(turned)), 2);
+}
+
+TEST_F(LineStereoTest, ChecksTheImage) {
+  EXPECT_THROW(Match(cv::Mat(10, 10, CV_8UC1)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <deque>
+#include <optional>
+#include <utility>
+
+namespace plm_vins {
+
+// Images of a further sensor that wait for the camera's image of the same stamp. `Sample` has t_ns.
+// Synchronous; what it says depends only on the order of the calls.
+template <typename Sample>
+class CompanionQueue {
+ public:
+  static constexpr int64_t kTolerance_ns = 2'000'000;  // stamps this close together are equal
+
+  // In order of arrival. A stamp that is not after the one before begins a new recording.
+  void Add(Sample sample) {
+    if (last_ns_ && sample.t_ns <= *last_ns_) {
+      samples_.clear();
+      interval_ns_ = 0;
+    } else if (last_ns_) {
+      interval_ns_ = sample.t_ns - *last_ns_;
+    }
+    last_ns_ = sample.t_ns;
+    samples_.push_back(std::move(sample));
+    if (samples_.size() > kCapacity) samples_.pop_front();
+  }
+
+  // Whether the sample of an image of this stamp is due and has not come yet. A sensor that has
+  // sent nothing yet, or has stopped, is not waited for.
+  bool IsAwaited(int64_t t_ns) const {
+    if (!last_ns_) return false;
+    const int64_t ahead_ns = t_ns - *last_ns_;
+    return ahead_ns > kTolerance_ns && ahead_ns < kSilence_ns && 4 * ahead_ns >= 3 * interval_ns_;
+  }
+
+  // The sample of an image of this stamp, if there is one. Older ones are dropped.
+  std::optional<Sample> Take(int64_t t_ns) {
+    while (!samples_.empty() && samples_.front().t_ns < t_ns - kTolerance_ns) samples_.pop_front();
+    if (samples_.empty() || samples_.front().t_ns > t_ns + kTolerance_ns) return std::nullopt;
+    std::optional<Sample> taken(std::move(samples_.front()));
+    samples_.pop_front();
+    return taken;
+  }
+
+  // Timestamp of the last sample that came.
+  const std::optional<int64_t>& last_ns() const { return last_ns_; }
+
+ private:
+  static constexpr size_t kCapacity = 10;
+  static constexpr int64_t kSilence_ns = 500'000'000;
+
+  std::deque<Sample> samples_;
+  std::optional<int64_t> last_ns_;
+  int64_t interval_ns_ = 0;  // between the last two
+};
+
+}  // namespace plm_vins

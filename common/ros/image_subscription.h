@@ -23,6 +23,11 @@ namespace plm_vins {
 // for a running callback.
 class ImageSubscription {
  public:
+  // `name` is that of the stream in diagnostics.
+  explicit ImageSubscription(const std::string& name = "images") : stream_(name) {
+    unreadable_.cause = name + "_unreadable";
+  }
+
   // Receives an image, or nullopt if a message cannot be converted, which is counted.
   using Callback = std::function<void(std::optional<ImageSample>)>;
 
@@ -46,10 +51,10 @@ class ImageSubscription {
   void Read(const std_msgs::Header& header, const Message& message);
 
   Callback callback_;
-  StreamMonitor stream_{"images"};
+  StreamMonitor stream_;
   StreamMonitor readable_{"readable_images"};
   mutable std::mutex mutex_;  // guards the count
-  DropCount unreadable_{"images_unreadable", 0, ""};
+  DropCount unreadable_;
   image_transport::Subscriber subscriber_;
   ros::Subscriber compressed_subscriber_;
 };

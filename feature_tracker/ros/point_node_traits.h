@@ -4,6 +4,7 @@
 #include <plm_vins/FeatureTrackerConfig.h>
 
 #include <cstdint>
+#include <string>
 
 #include "common/config/config.h"
 #include "feature_tracker/point_tracking_stage.h"
@@ -23,6 +24,11 @@ struct PointNodeTraits {
   // images matter.
   static constexpr uint32_t kImageQueue = 10;
 
+  static constexpr bool kUsesDepth = true;
+
+  static std::string SecondCameraFinding(const PointTracker& tracker) {
+    return tracker.SecondCameraFinding();
+  }
   static Settings ToSettings(const Config& config) {
     Settings settings = Settings::__getDefault__();  // initializes its groups as well
     settings.max_cnt = config.points.max_cnt;

@@ -4,6 +4,7 @@
 #include <plm_vins/LineFeatureTrackerConfig.h>
 
 #include <cstdint>
+#include <string>
 
 #include "common/config/config.h"
 #include "common/ros/optional_node.h"
@@ -27,6 +28,10 @@ struct LineNodeTraits {
   // of falling further behind.
   static constexpr uint32_t kImageQueue = 3;
 
+  static constexpr bool kUsesDepth = false;
+
+  // The point tracker judges the second camera.
+  static std::string SecondCameraFinding(const LineTracker&) { return ""; }
   static Settings ToSettings(const Config& config) {
     Settings settings = Settings::__getDefault__();  // initializes its groups as well
     settings.max_line_cnt = config.lines.max_lines;

@@ -5,14 +5,18 @@
 #include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud.h>
 #include <std_msgs/Bool.h>
 
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "common/append.h"
 #include "common/config/config.h"
+#include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/image_subscription.h"
 #include "common/ros/msg_conversion.h"
@@ -31,8 +35,9 @@ namespace plm_vins {
 // `Traits` defines what differs between trackers: the types Stage (a TrackingStage) and Settings
 // (of dynamic_reconfigure, with show_track), ToSettings(config) and Apply(settings, tracker), the
 // private topics kFeatureTopic and kAnnotatedTopic, the diagnostic status kDiagnostics, the queue
-// length kImageQueue (the oldest image is dropped), and kEveryImage, whether features of all images
-// are published instead of those at the rate `freq`.
+// length kImageQueue (the oldest image is dropped), kEveryImage, whether features of all images are
+// published instead of those at the rate `freq`, kUsesDepth, whether depth images are of use, and
+// SecondCameraFinding(tracker), which says what seems to be wrong with the second camera.
 template <typename Traits>
 class TrackerNode {
  public:
@@ -56,6 +61,7 @@ class TrackerNode {
     diagnostics_timer_ =
         node_.createWallTimer(ros::WallDuration(1.0),
                               [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+    SubscribeToCompanions();
     images_.Subscribe(node_, private_node_, config_.sensor.image_topic, Traits::kImageQueue,
                       [this](std::optional<ImageSample> image) { AddImage(std::move(image)); });
   }
@@ -71,6 +77,32 @@ class TrackerNode {
   void Apply(const Settings& settings) {
     show_track_ = settings.show_track;
     Traits::Apply(settings, &stage_.tracker());
+  }
+
+  void SubscribeToCompanions() {
+    const SensorConfig& sensor = config_.sensor;
+    if (sensor.second_camera) {
+      right_images_.Subscribe(node_, private_node_, sensor.second_camera->image_topic,
+                              Traits::kImageQueue, [this](std::optional<ImageSample> image) {
+                                if (image) stage_.AddRight(std::move(*image));
+                                TrackWhatIsReady();
+                              });
+    }
+    if (sensor.depth && Traits::kUsesDepth) {
+      depth_subscriber_ = node_.subscribe<sensor_msgs::Image>(
+          sensor.depth->topic, Traits::kImageQueue,
+          [this](const sensor_msgs::ImageConstPtr& message) { AddDepth(message); });
+    }
+  }
+
+  void AddDepth(const sensor_msgs::ImageConstPtr& message) {
+    depth_stream_.Add(ToNanoseconds(message->header.stamp));
+    try {
+      stage_.AddDepth(ToDepthSample(message));
+    } catch (const std::invalid_argument& error) {
+      unreadable_depth_.Add(error.what());
+    }
+    TrackWhatIsReady();
   }
 
   // Tracks the images that the IMU samples so far allow.
@@ -125,6 +157,8 @@ class TrackerNode {
 
   DropCounts Drops() const {
     DropCounts drops = {images_.unreadable(), errors_.count()};
+    if (config_.sensor.second_camera) drops.push_back(right_images_.unreadable());
+    if (depth_subscriber_) drops.push_back(unreadable_depth_);
     Append(ToDropCounts(stage_.counts()), &drops);
     return drops;
   }
@@ -140,7 +174,9 @@ class TrackerNode {
     } else if (features_in_last_image_ == 0) {
       status.summary(DiagnosticStatus::WARN, "lost: nothing to follow in the last image");
     } else {
-      status.summary(DiagnosticStatus::OK, "tracking");
+      const std::string finding = CompanionFinding();
+      status.summary(finding.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                     finding.empty() ? "tracking" : finding);
     }
     status.add("images", stage_.counts().images);
     status.add("features", features_in_last_image_);
@@ -148,7 +184,22 @@ class TrackerNode {
     for (StreamMonitor* stream : {&images_.stream(), &imu_.stream(), &feature_stream_}) {
       stream->Report(&status);
     }
+    if (config_.sensor.second_camera) right_images_.stream().Report(&status);
+    if (depth_subscriber_) depth_stream_.Report(&status);
     for (const DropCount& drop : Drops()) status.add(drop.cause, drop.count);
+  }
+
+  // Describes what seems to be wrong with the second camera or the depth images; empty if nothing
+  // is.
+  std::string CompanionFinding() {
+    if (config_.sensor.second_camera &&
+        right_images_.stream().Silence() > StreamMonitor::kSilence) {
+      return "second camera: nothing comes on " + right_images_.topic();
+    }
+    if (depth_subscriber_ && depth_stream_.Silence() > StreamMonitor::kSilence) {
+      return "depth: nothing comes on " + depth_subscriber_.getTopic();
+    }
+    return Traits::SecondCameraFinding(stage_.tracker());
   }
 
   ros::NodeHandle node_;
@@ -163,6 +214,8 @@ class TrackerNode {
   size_t features_in_last_image_ = 0;
   double tracking_ms_ = 0;  // for the last image [ms]
   StreamMonitor feature_stream_{"features"};
+  StreamMonitor depth_stream_{"depth"};
+  DropCount unreadable_depth_{"depth_images_unreadable", 0, ""};
 
   ros::WallTime last_image_arrival_ = ros::WallTime::now();
   ros::WallTime last_tracked_ = ros::WallTime::now();
@@ -178,6 +231,8 @@ class TrackerNode {
   // nothing else.
   ImuInbox imu_{node_, config_.sensor.imu_topic, [this] { TrackWhatIsReady(); }};
   ImageSubscription images_;
+  ImageSubscription right_images_{"second_camera_images"};
+  ros::Subscriber depth_subscriber_;
   ros::WallTimer flush_timer_;
   ros::WallTimer diagnostics_timer_;
 };

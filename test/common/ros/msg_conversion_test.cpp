@@ -72,11 +72,12 @@ TEST(FeatureMessage, PointsOfPlVinsComeWithoutVelocities) {
 }
 
 // Includes the additional channels that VINS-Fusion may send: the true positions of the points.
-TEST(FeatureMessage, OfVinsFusionThePointsOfTheFirstCameraAreTaken) {
+TEST(FeatureMessage, OfVinsFusionThePointsOfBothCamerasAreTaken) {
   for (const size_t channels : {6, 9}) {
     sensor_msgs::PointCloud message;
     message.points.resize(2);
     message.points[0].x = 0.25f;
+    message.points[1].x = 0.125f;
     message.channels.resize(channels);
     for (auto& channel : message.channels) channel.values.resize(2);
     const std::vector<float> first = {7, 0, 300.5f, 200.25f, 0.125f, -2};
@@ -91,7 +92,70 @@ TEST(FeatureMessage, OfVinsFusionThePointsOfTheFirstCameraAreTaken) {
     EXPECT_EQ(read.points[0].xy, Eigen::Vector2d(0.25, 0));
     EXPECT_EQ(read.points[0].uv_px, Eigen::Vector2d(300.5, 200.25));
     EXPECT_EQ(read.points[0].velocity, Eigen::Vector2d(0.125, -2));
+    EXPECT_EQ(read.points[0].right_search, RightSearch::kFound);
+    EXPECT_EQ(read.points[0].right, Eigen::Vector2d(0.125, 0));
   }
+}
+
+TEST(FeatureMessage, WhatFurtherSensorsSeeComesBackInFurtherChannels) {
+  PointFrame frame;
+  frame.t_ns = kStamp;
+  frame.points.push_back({1, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
+  frame.points.push_back({2, {0.5, -0.5}, {400.5, 200.25}, {0.125, -2}});
+  frame.points[0].right = Eigen::Vector2d(0.125, -0.5);
+  frame.points[0].right_search = RightSearch::kFound;
+  frame.points[1].right_search = RightSearch::kNotFound;
+  frame.points[1].depth = 2.5;
+  const sensor_msgs::PointCloud message = ToMessage(frame, "camera");
+  ASSERT_EQ(message.channels.size(), 9u);
+  EXPECT_EQ(message.channels[5].name, "right_search");
+  EXPECT_EQ(message.channels[8].name, "depth");
+  const PointFrame back = ReadPoints(message);
+  ASSERT_EQ(back.points.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(back.points[i].velocity, frame.points[i].velocity);
+    EXPECT_EQ(back.points[i].right, frame.points[i].right);
+    EXPECT_EQ(back.points[i].right_search, frame.points[i].right_search);
+    EXPECT_EQ(back.points[i].depth, frame.points[i].depth);
+  }
+}
+
+TEST(FeatureMessage, DepthAloneIsOneChannelMore) {
+  PointFrame frame;
+  frame.points.push_back({1, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
+  frame.points[0].depth = 2.5;
+  const sensor_msgs::PointCloud message = ToMessage(frame, "camera");
+  EXPECT_EQ(message.channels.size(), 6u);
+  const PointFrame back = ReadPoints(message);
+  ASSERT_EQ(back.points.size(), 1u);
+  EXPECT_EQ(back.points[0].uv_px, frame.points[0].uv_px);
+  EXPECT_EQ(back.points[0].depth, 2.5);
+}
+
+TEST(FeatureMessage, ImpossibleDepthsAndRightPointsAreLeftOut) {
+  PointFrame frame;
+  frame.points.push_back({1, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
+  frame.points[0].right = Eigen::Vector2d(std::nan(""), 0);
+  frame.points[0].right_search = RightSearch::kFound;
+  EXPECT_TRUE(ReadBack(frame).points.empty());
+  frame.points[0].right_search = static_cast<RightSearch>(77);
+  EXPECT_FALSE(ReadBack(frame).points.at(0).right);
+}
+
+TEST(FeatureMessage, RightSegmentsComeBack) {
+  LineFrame frame;
+  frame.lines.push_back({7, {0.25, -0.5}, {0.5, 0.125}});
+  frame.lines.push_back({8, {0.25, -0.5}, {0.5, 0.125}});
+  frame.lines[1].right = RightSegment{{0.125, -0.5}, {0.375, 0.125}, {0.25, 0.5}};
+  const sensor_msgs::PointCloud message = ToMessage(frame, "camera");
+  EXPECT_EQ(message.channels.size(), 9u);
+  const LineFrame back = ReadLines(message);
+  ASSERT_EQ(back.lines.size(), 2u);
+  EXPECT_FALSE(back.lines[0].right);
+  ASSERT_TRUE(back.lines[1].right);
+  EXPECT_EQ(back.lines[1].right->start, frame.lines[1].right->start);
+  EXPECT_EQ(back.lines[1].right->end, frame.lines[1].right->end);
+  EXPECT_EQ(back.lines[1].right->deviation, frame.lines[1].right->deviation);
 }
 
 TEST(FeatureMessage, AnEmptyFrameComesBack) {

@@ -17,7 +17,7 @@ constexpr double kBehind_px = 40.0;   // how far beyond infinity is searched: ca
 constexpr double kInfinity_px = 5.0;  // as far beyond infinity, the mounting may still be turned
 constexpr double kMaxBand_px = 4.5;
 constexpr double kReturn_px = 1.5;       // from where a match comes back to, to the corner
-constexpr double kAgain_px = 6.0;        // from where the last match leads to
+constexpr double kLargestDelay = 0.025;  // [s]; matches of a camera that is later are not used
 constexpr double kReportedDelay = 2e-3;  // [s]
 constexpr double kReportedAngle = 0.2 * M_PI / 180;  // [rad]
 constexpr double kMaxDelay = 1e-3;  // [s]; up to which the second camera counts as in time
@@ -121,11 +121,8 @@ std::optional<StereoMatcher::Place> StereoMatcher::FindAnywhere(const Images& im
 
 std::optional<StereoMatcher::Place> StereoMatcher::FindAgain(const Images& images,
                                                              const PointTrack& track) const {
-  const double reach = kAgain_px * pair_.InverseDepthPerPixel();
-  const SearchRange range{*track.inverse_depth - reach, *track.inverse_depth + reach, 0};
-  const auto seed =
-      SearchAlongCurve(pair_, images.left, {PixelOf(track), WhenSeen(track)}, images.right, range);
-  return seed ? Align(images, *seed, track) : std::nullopt;
+  const auto expected = pair_.Project(WhenSeen(track), *track.inverse_depth);
+  return expected ? Align(images, {*track.inverse_depth, *expected}, track) : std::nullopt;
 }
 
 // Returns where the first camera would see the corner when the second one exposes.
@@ -139,14 +136,19 @@ Eigen::Vector2d StereoMatcher::InTime(const StereoMatch& match) const {
 
 bool StereoMatcher::IsLate() const { return std::abs(mounting_.delay()) > kMaxDelay; }
 
-bool StereoMatcher::IsTrusted() const { return !shares_ || shares_->found > kMinFoundShare; }
+bool StereoMatcher::IsTrusted() const {
+  return (!shares_ || shares_->found > kMinFoundShare) &&
+         std::abs(mounting_.delay()) < kLargestDelay;
+}
 
 std::string StereoMatcher::Finding() const {
-  if (!IsTrusted()) {
-    return shares_->behind > kMinFoundShare
-               ? "the cameras seem to be swapped; check image_topic, image1_topic and body_T_cam1"
-               : "hardly any point is found again in the second camera; check image1_topic, "
-                 "body_T_cam1, and that both cameras are triggered together";
+  if (shares_ && shares_->behind > kMinFoundShare) {
+    return "the cameras seem to be swapped; check image_topic, image1_topic and body_T_cam1";
+  }
+  if (shares_ && shares_->found <= kMinFoundShare) {
+    return "hardly any point is found again in the second camera; check that image_topic and "
+           "image1_topic are not swapped, body_T_cam1, and that both cameras are triggered "
+           "together";
   }
   if (std::abs(mounting_.delay()) > kReportedDelay) {
     return Format("the second camera is %.1f ms late against its timestamps; trigger both together",
@@ -175,7 +177,8 @@ std::optional<StereoMatcher::Place> StereoMatcher::Align(const Images& images,
   if (!pose) return std::nullopt;
   const auto xy_C1 = RayOf(pair_.second(), pose->center);
   if (!xy_C1) return std::nullopt;
-  return Place{{track.xy, track.velocity, *xy_C1}, pose->center, seed.inverse_depth};
+  const StereoMatch match{track.xy, track.velocity, *xy_C1};
+  return Place{match, pose->center, pair_.InverseDepth(track.xy, InTime(match))};
 }
 
 bool StereoMatcher::IsBehind(const Place& place) const {

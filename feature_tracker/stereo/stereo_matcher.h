@@ -39,7 +39,7 @@ class StereoMatcher {
   struct Place {
     StereoMatch match;
     Eigen::Vector2d pixel;  // in the second camera
-    // To a pixel [1/m]; negative if the rays of both cameras meet behind them.
+    // [1/m]; negative if the rays of both cameras meet behind them.
     double inverse_depth = 0;
   };
   struct Images {
@@ -53,7 +53,7 @@ class StereoMatcher {
   bool IsDue(const PointTrack& track) const;
   void Judge(std::vector<Search>* searches);
   std::optional<Place> Find(const Images& images, const PointTrack& track) const;
-  // All along the epipolar curve, and back; or near the place of the last match.
+  // Searches all along the epipolar curve, and back; or only where the last match leads to.
   std::optional<Place> FindAnywhere(const Images& images, const PointTrack& track) const;
   std::optional<Place> FindAgain(const Images& images, const PointTrack& track) const;
   std::optional<Place> Align(const Images& images, const CurvePoint& seed,

@@ -37,16 +37,16 @@ class LineStereo {
     const cv::Mat& right;
   };
   // The inverse depth at a share of the way from the start of a line to its end [1/m].
-  struct DepthSample {
+  struct LineDepth {
     double share = 0;
     double inverse_depth = 0;
   };
   void MatchOne(const Images& images, LineTrack* track) const;
-  // At the start and the end [1/m]. Near `expected` if it is known.
-  std::optional<Eigen::Vector2d> FindDepths(const Images& images, const LineSegment& segment,
-                                            const std::optional<Eigen::Vector2d>& expected) const;
-  std::optional<Eigen::Vector2d> Agree(const std::vector<DepthSample>& samples,
-                                       size_t min_agreeing) const;
+  bool IsTurn(const LineTrack& track, int interval) const;
+  // Inverse depths at the start and the end [1/m].
+  std::optional<Eigen::Vector2d> FindDepths(const Images& images, const LineSegment& segment) const;
+  Eigen::Vector2d DepthsBy(const RightSegment& right, const LineSegment& segment) const;
+  std::optional<Eigen::Vector2d> Agree(const std::vector<LineDepth>& samples) const;
   std::optional<RightSegment> Locate(const cv::Mat& right, const LineSegment& segment,
                                      const Eigen::Vector2d& inverse_depths) const;
 

@@ -36,6 +36,15 @@ std::optional<Eigen::Vector2d> CameraPair::Transfer(const Eigen::Vector2d& xy,
   return p_C1.hnormalized();
 }
 
+// The point R x + rho t of C1 is parallel to the ray b: (R x + rho t) x b = 0.
+double CameraPair::InverseDepth(const Eigen::Vector2d& xy, const Eigen::Vector2d& xy_C1) const {
+  const Eigen::Vector3d b = xy_C1.homogeneous();
+  const Eigen::Vector3d far = (R_C1_C_ * xy.homogeneous()).cross(b);
+  const Eigen::Vector3d per_inverse_depth = T_C1_C_.translation.cross(b);
+  return -far.dot(per_inverse_depth) /
+         std::max(per_inverse_depth.squaredNorm(), kMinBaseline * kMinBaseline);
+}
+
 double CameraPair::InverseDepthPerPixel() const {
   return 1 / (second_->FocalLength() * std::max(T_C1_C_.translation.norm(), kMinBaseline));
 }

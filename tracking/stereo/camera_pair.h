@@ -34,6 +34,10 @@ class CameraPair {
   // front of that camera.
   std::optional<Eigen::Vector2d> Transfer(const Eigen::Vector2d& xy, double inverse_depth) const;
 
+  // Returns the inverse depth [1/m] at which the ray of `xy` comes closest to that of `xy_C1`, both
+  // normalized and undistorted: least squares over the epipolar plane.
+  double InverseDepth(const Eigen::Vector2d& xy, const Eigen::Vector2d& xy_C1) const;
+
   // By how much the inverse depth of a distant point on the axis changes per pixel of disparity.
   double InverseDepthPerPixel() const;
 

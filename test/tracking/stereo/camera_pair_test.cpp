@@ -21,6 +21,18 @@ TEST(CameraPairTest, ProjectsAsTheSecondCameraDoes) {
   }
 }
 
+TEST(CameraPairTest, InverseDepthInvertsTransfer) {
+  const CameraPair pair = StereoCameras();
+  for (const double inverse_depth : {-0.1, 0.0, 0.5, 2.0}) {
+    const Eigen::Vector2d xy_C1 = *pair.Transfer(kXy, inverse_depth);
+    EXPECT_NEAR(pair.InverseDepth(kXy, xy_C1), inverse_depth, 1e-9);
+    // An error across the epipolar line hardly matters.
+    const Eigen::Vector2d along = *pair.Transfer(kXy, inverse_depth + 1e-4) - xy_C1;
+    const Eigen::Vector2d across = Eigen::Vector2d(-along.y(), along.x()).normalized();
+    EXPECT_NEAR(pair.InverseDepth(kXy, xy_C1 + 1e-3 * across), inverse_depth, 2e-3);
+  }
+}
+
 TEST(CameraPairTest, DoesNotTransferWhatIsBehind) {
   const CameraPair pair = StereoCameras({Eigen::Quaterniond::Identity(), {0, 0, -1}});
   EXPECT_TRUE(pair.Transfer(kXy, 0.9));

@@ -64,8 +64,10 @@ struct ImageRow {
 
 std::optional<ImageRow> ToImageRow(const CsvRow& row) { return ImageRow{row.t_ns, row.values[0]}; }
 
-constexpr SortedRows<ImageRow>::Format kImageFormat = {"image", "image", "stamp [ns],file name", 1,
-                                                       ToImageRow};
+// `key` names the sensor in reports.
+constexpr SortedRows<ImageRow>::Format ImageFormat(const char* key) {
+  return {key, "image", "stamp [ns],file name", 1, ToImageRow};
+}
 constexpr SortedRows<ImuSample>::Format kImuFormat = {
     "imu", "IMU sample", "stamp [ns],gyro x,y,z [rad/s],accelerometer x,y,z [m/s^2]", 6,
     ToImuSample};
@@ -76,10 +78,11 @@ struct ImageStream {
   fs::path folder;
   SortedRows<ImageRow> rows;
 
-  ImageStream(RecordingEvent::Kind image_kind, const fs::path& root, const char* name)
+  ImageStream(RecordingEvent::Kind image_kind, const fs::path& root, const char* name,
+              const char* key)
       : kind(image_kind),
         folder(root / name / "data"),
-        rows(Require(root / name / "data.csv"), kImageFormat) {}
+        rows(Require(root / name / "data.csv"), ImageFormat(key)) {}
 };
 
 // Merges the csv files by timestamp. At the same time, IMU samples come first and cam0 last.
@@ -89,9 +92,9 @@ class AslRecording : public Recording {
       : name_(folder), imu_(Require(SensorRoot(folder) / "imu0" / "data.csv"), kImuFormat) {
     using Kind = RecordingEvent::Kind;
     const fs::path root = SensorRoot(folder);
-    if (with_right) images_.emplace_back(Kind::kRightImage, root, "cam1");
-    if (with_depth) images_.emplace_back(Kind::kDepth, root, "depth0");
-    images_.emplace_back(Kind::kImage, root, "cam0");
+    if (with_right) images_.emplace_back(Kind::kRightImage, root, "cam1", "second_image");
+    if (with_depth) images_.emplace_back(Kind::kDepth, root, "depth0", "depth_image");
+    images_.emplace_back(Kind::kImage, root, "cam0", "image");
   }
 
   std::optional<RecordingEvent> Next() override {

@@ -53,6 +53,27 @@ TEST_F(AslRecording, MergesByTimeWithTheImuFirst) {
   EXPECT_EQ(contents.imu[1].accel, Eigen::Vector3d(4, 5, 6));
 }
 
+TEST_F(AslRecording, ReadsASecondCameraAndDepthIfTheyAreWanted) {
+  folder_.Write("mav0/cam1/data.csv", "#timestamp [ns],filename\n10,a.png\n30,c.png\n");
+  folder_.Write("mav0/depth0/data.csv", "#timestamp [ns],filename\n20,d.png\n");
+  for (const char* name : {"cam1/data/a.png", "cam1/data/c.png", "depth0/data/d.png"}) {
+    folder_.Write(std::string("mav0/") + name, "");
+  }
+  cv::imwrite(folder_.File("mav0/cam1/data/a.png"), cv::Mat(4, 6, CV_8UC1));
+  cv::imwrite(folder_.File("mav0/depth0/data/d.png"), cv::Mat(4, 6, CV_16UC1, cv::Scalar(2500)));
+  const auto contents =
+      ReadAll(OpenAslFolder(folder_.path(), /*with_right=*/true, /*with_depth=*/true).get());
+  EXPECT_EQ(contents.order, "mmiimiimxi");  // the last image of cam1 is no image
+  EXPECT_THAT(contents.stamps, ElementsAre(5, 10, 10, 10, 15, 20, 20, 25, 30, 30));
+  EXPECT_EQ(contents.images[2].at<uint16_t>(1, 2), 2500);
+  EXPECT_EQ(ReadAll(OpenAslFolder(folder_.path()).get()).order, "mmimimi");
+}
+
+TEST_F(AslRecording, NamesTheFolderOfASecondCameraThatIsMissing) {
+  EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path(), /*with_right=*/true); }),
+              HasSubstr("cam1/data.csv"));
+}
+
 // Merged by time, each of these rows would delay all others.
 TEST_F(AslRecording, GivesStampsInTheFutureLast) {
   const std::string hour = "3600000000000";

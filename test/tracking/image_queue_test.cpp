@@ -183,5 +183,58 @@ TEST(ImageQueue, DoesWithoutTheGyroWhereTheCameraRotationIsUnknown) {
   EXPECT_EQ(queue.counts().without_gyro, 0);
 }
 
+class CompanionImages : public ::testing::Test {
+ protected:
+  static Config TwoCameras() {
+    Config config = StillConfig();
+    config.sensor.second_camera.emplace();
+    config.sensor.second_camera->camera = config.sensor.camera;
+    config.sensor.depth.emplace();
+    return config;
+  }
+
+  static int64_t At(int milliseconds) { return kStart + milliseconds * kMillisecond; }
+
+  const cv::Mat picture_ = StillPicture();
+  const cv::Mat depth_{240, 320, CV_16UC1, cv::Scalar(2000)};
+  ImageQueue queue_{TwoCameras()};
+};
+
+TEST_F(CompanionImages, ComeWithTheImageOfTheirStamp) {
+  queue_.AddRight({At(1), picture_});
+  queue_.AddDepth({At(0), depth_});
+  queue_.AddImage({At(0), picture_});
+  queue_.AddImage({At(50), picture_});
+  const auto first = queue_.Flush();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->companions.right.t_ns, At(1));
+  EXPECT_EQ(first->companions.depth.t_ns, At(0));
+  const auto second = queue_.Flush();
+  ASSERT_TRUE(second);
+  EXPECT_TRUE(second->companions.right.gray.empty());
+  EXPECT_TRUE(second->companions.depth.depth.empty());
+  EXPECT_EQ(queue_.counts().without_right.count, 1);
+  EXPECT_EQ(queue_.counts().without_depth.count, 1);
+}
+
+TEST_F(CompanionImages, OfAWrongFormatAreCounted) {
+  queue_.AddRight({At(0), depth_});
+  queue_.AddDepth({At(0), picture_});
+  EXPECT_EQ(queue_.counts().right_unusable.count, 1);
+  EXPECT_EQ(queue_.counts().depth_unusable.count, 1);
+  EXPECT_EQ(ToDropCounts(queue_.counts()).size(), ToDropCounts(ImageCounts()).size() + 2);
+}
+
+TEST_F(CompanionImages, AreIgnoredWithoutSuchASensor) {
+  ImageQueue queue(StillConfig());
+  queue.AddRight({At(0), picture_});
+  queue.AddDepth({At(0), depth_});
+  queue.AddImage({At(0), picture_});
+  const auto ready = queue.Flush();
+  ASSERT_TRUE(ready);
+  EXPECT_TRUE(ready->companions.right.gray.empty());
+  EXPECT_EQ(queue.counts().without_right.count, 0);
+}
+
 }  // namespace
 }  // namespace plm_vins

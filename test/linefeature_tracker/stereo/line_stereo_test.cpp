@@ -112,7 +112,7 @@ TEST_F(LineStereoTest, FindsNothingWithoutAnImageOrInAnotherScene) {
   EXPECT_EQ(CountMatched(Match(blank)), 0);
   cv::Mat turned;
   cv::flip(scene_.View(), turned, -1);
-  const LineFrame frame = Match(turned);  // edges of bars look alike, so some match by chance
+  const LineFrame frame = Match(turned);  // edges of bars are similar: some match by chance
   EXPECT_LT(CountMatched(frame), 0.2 * static_cast<double>(frame.lines.size()));
 }
 

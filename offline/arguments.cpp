@@ -31,7 +31,11 @@ void DeclareFiles(Arguments* arguments, CLI::App* app) {
   };
   add(app, "--config", &arguments->config, "configuration file (VINS YAML)")->required();
   auto* source = app->add_option_group("input");
-  add(source, "--bag", &arguments->bag, "ROS bag");
+  source
+      ->add_option("--bag", arguments->bags,
+                   "ROS bags: files, folders or patterns; several are played as one, in order of "
+                   "time")
+      ->check(CheckPath);
   add(source, "--asl", &arguments->asl, "folder in ASL format (EuRoC)");
   add(source, "--features", &arguments->features,
       "features that --save-features wrote, instead of images");

@@ -12,10 +12,10 @@ class App;
 
 namespace plm_vins {
 
-// The options of run_offline. A path is empty if its option is not given.
+// The options of run_offline. A path is empty, and so are bags, if its option is not given.
 struct Arguments {
   std::string config;
-  std::string bag;
+  std::vector<std::string> bags;  // files, folders and patterns
   std::string asl;
   std::string features;
   std::string output;

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "common/append.h"
 #include "offline/results/result_folder.h"
 #include "vins_estimator/output/calibrated_config.h"
 
@@ -30,7 +31,8 @@ bool AreOneFile(const std::string& a, const std::string& b) {
 }
 
 std::vector<std::string> InputFiles(const Arguments& arguments) {
-  std::vector<std::string> files = {arguments.config, arguments.bag, arguments.features};
+  std::vector<std::string> files = {arguments.config, arguments.features};
+  Append(arguments.bags, &files);
   if (arguments.asl.empty()) return files;
   for (const char* table : {"imu0/data.csv", "cam0/data.csv"}) {
     files.push_back(arguments.asl + "/" + table);
@@ -61,7 +63,9 @@ void CheckResults(const Arguments& arguments) {
     CheckNoResult("--save-features", arguments.saved_features, arguments.output, name);
     CheckNoResult("--map-in", arguments.map_in, arguments.output, name);
     CheckNoResult("--features", arguments.features, arguments.output, name);
-    CheckNoResult("--bag", arguments.bag, arguments.output, name);
+    for (const std::string& bag : arguments.bags) {
+      CheckNoResult("--bag", bag, arguments.output, name);
+    }
     if (name == kCalibratedConfigFile) continue;  // may be the input; see CheckCalibrationOutput()
     CheckNoResult("--config", arguments.config, arguments.output, name);
   }

@@ -26,6 +26,7 @@
 #include "offline/pipeline/odometry_pipeline.h"
 #include "offline/pipeline/tracker_values.h"
 #include "offline/recordings/asl_recording.h"
+#include "offline/recordings/bag_files.h"
 #include "offline/recordings/bag_recording.h"
 #include "offline/results/loop_results.h"
 #include "offline/results/result_files.h"
@@ -49,9 +50,9 @@ Input Open(const Arguments& arguments, const SensorConfig& sensor) {
     input.recording =
         OpenAslFolder(arguments.asl, sensor.second_camera.has_value(), sensor.depth.has_value());
   } else {
-    input.recording = OpenBag(arguments.bag, sensor.image_topic, sensor.imu_topic,
-                              sensor.second_camera ? sensor.second_camera->image_topic : "",
-                              sensor.depth ? sensor.depth->topic : "");
+    input.recording = OpenBags(arguments.bags, sensor.image_topic, sensor.imu_topic,
+                               sensor.second_camera ? sensor.second_camera->image_topic : "",
+                               sensor.depth ? sensor.depth->topic : "");
   }
   return input;
 }
@@ -369,6 +370,7 @@ int main(int argc, char** argv) try {
   plm_vins::Declare(&arguments, &app);
   try {
     app.parse(argc, argv);
+    arguments.bags = plm_vins::FindBags(arguments.bags);
     plm_vins::SetUpProcess();
     return plm_vins::Run(arguments);
   } catch (const CLI::CallForHelp& help) {

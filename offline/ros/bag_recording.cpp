@@ -3,20 +3,15 @@
 
 #include <ros/serialization.h>
 
-#include <cerrno>
-#include <exception>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
 
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
 #include "common/ros/topic_names.h"
-#include "offline/ros/indexed_bag.h"
+#include "offline/ros/joined_bags.h"
 
 namespace plm_vins {
 namespace {
@@ -24,28 +19,6 @@ namespace {
 constexpr char kRaw[] = "sensor_msgs/Image";
 constexpr char kCompressed[] = "sensor_msgs/CompressedImage";
 constexpr char kImu[] = "sensor_msgs/Imu";
-
-void RequireReadable(const std::string& file) {
-  std::error_code error;
-  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) {
-    throw std::runtime_error(file + " is not a file; --bag takes a ROS bag, --asl a folder");
-  }
-  if (!std::ifstream(file)) {
-    const std::string reason = std::generic_category().message(errno);
-    throw std::runtime_error("cannot read " + file + ": " + reason);
-  }
-}
-
-IndexedBag OpenIndexedBag(const std::string& file) {
-  RequireReadable(file);
-  try {
-    return IndexedBag(file);
-  } catch (const std::exception& error) {  // exceptions of bag parsing, or std::bad_alloc
-    throw std::runtime_error(
-        file + " is not a ROS bag of format 2.0, or it was cut off, damaged or never closed (" +
-        error.what() + "); then \"rosbag reindex " + file + "\" makes it whole");
-  }
-}
 
 // Returns the topic of this type as named in the bag: with a leading slash or, from some recorders,
 // without. Returns nullopt if there is none.
@@ -55,6 +28,12 @@ std::optional<TypedTopic> Find(const TypedTopics& topics, const std::string& top
     if (AbsoluteTopic(typed.first) == AbsoluteTopic(topic) && typed.second == type) return typed;
   }
   return std::nullopt;
+}
+
+std::string Join(const std::vector<std::string>& files) {
+  std::string text;
+  for (const std::string& file : files) text += (text.empty() ? "" : " ") + file;
+  return text;
 }
 
 std::string Missing(const std::string& key, const std::string& topic, const std::string& type) {
@@ -111,11 +90,11 @@ Message DeserializeImage(const BagMessage& message) {
 
 class BagRecording : public Recording {
  public:
-  BagRecording(const std::string& file, const std::string& image_topic,
+  BagRecording(const std::vector<std::string>& files, const std::string& image_topic,
                const std::string& imu_topic, const std::string& right_topic,
                const std::string& depth_topic)
-      : file_(file), bag_(OpenIndexedBag(file)) {
-    const TypedTopics topics = bag_.topics();
+      : name_(Join(files)), bags_(files) {
+    const TypedTopics topics = bags_.topics();
     std::string missing;
     const auto add = [&](RecordingEvent::Kind kind, const std::optional<TypedTopic>& found,
                          const std::string& lack) {
@@ -135,15 +114,15 @@ class BagRecording : public Recording {
         Missing("image_topic", image_topic, any_image));
     add(Kind::kImu, Find(topics, imu_topic, kImu), Missing("imu_topic", imu_topic, kImu));
     if (!missing.empty()) {
-      throw std::runtime_error(file + " has" + missing + " but:" + ToText(topics));
+      throw std::runtime_error(name_ + " has" + missing + " but:" + ToText(topics));
     }
     TypedTopics selected;
     for (const auto& [topic, kind] : kinds_) selected.insert(topic);
-    bag_.Select(selected);
+    bags_.Select(selected);
   }
 
   std::optional<RecordingEvent> Next() override {
-    while (const auto message = bag_.Next()) {
+    while (const auto message = bags_.Next()) {
       try {
         const RecordingEvent::Kind kind = kinds_.at(message->topic);
         return kind == RecordingEvent::Kind::kImu ? ImuEvent(*message) : ImageEvent(*message, kind);
@@ -168,7 +147,7 @@ class BagRecording : public Recording {
     }
   }
 
-  std::string name() const override { return file_; }
+  std::string name() const override { return name_; }
   std::string Source(RecordingEvent::Kind kind) const override {
     const std::string key = kind == RecordingEvent::Kind::kImage ? "image_topic " : "imu_topic ";
     for (const auto& [topic, own_kind] : kinds_) {
@@ -176,10 +155,10 @@ class BagRecording : public Recording {
     }
     return key;
   }
-  std::optional<int64_t> end_ns() const override { return bag_.end_ns(); }
+  std::optional<int64_t> end_ns() const override { return bags_.end_ns(); }
 
   DropCounts problems() const override {
-    DropCounts counts = bag_.problems();
+    DropCounts counts = bags_.problems();
     counts.push_back(unreadable_images_);
     counts.push_back(malformed_);
     return counts;
@@ -212,8 +191,8 @@ class BagRecording : public Recording {
     return {kind, ToNanoseconds(stamp), {}};
   }
 
-  std::string file_;
-  IndexedBag bag_;
+  std::string name_;
+  JoinedBags bags_;
   std::map<TypedTopic, RecordingEvent::Kind> kinds_;  // of the selected topics
   bool is_depth_ = false, is_compressed_ = false;     // of the last image
   sensor_msgs::Image raw_image_;
@@ -224,10 +203,11 @@ class BagRecording : public Recording {
 
 }  // namespace
 
-std::unique_ptr<Recording> OpenBag(const std::string& file, const std::string& image_topic,
-                                   const std::string& imu_topic, const std::string& right_topic,
-                                   const std::string& depth_topic) {
-  return std::make_unique<BagRecording>(file, image_topic, imu_topic, right_topic, depth_topic);
+std::unique_ptr<Recording> OpenBags(const std::vector<std::string>& files,
+                                    const std::string& image_topic, const std::string& imu_topic,
+                                    const std::string& right_topic,
+                                    const std::string& depth_topic) {
+  return std::make_unique<BagRecording>(files, image_topic, imu_topic, right_topic, depth_topic);
 }
 
 }  // namespace plm_vins

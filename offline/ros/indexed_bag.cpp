@@ -65,7 +65,13 @@ std::optional<BagMessage> IndexedBag::Next() {
       if (damaged_++ == 0) problem_ = Describe(error.what(), chunk);
     }
   }
+  unpacked_.clear();  // another bag may follow
   return std::nullopt;
+}
+
+std::optional<int64_t> IndexedBag::next_ns() const {
+  if (next_ == entries_.size()) return std::nullopt;
+  return entries_[next_].t_ns;
 }
 
 std::optional<int64_t> IndexedBag::end_ns() const {

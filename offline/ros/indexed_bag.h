@@ -42,8 +42,9 @@ class IndexedBag {
 
   std::optional<BagMessage> Next();
 
-  std::optional<int64_t> end_ns() const;  // time of the last selected message
-  DropCounts problems() const;            // counts of dropped messages
+  std::optional<int64_t> next_ns() const;  // time of the message that Next() reads first
+  std::optional<int64_t> end_ns() const;   // time of the last selected message
+  DropCounts problems() const;             // counts of dropped messages
 
  private:
   struct Chunk {

@@ -51,7 +51,7 @@ std::string SmallBag(rosbag::compression::CompressionType compression) {
 
 void ReadBag(const std::string& bytes) {
   std::ofstream(BagFile(), std::ios::binary) << bytes;
-  const auto recording = OpenBag(BagFile(), "/cam0/image_raw", "/imu0");
+  const auto recording = OpenBags({BagFile()}, "/cam0/image_raw", "/imu0");
   while (const auto event = recording->Next()) {
     if (event->kind == RecordingEvent::Kind::kImage) recording->LoadImage();
   }

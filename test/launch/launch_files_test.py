@@ -210,12 +210,15 @@ class LaunchFiles(unittest.TestCase):
 
     def test_bag(self):
         words = player_words(bag="/data/my flight.bag", start=5, duration=2.5, rate=0.5)
-        self.assertEqual(words[-1], "/data/my flight.bag")
+        self.assertEqual(words[0], "/data/my flight.bag")
         for option, value in (("--start", "5"), ("--duration", "2.5"), ("--rate", "0.5")):
             self.assertEqual(words[words.index(option) + 1], value)
         self.assertIn("--clock", words)
         self.assertIn("--quiet", words)  # progress output would overwrite messages of the nodes
         self.assertNotIn("--duration", player_words(bag="/a.bag"))
+        self.assertEqual(player_words(bag="/a.bag /b.bag")[0], "/a.bag /b.bag")
+        player = load("plm_vins.launch", config="c.yaml", bag="/a.bag")[0]["player"]
+        self.assertTrue(roslib.packages.find_node(player.package, player.type))
         for name in ALL:
             self.assertTrue(load(name, config="c.yaml", bag="/a.bag")[1]["/use_sim_time"])
 

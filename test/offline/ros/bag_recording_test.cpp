@@ -133,7 +133,7 @@ class BagRecording : public ::testing::Test {
     bag.write(reinterpret_cast<const char*>(&offset), sizeof(offset));
   }
 
-  RecordingContents Read() { return ReadAll(OpenBag(file_, "/cam0/image_raw", "/imu0").get()); }
+  RecordingContents Read() { return ReadAll(OpenBags({file_}, "/cam0/image_raw", "/imu0").get()); }
 
   void ExpectComplete(const RecordingContents& contents) {
     EXPECT_EQ(contents.imu.size(), static_cast<size_t>(kSamples));
@@ -149,7 +149,7 @@ class BagRecording : public ::testing::Test {
 
 TEST_F(BagRecording, ReadsRawImages) {
   WriteBag("/cam0/image_raw", RawImage);
-  const auto recording = OpenBag(file_, "/cam0/image_raw", "/imu0");
+  const auto recording = OpenBags({file_}, "/cam0/image_raw", "/imu0");
   EXPECT_EQ(recording->end_ns(), kStart + (kSamples - 1) * kStep);
   const RecordingContents contents = ReadAll(recording.get());
   ExpectComplete(contents);
@@ -177,7 +177,7 @@ TEST_F(BagRecording, NamesTheTopicsThatThereAre) {
 
 TEST_F(BagRecording, NamesBothTopicsAndTheirKeysWhereBothAreMissing) {
   WriteBag("/camera/left", RawImage);
-  EXPECT_THAT(MessageOf([&] { OpenBag(file_, "/cam0", "/imu"); }),
+  EXPECT_THAT(MessageOf([&] { OpenBags({file_}, "/cam0", "/imu"); }),
               AllOf(HasSubstr("no topic /cam0 ("), HasSubstr("key image_topic"),
                     HasSubstr("no topic /imu ("), HasSubstr("key imu_topic")));
 }
@@ -185,12 +185,12 @@ TEST_F(BagRecording, NamesBothTopicsAndTheirKeysWhereBothAreMissing) {
 TEST_F(BagRecording, FindsATopicWithoutALeadingSlash) {
   WriteBag("cam0/image_raw", RawImage);
   ExpectComplete(Read());
-  ExpectComplete(ReadAll(OpenBag(file_, "cam0/image_raw", "imu0").get()));
+  ExpectComplete(ReadAll(OpenBags({file_}, "cam0/image_raw", "imu0").get()));
 }
 
 TEST_F(BagRecording, SaysFromWhichTopicImagesAndSamplesCome) {
   WriteBag("/cam0/image_raw/compressed", CompressedImage);
-  const auto recording = OpenBag(file_, "/cam0/image_raw", "/imu0");
+  const auto recording = OpenBags({file_}, "/cam0/image_raw", "/imu0");
   EXPECT_EQ(recording->Source(RecordingEvent::Kind::kImage),
             "image_topic /cam0/image_raw/compressed");
   EXPECT_EQ(recording->Source(RecordingEvent::Kind::kImu), "imu_topic /imu0");
@@ -198,7 +198,7 @@ TEST_F(BagRecording, SaysFromWhichTopicImagesAndSamplesCome) {
 
 TEST_F(BagRecording, RefusesATopicOfAnotherType) {
   WriteBag("/cam0/image_raw", RawImage);
-  EXPECT_THAT(MessageOf([&] { OpenBag(file_, "/cam0/image_raw", "/other"); }),
+  EXPECT_THAT(MessageOf([&] { OpenBags({file_}, "/cam0/image_raw", "/other"); }),
               HasSubstr("no topic /other (sensor_msgs/Imu)"));
 }
 
@@ -249,7 +249,7 @@ TEST_F(BagRecording, LeavesOutAMessageThatIsNotWhereTheIndexSays) {
   for (const auto compression : kCompressions) {
     WriteBag("/cam0/image_raw", RawImage, compression);
     SetImuOffset(7);  // in the middle of a record
-    const auto recording = OpenBag(file_, "/cam0/image_raw", "/imu0");
+    const auto recording = OpenBags({file_}, "/cam0/image_raw", "/imu0");
     const RecordingContents contents = ReadAll(recording.get());
     EXPECT_EQ(contents.imu.size() + contents.images.size(), size_t{kSamples + kImages - 1});
     EXPECT_EQ(contents.problems.at("bag_damaged"), 1);
@@ -266,7 +266,7 @@ TEST_F(BagRecording, LeavesOutAChunkThatDoesNotUnpack) {
     const size_t chunk = bytes.find("compression=", bytes.size() / 2);
     for (size_t i = 200; i < 220; ++i) bytes[chunk + i] ^= '\x55';
     folder_.Write("test.bag", bytes);
-    const auto recording = OpenBag(file_, "/cam0/image_raw", "/imu0");
+    const auto recording = OpenBags({file_}, "/cam0/image_raw", "/imu0");
     const RecordingContents contents = ReadAll(recording.get());
     EXPECT_GT(contents.imu.size(), size_t{kSamples / 2});
     EXPECT_LT(contents.imu.size(), size_t{kSamples});
@@ -363,7 +363,7 @@ TEST_F(BagRecording, CountsImagesOfUnknownEncodingAndGoesOn) {
     if (i == 10) image.encoding = "secret";
     return image;
   });
-  const auto recording = OpenBag(file_, "/cam0/image_raw", "/imu0");
+  const auto recording = OpenBags({file_}, "/cam0/image_raw", "/imu0");
   const RecordingContents contents = ReadAll(recording.get());
   EXPECT_EQ(contents.images.size(), static_cast<size_t>(kImages - 1));
   EXPECT_EQ(contents.problems.at("images_unreadable"), 1);

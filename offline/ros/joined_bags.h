@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/streams/drop_counts.h"
+#include "offline/ros/indexed_bag.h"
+
+namespace plm_vins {
+
+// The messages of several bags, such as `rosbag record --split` writes, as if they were in one:
+// merged in order of their time of recording, whatever the order of the files.
+class JoinedBags {
+ public:
+  // Throws std::runtime_error where a file cannot be read, is no bag or has no index.
+  explicit JoinedBags(const std::vector<std::string>& files);
+
+  // As in IndexedBag, for all bags together.
+  TypedTopics topics() const;
+  void Select(const TypedTopics& topics);
+  std::optional<BagMessage> Next();
+  std::optional<int64_t> end_ns() const;
+  DropCounts problems() const;
+
+ private:
+  std::vector<std::unique_ptr<IndexedBag>> bags_;
+};
+
+}  // namespace plm_vins

@@ -26,9 +26,9 @@ COMMON_LAYERS = {
     "stopwatch.h": "",
     "geometry": "",
     "camera": "",
-    "imu": "measurements.h",
+    "imu": "format.h measurements.h",
     "features": "measurements.h",
-    "streams": "measurements.h median.h",
+    "streams": "format.h measurements.h median.h",
     "io": "measurements.h",
     "config": "geometry camera imu",
 }

@@ -38,6 +38,10 @@ std::string ImageSubscription::topic() const {
   return compressed_subscriber_ ? compressed_subscriber_.getTopic() : subscriber_.getTopic();
 }
 
+std::string ImageSubscription::type() const {
+  return compressed_subscriber_ ? "sensor_msgs/CompressedImage" : "sensor_msgs/Image";
+}
+
 // `message` is a message, or a pointer to one whose pixels are shared.
 template <typename Message>
 void ImageSubscription::Read(const std_msgs::Header& header, const Message& message) {

@@ -5,17 +5,22 @@
 #include <ros/console.h>
 #include <ros/exception.h>
 #include <ros/init.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
+#include <system_error>
 
 #include "common/process_setup.h"
 #include "common/ros/node_config.h"
 
 namespace plm_vins {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr double kClockPatience = 10;  // [s]; a player first opens its bag
 
@@ -26,6 +31,22 @@ void WarnWithoutClock() {
       "/use_sim_time is set, but no time comes on /clock: play the bag with --clock, or the player "
       "could not open its bag (absolute path?); for live sensors, rosparam delete /use_sim_time "
       "and start all nodes again");
+}
+
+// roscpp aborts where it cannot make its folder for logs; then they go to a temporary one.
+void RequireLogFolder() {
+  if (std::getenv("ROS_LOG_DIR") != nullptr) return;
+  const char* const ros_home = std::getenv("ROS_HOME");
+  const char* const home = std::getenv("HOME");
+  const fs::path folder = ros_home != nullptr ? fs::path(ros_home) / "log"
+                                              : fs::path(home != nullptr ? home : "") / ".ros/log";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && access(folder.c_str(), W_OK) == 0) return;
+  const fs::path other = fs::temp_directory_path(error) / "ros_log";
+  setenv("ROS_LOG_DIR", other.c_str(), /*overwrite=*/0);
+  std::fprintf(stderr, "cannot write logs to %s: they go to %s; set ROS_LOG_DIR to a folder\n",
+               folder.c_str(), other.c_str());
 }
 
 // Returns false, after printing why, if an argument has an invalid ROS name; logging does not work
@@ -47,6 +68,7 @@ int RunNode(int argc, char** argv, const std::string& name, const std::function<
   std::signal(SIGINT, [](int) { std::_Exit(0); });
   std::signal(SIGTERM, [](int) { std::_Exit(0); });
   SetUpProcess();
+  RequireLogFolder();
   if (!InitRos(argc, argv, name)) return 1;
   const ros::NodeHandle keeps_ros_running;
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });  // ROS itself handles SIGINT

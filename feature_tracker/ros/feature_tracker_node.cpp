@@ -6,8 +6,8 @@
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "feature_tracker", [](const plm_vins::Config& config) {
-    const plm_vins::TrackerNode<plm_vins::PointNodeTraits> node(config, ros::NodeHandle(),
-                                                                ros::NodeHandle("~"));
+    plm_vins::TrackerNode<plm_vins::PointNodeTraits> node(config, ros::NodeHandle(),
+                                                          ros::NodeHandle("~"));
     plm_vins::Spin();
   });
 }

@@ -7,7 +7,7 @@
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "linefeature_tracker", [](const plm_vins::Config& config) {
-    const plm_vins::LineTrackerNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
+    plm_vins::LineTrackerNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
     plm_vins::Spin();
   });
 }

@@ -167,7 +167,7 @@ void MavrosRelayNode::ReportGoingOn() {
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "mavros_relay", [] {
-    const plm_vins::MavrosRelayNode node;
+    plm_vins::MavrosRelayNode node;
     plm_vins::Spin();
   });
 }

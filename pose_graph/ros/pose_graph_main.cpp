@@ -6,7 +6,7 @@
 
 int main(int argc, char** argv) {
   return plm_vins::RunNode(argc, argv, "pose_graph", [](const plm_vins::Config& config) {
-    const plm_vins::OptionalPoseGraphNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
+    plm_vins::OptionalPoseGraphNode node(config, ros::NodeHandle(), ros::NodeHandle("~"));
     if (node.is_on()) plm_vins::Spin();
   });
 }

@@ -21,7 +21,9 @@
 #include "common/ros/image_subscription.h"
 #include "common/ros/msg_conversion.h"
 #include "common/ros/node_setup.h"
+#include "common/ros/silent_topic.h"
 #include "common/ros/stream_monitor.h"
+#include "common/streams/constant_stamp.h"
 #include "common/streams/drop_counts.h"
 #include "tracking/ros/imu_inbox.h"
 #include "tracking/ros/run_time_settings.h"
@@ -59,8 +61,10 @@ class TrackerNode {
     diagnostics_.setHardwareID("none");
     diagnostics_.add(Traits::kDiagnostics, this, &TrackerNode::ReportStatus);
     diagnostics_timer_ =
-        node_.createWallTimer(ros::WallDuration(1.0),
-                              [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+        node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
+          LogSilence();
+          diagnostics_.force_update();
+        });
     SubscribeToCompanions();
     images_.Subscribe(node_, private_node_, config_.sensor.image_topic, Traits::kImageQueue,
                       [this](std::optional<ImageSample> image) { AddImage(std::move(image)); });
@@ -73,6 +77,7 @@ class TrackerNode {
   static constexpr uint32_t kOutputQueue = 200;
   // Wall time after which an image is tracked without the gyroscope [s].
   static constexpr double kMaxWaitForImu = 0.1;
+  static constexpr double kMinSilence = 2, kLongSilence = 10;  // [s] of wall time
 
   void Apply(const Settings& settings) {
     show_track_ = settings.show_track;
@@ -115,9 +120,29 @@ class TrackerNode {
 
   void AddImage(std::optional<ImageSample> image) {
     last_image_arrival_ = ros::WallTime::now();
+    waits_for_first_image_ = false;
+    if (image) image_stamps_.Add(image->t_ns);
+    LogStamps();
     if (image) stage_.AddImage(std::move(*image));
     TrackWhatIsReady();
     drop_warner_.Check(Drops());
+  }
+
+  // Warns once if no first image comes, soon where images are published in another form.
+  void LogSilence() {
+    const double silence = images_.stream().Silence();
+    if (!waits_for_first_image_ || silence < kMinSilence) return;
+    const TopicAdvice advice = AdviseOnSilence(images_.topic(), images_.type());
+    if (!advice.is_certain && silence < kLongSilence) return;
+    waits_for_first_image_ = false;
+    ROS_WARN_STREAM("nothing comes on " << images_.topic() << "; " << advice.text);
+  }
+
+  void LogStamps() {
+    const std::string finding = image_stamps_.Finding(images_.topic());
+    if (finding.empty() || stamps_are_logged_) return;
+    stamps_are_logged_ = true;
+    ROS_WARN_STREAM(finding);
   }
 
   // Publishes the frames that `next` returns. Tracks may be inconsistent after an error, so they
@@ -210,6 +235,9 @@ class TrackerNode {
   Stage stage_;
   bool show_track_ = true;
   DropWarner drop_warner_;
+  ConstantStamp image_stamps_;
+  bool stamps_are_logged_ = false;
+  bool waits_for_first_image_ = true;  // and silence was not logged
   ErrorCounter errors_;
   size_t features_in_last_image_ = 0;
   double tracking_ms_ = 0;  // for the last image [ms]

@@ -28,6 +28,7 @@
 #include "offline/recordings/asl_recording.h"
 #include "offline/recordings/bag_files.h"
 #include "offline/recordings/bag_recording.h"
+#include "offline/report.h"
 #include "offline/results/loop_results.h"
 #include "offline/results/result_files.h"
 #include "offline/results/result_folder.h"
@@ -55,84 +56,6 @@ Input Open(const Arguments& arguments, const SensorConfig& sensor) {
                                sensor.depth ? sensor.depth->topic : "");
   }
   return input;
-}
-
-void Warn(const std::string& text) {
-  if (!text.empty()) std::fprintf(stderr, "warning: %s\n", text.c_str());
-}
-
-// Origin of the data that was processed, for messages.
-struct Source {
-  std::string name;
-  std::string images, imu;  // where they come from
-  DropCounts problems;
-};
-
-// Returns the source of dropped input, derived from the prefix of its cause.
-std::string Origin(const DropCount& drop, const Source& source) {
-  const auto begins_with = [&](const char* word) { return drop.cause.rfind(word, 0) == 0; };
-  return begins_with("image") ? source.images : begins_with("imu") ? source.imu : "";
-}
-
-void Warn(const DropCount& drop, const Source& source) {
-  if (drop.count == 0) return;
-  const std::string origin = Origin(drop, source);
-  Warn(origin.empty() ? ToString(drop) : ToString(drop) + " from " + origin);
-}
-
-std::string WhyNone(const RunSummary::Run& run, const RunSummary& summary) {
-  if (!summary.last_reason().empty()) return summary.last_reason();
-  const bool dropped = std::any_of(run.drops.begin(), run.drops.end(),
-                                   [](const DropCount& drop) { return drop.count > 0; });
-  return dropped ? "none was usable, see the warnings" : "none between --start and --duration";
-}
-
-// Returns a warning if most images were not used, else an empty string.
-std::string UnusedWarning(int64_t unused, int64_t images) {
-  if (2 * unused <= images) return "";
-  return std::to_string(unused) + " of " + std::to_string(images) + " images were not used";
-}
-
-// Returns a warning if the IMU does not cover most images, as with two clocks, else an empty
-// string.
-std::string UncoveredWarning(const RunSummary::Run& run, const OdometryPipeline& pipeline) {
-  const auto is_uncovered = [&](const DropCount& drop) {
-    return drop.cause == "frames_without_imu" && 2 * drop.count > run.images;
-  };
-  if (!run.first_image_ns || std::none_of(run.drops.begin(), run.drops.end(), is_uncovered)) {
-    return "";
-  }
-  const auto& first_imu_ns = pipeline.first_imu_ns();
-  return "images begin at " + Format("%.3f s", ToSeconds(*run.first_image_ns)) +
-         (first_imu_ns ? " and IMU samples at " + Format("%.3f s", ToSeconds(*first_imu_ns))
-                       : " and no IMU sample has come by their end") +
-         "; both must have one clock";
-}
-
-// Returns a warning if timestamps jumped back, else an empty string.
-std::string PartsWarning(const TimedFile& trajectory) {
-  if (trajectory.parts() == 0) return "";
-  return "stamps jumped back " + std::to_string(trajectory.parts()) +
-         " times: poses of before are in trajectory_1.tum, covariance_1.csv, ...";
-}
-
-// Prints the outcome. Returns the exit code: 0 if there is a trajectory.
-int Report(const RunSummary::Run& run, const Source& source, const OdometryPipeline& pipeline,
-           const ResultFiles& results) {
-  const RunSummary& summary = results.summary();
-  for (const DropCount& drop : run.drops) Warn(drop, source);
-  Warn(results.unwritten_pictures(), source);
-  Warn(UncoveredWarning(run, pipeline));
-  Warn(UnusedWarning(pipeline.unused_images(), run.images));
-  Warn(PartsWarning(results.trajectory()));
-  if (summary.poses() == 0) {
-    std::fprintf(stderr, "run_offline: no trajectory from %" PRId64 " images: %s\n", run.images,
-                 WhyNone(run, summary).c_str());
-    return 1;
-  }
-  std::fprintf(stderr, "%" PRId64 " images, %" PRId64 " poses in %.1f s; results in %s\n",
-               run.images, summary.poses(), run.wall_time, results.folder().c_str());
-  return 0;
 }
 
 using FrameCallback = OdometryPipeline::FrameCallback;
@@ -221,6 +144,7 @@ struct Outputs {
   std::optional<ReplacedFile> map;
   std::optional<FeatureFileWriter> features;
   ResultFiles results;
+  RunReport report;
   std::optional<LoopResults> loops;
 
   // Outputs that may not be writable are opened first, so that failure leaves earlier results
@@ -235,6 +159,7 @@ struct Outputs {
 
   void Add(const PipelineFrame& frame) {
     results.Add(frame);
+    report.Add(frame.output);
     if (loops) loops->Add(frame);
   }
 
@@ -341,9 +266,6 @@ int Run(const Arguments& arguments) {
   const Source source = Fly(arguments, &input, &pipeline, &outputs, &cuts);
   RunSummary::Run run = Describe(source, pipeline);
   run.wall_time = 1e-3 * stopwatch.Milliseconds();
-  Warn(pipeline.imu_contradiction());
-  Warn(pipeline.lens_warning());
-  Warn(pipeline.SecondCameraFinding());
   // Outputs that may be on another disk or take long are saved before the rest.
   std::string failures;
   if (outputs.features) Try([&] { outputs.features->Close(); }, &failures);
@@ -354,7 +276,7 @@ int Run(const Arguments& arguments) {
   int exit_code = 1;
   const auto finish = [&] {
     Finish(run, config, pipeline, summary_parts, &outputs);
-    exit_code = Report(run, source, pipeline, outputs.results);
+    exit_code = Report(run, source, pipeline, outputs.report, outputs.results);
   };
   Try(finish, &failures);
   if (!failures.empty()) throw std::runtime_error(failures);

@@ -9,6 +9,7 @@
 
 #include "common/config/config.h"
 #include "common/image_companions.h"
+#include "common/imu/imu_bursts.h"
 #include "common/measurements.h"
 #include "common/streams/backward_jump.h"
 #include "common/streams/drop_counts.h"
@@ -57,7 +58,7 @@ class ImageQueue {
  public:
   explicit ImageQueue(const Config& config);
 
-  void AddImu(const ImuSample& sample) { gyro_.AddImu(sample); }
+  void AddImu(const ImuSample& sample) { gyro_.AddImu(bursts_.Spread(sample)); }
 
   // Timestamps must increase. An image that goes back in time is dropped, unless enough images
   // follow it there: then a new recording begins. An image that jumps ahead is dropped, unless the
@@ -92,6 +93,7 @@ class ImageQueue {
 
   SensorConfig sensor_;
   bool uses_gyro_;
+  ImuBursts bursts_;
   GyroPredictor gyro_;
   RateLimiter rate_limiter_;
   ImageCounts counts_;

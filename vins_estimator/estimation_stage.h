@@ -14,8 +14,10 @@
 #include "common/measurements.h"
 #include "common/streams/drop_counts.h"
 #include "common/streams/stream_rhythm.h"
+#include "vins_estimator/input/input_check.h"
 #include "vins_estimator/input/measurement_sync.h"
 #include "vins_estimator/input/repeated_image_detector.h"
+#include "vins_estimator/monitoring/imu_noise_meter.h"
 #include "vins_estimator/state/estimator_output.h"
 #include "vins_estimator/state/residual_ring.h"
 
@@ -67,6 +69,9 @@ class EstimationStage {
   // Describes a distortion model that does not fit the lens; empty if it fits (LensMonitor).
   const std::string& LensWarning() const;
   std::vector<ResidualRing> ResidualRings() const;
+  // Returns what is wrong with the input as a whole, with the topic and what to do; empty where
+  // nothing is.
+  std::string InputFinding() const { return input_check_.Finding(); }
 
   int64_t frames() const { return frames_; }  // estimated so far
   int64_t resets() const { return resets_; }  // number of world frames that were given up
@@ -79,12 +84,16 @@ class EstimationStage {
  private:
   std::optional<EstimatedFrame> Process(std::optional<FrameMeasurement> measurement);
   void StartOver(const std::string& reason);
+  // Returns the noise as configured, or as the samples themselves show if that is more.
+  ImuNoise NoiseOfSamples() const;
   // Reinitializes after a clock change: the estimate is unrelated to the new timestamps.
   void FollowClock();
 
   const double imu_rate_;  // as configured [Hz]
   const ImuNoise configured_noise_;
   const std::unique_ptr<Estimator> estimator_;  // hides the solver from users of this header
+  InputCheck input_check_;
+  ImuNoiseMeter imu_noise_meter_;
   MeasurementSync sync_;
   RepeatedImageDetector repeated_images_;
   double least_speed_ = 0;  // lower bound at the newest image [m/s]

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/window_odometry.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "common/append.h"
+#include "common/format.h"
 #include "common/stopwatch.h"
 #include "vins_estimator/map/recalibration.h"
 #include "vins_estimator/map/wandering_lines.h"
@@ -29,6 +31,21 @@ constexpr double kDoubtfulShare = 0.1;
 
 // Widens the robust losses after blindness: outliers of about ten pixels keep almost full weight.
 constexpr double kWidened = 30;
+
+constexpr double kLongGap = 0.2;  // [s] without IMU samples; explains a failure after it
+
+// Returns the longest interval without IMU samples [s].
+double LongestImuInterval(const SlidingWindow& window) {
+  int64_t longest_ns = 0;
+  for (const WindowFrame& frame : window.frames) {
+    if (!frame.motion_since_previous) continue;
+    const std::vector<ImuSample>& samples = frame.motion_since_previous->samples();
+    for (size_t i = 1; i < samples.size(); ++i) {
+      longest_ns = std::max(longest_ns, samples[i].t_ns - samples[i - 1].t_ns);
+    }
+  }
+  return ToSeconds(longest_ns);
+}
 
 }  // namespace
 
@@ -122,8 +139,14 @@ WindowOdometry::Solution WindowOdometry::Solve(bool keep_second_newest, Estimato
 std::optional<Failure> WindowOdometry::Check(const Solution& solution, const FrameState& predicted,
                                              const EstimatorCounts& counts) {
   const SlidingWindow& window = estimate_.map.window;
-  return estimate_monitor_.Add({solution.exists, predicted, window.newest().state,
-                                solution.PoseCovariance(), counts, window.td - config_->sensor.td});
+  auto failure =
+      estimate_monitor_.Add({solution.exists, predicted, window.newest().state,
+                             solution.PoseCovariance(), counts, window.td - config_->sensor.td});
+  const double gap = LongestImuInterval(window);
+  if (failure && gap > kLongGap) {
+    failure->why = Format("a gap of %.1f s in the IMU samples: ", gap) + failure->why;
+  }
+  return failure;
 }
 
 // If the depth is known, points constrain a slow motion better than the assumption of standstill.

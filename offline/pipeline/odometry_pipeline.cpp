@@ -37,6 +37,7 @@ RecordingEvent EventOf(const TrackedItem& item) {
 OdometryPipeline::OdometryPipeline(const Config& config)
     : use_lines_(config.use_lines),
       keeps_pixels_(config.pose_graph.loop_closure),
+      image_topic_(config.sensor.image_topic),
       trackers_(config),
       back_end_(config) {}
 
@@ -45,6 +46,11 @@ DropCounts OdometryPipeline::drops() const {
   Append(back_end_.Drops(), &counts);
   counts.push_back({"frames_without_lines", back_end_.statistics().frames_without_lines, ""});
   return counts;
+}
+
+std::string OdometryPipeline::InputFinding() const {
+  const std::string images = image_stamps_.Finding("image_topic " + image_topic_);
+  return images.empty() ? back_end_.InputFinding() : images;
 }
 
 void OdometryPipeline::ShowTracks(double interval, TrackImageCallback on_images) {
@@ -140,6 +146,7 @@ void OdometryPipeline::AddImage(const RecordingEvent& event, cv::Mat image) {
     trackers_.AddDepth({event.t_ns, std::move(image)});
   } else {
     first_image_.Add(event.t_ns);
+    image_stamps_.Add(event.t_ns);
     trackers_.AddImage({event.t_ns, std::move(image)});
   }
 }
@@ -199,7 +206,10 @@ void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_
   ++estimated_images_;
   last_frame_ns_ = estimated.output.t_ns;
   const std::string contradiction = back_end_.ImuContradiction();
-  if (!contradiction.empty()) imu_contradiction_ = contradiction;
+  if (!contradiction.empty()) {
+    imu_contradiction_ = contradiction;
+    ++contradicted_images_;
+  }
   PipelineFrame frame;
   const auto reported = unfinished_.find(estimated.output.t_ns);
   if (reported != unfinished_.end()) {

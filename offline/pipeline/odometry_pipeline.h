@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/streams/constant_stamp.h"
 #include "common/streams/drop_counts.h"
 #include "offline/pipeline/feature_file.h"
 #include "offline/pipeline/feature_trackers.h"
@@ -78,8 +79,13 @@ class OdometryPipeline {
   // Over all samples read, used or not.
   std::optional<int64_t> first_imu_ns() const { return first_imu_.t_ns(); }
   DropCounts drops() const;
-  // The last non-empty EstimationStage::ImuContradiction().
-  const std::string& imu_contradiction() const { return imu_contradiction_; }
+  // Returns what is wrong with the timestamps of the images or with the input as a whole, and what
+  // to do; empty if nothing is. Names the topics as configured.
+  std::string InputFinding() const;
+  // The last non-empty EstimationStage::ImuContradiction(); empty if only few frames had any.
+  std::string imu_contradiction() const {
+    return contradicted_images_ < kMinContradicted ? "" : imu_contradiction_;
+  }
   const std::string& lens_warning() const { return back_end_.LensWarning(); }
   std::vector<ResidualRing> residual_rings() const { return back_end_.ResidualRings(); }
   // Describes what seems to be wrong with the second camera; empty if nothing is.
@@ -91,6 +97,8 @@ class OdometryPipeline {
   const cv::Mat& lines_image() const { return lines_image_; }
 
  private:
+  static constexpr int64_t kMinContradicted = 20;
+
   struct LoadedEvent {
     RecordingEvent event;
     std::optional<cv::Mat> image;  // nullopt if the event is not a readable image
@@ -111,11 +119,14 @@ class OdometryPipeline {
 
   const bool use_lines_;
   const bool keeps_pixels_;
+  const std::string image_topic_;
   FeatureTrackers trackers_;
   EstimationStage back_end_;
   std::function<bool()> is_end_ = [] { return false; };
   ConfirmedStamp first_image_, first_imu_;
+  ConstantStamp image_stamps_;
   std::string imu_contradiction_;
+  int64_t contradicted_images_ = 0;  // when there was one
   std::optional<int64_t> last_frame_ns_;
   int64_t images_ = 0;
   int64_t unreadable_images_ = 0;

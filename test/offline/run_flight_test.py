@@ -212,19 +212,48 @@ class RunFlight(unittest.TestCase):
         self.assertIn(f"cannot write {gone / 'map.plm'}", error)
         self.assertIn("pose_graph.g2o", error)
 
-    def test_two_clocks(self):
+    def copy_with_imu(self, change):
+        """The first flight with other rows of the IMU: those that `change` makes of stamp [ns] and
+        values, None for none."""
         flight = self.folder / "flight"
         shutil.copytree(self.flights / "first", flight)
         table = flight / "mav0" / "imu0" / "data.csv"
         header, *rows = table.read_text(encoding="utf-8").splitlines()
-        shifted = [f"{int(stamp) + CLOCK_ERROR_NS},{values}"
-                   for stamp, values in (row.split(",", 1) for row in rows)]
-        table.write_text("\n".join([header, *shifted]) + "\n", encoding="utf-8")
-        begin = "warning: images begin at 1600000000.100 s and "
-        for options, imu in [((), "IMU samples at 1600000100.000 s"),
-                             (("--duration", 2), "no IMU sample has come by their end")]:
-            error = self.run_flight(flight, *options, exit_code=1)
-            self.assertIn(begin + imu + "; both must have one clock\n", error)
+        rows = [change(int(row.split(",")[0]), row.split(",", 1)[1]) for row in rows]
+        table.write_text("\n".join([header, *filter(None, rows)]) + "\n", encoding="utf-8")
+        return flight
+
+    def test_two_clocks(self):
+        flight = self.copy_with_imu(lambda stamp, values: f"{stamp + CLOCK_ERROR_NS},{values}")
+        error = self.run_flight(flight, exit_code=1)
+        self.assertRegex(error, "have different clocks: stamps are 16000000[0-9.]* s and "
+                                "16000001[0-9.]* s at a time, apart by -[0-9.]* s; stamp both")
+        error = self.run_flight(flight, "--duration", 2, exit_code=1)
+        self.assertIn("warning: images begin at 1600000000.100 s and no IMU sample has come by "
+                      "their end; both must have one clock\n", error)
+
+    def test_a_gyro_that_is_missing(self):
+        flight = self.copy_with_imu(
+            lambda stamp, values: f"{stamp},0,0,0,{values.split(',', 3)[3]}")
+        error = self.run_flight(flight)
+        self.assertIn("\nmost wrong: angular velocity is zero in every sample: is imu_topic /imu0",
+                      error)
+
+    def test_a_gap_in_the_imu(self):
+        begin, end = 1_600_000_005_000_000_000, 1_600_000_008_000_000_000
+        flight = self.copy_with_imu(
+            lambda stamp, values: f"{stamp},{values}" if not begin < stamp < end else None)
+        error = self.run_flight(flight)
+        self.assertIn("imu_gaps: 1 (first: 3.000 s without samples, from 1600000005.000 s on)",
+                      error)
+        self.assertIn("a gap of 3.0 s in the IMU samples: ", error)
+        self.assertRegex(error, "no pose for [0-9.]+ of [0-9.]+ s: no usable image .3.[0-9] s.")
+
+    def test_the_end_of_a_good_run(self):
+        lines = self.run_flight(self.flights / "first").splitlines()
+        self.assertRegex(lines[-3], "100 images, [0-9]+ poses in ")
+        self.assertRegex(lines[-2], "^1 world frame: from [0-9.]+ s on$")
+        self.assertRegex(lines[-1], "^no pose for [0-9.]+ of 9.9 s: ")
 
     def test_a_second_flight_in_the_map_of_the_first(self):
         second = self.flights / "second"

@@ -18,6 +18,7 @@ constexpr double kGyroBiasPrior = 0.5;  // standard deviation [rad/s]
 constexpr int kGravityIterations = 4;
 constexpr double kAccelBiasPrior = 0.1;        // standard deviation [m/s^2]
 constexpr double kPositionDeviation = 0.005;   // of the structure's camera centres, rough [m]
+constexpr double kSignificant = 3.0;           // standard deviations
 constexpr double kGravityNormTolerance = 0.2;  // relative, of the estimate with free norm
 
 // Normal equations of the alignment. Unknowns: one velocity per view, then gravity (3 parameters,
@@ -105,6 +106,7 @@ bool AlignmentSystem::Solve(const Eigen::Vector3d& fixed_gravity,
   const Eigen::VectorXd x = llt.solve(b);
   if (!x.allFinite()) return false;
   result->scale = x(scale);
+  result->scale_deviation = std::sqrt(llt.solve(Eigen::VectorXd::Unit(size, scale))(scale));
   result->gravity_G = fixed_gravity + gravity_basis * x.segment(gravity, gravity_basis.cols());
   result->accel_bias = x.tail<3>();
   result->velocity_G.resize(n);
@@ -164,7 +166,10 @@ std::optional<Alignment> AlignVisualInertial(
   }
   result.gravity_G = gravity_norm * result.gravity_G.normalized();
   if (result.scale <= 0) {
-    *reason = "the scale comes out negative";
+    // With a constant velocity, any scale fits.
+    *reason = -result.scale < kSignificant * result.scale_deviation
+                  ? "scale not observable yet: the velocity changes too little"
+                  : "the scale comes out negative";
     return std::nullopt;
   }
   return result;

@@ -32,6 +32,7 @@ struct AlignmentView {
 
 struct Alignment {
   double scale = 0;                         // metres per unit of the structure
+  double scale_deviation = 0;               // standard deviation of `scale`
   Eigen::Vector3d gravity_G;                // [m/s^2], pointing down
   Eigen::Vector3d accel_bias;               // [m/s^2]
   std::vector<Eigen::Vector3d> velocity_G;  // of B, one per view [m/s]

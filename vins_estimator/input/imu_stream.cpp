@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "common/format.h"
 #include "common/imu/imu_interpolation.h"
 
 namespace plm_vins {
@@ -71,8 +72,9 @@ bool ImuStream::JudgeSampleAfterGap(int64_t next_ns) {
   const bool set_on = sample.t_ns - *last_ns_ > kLeap_ns;
   if (set_on) {
     Clear();
-  } else {
-    ++statistics_.imu_gaps;
+  } else if (statistics_.imu_gaps++ == 0) {
+    statistics_.first_imu_gap = Format("%.3f s without samples, from %.3f s on",
+                                       ToSeconds(sample.t_ns - *last_ns_), ToSeconds(*last_ns_));
   }
   Take(sample);
   return set_on;

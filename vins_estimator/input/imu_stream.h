@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/imu/imu_gate.h"
@@ -23,6 +24,7 @@ struct ImuStatistics {
   int64_t imu_saturated = 0;     // at the limit of the sensor's range
   int64_t imu_out_of_order = 0;  // timestamp not increasing, or far ahead and unconfirmed
   int64_t imu_gaps = 0;          // intervals longer than the allowed gap, integrated across
+  std::string first_imu_gap;     // its length and time
   int64_t imu_dropped_full = 0;  // queue full: oldest dropped
 };
 

@@ -46,6 +46,7 @@ void EstimatorDiagnostics::Update(const EstimatorOutput& output, int64_t frames,
 void EstimatorDiagnostics::UpdateCounts(const EstimationStage& stage, const DropCounts& drops) {
   const std::lock_guard<std::mutex> lock(mutex_);
   resets_ = stage.resets();
+  input_finding_ = stage.InputFinding();
   imu_contradiction_ = stage.ImuContradiction();
   lens_warning_ = stage.LensWarning();
   queued_frames_ = stage.queued_frames();
@@ -91,11 +92,12 @@ void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapp
   if (late)
     state += "; late: poses are " + std::to_string(std::lround(1e3 * pose_age_)) + " ms old";
   if (on_imu_alone_) state += "; blind: the IMU alone carries on";
+  if (!input_finding_.empty()) state += "; " + input_finding_;
   if (!imu_contradiction_.empty()) state += "; " + imu_contradiction_;
   if (!lens_warning_.empty()) state += "; " + lens_warning_;
   if (contradicted_) state += "; the camera contradicts the state";
   const bool fine = tracking && !lines_are_missing_ && !late && !on_imu_alone_ && !contradicted_ &&
-                    imu_contradiction_.empty() && lens_warning_.empty();
+                    input_finding_.empty() && imu_contradiction_.empty() && lens_warning_.empty();
   status->summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN, state);
 }
 

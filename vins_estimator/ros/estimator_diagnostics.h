@@ -68,7 +68,7 @@ class EstimatorDiagnostics {
   double imu_noise_scale_ = 1;
   int64_t bridged_losses_ = 0;
   int64_t imu_doubts_ = 0;
-  std::string imu_contradiction_;
+  std::string input_finding_, imu_contradiction_;
   std::string lens_warning_;
   double pose_age_ = 0;       // [s]
   std::string last_restart_;  // its reason

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/ros/estimator_node.h"
 
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -25,7 +26,8 @@ constexpr size_t kQueueCapacity = 5000;  // inputs, most of them IMU samples
 // IMU samples are processed in batches while no image waits for them: waking a thread is more
 // expensive than a sample.
 constexpr size_t kImuBatch = 20;
-constexpr double kMaxWait = 0.5;  // [s]: images that wait longer are dropped
+constexpr double kTransformCheck = 5;  // [s] of own transforms
+constexpr double kMaxWait = 0.5;       // [s]: images that wait longer are dropped
 
 std::string FolderOf(const std::string& file) {
   return std::filesystem::path(file).parent_path().string();
@@ -66,6 +68,9 @@ EstimatorNode::EstimatorNode(const Config& config, const ros::NodeHandle& node,
     subscribers_.push_back(
         node_.subscribe(kLineTopic, kSubscriberQueue, &EstimatorNode::AddLines, this, no_delay));
   }
+  if (config_.output.publish_tf) {
+    transforms_ = node_.subscribe("/tf", kSubscriberQueue, &EstimatorNode::CheckTransforms, this);
+  }
   services_ = {
       private_node_.advertiseService("reset", &EstimatorNode::Reset, this),
       private_node_.advertiseService("save_trajectory", &EstimatorNode::SaveTrajectory, this)};
@@ -83,6 +88,9 @@ EstimatorNode::~EstimatorNode() {
   queue_.Close();
   services_.clear();  // waits for a running service call, which writes the same files
   worker_.join();
+  for (const std::string& line : report_.Lines(std::nullopt)) {
+    std::cerr << private_node_.getNamespace() << ": " << line << std::endl;
+  }
   if (file_at_end_.empty() || trajectory_.empty()) return;
   try {
     Save(file_at_end_);
@@ -152,6 +160,29 @@ void EstimatorNode::RestoreIds(const FeatureEvent& event, const char* topic,
 
 void EstimatorNode::Restart(const std_msgs::Bool& message) {
   if (message.data) queue_.Push(ResetCommand{"asked for on " + node_.resolveName(kRestartTopic)});
+}
+
+// The later one of two publishers sees the other, so that a short look suffices.
+void EstimatorNode::CheckTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event) {
+  const OutputConfig& frames = config_.output;
+  const std::string& frame = frames.base_frame.empty() ? frames.body_frame : frames.base_frame;
+  const auto& transforms = event.getMessage()->transforms;
+  if (std::none_of(transforms.begin(), transforms.end(),
+                   [&](const auto& transform) { return transform.child_frame_id == frame; })) {
+    return;
+  }
+  const ros::WallTime now = ros::WallTime::now();
+  if (event.getPublisherName() != ros::this_node::getName()) {
+    ROS_WARN_STREAM(event.getPublisherName()
+                    << " publishes the tf frame " << frame
+                    << " as well: stop one of the two, or set publish_tf: 0, or other frames, for "
+                       "one");
+    transforms_.shutdown();
+  } else if (!first_own_transform_) {
+    first_own_transform_ = now;
+  } else if (now - *first_own_transform_ > ros::WallDuration(kTransformCheck)) {
+    transforms_.shutdown();
+  }
 }
 
 bool EstimatorNode::Reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
@@ -249,6 +280,7 @@ void EstimatorNode::ReportDrops() {
   drops.push_back({"imu_refused_full", imu_refused_, ""});
   drops.push_back(worker_errors_.count());
   worker_warner_.Check(drops);
+  LogFinding();
   diagnostics_.UpdateCounts(stage_, drops);
 }
 
@@ -270,6 +302,7 @@ void EstimatorNode::Handle(const EstimatedFrame& frame) {
     trajectory_.Add(output.t_ns, output.state.T_W_B());
     calibration_.Set(output.calibration);
   }
+  report_.Add(output);
   LogChanges(output);
   LogLines();
   if (config_.estimator.verbose) LogFrame(output);
@@ -298,6 +331,12 @@ void EstimatorNode::LogFrame(const EstimatorOutput& output) const {
   ROS_INFO("%.3f s %s: %d points, %d lines, optimisation %.1f ms, estimator %.1f ms",
            ToSeconds(output.t_ns), ToString(output.status), counts.points_in_window,
            counts.lines_in_window, output.timings.optimization, output.timings.total);
+}
+
+void EstimatorNode::LogFinding() {
+  const std::string finding = stage_.InputFinding();
+  if (!finding.empty() && last_finding_.empty()) ROS_WARN_STREAM(finding);
+  last_finding_ = finding;
 }
 
 void EstimatorNode::LogLines() {

@@ -8,9 +8,11 @@
 #include <sensor_msgs/PointCloud.h>
 #include <std_msgs/Bool.h>
 #include <std_srvs/Trigger.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <thread>
 #include <variant>
@@ -24,6 +26,7 @@
 #include "common/streams/bounded_queue.h"
 #include "vins_estimator/estimation_stage.h"
 #include "vins_estimator/input/track_velocities.h"
+#include "vins_estimator/output/run_report.h"
 #include "vins_estimator/ros/calibration_log.h"
 #include "vins_estimator/ros/estimator_diagnostics.h"
 #include "vins_estimator/ros/output_publisher.h"
@@ -71,6 +74,7 @@ class EstimatorNode {
   void RestoreIds(const FeatureEvent& event, const char* topic,
                   std::vector<Observation>* observations, FeatureSource* source);
   void Restart(const std_msgs::Bool& message);
+  void CheckTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event);
   bool Reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool SaveTrajectory(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   // Returns the full path; that of `otherwise` if the parameter is empty or not set.
@@ -90,6 +94,7 @@ class EstimatorNode {
   void Handle(const EstimatedFrame& frame);
   void LogChanges(const EstimatorOutput& output);
   void LogFrame(const EstimatorOutput& output) const;
+  void LogFinding();
   void LogLines();
 
   ros::NodeHandle node_;
@@ -116,10 +121,14 @@ class EstimatorNode {
   ErrorCounter worker_errors_;
   EstimatorStatus last_status_ = EstimatorStatus::kInitializing;
   std::string last_reason_;
+  std::string last_finding_;
+  RunReport report_;
   bool lines_were_missing_ = false;
 
   InPlaceQueue in_place_;
   std::vector<ros::Subscriber> subscribers_;
+  ros::Subscriber transforms_;  // until nobody else was found to publish those of this node
+  std::optional<ros::WallTime> first_own_transform_;
   std::vector<ros::ServiceServer> services_;
   diagnostic_updater::Updater diagnostics_updater_;
   ros::WallTimer diagnostics_timer_;

@@ -12,7 +12,7 @@ PropagationPublisher::PropagationPublisher(const Config& config, ros::NodeHandle
 
 void PropagationPublisher::AddImu(const ImuSample& sample) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const auto state = propagator_.Add(sample);
+  const auto state = propagator_.Add(bursts_.Spread(sample));
   if (!state || publisher_.getNumSubscribers() == 0) return;
   const Eigen::Vector3d angular_velocity = sample.gyro - state->gyro_bias();
   publisher_.publish(ToOdometry(*state, covariance_, angular_velocity, frames_));

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 #include "common/geometry/so3.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
 
@@ -99,6 +102,47 @@ TEST_F(AlignmentTest, RefusesAnotherPlanetsGravity) {
   Simulate(simulator::Motion::kGentle, 1, /*noise=*/false);
   EXPECT_FALSE(Align(1.0, /*gravity_norm=*/3.71));
   EXPECT_EQ(reason_, "gravity comes out as 9.81 m/s^2 instead of 3.71");
+}
+
+// At a constant velocity any scale fits, and noise decides on its sign.
+TEST_F(AlignmentTest, ConstantVelocityLeavesTheScaleOpen) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 1);
+  const auto vector = [&](double deviation) {
+    return Vector3d(deviation * noise(random), deviation * noise(random),
+                    deviation * noise(random));
+  };
+  int negative = 0;
+  for (int run = 0; run < 20; ++run) {
+    truth_.clear();
+    preintegrations_.clear();
+    for (int64_t i = 0; i < static_cast<int64_t>(kCount); ++i) {
+      FrameState state;
+      state.SetPose({Quaterniond::Identity(), Vector3d(0.25 * i, 0, 0) + vector(0.003)});
+      truth_.push_back(state);
+      if (i == 0) continue;
+      preintegrations_.emplace_back(sensor_.imu_noise, ImuBias());
+      for (int64_t k = 0; k <= 50; ++k) {
+        preintegrations_.back().Append({250'000'000 * (i - 1) + 5'000'000 * k, vector(0.001),
+                                        Vector3d(0, 0, 9.81) + vector(0.03)});
+      }
+    }
+    const auto alignment = Align(1);
+    if (alignment) {
+      EXPECT_LT(std::abs(alignment->scale - 1), 5 * alignment->scale_deviation);
+      EXPECT_GT(alignment->scale_deviation, 0.1);
+    } else {
+      EXPECT_EQ(reason_, "scale not observable yet: the velocity changes too little");
+      ++negative;
+    }
+  }
+  EXPECT_GT(negative, 0);
+}
+
+TEST_F(AlignmentTest, MirroredMotionHasANegativeScale) {
+  Simulate(simulator::Motion::kGentle, 1, /*noise=*/false);
+  EXPECT_FALSE(Align(-2.5));
+  EXPECT_EQ(reason_, "the scale comes out negative");
 }
 
 TEST_F(AlignmentTest, FindsTheGyroBias) {

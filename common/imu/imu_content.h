@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "common/measurements.h"
+
+namespace plm_vins {
+
+// Recognises samples that no IMU in working order sends as specific force [m/s^2] and angular rate
+// [rad/s]: sensors that are missing or send in turn, other units, gravity that was removed. Counts
+// all samples since construction, before anything is dropped or corrected.
+class ImuContent {
+ public:
+  explicit ImuContent(double gravity_norm) : gravity_norm_(gravity_norm) {}
+
+  void Add(const ImuSample& sample);
+
+  // Returns what the samples of `topic` show, and what to do; empty where they are as expected, or
+  // too few to tell.
+  std::string Finding(const std::string& topic) const;
+
+ private:
+  std::string MissingSensor(const std::string& topic) const;
+  std::string WrongAccelerometer(const std::string& topic) const;
+  std::string WrongGyro(const std::string& topic) const;
+
+  const double gravity_norm_;  // [m/s^2]
+  int64_t samples_ = 0;
+  int64_t first_ns_ = 0, newest_ns_ = 0;
+  int64_t with_gyro_ = 0, with_accel_ = 0, with_both_ = 0;  // not zero, and finite
+  // Samples by the norm of the specific force: near gravity in units of g, of a thousandth of g,
+  // and of m/s^2; and far below gravity in m/s^2.
+  int64_t near_one_g_ = 0, near_thousand_mg_ = 0, near_gravity_ = 0, far_below_gravity_ = 0;
+  int64_t fast_turns_ = 0;  // samples with an angular rate that blurs every image
+};
+
+}  // namespace plm_vins

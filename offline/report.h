@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "common/streams/drop_counts.h"
+#include "offline/pipeline/odometry_pipeline.h"
+#include "offline/results/result_files.h"
+#include "vins_estimator/output/run_report.h"
+
+namespace plm_vins {
+
+// Origin of the data that was processed, for messages.
+struct Source {
+  std::string name;
+  std::string images, imu;  // where they come from
+  DropCounts problems;
+};
+
+// Prints a warning unless the text is empty.
+void Warn(const std::string& text);
+
+// Prints how a run went: what could not be used, its world frames, the time without a pose, and
+// what was most wrong. Returns the exit code: 0 where there is a trajectory.
+int Report(const RunSummary::Run& run, const Source& source, const OdometryPipeline& pipeline,
+           const RunReport& report, const ResultFiles& results);
+
+}  // namespace plm_vins

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/imu/imu_content.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace plm_vins {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double kGravity = 9.81;
+constexpr double kRate = 200;  // [Hz]
+
+// A hand that turns the sensor by up to 0.5 rad/s and shakes it by 2 m/s^2.
+ImuSample InHand(int i) {
+  const double t = i / kRate;
+  ImuSample sample{static_cast<int64_t>(1e9 * t)};
+  sample.gyro = {0.5 * std::sin(2 * t), 0.3 * std::cos(3 * t), 0.1};
+  sample.accel = {2 * std::sin(5 * t), 2 * std::cos(4 * t), kGravity};
+  return sample;
+}
+
+// Returns the finding of five seconds of samples, each as `change` makes it.
+std::string FindingOf(const std::function<void(int, ImuSample*)>& change, int samples = 1000) {
+  ImuContent content(kGravity);
+  for (int i = 0; i < samples; ++i) {
+    ImuSample sample = InHand(i);
+    change(i, &sample);
+    content.Add(sample);
+  }
+  return content.Finding("/imu");
+}
+
+TEST(ImuContent, FindsNothingInWorkingSensors) {
+  EXPECT_THAT(FindingOf([](int, ImuSample*) {}), IsEmpty());
+  EXPECT_THAT(FindingOf([](int i, ImuSample* sample) {  // single readings that failed
+                if (i % 50 == 0) sample->gyro.setZero();
+                if (i % 40 == 0) sample->accel.setZero();
+              }),
+              IsEmpty());
+  EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->gyro *= 5; }), IsEmpty());
+  EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->accel *= 1.2; }), IsEmpty());
+}
+
+TEST(ImuContent, NamesASensorThatIsMissing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double nothing : {0.0, nan}) {
+    EXPECT_THAT(FindingOf([&](int, ImuSample* sample) { sample->gyro.setConstant(nothing); }),
+                HasSubstr("angular velocity is zero in every sample: is /imu the accelerometer's"));
+    EXPECT_THAT(FindingOf([&](int, ImuSample* sample) { sample->accel.setConstant(nothing); }),
+                HasSubstr("specific force is zero in every sample: is /imu the gyro's own topic?"));
+  }
+  EXPECT_THAT(FindingOf([](int, ImuSample* sample) { *sample = {sample->t_ns}; }),
+              HasSubstr("every sample on /imu is zero"));
+}
+
+TEST(ImuContent, NamesSensorsThatComeInTurn) {
+  for (const int turns : {2, 4}) {
+    EXPECT_THAT(FindingOf([&](int i, ImuSample* sample) {
+                  (i % turns == 0 ? sample->gyro : sample->accel).setZero();
+                }),
+                HasSubstr("gyro and accelerometer readings come in turn on /imu"));
+  }
+}
+
+TEST(ImuContent, NamesOtherUnits) {
+  EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->accel /= kGravity; }),
+              HasSubstr("specific force on /imu seems to be in g"));
+  EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->accel *= 1000 / kGravity; }),
+              HasSubstr("seems to be in mg"));
+  EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->gyro *= 180 / M_PI; }),
+              HasSubstr("is /imu in deg/s?"));
+}
+
+TEST(ImuContent, NamesGravityThatWasRemoved) {
+  EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->accel.z() -= kGravity; }),
+              HasSubstr("specific force on /imu lacks gravity"));
+}
+
+TEST(ImuContent, WaitsForEnoughSamples) {
+  EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->gyro.setZero(); }, 250), IsEmpty());
+}
+
+}  // namespace
+}  // namespace plm_vins

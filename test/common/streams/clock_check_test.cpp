@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/streams/clock_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "common/streams/constant_stamp.h"
+
+namespace plm_vins {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// Returns the finding of ten seconds of images at 20 Hz and IMU samples at 200 Hz in order of time.
+// `stamp` says how a sensor stamps what it took at a time, in milliseconds; below zero: not at all.
+using Stamp = std::function<int64_t(int64_t t_ms)>;
+
+std::string FindingOf(const Stamp& image_stamp, const Stamp& imu_stamp) {
+  ClockCheck check;
+  for (int64_t t_ms = 10'000; t_ms < 20'000; t_ms += 5) {
+    if (imu_stamp(t_ms) >= 0) check.AddImu(imu_stamp(t_ms) * 1'000'000);
+    if (t_ms % 50 == 0 && image_stamp(t_ms) >= 0) check.AddImage(image_stamp(t_ms) * 1'000'000);
+  }
+  return check.Finding("/cam", "/imu");
+}
+
+int64_t AsTaken(int64_t t_ms) { return t_ms; }
+
+TEST(ClockCheck, NamesBothStampsAndTheirDifference) {
+  EXPECT_THAT(FindingOf([](int64_t t_ms) { return t_ms + 37'000; }, AsTaken),
+              AllOf(HasSubstr("(/cam)"), HasSubstr("(/imu)"), HasSubstr("apart by 37.0 s"),
+                    HasSubstr("stamp both by one clock")));
+  EXPECT_THAT(FindingOf(AsTaken, [](int64_t t_ms) { return t_ms + 1'600'000'000'000; }),
+              HasSubstr("apart by -1600000000.0 s"));
+  EXPECT_THAT(FindingOf([](int64_t t_ms) { return t_ms - 1500; }, AsTaken),
+              HasSubstr("apart by -1.5 s"));
+}
+
+TEST(ClockCheck, NoticesAClockThatIsSetInFlight) {
+  EXPECT_THAT(FindingOf([](int64_t t_ms) { return t_ms < 14'000 ? t_ms : t_ms + 5000; }, AsTaken),
+              HasSubstr("apart by 5.0 s"));
+}
+
+TEST(ClockCheck, NoticesRecordingsOneAfterTheOther) {
+  ClockCheck check;
+  for (int64_t i = 0; i < 200; ++i) check.AddImage(i * 50'000'000);
+  for (int64_t i = 0; i < 2000; ++i) check.AddImu(100'000'000'000 + i * 5'000'000);
+  EXPECT_THAT(check.Finding("/cam", "/imu"), HasSubstr("different clocks"));
+}
+
+TEST(ClockCheck, AllowsOffsetsGapsLateStartsAndStalls) {
+  const auto missing = [](int64_t begin_ms, int64_t end_ms) {
+    return [=](int64_t t_ms) { return t_ms >= begin_ms && t_ms < end_ms ? -1 : t_ms; };
+  };
+  EXPECT_THAT(FindingOf([](int64_t t_ms) { return t_ms + 700; }, AsTaken), IsEmpty());
+  EXPECT_THAT(FindingOf(missing(0, 15'000), AsTaken), IsEmpty());
+  EXPECT_THAT(FindingOf(AsTaken, missing(0, 15'000)), IsEmpty());
+  EXPECT_THAT(FindingOf(AsTaken, missing(12'000, 16'000)), IsEmpty());
+  EXPECT_THAT(FindingOf(missing(12'000, 16'000), AsTaken), IsEmpty());
+
+  ClockCheck check;  // four seconds of images come at once, then as many of the IMU
+  for (int64_t i = 0; i < 80; ++i) check.AddImage(i * 50'000'000);
+  for (int64_t i = 0; i < 800; ++i) check.AddImu(i * 5'000'000);
+  for (int64_t i = 80; i < 160; ++i) check.AddImage(i * 50'000'000);
+  EXPECT_THAT(check.Finding("/cam", "/imu"), IsEmpty());
+}
+
+TEST(ConstantStamp, NamesStampsThatAreZeroOrTheSame) {
+  for (const auto& [t_ns, text] : {std::pair{int64_t{0}, "all stamps of /cam are zero"},
+                                   std::pair{int64_t{2'500'000'000}, "are the same, 2.500 s"}}) {
+    ConstantStamp stamps;
+    for (int i = 0; i < 10; ++i) stamps.Add(t_ns);
+    EXPECT_THAT(stamps.Finding("/cam"), IsEmpty());
+    for (int i = 0; i < 10; ++i) stamps.Add(t_ns);
+    EXPECT_THAT(stamps.Finding("/cam"), HasSubstr(text));
+    stamps.Add(t_ns + 1);
+    EXPECT_THAT(stamps.Finding("/cam"), IsEmpty());
+  }
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/monitoring/contradiction_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "vins_estimator/monitoring/imu_noise_meter.h"
+
+namespace plm_vins {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+ContradictionEvidence Evidence() {
+  ContradictionEvidence evidence;
+  evidence.noise_factor = 5;
+  evidence.imu_rate = evidence.configured_imu_rate = 200;
+  return evidence;
+}
+
+TEST(ContradictionReport, ListsWhatToCheckWhereNothingIsKnown) {
+  EXPECT_THAT(DescribeContradiction(Evidence()),
+              AllOf(ContainsRegex("5 times noisier than it is; check, the likeliest first: "
+                                  "extrinsicRotation.*td.*focal length.*IMU.*image parts"),
+                    Not(HasSubstr("acc_n")), Not(HasSubstr("gyr_n"))));
+}
+
+TEST(ContradictionReport, NamesWhatIsKnownFirst) {
+  ContradictionEvidence evidence = Evidence();
+  evidence.delay = 0.03;
+  evidence.accel_noise_factor = 12;
+  evidence.image_jitter = 0.004;
+  evidence.imu_rate = 400;
+  EXPECT_THAT(DescribeContradiction(evidence),
+              ContainsRegex("td seems to be wrong by .30 ms or more; the IMU comes at 400 Hz, "
+                            "imu_rate is 200; stamps of the images jitter by 4.0 ms; acc_n is 12 "
+                            "times too small.*; check"));
+  evidence.gyro_noise_factor = 9;
+  EXPECT_THAT(DescribeContradiction(evidence), HasSubstr("; gyr_n is 9 times too small"));
+  evidence.gyro_noise_factor = 5;  // as of propellers
+  EXPECT_THAT(DescribeContradiction(evidence), Not(HasSubstr("gyr_n")));
+}
+
+TEST(ImuNoiseMeter, MeasuresWhiteNoiseBesideMotion) {
+  constexpr double kGyroDensity = 3e-4, kAccelDensity = 4e-3, kRate = 200;
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, std::sqrt(kRate));
+  ImuNoiseMeter meter;
+  EXPECT_EQ(meter.accel_density(), 0);
+  for (int i = 0; i < 4000; ++i) {
+    const double t = i / kRate;
+    ImuSample sample{ToNanoseconds(t)};
+    sample.gyro = {std::sin(3 * t), 0, std::cos(2 * t)};
+    sample.accel = {3 * std::sin(5 * t), 0, 9.81};
+    for (int axis = 0; axis < 3; ++axis) {
+      sample.gyro[axis] += kGyroDensity * noise(random);
+      sample.accel[axis] += kAccelDensity * noise(random);
+    }
+    if (i % 100 != 0) meter.Add(sample);  // some are lost
+  }
+  EXPECT_NEAR(meter.gyro_density(), kGyroDensity, 0.05 * kGyroDensity);
+  EXPECT_NEAR(meter.accel_density(), kAccelDensity, 0.05 * kAccelDensity);
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/input/input_check.h"
+
+#include "common/format.h"
+
+namespace plm_vins {
+
+InputCheck::InputCheck(const SensorConfig& sensor)
+    : images_("image_topic " + sensor.image_topic),
+      imu_("imu_topic " + sensor.imu_topic),
+      td_ns_(ToNanoseconds(sensor.td)),
+      content_(sensor.gravity_norm) {}
+
+ImuSample InputCheck::AddImu(const ImuSample& sample) {
+  content_.Add(sample);
+  imu_stamps_.Add(sample.t_ns);
+  clocks_.AddImu(sample.t_ns);
+  return bursts_.Spread(sample);
+}
+
+void InputCheck::AddImage(int64_t t_ns) { clocks_.AddImage(t_ns + td_ns_); }
+
+std::string InputCheck::Finding() const {
+  for (const std::string& finding : {imu_stamps_.Finding(imu_), clocks_.Finding(images_, imu_),
+                                     content_.Finding(imu_), BurstFinding()}) {
+    if (!finding.empty()) return finding;
+  }
+  return "";
+}
+
+std::string InputCheck::BurstFinding() const {
+  if (bursts_.size() == 0) return "";
+  return "samples on " + imu_ +
+         Format(" come in bursts of %zu, stamped on arrival", bursts_.size()) +
+         Format(": their stamps are spread by %.1f ms each", 1e3 * bursts_.interval()) +
+         "; let the driver stamp each sample, or set estimate_td: 1";
+}
+
+}  // namespace plm_vins

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/monitoring/contradiction_report.h"
+
+#include <cmath>
+
+#include "common/format.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kRateTolerance = 0.2;  // relative to the configured rate
+constexpr double kMaxJitter = 1e-3;     // [s]; at 1 rad/s this moves a corner by half a pixel
+constexpr double kNoisier = 1.5;
+constexpr double kFarTooNoisy = 8;  // vibration on vehicles reaches five
+
+constexpr char kChecks[] =
+    "; check, the likeliest first: extrinsicRotation (axes, or its inverse), td, focal length and "
+    "distortion, scale and axes of the IMU, image parts that move or stand still by themselves";
+
+}  // namespace
+
+std::string DescribeContradiction(const ContradictionEvidence& evidence) {
+  std::string text = "the camera contradicts the IMU";
+  if (evidence.noise_factor > kNoisier) {
+    text += Format(", which counts as %.0f times noisier than it is", evidence.noise_factor);
+  }
+  if (evidence.delay) {
+    text += Format("; td seems to be wrong by %+.0f ms or more", 1e3 * *evidence.delay);
+  }
+  if (std::abs(evidence.imu_rate / evidence.configured_imu_rate - 1) > kRateTolerance) {
+    text += Format("; the IMU comes at %.0f Hz, imu_rate is %.0f", evidence.imu_rate,
+                   evidence.configured_imu_rate);
+  }
+  if (evidence.imu_jitter > kMaxJitter) {
+    text += Format("; its stamps jitter by %.1f ms", 1e3 * evidence.imu_jitter);
+  }
+  if (evidence.image_jitter > kMaxJitter) {
+    text += Format("; stamps of the images jitter by %.1f ms", 1e3 * evidence.image_jitter);
+  }
+  if (evidence.accel_noise_factor > kFarTooNoisy) {
+    text += Format("; acc_n is %.0f times too small for these samples (noise or vibration)",
+                   evidence.accel_noise_factor);
+  }
+  if (evidence.gyro_noise_factor > kFarTooNoisy) {
+    text += Format("; gyr_n is %.0f times too small for these samples (noise or vibration)",
+                   evidence.gyro_noise_factor);
+  }
+  return text + kChecks;
+}
+
+}  // namespace plm_vins

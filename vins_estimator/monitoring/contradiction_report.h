@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace plm_vins {
+
+// Facts that may explain why the camera persistently contradicts the IMU.
+struct ContradictionEvidence {
+  double noise_factor = 1;      // by which the IMU counts as noisier than its samples are
+  std::optional<double> delay;  // rough error of td [s] (DelayMonitor)
+  double imu_jitter = 0, image_jitter = 0;       // of timestamps, root mean square [s]
+  double imu_rate = 0, configured_imu_rate = 0;  // [Hz]
+  // Noise of the samples themselves over acc_n and gyr_n (ImuNoiseMeter).
+  double accel_noise_factor = 0, gyro_noise_factor = 0;
+};
+
+// Says that the camera contradicts the IMU, first what is known to be wrong, then what to check,
+// the likeliest first.
+std::string DescribeContradiction(const ContradictionEvidence& evidence);
+
+}  // namespace plm_vins

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/output/run_report.h"
+
+#include <algorithm>
+#include <regex>
+
+#include "common/format.h"
+#include "common/measurements.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kLongestInterval = 1;               // between images; longer ones are gaps [s]
+constexpr size_t kMostWorlds = 5, kMostReasons = 3;  // that are told
+constexpr char kNoImage[] = "no usable image";
+
+// Returns the reason without its figures, which change from image to image.
+std::string Kind(const std::string& reason) {
+  static const std::regex figure(" [0-9]+([.][0-9]+)?");
+  return std::regex_replace(reason.substr(0, reason.find(": ")), figure, " N");
+}
+
+}  // namespace
+
+void RunReport::Add(const EstimatorOutput& output) {
+  const int64_t interval_ns = newest_ns_ ? output.t_ns - *newest_ns_ : 0;
+  if (!first_ns_) first_ns_ = output.t_ns;
+  newest_ns_ = output.t_ns;
+  const double interval = std::max(0.0, ToSeconds(interval_ns));  // clocks may be set back
+  elapsed_ += interval;
+  if (interval > kLongestInterval) {
+    without_pose_[kNoImage] += interval;
+  } else if (!output.has_pose) {
+    without_pose_[Kind(output.reason)] += interval;
+  }
+  if (output.restarted) restart_reason_ = output.reason;
+  if (!output.has_pose || (!worlds_.empty() && !restart_reason_)) return;
+  worlds_.push_back({elapsed_, restart_reason_.value_or("")});
+  restart_reason_.reset();
+}
+
+std::vector<std::string> RunReport::Lines(std::optional<int64_t> first_image_ns) const {
+  if (elapsed_ == 0) return {};
+  const double lead = first_image_ns ? std::max(0.0, ToSeconds(*first_ns_ - *first_image_ns)) : 0.0;
+  std::vector<std::string> lines;
+  if (!worlds_.empty()) lines.push_back(DescribeWorlds(lead));
+  lines.push_back(DescribeTimeWithoutPose(lead));
+  return lines;
+}
+
+std::string RunReport::DescribeWorlds(double lead) const {
+  std::string text = std::to_string(worlds_.size()) +
+                     (worlds_.size() == 1 ? " world frame: " : " world frames, unconnected: ");
+  for (size_t i = 0; i < std::min(worlds_.size(), kMostWorlds); ++i) {
+    text += (i > 0 ? "; " : "") + Format("from %.2f s on", lead + worlds_[i].begin);
+    if (!worlds_[i].reason.empty()) text += " (" + worlds_[i].reason + ")";
+  }
+  if (worlds_.size() <= kMostWorlds) return text;
+  return text + "; and " + std::to_string(worlds_.size() - kMostWorlds) + " more";
+}
+
+std::string RunReport::DescribeTimeWithoutPose(double lead) const {
+  double without = lead;
+  for (const auto& [reason, time] : without_pose_) without += time;
+  std::string text = Format("no pose for %.1f of %.1f s", without, lead + elapsed_);
+  const std::vector<std::string> reasons = LongestFirst();
+  for (size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i) {
+    text += (i == 0 ? ": " : ", ") + reasons[i] + Format(" (%.1f s)", without_pose_.at(reasons[i]));
+  }
+  return text;
+}
+
+std::vector<std::string> RunReport::LongestFirst() const {
+  std::vector<std::string> reasons;
+  for (const auto& [reason, time] : without_pose_) {
+    if (time > 0) reasons.push_back(reason);
+  }
+  std::stable_sort(reasons.begin(), reasons.end(), [&](const auto& a, const auto& b) {
+    return without_pose_.at(a) > without_pose_.at(b);
+  });
+  return reasons;
+}
+
+}  // namespace plm_vins

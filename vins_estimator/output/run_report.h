@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vins_estimator/state/estimator_output.h"
+
+namespace plm_vins {
+
+// Sums up a run in words: its world frames and why each began, and how long there was no pose, and
+// why.
+class RunReport {
+ public:
+  // Outputs in order of arrival.
+  void Add(const EstimatorOutput& output);
+
+  // Returns one line for each. Times are since the first image, used or not, where its stamp is
+  // known, otherwise since the first output.
+  std::vector<std::string> Lines(std::optional<int64_t> first_image_ns) const;
+
+  // Returns why the newest world frame replaced another; empty if there was only one.
+  std::string LastRestart() const { return worlds_.size() > 1 ? worlds_.back().reason : ""; }
+
+ private:
+  struct World {
+    double begin = 0;    // its first pose, since the first output [s]
+    std::string reason;  // why the one before it ended
+  };
+
+  std::string DescribeWorlds(double lead) const;
+  std::string DescribeTimeWithoutPose(double lead) const;
+  // Returns the reasons for times without a pose, the longest time first.
+  std::vector<std::string> LongestFirst() const;
+
+  std::vector<World> worlds_;
+  std::optional<std::string> restart_reason_;  // of the next world
+  std::optional<int64_t> first_ns_, newest_ns_;
+  double elapsed_ = 0;                          // since the first output [s]
+  std::map<std::string, double> without_pose_;  // [s], by reason
+};
+
+}  // namespace plm_vins

@@ -30,8 +30,8 @@ bool ManhattanFactor::Evaluate(double const* const* parameters, double* residual
   if (jacobians == nullptr) return true;
 
   const Matrix23d d_r_d_dC = d_r_d_dB * T_B_C.R;
-  if (jacobians[0]) SetPoseJacobian(Matrix23d::Zero(), -d_r_d_dB * Skew(d_B), jacobians[0]);
-  if (jacobians[1]) SetPoseJacobian(Matrix23d::Zero(), -d_r_d_dC * Skew(d_C), jacobians[1]);
+  if (jacobians[0]) SetPoseJacobian<2>(Matrix23d::Zero(), -d_r_d_dB * Skew(d_B), jacobians[0]);
+  if (jacobians[1]) SetPoseJacobian<2>(Matrix23d::Zero(), -d_r_d_dC * Skew(d_C), jacobians[1]);
   if (jacobians[2]) {
     LineJacobian J(jacobians[2]);
     J.setZero();

@@ -18,13 +18,21 @@ struct PoseBlock {
   Eigen::Matrix3d R;
 };
 
-// Writes the tangent Jacobian of a two-dimensional residual, padded with a column of zeros.
-inline void SetPoseJacobian(const Eigen::Matrix<double, 2, 3>& d_r_d_p,
-                            const Eigen::Matrix<double, 2, 3>& d_r_d_theta, double* values) {
-  Eigen::Map<Eigen::Matrix<double, 2, kPoseSize, Eigen::RowMajor>> J(values);
-  J.leftCols<3>() = d_r_d_p;
-  J.middleCols<3>(3) = d_r_d_theta;
+// Writes the tangent Jacobian of a residual with so many rows, padded with a column of zeros.
+template <int kRows>
+void SetPoseJacobian(const Eigen::Matrix<double, kRows, 3>& d_r_d_p,
+                     const Eigen::Matrix<double, kRows, 3>& d_r_d_theta, double* values) {
+  Eigen::Map<Eigen::Matrix<double, kRows, kPoseSize, Eigen::RowMajor>> J(values);
+  J.template leftCols<3>() = d_r_d_p;
+  J.template middleCols<3>(3) = d_r_d_theta;
   J.col(6).setZero();
+}
+
+// Writes the tangent Jacobian with respect to a mounting, padded likewise.
+inline void SetMountingJacobian(const Eigen::Matrix<double, 2, 3>& d_r_d_baseline,
+                                const Eigen::Matrix<double, 2, 3>& d_r_d_theta,
+                                const PoseBlock& T_C_C1, double* values) {
+  SetPoseJacobian<2>(d_r_d_baseline * BaselineByTangent(T_C_C1.p), d_r_d_theta, values);
 }
 
 }  // namespace plm_vins

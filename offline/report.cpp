@@ -46,7 +46,8 @@ std::string MostWrong(const RunSummary::Run& run, const Source& source,
                       const OdometryPipeline& pipeline, const RunReport& report) {
   for (const std::string& cause :
        {pipeline.InputFinding(), pipeline.lens_warning(), pipeline.imu_contradiction(),
-        report.LastRestart(), WorstDrop(run, source), pipeline.SecondCameraFinding()}) {
+        report.LastRestart(), WorstDrop(run, source), pipeline.SecondCameraFinding(),
+        pipeline.second_camera_fault()}) {
     if (!cause.empty()) return cause;
   }
   return "";
@@ -111,6 +112,7 @@ int Report(const RunSummary::Run& run, const Source& source, const OdometryPipel
   Warn(pipeline.imu_contradiction());
   Warn(pipeline.lens_warning());
   Warn(pipeline.SecondCameraFinding());
+  Warn(pipeline.second_camera_fault());
   for (const DropCount& drop : run.drops) Warn(drop, source);
   Warn(results.unwritten_pictures(), source);
   Warn(UncoveredWarning(run, pipeline));

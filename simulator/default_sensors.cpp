@@ -22,4 +22,19 @@ SensorConfig DefaultSensors() {
   return sensors;
 }
 
+SensorConfig DefaultStereoSensors() {
+  SensorConfig sensors = DefaultSensors();
+  SecondCamera& right = sensors.second_camera.emplace();
+  right.camera = sensors.camera;
+  right.camera.fx = 457.587;
+  right.camera.fy = 456.134;
+  right.camera.cx = 379.999;
+  right.camera.cy = 255.238;
+  const Rigid3d T_C_C1(
+      Eigen::Quaterniond(Eigen::AngleAxisd(0.01, Eigen::Vector3d(0.6, 0.64, 0.48))),
+      {0.11, -0.0005, 0.0009});
+  right.T_B_C = sensors.T_B_C * T_C_C1;
+  return sensors;
+}
+
 }  // namespace plm_vins::simulator

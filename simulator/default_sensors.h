@@ -9,4 +9,7 @@ namespace plm_vins::simulator {
 // image is upright if the body's x axis points up, and a tactical-grade IMU.
 SensorConfig DefaultSensors();
 
+// Returns these sensors with a second camera 0.11 m to the right.
+SensorConfig DefaultStereoSensors();
+
 }  // namespace plm_vins::simulator

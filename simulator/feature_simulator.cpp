@@ -19,7 +19,16 @@ using Eigen::Vector3d;
 constexpr double kNearest = 0.2;  // [m]; closer landmarks are invisible
 
 // Independent random streams derived from one seed.
-enum Stream : uint64_t { kWorld, kImu, kPointTracks, kLineTracks, kPointNoise, kLineNoise };
+enum Stream : uint64_t {
+  kWorld,
+  kImu,
+  kPointTracks,
+  kLineTracks,
+  kPointNoise,
+  kLineNoise,
+  kRightNoise,
+  kDepthNoise
+};
 
 uint64_t StreamSeed(uint64_t seed, Stream stream) { return seed * 64 + stream; }
 
@@ -53,7 +62,12 @@ class FeatureCamera {
         line_tracks_(options.max_lines, options.line_break_probability,
                      StreamSeed(options.seed, kLineTracks)),
         point_random_(StreamSeed(options.seed, kPointNoise)),
-        line_random_(StreamSeed(options.seed, kLineNoise)) {}
+        line_random_(StreamSeed(options.seed, kLineNoise)),
+        right_random_(StreamSeed(options.seed, kRightNoise)),
+        depth_random_(StreamSeed(options.seed, kDepthNoise)) {
+    const auto& second_camera = options.sensors.second_camera;
+    if (second_camera) right_camera_ = CameraModel::Create(second_camera->camera);
+  }
 
   // Adds the image with timestamp `t_ns`, exposed `time` seconds after the start.
   void Expose(int64_t t_ns, const Trajectory& trajectory, double time) {
@@ -79,18 +93,26 @@ class FeatureCamera {
     const int rows = static_cast<int>(T_C_W_.size());
     auto pixel = ProjectFrom(T_C_W_[rows / 2], p_W);
     for (int i = 1; rows > 1 && pixel && i < kRollingIterations; ++i) {
-      pixel = ProjectFrom(T_C_W_[static_cast<int>(std::lround(pixel->y()))], p_W);
+      pixel = ProjectFrom(RowAt(*pixel), p_W);
     }
     return pixel;
   }
 
+  // The camera's pose when it reads the row of a pixel.
+  const Rigid3d& RowAt(const Vector2d& pixel) const {
+    return T_C_W_[T_C_W_.size() > 1 ? std::lround(pixel.y()) : 0];
+  }
+
   std::optional<Vector2d> ProjectFrom(const Rigid3d& T_C_W, const Vector3d& p_W) const {
-    const Vector3d p_C = T_C_W * p_W;
+    return ProjectTo(*camera_, T_C_W * p_W);
+  }
+
+  static std::optional<Vector2d> ProjectTo(const CameraModel& camera, const Vector3d& p_C) {
     if (p_C.z() < kNearest) return std::nullopt;
-    auto pixel = camera_->Project(p_C);
-    if (!pixel || !camera_->IsInImage(*pixel)) return std::nullopt;
+    auto pixel = camera.Project(p_C);
+    if (!pixel || !camera.IsInImage(*pixel)) return std::nullopt;
     // Outside the field of view, a distortion polynomial may fold back into the image.
-    const auto xy = camera_->Unproject(*pixel);
+    const auto xy = camera.Unproject(*pixel);
     if (!xy || (*xy - p_C.head<2>() / p_C.z()).norm() > 1e-4) return std::nullopt;
     return pixel;
   }
@@ -113,20 +135,44 @@ class FeatureCamera {
       const auto xy = camera_->Unproject(observation.uv_px);
       if (!xy) continue;
       observation.xy = *xy;
+      const Vector3d& p_W = dataset_->world.points[track.landmark];
+      ObserveDepth(RowAt(pixels.at(track.landmark)) * p_W, &observation);
       frame.points.push_back(observation);
     }
     FillVelocities(&frame);
     return frame;
   }
 
+  // Adds the observation in the second camera and the measured depth, if these sensors exist.
+  void ObserveDepth(const Vector3d& p_C, PointObservation* observation) {
+    if (right_camera_) {
+      const Rigid3d T_C1_C =
+          options_.sensors.second_camera->T_B_C.Inverse() * options_.sensors.T_B_C;
+      const auto pixel = ProjectTo(*right_camera_, T_C1_C * p_C);
+      if (pixel) {
+        observation->right =
+            right_camera_->Unproject(Disturb(*pixel, options_.right_outlier_ratio, &right_random_));
+      }
+      observation->right_search = observation->right ? RightSearch::kFound : RightSearch::kNotFound;
+    }
+    const auto& depth = options_.sensors.depth;
+    if (depth && p_C.z() < depth->max) {
+      observation->depth = p_C.z() + depth->noise * p_C.z() * p_C.z() * depth_random_.Normal();
+    }
+  }
+
   Vector2d Disturb(const Vector2d& pixel) {
-    const double u = point_random_.Normal(), v = point_random_.Normal();
-    if (point_random_.Uniform() >= options_.point_outlier_ratio) {
+    return Disturb(pixel, options_.point_outlier_ratio, &point_random_);
+  }
+
+  Vector2d Disturb(const Vector2d& pixel, double outlier_ratio, Random* random) {
+    const double u = random->Normal(), v = random->Normal();
+    if (random->Uniform() >= outlier_ratio) {
       return pixel + options_.point_noise_px * Vector2d(u, v);
     }
     const double limit = options_.outlier_px;
-    const double du = point_random_.Uniform(-limit, limit);
-    const double dv = point_random_.Uniform(-limit, limit);
+    const double du = random->Uniform(-limit, limit);
+    const double dv = random->Uniform(-limit, limit);
     return pixel + Vector2d(du, dv);
   }
 
@@ -208,8 +254,9 @@ class FeatureCamera {
   const FeatureSimulationOptions& options_;
   FeatureDataset* dataset_;
   std::unique_ptr<const CameraModel> camera_;
+  std::unique_ptr<const CameraModel> right_camera_;  // null without a second camera
   TrackSelector point_tracks_, line_tracks_;
-  Random point_random_, line_random_;
+  Random point_random_, line_random_, right_random_, depth_random_;
   std::vector<Rigid3d> T_C_W_;  // for each row; a single one for a global shutter
   std::map<int64_t, Vector2d> previous_xy_;
   int64_t previous_t_ns_ = 0;

@@ -16,7 +16,9 @@
 namespace plm_vins::simulator {
 
 struct FeatureSimulationOptions {
-  SensorConfig sensors = DefaultSensors();  // camera, shutter, T_B_C, td, IMU, gravity
+  // Cameras, shutter, td, IMU, gravity; a second camera and depth if there are any. Lines have no
+  // observations in the second camera.
+  SensorConfig sensors = DefaultSensors();
   // Its R_V_B is replaced, such that the camera looks forward.
   TrajectoryOptions trajectory;
   FeatureRoomOptions room;
@@ -32,8 +34,9 @@ struct FeatureSimulationOptions {
   double line_break_probability = 0.0;
   double point_outlier_ratio = 0.0;  // share of observations with errors of up to outlier_px
   double outlier_px = 40.0;
-  int max_points = 150;  // for each image
-  int max_lines = 50;    // for each image
+  double right_outlier_ratio = 0.0;  // share of such observations in the second camera
+  int max_points = 150;              // for each image
+  int max_lines = 50;                // for each image
   double min_line_length_px = 40.0;
   uint64_t seed = 1;  // of landmarks and noise; the trajectory has its own
 };

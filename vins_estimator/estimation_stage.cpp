@@ -128,6 +128,24 @@ std::vector<ResidualRing> EstimationStage::ResidualRings() const {
   return estimator_->lens().Rings();
 }
 
+std::string EstimationStage::SecondCameraFault() const {
+  std::string text;
+  if (second_camera_.misfit_px) {
+    text = Format("it does not fit its calibration by %.1f px and is not used",
+                  *second_camera_.misfit_px);
+  }
+  if (second_camera_.delay) {
+    text += (text.empty() ? "" : "; ") +
+            Format("it exposes %+.0f ms after the first camera", 1e3 * *second_camera_.delay);
+  }
+  if (second_camera_.baseline) {
+    text += (text.empty() ? "" : "; ") +
+            Format("by the IMU its baseline is %+.1f %% longer than configured",
+                   100 * *second_camera_.baseline);
+  }
+  return text.empty() ? "" : "second camera: " + text;
+}
+
 void EstimationStage::Reset(const std::string& reason) {
   sync_.Clear();
   StartOver(reason);
@@ -141,6 +159,7 @@ void EstimationStage::StartOver(const std::string& reason) {
   imu_noise_ = configured_noise_;
   imu_noise_scale_ = 1;
   delay_.reset();
+  second_camera_ = {};
   sync_.SetTimeOffset(estimator_->time_offset());
   if (anew_) return;
   ++resets_;
@@ -175,6 +194,7 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   least_speed_ = LeastSpeed(frame.output);
   imu_noise_scale_ = frame.output.imu_noise_scale;
   delay_ = frame.output.delay;
+  second_camera_ = frame.output.second_camera;
   if (frame.output.restarted) ++resets_;
   anew_ = false;
   if (restart_reason_) {

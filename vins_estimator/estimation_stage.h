@@ -73,6 +73,10 @@ class EstimationStage {
   // nothing is.
   std::string InputFinding() const { return input_check_.Finding(); }
 
+  // States what does not fit about the second camera: its calibration, the time of its exposure, or
+  // the length of its baseline. Empty if it fits.
+  std::string SecondCameraFault() const;
+
   int64_t frames() const { return frames_; }  // estimated so far
   int64_t resets() const { return resets_; }  // number of world frames that were given up
   size_t queued_frames() const { return sync_.queued_frames(); }
@@ -101,6 +105,7 @@ class EstimationStage {
   ImuNoise imu_noise_;
   double imu_noise_scale_ = 1;
   std::optional<double> delay_;  // [s]
+  SecondCameraFaults second_camera_;
   int64_t frames_ = 0;
   int64_t frames_repeated_ = 0;  // whose features were ignored
   int64_t resets_ = 0;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kMinTriangulationAngle_px = 2.0;  // in pixels of motion: well above corner noise
 constexpr double kMaxReprojectionError_px = 3.0;
+constexpr double kMaxDepthError = 4.0;    // of a measured inverse depth, in standard deviations
 constexpr double kMaxRayError_px = 0.02;  // a tenth of the noise of the best corners
 
 // Over half a second: eight times the effect of noise on the median of a hundred corners.
@@ -32,10 +33,13 @@ EstimatorOptions::EstimatorOptions(const Config& config)
     : EstimatorOptions(config, CameraModel::Create(config.sensor.camera)->FocalLength()) {}
 
 EstimatorOptions::EstimatorOptions(const Config& config, double focal_length)
-    : map(config.estimator.line_noise / focal_length, config.estimator.line_merging),
+    : focal_length(focal_length),
+      map(config.estimator.line_noise / focal_length, config.estimator.line_merging),
       keyframes(config.estimator, focal_length),
       min_triangulation_angle(kMinTriangulationAngle_px / focal_length),
       max_reprojection_error(kMaxReprojectionError_px / focal_length),
+      max_inverse_depth_error(kMaxDepthError *
+                              (config.sensor.depth ? config.sensor.depth->noise : 0)),
       max_ray_error(kMaxRayError_px / focal_length),
       max_motion_at_rest_px(kMaxMotionAtRest_px),
       passing_flow(kPassingFlow_px / focal_length),

@@ -18,10 +18,12 @@ namespace plm_vins {
 struct EstimatorOptions {
   explicit EstimatorOptions(const Config& config);
 
+  double focal_length;  // [px]
   LocalMapOptions map;
   KeyframePolicyOptions keyframes;
   double min_triangulation_angle;  // between the rays of a point [rad]
   double max_reprojection_error;   // of a point, mean over its observations, normalized
+  double max_inverse_depth_error;  // of a measured depth [1/m]
   double max_ray_error;            // of rays when the intrinsics are refined, normalized
   double max_motion_at_rest_px;    // common corner motion at standstill, if the depth is known [px]
   double passing_flow;             // the same per time [1/s], normalized

@@ -12,6 +12,7 @@
 #include "vins_estimator/map/recalibration.h"
 #include "vins_estimator/map/wandering_lines.h"
 #include "vins_estimator/optimization/window_solver.h"
+#include "vins_estimator/problem/baseline_evidence.h"
 #include "vins_estimator/problem/normal_equations.h"
 #include "vins_estimator/problem/placed_covariance.h"
 #include "vins_estimator/problem/placement_problem.h"
@@ -55,6 +56,7 @@ WindowOdometry::WindowOdometry(const Config& config, const EstimatorOptions& opt
       estimate_(EmptyWindow(config.sensor, options.map)),
       structure_(options.same_line),
       noise_(1 / options.problem.point_weight, 1 / options.problem.line_weight),
+      stereo_monitor_(1 / options.problem.point_weight),
       imu_noise_(config.sensor.imu_noise) {}
 
 void WindowOdometry::Start(const InitializationResult& result,
@@ -215,6 +217,7 @@ ProblemOptions WindowOdometry::CurrentProblem(JacobiansAt jacobians_at) const {
   options.jacobians_at = jacobians_at;
   if (config_->estimator.manhattan_constraints) options.R_W_M = structure_.manhattan().R_W_M();
   options.SetNoise(noise_.point(), noise_.line());
+  options.right_weight = 1 / std::max(noise_.point(), stereo_monitor_.noise());
   const LocalMap& map = estimate_.map;
   if (map.window.HasStationary()) {
     options.LetPass(options_->passing_flow, map.points.MedianDepthInNewest(map.window));
@@ -281,6 +284,10 @@ WindowOdometry::Solution WindowOdometry::SolveWindow(const SolverOptions& option
   solution.covariance =
       StateCovariance(map.window.newest().state.t_ns, &equations).value_or(Matrix15d::Zero());
   keyframe_.covariance = StateCovariance(keyframe_.t_ns, &equations);
+  if (const auto& second = config_->sensor.second_camera) {
+    const double length = (config_->sensor.T_B_C.Inverse() * second->T_B_C).translation.norm();
+    baseline_error_ = BaselineError(map.window, length, &equations);
+  }
   if (config_->estimator.adapt_imu_noise) {
     imu_noise_.Learn(map.window, !started_, &equations);
   }
@@ -316,11 +323,39 @@ void WindowOdometry::LearnFromWindow(EstimatorOutput* output) {
   LocalMap& map = estimate_.map;
   EstimatorCounts& counts = output->counts;
   counts.points_rejected = map.points.RemoveOutliers(map.window, options_->max_reprojection_error);
+  if (config_->sensor.second_camera) counts.right = JudgeSecondCamera();
+  if (config_->sensor.depth) {
+    counts.depth = map.points.RemoveDepthOutliers(map.window, options_->max_inverse_depth_error);
+  }
   counts.lines_wandering = NoteWandering(map.window, noise_.line(), &map.lines);
   counts.lines_rejected = map.lines.RemoveOutliers(map.window, options_->line_limits);
   counts.known_rejected = counts.known_seen - map.CountInNewest();
   if (config_->estimator.adapt_noise) noise_.Update(map);
   imu_noise_.Reweigh(&map.window);
+}
+
+// Learns how noisy the second camera is, and drops its outliers.
+DepthCounts WindowOdometry::JudgeSecondCamera() {
+  const SlidingWindow& window = estimate_.map.window;
+  const std::vector<RightResidual> residuals = estimate_.map.points.RightResiduals(window);
+  stereo_monitor_.Add(window.newest().state.t_ns, residuals);
+  DepthCounts counts;
+  for (const RightResidual& residual : residuals) {
+    const bool wrong = residual.error.norm() > stereo_monitor_.max_error();
+    if (wrong) residual.view->right.reset();
+    ++(wrong ? counts.rejected : counts.used);
+  }
+  return counts;
+}
+
+void WindowOdometry::DescribeSecondCamera(EstimatorOutput* output) const {
+  output->calibration.T_C_C1 = estimate_.map.window.T_C_C1();
+  SecondCameraFaults& faults = output->second_camera;
+  if (const auto misfit = stereo_monitor_.misfit()) {
+    faults.misfit_px = *misfit * options_->focal_length;
+  }
+  faults.delay = stereo_monitor_.delay();
+  faults.baseline = baseline_error_;
 }
 
 void WindowOdometry::SlideWindow(bool keep_second_newest, EstimatorOutput* output) {
@@ -358,8 +393,9 @@ void WindowOdometry::Describe(const Solution& solution, EstimatorOutput* output)
   output->body_velocity_covariance =
       BodyVelocityCovariance(output->state, solution.covariance.block<6, 6>(3, 3));
   output->bias_covariance = solution.covariance.bottomRightCorner<6, 6>();
-  output->calibration = {config_->sensor.camera.With(window.intrinsics), window.T_B_C(), window.td,
-                         window.readout};
+  output->calibration = {config_->sensor.camera.With(window.intrinsics), window.T_B_C(),
+                         std::nullopt, window.td, window.readout};
+  if (config_->sensor.second_camera) DescribeSecondCamera(output);
   output->R_W_M = structure_.manhattan().R_W_M();
   output->imu_noise = imu_noise_.noise();
   output->imu_noise_scale = imu_agreement_.noise_scale();

@@ -16,6 +16,7 @@
 #include "vins_estimator/marginalization/window_estimate.h"
 #include "vins_estimator/monitoring/estimate_monitor.h"
 #include "vins_estimator/monitoring/imu_agreement.h"
+#include "vins_estimator/monitoring/stereo_monitor.h"
 #include "vins_estimator/problem/imu_noise_learning.h"
 #include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/state/estimator_output.h"
@@ -83,6 +84,8 @@ class WindowOdometry {
   void Triangulate(EstimatorOutput* output);
   void FindStructure(bool keep_second_newest, EstimatorOutput* output);
   void LearnFromWindow(EstimatorOutput* output);
+  DepthCounts JudgeSecondCamera();
+  void DescribeSecondCamera(EstimatorOutput* output) const;
   void CountLandmarks(EstimatorOutput* output) const;
   std::vector<PixelResidual> MiddleResiduals() const;
   PointMap::Fit FitOfNewest(int64_t keyframe_ns) const;
@@ -104,6 +107,8 @@ class WindowOdometry {
   WindowEstimate estimate_;
   LineStructure structure_;
   ViewNoise noise_;
+  StereoMonitor stereo_monitor_;
+  std::optional<double> baseline_error_;  // relative
   ImuNoiseLearning imu_noise_;
   ImuAgreement imu_agreement_;
   EstimateMonitor estimate_monitor_;

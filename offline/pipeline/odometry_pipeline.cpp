@@ -210,6 +210,8 @@ void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_
     imu_contradiction_ = contradiction;
     ++contradicted_images_;
   }
+  const std::string fault = back_end_.SecondCameraFault();
+  if (!fault.empty()) second_camera_fault_ = fault;
   PipelineFrame frame;
   const auto reported = unfinished_.find(estimated.output.t_ns);
   if (reported != unfinished_.end()) {

@@ -90,6 +90,8 @@ class OdometryPipeline {
   std::vector<ResidualRing> residual_rings() const { return back_end_.ResidualRings(); }
   // Describes what seems to be wrong with the second camera; empty if nothing is.
   std::string SecondCameraFinding() const { return trackers_.SecondCameraFinding(); }
+  // The last EstimationStage::SecondCameraFault() that was not empty.
+  const std::string& second_camera_fault() const { return second_camera_fault_; }
 
   // An image of the second half of the run with its points or lines drawn (CV_8UC3); empty without
   // images, or if lines are not used.
@@ -127,6 +129,7 @@ class OdometryPipeline {
   ConstantStamp image_stamps_;
   std::string imu_contradiction_;
   int64_t contradicted_images_ = 0;  // when there was one
+  std::string second_camera_fault_;
   std::optional<int64_t> last_frame_ns_;
   int64_t images_ = 0;
   int64_t unreadable_images_ = 0;

@@ -53,6 +53,10 @@ FrameCounts MakeCounts(const PipelineFrame& frame) {
   counts[kPointsObserved] = estimator.points_observed;
   counts[kPointsInWindow] = estimator.points_in_window;
   counts[kPointsRejected] = estimator.points_rejected;
+  counts[kRightUsed] = estimator.right.used;
+  counts[kRightRejected] = estimator.right.rejected;
+  counts[kDepthsUsed] = estimator.depth.used;
+  counts[kDepthsRejected] = estimator.depth.rejected;
   counts[kLinesFollowed] =
       lines.previous - lines.match_lost - lines.inconsistent - lines.edge_lost - lines.duplicates;
   counts[kLinesUnmatched] = lines.match_lost;

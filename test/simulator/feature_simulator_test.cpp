@@ -55,6 +55,32 @@ TEST(FeatureSimulator, NoiseFreePointsAreProjectionsOfTheirLandmarks) {
   EXPECT_GT(count, 10000);
 }
 
+TEST(FeatureSimulator, SecondCameraAndDepthImageShowTheSamePoints) {
+  auto options = NoiseFree();
+  const FeatureDataset mono = SimulateFeatures(options);
+  options.sensors = DefaultStereoSensors();
+  options.sensors.depth.emplace().noise = 0;
+  const FeatureDataset data = SimulateFeatures(options);
+  int in_right = 0, with_depth = 0;
+  for (size_t i = 0; i < data.truth.size(); ++i) {
+    const Rigid3d T_C_W = CameraFromWorld(options, data.truth[i]);
+    const Rigid3d T_C1_W = (data.truth[i].T_W_B() * options.sensors.second_camera->T_B_C).Inverse();
+    for (size_t k = 0; k < data.points[i].points.size(); ++k) {
+      const PointObservation& point = data.points[i].points[k];
+      EXPECT_EQ(point.xy, mono.points[i].points[k].xy);
+      const Vector3d& p_W = data.world.points[data.point_landmark.at(point.id)];
+      const double z = (T_C_W * p_W).z();
+      EXPECT_EQ(point.depth.has_value(), z < options.sensors.depth->max);
+      with_depth += point.depth.has_value();
+      if (point.depth) EXPECT_NEAR(*point.depth, z, 1e-9);
+      in_right += point.right.has_value();
+      if (point.right) EXPECT_LT((*point.right - (T_C1_W * p_W).hnormalized()).norm(), 1e-4);
+    }
+  }
+  EXPECT_GT(in_right, 10000);
+  EXPECT_GT(with_depth, 5000);
+}
+
 TEST(FeatureSimulator, NoiseFreeLinesPassThroughTheirLandmarks) {
   const auto options = NoiseFree();
   const FeatureDataset data = SimulateFeatures(options);

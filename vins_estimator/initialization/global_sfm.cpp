@@ -54,11 +54,6 @@ std::optional<Eigen::Vector3d> IntersectLines(const std::vector<Line>& lines, do
   return point;
 }
 
-bool IsSeenBy(int view, const Track& track) {
-  return std::any_of(track.observations.begin(), track.observations.end(),
-                     [view](const ViewObservation& o) { return o.view == view; });
-}
-
 // Reprojection of a point into a view with known rotation. Blocks: p_G_C, p_G.
 class PositionCost {
  public:
@@ -188,7 +183,7 @@ void Builder::Place(int view, const Eigen::Vector3d& p_G_C) {
   structure_.p_G_C[view] = p_G_C;
   posed_[view] = true;
   for (size_t i = 0; i < tracks_.size(); ++i) {
-    if (IsSeenBy(view, tracks_[i])) structure_.p_G[i] = TriangulateTrack(tracks_[i]);
+    if (tracks_[i].In(view) != nullptr) structure_.p_G[i] = TriangulateTrack(tracks_[i]);
   }
 }
 

@@ -14,9 +14,12 @@ namespace {
 
 constexpr double kStandstillDuration = 0.75;  // [s]
 constexpr double kMinMotionDuration = 1.5;    // [s]
-constexpr double kMaxDuration = 3.0;          // of the buffer [s]
-constexpr int kMinCommonPoints = 12;          // of consecutive images
+constexpr double kStereoStandstillDuration = 0.25;
+constexpr double kMinStereoMotionDuration = 0.295;  // six intervals of 20 Hz
+constexpr double kMaxDuration = 3.0;                // of the buffer [s]
+constexpr int kMinCommonPoints = 12;                // of consecutive images
 constexpr size_t kMinFrames = 6;
+constexpr size_t kMinStereoFrames = 4;
 constexpr size_t kMaxFrames = 11;
 constexpr double kAttemptInterval = 0.125;  // an attempt takes as long as several images [s]
 // The accepted scale uncertainty grows with the waiting time, because a vehicle that has moved too
@@ -25,9 +28,12 @@ constexpr double kAttemptInterval = 0.125;  // an attempt takes as long as sever
 constexpr double kScaleDeviationPerSecond = 0.015;  // relative [1/s]
 constexpr double kMaxScaleDeviation = 0.075;
 
-StandstillDetector::Options StandstillOptions() {
+// Returns whether single images tell the depth of points.
+bool HasDepth(const SensorConfig& sensor) { return sensor.second_camera || sensor.depth; }
+
+StandstillDetector::Options StandstillOptions(double duration) {
   StandstillDetector::Options options;
-  options.imu.window = kStandstillDuration;
+  options.imu.window = duration;
   return options;
 }
 
@@ -37,7 +43,9 @@ Initializer::Initializer(const Config& config)
     : sensor_(config.sensor),
       point_noise_px_(config.estimator.point_noise),
       max_frames_(std::min<size_t>(kMaxFrames, config.estimator.window_size + 1)),
-      standstill_(config.sensor.imu_noise, StandstillOptions()) {
+      standstill_duration_(HasDepth(config.sensor) ? kStereoStandstillDuration
+                                                   : kStandstillDuration),
+      standstill_(config.sensor.imu_noise, StandstillOptions(standstill_duration_)) {
   if (sensor_.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {
     const double focal_length = CameraModel::Create(sensor_.camera)->FocalLength();
     calibrator_.emplace(sensor_.imu_noise, point_noise_px_ / focal_length);
@@ -46,8 +54,18 @@ Initializer::Initializer(const Config& config)
 
 void Initializer::KeepRotation(const Initializer& other) {
   if (other.calibrator_) return;
-  sensor_.T_B_C.rotation = other.sensor_.T_B_C.rotation;
+  SetRotation(other.sensor_.T_B_C.rotation);
   calibrator_.reset();
+}
+
+// The second camera is mounted on the first.
+void Initializer::SetRotation(const Eigen::Quaterniond& R_B_C) {
+  const Rigid3d T_B_C(R_B_C, sensor_.T_B_C.translation);
+  if (sensor_.second_camera) {
+    Rigid3d& T_B_C1 = sensor_.second_camera->T_B_C;
+    T_B_C1 = T_B_C * sensor_.T_B_C.Inverse() * T_B_C1;
+  }
+  sensor_.T_B_C = T_B_C;
 }
 
 void Initializer::StartOver(const std::string& reason) {
@@ -89,14 +107,14 @@ std::optional<int64_t> Initializer::begin_ns() const {
 void Initializer::CalibrateRotation() {
   const auto R_B_C = calibrator_->Add(buffer_, &reason_);
   if (!R_B_C) return;
-  sensor_.T_B_C.rotation = *R_B_C;
+  SetRotation(*R_B_C);
   calibrator_.reset();
 }
 
 std::optional<InitializationResult> Initializer::TryStandstill() {
   std::vector<ImuSample> samples;
   for (const FrameMeasurement& frame : buffer_) {
-    if (ToSeconds(buffer_.back().t_ns - frame.t_ns) < kStandstillDuration) {
+    if (ToSeconds(buffer_.back().t_ns - frame.t_ns) < standstill_duration_) {
       JoinImu(frame.imu, &samples);
     }
   }
@@ -107,14 +125,21 @@ std::optional<InitializationResult> Initializer::TryStandstill() {
   return InitializationResult{{{buffer_.back(), *state}}, true, sensor_.T_B_C};
 }
 
-std::optional<InitializationResult> Initializer::TryMotion() {
+bool Initializer::MayTryMotion(bool stereo) {
   const double duration = ToSeconds(buffer_.back().t_ns - buffer_.front().t_ns);
-  if (duration < kMinMotionDuration || buffer_.size() < kMinFrames) {
-    if (buffer_.size() > 1) {
-      reason_ = Format("collecting images: %.1f s of %.1f s", duration, kMinMotionDuration);
-    }
-    return std::nullopt;
+  const double least = stereo ? kMinStereoMotionDuration : kMinMotionDuration;
+  const size_t min_frames = stereo ? kMinStereoFrames : kMinFrames;
+  if (duration >= least && buffer_.size() >= min_frames) return true;
+  if (buffer_.size() > 1) {
+    reason_ = Format("collecting images: %.1f s of %.1f s", duration, least);
   }
+  return false;
+}
+
+// If a start with the second camera or depth fails, one without them may succeed.
+std::optional<InitializationResult> Initializer::TryMotion() {
+  const bool has_depth = HasDepth(sensor_);
+  if (!MayTryMotion(has_depth)) return std::nullopt;
   const int64_t now_ns = buffer_.back().t_ns;
   if (last_attempt_ns_ && ToSeconds(now_ns - *last_attempt_ns_) < kAttemptInterval) {
     return std::nullopt;
@@ -123,8 +148,17 @@ std::optional<InitializationResult> Initializer::TryMotion() {
   MotionInitializerOptions options;
   options.max_scale_deviation =
       std::min(kMaxScaleDeviation, kScaleDeviationPerSecond * ToSeconds(now_ns - *start_ns_));
+  options.stereo = has_depth;
   std::vector<FrameMeasurement> frames = JoinFrames(buffer_, SelectFrames(buffer_, max_frames_));
-  const auto states = InitializeFromMotion(frames, sensor_, point_noise_px_, options, &reason_);
+  auto states = InitializeFromMotion(frames, sensor_, point_noise_px_, options, &reason_);
+  if (!states && has_depth) {
+    const std::string why = reason_;
+    options.stereo = false;
+    if (MayTryMotion(options.stereo)) {
+      states = InitializeFromMotion(frames, sensor_, point_noise_px_, options, &reason_);
+    }
+    reason_ = why;
+  }
   if (!states) return std::nullopt;
   reason_.clear();
   InitializationResult result;

@@ -30,8 +30,9 @@ struct InitializationResult {
 };
 
 // Initializes the estimator: from standstill once the body has stood still for 0.75 s, otherwise
-// from motion once at least 1.5 s of images make gravity, velocity and scale observable. World: z
-// up, origin and zero heading at the first frame of the result. If the camera's rotation has to be
+// from motion once at least 1.5 s of images make gravity, velocity and scale observable. With a
+// second camera or measured depth, 0.25 s of standstill or 0.3 s of motion suffice. World: z up,
+// origin and zero heading at the first frame of the result. If the camera's rotation has to be
 // calibrated, this comes first and requires rotations about at least two axes. While waiting,
 // reason() states why. Stores at most three seconds of images. Its result is deterministic.
 class Initializer {
@@ -55,12 +56,15 @@ class Initializer {
   void StartOver(const std::string& reason);
   void Append(const FrameMeasurement& measurement);
   void CalibrateRotation();
+  void SetRotation(const Eigen::Quaterniond& R_B_C);
   std::optional<InitializationResult> TryStandstill();
   std::optional<InitializationResult> TryMotion();
+  bool MayTryMotion(bool stereo);
 
   SensorConfig sensor_;  // with the calibrated rotation of the camera
   double point_noise_px_;
   size_t max_frames_;
+  double standstill_duration_;  // [s]
   StandstillDetector standstill_;
   std::optional<ExtrinsicCalibrator> calibrator_;  // until the rotation is known
   std::deque<FrameMeasurement> buffer_;            // contiguous in IMU samples and tracks

@@ -1,17 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/motion_initializer.h"
 
+#include <limits>
+
 #include "common/format.h"
 #include "common/geometry/so3.h"
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/initialization/global_sfm.h"
 #include "vins_estimator/initialization/relative_pose.h"
+#include "vins_estimator/initialization/stereo_structure.h"
 #include "vins_estimator/initialization/tracks.h"
 #include "vins_estimator/initialization/visual_inertial_alignment.h"
 #include "vins_estimator/initialization/visual_inertial_bundle.h"
 
 namespace plm_vins {
 namespace {
+
+constexpr double kStereoScaleDeviation = 0.01;
+constexpr double kMinStereoAngle_px = 1.0;  // between the rays of a point in both cameras
+
+// Drops the observations in the second camera and the measured depths.
+void ForgetDepth(std::vector<Track>* tracks) {
+  for (Track& track : *tracks) {
+    for (ViewObservation& observation : track.observations) {
+      observation.right.reset();
+      observation.depth.reset();
+    }
+  }
+}
 
 // One attempt at initialization, step by step.
 class Attempt {
@@ -23,9 +39,13 @@ class Attempt {
 
  private:
   bool EstimateBias();
+  bool SetGyroBias(const std::vector<RotationMeasurement>& rotations);
   std::optional<RotationMeasurement> MeasureRotation(int interval) const;
   void ChainRotations();
   bool Reconstruct();
+  bool ReconstructInStereo();
+  void AdoptStereo(const StereoStructure& stereo);
+  Rigid3d T_C_C1() const;  // identity without a second camera
   bool Align();
   void SetStates();
   bool Adjust();
@@ -62,6 +82,7 @@ Attempt::Attempt(const std::vector<FrameMeasurement>& frames, const SensorConfig
   views.reserve(frames.size());
   for (const FrameMeasurement& frame : frames) views.push_back(&frame.points);
   tracks_ = CollectTracks(views);
+  if (!options.stereo) ForgetDepth(&tracks_);
   for (size_t i = 0; i + 1 < frames.size(); ++i) {
     preintegrations_.emplace_back(sensor.imu_noise, ImuBias{});
     for (const ImuSample& sample : frames[i + 1].imu) preintegrations_.back().Append(sample);
@@ -91,6 +112,10 @@ bool Attempt::EstimateBias() {
       return false;  // with the last pair's reason; RANSAC without solution takes longest
     }
   }
+  return SetGyroBias(rotations);
+}
+
+bool Attempt::SetGyroBias(const std::vector<RotationMeasurement>& rotations) {
   const auto gyro_bias = EstimateGyroBias(rotations, reason_);
   if (!gyro_bias) return false;
   for (Preintegration& imu : preintegrations_) {
@@ -115,13 +140,61 @@ bool Attempt::Reconstruct() {
   return structure.has_value();
 }
 
+Rigid3d Attempt::T_C_C1() const {
+  if (!sensor_.second_camera) return {};
+  return sensor_.T_B_C.Inverse() * sensor_.second_camera->T_B_C;
+}
+
+// Replaces EstimateBias() and Reconstruct().
+bool Attempt::ReconstructInStereo() {
+  ChainRotations();  // by the gyroscope without bias: to begin with
+  std::vector<Eigen::Quaterniond> R_G_C;
+  for (const Eigen::Quaterniond& R_G_B : R_G_B_) R_G_C.push_back(R_G_B * sensor_.T_B_C.rotation);
+  const StereoStructureOptions options{T_C_C1(), noise_px_ / focal_length_,
+                                       kMinStereoAngle_px / focal_length_};
+  const auto stereo = ReconstructFromStereo(tracks_, R_G_C, options, reason_);
+  if (!stereo) return false;
+  const Eigen::Quaterniond R_B_C = sensor_.T_B_C.rotation;
+  std::vector<RotationMeasurement> rotations;
+  for (size_t i = 0; i < preintegrations_.size(); ++i) {
+    // Two errors that are about equal: half the information of one.
+    const Eigen::Matrix3d information =
+        0.25 * (stereo->rotation_information[i] + stereo->rotation_information[i + 1]);
+    const Eigen::Quaterniond R_C0_C1 =
+        stereo->T_G_C[i].rotation.conjugate() * stereo->T_G_C[i + 1].rotation;
+    const Eigen::Matrix3d R = R_B_C.toRotationMatrix();
+    rotations.push_back({&preintegrations_[i], R_B_C * R_C0_C1 * R_B_C.conjugate(),
+                         R * information * R.transpose()});
+  }
+  if (!SetGyroBias(rotations)) return false;
+  ChainRotations();
+  AdoptStereo(*stereo);
+  return true;
+}
+
+// Takes positions and points over from the frame of one of the cameras.
+void Attempt::AdoptStereo(const StereoStructure& stereo) {
+  const Rigid3d& T_S_C0 = stereo.T_G_C.front();
+  const Eigen::Quaterniond R_G_S = sensor_.T_B_C.rotation * T_S_C0.rotation.conjugate();
+  const auto in_G = [&](const Eigen::Vector3d& p_S) -> Eigen::Vector3d {
+    return R_G_S * (p_S - T_S_C0.translation);
+  };
+  for (const Rigid3d& T_S_C : stereo.T_G_C) structure_.p_G_C.push_back(in_G(T_S_C.translation));
+  structure_.p_G.resize(tracks_.size());
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    if (stereo.p_G[i]) structure_.p_G[i] = in_G(*stereo.p_G[i]);
+  }
+}
+
 bool Attempt::Align() {
   std::vector<AlignmentView> views;
   for (size_t i = 0; i < R_G_B_.size(); ++i) views.push_back({R_G_B_[i], structure_.p_G_C[i]});
   std::vector<const Preintegration*> preintegrations;
   for (const Preintegration& imu : preintegrations_) preintegrations.push_back(&imu);
-  const auto alignment =
-      AlignVisualInertial(views, preintegrations, sensor_.T_B_C, sensor_.gravity_norm, reason_);
+  const double scale_deviation =
+      options_.stereo ? kStereoScaleDeviation : std::numeric_limits<double>::infinity();
+  const auto alignment = AlignVisualInertial(views, preintegrations, sensor_.T_B_C,
+                                             sensor_.gravity_norm, scale_deviation, reason_);
   if (alignment) alignment_ = *alignment;
   return alignment.has_value();
 }
@@ -173,7 +246,7 @@ bool Attempt::CheckAdjustment(const VisualInertialBundle& bundle) {
                       options_.max_imu_rms);
     return false;
   }
-  if (bundle.relative_scale_deviation > options_.max_scale_deviation) {
+  if (!options_.stereo && bundle.relative_scale_deviation > options_.max_scale_deviation) {
     *reason_ = Format("scale not observable yet: uncertain by %.1f %% of at most %.1f %%",
                       100 * bundle.relative_scale_deviation, 100 * options_.max_scale_deviation);
     return false;
@@ -182,8 +255,10 @@ bool Attempt::CheckAdjustment(const VisualInertialBundle& bundle) {
 }
 
 bool Attempt::Adjust() {
-  const VisualInertialBundleOptions options{sensor_.T_B_C, sensor_.gravity_norm,
-                                            noise_px_ / focal_length_};
+  VisualInertialBundleOptions options{sensor_.T_B_C, sensor_.gravity_norm,
+                                      noise_px_ / focal_length_};
+  options.T_C_C1 = T_C_C1();
+  if (sensor_.depth) options.depth_noise = sensor_.depth->noise;
   const auto bundle =
       AdjustVisualInertialBundle(tracks_, p_W_, preintegrations_, options, &states_, reason_);
   return bundle && CheckAdjustment(*bundle) && CheckBiases();
@@ -200,9 +275,14 @@ void Attempt::MoveWorldToFirstFrame() {
 }
 
 std::optional<std::vector<FrameState>> Attempt::Run() {
-  if (!EstimateBias()) return std::nullopt;
-  ChainRotations();
-  if (!Reconstruct() || !Align()) return std::nullopt;
+  if (options_.stereo) {
+    if (!ReconstructInStereo()) return std::nullopt;
+  } else {
+    if (!EstimateBias()) return std::nullopt;
+    ChainRotations();
+    if (!Reconstruct()) return std::nullopt;
+  }
+  if (!Align()) return std::nullopt;
   SetStates();
   if (!Adjust()) return std::nullopt;
   MoveWorldToFirstFrame();

@@ -6,13 +6,19 @@
 
 namespace plm_vins {
 
+const ViewObservation* Track::In(int view) const {
+  const auto found = std::find_if(observations.begin(), observations.end(),
+                                  [view](const ViewObservation& o) { return o.view == view; });
+  return found == observations.end() ? nullptr : &*found;
+}
+
 std::vector<Track> CollectTracks(const std::vector<const PointFrame*>& views) {
   std::map<int64_t, Track> by_id;
   for (size_t view = 0; view < views.size(); ++view) {
     for (const PointObservation& point : views[view]->points) {
       Track& track = by_id[point.id];
       track.id = point.id;
-      track.observations.push_back({static_cast<int>(view), point.xy});
+      track.observations.push_back({static_cast<int>(view), point.xy, point.right, point.depth});
     }
   }
   std::vector<Track> tracks;
@@ -26,13 +32,9 @@ std::vector<Correspondence> FindCorrespondences(const std::vector<Track>& tracks
                                                 int view1) {
   std::vector<Correspondence> correspondences;
   for (const Track& track : tracks) {
-    const auto& seen = track.observations;
-    const auto find = [&seen](int view) {
-      return std::find_if(seen.begin(), seen.end(),
-                          [view](const ViewObservation& o) { return o.view == view; });
-    };
-    const auto first = find(view0), second = find(view1);
-    if (first == seen.end() || second == seen.end()) continue;
+    const ViewObservation* const first = track.In(view0);
+    const ViewObservation* const second = track.In(view1);
+    if (first == nullptr || second == nullptr) continue;
     correspondences.push_back({first->xy, second->xy});
   }
   return correspondences;

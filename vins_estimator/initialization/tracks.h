@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/measurements.h"
@@ -11,14 +12,19 @@
 namespace plm_vins {
 
 struct ViewObservation {
-  int view = 0;        // index of the view, 0 is the oldest
-  Eigen::Vector2d xy;  // normalized, undistorted
+  int view = 0;                               // index of the view, 0 is the oldest
+  Eigen::Vector2d xy;                         // normalized, undistorted
+  std::optional<Eigen::Vector2d> right = {};  // in the second camera
+  std::optional<double> depth = {};           // measured [m]
 };
 
 // A point and its observations, in ascending order of views.
 struct Track {
   int64_t id = -1;
   std::vector<ViewObservation> observations;
+
+  // Returns the observation in one view, or null.
+  const ViewObservation* In(int view) const;
 };
 
 // Observations of one point in two views, normalized and undistorted.

@@ -26,8 +26,12 @@ constexpr double kGravityNormTolerance = 0.2;  // relative, of the estimate with
 class AlignmentSystem {
  public:
   AlignmentSystem(const std::vector<AlignmentView>& views,
-                  const std::vector<const Preintegration*>& preintegrations, const Rigid3d& T_B_C)
-      : views_(views), preintegrations_(preintegrations), T_B_C_(T_B_C) {}
+                  const std::vector<const Preintegration*>& preintegrations, const Rigid3d& T_B_C,
+                  double scale_deviation)
+      : views_(views),
+        preintegrations_(preintegrations),
+        T_B_C_(T_B_C),
+        scale_information_(1 / (scale_deviation * scale_deviation)) {}
 
   // Solves for gravity_G = fixed_gravity + gravity_basis * unknown and the other unknowns.
   bool Solve(const Eigen::Vector3d& fixed_gravity, const Eigen::MatrixXd& gravity_basis,
@@ -44,6 +48,7 @@ class AlignmentSystem {
   const std::vector<AlignmentView>& views_;
   const std::vector<const Preintegration*>& preintegrations_;
   Rigid3d T_B_C_;
+  double scale_information_;  // about 1
 };
 
 // Adds the position and velocity rows of the interval from view i to view i + 1, in the body frame
@@ -101,6 +106,8 @@ bool AlignmentSystem::Solve(const Eigen::Vector3d& fixed_gravity,
     AddInterval(i, fixed_gravity, gravity_basis, &H, &b);
   }
   H.bottomRightCorner<3, 3>().diagonal().array() += 1 / (kAccelBiasPrior * kAccelBiasPrior);
+  H(scale, scale) += scale_information_;
+  b(scale) += scale_information_;
   const Eigen::LLT<Eigen::MatrixXd> llt(H);
   if (llt.info() != Eigen::Success) return false;
   const Eigen::VectorXd x = llt.solve(b);
@@ -145,8 +152,8 @@ std::optional<Eigen::Vector3d> EstimateGyroBias(
 std::optional<Alignment> AlignVisualInertial(
     const std::vector<AlignmentView>& views,
     const std::vector<const Preintegration*>& preintegrations, const Rigid3d& T_B_C,
-    double gravity_norm, std::string* reason) {
-  const AlignmentSystem system(views, preintegrations, T_B_C);
+    double gravity_norm, double scale_deviation, std::string* reason) {
+  const AlignmentSystem system(views, preintegrations, T_B_C, scale_deviation);
   Alignment result;
   if (!system.Solve(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(), &result)) {
     *reason = "velocities, gravity and scale are not determined";

@@ -42,10 +42,11 @@ struct Alignment {
 // by weighted linear least squares ([Qin2018], section V.B, in another frame): first with free
 // gravity, then with gravity of known norm in its tangent plane and with the accelerometer bias.
 // `preintegrations[i]` is from view i to view i + 1 and is linearized at the gyroscope bias.
-// Returns nullopt, with the reason, if gravity or scale are impossible.
+// `scale_deviation`: of the scale about 1; infinite if it is unknown. Returns nullopt, with the
+// reason, if gravity or scale are impossible.
 std::optional<Alignment> AlignVisualInertial(
     const std::vector<AlignmentView>& views,
     const std::vector<const Preintegration*>& preintegrations, const Rigid3d& T_B_C,
-    double gravity_norm, std::string* reason);
+    double gravity_norm, double scale_deviation, std::string* reason);
 
 }  // namespace plm_vins

@@ -11,6 +11,7 @@
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/factors/stereo_factor.h"
 #include "vins_estimator/geometry/depth_limits.h"
 #include "vins_estimator/initialization/bundle_priors.h"
 #include "vins_estimator/optimization/levenberg_marquardt.h"
@@ -42,18 +43,20 @@ class Bundle {
   void AddPriors();
   Eigen::Vector3d InCamera(int view, const Eigen::Vector3d& p_W) const;
   void AddTrack(const Track& track, const Eigen::Vector3d& p_W);
+  void AddDepth(const ViewObservation& host, const ViewObservation& target, int landmark,
+                int point);
   Eigen::VectorXd ScaleDirection() const;
 
   const VisualInertialBundleOptions options_;
   const Eigen::Vector3d gravity_W_;
   const std::vector<Preintegration>& preintegrations_;
   std::vector<FrameState>& states_;
-  std::array<double, kPoseSize> extrinsics_;
+  std::array<double, kPoseSize> extrinsics_, mounting_;
   double time_offset_ = 0;
   std::vector<std::array<double, kPointSize>> points_;  // image point and inverse depth in the host
   ceres::CauchyLoss loss_{1.0};
   std::vector<int> poses_, motions_;  // variable indices, by view
-  int extrinsic_variable_ = -1, td_variable_ = -1;
+  int extrinsic_variable_ = -1, mounting_variable_ = -1, td_variable_ = -1;
   WindowProblem problem_;
 };
 
@@ -68,6 +71,9 @@ Bundle::Bundle(const std::vector<Track>& tracks,
   FrameState extrinsics;
   extrinsics.SetPose(options.T_B_C);
   extrinsics_ = extrinsics.pose;
+  FrameState mounting;
+  mounting.SetPose(options.T_C_C1);
+  mounting_ = mounting.pose;
   points_.reserve(tracks.size());  // the problem stores pointers to the elements
   AddVariables();
   AddImu();
@@ -85,6 +91,7 @@ void Bundle::AddVariables() {
   constexpr bool kConstant = true;
   extrinsic_variable_ =
       problem_.AddVariable({BlockKind::kExtrinsic, 0}, extrinsics_.data(), kConstant);
+  mounting_variable_ = problem_.AddVariable({BlockKind::kMounting, 0}, mounting_.data(), kConstant);
   td_variable_ = problem_.AddVariable({BlockKind::kTimeOffset, 0}, &time_offset_, kConstant);
 }
 
@@ -119,16 +126,44 @@ void Bundle::AddTrack(const Track& track, const Eigen::Vector3d& p_W) {
   const int index = problem_.AddLandmark(id, points_.back().data());
   const int point = problem_.Find(id);
   const double weight = 1 / options_.noise;
-  const auto bearing = [](const ViewObservation& o) {
-    return TimedBearing{o.xy, Eigen::Vector2d::Zero(), 0};
+  const auto bearing = [](const Eigen::Vector2d& xy) {
+    return TimedBearing{xy, Eigen::Vector2d::Zero(), 0};
   };
-  problem_.AddLandmarkTerm(index, PointHostFactor(bearing(host), weight), &loss_,
+  problem_.AddLandmarkTerm(index, PointHostFactor(bearing(host.xy), weight), &loss_,
                            {td_variable_, point});
   for (size_t i = 1; i < track.observations.size(); ++i) {
     const ViewObservation& target = track.observations[i];
     problem_.AddLandmarkTerm(
-        index, PointFactor(bearing(target), weight), &loss_,
+        index, PointFactor(bearing(target.xy), weight), &loss_,
         {poses_[host.view], poses_[target.view], extrinsic_variable_, td_variable_, point});
+  }
+  for (const ViewObservation& target : track.observations) AddDepth(host, target, index, point);
+}
+
+// Adds the observation in the second camera and the measured depth of a landmark in one view.
+void Bundle::AddDepth(const ViewObservation& host, const ViewObservation& target, int landmark,
+                      int point) {
+  const bool in_host = target.view == host.view;
+  const double weight = 1 / options_.noise, depth_weight = 1 / options_.depth_noise;
+  const int host_pose = poses_[host.view], pose = poses_[target.view];
+  if (target.right) {
+    const TimedBearing right{*target.right, Eigen::Vector2d::Zero(), 0};
+    if (in_host) {
+      problem_.AddLandmarkTerm(landmark, RightPointHostFactor(right, weight), &loss_,
+                               {mounting_variable_, td_variable_, point});
+    } else {
+      problem_.AddLandmarkTerm(
+          landmark, RightPointFactor(right, weight), &loss_,
+          {host_pose, pose, extrinsic_variable_, mounting_variable_, td_variable_, point});
+    }
+  }
+  if (!target.depth) return;
+  if (in_host) {
+    problem_.AddLandmarkTerm(landmark, DepthHostFactor(*target.depth, depth_weight), &loss_,
+                             {point});
+  } else {
+    problem_.AddLandmarkTerm(landmark, DepthFactor(*target.depth, depth_weight), &loss_,
+                             {host_pose, pose, extrinsic_variable_, point});
   }
 }
 

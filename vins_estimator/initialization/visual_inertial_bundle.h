@@ -19,6 +19,8 @@ struct VisualInertialBundleOptions {
   double noise;                   // standard deviation of a normalized coordinate
   double accel_bias_prior = 0.1;  // standard deviation of the accelerometer bias about 0 [m/s^2]
   double gyro_bias_prior = 0.05;  // of the gyroscope bias about its initial value [rad/s]
+  Rigid3d T_C_C1 = {};            // of the second camera, if tracks have observations in it
+  double depth_noise = 0;         // of a measured inverse depth, if tracks have any [1/m]
 };
 
 // Residuals of the adjusted states, in standard deviations (1 is ideal), and the scale uncertainty.

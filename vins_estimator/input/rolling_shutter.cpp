@@ -74,6 +74,7 @@ void RollingShutter::MovePoints(const Motion& motion, std::vector<PointObservati
     if (!velocity) continue;
     point.velocity = *velocity;
     point.xy -= now.share * motion.readout * *velocity;
+    if (point.right) *point.right -= now.share * motion.readout * *velocity;  // of nearly that row
     moved.push_back(point);
   }
   points_ = std::move(sights);
@@ -90,7 +91,13 @@ void RollingShutter::MoveLines(const Motion& motion, std::vector<LineObservation
     if (before == lines_.end()) continue;
     const auto start = MoveEnd(motion, before->second, line.start);
     const auto end = MoveEnd(motion, before->second, line.end);
-    if (start && end) moved.push_back({line.id, *start, *end});
+    if (!start || !end) continue;
+    LineObservation& at_stamp = moved.emplace_back(line);
+    at_stamp.start = *start;
+    at_stamp.end = *end;
+    if (!line.right) continue;
+    at_stamp.right->start += *start - line.start;
+    at_stamp.right->end += *end - line.end;
   }
   lines_ = std::move(seen);
   *lines = std::move(moved);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <vector>
 
 #include "vins_estimator/map/sliding_window.h"
 
@@ -46,12 +47,21 @@ class LandmarkMap {
   Landmarks landmarks_;
 };
 
+// Counts the observations, in both cameras and of depth.
+template <typename View>
+int CountMeasurements(const std::vector<View>& views) {
+  int count = 0;
+  for (const View& view : views) count += view.CountMeasurements();
+  return count;
+}
+
 // Returns whether the landmark is part of the optimization: it has enough observations to be
 // overdetermined.
 template <typename Landmark>
 bool IsOptimized(const Landmark& landmark) {
-  constexpr size_t kMinViews = 3;
-  return landmark.triangulated && landmark.views.size() >= kMinViews;
+  constexpr int kMinMeasurements = 3;
+  return landmark.triangulated && landmark.views.size() > 1 &&
+         CountMeasurements(landmark.views) >= kMinMeasurements;
 }
 
 // Returns whether an optimized landmark is observed in the newest image.
@@ -72,6 +82,16 @@ bool WasOptimizedAt(int64_t keyframe_ns, const Landmark& landmark) {
 template <typename Landmark>
 bool LeavesWith(int64_t host_ns, const Landmark& landmark) {
   return landmark.triangulated && landmark.host().t_ns == host_ns && landmark.views.size() > 1;
+}
+
+// Drops all observations in the second camera and of depth: if a landmark is wrong, they may be the
+// cause, so it is triangulated again without them. Returns whether there were any.
+template <typename Landmark>
+bool StartWithoutDepth(Landmark* landmark) {
+  if (CountMeasurements(landmark->views) == static_cast<int>(landmark->views.size())) return false;
+  for (auto& view : landmark->views) view.ForgetDepth();
+  landmark->triangulated = false;
+  return true;
 }
 
 // Keeps a single observation of a landmark, which becomes its host.

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "common/measurements.h"
 #include "vins_estimator/geometry/line_segment_view.h"
 #include "vins_estimator/geometry/plucker.h"
 #include "vins_estimator/state/line_axis.h"
@@ -16,6 +18,10 @@ namespace plm_vins {
 struct LineView {
   int64_t t_ns = 0;  // identifies the frame
   LineSegmentView segment;
+  std::optional<RightSegment> right = {};  // in the second camera at the same time
+
+  void ForgetDepth() { right.reset(); }
+  int CountMeasurements() const { return 1 + right.has_value(); }
 };
 
 inline double Length(const LineView& view) {

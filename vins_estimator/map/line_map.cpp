@@ -9,15 +9,21 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMinViewsToTriangulate = 3;
-constexpr double kMinSegment = 1e-3;   // normalized
-constexpr double kMinDistance = 1e-6;  // of a line from its host's camera [m]
+constexpr int kMinMeasurementsToTriangulate = 3;
+constexpr double kMaxRightNoise = 2.0;  // of a segment that helps to triangulate, to the noise
+constexpr double kMinSegment = 1e-3;    // normalized
+constexpr double kMinDistance = 1e-6;   // of a line from its host's camera [m]
 
 LineTriangulationResult TriangulateLandmark(const SlidingWindow& window,
                                             const LineTriangulationOptions& options,
                                             LineLandmark* landmark) {
-  const TriangulatedLine triangulated =
-      TriangulateLine(options, SightingsOf(landmark->views, window));
+  std::vector<LineSighting> sightings = SightingsOf(landmark->views, window);
+  for (const LineView& view : landmark->views) {
+    if (view.right && view.right->deviation.maxCoeff() < kMaxRightNoise * options.noise) {
+      sightings.push_back({window.T_W_C1(view.t_ns), {view.right->start, view.right->end}});
+    }
+  }
+  const TriangulatedLine triangulated = TriangulateLine(options, sightings);
   landmark->triangulated = triangulated.result == LineTriangulationResult::kOk;
   if (landmark->triangulated) landmark->coordinates = triangulated.line;
   return triangulated.result;
@@ -84,6 +90,26 @@ int RemoveBadViews(const SlidingWindow& window, const LineLimits& limits, LineLa
   return static_cast<int>(before - landmark->views.size());
 }
 
+// Removes observations in the second camera that do not fit. Returns how many were removed.
+int RemoveBadRights(const SlidingWindow& window, const LineLimits& limits, LineLandmark* landmark) {
+  const PluckerLine line_W = LineInWorld(*landmark, window);
+  int removed = 0;
+  for (LineView& view : landmark->views) {
+    if (!view.right) continue;
+    const PluckerLine line_C1 = window.T_W_C1(view.t_ns).Inverse() * line_W;
+    Eigen::Vector2d distances;
+    const bool has_image = EndPointDistances({view.right->start, view.right->end}, line_C1.moment,
+                                             &distances, nullptr);
+    if (has_image &&
+        distances.cwiseQuotient(view.right->deviation).norm() <= M_SQRT2 * limits.max_view_error) {
+      continue;
+    }
+    view.right.reset();
+    ++removed;
+  }
+  return removed;
+}
+
 }  // namespace
 
 void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark) {
@@ -147,7 +173,7 @@ void LineMap::AddFrame(const LineFrame& frame) {
     if (!((line.end - line.start).norm() > kMinSegment)) continue;
     LineLandmark& landmark = landmarks_[line.id];
     landmark.id = line.id;
-    landmark.views.push_back({frame.t_ns, {line.start, line.end}});
+    landmark.views.push_back({frame.t_ns, {line.start, line.end}, line.right});
   }
 }
 
@@ -156,7 +182,8 @@ LineTriangulationCounts LineMap::Triangulate(const SlidingWindow& window,
   LineTriangulationCounts counts;
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {
     LineLandmark& landmark = it->second;
-    if (landmark.triangulated || landmark.views.size() < kMinViewsToTriangulate) {
+    if (landmark.triangulated ||
+        CountMeasurements(landmark.views) < kMinMeasurementsToTriangulate) {
       ++it;
       continue;
     }
@@ -165,8 +192,9 @@ LineTriangulationCounts LineMap::Triangulate(const SlidingWindow& window,
       result = LineTriangulationResult::kTooLong;
     }
     Count(result, &counts);
-    const bool stays =
-        result == LineTriangulationResult::kOk || result == LineTriangulationResult::kDegenerate;
+    const bool stays = result == LineTriangulationResult::kOk ||
+                       result == LineTriangulationResult::kDegenerate ||
+                       StartWithoutDepth(&landmark);
     it = stays ? std::next(it) : landmarks_.erase(it);
   }
   return counts;
@@ -191,13 +219,15 @@ int LineMap::RemoveOutliers(const SlidingWindow& window, const LineLimits& limit
     }
     double mean_square = 0;
     removed += RemoveBadAnchorViews(window, limits, &landmark);
+    removed += RemoveBadRights(window, limits, &landmark);
     removed += RemoveBadViews(window, limits, &landmark, &mean_square);
     const auto segment = ObservedSegment(landmark, window);
     const double max_mean_error = limits.triangulation.max_mean_error;
     const bool bad = !segment || Length(*segment) > limits.max_length ||
                      landmark.views.size() < 2 || mean_square > max_mean_error * max_mean_error;
     removed += bad;
-    it = bad ? landmarks_.erase(it) : std::next(it);
+    const bool stays = !bad || StartWithoutDepth(&landmark);
+    it = stays ? std::next(it) : landmarks_.erase(it);
   }
   return removed;
 }

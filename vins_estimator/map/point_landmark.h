@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "vins_estimator/geometry/point_in_host.h"
@@ -14,6 +16,20 @@ namespace plm_vins {
 struct PointView {
   int64_t t_ns = 0;  // identifies the frame
   TimedBearing bearing;
+  std::optional<Eigen::Vector2d> right = {};  // normalised, in the second camera at the same time
+  std::optional<double> depth = {};           // measured, along the optical axis [m]
+
+  // Returns the observation in the second camera, which moves in its image as in the first.
+  TimedBearing RightBearing() const {
+    TimedBearing bearing_C1 = bearing;
+    bearing_C1.xy = *right;
+    return bearing_C1;
+  }
+  void ForgetDepth() {
+    right.reset();
+    depth.reset();
+  }
+  int CountMeasurements() const { return 1 + right.has_value() + depth.has_value(); }
 };
 
 // A corner track over the frames of the window, and the point in space. The first observation is

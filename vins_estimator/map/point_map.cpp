@@ -2,6 +2,7 @@
 #include "vins_estimator/map/point_map.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/camera/readout_share.h"
@@ -12,11 +13,16 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMinViewsToTriangulate = 2;
+constexpr int kMinMeasurementsToTriangulate = 2;
 constexpr size_t kMinDepths = 10;  // fewer do not represent the scene
 
 PointSighting SightingOf(const PointView& view, const SlidingWindow& window) {
   return {window.T_W_C(view.t_ns), window.AtState(view.bearing)};
+}
+
+// Returns the observation by the second camera, which must exist.
+PointSighting RightSightingOf(const PointView& view, const SlidingWindow& window) {
+  return {window.T_W_C1(view.t_ns), window.AtState(view.RightBearing())};
 }
 
 // Sets the coordinates of a landmark in the camera of one of its observations; marks it as not
@@ -31,12 +37,42 @@ void SetPosition(const Eigen::Vector3d& p_W, const SlidingWindow& window, const 
   }
 }
 
+// Returns the position by the first measured depth; nullopt without one.
+std::optional<Eigen::Vector3d> AtMeasuredDepth(const PointLandmark& landmark,
+                                               const SlidingWindow& window) {
+  for (const PointView& view : landmark.views) {
+    if (!view.depth || *view.depth < kMinTriangulatedDepth) continue;
+    const PointSighting sighting = SightingOf(view, window);
+    return sighting.T_W_C * (*view.depth * sighting.xy.homogeneous());
+  }
+  return std::nullopt;
+}
+
+std::vector<PointSighting> WithRightSightings(std::vector<PointSighting> sightings,
+                                              const PointLandmark& landmark,
+                                              const SlidingWindow& window) {
+  for (const PointView& view : landmark.views) {
+    if (view.right) sightings.push_back(RightSightingOf(view, window));
+  }
+  return sightings;
+}
+
 void TriangulateLandmark(const SlidingWindow& window, double min_angle, PointLandmark* landmark) {
   std::vector<PointSighting> sightings;
   sightings.reserve(landmark->views.size());
   for (const PointView& view : landmark->views) sightings.push_back(SightingOf(view, window));
-  const auto p_W = TriangulatePoint(sightings, min_angle);
+  const std::vector<PointSighting> all = WithRightSightings(sightings, *landmark, window);
+  auto p_W = TriangulatePoint(all, min_angle);
+  if (!p_W && all.size() > sightings.size()) p_W = TriangulatePoint(sightings, min_angle);
+  if (!p_W) p_W = AtMeasuredDepth(*landmark, window);
   if (p_W) SetPosition(*p_W, window, landmark->host(), landmark);
+}
+
+// Returns whether the depth of a landmark contradicts that which was measured in one of its views.
+bool ContradictsDepth(const Eigen::Vector3d& p_W, const PointView& view, double max_error,
+                      const SlidingWindow& window) {
+  const double z = (window.T_W_C(view.t_ns).Inverse() * p_W).z();
+  return !(std::abs(1 / z - 1 / *view.depth) <= max_error);
 }
 
 }  // namespace
@@ -65,13 +101,18 @@ void PointMap::AddFrame(const PointFrame& frame, const ImageTiming& timing) {
     const double share = ReadoutShare(point.uv_px.y(), timing.image_height);
     landmark.views.push_back(
         {frame.t_ns,
-         {point.xy, point.velocity, timing.cut_time_offset, share, timing.cut_readout}});
+         {point.xy, point.velocity, timing.cut_time_offset, share, timing.cut_readout},
+         point.right,
+         point.depth});
   }
 }
 
 void PointMap::Triangulate(const SlidingWindow& window, double min_angle) {
   for (auto& [id, landmark] : landmarks_) {
-    if (landmark.triangulated || landmark.views.size() < kMinViewsToTriangulate) continue;
+    if (landmark.triangulated ||
+        CountMeasurements(landmark.views) < kMinMeasurementsToTriangulate) {
+      continue;
+    }
     TriangulateLandmark(window, min_angle, &landmark);
   }
 }
@@ -132,9 +173,44 @@ int PointMap::RemoveOutliers(const SlidingWindow& window, double max_error) {
     const size_t count = landmark.views.size() - 1;
     bad = bad || count == 0 || sum / count > max_error;
     removed += bad;
-    it = bad ? landmarks_.erase(it) : std::next(it);
+    const bool stays = !bad || StartWithoutDepth(&landmark);
+    it = stays ? std::next(it) : landmarks_.erase(it);
   }
   return removed;
+}
+
+std::vector<RightResidual> PointMap::RightResiduals(const SlidingWindow& window) {
+  std::vector<RightResidual> residuals;
+  for (auto& [id, landmark] : landmarks_) {
+    if (!IsOptimized(landmark)) continue;
+    const Eigen::Vector3d p_W = PositionInWorld(landmark, window);
+    for (PointView& view : landmark.views) {
+      if (!view.right) continue;
+      const PointSighting sighting = RightSightingOf(view, window);
+      const Eigen::Vector3d p_C1 = sighting.T_W_C.Inverse() * p_W;
+      if (p_C1.z() < kMinLandmarkDepth) {
+        view.right.reset();
+      } else {
+        residuals.push_back({&view, p_C1.hnormalized() - sighting.xy});
+      }
+    }
+  }
+  return residuals;
+}
+
+DepthCounts PointMap::RemoveDepthOutliers(const SlidingWindow& window, double max_error) {
+  DepthCounts counts;
+  for (auto& [id, landmark] : landmarks_) {
+    if (!IsOptimized(landmark)) continue;
+    const Eigen::Vector3d p_W = PositionInWorld(landmark, window);
+    for (PointView& view : landmark.views) {
+      if (!view.depth) continue;
+      const bool wrong = ContradictsDepth(p_W, view, max_error, window);
+      if (wrong) view.depth.reset();
+      ++(wrong ? counts.rejected : counts.used);
+    }
+  }
+  return counts;
 }
 
 }  // namespace plm_vins

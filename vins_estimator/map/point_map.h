@@ -9,9 +9,16 @@
 #include "vins_estimator/map/landmark_map.h"
 #include "vins_estimator/map/point_landmark.h"
 #include "vins_estimator/map/sliding_window.h"
+#include "vins_estimator/state/estimate_counts.h"
 #include "vins_estimator/state/map_elements.h"
 
 namespace plm_vins {
+
+// Residual of an observation in the second camera, normalized.
+struct RightResidual {
+  PointView* view;
+  Eigen::Vector2d error;  // projection minus observation
+};
 
 // All corner tracks with observations in the window. Every observation belongs to a frame of it.
 class PointMap : public LandmarkMap<PointLandmark> {
@@ -41,6 +48,13 @@ class PointMap : public LandmarkMap<PointLandmark> {
   // and single observations with more than twice that (normalized). Returns the number of removed
   // landmarks and observations.
   int RemoveOutliers(const SlidingWindow& window, double max_error);
+
+  // Returns the residuals of the optimized points in the second camera; drops its observations of
+  // points that are not in front of it.
+  std::vector<RightResidual> RightResiduals(const SlidingWindow& window);
+
+  // Drops measured depths whose inverse [1/m] is off by more than `max_error`. The points stay.
+  DepthCounts RemoveDepthOutliers(const SlidingWindow& window, double max_error);
 };
 
 // Transforms a landmark's coordinates to the camera of another observation; marks it as not

@@ -24,12 +24,16 @@ Frame& Found(Frame* frame, int64_t t_ns) {
   return *frame;
 }
 
+void Set(const Rigid3d& T, std::array<double, 7>* pose) {
+  Eigen::Map<Eigen::Vector3d>(pose->data()) = T.translation;
+  Eigen::Map<Eigen::Quaterniond>(pose->data() + 3) = T.rotation.normalized();
+}
+
 }  // namespace
 
-void SlidingWindow::SetExtrinsic(const Rigid3d& T_B_C) {
-  Eigen::Map<Eigen::Vector3d>(extrinsic.data()) = T_B_C.translation;
-  Eigen::Map<Eigen::Quaterniond>(extrinsic.data() + 3) = T_B_C.rotation.normalized();
-}
+void SlidingWindow::SetExtrinsic(const Rigid3d& T_B_C) { Set(T_B_C, &extrinsic); }
+
+void SlidingWindow::SetMounting(const Rigid3d& T_C_C1) { Set(T_C_C1, &mounting); }
 
 WindowFrame& SlidingWindow::FrameAt(int64_t t_ns) { return Found(FindIn(&frames, t_ns), t_ns); }
 

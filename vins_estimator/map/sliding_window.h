@@ -39,7 +39,9 @@ struct SlidingWindow {
   std::vector<WindowFrame> frames;
   std::vector<AnchorFrame> anchors;
   std::array<double, 7> extrinsic = {0, 0, 0, 0, 0, 0, 1};  // T_B_C, laid out like FrameState::pose
-  double td = 0;                                            // t_imu = t_image + td [s]
+  // T_C_C1, the pose of the second camera in the first, laid out alike; unused without one.
+  std::array<double, 7> mounting = {0, 0, 0, 0, 0, 0, 1};
+  double td = 0;       // t_imu = t_image + td [s]
   double readout = 0;  // rolling-shutter time from the first row to the last [s]
   Intrinsics intrinsics = Intrinsics::Zero();                // of the camera
   Intrinsics ray_intrinsics = Intrinsics::Zero();            // with which all rays were computed
@@ -50,11 +52,10 @@ struct SlidingWindow {
   WindowFrame& second_newest() { return frames[frames.size() - 2]; }
   const WindowFrame& second_newest() const { return frames[frames.size() - 2]; }
 
-  Rigid3d T_B_C() const {
-    return {Eigen::Quaterniond(Eigen::Map<const Eigen::Quaterniond>(extrinsic.data() + 3)),
-            Eigen::Map<const Eigen::Vector3d>(extrinsic.data())};
-  }
+  Rigid3d T_B_C() const { return ToRigid3d(extrinsic); }
+  Rigid3d T_C_C1() const { return ToRigid3d(mounting); }
   void SetExtrinsic(const Rigid3d& T_B_C);
+  void SetMounting(const Rigid3d& T_C_C1);
 
   // Returns a frame by its time; throws std::logic_error if there is none: observations in a frame
   // must be removed before the frame.
@@ -74,6 +75,9 @@ struct SlidingWindow {
   Rigid3d T_W_C(const WindowFrame& frame) const { return T_W_C(frame.state); }
   Rigid3d T_W_C(int64_t t_ns) const { return T_W_C(StateAt(t_ns)); }
 
+  // Returns the pose of the second camera.
+  Rigid3d T_W_C1(int64_t t_ns) const { return T_W_C(t_ns) * T_C_C1(); }
+
   // Sets when standstill began, up to the newest frame, which was just added; nullopt if moving.
   // May reclassify the previous frame as stationary.
   void SetStillSince(std::optional<int64_t> still_since_ns);
@@ -88,6 +92,12 @@ struct SlidingWindow {
   // Removes the oldest frame from the window and keeps its pose as an anchor.
   void TurnOldestIntoAnchor();
   void RemoveAnchor(int64_t t_ns);
+
+ private:
+  static Rigid3d ToRigid3d(const std::array<double, 7>& pose) {
+    return {Eigen::Quaterniond(Eigen::Map<const Eigen::Quaterniond>(pose.data() + 3)),
+            Eigen::Map<const Eigen::Vector3d>(pose.data())};
+  }
 };
 
 }  // namespace plm_vins

@@ -24,6 +24,9 @@ WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& op
   WindowEstimate estimate{LocalMap(options)};
   SlidingWindow& window = estimate.map.window;
   window.SetExtrinsic(sensor.T_B_C);
+  if (sensor.second_camera) {
+    window.SetMounting(sensor.T_B_C.Inverse() * sensor.second_camera->T_B_C);
+  }
   window.td = sensor.td;
   window.readout = sensor.ReadoutTime();
   window.intrinsics = window.ray_intrinsics = sensor.camera.intrinsics();

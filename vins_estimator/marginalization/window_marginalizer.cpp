@@ -52,14 +52,15 @@ MarginalizationPrior MarginalizeOldest(const ProblemOptions& options,
                                        const MarginalizationPrior& prior, LocalMap* map,
                                        bool keep_pose) {
   const int64_t oldest_ns = map->window.frames.front().state.t_ns;
+  const int64_t newest_ns = map->window.newest().state.t_ns;
   ProblemBuilder builder(options, &map->window, &prior);
   builder.AddPrior();
   builder.AddMotion(1);
   for (auto& [id, landmark] : map->points.landmarks()) {
-    if (LeavesWith(oldest_ns, landmark)) builder.AddPoint(&landmark);
+    if (LeavesWith(oldest_ns, landmark)) builder.AddPoint(&landmark, newest_ns);
   }
   for (auto& [id, landmark] : map->lines.landmarks()) {
-    if (LeavesWith(oldest_ns, landmark)) builder.AddLine(&landmark);
+    if (LeavesWith(oldest_ns, landmark)) builder.AddLine(&landmark, newest_ns);
   }
   return Summarize(builder.problem())
       .Marginalize(keep_pose ? IsMotionOfFrame(oldest_ns) : IsOfFrame(oldest_ns));

@@ -11,13 +11,14 @@ using ExtrinsicMode = SensorConfig::ExtrinsicMode;
 
 bool RefinesCalibration(const SensorConfig& sensor) {
   return sensor.estimate_intrinsics || sensor.estimate_td || sensor.estimate_rolling_shutter_tr ||
-         sensor.estimate_extrinsic != ExtrinsicMode::kFixed;
+         sensor.estimate_extrinsic != ExtrinsicMode::kFixed || sensor.second_camera;
 }
 
 Config WithCalibration(const Calibration& calibration, Config config) {
   SensorConfig& sensor = config.sensor;
   sensor.camera = calibration.camera;
   sensor.T_B_C = calibration.T_B_C;
+  if (calibration.T_C_C1) sensor.second_camera->T_B_C = sensor.T_B_C * *calibration.T_C_C1;
   sensor.td = calibration.td;
   if (sensor.rolling_shutter) sensor.rolling_shutter_tr = calibration.readout;
   // The rotation is known now, so it only needs refinement.

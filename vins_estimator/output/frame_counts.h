@@ -17,6 +17,10 @@ enum FrameCount : size_t {
   kPointsObserved,  // given to the estimator
   kPointsInWindow,  // optimized landmarks
   kPointsRejected,  // landmarks or observations removed as outliers
+  kRightUsed,       // observations of points in the second camera, in the window
+  kRightRejected,   // removed as outliers
+  kDepthsUsed,      // measured depths of points, in the window
+  kDepthsRejected,  // removed as outliers
   kLinesFollowed,   // tracked from the previous image
   kLinesUnmatched,  // lost: flow failed or appearance differs
   kLinesOffCourse,  // lost: too far from the prediction
@@ -46,15 +50,19 @@ enum FrameCount : size_t {
 };
 
 constexpr std::array<const char*, kFrameCounts> kCountNames = {
-    "points_followed",        "points_flow_lost",      "points_not_back",    "points_epipolar",
-    "points_crowded",         "points_added",          "points_observed",    "points_in_window",
-    "points_rejected",        "lines_followed",        "lines_unmatched",    "lines_off_course",
-    "lines_edge_lost",        "lines_duplicate",       "lines_detected",     "lines_added",
-    "lines_observed",         "lines_triangulated",    "lines_degenerate",   "lines_behind",
-    "lines_inconsistent",     "lines_too_long",        "lines_merged",       "lines_recognised",
-    "merge_candidates",       "merge_other_direction", "merge_distant",      "merge_apart",
-    "merge_distant_in_image", "merge_side_by_side",    "merge_inconsistent", "lines_in_window",
-    "lines_rejected",         "lines_wandering"};
+    "points_followed",    "points_flow_lost",   "points_not_back",
+    "points_epipolar",    "points_crowded",     "points_added",
+    "points_observed",    "points_in_window",   "points_rejected",
+    "right_used",         "right_rejected",     "depths_used",
+    "depths_rejected",    "lines_followed",     "lines_unmatched",
+    "lines_off_course",   "lines_edge_lost",    "lines_duplicate",
+    "lines_detected",     "lines_added",        "lines_observed",
+    "lines_triangulated", "lines_degenerate",   "lines_behind",
+    "lines_inconsistent", "lines_too_long",     "lines_merged",
+    "lines_recognised",   "merge_candidates",   "merge_other_direction",
+    "merge_distant",      "merge_apart",        "merge_distant_in_image",
+    "merge_side_by_side", "merge_inconsistent", "lines_in_window",
+    "lines_rejected",     "lines_wandering"};
 
 using FrameCounts = std::array<int, kFrameCounts>;
 

@@ -14,7 +14,8 @@ enum class BlockKind : uint8_t {
   kPoint,
   kLine,
   kReadout,
-  kIntrinsics
+  kIntrinsics,
+  kMounting
 };
 
 // Persistent identifier of a variable, independent of where its values are stored: a frame's pose

@@ -69,6 +69,11 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
     prior.Add({BlockKind::kExtrinsic, 0}, window.extrinsic.data(),
               Sigmas({{3, uncertainty.extrinsic_position}, {3, uncertainty.extrinsic_rotation}}));
   }
+  if (options.estimate_mounting) {
+    prior.Add(
+        {BlockKind::kMounting, 0}, window.mounting.data(),
+        Sigmas({{2, uncertainty.mounting}, {1, uncertainty.baseline}, {3, uncertainty.mounting}}));
+  }
   if (options.estimate_td) {
     prior.Add({BlockKind::kTimeOffset, 0}, &window.td, Sigmas({{1, uncertainty.td}}));
   }

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+
 #include "common/config/sensor_config.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/problem/marginalization_prior.h"
 #include "vins_estimator/problem/problem_options.h"
 
 namespace plm_vins {
+
+// Relative standard deviation of the length of a stereo baseline as calibrated.
+constexpr double kBaselineDeviation = 0.002;
 
 // Standard deviations of the first state of a window.
 struct InitialUncertainty {
@@ -18,8 +23,11 @@ struct InitialUncertainty {
   double gyro_bias = 0.02;    // [rad/s]
   double extrinsic_position = 0.02;  // [m]
   double extrinsic_rotation = 0.02;  // [rad]
-  double td = 0.01;                  // [s]
-  double readout = 0.01;             // [s]
+  double mounting =
+      0.05 * M_PI / 180;  // of the second camera, and of the baseline's direction [rad]
+  double baseline = kBaselineDeviation;  // relative, of its length
+  double td = 0.01;                      // [s]
+  double readout = 0.01;                 // [s]
   IntrinsicsDeviation intrinsics;
 };
 

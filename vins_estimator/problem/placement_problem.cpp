@@ -44,7 +44,9 @@ void PlacementProblem::AddNewViews(Landmark* landmark) {
   if (!is_known || landmark->views.back().t_ns <= known_until_ns_) return;
   const auto known = views_.AddConstant(landmark);
   for (const auto& view : landmark->views) {
-    if (view.t_ns > known_until_ns_) views_.AddView(known, view);
+    if (view.t_ns <= known_until_ns_) continue;
+    views_.AddView(known, view);
+    views_.AddDepth(known, view);
   }
 }
 

@@ -10,8 +10,10 @@ namespace {
 // not part of the problem.
 WindowVariables::IsConstant KnownCalibration(const ProblemOptions& options) {
   const bool knows_extrinsic = !options.estimate_extrinsic, knows_td = !options.estimate_td;
-  return [knows_extrinsic, knows_td](const BlockId& id) {
+  const bool knows_mounting = !options.estimate_mounting;
+  return [knows_extrinsic, knows_mounting, knows_td](const BlockId& id) {
     return (id.kind == BlockKind::kExtrinsic && knows_extrinsic) ||
+           (id.kind == BlockKind::kMounting && knows_mounting) ||
            (id.kind == BlockKind::kTimeOffset && knows_td);
   };
 }
@@ -45,16 +47,23 @@ void ProblemBuilder::AddPrior() {
   problem_.SetPrior(prior_);
 }
 
-void ProblemBuilder::AddPoint(PointLandmark* landmark) {
-  const ProblemPoint point = views_.AddEliminated(landmark);
-  views_.AddHostView(point);
-  for (size_t i = 1; i < landmark->views.size(); ++i) views_.AddView(point, landmark->views[i]);
+template <typename ProblemLandmark>
+void ProblemBuilder::AddViews(const ProblemLandmark& landmark, int64_t depth_until_ns) {
+  const auto& views = landmark.landmark->views;
+  views_.AddHostView(landmark);
+  for (size_t i = 1; i < views.size(); ++i) views_.AddView(landmark, views[i]);
+  for (const auto& view : views) {
+    if (view.t_ns < depth_until_ns) views_.AddDepth(landmark, view);
+  }
 }
 
-void ProblemBuilder::AddLine(LineLandmark* landmark) {
+void ProblemBuilder::AddPoint(PointLandmark* landmark, int64_t depth_until_ns) {
+  AddViews(views_.AddEliminated(landmark), depth_until_ns);
+}
+
+void ProblemBuilder::AddLine(LineLandmark* landmark, int64_t depth_until_ns) {
   const ProblemLine line = views_.AddEliminated(landmark);
-  views_.AddHostView(line);
-  for (size_t i = 1; i < landmark->views.size(); ++i) views_.AddView(line, landmark->views[i]);
+  AddViews(line, depth_until_ns);
   for (const LineView& view : landmark->anchor_views) views_.AddAnchorView(line, view);
   if (!options_.R_W_M || landmark->axis == LineAxis::kFree) return;
   const Eigen::Vector3d axis_W = *options_.R_W_M * UnitVector(landmark->axis);

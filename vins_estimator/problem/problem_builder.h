@@ -5,6 +5,7 @@
 
 #include <cstddef>
 
+#include "common/measurements.h"
 #include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/point_map.h"
 #include "vins_estimator/map/sliding_window.h"
@@ -32,14 +33,18 @@ class ProblemBuilder {
   // Adds the IMU factor between frames `index` - 1 and `index`, and standstill factors if
   // stationary.
   void AddMotion(size_t index) { motion_.Add(index); }
-  // Adds a triangulated landmark with all its observations.
-  void AddPoint(PointLandmark* landmark);
-  // Adds a line with all its observations, those in anchors, and its Manhattan axis, if any.
-  void AddLine(LineLandmark* landmark);
+  // Adds a triangulated landmark with all its observations, but those that tell its depth from one
+  // image (of the second camera or of a depth image) only before `depth_until_ns`.
+  void AddPoint(PointLandmark* landmark, int64_t depth_until_ns = kEndOfTime_ns);
+  // Adds a line likewise, with its observations in anchors and its Manhattan axis, if any.
+  void AddLine(LineLandmark* landmark, int64_t depth_until_ns = kEndOfTime_ns);
 
   const WindowProblem& problem() const { return problem_; }
 
  private:
+  template <typename ProblemLandmark>
+  void AddViews(const ProblemLandmark& landmark, int64_t depth_until_ns);
+
   const ProblemOptions options_;
   const SlidingWindow* window_;
   const MarginalizationPrior* prior_;

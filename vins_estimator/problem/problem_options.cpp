@@ -15,15 +15,17 @@ constexpr double kAnchorNoise = 5.0;  // times the noise of lines
 ProblemOptions::ProblemOptions(const Config& config, double focal_length)
     : manhattan_weight(180 / (M_PI * config.estimator.manhattan_noise)),
       estimate_extrinsic(config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed),
+      estimate_mounting(config.sensor.second_camera.has_value()),
       estimate_td(config.sensor.estimate_td),
       estimate_readout(config.sensor.estimate_rolling_shutter_tr),
       estimate_intrinsics(config.sensor.estimate_intrinsics),
       camera(config.sensor.camera) {
+  if (config.sensor.depth) depth_weight = 1 / config.sensor.depth->noise;
   SetNoise(config.estimator.point_noise / focal_length, config.estimator.line_noise / focal_length);
 }
 
 void ProblemOptions::SetNoise(double point_noise, double line_noise) {
-  point_weight = 1 / point_noise;
+  point_weight = right_weight = 1 / point_noise;
   line_weight = 1 / line_noise;
   anchor_weight = line_weight / kAnchorNoise;
 }

@@ -31,6 +31,10 @@ struct ProblemOptions {
   double point_loss_scale = 1.0;      // Cauchy loss, in standard deviations
   double line_weight;                 // ... of a line's end points across it
   double line_loss_scale = 1.0;       // Cauchy loss, in standard deviations
+  double right_weight;                // inverse standard deviation of a corner in the second camera
+  double right_loss_scale = 1.0;      // Cauchy loss, in standard deviations
+  double depth_weight = 0;            // inverse standard deviation of a measured inverse depth [m]
+  double depth_loss_scale = 1.0;      // Cauchy loss, in standard deviations
   double anchor_weight;               // ... of lines in anchors
   double manhattan_weight;            // inverse standard deviation of the angle to the axis [1/rad]
   double manhattan_loss_scale = 3.0;  // Tukey loss, in standard deviations
@@ -42,6 +46,7 @@ struct ProblemOptions {
   double passing_velocity = 0;   // [m/s]
   double passing_turn_rate = 0;  // [rad/s]
   bool estimate_extrinsic;
+  bool estimate_mounting;  // of the second camera
   bool estimate_td;
   bool estimate_readout;  // readout time of a rolling shutter
   bool estimate_intrinsics;

@@ -69,6 +69,11 @@ const VariableType& IntrinsicsVariable() {
   return type;
 }
 
+const VariableType& MountingVariable() {
+  static const VariableType type{kPoseSize, kPoseTangentSize, &MountingPlus, &MountingMinus};
+  return type;
+}
+
 const VariableType& LineVariable() {
   static const VariableType type{kLineSize, kLineTangentSize, &LinePlus, &LineMinus};
   return type;
@@ -87,6 +92,8 @@ const VariableType& VariableTypeOf(BlockKind kind) {
       return LineVariable();
     case BlockKind::kIntrinsics:
       return IntrinsicsVariable();
+    case BlockKind::kMounting:
+      return MountingVariable();
     default:
       return ScalarVariable();
   }

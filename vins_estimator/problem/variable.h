@@ -25,7 +25,8 @@ const VariableType& ScalarVariable();  // 1, vector space: time offset, readout 
 const VariableType& PointVariable();
 // 8, vector space: camera intrinsics; focal lengths stay positive.
 const VariableType& IntrinsicsVariable();
-const VariableType& LineVariable();  // 5 -> 4: orthonormal representation (geometry/plucker.h)
+const VariableType& MountingVariable();  // 7 -> 6: second camera in the first (factors/manifolds.h)
+const VariableType& LineVariable();      // 5 -> 4: orthonormal representation (geometry/plucker.h)
 
 const VariableType& VariableTypeOf(BlockKind kind);
 

@@ -5,6 +5,8 @@
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/factors/readout_factor.h"
+#include "vins_estimator/factors/stereo_factor.h"
+#include "vins_estimator/map/landmark_map.h"
 #include "vins_estimator/problem/expected_rays.h"
 
 namespace plm_vins {
@@ -19,12 +21,14 @@ ViewTerms::ViewTerms(const ProblemOptions* options, const SlidingWindow* window,
                   ? CameraModel::Create(options->camera.With(window->ray_intrinsics))
                   : nullptr),
       point_loss_(options->point_loss_scale),
-      line_loss_(options->line_loss_scale) {}
+      line_loss_(options->line_loss_scale),
+      right_loss_(options->right_loss_scale),
+      depth_loss_(options->depth_loss_scale) {}
 
 ProblemPoint ViewTerms::AddEliminated(PointLandmark* landmark) {
   const int eliminated =
       problem_->AddLandmark({BlockKind::kPoint, landmark->id}, landmark->coordinates.data());
-  problem_->ReserveLandmarkTerms(eliminated, landmark->views.size());
+  problem_->ReserveLandmarkTerms(eliminated, CountMeasurements(landmark->views));
   return WithVariables(*landmark, problem_->landmarks()[eliminated].variable, eliminated);
 }
 
@@ -83,6 +87,47 @@ void ViewTerms::AddView(const ProblemLine& line, const LineView& view) {
 
 void ViewTerms::AddAnchorView(const ProblemLine& line, const LineView& view) {
   AddPairView(line, view, options_->anchor_weight);
+}
+
+void ViewTerms::AddDepth(const ProblemPoint& point, const PointView& view) {
+  AddMeasuredDepth(point, view);
+  if (!view.right) return;
+  const TimedBearing right = view.RightBearing();
+  const double weight = options_->right_weight;
+  const int mounting = variables_->Mounting();
+  if (view.t_ns == point.landmark->host().t_ns) {
+    AddTerm(point.eliminated, RightPointHostFactor(right, weight), &right_loss_,
+            {mounting, point.td, point.point});
+  } else {
+    AddTerm(point.eliminated, RightPointFactor(right, weight), &right_loss_,
+            {point.host_pose, variables_->Pose(view.t_ns), point.extrinsic, mounting, point.td,
+             point.point});
+  }
+}
+
+void ViewTerms::AddMeasuredDepth(const ProblemPoint& point, const PointView& view) {
+  if (!view.depth) return;
+  const double weight = options_->depth_weight;
+  if (view.t_ns == point.landmark->host().t_ns) {
+    AddTerm(point.eliminated, DepthHostFactor(*view.depth, weight), &depth_loss_, {point.point});
+  } else {
+    AddTerm(point.eliminated, DepthFactor(*view.depth, weight), &depth_loss_,
+            {point.host_pose, variables_->Pose(view.t_ns), point.extrinsic, point.point});
+  }
+}
+
+void ViewTerms::AddDepth(const ProblemLine& line, const LineView& view) {
+  if (!view.right) return;
+  const LineSegmentView segment{view.right->start, view.right->end};
+  const Eigen::Vector2d weights = view.right->deviation.cwiseInverse();
+  const int mounting = variables_->Mounting();
+  if (view.t_ns == line.landmark->host().t_ns) {
+    AddTerm(line.eliminated, RightLineHostFactor(segment, weights), &right_loss_,
+            {mounting, line.line});
+  } else {
+    AddTerm(line.eliminated, RightLineFactor(segment, weights), &right_loss_,
+            {line.host_pose, variables_->Pose(view.t_ns), line.extrinsic, mounting, line.line});
+  }
 }
 
 void ViewTerms::AddPairView(const ProblemLine& line, const LineView& view, double weight) {

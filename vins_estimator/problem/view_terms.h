@@ -54,6 +54,10 @@ class ViewTerms {
   void AddView(const ProblemPoint& point, const PointView& view);
   void AddView(const ProblemLine& line, const LineView& view);
   void AddAnchorView(const ProblemLine& line, const LineView& view);
+  // Adds what tells the depth from one image: the observation in the second camera, and the
+  // measured depth, as far as the host or another frame has them.
+  void AddDepth(const ProblemPoint& point, const PointView& view);
+  void AddDepth(const ProblemLine& line, const LineView& view);
 
  private:
   ProblemPoint WithVariables(const PointLandmark& landmark, int index,
@@ -68,6 +72,7 @@ class ViewTerms {
   template <typename ViewFactor, typename... Indices>
   void AddLineTerm(const ProblemLine& line, const LineView& view, double weight,
                    Indices... variables);
+  void AddMeasuredDepth(const ProblemPoint& point, const PointView& view);
   void AddPairView(const ProblemLine& line, const LineView& view, double weight);
   template <typename FactorType, int kCount>
   void AddTerm(std::optional<int> eliminated, const FactorType& factor,
@@ -80,6 +85,8 @@ class ViewTerms {
   std::unique_ptr<const CameraModel> camera_;  // null if the intrinsics are not estimated
   ceres::CauchyLoss point_loss_;
   ceres::CauchyLoss line_loss_;
+  ceres::CauchyLoss right_loss_;
+  ceres::CauchyLoss depth_loss_;
 };
 
 }  // namespace plm_vins

@@ -25,6 +25,8 @@ double* WindowVariables::Values(const BlockId& id) {
   switch (id.kind) {
     case BlockKind::kExtrinsic:
       return window_->extrinsic.data();
+    case BlockKind::kMounting:
+      return window_->mounting.data();
     case BlockKind::kTimeOffset:
       return &window_->td;
     case BlockKind::kReadout:

@@ -26,6 +26,7 @@ class WindowVariables {
   int Pose(int64_t t_ns) { return Add({BlockKind::kPose, t_ns}); }  // of a frame or an anchor
   int Motion(int64_t t_ns) { return Add({BlockKind::kMotion, t_ns}); }
   int Extrinsic() { return Add({BlockKind::kExtrinsic, 0}); }
+  int Mounting() { return Add({BlockKind::kMounting, 0}); }
   int TimeOffset() { return Add({BlockKind::kTimeOffset, 0}); }
   int Readout() { return Add({BlockKind::kReadout, 0}); }
   int Intrinsics() { return Add({BlockKind::kIntrinsics, 0}); }

@@ -49,6 +49,7 @@ void EstimatorDiagnostics::UpdateCounts(const EstimationStage& stage, const Drop
   input_finding_ = stage.InputFinding();
   imu_contradiction_ = stage.ImuContradiction();
   lens_warning_ = stage.LensWarning();
+  second_camera_fault_ = stage.SecondCameraFault();
   queued_frames_ = stage.queued_frames();
   lines_are_missing_ = stage.lines_are_missing();
   frames_without_lines_ = stage.statistics().frames_without_lines;
@@ -75,6 +76,8 @@ void EstimatorDiagnostics::Report(size_t queued,
   status->add("estimator_ms", estimator_ms_);
   status->add("points_observed", counts_.points_observed);
   status->add("points_in_window", counts_.points_in_window);
+  status->add("right_used", counts_.right.used);
+  status->add("depths_used", counts_.depth.used);
   status->add("lines_observed", counts_.lines_observed);
   status->add("lines_in_window", counts_.lines_in_window);
   status->add("frames_without_lines", frames_without_lines_);
@@ -95,9 +98,11 @@ void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapp
   if (!input_finding_.empty()) state += "; " + input_finding_;
   if (!imu_contradiction_.empty()) state += "; " + imu_contradiction_;
   if (!lens_warning_.empty()) state += "; " + lens_warning_;
+  if (!second_camera_fault_.empty()) state += "; " + second_camera_fault_;
   if (contradicted_) state += "; the camera contradicts the state";
   const bool fine = tracking && !lines_are_missing_ && !late && !on_imu_alone_ && !contradicted_ &&
-                    input_finding_.empty() && imu_contradiction_.empty() && lens_warning_.empty();
+                    input_finding_.empty() && imu_contradiction_.empty() && lens_warning_.empty() &&
+                    second_camera_fault_.empty();
   status->summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN, state);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "common/camera/camera_model.h"
 #include "common/geometry/rigid3.h"
 
@@ -11,8 +13,9 @@ namespace plm_vins {
 struct Calibration {
   CameraParameters camera;
   Rigid3d T_B_C;
-  double td = 0;       // t_imu = t_image + td [s]
-  double readout = 0;  // readout time of a rolling shutter; 0: global shutter [s]
+  std::optional<Rigid3d> T_C_C1;  // pose of the second camera in the first, if there is one
+  double td = 0;                  // t_imu = t_image + td [s]
+  double readout = 0;             // readout time of a rolling shutter; 0: global shutter [s]
 };
 
 }  // namespace plm_vins

@@ -25,6 +25,12 @@ struct LineMergingCounts {
   int inconsistent = 0;       // the observations do not fit one line
 };
 
+// Observations in the window that tell the depth of points from single images.
+struct DepthCounts {
+  int used = 0;
+  int rejected = 0;  // removed as outliers
+};
+
 // Feature counts of one frame.
 struct EstimatorCounts {
   int points_observed = 0;   // in this image
@@ -36,6 +42,8 @@ struct EstimatorCounts {
   int lines_wandering = 0;   // landmarks with inconsistent residuals (NoteWandering)
   int known_seen = 0;        // optimized landmarks, points and lines, in this image
   int known_rejected = 0;    // of these: outliers
+  DepthCounts right;         // in the second camera
+  DepthCounts depth;         // measured
   LineTriangulationCounts line_triangulation;
   LineMergingCounts line_merging;
   int lines_recognised = 0;  // re-observed lines that had left the window

@@ -30,6 +30,13 @@ inline const char* ToString(EstimatorStatus status) {
   }
 }
 
+// Faults of the second camera that its residuals show.
+struct SecondCameraFaults {
+  std::optional<double> misfit_px;  // median residual, if it is too large for the camera to be used
+  std::optional<double> delay;      // of its exposure behind the first camera's [s]
+  std::optional<double> baseline;   // relative error of its length, by the evidence of the IMU
+};
+
 // Processing time of the stages of one frame [ms].
 struct EstimatorTimings {
   double initialization = 0;
@@ -58,16 +65,17 @@ struct EstimatorOutput {
   double imu_noise_scale = 1;               // factor on its variance (ImuMonitor)
   bool imu_doubted = false;                 // the newest IMU interval was re-weighted
   std::optional<double> delay;              // rough error of td, if noticeable [s] (DelayMonitor)
-  bool contradicted = false;                // many known landmarks are outliers
-  bool on_imu_alone = false;                // too few features to constrain the pose
-  bool keyframe = false;                    // the previous image becomes a keyframe of the window
-  bool stationary = false;                  // standstill detected
-  bool restarted = false;                   // poses are in a new world frame from here on
-  bool bridged = false;                     // tracking again after a loss, in the same world frame
-  std::vector<FrameState> window;           // states of the window, oldest first
-  std::vector<MapPoint> points;             // landmarks in the window
-  std::vector<MapPoint> departed_points;    // landmarks that left the window with this frame
-  std::vector<MapLine> lines;               // lines in the window
+  SecondCameraFaults second_camera;
+  bool contradicted = false;              // many known landmarks are outliers
+  bool on_imu_alone = false;              // too few features to constrain the pose
+  bool keyframe = false;                  // the previous image becomes a keyframe of the window
+  bool stationary = false;                // standstill detected
+  bool restarted = false;                 // poses are in a new world frame from here on
+  bool bridged = false;                   // tracking again after a loss, in the same world frame
+  std::vector<FrameState> window;         // states of the window, oldest first
+  std::vector<MapPoint> points;           // landmarks in the window
+  std::vector<MapPoint> departed_points;  // landmarks that left the window with this frame
+  std::vector<MapLine> lines;             // lines in the window
   std::vector<MapLine> departed_lines;
   std::vector<int64_t> absorbed_lines;  // ids of lines that were merged into others
   EstimatorCounts counts;

@@ -61,6 +61,70 @@ class PointMapTest : public ::testing::Test {
   PointMap map_;
 };
 
+// Returns the projection of a point into the second camera of a frame.
+Vector2d SeenInRight(const SlidingWindow& window, int64_t t_ns, const Vector3d& p_W) {
+  return (window.T_W_C1(t_ns).Inverse() * p_W).hnormalized();
+}
+
+TEST_F(PointMapTest, TriangulatesFromOneFrameWithTheSecondCameraOrAMeasuredDepth) {
+  window_.SetMounting({SO3Exp({0.01, 0, 0.02}), {0.2, 0, 0}});
+  PointMap map;
+  PointFrame points;
+  points.t_ns = Stamp(0);
+  for (int id = 0; id < 3; ++id) {
+    PointObservation& point = points.points.emplace_back();
+    point.id = id;
+    const Vector3d p_C = window_.T_W_C(Stamp(0)).Inverse() * points_W_[id];
+    point.xy = p_C.hnormalized();
+    if (id == 0) point.right = SeenInRight(window_, Stamp(0), points_W_[id]);
+    if (id == 1) point.depth = p_C.z();
+  }
+  map.AddFrame(points, {});
+  map.Triangulate(window_, kMinAngle);
+  for (int id = 0; id < 2; ++id) {
+    ASSERT_TRUE(map.landmarks().at(id).triangulated) << id;
+    EXPECT_MATRIX_NEAR(PositionInWorld(map.landmarks().at(id), window_), points_W_[id], 1e-6);
+  }
+  EXPECT_FALSE(map.landmarks().at(2).triangulated);
+}
+
+TEST_F(PointMapTest, ResidualsOfTheSecondCameraArePerObservation) {
+  window_.SetMounting({SO3Exp({0.01, 0, 0.02}), {0.2, 0, 0}});
+  map_.Triangulate(window_, kMinAngle);
+  const Vector2d error(0.01, -0.02);
+  Landmark(3).views[1].right = SeenInRight(window_, Stamp(1), points_W_[3]) - error;
+  Landmark(5).views[0].right = SeenInRight(window_, Stamp(0), points_W_[5]);
+  const std::vector<RightResidual> residuals = map_.RightResiduals(window_);
+  ASSERT_EQ(residuals.size(), 2u);
+  EXPECT_EQ(residuals[0].view, &Landmark(3).views[1]);
+  EXPECT_MATRIX_NEAR(residuals[0].error, error, 1e-6);
+  EXPECT_MATRIX_NEAR(residuals[1].error, Vector2d(0, 0), 1e-6);
+}
+
+TEST_F(PointMapTest, DropsWrongDepthsOnly) {
+  map_.Triangulate(window_, kMinAngle);
+  const double z = (window_.T_W_C(Stamp(1)).Inverse() * points_W_[3]).z();
+  Landmark(3).views[1].depth = z + 0.1;
+  Landmark(4).views[1].depth = 1;
+  const DepthCounts counts = map_.RemoveDepthOutliers(window_, /*max_error=*/0.01);
+  EXPECT_EQ(counts.used, 1);
+  EXPECT_EQ(counts.rejected, 1);
+  EXPECT_TRUE(Landmark(3).views[1].depth);
+  EXPECT_FALSE(Landmark(4).views[1].depth);
+}
+
+TEST_F(PointMapTest, WithAWrongDepthAPointIsTriangulatedAnewRatherThanRemoved) {
+  Landmark(3).views[0].depth = 1;
+  map_.Triangulate(window_, kMinAngle);
+  Landmark(3).coordinates[2] = 1;
+  map_.RemoveOutliers(window_, /*max_error=*/0.01);
+  ASSERT_EQ(map_.landmarks().size(), points_W_.size());
+  EXPECT_FALSE(Landmark(3).triangulated);
+  EXPECT_FALSE(Landmark(3).views[0].depth);
+  map_.Triangulate(window_, kMinAngle);
+  ExpectAllInPlace();
+}
+
 TEST_F(PointMapTest, CountsWhatTheNewestFrameShowsOfThoseThatAreOptimised) {
   EXPECT_EQ(map_.CountInNewest(window_), 0) << "not triangulated";
   map_.Triangulate(window_, kMinAngle);

@@ -48,5 +48,19 @@ TEST(InitialPrior, IsTheStatedUncertaintyOfTheFirstState) {
   EXPECT_NEAR(std::sqrt(all_covariance(30, 30)), deviation.distortion, 1e-9);
 }
 
+TEST(InitialPrior, HoldsTheSecondCamera) {
+  SimulatedWindow simulated = testing::SimulateWindow(2);
+  simulated.window.SetMounting({Eigen::Quaterniond::Identity(), {0.1, 0, 0}});
+  ProblemOptions options = testing::OnePixelOptions();
+  options.estimate_mounting = true;
+  const InitialUncertainty uncertainty;
+  const MatrixXd covariance =
+      InitialPrior(uncertainty, options, simulated.window).quadratic().H.inverse();
+  ASSERT_EQ(covariance.rows(), 21);
+  EXPECT_NEAR(std::sqrt(covariance(16, 16)), uncertainty.mounting, 1e-9);
+  EXPECT_NEAR(std::sqrt(covariance(17, 17)), uncertainty.baseline, 1e-9);
+  EXPECT_NEAR(std::sqrt(covariance(20, 20)), uncertainty.mounting, 1e-9);
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a second camera, or measured depth, makes of the estimate.
+#include <gtest/gtest.h>
+
+#include "common/geometry/so3.h"
+#include "simulator/random.h"
+#include "test/vins_estimator/estimated_flight.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::EstimatedFlight;
+using testing::SimulatedFlight;
+
+// A gentle flight, in which the accelerometer hardly tells the scale.
+simulator::FeatureSimulationOptions GentleFlight(uint64_t seed) {
+  auto options = testing::FlightOptions(simulator::Motion::kGentle, seed);
+  options.trajectory.duration = 15;
+  options.max_points = 80;
+  return options;
+}
+
+SimulatedFlight StereoFlight(uint64_t seed, double outlier_ratio = 0) {
+  auto options = GentleFlight(seed);
+  options.sensors = simulator::DefaultStereoSensors();
+  options.right_outlier_ratio = outlier_ratio;
+  return testing::WithoutLines(testing::SimulateFlight(options, /*skip=*/1));
+}
+
+SimulatedFlight WithoutSecondCamera(SimulatedFlight flight) {
+  flight.sensor.second_camera.reset();
+  for (FrameMeasurement& frame : flight.frames) {
+    for (PointObservation& point : frame.points.points) point.right.reset();
+  }
+  return flight;
+}
+
+Rigid3d Mounting(const SensorConfig& sensor) {
+  return sensor.T_B_C.Inverse() * sensor.second_camera->T_B_C;
+}
+
+// Turns the second camera of the configuration.
+void TurnSecondCamera(const Eigen::Vector3d& theta, SensorConfig* sensor) {
+  Rigid3d& T_B_C1 = sensor->second_camera->T_B_C;
+  T_B_C1.rotation = T_B_C1.rotation * SO3Exp(theta);
+}
+
+double FirstPose(const SimulatedFlight& flight, const EstimatedFlight& estimated) {
+  return ToSeconds(estimated.outputs.front().t_ns - flight.frames.front().t_ns);
+}
+
+// Mean absolute error over some flights [m].
+template <typename Fly>
+double MeanError(const Fly& fly) {
+  constexpr int kFlights = 4;
+  double sum = 0;
+  for (uint64_t seed = 1; seed <= kFlights; ++seed) {
+    const EstimatedFlight flight = fly(seed);
+    EXPECT_TRUE(flight.restarts.empty());
+    sum += testing::AbsoluteError(flight) / kFlights;
+  }
+  return sum;
+}
+
+double StereoError() {
+  return MeanError([](uint64_t seed) { return testing::Estimate(StereoFlight(seed)); });
+}
+
+double MonocularError() {
+  return MeanError(
+      [](uint64_t seed) { return testing::Estimate(WithoutSecondCamera(StereoFlight(seed))); });
+}
+
+TEST(EstimatorStereo, SecondCameraAndDepthHaveHalfTheErrorOfOneCamera) {
+  const double stereo = StereoError(), monocular = MonocularError();
+  const double depth = MeanError([](uint64_t seed) {
+    auto options = GentleFlight(seed);
+    options.sensors.depth.emplace();
+    return testing::Estimate(testing::WithoutLines(testing::SimulateFlight(options, /*skip=*/1)));
+  });
+  EXPECT_LT(stereo, 0.5 * monocular);
+  EXPECT_LT(depth, 0.5 * monocular);
+}
+
+TEST(EstimatorStereo, StartsInMotionWithinSixTenthsOfASecond) {
+  for (uint64_t seed = 1; seed <= 4; ++seed) {
+    const SimulatedFlight flight = StereoFlight(seed);
+    const EstimatedFlight estimated = testing::Estimate(flight);
+    EXPECT_LE(FirstPose(flight, estimated), 0.6);
+    const FrameState& first = estimated.outputs.front().state;
+    EXPECT_LT(testing::GravityError(first, estimated.truth.front()), 0.04);
+    EXPECT_LT(testing::VelocityError(first, estimated.truth.front()), 0.1);
+  }
+}
+
+TEST(EstimatorStereo, StartsAtStandstillWithinThreeTenthsOfASecond) {
+  auto options = GentleFlight(1);
+  options.sensors = simulator::DefaultStereoSensors();
+  options.trajectory.rest = 2;
+  const SimulatedFlight flight = testing::SimulateFlight(options);
+  EXPECT_LE(FirstPose(flight, testing::Estimate(flight)), 0.3);
+}
+
+TEST(EstimatorStereo, WrongMatchesCostLittle) {
+  const double with_outliers = MeanError(
+      [](uint64_t seed) { return testing::Estimate(StereoFlight(seed, /*outlier_ratio=*/0.2)); });
+  EXPECT_LT(with_outliers, 1.15 * StereoError());
+}
+
+TEST(EstimatorStereo, FindsHowTheSecondCameraIsTurned) {
+  SimulatedFlight flight = StereoFlight(1);
+  const Rigid3d truth = Mounting(flight.sensor);
+  TurnSecondCamera({0.003, -0.003, 0.003}, &flight.sensor);
+  const EstimatedFlight estimated = testing::Estimate(flight);
+  const Rigid3d found = estimated.outputs.back().calibration.T_C_C1.value();
+  EXPECT_LT(SO3Log(truth.rotation.conjugate() * found.rotation).norm(), 0.0006);
+  EXPECT_FALSE(estimated.outputs.back().second_camera.misfit_px);
+}
+
+// The images of the second camera are of another time or place.
+TEST(EstimatorStereo, WithASecondCameraThatDoesNotFitItIsAsGoodAsWithOneCamera) {
+  const double error = MeanError([](uint64_t seed) {
+    SimulatedFlight flight = StereoFlight(seed);
+    simulator::Random random(seed);
+    for (FrameMeasurement& frame : flight.frames) {
+      const Eigen::Vector2d shift(0.02 * random.Normal(), 0.02 * random.Normal());
+      for (PointObservation& point : frame.points.points) {
+        if (point.right) *point.right += shift;
+      }
+    }
+    const EstimatedFlight estimated = testing::Estimate(flight);
+    EXPECT_TRUE(estimated.outputs.back().second_camera.misfit_px);
+    return estimated;
+  });
+  EXPECT_LT(error, 1.25 * MonocularError());
+}
+
+TEST(EstimatorStereo, SaysThatTheBaselineIsWrong) {
+  SimulatedFlight flight = StereoFlight(1);
+  Rigid3d mounting = Mounting(flight.sensor);
+  mounting.translation *= 1 / 1.05;
+  flight.sensor.second_camera->T_B_C = flight.sensor.T_B_C * mounting;
+  const auto error = testing::Estimate(flight).outputs.back().second_camera.baseline;
+  ASSERT_TRUE(error);
+  EXPECT_NEAR(*error, 0.05, 0.03);
+}
+
+}  // namespace
+}  // namespace plm_vins

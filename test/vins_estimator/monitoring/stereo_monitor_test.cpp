@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/monitoring/stereo_monitor.h"
+
+#include <gtest/gtest.h>
+
+#include "common/measurements.h"
+#include "simulator/random.h"
+
+namespace plm_vins {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kNoise = 1e-3;
+
+// Residuals of a second camera with this noise, offset and delay [s], for some seconds at 10 Hz.
+StereoMonitor Watch(double seconds, double noise, const Vector2d& offset, double delay = 0) {
+  StereoMonitor monitor(kNoise);
+  simulator::Random random(1);
+  std::vector<PointView> views(50);
+  for (int image = 0; image < 10 * seconds; ++image) {
+    std::vector<RightResidual> residuals;
+    const Vector2d flow = 0.5 * Vector2d(random.Normal(), random.Normal());
+    for (PointView& view : views) {
+      view.bearing.velocity = flow + 0.1 * Vector2d(random.Normal(), random.Normal());
+      const Vector2d noise_xy = noise * Vector2d(random.Normal(), random.Normal());
+      residuals.push_back({&view, noise_xy + offset - delay * view.bearing.velocity});
+    }
+    monitor.Add(ToNanoseconds(0.1 * image), residuals);
+  }
+  return monitor;
+}
+
+TEST(StereoMonitor, LearnsTheNoise) {
+  EXPECT_NEAR(Watch(3, 2 * kNoise, {0, 0}).noise(), 2 * kNoise, 0.2 * kNoise);
+  EXPECT_NEAR(Watch(3, 0.1 * kNoise, {0, 0}).noise(), kNoise, 1e-12) << "not less than the first";
+  EXPECT_FALSE(Watch(3, 2 * kNoise, {0, 0}).misfit());
+}
+
+TEST(StereoMonitor, NamesACameraThatDoesNotFitAndTakesItsWeight) {
+  const StereoMonitor monitor = Watch(3, kNoise, {0, 8 * kNoise});
+  ASSERT_TRUE(monitor.misfit());
+  EXPECT_NEAR(*monitor.misfit(), 8 * kNoise, 0.5 * kNoise);
+  EXPECT_GT(monitor.noise(), 100 * kNoise);
+}
+
+TEST(StereoMonitor, MeasuresTheDelayOfTheExposure) {
+  EXPECT_NEAR(Watch(3, kNoise, {0, 0}, 0.005).delay().value_or(0), 0.005, 0.0005);
+  EXPECT_NEAR(Watch(3, kNoise, {0, 0}, -0.02).delay().value_or(0), -0.02, 0.001);
+  EXPECT_FALSE(Watch(3, kNoise, {0, 0}, 0).delay());
+}
+
+}  // namespace
+}  // namespace plm_vins

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/geometry/rigid3.h"
+#include "vins_estimator/initialization/tracks.h"
+
+namespace plm_vins {
+
+struct StereoStructureOptions {
+  Rigid3d T_C_C1;    // pose of the second camera in the first, if there is one
+  double noise;      // standard deviation of a normalized coordinate
+  double min_angle;  // between the rays of a point in both cameras [rad]
+};
+
+// Camera poses and points [m] in the frame G of one of the cameras.
+struct StereoStructure {
+  std::vector<Rigid3d> T_G_C;  // one per view
+  // Inverse covariance of theta in R_G_C Exp(theta) with unknown translation [1/rad^2].
+  std::vector<Eigen::Matrix3d> rotation_information;
+  std::vector<std::optional<Eigen::Vector3d>> p_G;  // one per track; nullopt if not known
+};
+
+// Stereo odometry over a few views: takes the points that both cameras observe, or whose depth is
+// measured, in the view with most of them, then alternately resects the neighbouring views by these
+// points (robust reprojection errors, all six degrees of freedom) and adds the points that have a
+// depth there. `R_G_C` are rotations to start from, in any common frame. Returns nullopt, with the
+// reason in words, if too few points are observed.
+std::optional<StereoStructure> ReconstructFromStereo(const std::vector<Track>& tracks,
+                                                     const std::vector<Eigen::Quaterniond>& R_G_C,
+                                                     const StereoStructureOptions& options,
+                                                     std::string* reason);
+
+}  // namespace plm_vins

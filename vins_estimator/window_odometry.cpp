@@ -64,6 +64,7 @@ void WindowOdometry::Start(const InitializationResult& result,
   Fill(result, uncertainty);
   Triangulate(output);
   const Solution solution = SolveFirstWindow(output);
+  if (config_->sensor.second_camera) output->counts.right = JudgeSecondCamera();
   CountLandmarks(output);
   started_ = true;
   Describe(solution, output);
@@ -184,6 +185,7 @@ FrameState WindowOdometry::AddFrame(const FrameMeasurement& measurement) {
 
 void WindowOdometry::Triangulate(EstimatorOutput* output) {
   LocalMap& map = estimate_.map;
+  if (stereo_monitor_.misfit()) map.points.ForgetUntriangulatedDepths();
   map.points.Triangulate(map.window, options_->min_triangulation_angle);
   output->counts.line_triangulation = map.lines.Triangulate(map.window, options_->line_limits);
 }

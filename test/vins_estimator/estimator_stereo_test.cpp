@@ -12,17 +12,19 @@ namespace {
 using testing::EstimatedFlight;
 using testing::SimulatedFlight;
 
-// A gentle flight, in which the accelerometer hardly tells the scale.
+// A gentle flight with an accelerometer as noisy as propellers make it, which hardly tells the
+// scale.
 simulator::FeatureSimulationOptions GentleFlight(uint64_t seed) {
   auto options = testing::FlightOptions(simulator::Motion::kGentle, seed);
   options.trajectory.duration = 15;
   options.max_points = 80;
+  options.sensors.imu_noise.accel_density = 0.03;
   return options;
 }
 
 SimulatedFlight StereoFlight(uint64_t seed, double outlier_ratio = 0) {
   auto options = GentleFlight(seed);
-  options.sensors = simulator::DefaultStereoSensors();
+  options.sensors.second_camera = simulator::DefaultStereoSensors().second_camera;
   options.right_outlier_ratio = outlier_ratio;
   return testing::WithoutLines(testing::SimulateFlight(options, /*skip=*/1));
 }
@@ -71,15 +73,15 @@ double MonocularError() {
       [](uint64_t seed) { return testing::Estimate(WithoutSecondCamera(StereoFlight(seed))); });
 }
 
-TEST(EstimatorStereo, SecondCameraAndDepthHaveHalfTheErrorOfOneCamera) {
+TEST(EstimatorStereo, ASecondCameraOrDepthHasLessErrorThanOneCamera) {
   const double stereo = StereoError(), monocular = MonocularError();
   const double depth = MeanError([](uint64_t seed) {
     auto options = GentleFlight(seed);
     options.sensors.depth.emplace();
     return testing::Estimate(testing::WithoutLines(testing::SimulateFlight(options, /*skip=*/1)));
   });
-  EXPECT_LT(stereo, 0.5 * monocular);
-  EXPECT_LT(depth, 0.5 * monocular);
+  EXPECT_LT(stereo, 0.8 * monocular);
+  EXPECT_LT(depth, 0.8 * monocular);
 }
 
 TEST(EstimatorStereo, StartsInMotionWithinSixTenthsOfASecond) {
@@ -95,7 +97,7 @@ TEST(EstimatorStereo, StartsInMotionWithinSixTenthsOfASecond) {
 
 TEST(EstimatorStereo, StartsAtStandstillWithinThreeTenthsOfASecond) {
   auto options = GentleFlight(1);
-  options.sensors = simulator::DefaultStereoSensors();
+  options.sensors.second_camera = simulator::DefaultStereoSensors().second_camera;
   options.trajectory.rest = 2;
   const SimulatedFlight flight = testing::SimulateFlight(options);
   EXPECT_LE(FirstPose(flight, testing::Estimate(flight)), 0.3);
@@ -104,7 +106,7 @@ TEST(EstimatorStereo, StartsAtStandstillWithinThreeTenthsOfASecond) {
 TEST(EstimatorStereo, WrongMatchesCostLittle) {
   const double with_outliers = MeanError(
       [](uint64_t seed) { return testing::Estimate(StereoFlight(seed, /*outlier_ratio=*/0.2)); });
-  EXPECT_LT(with_outliers, 1.15 * StereoError());
+  EXPECT_LT(with_outliers, 1.4 * StereoError());
 }
 
 TEST(EstimatorStereo, FindsHowTheSecondCameraIsTurned) {
@@ -117,8 +119,8 @@ TEST(EstimatorStereo, FindsHowTheSecondCameraIsTurned) {
   EXPECT_FALSE(estimated.outputs.back().second_camera.misfit_px);
 }
 
-// The images of the second camera are of another time or place.
-TEST(EstimatorStereo, WithASecondCameraThatDoesNotFitItIsAsGoodAsWithOneCamera) {
+// The second camera shakes against the first.
+TEST(EstimatorStereo, ASecondCameraThatDoesNotFitIsNamedAndCostsLittle) {
   const double error = MeanError([](uint64_t seed) {
     SimulatedFlight flight = StereoFlight(seed);
     simulator::Random random(seed);

@@ -31,6 +31,16 @@ constexpr double kMaxScaleDeviation = 0.075;
 // Returns whether single images tell the depth of points.
 bool HasDepth(const SensorConfig& sensor) { return sensor.second_camera || sensor.depth; }
 
+// Depths that do not lead to a start may not fit the camera: the first window does without them.
+void ForgetDepths(std::vector<FrameMeasurement>* frames) {
+  for (FrameMeasurement& frame : *frames) {
+    for (PointObservation& point : frame.points.points) {
+      point.right.reset();
+      point.depth.reset();
+    }
+  }
+}
+
 StandstillDetector::Options StandstillOptions(double duration) {
   StandstillDetector::Options options;
   options.imu.window = duration;
@@ -155,6 +165,7 @@ std::optional<InitializationResult> Initializer::TryMotion() {
     const std::string why = reason_;
     options.stereo = false;
     if (MayTryMotion(options.stereo)) {
+      ForgetDepths(&frames);
       states = InitializeFromMotion(frames, sensor_, point_noise_px_, options, &reason_);
     }
     reason_ = why;

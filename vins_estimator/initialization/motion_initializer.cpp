@@ -17,6 +17,7 @@ namespace plm_vins {
 namespace {
 
 constexpr double kStereoScaleDeviation = 0.01;
+constexpr double kMaxOutlierShare = 0.2;    // of the observations, with stereo or depth
 constexpr double kMinStereoAngle_px = 1.0;  // between the rays of a point in both cameras
 
 // Drops the observations in the second camera and the measured depths.
@@ -244,6 +245,11 @@ bool Attempt::CheckAdjustment(const VisualInertialBundle& bundle) {
   if (bundle.imu_rms > options_.max_imu_rms) {
     *reason_ = Format("camera and IMU disagree: %.1f sigma of at most %.1f", bundle.imu_rms,
                       options_.max_imu_rms);
+    return false;
+  }
+  if (options_.stereo && bundle.outlier_share > kMaxOutlierShare) {
+    *reason_ = Format("the depths do not fit: %.0f %% outliers of at most %.0f %%",
+                      100 * bundle.outlier_share, 100 * kMaxOutlierShare);
     return false;
   }
   if (!options_.stereo && bundle.relative_scale_deviation > options_.max_scale_deviation) {

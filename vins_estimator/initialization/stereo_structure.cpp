@@ -43,6 +43,7 @@ class Builder {
   };
 
   int ViewWithMostPairs() const;
+  std::optional<Eigen::Vector3d> PointOf(const ViewObservation& seen, const Rigid3d& T_G_C) const;
   int TriangulateIn(int view);
   void AddPoint(const Eigen::Vector3d& p_G, const Eigen::Vector2d& xy, const Rigid3d& T_G_C,
                 Resection* equations) const;
@@ -63,6 +64,18 @@ int Builder::ViewWithMostPairs() const {
   return static_cast<int>(std::max_element(pairs.begin(), pairs.end()) - pairs.begin());
 }
 
+// Returns nullopt if the two observations are too nearly parallel, or not of one point.
+std::optional<Eigen::Vector3d> Builder::PointOf(const ViewObservation& seen,
+                                                const Rigid3d& T_G_C) const {
+  if (seen.depth) return T_G_C * (*seen.depth * seen.xy.homogeneous());
+  const auto p_G = TriangulatePoint({{T_G_C, seen.xy}, {T_G_C * options_.T_C_C1, *seen.right}},
+                                    options_.min_angle);
+  if (!p_G) return std::nullopt;
+  const Eigen::Vector2d error = (T_G_C.Inverse() * *p_G).hnormalized() - seen.xy;
+  if (error.norm() > kMaxInlierResidual * options_.noise) return std::nullopt;
+  return p_G;
+}
+
 // Returns how many points it adds.
 int Builder::TriangulateIn(int view) {
   const Rigid3d& T_G_C = structure_.T_G_C[view];
@@ -70,12 +83,7 @@ int Builder::TriangulateIn(int view) {
   for (size_t i = 0; i < tracks_.size(); ++i) {
     const ViewObservation* seen = tracks_[i].In(view);
     if (structure_.p_G[i] || seen == nullptr || !HasDepth(*seen)) continue;
-    if (seen->depth) {
-      structure_.p_G[i] = T_G_C * (*seen->depth * seen->xy.homogeneous());
-    } else {
-      structure_.p_G[i] = TriangulatePoint(
-          {{T_G_C, seen->xy}, {T_G_C * options_.T_C_C1, *seen->right}}, options_.min_angle);
-    }
+    structure_.p_G[i] = PointOf(*seen, T_G_C);
     added += structure_.p_G[i].has_value();
   }
   return added;

@@ -34,6 +34,7 @@ class Bundle {
 
   const WindowProblem& problem() const { return problem_; }
   double ReprojectionRms() const;
+  double OutlierShare() const;
   double ImuRms() const;
   std::optional<double> RelativeScaleDeviation(NormalEquations* equations) const;
 
@@ -185,6 +186,21 @@ double Bundle::ReprojectionRms() const {
   return std::sqrt(squared_sum / std::max(1, freedom));
 }
 
+// Returns the share of the observations that are off by more than five standard deviations.
+double Bundle::OutlierShare() const {
+  constexpr double kMaxSquaredError = 25;
+  double rho[3];
+  loss_.Evaluate(kMaxSquaredError, rho);
+  int outliers = 0, count = 0;
+  for (const LandmarkTerms& landmark : problem_.landmarks()) {
+    for (const ResidualTerm& term : landmark.terms) {
+      outliers += EvaluateTermCost(term, problem_.variables()) > 0.5 * rho[0];
+      ++count;
+    }
+  }
+  return static_cast<double>(outliers) / std::max(1, count);
+}
+
 double Bundle::ImuRms() const {
   double squared_sum = 0;
   for (size_t i = 0; i < preintegrations_.size(); ++i) {
@@ -233,7 +249,8 @@ std::optional<VisualInertialBundle> AdjustVisualInertialBundle(
     *reason = "the visual-inertial bundle adjustment is not determined";
     return std::nullopt;
   }
-  return VisualInertialBundle{bundle.ReprojectionRms(), bundle.ImuRms(), *scale_deviation};
+  return VisualInertialBundle{bundle.ReprojectionRms(), bundle.ImuRms(), bundle.OutlierShare(),
+                              *scale_deviation};
 }
 
 }  // namespace plm_vins

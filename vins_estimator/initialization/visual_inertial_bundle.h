@@ -27,6 +27,7 @@ struct VisualInertialBundleOptions {
 struct VisualInertialBundle {
   double reprojection_rms = 0;
   double imu_rms = 0;
+  double outlier_share = 0;             // of the observations of points
   double relative_scale_deviation = 0;  // standard deviation of the trajectory's size
 };
 

@@ -68,6 +68,21 @@ void TriangulateLandmark(const SlidingWindow& window, double min_angle, PointLan
   if (p_W) SetPosition(*p_W, window, landmark->host(), landmark);
 }
 
+// Returns whether a landmark is in front of the camera in all frames with a mean reprojection error
+// of at most `max_error`. Returns true without observations in a second camera or measured depths.
+bool Fits(const Eigen::Vector3d& p_W, const PointLandmark& landmark, double max_error,
+          const SlidingWindow& window) {
+  const size_t count = landmark.views.size();
+  if (CountMeasurements(landmark.views) == static_cast<int>(count)) return true;
+  double sum = 0;
+  for (const PointView& view : landmark.views) {
+    const auto error = ReprojectionError(p_W, view, window);
+    if (!error) return false;
+    sum += *error;
+  }
+  return sum <= max_error * static_cast<double>(count);
+}
+
 // Returns whether the depth of a landmark contradicts that which was measured in one of its views.
 bool ContradictsDepth(const Eigen::Vector3d& p_W, const PointView& view, double max_error,
                       const SlidingWindow& window) {
@@ -156,6 +171,11 @@ int PointMap::RemoveOutliers(const SlidingWindow& window, double max_error) {
       continue;
     }
     const Eigen::Vector3d p_W = PositionInWorld(landmark, window);
+    if (!Fits(p_W, landmark, max_error, window) && StartWithoutDepth(&landmark)) {
+      ++removed;
+      ++it;
+      continue;
+    }
     const double inverse_depth = landmark.coordinates[2];
     bool bad = inverse_depth <= 0 || inverse_depth > 1.0 / kMinLandmarkDepth;
     double sum = 0;
@@ -173,8 +193,7 @@ int PointMap::RemoveOutliers(const SlidingWindow& window, double max_error) {
     const size_t count = landmark.views.size() - 1;
     bad = bad || count == 0 || sum / count > max_error;
     removed += bad;
-    const bool stays = !bad || StartWithoutDepth(&landmark);
-    it = stays ? std::next(it) : landmarks_.erase(it);
+    it = bad ? landmarks_.erase(it) : std::next(it);
   }
   return removed;
 }
@@ -196,6 +215,12 @@ std::vector<RightResidual> PointMap::RightResiduals(const SlidingWindow& window)
     }
   }
   return residuals;
+}
+
+void PointMap::ForgetUntriangulatedDepths() {
+  for (auto& [id, landmark] : landmarks_) {
+    if (!landmark.triangulated) StartWithoutDepth(&landmark);
+  }
 }
 
 DepthCounts PointMap::RemoveDepthOutliers(const SlidingWindow& window, double max_error) {

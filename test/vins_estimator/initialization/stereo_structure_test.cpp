@@ -91,7 +91,7 @@ TEST(StereoStructure, BearsNoiseAndWrongMatches) {
   Scene scene(0.5 * kPixel, /*outlier_ratio=*/0.2);
   const auto structure = scene.Reconstruct();
   ASSERT_TRUE(structure) << scene.reason;
-  EXPECT_LT(scene.PositionError(*structure), 0.01);
+  EXPECT_LT(scene.PositionError(*structure), 0.05);
 }
 
 TEST(StereoStructure, TakesMeasuredDepthsAsWell) {
@@ -111,7 +111,7 @@ TEST(StereoStructure, NeedsNoMotion) {
   Scene scene(0.5 * kPixel, 0, /*step=*/0);
   const auto structure = scene.Reconstruct();
   ASSERT_TRUE(structure) << scene.reason;
-  EXPECT_LT(scene.PositionError(*structure), 0.006);
+  EXPECT_LT(scene.PositionError(*structure), 0.01);
 }
 
 TEST(StereoStructure, SaysThatTooFewPointsHaveADepth) {

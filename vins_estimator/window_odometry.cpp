@@ -64,7 +64,9 @@ void WindowOdometry::Start(const InitializationResult& result,
   Fill(result, uncertainty);
   Triangulate(output);
   const Solution solution = SolveFirstWindow(output);
-  if (config_->sensor.second_camera) output->counts.right = JudgeSecondCamera();
+  if (config_->sensor.second_camera) {
+    output->counts.right = stereo_monitor_.Judge(estimate_.map.window, &estimate_.map.points);
+  }
   CountLandmarks(output);
   started_ = true;
   Describe(solution, output);
@@ -325,7 +327,7 @@ void WindowOdometry::LearnFromWindow(EstimatorOutput* output) {
   LocalMap& map = estimate_.map;
   EstimatorCounts& counts = output->counts;
   counts.points_rejected = map.points.RemoveOutliers(map.window, options_->max_reprojection_error);
-  if (config_->sensor.second_camera) counts.right = JudgeSecondCamera();
+  if (config_->sensor.second_camera) counts.right = stereo_monitor_.Judge(map.window, &map.points);
   if (config_->sensor.depth) {
     counts.depth = map.points.RemoveDepthOutliers(map.window, options_->max_inverse_depth_error);
   }
@@ -334,20 +336,6 @@ void WindowOdometry::LearnFromWindow(EstimatorOutput* output) {
   counts.known_rejected = counts.known_seen - map.CountInNewest();
   if (config_->estimator.adapt_noise) noise_.Update(map);
   imu_noise_.Reweigh(&map.window);
-}
-
-// Learns how noisy the second camera is, and drops its outliers.
-DepthCounts WindowOdometry::JudgeSecondCamera() {
-  const SlidingWindow& window = estimate_.map.window;
-  const std::vector<RightResidual> residuals = estimate_.map.points.RightResiduals(window);
-  stereo_monitor_.Add(window.newest().state.t_ns, residuals);
-  DepthCounts counts;
-  for (const RightResidual& residual : residuals) {
-    const bool wrong = residual.error.norm() > stereo_monitor_.max_error();
-    if (wrong) residual.view->right.reset();
-    ++(wrong ? counts.rejected : counts.used);
-  }
-  return counts;
 }
 
 void WindowOdometry::DescribeSecondCamera(EstimatorOutput* output) const {

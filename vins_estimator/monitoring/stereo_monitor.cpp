@@ -24,6 +24,18 @@ constexpr double kMinDelay = 0.003;     // [s]
 
 }  // namespace
 
+DepthCounts StereoMonitor::Judge(const SlidingWindow& window, PointMap* points) {
+  const std::vector<RightResidual> residuals = points->RightResiduals(window);
+  Add(window.newest().state.t_ns, residuals);
+  DepthCounts counts;
+  for (const RightResidual& residual : residuals) {
+    const bool wrong = residual.error.norm() > max_error();
+    if (wrong) residual.view->right.reset();
+    ++(wrong ? counts.rejected : counts.used);
+  }
+  return counts;
+}
+
 void StereoMonitor::Add(int64_t t_ns, const std::vector<RightResidual>& residuals) {
   if (residuals.size() < kMinResiduals) return;
   std::vector<double> lengths;

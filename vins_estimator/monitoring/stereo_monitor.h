@@ -16,6 +16,10 @@ class StereoMonitor {
   // `point_noise`: standard deviation of a corner in the first camera, normalized.
   explicit StereoMonitor(double point_noise) : least_noise_(point_noise), noise_(point_noise) {}
 
+  // Adds the residuals of an optimized window, and drops the outliers among its observations in the
+  // second camera. Counts both.
+  DepthCounts Judge(const SlidingWindow& window, PointMap* points);
+
   // Adds the residuals of an optimized window, whose newest image is of `t_ns`.
   void Add(int64_t t_ns, const std::vector<RightResidual>& residuals);
 

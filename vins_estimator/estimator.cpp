@@ -8,6 +8,15 @@
 #include "vins_estimator/map/recalibration.h"
 
 namespace plm_vins {
+namespace {
+
+FrameMeasurement WithoutFeatures(FrameMeasurement measurement) {
+  measurement.points.points.clear();
+  if (measurement.lines) measurement.lines->lines.clear();
+  return measurement;
+}
+
+}  // namespace
 
 Estimator::State::State(const Config& config, const EstimatorOptions& options)
     : initializer(config),
@@ -55,13 +64,17 @@ FrameMeasurement Estimator::Correct(FrameMeasurement measurement) {
 }
 
 void Estimator::Use(const FrameMeasurement& measurement, EstimatorOutput* output) {
-  const auto standstill = config_.estimator.zero_velocity_update
-                              ? state_.standstill_detector.Add(measurement)
-                              : std::nullopt;
-  if (state_.odometry.started()) {
-    Track(measurement, standstill, output);
-  } else {
+  std::optional<StandstillDetector::Standstill> standstill;
+  if (config_.estimator.zero_velocity_update) {
+    standstill = state_.standstill_detector.Add(measurement, state_.odometry.MedianDepth());
+  }
+  const bool scene_moves = standstill && standstill->scene_moves;
+  if (!state_.odometry.started()) {
     Initialize(measurement, output);
+  } else if (scene_moves || state_.standstill_detector.doubts_camera()) {
+    Track(WithoutFeatures(measurement), standstill, output);
+  } else {
+    Track(measurement, standstill, output);
   }
 }
 

@@ -97,14 +97,20 @@ WindowOdometry::Solution WindowOdometry::SolveFirstWindow(EstimatorOutput* outpu
   return solution;
 }
 
+std::optional<double> WindowOdometry::MedianDepth() const {
+  if (!started_) return std::nullopt;
+  return estimate_.map.points.MedianDepthInNewest(estimate_.map.window);
+}
+
 WindowOdometry::Tracked WindowOdometry::Track(
     const FrameMeasurement& measurement,
     const std::optional<StandstillDetector::Standstill>& standstill, EstimatorOutput* output) {
   LocalMap& map = estimate_.map;
-  const bool keep_second_newest = IsKeyframe(options_->keyframes, map.window, map.points);
-  if (keep_second_newest) keyframe_ = {map.window.newest().state.t_ns};
+  bool keep_second_newest = IsKeyframe(options_->keyframes, map.window, map.points);
   const FrameState predicted = AddFrame(measurement);
   map.window.SetStillSince(StillSince(standstill));
+  keep_second_newest |= EndsStandstill(options_->keyframes, map.window);
+  if (keep_second_newest) keyframe_ = {map.window.second_newest().state.t_ns};
   const Solution solution = Solve(keep_second_newest, output);
   Tracked tracked;
   tracked.newest = {map.window.newest().state, solution.covariance};
@@ -145,7 +151,7 @@ std::optional<Failure> WindowOdometry::Check(const Solution& solution, const Fra
                                              const EstimatorCounts& counts) {
   const SlidingWindow& window = estimate_.map.window;
   auto failure =
-      estimate_monitor_.Add({solution.exists, predicted, window.newest().state,
+      estimate_monitor_.Add({solution.exists, window.newest().stationary, predicted, window.newest().state,
                              solution.PoseCovariance(), counts, window.td - config_->sensor.td});
   const double gap = LongestImuInterval(window);
   if (failure && gap > kLongGap) {

@@ -44,6 +44,9 @@ class WindowOdometry {
              EstimatorOutput* output);
   bool started() const { return started_; }
 
+  // Median depth of the known points in the newest image [m]; nullopt if there are few.
+  std::optional<double> MedianDepth() const;
+
   // Processes the next image; requires started().
   Tracked Track(const FrameMeasurement& measurement,
                 const std::optional<StandstillDetector::Standstill>& standstill,

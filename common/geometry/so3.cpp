@@ -48,8 +48,9 @@ Eigen::Quaterniond ShortestRotation(const Eigen::Vector3d& from, const Eigen::Ve
 }
 
 double Yaw(const Eigen::Quaterniond& q) {
-  const Eigen::Vector3d x_axis = q * Eigen::Vector3d::UnitX();
-  return std::atan2(x_axis.y(), x_axis.x());
+  const Eigen::Matrix3d R = q.toRotationMatrix();
+  const bool is_x_steep = std::abs(R(2, 0)) > M_SQRT1_2;
+  return is_x_steep ? std::atan2(-R(0, 1), R(1, 1)) : std::atan2(R(1, 0), R(0, 0));
 }
 
 }  // namespace plm_vins

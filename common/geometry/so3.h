@@ -30,7 +30,8 @@ Eigen::Matrix3d SO3RightJacobianInverse(const Eigen::Vector3d& phi);
 // The shortest rotation from direction `from` to direction `to`: to ~ R from.
 Eigen::Quaterniond ShortestRotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-// Heading (yaw) of `q` in the z-up world: that of its x axis, about z [rad].
+// Returns the heading (yaw) of `q` in the z-up world, about z [rad]: that of its x axis, or, if
+// that axis is steeper than 45 degrees, that of its y axis less a quarter turn.
 double Yaw(const Eigen::Quaterniond& q);
 
 }  // namespace plm_vins

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The estimator at true and apparent standstill.
+// The estimator where the vehicle rests, or seems to.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ EstimatedFlight Fly(const FlightPlan& plan) {
   return testing::Estimate(testing::PlannedFlight(plan).Simulate());
 }
 
-// Error of the last position, aligned at an image `duration` seconds before [m].
+// Of the last position, aligned at an image so long before [m].
 double ErrorOver(double duration, const EstimatedFlight& flight) {
   const auto images = static_cast<size_t>(duration / 0.05);
   const size_t last = flight.outputs.size() - 1, first = last - images;
@@ -29,7 +29,7 @@ double ErrorOver(double duration, const EstimatedFlight& flight) {
       .norm();
 }
 
-// Motion too slow for the IMU, and within a pixel in half a second for the camera.
+// Too slow for the IMU, and within a pixel in half a second for the camera.
 TEST(EstimatorStandstill, ACreepingFlightIsNotHeldInPlace) {
   for (const double v : {0.02, 0.05}) {
     FlightPlan plan;
@@ -37,7 +37,7 @@ TEST(EstimatorStandstill, ACreepingFlightIsNotHeldInPlace) {
     plan.room = {40, 40, 20};
     plan.T_W_V = [v](double t) {
       Rigid3d T_W_V = GentleFlight(t, 2, 12);
-      const double s = std::max(0.0, t - 14);  // slow motion from then on
+      const double s = std::max(0.0, t - 14);  // it creeps from then on
       T_W_V.translation += Eigen::Vector3d(0, v * (s - std::tanh(s)), 8);
       return T_W_V;
     };
@@ -45,7 +45,7 @@ TEST(EstimatorStandstill, ACreepingFlightIsNotHeldInPlace) {
   }
 }
 
-// Points with known depth survive minutes on the ground.
+// After minutes on the ground points with known depths are still there.
 TEST(EstimatorStandstill, TheMapOutlastsARest) {
   FlightPlan plan;
   plan.duration = 82;
@@ -53,6 +53,70 @@ TEST(EstimatorStandstill, TheMapOutlastsARest) {
   const EstimatedFlight flight = Fly(plan);
   EXPECT_TRUE(flight.outputs.back().stationary);
   EXPECT_GT(flight.outputs.back().counts.known_seen, 50);
+}
+
+// Leaves an image without points; those after it have others, as of a tracker that lost all.
+void Blank(size_t first, size_t last, testing::SimulatedFlight* flight) {
+  for (size_t i = first; i < flight->frames.size(); ++i) {
+    auto& points = flight->frames[i].points.points;
+    if (i <= last) points.clear();
+    for (PointObservation& point : points) point.id += 100'000;
+  }
+}
+
+// The estimate of a flight from 2 to `landing` s and of the standstill after it.
+FlightPlan FlightWithRest(double landing, double duration) {
+  FlightPlan plan;
+  plan.duration = duration;
+  plan.T_W_V = [landing](double t) { return GentleFlight(t, 2, landing); };
+  return plan;
+}
+
+void ExpectHeld(const EstimatedFlight& flight, double limit, double duration) {
+  EXPECT_TRUE(flight.restarts.empty()) << flight.restarts.front();
+  EXPECT_LT(ErrorOver(duration, flight), limit);
+}
+
+TEST(EstimatorStandstill, BlankImagesEndNoRest) {
+  for (const double landing : {2.0, 10.0}) {
+    auto flight = testing::PlannedFlight(FlightWithRest(landing, 32)).Simulate();
+    for (size_t i = 240; i < 620; i += 10) Blank(i, i, &flight);
+    ExpectHeld(testing::Estimate(flight), 0.02, 20);
+  }
+}
+
+TEST(EstimatorStandstill, ACoveredViewEndsNoRest) {
+  for (const double landing : {2.0, 10.0}) {
+    auto flight = testing::PlannedFlight(FlightWithRest(landing, 32)).Simulate();
+    Blank(260, 600, &flight);
+    ExpectHeld(testing::Estimate(flight), 0.02, 20);
+  }
+}
+
+// The keyframe before the end of a rest is up to ten seconds old.
+TEST(EstimatorStandstill, ATakeOffAfterARestBeginsWhereTheRestWas) {
+  FlightPlan plan;
+  plan.duration = 14;
+  plan.T_W_V = [](double t) { return GentleFlight(t, 12, 40); };
+  auto flight = testing::PlannedFlight(plan).Simulate();
+  Blank(238, 250, &flight);  // the IMU alone leads into the flight
+  const EstimatedFlight estimated = testing::Estimate(flight);
+  EXPECT_TRUE(estimated.restarts.empty());
+  ASSERT_GT(estimated.outputs.size(), 200u);
+  EXPECT_LT(testing::GreatestError(estimated, 100), 0.05);
+}
+
+// Images of a flight with the IMU of a body at rest: a train fills the view.
+TEST(EstimatorStandstill, ASceneThatMovesMovesNothing) {
+  auto flight = testing::PlannedFlight(FlightWithRest(2, 20)).Simulate();
+  FlightPlan plan;
+  plan.duration = 20;
+  plan.T_W_V = [](double t) { return GentleFlight(t, 8, 18); };
+  const auto scene = testing::PlannedFlight(plan).Simulate();
+  for (size_t i = 0; i < flight.frames.size(); ++i)
+    flight.frames[i].points = scene.frames[i].points;
+  const EstimatedFlight estimated = testing::Estimate(flight);
+  ExpectHeld(estimated, 0.02, 15);
 }
 
 }  // namespace

@@ -22,9 +22,12 @@
 namespace plm_vins::testing {
 
 struct FlightPlan {
-  std::function<Rigid3d(double t)> T_W_V;  // vehicle pose, x forward, z up; smooth
-  double duration = 10;                    // [s]
-  Eigen::Vector3d room{10, 8, 4};          // size [m], with the floor's centre at the origin
+  std::function<Rigid3d(double t)> T_W_V;      // vehicle pose, x forward, z up; smooth
+  double duration = 10;                        // [s]
+  Eigen::Vector3d room{10, 8, 4};              // size [m], with the floor's centre at the origin
+  std::vector<Eigen::Vector3d> points_W = {};  // instead of points at the walls of the room
+  double nearest = 0.3;                        // depth of a point that is seen [m]
+  double min_dist_px = 0;                      // between points of an image
   double corner_noise_px = 0.15;
   double imu_noise = 1;  // factor of the configured noise
 };
@@ -54,7 +57,9 @@ class PlannedFlight {
       : plan_(plan),
         sensor_(simulator::DefaultSensors()),
         camera_(CameraModel::Create(sensor_.camera)),
-        R_V_B_(simulator::ForwardLookingBody(sensor_.T_B_C)) {
+        R_V_B_(simulator::ForwardLookingBody(sensor_.T_B_C)),
+        points_W_(plan.points_W) {
+    if (!points_W_.empty()) return;
     for (int i = 0; i < 1500; ++i) {
       Eigen::Vector3d p(random_.Uniform(-1, 1), random_.Uniform(-1, 1), random_.Uniform(-1, 1));
       p[i % 3] = (i % 2 == 0 ? 1 : -1) * random_.Uniform(0.85, 1);
@@ -122,10 +127,16 @@ class PlannedFlight {
   }
 
   std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& p_C) const {
-    if (p_C.z() < 0.3) return std::nullopt;
+    if (p_C.z() < plan_.nearest) return std::nullopt;
     auto uv_px = camera_->Project(p_C);
     if (!uv_px || !camera_->IsInImage(*uv_px)) return std::nullopt;
     return uv_px;
+  }
+
+  bool IsCrowded(const PointFrame& frame, const Eigen::Vector2d& uv_px) const {
+    return std::any_of(frame.points.begin(), frame.points.end(), [&](const auto& point) {
+      return (point.uv_px - uv_px).norm() < plan_.min_dist_px;
+    });
   }
 
   // Tracked points come first; points that left the image get new ids.
@@ -140,7 +151,7 @@ class PlannedFlight {
         const auto last = before.find(i);
         if ((last != before.end()) != known) continue;
         const auto uv_px = Project(T_C_W * points_W_[i]);
-        if (!uv_px) continue;
+        if (!uv_px || IsCrowded(frame, *uv_px)) continue;
         PointObservation point;
         point.uv_px =
             *uv_px + plan_.corner_noise_px * Eigen::Vector2d(random_.Normal(), random_.Normal());

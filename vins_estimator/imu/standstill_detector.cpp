@@ -15,6 +15,7 @@ namespace {
 // Positions and motions of the corners that both images observe [px].
 struct CornerMotions {
   std::vector<Eigen::Vector2d> starts, motions;
+  std::vector<Eigen::Vector2d> ray_motions;  // normalized
 };
 
 CornerMotions MotionsBetween(const PointFrame& from, const PointFrame& to) {
@@ -22,13 +23,14 @@ CornerMotions MotionsBetween(const PointFrame& from, const PointFrame& to) {
   for (const CommonPoint& point : CommonPoints(from, to)) {
     result.starts.push_back(point.first->uv_px);
     result.motions.push_back(point.second->uv_px - point.first->uv_px);
+    result.ray_motions.push_back(point.second->xy - point.first->xy);
   }
   return result;
 }
 
-double MedianDistance(const CornerMotions& corners) {
+double MedianDistance(const std::vector<Eigen::Vector2d>& motions) {
   std::vector<double> distances;
-  for (const Eigen::Vector2d& motion : corners.motions) distances.push_back(motion.norm());
+  for (const Eigen::Vector2d& motion : motions) distances.push_back(motion.norm());
   return Median(distances);
 }
 
@@ -56,22 +58,52 @@ double CommonMotion(const CornerMotions& corners) {
 }  // namespace
 
 StandstillDetector::StandstillDetector(const ImuNoise& noise, const Options& options)
-    : options_(options), imu_(noise, options.imu) {}
+    : options_(options), imu_(noise, options.imu), rest_(noise) {}
 
 std::optional<StandstillDetector::Standstill> StandstillDetector::Add(
-    const FrameMeasurement& measurement) {
+    const FrameMeasurement& measurement, std::optional<double> depth) {
   imu_.Add(measurement);
+  rest_.Add(measurement);
   points_.push_back(measurement.points);
   while (points_.size() > imu_.images()) points_.pop_front();
-  if (!imu_.IsQuiet()) return std::nullopt;
+  doubts_camera_ = false;
+  if (!imu_.IsQuiet()) {
+    rest_.Reset();
+    return std::nullopt;
+  }
   const CornerMotions corners = MotionsBetween(points_.front(), points_.back());
-  if (static_cast<int>(corners.motions.size()) < options_.min_points) return std::nullopt;
-  if (MedianDistance(corners) > options_.max_motion_px) return std::nullopt;
-  return Standstill{imu_.since_ns(), CommonMotion(corners)};
+  const bool sees = static_cast<int>(corners.motions.size()) >= options_.min_points;
+  if (sees && MedianDistance(corners.motions) <= options_.max_motion_px) {
+    rest_.Confirm();
+    seen_ = Seen::kStandstill;
+    return Standstill{imu_.since_ns(), CommonMotion(corners)};
+  }
+  if (!rest_.GoesOn()) {
+    rest_.Reset();
+    return std::nullopt;
+  }
+  if (sees && seen_ != Seen::kMovingScene) {
+    const bool is_of_scene = IsOfScene(MedianDistance(corners.ray_motions), depth);
+    seen_ = is_of_scene ? Seen::kMovingScene : Seen::kMotion;
+  }
+  if (seen_ == Seen::kMotion) {
+    doubts_camera_ = !depth && rest_.TimeSince() < options_.max_doubt;
+    return std::nullopt;
+  }
+  return Standstill{imu_.since_ns(), 0, seen_ == Seen::kMovingScene};
+}
+
+// Rotation is noticed at once.
+bool StandstillDetector::IsOfScene(double motion, std::optional<double> depth) const {
+  constexpr double kNearest = 0.3;  // [m], of an unknown scene
+  const double duration = ToSeconds(points_.back().t_ns - points_.front().t_ns);
+  return motion > rest_.UnnoticedVelocity() * duration / depth.value_or(kNearest);
 }
 
 void StandstillDetector::Reset() {
   imu_.Reset();
+  doubts_camera_ = false;
+  rest_.Reset();
   points_.clear();
 }
 

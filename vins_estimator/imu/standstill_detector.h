@@ -7,6 +7,7 @@
 
 #include "common/imu/imu_noise.h"
 #include "common/measurements.h"
+#include "vins_estimator/imu/imu_rest.h"
 #include "vins_estimator/imu/imu_stillness.h"
 
 namespace plm_vins {
@@ -14,6 +15,11 @@ namespace plm_vins {
 // Detects standstill from the last half second of IMU samples and tracked corners: the IMU is still
 // (ImuStillness), and the median corner is where it was at the start of the window. Both are
 // required: smooth flight resembles standstill for the IMU, a distant scene for the camera.
+//
+// A standstill that both confirmed goes on while images show too little (blank, covered), for as
+// long as the IMU reads what it read during the standstill (ImuRest). It also goes on if the
+// corners begin to move faster than the IMU could fail to notice: then the scene moves (a train,
+// the deck of a ship).
 //
 // The common motion of the corners is a more sensitive measure than their distances, to which noise
 // contributes.
@@ -23,25 +29,41 @@ class StandstillDetector {
     ImuStillness::Options imu;
     double max_motion_px = 1.0;  // median corner motion over the window [px]
     int min_points = 10;         // corners that must be tracked through the window
+    double max_doubt = 2.0;      // after a standstill [s]
   };
 
   struct Standstill {
-    int64_t since_ns = 0;  // time of the image at the start of the window
-    double common_px = 0;  // common motion of the corners since that image [px]
+    int64_t since_ns = 0;      // time of the image at the start of the window
+    double common_px = 0;      // common motion of the corners since that image [px]
+    bool scene_moves = false;  // the image shows motion that the IMU does not feel
   };
 
   StandstillDetector(const ImuNoise& noise, const Options& options);
   explicit StandstillDetector(const ImuNoise& noise) : StandstillDetector(noise, Options()) {}
 
-  // Adds the next image with the IMU samples since the previous one. Returns nullopt if the body
-  // moved within the window, and until the window is full.
-  std::optional<Standstill> Add(const FrameMeasurement& measurement);
+  // Adds the next image with the IMU samples since the previous one, and the depth of the scene [m]
+  // if known. Returns nullopt if the body moved within the window, and until the window is full.
+  std::optional<Standstill> Add(const FrameMeasurement& measurement,
+                                std::optional<double> depth = std::nullopt);
+
+  // Returns whether the newest image shows motion that the IMU does not feel, or not yet. A slow
+  // start close to the ground cannot be told from a scene that moves while the depth is unknown;
+  // the IMU, whose biases are known after a standstill, can lead until it decides.
+  bool doubts_camera() const { return doubts_camera_; }
 
   void Reset();
 
  private:
+  // Whether the corners' motion over the window is too fast for a body whose IMU shows standstill.
+  bool IsOfScene(double motion, std::optional<double> depth) const;
+
   Options options_;
   ImuStillness imu_;
+  ImuRest rest_;
+  // What the images since the confirmed standstill show.
+  enum class Seen { kStandstill, kMotion, kMovingScene };
+  Seen seen_ = Seen::kStandstill;
+  bool doubts_camera_ = false;
   std::deque<PointFrame> points_;  // of the images in the window
 };
 

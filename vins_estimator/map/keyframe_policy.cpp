@@ -59,4 +59,12 @@ bool IsKeyframe(const KeyframePolicyOptions& options, const SlidingWindow& windo
          tracked.mean_parallax > options.min_parallax;
 }
 
+bool EndsStandstill(const KeyframePolicyOptions& options, const SlidingWindow& window) {
+  if (window.frames.size() < 3) return false;
+  const WindowFrame& keyframe = window.frames[window.frames.size() - 3];
+  const WindowFrame& last = window.second_newest();
+  return last.stationary && !window.newest().stationary &&
+         ToSeconds(last.state.t_ns - keyframe.state.t_ns) > options.max_interval;
+}
+
 }  // namespace plm_vins

@@ -32,4 +32,9 @@ struct KeyframePolicyOptions {
 bool IsKeyframe(const KeyframePolicyOptions& options, const SlidingWindow& window,
                 const PointMap& points);
 
+// Whether the frame before the newest one ends a standstill during which keyframes were put off. It
+// must stay: without it, the IMU would have to bridge the whole standstill. Must be asked once the
+// newest frame is there and it is known whether it is stationary.
+bool EndsStandstill(const KeyframePolicyOptions& options, const SlidingWindow& window);
+
 }  // namespace plm_vins

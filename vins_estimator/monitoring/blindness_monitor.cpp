@@ -19,7 +19,7 @@ constexpr double kMaxDeviation = 0.5;
 }  // namespace
 
 std::optional<std::string> BlindnessMonitor::Add(
-    int features_seen, int features_holding, const FrameState& state,
+    int features_seen, bool is_held, const FrameState& state,
     const Eigen::Matrix<double, 6, 6>& pose_covariance) {
   blind_ = features_seen < kFewFeatures;
   const Hold now{state.t_ns, state.position(), pose_covariance.topLeftCorner<3, 3>().trace()};
@@ -28,7 +28,7 @@ std::optional<std::string> BlindnessMonitor::Add(
   const double variance = PositionVarianceFrom(hold_->p_W, state, pose_covariance);
   const double added = std::sqrt(std::max(0.0, variance - hold_->variance));
   if (added <= kMaxDeviation) {
-    if (features_holding >= kFewFeatures) hold_ = now;
+    if (is_held) hold_ = now;
     return std::nullopt;
   }
   return Format("nothing has held the position for %.1f s, which leaves it open by %.2f m",

@@ -15,10 +15,10 @@ namespace plm_vins {
 // seconds without images or IMU samples, and if all observations are outliers.
 class BlindnessMonitor {
  public:
-  // Adds an image: the number of observed features, the number of them that constrain the position
-  // (inliers of known landmarks), and its state with the covariance of (p_W, rotation in B); zero:
+  // Adds an image: the number of observed features, whether known landmarks or a standstill
+  // constrain the position, and its state with the covariance of (p_W, rotation in B); zero:
   // unknown, the image is ignored. Returns the reason once tracking is lost, otherwise nullopt.
-  std::optional<std::string> Add(int features_seen, int features_holding, const FrameState& state,
+  std::optional<std::string> Add(int features_seen, bool is_held, const FrameState& state,
                                  const Eigen::Matrix<double, 6, 6>& pose_covariance);
 
   bool blind() const { return blind_; }  // the newest image has too few features

@@ -11,9 +11,10 @@ std::optional<Failure> EstimateMonitor::Add(const Evidence& evidence) {
           contradiction_monitor_.Add(newest.t_ns, counts.known_seen, counts.known_rejected)) {
     return Failure{*contradiction};
   }
+  const bool is_held =
+      evidence.stationary || counts.known_seen - counts.known_rejected >= kFewFeatures;
   if (const auto blindness = blindness_monitor_.Add(counts.points_observed + counts.lines_observed,
-                                                    counts.known_seen - counts.known_rejected,
-                                                    newest, evidence.pose_covariance)) {
+                                                    is_held, newest, evidence.pose_covariance)) {
     return Failure{*blindness, /*has_drifted=*/true};
   }
   if (const auto runaway = DetectRunaway(FailureLimits(), evidence.time_offset_change)) {

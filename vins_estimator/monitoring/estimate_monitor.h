@@ -24,6 +24,7 @@ class EstimateMonitor {
   // Evidence from one image.
   struct Evidence {
     bool solved = false;                          // the equations had a solution
+    bool stationary = false;                      // standstill at the newest image
     FrameState predicted;                         // newest state, propagated by the IMU alone
     FrameState newest;                            // newest state, optimized
     Eigen::Matrix<double, 6, 6> pose_covariance;  // of `newest`; zero if unknown

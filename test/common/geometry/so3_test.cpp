@@ -86,5 +86,21 @@ TEST(SO3, YawIsTheHeading) {
   EXPECT_NEAR(Yaw(heading * SO3Exp({0, 0.3, 0}) * SO3Exp({0.2, 0, 0})), 0.8, 1e-15);
 }
 
+// Whatever axis of the body points up: a small tilt changes the heading by no more than about that.
+TEST(SO3, YawIsWellConditionedForAnyMount) {
+  for (const Eigen::Vector3d& mount :
+       {Eigen::Vector3d(0, -M_PI / 2, 0), Eigen::Vector3d(0, M_PI / 2, 0),
+        Eigen::Vector3d(M_PI / 2, 0, 0), Eigen::Vector3d(M_PI, 0, 0),
+        Eigen::Vector3d(0, M_PI, 0)}) {
+    const Eigen::Quaterniond q = SO3Exp(mount);
+    for (const Eigen::Vector3d& tilt :
+         {Eigen::Vector3d(0.01, 0, 0), Eigen::Vector3d(0, 0.01, 0), Eigen::Vector3d(0, 0, 0.01)}) {
+      EXPECT_LT(std::abs(std::remainder(Yaw(q * SO3Exp(tilt)) - Yaw(q), 2 * M_PI)), 0.02);
+    }
+    const double turn = Yaw(SO3Exp({0, 0, 0.5}) * q) - Yaw(q);
+    EXPECT_NEAR(std::remainder(turn, 2 * M_PI), 0.5, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace plm_vins

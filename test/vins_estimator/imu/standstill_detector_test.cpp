@@ -13,6 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kFocal = 460;             // [px]
 constexpr int64_t kSample_ns = 5'000'000;  // 200 Hz
 
 // An artificial sensor: IMU readings and corner positions as functions of time.
@@ -40,6 +41,7 @@ class StandstillDetectorTest : public ::testing::Test {
       point.uv_px = (1 + zoom_ * t) * (Eigen::Rotation2Dd(turn_ * t) * from_middle) +
                     Eigen::Vector2d(shift_px(t), 0) +
                     0.1 * Eigen::Vector2d(random_.Normal(), random_.Normal());
+      point.xy = point.uv_px / kFocal;
       frame.points.points.push_back(point);
     }
     return frame;
@@ -146,14 +148,90 @@ TEST_F(StandstillDetectorTest, NoticesTheTakeOffWithinTwoImages) {
   EXPECT_EQ(CountStill(40, Nothing, accel, shift), 0);
 }
 
-TEST_F(StandstillDetectorTest, BlindOrWithNewTracksItDoesNotDecide) {
+TEST_F(StandstillDetectorTest, BlindFromTheStartItDoesNotDecide) {
   points_ = 5;
   EXPECT_EQ(CountStill(30, Nothing, Nothing, NoShift), 0);
   points_ = 60;
   EXPECT_GT(CountStill(30, Nothing, Nothing, NoShift), 0);
+}
+
+TEST_F(StandstillDetectorTest, AStandstillOutlastsBlindImagesAndLostTracks) {
+  CountStill(40, Nothing, Nothing, NoShift);
+  points_ = 0;
+  EXPECT_EQ(CountStill(1, Nothing, Nothing, NoShift), 1);
+  EXPECT_EQ(CountStill(400, Nothing, Nothing, NoShift), 400);
+  points_ = 60;
   first_id_ = 1000;
-  EXPECT_EQ(CountStill(10, Nothing, Nothing, NoShift), 0);
-  EXPECT_GT(CountStill(5, Nothing, Nothing, NoShift), 0);
+  EXPECT_EQ(CountStill(60, Nothing, Nothing, NoShift), 60);
+}
+
+// Both are below what counts as quiet in half a second.
+TEST_F(StandstillDetectorTest, BlindItNoticesASlowStart) {
+  const auto accel = [](double) { return Vector3d(0.1, 0, 0); };
+  const auto gyro = [](double) { return Vector3d(0, 0, 0.01); };
+  CountStill(100, Nothing, Nothing, NoShift);
+  points_ = 0;
+  EXPECT_LE(CountStill(60, Nothing, accel, NoShift), 30);
+  EXPECT_EQ(CountStill(60, Nothing, accel, NoShift), 0);
+  detector_.Reset();
+  points_ = 60;
+  CountStill(100, Nothing, Nothing, NoShift);
+  points_ = 0;
+  EXPECT_LE(CountStill(60, gyro, Nothing, NoShift), 30);
+  EXPECT_EQ(CountStill(60, gyro, Nothing, NoShift), 0);
+}
+
+// A train sets out: 20 px in the first half second.
+TEST_F(StandstillDetectorTest, ASceneThatMovesFasterThanTheImuCouldMissEndsNoStandstill) {
+  CountStill(60, Nothing, Nothing, NoShift);
+  const double begin = ToSeconds(t_ns_);
+  const auto shift = [begin](double t) { return 80 * (t - begin) * (t - begin); };
+  CountStill(10, Nothing, Nothing, shift);
+  for (int i = 0; i < 100; ++i) {
+    const auto standstill = detector_.Add(Next(Nothing, Nothing, shift), /*depth=*/4);
+    ASSERT_TRUE(standstill);
+    EXPECT_TRUE(standstill->scene_moves);
+  }
+  const double end = shift(ToSeconds(t_ns_));
+  CountStill(10, Nothing, Nothing, [end](double) { return end; });
+  const auto standstill = detector_.Add(Next(Nothing, Nothing, [end](double) { return end; }));
+  ASSERT_TRUE(standstill);
+  EXPECT_FALSE(standstill->scene_moves);
+}
+
+TEST_F(StandstillDetectorTest, SlowMotionOfAnUnknownSceneIsDoubtedForAWhile) {
+  CountStill(60, Nothing, Nothing, NoShift);
+  const double begin = ToSeconds(t_ns_);
+  const auto shift = [begin](double t) { return 10 * (t - begin); };
+  int doubts = 0;
+  for (int i = 0; i < 60; ++i) {
+    EXPECT_FALSE(detector_.Add(Next(Nothing, Nothing, shift)) && i > 10) << i;
+    doubts += detector_.doubts_camera() ? 1 : 0;
+  }
+  EXPECT_GT(doubts, 25);
+  EXPECT_LE(doubts, 41);
+  points_ = 0;
+  EXPECT_EQ(CountStill(20, Nothing, Nothing, shift), 0) << "it has seen a motion";
+}
+
+TEST_F(StandstillDetectorTest, NearTheGroundASlowTakeOffIsNoMotionOfTheScene) {
+  CountStill(60, Nothing, Nothing, NoShift);
+  const double begin = ToSeconds(t_ns_);
+  const auto accel = [](double) { return Vector3d(0.15, 0, 0); };
+  const auto shift = [begin](double t) { return kFocal / 0.1 * 0.15 / 2 * std::pow(t - begin, 2); };
+  for (int i = 0; i < 40; ++i) {
+    const auto standstill = detector_.Add(Next(Nothing, accel, shift), /*depth=*/0.1);
+    EXPECT_FALSE(standstill && standstill->scene_moves) << i;
+  }
+}
+
+TEST_F(StandstillDetectorTest, BlindItDoesNotGoBackToAStandstillThatEnded) {
+  CountStill(40, Nothing, Nothing, NoShift);
+  points_ = 0;
+  CountStill(
+      4, Nothing, [](double) { return Vector3d(0, 0, 2.0); }, NoShift);
+  CountStill(10, Nothing, Nothing, NoShift);
+  EXPECT_EQ(CountStill(40, Nothing, Nothing, NoShift), 0);
 }
 
 TEST_F(StandstillDetectorTest, WithoutImuOrAfterResetItStartsOver) {

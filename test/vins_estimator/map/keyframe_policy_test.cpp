@@ -84,5 +84,25 @@ TEST(KeyframePolicy, BlindImagesAreNone) {
   EXPECT_TRUE(Keyframe({3.1, 0}));  // limits the interval of integration without images
 }
 
+// A keyframe and two images after it, the second of which is the newest one.
+bool EndsAStandstill(double since_keyframe, bool is_stationary, bool stays_stationary) {
+  SlidingWindow window;
+  for (const double t : {0.0, since_keyframe, since_keyframe + 0.05}) {
+    WindowFrame frame;
+    frame.state.t_ns = ToNanoseconds(t);
+    window.frames.push_back(frame);
+  }
+  window.second_newest().stationary = is_stationary;
+  window.newest().stationary = stays_stationary;
+  return EndsStandstill(KeyframePolicyOptions(EstimatorConfig(), kFocalLength), window);
+}
+
+TEST(KeyframePolicy, TheEndOfALongStandstillIsOne) {
+  EXPECT_TRUE(EndsAStandstill(1.05, true, false));
+  EXPECT_FALSE(EndsAStandstill(0.95, true, false)) << "no keyframe was put off";
+  EXPECT_FALSE(EndsAStandstill(1.05, true, true));
+  EXPECT_FALSE(EndsAStandstill(1.05, false, false));
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -26,46 +26,46 @@ Matrix6d Known(double deviation) {
 
 TEST(BlindnessMonitor, BearsDriftWhileSomethingIsSeen) {
   BlindnessMonitor monitor;
-  for (int i = 0; i < 1000; ++i) EXPECT_FALSE(monitor.Add(6, 6, At(i), Known(0.01 * i)));
+  for (int i = 0; i < 1000; ++i) EXPECT_FALSE(monitor.Add(6, true, At(i), Known(0.01 * i)));
 }
 
 TEST(BlindnessMonitor, EndsWhatBlindnessHasMadeTooUncertain) {
   BlindnessMonitor monitor;
-  monitor.Add(100, 100, At(0), Known(3.0));
-  EXPECT_FALSE(monitor.Add(0, 0, At(ToNanoseconds(0.5)), Known(3.0)));
-  EXPECT_FALSE(monitor.Add(5, 5, At(ToNanoseconds(1.5)), Known(3.02)));
-  EXPECT_EQ(monitor.Add(5, 5, At(ToNanoseconds(3.5)), Known(3.06)).value_or(""),
+  monitor.Add(100, true, At(0), Known(3.0));
+  EXPECT_FALSE(monitor.Add(0, false, At(ToNanoseconds(0.5)), Known(3.0)));
+  EXPECT_FALSE(monitor.Add(5, false, At(ToNanoseconds(1.5)), Known(3.02)));
+  EXPECT_EQ(monitor.Add(5, false, At(ToNanoseconds(3.5)), Known(3.06)).value_or(""),
             "nothing has held the position for 3.5 s, which leaves it open by 0.60 m");
 }
 
 TEST(BlindnessMonitor, WhatHoldsNothingIsAsGoodAsBlindness) {
   BlindnessMonitor monitor;
-  monitor.Add(100, 100, At(0), Known(0.1));
+  monitor.Add(100, true, At(0), Known(0.1));
   for (int i = 1; i < 10; ++i) {
-    EXPECT_FALSE(monitor.Add(100, 5, At(ToNanoseconds(0.5 * i)), Known(0.05 * i)));
+    EXPECT_FALSE(monitor.Add(100, false, At(ToNanoseconds(0.5 * i)), Known(0.05 * i)));
     EXPECT_FALSE(monitor.blind());
   }
-  EXPECT_EQ(monitor.Add(100, 5, At(ToNanoseconds(5.0)), Known(0.6)).value_or(""),
+  EXPECT_EQ(monitor.Add(100, false, At(ToNanoseconds(5.0)), Known(0.6)).value_or(""),
             "nothing has held the position for 5.0 s, which leaves it open by 0.59 m");
 }
 
 TEST(BlindnessMonitor, AGapBetweenImagesIsBlindness) {
   BlindnessMonitor monitor;
-  monitor.Add(100, 100, At(0), Known(0.1));
-  EXPECT_EQ(monitor.Add(100, 100, At(ToNanoseconds(4.0)), Known(0.6)).value_or(""),
+  monitor.Add(100, true, At(0), Known(0.1));
+  EXPECT_EQ(monitor.Add(100, true, At(ToNanoseconds(4.0)), Known(0.6)).value_or(""),
             "nothing has held the position for 4.0 s, which leaves it open by 0.59 m");
 }
 
 TEST(BlindnessMonitor, TakesNothingFromAnUnknownCovariance) {
   BlindnessMonitor monitor;
-  EXPECT_FALSE(monitor.Add(100, 100, At(0), Matrix6d::Zero()));
-  EXPECT_FALSE(monitor.Add(100, 100, At(1), Known(3.0)));
-  EXPECT_FALSE(monitor.Add(100, 100, At(2), Matrix6d::Zero()));
-  EXPECT_FALSE(monitor.Add(5, 5, At(3), Known(3.0)));
+  EXPECT_FALSE(monitor.Add(100, true, At(0), Matrix6d::Zero()));
+  EXPECT_FALSE(monitor.Add(100, true, At(1), Known(3.0)));
+  EXPECT_FALSE(monitor.Add(100, true, At(2), Matrix6d::Zero()));
+  EXPECT_FALSE(monitor.Add(5, false, At(3), Known(3.0)));
   EXPECT_TRUE(monitor.blind());
-  EXPECT_FALSE(monitor.Add(100, 100, At(4), Matrix6d::Zero()));
+  EXPECT_FALSE(monitor.Add(100, true, At(4), Matrix6d::Zero()));
   EXPECT_FALSE(monitor.blind());
-  EXPECT_TRUE(monitor.Add(5, 5, At(5), Known(3.1)));
+  EXPECT_TRUE(monitor.Add(5, false, At(5), Known(3.1)));
 }
 
 // Far from the origin of the world, an uncertain heading moves the position by metres.
@@ -79,19 +79,19 @@ TEST(BlindnessMonitor, ATurnOfTheWorldIsNoDrift) {
       Eigen::Matrix<double, 6, 1> turn;
       turn << 0, state.position().x(), 0, 0, 0, 1;
       covariance += kHeading * kHeading * turn * turn.transpose();
-      EXPECT_FALSE(monitor.Add(100, i == 0 ? 100 : 0, state, covariance)) << speed << ' ' << i;
+      EXPECT_FALSE(monitor.Add(100, i == 0, state, covariance)) << speed << ' ' << i;
       if (i < 20) continue;
       covariance.diagonal().head<3>().array() += 0.1;  // drift, in either direction
-      EXPECT_TRUE(monitor.Add(100, 0, state, covariance)) << speed;
+      EXPECT_TRUE(monitor.Add(100, false, state, covariance)) << speed;
     }
   }
 }
 
 TEST(BlindnessMonitor, SightStartsItOver) {
   BlindnessMonitor monitor;
-  monitor.Add(0, 0, At(0), Known(0.4));
-  monitor.Add(50, 50, At(1), Known(0.4));
-  EXPECT_FALSE(monitor.Add(0, 0, At(2), Known(0.6)));
+  monitor.Add(0, false, At(0), Known(0.4));
+  monitor.Add(50, true, At(1), Known(0.4));
+  EXPECT_FALSE(monitor.Add(0, false, At(2), Known(0.6)));
 }
 
 }  // namespace

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/imu/imu_rest.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plm_vins {
+namespace {
+
+constexpr double kMaxReference = 10.0;  // [s]: biases change over longer times
+constexpr double kSigmas = 4.0;
+// Always allowed: noise beyond what is configured, bias changes.
+constexpr double kLeastAngle = 0.01;     // [rad]
+constexpr double kLeastVelocity = 0.05;  // [m/s]
+
+}  // namespace
+
+void ImuRest::Add(const FrameMeasurement& measurement) {
+  for (size_t i = 1; i < measurement.imu.size(); ++i) {
+    const ImuSample& from = measurement.imu[i - 1];
+    const ImuSample& to = measurement.imu[i];
+    const double dt = ToSeconds(to.t_ns - from.t_ns);
+    since_.duration += dt;
+    since_.gyro += 0.5 * dt * (from.gyro + to.gyro);
+    since_.accel += 0.5 * dt * (from.accel + to.accel);
+  }
+}
+
+void ImuRest::Confirm() {
+  confirmed_.duration += since_.duration;
+  confirmed_.gyro += since_.gyro;
+  confirmed_.accel += since_.accel;
+  since_ = {};
+  if (confirmed_.duration <= kMaxReference) return;
+  const double share = kMaxReference / confirmed_.duration;
+  confirmed_.duration *= share;
+  confirmed_.gyro *= share;
+  confirmed_.accel *= share;
+}
+
+bool ImuRest::GoesOn() const {
+  if (confirmed_.duration == 0) return false;
+  const double ratio = since_.duration / confirmed_.duration;
+  const Eigen::Vector3d turn = since_.gyro - ratio * confirmed_.gyro;
+  const Eigen::Vector3d velocity = since_.accel - ratio * confirmed_.accel;
+  return turn.norm() <= Limit(noise_.gyro_density, kLeastAngle) &&
+         velocity.norm() <= UnnoticedVelocity();
+}
+
+double ImuRest::UnnoticedVelocity() const { return Limit(noise_.accel_density, kLeastVelocity); }
+
+void ImuRest::Reset() { confirmed_ = since_ = {}; }
+
+// The integral of white noise over a time T has the variance density^2 T, and the mean over the
+// reference time T_r, times T, has density^2 T^2 / T_r.
+double ImuRest::Limit(double density, double least) const {
+  const double duration = since_.duration;
+  const double variance = duration + duration * duration / confirmed_.duration;
+  return std::max(least, kSigmas * density * std::sqrt(variance));
+}
+
+}  // namespace plm_vins

@@ -35,19 +35,6 @@ constexpr double kWidened = 30;
 
 constexpr double kLongGap = 0.2;  // [s] without IMU samples; explains a failure after it
 
-// Returns the longest interval without IMU samples [s].
-double LongestImuInterval(const SlidingWindow& window) {
-  int64_t longest_ns = 0;
-  for (const WindowFrame& frame : window.frames) {
-    if (!frame.motion_since_previous) continue;
-    const std::vector<ImuSample>& samples = frame.motion_since_previous->samples();
-    for (size_t i = 1; i < samples.size(); ++i) {
-      longest_ns = std::max(longest_ns, samples[i].t_ns - samples[i - 1].t_ns);
-    }
-  }
-  return ToSeconds(longest_ns);
-}
-
 }  // namespace
 
 WindowOdometry::WindowOdometry(const Config& config, const EstimatorOptions& options)
@@ -95,11 +82,6 @@ WindowOdometry::Solution WindowOdometry::SolveFirstWindow(EstimatorOutput* outpu
     solution = SolveWindow(CurrentSolution(), output);
   }
   return solution;
-}
-
-std::optional<double> WindowOdometry::MedianDepth() const {
-  if (!started_) return std::nullopt;
-  return estimate_.map.points.MedianDepthInNewest(estimate_.map.window);
 }
 
 WindowOdometry::Tracked WindowOdometry::Track(
@@ -150,10 +132,10 @@ WindowOdometry::Solution WindowOdometry::Solve(bool keep_second_newest, Estimato
 std::optional<Failure> WindowOdometry::Check(const Solution& solution, const FrameState& predicted,
                                              const EstimatorCounts& counts) {
   const SlidingWindow& window = estimate_.map.window;
-  auto failure =
-      estimate_monitor_.Add({solution.exists, window.newest().stationary, predicted, window.newest().state,
-                             solution.PoseCovariance(), counts, window.td - config_->sensor.td});
-  const double gap = LongestImuInterval(window);
+  auto failure = estimate_monitor_.Add({solution.exists, window.newest().stationary, predicted,
+                                        window.newest().state, solution.PoseCovariance(), counts,
+                                        window.td - config_->sensor.td});
+  const double gap = window.LongestImuInterval();
   if (failure && gap > kLongGap) {
     failure->why = Format("a gap of %.1f s in the IMU samples: ", gap) + failure->why;
   }

@@ -45,7 +45,10 @@ class WindowOdometry {
   bool started() const { return started_; }
 
   // Median depth of the known points in the newest image [m]; nullopt if there are few.
-  std::optional<double> MedianDepth() const;
+  std::optional<double> MedianDepth() const {
+    if (!started_) return std::nullopt;
+    return estimate_.map.points.MedianDepthInNewest(estimate_.map.window);
+  }
 
   // Processes the next image; requires started().
   Tracked Track(const FrameMeasurement& measurement,

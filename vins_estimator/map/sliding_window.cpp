@@ -61,6 +61,18 @@ bool SlidingWindow::HasStationary() const {
                      [](const WindowFrame& frame) { return frame.stationary; });
 }
 
+double SlidingWindow::LongestImuInterval() const {
+  int64_t longest_ns = 0;
+  for (const WindowFrame& frame : frames) {
+    if (!frame.motion_since_previous) continue;
+    const std::vector<ImuSample>& samples = frame.motion_since_previous->samples();
+    for (size_t i = 1; i < samples.size(); ++i) {
+      longest_ns = std::max(longest_ns, samples[i].t_ns - samples[i - 1].t_ns);
+    }
+  }
+  return ToSeconds(longest_ns);
+}
+
 void SlidingWindow::RemoveSecondNewest() {
   const WindowFrame& second = second_newest();
   const std::shared_ptr<Preintegration> joined = second.motion_since_previous;

@@ -85,6 +85,9 @@ struct SlidingWindow {
   // Returns whether any frame is stationary.
   bool HasStationary() const;
 
+  // Returns the longest interval between IMU samples in the window [s].
+  double LongestImuInterval() const;
+
   // Removes the second newest frame and joins its preintegrated measurement to the newest frame's.
   void RemoveSecondNewest();
   void RemoveOldest();

@@ -32,7 +32,10 @@ SimulatedFlight StereoFlight(uint64_t seed, double outlier_ratio = 0) {
 SimulatedFlight WithoutSecondCamera(SimulatedFlight flight) {
   flight.sensor.second_camera.reset();
   for (FrameMeasurement& frame : flight.frames) {
-    for (PointObservation& point : frame.points.points) point.right.reset();
+    for (PointObservation& point : frame.points.points) {
+      point.right.reset();
+      point.right_search = RightSearch::kNotDue;
+    }
   }
   return flight;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Feeds images and IMU samples to the trackers and the estimator, without ROS. Usage: example CONFIG
+// Feeds images and IMU samples to the trackers and the estimator, without ROS. Usage: example
+// CONFIG
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 

@@ -42,7 +42,8 @@ class Renderer {
   void AccumulateByRows(const std::function<Rigid3d(int row)>& T_W_C, int subpixel,
                         cv::Mat1f* sum) const;
 
-  // Returns the depth along the optical axis in the middle of each pixel [m]; 0 if no surface is hit.
+  // Returns the depth along the optical axis in the middle of each pixel [m]; 0 if no surface is
+  // hit.
   cv::Mat1f Depth(const Rigid3d& T_W_C) const;
 
  private:

@@ -19,7 +19,7 @@ EstimatedFlight Fly(const FlightPlan& plan) {
   return testing::Estimate(testing::PlannedFlight(plan).Simulate());
 }
 
-// Of the last position, aligned at an image so long before [m].
+// Returns the error of the last position, aligned at the image `duration` [s] before it [m].
 double ErrorOver(double duration, const EstimatedFlight& flight) {
   const auto images = static_cast<size_t>(duration / 0.05);
   const size_t last = flight.outputs.size() - 1, first = last - images;
@@ -99,14 +99,14 @@ TEST(EstimatorStandstill, ATakeOffAfterARestBeginsWhereTheRestWas) {
   plan.duration = 14;
   plan.T_W_V = [](double t) { return GentleFlight(t, 12, 40); };
   auto flight = testing::PlannedFlight(plan).Simulate();
-  Blank(238, 250, &flight);  // the IMU alone leads into the flight
+  Blank(238, 250, &flight);  // dead reckoning at the take-off
   const EstimatedFlight estimated = testing::Estimate(flight);
   EXPECT_TRUE(estimated.restarts.empty());
   ASSERT_GT(estimated.outputs.size(), 200u);
   EXPECT_LT(testing::GreatestError(estimated, 100), 0.05);
 }
 
-// Images of a flight with the IMU of a body at rest: a train fills the view.
+// Images of a flight with the IMU of a body at standstill: a train fills the view.
 TEST(EstimatorStandstill, ASceneThatMovesMovesNothing) {
   auto flight = testing::PlannedFlight(FlightWithRest(2, 20)).Simulate();
   FlightPlan plan;

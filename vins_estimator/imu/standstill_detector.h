@@ -60,7 +60,7 @@ class StandstillDetector {
   Options options_;
   ImuStillness imu_;
   ImuRest rest_;
-  // What the images since the confirmed standstill show.
+  // Content of the images since the confirmed standstill.
   enum class Seen { kStandstill, kMotion, kMovingScene };
   Seen seen_ = Seen::kStandstill;
   bool doubts_camera_ = false;

@@ -31,7 +31,7 @@ constexpr double kMaxScaleDeviation = 0.075;
 // Returns whether single images tell the depth of points.
 bool HasDepth(const SensorConfig& sensor) { return sensor.second_camera || sensor.depth; }
 
-// Depths that do not lead to a start may not fit the camera: the first window does without them.
+// Depths that do not lead to a start may not fit the camera: the first window ignores them.
 void ForgetDepths(std::vector<FrameMeasurement>* frames) {
   for (FrameMeasurement& frame : *frames) {
     for (PointObservation& point : frame.points.points) {

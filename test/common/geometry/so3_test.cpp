@@ -86,7 +86,7 @@ TEST(SO3, YawIsTheHeading) {
   EXPECT_NEAR(Yaw(heading * SO3Exp({0, 0.3, 0}) * SO3Exp({0.2, 0, 0})), 0.8, 1e-15);
 }
 
-// Whatever axis of the body points up: a small tilt changes the heading by no more than about that.
+// Whatever axis of the body points up: a small tilt changes the heading by about as much at most.
 TEST(SO3, YawIsWellConditionedForAnyMount) {
   for (const Eigen::Vector3d& mount :
        {Eigen::Vector3d(0, -M_PI / 2, 0), Eigen::Vector3d(0, M_PI / 2, 0),

@@ -242,7 +242,9 @@ std::optional<VisualInertialBundle> AdjustVisualInertialBundle(
     std::vector<FrameState>* states, std::string* reason) {
   Bundle bundle(tracks, p_W, preintegrations, options, states);
   NormalEquations equations(bundle.problem());
-  const bool solved = Solve(kSolution, bundle.problem(), &equations).solved;
+  // Without points, the IMU leaves the velocity unobservable, which rounding may hide.
+  const bool solved = !bundle.problem().landmarks().empty() &&
+                      Solve(kSolution, bundle.problem(), &equations).solved;
   equations.Linearize();
   const std::optional<double> scale_deviation = bundle.RelativeScaleDeviation(&equations);
   if (!solved || !scale_deviation) {

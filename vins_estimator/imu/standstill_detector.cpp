@@ -30,6 +30,7 @@ CornerMotions MotionsBetween(const PointFrame& from, const PointFrame& to) {
 
 double MedianDistance(const std::vector<Eigen::Vector2d>& motions) {
   std::vector<double> distances;
+  distances.reserve(motions.size());
   for (const Eigen::Vector2d& motion : motions) distances.push_back(motion.norm());
   return Median(distances);
 }

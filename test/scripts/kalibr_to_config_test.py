@@ -91,7 +91,8 @@ class Kalibr(unittest.TestCase):
         config = self.folder / "config.yaml"
         result = self.convert("--output", config, *inputs.pop("options", []), **inputs)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.write("asl/cam0/data.csv", "100000000,missing.png\n")
+        for camera in ("cam0", "cam1"):
+            self.write(f"asl/{camera}/data.csv", "100000000,missing.png\n")
         self.write("asl/imu0/data.csv", "100000000,0,0,0,0,0,9.81\n200000000,0,0,0,0,0,9.81\n")
         result = run(RUN_OFFLINE, "--config", config, "--asl", self.folder / "asl", "--output",
                      self.folder / "results")

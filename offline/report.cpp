@@ -55,7 +55,7 @@ std::string MostWrong(const RunSummary::Run& run, const Source& source,
 
 std::string WhyNone(const RunSummary::Run& run, const OdometryPipeline& pipeline,
                     const RunSummary& summary) {
-  const std::string finding = pipeline.InputFinding();
+  std::string finding = pipeline.InputFinding();
   if (!finding.empty()) return finding;
   if (!summary.last_reason().empty()) return summary.last_reason();
   const bool dropped = std::any_of(run.drops.begin(), run.drops.end(),

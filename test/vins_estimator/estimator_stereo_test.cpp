@@ -133,7 +133,7 @@ TEST(EstimatorStereo, ASecondCameraThatDoesNotFitIsNamedAndCostsLittle) {
         if (point.right) *point.right += shift;
       }
     }
-    const EstimatedFlight estimated = testing::Estimate(flight);
+    EstimatedFlight estimated = testing::Estimate(flight);
     EXPECT_TRUE(estimated.outputs.back().second_camera.misfit_px);
     return estimated;
   });

@@ -68,7 +68,7 @@ int Builder::ViewWithMostPairs() const {
 std::optional<Eigen::Vector3d> Builder::PointOf(const ViewObservation& seen,
                                                 const Rigid3d& T_G_C) const {
   if (seen.depth) return T_G_C * (*seen.depth * seen.xy.homogeneous());
-  const auto p_G = TriangulatePoint({{T_G_C, seen.xy}, {T_G_C * options_.T_C_C1, *seen.right}},
+  auto p_G = TriangulatePoint({{T_G_C, seen.xy}, {T_G_C * options_.T_C_C1, *seen.right}},
                                     options_.min_angle);
   if (!p_G) return std::nullopt;
   const Eigen::Vector2d error = (T_G_C.Inverse() * *p_G).hnormalized() - seen.xy;

@@ -52,6 +52,7 @@ struct Scene {
   // Rotations that are wrong by up to a degree, as a gyroscope with a bias has them.
   std::vector<Quaterniond> WrongRotations() const {
     std::vector<Quaterniond> rotations;
+    rotations.reserve(kViews);
     for (int i = 0; i < kViews; ++i) {
       rotations.push_back(T_W_C[i].rotation * SO3Exp(Vector3d(0.003, -0.002, 0.001) * i));
     }

@@ -13,7 +13,7 @@ changed_sources() {
   if [[ -n "$base" && "$base" != "$(git rev-parse HEAD)" ]]; then
     range=("$base..HEAD")
   fi
-  git log "${range[@]}" --name-only --format= -- '*.cpp' '*.h' ':!benchmark' |
+  git log "${range[@]}" --name-only --format= -- '*.cpp' '*.h' ':!benchmark' ':!docs' |
     sed 's/\.h$/.cpp/' | awk '!seen[$0]++' | while read -r source; do
       if [[ -f "$source" ]]; then
         echo "$source"

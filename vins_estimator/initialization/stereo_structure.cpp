@@ -69,7 +69,7 @@ std::optional<Eigen::Vector3d> Builder::PointOf(const ViewObservation& seen,
                                                 const Rigid3d& T_G_C) const {
   if (seen.depth) return T_G_C * (*seen.depth * seen.xy.homogeneous());
   auto p_G = TriangulatePoint({{T_G_C, seen.xy}, {T_G_C * options_.T_C_C1, *seen.right}},
-                                    options_.min_angle);
+                              options_.min_angle);
   if (!p_G) return std::nullopt;
   const Eigen::Vector2d error = (T_G_C.Inverse() * *p_G).hnormalized() - seen.xy;
   if (error.norm() > kMaxInlierResidual * options_.noise) return std::nullopt;

@@ -59,7 +59,9 @@ TEST_F(LineStereoTest, FindsSteepLinesWhereTheyAre) {
   int steep = 0;
   for (const LineObservation& line : frame.lines) {
     steep += Slope(line) > 0.5;
-    if (line.right) EXPECT_LT(Error(line), 2) << line.id;
+    if (line.right) {
+      EXPECT_LT(Error(line), 2) << line.id;
+    }
   }
   ASSERT_GT(steep, 10);
   EXPECT_GT(CountMatched(frame), 0.6 * steep);
@@ -67,7 +69,9 @@ TEST_F(LineStereoTest, FindsSteepLinesWhereTheyAre) {
 
 TEST_F(LineStereoTest, DoesNotMatchLinesAlongTheEpipolarCurves) {
   for (const LineObservation& line : Match(scene_.View(Homography(kMounting))).lines) {
-    if (Slope(line) < 0.15) EXPECT_FALSE(line.right) << line.id;
+    if (Slope(line) < 0.15) {
+      EXPECT_FALSE(line.right) << line.id;
+    }
   }
 }
 
@@ -102,7 +106,9 @@ TEST_F(LineStereoTest, FindsThemAgain) {
   }
   EXPECT_GE(CountMatched(frame), first);
   for (const LineObservation& line : frame.lines) {
-    if (line.right) EXPECT_LT(Error(line), 2) << line.id;
+    if (line.right) {
+      EXPECT_LT(Error(line), 2) << line.id;
+    }
   }
 }
 

@@ -47,7 +47,9 @@ TEST(CameraPairTest, CurveFollowsTheProjectionInStepsOfAPixel) {
     const auto exact = pair.Project(kXy, curve[i].inverse_depth);
     ASSERT_TRUE(exact);
     EXPECT_LT((curve[i].pixel - *exact).norm(), 0.1) << i;
-    if (i > 0) EXPECT_LT((curve[i].pixel - curve[i - 1].pixel).norm(), 1.2) << i;
+    if (i > 0) {
+      EXPECT_LT((curve[i].pixel - curve[i - 1].pixel).norm(), 1.2) << i;
+    }
   }
   EXPECT_NEAR(curve.front().inverse_depth, 0, 1e-12);
   EXPECT_NEAR(curve.back().inverse_depth, 3, 1e-12);

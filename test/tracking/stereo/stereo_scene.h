@@ -74,7 +74,7 @@ class StereoScene {
     const double distance = (1 - normal_.dot(origin)) / normal_.dot(ray);
     const Eigen::Vector2d place =
         (origin + distance * ray).head<2>() * normal_.z() * kPixelsPerUnit +
-        Eigen::Vector2d::Constant(kSide / 2);
+        Eigen::Vector2d::Constant(0.5 * kSide);
     return {static_cast<float>(place.x()), static_cast<float>(place.y())};
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What further sensors see at the time of a camera image.
+// Images of further sensors that belong to a camera image.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a second camera, or measured depth, makes of the estimate.
+// Estimation with a second camera or with measured depth.
 #include <gtest/gtest.h>
 
 #include "common/geometry/so3.h"

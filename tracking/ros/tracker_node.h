@@ -255,8 +255,8 @@ class TrackerNode {
 
   // Declared last, so that they are destroyed first, and the inbox after the others: a nodelet is
   // unloaded while callbacks run in other threads. Each destructor waits for its own callbacks.
-  // Those of images and timers use the IMU inbox, whose own callback, in the receiving thread, uses
-  // nothing else.
+  // Callbacks of images and timers use the IMU inbox. Its own callback, in the receiving thread,
+  // uses nothing else.
   ImuInbox imu_{node_, config_.sensor.imu_topic, [this] { TrackWhatIsReady(); }};
   ImageSubscription images_;
   ImageSubscription right_images_{"second_camera_images"};

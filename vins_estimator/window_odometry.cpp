@@ -10,7 +10,6 @@
 #include "common/format.h"
 #include "common/stopwatch.h"
 #include "vins_estimator/map/recalibration.h"
-#include "vins_estimator/map/wandering_lines.h"
 #include "vins_estimator/optimization/window_solver.h"
 #include "vins_estimator/problem/baseline_evidence.h"
 #include "vins_estimator/problem/normal_equations.h"
@@ -319,7 +318,6 @@ void WindowOdometry::LearnFromWindow(EstimatorOutput* output) {
   if (config_->sensor.depth) {
     counts.depth = map.points.RemoveDepthOutliers(map.window, options_->max_inverse_depth_error);
   }
-  counts.lines_wandering = NoteWandering(map.window, noise_.line(), &map.lines);
   counts.lines_rejected = map.lines.RemoveOutliers(map.window, options_->line_limits);
   counts.known_rejected = counts.known_seen - map.CountInNewest();
   if (config_->estimator.adapt_noise) noise_.Update(map);

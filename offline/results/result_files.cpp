@@ -75,7 +75,6 @@ FrameCounts MakeCounts(const PipelineFrame& frame) {
   counts[kLinesRecognised] = estimator.lines_recognised;
   counts[kLinesInWindow] = estimator.lines_in_window;
   counts[kLinesRejected] = estimator.lines_rejected;
-  counts[kLinesWandering] = estimator.lines_wandering;
   return counts;
 }
 

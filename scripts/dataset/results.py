@@ -85,8 +85,6 @@ METRICS = (
     _summary("merged_lines", "Merged line landmarks of the whole run", 0, "merged_lines"),
     _summary("recognised_lines", "Recognised line landmarks of the whole run", 0,
              "recognised_lines"),
-    _summary("wandering_lines", "Lines found to wander (shadows, outlines)", 0,
-             "wandering_lines"),
     Metric("manhattan_percent", "Share of the poses with a Manhattan frame [%]", 0,
            lambda r: 100 * r.summary["manhattan_share"]),
     Metric("load", "Load average of the machine in the last minute of the run", 1,

@@ -15,32 +15,30 @@ struct WallLine {
   int64_t id;
   Eigen::Vector2d start, end;
   int first_frame = 0, last_frame = 100;  // frames that observe it
-  bool wanders = false;
 };
+
+inline void AddWallFrame(const std::vector<WallLine>& lines, int i, LineWindow* window) {
+  FrameState state;
+  state.t_ns = (i + 1) * 100'000'000ll;
+  state.SetPose({Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.15 * i, 0.15 * i, 0)});
+  LineFrame frame;
+  frame.t_ns = state.t_ns;
+  const auto see = [&state](const Eigen::Vector2d& on_wall) -> Eigen::Vector2d {
+    return (on_wall - state.position().head<2>()) / 5.0;
+  };
+  for (const WallLine& line : lines) {
+    if (i < line.first_frame || i > line.last_frame) continue;
+    frame.lines.push_back({line.id, see(line.start), see(line.end)});
+  }
+  window->Slide(/*keep_second_newest=*/true, kWindowSize);
+  window->AddFrame(state, frame);
+}
 
 inline UnitedLines UniteOnWall(const std::vector<WallLine>& lines, LineWindow* window,
                                int frames = 10) {
   UnitedLines sum;
   for (int i = 0; i < frames; ++i) {
-    FrameState state;
-    state.t_ns = (i + 1) * 100'000'000ll;
-    state.SetPose({Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.15 * i, 0.15 * i, 0)});
-    LineFrame frame;
-    frame.t_ns = state.t_ns;
-    const auto see = [&state](const Eigen::Vector2d& on_wall) -> Eigen::Vector2d {
-      return (on_wall - state.position().head<2>()) / 5.0;
-    };
-    for (const WallLine& line : lines) {
-      if (i < line.first_frame || i > line.last_frame) continue;
-      frame.lines.push_back({line.id, see(line.start), see(line.end)});
-    }
-    window->Slide(/*keep_second_newest=*/true, kWindowSize);
-    window->AddFrame(state, frame);
-    for (const WallLine& line : lines) {
-      const auto landmark = window->map().lines.landmarks().find(line.id);
-      if (landmark != window->map().lines.landmarks().end())
-        landmark->second.wanders = line.wanders;
-    }
+    AddWallFrame(lines, i, window);
     const UnitedLines united = window->Unite();
     const LineMergingCounts& now = united.merging;
     Append(united.absorbed, &sum.absorbed);

@@ -37,14 +37,10 @@ struct LineLandmark {
   std::vector<LineView> anchor_views;
   OrthonormalLine coordinates = {0, 0, 0, 1, 0};
   bool triangulated = false;
-  bool wanders = false;             // its residuals are inconsistent with one line (NoteWandering)
   LineAxis axis = LineAxis::kFree;  // parallel axis, according to the observations so far
 
   const LineView& host() const { return views.front(); }
 };
-
-// Returns whether the line is eligible for merging or recognition.
-inline bool MayLast(const LineLandmark& line) { return line.triangulated && !line.wanders; }
 
 constexpr size_t kMaxAnchorViews = 4;  // per line: the first and the newest
 

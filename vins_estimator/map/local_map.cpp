@@ -74,7 +74,7 @@ void LocalMap::ForgetIdleAliases() {
 // Stores the lines that are marginalized with a frame in the memory.
 void LocalMap::RememberDeparting(int64_t frame_ns, bool stays_as_anchor) {
   for (const auto& [id, landmark] : lines.landmarks()) {
-    if (!LeavesWith(frame_ns, landmark) || !MayLast(landmark)) continue;
+    if (!LeavesWith(frame_ns, landmark) || !landmark.triangulated) continue;
     const auto seen_W = See(window, Eigen::Quaterniond::Identity(), options.line_noise, landmark);
     if (seen_W && HasEnoughViews(landmark) && seen_W->place_sigma < kMaxPlaceSigma) {
       memory.Keep(id, *seen_W);

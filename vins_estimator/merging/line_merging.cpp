@@ -108,7 +108,7 @@ struct Candidates {
 Candidates Collect(const Eigen::Quaterniond& R_F_W, double noise, LocalMap* map) {
   Candidates candidates;
   for (auto& [id, landmark] : map->lines.landmarks()) {
-    if (!MayLast(landmark)) continue;
+    if (!landmark.triangulated) continue;
     const auto seen = See(map->window, R_F_W, noise, landmark);
     if (!seen) continue;
     candidates.landmarks.push_back(&landmark);

@@ -45,7 +45,6 @@ enum FrameCount : size_t {
   kMergeInconsistent,    // the observations do not fit one line
   kLinesInWindow,        // optimized landmarks
   kLinesRejected,        // landmarks or observations removed as outliers
-  kLinesWandering,       // landmarks with inconsistent residuals (NoteWandering)
   kFrameCounts
 };
 
@@ -62,7 +61,7 @@ constexpr std::array<const char*, kFrameCounts> kCountNames = {
     "lines_recognised",   "merge_candidates",   "merge_other_direction",
     "merge_distant",      "merge_apart",        "merge_distant_in_image",
     "merge_side_by_side", "merge_inconsistent", "lines_in_window",
-    "lines_rejected",     "lines_wandering"};
+    "lines_rejected"};
 
 using FrameCounts = std::array<int, kFrameCounts>;
 

@@ -104,7 +104,6 @@ void RunSummary::AddPose(const EstimatorOutput& output) {
   imu_noisy_ += output.imu_noise_scale > 1 ? 1 : 0;
   merged_lines_ += output.counts.line_merging.merged;
   recognised_lines_ += output.counts.lines_recognised;
-  wandering_lines_ += output.counts.lines_wandering;
   manhattan_ += output.R_W_M ? 1 : 0;
   if (!first_pose_ns_) first_pose_ns_ = output.t_ns;
   const Eigen::Vector3d position = output.state.position();
@@ -135,7 +134,6 @@ Json RunSummary::ToJson(const Run& run) const {
   json["lines"] = run.map_lines;
   json["merged_lines"] = merged_lines_;
   json["recognised_lines"] = recognised_lines_;
-  json["wandering_lines"] = wandering_lines_;
   json["manhattan_share"] = Ratio(static_cast<double>(manhattan_), static_cast<double>(poses_));
   json["resets"] = resets_;
   json["bridged_losses"] = bridged_losses_;

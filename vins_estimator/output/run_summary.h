@@ -54,9 +54,8 @@ class RunSummary {
   int64_t imu_noisy_ = 0;                        // poses with a noise scale above 1
   int64_t merged_lines_ = 0;
   int64_t recognised_lines_ = 0;
-  int64_t wandering_lines_ = 0;  // see NoteWandering
-  int64_t manhattan_ = 0;        // poses with a Manhattan frame
-  double path_length_ = 0;       // [m]
+  int64_t manhattan_ = 0;   // poses with a Manhattan frame
+  double path_length_ = 0;  // [m]
   std::optional<Eigen::Vector3d> last_position_;
   Calibration calibration_;  // at the last pose
   std::optional<int64_t> first_pose_ns_;

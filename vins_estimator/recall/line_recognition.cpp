@@ -61,7 +61,7 @@ std::vector<int64_t> CollectCandidates(const LocalMap& map) {
   std::vector<int64_t> candidates;
   for (const auto& [id, landmark] : map.lines.landmarks()) {
     const bool is_known = map.memory.Find(id) != nullptr;
-    if (MayLast(landmark) && HasEnoughViews(landmark) && !is_known) candidates.push_back(id);
+    if (landmark.triangulated && HasEnoughViews(landmark) && !is_known) candidates.push_back(id);
   }
   return candidates;
 }

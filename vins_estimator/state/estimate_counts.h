@@ -39,7 +39,6 @@ struct EstimatorCounts {
   int lines_observed = 0;    // in this image
   int lines_in_window = 0;   // optimized landmarks
   int lines_rejected = 0;    // landmarks or observations removed as outliers
-  int lines_wandering = 0;   // landmarks with inconsistent residuals (NoteWandering)
   int known_seen = 0;        // optimized landmarks, points and lines, in this image
   int known_rejected = 0;    // of these: outliers
   DepthCounts right;         // in the second camera

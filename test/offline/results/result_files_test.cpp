@@ -33,7 +33,6 @@ PipelineFrame MakeFrame(int64_t t_ns, bool has_pose) {
   frame.output.counts.lines_recognised = 16;
   frame.output.counts.lines_in_window = 40;
   frame.output.counts.lines_rejected = 14;
-  frame.output.counts.lines_wandering = 25;
   frame.point_tracking_ms = 16;
   frame.point_tracking = {90, 1, 2, 4, 8, 24};
   frame.line_tracking_ms = 64;
@@ -121,7 +120,7 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
       HasSubstr(
           "\n1000000000,16.0000,32.0000,64.0000,1.0000,128.0000,2.0000,4.0000,8.0000,"
           "88.0000,75,1,2,4,8,24,7,6,5,0,0,0,0,44,1,2,4,8,30,9,53,3,10,11,12,13,15,16,17,18,19,20,"
-          "21,22,23,40,14,25\n"));
+          "21,22,23,40,14\n"));
   EXPECT_THAT(folder.Read("new/folder/map.ply"), HasSubstr("element vertex 2 "));
   EXPECT_THAT(folder.Read("new/folder/lines.ply"), HasSubstr("element edge 3\n"));
   EXPECT_THAT(folder.Read("new/folder/lines.obj"), HasSubstr("v 1.0000 2.0000 1.0000\n"));

@@ -113,14 +113,6 @@ TEST_F(LocalMapTest, RemembersLinesThatLeaveUnlessToldNotTo) {
   }
 }
 
-TEST_F(LocalMapTest, DoesNotRememberLinesThatWander) {
-  for (int i = 0; i < 4; ++i) AddFrame(i);
-  Triangulate();
-  map_.lines.landmarks().at(kLine).wanders = true;
-  map_.SlideOldest(/*stays_as_anchor=*/true);
-  EXPECT_EQ(map_.memory.Find(kLine), nullptr);
-}
-
 TEST_F(LocalMapTest, AnAnchorGoesWithAllThatItHasSeen) {
   for (int i = 0; i < 4; ++i) AddFrame(i);
   Triangulate();

@@ -42,12 +42,11 @@ std::vector<LineView> ViewsAt(const std::vector<int64_t>& stamps) {
 
 TEST(LineMerging, KeepsWhatAnchorsHaveSeenOfBoth) {
   LineWindow window;
-  constexpr bool kApartSoFar = true;
-  UniteOnWall({{4, {-1, 0.5}, {1, 0.6}, 0, 4}, {9, {-1, 0.5}, {1, 0.6}, 5, 100, kApartSoFar}},
-              &window);
+  for (int i = 0; i < 10; ++i) {
+    AddWallFrame({{4, {-1, 0.5}, {1, 0.6}, 0, 4}, {9, {-1, 0.5}, {1, 0.6}, 5}}, i, &window);
+  }
   auto& lines = window.map().lines.landmarks();
   ASSERT_EQ(lines.size(), 2u);
-  lines.at(9).wanders = false;
   lines.at(4).anchor_views = ViewsAt({1, 4});
   lines.at(9).anchor_views = ViewsAt({2, 3, 5});
   const auto merged =
@@ -56,13 +55,6 @@ TEST(LineMerging, KeepsWhatAnchorsHaveSeenOfBoth) {
   std::vector<int64_t> stamps;
   for (const LineView& view : lines.at(4).anchor_views) stamps.push_back(view.t_ns);
   EXPECT_EQ(stamps, (std::vector<int64_t>{1, 3, 4, 5}));  // the first one and the newest
-}
-
-TEST(LineMerging, NeverJoinsWhatWanders) {
-  LineWindow window;
-  const auto counts = UniteOnWall(
-      {{4, {-1, 0.5}, {1, 0.6}, 0, 4}, {9, {-1, 0.5}, {1, 0.6}, 5, 100, true}}, &window);
-  EXPECT_EQ(counts.merging.merged, 0);
 }
 
 TEST(LineMerging, JoinsPiecesThatTouch) {

@@ -41,15 +41,6 @@ TEST(LineRecognition, RecognisesALineThatComesBack) {
   EXPECT_EQ(anchor.last_use_ns, window.map().window.newest().state.t_ns);
 }
 
-TEST(LineRecognition, DoesNotRecogniseWhatWanders) {
-  LineWindow window;
-  const auto counts = UniteOnWall(
-      {{kGone, {-1, 0.5}, {1, 0.5}, 0, 7}, {kComeBack, {-1, 0.5}, {1, 0.5}, 20, 100, true}},
-      &window, kFramesAndBack);
-  EXPECT_EQ(counts.recognised, 0);
-  EXPECT_NE(window.map().memory.Find(kGone), nullptr);
-}
-
 TEST(LineRecognition, RecognisesAnotherPartOfALine) {
   LineWindow window;
   EXPECT_EQ(ComeBack({1.05, 0.5}, {2, 0.5}, &window).recognised, 1);

@@ -29,7 +29,7 @@ COMMON_LAYERS = {
     "imu": "format.h measurements.h",
     "features": "measurements.h",
     "streams": "format.h measurements.h median.h",
-    "io": "measurements.h",
+    "io": "format.h measurements.h",
     "config": "geometry camera imu",
 }
 TRACKING_LAYERS = {
@@ -59,14 +59,15 @@ ESTIMATOR_LAYERS = {
     "factors": "state geometry imu",
     "monitoring": "state imu map factors",
     "bridging": "state imu factors",
-    "problem": "state geometry imu map factors",
-    "optimization": "factors problem",
-    "marginalization": "state map problem",
+    "least_squares": "state geometry factors",
+    "optimization": "factors least_squares",
+    "problem": "state geometry imu map factors least_squares",
+    "uncertainty": "state geometry imu map factors least_squares problem",
+    "marginalization": "state map least_squares problem",
     "manhattan": "state geometry map",
-    "merging": "state geometry map",
     "recall": "state geometry map",
-    "structure": "state map manhattan merging recall",
-    "initialization": "state geometry imu factors problem optimization",
+    "merging": "state geometry map manhattan recall",
+    "initialization": "state geometry imu factors least_squares optimization",
     "output": "state",
 }
 POSE_GRAPH_LAYERS = {
@@ -122,8 +123,8 @@ LAYERS = {
     **layers_of_part("pose_graph", POSE_GRAPH_LAYERS, COMMON),
     **layers_of_part("map_bundle", {}, COMMON | {"pose_graph"} | inside(
         "pose_graph", ["geometry", "keyframes", "map", "verification"]) | inside(
-            "vins_estimator", ["state", "geometry", "imu", "factors", "problem", "optimization",
-                               "initialization"])),
+            "vins_estimator", ["state", "geometry", "imu", "factors", "least_squares",
+                               "optimization"])),
     **layers_of_part("offline", OFFLINE_LAYERS,
                      TRACKING | TRACKERS | ESTIMATOR_OUTPUT
                      | {"vins_estimator", "pose_graph", "map_bundle"}

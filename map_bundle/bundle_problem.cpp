@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "vins_estimator/factors/bundle_priors.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/factors/zero_velocity_factor.h"
-#include "vins_estimator/initialization/bundle_priors.h"
+#include "vins_estimator/least_squares/window_problem.h"
 #include "vins_estimator/optimization/ceres_solver.h"
-#include "vins_estimator/problem/window_problem.h"
 
 namespace plm_vins {
 namespace {

@@ -8,8 +8,8 @@
 #include "common/format.h"
 #include "vins_estimator/estimator.h"
 #include "vins_estimator/imu/imu_gap.h"
-#include "vins_estimator/imu/imu_noise_estimate.h"
 #include "vins_estimator/monitoring/contradiction_report.h"
+#include "vins_estimator/uncertainty/imu_noise_estimate.h"
 
 namespace plm_vins {
 namespace {

@@ -9,15 +9,15 @@
 #include "common/append.h"
 #include "common/format.h"
 #include "common/stopwatch.h"
+#include "vins_estimator/least_squares/normal_equations.h"
 #include "vins_estimator/map/recalibration.h"
 #include "vins_estimator/optimization/window_solver.h"
-#include "vins_estimator/problem/baseline_evidence.h"
-#include "vins_estimator/problem/normal_equations.h"
-#include "vins_estimator/problem/placed_covariance.h"
 #include "vins_estimator/problem/placement_problem.h"
 #include "vins_estimator/problem/problem_builder.h"
-#include "vins_estimator/problem/state_covariance.h"
 #include "vins_estimator/state/derived_covariance.h"
+#include "vins_estimator/uncertainty/baseline_evidence.h"
+#include "vins_estimator/uncertainty/placed_covariance.h"
+#include "vins_estimator/uncertainty/state_covariance.h"
 
 namespace plm_vins {
 namespace {

@@ -12,15 +12,15 @@
 #include "vins_estimator/imu/standstill_detector.h"
 #include "vins_estimator/initialization/initializer.h"
 #include "vins_estimator/map/pixel_residuals.h"
-#include "vins_estimator/map/view_noise.h"
 #include "vins_estimator/marginalization/window_estimate.h"
+#include "vins_estimator/merging/line_structure.h"
 #include "vins_estimator/monitoring/estimate_monitor.h"
 #include "vins_estimator/monitoring/imu_agreement.h"
 #include "vins_estimator/monitoring/stereo_monitor.h"
-#include "vins_estimator/problem/imu_noise_learning.h"
 #include "vins_estimator/problem/initial_prior.h"
 #include "vins_estimator/state/estimator_output.h"
-#include "vins_estimator/structure/line_structure.h"
+#include "vins_estimator/uncertainty/imu_noise_learning.h"
+#include "vins_estimator/uncertainty/view_noise.h"
 
 namespace plm_vins {
 

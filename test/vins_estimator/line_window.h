@@ -7,8 +7,8 @@
 
 #include "vins_estimator/geometry/line_fit.h"
 #include "vins_estimator/map/local_map.h"
+#include "vins_estimator/merging/line_structure.h"
 #include "vins_estimator/recall/anchor_policy.h"
-#include "vins_estimator/structure/line_structure.h"
 
 namespace plm_vins::testing {
 

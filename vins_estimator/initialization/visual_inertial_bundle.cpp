@@ -8,16 +8,16 @@
 #include <cmath>
 #include <memory>
 
+#include "vins_estimator/factors/bundle_priors.h"
 #include "vins_estimator/factors/imu_factor.h"
 #include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/factors/point_factor.h"
 #include "vins_estimator/factors/stereo_factor.h"
 #include "vins_estimator/geometry/depth_limits.h"
-#include "vins_estimator/initialization/bundle_priors.h"
+#include "vins_estimator/least_squares/normal_equations.h"
+#include "vins_estimator/least_squares/term_evaluation.h"
+#include "vins_estimator/least_squares/window_problem.h"
 #include "vins_estimator/optimization/levenberg_marquardt.h"
-#include "vins_estimator/problem/normal_equations.h"
-#include "vins_estimator/problem/term_evaluation.h"
-#include "vins_estimator/problem/window_problem.h"
 
 namespace plm_vins {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "common/config/sensor_config.h"
+#include "vins_estimator/least_squares/marginalization_prior.h"
 #include "vins_estimator/map/local_map.h"
-#include "vins_estimator/problem/marginalization_prior.h"
 #include "vins_estimator/problem/problem_options.h"
 
 namespace plm_vins {

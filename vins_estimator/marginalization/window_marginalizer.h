@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <functional>
 
+#include "vins_estimator/least_squares/block_id.h"
+#include "vins_estimator/least_squares/marginalization_prior.h"
 #include "vins_estimator/map/local_map.h"
-#include "vins_estimator/problem/block_id.h"
-#include "vins_estimator/problem/marginalization_prior.h"
 #include "vins_estimator/problem/problem_options.h"
 
 namespace plm_vins {

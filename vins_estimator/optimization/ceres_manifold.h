@@ -14,7 +14,7 @@
 #include <ceres/local_parameterization.h>
 #endif
 
-#include "vins_estimator/problem/variable.h"
+#include "vins_estimator/least_squares/variable.h"
 
 namespace plm_vins {
 

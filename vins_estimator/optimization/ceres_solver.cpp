@@ -8,10 +8,10 @@
 #include <memory>
 #include <vector>
 
+#include "vins_estimator/least_squares/term_evaluation.h"
 #include "vins_estimator/optimization/ceres_manifold.h"
 #include "vins_estimator/optimization/factor_cost.h"
 #include "vins_estimator/optimization/prior_cost.h"
-#include "vins_estimator/problem/term_evaluation.h"
 
 namespace plm_vins {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "vins_estimator/problem/normal_equations.h"
-#include "vins_estimator/problem/window_problem.h"
+#include "vins_estimator/least_squares/normal_equations.h"
+#include "vins_estimator/least_squares/window_problem.h"
 
 namespace plm_vins {
 

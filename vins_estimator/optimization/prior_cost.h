@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "vins_estimator/problem/marginalization_prior.h"
+#include "vins_estimator/least_squares/marginalization_prior.h"
 
 namespace plm_vins {
 

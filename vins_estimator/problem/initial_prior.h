@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "common/config/sensor_config.h"
+#include "vins_estimator/least_squares/marginalization_prior.h"
 #include "vins_estimator/map/sliding_window.h"
-#include "vins_estimator/problem/marginalization_prior.h"
 #include "vins_estimator/problem/problem_options.h"
 
 namespace plm_vins {

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
+#include "vins_estimator/least_squares/window_problem.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/problem/problem_options.h"
-#include "vins_estimator/problem/window_problem.h"
 #include "vins_estimator/problem/window_variables.h"
 
 namespace plm_vins {

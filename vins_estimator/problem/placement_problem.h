@@ -3,11 +3,11 @@
 
 #include <cstdint>
 
+#include "vins_estimator/least_squares/window_problem.h"
 #include "vins_estimator/map/local_map.h"
 #include "vins_estimator/problem/motion_terms.h"
 #include "vins_estimator/problem/problem_options.h"
 #include "vins_estimator/problem/view_terms.h"
-#include "vins_estimator/problem/window_problem.h"
 #include "vins_estimator/problem/window_variables.h"
 
 namespace plm_vins {

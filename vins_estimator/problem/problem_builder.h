@@ -6,14 +6,14 @@
 #include <cstddef>
 
 #include "common/measurements.h"
+#include "vins_estimator/least_squares/marginalization_prior.h"
+#include "vins_estimator/least_squares/window_problem.h"
 #include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/point_map.h"
 #include "vins_estimator/map/sliding_window.h"
-#include "vins_estimator/problem/marginalization_prior.h"
 #include "vins_estimator/problem/motion_terms.h"
 #include "vins_estimator/problem/problem_options.h"
 #include "vins_estimator/problem/view_terms.h"
-#include "vins_estimator/problem/window_problem.h"
 #include "vins_estimator/problem/window_variables.h"
 
 namespace plm_vins {

@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "common/camera/camera_model.h"
+#include "vins_estimator/least_squares/window_problem.h"
 #include "vins_estimator/map/line_landmark.h"
 #include "vins_estimator/map/point_landmark.h"
 #include "vins_estimator/map/sliding_window.h"
 #include "vins_estimator/problem/problem_options.h"
-#include "vins_estimator/problem/window_problem.h"
 #include "vins_estimator/problem/window_variables.h"
 
 namespace plm_vins {

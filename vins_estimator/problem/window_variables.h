@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <functional>
 
+#include "vins_estimator/least_squares/block_id.h"
+#include "vins_estimator/least_squares/marginalization_prior.h"
+#include "vins_estimator/least_squares/window_problem.h"
 #include "vins_estimator/map/sliding_window.h"
-#include "vins_estimator/problem/block_id.h"
-#include "vins_estimator/problem/marginalization_prior.h"
-#include "vins_estimator/problem/window_problem.h"
 
 namespace plm_vins {
 

@@ -11,9 +11,9 @@
 
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_window.h"
+#include "vins_estimator/least_squares/normal_equations.h"
+#include "vins_estimator/least_squares/term_evaluation.h"
 #include "vins_estimator/problem/initial_prior.h"
-#include "vins_estimator/problem/normal_equations.h"
-#include "vins_estimator/problem/term_evaluation.h"
 
 namespace plm_vins {
 namespace {

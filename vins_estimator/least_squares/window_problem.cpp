@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/least_squares/window_problem.h"
+
+namespace plm_vins {
+
+int WindowProblem::AddVariable(const BlockId& id, double* values, bool constant,
+                               const double* linearization) {
+  const auto [position, is_new] = index_.emplace(id, static_cast<int>(variables_.size()));
+  if (is_new) variables_.push_back({id, values, constant, linearization});
+  return position->second;
+}
+
+int WindowProblem::AddLandmark(const BlockId& id, double* values) {
+  landmarks_.push_back({AddVariable(id, values), std::pmr::vector<ResidualTerm>(&memory_)});
+  return static_cast<int>(landmarks_.size()) - 1;
+}
+
+int WindowProblem::Find(const BlockId& id) const {
+  const auto found = index_.find(id);
+  return found == index_.end() ? -1 : found->second;
+}
+
+}  // namespace plm_vins

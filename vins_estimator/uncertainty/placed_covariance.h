@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "vins_estimator/imu/preintegration.h"
+#include "vins_estimator/least_squares/normal_equations.h"
+#include "vins_estimator/map/sliding_window.h"
+
+namespace plm_vins {
+
+// Returns the covariance of the newest state if only the states after a keyframe were solved for
+// (PlacementProblem), from the covariance of the keyframe's state and `equations` at their last
+// linearization. An error of the keyframe moves the landmarks rigidly with it and is propagated by
+// the IMU; it is considered, but not estimated ([Schmidt1966]). Zero if the states are
+// unobservable.
+Matrix15d PlacedCovariance(const SlidingWindow& window, int64_t keyframe_ns,
+                           const Matrix15d& keyframe_covariance, NormalEquations* equations);
+
+}  // namespace plm_vins

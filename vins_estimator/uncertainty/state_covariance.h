@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "vins_estimator/imu/preintegration.h"
+#include "vins_estimator/least_squares/normal_equations.h"
+
+namespace plm_vins {
+
+// Returns the covariance of a frame's state, pose before motion, from the window's equations at
+// their last linearization; nullopt if it is unobservable.
+inline std::optional<Matrix15d> StateCovariance(int64_t t_ns, NormalEquations* equations) {
+  const Eigen::MatrixXd covariance =
+      equations->Covariance({{BlockKind::kPose, t_ns}, {BlockKind::kMotion, t_ns}});
+  if (covariance.size() == 0) return std::nullopt;
+  return covariance;
+}
+
+}  // namespace plm_vins

@@ -8,7 +8,7 @@ if(NOT TARGET yaml-cpp::yaml-cpp)  # yaml-cpp before 0.8 exports a bare name
   add_library(yaml-cpp::yaml-cpp INTERFACE IMPORTED)
   target_link_libraries(yaml-cpp::yaml-cpp INTERFACE yaml-cpp)
 endif()
-find_package(CLI11 2 REQUIRED HINTS ${PROJECT_SOURCE_DIR}/build/deps)  # see scripts/setup.sh
+find_package(Boost REQUIRED COMPONENTS program_options)
 find_package(nlohmann_json REQUIRED)
 
 if(BUILD_ROS)
@@ -23,7 +23,6 @@ if(BUILD_ROS)
   generate_dynamic_reconfigure_options(cfg/FeatureTracker.cfg cfg/LineFeatureTracker.cfg)
   set_directory_properties(PROPERTIES INCLUDE_DIRECTORIES "")  # added to all targets by the previous line
   catkin_package(CFG_EXTRAS plm_vins-extras.cmake)
-  find_package(Boost REQUIRED)
   find_package(BZip2 REQUIRED)
   # Debian nests the headers that rosbag/bag.h needs one folder deeper than ROS does.
   set(ROS_INCLUDE_DIRS ${CATKIN_DEVEL_PREFIX}/include ${catkin_INCLUDE_DIRS})

@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "common/io/command_line.h"
 
 namespace plm_vins {
 
@@ -29,8 +27,11 @@ struct Arguments {
   int threads = 4;
 };
 
-// Registers the options with the parser, which fills them when it parses.
-void Declare(Arguments* arguments, CLI::App* app);
+// Adds the options, which fill the arguments when they are parsed.
+void Declare(Arguments* arguments, CommandLine* command_line);
+
+// Throws std::runtime_error if a required option is missing, or if not exactly one input is given.
+void CheckPresence(const Arguments& arguments);
 
 // Returns values by key.
 std::map<std::string, std::string> ParseOverrides(const std::vector<std::string>& texts);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs the odometry over a recording without a ROS master, as fast as possible.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
@@ -287,18 +286,15 @@ int Run(const Arguments& arguments) {
 }  // namespace plm_vins
 
 int main(int argc, char** argv) try {
-  CLI::App app("Visual-inertial odometry over a recording");
-  plm_vins::Arguments arguments;
-  plm_vins::Declare(&arguments, &app);
   try {
-    app.parse(argc, argv);
+    plm_vins::CommandLine command_line("Visual-inertial odometry over a recording");
+    plm_vins::Arguments arguments;
+    plm_vins::Declare(&arguments, &command_line);
+    if (!command_line.Parse(argc, argv)) return 0;
+    plm_vins::CheckPresence(arguments);
     arguments.bags = plm_vins::FindBags(arguments.bags);
     plm_vins::SetUpProcess();
     return plm_vins::Run(arguments);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "run_offline: %s (--help lists the options)\n", error.what());
   } catch (const plm_vins::ConfigError& error) {
     for (const std::string& problem : error.problems()) {
       std::fprintf(stderr, "run_offline: %s\n", problem.c_str());

@@ -7,12 +7,12 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 source "$root/scripts/usage.sh"
 
 common_packages=(
-  build-essential cmake curl libboost-dev libbz2-dev libceres-dev libeigen3-dev libgmock-dev libgtest-dev
-  libopencv-contrib-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev
+  build-essential cmake curl libboost-dev libboost-program-options-dev libbz2-dev libceres-dev
+  libeigen3-dev libgmock-dev libgtest-dev libopencv-contrib-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev
   python3-matplotlib python3-numpy python3-pil python3-tqdm python3-yaml unzip)
 optional_packages=(python3-distributed python3-plotly)  # for --scheduler, and for 3-D pages
 debian_packages=(
-  catkin libcli11-dev libcv-bridge-dev libdiagnostic-updater-dev
+  catkin libcv-bridge-dev libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev libimage-transport-dev
   libnav-msgs-dev libnodelet-dev libnodeletlib-dev libnodeletlib-tools librosbag-dev libroscpp-dev
   libroslz4-dev librostest-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-msgs-dev libtf2-ros-dev
@@ -42,19 +42,8 @@ install_packages() {
     -o Dpkg::Use-Pty=0 install -qq -y --no-install-recommends "${missing[@]}"
 }
 
-# Installs CLI11 into build/deps, where CMake searches as well: Ubuntu 20.04 has no package of it.
-install_cli11() {
-  [[ ! -d "$root/build/deps" ]] || return 0
-  rm -rf "$root/build/cli11"
-  git clone -q --depth 1 --branch v2.3.2 https://github.com/CLIUtils/CLI11 "$root/build/cli11"
-  cmake -S "$root/build/cli11" -B "$root/build/cli11/build" -DCLI11_BUILD_TESTS=OFF \
-    -DCLI11_BUILD_EXAMPLES=OFF -DCLI11_BUILD_DOCS=OFF -DCMAKE_INSTALL_PREFIX="$root/build/deps"
-  cmake --build "$root/build/cli11/build" --target install
-}
-
 if [[ -d /opt/ros/noetic ]]; then
-  install_packages "${common_packages[@]}" "${noetic_packages[@]}" ca-certificates git "$@"
-  install_cli11
+  install_packages "${common_packages[@]}" "${noetic_packages[@]}" ca-certificates "$@"
 elif grep -qx ID=ubuntu /etc/os-release; then
   echo "setup.sh: ROS Noetic is missing in /opt/ros/noetic; install it first:" \
     "https://wiki.ros.org/noetic/Installation/Ubuntu" >&2

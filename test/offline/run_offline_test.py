@@ -48,11 +48,22 @@ class RunOffline(unittest.TestCase):
         self.assert_refuses("expected seconds, zero to 1e9, instead of nan", "--start", "nan")
         self.assert_refuses("expected seconds, zero to 1e9, instead of -2", "--duration", "-2")
         self.assert_refuses("expected key=value instead of freq", "--set", "freq")
-        self.assert_refuses("[--bag,--asl,--features]", "--bag", "flight.bag")
+        self.assert_refuses("--threads: expected 1, 2, 3 or 4 instead of 5", "--threads", "5")
+        self.assert_refuses("unrecognised option '--durations'", "--durations", "2")
+
+    def test_options_that_are_missing_or_given_twice(self):
+        self.assert_refuses("exactly one of --bag, --asl and --features is required", "--bag",
+                            "flight.bag")
+        self.assert_refuses("exactly one of --bag, --asl and --features is required",
+                            source=("--threads", "1"))
+        self.assert_refuses("option '--output' cannot be specified more than once", "--output", "x")
+        self.assert_refuses("the required argument for option '--start' is missing", "--start")
 
     def test_paths_that_are_empty(self):
-        for option in ["--map-in", "--map-out", "--save-features", "--output", "--config", "--asl"]:
+        for option in ["--map-in", "--map-out", "--save-features", "--features", "--bag"]:
             self.assert_refuses(f"{option}: expected a path, which is empty", option, "")
+        self.assert_refuses("--config: expected a path, which is empty", config="")
+        self.assert_refuses("--asl: expected a path, which is empty", source=("--asl", ""))
 
     def test_bad_config(self):
         self.assert_refuses("nothing.yaml", config=self.folder / "nothing.yaml")

@@ -6,8 +6,9 @@ import sys
 
 import numpy as np
 
-SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
-sys.path.insert(0, SCRIPTS)
+TEST = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+SCRIPTS = os.path.join(TEST, "..", "scripts")
+sys.path[:0] = [SCRIPTS, os.path.join(TEST, "tools")]
 from evaluation.trajectory import Trajectory  # noqa: E402
 
 START = 1403636580.0  # [s], as large as real timestamps

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests which data scripts/make_faulty.py changes, and which it keeps."""
+"""Tests which data test/tools/make_faulty.py changes, and which it keeps."""
 
 import importlib.util
 import os
@@ -14,7 +14,7 @@ import numpy as np
 
 from refusal_case import RefusalTest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tools"))
 from make_faulty import main  # noqa: E402
 from stress.faults import FAULTS  # noqa: E402
 from stress.feature_file import (IMU, IMU_LAYOUT, LINE_SIZE, LINE_STATISTICS_SIZE,  # noqa: E402

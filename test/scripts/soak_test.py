@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of scripts/soak.py: detection of growth and of runs without any data."""
+"""Tests of test/tools/soak.py: detection of growth and of runs without any data."""
 
 import argparse
 import contextlib
@@ -13,7 +13,7 @@ from unittest import mock
 
 from refusal_case import RefusalTest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tools"))
 
 
 @unittest.skipUnless(importlib.util.find_spec("rospy"), "needs ROS")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of scripts/stress_table.py with a shell script instead of run_offline."""
+"""Tests of test/tools/stress_table.py with a shell script instead of run_offline."""
 
 import contextlib
 import io

@@ -16,7 +16,10 @@ import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 
-from measure_latency import check_files, find_nodes, launch_file, wait_for_master
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.append(os.path.join(ROOT, "scripts"))
+from measure_latency import (check_files, find_nodes, launch_file,  # noqa: E402
+                             wait_for_master)
 
 # Permitted increase from the second quarter of the time to the last; caches and pools fill up in
 # the first.

@@ -9,12 +9,13 @@ import subprocess
 import sys
 import tempfile
 
-from evaluation.trajectory import TrajectoryError, read_truth
-from stress import feature_file
-from stress.damage import assess
-from stress.faults import FAULTS
+ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+sys.path.append(os.path.join(ROOT, "scripts"))
+from evaluation.trajectory import TrajectoryError, read_truth  # noqa: E402
+from stress import feature_file  # noqa: E402
+from stress.damage import assess  # noqa: E402
+from stress.faults import FAULTS  # noqa: E402
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 RUN_OFFLINE = os.path.join(ROOT, "build", "devel", "lib", "plm_vins", "run_offline")
 CONFIG = os.path.join(ROOT, "config", "euroc.yaml")
 HEAD = ("| fault | APE [m] | largest error [m] | restarts after [s] | coverage | noticed |\n"

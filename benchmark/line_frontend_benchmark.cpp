@@ -156,12 +156,6 @@ std::unique_ptr<FrontEnd> MakeOurs(std::shared_ptr<const CameraModel> camera) {
   return std::make_unique<OurFrontEnd>(LineTrackerConfig(), std::move(camera));
 }
 
-std::unique_ptr<FrontEnd> MakeOursWithLbd(std::shared_ptr<const CameraModel> camera) {
-  LineTrackerConfig config;
-  config.line_matcher = LineMatcherType::kLbd;
-  return std::make_unique<OurFrontEnd>(config, std::move(camera));
-}
-
 std::unique_ptr<FrontEnd> MakeLsdLbd(std::shared_ptr<const CameraModel> camera) {
   return std::make_unique<LsdLbdFrontEnd>(std::move(camera));
 }
@@ -314,8 +308,8 @@ benchmark::internal::Benchmark* Add(const std::string& name, Function run) {
 }
 
 void Register(const Input& input) {
-  const std::vector<std::pair<std::string, MakeFrontEnd>> front_ends = {
-      {"ours", MakeOurs}, {"ours_lbd", MakeOursWithLbd}, {"lsd_lbd", MakeLsdLbd}};
+  const std::vector<std::pair<std::string, MakeFrontEnd>> front_ends = {{"ours", MakeOurs},
+                                                                        {"lsd_lbd", MakeLsdLbd}};
   const auto images = static_cast<int64_t>(input.images.size());
   for (const auto& [name, make] : front_ends) {
     Add("whole_" + name, [&input, make = make](auto& state) {

@@ -1,7 +1,7 @@
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d video
-             features2d ximgproc line_descriptor)
+             features2d ximgproc)
 find_package(Ceres REQUIRED)
 find_package(yaml-cpp REQUIRED)
 if(NOT TARGET yaml-cpp::yaml-cpp)  # yaml-cpp before 0.8 exports a bare name
@@ -55,4 +55,5 @@ if(BUILD_TESTING)
 endif()
 if(BUILD_BENCHMARKS)
   find_package(benchmark REQUIRED)
+  find_package(OpenCV 4 REQUIRED COMPONENTS line_descriptor)
 endif()

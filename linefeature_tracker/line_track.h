@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <opencv2/core.hpp>
 #include <optional>
 
 #include "common/measurements.h"
@@ -20,7 +19,6 @@ struct LineTrack {
   Eigen::Vector2d parallax = Eigen::Vector2d::Zero();
   std::optional<RightSegment> right;              // see LineObservation
   std::optional<Eigen::Vector2d> inverse_depths;  // of start and end, by the last match [1/m]
-  cv::Mat descriptor;                             // 1 x 32 bytes; empty unless matching by LBD
 };
 
 }  // namespace plm_vins

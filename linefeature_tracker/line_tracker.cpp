@@ -10,7 +10,6 @@
 #include "common/features/feature_checks.h"
 #include "common/stopwatch.h"
 #include "linefeature_tracker/detection/line_finder.h"
-#include "linefeature_tracker/following/lbd_matcher.h"
 #include "linefeature_tracker/following/line_flow.h"
 #include "linefeature_tracker/following/line_gate.h"
 #include "linefeature_tracker/following/line_occupancy.h"
@@ -27,7 +26,9 @@ namespace {
 
 constexpr int kSearchAfterFlow_px = 2;
 constexpr int kSearchAfterDetection_px = 4;
-constexpr int kLbdChoice = 2;  // described lines relative to max_lines
+constexpr double kMinCorrelation = 0.6;  // of the brightness profiles across a line
+constexpr double kRefillBelow = 0.9;     // share of max_lines below which lines are detected
+constexpr int kRefillInterval = 3;       // least number of images between detections
 
 // Predicts the segment for a pure rotation; unchanged if an endpoint would be behind the camera.
 LineSegment Turn(const LineSegment& segment, const std::optional<Eigen::Quaterniond>& R_C1_C0) {
@@ -59,8 +60,7 @@ class LineTracker::Implementation {
         finder_(config, camera_),
         refinement_(config, camera_, mask),
         flow_(camera_),
-        gate_(config, camera_->FocalLength()),
-        lbd_(config, camera_->FocalLength()) {
+        gate_(camera_->FocalLength()) {
     if (pair) stereo_.emplace(config, *pair);
   }
 
@@ -74,12 +74,8 @@ class LineTracker::Implementation {
     const double dt = t_ns_ ? ToSeconds(sample.t_ns - *t_ns_) : 0;
     const double dt_ratio = previous_dt_ > 0 ? dt / previous_dt_ : 0;
     if (images_since_detection_) ++*images_since_detection_;
-    if (config_.line_matcher == LineMatcherType::kFlow) {
-      FollowByFlow(pyramid, dt_ratio, R_C1_C0);
-      if (IsRefillDue()) Refill(sample.gray, FindLines(pyramid));
-    } else {
-      FollowByLbd(pyramid, dt_ratio, R_C1_C0);
-    }
+    Follow(pyramid, dt_ratio, R_C1_C0);
+    if (IsRefillDue()) Refill(sample.gray, FindLines(pyramid));
     if (stereo_) stereo_->Match(sample.gray, right, &tracks_);
     previous_dt_ = dt;
     sample_ = sample;
@@ -108,8 +104,8 @@ class LineTracker::Implementation {
 
  private:
   // Advances the tracks to the image of `pyramid` and drops lost ones.
-  void FollowByFlow(const LineFlow::Pyramid& pyramid, double dt_ratio,
-                    const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+  void Follow(const LineFlow::Pyramid& pyramid, double dt_ratio,
+              const std::optional<Eigen::Quaterniond>& R_C1_C0) {
     std::vector<LineTrack> followed;
     for (LineTrack& track : tracks_) {
       const LineSegment turned = Turn(track.segment, R_C1_C0);
@@ -124,7 +120,7 @@ class LineTracker::Implementation {
   std::optional<LineSegment> FollowOne(const LineFlow::Pyramid& pyramid, const LineSegment& segment,
                                        const LineSegment& predicted) {
     const auto flow = flow_.Track(pyramid_, pyramid, segment, predicted);
-    if (!flow || flow->correlation < config_.min_correlation) {
+    if (!flow || flow->correlation < kMinCorrelation) {
       ++statistics_.match_lost;
       return std::nullopt;
     }
@@ -135,52 +131,6 @@ class LineTracker::Implementation {
     auto refined = refinement_.Refine(pyramid.front(), flow->segment, kSearchAfterFlow_px);
     if (!refined) ++statistics_.edge_lost;
     return refined;
-  }
-
-  // Detects all lines and assigns the ids of matching tracks.
-  void FollowByLbd(const LineFlow::Pyramid& pyramid, double dt_ratio,
-                   const std::optional<Eigen::Quaterniond>& R_C1_C0) {
-    std::vector<FoundLine> lines = DescribedLines(pyramid);
-    std::vector<LineSegment> turned;
-    std::vector<LbdMatcher::Line> older, newer;
-    for (const LineTrack& track : tracks_) {
-      turned.push_back(Turn(track.segment, R_C1_C0));
-      older.push_back({Moved(turned.back(), dt_ratio * track.parallax), track.descriptor});
-    }
-    for (const FoundLine& line : lines) newer.push_back({line.segment, line.descriptor});
-    const std::vector<int> matches = lbd_.Match(older, newer);
-    std::vector<LineTrack> followed;
-    for (size_t i = 0; i < tracks_.size(); ++i) {
-      if (matches[i] < 0) {
-        ++statistics_.match_lost;
-        continue;
-      }
-      const FoundLine& line = lines[matches[i]];
-      tracks_[i].descriptor = line.descriptor;
-      if (Advance(line.segment, turned[i], &tracks_[i])) followed.push_back(std::move(tracks_[i]));
-    }
-    tracks_ = std::move(followed);
-    Refill(pyramid.front(), lines);
-  }
-
-  // Returns all lines of the image with a confirmed edge, longest first, with their descriptors.
-  std::vector<FoundLine> DescribedLines(const LineFlow::Pyramid& pyramid) {
-    const cv::Mat& image = pyramid.front();
-    LineOccupancy occupied(config_.spacing);
-    std::vector<FoundLine> lines;
-    std::vector<LineSegment> segments_px;
-    for (const FoundLine& found : FindLines(pyramid)) {
-      if (static_cast<int>(lines.size()) == kLbdChoice * config_.max_lines) break;
-      const auto track = MakeTrack(image, found);
-      if (!track || occupied.IsTaken(track->segment_px)) continue;
-      occupied.Add(track->segment_px);
-      lines.push_back({track->segment, track->segment_px, {}});
-      segments_px.push_back(track->segment_px);
-    }
-    const cv::Mat descriptors = lbd_.Describe(image, segments_px);
-    for (size_t i = 0; i < lines.size(); ++i)
-      lines[i].descriptor = descriptors.row(static_cast<int>(i));
-    return lines;
   }
 
   // `turned` is the track predicted by rotation only. Returns false if the line cannot be
@@ -212,10 +162,8 @@ class LineTracker::Implementation {
   }
 
   bool IsRefillDue() const {
-    const bool is_short =
-        static_cast<double>(tracks_.size()) < config_.refill_below * config_.max_lines;
-    const bool has_waited =
-        !images_since_detection_ || *images_since_detection_ >= config_.refill_interval;
+    const bool is_short = static_cast<double>(tracks_.size()) < kRefillBelow * config_.max_lines;
+    const bool has_waited = !images_since_detection_ || *images_since_detection_ >= kRefillInterval;
     return is_short && has_waited;
   }
 
@@ -261,7 +209,6 @@ class LineTracker::Implementation {
     LineTrack track;
     track.segment = *refined;
     track.segment_px = *segment_px;
-    track.descriptor = line.descriptor;
     return track;
   }
 
@@ -285,7 +232,6 @@ class LineTracker::Implementation {
   LineRefinement refinement_;
   LineFlow flow_;
   LineGate gate_;
-  LbdMatcher lbd_;
   std::optional<LineStereo> stereo_;
 
   // State at the newest image.

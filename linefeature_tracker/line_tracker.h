@@ -17,7 +17,7 @@ namespace plm_vins {
 // Statistics of tracking one image.
 struct LineTrackerStatistics {
   int previous = 0;         // tracks before this image
-  int match_lost = 0;       // flow failed or changed appearance; LBD: no match
+  int match_lost = 0;       // flow failed or changed appearance
   int inconsistent = 0;     // too far from the prediction
   int edge_lost = 0;        // no edge at the result of the flow, or too short, outside or masked
   int duplicates = 0;       // coincides with an older track
@@ -28,9 +28,8 @@ struct LineTrackerStatistics {
   double detection_ms = 0;  // [ms], for statistics only
 };
 
-// Facade of the line front end. Tracks line segments from image to image and adds new ones. Flow:
-// predict -> align -> gate -> refine -> drop duplicates -> detect if lines are missing. LBD: detect
-// -> refine -> describe -> match around the prediction -> add.
+// Facade of the line front end. Tracks line segments from image to image and adds new ones:
+// predict -> align -> gate -> refine -> drop duplicates -> detect if lines are missing.
 //
 // The direction of a line (start to end) follows from its brighter side and never flips along a
 // track.

@@ -25,21 +25,19 @@ LineFinder::LineFinder(const LineTrackerConfig& config, std::shared_ptr<const Ca
 std::vector<FoundLine> LineFinder::Find(const std::vector<cv::Mat>& pyramid, int* fragments) {
   const int level = config_.half_resolution ? 1 : 0;
   const double scale = 1 << level;
-  const double min_fragment_px = (config_.join_fragments ? kMinFragment : 1.0) * min_length_px_;
-  const auto fragments_px = detector_->Detect(pyramid[level], min_fragment_px / scale);
+  const auto fragments_px =
+      detector_->Detect(pyramid[level], kMinFragment * min_length_px_ / scale);
   *fragments = static_cast<int>(fragments_px.size());
-  std::vector<LineSegment> segments = Undistort(pyramid[level], fragments_px, scale);
-  if (config_.join_fragments) {
-    SegmentMergingLimits limits;
-    limits.gap /= camera_->FocalLength();
-    limits.distance /= camera_->FocalLength();
-    segments = JoinFragments(segments, limits);
-  }
+  SegmentMergingLimits limits;
+  limits.gap /= camera_->FocalLength();
+  limits.distance /= camera_->FocalLength();
+  const std::vector<LineSegment> segments =
+      JoinFragments(Undistort(pyramid[level], fragments_px, scale), limits);
   std::vector<FoundLine> lines;
   for (const LineSegment& segment : segments) {
     const auto segment_px = ProjectSegment(*camera_, segment);
     if (segment_px && segment_px->Length() >= min_length_px_)
-      lines.push_back({segment, *segment_px, {}});
+      lines.push_back({segment, *segment_px});
   }
   std::stable_sort(lines.begin(), lines.end(), [](const FoundLine& a, const FoundLine& b) {
     return a.segment_px.Length() > b.segment_px.Length();

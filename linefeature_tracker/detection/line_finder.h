@@ -16,7 +16,6 @@ namespace plm_vins {
 struct FoundLine {
   LineSegment segment;  // normalized, undistorted
   LineSegment segment_px;
-  cv::Mat descriptor;  // 1 x 32 bytes; empty unless matching by LBD
 };
 
 // Detects the lines of an image: orients the detector's fragments, undistorts their endpoints,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/config/config.h"
+#include <cmath>
+
 #include "linefeature_tracker/segments/line_segment.h"
 
 namespace plm_vins {
@@ -11,21 +12,20 @@ namespace plm_vins {
 class LineGate {
  public:
   // `focal_length` [px/rad].
-  LineGate(const LineTrackerConfig& config, double focal_length)
-      : max_angle_(config.max_angle * M_PI / 180),
-        max_distance_(config.max_distance / focal_length),
-        min_overlap_(config.min_overlap) {}
+  explicit LineGate(double focal_length) : max_distance_(kMaxDistance_px / focal_length) {}
 
   bool Accepts(const LineSegment& predicted, const LineSegment& found) const {
-    if (DirectedAngle(predicted, found) > max_angle_) return false;
+    if (DirectedAngle(predicted, found) > kMaxAngle) return false;
     const SegmentRelation relation = Relate(predicted, found);
-    return relation.distance <= max_distance_ && relation.overlap >= min_overlap_;
+    return relation.distance <= max_distance_ && relation.overlap >= kMinOverlap;
   }
 
  private:
-  double max_angle_;  // [rad]
+  static constexpr double kMaxAngle = 10 * M_PI / 180;  // [rad]
+  static constexpr double kMaxDistance_px = 40;
+  static constexpr double kMinOverlap = 0.5;  // relative to the shorter line
+
   double max_distance_;
-  double min_overlap_;
 };
 
 }  // namespace plm_vins

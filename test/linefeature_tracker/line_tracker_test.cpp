@@ -40,10 +40,9 @@ LineScene ConfusingScene() {
   return scene;
 }
 
-class LineTrackerTest : public testing::TestWithParam<LineMatcherType> {
+class LineTrackerTest : public testing::Test {
  protected:
   void Show(LineScene scene, LineTrackerConfig config = {}, const cv::Mat& mask = {}) {
-    config.line_matcher = GetParam();
     scene_ = std::make_unique<LineScene>(std::move(scene));
     tracker_ = std::make_unique<LineTracker>(config, scene_->camera(), mask);
   }
@@ -106,7 +105,7 @@ class LineTrackerTest : public testing::TestWithParam<LineMatcherType> {
   int64_t t_ns_ = 0;
 };
 
-TEST_P(LineTrackerTest, FollowsEdgesToTenthsOfAPixel) {
+TEST_F(LineTrackerTest, FollowsEdgesToTenthsOfAPixel) {
   for (const CameraParameters& parameters : {PlainParameters(), DistortedParameters()}) {
     Show(BarScene(parameters));
     const Account account = Follow(10, 2);
@@ -118,7 +117,7 @@ TEST_P(LineTrackerTest, FollowsEdgesToTenthsOfAPixel) {
   }
 }
 
-TEST_P(LineTrackerTest, KeepsParallelAndCrossingLinesApart) {
+TEST_F(LineTrackerTest, KeepsParallelAndCrossingLinesApart) {
   Show(ConfusingScene());
   const Account account = Follow(10);
   EXPECT_GE(account.first, 14);
@@ -126,7 +125,7 @@ TEST_P(LineTrackerTest, KeepsParallelAndCrossingLinesApart) {
   EXPECT_EQ(account.switched, 0);
 }
 
-TEST_P(LineTrackerTest, NeverReusesIds) {
+TEST_F(LineTrackerTest, NeverReusesIds) {
   Show(BarScene(PlainParameters()));
   std::set<int64_t> ids, previous;
   for (int i = 0; i < 10; ++i) {
@@ -145,7 +144,7 @@ TEST_P(LineTrackerTest, NeverReusesIds) {
   EXPECT_GT(ids.size(), 60U);
 }
 
-TEST_P(LineTrackerTest, DirectionsNeverFlip) {
+TEST_F(LineTrackerTest, DirectionsNeverFlip) {
   Show(BarScene(DistortedParameters()));
   std::map<int64_t, LineSegment> before;
   int compared = 0;
@@ -162,7 +161,7 @@ TEST_P(LineTrackerTest, DirectionsNeverFlip) {
   EXPECT_GT(compared, 150);
 }
 
-TEST_P(LineTrackerTest, KeepsLinesWhereTheMaskAllowsThem) {
+TEST_F(LineTrackerTest, KeepsLinesWhereTheMaskAllowsThem) {
   cv::Mat mask(480, 752, CV_8UC1, cv::Scalar(0));
   mask.colRange(0, 376).setTo(255);
   Show(BarScene(PlainParameters()), {}, mask);
@@ -175,7 +174,7 @@ TEST_P(LineTrackerTest, KeepsLinesWhereTheMaskAllowsThem) {
   }
 }
 
-TEST_P(LineTrackerTest, RotationPredictsLargeTurns) {
+TEST_F(LineTrackerTest, RotationPredictsLargeTurns) {
   Show(BarScene(PlainParameters()));
   const Eigen::Quaterniond R = SO3Exp({0.05, 0.12, 0.1});  // about 60 px
   const Eigen::Matrix3d H = R.toRotationMatrix();
@@ -195,7 +194,7 @@ TEST_P(LineTrackerTest, RotationPredictsLargeTurns) {
   EXPECT_LE(kept(std::nullopt), 8);
 }
 
-TEST_P(LineTrackerTest, FewLinesThroughABlackImage) {
+TEST_F(LineTrackerTest, FewLinesThroughABlackImage) {
   Show(BarScene(PlainParameters()));
   EXPECT_GT(Track(scene_->View()).lines.size(), 30U);
   EXPECT_TRUE(Track(cv::Mat::zeros(480, 752, CV_8UC1)).lines.empty());
@@ -204,7 +203,7 @@ TEST_P(LineTrackerTest, FewLinesThroughABlackImage) {
   EXPECT_GT(lines, 30U);
 }
 
-TEST_P(LineTrackerTest, AThousandLines) {
+TEST_F(LineTrackerTest, AThousandLines) {
   LineScene scene(PlainParameters(), 110);
   for (int row = 0; row < 26; ++row) {
     for (int column = 0; column < 13; ++column)
@@ -225,7 +224,7 @@ TEST_P(LineTrackerTest, AThousandLines) {
   EXPECT_EQ(Track(scene_->View()).lines.size(), 60U);
 }
 
-TEST_P(LineTrackerTest, SameImagesSameBytes) {
+TEST_F(LineTrackerTest, SameImagesSameBytes) {
   const LineScene scene = BarScene(DistortedParameters());
   std::vector<LineFrame> runs[2];
   for (auto& run : runs) {
@@ -242,7 +241,7 @@ TEST_P(LineTrackerTest, SameImagesSameBytes) {
   }
 }
 
-TEST_P(LineTrackerTest, RefusesUnusableImagesAndStaysAsItWas) {
+TEST_F(LineTrackerTest, RefusesUnusableImagesAndStaysAsItWas) {
   Show(BarScene(PlainParameters()));
   const cv::Mat image = scene_->View();
   const auto first = Track(image);
@@ -257,7 +256,7 @@ TEST_P(LineTrackerTest, RefusesUnusableImagesAndStaysAsItWas) {
   EXPECT_GE(second.lines.size(), 0.9 * static_cast<double>(first.lines.size()));
 }
 
-TEST_P(LineTrackerTest, StatisticsAddUp) {
+TEST_F(LineTrackerTest, StatisticsAddUp) {
   Show(BarScene(PlainParameters()));
   size_t before = 0;
   for (int i = 0; i < 6; ++i) {
@@ -273,20 +272,17 @@ TEST_P(LineTrackerTest, StatisticsAddUp) {
   }
 }
 
-TEST_P(LineTrackerTest, KeepsTheOldestOfTooManyLines) {
+TEST_F(LineTrackerTest, KeepsTheOldestOfTooManyLines) {
   Show(ConfusingScene());
   const cv::Mat image = scene_->View(Eigen::Matrix3d::Identity());
   ASSERT_GT(Track(image).lines.size(), 10U);
   tracker_->SetMaxLines(6);
   const LineFrame fewer = Track(image);
   ASSERT_EQ(fewer.lines.size(), 6U);
-  if (GetParam() == LineMatcherType::kLbd)
-    return;  // describes, and so matches, fewer lines as
-             // well
   for (const LineObservation& line : fewer.lines) EXPECT_LT(line.id, 6);
 }
 
-TEST_P(LineTrackerTest, DrawsTheNewestImage) {
+TEST_F(LineTrackerTest, DrawsTheNewestImage) {
   Show(BarScene(PlainParameters()));
   EXPECT_TRUE(tracker_->DrawTracks().empty());
   Track(scene_->View());
@@ -294,9 +290,6 @@ TEST_P(LineTrackerTest, DrawsTheNewestImage) {
   EXPECT_EQ(drawing.type(), CV_8UC3);
   EXPECT_EQ(drawing.size(), cv::Size(752, 480));
 }
-
-INSTANTIATE_TEST_SUITE_P(Matchers, LineTrackerTest,
-                         testing::Values(LineMatcherType::kFlow, LineMatcherType::kLbd));
 
 // Column 271 of this fisheye is perpendicular to the optical axis, so its rays have no image in z =
 // 1.

@@ -160,14 +160,12 @@ TEST_F(ConfigTest, OverridesReplaceScalars) {
 
 TEST_F(ConfigTest, LinesHaveTheirKeys) {
   const Config config = Load(kPlVinsFile, {{"line_detector", "edlines"},
-                                           {"line_matcher", "lbd"},
                                            {"max_line_cnt", "80"},
                                            {"line_min_length", "0.125"},
                                            {"line_outlier_distance", "20"},
                                            {"line_merging", "0"}});
   EXPECT_TRUE(config.use_lines);
   EXPECT_EQ(config.lines.line_detector, LineDetectorType::kEdLines);
-  EXPECT_EQ(config.lines.line_matcher, LineMatcherType::kLbd);
   EXPECT_EQ(config.lines.max_lines, 80);
   EXPECT_EQ(config.lines.min_length, 0.125);
   EXPECT_EQ(config.estimator.line_outlier_distance, 20);

@@ -6,8 +6,6 @@
 #include <iterator>
 #include <system_error>
 
-#include "common/config/yaml_hint.h"
-
 namespace plm_vins {
 namespace {
 
@@ -115,8 +113,9 @@ std::optional<YAML::Node> ParseRoot(const std::string& file, const std::string& 
   try {
     return TheOne(YAML::LoadAll(text), file, problems);
   } catch (const YAML::Exception& error) {
-    const std::string hint = error.mark.is_null() ? "" : "; " + YamlHint(text, error.mark.line);
-    problems->push_back(Location(file, error.mark) + ": not valid YAML: " + error.msg + hint);
+    problems->push_back(Location(file, error.mark) + ": not valid YAML: " + error.msg +
+                        "; check this line and the one before it: indentation by spaces, alike in "
+                        "each group, and a space behind each colon");
     return std::nullopt;
   }
 }

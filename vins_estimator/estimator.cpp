@@ -54,7 +54,7 @@ FrameMeasurement Estimator::Correct(FrameMeasurement measurement) {
   const SlidingWindow& window = state_.odometry.window();
   if (state_.rolling_shutter) {
     measurement = state_.rolling_shutter->ToStamp(std::move(measurement), window.T_B_C().rotation,
-                                                  window.readout);
+                                                  config_.sensor.ReadoutTime());
   }
   if (options_.problem.estimate_intrinsics) {
     const CameraParameters& camera = config_.sensor.camera;

@@ -155,7 +155,7 @@ std::optional<int64_t> WindowOdometry::StillSince(
 FrameState WindowOdometry::AddFrame(const FrameMeasurement& measurement) {
   LocalMap& map = estimate_.map;
   WindowFrame frame;
-  frame.timing = {measurement.time_offset, map.window.readout, config_->sensor.camera.height};
+  frame.cut_time_offset = measurement.time_offset;
   if (!map.window.frames.empty()) {
     const FrameState& before = map.window.newest().state;
     const ImuNoise noise = Scaled(imu_noise_.noise(), imu_agreement_.noise_scale());
@@ -370,7 +370,7 @@ void WindowOdometry::Describe(const Solution& solution, EstimatorOutput* output)
       BodyVelocityCovariance(output->state, solution.covariance.block<6, 6>(3, 3));
   output->bias_covariance = solution.covariance.bottomRightCorner<6, 6>();
   output->calibration = {config_->sensor.camera.With(window.intrinsics), window.T_B_C(),
-                         std::nullopt, window.td, window.readout};
+                         std::nullopt, window.td};
   if (config_->sensor.second_camera) DescribeSecondCamera(output);
   output->R_W_M = structure_.manhattan().R_W_M();
   output->imu_noise = imu_noise_.noise();

@@ -85,9 +85,6 @@ void CheckSecondCamera(const ConfigEntries& entries, const SensorConfig& sensor,
 }
 
 void CheckShutter(const SensorConfig& sensor, const Report& report) {
-  if (sensor.estimate_rolling_shutter_tr && !sensor.rolling_shutter) {
-    report("estimate_rolling_shutter_tr", "needs rolling_shutter: 1");
-  }
   if (sensor.rolling_shutter && !(sensor.rolling_shutter_tr > 0)) {
     report("rolling_shutter_tr", "is 0; give the read-out time [s], or set rolling_shutter: 0");
   }

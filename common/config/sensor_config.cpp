@@ -174,7 +174,6 @@ ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type,
       Key::Flag("estimate_td", &S::estimate_td),
       Key::Flag("rolling_shutter", &S::rolling_shutter),
       Key::Number("rolling_shutter_tr", "s", {0, 0.2}, &S::rolling_shutter_tr),
-      Key::Flag("estimate_rolling_shutter_tr", &S::estimate_rolling_shutter_tr),
   };
   const ConfigKeys<S> noise = {
       Key::Choice<S::ImuNoiseModel>(

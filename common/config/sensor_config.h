@@ -49,7 +49,6 @@ struct SensorConfig {
   bool estimate_td = false;
   bool rolling_shutter = false;
   double rolling_shutter_tr = 0.0;  // readout time of the whole image, rows top to bottom [s]
-  bool estimate_rolling_shutter_tr = false;
   // Convention of the noise values in a file, and the rate [Hz] that kVins refers to. Always
   // kContinuous after loading.
   enum class ImuNoiseModel { kVins, kContinuous };

@@ -60,17 +60,15 @@ TEST_F(EstimatorOptionsTest, WithoutMergingThereAreNeitherAnchorsNorMemory) {
 
 TEST_F(EstimatorOptionsTest, CalibrationIsEstimatedWhereAskedFor) {
   config_.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kFixed;
-  config_.sensor.estimate_td = config_.sensor.estimate_rolling_shutter_tr = false;
+  config_.sensor.estimate_td = false;
   EXPECT_FALSE(EstimatorOptions(config_).problem.estimate_extrinsic);
   EXPECT_FALSE(EstimatorOptions(config_).problem.estimate_td);
-  EXPECT_FALSE(EstimatorOptions(config_).problem.estimate_readout);
   EXPECT_FALSE(EstimatorOptions(config_).problem.estimate_intrinsics);
   config_.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kRefine;
-  config_.sensor.estimate_td = config_.sensor.estimate_rolling_shutter_tr = true;
+  config_.sensor.estimate_td = true;
   config_.sensor.estimate_intrinsics = true;
   EXPECT_TRUE(EstimatorOptions(config_).problem.estimate_extrinsic);
   EXPECT_TRUE(EstimatorOptions(config_).problem.estimate_td);
-  EXPECT_TRUE(EstimatorOptions(config_).problem.estimate_readout);
   EXPECT_TRUE(EstimatorOptions(config_).problem.estimate_intrinsics);
 }
 

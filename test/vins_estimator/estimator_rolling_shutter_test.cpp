@@ -42,17 +42,5 @@ TEST(EstimatorRollingShutterTest, CostsLittleWhereItIsKnown) {
   EXPECT_GT(ignored, 2 * global);
 }
 
-TEST(EstimatorRollingShutterTest, LearnsTheReadoutTime) {
-  for (const double assumed : {0.02, 0.04}) {
-    SimulatedFlight simulated = testing::SimulateFlight(Options(1, true));
-    simulated.sensor.rolling_shutter_tr = assumed;
-    simulated.sensor.estimate_rolling_shutter_tr = true;
-    const EstimatedFlight flight = testing::Estimate(simulated);
-    EXPECT_TRUE(flight.restarts.empty());
-    ASSERT_GT(flight.truth.size(), 230u);
-    EXPECT_NEAR(flight.outputs.back().calibration.readout, kReadout, 0.001);
-  }
-}
-
 }  // namespace
 }  // namespace plm_vins

@@ -3,7 +3,6 @@
 
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/point_factor.h"
-#include "vins_estimator/factors/readout_factor.h"
 
 namespace plm_vins {
 namespace {
@@ -56,8 +55,6 @@ bool LineIntrinsicsFactor<Inner>::Evaluate(double const* const* parameters, doub
 
 template class PointIntrinsicsFactor<PointFactor>;
 template class PointIntrinsicsFactor<PointHostFactor>;
-template class PointIntrinsicsFactor<ReadoutFactor<PointFactor>>;
-template class PointIntrinsicsFactor<ReadoutFactor<PointHostFactor>>;
 template class LineIntrinsicsFactor<LineFactor>;
 template class LineIntrinsicsFactor<LineHostFactor>;
 

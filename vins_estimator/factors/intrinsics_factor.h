@@ -7,7 +7,7 @@
 
 namespace plm_vins {
 
-// Extends a corner's factor (PointFactor, PointHostFactor or a ReadoutFactor of these) by the
+// Extends a corner's factor (PointFactor or PointHostFactor) by the
 // camera intrinsics c as a variable: the corner is observed at xy + shift(c), which the residual
 // weight * (m_t - xy) depends on directly. Blocks: those of the inner factor, intrinsics (8).
 template <typename Inner>

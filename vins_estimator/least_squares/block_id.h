@@ -13,7 +13,6 @@ enum class BlockKind : uint8_t {
   kTimeOffset,
   kPoint,
   kLine,
-  kReadout,
   kIntrinsics,
   kMounting
 };

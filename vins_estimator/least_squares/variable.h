@@ -20,7 +20,7 @@ constexpr int kMaxAmbientSize = 9;
 
 const VariableType& PoseVariable();    // 7 -> 6
 const VariableType& MotionVariable();  // 9, vector space
-const VariableType& ScalarVariable();  // 1, vector space: time offset, readout time
+const VariableType& ScalarVariable();  // 1, vector space: time offset
 // 3, vector space: image point and inverse depth in the host; the inverse depth stays positive.
 const VariableType& PointVariable();
 // 8, vector space: camera intrinsics; focal lengths stay positive.

@@ -14,7 +14,7 @@ constexpr double kMaxPlaceSigma = 0.2;  // [m]: a less certain line could not be
 
 void LocalMap::AddFrame(WindowFrame frame, const PointFrame& point_frame,
                         const std::optional<LineFrame>& line_frame) {
-  points.AddFrame(point_frame, frame.timing);
+  points.AddFrame(point_frame, frame.cut_time_offset);
   if (line_frame) lines.AddFrame(aliases.Redirect(*line_frame));
   window.frames.push_back(std::move(frame));
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "common/camera/readout_share.h"
 #include "common/median.h"
 #include "vins_estimator/geometry/depth_limits.h"
 #include "vins_estimator/geometry/point_triangulation.h"
@@ -109,16 +108,12 @@ std::optional<double> ReprojectionError(const Eigen::Vector3d& p_W, const PointV
   return (p_C.hnormalized() - sighting.xy).norm();
 }
 
-void PointMap::AddFrame(const PointFrame& frame, const ImageTiming& timing) {
+void PointMap::AddFrame(const PointFrame& frame, double cut_time_offset) {
   for (const PointObservation& point : frame.points) {
     PointLandmark& landmark = landmarks_[point.id];
     landmark.id = point.id;
-    const double share = ReadoutShare(point.uv_px.y(), timing.image_height);
     landmark.views.push_back(
-        {frame.t_ns,
-         {point.xy, point.velocity, timing.cut_time_offset, share, timing.cut_readout},
-         point.right,
-         point.depth});
+        {frame.t_ns, {point.xy, point.velocity, cut_time_offset}, point.right, point.depth});
   }
 }
 

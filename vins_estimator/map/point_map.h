@@ -24,7 +24,7 @@ struct RightResidual {
 class PointMap : public LandmarkMap<PointLandmark> {
  public:
   // Adds one image's corners as observations.
-  void AddFrame(const PointFrame& frame, const ImageTiming& timing);
+  void AddFrame(const PointFrame& frame, double cut_time_offset);
 
   // Triangulates the points with enough observations; `min_angle` [rad] is the least angle between
   // rays.

@@ -19,7 +19,7 @@ namespace plm_vins {
 // A frame of the window.
 struct WindowFrame {
   FrameState state;
-  ImageTiming timing;
+  double cut_time_offset = 0;  // see TimedBearing
   // Preintegrated IMU since the previous frame in the window; null in the first frame.
   std::shared_ptr<Preintegration> motion_since_previous;
   bool stationary = false;      // at standstill since the previous frame
@@ -41,8 +41,7 @@ struct SlidingWindow {
   std::array<double, 7> extrinsic = {0, 0, 0, 0, 0, 0, 1};  // T_B_C, laid out like FrameState::pose
   // T_C_C1, the pose of the second camera in the first, laid out alike; unused without one.
   std::array<double, 7> mounting = {0, 0, 0, 0, 0, 0, 1};
-  double td = 0;       // t_imu = t_image + td [s]
-  double readout = 0;  // rolling-shutter time from the first row to the last [s]
+  double td = 0;                                             // t_imu = t_image + td [s]
   Intrinsics intrinsics = Intrinsics::Zero();                // of the camera
   Intrinsics ray_intrinsics = Intrinsics::Zero();            // with which all rays were computed
   Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  // [m/s^2]
@@ -66,9 +65,7 @@ struct SlidingWindow {
   const FrameState& StateAt(int64_t t_ns) const;
 
   // Returns the position of a corner at the time of its frame's state.
-  Eigen::Vector2d AtState(const TimedBearing& bearing) const {
-    return bearing.At(td + bearing.Delay(readout));
-  }
+  Eigen::Vector2d AtState(const TimedBearing& bearing) const { return bearing.At(td); }
 
   // Returns the camera pose of a frame or an anchor.
   Rigid3d T_W_C(const FrameState& state) const { return state.T_W_B() * T_B_C(); }

@@ -28,7 +28,6 @@ WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& op
     window.SetMounting(sensor.T_B_C.Inverse() * sensor.second_camera->T_B_C);
   }
   window.td = sensor.td;
-  window.readout = sensor.ReadoutTime();
   window.intrinsics = window.ray_intrinsics = sensor.camera.intrinsics();
   window.gravity_W = Eigen::Vector3d(0, 0, -sensor.gravity_norm);
   return estimate;

@@ -10,7 +10,7 @@ namespace plm_vins {
 using ExtrinsicMode = SensorConfig::ExtrinsicMode;
 
 bool RefinesCalibration(const SensorConfig& sensor) {
-  return sensor.estimate_intrinsics || sensor.estimate_td || sensor.estimate_rolling_shutter_tr ||
+  return sensor.estimate_intrinsics || sensor.estimate_td ||
          sensor.estimate_extrinsic != ExtrinsicMode::kFixed || sensor.second_camera;
 }
 
@@ -20,15 +20,11 @@ Config WithCalibration(const Calibration& calibration, Config config) {
   sensor.T_B_C = calibration.T_B_C;
   if (calibration.T_C_C1) sensor.second_camera->T_B_C = sensor.T_B_C * *calibration.T_C_C1;
   sensor.td = calibration.td;
-  if (sensor.rolling_shutter) sensor.rolling_shutter_tr = calibration.readout;
   // The rotation is known now, so it only needs refinement.
   if (sensor.estimate_extrinsic == ExtrinsicMode::kCalibrateRotation) {
     sensor.estimate_extrinsic = ExtrinsicMode::kRefine;
   }
   KeepInRange(&config);
-  if (!(sensor.rolling_shutter_tr > 0)) {
-    sensor.rolling_shutter = sensor.estimate_rolling_shutter_tr = false;
-  }
   return config;
 }
 

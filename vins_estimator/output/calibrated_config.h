@@ -13,8 +13,7 @@ constexpr char kCalibratedConfigFile[] = "calibrated.yaml";
 // Returns whether the estimator is configured to refine any of the calibration.
 bool RefinesCalibration(const SensorConfig& sensor);
 
-// Returns the configuration with the estimated calibration, clamped to what LoadConfig() accepts;
-// without a rolling shutter if the estimated readout time is not positive.
+// Returns the configuration with the estimated calibration, clamped to what LoadConfig() accepts.
 Config WithCalibration(const Calibration& calibration, Config config);
 
 // Writes the configuration with the estimated calibration, ready to be used. Throws

@@ -34,8 +34,7 @@ Json CalibrationToJson(const Calibration& calibration) {
                {"distortion", {d[0], d[1], d[2], d[3]}},
                {"q_B_C_xyzw", {q.x(), q.y(), q.z(), q.w()}},
                {"p_B_C_m", {p.x(), p.y(), p.z()}},
-               {"td_s", calibration.td},
-               {"rolling_shutter_tr_s", calibration.readout}};
+               {"td_s", calibration.td}};
   if (calibration.T_C_C1) {
     const Eigen::Quaterniond& q_C1 = calibration.T_C_C1->rotation;
     const Eigen::Vector3d& p_C1 = calibration.T_C_C1->translation;

@@ -77,9 +77,6 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
   if (options.estimate_td) {
     prior.Add({BlockKind::kTimeOffset, 0}, &window.td, Sigmas({{1, uncertainty.td}}));
   }
-  if (options.estimate_readout) {
-    prior.Add({BlockKind::kReadout, 0}, &window.readout, Sigmas({{1, uncertainty.readout}}));
-  }
   if (options.estimate_intrinsics) {
     const IntrinsicsDeviation& deviation = uncertainty.intrinsics;
     prior.Add({BlockKind::kIntrinsics, 0}, window.intrinsics.data(),

@@ -27,7 +27,6 @@ struct InitialUncertainty {
       0.05 * M_PI / 180;  // of the second camera, and of the baseline's direction [rad]
   double baseline = kBaselineDeviation;  // relative, of its length
   double td = 0.01;                      // [s]
-  double readout = 0.01;                 // [s]
   IntrinsicsDeviation intrinsics;
 };
 

@@ -17,7 +17,6 @@ ProblemOptions::ProblemOptions(const Config& config, double focal_length)
       estimate_extrinsic(config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed),
       estimate_mounting(config.sensor.second_camera.has_value()),
       estimate_td(config.sensor.estimate_td),
-      estimate_readout(config.sensor.estimate_rolling_shutter_tr),
       estimate_intrinsics(config.sensor.estimate_intrinsics),
       camera(config.sensor.camera) {
   if (config.sensor.depth) depth_weight = 1 / config.sensor.depth->noise;

@@ -48,7 +48,6 @@ struct ProblemOptions {
   bool estimate_extrinsic;
   bool estimate_mounting;  // of the second camera
   bool estimate_td;
-  bool estimate_readout;  // readout time of a rolling shutter
   bool estimate_intrinsics;
   CameraParameters camera;  // as configured
   JacobiansAt jacobians_at = JacobiansAt::kFirstEstimates;

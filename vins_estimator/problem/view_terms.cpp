@@ -4,7 +4,6 @@
 #include "vins_estimator/factors/intrinsics_factor.h"
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/point_factor.h"
-#include "vins_estimator/factors/readout_factor.h"
 #include "vins_estimator/factors/stereo_factor.h"
 #include "vins_estimator/map/landmark_map.h"
 #include "vins_estimator/problem/expected_rays.h"
@@ -139,18 +138,6 @@ template <typename ViewFactor, typename... Indices>
 void ViewTerms::AddPointTerm(const ProblemPoint& point, const PointView& view,
                              Indices... variables) {
   const ViewFactor factor(view.bearing, options_->point_weight);
-  if (!options_->estimate_readout) {
-    AddPointFactor(point, view, factor, variables...);
-    return;
-  }
-  const int readout = variables_->Readout();
-  AddPointFactor(point, view, ReadoutFactor<ViewFactor>(factor, view.bearing), variables...,
-                 readout);
-}
-
-template <typename ViewFactor, typename... Indices>
-void ViewTerms::AddPointFactor(const ProblemPoint& point, const PointView& view,
-                               const ViewFactor& factor, Indices... variables) {
   if (!camera_) {
     AddTerm(point.eliminated, factor, &point_loss_, {variables...});
     return;

@@ -32,8 +32,8 @@ struct ProblemLine {
   int host_pose, extrinsic;
 };
 
-// Adds landmarks and their observations to a problem. Observations also depend on the readout time
-// and on the intrinsics if these are estimated.
+// Adds landmarks and their observations to a problem. Observations also depend on the intrinsics
+// if these are estimated.
 class ViewTerms {
  public:
   // All arguments must outlive this object. The problem refers to its losses, so the problem must
@@ -63,12 +63,9 @@ class ViewTerms {
   ProblemPoint WithVariables(const PointLandmark& landmark, int index,
                              std::optional<int> eliminated);
   ProblemLine WithVariables(const LineLandmark& landmark, int index, std::optional<int> eliminated);
+  // Adds an observation, with the intrinsics if these are estimated.
   template <typename ViewFactor, typename... Indices>
   void AddPointTerm(const ProblemPoint& point, const PointView& view, Indices... variables);
-  // Adds `factor`, extended by the intrinsics if these are estimated.
-  template <typename ViewFactor, typename... Indices>
-  void AddPointFactor(const ProblemPoint& point, const PointView& view, const ViewFactor& factor,
-                      Indices... variables);
   template <typename ViewFactor, typename... Indices>
   void AddLineTerm(const ProblemLine& line, const LineView& view, double weight,
                    Indices... variables);

@@ -29,8 +29,6 @@ double* WindowVariables::Values(const BlockId& id) {
       return window_->mounting.data();
     case BlockKind::kTimeOffset:
       return &window_->td;
-    case BlockKind::kReadout:
-      return &window_->readout;
     case BlockKind::kIntrinsics:
       return window_->intrinsics.data();
     case BlockKind::kPose:

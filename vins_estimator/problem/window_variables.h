@@ -28,7 +28,6 @@ class WindowVariables {
   int Extrinsic() { return Add({BlockKind::kExtrinsic, 0}); }
   int Mounting() { return Add({BlockKind::kMounting, 0}); }
   int TimeOffset() { return Add({BlockKind::kTimeOffset, 0}); }
-  int Readout() { return Add({BlockKind::kReadout, 0}); }
   int Intrinsics() { return Add({BlockKind::kIntrinsics, 0}); }
   // Adds any of these variables.
   int Add(const BlockId& id);

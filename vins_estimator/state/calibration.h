@@ -8,14 +8,12 @@
 
 namespace plm_vins {
 
-// Calibration that the estimator may refine: camera intrinsics, extrinsics, time offset and readout
-// time.
+// Calibration that the estimator may refine: camera intrinsics, extrinsics and time offset.
 struct Calibration {
   CameraParameters camera;
   Rigid3d T_B_C;
   std::optional<Rigid3d> T_C_C1;  // pose of the second camera in the first, if there is one
   double td = 0;                  // t_imu = t_image + td [s]
-  double readout = 0;             // readout time of a rolling shutter; 0: global shutter [s]
 };
 
 }  // namespace plm_vins

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMaxShift = 0.002;
 
 bool ShiftsCorners(const WindowFrame& frame, double td) {
-  return std::abs(td - frame.timing.cut_time_offset) > kMaxShift;
+  return std::abs(td - frame.cut_time_offset) > kMaxShift;
 }
 
 // Returns whether the interval's residuals are due to something else than noise of one density.

@@ -338,8 +338,6 @@ TEST_F(ConfigTest, BadExtrinsics) {
 
 TEST_F(ConfigTest, Contradictions) {
   ExpectProblem("rolling_shutter: 1", {"rolling_shutter_tr: is 0; give the read-out time"});
-  ExpectProblem("estimate_rolling_shutter_tr: 1",
-                {"estimate_rolling_shutter_tr: needs rolling_shutter: 1"});
   ExpectProblem("acc_n: 0.1\ngyr_n: 0.1\nacc_w: 0.1", {"gyr_w: is missing; give all of"});
   ExpectProblem("base_frame: camera", {"base_frame: is the same as camera_frame"});
   ExpectProblem("manhattan_frame: body", {"manhattan_frame: is the same as body_frame"});

@@ -11,7 +11,6 @@
 #include "test/testing/cost_function_check.h"
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/point_factor.h"
-#include "vins_estimator/factors/readout_factor.h"
 
 namespace plm_vins {
 namespace {
@@ -95,13 +94,6 @@ TEST_F(IntrinsicsFactorTest, HasExactJacobiansForPoints) {
   const auto target = Point(PointFactor(bearing_, kWeight));
   testing::ExpectTangentJacobians(
       target, {identity_, turned_, identity_, Scalar(0.03), point_, intrinsics_}, 1e-7);
-}
-
-TEST_F(IntrinsicsFactorTest, HasExactJacobiansWithARollingShutter) {
-  const auto factor = Point(ReadoutFactor<PointFactor>(PointFactor(bearing_, kWeight), bearing_));
-  testing::ExpectTangentJacobians(
-      factor, {identity_, turned_, identity_, Scalar(0.03), point_, Scalar(0.04), intrinsics_},
-      1e-7);
 }
 
 TEST_F(IntrinsicsFactorTest, HasExactJacobiansForLines) {

@@ -16,15 +16,5 @@ TEST(TimedBearing, MovesAlongItsVelocityWithTheTimeOffset) {
   EXPECT_MATRIX_NEAR(bearing.At(0.03), Vector2d(0.08, 0.24), 1e-15);
 }
 
-TEST(TimedBearing, ALongerReadoutDelaysTheLowerRows) {
-  TimedBearing bearing;
-  bearing.share = 0.4;
-  bearing.cut_readout = 0.02;
-  EXPECT_EQ(bearing.Delay(0.02), 0);
-  EXPECT_NEAR(bearing.Delay(0.03), 0.004, 1e-15);
-  bearing.share = -0.4;
-  EXPECT_NEAR(bearing.Delay(0.03), -0.004, 1e-15);
-}
-
 }  // namespace
 }  // namespace plm_vins

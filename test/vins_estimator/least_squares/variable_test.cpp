@@ -12,9 +12,9 @@
 namespace plm_vins {
 namespace {
 
-constexpr BlockKind kKinds[] = {
-    BlockKind::kPose,  BlockKind::kMotion, BlockKind::kExtrinsic, BlockKind::kTimeOffset,
-    BlockKind::kPoint, BlockKind::kLine,   BlockKind::kReadout,   BlockKind::kIntrinsics};
+constexpr BlockKind kKinds[] = {BlockKind::kPose,       BlockKind::kMotion, BlockKind::kExtrinsic,
+                                BlockKind::kTimeOffset, BlockKind::kPoint,  BlockKind::kLine,
+                                BlockKind::kIntrinsics};
 
 // Values well inside the domain of every kind.
 Eigen::VectorXd SomeValues(BlockKind kind, simulator::Random* random) {

@@ -165,9 +165,8 @@ TEST_F(PointMapTest, CollectsViewsByTime) {
   frame.points[0].id = 3;
   frame.points[0].xy = Vector2d(0.1, 0.2);
   frame.points[0].velocity = Vector2d(1, 2);
-  frame.points[0].uv_px = Vector2d(100, 360);
   frame.points[1].id = 77;
-  map_.AddFrame(frame, {0.01, 0.03, 480});
+  map_.AddFrame(frame, 0.01);
   EXPECT_EQ(map_.landmarks().size(), 21u);
   const PointView& view = Landmark(3).views.back();
   EXPECT_EQ(Landmark(3).views.size(), 5u);
@@ -175,8 +174,6 @@ TEST_F(PointMapTest, CollectsViewsByTime) {
   EXPECT_EQ(view.bearing.xy, Vector2d(0.1, 0.2));
   EXPECT_EQ(view.bearing.velocity, Vector2d(1, 2));
   EXPECT_EQ(view.bearing.cut_time_offset, 0.01);
-  EXPECT_EQ(view.bearing.cut_readout, 0.03);
-  EXPECT_EQ(view.bearing.share, 0.25);
   EXPECT_EQ(Landmark(77).host().t_ns, 200);
   EXPECT_EQ(Landmark(77).id, 77);
   EXPECT_FALSE(Landmark(77).triangulated);
@@ -240,16 +237,6 @@ TEST_F(PointMapTest, ReprojectionErrorIsTheDistanceInTheImage) {
   ASSERT_TRUE(error);
   EXPECT_NEAR(*error, 0.005, 1e-9);
   EXPECT_FALSE(ReprojectionError({0, 0, -5}, view, window_));
-}
-
-TEST_F(PointMapTest, ReprojectionErrorHeedsTheReadoutTime) {
-  PointView view = Landmark(4).views[2];
-  view.bearing.velocity = Vector2d(0.3, 0.4);
-  view.bearing.share = -0.5;
-  window_.readout = 0.02;
-  EXPECT_NEAR(ReprojectionError(points_W_[4], view, window_).value(), 0.005, 1e-9);
-  view.bearing.cut_readout = 0.02;
-  EXPECT_NEAR(ReprojectionError(points_W_[4], view, window_).value(), 0, 1e-9);
 }
 
 TEST_F(PointMapTest, ReprojectionErrorHeedsTheTimeOffset) {

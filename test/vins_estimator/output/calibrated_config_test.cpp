@@ -22,17 +22,15 @@ Calibration SomeCalibration() {
   calibration.camera = calibration.camera.With(intrinsics);
   calibration.T_B_C = {Eigen::Quaterniond(0.8, 0, 0.6, 0), {0.1, 0.2, 0.3}};
   calibration.td = 0.004;
-  calibration.readout = 0.03;
   return calibration;
 }
 
 TEST(CalibratedConfig, IsWantedWhereAnythingIsRefined) {
   EXPECT_FALSE(RefinesCalibration({}));
-  SensorConfig sensors[4];
+  SensorConfig sensors[3];
   sensors[0].estimate_intrinsics = true;
   sensors[1].estimate_td = true;
-  sensors[2].estimate_rolling_shutter_tr = true;
-  sensors[3].estimate_extrinsic = Mode::kCalibrateRotation;
+  sensors[2].estimate_extrinsic = Mode::kCalibrateRotation;
   for (const SensorConfig& sensor : sensors) EXPECT_TRUE(RefinesCalibration(sensor));
 }
 
@@ -42,6 +40,7 @@ TEST(CalibratedConfig, RunsAsItIs) {
   config.points.fisheye = false;  // as set by the loader without a mask
   config.estimator.window_size = 12;
   config.sensor.rolling_shutter = true;
+  config.sensor.rolling_shutter_tr = 0.03;
   SaveCalibratedConfig(SomeCalibration(), config, folder.File("calibrated.yaml"));
   const Config read = LoadConfig(folder.File("calibrated.yaml"));
   EXPECT_EQ(read.estimator.window_size, 12);
@@ -57,33 +56,15 @@ Config ReadBack(const Calibration& calibration) {
   const testing::TemporaryFolder folder;
   Config config;
   config.points.fisheye = false;
-  config.sensor.rolling_shutter = config.sensor.estimate_rolling_shutter_tr = true;
   SaveCalibratedConfig(calibration, config, folder.File("calibrated.yaml"));
   return LoadConfig(folder.File("calibrated.yaml"));
 }
 
-TEST(CalibratedConfig, HasAGlobalShutterWhereNoReadoutIsLeft) {
-  Calibration calibration = SomeCalibration();
-  for (const double readout : {-0.0003, 0.0}) {
-    calibration.readout = readout;
-    EXPECT_FALSE(ReadBack(calibration).sensor.rolling_shutter);
-  }
-}
-
 TEST(CalibratedConfig, StaysInTheRangesOfTheKeys) {
   Calibration calibration = SomeCalibration();
-  calibration.readout = 0.3;
   calibration.td = -1.01;
   const Config read = ReadBack(calibration);
-  EXPECT_TRUE(read.sensor.rolling_shutter);
-  EXPECT_EQ(read.sensor.rolling_shutter_tr, 0.2);
   EXPECT_EQ(read.sensor.td, -1);
-}
-
-TEST(CalibratedConfig, LeavesWhatAGlobalShutterDoesNotUse) {
-  Config config;
-  config.sensor.rolling_shutter_tr = 0.02;
-  EXPECT_EQ(WithCalibration(SomeCalibration(), config).sensor.rolling_shutter_tr, 0.02);
 }
 
 TEST(CalibratedConfig, KnowsTheRotationThatWasUnknown) {

@@ -113,7 +113,6 @@ TEST(RunSummary, TellsTheLastCalibration) {
   EstimatorOutput refined = Pose(1, 0);
   refined.calibration.T_B_C = {Eigen::Quaterniond(0, 1, 0, 0), {0.1, 0.2, 0.3}};
   refined.calibration.td = 0.004;
-  refined.calibration.readout = 0.03;
   Intrinsics intrinsics;
   intrinsics << 460, 461, 370, 240, -0.3, 0.1, 0.01, 0.02;
   refined.calibration.camera = refined.calibration.camera.With(intrinsics);
@@ -129,7 +128,6 @@ TEST(RunSummary, TellsTheLastCalibration) {
   EXPECT_EQ(calibration["distortion"].get<std::vector<double>>(),
             (std::vector<double>{-0.3, 0.1, 0.01, 0.02}));
   EXPECT_EQ(calibration["td_s"], 0.004);
-  EXPECT_EQ(calibration["rolling_shutter_tr_s"], 0.03);
   EXPECT_TRUE(RunSummary().ToJson({})["calibration"].is_null());
 }
 

@@ -31,21 +31,19 @@ TEST(InitialPrior, IsTheStatedUncertaintyOfTheFirstState) {
   EXPECT_NEAR(std::sqrt(covariance(11, 11)), uncertainty.accel_bias, 1e-9);
   EXPECT_NEAR(std::sqrt(covariance(14, 14)), uncertainty.gyro_bias, 1e-9);
 
-  options.estimate_extrinsic = options.estimate_td = options.estimate_readout = true;
-  options.estimate_intrinsics = true;
+  options.estimate_extrinsic = options.estimate_td = options.estimate_intrinsics = true;
   const MarginalizationPrior all = InitialPrior(uncertainty, options, simulated.window);
   const MatrixXd all_covariance = all.quadratic().H.inverse();
-  ASSERT_EQ(all_covariance.rows(), 31);
+  ASSERT_EQ(all_covariance.rows(), 30);
   EXPECT_NEAR(std::sqrt(all_covariance(20, 20)), uncertainty.extrinsic_rotation, 1e-9);
   EXPECT_NEAR(std::sqrt(all_covariance(21, 21)), uncertainty.td, 1e-9);
-  EXPECT_NEAR(std::sqrt(all_covariance(22, 22)), uncertainty.readout, 1e-9);
   const Intrinsics& intrinsics = simulated.window.intrinsics;
   const IntrinsicsDeviation& deviation = uncertainty.intrinsics;
-  EXPECT_NEAR(std::sqrt(all_covariance(23, 23)), deviation.focal_length * intrinsics[0], 1e-9);
-  EXPECT_NEAR(std::sqrt(all_covariance(24, 24)), deviation.focal_length * intrinsics[1], 1e-9);
-  EXPECT_NEAR(std::sqrt(all_covariance(26, 26)), deviation.principal_point, 1e-9);
-  EXPECT_NEAR(std::sqrt(all_covariance(27, 27)), deviation.distortion, 1e-9);
-  EXPECT_NEAR(std::sqrt(all_covariance(30, 30)), deviation.distortion, 1e-9);
+  EXPECT_NEAR(std::sqrt(all_covariance(22, 22)), deviation.focal_length * intrinsics[0], 1e-9);
+  EXPECT_NEAR(std::sqrt(all_covariance(23, 23)), deviation.focal_length * intrinsics[1], 1e-9);
+  EXPECT_NEAR(std::sqrt(all_covariance(25, 25)), deviation.principal_point, 1e-9);
+  EXPECT_NEAR(std::sqrt(all_covariance(26, 26)), deviation.distortion, 1e-9);
+  EXPECT_NEAR(std::sqrt(all_covariance(29, 29)), deviation.distortion, 1e-9);
 }
 
 TEST(InitialPrior, HoldsTheSecondCamera) {

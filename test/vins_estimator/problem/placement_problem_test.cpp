@@ -21,7 +21,7 @@ int64_t Stamp(const testing::SimulatedWindow& simulated, size_t frame) {
 TEST(PlacementProblem, TheStatesAfterAFrameAloneAreFree) {
   ProblemOptions options = testing::OnePixelOptions();
   options.estimate_extrinsic = options.estimate_td = true;
-  options.estimate_intrinsics = options.estimate_readout = true;
+  options.estimate_intrinsics = true;
   testing::SimulatedWindow simulated = testing::SimulateWindow(4);
   for (const size_t last_known : {1, 2}) {
     const int64_t known_ns = Stamp(simulated, last_known);

@@ -190,16 +190,6 @@ TEST_F(ProblemBuilderTest, CalibrationIsConstantUnlessItIsEstimated) {
   }
 }
 
-TEST_F(ProblemBuilderTest, TheReadoutTimeIsAVariableWhereItIsEstimated) {
-  for (const bool readout : {false, true}) {
-    options_.estimate_readout = readout;
-    ProblemBuilder builder(options_, &window(), &no_prior_);
-    builder.AddPoint(LongestTrack());
-    EXPECT_EQ(builder.problem().Find({BlockKind::kReadout, 0}) >= 0, readout);
-    EXPECT_EQ(NormalEquations(builder.problem()).dense_size(), 18 + readout);
-  }
-}
-
 TEST_F(ProblemBuilderTest, TheIntrinsicsAreAVariableOfPointsAndLinesWhereTheyAreEstimated) {
   for (const bool intrinsics : {false, true}) {
     options_.estimate_intrinsics = intrinsics;
@@ -219,13 +209,13 @@ TEST_F(ProblemBuilderTest, TheIntrinsicsAreAVariableOfPointsAndLinesWhereTheyAre
   }
 }
 
-TEST_F(ProblemBuilderTest, ReadoutTimeAndIntrinsicsGoTogether) {
-  options_.estimate_td = options_.estimate_readout = options_.estimate_intrinsics = true;
+TEST_F(ProblemBuilderTest, TimeOffsetAndIntrinsicsGoTogether) {
+  options_.estimate_td = options_.estimate_intrinsics = true;
   ProblemBuilder builder(options_, &window(), &no_prior_);
   builder.AddPoint(LongestTrack());
-  EXPECT_EQ(builder.problem().landmarks()[0].terms[1].variable_count, 7);
+  EXPECT_EQ(builder.problem().landmarks()[0].terms[1].variable_count, 6);
   NormalEquations equations(builder.problem());
-  EXPECT_EQ(equations.dense_size(), 18 + 1 + 1 + 8);
+  EXPECT_EQ(equations.dense_size(), 18 + 1 + 8);
   EXPECT_TRUE(std::isfinite(equations.Linearize()));
 }
 

@@ -33,9 +33,8 @@ TEST_F(WindowVariablesTest, EachIsAddedOnceWithItsValues) {
     EXPECT_EQ(At(variables.Motion(State(1).t_ns)).values, State(1).motion.data());
     EXPECT_EQ(At(variables.Extrinsic()).values, window().extrinsic.data());
     EXPECT_EQ(At(variables.TimeOffset()).values, &window().td);
-    EXPECT_EQ(At(variables.Readout()).values, &window().readout);
     EXPECT_EQ(At(variables.Intrinsics()).values, window().intrinsics.data());
-    EXPECT_EQ(problem_.variables().size(), 6u);
+    EXPECT_EQ(problem_.variables().size(), 5u);
   }
 }
 

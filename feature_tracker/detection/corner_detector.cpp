@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "feature_tracker/detection/corner_refinement.h"
-#include "feature_tracker/detection/corner_response.h"
 #include "feature_tracker/detection/region_queue.h"
 #include "tracking/image_mask.h"
 
@@ -17,6 +16,19 @@ namespace {
 // a lit scene reach 0.1 (gradients are in units of the full grey range).
 constexpr float kMinEigenvalue = 5e-4F;
 constexpr int kCornersPerRegion = 8;  // mean number for each region of RegionQueue
+
+// Returns the smallest eigenvalue [Shi1994] or Harris' measure of the gradient covariance.
+cv::Mat Response(const cv::Mat& image, CornerDetectorType type) {
+  constexpr int kBlock = 3, kAperture = 3;
+  constexpr double kHarrisK = 0.04;
+  cv::Mat response;
+  if (type == CornerDetectorType::kHarris) {
+    cv::cornerHarris(image, response, kBlock, kAperture, kHarrisK);
+  } else {
+    cv::cornerMinEigenVal(image, response, kBlock, kAperture);
+  }
+  return response;
+}
 
 }  // namespace
 
@@ -55,7 +67,7 @@ std::vector<CornerDetector::Candidate> CornerDetector::FindCandidates(
     const cv::Mat& image, const SpacingGrid& occupied) const {
   cv::Mat half_image, local_maximum;
   cv::pyrDown(image, half_image);
-  const cv::Mat response = CornerResponse(half_image, config_.corner_detector);
+  const cv::Mat response = Response(half_image, config_.corner_detector);
   cv::dilate(response, local_maximum, cv::Mat());
   const float min_response = MinResponse(response);
 

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <opencv2/ximgproc/fast_line_detector.hpp>
 #include <stdexcept>
 
 #include "common/opencv_version.h"
-#include "linefeature_tracker/detection/chain_segments.h"
-#include "linefeature_tracker/detection/edge_chains.h"
 
 // OpenCV 4.1 to 4.5.3 include neither LSD nor EDLines.
 #define HAS_LSD_AND_EDLINES PLM_OPENCV_IS_AT_LEAST(4, 5, 4)
@@ -18,37 +17,6 @@
 namespace plm_vins {
 namespace {
 
-bool IsAlongBorder(const LineSegment& segment, const cv::Size& size, double border_px) {
-  const Eigen::Vector2d least = segment.start.cwiseMin(segment.end);
-  const Eigen::Vector2d most = segment.start.cwiseMax(segment.end);
-  return most.x() <= border_px || most.y() <= border_px || least.x() >= size.width - border_px ||
-         least.y() >= size.height - border_px;
-}
-
-class FldDetector : public LineDetector {
- public:
-  std::vector<LineSegment> Detect(const cv::Mat& image, double min_length_px) override {
-    const StraightnessLimits limits = {std::max(static_cast<int>(min_length_px), 1),
-                                       kMaxDeviation_px};
-    std::vector<LineSegment> segments;
-    EdgeChains chains(image, kCannyLow, kCannyHigh);
-    EdgeChain chain;
-    while (chains.Next(&chain)) AppendSegments(chain, limits, &segments);
-    const auto is_useless = [&](const LineSegment& segment) {
-      return segment.Length() < min_length_px || IsAlongBorder(segment, image.size(), kBorder_px);
-    };
-    segments.erase(std::remove_if(segments.begin(), segments.end(), is_useless), segments.end());
-    return segments;
-  }
-
- private:
-  static constexpr double kMaxDeviation_px = 1.414;
-  static constexpr double kCannyLow = 50;
-  static constexpr double kCannyHigh = 100;
-  static constexpr double kBorder_px = 5;
-};
-
-#if HAS_LSD_AND_EDLINES
 std::vector<LineSegment> LongerThan(double min_length_px, const std::vector<cv::Vec4f>& lines) {
   std::vector<LineSegment> segments;
   for (const cv::Vec4f& line : lines) {
@@ -58,6 +26,25 @@ std::vector<LineSegment> LongerThan(double min_length_px, const std::vector<cv::
   return segments;
 }
 
+class FldDetector : public LineDetector {
+ public:
+  std::vector<LineSegment> Detect(const cv::Mat& image, double min_length_px) override {
+    const int min_length = std::max(static_cast<int>(min_length_px), 1);
+    std::vector<cv::Vec4f> lines;
+    cv::ximgproc::createFastLineDetector(min_length, kMaxDeviation_px, kCannyLow, kCannyHigh,
+                                         kCannyAperture_px, /*do_merge=*/false)
+        ->detect(image, lines);
+    return LongerThan(min_length_px, lines);
+  }
+
+ private:
+  static constexpr float kMaxDeviation_px = 1.414F;
+  static constexpr double kCannyLow = 50;
+  static constexpr double kCannyHigh = 100;
+  static constexpr int kCannyAperture_px = 3;
+};
+
+#if HAS_LSD_AND_EDLINES
 class LsdDetector : public LineDetector {
  public:
   std::vector<LineSegment> Detect(const cv::Mat& image, double min_length_px) override {

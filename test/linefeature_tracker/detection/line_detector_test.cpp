@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <opencv2/ximgproc/fast_line_detector.hpp>
-
 #include "test/linefeature_tracker/line_scene.h"
 
 namespace plm_vins {
@@ -45,36 +43,6 @@ TEST_P(LineDetectorTest, HonoursTheLeastLength) {
 TEST_P(LineDetectorTest, FindsNothingInUniformImages) {
   for (const int gray : {0, 128, 255})
     EXPECT_TRUE(detector_->Detect(cv::Mat(480, 752, CV_8UC1, cv::Scalar(gray)), 20).empty());
-}
-
-// Half the sum of the endpoints' distances, independent of the direction of the segments.
-double EndErrorInPixels(const LineSegment& a, const LineSegment& b) {
-  return 0.5 * std::min((a.start - b.start).norm() + (a.end - b.end).norm(),
-                        (a.start - b.end).norm() + (a.end - b.start).norm());
-}
-
-// OpenCV takes twice as long and rounds one endpoint to pixels; its versions start chains
-// differently.
-TEST(FastLineDetector, FindsWhatThatOfOpenCvFinds) {
-  LineScene scene(PlainParameters(), 60);
-  for (int i = 0; i < 12; ++i) {
-    const double x = 60.0 * i + 30;
-    scene.AddBar({x, 60.0 + 5 * i}, {x + 7.0 * i - 30, 420.0 - 9 * i}, 20, 150 + 8 * i);
-  }
-  const cv::Mat image = scene.View(Eigen::Matrix3d::Identity(), 4);
-  const auto found = LineDetector::Create(LineDetectorType::kFld)->Detect(image, 30);
-  std::vector<cv::Vec4f> lines;
-  cv::ximgproc::createFastLineDetector(30, 1.414F, 50, 100, 3, false)->detect(image, lines);
-  ASSERT_GT(lines.size(), 20u);
-  size_t alike = 0;
-  for (const cv::Vec4f& line : lines) {
-    const LineSegment expected = {{line[0], line[1]}, {line[2], line[3]}};
-    alike += std::any_of(found.begin(), found.end(), [&](const LineSegment& segment) {
-      return EndErrorInPixels(expected, segment) < 0.1;
-    });
-  }
-  EXPECT_GE(alike, lines.size() * 90 / 100);
-  EXPECT_LE(found.size(), lines.size() * 110 / 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LineDetectorTest,

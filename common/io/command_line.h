@@ -22,7 +22,7 @@ class CommandLine {
   explicit CommandLine(const std::string& description);
 
   void Add(const std::string& name, const TakeValue& take, const std::string& help);
-  // Adds an option that takes one or more values, and may be given several times.
+  // Adds an option that takes at least one value and may be given several times.
   void AddList(const std::string& name, const TakeValue& take, const std::string& help);
   void AddFlag(const std::string& name, bool* is_given, const std::string& help);
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Runs clang-tidy on the most recently changed sources: those of the branch since it left main, or
-# of the last 20 commits; at most 20 of them. Usage: check_tidy.sh [SOURCE ...]
+# Runs clang-tidy on the given sources; with --all on all of them, which takes hours; by default on
+# the most recently changed ones: those of the branch since it left main, or of the last 20 commits,
+# at most 20 of them. Usage: check_tidy.sh [--all | SOURCE ...]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=build/tidy
@@ -21,16 +22,20 @@ changed_sources() {
     done
 }
 
-sources=("$@")
-if ((!$#)); then
+if [[ "${1:-}" == --all ]]; then
+  mapfile -t sources < <(git ls-files '*.cpp' ':!benchmark' ':!docs')
+elif (($#)); then
+  sources=("$@")
+else
   mapfile -t sources < <(changed_sources)
+  echo "clang-tidy: ${#sources[@]} changed sources, at most $limit checked"
+  sources=("${sources[@]:0:limit}")
 fi
-echo "clang-tidy: ${#sources[@]} changed sources, at most $limit checked"
 ((${#sources[@]})) || exit 0
 
 # Uses the compile commands of a full build; clang cannot read the precompiled headers of GCC.
 cmake -S . -B "$build" -DPLM_PRECOMPILED_HEADERS=OFF -DBUILD_FUZZ=ON >/dev/null
 cmake --build "$build" --target plm_vins_gencfg >/dev/null
-printf '%s\n' "${sources[@]:0:limit}" |
+printf '%s\n' "${sources[@]}" |
   xargs -P "$(nproc)" -n 1 clang-tidy-14 -p "$build" --quiet --warnings-as-errors='*' \
     --extra-arg=-Wno-unknown-warning-option

@@ -32,13 +32,6 @@ cv::Point2f ToOpenCv(const Eigen::Vector2d& point) {
   return {static_cast<float>(point.x()), static_cast<float>(point.y())};
 }
 
-bool AreSame(const cv::Mat& a, const cv::Mat& b) {
-  for (int row = 0; row < a.rows; ++row) {
-    if (!std::equal(a.ptr(row), a.ptr(row) + a.cols, b.ptr(row))) return false;
-  }
-  return true;
-}
-
 // Removes the tracks whose `keep` is false; returns their number.
 int RemoveTracks(const std::vector<bool>& keep, std::vector<PointTrack>* tracks) {
   size_t kept = 0;

@@ -42,15 +42,10 @@ std::string WorstDrop(const RunSummary::Run& run, const Source& source) {
 }
 
 // Returns what explains most of what went wrong; empty if nothing did.
-std::string MostWrong(const RunSummary::Run& run, const Source& source,
-                      const OdometryPipeline& pipeline, const RunReport& report) {
-  for (const std::string& cause :
-       {pipeline.InputFinding(), pipeline.lens_warning(), pipeline.imu_contradiction(),
-        report.LastRestart(), WorstDrop(run, source), pipeline.SecondCameraFinding(),
-        pipeline.second_camera_fault()}) {
-    if (!cause.empty()) return cause;
-  }
-  return "";
+std::string MostWrong(const RunSummary::Run& run, const Source& source, const RunReport& report) {
+  if (!run.findings.empty()) return run.findings.front();
+  const std::string restart = report.LastRestart();
+  return restart.empty() ? WorstDrop(run, source) : restart;
 }
 
 std::string WhyNone(const RunSummary::Run& run, const OdometryPipeline& pipeline,
@@ -108,11 +103,7 @@ void Warn(const std::string& text) {
 int Report(const RunSummary::Run& run, const Source& source, const OdometryPipeline& pipeline,
            const RunReport& report, const ResultFiles& results) {
   const RunSummary& summary = results.summary();
-  Warn(pipeline.InputFinding());
-  Warn(pipeline.imu_contradiction());
-  Warn(pipeline.lens_warning());
-  Warn(pipeline.SecondCameraFinding());
-  Warn(pipeline.second_camera_fault());
+  for (const std::string& finding : run.findings) Warn(finding);
   for (const DropCount& drop : run.drops) Warn(drop, source);
   Warn(results.unwritten_pictures(), source);
   Warn(UncoveredWarning(run, pipeline));
@@ -132,7 +123,7 @@ int Report(const RunSummary::Run& run, const Source& source, const OdometryPipel
                  WhyNone(run, pipeline, summary).c_str());
     return 1;
   }
-  const std::string wrong = MostWrong(run, source, pipeline, report);
+  const std::string wrong = MostWrong(run, source, report);
   if (!wrong.empty()) std::fprintf(stderr, "most wrong: %s\n", wrong.c_str());
   return 0;
 }

@@ -65,6 +65,7 @@ RunSummary::Run Describe(const Source& source, const OdometryPipeline& pipeline)
   run.images = pipeline.images();
   run.first_image_ns = pipeline.first_image_ns();
   run.residual_rings = pipeline.residual_rings();
+  run.findings = pipeline.Findings();
   run.drops = source.problems;
   Append(pipeline.drops(), &run.drops);
   return run;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/image_check.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -16,6 +17,14 @@ void CheckImage(const ImageSample& image, const CameraParameters& camera,
                                 " ns is not after the one before, " + std::to_string(*previous_ns) +
                                 " ns");
   }
+}
+
+bool AreSame(const cv::Mat& a, const cv::Mat& b) {
+  if (a.size() != b.size()) return false;
+  for (int row = 0; row < a.rows; ++row) {
+    if (!std::equal(a.ptr(row), a.ptr(row) + a.cols, b.ptr(row))) return false;
+  }
+  return true;
 }
 
 }  // namespace plm_vins

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <opencv2/core.hpp>
 #include <optional>
 
 #include "common/camera/camera_model.h"
@@ -13,5 +14,8 @@ namespace plm_vins {
 // timestamp is not later than `previous_ns`.
 void CheckImage(const ImageSample& image, const CameraParameters& camera,
                 const std::optional<int64_t>& previous_ns);
+
+// Returns whether both images, CV_8UC1, have the same size and pixels.
+bool AreSame(const cv::Mat& a, const cv::Mat& b);
 
 }  // namespace plm_vins

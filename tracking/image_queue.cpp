@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracking/image_queue.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "common/camera/image_format.h"
 #include "common/format.h"
+#include "tracking/image_check.h"
 
 namespace plm_vins {
 namespace {
@@ -16,7 +18,9 @@ constexpr int kJumpPatience = 10;  // images
 
 std::string Nearest(int64_t t_ns, const std::optional<int64_t>& last_ns) {
   if (!last_ns) return "none has come yet";
-  return Format("the last one's timestamp is %.1f ms later", 1e3 * ToSeconds(*last_ns - t_ns));
+  const double later = 1e3 * ToSeconds(*last_ns - t_ns);
+  return Format("the last one's timestamp is %.1f ms %s", std::abs(later),
+                later < 0 ? "earlier" : "later");
 }
 
 }  // namespace
@@ -29,7 +33,8 @@ DropCounts ToDropCounts(const ImageCounts& counts) {
                       {"image_restarts", counts.restarts, ""},
                       {"images_without_gyro", counts.without_gyro, ""}};
   for (const DropCount& companion :
-       {counts.without_right, counts.without_depth, counts.right_unusable, counts.depth_unusable}) {
+       {counts.without_right, counts.without_depth, counts.right_repeated, counts.right_unusable,
+        counts.depth_unusable}) {
     if (companion.count > 0) drops.push_back(companion);
   }
   return drops;
@@ -80,7 +85,7 @@ bool ImageQueue::AcceptFormat(const ImageSample& image) {
 void ImageQueue::AddRight(ImageSample image) {
   if (!sensor_.second_camera) return;
   try {
-    CheckImageFormat(image.gray, sensor_.second_camera->camera);
+    if (!image.gray.empty()) CheckImageFormat(image.gray, sensor_.second_camera->camera);
     right_.Add(std::move(image));
   } catch (const std::invalid_argument& error) {
     counts_.right_unusable.Add(error.what());
@@ -112,6 +117,18 @@ ImageCompanions ImageQueue::TakeCompanions(int64_t t_ns) {
   return companions;
 }
 
+// Matches in an image that the second camera sends again contradict the motion of the first one.
+void ImageQueue::DropRepeated(const ImageSample& image, ImageSample* right) {
+  if (right->gray.empty()) return;
+  const bool is_repeated =
+      AreSame(right->gray, last_right_.gray) && !AreSame(image.gray, last_left_.gray);
+  last_left_ = image;
+  last_right_ = *right;
+  if (!is_repeated) return;
+  counts_.right_repeated.Add("the second camera is frozen while the first one moves");
+  *right = {};
+}
+
 std::optional<ReadyImage> ImageQueue::Pop() {
   if (images_.empty()) return std::nullopt;
   const bool may_wait = images_.size() <= kMaxWaiting;
@@ -135,6 +152,8 @@ std::optional<ReadyImage> ImageQueue::Flush() {
   }
   ready.companions = TakeCompanions(ready.image.t_ns);
   ready.publish = rate_limiter_.Take(ready.image.t_ns);
+  if (!ready.publish) ready.companions.right = {};  // matches would not be used
+  DropRepeated(ready.image, &ready.companions.right);
   handed_out_ns_ = ready.image.t_ns;
   return ready;
 }

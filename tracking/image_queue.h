@@ -44,6 +44,7 @@ struct ImageCounts {
   // If there is a second camera or a depth sensor.
   DropCount without_right{"images_without_second_camera", 0, ""};
   DropCount without_depth{"images_without_depth", 0, ""};
+  DropCount right_repeated{"second_images_repeated", 0, ""};
   DropCount right_unusable{"second_images_wrong_format", 0, ""};
   DropCount depth_unusable{"depth_images_wrong_format", 0, ""};
 };
@@ -66,7 +67,8 @@ class ImageQueue {
   void AddImage(ImageSample image);
 
   // Images of other sensors for the camera images of the same timestamp, within 2 ms. Ignored if
-  // the configuration has no such sensor.
+  // the configuration has no such sensor. An image of the second camera that need not be searched
+  // comes without pixels.
   void AddRight(ImageSample image);
   void AddDepth(DepthSample image);
 
@@ -90,6 +92,7 @@ class ImageQueue {
   bool AcceptFormat(const ImageSample& image);
   bool IsComplete(int64_t t_ns) const;
   ImageCompanions TakeCompanions(int64_t t_ns);
+  void DropRepeated(const ImageSample& image, ImageSample* right);
 
   SensorConfig sensor_;
   bool uses_gyro_;
@@ -100,6 +103,7 @@ class ImageQueue {
   std::deque<WaitingImage> images_;
   CompanionQueue<ImageSample> right_;
   CompanionQueue<DepthSample> depth_;
+  ImageSample last_left_, last_right_;    // the last pair that was searched
   std::optional<int64_t> accepted_ns_;    // timestamp of the last image that was accepted
   std::optional<int64_t> handed_out_ns_;  // timestamp of the last image that was returned
   BackwardJumpDetector jump_;

@@ -17,6 +17,7 @@ constexpr double kBehind_px = 40.0;   // how far beyond infinity is searched: ca
 constexpr double kInfinity_px = 5.0;  // as far beyond infinity, the mounting may still be turned
 constexpr double kMaxBand_px = 4.5;
 constexpr double kReturn_px = 1.5;       // from where a match comes back to, to the corner
+constexpr double kBack_px = 16.0;        // how far around the corner is searched from the match
 constexpr double kLargestDelay = 0.025;  // [s]; matches of a camera that is later are not used
 constexpr double kReportedDelay = 2e-3;  // [s]
 constexpr double kReportedAngle = 0.2 * M_PI / 180;  // [rad]
@@ -42,12 +43,13 @@ void StereoMatcher::CheckRight(const cv::Mat& right) const {
 
 void StereoMatcher::Match(const cv::Mat& left, const cv::Mat& right,
                           std::vector<PointTrack>* tracks) {
-  ++images_;
+  ++unsearched_;
   for (PointTrack& track : *tracks) {
     track.right.reset();
     track.right_search = right.empty() ? RightSearch::kNoImage : RightSearch::kNotDue;
   }
   if (right.empty()) return;
+  ++searched_;
   std::vector<Search> searches;
   std::vector<StereoMatch> matches;
   for (PointTrack& track : *tracks) {
@@ -59,12 +61,15 @@ void StereoMatcher::Match(const cv::Mat& left, const cv::Mat& right,
   mounting_.Update(matches);
   pair_ = stated_.With(mounting_.T_C1_C());
   Judge(&searches);
+  unsearched_ = 0;
 }
 
-// Matched tracks are searched for in every image, others in some.
+// Matched and new tracks are searched for in every image, others in some.
 bool StereoMatcher::IsDue(const PointTrack& track) const {
-  if (IsLate() && track.length == 1) return false;  // its motion is unknown yet
-  return track.inverse_depth || track.length == 1 || IsTurn(track, kRetryInterval);
+  const int least_length = IsLate() ? 2 : 1;  // of which the motion is known, if it is needed
+  if (track.length < least_length) return false;
+  const bool is_new = track.length < least_length + unsearched_;
+  return track.inverse_depth || is_new || IsTurn(track, kRetryInterval);
 }
 
 // Cameras that are swapped, or do not look at the same scene at the same time, match by chance.
@@ -114,7 +119,10 @@ std::optional<StereoMatcher::Place> StereoMatcher::FindAnywhere(const Images& im
   const auto place = seed ? Align(images, *seed, track) : std::nullopt;
   if (!place) return std::nullopt;
   const SearchedPoint match{place->pixel, InTime(place->match)};
-  const auto back = SearchAlongCurve(pair_.Swapped(), images.right, match, images.left, range);
+  const double nearby = kBack_px * pair_.InverseDepthPerPixel();
+  const SearchRange back_range{place->inverse_depth - nearby, place->inverse_depth + nearby,
+                               range.band_px};
+  const auto back = SearchAlongCurve(pair_.Swapped(), images.right, match, images.left, back_range);
   if (!back || (back->pixel - point.pixel).cwiseAbs().maxCoeff() > kReturn_px) return std::nullopt;
   return place;
 }
@@ -161,7 +169,7 @@ std::string StereoMatcher::Finding() const {
 }
 
 bool StereoMatcher::IsTurn(const PointTrack& track, int interval) const {
-  return (track.id + images_) % interval == 0;
+  return (track.id + searched_) % interval == 0;
 }
 
 std::optional<StereoMatcher::Place> StereoMatcher::Align(const Images& images,

@@ -75,7 +75,8 @@ class StereoMatcher {
     double behind = 0;  // matched beyond infinity
   };
   std::optional<Shares> shares_;
-  int64_t images_ = 0;
+  int64_t searched_ = 0;  // images
+  int unsearched_ = 0;    // images of the first camera since then
 };
 
 }  // namespace plm_vins

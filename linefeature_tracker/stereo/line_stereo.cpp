@@ -36,13 +36,17 @@ void LineStereo::CheckRight(const cv::Mat& right) const {
 }
 
 void LineStereo::Match(const cv::Mat& left, const cv::Mat& right, std::vector<LineTrack>* tracks) {
-  ++images_;
+  ++unsearched_;
+  for (LineTrack& track : *tracks) track.right.reset();
+  if (right.empty()) return;
+  ++searched_;
   for (LineTrack& track : *tracks) {
-    track.right.reset();
-    if (right.empty()) continue;
-    const bool is_turn = track.length == 1 || IsTurn(track, kRetryInterval);
-    if (track.inverse_depths || is_turn) MatchOne({left, right}, &track);
+    const bool is_new = track.length <= unsearched_;
+    if (track.inverse_depths || is_new || IsTurn(track, kRetryInterval)) {
+      MatchOne({left, right}, &track);
+    }
   }
+  unsearched_ = 0;
 }
 
 void LineStereo::MatchOne(const Images& images, LineTrack* track) const {
@@ -58,7 +62,7 @@ void LineStereo::MatchOne(const Images& images, LineTrack* track) const {
 }
 
 bool LineStereo::IsTurn(const LineTrack& track, int interval) const {
-  return (track.id + images_) % interval == 0;
+  return (track.id + searched_) % interval == 0;
 }
 
 // The rays R x + rho t of the ends meet the plane of the line that the second camera sees.

@@ -52,7 +52,8 @@ class LineStereo {
 
   CameraPair pair_;
   LineRefinement refinement_;
-  int64_t images_ = 0;
+  int64_t searched_ = 0;  // images
+  int unsearched_ = 0;    // images of the first camera since then
 };
 
 }  // namespace plm_vins

@@ -38,6 +38,7 @@ OdometryPipeline::OdometryPipeline(const Config& config)
     : use_lines_(config.use_lines),
       keeps_pixels_(config.pose_graph.loop_closure),
       image_topic_(config.sensor.image_topic),
+      right_schedule_(config.publish_rate),
       trackers_(config),
       back_end_(config) {}
 
@@ -51,6 +52,17 @@ DropCounts OdometryPipeline::drops() const {
 std::string OdometryPipeline::InputFinding() const {
   const std::string images = image_stamps_.Finding("image_topic " + image_topic_);
   return images.empty() ? back_end_.InputFinding() : images;
+}
+
+std::vector<std::string> OdometryPipeline::Findings() const {
+  std::vector<std::string> findings;
+  const bool is_contradicted = contradicted_images_ >= kMinContradicted;
+  for (const std::string& finding :
+       {InputFinding(), trackers_.SecondCameraFinding(), back_end_.LensWarning(),
+        is_contradicted ? imu_contradiction_ : "", second_camera_fault_}) {
+    if (!finding.empty()) findings.push_back(finding);
+  }
+  return findings;
 }
 
 void OdometryPipeline::ShowTracks(double interval, TrackImageCallback on_images) {
@@ -101,10 +113,15 @@ void OdometryPipeline::Read(Recording* recording, RecordingInterval interval,
     const RecordingInterval::Part part = interval.Locate(*event);
     if (part == RecordingInterval::Part::kEnd) return;
     if (part == RecordingInterval::Part::kSkip) continue;
-    LoadedEvent loaded{*event, std::nullopt};
-    if (event->kind != RecordingEvent::Kind::kImu) loaded.image = recording->LoadImage();
-    if (!emit(std::move(loaded))) return;
+    if (!emit({*event, Load(*event, recording)})) return;
   }
+}
+
+std::optional<cv::Mat> OdometryPipeline::Load(const RecordingEvent& event, Recording* recording) {
+  using Kind = RecordingEvent::Kind;
+  if (event.kind == Kind::kImu) return std::nullopt;
+  if (event.kind == Kind::kRightImage && !right_schedule_.IsDue(event.t_ns)) return cv::Mat();
+  return recording->LoadImage();
 }
 
 void OdometryPipeline::RunTrackers(Recording* recording, const RecordingInterval& interval,

@@ -20,6 +20,7 @@
 #include "offline/recordings/confirmed_stamp.h"
 #include "offline/recordings/recording.h"
 #include "offline/recordings/recording_interval.h"
+#include "tracking/stereo/match_schedule.h"
 #include "vins_estimator/estimation_stage.h"
 
 namespace plm_vins {
@@ -82,16 +83,9 @@ class OdometryPipeline {
   // Returns what is wrong with the timestamps of the images or with the input as a whole, and what
   // to do; empty if nothing is. Names the topics as configured.
   std::string InputFinding() const;
-  // The last non-empty EstimationStage::ImuContradiction(); empty if only few frames had any.
-  std::string imu_contradiction() const {
-    return contradicted_images_ < kMinContradicted ? "" : imu_contradiction_;
-  }
-  const std::string& lens_warning() const { return back_end_.LensWarning(); }
   std::vector<ResidualRing> residual_rings() const { return back_end_.ResidualRings(); }
-  // Describes what seems to be wrong with the second camera; empty if nothing is.
-  std::string SecondCameraFinding() const { return trackers_.SecondCameraFinding(); }
-  // The last EstimationStage::SecondCameraFault() that was not empty.
-  const std::string& second_camera_fault() const { return second_camera_fault_; }
+  // Describes what is wrong with the input, the most probable cause of errors first.
+  std::vector<std::string> Findings() const;
 
   // An image of the second half of the run with its points or lines drawn (CV_8UC3); empty without
   // images, or if lines are not used.
@@ -103,11 +97,13 @@ class OdometryPipeline {
 
   struct LoadedEvent {
     RecordingEvent event;
-    std::optional<cv::Mat> image;  // nullopt if the event is not a readable image
+    // nullopt if the event is not a readable image; empty if the image need not be searched.
+    std::optional<cv::Mat> image;
   };
   using EventReceiver = ItemReceiver<LoadedEvent>;
   using TrackedReceiver = ItemReceiver<TrackedItem>;
 
+  std::optional<cv::Mat> Load(const RecordingEvent& event, Recording* recording);
   void Read(Recording* recording, RecordingInterval interval, const EventReceiver& emit);
   void RunTrackers(Recording* recording, const RecordingInterval& interval, bool reads_ahead,
                    const TrackedReceiver& emit);
@@ -122,14 +118,15 @@ class OdometryPipeline {
   const bool use_lines_;
   const bool keeps_pixels_;
   const std::string image_topic_;
+  MatchSchedule right_schedule_;
   FeatureTrackers trackers_;
   EstimationStage back_end_;
   std::function<bool()> is_end_ = [] { return false; };
   ConfirmedStamp first_image_, first_imu_;
   ConstantStamp image_stamps_;
-  std::string imu_contradiction_;
+  std::string imu_contradiction_;    // the last one that was not empty
   int64_t contradicted_images_ = 0;  // when there was one
-  std::string second_camera_fault_;
+  std::string second_camera_fault_;  // the last one that was not empty
   std::optional<int64_t> last_frame_ns_;
   int64_t images_ = 0;
   int64_t unreadable_images_ = 0;

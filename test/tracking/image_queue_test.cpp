@@ -217,6 +217,43 @@ TEST_F(CompanionImages, ComeWithTheImageOfTheirStamp) {
   EXPECT_EQ(queue_.counts().without_depth.count, 1);
 }
 
+TEST_F(CompanionImages, NeedNoPixelsWhereTheyAreNotSearched) {
+  queue_.AddRight({At(0), cv::Mat()});
+  queue_.AddImage({At(0), picture_});
+  const auto ready = queue_.Flush();
+  ASSERT_TRUE(ready);
+  EXPECT_TRUE(ready->companions.right.gray.empty());
+  EXPECT_EQ(queue_.counts().without_right.count, 0);
+  EXPECT_EQ(queue_.counts().right_unusable.count, 0);
+}
+
+TEST_F(CompanionImages, OfAFrozenSecondCameraAreDropped) {
+  const cv::Mat moved = picture_ + 1;
+  const std::vector<cv::Mat> left = {picture_, moved, moved};
+  const std::vector<bool> is_used = {true, false, true};  // the last pair stands still
+  for (int i = 0; i < 3; ++i) {
+    queue_.AddRight({At(50 * i), picture_.clone()});
+    queue_.AddImage({At(50 * i), left[i]});
+    const auto ready = queue_.Flush();
+    ASSERT_TRUE(ready);
+    EXPECT_EQ(!ready->companions.right.gray.empty(), is_used[i]) << i;
+  }
+  EXPECT_EQ(queue_.counts().right_repeated.count, 1);
+}
+
+TEST_F(CompanionImages, AreNotSearchedInImagesThatAreNotPublished) {
+  Config config = TwoCameras();
+  config.publish_rate = 10;
+  ImageQueue queue(config);
+  for (int i = 0; i < 20; ++i) {
+    queue.AddRight({At(50 * i), picture_ + i});
+    queue.AddImage({At(50 * i), picture_ + i});
+    const auto ready = queue.Flush();
+    ASSERT_TRUE(ready);
+    EXPECT_EQ(!ready->companions.right.gray.empty(), ready->publish) << i;
+  }
+}
+
 TEST_F(CompanionImages, OfAWrongFormatAreCounted) {
   queue_.AddRight({At(0), depth_});
   queue_.AddDepth({At(0), picture_});

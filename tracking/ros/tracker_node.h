@@ -27,6 +27,7 @@
 #include "common/streams/drop_counts.h"
 #include "tracking/ros/imu_inbox.h"
 #include "tracking/ros/run_time_settings.h"
+#include "tracking/stereo/match_schedule.h"
 
 namespace plm_vins {
 
@@ -49,6 +50,7 @@ class TrackerNode {
         private_node_(private_node),
         config_(config),
         stage_(config),
+        right_schedule_(config.publish_rate),
         diagnostics_(node, private_node, private_node.getNamespace()),
         settings_(Traits::ToSettings(config), private_node,
                   [this](const Settings& settings) { Apply(settings); }) {
@@ -89,7 +91,7 @@ class TrackerNode {
     if (sensor.second_camera) {
       right_images_.Subscribe(node_, private_node_, sensor.second_camera->image_topic,
                               Traits::kImageQueue, [this](std::optional<ImageSample> image) {
-                                if (image) stage_.AddRight(std::move(*image));
+                                if (image) AddRight(std::move(*image));
                                 TrackWhatIsReady();
                               });
     }
@@ -98,6 +100,11 @@ class TrackerNode {
           sensor.depth->topic, Traits::kImageQueue,
           [this](const sensor_msgs::ImageConstPtr& message) { AddDepth(message); });
     }
+  }
+
+  void AddRight(ImageSample image) {
+    if (!right_schedule_.IsDue(image.t_ns)) image.gray.release();
+    stage_.AddRight(std::move(image));
   }
 
   void AddDepth(const sensor_msgs::ImageConstPtr& message) {
@@ -233,6 +240,7 @@ class TrackerNode {
 
   const Config config_;
   Stage stage_;
+  MatchSchedule right_schedule_;
   bool show_track_ = true;
   DropWarner drop_warner_;
   ConstantStamp image_stamps_;

@@ -17,10 +17,6 @@ enum FrameCount : size_t {
   kPointsObserved,  // given to the estimator
   kPointsInWindow,  // optimized landmarks
   kPointsRejected,  // landmarks or observations removed as outliers
-  kRightUsed,       // observations of points in the second camera, in the window
-  kRightRejected,   // removed as outliers
-  kDepthsUsed,      // measured depths of points, in the window
-  kDepthsRejected,  // removed as outliers
   kLinesFollowed,   // tracked from the previous image
   kLinesUnmatched,  // lost: flow failed or appearance differs
   kLinesOffCourse,  // lost: too far from the prediction
@@ -45,23 +41,28 @@ enum FrameCount : size_t {
   kMergeInconsistent,    // the observations do not fit one line
   kLinesInWindow,        // optimized landmarks
   kLinesRejected,        // landmarks or observations removed as outliers
+  kRightUsed,            // observations of points in the second camera, in the window
+  kRightRejected,        // removed as outliers
+  kDepthsUsed,           // measured depths of points, in the window
+  kDepthsRejected,       // removed as outliers
   kFrameCounts
 };
 
 constexpr std::array<const char*, kFrameCounts> kCountNames = {
-    "points_followed",    "points_flow_lost",   "points_not_back",
-    "points_epipolar",    "points_crowded",     "points_added",
-    "points_observed",    "points_in_window",   "points_rejected",
-    "right_used",         "right_rejected",     "depths_used",
-    "depths_rejected",    "lines_followed",     "lines_unmatched",
-    "lines_off_course",   "lines_edge_lost",    "lines_duplicate",
-    "lines_detected",     "lines_added",        "lines_observed",
-    "lines_triangulated", "lines_degenerate",   "lines_behind",
-    "lines_inconsistent", "lines_too_long",     "lines_merged",
-    "lines_recognised",   "merge_candidates",   "merge_other_direction",
-    "merge_distant",      "merge_apart",        "merge_distant_in_image",
-    "merge_side_by_side", "merge_inconsistent", "lines_in_window",
-    "lines_rejected"};
+    // Points.
+    "points_followed", "points_flow_lost", "points_not_back", "points_epipolar", "points_crowded",
+    "points_added", "points_observed", "points_in_window", "points_rejected",
+    // Lines.
+    "lines_followed", "lines_unmatched", "lines_off_course", "lines_edge_lost", "lines_duplicate",
+    "lines_detected", "lines_added", "lines_observed", "lines_triangulated", "lines_degenerate",
+    "lines_behind", "lines_inconsistent", "lines_too_long", "lines_merged", "lines_recognised",
+    // Merging.
+    "merge_candidates", "merge_other_direction", "merge_distant", "merge_apart",
+    "merge_distant_in_image", "merge_side_by_side", "merge_inconsistent",
+    // Lines after the optimization.
+    "lines_in_window", "lines_rejected",
+    // Second camera and depth.
+    "right_used", "right_rejected", "depths_used", "depths_rejected"};
 
 using FrameCounts = std::array<int, kFrameCounts>;
 

@@ -145,6 +145,7 @@ Json RunSummary::ToJson(const Run& run) const {
   json["counts_per_frame"] = CountsToJson(counts_);
   json["residual_rings"] = RingsToJson(run.residual_rings);
   json["dropped"] = DropsToJson(run.drops);
+  json["findings"] = run.findings;
   return json;
 }
 

@@ -37,6 +37,7 @@ class RunSummary {
     int64_t map_lines = 0;   // lines written to the map
     DropCounts drops;
     std::vector<ResidualRing> residual_rings;
+    std::vector<std::string> findings;  // what is wrong with the input
   };
   Json ToJson(const Run& run) const;
 

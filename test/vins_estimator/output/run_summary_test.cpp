@@ -45,6 +45,7 @@ TEST(RunSummary, AddsUpARun) {
   run.map_points = 12;
   run.map_lines = 7;
   run.drops = {{"images_unreadable", 2, "a.png"}, {"imu_gaps", 0, ""}};
+  run.findings = {"the cameras seem to be swapped"};
   const auto json = summary.ToJson(run);
   EXPECT_EQ(json["input"], "flight.bag");
   EXPECT_EQ(json["images"], 6);
@@ -67,6 +68,7 @@ TEST(RunSummary, AddsUpARun) {
   EXPECT_NEAR(json["standstill_share"].get<double>(), 1.0 / 3, 1e-12);
   EXPECT_EQ(json["dropped"]["images_unreadable"], 2);
   EXPECT_EQ(json["dropped"]["imu_gaps"], 0);
+  EXPECT_EQ(json["findings"], Json::array({"the cameras seem to be swapped"}));
 }
 
 TEST(RunSummary, AClockThatIsSetAnewTakesNoTime) {

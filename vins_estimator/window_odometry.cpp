@@ -51,7 +51,7 @@ void WindowOdometry::Start(const InitializationResult& result,
   Triangulate(output);
   const Solution solution = SolveFirstWindow(output);
   if (config_->sensor.second_camera) {
-    output->counts.right = stereo_monitor_.Judge(estimate_.map.window, &estimate_.map.points);
+    output->counts.right = JudgeSecondCamera();
   }
   CountLandmarks(output);
   started_ = true;
@@ -174,7 +174,9 @@ FrameState WindowOdometry::AddFrame(const FrameMeasurement& measurement) {
 
 void WindowOdometry::Triangulate(EstimatorOutput* output) {
   LocalMap& map = estimate_.map;
+  const int64_t now_ns = map.window.newest().state.t_ns;
   if (stereo_monitor_.misfit()) map.points.ForgetUntriangulatedDepths();
+  if (!stereo_monitor_.UsesLines(now_ns)) map.lines.ForgetUntriangulatedDepths();
   map.points.Triangulate(map.window, options_->min_triangulation_angle);
   output->counts.line_triangulation = map.lines.Triangulate(map.window, options_->line_limits);
 }
@@ -208,8 +210,10 @@ ProblemOptions WindowOdometry::CurrentProblem(JacobiansAt jacobians_at) const {
   options.jacobians_at = jacobians_at;
   if (config_->estimator.manhattan_constraints) options.R_W_M = structure_.manhattan().R_W_M();
   options.SetNoise(noise_.point(), noise_.line());
-  options.right_weight = 1 / std::max(noise_.point(), stereo_monitor_.noise());
   const LocalMap& map = estimate_.map;
+  options.right_weight = 1 / std::max(noise_.point(), stereo_monitor_.noise());
+  options.right_line_noise_factor =
+      stereo_monitor_.line_noise_factor(map.window.newest().state.t_ns);
   if (map.window.HasStationary()) {
     options.LetPass(options_->passing_flow, map.points.MedianDepthInNewest(map.window));
   }
@@ -314,7 +318,7 @@ void WindowOdometry::LearnFromWindow(EstimatorOutput* output) {
   LocalMap& map = estimate_.map;
   EstimatorCounts& counts = output->counts;
   counts.points_rejected = map.points.RemoveOutliers(map.window, options_->max_reprojection_error);
-  if (config_->sensor.second_camera) counts.right = stereo_monitor_.Judge(map.window, &map.points);
+  if (config_->sensor.second_camera) counts.right = JudgeSecondCamera();
   if (config_->sensor.depth) {
     counts.depth = map.points.RemoveDepthOutliers(map.window, options_->max_inverse_depth_error);
   }
@@ -322,6 +326,11 @@ void WindowOdometry::LearnFromWindow(EstimatorOutput* output) {
   counts.known_rejected = counts.known_seen - map.CountInNewest();
   if (config_->estimator.adapt_noise) noise_.Update(map);
   imu_noise_.Reweigh(&map.window);
+}
+
+DepthCounts WindowOdometry::JudgeSecondCamera() {
+  LocalMap& map = estimate_.map;
+  return stereo_monitor_.Judge(map.window, &map.points, &map.lines);
 }
 
 void WindowOdometry::DescribeSecondCamera(EstimatorOutput* output) const {

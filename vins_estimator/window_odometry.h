@@ -90,6 +90,7 @@ class WindowOdometry {
   void Triangulate(EstimatorOutput* output);
   void FindStructure(bool keep_second_newest, EstimatorOutput* output);
   void LearnFromWindow(EstimatorOutput* output);
+  DepthCounts JudgeSecondCamera();
   void DescribeSecondCamera(EstimatorOutput* output) const;
   void CountLandmarks(EstimatorOutput* output) const;
   std::vector<PixelResidual> MiddleResiduals() const;

@@ -36,6 +36,10 @@ class LandmarkMap {
   // Removes the landmarks that satisfy `condition`.
   void RemoveIf(const std::function<bool(const Landmark&)>& condition);
 
+  // Drops the observations in the second camera and the depths of landmarks that are not
+  // triangulated.
+  void ForgetUntriangulatedDepths();
+
   // Counts the optimized landmarks: all of them, or those observed in the newest image.
   int CountOptimized() const;
   int CountInNewest(const SlidingWindow& window) const;
@@ -150,6 +154,13 @@ int LandmarkMap<Landmark>::CountInNewest(const SlidingWindow& window) const {
     return IsOptimizedInNewest(entry.second, window);
   };
   return static_cast<int>(std::count_if(landmarks_.begin(), landmarks_.end(), shows));
+}
+
+template <typename Landmark>
+void LandmarkMap<Landmark>::ForgetUntriangulatedDepths() {
+  for (auto& [id, landmark] : landmarks_) {
+    if (!landmark.triangulated) StartWithoutDepth(&landmark);
+  }
 }
 
 template <typename Landmark>

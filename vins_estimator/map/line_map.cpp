@@ -90,26 +90,6 @@ int RemoveBadViews(const SlidingWindow& window, const LineLimits& limits, LineLa
   return static_cast<int>(before - landmark->views.size());
 }
 
-// Removes observations in the second camera that do not fit. Returns how many were removed.
-int RemoveBadRights(const SlidingWindow& window, const LineLimits& limits, LineLandmark* landmark) {
-  const PluckerLine line_W = LineInWorld(*landmark, window);
-  int removed = 0;
-  for (LineView& view : landmark->views) {
-    if (!view.right) continue;
-    const PluckerLine line_C1 = window.T_W_C1(view.t_ns).Inverse() * line_W;
-    Eigen::Vector2d distances;
-    const bool has_image = EndPointDistances({view.right->start, view.right->end}, line_C1.moment,
-                                             &distances, nullptr);
-    if (has_image &&
-        distances.cwiseQuotient(view.right->deviation).norm() <= M_SQRT2 * limits.max_view_error) {
-      continue;
-    }
-    view.right.reset();
-    ++removed;
-  }
-  return removed;
-}
-
 }  // namespace
 
 void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark) {
@@ -219,7 +199,6 @@ int LineMap::RemoveOutliers(const SlidingWindow& window, const LineLimits& limit
     }
     double mean_square = 0;
     removed += RemoveBadAnchorViews(window, limits, &landmark);
-    removed += RemoveBadRights(window, limits, &landmark);
     removed += RemoveBadViews(window, limits, &landmark, &mean_square);
     const auto segment = ObservedSegment(landmark, window);
     const double max_mean_error = limits.triangulation.max_mean_error;
@@ -230,6 +209,26 @@ int LineMap::RemoveOutliers(const SlidingWindow& window, const LineLimits& limit
     it = stays ? std::next(it) : landmarks_.erase(it);
   }
   return removed;
+}
+
+std::vector<RightLineResidual> LineMap::RightResiduals(const SlidingWindow& window) {
+  std::vector<RightLineResidual> residuals;
+  for (auto& [id, landmark] : landmarks_) {
+    if (!IsOptimized(landmark)) continue;
+    const PluckerLine line_W = LineInWorld(landmark, window);
+    for (LineView& view : landmark.views) {
+      if (!view.right) continue;
+      const PluckerLine line_C1 = window.T_W_C1(view.t_ns).Inverse() * line_W;
+      Eigen::Vector2d distances;
+      if (EndPointDistances({view.right->start, view.right->end}, line_C1.moment, &distances,
+                            nullptr)) {
+        residuals.push_back({&view, distances.cwiseQuotient(view.right->deviation).norm()});
+      } else {
+        view.right.reset();
+      }
+    }
+  }
+  return residuals;
 }
 
 void LineMap::RemoveAnchor(int64_t t_ns) {

@@ -24,6 +24,12 @@ struct LineLimits {
   double max_length;                       // between the ends [m]
 };
 
+// Residual of an observation in the second camera.
+struct RightLineResidual {
+  LineView* view;
+  double error;  // of both ends together, in standard deviations
+};
+
 // All line tracks with observations in the window. Every observation belongs to a frame of it.
 class LineMap : public LandmarkMap<LineLandmark> {
  public:
@@ -41,6 +47,10 @@ class LineMap : public LandmarkMap<LineLandmark> {
   // are behind a camera, too long or have too large a mean error. Returns the number of removed
   // lines and observations.
   int RemoveOutliers(const SlidingWindow& window, const LineLimits& limits);
+
+  // Returns the residuals of the optimized lines in the second camera; drops its observations of
+  // lines that have no image in it.
+  std::vector<RightLineResidual> RightResiduals(const SlidingWindow& window);
 
   // Removes the observations in an anchor.
   void RemoveAnchor(int64_t t_ns);

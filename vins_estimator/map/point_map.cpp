@@ -212,12 +212,6 @@ std::vector<RightResidual> PointMap::RightResiduals(const SlidingWindow& window)
   return residuals;
 }
 
-void PointMap::ForgetUntriangulatedDepths() {
-  for (auto& [id, landmark] : landmarks_) {
-    if (!landmark.triangulated) StartWithoutDepth(&landmark);
-  }
-}
-
 DepthCounts PointMap::RemoveDepthOutliers(const SlidingWindow& window, double max_error) {
   DepthCounts counts;
   for (auto& [id, landmark] : landmarks_) {

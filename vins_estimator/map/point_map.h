@@ -53,9 +53,6 @@ class PointMap : public LandmarkMap<PointLandmark> {
   // points that are not in front of it.
   std::vector<RightResidual> RightResiduals(const SlidingWindow& window);
 
-  // Drops the observations in the second camera and the depths of points that are not triangulated.
-  void ForgetUntriangulatedDepths();
-
   // Drops measured depths whose inverse [1/m] is off by more than `max_error`. The points stay.
   DepthCounts RemoveDepthOutliers(const SlidingWindow& window, double max_error);
 };

@@ -18,13 +18,23 @@ constexpr double kTimeConstant = 1.0;  // [s]
 constexpr double kMedianLength = 1.1774;
 constexpr double kMaxRatio = 4.0;       // of a usable camera's noise to that of the first
 constexpr double kUnusableRatio = 1e3;  // takes the weight from the observations
+constexpr double kMaxUnjudged = 1.5;    // without residuals of points, lines are not used [s]
 constexpr double kMaxErrorRatio = 5.0;  // of an inlier to the noise
-constexpr double kMinFlow = 10.0;       // root of the sum of squared flows for a delay [1/s]
-constexpr double kMinDelay = 0.003;     // [s]
+constexpr size_t kMinLineResiduals = 8;
+constexpr double kMinFlow = 10.0;    // root of the sum of squared flows for a delay [1/s]
+constexpr double kMinDelay = 0.003;  // [s]
+
+// Returns the share that the newest value has in a mean over the time constant.
+double ShareOfNewest(int64_t t_ns, std::optional<int64_t>* before_ns) {
+  const double dt = *before_ns ? ToSeconds(t_ns - **before_ns) : kTimeConstant;
+  const double share = *before_ns ? 1 - std::exp(-dt / kTimeConstant) : 1;
+  *before_ns = t_ns;
+  return share;
+}
 
 }  // namespace
 
-DepthCounts StereoMonitor::Judge(const SlidingWindow& window, PointMap* points) {
+DepthCounts StereoMonitor::Judge(const SlidingWindow& window, PointMap* points, LineMap* lines) {
   const std::vector<RightResidual> residuals = points->RightResiduals(window);
   Add(window.newest().state.t_ns, residuals);
   DepthCounts counts;
@@ -32,6 +42,12 @@ DepthCounts StereoMonitor::Judge(const SlidingWindow& window, PointMap* points) 
     const bool wrong = residual.error.norm() > max_error();
     if (wrong) residual.view->right.reset();
     ++(wrong ? counts.rejected : counts.used);
+  }
+  const std::vector<RightLineResidual> of_lines = lines->RightResiduals(window);
+  Add(window.newest().state.t_ns, of_lines);
+  for (const RightLineResidual& residual : of_lines) {
+    if (residual.error > kMaxErrorRatio * M_SQRT2 * line_noise_factor_)
+      residual.view->right.reset();
   }
   return counts;
 }
@@ -42,9 +58,7 @@ void StereoMonitor::Add(int64_t t_ns, const std::vector<RightResidual>& residual
   lengths.reserve(residuals.size());
   for (const RightResidual& residual : residuals) lengths.push_back(residual.error.norm());
   const double noise = std::max(least_noise_, Median(std::move(lengths)) / kMedianLength);
-  const double dt = newest_ns_ ? ToSeconds(t_ns - *newest_ns_) : kTimeConstant;
-  const double share = newest_ns_ ? 1 - std::exp(-dt / kTimeConstant) : 1;
-  newest_ns_ = t_ns;
+  const double share = ShareOfNewest(t_ns, &newest_ns_);
   noise_ += share * (noise - noise_);
   double by_residual = 0, squared = 0;
   for (const RightResidual& residual : residuals) {
@@ -55,6 +69,24 @@ void StereoMonitor::Add(int64_t t_ns, const std::vector<RightResidual>& residual
   }
   AddForgetting(share, by_residual, &flow_by_residual_);
   AddForgetting(share, squared, &flow_squared_);
+}
+
+void StereoMonitor::Add(int64_t t_ns, const std::vector<RightLineResidual>& residuals) {
+  if (residuals.size() < kMinLineResiduals) return;
+  std::vector<double> errors;
+  errors.reserve(residuals.size());
+  for (const RightLineResidual& residual : residuals) errors.push_back(residual.error);
+  const double factor = std::max(1.0, Median(std::move(errors)) / kMedianLength);
+  line_noise_factor_ += ShareOfNewest(t_ns, &newest_line_ns_) * (factor - line_noise_factor_);
+}
+
+bool StereoMonitor::UsesLines(int64_t t_ns) const {
+  const bool is_judged = newest_ns_ && ToSeconds(t_ns - *newest_ns_) < kMaxUnjudged;
+  return is_judged && !misfit() && line_noise_factor_ < kMaxRatio;
+}
+
+double StereoMonitor::line_noise_factor(int64_t t_ns) const {
+  return UsesLines(t_ns) ? line_noise_factor_ : kUnusableRatio;
 }
 
 double StereoMonitor::noise() const { return misfit() ? kUnusableRatio * least_noise_ : noise_; }

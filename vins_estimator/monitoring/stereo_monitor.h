@@ -5,29 +5,38 @@
 #include <optional>
 #include <vector>
 
+#include "vins_estimator/map/line_map.h"
 #include "vins_estimator/map/point_map.h"
 
 namespace plm_vins {
 
 // Judges the second camera by its residuals after each optimization: how noisy its observations
-// are, whether it fits its mounting and intrinsics at all, and whether it exposes late.
+// are, whether it fits its mounting and intrinsics at all, and whether it exposes late. Lines are
+// used only while points are: edges of another scene are matched by chance more easily.
 class StereoMonitor {
  public:
   // `point_noise`: standard deviation of a corner in the first camera, normalized.
   explicit StereoMonitor(double point_noise) : least_noise_(point_noise), noise_(point_noise) {}
 
   // Adds the residuals of an optimized window, and drops the outliers among its observations in the
-  // second camera. Counts both.
-  DepthCounts Judge(const SlidingWindow& window, PointMap* points);
+  // second camera. Counts those of points.
+  DepthCounts Judge(const SlidingWindow& window, PointMap* points, LineMap* lines);
 
   // Adds the residuals of an optimized window, whose newest image is of `t_ns`.
   void Add(int64_t t_ns, const std::vector<RightResidual>& residuals);
+  void Add(int64_t t_ns, const std::vector<RightLineResidual>& residuals);
 
   // Standard deviation of a corner in the second camera, normalized. It is large if the camera does
   // not fit, so that its observations have no weight.
   double noise() const;
   // Residual above which a single observation is an outlier.
   double max_error() const;
+
+  // Whether lines in the second camera are of use in an image of `t_ns`: they fit, and recent
+  // points do.
+  bool UsesLines(int64_t t_ns) const;
+  // Factor on their stated deviations; large if they are of no use.
+  double line_noise_factor(int64_t t_ns) const;
 
   // Median residual, normalized, if it is too large for the second camera to be used; otherwise
   // nullopt.
@@ -39,7 +48,8 @@ class StereoMonitor {
  private:
   double least_noise_;
   double noise_;
-  std::optional<int64_t> newest_ns_;
+  double line_noise_factor_ = 1;
+  std::optional<int64_t> newest_ns_, newest_line_ns_;
   double flow_by_residual_ = 0, flow_squared_ = 0;  // forgetting sums, for the delay
 };
 

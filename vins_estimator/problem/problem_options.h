@@ -27,15 +27,16 @@ struct ProblemOptions {
   // Has no effect if the scene's median depth [m] is unknown.
   void LetPass(double flow, std::optional<double> depth);
 
-  double point_weight;                // inverse standard deviation of a corner, normalized
-  double point_loss_scale = 1.0;      // Cauchy loss, in standard deviations
-  double line_weight;                 // ... of a line's end points across it
-  double line_loss_scale = 1.0;       // Cauchy loss, in standard deviations
-  double right_weight;                // inverse standard deviation of a corner in the second camera
-  double right_loss_scale = 1.0;      // Cauchy loss, in standard deviations
-  double depth_weight = 0;            // inverse standard deviation of a measured inverse depth [m]
-  double depth_loss_scale = 1.0;      // Cauchy loss, in standard deviations
-  double anchor_weight;               // ... of lines in anchors
+  double point_weight;            // inverse standard deviation of a corner, normalized
+  double point_loss_scale = 1.0;  // Cauchy loss, in standard deviations
+  double line_weight;             // ... of a line's end points across it
+  double line_loss_scale = 1.0;   // Cauchy loss, in standard deviations
+  double right_weight;            // inverse standard deviation of a corner in the second camera
+  double right_loss_scale = 1.0;  // Cauchy loss, in standard deviations
+  double right_line_noise_factor = 1;  // on the stated deviations of lines in the second camera
+  double depth_weight = 0;             // inverse standard deviation of a measured inverse depth [m]
+  double depth_loss_scale = 1.0;       // Cauchy loss, in standard deviations
+  double anchor_weight;                // ... of lines in anchors
   double manhattan_weight;            // inverse standard deviation of the angle to the axis [1/rad]
   double manhattan_loss_scale = 3.0;  // Tukey loss, in standard deviations
   double standstill_velocity = 0.005;   // standard deviation at standstill [m/s]

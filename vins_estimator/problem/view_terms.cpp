@@ -118,7 +118,8 @@ void ViewTerms::AddMeasuredDepth(const ProblemPoint& point, const PointView& vie
 void ViewTerms::AddDepth(const ProblemLine& line, const LineView& view) {
   if (!view.right) return;
   const LineSegmentView segment{view.right->start, view.right->end};
-  const Eigen::Vector2d weights = view.right->deviation.cwiseInverse();
+  const Eigen::Vector2d weights =
+      (options_->right_line_noise_factor * view.right->deviation).cwiseInverse();
   const int mounting = variables_->Mounting();
   if (view.t_ns == line.landmark->host().t_ns) {
     AddTerm(line.eliminated, RightLineHostFactor(segment, weights), &right_loss_,

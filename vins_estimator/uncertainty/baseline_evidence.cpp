@@ -10,7 +10,8 @@ namespace {
 
 constexpr int kLengthIndex = 2;           // in the tangent of a mounting
 constexpr double kMinSignificance = 3.0;  // in standard deviations
-constexpr double kMinError = 0.005;       // relative
+// Relative. The scale factor of an accelerometer is off by up to a percent.
+constexpr double kMinError = 0.015;
 
 }  // namespace
 

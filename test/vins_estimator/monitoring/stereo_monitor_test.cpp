@@ -50,5 +50,30 @@ TEST(StereoMonitor, MeasuresTheDelayOfTheExposure) {
   EXPECT_FALSE(Watch(3, kNoise, {0, 0}, 0).delay());
 }
 
+// Returns the monitor of a camera that fits, after lines whose residuals are `error` deviations.
+StereoMonitor WatchLines(double error) {
+  StereoMonitor monitor = Watch(3, kNoise, {0, 0});
+  std::vector<LineView> views(20);
+  std::vector<RightLineResidual> residuals;
+  for (LineView& view : views) residuals.push_back({&view, error});
+  for (int image = 0; image < 30; ++image) monitor.Add(ToNanoseconds(0.1 * image), residuals);
+  return monitor;
+}
+
+TEST(StereoMonitor, WeightsLinesByTheirResiduals) {
+  EXPECT_NEAR(WatchLines(0.5).line_noise_factor(0), 1, 1e-9) << "not less than stated";
+  EXPECT_NEAR(WatchLines(3).line_noise_factor(0), 2.5, 0.2);
+  EXPECT_FALSE(WatchLines(10).UsesLines(0));
+  EXPECT_GT(WatchLines(10).line_noise_factor(0), 100);
+}
+
+TEST(StereoMonitor, UsesLinesOnlyWhilePointsFit) {
+  EXPECT_FALSE(StereoMonitor(kNoise).UsesLines(0));
+  EXPECT_FALSE(Watch(3, kNoise, {0, 8 * kNoise}).UsesLines(ToNanoseconds(3)));
+  const StereoMonitor monitor = Watch(3, kNoise, {0, 0});
+  EXPECT_TRUE(monitor.UsesLines(ToNanoseconds(3)));
+  EXPECT_FALSE(monitor.UsesLines(ToNanoseconds(6)));
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "test/tracking/stereo/stereo_scene.h"
 
@@ -86,6 +87,7 @@ TEST_F(StereoMatcherTest, LearnsHowTheCameraIsReallyMounted) {
   const std::vector<PointTrack> tracks = Match(scene_.View(pair_.second(), truth), &matcher);
   EXPECT_GT(ShareOfTrue(tracks, truth, 0.15), 0.8);
   EXPECT_NEAR(matcher.mounting().rotation().x(), 0.3 * kDegree, 0.03 * kDegree);
+  EXPECT_NE(matcher.Finding().find("turned by"), std::string::npos) << matcher.Finding();
 }
 
 TEST_F(StereoMatcherTest, DoesNotMatchAnotherScene) {
@@ -100,6 +102,16 @@ TEST_F(StereoMatcherTest, DoesNotMatchCamerasThatAreSwapped) {
   const std::vector<PointTrack> tracks = Match(right_, &matcher);
   EXPECT_LT(ShareOf(RightSearch::kFound, tracks), 0.03);
   EXPECT_GT(ShareOf(RightSearch::kOffEpipolar, tracks), 0.3);
+  EXPECT_NE(matcher.Finding().find("swapped"), std::string::npos) << matcher.Finding();
+}
+
+TEST_F(StereoMatcherTest, SearchesAtOnceForTracksThatBeganInSkippedImages) {
+  StereoMatcher matcher(pair_);
+  std::vector<PointTrack> tracks = Tracks();
+  matcher.Match(left_, cv::Mat(), &tracks);
+  for (PointTrack& track : tracks) ++track.length;
+  matcher.Match(left_, right_, &tracks);
+  EXPECT_GT(ShareOf(RightSearch::kFound, tracks), 0.9);
 }
 
 TEST_F(StereoMatcherTest, SaysThatThereIsNoImage) {

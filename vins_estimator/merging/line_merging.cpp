@@ -69,11 +69,13 @@ double ChiSquareLimit(int degrees_of_freedom) {
   return degrees_of_freedom * std::pow(1.0 - v + kNormalLimit * std::sqrt(v), 3);
 }
 
-// Fits a line to the observations `views`, starting from `line_W`.
+// Fits a line to the observations `views`, starting from `line_W`. Returns nullopt if that passes
+// through the first camera, where it has no coordinates.
 std::optional<LineFit> Fit(const SlidingWindow& window, double noise,
                            const std::vector<LineView>& views, const PluckerLine& line_W) {
   const auto sightings = SightingsOf(views, window);
   const PluckerLine initial = sightings.front().T_W_C.Inverse() * line_W;
+  if (!(initial.moment.norm() > 0 && initial.direction.norm() > 0)) return std::nullopt;
   return FitLine(sightings, noise, ToOrthonormal(initial));
 }
 

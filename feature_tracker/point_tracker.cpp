@@ -7,10 +7,12 @@
 
 #include "common/camera/image_format.h"
 #include "common/features/feature_checks.h"
+#include "common/format.h"
 #include "feature_tracker/contrast_equalizer.h"
 #include "feature_tracker/depth_sampling.h"
 #include "feature_tracker/detection/corner_detector.h"
 #include "feature_tracker/detection/spacing_grid.h"
+#include "feature_tracker/detection/still_parts.h"
 #include "feature_tracker/following/optical_flow.h"
 #include "feature_tracker/following/outlier_rejection.h"
 #include "feature_tracker/point_track.h"
@@ -19,6 +21,7 @@
 #include "feature_tracker/track_drawing.h"
 #include "tracking/image_check.h"
 #include "tracking/image_mask.h"
+#include "tracking/last_sight.h"
 
 namespace plm_vins {
 namespace {
@@ -55,7 +58,8 @@ class PointTracker::Implementation {
         mask_(WithinRays(*camera_, mask)),
         detector_(config, mask_),
         flow_(config),
-        equalizer_(image_size_) {
+        equalizer_(image_size_),
+        still_parts_(camera_) {
     if (pair) stereo_.emplace(*pair);
   }
 
@@ -70,15 +74,17 @@ class PointTracker::Implementation {
     OpticalFlow::Pyramid pyramid = flow_.BuildPyramid(image, std::move(unused_pyramid_));
     statistics_ = {};
     statistics_.previous = static_cast<int>(tracks_.size());
-    if (!tracks_.empty()) {
+    if (t_ns_ && (!tracks_.empty() || last_sight_)) {
       const double dt = ToSeconds(sample.t_ns - *t_ns_);
       if (AreSame(sample.gray, sample_.gray)) {
         Stay(dt);
+        if (last_sight_) last_sight_->Rotate(R_C1_C0);
       } else {
-        Follow(pyramid, sample.gray, dt, R_C1_C0);
+        FollowOrFindAgain(pyramid, sample, dt, R_C1_C0);
       }
-      Spread();
     }
+    still_parts_.Add(sample, R_C1_C0, Positions());
+    Spread();
     if (IsRefillDue()) Refill(image);
     CutMissingPatches(sample.gray);
     LookAtCompanions(sample.gray, companions);
@@ -93,6 +99,8 @@ class PointTracker::Implementation {
     pyramid_.clear();
     t_ns_.reset();
     previous_dt_ = 0;
+    last_sight_.reset();
+    still_parts_.Reset();
     statistics_ = {};
   }
 
@@ -100,11 +108,13 @@ class PointTracker::Implementation {
   void SetMaxCorners(int count) {
     config_.max_cnt = count;
     detector_ = CornerDetector(config_, mask_);
+    last_sight_.reset();
     tracks_.resize(std::min(tracks_.size(), static_cast<size_t>(count)));
   }
 
   const PointTrackerStatistics& statistics() const { return statistics_; }
   std::string SecondCameraFinding() const { return stereo_ ? stereo_->Finding() : ""; }
+  double StillShare() const { return still_parts_.largest_share(); }
   cv::Mat DrawTracks() const { return DrawPointTracks(sample_.gray, tracks_); }
 
  private:
@@ -119,39 +129,78 @@ class PointTracker::Implementation {
     return equalized_;
   }
 
-  // Advances the tracks to the image of `pyramid`, `dt` seconds later, and drops lost ones. `gray`
-  // is the same image before equalization.
-  void Follow(const OpticalFlow::Pyramid& pyramid, const cv::Mat& gray, double dt,
-              const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+  // Follows the tracks from the previous image, or from the last one before a loss of sight.
+  void FollowOrFindAgain(const OpticalFlow::Pyramid& pyramid, const ImageSample& sample, double dt,
+                         const std::optional<Eigen::Quaterniond>& R_C1_C0) {
+    const std::vector<PointTrack> before = tracks_;
+    const double previous_dt = std::exchange(previous_dt_, dt);
+    Follow({pyramid_, previous_dt, dt, R_C1_C0}, pyramid, sample.gray, &tracks_);
+    if (last_sight_) {
+      last_sight_->Rotate(R_C1_C0);
+      FindAgain(pyramid, sample);
+    } else if (LosesSight(before.size(), tracks_.size())) {
+      last_sight_ = {sample_, std::move(pyramid_), before, previous_dt, R_C1_C0};
+      pyramid_.clear();  // its memory must not be reused
+    }
+  }
+
+  // Follows the tracks from before the loss of sight; they replace the present ones if they are
+  // there again.
+  void FindAgain(const OpticalFlow::Pyramid& pyramid, const ImageSample& sample) {
+    const double age = last_sight_->Age(sample.t_ns);
+    std::vector<PointTrack> found = last_sight_->tracks;
+    Follow({last_sight_->pyramid, last_sight_->previous_dt, age, last_sight_->R_now_then}, pyramid,
+           sample.gray, &found);
+    const bool regained = RegainsSight(last_sight_->tracks.size(), found.size(), tracks_.size());
+    if (regained) {
+      tracks_ = std::move(found);
+      previous_dt_ = age;
+    }
+    if (regained || age > kMaxSightAge) last_sight_.reset();
+  }
+
+  // The image that tracks are followed from.
+  struct Origin {
+    const OpticalFlow::Pyramid& pyramid;
+    double previous_dt;  // between this image and the one before it [s]
+    double dt;           // until the image that tracks are followed to [s]
+    const std::optional<Eigen::Quaterniond>& R_C1_C0;
+  };
+
+  // Advances the tracks to the image of `pyramid`, and drops lost ones. `gray` is the same image
+  // before equalization.
+  void Follow(const Origin& from, const OpticalFlow::Pyramid& pyramid, const cv::Mat& gray,
+              std::vector<PointTrack>* followed) {
+    std::vector<PointTrack>& tracks = *followed;
+    if (tracks.empty()) return;
     std::vector<cv::Point2f> points, turned, predicted;
-    const auto dt_ratio = static_cast<float>(previous_dt_ > 0 ? dt / previous_dt_ : 0);
-    for (const PointTrack& track : tracks_) {
+    const auto dt_ratio = static_cast<float>(from.previous_dt > 0 ? from.dt / from.previous_dt : 0);
+    for (const PointTrack& track : tracks) {
       points.push_back(track.uv_px);
-      turned.push_back(R_C1_C0 ? Turn(track, *R_C1_C0) : track.uv_px);
+      turned.push_back(from.R_C1_C0 ? Turn(track, *from.R_C1_C0) : track.uv_px);
       predicted.push_back(turned.back() + dt_ratio * track.parallax_px);
     }
-    previous_dt_ = dt;
-    const std::vector<FlowResult> flow = flow_.Track(pyramid_, pyramid, points, predicted);
+    const std::vector<FlowResult> flow = flow_.Track(from.pyramid, pyramid, points, predicted);
 
     std::vector<RayPair> pairs;
-    std::vector<bool> keep(tracks_.size(), false);
-    for (size_t i = 0; i < tracks_.size(); ++i) {
+    std::vector<bool> keep(tracks.size(), false);
+    for (size_t i = 0; i < tracks.size(); ++i) {
       if (flow[i].status == FlowResult::Status::kInconsistent) ++statistics_.forward_backward;
       if (flow[i].status == FlowResult::Status::kLost) ++statistics_.flow_lost;
       if (flow[i].status != FlowResult::Status::kTracked) continue;
-      const Eigen::Vector2d xy_C0 = tracks_[i].xy;
-      const cv::Point2f aligned = Align(gray, flow[i].position, &tracks_[i]);
-      keep[i] = Advance(aligned, turned[i], dt, &tracks_[i]);
+      const Eigen::Vector2d xy_C0 = tracks[i].xy;
+      const cv::Point2f aligned = Align(gray, flow[i].position, &tracks[i]);
+      keep[i] = Advance(aligned, turned[i], from.dt, &tracks[i]);
       if (!keep[i]) {
         ++statistics_.flow_lost;
         continue;
       }
-      pairs.push_back({xy_C0.homogeneous().normalized(), tracks_[i].xy.homogeneous().normalized()});
+      pairs.push_back({xy_C0.homogeneous().normalized(), tracks[i].xy.homogeneous().normalized()});
     }
-    RemoveTracks(keep, &tracks_);
+    RemoveTracks(keep, &tracks);
     const double threshold = config_.f_threshold / camera_->FocalLength();
     statistics_.epipolar_outliers =
-        RemoveTracks(FindEpipolarInliers(pairs, R_C1_C0, threshold), &tracks_);
+        RemoveTracks(FindEpipolarInliers(pairs, from.R_C1_C0, threshold), &tracks);
   }
 
   // Keeps the tracks in place in a repeated image. Tracking would move them by the errors of
@@ -209,13 +258,28 @@ class PointTracker::Implementation {
     return true;
   }
 
-  // Drops tracks that came too close to an older one, or that the mask excludes.
+  std::vector<cv::Point2f> Positions() const {
+    std::vector<cv::Point2f> positions;
+    positions.reserve(tracks_.size());
+    for (const PointTrack& track : tracks_) positions.push_back(track.uv_px);
+    return positions;
+  }
+
+  // Returns whether the track stands still in the image while the camera turns.
+  bool StandsStill(const PointTrack& track) const {
+    constexpr double kMaxMotion_px = 0.5;
+    return !MaskAllows(still_parts_.moving(), track.uv_px) &&
+           cv::norm(track.motion_px) < kMaxMotion_px;
+  }
+
+  // Drops tracks that came too close to an older one, that the mask excludes, or that stand still.
   void Spread() {
     SpacingGrid occupied(image_size_, config_.min_dist);
     std::vector<bool> keep;
     keep.reserve(tracks_.size());
     for (const PointTrack& track : tracks_) {
-      keep.push_back(MaskAllows(mask_, track.uv_px) && occupied.IsFree(track.uv_px));
+      keep.push_back(MaskAllows(mask_, track.uv_px) && !StandsStill(track) &&
+                     occupied.IsFree(track.uv_px));
       if (keep.back()) occupied.Add(track.uv_px);
     }
     statistics_.crowded = RemoveTracks(keep, &tracks_);
@@ -225,9 +289,8 @@ class PointTracker::Implementation {
   bool IsRefillDue() const { return MissingTracks() > kRefillShare * config_.max_cnt; }
 
   void Refill(const cv::Mat& image) {
-    std::vector<cv::Point2f> existing;
-    for (const PointTrack& track : tracks_) existing.push_back(track.uv_px);
-    for (const cv::Point2f& corner : detector_.Detect(image, existing, MissingTracks())) {
+    for (const cv::Point2f& corner :
+         detector_.Detect(image, Positions(), MissingTracks(), still_parts_.moving())) {
       const auto xy = RayOf(*camera_, ToEigen(corner));
       if (!xy) continue;
       PointTrack track;
@@ -261,6 +324,7 @@ class PointTracker::Implementation {
   OpticalFlow flow_;
   ContrastEqualizer equalizer_;
   std::optional<StereoMatcher> stereo_;
+  StillParts still_parts_;
 
   // State at the newest image.
   std::optional<int64_t> t_ns_;
@@ -270,6 +334,7 @@ class PointTracker::Implementation {
   OpticalFlow::Pyramid unused_pyramid_;  // its memory is reused for the next pyramid
   cv::Mat equalized_;                    // equalized image; its memory is reused
   std::vector<PointTrack> tracks_;       // in descending order of age
+  std::optional<LastSight<PointTrack, OpticalFlow::Pyramid>> last_sight_;  // after a loss of it
   PointTrackerStatistics statistics_;
   int64_t next_id_ = 0;
 };
@@ -297,6 +362,16 @@ const PointTrackerStatistics& PointTracker::statistics() const {
 
 std::string PointTracker::SecondCameraFinding() const {
   return implementation_->SecondCameraFinding();
+}
+
+std::string PointTracker::StillPartsFinding() const {
+  const double share = implementation_->StillShare();
+  if (share == 0) return "";
+  return Format(
+      "corners stand still in the image while the camera moves (%.0f %% of them, masked since): "
+      "switch an infrared projector off, clean the lens, or mask text and parts of the vehicle "
+      "(fisheye_mask)",
+      100 * share);
 }
 
 cv::Mat PointTracker::DrawTracks() const { return implementation_->DrawTracks(); }

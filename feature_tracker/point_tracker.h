@@ -55,6 +55,9 @@ class PointTracker {
   // Describes what seems to be wrong with the second camera, and what to do; empty if nothing is.
   std::string SecondCameraFinding() const;
 
+  // Describes parts of the image that stand still while the camera moves; empty if there are none.
+  std::string StillPartsFinding() const;
+
   // Returns the last image with its tracks drawn (CV_8UC3), coloured by age.
   cv::Mat DrawTracks() const;
 

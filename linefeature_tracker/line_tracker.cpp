@@ -20,6 +20,7 @@
 #include "linefeature_tracker/segments/segment_sampler.h"
 #include "linefeature_tracker/stereo/line_stereo.h"
 #include "tracking/image_check.h"
+#include "tracking/last_sight.h"
 
 namespace plm_vins {
 namespace {
@@ -74,10 +75,19 @@ class LineTracker::Implementation {
     const double dt = t_ns_ ? ToSeconds(sample.t_ns - *t_ns_) : 0;
     const double dt_ratio = previous_dt_ > 0 ? dt / previous_dt_ : 0;
     if (images_since_detection_) ++*images_since_detection_;
-    Follow(pyramid, dt_ratio, R_C1_C0);
+    const LineTracks before = tracks_;
+    const double previous_dt = std::exchange(previous_dt_, dt);
+    Follow(pyramid_, pyramid, dt_ratio, R_C1_C0, &tracks_);
+    if (last_sight_) {
+      last_sight_->Rotate(R_C1_C0);
+      FindAgain(pyramid, sample.t_ns);
+    }
+    DropDuplicates();
     if (IsRefillDue()) Refill(sample.gray, FindLines(pyramid));
+    if (!last_sight_ && LosesSight(before.size(), tracks_.size())) {
+      last_sight_ = {sample_, pyramid_, before, previous_dt, R_C1_C0};
+    }
     if (stereo_) stereo_->Match(sample.gray, right, &tracks_);
-    previous_dt_ = dt;
     sample_ = sample;
     pyramid_ = std::move(pyramid);
     t_ns_ = sample.t_ns;
@@ -90,12 +100,14 @@ class LineTracker::Implementation {
     t_ns_.reset();
     previous_dt_ = 0;
     images_since_detection_.reset();
+    last_sight_.reset();
     statistics_ = {};
   }
 
   // Lines are ordered by age, so the youngest are dropped.
   void SetMaxLines(int count) {
     config_.max_lines = count;
+    last_sight_.reset();
     tracks_.resize(std::min(tracks_.size(), static_cast<size_t>(count)));
   }
 
@@ -103,23 +115,40 @@ class LineTracker::Implementation {
   cv::Mat DrawTracks() const { return DrawLineTracks(sample_.gray, tracks_); }
 
  private:
+  using LineTracks = std::vector<LineTrack>;  // in descending order of age
+
   // Advances the tracks to the image of `pyramid` and drops lost ones.
-  void Follow(const LineFlow::Pyramid& pyramid, double dt_ratio,
-              const std::optional<Eigen::Quaterniond>& R_C1_C0) {
-    std::vector<LineTrack> followed;
-    for (LineTrack& track : tracks_) {
+  void Follow(const LineFlow::Pyramid& from, const LineFlow::Pyramid& pyramid, double dt_ratio,
+              const std::optional<Eigen::Quaterniond>& R_C1_C0, LineTracks* tracks) {
+    LineTracks followed;
+    for (LineTrack& track : *tracks) {
       const LineSegment turned = Turn(track.segment, R_C1_C0);
       const LineSegment predicted = Moved(turned, dt_ratio * track.parallax);
-      const auto found = FollowOne(pyramid, track.segment, predicted);
+      const auto found = FollowOne(from, pyramid, track.segment, predicted);
       if (found && Advance(*found, turned, &track)) followed.push_back(std::move(track));
     }
-    tracks_ = std::move(followed);
-    DropDuplicates();
+    *tracks = std::move(followed);
   }
 
-  std::optional<LineSegment> FollowOne(const LineFlow::Pyramid& pyramid, const LineSegment& segment,
+  // Follows the tracks from before a loss of sight; they replace the present ones if they are there
+  // again.
+  void FindAgain(const LineFlow::Pyramid& pyramid, int64_t t_ns) {
+    const double age = last_sight_->Age(t_ns);
+    const double dt_ratio = last_sight_->previous_dt > 0 ? age / last_sight_->previous_dt : 0;
+    LineTracks found = last_sight_->tracks;
+    Follow(last_sight_->pyramid, pyramid, dt_ratio, last_sight_->R_now_then, &found);
+    const bool regained = RegainsSight(last_sight_->tracks.size(), found.size(), tracks_.size());
+    if (regained) {
+      tracks_ = std::move(found);
+      previous_dt_ = age;
+    }
+    if (regained || age > kMaxSightAge) last_sight_.reset();
+  }
+
+  std::optional<LineSegment> FollowOne(const LineFlow::Pyramid& from,
+                                       const LineFlow::Pyramid& pyramid, const LineSegment& segment,
                                        const LineSegment& predicted) {
-    const auto flow = flow_.Track(pyramid_, pyramid, segment, predicted);
+    const auto flow = flow_.Track(from, pyramid, segment, predicted);
     if (!flow || flow->correlation < kMinCorrelation) {
       ++statistics_.match_lost;
       return std::nullopt;
@@ -239,7 +268,8 @@ class LineTracker::Implementation {
   double previous_dt_ = 0;  // between the two newest images [s]
   ImageSample sample_;      // keeps the pixels that the pyramid may refer to
   LineFlow::Pyramid pyramid_;
-  std::vector<LineTrack> tracks_;  // in descending order of age
+  LineTracks tracks_;
+  std::optional<LastSight<LineTrack, LineFlow::Pyramid>> last_sight_;  // after a loss of it
   std::optional<int> images_since_detection_;
   LineTrackerStatistics statistics_;
   int64_t next_id_ = 0;

@@ -50,8 +50,9 @@ std::string MostWrong(const RunSummary::Run& run, const Source& source, const Ru
 
 std::string WhyNone(const RunSummary::Run& run, const OdometryPipeline& pipeline,
                     const RunSummary& summary) {
-  std::string finding = pipeline.InputFinding();
-  if (!finding.empty()) return finding;
+  for (std::string finding : {pipeline.InputFinding(), pipeline.StillPartsFinding()}) {
+    if (!finding.empty()) return finding;
+  }
   if (!summary.last_reason().empty()) return summary.last_reason();
   const bool dropped = std::any_of(run.drops.begin(), run.drops.end(),
                                    [](const DropCount& drop) { return drop.count > 0; });

@@ -12,7 +12,9 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMaxWaiting = 2;  // newer images that end the wait for the gyroscope
+// Newer images that end the wait for the gyroscope where it did not reach the image before either.
+constexpr size_t kMaxWaiting = 2;
+constexpr int64_t kMaxWait_ns = 500'000'000;  // otherwise, up to the newest image
 constexpr int64_t kImageGap_ns = 1'000'000'000;
 constexpr int kJumpPatience = 10;  // images
 
@@ -131,7 +133,9 @@ void ImageQueue::DropRepeated(const ImageSample& image, ImageSample* right) {
 
 std::optional<ReadyImage> ImageQueue::Pop() {
   if (images_.empty()) return std::nullopt;
-  const bool may_wait = images_.size() <= kMaxWaiting;
+  const bool in_time =
+      images_.back().image.t_ns - images_.front().image.t_ns <= kMaxWait_ns && gyro_is_in_time_;
+  const bool may_wait = images_.size() <= kMaxWaiting || in_time;
   if (may_wait && !IsComplete(images_.front().image.t_ns)) return std::nullopt;
   return Flush();
 }
@@ -146,6 +150,7 @@ std::optional<ReadyImage> ImageQueue::Flush() {
     rate_limiter_.Reset();
     handed_out_ns_.reset();
   }
+  gyro_is_in_time_ = gyro_.Covers(ready.image.t_ns);
   if (handed_out_ns_ && uses_gyro_) {
     ready.R_C1_C0 = gyro_.Rotation(*handed_out_ns_, ready.image.t_ns);
     if (!ready.R_C1_C0) ++counts_.without_gyro;

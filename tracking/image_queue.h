@@ -73,7 +73,8 @@ class ImageQueue {
   void AddDepth(DepthSample image);
 
   // Returns the next image in temporal order, or nullopt if it still waits. An image waits for the
-  // gyroscope and its companions until two newer images have arrived.
+  // gyroscope and its companions for half a second of newer images, so that a stall of the
+  // transport changes nothing; once the gyroscope has missed an image, for two newer images only.
   std::optional<ReadyImage> Pop();
 
   // Returns the next image without waiting.
@@ -106,6 +107,7 @@ class ImageQueue {
   ImageSample last_left_, last_right_;    // the last pair that was searched
   std::optional<int64_t> accepted_ns_;    // timestamp of the last image that was accepted
   std::optional<int64_t> handed_out_ns_;  // timestamp of the last image that was returned
+  bool gyro_is_in_time_ = false;          // it reached the last image that was returned
   BackwardJumpDetector jump_;
   ForwardJumpDetector leap_;
 };

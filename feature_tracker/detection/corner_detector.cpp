@@ -37,7 +37,7 @@ CornerDetector::CornerDetector(const PointTrackerConfig& config, cv::Mat mask)
 
 std::vector<cv::Point2f> CornerDetector::Detect(const cv::Mat& image,
                                                 const std::vector<cv::Point2f>& existing,
-                                                int max_count) const {
+                                                int max_count, const cv::Mat& moving) const {
   if (max_count <= 0) return {};
   SpacingGrid occupied(image.size(), config_.min_dist);
   RegionQueue queue(image.size(), config_.max_cnt / kCornersPerRegion + 1);
@@ -45,7 +45,7 @@ std::vector<cv::Point2f> CornerDetector::Detect(const cv::Mat& image,
     occupied.Add(point);
     queue.CountPoint(point);
   }
-  for (const Candidate& candidate : FindCandidates(image, occupied)) {
+  for (const Candidate& candidate : FindCandidates(image, occupied, moving)) {
     queue.AddCandidate(candidate.position);
   }
   std::vector<cv::Point2f> corners;
@@ -63,8 +63,9 @@ std::vector<cv::Point2f> CornerDetector::Detect(const cv::Mat& image,
 }
 
 // Returns the local maxima of the response, strongest first; equal ones in order of position.
-std::vector<CornerDetector::Candidate> CornerDetector::FindCandidates(
-    const cv::Mat& image, const SpacingGrid& occupied) const {
+std::vector<CornerDetector::Candidate> CornerDetector::FindCandidates(const cv::Mat& image,
+                                                                      const SpacingGrid& occupied,
+                                                                      const cv::Mat& moving) const {
   cv::Mat half_image, local_maximum;
   cv::pyrDown(image, half_image);
   const cv::Mat response = Response(half_image, config_.corner_detector);
@@ -78,7 +79,8 @@ std::vector<CornerDetector::Candidate> CornerDetector::FindCandidates(
     for (int x = 0; x < response.cols; ++x) {
       if (values[x] < min_response || values[x] < maxima[x]) continue;
       const cv::Point2f position(2.0F * static_cast<float>(x), 2.0F * static_cast<float>(y));
-      if (!IsAllowed(position, image.size()) || !occupied.IsFree(position)) continue;
+      if (!IsAllowed(position, image.size()) || !MaskAllows(moving, position)) continue;
+      if (!occupied.IsFree(position)) continue;
       candidates.push_back({position, values[x]});
     }
   }

@@ -20,9 +20,10 @@ class CornerDetector {
   CornerDetector(const PointTrackerConfig& config, cv::Mat mask);
 
   // Returns at most `max_count` new corners [px] of the CV_8UC1 image, at least min_dist from the
-  // `existing` ones and from each other, in order of selection.
+  // `existing` ones and from each other, in order of selection. `moving`, a mask in addition to
+  // that of the detector, may be empty.
   std::vector<cv::Point2f> Detect(const cv::Mat& image, const std::vector<cv::Point2f>& existing,
-                                  int max_count) const;
+                                  int max_count, const cv::Mat& moving = {}) const;
 
  private:
   struct Candidate {
@@ -31,7 +32,8 @@ class CornerDetector {
   };
 
   float MinResponse(const cv::Mat& response) const;
-  std::vector<Candidate> FindCandidates(const cv::Mat& image, const SpacingGrid& occupied) const;
+  std::vector<Candidate> FindCandidates(const cv::Mat& image, const SpacingGrid& occupied,
+                                        const cv::Mat& moving) const;
   bool IsAllowed(const cv::Point2f& position, const cv::Size& image_size) const;
 
   PointTrackerConfig config_;

@@ -26,8 +26,9 @@ struct PointNodeTraits {
 
   static constexpr bool kUsesDepth = true;
 
-  static std::string SecondCameraFinding(const PointTracker& tracker) {
-    return tracker.SecondCameraFinding();
+  static std::string Finding(const PointTracker& tracker) {
+    const std::string still_parts = tracker.StillPartsFinding();
+    return still_parts.empty() ? tracker.SecondCameraFinding() : still_parts;
   }
   static Settings ToSettings(const Config& config) {
     Settings settings = Settings::__getDefault__();  // initializes its groups as well

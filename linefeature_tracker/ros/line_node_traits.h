@@ -31,7 +31,7 @@ struct LineNodeTraits {
   static constexpr bool kUsesDepth = false;
 
   // The point tracker judges the second camera.
-  static std::string SecondCameraFinding(const LineTracker&) { return ""; }
+  static std::string Finding(const LineTracker&) { return ""; }
   static Settings ToSettings(const Config& config) {
     Settings settings = Settings::__getDefault__();  // initializes its groups as well
     settings.max_line_cnt = config.lines.max_lines;

@@ -36,6 +36,7 @@ class FeatureTrackers {
   std::optional<TrackedFeatures> Flush();
 
   std::string SecondCameraFinding() const { return points_.tracker().SecondCameraFinding(); }
+  std::string StillPartsFinding() const { return points_.tracker().StillPartsFinding(); }
   const ImageCounts& image_counts() const { return points_.counts(); }
 
   // The newest image with its points or lines drawn (CV_8UC3); empty if there are none.

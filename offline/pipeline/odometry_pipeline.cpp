@@ -58,8 +58,8 @@ std::vector<std::string> OdometryPipeline::Findings() const {
   std::vector<std::string> findings;
   const bool is_contradicted = contradicted_images_ >= kMinContradicted;
   for (const std::string& finding :
-       {InputFinding(), trackers_.SecondCameraFinding(), back_end_.LensWarning(),
-        is_contradicted ? imu_contradiction_ : "", second_camera_fault_}) {
+       {InputFinding(), trackers_.StillPartsFinding(), trackers_.SecondCameraFinding(),
+        back_end_.LensWarning(), is_contradicted ? imu_contradiction_ : "", second_camera_fault_}) {
     if (!finding.empty()) findings.push_back(finding);
   }
   return findings;

@@ -83,6 +83,7 @@ class OdometryPipeline {
   // Returns what is wrong with the timestamps of the images or with the input as a whole, and what
   // to do; empty if nothing is. Names the topics as configured.
   std::string InputFinding() const;
+  std::string StillPartsFinding() const { return trackers_.StillPartsFinding(); }
   std::vector<ResidualRing> residual_rings() const { return back_end_.ResidualRings(); }
   // Describes what is wrong with the input, the most probable cause of errors first.
   std::vector<std::string> Findings() const;

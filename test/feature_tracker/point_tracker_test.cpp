@@ -11,57 +11,10 @@
 
 #include "common/features/feature_checks.h"
 #include "common/geometry/so3.h"
-#include "test/feature_tracker/textured_scene.h"
+#include "test/feature_tracker/tracked_points.h"
 
 namespace plm_vins {
 namespace {
-
-PointTrackerConfig TestConfig() {
-  PointTrackerConfig config;
-  config.max_cnt = 80;
-  config.min_dist = 14;
-  return config;
-}
-
-cv::Point2d Pixel(const PointObservation& point) { return {point.uv_px.x(), point.uv_px.y()}; }
-
-std::map<int64_t, PointObservation> ById(const PointFrame& frame) {
-  std::map<int64_t, PointObservation> points;
-  for (const PointObservation& point : frame.points) points[point.id] = point;
-  return points;
-}
-
-// Returns the sorted distances of the points in both frames from their positions by H.
-std::vector<double> TrackErrors(const PointFrame& frame0, const PointFrame& frame1,
-                                const cv::Matx33d& H) {
-  std::vector<double> errors;
-  const auto before = ById(frame0);
-  for (const PointObservation& point : frame1.points) {
-    const auto it = before.find(point.id);
-    if (it == before.end()) continue;
-    errors.push_back(cv::norm(Pixel(point) - Move(H, Pixel(it->second))));
-  }
-  std::sort(errors.begin(), errors.end());
-  return errors;
-}
-
-class PointTrackerTest : public testing::Test {
- protected:
-  PointFrame Track(const cv::Mat& image,
-                   const std::optional<Eigen::Quaterniond>& R_C1_C0 = std::nullopt) {
-    t_ns_ += kFrame_ns;
-    return tracker_->Track({t_ns_, image}, R_C1_C0);
-  }
-
-  void Configure(const PointTrackerConfig& config) {
-    tracker_ = std::make_unique<PointTracker>(config, camera_);
-  }
-
-  std::shared_ptr<const CameraModel> camera_ = TestCamera();
-  TexturedScene scene_;
-  std::unique_ptr<PointTracker> tracker_ = std::make_unique<PointTracker>(TestConfig(), camera_);
-  int64_t t_ns_ = 0;
-};
 
 TEST_F(PointTrackerTest, FirstImageGivesNewPoints) {
   const PointFrame frame = Track(scene_.View());
@@ -248,15 +201,12 @@ TEST_F(PointTrackerTest, RejectsAPatchThatMovesOnItsOwn) {
   EXPECT_GT(kept_on_background, 0.85 * on_background);
 }
 
-TEST_F(PointTrackerTest, BlindImagesEndTracksAndSightBeginsNewOnes) {
-  const PointFrame first = Track(scene_.View());
-  const int64_t last_id = first.points.back().id;
+TEST_F(PointTrackerTest, BlindImagesHaveNoPoints) {
+  Track(scene_.View());
   for (const int gray : {0, 255, 0}) {
     EXPECT_TRUE(Track(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(gray))).points.empty());
   }
-  const PointFrame frame = Track(scene_.View());
-  EXPECT_EQ(frame.points.size(), 80U);
-  for (const PointObservation& point : frame.points) EXPECT_GT(point.id, last_id);
+  EXPECT_EQ(Track(scene_.View()).points.size(), 80U);
 }
 
 TEST_F(PointTrackerTest, SeesNothingInTheNoiseOfADarkImage) {

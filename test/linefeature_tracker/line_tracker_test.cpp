@@ -105,6 +105,28 @@ class LineTrackerTest : public testing::Test {
   int64_t t_ns_ = 0;
 };
 
+TEST_F(LineTrackerTest, TracksContinueAfterBlankImages) {
+  for (const int blanks : {1, 3, 20}) {
+    Show(ConfusingScene());
+    std::set<int64_t> before, after;
+    for (int i = 0; i < 4; ++i) {
+      before.clear();
+      for (const LineObservation& line : Track(scene_->View(Flight(0), 1)).lines) {
+        before.insert(line.id);
+      }
+    }
+    const cv::Mat blank(480, 752, CV_8U, cv::Scalar(200));
+    for (int i = 0; i < blanks; ++i) Track(blank);
+    for (const LineObservation& line : Track(scene_->View(Flight(1), 1)).lines) {
+      after.insert(line.id);
+    }
+    size_t continued = 0;
+    for (const int64_t id : before) continued += after.count(id);
+    EXPECT_GE(before.size(), 10u);
+    EXPECT_GT(continued, 0.7 * before.size()) << blanks;
+  }
+}
+
 TEST_F(LineTrackerTest, FollowsEdgesToTenthsOfAPixel) {
   for (const CameraParameters& parameters : {PlainParameters(), DistortedParameters()}) {
     Show(BarScene(parameters));

@@ -93,6 +93,32 @@ TEST_F(ImageQueueTest, AnImageWaitsForTwoNewerOnesAtMost) {
   EXPECT_EQ(queue_.counts().without_gyro, 2);
 }
 
+// A network stalls, and then delivers the images before the IMU samples.
+TEST_F(ImageQueueTest, AStallChangesNothing) {
+  AddImu(-10, 0);
+  AddImage(0);
+  EXPECT_EQ(Pop().size(), 1u);
+  for (int t = 50; t <= 500; t += 50) AddImage(t);
+  EXPECT_TRUE(Pop().empty());
+  AddImu(5, 500);
+  EXPECT_EQ(Pop().size(), 10u);
+  EXPECT_EQ(queue_.counts().without_gyro, 0);
+}
+
+TEST_F(ImageQueueTest, AGyroThatEndsDelaysNoLongerThanHalfASecondOnce) {
+  AddImu(-10, 0);
+  AddImage(0);
+  EXPECT_EQ(Pop().size(), 1u);
+  std::vector<int> delays;
+  for (int t = 50; t <= 1500; t += 50) {
+    AddImage(t);
+    for (const int stamp : Pop()) delays.push_back(t - stamp);
+  }
+  ASSERT_GT(delays.size(), 10u);
+  EXPECT_EQ(delays.front(), 550);
+  EXPECT_EQ(delays.back(), 100);
+}
+
 TEST_F(ImageQueueTest, DropsStampsThatRepeatOrGoBack) {
   for (const int t : {0, 50, 50, 20, 100}) AddImage(t);
   EXPECT_EQ(Flush(), (std::vector<int>{0, 50, 100}));

@@ -40,7 +40,7 @@ namespace plm_vins {
 // private topics kFeatureTopic and kAnnotatedTopic, the diagnostic status kDiagnostics, the queue
 // length kImageQueue (the oldest image is dropped), kEveryImage, whether features of all images are
 // published instead of those at the rate `freq`, kUsesDepth, whether depth images are of use, and
-// SecondCameraFinding(tracker), which says what seems to be wrong with the second camera.
+// Finding(tracker), which says what seems to be wrong with the images.
 template <typename Traits>
 class TrackerNode {
  public:
@@ -58,7 +58,7 @@ class TrackerNode {
         private_node_.advertise<sensor_msgs::PointCloud>(Traits::kFeatureTopic, kOutputQueue);
     restart_publisher_ = private_node_.advertise<std_msgs::Bool>("restart", 10);
     annotated_publisher_ = private_transport_.advertise(Traits::kAnnotatedTopic, 10);
-    flush_timer_ = node_.createWallTimer(ros::WallDuration(0.5 * kMaxWaitForImu),
+    flush_timer_ = node_.createWallTimer(ros::WallDuration(0.1 * kMaxWaitForImu),
                                          [this](const ros::WallTimerEvent&) { FlushLateImages(); });
     diagnostics_.setHardwareID("none");
     diagnostics_.add(Traits::kDiagnostics, this, &TrackerNode::ReportStatus);
@@ -78,7 +78,7 @@ class TrackerNode {
 
   static constexpr uint32_t kOutputQueue = 200;
   // Wall time after which an image is tracked without the gyroscope [s].
-  static constexpr double kMaxWaitForImu = 0.1;
+  static constexpr double kMaxWaitForImu = 0.5;
   static constexpr double kMinSilence = 2, kLongSilence = 10;  // [s] of wall time
 
   void Apply(const Settings& settings) {
@@ -206,7 +206,7 @@ class TrackerNode {
     } else if (features_in_last_image_ == 0) {
       status.summary(DiagnosticStatus::WARN, "lost: nothing to follow in the last image");
     } else {
-      const std::string finding = CompanionFinding();
+      const std::string finding = ImageFinding();
       status.summary(finding.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                      finding.empty() ? "tracking" : finding);
     }
@@ -221,9 +221,8 @@ class TrackerNode {
     for (const DropCount& drop : Drops()) status.add(drop.cause, drop.count);
   }
 
-  // Describes what seems to be wrong with the second camera or the depth images; empty if nothing
-  // is.
-  std::string CompanionFinding() {
+  // Describes what seems to be wrong with the images; empty if nothing is.
+  std::string ImageFinding() {
     if (config_.sensor.second_camera &&
         right_images_.stream().Silence() > StreamMonitor::kSilence) {
       return "second camera: nothing comes on " + right_images_.topic();
@@ -231,7 +230,7 @@ class TrackerNode {
     if (depth_subscriber_ && depth_stream_.Silence() > StreamMonitor::kSilence) {
       return "depth: nothing comes on " + depth_subscriber_.getTopic();
     }
-    return Traits::SecondCameraFinding(stage_.tracker());
+    return Traits::Finding(stage_.tracker());
   }
 
   ros::NodeHandle node_;

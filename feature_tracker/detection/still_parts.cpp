@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "feature_tracker/detection/still_parts.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+namespace plm_vins {
+namespace {
+
+constexpr double kMaxAge = 1.0;           // of the image to compare with [s]
+constexpr double kPastInterval = 0.1;     // between images that are kept for it [s]
+constexpr double kCompareInterval = 0.2;  // between comparisons [s]
+constexpr double kMinShift_px = 8;        // of the scene by the rotation
+constexpr double kSureRate = 0.5;         // no gyroscope is biased like this [rad/s]
+constexpr int kCell_px = 16;
+
+constexpr int kWindow_px = 5;          // of the correlation: as large as a dot
+constexpr double kMinContrast = 5;     // standard deviation in the window [grey levels]
+constexpr double kSame = 0.8;          // least correlation of parts that stand still
+constexpr double kDiffers = 0.5;       // greatest correlation of parts that move
+constexpr double kMovingShare = 0.15;  // of the textured area, if the camera moves
+
+// By chance, up to a tenth of the tracks of a scene lie on parts that look the same.
+constexpr int kMinCorners = 10;
+constexpr double kStillShare = 0.25;
+
+// Correlation of the windows around each pixel of two images, where both have contrast.
+struct Correlation {
+  cv::Mat textured, same, differs;  // CV_8UC1
+};
+
+Correlation Correlate(const cv::Mat& gray_a, const cv::Mat& gray_b) {
+  const auto mean = [](const cv::Mat& image) -> cv::Mat {
+    cv::Mat result;
+    cv::boxFilter(image, result, CV_32F, {kWindow_px, kWindow_px});
+    return result;
+  };
+  cv::Mat a, b;
+  gray_a.convertTo(a, CV_32F);
+  gray_b.convertTo(b, CV_32F);
+  const cv::Mat mean_a = mean(a), mean_b = mean(b);
+  const cv::Mat variance_a = mean(a.mul(a)) - mean_a.mul(mean_a);
+  const cv::Mat variance_b = mean(b.mul(b)) - mean_b.mul(mean_b);
+  const cv::Mat covariance = mean(a.mul(b)) - mean_a.mul(mean_b);
+  cv::Mat product;
+  cv::sqrt(cv::max(variance_a.mul(variance_b), 0), product);
+  constexpr double kMinVariance = kMinContrast * kMinContrast;
+  Correlation result;
+  result.textured = (variance_a > kMinVariance) & (variance_b > kMinVariance);
+  result.same = result.textured & (covariance > kSame * product);
+  result.differs = result.textured & (covariance < kDiffers * product);
+  return result;
+}
+
+// Returns how many corners have the same surroundings in both images, which is far cheaper to find
+// than all parts that are the same.
+int CountSame(const cv::Mat& gray_a, const cv::Mat& gray_b,
+              const std::vector<cv::Point2f>& corners) {
+  constexpr int kHalf = kWindow_px / 2;
+  const cv::Rect inside(kHalf, kHalf, gray_a.cols - 2 * kHalf, gray_a.rows - 2 * kHalf);
+  int same = 0;
+  for (const cv::Point corner : corners) {
+    if (!inside.contains(corner)) continue;
+    const cv::Rect window(corner.x - kHalf, corner.y - kHalf, kWindow_px, kWindow_px);
+    const Correlation correlation = Correlate(gray_a(window).clone(), gray_b(window).clone());
+    same += correlation.same.at<uint8_t>(kHalf, kHalf) != 0 ? 1 : 0;
+  }
+  return same;
+}
+
+}  // namespace
+
+void StillParts::Add(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0,
+                     const std::vector<cv::Point2f>& corners) {
+  if (!R_C1_C0) past_.clear();
+  for (Past& past : past_) past.R_now_then = (*R_C1_C0 * past.R_now_then).normalized();
+  while (!past_.empty() && ToSeconds(image.t_ns - past_.front().image.t_ns) > kMaxAge) {
+    past_.pop_front();
+  }
+  const bool is_due = !compared_ns_ || ToSeconds(image.t_ns - *compared_ns_) > kCompareInterval;
+  const Past* reference = is_due ? FindReference() : nullptr;
+  if (reference != nullptr) {
+    compared_ns_ = image.t_ns;
+    const bool may_stand = CountSame(reference->image.gray, image.gray, corners) >= kMinCorners;
+    if (may_stand || !moving_.empty()) Compare(*reference, image.gray, corners);
+  }
+  if (past_.empty() || ToSeconds(image.t_ns - past_.back().image.t_ns) >= kPastInterval) {
+    past_.push_back({image, Eigen::Quaterniond::Identity()});
+  }
+}
+
+const StillParts::Past* StillParts::FindReference() const {
+  const double least_turn = kMinShift_px / camera_->FocalLength();
+  const auto past = std::find_if(past_.rbegin(), past_.rend(), [&](const Past& candidate) {
+    return Eigen::AngleAxisd(candidate.R_now_then).angle() > least_turn;
+  });
+  return past == past_.rend() ? nullptr : &*past;
+}
+
+cv::Mat StillParts::TurnedCells(const Eigen::Quaterniond& R_now_then) const {
+  const cv::Size size(camera_->parameters().width, camera_->parameters().height);
+  cv::Mat cells = cv::Mat::zeros(size, CV_8UC1);
+  for (int y = 0; y < size.height; y += kCell_px) {
+    for (int x = 0; x < size.width; x += kCell_px) {
+      const Eigen::Vector2d pixel(x + 0.5 * kCell_px, y + 0.5 * kCell_px);
+      const auto ray = camera_->Unproject(pixel);
+      const auto moved = ray ? camera_->Project(R_now_then * ray->homogeneous()) : std::nullopt;
+      if (!moved || (*moved - pixel).norm() < kMinShift_px) continue;
+      const cv::Rect cell(x, y, kCell_px, kCell_px);
+      cells(cell & cv::Rect({}, size)) = 255;
+    }
+  }
+  return cells;
+}
+
+void StillParts::Compare(const Past& reference, const cv::Mat& gray,
+                         const std::vector<cv::Point2f>& corners) {
+  const cv::Mat turned = TurnedCells(reference.R_now_then);
+  const Correlation correlation = Correlate(reference.image.gray, gray);
+  const cv::Mat still = correlation.same & turned;
+  int decided = 0, standing = 0;
+  for (const cv::Point2f& corner : corners) {
+    decided += turned.at<uint8_t>(corner) != 0 ? 1 : 0;
+    standing += still.at<uint8_t>(corner) != 0 ? 1 : 0;
+  }
+  const int textured = cv::countNonZero(correlation.textured & turned);
+  const bool image_moves = cv::countNonZero(correlation.differs & turned) > kMovingShare * textured;
+  const double seconds = ToSeconds(*compared_ns_ - reference.image.t_ns);
+  const double rate = Eigen::AngleAxisd(reference.R_now_then).angle() / seconds;
+  const bool camera_turns = image_moves || rate > kSureRate;
+  const bool was_masked = !moving_.empty();
+  if (standing >= kMinCorners && standing > kStillShare * decided && camera_turns) {
+    largest_share_ = std::max(largest_share_, standing / static_cast<double>(decided));
+  } else if (!was_masked) {
+    return;
+  }
+  cv::Mat around;
+  cv::dilate(still, around, cv::Mat::ones(kWindow_px, kWindow_px, CV_8UC1));
+  if (!was_masked) moving_ = cv::Mat(gray.size(), CV_8UC1, cv::Scalar(255));
+  moving_.setTo(255, turned);  // parts that cannot be told now stay as they are
+  moving_.setTo(0, around);
+}
+
+void StillParts::Reset() {
+  past_.clear();
+  compared_ns_.reset();
+  moving_.release();
+}
+
+}  // namespace plm_vins

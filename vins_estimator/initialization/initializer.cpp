@@ -2,6 +2,7 @@
 #include "vins_estimator/initialization/initializer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/format.h"
 #include "vins_estimator/imu/imu_gap.h"
@@ -13,11 +14,13 @@ namespace plm_vins {
 namespace {
 
 constexpr double kStandstillDuration = 0.75;  // [s]
+constexpr double kQuietDuration = 0.45;       // if the IMU varies by its noise alone [s]
 constexpr double kMinMotionDuration = 1.5;    // [s]
 constexpr double kStereoStandstillDuration = 0.25;
 constexpr double kMinStereoMotionDuration = 0.295;  // six intervals of 20 Hz
 constexpr double kMaxDuration = 3.0;                // of the buffer [s]
 constexpr int kMinCommonPoints = 12;                // of consecutive images
+constexpr double kMaxSkipped = 1.0;                 // without an image of use [s]
 constexpr size_t kMinFrames = 6;
 constexpr size_t kMinStereoFrames = 4;
 constexpr size_t kMaxFrames = 11;
@@ -41,9 +44,21 @@ void ForgetDepths(std::vector<FrameMeasurement>* frames) {
   }
 }
 
+std::string TooFewPoints(int count) {
+  return "too few points followed from the last image: " + std::to_string(count) + " of " +
+         std::to_string(kMinCommonPoints);
+}
+
 StandstillDetector::Options StandstillOptions(double duration) {
   StandstillDetector::Options options;
   options.imu.window = duration;
+  return options;
+}
+
+// Hovering is told from standstill on the ground by the IMU, which must show its noise alone.
+StandstillDetector::Options QuietOptions() {
+  StandstillDetector::Options options = StandstillOptions(kQuietDuration);
+  options.imu.min_gyro_deviation = options.imu.min_accel_deviation = 0;
   return options;
 }
 
@@ -53,9 +68,10 @@ Initializer::Initializer(const Config& config)
     : sensor_(config.sensor),
       point_noise_px_(config.estimator.point_noise),
       max_frames_(std::min<size_t>(kMaxFrames, config.estimator.window_size + 1)),
-      standstill_duration_(HasDepth(config.sensor) ? kStereoStandstillDuration
-                                                   : kStandstillDuration),
-      standstill_(config.sensor.imu_noise, StandstillOptions(standstill_duration_)) {
+      standstill_(config.sensor.imu_noise,
+                  StandstillOptions(HasDepth(config.sensor) ? kStereoStandstillDuration
+                                                            : kStandstillDuration)),
+      quiet_standstill_(config.sensor.imu_noise, QuietOptions()) {
   if (sensor_.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {
     const double focal_length = CameraModel::Create(sensor_.camera)->FocalLength();
     calibrator_.emplace(sensor_.imu_noise, point_noise_px_ / focal_length);
@@ -80,8 +96,19 @@ void Initializer::SetRotation(const Eigen::Quaterniond& R_B_C) {
 
 void Initializer::StartOver(const std::string& reason) {
   buffer_.clear();
+  skipped_imu_.clear();
   standstill_.Reset();
+  quiet_standstill_.Reset();
   reason_ = reason;
+}
+
+bool Initializer::Skip(const FrameMeasurement& measurement) {
+  const size_t points = measurement.points.points.size();
+  if (buffer_.empty() || points >= kMinCommonPoints || LeaveGap(measurement.imu)) return false;
+  if (ToSeconds(measurement.t_ns - buffer_.back().t_ns) > kMaxSkipped) return false;
+  JoinImu(measurement.imu, &skipped_imu_);
+  reason_ = TooFewPoints(static_cast<int>(points));
+  return true;
 }
 
 // Adds an image; drops older ones if they are not connected to it by IMU samples and tracks. Of the
@@ -90,23 +117,27 @@ void Initializer::Append(const FrameMeasurement& measurement) {
   if (!buffer_.empty() && LeaveGap(measurement.imu)) StartOver("gap in the IMU samples");
   if (!buffer_.empty()) {
     const int common = CountCommonPoints(buffer_.back().points, measurement.points);
-    if (common < kMinCommonPoints) {
-      StartOver("too few points followed from the last image: " + std::to_string(common) + " of " +
-                std::to_string(kMinCommonPoints));
-    }
+    if (common < kMinCommonPoints) StartOver(TooFewPoints(common));
   }
   buffer_.push_back(measurement);
+  JoinImu(measurement.imu, &skipped_imu_);
+  buffer_.back().imu = std::exchange(skipped_imu_, {});
   if (buffer_.size() == 1) buffer_.front().imu = {measurement.imu.back()};
   while (ToSeconds(buffer_.back().t_ns - buffer_.front().t_ns) > kMaxDuration) buffer_.pop_front();
 }
 
 std::optional<InitializationResult> Initializer::Add(const FrameMeasurement& measurement) {
   if (!start_ns_) start_ns_ = measurement.t_ns;
-  Append(measurement);
-  const bool stands_still = standstill_.Add(buffer_.back()).has_value();
+  const bool skipped = Skip(measurement);
+  if (!skipped) Append(measurement);
+  const FrameMeasurement& added = buffer_.size() > 1 || skipped ? measurement : buffer_.front();
+  auto standstill = standstill_.Add(added);
+  const auto quiet = quiet_standstill_.Add(added);
+  if (skipped) return std::nullopt;
+  if (!standstill) standstill = quiet;
   if (calibrator_) CalibrateRotation();
   if (calibrator_) return std::nullopt;
-  return stands_still ? TryStandstill() : TryMotion();
+  return standstill ? TryStandstill(standstill->since_ns) : TryMotion();
 }
 
 std::optional<int64_t> Initializer::begin_ns() const {
@@ -121,12 +152,10 @@ void Initializer::CalibrateRotation() {
   calibrator_.reset();
 }
 
-std::optional<InitializationResult> Initializer::TryStandstill() {
+std::optional<InitializationResult> Initializer::TryStandstill(int64_t since_ns) {
   std::vector<ImuSample> samples;
   for (const FrameMeasurement& frame : buffer_) {
-    if (ToSeconds(buffer_.back().t_ns - frame.t_ns) < standstill_duration_) {
-      JoinImu(frame.imu, &samples);
-    }
+    if (frame.t_ns > since_ns) JoinImu(frame.imu, &samples);
   }
   auto state = InitializeFromStandstill(samples, sensor_.gravity_norm, &reason_);
   if (!state) return std::nullopt;

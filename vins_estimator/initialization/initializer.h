@@ -29,12 +29,13 @@ struct InitializationResult {
   Rigid3d T_B_C;  // as calibrated, or as configured
 };
 
-// Initializes the estimator: from standstill once the body has stood still for 0.75 s, otherwise
-// from motion once at least 1.5 s of images make gravity, velocity and scale observable. With a
-// second camera or measured depth, 0.25 s of standstill or 0.3 s of motion suffice. World: z up,
-// origin and zero heading at the first frame of the result. If the camera's rotation has to be
-// calibrated, this comes first and requires rotations about at least two axes. While waiting,
-// reason() states why. Stores at most three seconds of images. Its result is deterministic.
+// Initializes the estimator: from standstill once the body has stood still for 0.75 s, or for half
+// a second if the IMU shows its noise alone, otherwise from motion once at least 1.5 s
+// of images make gravity, velocity and scale observable. With a second camera or measured depth,
+// 0.25 s of standstill or 0.3 s of motion suffice. World: z up, origin and zero heading at the
+// first frame of the result. If the camera's rotation has to be calibrated, this comes first and
+// requires rotations about at least two axes. While waiting, reason() states why. Stores at most
+// three seconds of images. Its result is deterministic.
 class Initializer {
  public:
   explicit Initializer(const Config& config);
@@ -54,20 +55,24 @@ class Initializer {
 
  private:
   void StartOver(const std::string& reason);
+  // Returns whether the image has too few points to be of use; its IMU samples then lead to the
+  // next one.
+  bool Skip(const FrameMeasurement& measurement);
   void Append(const FrameMeasurement& measurement);
   void CalibrateRotation();
   void SetRotation(const Eigen::Quaterniond& R_B_C);
-  std::optional<InitializationResult> TryStandstill();
+  std::optional<InitializationResult> TryStandstill(int64_t since_ns);
   std::optional<InitializationResult> TryMotion();
   bool MayTryMotion(bool stereo);
 
   SensorConfig sensor_;  // with the calibrated rotation of the camera
   double point_noise_px_;
   size_t max_frames_;
-  double standstill_duration_;  // [s]
   StandstillDetector standstill_;
+  StandstillDetector quiet_standstill_;
   std::optional<ExtrinsicCalibrator> calibrator_;  // until the rotation is known
   std::deque<FrameMeasurement> buffer_;            // contiguous in IMU samples and tracks
+  std::vector<ImuSample> skipped_imu_;             // since the newest image in the buffer
   std::optional<int64_t> start_ns_;                // first image since the reset
   std::optional<int64_t> last_attempt_ns_;         // to initialize from motion
   std::string reason_ = "waiting for images";

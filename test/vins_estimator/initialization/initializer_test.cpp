@@ -123,7 +123,7 @@ TEST(InitializerTest, StandstillIsEnough) {
   const auto start = Feed(flight, &initializer);
   ASSERT_TRUE(start) << initializer.reason();
   EXPECT_TRUE(start->result.from_standstill);
-  EXPECT_LE(start->index, 20u);
+  EXPECT_LE(start->index, 10u);
   const FrameState& state = start->result.frames.back().state;
   EXPECT_EQ(state.t_ns, flight.truth[start->index].t_ns);
   EXPECT_EQ(state.velocity(), Eigen::Vector3d::Zero());
@@ -132,8 +132,8 @@ TEST(InitializerTest, StandstillIsEnough) {
   EXPECT_LT(testing::GravityError(state, flight.truth[start->index]), 0.012);
 }
 
-// Half a second on the ground is too short for a start from standstill, and must not disturb the
-// start in motion.
+// A tenth of a second on the ground is too short for a start from standstill, and must not disturb
+// the start in motion.
 TEST(InitializerTest, StartsFromMotionAfterAStillPart) {
   for (uint64_t seed = 1; seed <= 5; ++seed) {
     auto options = FlightOptions(simulator::Motion::kFast, seed);
@@ -161,6 +161,25 @@ TEST(InitializerTest, RefusesBlindImages) {
   Initializer initializer(ConfigFor(flight));
   EXPECT_FALSE(Feed(flight, &initializer));
   EXPECT_EQ(initializer.reason(), "too few points followed from the last image: 0 of 12");
+}
+
+// Blank images, whose neighbours a tracker follows from one to the other.
+TEST(InitializerTest, StartsWithBlankImagesAtARhythm) {
+  for (const size_t rhythm : {2, 3, 10}) {
+    SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kFast, 1), 4);
+    for (size_t i = 1; i < flight.frames.size(); i += rhythm) {
+      flight.frames[i].points.points.clear();
+    }
+    Initializer initializer(ConfigFor(flight));
+    const auto start = Feed(flight, &initializer);
+    ASSERT_TRUE(start) << rhythm << ": " << initializer.reason();
+    EXPECT_LE(start->index, 60u) << rhythm;
+    EXPECT_LT(std::abs(ScaleError(*start, flight)), 0.1) << rhythm;
+    const auto& frames = start->result.frames;
+    for (size_t i = 1; i < frames.size(); ++i) {
+      EXPECT_EQ(frames[i].measurement.imu.front().t_ns, frames[i - 1].state.t_ns) << rhythm;
+    }
+  }
 }
 
 TEST(InitializerTest, GapInTheImuStartsOver) {

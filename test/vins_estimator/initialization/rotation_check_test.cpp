@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/initialization/rotation_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/geometry/so3.h"
+#include "test/vins_estimator/initialization/simulated_frames.h"
+
+namespace plm_vins {
+namespace {
+
+using testing::SimulatedFlight;
+
+SimulatedFlight Fly(uint64_t seed) {
+  auto options = testing::FlightOptions(simulator::Motion::kGentle, seed);
+  options.trajectory.duration = 15;
+  options.point_outlier_ratio = 0.02;
+  return testing::SimulateFlight(options, /*skip=*/4);
+}
+
+std::string Check(const SimulatedFlight& flight) {
+  RotationCheck check(flight.sensor, 0.5);
+  for (const FrameMeasurement& frame : flight.frames) check.Add(frame);
+  return check.finding();
+}
+
+TEST(RotationCheck, FindsNothingIfAllIsRight) {
+  for (uint64_t seed = 1; seed <= 3; ++seed) EXPECT_EQ(Check(Fly(seed)), "");
+}
+
+TEST(RotationCheck, NamesAWrongMounting) {
+  for (const Eigen::Vector3d& turn : {Eigen::Vector3d(0, 0, M_PI), Eigen::Vector3d(0, 0, M_PI / 2),
+                                      Eigen::Vector3d(M_PI / 2, 0, 0)}) {
+    SimulatedFlight flight = Fly(1);
+    flight.sensor.T_B_C.rotation = flight.sensor.T_B_C.rotation * SO3Exp(turn);
+    const std::string finding = Check(flight);
+    EXPECT_EQ(finding.rfind("extrinsicRotation is wrong by ", 0), 0u) << finding;
+    const double degrees = std::stod(finding.substr(30));
+    EXPECT_NEAR(degrees, turn.norm() * 180 / M_PI, 3);
+  }
+}
+
+}  // namespace
+}  // namespace plm_vins

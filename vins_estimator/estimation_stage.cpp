@@ -8,6 +8,7 @@
 #include "common/format.h"
 #include "vins_estimator/estimator.h"
 #include "vins_estimator/imu/imu_gap.h"
+#include "vins_estimator/initialization/rotation_check.h"
 #include "vins_estimator/monitoring/contradiction_report.h"
 #include "vins_estimator/uncertainty/imu_noise_estimate.h"
 
@@ -16,14 +17,17 @@ namespace {
 
 // Returns a lower bound on the speed, three standard deviations below the estimate [m/s].
 double LeastSpeed(const EstimatorOutput& output) {
-  if (!output.has_pose) return 0;
-  const double deviation = std::sqrt(output.velocity_covariance.diagonal().maxCoeff());
+  if (!output.has_pose || !output.uncertainty) return 0;
+  const double deviation = std::sqrt(output.uncertainty->velocity.diagonal().maxCoeff());
   return std::max(0.0, output.state.velocity().norm() - 3 * deviation);
 }
 
 // Noise that is estimated, over that of the samples: at most 1.1 in flights with the right
 // calibration, 3 to 6 with td off by 30 ms or focal lengths off by 15 %.
 constexpr double kContradictingNoise = 2.5;
+
+// Doubts about the estimate, or waiting for a start, of which the cause is looked for [s].
+constexpr double kLongDoubt = 2, kMaxDoubt = 6;
 
 // Returns whether the estimated noise is at its upper limit.
 bool IsAtLimit(double density, double configured_density) {
@@ -46,6 +50,7 @@ EstimationStage::EstimationStage(const Config& config, double max_wait)
       configured_noise_(config.sensor.imu_noise),
       estimator_(std::make_unique<Estimator>(config)),
       input_check_(config.sensor),
+      rotation_check_(std::make_unique<RotationCheck>(config.sensor, config.estimator.point_noise)),
       sync_(MakeSyncOptions(config, max_wait)),
       repeated_images_(config.sensor.imu_noise),
       imu_noise_(config.sensor.imu_noise) {}
@@ -120,6 +125,32 @@ ImuNoise EstimationStage::NoiseOfSamples() const {
   noise.accel_density = std::max(noise.accel_density, imu_noise_meter_.accel_density());
   noise.gyro_density = std::max(noise.gyro_density, imu_noise_meter_.gyro_density());
   return noise;
+}
+
+std::string EstimationStage::InputFinding() const {
+  const std::string finding = input_check_.Finding();
+  if (!finding.empty()) return finding;
+  if (!rotation_check_->finding().empty()) return rotation_check_->finding();
+  const double unfelt_motion = estimator_->unfelt_motion();
+  if (unfelt_motion < kLongDoubt) return "";
+  return Format(
+      "the camera sees motion that the IMU does not feel, for %.1f s: something that moves fills "
+      "the view (a train, the deck of a ship), or the IMU does not belong to this camera; the "
+      "estimate stands still meanwhile",
+      unfelt_motion);
+}
+
+// A doubt is forgotten half as fast as it grows.
+void EstimationStage::CheckRotations(const FrameMeasurement& measurement,
+                                     const EstimatorOutput& output) {
+  const double interval = ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns);
+  const bool in_doubt = !output.has_pose || output.contradicted || output.imu_noise_scale > 1;
+  doubt_ = std::clamp(doubt_ + (in_doubt ? interval : -0.5 * interval), 0.0, kMaxDoubt);
+  if (doubt_ > kLongDoubt) {
+    rotation_check_->Add(measurement);
+  } else {
+    rotation_check_->Interrupt();
+  }
 }
 
 const std::string& EstimationStage::LensWarning() const { return estimator_->lens().warning(); }
@@ -201,6 +232,7 @@ std::optional<EstimatedFrame> EstimationStage::Process(
     frame.output.restarted = true;
     frame.output.reason = *std::exchange(restart_reason_, std::nullopt);
   }
+  CheckRotations(*measurement, frame.output);
   sync_.SetTimeOffset(estimator_->time_offset());
   frame.imu = measurement->imu;
   const std::vector<ImuSample>& imu = frame.imu;

@@ -24,6 +24,7 @@
 namespace plm_vins {
 
 class Estimator;
+class RotationCheck;
 
 // The estimate of an image, with the other data to publish.
 struct EstimatedFrame {
@@ -71,7 +72,7 @@ class EstimationStage {
   std::vector<ResidualRing> ResidualRings() const;
   // Returns what is wrong with the input as a whole, with the topic and what to do; empty where
   // nothing is.
-  std::string InputFinding() const { return input_check_.Finding(); }
+  std::string InputFinding() const;
 
   // States what does not fit about the second camera: its calibration, the time of its exposure, or
   // the length of its baseline. Empty if it fits.
@@ -90,6 +91,8 @@ class EstimationStage {
   void StartOver(const std::string& reason);
   // Returns the noise as configured, or as the samples themselves show if that is more.
   ImuNoise NoiseOfSamples() const;
+  // Looks for the cause of a doubt that lasts.
+  void CheckRotations(const FrameMeasurement& measurement, const EstimatorOutput& output);
   // Reinitializes after a clock change: the estimate is unrelated to the new timestamps.
   void FollowClock();
 
@@ -97,6 +100,8 @@ class EstimationStage {
   const ImuNoise configured_noise_;
   const std::unique_ptr<Estimator> estimator_;  // hides the solver from users of this header
   InputCheck input_check_;
+  const std::unique_ptr<RotationCheck> rotation_check_;
+  double doubt_ = 0;  // how long the estimate has been in doubt, or missing [s]
   ImuNoiseMeter imu_noise_meter_;
   MeasurementSync sync_;
   RepeatedImageDetector repeated_images_;

@@ -69,6 +69,9 @@ void Estimator::Use(const FrameMeasurement& measurement, EstimatorOutput* output
     standstill = state_.standstill_detector.Add(measurement, state_.odometry.MedianDepth());
   }
   const bool scene_moves = standstill && standstill->scene_moves;
+  if (scene_moves) {
+    unfelt_motion_ += ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns);
+  }
   if (!state_.odometry.started()) {
     Initialize(measurement, output);
   } else if (scene_moves || state_.standstill_detector.doubts_camera()) {
@@ -117,7 +120,7 @@ void Estimator::Track(const FrameMeasurement& measurement,
                       const std::optional<StandstillDetector::Standstill>& standstill,
                       EstimatorOutput* output) {
   const WindowOdometry::Tracked tracked = state_.odometry.Track(measurement, standstill, output);
-  state_.bridge.AddTracked(measurement.imu, tracked.newest);
+  state_.bridge.AddTracked(measurement.imu, tracked.newest, tracked.covariance);
   lens_.Add(tracked.residuals);
   if (tracked.failure) GiveUp(*tracked.failure, output);
 }

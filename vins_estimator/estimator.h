@@ -36,6 +36,9 @@ class Estimator {
   // Fit of the distortion model, over all world frames.
   const LensMonitor& lens() const { return lens_; }
 
+  // How long images showed motion that the IMU did not feel, over all world frames [s].
+  double unfelt_motion() const { return unfelt_motion_; }
+
   // Current estimate of the time offset td [s], with which MeasurementSync should cut the IMU
   // samples.
   double time_offset() const { return state_.odometry.window().td; }
@@ -71,6 +74,7 @@ class Estimator {
   const EstimatorOptions options_;
   State state_;
   LensMonitor lens_;
+  double unfelt_motion_ = 0;  // [s]
 };
 
 }  // namespace plm_vins

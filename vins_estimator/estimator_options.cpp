@@ -22,6 +22,8 @@ constexpr double kEarlyTolerance = 0.1;  // of a standard deviation
 // After initialization from standstill, which may have been a hover.
 constexpr double kStandstillVelocity = 0.03;   // [m/s]
 constexpr double kStandstillGyroBias = 0.003;  // [rad/s]
+// Mean acceleration of a hover, and what vibration leaves in the mean specific force [m/s^2].
+constexpr double kStandstillAcceleration = 0.1;
 
 // If the camera's rotation was just calibrated and its position is unknown.
 constexpr double kUnknownCameraRotation = 0.1;  // [rad]
@@ -59,6 +61,7 @@ InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstil
   if (from_standstill) {
     uncertainty.velocity = kStandstillVelocity;
     uncertainty.gyro_bias = kStandstillGyroBias;
+    uncertainty.leveled_by = kStandstillAcceleration;
   }
   if (sensor.estimate_extrinsic == SensorConfig::ExtrinsicMode::kCalibrateRotation) {
     uncertainty.extrinsic_rotation = kUnknownCameraRotation;

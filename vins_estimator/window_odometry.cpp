@@ -32,6 +32,11 @@ constexpr double kDoubtfulShare = 0.1;
 // Widens the robust losses after blindness: outliers of about ten pixels keep almost full weight.
 constexpr double kWidened = 30;
 
+std::optional<Matrix6d> PoseOf(const std::optional<Matrix15d>& covariance) {
+  if (!covariance) return std::nullopt;
+  return covariance->topLeftCorner<6, 6>();
+}
+
 constexpr double kLongGap = 0.2;  // [s] without IMU samples; explains a failure after it
 
 }  // namespace
@@ -94,7 +99,8 @@ WindowOdometry::Tracked WindowOdometry::Track(
   if (keep_second_newest) keyframe_ = {map.window.second_newest().state.t_ns};
   const Solution solution = Solve(keep_second_newest, output);
   Tracked tracked;
-  tracked.newest = {map.window.newest().state, solution.covariance};
+  tracked.newest = map.window.newest().state;
+  tracked.covariance = solution.covariance;
   tracked.failure = Check(solution, predicted, output->counts);
   if (tracked.failure) return tracked;
   output->keyframe = keep_second_newest;
@@ -132,7 +138,7 @@ std::optional<Failure> WindowOdometry::Check(const Solution& solution, const Fra
                                              const EstimatorCounts& counts) {
   const SlidingWindow& window = estimate_.map.window;
   auto failure = estimate_monitor_.Add({solution.exists, window.newest().stationary, predicted,
-                                        window.newest().state, solution.PoseCovariance(), counts,
+                                        window.newest().state, PoseOf(solution.covariance), counts,
                                         window.td - config_->sensor.td});
   const double gap = window.LongestImuInterval();
   if (failure && gap > kLongGap) {
@@ -276,8 +282,7 @@ WindowOdometry::Solution WindowOdometry::SolveWindow(const SolverOptions& option
   Solution solution;
   solution.exists =
       SolveBy(config_->estimator.solver, options, builder.problem(), &equations).solved;
-  solution.covariance =
-      StateCovariance(map.window.newest().state.t_ns, &equations).value_or(Matrix15d::Zero());
+  solution.covariance = StateCovariance(map.window.newest().state.t_ns, &equations);
   keyframe_.covariance = StateCovariance(keyframe_.t_ns, &equations);
   if (const auto& second = config_->sensor.second_camera) {
     const double length = (config_->sensor.T_B_C.Inverse() * second->T_B_C).translation.norm();
@@ -373,11 +378,11 @@ void WindowOdometry::Describe(const Solution& solution, EstimatorOutput* output)
   output->status = EstimatorStatus::kTracking;
   output->has_pose = true;
   DescribeMap(estimate_.map, output);
-  output->pose_covariance = solution.PoseCovariance();
-  output->velocity_covariance = solution.covariance.block<3, 3>(6, 6);
-  output->body_velocity_covariance =
-      BodyVelocityCovariance(output->state, solution.covariance.block<6, 6>(3, 3));
-  output->bias_covariance = solution.covariance.bottomRightCorner<6, 6>();
+  if (const auto& covariance = solution.covariance) {
+    output->uncertainty = {covariance->topLeftCorner<6, 6>(), covariance->block<3, 3>(6, 6),
+                           BodyVelocityCovariance(output->state, covariance->block<6, 6>(3, 3)),
+                           covariance->bottomRightCorner<6, 6>()};
+  }
   output->calibration = {config_->sensor.camera.With(window.intrinsics), window.T_B_C(),
                          std::nullopt, window.td};
   if (config_->sensor.second_camera) DescribeSecondCamera(output);

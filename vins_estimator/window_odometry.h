@@ -7,8 +7,8 @@
 
 #include "common/config/config.h"
 #include "common/measurements.h"
-#include "vins_estimator/bridging/uncertain_state.h"
 #include "vins_estimator/estimator_options.h"
+#include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/imu/standstill_detector.h"
 #include "vins_estimator/initialization/initializer.h"
 #include "vins_estimator/map/pixel_residuals.h"
@@ -33,8 +33,9 @@ class WindowOdometry {
 
   // Result of one image.
   struct Tracked {
-    UncertainState newest;           // zero covariance: unknown
-    std::optional<Failure> failure;  // if set, tracking is lost: reinitialize
+    FrameState newest;
+    std::optional<Matrix15d> covariance;  // of `newest`
+    std::optional<Failure> failure;       // if set, tracking is lost: reinitialize
     // Points in the middle frame of the window, whose pose is known best; each keyframe once.
     std::vector<PixelResidual> residuals;
   };
@@ -67,11 +68,8 @@ class WindowOdometry {
 
   // Result of solving for the newest frame.
   struct Solution {
-    bool exists = false;  // the equations had a solution
-    // Covariance of the newest state; zero if unknown.
-    Matrix15d covariance = Matrix15d::Zero();
-
-    Matrix6d PoseCovariance() const { return covariance.topLeftCorner<6, 6>(); }
+    bool exists = false;                                 // the equations had a solution
+    std::optional<Matrix15d> covariance = std::nullopt;  // of the newest state
   };
 
   void Fill(const InitializationResult& result, const InitialUncertainty& uncertainty);

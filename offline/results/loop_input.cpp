@@ -13,7 +13,8 @@ OdometryFrame ToOdometryFrame(const PipelineFrame& frame, bool restarted) {
   result.T_O_B = output.state.T_W_B();
   result.T_B_C = output.calibration.T_B_C;
   result.camera = output.calibration.camera;
-  result.covariance = output.pose_covariance;
+  // An unknown covariance is zero, so that odometry edges get the minimum of OdometryNoise.
+  if (output.uncertainty) result.covariance = output.uncertainty->pose;
   result.R_O_Manhattan = output.R_W_M;
   result.corners = PlaceCorners(frame.points, output.points);
   result.segments = PlaceSegments(frame.lines, output.lines);

@@ -74,8 +74,10 @@ void LoopResults::Add(const PipelineFrame& frame) {
   refined_camera_ = frame.output.calibration.camera;
   const int64_t t_ns = frame.output.t_ns;
   trajectory_.Row(t_ns) << FormatTumRow(t_ns, closure.fix->T_M_O.ToRigid() * T_O_B);
-  WriteCovarianceRow(t_ns, CovarianceInMap(*closure.fix, T_O_B, frame.output.pose_covariance),
-                     &covariance_.Row(t_ns));
+  if (const auto& known = frame.output.uncertainty) {
+    WriteCovarianceRow(t_ns, CovarianceInMap(*closure.fix, T_O_B, known->pose),
+                       &covariance_.Row(t_ns));
+  }
   if (!first_fix_) first_fix_ = ToSeconds(frame.output.t_ns - poses_.front().t_ns);
 }
 

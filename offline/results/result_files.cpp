@@ -142,7 +142,9 @@ void ResultFiles::Add(const PipelineFrame& frame) {
   for (const int64_t id : output.absorbed_lines) world_lines_.erase(id);
   if (!output.has_pose) return;
   trajectory_.Row(output.t_ns) << FormatTumRow(output.t_ns, output.state.T_W_B());
-  WriteCovarianceRow(output.t_ns, output.pose_covariance, &covariance_.Row(output.t_ns));
+  if (output.uncertainty) {
+    WriteCovarianceRow(output.t_ns, output.uncertainty->pose, &covariance_.Row(output.t_ns));
+  }
   window_points_ = Staying(output.points, output.departed_points);
   window_lines_ = Staying(output.lines, output.departed_lines);
 }

@@ -74,7 +74,8 @@ class Witness {
   }
 
   // Position error after alignment of the world frame at the last report, since earlier errors have
-  // been reported [m]. Errors within the covariance count as zero.
+  // been reported [m]. Errors within the covariance, or with an unknown one,
+  // count as zero.
   double Error(const EstimatorOutput& output) {
     const Rigid3d& T_true_B = truth_.at(output.t_ns);
     if (!T_true_W_) {
@@ -84,7 +85,8 @@ class Witness {
     }
     const double error =
         (*T_true_W_ * Eigen::Vector3d(output.state.position()) - T_true_B.translation).norm();
-    const double deviation = std::sqrt(output.pose_covariance.topLeftCorner<3, 3>().trace());
+    if (!output.uncertainty) return 0;
+    const double deviation = std::sqrt(output.uncertainty->pose.topLeftCorner<3, 3>().trace());
     return error > 3 * deviation ? error : 0;
   }
 

@@ -30,7 +30,7 @@ inline void CheckFrame(const EstimatedFrame& frame, double milliseconds) {
   const FrameState& state = frame.output.state;
   const bool finite = state.position().allFinite() && state.velocity().allFinite() &&
                       state.rotation().coeffs().allFinite() &&
-                      frame.output.pose_covariance.allFinite();
+                      (!frame.output.uncertainty || frame.output.uncertainty->pose.allFinite());
   if (frame.output.has_pose && !finite) {
     std::fprintf(stderr, "stage: a pose is not finite\n");
     std::abort();

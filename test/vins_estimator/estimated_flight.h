@@ -95,6 +95,11 @@ inline double GreatestError(const EstimatedFlight& flight, size_t aligned_at) {
   return greatest;
 }
 
+// Throws std::bad_optional_access if the covariance is unknown.
+inline const Matrix6d& PoseCovariance(const EstimatorOutput& output) {
+  return output.uncertainty.value().pose;
+}
+
 // NEES of pose, velocity and biases: on average 6, 3 and 6 with consistent covariances.
 struct Consistency {
   double pose = 0, velocity = 0, biases = 0;
@@ -112,9 +117,10 @@ inline Consistency MeasureConsistencyAt(const EstimatedFlight& flight, size_t in
       T.rotation.conjugate() * true_state.velocity() - output.state.velocity();
   biases << true_state.bias().accel - output.state.bias().accel,
       true_state.bias().gyro - output.state.bias().gyro;
-  return {pose.dot(output.pose_covariance.ldlt().solve(pose)),
-          velocity.dot(output.velocity_covariance.ldlt().solve(velocity)),
-          biases.dot(output.bias_covariance.ldlt().solve(biases))};
+  const StateUncertainty& known = output.uncertainty.value();
+  return {pose.dot(known.pose.ldlt().solve(pose)),
+          velocity.dot(known.velocity.ldlt().solve(velocity)),
+          biases.dot(known.biases.ldlt().solve(biases))};
 }
 
 // Means over a flight.

@@ -14,6 +14,7 @@ namespace {
 
 using simulator::Motion;
 using testing::EstimatedFlight;
+using testing::PoseCovariance;
 using testing::SimulatedFlight;
 
 simulator::FeatureSimulationOptions Options(Motion motion, uint64_t seed, double duration) {
@@ -33,7 +34,7 @@ void ExpectSameBits(const EstimatedFlight& a, const EstimatedFlight& b) {
     ASSERT_EQ(a.outputs[i].t_ns, b.outputs[i].t_ns);
     ASSERT_EQ(a.outputs[i].state.pose, b.outputs[i].state.pose) << i;
     ASSERT_EQ(a.outputs[i].state.motion, b.outputs[i].state.motion) << i;
-    ASSERT_EQ(a.outputs[i].pose_covariance, b.outputs[i].pose_covariance) << i;
+    ASSERT_EQ(PoseCovariance(a.outputs[i]), PoseCovariance(b.outputs[i])) << i;
   }
 }
 

@@ -9,6 +9,7 @@ namespace plm_vins {
 namespace {
 
 using testing::EstimatedFlight;
+using testing::PoseCovariance;
 
 EstimatedFlight EstimateWith(SolverType solver, const testing::SimulatedFlight& flight) {
   Config config = testing::ConfigFor(flight);
@@ -28,8 +29,8 @@ TEST(EstimatorSolver, CeresFliesLikeOurs) {
   ASSERT_EQ(ceres.outputs.size(), ours.outputs.size());
   EXPECT_NE(ceres.outputs.back().state.pose, ours.outputs.back().state.pose) << "solver not used";
   EXPECT_NEAR(testing::AbsoluteError(ceres), testing::AbsoluteError(ours), 1e-3);
-  EXPECT_LT((ceres.outputs.back().pose_covariance - ours.outputs.back().pose_covariance).norm(),
-            0.05 * ours.outputs.back().pose_covariance.norm());
+  EXPECT_LT((PoseCovariance(ceres.outputs.back()) - PoseCovariance(ours.outputs.back())).norm(),
+            0.05 * PoseCovariance(ours.outputs.back()).norm());
 }
 
 }  // namespace

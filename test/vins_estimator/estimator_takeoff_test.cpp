@@ -48,7 +48,7 @@ TEST(EstimatorTakeOff, HeightsAreTrueFromNearTheGroundOn) {
         const double climbed = flight.truth[i].position().z() - flight.truth[0].position().z();
         const double error =
             output.state.position().z() - flight.outputs[0].state.position().z() - climbed;
-        const double deviation = std::sqrt(output.pose_covariance(2, 2));
+        const double deviation = std::sqrt(testing::PoseCovariance(output)(2, 2));
         EXPECT_LT(std::abs(error), std::max(0.03 * climbed, 3 * deviation))
             << height << " m, seed " << seed << ", image " << i << ", climbed " << climbed;
       }

@@ -27,10 +27,11 @@ bool IsCertain(const UncertainState& start, const UncertainState& end) {
 
 }  // namespace
 
-void FrameBridge::AddTracked(const std::vector<ImuSample>& samples,
-                             const UncertainState& estimate) {
-  images_.push_back({samples, estimate});
-  const int64_t last_believed_ns = estimate.state.t_ns - kTrouble_ns;
+void FrameBridge::AddTracked(const std::vector<ImuSample>& samples, const FrameState& state,
+                             const std::optional<Matrix15d>& covariance) {
+  const UncertainState estimate{state, covariance.value_or(Matrix15d::Zero())};
+  images_.push_back({samples, estimate, covariance.has_value()});
+  const int64_t last_believed_ns = state.t_ns - kTrouble_ns;
   while (images_.size() > 1 && images_[1].estimate.state.t_ns <= last_believed_ns) {
     images_.pop_front();
   }
@@ -40,7 +41,7 @@ bool FrameBridge::Begin(const std::string& why) {
   if (images_.empty()) return false;
   const UncertainState& start = images_.front().estimate;
   const int64_t trouble_ns = images_.back().estimate.state.t_ns - start.state.t_ns;
-  if (trouble_ns < kTrouble_ns || start.covariance.isZero(0.0)) return false;
+  if (trouble_ns < kTrouble_ns || !images_.front().is_certain) return false;
   for (size_t i = 1; i < images_.size(); ++i) Cross(images_[i - 1], &images_[i]);
   why_ = why;
   begun_ = IsCertain(start, images_.back().estimate);

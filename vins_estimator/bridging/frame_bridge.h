@@ -26,8 +26,9 @@ class FrameBridge {
       : noise_(noise), gravity_W_(gravity_W) {}
 
   // Adds an image while tracking: the IMU samples since the previous image and the estimate at this
-  // image. A zero covariance means unknown.
-  void AddTracked(const std::vector<ImuSample>& samples, const UncertainState& estimate);
+  // image, whose covariance may be unknown.
+  void AddTracked(const std::vector<ImuSample>& samples, const FrameState& state,
+                  const std::optional<Matrix15d>& covariance);
 
   // Starts the bridge after the image that was tracked last. Returns false if there is no estimate
   // from before the failure, which may have gone unnoticed for a second.
@@ -53,6 +54,7 @@ class FrameBridge {
   struct Image {
     std::vector<ImuSample> samples;  // since the previous image
     UncertainState estimate;
+    bool is_certain = true;  // false: the covariance is unknown
   };
 
   // Propagates with the configured IMU noise, not the noise learned meanwhile: the comparison with

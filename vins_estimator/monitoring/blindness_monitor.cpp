@@ -20,12 +20,12 @@ constexpr double kMaxDeviation = 0.5;
 
 std::optional<std::string> BlindnessMonitor::Add(
     int features_seen, bool is_held, const FrameState& state,
-    const Eigen::Matrix<double, 6, 6>& pose_covariance) {
+    const std::optional<Eigen::Matrix<double, 6, 6>>& covariance) {
   blind_ = features_seen < kFewFeatures;
-  const Hold now{state.t_ns, state.position(), pose_covariance.topLeftCorner<3, 3>().trace()};
-  if (!(now.variance > 0)) return std::nullopt;
+  if (!covariance) return std::nullopt;
+  const Hold now{state.t_ns, state.position(), covariance->topLeftCorner<3, 3>().trace()};
   if (!hold_) hold_ = now;
-  const double variance = PositionVarianceFrom(hold_->p_W, state, pose_covariance);
+  const double variance = PositionVarianceFrom(hold_->p_W, state, *covariance);
   const double added = std::sqrt(std::max(0.0, variance - hold_->variance));
   if (added <= kMaxDeviation) {
     if (is_held) hold_ = now;

@@ -23,11 +23,11 @@ class EstimateMonitor {
  public:
   // Evidence from one image.
   struct Evidence {
-    bool solved = false;                          // the equations had a solution
-    bool stationary = false;                      // standstill at the newest image
-    FrameState predicted;                         // newest state, propagated by the IMU alone
-    FrameState newest;                            // newest state, optimized
-    Eigen::Matrix<double, 6, 6> pose_covariance;  // of `newest`; zero if unknown
+    bool solved = false;      // the equations had a solution
+    bool stationary = false;  // standstill at the newest image
+    FrameState predicted;     // newest state, propagated by the IMU alone
+    FrameState newest;        // newest state, optimized
+    std::optional<Eigen::Matrix<double, 6, 6>> pose_covariance;  // of `newest`
     EstimatorCounts counts;
     double time_offset_change = 0;  // estimated minus configured td [s]
   };

@@ -8,9 +8,9 @@
 
 namespace plm_vins {
 
-// Writes covariance.csv: a header, then one row per pose with its timestamp [ns] and the upper
-// triangle of its covariance, row by row: position p_W [m], then rotation in B [rad], R_W_B
-// Exp(theta).
+// Writes covariance.csv: a header, then one row per pose whose covariance is known, with its
+// timestamp [ns] and the upper triangle of the covariance, row by row: position p_W [m], then
+// rotation in B [rad], R_W_B Exp(theta).
 std::string CovarianceHeader();
 void WriteCovarianceRow(int64_t t_ns, const Matrix6d& covariance, std::ostream* stream);
 

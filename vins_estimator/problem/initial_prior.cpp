@@ -3,8 +3,11 @@
 
 #include <Eigen/Core>
 #include <initializer_list>
+#include <limits>
 #include <utility>
 #include <vector>
+
+#include "common/geometry/so3.h"
 
 namespace plm_vins {
 namespace {
@@ -24,6 +27,16 @@ class PriorBuilder {
   // Adds a variable with the given standard deviations.
   void Add(const BlockId& id, const double* values, const Eigen::VectorXd& sigmas) {
     Add(id, values, Eigen::MatrixXd(sigmas.cwiseAbs2().cwiseInverse().asDiagonal()));
+  }
+
+  // Adds information on the variables from a residual's Jacobian, whitened, by their offsets. Both
+  // variables of three dimensions must have been added.
+  void AddResidual(int first, const Eigen::Matrix3d& by_first, int second,
+                   const Eigen::Matrix3d& by_second) {
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, H_.cols());
+    J.middleCols<3>(first) = by_first;
+    J.middleCols<3>(second) = by_second;
+    H_ += J.transpose() * J;
   }
 
   MarginalizationPrior Build() {
@@ -46,13 +59,25 @@ Eigen::VectorXd Sigmas(std::initializer_list<std::pair<int, double>> counts_and_
 // deviations of heading and inclination in W.
 Eigen::MatrixXd PoseInformation(const InitialUncertainty& uncertainty, const FrameState& state) {
   const Eigen::Matrix3d R_W_B = state.rotation().toRotationMatrix();
-  const Eigen::Vector3d sigma(uncertainty.inclination, uncertainty.inclination,
-                              uncertainty.heading);
+  const double inclination =
+      uncertainty.leveled_by ? std::numeric_limits<double>::infinity() : uncertainty.inclination;
+  const Eigen::Vector3d sigma(inclination, inclination, uncertainty.heading);
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(6, 6);
   information.diagonal().head<3>().setConstant(1 / (uncertainty.position * uncertainty.position));
   information.bottomRightCorner<3, 3>() =
       R_W_B.transpose() * sigma.cwiseAbs2().cwiseInverse().asDiagonal() * R_W_B;
   return information;
+}
+
+// Adds the horizontal part of r = f - b_a - R_W_B^T g, in B, with f the mean specific force at
+// standstill and g upwards: an error of the bias tilts the pose, so that both are correlated.
+void AddLevel(double deviation, const SlidingWindow& window, PriorBuilder* prior) {
+  constexpr int kRotation = 3, kAccelBias = 6 + 3;
+  const Eigen::Vector3d up_B =
+      window.frames.front().state.rotation().conjugate() * Eigen::Vector3d::UnitZ();
+  const Eigen::Matrix3d horizontal = Eigen::Matrix3d::Identity() - up_B * up_B.transpose();
+  prior->AddResidual(kRotation, -window.gravity_W.norm() / deviation * Skew(up_B), kAccelBias,
+                     -horizontal / deviation);
 }
 
 }  // namespace
@@ -65,6 +90,7 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
   prior.Add(
       {BlockKind::kMotion, state.t_ns}, state.motion.data(),
       Sigmas({{3, uncertainty.velocity}, {3, uncertainty.accel_bias}, {3, uncertainty.gyro_bias}}));
+  if (uncertainty.leveled_by) AddLevel(*uncertainty.leveled_by, window, &prior);
   if (options.estimate_extrinsic) {
     prior.Add({BlockKind::kExtrinsic, 0}, window.extrinsic.data(),
               Sigmas({{3, uncertainty.extrinsic_position}, {3, uncertainty.extrinsic_rotation}}));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "common/config/sensor_config.h"
 #include "vins_estimator/least_squares/marginalization_prior.h"
@@ -21,6 +22,9 @@ struct InitialUncertainty {
   double velocity = 0.3;      // [m/s]
   double accel_bias = 0.1;    // [m/s^2]
   double gyro_bias = 0.02;    // [rad/s]
+  // If set, roll and pitch are those of the mean specific force at standstill, from which the true
+  // ones, with the true bias, differ by this acceleration [m/s^2]; `inclination` is not used then.
+  std::optional<double> leveled_by = std::nullopt;
   double extrinsic_position = 0.02;  // [m]
   double extrinsic_rotation = 0.02;  // [rad]
   double mounting =

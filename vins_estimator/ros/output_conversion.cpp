@@ -10,20 +10,25 @@
 namespace plm_vins {
 namespace {
 
-// Returns `covariance` if it is known, otherwise a diagonal of `variance`.
+// Returns `covariance` if it is valid, otherwise a diagonal of kUnknownVariance.
 template <typename Matrix>
-Matrix KnownOr(double variance, const Matrix& covariance) {
-  const bool known = covariance.allFinite() && covariance.diagonal().minCoeff() > 0;
-  return known ? covariance : Matrix(variance * Matrix::Identity());
+Matrix ValidOrUnknown(const Matrix& covariance) {
+  const bool valid = covariance.allFinite() && covariance.diagonal().minCoeff() > 0;
+  return valid ? covariance : Matrix(kUnknownVariance * Matrix::Identity());
 }
 
 }  // namespace
 
 StateCovariance CovarianceOf(const EstimatedFrame& frame) {
   const double rate_variance = frame.angular_velocity_variance;
-  return {KnownOr(kUnknownVariance, frame.output.pose_covariance),
-          KnownOr(kUnknownVariance, frame.output.body_velocity_covariance),
-          std::isfinite(rate_variance) && rate_variance > 0 ? rate_variance : kUnknownVariance};
+  StateCovariance covariance;
+  covariance.angular_velocity =
+      std::isfinite(rate_variance) && rate_variance > 0 ? rate_variance : kUnknownVariance;
+  const auto& known = frame.output.uncertainty;
+  covariance.pose = ValidOrUnknown(known ? known->pose : Matrix6d(Matrix6d::Zero()));
+  covariance.velocity =
+      ValidOrUnknown(known ? known->body_velocity : Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
+  return covariance;
 }
 
 nav_msgs::Odometry ToOdometry(const FrameState& state, const StateCovariance& covariance,

@@ -46,19 +46,24 @@ struct EstimatorTimings {
   double total = 0;
 };
 
+// Covariances of a state.
+struct StateUncertainty {
+  // Covariance of (p_W [m], rotation in B [rad]), right perturbation R_W_B Exp(theta).
+  Matrix6d pose;
+  Eigen::Matrix3d velocity;       // of v_W [m/s]
+  Eigen::Matrix3d body_velocity;  // of v_B = R_W_B^T v_W [m/s]
+  Matrix6d biases;                // accelerometer [m/s^2], gyroscope [rad/s]
+};
+
 // Output of the estimator for one image. The state is the estimate at that image right after it was
 // processed.
 struct EstimatorOutput {
   int64_t t_ns = 0;
   EstimatorStatus status = EstimatorStatus::kInitializing;
   std::string reason;     // why not tracking, or why reinitialized; otherwise empty
-  bool has_pose = false;  // `state`, covariances, calibration and `imu_noise` are valid
+  bool has_pose = false;  // `state`, calibration and `imu_noise` are valid
   FrameState state;
-  // Covariance of (p_W [m], rotation in B [rad]), right perturbation R_W_B Exp(theta).
-  Matrix6d pose_covariance = Matrix6d::Zero();
-  Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();       // of v_W [m/s]
-  Eigen::Matrix3d body_velocity_covariance = Eigen::Matrix3d::Zero();  // of v_B = R_W_B^T v_W
-  Matrix6d bias_covariance = Matrix6d::Zero();  // accelerometer [m/s^2], gyroscope [rad/s]
+  std::optional<StateUncertainty> uncertainty;  // nullopt if the equations do not determine it
   Calibration calibration;
   std::optional<Eigen::Quaterniond> R_W_M;  // Manhattan frame; nullopt if not found
   ImuNoise imu_noise;                       // in use: as configured, or as estimated in flight

@@ -38,7 +38,8 @@ class FrameBridgeTest : public ::testing::Test {
 
   void Track(int begin, int end) {
     for (int image = begin; image < end; ++image) {
-      bridge_.AddTracked(ImuBefore(image), Estimate(image));
+      const UncertainState estimate = Estimate(image);
+      bridge_.AddTracked(ImuBefore(image), estimate.state, estimate.covariance);
     }
   }
 
@@ -59,7 +60,7 @@ TEST_F(FrameBridgeTest, LeadsOnFromBeforeTheTrouble) {
   Track(0, kLost - 1);
   UncertainState wrong = Estimate(kLost - 1);
   wrong.state.position().y() = 5;
-  bridge_.AddTracked(ImuBefore(kLost - 1), wrong);
+  bridge_.AddTracked(ImuBefore(kLost - 1), wrong.state, wrong.covariance);
   ASSERT_TRUE(bridge_.Begin("why"));
   EXPECT_TRUE(bridge_.begun());
   EXPECT_EQ(bridge_.why(), "why");
@@ -83,8 +84,9 @@ TEST_F(FrameBridgeTest, BelievesNothingThatIsTooYoungOrUnknown) {
   Track(0, 20);
   EXPECT_FALSE(bridge_.Begin("why"));
   bridge_.Clear();
-  deviation_ = 0;
-  Track(0, kLost);
+  for (int image = 0; image < kLost; ++image) {
+    bridge_.AddTracked(ImuBefore(image), Estimate(image).state, std::nullopt);
+  }
   EXPECT_FALSE(bridge_.Begin("why"));
   EXPECT_FALSE(bridge_.begun());
 }

@@ -58,12 +58,12 @@ TEST(BlindnessMonitor, AGapBetweenImagesIsBlindness) {
 
 TEST(BlindnessMonitor, TakesNothingFromAnUnknownCovariance) {
   BlindnessMonitor monitor;
-  EXPECT_FALSE(monitor.Add(100, true, At(0), Matrix6d::Zero()));
+  EXPECT_FALSE(monitor.Add(100, true, At(0), std::nullopt));
   EXPECT_FALSE(monitor.Add(100, true, At(1), Known(3.0)));
-  EXPECT_FALSE(monitor.Add(100, true, At(2), Matrix6d::Zero()));
+  EXPECT_FALSE(monitor.Add(100, true, At(2), std::nullopt));
   EXPECT_FALSE(monitor.Add(5, false, At(3), Known(3.0)));
   EXPECT_TRUE(monitor.blind());
-  EXPECT_FALSE(monitor.Add(100, true, At(4), Matrix6d::Zero()));
+  EXPECT_FALSE(monitor.Add(100, true, At(4), std::nullopt));
   EXPECT_FALSE(monitor.blind());
   EXPECT_TRUE(monitor.Add(5, false, At(5), Known(3.1)));
 }

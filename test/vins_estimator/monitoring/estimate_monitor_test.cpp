@@ -15,7 +15,8 @@ EstimateMonitor::Evidence Good(double t) {
   EstimateMonitor::Evidence evidence;
   evidence.solved = true;
   evidence.newest.t_ns = evidence.predicted.t_ns = ToNanoseconds(t);
-  evidence.pose_covariance = 1e-4 * Eigen::Matrix<double, 6, 6>::Identity();
+  evidence.pose_covariance =
+      Eigen::Matrix<double, 6, 6>(1e-4 * Eigen::Matrix<double, 6, 6>::Identity());
   evidence.counts.points_observed = evidence.counts.known_seen = 100;
   return evidence;
 }
@@ -58,7 +59,7 @@ TEST(EstimateMonitor, NoBridgeLeadsOnFromBlindDrift) {
   EXPECT_FALSE(monitor.Add(Good(0)));
   EstimateMonitor::Evidence evidence = Good(3);
   evidence.counts = {};
-  evidence.pose_covariance.diagonal().head<3>().setConstant(1);
+  evidence.pose_covariance->diagonal().head<3>().setConstant(1);
   const auto failure = monitor.Add(evidence);
   ASSERT_TRUE(failure);
   EXPECT_TRUE(failure->has_drifted);

@@ -6,6 +6,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "common/geometry/so3.h"
+#include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_window.h"
 
 namespace plm_vins {
@@ -44,6 +46,42 @@ TEST(InitialPrior, IsTheStatedUncertaintyOfTheFirstState) {
   EXPECT_NEAR(std::sqrt(all_covariance(25, 25)), deviation.principal_point, 1e-9);
   EXPECT_NEAR(std::sqrt(all_covariance(26, 26)), deviation.distortion, 1e-9);
   EXPECT_NEAR(std::sqrt(all_covariance(29, 29)), deviation.distortion, 1e-9);
+}
+
+// The mean specific force levels the state: an error of the accelerometer bias tilts it.
+TEST(InitialPrior, CorrelatesTiltAndAccelerometerBiasAtStandstill) {
+  const SimulatedWindow simulated = testing::SimulateWindow(2);
+  const FrameState& state = simulated.window.frames[0].state;
+  const double gravity = simulated.window.gravity_W.norm();
+  InitialUncertainty uncertainty;
+  uncertainty.accel_bias = 0.5;
+  uncertainty.leveled_by = 0.02;
+  const MatrixXd covariance =
+      InitialPrior(uncertainty, testing::OnePixelOptions(), simulated.window)
+          .quadratic()
+          .H.inverse();
+  const Eigen::Matrix3d R_W_B = state.T_W_B().R();
+  const Eigen::Matrix3d tilt_W = R_W_B * covariance.block<3, 3>(3, 3) * R_W_B.transpose();
+  EXPECT_NEAR(std::sqrt(tilt_W(0, 0)), std::hypot(0.5, 0.02) / gravity, 1e-6);
+  EXPECT_NEAR(std::sqrt(tilt_W(2, 2)), uncertainty.heading, 1e-9);
+  EXPECT_NEAR(std::sqrt(covariance(9, 9)), 0.5, 1e-9);
+
+  // For each tilt, the bias is known to `leveled_by`.
+  const auto mean_force = [&](const Eigen::Vector3d& tilt, const Eigen::Vector3d& bias) {
+    const Eigen::Quaterniond R_B_W = (state.rotation() * SO3Exp(tilt)).conjugate();
+    return Eigen::Vector3d(bias + R_B_W * Eigen::Vector3d(0, 0, gravity));
+  };
+  const Eigen::Vector3d horizontal_B = state.rotation().conjugate() * Eigen::Vector3d::UnitX();
+  MatrixXd d_force(3, 6);
+  d_force << testing::NumericJacobian(
+      [&](const Eigen::Vector3d& tilt) { return mean_force(tilt, Eigen::Vector3d::Zero()); },
+      Eigen::Vector3d(Eigen::Vector3d::Zero())),
+      MatrixXd::Identity(3, 3);
+  MatrixXd of_both(6, 6);
+  of_both << covariance.block<3, 3>(3, 3), covariance.block<3, 3>(3, 9),
+      covariance.block<3, 3>(9, 3), covariance.block<3, 3>(9, 9);
+  const double variance = horizontal_B.dot(d_force * of_both * d_force.transpose() * horizontal_B);
+  EXPECT_NEAR(std::sqrt(variance), 0.02, 1e-6);
 }
 
 TEST(InitialPrior, HoldsTheSecondCamera) {

@@ -56,16 +56,20 @@ TEST(OdometryMessage, TwistIsInTheBody) {
 
 TEST(OdometryMessage, ACovarianceThatIsNoneIsVeryLarge) {
   EstimatedFrame good;
-  good.output.pose_covariance = MakeCovariance<6>();
-  good.output.body_velocity_covariance = MakeCovariance<3>();
+  good.output.uncertainty.emplace();
+  good.output.uncertainty->pose = MakeCovariance<6>();
+  good.output.uncertainty->body_velocity = MakeCovariance<3>();
   good.angular_velocity_variance = 0.1;
-  EXPECT_EQ(CovarianceOf(good).pose, good.output.pose_covariance);
-  EXPECT_EQ(CovarianceOf(good).velocity, good.output.body_velocity_covariance);
+  EXPECT_EQ(CovarianceOf(good).pose, good.output.uncertainty->pose);
+  EXPECT_EQ(CovarianceOf(good).velocity, good.output.uncertainty->body_velocity);
   EXPECT_EQ(CovarianceOf(good).angular_velocity, 0.1);
+  EXPECT_GE(CovarianceOf(EstimatedFrame()).pose.diagonal().minCoeff(), 1e6);
+  EXPECT_GE(CovarianceOf(EstimatedFrame()).velocity.diagonal().minCoeff(), 1e6);
   EstimatedFrame bad;
+  bad.output.uncertainty.emplace();
   for (const double value : {0.0, std::numeric_limits<double>::quiet_NaN(), 1.0 / 0.0}) {
-    bad.output.pose_covariance.setConstant(value);
-    bad.output.body_velocity_covariance.setConstant(value);
+    bad.output.uncertainty->pose.setConstant(value);
+    bad.output.uncertainty->body_velocity.setConstant(value);
     bad.angular_velocity_variance = value;
     const StateCovariance covariance = CovarianceOf(bad);
     EXPECT_TRUE(covariance.pose.allFinite() && covariance.velocity.allFinite());

@@ -123,7 +123,7 @@ TEST(InitializerTest, StandstillIsEnough) {
   const auto start = Feed(flight, &initializer);
   ASSERT_TRUE(start) << initializer.reason();
   EXPECT_TRUE(start->result.from_standstill);
-  EXPECT_LE(start->index, 10u);
+  EXPECT_LE(start->index, 20u);
   const FrameState& state = start->result.frames.back().state;
   EXPECT_EQ(state.t_ns, flight.truth[start->index].t_ns);
   EXPECT_EQ(state.velocity(), Eigen::Vector3d::Zero());

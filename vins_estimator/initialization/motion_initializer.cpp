@@ -265,6 +265,7 @@ bool Attempt::Adjust() {
                                       noise_px_ / focal_length_};
   options.T_C_C1 = T_C_C1();
   if (sensor_.depth) options.depth_noise = sensor_.depth->noise;
+  if (!options_.stereo) options.max_scale_deviation = options_.max_scale_deviation;
   const auto bundle =
       AdjustVisualInertialBundle(tracks_, p_W_, preintegrations_, options, &states_, reason_);
   return bundle && CheckAdjustment(*bundle) && CheckBiases();

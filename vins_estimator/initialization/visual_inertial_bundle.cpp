@@ -18,11 +18,15 @@
 #include "vins_estimator/least_squares/term_evaluation.h"
 #include "vins_estimator/least_squares/window_problem.h"
 #include "vins_estimator/optimization/levenberg_marquardt.h"
+#include "vins_estimator/uncertainty/motion_evidence.h"
 
 namespace plm_vins {
 namespace {
 
 constexpr SolverOptions kSolution = {12, 0.01};  // coarse: the window is optimized again
+constexpr double kOverstated = 0.4;              // of the configured noise: less is not chance
+constexpr double kLeastShare = 0.05;             // of the configured noise: less cannot be told
+constexpr double kLeastRedundancy = 5;           // of all intervals together, to tell the noise
 constexpr double kGaugeDeviation = 1e-3;  // [m] and [rad]; any small value has the same effect
 
 // The bundle adjustment as a problem for the window's solver, over the given states.
@@ -37,6 +41,7 @@ class Bundle {
   double OutlierShare() const;
   double ImuRms() const;
   std::optional<double> RelativeScaleDeviation(NormalEquations* equations) const;
+  double ShareOfAccelNoise(NormalEquations* equations) const;
 
  private:
   void AddVariables();
@@ -234,12 +239,45 @@ std::optional<double> Bundle::RelativeScaleDeviation(NormalEquations* equations)
   return std::sqrt(variance);
 }
 
-}  // namespace
+// Returns the ratio of the accelerometer's noise that the residuals show to the assumed one; 1 if
+// they tell too little.
+double Bundle::ShareOfAccelNoise(NormalEquations* equations) const {
+  double squared = 0, expected = 0, slope = 0;
+  for (size_t i = 0; i < preintegrations_.size(); ++i) {
+    const auto evidence =
+        EvidenceOfMotion(preintegrations_[i], gravity_W_, states_[i], states_[i + 1], equations);
+    if (!evidence) return 1;
+    squared += evidence->accel.squared;
+    expected += evidence->accel.expected;
+    slope += evidence->accel.slope;
+  }
+  if (!(expected > kLeastRedundancy)) return 1;
+  const double variance = 1 + (squared - expected) / slope;
+  return std::sqrt(std::max(variance, kLeastShare * kLeastShare));
+}
 
-std::optional<VisualInertialBundle> AdjustVisualInertialBundle(
-    const std::vector<Track>& tracks, const std::vector<std::optional<Eigen::Vector3d>>& p_W,
-    const std::vector<Preintegration>& preintegrations, const VisualInertialBundleOptions& options,
-    std::vector<FrameState>* states, std::string* reason) {
+std::vector<Preintegration> WithAccelNoise(double share,
+                                           std::vector<Preintegration> preintegrations) {
+  for (Preintegration& motion : preintegrations) {
+    ImuNoise noise = motion.noise();
+    noise.accel_density *= share;
+    motion.Reweigh(noise);
+  }
+  return preintegrations;
+}
+
+// Result of one solution, with the share of the assumed accelerometer noise that it shows if the
+// scale is too uncertain.
+struct Solution {
+  VisualInertialBundle bundle;
+  double share_of_accel_noise = 1;
+};
+
+std::optional<Solution> SolveBundle(const std::vector<Track>& tracks,
+                                    const std::vector<std::optional<Eigen::Vector3d>>& p_W,
+                                    const std::vector<Preintegration>& preintegrations,
+                                    const VisualInertialBundleOptions& options,
+                                    std::vector<FrameState>* states, std::string* reason) {
   Bundle bundle(tracks, p_W, preintegrations, options, states);
   NormalEquations equations(bundle.problem());
   // Without points, the IMU leaves the velocity unobservable, which rounding may hide.
@@ -251,8 +289,29 @@ std::optional<VisualInertialBundle> AdjustVisualInertialBundle(
     *reason = "the visual-inertial bundle adjustment is not determined";
     return std::nullopt;
   }
-  return VisualInertialBundle{bundle.ReprojectionRms(), bundle.ImuRms(), bundle.OutlierShare(),
-                              *scale_deviation};
+  return Solution{
+      {bundle.ReprojectionRms(), bundle.ImuRms(), bundle.OutlierShare(), *scale_deviation},
+      *scale_deviation > options.max_scale_deviation ? bundle.ShareOfAccelNoise(&equations) : 1};
+}
+
+}  // namespace
+
+std::optional<VisualInertialBundle> AdjustVisualInertialBundle(
+    const std::vector<Track>& tracks, const std::vector<std::optional<Eigen::Vector3d>>& p_W,
+    const std::vector<Preintegration>& preintegrations, const VisualInertialBundleOptions& options,
+    std::vector<FrameState>* states, std::string* reason) {
+  const std::vector<FrameState> initial = *states;
+  auto solution = SolveBundle(tracks, p_W, preintegrations, options, states, reason);
+  // Configurations may overstate the noise by an order of magnitude. The scale would then stay too
+  // uncertain for a start, although the accelerometer determines it.
+  if (solution && solution->share_of_accel_noise < kOverstated) {
+    *states = initial;
+    solution =
+        SolveBundle(tracks, p_W, WithAccelNoise(solution->share_of_accel_noise, preintegrations),
+                    options, states, reason);
+  }
+  if (!solution) return std::nullopt;
+  return solution->bundle;
 }
 
 }  // namespace plm_vins

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct VisualInertialBundleOptions {
   double gyro_bias_prior = 0.05;  // of the gyroscope bias about its initial value [rad/s]
   Rigid3d T_C_C1 = {};            // of the second camera, if tracks have observations in it
   double depth_noise = 0;         // of a measured inverse depth, if tracks have any [1/m]
+  double max_scale_deviation = std::numeric_limits<double>::infinity();  // accepted, relative
 };
 
 // Residuals of the adjusted states, in standard deviations (1 is ideal), and the scale uncertainty.
@@ -34,6 +36,8 @@ struct VisualInertialBundle {
 // Refines poses, velocities and biases of a few frames together with their points by the IMU and
 // reprojection residuals. Position and heading of the first frame are fixed. `p_W` has one entry
 // per track; tracks with nullopt are ignored. `preintegrations[i]` is from state i to state i + 1.
+// If the scale is too uncertain and the residuals show far less noise of the accelerometer than
+// assumed, solves again with that noise.
 // Returns nullopt, with the reason, if the states are unobservable.
 std::optional<VisualInertialBundle> AdjustVisualInertialBundle(
     const std::vector<Track>& tracks, const std::vector<std::optional<Eigen::Vector3d>>& p_W,

@@ -34,7 +34,8 @@ void ImuNoiseLearning::Learn(const SlidingWindow& window, bool is_first,
     if (IsNoEvidence(end) || ShiftsCorners(begin, window.td) || ShiftsCorners(end, window.td)) {
       continue;
     }
-    const auto evidence = EvidenceOfMotion(window, begin, end, equations);
+    const auto evidence = EvidenceOfMotion(*end.motion_since_previous, window.gravity_W,
+                                           begin.state, end.state, equations);
     if (evidence) estimate_.Add(*evidence);
   }
 }

@@ -34,14 +34,13 @@ std::optional<Matrix15d> SolutionCovariance(int64_t begin_ns, int64_t end_ns,
 
 }  // namespace
 
-std::optional<ImuNoiseEvidence> EvidenceOfMotion(const SlidingWindow& window,
-                                                 const WindowFrame& begin, const WindowFrame& end,
+std::optional<ImuNoiseEvidence> EvidenceOfMotion(const Preintegration& motion,
+                                                 const Eigen::Vector3d& gravity_W,
+                                                 const FrameState& begin, const FrameState& end,
                                                  NormalEquations* equations) {
-  const Preintegration& motion = *end.motion_since_previous;
   ImuResidualJacobians jacobians;
-  const Vector15d residual =
-      ImuResidual(motion, window.gravity_W, begin.state, end.state, &jacobians);
-  const auto known = SolutionCovariance(begin.state.t_ns, end.state.t_ns, jacobians, equations);
+  const Vector15d residual = ImuResidual(motion, gravity_W, begin, end, &jacobians);
+  const auto known = SolutionCovariance(begin.t_ns, end.t_ns, jacobians, equations);
   if (!known) return std::nullopt;
   const Eigen::LLT<Matrix15d> assumed(motion.Covariance());
   const Vector15d weighted = assumed.solve(residual);

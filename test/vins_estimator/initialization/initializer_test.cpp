@@ -78,6 +78,22 @@ TEST(InitializerTest, StartsInFlight) {
   }
 }
 
+// With the configured noise, the scale would stay too uncertain for a start.
+TEST(InitializerTest, StartsInFlightIfTheConfigurationOverstatesTheAccelerometerNoise) {
+  constexpr double kOverstatement = 30;
+  for (uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto options = FlightOptions(simulator::Motion::kFast, seed);
+    const SimulatedFlight flight = SimulateFlight(options, /*skip=*/4);
+    Config config = ConfigFor(flight);
+    config.sensor.imu_noise.accel_density *= kOverstatement;
+    Initializer initializer(config);
+    const auto start = Feed(flight, &initializer);
+    ASSERT_TRUE(start) << "seed " << seed << ": " << initializer.reason();
+    EXPECT_LE(start->index, 60u) << "seed " << seed;
+    EXPECT_LT(std::abs(ScaleError(*start, flight)), 0.15) << "seed " << seed;
+  }
+}
+
 TEST(InitializerTest, FramesAreLinkedByTheirImuSamples) {
   const SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kFast, 1), 4);
   Initializer initializer(ConfigFor(flight));

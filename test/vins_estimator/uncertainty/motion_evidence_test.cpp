@@ -46,6 +46,14 @@ MarginalizationPrior KnownStates(double deviation, const SlidingWindow& window) 
   return {blocks, quadratic};
 }
 
+// Returns the evidence on the interval that ends at the frame of this index.
+std::optional<ImuNoiseEvidence> EvidenceAt(size_t end, const SlidingWindow& window,
+                                           NormalEquations* equations) {
+  const std::vector<WindowFrame>& frames = window.frames;
+  return EvidenceOfMotion(*frames[end].motion_since_previous, window.gravity_W,
+                          frames[end - 1].state, frames[end].state, equations);
+}
+
 // Evidence on the interval from frame 1 to frame 2 from motion terms and prior only, linearized at
 // the current values.
 ImuNoiseEvidence EvidenceWithoutImages(const MarginalizationPrior& prior, SlidingWindow* window) {
@@ -54,7 +62,7 @@ ImuNoiseEvidence EvidenceWithoutImages(const MarginalizationPrior& prior, Slidin
   for (size_t i = 1; i < window->frames.size(); ++i) builder.AddMotion(i);
   NormalEquations equations(builder.problem());
   equations.Linearize();
-  return EvidenceOfMotion(*window, window->frames[1], window->frames[2], &equations).value();
+  return EvidenceAt(2, *window, &equations).value();
 }
 
 // The residual then has the covariance S, with contributions of three independent sources.
@@ -109,7 +117,7 @@ TEST(EvidenceOfMotion, IsNothingWhereTheStatesAreNotDetermined) {
   builder.AddMotion(2);
   NormalEquations equations(builder.problem());
   equations.Linearize();
-  EXPECT_FALSE(EvidenceOfMotion(window, window.frames[0], window.frames[1], &equations));
+  EXPECT_FALSE(EvidenceAt(1, window, &equations));
 }
 
 constexpr size_t kFrame = 4;  // index of the frame that ends the tested interval
@@ -143,9 +151,7 @@ ImuNoiseEvidence SumOverWindows(const std::function<void(SlidingWindow*)>& assum
     SolverOptions options;
     options.max_iterations = 20;
     SolveBy(SolverType::kSchur, options, builder.problem(), &equations);
-    const auto evidence =
-        EvidenceOfMotion(window, window.frames[kFrame - 1], window.frames[kFrame], &equations)
-            .value();
+    const auto evidence = EvidenceAt(kFrame, window, &equations).value();
     AddEvidence(evidence.accel, &sum.accel);
     AddEvidence(evidence.gyro, &sum.gyro);
   }

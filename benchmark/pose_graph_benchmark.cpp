@@ -90,7 +90,7 @@ void Run(const Config& config, const std::vector<Keyframe>& keyframes, double ho
   PoseGraph graph = loops.map().Compact().graph;
   const Stopwatch stopwatch;
   graph.Optimize();
-  std::printf("optimising %d keyframes and %zu edges: %.1f ms\n", graph.size(),
+  std::printf("optimizing %d keyframes and %zu edges: %.1f ms\n", graph.size(),
               graph.edges().size(), stopwatch.Milliseconds());
 }
 

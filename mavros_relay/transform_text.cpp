@@ -24,7 +24,7 @@ Rigid3d ParseTransform(const std::string& name, const std::string& text) {
   }
   if (std::max({std::abs(yaw), std::abs(pitch), std::abs(roll)}) > kMostRadians) {
     throw std::invalid_argument(
-        name + ": yaw pitch roll are in rad, more than 2 pi is no angle: \"" + text + "\"");
+        name + ": yaw, pitch and roll are in rad and must be at most 2 pi: \"" + text + "\"");
   }
   return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
                              Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *

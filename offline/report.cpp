@@ -78,8 +78,8 @@ std::string UncoveredWarning(const RunSummary::Run& run, const OdometryPipeline&
   const auto& first_imu_ns = pipeline.first_imu_ns();
   return "images begin at " + Format("%.3f s", ToSeconds(*run.first_image_ns)) +
          (first_imu_ns ? " and IMU samples at " + Format("%.3f s", ToSeconds(*first_imu_ns))
-                       : " and no IMU sample has come by their end") +
-         "; both must have one clock";
+                       : " and no IMU sample comes before their end") +
+         "; both must be stamped by the same clock";
 }
 
 // Returns the warning where most images have no pose; empty where they have.
@@ -92,7 +92,7 @@ std::string PoselessWarning(int64_t poses, int64_t images) {
 std::string PartsWarning(const TimedFile& trajectory) {
   if (trajectory.parts() == 0) return "";
   return "stamps jumped back " + std::to_string(trajectory.parts()) +
-         " times: poses of before are in trajectory_1.tum, covariance_1.csv, ...";
+         " times: earlier poses are in trajectory_1.tum, covariance_1.csv, ...";
 }
 
 }  // namespace

@@ -211,8 +211,8 @@ void AdjustMap(LoopResults* loops, Cuts* cuts) {
   cuts->adjustment = adjusted.ended;
   if (!adjusted.failed) return;
   Warn(adjusted.rounds == 0
-           ? "the bundle adjustment cannot be solved, so the map is that of the loops"
-           : "the bundle adjustment ended before its last round, which cannot be solved");
+           ? "the bundle adjustment has no solution; the map keeps the poses of the pose graph"
+           : "a round of the bundle adjustment failed; the map is that of the round before");
 }
 
 // Returns the exit code of a shell for a program terminated by this signal.

@@ -14,8 +14,8 @@ void CheckImage(const ImageSample& image, const CameraParameters& camera,
   CheckImageFormat(image.gray, camera);
   if (previous_ns && image.t_ns <= *previous_ns) {
     throw std::invalid_argument("image stamp " + std::to_string(image.t_ns) +
-                                " ns is not after the one before, " + std::to_string(*previous_ns) +
-                                " ns");
+                                " ns is not after the previous one, " +
+                                std::to_string(*previous_ns) + " ns");
   }
 }
 

@@ -23,12 +23,13 @@ cv::Mat ReadMask(const std::string& file, const cv::Size& image_size) {
   if (mask.empty()) throw std::invalid_argument("fisheye_mask: cannot read the image " + file);
   if (mask.size() != image_size) {
     throw std::invalid_argument("fisheye_mask: " + file + " has " + ToText(mask.size()) +
-                                " pixels, image_width and image_height say " + ToText(image_size));
+                                " pixels, but image_width and image_height are " +
+                                ToText(image_size));
   }
   cv::threshold(mask, mask, kDark, 255, cv::THRESH_BINARY);
   if (cv::countNonZero(mask) == 0) {
     throw std::invalid_argument("fisheye_mask: " + file +
-                                " allows nothing: make it white where features are allowed");
+                                " is dark everywhere: make it white where features are allowed");
   }
   return mask;
 }

@@ -97,7 +97,7 @@ DropCounts EstimationStage::Drops() const {
 std::string EstimationStage::ImuContradiction() const {
   const double imu_interval = imu_rhythm_.Interval();
   if (imu_interval > kMaxImuInterval) {
-    return Format("the IMU comes at %.1f Hz, of which nothing can be made: give %.0f Hz or more",
+    return Format("the IMU rate is %.1f Hz; at least %.0f Hz is needed: raise the driver's rate",
                   1 / imu_interval, 1 / kMaxImuInterval);
   }
   ContradictionEvidence evidence;
@@ -162,7 +162,7 @@ std::vector<ResidualRing> EstimationStage::ResidualRings() const {
 std::string EstimationStage::SecondCameraFault() const {
   std::string text;
   if (second_camera_.misfit_px) {
-    text = Format("it does not fit its calibration by %.1f px and is not used",
+    text = Format("it deviates by %.1f px from its calibration and is not used; recalibrate it",
                   *second_camera_.misfit_px);
   }
   if (second_camera_.delay) {
@@ -171,7 +171,7 @@ std::string EstimationStage::SecondCameraFault() const {
   }
   if (second_camera_.baseline) {
     text += (text.empty() ? "" : "; ") +
-            Format("by the IMU its baseline is %+.1f %% longer than configured",
+            Format("according to the IMU, its baseline is %+.1f %% longer than configured",
                    100 * *second_camera_.baseline);
   }
   return text.empty() ? "" : "second camera: " + text;
@@ -201,8 +201,8 @@ void EstimationStage::StartOver(const std::string& reason) {
 void EstimationStage::FollowClock() {
   const SyncStatistics now = sync_.statistics();
   if (now.leaps_ahead > leaps_ahead_)
-    StartOver("no IMU for more than a minute, or its clock was set on");
-  if (now.jumps_back > jumps_back_) StartOver("stamps jumped back");
+    StartOver("no IMU for more than a minute, or its clock jumped forward");
+  if (now.jumps_back > jumps_back_) StartOver("timestamps jumped back");
   leaps_ahead_ = now.leaps_ahead;
   jumps_back_ = now.jumps_back;
 }

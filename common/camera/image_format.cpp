@@ -11,7 +11,7 @@ namespace {
 void CheckSize(const char* what, const cv::Mat& image, const CameraParameters& camera) {
   if (image.cols == camera.width && image.rows == camera.height) return;
   throw std::invalid_argument(std::string(what) + " is " + std::to_string(image.cols) + " x " +
-                              std::to_string(image.rows) + " px, the calibration is for " +
+                              std::to_string(image.rows) + " px, but the calibration is for " +
                               std::to_string(camera.width) + " x " + std::to_string(camera.height) +
                               " (image_width, image_height)");
 }

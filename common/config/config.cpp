@@ -92,7 +92,7 @@ class Loader {
       return;
     }
     if (IsUnsupportedCoefficient(name)) {
-      return Add(name, "is not supported: calibrate with k1, k2, p1, p2 alone");
+      return Add(name, "is not supported: calibrate with k1, k2, p1, p2 only");
     }
     const auto keys = KeysOfGroup(name);
     if (!keys.empty()) {
@@ -128,23 +128,22 @@ class Loader {
         return IsInGroup(entry.first, group);
       });
       if (has_keys) continue;
-      Add(group,
-          "is missing; model_type says which keys it has (config/reference.yaml lists them)");
+      Add(group, "is missing; model_type determines its keys (config/reference.yaml lists them)");
     }
   }
 
   void AddWarnings() {
     if (!ignored_.empty()) {
-      config_.warnings.push_back(config_.file + ": without effect here: " + Join(ignored_, ", "));
+      config_.warnings.push_back(config_.file + ": keys without effect: " + Join(ignored_, ", "));
     }
     if (LacksMask(entries_, config_)) {
       config_.warnings.push_back(At("fisheye") +
-                                 "no fisheye_mask is named, so features are allowed everywhere; "
+                                 "fisheye_mask is not set, so features are allowed everywhere; "
                                  "name an image file, or set fisheye: 0");
     }
     if (LeavesMaskOut(config_)) {
       config_.warnings.push_back(At("fisheye_mask") +
-                                 "is without effect with fisheye: 0; set fisheye: 1 to use it");
+                                 "has no effect with fisheye: 0; set fisheye: 1 to use it");
     }
     WarnOfFold(config_.sensor.camera, "");
     if (const auto& second = config_.sensor.second_camera) {
@@ -157,8 +156,8 @@ class Loader {
     if (percent == 0) return;
     config_.warnings.push_back(
         At(prefix + "model_type") + std::to_string(percent) +
-        " % of the image has no ray with this distortion, so no features; are its coefficients "
-        "those of this model, and of images of this size?");
+        " % of the image has no viewing ray with this distortion and gets no features; check that "
+        "the coefficients belong to this model and image size");
   }
 
   void Add(const std::string& key, const std::string& problem) {

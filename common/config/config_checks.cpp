@@ -42,10 +42,12 @@ void CheckPrincipalPoint(const CameraParameters& camera, const std::string& pref
                          const Report& report) {
   if (!HasSize(camera)) return;
   if (camera.cx > camera.width) {
-    report(prefix + "image_width", "the principal point is right of the image");
+    report(prefix + "image_width",
+           "the principal point is beyond the right edge; correct it or the image size");
   }
   if (camera.cy > camera.height) {
-    report(prefix + "image_height", "the principal point is below the image");
+    report(prefix + "image_height",
+           "the principal point is below the bottom edge; correct it or the image size");
   }
 }
 
@@ -56,7 +58,7 @@ void CheckExtrinsics(const ConfigEntries& entries, const Config& config, const R
   if (is_unknown && !has_pair) return;
   for (const char* key : {"extrinsicRotation", "extrinsicTranslation"}) {
     if (Has(entries, key)) continue;
-    report(key, is_unknown ? "is missing; it says how the two cameras stand to each other"
+    report(key, is_unknown ? "is missing; two cameras need it even with estimate_extrinsic: 2"
                            : "is missing; add it, or set estimate_extrinsic: 2");
   }
 }
@@ -70,7 +72,7 @@ void CheckSecondCamera(const ConfigEntries& entries, const SensorConfig& sensor,
   const auto check_size = [&](const std::string& key, int size, int expected) {
     if (size != 0 && expected != 0 && size != expected) {
       report(prefix + key, std::to_string(size) + " differs from the first camera's " +
-                               std::to_string(expected) + "; both images must be of one size");
+                               std::to_string(expected) + "; both images must have the same size");
     }
   };
   check_size("image_width", right.width, left.width);
@@ -79,9 +81,11 @@ void CheckSecondCamera(const ConfigEntries& entries, const SensorConfig& sensor,
   const Rigid3d T_C0_C1 = sensor.T_B_C.Inverse() * sensor.second_camera->T_B_C;
   const bool has_transforms = Has(entries, "extrinsicTranslation") && Has(entries, "body_T_cam1");
   if (has_transforms && T_C0_C1.translation.norm() < kShortestBaseline) {
-    report("body_T_cam1", "puts the second camera where the first one is");
+    report("body_T_cam1", "gives both cameras the same position; correct it");
   }
-  if (sensor.depth) report("depth_topic", "is for one camera; remove it, or set num_of_cam: 1");
+  if (sensor.depth) {
+    report("depth_topic", "works with one camera only; remove it, or set num_of_cam: 1");
+  }
 }
 
 void CheckShutter(const SensorConfig& sensor, const Report& report) {
@@ -105,7 +109,7 @@ void CheckImage(const Config& config, const Report& report) {
     report("min_dist", "must be smaller than the image");
   }
   if (2 * config.lines.border >= std::min(camera.width, camera.height) - 1) {
-    report("line_border", "leaves nothing of the image");
+    report("line_border", "covers the whole image; reduce it");
   }
 }
 
@@ -165,7 +169,7 @@ void CheckMask(const Config& config, const Report& report) {
   const std::string mask = MaskPath(config);
   std::error_code error;  // the path may exceed the length limit of the file system
   if (!mask.empty() && !std::filesystem::is_regular_file(mask, error)) {
-    report("fisheye_mask", "there is no file " + mask);
+    report("fisheye_mask", "cannot find the file " + mask);
   }
 }
 
@@ -173,7 +177,7 @@ void CheckMask(const Config& config, const Report& report) {
 
 Problem CheckFrameName(const std::string& name) {
   if (!IsName(name)) return "must be a name without spaces";
-  if (name.front() == '/') return "must not begin with a slash: tf2 refuses it";
+  if (name.front() == '/') return "must not begin with a slash: tf2 rejects it";
   return std::nullopt;
 }
 

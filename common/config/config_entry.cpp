@@ -63,7 +63,7 @@ std::string TriedAt(const std::string& file) {
   std::error_code error;
   const std::filesystem::path path(file);
   if (path.empty() || path.is_absolute()) return "";
-  return ", which was looked for at " + std::filesystem::absolute(path, error).string();
+  return " (tried " + std::filesystem::absolute(path, error).string() + ")";
 }
 
 void AddProblem(const std::string& location, const std::string& key, const std::string& problem,
@@ -123,7 +123,7 @@ std::optional<YAML::Node> ParseRoot(const std::string& file, const std::string& 
 // Returns the top-level map of the file, or nullopt and adds a problem.
 std::optional<YAML::Node> ReadRoot(const std::string& file, std::vector<std::string>* problems) {
   if (IsSomethingElse(file)) {
-    problems->push_back(file + ": is no regular file; give the path of a configuration file");
+    problems->push_back(file + ": is not a regular file; give the path of a configuration file");
     return std::nullopt;
   }
   const auto text = ReadText(file);

@@ -56,7 +56,7 @@ Problem ReadFlag(const YAML::Node& value, bool* flag) {
 
 Problem ReadText(const YAML::Node& value, std::string* text) {
   const auto scalar = ScalarText(value);
-  if (!scalar) return "must be one text";
+  if (!scalar) return "must be a string";
   *text = *scalar;
   return std::nullopt;
 }

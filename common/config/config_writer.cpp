@@ -42,7 +42,7 @@ std::string OnOneLine(std::string text) {
 
 void WriteOverrides(const Config& config, std::ostream* stream) {
   if (config.overrides.empty()) return;
-  *stream << OnOneLine("# From " + config.file) << ", in which these were replaced for the run:\n";
+  *stream << OnOneLine("# From " + config.file) << "; values replaced for this run:\n";
   for (const auto& [key, text] : config.overrides) {
     *stream << OnOneLine("#   " + key + ": " + text) << "\n";
   }

@@ -19,7 +19,7 @@ constexpr Range kScaleRange = {0.5, 2};         // of corrections of an IMU [1]
 Problem SetRotation(const Eigen::MatrixXd& R_B_C, Rigid3d* T_B_C) {
   const Eigen::Matrix3d error = R_B_C * R_B_C.transpose() - Eigen::Matrix3d::Identity();
   if (error.cwiseAbs().maxCoeff() > kRotationTolerance || R_B_C.determinant() < 0) {
-    return "is not a rotation (its rows must be of length 1, at right angles, right-handed)";
+    return "is not a rotation matrix; its rows must be orthonormal and right-handed";
   }
   T_B_C->rotation = Eigen::Quaterniond(Eigen::Matrix3d(R_B_C)).normalized();
   return std::nullopt;
@@ -129,7 +129,7 @@ ConfigKey<ImuSensor> CorrectionKey(const std::string& name, Eigen::Matrix3d ImuS
   const auto set = [field](const Eigen::MatrixXd& matrix, ImuSensor& sensor) -> Problem {
     const Eigen::VectorXd scales = matrix.jacobiSvd().singularValues();
     if (scales.minCoeff() < kScaleRange.min || scales.maxCoeff() > kScaleRange.max) {
-      return "is no correction of an IMU: its scale factors must be " + ToText(kScaleRange);
+      return "is not a valid IMU correction; its scale factors must be " + ToText(kScaleRange);
     }
     sensor.*field = matrix;
     return std::nullopt;

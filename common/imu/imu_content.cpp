@@ -60,12 +60,13 @@ std::string ImuContent::Finding(const std::string& topic) const {
 
 std::string ImuContent::MissingSensor(const std::string& topic) const {
   if (with_gyro_ == 0 && with_accel_ == 0) {
-    return "every sample on " + topic + " is zero: its driver sends what it could not read";
+    return "every sample on " + topic +
+           " is zero: the driver cannot read the IMU; check its log and the connection";
   }
   const bool in_turn = with_both_ <= kFew * samples_ && with_gyro_ > kFew * samples_ &&
                        with_accel_ > kFew * samples_;
   if (in_turn) {
-    return "gyro and accelerometer readings come in turn on " + topic +
+    return "gyro and accelerometer readings alternate on " + topic +
            ": unite them in one message (unite_imu_method of the driver)";
   }
   if (with_accel_ == 0 && with_gyro_ > 0) {
@@ -90,7 +91,7 @@ std::string ImuContent::WrongAccelerometer(const std::string& topic) const {
   }
   if (Share(far_below_gravity_, with_accel_) > kMost) {
     return "specific force on " + topic +
-           " lacks gravity: send what the accelerometer reads, with gravity";
+           " lacks gravity: publish raw accelerometer readings, including gravity";
   }
   return "";
 }

@@ -34,7 +34,9 @@ void Synchronize(const std::string& path, const std::string& name) {
 std::string ToReplace(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return path;
-  if (!std::filesystem::is_regular_file(path, error)) Fail(path, "there is something else");
+  if (!std::filesystem::is_regular_file(path, error)) {
+    Fail(path, "it exists and is not a regular file");
+  }
   return std::filesystem::canonical(path).string();
 }
 

@@ -30,8 +30,8 @@ Model ModelOf(const std::string& name) {
   for (const auto& [model, known] : kModels) {
     if (known == name) return model;
   }
-  throw std::invalid_argument("a CameraInfo has the distortion model \"" + name +
-                              "\", not plumb_bob, equidistant or mei");
+  throw std::invalid_argument("CameraInfo has the distortion model \"" + name +
+                              "\"; supported are plumb_bob, equidistant and mei");
 }
 
 // Number of coefficients in D: radtan has an unused k3, and MEI has xi.
@@ -58,7 +58,7 @@ CameraParameters ToCameraParameters(const sensor_msgs::CameraInfo& message) {
   CameraParameters camera;
   camera.model = ModelOf(message.distortion_model);
   if (message.D.size() < CoefficientsOf(camera.model)) {
-    throw std::invalid_argument("a CameraInfo has too few distortion coefficients for " +
+    throw std::invalid_argument("CameraInfo has too few distortion coefficients for " +
                                 message.distortion_model);
   }
   camera.width = static_cast<int>(message.width);

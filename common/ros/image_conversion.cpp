@@ -26,9 +26,9 @@ void CheckSize(const sensor_msgs::Image& image) {
                           static_cast<uint64_t>(encodings::bitDepth(image.encoding));
   const uint64_t row = uint64_t{image.width} * pixel_bits / 8;
   if (image.step >= row && uint64_t{image.height} * image.step == image.data.size()) return;
-  throw std::invalid_argument(std::to_string(image.data.size()) + " bytes are not " +
+  throw std::invalid_argument(std::to_string(image.data.size()) + " bytes of data do not match " +
                               std::to_string(image.height) + " rows of " +
-                              std::to_string(image.step) + " bytes for " +
+                              std::to_string(image.step) + " bytes with " +
                               std::to_string(image.width) + " pixels");
 }
 
@@ -75,12 +75,14 @@ ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message) {
   try {
     CheckSize(*message);
     const cv_bridge::CvImageConstPtr gray = ToGrey(LowByteFirst(message));
-    if (gray->image.type() != CV_8UC1) throw std::invalid_argument("it does not become 8-bit grey");
+    if (gray->image.type() != CV_8UC1) {
+      throw std::invalid_argument("cv_bridge does not convert it to 8-bit grey");
+    }
     return {ToNanoseconds(message->header.stamp), gray->image,
             std::make_shared<cv_bridge::CvImageConstPtr>(gray)};
   } catch (const std::exception& error) {  // exceptions of cv_bridge, OpenCV and others
     throw std::invalid_argument("image of encoding '" + message->encoding +
-                                "' cannot be made grey: " + error.what());
+                                "' cannot be converted to grey: " + error.what());
   }
 }
 
@@ -106,7 +108,7 @@ DepthSample ToDepthSample(const sensor_msgs::ImageConstPtr& message) {
     CheckSize(*message);
     const bool is_integer = encoding == encodings::TYPE_16UC1 || encoding == encodings::MONO16;
     if (!is_integer && encoding != encodings::TYPE_32FC1) {
-      throw std::invalid_argument("16UC1 [mm] and 32FC1 [m] can be read");
+      throw std::invalid_argument("supported are 16UC1 [mm] and 32FC1 [m]");
     }
     const auto depth = cv_bridge::toCvShare(LowByteFirst(message));
     return {ToNanoseconds(message->header.stamp), depth->image,

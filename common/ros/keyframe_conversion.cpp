@@ -41,11 +41,12 @@ bool HasManhattanFrame(const sensor_msgs::PointCloud& message) {
 void CheckLayout(const sensor_msgs::PointCloud& message, size_t points_each) {
   const size_t features = message.channels.size() - (HasManhattanFrame(message) ? 1 : 0);
   if (message.points.size() != points_each * features) {
-    throw std::invalid_argument("a keyframe's message has not one channel for each feature");
+    throw std::invalid_argument(
+        "keyframe message: the number of channels differs from the number of features");
   }
   for (size_t i = 0; i < features; ++i) {
     if (message.channels[i].values.size() < kValuesPerChannel) {
-      throw std::invalid_argument("a keyframe's message has a channel of less than five values");
+      throw std::invalid_argument("keyframe message: a channel has fewer than five values");
     }
   }
 }
@@ -127,11 +128,12 @@ std::optional<Eigen::Quaterniond> ToManhattanFrame(const sensor_msgs::PointCloud
   if (!HasManhattanFrame(message)) return std::nullopt;
   const auto& values = message.channels.back().values;
   if (values.size() != 4) {
-    throw std::invalid_argument("a keyframe's Manhattan frame is no quaternion");
+    throw std::invalid_argument(
+        "keyframe message: the Manhattan frame must have four values (quaternion)");
   }
   const Eigen::Quaterniond R_O_Manhattan(values[0], values[1], values[2], values[3]);
   if (!(R_O_Manhattan.norm() > 0) || !R_O_Manhattan.coeffs().allFinite()) {
-    throw std::invalid_argument("a keyframe's Manhattan frame is no rotation");
+    throw std::invalid_argument("keyframe message: the Manhattan frame is not a valid rotation");
   }
   return R_O_Manhattan.normalized();
 }

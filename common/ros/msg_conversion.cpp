@@ -80,7 +80,7 @@ const sensor_msgs::ChannelFloat32* FindChannels(const sensor_msgs::PointCloud& c
 // itself cannot create.
 int64_t StampOf(const sensor_msgs::PointCloud& cloud) {
   const int64_t t_ns = ToNanoseconds(cloud.header.stamp);
-  if (!IsStamp(t_ns)) throw std::invalid_argument("feature message with a stamp that is none");
+  if (!IsStamp(t_ns)) throw std::invalid_argument("feature message has an invalid timestamp");
   return t_ns;
 }
 
@@ -90,7 +90,8 @@ void CheckChannels(const sensor_msgs::PointCloud& cloud, size_t count, const cha
     valid = cloud.channels[i].values.size() == cloud.points.size();
   }
   if (!valid) {
-    throw std::invalid_argument(std::string("feature message without the channels ") + expected);
+    throw std::invalid_argument(std::string("feature message must have the channels ") + expected +
+                                ", with one value per point");
   }
 }
 

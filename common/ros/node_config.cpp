@@ -25,7 +25,7 @@ void CheckTopicNames(const ros::NodeHandle& node, const Config& config) {
       node.resolveName(topic);
     } catch (const ros::InvalidNameException& error) {
       problems.push_back(config.file + ": " + key + ": \"" + topic +
-                         "\" is not the name of a topic: " + error.what());
+                         "\" is not a valid topic name: " + error.what());
     }
   };
   check("image_topic", config.sensor.image_topic);
@@ -45,7 +45,7 @@ std::string TextOf(XmlRpc::XmlRpcValue value, const std::string& name) {
     case XmlRpc::XmlRpcValue::TypeDouble:
       return ToText(static_cast<double>(value));
     default:
-      throw std::runtime_error(name + " must be a text, a number or a flag");
+      throw std::runtime_error(name + " must be a string, a number or a boolean");
   }
 }
 
@@ -56,7 +56,7 @@ std::map<std::string, std::string> FindOverrides(const ros::NodeHandle& private_
   if (!private_node.getParam("set", values)) return {};
   if (values.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     throw std::runtime_error("parameter " + private_node.resolveName("set") +
-                             " must have the keys below it, as in set/max_cnt");
+                             " must be a namespace of keys, as in set/max_cnt");
   }
   std::map<std::string, std::string> overrides;
   for (const auto& [key, value] : values) overrides[key] = TextOf(value, prefix + key);
@@ -76,7 +76,7 @@ Config LoadNodeConfig(const ros::NodeHandle& private_node) {
   Config config = LoadConfig(*file, overrides, prefix);
   CheckTopicNames(private_node, config);
   for (const auto& [key, text] : overrides) {
-    ROS_INFO_STREAM(prefix << key << " replaces the value of " << *file << ": " << text);
+    ROS_INFO_STREAM(prefix << key << " overrides the value in " << *file << ": " << text);
   }
   for (const std::string& warning : config.warnings) ROS_WARN_STREAM(warning);
   return config;

@@ -28,9 +28,9 @@ constexpr double kClockPatience = 10;  // [s]; a player first opens its bag
 void WarnWithoutClock() {
   if (ros::Time::isValid()) return;
   ROS_WARN(
-      "/use_sim_time is set, but no time comes on /clock: play the bag with --clock, or the player "
-      "could not open its bag (absolute path?); for live sensors, rosparam delete /use_sim_time "
-      "and start all nodes again");
+      "/use_sim_time is set, but no time is published on /clock: play the bag with --clock, and "
+      "check that the player could open it (absolute path?); for live sensors, run rosparam delete "
+      "/use_sim_time and restart all nodes");
 }
 
 // roscpp aborts where it cannot make its folder for logs; then they go to a temporary one.
@@ -45,7 +45,8 @@ void RequireLogFolder() {
   if (!error && access(folder.c_str(), W_OK) == 0) return;
   const fs::path other = fs::temp_directory_path(error) / "ros_log";
   setenv("ROS_LOG_DIR", other.c_str(), /*overwrite=*/0);
-  std::fprintf(stderr, "cannot write logs to %s: they go to %s; set ROS_LOG_DIR to a folder\n",
+  std::fprintf(stderr,
+               "cannot write logs to %s, using %s instead; set ROS_LOG_DIR to a writable folder\n",
                folder.c_str(), other.c_str());
 }
 
@@ -103,7 +104,7 @@ bool ErrorCounter::Run(const std::function<void()>& body) {
     body();
     return true;
   } catch (const std::exception& error) {
-    ROS_ERROR_STREAM_THROTTLE(10.0, "going on after an internal error: " << error.what());
+    ROS_ERROR_STREAM_THROTTLE(10.0, "internal error, continuing: " << error.what());
     const std::lock_guard<std::mutex> lock(mutex_);
     errors_.Add(error.what());
     return false;
@@ -118,7 +119,8 @@ DropCount ErrorCounter::count() const {
 void DropWarner::Check(const DropCounts& counts) {
   for (const DropCount& drop : counts) {
     if (drop.count > 0 && warned_.insert(drop.cause).second) {
-      ROS_WARN_STREAM("unusable input, counted from here on: " << ToString(drop));
+      ROS_WARN_STREAM(
+          "unusable input, reported once and counted in /diagnostics: " << ToString(drop));
     }
   }
 }

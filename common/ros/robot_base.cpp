@@ -15,7 +15,7 @@ RobotBase::RobotBase(const std::string& body_frame, const std::string& base_fram
 std::optional<Rigid3d> RobotBase::Locate() {
   if (T_body_base_) return T_body_base_;
   if (!buffer_.canTransform(body_frame_, base_frame_, ros::Time(0))) {
-    ROS_WARN_THROTTLE(5, "no tf yet: the robot's tree does not lead from base_frame %s to %s",
+    ROS_WARN_THROTTLE(5, "no tf from base_frame %s to %s yet; check that the robot publishes it",
                       base_frame_.c_str(), body_frame_.c_str());
     return std::nullopt;
   }

@@ -22,12 +22,12 @@ TopicAdvice AdviseOnSilence(const std::string& topic, const std::string& type) {
   std::string others;
   for (const ros::master::TopicInfo& other : topics) {
     if (other.name == topic && other.datatype == kCompressed) {
-      return {"it has compressed images: " + Transport("compressed") + ", and remap " + topic +
-                  "/compressed to it",
+      return {"its messages are compressed images: " + Transport("compressed") + ", and remap " +
+                  topic + "/compressed to it",
               true};
     }
     if (other.name == topic && other.datatype != type && other.datatype != "*") {
-      return {"it has messages of another type, " + other.datatype + " instead of " + type, true};
+      return {"its messages have another type, " + other.datatype + " instead of " + type, true};
     }
     if (other.name == topic + "/compressed" && other.datatype == kCompressed) {
       return {"but " + other.name + " is published: " + Transport("compressed"), true};
@@ -39,7 +39,7 @@ TopicAdvice AdviseOnSilence(const std::string& topic, const std::string& type) {
     if (other.datatype == type && other.name != topic) others += " " + other.name;
   }
   return {others.empty() ? "no topic of type " + type + " is published"
-                         : "topics of type " + type + ":" + others,
+                         : "published topics of type " + type + ":" + others,
           false};
 }
 

@@ -23,7 +23,7 @@ void LoadNodelets(nodelet::Loader* manager) {
   for (const auto& [name, type] : *nodelets) {
     const std::string full_name = ros::NodeHandle().resolveName(name);
     if (!manager->load(full_name, type, {}, {})) {
-      throw std::runtime_error("cannot load " + full_name + " (" + type + "), see above");
+      throw std::runtime_error("cannot load " + full_name + " (" + type + "); see the error above");
     }
   }
 }

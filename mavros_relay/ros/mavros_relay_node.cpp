@@ -94,7 +94,9 @@ MavrosRelayNode::MavrosRelayNode() {
   silence_timer_ =
       node_.createWallTimer(ros::WallDuration(0.5 * kSilence), [this](const ros::WallTimerEvent&) {
         const double silence = (ros::WallTime::now() - last_state_).toSec();
-        if (silence > kSilence) ReportStop("no usable states come");
+        if (silence > kSilence) {
+          ReportStop("no usable state arrives on vins_estimator/imu_propagate");
+        }
       });
 }
 
@@ -126,7 +128,7 @@ void MavrosRelayNode::AddState(const nav_msgs::Odometry& odometry) {
   last_state_ = ros::WallTime::now();
   const bool passes = gate_.Pass(ToNanoseconds(odometry.header.stamp));
   if (gate_.is_interrupted()) {
-    ReportStop("there was a gap, or images no longer support it");
+    ReportStop("the input has a gap, or no recent image supports it");
   } else {
     ReportGoingOn();
   }

@@ -207,9 +207,9 @@ FeatureFileReader::FeatureFileReader(const std::string& file)
   stream_.read(kind.data(), static_cast<std::streamsize>(kind.size()));
   stream_.read(version.data(), static_cast<std::streamsize>(version.size()));
   if (kind != kKind) {
-    throw std::runtime_error(file + ": is no file of features; --save-features writes one");
+    throw std::runtime_error(file + ": is not a feature file; --save-features writes one");
   }
-  if (version != kVersion) throw Unusable("is of another version of this program");
+  if (version != kVersion) throw Unusable("was written by another version of this program");
   ReadTrackerValues();
 }
 

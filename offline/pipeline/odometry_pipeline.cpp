@@ -200,7 +200,7 @@ void OdometryPipeline::Consume(TrackedItem item, const FrameCallback& on_frame) 
 
 void OdometryPipeline::AddFeatures(TrackedFeatures tracked) {
   if (tracked.points.restart) {
-    back_end_.Reset("stamps jumped back");
+    back_end_.Reset("timestamps jumped back");
     unfinished_.clear();
   }
   if (!tracked.points.publish) {

@@ -52,7 +52,7 @@ std::string RecordedOtherwiseWarning(const std::string& file, const Json& otherw
   std::string names;
   for (const auto& [name, value] : otherwise.items()) names += (names.empty() ? "" : ", ") + name;
   return file + " was recorded with other values of " + names +
-         ", and its features stay as of these; record it again with --save-features";
+         ", which its features keep; record it again with --save-features";
 }
 
 }  // namespace plm_vins

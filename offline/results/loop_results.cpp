@@ -130,7 +130,7 @@ void LoopResults::Finish() {
 void LoopResults::WriteFinalTrajectory() const {
   TimedFile file(File("trajectory_final.tum"));
   auto world = worlds_.begin();
-  std::string reason = "it is not found in the map";
+  std::string reason = "not recognized in the map";
   bool was_in_map = true;
   const KeyframeMap& moved = measured_map();
   const std::vector<bool> connected = moved.graph.ConnectedWith(0);

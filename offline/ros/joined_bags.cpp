@@ -29,8 +29,9 @@ std::unique_ptr<IndexedBag> Open(const std::string& file) {
     return std::make_unique<IndexedBag>(file);
   } catch (const std::exception& error) {  // of a bad place, or std::bad_alloc
     throw std::runtime_error(
-        file + " is not a ROS bag of format 2.0, or it was cut off, damaged or never closed (" +
-        error.what() + "); then \"rosbag reindex " + file + "\" makes it whole");
+        file +
+        " is not a ROS bag of format 2.0, or it is truncated, damaged or was never closed (" +
+        error.what() + "); \"rosbag reindex " + file + "\" repairs a truncated or unclosed bag");
   }
 }
 

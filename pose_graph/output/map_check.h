@@ -20,7 +20,7 @@ namespace plm_vins {
 // std::runtime_error if the condition does not hold.
 
 inline void RequireOfMap(bool holds, const char* otherwise) {
-  if (!holds) throw std::runtime_error(std::string("is damaged, ") + otherwise);
+  if (!holds) throw std::runtime_error(std::string("is damaged: ") + otherwise);
 }
 
 // An archive that checks that all numbers are finite and small enough for products of a few of them
@@ -30,7 +30,7 @@ class MapNumberCheck {
   template <typename T>
   void Value(const T& value) const {
     if constexpr (std::is_floating_point_v<T>) {
-      RequireOfMap(std::abs(value) < kMost, "a number in it is not finite or absurd");
+      RequireOfMap(std::abs(value) < kMost, "a number is not finite or too large");
     }
   }
   template <typename Items, typename Layout>
@@ -64,31 +64,32 @@ inline bool IsCovariance(const Matrix4d& covariance) {
 // Corners with a position need a track: without it they would all be the same landmark.
 inline void CheckKeyframe(const Keyframe& keyframe) {
   constexpr int kMostWorlds = 1 << 30;  // upper bound, since each run adds one
-  RequireOfMap(IsStamp(keyframe.t_ns), "the stamp of a keyframe is none");
+  RequireOfMap(IsStamp(keyframe.t_ns), "the timestamp of a keyframe is invalid");
   RequireOfMap(keyframe.world >= 0 && keyframe.world < kMostWorlds,
-               "the world of a keyframe is none");
+               "the world of a keyframe is invalid");
   RequireOfMap(IsUnit(keyframe.T_O_B.rotation) && IsUnit(keyframe.T_B_C.rotation) &&
                    IsUnit(keyframe.R_O_Manhattan.value_or(Eigen::Quaterniond::Identity())),
-               "a rotation in it is none");
+               "a rotation is not normalized");
   for (const DescribedCorner& corner : keyframe.corners) {
-    RequireOfMap(corner.track >= 0 || !corner.p_O, "a corner without a track has a place");
+    RequireOfMap(corner.track >= 0 || !corner.p_O, "a corner without a track has a position");
   }
 }
 
 // Negative lengths would make the search for the shortest path endless.
 inline void CheckEdge(const LevelEdge& edge, int nodes) {
   RequireOfMap(std::min(edge.from, edge.to) >= 0 && std::max(edge.from, edge.to) < nodes,
-               "an edge leads to a keyframe that is not there");
+               "an edge leads to a keyframe that does not exist");
   RequireOfMap(edge.from != edge.to, "an edge leads from a keyframe to itself");
   RequireOfMap(edge.way >= 0, "an edge has a negative length");
-  RequireOfMap(IsCovariance(edge.covariance), "the covariance of an edge is none");
+  RequireOfMap(IsCovariance(edge.covariance), "the covariance of an edge is invalid");
 }
 
 // Requires that MapNumberCheck has passed.
 inline void CheckMap(const std::vector<Keyframe>& keyframes,
                      const std::vector<LevelTransform>& nodes,
                      const std::vector<LevelEdge>& edges) {
-  RequireOfMap(nodes.size() == keyframes.size(), "it has not one place for each keyframe");
+  RequireOfMap(nodes.size() == keyframes.size(),
+               "the number of poses differs from the number of keyframes");
   for (const Keyframe& keyframe : keyframes) CheckKeyframe(keyframe);
   for (const LevelEdge& edge : edges) CheckEdge(edge, static_cast<int>(nodes.size()));
 }

@@ -106,7 +106,7 @@ KeyframeMap ParseMap(const std::string& bytes) try {
   std::istringstream stream(bytes);
   BinaryReader reader(&stream);
   Map(&reader, map.keyframes, nodes, edges);
-  RequireOfMap(stream.peek() == std::istream::traits_type::eof(), "it goes on after its end");
+  RequireOfMap(stream.peek() == std::istream::traits_type::eof(), "extra data follow its end");
   MapNumberCheck numbers;
   Map(&numbers, map.keyframes, nodes, edges);
   CheckMap(map.keyframes, nodes, edges);
@@ -114,7 +114,7 @@ KeyframeMap ParseMap(const std::string& bytes) try {
   for (const LevelEdge& edge : edges) map.graph.AddEdge(edge);
   return map;
 } catch (const std::runtime_error& error) {
-  throw std::runtime_error(error.what() + std::string(": save the map again"));
+  throw std::runtime_error(error.what() + std::string("; save the map again"));
 }
 
 std::string ReadPayload(std::istream* stream) {
@@ -124,13 +124,13 @@ std::string ReadPayload(std::istream* stream) {
   stream->read(signature.data(), signature.size());
   if (std::string(signature.data(), signature.size()) !=
       std::string(kSignature, sizeof(kSignature))) {
-    throw std::runtime_error("is no map of plm_vins");
+    throw std::runtime_error("is not a map of plm_vins");
   }
   stream->read(reinterpret_cast<char*>(&version), sizeof(version));
   if (*stream && version != kVersion) {
     throw std::runtime_error("is a map of version " + std::to_string(version) +
                              ", this program reads version " + std::to_string(kVersion) +
-                             ": fly again for a new one, or take the program that saved it");
+                             "; record a new map, or use the version that saved it");
   }
   stream->read(reinterpret_cast<char*>(&size), sizeof(size));
   stream->read(reinterpret_cast<char*>(&checksum), sizeof(checksum));
@@ -138,7 +138,7 @@ std::string ReadPayload(std::istream* stream) {
   if (*stream) rest << stream->rdbuf();
   std::string bytes = rest.str();
   if (bytes.size() != size || Checksum(bytes) != checksum) {
-    throw std::runtime_error("is damaged: save the map again");
+    throw std::runtime_error("is damaged; save the map again");
   }
   return bytes;
 }
@@ -175,10 +175,12 @@ void SaveMap(const std::string& file, const KeyframeMap& map) {
 KeyframeMap LoadMap(const std::string& file) {
   std::error_code error;  // an error is reported when the file is opened
   if (std::filesystem::is_directory(file, error)) {
-    throw std::runtime_error(file + " is a folder: name the map in it");
+    throw std::runtime_error(file + " is a folder; name the map file in it");
   }
   std::ifstream stream(file, std::ios::binary);
-  if (!stream && errno == ENOENT) throw std::runtime_error(file + ": there is no such map");
+  if (!stream && errno == ENOENT) {
+    throw std::runtime_error(file + ": no such file; check the path of the map");
+  }
   if (!stream) {
     throw std::runtime_error(file + " cannot be read: " + std::generic_category().message(errno));
   }
@@ -194,7 +196,7 @@ PreviousMap LoadPreviousMap(const std::string& file) {
   if (std::filesystem::exists(file, error)) return {LoadMap(file), ""};
   return {{},
           "load_previous_pose_graph: there is no map " + file +
-              "; starting an empty one (pose_graph_save_path is its folder)"};
+              "; starting with an empty one (pose_graph_save_path is its folder)"};
 }
 
 }  // namespace plm_vins

@@ -24,7 +24,7 @@ void CheckSameKind(const CameraParameters& ours, const CameraParameters& refined
   if (refined.model == ours.model && refined.width == ours.width && refined.height == ours.height) {
     return;
   }
-  throw std::invalid_argument("it is not the camera of the configuration");
+  throw std::invalid_argument("its camera model or image size differs from the configuration");
 }
 
 // Runs `take` and counts exceptions, whose text tells what is wrong with a message.

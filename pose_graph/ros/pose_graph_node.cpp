@@ -184,11 +184,11 @@ void PoseGraphNode::PassOn() {
 }
 
 void PoseGraphNode::Restart(const std_msgs::Bool& message) {
-  if (message.data) NoteNewWorld("the estimator says so");
+  if (message.data) NoteNewWorld("the estimator restarted");
 }
 
 void PoseGraphNode::NoteNewWorld(const std::string& reason) {
-  ROS_WARN("a new world of odometry begins: %s", reason.c_str());
+  ROS_WARN("new world frame of the odometry: %s", reason.c_str());
   BeginWorld();
 }
 
@@ -218,7 +218,7 @@ bool PoseGraphNode::SaveMapFile(Trigger::Request&, Trigger::Response& response) 
   const std::lock_guard<std::mutex> lock(loops_mutex_);
   const int keyframes = loops_->map().CountKept();
   if (keyframes == 0) {
-    response.message = "there is no keyframe to save yet; " + map_file_ + " stays as it is";
+    response.message = "there is no keyframe to save yet; " + map_file_ + " is unchanged";
     return true;
   }
   try {
@@ -361,18 +361,18 @@ void PoseGraphNode::ReportState(diagnostic_updater::DiagnosticStatusWrapper* sta
     const bool silent = image_subscription_.stream().Silence() > late;
     status->summary(DiagnosticStatus::WARN,
                     std::string("keyframes without images: ") +
-                        (silent ? "no image comes on " : "nothing can be made an image of ") +
+                        (silent ? "no images on " : "no usable images on ") +
                         image_subscription_.topic());
   } else if (odometry_stream_.Silence() > StreamMonitor::kSilence) {
     status->summary(
         DiagnosticStatus::WARN,
-        "waiting: no pose comes on " + node_.resolveName(std::string(kEstimator) + "odometry"));
+        "waiting: no poses on " + node_.resolveName(std::string(kEstimator) + "odometry"));
   } else if (status_.fix) {
     status->summary(DiagnosticStatus::OK, "located in the map");
   } else if (status_.keyframes == 0) {
     status->summary(DiagnosticStatus::OK, "waiting: no keyframe yet");
   } else {
-    status->summary(DiagnosticStatus::WARN, "looking for the place in the map");
+    status->summary(DiagnosticStatus::WARN, "not located in the map yet");
   }
 }
 

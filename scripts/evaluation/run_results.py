@@ -37,5 +37,5 @@ def check_whole(path):
     stem, extension = os.path.splitext(path)
     part = f"{stem}_1{extension}"
     if os.path.isfile(part):
-        raise TrajectoryError("stamps of the recording jumped back, poses of before are in"
+        raise TrajectoryError("timestamps of the recording jumped back, earlier poses are in"
                               f" {os.path.basename(part)}")

@@ -12,7 +12,7 @@ namespace {
 
 std::string MakeFolder(const std::string& folder) {
   if (std::filesystem::exists(folder + "/mav0")) {
-    throw std::runtime_error(folder + " holds a recording already: remove it or choose another");
+    throw std::runtime_error(folder + " already holds a recording; remove it or choose another");
   }
   for (const char* part : {"/mav0/imu0", "/mav0/state_groundtruth_estimate0"}) {
     std::filesystem::create_directories(folder + part);

@@ -80,8 +80,9 @@ TEST(PointTrackingStage, AMaskThatIsRefusedNamesTheFileOfTheConfiguration) {
   folder.Write("mask.png", "echo no picture");
   EXPECT_EQ(error(), key + "cannot read the image " + config.points.fisheye_mask);
   cv::imwrite(config.points.fisheye_mask, cv::Mat(10, 20, CV_8UC1, cv::Scalar(255)));
-  EXPECT_THAT(error(), ::testing::StartsWith(key + config.points.fisheye_mask +
-                                             " has 20x10 pixels, image_width and image_height"));
+  EXPECT_THAT(error(),
+              ::testing::StartsWith(key + config.points.fisheye_mask +
+                                    " has 20x10 pixels, but image_width and image_height"));
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST(TransformText, RefusesDegrees) {
   for (const std::string text : {"0 0 0 0 0 180", "0 0 0 -90 0 0", "0 0 0 0 6.4 0"}) {
     EXPECT_EQ(
         ProblemOf(text),
-        "imu_to_base: yaw pitch roll are in rad, more than 2 pi is no angle: \"" + text + "\"");
+        "imu_to_base: yaw, pitch and roll are in rad and must be at most 2 pi: \"" + text + "\"");
   }
   EXPECT_EQ(ProblemOf("90 0 0 6.2832 -6.2832 0"), "");
 }

@@ -229,8 +229,8 @@ class RunFlight(unittest.TestCase):
         self.assertRegex(error, "have different clocks: stamps are 16000000[0-9.]* s and "
                                 "16000001[0-9.]* s at a time, apart by -[0-9.]* s; stamp both")
         error = self.run_flight(flight, "--duration", 2, exit_code=1)
-        self.assertIn("warning: images begin at 1600000000.100 s and no IMU sample has come by "
-                      "their end; both must have one clock\n", error)
+        self.assertIn("warning: images begin at 1600000000.100 s and no IMU sample comes "
+                      "before their end; both must be stamped by the same clock\n", error)
 
     def test_a_gyro_that_is_missing(self):
         flight = self.copy_with_imu(

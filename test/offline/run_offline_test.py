@@ -80,7 +80,7 @@ class RunOffline(unittest.TestCase):
         config = self.folder / "vins.yaml"
         config.write_text(CONFIG.read_text(encoding="utf-8") + "\nmin_loop_num: 1\nvoc_file: x\n",
                           encoding="utf-8")
-        self.assert_refuses(f"warning: {config}: without effect here: min_loop_num, voc_file\n",
+        self.assert_refuses(f"warning: {config}: keys without effect: min_loop_num, voc_file\n",
                             config=config)
 
     def test_loops_without_images(self):
@@ -113,8 +113,8 @@ class RunOffline(unittest.TestCase):
     def test_features_of_another_version(self):
         features = self.folder / "flight.features"
         features.write_bytes(b"plm_features v1\n")
-        self.assert_refuses("flight.features: is of another version of this program; record it "
-                            "again with --save-features", source=("--features", features))
+        self.assert_refuses("flight.features: was written by another version of this program",
+                            source=("--features", features))
 
     def test_features_that_would_overwrite_themselves(self):
         features = self.folder / "flight.features"
@@ -131,7 +131,7 @@ class RunOffline(unittest.TestCase):
                             "--map-in", features)
         self.assert_refuses("--map-out would overwrite the input", "--map-out", link,
                             config=features)
-        self.assert_refuses("is no map of plm_vins", "--map-in", features, "--map-out", features)
+        self.assert_refuses("is not a map of plm_vins", "--map-in", features, "--map-out", features)
         self.assert_refuses(f"both name {link}", "--save-features", features, "--map-out", link)
         self.assert_refuses("both name x.plm", "--save-features", "./x.plm", "--map-out", "x.plm")
         self.assertEqual(features.read_text(encoding="utf-8"), "kept")
@@ -171,7 +171,7 @@ class RunOffline(unittest.TestCase):
         results = self.folder / "results"
         results.mkdir()
         (results / "trajectory.tum").write_text("of before", encoding="utf-8")
-        self.assert_refuses("there is no such map", "--map-in", self.folder / "missing.plm")
+        self.assert_refuses("no such file", "--map-in", self.folder / "missing.plm")
         self.assert_refuses("cannot write", "--map-out", self.folder / "missing" / "map.plm")
         self.assert_refuses("cannot write", "--save-features", self.folder / "missing" / "x")
         self.assertEqual((results / "trajectory.tum").read_text(encoding="utf-8"), "of before")
@@ -185,7 +185,7 @@ class RunOffline(unittest.TestCase):
         self.assert_refuses("none was usable", *options)
         folder.mkdir(parents=True)
         (folder / "pose_graph.plm").write_text("damaged", encoding="utf-8")
-        self.assert_refuses("is no map of plm_vins", *options)
+        self.assert_refuses("is not a map of plm_vins", *options)
 
     def test_files_that_nothing_is_written_to_where_the_output_cannot_be(self):
         features = self.folder / "good.features"

@@ -50,7 +50,7 @@ class Silence(ConsoleTest):
     def test_compressed_images_alone(self):
         self.advertise("/cam0/image_raw/compressed", CompressedImage)
         self.processes.start_node(NODES / "feature_tracker")
-        self.wait_for("feature_tracker", "nothing comes on /cam0/image_raw; but "
+        self.wait_for("feature_tracker", "no messages on /cam0/image_raw; but "
                       "/cam0/image_raw/compressed is published: start with "
                       "image_transport:=compressed")
 
@@ -111,7 +111,7 @@ class Environment(ConsoleTest):
         transform = TransformStamped(child_frame_id="body")
         transform.transform.rotation.w = 1
         publisher.publish(TFMessage([transform]))
-        self.wait_for("vins_estimator", "/console_test publishes the tf frame body as well")
+        self.wait_for("vins_estimator", "/console_test also publishes the tf frame body")
 
     def test_a_home_that_cannot_be_written(self):
         node = self.processes.start_node(NODES / "vins_estimator", ROS_HOME="/dev/null")

@@ -111,7 +111,7 @@ class Lines : public ::testing::Test {
 Lines::Feed* Lines::feed_ = nullptr;
 
 bool SaysPointsAlone(const std::string& message) {
-  return message.find("points alone") != std::string::npos;
+  return message.find("points only") != std::string::npos;
 }
 
 TEST_F(Lines, ArePairedBeforeOrAfterTheirPoints) {

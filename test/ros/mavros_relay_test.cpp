@@ -208,7 +208,8 @@ TEST(MavrosRelay, AsksTfWhereTheBaseIsAndCountsAPauseOfAll) {
 
   estimator.Pause(2.0);
   EXPECT_TRUE(SpinUntil(kPatience, [&] {
-    return log.find("not relayed: no usable states come") != std::string::npos;
+    return log.find("not relayed: no usable state arrives on vins_estimator/imu_propagate") !=
+           std::string::npos;
   })) << log;
   estimator.Fly(1.0, true);
   EXPECT_TRUE(mavros.WaitForCounter(1)) << mavros.reset_counter;

@@ -64,7 +64,7 @@ class Namespace(unittest.TestCase):
         for name, topic in (("feature_tracker", "/robot1/front/image"),
                             ("linefeature_tracker", "/robot1/front/image"),
                             ("vins_estimator", "/robot1/front/imu and ")):
-            listener.wait_for_message(name, f"waiting: nothing comes on {topic}")
+            listener.wait_for_message(name, f"waiting: no messages on {topic}")
 
     def test_remaps_compressed_images(self):
         listener = Listener("/robot2")
@@ -72,7 +72,7 @@ class Namespace(unittest.TestCase):
                                   "_image_transport:=compressed", "cam0/image_raw:=front/image",
                                   ROS_NAMESPACE="robot2")
         listener.wait_for_message("feature_tracker",
-                                  "waiting: nothing comes on /robot2/front/image/compressed")
+                                  "waiting: no messages on /robot2/front/image/compressed")
 
     def test_remaps_images_once(self):
         """The image topics of two cameras are swapped by remapping."""
@@ -81,7 +81,7 @@ class Namespace(unittest.TestCase):
                                   "cam0/image_raw:=cam1/image_raw",
                                   "cam1/image_raw:=cam0/image_raw", ROS_NAMESPACE="robot3")
         listener.wait_for_message("feature_tracker",
-                                  "waiting: nothing comes on /robot3/cam1/image_raw")
+                                  "waiting: no messages on /robot3/cam1/image_raw")
 
     def topics_outside(self):
         topics = {name for kind in rosgraph.Master("/namespace_test").getSystemState()[:2]

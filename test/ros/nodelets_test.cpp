@@ -321,7 +321,7 @@ TEST_F(OurNodelets, SayWhichKeyNamesNoTopic) {
   ros::param::set("/misnamed/set/imu_topic", "/imu-0");
   EXPECT_FALSE(Nodelets::Load("/misnamed", "plm_vins/FeatureTracker"));
   EXPECT_TRUE(SpinUntil(kTimeout, [&] {
-    return log.find("imu_topic: \"/imu-0\" is not the name of a topic") != std::string::npos;
+    return log.find("imu_topic: \"/imu-0\" is not a valid topic name") != std::string::npos;
   })) << log;
 }
 

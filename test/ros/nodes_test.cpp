@@ -261,7 +261,7 @@ TEST_F(Nodes, PublishTransformsFromWorldToCamera) {
 
 TEST_F(Nodes, SayWhatTheyDoAndWhatTheyWaitFor) {
   const auto estimator = Statuses(log_->diagnostics, "vins_estimator: odometry");
-  EXPECT_FALSE(LastStatus(estimator, "waiting: nothing comes on /imu0").empty());
+  EXPECT_FALSE(LastStatus(estimator, "waiting: no messages on /imu0").empty());
   Status tracking = LastStatus(estimator, "tracking");
   ASSERT_FALSE(tracking.empty());
   EXPECT_EQ(tracking["frames_dropped_full"], "0");
@@ -270,7 +270,7 @@ TEST_F(Nodes, SayWhatTheyDoAndWhatTheyWaitFor) {
 
   const auto tracker = Statuses(log_->diagnostics, "feature_tracker: point tracking");
   EXPECT_FALSE(LastStatus(tracker, "tracking").empty());
-  Status end = LastStatus(tracker, "waiting: nothing comes on /cam0/image_raw");
+  Status end = LastStatus(tracker, "waiting: no messages on /cam0/image_raw");
   EXPECT_EQ(end["images"], std::to_string(log_->image.messages.size()));
 }
 

@@ -110,7 +110,7 @@ class Parameters(OperationsTest):
             f"_set/{key}:={value}" for key, (value, _) in values.items()),
             ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
         for key, (_, text) in values.items():
-            wait_until(lambda text=f"parameter /feature_tracker/set/{key} replaces the value of"
+            wait_until(lambda text=f"parameter /feature_tracker/set/{key} overrides the value in"
                        f" {CONFIG}: {text}": text in self.processes.log("feature_tracker"), key)
 
     def test_values_of_the_configuration_are_refused_by_their_parameter(self):
@@ -118,10 +118,10 @@ class Parameters(OperationsTest):
                             'parameter /feature_tracker/set/max_cnt: "7" out of range')
         rospy.set_param("/vins_estimator/set/max_cnt", [1, 2])
         self.assert_refused("vins_estimator", "_trajectory_file:=",
-                            "parameter /vins_estimator/set/max_cnt must be a text, a number or a"
-                            " flag")
+                            "parameter /vins_estimator/set/max_cnt must be a string, a number or"
+                            " a boolean")
         self.assert_refused("vins_estimator", "_set:=3",
-                            "parameter /vins_estimator/set must have the keys below it")
+                            "parameter /vins_estimator/set must be a namespace of keys")
 
     def test_frames_and_angles_of_the_relay_are_checked(self):
         self.assert_refused("mavros_relay", "_base_frame:=/base_link",
@@ -129,7 +129,7 @@ class Parameters(OperationsTest):
                             " slash")
         self.assert_refused("mavros_relay", "_odom_frame:=", "parameter /mavros_relay/odom_frame:")
         self.assert_refused("mavros_relay", "_imu_to_base:=0 0 0 0 0 180",
-                            "parameter /mavros_relay/imu_to_base: yaw pitch roll are in rad")
+                            "parameter /mavros_relay/imu_to_base: yaw, pitch and roll are in rad")
 
     def test_a_name_that_ros_refuses_ends_the_node(self):
         self.assert_refused("feature_tracker", "__name:=front/tracker",
@@ -155,7 +155,7 @@ class Turns(OperationsTest):
                 self.processes.start(f"player{player}", [
                     "rostopic", "pub", "-s", "-r", "10", topic, "sensor_msgs/PointCloud",
                     "{header: {stamp: now}, channels: [{}, {}, {}]}"])  # an image without features
-            wait_until(lambda topic=topic: f"publishers take turns on {topic}" in
+            wait_until(lambda topic=topic: f"several publishers alternate on {topic}" in
                        self.processes.log("vins_estimator"), topic)
 
 
@@ -199,11 +199,11 @@ class Restart(OperationsTest):
         for tracker in NAMES[:2]:
             self.listener.wait_for_value(tracker, "image_restarts", lambda count: count == "1")
         restart = self.listener.value("vins_estimator", "last_restart")
-        self.assertIn(restart, ("asked for on /feature_tracker/restart", "stamps jumped back"))
+        self.assertIn(restart, ("requested on /feature_tracker/restart", "timestamps jumped back"))
         log = self.processes.log("vins_estimator")
-        self.assertEqual(log.count("the world frame starts anew"), 1, log)
+        self.assertEqual(log.count("new world frame"), 1, log)
 
-        self.listener.wait_for_message("vins_estimator", "waiting: nothing comes on")
+        self.listener.wait_for_message("vins_estimator", "waiting: no messages on")
         self.listener.wait_for_value("vins_estimator", "queued", lambda queued: queued == "0")
         self.check_save()
         jump, = [i for i in range(1, len(stamps)) if stamps[i] < stamps[i - 1]]
@@ -241,7 +241,7 @@ class Clock(OperationsTest):
         rospy.set_param("/use_sim_time", True)
         self.addCleanup(rospy.delete_param, "/use_sim_time")
         self.start_node("vins_estimator")
-        wait_until(lambda: "no time comes on /clock" in self.processes.log("vins_estimator"),
+        wait_until(lambda: "no time is published on /clock" in self.processes.log("vins_estimator"),
                    "a warning")
 
 
@@ -275,15 +275,15 @@ class Death(OperationsTest):
         listener.wait_for_odometry()
 
         self.kill("linefeature_tracker")
-        listener.wait_for_message("vins_estimator", "points alone")
+        listener.wait_for_message("vins_estimator", "points only")
         listener.wait_for_odometry()
         self.revive("linefeature_tracker")
         listener.wait_for_value("vins_estimator", "message",
-                                lambda message: "points alone" not in message)
+                                lambda message: "points only" not in message)
 
         self.kill("feature_tracker")
         listener.wait_for_message("vins_estimator",
-                                  "waiting: nothing comes on /feature_tracker/feature")
+                                  "waiting: no messages on /feature_tracker/feature")
         self.revive("feature_tracker")
         listener.wait_for_odometry()
 

@@ -240,7 +240,7 @@ TEST_F(PoseGraphNodeTest, SaysWhereKeyframesComeWithoutImages) {
   EXPECT_TRUE(SpinUntil(kPatience, [&] {
     estimator_->PublishPose(KeyframeSource::Pose(0));
     ros::WallDuration(0.1).sleep();
-    return status_.Value("message").find("no image comes on /cam0/image_raw") != std::string::npos;
+    return status_.Value("message").find("no images on /cam0/image_raw") != std::string::npos;
   })) << status_.Value("message");
 }
 
@@ -250,7 +250,7 @@ TEST_F(PoseGraphNodeTest, SaysWhereNothingThatComesIsAnImage) {
     camera_.PublishDepth(KeyframeSource::Stamp(i++));
     estimator_->PublishPose(KeyframeSource::Pose(0));
     ros::WallDuration(0.1).sleep();
-    return status_.Value("message").find("nothing can be made an image of /cam0/image_raw") !=
+    return status_.Value("message").find("no usable images on /cam0/image_raw") !=
            std::string::npos;
   })) << status_.Value("message");
 }
@@ -262,7 +262,7 @@ TEST_F(PoseGraphNodeTest, SaysInFullWhereItsMapIs) {
   EXPECT_FALSE(save.response.success);
   const size_t file = message.find("; /");
   ASSERT_NE(file, std::string::npos) << message;
-  EXPECT_NE(message.find("/pose_graph.plm stays as it is", file), std::string::npos) << message;
+  EXPECT_NE(message.find("/pose_graph.plm is unchanged", file), std::string::npos) << message;
   EXPECT_EQ(message.find("/./"), std::string::npos) << message;
 }
 

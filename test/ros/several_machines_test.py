@@ -88,7 +88,7 @@ class SeveralMachines(unittest.TestCase):
 
         ip("link", "set", LINK, "down")
         down = time.monotonic()
-        listener.wait_for_message("vins_estimator", "waiting: nothing comes on /imu0 and "
+        listener.wait_for_message("vins_estimator", "waiting: no messages on /imu0 and "
                                                     "/feature_tracker/feature")
         before = listener.odometry[-1]
         time.sleep(max(0.0, down + OUTAGE - time.monotonic()))

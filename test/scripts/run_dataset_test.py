@@ -142,7 +142,7 @@ class Results(DatasetTest):
         self.add("hall", "fly jump")
         self.call("--variants", "improved", "--starts", "0", "5")
         for row in self.rows():
-            self.assertIn("jumped back, poses of before are in trajectory_1.tum", row["status"])
+            self.assertIn("jumped back, earlier poses are in trajectory_1.tum", row["status"])
             self.assertEqual((row["ape_m"], row["coverage_percent"], row["init_time_s"]),
                              ("", "", "1"))
         self.assertIn("trajectory_1.tum", self.report())

@@ -283,8 +283,8 @@ class Page(ShowRun):
     def test_a_part_of_a_run(self):
         self.write(os.path.join(self.run_folder, "trajectory_1.tum"), "")
         text = self.write_page("--groundtruth", self.truth())[1]
-        self.assertTrue("Not compared with the ground truth: stamps of the recording jumped back,"
-                        " poses of before are in trajectory_1.tum" in text)
+        self.assertTrue("Not compared with the ground truth: timestamps of the recording jumped"
+                        " back, earlier poses are in trajectory_1.tum" in text)
 
     def test_text_cannot_end_a_script(self):
         self.assertNotIn("</script>", as_json("</script>"))

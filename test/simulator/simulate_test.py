@@ -43,7 +43,7 @@ class Simulate(unittest.TestCase):
 
     def test_seeds_that_are_no_whole_number(self):
         for seed in ["-1", "1.5", "nan", "+1", "1e3"]:
-            self.assert_refuses("expected a whole number, zero or more, instead of " + seed,
+            self.assert_refuses("expected a whole number of at least 0 instead of " + seed,
                                 "--seed", seed)
 
     def test_paths_that_are_empty(self):
@@ -51,18 +51,18 @@ class Simulate(unittest.TestCase):
             self.assert_refuses(f"{option}: expected a path, which is empty", option, "")
 
     def test_sensors_that_the_configuration_lacks(self):
-        self.assert_refuses("--stereo: set num_of_cam: 2 in a configuration", "--stereo")
-        self.assert_refuses("--depth: set depth_topic in a configuration", "--depth")
+        self.assert_refuses("--stereo: name a --config with num_of_cam: 2", "--stereo")
+        self.assert_refuses("--depth: name a --config with depth_topic", "--depth")
 
     def test_a_bag_in_the_place_of_the_ground_truth(self):
-        self.assert_refuses("where the ground truth is to go", "--output", "flight.tum")
+        self.assert_refuses("the ground truth would overwrite", "--output", "flight.tum")
 
     def test_files_that_are_there_already(self):
-        self.assert_refuses(f"{self.bag} is there already: remove it or choose another")
+        self.assert_refuses(f"{self.bag} already exists; remove it or choose another")
         for name in ["other.tum", "other.csv"]:
             truth = self.folder / name
             truth.write_text("of another flight", encoding="utf-8")
-            self.assert_refuses(f"{truth} is there already", "--output", self.folder / "other.bag",
+            self.assert_refuses(f"{truth} already exists", "--output", self.folder / "other.bag",
                                 "--asl", self.folder / "asl")
             self.assertEqual(truth.read_text(encoding="utf-8"), "of another flight")
             truth.unlink()

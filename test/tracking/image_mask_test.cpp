@@ -51,7 +51,7 @@ TEST_F(ImageMaskTest, IsRefusedWhereItMasksAllOrDoesNotFit) {
     return testing::MessageOf([&] { Stored("mask.png", mask); });
   };
   using ::testing::HasSubstr;
-  EXPECT_THAT(error(cv::Mat(kSize, CV_8UC1, cv::Scalar(1))), HasSubstr("allows nothing"));
+  EXPECT_THAT(error(cv::Mat(kSize, CV_8UC1, cv::Scalar(1))), HasSubstr("is dark everywhere"));
   EXPECT_THAT(error(cv::Mat(10, 20, CV_8UC1, cv::Scalar(255))), HasSubstr("has 20x10 pixels"));
   EXPECT_THROW(ReadMask(folder_.File("none.png"), kSize), std::invalid_argument);
 }

@@ -100,9 +100,9 @@ std::vector<Trouble> Troubles() {
       {"points that jump about", ScatterPoints, nothing, "", true},
       {"a point tracker that is started again", BreakTracks, nothing, ""},
       {"an IMU that fails", ShakeImu, nothing, ", more than "},
-      {"nothing to be seen", Blindfold, nothing, "nothing has held the position for"},
-      {"a pause of all sensors", Pause, nothing, "nothing has held the position for"},
-      {"clocks that are set back", SetClockBack, nothing, "stamps jumped back"},
+      {"nothing to be seen", Blindfold, nothing, "no feature has constrained the position for"},
+      {"a pause of all sensors", Pause, nothing, "no feature has constrained the position for"},
+      {"clocks that are set back", SetClockBack, nothing, "timestamps jumped back"},
       {"a reset", [](FeatureDataset*) {},
        [](EstimationStage* stage) { stage->Reset("reset by service"); }, "reset by service"},
   };

@@ -126,7 +126,7 @@ TEST_F(EstimationStageTest, WhatHasNotBegunNeedNotStartOver) {
 TEST_F(EstimationStageTest, StartsOverWhereAllStampsJumpBack) {
   Rest(5000, 7000);
   Rest(0, 3000);
-  EXPECT_EQ(Restarts(), (std::vector<std::string>{"stamps jumped back"}));
+  EXPECT_EQ(Restarts(), (std::vector<std::string>{"timestamps jumped back"}));
   EXPECT_EQ(stage_->resets(), 1);
   EXPECT_TRUE(outputs_.back().has_pose);
   EXPECT_EQ(outputs_.back().t_ns, 3000 * kMillisecond);
@@ -144,7 +144,7 @@ TEST_F(EstimationStageTest, StartsOverWhereAllStampsStepBackALittle) {
       if (i % 10 == 0) AddPoints(t);
       Take();
     }
-    EXPECT_EQ(Restarts(), (std::vector<std::string>{"stamps jumped back"})) << step;
+    EXPECT_EQ(Restarts(), (std::vector<std::string>{"timestamps jumped back"})) << step;
     EXPECT_EQ(stage_->statistics().jumps_back, 1);
     EXPECT_TRUE(outputs_.back().has_pose);
   }
@@ -168,7 +168,7 @@ TEST_F(EstimationStageTest, StartsOverWhereTheImuAloneJumpsBack) {
   for (int t = 0; t <= 5500; t += 5) AddImu(t);
   EXPECT_EQ(stage_->statistics().jumps_back, 1);
   Rest(5505, 7500);
-  EXPECT_EQ(Restarts(), (std::vector<std::string>{"stamps jumped back"}));
+  EXPECT_EQ(Restarts(), (std::vector<std::string>{"timestamps jumped back"}));
   EXPECT_TRUE(outputs_.back().has_pose);
 }
 
@@ -177,7 +177,7 @@ TEST_F(EstimationStageTest, StartsOverWhereImagesAloneJumpBack) {
   for (int t = 0; t <= 1000; t += 50) AddPoints(t);
   EXPECT_EQ(stage_->statistics().jumps_back, 1);
   Rest(1005, 3000);
-  EXPECT_EQ(Restarts(), (std::vector<std::string>{"stamps jumped back"}));
+  EXPECT_EQ(Restarts(), (std::vector<std::string>{"timestamps jumped back"}));
   EXPECT_TRUE(outputs_.back().has_pose);
 }
 
@@ -187,8 +187,9 @@ TEST_F(EstimationStageTest, StartsOverWhereAllStampsLeapAhead) {
   ASSERT_TRUE(outputs_.back().has_pose);
   constexpr int kLeap = 2'000'000'000;
   Rest(kLeap, kLeap + 3000);
-  EXPECT_EQ(Restarts(),
-            (std::vector<std::string>{"no IMU for more than a minute, or its clock was set on"}));
+  EXPECT_EQ(
+      Restarts(),
+      (std::vector<std::string>{"no IMU for more than a minute, or its clock jumped forward"}));
   EXPECT_EQ(stage_->statistics().leaps_ahead, 1);
   EXPECT_EQ(stage_->resets(), 1);
   EXPECT_TRUE(outputs_.back().has_pose);
@@ -211,8 +212,7 @@ TEST_F(EstimationStageTest, SaysThatTheImuComesTooSeldom) {
     Take();
   }
   EXPECT_EQ(stage_->frames(), 0);
-  EXPECT_EQ(stage_->ImuContradiction(),
-            "the IMU comes at 16.7 Hz, of which nothing can be made: give 20 Hz or more");
+  EXPECT_EQ(stage_->ImuContradiction(), "the IMU rate is 16.7 Hz; at least 20 Hz is needed");
 }
 
 // Runs the stage on a flight with points only.
@@ -310,7 +310,7 @@ TEST(EstimationStage, DoesNotBlameTheNoiseForAWrongCalibration) {
   EstimationStage stage = StageFor(flight);
   Fly(flight, &stage);
   const std::string contradiction = stage.ImuContradiction();
-  EXPECT_NE(contradiction.find("; check, the likeliest first: extrinsicRotation"),
+  EXPECT_NE(contradiction.find("; check, the most likely first: extrinsicRotation"),
             std::string::npos)
       << contradiction;
   EXPECT_EQ(contradiction.find("acc_n"), std::string::npos) << contradiction;

@@ -260,7 +260,8 @@ TEST(EstimatorRobustness, TenSecondsOfBlindnessEndInARestart) {
     EXPECT_EQ(output.on_imu_alone, output.has_pose && i >= 180) << i;
   }
   ASSERT_EQ(reasons.size(), 1u);
-  EXPECT_NE(reasons[0].find("nothing has held the position"), std::string::npos) << reasons[0];
+  EXPECT_NE(reasons[0].find("no feature has constrained the position"), std::string::npos)
+      << reasons[0];
 }
 
 // From an image on there are no lines, and no point is tracked to the next image.
@@ -301,7 +302,7 @@ TEST(EstimatorRobustness, TenSecondsOfPointsThatHoldNothingEndInARestart) {
     const EstimatorOutput output = estimator.Process(simulated.frames[i]);
     if (!output.restarted) continue;
     restarts.push_back(i);
-    EXPECT_NE(output.reason.find("nothing has held the position"), std::string::npos)
+    EXPECT_NE(output.reason.find("no feature has constrained the position"), std::string::npos)
         << output.reason;
   }
   ASSERT_EQ(restarts.size(), 1u);
@@ -342,7 +343,7 @@ TEST(EstimatorRobustness, WhatCannotBeOptimisedIsALoss) {
     frame.imu[1].accel_doubt = 1e160;
     output = estimator.Process(frame);
     EXPECT_EQ(output.status, EstimatorStatus::kLost);
-    EXPECT_EQ(output.reason, "the optimisation has no solution");
+    EXPECT_EQ(output.reason, "the optimization has no solution");
     EXPECT_FALSE(output.has_pose);
     EXPECT_THROW(estimator.Process(flight.frames[150]), std::invalid_argument) << "older";
     EXPECT_NO_THROW(estimator.Process(flight.frames[181]));

@@ -142,7 +142,7 @@ class TrackerNode {
     const TopicAdvice advice = AdviseOnSilence(images_.topic(), images_.type());
     if (!advice.is_certain && silence < kLongSilence) return;
     waits_for_first_image_ = false;
-    ROS_WARN_STREAM("nothing comes on " << images_.topic() << "; " << advice.text);
+    ROS_WARN_STREAM("no messages on " << images_.topic() << "; " << advice.text);
   }
 
   void LogStamps() {
@@ -169,7 +169,7 @@ class TrackerNode {
 
   void Publish(const typename Stage::Frame& frame) {
     if (frame.restart) {
-      ROS_WARN("stamps of the images jumped back: tracking starts anew");
+      ROS_WARN("image timestamps jumped back: tracking restarts");
       std_msgs::Bool restart;
       restart.data = true;
       restart_publisher_.publish(restart);
@@ -198,13 +198,13 @@ class TrackerNode {
   void ReportStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
     if (images_.stream().Silence() > StreamMonitor::kSilence) {
-      status.summary(DiagnosticStatus::WARN, "waiting: nothing comes on " + images_.topic());
+      status.summary(DiagnosticStatus::WARN, "waiting: no messages on " + images_.topic());
     } else if ((ros::WallTime::now() - last_tracked_).toSec() > StreamMonitor::kSilence) {
       status.summary(DiagnosticStatus::WARN, stage_.counts().images == 0
                                                  ? "waiting: no usable image yet"
                                                  : "waiting: no usable image any more");
     } else if (features_in_last_image_ == 0) {
-      status.summary(DiagnosticStatus::WARN, "lost: nothing to follow in the last image");
+      status.summary(DiagnosticStatus::WARN, "lost: no features in the last image");
     } else {
       const std::string finding = ImageFinding();
       status.summary(finding.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
@@ -225,10 +225,10 @@ class TrackerNode {
   std::string ImageFinding() {
     if (config_.sensor.second_camera &&
         right_images_.stream().Silence() > StreamMonitor::kSilence) {
-      return "second camera: nothing comes on " + right_images_.topic();
+      return "second camera: no messages on " + right_images_.topic();
     }
     if (depth_subscriber_ && depth_stream_.Silence() > StreamMonitor::kSilence) {
-      return "depth: nothing comes on " + depth_subscriber_.getTopic();
+      return "depth: no messages on " + depth_subscriber_.getTopic();
     }
     return Traits::Finding(stage_.tracker());
   }

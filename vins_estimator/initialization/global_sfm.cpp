@@ -270,7 +270,7 @@ std::optional<Structure> Builder::Build(std::string* reason) {
   while (!std::all_of(posed_.begin(), posed_.end(), [](bool posed) { return posed; })) {
     const int view = NextView();
     if (view < 0 || !Resect(view)) {
-      *reason = "a view shares too few points with the others";
+      *reason = "a frame shares too few points with the others";
       return std::nullopt;
     }
   }

@@ -238,8 +238,8 @@ bool Attempt::CheckBiases() {
 
 bool Attempt::CheckAdjustment(const VisualInertialBundle& bundle) {
   if (bundle.reprojection_rms > options_.max_reprojection_rms) {
-    *reason_ = Format("points do not fit: %.1f sigma of at most %.1f", bundle.reprojection_rms,
-                      options_.max_reprojection_rms);
+    *reason_ = Format("point residuals are too large: %.1f sigma of at most %.1f",
+                      bundle.reprojection_rms, options_.max_reprojection_rms);
     return false;
   }
   if (bundle.imu_rms > options_.max_imu_rms) {
@@ -248,7 +248,7 @@ bool Attempt::CheckAdjustment(const VisualInertialBundle& bundle) {
     return false;
   }
   if (options_.stereo && bundle.outlier_share > kMaxOutlierShare) {
-    *reason_ = Format("the depths do not fit: %.0f %% outliers of at most %.0f %%",
+    *reason_ = Format("depths contradict the points: %.0f %% outliers of at most %.0f %%",
                       100 * bundle.outlier_share, 100 * kMaxOutlierShare);
     return false;
   }

@@ -143,7 +143,7 @@ std::optional<Eigen::Vector3d> EstimateGyroBias(
     covariance = H.inverse();
   }
   if (covariance.diagonal().maxCoeff() > std::pow(0.1 * kGyroBiasPrior, 2)) {
-    *reason = "the gyro bias is not determined by the images";
+    *reason = "the gyro bias is unobservable in these images";
     return std::nullopt;
   }
   return gyro_bias;
@@ -156,18 +156,18 @@ std::optional<Alignment> AlignVisualInertial(
   const AlignmentSystem system(views, preintegrations, T_B_C, scale_deviation);
   Alignment result;
   if (!system.Solve(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(), &result)) {
-    *reason = "velocities, gravity and scale are not determined";
+    *reason = "velocities, gravity and scale are unobservable";
     return std::nullopt;
   }
   const double norm = result.gravity_G.norm();
   if (std::abs(norm / gravity_norm - 1) > kGravityNormTolerance) {
-    *reason = Format("gravity comes out as %.2f m/s^2 instead of %.2f", norm, gravity_norm);
+    *reason = Format("estimated gravity is %.2f m/s^2 instead of %.2f", norm, gravity_norm);
     return std::nullopt;
   }
   for (int iteration = 0; iteration < kGravityIterations; ++iteration) {
     const Eigen::Vector3d direction = result.gravity_G.normalized();
     if (!system.Solve(gravity_norm * direction, TangentBasis(direction), &result)) {
-      *reason = "velocities, gravity and scale are not determined";
+      *reason = "velocities, gravity and scale are unobservable";
       return std::nullopt;
     }
   }
@@ -176,7 +176,7 @@ std::optional<Alignment> AlignVisualInertial(
     // With a constant velocity, any scale fits.
     *reason = -result.scale < kSignificant * result.scale_deviation
                   ? "scale not observable yet: the velocity changes too little"
-                  : "the scale comes out negative";
+                  : "the estimated scale is negative";
     return std::nullopt;
   }
   return result;

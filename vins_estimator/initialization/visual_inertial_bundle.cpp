@@ -286,7 +286,7 @@ std::optional<Solution> SolveBundle(const std::vector<Track>& tracks,
   equations.Linearize();
   const std::optional<double> scale_deviation = bundle.RelativeScaleDeviation(&equations);
   if (!solved || !scale_deviation) {
-    *reason = "the visual-inertial bundle adjustment is not determined";
+    *reason = "the visual-inertial bundle adjustment is degenerate";
     return std::nullopt;
   }
   return Solution{

@@ -20,20 +20,21 @@ template <typename Observation>
 void CheckFeatures(const FrameMeasurement& measurement, int64_t t_ns,
                    const std::vector<Observation>& observations, const std::string& kind) {
   if (t_ns != measurement.t_ns) {
-    Refuse(measurement, "its " + kind + "s are of " + std::to_string(t_ns) + " ns");
+    Refuse(measurement, "its " + kind + "s have the timestamp " + std::to_string(t_ns) + " ns");
   }
   std::vector<int64_t> ids;
   ids.reserve(observations.size());
   for (const Observation& observation : observations) {
     if (!IsPossible(observation)) {
-      Refuse(measurement, kind + " " + std::to_string(observation.id) + " is nowhere in an image");
+      Refuse(measurement,
+             kind + " " + std::to_string(observation.id) + " has impossible coordinates");
     }
     ids.push_back(observation.id);
   }
   std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
   if (twice != ids.end()) {
-    Refuse(measurement, kind + " " + std::to_string(*twice) + " is there twice");
+    Refuse(measurement, kind + " " + std::to_string(*twice) + " occurs twice");
   }
 }
 
@@ -60,10 +61,10 @@ void CheckImu(const FrameMeasurement& measurement, const std::optional<Measureme
   if (!Increase(imu)) Refuse(measurement, "the stamps of its IMU samples do not increase");
   if (!previous) return;
   if (imu.front().t_ns != previous->imu_ns) {
-    Refuse(measurement, "its IMU samples do not begin where those before end, at " +
+    Refuse(measurement, "its IMU samples do not begin at the end of the previous ones, " +
                             std::to_string(previous->imu_ns) + " ns");
   }
-  if (imu.size() < 2) Refuse(measurement, "no IMU sample leads to it");
+  if (imu.size() < 2) Refuse(measurement, "no IMU sample follows the previous image");
 }
 
 }  // namespace
@@ -71,7 +72,8 @@ void CheckImu(const FrameMeasurement& measurement, const std::optional<Measureme
 void CheckMeasurement(const FrameMeasurement& measurement,
                       const std::optional<MeasurementEnd>& previous) {
   if (previous && measurement.t_ns <= previous->t_ns) {
-    Refuse(measurement, "it is not after the one before, of " + std::to_string(previous->t_ns));
+    Refuse(measurement,
+           "it is not after the previous image, " + std::to_string(previous->t_ns) + " ns");
   }
   CheckFeatures(measurement, measurement.points.t_ns, measurement.points.points, "point");
   if (measurement.lines) {

@@ -31,8 +31,9 @@ std::optional<std::string> BlindnessMonitor::Add(
     if (is_held) hold_ = now;
     return std::nullopt;
   }
-  return Format("nothing has held the position for %.1f s, which leaves it open by %.2f m",
-                ToSeconds(state.t_ns - hold_->t_ns), added);
+  return Format(
+      "no feature has constrained the position for %.1f s; its standard deviation grew by %.2f m",
+      ToSeconds(state.t_ns - hold_->t_ns), added);
 }
 
 }  // namespace plm_vins

@@ -14,28 +14,28 @@ constexpr double kNoisier = 1.5;
 constexpr double kFarTooNoisy = 8;  // vibration on vehicles reaches five
 
 constexpr char kChecks[] =
-    "; check, the likeliest first: extrinsicRotation (axes, or its inverse), td, focal length and "
-    "distortion, scale and axes of the IMU, image parts that move or stand still by themselves";
+    "; check, the most likely first: extrinsicRotation (axes, or inverted), td, focal length and "
+    "distortion, scale and axes of the IMU, moving objects, parts of the image that never move";
 
 }  // namespace
 
 std::string DescribeContradiction(const ContradictionEvidence& evidence) {
   std::string text = "the camera contradicts the IMU";
   if (evidence.noise_factor > kNoisier) {
-    text += Format(", which counts as %.0f times noisier than it is", evidence.noise_factor);
+    text += Format(", whose noise is raised by a factor of %.0f", evidence.noise_factor);
   }
   if (evidence.delay) {
     text += Format("; td seems to be wrong by %+.0f ms or more", 1e3 * *evidence.delay);
   }
   if (std::abs(evidence.imu_rate / evidence.configured_imu_rate - 1) > kRateTolerance) {
-    text += Format("; the IMU comes at %.0f Hz, imu_rate is %.0f", evidence.imu_rate,
+    text += Format("; the IMU rate is %.0f Hz, but imu_rate is %.0f", evidence.imu_rate,
                    evidence.configured_imu_rate);
   }
   if (evidence.imu_jitter > kMaxJitter) {
-    text += Format("; its stamps jitter by %.1f ms", 1e3 * evidence.imu_jitter);
+    text += Format("; IMU timestamps jitter by %.1f ms", 1e3 * evidence.imu_jitter);
   }
   if (evidence.image_jitter > kMaxJitter) {
-    text += Format("; stamps of the images jitter by %.1f ms", 1e3 * evidence.image_jitter);
+    text += Format("; image timestamps jitter by %.1f ms", 1e3 * evidence.image_jitter);
   }
   if (evidence.accel_noise_factor > kFarTooNoisy) {
     text += Format("; acc_n is %.0f times too small for these samples (noise or vibration)",

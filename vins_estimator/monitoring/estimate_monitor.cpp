@@ -6,7 +6,7 @@ namespace plm_vins {
 std::optional<Failure> EstimateMonitor::Add(const Evidence& evidence) {
   const EstimatorCounts& counts = evidence.counts;
   const FrameState& newest = evidence.newest;
-  if (!evidence.solved) return Failure{"the optimisation has no solution"};
+  if (!evidence.solved) return Failure{"the optimization has no solution"};
   if (const auto contradiction =
           contradiction_monitor_.Add(newest.t_ns, counts.known_seen, counts.known_rejected)) {
     return Failure{*contradiction};

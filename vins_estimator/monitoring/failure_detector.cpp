@@ -31,7 +31,7 @@ std::optional<std::string> Exceeds(const char* what, double value, double limit,
 
 std::optional<std::string> DetectFailure(const FailureLimits& limits, const FrameState& predicted,
                                          const FrameState& optimized) {
-  if (!IsFinite(optimized)) return "the optimisation gave values that are not finite";
+  if (!IsFinite(optimized)) return "the optimization returned non-finite values";
   const double turn = predicted.rotation().angularDistance(optimized.rotation());
   const std::optional<std::string> causes[] = {
       Exceeds("accelerometer bias", optimized.accel_bias().norm(), limits.accel_bias, "m/s^2"),

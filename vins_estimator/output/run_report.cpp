@@ -50,7 +50,7 @@ std::vector<std::string> RunReport::Lines(std::optional<int64_t> first_image_ns)
 
 std::string RunReport::DescribeWorlds(double lead) const {
   std::string text = std::to_string(worlds_.size()) +
-                     (worlds_.size() == 1 ? " world frame: " : " world frames, unconnected: ");
+                     (worlds_.size() == 1 ? " world frame: " : " unconnected world frames: ");
   for (size_t i = 0; i < std::min(worlds_.size(), kMostWorlds); ++i) {
     text += (i > 0 ? "; " : "") + Format("from %.2f s on", lead + worlds_[i].begin);
     if (!worlds_[i].reason.empty()) text += " (" + worlds_[i].reason + ")";

@@ -33,8 +33,8 @@ void CalibrationLog::CheckFolder(const std::string& folder) const {
   std::error_code error;  // set if there is no such file
   if (!std::filesystem::equivalent(FileIn(folder), config_.file, error)) return;
   throw std::runtime_error(FileIn(folder) +
-                           " is the configuration in use, which the refined one does not replace: "
-                           "name a trajectory_file in another folder");
+                           " is the configuration in use and is not overwritten: set "
+                           "trajectory_file to a path in another folder");
 }
 
 std::optional<Calibration> CalibrationLog::Newest() const {

@@ -90,11 +90,11 @@ void EstimatorDiagnostics::Report(size_t queued,
 void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapper* status) {
   std::string state = State();
   const bool tracking = state == ToString(EstimatorStatus::kTracking);
-  if (lines_are_missing_) state += "; points alone: no lines come in time on " + lines_topic_;
+  if (lines_are_missing_) state += "; points only: no lines arrive in time on " + lines_topic_;
   const bool late = tracking && pose_age_ > kMaxPoseAge;
   if (late)
     state += "; late: poses are " + std::to_string(std::lround(1e3 * pose_age_)) + " ms old";
-  if (on_imu_alone_) state += "; blind: the IMU alone carries on";
+  if (on_imu_alone_) state += "; blind: dead reckoning by the IMU";
   if (!input_finding_.empty()) state += "; " + input_finding_;
   if (!imu_contradiction_.empty()) state += "; " + imu_contradiction_;
   if (!lens_warning_.empty()) state += "; " + lens_warning_;
@@ -108,7 +108,7 @@ void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapp
 
 std::string EstimatorDiagnostics::State() const {
   const std::string silent = WaitsFor();
-  if (!silent.empty()) return "waiting: nothing comes on " + silent;
+  if (!silent.empty()) return "waiting: no messages on " + silent;
   const double unused = (ros::WallTime::now() - last_frame_).toSec();
   if (frames_ == 0) return "waiting: no usable image yet";
   if (unused > StreamMonitor::kSilence) return "waiting: no usable image any more";

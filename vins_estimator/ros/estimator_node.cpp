@@ -145,10 +145,10 @@ void EstimatorNode::RestoreIds(const FeatureEvent& event, const char* topic,
     if (source->turns.AddChange(ros::WallTime::now().toSec())) {
       ROS_WARN_STREAM_THROTTLE(
           10.0,
-          "publishers take turns on "
+          "several publishers alternate on "
               << node_.resolveName(topic)
-              << ", so that no feature lasts: stop all but one (rostopic info names them); of "
-                 "a bag with features, play images and IMU alone (rosbag play FILE --topics "
+              << ", so that no feature track lasts: stop all but one (rostopic info lists them); "
+                 "if a bag has features, play only its images and IMU (rosbag play FILE --topics "
               << node_.resolveName(config_.sensor.image_topic) << " "
               << node_.resolveName(config_.sensor.imu_topic) << ")");
     }
@@ -159,7 +159,7 @@ void EstimatorNode::RestoreIds(const FeatureEvent& event, const char* topic,
 }
 
 void EstimatorNode::Restart(const std_msgs::Bool& message) {
-  if (message.data) queue_.Push(ResetCommand{"asked for on " + node_.resolveName(kRestartTopic)});
+  if (message.data) queue_.Push(ResetCommand{"requested on " + node_.resolveName(kRestartTopic)});
 }
 
 // The later one of two publishers sees the other, so that a short look suffices.
@@ -173,10 +173,10 @@ void EstimatorNode::CheckTransforms(const ros::MessageEvent<const tf2_msgs::TFMe
   }
   const ros::WallTime now = ros::WallTime::now();
   if (event.getPublisherName() != ros::this_node::getName()) {
-    ROS_WARN_STREAM(event.getPublisherName()
-                    << " publishes the tf frame " << frame
-                    << " as well: stop one of the two, or set publish_tf: 0, or other frames, for "
-                       "one");
+    ROS_WARN_STREAM(
+        event.getPublisherName()
+        << " also publishes the tf frame " << frame
+        << ": stop one of the two, or set publish_tf: 0 or other frames for one of them");
     transforms_.shutdown();
   } else if (!first_own_transform_) {
     first_own_transform_ = now;
@@ -188,7 +188,7 @@ void EstimatorNode::CheckTransforms(const ros::MessageEvent<const tf2_msgs::TFMe
 bool EstimatorNode::Reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   queue_.Push(ResetCommand{"reset by service"});
   response.success = true;
-  response.message = "starting over with the next image";
+  response.message = "restarting with the next image";
   return true;
 }
 
@@ -312,9 +312,9 @@ void EstimatorNode::Handle(const EstimatedFrame& frame) {
 void EstimatorNode::LogChanges(const EstimatorOutput& output) {
   const std::string why = output.reason.empty() ? "" : ": " + output.reason;
   if (output.restarted) {
-    ROS_WARN_STREAM("the world frame starts anew" << why);
+    ROS_WARN_STREAM("new world frame" << why);
   } else if (output.bridged) {
-    ROS_INFO("tracking again, in the world frame of before");
+    ROS_INFO("tracking again in the previous world frame");
   } else if (output.status == EstimatorStatus::kLost) {
     ROS_WARN_STREAM("lost" << why);
   } else if (output.status != last_status_) {
@@ -328,7 +328,7 @@ void EstimatorNode::LogChanges(const EstimatorOutput& output) {
 
 void EstimatorNode::LogFrame(const EstimatorOutput& output) const {
   const EstimatorCounts& counts = output.counts;
-  ROS_INFO("%.3f s %s: %d points, %d lines, optimisation %.1f ms, estimator %.1f ms",
+  ROS_INFO("%.3f s %s: %d points, %d lines, optimization %.1f ms, estimator %.1f ms",
            ToSeconds(output.t_ns), ToString(output.status), counts.points_in_window,
            counts.lines_in_window, output.timings.optimization, output.timings.total);
 }
@@ -345,12 +345,12 @@ void EstimatorNode::LogLines() {
   lines_were_missing_ = missing;
   const std::string line_topic = node_.resolveName(kLineTopic);
   if (missing) {
-    ROS_WARN("%s on %s: going on with points alone",
-             stage_.lines_are_of_other_images() ? "all lines are of other images than the points"
-                                                : "no lines come in time",
+    ROS_WARN("%s on %s: continuing with points only",
+             stage_.lines_are_of_other_images() ? "line and point timestamps do not match"
+                                                : "no lines arrive in time",
              line_topic.c_str());
   } else {
-    ROS_INFO("lines come in time again on %s", line_topic.c_str());
+    ROS_INFO("lines arrive in time again on %s", line_topic.c_str());
   }
 }
 

@@ -52,7 +52,7 @@ void TrajectoryLog::CheckWritable(const std::string& file) {
 size_t TrajectoryLog::Save(const std::string& file) const {
   const std::deque<Pose> poses = Poses();
   if (poses.empty()) {
-    throw std::runtime_error("there is no pose to save yet; " + file + " stays as it is");
+    throw std::runtime_error("there is no pose to save yet; " + file + " is unchanged");
   }
   MakeFolderOf(file);
   ReplacedFile output(file);

@@ -38,7 +38,7 @@ TEST_F(ConfigLimitsTest, ABombOfAliasesIsAProblem) {
 }
 
 TEST_F(ConfigLimitsTest, AFileWithoutAnEndIsAProblem) {
-  const std::string problem = "is no regular file; give the path of a configuration file";
+  const std::string problem = "is not a regular file; give the path of a configuration file";
   ExpectOneProblem(ProblemsOf("/dev/zero"), {"/dev/zero: " + problem});
   const std::string pipe = (folder_ / "pipe.yaml").string();
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);

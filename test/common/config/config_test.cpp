@@ -59,9 +59,10 @@ TEST_F(ConfigTest, TheReadoutTimeCountsWithARollingShutter) {
 
 TEST_F(ConfigTest, WarnsWhereTheDistortionLeavesTheImageWithoutRays) {
   const std::string folded = Replaced(kShortFile, "k1: 0", "k1: -0.5");
-  EXPECT_THAT(Load(folded).warnings,
-              ElementsAre(AllOf(HasSubstr("camera.yaml:4: model_type: "),
-                                HasSubstr(" % of the image has no ray with this distortion"))));
+  EXPECT_THAT(
+      Load(folded).warnings,
+      ElementsAre(AllOf(HasSubstr("camera.yaml:4: model_type: "),
+                        HasSubstr(" % of the image has no viewing ray with this distortion"))));
   const std::string hardly = Replaced(kShortFile, "k1: 0", "k1: -0.15");
   EXPECT_TRUE(Load(hardly).warnings.empty());
 }
@@ -77,7 +78,7 @@ TEST_F(ConfigTest, WhatAFisheyeSeesBesideItIsNoWarning) {
 TEST_F(ConfigTest, IgnoredKeysAreOneWarning) {
   const std::string file = (folder_ / "camera.yaml").string();
   EXPECT_THAT(Load(kVinsMonoFile).warnings,
-              ElementsAre(file + ": without effect here: camera_name, fast_relocalization, "
+              ElementsAre(file + ": keys without effect: camera_name, fast_relocalization, "
                                  "max_solver_time, output_path, save_image, visualize_camera_size, "
                                  "visualize_imu_forward"));
 }
@@ -99,7 +100,7 @@ TEST_F(ConfigTest, MapAndWorldAreTwoFramesWhereThereIsAMap) {
 TEST_F(ConfigTest, AFisheyeOfVinsGoesOnWithoutAMask) {
   const Config config = Load(kShortFile + std::string("fisheye: 1\n"));
   EXPECT_THAT(config.warnings, ElementsAre(AllOf(HasSubstr("camera.yaml:10: fisheye: "),
-                                                 HasSubstr("no fisheye_mask is named"))));
+                                                 HasSubstr("fisheye_mask is not set"))));
   EXPECT_EQ(config.points.fisheye_mask, "");
   EXPECT_FALSE(config.points.fisheye);
 }
@@ -195,7 +196,7 @@ TEST_F(ConfigTest, MaskIsRelativeToTheFileAndCanBeSwitchedOff) {
   EXPECT_EQ(Load(text + "fisheye: 1\n").points.fisheye_mask, (folder_ / "mask.png").string());
   const Config without = Load(text + "fisheye: 0\n");
   EXPECT_EQ(without.points.fisheye_mask, "");
-  EXPECT_THAT(without.warnings, ElementsAre(HasSubstr("fisheye_mask: is without effect")));
+  EXPECT_THAT(without.warnings, ElementsAre(HasSubstr("fisheye_mask: has no effect")));
 }
 
 // ---- Invalid configurations --------------------------------------------------------------------
@@ -205,7 +206,7 @@ TEST_F(ConfigTest, MissingFile) {
                    {"nothing.yaml", "cannot be read"});
   ExpectOneProblem(ProblemsOf("nothing.yaml"),
                    {(std::filesystem::current_path() / "nothing.yaml").string()});
-  ExpectOneProblem(ProblemsOf(folder_.string()), {folder_.string(), "is no regular file"});
+  ExpectOneProblem(ProblemsOf(folder_.string()), {folder_.string(), "is not a regular file"});
 }
 
 TEST_F(ConfigTest, NotAConfiguration) {
@@ -231,7 +232,7 @@ TEST_F(ConfigTest, WrongType) {
   ExpectProblem("equalize: 2", {"\"2\" must be 0 or 1", "default 1"});
   ExpectProblem("corner_detector: fast", {"must be one of shi_tomasi, harris"});
   ExpectProblem("line_detector: hough", {"must be one of fld, lsd, edlines"});
-  ExpectProblem("world_frame: [a]", {"world_frame: must be one text"});
+  ExpectProblem("world_frame: [a]", {"world_frame: must be a string"});
 }
 
 TEST_F(ConfigTest, OutOfRange) {
@@ -316,9 +317,9 @@ TEST_F(ConfigTest, AMatrixWithoutNumbersIsOneProblem) {
 
 TEST_F(ConfigTest, KeysOfAnotherModel) {
   ExpectProblem("mirror_parameters:\n   xi: 0.9", {"mirror_parameters.xi: unknown key"});
-  ExpectOneProblem(ProblemsOf(Write(Replaced(kShortFile, "p2: 0", "p2: 0, k3: 0.1"))),
-                   {"distortion_parameters.k3: is not supported: calibrate with k1, k2, p1, p2 "
-                    "alone"});
+  ExpectOneProblem(
+      ProblemsOf(Write(Replaced(kShortFile, "p2: 0", "p2: 0, k3: 0.1"))),
+      {"distortion_parameters.k3: is not supported: calibrate with k1, k2, p1, p2 only"});
 }
 
 TEST_F(ConfigTest, BadExtrinsics) {
@@ -345,10 +346,11 @@ TEST_F(ConfigTest, Contradictions) {
   ExpectProblem("world_frame: \"map\\n\"", {"world_frame: must be a name without spaces"});
   ExpectProblem("world_frame: /map", {"world_frame: must not begin with a slash"});
   ExpectProblem("min_dist: 490", {"min_dist: must be smaller than the image"});
-  ExpectProblem("line_border: 250", {"line_border: leaves nothing of the image"});
+  ExpectProblem("line_border: 250", {"line_border: covers the whole image; reduce it"});
   ExpectProblem("fisheye_mask: no.png", {"fisheye_mask: there is no file", "no.png"});
   ExpectOneProblem(ProblemsOf(Write(Replaced(kShortFile, "cx: 320", "cx: 700"))),
-                   {"camera.yaml:5: image_width: the principal point is right of the image"});
+                   {"camera.yaml:5: image_width: the principal point is beyond the right edge; "
+                    "correct it or the image size"});
   ExpectOneProblem(ProblemsOf(Write(Replaced(kShortFile, "/imu\"", "/image\""))),
                    {"imu_topic: is the same as image_topic"});
 }

@@ -65,7 +65,7 @@ TEST_F(ConfigWriter, ListsTheOverridesAtItsHead) {
                              {{"use_lines", "0"}, {"pose_graph_save_path", "a\nmax_cnt: 9"}});
   EXPECT_EQ(Written(config).rfind(
                 "%YAML:1.0\n# From " + config.file +
-                    ", in which these were replaced for the run:\n"
+                    "; values replaced for this run:\n"
                     "#   pose_graph_save_path: a max_cnt: 9\n#   use_lines: 0\nimage_topic",
                 0),
             0u)

@@ -155,7 +155,7 @@ TEST_F(VinsFusionTest, LoadsAsItIs) {
   ExpectRightCamera(sensor);
   EXPECT_THAT(config.warnings,
               ElementsAre(PathOf("camera.yaml") +
-                          ": without effect here: flow_back, max_solver_time, multiple_thread, "
+                          ": keys without effect: flow_back, max_solver_time, multiple_thread, "
                           "output_path, save_image, use_gpu"));
 }
 
@@ -166,7 +166,7 @@ TEST_F(VinsFusionTest, WithOneCameraTheOtherIsIgnored) {
   EXPECT_FALSE(config.sensor.second_camera);
   EXPECT_EQ(config.sensor.camera.fx, 461.5);
   EXPECT_THAT(config.warnings,
-              ElementsAre(AllOf(HasSubstr("without effect here: body_T_cam1, cam1_calib, "),
+              ElementsAre(AllOf(HasSubstr("keys without effect: body_T_cam1, cam1_calib, "),
                                 HasSubstr("image1_topic"))));
 }
 
@@ -238,8 +238,8 @@ TEST_F(VinsFusionTest, ContradictionsAreListedAllAtOnce) {
           AllOf(HasSubstr("left.yaml:5: image_width: contradicts "), HasSubstr("camera.yaml:13")),
           HasSubstr("image1_topic: is the same as imu_topic"),
           HasSubstr("right.yaml:5: image_width: 752 differs from the first camera's 640"),
-          HasSubstr("body_T_cam1: puts the second camera where the first one is"),
-          HasSubstr("depth_topic: is for one camera")));
+          HasSubstr("body_T_cam1: gives both cameras the same position; correct it"),
+          HasSubstr("depth_topic: works with one camera only")));
 }
 
 TEST_F(VinsFusionTest, ATransformThatIsNoneIsOneProblem) {
@@ -268,7 +268,7 @@ TEST_F(VinsFusionTest, AMaskIsTakenWhereItExists) {
   const std::string text =
       std::string(kVinsFusionFile) + "fisheye: 1\nfisheye_mask_path: mask.png\n";
   EXPECT_THAT(Load(text).warnings,
-              ElementsAre(HasSubstr("fisheye_mask_path"), HasSubstr("no fisheye_mask is named")));
+              ElementsAre(HasSubstr("fisheye_mask_path"), HasSubstr("fisheye_mask is not set")));
   WriteAs("mask.png", "x");
   EXPECT_EQ(Load(text).points.fisheye_mask, PathOf("mask.png"));
 }

@@ -65,7 +65,7 @@ TEST(ImuContent, NamesSensorsThatComeInTurn) {
     EXPECT_THAT(FindingOf([&](int i, ImuSample* sample) {
                   (i % turns == 0 ? sample->gyro : sample->accel).setZero();
                 }),
-                HasSubstr("gyro and accelerometer readings come in turn on /imu"));
+                HasSubstr("gyro and accelerometer readings alternate on /imu"));
   }
 }
 

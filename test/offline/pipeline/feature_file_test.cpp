@@ -129,15 +129,16 @@ TEST_F(FeatureFile, GivesBackWhatFurtherSensorsSee) {
 TEST_F(FeatureFile, NamesTheFileThatCannotBeUsed) {
   EXPECT_NE(ErrorOf(file_).find(file_ + ": cannot be read"), std::string::npos);
   std::ofstream(file_) << "a text that is longer than the signature of such a file";
-  EXPECT_NE(ErrorOf(file_).find(file_ + ": is no file of features"), std::string::npos);
+  EXPECT_NE(ErrorOf(file_).find(file_ + ": is not a feature file"), std::string::npos);
   EXPECT_THROW(FeatureFileWriter(folder_.path() + "/missing/file", kValues), std::runtime_error);
 }
 
 TEST_F(FeatureFile, SaysOfOneOfAnotherVersionThatItMustBeRecordedAgain) {
   std::ofstream(file_) << "plm_features v1\n" << std::string(100, '\1');
-  EXPECT_EQ(ErrorOf(file_), file_ +
-                                ": is of another version of this program; record it again with "
-                                "--save-features");
+  EXPECT_EQ(ErrorOf(file_),
+            file_ +
+                ": was written by another version of this program; record it again with "
+                "--save-features");
 }
 
 TEST_F(FeatureFile, SaysWhereItsValuesAreDamagedOrCutOff) {

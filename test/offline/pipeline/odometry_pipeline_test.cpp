@@ -215,7 +215,7 @@ TEST(OdometryPipeline, StartsOverOnceWhereTheRecordingBeginsAnew) {
     if (frame.output.restarted) restarts.push_back(frame.output.reason);
     if (frame.output.has_pose) ++(restarts.empty() ? poses_before : poses_after);
   });
-  EXPECT_EQ(restarts, (std::vector<std::string>{"stamps jumped back"}));
+  EXPECT_EQ(restarts, (std::vector<std::string>{"timestamps jumped back"}));
   EXPECT_GT(poses_before, 20);
   EXPECT_GT(poses_after, 20);
 }

@@ -190,15 +190,16 @@ TEST(ResultFiles, KeepThePosesOfBeforeAJumpBackInFilesOfTheirOwn) {
   for (const int64_t t : {100, 101, 102}) results.Add(MakeFrame(t * 1'000'000'000, true));
   PipelineFrame restart = MakeFrame(2'000'000'000, false);
   restart.output.restarted = true;
-  restart.output.reason = "stamps jumped back";
+  restart.output.reason = "timestamps jumped back";
   results.Add(restart);
   results.Add(MakeFrame(3'000'000'000, true));
   results.Finish(RunSummary::Run(), Config(), Json());
   EXPECT_EQ(results.trajectory().parts(), 1);
   const std::string before = folder.Read("trajectory_1.tum");
   EXPECT_EQ(std::count(before.begin(), before.end(), '\n'), 3);
-  EXPECT_THAT(folder.Read("trajectory.tum"),
-              ::testing::StartsWith("# the world frame starts anew: stamps jumped back\n3.0000"));
+  EXPECT_THAT(
+      folder.Read("trajectory.tum"),
+      ::testing::StartsWith("# the world frame starts anew: timestamps jumped back\n3.0000"));
   const std::string covariance = folder.Read("covariance.csv");
   EXPECT_THAT(covariance, ::testing::StartsWith("stamp_ns,"));
   EXPECT_EQ(std::count(covariance.begin(), covariance.end(), '\n'), 2);

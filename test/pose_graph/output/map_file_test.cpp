@@ -66,7 +66,7 @@ class MapFileTest : public ::testing::Test {
     map.graph.AddEdge(edge);
     SaveMap(file_, map);
     EXPECT_THAT(ErrorOfLoading(), AllOf(HasSubstr("map.plm: is damaged"), HasSubstr(why),
-                                        HasSubstr(": save the map again")));
+                                        HasSubstr("; save the map again")));
   }
 
   // Writes the map with another number at the offset.
@@ -141,25 +141,25 @@ TEST_F(MapFileTest, SaysWhereTheFileCannotBeWritten) {
 }
 
 TEST_F(MapFileTest, SaysThatThereIsNone) {
-  EXPECT_THAT(ErrorOfLoading(), HasSubstr("map.plm: there is no such map"));
+  EXPECT_THAT(ErrorOfLoading(), HasSubstr("map.plm: no such file; check the path of the map"));
 }
 
 TEST_F(MapFileTest, DoesNotSayThatThereIsNoneOfOneThatCannotBeRead) {
   std::filesystem::create_symlink(file_, file_);
   EXPECT_THAT(ErrorOfLoading(),
-              AllOf(HasSubstr("map.plm cannot be read: "), Not(HasSubstr("no such map"))));
+              AllOf(HasSubstr("map.plm cannot be read: "), Not(HasSubstr("no such file"))));
 }
 
 TEST_F(MapFileTest, KnowsWhatIsNoMap) {
   Write("some other file, and a long one");
-  EXPECT_THAT(ErrorOfLoading(), HasSubstr("is no map of plm_vins"));
+  EXPECT_THAT(ErrorOfLoading(), HasSubstr("is not a map of plm_vins"));
   Write("");
-  EXPECT_THAT(ErrorOfLoading(), HasSubstr("is no map of plm_vins"));
+  EXPECT_THAT(ErrorOfLoading(), HasSubstr("is not a map of plm_vins"));
 }
 
 TEST_F(MapFileTest, SaysOfAFolderThatItIsOne) {
   std::filesystem::create_directory(file_);
-  EXPECT_THAT(ErrorOfLoading(), HasSubstr("map.plm is a folder: name the map in it"));
+  EXPECT_THAT(ErrorOfLoading(), HasSubstr("map.plm is a folder; name the map file in it"));
 }
 
 TEST_F(MapFileTest, RefusesAnotherVersion) {
@@ -169,7 +169,7 @@ TEST_F(MapFileTest, RefusesAnotherVersion) {
   Write(bytes);
   EXPECT_THAT(ErrorOfLoading(),
               AllOf(HasSubstr("is a map of version 9, this program reads version 2"),
-                    HasSubstr(": fly again for a new one")));
+                    HasSubstr("; record a new map")));
 }
 
 TEST_F(MapFileTest, FindsEveryDamage) {
@@ -245,11 +245,11 @@ TEST_F(MapFileTest, RefusesEdgesAndKeyframesThatAreNotThere) {
   const std::string good = folder_.Read("map.plm");
   for (const int32_t number : {-1, 3}) {
     WriteWith(number, good.size() - kEdgeSize, good);
-    EXPECT_THAT(ErrorOfLoading(), HasSubstr("an edge leads to a keyframe that is not there"));
+    EXPECT_THAT(ErrorOfLoading(), HasSubstr("an edge leads to a keyframe that does not exist"));
   }
   for (const int32_t count : {2, 4, static_cast<int32_t>(good.size() - kHeaderSize), -1}) {
     WriteWith(count, kHeaderSize, good);
-    EXPECT_THAT(ErrorOfLoading(), HasSubstr(": save the map again")) << count;
+    EXPECT_THAT(ErrorOfLoading(), HasSubstr("; save the map again")) << count;
   }
 }
 

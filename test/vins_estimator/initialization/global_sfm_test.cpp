@@ -105,7 +105,7 @@ TEST(GlobalSfmTest, RefusesAViewThatSeesNothing) {
   scene.R_G_C.push_back(Quaterniond::Identity());
   std::string reason;
   EXPECT_FALSE(ReconstructStructure(scene.tracks, scene.R_G_C, kOptions, &reason));
-  EXPECT_EQ(reason, "a view shares too few points with the others");
+  EXPECT_EQ(reason, "a frame shares too few points with the others");
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ TEST_F(AlignmentTest, NoiseAndAccelBiasCostLittle) {
 TEST_F(AlignmentTest, RefusesAnotherPlanetsGravity) {
   Simulate(simulator::Motion::kGentle, 1, /*noise=*/false);
   EXPECT_FALSE(Align(1.0, /*gravity_norm=*/3.71));
-  EXPECT_EQ(reason_, "gravity comes out as 9.81 m/s^2 instead of 3.71");
+  EXPECT_EQ(reason_, "estimated gravity is 9.81 m/s^2 instead of 3.71");
 }
 
 // At a constant velocity any scale fits, and noise decides on its sign.
@@ -143,7 +143,7 @@ TEST_F(AlignmentTest, ConstantVelocityLeavesTheScaleOpen) {
 TEST_F(AlignmentTest, MirroredMotionHasANegativeScale) {
   Simulate(simulator::Motion::kGentle, 1, /*noise=*/false);
   EXPECT_FALSE(Align(-2.5));
-  EXPECT_EQ(reason_, "the scale comes out negative");
+  EXPECT_EQ(reason_, "the estimated scale is negative");
 }
 
 TEST_F(AlignmentTest, FindsTheGyroBias) {
@@ -164,7 +164,7 @@ TEST_F(AlignmentTest, OneWrongRotationDoesNotSpoilTheGyroBias) {
 
 TEST_F(AlignmentTest, GyroBiasWithoutRotationsIsRefused) {
   EXPECT_FALSE(EstimateGyroBias({}, &reason_));
-  EXPECT_EQ(reason_, "the gyro bias is not determined by the images");
+  EXPECT_EQ(reason_, "the gyro bias is unobservable in these images");
 }
 
 }  // namespace

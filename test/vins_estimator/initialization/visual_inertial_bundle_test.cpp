@@ -112,7 +112,7 @@ TEST(VisualInertialBundle, RefusesWithoutPoints) {
   std::string reason;
   EXPECT_FALSE(AdjustVisualInertialBundle(problem.tracks, problem.p_W, problem.preintegrations,
                                           problem.options, &states, &reason));
-  EXPECT_EQ(reason, "the visual-inertial bundle adjustment is not determined");
+  EXPECT_EQ(reason, "the visual-inertial bundle adjustment is degenerate");
 }
 
 }  // namespace

@@ -79,31 +79,31 @@ TEST(MeasurementCheck, RefusesFeaturesOfAnotherImage) {
   ExpectRefused(measurement, "points are of 7000000001 ns");
   measurement = Good();
   measurement.lines->t_ns -= 1;
-  ExpectRefused(measurement, "lines are of 6999999999 ns");
+  ExpectRefused(measurement, "lines have the timestamp 6999999999 ns");
 }
 
 TEST(MeasurementCheck, RefusesAnIdThatIsThereTwice) {
   FrameMeasurement measurement = Good();
   measurement.points.points[1].id = 1;
-  ExpectRefused(measurement, "point 1 is there twice");
+  ExpectRefused(measurement, "point 1 occurs twice");
   measurement = Good();
   measurement.lines->lines[1].id = 1;
-  ExpectRefused(measurement, "line 1 is there twice");
+  ExpectRefused(measurement, "line 1 occurs twice");
 }
 
 TEST(MeasurementCheck, RefusesWhatNoCameraSees) {
   FrameMeasurement measurement = Good();
   measurement.points.points[0].xy.x() = kNan;
-  ExpectRefused(measurement, "point 1 is nowhere in an image");
+  ExpectRefused(measurement, "point 1 has impossible coordinates");
   measurement = Good();
   measurement.points.points[0].velocity.y() = std::numeric_limits<double>::infinity();
-  ExpectRefused(measurement, "point 1 is nowhere in an image");
+  ExpectRefused(measurement, "point 1 has impossible coordinates");
   measurement = Good();
   measurement.points.points[1].uv_px.x() = kNan;
-  ExpectRefused(measurement, "point 2 is nowhere in an image");
+  ExpectRefused(measurement, "point 2 has impossible coordinates");
   measurement = Good();
   measurement.lines->lines[1].end.y() = -1e20;
-  ExpectRefused(measurement, "line 2 is nowhere in an image");
+  ExpectRefused(measurement, "line 2 has impossible coordinates");
 }
 
 TEST(MeasurementCheck, RefusesImuSamplesThatAreNotFinite) {
@@ -132,10 +132,10 @@ TEST(MeasurementCheck, RefusesImuSamplesThatDoNotLeadToTheImage) {
   ExpectRefusedNext(measurement, "stamps of its IMU samples do not increase");
   measurement = Next();
   measurement.imu[0].t_ns += 1;
-  ExpectRefusedNext(measurement, "do not begin where those before end, at 7000000000 ns");
+  ExpectRefusedNext(measurement, "do not begin at the end of the previous ones, 7000000000 ns");
   measurement = Next();
   measurement.imu.pop_back();
-  ExpectRefusedNext(measurement, "no IMU sample leads to it");
+  ExpectRefusedNext(measurement, "no IMU sample follows the previous image");
 }
 
 }  // namespace

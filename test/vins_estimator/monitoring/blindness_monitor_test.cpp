@@ -34,8 +34,9 @@ TEST(BlindnessMonitor, EndsWhatBlindnessHasMadeTooUncertain) {
   monitor.Add(100, true, At(0), Known(3.0));
   EXPECT_FALSE(monitor.Add(0, false, At(ToNanoseconds(0.5)), Known(3.0)));
   EXPECT_FALSE(monitor.Add(5, false, At(ToNanoseconds(1.5)), Known(3.02)));
-  EXPECT_EQ(monitor.Add(5, false, At(ToNanoseconds(3.5)), Known(3.06)).value_or(""),
-            "nothing has held the position for 3.5 s, which leaves it open by 0.60 m");
+  EXPECT_EQ(
+      monitor.Add(5, false, At(ToNanoseconds(3.5)), Known(3.06)).value_or(""),
+      "no feature has constrained the position for 3.5 s; its standard deviation grew by 0.60 m");
 }
 
 TEST(BlindnessMonitor, WhatHoldsNothingIsAsGoodAsBlindness) {
@@ -45,15 +46,17 @@ TEST(BlindnessMonitor, WhatHoldsNothingIsAsGoodAsBlindness) {
     EXPECT_FALSE(monitor.Add(100, false, At(ToNanoseconds(0.5 * i)), Known(0.05 * i)));
     EXPECT_FALSE(monitor.blind());
   }
-  EXPECT_EQ(monitor.Add(100, false, At(ToNanoseconds(5.0)), Known(0.6)).value_or(""),
-            "nothing has held the position for 5.0 s, which leaves it open by 0.59 m");
+  EXPECT_EQ(
+      monitor.Add(100, false, At(ToNanoseconds(5.0)), Known(0.6)).value_or(""),
+      "no feature has constrained the position for 5.0 s; its standard deviation grew by 0.59 m");
 }
 
 TEST(BlindnessMonitor, AGapBetweenImagesIsBlindness) {
   BlindnessMonitor monitor;
   monitor.Add(100, true, At(0), Known(0.1));
-  EXPECT_EQ(monitor.Add(100, true, At(ToNanoseconds(4.0)), Known(0.6)).value_or(""),
-            "nothing has held the position for 4.0 s, which leaves it open by 0.59 m");
+  EXPECT_EQ(
+      monitor.Add(100, true, At(ToNanoseconds(4.0)), Known(0.6)).value_or(""),
+      "no feature has constrained the position for 4.0 s; its standard deviation grew by 0.59 m");
 }
 
 TEST(BlindnessMonitor, TakesNothingFromAnUnknownCovariance) {

@@ -26,8 +26,8 @@ ContradictionEvidence Evidence() {
 
 TEST(ContradictionReport, ListsWhatToCheckWhereNothingIsKnown) {
   EXPECT_THAT(DescribeContradiction(Evidence()),
-              AllOf(ContainsRegex("5 times noisier than it is; check, the likeliest first: "
-                                  "extrinsicRotation.*td.*focal length.*IMU.*image parts"),
+              AllOf(ContainsRegex("noise is raised by a factor of 5; check.*extrinsicRotation.*td.*"
+                                  "focal length.*IMU.*image"),
                     Not(HasSubstr("acc_n")), Not(HasSubstr("gyr_n"))));
 }
 
@@ -38,9 +38,8 @@ TEST(ContradictionReport, NamesWhatIsKnownFirst) {
   evidence.image_jitter = 0.004;
   evidence.imu_rate = 400;
   EXPECT_THAT(DescribeContradiction(evidence),
-              ContainsRegex("td seems to be wrong by .30 ms or more; the IMU comes at 400 Hz, "
-                            "imu_rate is 200; stamps of the images jitter by 4.0 ms; acc_n is 12 "
-                            "times too small.*; check"));
+              ContainsRegex("td.*30 ms.*; the IMU rate is 400 Hz, but imu_rate is 200; "
+                            "image timestamps jitter by 4.0 ms; acc_n is 12 times.*; check"));
   evidence.gyro_noise_factor = 9;
   EXPECT_THAT(DescribeContradiction(evidence), HasSubstr("; gyr_n is 9 times too small"));
   evidence.gyro_noise_factor = 5;  // as of propellers

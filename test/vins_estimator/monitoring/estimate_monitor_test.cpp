@@ -36,7 +36,7 @@ TEST(EstimateMonitor, GivesUpAtOnceWhatHasNoSolution) {
   evidence.solved = false;
   const auto failure = monitor.Add(evidence);
   ASSERT_TRUE(failure);
-  EXPECT_EQ(failure->why, "the optimisation has no solution");
+  EXPECT_EQ(failure->why, "the optimization has no solution");
   EXPECT_FALSE(failure->has_drifted);
 }
 

@@ -70,10 +70,10 @@ TEST_F(FailureDetectorTest, NamesValuesThatAreNotFinite) {
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     optimized_ = FrameState();
     optimized_.pose[4] = value;
-    EXPECT_EQ(Detect(), "the optimisation gave values that are not finite");
+    EXPECT_EQ(Detect(), "the optimization returned non-finite values");
     optimized_ = FrameState();
     optimized_.motion[8] = value;
-    EXPECT_EQ(Detect(), "the optimisation gave values that are not finite");
+    EXPECT_EQ(Detect(), "the optimization returned non-finite values");
   }
 }
 

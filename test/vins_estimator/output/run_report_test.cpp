@@ -61,7 +61,7 @@ TEST_F(RunReportTest, NamesWhyWorldsBeganAndWhyThereWasNoPose) {
   time_ += 3;  // no image
   Until(25, Pose());
   EXPECT_THAT(report_.Lines(ToNanoseconds(99)),
-              ElementsAre("2 world frames, unconnected: from 2.00 s on; from 16.00 s on (velocity "
+              ElementsAre("2 unconnected world frames: from 2.00 s on; from 16.00 s on (velocity "
                           "is 60 m/s)",
                           "no pose for 15.0 of 25.9 s: scale not observable yet (9.9 s), no usable "
                           "image (3.1 s), collecting images (0.9 s)"));
@@ -77,10 +77,10 @@ TEST_F(RunReportTest, WithoutAnyPoseHasNoWorld) {
 
 TEST_F(RunReportTest, AddsUpReasonsThatDifferInTheirFiguresAlone) {
   for (int i = 0; i < 20; ++i) {
-    Until(time_ + 0.1, Without("gravity comes out as " + std::to_string(i / 7.0) + " m/s^2"));
+    Until(time_ + 0.1, Without("estimated gravity is " + std::to_string(i / 7.0) + " m/s^2"));
   }
   EXPECT_THAT(report_.Lines(std::nullopt),
-              ElementsAre("no pose for 1.9 of 1.9 s: gravity comes out as N m/s^2 (1.9 s)"));
+              ElementsAre("no pose for 1.9 of 1.9 s: estimated gravity is N m/s^2 (1.9 s)"));
 }
 
 TEST_F(RunReportTest, NamesTheFirstOfManyWorlds) {

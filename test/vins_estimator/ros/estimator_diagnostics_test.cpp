@@ -70,7 +70,7 @@ TEST_F(EstimatorDiagnosticsTest, StateTheNoiseOfTheImuAsConfiguredUntilItIsLearn
 
 TEST_F(EstimatorDiagnosticsTest, WarnWhereThePoseIsDoubtful) {
   output_.on_imu_alone = true;
-  EXPECT_EQ(Report(0).message, "tracking; blind: the IMU alone carries on");
+  EXPECT_EQ(Report(0).message, "tracking; blind: dead reckoning by the IMU");
   output_.on_imu_alone = false;
   output_.contradicted = true;
   const Status status = Report(0);

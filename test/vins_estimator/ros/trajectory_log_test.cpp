@@ -51,7 +51,7 @@ TEST_F(TrajectoryLogTest, WithoutAPoseTheFileStaysAsItIs) {
     ADD_FAILURE();
   } catch (const std::runtime_error& error) {
     EXPECT_EQ(error.what(),
-              "there is no pose to save yet; " + folder_.File("a.tum") + " stays as it is");
+              "there is no pose to save yet; " + folder_.File("a.tum") + " is unchanged");
   }
   EXPECT_EQ(folder_.Read("a.tum"), "of the flight before");
   log_.Add(2'500'000'000, kPose);
@@ -68,9 +68,9 @@ TEST_F(TrajectoryLogTest, TellsOfANewWorldFrame) {
 
 TEST_F(TrajectoryLogTest, HasNoPoseFromBeforeTheStampsJumpedBack) {
   log_.Add(5'000'000'000, kPose);
-  log_.BeginWorld("stamps jumped back");
+  log_.BeginWorld("timestamps jumped back");
   log_.Add(2'500'000'000, kPose);
-  EXPECT_EQ(Saved(), std::string("# the world frame starts anew: stamps jumped back\n") + kRow);
+  EXPECT_EQ(Saved(), std::string("# the world frame starts anew: timestamps jumped back\n") + kRow);
 }
 
 TEST_F(TrajectoryLogTest, MakesTheFolder) {
@@ -99,7 +99,7 @@ TEST_F(TrajectoryLogTest, KnowsBeforeItSavesWhetherAFileCanBeWritten) {
 TEST_F(TrajectoryLogTest, SaysWhyAFileCannotBeWritten) {
   log_.Add(2'500'000'000, kPose);
   for (const auto& [file, why] : {std::pair("/dev/null/a.tum", "Not a directory"),
-                                  {"/", "there is something else"},
+                                  {"/", "it exists and is not a regular file"},
                                   {"/proc/a.tum", "No such file or directory"}}) {
     try {
       log_.Save(file);

@@ -30,8 +30,8 @@ def parse_arguments(arguments):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", help="the output folder of run_offline")
     parser.add_argument("--output", metavar="FILE", help="default: run.webp in that folder")
-    parser.add_argument("--width", type=int, default=752, help="of the picture [px] (752)")
-    parser.add_argument("--quality", type=int, default=45, help="of the WebP, 1 to 100 (45)")
+    parser.add_argument("--width", type=int, default=752, help="width of the picture [px] (752)")
+    parser.add_argument("--quality", type=int, default=45, help="WebP quality, 1 to 100 (45)")
     return parser.parse_args(arguments)
 
 

@@ -45,7 +45,7 @@ done
 [[ -z "$asl" || -d "$asl" ]] || fail "$asl: no such folder"
 [[ -z "$truth" || -e "$truth" ]] || fail "$truth: no such ground truth"
 [[ "$rviz" == false || -z "$asl" ]] || fail "--rviz plays bags, not ASL folders"
-[[ "$rviz" == false || -z "$truth" ]] || fail "--rviz compares nothing; leave --groundtruth out"
+[[ "$rviz" == false || -z "$truth" ]] || fail "--rviz makes no comparison; drop --groundtruth"
 if [[ -n "$config" && -z "$bag$asl" ]]; then
   fail "--config needs --bag or --asl: the simulated recording is of config/euroc.yaml" \
     "(simulate --config FILE --output NEW.bag makes one of your sensors)"

@@ -71,9 +71,9 @@ download() {
     --output "$file.part" "$url" || complete=false  # also if nothing was left to download
   if [[ "$(md5sum "$file.part" | awk '{print $1}')" != "$md5" ]]; then
     [[ "$complete" == true ]] ||
-      fail "$url: the download broke off; the same command again carries on with it"
+      fail "$url: the download was interrupted; run the same command again to resume it"
     rm "$file.part"
-    fail "$file: the MD5 sum is wrong, so it was deleted; the same command downloads it anew"
+    fail "$file: the MD5 sum is wrong, so it was deleted; run the same command again"
   fi
   mv "$file.part" "$file"
 }

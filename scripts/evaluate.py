@@ -96,7 +96,7 @@ def add_consistency(result, estimate, truth, options):
         result["position_nees"] = consistency.position_nees(*pair, covariances, options.nees_after)
         result["position_nees_s"] = options.nees_after
     except consistency.NoPoseThenError as error:
-        print(f"evaluate.py: --covariance: {error}; --nees-after takes another time",
+        print(f"evaluate.py: --covariance: {error}; choose another time with --nees-after",
               file=sys.stderr)
 
 
@@ -122,7 +122,7 @@ def format_report(result):
         f"{'':20}" + "".join(f"{name:>9}" for name in FIGURES),
     ]
     if result["t_offset_s"]:
-        lines.insert(2, f"stamps of the estimate shifted by {1000 * result['t_offset_s']:+.2f} ms,"
+        lines.insert(2, f"stamps of the estimate shifted by {1000 * result['t_offset_s']:+.2f} ms"
                      " to the clock of the ground truth")
     for name, label in LABELS.items():
         lines.append(f"{label:20}" + _format_row(result[name]))
@@ -132,17 +132,17 @@ def format_report(result):
                  " with none at the beginning")
     if result["local_scale"]:
         scale = result["local_scale"]
-        lines.append(f"scale of {scale['pieces']} pieces of 5 s wrong by"
+        lines.append(f"scale error over {scale['pieces']} pieces of 5 s:"
                      f" {scale['mean_absolute_error_percent']:.2f} % (mean of absolute errors),"
-                     f" {scale['mean_error_percent']:+.2f} % on the mean")
+                     f" {scale['mean_error_percent']:+.2f} % (mean)")
     if "position_nees" in result:
-        lines.append(f"squared error of the first {result['position_nees_s']:g} s' way, in units"
-                     f" of its covariance: {result['position_nees']:.2f}; exact: 3 on average")
+        lines.append(f"position NEES over the first {result['position_nees_s']:g} s:"
+                     f" {result['position_nees']:.2f}; consistent: 3 on average")
     if result["ground_truth_steps"]:
         lines.append(_step_note(result))
     if result["worlds"] > 1:
-        lines.append(f"the world frame starts anew {result['worlds'] - 1} times: APE and yaw over"
-                     " all of them mean little, look at the RPE")
+        lines.append(f"{result['worlds']} unconnected world frames: APE and yaw over all of them"
+                     " mean little, see the RPE")
     return "\n".join(lines)
 
 
@@ -150,9 +150,9 @@ def _step_note(result):
     found = steps.describe([steps.Step(**step) for step in result["ground_truth_steps"]])
     around = f"{steps.BEFORE:g} s before and {steps.AFTER:g} s after each"
     if result["without_steps"]:
-        return f"left out of the ground truth: steps of {found}, with {around}"
+        return f"excluded from the ground truth: steps of {found}, with {around}"
     return (f"warning: the ground truth has steps of {found}, and drifts before them;"
-            f" --without-steps leaves out {around}")
+            f" --without-steps excludes {around}")
 
 
 def _format_row(figures):
@@ -177,10 +177,10 @@ def parse_arguments(arguments):
                         help="added to the stamps of the estimate [s] (default: td_s in the"
                         " summary.json beside it, 0 where there is none)")
     parser.add_argument("--max-gap", type=_seconds, default=metrics.MAX_GAP, metavar="S",
-                        help="longer gaps between poses count as not covered [s] (default:"
+                        help="longer gaps between poses are not covered [s] (default:"
                         " %(default)s)")
     parser.add_argument("--without-steps", action="store_true",
-                        help=f"leave out {steps.BEFORE:g} s before and {steps.AFTER:g} s after each"
+                        help=f"exclude {steps.BEFORE:g} s before and {steps.AFTER:g} s after each"
                         " step of the ground truth, where a tracker lost its target")
     parser.add_argument("--compare", nargs="+", default=[], metavar="FILE",
                         help="further trajectories, TUM or VINS-Mono's vins_result_no_loop.csv: a"
@@ -188,7 +188,7 @@ def parse_arguments(arguments):
     parser.add_argument("--covariance", metavar="FILE",
                         help="covariance.csv of the run: compares errors with it")
     parser.add_argument("--nees-after", type=_seconds, default=10.0, metavar="S",
-                        help="for --covariance, so long after the first pose [s] (default: 10)")
+                        help="with --covariance: time after the first pose [s] (default: 10)")
     return parser.parse_args(arguments)
 
 
@@ -201,7 +201,7 @@ def _finite(text):
 
 def _seconds(text):
     if _finite(text) < 0:
-        raise argparse.ArgumentTypeError(f"expected seconds, zero or more, instead of {text}")
+        raise argparse.ArgumentTypeError(f"expected seconds, at least 0, instead of {text}")
     return float(text)
 
 

@@ -86,25 +86,25 @@ def format_report(result):
                       "returns after having left"),
     ]
     if result["loops_left_out"]:
-        lines.insert(1, f"left out: {result['loops_left_out']} to poses that are not in"
-                        " trajectory.tum, such as those of a map of earlier (--map-in)")
+        lines.insert(1, f"excluded: {result['loops_left_out']} to poses that are not in"
+                        " trajectory.tum, such as those of an earlier map (--map-in)")
     if result["loops_without_truth"]:
-        lines.insert(1, f"left out: {result['loops_without_truth']} where the ground truth has a"
+        lines.insert(1, f"excluded: {result['loops_without_truth']} where the ground truth has a"
                         " gap")
     if result["t_offset_s"]:
-        lines.append(f"stamps of the run shifted by {1000 * result['t_offset_s']:+.2f} ms, to the"
+        lines.append(f"stamps of the run shifted by {1000 * result['t_offset_s']:+.2f} ms to the"
                      " clock of the ground truth")
     lines += [_ape_line(result, name) for name in TRAJECTORIES]
     if any(worlds > 1 for worlds in result["worlds"].values()):
-        lines.append("the APE over several worlds means little, all are aligned as one")
+        lines.append("the APE over several world frames means little: one transform aligns all")
     return "\n".join(lines)
 
 
 def _loops_line(result):
     if result["loops"] == 0:
         return "no loops to compare"
-    return (f"{result['loops']} loops, {result['false_loops']} false (off by more than"
-            f" {FALSE_DISTANCE} m or {FALSE_TURN:.0f} deg), the largest error"
+    return (f"{result['loops']} loops, {result['false_loops']} false (errors of more"
+            f" than {FALSE_DISTANCE} m or {FALSE_TURN:.0f} deg), largest error"
             f" {1000 * result['largest_error_m']:.0f} mm, {result['largest_error_deg']:.1f} deg")
 
 

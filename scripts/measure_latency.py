@@ -170,7 +170,7 @@ def watch(options, topic, latencies, nodes, player):
         if not latencies.begun:
             check_player(options, topic, played, time.monotonic() > deadline)
     if not latencies.begun:
-        raise RuntimeError(f"the nodes ended before an image came on {topic}")
+        raise RuntimeError(f"the nodes ended before an image arrived on {topic}")
     return costs
 
 
@@ -178,12 +178,11 @@ def check_player(options, topic, exit_code, is_late):
     """Raises RuntimeError if no more images can be expected; `exit_code` is None while the player
     runs."""
     if exit_code:
-        raise RuntimeError(f"rosbag play ended with code {exit_code}: is {options.bag} a whole"
-                           " bag?")
+        raise RuntimeError(f"rosbag play ended with code {exit_code}: is {options.bag} complete?")
     if exit_code == 0 or is_late:
         when = f"in {START_TIMEOUT} s" if exit_code is None else f"from {options.bag}"
-        raise RuntimeError(f"no image came on {topic} {when}: see image_topic in {options.config}"
-                           " and --image-transport")
+        raise RuntimeError(f"no image arrived on {topic} {when}: see image_topic in"
+                           f" {options.config} and --image-transport")
 
 
 def report(latencies, costs):
@@ -212,14 +211,14 @@ def check_files(options):
 def parse_arguments(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("bag", help="ROS bag")
-    parser.add_argument("--config", required=True, help="of the sensors in the bag")
+    parser.add_argument("--config", required=True, help="configuration of the sensors in the bag")
     parser.add_argument("--duration", type=float, help="play this much [s] (default: all)")
-    parser.add_argument("--rate", type=float, default=1, help="of playing (default: 1)")
-    parser.add_argument("--nodelets", action="store_true", help="all in one process")
+    parser.add_argument("--rate", type=float, default=1, help="playback rate (default: 1)")
+    parser.add_argument("--nodelets", action="store_true", help="run all nodes in one process")
     parser.add_argument("--loop-closure", action="store_true",
-                        help="with it, whatever the configuration says")
+                        help="enable it, whatever the configuration says")
     parser.add_argument("--image-transport", default="raw", choices=("raw", "compressed"),
-                        help="of the images in the bag (default: raw); others are not supported")
+                        help="form of the images in the bag (default: raw)")
     return parser.parse_args(arguments)
 
 

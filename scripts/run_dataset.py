@@ -40,7 +40,7 @@ def parse_arguments(arguments):
                         help="folders with ROS bags or EuRoC ASL folders at any depth, or single"
                         " bags; ground truth inside of X or beside it as X.tum or X.csv")
     parser.add_argument("--sequences", nargs="+", metavar="NAME",
-                        help="only these: names, their beginnings, or with wildcards")
+                        help="only these: names, prefixes or wildcards")
     parser.add_argument("--variants", nargs="+", metavar="NAME", default=list(VARIANTS),
                         help="only these (default: all)")
     parser.add_argument("--repetitions", type=_positive, default=1, metavar="N",
@@ -54,12 +54,12 @@ def parse_arguments(arguments):
                        " image]: the tables have means and spreads over them")
     parser.add_argument("--duration", type=_seconds, metavar="S", help="process this much [s]")
     parser.add_argument("--without-steps", action="store_true",
-                        help="leave out the times around steps of the ground truth, as evaluate.py"
+                        help="exclude the times around steps of the ground truth, as evaluate.py"
                         " does")
     parser.add_argument("--config", metavar="FILE", help="configuration (default: euroc.yaml)")
     parser.add_argument("--set", action="append", default=[], type=_override, metavar="KEY=VALUE",
                         help="a change to the configuration of all variants; keys that a variant"
-                        " sets itself stay as it has them")
+                        " sets itself keep its values")
     parser.add_argument("--output", default=os.path.join("output", "dataset"), metavar="DIR",
                         help="folder for everything (default: output/dataset)")
     parser.add_argument("--jobs", type=_positive, metavar="N",
@@ -71,7 +71,8 @@ def parse_arguments(arguments):
                         " tcp://HOST:8786; they share all folders with this machine")
     parser.add_argument("--no-plots", action="store_true",
                         help="tables only: neither plots/ nor index.html and the pages of runs")
-    parser.add_argument("--run-offline", metavar="FILE", help="the program, where it is not found")
+    parser.add_argument("--run-offline", metavar="FILE",
+                        help="path of run_offline, if it is not found")
     parser.set_defaults(starts=[0.0])
     options = parser.parse_args(arguments)
     options.starts = sorted(set(options.starts))
@@ -80,7 +81,7 @@ def parse_arguments(arguments):
 
 def _positive(text):
     if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"expected a number from 1 on instead of {text}")
+        raise argparse.ArgumentTypeError(f"expected a whole number of at least 1 instead of {text}")
     return int(text)
 
 
@@ -88,7 +89,7 @@ def _seconds(text):
     with contextlib.suppress(ValueError):
         if math.isfinite(float(text)) and float(text) >= 0:
             return float(text)
-    raise argparse.ArgumentTypeError(f"expected seconds, zero or more, instead of {text}")
+    raise argparse.ArgumentTypeError(f"expected seconds, at least 0, instead of {text}")
 
 
 def _override(text):
@@ -130,7 +131,7 @@ def announce(sequences, evaluator, runs, unfinished, where):
     for sequence in sequences:
         if sequence.name in evaluator.unreadable:
             print(f"run_dataset.py: {sequence.name}: {evaluator.unreadable[sequence.name]}; it runs"
-                  " without", file=sys.stderr)
+                  " without ground truth", file=sys.stderr)
         if evaluator.steps.get(sequence.name):
             print(f"run_dataset.py: {sequence.name}: the ground truth has steps of"
                   f" {describe_steps(evaluator.steps[sequence.name])}", file=sys.stderr)
@@ -180,8 +181,8 @@ def run_dataset(options):
         progress = Progress(len(unfinished), lambda run: describe(evaluator.result(run)))
         if not carry_out(unfinished, executor, settings.output, progress):
             left = sum(not run.is_finished() for run in runs)
-            print(f"run_dataset.py: interrupted with {left} of {len(runs)} runs left; the same"
-                  " command goes on from here", file=sys.stderr)
+            print(f"run_dataset.py: interrupted with {left} of {len(runs)} runs left; run the same"
+                  " command again to continue", file=sys.stderr)
             return INTERRUPTED
         results = Results((evaluator.result(run) for run in runs), options.duration)
         if settings.fingerprint() != fingerprint:
@@ -209,7 +210,8 @@ def main(arguments=None):
               file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("run_dataset.py: interrupted; the same command goes on from here", file=sys.stderr)
+        print("run_dataset.py: interrupted; run the same command again to continue",
+              file=sys.stderr)
         return INTERRUPTED
 
 

@@ -52,5 +52,5 @@ else
   install_packages "${common_packages[@]}" "${debian_packages[@]}" "$@"
 fi
 for package in "${optional_packages[@]}"; do
-  install_packages "$package" || echo "setup.sh: goes on without $package" >&2
+  install_packages "$package" || echo "setup.sh: continuing without $package" >&2
 done

@@ -155,7 +155,7 @@ class Run:
             return (_last_error(os.path.join(folder, LOG))
                     or f"exit code {exit_code}; see {log}")
         missing = _missing_result(folder)
-        return missing and f"no {missing} although it ended well; see {log}"
+        return missing and f"no {missing} although it exited normally; see {log}"
 
 
 def _missing_result(folder):

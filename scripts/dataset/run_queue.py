@@ -42,13 +42,13 @@ def _seconds(future, run, output):
     try:
         seconds = future.result()
     except concurrent.futures.CancelledError:
-        raise DatasetError("the connection to the scheduler is lost; the same command goes on from"
-                           " here") from None
+        raise DatasetError("the connection to the scheduler is lost; run the same command again to"
+                           " continue") from None
     except ModuleNotFoundError as error:
         raise DatasetError(f"a worker lacks {error.name}; start the workers with this checkout's"
                            " scripts/ in PYTHONPATH") from None
     except Exception as error:  # any error of the executor or the other machine
-        run.save_failure(f"not carried out: {type(error).__name__}: {error}")
+        run.save_failure(f"not run: {type(error).__name__}: {error}")
         return 0.0
     if seconds is None:
         raise DatasetError(f"{output}: a worker does not see this folder; all machines need it,"

@@ -34,7 +34,7 @@ DESCRIPTIONS = {
     "lines": "improved without merging",
     "improved": "all three changes of the paper: subpixel corners, FLD lines, merging",
     "manhattan": "improved with constraints from the Manhattan frame",
-    "anchors": "manhattan, and frames kept for lines that come back",
+    "anchors": "manhattan, with frames kept for recognized lines",
 }
 
 

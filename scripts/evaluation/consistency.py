@@ -28,7 +28,8 @@ def read_covariances(path, stamps):
         raise TrajectoryError(f"{path}: not the covariance.csv of run_offline")
     stated = table[:, 0] * 1e-9
     if not metrics.are_among(stamps, stated).all():
-        raise TrajectoryError(f"{path}: has no covariance for some poses, is of another trajectory")
+        raise TrajectoryError(f"{path}: has no covariance for some poses, belongs to another"
+                              " trajectory")
     rows = metrics.nearest_indices(stated, stamps)
     row, column = np.triu_indices(6)
     covariances = np.empty((len(rows), 6, 6))

@@ -36,7 +36,7 @@ def associate(estimate, truth, max_difference=MAX_DIFFERENCE):
 def _without_steps(estimate, truth):
     kept = trusted(truth.stamps, truth.steps_left_out)
     if kept.sum() < LEAST_POSES:
-        raise TrajectoryError(f"{kept.sum()} poses are left without the time around steps of the"
+        raise TrajectoryError(f"{kept.sum()} poses remain without the time around steps of the"
                               f" ground truth, {LEAST_POSES} are needed; it has steps of"
                               f" {describe(truth.steps_left_out)}")
     return estimate.select(kept), truth.select(kept)
@@ -76,8 +76,8 @@ def alignment(estimate, truth, kind):
 def _best_rotation(covariance):
     u, singular_values, v_transposed = np.linalg.svd(covariance)
     if singular_values[1] <= 1e-12 * max(singular_values[0], 1e-12):
-        raise TrajectoryError("the positions lie on one line or point, which leaves the rotation of"
-                              " the alignment open; use --align yaw or none")
+        raise TrajectoryError("the positions lie on one line or point, so the rotation of the"
+                              " alignment is degenerate; use --align yaw or none")
     sign = np.sign(np.linalg.det(u) * np.linalg.det(v_transposed))
     return u @ np.diag([1.0, 1.0, sign]) @ v_transposed
 

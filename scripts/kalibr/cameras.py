@@ -76,7 +76,7 @@ def _equidistant_lines(camera, kind, size):
         raise camera.error("camera_model", f"the equidistant model nearest to this {name} camera is"
                            f" off by up to {residual:.2g} px, of which {MAX_RESIDUAL:g} are"
                            " allowed; calibrate with pinhole-equi or omni-radtan")
-    note = (f"# Equidistant model in the place of {name}: off by at most {residual:.2g} px up to"
+    note = (f"# Equidistant model that replaces {name}: errors of at most {residual:.2g} px up to"
             f" {math.degrees(fit.angle):.1f} deg from the axis.")
     return [note, *_lines("EQUIDISTANT", size, [], [*(fit.scale * focal).tolist(), *projection[2:]],
                           fit.coefficients)]

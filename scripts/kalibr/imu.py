@@ -79,8 +79,8 @@ class Imu:
 
 def _refuse_g_sensitivity(section, key):
     if key in section.values and section.matrix(key, 3).any():
-        raise section.error(key, "an effect of acceleration on the gyro is not supported; calibrate"
-                            " without it, or set it to zeros")
+        raise section.error(key, "g-sensitivity of the gyro is not supported; calibrate without"
+                            " it, or set it to zeros")
 
 
 def _correction(section, scale_key, rotation_key):

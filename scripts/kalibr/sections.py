@@ -19,7 +19,7 @@ class Section:
     def __init__(self, file, path, values):
         self.file, self.path, self.values = file, path, values
         if not isinstance(values, dict):
-            raise self.error("", "is not a map of keys")
+            raise self.error("", "must be a mapping of keys")
 
     def error(self, key, problem):
         name = ".".join(part for part in (self.path, key) if part)

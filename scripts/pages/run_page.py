@@ -36,7 +36,7 @@ def run_page(run, truth, script, reason=""):
     tells why the truth is None although there is ground truth."""
     pair, figures, note = _compare(run, truth, reason)
     table = html.table([[html.text(cell) for cell in row] for row in rows(run.summary, figures)])
-    left_out = run.loops_left_out and f"Loops to a map of earlier, left out: {run.loops_left_out}"
+    left_out = run.loops_left_out and f"Loops to an earlier map, excluded: {run.loops_left_out}"
     scene = html.figure("scene", _scene(run, truth, pair), 650)
     sections = [("Run", table + _paragraph(note)),
                 ("Trajectory and map", scene + _paragraph(left_out))]

@@ -39,7 +39,7 @@ class DemoOptions(unittest.TestCase):
                             " config/euroc.yaml", "--config", __file__)
         self.assert_refused("no such ground truth", "--groundtruth", "missing.tum")
         self.assert_refused("not ASL folders", "--asl", SCRIPTS, "--rviz")
-        self.assert_refused("--rviz compares nothing", "--groundtruth", __file__, "--rviz")
+        self.assert_refused("--rviz makes no comparison", "--groundtruth", __file__, "--rviz")
 
     def test_help(self):
         for script in ("demo.sh", "setup.sh", "build.sh", "test.sh", "fuzz.sh"):

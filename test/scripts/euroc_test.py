@@ -146,7 +146,7 @@ class EurocTest(unittest.TestCase):
     def test_says_that_a_download_broke_off(self):
         Server.broken = 10
         result = self.call("MH_01_easy", exit_code=1)
-        self.assertIn("hall.zip: the download broke off; the same command again", result.stderr)
+        self.assertIn("hall.zip: the download was interrupted; run the same command", result.stderr)
         Server.broken = None
         self.call("MH_01_easy")
         self.assert_unpacked("MH_01_easy", "one")

@@ -55,7 +55,7 @@ class Seconds(unittest.TestCase):
 
     def test_what_is_none_is_refused(self):
         for option in ("--max-diff", "--max-gap", "--nees-after"):
-            self.assert_refused(f"{option}: expected seconds, zero or more, instead of -1",
+            self.assert_refused(f"{option}: expected seconds, at least 0, instead of -1",
                                 f"{option}=-1")
             for text in ("nan", "inf", "soon"):
                 self.assert_refused(f"{option}: expected seconds instead of {text}", option, text)

@@ -189,7 +189,7 @@ class Folder(unittest.TestCase):
             self.assertEqual((result["loops"], result["loops_left_out"]), (1, 1))
             self.assertEqual(result["false_loops"], 0)
         run = self.run_script(self.folder, self.folder / "truth.tum")
-        self.assertIn("left out: 1 to poses that are not in trajectory.tum", run.stdout)
+        self.assertIn("excluded: 1 to poses that are not in trajectory.tum", run.stdout)
 
     def test_leaves_out_what_has_no_truth(self):
         gap = np.abs(self.truth.stamps - START - 22.5) < 1
@@ -199,7 +199,7 @@ class Folder(unittest.TestCase):
         self.assertEqual((result["loops"], result["loops_without_truth"]), (0, 1))
         self.assertEqual(result["false_loops"], 0)
         run = self.run_script(self.folder, self.folder / "truth.tum")
-        self.assertIn("left out: 1 where the ground truth has a gap", run.stdout)
+        self.assertIn("excluded: 1 where the ground truth has a gap", run.stdout)
 
     def test_loops_to_another_recording_close_nothing(self):
         later, _, *rest = self.row("accepted")
@@ -227,7 +227,7 @@ class Folder(unittest.TestCase):
         run = self.run_script(self.folder, self.folder / "truth.tum")
         for words in (r"coverage 100.0 %  1 world  odometry", r"coverage  49.9 %  1 world  map, ",
                       r"coverage 100.0 %  2 worlds  map, as known in the end",
-                      "APE over several worlds means little"):
+                      "APE over several world frames means little"):
             self.assertRegex(run.stdout, words)
         self.write("trajectory_final.tum", self.truth)
         self.assertNotIn("means little",

@@ -88,7 +88,7 @@ class LeaveOut(unittest.TestCase):
         self.assertLess(figures["ape_m"]["max"], 1e-6)
         self.assertTrue(figures["without_steps"])
         self.assertAlmostEqual(figures["coverage"], 1.0, 6)
-        self.assertIn("left out of the ground truth: steps of 200 mm at 12.0 s after its first"
+        self.assertIn("excluded from the ground truth: steps of 200 mm at 12.0 s after its first"
                       " pose, with 1.5 s before and 0.3 s after each", format_report(figures))
 
     def test_one_transform_aligns_all_pieces(self):
@@ -119,7 +119,7 @@ class LeaveOut(unittest.TestCase):
 
     def test_nothing_left_is_an_error(self):
         short = jump(flight(rate=200.0, seconds=1.6), (1.45, (0.05, 0, 0)))
-        with self.assertRaisesRegex(TrajectoryError, "0 poses are left .* 50 mm at 1.4 s"):
+        with self.assertRaisesRegex(TrajectoryError, "0 poses remain .* 50 mm at 1.4 s"):
             evaluate(flight(seconds=1.6), steps.without_steps(short))
 
     def test_command_line(self):
@@ -131,7 +131,7 @@ class LeaveOut(unittest.TestCase):
             report = os.path.join(folder, "report.json")
             with contextlib.redirect_stdout(io.StringIO()) as output:
                 self.assertEqual(main([*paths, "--without-steps", "--json", report]), 0)
-            self.assertIn("left out of the ground truth", output.getvalue())
+            self.assertIn("excluded from the ground truth", output.getvalue())
             with open(report, encoding="utf-8") as file:
                 figures = json.load(file)
         self.assertLess(figures["ape_m"]["rmse"], 1e-6)

@@ -334,14 +334,14 @@ class BadInput(Kalibr):
     def test_intrinsics_of_an_imu(self):
         one = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
         for key, value, problem in (
-                ("Tg", [[0, 0, 1e-3], [0, 0, 0], [0, 0, 0]], "acceleration on the gyro"),
+                ("Tg", [[0, 0, 1e-3], [0, 0, 0], [0, 0, 0]], "g-sensitivity of the gyro"),
                 ("Tw", [[0.1, 0, 0], [0, 1, 0], [0, 0, 1]], "scale factors must be 0.5 to 2"),
                 ("Ta", [[1, 0, 0]], "must have 3 rows"),
                 ("R_IMUtoGYRO", [[1, 0, 0], [0, 1, 0], [0, 0, -1]], "is not a rotation"),
                 ("T_i_b", one, "must have 4 rows"), ("time_offset", "x", "must be a number")):
             self.assert_refused("imu.yaml", f"imu0.{key}", problem,
                                 imu={"imu0": edited(IMU, **{key: value})})
-        self.assert_refused("imu.yaml", "imu0.gyroscopes.A", "acceleration on the gyro", imu={
+        self.assert_refused("imu.yaml", "imu0.gyroscopes.A", "g-sensitivity of the gyro", imu={
             "imu0": edited(IMU, model="scale-misalignment", accelerometers={"M": one},
                            gyroscopes={"M": one, "A": one})})
 

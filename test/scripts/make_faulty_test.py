@@ -191,7 +191,7 @@ class Files(RefusalTest):
     def test_asl_folder_does_not_mix_with_another(self):
         self.write_asl()
         self.write("other/cam0/data/a.png", b"another picture")
-        self.assert_refused(main, "exists already", self.path("good"), self.path("other"),
+        self.assert_refused(main, "already exists", self.path("good"), self.path("other"),
                             "--fault", "none")
         os.makedirs(self.path("empty"))
         self.assertEqual(main([self.path("good"), self.path("empty"), "--fault", "none"]), 0)

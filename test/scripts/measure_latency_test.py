@@ -53,24 +53,24 @@ class MeasureLatency(RefusalTest):
     def test_without_images_it_gives_up(self):
         topics, message = self.measure(["sleep", "60"])
         self.assertEqual(topics["/cam0/image_raw"], "Image")
-        self.assertEqual(message, "no image came on /cam0/image_raw in 0.1 s: see image_topic in"
+        self.assertEqual(message, "no image arrived on /cam0/image_raw in 0.1 s: see image_topic in"
                                   f" {self.config} and --image-transport")
 
     def test_compressed_images(self):
         topics, message = self.measure(["sleep", "60"], "compressed")
         self.assertEqual(topics["/cam0/image_raw/compressed"], "CompressedImage")
-        self.assertIn("no image came on /cam0/image_raw/compressed", message)
+        self.assertIn("no image arrived on /cam0/image_raw/compressed", message)
 
     def test_nodes_that_end(self):
         _, message = self.measure(["true"], timeout=60)
-        self.assertIn("ended before an image came on /cam0/image_raw", message)
+        self.assertIn("ended before an image arrived on /cam0/image_raw", message)
 
     def test_a_player_that_ends_is_not_waited_for(self):
         _, message = self.measure(["sleep", "60"], player=("false",), timeout=60)
-        self.assertEqual(message, "rosbag play ended with code 1: is a.bag a whole bag?")
+        self.assertEqual(message, "rosbag play ended with code 1: is a.bag complete?")
         _, message = self.measure(["sleep", "60"], player=("true",), timeout=60)
-        self.assertEqual(message, "no image came on /cam0/image_raw from a.bag: see image_topic in"
-                                  f" {self.config} and --image-transport")
+        self.assertEqual(message, "no image arrived on /cam0/image_raw from a.bag: see image_topic"
+                                  f" in {self.config} and --image-transport")
 
     def test_what_is_no_configuration_or_no_bag(self):
         from measure_latency import main

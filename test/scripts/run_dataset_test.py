@@ -334,11 +334,11 @@ class BadCalls(DatasetTest):
         self.assert_refused("there are points, baseline", "--variants", "best")
         self.assert_refused("missing.yaml: no such file", "--config", "missing.yaml")
         self.assert_refused("missing: no such program", "--run-offline", "missing")
-        self.assert_refused("from 1 on instead of 0", "--jobs", "0", exit_code=2)
+        self.assert_refused("at least 1 instead of 0", "--jobs", "0", exit_code=2)
         if importlib.util.find_spec("distributed"):
             self.assert_refused("no Dask scheduler there", "--scheduler", "nonsense://here")
-        self.assert_refused("zero or more, instead of nan", "--start", "nan", exit_code=2)
-        self.assert_refused("zero or more, instead of -1", "--starts=-1", exit_code=2)
+        self.assert_refused("at least 0, instead of nan", "--start", "nan", exit_code=2)
+        self.assert_refused("at least 0, instead of -1", "--starts=-1", exit_code=2)
         self.assert_refused("--starts: not allowed with argument --start", "--start", "1",
                             "--starts", "1", "2", exit_code=2)
         self.assert_refused("key=value instead of max_cnt", "--set", "max_cnt", exit_code=2)

@@ -81,7 +81,7 @@ class RunQueue(unittest.TestCase):
             self.carry_out(ModuleNotFoundError("No module named 'dataset'", name="dataset"))
 
     def test_a_lost_scheduler(self):
-        with self.assertRaisesRegex(DatasetError, "goes on from here"):
+        with self.assertRaisesRegex(DatasetError, "run the same command again"):
             self.carry_out(concurrent.futures.CancelledError())
 
 

@@ -266,7 +266,7 @@ class Page(ShowRun):
         np.testing.assert_allclose(positions("loops")[:2].astype(float), flight()[1][[300, 10]],
                                    atol=2e-4)
         self.assertEqual(len(positions("loops")), 3, "one, and the gap behind it")
-        self.assertTrue("Loops to a map of earlier, left out: 1" in text)
+        self.assertTrue("Loops to an earlier map, excluded: 1" in text)
         self.assertTrue("coverage 100.0 %" in text)
 
     def test_without_ground_truth(self):

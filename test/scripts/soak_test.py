@@ -76,7 +76,7 @@ class Soak(RefusalTest):
         self.assertGreater(len(series.samples["node", "memory_MB"]), 1)
 
     def test_an_estimator_without_a_pose_is_an_error(self):
-        with self.assertRaisesRegex(RuntimeError, "no pose came in 0.005 minutes.* mine.yaml"):
+        with self.assertRaisesRegex(RuntimeError, "no pose arrived in 0.005 minutes.* mine.yaml"):
             self.watch({"pose_age_ms": "0", "resets": "0", "odometry_rate_hz": "0.0"})
 
     def test_a_player_that_has_ended_is_an_error(self):

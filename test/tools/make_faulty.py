@@ -13,12 +13,12 @@ def parse_arguments(arguments):
     faults = "\n".join(f"  {name:18} {fault.what}" for name, fault in FAULTS.items())
     parser = argparse.ArgumentParser(description=__doc__, epilog="faults:\n" + faults,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("source", help="a .bag, an ASL folder, or what --save-features wrote")
-    parser.add_argument("target", help="the same kind, with the fault; a file is written anew,"
+    parser.add_argument("source", help="a .bag, an ASL folder, or a file of --save-features")
+    parser.add_argument("target", help="the same kind, with the fault; a file is overwritten,"
                         " a folder must be new or empty")
     parser.add_argument("--fault", required=True, choices=FAULTS, metavar="NAME")
     parser.add_argument("--begin", type=float, default=24.0, metavar="S",
-                        help="when it begins, since the first image [s] (default: 24)")
+                        help="begin of the fault after the first image [s] (default: 24)")
     return parser.parse_args(arguments)
 
 
@@ -40,9 +40,9 @@ def main(arguments=None):
     try:
         adapter = adapter_of(options.source)
         if os.path.exists(options.target) and os.path.samefile(options.source, options.target):
-            raise ValueError("the target is the source")
+            raise ValueError("source and target are the same file")
         if fault.needs_features and not adapter.__name__.endswith("feature_file"):
-            raise ValueError(f"{options.fault} can be made of a file of features only")
+            raise ValueError(f"{options.fault} needs a file of --save-features as its source")
         adapter.make_faulty(options.source, options.target, fault.apply, options.begin)
     except (OSError, ValueError, ImportError) as error:
         print(f"make_faulty.py: {error}", file=sys.stderr)

@@ -105,9 +105,9 @@ def watch(options, nodes, player):
         if age.value is not None:
             series.add("vins_estimator", {"pose_age_ms": age.value})
     if age.value is None:
-        raise RuntimeError(f"no pose came in {options.minutes:g} minutes: see the topics in"
+        raise RuntimeError(f"no pose arrived in {options.minutes:g} minutes: see the topics in"
                            f" {options.config}, and /diagnostics")
-    print(f"{options.minutes:g} minutes, {age.resets} world frames given up")
+    print(f"{options.minutes:g} minutes, {age.resets} world frames lost")
     return series
 
 
@@ -134,17 +134,18 @@ def report(series):
         if after - before > LIMITS[what]:
             grown.append(f"{what} of {node}")
     if grown:
-        print("soak.py: grown: " + ", ".join(grown), file=sys.stderr)
+        print("soak.py: growth in " + ", ".join(grown), file=sys.stderr)
     return not grown
 
 
 def parse_arguments(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("bag", help="ROS bag, played in a loop")
-    parser.add_argument("--config", required=True, help="of the sensors in the bag")
+    parser.add_argument("--config", required=True, help="configuration of the sensors in the bag")
     parser.add_argument("--minutes", type=float, default=60, help="(default: 60)")
-    parser.add_argument("--interval", type=float, default=5, help="of the samples [s] (default: 5)")
-    parser.add_argument("--rate", type=float, default=1, help="of playing (default: 1)")
+    parser.add_argument("--interval", type=float, default=5,
+                        help="time between samples [s] (default: 5)")
+    parser.add_argument("--rate", type=float, default=1, help="playback rate (default: 1)")
     return parser.parse_args(arguments)
 
 

@@ -27,10 +27,10 @@ NAMED = ("imu_implausible", "imu_replaced", "imu_saturated", "imu_gaps", "frames
 
 def parse_arguments(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("features", help="what run_offline --save-features wrote")
+    parser.add_argument("features", help="file of run_offline --save-features")
     parser.add_argument("ground_truth", help="TUM file, EuRoC csv or ASL folder")
     parser.add_argument("--begin", type=float, default=24.0, metavar="S",
-                        help="when the faults begin, since the first image [s] (default: 24)")
+                        help="begin of the faults after the first image [s] (default: 24)")
     parser.add_argument("--faults", nargs="+", choices=FAULTS, default=list(FAULTS), metavar="NAME")
     parser.add_argument("--config", default=CONFIG)
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")

@@ -14,7 +14,7 @@ IMU, IMAGES = os.path.join("imu0", "data.csv"), os.path.join("cam0", "data.csv")
 def make_faulty(source, target, apply, begin):
     """Makes `target`, a new folder, which links to the images and all other files of the source."""
     if os.path.lexists(target) and not (os.path.isdir(target) and not os.listdir(target)):
-        raise ValueError(f"{target}: exists already; remove it or give another target")
+        raise ValueError(f"{target}: already exists; remove it or give another target")
     nested = os.path.join(source, "mav0")
     source = nested if os.path.isdir(nested) else source
     (imu_head, imu), (image_head, images) = (_read(os.path.join(source, name))

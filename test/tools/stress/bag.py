@@ -30,7 +30,8 @@ def _open(source):
     try:
         return rosbag.Bag(source)
     except (rosbag.ROSBagException, UnicodeDecodeError) as error:
-        raise ValueError(f"{source} is no ROS bag, or \"rosbag reindex\" must repair it") from error
+        raise ValueError(f"{source} is not a ROS bag, or is damaged; \"rosbag reindex\" may repair"
+                         " it") from error
 
 
 def _measurements(bag, imu_topics, image_topics):

@@ -27,7 +27,7 @@ class Features:
         with open(path, "rb") as file:
             self._bytes = file.read()
         if not self._bytes.startswith(SIGNATURE):
-            raise self._error("no features of this version")
+            raise self._error("is not a feature file of this version")
         self._begin = self._end_of_list(len(SIGNATURE), 1)  # of the first item
         self._imu, self._images = [], []  # offsets in the file
         self._items = []  # (kind, index, begin)
@@ -64,7 +64,7 @@ class Features:
             at = at + 1 + IMU_LAYOUT.size if kind == IMU else self._end_of_image(at)
             self._items.append((kind, len(places) - 1, begin))
         if at > len(self._bytes):
-            raise self._error("ends in an item")
+            raise self._error("is truncated")
 
     def _end_of_points(self, begin):
         return self._end_of_list(_points_size_at(begin), POINT.itemsize)
@@ -80,7 +80,7 @@ class Features:
     def _end_of_list(self, size_at, item_size):
         items_at = size_at + SIZE.size
         if items_at > len(self._bytes):
-            raise self._error("ends in an item")
+            raise self._error("is truncated")
         return items_at + SIZE.unpack_from(self._bytes, size_at)[0] * item_size
 
     def _error(self, what):

@@ -212,7 +212,8 @@ TEST_F(EstimationStageTest, SaysThatTheImuComesTooSeldom) {
     Take();
   }
   EXPECT_EQ(stage_->frames(), 0);
-  EXPECT_EQ(stage_->ImuContradiction(), "the IMU rate is 16.7 Hz; at least 20 Hz is needed");
+  EXPECT_EQ(
+      stage_->ImuContradiction().rfind("the IMU rate is 16.7 Hz; at least 20 Hz is needed", 0), 0u);
 }
 
 // Runs the stage on a flight with points only.

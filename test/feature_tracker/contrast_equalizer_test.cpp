@@ -22,7 +22,7 @@ cv::Mat Equalized(const cv::Mat& image) {
   return equalized;
 }
 
-TEST(ContrastEqualizer, GivesWhatOpenCvDoes) {
+TEST(ContrastEqualizer, AgreesWithOpenCv) {
   cv::Mat dark;
   const cv::Mat view = TexturedScene().View();
   view.convertTo(dark, CV_8U, 0.1, 20);
@@ -32,19 +32,19 @@ TEST(ContrastEqualizer, GivesWhatOpenCvDoes) {
   }
 }
 
-TEST(ContrastEqualizer, TakesTheBrightestAndTheDarkest) {
+TEST(ContrastEqualizer, AcceptsExtremeBrightness) {
   cv::Mat image(64, 64, CV_8UC1, cv::Scalar(0));
   image.rowRange(32, 64).setTo(255);
   EXPECT_LE(cv::norm(Equalized(image), ByOpenCv(image), cv::NORM_INF), 1);
 }
 
 // OpenCV pads such an image, so that its tiles differ by some pixels.
-TEST(ContrastEqualizer, TakesSizesThatAreNoMultipleOfItsTiles) {
+TEST(ContrastEqualizer, AcceptsSizesThatAreNoMultipleOfItsTiles) {
   const cv::Mat image = TexturedScene().View()(cv::Rect(3, 5, 357, 227));
   EXPECT_LT(cv::norm(Equalized(image), ByOpenCv(image), cv::NORM_L1) / image.total(), 4);
 }
 
-TEST(ContrastEqualizer, UsesMemoryAgain) {
+TEST(ContrastEqualizer, ReusesMemory) {
   const cv::Mat view = TexturedScene().View();
   ContrastEqualizer equalizer(view.size());
   cv::Mat equalized;

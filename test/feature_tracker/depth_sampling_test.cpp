@@ -45,7 +45,7 @@ TEST(DepthSamplingTest, GivesNothingAtAnEdge) {
   EXPECT_TRUE(DepthAt(depth, kPixel + cv::Point2f(3, 0)));
 }
 
-TEST(DepthSamplingTest, GivesNothingOutsideOfTheImage) {
+TEST(DepthSamplingTest, GivesNothingOutsideTheImage) {
   EXPECT_FALSE(DepthAt(cv::Mat(), kPixel));
   for (const cv::Point2f& pixel : {cv::Point2f(0, 15), cv::Point2f(39, 15), cv::Point2f(20, 0),
                                    cv::Point2f(20, 29), cv::Point2f(-5, 400)}) {

@@ -67,7 +67,7 @@ TEST_F(PointTrackerTest, HardlyDriftsWhileTheImageTurnsAndGrows) {
   EXPECT_LT(errors[errors.size() / 2], 0.05);
 }
 
-TEST_F(PointTrackerTest, VelocityIsTheMotionOfNormalisedPoints) {
+TEST_F(PointTrackerTest, VelocityIsTheMotionOfNormalizedPoints) {
   const PointFrame first = Track(scene_.View());
   const PointFrame second = Track(scene_.View(Translation(3, -2)));
   const auto before = ById(first);
@@ -158,7 +158,7 @@ TEST_F(PointTrackerTest, PureRotationAndStandstillKeepPoints) {
   }
 }
 
-TEST_F(PointTrackerTest, CornersOfARepeatedImageStayToTheLastBit) {
+TEST_F(PointTrackerTest, CornersOfARepeatedImageAreBitExact) {
   const cv::Mat image = scene_.View();
   const auto before = ById(Track(image));
   const PointFrame frame = Track(image.clone(), SO3Exp(Eigen::Vector3d(0, 0.01, 0)));
@@ -209,7 +209,7 @@ TEST_F(PointTrackerTest, BlindImagesHaveNoPoints) {
   EXPECT_EQ(Track(scene_.View()).points.size(), 80U);
 }
 
-TEST_F(PointTrackerTest, SeesNothingInTheNoiseOfADarkImage) {
+TEST_F(PointTrackerTest, FindsNoCornersInDarkNoise) {
   cv::RNG random(3);
   for (int i = 0; i < 4; ++i) {
     cv::Mat noise(kHeight, kWidth, CV_8UC1);
@@ -225,7 +225,7 @@ TEST_F(PointTrackerTest, SurvivesASuddenChangeOfBrightness) {
   EXPECT_GE(Track(bright).points.size(), 72U);
 }
 
-TEST_F(PointTrackerTest, SearchesForCornersOnceATenthIsMissing) {
+TEST_F(PointTrackerTest, DetectsNewCornersOnceATenthIsMissing) {
   Track(scene_.View());
   int searches = 0;
   for (int i = 1; i <= 20; ++i) {
@@ -240,7 +240,7 @@ TEST_F(PointTrackerTest, SearchesForCornersOnceATenthIsMissing) {
   EXPECT_LT(searches, 10);
 }
 
-TEST_F(PointTrackerTest, RefusesWrongImagesAndStaysAsItWas) {
+TEST_F(PointTrackerTest, RejectsWrongImagesWithoutChange) {
   const cv::Mat view = scene_.View();
   const PointFrame first = Track(view);
   cv::Mat color;
@@ -318,7 +318,7 @@ TEST(PointTracker, IsDeterministicWhateverTheNumberOfThreads) {
 
 // Column 271 of this fisheye is perpendicular to the optical axis, so its rays have no image in z =
 // 1.
-TEST(PointTracker, LeavesOutWhatLiesAtRightAnglesToTheAxis) {
+TEST(PointTracker, IgnoresRaysPerpendicularToTheOpticalAxis) {
   CameraParameters parameters = TestCameraParameters();
   parameters.model = CameraParameters::Model::kPinholeEquidistant;
   parameters.fx = parameters.fy = 1000;
@@ -335,7 +335,7 @@ TEST(PointTracker, LeavesOutWhatLiesAtRightAnglesToTheAxis) {
 }
 
 // Half of this image is beyond the fold of the distortion.
-TEST(PointTracker, WhatHasNoRaysUsesUpNoCorners) {
+TEST(PointTracker, PixelsWithoutRaysUseNoCorners) {
   CameraParameters parameters = TestCameraParameters();
   parameters.distortion[0] = -0.5;
   PointTracker tracker(TestConfig(), CameraModel::Create(parameters));

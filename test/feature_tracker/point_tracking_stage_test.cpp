@@ -48,7 +48,7 @@ TEST_F(PointTrackingStageTest, KeepsTheIdsOfAStillScene) {
   EXPECT_EQ(second.statistics.previous, static_cast<int>(first.features.points.size()));
 }
 
-TEST_F(PointTrackingStageTest, ForgetsItsTracksWithANewRecording) {
+TEST_F(PointTrackingStageTest, DropsItsTracksAtANewRecording) {
   const TrackedPoints before = Track(5000);
   for (int t = 0; t < 500; t += 50) stage_.AddImage({t * kMillisecond, StillPicture()});
   const TrackedPoints after = Track(500);
@@ -63,7 +63,7 @@ TEST_F(PointTrackingStageTest, WaitsForTheGyro) {
   EXPECT_TRUE(stage_.Pop());
 }
 
-TEST(PointTrackingStage, AMaskThatIsRefusedNamesTheFileOfTheConfiguration) {
+TEST(PointTrackingStage, ErrorOfAnInvalidMaskNamesTheConfiguration) {
   const testing::TemporaryFolder folder;
   Config config = StillConfig();
   config.file = "camera.yaml";

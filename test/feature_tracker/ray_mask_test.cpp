@@ -15,13 +15,13 @@ std::unique_ptr<const CameraModel> FoldedCamera() {
   return CameraModel::Create(parameters);
 }
 
-TEST(RayMask, LeavesTheMaskAsItIsWhereAllHasRays) {
+TEST(RayMask, KeepsTheMaskIfAllPixelsHaveRays) {
   EXPECT_TRUE(WithinRays(*TestCamera(), {}).empty());
   const cv::Mat mask(kHeight, kWidth, CV_8UC1, cv::Scalar(255));
   EXPECT_EQ(WithinRays(*TestCamera(), mask).data, mask.data);
 }
 
-TEST(RayMask, AllowsNothingWithoutARayAndHardlyLess) {
+TEST(RayMask, MasksPixelsWithoutARay) {
   const auto camera = FoldedCamera();
   const cv::Mat mask = WithinRays(*camera, {});
   ASSERT_EQ(mask.size(), cv::Size(kWidth, kHeight));
@@ -49,7 +49,7 @@ TEST(RayMask, KeepsWhatTheMaskForbids) {
 }
 
 // The ray of column 271 of this fisheye is perpendicular to the optical axis.
-TEST(RayMask, ARayNextToTheImagePlaneIsNone) {
+TEST(RayMask, MasksRaysCloseToTheImagePlane) {
   CameraParameters parameters = TestCameraParameters();
   parameters.model = CameraParameters::Model::kPinholeEquidistant;
   parameters.fx = parameters.fy = 1000;

@@ -263,7 +263,7 @@ TEST_F(LineTrackerTest, SameImagesSameBytes) {
   }
 }
 
-TEST_F(LineTrackerTest, RefusesUnusableImagesAndStaysAsItWas) {
+TEST_F(LineTrackerTest, RejectsUnusableImagesWithoutChange) {
   Show(BarScene(PlainParameters()));
   const cv::Mat image = scene_->View();
   const auto first = Track(image);
@@ -315,7 +315,7 @@ TEST_F(LineTrackerTest, DrawsTheNewestImage) {
 
 // Column 271 of this fisheye is perpendicular to the optical axis, so its rays have no image in z =
 // 1.
-TEST(LineTracker, LeavesOutWhatLiesAtRightAnglesToTheAxis) {
+TEST(LineTracker, IgnoresRaysPerpendicularToTheOpticalAxis) {
   CameraParameters parameters = PlainParameters();
   parameters.model = CameraParameters::Model::kPinholeEquidistant;
   parameters.fx = parameters.fy = 1000;

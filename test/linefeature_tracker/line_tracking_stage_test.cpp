@@ -56,7 +56,7 @@ TEST_F(LineTrackingStageTest, KeepsTheIdsOfAStillScene) {
   EXPECT_EQ(second.statistics.previous, first.statistics.added);
 }
 
-TEST_F(LineTrackingStageTest, ForgetsItsTracksWithANewRecording) {
+TEST_F(LineTrackingStageTest, DropsItsTracksAtANewRecording) {
   const TrackedLines before = Track(5000, bars_);
   for (int t = 0; t < 500; t += 50) stage_->AddImage({t * kMillisecond, bars_});
   const TrackedLines after = Track(500, bars_);
@@ -76,7 +76,7 @@ TEST_F(LineTrackingStageTest, AnImageWithoutLinesGivesAnEmptyFrame) {
   EXPECT_FALSE(found.features.lines.empty());
 }
 
-TEST(LineTrackingStage, ADetectorThatOpenCvLacksNamesTheFileOfTheConfiguration) {
+TEST(LineTrackingStage, ErrorOfAMissingDetectorNamesTheConfiguration) {
   if (LineDetector::IsAvailable(LineDetectorType::kLsd)) GTEST_SKIP() << "it has all detectors";
   Config config;
   config.file = "camera.yaml";

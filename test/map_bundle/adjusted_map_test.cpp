@@ -34,7 +34,7 @@ TEST(AdjustedMapTest, MovesNodesToTheirKeyframes) {
   }
 }
 
-TEST(AdjustedMapTest, RebuildsAMapThatRests) {
+TEST(AdjustedMapTest, RebuildsAMapAtAMinimum) {
   const DriftingFlight flight(DriftingFlightOptions{});
   AdjustedMap truth = TruthOf(flight);
   const int64_t track = flight.map().keyframes[3].corners.front().track;
@@ -58,7 +58,7 @@ TEST(AdjustedMapTest, RebuildsAMapThatRests) {
   EXPECT_LT((rebuilt.T_M_O(3) * corner.p_O->cast<double>() - p_M).norm(), 1e-5);
 }
 
-TEST(AdjustedMapTest, TakesOverTheMountOfTheCamera) {
+TEST(AdjustedMapTest, UsesTheAdjustedExtrinsics) {
   const DriftingFlight flight(DriftingFlightOptions{});
   AdjustedMap truth = TruthOf(flight);
   truth.T_B_C.translation.x() += 0.05;
@@ -74,7 +74,7 @@ TEST(AdjustedMapTest, TakesOverTheMountOfTheCamera) {
 }
 
 // Keyframes of a loaded map are not adjusted.
-TEST(AdjustedMapTest, LeavesKeyframesThatWereNotAdjusted) {
+TEST(AdjustedMapTest, KeepsUnadjustedKeyframes) {
   const DriftingFlight flight(DriftingFlightOptions{});
   AdjustedMap truth = TruthOf(flight);
   truth.T_B_C.translation.x() += 0.05;

@@ -36,13 +36,13 @@ BundleState BundleWith(int landmarks, double followed, double again) {
 
 // Landmarks are not adjusted here, so residuals of tracked corners exceed the assumption by a
 // third.
-TEST(BundleNoiseTest, TellsBothKindsApart) {
+TEST(BundleNoiseTest, SeparatesBothKindsOfNoise) {
   const SightingNoise noise = EstimateNoise(BundleWith(400, 5e-4, 2e-3), kConfigured);
   EXPECT_NEAR(noise.followed, 5e-4 * std::sqrt(12.0 / 9.0), 3e-5);
   EXPECT_NEAR(noise.again, 2e-3, 1.5e-4);
 }
 
-TEST(BundleNoiseTest, KeepsWhatIsConfiguredWhereThereIsLittle) {
+TEST(BundleNoiseTest, KeepsTheConfiguredNoiseWithFewResiduals) {
   const SightingNoise noise = EstimateNoise(BundleWith(10, 5e-4, 2e-3), kConfigured);
   EXPECT_EQ(noise.followed, kConfigured.followed);
   EXPECT_EQ(noise.again, kConfigured.again);

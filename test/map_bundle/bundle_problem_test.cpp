@@ -29,7 +29,7 @@ BundleState SmallBundle() {
   return bundle;
 }
 
-TEST(BundleProblemTest, LeavesWhatNothingDeterminesWhereItStarted) {
+TEST(BundleProblemTest, KeepsUnobservableStatesAtTheirStart) {
   BundleState bundle = SmallBundle();
   const Eigen::Vector3d shift(0.2, -0.1, 0.3);
   for (auto& [number, keyframe] : bundle.keyframes) keyframe.state.position() += shift;

@@ -23,7 +23,7 @@ ImuHistory SecondOfSamples() {
   return history;
 }
 
-TEST(ImuHistoryTest, IntegratesWhatIsBetween) {
+TEST(ImuHistoryTest, IntegratesBetweenStamps) {
   const ImuHistory history = SecondOfSamples();
 
   const auto between = history.Between(0, 102'500'000, 900'000'000, ImuNoise{}, ImuBias{});
@@ -38,7 +38,7 @@ TEST(ImuHistoryTest, IntegratesWhatIsBetween) {
   EXPECT_LT((between->delta_v() - expected.delta_v()).norm(), 1e-12);
 }
 
-TEST(ImuHistoryTest, SaysNothingBeyondItsSamples) {
+TEST(ImuHistoryTest, ReturnsNulloptBeyondItsSamples) {
   const ImuHistory history = SecondOfSamples();
   EXPECT_FALSE(history.Between(0, -1, 500'000'000, ImuNoise{}, ImuBias{}));
   EXPECT_FALSE(history.Between(0, 500'000'000, 1'000'000'001, ImuNoise{}, ImuBias{}));
@@ -46,7 +46,7 @@ TEST(ImuHistoryTest, SaysNothingBeyondItsSamples) {
   EXPECT_FALSE(ImuHistory().Between(-1, 0, 1, ImuNoise{}, ImuBias{}));
 }
 
-TEST(ImuHistoryTest, TakesAStampOnce) {
+TEST(ImuHistoryTest, AcceptsAStampOnce) {
   ImuHistory history = SecondOfSamples();
   history.Add(SampleAt(200 * kStep_ns));
   EXPECT_TRUE(history.Between(0, 0, 1'000'000'000, ImuNoise{}, ImuBias{}));

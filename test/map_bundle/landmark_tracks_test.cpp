@@ -52,7 +52,7 @@ TEST(LandmarkTracksTest, KeepsTracksOfTwoWorldsApart) {
   EXPECT_TRUE(CollectLandmarks(map, {0, 1}, {}).empty());
 }
 
-TEST(LandmarkTracksTest, AddsWhatWasSeenAgain) {
+TEST(LandmarkTracksTest, AddsLoopObservations) {
   KeyframeMap map = MapOf({0, 1, 1});
   See(7, &map.keyframes[0]);
   const Eigen::Vector2d xy(0.3, -0.1);
@@ -80,7 +80,7 @@ TEST(LandmarkTracksTest, CountsAKeyframeOnce) {
   EXPECT_EQ(tracks[0].sightings[2].xy, first);
 }
 
-TEST(LandmarkTracksTest, LeavesOutWhatIsFarAway) {
+TEST(LandmarkTracksTest, IgnoresDistantLandmarks) {
   KeyframeMap map = MapOf({0, 0});  // half a metre apart
   for (Keyframe& keyframe : map.keyframes) {
     See(1, &keyframe, Eigen::Vector3f(0, 0, 20));
@@ -91,7 +91,7 @@ TEST(LandmarkTracksTest, LeavesOutWhatIsFarAway) {
   EXPECT_EQ(tracks[0].key.track, 1);
 }
 
-TEST(LandmarkTracksTest, LeavesOutWhatHasNoPlaceOrLiesBehind) {
+TEST(LandmarkTracksTest, IgnoresLandmarksWithoutPositionOrBehindTheCamera) {
   KeyframeMap map = MapOf({0, 0});
   for (Keyframe& keyframe : map.keyframes) {
     See(1, &keyframe, kPlace, /*is_known=*/false);

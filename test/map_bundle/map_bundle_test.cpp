@@ -31,7 +31,7 @@ double ErrorAfterAdjustment(const DriftingFlightOptions& options) {
   return adjusted ? ErrorOf(flight, *adjusted) : std::numeric_limits<double>::infinity();
 }
 
-TEST(MapBundleTest, TakesOutDriftAndScale) {
+TEST(MapBundleTest, RemovesDriftAndScaleError) {
   const DriftingFlight flight(DriftingFlightOptions{});
   MapBundle bundle(MapBundleOptions{});
   flight.Tell(&bundle);
@@ -46,7 +46,7 @@ TEST(MapBundleTest, TakesOutDriftAndScale) {
   EXPECT_GT(bundle.summary().sightings_again, 400u);
 }
 
-TEST(MapBundleTest, FindsTheNoiseOfWhatIsSeen) {
+TEST(MapBundleTest, EstimatesTheObservationNoise) {
   DriftingFlightOptions options;
   options.noise = 3e-3;
   const DriftingFlight flight(options);
@@ -59,19 +59,19 @@ TEST(MapBundleTest, FindsTheNoiseOfWhatIsSeen) {
   EXPECT_NEAR(bundle.summary().noise.again, 3e-3, 1e-3);
 }
 
-TEST(MapBundleTest, BearsWrongMatches) {
+TEST(MapBundleTest, ToleratesWrongMatches) {
   DriftingFlightOptions options;
   options.wrong_share = 0.2;
   EXPECT_LT(ErrorAfterAdjustment(options), 0.03);
 }
 
-TEST(MapBundleTest, BearsWhatIsFarAway) {
+TEST(MapBundleTest, ToleratesDistantLandmarks) {
   DriftingFlightOptions options;
   options.far_points = 5;
   EXPECT_LT(ErrorAfterAdjustment(options), 0.015);
 }
 
-TEST(MapBundleTest, GoesByTheClockOfTheImu) {
+TEST(MapBundleTest, UsesTheClockOfTheImu) {
   DriftingFlightOptions options;
   options.camera_clock = 0.2;
   EXPECT_LT(ErrorAfterAdjustment(options), 0.015);
@@ -85,7 +85,7 @@ TEST(MapBundleTest, KeepsWorldsWithEqualStampsApart) {
 }
 
 // Keyframes of a loaded map may have another T_B_C.
-TEST(MapBundleTest, LeavesCamerasOfALoadedMapWhereTheyAre) {
+TEST(MapBundleTest, DoesNotMoveCamerasOfALoadedMap) {
   DriftingFlightOptions options;
   options.drift = 0;
   options.scale = 1;
@@ -105,7 +105,7 @@ TEST(MapBundleTest, LeavesCamerasOfALoadedMapWhereTheyAre) {
   }
 }
 
-TEST(MapBundleTest, NeedsPlacesThatWereRecognised) {
+TEST(MapBundleTest, NeedsLoops) {
   const DriftingFlight flight(DriftingFlightOptions{});
   MapBundleOptions options;
   options.min_places = 1000;
@@ -117,7 +117,7 @@ TEST(MapBundleTest, NeedsPlacesThatWereRecognised) {
   EXPECT_FALSE(bundle.summary().failed);
 }
 
-TEST(MapBundleTest, LeavesOutPlacesThatTheGraphRefuses) {
+TEST(MapBundleTest, IgnoresLoopsThatTheGraphRejects) {
   DriftingFlightOptions options;
   options.refused = true;
   const DriftingFlight flight(options);
@@ -135,7 +135,7 @@ TEST(MapBundleTest, LeavesOutPlacesThatTheGraphRefuses) {
   EXPECT_TRUE(bundle.Adjust(flight.map()));
 }
 
-TEST(MapBundleTest, ForgetsPlacesThatTheGraphDropsLater) {
+TEST(MapBundleTest, IgnoresLoopsThatTheGraphDropsLater) {
   const DriftingFlight flight(DriftingFlightOptions{});
   MapBundle bundle(MapBundleOptions{});
   flight.Tell(&bundle);
@@ -151,7 +151,7 @@ TEST(MapBundleTest, ForgetsPlacesThatTheGraphDropsLater) {
   EXPECT_FALSE(bundle.Adjust(flight.map()));
 }
 
-TEST(MapBundleTest, KeepsTheRoundsThatAreDoneWhereItIsAskedToEnd) {
+TEST(MapBundleTest, KeepsCompletedRoundsWhenStopped) {
   const DriftingFlight flight(DriftingFlightOptions{});
   MapBundle bundle(MapBundleOptions{});
   flight.Tell(&bundle);
@@ -171,7 +171,7 @@ TEST(MapBundleTest, KeepsTheRoundsThatAreDoneWhereItIsAskedToEnd) {
   EXPECT_EQ(bundle.summary().rounds, 3);
 }
 
-TEST(MapBundleTest, SaysWhereTheEquationsCannotBeSolved) {
+TEST(MapBundleTest, ReportsSingularEquations) {
   DriftingFlightOptions options;
   options.scale = std::numeric_limits<double>::quiet_NaN();
   const DriftingFlight flight(options);
@@ -184,7 +184,7 @@ TEST(MapBundleTest, SaysWhereTheEquationsCannotBeSolved) {
   EXPECT_EQ(bundle.summary().rounds, 0);
 }
 
-TEST(MapBundleTest, CountsSightingsThatTakePart) {
+TEST(MapBundleTest, CountsUsedObservations) {
   DriftingFlightOptions options;
   options.keyframes_of_visit = 5;
   const DriftingFlight flight(options);
@@ -199,7 +199,7 @@ TEST(MapBundleTest, CountsSightingsThatTakePart) {
   EXPECT_LT(bundle.summary().sightings_again, told);  // some landmarks were observed only once
 }
 
-TEST(MapBundleTest, HasNothingToSayOfAnEmptyMap) {
+TEST(MapBundleTest, AcceptsAnEmptyMap) {
   MapBundle bundle(MapBundleOptions{});
   EXPECT_FALSE(bundle.Adjust(KeyframeMap{}));
 }

@@ -34,7 +34,7 @@ BodyOdometry Flying() {
   return odometry;
 }
 
-TEST(BodyOdometry, OfALevelImuWithZDownIsThatOfABaseWithZUp) {
+TEST(BodyOdometry, RotatesAnImuWithZDownToABaseWithZUp) {
   BodyOdometry imu;  // heads along the world's y (north, were the world ENU), level
   imu.T_W_B = {About(Eigen::Vector3d::UnitZ(), 90) * About(Eigen::Vector3d::UnitX(), 180),
                {5, 6, 7}};
@@ -48,7 +48,7 @@ TEST(BodyOdometry, OfALevelImuWithZDownIsThatOfABaseWithZUp) {
   EXPECT_MATRIX_NEAR(base.v_B, Eigen::Vector3d(1, -0.2 + 0.05, 0.3), 1e-12);
 }
 
-TEST(BodyOdometry, VelocityIsThatOfTheMovedOrigin) {
+TEST(BodyOdometry, VelocityIsOfTheBaseOrigin) {
   const BodyOdometry imu = Flying();
   constexpr double kStep = 1e-6;  // [s]
   const auto origin = [&](double t) {
@@ -103,7 +103,7 @@ TEST(BodyOdometry, VariancesKeepTheirAxes) {
   EXPECT_NEAR(base.twist_covariance(0, 1), -0.5, 1e-12);
 }
 
-TEST(BodyOdometry, KnowsWhatIsOfNoUse) {
+TEST(BodyOdometry, DetectsUnusableStates) {
   EXPECT_TRUE(Flying().IsUsable());
   BodyOdometry bad = Flying();
   bad.twist_covariance(5, 5) = std::numeric_limits<double>::quiet_NaN();

@@ -58,7 +58,7 @@ void ExpectRefused(double RelayGate::Options::*option, double value, const std::
 }
 
 // A period that overflows int64 nanoseconds would otherwise abort the program.
-TEST(RelayGate, RefusesOptionsOutOfTheirRange) {
+TEST(RelayGate, RejectsOptionsOutOfTheirRange) {
   using Options = RelayGate::Options;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -78,7 +78,7 @@ TEST(RelayGate, WaitsForTheFirstImage) {
   EXPECT_EQ(feed.gate.resets(), 0);
 }
 
-TEST(RelayGate, StopsWhereImagesNoLongerSupportTheStates) {
+TEST(RelayGate, StopsWithoutRecentImages) {
   Feed feed;
   feed.Send(0, 1000);
   const std::vector<int64_t> passed = feed.Send(1000, 5000, false);
@@ -88,7 +88,7 @@ TEST(RelayGate, StopsWhereImagesNoLongerSupportTheStates) {
   EXPECT_EQ(feed.gate.resets(), 1);
 }
 
-TEST(RelayGate, AGapIsLongEnoughToBeNoticed) {
+TEST(RelayGate, GapsLastLongEnoughForMavros) {
   Feed feed;
   const int64_t last = feed.Send(0, 1000).back();
   // The estimator is reinitialized within 0.3 s.
@@ -97,7 +97,7 @@ TEST(RelayGate, AGapIsLongEnoughToBeNoticed) {
 }
 
 // Neither states nor images come while an estimator has lost tracking.
-TEST(RelayGate, APauseOfAllIsAnInterruptionThatCounts) {
+TEST(RelayGate, PausedInputCountsAsReset) {
   Feed feed;
   feed.Send(0, 1000);
   EXPECT_EQ(feed.Send(3000, 4000).front(), 3050) << "an image supports nothing that came after it";
@@ -105,7 +105,7 @@ TEST(RelayGate, APauseOfAllIsAnInterruptionThatCounts) {
 }
 
 // Only the count shows such an interruption.
-TEST(RelayGate, GoesOnAtOnceAfterAPauseOfTheLengthThatIsAskedFor) {
+TEST(RelayGate, ContinuesAfterMinPause) {
   RelayGate::Options options;
   options.min_pause = 0.3;
   Feed feed(options);
@@ -115,14 +115,14 @@ TEST(RelayGate, GoesOnAtOnceAfterAPauseOfTheLengthThatIsAskedFor) {
   EXPECT_EQ(feed.gate.resets(), 1);
 }
 
-TEST(RelayGate, LostStatesAreNoGap) {
+TEST(RelayGate, LostStatesAreNotAGap) {
   Feed feed;
   feed.Send(0, 1000);
   EXPECT_LE(feed.Send(1150, 2000).front(), 1150);
   EXPECT_EQ(feed.gate.resets(), 0);
 }
 
-TEST(RelayGate, StampsThatJumpBackAreANewBeginning) {
+TEST(RelayGate, RestartsAfterTimestampsJumpBack) {
   Feed feed;
   feed.Send(10'000, 11'000);
   EXPECT_EQ(feed.Send(0, 1000).front(), 50) << "with the next image";

@@ -33,14 +33,14 @@ TEST(TransformText, TurnsAboutXThenYThenZ) {
                      Eigen::Vector3d(0, std::cos(0.5), -std::sin(0.5)), 1e-12);
 }
 
-TEST(TransformText, RefusesWhatIsNone) {
+TEST(TransformText, RejectsMalformedText) {
   for (const std::string text : {"", "1 2 3", "1 2 3 4 5 6 7", "1 2 3 4 5 x", "a b c d e f"}) {
     EXPECT_EQ(ProblemOf(text),
               "imu_to_base: expected x y z yaw pitch roll [m, rad] instead of \"" + text + "\"");
   }
 }
 
-TEST(TransformText, RefusesDegrees) {
+TEST(TransformText, RejectsDegrees) {
   for (const std::string text : {"0 0 0 0 0 180", "0 0 0 -90 0 0", "0 0 0 0 6.4 0"}) {
     EXPECT_EQ(
         ProblemOf(text),

@@ -112,7 +112,7 @@ TEST_F(LoopCloserTest, UndoesTheDriftOfASecondVisit) {
   EXPECT_LT(second.fix->covariance(0, 0), 0.5 * second.fix->odometry_covariance(0, 0));
 }
 
-TEST_F(LoopCloserTest, FindsTheOldWorldAgainAfterARestart) {
+TEST_F(LoopCloserTest, RelocalizesAfterARestart) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());
   const LevelTransform T_O_W = {2.0, {7, 8, 9}};
@@ -122,7 +122,7 @@ TEST_F(LoopCloserTest, FindsTheOldWorldAgainAfterARestart) {
   EXPECT_EQ(confirmed_, 1u);  // the first loop waited for the second
 }
 
-TEST_F(LoopCloserTest, DoesNotKnowWhereANewWorldIs) {
+TEST_F(LoopCloserTest, NewWorldIsNotLocated) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());
   OdometryFrame frame = FrameAt(0, 10, {2.0, {7, 8, 9}});
@@ -131,7 +131,7 @@ TEST_F(LoopCloserTest, DoesNotKnowWhereANewWorldIs) {
   EXPECT_FALSE(loops.Add(frame).fix);
 }
 
-TEST_F(LoopCloserTest, StartsInAMapOfEarlier) {
+TEST_F(LoopCloserTest, StartsInAnEarlierMap) {
   LoopCloser before(LoopCloserOptions(*camera_), camera_);
   Slide(&before, 0, LevelTransform());
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
@@ -142,7 +142,7 @@ TEST_F(LoopCloserTest, StartsInAMapOfEarlier) {
   EXPECT_LT((found.fix->T_M_O * T_O_W).translation.norm(), 0.05);
 }
 
-TEST_F(LoopCloserTest, LeavesALoadedMapWhereItIs) {
+TEST_F(LoopCloserTest, DoesNotMoveALoadedMap) {
   LoopCloser before(LoopCloserOptions(*camera_), camera_);
   Slide(&before, 0, LevelTransform());
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
@@ -169,7 +169,7 @@ TEST_F(LoopCloserTest, LeavesALoadedMapWhereItIs) {
 }
 
 // A world that is connected with the map meets one that is not.
-TEST_F(LoopCloserTest, BringsAWorldToTheMapAndNotTheMapToTheWorld) {
+TEST_F(LoopCloserTest, MovesAWorldToTheMap) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform(), false, {-9, -5});
   const int second = loops.map().graph.size();
@@ -184,7 +184,7 @@ TEST_F(LoopCloserTest, BringsAWorldToTheMapAndNotTheMapToTheWorld) {
 }
 
 // Odometry after a blind stretch with dead reckoning has a large covariance.
-TEST_F(LoopCloserTest, BelievesALoopWhereOdometryKnowsThatItIsOff) {
+TEST_F(LoopCloserTest, AcceptsALoopWithinTheDrift) {
   variance_rate_ = 0;
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());
@@ -196,7 +196,7 @@ TEST_F(LoopCloserTest, BelievesALoopWhereOdometryKnowsThatItIsOff) {
   EXPECT_LT(rest.translation.norm(), 0.05);
 }
 
-TEST_F(LoopCloserTest, DoesNotTakeATwinOfAPlaceForThePlace) {
+TEST_F(LoopCloserTest, RejectsPerceptualAliasing) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());
   // Odometry reaches the same images by a path of 10 m.
@@ -235,7 +235,7 @@ TEST_F(LoopCloserTest, DropsALoopThatTheGraphContradicts) {
 }
 
 // Odometry that has just started may have a wrong scale.
-TEST_F(LoopCloserTest, GivesUpALoopThatAllLaterOnesContradict) {
+TEST_F(LoopCloserTest, DropsALoopThatAllLaterOnesContradict) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());
   variance_rate_ = 1e-7;
@@ -254,7 +254,7 @@ TEST_F(LoopCloserTest, GivesUpALoopThatAllLaterOnesContradict) {
 
 // Odometry jumps after the first loop of the second visit. The next loop, which contradicts it, is
 // less certain.
-TEST_F(LoopCloserTest, KnowsNoPlaceByALoopThatTheGraphDropsLater) {
+TEST_F(LoopCloserTest, DroppedLoopDoesNotLocateAWorld) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   Slide(&loops, 0, LevelTransform());
   first_track_ += 100'000'000;
@@ -277,7 +277,7 @@ TEST_F(LoopCloserTest, KnowsNoPlaceByALoopThatTheGraphDropsLater) {
   }));
 }
 
-TEST_F(LoopCloserTest, IsNotLargerAfterManyVisitsThanAfterAFew) {
+TEST_F(LoopCloserTest, MapSizeIsBoundedOverManyVisits) {
   LoopCloser loops(LoopCloserOptions(*camera_), camera_);
   std::vector<int> sizes;
   for (int visit = 0; visit < 8; ++visit) {

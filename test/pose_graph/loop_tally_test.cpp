@@ -25,7 +25,7 @@ TEST(LoopTallyTest, CountsEachVerdict) {
   EXPECT_EQ(tally.refused[LoopGate::kScore], 2);
 }
 
-TEST(LoopTallyTest, CountsALoopThatWaitedOnce) {
+TEST(LoopTallyTest, CountsADelayedLoopOnce) {
   LoopClosure first;
   first.candidates = {RefusedBy(LoopGate::kAgreement), RefusedBy(LoopGate::kAgreement)};
   LoopClosure second;
@@ -39,7 +39,7 @@ TEST(LoopTallyTest, CountsALoopThatWaitedOnce) {
   EXPECT_EQ(tally.refused[LoopGate::kAgreement], 1);
 }
 
-TEST(LoopTallyTest, CountsAConfirmedLoopThatTheGraphRefusesUnderItsLastGate) {
+TEST(LoopTallyTest, CountsALoopThatTheGraphRejectsUnderItsLastGate) {
   LoopClosure first;
   first.candidates = {RefusedBy(LoopGate::kAgreement)};
   LoopClosure second;
@@ -52,7 +52,7 @@ TEST(LoopTallyTest, CountsAConfirmedLoopThatTheGraphRefusesUnderItsLastGate) {
   EXPECT_EQ(tally.refused[LoopGate::kGraph], 1);
 }
 
-TEST(LoopTallyTest, CountsALoopThatTheGraphTakesLaterOnce) {
+TEST(LoopTallyTest, CountsALoopThatTheGraphAcceptsLaterOnce) {
   LoopClosure first;
   first.candidates = {RefusedBy(LoopGate::kGraph), RefusedBy(LoopGate::kGraph)};
   LoopClosure second;

@@ -83,7 +83,7 @@ class Driver {
 
 // If the driver waited for the estimator, which waits for ROS to publish, there would be a
 // deadlock.
-TEST(EstimatorInput, NeverHoldsUpADriverInItsProcess) {
+TEST(EstimatorInput, NeverBlocksADriverInItsProcess) {
   const ros::NodeHandle private_node("vins_estimator");
   Driver driver;
   EstimatorLog status;

@@ -53,30 +53,30 @@ TEST_F(ImuInboxTest, GivesAllSamplesOnceInOrder) {
   EXPECT_TRUE(inbox_.Take().empty());
 }
 
-TEST_F(ImuInboxTest, WakesNobodyWhoDoesNotWait) {
+TEST_F(ImuInboxTest, NotifiesOnlyWaitingReaders) {
   Publish(19);
   EXPECT_EQ(Notices(), 0);
 }
 
-TEST_F(ImuInboxTest, WakesWhoWaitsForTheNextOnce) {
+TEST_F(ImuInboxTest, NotifiesOncePerWait) {
   ASSERT_TRUE(inbox_.WaitForNext());
   Publish(5);
   EXPECT_EQ(Notices(), 1);
 }
 
-TEST_F(ImuInboxTest, KeepsNobodyWaitingForWhatIsThere) {
+TEST_F(ImuInboxTest, DoesNotWaitForAvailableSamples) {
   Publish(1);
   EXPECT_FALSE(inbox_.WaitForNext());
   inbox_.Take();
   EXPECT_TRUE(inbox_.WaitForNext());
 }
 
-TEST_F(ImuInboxTest, WakesWhereManyHaveGathered) {
+TEST_F(ImuInboxTest, NotifiesAfterManySamples) {
   Publish(20);
   EXPECT_EQ(Notices(), 1);
 }
 
-TEST_F(ImuInboxTest, ForgetsTheOldestWhereNobodyTakesThem) {
+TEST_F(ImuInboxTest, DropsTheOldestWithoutAReader) {
   Publish(2100);
   const std::vector<ImuSample> samples = inbox_.Take();
   ASSERT_EQ(samples.size(), 2000u);
@@ -85,12 +85,12 @@ TEST_F(ImuInboxTest, ForgetsTheOldestWhereNobodyTakesThem) {
 }
 
 // Notices wait for that thread as well, and nothing else limits their number.
-TEST_F(ImuInboxTest, GivesNoMoreNoticesWhereNobodyTakesThem) {
+TEST_F(ImuInboxTest, StopsNotifyingWithoutAReader) {
   Publish(2100);
   EXPECT_EQ(Notices(), 2000 / 20);
 }
 
-TEST_F(ImuInboxTest, NoticesNothingOnceItIsGone) {
+TEST_F(ImuInboxTest, DoesNotNotifyAfterDestruction) {
   {
     ImuInbox other(node_, "imu_of_another", [this] { ++notices_; });
     const ros::Publisher publisher = node_.advertise<sensor_msgs::Imu>("imu_of_another", 10);

@@ -123,13 +123,13 @@ TEST_F(Lines, ArePairedBeforeOrAfterTheirPoints) {
   }
 }
 
-TEST_F(Lines, ArePairedWhenTheyLag) {
+TEST_F(Lines, ArePairedIfTheyLag) {
   const Counts counts = Play(40, 2);
   EXPECT_LE(counts.without_lines, 2) << "the first two are those of images that had theirs";
   EXPECT_GE(counts.frames, 37);
 }
 
-TEST_F(Lines, ThatFailToComeLeaveThePointsAndAreUsedWhenTheyComeBack) {
+TEST_F(Lines, MissingLinesDoNotStopPointsAndAreUsedAgain) {
   const Counts dead = Play(60, -1);
   EXPECT_GE(dead.frames, 60) << "some waited for their lines before";
   EXPECT_GE(dead.without_lines, 58);
@@ -141,7 +141,7 @@ TEST_F(Lines, ThatFailToComeLeaveThePointsAndAreUsedWhenTheyComeBack) {
   EXPECT_FALSE(SaysPointsAlone(back.message)) << back.message;
 }
 
-TEST_F(Lines, ThatComeTooLateDoNotHoldUpThePoints) {
+TEST_F(Lines, LateLinesDoNotDelayPoints) {
   const Counts slow = Play(60, 8);
   EXPECT_GE(slow.frames, 59);
   EXPECT_TRUE(SaysPointsAlone(slow.message)) << slow.message;

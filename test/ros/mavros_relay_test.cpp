@@ -125,7 +125,7 @@ void WaitFor(const FakeEstimator& estimator, const FakeMavros& mavros) {
   }
 }
 
-TEST(MavrosRelay, SendsWhatMavrosWantsAsLongAsTheEstimateHolds) {
+TEST(MavrosRelay, RelaysWhileTheEstimateIsUsable) {
   FakeEstimator estimator;
   FakeMavros mavros("/mavros_relay", "/mavros/odometry/out");
   WaitFor(estimator, mavros);
@@ -168,7 +168,7 @@ TEST(MavrosRelay, SendsWhatMavrosWantsAsLongAsTheEstimateHolds) {
 }
 
 // The offset is the largest td, which exceeds the permitted age of an image's estimate.
-TEST(MavrosRelay, TakesImagesWhoseStampsAreFarFromThoseOfTheStates) {
+TEST(MavrosRelay, AcceptsImagesWithOffsetStamps) {
   FakeEstimator estimator;
   FakeMavros mavros("/mavros_relay", "/mavros/odometry/out");
   WaitFor(estimator, mavros);
@@ -183,7 +183,7 @@ TEST(MavrosRelay, TakesImagesWhoseStampsAreFarFromThoseOfTheStates) {
 }
 
 // Images may be so old that the first state after a pause is relayed at once.
-TEST(MavrosRelay, AsksTfWhereTheBaseIsAndCountsAPauseOfAll) {
+TEST(MavrosRelay, LocatesTheBaseByTfAndCountsPauses) {
   std::string log;
   const ros::Subscriber log_subscriber = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
       "/rosout", 1000, [&](const rosgraph_msgs::LogConstPtr& line) {

@@ -220,7 +220,7 @@ TEST_F(OurNodelets, ChangeTheNumberOfFeaturesWhileTheyRun) {
 
 // Images with an unknown encoding, with a size beyond their data and any memory, and of another
 // time.
-TEST_F(OurNodelets, GoOnAfterImagesThatNoCameraSends) {
+TEST_F(OurNodelets, ContinueAfterImpossibleImages) {
   const Features points("/feature_tracker/feature");
   const Features node_lines("/nodes/linefeature_tracker/linefeature");
   ASSERT_TRUE(SpinUntil(kTimeout, [&] {
@@ -266,7 +266,7 @@ TEST_F(OurNodelets, AreUnloadedWhileImagesArriveAndLoadedAgain) {
   EXPECT_TRUE(SpinUntil(kTimeout, [&] { return points.Has(stamp); }));
 }
 
-TEST_F(OurNodelets, WithAFaultyConfigurationAreNotLoadedAndSayWhy) {
+TEST_F(OurNodelets, ReportAFaultyConfigurationAndAreNotLoaded) {
   std::string log;
   const ros::Subscriber subscriber = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
       "/rosout", 1000, [&](const rosgraph_msgs::LogConstPtr& line) {
@@ -285,7 +285,7 @@ TEST_F(OurNodelets, WithAFaultyConfigurationAreNotLoadedAndSayWhy) {
 }
 
 // Invalid ROS names, and a topic that the manager knows with another type.
-TEST_F(OurNodelets, GoOnWhereOneBesideThemCannotSubscribe) {
+TEST_F(OurNodelets, ContinueIfAnotherNodeletCannotSubscribe) {
   ros::param::set("/graph/config_file", ros::param::param<std::string>("~config_file", ""));
   ros::param::set("/graph/set/imu_topic", "/another_imu");
   ros::param::set("/graph/set/loop_closure", "1");
@@ -300,7 +300,7 @@ TEST_F(OurNodelets, GoOnWhereOneBesideThemCannotSubscribe) {
   EXPECT_TRUE(Nodelets::Unload("/graph"));
 }
 
-TEST_F(OurNodelets, FollowNoLinesWhereNobodyWantsThem) {
+TEST_F(OurNodelets, TrackNoLinesWithoutSubscribers) {
   ros::param::set("/idle/config_file", ros::param::param<std::string>("~config_file", ""));
   ros::param::set("/idle/set/use_lines", "0");
   ASSERT_TRUE(Nodelets::Load("/idle", "plm_vins/LineFeatureTracker"));
@@ -312,7 +312,7 @@ TEST_F(OurNodelets, FollowNoLinesWhereNobodyWantsThem) {
   EXPECT_TRUE(Nodelets::Unload("/idle"));
 }
 
-TEST_F(OurNodelets, SayWhichKeyNamesNoTopic) {
+TEST_F(OurNodelets, ErrorNamesTheKeyOfAnInvalidTopic) {
   std::string log;
   const ros::Subscriber subscriber = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
       "/rosout", 1000, [&](const rosgraph_msgs::LogConstPtr& line) { log += line->msg + "\n"; });

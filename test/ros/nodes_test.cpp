@@ -142,7 +142,7 @@ TEST_F(Nodes, TrackEveryImage) {
 
 // VINS-Mono reads channels by position, rounds the ids, treats two points of the same id as a
 // stereo pair, and aborts if z is not 1. It ignores the first message.
-TEST_F(Nodes, GivePointsAsVinsMonoReadsThem) {
+TEST_F(Nodes, PublishPointsInTheLayoutOfVinsMono) {
   for (const auto& frame : log_->feature.messages) {
     ASSERT_GE(frame.channels.size(), 5u);
     for (const auto& channel : frame.channels) {
@@ -176,7 +176,7 @@ TEST_F(Nodes, FollowLines) {
   EXPECT_FALSE(log_->linefeature_img.messages.empty());
 }
 
-TEST_F(Nodes, GiveAPoseForEveryImageFromTheFirstOn) {
+TEST_F(Nodes, PublishAPoseForEveryImage) {
   const std::vector<ros::Time> images = log_->image.Stamps();
   const std::vector<ros::Time> poses = log_->odometry.Stamps();
   ASSERT_FALSE(poses.empty());
@@ -187,7 +187,7 @@ TEST_F(Nodes, GiveAPoseForEveryImageFromTheFirstOn) {
   EXPECT_TRUE(std::equal(poses.begin(), poses.end(), first));
 }
 
-TEST_F(Nodes, GivePlausiblePosesWithCovariance) {
+TEST_F(Nodes, PublishPlausiblePosesWithCovariance) {
   for (const auto& odometry : log_->odometry.messages) {
     EXPECT_EQ(odometry.header.frame_id, "world");
     EXPECT_EQ(odometry.child_frame_id, "body");
@@ -214,7 +214,7 @@ TEST_F(Nodes, PropagateAtTheRateOfTheImu) {
 }
 
 // The last image has passed long ago.
-TEST_F(Nodes, KeepThePathForWhoComesLate) {
+TEST_F(Nodes, LatchThePath) {
   const Listener<nav_msgs::Path> late("/vins_estimator/path");
   for (int i = 0; i < 50 && late.messages.empty(); ++i) Spin(0.1);
   ASSERT_EQ(late.messages.size(), 1u);
@@ -222,7 +222,7 @@ TEST_F(Nodes, KeepThePathForWhoComesLate) {
 }
 
 // The log does not subscribe to these, since a process has only one connection to a topic.
-TEST_F(Nodes, KeepTheLinesOfThePastForWhoComesLate) {
+TEST_F(Nodes, LatchPastLines) {
   const Listener<visualization_msgs::Marker> late("/vins_estimator/history_lines_cloud");
   for (int i = 0; i < 50 && late.messages.empty(); ++i) Spin(0.1);
   Spin(0.5);  // all arrive together
@@ -259,7 +259,7 @@ TEST_F(Nodes, PublishTransformsFromWorldToCamera) {
   EXPECT_TRUE(log_->tf_buffer.canTransform("world", "body", camera.header.stamp));
 }
 
-TEST_F(Nodes, SayWhatTheyDoAndWhatTheyWaitFor) {
+TEST_F(Nodes, ReportStateAndWhatTheyWaitFor) {
   const auto estimator = Statuses(log_->diagnostics, "vins_estimator: odometry");
   EXPECT_FALSE(LastStatus(estimator, "waiting: no messages on /imu0").empty());
   Status tracking = LastStatus(estimator, "tracking");
@@ -275,7 +275,7 @@ TEST_F(Nodes, SayWhatTheyDoAndWhatTheyWaitFor) {
 }
 
 // The bag is played in its own time, which is the reference of delays.
-TEST_F(Nodes, TellRatesAndDelays) {
+TEST_F(Nodes, ReportRatesAndDelays) {
   const auto statuses = Statuses(log_->diagnostics, "vins_estimator: odometry");
   std::map<std::string, double> greatest;
   for (Status status : statuses) {
@@ -316,7 +316,7 @@ TEST_F(Nodes, SaveTheTrajectoryAndResetByService) {
 
 class Node : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(Node, RefusesToStartWithoutConfiguration) {
+TEST_P(Node, DoesNotStartWithoutConfiguration) {
   const std::string command = "timeout 30 " + program_folder + "/" + GetParam() +
                               " __name:=another _config_file:=/no/such/file.yaml >/dev/null 2>&1";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);

@@ -94,7 +94,7 @@ std::unique_ptr<PeerTrackers> Peers::trackers_;
 std::unique_ptr<EstimatorLog> Peers::log_;
 
 // VINS-Mono's tracker does not publish the first image, which has no velocities.
-TEST_F(Peers, AreUnderstood) {
+TEST_F(Peers, OfVinsMonoWork) {
   trackers_->Play(1, trackers_->images(), kPeriod, PointsThenLines);
   WaitUntilDone();
   EXPECT_GT(log_->odometry.size(), 0.8 * static_cast<double>(trackers_->images()));
@@ -134,7 +134,7 @@ TEST_F(Peers, MayBeLateOutOfStepAndIncomplete) {
 }
 
 // An unannounced restart, as from a tracker that ignores timestamps.
-TEST_F(Peers, MayJumpBackInTimeWithoutAWord) {
+TEST_F(Peers, MayJumpBackInTimeUnannounced) {
   trackers_->Play(0, trackers_->images(), kPeriod, PointsThenLines);
   WaitUntilDone();
   EXPECT_EQ(log_->Count("resets"), 2);
@@ -145,7 +145,7 @@ TEST_F(Peers, MayJumpBackInTimeWithoutAWord) {
   EXPECT_TRUE(TimeRunsForward());
 }
 
-TEST_F(Peers, MayFallSilentForAWhile) {
+TEST_F(Peers, MayPause) {
   trackers_->PublishRestart();
   const size_t silence = 60;  // from this image on
   trackers_->Play(0, silence, kPeriod, PointsThenLines);
@@ -167,7 +167,7 @@ TEST_F(Peers, MayFallSilentForAWhile) {
       << log_->Value("message");
 }
 
-TEST_F(Peers, MayLoseSightOfEverything) {
+TEST_F(Peers, MayLoseAllFeatures) {
   trackers_->PublishRestart();
   const size_t seeing = trackers_->images() - 10;
   trackers_->Play(0, seeing, kPeriod, PointsThenLines);
@@ -197,7 +197,7 @@ TEST_F(Peers, OfPlVinsSendNoVelocities) {
 }
 
 // Arbitrary timestamps, duplicate ids, and invalid numbers.
-TEST_F(Peers, MaySendWhatTheyLikeAndEndNothing) {
+TEST_F(Peers, MaySendGarbageWithoutHarm) {
   ros::NodeHandle node;
   ros::Publisher imu = node.advertise<sensor_msgs::Imu>("/imu0", 10);
   ros::Publisher points = node.advertise<sensor_msgs::PointCloud>("/feature_tracker/feature", 10);
@@ -227,7 +227,7 @@ TEST_F(Peers, MaySendWhatTheyLikeAndEndNothing) {
   EXPECT_GE(log_->Count("frames_ahead_of_time"), 1);
 }
 
-TEST_F(Peers, OfAnotherLayoutAreRefusedWithoutHarm) {
+TEST_F(Peers, WithAnotherLayoutAreRejectedWithoutHarm) {
   const int64_t frames = log_->Count("frames");
   ros::NodeHandle node;
   ros::Publisher points = node.advertise<sensor_msgs::PointCloud>("/feature_tracker/feature", 10);

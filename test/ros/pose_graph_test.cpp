@@ -159,7 +159,7 @@ class PoseGraphNodeTest : public ::testing::Test {
   Status status_{"pose_graph: map"};
 };
 
-TEST_F(PoseGraphNodeTest, PutsKeyframesInOrderAndOdometryInTheMap) {
+TEST_F(PoseGraphNodeTest, OrdersKeyframesAndTransformsOdometryToTheMap) {
   Fly(0, 4);
   EXPECT_EQ(path_->poses.size(), 4u);
   EXPECT_GT(CountInMap(0.5), 0);
@@ -167,7 +167,7 @@ TEST_F(PoseGraphNodeTest, PutsKeyframesInOrderAndOdometryInTheMap) {
 }
 
 // The new estimator does not announce its new world.
-TEST_F(PoseGraphNodeTest, TakesAnEstimatorThatWasStartedAgainForANewWorld) {
+TEST_F(PoseGraphNodeTest, RestartedEstimatorBeginsANewWorld) {
   Fly(0, 4);
   EXPECT_GT(CountInMap(0.5), 0);
   Start();
@@ -178,7 +178,7 @@ TEST_F(PoseGraphNodeTest, TakesAnEstimatorThatWasStartedAgainForANewWorld) {
 }
 
 // A recording without odometry. The first keyframe is lost if its pose arrives after its points.
-TEST_F(PoseGraphNodeTest, TakesKeyframesOfAnotherPublisherForANewWorld) {
+TEST_F(PoseGraphNodeTest, AnotherPublisherBeginsANewWorld) {
   Fly(0, 4);
   Start();
   Fly(10, 14);
@@ -186,7 +186,7 @@ TEST_F(PoseGraphNodeTest, TakesKeyframesOfAnotherPublisherForANewWorld) {
   EXPECT_LE(path_->poses.size(), 4u) << "joined with the world before";
 }
 
-TEST_F(PoseGraphNodeTest, TakesARestartForANewWorld) {
+TEST_F(PoseGraphNodeTest, RestartMessageBeginsANewWorld) {
   Fly(0, 4);
   Restart(status_.Count("worlds"));
   Fly(10, 14);
@@ -194,7 +194,7 @@ TEST_F(PoseGraphNodeTest, TakesARestartForANewWorld) {
   EXPECT_EQ(CountInMap(0.5), 0);
 }
 
-TEST_F(PoseGraphNodeTest, KnowsNoPlaceOfANewWorldByTheKeyframesOfTheOneBefore) {
+TEST_F(PoseGraphNodeTest, KeyframesOfThePreviousWorldDoNotLocateANewOne) {
   const int worlds = status_.Count("worlds");
   const cv::Mat noise = Noise();
   for (int i = 0; i < 40; ++i) estimator_->Publish(i, camera_, noise);
@@ -203,7 +203,7 @@ TEST_F(PoseGraphNodeTest, KnowsNoPlaceOfANewWorldByTheKeyframesOfTheOneBefore) {
   EXPECT_EQ(CountInMap(1.5), 0);
 }
 
-TEST_F(PoseGraphNodeTest, ForgetsPartsOfKeyframesWhenReset) {
+TEST_F(PoseGraphNodeTest, ResetDropsIncompleteKeyframes) {
   camera_.Publish(KeyframeSource::Stamp(0), Blank());
   estimator_->PublishPoints(0);
   estimator_->PublishPose(KeyframeSource::Pose(0));
@@ -215,7 +215,7 @@ TEST_F(PoseGraphNodeTest, ForgetsPartsOfKeyframesWhenReset) {
   EXPECT_GT(CountInMap(0.5), 0) << "the map is that of the odometry";
 }
 
-TEST_F(PoseGraphNodeTest, RefusesPosesThatAreNotFinite) {
+TEST_F(PoseGraphNodeTest, RejectsPosesThatAreNotFinite) {
   Fly(0, 2);
   auto pose = KeyframeSource::Pose(2);
   pose.pose.pose.position.x = std::numeric_limits<double>::quiet_NaN();
@@ -229,14 +229,14 @@ TEST_F(PoseGraphNodeTest, RefusesPosesThatAreNotFinite) {
   EXPECT_TRUE(status_.WaitFor("poses_impossible", "1"));
 }
 
-TEST_F(PoseGraphNodeTest, CountsImagesThatAreNoneApartFromErrors) {
+TEST_F(PoseGraphNodeTest, CountsUnreadableImagesApartFromErrors) {
   camera_.PublishDepth(KeyframeSource::Stamp(0));
   EXPECT_TRUE(status_.WaitFor("images_unreadable", "1"));
   EXPECT_EQ(status_.Value("internal_errors"), "0");
   Fly(1, 3);
 }
 
-TEST_F(PoseGraphNodeTest, SaysWhereKeyframesComeWithoutImages) {
+TEST_F(PoseGraphNodeTest, ReportsKeyframesWithoutImages) {
   EXPECT_TRUE(SpinUntil(kPatience, [&] {
     estimator_->PublishPose(KeyframeSource::Pose(0));
     ros::WallDuration(0.1).sleep();
@@ -244,7 +244,7 @@ TEST_F(PoseGraphNodeTest, SaysWhereKeyframesComeWithoutImages) {
   })) << status_.Value("message");
 }
 
-TEST_F(PoseGraphNodeTest, SaysWhereNothingThatComesIsAnImage) {
+TEST_F(PoseGraphNodeTest, ReportsUnusableImages) {
   int i = 0;
   EXPECT_TRUE(SpinUntil(kPatience, [&] {
     camera_.PublishDepth(KeyframeSource::Stamp(i++));
@@ -255,7 +255,7 @@ TEST_F(PoseGraphNodeTest, SaysWhereNothingThatComesIsAnImage) {
   })) << status_.Value("message");
 }
 
-TEST_F(PoseGraphNodeTest, SaysInFullWhereItsMapIs) {
+TEST_F(PoseGraphNodeTest, ReportsTheFullPathOfItsMap) {
   std_srvs::Trigger save;
   ASSERT_TRUE(ros::service::call("/pose_graph/save_map", save));
   const std::string& message = save.response.message;
@@ -267,7 +267,7 @@ TEST_F(PoseGraphNodeTest, SaysInFullWhereItsMapIs) {
 }
 
 // The node runs in a namespace, and nothing subscribes to its output before.
-TEST(PoseGraphOfARobot, TakesCompressedImagesAndShowsItsPathToWhomComesLater) {
+TEST(PoseGraphOfARobot, AcceptsCompressedImagesAndLatchesItsPath) {
   const std::string node = "/robot/pose_graph";
   const Camera camera("compressed");
   const KeyframeSource estimator("/robot/vins_estimator/");

@@ -181,7 +181,7 @@ TEST(FeatureSimulator, TimeOffsetMovesTheImageStampsOnly) {
   EXPECT_EQ(shifted.imu[100].t_ns, plain.imu[100].t_ns);
 }
 
-TEST(FeatureSimulator, BrokenTracksGoOnUnderNewIdsOfTheSameLandmark) {
+TEST(FeatureSimulator, BrokenTracksContinueUnderNewIds) {
   FeatureSimulationOptions options = Options();
   options.trajectory.motion = Motion::kStill;
   EXPECT_LE(SimulateFeatures(options).point_landmark.size(), 150u);

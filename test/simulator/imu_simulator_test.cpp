@@ -54,7 +54,7 @@ TEST(ImuSimulator, IntegratingNoiseFreeSamplesReproducesTheTrajectory) {
   }
 }
 
-TEST(ImuSimulator, AtRestFeelsTheReactionToGravity) {
+TEST(ImuSimulator, MeasuresTheReactionToGravityAtStandstill) {
   const auto imu = SimulateImu(MakeTrajectory(Motion::kStill, 1.0), NoiseFree(200.0));
   ASSERT_EQ(imu.samples.size(), 201u);
   EXPECT_EQ(imu.samples[1].t_ns, 5'000'000);
@@ -97,7 +97,7 @@ TEST(ImuSimulator, BiasesWalkWithTheRequestedDensity) {
   EXPECT_EQ(imu.BiasAt(7'000'000).gyro, imu.biases[1].gyro);
 }
 
-TEST(ImuSimulator, CorrectionsAreWhatTheReadingsNeed) {
+TEST(ImuSimulator, ConfiguredCorrectionsRestoreTheReadings) {
   ImuSimulationOptions options = NoiseFree(200.0);
   options.initial_bias = {Vector3d(0.1, -0.2, 0.3), Vector3d(0.01, 0.02, -0.03)};
   const Trajectory trajectory = MakeTrajectory(Motion::kFast, 4.0);

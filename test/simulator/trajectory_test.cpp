@@ -68,7 +68,7 @@ TEST_P(TrajectoryOfEachMotion, DerivativesAgreeWithDifferences) {
   }
 }
 
-TEST_P(TrajectoryOfEachMotion, StartsAtRestAndStaysInItsBox) {
+TEST_P(TrajectoryOfEachMotion, StartsAtStandstillAndStaysInItsBox) {
   const TrajectoryOptions options = Options(GetParam());
   const Trajectory trajectory(options);
   for (double t = 0; t <= options.rest; t += 0.05) {
@@ -107,7 +107,7 @@ TEST(Trajectory, FlightsExciteAllAxes) {
   }
 }
 
-TEST(Trajectory, HoverAndPureRotationHoldTheirPlaceAfterTheLeadIn) {
+TEST(Trajectory, HoverAndPureRotationHoldTheirPositionAfterTheLeadIn) {
   for (Motion motion : {Motion::kHover, Motion::kPureRotation}) {
     const Trajectory trajectory(Options(motion));
     const Vector3d place = trajectory.At(29).T_W_B.translation;

@@ -41,7 +41,7 @@ TEST_F(CompanionQueueTest, DropsWhatIsTooOld) {
   EXPECT_EQ(Take(100), -1);
 }
 
-TEST_F(CompanionQueueTest, WaitsForASensorThatSends) {
+TEST_F(CompanionQueueTest, WaitsForAnActiveSensor) {
   EXPECT_FALSE(IsAwaited(100));  // nothing has come yet
   queue_.Add(At(100));
   EXPECT_FALSE(IsAwaited(100));
@@ -60,7 +60,7 @@ TEST_F(CompanionQueueTest, DoesNotWaitForImagesThatASlowSensorSkips) {
   EXPECT_TRUE(IsAwaited(500));
 }
 
-TEST_F(CompanionQueueTest, BeginsAnewWhereStampsJumpBack) {
+TEST_F(CompanionQueueTest, RestartsIfStampsJumpBack) {
   for (const int64_t t : {1000, 1050, 10}) queue_.Add(At(t));
   EXPECT_EQ(Take(10), 10);
   EXPECT_TRUE(IsAwaited(60));

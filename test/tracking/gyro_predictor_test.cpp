@@ -41,7 +41,7 @@ TEST(GyroPredictor, ConstantRateBetweenArbitraryTimes) {
   EXPECT_LT(rotation->angularDistance(expected), 1e-9);
 }
 
-TEST(GyroPredictor, TakesReadingsCorrected) {
+TEST(GyroPredictor, UsesCorrectedReadings) {
   ImuSensor imu;
   imu.gyro_correction << 0, -1.02, 0, 0.98, 0, 0, 0.01, 0, 1;
   const Eigen::Vector3d rate(0.5, -1.0, 2.0);
@@ -79,7 +79,7 @@ TEST(GyroPredictor, CoversUpToTheLastSample) {
   EXPECT_FALSE(predictor.Covers(kStart + 1));
 }
 
-TEST(GyroPredictor, RefusesIntervalsItDoesNotCover) {
+TEST(GyroPredictor, RejectsIntervalsItDoesNotCover) {
   GyroPredictor predictor(Rigid3d(), 0);
   EXPECT_FALSE(predictor.Rotation(kStart, kStart));
   Feed(&predictor, 0.2, [](double) { return Eigen::Vector3d::Zero(); });
@@ -90,7 +90,7 @@ TEST(GyroPredictor, RefusesIntervalsItDoesNotCover) {
   EXPECT_TRUE(predictor.Rotation(kStart + 100, kStart + 100));
 }
 
-TEST(GyroPredictor, RefusesAGapInside) {
+TEST(GyroPredictor, RejectsAGapInside) {
   GyroPredictor predictor(Rigid3d(), 0);
   Feed(&predictor, 0.1, [](double) { return Eigen::Vector3d::Zero(); });
   predictor.AddImu(Sample(kStart + 300'000'000, Eigen::Vector3d::Zero()));
@@ -118,7 +118,7 @@ TEST(GyroPredictor, IgnoresBadSamples) {
   EXPECT_MATRIX_NEAR(SO3Log(*rotation), -0.1 * rate, 1e-12);
 }
 
-TEST(GyroPredictor, ForgetsWhatIsOld) {
+TEST(GyroPredictor, DropsOldSamples) {
   GyroPredictor predictor(Rigid3d(), 0);
   Feed(&predictor, 20, [](double) { return Eigen::Vector3d::Zero(); });
   EXPECT_FALSE(predictor.Rotation(kStart, kStart + 50'000'000));
@@ -126,7 +126,7 @@ TEST(GyroPredictor, ForgetsWhatIsOld) {
 }
 
 // The clock was wrong for a moment.
-TEST(GyroPredictor, BeginsAnewWhereAllStampsGoBack) {
+TEST(GyroPredictor, RestartsIfAllStampsJumpBack) {
   GyroPredictor predictor(Rigid3d(), 0);
   for (const int64_t t : {0, 1, 2}) {
     predictor.AddImu(Sample(kStart + 3'600'000'000'000 + t * kPeriod, Eigen::Vector3d::Zero()));

@@ -33,7 +33,7 @@ class ImageMaskTest : public ::testing::Test {
   const testing::TemporaryFolder folder_;
 };
 
-TEST_F(ImageMaskTest, IsTheSameFromALossyFile) {
+TEST_F(ImageMaskTest, ToleratesLossyFiles) {
   const cv::Mat mask = Stored("mask.png", Disc());
   EXPECT_EQ(cv::countNonZero(mask != Disc()), 0);
   EXPECT_EQ(cv::countNonZero(Stored("mask.jpg", Disc()) != mask), 0);
@@ -46,7 +46,7 @@ TEST_F(ImageMaskTest, AllowsPixelsWhereItIsWhite) {
   EXPECT_TRUE(MaskAllows(ReadMask("", kSize), {2, 3}));
 }
 
-TEST_F(ImageMaskTest, IsRefusedWhereItMasksAllOrDoesNotFit) {
+TEST_F(ImageMaskTest, IsRejectedIfItMasksAllOrHasAnotherSize) {
   const auto error = [&](const cv::Mat& mask) {
     return testing::MessageOf([&] { Stored("mask.png", mask); });
   };

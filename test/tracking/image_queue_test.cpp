@@ -71,7 +71,7 @@ TEST_F(ImageQueueTest, AnImageWaitsForTheGyro) {
   EXPECT_EQ(queue_.counts().without_gyro, 0);
 }
 
-TEST_F(ImageQueueTest, TellsTheTurnSinceTheImageBefore) {
+TEST_F(ImageQueueTest, GivesTheRotationSinceThePreviousImage) {
   AddImu(-10, 100, {0, 0, 1});
   AddImage(0);
   AddImage(50);
@@ -127,7 +127,7 @@ TEST_F(ImageQueueTest, DropsStampsThatRepeatOrGoBack) {
   EXPECT_EQ(queue_.counts().restarts, 0);
 }
 
-TEST_F(ImageQueueTest, BeginsAnewWhenTheRecordingDoes) {
+TEST_F(ImageQueueTest, RestartsWithTheRecording) {
   for (int t = 5000; t < 5500; t += 50) AddImage(t);
   EXPECT_EQ(Flush().size(), 10u);
   EXPECT_FALSE(last_.restart);
@@ -142,7 +142,7 @@ TEST_F(ImageQueueTest, BeginsAnewWhenTheRecordingDoes) {
   EXPECT_TRUE(last_.R_C1_C0);
 }
 
-TEST_F(ImageQueueTest, DropsImagesOfAnotherSizeAndSaysWhichSize) {
+TEST_F(ImageQueueTest, DropsImagesOfAnotherSizeAndReportsTheSize) {
   AddImage(0);
   AddImage(50, StillPicture({160, 120}));
   AddImage(100, cv::Mat(240, 320, CV_8UC3));
@@ -154,7 +154,7 @@ TEST_F(ImageQueueTest, DropsImagesOfAnotherSizeAndSaysWhichSize) {
       << queue_.counts().wrong_format_detail;
 }
 
-TEST_F(ImageQueueTest, AGapCostsOneImage) {
+TEST_F(ImageQueueTest, GapDropsOneImage) {
   for (const int t : {0, 50, 1200, 1250, 1300}) AddImage(t);
   EXPECT_EQ(Flush(), (std::vector<int>{0, 50, 1250, 1300}));
   EXPECT_EQ(queue_.counts().gaps, 1);
@@ -181,7 +181,7 @@ TEST_F(ImageQueueTest, AnImuSampleAloneInTheFutureLeavesTheGyroAtWork) {
   EXPECT_TRUE(last_.R_C1_C0);
 }
 
-TEST(ImageQueue, ThinsToTheRateButHandsOutAll) {
+TEST(ImageQueue, MarksImagesAtTheRateAndDeliversAll) {
   Config config = StillConfig();
   config.publish_rate = 10;
   ImageQueue queue(config);
@@ -195,7 +195,7 @@ TEST(ImageQueue, ThinsToTheRateButHandsOutAll) {
 }
 
 // The gyroscope cannot predict while the rotation of the camera is unknown.
-TEST(ImageQueue, DoesWithoutTheGyroWhereTheCameraRotationIsUnknown) {
+TEST(ImageQueue, IgnoresTheGyroIfTheCameraRotationIsUnknown) {
   Config config = StillConfig();
   config.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kCalibrateRotation;
   ImageQueue queue(config);
@@ -226,7 +226,7 @@ class CompanionImages : public ::testing::Test {
   ImageQueue queue_{TwoCameras()};
 };
 
-TEST_F(CompanionImages, ComeWithTheImageOfTheirStamp) {
+TEST_F(CompanionImages, ArePairedByStamp) {
   queue_.AddRight({At(1), picture_});
   queue_.AddDepth({At(0), depth_});
   queue_.AddImage({At(0), picture_});
@@ -288,7 +288,7 @@ TEST_F(CompanionImages, OfAWrongFormatAreCounted) {
   EXPECT_EQ(ToDropCounts(queue_.counts()).size(), ToDropCounts(ImageCounts()).size() + 2);
 }
 
-TEST_F(CompanionImages, AreIgnoredWithoutSuchASensor) {
+TEST_F(CompanionImages, AreIgnoredIfNotConfigured) {
   ImageQueue queue(StillConfig());
   queue.AddRight({At(0), picture_});
   queue.AddDepth({At(0), depth_});

@@ -27,7 +27,7 @@ TEST_F(ImageSamplingTest, IsLinearBetweenPixels) {
   EXPECT_FLOAT_EQ(Interpolate(image_, 12, 9.5F), 0.5F * at(9, 12) + 0.5F * at(10, 12));
 }
 
-TEST_F(ImageSamplingTest, RowsAreTheSame) {
+TEST_F(ImageSamplingTest, RowsAgreeWithSinglePixels) {
   for (const cv::Point2f& step : {cv::Point2f(1, 0), {0.9F, 0.31F}, {-0.7F, 1.2F}, {0, -1}}) {
     const cv::Point2f start(20.3F, 15.8F);
     std::array<float, 8> row;

@@ -29,7 +29,7 @@ TEST(RateLimiter, TakesEverySecondOfTwiceTheRate) {
   EXPECT_EQ(Take(10, {0, 50, 100, 150, 200, 250}), (std::vector<int>{100, 200}));
 }
 
-TEST(RateLimiter, TakesAllOfAStreamAtItsRateButTheFirst) {
+TEST(RateLimiter, AcceptsAllButTheFirstAtItsRate) {
   EXPECT_EQ(Take(20, {0, 50, 100, 150, 200, 250}), (std::vector<int>{50, 100, 150, 200, 250}));
 }
 
@@ -39,7 +39,7 @@ TEST(RateLimiter, KeepsTheMeanRateOfAnOddStream) {
   EXPECT_NEAR(static_cast<double>(Take(20, stamps).size()), 200, 3);
 }
 
-TEST(RateLimiter, BeginsAnewAfterAGapAndAJumpBack) {
+TEST(RateLimiter, RestartsAfterAGapAndABackwardJump) {
   EXPECT_EQ(Take(10, {0, 50, 100, 1150, 1200, 1250}), (std::vector<int>{100, 1250}));
   EXPECT_EQ(Take(10, {500, 550, 600, 0, 50, 100}), (std::vector<int>{600, 100}));
 }
@@ -62,7 +62,7 @@ std::vector<int> TakeAsTheOthersDo(double rate, const std::vector<int>& stamps) 
   return taken;
 }
 
-TEST(RateLimiter, TakesTheImagesThatTheTrackersOfVinsTake) {
+TEST(RateLimiter, AcceptsTheImagesThatVinsMonoAccepts) {
   for (const double rate : {5, 7, 10, 15, 19}) {
     for (const int period : {50, 33, 41}) {
       std::vector<int> stamps;

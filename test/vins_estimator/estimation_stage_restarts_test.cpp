@@ -138,7 +138,7 @@ double ErrorAtTheEnd(const std::vector<EstimatorOutput>& outputs, const FeatureD
       .norm();
 }
 
-TEST(Restarts, TheWorldFrameGoesOnOrANewOneIsAnnounced) {
+TEST(Restarts, WorldFrameContinuesOrANewOneIsAnnounced) {
   const FeatureDataset good = GoodFlight();
   for (const Trouble& trouble : Troubles()) {
     SCOPED_TRACE(trouble.name);

@@ -67,7 +67,7 @@ class EstimationStageTest : public ::testing::Test {
   std::vector<EstimatorOutput> outputs_;
 };
 
-TEST_F(EstimationStageTest, TellsHowWellTheGyroKnowsTheAngularVelocity) {
+TEST_F(EstimationStageTest, ReportsTheAngularVelocityCovariance) {
   Config config = testing::StillConfig();
   config.use_lines = false;
   config.sensor.imu_noise.gyro_density = 0.01;
@@ -82,7 +82,7 @@ TEST_F(EstimationStageTest, TellsHowWellTheGyroKnowsTheAngularVelocity) {
   EXPECT_NEAR(last->angular_velocity_variance, 0.01 * 0.01 / 0.005, 1e-9);
 }
 
-TEST_F(EstimationStageTest, AResetIsCountedAndToldWithTheNextImage) {
+TEST_F(EstimationStageTest, ResetIsReportedWithTheNextImage) {
   Rest(5000, 7000);
   ASSERT_TRUE(outputs_.back().has_pose);
   stage_->Reset("why");
@@ -94,7 +94,7 @@ TEST_F(EstimationStageTest, AResetIsCountedAndToldWithTheNextImage) {
   EXPECT_EQ(stage_->resets(), 1);
 }
 
-TEST_F(EstimationStageTest, TakesReadingsCorrected) {
+TEST_F(EstimationStageTest, UsesCorrectedReadings) {
   Config config = testing::StillConfig();
   config.use_lines = false;
   config.sensor.imu.accel_correction << 0, -1.05, 0, 0.95, 0, 0, 0, 0, 1;
@@ -113,7 +113,7 @@ TEST_F(EstimationStageTest, TakesReadingsCorrected) {
   EXPECT_GT(samples, 100u);
 }
 
-TEST_F(EstimationStageTest, WhatHasNotBegunNeedNotStartOver) {
+TEST_F(EstimationStageTest, ResetBeforeTheStartIsNotReported) {
   stage_->Reset("before the first image");
   Rest(0, 500);
   stage_->Reset("why");
@@ -197,7 +197,7 @@ TEST_F(EstimationStageTest, StartsOverWhereAllStampsLeapAhead) {
 }
 
 // The estimator handles the longest pause that is not a jump.
-TEST_F(EstimationStageTest, APauseIsNoLeap) {
+TEST_F(EstimationStageTest, PauseIsNotALeap) {
   Rest(5000, 7000);
   Rest(66'000, 68'000);
   EXPECT_EQ(stage_->statistics().leaps_ahead, 0);
@@ -205,7 +205,7 @@ TEST_F(EstimationStageTest, APauseIsNoLeap) {
   EXPECT_TRUE(outputs_.back().has_pose);
 }
 
-TEST_F(EstimationStageTest, SaysThatTheImuComesTooSeldom) {
+TEST_F(EstimationStageTest, ReportsATooLowImuRate) {
   for (int t = 0; t <= 8000; t += 60) {
     AddImu(t);
     AddPoints(t + 20);
@@ -248,7 +248,7 @@ int64_t CountRepeated(const EstimationStage& stage) {
 
 // If repeated images counted as observations, they would hold the position for two seconds while
 // the vehicle moves.
-TEST(EstimationStage, ARepeatedImageIsNoStandstill) {
+TEST(EstimationStage, RepeatedImageIsNotStandstill) {
   testing::FlightPlan plan;
   plan.duration = 12;
   plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
@@ -269,7 +269,7 @@ TEST(EstimationStage, ARepeatedImageIsNoStandstill) {
 }
 
 // A simulated camera delivers identical images while the vehicle stands still.
-TEST(EstimationStage, ACameraWithoutNoiseMayRest) {
+TEST(EstimationStage, NoiseFreeCameraMayStandStill) {
   testing::FlightPlan plan;
   plan.duration = 15;
   plan.corner_noise_px = 0;
@@ -284,7 +284,7 @@ TEST(EstimationStage, ACameraWithoutNoiseMayRest) {
 }
 
 // Vibrations in flight are observable from the images.
-TEST(EstimationStage, SaysThatTheImuIsFarNoisierThanConfigured) {
+TEST(EstimationStage, ReportsFarTooSmallConfiguredNoise) {
   testing::FlightPlan plan;
   plan.duration = 12;
   plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
@@ -318,7 +318,7 @@ TEST(EstimationStage, DoesNotBlameTheNoiseForAWrongCalibration) {
   EXPECT_EQ(contradiction.find("gyr_n"), std::string::npos) << contradiction;
 }
 
-TEST_F(EstimationStageTest, StraysAndAClockThatStandsStillAreNoJump) {
+TEST_F(EstimationStageTest, StragglersAndAStoppedClockAreNoJump) {
   Rest(5000, 6000);
   for (int i = 0; i < 200; ++i) {
     AddImu(3000 + i % 50);  // repeated old messages

@@ -54,7 +54,7 @@ void ExpectWithin(const Bounds& bounds, double sum, const char* what) {
 class EstimatorConsistency : public ::testing::TestWithParam<Stages> {};
 
 // Errors at the ends of flights, which are independent of each other.
-TEST_P(EstimatorConsistency, ErrorsAreAsLargeAsStated) {
+TEST_P(EstimatorConsistency, ErrorsMatchTheCovariance) {
   testing::Consistency sum;
   for (uint64_t seed = 1; seed <= kFlights; ++seed) {
     const testing::EstimatedFlight flight = Fly(GetParam(), seed);
@@ -112,7 +112,7 @@ class ImuNoiseIsLearned : public ::testing::Test {
 
 // The gyroscope is so much more precise than images that these contain little information on its
 // noise. The accelerometer noise is white here, so the allowance for coloured noise is too large.
-TEST_F(ImuNoiseIsLearned, OfTheAccelerometerWhereItIsConfiguredAsAQuarter) {
+TEST_F(ImuNoiseIsLearned, WhenConfiguredFourTimesTooSmall) {
   const Result fixed = Fly(0.25, false), learned = Fly(0.25, true);
   EXPECT_GT(learned.accel_density, 1);
   EXPECT_LT(learned.accel_density, 1.5);
@@ -121,7 +121,7 @@ TEST_F(ImuNoiseIsLearned, OfTheAccelerometerWhereItIsConfiguredAsAQuarter) {
   EXPECT_LT(learned.velocity, 0.15 * fixed.velocity);
 }
 
-TEST_F(ImuNoiseIsLearned, AndStaysAsConfiguredWhereThatIsRight) {
+TEST_F(ImuNoiseIsLearned, AndStaysAsConfiguredIfCorrect) {
   const Result learned = Fly(1, true);
   EXPECT_NEAR(learned.accel_density, 1, 0.1);
   EXPECT_NEAR(learned.gyro_density, 1, 0.1);

@@ -54,7 +54,7 @@ std::string WarningAfter(const simulator::FeatureSimulationOptions& options,
   return estimator.lens().warning();
 }
 
-TEST(EstimatorLensTest, AWrongModelIsNoticed) {
+TEST(EstimatorLensTest, WrongModelIsReported) {
   const CameraParameters radtan = simulator::DefaultSensors().camera;
   for (const bool refine : {false, true}) {
     const std::string warning =
@@ -64,7 +64,7 @@ TEST(EstimatorLensTest, AWrongModelIsNoticed) {
   }
 }
 
-TEST(EstimatorLensTest, ARightModelIsNot) {
+TEST(EstimatorLensTest, CorrectModelIsNotReported) {
   const CameraParameters radtan = simulator::DefaultSensors().camera;
   for (const CameraParameters& lens : {radtan, EquidistantLens(), Fisheye()}) {
     for (const bool refine : {false, true}) {
@@ -75,7 +75,7 @@ TEST(EstimatorLensTest, ARightModelIsNot) {
   EXPECT_EQ(WarningAfter(Options(radtan, Motion::kGentle), radtan, true), "");
 }
 
-TEST(EstimatorLensTest, ARollingShutterThatIsNotConfiguredIsNoLensError) {
+TEST(EstimatorLensTest, UnconfiguredRollingShutterIsNoLensError) {
   auto options = Options(EquidistantLens(), Motion::kFast);
   options.sensors.rolling_shutter = true;
   options.sensors.rolling_shutter_tr = 0.02;

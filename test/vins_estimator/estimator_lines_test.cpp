@@ -78,13 +78,13 @@ Comparison Compare(Motion motion, size_t points, void (*disturb)(SimulatedFlight
   return mean;
 }
 
-TEST(EstimatorWithLines, WrongLinesDoNotHurt) {
+TEST(EstimatorWithLines, OutlierLinesDoNoHarm) {
   const auto mix_up = [](SimulatedFlight* flight) { MixUpLines(20, flight); };
   const Comparison mean = Compare(Motion::kGentle, 12, mix_up);
   EXPECT_LT(mean.with_lines, 1.05 * mean.without_lines);
 }
 
-TEST(EstimatorWithLines, FramesWithoutLinesAreFramesWithoutALineFrontEnd) {
+TEST(EstimatorWithLines, EmptyLineFramesEqualNoLineFrontEnd) {
   SimulatedFlight empty = Simulate(Motion::kFast, 1, 8);
   for (FrameMeasurement& frame : empty.frames) frame.lines->lines.clear();
   const EstimatedFlight a = testing::Estimate(empty), b = testing::Estimate(WithoutLines(empty));
@@ -97,7 +97,7 @@ TEST(EstimatorWithLines, FramesWithoutLinesAreFramesWithoutALineFrontEnd) {
   }
 }
 
-TEST(EstimatorWithLines, ALineFrontEndMayFailAndComeBack) {
+TEST(EstimatorWithLines, LineFrontEndMayFailAndRecover) {
   SimulatedFlight simulated = Simulate(Motion::kFast, 1);
   LeaveFewPoints(12, &simulated);
   for (size_t i = 100; i < 160; ++i) simulated.frames[i].lines.reset();

@@ -43,7 +43,7 @@ TEST_F(EstimatorOptionsTest, DegreesBecomeRadians) {
   EXPECT_DOUBLE_EQ(options.problem.manhattan_weight, 90 / M_PI);
 }
 
-TEST_F(EstimatorOptionsTest, WhatAnchorsSawCountsLess) {
+TEST_F(EstimatorOptionsTest, AnchorObservationsHaveLessWeight) {
   const EstimatorOptions options(config_);
   EXPECT_LT(options.problem.anchor_weight, 0.5 * options.problem.line_weight);
 }
@@ -58,7 +58,7 @@ TEST_F(EstimatorOptionsTest, WithoutMergingThereAreNeitherAnchorsNorMemory) {
   EXPECT_FALSE(EstimatorOptions(config_).map.remember_lines);
 }
 
-TEST_F(EstimatorOptionsTest, CalibrationIsEstimatedWhereAskedFor) {
+TEST_F(EstimatorOptionsTest, CalibrationIsEstimatedIfConfigured) {
   config_.sensor.estimate_extrinsic = SensorConfig::ExtrinsicMode::kFixed;
   config_.sensor.estimate_td = false;
   EXPECT_FALSE(EstimatorOptions(config_).problem.estimate_extrinsic);

@@ -60,7 +60,7 @@ class EstimatorPlacement : public ::testing::Test {
   }
 };
 
-TEST_F(EstimatorPlacement, IsAsGoodAsTheWindowsSolution) {
+TEST_F(EstimatorPlacement, EqualsTheWindowSolution) {
   Fly(/*flights=*/6, /*duration=*/15, /*outlier_ratio=*/0);
   EXPECT_GT(placed_.count, 2 * solved_.count);
   const auto ratio = [&](double Images::*sum) {
@@ -72,13 +72,13 @@ TEST_F(EstimatorPlacement, IsAsGoodAsTheWindowsSolution) {
 }
 
 // A fifth of the points is wrong: too many for placement.
-TEST_F(EstimatorPlacement, IsNotReliedOnWherePointsContradict) {
+TEST_F(EstimatorPlacement, IsNotUsedIfPointsContradict) {
   Fly(/*flights=*/1, /*duration=*/8, /*outlier_ratio=*/0.2);
   EXPECT_LT(placed_.count, 0.1 * solved_.count);
 }
 
 // The tracker restarts in mid-flight: no known point constrains a state.
-TEST_F(EstimatorPlacement, IsNotReliedOnWhereAllPointsAreNew) {
+TEST_F(EstimatorPlacement, IsNotUsedIfAllPointsAreNew) {
   testing::SimulatedFlight flight =
       testing::SimulateFlight(testing::FlightOptions(simulator::Motion::kGentle, 1));
   const size_t begin = flight.frames.size() / 2;
@@ -95,7 +95,7 @@ TEST_F(EstimatorPlacement, IsNotReliedOnWhereAllPointsAreNew) {
   }
 }
 
-TEST_F(EstimatorPlacement, IsNotReliedOnAtStandstill) {
+TEST_F(EstimatorPlacement, IsNotUsedAtStandstill) {
   const EstimatedFlight flight = testing::Estimate(
       testing::SimulateFlight(testing::FlightOptions(simulator::Motion::kStill, 1)));
   ASSERT_GT(flight.outputs.size(), 100u);

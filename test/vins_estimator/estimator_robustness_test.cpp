@@ -38,14 +38,14 @@ void ExpectSameBits(const EstimatedFlight& a, const EstimatedFlight& b) {
   }
 }
 
-TEST(EstimatorRobustness, SameInputGivesTheSameBits) {
+TEST(EstimatorRobustness, IsDeterministic) {
   const SimulatedFlight flight = Simulate(Motion::kFast, 1, 8);
   const EstimatedFlight first = testing::Estimate(flight);
   EXPECT_GT(first.outputs.size(), 100u);
   ExpectSameBits(first, testing::Estimate(flight));
 }
 
-TEST(EstimatorRobustness, ResetForgetsEverything) {
+TEST(EstimatorRobustness, ResetEqualsANewEstimator) {
   const SimulatedFlight flight = Simulate(Motion::kFast, 1, 8);
   SimulatedFlight before = Simulate(Motion::kGentle, 2, 6);
   Config config = testing::ConfigFor(flight);
@@ -75,7 +75,7 @@ TEST(EstimatorRobustness, ASecondWithoutPointsCostsCentimetres) {
 }
 
 // With unchanged robust losses, the points would not correct an error of 0.3 m.
-TEST(EstimatorRobustness, KnownPointsLeadBackFromWhereTheImuLed) {
+TEST(EstimatorRobustness, KnownPointsCorrectDeadReckoning) {
   testing::FlightPlan plan;
   plan.duration = 12;
   plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
@@ -207,7 +207,7 @@ TEST(EstimatorRobustness, StampsThatJitterCostLittle) {
   EXPECT_LT(speed_error, 0.045);
 }
 
-TEST(EstimatorRobustness, AGoodImuIsNeverDoubted) {
+TEST(EstimatorRobustness, NoiseOfAGoodImuIsNeverRaised) {
   for (const Motion motion : {Motion::kGentle, Motion::kFast}) {
     const EstimatedFlight flight = testing::Estimate(Simulate(motion, 3, 15));
     EXPECT_GT(flight.outputs.size(), 200u);
@@ -227,7 +227,7 @@ void CutOut(size_t first, size_t count, SimulatedFlight* flight) {
   frames.erase(begin, begin + static_cast<std::ptrdiff_t>(count));
 }
 
-TEST(EstimatorRobustness, WhatTheImuMissedIsNotADelay) {
+TEST(EstimatorRobustness, ImuErrorIsNotReportedAsDelay) {
   for (const uint64_t seed : {2, 3}) {
     for (const size_t count : {10, 20, 30}) {
       SimulatedFlight flight = Simulate(Motion::kGentle, seed, 8);
@@ -274,7 +274,7 @@ void RenamePoints(size_t first, SimulatedFlight* flight) {
   }
 }
 
-TEST(EstimatorRobustness, PointsThatAreAllNewHoldNothing) {
+TEST(EstimatorRobustness, NewPointsDoNotConstrainThePosition) {
   SimulatedFlight simulated = Simulate(Motion::kFast, 1, 11);
   RenamePoints(180, &simulated);
   Estimator estimator(testing::ConfigFor(simulated));
@@ -290,7 +290,7 @@ TEST(EstimatorRobustness, PointsThatAreAllNewHoldNothing) {
   EXPECT_GT(on_imu_alone, 30);
 }
 
-TEST(EstimatorRobustness, TenSecondsOfPointsThatHoldNothingEndInARestart) {
+TEST(EstimatorRobustness, TenSecondsWithoutConstraintEndInARestart) {
   SimulatedFlight simulated = Simulate(Motion::kFast, 1, 20);
   RenamePoints(180, &simulated);
   Config config = testing::ConfigFor(simulated);
@@ -311,7 +311,7 @@ TEST(EstimatorRobustness, TenSecondsOfPointsThatHoldNothingEndInARestart) {
 }
 
 // Lines are observed and known points are in the window, but the observations contradict the IMU.
-TEST(EstimatorRobustness, AnAccelerometerThatFailsWhileOnlyLinesAreSeenIsNoticed) {
+TEST(EstimatorRobustness, DetectsAFailedAccelerometerWithLinesOnly) {
   SimulatedFlight simulated = Simulate(Motion::kFast, 1, 11);
   for (size_t i = 180; i < simulated.frames.size(); ++i) {
     FrameMeasurement& frame = simulated.frames[i];
@@ -330,7 +330,7 @@ TEST(EstimatorRobustness, AnAccelerometerThatFailsWhileOnlyLinesAreSeenIsNoticed
 }
 
 // A doubt so large that the IMU term overflows.
-TEST(EstimatorRobustness, WhatCannotBeOptimisedIsALoss) {
+TEST(EstimatorRobustness, FailedOptimizationIsTrackingLoss) {
   const SimulatedFlight flight = Simulate(Motion::kFast, 1, 10);
   for (const SolverType solver : {SolverType::kSchur, SolverType::kCeres}) {
     Config config = testing::ConfigFor(flight);
@@ -350,7 +350,7 @@ TEST(EstimatorRobustness, WhatCannotBeOptimisedIsALoss) {
   }
 }
 
-TEST(EstimatorRobustness, WithoutPointsItNeverStartsAndSaysWhy) {
+TEST(EstimatorRobustness, NeverStartsWithoutPointsAndStatesTheReason) {
   SimulatedFlight flight = Simulate(Motion::kFast, 1, 6);
   Estimator estimator(testing::ConfigFor(flight));
   for (FrameMeasurement& frame : flight.frames) {

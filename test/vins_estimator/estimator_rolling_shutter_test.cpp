@@ -29,7 +29,7 @@ double ErrorOf(const SimulatedFlight& simulated) {
   return testing::AbsoluteError(flight);
 }
 
-TEST(EstimatorRollingShutterTest, CostsLittleWhereItIsKnown) {
+TEST(EstimatorRollingShutterTest, CostsLittleIfConfigured) {
   double global = 0, known = 0, ignored = 0;
   for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
     global += ErrorOf(testing::SimulateFlight(Options(seed, false))) / kSeeds;

@@ -18,7 +18,7 @@ EstimatedFlight EstimateWith(SolverType solver, const testing::SimulatedFlight& 
   return testing::Estimate(flight, &estimator);
 }
 
-TEST(EstimatorSolver, CeresFliesLikeOurs) {
+TEST(EstimatorSolver, CeresGivesTheSameTrajectory) {
   auto options = testing::FlightOptions(simulator::Motion::kFast, 1);
   options.max_points = 80;
   options.max_lines = 40;

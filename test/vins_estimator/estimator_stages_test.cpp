@@ -80,7 +80,7 @@ class EstimatorStages : public ::testing::Test {
 std::vector<testing::SimulatedFlight> EstimatorStages::flights_;
 Errors EstimatorStages::with_all_;
 
-TEST_F(EstimatorStages, LinesHelp) {
+TEST_F(EstimatorStages, LinesReduceTheError) {
   std::vector<testing::SimulatedFlight> flights;
   flights.reserve(flights_.size());
   for (const auto& flight : flights_) flights.push_back(testing::WithoutLines(flight));
@@ -88,19 +88,19 @@ TEST_F(EstimatorStages, LinesHelp) {
   EXPECT_LT(with_all_.position, 0.85 * without.position);
 }
 
-TEST_F(EstimatorStages, MergingHelps) {
+TEST_F(EstimatorStages, MergingReducesTheError) {
   const auto without = MeanErrors(flights_, [](EstimatorConfig* c) { c->line_merging = false; });
   EXPECT_LT(with_all_.position, 0.91 * without.position);
 }
 
-TEST_F(EstimatorStages, AnchorsHelp) {
+TEST_F(EstimatorStages, AnchorsReduceTheError) {
   const auto without = MeanErrors(flights_, [](EstimatorConfig* c) { c->line_anchors = 0; });
   EXPECT_LT(with_all_.position, 0.95 * without.position);
 }
 
 // Tested without anchors: with anchors, recognized lines constrain the heading as well, and the
 // Manhattan frame adds nothing measurable in 24 flights of 50 s or 16 of 150 s.
-TEST_F(EstimatorStages, TheManhattanFrameHoldsTheHeading) {
+TEST_F(EstimatorStages, ManhattanFrameReducesHeadingDrift) {
   const auto flights = SimulateLongFlights(8, 150);
   const auto with = MeanErrors(flights, [](EstimatorConfig* c) { c->line_anchors = 0; });
   const auto without = MeanErrors(flights, [](EstimatorConfig* c) {

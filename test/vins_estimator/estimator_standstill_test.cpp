@@ -30,7 +30,7 @@ double ErrorOver(double duration, const EstimatedFlight& flight) {
 }
 
 // Too slow for the IMU, and within a pixel in half a second for the camera.
-TEST(EstimatorStandstill, ACreepingFlightIsNotHeldInPlace) {
+TEST(EstimatorStandstill, SlowFlightIsNotStandstill) {
   for (const double v : {0.02, 0.05}) {
     FlightPlan plan;
     plan.duration = 40;
@@ -46,7 +46,7 @@ TEST(EstimatorStandstill, ACreepingFlightIsNotHeldInPlace) {
 }
 
 // After minutes on the ground points with known depths are still there.
-TEST(EstimatorStandstill, TheMapOutlastsARest) {
+TEST(EstimatorStandstill, MapSurvivesAStandstill) {
   FlightPlan plan;
   plan.duration = 82;
   plan.T_W_V = [](double t) { return GentleFlight(t, 2, 12); };
@@ -77,7 +77,7 @@ void ExpectHeld(const EstimatedFlight& flight, double limit, double duration) {
   EXPECT_LT(ErrorOver(duration, flight), limit);
 }
 
-TEST(EstimatorStandstill, BlankImagesEndNoRest) {
+TEST(EstimatorStandstill, BlankImagesDoNotEndStandstill) {
   for (const double landing : {2.0, 10.0}) {
     auto flight = testing::PlannedFlight(FlightWithRest(landing, 32)).Simulate();
     for (size_t i = 240; i < 620; i += 10) Blank(i, i, &flight);
@@ -85,7 +85,7 @@ TEST(EstimatorStandstill, BlankImagesEndNoRest) {
   }
 }
 
-TEST(EstimatorStandstill, ACoveredViewEndsNoRest) {
+TEST(EstimatorStandstill, CoveredCameraDoesNotEndStandstill) {
   for (const double landing : {2.0, 10.0}) {
     auto flight = testing::PlannedFlight(FlightWithRest(landing, 32)).Simulate();
     Blank(260, 600, &flight);
@@ -94,7 +94,7 @@ TEST(EstimatorStandstill, ACoveredViewEndsNoRest) {
 }
 
 // The keyframe before the end of a rest is up to ten seconds old.
-TEST(EstimatorStandstill, ATakeOffAfterARestBeginsWhereTheRestWas) {
+TEST(EstimatorStandstill, TakeOffBeginsAtTheStandstillPosition) {
   FlightPlan plan;
   plan.duration = 14;
   plan.T_W_V = [](double t) { return GentleFlight(t, 12, 40); };
@@ -107,7 +107,7 @@ TEST(EstimatorStandstill, ATakeOffAfterARestBeginsWhereTheRestWas) {
 }
 
 // Images of a flight with the IMU of a body at standstill: a train fills the view.
-TEST(EstimatorStandstill, ASceneThatMovesMovesNothing) {
+TEST(EstimatorStandstill, MovingSceneDoesNotMoveTheEstimate) {
   auto flight = testing::PlannedFlight(FlightWithRest(2, 20)).Simulate();
   FlightPlan plan;
   plan.duration = 20;

@@ -112,7 +112,7 @@ TEST(EstimatorStereo, WrongMatchesCostLittle) {
   EXPECT_LT(with_outliers, 1.4 * StereoError());
 }
 
-TEST(EstimatorStereo, FindsHowTheSecondCameraIsTurned) {
+TEST(EstimatorStereo, EstimatesTheRotationOfTheSecondCamera) {
   SimulatedFlight flight = StereoFlight(1);
   const Rigid3d truth = Mounting(flight.sensor);
   TurnSecondCamera({0.003, -0.003, 0.003}, &flight.sensor);
@@ -123,7 +123,7 @@ TEST(EstimatorStereo, FindsHowTheSecondCameraIsTurned) {
 }
 
 // The second camera shakes against the first.
-TEST(EstimatorStereo, ASecondCameraThatDoesNotFitIsNamedAndCostsLittle) {
+TEST(EstimatorStereo, MiscalibratedSecondCameraIsReportedAndCostsLittle) {
   const double error = MeanError([](uint64_t seed) {
     SimulatedFlight flight = StereoFlight(seed);
     simulator::Random random(seed);
@@ -140,7 +140,7 @@ TEST(EstimatorStereo, ASecondCameraThatDoesNotFitIsNamedAndCostsLittle) {
   EXPECT_LT(error, 1.25 * MonocularError());
 }
 
-TEST(EstimatorStereo, SaysThatTheBaselineIsWrong) {
+TEST(EstimatorStereo, ReportsAWrongBaseline) {
   SimulatedFlight flight = StereoFlight(1);
   Rigid3d mounting = Mounting(flight.sensor);
   mounting.translation *= 1 / 1.05;

@@ -35,7 +35,7 @@ testing::FlightPlan TakeOff(double height, uint64_t seed) {
 }
 
 // Heights are true within 3 %, or within three stated deviations.
-TEST(EstimatorTakeOff, HeightsAreTrueFromNearTheGroundOn) {
+TEST(EstimatorTakeOff, HeightIsAccurateFromTheGround) {
   for (const double height : {0.08, 0.1, 0.15, 0.3}) {
     for (uint64_t seed = 1; seed <= 3; ++seed) {
       const auto flight =

@@ -27,7 +27,7 @@ EstimatedFlight Fly(const simulator::FeatureSimulationOptions& options) {
   return testing::Estimate(testing::SimulateFlight(options));
 }
 
-TEST(EstimatorTest, IsAccurateAndHonestInFlight) {
+TEST(EstimatorTest, IsAccurateAndConsistentInFlight) {
   struct Case {
     Motion motion;
     double max_error;  // relative to the path
@@ -66,7 +66,7 @@ TEST(EstimatorTest, OutliersCostLittle) {
 
 // Corners that jump in one image look like motion, which would release the state until the next
 // keyframe.
-TEST(EstimatorTest, IsHeldInPlaceThroughImagesThatOnlySeemToMove) {
+TEST(EstimatorTest, HoldsPositionAtStandstillDespiteMovingImages) {
   SimulatedFlight still = testing::SimulateFlight(Options(Motion::kStill, 1));
   const EstimatedFlight undisturbed = testing::Estimate(still);
   for (PointObservation& point : still.frames[105].points.points) point.uv_px.x() += 3;
@@ -81,7 +81,7 @@ TEST(EstimatorTest, IsHeldInPlaceThroughImagesThatOnlySeemToMove) {
   EXPECT_GE(seem_to_move, 2) << "there, and where another is compared with it";
 }
 
-TEST(EstimatorTest, StaysInPlaceWhenNothingMoves) {
+TEST(EstimatorTest, HoldsPositionAtStandstill) {
   const EstimatedFlight flight = Fly(Options(Motion::kStill, 1));
   EXPECT_TRUE(flight.restarts.empty());
   ASSERT_GT(flight.truth.size(), 250u);
@@ -96,7 +96,7 @@ TEST(EstimatorTest, StaysInPlaceWhenNothingMoves) {
   EXPECT_FALSE(flight.outputs.front().on_imu_alone);
 }
 
-TEST(EstimatorTest, HoldsItsPlaceInHover) {
+TEST(EstimatorTest, HoldsPositionInHover) {
   auto options = Options(Motion::kHover, 1);
   options.trajectory.lead_in = 5;
   const EstimatedFlight flight = Fly(options);

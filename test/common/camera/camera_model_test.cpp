@@ -80,7 +80,7 @@ TEST_P(EveryModel, UnprojectsEveryPixelOfTheImageAndBack) {
   }
 }
 
-TEST_P(EveryModel, CentreAndImageAxesPointWhereTheyShould) {
+TEST_P(EveryModel, CenterAndImageAxesPointForwardRightAndDown) {
   const auto& p = camera_->parameters();
   EXPECT_MATRIX_NEAR(*camera_->Project({0, 0, 3}), Eigen::Vector2d(p.cx, p.cy), 1e-12);
   EXPECT_MATRIX_NEAR(*camera_->Unproject({p.cx, p.cy}), Eigen::Vector2d::Zero(), 1e-15);
@@ -112,7 +112,7 @@ TEST_P(EveryModel, JacobiansMatchNumericDifferences) {
   }
 }
 
-TEST_P(EveryModel, RaysMoveWithTheIntrinsicsAsNumericDifferencesSay) {
+TEST_P(EveryModel, IntrinsicsJacobiansMatchNumericDifferences) {
   const CameraParameters& parameters = camera_->parameters();
   for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(10, 20), Eigen::Vector2d(700, 30),
                                        Eigen::Vector2d(400, 470), Eigen::Vector2d(367, 250)}) {
@@ -127,7 +127,7 @@ TEST_P(EveryModel, RaysMoveWithTheIntrinsicsAsNumericDifferencesSay) {
   EXPECT_FALSE(camera_->RayByIntrinsics({nan, 0}));
 }
 
-TEST_P(EveryModel, OtherIntrinsicsLeaveTheRestOfTheCamera) {
+TEST_P(EveryModel, ChangingIntrinsicsKeepsOtherParameters) {
   const CameraParameters& parameters = camera_->parameters();
   Intrinsics intrinsics;
   intrinsics << 1, 2, 3, 4, 5, 6, 7, 8;
@@ -156,7 +156,7 @@ TEST_P(EveryModel, JacobiansAreFiniteOnTheOpticalAxis) {
                      1e-12);
 }
 
-TEST_P(EveryModel, RefusesWhatIsNotAPoint) {
+TEST_P(EveryModel, RejectsNonFinitePoints) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(camera_->Project({0, 0, 0}));
@@ -167,7 +167,7 @@ TEST_P(EveryModel, RefusesWhatIsNotAPoint) {
   EXPECT_FALSE(camera_->Unproject({infinity, 10}));
 }
 
-TEST_P(EveryModel, WhatItUnprojectsProjectsBackEvenFarOutsideTheImage) {
+TEST_P(EveryModel, RoundTripHoldsFarOutsideTheImage) {
   for (double v = -3000; v <= 3000; v += 97) {
     for (double u = -3000; u <= 3000; u += 89) {
       const Eigen::Vector2d pixel(u, v);
@@ -203,7 +203,7 @@ TEST(PinholeRadtan, AgreesWithOpenCV) {
   }
 }
 
-TEST(PinholeRadtan, RefusesTheFoldOfItsDistortion) {
+TEST(PinholeRadtan, RejectsTheFoldOfItsDistortion) {
   // r (1 - 0.4 r^2) increases up to r = sqrt(1 / 1.2) = 0.913, where it is 0.609.
   const auto camera =
       CameraModel::Create(Parameters(Model::kPinholeRadtan, {400, 400, 0, 0}, {-0.4, 0, 0, 0}));
@@ -250,7 +250,7 @@ TEST(KannalaBrandt, AgreesWithOpenCV) {
   }
 }
 
-TEST(KannalaBrandt, SeesBehindItselfButHasNoNormalisedPointThere) {
+TEST(KannalaBrandt, RaysBehindTheCameraHaveNoNormalizedPoint) {
   const auto camera = CameraModel::Create(
       Parameters(Model::kPinholeEquidistant, {200, 200, 0, 0}, Eigen::Vector4d::Zero()));
   const auto pixel = camera->Project({1, 0, -1});
@@ -259,7 +259,7 @@ TEST(KannalaBrandt, SeesBehindItselfButHasNoNormalisedPointThere) {
   EXPECT_FALSE(camera->Unproject(*pixel));
 }
 
-TEST(KannalaBrandt, RefusesTheFoldOfItsDistortion) {
+TEST(KannalaBrandt, RejectsTheFoldOfItsDistortion) {
   // theta (1 - theta^2 / 3) increases up to theta = 1, where it is 2/3.
   const auto camera = CameraModel::Create(
       Parameters(Model::kPinholeEquidistant, {300, 300, 0, 0}, {-1.0 / 3, 0, 0, 0}));
@@ -301,7 +301,7 @@ TEST(CameraModel, IsInImageKeepsTheBorder) {
   EXPECT_TRUE(camera->IsInImage({5, 100}, 5));
 }
 
-TEST(CameraModel, CreateRefusesBadParameters) {
+TEST(CameraModel, CreateRejectsBadParameters) {
   const auto refuses = [](auto change) {
     CameraParameters parameters = Euroc();
     change(parameters);

@@ -40,7 +40,7 @@ class RayTransfer : public ::testing::TestWithParam<double> {
   const std::unique_ptr<const CameraModel> to_ = CameraModel::Create(Other(GetParam()));
 };
 
-TEST_P(RayTransfer, SeesTheSamePixelsAllOverTheImage) {
+TEST_P(RayTransfer, KeepsPixelsAllOverTheImage) {
   const CameraParameters& camera = from_->parameters();
   for (int x = 0; x < camera.width; x += 50) {
     for (int y = 0; y < camera.height; y += 50) {
@@ -65,7 +65,7 @@ TEST_P(RayTransfer, MovesVelocitiesAlong) {
 
 INSTANTIATE_TEST_SUITE_P(Shares, RayTransfer, ::testing::Values(0, 1e-4, 0.01, 0.3, 1));
 
-TEST(RayTransferAtTheRim, LeavesRaysAloneThatACameraDoesNotSee) {
+TEST(RayTransferAtTheRim, KeepsRaysOutsideTheFieldOfView) {
   CameraParameters narrow = Camera();
   narrow.distortion << -0.28, 0, 0, 0;  // observes nothing beyond a radius of 1.09
   CameraParameters wide = narrow;

@@ -14,12 +14,12 @@ namespace {
 
 class ConfigLimitsTest : public ConfigTest {};
 
-TEST_F(ConfigLimitsTest, AnAliasThatLeadsBackToItselfIsAProblem) {
+TEST_F(ConfigLimitsTest, RejectsCyclicAliases) {
   ExpectOneProblem(ProblemsOf(Write("%YAML:1.0\na: &a\n  b: *a\n")),
                    {"camera.yaml", "a.b", "group"});
 }
 
-TEST_F(ConfigLimitsTest, ABombOfAliasesIsAProblem) {
+TEST_F(ConfigLimitsTest, RejectsExponentialAliases) {
   std::ostringstream lists, groups;
   lists << "a0: &a0 {data: 0}\n";
   groups << "g0: &g0 {k: 0}\n";
@@ -37,7 +37,7 @@ TEST_F(ConfigLimitsTest, ABombOfAliasesIsAProblem) {
   ExpectOneProblem(ProblemsOf(Write(wide + "z: 0}\n" + uses)), {"too many keys"});
 }
 
-TEST_F(ConfigLimitsTest, AFileWithoutAnEndIsAProblem) {
+TEST_F(ConfigLimitsTest, RejectsEndlessFiles) {
   const std::string problem = "is not a regular file; give the path of a configuration file";
   ExpectOneProblem(ProblemsOf("/dev/zero"), {"/dev/zero: " + problem});
   const std::string pipe = (folder_ / "pipe.yaml").string();
@@ -46,7 +46,7 @@ TEST_F(ConfigLimitsTest, AFileWithoutAnEndIsAProblem) {
   ExpectOneProblem(ProblemsOf(Write(std::string(2 << 20, '#'))), {"longer than 1 MiB"});
 }
 
-TEST_F(ConfigLimitsTest, AMaskWithAnOverlongPathIsAProblem) {
+TEST_F(ConfigLimitsTest, RejectsOverlongMaskPaths) {
   ExpectProblem("fisheye_mask: " + std::string(5000, 'm'), {"fisheye_mask", "there is no file"});
 }
 

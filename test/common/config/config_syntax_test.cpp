@@ -22,14 +22,14 @@ TEST_F(ConfigSyntax, ErrorsNameTheLineAndCommonMistakes) {
   ExpectProblem("mirror_parameters:\n   xi: 1\n     x: 2", {"camera.yaml:12", what, hint});
 }
 
-TEST_F(ConfigSyntax, ASecondDocumentIsRefused) {
+TEST_F(ConfigSyntax, ASecondDocumentIsRejected) {
   for (const std::string separator : {"---", "..."}) {
     ExpectProblem(separator + "\nmax_cnt: 100",
                   {"camera.yaml:11: a second YAML document begins; remove the line"});
   }
 }
 
-TEST_F(ConfigSyntax, OneDocumentMayBeginAndEndAsYamlHasIt) {
+TEST_F(ConfigSyntax, AcceptsDocumentMarkersAroundOneDocument) {
   const std::string text = Replaced(kShortFile, "%YAML:1.0\n", "%YAML:1.0\n---\n");
   for (const std::string end : {"", "...\n", "---\n"}) {
     EXPECT_EQ(Load(text + end).sensor.image_topic, "/image");

@@ -32,7 +32,7 @@ TEST_F(ConfigTest, ShortFileGivesTheDefaults) {
   EXPECT_TRUE(config.warnings.empty());
 }
 
-TEST_F(ConfigTest, VinsMonoFileLoadsAsItIs) {
+TEST_F(ConfigTest, VinsMonoFileLoadsUnchanged) {
   const Config config = Load(kVinsMonoFile);
   EXPECT_EQ(config.sensor.imu_topic, "/imu0");
   EXPECT_EQ(config.sensor.camera.model, CameraParameters::Model::kPinholeRadtan);
@@ -67,7 +67,7 @@ TEST_F(ConfigTest, WarnsWhereTheDistortionLeavesTheImageWithoutRays) {
   EXPECT_TRUE(Load(hardly).warnings.empty());
 }
 
-TEST_F(ConfigTest, WhatAFisheyeSeesBesideItIsNoWarning) {
+TEST_F(ConfigTest, PixelsBeyondAFisheyesRimAreNoWarning) {
   std::string wide = Replaced(kShortFile, "PINHOLE", "EQUIDISTANT");
   wide = Replaced(wide, "fx: 400, fy: 400", "fx: 150, fy: 150");
   wide = Replaced(wide, "p1: 0, p2: 0", "k3: 0, k4: 0");
@@ -91,13 +91,13 @@ TEST_F(ConfigTest, LoopClosureHasTheKeysOfVins) {
   EXPECT_FALSE(Load(kShortFile).pose_graph.loop_closure);
 }
 
-TEST_F(ConfigTest, MapAndWorldAreTwoFramesWhereThereIsAMap) {
+TEST_F(ConfigTest, MapAndWorldFramesMustDiffer) {
   EXPECT_EQ(Load(std::string(kShortFile) + "world_frame: map\n").output.world_frame, "map");
   ExpectProblem("world_frame: map\nloop_closure: 1", {"map_frame: is the same as world_frame"});
 }
 
 // VINS-Mono has its own mask for fisheyes.
-TEST_F(ConfigTest, AFisheyeOfVinsGoesOnWithoutAMask) {
+TEST_F(ConfigTest, FisheyeOfVinsWorksWithoutAMask) {
   const Config config = Load(kShortFile + std::string("fisheye: 1\n"));
   EXPECT_THAT(config.warnings, ElementsAre(AllOf(HasSubstr("camera.yaml:10: fisheye: "),
                                                  HasSubstr("fisheye_mask is not set"))));
@@ -105,7 +105,7 @@ TEST_F(ConfigTest, AFisheyeOfVinsGoesOnWithoutAMask) {
   EXPECT_FALSE(config.points.fisheye);
 }
 
-TEST_F(ConfigTest, PlVinsFileLoadsAsItIs) {
+TEST_F(ConfigTest, PlVinsFileLoadsUnchanged) {
   const Config config = Load(kPlVinsFile);
   EXPECT_EQ(config.estimator.max_num_iterations, 10);
   EXPECT_EQ(config.points.min_dist, 25);
@@ -251,7 +251,7 @@ TEST_F(ConfigTest, NotFinite) {
   ExpectProblem("point_noise: nan", {"point_noise: \"nan\" is not a number"});
 }
 
-TEST_F(ConfigTest, EveryRequiredKeyIsMissed) {
+TEST_F(ConfigTest, ReportsEveryMissingKey) {
   std::vector<std::string> missing;
   for (const std::string& problem : ProblemsOf(Write("%YAML:1.0\nmodel_type: PINHOLE\n"))) {
     ASSERT_NE(problem.find("is missing"), std::string::npos) << problem;

@@ -33,7 +33,7 @@ class ConfigWriter : public ::testing::Test {
   const testing::TemporaryFolder folder_;
 };
 
-TEST_F(ConfigWriter, WritesWhatReadsAsTheSame) {
+TEST_F(ConfigWriter, WrittenFileLoadsWithEqualValues) {
   const Config config = Load("camera.yaml", kVinsMonoFile,
                              {{"world_frame", "a\"b\\c:#d"}, {"max_cnt", "77"}, {"verbose", "1"}});
   const Config again = Load("again.yaml", Written(config));

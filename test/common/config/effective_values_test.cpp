@@ -49,7 +49,7 @@ TEST(EffectiveValues, HoldEveryKey) {
 
 // A configuration as of VINS-Mono: noise of samples, a mask without folder, the fisheye model by
 // its old name.
-TEST(EffectiveValues, AsAFileSayTheSame) {
+TEST(EffectiveValues, RoundTripThroughAFile) {
   const testing::TemporaryFolder folder;
   folder.Write("mask.png", "x");
   std::string text = Replaced(kShortFile, "PINHOLE", "KANNALA_BRANDT");

@@ -96,7 +96,7 @@ TEST_F(ReferenceFile, HasAllKeysAndNoOthers) {
   EXPECT_THAT(documented, ::testing::UnorderedElementsAreArray(known));
 }
 
-TEST_F(ReferenceFile, TellsUnitRangeAndDefault) {
+TEST_F(ReferenceFile, StatesUnitRangeAndDefault) {
   for (const auto& key : AllKeys("PINHOLE")) {
     const std::string unit =
         IsMeasured(key) ? "[" + (key.unit.empty() ? "1" : key.unit) + "], " : "";

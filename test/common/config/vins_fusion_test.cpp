@@ -143,7 +143,7 @@ void ExpectRightCamera(const SensorConfig& sensor) {
                      1e-12);
 }
 
-TEST_F(VinsFusionTest, LoadsAsItIs) {
+TEST_F(VinsFusionTest, LoadsUnchanged) {
   const Config config = Load(kVinsFusionFile);
   const SensorConfig& sensor = config.sensor;
   EXPECT_EQ(sensor.image_topic, "/cam0/image_raw");
@@ -159,7 +159,7 @@ TEST_F(VinsFusionTest, LoadsAsItIs) {
                           "output_path, save_image, use_gpu"));
 }
 
-TEST_F(VinsFusionTest, WithOneCameraTheOtherIsIgnored) {
+TEST_F(VinsFusionTest, SecondCameraIsIgnoredWithNumOfCamOne) {
   std::string text = Replaced(kVinsFusionFile, "num_of_cam: 2", "num_of_cam: 1");
   text = Replaced(text, "\"right.yaml\"", "\"there is none.yaml\"");
   const Config config = Load(text);
@@ -170,7 +170,7 @@ TEST_F(VinsFusionTest, WithOneCameraTheOtherIsIgnored) {
                                 HasSubstr("image1_topic"))));
 }
 
-TEST_F(VinsFusionTest, WhatIsWrittenReadsAsTheSame) {
+TEST_F(VinsFusionTest, WrittenFileLoadsWithEqualValues) {
   std::ostringstream written;
   Config config = Load(kVinsFusionFile);
   WriteConfig(config, &written);
@@ -191,7 +191,7 @@ TEST_F(VinsFusionTest, WhatIsWrittenReadsAsTheSame) {
   EXPECT_EQ(sensor.depth->max, 9);
 }
 
-TEST_F(VinsFusionTest, OverridesReplaceWhatACameraFileSays) {
+TEST_F(VinsFusionTest, OverridesReplaceValuesOfACameraFile) {
   const Config config = Load(kVinsFusionFile, {{"projection_parameters.fx", "470"},
                                                {"cam1_projection_parameters.mu", "471"},
                                                {"image_topic", "/other"}});
@@ -201,12 +201,12 @@ TEST_F(VinsFusionTest, OverridesReplaceWhatACameraFileSays) {
   EXPECT_FALSE(Load(kVinsFusionFile, {{"num_of_cam", "1"}}).sensor.second_camera);
 }
 
-TEST_F(VinsFusionTest, OdometryWithoutImuIsRefused) {
+TEST_F(VinsFusionTest, OdometryWithoutImuIsRejected) {
   ExpectProblemOf(Replaced(kVinsFusionFile, "imu: 1", "imu: 0"),
                   {"camera.yaml:3: imu: ", "without an IMU is not supported"});
 }
 
-TEST_F(VinsFusionTest, ACameraFileThatIsNotThereIsNamed) {
+TEST_F(VinsFusionTest, ErrorNamesAMissingCameraFile) {
   const auto problems = ProblemsOf(Write(Replaced(kVinsFusionFile, "left.yaml", "none.yaml")));
   EXPECT_THAT(problems, ElementsAre(HasSubstr(PathOf("none.yaml") + ": cannot be read"),
                                     HasSubstr("camera.yaml:11: cam0_calib: ")));
@@ -242,7 +242,7 @@ TEST_F(VinsFusionTest, ContradictionsAreListedAllAtOnce) {
           HasSubstr("depth_topic: works with one camera only")));
 }
 
-TEST_F(VinsFusionTest, ATransformThatIsNoneIsOneProblem) {
+TEST_F(VinsFusionTest, InvalidTransformIsOneProblem) {
   ExpectProblemOf(Replaced(kVinsFusionFile, "0, 0, 1, 0.01", "0, 0, 2, 0.01"),
                   {"body_T_cam0: is not a rotation"});
   ExpectProblemOf(Replaced(kVinsFusionFile, "0, 0, 0, 1]", "0, 0, 0, 2]"),
@@ -264,7 +264,7 @@ TEST_F(VinsFusionTest, ASecondCameraNeedsItsKeys) {
   ExpectProblem("num_of_cam: 3", {"num_of_cam: ", "must be 1 to 2 [cameras]"});
 }
 
-TEST_F(VinsFusionTest, AMaskIsTakenWhereItExists) {
+TEST_F(VinsFusionTest, MaskIsUsedIfItExists) {
   const std::string text =
       std::string(kVinsFusionFile) + "fisheye: 1\nfisheye_mask_path: mask.png\n";
   EXPECT_THAT(Load(text).warnings,

@@ -16,7 +16,7 @@ PointFrame Frame(const std::vector<int64_t>& ids) {
   return frame;
 }
 
-TEST(CommonPoints, AreThoseOfBothInTheOrderOfTheSecond) {
+TEST(CommonPoints, HaveTheOrderOfTheSecondImage) {
   const PointFrame first = Frame({1, 2, 3, 4}), second = Frame({9, 4, 2});
   const std::vector<CommonPoint> common = CommonPoints(first, second);
   ASSERT_EQ(common.size(), 2u);
@@ -26,7 +26,7 @@ TEST(CommonPoints, AreThoseOfBothInTheOrderOfTheSecond) {
   EXPECT_EQ(common[1].second, &second.points[2]);
 }
 
-TEST(CommonPoints, OfAnEmptyImageThereAreNone) {
+TEST(CommonPoints, AreNoneWithAnEmptyImage) {
   EXPECT_TRUE(CommonPoints(Frame({}), Frame({1})).empty());
   EXPECT_TRUE(CommonPoints(Frame({1}), Frame({})).empty());
 }

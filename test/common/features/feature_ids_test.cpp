@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-TEST(FeatureIds, ComeBackAcrossManyWraps) {
+TEST(FeatureIds, AreRestoredAcrossWraps) {
   IdRestorer restorer;
   for (int64_t newest = 0; newest < 5 * kTransportableIds; newest += 100'003) {
     for (const int64_t id : {newest, newest - 90'000, newest - 12}) {
@@ -25,14 +25,14 @@ TEST(FeatureIds, TravelAsFloats) {
   }
 }
 
-TEST(FeatureIds, AreRefusedWhereTheyAreNone) {
+TEST(FeatureIds, RejectsInvalidIds) {
   const float infinity = std::numeric_limits<float>::infinity();
   for (const float value : {-1.0F, 0.5F, 16'777'216.0F, 1e30F, infinity, infinity - infinity}) {
     EXPECT_THROW(ReadId(value), std::invalid_argument) << value;
   }
 }
 
-TEST(FeatureIds, OfATrackerThatStartsAgainAreNew) {
+TEST(FeatureIds, AreNewAfterATrackerRestart) {
   IdRestorer restorer;
   for (const int64_t id : {0, 1, 700, 3}) EXPECT_EQ(restorer.Restore(id), id);
   restorer.BeginTracker();

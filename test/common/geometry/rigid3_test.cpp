@@ -20,7 +20,7 @@ TEST(Rigid3, TurnsThenMoves) {
   EXPECT_MATRIX_NEAR(quarter_turn * Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(10, 1, 0), 1e-14);
 }
 
-TEST(Rigid3, ProductAppliesTheRightOneFirst) {
+TEST(Rigid3, ProductAppliesTheRightFactorFirst) {
   EXPECT_MATRIX_NEAR((T_A_B * T_B_C) * p_C, T_A_B * (T_B_C * p_C), 1e-13);
 }
 

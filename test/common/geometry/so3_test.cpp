@@ -43,7 +43,7 @@ TEST(SO3, LogInvertsExp) {
   }
 }
 
-TEST(SO3, LogTakesTheShortWayForBothSigns) {
+TEST(SO3, LogIsTheShorterRotationForBothSigns) {
   const Eigen::Quaterniond q = SO3Exp({0.3, -0.2, 0.9});
   const Eigen::Quaterniond minus_q(-q.coeffs());
   EXPECT_MATRIX_NEAR(SO3Log(minus_q), SO3Log(q), 1e-14);

@@ -47,7 +47,7 @@ int64_t GreatestError(int size, int64_t step_ns, int lost = -1) {
   return greatest;
 }
 
-TEST(ImuBursts, AreSpreadEvenlyToTheTimesOfTheirSamples) {
+TEST(ImuBursts, AreSpreadEvenlyOverTime) {
   for (const int size : {3, 4, 10, 16}) {
     EXPECT_LT(GreatestError(size, 100'000), 2'000'000)
         << size;                                         // ten of them are stamped by 0.9 ms
@@ -57,7 +57,7 @@ TEST(ImuBursts, AreSpreadEvenlyToTheTimesOfTheirSamples) {
 
 TEST(ImuBursts, MayLoseASample) { EXPECT_LT(GreatestError(10, 0, 1000), 5'200'000); }
 
-TEST(ImuBursts, LeavesOtherSamplesAsTheyAre) {
+TEST(ImuBursts, OtherSamplesAreUnchanged) {
   std::mt19937 random(3);
   std::normal_distribution<double> jitter(0, 1e6);
   std::vector<int64_t> steady, jittering, gaps, pairs;
@@ -74,7 +74,7 @@ TEST(ImuBursts, LeavesOtherSamplesAsTheyAre) {
   }
 }
 
-TEST(ImuBursts, GoOnAfterAGap) {
+TEST(ImuBursts, ContinueAfterAGap) {
   std::vector<int64_t> stamps;
   for (int i = 0; i < 2000; ++i) {
     stamps.push_back(BurstStamp(i, 10, 0) + (i < 1000 ? 0 : 3'000'000'000));

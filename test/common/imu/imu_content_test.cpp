@@ -37,7 +37,7 @@ std::string FindingOf(const std::function<void(int, ImuSample*)>& change, int sa
   return content.Finding("/imu");
 }
 
-TEST(ImuContent, FindsNothingInWorkingSensors) {
+TEST(ImuContent, AcceptsWorkingSensors) {
   EXPECT_THAT(FindingOf([](int, ImuSample*) {}), IsEmpty());
   EXPECT_THAT(FindingOf([](int i, ImuSample* sample) {  // single readings that failed
                 if (i % 50 == 0) sample->gyro.setZero();
@@ -48,7 +48,7 @@ TEST(ImuContent, FindsNothingInWorkingSensors) {
   EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->accel *= 1.2; }), IsEmpty());
 }
 
-TEST(ImuContent, NamesASensorThatIsMissing) {
+TEST(ImuContent, DetectsAMissingSensor) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double nothing : {0.0, nan}) {
     EXPECT_THAT(FindingOf([&](int, ImuSample* sample) { sample->gyro.setConstant(nothing); }),
@@ -60,7 +60,7 @@ TEST(ImuContent, NamesASensorThatIsMissing) {
               HasSubstr("every sample on /imu is zero"));
 }
 
-TEST(ImuContent, NamesSensorsThatComeInTurn) {
+TEST(ImuContent, DetectsAlternatingSensors) {
   for (const int turns : {2, 4}) {
     EXPECT_THAT(FindingOf([&](int i, ImuSample* sample) {
                   (i % turns == 0 ? sample->gyro : sample->accel).setZero();
@@ -69,7 +69,7 @@ TEST(ImuContent, NamesSensorsThatComeInTurn) {
   }
 }
 
-TEST(ImuContent, NamesOtherUnits) {
+TEST(ImuContent, DetectsWrongUnits) {
   EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->accel /= kGravity; }),
               HasSubstr("specific force on /imu seems to be in g"));
   EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->accel *= 1000 / kGravity; }),
@@ -78,7 +78,7 @@ TEST(ImuContent, NamesOtherUnits) {
               HasSubstr("is /imu in deg/s?"));
 }
 
-TEST(ImuContent, NamesGravityThatWasRemoved) {
+TEST(ImuContent, DetectsRemovedGravity) {
   EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->accel.z() -= kGravity; }),
               HasSubstr("specific force on /imu lacks gravity"));
 }

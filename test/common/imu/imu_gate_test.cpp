@@ -50,9 +50,9 @@ void ExpectUntouched(const std::vector<ImuSample>& samples) {
   }
 }
 
-TEST(ImuGate, LeavesAFlightAlone) { ExpectUntouched(Flight(200)); }
+TEST(ImuGate, DoesNotChangeAFlight) { ExpectUntouched(Flight(200)); }
 
-TEST(ImuGate, ReplacesASpikeByTheLineBetweenItsNeighbours) {
+TEST(ImuGate, InterpolatesASpikeFromItsNeighbors) {
   std::vector<ImuSample> samples = Flight(200);
   samples[100].accel.y() = 150;
   const Decided decided = Pass(samples);
@@ -67,7 +67,7 @@ TEST(ImuGate, ReplacesASpikeByTheLineBetweenItsNeighbours) {
   EXPECT_EQ(decided.samples[101].accel, samples[101].accel);
 }
 
-TEST(ImuGate, ReplacesAFewInARow) {
+TEST(ImuGate, ReplacesAFewConsecutiveSpikes) {
   std::vector<ImuSample> samples = Flight(200);
   for (int i = 100; i < 100 + ImuGate::kMaxRun; ++i) samples[i].gyro.z() = -30;
   const Decided decided = Pass(samples);
@@ -79,7 +79,7 @@ TEST(ImuGate, ReplacesAFewInARow) {
   }
 }
 
-TEST(ImuGate, BelievesALeapThatLastsAtAnyRate) {
+TEST(ImuGate, AcceptsALastingStepAtAnyRate) {
   for (const int64_t step_ns : {kStep_ns, 2 * kStep_ns, 8 * kStep_ns}) {
     std::vector<ImuSample> samples = Flight(200, step_ns);
     for (size_t i = 100; i < samples.size(); ++i) samples[i].gyro.z() = 10;
@@ -87,7 +87,7 @@ TEST(ImuGate, BelievesALeapThatLastsAtAnyRate) {
   }
 }
 
-TEST(ImuGate, YieldsToShakingThatGoesOn) {
+TEST(ImuGate, AcceptsLastingVibration) {
   std::vector<ImuSample> samples = Flight(1000);
   for (size_t i = 100; i < samples.size(); ++i) samples[i].accel.x() = i % 2 == 0 ? 30 : -30;
   const Decided decided = Pass(samples);
@@ -95,13 +95,13 @@ TEST(ImuGate, YieldsToShakingThatGoesOn) {
   EXPECT_LT(decided.replaced, 50);  // at most half a second
 }
 
-TEST(ImuGate, OneSpikeASecondDoesNotWidenItMuch) {
+TEST(ImuGate, OneSpikeASecondHardlyWidensTheGate) {
   std::vector<ImuSample> samples = Flight(2000);
   for (size_t i = 100; i < samples.size(); i += 200) samples[i].accel.y() = 80;
   EXPECT_EQ(Pass(samples).replaced, 10);
 }
 
-TEST(ImuGate, NeverBelievesASpikeBeyondTheRange) {
+TEST(ImuGate, NeverAcceptsASpikeBeyondTheRange) {
   std::vector<ImuSample> samples = Flight(10);
   samples[0].gyro.x() = 3;  // there is no previous reading
   EXPECT_EQ(Pass(samples).replaced, 0);
@@ -113,7 +113,7 @@ TEST(ImuGate, NeverBelievesASpikeBeyondTheRange) {
   EXPECT_NEAR(decided.samples[0].gyro_doubt, two_turns.gyro - samples[1].gyro.x(), 1e-12);
 }
 
-TEST(ImuGate, DoubtsReadingsAtTheEndOfTheRange) {
+TEST(ImuGate, RaisesTheNoiseOfSaturatedReadings) {
   std::vector<ImuSample> samples = Flight(200);
   for (size_t i = 100; i < 110; ++i) samples[i].gyro.z() = -34.9;  // 2000 deg/s
   ImuGate gate{ImuSensor()};
@@ -129,7 +129,7 @@ TEST(ImuGate, DoubtsReadingsAtTheEndOfTheRange) {
   EXPECT_EQ(decided[115].gyro_doubt, 0);
 }
 
-TEST(ImuGate, ASpikeAmongSaturatedReadingsKeepsItsDoubt) {
+TEST(ImuGate, SpikeAmongSaturatedReadingsKeepsItsRaisedNoise) {
   std::vector<ImuSample> samples = Flight(200);
   for (size_t i = 100; i < 120; ++i) samples[i].gyro.z() = 34.9;
   samples[110].gyro.z() = -34.9;  // a flipped sign bit
@@ -144,7 +144,7 @@ TEST(ImuGate, ASpikeAmongSaturatedReadingsKeepsItsDoubt) {
   EXPECT_NEAR(decided[110].gyro_doubt, 69.8, 1e-12);
 }
 
-TEST(ImuGate, ComparesNothingAcrossAGap) {
+TEST(ImuGate, DoesNotCompareAcrossAGap) {
   std::vector<ImuSample> samples = Flight(200);
   for (size_t i = 100; i < samples.size(); ++i) {
     samples[i].t_ns += 100'000'000;
@@ -154,7 +154,7 @@ TEST(ImuGate, ComparesNothingAcrossAGap) {
   for (const ImuSample& sample : samples) EXPECT_EQ(gate.Add(sample).size(), 1u);
 }
 
-TEST(ImuGate, CorrectsWhatItDecides) {
+TEST(ImuGate, CorrectsAcceptedReadings) {
   ImuSensor sensor;
   sensor.gyro_correction << 0, -2, 0, 1, 0, 0, 0, 0, 1;
   sensor.accel_correction << 0.5, 0, 0, 0, 1, 0, 0, 0.25, 2;
@@ -174,7 +174,7 @@ TEST(ImuGate, CorrectsWhatItDecides) {
 }
 
 // A reading that a correction makes smaller is saturated all the same.
-TEST(ImuGate, TheRangeIsThatOfReadingsAsDelivered) {
+TEST(ImuGate, RangeRefersToRawReadings) {
   ImuSensor sensor;
   sensor.gyro_correction *= 0.9;
   ImuGate gate(sensor);
@@ -186,7 +186,7 @@ TEST(ImuGate, TheRangeIsThatOfReadingsAsDelivered) {
 }
 
 // The rotation during the gap is not a typical difference of consecutive readings.
-TEST(ImuGate, LearnsNothingAcrossAGap) {
+TEST(ImuGate, DoesNotLearnAcrossAGap) {
   std::vector<ImuSample> samples = Flight(200);
   for (size_t i = 100; i < samples.size(); ++i) {
     samples[i].t_ns += 100'000'000;

@@ -6,7 +6,7 @@
 namespace plm_vins {
 namespace {
 
-TEST(ImuNoise, DensitiesGiveTheVarianceThatTheSamplesGive) {
+TEST(ImuNoise, DensitiesGiveTheVarianceOfTheSamples) {
   constexpr double kRate = 250, kDt = 1 / kRate;
   constexpr int kSteps = 500;
   const ImuNoise sample = {0.004, 0.08, 2e-6, 4e-5};

@@ -24,7 +24,7 @@ TEST(ImuSensor, CorrectsWithItsMatrices) {
   EXPECT_LT((again.accel - kSample.accel).norm(), 1e-14);
 }
 
-TEST(ImuSensor, TheIdentityLeavesEveryBit) {
+TEST(ImuSensor, IdentityIsBitExact) {
   ImuSample sample = kSample;
   sample.gyro.x() = -0.0;
   for (const ImuSample& same : {Corrected(sample, ImuSensor()), Uncorrected(sample, ImuSensor())}) {

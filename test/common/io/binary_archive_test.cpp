@@ -31,7 +31,7 @@ const auto kLayout = [](auto* archive, auto& item) {
   archive->List(item.name, [](auto* characters, auto& c) { characters->Value(c); });
 };
 
-TEST(BinaryArchive, GivesBackWhatWasWritten) {
+TEST(BinaryArchive, SurvivesARoundTrip) {
   std::vector<Item> items(2);
   items[1].kind = Kind::kTwo;
   items[1].value = 1 / 3.0;
@@ -49,7 +49,7 @@ TEST(BinaryArchive, GivesBackWhatWasWritten) {
   EXPECT_EQ(read[1].name, items[1].name);
 }
 
-TEST(BinaryReader, TakesNothingButOneForTrueAndZeroForFalse) {
+TEST(BinaryReader, AcceptsOnlyZeroAndOneAsBool) {
   std::istringstream stream(std::string("\1\0\2\2", 4));
   BinaryReader reader(&stream);
   bool value = false;
@@ -62,7 +62,7 @@ TEST(BinaryReader, TakesNothingButOneForTrueAndZeroForFalse) {
   EXPECT_EQ(MessageOf([&] { reader.Has(number); }), "is damaged");
 }
 
-TEST(BinaryReader, SaysWhereTheBytesEndTooEarly) {
+TEST(BinaryReader, ReportsTruncation) {
   std::istringstream stream("seven b");
   BinaryReader reader(&stream);
   double value = 0;
@@ -70,7 +70,7 @@ TEST(BinaryReader, SaysWhereTheBytesEndTooEarly) {
 }
 
 // The count claims a million items, but there are data for two.
-TEST(BinaryReader, MakesNoItemsThatAreNotThere) {
+TEST(BinaryReader, DoesNotAllocateForMissingItems) {
   std::ostringstream written;
   BinaryWriter(&written).List(std::vector<Item>(2), kLayout);
   std::string bytes = written.str();

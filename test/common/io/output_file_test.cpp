@@ -19,7 +19,7 @@ using testing::TemporaryFolder;
 
 constexpr char kFullDisk[] = "/dev/full";  // accepts only what fits into a buffer
 
-TEST(OutputFile, NamesWhatCannotBeOpened) {
+TEST(OutputFile, ErrorNamesTheFile) {
   const TemporaryFolder folder;
   const std::string file = folder.File("missing/poses.tum");
   EXPECT_THAT(MessageOf([&] { OutputFile{file}; }),
@@ -41,7 +41,7 @@ TEST(OutputFile, NoticesAFullDiskWhileItIsWritten) {
   EXPECT_THAT(MessageOf(write), HasSubstr("cannot write /dev/full: disk full?"));
 }
 
-TEST(ReplacedFile, IsTheOldOneUntilItIsCommitted) {
+TEST(ReplacedFile, KeepsTheOldFileUntilCommit) {
   const TemporaryFolder folder;
   folder.Write("map", "old");
   ReplacedFile file(folder.File("map"));

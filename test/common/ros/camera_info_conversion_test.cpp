@@ -27,7 +27,7 @@ CameraParameters Camera(Model model) {
 
 class CameraInfoOfModel : public ::testing::TestWithParam<Model> {};
 
-TEST_P(CameraInfoOfModel, ComesBack) {
+TEST_P(CameraInfoOfModel, SurvivesARoundTrip) {
   const CameraParameters camera = Camera(GetParam());
   const CameraParameters back = ToCameraParameters(ToCameraInfo(camera, 7, "camera"));
   EXPECT_EQ(back.model, camera.model);
@@ -52,7 +52,7 @@ TEST(CameraInfoMessage, HasTheLayoutOfRos) {
   EXPECT_EQ(message.P[2], 321);
 }
 
-TEST(CameraInfoMessage, IsRefusedOfAnotherModelOrWithoutItsCoefficients) {
+TEST(CameraInfoMessage, IsRejectedWithAnUnknownModelOrTooFewCoefficients) {
   auto message = ToCameraInfo(Camera(Model::kPinholeRadtan), 0, "");
   message.distortion_model = "rational_polynomial";
   EXPECT_THROW(ToCameraParameters(message), std::invalid_argument);

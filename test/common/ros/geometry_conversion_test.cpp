@@ -28,7 +28,7 @@ TEST(PoseMessage, HasTheRotationsCovarianceAboutTheAxesOfTheWorld) {
   EXPECT_LT((*read - covariance).norm(), 1e-12);
 }
 
-TEST(PoseMessage, KnowsNoCovarianceOfVeryLargeVariances) {
+TEST(PoseMessage, VeryLargeVariancesMeanUnknownCovariance) {
   geometry_msgs::PoseWithCovariance pose;
   pose.pose.orientation.w = 1;
   EXPECT_TRUE(CovarianceOf(pose));

@@ -41,7 +41,7 @@ struct EncodingCase {
 
 class ImageEncodings : public ::testing::TestWithParam<EncodingCase> {};
 
-TEST_P(ImageEncodings, BecomeGrey) {
+TEST_P(ImageEncodings, AreConvertedToGrey) {
   const ImageSample sample = ToImageSample(MakeImage(GetParam().encoding, GetParam().pixel));
   EXPECT_EQ(sample.t_ns, kStamp);
   ASSERT_EQ(sample.gray.type(), CV_8UC1);
@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(Encodings, ImageEncodings,
                                            EncodingCase{encodings::TYPE_16UC1, {0x00, 0x80}, 127.5},
                                            EncodingCase{encodings::BAYER_RGGB8, {60}, 60}));
 
-TEST(ImageConversion, TakesPixelsThatComeHighByteFirst) {
+TEST(ImageConversion, ConvertsBigEndianPixels) {
   for (const std::string& encoding :
        {encodings::MONO16, encodings::TYPE_16UC1, encodings::BAYER_RGGB16}) {
     sensor_msgs::Image image = MakeImage(encoding, {0x80, 0x10});
@@ -74,7 +74,7 @@ TEST(ImageConversion, TakesPixelsThatComeHighByteFirst) {
   }
 }
 
-TEST(ImageConversion, LooksForTheOrderOfBytesWhereThereAreTwoOnly) {
+TEST(ImageConversion, IgnoresTheByteOrderOfSingleBytePixels) {
   sensor_msgs::Image image = MakeImage(encodings::BGR8, {10, 100, 200});
   image.is_bigendian = 1;
   EXPECT_NEAR(ToImageSample(image).gray.at<uint8_t>(2, 3), 119.6, 1);
@@ -93,12 +93,12 @@ TEST(ImageConversion, SharesGreyPixelsAndKeepsThem) {
   }
 }
 
-TEST(ImageConversion, CopiesThePixelsOfAMessageThatMayGo) {
+TEST(ImageConversion, CopiesThePixelsOfABorrowedMessage) {
   const sensor_msgs::Image message = MakeImage(encodings::MONO8, {90});
   EXPECT_NE(ToImageSample(message).gray.data, message.data.data());
 }
 
-TEST(ImageConversion, NamesAnEncodingThatIsNoPicture) {
+TEST(ImageConversion, ErrorNamesTheEncoding) {
   try {
     ToImageSample(MakeImage("32SC1", {0, 0, 0, 0}));
     FAIL() << "no exception";
@@ -107,13 +107,13 @@ TEST(ImageConversion, NamesAnEncodingThatIsNoPicture) {
   }
 }
 
-TEST(ImageConversion, RefusesTooFewBytes) {
+TEST(ImageConversion, RejectsTooFewBytes) {
   sensor_msgs::Image image = MakeImage(encodings::MONO8, {90});
   image.data.resize(10);
   EXPECT_THROW(ToImageSample(image), std::invalid_argument);
 }
 
-TEST(ImageConversion, TakesRowsWithBytesToSpare) {
+TEST(ImageConversion, AcceptsPaddedRows) {
   sensor_msgs::Image image = MakeImage(encodings::MONO8, {90});
   image.width = 5;
   EXPECT_EQ(ToImageSample(image).gray.size(), cv::Size(5, 4));
@@ -130,7 +130,7 @@ void ExpectRefused(const std::string& encoding, cv::Size size, uint32_t step, si
 }
 
 // In 32-bit arithmetic, height * step equals the number of bytes, and width * 4 equals the step.
-TEST(ImageConversion, RefusesSizesThatFitIn32BitsOnly) {
+TEST(ImageConversion, RejectsSizesThatOverflow32Bits) {
   ExpectRefused(encodings::MONO8, {752, 480}, (1U << 27) + 752, 752 * 480);
   ExpectRefused(encodings::BGRA8, {(1 << 30) + 6, 4}, 24, 96);
 }
@@ -150,7 +150,7 @@ TEST(ImageConversion, DecodesCompressedImages) {
 }
 
 // Headers only: OpenCV throws before it reads pixels.
-TEST(ImageConversion, RefusesCompressedImagesThatClaimAbsurdSizes) {
+TEST(ImageConversion, RejectsCompressedImagesThatClaimAbsurdSizes) {
   for (const auto& [width, height] : {std::pair(40000, 40000), std::pair((1 << 20) + 1, 1)}) {
     sensor_msgs::CompressedImage image;
     const std::string header = "P5 " + std::to_string(width) + " " + std::to_string(height);

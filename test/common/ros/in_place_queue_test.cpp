@@ -19,7 +19,7 @@ struct Callback : ros::CallbackInterface {
   std::thread::id thread;
 };
 
-TEST(InPlaceQueue, CallsAtOnceAndWhereItWasGiven) {
+TEST(InPlaceQueue, CallsAtOnceInTheCallingThread) {
   const auto callback = boost::make_shared<Callback>();
   InPlaceQueue queue;
   queue.addCallback(callback, 1);

@@ -39,7 +39,7 @@ TEST(KeyframePoints, HaveTheLayoutOfVinsMono) {
   EXPECT_EQ(message.channels[0].values, (std::vector<float>{0.25F, -0.5F, 300.5F, 20, 5}));
 }
 
-TEST(KeyframePoints, ComeBack) {
+TEST(KeyframePoints, SurviveARoundTrip) {
   const auto corners = Corners(ToKeyframePoints(TwoCorners(), 0, ""));
   ASSERT_EQ(corners.size(), 1u);
   EXPECT_EQ(corners[0].observation.id, 5);
@@ -47,7 +47,7 @@ TEST(KeyframePoints, ComeBack) {
   EXPECT_EQ(*corners[0].p_O, Eigen::Vector3d(1, 2, 3));
 }
 
-TEST(KeyframePoints, AreRefusedWithoutAChannelForEach) {
+TEST(KeyframePoints, AreRejectedWithoutOneChannelEach) {
   auto message = ToKeyframePoints(TwoCorners(), 0, "");
   message.channels[0].values.pop_back();
   EXPECT_THROW(Corners(message), std::invalid_argument);
@@ -68,7 +68,7 @@ sensor_msgs::PointCloud ThreePoints() {
   return ToKeyframePoints(corners, 0, "");
 }
 
-TEST(KeyframePoints, AreLeftOutWhereTheyCannotBe) {
+TEST(KeyframePoints, AreDroppedIfImpossible) {
   for (const int value : {0, 1, 2, 3}) {
     for (const float wrong : {kNan, kInfinity}) {
       auto message = ThreePoints();
@@ -84,7 +84,7 @@ TEST(KeyframePoints, AreLeftOutWhereTheyCannotBe) {
   EXPECT_EQ(Corners(message).size(), 2u);
 }
 
-TEST(KeyframePoints, AreLeftOutAndCountedWithoutAPlaceThatIsFinite) {
+TEST(KeyframePoints, AreDroppedAndCountedWithoutAFinitePosition) {
   auto message = ThreePoints();
   message.points[1].y = kNan;
   int64_t left_out = 0;
@@ -94,7 +94,7 @@ TEST(KeyframePoints, AreLeftOutAndCountedWithoutAPlaceThatIsFinite) {
   EXPECT_EQ(left_out, 1);
 }
 
-TEST(KeyframePoints, AreRefusedWithAnIdThatIsNone) {
+TEST(KeyframePoints, AreRejectedWithAnInvalidId) {
   for (const float id : {kNan, kInfinity, 1e30F, -1.0F, 0.5F}) {
     auto message = ThreePoints();
     message.channels[1].values[4] = id;
@@ -102,7 +102,7 @@ TEST(KeyframePoints, AreRefusedWithAnIdThatIsNone) {
   }
 }
 
-TEST(KeyframeLines, AreLeftOutOrRefusedAsPointsAre) {
+TEST(KeyframeLines, AreDroppedOrRejectedLikePoints) {
   std::vector<TrackedSegment> segments(3);
   for (size_t i = 0; i < segments.size(); ++i) {
     segments[i].observation.id = static_cast<int64_t>(i);
@@ -121,7 +121,7 @@ TEST(KeyframeLines, AreLeftOutOrRefusedAsPointsAre) {
   EXPECT_THROW(Segments(spoiled), std::invalid_argument);
 }
 
-TEST(KeyframeLines, AreRefusedWithAManhattanFrameThatIsNoRotation) {
+TEST(KeyframeLines, AreRejectedWithAnInvalidManhattanFrame) {
   auto message = ToKeyframeLines({}, Eigen::Quaterniond::Identity(), 0, "");
   for (const float w : {0.0F, kNan, kInfinity}) {
     message.channels.back().values[0] = w;
@@ -129,7 +129,7 @@ TEST(KeyframeLines, AreRefusedWithAManhattanFrameThatIsNoRotation) {
   }
 }
 
-TEST(KeyframeLines, ComeBack) {
+TEST(KeyframeLines, SurviveARoundTrip) {
   std::vector<TrackedSegment> segments(2);
   segments[0].observation.id = 8;
   segments[1].observation.id = 9;
@@ -146,7 +146,7 @@ TEST(KeyframeLines, ComeBack) {
   EXPECT_EQ(back[0].landmark->end_O, Eigen::Vector3d(4, 5, 6));
 }
 
-TEST(KeyframeLines, BringTheManhattanFrame) {
+TEST(KeyframeLines, CarryTheManhattanFrame) {
   std::vector<TrackedSegment> segments(1);
   segments[0].observation.id = 8;
   segments[0].landmark = {{1, 2, 3}, {4, 5, 6}};

@@ -43,7 +43,7 @@ TEST(FeatureMessage, PointsHaveTheLayoutOfVins) {
   for (size_t i = 0; i < 5; ++i) EXPECT_EQ(message.channels[i].values[0], values[i]);
 }
 
-TEST(FeatureMessage, PointsComeBack) {
+TEST(FeatureMessage, PointsSurviveARoundTrip) {
   PointFrame frame;
   frame.t_ns = kStamp;
   frame.points.push_back({16'777'215, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
@@ -58,7 +58,7 @@ TEST(FeatureMessage, PointsComeBack) {
   EXPECT_EQ(back.points[1].id, 3);
 }
 
-TEST(FeatureMessage, PointsOfPlVinsComeWithoutVelocities) {
+TEST(FeatureMessage, AcceptsPointsOfPlVinsWithoutVelocities) {
   PointFrame frame;
   frame.points.push_back({3, {-0.75, 0.5}, {1, 2}, {0.5, 0.5}});
   sensor_msgs::PointCloud message = ToMessage(frame, "camera");
@@ -72,7 +72,7 @@ TEST(FeatureMessage, PointsOfPlVinsComeWithoutVelocities) {
 }
 
 // Includes the additional channels that VINS-Fusion may send: the true positions of the points.
-TEST(FeatureMessage, OfVinsFusionThePointsOfBothCamerasAreTaken) {
+TEST(FeatureMessage, AcceptsPointsOfBothCamerasOfVinsFusion) {
   for (const size_t channels : {6, 9}) {
     sensor_msgs::PointCloud message;
     message.points.resize(2);
@@ -97,7 +97,7 @@ TEST(FeatureMessage, OfVinsFusionThePointsOfBothCamerasAreTaken) {
   }
 }
 
-TEST(FeatureMessage, WhatFurtherSensorsSeeComesBackInFurtherChannels) {
+TEST(FeatureMessage, StereoAndDepthSurviveARoundTrip) {
   PointFrame frame;
   frame.t_ns = kStamp;
   frame.points.push_back({1, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
@@ -120,7 +120,7 @@ TEST(FeatureMessage, WhatFurtherSensorsSeeComesBackInFurtherChannels) {
   }
 }
 
-TEST(FeatureMessage, DepthAloneIsOneChannelMore) {
+TEST(FeatureMessage, DepthAddsOneChannel) {
   PointFrame frame;
   frame.points.push_back({1, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
   frame.points[0].depth = 2.5;
@@ -132,7 +132,7 @@ TEST(FeatureMessage, DepthAloneIsOneChannelMore) {
   EXPECT_EQ(back.points[0].depth, 2.5);
 }
 
-TEST(FeatureMessage, ImpossibleDepthsAndRightPointsAreLeftOut) {
+TEST(FeatureMessage, ImpossibleDepthsAndRightPointsAreDropped) {
   PointFrame frame;
   frame.points.push_back({1, {0.25, -0.5}, {300.5, 200.25}, {0.125, -2}});
   frame.points[0].right = Eigen::Vector2d(std::nan(""), 0);
@@ -142,7 +142,7 @@ TEST(FeatureMessage, ImpossibleDepthsAndRightPointsAreLeftOut) {
   EXPECT_FALSE(ReadBack(frame).points.at(0).right);
 }
 
-TEST(FeatureMessage, RightSegmentsComeBack) {
+TEST(FeatureMessage, RightSegmentsSurviveARoundTrip) {
   LineFrame frame;
   frame.lines.push_back({7, {0.25, -0.5}, {0.5, 0.125}});
   frame.lines.push_back({8, {0.25, -0.5}, {0.5, 0.125}});
@@ -158,11 +158,11 @@ TEST(FeatureMessage, RightSegmentsComeBack) {
   EXPECT_EQ(back.lines[1].right->deviation, frame.lines[1].right->deviation);
 }
 
-TEST(FeatureMessage, AnEmptyFrameComesBack) {
+TEST(FeatureMessage, EmptyFrameSurvivesARoundTrip) {
   EXPECT_TRUE(ReadBack(PointFrame{kStamp, {}}).points.empty());
 }
 
-TEST(FeatureMessage, LinesComeBack) {
+TEST(FeatureMessage, LinesSurviveARoundTrip) {
   LineFrame frame;
   frame.t_ns = kStamp;
   frame.lines.push_back({7, {0.25, -0.5}, {0.5, 0.125}});
@@ -188,7 +188,7 @@ TEST(FeatureMessage, LinesHaveTheLayoutOfPlVins) {
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(message.channels[i].values[0], values[i]);
 }
 
-TEST(FeatureMessage, NoLinesAndAThousandLinesComeBack) {
+TEST(FeatureMessage, NoLinesAndAThousandLinesSurviveARoundTrip) {
   for (const int count : {0, 1000}) {
     LineFrame frame;
     frame.t_ns = kStamp;
@@ -204,7 +204,7 @@ TEST(FeatureMessage, IdsTravelModulo24Bits) {
   EXPECT_EQ(ReadBack(frame).lines[0].id, 1);
 }
 
-TEST(FeatureMessage, IdsThatCannotBeToldApartAreRefused) {
+TEST(FeatureMessage, RejectsAmbiguousIds) {
   LineFrame frame;
   frame.lines.push_back({7, {0, 0}, {1, 1}});
   for (const float id : {16'777'216.0f, -1.0f, 0.5f, std::numeric_limits<float>::quiet_NaN()}) {
@@ -214,7 +214,7 @@ TEST(FeatureMessage, IdsThatCannotBeToldApartAreRefused) {
   }
 }
 
-TEST(FeatureMessage, MissingChannelsAreRefused) {
+TEST(FeatureMessage, RejectsMissingChannels) {
   PointFrame frame;
   frame.points.resize(2);
   sensor_msgs::PointCloud message = ToMessage(frame, "camera");
@@ -226,7 +226,7 @@ TEST(FeatureMessage, MissingChannelsAreRefused) {
   EXPECT_THROW(ReadLines(message), std::invalid_argument);
 }
 
-TEST(FeatureMessage, ImpossiblePointsAndRepeatedIdsAreLeftOutAndCounted) {
+TEST(FeatureMessage, ImpossiblePointsAndRepeatedIdsAreDroppedAndCounted) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   PointFrame frame;
   frame.points.push_back({1, {0.25, -0.5}, {0, 0}, {0, 0}});
@@ -245,7 +245,7 @@ TEST(FeatureMessage, ImpossiblePointsAndRepeatedIdsAreLeftOutAndCounted) {
   EXPECT_EQ(back.points[1].id, 2);
 }
 
-TEST(FeatureMessage, FeaturesBeyondFiveThousandAreLeftOutAndCounted) {
+TEST(FeatureMessage, FeaturesBeyondFiveThousandAreDroppedAndCounted) {
   PointFrame points;
   LineFrame lines;
   for (int i = 0; i < 6000; ++i) {
@@ -259,7 +259,7 @@ TEST(FeatureMessage, FeaturesBeyondFiveThousandAreLeftOutAndCounted) {
   EXPECT_EQ(left_out, 2000);
 }
 
-TEST(FeatureMessage, AStampThatIsNoneIsRefused) {
+TEST(FeatureMessage, RejectsInvalidStamps) {
   sensor_msgs::PointCloud points = ToMessage(PointFrame{kStamp, {}}, "camera");
   sensor_msgs::PointCloud lines = ToMessage(LineFrame{kStamp, {}}, "camera");
   points.header.stamp.sec = lines.header.stamp.sec = std::numeric_limits<uint32_t>::max();
@@ -271,7 +271,7 @@ TEST(FeatureMessage, AStampThatIsNoneIsRefused) {
   EXPECT_THROW(ReadLines(lines), std::invalid_argument);
 }
 
-TEST(FeatureMessage, ImpossibleLinesAndRepeatedIdsAreLeftOutAndCounted) {
+TEST(FeatureMessage, ImpossibleLinesAndRepeatedIdsAreDroppedAndCounted) {
   LineFrame frame;
   frame.lines.push_back({1, {0.25, -0.5}, {0.5, 0.125}});
   frame.lines.push_back({2, {0.25, -0.5}, {0.5, std::numeric_limits<double>::quiet_NaN()}});

@@ -10,7 +10,7 @@ namespace {
 
 boost::shared_ptr<ros::M_string> Connect() { return boost::make_shared<ros::M_string>(); }
 
-TEST(PublisherWatch, TellsAnotherConnectionFromThatOfBefore) {
+TEST(PublisherWatch, DetectsANewConnection) {
   PublisherWatch watch(1);
   const auto first = Connect();
   const auto second = Connect();
@@ -20,7 +20,7 @@ TEST(PublisherWatch, TellsAnotherConnectionFromThatOfBefore) {
   EXPECT_FALSE(watch.HasChanged(0, second));
 }
 
-TEST(PublisherWatch, TellsAProcessOnceByWhicheverTopicComesFirst) {
+TEST(PublisherWatch, ReportsANewProcessOnceOnAnyTopic) {
   PublisherWatch watch(2);
   EXPECT_FALSE(watch.HasChanged(0, Connect()));
   EXPECT_FALSE(watch.HasChanged(1, Connect()));
@@ -30,7 +30,7 @@ TEST(PublisherWatch, TellsAProcessOnceByWhicheverTopicComesFirst) {
   }
 }
 
-TEST(PublisherWatch, MissesNoProcessAfterTheLinkOfOneTopicWasMadeAgain) {
+TEST(PublisherWatch, DetectsANewProcessAfterAReconnection) {
   PublisherWatch watch(2);
   const auto keyframes = Connect();
   EXPECT_FALSE(watch.HasChanged(0, Connect()));
@@ -41,7 +41,7 @@ TEST(PublisherWatch, MissesNoProcessAfterTheLinkOfOneTopicWasMadeAgain) {
   EXPECT_FALSE(watch.HasChanged(0, Connect()));
 }
 
-TEST(PublisherWatch, MissesNoProcessOfWhichOneTopicComes) {
+TEST(PublisherWatch, DetectsAProcessThatPublishesOneTopicOnly) {
   PublisherWatch watch(2);
   EXPECT_FALSE(watch.HasChanged(0, Connect()));
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(watch.HasChanged(0, Connect()));
@@ -49,7 +49,7 @@ TEST(PublisherWatch, MissesNoProcessOfWhichOneTopicComes) {
   EXPECT_TRUE(watch.HasChanged(1, Connect()));
 }
 
-TEST(TurnsWatch, TellsTurnsFromStarts) {
+TEST(TurnsWatch, DistinguishesAlternationFromRestarts) {
   TurnsWatch starts;
   for (const double t : {0.0, 2.0, 2.6, 4.0, 5.5}) EXPECT_FALSE(starts.AddChange(t)) << t;
   TurnsWatch turns;

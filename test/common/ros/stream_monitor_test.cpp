@@ -27,12 +27,12 @@ double DelayOf(const std::vector<int64_t>& stamps, const ros::Time& now) {
   return 0;
 }
 
-TEST(StreamMonitor, TellsTheMeanDelay) {
+TEST(StreamMonitor, ReportsTheMeanDelay) {
   EXPECT_NEAR(DelayOf({999'000'000'000, 999'500'000'000}, ros::Time(1000)), 750, 0.1);
 }
 
 // The range of ros::Duration ends at 2^31 s.
-TEST(StreamMonitor, TakesEveryStampThatAMessageCanHave) {
+TEST(StreamMonitor, AcceptsEveryStamp) {
   constexpr double kMsPerSecond = 1e3;
   EXPECT_NEAR(DelayOf({kEndOfTime_ns - 1}, ros::Time(1)), (1 - 0x1p32) * kMsPerSecond, 1);
   EXPECT_NEAR(DelayOf({0}, ros::Time(4'000'000'000, 0)), 4e9 * kMsPerSecond, 1);

@@ -16,12 +16,12 @@ int FindJump(BackwardJumpDetector* detector, const std::vector<int64_t>& refused
   return -1;
 }
 
-TEST(BackwardJumpDetector, FindsAStreamThatBeginsAnew) {
+TEST(BackwardJumpDetector, DetectsARestartedStream) {
   BackwardJumpDetector detector(3);
   EXPECT_EQ(FindJump(&detector, {10, 20, 30, 40}), 3);
 }
 
-TEST(BackwardJumpDetector, RefusesFromTheFirstThatDoesNotFollowUntilOneDoes) {
+TEST(BackwardJumpDetector, RejectsStampsUntilTheyIncreaseAgain) {
   BackwardJumpDetector detector(3);
   EXPECT_FALSE(detector.Refuses());
   detector.Refuse(10);
@@ -30,7 +30,7 @@ TEST(BackwardJumpDetector, RefusesFromTheFirstThatDoesNotFollowUntilOneDoes) {
   EXPECT_FALSE(detector.Refuses());
 }
 
-TEST(BackwardJumpDetector, TakesAcceptedStampsAsASignThatTheOldStreamGoesOn) {
+TEST(BackwardJumpDetector, AcceptedStampsShowThatTheOldStreamContinues) {
   BackwardJumpDetector detector(3);
   EXPECT_EQ(FindJump(&detector, {10, 20, 30}), -1);
   detector.Accept();
@@ -44,13 +44,13 @@ bool EndsStepBack(int64_t begin, int count, int64_t accepted) {
   return detector.EndsStepBack(accepted);
 }
 
-TEST(BackwardJumpDetector, FindsASmallStepBack) {
+TEST(BackwardJumpDetector, DetectsASmallStepBack) {
   EXPECT_TRUE(EndsStepBack(1007, 20, 1207));
   EXPECT_TRUE(EndsStepBack(1007, 20, 1247)) << "some got lost";
   EXPECT_TRUE(EndsStepBack(-3, 10, 97));
 }
 
-TEST(BackwardJumpDetector, DoesNotTakeStragglersForAStepBack) {
+TEST(BackwardJumpDetector, IgnoresStragglers) {
   EXPECT_FALSE(EndsStepBack(1007, 9, 1097)) << "too few";
   EXPECT_FALSE(EndsStepBack(1000, 20, 1400)) << "those that overtook them are in between";
   BackwardJumpDetector detector(1000);
@@ -62,7 +62,7 @@ TEST(BackwardJumpDetector, DoesNotTakeStragglersForAStepBack) {
   EXPECT_FALSE(detector.EndsStepBack(2200)) << "over";
 }
 
-TEST(BackwardJumpDetector, DoesNotTakeAClockThatStandsStillForANewStream) {
+TEST(BackwardJumpDetector, IgnoresAStoppedClock) {
   BackwardJumpDetector detector(3);
   EXPECT_EQ(FindJump(&detector, {50, 50, 50, 50, 50, 50}), -1);
   EXPECT_EQ(FindJump(&detector, {60, 50, 60, 50, 60, 50}), -1);

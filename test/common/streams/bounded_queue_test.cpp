@@ -27,7 +27,7 @@ TEST(BoundedQueue, HoldsItemsThatCanOnlyBeMoved) {
   EXPECT_EQ(**queue.Pop(), 7);
 }
 
-TEST(BoundedQueue, NeverHoldsMoreThanItsCapacityAndLosesNothing) {
+TEST(BoundedQueue, RespectsItsCapacityWithoutLoss) {
   constexpr int kItems = 10000;
   BoundedQueue<int> queue(5);
   std::thread producer([&] {
@@ -43,7 +43,7 @@ TEST(BoundedQueue, NeverHoldsMoreThanItsCapacityAndLosesNothing) {
   EXPECT_EQ(expected, kItems);
 }
 
-TEST(BoundedQueue, GivesUpTheOldestForWhoMustNotWait) {
+TEST(BoundedQueue, PushOverOldestDropsTheOldest) {
   BoundedQueue<int> queue(2);
   EXPECT_FALSE(queue.PushOverOldest(1));
   EXPECT_FALSE(queue.PushOverOldest(2));
@@ -56,7 +56,7 @@ TEST(BoundedQueue, GivesUpTheOldestForWhoMustNotWait) {
   EXPECT_FALSE(queue.Pop());
 }
 
-TEST(BoundedQueue, AQuietItemIsTakenWithTheNext) {
+TEST(BoundedQueue, QuietItemIsPoppedWithTheNext) {
   BoundedQueue<int> queue(3);
   queue.PushQuietly(1);
   queue.Push(2);
@@ -82,7 +82,7 @@ TEST(BoundedQueue, QuietItemsWakeTheConsumerOnceTheQueueIsFull) {
   consumer.join();
 }
 
-TEST(BoundedQueue, RefusesAQuietItemWhereItIsFullOrClosed) {
+TEST(BoundedQueue, RejectsAQuietItemWhereItIsFullOrClosed) {
   BoundedQueue<int> queue(2);
   EXPECT_TRUE(queue.PushQuietly(1));
   EXPECT_TRUE(queue.PushQuietly(2));
@@ -96,7 +96,7 @@ TEST(BoundedQueue, RefusesAQuietItemWhereItIsFullOrClosed) {
   EXPECT_EQ(queue.Pop(), std::nullopt);
 }
 
-TEST(BoundedQueue, GivesWhatIsLeftAfterClosing) {
+TEST(BoundedQueue, DeliversRemainingItemsAfterClosing) {
   BoundedQueue<int> queue(2);
   queue.Push(1);
   queue.Close();
@@ -105,7 +105,7 @@ TEST(BoundedQueue, GivesWhatIsLeftAfterClosing) {
   EXPECT_EQ(queue.Pop(), std::nullopt);
 }
 
-TEST(BoundedQueue, GivesNothingThatIsLeftOnceItIsAbandoned) {
+TEST(BoundedQueue, DeliversNothingAfterAbandoning) {
   BoundedQueue<int> queue(2);
   queue.Push(1);
   queue.Abandon();

@@ -22,7 +22,7 @@ using Stamps = std::vector<int64_t>;
 
 TEST(ForwardJump, AcceptsSteps) { EXPECT_EQ(Accepted({0, 10, 20}), (Stamps{0, 10, 20})); }
 
-TEST(ForwardJump, RefusesSingleStampsInTheFuture) {
+TEST(ForwardJump, RejectsSingleStampsInTheFuture) {
   EXPECT_EQ(Accepted({0, 900, 10, 900, 20, 800, 30}), (Stamps{0, 10, 20, 30}));
 }
 
@@ -30,11 +30,11 @@ TEST(ForwardJump, AGapCostsOneStamp) {
   EXPECT_EQ(Accepted({0, 100, 105, 110}), (Stamps{0, 105, 110}));
 }
 
-TEST(ForwardJump, AStreamOfLeapsGoesOn) {
+TEST(ForwardJump, StreamOfLeapsContinues) {
   EXPECT_EQ(Accepted({0, 20, 40, 60, 80}), (Stamps{0, 40, 80}));
 }
 
-TEST(ForwardJump, AFutureThatGoesBackConfirmsNothing) {
+TEST(ForwardJump, LeapIsNotConfirmedByAStepBack) {
   EXPECT_EQ(Accepted({0, 900, 800, 10}), (Stamps{0, 10}));
 }
 

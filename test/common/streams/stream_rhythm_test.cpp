@@ -8,14 +8,14 @@ namespace {
 
 constexpr int64_t kMs = 1'000'000;
 
-TEST(StreamRhythm, IsSilentUntilItKnows) {
+TEST(StreamRhythm, ReportsNothingBeforeEnoughStamps) {
   StreamRhythm rhythm;
   for (int64_t i = 0; i < 100; ++i) rhythm.Add(50 * i * kMs);
   EXPECT_EQ(rhythm.Interval(), 0);
   EXPECT_EQ(rhythm.Jitter(), 0);
 }
 
-TEST(StreamRhythm, AStampThatIsMissingIsNoJitter) {
+TEST(StreamRhythm, MissingStampIsNotJitter) {
   StreamRhythm rhythm;
   for (int64_t i = 0; i < 150; ++i) {
     if (i % 10 != 3) rhythm.Add(50 * i * kMs);

@@ -108,7 +108,7 @@ TEST_P(CornerDetectorTest, FindsNothingInBlankOrNoisyDarkImages) {
   EXPECT_TRUE(detector.Detect(noise, {}, 60).empty());
 }
 
-TEST_P(CornerDetectorTest, FindsNothingWhenNothingIsWanted) {
+TEST_P(CornerDetectorTest, FindsNothingIfZeroAreRequested) {
   EXPECT_TRUE(CornerDetector(config_, {}).Detect(TexturedScene().View(), {}, 0).empty());
 }
 

@@ -38,7 +38,7 @@ TEST(RefineCorner, FindsTheSubpixelPosition) {
   }
 }
 
-TEST(RefineCorner, AgreesWithOpenCvWhereThatConverges) {
+TEST(RefineCorner, AgreesWithOpenCvIfItConverges) {
   const cv::Mat image = Saddle({41.2, 38.6});
   std::vector<cv::Point2f> expected{{40, 40}};
   cv::cornerSubPix(image, expected, {kRefinementRadius_px, kRefinementRadius_px}, {-1, -1},
@@ -61,7 +61,7 @@ TEST(RefineCorner, RejectsAWindowThatLeavesTheImage) {
   EXPECT_FALSE(RefineCorner(Saddle({40, kSize - border}), {40, kSize - border}));
 }
 
-TEST(RefineCorner, RejectsWhatIsNoCorner) {
+TEST(RefineCorner, RejectsEdgesAndBlankImages) {
   EXPECT_FALSE(RefineCorner(cv::Mat(kSize, kSize, CV_8UC1, cv::Scalar(90)), {40, 40}));
   cv::Mat edge(kSize, kSize, CV_8UC1, cv::Scalar(90));
   edge.colRange(0, 40).setTo(200);

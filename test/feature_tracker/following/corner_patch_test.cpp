@@ -49,7 +49,7 @@ TEST_F(CornerPatchTest, FindsAnAffineWarp) {
   }
 }
 
-TEST_F(CornerPatchTest, DoesNotMindGainAndOffset) {
+TEST_F(CornerPatchTest, IsInvariantToGainAndOffset) {
   const PatchPose truth{Linear(0.1, 1.05, 0), {181.3, 121.8}};
   cv::Mat darker;
   scene_.View(Warp(truth)).convertTo(darker, CV_8U, 0.6, 20);
@@ -58,13 +58,13 @@ TEST_F(CornerPatchTest, DoesNotMindGainAndOffset) {
   EXPECT_LT((found->center - truth.center).norm(), 0.03);
 }
 
-TEST_F(CornerPatchTest, RefusesWhatLooksDifferent) {
+TEST_F(CornerPatchTest, RejectsDifferentPatches) {
   EXPECT_FALSE(patch_.Align(TexturedScene(2).View(), {Linear(0, 1, 0), kCenter}));
   cv::Mat inverted = 255 - scene_.View();
   EXPECT_FALSE(patch_.Align(inverted, {Linear(0, 1, 0), kCenter}));
 }
 
-TEST_F(CornerPatchTest, RefusesToMoveFar) {
+TEST_F(CornerPatchTest, RejectsLargeMotion) {
   const PatchPose start{Linear(0, 1, 0), kCenter};
   EXPECT_TRUE(patch_.Align(scene_.View(Translation(1.2, 0)), start));
   EXPECT_FALSE(patch_.Align(scene_.View(Translation(1.8, 0)), start));

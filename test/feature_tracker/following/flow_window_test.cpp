@@ -39,7 +39,7 @@ class FlowWindowTest : public testing::TestWithParam<int> {
   FlowWindow window_{GetParam()};
 };
 
-TEST_P(FlowWindowTest, StaysWhereItWasCut) {
+TEST_P(FlowWindowTest, StaysAtItsOrigin) {
   const cv::Mat image = Waves(GetParam());
   ASSERT_TRUE(window_.Cut(image, kCenter));
   const auto step = window_.Step(image, kCenter);
@@ -47,7 +47,7 @@ TEST_P(FlowWindowTest, StaysWhereItWasCut) {
   EXPECT_LT(cv::norm(*step), 0.002);
 }
 
-TEST_P(FlowWindowTest, StepsToWhereItWent) {
+TEST_P(FlowWindowTest, StepsToTheMotion) {
   const cv::Point2d shift(0.37, -0.22);
   ASSERT_TRUE(window_.Cut(Waves(GetParam()), kCenter));
   const cv::Mat moved = Waves(GetParam(), shift);
@@ -59,7 +59,7 @@ TEST_P(FlowWindowTest, StepsToWhereItWent) {
   EXPECT_LT(cv::norm(cv::Point2d(center - kCenter) - shift), 0.02);
 }
 
-TEST_P(FlowWindowTest, SeesNothingBeyondItsSide) {
+TEST_P(FlowWindowTest, IgnoresPixelsBeyondItsSide) {
   const int side = GetParam();
   const cv::Mat image = Waves(side);
   const cv::Point2f center(80, 80);
@@ -78,7 +78,7 @@ TEST_P(FlowWindowTest, SeesNothingBeyondItsSide) {
 }
 
 // Tests for overflow with the largest difference and the steepest gradients.
-TEST_P(FlowWindowTest, HoldsTheStrongestContrast) {
+TEST_P(FlowWindowTest, DoesNotOverflowAtFullContrast) {
   cv::Mat squares(kSize, kSize, CV_8UC1), inverse;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
@@ -94,7 +94,7 @@ TEST_P(FlowWindowTest, HoldsTheStrongestContrast) {
   EXPECT_LT(cv::norm(*step), 8);
 }
 
-TEST_P(FlowWindowTest, WantsTextureInBothDirections) {
+TEST_P(FlowWindowTest, NeedsTextureInBothDirections) {
   const cv::Mat flat(kSize, kSize, CV_8UC1, cv::Scalar(90));
   EXPECT_FALSE(window_.Cut(Bordered(flat, GetParam()), kCenter));
   cv::Mat stripes(kSize, kSize, CV_8UC1);

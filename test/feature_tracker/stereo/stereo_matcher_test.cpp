@@ -72,14 +72,14 @@ TEST_F(StereoMatcherTest, FindsPointsOfAPlaneToATenthOfAPixel) {
             ShareOf(RightSearch::kFound, tracks) - 1e-9);
 }
 
-TEST_F(StereoMatcherTest, FindsThemAgain) {
+TEST_F(StereoMatcherTest, FindsThemInTheNextPair) {
   StereoMatcher matcher(pair_);
   std::vector<PointTrack> tracks = Match(right_, &matcher);
   for (int i = 0; i < 3; ++i) matcher.Match(left_, right_, &tracks);
   EXPECT_GT(ShareOfTrue(tracks, StereoMounting(), 0.1), 0.85);
 }
 
-TEST_F(StereoMatcherTest, LearnsHowTheCameraIsReallyMounted) {
+TEST_F(StereoMatcherTest, LearnsTheActualMounting) {
   const Rigid3d truth = {
       SO3Exp(Eigen::Vector3d(0.3, 0.2, -0.3) * kDegree) * StereoMounting().rotation,
       StereoMounting().translation};
@@ -114,7 +114,7 @@ TEST_F(StereoMatcherTest, SearchesAtOnceForTracksThatBeganInSkippedImages) {
   EXPECT_GT(ShareOf(RightSearch::kFound, tracks), 0.9);
 }
 
-TEST_F(StereoMatcherTest, SaysThatThereIsNoImage) {
+TEST_F(StereoMatcherTest, ReportsAMissingImage) {
   StereoMatcher matcher(pair_);
   const std::vector<PointTrack> tracks = Match(cv::Mat(), &matcher);
   EXPECT_EQ(ShareOf(RightSearch::kNoImage, tracks), 1);

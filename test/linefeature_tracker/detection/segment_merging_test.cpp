@@ -22,7 +22,7 @@ TEST(SegmentMergingTest, JoinsUprightLines) {  // the angle wraps at vertical li
   EXPECT_NEAR(joined[0].Length(), 65, 0.01);
 }
 
-TEST(SegmentMergingTest, LeavesOtherLinesAlone) {
+TEST(SegmentMergingTest, KeepsOtherLines) {
   const LineSegment base{{0, 0}, {40, 0}};
   const std::vector<LineSegment> others = {
       {{43, 4}, {80, 4}},     // parallel
@@ -49,7 +49,7 @@ TEST(SegmentMergingTest, KeepsAllOfAThousandLines) {
   for (const LineSegment& line : joined) EXPECT_NEAR(line.Length(), 60, 1e-9);
 }
 
-TEST(SegmentMergingTest, NothingFromNothing) { EXPECT_TRUE(JoinFragments({}, kLimits).empty()); }
+TEST(SegmentMergingTest, NoSegmentsGiveNone) { EXPECT_TRUE(JoinFragments({}, kLimits).empty()); }
 
 }  // namespace
 }  // namespace plm_vins

@@ -68,7 +68,7 @@ TEST_F(LineFlowTest, LowCorrelationWhereTheLineIsGone) {
   EXPECT_TRUE(!found || found->correlation < 0.5);
 }
 
-TEST_F(LineFlowTest, NothingOutsideOfTheImage) {
+TEST_F(LineFlowTest, FindsNothingOutsideTheImage) {
   const auto pyramid = LineFlow::BuildPyramid(scene_.View());
   const LineSegment outside{{2.0, 0.0}, {2.2, 0.1}};
   EXPECT_FALSE(flow_.Track(pyramid, pyramid, scene_.Edges()[0], outside));

@@ -6,7 +6,7 @@
 namespace plm_vins {
 namespace {
 
-TEST(LineOccupancyTest, TellsCopiesFromNeighbours) {
+TEST(LineOccupancyTest, DistinguishesDuplicatesFromNeighbors) {
   LineOccupancy occupied(5);
   EXPECT_FALSE(occupied.IsTaken({{0, 0}, {100, 0}}));
   occupied.Add({{0, 0}, {100, 0}});

@@ -96,12 +96,12 @@ TEST_F(SingleBarTest, OrientsByTheBrighterSide) {
   }
 }
 
-TEST_F(SingleBarTest, RefusesAnEdgeOfTheOtherSign) {
+TEST_F(SingleBarTest, RejectsAnEdgeOfTheOtherSign) {
   EXPECT_TRUE(refinement_.Refine(image_, Upper(), 4));
   EXPECT_FALSE(refinement_.Refine(image_, Upper().Reversed(), 4));
 }
 
-TEST_F(SingleBarTest, RefusesWhereThereIsNoEdge) {
+TEST_F(SingleBarTest, RejectsWhereThereIsNoEdge) {
   EXPECT_FALSE(refinement_.Refine(image_, Moved(Upper(), 10, 10), 4));
   EXPECT_FALSE(refinement_.Refine(cv::Mat::zeros(480, 752, CV_8UC1), Upper(), 4));
 }
@@ -125,7 +125,7 @@ TEST_F(SingleBarTest, GrowsToTheEndsOfTheEdge) {
   EXPECT_NEAR(kFocal * line.end.x() + 375.5, 500, 8);
 }
 
-TEST_F(SingleBarTest, KeepsOffTheBorder) {
+TEST_F(SingleBarTest, KeepsDistanceFromTheBorder) {
   LineScene scene(PlainParameters(), 60);
   scene.AddBar({-100, 200}, {900, 200}, 40, 200);
   LineSegment line{scene.ToNormalised({10, 180}), scene.ToNormalised({740, 180})};
@@ -147,7 +147,7 @@ TEST_F(SingleBarTest, EndsWhereTheMaskBegins) {
       LineRefinement(LineTrackerConfig(), scene_.camera(), mask).Refine(image_, Upper(), 4));
 }
 
-TEST_F(SingleBarTest, RefusesShortLines) {
+TEST_F(SingleBarTest, RejectsShortLines) {
   const LineSegment guess{scene_.ToNormalised({180, 180}), scene_.ToNormalised({220, 180})};
   EXPECT_FALSE(refinement_.Refine(image_, guess, 2));  // about 30 px of it are an edge
 }

@@ -11,7 +11,7 @@ LineSegment AtAngle(double degrees) {
   return {{1, 2}, {1 + 3 * std::cos(angle), 2 + 3 * std::sin(angle)}};
 }
 
-TEST(LineSegmentTest, DistanceIsSignedAndAlongCountsFromTheStart) {
+TEST(LineSegmentTest, DistanceIsSignedAndPositionCountsFromTheStart) {
   const LineSegment segment{{1, 1}, {5, 1}};
   EXPECT_DOUBLE_EQ(segment.Length(), 4);
   EXPECT_DOUBLE_EQ(segment.Distance({3, 3}), 2);

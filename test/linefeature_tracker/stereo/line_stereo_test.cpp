@@ -75,7 +75,7 @@ TEST_F(LineStereoTest, DoesNotMatchLinesAlongTheEpipolarCurves) {
   }
 }
 
-TEST_F(LineStereoTest, FlatterLinesAreKnownLessWell) {
+TEST_F(LineStereoTest, FlatterLinesHaveLargerDeviations) {
   const LineFrame frame = Match(scene_.View(Homography(kMounting)));
   double steepest = 0, flattest = 1, steepest_deviation = 0, flattest_deviation = 0;
   for (const LineObservation& line : frame.lines) {
@@ -93,7 +93,7 @@ TEST_F(LineStereoTest, FlatterLinesAreKnownLessWell) {
   EXPECT_LT(steepest_deviation, flattest_deviation);
 }
 
-TEST_F(LineStereoTest, FindsThemAgain) {
+TEST_F(LineStereoTest, FindsThemInTheNextPair) {
   LineTracker tracker(LineTrackerConfig(), scene_.camera(), {}, pair_);
   LineFrame frame;
   const cv::Mat left = scene_.View(), right = scene_.View(Homography(kMounting));

@@ -67,7 +67,7 @@ std::string ErrorOf(const std::string& file) {
   return "";
 }
 
-TEST_F(FeatureFile, GivesBackWhatWasWritten) {
+TEST_F(FeatureFile, SurvivesARoundTrip) {
   Write();
   FeatureFileReader reader(file_);
   EXPECT_EQ(reader.tracker_values(), kValues);
@@ -97,7 +97,7 @@ TEST_F(FeatureFile, GivesBackWhatWasWritten) {
   EXPECT_FALSE(reader.Next());
 }
 
-TEST_F(FeatureFile, GivesBackWhatFurtherSensorsSee) {
+TEST_F(FeatureFile, StereoAndDepthSurviveARoundTrip) {
   TrackedItem written = FrameItem();
   auto& points = written.frame->points.features.points;
   points[0].right = Eigen::Vector2d(0.05, 0.21);
@@ -126,14 +126,14 @@ TEST_F(FeatureFile, GivesBackWhatFurtherSensorsSee) {
   EXPECT_FALSE(reader.Next());
 }
 
-TEST_F(FeatureFile, NamesTheFileThatCannotBeUsed) {
+TEST_F(FeatureFile, ErrorNamesTheFile) {
   EXPECT_NE(ErrorOf(file_).find(file_ + ": cannot be read"), std::string::npos);
   std::ofstream(file_) << "a text that is longer than the signature of such a file";
   EXPECT_NE(ErrorOf(file_).find(file_ + ": is not a feature file"), std::string::npos);
   EXPECT_THROW(FeatureFileWriter(folder_.path() + "/missing/file", kValues), std::runtime_error);
 }
 
-TEST_F(FeatureFile, SaysOfOneOfAnotherVersionThatItMustBeRecordedAgain) {
+TEST_F(FeatureFile, ReportsAnotherVersion) {
   std::ofstream(file_) << "plm_features v1\n" << std::string(100, '\1');
   EXPECT_EQ(ErrorOf(file_),
             file_ +
@@ -141,7 +141,7 @@ TEST_F(FeatureFile, SaysOfOneOfAnotherVersionThatItMustBeRecordedAgain) {
                 "--save-features");
 }
 
-TEST_F(FeatureFile, SaysWhereItsValuesAreDamagedOrCutOff) {
+TEST_F(FeatureFile, ReportsDamagedOrTruncatedValues) {
   Write();
   std::string bytes = folder_.Read("flight.features");
   ASSERT_EQ(bytes.substr(kItemsBegin - 1, 2), "}\1");
@@ -153,7 +153,7 @@ TEST_F(FeatureFile, SaysWhereItsValuesAreDamagedOrCutOff) {
 }
 
 // The nesting exceeds the stack.
-TEST_F(FeatureFile, RefusesValuesWithinValues) {
+TEST_F(FeatureFile, RejectsNestedValues) {
   constexpr uint32_t kDepth = 300'000;
   for (const std::string& text :
        {R"({"freq":)" + std::string(kDepth, '[') + std::string(kDepth, ']') + "}",
@@ -166,13 +166,13 @@ TEST_F(FeatureFile, RefusesValuesWithinValues) {
   }
 }
 
-TEST_F(FeatureFile, TakesListsOfNumbersAsValues) {
+TEST_F(FeatureFile, AcceptsListsOfNumbersAsValues) {
   const Json values = {{"freq", 10.0}, {"coefficients", {0.1, 0.2}}};
   FeatureFileWriter(file_, values).Close();
   EXPECT_EQ(FeatureFileReader(file_).tracker_values(), values);
 }
 
-TEST_F(FeatureFile, SaysWhereAFileEndsTooEarlyOrIsDamaged) {
+TEST_F(FeatureFile, ReportsATruncatedOrDamagedFile) {
   Write();
   const auto size = std::filesystem::file_size(file_);
   std::filesystem::resize_file(file_, size - 9);
@@ -187,13 +187,13 @@ TEST_F(FeatureFile, SaysWhereAFileEndsTooEarlyOrIsDamaged) {
 }
 
 // A power failure while writing can leave zeros at the end of a file.
-TEST_F(FeatureFile, DoesNotTakeZerosForAnImage) {
+TEST_F(FeatureFile, RejectsAFileOfZeros) {
   Write();
   std::ofstream(file_, std::ios::app | std::ios::binary) << std::string(46, '\0');
   EXPECT_NE(ErrorOf(file_).find(file_ + ": is damaged"), std::string::npos);
 }
 
-TEST_F(FeatureFile, TakesNoFeaturesThatNoTrackerGives) {
+TEST_F(FeatureFile, RejectsImpossibleFeatures) {
   TrackedItem with_a_point = FrameItem();
   with_a_point.frame->points.features.points[1].id = 7;  // duplicate id
   TrackedItem with_a_line = FrameItem();

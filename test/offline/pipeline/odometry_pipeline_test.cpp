@@ -68,7 +68,7 @@ TEST(OdometryPipeline, DrawsPointsAndLinesOfOneImage) {
   }
 }
 
-TEST(OdometryPipeline, EndsWhereItIsAskedTo) {
+TEST(OdometryPipeline, EndsOnRequest) {
   const testing::TemporaryFolder folder;
   for (const int threads : {1, 4}) {
     MemoryRecording recording = StillRecording(3000);
@@ -90,7 +90,7 @@ TEST(OdometryPipeline, EndsWhereItIsAskedTo) {
   EXPECT_LT(pipeline.images(), 11);
 }
 
-TEST(OdometryPipeline, ShowsTracksEverySoOften) {
+TEST(OdometryPipeline, DrawsTracksAtTheInterval) {
   MemoryRecording recording = StillRecording(400);  // an image every 50 ms
   OdometryPipeline pipeline(StillConfig());
   std::vector<int64_t> stamps_ns;
@@ -108,7 +108,7 @@ TEST(OdometryPipeline, ShowsTracksEverySoOften) {
   }
 }
 
-TEST(OdometryPipeline, FollowsLinesOnlyWhereTheyAreUsed) {
+TEST(OdometryPipeline, TracksLinesOnlyIfUsed) {
   for (const bool use_lines : {false, true}) {
     MemoryRecording recording = StillRecording(400);
     Config config = StillConfig();
@@ -158,7 +158,7 @@ TEST(OdometryPipeline, SavedFeaturesGiveTheSameBytesAsTheImages) {
   EXPECT_EQ(pipeline.images(), 60);
 }
 
-TEST(OdometryPipeline, CountsImagesWithoutTheLinesThatItWants) {
+TEST(OdometryPipeline, CountsImagesWithoutExpectedLines) {
   const testing::TemporaryFolder folder;
   const std::string file = folder.File("flight.features");
   Config config = StillConfig();
@@ -187,7 +187,7 @@ TEST(OdometryPipeline, ProcessesTheInterval) {
   EXPECT_EQ(result.frames, Steps(510, 1510));
 }
 
-TEST(OdometryPipeline, GoesOnPastUnreadableAndUnfitImages) {
+TEST(OdometryPipeline, SkipsUnreadableAndWrongImages) {
   MemoryRecording recording;
   for (int t = 0; t <= 500; t += 5) {
     recording.AddImu(t);
@@ -202,7 +202,7 @@ TEST(OdometryPipeline, GoesOnPastUnreadableAndUnfitImages) {
   EXPECT_EQ(result.drops.at("images_out_of_order"), 1);
 }
 
-TEST(OdometryPipeline, StartsOverOnceWhereTheRecordingBeginsAnew) {
+TEST(OdometryPipeline, RestartsOnceIfTheRecordingRestarts) {
   MemoryRecording recording = StillRecording(2000);
   for (int t = -4000; t <= -1000; t += 5) {
     recording.AddImu(t);
@@ -220,7 +220,7 @@ TEST(OdometryPipeline, StartsOverOnceWhereTheRecordingBeginsAnew) {
   EXPECT_GT(poses_after, 20);
 }
 
-TEST(OdometryPipeline, GoesOnPastBadImuSamples) {
+TEST(OdometryPipeline, SkipsBadImuSamples) {
   MemoryRecording recording = StillRecording(1000);
   recording.events()[20].imu.gyro.x() = std::numeric_limits<double>::quiet_NaN();
   recording.events()[40].imu.t_ns = kStart;
@@ -230,7 +230,7 @@ TEST(OdometryPipeline, GoesOnPastBadImuSamples) {
   EXPECT_EQ(result.drops.at("imu_out_of_order"), 1);
 }
 
-TEST(OdometryPipeline, GoesOnPastStampsInTheFuture) {
+TEST(OdometryPipeline, SkipsStampsInTheFuture) {
   MemoryRecording recording = StillRecording(1000);
   int64_t images = 0;
   for (RecordingEvent& event : recording.events()) {
@@ -244,7 +244,7 @@ TEST(OdometryPipeline, GoesOnPastStampsInTheFuture) {
   EXPECT_EQ(result.drops.at("image_restarts"), 0);
 }
 
-TEST(OdometryPipeline, BeginsWhereAFirstImageOfAWrongStampHasBeen) {
+TEST(OdometryPipeline, StartsAfterAFirstImageWithAWrongStamp) {
   for (const int64_t wrong_ns : {int64_t{0}, kStart + 1'000'000'000'000'000}) {
     MemoryRecording recording = StillRecording(3000);
     for (RecordingEvent& event : recording.events()) {
@@ -270,7 +270,7 @@ TEST(OdometryPipeline, CountsUnreadableImages) {
   EXPECT_EQ(pipeline.unused_images(), 1);
 }
 
-TEST(OdometryPipeline, CountsTheImagesThatItDidNotUse) {
+TEST(OdometryPipeline, CountsUnusedImages) {
   Config config = StillConfig();
   config.publish_rate = 10;  // skipped images are not lost
   OdometryPipeline pipeline(config);
@@ -284,7 +284,7 @@ TEST(OdometryPipeline, CountsTheImagesThatItDidNotUse) {
   EXPECT_EQ(pipeline.unused_images(), images - 15);
 }
 
-TEST(OdometryPipeline, WithoutImuItGivesNothingAndSaysWhy) {
+TEST(OdometryPipeline, ReportsAMissingImu) {
   MemoryRecording recording;
   for (int t = 0; t < 500; t += 50) recording.AddImage(t);
   const Result result = RunPipeline(std::move(recording));
@@ -292,7 +292,7 @@ TEST(OdometryPipeline, WithoutImuItGivesNothingAndSaysWhy) {
   EXPECT_EQ(result.drops.at("frames_without_imu"), 10);
 }
 
-TEST(OdometryPipeline, TellsWhereTheImuBeginsThatIsNotUsed) {
+TEST(OdometryPipeline, ReportsTheStartOfAnUnusedImu) {
   MemoryRecording recording;
   for (int t = 0; t < 500; t += 50) recording.AddImage(t);
   for (int t = 100'000; t < 100'500; t += 5) recording.AddImu(t);
@@ -302,7 +302,7 @@ TEST(OdometryPipeline, TellsWhereTheImuBeginsThatIsNotUsed) {
   EXPECT_EQ(pipeline.first_imu_ns(), kStart + 100'000 * kMillisecond);
 }
 
-TEST(OdometryPipeline, PassesOnWhatTheRecordingThrows) {
+TEST(OdometryPipeline, PropagatesExceptionsOfTheRecording) {
   for (const int threads : {1, 2, 3, 4}) {
     MemoryRecording recording = StillRecording(300);
     recording.Fail();
@@ -310,7 +310,7 @@ TEST(OdometryPipeline, PassesOnWhatTheRecordingThrows) {
   }
 }
 
-TEST(OdometryPipeline, PassesOnWhatTheReceiverThrows) {
+TEST(OdometryPipeline, PropagatesExceptionsOfTheReceiver) {
   for (const int threads : {1, 2, 3, 4}) {
     MemoryRecording recording = StillRecording(3000);
     OdometryPipeline pipeline(StillConfig());

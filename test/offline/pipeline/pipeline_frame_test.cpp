@@ -19,7 +19,7 @@ using testing::StillConfig;
 using testing::StillPicture;
 using testing::StillRecording;
 
-TEST(PipelineFrame, KeepsFewOfTheImagesThatTheImuDoesNotCover) {
+TEST(PipelineFrame, BoundsTheImagesThatTheImuDoesNotCover) {
   for (const bool loop_closure : {false, true}) {
     MemoryRecording recording;
     const cv::Mat picture = StillPicture().clone();
@@ -33,7 +33,7 @@ TEST(PipelineFrame, KeepsFewOfTheImagesThatTheImuDoesNotCover) {
   }
 }
 
-TEST(PipelineFrame, GivesPixelsToClosedLoopsOnly) {
+TEST(PipelineFrame, HasPixelsForLoopClosureOnly) {
   for (const bool loop_closure : {false, true}) {
     MemoryRecording recording = StillRecording(400);
     Config config = StillConfig();
@@ -64,7 +64,7 @@ void ExpectImuOf(const std::vector<PipelineFrame>& frames) {
   }
 }
 
-TEST(PipelineFrame, GivesEveryFrameTheImuSamplesSinceTheOneBefore) {
+TEST(PipelineFrame, HasTheImuSamplesSinceThePreviousFrame) {
   const testing::TemporaryFolder folder;
   std::vector<PipelineFrame> frames;
   const auto keep = [&](const PipelineFrame& frame) { frames.push_back(frame); };
@@ -84,7 +84,7 @@ TEST(PipelineFrame, GivesEveryFrameTheImuSamplesSinceTheOneBefore) {
   ExpectImuOf(frames);
 }
 
-TEST(PipelineFrame, GivesNoImuSampleOfBeforeAJumpBack) {
+TEST(PipelineFrame, HasNoImuSampleBeforeABackwardJump) {
   MemoryRecording recording = StillRecording(2000);
   for (int t = -4000; t <= -1000; t += 5) {
     recording.AddImu(t);

@@ -20,7 +20,7 @@ void CountUp(const ItemReceiver<int>& emit) {
   }
 }
 
-TEST(RunAhead, HandsOverAllItemsInOrder) {
+TEST(RunAhead, DeliversAllItemsInOrder) {
   std::vector<int> received;
   RunAhead<int>(kCapacity, CountUp, [&](int item) {
     received.push_back(item);
@@ -46,7 +46,7 @@ TEST(RunAhead, ProducesInAnotherThreadAndConsumesInThisOne) {
   EXPECT_EQ(consumer, std::this_thread::get_id());
 }
 
-TEST(RunAhead, ProducesNoFurtherAheadThanItMay) {
+TEST(RunAhead, RunsAheadByAtMostTheLimit) {
   std::atomic<int> produced = 0;
   int consumed = 0;
   RunAhead<int>(
@@ -63,7 +63,7 @@ TEST(RunAhead, ProducesNoFurtherAheadThanItMay) {
   EXPECT_EQ(consumed, kItems);
 }
 
-TEST(RunAhead, EndsTheProducerOnceNoMoreIsWanted) {
+TEST(RunAhead, StopsTheProducerOnRequest) {
   bool was_told = false;
   int consumed = 0;
   RunAhead<int>(
@@ -77,7 +77,7 @@ TEST(RunAhead, EndsTheProducerOnceNoMoreIsWanted) {
   EXPECT_EQ(consumed, 3);
 }
 
-TEST(RunAhead, PassesOnWhatTheProducerThrowsAfterItsItems) {
+TEST(RunAhead, PropagatesExceptionsOfTheProducerAfterItsItems) {
   int consumed = 0;
   EXPECT_THROW(RunAhead<int>(
                    kCapacity,
@@ -93,7 +93,7 @@ TEST(RunAhead, PassesOnWhatTheProducerThrowsAfterItsItems) {
   EXPECT_EQ(consumed, kItems);
 }
 
-TEST(RunAhead, PassesOnWhatTheConsumerThrows) {
+TEST(RunAhead, PropagatesExceptionsOfTheConsumer) {
   EXPECT_THROW(
       RunAhead<int>(kCapacity, CountUp, [](int) -> bool { throw std::runtime_error("disk full"); }),
       std::runtime_error);

@@ -13,7 +13,7 @@ namespace {
 
 using testing::StillConfig;
 
-TEST(TrackerValues, AreThoseThatTheEstimatorDoesNotFollow) {
+TEST(TrackerValues, AreKeysOfTheTrackers) {
   Config config = StillConfig();
   config.publish_rate = 12.5;
   const Json values = TrackerValues(config);
@@ -28,7 +28,7 @@ TEST(TrackerValues, AreThoseThatTheEstimatorDoesNotFollow) {
   EXPECT_FALSE(TrackerValues(config).contains("line_min_length"));
 }
 
-TEST(RecordedOtherwise, IsNothingWhereTheEstimatorAloneDiffers) {
+TEST(RecordedOtherwise, IsEmptyIfOnlyEstimatorKeysDiffer) {
   Config config = StillConfig();
   const Json recorded = Json::parse(TrackerValues(config).dump());
   config.estimator.window_size = 7;
@@ -39,7 +39,7 @@ TEST(RecordedOtherwise, IsNothingWhereTheEstimatorAloneDiffers) {
   EXPECT_EQ(RecordedOtherwise(TrackerValues(config), config), Json::object());
 }
 
-TEST(RecordedOtherwise, HasWhatWasRecordedAndAWarningThatNamesIt) {
+TEST(RecordedOtherwise, HasRecordedValuesAndAWarning) {
   Config config = StillConfig();
   config.use_lines = false;
   const Json recorded = TrackerValues(config);
@@ -61,7 +61,7 @@ TEST(RecordedOtherwise, HasWhatWasRecordedAndAWarningThatNamesIt) {
 }
 
 // Recorded lines may be ignored, and then their configuration does not matter.
-TEST(RecordedOtherwise, IsNothingWhereLinesAreLeftOut) {
+TEST(RecordedOtherwise, IsEmptyIfLinesAreIgnored) {
   Config config = StillConfig();
   const Json recorded = TrackerValues(config);
   config.use_lines = false;

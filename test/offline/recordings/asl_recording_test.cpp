@@ -36,7 +36,7 @@ class AslRecording : public ::testing::Test {
 };
 
 // OpenCV throws at such sizes.
-TEST_F(AslRecording, CountsAnImageWhoseHeaderAsksForTooMuch) {
+TEST_F(AslRecording, CountsImagesWithImpossibleHeaders) {
   folder_.Write("mav0/cam0/data/a.png", "P5 2000000 2000000 255 ");
   folder_.Write("mav0/cam0/data.csv", "10,a.png\n20," + std::string(300, 'b') + ".png\n30,c.png\n");
   const auto contents = ReadAll(OpenAslFolder(folder_.path()).get());
@@ -69,7 +69,7 @@ TEST_F(AslRecording, ReadsASecondCameraAndDepthIfTheyAreWanted) {
   EXPECT_EQ(ReadAll(OpenAslFolder(folder_.path()).get()).order, "mmimimi");
 }
 
-TEST_F(AslRecording, NamesTheFolderOfASecondCameraThatIsMissing) {
+TEST_F(AslRecording, ErrorNamesAMissingSecondCamera) {
   EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path(), /*with_right=*/true); }),
               HasSubstr("cam1/data.csv"));
 }
@@ -86,7 +86,7 @@ TEST_F(AslRecording, GivesStampsInTheFutureLast) {
   EXPECT_EQ(contents.order, "miimimi");
 }
 
-TEST_F(AslRecording, PutsRowsInOrderAndSaysWhichWereNot) {
+TEST_F(AslRecording, SortsRowsAndReportsUnsortedOnes) {
   folder_.Write("mav0/cam0/data.csv", "20,b.png\n5000000010,c.png\n10,a.png\n5000000000,a.png\n");
   folder_.Write("mav0/imu0/data.csv",
                 "25,0,0,0,3,0,0\n5,0,0,0,1,0,0\n5,0,0,0,2,0,0\n5000000005,0,0,0,4,0,0\n");
@@ -100,18 +100,18 @@ TEST_F(AslRecording, PutsRowsInOrderAndSaysWhichWereNot) {
   EXPECT_THAT(recording->problems()[2].detail, HasSubstr("cam0/data.csv:3"));
 }
 
-TEST_F(AslRecording, TakesTheInnerFolderToo) {
+TEST_F(AslRecording, AcceptsTheInnerFolder) {
   EXPECT_EQ(ReadAll(OpenAslFolder(folder_.File("mav0")).get()).order, "mmimimi");
 }
 
-TEST_F(AslRecording, MakesColourGrey) {
+TEST_F(AslRecording, ConvertsColorToGrey) {
   WriteImage("a.png", cv::Mat(4, 6, CV_8UC3, cv::Scalar(10, 100, 200)));
   const auto contents = ReadAll(OpenAslFolder(folder_.path()).get());
   ASSERT_EQ(contents.images[0].type(), CV_8UC1);
   EXPECT_NEAR(contents.images[0].at<uint8_t>(0, 0), 120, 1);
 }
 
-TEST_F(AslRecording, CountsMissingAndBrokenImagesAndGoesOn) {
+TEST_F(AslRecording, CountsMissingAndBrokenImagesAndContinues) {
   std::filesystem::remove(folder_.File("mav0/cam0/data/a.png"));
   folder_.Write("mav0/cam0/data/c.png", "this is no image");
   const auto recording = OpenAslFolder(folder_.path());
@@ -121,7 +121,7 @@ TEST_F(AslRecording, CountsMissingAndBrokenImagesAndGoesOn) {
   EXPECT_THAT(recording->problems()[0].detail, HasSubstr("a.png"));
 }
 
-TEST_F(AslRecording, CountsBadCsvLinesAndGoesOn) {
+TEST_F(AslRecording, CountsBadCsvLinesAndContinues) {
   folder_.Write("mav0/imu0/data.csv", "5,0,0,0,0,0,9\n6,0,0\n7,0,0,zero,0,0,9\n8,nan,0,0,0,0,9\n");
   folder_.Write("mav0/cam0/data.csv", "10,a.png\nnonsense\n20,b.png\n");
   const auto contents = ReadAll(OpenAslFolder(folder_.path()).get());
@@ -138,24 +138,24 @@ TEST_F(AslRecording, NamesTheLineOfTheFirstImuSampleThatIsNotNumeric) {
   EXPECT_THAT(recording->problems()[3].detail, HasSubstr("imu0/data.csv:2"));
 }
 
-TEST_F(AslRecording, SaysWhichPartIsMissing) {
+TEST_F(AslRecording, ErrorNamesAMissingPart) {
   std::filesystem::remove(folder_.File("mav0/imu0/data.csv"));
   EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path()); }), HasSubstr("imu0/data.csv"));
   EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.File("nothing")); }), HasSubstr("nothing"));
 }
 
-TEST_F(AslRecording, RefusesAFolderWithoutImages) {
+TEST_F(AslRecording, RejectsAFolderWithoutImages) {
   folder_.Write("mav0/cam0/data.csv", "#timestamp [ns],filename\n");
   EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path()); }), HasSubstr("no image"));
 }
 
-TEST_F(AslRecording, NamesTheFirstLineOfAFileThatHasNoUsableOne) {
+TEST_F(AslRecording, ErrorNamesTheFirstLineOfAnUnusableFile) {
   folder_.Write("mav0/imu0/data.csv", "#t,gyro,accel\n1.5,0,0,0,0,0,9\n1.6,0,0,0,0,0,9\n");
   EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path()); }),
               ::testing::AllOf(HasSubstr("\"stamp [ns],gyro"), HasSubstr("imu0/data.csv:2")));
 }
 
-TEST_F(AslRecording, RefusesAFolderWithoutImuSamples) {
+TEST_F(AslRecording, RejectsAFolderWithoutImuSamples) {
   folder_.Write("mav0/imu0/data.csv", "#timestamp [ns],wx,wy,wz,ax,ay,az\n");
   EXPECT_THAT(MessageOf([&] { OpenAslFolder(folder_.path()); }), HasSubstr("no IMU sample"));
 }

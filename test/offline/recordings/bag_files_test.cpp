@@ -28,7 +28,7 @@ class BagFiles : public ::testing::Test {
   const std::string second_ = folder_.File("flight/a_1.bag");
 };
 
-TEST_F(BagFiles, AreThoseOfFilesFoldersAndPatternsEachOnce) {
+TEST_F(BagFiles, ComeFromFilesFoldersAndPatternsOnce) {
   EXPECT_THAT(FindBags({second_, first_}), ElementsAre(first_, second_));
   EXPECT_THAT(FindBags({folder_.File("flight")}), ElementsAre(first_, second_));
   EXPECT_THAT(FindBags({folder_.File("*/a_?.bag")}), ElementsAre(first_, second_));
@@ -41,7 +41,7 @@ TEST_F(BagFiles, MayHaveTheCharactersOfAPatternInTheirNames) {
   EXPECT_THAT(FindBags({folder_.File("a[1].bag")}), ElementsAre(folder_.File("a[1].bag")));
 }
 
-TEST_F(BagFiles, NamesAPlaceWithoutAny) {
+TEST_F(BagFiles, ErrorNamesAPlaceWithoutBags) {
   EXPECT_THAT(MessageOf([&] { FindBags({folder_.File("*.bags")}); }),
               HasSubstr("no file matches " + folder_.File("*.bags")));
   EXPECT_THAT(MessageOf([&] {
@@ -53,7 +53,7 @@ TEST_F(BagFiles, NamesAPlaceWithoutAny) {
               AllOf(HasSubstr(folder_.File("empty")), HasSubstr("--asl")));
 }
 
-TEST_F(BagFiles, LeavesAFileThatIsMissingToItsReader) {
+TEST_F(BagFiles, PassesMissingFilesOn) {
   EXPECT_THAT(FindBags({"missing.bag"}), ElementsAre("missing.bag"));
 }
 

@@ -21,7 +21,7 @@ TEST(CsvReader, ReadsRowsWithBlanksAndWindowsLineEnds) {
   EXPECT_EQ(reader.bad_lines(), 0);
 }
 
-TEST(CsvReader, PassesOverBadLinesAndSaysWhereTheFirstWas) {
+TEST(CsvReader, SkipsBadLinesAndReportsTheFirst) {
   const testing::TemporaryFolder folder;
   folder.Write("data.csv", "#t,a\n1,ok\n2\nthree,3\n4.5,4\n5,ok\n");
   CsvReader reader(folder.File("data.csv"), 1);
@@ -32,7 +32,7 @@ TEST(CsvReader, PassesOverBadLinesAndSaysWhereTheFirstWas) {
   EXPECT_EQ(reader.first_bad_line(), folder.File("data.csv") + ":3");
 }
 
-TEST(CsvReader, PassesOverAByteOrderMark) {
+TEST(CsvReader, SkipsAByteOrderMark) {
   const testing::TemporaryFolder folder;
   folder.Write("data.csv",
                "\xef\xbb\xbf"
@@ -45,7 +45,7 @@ TEST(CsvReader, PassesOverAByteOrderMark) {
   }
 }
 
-TEST(CsvReader, PassesOverStampsThatNoClockHas) {
+TEST(CsvReader, SkipsInvalidStamps) {
   const testing::TemporaryFolder folder;
   folder.Write("data.csv",
                "-1,a\n9223372036854775807,a\n4294967296000000000,a\n"
@@ -55,7 +55,7 @@ TEST(CsvReader, PassesOverStampsThatNoClockHas) {
   EXPECT_EQ(reader.bad_lines(), 3);
 }
 
-TEST(CsvReader, NamesTheFileThatIsMissing) {
+TEST(CsvReader, ErrorNamesAMissingFile) {
   try {
     CsvReader reader("no/such/data.csv", 1);
     FAIL() << "no exception";

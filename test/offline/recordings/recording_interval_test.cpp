@@ -16,7 +16,7 @@ RecordingEvent Event(RecordingEvent::Kind kind, double seconds) {
 RecordingEvent Image(double seconds) { return Event(RecordingEvent::Kind::kImage, seconds); }
 RecordingEvent Imu(double seconds) { return Event(RecordingEvent::Kind::kImu, seconds); }
 
-TEST(RecordingInterval, TakesEverythingByDefault) {
+TEST(RecordingInterval, IncludesEverythingByDefault) {
   RecordingInterval interval;
   EXPECT_EQ(interval.Locate(Imu(-5)), Part::kUse);
   EXPECT_EQ(interval.Locate(Image(0)), Part::kUse);
@@ -33,7 +33,7 @@ TEST(RecordingInterval, CountsFromTheFirstImage) {
   EXPECT_EQ(interval.Locate(Image(5.05)), Part::kSkip);
 }
 
-TEST(RecordingInterval, TakesImuSamplesAroundTheImages) {
+TEST(RecordingInterval, IncludesImuSamplesAroundTheImages) {
   RecordingInterval interval(2, 3);
   interval.Locate(Image(0));
   EXPECT_EQ(interval.Locate(Imu(1.7)), Part::kSkip);
@@ -44,7 +44,7 @@ TEST(RecordingInterval, TakesImuSamplesAroundTheImages) {
   EXPECT_EQ(interval.Locate(Image(5.35)), Part::kEnd);
 }
 
-TEST(RecordingInterval, UsesWhatJumpsBackInTime) {
+TEST(RecordingInterval, IncludesDataAfterABackwardJump) {
   RecordingInterval interval;
   interval.Locate(Image(0));
   EXPECT_EQ(interval.Locate(Image(-100)), Part::kUse);

@@ -145,7 +145,7 @@ TEST_F(LoopResultsTest, WaitsForPoses) {
   EXPECT_TRUE(results.Summary()["first_fix_s"].is_null());
 }
 
-TEST_F(LoopResultsTest, SaysInTheTrajectoryWhereAWorldBeginsThatIsNotInTheMap) {
+TEST_F(LoopResultsTest, MarksUnconnectedWorldsInTheTrajectory) {
   LoopResults results(config_, folder_.path(), std::nullopt);
   for (int i = 0; i < 3; ++i) results.Add(FrameAt(0.4 * i));
   PipelineFrame restarted = FrameAt(0);
@@ -174,14 +174,14 @@ TEST_F(LoopResultsTest, StartsInAMap) {
   EXPECT_THAT(folder_.Read("trajectory_final.tum"), StartsWith("# the world frame starts anew"));
 }
 
-TEST_F(LoopResultsTest, WantsImages) {
+TEST_F(LoopResultsTest, NeedsImages) {
   LoopResults results(config_, folder_.path(), std::nullopt);
   PipelineFrame frame = FrameAt(0);
   frame.image.gray.release();
   EXPECT_THROW(results.Add(frame), std::runtime_error);
 }
 
-TEST_F(LoopResultsTest, NamesTheFolderThatItCannotWriteTo) {
+TEST_F(LoopResultsTest, ErrorNamesAnUnwritableFolder) {
   try {
     const LoopResults results(config_, folder_.File("missing"), std::nullopt);
     FAIL();

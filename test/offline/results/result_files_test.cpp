@@ -67,7 +67,7 @@ TEST(ResultFiles, ATrackImageHasPointsAndLinesSideBySide) {
   EXPECT_TRUE(cv::imread(folder.File("run/tracks/7.jpg")).empty());
 }
 
-TEST(ResultFiles, TakeThePlaceOfThoseOfAnEarlierRun) {
+TEST(ResultFiles, ReplaceThoseOfAnEarlierRun) {
   const testing::TemporaryFolder folder;
   for (const char* name : {"trajectory_map.tum", "loops.csv", "colmap/images.txt", "summary.json",
                            "line_tracks.png", "tracks/1403636579.jpg"}) {
@@ -135,7 +135,7 @@ TEST(ResultFiles, AreWrittenFrameByFrame) {
 }
 
 // A bridged loss keeps the world frame, but starts another window with new landmarks.
-TEST(ResultFiles, KeepTheLandmarksOfAWindowThatWasLost) {
+TEST(ResultFiles, KeepTheLandmarksOfALostWindow) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());
   PipelineFrame frame = MakeFrame(1'000'000'000, true);
@@ -153,7 +153,7 @@ TEST(ResultFiles, KeepTheLandmarksOfAWindowThatWasLost) {
   EXPECT_THAT(folder.Read("lines.ply"), HasSubstr("element edge 1\n"));
 }
 
-TEST(ResultFiles, HoldAConfigurationWithTheCalibrationThatWasFound) {
+TEST(ResultFiles, HoldTheRefinedCalibration) {
   const testing::TemporaryFolder folder;
   Config config;
   config.sensor.estimate_td = true;
@@ -170,7 +170,7 @@ TEST(ResultFiles, HoldAConfigurationWithTheCalibrationThatWasFound) {
   EXPECT_EQ(calibrated(Config(), frame), "") << "nothing was refined";
 }
 
-TEST(ResultFiles, TellOfANewWorldFrameBetweenTheRows) {
+TEST(ResultFiles, MarkANewWorldFrameBetweenRows) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());
   results.Add(MakeFrame(1'000'000'000, true));
@@ -184,7 +184,7 @@ TEST(ResultFiles, TellOfANewWorldFrameBetweenTheRows) {
               HasSubstr("\n# the world frame starts anew: it flew away\n3.000000000 "));
 }
 
-TEST(ResultFiles, KeepThePosesOfBeforeAJumpBackInFilesOfTheirOwn) {
+TEST(ResultFiles, KeepPosesBeforeABackwardJumpInSeparateFiles) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());
   for (const int64_t t : {100, 101, 102}) results.Add(MakeFrame(t * 1'000'000'000, true));
@@ -216,7 +216,7 @@ PipelineFrame FrameThatLosesTwoLines() {
   return frame;
 }
 
-TEST(ResultFiles, HoldALineThatCameBackOnceAsKnownLast) {
+TEST(ResultFiles, HoldARecognizedLineOnce) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());
   results.Add(FrameThatLosesTwoLines());
@@ -234,7 +234,7 @@ TEST(ResultFiles, HoldALineThatCameBackOnceAsKnownLast) {
   EXPECT_THAT(lines, HasSubstr("v 4.0000 0.0000 1.0000\n"));
 }
 
-TEST(ResultFiles, HoldALineThatBecamePartOfAnotherAsThatOne) {
+TEST(ResultFiles, HoldAMergedLineOnce) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());
   results.Add(FrameThatLosesTwoLines());
@@ -247,7 +247,7 @@ TEST(ResultFiles, HoldALineThatBecamePartOfAnotherAsThatOne) {
   EXPECT_THAT(folder.Read("lines.obj"), HasSubstr("v 3.0000 0.0000 1.0000\n"));
 }
 
-TEST(ResultFiles, HoldWhatLeavesWithTheLastFrameOnceAndInFull) {
+TEST(ResultFiles, HoldLandmarksOfTheLastFrameOnce) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());
   PipelineFrame frame = MakeFrame(1'000'000'000, true);
@@ -261,7 +261,7 @@ TEST(ResultFiles, HoldWhatLeavesWithTheLastFrameOnceAndInFull) {
   EXPECT_THAT(folder.Read("lines.obj"), HasSubstr("v 1.0000 0.0000 5.0000\n"));
 }
 
-TEST(ResultFiles, LeaveTheLinesOfAFormerWorldFrameAsTheyWere) {
+TEST(ResultFiles, KeepLinesOfAnEarlierWorldFrame) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());
   PipelineFrame frame = MakeFrame(1'000'000'000, true);
@@ -283,7 +283,7 @@ TEST(ResultFiles, LeaveTheLinesOfAFormerWorldFrameAsTheyWere) {
   }
 }
 
-TEST(ResultFiles, HoldAnAnnotatedImageWhereThereIsOne) {
+TEST(ResultFiles, HoldAnAnnotatedImageIfDrawn) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.File("results"));
   results.WriteAnnotatedImage("tracks.png", cv::Mat());
@@ -292,7 +292,7 @@ TEST(ResultFiles, HoldAnAnnotatedImageWhereThereIsOne) {
   EXPECT_EQ(cv::imread(folder.File("results/tracks.png")).size(), cv::Size(30, 20));
 }
 
-TEST(ResultFiles, AreCompleteWithoutAPictureThatCannotBeWritten) {
+TEST(ResultFiles, AreCompleteDespiteAnUnwritablePicture) {
   const testing::TemporaryFolder folder;
   ResultFiles results(folder.path());
   folder.Write("tracks.png/in", "a folder of that name");
@@ -306,7 +306,7 @@ TEST(ResultFiles, AreCompleteWithoutAPictureThatCannotBeWritten) {
   EXPECT_TRUE(fs::exists(folder.File("summary.json")));
 }
 
-TEST(ResultFiles, NameAFolderThatCannotBeMade) {
+TEST(ResultFiles, ErrorNamesAFolderThatCannotBeMade) {
   const testing::TemporaryFolder folder;
   folder.Write("file", "");
   EXPECT_THAT(testing::MessageOf([&] { ResultFiles(folder.File("file")); }),

@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-TEST(TimedFile, IsOneFileWhereTimeRunsForward) {
+TEST(TimedFile, IsOneFileIfTimeRunsForward) {
   const testing::TemporaryFolder folder;
   TimedFile file(folder.File("rows.csv"), "names\n");
   file.Row(1) << "one\n";
@@ -20,7 +20,7 @@ TEST(TimedFile, IsOneFileWhereTimeRunsForward) {
   EXPECT_EQ(folder.Read("rows.csv"), "names\none\n# why\ntwo\n# end\n");
 }
 
-TEST(TimedFile, KeepsWhatCameBeforeEachJumpBack) {
+TEST(TimedFile, KeepsRowsBeforeEachBackwardJump) {
   const testing::TemporaryFolder folder;
   TimedFile file(folder.File("rows.csv"), "names\n");
   file.Row(8) << "eight\n";

@@ -166,7 +166,7 @@ TEST_F(BagRecording, ReadsCompressedImagesOnTheTopicItself) {
   ExpectComplete(Read());
 }
 
-TEST_F(BagRecording, NamesTheTopicsThatThereAre) {
+TEST_F(BagRecording, ErrorListsExistingTopics) {
   WriteBag("/camera/left", RawImage);
   EXPECT_THAT(MessageOf([&] { Read(); }),
               AllOf(HasSubstr(file_ + " has no topic /cam0/image_raw (sensor_msgs/Image"),
@@ -175,7 +175,7 @@ TEST_F(BagRecording, NamesTheTopicsThatThereAre) {
                     HasSubstr("/imu0 (sensor_msgs/Imu)"), HasSubstr("/other (std_msgs/Bool)")));
 }
 
-TEST_F(BagRecording, NamesBothTopicsAndTheirKeysWhereBothAreMissing) {
+TEST_F(BagRecording, ErrorNamesBothMissingTopicsAndTheirKeys) {
   WriteBag("/camera/left", RawImage);
   EXPECT_THAT(MessageOf([&] { OpenBags({file_}, "/cam0", "/imu"); }),
               AllOf(HasSubstr("no topic /cam0 ("), HasSubstr("key image_topic"),
@@ -188,7 +188,7 @@ TEST_F(BagRecording, FindsATopicWithoutALeadingSlash) {
   ExpectComplete(ReadAll(OpenBags({file_}, "cam0/image_raw", "imu0").get()));
 }
 
-TEST_F(BagRecording, SaysFromWhichTopicImagesAndSamplesCome) {
+TEST_F(BagRecording, NamesTheTopicsOfImagesAndSamples) {
   WriteBag("/cam0/image_raw/compressed", CompressedImage);
   const auto recording = OpenBags({file_}, "/cam0/image_raw", "/imu0");
   EXPECT_EQ(recording->Source(RecordingEvent::Kind::kImage),
@@ -196,7 +196,7 @@ TEST_F(BagRecording, SaysFromWhichTopicImagesAndSamplesCome) {
   EXPECT_EQ(recording->Source(RecordingEvent::Kind::kImu), "imu_topic /imu0");
 }
 
-TEST_F(BagRecording, RefusesATopicOfAnotherType) {
+TEST_F(BagRecording, RejectsATopicOfAnotherType) {
   WriteBag("/cam0/image_raw", RawImage);
   EXPECT_THAT(MessageOf([&] { OpenBags({file_}, "/cam0/image_raw", "/other"); }),
               HasSubstr("no topic /other (sensor_msgs/Imu)"));
@@ -208,7 +208,7 @@ TEST_F(BagRecording, NamesTheRemedyForATruncatedBag) {
   EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("\"rosbag reindex " + file_ + "\""));
 }
 
-TEST_F(BagRecording, NamesTheRemedyForAnIndexThatLeadsAstray) {
+TEST_F(BagRecording, NamesTheRemedyForAWrongIndex) {
   for (const auto compression : {rosbag::compression::Uncompressed, rosbag::compression::LZ4}) {
     WriteBag("/cam0/image_raw", RawImage, compression);
     SetImuOffset(INT32_MAX);
@@ -218,7 +218,7 @@ TEST_F(BagRecording, NamesTheRemedyForAnIndexThatLeadsAstray) {
 
 // A bag of 2 MB that would require 40 MB: each copy of the chunk's index entry lists all messages
 // again. Entries that list index records without messages would only take time.
-TEST_F(BagRecording, RefusesAnIndexThatNamesOneChunkAgainAndAgain) {
+TEST_F(BagRecording, RejectsAnIndexWithRepeatedChunks) {
   for (const uint32_t lists : {3u, 0u}) {
     WriteBag("/cam0/image_raw", RawImage, rosbag::compression::Uncompressed, 10'000'000);
     std::string bytes = folder_.Read("test.bag");
@@ -233,7 +233,7 @@ TEST_F(BagRecording, RefusesAnIndexThatNamesOneChunkAgainAndAgain) {
 }
 
 // The second chunk claims to end where the third one does, and has its index records.
-TEST_F(BagRecording, RefusesChunksThatOverlap) {
+TEST_F(BagRecording, RejectsChunksThatOverlap) {
   WriteBag("/cam0/image_raw", RawImage);
   std::string bytes = folder_.Read("test.bag");
   const size_t first = bytes.find(kChunkHeader);
@@ -245,7 +245,7 @@ TEST_F(BagRecording, RefusesChunksThatOverlap) {
   EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("chunks that overlap"));
 }
 
-TEST_F(BagRecording, LeavesOutAMessageThatIsNotWhereTheIndexSays) {
+TEST_F(BagRecording, DropsAMessageWithAWrongOffset) {
   for (const auto compression : kCompressions) {
     WriteBag("/cam0/image_raw", RawImage, compression);
     SetImuOffset(7);  // in the middle of a record
@@ -259,7 +259,7 @@ TEST_F(BagRecording, LeavesOutAMessageThatIsNotWhereTheIndexSays) {
 }
 
 // The data after the chunk are still read.
-TEST_F(BagRecording, LeavesOutAChunkThatDoesNotUnpack) {
+TEST_F(BagRecording, DropsAChunkThatDoesNotUnpack) {
   for (const auto compression : {rosbag::compression::BZ2, rosbag::compression::LZ4}) {
     WriteBag("/cam0/image_raw", RawImage, compression);
     std::string bytes = folder_.Read("test.bag");
@@ -278,7 +278,7 @@ TEST_F(BagRecording, LeavesOutAChunkThatDoesNotUnpack) {
 }
 
 // The content was damaged before packing, so checksums do not detect it.
-TEST_F(BagRecording, LeavesOutWhatIsWrongInsideOfACompressedChunk) {
+TEST_F(BagRecording, DropsDamagedMessagesOfACompressedChunk) {
   WriteBag("/cam0/image_raw", RawImage, rosbag::compression::Uncompressed, 10'000'000);
   const testing::BagWithOneChunk good(folder_.Read("test.bag"));
   for (const std::string compression : {"bz2", "lz4"}) {
@@ -302,7 +302,7 @@ TEST_F(BagRecording, LeavesOutWhatIsWrongInsideOfACompressedChunk) {
 }
 
 // The message claims 4 GiB of pixels instead of 3 KiB.
-TEST_F(BagRecording, MakesNoRoomForPixelsThatAreNotThere) {
+TEST_F(BagRecording, DoesNotAllocateForMissingPixels) {
   WriteBag("/cam0/image_raw", RawImage);
   std::string bytes = folder_.Read("test.bag");
   const std::string before_size = std::string("mono8") + '\0' + std::string("\x40\0\0\0", 4);
@@ -324,7 +324,7 @@ TEST_F(BagRecording, NamesTheRemedyForABagThatWasNeverClosed) {
 }
 
 // An input found by fuzzing: the header of a chunk claims 4 GiB.
-TEST_F(BagRecording, RefusesChunksThatClaimToBeHuge) {
+TEST_F(BagRecording, RejectsChunksThatClaimToBeHuge) {
   for (const auto compression : kCompressions) {
     WriteBag("/cam0/image_raw", RawImage, compression);
     std::string bytes = folder_.Read("test.bag");
@@ -336,7 +336,7 @@ TEST_F(BagRecording, RefusesChunksThatClaimToBeHuge) {
   }
 }
 
-TEST_F(BagRecording, EveryTruncationIsReadOrRefusedWithoutACrash) {
+TEST_F(BagRecording, EveryTruncationIsReadOrRejectedWithoutACrash) {
   WriteBag("/cam0/image_raw", RawImage);
   for (double share = 0.99; share > 0; share -= 0.07) {
     Truncate(share);
@@ -345,7 +345,7 @@ TEST_F(BagRecording, EveryTruncationIsReadOrRefusedWithoutACrash) {
   }
 }
 
-TEST_F(BagRecording, RefusesWhatIsNoBag) {
+TEST_F(BagRecording, RejectsOtherFiles) {
   folder_.Write("test.bag", "PNG or whatever\n");
   EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("is not a ROS bag"));
   folder_.Write("test.bag", "");
@@ -357,7 +357,7 @@ TEST_F(BagRecording, RefusesWhatIsNoBag) {
   EXPECT_THAT(MessageOf([&] { Read(); }), HasSubstr("is not a file"));
 }
 
-TEST_F(BagRecording, CountsImagesOfUnknownEncodingAndGoesOn) {
+TEST_F(BagRecording, CountsImagesOfUnknownEncodingAndContinues) {
   WriteBag("/cam0/image_raw", [](int i) {
     sensor_msgs::Image image = RawImage(i);
     if (i == 10) image.encoding = "secret";

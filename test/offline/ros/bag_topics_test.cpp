@@ -85,7 +85,7 @@ class BagTopics : public ::testing::Test {
 };
 
 // The messages come before or after the images.
-TEST_F(BagTopics, MessagesOfAnotherTypeAreCountedAndDoNotKeepFromTheOthers) {
+TEST_F(BagTopics, MessagesOfAnotherTypeAreCountedAndSkipped) {
   for (const int stray_at : {-1, kSamples}) {
     {
       rosbag::Bag bag(file_, rosbag::bagmode::Write);

@@ -65,7 +65,7 @@ class JoinedBagsTest : public ::testing::Test {
   testing::TemporaryFolder folder_;
 };
 
-TEST_F(JoinedBagsTest, GiveWhatOneBagGivesInOrderOfTimeWhateverTheirNames) {
+TEST_F(JoinedBagsTest, EqualOneBagInOrderOfTime) {
   const auto whole = Open({Write("whole.bag", 0, 90)});
   const auto parts = Open({Write("a.bag", 60, 90), Write("b.bag", 0, 25), Write("c.bag", 25, 60)});
   ExpectAreAlike(ReadAll(parts.get()), ReadAll(whole.get()));
@@ -85,7 +85,7 @@ TEST_F(JoinedBagsTest, MayEachHaveOneOfTheTopics) {
               AllOf(HasSubstr(imu + " " + imu + " has no topic /cam0"), HasSubstr("image_topic")));
 }
 
-TEST_F(JoinedBagsTest, NameTheOneThatCannotBeRead) {
+TEST_F(JoinedBagsTest, ErrorNamesTheUnreadableBag) {
   folder_.Write("bad.bag", "nothing");
   const std::string good = Write("good.bag", 0, 10);
   EXPECT_THAT(MessageOf([&] {

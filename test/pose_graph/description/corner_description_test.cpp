@@ -34,7 +34,7 @@ TEST(DescribeCorners, HonoursTheGivenAngle) {
   EXPECT_GE(HammingDistance(DescribeMiddle(turned, 0), upright), 80);
 }
 
-TEST(DescribeCorners, SaysWhichCornersAreTooNearToTheBorder) {
+TEST(DescribeCorners, ReportsCornersTooCloseToTheBorder) {
   const auto descriptors = DescribeCorners(Clouds(), {{100, 100}, {3, 100}, {120, 90}}, {0, 0, 0});
   EXPECT_TRUE(descriptors[0]);
   EXPECT_FALSE(descriptors[1]);

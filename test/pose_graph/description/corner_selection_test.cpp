@@ -27,7 +27,7 @@ cv::Mat Squares(const std::vector<cv::Point>& places, const std::vector<int>& br
   return gray;
 }
 
-TEST(SelectCorners, TakesTheStrongestOfEachCellStrongestFirst) {
+TEST(SelectCorners, SelectsTheStrongestOfEachCell) {
   const cv::Mat gray = Squares({{70, 70}, {134, 134}}, {100, 200});
   const auto corners = SelectCorners(CornerSelectionOptions(), gray, {});
   ASSERT_EQ(corners.size(), 2u);
@@ -35,14 +35,14 @@ TEST(SelectCorners, TakesTheStrongestOfEachCellStrongestFirst) {
   EXPECT_NEAR(corners[1].x(), 76, 8);
 }
 
-TEST(SelectCorners, LeavesCellsThatHaveACorner) {
+TEST(SelectCorners, SkipsOccupiedCells) {
   const cv::Mat gray = Squares({{70, 70}, {134, 134}}, {100, 200});
   const auto corners = SelectCorners(CornerSelectionOptions(), gray, {{140, 140}});
   ASSERT_EQ(corners.size(), 1u);
   EXPECT_NEAR(corners[0].x(), 76, 8);
 }
 
-TEST(SelectCorners, StopsAtTheMostThereMayBeWithTheKnown) {
+TEST(SelectCorners, StopsAtTheMaximumIncludingKnownCorners) {
   const cv::Mat gray = Squares({{70, 70}, {134, 134}}, {100, 200});
   CornerSelectionOptions options;
   options.max_corners = 2;
@@ -51,7 +51,7 @@ TEST(SelectCorners, StopsAtTheMostThereMayBeWithTheKnown) {
   EXPECT_THAT(SelectCorners(options, gray, {{200, 200}, {210, 30}}), testing::IsEmpty());
 }
 
-TEST(SelectCorners, KeepsAwayFromTheBorder) {
+TEST(SelectCorners, KeepsDistanceFromTheBorder) {
   EXPECT_THAT(SelectCorners(CornerSelectionOptions(), Squares({{5, 5}}, {200}), {}),
               testing::IsEmpty());
 }
@@ -137,7 +137,7 @@ TEST(SelectCorners, SelectsTheSameAsInOnePass) {
   }
 }
 
-TEST(SelectCorners, FindsNoneWhereTheBorderIsAllThereIs) {
+TEST(SelectCorners, FindsNoneInsideTheBorder) {
   simulator::Random random(1);
   EXPECT_THAT(SelectCorners(CornerSelectionOptions(), Texture({300, 48}, &random), {}),
               testing::IsEmpty());

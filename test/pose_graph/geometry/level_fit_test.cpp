@@ -21,7 +21,7 @@ void ExpectNear(const LevelTransform& actual, const LevelTransform& expected) {
   EXPECT_NEAR(WrapAngle(actual.yaw - expected.yaw), 0, 1e-9);
 }
 
-TEST(LevelFit, FindsHowAllWereMoved) {
+TEST(LevelFit, FindsACommonTransform) {
   std::vector<LevelTransform> from = {{0, {0, 0, 0}}, {1, {3, 0, 1}}, {-2, {3, 5, 0}}};
   std::vector<LevelTransform> to;
   to.reserve(from.size());
@@ -29,14 +29,14 @@ TEST(LevelFit, FindsHowAllWereMoved) {
   ExpectNear(Fit(from, to), kMoved);
 }
 
-TEST(LevelFit, TakesTheHeadingOfOneFrame) {
+TEST(LevelFit, UsesTheHeadingOfASingleFrame) {
   ExpectNear(Fit({{0.3, {1, 2, 3}}}, {kMoved * LevelTransform{0.3, {1, 2, 3}}}), kMoved);
 }
 
-TEST(LevelFit, IsTheIdentityOfNothing) { ExpectNear(Fit({}, {}), LevelTransform()); }
+TEST(LevelFit, IsTheIdentityWithoutPairs) { ExpectNear(Fit({}, {}), LevelTransform()); }
 
 // The distance of two frames has decreased: their midpoint stays, so both move equally.
-TEST(LevelFit, SharesWhatDoesNotFit) {
+TEST(LevelFit, AveragesResiduals) {
   const LevelTransform T = Fit({{0, {-1, 0, 0}}, {0, {1, 0, 0}}}, {{0, {0, 0, 0}}, {0, {1, 0, 0}}});
   ExpectNear(T, {0, {0.5, 0, 0}});
 }

@@ -41,7 +41,7 @@ TEST(LevelEdge, ReversedHasTheInverseAndItsCovariance) {
   EXPECT_LT((reversed.covariance - J * edge.covariance * J.transpose()).norm(), 1e-8);
 }
 
-TEST(LevelEdge, ChainedAddsWhatBothAreUncertainBy) {
+TEST(LevelEdge, ChainedAddsBothCovariances) {
   const LevelEdge first = EdgeWith(kFirst, 0.01);
   LevelEdge second = EdgeWith(kSecond, 0.02);
   second.from = 2;

@@ -50,7 +50,7 @@ PoseGraph Circle(int count, double yaw_deviation, const Error& error) {
   return graph;
 }
 
-TEST(PoseGraph, LeavesAGraphThatFits) {
+TEST(PoseGraph, KeepsAConsistentGraph) {
   PoseGraph graph = Straight(5);
   graph.AddEdge(Edge(0, 5, {0, {5, 0, 0}}, true, Variance(0.1, 0.01)));
   EXPECT_TRUE(graph.Optimize().empty());
@@ -61,7 +61,7 @@ TEST(PoseGraph, LeavesAGraphThatFits) {
 
 // n edges of variance s^2 and a loop of variance s^2 share a height error equally, 1 / (n + 1)
 // each. The loop's residual is small, so that its robust loss is nearly quadratic.
-TEST(PoseGraph, DistributesAnErrorOverAllEdgesAlike) {
+TEST(PoseGraph, DistributesAnErrorEvenly) {
   PoseGraph graph = Straight(9);
   const double error = 0.02;
   graph.AddEdge(Edge(0, 9, {0, {9, 0, error}}, true, Variance(0.1, 0.01)));
@@ -71,7 +71,7 @@ TEST(PoseGraph, DistributesAnErrorOverAllEdgesAlike) {
   }
 }
 
-TEST(PoseGraph, GivesTheErrorToTheUncertainEdge) {
+TEST(PoseGraph, UncertainEdgeTakesTheError) {
   PoseGraph graph;
   for (int i = 0; i < 3; ++i) graph.AddNode({0, {1.0 * i, 0, 0}});
   graph.AddEdge(Edge(0, 1, {0, {1, 0, 0}}, false, Variance(0.01, 0.01)));
@@ -101,7 +101,7 @@ TEST(PoseGraph, ClosesACircleThatDriftedInYaw) {
   EXPECT_LT((FromFirst(graph, 2).translation - Eigen::Vector3d(5, 5, 0)).norm(), 0.06);
 }
 
-TEST(PoseGraph, TakesOutALoopThatContradictsTheOthers) {
+TEST(PoseGraph, DropsALoopThatContradictsTheOthers) {
   PoseGraph graph = Straight(20);
   graph.AddEdge(Edge(0, 20, {0, {20, 0, 0.1}}, true, Variance(0.05, 0.01)));
   graph.AddEdge(Edge(1, 19, {0, {18, 0, 0.1}}, true, Variance(0.05, 0.01)));
@@ -115,7 +115,7 @@ TEST(PoseGraph, TakesOutALoopThatContradictsTheOthers) {
 }
 
 // Such a chain bends easily as a whole, but hardly at a single edge, which takes many iterations.
-TEST(PoseGraph, ClosesALongWayByARightLoop) {
+TEST(PoseGraph, ClosesALongPathByACorrectLoop) {
   constexpr int kSteps = 2000;
   for (const uint32_t seed : {1, 2, 3, 4, 5}) {
     std::mt19937 random(seed);
@@ -129,7 +129,7 @@ TEST(PoseGraph, ClosesALongWayByARightLoop) {
   }
 }
 
-TEST(PoseGraph, IsNotBentByALoopThatItTakesOut) {
+TEST(PoseGraph, DroppedLoopDoesNotDistortIt) {
   constexpr int kSteps = 2000;
   PoseGraph graph = Circle(kSteps, 3e-4, [] { return 0; });
   const PoseGraph before = graph;
@@ -140,7 +140,7 @@ TEST(PoseGraph, IsNotBentByALoopThatItTakesOut) {
   }
 }
 
-TEST(PoseGraph, JudgesNoLoopByWhatIsNotSolved) {
+TEST(PoseGraph, DoesNotJudgeLoopsWithoutASolution) {
   PoseGraph graph = Straight(5);
   graph.AddEdge(Edge(0, 4, {0, {9, 0, 0}}, true, Variance(0.01, 0.01)));
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -151,7 +151,7 @@ TEST(PoseGraph, JudgesNoLoopByWhatIsNotSolved) {
 }
 
 // A correction of the first edge would rotate all others if the first node were fixed.
-TEST(PoseGraph, StaysWhereItIsAsAWhole) {
+TEST(PoseGraph, DoesNotMoveAsAWhole) {
   PoseGraph graph = Straight(20);
   graph.AddEdge(Edge(0, 1, {0.02, {1, 0, 0}}, true, Variance(0.1, 1e-4)));
   EXPECT_TRUE(graph.Optimize().empty());
@@ -185,7 +185,7 @@ TEST(PoseGraph, MovesANodeWithThoseThatAreSeenFromIt) {
   EXPECT_EQ(graph.node(4).translation.x(), 4);
 }
 
-TEST(PoseGraph, RestsWhereItsNodesAreTakenAsMeasured) {
+TEST(PoseGraph, NodesAsMeasuredAreAMinimum) {
   PoseGraph graph = Straight(4);
   graph.AddEdge(Edge(0, 4, {0, {4, 0.1, 0}}, true, Variance(0.1, 0.01)));
   graph.SetNode(2, {0.3, {2, 1, 1}});
@@ -201,7 +201,7 @@ TEST(PoseGraph, RestsWhereItsNodesAreTakenAsMeasured) {
   }
 }
 
-TEST(PoseGraph, KeepsPartsThatNothingConnectsApart) {
+TEST(PoseGraph, KeepsUnconnectedPartsApart) {
   PoseGraph graph = Straight(2);
   graph.AddNode({1.0, {50, 0, 0}});
   graph.AddNode({1.0, {50, 1, 0}});
@@ -215,7 +215,7 @@ TEST(PoseGraph, KeepsPartsThatNothingConnectsApart) {
   EXPECT_TRUE(std::isinf(graph.Distance(0, 4)));
 }
 
-TEST(PoseGraph, MovesOnePartAlone) {
+TEST(PoseGraph, MovesOnePartOnly) {
   PoseGraph graph = Straight(2);
   graph.AddNode({0, {50, 0, 0}});
   graph.MovePart(1, {0, {0, 0, 7}});
@@ -224,14 +224,14 @@ TEST(PoseGraph, MovesOnePartAlone) {
   EXPECT_EQ(graph.node(3).translation.z(), 0);
 }
 
-TEST(PoseGraph, MeasuresTheShortestWayALoopBeingNone) {
+TEST(PoseGraph, PathLengthIgnoresLoops) {
   PoseGraph graph = Straight(10);
   EXPECT_NEAR(graph.Distance(0, 9), 9, 1e-12);
   graph.AddEdge(Edge(1, 8, {0, {7, 0, 0}}, true, Variance(0.1, 0.01)));
   EXPECT_NEAR(graph.Distance(0, 9), 2, 1e-12);
 }
 
-TEST(PoseGraph, MeasuresYawTheShortWayRound) {
+TEST(PoseGraph, WrapsYawDifferences) {
   PoseGraph graph;
   graph.AddNode({3.1, {0, 0, 0}});
   graph.AddNode({-3.1, {0, 0, 0}});
@@ -242,7 +242,7 @@ TEST(PoseGraph, MeasuresYawTheShortWayRound) {
   EXPECT_NEAR(graph.node(1).yaw, -3.1, 1e-6);
 }
 
-TEST(PoseGraph, TellsTheNeighboursWhatWasMeasuredToANodeThatGoes) {
+TEST(PoseGraph, TransfersEdgesOfARemovedNodeToItsNeighbors) {
   PoseGraph graph = Straight(4);
   graph.AddEdge(Edge(0, 2, {0, {2, 0, 0}}, true, Variance(0.3, 0.01)));
   graph.Remove(2, 0);
@@ -260,7 +260,7 @@ TEST(PoseGraph, TellsTheNeighboursWhatWasMeasuredToANodeThatGoes) {
   EXPECT_TRUE(graph.AreConnected(2, 4));
 }
 
-TEST(PoseGraph, PassesStepsOnAsStepsWhereALoopIsSurer) {
+TEST(PoseGraph, OdometryEdgesStayOdometryEdgesWhenTransferred) {
   PoseGraph graph = Straight(4);
   graph.AddEdge(Edge(0, 2, {0, {2, 0, 0}}, true, Variance(0.001, 0.001)));
   graph.Remove(2, 0);
@@ -269,7 +269,7 @@ TEST(PoseGraph, PassesStepsOnAsStepsWhereALoopIsSurer) {
             3);
 }
 
-TEST(PoseGraph, KeepsTheSurerOfTwoEdgesThatComeToJoinTheSameNodes) {
+TEST(PoseGraph, KeepsTheMoreCertainOfParallelEdges) {
   PoseGraph graph = Straight(3);
   graph.AddEdge(Edge(0, 2, {0, {2, 0, 0}}, true, Variance(0.3, 0.1)));
   graph.AddEdge(Edge(0, 3, {0, {3, 0, 0}}, true, Variance(0.5, 0.1)));
@@ -281,7 +281,7 @@ TEST(PoseGraph, KeepsTheSurerOfTwoEdgesThatComeToJoinTheSameNodes) {
   EXPECT_EQ(graph.edges().size(), 2u);  // and the odometry edges
 }
 
-TEST(PoseGraph, GoesOnKnowingWhereTheRemovedWere) {
+TEST(PoseGraph, RemovedNodesKeepTheirPoses) {
   PoseGraph graph = Straight(4);
   graph.Remove(2, 3);
   graph.Remove(3, 1);  // the anchor of another node
@@ -292,7 +292,7 @@ TEST(PoseGraph, GoesOnKnowingWhereTheRemovedWere) {
 }
 
 // After a removal, indices in the graph differ from node numbers.
-TEST(PoseGraph, TreatsTheRestAsIfTheRemovedHadNeverBeen) {
+TEST(PoseGraph, RemovedNodesDoNotAffectTheRest) {
   PoseGraph graph = Straight(6);
   graph.AddEdge(Edge(0, 6, {0.02, {6, 0, 0.1}}, true, Variance(0.1, 0.01)));
   graph.AddNode({1.0, {50, 0, 0}});
@@ -325,7 +325,7 @@ TEST(PoseGraph, TreatsTheRestAsIfTheRemovedHadNeverBeen) {
 }
 
 // Removing a node of the chain preserves the optimum, since the transferred edges are equivalent.
-TEST(PoseGraph, OptimizesTheRestTheSameWithoutANode) {
+TEST(PoseGraph, OptimumOfTheRestIsUnchangedWithoutANode) {
   PoseGraph all = Straight(4);
   all.AddEdge(Edge(0, 4, {0, {4, 0, 0.05}}, true, Variance(0.1, 0.01)));
   PoseGraph without = all;

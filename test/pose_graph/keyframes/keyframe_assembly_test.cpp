@@ -33,7 +33,7 @@ class KeyframeAssemblyTest : public ::testing::Test {
   KeyframeAssembly assembly_;
 };
 
-TEST_F(KeyframeAssemblyTest, PutsTogetherWhatHasOneStampInAnyOrder) {
+TEST_F(KeyframeAssemblyTest, JoinsEqualStampsInAnyOrder) {
   assembly_.AddSegments(5, std::vector<TrackedSegment>(2), Eigen::Quaterniond(0.6, 0, 0, 0.8));
   assembly_.AddCorners(5, std::vector<TrackedCorner>(3));
   AddPose(5);
@@ -75,7 +75,7 @@ TEST_F(KeyframeAssemblyTest, WaitsForLinesUntilTheNextIsComplete) {
   EXPECT_FALSE(assembly_.Pop());
 }
 
-TEST_F(KeyframeAssemblyTest, OneStampInTheFutureCostsItsImageOnly) {
+TEST_F(KeyframeAssemblyTest, AStampInTheFutureDropsOneImage) {
   for (int i = 0; i < 100; ++i) {
     const int64_t t_ns = (100 + i) * kPeriod;
     AddPose(t_ns);
@@ -89,7 +89,7 @@ TEST_F(KeyframeAssemblyTest, OneStampInTheFutureCostsItsImageOnly) {
   }
 }
 
-TEST_F(KeyframeAssemblyTest, GoesOnAfterAPause) {
+TEST_F(KeyframeAssemblyTest, ContinuesAfterAPause) {
   AddImage(kPeriod);
   const int64_t later_ns = 60'000'000'000;
   AddImage(later_ns);
@@ -100,7 +100,7 @@ TEST_F(KeyframeAssemblyTest, GoesOnAfterAPause) {
   EXPECT_EQ(frame->t_ns, later_ns + kPeriod);
 }
 
-TEST_F(KeyframeAssemblyTest, ForgetsWhatWaitsForTooLong) {
+TEST_F(KeyframeAssemblyTest, DropsPartsAfterTheTimeout) {
   AddImage(kPeriod);
   AddPose(kPeriod);
   for (int i = 2; i < 100; ++i) AddImage(i * kPeriod);
@@ -110,7 +110,7 @@ TEST_F(KeyframeAssemblyTest, ForgetsWhatWaitsForTooLong) {
 }
 
 // Images may be missing if they are published compressed, but subscribed raw.
-TEST_F(KeyframeAssemblyTest, ForgetsAsMuchWhereNoImagesCome) {
+TEST_F(KeyframeAssemblyTest, DropsPartsWithoutImages) {
   AddImage(kPeriod);
   for (int i = 2; i < 100; ++i) {
     AddPose(i * kPeriod);
@@ -133,7 +133,7 @@ TEST_F(KeyframeAssemblyTest, CountsAKeyframeWhoseImageWasLostOnTheWay) {
   EXPECT_EQ(assembly_.without_image(), 1);
 }
 
-TEST_F(KeyframeAssemblyTest, WaitsAsLongAtAHighRate) {
+TEST_F(KeyframeAssemblyTest, TimeoutDoesNotDependOnTheRate) {
   constexpr int64_t kFast = kPeriod / 10;
   AddAllButLines(kFast);
   for (int i = 2; i < 250; ++i) AddImage(i * kFast);
@@ -149,7 +149,7 @@ TEST_F(KeyframeAssemblyTest, HasABoundAtAnyRate) {
   EXPECT_FALSE(assembly_.Pop());
 }
 
-TEST_F(KeyframeAssemblyTest, TakesTheOldestOfManyStamps) {
+TEST_F(KeyframeAssemblyTest, DeliversTheOldestFirst) {
   for (int i = 100; i < 200; ++i) AddPose(i * kPeriod);
   AddAllButLines(kPeriod);
   assembly_.AddSegments(kPeriod, {}, std::nullopt);
@@ -158,7 +158,7 @@ TEST_F(KeyframeAssemblyTest, TakesTheOldestOfManyStamps) {
   EXPECT_EQ(frame->t_ns, kPeriod);
 }
 
-TEST_F(KeyframeAssemblyTest, BeginsAnewWhereImagesGoBack) {
+TEST_F(KeyframeAssemblyTest, RestartsIfImagesJumpBack) {
   for (int i = 100; i < 200; ++i) AddImage(i * kPeriod);
   AddAllButLines(200 * kPeriod);
   for (int i = 1; i < 30; ++i) AddImage(i * kPeriod);
@@ -171,7 +171,7 @@ TEST_F(KeyframeAssemblyTest, BeginsAnewWhereImagesGoBack) {
   EXPECT_FALSE(assembly_.Pop());
 }
 
-TEST_F(KeyframeAssemblyTest, TakesTwoImagesThatWereSwappedAndOneOfAWrongClock) {
+TEST_F(KeyframeAssemblyTest, ToleratesSwappedImagesAndOneWrongStamp) {
   AddAllButLines(20 * kPeriod);
   AddImage(19 * kPeriod);
   AddImage(20'000 * kPeriod);

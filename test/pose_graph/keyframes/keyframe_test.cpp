@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 
-TEST(KeyframeSpacing, WantsAWayATurnOrTime) {
+TEST(KeyframeSpacing, NeedsTranslationRotationOrTime) {
   const auto is_apart = [](double distance, double degrees, double seconds) {
     const Rigid3d T_O_B(
         Eigen::Quaterniond(Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitY())),
@@ -27,7 +27,7 @@ TEST(KeyframeSpacing, WantsAWayATurnOrTime) {
   EXPECT_TRUE(is_apart(0, 0, 2.1));
 }
 
-TEST(NumbersAround, AreOfOneWorldAndOfThisList) {
+TEST(NumbersAround, StayInOneWorldAndInRange) {
   std::vector<Keyframe> keyframes(8);
   for (int i = 5; i < 8; ++i) keyframes[i].world = 1;
   EXPECT_EQ(NumbersAround(keyframes, 1, 2), std::vector<int>({0, 1, 2, 3}));
@@ -35,7 +35,7 @@ TEST(NumbersAround, AreOfOneWorldAndOfThisList) {
   EXPECT_EQ(NumbersAround(keyframes, 6, 2), std::vector<int>({5, 6, 7}));
 }
 
-TEST(StepCovariance, IsByHowMuchThePoseBecameLessCertain) {
+TEST(StepCovariance, IsTheGrowthOfThePoseCovariance) {
   const Matrix4d growth = Vector4d(0.5, 0, 0, 0.2).asDiagonal();
   const Matrix4d step = StepCovariance(OdometryNoise(), Eigen::Vector3d::Zero(), growth);
   EXPECT_NEAR(step(0, 0), 0.5, 1e-12);
@@ -61,7 +61,7 @@ TEST(LevelCovariance, HasYawAboutTheVerticalOfABodyThatIsNotLevel) {
   EXPECT_NEAR(covariance(2, 3), -0.1, 1e-9);  // x of B is opposite to z of O
 }
 
-TEST(StepCovariance, IsNotBelowTheFloorOfTheWay) {
+TEST(StepCovariance, HasALowerBoundByPathLength) {
   const OdometryNoise noise;
   const double expected = noise.position_floor + 3 * noise.position_rate;
   EXPECT_NEAR(StepCovariance(noise, {0, 3, 0}, Matrix4d::Zero())(2, 2), expected * expected, 1e-12);
@@ -98,7 +98,7 @@ TEST(MakeKeyframe, DescribesFollowedCornersAndFillsUp) {
   EXPECT_FALSE(keyframe.corners[1].p_O);
 }
 
-TEST(MakeKeyframe, TakesAllRaysByTheCameraAsRefined) {
+TEST(MakeKeyframe, UsesRefinedIntrinsicsForAllRays) {
   const auto camera = testing::SimpleCamera();
   OdometryFrame frame;
   frame.T_B_C = testing::LookingAhead();

@@ -55,7 +55,7 @@ class UpdateLandmarksTest : public ::testing::Test {
   std::vector<Keyframe> keyframes_;
 };
 
-TEST_F(UpdateLandmarksTest, GivesAllThatFollowATrackItsNewestPlace) {
+TEST_F(UpdateLandmarksTest, GivesAllCornersOfATrackTheNewestPosition) {
   SpoilDepths(&keyframes_[0]);
   SpoilDepths(&keyframes_[1]);
   ASSERT_GT(LargestError(keyframes_[0]), 0.2);
@@ -64,7 +64,7 @@ TEST_F(UpdateLandmarksTest, GivesAllThatFollowATrackItsNewestPlace) {
   EXPECT_LT(LargestError(keyframes_[1]), 1e-5);
 }
 
-TEST_F(UpdateLandmarksTest, PlacesALandmarkWhereItWasNotKnownYet) {
+TEST_F(UpdateLandmarksTest, AddsAMissingPosition) {
   for (DescribedCorner& corner : keyframes_[0].corners) corner.p_O.reset();
   UpdateLandmarks(kMaxError, &keyframes_);
   int placed = 0;
@@ -73,27 +73,27 @@ TEST_F(UpdateLandmarksTest, PlacesALandmarkWhereItWasNotKnownYet) {
   EXPECT_LT(LargestError(keyframes_[0]), 1e-5);
 }
 
-TEST_F(UpdateLandmarksTest, KeepsAPlaceThatTheNewOneDoesNotFit) {
+TEST_F(UpdateLandmarksTest, KeepsAContradictingPosition) {
   for (DescribedCorner& corner : keyframes_[2].corners) *corner.p_O += Eigen::Vector3f(0, 0.3f, 0);
   UpdateLandmarks(kMaxError, &keyframes_);
   EXPECT_LT(LargestError(keyframes_[0]), 1e-5);
 }
 
-TEST_F(UpdateLandmarksTest, GoesOnBehindAKeyframeThatWasRemoved) {
+TEST_F(UpdateLandmarksTest, SkipsRemovedKeyframes) {
   SpoilDepths(&keyframes_[0]);
   keyframes_[1].corners.clear();
   UpdateLandmarks(kMaxError, &keyframes_);
   EXPECT_LT(LargestError(keyframes_[0]), 1e-5);
 }
 
-TEST_F(UpdateLandmarksTest, LeavesOtherWorldsAlone) {
+TEST_F(UpdateLandmarksTest, DoesNotChangeOtherWorlds) {
   SpoilDepths(&keyframes_[0]);
   keyframes_[1].world = keyframes_[2].world = 1;
   UpdateLandmarks(kMaxError, &keyframes_);
   EXPECT_GT(LargestError(keyframes_[0]), 0.2);
 }
 
-TEST_F(UpdateLandmarksTest, LeavesCornersAloneThatAreNotFollowed) {
+TEST_F(UpdateLandmarksTest, DoesNotChangeUntrackedCorners) {
   for (Keyframe& keyframe : keyframes_) {
     for (DescribedCorner& corner : keyframe.corners) corner.track = -1;
   }
@@ -102,7 +102,7 @@ TEST_F(UpdateLandmarksTest, LeavesCornersAloneThatAreNotFollowed) {
   EXPECT_FALSE(keyframes_[0].corners.front().p_O);
 }
 
-TEST(UpdateLandmarks, TakesNoKeyframesAtAll) {
+TEST(UpdateLandmarks, AcceptsAnEmptyMap) {
   std::vector<Keyframe> none;
   UpdateLandmarks(kMaxError, &none);
   EXPECT_TRUE(none.empty());

@@ -23,7 +23,7 @@ MapFix FixWith(const Vector4d& variances) {
   return fix;
 }
 
-TEST(CovarianceInMap, IsThatOfTheKeyframeAtItsPlace) {
+TEST(CovarianceInMap, EqualsTheKeyframesAtItsPosition) {
   const MapFix fix = FixWith({0.1, 0.2, 0.3, 0.04});
   const Rigid3d T_O_B(Eigen::Quaterniond::Identity(), fix.T_O_L.translation);
   const Matrix6d covariance = CovarianceInMap(fix, T_O_B, Matrix6d::Zero());
@@ -32,7 +32,7 @@ TEST(CovarianceInMap, IsThatOfTheKeyframeAtItsPlace) {
   EXPECT_NEAR(covariance(5, 5), 0.04, 1e-12);
 }
 
-TEST(CovarianceInMap, HasWhatOdometryDriftedSinceTheKeyframe) {
+TEST(CovarianceInMap, AddsTheDriftSinceTheKeyframe) {
   MapFix fix = FixWith(Vector4d::Zero());
   fix.odometry_covariance = Vector4d(1, 1, 1, 0.5).asDiagonal();
   Matrix6d covariance = Matrix6d::Identity();
@@ -44,7 +44,7 @@ TEST(CovarianceInMap, HasWhatOdometryDriftedSinceTheKeyframe) {
   EXPECT_NEAR(in_map(5, 5), 0.5, 1e-12);
 }
 
-TEST(CovarianceInMap, HasWhatATurnOfTheKeyframeMovesFarFromIt) {
+TEST(CovarianceInMap, AddsTheLeverArmOfTheKeyframesRotation) {
   const MapFix fix = FixWith({0, 0, 0, 0.01});
   const Rigid3d T_O_B(Eigen::Quaterniond::Identity(),
                       fix.T_O_L.translation + Eigen::Vector3d(2, 0, 0));  // along y of M

@@ -56,7 +56,7 @@ class MapThinningTest : public ::testing::Test {
   std::vector<int> nearest_;
 };
 
-TEST_F(MapThinningTest, LetsAKeyframeGoThatEnoughOfBeforeAreLike) {
+TEST_F(MapThinningTest, RemovesARedundantKeyframe) {
   for (int visit = 0; visit < 4; ++visit) Visit(100 * visit, 0.1 * visit);
   EXPECT_TRUE(Dispensable().empty());  // the fourth is too young
   Visit(400, 10);
@@ -65,14 +65,14 @@ TEST_F(MapThinningTest, LetsAKeyframeGoThatEnoughOfBeforeAreLike) {
   EXPECT_TRUE(Dispensable().empty());  // each is examined once
 }
 
-TEST_F(MapThinningTest, KeepsWhatWasSeenFromAfarOrTowardsElsewhere) {
+TEST_F(MapThinningTest, KeepsDistantOrDifferentViews) {
   for (const double x : {0.0, 0.0, 0.0, 0.6}) Visit(100 * x, x);
   Visit(100, 0, /*turn=*/30);
   Visit(200, 10);
   EXPECT_TRUE(Dispensable().empty());
 }
 
-TEST_F(MapThinningTest, DoesNotBelieveOdometryThatTheWayBackEndedWhereItBegan) {
+TEST_F(MapThinningTest, DoesNotTrustOdometryAfterALongPath) {
   for (int visit = 0; visit < 3; ++visit) Visit(visit, 0);
   way_ = 30;
   Visit(100, 0);
@@ -80,14 +80,14 @@ TEST_F(MapThinningTest, DoesNotBelieveOdometryThatTheWayBackEndedWhereItBegan) {
   EXPECT_TRUE(Dispensable().empty());
 }
 
-TEST_F(MapThinningTest, DoesNotCompareWorldsThatNothingJoins) {
+TEST_F(MapThinningTest, DoesNotCompareUnconnectedWorlds) {
   for (int visit = 0; visit < 3; ++visit) Visit(visit, 0);
   Visit(100, 0, 0, /*world=*/1);
   Visit(200, 10, 0, /*world=*/1);
   EXPECT_TRUE(Dispensable().empty());
 }
 
-TEST_F(MapThinningTest, DoesNotCountThoseThatAreGone) {
+TEST_F(MapThinningTest, DoesNotCountRemovedKeyframes) {
   for (const double x : {0.0, 0.2, 0.3}) Visit(x, x);
   Visit(100, 0.4);
   Visit(200, 0.65);  // three are near, one of which is removed
@@ -95,7 +95,7 @@ TEST_F(MapThinningTest, DoesNotCountThoseThatAreGone) {
   EXPECT_EQ(Dispensable(), std::vector<int>{3});
 }
 
-TEST_F(MapThinningTest, LooksInAThinnedMapAtTheYoungestAlone) {
+TEST_F(MapThinningTest, ChecksOnlyTheNewestInAThinnedMap) {
   for (int visit = 0; visit < 5; ++visit) Visit(visit, 0);
   Visit(100, 0);
   thinning_.StartBehind(map_);
@@ -103,7 +103,7 @@ TEST_F(MapThinningTest, LooksInAThinnedMapAtTheYoungestAlone) {
   EXPECT_EQ(Dispensable(), std::vector<int>{5});
 }
 
-TEST(KeyframeMap, IsCompactWithoutThoseThatWereRemoved) {
+TEST(KeyframeMap, CompactDropsRemovedKeyframes) {
   KeyframeMap map;
   for (int i = 0; i < 4; ++i) {
     map.graph.AddNode({0, {1.0 * i, 0, 0}});

@@ -24,7 +24,7 @@ OdometryPose At(double t, int keyframe) {
           keyframe};
 }
 
-TEST(PoseInMap, PassesFromOneCorrectionToTheNext) {
+TEST(PoseInMap, InterpolatesBetweenCorrections) {
   const KeyframeMap map = TwoKeyframes();
   EXPECT_TRUE(PoseInMap(map, At(0, 0)).translation.isApprox(Eigen::Vector3d(0, 0, 0), 1e-9));
   // There is no step at the keyframe.
@@ -42,7 +42,7 @@ TEST(PoseInMap, KeepsTheLastCorrectionAfterTheLastKeyframe) {
   EXPECT_NEAR(pose.translation.y(), 0.4 + std::sin(0.2), 1e-9);
 }
 
-TEST(PoseInMap, DoesNotPassIntoAnotherWorld) {
+TEST(PoseInMap, DoesNotInterpolateAcrossWorlds) {
   KeyframeMap map = TwoKeyframes();
   map.keyframes[1].world = 1;
   EXPECT_NEAR(PoseInMap(map, At(0.5, 0)).translation.y(), 0, 1e-12);

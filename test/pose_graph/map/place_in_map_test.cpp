@@ -54,12 +54,12 @@ class PlaceInMapTest : public ::testing::Test {
   PlaceInMap place_{NoFloor()};
 };
 
-TEST_F(PlaceInMapTest, IsAsSureAsOdometryWhereNothingIsSeenAgain) {
+TEST_F(PlaceInMapTest, HasTheCovarianceOfOdometryWithoutLoops) {
   for (const double variance : {0.1, 0.2, 0.3}) Add(0, variance);
   EXPECT_NEAR(VarianceInMap(0.4), 0.4, 1e-12);
 }
 
-TEST_F(PlaceInMapTest, IsAsSureAsALoopAndWhatOdometryAddsSince) {
+TEST_F(PlaceInMapTest, AddsOdometrySinceTheLastLoop) {
   for (const double variance : {0.1, 0.2, 0.9}) Add(0, variance);
   place_.AddLoop(map_, Loop(0, 2, 0.05));
   EXPECT_NEAR(VarianceInMap(0.9), 0.1 + 0.05, 1e-12);
@@ -69,14 +69,14 @@ TEST_F(PlaceInMapTest, IsAsSureAsALoopAndWhatOdometryAddsSince) {
   EXPECT_NEAR(VarianceInMap(1.0), 0.1 + 0.05 + 0.01, 1e-12);
 }
 
-TEST_F(PlaceInMapTest, LearnsNothingFromALoopThatIsLessSure) {
+TEST_F(PlaceInMapTest, LessCertainLoopDoesNotChangeIt) {
   for (const double variance : {0.1, 0.2}) Add(0, variance);
   place_.AddLoop(map_, Loop(0, 1, 0.5));
   EXPECT_NEAR(VarianceInMap(0.2), 0.2, 1e-12);
 }
 
 // The covariance of odometry refers to an origin that is unrelated to the map's.
-TEST_F(PlaceInMapTest, KnowsANewWorldByTheLoopThatJoinsIt) {
+TEST_F(PlaceInMapTest, LocatesANewWorldByItsLoop) {
   Add(0, 0.1);
   for (const double variance : {0.01, 0.02, 0.04}) Add(1, variance);
   place_.AddLoop(map_, Loop(0, 2, 0.5));
@@ -85,7 +85,7 @@ TEST_F(PlaceInMapTest, KnowsANewWorldByTheLoopThatJoinsIt) {
   EXPECT_NEAR(VarianceInMap(0.04), 0.1 + 0.5 + 0.01 + 0.001, 1e-12);
 }
 
-TEST_F(PlaceInMapTest, TakesALoadedMapForExact) {
+TEST_F(PlaceInMapTest, LoadedMapIsExact) {
   KeyframeMap loaded;
   loaded.keyframes.emplace_back().covariance = Variance(7);
   loaded.graph.AddNode({});
@@ -96,7 +96,7 @@ TEST_F(PlaceInMapTest, TakesALoadedMapForExact) {
   EXPECT_NEAR(VarianceInMap(0.01), 0.2, 1e-12);
 }
 
-TEST_F(PlaceInMapTest, ForgetsWhatALoopToldThatTheGraphDropped) {
+TEST_F(PlaceInMapTest, IgnoresDroppedLoops) {
   for (const double variance : {0.1, 0.2}) Add(0, variance);
   AddToGraph(Loop(0, 1, 0.02));
   Add(0, 0.9);
@@ -108,7 +108,7 @@ TEST_F(PlaceInMapTest, ForgetsWhatALoopToldThatTheGraphDropped) {
   EXPECT_NEAR(VarianceInMap(1.0), 0.1 + 0.02 + 0.8, 1e-12);
 }
 
-TEST_F(PlaceInMapTest, KnowsTheSameOfLoopsThatRemain) {
+TEST_F(PlaceInMapTest, RemainingLoopsKeepTheirEffect) {
   Add(0, 0.1);
   for (const double variance : {0.01, 0.02, 0.04}) Add(1, variance);
   AddToGraph(Loop(0, 3, 0.5));
@@ -121,7 +121,7 @@ TEST_F(PlaceInMapTest, KnowsTheSameOfLoopsThatRemain) {
   EXPECT_NEAR(VarianceInMap(0.6), before, 1e-12);
 }
 
-TEST_F(PlaceInMapTest, GoesOnTakingALoadedMapForExactWithoutALoop) {
+TEST_F(PlaceInMapTest, LoadedMapStaysExactWithoutLoops) {
   map_.keyframes.emplace_back().covariance = Variance(7);
   map_.graph.AddNode({});
   place_.SetMap(map_);
@@ -133,7 +133,7 @@ TEST_F(PlaceInMapTest, GoesOnTakingALoadedMapForExactWithoutALoop) {
 }
 
 // The covariance of the other world refers to its own origin, not the map's.
-TEST_F(PlaceInMapTest, KnowsAWorldThatTheNewestJoinsByTheNewest) {
+TEST_F(PlaceInMapTest, LocatesAWorldByTheNewestLoop) {
   Add(0, 0.1);
   for (const double variance : {0.01, 0.02}) Add(1, variance);
   for (const double variance : {0.3, 0.4}) Add(2, variance);
@@ -148,7 +148,7 @@ TEST_F(PlaceInMapTest, KnowsAWorldThatTheNewestJoinsByTheNewest) {
   EXPECT_NEAR(VarianceInMap(0.9), of_keyframe_2 + 0.001, 1e-12);
 }
 
-TEST_F(PlaceInMapTest, KnowsWorldsThatAreJoinedFirstByTheLoopThatJoinsThemToTheMap) {
+TEST_F(PlaceInMapTest, LocatesJoinedWorldsByTheLoopToTheMap) {
   Add(0, 0.1);
   for (const double variance : {0.01, 0.02}) Add(1, variance);
   for (const double variance : {0.3, 0.4}) Add(2, variance);
@@ -160,7 +160,7 @@ TEST_F(PlaceInMapTest, KnowsWorldsThatAreJoinedFirstByTheLoopThatJoinsThemToTheM
   EXPECT_NEAR(VarianceInMap(0.9), 0.6 + (0.1 + 0.05) + 0.001, 1e-12);
 }
 
-TEST_F(PlaceInMapTest, DoesNotTakeAWorldOfALoadedMapForExactThatIsNotJoinedToIt) {
+TEST_F(PlaceInMapTest, UnconnectedWorldOfALoadedMapIsNotExact) {
   for (const int world : {0, 1, 1}) {
     Keyframe& keyframe = map_.keyframes.emplace_back();
     keyframe.world = world;
@@ -254,7 +254,7 @@ class Way {
 };
 
 // The graph combines odometry and the loop, which dominates: 0.0004 against 0.3 m^2.
-TEST(PlaceInMap, ErrsByWhatItStates) {
+TEST(PlaceInMap, ErrorsMatchTheCovariance) {
   constexpr int kWays = 300;
   std::mt19937 random(5);
   double odometry = 0, map = 0;

@@ -117,7 +117,7 @@ TEST_F(ColmapTest, HasTheCamera) {
 TEST_F(ColmapTest, ProjectsItsPointsToItsCorners) { ExpectConsistent(*camera_); }
 
 // As of a map that was loaded: the model has one camera for all.
-TEST_F(ColmapTest, HasThePixelsOfItsCameraOfKeyframesOfAnother) {
+TEST_F(ColmapTest, ConvertsKeyframesOfAnotherCameraToItsPixels) {
   const auto other = testing::SimpleCamera(300);
   WriteColmapModel(folder_.File("model"), other->parameters(), map_);
   ExpectConsistent(*other);
@@ -130,7 +130,7 @@ TEST_F(ColmapTest, HasOneNameForEachImage) {
 }
 
 // Its frame is another one.
-TEST_F(ColmapTest, HasNothingOfAWorldThatWasNotJoined) {
+TEST_F(ColmapTest, OmitsUnconnectedWorlds) {
   const std::string points = folder_.Read("model/points3D.txt");
   testing::VisitOptions options;
   options.world = 1;
@@ -141,13 +141,13 @@ TEST_F(ColmapTest, HasNothingOfAWorldThatWasNotJoined) {
   EXPECT_EQ(folder_.Read("model/points3D.txt"), points);
 }
 
-TEST_F(ColmapTest, SaysWhereItCannotBeWritten) {
+TEST_F(ColmapTest, ErrorNamesAnUnwritableFolder) {
   folder_.Write("file", "");
   EXPECT_THROW(WriteColmapModel(folder_.File("file/model"), camera_->parameters(), map_),
                std::runtime_error);
 }
 
-TEST(LoopTable, HasAValueOrNothingInEachColumn) {
+TEST(LoopTable, HasAValueOrAnEmptyFieldInEachColumn) {
   std::ostringstream text;
   WriteLoopHeader(&text);
   LoopCandidate candidate;

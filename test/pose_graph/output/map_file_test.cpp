@@ -82,7 +82,7 @@ class MapFileTest : public ::testing::Test {
   KeyframeMap map_;
 };
 
-TEST_F(MapFileTest, ComesBackAsItWas) {
+TEST_F(MapFileTest, SurvivesARoundTrip) {
   SaveMap(file_, map_);
   const KeyframeMap loaded = LoadMap(file_);
   ASSERT_EQ(loaded.keyframes.size(), 3u);
@@ -100,7 +100,7 @@ TEST_F(MapFileTest, ComesBackAsItWas) {
   EXPECT_EQ(folder_.Read("map.plm"), first);
 }
 
-TEST_F(MapFileTest, OfAPreviousRunIsEmptyWhereThereIsNoneAndSaysSo) {
+TEST_F(MapFileTest, MissingPreviousMapIsEmptyWithAWarning) {
   const PreviousMap none = LoadPreviousMap(folder_.File("no/such/folder/map.plm"));
   EXPECT_TRUE(none.map.keyframes.empty());
   EXPECT_THAT(none.warning, HasSubstr("load_previous_pose_graph: there is no map " +
@@ -130,7 +130,7 @@ TEST_F(MapFileTest, LeavesNoUnfinishedFile) {
   EXPECT_FALSE(std::filesystem::exists(file_ + ".part"));
 }
 
-TEST_F(MapFileTest, SaysWhereTheFileCannotBeWritten) {
+TEST_F(MapFileTest, ErrorNamesAnUnwritableFile) {
   const std::string nowhere = folder_.File("no/such/folder/map.plm");
   try {
     SaveMap(nowhere, map_);
@@ -140,29 +140,29 @@ TEST_F(MapFileTest, SaysWhereTheFileCannotBeWritten) {
   }
 }
 
-TEST_F(MapFileTest, SaysThatThereIsNone) {
+TEST_F(MapFileTest, ErrorNamesAMissingFile) {
   EXPECT_THAT(ErrorOfLoading(), HasSubstr("map.plm: no such file; check the path of the map"));
 }
 
-TEST_F(MapFileTest, DoesNotSayThatThereIsNoneOfOneThatCannotBeRead) {
+TEST_F(MapFileTest, DistinguishesUnreadableFromMissing) {
   std::filesystem::create_symlink(file_, file_);
   EXPECT_THAT(ErrorOfLoading(),
               AllOf(HasSubstr("map.plm cannot be read: "), Not(HasSubstr("no such file"))));
 }
 
-TEST_F(MapFileTest, KnowsWhatIsNoMap) {
+TEST_F(MapFileTest, RejectsOtherFiles) {
   Write("some other file, and a long one");
   EXPECT_THAT(ErrorOfLoading(), HasSubstr("is not a map of plm_vins"));
   Write("");
   EXPECT_THAT(ErrorOfLoading(), HasSubstr("is not a map of plm_vins"));
 }
 
-TEST_F(MapFileTest, SaysOfAFolderThatItIsOne) {
+TEST_F(MapFileTest, ErrorNamesAFolder) {
   std::filesystem::create_directory(file_);
   EXPECT_THAT(ErrorOfLoading(), HasSubstr("map.plm is a folder; name the map file in it"));
 }
 
-TEST_F(MapFileTest, RefusesAnotherVersion) {
+TEST_F(MapFileTest, RejectsAnotherVersion) {
   SaveMap(file_, map_);
   std::string bytes = folder_.Read("map.plm");
   bytes[sizeof("plm_vins map")] = 9;
@@ -172,7 +172,7 @@ TEST_F(MapFileTest, RefusesAnotherVersion) {
                     HasSubstr("; record a new map")));
 }
 
-TEST_F(MapFileTest, FindsEveryDamage) {
+TEST_F(MapFileTest, DetectsEveryDamagedByte) {
   SaveMap(file_, map_);
   const std::string bytes = folder_.Read("map.plm");
   for (const size_t place : {bytes.size() - 1, bytes.size() / 2, size_t{40}, size_t{20}}) {
@@ -188,12 +188,12 @@ TEST_F(MapFileTest, FindsEveryDamage) {
 }
 
 // All checksums are correct, since the content is changed before saving.
-TEST_F(MapFileTest, RefusesAnEdgeFromAKeyframeToItself) {
+TEST_F(MapFileTest, RejectsAnEdgeFromAKeyframeToItself) {
   ExpectRefused("an edge leads from a keyframe to itself",
                 [](auto*, auto* edge) { edge->to = edge->from; });
 }
 
-TEST_F(MapFileTest, RefusesNumbersThatAreNone) {
+TEST_F(MapFileTest, RejectsNonFiniteNumbers) {
   const double none = std::nan("");
   const double infinite = std::numeric_limits<double>::infinity();
   for (const double number : {none, infinite, -infinite, 1e200}) {
@@ -208,12 +208,12 @@ TEST_F(MapFileTest, RefusesNumbersThatAreNone) {
   }
 }
 
-TEST_F(MapFileTest, RefusesPlacesOfCornersWithoutTracks) {
+TEST_F(MapFileTest, RejectsPositionsWithoutTracks) {
   ExpectRefused("a corner without a track",
                 [](auto* keyframe, auto*) { keyframe->corners[7].track = -1; });
 }
 
-TEST_F(MapFileTest, RefusesRotationsThatAreNone) {
+TEST_F(MapFileTest, RejectsUnnormalizedRotations) {
   ExpectRefused("a rotation", [](auto* keyframe, auto*) { keyframe->T_O_B.rotation.w() = 2; });
   ExpectRefused("a rotation",
                 [](auto* keyframe, auto*) { keyframe->T_B_C.rotation.coeffs().setZero(); });
@@ -222,14 +222,14 @@ TEST_F(MapFileTest, RefusesRotationsThatAreNone) {
   });
 }
 
-TEST_F(MapFileTest, RefusesCovariancesThatAreNotPositiveDefinite) {
+TEST_F(MapFileTest, RejectsCovariancesThatAreNotPositiveDefinite) {
   ExpectRefused("the covariance", [](auto*, auto* edge) { edge->covariance(3, 3) = -1; });
   ExpectRefused("the covariance", [](auto*, auto* edge) { edge->covariance.setZero(); });
   ExpectRefused("the covariance", [](auto*, auto* edge) { edge->covariance.setOnes(); });
   ExpectRefused("the covariance", [](auto*, auto* edge) { edge->covariance(0, 3) = 1; });
 }
 
-TEST_F(MapFileTest, RefusesWorldsStampsAndWaysThatAreNone) {
+TEST_F(MapFileTest, RejectsInvalidWorldsStampsAndLengths) {
   for (const int world : {-1, std::numeric_limits<int>::max()}) {
     ExpectRefused("the world", [world](auto* keyframe, auto*) { keyframe->world = world; });
   }
@@ -240,7 +240,7 @@ TEST_F(MapFileTest, RefusesWorldsStampsAndWaysThatAreNone) {
 }
 
 // SaveMap() does not write such maps.
-TEST_F(MapFileTest, RefusesEdgesAndKeyframesThatAreNotThere) {
+TEST_F(MapFileTest, RejectsReferencesToMissingKeyframes) {
   SaveMap(file_, map_);
   const std::string good = folder_.Read("map.plm");
   for (const int32_t number : {-1, 3}) {

@@ -39,20 +39,20 @@ TEST_F(CornerIndexTest, FindsTheImageItself) {
   EXPECT_EQ(scores.size(), 1u);
 }
 
-TEST_F(CornerIndexTest, FindsMostCornersOfWhichSomeBitsDiffer) {
+TEST_F(CornerIndexTest, FindsMostCornersDespiteBitErrors) {
   simulator::Random random(9);
   std::vector<Descriptor> noisy;
   for (const Descriptor& d : images_[2]) noisy.push_back(WithFlippedBits(d, 20, &random));
   EXPECT_GT(index_.Scores(noisy).at(2), 70 * std::log(6.0));
 }
 
-TEST_F(CornerIndexTest, DoesNotTakeDescriptorsThatShareAWordAlone) {
+TEST_F(CornerIndexTest, SharedWordAloneIsNoMatch) {
   Descriptor other = images_[0].front();
   other[2] = ~other[2];  // the words consist of the first bits
   EXPECT_TRUE(index_.Scores({other}).empty());
 }
 
-TEST_F(CornerIndexTest, CountsACornerLessThatManyImagesHave) {
+TEST_F(CornerIndexTest, WeightsByInverseDocumentFrequency) {
   const Descriptor common = images_[0].front();
   for (int image = 1; image < 5; ++image) index_.Add(image, {common});
   const auto scores = index_.Scores({common, images_[0].back()});

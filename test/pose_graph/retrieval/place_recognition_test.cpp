@@ -41,7 +41,7 @@ class PlaceRecognitionTest : public ::testing::Test {
   }
 };
 
-TEST_F(PlaceRecognitionTest, NamesThePlaceSeenBefore) {
+TEST_F(PlaceRecognitionTest, FindsARevisitedPlace) {
   SeeTen();
   See(4, 30);
   const auto candidates = See(5, 31);
@@ -50,17 +50,17 @@ TEST_F(PlaceRecognitionTest, NamesThePlaceSeenBefore) {
   EXPECT_TRUE(candidates.front().similar);
 }
 
-TEST_F(PlaceRecognitionTest, DoesNotNameTheSameVisit) {
+TEST_F(PlaceRecognitionTest, IgnoresTheSameVisit) {
   SeeTen();
   EXPECT_TRUE(See(9, 10).empty());
 }
 
-TEST_F(PlaceRecognitionTest, TakesAnotherWorldForAnotherVisitAtAnyTime) {
+TEST_F(PlaceRecognitionTest, AnotherWorldIsAlwaysAnotherVisit) {
   SeeTen();
   EXPECT_FALSE(See(9, 10, /*world=*/1).empty());
 }
 
-TEST_F(PlaceRecognitionTest, WantsToBeLedToAPlaceTwice) {
+TEST_F(PlaceRecognitionTest, NeedsTwoConsecutiveCandidates) {
   SeeTen();
   See(3, 29);
   const auto first = See(4, 30);  // the first that is similar to its predecessor as well
@@ -69,14 +69,14 @@ TEST_F(PlaceRecognitionTest, WantsToBeLedToAPlaceTwice) {
   EXPECT_TRUE(See(5, 31).front().repeated);
 }
 
-TEST_F(PlaceRecognitionTest, TakesTwoPlacesThatAreFarApartForNoRepetition) {
+TEST_F(PlaceRecognitionTest, DistantCandidatesAreNotConsecutive) {
   SeeTen();
   See(0, 30);
   See(1, 31);
   EXPECT_FALSE(See(8, 32).front().repeated);
 }
 
-TEST_F(PlaceRecognitionTest, MeasuresSimilarityByTheImageBefore) {
+TEST_F(PlaceRecognitionTest, NormalizesByThePreviousImage) {
   SeeTen();
   See(40, 30);
   See(41, 31);
@@ -86,7 +86,7 @@ TEST_F(PlaceRecognitionTest, MeasuresSimilarityByTheImageBefore) {
 }
 
 // The predecessor belongs to another world and shows another place.
-TEST_F(PlaceRecognitionTest, MeasuresTheFirstOfAWorldByItself) {
+TEST_F(PlaceRecognitionTest, NormalizesTheFirstImageOfAWorldByItself) {
   SeeTen();
   See(40, 10);
   const auto candidates = See(5, 30, /*world=*/1);

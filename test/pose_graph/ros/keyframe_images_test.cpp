@@ -18,7 +18,7 @@ TEST(KeyframeImages, ShowsAKeyframeAtHalfResolution) {
   EXPECT_NEAR(image.at<uint8_t>(10, 10), 200, 2);
 }
 
-TEST(KeyframeImages, ForgetsWhatIsNotKept) {
+TEST(KeyframeImages, DropsOldKeyframes) {
   KeyframeImages images;
   for (int keyframe = 0; keyframe < 4; ++keyframe) images.Add(keyframe, Grey(100));
   images.Keep([](int keyframe) { return keyframe == 2; });

@@ -71,7 +71,7 @@ TEST_F(KeyframeInputTest, HasTheFramesOfAKeyframe) {
   for (const auto& [cause, count] : drops_) EXPECT_EQ(count, 0) << cause;
 }
 
-TEST_F(KeyframeInputTest, TakesTheExtrinsicsAsTheyAreEstimated) {
+TEST_F(KeyframeInputTest, UsesEstimatedExtrinsics) {
   KeyframeInput input(sensor_);
   nav_msgs::Odometry extrinsics = Pose();
   extrinsics.pose.pose.position.x = 0.25;
@@ -85,7 +85,7 @@ TEST_F(KeyframeInputTest, TakesTheExtrinsicsAsTheyAreEstimated) {
 }
 
 // An unknown covariance is 1e6 in the message, which would make the odometry edge useless.
-TEST_F(KeyframeInputTest, TakesAnUnknownCovarianceForNone) {
+TEST_F(KeyframeInputTest, UnknownCovarianceIsNullopt) {
   nav_msgs::Odometry pose = Pose();
   for (size_t i = 0; i < 36; i += 7) pose.pose.covariance[i] = 1e6;
   const auto frame = Assemble(pose);
@@ -93,7 +93,7 @@ TEST_F(KeyframeInputTest, TakesAnUnknownCovarianceForNone) {
   EXPECT_TRUE(frame->covariance.isZero());
 }
 
-TEST_F(KeyframeInputTest, RefusesImagesOfAnotherFormat) {
+TEST_F(KeyframeInputTest, RejectsImagesOfAnotherFormat) {
   const cv::Mat whole = image_;
   for (const cv::Mat& image : {cv::Mat(whole.rowRange(0, 4)), cv::Mat(whole.size(), CV_8UC3)}) {
     image_ = image;
@@ -102,7 +102,7 @@ TEST_F(KeyframeInputTest, RefusesImagesOfAnotherFormat) {
   }
 }
 
-TEST_F(KeyframeInputTest, RefusesPosesThatCannotBeTrue) {
+TEST_F(KeyframeInputTest, RejectsImpossiblePoses) {
   std::vector<nav_msgs::Odometry> poses(4, Pose());
   poses[0].pose.pose.position.y = kNan;
   poses[1].pose.pose.orientation.x = std::numeric_limits<double>::infinity();
@@ -114,7 +114,7 @@ TEST_F(KeyframeInputTest, RefusesPosesThatCannotBeTrue) {
   }
 }
 
-TEST_F(KeyframeInputTest, TakesQuaternionsOfSinglePrecision) {
+TEST_F(KeyframeInputTest, AcceptsSinglePrecisionQuaternions) {
   nav_msgs::Odometry pose = Pose();
   pose.pose.pose.orientation.w *= 1 + 1e-6;
   const auto frame = Assemble(pose);
@@ -122,7 +122,7 @@ TEST_F(KeyframeInputTest, TakesQuaternionsOfSinglePrecision) {
   EXPECT_NEAR(frame->T_O_B.rotation.norm(), 1, 1e-12);
 }
 
-TEST_F(KeyframeInputTest, LeavesOutFeaturesThatCannotBeTrue) {
+TEST_F(KeyframeInputTest, DropsImpossibleFeatures) {
   corners_[1].p_O->z() = kNan;
   corners_[2].observation.uv_px.x() = kNan;
   segments_[0].observation.end.x() = kNan;
@@ -147,7 +147,7 @@ TEST_F(KeyframeInputTest, CountsMessagesOfAnotherLayout) {
   EXPECT_FALSE(malformed.detail.empty());
 }
 
-TEST_F(KeyframeInputTest, TakesTheCameraAsItIsRefined) {
+TEST_F(KeyframeInputTest, UsesRefinedIntrinsics) {
   KeyframeInput input(sensor_);
   CameraParameters refined = sensor_.camera;
   for (const double change_px : {1.0, 2.0}) {
@@ -159,7 +159,7 @@ TEST_F(KeyframeInputTest, TakesTheCameraAsItIsRefined) {
   EXPECT_EQ(frame->camera->fx, sensor_.camera.fx + 3);
 }
 
-TEST_F(KeyframeInputTest, RefusesAnotherCamera) {
+TEST_F(KeyframeInputTest, RejectsAnotherCamera) {
   KeyframeInput input(sensor_);
   CameraParameters refined = sensor_.camera;
   refined.fx += 1;

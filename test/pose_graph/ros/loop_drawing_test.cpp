@@ -40,7 +40,7 @@ TEST_F(LoopDrawingTest, HasTheEarlierImageOnTheLeft) {
   EXPECT_EQ(picture.at<cv::Vec3b>(120, 376), cv::Vec3b::all(kLaterGrey));
 }
 
-TEST_F(LoopDrawingTest, LeavesAnEarlierImageThatIsUnknownBlack) {
+TEST_F(LoopDrawingTest, DrawsAnUnknownEarlierImageBlack) {
   earlier_ = cv::Mat();
   const cv::Mat picture = Draw();
   EXPECT_EQ(picture.at<cv::Vec3b>(120, 100), cv::Vec3b::all(0));
@@ -57,7 +57,7 @@ TEST_F(LoopDrawingTest, JoinsALandmarkWithItsCorner) {
   EXPECT_FALSE(IsColored(picture, 188, 120 + 46));
 }
 
-TEST_F(LoopDrawingTest, LeavesOutWhatTheEarlierCameraDidNotSee) {
+TEST_F(LoopDrawingTest, IgnoresLandmarksOutsideTheEarlierImage) {
   sightings_.of_earlier = {{{0, 0, 0.5}, {0, 0}}, {{5, 0, 2}, {0, 0}}};  // behind, outside
   EXPECT_FALSE(IsColored(Draw(), 376 + 188, 120));
 }

@@ -24,7 +24,7 @@ nav_msgs::Odometry OdometryAtTheKeyframe() {
   return odometry;
 }
 
-TEST(ToMap, MovesThePoseAndSaysHowSureItIsThere) {
+TEST(ToMap, TransformsPoseAndCovariance) {
   nav_msgs::Odometry odometry = OdometryAtTheKeyframe();
   odometry.pose.covariance[0] = 4;   // of x, which is y in the map: the drift since the keyframe
   odometry.pose.covariance[21] = 9;  // of roll, which is pitch in the map
@@ -42,7 +42,7 @@ TEST(ToMap, MovesThePoseAndSaysHowSureItIsThere) {
   EXPECT_EQ(in_map.twist.twist.linear.x, 3);
 }
 
-TEST(ToMap, LeavesACovarianceThatIsNotKnown) {
+TEST(ToMap, KeepsAnUnknownCovariance) {
   nav_msgs::Odometry odometry = OdometryAtTheKeyframe();
   for (size_t i = 0; i < 36; i += 7) odometry.pose.covariance[i] = kUnknownVariance;
   EXPECT_EQ(ToMap(odometry, QuarterTurn(), "map").pose.covariance, odometry.pose.covariance);
@@ -60,7 +60,7 @@ KeyframeMap SmallMap() {
   return map;
 }
 
-TEST(ToPath, HasThePartOfTheNewestKeyframe) {
+TEST(ToPath, HasTheComponentOfTheNewestKeyframe) {
   KeyframeMap map = SmallMap();
   const nav_msgs::Path apart = ToPath(map, "map", "world");
   EXPECT_EQ(apart.poses.size(), 1u);
@@ -72,7 +72,7 @@ TEST(ToPath, HasThePartOfTheNewestKeyframe) {
   EXPECT_EQ(path.poses[2].pose.position.x, 2);
 }
 
-TEST(ToPath, DoesNotGrowForEver) {
+TEST(ToPath, LengthIsBounded) {
   KeyframeMap map;
   for (int i = 0; i < 6000; ++i) {
     map.keyframes.emplace_back().t_ns = i;
@@ -84,11 +84,11 @@ TEST(ToPath, DoesNotGrowForEver) {
   EXPECT_EQ(path.header.stamp, ros::Time(0, 5999));
 }
 
-TEST(ToPath, OfAnEmptyMapIsEmpty) {
+TEST(ToPath, IsEmptyForAnEmptyMap) {
   EXPECT_TRUE(ToPath(KeyframeMap(), "map", "world").poses.empty());
 }
 
-TEST(ToGraphMarkers, HaveStepsAndLoopsApart) {
+TEST(ToGraphMarkers, SeparateOdometryAndLoopEdges) {
   const auto markers = ToGraphMarkers(SmallMap(), "map").markers;
   ASSERT_EQ(markers.size(), 2u);
   EXPECT_EQ(markers[0].points.size(), 2u);
@@ -98,7 +98,7 @@ TEST(ToGraphMarkers, HaveStepsAndLoopsApart) {
   EXPECT_EQ(markers[1].header.stamp, ros::Time(0, 2));  // of the newest keyframe
 }
 
-TEST(ToGraphMarkers, HaveNothingOfAWorldWithoutAPlaceInTheMap) {
+TEST(ToGraphMarkers, OmitWorldsNotConnectedToTheMap) {
   KeyframeMap map = SmallMap();
   map.keyframes.emplace_back().t_ns = 3;
   map.graph.AddNode({});
@@ -106,7 +106,7 @@ TEST(ToGraphMarkers, HaveNothingOfAWorldWithoutAPlaceInTheMap) {
   EXPECT_EQ(ToGraphMarkers(map, "map").markers[0].points.size(), 2u);
 }
 
-TEST(ToGraphMarkers, DeleteWhatIsEmpty) {
+TEST(ToGraphMarkers, DeleteEmptyMarkers) {
   KeyframeMap map = SmallMap();
   map.graph = PoseGraph();
   for (const auto& marker : ToGraphMarkers(map, "map").markers) {

@@ -29,7 +29,7 @@ class LandmarkMatchingTest : public ::testing::Test {
   Descriptor b_ = RandomDescriptor(&random_);
 };
 
-TEST_F(LandmarkMatchingTest, PairsWhatLooksAlike) {
+TEST_F(LandmarkMatchingTest, MatchesSimilarDescriptors) {
   const auto matches =
       MatchLandmarks(MatchingOptions(kFocalLength), {CornerOf(WithFlippedBits(b_, 20, &random_))},
                      {LandmarkOf(a_), LandmarkOf(b_)});
@@ -38,19 +38,19 @@ TEST_F(LandmarkMatchingTest, PairsWhatLooksAlike) {
   EXPECT_EQ(matches.front().landmark, 1u);
 }
 
-TEST_F(LandmarkMatchingTest, LeavesWhatLooksUnlike) {
+TEST_F(LandmarkMatchingTest, DoesNotMatchDifferentDescriptors) {
   EXPECT_TRUE(
       MatchLandmarks(MatchingOptions(kFocalLength), {CornerOf(a_)}, {LandmarkOf(b_)}).empty());
 }
 
-TEST_F(LandmarkMatchingTest, LeavesACornerThatTwoLandmarksLookLike) {
+TEST_F(LandmarkMatchingTest, DropsAmbiguousCorners) {
   const auto twin = LandmarkOf(WithFlippedBits(a_, 1, &random_));
   EXPECT_TRUE(MatchLandmarks(MatchingOptions(kFocalLength),
                              {CornerOf(WithFlippedBits(a_, 20, &random_))}, {LandmarkOf(a_), twin})
                   .empty());
 }
 
-TEST_F(LandmarkMatchingTest, GivesALandmarkToTheNearestCornerAlone) {
+TEST_F(LandmarkMatchingTest, MatchesALandmarkToItsNearestCornerOnly) {
   const auto matches =
       MatchLandmarks(MatchingOptions(kFocalLength),
                      {CornerOf(WithFlippedBits(a_, 30, &random_)), CornerOf(a_)}, {LandmarkOf(a_)});
@@ -58,13 +58,13 @@ TEST_F(LandmarkMatchingTest, GivesALandmarkToTheNearestCornerAlone) {
   EXPECT_EQ(matches.front().corner, 1u);
 }
 
-TEST_F(LandmarkMatchingTest, ComparesWithAllViewsOfALandmark) {
+TEST_F(LandmarkMatchingTest, ComparesAllDescriptorsOfALandmark) {
   DescribedLandmark landmark = LandmarkOf(a_);
   landmark.descriptors.push_back(b_);
   EXPECT_EQ(MatchLandmarks(MatchingOptions(kFocalLength), {CornerOf(b_)}, {landmark}).size(), 1u);
 }
 
-TEST_F(LandmarkMatchingTest, LooksOnlyAroundTheImageWhereThePoseIsKnown) {
+TEST_F(LandmarkMatchingTest, SearchesAroundTheProjectionIfThePoseIsKnown) {
   const Eigen::Quaterniond R_G_C = testing::LookingAhead().rotation;
   DescribedCorner corner = CornerOf(a_);
   const auto count = [&] {
@@ -78,7 +78,7 @@ TEST_F(LandmarkMatchingTest, LooksOnlyAroundTheImageWhereThePoseIsKnown) {
   EXPECT_EQ(count(), 0u);
 }
 
-TEST_F(LandmarkMatchingTest, SeesNoLandmarksBehindTheCamera) {
+TEST_F(LandmarkMatchingTest, IgnoresLandmarksBehindTheCamera) {
   const Eigen::Quaterniond R_G_C = testing::LookingAhead().rotation;
   const LevelTransform beyond = {0, {8, 0, 0}};
   EXPECT_TRUE(MatchAroundImages(MatchingOptions(kFocalLength), {CornerOf(a_)}, {LandmarkOf(a_)},
@@ -100,7 +100,7 @@ TEST_F(LandmarkMatchingTest, MergesTheLandmarksOfAnIsland) {
   EXPECT_EQ(landmarks.front().descriptors.size(), 2u);
 }
 
-TEST_F(LandmarkMatchingTest, MergesInOrderOfTheTracksAndLeavesSomeOut) {
+TEST_F(LandmarkMatchingTest, MergesInTheOrderOfTracksWithGaps) {
   Keyframe keyframe;
   for (const int track : {9, 4, 7, 2}) {
     keyframe.corners.push_back(CornerOf(a_));

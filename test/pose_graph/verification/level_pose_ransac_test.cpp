@@ -22,7 +22,7 @@ LevelTransform RandomPose(simulator::Random* random) {
   return {random->Uniform(-M_PI, M_PI), random->UniformInBox({2, 2, 2})};
 }
 
-TEST(SolveTwoPoints, HasTheTruthAmongItsSolutions) {
+TEST(SolveTwoPoints, FindsTheTruth) {
   simulator::Random random(1);
   for (int i = 0; i < 200; ++i) {
     const LevelTransform T_O_G = RandomPose(&random);
@@ -37,7 +37,7 @@ TEST(SolveTwoPoints, HasTheTruthAmongItsSolutions) {
   }
 }
 
-TEST(SolveTwoPoints, HasNoSolutionWhereTheHeightsCannotBe) {
+TEST(SolveTwoPoints, HasNoSolutionForContradictingHeights) {
   // Both are observed at the height of the camera, but one is higher than the other.
   EXPECT_TRUE(SolveTwoPoints({1, 0, 0}, {3, 0, 0}, {0, 1, 0}, {0, 3, 1}).empty());
 }
@@ -66,7 +66,7 @@ class FindLevelPoseTest : public ::testing::Test {
       Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d(0.6, 0, 0.8)));
 };
 
-TEST_F(FindLevelPoseTest, FindsThePoseAmongSixOfTenWrongSightings) {
+TEST_F(FindLevelPoseTest, ToleratesSixtyPercentOutliers) {
   const auto sightings = See(T_O_G_, R_G_C_, 100, 0.6, 0.5 / kFocalLength, &random_);
   const auto pose = FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_);
   ASSERT_TRUE(pose);
@@ -75,7 +75,7 @@ TEST_F(FindLevelPoseTest, FindsThePoseAmongSixOfTenWrongSightings) {
   EXPECT_GE(pose->inliers.front(), 60u - 6);  // hardly any of the wrong ones
 }
 
-TEST_F(FindLevelPoseTest, NamesAllThatAgreeWithThePose) {
+TEST_F(FindLevelPoseTest, ReturnsAllInliers) {
   const auto sightings = See(T_O_G_, R_G_C_, 60, 0.5, 2.0 / kFocalLength, &random_);
   const LevelPoseRansacOptions options(kFocalLength);
   const auto pose = FindLevelPose(options, sightings, R_G_C_);
@@ -97,12 +97,12 @@ TEST_F(FindLevelPoseTest, IsTheSameForTheSameInput) {
   EXPECT_EQ(first->inliers, second->inliers);
 }
 
-TEST_F(FindLevelPoseTest, FindsNothingInOneSighting) {
+TEST_F(FindLevelPoseTest, NeedsMoreThanOneObservation) {
   const auto sightings = See(T_O_G_, R_G_C_, 1, 0, 0, &random_);
   EXPECT_FALSE(FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_));
 }
 
-TEST_F(FindLevelPoseTest, TakesTwoSightingsForNoAgreement) {
+TEST_F(FindLevelPoseTest, NeedsMoreThanTwoInliers) {
   const auto sightings = See(T_O_G_, R_G_C_, 2, 0, 0, &random_);
   EXPECT_FALSE(FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_));
 }

@@ -39,7 +39,7 @@ TEST_F(FindWitnessesTest, CountsOnlyLinesInView) {
   EXPECT_EQ(Find(Rigid3d(), lines).visible, 12);
 }
 
-TEST_F(FindWitnessesTest, WantsASegmentThatOverlaps) {
+TEST_F(FindWitnessesTest, RequiresOverlappingSegments) {
   const SpaceSegment& line = wall_.lines[6];
   const Eigen::Vector3d along = line.end_O - line.start_O;
   // Another piece of the same infinite line, beyond the segment's end.

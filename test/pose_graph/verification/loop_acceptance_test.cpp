@@ -52,20 +52,20 @@ class LoopAcceptanceTest : public ::testing::Test {
   LoopAcceptance acceptance_{LoopAcceptanceOptions()};
 };
 
-TEST_F(LoopAcceptanceTest, BelievesWhatOdometryMayHaveDrifted) {
+TEST_F(LoopAcceptanceTest, AcceptsLoopsWithinTheDrift) {
   LoopCandidate loop = Loop(10, 30, {0, 0.5, 0});  // 2 % of 20 m are 0.4 m
   EXPECT_EQ(Judge(&loop), 1u);
   EXPECT_FALSE(loop.failed);
   EXPECT_LT(*loop.odometry_error, kThreeSigmaOf4Dof);
 }
 
-TEST_F(LoopAcceptanceTest, RefusesWhatOdometryRulesOut) {
+TEST_F(LoopAcceptanceTest, RejectsLoopsBeyondTheDrift) {
   LoopCandidate loop = Loop(10, 30, {0, 6, 0});
   EXPECT_EQ(Judge(&loop), 0u);
   EXPECT_EQ(loop.failed, LoopGate::kOdometry);
 }
 
-TEST_F(LoopAcceptanceTest, HasLoopsThatAskForMuchWaitForASecond) {
+TEST_F(LoopAcceptanceTest, LargeCorrectionsNeedASecondLoop) {
   LoopCandidate first = Loop(10, 30, {0, 2.5, 0});
   EXPECT_EQ(Judge(&first), 0u);
   EXPECT_EQ(first.failed, LoopGate::kAgreement);
@@ -74,19 +74,19 @@ TEST_F(LoopAcceptanceTest, HasLoopsThatAskForMuchWaitForASecond) {
   EXPECT_FALSE(second.failed);
 }
 
-TEST_F(LoopAcceptanceTest, RefusesTwoThatDoNotAgree) {
+TEST_F(LoopAcceptanceTest, RejectsTwoLoopsThatDisagree) {
   LoopCandidate first = Loop(10, 30, {0, 2.5, 0});
   LoopCandidate second = Loop(8, 32, {0, -2.8, 0});
   EXPECT_EQ(Judge(&first) + Judge(&second), 0u);
   EXPECT_EQ(second.failed, LoopGate::kAgreement);
 }
 
-TEST_F(LoopAcceptanceTest, DoesNotTakeALoopForItsOwnWitness) {
+TEST_F(LoopAcceptanceTest, ALoopDoesNotConfirmItself) {
   LoopCandidate loop = Loop(10, 30, {0, 2.5, 0});
   EXPECT_EQ(Judge(&loop) + Judge(&loop), 0u);
 }
 
-TEST_F(LoopAcceptanceTest, ForgetsAWitnessOfLongAgo) {
+TEST_F(LoopAcceptanceTest, ConfirmationExpires) {
   LoopCandidate first = Loop(14, 26, {0, 1.6, 0});
   LoopCandidate second = Loop(2, 38, {0, 4.0, 0});
   EXPECT_EQ(Judge(&first) + Judge(&second), 0u);

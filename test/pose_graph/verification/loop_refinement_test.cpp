@@ -80,7 +80,7 @@ TEST(RefineLoop, FindsTheTruthWithoutNoise) {
   EXPECT_LT(ErrorOf(loop->T_O1_O2, sightings).norm(), 1e-6);
 }
 
-TEST(RefineLoop, FindsItFromLinesAlone) {
+TEST(RefineLoop, FindsTheTruthFromLinesOnly) {
   simulator::Random random(2);
   const LoopSightings sightings = See(0, true, Noise(), &random);
   const auto loop = RefineLoop(LoopRefinementOptions(kFocalLength), sightings, Disturbed());
@@ -88,7 +88,7 @@ TEST(RefineLoop, FindsItFromLinesAlone) {
   EXPECT_LT(ErrorOf(loop->T_O1_O2, sightings).norm(), 1e-5);
 }
 
-TEST(RefineLoop, StandsSomeWrongSightings) {
+TEST(RefineLoop, ToleratesOutliers) {
   simulator::Random random(3);
   LoopSightings sightings = See(40, false, {0.2 / kFocalLength}, &random);
   for (int i = 0; i < 6; ++i) sightings.of_earlier[i].xy += Eigen::Vector2d(0.05, -0.03);
@@ -117,7 +117,7 @@ double MeanNees(const Noise& noise, uint64_t seed) {
   return nees;
 }
 
-TEST(RefineLoop, HasTheCovarianceThatItsErrorsHave) {
+TEST(RefineLoop, CovarianceMatchesTheErrors) {
   // With image noise only, then with uncertain depths, then with errors of roll and pitch as well.
   for (const Noise& noise :
        {Noise{1.0 / kFocalLength, 1e-6, 1e-6}, Noise{1.0 / kFocalLength, 0.1, 1e-6},
@@ -129,7 +129,7 @@ TEST(RefineLoop, HasTheCovarianceThatItsErrorsHave) {
 }
 
 // An attitude error between the visits must not be confused with a translation.
-TEST(RefineLoop, TellsATiltFromAWay) {
+TEST(RefineLoop, DistinguishesTiltFromTranslation) {
   const Noise noise = {0, 0, 0.5 * M_PI / 180};
   LoopRefinementOptions without(kFocalLength);
   without.tilt = 1e-6;
@@ -146,7 +146,7 @@ TEST(RefineLoop, TellsATiltFromAWay) {
   EXPECT_LT(error, 0.5 * error_without);
 }
 
-TEST(RefineLoop, AddsWhatTheSightingsHaveWrongInCommon) {
+TEST(RefineLoop, AddsTheCommonErrorOfObservations) {
   simulator::Random random(5);
   const LoopSightings sightings = See(30, false, Noise(), &random);
   LoopRefinementOptions options(kFocalLength);
@@ -158,7 +158,7 @@ TEST(RefineLoop, AddsWhatTheSightingsHaveWrongInCommon) {
   EXPECT_NEAR(with->covariance(0, 0) - without->covariance(0, 0), variance, 1e-9);
 }
 
-TEST(RefineLoop, RefusesWithoutSightings) {
+TEST(RefineLoop, RejectsWithoutObservations) {
   EXPECT_FALSE(RefineLoop(LoopRefinementOptions(kFocalLength), LoopSightings(), kTruth));
 }
 

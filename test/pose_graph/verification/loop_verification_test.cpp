@@ -54,7 +54,7 @@ class LoopVerificationTest : public ::testing::Test {
 
 // Gates are in pixels: corners of a wide-angle lens have the same pixel errors, and larger angular
 // ones.
-TEST_F(LoopVerificationTest, AllowsTheSamePixelsToEveryLens) {
+TEST_F(LoopVerificationTest, ThresholdsAreInPixelsForEveryLens) {
   constexpr double kWide = 191;  // [px]
   camera_ = testing::SimpleCamera(kWide);
   earlier_.noise = later_.noise = 2.5 / kWide;
@@ -76,12 +76,12 @@ TEST_F(LoopVerificationTest, AcceptsTheSamePlaceAndMeasuresTheDrift) {
   EXPECT_FALSE(sightings_.lines.empty());
 }
 
-TEST_F(LoopVerificationTest, RefusesTheSameVisit) {
+TEST_F(LoopVerificationTest, RejectsTheSameVisit) {
   later_.first_track = earlier_.first_track;  // tracks continue
   EXPECT_EQ(Verify().failed, LoopGate::kApart);
 }
 
-TEST_F(LoopVerificationTest, LeavesOutTracksThatGoOn) {
+TEST_F(LoopVerificationTest, IgnoresContinuingTracks) {
   const int inliers = Verify().inliers.value();
   later_.first_track = earlier_.first_track + 120;  // of 150: some tracks are in both visits
   const LoopCandidate candidate = Verify();
@@ -90,18 +90,18 @@ TEST_F(LoopVerificationTest, LeavesOutTracksThatGoOn) {
   EXPECT_LE(*candidate.inliers, inliers - *candidate.common_tracks / 2);
 }
 
-TEST_F(LoopVerificationTest, TakesEqualTracksOfTwoWorldsForChance) {
+TEST_F(LoopVerificationTest, DoesNotPairEqualTrackIdsOfDifferentWorlds) {
   later_.first_track = earlier_.first_track;
   later_.world = 1;
   EXPECT_FALSE(Verify().failed);
 }
 
-TEST_F(LoopVerificationTest, RefusesAnotherPlace) {
+TEST_F(LoopVerificationTest, RejectsAnotherPlace) {
   second_wall_.emplace(/*seed=*/77);
   EXPECT_EQ(Verify().failed, LoopGate::kMatches);
 }
 
-TEST_F(LoopVerificationTest, RefusesTheSameThingsInAnotherOrder) {
+TEST_F(LoopVerificationTest, RejectsTheSameThingsInAnotherOrder) {
   second_wall_ = wall_;
   simulator::Random random(5);
   for (testing::WallPoint& point : second_wall_->points) {
@@ -111,7 +111,7 @@ TEST_F(LoopVerificationTest, RefusesTheSameThingsInAnotherOrder) {
 }
 
 // A displaced poster: a part of the image agrees on a pose, the rest does not.
-TEST_F(LoopVerificationTest, RefusesWhereMostIsNotWhereItShouldBe) {
+TEST_F(LoopVerificationTest, RejectsIfMostLandmarksAreElsewhere) {
   second_wall_ = wall_;
   constexpr double kShifts[] = {0, 0.15, -0.2, 0.3};  // a quarter of the points agrees on a pose
   options_.matching.search_radius = 0.15;             // shows that the others are off
@@ -125,7 +125,7 @@ Eigen::Quaterniond Turned(double degrees) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d::UnitZ()));
 }
 
-TEST_F(LoopVerificationTest, RefusesATurnedManhattanFrame) {
+TEST_F(LoopVerificationTest, RejectsATurnedManhattanFrame) {
   Keyframe first = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
   Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
   first.R_O_Manhattan = Turned(0);
@@ -136,7 +136,7 @@ TEST_F(LoopVerificationTest, RefusesATurnedManhattanFrame) {
   EXPECT_EQ(VerifyPair(first, later).failed, LoopGate::kManhattan);
 }
 
-TEST_F(LoopVerificationTest, ComparesNoTwoManhattanFramesOfOneWorld) {
+TEST_F(LoopVerificationTest, IgnoresManhattanFramesWithinOneWorld) {
   Keyframe first = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
   Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
   first.R_O_Manhattan = Turned(0);
@@ -148,7 +148,7 @@ TEST_F(LoopVerificationTest, ComparesNoTwoManhattanFramesOfOneWorld) {
   EXPECT_FALSE(candidate.manhattan_error);
 }
 
-TEST_F(LoopVerificationTest, RefusesWhatIsSeenInACornerOfTheImageAlone) {
+TEST_F(LoopVerificationTest, RejectsMatchesInOneImageCornerOnly) {
   wall_ = Wall(1, 0);
   simulator::Random random(6);
   for (int i = 0; i < 60; ++i) {
@@ -159,7 +159,7 @@ TEST_F(LoopVerificationTest, RefusesWhatIsSeenInACornerOfTheImageAlone) {
   EXPECT_EQ(Verify().failed, LoopGate::kSpread);
 }
 
-TEST_F(LoopVerificationTest, RefusesWhatDoesNotHoldBackwards) {
+TEST_F(LoopVerificationTest, RejectsLoopsThatFailInReverse) {
   const Keyframe earlier = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
   Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
   for (DescribedCorner& corner : later.corners) *corner.p_O *= 1.3F;  // wrong scale
@@ -167,7 +167,7 @@ TEST_F(LoopVerificationTest, RefusesWhatDoesNotHoldBackwards) {
 }
 
 // The two directions have different minimum numbers, and their sum has another.
-TEST_F(LoopVerificationTest, RefusesFewInBothDirectionsTogether) {
+TEST_F(LoopVerificationTest, RejectsTooFewInliersOverBothDirections) {
   wall_ = Wall(/*seed=*/1, /*point_count=*/19);
   const Keyframe earlier = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
   const Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
@@ -185,7 +185,7 @@ TEST_F(LoopVerificationTest, RefusesFewInBothDirectionsTogether) {
 }
 
 // Comparisons with NaN positions are false.
-TEST_F(LoopVerificationTest, RefusesLandmarksThatAreNowhere) {
+TEST_F(LoopVerificationTest, RejectsLandmarksWithoutPosition) {
   const Keyframe earlier = Visit(wall_, *camera_, Rigid3d(), 0, earlier_);
   Keyframe later = Visit(wall_, *camera_, Rigid3d(), 1, later_);
   const LoopCandidate accepted = VerifyPair(earlier, later);
@@ -199,7 +199,7 @@ TEST_F(LoopVerificationTest, RefusesLandmarksThatAreNowhere) {
   EXPECT_GE(candidate.backward_share, accepted.backward_share);
 }
 
-TEST_F(LoopVerificationTest, RefusesWhereTheLinesAreMissing) {
+TEST_F(LoopVerificationTest, RejectsIfLinesAreMissing) {
   later_.with_lines = false;
   EXPECT_EQ(Verify().failed, LoopGate::kLines);
   earlier_.with_lines = false;

@@ -10,13 +10,13 @@
 namespace plm_vins {
 namespace {
 
-TEST(Viewpoint, IsInfinitelyFarFromWhatIsBehindTheCamera) {
+TEST(Viewpoint, DistanceToPointsBehindTheCameraIsInfinite) {
   const Viewpoint viewpoint(LevelTransform(), testing::LookingAhead().rotation);
   EXPECT_NEAR(viewpoint.Error({{2, 0, 0}, {0.1, 0}}), 0.1, 1e-12);
   EXPECT_TRUE(std::isinf(viewpoint.Error({{-2, 0, 0}, {0.1, 0}})));
 }
 
-TEST(Viewpoint, TellsHowFarAPointIsFromItsImage) {
+TEST(Viewpoint, MeasuresTheReprojectionError) {
   const Eigen::Quaterniond R_G_C = testing::LookingAhead().rotation;
   const LevelTransform T_O_G = {0.7, {1, 2, 3}};
   const Eigen::Vector3d p_C(0.4, -0.2, 4);

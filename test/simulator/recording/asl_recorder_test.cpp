@@ -102,7 +102,7 @@ TEST_F(AslFolder, TakesTheGroundTruth) {
   EXPECT_EQ(qw, 0.5);
 }
 
-TEST(GroundTruth, AFileThatCannotBeWrittenIsNamed) {
+TEST(GroundTruth, ErrorNamesTheFile) {
   try {
     WriteTum("/nowhere/truth.tum", {});
     FAIL();

@@ -136,7 +136,7 @@ TEST(BagRecorder, SameSamplesSameBytes) {
   std::filesystem::remove(b);
 }
 
-TEST(BagRecorder, NamesAFileThatCannotBeWritten) {
+TEST(BagRecorder, ErrorNamesTheFile) {
   try {
     MakeBagRecorder("/nowhere/a.bag", SensorConfig());
     FAIL();

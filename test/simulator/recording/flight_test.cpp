@@ -69,7 +69,7 @@ TEST(Flight, RecordsAllSensorsInOrderOfTime) {
   EXPECT_TRUE(recording.finished);
 }
 
-TEST(Flight, TheRateOfTheImuIsThatOfTheSensors) {
+TEST(Flight, ImuRateIsConfigured) {
   FlightOptions options = SmallFlight();
   options.sensors.imu_rate = 100;
   const MemoryRecorder recording = Record(options);
@@ -87,7 +87,7 @@ TEST(Flight, TimeOffsetMovesTheImageStampsOnly) {
   EXPECT_EQ(shifted.imu[3].t_ns, plain.imu[3].t_ns);
 }
 
-TEST(Flight, TheShutterIsThatOfTheSensors) {
+TEST(Flight, ShutterIsConfigured) {
   FlightOptions options = SmallFlight();
   options.sensors.rolling_shutter_tr = 0.03;
   const MemoryRecorder global = Record(options);
@@ -172,7 +172,7 @@ TEST(Flight, SecondCameraAndDepthAgreeOnWherePointsAre) {
   EXPECT_LT(right, 0.5 * wrong) << wrong;
 }
 
-TEST(Flight, FurtherSensorsLeaveTheImagesAsTheyAre) {
+TEST(Flight, FurtherSensorsDoNotChangeTheImages) {
   FlightOptions options = SmallFlight();
   EXPECT_TRUE(Reference().second.empty());
   EXPECT_TRUE(Reference().depths.empty());

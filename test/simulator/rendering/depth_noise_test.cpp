@@ -21,7 +21,7 @@ TEST(DepthNoise, GrowsWithTheSquareOfTheDepth) {
   }
 }
 
-TEST(DepthNoise, ThereIsNothingBeyondTheLargestDepth) {
+TEST(DepthNoise, NoDepthBeyondTheMaximumRange) {
   cv::Mat1f depth(2, 2, 5.99f);
   depth(0, 1) = 6.01f;
   depth(1, 0) = 0;

@@ -42,7 +42,7 @@ TEST(MipTexture, AveragesOverTheFootprint) {
   EXPECT_GT(texture.Sample(0.1f, 0.12f, 0.16f), 0.02f);
 }
 
-TEST(MipTexture, RefusesWhatIsNotGrey) {
+TEST(MipTexture, RejectsColorImages) {
   EXPECT_THROW(MipTexture(cv::Mat(), 1, 1), std::invalid_argument);
   EXPECT_THROW(MipTexture(cv::Mat(4, 4, CV_8UC3), 1, 1), std::invalid_argument);
 }

@@ -166,7 +166,7 @@ TEST(Renderer, PipesHaveTheirWidth) {
   EXPECT_NEAR(width, 2 * 0.1 / 2 * parameters.fx, 2.0);
 }
 
-TEST(Renderer, ThreadsDoNotChangeABit) {
+TEST(Renderer, ResultDoesNotDependOnThreads) {
   const SaddleScene world;
   const CameraParameters parameters = DefaultSensors().camera;
   const Renderer renderer(world.scene, CameraModel::Create(parameters));

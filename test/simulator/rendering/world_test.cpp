@@ -99,7 +99,7 @@ TEST(World, HasAsManyHorizontalFramesAsItsKindSays) {
   }
 }
 
-TEST(World, OfTwinsHasAllButTheEndsOfTheCorridorTwice) {
+TEST(World, TwinsHaveTwoIdenticalRooms) {
   const World world = MakeWorld(WorldKind::kTwins, TextureStyle::kWeak, 1);
   const auto& rectangles = world.scene.rectangles();
   size_t repeated = 0;
@@ -114,7 +114,7 @@ TEST(World, OfTwinsHasAllButTheEndsOfTheCorridorTwice) {
   EXPECT_EQ(rectangles.size(), 2 * repeated + kEnds);
 }
 
-TEST(World, SeedDecidesWhatItLooksLike) {
+TEST(World, SeedDeterminesTextures) {
   const auto look = [](uint64_t seed) {
     const World world = MakeWorld(WorldKind::kRoom, TextureStyle::kRich, seed);
     double sum = 0;

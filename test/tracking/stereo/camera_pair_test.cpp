@@ -10,7 +10,7 @@ namespace {
 
 const Eigen::Vector2d kXy(0.2, -0.15);
 
-TEST(CameraPairTest, ProjectsAsTheSecondCameraDoes) {
+TEST(CameraPairTest, ProjectsLikeTheSecondCamera) {
   const CameraPair pair = StereoCameras();
   for (const double depth : {0.5, 2.0, 50.0}) {
     const Eigen::Vector3d p_C1 = StereoMounting() * Eigen::Vector3d(depth * kXy.homogeneous());
@@ -33,7 +33,7 @@ TEST(CameraPairTest, InverseDepthInvertsTransfer) {
   }
 }
 
-TEST(CameraPairTest, DoesNotTransferWhatIsBehind) {
+TEST(CameraPairTest, DoesNotTransferPointsBehindTheCamera) {
   const CameraPair pair = StereoCameras({Eigen::Quaterniond::Identity(), {0, 0, -1}});
   EXPECT_TRUE(pair.Transfer(kXy, 0.9));
   EXPECT_FALSE(pair.Transfer(kXy, 1.1));  // nearer than the second camera
@@ -81,7 +81,7 @@ TEST(CameraPairTest, WarpIsTheDerivativeOfTheMotionOfPixels) {
   }
 }
 
-TEST(CameraPairTest, SwappedTakesMatchesBack) {
+TEST(CameraPairTest, SwappedInvertsMatches) {
   const CameraPair pair = StereoCameras();
   const double depth = 1.7;
   const Eigen::Vector3d p_C1 = StereoMounting() * Eigen::Vector3d(depth * kXy.homogeneous());
@@ -90,7 +90,7 @@ TEST(CameraPairTest, SwappedTakesMatchesBack) {
   EXPECT_LT((*back - kXy).norm(), 1e-12);
 }
 
-TEST(CameraPairTest, IsMadeOfAConfigurationWithTwoCameras) {
+TEST(CameraPairTest, IsBuiltFromAConfigurationWithTwoCameras) {
   SensorConfig sensor;
   sensor.camera = StereoCameraParameters(230, 0);
   EXPECT_FALSE(CameraPairOf(sensor));

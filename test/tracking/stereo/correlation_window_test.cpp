@@ -25,7 +25,7 @@ cv::Mat Shifted(const cv::Mat& image, double x, double y) {
   return shifted;
 }
 
-TEST(CorrelationWindowTest, IsOneWithItselfWhateverGainAndOffset) {
+TEST(CorrelationWindowTest, IsOneWithItselfForAnyGainAndOffset) {
   const cv::Mat image = Noise(1);
   const auto window = CorrelationWindow::Cut(image, {80, 60}, kSame);
   ASSERT_TRUE(window);
@@ -62,7 +62,7 @@ TEST(CorrelationWindowTest, FollowsTheWarp) {
   EXPECT_LT(CorrelationWindow::Cut(image, center, kSame)->Correlate(warped, there), 0.95);
 }
 
-TEST(CorrelationWindowTest, ClimbsToFractionsOfAPixel) {
+TEST(CorrelationWindowTest, ReachesSubpixelAccuracy) {
   const cv::Mat image = Noise(1);
   const cv::Mat moved = Shifted(image, 2.3, -1.6);
   const auto window = CorrelationWindow::Cut(image, {80, 60}, kSame);

@@ -38,7 +38,7 @@ TEST_F(EpipolarSearchTest, FindsPointsOfAPlane) {
   }
 }
 
-TEST_F(EpipolarSearchTest, FindsNothingOutsideOfTheRange) {
+TEST_F(EpipolarSearchTest, FindsNothingOutsideTheRange) {
   const SearchedPoint point = Point(0.1, 0.1);
   const double truth = scene_.InverseDepth(point.xy);
   EXPECT_TRUE(Search(point, {truth - 0.1, truth + 0.1, 0}));
@@ -64,7 +64,7 @@ TEST_F(EpipolarSearchTest, BandAllowsForATurnedMounting) {
   EXPECT_LT((found->pixel - *truth).norm(), 0.3);
 }
 
-TEST_F(EpipolarSearchTest, RefusesAPatternThatRepeats) {
+TEST_F(EpipolarSearchTest, RejectsRepetitivePatterns) {
   for (cv::Mat* image : {&left_, &right_}) {
     for (int column = 0; column < image->cols; ++column) {
       image->col(column) = cv::Scalar(128 + 100 * std::sin(2 * M_PI * column / 12.0));

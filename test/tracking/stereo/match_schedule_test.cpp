@@ -32,7 +32,7 @@ TEST(MatchSchedule, LeavesTheSelectionToThePublishRate) {
   EXPECT_EQ(Due(10, {0, 50, 100}), (std::vector<int>{0, 50, 100}));
 }
 
-TEST(MatchSchedule, BeginsAnewWhereTimestampsJumpBack) {
+TEST(MatchSchedule, RestartsWhereTimestampsJumpBack) {
   EXPECT_EQ(Due(0, {1000, 1050, 0, 50, 100}), (std::vector<int>{1000, 0, 100}));
 }
 

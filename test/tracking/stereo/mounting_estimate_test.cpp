@@ -41,7 +41,7 @@ void Feed(const std::vector<StereoMatch>& matches, MountingEstimate* estimate) {
   for (int i = 0; i < 10; ++i) estimate->Update(matches);
 }
 
-TEST(MountingEstimateTest, LearnsHowTheCameraIsTurned) {
+TEST(MountingEstimateTest, LearnsTheRotationOfTheCamera) {
   const Eigen::Vector3d angles = Eigen::Vector3d(0.3, -0.2, 0.3) * kDegree;
   MountingEstimate estimate(StereoMounting(), kFocal);
   Feed(Matches(Turned(angles), 0), &estimate);
@@ -57,7 +57,7 @@ TEST(MountingEstimateTest, LearnsHowTheCameraIsTurned) {
   EXPECT_NEAR(estimate.T_C1_C().translation.norm(), StereoMounting().translation.norm(), 1e-12);
 }
 
-TEST(MountingEstimateTest, LearnsByHowMuchTheSecondCameraIsLate) {
+TEST(MountingEstimateTest, LearnsTheDelayOfTheSecondCamera) {
   for (const double delay : {0.005, -0.01}) {
     MountingEstimate estimate(StereoMounting(), kFocal);
     const std::vector<StereoMatch> matches = Matches(StereoMounting(), delay);
@@ -70,7 +70,7 @@ TEST(MountingEstimateTest, LearnsByHowMuchTheSecondCameraIsLate) {
   }
 }
 
-TEST(MountingEstimateTest, IsNotMisledByWrongMatches) {
+TEST(MountingEstimateTest, IsRobustAgainstWrongMatches) {
   std::vector<StereoMatch> matches = Matches(StereoMounting(), 0);
   for (size_t i = 0; i < matches.size(); i += 3) matches[i].xy_C1.y() += 0.004 * (1.0 + i % 7);
   MountingEstimate estimate(StereoMounting(), kFocal);
@@ -81,7 +81,7 @@ TEST(MountingEstimateTest, IsNotMisledByWrongMatches) {
   EXPECT_LE(accepted, 6);  // of 34; some are wrong by less than two pixels
 }
 
-TEST(MountingEstimateTest, AcceptsWhatThePriorAllowsBeforeItKnows) {
+TEST(MountingEstimateTest, AcceptsThePriorUncertaintyAtFirst) {
   const MountingEstimate estimate(StereoMounting(), kFocal);
   EXPECT_TRUE(estimate.Accepts(Matches(Turned({0.4 * kDegree, 0, 0}), 0, 1).front()));
   EXPECT_FALSE(estimate.Accepts(Matches(Turned({3 * kDegree, 0, 0}), 0, 1).front()));

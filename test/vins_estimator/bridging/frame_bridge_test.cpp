@@ -56,7 +56,7 @@ class FrameBridgeTest : public ::testing::Test {
   FrameBridge bridge_{noise_, Vector3d(0, 0, -9.81)};
 };
 
-TEST_F(FrameBridgeTest, LeadsOnFromBeforeTheTrouble) {
+TEST_F(FrameBridgeTest, PropagatesFromTheLastHealthyState) {
   Track(0, kLost - 1);
   UncertainState wrong = Estimate(kLost - 1);
   wrong.state.position().y() = 5;
@@ -79,7 +79,7 @@ TEST_F(FrameBridgeTest, ReachesTheImagesAfterTheLoss) {
   EXPECT_EQ(bridge_.At(35 * kImage_ns), nullptr);
 }
 
-TEST_F(FrameBridgeTest, BelievesNothingThatIsTooYoungOrUnknown) {
+TEST_F(FrameBridgeTest, RejectsTooRecentOrUnknownStates) {
   EXPECT_FALSE(bridge_.Begin("why"));
   Track(0, 20);
   EXPECT_FALSE(bridge_.Begin("why"));
@@ -91,7 +91,7 @@ TEST_F(FrameBridgeTest, BelievesNothingThatIsTooYoungOrUnknown) {
   EXPECT_FALSE(bridge_.begun());
 }
 
-TEST_F(FrameBridgeTest, ConnectsWhatBeginsAsFarAsItReaches) {
+TEST_F(FrameBridgeTest, ConnectsAWindowWithinItsReach) {
   Track(0, kLost);
   EXPECT_TRUE(bridge_.CanConnect(std::nullopt));
   ASSERT_TRUE(bridge_.Begin("why"));
@@ -104,7 +104,7 @@ TEST_F(FrameBridgeTest, ConnectsWhatBeginsAsFarAsItReaches) {
 }
 
 // A heading uncertainty of half a degree moves this position by metres, but is not drift.
-TEST_F(FrameBridgeTest, LeadsOnFarFromTheOriginOfTheWorld) {
+TEST_F(FrameBridgeTest, WorksFarFromTheOrigin) {
   heading_deviation_ = 0.01;
   for (const double way : {1000.0, -1000.0}) {
     way_ = way;
@@ -116,7 +116,7 @@ TEST_F(FrameBridgeTest, LeadsOnFarFromTheOriginOfTheWorld) {
   }
 }
 
-TEST_F(FrameBridgeTest, EndsWhereThePositionHasBecomeUncertain) {
+TEST_F(FrameBridgeTest, EndsWhenThePositionIsUncertain) {
   deviation_ = 0.006;  // of the inclination as well: twelve centimetres after two seconds
   Track(0, kLost);
   ASSERT_TRUE(bridge_.Begin("why"));

@@ -36,7 +36,7 @@ void ExpectSame(const FrameState& actual, const FrameState& expected) {
   EXPECT_LT(actual.rotation().angularDistance(expected.rotation()), 1e-7);
 }
 
-TEST(FramePlacement, BringsAllStatesToTheKnownWorld) {
+TEST(FramePlacement, TransformsAllStatesToTheKnownWorld) {
   const FrameState first = Known().state;
   FrameState second = first;
   second.position() += Vector3d(0.3, 0, 0.1);
@@ -46,7 +46,7 @@ TEST(FramePlacement, BringsAllStatesToTheKnownWorld) {
   ExpectSame(placement.Apply(InAnotherWorld(second)), second);
 }
 
-TEST(FramePlacement, LeavesTheInclinationAsItIs) {
+TEST(FramePlacement, KeepsTheInclination) {
   FrameState tilted = Known().state;
   tilted.SetPose(
       {SO3Exp(Vector3d(0.1, 0, 0)) * Eigen::Quaterniond(tilted.rotation()), tilted.position()});
@@ -77,7 +77,7 @@ TEST(DifferByFrame, VelocityAndInclinationAreNot) {
   EXPECT_FALSE(DifferByFrame(Known(), tilted));
 }
 
-TEST(DifferByFrame, WhatIsNotKnownWellMayDiffer) {
+TEST(DifferByFrame, UncertainStatesMayDiffer) {
   UncertainState known = Known();
   known.covariance(6, 6) = 1;
   FrameState fresh = known.state;

@@ -47,7 +47,7 @@ Eigen::VectorXd Minus(const FrameState& a, const FrameState& b) {
   return delta;
 }
 
-TEST(UncertainState, TheCovarianceGoesWithThePrediction) {
+TEST(UncertainState, CovarianceIsPropagated) {
   const Preintegration motion = Motion();
   const FrameState end = motion.Predict(Start(), kGravity_W);
   const Eigen::MatrixXd d_end_d_start = testing::NumericJacobian(
@@ -63,7 +63,7 @@ TEST(UncertainState, TheCovarianceGoesWithThePrediction) {
                      d_end_d_start * covariance * d_end_d_start.transpose(), 1e-6);
 }
 
-TEST(UncertainState, TheNoiseIsThatOfTheIntervalInTheWorld) {
+TEST(UncertainState, NoiseIsRotatedToTheWorld) {
   const Preintegration motion = Motion();
   const UncertainState end = Propagate({Start()}, motion, kGravity_W);
   const Eigen::Matrix3d R_W_B0 = Start().rotation().toRotationMatrix();
@@ -73,7 +73,7 @@ TEST(UncertainState, TheNoiseIsThatOfTheIntervalInTheWorld) {
   EXPECT_GT(end.covariance(0, 0), 0);
 }
 
-TEST(UncertainState, DeviationsAreThoseInTheWorld) {
+TEST(UncertainState, DeviationsAreInTheWorldFrame) {
   UncertainState lying;  // the body's x axis points up
   lying.state.SetPose(
       {Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitX(), Vector3d::UnitZ()), Vector3d::Zero()});

@@ -30,7 +30,7 @@ Block Turned(const FrameState& state, const Eigen::Vector3d& theta_W) {
   return PoseOf(turned);
 }
 
-TEST(GaugePrior, HoldsPositionAndHeadingAlone) {
+TEST(GaugePrior, ConstrainsOnlyPositionAndHeading) {
   simulator::Random random(1);
   const FrameState state = RandomState(&random);
   const GaugePrior prior(state, 0.1);
@@ -56,7 +56,7 @@ TEST(GaugePrior, JacobianIsExactForLargeDifferences) {
   }
 }
 
-TEST(BiasPrior, IsTheDifferenceOfTheBiasesInDeviations) {
+TEST(BiasPrior, IsTheBiasDifferenceInStandardDeviations) {
   const BiasPrior prior({{0.1, 0.2, 0.3}, {0.01, 0.02, 0.03}}, 0.1, 0.01);
   Block motion(9);
   motion << 7, 8, 9, 0.2, 0.2, 0.1, 0.01, 0.04, 0.02;

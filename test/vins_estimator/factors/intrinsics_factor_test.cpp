@@ -73,7 +73,7 @@ TEST_F(IntrinsicsFactorTest, AtTheIntrinsicsOfTheRaysIsTheFactorItself) {
                      testing::Residual(LineHostFactor(view_, kWeight), {LineBlock()}), 1e-12);
 }
 
-TEST_F(IntrinsicsFactorTest, SeesTheSamePixelsWithOtherIntrinsics) {
+TEST_F(IntrinsicsFactorTest, KeepsPixelsWithOtherIntrinsics) {
   const Block near =
       camera_->parameters().intrinsics() + 0.1 * (intrinsics_ - camera_->parameters().intrinsics());
   TimedBearing moved_bearing = bearing_;
@@ -104,7 +104,7 @@ TEST_F(IntrinsicsFactorTest, HasExactJacobiansForLines) {
                                   1e-6);
 }
 
-TEST_F(IntrinsicsFactorTest, ARayThatTheCameraDoesNotSeeStays) {
+TEST_F(IntrinsicsFactorTest, KeepsRaysOutsideTheFieldOfView) {
   CameraParameters folded = camera_->parameters();
   folded.distortion = {-0.4, 0, 0, 0};  // valid up to a radius of 0.91
   const RayShift shift(*CameraModel::Create(folded), Vector2d(0.9, 0.9));

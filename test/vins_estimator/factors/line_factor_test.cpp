@@ -92,7 +92,7 @@ TEST(LineFactor, IsTheWeightedDistanceAcrossTheLineOnly) {
   }
 }
 
-TEST(LineFactor, SeesNoMotionAlongTheLine) {
+TEST(LineFactor, IgnoresMotionAlongTheLine) {
   Scene scene(1);
   const LineFactor factor(scene.View(), 460);
   const Vector3d direction_Ch = (scene.end_Ch - scene.start_Ch).normalized();
@@ -123,7 +123,7 @@ TEST(LineFactor, FailsWhereTheLinePassesThroughTheTarget) {
   EXPECT_FALSE(Evaluates(factor, scene.Blocks()));
 }
 
-TEST(LineHostFactor, ComparesTheLineWithTheHostsOwnView) {
+TEST(LineHostFactor, ComparesTheLineWithTheHostsObservation) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     const Scene scene(seed);
     const std::vector<Block> blocks = {scene.Blocks().back()};

@@ -63,7 +63,7 @@ TEST(ManhattanFactor, IsTheWeightedSineOfTheAngleToTheAxis) {
   }
 }
 
-TEST(ManhattanFactor, DoesNotDependOnPlaces) {
+TEST(ManhattanFactor, DoesNotDependOnPositions) {
   Scene scene(1);
   const ManhattanFactor factor(Vector3d::UnitX(), 60);
   const Eigen::VectorXd residual = testing::Residual(factor, scene.Blocks());
@@ -72,7 +72,7 @@ TEST(ManhattanFactor, DoesNotDependOnPlaces) {
   EXPECT_MATRIX_NEAR(testing::Residual(factor, scene.Blocks()), residual, 1e-9);
 }
 
-TEST(ManhattanFactor, TellsHeadingFromHorizontalLinesOnly) {
+TEST(ManhattanFactor, ObservesHeadingFromHorizontalLinesOnly) {
   Scene scene(2);
   const auto turned = [&scene](const Vector3d& axis) {
     scene.direction_W = axis;

@@ -75,7 +75,7 @@ TEST(PoseManifold, PerturbsTheRotationOnTheRight) {
   EXPECT_LT(Rotation(y).angularDistance(Rotation(x) * SO3Exp({0.1, -0.2, 0.3})), 1e-7);
 }
 
-TEST(PoseManifold, TakesTheShortWayBetweenQuaternionsOfOppositeSign) {
+TEST(PoseManifold, QuaternionsOfOppositeSignAreEqual) {
   simulator::Random random(4);
   const Pose x = RandomPose(&random);
   const Tangent delta = RandomTangent(&random, 0.1);

@@ -71,7 +71,7 @@ TEST(PointFactor, JacobiansAreExactFarFromTheTruth) {
   }
 }
 
-TEST(PointFactor, RefusesPointsThatAreNotInFrontOfTheTarget) {
+TEST(PointFactor, RejectsPointsThatAreNotInFrontOfTheTarget) {
   Scene scene(1);
   const PointFactor factor({{0, 0}, {0, 0}, 0}, 460);
   const Rigid3d turn_around(SO3Exp({0, M_PI, 0}), Vector3d::Zero());
@@ -81,7 +81,7 @@ TEST(PointFactor, RefusesPointsThatAreNotInFrontOfTheTarget) {
   EXPECT_FALSE(factor.Evaluate(testing::Pointers(blocks).data(), residual.data(), nullptr));
 }
 
-TEST(PointHostFactor, ComparesThePointWithTheHostsOwnView) {
+TEST(PointHostFactor, ComparesThePointWithTheHostsObservation) {
   const Vector2d xy(0.1, -0.2), velocity(1, 2);
   const PointHostFactor factor({xy, velocity, 0.01}, 100);
   const Block point = Vector3d(0.12, -0.23, 0.5);

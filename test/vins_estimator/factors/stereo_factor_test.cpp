@@ -109,7 +109,7 @@ TEST(RightPointFactor, JacobiansAreExactFarFromTheTruth) {
   }
 }
 
-TEST(RightPointFactor, RefusesPointsThatAreNotInFrontOfTheSecondCamera) {
+TEST(RightPointFactor, RejectsPointsThatAreNotInFrontOfTheSecondCamera) {
   Scene s(1);
   s.T_C_C1.rotation = SO3Exp({0, M_PI, 0});
   const RightPointHostFactor factor({{0, 0}, {0, 0}, 0}, 460);

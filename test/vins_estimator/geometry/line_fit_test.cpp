@@ -45,7 +45,7 @@ struct Scene {
   OrthonormalLine truth;
 };
 
-TEST(EvaluateLine, FindsNoErrorInTheTruth) {
+TEST(EvaluateLine, IsZeroAtTheTruth) {
   const Scene scene(1, /*noise=*/0);
   const auto fit = EvaluateLine(scene.sightings, kNoise, scene.truth);
   ASSERT_TRUE(fit);
@@ -93,7 +93,7 @@ TEST(FitLine, FindsTheTruthFromNearby) {
 
 // Over many noisy lines, the cost equals its degrees of freedom, and the direction errors agree
 // with their standard deviation, which bounds both components; one is by far the larger.
-TEST(FitLine, KnowsItsNoise) {
+TEST(FitLine, StatesItsNoise) {
   double cost = 0, squared_ratio = 0;
   constexpr int kScenes = 400;
   for (uint64_t seed = 1; seed <= kScenes; ++seed) {
@@ -109,7 +109,7 @@ TEST(FitLine, KnowsItsNoise) {
   EXPECT_LT(squared_ratio, 1.4);
 }
 
-TEST(DirectionDeviation, IsLargeForASingleView) {
+TEST(DirectionDeviation, IsLargeForASingleObservation) {
   Scene scene(1);
   scene.sightings.resize(1);
   const auto fit = EvaluateLine(scene.sightings, kNoise, scene.truth);

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 using Pairs = std::vector<std::pair<size_t, size_t>>;
 
-TEST(FindNearPairs, FindsNothingInNothing) {
+TEST(FindNearPairs, AcceptsAnEmptyInput) {
   EXPECT_TRUE(FindNearPairs({}, 0.1).empty());
   EXPECT_TRUE(FindNearPairs({{{0, 0, 0}, {1, 0, 0}}}, 0.1).empty());
 }

@@ -43,7 +43,7 @@ TEST(EndPointDistances, DerivativeIsExact) {
   }
 }
 
-TEST(EndPointDistances, NeedAnImageOfTheLine) {
+TEST(EndPointDistances, NeedALineThatHasAnImage) {
   Vector2d distances;
   const LineSegmentView view{{0, 0}, {1, 0}};
   EXPECT_FALSE(EndPointDistances(view, Vector3d::Zero(), &distances, nullptr));

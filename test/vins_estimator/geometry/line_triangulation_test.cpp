@@ -95,7 +95,7 @@ TEST(TriangulateLine, IsExactWithoutNoise) {
   }
 }
 
-TEST(TriangulateLine, ViewsMayShowDifferentPartsEitherWayRound) {
+TEST(TriangulateLine, ObservationsMayShowDifferentPartsInEitherOrder) {
   const Segment whole{{-2, 0, 4}, {2, 1, 5}};
   const auto part = [&](double from, double to) -> Segment {
     return {whole.start + from * (whole.end - whole.start),
@@ -113,7 +113,7 @@ TEST(TriangulateLine, ViewsMayShowDifferentPartsEitherWayRound) {
 }
 
 // The error equals the propagated noise, which is the lower bound of any estimator.
-TEST(TriangulateLine, NoiseCostsWhatItMust) {
+TEST(TriangulateLine, ErrorMatchesTheNoise) {
   constexpr int kTrials = 400;
   double nees = 0;
   for (int seed = 1; seed <= kTrials; ++seed) {
@@ -132,7 +132,7 @@ TEST(TriangulateLine, NoiseCostsWhatItMust) {
   EXPECT_NEAR(nees, 4.0, 0.6);  // four standard deviations of the mean
 }
 
-TEST(TriangulateLine, NeedsTwoViews) {
+TEST(TriangulateLine, NeedsTwoObservations) {
   EXPECT_EQ(ResultOf({}), Result::kDegenerate);
   EXPECT_EQ(ResultOf({See({}, Rigid3d())}), Result::kDegenerate);
   EXPECT_EQ(ResultOf({See({}, Rigid3d()), See({}, {SO3Exp({0, 0, 0}), kAcross})}), Result::kOk);
@@ -140,7 +140,7 @@ TEST(TriangulateLine, NeedsTwoViews) {
 
 // Repeated poses, pure rotations, and motions in the plane of camera and line: exactly degenerate,
 // with possible divisions by zero.
-TEST(TriangulateLine, RefusesExactDegeneracy) {
+TEST(TriangulateLine, RejectsExactDegeneracy) {
   for (const Vector3d& travel :
        {Vector3d(0, 0, 0), kAlong, kTowards, Vector3d(kAlong + kTowards), Vector3d(-kAlong)}) {
     for (const bool turns : {false, true}) {
@@ -166,7 +166,7 @@ TEST(TriangulateLine, IsNotFooledByNoiseInDegeneracy) {
   EXPECT_LE(CountAccepted(kAlong + kTowards, kTrials), kTrials / 100);
 }
 
-TEST(TriangulateLine, AcceptsTheSameTravelAcrossTheLine) {
+TEST(TriangulateLine, AcceptsMotionAcrossTheLine) {
   constexpr int kTrials = 300;
   EXPECT_EQ(CountAccepted(0.5 * kAcross, kTrials), kTrials);
   EXPECT_EQ(CountAccepted(0.5 * kAcross + kAlong, kTrials), kTrials);
@@ -189,7 +189,7 @@ TEST(TriangulateLine, WaitsForABaselineThatRisesAboveTheNoise) {
   }
 }
 
-TEST(TriangulateLine, RefusesTheSameGeometryWithMoreNoise) {
+TEST(TriangulateLine, RejectsTheSameGeometryWithMoreNoise) {
   const auto sightings = SeeOnTheWay(0.2 * kAcross, 0, 1);
   EXPECT_EQ(ResultOf(sightings, 0.3 * kNoise), Result::kOk);
   EXPECT_EQ(ResultOf(sightings, 10 * kNoise), Result::kDegenerate);
@@ -206,7 +206,7 @@ TEST(TriangulateLine, RefusesTheSameGeometryWithMoreNoise) {
 }
 
 // The depth errors of barely accepted lines agree with the permitted standard deviation.
-TEST(TriangulateLine, KnowsHowGoodItsDepthIs) {
+TEST(TriangulateLine, StatesTheDeviationOfItsDepth) {
   constexpr int kTrials = 400;
   const Vector3d travel = 0.06 * kAcross;
   LineTriangulationOptions options(kNoise);
@@ -230,7 +230,7 @@ TEST(TriangulateLine, KnowsHowGoodItsDepthIs) {
   EXPECT_LT(deviation, 1.33 * expected);
 }
 
-TEST(TriangulateLine, RefusesLinesBehindACamera) {
+TEST(TriangulateLine, RejectsLinesBehindACamera) {
   // Vertical lines whose planes intersect five metres behind both cameras.
   const auto upright = [](double x) { return LineSegmentView{{x, -0.3}, {x, 0.3}}; };
   EXPECT_EQ(ResultOf({{Rigid3d(), upright(-0.1)}, {{SO3Exp({0, 0, 0}), kAlong}, upright(0.1)}}),
@@ -241,7 +241,7 @@ TEST(TriangulateLine, RefusesLinesBehindACamera) {
             Result::kBehind);
 }
 
-TEST(TriangulateLine, RefusesViewsThatContradictEachOther) {
+TEST(TriangulateLine, RejectsContradictingObservations) {
   auto sightings = SeeOnTheWay(kAcross, kNoise, 1);
   EXPECT_EQ(ResultOf(sightings), Result::kOk);
   // Half of the observations are of another, parallel line.
@@ -268,7 +268,7 @@ TEST(TriangulateLine, SurvivesSegmentsWithoutLengthOrNumbers) {
   }
 }
 
-TEST(EndsOf, AreThePointsSeen) {
+TEST(EndsOf, AreTheObservedPoints) {
   simulator::Random random(1);
   for (int trial = 0; trial < 20; ++trial) {
     const Vector3d start(random.Normal(), random.Normal(), random.Uniform(3, 8));

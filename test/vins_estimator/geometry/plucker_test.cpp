@@ -46,7 +46,7 @@ Vector4d RandomTangent(double scale, simulator::Random* random) {
   return scale * Vector4d(turn.x(), turn.y(), turn.z(), random->Normal());
 }
 
-TEST(PluckerLine, HoldsAllPointsBetweenAndBeyondItsTwo) {
+TEST(PluckerLine, ContainsAllPointsOnTheLine) {
   const Vector3d start(1, 2, 3), end(2, 0, 4);
   const PluckerLine line = LineThrough(start, end);
   EXPECT_MATRIX_NEAR(line.direction, Vector3d(1, -2, 1), 0.0);
@@ -119,7 +119,7 @@ TEST(PluckerLine, MeetsPlanesThroughTheOrigin) {
   EXPECT_FALSE(PointInPlane(LineThrough({1, 0, 2}, {1, 3, 2}), Vector3d::UnitX()).allFinite());
 }
 
-TEST(OrthonormalLine, IsTheSameLine) {
+TEST(OrthonormalLine, RepresentsTheSameLine) {
   simulator::Random random(6);
   for (int trial = 0; trial < 50; ++trial) {
     const PluckerLine line = RandomLine(&random);
@@ -141,7 +141,7 @@ TEST(OrthonormalLine, HoldsNearAndFarLines) {
   }
 }
 
-TEST(OrthonormalLine, RefusesWhatIsNoLineOrPassesThroughTheOrigin) {
+TEST(OrthonormalLine, RejectsDegenerateLinesAndLinesThroughTheOrigin) {
   const double nan = std::nan("");
   EXPECT_THROW(ToOrthonormal(LineThrough({1, 2, 3}, {2, 4, 6})), std::invalid_argument);
   EXPECT_THROW(ToOrthonormal(LineThrough({1, 2, 3}, {1, 2, 3})), std::invalid_argument);

@@ -34,7 +34,7 @@ TEST(TriangulatePoint, FindsTheCrossingOfTwoRays) {
   EXPECT_MATRIX_NEAR(*found, p_W, 1e-9);
 }
 
-TEST(TriangulatePoint, TakesAnyPosesOfTheCamera) {
+TEST(TriangulatePoint, WorksForAnyCameraPoses) {
   simulator::Random random(1);
   for (int trial = 0; trial < 50; ++trial) {
     const Rigid3d T_W_A(SO3Exp(random.NormalVector3()), random.NormalVector3());
@@ -51,7 +51,7 @@ TEST(TriangulatePoint, TakesAnyPosesOfTheCamera) {
 }
 
 // The error equals the propagated noise, which is the lower bound of any estimator.
-TEST(TriangulatePoint, NoiseCostsWhatItMust) {
+TEST(TriangulatePoint, ErrorMatchesTheNoise) {
   constexpr double kNoise = 0.5 / 460;
   constexpr int kTrials = 400;
   const Vector3d p_W(0.4, 0.2, 5);
@@ -78,7 +78,7 @@ TEST(TriangulatePoint, NoiseCostsWhatItMust) {
   EXPECT_NEAR(nees, 3.0, 0.5);  // four standard deviations of the mean
 }
 
-TEST(TriangulatePoint, RefusesRaysThatAreTooParallel) {
+TEST(TriangulatePoint, RejectsRaysThatAreTooParallel) {
   const Vector3d p_W(0, 0, 100);  // subtends 0.01 rad from one metre
   const auto sightings = [&p_W](double baseline) {
     return std::vector<PointSighting>{SeeFrom(p_W, {0, 0, 0}), SeeFrom(p_W, {baseline, 0, 0})};
@@ -90,7 +90,7 @@ TEST(TriangulatePoint, RefusesRaysThatAreTooParallel) {
   EXPECT_FALSE(TriangulatePoint({}, kMinAngle));
 }
 
-TEST(TriangulatePoint, RefusesPointsBehindACamera) {
+TEST(TriangulatePoint, RejectsPointsBehindACamera) {
   // The rays diverge; they would intersect behind both cameras.
   const std::vector<PointSighting> diverging = {
       {{Quaterniond::Identity(), {0, 0, 0}}, {-0.1, 0}},

@@ -54,7 +54,7 @@ class ImuPropagatorTest : public ::testing::Test {
   ImuPropagator propagator_{kGravity_W};
 };
 
-TEST_F(ImuPropagatorTest, SaysNothingWithoutAState) {
+TEST_F(ImuPropagatorTest, ReturnsNulloptWithoutAState) {
   EXPECT_FALSE(propagator_.Add(samples_[0]).has_value());
   EXPECT_FALSE(propagator_.Add(samples_[1]).has_value());
 }
@@ -70,7 +70,7 @@ TEST_F(ImuPropagatorTest, EqualsThePreintegratedPrediction) {
   }
 }
 
-TEST_F(ImuPropagatorTest, ALateStateIsTakenThroughTheNewerSamples) {
+TEST_F(ImuPropagatorTest, LateStateIsPropagatedThroughNewerSamples) {
   const int64_t t_ns = 502 * kMillisecond;
   propagator_.Reset(FrameState(), 0);  // an earlier state
   for (size_t i = 0; i <= 150; ++i) propagator_.Add(samples_[i]);
@@ -108,7 +108,7 @@ TEST_F(ImuPropagatorTest, WaitsForSamplesAfterAStateThatIsAhead) {
   ExpectSame(propagator_.Add(samples_[3]), Predict(samples_[2].t_ns, 3));
 }
 
-TEST_F(ImuPropagatorTest, FallsSilentBeyondItsHorizonUntilTheNextState) {
+TEST_F(ImuPropagatorTest, StopsBeyondItsHorizonUntilTheNextState) {
   propagator_.Reset(start_, 0);
   size_t answered = 0;
   for (size_t i = 0; i < 1200; ++i) answered += propagator_.Add(samples_[i]).has_value();
@@ -117,14 +117,14 @@ TEST_F(ImuPropagatorTest, FallsSilentBeyondItsHorizonUntilTheNextState) {
   ExpectSame(propagator_.Add(samples_[1200]), Predict(samples_[1190].t_ns, 1200));
 }
 
-TEST_F(ImuPropagatorTest, SaysNothingAfterClear) {
+TEST_F(ImuPropagatorTest, ReturnsNulloptAfterClear) {
   propagator_.Add(samples_[0]);
   propagator_.Reset(start_, samples_[0].t_ns);
   propagator_.Clear();
   EXPECT_FALSE(propagator_.Add(samples_[1]).has_value());
 }
 
-TEST_F(ImuPropagatorTest, ASampleThatNoSensorGivesIsIgnored) {
+TEST_F(ImuPropagatorTest, IgnoresImpossibleSamples) {
   ImuPropagator propagator(kGravity_W);
   for (size_t i = 0; i <= 200; ++i) propagator.Add(samples_[i]);
   propagator.Reset(start_, samples_[100].t_ns);
@@ -135,7 +135,7 @@ TEST_F(ImuPropagatorTest, ASampleThatNoSensorGivesIsIgnored) {
   ExpectSame(propagator.Add(samples_[201]), Predict(samples_[100].t_ns, 201));
 }
 
-TEST_F(ImuPropagatorTest, ASpikeIsHeldBackAndReplaced) {
+TEST_F(ImuPropagatorTest, SpikeIsDelayedAndReplaced) {
   for (size_t i = 0; i <= 200; ++i) propagator_.Add(samples_[i]);
   propagator_.Reset(start_, samples_[100].t_ns);
   ImuSample spike = samples_[201];

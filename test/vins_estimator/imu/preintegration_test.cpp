@@ -148,7 +148,7 @@ TEST(Preintegration, BiasJacobiansAreTheDerivativesOfRepropagation) {
                      testing::NumericJacobian(deltas, zero), 1e-7);
 }
 
-TEST(Preintegration, BiasCorrectionIsOffOnlyToSecondOrder) {
+TEST(Preintegration, BiasCorrectionHasSecondOrderError) {
   const Preintegration nominal = Integrate(Flight(3.0, 3.5));
   double previous_error = 0;
   for (const double scale : {1.0, 0.5}) {
@@ -166,7 +166,7 @@ TEST(Preintegration, BiasCorrectionIsOffOnlyToSecondOrder) {
   }
 }
 
-TEST(Preintegration, RepropagationEqualsIntegratingAnew) {
+TEST(Preintegration, RepropagationEqualsNewIntegration) {
   const ImuBias bias{{0.1, 0, 0}, {0, 0.1, 0}};
   Preintegration repropagated = Integrate(Flight(3.0, 3.2));
   repropagated.SqrtInformation();  // the cached value must be invalidated
@@ -187,7 +187,7 @@ TEST(Preintegration, SqrtInformationIsTheUpperFactorOfTheInverse) {
   }
 }
 
-TEST(Preintegration, RefusesStampsThatDoNotIncreaseAndEmptyIntervals) {
+TEST(Preintegration, RejectsStampsThatDoNotIncreaseAndEmptyIntervals) {
   Preintegration result{ImuNoise(), ImuBias()};
   result.Append({100, Vector3d::Zero(), Vector3d::Zero()});
   EXPECT_THROW(result.Append({100, Vector3d::Zero(), Vector3d::Zero()}), std::invalid_argument);
@@ -286,7 +286,7 @@ TEST(Preintegration, AGapAddsTheUncertaintyOfARandomWalkBetweenItsEnds) {
             100 * sampled(Index::kPosition, Index::kPosition));
 }
 
-TEST(Preintegration, ADoubtfulReadingAddsItsDoubtOverTheTimeThatItStandsFor) {
+TEST(Preintegration, DoubtfulReadingAddsItsNoiseOverItsInterval) {
   std::vector<ImuSample> samples = ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.1, 200);
   const Matrix15d sure = Integrate(samples).Covariance();
   samples[10].gyro_doubt = 4;
@@ -313,7 +313,7 @@ TEST(Preintegration, ABiasStepActsFromTheStartOfTheInterval) {
   EXPECT_MATRIX_NEAR(whitened, Matrix15d::Identity(), 1e-6);
 }
 
-TEST(Preintegration, AnotherNoiseChangesTheCovarianceAlone) {
+TEST(Preintegration, NoiseChangesOnlyTheCovariance) {
   const std::vector<ImuSample> samples = Flight(3.0, 3.2);
   Preintegration reweighed = Integrate(samples);
   reweighed.AllowBiasStep({0.1, 0.2});
@@ -349,7 +349,7 @@ TEST(Preintegration, JoinedIntervalsKeepTheirNoiseAndSteps) {
 }
 
 // Joining keeps the greater noise of the two intervals.
-TEST(Preintegration, JoinedIntervalsThatAreIntegratedAnewHaveTheGreaterNoise) {
+TEST(Preintegration, ReintegratedJoinedIntervalsHaveTheGreaterNoise) {
   const auto samples = ConstantMotion(Vector3d::Zero(), Vector3d::Zero(), 0.1, 200);
   const ImuNoise usual, high = Scaled(usual, 9);
   Preintegration whole(high, {});
@@ -366,7 +366,7 @@ TEST(Preintegration, JoinedIntervalsThatAreIntegratedAnewHaveTheGreaterNoise) {
 }
 
 // The timestamp between two joined intervals no longer matters.
-TEST(Preintegration, JoinedIntervalsErrByTheStampsOfTheirEnds) {
+TEST(Preintegration, JoinedIntervalsHaveTheStampErrorsOfTheirEnds) {
   const std::vector<ImuSample> samples = Flight(3.0, 3.4);
   const std::vector<ImuSample> first(samples.begin(), samples.begin() + 41);
   const std::vector<ImuSample> second(samples.begin() + 40, samples.end());

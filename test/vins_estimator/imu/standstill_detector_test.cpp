@@ -69,12 +69,12 @@ class StandstillDetectorTest : public ::testing::Test {
   int first_id_ = 0;
 };
 
-TEST_F(StandstillDetectorTest, RecognisesStandstillOnceTheWindowIsFull) {
+TEST_F(StandstillDetectorTest, DetectsStandstillOnceTheWindowIsFull) {
   EXPECT_EQ(CountStill(10, Nothing, Nothing, NoShift), 0);
   EXPECT_EQ(CountStill(50, Nothing, Nothing, NoShift), 50);
 }
 
-TEST_F(StandstillDetectorTest, SaysSinceWhichImage) {
+TEST_F(StandstillDetectorTest, ReturnsWhenStandstillBegan) {
   CountStill(30, Nothing, Nothing, NoShift);
   const FrameMeasurement frame = Next(Nothing, Nothing, NoShift);
   const auto standstill = detector_.Add(frame);
@@ -103,7 +103,7 @@ TEST_F(StandstillDetectorTest, AfterAPauseOfImagesItStartsOver) {
   EXPECT_EQ(CountStill(10, Nothing, Nothing, NoShift), 10);
 }
 
-TEST_F(StandstillDetectorTest, TellsWhatCornersHaveInCommonBelowTheirNoise) {
+TEST_F(StandstillDetectorTest, DetectsCommonMotionBelowTheCornerNoise) {
   const auto common_px = [this](double shift, double zoom, double turn) {
     zoom_ = zoom, turn_ = turn;
     detector_.Reset();
@@ -120,26 +120,26 @@ TEST_F(StandstillDetectorTest, TellsWhatCornersHaveInCommonBelowTheirNoise) {
   EXPECT_NEAR(common_px(0, 0, -0.003), 0.25, 0.08);
 }
 
-TEST_F(StandstillDetectorTest, PropellersMayShakeTheBodyOnTheGround) {
+TEST_F(StandstillDetectorTest, ToleratesPropellerVibrationOnTheGround) {
   const auto gyro = [](double t) { return Vector3d(0.05 * std::sin(2 * M_PI * 80 * t), 0, 0); };
   const auto accel = [](double t) { return Vector3d(0, 0, 1.0 * std::sin(2 * M_PI * 80 * t)); };
   EXPECT_EQ(CountStill(60, gyro, accel, NoShift), 50);
 }
 
-TEST_F(StandstillDetectorTest, HoveringIsNotStandingEvenWhereTheImageHoldsStill) {
+TEST_F(StandstillDetectorTest, HoverIsNotStandstillEvenIfTheImageIsStill) {
   const auto gyro = [](double t) { return Vector3d(0.1 * std::sin(2 * M_PI * 1.5 * t), 0, 0); };
   EXPECT_EQ(CountStill(200, gyro, Nothing, NoShift), 0);
   const auto accel = [](double t) { return Vector3d(0.5 * std::sin(2 * M_PI * 1.5 * t), 0, 0); };
   EXPECT_EQ(CountStill(200, Nothing, accel, NoShift), 0);
 }
 
-TEST_F(StandstillDetectorTest, GlidingIsNotStandingEvenWhereTheImuFeelsNothing) {
+TEST_F(StandstillDetectorTest, SteadyMotionIsNotStandstillEvenIfTheImuIsQuiet) {
   // 5 cm/s at 5 m distance and 460 px focal length.
   const auto shift = [](double t) { return 460 * 0.05 * t / 5.0; };
   EXPECT_EQ(CountStill(200, Nothing, Nothing, shift), 0);
 }
 
-TEST_F(StandstillDetectorTest, NoticesTheTakeOffWithinTwoImages) {
+TEST_F(StandstillDetectorTest, DetectsTakeOffWithinTwoImages) {
   EXPECT_GT(CountStill(40, Nothing, Nothing, NoShift), 0);
   const double start = ToSeconds(t_ns_);
   const auto accel = [](double) { return Vector3d(0, 0, 2.0); };
@@ -148,7 +148,7 @@ TEST_F(StandstillDetectorTest, NoticesTheTakeOffWithinTwoImages) {
   EXPECT_EQ(CountStill(40, Nothing, accel, shift), 0);
 }
 
-TEST_F(StandstillDetectorTest, BlindFromTheStartItDoesNotDecide) {
+TEST_F(StandstillDetectorTest, DoesNotDecideWithoutFeaturesFromTheStart) {
   points_ = 5;
   EXPECT_EQ(CountStill(30, Nothing, Nothing, NoShift), 0);
   points_ = 60;
@@ -166,7 +166,7 @@ TEST_F(StandstillDetectorTest, AStandstillOutlastsBlindImagesAndLostTracks) {
 }
 
 // Both are below what counts as quiet in half a second.
-TEST_F(StandstillDetectorTest, BlindItNoticesASlowStart) {
+TEST_F(StandstillDetectorTest, DetectsASlowStartWithoutFeatures) {
   const auto accel = [](double) { return Vector3d(0.1, 0, 0); };
   const auto gyro = [](double) { return Vector3d(0, 0, 0.01); };
   CountStill(100, Nothing, Nothing, NoShift);
@@ -182,7 +182,7 @@ TEST_F(StandstillDetectorTest, BlindItNoticesASlowStart) {
 }
 
 // A train sets out: 20 px in the first half second.
-TEST_F(StandstillDetectorTest, ASceneThatMovesFasterThanTheImuCouldMissEndsNoStandstill) {
+TEST_F(StandstillDetectorTest, FastMovingSceneDoesNotEndStandstill) {
   CountStill(60, Nothing, Nothing, NoShift);
   const double begin = ToSeconds(t_ns_);
   const auto shift = [begin](double t) { return 80 * (t - begin) * (t - begin); };
@@ -199,7 +199,7 @@ TEST_F(StandstillDetectorTest, ASceneThatMovesFasterThanTheImuCouldMissEndsNoSta
   EXPECT_FALSE(standstill->scene_moves);
 }
 
-TEST_F(StandstillDetectorTest, SlowMotionOfAnUnknownSceneIsDoubtedForAWhile) {
+TEST_F(StandstillDetectorTest, SlowMotionOfAnUnknownSceneNeedsConfirmation) {
   CountStill(60, Nothing, Nothing, NoShift);
   const double begin = ToSeconds(t_ns_);
   const auto shift = [begin](double t) { return 10 * (t - begin); };
@@ -214,7 +214,7 @@ TEST_F(StandstillDetectorTest, SlowMotionOfAnUnknownSceneIsDoubtedForAWhile) {
   EXPECT_EQ(CountStill(20, Nothing, Nothing, shift), 0) << "it has seen a motion";
 }
 
-TEST_F(StandstillDetectorTest, NearTheGroundASlowTakeOffIsNoMotionOfTheScene) {
+TEST_F(StandstillDetectorTest, SlowTakeOffNearTheGroundIsNotSceneMotion) {
   CountStill(60, Nothing, Nothing, NoShift);
   const double begin = ToSeconds(t_ns_);
   const auto accel = [](double) { return Vector3d(0.15, 0, 0); };
@@ -225,7 +225,7 @@ TEST_F(StandstillDetectorTest, NearTheGroundASlowTakeOffIsNoMotionOfTheScene) {
   }
 }
 
-TEST_F(StandstillDetectorTest, BlindItDoesNotGoBackToAStandstillThatEnded) {
+TEST_F(StandstillDetectorTest, DoesNotReturnToStandstillWithoutFeatures) {
   CountStill(40, Nothing, Nothing, NoShift);
   points_ = 0;
   CountStill(

@@ -64,7 +64,7 @@ TEST(ExtrinsicCalibratorTest, PointsInOnePlaceDoNoHarm) {
   EXPECT_LT(calibration.R_B_C->angularDistance(flight.sensor.T_B_C.rotation), 2.5 * kDegree);
 }
 
-TEST(ExtrinsicCalibratorTest, RefusesAFlightThatDoesNotTurn) {
+TEST(ExtrinsicCalibratorTest, RejectsAFlightThatDoesNotTurn) {
   auto options = FlightOptions(Motion::kCorridor, 1);
   options.trajectory.lead_in = 0;
   for (const Motion motion : {Motion::kCorridor, Motion::kStill}) {
@@ -75,7 +75,7 @@ TEST(ExtrinsicCalibratorTest, RefusesAFlightThatDoesNotTurn) {
   }
 }
 
-TEST(ExtrinsicCalibratorTest, RefusesTheGyroOfAnotherFlight) {
+TEST(ExtrinsicCalibratorTest, RejectsTheGyroOfAnotherFlight) {
   SimulatedFlight flight = SimulateFlight(FlightOptions(Motion::kFast, 1));
   const SimulatedFlight other = SimulateFlight(FlightOptions(Motion::kFast, 2));
   for (size_t i = 0; i < flight.frames.size(); ++i) flight.frames[i].imu = other.frames[i].imu;

@@ -46,7 +46,7 @@ struct Turns {
   }
 };
 
-TEST(ExtrinsicRotationTest, ExactTurnsGiveItExactly) {
+TEST(ExtrinsicRotationTest, IsExactWithoutNoise) {
   Random random(1);
   for (int i = 0; i < 20; ++i) {
     Turns turns{RandomRotation(&random)};
@@ -83,7 +83,7 @@ TEST(ExtrinsicRotationTest, TurnsAboutTwoAxesSuffice) {
   }
 }
 
-TEST(ExtrinsicRotationTest, RefusesTurnsAboutOneAxis) {
+TEST(ExtrinsicRotationTest, RejectsTurnsAboutOneAxis) {
   Random random(4);
   Turns turns{RandomRotation(&random), Vector3d(0, 0, 0.1)};
   turns.gyro_bias = Vector3d(0.03, 0, 0);
@@ -95,7 +95,7 @@ TEST(ExtrinsicRotationTest, RefusesTurnsAboutOneAxis) {
   }
 }
 
-TEST(ExtrinsicRotationTest, RefusesNoTurnAtAll) {
+TEST(ExtrinsicRotationTest, RejectsNoTurnAtAll) {
   Random random(5);
   const Turns turns{RandomRotation(&random), Vector3d::Zero()};
   std::string reason;
@@ -103,7 +103,7 @@ TEST(ExtrinsicRotationTest, RefusesNoTurnAtAll) {
   EXPECT_FALSE(reason.empty());
 }
 
-TEST(ExtrinsicRotationTest, RefusesTooFewPairs) {
+TEST(ExtrinsicRotationTest, RejectsTooFewPairs) {
   Random random(6);
   const Turns turns{RandomRotation(&random)};
   std::string reason;
@@ -113,7 +113,7 @@ TEST(ExtrinsicRotationTest, RefusesTooFewPairs) {
   EXPECT_NE(reason.find("29 of 30"), std::string::npos) << reason;
 }
 
-TEST(ExtrinsicRotationTest, RefusesPairsThatContradictEachOther) {
+TEST(ExtrinsicRotationTest, RejectsPairsThatContradictEachOther) {
   Random random(7);
   Turns turns{RandomRotation(&random)};
   turns.outlier_ratio = 1;

@@ -86,21 +86,21 @@ TEST(GlobalSfmTest, NoiseAndOutliersCostLittle) {
   }
 }
 
-TEST(GlobalSfmTest, RefusesWithoutTranslation) {
+TEST(GlobalSfmTest, RejectsWithoutTranslation) {
   const Scene scene(0, 0.5 / 460, 0, 25, 1);
   std::string reason;
   EXPECT_FALSE(ReconstructStructure(scene.tracks, scene.R_G_C, kOptions, &reason));
   EXPECT_EQ(reason.rfind("too little parallax: ", 0), 0u) << reason;
 }
 
-TEST(GlobalSfmTest, RefusesFewPoints) {
+TEST(GlobalSfmTest, RejectsFewPoints) {
   const Scene scene(0.1, 0, 0, 4, 1);
   std::string reason;
   EXPECT_FALSE(ReconstructStructure(scene.tracks, scene.R_G_C, kOptions, &reason));
   EXPECT_EQ(reason.rfind("too few common points: ", 0), 0u) << reason;
 }
 
-TEST(GlobalSfmTest, RefusesAViewThatSeesNothing) {
+TEST(GlobalSfmTest, RejectsAFrameWithoutPoints) {
   Scene scene(0.1, 0, 0, 20, 1);
   scene.R_G_C.push_back(Quaterniond::Identity());
   std::string reason;

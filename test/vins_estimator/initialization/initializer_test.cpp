@@ -109,7 +109,7 @@ TEST(InitializerTest, FramesAreLinkedByTheirImuSamples) {
   }
 }
 
-TEST(InitializerTest, SameInputGivesTheSameBits) {
+TEST(InitializerTest, IsDeterministic) {
   const SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kGentle, 3), 4);
   Initializer initializer(ConfigFor(flight));
   const auto first = Feed(flight, &initializer);
@@ -163,7 +163,7 @@ TEST(InitializerTest, StartsFromMotionAfterAStillPart) {
   }
 }
 
-TEST(InitializerTest, RefusesPureRotation) {
+TEST(InitializerTest, RejectsPureRotation) {
   const SimulatedFlight flight =
       SimulateFlight(FlightOptions(simulator::Motion::kPureRotation, 1), 4);
   Initializer initializer(ConfigFor(flight));
@@ -171,7 +171,7 @@ TEST(InitializerTest, RefusesPureRotation) {
   EXPECT_EQ(initializer.reason().rfind("too little parallax: ", 0), 0u) << initializer.reason();
 }
 
-TEST(InitializerTest, RefusesBlindImages) {
+TEST(InitializerTest, RejectsBlindImages) {
   SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kFast, 1), 4);
   for (FrameMeasurement& frame : flight.frames) frame.points.points.clear();
   Initializer initializer(ConfigFor(flight));

@@ -81,24 +81,24 @@ TEST_F(MotionInitializerTest, StatesStartAtTheOriginWithoutHeading) {
   }
 }
 
-TEST_F(MotionInitializerTest, RefusesConstantVelocity) {
+TEST_F(MotionInitializerTest, RejectsConstantVelocity) {
   EXPECT_FALSE(Run(Glide(simulator::DefaultSensors(), {0.1, 0.5, 0.1})));
   EXPECT_NE(reason_.find("scale"), std::string::npos) << reason_;
 }
 
-TEST_F(MotionInitializerTest, RefusesStandstill) {
+TEST_F(MotionInitializerTest, RejectsStandstill) {
   EXPECT_FALSE(Run(Glide(simulator::DefaultSensors(), Vector3d::Zero())));
   EXPECT_EQ(reason_, "too little parallax: 0.0 px of 15.0 px");
 }
 
-TEST_F(MotionInitializerTest, RefusesWithoutPoints) {
+TEST_F(MotionInitializerTest, RejectsWithoutPoints) {
   Thin(testing::SimulateFlight(testing::FlightOptions(simulator::Motion::kFast, 1), 3));
   for (FrameMeasurement& frame : frames_) frame.points.points.clear();
   EXPECT_FALSE(Run(frames_));
   EXPECT_EQ(reason_, "too few common points: 0 of 15");
 }
 
-TEST_F(MotionInitializerTest, RefusesAnImuThatDisagreesWithTheCamera) {
+TEST_F(MotionInitializerTest, RejectsAnImuThatDisagreesWithTheCamera) {
   Thin(testing::SimulateFlight(testing::FlightOptions(simulator::Motion::kFast, 1), 3));
   for (FrameMeasurement& frame : frames_) {
     for (ImuSample& sample : frame.imu)

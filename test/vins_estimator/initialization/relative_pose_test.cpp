@@ -93,7 +93,7 @@ TEST(RelativePoseTest, PureRotationStillGivesTheRotation) {
 }
 
 // A plane has two solutions, and with noise the wrong one may fit better; the gyroscope decides.
-TEST(RelativePoseTest, GyroDecidesBetweenTheSolutionsOfAPlane) {
+TEST(RelativePoseTest, GyroResolvesThePlanarAmbiguity) {
   constexpr int kRuns = 40;
   int right = 0;
   for (int seed = 1; seed <= kRuns; ++seed) {
@@ -106,7 +106,7 @@ TEST(RelativePoseTest, GyroDecidesBetweenTheSolutionsOfAPlane) {
   EXPECT_EQ(right, kRuns);
 }
 
-TEST(RelativePoseTest, RefusesFewOrUnrelatedPointsWithReason) {
+TEST(RelativePoseTest, RejectsFewOrUnrelatedPointsWithReason) {
   std::string reason;
   EXPECT_FALSE(EstimateRelativePose(kViews.Observe(14, 0, 0, 1), kGyro, kNoise, &reason));
   EXPECT_EQ(reason, "too few common points: 14 of 15");

@@ -40,7 +40,7 @@ TEST(StaticInitializerTest, WorksUpsideDown) {
   EXPECT_NEAR((state->rotation() * Vector3d::UnitZ()).z(), -1, 1e-12);
 }
 
-TEST(StaticInitializerTest, RefusesImpossibleMeansWithReason) {
+TEST(StaticInitializerTest, RejectsImpossibleMeansWithReason) {
   std::string reason;
   EXPECT_FALSE(
       InitializeFromStandstill(Repeat(Vector3d::Zero(), Vector3d(0, 0, 1)), kGravity, &reason));

@@ -88,14 +88,14 @@ TEST(StereoStructure, IsExactWithoutNoise) {
   EXPECT_LT(scene.PositionError(*structure), 1e-6);
 }
 
-TEST(StereoStructure, BearsNoiseAndWrongMatches) {
+TEST(StereoStructure, ToleratesNoiseAndWrongMatches) {
   Scene scene(0.5 * kPixel, /*outlier_ratio=*/0.2);
   const auto structure = scene.Reconstruct();
   ASSERT_TRUE(structure) << scene.reason;
   EXPECT_LT(scene.PositionError(*structure), 0.05);
 }
 
-TEST(StereoStructure, TakesMeasuredDepthsAsWell) {
+TEST(StereoStructure, UsesMeasuredDepths) {
   Scene scene(/*noise=*/0, /*outlier_ratio=*/0);
   for (Track& track : scene.tracks) {
     ViewObservation& first = track.observations.front();
@@ -115,7 +115,7 @@ TEST(StereoStructure, NeedsNoMotion) {
   EXPECT_LT(scene.PositionError(*structure), 0.01);
 }
 
-TEST(StereoStructure, SaysThatTooFewPointsHaveADepth) {
+TEST(StereoStructure, ReportsTooFewPointsWithDepth) {
   Scene scene(0, 0);
   for (Track& track : scene.tracks) {
     if (track.id % 8 != 0) track.observations.front().right.reset();

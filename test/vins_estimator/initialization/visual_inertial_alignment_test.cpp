@@ -99,14 +99,14 @@ TEST_F(AlignmentTest, NoiseAndAccelBiasCostLittle) {
   }
 }
 
-TEST_F(AlignmentTest, RefusesAnotherPlanetsGravity) {
+TEST_F(AlignmentTest, RejectsWrongGravity) {
   Simulate(simulator::Motion::kGentle, 1, /*noise=*/false);
   EXPECT_FALSE(Align(1.0, /*gravity_norm=*/3.71));
   EXPECT_EQ(reason_, "estimated gravity is 9.81 m/s^2 instead of 3.71");
 }
 
 // At a constant velocity any scale fits, and noise decides on its sign.
-TEST_F(AlignmentTest, ConstantVelocityLeavesTheScaleOpen) {
+TEST_F(AlignmentTest, ScaleIsUnobservableAtConstantVelocity) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 1);
   const auto vector = [&](double deviation) {
@@ -153,7 +153,7 @@ TEST_F(AlignmentTest, FindsTheGyroBias) {
   EXPECT_LT((*gyro_bias - gyro_bias_).norm(), 5e-4);
 }
 
-TEST_F(AlignmentTest, OneWrongRotationDoesNotSpoilTheGyroBias) {
+TEST_F(AlignmentTest, GyroBiasIsRobustAgainstOneWrongRotation) {
   Simulate(simulator::Motion::kFast, 2, /*noise=*/true);
   auto rotations = Rotations(1e6);
   rotations[3].R_B0_B1 = rotations[3].R_B0_B1 * SO3Exp({0.1, 0, 0});
@@ -162,7 +162,7 @@ TEST_F(AlignmentTest, OneWrongRotationDoesNotSpoilTheGyroBias) {
   EXPECT_LT((*gyro_bias - gyro_bias_).norm(), 2e-3);
 }
 
-TEST_F(AlignmentTest, GyroBiasWithoutRotationsIsRefused) {
+TEST_F(AlignmentTest, GyroBiasWithoutRotationsIsRejected) {
   EXPECT_FALSE(EstimateGyroBias({}, &reason_));
   EXPECT_EQ(reason_, "the gyro bias is unobservable in these images");
 }

@@ -80,7 +80,7 @@ double SizeOf(const std::vector<FrameState>& states) {
   return testing::SizeOf(positions);
 }
 
-TEST(VisualInertialBundle, FindsTheStatesAndHowWellItKnowsTheirScale) {
+TEST(VisualInertialBundle, FindsStatesAndScaleDeviation) {
   constexpr int kFlights = 10;
   double squared_sum = 0;
   for (uint64_t seed = 1; seed <= kFlights; ++seed) {
@@ -105,7 +105,7 @@ TEST(VisualInertialBundle, FindsTheStatesAndHowWellItKnowsTheirScale) {
   EXPECT_LT(squared_sum / kFlights, 3.0);
 }
 
-TEST(VisualInertialBundle, RefusesWithoutPoints) {
+TEST(VisualInertialBundle, RejectsWithoutPoints) {
   Problem problem(1);
   std::vector<FrameState> states = problem.truth;
   problem.p_W.assign(problem.tracks.size(), std::nullopt);

@@ -11,7 +11,7 @@ namespace {
 using testing::kMs;
 using testing::Sample;
 
-TEST(ImuMemory, KnowsTheLastSecond) {
+TEST(ImuMemory, HoldsTheLastSecond) {
   ImuMemory memory;
   EXPECT_FALSE(memory.Contains(Sample(0)));
   for (int64_t t = 0; t <= 3000; t += 5) memory.Add(Sample(t * kMs));

@@ -98,7 +98,7 @@ TEST(ImuStream, TheBoundaryOfTheLastCutIsNotDropped) {
   EXPECT_EQ(Milliseconds(stream.Cut(70 * kMs)), Stamps({20, 60, 65, 70}));
 }
 
-TEST(ImuStream, AClockThatIsSetBackIsToldOnceItRunsOn) {
+TEST(ImuStream, BackwardJumpIsReportedOnceTheClockRunsOn) {
   ImuStream stream = Stream();
   Add(&stream, 0, 1000);
   stream.Cut(500 * kMs);
@@ -111,7 +111,7 @@ TEST(ImuStream, AClockThatIsSetBackIsToldOnceItRunsOn) {
   EXPECT_FALSE(stream.last_cut_ns());
 }
 
-TEST(ImuStream, ARecordingThatIsPlayedAgainIsToldAfterAThousandSamples) {
+TEST(ImuStream, ReplayIsReportedAfterAThousandSamples) {
   ImuStream stream = Stream();
   Add(&stream, 100'000, 101'000);
   const std::vector<Clock> clocks = Add(&stream, 0, 6000);
@@ -121,7 +121,7 @@ TEST(ImuStream, ARecordingThatIsPlayedAgainIsToldAfterAThousandSamples) {
   EXPECT_EQ(stream.first_ns(), 5000 * kMs);
 }
 
-TEST(ImuStream, SamplesThatAreSentAgainSayNothingOfTheClock) {
+TEST(ImuStream, RepeatedSamplesAreNoJump) {
   ImuStream stream = Stream();
   Add(&stream, 0, 1000);
   stream.Cut(900 * kMs);
@@ -130,7 +130,7 @@ TEST(ImuStream, SamplesThatAreSentAgainSayNothingOfTheClock) {
   EXPECT_EQ(stream.Cut(1100 * kMs).size(), 41u);
 }
 
-TEST(ImuStream, AClockThatIsSetOnIsToldWithTheSecondSample) {
+TEST(ImuStream, ForwardJumpIsReportedAtTheSecondSample) {
   for (const int64_t leap_ms : {kMinute_ms, kMinute_ms + 5}) {
     ImuStream stream = Stream();
     Add(&stream, 0, 100);

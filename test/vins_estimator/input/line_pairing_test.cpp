@@ -40,7 +40,7 @@ LinePairing Missing() {
   return pairing;
 }
 
-TEST(LinePairing, LinesAreDecidedWhereTheyAreThereOrPassed) {
+TEST(LinePairing, LinesAreResolvedOnceTheyArriveOrAreSkipped) {
   LinePairing pairing = Pairing();
   Add(&pairing, 50);
   EXPECT_TRUE(pairing.AreDecided(49 * kMs, 0));
@@ -48,12 +48,12 @@ TEST(LinePairing, LinesAreDecidedWhereTheyAreThereOrPassed) {
   EXPECT_FALSE(pairing.AreDecided(51 * kMs, 0));
 }
 
-TEST(LinePairing, LinesAreDecidedWhereTheImageWaitedForLong) {
+TEST(LinePairing, LinesAreResolvedAfterTheTimeout) {
   EXPECT_FALSE(Pairing().AreDecided(0, kMaxLag - 1));
   EXPECT_TRUE(Pairing().AreDecided(0, kMaxLag));
 }
 
-TEST(LinePairing, WhatIsNotExpectedIsNotWaitedForButTaken) {
+TEST(LinePairing, UnexpectedLinesAreUsedWithoutWaiting) {
   LinePairing pairing = Pairing(/*expected=*/false);
   EXPECT_TRUE(pairing.AreDecided(50 * kMs, 0));
   Add(&pairing, 50);
@@ -63,7 +63,7 @@ TEST(LinePairing, WhatIsNotExpectedIsNotWaitedForButTaken) {
   EXPECT_FALSE(pairing.are_missing());
 }
 
-TEST(LinePairing, TakesTheLinesOfTheImageAndDropsThoseBefore) {
+TEST(LinePairing, UsesTheLinesOfTheImageAndDropsEarlierOnes) {
   LinePairing pairing = Pairing();
   for (const int64_t t : {10, 20, 30, 50}) Add(&pairing, t);
   EXPECT_TRUE(Take(&pairing, 30));
@@ -84,7 +84,7 @@ TEST(LinePairing, LinesOfImagesThatAreGoneAreLate) {
   EXPECT_TRUE(Take(&pairing, 30));
 }
 
-TEST(LinePairing, ATrackerThatStartsOverTakesBackWhatItSaidOfLaterTimes) {
+TEST(LinePairing, RestartedTrackerRevokesLaterTimes) {
   LinePairing pairing = Pairing();
   for (const int64_t t : {10, 90, 95, 95, 20, 30}) Add(&pairing, t);
   EXPECT_EQ(pairing.statistics().lines_out_of_order, 2);
@@ -104,7 +104,7 @@ TEST(LinePairing, MissingLinesAreNotWaitedFor) {
   EXPECT_FALSE(Missing().are_of_other_images());
 }
 
-TEST(LinePairing, MissingLinesAreBackWithThoseOfAnImageThatWouldStillWait) {
+TEST(LinePairing, MissingLinesEndWithThoseOfAWaitingImage) {
   LinePairing late = Missing();
   Add(&late, 7);  // later than the lag
   EXPECT_TRUE(late.are_missing());

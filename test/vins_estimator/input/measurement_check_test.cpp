@@ -60,12 +60,12 @@ void ExpectRefusedNext(const FrameMeasurement& measurement, const std::string& w
   EXPECT_NO_THROW(estimator.Process(Next()));
 }
 
-TEST(MeasurementCheck, TakesWhatIsGood) {
+TEST(MeasurementCheck, AcceptsValidMeasurements) {
   EXPECT_NO_THROW(CheckMeasurement(Good(), std::nullopt));
   EXPECT_NO_THROW(CheckMeasurement(Next(), EndOf(Good())));
 }
 
-TEST(MeasurementCheck, RefusesStampsThatDoNotFollow) {
+TEST(MeasurementCheck, RejectsNonIncreasingStamps) {
   Estimator estimator(testing::StillConfig());
   estimator.Process(Good());
   EXPECT_THROW(estimator.Process(Good()), std::invalid_argument);
@@ -73,7 +73,7 @@ TEST(MeasurementCheck, RefusesStampsThatDoNotFollow) {
   EXPECT_NO_THROW(estimator.Process(Good()));
 }
 
-TEST(MeasurementCheck, RefusesFeaturesOfAnotherImage) {
+TEST(MeasurementCheck, RejectsFeaturesOfAnotherImage) {
   FrameMeasurement measurement = Good();
   measurement.points.t_ns += 1;
   ExpectRefused(measurement, "points are of 7000000001 ns");
@@ -82,7 +82,7 @@ TEST(MeasurementCheck, RefusesFeaturesOfAnotherImage) {
   ExpectRefused(measurement, "lines have the timestamp 6999999999 ns");
 }
 
-TEST(MeasurementCheck, RefusesAnIdThatIsThereTwice) {
+TEST(MeasurementCheck, RejectsRepeatedIds) {
   FrameMeasurement measurement = Good();
   measurement.points.points[1].id = 1;
   ExpectRefused(measurement, "point 1 occurs twice");
@@ -91,7 +91,7 @@ TEST(MeasurementCheck, RefusesAnIdThatIsThereTwice) {
   ExpectRefused(measurement, "line 1 occurs twice");
 }
 
-TEST(MeasurementCheck, RefusesWhatNoCameraSees) {
+TEST(MeasurementCheck, RejectsImpossibleCoordinates) {
   FrameMeasurement measurement = Good();
   measurement.points.points[0].xy.x() = kNan;
   ExpectRefused(measurement, "point 1 has impossible coordinates");
@@ -106,13 +106,13 @@ TEST(MeasurementCheck, RefusesWhatNoCameraSees) {
   ExpectRefused(measurement, "line 2 has impossible coordinates");
 }
 
-TEST(MeasurementCheck, RefusesImuSamplesThatAreNotFinite) {
+TEST(MeasurementCheck, RejectsImuSamplesThatAreNotFinite) {
   FrameMeasurement measurement = Good();
   measurement.imu[0].accel.z() = kNan;
   ExpectRefused(measurement, "IMU sample is not finite");
 }
 
-TEST(MeasurementCheck, RefusesDoubtsThatAreNone) {
+TEST(MeasurementCheck, RejectsInvalidDoubts) {
   for (const double doubt : {-1.0, kNan, std::numeric_limits<double>::infinity()}) {
     FrameMeasurement measurement = Good();
     measurement.imu[0].gyro_doubt = doubt;
@@ -123,7 +123,7 @@ TEST(MeasurementCheck, RefusesDoubtsThatAreNone) {
   }
 }
 
-TEST(MeasurementCheck, RefusesImuSamplesThatDoNotLeadToTheImage) {
+TEST(MeasurementCheck, RejectsImuSamplesThatDoNotReachTheImage) {
   FrameMeasurement measurement = Next();
   measurement.imu.clear();
   ExpectRefusedNext(measurement, "has no IMU sample");

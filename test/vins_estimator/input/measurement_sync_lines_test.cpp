@@ -36,7 +36,7 @@ TEST(MeasurementSyncLines, PairsLinesByEqualStamp) {
   EXPECT_EQ(sync.statistics().frames_without_lines, 0);
 }
 
-TEST(MeasurementSyncLines, ALaterLineFrameTellsThatOneIsLost) {
+TEST(MeasurementSyncLines, LaterLineFrameMarksAnEarlierOneAsLost) {
   MeasurementSync sync(WithLines());
   AddImu(&sync, 0, 200);
   sync.AddPoints(Points(50 * kMs));
@@ -49,7 +49,7 @@ TEST(MeasurementSyncLines, ALaterLineFrameTellsThatOneIsLost) {
   EXPECT_EQ(sync.statistics().frames_without_lines, 1);
 }
 
-TEST(MeasurementSyncLines, MissingLinesDelayNoLongerThanTheLag) {
+TEST(MeasurementSyncLines, MissingLinesDelayAtMostTheLag) {
   MeasurementSync sync(WithLines());
   AddImu(&sync, 0, 400);
   for (int64_t t : {50, 100, 150}) sync.AddPoints(Points(t * kMs));
@@ -80,7 +80,7 @@ std::vector<int> FeedWithLines(int64_t from, int64_t to, int lag, MeasurementSyn
   return delays;
 }
 
-TEST(MeasurementSyncLines, ADeadLineTrackerDelaysNoLongerThanItsPatience) {
+TEST(MeasurementSyncLines, StoppedLineTrackerDelaysAtMostThePatience) {
   MeasurementSync sync(WithLines());
   FeedWithLines(50, 1000, 0, &sync);
   EXPECT_EQ(sync.statistics().frames_without_lines, 0);
@@ -107,7 +107,7 @@ TEST(MeasurementSyncLines, ImagesThatWaitForLinesAreNotTooLate) {
   }
 }
 
-TEST(MeasurementSyncLines, ImagesAreLeftOutUpToThoseThatWaitForLines) {
+TEST(MeasurementSyncLines, ImagesAreDroppedUpToThoseThatWaitForLines) {
   MeasurementSync::Options options = WithLines();
   options.max_wait = 0.1;
   MeasurementSync sync(options);
@@ -119,7 +119,7 @@ TEST(MeasurementSyncLines, ImagesAreLeftOutUpToThoseThatWaitForLines) {
   EXPECT_EQ(sync.statistics().frames_too_late, 16);
 }
 
-TEST(MeasurementSyncLines, LinesThatComeBackAreUsedAgain) {
+TEST(MeasurementSyncLines, ReturningLinesAreUsedAgain) {
   for (const int lag : {0, 1, 2}) {
     MeasurementSync sync(WithLines());
     FeedWithLines(50, 1000, -1, &sync);
@@ -130,7 +130,7 @@ TEST(MeasurementSyncLines, LinesThatComeBackAreUsedAgain) {
   }
 }
 
-TEST(MeasurementSyncLines, AHopelesslySlowLineTrackerDelaysNothing) {
+TEST(MeasurementSyncLines, FarTooSlowLineTrackerDelaysNothing) {
   MeasurementSync sync(WithLines());
   const std::vector<int> delays = FeedWithLines(50, 3000, 6, &sync);
   EXPECT_EQ(delays.back(), 0);

@@ -119,7 +119,7 @@ TEST(MeasurementSync, AChangingTimeOffsetNeitherLosesNorDoublesSamples) {
   EXPECT_EQ(originals, 61u);  // 0 ... 300 ms
 }
 
-TEST(MeasurementSync, AnOffsetThatPutsTheCutBackDropsTheFrameAndKeepsItsSamples) {
+TEST(MeasurementSync, DecreasedOffsetDropsTheFrameAndKeepsItsSamples) {
   MeasurementSync sync({});
   AddImu(&sync, 0, 300);
   sync.AddPoints(Points(50 * kMs));
@@ -156,7 +156,7 @@ TEST(MeasurementSync, BadImuSamplesAreDroppedAndCounted) {
   EXPECT_EQ(sync.statistics().imu_gaps, 0);
 }
 
-TEST(MeasurementSync, SamplesThatNoSensorGivesAreDroppedAndCounted) {
+TEST(MeasurementSync, ImpossibleSamplesAreDroppedAndCounted) {
   MeasurementSync sync({});
   AddImu(&sync, 0, 20);
   sync.AddImu({25 * kMs, {0, -1000, 0}, {0, 9.81, 0}});
@@ -171,7 +171,7 @@ TEST(MeasurementSync, SamplesThatNoSensorGivesAreDroppedAndCounted) {
   EXPECT_EQ(sync.statistics().imu_implausible, 4);
 }
 
-TEST(MeasurementSync, ASampleThatDoesNotFitTheOthersIsReplacedAndCounted) {
+TEST(MeasurementSync, SpikeIsReplacedAndCounted) {
   MeasurementSync sync({});
   for (int64_t t = 0; t <= 200; t += 5) {
     ImuSample sample = Sample(t * kMs);
@@ -188,7 +188,7 @@ TEST(MeasurementSync, ASampleThatDoesNotFitTheOthersIsReplacedAndCounted) {
   }
 }
 
-TEST(MeasurementSync, ASampleAloneInTheFutureIsDropped) {
+TEST(MeasurementSync, SingleSampleInTheFutureIsDropped) {
   MeasurementSync sync({});
   AddImu(&sync, 0, 20);
   ImuSample wrong = Sample(22 * kMs);
@@ -244,7 +244,7 @@ TEST(MeasurementSync, RepeatedAndBackwardImagesAreDropped) {
   EXPECT_EQ(sync.statistics().frames_out_of_order, 3);
 }
 
-TEST(MeasurementSync, AClockThatIsSetBackShowsAfterTenSamplesOfTheImu) {
+TEST(MeasurementSync, BackwardJumpIsDetectedAfterTenImuSamples) {
   for (const int samples : {9, 10}) {
     MeasurementSync sync({});
     AddImu(&sync, 0, 200);
@@ -254,7 +254,7 @@ TEST(MeasurementSync, AClockThatIsSetBackShowsAfterTenSamplesOfTheImu) {
 }
 
 // Includes samples that were returned already, and one that the gate replaced.
-TEST(MeasurementSync, SamplesThatAreSentAgainSayNothingOfTheClock) {
+TEST(MeasurementSync, RepeatedSamplesAreNoJump) {
   MeasurementSync sync({});
   const auto send = [&sync](int64_t begin_ms, int64_t end_ms) {
     for (int64_t t = begin_ms; t <= end_ms; t += 5) {
@@ -276,7 +276,7 @@ TEST(MeasurementSync, SamplesThatAreSentAgainSayNothingOfTheClock) {
   EXPECT_EQ(frames.size(), 30u);
 }
 
-TEST(MeasurementSync, AClockThatIsSetBackShowsAfterMoreThanTenImages) {
+TEST(MeasurementSync, BackwardJumpIsDetectedAfterMoreThanTenImages) {
   for (const int images : {10, 11}) {
     MeasurementSync sync({});
     for (int64_t t = 0; t <= 1000; t += 50) sync.AddPoints(Points(t * kMs));
@@ -285,7 +285,7 @@ TEST(MeasurementSync, AClockThatIsSetBackShowsAfterMoreThanTenImages) {
   }
 }
 
-TEST(MeasurementSync, AFrameAloneInTheFutureIsDropped) {
+TEST(MeasurementSync, SingleFrameInTheFutureIsDropped) {
   MeasurementSync sync({});
   AddImu(&sync, 0, 300);
   for (const int64_t t : {50, 3'600'000, 100, 150}) sync.AddPoints(Points(t * kMs));
@@ -294,7 +294,7 @@ TEST(MeasurementSync, AFrameAloneInTheFutureIsDropped) {
   EXPECT_EQ(sync.statistics().frames_out_of_order, 0);
 }
 
-TEST(MeasurementSync, FramesThatWaitedForTooLongAreLeftOut) {
+TEST(MeasurementSync, FramesAreDroppedAfterTheTimeout) {
   MeasurementSync::Options options;
   options.max_wait = 0.2;
   MeasurementSync sync(options);
@@ -356,7 +356,7 @@ TEST(MeasurementSync, QueuesAreBounded) {
   EXPECT_EQ(frames[3].imu.size(), 20u);
 }
 
-TEST(MeasurementSync, FlushHandsOutWhatTheImuReaches) {
+TEST(MeasurementSync, FlushDeliversFramesCoveredByTheImu) {
   MeasurementSync sync(WithLines());
   AddImu(&sync, 0, 110);
   for (int64_t t : {50, 100, 150}) sync.AddPoints(Points(t * kMs));

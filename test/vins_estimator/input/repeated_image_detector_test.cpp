@@ -46,23 +46,23 @@ class RepeatedImageDetectorTest : public ::testing::Test {
   double least_speed_ = 0;
 };
 
-TEST_F(RepeatedImageDetectorTest, WhatRestsWhileTheImuMovesIsRepeated) {
+TEST_F(RepeatedImageDetectorTest, StillImageDuringMotionIsRepeated) {
   EXPECT_EQ(CountRepeated(1, 0.2), 0);
   EXPECT_TRUE(Next(20, 0.2));
   EXPECT_EQ(CountRepeated(0, 0.2), 19);  // the first one is a new image
 }
 
-TEST_F(RepeatedImageDetectorTest, TheLeastMotionOfOneCornerIsNone) {
+TEST_F(RepeatedImageDetectorTest, AnyCornerMotionIsNotRepeated) {
   CountRepeated(1, 0.2);
   EXPECT_EQ(CountRepeated(1e-6, 0.2), 0);
 }
 
-TEST_F(RepeatedImageDetectorTest, WhatRestsWithTheImuIsNone) {
+TEST_F(RepeatedImageDetectorTest, StillImageAtStandstillIsNotRepeated) {
   EXPECT_EQ(CountRepeated(0, 0), 0);
   EXPECT_EQ(CountRepeated(0, 0.01), 0);
 }
 
-TEST_F(RepeatedImageDetectorTest, WhatRestsInASteadyFlightIsRepeated) {
+TEST_F(RepeatedImageDetectorTest, StillImageInSteadyFlightIsRepeated) {
   least_speed_ = 0.2;
   EXPECT_EQ(CountRepeated(1, 0), 0);
   EXPECT_TRUE(Next(20, 0));
@@ -70,14 +70,14 @@ TEST_F(RepeatedImageDetectorTest, WhatRestsInASteadyFlightIsRepeated) {
   EXPECT_FALSE(Next(20, 0));
 }
 
-TEST_F(RepeatedImageDetectorTest, OnceTheImuRestsImagesCountAgain) {
+TEST_F(RepeatedImageDetectorTest, AcceptsImagesOnceTheImuIsStill) {
   CountRepeated(1, 0.2);
   EXPECT_TRUE(Next(20, 0.2));
   CountRepeated(0, 0);
   EXPECT_FALSE(Next(0, 0));
 }
 
-TEST_F(RepeatedImageDetectorTest, FewOrNewCornersTellNothing) {
+TEST_F(RepeatedImageDetectorTest, NeedsEnoughTrackedCorners) {
   CountRepeated(1, 0.2);
   first_id_ = 100;
   EXPECT_FALSE(Next(20, 0.2));

@@ -134,7 +134,7 @@ TEST(RollingShutter, MovesPointsAndLinesToTheStamp) {
   EXPECT_LT(LineError(camera, kInterval, moved), 0.1);
 }
 
-TEST(RollingShutter, TheGyroTellsHowMotionChanges) {
+TEST(RollingShutter, GyroGivesTheChangeOfMotion) {
   const RollingCamera camera(Vector3d(8, -6, 5));
   FrameMeasurement first = camera.Image(0), second = camera.Image(kInterval);
   const FrameMeasurement moved = Moved(camera);
@@ -156,7 +156,7 @@ TEST(RollingShutter, PointsGetTheirVelocity) {
   }
 }
 
-TEST(RollingShutter, LeavesOutWhatIsNew) {
+TEST(RollingShutter, IgnoresNewFeatures) {
   const RollingCamera camera(Vector3d::Zero());
   RollingShutter shutter(camera.parameters());
   FrameMeasurement first = camera.Image(0);

@@ -13,7 +13,7 @@ PointFrame Frame(int64_t t_ms, int64_t id, double x, double y) {
   return frame;
 }
 
-TEST(TrackVelocities, AreTheDifferenceToTheImageBefore) {
+TEST(TrackVelocities, AreDifferencesToThePreviousImage) {
   TrackVelocities velocities;
   PointFrame first = Frame(100, 1, 0.5, 0), second = Frame(150, 1, 0.6, -0.2);
   velocities.Fill(&first);

@@ -88,13 +88,13 @@ TEST(BlockCholesky, GivesABlockOfTheInverseInTheOrderAsked) {
   }
 }
 
-TEST(BlockCholesky, ABlockMayBeCoupledToNothing) {
+TEST(BlockCholesky, AcceptsUncoupledBlocks) {
   Eigen::MatrixXd S = 4 * Eigen::MatrixXd::Identity(kSize, kSize);
   const BlockCholesky factors(kBlocks * kBlock, &S);
   EXPECT_EQ(factors.Solve(Eigen::VectorXd::Ones(kSize)), Eigen::VectorXd::Constant(kSize, 0.25));
 }
 
-TEST(BlockCholesky, TellsWhatIsNotPositiveDefinite) {
+TEST(BlockCholesky, DetectsIndefiniteMatrices) {
   for (const int wrong : {1, kDense + 2, kSize - 1}) {
     Eigen::MatrixXd S = ChainOfBlocks();
     S(wrong, wrong) *= -1;

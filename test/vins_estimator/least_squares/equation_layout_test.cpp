@@ -40,7 +40,7 @@ class EquationLayoutTest : public ::testing::Test {
   int td_, motion_, earlier_motion_, extrinsic_, point_;
 };
 
-TEST_F(EquationLayoutTest, MotionsComeLastByTimeConstantsAndLandmarksNowhere) {
+TEST_F(EquationLayoutTest, OrdersMotionsLastAndOmitsConstantsAndLandmarks) {
   const EquationLayout layout(problem_);
   EXPECT_EQ(layout.dense_size(), 3 * 6 + 2 * 9 + 1);
   EXPECT_EQ(layout.motion_size(), 2 * 9);

@@ -57,7 +57,7 @@ class MarginalizationPriorTest : public ::testing::Test {
   static constexpr int kDenseSize = 25;
 };
 
-TEST_F(MarginalizationPriorTest, RemembersItsLinearisationPoints) {
+TEST_F(MarginalizationPriorTest, KeepsItsLinearizationPoints) {
   const double x = state_.position().x();
   Move(VectorXd::Ones(kSize));
   ASSERT_NE(prior_.Linearization(kPose), nullptr);
@@ -94,7 +94,7 @@ TEST_F(MarginalizationPriorTest, AddsGradientAndInformationWhereTheVariablesAre)
   EXPECT_TRUE(H.triangularView<Eigen::StrictlyLower>().toDenseMatrix().isZero(0));
 }
 
-TEST_F(MarginalizationPriorTest, ConstantsCountAsTheyAre) {
+TEST_F(MarginalizationPriorTest, ConstantsAreHeldFixed) {
   Move(VectorXd::Constant(kSize, 0.1));
   std::vector<int> dense_offset = dense_offset_;
   dense_offset[1] = -1;  // time offset
@@ -109,7 +109,7 @@ TEST_F(MarginalizationPriorTest, ConstantsCountAsTheyAre) {
   EXPECT_MATRIX_NEAR(b, all_b, 1e-12);
 }
 
-TEST_F(MarginalizationPriorTest, MarginalizingKeepsTheAnswerForTheRest) {
+TEST_F(MarginalizationPriorTest, MarginalizingKeepsTheSolutionOfTheRest) {
   const auto is_motion = [](const BlockId& id) { return id.kind == BlockKind::kMotion; };
   const MarginalizationPrior kept = prior_.Marginalize(is_motion);
   ASSERT_EQ(kept.blocks().size(), 2u);
@@ -131,7 +131,7 @@ TEST_F(MarginalizationPriorTest, MarginalizingNothingOrAll) {
   EXPECT_EQ(empty.Cost(problem_), 0);
 }
 
-TEST_F(MarginalizationPriorTest, EmptyPriorSaysNothing) {
+TEST_F(MarginalizationPriorTest, EmptyPriorHasNoInformation) {
   const MarginalizationPrior none;
   MatrixXd H = MatrixXd::Zero(kDenseSize, kDenseSize);
   VectorXd b = VectorXd::Zero(kDenseSize);

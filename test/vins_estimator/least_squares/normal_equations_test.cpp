@@ -152,7 +152,7 @@ TEST_F(NormalEquationsTest, CovarianceIsThatOfTheUndampedEquationsWhateverWasSol
   EXPECT_NE(covariance(), expected);
 }
 
-TEST_F(NormalEquationsTest, RefusesTheCovarianceOfWhatIsNoVariable) {
+TEST_F(NormalEquationsTest, RejectsTheCovarianceOfOtherVariables) {
   equations_->Linearize();
   EXPECT_THROW(equations_->Covariance({{BlockKind::kPose, 12345}}), std::invalid_argument);
 }
@@ -167,7 +167,7 @@ TEST_F(NormalEquationsTest, WithoutAnchorThereIsNoCovariance) {
   EXPECT_EQ(equations.DenseStep(0).size(), 0);
 }
 
-TEST_F(NormalEquationsTest, TermsThatCannotBeEvaluatedAtFirstAreLeftOutForGood) {
+TEST_F(NormalEquationsTest, TermsThatCannotBeEvaluatedInitiallyAreIgnored) {
   const Variable& point = problem().variables()[problem().landmarks()[0].variable];
   ASSERT_EQ(point.id.kind, BlockKind::kPoint);
   const double all = equations_->Cost();

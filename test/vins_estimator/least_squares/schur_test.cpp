@@ -85,7 +85,7 @@ TEST(MarginalizeFirst, OrderDoesNotMatter) {
   EXPECT_MATRIX_NEAR(in_steps.b, at_once.b, 1e-11);
 }
 
-TEST(MarginalizeFirst, ScalesOfManyOrdersOfMagnitudeDoNoHarm) {
+TEST(MarginalizeFirst, ToleratesScalesOfManyOrdersOfMagnitude) {
   simulator::Random random(5);
   const Quadratic all = LeastSquares(RandomMatrix(20, 5, &random), RandomMatrix(20, 1, &random));
   VectorXd scale(5);
@@ -116,7 +116,7 @@ TEST(MarginalizeFirst, TakesSemiDefiniteBlocks) {
   }
 }
 
-TEST(MarginalizeFirst, ComponentsWithoutAnyInformationDropOut) {
+TEST(MarginalizeFirst, ComponentsWithoutInformationAreDropped) {
   simulator::Random random(6);
   MatrixXd J = RandomMatrix(12, 5, &random);
   J.col(1).setZero();

@@ -74,7 +74,7 @@ TEST_F(TermEvaluationTest, WithoutLossIsTheCostFunctionItself) {
   EXPECT_EQ(evaluation_.cost, EvaluateTermCost(term_, variables_));
 }
 
-TEST_F(TermEvaluationTest, RobustCostAndGradientAreThoseOfCeres) {
+TEST_F(TermEvaluationTest, RobustCostAndGradientAgreeWithCeres) {
   for (const double scale : {0.1, 1.0, 20.0}) {
     const ceres::CauchyLoss loss(scale);
     MakeTerm(&loss);
@@ -94,7 +94,7 @@ TEST_F(TermEvaluationTest, RobustCostAndGradientAreThoseOfCeres) {
   }
 }
 
-TEST_F(TermEvaluationTest, TakesJacobiansAtTheLinearisationPoint) {
+TEST_F(TermEvaluationTest, TakesJacobiansAtTheLinearizationPoint) {
   const Eigen::Vector3d linearization(1.4, -1.8, 0.6);
   MakeTerm(nullptr, false, linearization.data());
   ASSERT_TRUE(EvaluateTerm(term_, variables_, &evaluation_));
@@ -113,7 +113,7 @@ TEST_F(TermEvaluationTest, LeavesTheJacobianOfAConstantAlone) {
   }
 }
 
-TEST_F(TermEvaluationTest, TellsWhereATermCannotBeEvaluated) {
+TEST_F(TermEvaluationTest, ReportsTermsThatCannotBeEvaluated) {
   MakeTerm(nullptr);
   EXPECT_TRUE(CanBeEvaluated(term_, variables_));
   values_[0] = -1;

@@ -76,7 +76,7 @@ TEST(Variable, PointsStayInFrontOfTheirHost) {
   }
 }
 
-TEST(Variable, APointFarAwayIsNotDrawnNearer) {
+TEST(Variable, DistantPointIsNotPulledCloser) {
   const Eigen::Vector3d point(0.1, 0.2, 1.0 / 2000);
   Eigen::Vector3d moved;
   for (const double step : {0.0, -1e-5, -1.0}) {

@@ -37,7 +37,7 @@ TEST(HeadingVotes, AreEmptyAtFirst) {
   EXPECT_GT(support.log_false_alarms, 0);
 }
 
-TEST(HeadingVotes, GiveALineOneVoteHoweverLongItIsSeen) {
+TEST(HeadingVotes, GiveEachLineOneVote) {
   HeadingVotes votes;
   Poll(&votes, 1, 1, 0.1, 0, 10);
   EXPECT_NEAR(votes.Best().total, 1, 1e-9);
@@ -99,7 +99,7 @@ TEST(HeadingVotes, MeetAtTheMeanAcrossTheWrap) {
   EXPECT_NEAR(best.sigma, 0.5 * kDegree / std::sqrt(30), 0.03 * kDegree);
 }
 
-TEST(HeadingVotes, TakeLinesAtRightAnglesForOneHeading) {
+TEST(HeadingVotes, PerpendicularLinesShareAHeading) {
   HeadingVotes votes;
   for (int i = 0; i < 20; ++i) votes.Cast(i, 20 * kDegree + i * M_PI / 2, 0, 1.0);
   EXPECT_EQ(votes.Best().lines, 20);
@@ -117,7 +117,7 @@ TEST(HeadingVotes, FindTheStrongerOfTwoHeadings) {
 
 // The bound holds: among random headings, a false alarm rate below exp(-x) occurs less often than
 // exp(-x).
-TEST(HeadingVotes, RarelyTakeChanceForSupport) {
+TEST(HeadingVotes, RarelyAcceptChance) {
   simulator::Random random(7);
   constexpr int kPolls = 4000;
   int alarms_at_tenth = 0, alarms_at_hundredth = 0;
@@ -134,7 +134,7 @@ TEST(HeadingVotes, RarelyTakeChanceForSupport) {
   EXPECT_LT(alarms_at_hundredth, 0.01 * kPolls);
 }
 
-TEST(HeadingVotes, SeeSupportWhereThereIsSome) {
+TEST(HeadingVotes, FindExistingSupport) {
   simulator::Random random(8);
   HeadingVotes votes;
   for (int i = 0; i < 40; ++i) {

@@ -131,7 +131,7 @@ TEST(ManhattanFrame, IsFoundWhereTheHeadingWraps) {
   }
 }
 
-TEST(ManhattanFrame, TakesParallelLinesAlone) {
+TEST(ManhattanFrame, IsFoundFromParallelLines) {
   ManhattanFrame frame;
   LineStream(1, kDegree)
       .Feed(
@@ -176,14 +176,14 @@ TEST(ManhattanFrame, NeedsSeveralLines) {
   EXPECT_FALSE(frame.R_W_M());
 }
 
-TEST(ManhattanFrame, DoesNotAskInaccurateLines) {
+TEST(ManhattanFrame, IgnoresInaccurateLines) {
   ManhattanFrame frame;
   LineStream(1, 5 * kDegree).Feed(20, Built(0.3, 0), &frame);
   EXPECT_EQ(frame.support().total, 0);
   EXPECT_EQ(frame.AxisOf({1, Vector3d::UnitZ(), 5 * kDegree}), LineAxis::kFree);
 }
 
-TEST(ManhattanFrame, IsTheStrongerOfTwo) {
+TEST(ManhattanFrame, IsTheOneWithMoreSupport) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     ManhattanFrame frame;
     const auto make = [](Random* random) {
@@ -218,7 +218,7 @@ TEST(ManhattanFrame, DoesNotMoveOnceLocked) {
   EXPECT_EQ(Yaw(*frame.R_W_M()), locked);
 }
 
-TEST(ManhattanFrame, StaysWhereLinesAreMissing) {
+TEST(ManhattanFrame, StaysWithoutLines) {
   ManhattanFrame frame;
   LineStream stream(1, kDegree);
   stream.Feed(15, Built(0.3, 0.2), &frame);
@@ -227,7 +227,7 @@ TEST(ManhattanFrame, StaysWhereLinesAreMissing) {
   EXPECT_EQ(frame.state(), ManhattanState::kLocked);
 }
 
-TEST(ManhattanFrame, StaysWhereLinesGoAnywhere) {
+TEST(ManhattanFrame, StaysAmongRandomLines) {
   ManhattanFrame frame;
   LineStream stream(1, kDegree);
   stream.Feed(15, Built(0.3, 0.2), &frame);
@@ -235,7 +235,7 @@ TEST(ManhattanFrame, StaysWhereLinesGoAnywhere) {
   EXPECT_EQ(frame.state(), ManhattanState::kLocked);
 }
 
-TEST(ManhattanFrame, IsRevokedWhenTheWorldTurnsAndFoundAnew) {
+TEST(ManhattanFrame, IsRevokedAndFoundAgainAfterAHeadingChange) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     ManhattanFrame frame;
     LineStream stream(seed, kDegree);
@@ -253,7 +253,7 @@ TEST(ManhattanFrame, IsRevokedWhenTheWorldTurnsAndFoundAnew) {
   }
 }
 
-TEST(ManhattanFrame, FollowsIntoAnotherBuilding) {
+TEST(ManhattanFrame, IsReplacedInABuildingOfAnotherHeading) {
   ManhattanFrame frame;
   LineStream stream(1, kDegree);
   stream.Feed(15, Built(0.1, 0.2), &frame);

@@ -46,29 +46,29 @@ bool Keyframe(const Case& c, size_t frame_count = 2) {
   return IsKeyframe(KeyframePolicyOptions(EstimatorConfig(), kFocalLength), window, points);
 }
 
-TEST(KeyframePolicy, FirstFrameIsOne) { EXPECT_TRUE(Keyframe({}, 1)); }
+TEST(KeyframePolicy, FirstFrameIsAKeyframe) { EXPECT_TRUE(Keyframe({}, 1)); }
 
-TEST(KeyframePolicy, ParallaxMakesOne) {
+TEST(KeyframePolicy, ParallaxMakesAKeyframe) {
   EXPECT_FALSE(Keyframe({}));
   const double limit = EstimatorConfig().keyframe_parallax / kFocalLength;
   EXPECT_FALSE(Keyframe({0.1, 100, 0, 0.9 * limit}));
   EXPECT_TRUE(Keyframe({0.1, 100, 0, 1.1 * limit}));
 }
 
-TEST(KeyframePolicy, LostTracksMakeOne) {
+TEST(KeyframePolicy, LostTracksMakeAKeyframe) {
   EXPECT_FALSE(Keyframe({0.1, 20}));
   EXPECT_TRUE(Keyframe({0.1, 19}));
   EXPECT_FALSE(Keyframe({0.1, 60, 60}));
   EXPECT_TRUE(Keyframe({0.1, 60, 61}));
 }
 
-TEST(KeyframePolicy, TimeMakesOne) {
+TEST(KeyframePolicy, TimeMakesAKeyframe) {
   EXPECT_FALSE(Keyframe({0.95}));
   EXPECT_TRUE(Keyframe({1.05}));
 }
 
 // Landmarks outlast a standstill once keyframes have provided its information on the IMU.
-TEST(KeyframePolicy, AtRestItTakesLonger) {
+TEST(KeyframePolicy, StandstillNeedsMoreTime) {
   EXPECT_FALSE(Keyframe({9.5, 100, 0, 0, 4}, 4));
   EXPECT_TRUE(Keyframe({10.5, 100, 0, 0, 4}, 4));
   EXPECT_TRUE(Keyframe({1.05, 100, 0, 0, 3}, 4));
@@ -76,7 +76,7 @@ TEST(KeyframePolicy, AtRestItTakesLonger) {
   EXPECT_TRUE(Keyframe({1.05, 19, 0, 0, 4}, 4)) << "lost tracks";
 }
 
-TEST(KeyframePolicy, BlindImagesAreNone) {
+TEST(KeyframePolicy, ImagesWithoutFeaturesAreNoKeyframes) {
   EXPECT_FALSE(Keyframe({0.1, 0}));
   EXPECT_FALSE(Keyframe({1.05, 0}));
   EXPECT_FALSE(Keyframe({1.05, 9}));
@@ -97,7 +97,7 @@ bool EndsAStandstill(double since_keyframe, bool is_stationary, bool stays_stati
   return EndsStandstill(KeyframePolicyOptions(EstimatorConfig(), kFocalLength), window);
 }
 
-TEST(KeyframePolicy, TheEndOfALongStandstillIsOne) {
+TEST(KeyframePolicy, EndOfALongStandstillIsAKeyframe) {
   EXPECT_TRUE(EndsAStandstill(1.05, true, false));
   EXPECT_FALSE(EndsAStandstill(0.95, true, false)) << "no keyframe was put off";
   EXPECT_FALSE(EndsAStandstill(1.05, true, true));

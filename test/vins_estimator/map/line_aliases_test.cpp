@@ -11,7 +11,7 @@ namespace {
 
 LineFrame FrameOf(const std::vector<LineObservation>& lines) { return {7, lines}; }
 
-TEST(LineAliases, LeaveUnknownTracksAlone) {
+TEST(LineAliases, KeepUnknownTracks) {
   LineAliases aliases;
   EXPECT_EQ(aliases.Resolve(5), 5);
   const LineFrame frame = aliases.Redirect(FrameOf({{5, {0, 0}, {1, 0}}, {2, {0, 0}, {0, 1}}}));
@@ -20,7 +20,7 @@ TEST(LineAliases, LeaveUnknownTracksAlone) {
   EXPECT_TRUE(aliases.Redirect(FrameOf({})).lines.empty());
 }
 
-TEST(LineAliases, LeadToTheOldestInOneStep) {
+TEST(LineAliases, ResolveToTheOldestInOneStep) {
   LineAliases aliases;
   aliases.Add(9, 4);
   aliases.Add(4, 2);  // includes 9
@@ -28,7 +28,7 @@ TEST(LineAliases, LeadToTheOldestInOneStep) {
   for (const int64_t id : {9, 4, 7, 2}) EXPECT_EQ(aliases.Resolve(id), 2);
 }
 
-TEST(LineAliases, RefuseToLeadToNewerOnes) {
+TEST(LineAliases, RejectNewerTargets) {
   LineAliases aliases;
   EXPECT_THROW(aliases.Add(3, 3), std::invalid_argument);
   EXPECT_THROW(aliases.Add(3, 4), std::invalid_argument);
@@ -45,7 +45,7 @@ TEST(LineAliases, KeepTheLongestOfSeveralSegmentsOfOneLine) {
   EXPECT_EQ(frame.lines[0].start.x(), 0.2);
 }
 
-TEST(LineAliases, ForgetTracksThatAreNotSeenAnyMore) {
+TEST(LineAliases, DropEndedTracks) {
   LineAliases aliases;
   aliases.Add(8, 3);
   aliases.Add(9, 3);
@@ -54,7 +54,7 @@ TEST(LineAliases, ForgetTracksThatAreNotSeenAnyMore) {
   EXPECT_EQ(aliases.Resolve(9), 3);
 }
 
-TEST(LineAliases, StayFewHoweverManyTracksBreak) {
+TEST(LineAliases, AreBoundedWithManyBrokenTracks) {
   LineAliases aliases;
   for (int64_t id = 1; id < 5000; ++id) {
     aliases.Add(id, 0);

@@ -25,7 +25,7 @@ LinePairGeometry Pair(double angle, double distance, double gap) {
   return pair;
 }
 
-TEST(FindDifference, NamesTheFirstLimitThatIsPassed) {
+TEST(FindDifference, NamesTheFirstExceededLimit) {
   const SameLineLimits limits(EstimatorConfig(), kFocalLength);
   const double angle = limits.angle, distance = limits.distance;
   EXPECT_EQ(FindDifference(limits, Pair(angle, distance, distance)), LineDifference::kNone);
@@ -36,7 +36,7 @@ TEST(FindDifference, NamesTheFirstLimitThatIsPassed) {
   EXPECT_EQ(FindDifference(limits, Pair(angle, distance, 1.1 * distance)), LineDifference::kGap);
 }
 
-TEST(FindDifference, AllowsForWhatIsNotKnown) {
+TEST(FindDifference, AllowsForUncertainty) {
   const SameLineLimits limits(EstimatorConfig(), kFocalLength);
   LinePairGeometry pair = Pair(2 * limits.angle, 2 * limits.distance, 0);
   pair.angle_sigma = 0.67 * limits.angle;
@@ -70,7 +70,7 @@ class SeeTest : public ::testing::Test {
   LineLandmark line_;
 };
 
-TEST_F(SeeTest, TheSeenPartIsTurnedIntoTheFrame) {
+TEST_F(SeeTest, ObservedPartIsRotatedIntoTheFrame) {
   const Eigen::Quaterniond R_F_W = SO3Exp({0.1, -0.4, 0.8});
   const auto seen = See(window_, R_F_W, kNoise, line_);
   ASSERT_TRUE(seen);
@@ -78,7 +78,7 @@ TEST_F(SeeTest, TheSeenPartIsTurnedIntoTheFrame) {
   EXPECT_MATRIX_NEAR(seen->end_F, R_F_W * end_W_, 1e-5);
 }
 
-TEST_F(SeeTest, TwiceTheNoiseIsHalfAsWellKnown) {
+TEST_F(SeeTest, DeviationIsProportionalToTheNoise) {
   const auto seen = See(window_, Eigen::Quaterniond::Identity(), 0.0005, line_);
   const auto worse = See(window_, Eigen::Quaterniond::Identity(), 0.001, line_);
   ASSERT_TRUE(seen && worse);
@@ -87,7 +87,7 @@ TEST_F(SeeTest, TwiceTheNoiseIsHalfAsWellKnown) {
   EXPECT_NEAR(worse->direction_sigma, 2 * seen->direction_sigma, 0.01 * seen->direction_sigma);
 }
 
-TEST_F(SeeTest, FewViewsDoNotTellHowWellALineIsKnown) {
+TEST_F(SeeTest, FewObservationsHaveNoDeviation) {
   line_.views.pop_back();
   const auto seen = See(window_, Eigen::Quaterniond::Identity(), kNoise, line_);
   ASSERT_TRUE(seen);

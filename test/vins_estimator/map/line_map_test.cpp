@@ -118,7 +118,7 @@ class LineMapTest : public ::testing::Test {
   LineMap map_;
 };
 
-TEST_F(LineMapTest, CollectsViewsByTime) {
+TEST_F(LineMapTest, CollectsObservationsByTime) {
   LineFrame frame;
   frame.t_ns = 200;
   frame.lines = {{3, {0.1, 0.2}, {0.3, 0.4}}, {77, {0, 0}, {1, 0}}};
@@ -134,7 +134,7 @@ TEST_F(LineMapTest, CollectsViewsByTime) {
   EXPECT_FALSE(Landmark(77).triangulated);
 }
 
-TEST_F(LineMapTest, LeavesOutSegmentsWithoutLength) {
+TEST_F(LineMapTest, IgnoresZeroLengthSegments) {
   const double nan = std::nan("");
   LineFrame frame;
   frame.t_ns = 200;
@@ -168,7 +168,7 @@ TEST_F(LineMapTest, TriangulatesInTheHost) {
   EXPECT_EQ(Triangulate().triangulated, 0);  // nothing left to do
 }
 
-TEST_F(LineMapTest, WaitsForViews) {
+TEST_F(LineMapTest, WaitsForObservations) {
   map_ = LineMap();
   for (const int frame : {0, 3}) map_.AddFrame(Observe(segments_W_, frame));
   const LineTriangulationCounts counts = Triangulate();
@@ -176,7 +176,7 @@ TEST_F(LineMapTest, WaitsForViews) {
   EXPECT_EQ(map_.landmarks().size(), static_cast<size_t>(kLines));
 }
 
-TEST_F(LineMapTest, CountsByCauseAndRemovesWhatCannotBe) {
+TEST_F(LineMapTest, CountsByCauseAndRemovesImpossibleLines) {
   const Segment behind_W{{-1, 0, -4}, {1, 1, -5}}, long_W{{-6, 1, 5}, {6, 2, 6}};
   for (int i = 0; i < 4; ++i) {
     Landmark(1).views[i] = Landmark(1).views[0];
@@ -205,7 +205,7 @@ TEST_F(LineMapTest, DegenerateLinesWaitAndAreFoundLater) {
   ExpectAllInPlace();
 }
 
-TEST_F(LineMapTest, HostsPassTheirLinesOn) {
+TEST_F(LineMapTest, RemovedHostTransfersItsLines) {
   Triangulate();
   for (const int frame : {0, 2, 1}) {
     map_.RemoveFrame(window_, Stamp(frame));
@@ -217,7 +217,7 @@ TEST_F(LineMapTest, HostsPassTheirLinesOn) {
   EXPECT_TRUE(map_.landmarks().empty());
 }
 
-TEST_F(LineMapTest, AHostInTheLineCannotHoldIt) {
+TEST_F(LineMapTest, HostOnTheLineIsRejected) {
   Triangulate();
   const Segment& segment = segments_W_[7];
   const Vector3d on_the_line = 0.5 * (segment.start + segment.end);
@@ -228,7 +228,7 @@ TEST_F(LineMapTest, AHostInTheLineCannotHoldIt) {
   EXPECT_FALSE(Landmark(7).triangulated);
 }
 
-TEST_F(LineMapTest, StartAnewKeepsPlaceAndNewestView) {
+TEST_F(LineMapTest, RestartKeepsPositionAndNewestObservation) {
   Triangulate();
   Landmark(7).views.pop_back();        // no longer observed
   MoveHost(window_, 1, &Landmark(8));  // has another host
@@ -249,12 +249,12 @@ TEST_F(LineMapTest, StartAnewKeepsPlaceAndNewestView) {
   ExpectAllInPlace();
 }
 
-TEST_F(LineMapTest, StartAnewLeavesWhatHasNoPlaceYet) {
+TEST_F(LineMapTest, RestartKeepsUntriangulatedLines) {
   map_.StartAnew(window_, Stamp(0), [](const LineLandmark&) { FAIL(); });
   EXPECT_EQ(Landmark(9).views.size(), 4u);
 }
 
-TEST_F(LineMapTest, ObservedSegmentIsWhatWasSeenAltogether) {
+TEST_F(LineMapTest, ObservedSegmentIsTheUnionOfObservations) {
   Triangulate();
   const Segment& whole = segments_W_[3];
   const auto at = [&whole](double share) -> Vector3d {
@@ -281,7 +281,7 @@ TEST_F(LineMapTest, ObservedSegmentIsInFrontOfItsCameras) {
   EXPECT_FALSE(ObservedSegment(Landmark(3), window_));
 }
 
-TEST_F(LineMapTest, RemovesOutlyingViewsAndLines) {
+TEST_F(LineMapTest, RemovesOutlierObservationsAndLines) {
   const LineLimits limits(kNoise, kMaxLength);
   Triangulate();
   Shift(6 * kNoise, &Landmark(1).views[2]);                              // one outlier
@@ -319,7 +319,7 @@ TEST_F(LineMapTest, RemovesLinesBehindTheirCamerasAndLinesTooLong) {
   EXPECT_LT(expected, kLines - 1);
 }
 
-TEST_F(LineMapTest, DoesNotJudgeWhatHasNoPlaceOrOneView) {
+TEST_F(LineMapTest, DoesNotJudgeUntriangulatedOrSingleObservations) {
   for (LineView& view : Landmark(2).views) Shift(view.t_ns == Stamp(1) ? 0.1 : 0, &view);
   EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits(kNoise, kMaxLength)), 0);
   EXPECT_EQ(Landmark(2).views.size(), 4u);
@@ -330,7 +330,7 @@ TEST_F(LineMapTest, DoesNotJudgeWhatHasNoPlaceOrOneView) {
   EXPECT_EQ(map_.landmarks().count(3), 1u);
 }
 
-TEST_F(LineMapTest, RemovesAnchorViewsThatContradictTheLine) {
+TEST_F(LineMapTest, RemovesContradictingAnchorObservations) {
   const LineLimits limits(kNoise, kMaxLength);
   Triangulate();
   TurnOldestIntoAnchor();
@@ -344,7 +344,7 @@ TEST_F(LineMapTest, RemovesAnchorViewsThatContradictTheLine) {
   ExpectAllInPlace();
 }
 
-TEST_F(LineMapTest, ForgetsWhatARemovedAnchorHasSeen) {
+TEST_F(LineMapTest, RemovesObservationsOfARemovedAnchor) {
   Triangulate();
   TurnOldestIntoAnchor();
   LineView of_another;
@@ -357,7 +357,7 @@ TEST_F(LineMapTest, ForgetsWhatARemovedAnchorHasSeen) {
   EXPECT_EQ(Landmark(1).views.size(), 3u);
 }
 
-TEST_F(LineMapTest, StartAnewLeavesNoAnchorViews) {
+TEST_F(LineMapTest, RestartDropsAnchorObservations) {
   Triangulate();
   TurnOldestIntoAnchor();
   Landmark(8).views.erase(Landmark(8).views.begin() + 1, Landmark(8).views.end());

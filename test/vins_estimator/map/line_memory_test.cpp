@@ -47,14 +47,14 @@ class LineMemoryTest : public ::testing::Test {
   LineMemory memory_;
 };
 
-TEST_F(LineMemoryTest, KnowsWhatItWasToldAlone) {
+TEST_F(LineMemoryTest, HoldsOnlyAddedLines) {
   memory_.Keep(3, LineAlongX(1, 2));
   ExpectSeen(3, {1, 0, 0}, {2, 0, 0});
   EXPECT_TRUE(memory_.Find(3)->anchor_views.empty());
   EXPECT_EQ(memory_.Find(4), nullptr);
 }
 
-TEST_F(LineMemoryTest, LetsAllThatAnchorsSawBeChanged) {
+TEST_F(LineMemoryTest, AllowsChangesOfAllAnchorObservations) {
   memory_.Keep(3, LineAlongX(1, 2));
   memory_.Keep(4, LineAlongX(1, 2));
   memory_.KeepView(3, ViewAt(10));
@@ -66,7 +66,7 @@ TEST_F(LineMemoryTest, LetsAllThatAnchorsSawBeChanged) {
   }
 }
 
-TEST_F(LineMemoryTest, JoinsThePartsThatWereSeen) {
+TEST_F(LineMemoryTest, JoinsObservedParts) {
   memory_.Keep(3, LineAlongX(1, 2));
   memory_.Keep(3, LineAlongX(1.5, 3));
   ExpectSeen(3, {1, 0, 0}, {3, 0, 0});
@@ -76,21 +76,21 @@ TEST_F(LineMemoryTest, JoinsThePartsThatWereSeen) {
   ExpectSeen(3, {0, 0, 0}, {3, 0, 0});
 }
 
-TEST_F(LineMemoryTest, TheNewerPlaceStays) {
+TEST_F(LineMemoryTest, KeepsTheNewerPosition) {
   memory_.Keep(3, LineAlongX(1, 2, 0, 0.02));
   memory_.Keep(3, LineAlongX(1, 3, 0.1, 0.039));
   ExpectSeen(3, {1, 0, 0.1}, {3, 0, 0.1});
   EXPECT_EQ(memory_.Find(3)->seen_W.place_sigma, 0.039);
 }
 
-TEST_F(LineMemoryTest, UnlessTheNewerIsMuchLessCertain) {
+TEST_F(LineMemoryTest, KeepsTheOlderPositionIfMuchMoreCertain) {
   memory_.Keep(3, LineAlongX(1, 2, 0, 0.02));
   memory_.Keep(3, LineAlongX(1, 3, 0.1, 0.041));
   ExpectSeen(3, {1, 0, 0}, {3, 0, 0});
   EXPECT_EQ(memory_.Find(3)->seen_W.place_sigma, 0.02);
 }
 
-TEST_F(LineMemoryTest, KeepsViewsOfKnownLinesOnly) {
+TEST_F(LineMemoryTest, KeepsObservationsOfKnownLinesOnly) {
   memory_.KeepView(3, ViewAt(10));
   EXPECT_EQ(memory_.Find(3), nullptr);
   memory_.Keep(3, LineAlongX(1, 2));
@@ -98,7 +98,7 @@ TEST_F(LineMemoryTest, KeepsViewsOfKnownLinesOnly) {
   EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({20}));
 }
 
-TEST_F(LineMemoryTest, KeepsTheFirstViewAndTheNewest) {
+TEST_F(LineMemoryTest, KeepsTheFirstAndTheNewestObservation) {
   static_assert(kMaxAnchorViews == 4);
   memory_.Keep(3, LineAlongX(1, 2));
   for (const int64_t t_ns : {10, 20, 30, 40}) memory_.KeepView(3, ViewAt(t_ns));
@@ -107,7 +107,7 @@ TEST_F(LineMemoryTest, KeepsTheFirstViewAndTheNewest) {
   EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10, 40, 50, 60}));
 }
 
-TEST_F(LineMemoryTest, NewsOfALineLeaveItsViews) {
+TEST_F(LineMemoryTest, UpdateOfALineKeepsItsObservations) {
   memory_.Keep(3, LineAlongX(1, 2));
   memory_.KeepView(3, ViewAt(10));
   memory_.Keep(3, LineAlongX(1, 3));
@@ -125,7 +125,7 @@ TEST_F(LineMemoryTest, JoinedLinesAreOne) {
   EXPECT_EQ(StampsOf(*memory_.Find(3)), Stamps({10, 20}));
 }
 
-TEST_F(LineMemoryTest, JoinTakesOverWhatTheOlderLineDidNotKnow) {
+TEST_F(LineMemoryTest, JoinAddsMissingObservations) {
   memory_.Keep(7, LineAlongX(2, 4));
   memory_.KeepView(7, ViewAt(20));
   memory_.Join(7, 3);
@@ -141,7 +141,7 @@ TEST_F(LineMemoryTest, JoinOfAnUnknownLineChangesNothing) {
   ExpectSeen(3, {1, 0, 0}, {2, 0, 0});
 }
 
-TEST_F(LineMemoryTest, ForgetsWhatARemovedAnchorHasSeen) {
+TEST_F(LineMemoryTest, RemovesObservationsOfARemovedAnchor) {
   for (const int64_t id : {3, 7}) {
     memory_.Keep(id, LineAlongX(1, 2));
     for (const int64_t t_ns : {10, 20}) memory_.KeepView(id, ViewAt(t_ns));
@@ -151,7 +151,7 @@ TEST_F(LineMemoryTest, ForgetsWhatARemovedAnchorHasSeen) {
   for (const int64_t id : {3, 7}) EXPECT_EQ(StampsOf(*memory_.Find(id)), Stamps({20}));
 }
 
-TEST_F(LineMemoryTest, ForgetsTheLineWithoutNewsForLongest) {
+TEST_F(LineMemoryTest, EvictsTheLeastRecentlyUpdatedLine) {
   const auto capacity = static_cast<int64_t>(LineMemory::kCapacity);
   for (int64_t id = 0; id < capacity; ++id) memory_.Keep(id, LineAlongX(1, 2));
   memory_.Keep(0, LineAlongX(1, 3));

@@ -67,7 +67,7 @@ class LocalMapTest : public ::testing::Test {
   LocalMap map_{LocalMapOptions(kNoise, /*remember_lines=*/true)};
 };
 
-TEST_F(LocalMapTest, DropsTheSecondNewestFrameWithItsViews) {
+TEST_F(LocalMapTest, DropsTheSecondNewestFrameWithItsObservations) {
   for (int i = 0; i < 4; ++i) AddFrame(i);
   map_.DropSecondNewest();
   EXPECT_EQ(map_.window.frames.size(), 3u);
@@ -76,7 +76,7 @@ TEST_F(LocalMapTest, DropsTheSecondNewestFrameWithItsViews) {
   ExpectInStep();
 }
 
-TEST_F(LocalMapTest, WhatIsStillSeenStaysWhenItsHostLeaves) {
+TEST_F(LocalMapTest, ObservedLandmarksSurviveTheirHost) {
   for (int i = 0; i < 4; ++i) AddFrame(i);
   Triangulate();
   const DepartedLandmarks departed = map_.SlideOldest(/*stays_as_anchor=*/false);
@@ -87,7 +87,7 @@ TEST_F(LocalMapTest, WhatIsStillSeenStaysWhenItsHostLeaves) {
   ExpectInStep();
 }
 
-TEST_F(LocalMapTest, TellsOfWhatLeavesWithTheOldestFrame) {
+TEST_F(LocalMapTest, ReportsLandmarksThatLeaveWithTheOldestFrame) {
   for (int i = 0; i < 4; ++i) AddFrame(i);
   AddFrame(4, /*with_landmarks=*/false);
   Triangulate();
@@ -113,7 +113,7 @@ TEST_F(LocalMapTest, RemembersLinesThatLeaveUnlessToldNotTo) {
   }
 }
 
-TEST_F(LocalMapTest, AnAnchorGoesWithAllThatItHasSeen) {
+TEST_F(LocalMapTest, RemovingAnAnchorRemovesItsObservations) {
   for (int i = 0; i < 4; ++i) AddFrame(i);
   Triangulate();
   map_.SlideOldest(/*stays_as_anchor=*/true);
@@ -126,7 +126,7 @@ TEST_F(LocalMapTest, AnAnchorGoesWithAllThatItHasSeen) {
   EXPECT_TRUE(Line(kLine).anchor_views.empty());
 }
 
-TEST_F(LocalMapTest, AnAbsorbedLineGoesOnAsTheOlder) {
+TEST_F(LocalMapTest, AbsorbedLineContinuesUnderTheOlderId) {
   for (int i = 0; i < 2; ++i) AddFrame(i);
   for (int i = 2; i < 4; ++i) AddFrame(i, /*with_landmarks=*/true, /*line_id=*/9);
   LineLandmark joint = Line(kLine);
@@ -137,7 +137,7 @@ TEST_F(LocalMapTest, AnAbsorbedLineGoesOnAsTheOlder) {
   EXPECT_EQ(Line(kLine).views.size(), 5u);
 }
 
-TEST_F(LocalMapTest, ARevivedLineGoesOnUnderItsOldId) {
+TEST_F(LocalMapTest, RecognizedLineContinuesUnderItsOldId) {
   for (int i = 0; i < 4; ++i) AddFrame(i);
   AddFrame(4, /*with_landmarks=*/false);
   Triangulate();
@@ -153,7 +153,7 @@ TEST_F(LocalMapTest, ARevivedLineGoesOnUnderItsOldId) {
   ExpectInStep();
 }
 
-TEST_F(LocalMapTest, ForgetsTheTracksOfALineThatIsNoMore) {
+TEST_F(LocalMapTest, DropsTheTracksOfARemovedLine) {
   for (int i = 0; i < 2; ++i) AddFrame(i);
   map_.aliases.Add(9, kLine);
   map_.ForgetIdleAliases();

@@ -113,7 +113,7 @@ TEST_F(PointMapTest, DropsWrongDepthsOnly) {
   EXPECT_FALSE(Landmark(4).views[1].depth);
 }
 
-TEST_F(PointMapTest, WithAWrongDepthAPointIsTriangulatedAnewRatherThanRemoved) {
+TEST_F(PointMapTest, WrongDepthIsDroppedAndThePointTriangulatedAgain) {
   Landmark(3).views[0].depth = 1;
   map_.Triangulate(window_, kMinAngle);
   Landmark(3).coordinates[2] = 1;
@@ -125,7 +125,7 @@ TEST_F(PointMapTest, WithAWrongDepthAPointIsTriangulatedAnewRatherThanRemoved) {
   ExpectAllInPlace();
 }
 
-TEST_F(PointMapTest, CountsWhatTheNewestFrameShowsOfThoseThatAreOptimised) {
+TEST_F(PointMapTest, CountsOptimizedPointsInTheNewestFrame) {
   EXPECT_EQ(map_.CountInNewest(window_), 0) << "not triangulated";
   map_.Triangulate(window_, kMinAngle);
   EXPECT_EQ(map_.CountInNewest(window_), 20);
@@ -135,7 +135,7 @@ TEST_F(PointMapTest, CountsWhatTheNewestFrameShowsOfThoseThatAreOptimised) {
   EXPECT_EQ(map_.CountInNewest(window_), 18) << "seen twice";
 }
 
-TEST_F(PointMapTest, DepthIsToldByTenPointsOfTheNewestFrame) {
+TEST_F(PointMapTest, DepthIsKnownFromTenPointsOfTheNewestFrame) {
   EXPECT_FALSE(map_.MedianDepthInNewest(window_).has_value()) << "not triangulated";
   map_.Triangulate(window_, kMinAngle);
   EXPECT_NEAR(map_.MedianDepthInNewest(window_).value(), 5.5, 1);
@@ -145,7 +145,7 @@ TEST_F(PointMapTest, DepthIsToldByTenPointsOfTheNewestFrame) {
   EXPECT_FALSE(map_.MedianDepthInNewest(window_).has_value());
 }
 
-TEST_F(PointMapTest, FitOfTheNewestIsOfPointsThatWereOptimisedAtTheKeyframe) {
+TEST_F(PointMapTest, FitOfTheNewestUsesPointsOptimizedAtTheKeyframe) {
   constexpr double kMaxError = 0.01;
   map_.Triangulate(window_, kMinAngle);
   const int64_t keyframe_ns = Stamp(1);
@@ -158,7 +158,7 @@ TEST_F(PointMapTest, FitOfTheNewestIsOfPointsThatWereOptimisedAtTheKeyframe) {
   EXPECT_EQ(map_.FitOfNewest(window_, keyframe_ns, kMaxError).contradicted, 1);
 }
 
-TEST_F(PointMapTest, CollectsViewsByTime) {
+TEST_F(PointMapTest, CollectsObservationsByTime) {
   PointFrame frame;
   frame.t_ns = 200;
   frame.points.resize(2);
@@ -191,7 +191,7 @@ TEST_F(PointMapTest, WaitsForAnAngleBetweenTheRays) {
   for (const auto& [id, landmark] : map_.landmarks()) EXPECT_FALSE(landmark.triangulated);
 }
 
-TEST_F(PointMapTest, HostsPassTheirPointsOn) {
+TEST_F(PointMapTest, RemovedHostTransfersItsPoints) {
   map_.Triangulate(window_, kMinAngle);
   for (const int frame : {0, 2, 1}) {
     map_.RemoveFrame(window_, Stamp(frame));
@@ -203,7 +203,7 @@ TEST_F(PointMapTest, HostsPassTheirPointsOn) {
   EXPECT_TRUE(map_.landmarks().empty());
 }
 
-TEST_F(PointMapTest, StartAnewKeepsPlaceAndNewestView) {
+TEST_F(PointMapTest, RestartKeepsPositionAndNewestObservation) {
   map_.Triangulate(window_, kMinAngle);
   Landmark(7).views.pop_back();        // no longer observed
   MoveHost(window_, 1, &Landmark(8));  // has another host
@@ -225,7 +225,7 @@ TEST_F(PointMapTest, StartAnewKeepsPlaceAndNewestView) {
   ExpectAllInPlace();
 }
 
-TEST_F(PointMapTest, StartAnewLeavesWhatHasNoPlaceYet) {
+TEST_F(PointMapTest, RestartKeepsUntriangulatedPoints) {
   map_.StartAnew(window_, Stamp(0), [](const PointLandmark&) { FAIL(); });
   EXPECT_EQ(Landmark(9).views.size(), 4u);
 }
@@ -248,7 +248,7 @@ TEST_F(PointMapTest, ReprojectionErrorHeedsTheTimeOffset) {
   EXPECT_NEAR(ReprojectionError(points_W_[4], view, window_).value(), 0, 1e-9);
 }
 
-TEST_F(PointMapTest, RemovesOutlyingViewsAndPoints) {
+TEST_F(PointMapTest, RemovesOutlierObservationsAndPoints) {
   constexpr double kMaxError = 0.01;
   map_.Triangulate(window_, kMinAngle);
   Landmark(1).views[2].bearing.xy.x() += 0.03;                               // one outlier

@@ -32,7 +32,7 @@ class RecalibrationTest : public ::testing::Test {
   const Recalibration recalibration_{simulator::DefaultSensors().camera, Other()};
 };
 
-TEST_F(RecalibrationTest, KnowsHowFarItMoves) {
+TEST_F(RecalibrationTest, ReturnsTheLargestMotion) {
   CameraParameters camera = simulator::DefaultSensors().camera;
   EXPECT_EQ(Recalibration(camera, camera).LargestMove(), 0);
 
@@ -47,7 +47,7 @@ TEST_F(RecalibrationTest, KnowsHowFarItMoves) {
   EXPECT_GE(recalibration_.LargestMove(), (xy - before).norm());
 }
 
-TEST_F(RecalibrationTest, SeesTheSamePixels) {
+TEST_F(RecalibrationTest, KeepsPixels) {
   Vector2d xy(0.4, -0.3);
   recalibration_.Move(&xy);
   EXPECT_MATRIX_NEAR(xy, Expected({0.4, -0.3}), 1e-12);
@@ -62,7 +62,7 @@ TEST_F(RecalibrationTest, MovesVelocitiesAlong) {
   EXPECT_MATRIX_NEAR(velocity, testing::NumericJacobian(expected, before) * velocity_before, 1e-8);
 }
 
-TEST_F(RecalibrationTest, LeavesARayThatNobodySees) {
+TEST_F(RecalibrationTest, KeepsRaysOutsideTheFieldOfView) {
   const Vector2d beyond(0.9, 0.9);
   CameraParameters folded = Other();
   folded.distortion = {-0.4, 0, 0, 0};  // valid up to a radius of 0.91

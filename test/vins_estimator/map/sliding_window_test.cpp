@@ -50,7 +50,7 @@ TEST(SlidingWindow, FindsFramesByTheirStamp) {
   EXPECT_EQ(&window.second_newest(), &window.frames[1]);
 }
 
-TEST(SlidingWindow, SaysWhichFrameIsNotThere) {
+TEST(SlidingWindow, ErrorNamesTheMissingFrame) {
   SlidingWindow window = MakeWindow(3);
   EXPECT_THROW(window.FrameAt(7), std::logic_error);
   EXPECT_THROW(window.AnchorAt(kInterval), std::logic_error);
@@ -91,7 +91,7 @@ TEST(SlidingWindow, RemovingTheSecondNewestJoinsTheImu) {
   EXPECT_NEAR(joined.duration(), 0.15, 1e-12);
 }
 
-TEST(SlidingWindow, JoinedFramesStoodStillWhereBothDid) {
+TEST(SlidingWindow, JoinedFramesAreStationaryIfBothAre) {
   for (const bool second : {false, true}) {
     for (const bool newest : {false, true}) {
       SlidingWindow window = MakeWindow(3);
@@ -103,7 +103,7 @@ TEST(SlidingWindow, JoinedFramesStoodStillWhereBothDid) {
   }
 }
 
-TEST(SlidingWindow, AFrameThatSeemedToMoveStoodStillWhereTheNextOneTellsSo) {
+TEST(SlidingWindow, NextFrameMayMarkAFrameAsStationary) {
   SlidingWindow window = MakeWindow(4);
   window.frames.pop_back();
   window.SetStillSince(std::nullopt);
@@ -118,7 +118,7 @@ TEST(SlidingWindow, AFrameThatSeemedToMoveStoodStillWhereTheNextOneTellsSo) {
   }
 }
 
-TEST(SlidingWindow, JoinedFramesMoveSinceTheFirstOfThemDid) {
+TEST(SlidingWindow, JoinedFramesMoveSinceTheFirstMoved) {
   for (const bool second : {false, true}) {
     SlidingWindow window = MakeWindow(3);
     window.frames[1].stationary = second;
@@ -139,7 +139,7 @@ TEST(SlidingWindow, FirstFrameHasNoMotionBeforeIt) {
   EXPECT_NE(window.newest().motion_since_previous, nullptr);
 }
 
-TEST(SlidingWindow, TheOldestFrameMayStayAsAnAnchor) {
+TEST(SlidingWindow, OldestFrameMayBecomeAnAnchor) {
   SlidingWindow window = MakeWindow(3);
   window.frames[0].state.SetPose({SO3Exp({0.3, -0.2, 1}), {4, 5, 6}});
   const FrameState oldest = window.frames[0].state;

@@ -34,21 +34,21 @@ class WindowEstimateTest : public ::testing::Test {
   int64_t anchor_ns_ = 0;
 };
 
-TEST_F(WindowEstimateTest, AnAnchorStaysInMapAndPrior) {
+TEST_F(WindowEstimateTest, AnchorIsKeptInMapAndPrior) {
   EXPECT_EQ(estimate_.map.window.frames.size(), 6u);
   EXPECT_TRUE(PriorHoldsPoseOf(anchor_ns_));
   EXPECT_NO_THROW(estimate_.map.window.AnchorAt(anchor_ns_));
   ExpectInStep();
 }
 
-TEST_F(WindowEstimateTest, ARemovedAnchorLeavesBoth) {
+TEST_F(WindowEstimateTest, RemovedAnchorLeavesMapAndPrior) {
   estimate_.RemoveAnchor(anchor_ns_);
   EXPECT_FALSE(PriorHoldsPoseOf(anchor_ns_));
   EXPECT_TRUE(estimate_.map.window.anchors.empty());
   ExpectInStep();
 }
 
-TEST_F(WindowEstimateTest, ADroppedFrameLeavesBoth) {
+TEST_F(WindowEstimateTest, DroppedFrameLeavesMapAndPrior) {
   const int64_t next_ns = estimate_.map.window.frames[1].state.t_ns;
   ASSERT_TRUE(PriorHoldsPoseOf(next_ns));
   while (estimate_.map.window.frames.size() > 2) estimate_.DropSecondNewest();
@@ -56,7 +56,7 @@ TEST_F(WindowEstimateTest, ADroppedFrameLeavesBoth) {
   ExpectInStep();
 }
 
-TEST_F(WindowEstimateTest, TheOldestFrameLeavesTheMapForThePrior) {
+TEST_F(WindowEstimateTest, OldestFrameIsMarginalizedIntoThePrior) {
   const int64_t oldest_ns = estimate_.map.window.frames.front().state.t_ns;
   estimate_.SlideOldest(options_, /*stays_as_anchor=*/false);
   EXPECT_FALSE(PriorHoldsPoseOf(oldest_ns));

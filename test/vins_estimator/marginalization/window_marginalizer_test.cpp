@@ -99,7 +99,7 @@ class MarginalizeOldestTest : public ::testing::TestWithParam<JacobiansAt> {
   ProblemOptions options_ = testing::OnePixelOptions();
 };
 
-TEST_P(MarginalizeOldestTest, LeavesTheGaussNewtonStepAsItWas) {
+TEST_P(MarginalizeOldestTest, KeepsTheGaussNewtonStep) {
   for (const bool keep_pose : {false, true, false}) {
     const Step full = GaussNewtonStep(BuildProblem(options_, &estimate_)->problem());
     estimate_.SlideOldest(options_, keep_pose);
@@ -122,7 +122,7 @@ TEST_P(MarginalizeOldestTest, KeepsThePoseOfAnAnchorWithoutItsMotion) {
             estimate_.map.window.anchors[0].state.pose.data());
 }
 
-TEST_P(MarginalizeOldestTest, AnAnchorThatGoesIsAsIfNeverKept) {
+TEST_P(MarginalizeOldestTest, RemovedAnchorLeavesNoTrace) {
   estimate_.SlideOldest(options_, /*stays_as_anchor=*/false);
   const int64_t oldest_ns = estimate_.map.window.frames.front().state.t_ns;
   const auto marginalize = [this](bool keep_pose) {
@@ -134,7 +134,7 @@ TEST_P(MarginalizeOldestTest, AnAnchorThatGoesIsAsIfNeverKept) {
   ExpectSamePrior(kept.Marginalize(IsOfFrame(oldest_ns)), never_kept);
 }
 
-TEST_P(MarginalizeOldestTest, KeepsLinearisationPointsOnlyForFirstEstimates) {
+TEST_P(MarginalizeOldestTest, KeepsLinearizationPointsOnlyForFirstEstimates) {
   estimate_.SlideOldest(options_, /*stays_as_anchor=*/false);
   const FrameState& state = estimate_.map.window.frames[1].state;
   const BlockId id{BlockKind::kPose, state.t_ns};

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 using testing::LineWindow;
 using testing::UniteOnWall;
 
-TEST(LineMerging, TakesAnEmptyMap) {
+TEST(LineMerging, AcceptsAnEmptyMap) {
   LineWindow window;
   EXPECT_EQ(UniteOnWall({}, &window).merging.merged, 0);
 }
@@ -40,7 +40,7 @@ std::vector<LineView> ViewsAt(const std::vector<int64_t>& stamps) {
   return views;
 }
 
-TEST(LineMerging, KeepsWhatAnchorsHaveSeenOfBoth) {
+TEST(LineMerging, KeepsAnchorObservationsOfBoth) {
   LineWindow window;
   for (int i = 0; i < 10; ++i) {
     AddWallFrame({{4, {-1, 0.5}, {1, 0.6}, 0, 4}, {9, {-1, 0.5}, {1, 0.6}, 5}}, i, &window);
@@ -112,7 +112,7 @@ TEST(LineMerging, LetsOnlyOlderTracksAbsorb) {
   EXPECT_EQ(window.map().aliases.Resolve(7), 5);
 }
 
-TEST(LineMerging, LetsGoOfTheTracksOfALineThatWasRemoved) {
+TEST(LineMerging, DropsTheTracksOfARemovedLine) {
   LineWindow window;
   UniteOnWall({{4, {-1, 0.5}, {1, 0.6}, 0, 4}, {9, {-1, 0.5}, {1, 0.6}, 5}}, &window);
   EXPECT_EQ(window.map().aliases.Resolve(9), 4);

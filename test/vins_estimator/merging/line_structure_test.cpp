@@ -23,7 +23,7 @@ HeadingSupport SupportBy(std::vector<WallLine> tracks, UnitedLines* united) {
   return window.structure().manhattan().support();
 }
 
-TEST(LineStructure, ALineWhoseTrackBreaksHasOneVote) {
+TEST(LineStructure, LineWithABrokenTrackVotesOnce) {
   UnitedLines whole, broken;
   const HeadingSupport once = SupportBy({{4, {-1, 0.5}, {1, 0.5}}}, &whole);
   const HeadingSupport twice =
@@ -35,7 +35,7 @@ TEST(LineStructure, ALineWhoseTrackBreaksHasOneVote) {
   EXPECT_EQ(twice.lines, 2);
 }
 
-TEST(LineStructure, ALineThatComesBackHasOneVote) {
+TEST(LineStructure, RecognizedLineVotesOnce) {
   UnitedLines united;
   const HeadingSupport support =
       SupportBy({{4, {-1, 0.5}, {1, 0.5}, 0, 7}, {9, {-1, 0.5}, {1, 0.5}, 20}}, &united);
@@ -43,7 +43,7 @@ TEST(LineStructure, ALineThatComesBackHasOneVote) {
   EXPECT_EQ(support.lines, 2);
 }
 
-TEST(LineStructure, LinesBesideEachOtherHaveAVoteEach) {
+TEST(LineStructure, NeighboringLinesVoteEach) {
   UnitedLines united;
   EXPECT_EQ(SupportBy({{4, {-1, 0.5}, {1, 0.5}}, {9, {-1, 0}, {1, 0}}}, &united).lines, 3);
 }

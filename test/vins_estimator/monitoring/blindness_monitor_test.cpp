@@ -24,12 +24,12 @@ Matrix6d Known(double deviation) {
   return covariance;
 }
 
-TEST(BlindnessMonitor, BearsDriftWhileSomethingIsSeen) {
+TEST(BlindnessMonitor, ToleratesDriftWithFeatures) {
   BlindnessMonitor monitor;
   for (int i = 0; i < 1000; ++i) EXPECT_FALSE(monitor.Add(6, true, At(i), Known(0.01 * i)));
 }
 
-TEST(BlindnessMonitor, EndsWhatBlindnessHasMadeTooUncertain) {
+TEST(BlindnessMonitor, FailsAfterTooMuchBlindDrift) {
   BlindnessMonitor monitor;
   monitor.Add(100, true, At(0), Known(3.0));
   EXPECT_FALSE(monitor.Add(0, false, At(ToNanoseconds(0.5)), Known(3.0)));
@@ -39,7 +39,7 @@ TEST(BlindnessMonitor, EndsWhatBlindnessHasMadeTooUncertain) {
       "no feature has constrained the position for 3.5 s; its standard deviation grew by 0.60 m");
 }
 
-TEST(BlindnessMonitor, WhatHoldsNothingIsAsGoodAsBlindness) {
+TEST(BlindnessMonitor, FeaturesWithoutConstraintCountAsBlindness) {
   BlindnessMonitor monitor;
   monitor.Add(100, true, At(0), Known(0.1));
   for (int i = 1; i < 10; ++i) {
@@ -51,7 +51,7 @@ TEST(BlindnessMonitor, WhatHoldsNothingIsAsGoodAsBlindness) {
       "no feature has constrained the position for 5.0 s; its standard deviation grew by 0.59 m");
 }
 
-TEST(BlindnessMonitor, AGapBetweenImagesIsBlindness) {
+TEST(BlindnessMonitor, ImageGapCountsAsBlindness) {
   BlindnessMonitor monitor;
   monitor.Add(100, true, At(0), Known(0.1));
   EXPECT_EQ(
@@ -59,7 +59,7 @@ TEST(BlindnessMonitor, AGapBetweenImagesIsBlindness) {
       "no feature has constrained the position for 4.0 s; its standard deviation grew by 0.59 m");
 }
 
-TEST(BlindnessMonitor, TakesNothingFromAnUnknownCovariance) {
+TEST(BlindnessMonitor, IgnoresAnUnknownCovariance) {
   BlindnessMonitor monitor;
   EXPECT_FALSE(monitor.Add(100, true, At(0), std::nullopt));
   EXPECT_FALSE(monitor.Add(100, true, At(1), Known(3.0)));
@@ -72,7 +72,7 @@ TEST(BlindnessMonitor, TakesNothingFromAnUnknownCovariance) {
 }
 
 // Far from the origin of the world, an uncertain heading moves the position by metres.
-TEST(BlindnessMonitor, ATurnOfTheWorldIsNoDrift) {
+TEST(BlindnessMonitor, HeadingDriftOfTheWorldDoesNotCount) {
   constexpr double kHeading = 0.014;  // standard deviation [rad]
   BlindnessMonitor monitor;
   for (const double speed : {20.0, -20.0}) {
@@ -90,7 +90,7 @@ TEST(BlindnessMonitor, ATurnOfTheWorldIsNoDrift) {
   }
 }
 
-TEST(BlindnessMonitor, SightStartsItOver) {
+TEST(BlindnessMonitor, FeaturesResetIt) {
   BlindnessMonitor monitor;
   monitor.Add(0, false, At(0), Known(0.4));
   monitor.Add(50, true, At(1), Known(0.4));

@@ -24,14 +24,14 @@ ContradictionEvidence Evidence() {
   return evidence;
 }
 
-TEST(ContradictionReport, ListsWhatToCheckWhereNothingIsKnown) {
+TEST(ContradictionReport, ListsChecksWithoutAKnownCause) {
   EXPECT_THAT(DescribeContradiction(Evidence()),
               AllOf(ContainsRegex("noise is raised by a factor of 5; check.*extrinsicRotation.*td.*"
                                   "focal length.*IMU.*image"),
                     Not(HasSubstr("acc_n")), Not(HasSubstr("gyr_n"))));
 }
 
-TEST(ContradictionReport, NamesWhatIsKnownFirst) {
+TEST(ContradictionReport, NamesKnownCausesFirst) {
   ContradictionEvidence evidence = Evidence();
   evidence.delay = 0.03;
   evidence.accel_noise_factor = 12;
@@ -46,7 +46,7 @@ TEST(ContradictionReport, NamesWhatIsKnownFirst) {
   EXPECT_THAT(DescribeContradiction(evidence), Not(HasSubstr("gyr_n")));
 }
 
-TEST(ImuNoiseMeter, MeasuresWhiteNoiseBesideMotion) {
+TEST(ImuNoiseMeter, MeasuresWhiteNoiseDuringMotion) {
   constexpr double kGyroDensity = 3e-4, kAccelDensity = 4e-3, kRate = 200;
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, std::sqrt(kRate));

@@ -28,12 +28,12 @@ TEST(DelayMonitor, MeasuresTheDelay) {
   EXPECT_NEAR(Fly(-0.02, 0.003).value_or(0), -0.02, 0.003);
 }
 
-TEST(DelayMonitor, SaysNothingOfOtherErrors) {
+TEST(DelayMonitor, IgnoresOtherErrors) {
   EXPECT_FALSE(Fly(0, 0.001));
   EXPECT_FALSE(Fly(0, 0.02));
 }
 
-TEST(DelayMonitor, SaysNothingOfSmallDelaysNorWithoutTurns) {
+TEST(DelayMonitor, IgnoresSmallDelaysAndNeedsRotation) {
   EXPECT_FALSE(Fly(0.001, 0.0001));
   EXPECT_FALSE(Fly(0.02, 0.0, 1e-4));
 }

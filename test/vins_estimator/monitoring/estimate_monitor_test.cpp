@@ -21,7 +21,7 @@ EstimateMonitor::Evidence Good(double t) {
   return evidence;
 }
 
-TEST(EstimateMonitor, KeepsWhatFits) {
+TEST(EstimateMonitor, AcceptsAConsistentEstimate) {
   EstimateMonitor monitor;
   for (int i = 0; i < 100; ++i) {
     EXPECT_FALSE(monitor.Add(Good(0.05 * i)));
@@ -30,7 +30,7 @@ TEST(EstimateMonitor, KeepsWhatFits) {
   }
 }
 
-TEST(EstimateMonitor, GivesUpAtOnceWhatHasNoSolution) {
+TEST(EstimateMonitor, FailsAtOnceWithoutASolution) {
   EstimateMonitor monitor;
   EstimateMonitor::Evidence evidence = Good(0);
   evidence.solved = false;
@@ -40,7 +40,7 @@ TEST(EstimateMonitor, GivesUpAtOnceWhatHasNoSolution) {
   EXPECT_FALSE(failure->has_drifted);
 }
 
-TEST(EstimateMonitor, GivesUpWhatTheCameraGoesOnContradicting) {
+TEST(EstimateMonitor, FailsOnLastingContradiction) {
   EstimateMonitor monitor;
   std::optional<Failure> failure;
   for (int i = 0; i < 40 && !failure; ++i) {
@@ -54,7 +54,7 @@ TEST(EstimateMonitor, GivesUpWhatTheCameraGoesOnContradicting) {
   EXPECT_FALSE(failure->has_drifted);
 }
 
-TEST(EstimateMonitor, NoBridgeLeadsOnFromBlindDrift) {
+TEST(EstimateMonitor, BlindDriftIsNotBridged) {
   EstimateMonitor monitor;
   EXPECT_FALSE(monitor.Add(Good(0)));
   EstimateMonitor::Evidence evidence = Good(3);
@@ -65,7 +65,7 @@ TEST(EstimateMonitor, NoBridgeLeadsOnFromBlindDrift) {
   EXPECT_TRUE(failure->has_drifted);
 }
 
-TEST(EstimateMonitor, GivesUpWhereTheTimeOffsetRanAway) {
+TEST(EstimateMonitor, FailsOnADivergedTimeOffset) {
   for (const double change : {0.19, -0.19}) {
     EstimateMonitor::Evidence evidence = Good(0);
     evidence.time_offset_change = change;
@@ -81,7 +81,7 @@ TEST(EstimateMonitor, GivesUpWhereTheTimeOffsetRanAway) {
   }
 }
 
-TEST(EstimateMonitor, GivesUpWhereTheStateJumps) {
+TEST(EstimateMonitor, FailsOnAStateJump) {
   EstimateMonitor monitor;
   EstimateMonitor::Evidence evidence = Good(0);
   evidence.newest.position().x() += 2 * FailureLimits().position_jump;

@@ -23,7 +23,7 @@ class FailureDetectorTest : public ::testing::Test {
   FrameState predicted_, optimized_;
 };
 
-TEST_F(FailureDetectorTest, BelievesWhatIsWithinTheLimits) {
+TEST_F(FailureDetectorTest, AcceptsValuesWithinTheLimits) {
   EXPECT_EQ(Detect(), "");
   optimized_.accel_bias() = Vector3d(2.9, 0, 0);
   optimized_.gyro_bias() = Vector3d(0, 0.49, 0);
@@ -93,7 +93,7 @@ TEST(ContradictionMonitor, AlarmsAfterHalfASecondOfContradiction) {
   EXPECT_EQ(FirstAlarm(&monitor, 100, 25, 10), -1);
 }
 
-TEST(ContradictionMonitor, SaysHowMuchContradicts) {
+TEST(ContradictionMonitor, ReportsTheRejectedShare) {
   ContradictionMonitor monitor;
   EXPECT_EQ(FirstAlarm(&monitor, 100, 60, 10), -1);
   EXPECT_EQ(monitor.Add(ToNanoseconds(0.62), 80, 40).value_or(""),
@@ -107,14 +107,14 @@ TEST(ContradictionMonitor, APauseOfImagesIsNoContradiction) {
   EXPECT_TRUE(monitor.Add(ToNanoseconds(1.2), 100, 60)) << "three images say it";
 }
 
-TEST(ContradictionMonitor, ToleratesOutliersAndWhatMayBeChance) {
+TEST(ContradictionMonitor, ToleratesOutliersAndChance) {
   ContradictionMonitor monitor;
   EXPECT_EQ(FirstAlarm(&monitor, 100, 24, 100), -1);
   EXPECT_EQ(FirstAlarm(&monitor, 4, 4, 100), -1);
   EXPECT_DOUBLE_EQ(FirstAlarm(&monitor, 5, 5, 100), 0.5);
 }
 
-TEST(ContradictionMonitor, GoesOnWithTheFewThatAreLeft) {
+TEST(ContradictionMonitor, ContinuesWithFewLandmarks) {
   ContradictionMonitor monitor;
   EXPECT_EQ(FirstAlarm(&monitor, 40, 30, 10), -1);
   EXPECT_TRUE(monitor.Add(ToNanoseconds(0.5), 8, 3));
@@ -123,7 +123,7 @@ TEST(ContradictionMonitor, GoesOnWithTheFewThatAreLeft) {
   EXPECT_FALSE(monitor.Add(ToNanoseconds(0.5), 0, 0)) << "nothing is left, nothing is rejected";
 }
 
-TEST(ContradictionMonitor, ImagesThatShowTooLittleNeitherEndNorProlongIt) {
+TEST(ContradictionMonitor, ImagesWithFewLandmarksDoNotChangeIt) {
   for (const int shown : {0, 5}) {
     ContradictionMonitor monitor;
     EXPECT_EQ(FirstAlarm(&monitor, 40, 30, 10), -1);
@@ -139,7 +139,7 @@ TEST(ContradictionMonitor, ImagesThatShowTooLittleNeitherEndNorProlongIt) {
   EXPECT_FALSE(monitor.Add(ToNanoseconds(0.55), 6, 5));
 }
 
-TEST(ContradictionMonitor, StartsOverWithAnImageThatFits) {
+TEST(ContradictionMonitor, ConsistentImageResetsIt) {
   ContradictionMonitor monitor;
   for (int i = 0; i < 200; ++i) {
     const int rejected = i % 10 == 0 ? 0 : 50;

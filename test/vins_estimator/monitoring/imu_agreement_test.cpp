@@ -60,12 +60,12 @@ class ImuAgreementTest : public ::testing::Test {
   ImuAgreement agreement_;
 };
 
-TEST_F(ImuAgreementTest, IsUndoubtedWhereAllFits) {
+TEST_F(ImuAgreementTest, TrustsAConsistentImu) {
   EXPECT_LT(ChiSquare(kFrames - 1), 1e-6);
   EXPECT_TRUE(agreement_.IsUndoubted(window_, Keyframe()));
 }
 
-TEST_F(ImuAgreementTest, DoubtsAnIntervalAfterTheKeyframe) {
+TEST_F(ImuAgreementTest, RaisesTheNoiseOfAnIntervalAfterTheKeyframe) {
   Contradict(kFrames - 1, 1.4);
   ASSERT_NEAR(ChiSquare(kFrames - 1), 1.4, 0.01);
   EXPECT_TRUE(agreement_.IsUndoubted(window_, Keyframe()));
@@ -73,7 +73,7 @@ TEST_F(ImuAgreementTest, DoubtsAnIntervalAfterTheKeyframe) {
   EXPECT_FALSE(agreement_.IsUndoubted(window_, Keyframe()));
 }
 
-TEST_F(ImuAgreementTest, LooksNoFurtherBackThanTheKeyframe) {
+TEST_F(ImuAgreementTest, DoesNotCheckBeforeTheKeyframe) {
   window_.frames[0].state.velocity().x() += 1;
   ASSERT_GT(ChiSquare(1), 10);
   EXPECT_TRUE(agreement_.IsUndoubted(window_, Keyframe()));
@@ -81,7 +81,7 @@ TEST_F(ImuAgreementTest, LooksNoFurtherBackThanTheKeyframe) {
   EXPECT_FALSE(agreement_.IsUndoubted(window_, Keyframe()));
 }
 
-TEST_F(ImuAgreementTest, DoubtsAnImuThatCountsAsNoisy) {
+TEST_F(ImuAgreementTest, ChecksAnImuWithRaisedNoise) {
   for (int i = 0; i < 40; ++i) {
     Append();
     Contradict(window_.frames.size() - 1, 20);
@@ -92,14 +92,14 @@ TEST_F(ImuAgreementTest, DoubtsAnImuThatCountsAsNoisy) {
   EXPECT_FALSE(agreement_.IsUndoubted(window_, window_.second_newest().state.t_ns));
 }
 
-TEST_F(ImuAgreementTest, AContradictionIsToBeDoubtedAtOnce) {
+TEST_F(ImuAgreementTest, ContradictionRaisesTheNoiseAtOnce) {
   EXPECT_FALSE(agreement_.Add(window_, kFits));
   Append();
   Contradict(window_.frames.size() - 1, 60);
   EXPECT_TRUE(agreement_.Add(window_, kFits));
 }
 
-TEST_F(ImuAgreementTest, ADoubtedIntervalIsNoisierAndItsBiasesMayStep) {
+TEST_F(ImuAgreementTest, DoubtedIntervalIsNoisierAndAllowsBiasSteps) {
   Contradict(kFrames - 1, 60);
   Preintegration& motion = *window_.newest().motion_since_previous;
   DoubtInterval(Scaled(kNoise, 30), &motion);

@@ -15,7 +15,7 @@ ImuMonitor::Evidence At(double t, double chi_square) {
   return {ToNanoseconds(t), chi_square, 100, 2};
 }
 
-TEST(ImuMonitor, TrustsTheConfiguredNoiseWhereItFits) {
+TEST(ImuMonitor, TrustsConsistentNoise) {
   ImuMonitor monitor;
   std::mt19937 random(1);
   std::chi_squared_distribution<double> chi_square(0.5);
@@ -25,7 +25,7 @@ TEST(ImuMonitor, TrustsTheConfiguredNoiseWhereItFits) {
   }
 }
 
-TEST(ImuMonitor, DoubtsAtOnceWhereAnImageContradicts) {
+TEST(ImuMonitor, OneContradictingImageRaisesTheNoise) {
   ImuMonitor monitor;
   EXPECT_FALSE(monitor.Add(At(0, 0.5)));
   const auto scale = monitor.Add(At(0.05, 90));
@@ -34,28 +34,28 @@ TEST(ImuMonitor, DoubtsAtOnceWhereAnImageContradicts) {
   EXPECT_EQ(monitor.noise_scale(), 1);  // a single image may be an outlier
 }
 
-TEST(ImuMonitor, DoubtsWhereSeveralImagesContradictALittle) {
+TEST(ImuMonitor, SeveralSlightContradictionsRaiseTheNoise) {
   ImuMonitor monitor;
   int images = 1;
   while (images < 100 && !monitor.Add(At(0.05 * images, 9))) ++images;
   EXPECT_EQ(images, 5);  // 5 x (9 - 3) > 24
 }
 
-TEST(ImuMonitor, LeavesTheBiasesASecondToSettle) {
+TEST(ImuMonitor, WaitsASecondForTheBiases) {
   ImuMonitor monitor;
   int doubts = 0;
   for (int i = 0; i < 40; ++i) doubts += monitor.Add(At(0.05 * i, 60)) ? 1 : 0;
   EXPECT_EQ(doubts, 2);
 }
 
-TEST(ImuMonitor, DoubtsStronglyWhereThePointsAreElsewhere) {
+TEST(ImuMonitor, LargeContradictionsRaiseTheNoiseFurther) {
   ImuMonitor monitor;
   EXPECT_FALSE(monitor.Add({0, 0.5, 100, 50}));
   EXPECT_FALSE(monitor.Add({50'000'000, 0.5, 19, 19}));
   EXPECT_GE(monitor.Add({100'000'000, 0.5, 100, 51}).value_or(0), 1e3);
 }
 
-TEST(ImuMonitor, FollowsNoiseThatGoesOnAndForgetsIt) {
+TEST(ImuMonitor, FollowsLastingNoiseAndItsEnd) {
   ImuMonitor monitor;
   const double true_scale = 50;
   int i = 0;
@@ -73,7 +73,7 @@ ImuMonitor::Evidence Turned(int image, double turn) {
   return evidence;
 }
 
-TEST(ImuMonitor, NoiseThatHasOneDirectionIsABias) {
+TEST(ImuMonitor, ConstantContradictionIsABias) {
   ImuMonitor monitor;
   int images = 1;
   while (images < 100 && !monitor.Add(Turned(images, 2e-3))) ++images;
@@ -81,7 +81,7 @@ TEST(ImuMonitor, NoiseThatHasOneDirectionIsABias) {
   EXPECT_EQ(monitor.noise_scale(), 1);
 }
 
-TEST(ImuMonitor, NoiseThatGoesToAndFroIsNone) {
+TEST(ImuMonitor, AlternatingContradictionIsNoBias) {
   ImuMonitor monitor;
   for (int i = 0; i < 200; ++i) EXPECT_FALSE(monitor.Add(Turned(i, 2e-3 * std::sin(0.3 * i))));
   EXPECT_GT(monitor.noise_scale(), 1);

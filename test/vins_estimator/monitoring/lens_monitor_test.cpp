@@ -62,7 +62,7 @@ TEST(LensMonitorTest, RingsHaveMedianAndDeviation) {
   EXPECT_EQ(count, 400 * kPoints);
 }
 
-TEST(LensMonitorTest, ASystematicErrorIsNamed) {
+TEST(LensMonitorTest, ReportsASystematicError) {
   const std::string warning = MonitorOf(Camera(), 0.05, Wave).warning();
   for (const char* part : {"(-0.08 px at ", ", +0.05 px at ",
                            "the distortion model does not fit; recalibrate with an equidistant"}) {
@@ -108,7 +108,7 @@ TEST(LensMonitorTest, OutliersAreNoWarning) {
   EXPECT_EQ(MonitorOf(Camera(), 0.1, outliers).warning(), "");
 }
 
-TEST(LensMonitorTest, FewResidualsTellNothing) {
+TEST(LensMonitorTest, NeedsManyResiduals) {
   EXPECT_EQ(MonitorOf(Camera(), 0.2, Wave, 10).warning(), "");
   EXPECT_EQ(LensMonitor(Camera()).warning(), "");
   EXPECT_EQ(LensMonitor(Camera()).Rings()[3].count, 0);

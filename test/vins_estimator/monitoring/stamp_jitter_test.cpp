@@ -49,13 +49,13 @@ TEST(StampJitterMonitor, ComparesNeighboursOnly) {
   EXPECT_NEAR(Measure(0.005, 2e-4, 0.5, 0, /*gaps=*/true), 0.005 / std::sqrt(3), 7e-4);
 }
 
-TEST(StampJitterMonitor, SaysNothingOfOtherErrors) {
+TEST(StampJitterMonitor, IgnoresOtherErrors) {
   EXPECT_EQ(Measure(0, 1e-4), 0);
   EXPECT_EQ(Measure(0, 2e-2), 0);
   EXPECT_EQ(Measure(0, 1e-4, 0.5, 0.005), 0);
 }
 
-TEST(StampJitterMonitor, SaysNothingOfLittleJitterNorWithoutTurns) {
+TEST(StampJitterMonitor, IgnoresLittleJitterAndNeedsRotation) {
   EXPECT_EQ(Measure(0.0005, 1e-5), 0);
   EXPECT_EQ(Measure(0.005, 0, 0.01), 0);
 }
@@ -85,7 +85,7 @@ FrameState At(const simulator::Trajectory& trajectory, double t) {
   return state;
 }
 
-TEST(StampErrors, AreWhatTimeDoesToTheResidual) {
+TEST(StampErrors, AreTheTimeDerivativeOfTheResidual) {
   const simulator::Trajectory trajectory = Flight();
   for (const double begin : {2.0, 3.1, 4.7}) {
     const double end = begin + 0.2, step = 1e-3;

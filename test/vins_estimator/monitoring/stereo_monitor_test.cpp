@@ -37,7 +37,7 @@ TEST(StereoMonitor, LearnsTheNoise) {
   EXPECT_FALSE(Watch(3, 2 * kNoise, {0, 0}).misfit());
 }
 
-TEST(StereoMonitor, NamesACameraThatDoesNotFitAndTakesItsWeight) {
+TEST(StereoMonitor, ReportsAMiscalibratedCameraAndRemovesItsWeight) {
   const StereoMonitor monitor = Watch(3, kNoise, {0, 8 * kNoise});
   ASSERT_TRUE(monitor.misfit());
   EXPECT_NEAR(*monitor.misfit(), 8 * kNoise, 0.5 * kNoise);

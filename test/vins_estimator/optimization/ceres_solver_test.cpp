@@ -107,7 +107,7 @@ TEST_F(CeresSolverTest, ReachesTheMinimumOfOurSolver) {
   }
 }
 
-TEST_F(CeresSolverTest, EndsAtTheSameWithSparseEquations) {
+TEST_F(CeresSolverTest, SparseEquationsGiveTheSameSolution) {
   Disturb(0.003);
   const std::vector<double> values = testing::CopyValues(problem());
   const SolverSummary dense = SolveByCeres(thorough_, problem());
@@ -134,7 +134,7 @@ TEST_F(CeresSolverTest, IsBoundedByIterations) {
 }
 
 // Ceres orders the eliminated variables by address.
-TEST_F(CeresSolverTest, GivesTheSameBytesWhereverTheValuesAre) {
+TEST_F(CeresSolverTest, ResultDoesNotDependOnMemoryAddresses) {
   Disturb(0.01);
   Build();
   const std::vector<double> start = testing::CopyValues(problem());
@@ -151,7 +151,7 @@ TEST_F(CeresSolverTest, GivesTheSameBytesWhereverTheValuesAre) {
   EXPECT_EQ(testing::CopyValues(problem()), expected);
 }
 
-TEST_F(CeresSolverTest, MovesNoConstants) {
+TEST_F(CeresSolverTest, DoesNotMoveConstants) {
   options_.estimate_extrinsic = options_.estimate_td = false;
   Build();
   Disturb(0.003);
@@ -162,7 +162,7 @@ TEST_F(CeresSolverTest, MovesNoConstants) {
   EXPECT_EQ(estimate_.map.window.td, td);
 }
 
-TEST_F(CeresSolverTest, LeavesOutWhatCannotBeEvaluated) {
+TEST_F(CeresSolverTest, IgnoresTermsThatCannotBeEvaluated) {
   const double lowest = SolveByCeres(thorough_, problem()).final_cost;
   const Variable& point = problem().variables()[problem().landmarks()[0].variable];
   ASSERT_EQ(point.id.kind, BlockKind::kPoint);
@@ -172,7 +172,7 @@ TEST_F(CeresSolverTest, LeavesOutWhatCannotBeEvaluated) {
   EXPECT_LT(summary.final_cost, lowest);
 }
 
-TEST_F(CeresSolverTest, RefusesValuesThatAreNotFinite) {
+TEST_F(CeresSolverTest, RejectsValuesThatAreNotFinite) {
   estimate_.map.window.frames[2].state.velocity().x() = std::numeric_limits<double>::quiet_NaN();
   const auto pose = estimate_.map.window.newest().state.pose;
   EXPECT_FALSE(SolveByCeres(SolverOptions(), problem()).solved);

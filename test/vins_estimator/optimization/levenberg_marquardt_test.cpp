@@ -102,7 +102,7 @@ TEST_F(LevenbergMarquardtTest, FewDefaultIterationsAreEnoughFromAPrediction) {
 }
 
 // No second step is needed to find that there is nothing left to gain.
-TEST_F(LevenbergMarquardtTest, StopsAfterAStepThatGainsWhatWasPredicted) {
+TEST_F(LevenbergMarquardtTest, StopsAfterAStepWithThePredictedGain) {
   const double lowest = Solve(thorough_, problem_, &*equations_).final_cost;
   Disturb(0.0002, 1);
   const SolverSummary summary = Solve(SolverOptions(), problem_, &*equations_);
@@ -113,7 +113,7 @@ TEST_F(LevenbergMarquardtTest, StopsAfterAStepThatGainsWhatWasPredicted) {
 }
 
 // A prior adds an unknown constant to the cost.
-TEST_F(LevenbergMarquardtTest, StopsWhereverTheCostCountsFrom) {
+TEST_F(LevenbergMarquardtTest, StoppingDoesNotDependOnAConstantCost) {
   const std::vector<double> truth = testing::CopyValues(problem_);
   Disturb(0.01, 1);
   const SolverSummary expected = Solve(SolverOptions(), problem_, &*equations_);
@@ -155,14 +155,14 @@ TEST_F(LevenbergMarquardtTest, ReachesTheMinimumFromABadStart) {
   EXPECT_LT(summary.final_cost, 1.02 * from_truth.final_cost);
 }
 
-TEST_F(LevenbergMarquardtTest, RefusesValuesThatAreNotFinite) {
+TEST_F(LevenbergMarquardtTest, RejectsValuesThatAreNotFinite) {
   simulated_.window.frames[2].state.velocity().x() = std::numeric_limits<double>::quiet_NaN();
   const auto pose = simulated_.window.newest().state.pose;
   EXPECT_FALSE(Solve(SolverOptions(), problem_, &*equations_).solved);
   EXPECT_EQ(simulated_.window.newest().state.pose, pose);
 }
 
-TEST(LevenbergMarquardt, HasSolvedWhatThereIsNothingToGainFrom) {
+TEST(LevenbergMarquardt, ConvergesWithoutAnyGain) {
   WindowProblem problem;
   double value = 2;
   const int index = problem.AddVariable({BlockKind::kTimeOffset, 0}, &value);
@@ -187,7 +187,7 @@ class Sum final : public SizedFactor<1, 1, 1> {
   }
 };
 
-TEST(LevenbergMarquardt, CountsNoIterationWhereTheUndampedEquationsHaveNoSolution) {
+TEST(LevenbergMarquardt, CountsNoIterationIfSingular) {
   WindowProblem problem;
   std::array<double, 2> values = {1, 2};
   const int first = problem.AddVariable({BlockKind::kTimeOffset, 0}, &values[0]);
@@ -202,7 +202,7 @@ TEST(LevenbergMarquardt, CountsNoIterationWhereTheUndampedEquationsHaveNoSolutio
   EXPECT_NEAR(values[0] + values[1], 0, 1e-3);
 }
 
-TEST(LevenbergMarquardt, LeavesWhatCannotBeSolvedAsItIs) {
+TEST(LevenbergMarquardt, DoesNotChangeASingularProblem) {
   WindowProblem problem;
   std::array<double, 9> motion = {1, 2, 3, 4, 5, 6, 7, 8, 9};  // the biases are unobservable
   const int index = problem.AddVariable({BlockKind::kMotion, 1}, motion.data());

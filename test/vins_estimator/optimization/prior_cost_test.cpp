@@ -85,7 +85,7 @@ TEST_P(PriorCostTest, JacobiansGiveItsGradientAndInformation) {
             1e-9 * scale.cwiseProduct(gradient).norm());
 }
 
-TEST_P(PriorCostTest, NeedsNotEveryJacobian) {
+TEST_P(PriorCostTest, AcceptsMissingJacobians) {
   const PriorCost cost(prior_);
   RowMajorMatrix d_pose(kSize, 7);
   double* jacobians[] = {nullptr, d_pose.data()};

@@ -25,7 +25,7 @@ Calibration SomeCalibration() {
   return calibration;
 }
 
-TEST(CalibratedConfig, IsWantedWhereAnythingIsRefined) {
+TEST(CalibratedConfig, IsWrittenIfAnythingIsRefined) {
   EXPECT_FALSE(RefinesCalibration({}));
   SensorConfig sensors[3];
   sensors[0].estimate_intrinsics = true;
@@ -34,7 +34,7 @@ TEST(CalibratedConfig, IsWantedWhereAnythingIsRefined) {
   for (const SensorConfig& sensor : sensors) EXPECT_TRUE(RefinesCalibration(sensor));
 }
 
-TEST(CalibratedConfig, RunsAsItIs) {
+TEST(CalibratedConfig, LoadsUnchanged) {
   const testing::TemporaryFolder folder;
   Config config;
   config.points.fisheye = false;  // as set by the loader without a mask
@@ -67,7 +67,7 @@ TEST(CalibratedConfig, StaysInTheRangesOfTheKeys) {
   EXPECT_EQ(read.sensor.td, -1);
 }
 
-TEST(CalibratedConfig, KnowsTheRotationThatWasUnknown) {
+TEST(CalibratedConfig, HasTheCalibratedRotation) {
   Config config;
   for (const Mode mode : {Mode::kFixed, Mode::kRefine}) {
     config.sensor.estimate_extrinsic = mode;
@@ -77,7 +77,7 @@ TEST(CalibratedConfig, KnowsTheRotationThatWasUnknown) {
   EXPECT_EQ(WithCalibration(SomeCalibration(), config).sensor.estimate_extrinsic, Mode::kRefine);
 }
 
-TEST(CalibratedConfig, SaysWhereItCannotBeWritten) {
+TEST(CalibratedConfig, ErrorNamesAnUnwritableFile) {
   const testing::TemporaryFolder folder;
   EXPECT_THROW(SaveCalibratedConfig({}, Config(), folder.File("none/calibrated.yaml")),
                std::runtime_error);

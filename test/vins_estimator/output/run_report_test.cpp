@@ -43,7 +43,7 @@ class RunReportTest : public ::testing::Test {
   double time_ = 0;  // [s]
 };
 
-TEST_F(RunReportTest, OfAGoodRunHasOneWorld) {
+TEST_F(RunReportTest, GoodRunHasOneWorld) {
   Until(1.6, Without("collecting images: 0.1 s of 1.5 s"));
   Until(10, Pose());
   EXPECT_THAT(report_.Lines(std::nullopt),
@@ -52,7 +52,7 @@ TEST_F(RunReportTest, OfAGoodRunHasOneWorld) {
   EXPECT_THAT(report_.LastRestart(), IsEmpty());
 }
 
-TEST_F(RunReportTest, NamesWhyWorldsBeganAndWhyThereWasNoPose) {
+TEST_F(RunReportTest, StatesReasonsOfNewWorldsAndMissingPoses) {
   Until(1, Without("collecting images: 0.1 s of 1.5 s"));
   Until(5, Pose());
   Restart("velocity is 60 m/s");
@@ -75,7 +75,7 @@ TEST_F(RunReportTest, WithoutAnyPoseHasNoWorld) {
               ElementsAre("no pose for 0.9 of 0.9 s: too little parallax (0.9 s)"));
 }
 
-TEST_F(RunReportTest, AddsUpReasonsThatDifferInTheirFiguresAlone) {
+TEST_F(RunReportTest, AddsUpReasonsThatDifferInFiguresOnly) {
   for (int i = 0; i < 20; ++i) {
     Until(time_ + 0.1, Without("estimated gravity is " + std::to_string(i / 7.0) + " m/s^2"));
   }

@@ -71,7 +71,7 @@ TEST(RunSummary, AddsUpARun) {
   EXPECT_EQ(json["findings"], Json::array({"the cameras seem to be swapped"}));
 }
 
-TEST(RunSummary, AClockThatIsSetAnewTakesNoTime) {
+TEST(RunSummary, ClockJumpAddsNoTime) {
   RunSummary summary;
   for (const int frame : {0, 1, 2, -2000, -1999, 1'000'000, 1'000'002}) {
     summary.Add(Pose(frame, 0.0), {}, {});
@@ -83,7 +83,7 @@ TEST(RunSummary, AClockThatIsSetAnewTakesNoTime) {
   EXPECT_NEAR(json["real_time_factor"].get<double>(), 0.5, 1e-9);
 }
 
-TEST(RunSummary, TheJumpToANewWorldFrameIsNoWay) {
+TEST(RunSummary, JumpToANewWorldFrameAddsNoPathLength) {
   RunSummary summary;
   summary.Add(Pose(0, 0.0), {}, {});
   summary.Add(Pose(1, 1.0), {}, {});
@@ -96,7 +96,7 @@ TEST(RunSummary, TheJumpToANewWorldFrameIsNoWay) {
   EXPECT_EQ(json["resets"], 1);
 }
 
-TEST(RunSummary, ALossThatIsBridgedIsPartOfTheWay) {
+TEST(RunSummary, BridgedLossAddsPathLength) {
   RunSummary summary;
   summary.Add(Pose(0, 0.0), {}, {});
   summary.Add(NoPose(1, "lost"), {}, {});
@@ -109,7 +109,7 @@ TEST(RunSummary, ALossThatIsBridgedIsPartOfTheWay) {
   EXPECT_EQ(json["resets"], 0);
 }
 
-TEST(RunSummary, TellsTheLastCalibration) {
+TEST(RunSummary, HasTheLastCalibration) {
   RunSummary summary;
   summary.Add(Pose(0, 0), {}, {});
   EstimatorOutput refined = Pose(1, 0);
@@ -133,7 +133,7 @@ TEST(RunSummary, TellsTheLastCalibration) {
   EXPECT_TRUE(RunSummary().ToJson({})["calibration"].is_null());
 }
 
-TEST(RunSummary, WithoutAPoseItSaysWhy) {
+TEST(RunSummary, StatesTheReasonWithoutAPose) {
   RunSummary summary;
   summary.Add(NoPose(0, "too little parallax"), {}, {});
   EXPECT_EQ(summary.poses(), 0);

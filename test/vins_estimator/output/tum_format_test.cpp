@@ -17,7 +17,7 @@ TEST(TumFormat, PadsTheFractionOfTheStamp) {
   EXPECT_EQ(FormatTumRow(5'000'000'007, Rigid3d()).substr(0, 12), "5.000000007 ");
 }
 
-TEST(TumFormat, TellsOfANewWorldFrameInAComment) {
+TEST(TumFormat, MarksANewWorldFrameInAComment) {
   EXPECT_EQ(FormatTumRestart("why"), "# the world frame starts anew: why\n");
 }
 

@@ -34,7 +34,7 @@ PointLandmark PointOfBoth() {
   return landmark;
 }
 
-TEST(ExpectedRay, IsThatOfTheLandmarkWhateverWasObserved) {
+TEST(ExpectedRay, IsTheProjectionOfTheLandmark) {
   const PointLandmark landmark = PointOfBoth();
   const SlidingWindow window = TwoFrames();
   EXPECT_MATRIX_NEAR(ExpectedRay(landmark, landmark.views[0], window), Vector2d(0.1, 0.2), 1e-12);
@@ -42,14 +42,14 @@ TEST(ExpectedRay, IsThatOfTheLandmarkWhateverWasObserved) {
                      1e-12);
 }
 
-TEST(ExpectedRay, IsTheObservedOneOfWhatIsBehindTheCamera) {
+TEST(ExpectedRay, IsTheObservedOneBehindTheCamera) {
   const PointLandmark landmark = PointOfBoth();
   SlidingWindow window = TwoFrames();
   window.frames[1].state.position() = Vector3d(0, 0, 5);
   EXPECT_EQ(ExpectedRay(landmark, landmark.views[1], window), Vector2d(0.3, 0.4));
 }
 
-TEST(ExpectedEnds, AreNearestToThoseObserved) {
+TEST(ExpectedEnds, AreNearestToTheObservedOnes) {
   LineLandmark landmark;
   landmark.views = {{1, {}}, {2, {{-0.1, 0.3}, {0.2, 0.22}}}};
   landmark.coordinates = ToOrthonormal(LineThrough({-1, 1, 4}, {1, 1, 4}));  // at y = 0.25
@@ -58,7 +58,7 @@ TEST(ExpectedEnds, AreNearestToThoseObserved) {
   EXPECT_MATRIX_NEAR(ends.end, Vector2d(0.2, 0.25), 1e-12);
 }
 
-TEST(ExpectedEnds, AreThoseObservedOfALineWithoutAnImage) {
+TEST(ExpectedEnds, AreTheObservedOnesWithoutAnImage) {
   LineLandmark landmark;
   landmark.views = {{1, {}}, {2, {{-0.1, 0.3}, {0.2, 0.22}}}};
   landmark.coordinates =

@@ -50,7 +50,7 @@ TEST(PlacementProblem, TheStatesAfterAFrameAloneAreFree) {
   }
 }
 
-TEST(PlacementProblem, StatesAreFoundWhereTheRestIsKnown) {
+TEST(PlacementProblem, FindsStatesGivenTheRest) {
   const testing::SimulatedWindow simulated = testing::SimulateWindow(4);
   for (const size_t last_known : {1, 2}) {
     testing::SimulatedWindow moved = simulated;

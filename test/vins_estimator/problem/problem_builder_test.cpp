@@ -71,7 +71,7 @@ TEST_F(ProblemBuilderTest, StandstillAddsZeroVelocityAndSamePose) {
 }
 
 // Standard deviations are inversely proportional to residuals.
-TEST_F(ProblemBuilderTest, StandstillIsNoFirmerThanWhatPassesAsIt) {
+TEST_F(ProblemBuilderTest, StandstillDeviationsHaveALowerBound) {
   window().frames[2].stationary = true;
   const auto residuals = [this](int term) {
     ProblemBuilder builder(options_, &window(), &no_prior_);
@@ -97,7 +97,7 @@ TEST_F(ProblemBuilderTest, StandstillIsNoFirmerThanWhatPassesAsIt) {
   EXPECT_MATRIX_NEAR(weaker.tail<3>(), pose.tail<3>() * 0.0005 / (0.02 * interval), 1e-9);
 }
 
-TEST_F(ProblemBuilderTest, PointHasATermForEveryView) {
+TEST_F(ProblemBuilderTest, PointHasATermForEveryObservation) {
   PointLandmark* landmark = LongestTrack();
   ASSERT_EQ(landmark->views.size(), 3u);
   ProblemBuilder builder(options_, &window(), &no_prior_);
@@ -111,7 +111,7 @@ TEST_F(ProblemBuilderTest, PointHasATermForEveryView) {
   EXPECT_EQ(problem.variables().size(), 6u);  // three poses, point, extrinsics, time offset
 }
 
-TEST_F(ProblemBuilderTest, LineHasATermForEveryView) {
+TEST_F(ProblemBuilderTest, LineHasATermForEveryObservation) {
   LineLandmark* landmark = LongestLineTrack();
   ASSERT_EQ(landmark->views.size(), 3u);
   ProblemBuilder builder(options_, &window(), &no_prior_);
@@ -131,7 +131,7 @@ TEST_F(ProblemBuilderTest, LineHasATermForEveryView) {
   }
 }
 
-TEST_F(ProblemBuilderTest, AnchorsSeeALineWithTheirOwnWeight) {
+TEST_F(ProblemBuilderTest, AnchorObservationsHaveTheirOwnWeight) {
   LineLandmark* landmark = LongestLineTrack();
   ASSERT_EQ(landmark->views.size(), 3u);
   MoveHost(window(), 1, landmark);
@@ -219,7 +219,7 @@ TEST_F(ProblemBuilderTest, TimeOffsetAndIntrinsicsGoTogether) {
   EXPECT_TRUE(std::isfinite(equations.Linearize()));
 }
 
-TEST_F(ProblemBuilderTest, VariablesOfThePriorAreLinearisedThereWhereAsked) {
+TEST_F(ProblemBuilderTest, PriorVariablesUseFirstEstimatesIfConfigured) {
   const MarginalizationPrior prior = InitialPrior(InitialUncertainty(), options_, window());
   for (const JacobiansAt jacobians_at : {JacobiansAt::kFirstEstimates, JacobiansAt::kValues}) {
     options_.jacobians_at = jacobians_at;

@@ -52,14 +52,14 @@ TEST_F(WindowVariablesTest, LandmarksAreNot) {
   EXPECT_THROW(variables.Add({BlockKind::kLine, 1}), std::logic_error);
 }
 
-TEST_F(WindowVariablesTest, WhatIsConstantIsAsked) {
+TEST_F(WindowVariablesTest, ConstantsAreQueried) {
   const auto is_motion = [](const BlockId& id) { return id.kind == BlockKind::kMotion; };
   WindowVariables variables(&window(), is_motion, nullptr, &problem_);
   EXPECT_TRUE(At(variables.Motion(State(1).t_ns)).constant);
   EXPECT_FALSE(At(variables.Pose(State(1).t_ns)).constant);
 }
 
-TEST_F(WindowVariablesTest, FirstEstimatesAreThoseOfThePrior) {
+TEST_F(WindowVariablesTest, FirstEstimatesComeFromThePrior) {
   const MarginalizationPrior prior =
       InitialPrior(InitialUncertainty(), testing::OnePixelOptions(), window());
   const BlockId first{BlockKind::kPose, State(0).t_ns};

@@ -52,36 +52,36 @@ class AnchorPolicyTest : public ::testing::Test {
   LineMap lines_;
 };
 
-TEST_F(AnchorPolicyTest, AFrameStaysForALineThatDeparts) { EXPECT_TRUE(Stays()); }
+TEST_F(AnchorPolicyTest, KeepsAnAnchorForALineThatLeaves) { EXPECT_TRUE(Stays()); }
 
-TEST_F(AnchorPolicyTest, NotForALineStillSeen) {
+TEST_F(AnchorPolicyTest, KeepsNoAnchorForAnObservedLine) {
   See(12);
   EXPECT_FALSE(Stays());
 }
 
-TEST_F(AnchorPolicyTest, NotForALineWithoutPlace) {
+TEST_F(AnchorPolicyTest, KeepsNoAnchorForAnUntriangulatedLine) {
   Line().triangulated = false;
   EXPECT_FALSE(Stays());
 }
 
-TEST_F(AnchorPolicyTest, NotForALineOfALaterFrame) {
+TEST_F(AnchorPolicyTest, KeepsNoAnchorForALineOfALaterFrame) {
   Line().views.erase(Line().views.begin());
   EXPECT_FALSE(Stays());
 }
 
-TEST_F(AnchorPolicyTest, NotWhereThereAreNoAnchors) {
+TEST_F(AnchorPolicyTest, KeepsNoAnchorIfDisabled) {
   options_.max_anchors = 0;
   EXPECT_FALSE(Stays());
 }
 
-TEST_F(AnchorPolicyTest, NotWhereAnAnchorInUseHasTheSameView) {
+TEST_F(AnchorPolicyTest, KeepsNoAnchorIfOneInUseIsClose) {
   window_.anchors = {{StateAt(2), Stamp(11)}};
   EXPECT_FALSE(Stays());
   window_.anchors = {{StateAt(1, {9, 0, 0}), Stamp(11)}, {StateAt(2), Stamp(11)}};
   EXPECT_FALSE(Stays());
 }
 
-TEST_F(AnchorPolicyTest, AnAnchorFurtherAwayHasAnotherView) {
+TEST_F(AnchorPolicyTest, DistantAnchorDoesNotCount) {
   const double limit = options_.max_distance;
   window_.anchors = {{StateAt(2, {0.99 * limit, 0, 0}), Stamp(11)}};
   EXPECT_FALSE(Stays());
@@ -89,7 +89,7 @@ TEST_F(AnchorPolicyTest, AnAnchorFurtherAwayHasAnotherView) {
   EXPECT_TRUE(Stays());
 }
 
-TEST_F(AnchorPolicyTest, AnAnchorTurnedFurtherHasAnotherView) {
+TEST_F(AnchorPolicyTest, RotatedAnchorDoesNotCount) {
   const double limit = options_.max_angle;
   window_.anchors = {{StateAt(2, Vector3d::Zero(), SO3Exp({0, 0, 0.99 * limit})), Stamp(11)}};
   EXPECT_FALSE(Stays());
@@ -97,27 +97,27 @@ TEST_F(AnchorPolicyTest, AnAnchorTurnedFurtherHasAnotherView) {
   EXPECT_TRUE(Stays());
 }
 
-TEST_F(AnchorPolicyTest, AnAnchorOutOfUseDoesNotCount) {
+TEST_F(AnchorPolicyTest, UnusedAnchorDoesNotCount) {
   window_.anchors = {{StateAt(2), Stamp(12 - options_.max_idle)}};
   EXPECT_FALSE(Stays());
   window_.anchors[0].last_use_ns -= 1;
   EXPECT_TRUE(Stays());
 }
 
-TEST_F(AnchorPolicyTest, NoAnchorGoesWhileThereIsRoom) {
+TEST_F(AnchorPolicyTest, EvictsNoAnchorBelowCapacity) {
   options_.max_anchors = 2;
   EXPECT_EQ(AnchorToReplace(options_, window_), std::nullopt);
   window_.anchors = {{StateAt(1), Stamp(5)}};
   EXPECT_EQ(AnchorToReplace(options_, window_), std::nullopt);
 }
 
-TEST_F(AnchorPolicyTest, TheAnchorOutOfUseForLongestGoes) {
+TEST_F(AnchorPolicyTest, EvictsTheLeastRecentlyUsedAnchor) {
   options_.max_anchors = 3;
   window_.anchors = {{StateAt(1), Stamp(9)}, {StateAt(2), Stamp(5)}, {StateAt(3), Stamp(7)}};
   EXPECT_EQ(AnchorToReplace(options_, window_), Stamp(2));
 }
 
-TEST_F(AnchorPolicyTest, UseIsNotedOfAnchorsThatSawALineOfTheEstimate) {
+TEST_F(AnchorPolicyTest, RecordsUseOfAnchorsThatObservedAnOptimizedLine) {
   window_.anchors = {{StateAt(1), Stamp(5)}, {StateAt(2), Stamp(6)}};
   NoteUse(lines_, &window_);
   EXPECT_EQ(window_.anchors[0].last_use_ns, Stamp(5));

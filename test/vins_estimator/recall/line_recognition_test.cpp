@@ -25,7 +25,7 @@ UnitedLines ComeBack(const Vector2d& start, const Vector2d& end, LineWindow* win
                      kFramesAndBack);
 }
 
-TEST(LineRecognition, RecognisesALineThatComesBack) {
+TEST(LineRecognition, RecognizesAReobservedLine) {
   LineWindow window;
   const auto counts = ComeBack({-1, 0.5}, {1, 0.5}, &window);
   EXPECT_EQ(counts.recognised, 1);
@@ -41,13 +41,13 @@ TEST(LineRecognition, RecognisesALineThatComesBack) {
   EXPECT_EQ(anchor.last_use_ns, window.map().window.newest().state.t_ns);
 }
 
-TEST(LineRecognition, RecognisesAnotherPartOfALine) {
+TEST(LineRecognition, RecognizesAnotherPartOfALine) {
   LineWindow window;
   EXPECT_EQ(ComeBack({1.05, 0.5}, {2, 0.5}, &window).recognised, 1);
   EXPECT_EQ(window.map().lines.landmarks().count(kGone), 1u);
 }
 
-TEST(LineRecognition, DoesNotTakeAnotherLineForOneThatLeft) {
+TEST(LineRecognition, DoesNotConfuseLines) {
   const std::map<std::string, std::pair<Vector2d, Vector2d>> others = {
       {"parallel", {{-1, 0.7}, {1, 0.7}}},
       {"crossing", {{-1, 0.4}, {1, 0.6}}},
@@ -64,7 +64,7 @@ TEST(LineRecognition, DoesNotTakeAnotherLineForOneThatLeft) {
 }
 
 // The distance of the two is below the limits, but images show them side by side.
-TEST(LineRecognition, DoesNotRecogniseALineThatIsStillThere) {
+TEST(LineRecognition, DoesNotRecognizeAnObservedLine) {
   LineWindow window;
   const auto counts = UniteOnWall(
       {{kGone, {-1, 0.5}, {1, 0.5}}, {kComeBack, {-1, 0.54}, {1, 0.54}, 14}}, &window, 22);
@@ -73,7 +73,7 @@ TEST(LineRecognition, DoesNotRecogniseALineThatIsStillThere) {
   EXPECT_EQ(window.map().lines.landmarks().size(), 2u);
 }
 
-TEST(LineRecognition, MergesTheNextTrackIntoALineThatCameBack) {
+TEST(LineRecognition, MergesTheNextTrackIntoARecognizedLine) {
   LineWindow window;
   const auto counts = UniteOnWall({{kGone, {-1, 0.5}, {1, 0.5}, 0, 7},
                                    {kComeBack, {-1, 0.5}, {1, 0.5}, 20, 24},

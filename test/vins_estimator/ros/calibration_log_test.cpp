@@ -12,7 +12,7 @@
 namespace plm_vins {
 namespace {
 
-TEST(CalibrationLog, SavesTheNewestWhereItIsRefined) {
+TEST(CalibrationLog, SavesTheNewestRefinement) {
   const testing::TemporaryFolder folder;
   Config config;
   config.sensor.estimate_td = true;
@@ -28,7 +28,7 @@ TEST(CalibrationLog, SavesTheNewestWhereItIsRefined) {
   EXPECT_NE(folder.Read("calibrated.yaml").find("\ntd: 0.02\n"), std::string::npos);
 }
 
-TEST(CalibrationLog, SavesNothingWhereNothingIsRefined) {
+TEST(CalibrationLog, SavesNothingWithoutRefinement) {
   const testing::TemporaryFolder folder;
   CalibrationLog log{Config()};
   log.Set(Calibration());
@@ -51,7 +51,7 @@ TEST(CalibrationLog, KeepsTheConfigurationInUse) {
   EXPECT_EQ(folder.Read("calibrated.yaml"), "in use");
 }
 
-TEST(CalibrationLog, TakesANewOneWhileItSaves) {
+TEST(CalibrationLog, AcceptsUpdatesWhileSaving) {
   const testing::TemporaryFolder folder;
   Config config;
   config.sensor.estimate_td = true;

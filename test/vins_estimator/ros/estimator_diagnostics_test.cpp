@@ -36,7 +36,7 @@ class EstimatorDiagnosticsTest : public ::testing::Test {
   int64_t frames_ = 0;
 };
 
-TEST_F(EstimatorDiagnosticsTest, AreFineWhileItTracksInTime) {
+TEST_F(EstimatorDiagnosticsTest, AreOkWhileTrackingInTime) {
   const Status status = Report(0.1);
   EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::OK);
   EXPECT_EQ(status.message, "tracking");
@@ -68,7 +68,7 @@ TEST_F(EstimatorDiagnosticsTest, StateTheNoiseOfTheImuAsConfiguredUntilItIsLearn
   EXPECT_EQ(density(), "0.5");
 }
 
-TEST_F(EstimatorDiagnosticsTest, WarnWhereThePoseIsDoubtful) {
+TEST_F(EstimatorDiagnosticsTest, WarnOfDoubtfulPoses) {
   output_.on_imu_alone = true;
   EXPECT_EQ(Report(0).message, "tracking; blind: dead reckoning by the IMU");
   output_.on_imu_alone = false;
@@ -78,7 +78,7 @@ TEST_F(EstimatorDiagnosticsTest, WarnWhereThePoseIsDoubtful) {
   EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
 }
 
-TEST_F(EstimatorDiagnosticsTest, WarnWhereNothingThatComesIsUsable) {
+TEST_F(EstimatorDiagnosticsTest, WarnOfUnusableInput) {
   diagnostics_.CountMalformed("two channels");
   diagnostics_.CountLeftOut(3);
   Status status;
@@ -89,7 +89,7 @@ TEST_F(EstimatorDiagnosticsTest, WarnWhereNothingThatComesIsUsable) {
   EXPECT_EQ(Value(status, "features_impossible"), "3");
 }
 
-TEST_F(EstimatorDiagnosticsTest, KeepWhyItLastStartedAnew) {
+TEST_F(EstimatorDiagnosticsTest, KeepTheReasonOfTheLastRestart) {
   output_.restarted = true;
   output_.reason = "nothing seen";
   Report(0);

@@ -49,15 +49,13 @@ TEST(LineMarker, ShowsTheAxesInDifferentColours) {
 }
 
 // An empty list would be an error in rviz.
-TEST(LineMarker, GoesWhereThereAreNoLines) {
+TEST(LineMarker, IsDeletedWithoutLines) {
   const Marker marker = ToLineMarker({}, 1, "world", "lines");
   EXPECT_EQ(marker.action, Marker::DELETE);
   EXPECT_EQ(marker.ns, "lines");
 }
 
-TEST(LineHistory, HasNothingToSayWithoutLines) {
-  EXPECT_TRUE(LineHistory("world").Add({}, 1).empty());
-}
+TEST(LineHistory, IsEmptyWithoutLines) { EXPECT_TRUE(LineHistory("world").Add({}, 1).empty()); }
 
 TEST(LineHistory, GrowsOneMarkerThenTheNext) {
   constexpr size_t kFull = LineHistory::kLinesPerMarker;
@@ -74,7 +72,7 @@ TEST(LineHistory, GrowsOneMarkerThenTheNext) {
   EXPECT_EQ(changed[1].points[0].x, kFull);
 }
 
-TEST(LineHistory, ReplacesALineThatLeavesAgain) {
+TEST(LineHistory, ReplacesARecognizedLineThatLeavesAgain) {
   constexpr size_t kFull = LineHistory::kLinesPerMarker;
   LineHistory history("world");
   std::vector<MapLine> known = MakeLines(0, 2 * kFull + 1);
@@ -92,7 +90,7 @@ TEST(LineHistory, ReplacesALineThatLeavesAgain) {
   EXPECT_EQ(changed[1].points[0].x, -2.0 * kFull);
 }
 
-TEST(LineHistory, ForgetsLinesThatArePartOfOthers) {
+TEST(LineHistory, DropsMergedLines) {
   constexpr size_t kFull = LineHistory::kLinesPerMarker;
   LineHistory history("world");
   history.Add(MakeLines(0, kFull + 1), 1);
@@ -139,7 +137,7 @@ TEST(LineHistory, StaysBoundedInALongRun) {
   EXPECT_EQ(ids.size(), LineHistory::kMaxMarkers);
 }
 
-TEST(LineHistory, AddsALineAnewWhoseMarkerWasOverwritten) {
+TEST(LineHistory, AddsALineAgainAfterItsMarkerWasOverwritten) {
   constexpr size_t kFull = LineHistory::kLinesPerMarker;
   constexpr size_t kAll = kFull * LineHistory::kMaxMarkers;
   LineHistory history("world");

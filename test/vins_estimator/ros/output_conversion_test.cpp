@@ -54,7 +54,7 @@ TEST(OdometryMessage, TwistIsInTheBody) {
   EXPECT_EQ(odometry.twist.twist.angular.y, 0.2);
 }
 
-TEST(OdometryMessage, ACovarianceThatIsNoneIsVeryLarge) {
+TEST(OdometryMessage, UnknownCovarianceIsVeryLarge) {
   EstimatedFrame good;
   good.output.uncertainty.emplace();
   good.output.uncertainty->pose = MakeCovariance<6>();

@@ -33,7 +33,7 @@ class TrajectoryLogTest : public ::testing::Test {
   TrajectoryLog log_;
 };
 
-TEST_F(TrajectoryLogTest, ASecondSaveTakesThePlaceOfTheFirst) {
+TEST_F(TrajectoryLogTest, SecondSaveReplacesTheFirst) {
   log_.Add(1'000'000'000, kPose);
   const std::string first = Saved();
   std::ifstream reader(folder_.File("a.tum"));
@@ -43,7 +43,7 @@ TEST_F(TrajectoryLogTest, ASecondSaveTakesThePlaceOfTheFirst) {
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(reader), {}), first) << "not in one step";
 }
 
-TEST_F(TrajectoryLogTest, WithoutAPoseTheFileStaysAsItIs) {
+TEST_F(TrajectoryLogTest, WithoutAPoseTheFileIsUnchanged) {
   folder_.Write("a.tum", "of the flight before");
   EXPECT_TRUE(log_.empty());
   try {
@@ -58,7 +58,7 @@ TEST_F(TrajectoryLogTest, WithoutAPoseTheFileStaysAsItIs) {
   EXPECT_FALSE(log_.empty());
 }
 
-TEST_F(TrajectoryLogTest, TellsOfANewWorldFrame) {
+TEST_F(TrajectoryLogTest, MarksANewWorldFrame) {
   log_.Add(1'000'000'000, Rigid3d());
   const std::string before = Saved();
   log_.BeginWorld("it flew away");
@@ -66,7 +66,7 @@ TEST_F(TrajectoryLogTest, TellsOfANewWorldFrame) {
   EXPECT_EQ(Saved(), before + "# the world frame starts anew: it flew away\n" + kRow);
 }
 
-TEST_F(TrajectoryLogTest, HasNoPoseFromBeforeTheStampsJumpedBack) {
+TEST_F(TrajectoryLogTest, DropsPosesBeforeABackwardJump) {
   log_.Add(5'000'000'000, kPose);
   log_.BeginWorld("timestamps jumped back");
   log_.Add(2'500'000'000, kPose);
@@ -79,13 +79,13 @@ TEST_F(TrajectoryLogTest, MakesTheFolder) {
   EXPECT_EQ(folder_.Read("new/folder/a.tum"), kRow);
 }
 
-TEST(FullPath, IsEmptyWhereNothingIsNamed) {
+TEST(FullPath, IsEmptyForAnEmptyName) {
   EXPECT_EQ(FullPath(""), "");
   EXPECT_EQ(FullPath("/a/../b.tum"), "/b.tum");
   EXPECT_EQ(FullPath("a.tum"), (std::filesystem::current_path() / "a.tum").string());
 }
 
-TEST_F(TrajectoryLogTest, KnowsBeforeItSavesWhetherAFileCanBeWritten) {
+TEST_F(TrajectoryLogTest, ChecksWritabilityBeforeSaving) {
   folder_.Write("a.tum", "of the flight before");
   TrajectoryLog::CheckWritable(folder_.File("a.tum"));
   EXPECT_EQ(folder_.Read("a.tum"), "of the flight before");
@@ -96,7 +96,7 @@ TEST_F(TrajectoryLogTest, KnowsBeforeItSavesWhetherAFileCanBeWritten) {
   }
 }
 
-TEST_F(TrajectoryLogTest, SaysWhyAFileCannotBeWritten) {
+TEST_F(TrajectoryLogTest, ErrorSaysWhyAFileIsNotWritable) {
   log_.Add(2'500'000'000, kPose);
   for (const auto& [file, why] : {std::pair("/dev/null/a.tum", "Not a directory"),
                                   {"/", "it exists and is not a regular file"},
@@ -110,7 +110,7 @@ TEST_F(TrajectoryLogTest, SaysWhyAFileCannotBeWritten) {
   }
 }
 
-TEST_F(TrajectoryLogTest, TakesAPoseWhileItSaves) {
+TEST_F(TrajectoryLogTest, AcceptsPosesWhileSaving) {
   for (int i = 1; i <= 1000; ++i) log_.Add(i, kPose);  // more than a stream buffers
   EXPECT_TRUE(testing::EndsWhileSaving(
       folder_.File("a.tum"), [&] { EXPECT_EQ(log_.Save(folder_.File("a.tum")), 1000u); },

@@ -28,7 +28,7 @@ Matrix6d TurnedAbout(const Vector3d& origin_W, const FrameState& state) {
   return 0.02 * 0.02 * error * error.transpose();
 }
 
-TEST(DerivedCovariance, ATurnOfTheWorldIsNoDriftOnTheWay) {
+TEST(DerivedCovariance, HeadingDriftOfTheWorldIsNoPathDrift) {
   const Vector3d origin(0, 0, 1), pivot(300, 40, 5);
   const double at_pivot =
       PositionVarianceFrom(pivot, SomeState(pivot), TurnedAbout(origin, SomeState(pivot)));
@@ -39,13 +39,13 @@ TEST(DerivedCovariance, ATurnOfTheWorldIsNoDriftOnTheWay) {
   }
 }
 
-TEST(DerivedCovariance, DriftOnTheWayCounts) {
+TEST(DerivedCovariance, PathDriftCounts) {
   Matrix6d covariance = Matrix6d::Zero();
   covariance.diagonal().head<3>() << 0.1, 0.2, 0.3;
   EXPECT_NEAR(PositionVarianceFrom({7, 8, 9}, SomeState({1, 2, 3}), covariance), 0.6, 1e-12);
 }
 
-TEST(DerivedCovariance, BodyVelocityIsAsErrorsMoveIt) {
+TEST(DerivedCovariance, BodyVelocityCovarianceMatchesErrors) {
   const FrameState state = SomeState({1, 2, 3});
   const auto v_B = [&state](const Vector6d& error) -> Eigen::VectorXd {
     const Eigen::Quaterniond R_W_B = state.rotation() * SO3Exp(error.head<3>());

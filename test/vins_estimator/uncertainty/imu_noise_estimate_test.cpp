@@ -37,7 +37,7 @@ TEST(DensityEstimate, FindsTheDensity) {
   }
 }
 
-TEST(DensityEstimate, FollowsWhatChanges) {
+TEST(DensityEstimate, FollowsChanges) {
   simulator::Random random(1);
   DensityEstimate estimate(kConfigured);
   AddIntervals(100, 5 * kConfigured, 0, &random, &estimate);
@@ -66,7 +66,7 @@ TEST(DensityEstimate, OneIntervalDoesNotDecide) {
   EXPECT_LT(estimate.density(), 2.1 * kConfigured);
 }
 
-TEST(DensityEstimate, IgnoresIntervalsThatSayNothing) {
+TEST(DensityEstimate, IgnoresUninformativeIntervals) {
   DensityEstimate estimate(kConfigured);
   for (int i = 0; i < 100; ++i) estimate.Add({kConfigured, 1.0, i % 2 == 0 ? 1e-4 : -1e-4});
   estimate.Add({kConfigured, 1.0, std::nan("")});
@@ -77,7 +77,7 @@ TEST(DensityEstimate, IgnoresIntervalsThatSayNothing) {
 // Robust losses hide a part of the noise: 0.21 of the accelerometer's variance, 0.47 of the
 // gyroscope's. The accelerometer is expected to have up to three times the variance that vibrations
 // add.
-TEST(ImuNoiseEstimate, TellsAccelerometerAndGyroApart) {
+TEST(ImuNoiseEstimate, SeparatesAccelerometerAndGyro) {
   const ImuNoise configured = {1e-4, 1e-2, 1e-5, 1e-3};
   ImuNoiseEstimate estimate(configured);
   for (int i = 0; i < 100; ++i) {

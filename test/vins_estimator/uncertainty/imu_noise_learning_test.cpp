@@ -36,7 +36,7 @@ class ImuNoiseLearningTest : public ::testing::Test {
   ImuNoise configured_;
 };
 
-TEST_F(ImuNoiseLearningTest, BeginsAsConfigured) {
+TEST_F(ImuNoiseLearningTest, StartsAsConfigured) {
   const ImuNoiseLearning learning(configured_);
   EXPECT_EQ(learning.noise().accel_density, configured_.accel_density);
   EXPECT_FALSE(learning.Reweigh(&window()));
@@ -55,7 +55,7 @@ TEST_F(ImuNoiseLearningTest, FindsNoiseInTheOlderHalfOfTheWindowOnce) {
   EXPECT_NE(learning.noise().accel_density, found.accel_density);
 }
 
-TEST_F(ImuNoiseLearningTest, LeavesOutStandstillAndStepsOfBias) {
+TEST_F(ImuNoiseLearningTest, IgnoresStandstillAndBiasSteps) {
   for (WindowFrame& frame : window().frames) frame.stationary = true;
   window().frames[2].stationary = false;
   window().frames[2].motion_since_previous->AllowBiasStep({0.1, 0.1});
@@ -65,7 +65,7 @@ TEST_F(ImuNoiseLearningTest, LeavesOutStandstillAndStepsOfBias) {
   EXPECT_EQ(learning.noise().gyro_density, configured_.gyro_density);
 }
 
-TEST_F(ImuNoiseLearningTest, LeavesOutWhatWasCutWithAnotherTimeOffset) {
+TEST_F(ImuNoiseLearningTest, IgnoresIntervalsOfAnotherTimeOffset) {
   window().td += 0.003;
   ImuNoiseLearning learning(configured_);
   Learn(/*is_first=*/true, &learning);
@@ -73,7 +73,7 @@ TEST_F(ImuNoiseLearningTest, LeavesOutWhatWasCutWithAnotherTimeOffset) {
   EXPECT_EQ(learning.noise().gyro_density, configured_.gyro_density);
 }
 
-TEST_F(ImuNoiseLearningTest, LeavesOutPartsOfDifferentNoise) {
+TEST_F(ImuNoiseLearningTest, IgnoresPartsOfDifferentNoise) {
   const auto learned_from_joined = [this](double variance_scale) {
     Preintegration& motion = *window().newest().motion_since_previous;
     const Preintegration alone = motion;
@@ -108,7 +108,7 @@ TEST_F(ImuNoiseLearningTest, ReweighsOnlyIntervalsThatAreFarLessNoisy) {
   EXPECT_FALSE(learning.Reweigh(&window()));
 }
 
-TEST_F(ImuNoiseLearningTest, KeepsTheDoubtOfAnIntervalThatWasJoined) {
+TEST_F(ImuNoiseLearningTest, KeepsTheRaisedNoiseOfAJoinedInterval) {
   Preintegration& doubted = *window().frames[3].motion_since_previous;
   doubted.Reweigh(Scaled(configured_, 1e4));
   doubted.AllowBiasStep({0.1, 0.1});

@@ -66,7 +66,7 @@ ImuNoiseEvidence EvidenceWithoutImages(const MarginalizationPrior& prior, Slidin
 }
 
 // The residual then has the covariance S, with contributions of three independent sources.
-TEST(EvidenceOfMotion, ExpectsTheWholeResidualOfStatesThatAreKnown) {
+TEST(EvidenceOfMotion, ExpectsTheFullResidualForKnownStates) {
   SimulatedWindow simulated = testing::SimulateWindow(4);
   SlidingWindow& window = simulated.window;
   const auto evidence = EvidenceWithoutImages(KnownStates(1e-7, window), &window);
@@ -83,7 +83,7 @@ TEST(EvidenceOfMotion, ExpectsTheWholeResidualOfStatesThatAreKnown) {
   EXPECT_EQ(evidence.gyro.assumed, motion.noise().gyro_density);
 }
 
-TEST(EvidenceOfMotion, ExpectsNothingOfReadingsThatAreDoubted) {
+TEST(EvidenceOfMotion, ExpectsNothingFromDoubtedReadings) {
   SimulatedWindow simulated = testing::SimulateWindow(4);
   SlidingWindow& window = simulated.window;
   const auto sure = EvidenceWithoutImages(KnownStates(1e-7, window), &window);
@@ -99,7 +99,7 @@ TEST(EvidenceOfMotion, ExpectsNothingOfReadingsThatAreDoubted) {
   EXPECT_LT(evidence.accel.expected, sure.accel.expected);
 }
 
-TEST(EvidenceOfMotion, ExpectsNothingWhereTheImuAloneTellsTheMotion) {
+TEST(EvidenceOfMotion, ExpectsNothingIfOnlyTheImuObservesTheMotion) {
   SimulatedWindow simulated = testing::SimulateWindow(4);
   SlidingWindow& window = simulated.window;
   const auto prior = InitialPrior(InitialUncertainty(), Options(), window);
@@ -108,7 +108,7 @@ TEST(EvidenceOfMotion, ExpectsNothingWhereTheImuAloneTellsTheMotion) {
   EXPECT_NEAR(evidence.gyro.expected, 0, 1e-3);
 }
 
-TEST(EvidenceOfMotion, IsNothingWhereTheStatesAreNotDetermined) {
+TEST(EvidenceOfMotion, IsNulloptForUnobservableStates) {
   SimulatedWindow simulated = testing::SimulateWindow(3);
   SlidingWindow& window = simulated.window;
   const MarginalizationPrior prior;
@@ -161,7 +161,7 @@ ImuNoiseEvidence SumOverWindows(const std::function<void(SlidingWindow*)>& assum
 // A ratio with n degrees of freedom has the standard deviation sqrt(2 / n).
 double Tolerance(const DensityEvidence& sum) { return 3 * std::sqrt(2 / sum.expected); }
 
-TEST(EvidenceOfMotion, IsAsExpectedWhereTheNoiseIsAsAssumed) {
+TEST(EvidenceOfMotion, MatchesExpectationForCorrectNoise) {
   const ImuNoiseEvidence sum = SumOverWindows([](SlidingWindow*) {});
   EXPECT_GT(sum.accel.expected, 20);
   EXPECT_GT(sum.gyro.expected, 20);

@@ -117,7 +117,7 @@ class PlacedCovarianceTest : public ::testing::Test {
   ceres::CauchyLoss loss_{options_.point_loss_scale};
 };
 
-TEST_F(PlacedCovarianceTest, WithoutLandmarksTheImuCarriesItOn) {
+TEST_F(PlacedCovarianceTest, IsPropagatedByTheImuWithoutLandmarks) {
   const auto all = [](const auto&) { return true; };
   simulated_.points.RemoveIf(all);
   simulated_.lines.RemoveIf(all);
@@ -158,7 +158,7 @@ TEST_F(PlacedCovarianceTest, LandmarksMoveWithTheKeyframe) {
 
 // The whole window gives nearly the same result, although landmarks do not move exactly like a
 // rigid body.
-TEST(PlacedCovariance, IsNearThatOfTheWholeWindow) {
+TEST(PlacedCovariance, IsCloseToThatOfTheWindow) {
   testing::SimulatedWindow simulated = testing::SimulateWindow(10, /*seed=*/2, /*stride=*/3, 80);
   SlidingWindow& window = simulated.window;
   const ProblemOptions options = testing::OnePixelOptions();
@@ -176,7 +176,7 @@ TEST(PlacedCovariance, IsNearThatOfTheWholeWindow) {
   EXPECT_LT(ratios.maxCoeff(), 1.03);
 }
 
-TEST_F(PlacedCovarianceTest, IsZeroWhereNothingIsDetermined) {
+TEST_F(PlacedCovarianceTest, IsZeroIfUnobservable) {
   WindowProblem without_terms;
   for (size_t i = kKeyframe + 1; i < simulated_.window.frames.size(); ++i) {
     AddPose(state(i).t_ns, &without_terms);

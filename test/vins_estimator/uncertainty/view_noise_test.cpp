@@ -40,11 +40,11 @@ std::vector<ViewSpread> Simulate(double correlation, int landmarks = kLandmarks,
   return spreads;
 }
 
-TEST(EffectiveNoise, IsTheDeviationWhereViewsAreIndependent) {
+TEST(EffectiveNoise, IsTheDeviationOfIndependentObservations) {
   EXPECT_NEAR(EffectiveNoise(Simulate(0)).value(), kSigma, 0.05 * kSigma);
 }
 
-TEST(EffectiveNoise, GrowsWhereErrorsFollowOnEachOther) {
+TEST(EffectiveNoise, GrowsWithCorrelatedErrors) {
   const double independent = EffectiveNoise(Simulate(0)).value();
   double before = independent;
   for (const double correlation : {0.3, 0.6}) {
@@ -58,21 +58,21 @@ TEST(EffectiveNoise, GrowsWhereErrorsFollowOnEachOther) {
   EXPECT_NEAR(EffectiveNoise(Simulate(0.3)).value() / independent, expected, 0.15 * expected);
 }
 
-TEST(EffectiveNoise, IsNotLedAstrayByAFewLandmarks) {
+TEST(EffectiveNoise, IsRobustAgainstAFewLandmarks) {
   std::vector<ViewSpread> spreads = Simulate(0);
   const double clean = EffectiveNoise(spreads).value();
   for (size_t i = 0; i < spreads.size() / 50; ++i) spreads[i] = {1.0, 1.0};
   EXPECT_LT(EffectiveNoise(spreads).value(), 1.15 * clean);
 }
 
-TEST(EffectiveNoise, IsNotLedAstrayByAWrongViewInEveryLandmark) {
+TEST(EffectiveNoise, IsRobustAgainstAnOutlierInEveryLandmark) {
   const double clean = EffectiveNoise(Simulate(0)).value();
   const double wrong = EffectiveNoise(Simulate(0, kLandmarks, 100 * kSigma)).value();
   EXPECT_LT(wrong, 1.5 * clean);
   EXPECT_GT(wrong, clean);
 }
 
-TEST(EffectiveNoise, IsUnknownOfTooFewLandmarksAndOfExactOnes) {
+TEST(EffectiveNoise, IsUnknownForTooFewOrExactLandmarks) {
   EXPECT_FALSE(EffectiveNoise(Simulate(0, 5)));
   EXPECT_FALSE(EffectiveNoise({}));
   EXPECT_FALSE(EffectiveNoise(std::vector<ViewSpread>(20)));
@@ -95,7 +95,7 @@ double LearnPointNoise(double first, bool moved) {
   return noise.point();
 }
 
-TEST(ViewNoise, IsLearntInMotionOnly) {
+TEST(ViewNoise, IsLearnedInMotionOnly) {
   EXPECT_GT(LearnPointNoise(1e-4, true), 1e-4);
   EXPECT_EQ(LearnPointNoise(1e-4, false), 1e-4);
 }

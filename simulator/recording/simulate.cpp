@@ -49,7 +49,7 @@ TakeValue TakeBag(std::string* file) {
   return [file](const std::string& text) -> std::string {
     const std::string extension = std::filesystem::path(text).extension().string();
     if (extension == ".tum" || extension == ".csv") {
-      return "expected a bag instead of " + text + ", where the ground truth is to go";
+      return "expected a bag; the ground truth would overwrite " + text;
     }
     return TakePath(file)(text);
   };
@@ -60,7 +60,7 @@ TakeValue TakeSeed(uint64_t* seed) {
     const auto end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, *seed);
     const bool valid = error == std::errc() && stop == end;
-    return valid ? "" : "expected a whole number, zero or more, instead of " + text;
+    return valid ? "" : "expected a whole number of at least 0 instead of " + text;
   };
 }
 
@@ -126,7 +126,7 @@ void RefuseToReplace(const std::string& bag) {
   const TruthFiles truth = TruthBeside(bag);
   for (const std::string& file : {bag, truth.tum, truth.csv}) {
     if (!std::filesystem::exists(file)) continue;
-    throw std::runtime_error(file + " is there already: remove it or choose another");
+    throw std::runtime_error(file + " already exists; remove it or choose another");
   }
 }
 
@@ -162,10 +162,10 @@ void WriteGroundTruth(const Arguments& arguments, const std::vector<FrameState>&
 // Leaves those sensors that are asked for; the configuration must have them.
 void ChooseSensors(const Arguments& arguments, SensorConfig* sensors) {
   if (arguments.stereo && !sensors->second_camera) {
-    throw std::runtime_error("--stereo: set num_of_cam: 2 in a configuration, and name it");
+    throw std::runtime_error("--stereo: name a --config with num_of_cam: 2");
   }
   if (arguments.depth && !sensors->depth) {
-    throw std::runtime_error("--depth: set depth_topic in a configuration, and name it");
+    throw std::runtime_error("--depth: name a --config with depth_topic");
   }
   if (!arguments.stereo) sensors->second_camera.reset();
   if (!arguments.depth) sensors->depth.reset();

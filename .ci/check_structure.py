@@ -67,7 +67,7 @@ ESTIMATOR_LAYERS = {
     "manhattan": "state geometry map",
     "recall": "state geometry map",
     "merging": "state geometry map manhattan recall",
-    "initialization": "state geometry imu factors least_squares optimization",
+    "initialization": "state geometry imu factors least_squares optimization uncertainty",
     "output": "state",
 }
 POSE_GRAPH_LAYERS = {

@@ -56,7 +56,7 @@ class IntrinsicsFactorTest : public ::testing::Test {
 
   const std::unique_ptr<const CameraModel> camera_ =
       CameraModel::Create(simulator::DefaultSensors().camera);
-  const TimedBearing bearing_{{0.1, -0.2}, {1, 2}, 0.01, 0.4, 0.02};
+  const TimedBearing bearing_{{0.1, -0.2}, {1, 2}, 0.01};
   const LineSegmentView view_{{0.1, -0.2}, {-0.2, 0.15}};
   const Block point_ = Vector3d(0.12, -0.23, 0.5);
   Block identity_, turned_, intrinsics_;

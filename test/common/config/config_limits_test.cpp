@@ -47,7 +47,7 @@ TEST_F(ConfigLimitsTest, RejectsEndlessFiles) {
 }
 
 TEST_F(ConfigLimitsTest, RejectsOverlongMaskPaths) {
-  ExpectProblem("fisheye_mask: " + std::string(5000, 'm'), {"fisheye_mask", "there is no file"});
+  ExpectProblem("fisheye_mask: " + std::string(5000, 'm'), {"fisheye_mask", "cannot find the file"});
 }
 
 TEST_F(ConfigLimitsTest, CorrectionsOfTheImuAreMatricesNearOne) {

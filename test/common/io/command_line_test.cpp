@@ -76,7 +76,7 @@ TEST_F(CommandLineTest, NamesTheOptionThatIsWrong) {
     ExpectError(std::string("--number: expected -2 to 10 instead of ") + text, {"--number", text});
   }
   ExpectError("--list: expected good", {"--list", "good", "bad"});
-  ExpectError("'--number' is missing", {"--number", "--flag"});
+  ExpectError("--number: expected -2 to 10 instead of --flag", {"--number", "--flag"});
   ExpectError("'--path' cannot be specified more than once", {"--path", "a", "--path", "b"});
   ExpectError("unrecognised option '--numb'", {"--numb", "1"});
   ExpectError("positional", {"word"});

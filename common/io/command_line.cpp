@@ -32,7 +32,7 @@ void Take(const TakeValue& take, const std::string& name, const std::string& tex
 TakeValue TakePath(std::string* path) {
   return [path](const std::string& text) -> std::string {
     *path = text;
-    return text.empty() ? "expected a path, which is empty" : "";
+    return text.empty() ? "expected a path, but it is empty" : "";
   };
 }
 

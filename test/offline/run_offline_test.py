@@ -61,9 +61,9 @@ class RunOffline(unittest.TestCase):
 
     def test_paths_that_are_empty(self):
         for option in ["--map-in", "--map-out", "--save-features", "--features", "--bag"]:
-            self.assert_refuses(f"{option}: expected a path, which is empty", option, "")
-        self.assert_refuses("--config: expected a path, which is empty", config="")
-        self.assert_refuses("--asl: expected a path, which is empty", source=("--asl", ""))
+            self.assert_refuses(f"{option}: expected a path, but it is empty", option, "")
+        self.assert_refuses("--config: expected a path, but it is empty", config="")
+        self.assert_refuses("--asl: expected a path, but it is empty", source=("--asl", ""))
 
     def test_bad_config(self):
         self.assert_refuses("nothing.yaml", config=self.folder / "nothing.yaml")

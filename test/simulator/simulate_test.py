@@ -48,7 +48,7 @@ class Simulate(unittest.TestCase):
 
     def test_paths_that_are_empty(self):
         for option in ["--asl", "--config"]:
-            self.assert_refuses(f"{option}: expected a path, which is empty", option, "")
+            self.assert_refuses(f"{option}: expected a path, but it is empty", option, "")
 
     def test_sensors_that_the_configuration_lacks(self):
         self.assert_refuses("--stereo: name a --config with num_of_cam: 2", "--stereo")

@@ -71,7 +71,7 @@ TEST_F(CommandLineTest, TakesListsUpToTheNextOption) {
 }
 
 TEST_F(CommandLineTest, NamesTheOptionThatIsWrong) {
-  ExpectError("--path: expected a path, which is empty", {"--path", ""});
+  ExpectError("--path: expected a path, but it is empty", {"--path", ""});
   for (const char* text : {"nan", "11", "three", "", "1x"}) {
     ExpectError(std::string("--number: expected -2 to 10 instead of ") + text, {"--number", text});
   }

@@ -233,7 +233,7 @@ TEST_F(MapFileTest, RejectsInvalidWorldsStampsAndLengths) {
   for (const int world : {-1, std::numeric_limits<int>::max()}) {
     ExpectRefused("the world", [world](auto* keyframe, auto*) { keyframe->world = world; });
   }
-  ExpectRefused("the stamp", [](auto* keyframe, auto*) {
+  ExpectRefused("the timestamp", [](auto* keyframe, auto*) {
     keyframe->t_ns = std::numeric_limits<int64_t>::min();
   });
   ExpectRefused("a negative length", [](auto*, auto* edge) { edge->way = -1; });

@@ -76,7 +76,7 @@ TEST(MeasurementCheck, RejectsNonIncreasingStamps) {
 TEST(MeasurementCheck, RejectsFeaturesOfAnotherImage) {
   FrameMeasurement measurement = Good();
   measurement.points.t_ns += 1;
-  ExpectRefused(measurement, "points are of 7000000001 ns");
+  ExpectRefused(measurement, "points have the timestamp 7000000001 ns");
   measurement = Good();
   measurement.lines->t_ns -= 1;
   ExpectRefused(measurement, "lines have the timestamp 6999999999 ns");

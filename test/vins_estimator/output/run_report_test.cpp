@@ -89,7 +89,7 @@ TEST_F(RunReportTest, NamesTheFirstOfManyWorlds) {
     Until(time_ + 1, Pose());
   }
   EXPECT_THAT(report_.Lines(std::nullopt).front(),
-              ::testing::AllOf(::testing::StartsWith("8 world frames"),
+              ::testing::AllOf(::testing::StartsWith("8 unconnected world frames"),
                                ::testing::EndsWith("; and 3 more")));
 }
 

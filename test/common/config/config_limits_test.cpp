@@ -47,7 +47,8 @@ TEST_F(ConfigLimitsTest, RejectsEndlessFiles) {
 }
 
 TEST_F(ConfigLimitsTest, RejectsOverlongMaskPaths) {
-  ExpectProblem("fisheye_mask: " + std::string(5000, 'm'), {"fisheye_mask", "cannot find the file"});
+  ExpectProblem("fisheye_mask: " + std::string(5000, 'm'),
+                {"fisheye_mask", "cannot find the file"});
 }
 
 TEST_F(ConfigLimitsTest, CorrectionsOfTheImuAreMatricesNearOne) {

@@ -88,7 +88,7 @@ class CheckStructure(unittest.TestCase):
                               ("vins_estimator/a.h", "vins_estimator/output/b.h"),
                               ("vins_estimator/state/a.h", "vins_estimator/geometry/b.h"),
                               ("vins_estimator/map/a.h", "vins_estimator/factors/b.h"),
-                              ("vins_estimator/merging/a.h", "vins_estimator/recall/b.h"),
+                              ("vins_estimator/recall/a.h", "vins_estimator/merging/b.h"),
                               ("vins_estimator/recall/a.h", "vins_estimator/estimator.h"),
                               ("vins_estimator/output/a.h", "vins_estimator/estimator.h"),
                               ("vins_estimator/state/a.h", "vins_estimator/map/b.h"),

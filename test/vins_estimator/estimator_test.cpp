@@ -81,19 +81,22 @@ TEST(EstimatorTest, HoldsPositionAtStandstillDespiteMovingImages) {
   EXPECT_GE(seem_to_move, 2) << "there, and where another is compared with it";
 }
 
+// Corners with 0.5 px of noise seem to move now and then, which ends the standstill for an image.
 TEST(EstimatorTest, HoldsPositionAtStandstill) {
-  const EstimatedFlight flight = Fly(Options(Motion::kStill, 1));
-  EXPECT_TRUE(flight.restarts.empty());
-  ASSERT_GT(flight.truth.size(), 250u);
-  EXPECT_LT(testing::GreatestError(flight, 0), 0.01);
-  int stationary = 0;
-  for (const EstimatorOutput& output : flight.outputs) {
-    stationary += output.stationary;
-    EXPECT_LT(output.state.velocity().norm(), 0.01);
+  for (uint64_t seed = 1; seed <= 4; ++seed) {
+    const EstimatedFlight flight = Fly(Options(Motion::kStill, seed));
+    EXPECT_TRUE(flight.restarts.empty());
+    ASSERT_GT(flight.truth.size(), 250u);
+    EXPECT_LT(testing::GreatestError(flight, 0), 0.003) << seed;
+    int stationary = 0;
+    for (const EstimatorOutput& output : flight.outputs) {
+      stationary += output.stationary;
+      EXPECT_LT(output.state.velocity().norm(), 0.01);
+    }
+    EXPECT_GT(stationary, 0.7 * static_cast<double>(flight.truth.size())) << seed;
+    EXPECT_TRUE(flight.outputs.front().stationary);
+    EXPECT_FALSE(flight.outputs.front().on_imu_alone);
   }
-  EXPECT_GT(stationary, 0.98 * static_cast<double>(flight.truth.size()));
-  EXPECT_TRUE(flight.outputs.front().stationary);
-  EXPECT_FALSE(flight.outputs.front().on_imu_alone);
 }
 
 TEST(EstimatorTest, HoldsPositionInHover) {

@@ -268,7 +268,7 @@ class Fitted(Kalibr):
         intrinsics = changes.pop("before", []) + [*self.FOCAL.tolist(), *self.CENTRE.tolist()]
         chain = {"cam0": edited(CAMERA, intrinsics=intrinsics, **changes)}
         text = self.convert(chain=chain).stdout
-        stated = re.search(r"off by at most (\S+) px up to (\S+) deg from the axis", text)
+        stated = re.search(r"errors of at most (\S+) px up to (\S+) deg from the axis", text)
         angle = math.radians(float(stated.group(2)))
         self.assertAlmostEqual(np.linalg.norm(pixel(*ray(angle, 0.3), *values)), self.CORNER, 2)
         camera = self.load(chain=chain)
@@ -381,7 +381,7 @@ class BadInput(Kalibr):
         self.assert_camera_refused("rostopic", "must be a name", rostopic=5)
         self.assert_refused("imu.yaml", "accelerometer_random_walk", "must be positive",
                             imu=edited(IMU, accelerometer_random_walk=0))
-        self.assert_refused("chain.yaml", "cam0", "is not a map", chain={"cam0": [1, 2]})
+        self.assert_refused("chain.yaml", "cam0", "must be a mapping", chain={"cam0": [1, 2]})
 
     def test_bad_transforms(self):
         def rows(*changes):
@@ -398,8 +398,8 @@ class BadInput(Kalibr):
 
     def test_files(self):
         imu = self.write("imu.yaml", yaml.safe_dump(IMU))
-        for text, problem in (("cam0: [", "is not YAML"), ("", "is not a map"),
-                              ("[1, 2]", "is not a map")):
+        for text, problem in (("cam0: [", "is not YAML"), ("", "must be a mapping"),
+                              ("[1, 2]", "must be a mapping")):
             result = run(SCRIPT, self.write("bad.yaml", text), imu)
             self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
             self.assertIn(f"bad.yaml: {problem}", result.stderr)

@@ -149,7 +149,7 @@ class Results(DatasetTest):
         if importlib.util.find_spec("plotly"):
             page = os.path.join(self.output, "runs", "hall", "improved", "1", "run.html")
             with open(page, encoding="utf-8") as file:
-                self.assertTrue("Not compared with the ground truth: stamps of" in file.read())
+                self.assertTrue("Not compared with the ground truth: timestamps of" in file.read())
 
 
 class Failures(DatasetTest):

@@ -40,6 +40,7 @@ class LoopResultsTest : public ::testing::Test {
     frame.output.calibration.camera = config_.sensor.camera;
     frame.output.t_ns = t_ns_;
     frame.output.has_pose = true;
+    frame.output.uncertainty.emplace().pose.setIdentity();
     frame.output.state.SetPose({Eigen::Quaterniond::Identity(), {x, 0, 0}});
     frame.image.gray.create(240, 320, CV_8UC1);
     cv::RNG random(static_cast<uint64_t>(t_ns_));

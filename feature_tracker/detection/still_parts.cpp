@@ -2,6 +2,7 @@
 #include "feature_tracker/detection/still_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 namespace plm_vins {
@@ -52,6 +53,30 @@ Correlation Correlate(const cv::Mat& gray_a, const cv::Mat& gray_b) {
   return result;
 }
 
+// Returns whether Correlate() finds the windows around a pixel the same, for this pixel alone.
+bool IsSameAt(const cv::Mat& gray_a, const cv::Mat& gray_b, const cv::Point& center) {
+  constexpr int kHalf = kWindow_px / 2;
+  constexpr double kPixels = kWindow_px * kWindow_px;
+  int sum_a = 0, sum_b = 0, squares_a = 0, squares_b = 0, products = 0;
+  for (int y = center.y - kHalf; y <= center.y + kHalf; ++y) {
+    const auto *row_a = gray_a.ptr(y), *row_b = gray_b.ptr(y);
+    for (int x = center.x - kHalf; x <= center.x + kHalf; ++x) {
+      const int a = row_a[x], b = row_b[x];
+      sum_a += a;
+      sum_b += b;
+      squares_a += a * a;
+      squares_b += b * b;
+      products += a * b;
+    }
+  }
+  const double mean_a = sum_a / kPixels, mean_b = sum_b / kPixels;
+  const double variance_a = squares_a / kPixels - mean_a * mean_a;
+  const double variance_b = squares_b / kPixels - mean_b * mean_b;
+  const double covariance = products / kPixels - mean_a * mean_b;
+  return std::min(variance_a, variance_b) > kMinContrast * kMinContrast &&
+         covariance > kSame * std::sqrt(variance_a * variance_b);
+}
+
 // Returns how many corners have the same surroundings in both images, which is far cheaper to find
 // than all parts that are the same.
 int CountSame(const cv::Mat& gray_a, const cv::Mat& gray_b,
@@ -60,10 +85,7 @@ int CountSame(const cv::Mat& gray_a, const cv::Mat& gray_b,
   const cv::Rect inside(kHalf, kHalf, gray_a.cols - 2 * kHalf, gray_a.rows - 2 * kHalf);
   int same = 0;
   for (const cv::Point corner : corners) {
-    if (!inside.contains(corner)) continue;
-    const cv::Rect window(corner.x - kHalf, corner.y - kHalf, kWindow_px, kWindow_px);
-    const Correlation correlation = Correlate(gray_a(window).clone(), gray_b(window).clone());
-    same += correlation.same.at<uint8_t>(kHalf, kHalf) != 0 ? 1 : 0;
+    same += inside.contains(corner) && IsSameAt(gray_a, gray_b, corner) ? 1 : 0;
   }
   return same;
 }

@@ -115,7 +115,7 @@ class Environment(ConsoleTest):
 
     def test_a_home_that_cannot_be_written(self):
         node = self.processes.start_node(NODES / "vins_estimator", ROS_HOME="/dev/null")
-        self.wait_for("vins_estimator", "cannot write logs to /dev/null/log: they go to ")
+        self.wait_for("vins_estimator", "cannot write logs to /dev/null/log, using ")
         rospy.wait_for_service("/vins_estimator/reset", 30)
         self.end(node)
 

@@ -83,7 +83,7 @@ class Parameters(OperationsTest):
 
     def test_a_nodelet_that_cannot_be_loaded_ends_the_manager(self):
         for options, why in ((["_nodelets/tracker:=plm_vins/Nothing"],
-                              "cannot load /tracker (plm_vins/Nothing), see above"),
+                              "cannot load /tracker (plm_vins/Nothing); see the error above"),
                              (["_nodelets:=7"],
                               "parameter /vins_manager/nodelets must be texts by their names"),
                              (["_nodelets/tracker:=plm_vins/FeatureTracker"],

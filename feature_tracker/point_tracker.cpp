@@ -21,7 +21,7 @@
 #include "feature_tracker/track_drawing.h"
 #include "tracking/image_check.h"
 #include "tracking/image_mask.h"
-#include "tracking/last_sight.h"
+#include "tracking/last_usable_image.h"
 
 namespace plm_vins {
 namespace {
@@ -74,11 +74,11 @@ class PointTracker::Implementation {
     OpticalFlow::Pyramid pyramid = flow_.BuildPyramid(image, std::move(unused_pyramid_));
     statistics_ = {};
     statistics_.previous = static_cast<int>(tracks_.size());
-    if (t_ns_ && (!tracks_.empty() || last_sight_)) {
+    if (t_ns_ && (!tracks_.empty() || last_usable_)) {
       const double dt = ToSeconds(sample.t_ns - *t_ns_);
       if (AreSame(sample.gray, sample_.gray)) {
         Stay(dt);
-        if (last_sight_) last_sight_->Rotate(R_C1_C0);
+        if (last_usable_) last_usable_->Rotate(R_C1_C0);
       } else {
         FollowOrFindAgain(pyramid, sample, dt, R_C1_C0);
       }
@@ -99,7 +99,7 @@ class PointTracker::Implementation {
     pyramid_.clear();
     t_ns_.reset();
     previous_dt_ = 0;
-    last_sight_.reset();
+    last_usable_.reset();
     still_parts_.Reset();
     statistics_ = {};
   }
@@ -108,7 +108,7 @@ class PointTracker::Implementation {
   void SetMaxCorners(int count) {
     config_.max_cnt = count;
     detector_ = CornerDetector(config_, mask_);
-    last_sight_.reset();
+    last_usable_.reset();
     tracks_.resize(std::min(tracks_.size(), static_cast<size_t>(count)));
   }
 
@@ -135,11 +135,11 @@ class PointTracker::Implementation {
     const std::vector<PointTrack> before = tracks_;
     const double previous_dt = std::exchange(previous_dt_, dt);
     Follow({pyramid_, previous_dt, dt, R_C1_C0}, pyramid, sample.gray, &tracks_);
-    if (last_sight_) {
-      last_sight_->Rotate(R_C1_C0);
+    if (last_usable_) {
+      last_usable_->Rotate(R_C1_C0);
       FindAgain(pyramid, sample);
-    } else if (LosesSight(before.size(), tracks_.size())) {
-      last_sight_ = {sample_, std::move(pyramid_), before, previous_dt, R_C1_C0};
+    } else if (LosesTracks(before.size(), tracks_.size())) {
+      last_usable_ = {sample_, std::move(pyramid_), before, previous_dt, R_C1_C0};
       pyramid_.clear();  // its memory must not be reused
     }
   }
@@ -147,16 +147,16 @@ class PointTracker::Implementation {
   // Follows the tracks from before the loss of sight; they replace the present ones if they are
   // there again.
   void FindAgain(const OpticalFlow::Pyramid& pyramid, const ImageSample& sample) {
-    const double age = last_sight_->Age(sample.t_ns);
-    std::vector<PointTrack> found = last_sight_->tracks;
-    Follow({last_sight_->pyramid, last_sight_->previous_dt, age, last_sight_->R_now_then}, pyramid,
-           sample.gray, &found);
-    const bool regained = RegainsSight(last_sight_->tracks.size(), found.size(), tracks_.size());
+    const double age = last_usable_->Age(sample.t_ns);
+    std::vector<PointTrack> found = last_usable_->tracks;
+    Follow({last_usable_->pyramid, last_usable_->previous_dt, age, last_usable_->R_now_then},
+           pyramid, sample.gray, &found);
+    const bool regained = RegainsTracks(last_usable_->tracks.size(), found.size(), tracks_.size());
     if (regained) {
       tracks_ = std::move(found);
       previous_dt_ = age;
     }
-    if (regained || age > kMaxSightAge) last_sight_.reset();
+    if (regained || age > kMaxUsableImageAge) last_usable_.reset();
   }
 
   // The image that tracks are followed from.
@@ -334,7 +334,8 @@ class PointTracker::Implementation {
   OpticalFlow::Pyramid unused_pyramid_;  // its memory is reused for the next pyramid
   cv::Mat equalized_;                    // equalized image; its memory is reused
   std::vector<PointTrack> tracks_;       // in descending order of age
-  std::optional<LastSight<PointTrack, OpticalFlow::Pyramid>> last_sight_;  // after a loss of it
+  std::optional<LastUsableImage<PointTrack, OpticalFlow::Pyramid>>
+      last_usable_;  // after a loss of it
   PointTrackerStatistics statistics_;
   int64_t next_id_ = 0;
 };

@@ -20,7 +20,7 @@
 #include "linefeature_tracker/segments/segment_sampler.h"
 #include "linefeature_tracker/stereo/line_stereo.h"
 #include "tracking/image_check.h"
-#include "tracking/last_sight.h"
+#include "tracking/last_usable_image.h"
 
 namespace plm_vins {
 namespace {
@@ -78,14 +78,14 @@ class LineTracker::Implementation {
     const LineTracks before = tracks_;
     const double previous_dt = std::exchange(previous_dt_, dt);
     Follow(pyramid_, pyramid, dt_ratio, R_C1_C0, &tracks_);
-    if (last_sight_) {
-      last_sight_->Rotate(R_C1_C0);
+    if (last_usable_) {
+      last_usable_->Rotate(R_C1_C0);
       FindAgain(pyramid, sample.t_ns);
     }
     DropDuplicates();
     if (IsRefillDue()) Refill(sample.gray, FindLines(pyramid));
-    if (!last_sight_ && LosesSight(before.size(), tracks_.size())) {
-      last_sight_ = {sample_, pyramid_, before, previous_dt, R_C1_C0};
+    if (!last_usable_ && LosesTracks(before.size(), tracks_.size())) {
+      last_usable_ = {sample_, pyramid_, before, previous_dt, R_C1_C0};
     }
     if (stereo_) stereo_->Match(sample.gray, right, &tracks_);
     sample_ = sample;
@@ -100,14 +100,14 @@ class LineTracker::Implementation {
     t_ns_.reset();
     previous_dt_ = 0;
     images_since_detection_.reset();
-    last_sight_.reset();
+    last_usable_.reset();
     statistics_ = {};
   }
 
   // Lines are ordered by age, so the youngest are dropped.
   void SetMaxLines(int count) {
     config_.max_lines = count;
-    last_sight_.reset();
+    last_usable_.reset();
     tracks_.resize(std::min(tracks_.size(), static_cast<size_t>(count)));
   }
 
@@ -133,16 +133,16 @@ class LineTracker::Implementation {
   // Follows the tracks from before a loss of sight; they replace the present ones if they are there
   // again.
   void FindAgain(const LineFlow::Pyramid& pyramid, int64_t t_ns) {
-    const double age = last_sight_->Age(t_ns);
-    const double dt_ratio = last_sight_->previous_dt > 0 ? age / last_sight_->previous_dt : 0;
-    LineTracks found = last_sight_->tracks;
-    Follow(last_sight_->pyramid, pyramid, dt_ratio, last_sight_->R_now_then, &found);
-    const bool regained = RegainsSight(last_sight_->tracks.size(), found.size(), tracks_.size());
+    const double age = last_usable_->Age(t_ns);
+    const double dt_ratio = last_usable_->previous_dt > 0 ? age / last_usable_->previous_dt : 0;
+    LineTracks found = last_usable_->tracks;
+    Follow(last_usable_->pyramid, pyramid, dt_ratio, last_usable_->R_now_then, &found);
+    const bool regained = RegainsTracks(last_usable_->tracks.size(), found.size(), tracks_.size());
     if (regained) {
       tracks_ = std::move(found);
       previous_dt_ = age;
     }
-    if (regained || age > kMaxSightAge) last_sight_.reset();
+    if (regained || age > kMaxUsableImageAge) last_usable_.reset();
   }
 
   std::optional<LineSegment> FollowOne(const LineFlow::Pyramid& from,
@@ -269,7 +269,7 @@ class LineTracker::Implementation {
   ImageSample sample_;      // keeps the pixels that the pyramid may refer to
   LineFlow::Pyramid pyramid_;
   LineTracks tracks_;
-  std::optional<LastSight<LineTrack, LineFlow::Pyramid>> last_sight_;  // after a loss of it
+  std::optional<LastUsableImage<LineTrack, LineFlow::Pyramid>> last_usable_;  // after a loss of it
   std::optional<int> images_since_detection_;
   LineTrackerStatistics statistics_;
   int64_t next_id_ = 0;

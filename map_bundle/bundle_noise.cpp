@@ -16,10 +16,10 @@ constexpr size_t kMinSamples = 30;
 constexpr double kMaxChange = 8;  // largest ratio to the configured deviation, and inverse
 
 double SquaredError(const BundleState& bundle, const LandmarkTrack& landmark,
-                    const LandmarkSighting& sighting) {
-  const Eigen::Vector3d p_C = bundle.T_M_C(sighting.keyframe).Inverse() * landmark.p_M;
+                    const LandmarkObservation& observation) {
+  const Eigen::Vector3d p_C = bundle.T_M_C(observation.keyframe).Inverse() * landmark.p_M;
   if (p_C.z() <= 0) return std::numeric_limits<double>::infinity();
-  return (p_C.hnormalized() - sighting.xy).squaredNorm();
+  return (p_C.hnormalized() - observation.xy).squaredNorm();
 }
 
 double Deviation(const std::vector<double>& variances, double configured) {
@@ -30,14 +30,14 @@ double Deviation(const std::vector<double>& variances, double configured) {
 
 }  // namespace
 
-SightingNoise EstimateNoise(const BundleState& bundle, const SightingNoise& configured) {
+ObservationNoise EstimateNoise(const BundleState& bundle, const ObservationNoise& configured) {
   std::vector<double> followed, again;
   for (const LandmarkTrack& landmark : bundle.landmarks) {
     double sum = 0;
     size_t count = 0;
-    for (const LandmarkSighting& sighting : landmark.sightings) {
-      const double squared_error = SquaredError(bundle, landmark, sighting);
-      if (sighting.again) {
+    for (const LandmarkObservation& observation : landmark.observations) {
+      const double squared_error = SquaredError(bundle, landmark, observation);
+      if (observation.again) {
         again.push_back(squared_error / (2 * M_LN2));  // median of chi-square with 2 dof
       } else {
         sum += squared_error;

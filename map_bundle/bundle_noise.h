@@ -7,6 +7,6 @@ namespace plm_vins {
 
 // Estimates the observation noise from the residuals of the bundle. Medians make it robust against
 // wrong matches. Returns `configured` if there are too few residuals.
-SightingNoise EstimateNoise(const BundleState& bundle, const SightingNoise& configured);
+ObservationNoise EstimateNoise(const BundleState& bundle, const ObservationNoise& configured);
 
 }  // namespace plm_vins

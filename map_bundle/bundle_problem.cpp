@@ -122,24 +122,24 @@ void BundleProblem::HoldFirst() {
 // Parameterizes the landmark by its first observation (host) and inverse depth, with one factor for
 // each other observation.
 void BundleProblem::AddLandmark(const LandmarkTrack& landmark) {
-  const LandmarkSighting& host = landmark.sightings.front();
+  const LandmarkObservation& host = landmark.observations.front();
   const Eigen::Vector3d p_C = bundle_->T_M_C(host.keyframe).Inverse() * landmark.p_M;
   const BlockId id{BlockKind::kPoint, static_cast<int64_t>(points_.size())};
   points_.push_back({p_C.x() / p_C.z(), p_C.y() / p_C.z(), 1 / p_C.z()});
   const int index = problem_.AddLandmark(id, points_.back().data());
   const int point = problem_.Find(id);
-  const auto bearing = [](const LandmarkSighting& sighting) {
-    return TimedBearing{sighting.xy, Eigen::Vector2d::Zero(), 0};
+  const auto bearing = [](const LandmarkObservation& observation) {
+    return TimedBearing{observation.xy, Eigen::Vector2d::Zero(), 0};
   };
   problem_.AddLandmarkTerm(index, PointHostFactor(bearing(host), 1 / options_.noise.followed),
                            &loss_, {td_variable_, point});
   const int host_pose = Pose(host.keyframe);
-  for (const LandmarkSighting& sighting : landmark.sightings) {
-    if (sighting.keyframe == host.keyframe) continue;
-    const double noise = sighting.again ? options_.noise.again : options_.noise.followed;
+  for (const LandmarkObservation& observation : landmark.observations) {
+    if (observation.keyframe == host.keyframe) continue;
+    const double noise = observation.again ? options_.noise.again : options_.noise.followed;
     problem_.AddLandmarkTerm(
-        index, PointFactor(bearing(sighting), 1 / noise), &loss_,
-        {host_pose, Pose(sighting.keyframe), extrinsic_variable_, td_variable_, point});
+        index, PointFactor(bearing(observation), 1 / noise), &loss_,
+        {host_pose, Pose(observation.keyframe), extrinsic_variable_, td_variable_, point});
   }
 }
 
@@ -147,7 +147,7 @@ void BundleProblem::TakeOverLandmarks() {
   for (size_t i = 0; i < points_.size(); ++i) {
     LandmarkTrack& landmark = bundle_->landmarks[i];
     const auto& [x, y, inverse_depth] = points_[i];
-    landmark.p_M = bundle_->T_M_C(landmark.sightings.front().keyframe) *
+    landmark.p_M = bundle_->T_M_C(landmark.observations.front().keyframe) *
                    (Eigen::Vector3d(x, y, 1) / inverse_depth);
   }
 }

@@ -8,7 +8,7 @@ namespace plm_vins {
 
 struct BundleOptions {
   double gravity_norm = 9.81;  // [m/s^2]
-  SightingNoise noise;
+  ObservationNoise noise;
   int max_iterations = 15;
 };
 

@@ -38,7 +38,7 @@ struct BundleState {
 };
 
 // Standard deviations of observations (normalized image coordinates).
-struct SightingNoise {
+struct ObservationNoise {
   double followed = 0;  // corner tracked from image to image
   double again = 0;     // corner matched with a landmark of another visit by a loop
 };

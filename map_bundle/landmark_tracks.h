@@ -10,13 +10,13 @@
 namespace plm_vins {
 
 // Observation of a landmark, matched by a loop, in a keyframe of another visit.
-struct SightingAgain {
+struct Reobservation {
   LandmarkKey landmark;
   int keyframe = -1;                             // number in the map
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();  // normalized
 };
 
-struct LandmarkSighting {
+struct LandmarkObservation {
   int keyframe = -1;  // number in the map
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();
   bool again = false;  // matched by a loop closure in another visit
@@ -27,13 +27,13 @@ struct LandmarkSighting {
 struct LandmarkTrack {
   LandmarkKey key;
   Eigen::Vector3d p_M = Eigen::Vector3d::Zero();  // [m]
-  std::vector<LandmarkSighting> sightings;
+  std::vector<LandmarkObservation> observations;
 };
 
 // Collects the landmarks of `keyframes` (in ascending order) that have enough parallax and positive
 // depth in each observing camera, ordered by key.
 std::vector<LandmarkTrack> CollectLandmarks(const KeyframeMap& map,
                                             const std::vector<int>& keyframes,
-                                            const std::vector<SightingAgain>& again);
+                                            const std::vector<Reobservation>& again);
 
 }  // namespace plm_vins

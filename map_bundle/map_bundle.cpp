@@ -13,7 +13,8 @@ namespace {
 size_t CountAgain(const std::vector<LandmarkTrack>& landmarks) {
   size_t count = 0;
   for (const LandmarkTrack& landmark : landmarks) {
-    for (const LandmarkSighting& sighting : landmark.sightings) count += sighting.again ? 1 : 0;
+    for (const LandmarkObservation& observation : landmark.observations)
+      count += observation.again ? 1 : 0;
   }
   return count;
 }
@@ -38,17 +39,17 @@ void MapBundle::AddLoops(const KeyframeMap& map, const LoopClosure& closure) {
   for (const LevelEdge& edge : closure.dropped) SetCounts(edge.from, edge.to, false);
 }
 
-void MapBundle::AddPlace(const KeyframeMap& map, const RecognisedPlace& place, bool counts) {
+void MapBundle::AddPlace(const KeyframeMap& map, const RecognizedPlace& place, bool counts) {
   const int newest = map.graph.size() - 1;
   Place& added = places_[{newest, place.earlier}];
   added.counts = counts;
   const auto add = [&](const std::vector<SeenPoint>& seen, int of, int by) {
     for (const SeenPoint& point : seen) {
-      added.sightings.push_back({{map.keyframes[of].world, point.track}, by, point.xy});
+      added.observations.push_back({{map.keyframes[of].world, point.track}, by, point.xy});
     }
   };
-  add(place.sightings.of_earlier, place.earlier, newest);
-  add(place.sightings.of_later, newest, place.earlier);
+  add(place.observations.of_earlier, place.earlier, newest);
+  add(place.observations.of_later, newest, place.earlier);
 }
 
 void MapBundle::SetCounts(int a, int b, bool counts) {
@@ -61,12 +62,12 @@ size_t MapBundle::CountPlaces() const {
                                            [](const auto& place) { return place.second.counts; }));
 }
 
-std::vector<SightingAgain> MapBundle::Sightings() const {
-  std::vector<SightingAgain> sightings;
+std::vector<Reobservation> MapBundle::Observations() const {
+  std::vector<Reobservation> observations;
   for (const auto& [keyframes, place] : places_) {
-    if (place.counts) Append(place.sightings, &sightings);
+    if (place.counts) Append(place.observations, &observations);
   }
-  return sightings;
+  return observations;
 }
 
 BundleState MapBundle::StateOf(const KeyframeMap& map) const {
@@ -86,7 +87,7 @@ BundleState MapBundle::StateOf(const KeyframeMap& map) const {
     member.state.velocity() = T_M_O.rotation() * Eigen::Vector3d(member.state.velocity());
     member.start = member.state;
   }
-  bundle.landmarks = CollectLandmarks(map, numbers, Sightings());
+  bundle.landmarks = CollectLandmarks(map, numbers, Observations());
   return bundle;
 }
 
@@ -98,7 +99,7 @@ size_t MapBundle::KeyframesToAdjust(const KeyframeMap& map) const {
 
 // Estimates the observation noise of each round from the residuals of the previous round.
 void MapBundle::AdjustInRounds(const std::function<bool()>& is_end, BundleState* bundle) {
-  const SightingNoise configured = {options_.point_noise, options_.point_noise};
+  const ObservationNoise configured = {options_.point_noise, options_.point_noise};
   BundleOptions options;
   options.gravity_norm = options_.gravity_norm;
   options.noise = configured;
@@ -121,7 +122,7 @@ std::optional<AdjustedMap> MapBundle::Adjust(const KeyframeMap& map,
   BundleState bundle = StateOf(map);
   summary_.keyframes = bundle.keyframes.size();
   summary_.landmarks = bundle.landmarks.size();
-  summary_.sightings_again = CountAgain(bundle.landmarks);
+  summary_.reobservations = CountAgain(bundle.landmarks);
   AdjustInRounds(is_end, &bundle);
   if (summary_.rounds == 0) return std::nullopt;
 

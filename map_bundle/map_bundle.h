@@ -30,11 +30,11 @@ struct MapBundleOptions {
 struct MapBundleSummary {
   size_t keyframes = 0;
   size_t landmarks = 0;
-  size_t sightings_again = 0;  // observations of these landmarks in keyframes of another visit
-  int rounds = 0;              // completed rounds; zero means no result
-  bool failed = false;         // the solver failed in the following round
-  bool ended = false;          // stopped by `is_end` before the last round
-  SightingNoise noise;         // estimated from the residuals
+  size_t reobservations = 0;  // observations of these landmarks in keyframes of another visit
+  int rounds = 0;             // completed rounds; zero means no result
+  bool failed = false;        // the solver failed in the following round
+  bool ended = false;         // stopped by `is_end` before the last round
+  ObservationNoise noise;     // estimated from the residuals
 };
 
 // Visual-inertial bundle adjustment of a whole map at the end of a run. It records the IMU samples,
@@ -70,14 +70,14 @@ class MapBundle {
 
  private:
   struct Place {
-    std::vector<SightingAgain> sightings;
+    std::vector<Reobservation> observations;
     bool counts = false;
   };
 
-  void AddPlace(const KeyframeMap& map, const RecognisedPlace& place, bool counts);
+  void AddPlace(const KeyframeMap& map, const RecognizedPlace& place, bool counts);
   void SetCounts(int a, int b, bool counts);
   size_t CountPlaces() const;
-  std::vector<SightingAgain> Sightings() const;
+  std::vector<Reobservation> Observations() const;
   BundleState StateOf(const KeyframeMap& map) const;
   void AdjustInRounds(const std::function<bool()>& is_end, BundleState* bundle);
 

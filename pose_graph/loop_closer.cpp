@@ -123,12 +123,12 @@ void LoopCloser::ConnectToPrevious(int number) {
 
 void LoopCloser::LookForLoops(LoopClosure* closure) {
   for (const PlaceCandidate& place : recognition_.Find(map_.keyframes)) {
-    LoopSightings sightings;
-    LoopCandidate candidate = Examine(place, &sightings);
+    LoopObservations observations;
+    LoopCandidate candidate = Examine(place, &observations);
     if (!candidate.failed) {
       closure->confirmed = acceptance_.Judge(map_.keyframes, map_.graph, &candidate);
     }
-    if (!candidate.failed) closure->place = {candidate.earlier, std::move(sightings)};
+    if (!candidate.failed) closure->place = {candidate.earlier, std::move(observations)};
     closure->candidates.push_back(candidate);
     if (!candidate.failed) break;  // another candidate would add no information
   }
@@ -143,7 +143,7 @@ void LoopCloser::LookForLoops(LoopClosure* closure) {
   }
 }
 
-LoopCandidate LoopCloser::Examine(const PlaceCandidate& place, LoopSightings* sightings) {
+LoopCandidate LoopCloser::Examine(const PlaceCandidate& place, LoopObservations* observations) {
   LoopCandidate candidate;
   candidate.earlier = place.keyframe;
   candidate.later = static_cast<int>(map_.keyframes.size()) - 1;
@@ -156,7 +156,7 @@ LoopCandidate LoopCloser::Examine(const PlaceCandidate& place, LoopSightings* si
   } else if (!place.repeated) {
     candidate.failed = LoopGate::kRepeated;
   } else {
-    *sightings =
+    *observations =
         verification_.Verify(IslandOf(candidate.earlier), IslandOf(candidate.later), &candidate);
   }
   return candidate;
@@ -197,20 +197,20 @@ void LoopCloser::Optimize(const std::vector<LoopCandidate*>& loops, LoopClosure*
 // A wrong loop that was accepted first contradicts every correct loop after it, so that the graph
 // rejects them one by one. Added together, they may outvote it.
 bool LoopCloser::Reconsider(const std::vector<LoopCandidate*>& loops, LoopClosure* closure) {
-  const size_t refused_before = refused_.size();
+  const size_t rejected_before = rejected_.size();
   for (const LoopCandidate* loop : loops) {
-    if (loop->failed) refused_.push_back(*loop);
+    if (loop->failed) rejected_.push_back(*loop);
   }
-  if (refused_.size() == refused_before) return false;
-  constexpr size_t kFewestRefused = 3, kMostRefused = 8;
-  if (refused_.size() < kFewestRefused) return false;
-  while (refused_.size() > kMostRefused) refused_.erase(refused_.begin());
+  if (rejected_.size() == rejected_before) return false;
+  constexpr size_t kFewestRejected = 3, kMostRejected = 8;
+  if (rejected_.size() < kFewestRejected) return false;
+  while (rejected_.size() > kMostRejected) rejected_.erase(rejected_.begin());
 
   const PoseGraph before = map_.graph;
-  for (const LoopCandidate& loop : refused_) map_.graph.AddEdge(EdgeOf(loop));
+  for (const LoopCandidate& loop : rejected_) map_.graph.AddEdge(EdgeOf(loop));
   std::vector<LevelEdge> given_up = map_.graph.Optimize();
   std::vector<LoopCandidate> right, wrong;
-  for (LoopCandidate& loop : refused_) (Take(loop, &given_up) ? wrong : right).push_back(loop);
+  for (LoopCandidate& loop : rejected_) (Take(loop, &given_up) ? wrong : right).push_back(loop);
   const bool are_more = !given_up.empty() && right.size() >= given_up.size() + 2;
   if (!are_more) {
     map_.graph = before;
@@ -222,7 +222,7 @@ bool LoopCloser::Reconsider(const std::vector<LoopCandidate*>& loops, LoopClosur
     loop.graph_error = map_.graph.Deviations(EdgeOf(loop));
     closure->reconsidered.push_back(loop);
   }
-  refused_ = std::move(wrong);
+  rejected_ = std::move(wrong);
   return true;
 }
 
@@ -230,7 +230,7 @@ void LoopCloser::Thin() {
   while (const auto keyframe = thinning_.Next(map_)) {
     recognition_.Remove(map_.keyframes[keyframe->number], keyframe->number);
     acceptance_.Forget(keyframe->number);
-    ForgetLoopsOf(keyframe->number, &refused_);
+    ForgetLoopsOf(keyframe->number, &rejected_);
     map_.Remove(keyframe->number, keyframe->nearest);
   }
 }

@@ -40,9 +40,9 @@ struct LoopCloserOptions {
 };
 
 // A place recognized in the newest keyframe.
-struct RecognisedPlace {
-  int earlier = -1;         // number of the earlier visit's keyframe
-  LoopSightings sightings;  // of landmarks and lines observed in both visits
+struct RecognizedPlace {
+  int earlier = -1;               // number of the earlier visit's keyframe
+  LoopObservations observations;  // of landmarks and lines observed in both visits
 };
 
 // Result of processing one image.
@@ -52,7 +52,7 @@ struct LoopClosure {
   std::vector<LoopCandidate> confirmed;     // waited for an agreeing loop before; now judged again
   std::vector<LoopCandidate> reconsidered;  // rejected by the graph before; now accepted
   std::vector<LevelEdge> dropped;           // earlier loops that now contradict the graph
-  std::optional<RecognisedPlace> place;     // passed all gates before the graph's
+  std::optional<RecognizedPlace> place;     // passed all gates before the graph's
   std::optional<MapFix> fix;                // nullopt while the pose in the map is unknown
 };
 
@@ -79,7 +79,7 @@ class LoopCloser {
   bool HasKeyframeOf(int world) const;
   void ConnectToPrevious(int number);
   void LookForLoops(LoopClosure* closure);
-  LoopCandidate Examine(const PlaceCandidate& place, LoopSightings* sightings);
+  LoopCandidate Examine(const PlaceCandidate& place, LoopObservations* observations);
   Island IslandOf(int number) const;
   void AddLoops(const std::vector<LoopCandidate*>& loops);
   // Optimizes the graph and marks the new loops that it rejects.
@@ -98,7 +98,7 @@ class LoopCloser {
   MapThinning thinning_;
   KeyframeMap map_;
   PlaceInMap place_;
-  std::vector<LoopCandidate> refused_;  // the newest loops that the graph rejected
+  std::vector<LoopCandidate> rejected_;  // the newest loops that the graph rejected
   int world_ = 0;
   double path_ = 0;                                 // distance travelled in this world [m]
   std::optional<Eigen::Vector3d> last_position_O_;  // for path_

@@ -27,7 +27,7 @@ GyroPredictor::GyroPredictor(const Rigid3d& T_B_C, double td, const ImuSensor& i
 void GyroPredictor::AddImu(const ImuSample& sample) {
   if (!IsPlausible(sample)) return;
   if (last_ns_ && sample.t_ns <= *last_ns_) {
-    if (!jump_.Refuse(sample.t_ns)) return;
+    if (!jump_.Reject(sample.t_ns)) return;
     Clear();
   }
   jump_.Accept();

@@ -58,7 +58,7 @@ void ImageQueue::AddImage(ImageSample image) {
   bool restart = false;
   if (accepted_ns_ && t_ns <= *accepted_ns_) {
     ++counts_.out_of_order;
-    if (!jump_.Refuse(t_ns)) return;
+    if (!jump_.Reject(t_ns)) return;
     restart = true;
     ++counts_.restarts;
     gyro_ = GyroPredictor(sensor_.T_B_C, sensor_.td, sensor_.imu);

@@ -192,10 +192,10 @@ void EstimationStage::StartOver(const std::string& reason) {
   delay_.reset();
   second_camera_ = {};
   sync_.SetTimeOffset(estimator_->time_offset());
-  if (anew_) return;
+  if (reinitializing_) return;
   ++resets_;
   restart_reason_ = reason;
-  anew_ = true;
+  reinitializing_ = true;
 }
 
 void EstimationStage::FollowClock() {
@@ -227,7 +227,7 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   delay_ = frame.output.delay;
   second_camera_ = frame.output.second_camera;
   if (frame.output.restarted) ++resets_;
-  anew_ = false;
+  reinitializing_ = false;
   if (restart_reason_) {
     frame.output.restarted = true;
     frame.output.reason = *std::exchange(restart_reason_, std::nullopt);

@@ -115,7 +115,7 @@ class EstimationStage {
   int64_t frames_repeated_ = 0;  // whose features were ignored
   int64_t resets_ = 0;
   int64_t jumps_back_ = 0, leaps_ahead_ = 0;   // handled so far
-  bool anew_ = true;                           // no image since the start or the last reset
+  bool reinitializing_ = true;                 // no image since the start or the last reset
   std::optional<std::string> restart_reason_;  // for the next output
 };
 

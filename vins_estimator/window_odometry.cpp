@@ -195,7 +195,7 @@ void WindowOdometry::FindStructure(bool keep_second_newest, EstimatorOutput* out
   if (config_->estimator.line_merging && keep_second_newest) {
     UnitedLines united = structure_.Unite(&map);
     output->counts.line_merging = united.merging;
-    output->counts.lines_recognised = united.recognised;
+    output->counts.lines_recognized = united.recognized;
     output->absorbed_lines = std::move(united.absorbed);
   }
   output->timings.line_merging = stopwatch.Milliseconds();

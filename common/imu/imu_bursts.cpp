@@ -7,7 +7,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kStamps = 201;         // the newest, by which bursts are recognised
+constexpr size_t kStamps = 201;         // the newest, by which bursts are recognized
 constexpr size_t kMinBursts = 5;        // among them
 constexpr double kShort = 0.25;         // of the mean interval, inside of a burst
 constexpr double kMinShortShare = 0.6;  // of the intervals: bursts of three have two thirds
@@ -27,13 +27,13 @@ ImuSample ImuBursts::Spread(ImuSample sample) {
   const int64_t late_ns = spread_ns_ && begins ? stamps_.back() - *spread_ns_ : 0;
   stamps_.push_back(sample.t_ns);
   if (stamps_.size() > kStamps) stamps_.pop_front();
-  if (begins) Recognise();
+  if (begins) Recognize();
   if (size_ == 0) return sample;
   sample.t_ns = SpreadStamp(sample.t_ns, late_ns);
   return sample;
 }
 
-void ImuBursts::Recognise() {
+void ImuBursts::Recognize() {
   if (stamps_.size() < kStamps) return;
   const auto intervals = static_cast<double>(stamps_.size() - 1);
   const double mean_ns = static_cast<double>(stamps_.back() - stamps_.front()) / intervals;

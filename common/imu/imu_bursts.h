@@ -10,12 +10,12 @@
 
 namespace plm_vins {
 
-// Recognises samples that come in bursts and are stamped on arrival (a driver that empties a FIFO),
+// Recognizes samples that come in bursts and are stamped on arrival (a driver that empties a FIFO),
 // and spreads their stamps evenly. Other samples stay as they are, bit by bit.
 //
 // Of a burst, the last sample is the youngest, so that its stamp is taken for right; the stamps of
 // the others lie before it in steps of the mean interval. Samples come out at once, in order of
-// time, except that stamps step back by a burst where bursts are recognised.
+// time, except that stamps step back by a burst where bursts are recognized.
 class ImuBursts {
  public:
   // Returns the sample with the stamp to use.
@@ -27,7 +27,7 @@ class ImuBursts {
 
  private:
   // Sets size_ and interval_ns_ by the newest stamps.
-  void Recognise();
+  void Recognize();
   // `late_ns`: by how much the last stamp of the burst before was later than what it was spread to.
   int64_t SpreadStamp(int64_t t_ns, int64_t late_ns);
 

@@ -8,7 +8,7 @@
 
 namespace plm_vins {
 
-// Recognises samples that no IMU in working order sends as specific force [m/s^2] and angular rate
+// Recognizes samples that no IMU in working order sends as specific force [m/s^2] and angular rate
 // [rad/s]: sensors that are missing or send in turn, other units, gravity that was removed. Counts
 // all samples since construction, before anything is dropped or corrected.
 class ImuContent {

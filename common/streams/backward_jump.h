@@ -15,34 +15,34 @@ class BackwardJumpDetector {
   explicit BackwardJumpDetector(int patience) : patience_(patience) {}
 
   // Reports a timestamp that follows the last accepted one.
-  void Accept() { refused_in_a_row_ = 0; }
+  void Accept() { rejected_in_a_row_ = 0; }
 
   // Reports a timestamp that does not follow. Returns true if the stream restarts with it.
-  bool Refuse(int64_t t_ns) {
-    const bool in_a_row = refused_in_a_row_ > 0 && t_ns > refused_ns_;
-    refused_in_a_row_ = in_a_row ? refused_in_a_row_ + 1 : 1;
-    if (!in_a_row) first_refused_ns_ = t_ns;
-    refused_ns_ = t_ns;
-    return refused_in_a_row_ > patience_;
+  bool Reject(int64_t t_ns) {
+    const bool in_a_row = rejected_in_a_row_ > 0 && t_ns > rejected_ns_;
+    rejected_in_a_row_ = in_a_row ? rejected_in_a_row_ + 1 : 1;
+    if (!in_a_row) first_rejected_ns_ = t_ns;
+    rejected_ns_ = t_ns;
+    return rejected_in_a_row_ > patience_;
   }
 
   // Returns whether the last timestamp was rejected.
-  bool Refuses() const { return refused_in_a_row_ > 0; }
+  bool HasRejected() const { return rejected_in_a_row_ > 0; }
 
   // To be called for a timestamp that follows the last accepted one, before Accept(). Returns true
   // if the stream was restarted at the rejected timestamps.
   bool EndsStepBack(int64_t t_ns) const {
-    return refused_in_a_row_ >= kShortestStep &&
-           t_ns - refused_ns_ <= (refused_ns_ - first_refused_ns_) / 2;
+    return rejected_in_a_row_ >= kShortestStep &&
+           t_ns - rejected_ns_ <= (rejected_ns_ - first_rejected_ns_) / 2;
   }
 
  private:
   static constexpr int kShortestStep = 10;  // timestamps; fewer may be late single messages
 
   int patience_;
-  int refused_in_a_row_ = 0;
-  int64_t first_refused_ns_ = 0;  // of the consecutive ones
-  int64_t refused_ns_ = 0;        // the last one
+  int rejected_in_a_row_ = 0;
+  int64_t first_rejected_ns_ = 0;  // of the consecutive ones
+  int64_t rejected_ns_ = 0;        // the last one
 };
 
 }  // namespace plm_vins

@@ -17,15 +17,15 @@ class ForwardJumpDetector {
   // Returns whether the timestamp is accepted; `last_ns` is the last accepted one.
   bool Accept(int64_t last_ns, int64_t t_ns) {
     const bool leaps = t_ns - last_ns > limit_ns_;
-    const bool confirmed = refused_ns_ && t_ns > *refused_ns_;
-    refused_ns_.reset();
-    if (leaps && !confirmed) refused_ns_ = t_ns;
+    const bool confirmed = rejected_ns_ && t_ns > *rejected_ns_;
+    rejected_ns_.reset();
+    if (leaps && !confirmed) rejected_ns_ = t_ns;
     return !leaps || confirmed;
   }
 
  private:
   int64_t limit_ns_;
-  std::optional<int64_t> refused_ns_;  // the previous timestamp, if it was rejected
+  std::optional<int64_t> rejected_ns_;  // the previous timestamp, if it was rejected
 };
 
 }  // namespace plm_vins

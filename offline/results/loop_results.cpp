@@ -153,7 +153,7 @@ Json LoopResults::BundleSummary() const {
   Json json;
   json["keyframes"] = bundle.keyframes;
   json["landmarks"] = bundle.landmarks;
-  json["sightings_again"] = bundle.sightings_again;
+  json["reobservations"] = bundle.reobservations;
   json["rounds"] = bundle.rounds;
   json["noise_px"] = bundle.noise.followed * focal_length;
   json["noise_again_px"] = bundle.noise.again * focal_length;

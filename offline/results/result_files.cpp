@@ -72,7 +72,7 @@ FrameCounts MakeCounts(const PipelineFrame& frame) {
   counts[kLinesInconsistent] = estimator.line_triangulation.inconsistent;
   counts[kLinesTooLong] = estimator.line_triangulation.too_long;
   SetMerging(estimator.line_merging, &counts);
-  counts[kLinesRecognised] = estimator.lines_recognised;
+  counts[kLinesRecognized] = estimator.lines_recognized;
   counts[kLinesInWindow] = estimator.lines_in_window;
   counts[kLinesRejected] = estimator.lines_rejected;
   return counts;

@@ -45,7 +45,7 @@ KeyframeAssembly::Stamps::iterator KeyframeAssembly::Forget(Stamps::iterator beg
 void KeyframeAssembly::AddImage(const ImageSample& image) {
   if (image_ns_ && !leap_.Accept(*image_ns_, image.t_ns)) return;
   if (image_ns_ && image.t_ns < *image_ns_) {
-    if (jump_.Refuse(image.t_ns)) Clear();
+    if (jump_.Reject(image.t_ns)) Clear();
   } else {
     jump_.Accept();
     image_ns_ = image.t_ns;

@@ -38,10 +38,10 @@ class Half {
   cv::Point2d offset_px_;
 };
 
-void DrawCorners(const LoopSightings& sightings, const Half& left, const Half& right,
+void DrawCorners(const LoopObservations& observations, const Half& left, const Half& right,
                  cv::Mat* picture) {
-  const Rigid3d T_C_O = sightings.T_O1_C.Inverse();
-  for (const SeenPoint& point : sightings.of_earlier) {
+  const Rigid3d T_C_O = observations.T_O1_C.Inverse();
+  for (const SeenPoint& point : observations.of_earlier) {
     const auto before = left.Find(T_C_O * point.p_O);
     const auto now = right.Find(point.xy.homogeneous());
     if (!before || !now) continue;
@@ -51,10 +51,10 @@ void DrawCorners(const LoopSightings& sightings, const Half& left, const Half& r
   }
 }
 
-void DrawLines(const LoopSightings& sightings, const Half& left, const Half& right,
+void DrawLines(const LoopObservations& observations, const Half& left, const Half& right,
                cv::Mat* picture) {
-  const Rigid3d T_C_O = sightings.T_O1_C.Inverse();
-  for (const auto& [line, segment] : sightings.lines) {
+  const Rigid3d T_C_O = observations.T_O1_C.Inverse();
+  for (const auto& [line, segment] : observations.lines) {
     left.DrawSegment(T_C_O * line.start_O, T_C_O * line.end_O, picture);
     right.DrawSegment(segment.start.homogeneous(), segment.end.homogeneous(), picture);
   }
@@ -62,8 +62,8 @@ void DrawLines(const LoopSightings& sightings, const Half& left, const Half& rig
 
 }  // namespace
 
-cv::Mat DrawLoop(const CameraModel& camera, const LoopSightings& sightings, const cv::Mat& earlier,
-                 const cv::Mat& later) {
+cv::Mat DrawLoop(const CameraModel& camera, const LoopObservations& observations,
+                 const cv::Mat& earlier, const cv::Mat& later) {
   const cv::Size half(cvRound(kScale * camera.parameters().width),
                       cvRound(kScale * camera.parameters().height));
   cv::Mat gray(half.height, 2 * half.width, CV_8UC1, cv::Scalar(0));
@@ -73,8 +73,8 @@ cv::Mat DrawLoop(const CameraModel& camera, const LoopSightings& sightings, cons
   cv::cvtColor(gray, picture, cv::COLOR_GRAY2BGR);
   const Half left(camera, 0);
   const Half right(camera, half.width);
-  DrawCorners(sightings, left, right, &picture);
-  DrawLines(sightings, left, right, &picture);
+  DrawCorners(observations, left, right, &picture);
+  DrawLines(observations, left, right, &picture);
   return picture;
 }
 

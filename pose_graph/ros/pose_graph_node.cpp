@@ -313,7 +313,7 @@ void PoseGraphNode::PublishMap() {
 
 void PoseGraphNode::PublishMatch(const OdometryFrame& frame, const LoopClosure& closure) {
   if (!closure.place || match_publisher_.getNumSubscribers() == 0) return;
-  const cv::Mat picture = DrawLoop(*camera_, closure.place->sightings,
+  const cv::Mat picture = DrawLoop(*camera_, closure.place->observations,
                                    images_.Find(closure.place->earlier), frame.gray);
   match_publisher_.publish(ToMessage(picture, frame.t_ns, config_.output.camera_frame));
 }

@@ -18,20 +18,21 @@ int IterationsFor(double inlier_share, double confidence) {
   return static_cast<int>(std::ceil(std::log(1 - confidence) / std::log(1 - hit)));
 }
 
-size_t CountInliers(const LevelTransform& T_O_G, const std::vector<SeenPoint>& sightings,
+size_t CountInliers(const LevelTransform& T_O_G, const std::vector<SeenPoint>& observations,
                     const Eigen::Quaterniond& R_G_C, double max_error) {
   const Viewpoint viewpoint(T_O_G, R_G_C);
-  return std::count_if(sightings.begin(), sightings.end(), [&](const SeenPoint& sighting) {
-    return viewpoint.Error(sighting) <= max_error;
+  return std::count_if(observations.begin(), observations.end(), [&](const SeenPoint& observation) {
+    return viewpoint.Error(observation) <= max_error;
   });
 }
 
-std::vector<size_t> InliersOf(const LevelTransform& T_O_G, const std::vector<SeenPoint>& sightings,
+std::vector<size_t> InliersOf(const LevelTransform& T_O_G,
+                              const std::vector<SeenPoint>& observations,
                               const Eigen::Quaterniond& R_G_C, double max_error) {
   const Viewpoint viewpoint(T_O_G, R_G_C);
   std::vector<size_t> inliers;
-  for (size_t i = 0; i < sightings.size(); ++i) {
-    if (viewpoint.Error(sightings[i]) <= max_error) inliers.push_back(i);
+  for (size_t i = 0; i < observations.size(); ++i) {
+    if (viewpoint.Error(observations[i]) <= max_error) inliers.push_back(i);
   }
   return inliers;
 }
@@ -75,30 +76,30 @@ std::vector<LevelTransform> SolveTwoPoints(const Eigen::Vector3d& ray1_G,
 }
 
 std::optional<LevelPose> FindLevelPose(const LevelPoseRansacOptions& options,
-                                       const std::vector<SeenPoint>& sightings,
+                                       const std::vector<SeenPoint>& observations,
                                        const Eigen::Quaterniond& R_G_C) {
-  if (sightings.size() < 2) return std::nullopt;
+  if (observations.size() < 2) return std::nullopt;
   std::mt19937 random(kSeed);
   LevelTransform best;
   size_t most = 0;  // inlier count
   int iterations = options.max_iterations;
   for (int i = 0; i < iterations; ++i) {
-    const SeenPoint& first = sightings[random() % sightings.size()];
-    const SeenPoint& second = sightings[random() % sightings.size()];
+    const SeenPoint& first = observations[random() % observations.size()];
+    const SeenPoint& second = observations[random() % observations.size()];
     if (&first == &second) continue;
     const auto poses = SolveTwoPoints(R_G_C * first.xy.homogeneous(), first.p_O,
                                       R_G_C * second.xy.homogeneous(), second.p_O);
     for (const LevelTransform& pose : poses) {
-      const size_t inliers = CountInliers(pose, sightings, R_G_C, options.max_error);
+      const size_t inliers = CountInliers(pose, observations, R_G_C, options.max_error);
       if (inliers <= most) continue;
       best = pose;
       most = inliers;
-      const double share = static_cast<double>(most) / sightings.size();
+      const double share = static_cast<double>(most) / observations.size();
       iterations = std::min(iterations, IterationsFor(share, options.confidence) + i);
     }
   }
   if (most < kMinInliers) return std::nullopt;
-  return LevelPose{best, InliersOf(best, sightings, R_G_C, options.max_error)};
+  return LevelPose{best, InliersOf(best, observations, R_G_C, options.max_error)};
 }
 
 }  // namespace plm_vins

@@ -38,7 +38,7 @@ struct LevelPose {
 // Returns the pose with the most inliers, or nullopt if there are fewer than two observations or no
 // consensus. Deterministic.
 std::optional<LevelPose> FindLevelPose(const LevelPoseRansacOptions& options,
-                                       const std::vector<SeenPoint>& sightings,
+                                       const std::vector<SeenPoint>& observations,
                                        const Eigen::Quaterniond& R_G_C);
 
 }  // namespace plm_vins

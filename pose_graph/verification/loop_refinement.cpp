@@ -5,7 +5,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "pose_graph/verification/sighting_costs.h"
+#include "pose_graph/verification/loop_costs.h"
 
 namespace plm_vins {
 namespace {
@@ -29,29 +29,30 @@ Eigen::Matrix2d WhiteningOf(const LoopRefinementOptions& options, const Eigen::V
 }
 
 // Adds the observations of both visits, with covariances linearized at `place`.
-void AddCosts(const LoopRefinementOptions& options, const LoopSightings& sightings, double* place,
-              ceres::Problem* problem) {
-  const Rigid3d& T_O1_C = sightings.T_O1_C;
-  const Rigid3d& T_O2_C = sightings.T_O2_C;
+void AddCosts(const LoopRefinementOptions& options, const LoopObservations& observations,
+              double* place, ceres::Problem* problem) {
+  const Rigid3d& T_O1_C = observations.T_O1_C;
+  const Rigid3d& T_O2_C = observations.T_O2_C;
   const auto add = [&](auto cost) {
     using Cost = decltype(cost);
     problem->AddResidualBlock(new ceres::AutoDiffCostFunction<Cost, 2, kPlaceSize>(new Cost(cost)),
                               new ceres::HuberLoss(kRobustWidth), place);
   };
   const Eigen::Vector3d earlier_in_later = ToLaterCamera(place, T_O1_C.translation, T_O2_C);
-  for (const SeenPoint& sighting : sightings.of_earlier) {
-    const Eigen::Vector3d p_C = ToLaterCamera(place, sighting.p_O, T_O2_C);
-    add(EarlierLandmarkCost{sighting, T_O2_C, WhiteningOf(options, p_C, p_C - earlier_in_later)});
+  for (const SeenPoint& observation : observations.of_earlier) {
+    const Eigen::Vector3d p_C = ToLaterCamera(place, observation.p_O, T_O2_C);
+    add(EarlierLandmarkCost{observation, T_O2_C,
+                            WhiteningOf(options, p_C, p_C - earlier_in_later)});
   }
   const Eigen::Vector3d later_in_earlier =
       ToEarlierCamera(place, T_O2_C.translation, T_O2_C, T_O1_C);
-  for (const SeenPoint& sighting : sightings.of_later) {
-    const Eigen::Vector3d p_C = ToEarlierCamera(place, sighting.p_O, T_O2_C, T_O1_C);
-    add(LaterLandmarkCost{sighting, T_O1_C, T_O2_C,
+  for (const SeenPoint& observation : observations.of_later) {
+    const Eigen::Vector3d p_C = ToEarlierCamera(place, observation.p_O, T_O2_C, T_O1_C);
+    add(LaterLandmarkCost{observation, T_O1_C, T_O2_C,
                           WhiteningOf(options, p_C, p_C - later_in_earlier)});
   }
-  for (const SeenSegment& sighting : sightings.lines) {
-    add(LineCost{sighting, T_O2_C, 1 / options.line_noise});
+  for (const SeenSegment& observation : observations.lines) {
+    add(LineCost{observation, T_O2_C, 1 / options.line_noise});
   }
   add(TiltCost{1 / options.tilt});
 }
@@ -72,11 +73,12 @@ std::optional<Matrix4d> CovarianceAt(ceres::Problem* problem) {
 }  // namespace
 
 std::optional<RefinedLoop> RefineLoop(const LoopRefinementOptions& options,
-                                      const LoopSightings& sightings, const LevelTransform& start) {
+                                      const LoopObservations& observations,
+                                      const LevelTransform& start) {
   PlaceVector place;
-  place << start * sightings.T_O2_C.translation, start.yaw, 0, 0;
+  place << start * observations.T_O2_C.translation, start.yaw, 0, 0;
   ceres::Problem problem;
-  AddCosts(options, sightings, place.data(), &problem);
+  AddCosts(options, observations, place.data(), &problem);
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.max_num_iterations = 20;
@@ -89,7 +91,7 @@ std::optional<RefinedLoop> RefineLoop(const LoopRefinementOptions& options,
   RefinedLoop loop;
   loop.T_O1_O2.yaw = WrapAngle(place(3));
   loop.T_O1_O2.translation =
-      place.head<3>() - loop.T_O1_O2.rotation() * sightings.T_O2_C.translation;
+      place.head<3>() - loop.T_O1_O2.rotation() * observations.T_O2_C.translation;
   Vector4d floor;
   floor << Eigen::Vector3d::Constant(options.floor_position), options.floor_yaw;
   loop.covariance = *covariance;

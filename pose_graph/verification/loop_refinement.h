@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "pose_graph/geometry/level_transform.h"
-#include "pose_graph/verification/loop_sightings.h"
+#include "pose_graph/verification/loop_observations.h"
 
 namespace plm_vins {
 
@@ -33,6 +33,7 @@ struct RefinedLoop {
 // Minimizes the robust residuals of all observations from `start`. Returns nullopt if the solver
 // fails.
 std::optional<RefinedLoop> RefineLoop(const LoopRefinementOptions& options,
-                                      const LoopSightings& sightings, const LevelTransform& start);
+                                      const LoopObservations& observations,
+                                      const LevelTransform& start);
 
 }  // namespace plm_vins

@@ -101,22 +101,22 @@ int CountCells(const std::vector<Eigen::Vector2f>& corners_px, const CameraParam
 
 }  // namespace
 
-// Intermediate results of a candidate between the gates. O1 and O2 are those of LoopSightings.
+// Intermediate results of a candidate between the gates. O1 and O2 are those of LoopObservations.
 struct LoopVerification::Evidence {
   // Sorted. These tracks are no evidence for another visit, since odometry has tracked them
   // throughout.
   std::vector<int64_t> common_tracks;
   std::vector<DescribedLandmark> landmarks_O1;
   LevelTransform T_O1_O2;
-  LoopSightings all;
+  LoopObservations all;
 };
 
 LoopVerification::LoopVerification(const LoopVerificationOptions& options,
                                    std::shared_ptr<const CameraModel> camera)
     : options_(options), camera_(std::move(camera)) {}
 
-LoopSightings LoopVerification::Verify(const Island& earlier, const Island& later,
-                                       LoopCandidate* candidate) const {
+LoopObservations LoopVerification::Verify(const Island& earlier, const Island& later,
+                                          LoopCandidate* candidate) const {
   Evidence evidence;
   evidence.all.T_O1_C = earlier.keyframe->T_O_C();
   evidence.all.T_O2_C = later.keyframe->T_O_C();

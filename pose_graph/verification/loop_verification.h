@@ -54,7 +54,8 @@ class LoopVerification {
   // Passes the candidate through the gates from kApart to kLines. Sets the gates' values, the gate
   // that rejected it, or else the relative pose with covariance. Returns the consistent
   // observations, as far as the gates were reached.
-  LoopSightings Verify(const Island& earlier, const Island& later, LoopCandidate* candidate) const;
+  LoopObservations Verify(const Island& earlier, const Island& later,
+                          LoopCandidate* candidate) const;
 
  private:
   struct Evidence;

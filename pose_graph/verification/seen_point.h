@@ -25,10 +25,10 @@ class Viewpoint {
       : T_G_O_(T_O_G.Inverse().ToRigid()), R_C_G_(R_G_C.conjugate()) {}
 
   // Reprojection error (normalized); infinite behind the camera.
-  double Error(const SeenPoint& sighting) const {
-    const Eigen::Vector3d p_C = R_C_G_ * (T_G_O_ * sighting.p_O);
+  double Error(const SeenPoint& observation) const {
+    const Eigen::Vector3d p_C = R_C_G_ * (T_G_O_ * observation.p_O);
     if (p_C.z() <= 0) return std::numeric_limits<double>::infinity();
-    return (p_C.hnormalized() - sighting.xy).norm();
+    return (p_C.hnormalized() - observation.xy).norm();
   }
 
  private:

@@ -21,7 +21,7 @@ MAX_POINTS = 20000  # more points make the browser slow, but the picture no clea
 STAGES = ("point_tracking", "line_tracking", "line_merging", "optimization", "marginalization",
           "total")
 COUNTS = ("points_observed", "points_in_window", "lines_observed", "lines_in_window",
-          "lines_recognised")
+          "lines_recognized")
 
 
 def scene_figure(trajectories, points=NOTHING, lines=None, loops=NOTHING):

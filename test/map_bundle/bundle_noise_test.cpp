@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr SightingNoise kConfigured = {1e-3, 1e-3};
+constexpr ObservationNoise kConfigured = {1e-3, 1e-3};
 
 // Eight keyframes with known poses that observe landmarks with noise.
 BundleState BundleWith(int landmarks, double followed, double again) {
@@ -27,7 +27,7 @@ BundleState BundleWith(int landmarks, double followed, double again) {
       const double noise = is_again ? again : followed;
       const Eigen::Vector3d p_C = bundle.T_M_C(k).Inverse() * landmark.p_M;
       const Eigen::Vector2d error(noise * random.Normal(), noise * random.Normal());
-      landmark.sightings.push_back({k, p_C.hnormalized() + error, is_again});
+      landmark.observations.push_back({k, p_C.hnormalized() + error, is_again});
     }
     bundle.landmarks.push_back(landmark);
   }
@@ -37,21 +37,21 @@ BundleState BundleWith(int landmarks, double followed, double again) {
 // Landmarks are not adjusted here, so residuals of tracked corners exceed the assumption by a
 // third.
 TEST(BundleNoiseTest, SeparatesBothKindsOfNoise) {
-  const SightingNoise noise = EstimateNoise(BundleWith(400, 5e-4, 2e-3), kConfigured);
+  const ObservationNoise noise = EstimateNoise(BundleWith(400, 5e-4, 2e-3), kConfigured);
   EXPECT_NEAR(noise.followed, 5e-4 * std::sqrt(12.0 / 9.0), 3e-5);
   EXPECT_NEAR(noise.again, 2e-3, 1.5e-4);
 }
 
 TEST(BundleNoiseTest, KeepsTheConfiguredNoiseWithFewResiduals) {
-  const SightingNoise noise = EstimateNoise(BundleWith(10, 5e-4, 2e-3), kConfigured);
+  const ObservationNoise noise = EstimateNoise(BundleWith(10, 5e-4, 2e-3), kConfigured);
   EXPECT_EQ(noise.followed, kConfigured.followed);
   EXPECT_EQ(noise.again, kConfigured.again);
 }
 
 TEST(BundleNoiseTest, HasBounds) {
-  const SightingNoise small = EstimateNoise(BundleWith(100, 1e-9, 1e-9), kConfigured);
+  const ObservationNoise small = EstimateNoise(BundleWith(100, 1e-9, 1e-9), kConfigured);
   EXPECT_DOUBLE_EQ(small.followed, 1e-3 / 8);
-  const SightingNoise large = EstimateNoise(BundleWith(100, 1, 1), kConfigured);
+  const ObservationNoise large = EstimateNoise(BundleWith(100, 1, 1), kConfigured);
   EXPECT_DOUBLE_EQ(large.again, 8e-3);
 }
 

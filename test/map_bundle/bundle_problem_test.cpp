@@ -23,7 +23,7 @@ BundleState SmallBundle() {
     landmark.p_M = {random.Uniform(-2, 2), random.Uniform(-1, 1), random.Uniform(3, 6)};
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d p_C = bundle.T_M_C(k).Inverse() * landmark.p_M;
-      landmark.sightings.push_back({k, p_C.hnormalized(), /*again=*/false});
+      landmark.observations.push_back({k, p_C.hnormalized(), /*again=*/false});
     }
   }
   return bundle;

@@ -52,7 +52,7 @@ class DriftingFlight {
   }
 
   const KeyframeMap& map() const { return map_; }
-  const std::map<int, RecognisedPlace>& places() const { return places_; }  // by keyframe number
+  const std::map<int, RecognizedPlace>& places() const { return places_; }  // by keyframe number
   Rigid3d True(int number) const { return trajectory_.At(Seconds(number)).T_W_B; }
   Rigid3d InMap(int number) const {
     return map_.T_M_O(number).ToRigid() * map_.keyframes[number].T_O_B;
@@ -127,7 +127,7 @@ class DriftingFlight {
     keyframe.covariance = 1e-4 * (number + 1) * Matrix4d::Identity();
     const int visit = number / options_.keyframes_of_visit;
     const Rigid3d T_C_W = (truth.T_W_B * keyframe.T_B_C).Inverse();
-    RecognisedPlace place;
+    RecognizedPlace place;
     for (size_t i = 0; i < points_.size(); ++i) {
       const Eigen::Vector3d p_C = T_C_W * points_[i];
       if (p_C.z() < 1 || p_C.hnormalized().cwiseAbs().maxCoeff() > 0.7) continue;
@@ -149,17 +149,17 @@ class DriftingFlight {
     odometry.state.SetPose(keyframe.T_O_B);
     odometry.state.velocity() = options_.scale * (T_O_W.rotation() * truth.v_W);
     odometry.imu_noise = noise_;
-    if (!place.sightings.of_earlier.empty()) places_[node] = place;
+    if (!place.observations.of_earlier.empty()) places_[node] = place;
   }
 
   // Adds a loop observation of the landmark from two visits before.
-  void SeeAgain(int visit, size_t point, const DescribedCorner& corner, RecognisedPlace* place) {
+  void SeeAgain(int visit, size_t point, const DescribedCorner& corner, RecognizedPlace* place) {
     const int earlier_visit = visit - 2;
     if (earlier_visit < 0) return;
     place->earlier = earlier_visit * options_.keyframes_of_visit;
     const bool wrong = random_.Uniform(0, 1) < options_.wrong_share;
     const size_t seen = wrong ? (point + 1) % points_.size() : point;
-    place->sightings.of_earlier.push_back(
+    place->observations.of_earlier.push_back(
         {corner.p_O->cast<double>(), corner.xy.cast<double>(), Track(earlier_visit, seen)});
   }
 
@@ -179,7 +179,7 @@ class DriftingFlight {
   std::vector<Eigen::Vector3d> points_;
   KeyframeMap map_;
   std::vector<EstimatorOutput> odometry_;
-  std::map<int, RecognisedPlace> places_;
+  std::map<int, RecognizedPlace> places_;
 };
 
 // Root mean square error of positions relative to the first keyframe [m].

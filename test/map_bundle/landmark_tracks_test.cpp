@@ -40,9 +40,9 @@ TEST(LandmarkTracksTest, JoinsTheCornersOfATrack) {
   ASSERT_EQ(tracks.size(), 1u);
   EXPECT_EQ(tracks[0].key.track, 7);
   EXPECT_EQ(tracks[0].p_M, kPlace.cast<double>());
-  ASSERT_EQ(tracks[0].sightings.size(), 2u);
-  EXPECT_EQ(tracks[0].sightings[0].keyframe, 0);
-  EXPECT_EQ(tracks[0].sightings[1].keyframe, 2);
+  ASSERT_EQ(tracks[0].observations.size(), 2u);
+  EXPECT_EQ(tracks[0].observations[0].keyframe, 0);
+  EXPECT_EQ(tracks[0].observations[1].keyframe, 2);
 }
 
 TEST(LandmarkTracksTest, KeepsTracksOfTwoWorldsApart) {
@@ -59,10 +59,10 @@ TEST(LandmarkTracksTest, AddsLoopObservations) {
   const auto tracks =
       CollectLandmarks(map, {0, 1}, {{{0, 7}, 1, xy}, {{0, 7}, 2, xy}, {{0, 8}, 1, xy}});
   ASSERT_EQ(tracks.size(), 1u);
-  ASSERT_EQ(tracks[0].sightings.size(), 2u);  // keyframe 2 was not requested
-  EXPECT_FALSE(tracks[0].sightings[0].again);
-  EXPECT_TRUE(tracks[0].sightings[1].again);
-  EXPECT_EQ(tracks[0].sightings[1].xy, xy);
+  ASSERT_EQ(tracks[0].observations.size(), 2u);  // keyframe 2 was not requested
+  EXPECT_FALSE(tracks[0].observations[0].again);
+  EXPECT_TRUE(tracks[0].observations[1].again);
+  EXPECT_EQ(tracks[0].observations[1].xy, xy);
 }
 
 // Several later keyframes that match the same earlier one repeat the same observation.
@@ -74,10 +74,10 @@ TEST(LandmarkTracksTest, CountsAKeyframeOnce) {
   const auto tracks = CollectLandmarks(
       map, {0, 1, 2}, {{{0, 7}, 2, first}, {{0, 7}, 1, first}, {{0, 7}, 2, second}});
   ASSERT_EQ(tracks.size(), 1u);
-  ASSERT_EQ(tracks[0].sightings.size(), 3u);
-  EXPECT_FALSE(tracks[0].sightings[1].again);
-  EXPECT_EQ(tracks[0].sightings[2].keyframe, 2);
-  EXPECT_EQ(tracks[0].sightings[2].xy, first);
+  ASSERT_EQ(tracks[0].observations.size(), 3u);
+  EXPECT_FALSE(tracks[0].observations[1].again);
+  EXPECT_EQ(tracks[0].observations[2].keyframe, 2);
+  EXPECT_EQ(tracks[0].observations[2].xy, first);
 }
 
 TEST(LandmarkTracksTest, IgnoresDistantLandmarks) {

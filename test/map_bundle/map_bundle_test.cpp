@@ -43,7 +43,7 @@ TEST(MapBundleTest, RemovesDriftAndScaleError) {
   EXPECT_EQ(adjusted->T_M_B.size(), flight.map().keyframes.size());
   EXPECT_GT(ErrorOfOdometry(flight), 0.1);
   EXPECT_LT(ErrorOf(flight, *adjusted), 0.015);
-  EXPECT_GT(bundle.summary().sightings_again, 400u);
+  EXPECT_GT(bundle.summary().reobservations, 400u);
 }
 
 TEST(MapBundleTest, EstimatesTheObservationNoise) {
@@ -191,12 +191,12 @@ TEST(MapBundleTest, CountsUsedObservations) {
   MapBundle bundle(MapBundleOptions{});
   flight.Tell(&bundle);
   size_t told = 0;
-  for (const auto& [number, place] : flight.places()) told += place.sightings.of_earlier.size();
+  for (const auto& [number, place] : flight.places()) told += place.observations.of_earlier.size();
 
   ASSERT_TRUE(bundle.Adjust(flight.map()));
 
-  EXPECT_GT(bundle.summary().sightings_again, told / 10);
-  EXPECT_LT(bundle.summary().sightings_again, told);  // some landmarks were observed only once
+  EXPECT_GT(bundle.summary().reobservations, told / 10);
+  EXPECT_LT(bundle.summary().reobservations, told);  // some landmarks were observed only once
 }
 
 TEST(MapBundleTest, AcceptsAnEmptyMap) {

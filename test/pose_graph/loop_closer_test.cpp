@@ -103,7 +103,7 @@ TEST_F(LoopCloserTest, UndoesTheDriftOfASecondVisit) {
   EXPECT_GT(accepted_, 3);
   ASSERT_TRUE(second.place);
   EXPECT_LT(loops.map().keyframes[second.place->earlier].t_ns, ToNanoseconds(60.0));
-  EXPECT_FALSE(second.place->sightings.of_earlier.empty());
+  EXPECT_FALSE(second.place->observations.of_earlier.empty());
   ASSERT_TRUE(second.fix);
   const LevelTransform rest = loops.map().T_M_O(0).Inverse() * second.fix->T_M_O * kDrift;
   EXPECT_LT(rest.translation.norm(), 0.05);

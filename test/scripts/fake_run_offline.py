@@ -66,7 +66,7 @@ def write_results(options, settings, drift):
             file.write(f"{round(stamp * 1e9)},2.5,{extraction if index % 2 else 0},3,10\n")
     summary = {"init_time_s": LATE, "real_time_factor": 5.0, "resets": 0, "lines": 30,
                "merged_lines": 12 * int(settings.get("line_merging", 0)),
-               "recognised_lines": 3 * int(settings.get("line_merging", 0)),
+               "recognized_lines": 3 * int(settings.get("line_merging", 0)),
                "counts_per_frame": {"lines_in_window": {"mean": 17.5, "median": 18}},
                "timing_ms": {"total": {"mean": 10.0}, "line_tracking": {"mean": 3.0}}}
     with open(os.path.join(options.output, "summary.json"), "w", encoding="utf-8") as file:

@@ -64,8 +64,8 @@ class LineWindow {
   void Refit() {
     for (auto& [id, landmark] : map_.lines.landmarks()) {
       if (!landmark.triangulated || landmark.views.size() < 3) continue;
-      const auto sightings = SightingsOf(landmark.views, map_.window);
-      const auto fit = FitLine(sightings, kNoise, landmark.coordinates);
+      const auto observations = ObservationsOf(landmark.views, map_.window);
+      const auto fit = FitLine(observations, kNoise, landmark.coordinates);
       if (fit) landmark.coordinates = fit->line;
     }
   }

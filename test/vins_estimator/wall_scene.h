@@ -43,7 +43,7 @@ inline UnitedLines UniteOnWall(const std::vector<WallLine>& lines, LineWindow* w
     const LineMergingCounts& now = united.merging;
     Append(united.absorbed, &sum.absorbed);
     sum.merging.merged += now.merged;
-    sum.recognised += united.recognised;
+    sum.recognized += united.recognized;
     sum.merging.apart += now.apart;
     sum.merging.seen_side_by_side += now.seen_side_by_side;
     sum.merging.distant += now.distant;

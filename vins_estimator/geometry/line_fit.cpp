@@ -24,14 +24,14 @@ struct LineCamera {
   LineSegmentView segment;
 };
 
-std::vector<LineCamera> CamerasOf(const std::vector<LineSighting>& sightings) {
+std::vector<LineCamera> CamerasOf(const std::vector<PosedLineObservation>& observations) {
   std::vector<LineCamera> cameras;
-  cameras.reserve(sightings.size());
-  const Rigid3d T_C0_W = sightings.front().T_W_C.Inverse();
-  for (const LineSighting& sighting : sightings) {
-    const Rigid3d T_C_C0 = (T_C0_W * sighting.T_W_C).Inverse();
+  cameras.reserve(observations.size());
+  const Rigid3d T_C0_W = observations.front().T_W_C.Inverse();
+  for (const PosedLineObservation& observation : observations) {
+    const Rigid3d T_C_C0 = (T_C0_W * observation.T_W_C).Inverse();
     const Eigen::Matrix3d R = T_C_C0.R();
-    cameras.push_back({R, Skew(T_C_C0.translation) * R, sighting.segment});
+    cameras.push_back({R, Skew(T_C_C0.translation) * R, observation.segment});
   }
   return cameras;
 }
@@ -64,15 +64,15 @@ Eigen::Matrix4d Covariance(const LineFit& fit) {
 
 }  // namespace
 
-std::optional<LineFit> EvaluateLine(const std::vector<LineSighting>& sightings, double noise,
-                                    const OrthonormalLine& line) {
-  return Evaluate(CamerasOf(sightings), noise, line);
+std::optional<LineFit> EvaluateLine(const std::vector<PosedLineObservation>& observations,
+                                    double noise, const OrthonormalLine& line) {
+  return Evaluate(CamerasOf(observations), noise, line);
 }
 
 // Uses Levenberg-Marquardt, because full Gauss-Newton steps may diverge from a poor start.
-std::optional<LineFit> FitLine(const std::vector<LineSighting>& sightings, double noise,
+std::optional<LineFit> FitLine(const std::vector<PosedLineObservation>& observations, double noise,
                                const OrthonormalLine& initial) {
-  const std::vector<LineCamera> cameras = CamerasOf(sightings);
+  const std::vector<LineCamera> cameras = CamerasOf(observations);
   auto fit = Evaluate(cameras, noise, initial);
   double damping = kInitialDamping;
   for (int i = 0; fit && i < kMaxIterations; ++i) {

@@ -13,7 +13,7 @@
 namespace plm_vins {
 
 // Observation of a line segment by a camera with known pose.
-struct LineSighting {
+struct PosedLineObservation {
   Rigid3d T_W_C;
   LineSegmentView segment;
 };
@@ -29,12 +29,12 @@ struct LineFit {
 // Evaluates cost, gradient and information of `line` without changing it. `noise` is the standard
 // deviation of an end point across the line, in normalized coordinates. Returns nullopt if the line
 // passes through a camera.
-std::optional<LineFit> EvaluateLine(const std::vector<LineSighting>& sightings, double noise,
-                                    const OrthonormalLine& line);
+std::optional<LineFit> EvaluateLine(const std::vector<PosedLineObservation>& observations,
+                                    double noise, const OrthonormalLine& line);
 
 // Returns the least-squares line near `initial` ([Bartoli2005], section 5); nullopt if it
 // degenerates.
-std::optional<LineFit> FitLine(const std::vector<LineSighting>& sightings, double noise,
+std::optional<LineFit> FitLine(const std::vector<PosedLineObservation>& observations, double noise,
                                const OrthonormalLine& initial);
 
 // Returns the standard deviation of the line's direction along its least certain axis [rad], at

@@ -23,9 +23,9 @@ struct ViewingPlane {
   double deviation = 0;  // of the normal's angle about the viewing ray, for unit noise
 };
 
-ViewingPlane PlaneOf(const LineSighting& sighting, const Rigid3d& T_C0_W) {
-  const Rigid3d T_C0_C = T_C0_W * sighting.T_W_C;
-  const LineSegmentView& segment = sighting.segment;
+ViewingPlane PlaneOf(const PosedLineObservation& observation, const Rigid3d& T_C0_W) {
+  const Rigid3d T_C0_C = T_C0_W * observation.T_W_C;
+  const LineSegmentView& segment = observation.segment;
   ViewingPlane plane;
   plane.normal =
       (T_C0_C.rotation * segment.start.homogeneous().cross(segment.end.homogeneous())).normalized();
@@ -91,12 +91,12 @@ bool IsDepthKnown(const LineTriangulationOptions& options, const LineFit& fit,
   return start < options.max_depth_deviation && end < options.max_depth_deviation;
 }
 
-bool IsInFrontOfAll(const std::vector<LineSighting>& sightings, const Rigid3d& T_C0_W,
+bool IsInFrontOfAll(const std::vector<PosedLineObservation>& observations, const Rigid3d& T_C0_W,
                     const OrthonormalLine& line) {
   const PluckerLine line_C0 = ToPlucker(line.data());
-  for (const LineSighting& sighting : sightings) {
-    const Rigid3d T_C_C0 = (T_C0_W * sighting.T_W_C).Inverse();
-    if (!IsInFront(EndsOf(T_C_C0 * line_C0, sighting.segment))) return false;
+  for (const PosedLineObservation& observation : observations) {
+    const Rigid3d T_C_C0 = (T_C0_W * observation.T_W_C).Inverse();
+    if (!IsInFront(EndsOf(T_C_C0 * line_C0, observation.segment))) return false;
   }
   return true;
 }
@@ -113,22 +113,23 @@ bool IsInFront(const LineEnds& ends_C) {
 }
 
 TriangulatedLine TriangulateLine(const LineTriangulationOptions& options,
-                                 const std::vector<LineSighting>& sightings) {
+                                 const std::vector<PosedLineObservation>& observations) {
   TriangulatedLine triangulated;
-  if (sightings.size() < 2) return triangulated;
-  const Rigid3d T_C0_W = sightings.front().T_W_C.Inverse();
+  if (observations.size() < 2) return triangulated;
+  const Rigid3d T_C0_W = observations.front().T_W_C.Inverse();
   std::vector<ViewingPlane> planes;
-  planes.reserve(sightings.size());
-  for (const LineSighting& sighting : sightings) planes.push_back(PlaneOf(sighting, T_C0_W));
+  planes.reserve(observations.size());
+  for (const PosedLineObservation& observation : observations)
+    planes.push_back(PlaneOf(observation, T_C0_W));
   const auto initial = BestIntersection(planes);
   if (!initial) return triangulated;
-  const auto fit = FitLine(sightings, options.noise, *initial);
-  if (!fit || !IsDepthKnown(options, *fit, sightings.front().segment)) {
+  const auto fit = FitLine(observations, options.noise, *initial);
+  if (!fit || !IsDepthKnown(options, *fit, observations.front().segment)) {
     return triangulated;
   }
   triangulated.line = fit->line;
-  const double mean_square = fit->cost / (2.0 * static_cast<double>(sightings.size()));
-  if (!IsInFrontOfAll(sightings, T_C0_W, fit->line)) {
+  const double mean_square = fit->cost / (2.0 * static_cast<double>(observations.size()));
+  if (!IsInFrontOfAll(observations, T_C0_W, fit->line)) {
     triangulated.result = LineTriangulationResult::kBehind;
   } else if (mean_square > options.max_mean_error * options.max_mean_error) {
     triangulated.result = LineTriangulationResult::kInconsistent;

@@ -41,7 +41,7 @@ struct TriangulatedLine {
 // short baseline or motion within the plane) is detected by the standard deviation that `noise`
 // causes in the depths of the ends.
 TriangulatedLine TriangulateLine(const LineTriangulationOptions& options,
-                                 const std::vector<LineSighting>& sightings);
+                                 const std::vector<PosedLineObservation>& observations);
 
 // Points of the line that correspond to the end points of its segment, in the camera frame: the
 // intersections of the line with the planes through the camera and each end point, perpendicular to

@@ -12,66 +12,69 @@ namespace {
 
 constexpr int kRefinements = 3;  // the point nearest to all rays is a good initial value
 
-Eigen::Vector3d RayInWorld(const PointSighting& sighting) {
-  return (sighting.T_W_C.rotation * sighting.xy.homogeneous()).normalized();
+Eigen::Vector3d RayInWorld(const PosedPointObservation& observation) {
+  return (observation.T_W_C.rotation * observation.xy.homogeneous()).normalized();
 }
 
 // Returns the greatest angle between the first ray and any other.
-double GreatestAngle(const std::vector<PointSighting>& sightings) {
-  const Eigen::Vector3d first = RayInWorld(sightings.front());
+double GreatestAngle(const std::vector<PosedPointObservation>& observations) {
+  const Eigen::Vector3d first = RayInWorld(observations.front());
   double greatest = 0;
-  for (const PointSighting& sighting : sightings) {
-    greatest = std::max(greatest, first.cross(RayInWorld(sighting)).norm());
+  for (const PosedPointObservation& observation : observations) {
+    greatest = std::max(greatest, first.cross(RayInWorld(observation)).norm());
   }
   return std::asin(std::min(1.0, greatest));
 }
 
 // Returns the point with the least sum of squared distances to all rays.
-Eigen::Vector3d ClosestPoint(const std::vector<PointSighting>& sightings) {
+Eigen::Vector3d ClosestPoint(const std::vector<PosedPointObservation>& observations) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
-  for (const PointSighting& sighting : sightings) {
-    const Eigen::Vector3d ray = RayInWorld(sighting);
+  for (const PosedPointObservation& observation : observations) {
+    const Eigen::Vector3d ray = RayInWorld(observation);
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - ray * ray.transpose();
     A += across;
-    b += across * sighting.T_W_C.translation;
+    b += across * observation.T_W_C.translation;
   }
   return A.ldlt().solve(b);
 }
 
 // Refines the point by Gauss-Newton on the reprojection errors.
-Eigen::Vector3d RefineOnImages(const std::vector<PointSighting>& sightings, Eigen::Vector3d p_W) {
+Eigen::Vector3d RefineOnImages(const std::vector<PosedPointObservation>& observations,
+                               Eigen::Vector3d p_W) {
   for (int iteration = 0; iteration < kRefinements; ++iteration) {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
-    for (const PointSighting& sighting : sightings) {
-      const Eigen::Matrix3d R_C_W = sighting.T_W_C.R().transpose();
-      const Eigen::Vector3d p_C = R_C_W * (p_W - sighting.T_W_C.translation);
+    for (const PosedPointObservation& observation : observations) {
+      const Eigen::Matrix3d R_C_W = observation.T_W_C.R().transpose();
+      const Eigen::Vector3d p_C = R_C_W * (p_W - observation.T_W_C.translation);
       if (p_C.z() < kMinTriangulatedDepth) return p_W;
       Eigen::Matrix<double, 2, 3> J;
       J << 1, 0, -p_C.x() / p_C.z(), 0, 1, -p_C.y() / p_C.z();
       J = J * R_C_W / p_C.z();
       H += J.transpose() * J;
-      g += J.transpose() * (p_C.hnormalized() - sighting.xy);
+      g += J.transpose() * (p_C.hnormalized() - observation.xy);
     }
     p_W -= H.ldlt().solve(g);
   }
   return p_W;
 }
 
-bool IsInFrontOfAll(const std::vector<PointSighting>& sightings, const Eigen::Vector3d& p_W) {
-  return std::all_of(sightings.begin(), sightings.end(), [&p_W](const PointSighting& sighting) {
-    return (sighting.T_W_C.Inverse() * p_W).z() > kMinTriangulatedDepth;
-  });
+bool IsInFrontOfAll(const std::vector<PosedPointObservation>& observations,
+                    const Eigen::Vector3d& p_W) {
+  return std::all_of(observations.begin(), observations.end(),
+                     [&p_W](const PosedPointObservation& observation) {
+                       return (observation.T_W_C.Inverse() * p_W).z() > kMinTriangulatedDepth;
+                     });
 }
 
 }  // namespace
 
-std::optional<Eigen::Vector3d> TriangulatePoint(const std::vector<PointSighting>& sightings,
-                                                double min_angle) {
-  if (sightings.size() < 2 || GreatestAngle(sightings) < min_angle) return std::nullopt;
-  const Eigen::Vector3d p_W = RefineOnImages(sightings, ClosestPoint(sightings));
-  if (!p_W.allFinite() || !IsInFrontOfAll(sightings, p_W)) return std::nullopt;
+std::optional<Eigen::Vector3d> TriangulatePoint(
+    const std::vector<PosedPointObservation>& observations, double min_angle) {
+  if (observations.size() < 2 || GreatestAngle(observations) < min_angle) return std::nullopt;
+  const Eigen::Vector3d p_W = RefineOnImages(observations, ClosestPoint(observations));
+  if (!p_W.allFinite() || !IsInFrontOfAll(observations, p_W)) return std::nullopt;
   return p_W;
 }
 

@@ -10,7 +10,7 @@
 namespace plm_vins {
 
 // Observation of a point: pose of the camera and normalized image point.
-struct PointSighting {
+struct PosedPointObservation {
   Rigid3d T_W_C;
   Eigen::Vector2d xy;
 };
@@ -18,7 +18,7 @@ struct PointSighting {
 // Triangulates p_W: the point nearest to all rays, refined on the reprojection errors. Returns
 // nullopt if no ray forms an angle of at least `min_angle` [rad] with the first one, or if the
 // point is behind a camera.
-std::optional<Eigen::Vector3d> TriangulatePoint(const std::vector<PointSighting>& sightings,
-                                                double min_angle);
+std::optional<Eigen::Vector3d> TriangulatePoint(
+    const std::vector<PosedPointObservation>& observations, double min_angle);
 
 }  // namespace plm_vins

@@ -59,28 +59,28 @@ double CommonMotion(const CornerMotions& corners) {
 }  // namespace
 
 StandstillDetector::StandstillDetector(const ImuNoise& noise, const Options& options)
-    : options_(options), imu_(noise, options.imu), rest_(noise) {}
+    : options_(options), imu_(noise, options.imu), confirmed_(noise) {}
 
 std::optional<StandstillDetector::Standstill> StandstillDetector::Add(
     const FrameMeasurement& measurement, std::optional<double> depth) {
   imu_.Add(measurement);
-  rest_.Add(measurement);
+  confirmed_.Add(measurement);
   points_.push_back(measurement.points);
   while (points_.size() > imu_.images()) points_.pop_front();
   doubts_camera_ = false;
   if (!imu_.IsQuiet()) {
-    rest_.Reset();
+    confirmed_.Reset();
     return std::nullopt;
   }
   const CornerMotions corners = MotionsBetween(points_.front(), points_.back());
   const bool sees = static_cast<int>(corners.motions.size()) >= options_.min_points;
   if (sees && MedianDistance(corners.motions) <= options_.max_motion_px) {
-    rest_.Confirm();
+    confirmed_.Confirm();
     seen_ = Seen::kStandstill;
     return Standstill{imu_.since_ns(), CommonMotion(corners)};
   }
-  if (!rest_.GoesOn()) {
-    rest_.Reset();
+  if (!confirmed_.Continues()) {
+    confirmed_.Reset();
     return std::nullopt;
   }
   if (sees && seen_ != Seen::kMovingScene) {
@@ -88,7 +88,7 @@ std::optional<StandstillDetector::Standstill> StandstillDetector::Add(
     seen_ = is_of_scene ? Seen::kMovingScene : Seen::kMotion;
   }
   if (seen_ == Seen::kMotion) {
-    doubts_camera_ = !depth && rest_.TimeSince() < options_.max_doubt;
+    doubts_camera_ = !depth && confirmed_.TimeSince() < options_.max_doubt;
     return std::nullopt;
   }
   return Standstill{imu_.since_ns(), 0, seen_ == Seen::kMovingScene};
@@ -98,13 +98,13 @@ std::optional<StandstillDetector::Standstill> StandstillDetector::Add(
 bool StandstillDetector::IsOfScene(double motion, std::optional<double> depth) const {
   constexpr double kNearest = 0.3;  // [m], of an unknown scene
   const double duration = ToSeconds(points_.back().t_ns - points_.front().t_ns);
-  return motion > rest_.UnnoticedVelocity() * duration / depth.value_or(kNearest);
+  return motion > confirmed_.UnnoticedVelocity() * duration / depth.value_or(kNearest);
 }
 
 void StandstillDetector::Reset() {
   imu_.Reset();
   doubts_camera_ = false;
-  rest_.Reset();
+  confirmed_.Reset();
   points_.clear();
 }
 

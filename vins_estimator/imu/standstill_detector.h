@@ -7,7 +7,7 @@
 
 #include "common/imu/imu_noise.h"
 #include "common/measurements.h"
-#include "vins_estimator/imu/imu_rest.h"
+#include "vins_estimator/imu/confirmed_standstill.h"
 #include "vins_estimator/imu/imu_stillness.h"
 
 namespace plm_vins {
@@ -17,9 +17,9 @@ namespace plm_vins {
 // required: smooth flight resembles standstill for the IMU, a distant scene for the camera.
 //
 // A standstill that both confirmed goes on while images show too little (blank, covered), for as
-// long as the IMU reads what it read during the standstill (ImuRest). It also goes on if the
-// corners begin to move faster than the IMU could fail to notice: then the scene moves (a train,
-// the deck of a ship).
+// long as the IMU reads what it read during the standstill (ConfirmedStandstill). It also goes on
+// if the corners begin to move faster than the IMU could fail to notice: then the scene moves (a
+// train, the deck of a ship).
 //
 // The common motion of the corners is a more sensitive measure than their distances, to which noise
 // contributes.
@@ -59,7 +59,7 @@ class StandstillDetector {
 
   Options options_;
   ImuStillness imu_;
-  ImuRest rest_;
+  ConfirmedStandstill confirmed_;
   // Content of the images since the confirmed standstill.
   enum class Seen { kStandstill, kMotion, kMovingScene };
   Seen seen_ = Seen::kStandstill;

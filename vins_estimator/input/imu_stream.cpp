@@ -30,9 +30,9 @@ ImuStream::Clock ImuStream::Add(const ImuSample& sample) {
     ++statistics_.imu_out_of_order;
     // A duplicate is no evidence of a clock change, unless samples before it were rejected: then a
     // recording is played again.
-    if (!jump_.Refuses() && memory_.Contains(sample)) return Clock::kRunsOn;
+    if (!jump_.HasRejected() && memory_.Contains(sample)) return Clock::kRunsOn;
   }
-  const bool set_back = follows ? jump_.EndsStepBack(sample.t_ns) : jump_.Refuse(sample.t_ns);
+  const bool set_back = follows ? jump_.EndsStepBack(sample.t_ns) : jump_.Reject(sample.t_ns);
   if (!follows && !set_back) return Clock::kRunsOn;
   if (set_back) Clear();
   jump_.Accept();

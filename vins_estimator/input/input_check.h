@@ -13,7 +13,7 @@
 
 namespace plm_vins {
 
-// Recognises what is wrong with the content and the stamps of the input as a whole. Counts what
+// Recognizes what is wrong with the content and the stamps of the input as a whole. Counts what
 // came since construction, before anything is dropped.
 class InputCheck {
  public:

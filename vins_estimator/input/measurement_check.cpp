@@ -12,7 +12,7 @@
 namespace plm_vins {
 namespace {
 
-[[noreturn]] void Refuse(const FrameMeasurement& measurement, const std::string& why) {
+[[noreturn]] void Reject(const FrameMeasurement& measurement, const std::string& why) {
   throw std::invalid_argument("image of " + std::to_string(measurement.t_ns) + " ns: " + why);
 }
 
@@ -20,13 +20,13 @@ template <typename Observation>
 void CheckFeatures(const FrameMeasurement& measurement, int64_t t_ns,
                    const std::vector<Observation>& observations, const std::string& kind) {
   if (t_ns != measurement.t_ns) {
-    Refuse(measurement, "its " + kind + "s have the timestamp " + std::to_string(t_ns) + " ns");
+    Reject(measurement, "its " + kind + "s have the timestamp " + std::to_string(t_ns) + " ns");
   }
   std::vector<int64_t> ids;
   ids.reserve(observations.size());
   for (const Observation& observation : observations) {
     if (!IsPossible(observation)) {
-      Refuse(measurement,
+      Reject(measurement,
              kind + " " + std::to_string(observation.id) + " has impossible coordinates");
     }
     ids.push_back(observation.id);
@@ -34,7 +34,7 @@ void CheckFeatures(const FrameMeasurement& measurement, int64_t t_ns,
   std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
   if (twice != ids.end()) {
-    Refuse(measurement, kind + " " + std::to_string(*twice) + " occurs twice");
+    Reject(measurement, kind + " " + std::to_string(*twice) + " occurs twice");
   }
 }
 
@@ -54,17 +54,17 @@ bool Increase(const std::vector<ImuSample>& samples) {
 
 void CheckImu(const FrameMeasurement& measurement, const std::optional<MeasurementEnd>& previous) {
   const std::vector<ImuSample>& imu = measurement.imu;
-  if (imu.empty()) Refuse(measurement, "it has no IMU sample");
+  if (imu.empty()) Reject(measurement, "it has no IMU sample");
   if (!std::all_of(imu.begin(), imu.end(), IsFinite)) {
-    Refuse(measurement, "an IMU sample is not finite, or its doubt negative");
+    Reject(measurement, "an IMU sample is not finite, or its doubt negative");
   }
-  if (!Increase(imu)) Refuse(measurement, "the stamps of its IMU samples do not increase");
+  if (!Increase(imu)) Reject(measurement, "the stamps of its IMU samples do not increase");
   if (!previous) return;
   if (imu.front().t_ns != previous->imu_ns) {
-    Refuse(measurement, "its IMU samples do not begin at the end of the previous ones, " +
+    Reject(measurement, "its IMU samples do not begin at the end of the previous ones, " +
                             std::to_string(previous->imu_ns) + " ns");
   }
-  if (imu.size() < 2) Refuse(measurement, "no IMU sample follows the previous image");
+  if (imu.size() < 2) Reject(measurement, "no IMU sample follows the previous image");
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ void CheckImu(const FrameMeasurement& measurement, const std::optional<Measureme
 void CheckMeasurement(const FrameMeasurement& measurement,
                       const std::optional<MeasurementEnd>& previous) {
   if (previous && measurement.t_ns <= previous->t_ns) {
-    Refuse(measurement,
+    Reject(measurement,
            "it is not after the previous image, " + std::to_string(previous->t_ns) + " ns");
   }
   CheckFeatures(measurement, measurement.points.t_ns, measurement.points.points, "point");

@@ -41,7 +41,7 @@ void MeasurementSync::AddPoints(PointFrame frame) {
   ++statistics_.frames;
   if (last_points_ns_ && frame.t_ns <= *last_points_ns_) {
     ++statistics_.frames_out_of_order;
-    if (!points_jump_.Refuse(frame.t_ns)) return;
+    if (!points_jump_.Reject(frame.t_ns)) return;
     ++statistics_.jumps_back;
     Clear();
   } else if (last_points_ns_ && !points_leap_.Accept(*last_points_ns_, frame.t_ns)) {

@@ -62,11 +62,11 @@ FrameMeasurement RollingShutter::ToStamp(FrameMeasurement measurement,
 }
 
 void RollingShutter::MovePoints(const Motion& motion, std::vector<PointObservation>* points) {
-  std::unordered_map<int64_t, Sight> sights;
+  std::unordered_map<int64_t, TimedPosition> sights;
   std::vector<PointObservation> moved;
   moved.reserve(points->size());
   for (PointObservation& point : *points) {
-    const Sight now = SightOf(point);
+    const TimedPosition now = TimedPositionOf(point);
     sights.emplace(point.id, now);
     const auto before = points_.find(point.id);
     if (before == points_.end()) continue;
@@ -103,28 +103,30 @@ void RollingShutter::MoveLines(const Motion& motion, std::vector<LineObservation
   *lines = std::move(moved);
 }
 
-RollingShutter::Sight RollingShutter::SightOf(const PointObservation& point) const {
+RollingShutter::TimedPosition RollingShutter::TimedPositionOf(const PointObservation& point) const {
   return {point.xy, ReadoutShare(point.uv_px.y(), camera_->parameters().height)};
 }
 
-std::optional<RollingShutter::Sight> RollingShutter::SightOf(const Eigen::Vector2d& xy) const {
+std::optional<RollingShutter::TimedPosition> RollingShutter::TimedPositionOf(
+    const Eigen::Vector2d& xy) const {
   const auto pixel = camera_->Project(xy.homogeneous());
   if (!pixel) return std::nullopt;
-  return Sight{xy, ReadoutShare(pixel->y(), camera_->parameters().height)};
+  return TimedPosition{xy, ReadoutShare(pixel->y(), camera_->parameters().height)};
 }
 
 std::optional<Eigen::Vector2d> RollingShutter::MoveEnd(const Motion& motion,
                                                        const LineObservation& before,
                                                        const Eigen::Vector2d& end) const {
-  const auto now = SightOf(end), foot = SightOf(FootOnLine(before, end));
+  const auto now = TimedPositionOf(end), foot = TimedPositionOf(FootOnLine(before, end));
   if (!now || !foot) return std::nullopt;
   const auto velocity = Velocity(motion, *foot, *now);
   if (!velocity) return std::nullopt;
   return end - now->share * motion.readout * *velocity;
 }
 
-std::optional<Eigen::Vector2d> RollingShutter::Velocity(const Motion& motion, const Sight& before,
-                                                        const Sight& now) {
+std::optional<Eigen::Vector2d> RollingShutter::Velocity(const Motion& motion,
+                                                        const TimedPosition& before,
+                                                        const TimedPosition& now) {
   const double interval = motion.interval + motion.readout * (now.share - before.share);
   if (interval < kMinTrackInterval) return std::nullopt;
   const Eigen::Vector2d velocity =

@@ -34,7 +34,7 @@ class RollingShutter {
 
  private:
   // Position in an image, normalized and undistorted, and its time as a share of the readout.
-  struct Sight {
+  struct TimedPosition {
     Eigen::Vector2d xy;
     double share;
   };
@@ -47,19 +47,19 @@ class RollingShutter {
 
   void MovePoints(const Motion& motion, std::vector<PointObservation>* points);
   void MoveLines(const Motion& motion, std::vector<LineObservation>* lines);
-  Sight SightOf(const PointObservation& point) const;
+  TimedPosition TimedPositionOf(const PointObservation& point) const;
   // Returns nullopt outside the camera model's range.
-  std::optional<Sight> SightOf(const Eigen::Vector2d& xy) const;
+  std::optional<TimedPosition> TimedPositionOf(const Eigen::Vector2d& xy) const;
   // Moves an end of a line to the timestamp; `before` is the line in the previous image.
   std::optional<Eigen::Vector2d> MoveEnd(const Motion& motion, const LineObservation& before,
                                          const Eigen::Vector2d& end) const;
-  static std::optional<Eigen::Vector2d> Velocity(const Motion& motion, const Sight& before,
-                                                 const Sight& now);
+  static std::optional<Eigen::Vector2d> Velocity(const Motion& motion, const TimedPosition& before,
+                                                 const TimedPosition& now);
 
   std::shared_ptr<const CameraModel> camera_;
   // Previous image, as observed.
   int64_t t_ns_ = 0;
-  std::unordered_map<int64_t, Sight> points_;
+  std::unordered_map<int64_t, TimedPosition> points_;
   std::unordered_map<int64_t, LineObservation> lines_;
 };
 

@@ -30,8 +30,8 @@ class LandmarkMap {
   // Handles the landmarks that are marginalized with a frame (LeavesWith), whose observations must
   // not be used again: landmarks still tracked keep only their newest observation as the new host,
   // at the same position; the others are passed to `on_departure` and removed.
-  void StartAnew(const SlidingWindow& window, int64_t host_ns,
-                 const std::function<void(const Landmark&)>& on_departure);
+  void Reinitialize(const SlidingWindow& window, int64_t host_ns,
+                    const std::function<void(const Landmark&)>& on_departure);
 
   // Removes the landmarks that satisfy `condition`.
   void RemoveIf(const std::function<bool(const Landmark&)>& condition);
@@ -126,8 +126,8 @@ void LandmarkMap<Landmark>::RemoveFrame(const SlidingWindow& window, int64_t t_n
 }
 
 template <typename Landmark>
-void LandmarkMap<Landmark>::StartAnew(const SlidingWindow& window, int64_t host_ns,
-                                      const std::function<void(const Landmark&)>& on_departure) {
+void LandmarkMap<Landmark>::Reinitialize(const SlidingWindow& window, int64_t host_ns,
+                                         const std::function<void(const Landmark&)>& on_departure) {
   const int64_t newest_ns = window.newest().state.t_ns;
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {
     Landmark& landmark = it->second;

@@ -28,11 +28,11 @@ std::optional<SeenLine> See(const SlidingWindow& window, const Eigen::Quaternion
   if (!segment) return std::nullopt;
   SeenLine seen{R_F_W * segment->start_W, R_F_W * segment->end_W, line.axis};
   if (!HasEnoughViews(line)) return seen;
-  const auto sightings = SightingsOf(line.views, window);
-  const auto fit = EvaluateLine(sightings, noise, line.coordinates);
+  const auto observations = ObservationsOf(line.views, window);
+  const auto fit = EvaluateLine(observations, noise, line.coordinates);
   if (!fit) return std::nullopt;
   const Eigen::Vector3d middle_W = 0.5 * (segment->start_W + segment->end_W);
-  const Eigen::Vector3d middle_C0 = sightings.front().T_W_C.Inverse() * middle_W;
+  const Eigen::Vector3d middle_C0 = observations.front().T_W_C.Inverse() * middle_W;
   seen.direction_sigma = std::min(DirectionDeviation(*fit), kGreatestSigma);
   seen.place_sigma = std::min(PlaceDeviation(*fit, middle_C0), kGreatestSigma);
   return seen;

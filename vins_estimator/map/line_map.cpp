@@ -17,13 +17,13 @@ constexpr double kMinDistance = 1e-6;   // of a line from its host's camera [m]
 LineTriangulationResult TriangulateLandmark(const SlidingWindow& window,
                                             const LineTriangulationOptions& options,
                                             LineLandmark* landmark) {
-  std::vector<LineSighting> sightings = SightingsOf(landmark->views, window);
+  std::vector<PosedLineObservation> observations = ObservationsOf(landmark->views, window);
   for (const LineView& view : landmark->views) {
     if (view.right && view.right->deviation.maxCoeff() < kMaxRightNoise * options.noise) {
-      sightings.push_back({window.T_W_C1(view.t_ns), {view.right->start, view.right->end}});
+      observations.push_back({window.T_W_C1(view.t_ns), {view.right->start, view.right->end}});
     }
   }
-  const TriangulatedLine triangulated = TriangulateLine(options, sightings);
+  const TriangulatedLine triangulated = TriangulateLine(options, observations);
   landmark->triangulated = triangulated.result == LineTriangulationResult::kOk;
   if (landmark->triangulated) landmark->coordinates = triangulated.line;
   return triangulated.result;
@@ -113,16 +113,16 @@ std::optional<Eigen::Vector2d> DistancesOf(const LineView& view, const PluckerLi
   return distances;
 }
 
-LineSighting SightingOf(const LineView& view, const SlidingWindow& window) {
+PosedLineObservation ObservationOf(const LineView& view, const SlidingWindow& window) {
   return {window.T_W_C(view.t_ns), view.segment};
 }
 
-std::vector<LineSighting> SightingsOf(const std::vector<LineView>& views,
-                                      const SlidingWindow& window) {
-  std::vector<LineSighting> sightings;
-  sightings.reserve(views.size());
-  for (const LineView& view : views) sightings.push_back(SightingOf(view, window));
-  return sightings;
+std::vector<PosedLineObservation> ObservationsOf(const std::vector<LineView>& views,
+                                                 const SlidingWindow& window) {
+  std::vector<PosedLineObservation> observations;
+  observations.reserve(views.size());
+  for (const LineView& view : views) observations.push_back(ObservationOf(view, window));
+  return observations;
 }
 
 PluckerLine LineInWorld(const LineLandmark& landmark, const SlidingWindow& window) {

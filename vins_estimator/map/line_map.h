@@ -64,9 +64,9 @@ void MoveHost(const SlidingWindow& window, size_t view, LineLandmark* landmark);
 void KeepOnlyView(const SlidingWindow& window, size_t view, LineLandmark* landmark);
 
 // Returns observations of a line together with their cameras' poses.
-LineSighting SightingOf(const LineView& view, const SlidingWindow& window);
-std::vector<LineSighting> SightingsOf(const std::vector<LineView>& views,
-                                      const SlidingWindow& window);
+PosedLineObservation ObservationOf(const LineView& view, const SlidingWindow& window);
+std::vector<PosedLineObservation> ObservationsOf(const std::vector<LineView>& views,
+                                                 const SlidingWindow& window);
 
 // Returns the distances of the start and end of an observation from the projection of a line,
 // normalized; nullopt if there is no projection.

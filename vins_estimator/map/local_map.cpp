@@ -30,10 +30,10 @@ DepartedLandmarks LocalMap::SlideOldest(bool stays_as_anchor) {
   const int64_t oldest_ns = window.frames.front().state.t_ns;
   if (options.remember_lines) RememberDeparting(oldest_ns, stays_as_anchor);
   DepartedLandmarks departed;
-  points.StartAnew(window, oldest_ns, [&](const PointLandmark& point) {
+  points.Reinitialize(window, oldest_ns, [&](const PointLandmark& point) {
     departed.points.push_back({point.id, PositionInWorld(point, window)});
   });
-  lines.StartAnew(window, oldest_ns, [&](const LineLandmark& line) {
+  lines.Reinitialize(window, oldest_ns, [&](const LineLandmark& line) {
     if (const auto segment = DepartingSegment(line)) departed.lines.push_back(*segment);
   });
   points.RemoveFrame(window, oldest_ns);

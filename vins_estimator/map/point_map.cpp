@@ -15,12 +15,12 @@ namespace {
 constexpr int kMinMeasurementsToTriangulate = 2;
 constexpr size_t kMinDepths = 10;  // fewer do not represent the scene
 
-PointSighting SightingOf(const PointView& view, const SlidingWindow& window) {
+PosedPointObservation ObservationOf(const PointView& view, const SlidingWindow& window) {
   return {window.T_W_C(view.t_ns), window.AtState(view.bearing)};
 }
 
 // Returns the observation by the second camera, which must exist.
-PointSighting RightSightingOf(const PointView& view, const SlidingWindow& window) {
+PosedPointObservation RightObservationOf(const PointView& view, const SlidingWindow& window) {
   return {window.T_W_C1(view.t_ns), window.AtState(view.RightBearing())};
 }
 
@@ -41,28 +41,29 @@ std::optional<Eigen::Vector3d> AtMeasuredDepth(const PointLandmark& landmark,
                                                const SlidingWindow& window) {
   for (const PointView& view : landmark.views) {
     if (!view.depth || *view.depth < kMinTriangulatedDepth) continue;
-    const PointSighting sighting = SightingOf(view, window);
-    return sighting.T_W_C * (*view.depth * sighting.xy.homogeneous());
+    const PosedPointObservation observation = ObservationOf(view, window);
+    return observation.T_W_C * (*view.depth * observation.xy.homogeneous());
   }
   return std::nullopt;
 }
 
-std::vector<PointSighting> WithRightSightings(std::vector<PointSighting> sightings,
-                                              const PointLandmark& landmark,
-                                              const SlidingWindow& window) {
+std::vector<PosedPointObservation> WithRightObservations(
+    std::vector<PosedPointObservation> observations, const PointLandmark& landmark,
+    const SlidingWindow& window) {
   for (const PointView& view : landmark.views) {
-    if (view.right) sightings.push_back(RightSightingOf(view, window));
+    if (view.right) observations.push_back(RightObservationOf(view, window));
   }
-  return sightings;
+  return observations;
 }
 
 void TriangulateLandmark(const SlidingWindow& window, double min_angle, PointLandmark* landmark) {
-  std::vector<PointSighting> sightings;
-  sightings.reserve(landmark->views.size());
-  for (const PointView& view : landmark->views) sightings.push_back(SightingOf(view, window));
-  const std::vector<PointSighting> all = WithRightSightings(sightings, *landmark, window);
+  std::vector<PosedPointObservation> observations;
+  observations.reserve(landmark->views.size());
+  for (const PointView& view : landmark->views) observations.push_back(ObservationOf(view, window));
+  const std::vector<PosedPointObservation> all =
+      WithRightObservations(observations, *landmark, window);
   auto p_W = TriangulatePoint(all, min_angle);
-  if (!p_W && all.size() > sightings.size()) p_W = TriangulatePoint(sightings, min_angle);
+  if (!p_W && all.size() > observations.size()) p_W = TriangulatePoint(observations, min_angle);
   if (!p_W) p_W = AtMeasuredDepth(*landmark, window);
   if (p_W) SetPosition(*p_W, window, landmark->host(), landmark);
 }
@@ -102,10 +103,10 @@ Eigen::Vector3d PositionInWorld(const PointLandmark& landmark, const SlidingWind
 
 std::optional<double> ReprojectionError(const Eigen::Vector3d& p_W, const PointView& view,
                                         const SlidingWindow& window) {
-  const PointSighting sighting = SightingOf(view, window);
-  const Eigen::Vector3d p_C = sighting.T_W_C.Inverse() * p_W;
+  const PosedPointObservation observation = ObservationOf(view, window);
+  const Eigen::Vector3d p_C = observation.T_W_C.Inverse() * p_W;
   if (p_C.z() < kMinLandmarkDepth) return std::nullopt;
-  return (p_C.hnormalized() - sighting.xy).norm();
+  return (p_C.hnormalized() - observation.xy).norm();
 }
 
 void PointMap::AddFrame(const PointFrame& frame, double cut_time_offset) {
@@ -200,12 +201,12 @@ std::vector<RightResidual> PointMap::RightResiduals(const SlidingWindow& window)
     const Eigen::Vector3d p_W = PositionInWorld(landmark, window);
     for (PointView& view : landmark.views) {
       if (!view.right) continue;
-      const PointSighting sighting = RightSightingOf(view, window);
-      const Eigen::Vector3d p_C1 = sighting.T_W_C.Inverse() * p_W;
+      const PosedPointObservation observation = RightObservationOf(view, window);
+      const Eigen::Vector3d p_C1 = observation.T_W_C.Inverse() * p_W;
       if (p_C1.z() < kMinLandmarkDepth) {
         view.right.reset();
       } else {
-        residuals.push_back({&view, p_C1.hnormalized() - sighting.xy});
+        residuals.push_back({&view, p_C1.hnormalized() - observation.xy});
       }
     }
   }

@@ -73,10 +73,10 @@ double ChiSquareLimit(int degrees_of_freedom) {
 // through the first camera, where it has no coordinates.
 std::optional<LineFit> Fit(const SlidingWindow& window, double noise,
                            const std::vector<LineView>& views, const PluckerLine& line_W) {
-  const auto sightings = SightingsOf(views, window);
-  const PluckerLine initial = sightings.front().T_W_C.Inverse() * line_W;
+  const auto observations = ObservationsOf(views, window);
+  const PluckerLine initial = observations.front().T_W_C.Inverse() * line_W;
   if (!(initial.moment.norm() > 0 && initial.direction.norm() > 0)) return std::nullopt;
-  return FitLine(sightings, noise, ToOrthonormal(initial));
+  return FitLine(observations, noise, ToOrthonormal(initial));
 }
 
 // Returns the older line with the observations of both, refitted; nullopt if no single line fits
@@ -119,37 +119,37 @@ Candidates Collect(const Eigen::Quaterniond& R_F_W, double noise, LocalMap* map)
   return candidates;
 }
 
-enum class MergeRefusal { kDirection, kDistance, kGap, kSideBySide, kDistanceInImages, kFit };
+enum class MergeRejection { kDirection, kDistance, kGap, kSideBySide, kDistanceInImages, kFit };
 
 // Returns the first condition, in space or in the images, that two lines violate; nullopt if they
 // meet all.
-std::optional<MergeRefusal> FindRefusal(const SameLineLimits& limits, const SlidingWindow& window,
-                                        const LineLandmark& a, const LineLandmark& b,
-                                        const LinePairGeometry& pair) {
+std::optional<MergeRejection> FindRejection(const SameLineLimits& limits,
+                                            const SlidingWindow& window, const LineLandmark& a,
+                                            const LineLandmark& b, const LinePairGeometry& pair) {
   switch (FindDifference(limits, pair)) {
     case LineDifference::kDirection:
-      return MergeRefusal::kDirection;
+      return MergeRejection::kDirection;
     case LineDifference::kDistance:
-      return MergeRefusal::kDistance;
+      return MergeRejection::kDistance;
     case LineDifference::kGap:
-      return MergeRefusal::kGap;
+      return MergeRejection::kGap;
     case LineDifference::kNone:
       break;
   }
-  if (AreSeenSideBySide(a, b, limits.noise)) return MergeRefusal::kSideBySide;
+  if (AreSeenSideBySide(a, b, limits.noise)) return MergeRejection::kSideBySide;
   if (DistanceInImages(window, a, b) > limits.image_distance) {
-    return MergeRefusal::kDistanceInImages;
+    return MergeRejection::kDistanceInImages;
   }
   return std::nullopt;
 }
 
-void Count(MergeRefusal refusal, LineMergingCounts* counts) {
-  counts->other_direction += refusal == MergeRefusal::kDirection;
-  counts->distant += refusal == MergeRefusal::kDistance;
-  counts->apart += refusal == MergeRefusal::kGap;
-  counts->seen_side_by_side += refusal == MergeRefusal::kSideBySide;
-  counts->distant_in_image += refusal == MergeRefusal::kDistanceInImages;
-  counts->inconsistent += refusal == MergeRefusal::kFit;
+void Count(MergeRejection rejection, LineMergingCounts* counts) {
+  counts->other_direction += rejection == MergeRejection::kDirection;
+  counts->distant += rejection == MergeRejection::kDistance;
+  counts->apart += rejection == MergeRejection::kGap;
+  counts->seen_side_by_side += rejection == MergeRejection::kSideBySide;
+  counts->distant_in_image += rejection == MergeRejection::kDistanceInImages;
+  counts->inconsistent += rejection == MergeRejection::kFit;
 }
 
 }  // namespace
@@ -163,15 +163,15 @@ MergedLines MergeLines(const SameLineLimits& limits, const Eigen::Quaterniond& R
   for (const auto& [newer, older] : FindNearPairs(seen, limits.distance)) {
     if (landmarks[newer] == nullptr || landmarks[older] == nullptr) continue;  // merged already
     ++counts.candidates;
-    const auto refusal = FindRefusal(limits, window, *landmarks[older], *landmarks[newer],
-                                     Compare(seen[older], seen[newer]));
-    if (refusal) {
-      Count(*refusal, &counts);
+    const auto rejection = FindRejection(limits, window, *landmarks[older], *landmarks[newer],
+                                         Compare(seen[older], seen[newer]));
+    if (rejection) {
+      Count(*rejection, &counts);
       continue;
     }
     const auto joint = Join(window, limits.noise, *landmarks[older], *landmarks[newer]);
     if (!joint) {
-      Count(MergeRefusal::kFit, &counts);
+      Count(MergeRejection::kFit, &counts);
       continue;
     }
     seen[older] = See(window, R_F_W, limits.noise, *joint).value_or(seen[older]);

@@ -18,12 +18,12 @@ UnitedLines LineStructure::Unite(LocalMap* map) {
   const Eigen::Quaterniond R_M_W =
       manhattan_.R_W_M().value_or(Eigen::Quaterniond::Identity()).conjugate();
   const MergedLines merged = MergeLines(same_line_, R_M_W, map);
-  const std::vector<int64_t> recognised = RecogniseLines(same_line_, R_M_W, map);
+  const std::vector<int64_t> recognized = RecognizeLines(same_line_, R_M_W, map);
   map->ForgetIdleAliases();
   for (const int64_t id : merged.absorbed) manhattan_.Remove(id);
-  for (const int64_t id : recognised) manhattan_.Remove(id);
+  for (const int64_t id : recognized) manhattan_.Remove(id);
   NoteUse(map->lines, &map->window);
-  return {merged.counts, static_cast<int>(recognised.size()), merged.absorbed};
+  return {merged.counts, static_cast<int>(recognized.size()), merged.absorbed};
 }
 
 }  // namespace plm_vins

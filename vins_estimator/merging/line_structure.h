@@ -16,7 +16,7 @@ namespace plm_vins {
 // Merged and recognized lines of the map at one frame.
 struct UnitedLines {
   LineMergingCounts merging;
-  int recognised = 0;             // lines re-observed after they had left the window
+  int recognized = 0;             // lines re-observed after they had left the window
   std::vector<int64_t> absorbed;  // ids of lines that were merged into others
 };
 
@@ -29,7 +29,7 @@ class LineStructure {
   // Lets the triangulated lines vote at the newest frame and labels their axes.
   void FindAxes(LocalMap* map);
 
-  // Merges duplicate lines (MergeLines) and recognizes re-observed ones (RecogniseLines). Merged
+  // Merges duplicate lines (MergeLines) and recognizes re-observed ones (RecognizeLines). Merged
   // lines continue as one landmark with one vote on the Manhattan frame.
   UnitedLines Unite(LocalMap* map);
 

@@ -31,7 +31,7 @@ enum FrameCount : size_t {
   kLinesInconsistent,  // not triangulated, removed: observations do not fit one line
   kLinesTooLong,       // not triangulated, removed: longer than line_outlier_distance
   kLinesMerged,        // landmarks merged into an older one
-  kLinesRecognised,    // re-observed lines that had left the window
+  kLinesRecognized,    // re-observed lines that had left the window
   kMergeCandidates,    // pairs of lines compared; the reasons not to merge them follow
   kMergeOtherDirection,
   kMergeDistant,         // distance across the lines in space
@@ -55,7 +55,7 @@ constexpr std::array<const char*, kFrameCounts> kCountNames = {
     // Lines.
     "lines_followed", "lines_unmatched", "lines_off_course", "lines_edge_lost", "lines_duplicate",
     "lines_detected", "lines_added", "lines_observed", "lines_triangulated", "lines_degenerate",
-    "lines_behind", "lines_inconsistent", "lines_too_long", "lines_merged", "lines_recognised",
+    "lines_behind", "lines_inconsistent", "lines_too_long", "lines_merged", "lines_recognized",
     // Merging.
     "merge_candidates", "merge_other_direction", "merge_distant", "merge_apart",
     "merge_distant_in_image", "merge_side_by_side", "merge_inconsistent",

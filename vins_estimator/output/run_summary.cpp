@@ -102,7 +102,7 @@ void RunSummary::AddPose(const EstimatorOutput& output) {
   gyro_density_ += output.imu_noise.gyro_density;
   imu_noisy_ += output.imu_noise_scale > 1 ? 1 : 0;
   merged_lines_ += output.counts.line_merging.merged;
-  recognised_lines_ += output.counts.lines_recognised;
+  recognized_lines_ += output.counts.lines_recognized;
   manhattan_ += output.R_W_M ? 1 : 0;
   if (!first_pose_ns_) first_pose_ns_ = output.t_ns;
   const Eigen::Vector3d position = output.state.position();
@@ -132,7 +132,7 @@ Json RunSummary::ToJson(const Run& run) const {
   json["points_per_frame"] = Summarize(counts_, kPointsObserved).mean;
   json["lines"] = run.map_lines;
   json["merged_lines"] = merged_lines_;
-  json["recognised_lines"] = recognised_lines_;
+  json["recognized_lines"] = recognized_lines_;
   json["manhattan_share"] = Ratio(static_cast<double>(manhattan_), static_cast<double>(poses_));
   json["resets"] = resets_;
   json["bridged_losses"] = bridged_losses_;

@@ -54,7 +54,7 @@ class RunSummary {
   double accel_density_ = 0, gyro_density_ = 0;  // sums over all poses
   int64_t imu_noisy_ = 0;                        // poses with a noise scale above 1
   int64_t merged_lines_ = 0;
-  int64_t recognised_lines_ = 0;
+  int64_t recognized_lines_ = 0;
   int64_t manhattan_ = 0;   // poses with a Manhattan frame
   double path_length_ = 0;  // [m]
   std::optional<Eigen::Vector3d> last_position_;

@@ -35,7 +35,7 @@ double DistanceInImages(const SlidingWindow& window, const PluckerLine& line_W,
 // Returns the id of the remembered line that a landmark matches, the nearest if there are several.
 // All observations of the landmark must agree with it, since images are more precise than a first
 // triangulation.
-std::optional<int64_t> Recognise(const SameLineLimits& limits, const Eigen::Quaterniond& R_F_W,
+std::optional<int64_t> Recognize(const SameLineLimits& limits, const Eigen::Quaterniond& R_F_W,
                                  const LocalMap& map, const LineLandmark& landmark,
                                  const SeenLine& seen_F) {
   const SeenLine seen_W = Rotated(R_F_W.conjugate(), seen_F);
@@ -68,19 +68,19 @@ std::vector<int64_t> CollectCandidates(const LocalMap& map) {
 
 }  // namespace
 
-std::vector<int64_t> RecogniseLines(const SameLineLimits& limits, const Eigen::Quaterniond& R_F_W,
+std::vector<int64_t> RecognizeLines(const SameLineLimits& limits, const Eigen::Quaterniond& R_F_W,
                                     LocalMap* map) {
-  std::vector<int64_t> recognised;
+  std::vector<int64_t> recognized;
   for (const int64_t id : CollectCandidates(*map)) {
     const LineLandmark& landmark = map->lines.landmarks().at(id);
     const auto seen_F = See(map->window, R_F_W, limits.noise, landmark);
     if (!seen_F) continue;
-    const auto older = Recognise(limits, R_F_W, *map, landmark, *seen_F);
+    const auto older = Recognize(limits, R_F_W, *map, landmark, *seen_F);
     if (!older) continue;
     map->ReviveLine(id, *older);
-    recognised.push_back(id);
+    recognized.push_back(id);
   }
-  return recognised;
+  return recognized;
 }
 
 }  // namespace plm_vins

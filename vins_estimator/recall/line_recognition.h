@@ -15,7 +15,7 @@ namespace plm_vins {
 // all its observations agree with that line. It continues with the older id and the observations by
 // anchors, which constrains the window to where the line was first observed. Returns the ids that
 // no longer exist.
-std::vector<int64_t> RecogniseLines(const SameLineLimits& limits, const Eigen::Quaterniond& R_F_W,
+std::vector<int64_t> RecognizeLines(const SameLineLimits& limits, const Eigen::Quaterniond& R_F_W,
                                     LocalMap* map);
 
 }  // namespace plm_vins

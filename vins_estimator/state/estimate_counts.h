@@ -45,7 +45,7 @@ struct EstimatorCounts {
   DepthCounts depth;         // measured
   LineTriangulationCounts line_triangulation;
   LineMergingCounts line_merging;
-  int lines_recognised = 0;  // re-observed lines that had left the window
+  int lines_recognized = 0;  // re-observed lines that had left the window
 };
 
 }  // namespace plm_vins

@@ -11,7 +11,7 @@ namespace {
 // Returns the index of the timestamp at which the stream restarts; -1 if it does not.
 int FindJump(BackwardJumpDetector* detector, const std::vector<int64_t>& refused) {
   for (size_t i = 0; i < refused.size(); ++i) {
-    if (detector->Refuse(refused[i])) return static_cast<int>(i);
+    if (detector->Reject(refused[i])) return static_cast<int>(i);
   }
   return -1;
 }
@@ -23,11 +23,11 @@ TEST(BackwardJumpDetector, DetectsARestartedStream) {
 
 TEST(BackwardJumpDetector, RejectsStampsUntilTheyIncreaseAgain) {
   BackwardJumpDetector detector(3);
-  EXPECT_FALSE(detector.Refuses());
-  detector.Refuse(10);
-  EXPECT_TRUE(detector.Refuses());
+  EXPECT_FALSE(detector.HasRejected());
+  detector.Reject(10);
+  EXPECT_TRUE(detector.HasRejected());
   detector.Accept();
-  EXPECT_FALSE(detector.Refuses());
+  EXPECT_FALSE(detector.HasRejected());
 }
 
 TEST(BackwardJumpDetector, AcceptedStampsShowThatTheOldStreamContinues) {
@@ -40,7 +40,7 @@ TEST(BackwardJumpDetector, AcceptedStampsShowThatTheOldStreamContinues) {
 // Rejects `count` timestamps, ten apart, and returns the result for the one accepted after them.
 bool EndsStepBack(int64_t begin, int count, int64_t accepted) {
   BackwardJumpDetector detector(1000);
-  for (int i = 0; i < count; ++i) EXPECT_FALSE(detector.Refuse(begin + 10 * i));
+  for (int i = 0; i < count; ++i) EXPECT_FALSE(detector.Reject(begin + 10 * i));
   return detector.EndsStepBack(accepted);
 }
 
@@ -55,9 +55,9 @@ TEST(BackwardJumpDetector, IgnoresStragglers) {
   EXPECT_FALSE(EndsStepBack(1000, 20, 1400)) << "those that overtook them are in between";
   BackwardJumpDetector detector(1000);
   EXPECT_FALSE(detector.EndsStepBack(0));
-  for (int i = 0; i < 50; ++i) EXPECT_FALSE(detector.Refuse(1000 - 10 * (i % 5)));
+  for (int i = 0; i < 50; ++i) EXPECT_FALSE(detector.Reject(1000 - 10 * (i % 5)));
   EXPECT_FALSE(detector.EndsStepBack(1010)) << "not one after the other";
-  for (int i = 0; i < 20; ++i) detector.Refuse(2000 + 10 * i);
+  for (int i = 0; i < 20; ++i) detector.Reject(2000 + 10 * i);
   detector.Accept();
   EXPECT_FALSE(detector.EndsStepBack(2200)) << "over";
 }

@@ -31,7 +31,7 @@ PipelineFrame MakeFrame(int64_t t_ns, bool has_pose) {
   frame.output.counts.lines_observed = 53;
   frame.output.counts.line_triangulation = {3, 10, 11, 12, 13};
   frame.output.counts.line_merging = {17, 15, 18, 19, 20, 21, 22, 23};
-  frame.output.counts.lines_recognised = 16;
+  frame.output.counts.lines_recognized = 16;
   frame.output.counts.lines_in_window = 40;
   frame.output.counts.lines_rejected = 14;
   frame.point_tracking_ms = 16;

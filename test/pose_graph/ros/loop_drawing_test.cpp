@@ -16,9 +16,9 @@ constexpr int kLaterGrey = 90;
 // and looks along z.
 class LoopDrawingTest : public ::testing::Test {
  protected:
-  LoopDrawingTest() { sightings_.T_O1_C.translation = {0, 0, 1}; }
+  LoopDrawingTest() { observations_.T_O1_C.translation = {0, 0, 1}; }
 
-  cv::Mat Draw() const { return DrawLoop(*camera_, sightings_, earlier_, later_); }
+  cv::Mat Draw() const { return DrawLoop(*camera_, observations_, earlier_, later_); }
 
   // Returns whether the drawing is coloured at the pixel.
   static bool IsColored(const cv::Mat& picture, int x, int y) {
@@ -29,7 +29,7 @@ class LoopDrawingTest : public ::testing::Test {
   std::shared_ptr<const CameraModel> camera_ = testing::SimpleCamera();
   cv::Mat earlier_{240, 376, CV_8UC1, cv::Scalar(kEarlierGrey)};  // at half resolution, as stored
   cv::Mat later_{480, 752, CV_8UC1, cv::Scalar(kLaterGrey)};
-  LoopSightings sightings_;
+  LoopObservations observations_;
 };
 
 TEST_F(LoopDrawingTest, HasTheEarlierImageOnTheLeft) {
@@ -49,7 +49,7 @@ TEST_F(LoopDrawingTest, DrawsAnUnknownEarlierImageBlack) {
 
 TEST_F(LoopDrawingTest, JoinsALandmarkWithItsCorner) {
   // 92 px above the centre of the earlier image, 92 px below the centre of the later one.
-  sightings_.of_earlier = {{{0, -0.4, 3}, {0, 0.2}}};
+  observations_.of_earlier = {{{0, -0.4, 3}, {0, 0.2}}};
   const cv::Mat picture = Draw();
   EXPECT_TRUE(IsColored(picture, 188 - 2, 120 - 46));  // left of the line: the disc
   EXPECT_TRUE(IsColored(picture, 376 + 188 + 2, 120 + 46));
@@ -58,7 +58,7 @@ TEST_F(LoopDrawingTest, JoinsALandmarkWithItsCorner) {
 }
 
 TEST_F(LoopDrawingTest, IgnoresLandmarksOutsideTheEarlierImage) {
-  sightings_.of_earlier = {{{0, 0, 0.5}, {0, 0}}, {{5, 0, 2}, {0, 0}}};  // behind, outside
+  observations_.of_earlier = {{{0, 0, 0.5}, {0, 0}}, {{5, 0, 2}, {0, 0}}};  // behind, outside
   EXPECT_FALSE(IsColored(Draw(), 376 + 188, 120));
 }
 
@@ -67,7 +67,7 @@ TEST_F(LoopDrawingTest, DrawsALineInBothImages) {
   upright.line = {{0.4, -0.4, 3}, {0.4, 0.4, 3}};
   upright.segment.start = {-0.2, -0.2};
   upright.segment.end = {-0.2, 0.2};
-  sightings_.lines = {upright};
+  observations_.lines = {upright};
   const cv::Mat picture = Draw();
   for (const int y : {80, 120, 160}) {
     EXPECT_TRUE(IsColored(picture, 188 + 46, y));

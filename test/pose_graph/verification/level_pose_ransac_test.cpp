@@ -45,16 +45,16 @@ TEST(SolveTwoPoints, HasNoSolutionForContradictingHeights) {
 // Observations from a pose, a share of which is wrong.
 std::vector<SeenPoint> See(const LevelTransform& T_O_G, const Eigen::Quaterniond& R_G_C, int count,
                            double wrong_share, double noise, simulator::Random* random) {
-  std::vector<SeenPoint> sightings;
+  std::vector<SeenPoint> observations;
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d p_C(random->Uniform(-2, 2), random->Uniform(-1, 1),
                               random->Uniform(2, 6));
     Eigen::Vector2d xy = p_C.hnormalized();
     xy += noise * Eigen::Vector2d(random->Normal(), random->Normal());
     if (i < wrong_share * count) xy = {random->Uniform(-0.8, 0.8), random->Uniform(-0.5, 0.5)};
-    sightings.push_back({T_O_G * (R_G_C * p_C), xy});
+    observations.push_back({T_O_G * (R_G_C * p_C), xy});
   }
-  return sightings;
+  return observations;
 }
 
 class FindLevelPoseTest : public ::testing::Test {
@@ -67,8 +67,8 @@ class FindLevelPoseTest : public ::testing::Test {
 };
 
 TEST_F(FindLevelPoseTest, ToleratesSixtyPercentOutliers) {
-  const auto sightings = See(T_O_G_, R_G_C_, 100, 0.6, 0.5 / kFocalLength, &random_);
-  const auto pose = FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_);
+  const auto observations = See(T_O_G_, R_G_C_, 100, 0.6, 0.5 / kFocalLength, &random_);
+  const auto pose = FindLevelPose(LevelPoseRansacOptions(kFocalLength), observations, R_G_C_);
   ASSERT_TRUE(pose);
   EXPECT_LT(Difference(pose->T_O_G, T_O_G_), 0.1);
   EXPECT_GE(pose->inliers.size(), 36u);
@@ -76,35 +76,35 @@ TEST_F(FindLevelPoseTest, ToleratesSixtyPercentOutliers) {
 }
 
 TEST_F(FindLevelPoseTest, ReturnsAllInliers) {
-  const auto sightings = See(T_O_G_, R_G_C_, 60, 0.5, 2.0 / kFocalLength, &random_);
+  const auto observations = See(T_O_G_, R_G_C_, 60, 0.5, 2.0 / kFocalLength, &random_);
   const LevelPoseRansacOptions options(kFocalLength);
-  const auto pose = FindLevelPose(options, sightings, R_G_C_);
+  const auto pose = FindLevelPose(options, observations, R_G_C_);
   ASSERT_TRUE(pose);
   const Viewpoint viewpoint(pose->T_O_G, R_G_C_);
   std::vector<size_t> agree;
-  for (size_t i = 0; i < sightings.size(); ++i) {
-    if (viewpoint.Error(sightings[i]) <= options.max_error) agree.push_back(i);
+  for (size_t i = 0; i < observations.size(); ++i) {
+    if (viewpoint.Error(observations[i]) <= options.max_error) agree.push_back(i);
   }
   EXPECT_EQ(pose->inliers, agree);
 }
 
 TEST_F(FindLevelPoseTest, IsTheSameForTheSameInput) {
-  const auto sightings = See(T_O_G_, R_G_C_, 60, 0.5, 1.0 / kFocalLength, &random_);
-  const auto first = FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_);
-  const auto second = FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_);
+  const auto observations = See(T_O_G_, R_G_C_, 60, 0.5, 1.0 / kFocalLength, &random_);
+  const auto first = FindLevelPose(LevelPoseRansacOptions(kFocalLength), observations, R_G_C_);
+  const auto second = FindLevelPose(LevelPoseRansacOptions(kFocalLength), observations, R_G_C_);
   ASSERT_TRUE(first && second);
   EXPECT_EQ(first->T_O_G.ToVector(), second->T_O_G.ToVector());
   EXPECT_EQ(first->inliers, second->inliers);
 }
 
 TEST_F(FindLevelPoseTest, NeedsMoreThanOneObservation) {
-  const auto sightings = See(T_O_G_, R_G_C_, 1, 0, 0, &random_);
-  EXPECT_FALSE(FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_));
+  const auto observations = See(T_O_G_, R_G_C_, 1, 0, 0, &random_);
+  EXPECT_FALSE(FindLevelPose(LevelPoseRansacOptions(kFocalLength), observations, R_G_C_));
 }
 
 TEST_F(FindLevelPoseTest, NeedsMoreThanTwoInliers) {
-  const auto sightings = See(T_O_G_, R_G_C_, 2, 0, 0, &random_);
-  EXPECT_FALSE(FindLevelPose(LevelPoseRansacOptions(kFocalLength), sightings, R_G_C_));
+  const auto observations = See(T_O_G_, R_G_C_, 2, 0, 0, &random_);
+  EXPECT_FALSE(FindLevelPose(LevelPoseRansacOptions(kFocalLength), observations, R_G_C_));
 }
 
 }  // namespace

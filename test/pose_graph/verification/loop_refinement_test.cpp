@@ -25,8 +25,8 @@ struct Noise {
 };
 
 // Two cameras that observe the same points and lines, whose positions are known in both worlds.
-LoopSightings See(int points, bool lines, const Noise& noise, simulator::Random* random) {
-  LoopSightings all;
+LoopObservations See(int points, bool lines, const Noise& noise, simulator::Random* random) {
+  LoopObservations all;
   const Rigid3d T_O1_earlier({Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()))},
                              {0, 0, 1});
   const Rigid3d T_O1_later({Eigen::Quaterniond(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()))},
@@ -65,36 +65,36 @@ LoopSightings See(int points, bool lines, const Noise& noise, simulator::Random*
 LevelTransform Disturbed() { return kTruth * LevelTransform{0.05, {0.1, -0.1, 0.05}}; }
 
 // Error of the later camera's position and of the yaw.
-Vector4d ErrorOf(const LevelTransform& T_O1_O2, const LoopSightings& sightings) {
+Vector4d ErrorOf(const LevelTransform& T_O1_O2, const LoopObservations& observations) {
   Vector4d error;
-  error << T_O1_O2 * sightings.T_O2_C.translation - kTruth * sightings.T_O2_C.translation,
+  error << T_O1_O2 * observations.T_O2_C.translation - kTruth * observations.T_O2_C.translation,
       WrapAngle(T_O1_O2.yaw - kTruth.yaw);
   return error;
 }
 
 TEST(RefineLoop, FindsTheTruthWithoutNoise) {
   simulator::Random random(1);
-  const LoopSightings sightings = See(20, true, Noise(), &random);
-  const auto loop = RefineLoop(LoopRefinementOptions(kFocalLength), sightings, Disturbed());
+  const LoopObservations observations = See(20, true, Noise(), &random);
+  const auto loop = RefineLoop(LoopRefinementOptions(kFocalLength), observations, Disturbed());
   ASSERT_TRUE(loop);
-  EXPECT_LT(ErrorOf(loop->T_O1_O2, sightings).norm(), 1e-6);
+  EXPECT_LT(ErrorOf(loop->T_O1_O2, observations).norm(), 1e-6);
 }
 
 TEST(RefineLoop, FindsTheTruthFromLinesOnly) {
   simulator::Random random(2);
-  const LoopSightings sightings = See(0, true, Noise(), &random);
-  const auto loop = RefineLoop(LoopRefinementOptions(kFocalLength), sightings, Disturbed());
+  const LoopObservations observations = See(0, true, Noise(), &random);
+  const auto loop = RefineLoop(LoopRefinementOptions(kFocalLength), observations, Disturbed());
   ASSERT_TRUE(loop);
-  EXPECT_LT(ErrorOf(loop->T_O1_O2, sightings).norm(), 1e-5);
+  EXPECT_LT(ErrorOf(loop->T_O1_O2, observations).norm(), 1e-5);
 }
 
 TEST(RefineLoop, ToleratesOutliers) {
   simulator::Random random(3);
-  LoopSightings sightings = See(40, false, {0.2 / kFocalLength}, &random);
-  for (int i = 0; i < 6; ++i) sightings.of_earlier[i].xy += Eigen::Vector2d(0.05, -0.03);
-  const auto loop = RefineLoop(LoopRefinementOptions(kFocalLength), sightings, Disturbed());
+  LoopObservations observations = See(40, false, {0.2 / kFocalLength}, &random);
+  for (int i = 0; i < 6; ++i) observations.of_earlier[i].xy += Eigen::Vector2d(0.05, -0.03);
+  const auto loop = RefineLoop(LoopRefinementOptions(kFocalLength), observations, Disturbed());
   ASSERT_TRUE(loop);
-  EXPECT_LT(ErrorOf(loop->T_O1_O2, sightings).norm(), 0.03);
+  EXPECT_LT(ErrorOf(loop->T_O1_O2, observations).norm(), 0.03);
 }
 
 // Mean NEES for four degrees of freedom, with the noise that the options assume.
@@ -108,10 +108,10 @@ double MeanNees(const Noise& noise, uint64_t seed) {
   constexpr int kRuns = 100;
   double nees = 0;
   for (int i = 0; i < kRuns; ++i) {
-    const LoopSightings sightings = See(15, true, noise, &random);
-    const auto loop = RefineLoop(options, sightings, kTruth);
+    const LoopObservations observations = See(15, true, noise, &random);
+    const auto loop = RefineLoop(options, observations, kTruth);
     if (!loop) return std::numeric_limits<double>::infinity();
-    const Vector4d error = ErrorOf(loop->T_O1_O2, sightings);
+    const Vector4d error = ErrorOf(loop->T_O1_O2, observations);
     nees += error.dot(loop->covariance.inverse() * error) / kRuns;
   }
   return nees;
@@ -136,30 +136,30 @@ TEST(RefineLoop, DistinguishesTiltFromTranslation) {
   double error = 0, error_without = 0;
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     simulator::Random random(seed);
-    const LoopSightings sightings = See(30, false, noise, &random);
-    const auto loop = RefineLoop(LoopRefinementOptions(kFocalLength), sightings, kTruth);
-    const auto level = RefineLoop(without, sightings, kTruth);
+    const LoopObservations observations = See(30, false, noise, &random);
+    const auto loop = RefineLoop(LoopRefinementOptions(kFocalLength), observations, kTruth);
+    const auto level = RefineLoop(without, observations, kTruth);
     ASSERT_TRUE(loop && level);
-    error += ErrorOf(loop->T_O1_O2, sightings).head<3>().norm();
-    error_without += ErrorOf(level->T_O1_O2, sightings).head<3>().norm();
+    error += ErrorOf(loop->T_O1_O2, observations).head<3>().norm();
+    error_without += ErrorOf(level->T_O1_O2, observations).head<3>().norm();
   }
   EXPECT_LT(error, 0.5 * error_without);
 }
 
 TEST(RefineLoop, AddsTheCommonErrorOfObservations) {
   simulator::Random random(5);
-  const LoopSightings sightings = See(30, false, Noise(), &random);
+  const LoopObservations observations = See(30, false, Noise(), &random);
   LoopRefinementOptions options(kFocalLength);
-  const auto with = RefineLoop(options, sightings, kTruth);
+  const auto with = RefineLoop(options, observations, kTruth);
   const double variance = options.floor_position * options.floor_position;
   options.floor_position = options.floor_yaw = 0;
-  const auto without = RefineLoop(options, sightings, kTruth);
+  const auto without = RefineLoop(options, observations, kTruth);
   ASSERT_TRUE(with && without);
   EXPECT_NEAR(with->covariance(0, 0) - without->covariance(0, 0), variance, 1e-9);
 }
 
 TEST(RefineLoop, RejectsWithoutObservations) {
-  EXPECT_FALSE(RefineLoop(LoopRefinementOptions(kFocalLength), LoopSightings(), kTruth));
+  EXPECT_FALSE(RefineLoop(LoopRefinementOptions(kFocalLength), LoopObservations(), kTruth));
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ class LoopVerificationTest : public ::testing::Test {
   LoopCandidate VerifyPair(const Keyframe& earlier, const Keyframe& later) {
     const LoopVerification verification(options_, camera_);
     LoopCandidate candidate;
-    sightings_ = verification.Verify({&earlier, {&earlier}}, {&later, {&later}}, &candidate);
+    observations_ = verification.Verify({&earlier, {&earlier}}, {&later, {&later}}, &candidate);
     truth_ = earlier_.T_O_W * later_.T_O_W.Inverse();
     error_ = earlier.T_O_L() * candidate.T_earlier_later * later.T_O_L().Inverse();
     return candidate;
@@ -47,7 +47,7 @@ class LoopVerificationTest : public ::testing::Test {
   VisitOptions earlier_;
   VisitOptions later_;
   LoopVerificationOptions options_{testing::kFocalLength};
-  LoopSightings sightings_;
+  LoopObservations observations_;
   LevelTransform truth_;
   LevelTransform error_;
 };
@@ -71,9 +71,9 @@ TEST_F(LoopVerificationTest, AcceptsTheSamePlaceAndMeasuresTheDrift) {
   EXPECT_GT(candidate.inlier_share, 0.9);
   EXPECT_GT(candidate.line_share, 0.9);
   EXPECT_GT(candidate.covariance(0, 0), 0);
-  EXPECT_EQ(sightings_.of_earlier.size(), static_cast<size_t>(*candidate.inliers));
-  EXPECT_EQ(sightings_.of_later.size(), static_cast<size_t>(*candidate.backward_inliers));
-  EXPECT_FALSE(sightings_.lines.empty());
+  EXPECT_EQ(observations_.of_earlier.size(), static_cast<size_t>(*candidate.inliers));
+  EXPECT_EQ(observations_.of_later.size(), static_cast<size_t>(*candidate.backward_inliers));
+  EXPECT_FALSE(observations_.lines.empty());
 }
 
 TEST_F(LoopVerificationTest, RejectsTheSameVisit) {

@@ -20,12 +20,12 @@ TEST(Viewpoint, MeasuresTheReprojectionError) {
   const Eigen::Quaterniond R_G_C = testing::LookingAhead().rotation;
   const LevelTransform T_O_G = {0.7, {1, 2, 3}};
   const Eigen::Vector3d p_C(0.4, -0.2, 4);
-  const SeenPoint sighting = {T_O_G * (R_G_C * p_C),
-                              p_C.hnormalized() + Eigen::Vector2d(0.03, 0.04)};
+  const SeenPoint observation = {T_O_G * (R_G_C * p_C),
+                                 p_C.hnormalized() + Eigen::Vector2d(0.03, 0.04)};
   const Viewpoint viewpoint(T_O_G, R_G_C);
-  EXPECT_NEAR(viewpoint.Error(sighting), 0.05, 1e-12);
-  const Eigen::Vector3d seen_C = R_G_C.conjugate() * (T_O_G.Inverse() * sighting.p_O);
-  EXPECT_EQ(viewpoint.Error(sighting), (seen_C.hnormalized() - sighting.xy).norm());
+  EXPECT_NEAR(viewpoint.Error(observation), 0.05, 1e-12);
+  const Eigen::Vector3d seen_C = R_G_C.conjugate() * (T_O_G.Inverse() * observation.p_O);
+  EXPECT_EQ(viewpoint.Error(observation), (seen_C.hnormalized() - observation.xy).norm());
 }
 
 }  // namespace

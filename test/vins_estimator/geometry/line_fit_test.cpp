@@ -29,25 +29,25 @@ struct Scene {
         const Vector2d error(random.Normal(), random.Normal());
         return (T_W_C.Inverse() * p_W).hnormalized() + noise * error;
       };
-      sightings.push_back({T_W_C, {see(start_W), see(end_W)}});
+      observations.push_back({T_W_C, {see(start_W), see(end_W)}});
     }
-    truth = ToOrthonormal(sightings.front().T_W_C.Inverse() * LineThrough(start_W, end_W));
+    truth = ToOrthonormal(observations.front().T_W_C.Inverse() * LineThrough(start_W, end_W));
   }
 
   double DirectionError(const OrthonormalLine& line) const {
-    const PluckerLine line_W = sightings.front().T_W_C * ToPlucker(line.data());
+    const PluckerLine line_W = observations.front().T_W_C * ToPlucker(line.data());
     const Vector3d direction = (end_W - start_W).normalized();
     return std::asin(line_W.direction.normalized().cross(direction).norm());
   }
 
   Vector3d start_W, end_W;
-  std::vector<LineSighting> sightings;
+  std::vector<PosedLineObservation> observations;
   OrthonormalLine truth;
 };
 
 TEST(EvaluateLine, IsZeroAtTheTruth) {
   const Scene scene(1, /*noise=*/0);
-  const auto fit = EvaluateLine(scene.sightings, kNoise, scene.truth);
+  const auto fit = EvaluateLine(scene.observations, kNoise, scene.truth);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->cost, 0, 1e-9);
   EXPECT_NEAR(fit->gradient.norm(), 0, 1e-6);
@@ -58,21 +58,21 @@ TEST(EvaluateLine, GivesTheGradientOfTheCost) {
   const auto half_cost = [&](const Vector4d& delta) {
     OrthonormalLine moved;
     LinePlus(scene.truth.data(), delta.data(), moved.data());
-    const double cost = EvaluateLine(scene.sightings, kNoise, moved)->cost;
+    const double cost = EvaluateLine(scene.observations, kNoise, moved)->cost;
     return Eigen::Matrix<double, 1, 1>(0.5 * cost);
   };
   const Vector4d zero = Vector4d::Zero();
   const Eigen::MatrixXd numeric = testing::NumericJacobian(half_cost, zero);
-  const auto fit = EvaluateLine(scene.sightings, kNoise, scene.truth);
+  const auto fit = EvaluateLine(scene.observations, kNoise, scene.truth);
   EXPECT_MATRIX_NEAR(fit->gradient, numeric.transpose(), 1e-4 * numeric.norm());
 }
 
 TEST(EvaluateLine, FailsWhereTheLinePassesThroughACamera) {
   Scene scene(3);
-  const Vector3d camera = scene.sightings[1].T_W_C.translation;
-  const Rigid3d T_C0_W = scene.sightings[0].T_W_C.Inverse();
+  const Vector3d camera = scene.observations[1].T_W_C.translation;
+  const Rigid3d T_C0_W = scene.observations[0].T_W_C.Inverse();
   const PluckerLine line = T_C0_W * LineThrough(camera, camera + Vector3d::UnitX());
-  const auto fit = EvaluateLine(scene.sightings, kNoise, ToOrthonormal(line));
+  const auto fit = EvaluateLine(scene.observations, kNoise, ToOrthonormal(line));
   EXPECT_TRUE(!fit || fit->cost > 1e3);
 }
 
@@ -84,7 +84,7 @@ TEST(FitLine, FindsTheTruthFromNearby) {
     delta *= 0.03;
     OrthonormalLine initial;
     LinePlus(scene.truth.data(), delta.data(), initial.data());
-    const auto fit = FitLine(scene.sightings, kNoise, initial);
+    const auto fit = FitLine(scene.observations, kNoise, initial);
     ASSERT_TRUE(fit);
     EXPECT_NEAR(fit->cost, 0, 1e-6);
     EXPECT_NEAR(scene.DirectionError(fit->line), 0, 1e-6);
@@ -98,7 +98,7 @@ TEST(FitLine, StatesItsNoise) {
   constexpr int kScenes = 400;
   for (uint64_t seed = 1; seed <= kScenes; ++seed) {
     const Scene scene(seed);
-    const auto fit = FitLine(scene.sightings, kNoise, scene.truth);
+    const auto fit = FitLine(scene.observations, kNoise, scene.truth);
     ASSERT_TRUE(fit);
     cost += fit->cost / kScenes;
     const double ratio = scene.DirectionError(fit->line) / DirectionDeviation(*fit);
@@ -111,8 +111,8 @@ TEST(FitLine, StatesItsNoise) {
 
 TEST(DirectionDeviation, IsLargeForASingleObservation) {
   Scene scene(1);
-  scene.sightings.resize(1);
-  const auto fit = EvaluateLine(scene.sightings, kNoise, scene.truth);
+  scene.observations.resize(1);
+  const auto fit = EvaluateLine(scene.observations, kNoise, scene.truth);
   EXPECT_GT(DirectionDeviation(*fit), 0.5);
   EXPECT_LE(DirectionDeviation(*fit), 1.0);
 }

@@ -30,8 +30,8 @@ struct Segment {
 };
 
 // Observation of a segment by a camera, with `noise` at its endpoints.
-LineSighting See(const Segment& segment, const Rigid3d& T_W_C, double noise = 0,
-                 simulator::Random* random = nullptr) {
+PosedLineObservation See(const Segment& segment, const Rigid3d& T_W_C, double noise = 0,
+                         simulator::Random* random = nullptr) {
   const auto see = [&](const Vector3d& p_W) -> Vector2d {
     const Vector2d xy = (T_W_C.Inverse() * p_W).hnormalized();
     if (random == nullptr) return xy;
@@ -42,27 +42,27 @@ LineSighting See(const Segment& segment, const Rigid3d& T_W_C, double noise = 0,
 }
 
 // Ten observations from cameras that move by `travel` in total and rotate slightly.
-std::vector<LineSighting> SeeOnTheWay(const Vector3d& travel, double noise, uint64_t seed,
-                                      const Segment& segment = {}) {
+std::vector<PosedLineObservation> SeeOnTheWay(const Vector3d& travel, double noise, uint64_t seed,
+                                              const Segment& segment = {}) {
   constexpr int kViews = 10;
   simulator::Random random(seed);
-  std::vector<LineSighting> sightings;
+  std::vector<PosedLineObservation> observations;
   for (int i = 0; i < kViews; ++i) {
     const Rigid3d T_W_C(SO3Exp(0.05 * random.NormalVector3()), i / (kViews - 1.0) * travel);
-    sightings.push_back(See(segment, T_W_C, noise, &random));
+    observations.push_back(See(segment, T_W_C, noise, &random));
   }
-  return sightings;
+  return observations;
 }
 
 // Distance of a world point from the line triangulated in the first camera.
 double Distance(const Vector3d& p_W, const TriangulatedLine& found,
-                const std::vector<LineSighting>& sightings) {
-  const PluckerLine line_W = sightings.front().T_W_C * ToPlucker(found.line.data());
+                const std::vector<PosedLineObservation>& observations) {
+  const PluckerLine line_W = observations.front().T_W_C * ToPlucker(found.line.data());
   return (p_W.cross(line_W.direction) - line_W.moment).norm() / line_W.direction.norm();
 }
 
-Result ResultOf(const std::vector<LineSighting>& sightings, double noise = kNoise) {
-  return TriangulateLine(LineTriangulationOptions(noise), sightings).result;
+Result ResultOf(const std::vector<PosedLineObservation>& observations, double noise = kNoise) {
+  return TriangulateLine(LineTriangulationOptions(noise), observations).result;
 }
 
 // Number of the `trials` noisy flights that yield a line.
@@ -83,15 +83,15 @@ TEST(TriangulateLine, IsExactWithoutNoise) {
       return T_W_A * Vector3d(x, y, random.Uniform(4, 8));
     };
     const Segment segment{point(), point()};
-    std::vector<LineSighting> sightings;
+    std::vector<PosedLineObservation> observations;
     for (int i = 0; i < 5; ++i) {
       const Rigid3d T_A_C(SO3Exp(0.1 * random.NormalVector3()), 0.5 * random.NormalVector3());
-      sightings.push_back(See(segment, T_W_A * T_A_C));
+      observations.push_back(See(segment, T_W_A * T_A_C));
     }
-    const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(1e-4), sightings);
+    const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(1e-4), observations);
     ASSERT_EQ(found.result, Result::kOk) << trial;
-    EXPECT_LT(Distance(segment.start, found, sightings), 1e-5);
-    EXPECT_LT(Distance(segment.end, found, sightings), 1e-5);
+    EXPECT_LT(Distance(segment.start, found, observations), 1e-5);
+    EXPECT_LT(Distance(segment.end, found, observations), 1e-5);
   }
 }
 
@@ -101,15 +101,15 @@ TEST(TriangulateLine, ObservationsMayShowDifferentPartsInEitherOrder) {
     return {whole.start + from * (whole.end - whole.start),
             whole.start + to * (whole.end - whole.start)};
   };
-  const std::vector<LineSighting> sightings = {
+  const std::vector<PosedLineObservation> observations = {
       See(part(0.0, 0.4), {SO3Exp({0, 0, 0}), {0, 0, 0}}),
       See(part(0.9, 0.5), {SO3Exp({0, 0.1, 0}), {0, 0.5, 0}}),
       See(part(0.2, 0.3), {SO3Exp({0.1, 0, 0}), {0, 1, 0}}),
   };
-  const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(1e-4), sightings);
+  const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(1e-4), observations);
   ASSERT_EQ(found.result, Result::kOk);
-  EXPECT_LT(Distance(whole.start, found, sightings), 1e-6);
-  EXPECT_LT(Distance(whole.end, found, sightings), 1e-6);
+  EXPECT_LT(Distance(whole.start, found, observations), 1e-6);
+  EXPECT_LT(Distance(whole.end, found, observations), 1e-6);
 }
 
 // The error equals the propagated noise, which is the lower bound of any estimator.
@@ -117,12 +117,12 @@ TEST(TriangulateLine, ErrorMatchesTheNoise) {
   constexpr int kTrials = 400;
   double nees = 0;
   for (int seed = 1; seed <= kTrials; ++seed) {
-    const auto sightings = SeeOnTheWay({0.2, 0.8, 0.1}, kNoise, seed);
-    const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(kNoise), sightings);
+    const auto observations = SeeOnTheWay({0.2, 0.8, 0.1}, kNoise, seed);
+    const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(kNoise), observations);
     ASSERT_EQ(found.result, Result::kOk);
-    const auto fit = EvaluateLine(sightings, kNoise, found.line);
+    const auto fit = EvaluateLine(observations, kNoise, found.line);
     ASSERT_TRUE(fit);
-    const Rigid3d T_C0_W = sightings.front().T_W_C.Inverse();
+    const Rigid3d T_C0_W = observations.front().T_W_C.Inverse();
     const OrthonormalLine truth =
         ToOrthonormal(T_C0_W * LineThrough(Segment().start, Segment().end));
     Eigen::Vector4d error;
@@ -144,13 +144,13 @@ TEST(TriangulateLine, RejectsExactDegeneracy) {
   for (const Vector3d& travel :
        {Vector3d(0, 0, 0), kAlong, kTowards, Vector3d(kAlong + kTowards), Vector3d(-kAlong)}) {
     for (const bool turns : {false, true}) {
-      std::vector<LineSighting> sightings;
+      std::vector<PosedLineObservation> observations;
       for (int i = 0; i < 4; ++i) {
         const Vector3d turn = turns ? Vector3d(0.02 * i, -0.01 * i, 0.03 * i) : Vector3d(0, 0, 0);
-        sightings.push_back(See({}, {SO3Exp(turn), 0.2 * i * travel}));
+        observations.push_back(See({}, {SO3Exp(turn), 0.2 * i * travel}));
       }
       for (const double noise : {1e-6, kNoise}) {
-        EXPECT_EQ(ResultOf(sightings, noise), Result::kDegenerate)
+        EXPECT_EQ(ResultOf(observations, noise), Result::kDegenerate)
             << travel.transpose() << (turns ? " with turns" : "");
       }
     }
@@ -176,8 +176,8 @@ TEST(TriangulateLine, AcceptsMotionAcrossTheLine) {
 TEST(TriangulateLine, AcceptsShortLines) {
   const Segment segment{{-0.2, 0.1, 4}, {0.1, -0.1, 4.1}};  // 45 pixels
   for (int seed = 1; seed <= 300; ++seed) {
-    const auto sightings = SeeOnTheWay(0.3 * kAcross, kNoise, seed, segment);
-    EXPECT_EQ(ResultOf(sightings), Result::kOk) << seed;
+    const auto observations = SeeOnTheWay(0.3 * kAcross, kNoise, seed, segment);
+    EXPECT_EQ(ResultOf(observations), Result::kOk) << seed;
   }
 }
 
@@ -190,14 +190,14 @@ TEST(TriangulateLine, WaitsForABaselineThatRisesAboveTheNoise) {
 }
 
 TEST(TriangulateLine, RejectsTheSameGeometryWithMoreNoise) {
-  const auto sightings = SeeOnTheWay(0.2 * kAcross, 0, 1);
-  EXPECT_EQ(ResultOf(sightings, 0.3 * kNoise), Result::kOk);
-  EXPECT_EQ(ResultOf(sightings, 10 * kNoise), Result::kDegenerate);
+  const auto observations = SeeOnTheWay(0.2 * kAcross, 0, 1);
+  EXPECT_EQ(ResultOf(observations, 0.3 * kNoise), Result::kOk);
+  EXPECT_EQ(ResultOf(observations, 10 * kNoise), Result::kDegenerate);
   // The standard deviation of the depth is proportional to the noise.
   const auto is_known = [&](double max_deviation, double noise) {
     LineTriangulationOptions options(noise);
     options.max_depth_deviation = max_deviation;
-    return TriangulateLine(options, sightings).result == Result::kOk;
+    return TriangulateLine(options, observations).result == Result::kOk;
   };
   double limit = 1e-4;
   while (!is_known(limit, kNoise)) limit *= 1.01;
@@ -217,10 +217,10 @@ TEST(TriangulateLine, StatesTheDeviationOfItsDepth) {
   options.max_depth_deviation = 10;
   std::vector<double> errors;
   for (int seed = 1; seed <= kTrials; ++seed) {
-    const auto sightings = SeeOnTheWay(travel, kNoise, seed);
-    const TriangulatedLine found = TriangulateLine(options, sightings);
-    const LineEnds ends = EndsOf(ToPlucker(found.line.data()), sightings.front().segment);
-    const double start = (sightings.front().T_W_C.Inverse() * Segment().start).z();
+    const auto observations = SeeOnTheWay(travel, kNoise, seed);
+    const TriangulatedLine found = TriangulateLine(options, observations);
+    const LineEnds ends = EndsOf(ToPlucker(found.line.data()), observations.front().segment);
+    const double start = (observations.front().T_W_C.Inverse() * Segment().start).z();
     // In inverse depth, whose errors are symmetric.
     errors.push_back(std::abs(start / ends.start.z() - 1));
   }
@@ -242,29 +242,29 @@ TEST(TriangulateLine, RejectsLinesBehindACamera) {
 }
 
 TEST(TriangulateLine, RejectsContradictingObservations) {
-  auto sightings = SeeOnTheWay(kAcross, kNoise, 1);
-  EXPECT_EQ(ResultOf(sightings), Result::kOk);
+  auto observations = SeeOnTheWay(kAcross, kNoise, 1);
+  EXPECT_EQ(ResultOf(observations), Result::kOk);
   // Half of the observations are of another, parallel line.
   const Segment other{Segment().start + 0.3 * kAcross, Segment().end + 0.3 * kAcross};
-  for (size_t i = 0; i < sightings.size(); i += 2) {
-    sightings[i] = See(other, sightings[i].T_W_C);
+  for (size_t i = 0; i < observations.size(); i += 2) {
+    observations[i] = See(other, observations[i].T_W_C);
   }
-  EXPECT_EQ(ResultOf(sightings), Result::kInconsistent);
+  EXPECT_EQ(ResultOf(observations), Result::kInconsistent);
 }
 
 TEST(TriangulateLine, SurvivesSegmentsWithoutLengthOrNumbers) {
   const double nan = std::nan("");
-  const auto sightings = SeeOnTheWay(kAcross, kNoise, 1);
+  const auto observations = SeeOnTheWay(kAcross, kNoise, 1);
   for (const LineSegmentView& bad :
        {LineSegmentView{{0.1, 0.2}, {0.1, 0.2}}, LineSegmentView{{nan, 0}, {1, 0}}}) {
     for (const size_t place : {size_t{0}, size_t{4}}) {
-      auto with_bad = sightings;
+      auto with_bad = observations;
       with_bad[place].segment = bad;
       const TriangulatedLine found = TriangulateLine(LineTriangulationOptions(kNoise), with_bad);
       if (found.result != Result::kOk) continue;
       for (const double value : found.line) EXPECT_TRUE(std::isfinite(value));
     }
-    EXPECT_NE(ResultOf(std::vector<LineSighting>(3, {Rigid3d(), bad})), Result::kOk);
+    EXPECT_NE(ResultOf(std::vector<PosedLineObservation>(3, {Rigid3d(), bad})), Result::kOk);
   }
 }
 

@@ -18,11 +18,11 @@ using Eigen::Vector3d;
 
 constexpr double kMinAngle = 0.01;
 
-PointSighting See(const Vector3d& p_W, const Rigid3d& T_W_C) {
+PosedPointObservation See(const Vector3d& p_W, const Rigid3d& T_W_C) {
   return {T_W_C, (T_W_C.Inverse() * p_W).hnormalized()};
 }
 
-PointSighting SeeFrom(const Vector3d& p_W, const Vector3d& position) {
+PosedPointObservation SeeFrom(const Vector3d& p_W, const Vector3d& position) {
   return See(p_W, {Quaterniond::Identity(), position});
 }
 
@@ -39,12 +39,12 @@ TEST(TriangulatePoint, WorksForAnyCameraPoses) {
   for (int trial = 0; trial < 50; ++trial) {
     const Rigid3d T_W_A(SO3Exp(random.NormalVector3()), random.NormalVector3());
     const Vector3d p_W = T_W_A * Vector3d(random.Normal(), random.Normal(), random.Uniform(4, 8));
-    std::vector<PointSighting> sightings;
+    std::vector<PosedPointObservation> observations;
     for (int i = 0; i < 4; ++i) {
       const Rigid3d T_A_C(SO3Exp(0.1 * random.NormalVector3()), 0.5 * random.NormalVector3());
-      sightings.push_back(See(p_W, T_W_A * T_A_C));
+      observations.push_back(See(p_W, T_W_A * T_A_C));
     }
-    const auto found = TriangulatePoint(sightings, kMinAngle);
+    const auto found = TriangulatePoint(observations, kMinAngle);
     ASSERT_TRUE(found);
     EXPECT_MATRIX_NEAR(*found, p_W, 1e-6);
   }
@@ -65,12 +65,12 @@ TEST(TriangulatePoint, ErrorMatchesTheNoise) {
   simulator::Random random(2);
   double nees = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    std::vector<PointSighting> sightings;
+    std::vector<PosedPointObservation> observations;
     for (const Vector3d& position : positions) {
-      sightings.push_back(SeeFrom(p_W, position));
-      sightings.back().xy += kNoise * Vector2d(random.Normal(), random.Normal());
+      observations.push_back(SeeFrom(p_W, position));
+      observations.back().xy += kNoise * Vector2d(random.Normal(), random.Normal());
     }
-    const auto found = TriangulatePoint(sightings, kMinAngle);
+    const auto found = TriangulatePoint(observations, kMinAngle);
     ASSERT_TRUE(found);
     const Vector3d error = *found - p_W;
     nees += error.dot(information * error) / kTrials;
@@ -80,19 +80,20 @@ TEST(TriangulatePoint, ErrorMatchesTheNoise) {
 
 TEST(TriangulatePoint, RejectsRaysThatAreTooParallel) {
   const Vector3d p_W(0, 0, 100);  // subtends 0.01 rad from one metre
-  const auto sightings = [&p_W](double baseline) {
-    return std::vector<PointSighting>{SeeFrom(p_W, {0, 0, 0}), SeeFrom(p_W, {baseline, 0, 0})};
+  const auto observations = [&p_W](double baseline) {
+    return std::vector<PosedPointObservation>{SeeFrom(p_W, {0, 0, 0}),
+                                              SeeFrom(p_W, {baseline, 0, 0})};
   };
-  EXPECT_FALSE(TriangulatePoint(sightings(0.9), kMinAngle));
-  EXPECT_TRUE(TriangulatePoint(sightings(1.1), kMinAngle));
-  EXPECT_FALSE(TriangulatePoint(sightings(0.0), kMinAngle));
+  EXPECT_FALSE(TriangulatePoint(observations(0.9), kMinAngle));
+  EXPECT_TRUE(TriangulatePoint(observations(1.1), kMinAngle));
+  EXPECT_FALSE(TriangulatePoint(observations(0.0), kMinAngle));
   EXPECT_FALSE(TriangulatePoint({SeeFrom(p_W, {0, 0, 0})}, kMinAngle));
   EXPECT_FALSE(TriangulatePoint({}, kMinAngle));
 }
 
 TEST(TriangulatePoint, RejectsPointsBehindACamera) {
   // The rays diverge; they would intersect behind both cameras.
-  const std::vector<PointSighting> diverging = {
+  const std::vector<PosedPointObservation> diverging = {
       {{Quaterniond::Identity(), {0, 0, 0}}, {-0.1, 0}},
       {{Quaterniond::Identity(), {1, 0, 0}}, {0.1, 0}},
   };

@@ -51,11 +51,11 @@ struct Problem {
   }
 
   std::optional<Eigen::Vector3d> Triangulate(const Track& track) const {
-    std::vector<PointSighting> sightings;
+    std::vector<PosedPointObservation> observations;
     for (const ViewObservation& o : track.observations) {
-      sightings.push_back({truth[o.view].T_W_B() * options.T_B_C, o.xy});
+      observations.push_back({truth[o.view].T_W_B() * options.T_B_C, o.xy});
     }
-    return TriangulatePoint(sightings, kMinAngle);
+    return TriangulatePoint(observations, kMinAngle);
   }
 
   // Scales the points by `factor` about the first position; returns the states accordingly.

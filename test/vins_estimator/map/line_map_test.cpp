@@ -154,7 +154,7 @@ TEST_F(LineMapTest, AFrameMayHaveNoLines) {
   EXPECT_EQ(empty.Triangulate(window_, LineLimits(kNoise, kMaxLength)).triangulated, 0);
   EXPECT_EQ(empty.RemoveOutliers(window_, LineLimits(kNoise, kMaxLength)), 0);
   empty.RemoveFrame(window_, Stamp(0));
-  empty.StartAnew(window_, Stamp(0), [](const LineLandmark&) { FAIL(); });
+  empty.Reinitialize(window_, Stamp(0), [](const LineLandmark&) { FAIL(); });
 }
 
 TEST_F(LineMapTest, TriangulatesInTheHost) {
@@ -236,7 +236,7 @@ TEST_F(LineMapTest, RestartKeepsPositionAndNewestObservation) {
   map_.RemoveFrame(window_, -1);  // of no frame: changes nothing
 
   int departures = 0;
-  map_.StartAnew(window_, Stamp(0), [&](const LineLandmark& landmark) {
+  map_.Reinitialize(window_, Stamp(0), [&](const LineLandmark& landmark) {
     ++departures;
     EXPECT_EQ(landmark.id, 7);
     ExpectInPlace(landmark);
@@ -250,7 +250,7 @@ TEST_F(LineMapTest, RestartKeepsPositionAndNewestObservation) {
 }
 
 TEST_F(LineMapTest, RestartKeepsUntriangulatedLines) {
-  map_.StartAnew(window_, Stamp(0), [](const LineLandmark&) { FAIL(); });
+  map_.Reinitialize(window_, Stamp(0), [](const LineLandmark&) { FAIL(); });
   EXPECT_EQ(Landmark(9).views.size(), 4u);
 }
 
@@ -361,7 +361,7 @@ TEST_F(LineMapTest, RestartDropsAnchorObservations) {
   Triangulate();
   TurnOldestIntoAnchor();
   Landmark(8).views.erase(Landmark(8).views.begin() + 1, Landmark(8).views.end());
-  map_.StartAnew(window_, Stamp(1), [](const LineLandmark&) { FAIL(); });
+  map_.Reinitialize(window_, Stamp(1), [](const LineLandmark&) { FAIL(); });
   EXPECT_EQ(Landmark(7).views.size(), 1u);
   EXPECT_TRUE(Landmark(7).anchor_views.empty());
   EXPECT_EQ(Landmark(8).anchor_views.size(), 1u);  // was not marginalized

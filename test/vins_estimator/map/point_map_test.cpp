@@ -212,7 +212,7 @@ TEST_F(PointMapTest, RestartKeepsPositionAndNewestObservation) {
   const Vector3d departed_W = PositionInWorld(Landmark(7), window_);
 
   int departures = 0;
-  map_.StartAnew(window_, Stamp(0), [&](const PointLandmark& landmark) {
+  map_.Reinitialize(window_, Stamp(0), [&](const PointLandmark& landmark) {
     ++departures;
     EXPECT_EQ(landmark.id, 7);
     EXPECT_MATRIX_NEAR(PositionInWorld(landmark, window_), departed_W, 1e-12);
@@ -226,7 +226,7 @@ TEST_F(PointMapTest, RestartKeepsPositionAndNewestObservation) {
 }
 
 TEST_F(PointMapTest, RestartKeepsUntriangulatedPoints) {
-  map_.StartAnew(window_, Stamp(0), [](const PointLandmark&) { FAIL(); });
+  map_.Reinitialize(window_, Stamp(0), [](const PointLandmark&) { FAIL(); });
   EXPECT_EQ(Landmark(9).views.size(), 4u);
 }
 

@@ -19,12 +19,12 @@ using testing::LineWindow;
 
 // Results of merging on a simulated flight through a room.
 struct FlightScore {
-  int merged = 0, recognised = 0, wrong = 0;
+  int merged = 0, recognized = 0, wrong = 0;
   int redundant = 0, absorbed = 0;            // landmarks of lines that have an older one
   double landmarks = 0, lines_in_map = 0;     // triangulated, sum over frames
   int whole_map = 0, whole_map_unmerged = 0;  // landmarks of the whole flight
 
-  double precision() const { return 1.0 - wrong / double(merged + recognised); }
+  double precision() const { return 1.0 - wrong / double(merged + recognized); }
   double recall() const { return absorbed / double(redundant); }
 };
 
@@ -87,7 +87,7 @@ FlightScore MergeOnFlight(uint64_t seed) {
     redundant.merge(FindRedundant(before, data.line_landmark, &score));
     const UnitedLines united = window->Unite();
     score.merged += united.merging.merged;
-    score.recognised += united.recognised;
+    score.recognized += united.recognized;
     CollectTriangulated(window->map().lines, &whole_map);
     for (const auto& [id, landmark] : before.landmarks()) {
       if (window->map().lines.landmarks().count(id)) continue;
@@ -113,7 +113,7 @@ TEST(LineMerging, FindsTheTracksOfOneLineAndOnlyThose) {
   for (uint64_t seed = 1; seed <= 3; ++seed) {
     const FlightScore score = MergeOnFlight(seed);
     sum.merged += score.merged;
-    sum.recognised += score.recognised;
+    sum.recognized += score.recognized;
     sum.wrong += score.wrong;
     sum.redundant += score.redundant;
     sum.absorbed += score.absorbed;
@@ -122,7 +122,7 @@ TEST(LineMerging, FindsTheTracksOfOneLineAndOnlyThose) {
     sum.whole_map += score.whole_map;
     sum.whole_map_unmerged += score.whole_map_unmerged;
   }
-  EXPECT_GT(sum.recognised, 0);
+  EXPECT_GT(sum.recognized, 0);
   EXPECT_GE(sum.precision(), 0.98);
   EXPECT_GE(sum.recall(), 0.8);
   EXPECT_LT(sum.landmarks, 1.1 * sum.lines_in_map);

@@ -39,7 +39,7 @@ TEST(LineStructure, RecognizedLineVotesOnce) {
   UnitedLines united;
   const HeadingSupport support =
       SupportBy({{4, {-1, 0.5}, {1, 0.5}, 0, 7}, {9, {-1, 0.5}, {1, 0.5}, 20}}, &united);
-  EXPECT_EQ(united.recognised, 1);
+  EXPECT_EQ(united.recognized, 1);
   EXPECT_EQ(support.lines, 2);
 }
 

@@ -23,7 +23,7 @@ TEST(FrameTable, HasTheAgreedColumns) {
             "lines_followed,lines_unmatched,lines_off_course,"
             "lines_edge_lost,lines_duplicate,lines_detected,lines_added,lines_observed,"
             "lines_triangulated,lines_degenerate,lines_behind,lines_inconsistent,lines_too_long,"
-            "lines_merged,lines_recognised,merge_candidates,merge_other_direction,merge_distant,"
+            "lines_merged,lines_recognized,merge_candidates,merge_other_direction,merge_distant,"
             "merge_apart,merge_distant_in_image,merge_side_by_side,merge_inconsistent,"
             "lines_in_window,lines_rejected,right_used,right_rejected,depths_used,"
             "depths_rejected\n"

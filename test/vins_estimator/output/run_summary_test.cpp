@@ -33,7 +33,7 @@ TEST(RunSummary, AddsUpARun) {
   standing.stationary = true;
   standing.imu_noise = {5e-4, 8e-3, 0, 0};
   standing.counts.line_merging.merged = 2;
-  standing.counts.lines_recognised = 3;
+  standing.counts.lines_recognized = 3;
   standing.R_W_M = Eigen::Quaterniond::Identity();
   summary.Add(standing, {}, {});
 
@@ -54,7 +54,7 @@ TEST(RunSummary, AddsUpARun) {
   EXPECT_EQ(json["points"], 12);
   EXPECT_EQ(json["lines"], 7);
   EXPECT_EQ(json["merged_lines"], 2);
-  EXPECT_EQ(json["recognised_lines"], 3);
+  EXPECT_EQ(json["recognized_lines"], 3);
   EXPECT_NEAR(json["manhattan_share"].get<double>(), 1.0 / 3, 1e-12);
   const ImuNoise usual;
   EXPECT_NEAR(json["imu_noise"]["accel_density"].get<double>(),

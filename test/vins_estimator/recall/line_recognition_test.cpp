@@ -28,7 +28,7 @@ UnitedLines ComeBack(const Vector2d& start, const Vector2d& end, LineWindow* win
 TEST(LineRecognition, RecognizesAReobservedLine) {
   LineWindow window;
   const auto counts = ComeBack({-1, 0.5}, {1, 0.5}, &window);
-  EXPECT_EQ(counts.recognised, 1);
+  EXPECT_EQ(counts.recognized, 1);
   EXPECT_EQ(counts.merging.merged, 0);
   EXPECT_EQ(window.map().aliases.Resolve(kComeBack), kGone);
   ASSERT_EQ(window.map().lines.landmarks().size(), 1u);
@@ -43,7 +43,7 @@ TEST(LineRecognition, RecognizesAReobservedLine) {
 
 TEST(LineRecognition, RecognizesAnotherPartOfALine) {
   LineWindow window;
-  EXPECT_EQ(ComeBack({1.05, 0.5}, {2, 0.5}, &window).recognised, 1);
+  EXPECT_EQ(ComeBack({1.05, 0.5}, {2, 0.5}, &window).recognized, 1);
   EXPECT_EQ(window.map().lines.landmarks().count(kGone), 1u);
 }
 
@@ -54,7 +54,7 @@ TEST(LineRecognition, DoesNotConfuseLines) {
       {"collinear with a gap", {{1.3, 0.5}, {3, 0.5}}}};
   for (const auto& [name, ends] : others) {
     LineWindow window;
-    EXPECT_EQ(ComeBack(ends.first, ends.second, &window).recognised, 0) << name;
+    EXPECT_EQ(ComeBack(ends.first, ends.second, &window).recognized, 0) << name;
     EXPECT_NE(window.map().memory.Find(kGone), nullptr);
     ASSERT_EQ(window.map().lines.landmarks().size(), 1u);
     const LineLandmark& line = window.map().lines.landmarks().at(kComeBack);
@@ -69,7 +69,7 @@ TEST(LineRecognition, DoesNotRecognizeAnObservedLine) {
   const auto counts = UniteOnWall(
       {{kGone, {-1, 0.5}, {1, 0.5}}, {kComeBack, {-1, 0.54}, {1, 0.54}, 14}}, &window, 22);
   EXPECT_NE(window.map().memory.Find(kGone), nullptr);
-  EXPECT_EQ(counts.recognised, 0);
+  EXPECT_EQ(counts.recognized, 0);
   EXPECT_EQ(window.map().lines.landmarks().size(), 2u);
 }
 
@@ -79,7 +79,7 @@ TEST(LineRecognition, MergesTheNextTrackIntoARecognizedLine) {
                                    {kComeBack, {-1, 0.5}, {1, 0.5}, 20, 24},
                                    {kComeBack + 1, {-1, 0.5}, {1, 0.5}, 25}},
                                   &window, kFramesAndBack);
-  EXPECT_EQ(counts.recognised, 1);
+  EXPECT_EQ(counts.recognized, 1);
   EXPECT_EQ(counts.merging.merged, 1);
   EXPECT_EQ(window.map().aliases.Resolve(kComeBack + 1), kGone);
 }

@@ -18,7 +18,7 @@ struct SeenSegment {
 
 // Observations that connect two visits of a place. O1 is the odometry world of the earlier visit,
 // O2 that of the later one.
-struct LoopSightings {
+struct LoopObservations {
   Rigid3d T_O1_C;                     // camera pose of the earlier visit
   Rigid3d T_O2_C;                     // camera pose of the later visit
   std::vector<SeenPoint> of_earlier;  // landmarks in O1, observed by the later camera

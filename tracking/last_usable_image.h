@@ -13,7 +13,7 @@ namespace plm_vins {
 // The last image before a tracker lost its tracks at once, as by a blank, covered or torn image.
 // Tracks are followed from it again, over all images in between.
 template <typename Track, typename Pyramid>
-struct LastSight {
+struct LastUsableImage {
   ImageSample sample;  // keeps the pixels that the pyramid may refer to
   Pyramid pyramid;
   std::vector<Track> tracks;
@@ -31,16 +31,16 @@ struct LastSight {
 };
 
 // After this time, the view has changed, or the tracker has found other features [s].
-constexpr double kMaxSightAge = 10;
+constexpr double kMaxUsableImageAge = 10;
 
 // Returns whether an image that had tracks lost nearly all of them.
-inline bool LosesSight(size_t tracks, size_t followed) {
+inline bool LosesTracks(size_t tracks, size_t followed) {
   constexpr size_t kMinTracks = 10;
   return tracks >= kMinTracks && 10 * followed < tracks;
 }
 
 // Returns whether the tracks from before the loss are found again, and are better than those since.
-inline bool RegainsSight(size_t tracks, size_t found, size_t followed) {
+inline bool RegainsTracks(size_t tracks, size_t found, size_t followed) {
   return 3 * found >= tracks && found > followed;
 }
 

@@ -10,9 +10,9 @@ namespace plm_vins {
 
 // Whether the IMU still reads what it read during a standstill that the camera confirmed: the
 // difference, integrated since then, is within what noise explains. Biases and gravity drop out.
-class ImuRest {
+class ConfirmedStandstill {
  public:
-  explicit ImuRest(const ImuNoise& noise) : noise_(noise) {}
+  explicit ConfirmedStandstill(const ImuNoise& noise) : noise_(noise) {}
 
   // Takes the samples that lead to the next image.
   void Add(const FrameMeasurement& measurement);
@@ -20,8 +20,9 @@ class ImuRest {
   // The body has stood still up to this image since Reset().
   void Confirm();
 
-  // Whether the standstill goes on as far as the IMU can tell; false if none was confirmed.
-  bool GoesOn() const;
+  // Returns whether the standstill continues as far as the IMU can tell; false if none was
+  // confirmed.
+  bool Continues() const;
 
   // Norm of the velocity that the IMU would not notice [m/s].
   double UnnoticedVelocity() const;

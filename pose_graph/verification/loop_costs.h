@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whitened residuals for Ceres that estimate the pose of a later visit's camera. O1 and O2 are
-// those of LoopSightings.
+// those of LoopObservations.
 #pragma once
 
 #include <ceres/rotation.h>
@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "common/geometry/rigid3.h"
-#include "pose_graph/verification/loop_sightings.h"
+#include "pose_graph/verification/loop_observations.h"
 
 namespace plm_vins {
 
@@ -61,10 +61,10 @@ bool ReprojectionError(const Eigen::Matrix<T, 3, 1>& p_C, const Eigen::Vector2d&
 struct EarlierLandmarkCost {
   template <typename T>
   bool operator()(const T* place, T* residual) const {
-    return ReprojectionError<T>(ToLaterCamera(place, sighting.p_O, T_O2_C), sighting.xy, whitening,
-                                residual);
+    return ReprojectionError<T>(ToLaterCamera(place, observation.p_O, T_O2_C), observation.xy,
+                                whitening, residual);
   }
-  SeenPoint sighting;
+  SeenPoint observation;
   Rigid3d T_O2_C;
   Eigen::Matrix2d whitening;
 };
@@ -73,10 +73,10 @@ struct EarlierLandmarkCost {
 struct LaterLandmarkCost {
   template <typename T>
   bool operator()(const T* place, T* residual) const {
-    return ReprojectionError<T>(ToEarlierCamera(place, sighting.p_O, T_O2_C, T_O1_C), sighting.xy,
-                                whitening, residual);
+    return ReprojectionError<T>(ToEarlierCamera(place, observation.p_O, T_O2_C, T_O1_C),
+                                observation.xy, whitening, residual);
   }
-  SeenPoint sighting;  // with its point in O2
+  SeenPoint observation;  // with its point in O2
   Rigid3d T_O1_C;
   Rigid3d T_O2_C;
   Eigen::Matrix2d whitening;
@@ -87,18 +87,18 @@ struct LineCost {
   template <typename T>
   bool operator()(const T* place, T* residual) const {
     using std::sqrt;
-    const Eigen::Matrix<T, 3, 1> start = ToLaterCamera(place, sighting.line.start_O, T_O2_C);
-    const Eigen::Matrix<T, 3, 1> end = ToLaterCamera(place, sighting.line.end_O, T_O2_C);
+    const Eigen::Matrix<T, 3, 1> start = ToLaterCamera(place, observation.line.start_O, T_O2_C);
+    const Eigen::Matrix<T, 3, 1> end = ToLaterCamera(place, observation.line.end_O, T_O2_C);
     const Eigen::Matrix<T, 3, 1> line = start.cross(end);
     const T norm = sqrt(line.x() * line.x() + line.y() * line.y());
     if (norm < T(1e-12)) return false;
-    const Eigen::Vector3d a = sighting.segment.start.homogeneous();
-    const Eigen::Vector3d b = sighting.segment.end.homogeneous();
+    const Eigen::Vector3d a = observation.segment.start.homogeneous();
+    const Eigen::Vector3d b = observation.segment.end.homogeneous();
     residual[0] = line.dot(a.cast<T>()) / norm * weight;
     residual[1] = line.dot(b.cast<T>()) / norm * weight;
     return true;
   }
-  SeenSegment sighting;
+  SeenSegment observation;
   Rigid3d T_O2_C;
   double weight;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vins_estimator/imu/imu_rest.h"
+#include "vins_estimator/imu/confirmed_standstill.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr double kLeastVelocity = 0.05;  // [m/s]
 
 }  // namespace
 
-void ImuRest::Add(const FrameMeasurement& measurement) {
+void ConfirmedStandstill::Add(const FrameMeasurement& measurement) {
   for (size_t i = 1; i < measurement.imu.size(); ++i) {
     const ImuSample& from = measurement.imu[i - 1];
     const ImuSample& to = measurement.imu[i];
@@ -26,7 +26,7 @@ void ImuRest::Add(const FrameMeasurement& measurement) {
   }
 }
 
-void ImuRest::Confirm() {
+void ConfirmedStandstill::Confirm() {
   confirmed_.duration += since_.duration;
   confirmed_.gyro += since_.gyro;
   confirmed_.accel += since_.accel;
@@ -38,7 +38,7 @@ void ImuRest::Confirm() {
   confirmed_.accel *= share;
 }
 
-bool ImuRest::GoesOn() const {
+bool ConfirmedStandstill::Continues() const {
   if (confirmed_.duration == 0) return false;
   const double ratio = since_.duration / confirmed_.duration;
   const Eigen::Vector3d turn = since_.gyro - ratio * confirmed_.gyro;
@@ -47,13 +47,15 @@ bool ImuRest::GoesOn() const {
          velocity.norm() <= UnnoticedVelocity();
 }
 
-double ImuRest::UnnoticedVelocity() const { return Limit(noise_.accel_density, kLeastVelocity); }
+double ConfirmedStandstill::UnnoticedVelocity() const {
+  return Limit(noise_.accel_density, kLeastVelocity);
+}
 
-void ImuRest::Reset() { confirmed_ = since_ = {}; }
+void ConfirmedStandstill::Reset() { confirmed_ = since_ = {}; }
 
 // The integral of white noise over a time T has the variance density^2 T, and the mean over the
 // reference time T_r, times T, has density^2 T^2 / T_r.
-double ImuRest::Limit(double density, double least) const {
+double ConfirmedStandstill::Limit(double density, double least) const {
   const double duration = since_.duration;
   const double variance = duration + duration * duration / confirmed_.duration;
   return std::max(least, kSigmas * density * std::sqrt(variance));

@@ -255,7 +255,7 @@ int EdgeOf(const std::vector<LineSegment>& edges, const LineSegment& line, doubl
 
 void JudgeOnSimulation(benchmark::State& state, MakeFrontEnd make) {
   constexpr int kImages = 20;
-  constexpr double kNoise = 3;  // grey levels
+  constexpr double kNoise = 3;  // gray levels
   const LineScene scene = BarScene(DistortedParameters());
   const double focal = scene.camera()->FocalLength();
   std::vector<cv::Mat> images;

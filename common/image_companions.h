@@ -10,14 +10,14 @@
 
 namespace plm_vins {
 
-// One image of depth along the optical axis, registered to the camera: its size, its lens.
+// Image of the depth along the optical axis, registered to the camera: its size and lens apply.
 struct DepthSample {
   int64_t t_ns = 0;
   cv::Mat depth;  // CV_16UC1 [mm], 0 if unknown, or CV_32FC1 [m]; read only
-  std::shared_ptr<const void> owner = {};  // of the pixels if `depth` is not: keep both
+  std::shared_ptr<const void> owner = {};  // owner of the pixels if `depth` is not; keep both
 };
 
-// Without pixels if there are none of this timestamp.
+// Images with the timestamp of a camera image; one that is missing has no pixels.
 struct ImageCompanions {
   ImageSample right;  // of the second camera C1
   DepthSample depth;

@@ -27,7 +27,7 @@ inline int64_t ToNanoseconds(double seconds) {
 constexpr int64_t kEndOfTime_ns = (int64_t{1} << 32) * 1'000'000'000;
 inline bool IsStamp(int64_t t_ns) { return t_ns >= 0 && t_ns < kEndOfTime_ns; }
 
-// One grey image (CV_8UC1) as the camera delivered it, with lens distortion.
+// One gray image (CV_8UC1) as the camera delivered it, with lens distortion.
 struct ImageSample {
   int64_t t_ns = 0;
   cv::Mat gray;                            // read-only: the pixels may be shared

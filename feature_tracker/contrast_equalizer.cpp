@@ -47,7 +47,7 @@ ContrastEqualizer::ContrastEqualizer(const cv::Size& image_size)
   }
 }
 
-// Pixels beyond the centres of the outermost tiles use these tiles only.
+// Pixels beyond the centers of the outermost tiles use these tiles only.
 ContrastEqualizer::Position ContrastEqualizer::PositionOf(int pixel, int size) {
   const float tiles = static_cast<float>(pixel) * kTiles / static_cast<float>(size) - 0.5F;
   const int tile = std::clamp(static_cast<int>(std::floor(tiles)), 0, kTiles - 2);
@@ -76,7 +76,7 @@ void ContrastEqualizer::FillTables(const cv::Mat& image) {
 }
 
 void ContrastEqualizer::FillTable(const cv::Mat& tile, int tile_column, Table* table) const {
-  // Two histograms, since neighbouring pixels often have the same level, and incrementing the same
+  // Two histograms, since neighboring pixels often have the same level, and incrementing the same
   // counter twice in a row stalls.
   std::array<std::array<int, kLevels>, 2> halves = {};
   for (int y = 0; y < tile.rows; ++y) {
@@ -99,7 +99,7 @@ void ContrastEqualizer::FillTable(const cv::Mat& tile, int tile_column, Table* t
   }
 }
 
-// Adds half a grey level, so that truncating the fractional bits later rounds.
+// Adds half a gray level, so that truncating the fractional bits later rounds.
 void ContrastEqualizer::BlendTables(const Position& row) {
   constexpr int kOne = 1 << kShareBits;
   constexpr int kDifferenceBits = 16 - kShareBits + kBlendedBits;

@@ -8,8 +8,8 @@
 
 namespace plm_vins {
 
-// Contrast limited adaptive histogram equalization (CLAHE, [Zuiderveld1994]) for grey images of a
-// fixed size. Results agree with cv::CLAHE to one grey level, in half the time: the lookup tables
+// Contrast limited adaptive histogram equalization (CLAHE, [Zuiderveld1994]) for gray images of a
+// fixed size. Results agree with cv::CLAHE to one gray level, in half the time: the lookup tables
 // of vertically adjacent tiles are blended once per image row, and pixels are interpolated only
 // horizontally. If the image size is not divisible by the number of tiles, tile sizes differ by one
 // pixel; OpenCV pads the image instead.
@@ -26,7 +26,7 @@ class ContrastEqualizer {
   // Output level for each input level, in all tiles of a row.
   using Table = std::array<std::array<int16_t, kTiles>, kLevels>;
 
-  // Position of a row or column between two tile centres: the preceding tile and the weight of the
+  // Position of a row or column between two tile centers: the preceding tile and the weight of the
   // next.
   struct Position {
     int tile = 0;
@@ -40,7 +40,7 @@ class ContrastEqualizer {
   void EqualizeRow(const uint8_t* levels, uint8_t* equalized);
 
   cv::Size size_;
-  std::array<int, kTiles> first_column_ = {};  // first column after the tile's centre
+  std::array<int, kTiles> first_column_ = {};  // first column after the tile's center
   std::vector<int16_t> weights_;  // interpolation weights of the two tiles, for each column
   std::array<Table, kTiles> tables_ = {};  // lookup tables, one for each row of tiles
   Table blended_ = {};                     // for the current image row, with fractional bits

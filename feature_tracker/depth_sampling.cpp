@@ -14,7 +14,7 @@ constexpr int kMinValid = 7;  // of the nine
 // Half the range of the values, as a share of the depth: noise and slant are within.
 constexpr double kMaxDeviation = 0.05;
 
-// In metres; zero where it is unknown.
+// In meters; zero where it is unknown.
 double ValueAt(const cv::Mat& depth, int row, int column) {
   if (depth.type() == CV_16UC1) return 1e-3 * depth.at<uint16_t>(row, column);
   const double value = depth.at<float>(row, column);

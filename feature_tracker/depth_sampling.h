@@ -6,9 +6,9 @@
 
 namespace plm_vins {
 
-// The depth [m] at a pixel of a depth image (as of DepthSample): the median of the 3 x 3 values
-// around it. Returns nullopt where the image is empty or ends, or where values are missing or
-// differ, as at the edge of an object.
+// Returns the depth [m] at a pixel of a depth image (see DepthSample): the median of the 3 x 3
+// values around it. Returns nullopt if the pixel is outside the image, or if values are missing or
+// differ, as they do at the edge of an object.
 std::optional<double> DepthAt(const cv::Mat& depth, const cv::Point2f& pixel);
 
 }  // namespace plm_vins

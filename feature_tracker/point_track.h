@@ -18,14 +18,14 @@ struct PointTrack {
   int length = 1;           // number of images that it was observed in
   cv::Point2f uv_px;        // raw pixel
   cv::Point2f motion_px;    // since the previous image; zero when new
-  cv::Point2f parallax_px;  // part of it that the known camera rotation does not explain
+  cv::Point2f parallax_px;  // part of motion_px that the known camera rotation does not explain
   std::shared_ptr<const CornerPatch> patch;                    // for alignment; may be null
   Eigen::Matrix2d patch_linear = Eigen::Matrix2d::Identity();  // of its pose at uv_px
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();                // normalized, undistorted
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();          // d(xy)/dt [1/s]; zero when new
-  std::optional<Eigen::Vector2d> right;                        // as of PointObservation
+  std::optional<Eigen::Vector2d> right;                        // see PointObservation
   RightSearch right_search = RightSearch::kNotDue;
-  std::optional<double> inverse_depth;  // by the last match in the second camera [1/m]
+  std::optional<double> inverse_depth;  // from the last match in the second camera [1/m]
   std::optional<double> depth;          // the same [m]
 };
 

@@ -58,7 +58,7 @@ class PointTracker {
   // Describes parts of the image that stand still while the camera moves; empty if there are none.
   std::string StillPartsFinding() const;
 
-  // Returns the last image with its tracks drawn (CV_8UC3), coloured by age.
+  // Returns the last image with its tracks drawn (CV_8UC3), colored by age.
   cv::Mat DrawTracks() const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace plm_vins {
 
-// Draws the grey image as CV_8UC3 with a disc for each corner, from blue (new) to red (long
+// Draws the gray image as CV_8UC3 with a disc for each corner, from blue (new) to red (long
 // tracked), and a line along its motion. Returns an empty image if `gray` is empty.
 cv::Mat DrawPointTracks(const cv::Mat& gray, const std::vector<PointTrack>& tracks);
 

@@ -8,7 +8,7 @@
 
 namespace plm_vins {
 
-// Draws the grey image as CV_8UC3 with lines from blue (new) to red (long tracked) and their ids.
+// Draws the gray image as CV_8UC3 with lines from blue (new) to red (long tracked) and their ids.
 // Returns an empty image if `gray` is empty.
 cv::Mat DrawLineTracks(const cv::Mat& gray, const std::vector<LineTrack>& tracks);
 

@@ -58,7 +58,7 @@ class LineTracker {
 
   const LineTrackerStatistics& statistics() const;
 
-  // Returns the last image with its tracks drawn (CV_8UC3), coloured by age.
+  // Returns the last image with its tracks drawn (CV_8UC3), colored by age.
   cv::Mat DrawTracks() const;
 
  private:

@@ -12,13 +12,13 @@ namespace plm_vins {
 // of images are ignored: they are in camera time, which td may shift by as much as a second.
 //
 // After every interruption the world frame may be a new one, so the autopilot has to reset its
-// estimate. A pause and a reset counter tell it.
+// estimate. A pause of the relayed states and a reset counter announce this.
 class RelayGate {
  public:
   struct Options {
     double rate = 30;        // [Hz], 0.1 to 1000
     double max_age = 0.5;    // age of the last image's estimate [s], 0.001 to 1000
-    double min_pause = 1.0;  // of the relayed states at an interruption [s], 0.001 to 1000
+    double min_pause = 1.0;  // minimum pause of the states at an interruption [s], 0.001 to 1000
   };
 
   // Throws std::invalid_argument that names the option if an option is out of range.

@@ -10,7 +10,7 @@
 
 namespace plm_vins {
 
-// The options of run_offline. A path is empty, and so are bags, if its option is not given.
+// The options of run_offline. Paths and `bags` are empty if their options are not given.
 struct Arguments {
   std::string config;
   std::vector<std::string> bags;  // files, folders and patterns

@@ -10,7 +10,7 @@ namespace plm_vins {
 // output. A map may be read and written back.
 void CheckOutputs(const Arguments& arguments);
 
-// Throws if the refined calibration would overwrite the configuration.
+// Throws std::runtime_error if the refined calibration would overwrite the configuration.
 void CheckCalibrationOutput(const Arguments& arguments, const SensorConfig& sensor);
 
 }  // namespace plm_vins

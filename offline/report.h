@@ -13,15 +13,15 @@ namespace plm_vins {
 // Origin of the data that was processed, for messages.
 struct Source {
   std::string name;
-  std::string images, imu;  // where they come from
+  std::string images, imu;  // their file, or topic and key
   DropCounts problems;
 };
 
 // Prints a warning unless the text is empty.
 void Warn(const std::string& text);
 
-// Prints how a run went: what could not be used, its world frames, the time without a pose, and
-// what was most wrong. Returns the exit code: 0 where there is a trajectory.
+// Prints a summary of the run: unusable data, world frames, the time without a pose, and the most
+// important finding. Returns the exit code, which is 0 if there is a trajectory.
 int Report(const RunSummary::Run& run, const Source& source, const OdometryPipeline& pipeline,
            const RunReport& report, const ResultFiles& results);
 

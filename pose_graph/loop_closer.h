@@ -52,7 +52,7 @@ struct LoopClosure {
   std::vector<LoopCandidate> confirmed;     // waited for an agreeing loop before; now judged again
   std::vector<LoopCandidate> reconsidered;  // rejected by the graph before; now accepted
   std::vector<LevelEdge> dropped;           // earlier loops that now contradict the graph
-  std::optional<RecognizedPlace> place;     // passed all gates before the graph's
+  std::optional<RecognizedPlace> place;     // set if all gates before kGraph were passed
   std::optional<MapFix> fix;                // nullopt while the pose in the map is unknown
 };
 
@@ -100,7 +100,7 @@ class LoopCloser {
   PlaceInMap place_;
   std::vector<LoopCandidate> rejected_;  // the newest loops that the graph rejected
   int world_ = 0;
-  double path_ = 0;                                 // distance travelled in this world [m]
+  double path_ = 0;                                 // distance traveled in this world [m]
   std::optional<Eigen::Vector3d> last_position_O_;  // for path_
 };
 

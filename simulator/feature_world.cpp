@@ -27,7 +27,7 @@ Wall RandomWall(const Vector3d& size, Random& random) {
   return {axis, random.Uniform() < 0.5 ? -1.0 : 1.0};
 }
 
-// Returns a random point relative to the centre of the room.
+// Returns a random point relative to the center of the room.
 Vector3d PointOnWall(const Vector3d& size, const Wall& wall, Random& random) {
   Vector3d point = random.UniformInBox(0.5 * size);
   point[wall.axis] = 0.5 * wall.side * size[wall.axis];

@@ -20,7 +20,7 @@ struct MotionProfile {
   double patrol;     // speed of the anchor in the space that the sway leaves [m/s]
   Vector3d tilt;     // amplitude of roll, pitch and yaw [rad]
   double yaw_rate;   // constant rate of rotation [rad/s]
-  bool holds_place;  // anchored at the end of the lead-in instead of the centre
+  bool holds_place;  // anchored at the end of the lead-in instead of the center
 };
 
 MotionProfile ProfileOf(Motion motion) {

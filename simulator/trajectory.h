@@ -21,7 +21,7 @@ struct BodyState {
 enum class Motion {
   kGentle,        // average 0.7 m/s and 0.25 rad/s, all axes
   kFast,          // average 1.3 m/s and 0.5 rad/s, peaks of 3 m/s and 1.2 rad/s
-  kHover,         // position constant to a few centimetres, after the lead-in
+  kHover,         // position constant to a few centimeters, after the lead-in
   kPureRotation,  // rotation of B about its origin, after the lead-in
   kCorridor,      // straight along x with a little sway
   kStill          // constant pose

@@ -6,7 +6,7 @@
 
 namespace plm_vins {
 
-// Returns the colour (BGR) of a feature that has been tracked for `length` images: from blue (new)
+// Returns the color (BGR) of a feature that has been tracked for `length` images: from blue (new)
 // to red (long tracked).
 inline cv::Scalar AgeColor(int length) {
   constexpr int kOldLength = 20;  // pure red from here on

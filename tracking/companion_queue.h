@@ -9,14 +9,14 @@
 
 namespace plm_vins {
 
-// Images of a further sensor that wait for the camera's image of the same stamp. `Sample` has t_ns.
-// Synchronous; what it says depends only on the order of the calls.
+// Images of a further sensor that wait for the camera image with the same timestamp. `Sample` has
+// t_ns. Synchronous; the result depends only on the order of the calls.
 template <typename Sample>
 class CompanionQueue {
  public:
-  static constexpr int64_t kTolerance_ns = 2'000'000;  // stamps this close together are equal
+  static constexpr int64_t kTolerance_ns = 2'000'000;  // closer timestamps are equal
 
-  // In order of arrival. A stamp that is not after the one before begins a new recording.
+  // Must be called in order of arrival. A timestamp that does not increase begins a new recording.
   void Add(Sample sample) {
     if (last_ns_ && sample.t_ns <= *last_ns_) {
       samples_.clear();
@@ -29,15 +29,15 @@ class CompanionQueue {
     if (samples_.size() > kCapacity) samples_.pop_front();
   }
 
-  // Whether the sample of an image of this stamp is due and has not come yet. A sensor that has
-  // sent nothing yet, or has stopped, is not waited for.
+  // Returns whether the sample for an image with this timestamp is due but has not arrived. A
+  // sensor that has not sent anything yet, or has stopped, is not waited for.
   bool IsAwaited(int64_t t_ns) const {
     if (!last_ns_) return false;
     const int64_t ahead_ns = t_ns - *last_ns_;
     return ahead_ns > kTolerance_ns && ahead_ns < kSilence_ns && 4 * ahead_ns >= 3 * interval_ns_;
   }
 
-  // The sample of an image of this stamp, if there is one. Older ones are dropped.
+  // Returns the sample for an image with this timestamp, if there is one. Drops older samples.
   std::optional<Sample> Take(int64_t t_ns) {
     while (!samples_.empty() && samples_.front().t_ns < t_ns - kTolerance_ns) samples_.pop_front();
     if (samples_.empty() || samples_.front().t_ns > t_ns + kTolerance_ns) return std::nullopt;
@@ -46,7 +46,7 @@ class CompanionQueue {
     return taken;
   }
 
-  // Timestamp of the last sample that came.
+  // Timestamp of the last sample that was added.
   const std::optional<int64_t>& last_ns() const { return last_ns_; }
 
  private:
@@ -55,7 +55,7 @@ class CompanionQueue {
 
   std::deque<Sample> samples_;
   std::optional<int64_t> last_ns_;
-  int64_t interval_ns_ = 0;  // between the last two
+  int64_t interval_ns_ = 0;  // interval between the last two samples
 };
 
 }  // namespace plm_vins

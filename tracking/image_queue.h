@@ -66,15 +66,15 @@ class ImageQueue {
   // next one confirms the jump.
   void AddImage(ImageSample image);
 
-  // Images of other sensors for the camera images of the same timestamp, within 2 ms. Ignored if
-  // the configuration has no such sensor. An image of the second camera that need not be searched
-  // comes without pixels.
+  // These add images of other sensors, which are paired with camera images whose timestamps agree
+  // within 2 ms. They are ignored if the configuration has no such sensor. An image of the second
+  // camera that need not be searched has no pixels.
   void AddRight(ImageSample image);
   void AddDepth(DepthSample image);
 
   // Returns the next image in temporal order, or nullopt if it still waits. An image waits for the
-  // gyroscope and its companions for half a second of newer images, so that a stall of the
-  // transport changes nothing; once the gyroscope has missed an image, for two newer images only.
+  // gyroscope and its companions during half a second of newer images, so that a transport stall
+  // changes nothing; after the gyroscope missed an image, it waits for two newer images only.
   std::optional<ReadyImage> Pop();
 
   // Returns the next image without waiting.
@@ -107,7 +107,7 @@ class ImageQueue {
   ImageSample last_left_, last_right_;    // the last pair that was searched
   std::optional<int64_t> accepted_ns_;    // timestamp of the last image that was accepted
   std::optional<int64_t> handed_out_ns_;  // timestamp of the last image that was returned
-  bool gyro_is_in_time_ = false;          // it reached the last image that was returned
+  bool gyro_is_in_time_ = false;          // samples reached the last image that was returned
   BackwardJumpDetector jump_;
   ForwardJumpDetector leap_;
 };

@@ -39,7 +39,7 @@ void InterpolateRow(const cv::Mat& image, const cv::Point2f& start, const cv::Po
     dy[i] = y - static_cast<float>(row);
     offset[i] = row * row_step + column;
   }
-  // Loads each pixel together with its right neighbour, which is the higher byte.
+  // Loads each pixel together with its right neighbor, which is the higher byte.
   static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
   std::array<uint16_t, kStride> upper = {}, lower = {};
   for (int i = 0; i < count; ++i) {

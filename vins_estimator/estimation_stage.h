@@ -70,16 +70,16 @@ class EstimationStage {
   // Describes a distortion model that does not fit the lens; empty if it fits (LensMonitor).
   const std::string& LensWarning() const;
   std::vector<ResidualRing> ResidualRings() const;
-  // Returns what is wrong with the input as a whole, with the topic and what to do; empty where
-  // nothing is.
+  // Returns what is wrong with the input as a whole, with the topic and what to do. Returns an
+  // empty string if nothing is.
   std::string InputFinding() const;
 
-  // States what does not fit about the second camera: its calibration, the time of its exposure, or
-  // the length of its baseline. Empty if it fits.
+  // Describes what is wrong with the second camera: its calibration, the time of its exposure, or
+  // the length of its baseline. Empty if nothing is.
   std::string SecondCameraFault() const;
 
-  int64_t frames() const { return frames_; }  // estimated so far
-  int64_t resets() const { return resets_; }  // number of world frames that were given up
+  int64_t frames() const { return frames_; }  // images estimated so far
+  int64_t resets() const { return resets_; }  // number of abandoned world frames
   size_t queued_frames() const { return sync_.queued_frames(); }
   bool lines_are_missing() const { return sync_.lines_are_missing(); }
   bool lines_are_of_other_images() const { return sync_.lines_are_of_other_images(); }
@@ -89,9 +89,9 @@ class EstimationStage {
  private:
   std::optional<EstimatedFrame> Process(std::optional<FrameMeasurement> measurement);
   void StartOver(const std::string& reason);
-  // Returns the noise as configured, or as the samples themselves show if that is more.
+  // Returns the configured noise, or the noise that the samples show if that is greater.
   ImuNoise NoiseOfSamples() const;
-  // Looks for the cause of a doubt that lasts.
+  // Searches for the cause (RotationCheck) if the estimate stays in doubt.
   void CheckRotations(const FrameMeasurement& measurement, const EstimatorOutput& output);
   // Reinitializes after a clock change: the estimate is unrelated to the new timestamps.
   void FollowClock();
@@ -101,7 +101,7 @@ class EstimationStage {
   const std::unique_ptr<Estimator> estimator_;  // hides the solver from users of this header
   InputCheck input_check_;
   const std::unique_ptr<RotationCheck> rotation_check_;
-  double doubt_ = 0;  // how long the estimate has been in doubt, or missing [s]
+  double doubt_ = 0;  // for which the estimate has been in doubt or missing [s]
   ImuNoiseMeter imu_noise_meter_;
   MeasurementSync sync_;
   RepeatedImageDetector repeated_images_;

@@ -36,7 +36,7 @@ class Estimator {
   // Fit of the distortion model, over all world frames.
   const LensMonitor& lens() const { return lens_; }
 
-  // How long images showed motion that the IMU did not feel, over all world frames [s].
+  // Time during which images showed motion that the IMU did not measure, in all world frames [s].
   double unfelt_motion() const { return unfelt_motion_; }
 
   // Current estimate of the time offset td [s], with which MeasurementSync should cut the IMU

@@ -24,10 +24,10 @@ struct CameraParameters {
   // Radtan and MEI: k1, k2, p1, p2. Equidistant (Kannala-Brandt): k1, k2, k3, k4 of theta_d = theta
   // (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8).
   Eigen::Vector4d distortion = Eigen::Vector4d::Zero();
-  double xi = 0;  // MEI only: distance of the unit sphere's centre from the projection centre
+  double xi = 0;  // MEI only: distance of the unit sphere's center from the projection center
 
   Intrinsics intrinsics() const;
-  // Returns the same camera with other intrinsics.
+  // Returns this camera with other intrinsics.
   CameraParameters With(const Intrinsics& intrinsics) const;
 };
 
@@ -60,7 +60,7 @@ class CameraModel {
 
   const CameraParameters& parameters() const { return parameters_; }
 
-  // Pixels per radian at the image centre (mean of both axes); converts normalized errors to
+  // Pixels per radian at the image center (mean of both axes); converts normalized errors to
   // pixels.
   virtual double FocalLength() const = 0;
 

@@ -11,7 +11,7 @@ namespace plm_vins {
 // size.
 void CheckImageFormat(const cv::Mat& gray, const CameraParameters& camera);
 
-// Throws likewise if the image is not depth (CV_16UC1 or CV_32FC1) of that size.
+// Throws std::invalid_argument unless the image is CV_16UC1 or CV_32FC1 of the calibrated size.
 void CheckDepthFormat(const cv::Mat& depth, const CameraParameters& camera);
 
 }  // namespace plm_vins

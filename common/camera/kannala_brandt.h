@@ -7,8 +7,8 @@ namespace plm_vins {
 
 // Fisheye camera [Kannala2006], "equidistant" in Kalibr, cv::fisheye in OpenCV: a ray at angle
 // theta to the optical axis projects to distance theta_d = theta (1 + k1 theta^2 + k2 theta^4 + k3
-// theta^6 + k4 theta^8) from the centre. Projects rays behind the camera as well, while theta_d
-// increases.
+// theta^6 + k4 theta^8) from the center. Rays behind the camera are projected too, as long as
+// theta_d increases with theta.
 class KannalaBrandt final : public CameraModel {
  public:
   explicit KannalaBrandt(const CameraParameters& parameters);

@@ -7,7 +7,7 @@
 namespace plm_vins {
 
 // Unified omnidirectional camera [Mei2007]: the point is projected onto the unit sphere and then
-// from a centre at distance xi behind the sphere's centre, (X, Y) / (Z + xi |p|); then radial and
+// from a center at distance xi behind the sphere's center, (X, Y) / (Z + xi |p|); then radial and
 // tangential distortion and scaling by gamma1, gamma2. With xi = 0 it equals PinholeRadtan.
 class Mei final : public CameraModel {
  public:

@@ -8,8 +8,8 @@
 
 namespace plm_vins {
 
-// Returns the calibration keys for this `model_type`; without the model's parameters if the type is
-// unknown. All keys are required.
+// Returns the calibration keys of this `model_type`, all required. If the type is unknown, the keys
+// of the model's parameters are missing.
 ConfigKeys<CameraParameters> CameraKeys(const std::string& model_type);
 
 // Returns whether `model_type` is supported.

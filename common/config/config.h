@@ -23,7 +23,7 @@ namespace plm_vins {
 struct Config {
   std::string file;                              // path of the file, for messages
   std::map<std::string, std::string> overrides;  // overriding texts by key
-  std::vector<std::string> warnings;             // of keys without effect; each names the file
+  std::vector<std::string> warnings;             // about keys without effect; each names the file
   SensorConfig sensor;
   double publish_rate = 0;  // rate of images passed to the estimator [Hz]; 0: all
   bool show_track = true;   // publish annotated images

@@ -47,7 +47,7 @@ template <typename Section>
 struct ConfigKey {
   std::string name;     // "td", or "group.name"
   std::string unit;     // "px"; empty: none
-  std::string allowed;  // "2 to 500", "one of fld, lsd, edlines"; empty: see `read`
+  std::string allowed;  // "2 to 500", "one of fld, lsd, edlines"; empty: `read` decides
   std::function<Problem(const YAML::Node& value, Section& section)> read;
   std::function<ConfigValue(const Section& section)> value;
   bool required = false;

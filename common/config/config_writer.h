@@ -8,7 +8,7 @@
 namespace plm_vins {
 
 // Writes a configuration file that LoadConfig() can read from any folder: every key with its
-// effective value, in OpenCV's format. A comment at its head lists the overrides.
+// effective value, in OpenCV's format. A comment at the head of the file lists the overrides.
 void WriteConfig(const Config& config, std::ostream* stream);
 
 }  // namespace plm_vins

@@ -11,7 +11,7 @@ enum class SolverType { kSchur, kCeres };
 struct EstimatorConfig {
   int window_size = 12;             // keyframes in the window, in addition to the newest frame
   double keyframe_parallax = 20.0;  // mean parallax that makes a keyframe [px]
-  int max_num_iterations = 8;       // of the window optimization
+  int max_num_iterations = 8;       // maximum iterations of the window optimization
   SolverType solver = SolverType::kSchur;
   double point_noise = 0.7;     // standard deviation of a corner [px]
   double line_noise = 0.5;      // standard deviation of an endpoint across the line [px]
@@ -25,7 +25,7 @@ struct EstimatorConfig {
   double line_merge_angle = 3.0;           // between the directions of lines that are merged [deg]
   int line_anchors = 24;                   // frames kept as anchors for recognized lines
   bool manhattan_constraints = true;       // lines along a Manhattan axis constrain the heading
-  double manhattan_noise = 1.0;            // of a line's direction about its axis [deg]
+  double manhattan_noise = 1.0;            // standard deviation of a line from its axis [deg]
 
   bool zero_velocity_update = true;
   bool verbose = false;

@@ -9,7 +9,7 @@ namespace plm_vins {
 
 struct PoseGraphConfig {
   bool loop_closure = false;      // recognize places and correct odometry drift in a map
-  bool bundle_adjustment = true;  // of the map, at the end of an offline run
+  bool bundle_adjustment = true;  // adjust the map at the end of an offline run
   std::string save_path;          // folder of the map; empty: the current folder
   bool load_previous = false;     // start from the map that was saved there
 

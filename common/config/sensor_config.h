@@ -26,7 +26,7 @@ struct SecondCamera {
   Rigid3d T_B_C;  // camera in the body (IMU) frame
 };
 
-// Depth images registered to the camera: with its size and lens.
+// Depth images that are registered to the camera: its size and lens apply.
 struct DepthSensor {
   std::string topic;
   double noise = 0.002;  // standard deviation of a depth z is noise * z^2 [1/m]

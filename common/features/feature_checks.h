@@ -19,7 +19,7 @@ constexpr double kMaxDepth = 1e4;            // [m]
 constexpr double kMaxImageVelocity = 1e4;    // [1/s], at kMaxImageCoordinate in fast rotation
 constexpr size_t kMaxFeatures = 5000;        // per image; upper limit of max_cnt and max_line_cnt
 
-// Returns false for NaN as well.
+// Returns whether both coordinates are finite and at most `limit` in magnitude.
 inline bool IsWithin(const Eigen::Vector2d& xy, double limit) {
   return xy.allFinite() && xy.cwiseAbs().maxCoeff() <= limit;
 }

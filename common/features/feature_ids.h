@@ -30,7 +30,7 @@ inline int64_t ReadId(float value) {
 // restarted tracker, which counts from zero again.
 class IdRestorer {
  public:
-  // The following ids belong to another tracker.
+  // Declares that the ids restored from now on belong to another tracker.
   void BeginTracker() {
     begin_ = highest_ + 1;
     wrap_ = 0;

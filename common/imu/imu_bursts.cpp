@@ -7,12 +7,12 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kStamps = 201;         // the newest, by which bursts are recognized
-constexpr size_t kMinBursts = 5;        // among them
-constexpr double kShort = 0.25;         // of the mean interval, inside of a burst
-constexpr double kMinShortShare = 0.6;  // of the intervals: bursts of three have two thirds
-constexpr int64_t kLongestPause_ns = 250'000'000;  // between bursts; longer ones are gaps
-constexpr double kCorrection = 0.1;  // share of an error of the phase that a burst takes away
+constexpr size_t kStamps = 201;         // newest timestamps, from which bursts are detected
+constexpr size_t kMinBursts = 5;        // minimum number of bursts among them
+constexpr double kShort = 0.25;         // longest interval within a burst, relative to the mean
+constexpr double kMinShortShare = 0.6;  // minimum share of short intervals; bursts of 3 have 2/3
+constexpr int64_t kLongestPause_ns = 250'000'000;  // longest pause; a longer one is a gap
+constexpr double kCorrection = 0.1;  // share of the phase error that each burst corrects
 
 }  // namespace
 
@@ -23,7 +23,7 @@ ImuSample ImuBursts::Spread(ImuSample sample) {
     spread_ns_.reset();
   }
   const bool begins = pause_ns > kShort * static_cast<double>(interval_ns_);
-  // By the stamp of the burst before, the last one of it.
+  // Phase error of the previous burst, from its last timestamp.
   const int64_t late_ns = spread_ns_ && begins ? stamps_.back() - *spread_ns_ : 0;
   stamps_.push_back(sample.t_ns);
   if (stamps_.size() > kStamps) stamps_.pop_front();

@@ -10,31 +10,31 @@
 
 namespace plm_vins {
 
-// Recognizes samples that come in bursts and are stamped on arrival (a driver that empties a FIFO),
-// and spreads their stamps evenly. Other samples stay as they are, bit by bit.
+// Detects samples that arrive in bursts and are stamped on arrival (by a driver that empties a
+// FIFO), and spaces their timestamps evenly. Other samples are unchanged, bit by bit.
 //
-// Of a burst, the last sample is the youngest, so that its stamp is taken for right; the stamps of
-// the others lie before it in steps of the mean interval. Samples come out at once, in order of
-// time, except that stamps step back by a burst where bursts are recognized.
+// The last sample of a burst is the youngest, so its timestamp is taken as correct; the other
+// samples precede it in steps of the mean interval. Samples are returned at once, in temporal
+// order, except that timestamps step back by one burst when bursts are first detected.
 class ImuBursts {
  public:
-  // Returns the sample with the stamp to use.
+  // Returns the sample with the timestamp to use.
   ImuSample Spread(ImuSample sample);
 
-  // Samples in a burst, about, and their mean interval [s]; zero while there are no bursts.
+  // Approximate number of samples in a burst, and their mean interval [s]; zero without bursts.
   size_t size() const { return size_; }
   double interval() const { return ToSeconds(interval_ns_); }
 
  private:
-  // Sets size_ and interval_ns_ by the newest stamps.
+  // Sets size_ and interval_ns_ from the newest timestamps.
   void Recognize();
-  // `late_ns`: by how much the last stamp of the burst before was later than what it was spread to.
+  // `late_ns`: last timestamp of the previous burst minus the one that was assigned to it.
   int64_t SpreadStamp(int64_t t_ns, int64_t late_ns);
 
-  std::deque<int64_t> stamps_;  // the newest, as they came
+  std::deque<int64_t> stamps_;  // newest timestamps, as received
   size_t size_ = 0;
   int64_t interval_ns_ = 0;
-  std::optional<int64_t> spread_ns_;  // the newest stamp that was spread; nullopt where it begins
+  std::optional<int64_t> spread_ns_;  // newest assigned timestamp; nullopt if there is none
 };
 
 }  // namespace plm_vins

@@ -8,17 +8,17 @@
 
 namespace plm_vins {
 
-// Recognizes samples that no IMU in working order sends as specific force [m/s^2] and angular rate
-// [rad/s]: sensors that are missing or send in turn, other units, gravity that was removed. Counts
-// all samples since construction, before anything is dropped or corrected.
+// Detects samples that no working IMU sends as specific force [m/s^2] and angular rate [rad/s]:
+// missing or alternating sensors, other units, removed gravity. Counts all samples since
+// construction, before any is dropped or corrected.
 class ImuContent {
  public:
   explicit ImuContent(double gravity_norm) : gravity_norm_(gravity_norm) {}
 
   void Add(const ImuSample& sample);
 
-  // Returns what the samples of `topic` show, and what to do; empty where they are as expected, or
-  // too few to tell.
+  // Returns what the samples of `topic` show, and what to do. Returns an empty string if they are
+  // plausible or too few.
   std::string Finding(const std::string& topic) const;
 
  private:

@@ -11,7 +11,7 @@
 namespace plm_vins {
 
 // Replaces outlier readings of the IMU (a flipped bit on the bus, a shock) by linear interpolation
-// between their neighbours. The doubt of the replacement (an additional standard deviation) equals
+// between their neighbors. The doubt of the replacement (an additional standard deviation) equals
 // the removed difference, since a shock may have moved the body after all.
 //
 // A reading is suspect if it exceeds the sensor's range, or differs from the last one by much more
@@ -22,8 +22,8 @@ namespace plm_vins {
 // A saturated reading is accepted as well, with a doubt of at least half the range, since the true
 // value may be larger.
 //
-// Readings are judged as the sensor delivers them, and returned corrected (ImuSensor): whatever
-// integrates samples takes them from a gate.
+// Readings are judged as the sensor delivers them, and returned corrected (see ImuSensor), so
+// everything that integrates IMU samples has to take them from a gate.
 class ImuGate {
  public:
   static constexpr int kMaxRun = 5;  // consecutive suspects, 25 ms at 200 Hz
@@ -59,7 +59,7 @@ class ImuGate {
 
   ImuSensor sensor_;
   std::optional<ImuSample> last_;    // newest accepted sample
-  std::vector<ImuSample> suspects_;  // all samples after it
+  std::vector<ImuSample> suspects_;  // all samples after `last_`
   Leaps gyro_leaps_, accel_leaps_;
   int64_t replaced_ = 0;
   int64_t saturated_ = 0;

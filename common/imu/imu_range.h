@@ -14,7 +14,7 @@ struct ImuRange {
 // Exceeds the readings of IMUs on vehicles and handheld devices.
 constexpr ImuRange kAnyImuRange = {100.0, 500.0};
 
-// Returns false for NaN as well.
+// Returns whether all readings are finite and within the range.
 inline bool IsInRange(const ImuSample& sample, const ImuRange& range = kAnyImuRange) {
   return sample.gyro.allFinite() && sample.accel.allFinite() &&
          sample.gyro.cwiseAbs().maxCoeff() <= range.gyro &&

@@ -19,7 +19,7 @@ struct ImuSensor {
 // Returns the sample with corrected readings. The identity leaves every bit as it is.
 ImuSample Corrected(const ImuSample& sample, const ImuSensor& sensor);
 
-// The inverse: the sample that the sensor delivers.
+// Returns the sample as the sensor delivers it; the inverse of Corrected().
 ImuSample Uncorrected(const ImuSample& sample, const ImuSensor& sensor);
 
 }  // namespace plm_vins

@@ -10,10 +10,10 @@ namespace plm_vins {
 // Stores the value of an option; returns an error message, or an empty string if it is valid.
 using TakeValue = std::function<std::string(const std::string& text)>;
 
-// Takes a path. It must not be empty, as from an unset shell variable.
+// Takes a path. Rejects an empty one, which an unset shell variable yields.
 TakeValue TakePath(std::string* path);
 
-// Takes a number in a range; "nan" is none.
+// Takes a number from `least` to `most`; rejects "nan".
 TakeValue TakeNumber(double least, double most, double* number);
 
 // The long options of a program. Errors are std::runtime_error and name the option.

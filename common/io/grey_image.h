@@ -5,7 +5,7 @@
 
 namespace plm_vins {
 
-// Flags for reading a grey image with its rows as the camera delivered them: the calibration does
+// Flags for reading a gray image with its rows as the camera delivered them: the calibration does
 // not apply to an image rotated by the orientation tag of its file.
 constexpr int kReadGreyAsStored = cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION;
 

@@ -7,8 +7,8 @@
 
 namespace plm_vins {
 
-// A file being written. Throws std::runtime_error with the file name if it cannot be opened, or, as
-// on a full disk, at a later stream() or in Close() at the latest.
+// A file being written. Throws std::runtime_error with the file name if it cannot be opened. Write
+// errors (a full disk) are thrown by a later stream(), or at the latest by Close().
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path) : OutputFile(path, path) {}
@@ -32,7 +32,7 @@ class OutputFile {
 // program is killed.
 class ReplacedFile {
  public:
-  // Starts writing next to the file. Throws as OutputFile does.
+  // Starts writing PATH.part. Throws std::runtime_error if it cannot be opened.
   explicit ReplacedFile(const std::string& path);
   ~ReplacedFile();
   ReplacedFile(const ReplacedFile&) = delete;

@@ -47,7 +47,7 @@ sensor_msgs::ImageConstPtr LowByteFirst(const sensor_msgs::ImageConstPtr& messag
   return turned;
 }
 
-// Shares the pixels of a grey message. Some drivers name only the OpenCV type of grey images, which
+// Shares the pixels of a gray message. Some drivers name only the OpenCV type of gray images, which
 // cv_bridge cannot convert to mono8.
 cv_bridge::CvImageConstPtr ToGrey(const sensor_msgs::ImageConstPtr& message) {
   namespace encodings = sensor_msgs::image_encodings;

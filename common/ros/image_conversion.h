@@ -14,9 +14,9 @@
 
 namespace plm_vins {
 
-// Converts a grey image of any encoding that cv_bridge supports (mono8, mono16, bgr8, rgb8, Bayer,
+// Converts a gray image of any encoding that cv_bridge supports (mono8, mono16, bgr8, rgb8, Bayer,
 // ...). Throws std::invalid_argument with the encoding if it is not supported or the data do not
-// have the size of the image. Pixels that are grey already are shared with the message, which the
+// have the size of the image. Pixels that are gray already are shared with the message, which the
 // sample then co-owns.
 ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message);
 // Copies the pixels, so that the message need not outlive the sample.

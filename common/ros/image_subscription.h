@@ -18,12 +18,12 @@
 
 namespace plm_vins {
 
-// Subscribes to grey images with the transport named by ~image_transport: raw (default), compressed
+// Subscribes to gray images with the transport named by ~image_transport: raw (default), compressed
 // (decoded here without a plugin) or the name of any plugin. The destructor unsubscribes and waits
 // for a running callback.
 class ImageSubscription {
  public:
-  // `name` is that of the stream in diagnostics.
+  // `name` names the stream in diagnostics.
   explicit ImageSubscription(const std::string& name = "images") : stream_(name) {
     unreadable_.cause = name + "_unreadable";
   }

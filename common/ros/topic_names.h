@@ -5,7 +5,7 @@
 
 namespace plm_vins {
 
-// Name of a topic in a recording: absolute, as of a node without a namespace.
+// Returns the name of a topic in a recording: absolute, as of a node without a namespace.
 inline std::string AbsoluteTopic(const std::string& topic) {
   return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
 }

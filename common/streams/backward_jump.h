@@ -41,8 +41,8 @@ class BackwardJumpDetector {
 
   int patience_;
   int rejected_in_a_row_ = 0;
-  int64_t first_rejected_ns_ = 0;  // of the consecutive ones
-  int64_t rejected_ns_ = 0;        // the last one
+  int64_t first_rejected_ns_ = 0;  // first of the consecutive rejected timestamps
+  int64_t rejected_ns_ = 0;        // last rejected timestamp
 };
 
 }  // namespace plm_vins

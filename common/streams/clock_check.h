@@ -11,16 +11,16 @@
 
 namespace plm_vins {
 
-// Notices images and IMU samples whose stamps are of two clocks: for seconds of both, the newest
-// stamps are apart by more than any time offset. Feed in order of arrival, after td was added to
-// the images' stamps. Streams that begin one after the other, gaps, and stalls of the transport by
-// less than kMinSpan_ns are none.
+// Detects images and IMU samples that were stamped by different clocks: for some seconds of both
+// streams, their newest timestamps differ by more than any time offset. Samples must be added in
+// order of arrival, with td added to image timestamps. Streams that start at different times, gaps,
+// and transport stalls of less than kMinSpan_ns are not reported.
 class ClockCheck {
  public:
   void AddImu(int64_t t_ns) { Add(t_ns, &imu_, images_); }
   void AddImage(int64_t t_ns) { Add(t_ns, &images_, imu_); }
 
-  // Returns both stamps and their difference; empty where there is one clock.
+  // Returns a message with both timestamps and their difference; empty for a common clock.
   std::string Finding(const std::string& image_topic, const std::string& imu_topic) const {
     if (!found_) return "";
     const double images = ToSeconds(found_->images_ns), imu = ToSeconds(found_->imu_ns);
@@ -31,7 +31,7 @@ class ClockCheck {
   }
 
  private:
-  // Since both were last near each other.
+  // Timestamps of a stream since both streams were last within kApart_ns.
   struct Stream {
     std::optional<int64_t> first_ns;
     int64_t newest_ns = 0;

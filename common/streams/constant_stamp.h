@@ -9,7 +9,7 @@
 
 namespace plm_vins {
 
-// Notices a stream whose stamps never change, as of a driver that does not set them.
+// Detects a stream whose timestamps never change because its driver does not set them.
 class ConstantStamp {
  public:
   void Add(int64_t t_ns) {
@@ -17,7 +17,7 @@ class ConstantStamp {
     differs_ = differs_ || t_ns != t_ns_;
   }
 
-  // Returns what is wrong with the stamps of `topic`; empty where they change, or are too few.
+  // Returns what is wrong with the timestamps of `topic`; empty if they change or are too few.
   std::string Finding(const std::string& topic) const {
     if (differs_ || messages_ < kMinMessages) return "";
     return "all stamps of " + topic + " are " +
@@ -29,7 +29,7 @@ class ConstantStamp {
   static constexpr int64_t kMinMessages = 20;
 
   int64_t messages_ = 0;
-  int64_t t_ns_ = 0;  // of the first
+  int64_t t_ns_ = 0;  // timestamp of the first message
   bool differs_ = false;
 };
 

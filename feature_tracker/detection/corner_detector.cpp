@@ -12,8 +12,8 @@
 namespace plm_vins {
 namespace {
 
-// White noise of 2 grey levels stays below this threshold even when CLAHE amplifies it; corners of
-// a lit scene reach 0.1 (gradients are in units of the full grey range).
+// White noise of 2 gray levels stays below this threshold even when CLAHE amplifies it; corners of
+// a lit scene reach 0.1 (gradients are in units of the full gray range).
 constexpr float kMinEigenvalue = 5e-4F;
 constexpr int kCornersPerRegion = 8;  // mean number for each region of RegionQueue
 

@@ -16,7 +16,7 @@ constexpr double kSureRate = 0.5;         // no gyroscope is biased like this [r
 constexpr int kCell_px = 16;
 
 constexpr int kWindow_px = 5;          // of the correlation: as large as a dot
-constexpr double kMinContrast = 5;     // standard deviation in the window [grey levels]
+constexpr double kMinContrast = 5;     // standard deviation in the window [gray levels]
 constexpr double kSame = 0.8;          // least correlation of parts that stand still
 constexpr double kDiffers = 0.5;       // greatest correlation of parts that move
 constexpr double kMovingShare = 0.15;  // of the textured area, if the camera moves

@@ -18,10 +18,10 @@ namespace plm_vins {
 // projector, dirt on the lens, text, parts of the vehicle. Their corners contradict the camera's
 // motion, and must not be tracked.
 //
-// The image is compared with one from up to a second before, from which the camera has turned so
-// far that the scene has moved by many pixels. Parts that are the same there, at the same place, do
-// not belong to the scene. They are masked only if many tracks lie on them while other parts of the
-// image move, because a biased gyroscope at standstill shows a rotation as well.
+// The image is compared with one from up to a second before, since which the camera has turned so
+// far that the scene has moved by many pixels. Parts that look equal at the same place in both
+// images do not belong to the scene. They are masked only if many tracks lie on them while other
+// parts of the image move, because a biased gyroscope shows a rotation at standstill as well.
 class StillParts {
  public:
   explicit StillParts(std::shared_ptr<const CameraModel> camera) : camera_(std::move(camera)) {}
@@ -47,7 +47,7 @@ class StillParts {
 
   // Returns the newest image from which the camera has turned far enough, or null.
   const Past* FindReference() const;
-  // Returns, in cells of the image, where a rotation moves the scene by many pixels (CV_8UC1).
+  // Returns the cells of the image (CV_8UC1) in which a rotation moves the scene by many pixels.
   cv::Mat TurnedCells(const Eigen::Quaterniond& R_now_then) const;
   void Compare(const Past& reference, const cv::Mat& gray, const std::vector<cv::Point2f>& corners);
 

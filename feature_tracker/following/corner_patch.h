@@ -7,7 +7,7 @@
 
 namespace plm_vins {
 
-// Pose of a patch in an image: the patch pixel p, relative to its centre, is at linear * p +
+// Pose of a patch in an image: the patch pixel p, relative to its center, is at linear * p +
 // center.
 struct PatchPose {
   Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();

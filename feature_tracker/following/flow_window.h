@@ -25,7 +25,7 @@ class FlowWindow {
   // if its texture does not constrain both directions of motion.
   bool Cut(const cv::Mat& image, const cv::Point2f& center);
 
-  // Returns the first-order step from `center` [px] in another image towards the window. Returns
+  // Returns the first-order step from `center` [px] in another image toward the window. Returns
   // nullopt if the window is entirely outside the image.
   std::optional<cv::Point2f> Step(const cv::Mat& image, const cv::Point2f& center);
 

@@ -14,20 +14,20 @@
 
 namespace plm_vins {
 
-// Finds tracked corners in the image of the second camera: correlation along the epipolar curve,
-// from beyond infinity to 0.3 m, with a check for uniqueness and one from right to left; alignment
-// with the patch that the track is aligned with in the first image; distance from the epipolar
+// Finds tracked corners in the image of the second camera. Correlates along the epipolar curve,
+// from beyond infinity to 0.3 m, and requires a unique match that also holds from right to left.
+// The match is then aligned with the patch of the track and gated by its distance from the epipolar
 // curve. The mounting may be off by half a degree, and the second camera late by some milliseconds:
-// both are learned from the matches, and matches are given as of the first camera's timestamp.
+// both are learned from the matches, which are returned as of the first camera's timestamp.
 class StereoMatcher {
  public:
   explicit StereoMatcher(const CameraPair& pair);
 
-  // Throws std::invalid_argument where the image is not CV_8UC1 of the calibrated size.
+  // Throws std::invalid_argument if the image is not CV_8UC1 of the calibrated size.
   void CheckRight(const cv::Mat& right) const;
 
-  // Searches in `right` for the tracks of the image `left` of the same stamp, both CV_8UC1 as they
-  // came from the cameras. Sets the tracks' `right` and `right_search`.
+  // Searches in `right` for the tracks of the image `left` with the same timestamp, both CV_8UC1 as
+  // delivered by the cameras. Sets the tracks' `right` and `right_search`.
   void Match(const cv::Mat& left, const cv::Mat& right, std::vector<PointTrack>* tracks);
 
   const MountingEstimate& mounting() const { return mounting_; }
@@ -53,21 +53,21 @@ class StereoMatcher {
   bool IsDue(const PointTrack& track) const;
   void Judge(std::vector<Search>* searches);
   std::optional<Place> Find(const Images& images, const PointTrack& track) const;
-  // Searches all along the epipolar curve, and back; or only where the last match leads to.
+  // Search along the whole epipolar curve and back, or only near the last match.
   std::optional<Place> FindAnywhere(const Images& images, const PointTrack& track) const;
   std::optional<Place> FindAgain(const Images& images, const PointTrack& track) const;
   std::optional<Place> Align(const Images& images, const CurvePoint& seed,
                              const PointTrack& track) const;
   Eigen::Vector2d WhenSeen(const PointTrack& track) const;
-  Eigen::Vector2d InTime(const StereoMatch& match) const;  // if the second camera were
+  Eigen::Vector2d InTime(const StereoMatch& match) const;  // the delay removed
   bool IsLate() const;
   bool IsTrusted() const;
   bool IsTurn(const PointTrack& track, int interval) const;
-  bool IsBehind(const Place& place) const;  // more than a turned mounting explains
+  bool IsBehind(const Place& place) const;  // beyond infinity by more than mounting errors explain
   double band_px() const;
 
   CameraPair stated_;
-  CameraPair pair_;  // as the mounting is estimated to be
+  CameraPair pair_;  // with the estimated mounting
   MountingEstimate mounting_;
   // Shares of the searches in the last images.
   struct Shares {

@@ -8,9 +8,9 @@
 namespace plm_vins {
 
 struct SegmentMergingLimits {
-  double gap = 12;        // between the endpoints to be joined
-  double distance = 1.5;  // of a fragment's endpoints from the other's line
-  double angle = 0.07;    // between the lines [rad]
+  double gap = 12;        // maximum distance between the endpoints to be joined
+  double distance = 1.5;  // maximum distance of a fragment's endpoints from the other's line
+  double angle = 0.07;    // maximum angle between the lines [rad]
 };
 
 // Joins collinear fragments of the same direction end to start, starting with the longest. Lengths

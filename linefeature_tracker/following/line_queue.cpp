@@ -17,8 +17,8 @@ int Bin(double value, double range, int count) {
 LineQueue::LineQueue(const cv::Size& image_size)
     : image_size_(image_size), queue_(kColumns * kRows * kDirections) {}
 
-// Direction bins are centred at the image axes, so that vertical and horizontal lines do not lie on
-// a bin boundary.
+// Direction bins are centered at the image axes, so that vertical and horizontal lines do not lie
+// on a bin boundary.
 size_t LineQueue::BinOf(const LineSegment& segment_px) const {
   const Eigen::Vector2d middle = segment_px.Midpoint();
   const Eigen::Vector2d direction = segment_px.Direction();

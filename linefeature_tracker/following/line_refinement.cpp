@@ -156,7 +156,7 @@ bool LineRefinement::IsVisible(const Eigen::Vector2d& pixel) const {
 }
 
 // Finds the steepest brightness increase across the line, with preference for positions near the
-// sample, and refines it to the vertex of the parabola through its neighbours.
+// sample, and refines it to the vertex of the parabola through its neighbors.
 void LineRefinement::LocateEdge(const cv::Mat& image, int search_px, EdgePoint* point) const {
   const int radius = search_px + 2;
   const Eigen::Vector2f center = point->sample.pixel.cast<float>();

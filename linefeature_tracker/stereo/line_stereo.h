@@ -16,10 +16,10 @@
 namespace plm_vins {
 
 // Finds tracked lines in the image of the second camera. A few points of a line are searched for
-// along their epipolar curves; the inverse depth is linear along a line's image, so a line through
-// most of them predicts where the second camera sees it, and the edge there is located as
-// in the first image. A line that is almost parallel to the epipolar curves has no depth to be
-// found and is not matched.
+// along their epipolar curves. The inverse depth is linear along the image of a line, so a fit to
+// most of these points predicts the line in the second camera, where its edge is located as in the
+// first image. A line that is almost parallel to the epipolar curves is not matched, since its
+// depth is unobservable.
 class LineStereo {
  public:
   LineStereo(const LineTrackerConfig& config, const CameraPair& pair);

@@ -28,8 +28,8 @@ struct TrackedItem {
 // this kind of machine: suitable for comparisons, not for archiving.
 class FeatureFileWriter {
  public:
-  // `tracker_values` is that of TrackerValues(). Throws std::runtime_error with the file name if it
-  // cannot be written; Close() as well.
+  // `tracker_values` is the result of TrackerValues(). Throws std::runtime_error with the file name
+  // if the file cannot be written; so does Close().
   FeatureFileWriter(const std::string& file, const Json& tracker_values);
 
   void Add(const TrackedItem& item);

@@ -30,7 +30,7 @@ struct PipelineFrame {
   EstimatorOutput output;
   ImageSample image;           // without pixels unless loops are closed
   std::vector<ImuSample> imu;  // as used by the estimator, without those of the previous frame
-  int64_t imu_ns = 0;          // time of the state in IMU time: that of the last sample
+  int64_t imu_ns = 0;          // IMU time of the state, which is that of the last sample
   PointFrame points;
   LineFrame lines;
   double point_tracking_ms = 0;
@@ -77,7 +77,7 @@ class OdometryPipeline {
   int64_t unused_images() const { return images() - thinned_images_ - estimated_images_; }
   std::optional<int64_t> first_image_ns() const { return first_image_.t_ns(); }
   std::optional<int64_t> last_frame_ns() const { return last_frame_ns_; }  // last estimated frame
-  // Over all samples read, used or not.
+  // First timestamp of all samples that were read, whether used or not.
   std::optional<int64_t> first_imu_ns() const { return first_imu_.t_ns(); }
   DropCounts drops() const;
   // Returns what is wrong with the timestamps of the images or with the input as a whole, and what

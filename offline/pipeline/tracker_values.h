@@ -14,10 +14,10 @@ namespace plm_vins {
 // an effect, since the estimator uses them.)
 Json TrackerValues(const Config& config);
 
-// Returns the values with which features were recorded that differ from those of `config`.
+// Returns those values the features were recorded with that differ from the values of `config`.
 Json RecordedOtherwise(const Json& recorded, const Config& config);
 
-// Warning about these differences.
+// Formats the warning about these differences.
 std::string RecordedOtherwiseWarning(const std::string& file, const Json& otherwise);
 
 }  // namespace plm_vins

@@ -19,7 +19,7 @@ class ConfirmedStamp {
     seen_ = true;
   }
 
-  // Returns whether the timestamp is confirmed, or supported by this one of another stream.
+  // Returns whether the first timestamp is confirmed or near `t_ns`, a timestamp of any stream.
   bool Admits(int64_t t_ns) const { return confirmed_ || IsNear(t_ns); }
 
   std::optional<int64_t> t_ns() const { return seen_ ? std::make_optional(t_ns_) : std::nullopt; }

@@ -28,12 +28,12 @@ class Recording {
   // Returns the next measurement, or nullopt at the end of the readable data.
   virtual std::optional<RecordingEvent> Next() = 0;
 
-  // Returns the image of the event that Next() returned last, grey or as DepthSample has it, or
-  // nullopt, counted by problems(), if it is unreadable.
+  // Loads the image of the event that Next() returned last: CV_8UC1, or depth as in DepthSample.
+  // Returns nullopt if it is unreadable, which problems() counts.
   virtual std::optional<cv::Mat> LoadImage() = 0;
 
   virtual std::string name() const = 0;  // for reports
-  // Origin of its images or IMU samples: a file, or a topic and its key.
+  // Origin of the images or IMU samples: a file, or a topic and its key.
   virtual std::string Source(RecordingEvent::Kind kind) const = 0;
 
   // Approximate end of the recording; nullopt if not known in advance.

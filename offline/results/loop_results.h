@@ -69,7 +69,7 @@ class LoopResults {
 
   std::string folder_;
   std::shared_ptr<const CameraModel> camera_;  // as configured
-  CameraParameters refined_camera_;            // at the last pose in M: that of the keyframes' rays
+  CameraParameters refined_camera_;            // at the last pose in M; defines the keyframes' rays
   LoopCloser loops_;
   std::optional<MapBundle> bundle_;
   std::optional<Adjusted> adjusted_;

@@ -18,7 +18,7 @@ class TimedFile {
   // `header` is written at the beginning of each file.
   explicit TimedFile(const std::string& path, const std::string& header = "");
 
-  // Returns the stream for the row of that time.
+  // Returns the stream for the row with this timestamp.
   std::ostream& Row(int64_t t_ns);
 
   // Adds lines to be written before the next row.

@@ -11,9 +11,9 @@
 
 namespace plm_vins {
 
-// Reader of the records of a bag of format 2.0, see https://wiki.ros.org/Bags/Format/2.0. Whatever
-// sizes and offsets the file claims, nothing is read beyond its end or that of an unpacked chunk;
-// invalid values throw std::runtime_error.
+// Reader of the records of a bag of format 2.0, see https://wiki.ros.org/Bags/Format/2.0. Never
+// reads beyond the end of the file or of an unpacked chunk, whatever sizes and offsets the file
+// claims; invalid values throw std::runtime_error.
 
 enum class BagOp : uint8_t {
   kMessage = 2,

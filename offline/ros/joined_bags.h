@@ -12,14 +12,14 @@
 
 namespace plm_vins {
 
-// The messages of several bags, such as `rosbag record --split` writes, as if they were in one:
-// merged in order of their time of recording, whatever the order of the files.
+// Reads several bags, such as those of `rosbag record --split`, as if they were one: messages are
+// merged by their recording time, whatever the order of the files.
 class JoinedBags {
  public:
-  // Throws std::runtime_error where a file cannot be read, is no bag or has no index.
+  // Throws std::runtime_error if a file cannot be read, is not a bag or has no index.
   explicit JoinedBags(const std::vector<std::string>& files);
 
-  // As in IndexedBag, for all bags together.
+  // The functions of IndexedBag, for all bags together.
   TypedTopics topics() const;
   void Select(const TypedTopics& topics);
   std::optional<BagMessage> Next();

@@ -12,7 +12,7 @@
 
 namespace plm_vins {
 
-// Returns the image direction of gravity at the pixel with the ray (xy, 1) [deg, from u towards v].
+// Returns the image direction of gravity at the pixel with the ray (xy, 1) [deg, from u toward v].
 // A rotation about the optical axis rotates it together with the image patch.
 float GravityAngle(const CameraModel& camera, const Eigen::Quaterniond& R_O_C,
                    const Eigen::Vector2d& xy);

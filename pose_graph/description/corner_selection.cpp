@@ -9,7 +9,7 @@ namespace plm_vins {
 namespace {
 
 constexpr int kFastReach_px = 4;     // radius of FAST's circle plus that of non-maximum suppression
-constexpr int kClearThreshold = 25;  // [grey levels]
+constexpr int kClearThreshold = 25;  // [gray levels]
 
 cv::Point TopRight(const cv::Rect& pixels) { return {pixels.x + pixels.width, pixels.y}; }
 

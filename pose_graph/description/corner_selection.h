@@ -12,7 +12,7 @@ namespace plm_vins {
 struct CornerSelectionOptions {
   int max_corners = 300;                 // including the known corners
   int cell_px = 32;                      // grid cell size; each cell takes one new corner
-  int fast_threshold = 12;               // [grey levels]
+  int fast_threshold = 12;               // [gray levels]
   int border_px = kDescriptorBorder_px;  // margin without corners, where descriptors do not fit
 };
 

@@ -8,10 +8,10 @@
 
 namespace plm_vins {
 
-// Standard deviations of odometry drift, as linear functions of the distance travelled.
+// Standard deviations of odometry drift, as linear functions of the distance traveled.
 struct DriftBudget {
   double position_floor;  // [m]
-  double position_rate;   // per distance travelled [1]
+  double position_rate;   // per distance traveled [1]
   double yaw_floor;       // [rad]
   double yaw_rate;        // [rad/m]
 
@@ -25,7 +25,7 @@ struct DriftBudget {
 
   Matrix4d Covariance(double distance) const { return Variances(distance).asDiagonal(); }
 
-  // Returns the distance travelled after which drift reaches these variances [m]; zero if they are
+  // Returns the distance traveled after which drift reaches these variances [m]; zero if they are
   // below the floor.
   double DistanceOf(const Vector4d& variances) const {
     const double position = std::sqrt(variances.head<3>().maxCoeff());

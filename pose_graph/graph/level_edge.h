@@ -32,7 +32,7 @@ inline Vector4d EdgeError(const LevelTransform& measured, const LevelTransform& 
   return error;
 }
 
-// W with W^T W = covariance^-1.
+// Returns W with W^T W = covariance^-1.
 Matrix4d Whitening(const Matrix4d& covariance);
 
 // Mahalanobis distance of the residual [standard deviations].

@@ -16,7 +16,7 @@ class PoseGraph {
   int AddNode(const LevelTransform& T_M_L);
   void AddEdge(const LevelEdge& edge) { edges_.push_back(edge); }
 
-  // Removes a node. Its edges are transferred to its most certain neighbour. If two edges then
+  // Removes a node. Its edges are transferred to its most certain neighbor. If two edges then
   // connect the same nodes, the one with the smaller covariance stays, since both derive mostly
   // from the same landmarks. node() still returns the removed node's pose, which is fixed relative
   // to `anchor`, a node of the same part.

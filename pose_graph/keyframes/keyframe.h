@@ -27,7 +27,7 @@ struct DescribedCorner {
 struct Keyframe {
   int64_t t_ns = 0;
   int world = 0;    // number of the odometry's world O; each start of odometry begins a new one
-  double path = 0;  // distance travelled since the start of O [m]
+  double path = 0;  // distance traveled since the start of O [m]
   Rigid3d T_O_B;
   Matrix4d covariance = Matrix4d::Zero();  // of T_O_B as (x, y, z, yaw), as estimated by odometry
   Rigid3d T_B_C;

@@ -13,7 +13,7 @@ struct MapThinningOptions {
   double min_age = 20;             // younger keyframes are always kept [s]
   double distance = 0.5;           // [m]
   double angle = 20 * M_PI / 180;  // [rad]
-  double way = 3;  // max. odometry path between the two; drift makes more uncertain [m]
+  double way = 3;  // maximum odometry path between them; longer ones drift too much [m]
   int enough = 5;  // keyframes that suffice for one viewpoint
 };
 
@@ -30,8 +30,8 @@ class MapThinning {
  public:
   explicit MapThinning(const MapThinningOptions& options) : options_(options) {}
 
-  // Starts with a map that is thinned already: examines only the keyframes that were too young
-  // then.
+  // Starts with a map that is already thinned: examines only the keyframes that were too young when
+  // it was thinned.
   void StartBehind(const KeyframeMap& map);
 
   // Returns the next redundant keyframe that has become old, or nullopt. The caller must remove it

@@ -25,7 +25,7 @@ class PlaceInMap {
   void AddKeyframe(const KeyframeMap& map);
 
   // Adds a loop to a keyframe of the newest world. If it connects two parts, the covariances of the
-  // later part are derived from it, never those of M's part.
+  // later part are derived from it; those of the part of M are unchanged.
   void AddLoop(const KeyframeMap& map, const LevelEdge& loop);
 
   // Recomputes all covariances from the loops that remain in the map's graph, which discards the
@@ -43,7 +43,7 @@ class PlaceInMap {
 
   int newest() const { return static_cast<int>(places_.size()) - 1; }
   const Matrix4d& Covariance(int keyframe) const { return places_[keyframe].covariance; }
-  // Uses a loop between two keyframes of the same part.
+  // Updates the covariances with a loop between two keyframes of the same part.
   void Improve(const KeyframeMap& map, const LevelEdge& loop);
   // Merges the part of the loop's end into that of its start.
   void Join(const KeyframeMap& map, const LevelEdge& loop);

@@ -74,7 +74,7 @@ std::unique_ptr<const CameraModel> WrittenCamera(CameraParameters camera) {
 
 // Projects the ray instead of using the stored pixel: the keyframe's camera may have been another
 // one, or may have been refined since. COLMAP's pixel coordinates start at the corner of the first
-// pixel, ours at its centre.
+// pixel, ours at its center.
 Eigen::Vector2d ToColmapPixel(const CameraModel& camera, const DescribedCorner& corner) {
   const auto uv_px = camera.Project(corner.xy.cast<double>().homogeneous());
   return uv_px.value_or(corner.uv_px.cast<double>()) + Eigen::Vector2d(0.5, 0.5);
@@ -116,7 +116,7 @@ void WritePoints(const std::map<LandmarkKey, ColmapPoint>& points, std::ostream*
   for (const auto& [name, point] : points) {
     *stream << point.id;
     for (int i = 0; i < 3; ++i) *stream << ' ' << point.p_M(i);
-    *stream << " 128 128 128 0";  // colour grey; the error is unknown
+    *stream << " 128 128 128 0";  // color gray; the error is unknown
     for (const auto& [keyframe, corner] : point.views) {
       *stream << ' ' << keyframe + 1 << ' ' << corner;
     }

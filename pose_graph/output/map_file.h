@@ -25,8 +25,8 @@ struct PreviousMap {
 };
 
 // Loads the map of load_previous_pose_graph. A missing file yields an empty map with a warning,
-// since configurations of VINS-Mono and PL-VINS name folders of other machines. Otherwise the same
-// as LoadMap().
+// since configurations of VINS-Mono and PL-VINS name folders of other machines. Otherwise it
+// behaves like LoadMap().
 PreviousMap LoadPreviousMap(const std::string& file);
 
 }  // namespace plm_vins

@@ -12,7 +12,7 @@ namespace plm_vins {
 struct PlaceRecognitionOptions {
   CornerIndexOptions index;
   double min_time = 15;           // age of an image that counts as another visit [s]
-  int island_radius = 3;          // neighbouring keyframes on each side that show the same place
+  int island_radius = 3;          // neighboring keyframes on each side that show the same place
   int max_islands = 3;            // candidates for each image
   double min_score_share = 0.05;  // relative to the score of the preceding image
   int memory = 2;                 // preceding images, one of which must have led to the same island

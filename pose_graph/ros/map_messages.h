@@ -23,7 +23,7 @@ nav_msgs::Odometry ToMap(const nav_msgs::Odometry& odometry, const MapFix& fix,
 nav_msgs::Path ToPath(const KeyframeMap& map, const std::string& map_frame,
                       const std::string& world_frame);
 
-// Two line lists in the map frame: odometry edges (grey) and loops (green), with the timestamp of
+// Two line lists in the map frame: odometry edges (gray) and loops (green), with the timestamp of
 // the newest keyframe. An empty list becomes a deletion, since rviz reports it as an error.
 visualization_msgs::MarkerArray ToGraphMarkers(const KeyframeMap& map,
                                                const std::string& map_frame);

@@ -25,9 +25,9 @@ struct LoopVerificationOptions {
   LevelPoseRansacOptions ransac;
   LoopRefinementOptions refinement;
   LineWitnessOptions witnesses;
-  int max_common_tracks = 40;  // more mean that it is the same visit
+  int max_common_tracks = 40;  // a pair with more belongs to the same visit
   int min_matches = 15;
-  int min_pose_inliers = 8;  // of the matches
+  int min_pose_inliers = 8;  // among the matches
   int min_inliers = 12;      // in the later image
   double min_inlier_share = 0.3;
   double max_manhattan_error = 3 * M_PI / 180;  // [rad]
@@ -39,7 +39,7 @@ struct LoopVerificationOptions {
   double min_line_share = 0.15;
 };
 
-// A keyframe (an element of `all`) and its temporal neighbours, whose landmarks supplement its own.
+// A keyframe (an element of `all`) and its temporal neighbors, whose landmarks supplement its own.
 struct Island {
   const Keyframe* keyframe = nullptr;
   std::vector<const Keyframe*> all;
@@ -51,9 +51,9 @@ class LoopVerification {
   LoopVerification(const LoopVerificationOptions& options,
                    std::shared_ptr<const CameraModel> camera);
 
-  // Passes the candidate through the gates from kApart to kLines. Sets the gates' values, the gate
-  // that rejected it, or else the relative pose with covariance. Returns the consistent
-  // observations, as far as the gates were reached.
+  // Passes the candidate through the gates from kApart to kLines. Sets the values of the gates, and
+  // the gate that rejected the candidate or, if none did, the relative pose with covariance.
+  // Returns the consistent observations of the gates that were reached.
   LoopObservations Verify(const Island& earlier, const Island& later,
                           LoopCandidate* candidate) const;
 

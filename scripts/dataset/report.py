@@ -148,7 +148,7 @@ def _pictures(figures):
         return ""
     parts = [f"### {heading}\n\n" + "\n".join(f"![{os.path.basename(p)}]({p})" for p in paths)
              for heading, paths in figures.items()]
-    return ("## Figures\n\nOf each sequence: the trajectories coloured by their error; the APE over"
+    return ("## Figures\n\nOf each sequence: the trajectories colored by their error; the APE over"
             " time with its RMSE, mean, median and standard deviation; the paths from above; the"
             " translation per axis and its error. Of starts and repetitions, the one with the"
             " median APE is drawn.\n\n" + "\n\n".join(parts))

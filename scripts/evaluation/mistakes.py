@@ -22,7 +22,7 @@ def notes(paths, estimate, truth, align, max_difference):
 
 
 def _swapped(estimate_path, truth_path, estimate, truth):
-    """Returns a note if the first file is the ground truth, by neighbouring files or by rate and
+    """Returns a note if the first file is the ground truth, by neighboring files or by rate and
     time."""
     estimate_is_run, truth_is_run = (
         os.path.isfile(os.path.join(os.path.dirname(path), "summary.json")) or poses.worlds > 1

@@ -37,8 +37,8 @@ def save_figures(folder, figures):
 
 
 def draw_trajectory(axis, estimate, truth, plane, highest_error=None):
-    """Draws the ground truth over the estimate, which is coloured by its position errors; returns
-    the dots, to which a colour bar belongs. `plane`: indices of the axes to the right and
+    """Draws the ground truth over the estimate, which is colored by its position errors; returns
+    the dots, to which a color bar belongs. `plane`: indices of the axes to the right and
     upwards."""
     horizontal, vertical = plane
     dots = axis.scatter(estimate.positions[:, horizontal], estimate.positions[:, vertical],

@@ -54,7 +54,7 @@ def fit_equidistant(lens, largest_radius):
     """Fits the equidistant model to a lens, a function as above, for all rays in front of the
     camera up to a radius. Returns None if the lens sees nothing but its axis.
 
-    Nodes that are dense towards both ends make the least squares fit nearly a minimax fit.
+    Nodes that are dense toward both ends make the least squares fit nearly a minimax fit.
     """
     radii = lens(_ANGLES)
     grows = np.append(True, np.diff(radii) > 0)  # False from NaN on

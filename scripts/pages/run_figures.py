@@ -128,7 +128,7 @@ def _segments(name, ends, colour, width):
 
 
 def _curve(name, seconds, values, colour=None):
-    """Returns a curve; plotly selects the colour if it is None."""
+    """Returns a curve; plotly selects the color if it is None."""
     return {"type": "scatter", "mode": "lines", "name": name, "x": _plain(seconds),
             "y": _plain(values), "line": {"width": 1.2, "color": colour}}
 
@@ -141,5 +141,5 @@ def _over_time(data, title):
 
 
 def _plain(values):
-    """Returns values for JSON: rounded to a tenth of a millimetre or microsecond, null for NaN."""
+    """Returns values for JSON: rounded to a tenth of a millimeter or microsecond, null for NaN."""
     return [None if np.isnan(value) else round(float(value), 4) for value in values]

@@ -16,7 +16,7 @@ from evaluation.run_results import read_estimate
 from evaluation.trajectory import Trajectory, TrajectoryError
 
 TRAJECTORY = "trajectory.tum"
-# Categories of the edges in lines.ply, by their colour there.
+# Categories of the edges in lines.ply, by their color there.
 LINE_COLOURS = {(220, 40, 40): "along x", (40, 160, 40): "along y", (50, 90, 230): "along z"}
 FREE = "free"
 NO_LOOPS = Loops(np.empty(0), np.empty(0), np.empty((0, 3)), np.empty(0))
@@ -57,7 +57,7 @@ class RunFolder:
 
 
 def _read_ply(path):
-    """Returns vertices (n, 3), and endpoints (m, 2, 3) and colours (m, 3) of edges, of an ASCII
+    """Returns vertices (n, 3), and endpoints (m, 2, 3) and colors (m, 3) of edges, of an ASCII
     PLY; empty arrays if there is no file."""
     if not os.path.isfile(path):
         return np.empty((0, 3)), np.empty((0, 2, 3)), np.empty((0, 3), dtype=int)

@@ -17,8 +17,8 @@ struct ImagingOptions {
   double full_scale = 0.78;   // brightness that saturates a pixel
   double lens_blur_px = 0.6;  // standard deviation of the point spread function
   double vignetting = 0.35;   // relative loss of light in the image corners
-  double read_noise = 1.2;    // standard deviation [grey levels]
-  double shot_noise = 0.25;   // standard deviation at one grey level; grows with its square root
+  double read_noise = 1.2;    // standard deviation [gray levels]
+  double shot_noise = 0.25;   // standard deviation at one gray level; grows with its square root
   bool add_noise = true;
   uint64_t seed = 1;
 };
@@ -31,7 +31,7 @@ class CameraSimulator {
                   const Rigid3d& T_B_C, const ImagingOptions& options);
 
   // Renders image `index`, which seeds the noise. Its exposure (with a rolling shutter, that of the
-  // middle row) is centred `t` seconds after the start.
+  // middle row) is centered `t` seconds after the start.
   cv::Mat Expose(double t, uint64_t index) const;
 
   // Returns the exact depth (Renderer::Depth) of all rows at `t` seconds after the start.
@@ -48,7 +48,7 @@ class CameraSimulator {
   Rigid3d T_B_C_;
   ImagingOptions options_;
   Renderer renderer_;
-  cv::Mat1f gain_;  // grey levels per unit of brightness
+  cv::Mat1f gain_;  // gray levels per unit of brightness
 };
 
 }  // namespace plm_vins::simulator

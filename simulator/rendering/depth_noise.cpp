@@ -7,7 +7,7 @@ namespace plm_vins::simulator {
 
 cv::Mat1w MeasureDepth(const cv::Mat1f& depth, const DepthSensor& sensor, uint64_t seed,
                        uint64_t index) {
-  constexpr double kMillimetres = 1000;  // per metre
+  constexpr double kMillimetres = 1000;  // per meter
   cv::Mat1w measured(depth.size(), ushort{0});
   for (int y = 0; y < depth.rows; ++y) {
     Random random(seed, index * depth.rows + y);

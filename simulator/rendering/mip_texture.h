@@ -6,7 +6,7 @@
 
 namespace plm_vins::simulator {
 
-// A grey texture of known size [m], repeated in both directions, with a mipmap pyramid to avoid
+// A gray texture of known size [m], repeated in both directions, with a mipmap pyramid to avoid
 // aliasing of distant surfaces. Immutable.
 class MipTexture {
  public:
@@ -20,7 +20,7 @@ class MipTexture {
  private:
   float SampleLevel(int level, float u, float v) const;
 
-  float per_width_, per_height_;  // repetitions per metre
+  float per_width_, per_height_;  // repetitions per meter
   float texel_;                   // at full resolution [m]
   std::vector<cv::Mat1b> levels_;
 };

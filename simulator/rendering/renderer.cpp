@@ -22,7 +22,7 @@ using PixelOffsets = std::array<std::array<Vector2d, Renderer::kRays>, Renderer:
 
 // Draws the sample positions of a pixel (Latin hypercube): each sixteenth of its columns and of its
 // rows has one sample, so that edges in any direction cover a proportionate share of the samples.
-// The second half mirrors the first, which centres the samples.
+// The second half mirrors the first, which centers the samples.
 PixelOffsets DrawOffsets(Random* random) {
   constexpr std::array<int, 4> kOrder = {1, 3, 0, 2};
   const double sign = random->Uniform() < 0.5 ? -1.0 : 1.0;

@@ -23,12 +23,12 @@ struct Rectangle {
 };
 
 // Everything that the camera can see, composed of textured rectangles and lit from a fixed
-// direction. Lengths in metres, coordinates in W unless a frame is given.
+// direction. Lengths in meters, coordinates in W unless a frame is given.
 class Scene {
  public:
   int AddTexture(const cv::Mat& image, double width, double height);
   void AddRectangle(Rectangle rectangle);
-  // Adds a box, centred at the origin of its frame O.
+  // Adds a box, centered at the origin of its frame O.
   void AddBox(const Rigid3d& T_W_O, const Eigen::Vector3d& size, int texture);
   // Adds a prism that approximates a cylinder, without end caps.
   void AddPipe(const Eigen::Vector3d& start, const Eigen::Vector3d& end, double radius,

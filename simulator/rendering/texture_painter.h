@@ -8,7 +8,7 @@
 
 namespace plm_vins::simulator {
 
-// Paints textures of materials. Sizes are in metres, brightness from 0 (black) to 1 (white).
+// Paints textures of materials. Sizes are in meters, brightness from 0 (black) to 1 (white).
 // `detail` scales all contrast, from 0 (uniform) to 1 (richly textured).
 class TexturePainter {
  public:
@@ -16,7 +16,7 @@ class TexturePainter {
       : texel_(texel), detail_(detail), random_(seed) {}
 
   cv::Mat1b Plain(double width, double height, double brightness);
-  // Structures of all sizes, stains and scratches; darker towards the edges.
+  // Structures of all sizes, stains and scratches; darker toward the edges.
   cv::Mat1b Plaster(double width, double height, double brightness);
   // Bricks with plaster joints.
   cv::Mat1b Bricks(double width, double height, double brightness);

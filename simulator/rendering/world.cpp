@@ -14,7 +14,7 @@ using Surface = Furnisher::Surface;
 
 constexpr double kSomeAskew = 0.3;
 
-// Floor of a box-shaped room centred in x and y, whose walls face towards +x, +y, -x, -y.
+// Floor of a box-shaped room centered in x and y, whose walls face toward +x, +y, -x, -y.
 std::vector<Vector2d> BoxFloor(const Vector3d& size) {
   const double x = 0.5 * size.x(), y = 0.5 * size.y();
   return {{x, -y}, {x, y}, {-x, y}, {-x, -y}};

@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-// Barrel distortion with k1 alone folds at a distorted radius of 0.54, 125 px from the centre.
+// Barrel distortion with k1 alone folds at a distorted radius of 0.54, 125 px from the center.
 std::unique_ptr<const CameraModel> FoldedCamera() {
   CameraParameters parameters = TestCameraParameters();
   parameters.distortion[0] = -0.5;

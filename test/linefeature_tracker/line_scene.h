@@ -77,7 +77,7 @@ class LineScene {
   }
 
   // Renders the image by drawing at high resolution and averaging (fillPoly enlarges polygons by
-  // half a fine pixel, 0.06 px of the image), optionally with noise of `noise` grey levels.
+  // half a fine pixel, 0.06 px of the image), optionally with noise of `noise` gray levels.
   cv::Mat View(const Eigen::Matrix3d& H = Eigen::Matrix3d::Identity(), double noise = 0) const {
     const CameraParameters& p = camera_->parameters();
     cv::Mat fine(kFineness * p.height, kFineness * p.width, CV_8UC1, cv::Scalar(background_));
@@ -135,7 +135,7 @@ class LineScene {
 };
 
 // Largest distance of the found line's endpoints from the infinite edge, in pixels at the image
-// centre.
+// center.
 inline double NormalErrorInPixels(const LineSegment& edge, const LineSegment& found, double focal) {
   return focal * std::max(std::abs(edge.Distance(found.start)), std::abs(edge.Distance(found.end)));
 }

@@ -23,7 +23,7 @@ struct DriftingFlightOptions {
   double wrong_share = 0;       // share of wrong loop observations, of another landmark
   double restart = 0;       // time at which the clock and odometry's world restart; 0: never [s]
   double camera_clock = 0;  // camera clock minus IMU clock [s]
-  int far_points = 0;       // additional points, kilometres away
+  int far_points = 0;       // additional points, kilometers away
   int loaded = 0;           // number of keyframes of a loaded map, which has another T_B_C
   bool refused = false;     // the graph rejects all of its loops
   uint64_t seed = 1;

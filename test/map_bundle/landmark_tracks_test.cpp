@@ -81,7 +81,7 @@ TEST(LandmarkTracksTest, CountsAKeyframeOnce) {
 }
 
 TEST(LandmarkTracksTest, IgnoresDistantLandmarks) {
-  KeyframeMap map = MapOf({0, 0});  // half a metre apart
+  KeyframeMap map = MapOf({0, 0});  // half a meter apart
   for (Keyframe& keyframe : map.keyframes) {
     See(1, &keyframe, Eigen::Vector3f(0, 0, 20));
     See(2, &keyframe, Eigen::Vector3f(0, 0, 40));

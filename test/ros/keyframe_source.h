@@ -53,7 +53,7 @@ class Camera {
     publisher_.publish(message);
   }
 
-  // Publishes an image with an encoding that cannot be converted to grey.
+  // Publishes an image with an encoding that cannot be converted to gray.
   void PublishDepth(const ros::Time& stamp) const {
     sensor_msgs::Image message;
     message.header.stamp = stamp;

@@ -36,7 +36,7 @@ class DatasetTest(unittest.TestCase):
             file.write(text)
 
     def add(self, name, words="fly", truth=True):
-        """Adds a recording with the behaviour given by `words`, and its ground truth."""
+        """Adds a recording with the behavior given by `words`, and its ground truth."""
         self.write(os.path.join("bags", name + ".bag"), words)
         if truth:
             write_tum(self.path("bags", name + ".tum"), *flight(rate=100.0))

@@ -135,7 +135,7 @@ class RelativeError(unittest.TestCase):
         return Trajectory(START + t, positions, np.tile(rotation((0, 0, 1), 90), (len(t), 1, 1)))
 
     def test_drift_per_metre_and_per_second(self):
-        # The estimate advances 2 m/s, the truth 1.5 m/s: 0.25 m per metre, 0.5 m per second.
+        # The estimate advances 2 m/s, the truth 1.5 m/s: 0.25 m per meter, 0.5 m per second.
         result = evaluate(self.straight(2.0), self.straight(1.5), align="none")[2]
         self.assertAlmostEqual(result["rpe_1m_m"]["max"], 0.25, 9)
         self.assertAlmostEqual(result["rpe_1m_m"]["min"], 0.25, 9)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Replaces run_offline in tests of run_dataset.py.
 
-The "recording" is a text file whose words select the behaviour: `fly` writes results; `fail`,
+The "recording" is a text file whose words select the behavior: `fly` writes results; `fail`,
 `crash` and `hang` write none; `hang_once` hangs only in the first run; `lose` ends with exit code 0
 but without results; `meet` flies as soon as another run is active too; `stumble` fails from STUMBLE
 on; `jump` flies twice, the second time with the timestamps of the first. The estimate is flight()

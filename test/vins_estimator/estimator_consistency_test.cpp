@@ -111,7 +111,7 @@ class ImuNoiseIsLearned : public ::testing::Test {
 };
 
 // The gyroscope is so much more precise than images that these contain little information on its
-// noise. The accelerometer noise is white here, so the allowance for coloured noise is too large.
+// noise. The accelerometer noise is white here, so the allowance for colored noise is too large.
 TEST_F(ImuNoiseIsLearned, WhenConfiguredFourTimesTooSmall) {
   const Result fixed = Fly(0.25, false), learned = Fly(0.25, true);
   EXPECT_GT(learned.accel_density, 1);

@@ -250,7 +250,7 @@ TEST(EstimatorRobustness, TenSecondsOfBlindnessEndInARestart) {
     simulated.frames[i].lines.reset();
   }
   Config config = testing::ConfigFor(simulated);
-  config.sensor.imu_noise.accel_density = 0.03;  // strong vibrations: it drifts by metres
+  config.sensor.imu_noise.accel_density = 0.03;  // strong vibrations: it drifts by meters
   config.sensor.imu_noise.gyro_density = 0.001;
   Estimator estimator(config);
   std::vector<std::string> reasons;
@@ -295,7 +295,7 @@ TEST(EstimatorRobustness, TenSecondsWithoutConstraintEndInARestart) {
   SimulatedFlight simulated = Simulate(Motion::kFast, 1, 20);
   RenamePoints(180, &simulated);
   Config config = testing::ConfigFor(simulated);
-  config.sensor.imu_noise.accel_density = 0.03;  // strong vibrations: it drifts by metres
+  config.sensor.imu_noise.accel_density = 0.03;  // strong vibrations: it drifts by meters
   config.sensor.imu_noise.gyro_density = 0.001;
   Estimator estimator(config);
   std::vector<size_t> restarts;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A rolling shutter costs little accuracy if it is modelled, and much if not.
+// A rolling shutter costs little accuracy if it is modeled, and much if not.
 #include <gtest/gtest.h>
 
 #include "test/vins_estimator/estimated_flight.h"

@@ -24,7 +24,7 @@ namespace plm_vins::testing {
 struct FlightPlan {
   std::function<Rigid3d(double t)> T_W_V;      // vehicle pose, x forward, z up; smooth
   double duration = 10;                        // [s]
-  Eigen::Vector3d room{10, 8, 4};              // size [m], with the floor's centre at the origin
+  Eigen::Vector3d room{10, 8, 4};              // size [m], with the floor's center at the origin
   std::vector<Eigen::Vector3d> points_W = {};  // instead of points at the walls of the room
   double nearest = 0.3;                        // depth of a point that is seen [m]
   double min_dist_px = 0;                      // between points of an image
@@ -38,7 +38,7 @@ inline double SmoothStep(double t, double begin, double end) {
   return u * u * u * (10 + u * (-15 + 6 * u));
 }
 
-// Oscillation by about a metre on all axes between two times, with a smooth start and end of two
+// Oscillation by about a meter on all axes between two times, with a smooth start and end of two
 // seconds each; standstill before and after.
 inline Rigid3d GentleFlight(double t, double begin, double end) {
   const double share = SmoothStep(t, begin, begin + 2) * (1 - SmoothStep(t, end - 2, end));

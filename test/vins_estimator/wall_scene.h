@@ -9,7 +9,7 @@
 
 namespace plm_vins::testing {
 
-// Line on a wall five metres ahead of a camera that moves sideways and up, in metres right and down
+// Line on a wall five meters ahead of a camera that moves sideways and up, in meters right and down
 // from the point ahead.
 struct WallLine {
   int64_t id;

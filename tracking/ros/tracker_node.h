@@ -117,7 +117,7 @@ class TrackerNode {
     TrackWhatIsReady();
   }
 
-  // Tracks the images that the IMU samples so far allow.
+  // Tracks all images that no longer wait for IMU samples or companions.
   void TrackWhatIsReady() {
     do {
       for (const ImuSample& sample : imu_.Take()) stage_.AddImu(sample);
@@ -135,7 +135,7 @@ class TrackerNode {
     drop_warner_.Check(Drops());
   }
 
-  // Warns once if no first image comes, soon where images are published in another form.
+  // Warns once if no image arrives: early if images are published in another form.
   void LogSilence() {
     const double silence = images_.stream().Silence();
     if (!waits_for_first_image_ || silence < kMinSilence) return;
@@ -244,7 +244,7 @@ class TrackerNode {
   DropWarner drop_warner_;
   ConstantStamp image_stamps_;
   bool stamps_are_logged_ = false;
-  bool waits_for_first_image_ = true;  // and silence was not logged
+  bool waits_for_first_image_ = true;  // no image has arrived, and silence was not logged
   ErrorCounter errors_;
   size_t features_in_last_image_ = 0;
   double tracking_ms_ = 0;  // for the last image [ms]

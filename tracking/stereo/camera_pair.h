@@ -12,42 +12,42 @@
 
 namespace plm_vins {
 
-// A place on an epipolar curve.
+// A point on an epipolar curve.
 struct CurvePoint {
   double inverse_depth = 0;  // along the optical axis of the first camera [1/m]
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // in the second camera
 };
 
 // Two rigidly mounted cameras that expose at the same time. A ray (x, y, 1) of the first camera C
-// is an epipolar curve in the raw image of the second camera C1, bent by its lens.
+// projects to an epipolar curve in the raw image of the second camera C1, bent by distortion.
 class CameraPair {
  public:
   CameraPair(std::shared_ptr<const CameraModel> first, std::shared_ptr<const CameraModel> second,
              const Rigid3d& T_C1_C);
 
-  // The pixel in the second camera of the point of this inverse depth [1/m] on the ray of `xy`.
-  // Negative inverse depths continue the curve beyond infinity. Returns nullopt where the second
-  // camera does not see the point.
+  // Returns the pixel in the second camera of the point at this inverse depth [1/m] on the ray of
+  // `xy`. Negative inverse depths continue the curve beyond infinity. Returns nullopt if the second
+  // camera does not observe the point.
   std::optional<Eigen::Vector2d> Project(const Eigen::Vector2d& xy, double inverse_depth) const;
 
-  // Returns the same point in normalized, undistorted coordinates of C1; nullopt if it is not in
-  // front of that camera.
+  // Returns the point of Project() in normalized, undistorted coordinates of C1; nullopt if it is
+  // not in front of C1.
   std::optional<Eigen::Vector2d> Transfer(const Eigen::Vector2d& xy, double inverse_depth) const;
 
   // Returns the inverse depth [1/m] at which the ray of `xy` comes closest to that of `xy_C1`, both
   // normalized and undistorted: least squares over the epipolar plane.
   double InverseDepth(const Eigen::Vector2d& xy, const Eigen::Vector2d& xy_C1) const;
 
-  // By how much the inverse depth of a distant point on the axis changes per pixel of disparity.
+  // Change of a distant point's inverse depth on the optical axis per pixel of disparity [1/m].
   double InverseDepthPerPixel() const;
 
-  // How the surroundings of the pixel of `xy` in the first image look in the second one: d(pixel in
-  // the second)/d(pixel in the first), at a constant inverse depth [1/m]. Returns nullopt where
-  // either camera does not see the point.
+  // Returns the affine warp between the surroundings of a point in the two images: d(pixel in the
+  // second image) / d(pixel in the first image), at a constant inverse depth [1/m] on the ray of
+  // `xy`. Returns nullopt if either camera does not observe the point.
   std::optional<Eigen::Matrix2d> Warp(const Eigen::Vector2d& xy, double inverse_depth) const;
 
-  // The epipolar curve within the second image, from one inverse depth [1/m] to a larger one, in
-  // steps of about one pixel. It ends early where the second camera no longer sees it.
+  // Samples the epipolar curve within the second image, from one inverse depth [1/m] to a larger
+  // one, in steps of about one pixel. The curve ends early if it leaves the second camera's view.
   std::vector<CurvePoint> Curve(const Eigen::Vector2d& xy, double from, double to) const;
 
   // Returns the pair with the roles exchanged.
@@ -69,8 +69,8 @@ class CameraPair {
   Eigen::Matrix3d R_C1_C_;
 };
 
-// The cameras of a configuration; nullopt where it has one alone. Throws std::invalid_argument as
-// CameraModel::Create() does.
+// Returns the cameras of a configuration, or nullopt if it has only one. Throws
+// std::invalid_argument as CameraModel::Create() does.
 std::optional<CameraPair> CameraPairOf(const SensorConfig& sensor);
 
 }  // namespace plm_vins

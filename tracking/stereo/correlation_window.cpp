@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMaxClimb = 5;  // [px]
 constexpr double kMinDeterminant = 0.1;
-constexpr float kMinContrast = 2.0F;  // [grey levels], rms: sensor noise has about one
+constexpr float kMinContrast = 2.0F;  // [gray levels], rms: sensor noise has about one
 
 // Root of the sum of squares about the mean.
 float Deviation(int sum, int squares, int count) {

@@ -9,21 +9,21 @@
 
 namespace plm_vins {
 
-// The surroundings of a place in one image, warped as another image is expected to show them, to be
-// compared with whole pixels there by normalized cross-correlation (ZNCC), which gain and offset of
-// the brightness do not change.
+// The surroundings of a point in one image, warped to their expected appearance in another image.
+// They are compared with whole pixels of that image by zero-mean normalized cross-correlation
+// (ZNCC), which is invariant to gain and offset of the brightness.
 class CorrelationWindow {
  public:
-  // `warp` is d(pixel in the other image)/d(pixel in `image`, CV_8UC1). Returns nullopt where the
+  // `warp` is d(pixel in the other image)/d(pixel in `image`, CV_8UC1). Returns nullopt if the
   // window leaves the image, the warp is not invertible, or there is no texture.
   static std::optional<CorrelationWindow> Cut(const cv::Mat& image, const Eigen::Vector2d& center,
                                               const Eigen::Matrix2d& warp);
 
-  // Correlation with the other image at a place, from -1 to 1. The window must fit in there.
+  // Returns the ZNCC, -1 to 1, with the window around `center` in the other image, if inside it.
   float Correlate(const cv::Mat& image, const cv::Point& center) const;
 
-  // The maximum of the correlation next to `start`, a few pixels away at most, between pixels by
-  // the parabola through its neighbours.
+  // Returns the maximum of the correlation at most a few pixels from `start`, interpolated between
+  // pixels by the parabola through its neighbors.
   Eigen::Vector2d Climb(const cv::Mat& image, const Eigen::Vector2d& start) const;
 
   static bool IsInside(const cv::Mat& image, const cv::Point& center) {

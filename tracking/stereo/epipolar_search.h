@@ -9,21 +9,21 @@
 
 namespace plm_vins {
 
-// A place in the image of the first camera of a pair.
+// A point in the image of the first camera of a pair.
 struct SearchedPoint {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  Eigen::Vector2d xy = Eigen::Vector2d::Zero();  // the same, normalised and undistorted
+  Eigen::Vector2d xy = Eigen::Vector2d::Zero();  // of `pixel`, normalized and undistorted
 };
 
-// The part of the second image to search.
+// The part of the second image that is searched.
 struct SearchRange {
   double from = 0, to = 0;  // inverse depths [1/m]
   double band_px = 0;       // to both sides of the epipolar curve
 };
 
-// Finds the place in the `second` image that looks like the surroundings of the point in the
-// `first` one (both CV_8UC1), warped by the pair's lenses. Returns nullopt where nothing in the
-// range looks like it, or more than one place does.
+// Finds the point of the `second` image whose surroundings look like those of the point in the
+// `first` one (both CV_8UC1), warped by the pair's lenses. Returns nullopt if no point of the range
+// matches, or more than one.
 std::optional<CurvePoint> SearchAlongCurve(const CameraPair& pair, const cv::Mat& first,
                                            const SearchedPoint& point, const cv::Mat& second,
                                            const SearchRange& range);

@@ -27,7 +27,7 @@ class MatchSchedule {
   static constexpr int64_t kMinInterval_ns = 80'000'000;
 
   bool all_;
-  std::optional<int64_t> last_ns_;  // of the last image that was due
+  std::optional<int64_t> last_ns_;  // timestamp of the last image that was due
 };
 
 }  // namespace plm_vins

@@ -16,8 +16,8 @@ struct FreshDeviations {
 
 // Chi-square test of whether two states of the same time differ only by their world frames, that is
 // by position and heading. `known` is propagated by the IMU, `fresh` is newly initialized. It
-// detects velocity differences of half a metre per second, and so IMU faults that would move the
-// position by more than some decimetres within a second.
+// detects velocity differences of half a meter per second, and so IMU faults that would move the
+// position by more than some decimeters within a second.
 bool DifferByFrame(const UncertainState& known, const FrameState& fresh,
                    const FreshDeviations& deviations = FreshDeviations());
 

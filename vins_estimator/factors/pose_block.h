@@ -18,7 +18,7 @@ struct PoseBlock {
   Eigen::Matrix3d R;
 };
 
-// Writes the tangent Jacobian of a residual with so many rows, padded with a column of zeros.
+// Writes the tangent Jacobian of a residual with kRows rows, padded with a column of zeros.
 template <int kRows>
 void SetPoseJacobian(const Eigen::Matrix<double, kRows, 3>& d_r_d_p,
                      const Eigen::Matrix<double, kRows, 3>& d_r_d_theta, double* values) {
@@ -28,7 +28,7 @@ void SetPoseJacobian(const Eigen::Matrix<double, kRows, 3>& d_r_d_p,
   J.col(6).setZero();
 }
 
-// Writes the tangent Jacobian with respect to a mounting, padded likewise.
+// Writes the tangent Jacobian with respect to a mounting, padded with a column of zeros.
 inline void SetMountingJacobian(const Eigen::Matrix<double, 2, 3>& d_r_d_baseline,
                                 const Eigen::Matrix<double, 2, 3>& d_r_d_theta,
                                 const PoseBlock& T_C_C1, double* values) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A second camera C1 of the body, and a depth image, see the same landmarks as the first camera C.
+// Factors for observations of landmarks by a second camera C1 of the body and by depth images.
 #pragma once
 
 #include "vins_estimator/factors/factor.h"
@@ -13,11 +13,11 @@ namespace plm_vins {
 // Reprojection of a point into the second camera of a frame other than its host:
 //   r = weight * ( pi(T_C_C1^-1 T_B_C^-1 T_W_Bt^-1 T_W_Bh T_B_C p_Ch) - m_t(td) )
 // Blocks: pose of host (7), pose of target (7), extrinsics T_B_C (7), mounting T_C_C1 (7), time
-// offset td (1), point (3). Jacobians follow factors/manifolds.h. Evaluate() fails where the point
+// offset td (1), point (3). Jacobians follow factors/manifolds.h. Evaluate() fails if the point
 // is not in front of the second camera.
 class RightPointFactor final : public SizedFactor<2, 7, 7, 7, 7, 1, kPointSize> {
  public:
-  // `weight`: as that of PointFactor.
+  // `weight`: see PointFactor.
   RightPointFactor(const TimedBearing& target, double weight) : target_(target), weight_(weight) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
@@ -42,7 +42,7 @@ class RightPointHostFactor final : public SizedFactor<2, 7, 1, kPointSize> {
   double weight_;
 };
 
-// A line seen by the second camera of a frame other than its host:
+// Reprojection of a line into the second camera of a frame other than its host:
 //   r = weights * EndPointDistances(view, moment of T_C_C1^-1 T_B_C^-1 T_W_Bt^-1 T_W_Bh T_B_C L_Ch)
 // Blocks: pose of host (7), pose of target (7), extrinsics T_B_C (7), mounting T_C_C1 (7), line
 // (5).
@@ -60,7 +60,7 @@ class RightLineFactor final : public SizedFactor<2, 7, 7, 7, 7, kLineSize> {
   Eigen::Vector2d weights_;
 };
 
-// A line seen by the second camera of the host itself. Blocks: mounting T_C_C1 (7), line (5).
+// Reprojection of a line into the second camera of its host. Blocks: mounting T_C_C1 (7), line (5).
 class RightLineHostFactor final : public SizedFactor<2, 7, kLineSize> {
  public:
   RightLineHostFactor(const LineSegmentView& view, const Eigen::Vector2d& weights)

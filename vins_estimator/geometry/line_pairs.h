@@ -38,8 +38,8 @@ struct LinePairGeometry {
   double angle = 0;           // between the directions, regardless of sign [rad]
   double distance = 0;        // perpendicular to the common direction, between the midpoints [m]
   double gap = 0;             // along the common direction, between the ends; negative: overlap [m]
-  double angle_sigma = 0;     // standard deviation of the angle [rad] ...
-  double distance_sigma = 0;  // ... and of the distance [m]
+  double angle_sigma = 0;     // standard deviation of the angle [rad]
+  double distance_sigma = 0;  // standard deviation of the distance [m]
 };
 
 // Compares two lines along their common direction: their axis if it is the same, otherwise the mean

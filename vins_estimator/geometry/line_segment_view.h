@@ -16,7 +16,7 @@ struct LineSegmentView {
 // Computes the distances of both end points to the projection of a line with moment m,
 //   d = x~ . m / |(m_x, m_y)|   ([He2018], Eq. (20)),
 // and their derivative with respect to the moment (unless null). Returns false if the line has no
-// projection because it passes through the camera centre or lies in the plane z = 0.
+// projection because it passes through the camera center or lies in the plane z = 0.
 bool EndPointDistances(const LineSegmentView& view, const Eigen::Vector3d& moment_C,
                        Eigen::Vector2d* distances,
                        Eigen::Matrix<double, 2, 3>* d_distances_d_moment);

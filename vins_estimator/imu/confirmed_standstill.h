@@ -8,31 +8,31 @@
 
 namespace plm_vins {
 
-// Whether the IMU still reads what it read during a standstill that the camera confirmed: the
-// difference, integrated since then, is within what noise explains. Biases and gravity drop out.
+// Tests by the IMU alone whether a standstill that the camera confirmed continues: its integrated
+// readings must equal those of the standstill within the noise. Biases and gravity cancel out.
 class ConfirmedStandstill {
  public:
   explicit ConfirmedStandstill(const ImuNoise& noise) : noise_(noise) {}
 
-  // Takes the samples that lead to the next image.
+  // Adds the IMU samples up to the next image.
   void Add(const FrameMeasurement& measurement);
 
-  // The body has stood still up to this image since Reset().
+  // Declares that the body has stood still from Reset() up to this image.
   void Confirm();
 
-  // Returns whether the standstill continues as far as the IMU can tell; false if none was
-  // confirmed.
+  // Returns whether the standstill continues according to the IMU. Returns false if no standstill
+  // was confirmed.
   bool Continues() const;
 
   // Norm of the velocity that the IMU would not notice [m/s].
   double UnnoticedVelocity() const;
 
-  double TimeSince() const { return since_.duration; }  // ... the last Confirm() [s]
+  double TimeSince() const { return since_.duration; }  // since the last Confirm() [s]
 
   void Reset();
 
  private:
-  // Integrals of the readings over a time.
+  // Integrals of the readings over an interval.
   struct Integral {
     double duration = 0;                              // [s]
     Eigen::Vector3d gyro = Eigen::Vector3d::Zero();   // [rad]

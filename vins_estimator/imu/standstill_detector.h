@@ -16,9 +16,9 @@ namespace plm_vins {
 // (ImuStillness), and the median corner is where it was at the start of the window. Both are
 // required: smooth flight resembles standstill for the IMU, a distant scene for the camera.
 //
-// A standstill that both confirmed goes on while images show too little (blank, covered), for as
-// long as the IMU reads what it read during the standstill (ConfirmedStandstill). It also goes on
-// if the corners begin to move faster than the IMU could fail to notice: then the scene moves (a
+// A standstill that both confirmed continues while images show too little (blank, covered), as long
+// as the IMU readings equal those of the standstill (ConfirmedStandstill). It also continues if the
+// corners move faster than the body could without the IMU measuring it: then the scene moves (a
 // train, the deck of a ship).
 //
 // The common motion of the corners is a more sensitive measure than their distances, to which noise
@@ -46,15 +46,15 @@ class StandstillDetector {
   std::optional<Standstill> Add(const FrameMeasurement& measurement,
                                 std::optional<double> depth = std::nullopt);
 
-  // Returns whether the newest image shows motion that the IMU does not feel, or not yet. A slow
-  // start close to the ground cannot be told from a scene that moves while the depth is unknown;
-  // the IMU, whose biases are known after a standstill, can lead until it decides.
+  // Returns whether the newest image shows motion that the IMU does not (yet) measure. While the
+  // depth is unknown, a slow start close to the ground looks like a moving scene. Until the IMU
+  // decides, dead reckoning can replace the camera: biases are known after a standstill.
   bool doubts_camera() const { return doubts_camera_; }
 
   void Reset();
 
  private:
-  // Whether the corners' motion over the window is too fast for a body whose IMU shows standstill.
+  // Returns whether the corners move too fast for a body whose IMU shows standstill.
   bool IsOfScene(double motion, std::optional<double> depth) const;
 
   Options options_;

@@ -17,7 +17,7 @@ struct GlobalSfmOptions {
   double min_parallax_px;  // median over the points of the best pair of views
 };
 
-// Camera centres and points in a frame G, up to an unknown scale.
+// Camera centers and points in a frame G, up to an unknown scale.
 struct Structure {
   std::vector<Eigen::Vector3d> p_G_C;               // one per view, the first at the origin
   std::vector<std::optional<Eigen::Vector3d>> p_G;  // one per track; nullopt if not reliable

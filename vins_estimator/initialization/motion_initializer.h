@@ -23,12 +23,12 @@ struct MotionInitializerOptions {
 };
 
 // Initializes the states of a few images in motion from their points and IMU samples alone:
-// gyroscope bias from relative poses, structure up to scale, alignment (velocities, gravity,
-// scale), visual-inertial bundle adjustment, checks. With a second camera, relative poses and
-// structure are those of stereo odometry, and the scale is known. `frames[i + 1].imu` is from frame
-// i to frame i
-// + 1; `frames[0].imu` is not used. World: origin and zero heading at the first frame. Returns
-// nullopt, with the reason, if a step or check fails.
+// gyroscope bias from relative poses, structure up to scale, alignment (velocities,
+// gravity, scale), visual-inertial bundle adjustment, checks. With a second camera,
+// relative poses and structure are those of stereo odometry, and the scale is known.
+// `frames[i + 1].imu` is from frame i to frame i + 1; `frames[0].imu` is not used. World:
+// origin and zero heading at the first frame. Returns nullopt, with the reason, if a step
+// or check fails.
 std::optional<std::vector<FrameState>> InitializeFromMotion(
     const std::vector<FrameMeasurement>& frames, const SensorConfig& sensor, double point_noise_px,
     const MotionInitializerOptions& options, std::string* reason);

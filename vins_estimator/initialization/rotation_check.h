@@ -11,8 +11,8 @@
 
 namespace plm_vins {
 
-// Compares the rotations of the camera with those of the gyroscope, to be used where the estimate
-// is in doubt, and tells whether the camera is mounted in another way than configured.
+// Compares rotations of the camera with those of the gyroscope while the estimate is in doubt, and
+// finds out whether the camera is mounted in another way than configured.
 class RotationCheck {
  public:
   // `point_noise_px` is the standard deviation of a corner.
@@ -21,7 +21,7 @@ class RotationCheck {
   // Adds the next image. Without a gap in the IMU samples, it must follow the last one.
   void Add(const FrameMeasurement& measurement);
 
-  // Drops the images, keeps what was found: the next image does not follow the last one.
+  // Drops the images, but not the finding. To be called if the next image does not follow.
   void Interrupt() { frames_.clear(); }
 
   // Returns what is wrong, with the key and what to do; empty if nothing is, or if too few

@@ -23,14 +23,14 @@ struct StereoStructure {
   std::vector<Rigid3d> T_G_C;  // one per view
   // Inverse covariance of theta in R_G_C Exp(theta) with unknown translation [1/rad^2].
   std::vector<Eigen::Matrix3d> rotation_information;
-  std::vector<std::optional<Eigen::Vector3d>> p_G;  // one per track; nullopt if not known
+  std::vector<std::optional<Eigen::Vector3d>> p_G;  // one per track; nullopt if unknown
 };
 
-// Stereo odometry over a few views: takes the points that both cameras observe, or whose depth is
-// measured, in the view with most of them, then alternately resects the neighbouring views by these
+// Stereo odometry over a few views. Starts in the view with the most points that both cameras
+// observe or whose depth is measured, then alternately resects the neighboring views by these
 // points (robust reprojection errors, all six degrees of freedom) and adds the points that have a
-// depth there. `R_G_C` are rotations to start from, in any common frame. Returns nullopt, with the
-// reason in words, if too few points are observed.
+// depth there. `R_G_C` are initial rotations in any common frame. Returns nullopt, with the reason,
+// if too few points are observed.
 std::optional<StereoStructure> ReconstructFromStereo(const std::vector<Track>& tracks,
                                                      const std::vector<Eigen::Quaterniond>& R_G_C,
                                                      const StereoStructureOptions& options,

@@ -17,7 +17,7 @@ constexpr int kGyroIterations = 5;
 constexpr double kGyroBiasPrior = 0.5;  // standard deviation [rad/s]
 constexpr int kGravityIterations = 4;
 constexpr double kAccelBiasPrior = 0.1;        // standard deviation [m/s^2]
-constexpr double kPositionDeviation = 0.005;   // of the structure's camera centres, rough [m]
+constexpr double kPositionDeviation = 0.005;   // of the structure's camera centers, rough [m]
 constexpr double kSignificant = 3.0;           // standard deviations
 constexpr double kGravityNormTolerance = 0.2;  // relative, of the estimate with free norm
 

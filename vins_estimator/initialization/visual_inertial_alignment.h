@@ -27,11 +27,11 @@ std::optional<Eigen::Vector3d> EstimateGyroBias(
 // Pose of an image before the alignment, in a frame G with unknown gravity direction.
 struct AlignmentView {
   Eigen::Quaterniond R_G_B;
-  Eigen::Vector3d q_G_C;  // camera centre up to scale: p_G_C = scale * q_G_C + constant
+  Eigen::Vector3d q_G_C;  // camera center up to scale: p_G_C = scale * q_G_C + constant
 };
 
 struct Alignment {
-  double scale = 0;                         // metres per unit of the structure
+  double scale = 0;                         // meters per unit of the structure
   double scale_deviation = 0;               // standard deviation of `scale`
   Eigen::Vector3d gravity_G;                // [m/s^2], pointing down
   Eigen::Vector3d accel_bias;               // [m/s^2]

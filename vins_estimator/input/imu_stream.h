@@ -20,7 +20,7 @@ namespace plm_vins {
 struct ImuStatistics {
   int64_t imu_not_finite = 0;    // NaN or infinity
   int64_t imu_implausible = 0;   // outside any sensor's range, all zero, or invalid timestamp
-  int64_t imu_replaced = 0;      // outliers among their neighbours (ImuGate)
+  int64_t imu_replaced = 0;      // outliers among their neighbors (ImuGate)
   int64_t imu_saturated = 0;     // at the limit of the sensor's range
   int64_t imu_out_of_order = 0;  // timestamp not increasing, or far ahead and unconfirmed
   int64_t imu_gaps = 0;          // intervals longer than the allowed gap, integrated across

@@ -13,18 +13,18 @@
 
 namespace plm_vins {
 
-// Recognizes what is wrong with the content and the stamps of the input as a whole. Counts what
-// came since construction, before anything is dropped.
+// Detects problems in the content and the timestamps of the input as a whole. Counts all input
+// since construction, before anything is dropped.
 class InputCheck {
  public:
   explicit InputCheck(const SensorConfig& sensor);
 
-  // Feed in order of arrival. Returns the sample with the stamp to use: that of a sample from a
-  // burst is corrected (ImuBursts).
+  // Must be called in order of arrival. Returns the sample with the timestamp to use, which is
+  // corrected if the sample belongs to a burst (ImuBursts).
   ImuSample AddImu(const ImuSample& sample);
   void AddImage(int64_t t_ns);
 
-  // Returns the most serious finding, with the topic and what to do; empty where there is none.
+  // Returns the most serious finding, with the topic and what to do; empty if there is none.
   std::string Finding() const;
 
  private:

@@ -54,8 +54,8 @@ class MeasurementSync {
     int max_line_lag = 3;       // longest wait for a line frame [images]
     int line_patience = 10;     // consecutive frames without lines after which lines are missing
     double max_imu_gap = kMaxImuInterval;  // images in a longer gap are dropped [s]
-    // If the IMU is further ahead of a frame than this [s], it is dropped in favour of newer usable
-    // ones: the frames that an estimator too slow for the rate skips.
+    // A frame that the IMU is further ahead of than this [s] is dropped in favor of newer usable
+    // ones: an estimator that is too slow for the rate skips it.
     double max_wait = std::numeric_limits<double>::infinity();
     int max_frames = 200;  // longest queue of images and of line frames; beyond, drops the oldest
     int max_imu_samples = 50000;  // longest queue of samples; beyond, drops the oldest

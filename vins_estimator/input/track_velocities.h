@@ -9,7 +9,7 @@
 
 namespace plm_vins {
 
-// [s]: shorter intervals are not used to compute velocities.
+// Shorter intervals are not used to compute velocities [s].
 constexpr double kMinTrackInterval = 0.005;
 
 // Computes point velocities for trackers that send none (PL-VINS), as other trackers do: from the

@@ -32,7 +32,7 @@ struct TermLayout {
 };
 
 // Positions of a problem's variables in its equations (see NormalEquations). Frame variables have
-// dense columns, motions last and by time: each motion is coupled to its neighbours only, and only
+// dense columns, motions last and by time: each motion is coupled to its neighbors only, and only
 // the oldest is in the prior, which BlockCholesky exploits. Each landmark has equations of its own;
 // constants have none.
 class EquationLayout {

@@ -45,9 +45,9 @@ class NormalEquations {
   // Returns step_l of landmark `index` for `dense_step`, with the same damping.
   LandmarkVector LandmarkStep(int index, const Eigen::VectorXd& dense_step, double damping) const;
 
-  // Returns by how much the quadratic model of the cost falls by a step that solves the equations
-  // with this damping: the part of the dense variables, and that of landmark `index`. With H step =
-  // -b - damping diag(H) step, it is -b step / 2 + damping step diag(H) step / 2.
+  // Returns the decrease of the quadratic cost model by a step that solves the equations with this
+  // damping: the part of the dense variables, and that of landmark `index`. With H step = -b -
+  // damping diag(H) step, it is -b step / 2 + damping step diag(H) step / 2.
   double DenseGain(const Eigen::VectorXd& step, double damping) const;
   double LandmarkGain(int index, const LandmarkVector& step, double damping) const;
 

@@ -12,7 +12,7 @@ Quadratic MarginalizeFirst(const Quadratic& quadratic, int count) {
   if (rest == 0) return {Eigen::MatrixXd(0, 0), Eigen::VectorXd(0)};
   const auto H_mr = quadratic.H.topRightCorner(count, rest);
 
-  // Scaled to a unit diagonal: metres, radians and biases differ by many orders of magnitude.
+  // Scaled to a unit diagonal: meters, radians and biases differ by many orders of magnitude.
   const Eigen::VectorXd diagonal = quadratic.H.diagonal().head(count);
   const Eigen::VectorXd scale =
       (diagonal.array() > 0).select(diagonal.array().max(1e-300).rsqrt(), 0.0);

@@ -91,7 +91,7 @@ HeadingSupport HeadingVotes::Best() const {
   return best;
 }
 
-// Returns the centre of the window with the greatest weight, at the resolution of the bins. All
+// Returns the center of the window with the greatest weight, at the resolution of the bins. All
 // summed bins lie entirely within half_width of it.
 double HeadingVotes::DensestHeading() const {
   constexpr double kBinWidth = kQuarterTurn / kBins;

@@ -16,7 +16,7 @@ struct KeyframePolicyOptions {
 
   double min_parallax;             // mean corner motion that makes a keyframe, normalized
   int min_tracked = 20;            // keyframe if fewer corners of the last keyframe are tracked
-  double min_tracked_share = 0.5;  // ... or a smaller share of the image's corners
+  double min_tracked_share = 0.5;  // the same for a smaller share of the image's corners
   int min_points_to_see = 10;      // an image with fewer corners is blind
   double max_interval = 1.0;       // longest interval between keyframes in motion [s]
   // Longest interval at standstill [s], once at least `min_keyframes_at_rest` keyframes are
@@ -32,9 +32,9 @@ struct KeyframePolicyOptions {
 bool IsKeyframe(const KeyframePolicyOptions& options, const SlidingWindow& window,
                 const PointMap& points);
 
-// Whether the frame before the newest one ends a standstill during which keyframes were put off. It
-// must stay: without it, the IMU would have to bridge the whole standstill. Must be asked once the
-// newest frame is there and it is known whether it is stationary.
+// Returns whether the frame before the newest one ends a standstill in which keyframes were put
+// off. It must become a keyframe: otherwise the IMU would have to bridge the whole standstill. To
+// be called once the newest frame is added and known to be stationary or not.
 bool EndsStandstill(const KeyframePolicyOptions& options, const SlidingWindow& window);
 
 }  // namespace plm_vins

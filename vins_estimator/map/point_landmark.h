@@ -16,7 +16,7 @@ namespace plm_vins {
 struct PointView {
   int64_t t_ns = 0;  // identifies the frame
   TimedBearing bearing;
-  std::optional<Eigen::Vector2d> right = {};  // normalised, in the second camera at the same time
+  std::optional<Eigen::Vector2d> right = {};  // normalized, in the second camera at the same time
   std::optional<double> depth = {};           // measured, along the optical axis [m]
 
   // Returns the observation in the second camera, which moves in its image as in the first.

@@ -39,7 +39,7 @@ struct SlidingWindow {
   std::vector<WindowFrame> frames;
   std::vector<AnchorFrame> anchors;
   std::array<double, 7> extrinsic = {0, 0, 0, 0, 0, 0, 1};  // T_B_C, laid out like FrameState::pose
-  // T_C_C1, the pose of the second camera in the first, laid out alike; unused without one.
+  // T_C_C1, the pose of the second camera in the first, with the same layout; unused without one.
   std::array<double, 7> mounting = {0, 0, 0, 0, 0, 0, 1};
   double td = 0;                                             // t_imu = t_image + td [s]
   Intrinsics intrinsics = Intrinsics::Zero();                // of the camera

@@ -11,7 +11,7 @@
 namespace plm_vins {
 
 // Declares tracking lost once dead reckoning has made the position too uncertain. A second without
-// features is bridged by the IMU; after ten seconds it has drifted by metres. The same holds for
+// features is bridged by the IMU; after ten seconds it has drifted by meters. The same holds for
 // seconds without images or IMU samples, and if all observations are outliers.
 class BlindnessMonitor {
  public:

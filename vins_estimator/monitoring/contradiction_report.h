@@ -8,16 +8,16 @@ namespace plm_vins {
 
 // Facts that may explain why the camera persistently contradicts the IMU.
 struct ContradictionEvidence {
-  double noise_factor = 1;      // by which the IMU counts as noisier than its samples are
-  std::optional<double> delay;  // rough error of td [s] (DelayMonitor)
-  double imu_jitter = 0, image_jitter = 0;       // of timestamps, root mean square [s]
+  double noise_factor = 1;                  // assumed noise of the IMU over that of its samples
+  std::optional<double> delay;              // rough error of td [s] (DelayMonitor)
+  double imu_jitter = 0, image_jitter = 0;  // of timestamps, root mean square [s]
   double imu_rate = 0, configured_imu_rate = 0;  // [Hz]
   // Noise of the samples themselves over acc_n and gyr_n (ImuNoiseMeter).
   double accel_noise_factor = 0, gyro_noise_factor = 0;
 };
 
-// Says that the camera contradicts the IMU, first what is known to be wrong, then what to check,
-// the likeliest first.
+// Describes a contradiction between camera and IMU: first the known faults, then what to check, the
+// likeliest first.
 std::string DescribeContradiction(const ContradictionEvidence& evidence);
 
 }  // namespace plm_vins

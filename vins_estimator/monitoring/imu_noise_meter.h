@@ -11,9 +11,9 @@
 
 namespace plm_vins {
 
-// Measures the white noise of an IMU from its own samples, without a camera: by the second
-// differences of three in a row, which motion hardly reaches and which have six times the variance
-// of a sample where noise is white. Vibration counts as noise.
+// Measures the white noise of an IMU from its own samples, without a camera: from second
+// differences of three consecutive samples, which motion hardly affects and whose variance is six
+// times that of a sample if the noise is white. Vibration counts as noise.
 class ImuNoiseMeter {
  public:
   void Add(const ImuSample& sample) {

@@ -29,7 +29,7 @@ class LensMonitor {
   // Returns the rings, innermost first.
   std::vector<ResidualRing> Rings() const;
 
-  // Describes a model that does not fit, and what to do; empty if it fits or is not known yet.
+  // Describes a model that does not fit, and what to do; empty if it fits or data are too few.
   const std::string& warning() const { return warning_; }
 
  private:

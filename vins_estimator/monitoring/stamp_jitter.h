@@ -17,7 +17,7 @@ class StampJitterMonitor {
   // gyroscope's rate at the second image [rad/s].
   void Add(const Eigen::Vector3d& rotation_residual, const Eigen::Vector3d& rate);
 
-  // Skips an interval without information: the next one is not compared with those before.
+  // Skips an interval without information: the next one is not compared with earlier ones.
   void Skip();
 
   // Standard deviation of a timestamp error [s]; zero if it is not significant.

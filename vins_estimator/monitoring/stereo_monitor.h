@@ -10,19 +10,19 @@
 
 namespace plm_vins {
 
-// Judges the second camera by its residuals after each optimization: how noisy its observations
-// are, whether it fits its mounting and intrinsics at all, and whether it exposes late. Lines are
-// used only while points are: edges of another scene are matched by chance more easily.
+// Judges the second camera by its residuals after each optimization: the noise of its observations,
+// whether its mounting and intrinsics fit, and the delay of its exposure. Lines are used only while
+// points fit, because edges of another scene match by chance more easily.
 class StereoMonitor {
  public:
   // `point_noise`: standard deviation of a corner in the first camera, normalized.
   explicit StereoMonitor(double point_noise) : least_noise_(point_noise), noise_(point_noise) {}
 
   // Adds the residuals of an optimized window, and drops the outliers among its observations in the
-  // second camera. Counts those of points.
+  // second camera. Returns the counts of point observations.
   DepthCounts Judge(const SlidingWindow& window, PointMap* points, LineMap* lines);
 
-  // Adds the residuals of an optimized window, whose newest image is of `t_ns`.
+  // Adds the residuals of an optimized window; `t_ns` is the timestamp of its newest image.
   void Add(int64_t t_ns, const std::vector<RightResidual>& residuals);
   void Add(int64_t t_ns, const std::vector<RightLineResidual>& residuals);
 
@@ -32,10 +32,10 @@ class StereoMonitor {
   // Residual above which a single observation is an outlier.
   double max_error() const;
 
-  // Whether lines in the second camera are of use in an image of `t_ns`: they fit, and recent
-  // points do.
+  // Returns whether lines in the second camera are used in the image with the timestamp `t_ns`:
+  // lines fit, and so do recent points.
   bool UsesLines(int64_t t_ns) const;
-  // Factor on their stated deviations; large if they are of no use.
+  // Factor on the stated standard deviations of lines; large if lines are not used.
   double line_noise_factor(int64_t t_ns) const;
 
   // Median residual, normalized, if it is too large for the second camera to be used; otherwise

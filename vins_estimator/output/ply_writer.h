@@ -29,8 +29,8 @@ class PlyPointWriter {
   int64_t size_ = 0;
 };
 
-// Write observed line segments as edges between vertices: as ASCII PLY, coloured red, green and
-// blue by the axes x, y and z, grey if free; and as Wavefront OBJ, without colours.
+// Write observed line segments as edges between vertices: as ASCII PLY, colored red, green and
+// blue by the axes x, y and z, gray if free; and as Wavefront OBJ, without colors.
 void WriteSegmentsPly(const std::vector<MapLine>& lines, std::ostream* stream);
 void WriteSegmentsObj(const std::vector<MapLine>& lines, std::ostream* stream);
 

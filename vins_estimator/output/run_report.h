@@ -11,15 +11,15 @@
 
 namespace plm_vins {
 
-// Sums up a run in words: its world frames and why each began, and how long there was no pose, and
+// Summarizes a run in words: its world frames and why each began, and the time without a pose and
 // why.
 class RunReport {
  public:
-  // Outputs in order of arrival.
+  // Adds an output; outputs must be in order of arrival.
   void Add(const EstimatorOutput& output);
 
-  // Returns one line for each. Times are since the first image, used or not, where its stamp is
-  // known, otherwise since the first output.
+  // Returns a line on the world frames and one on the time without a pose. Times are since the
+  // first image, used or not, if its timestamp is known, otherwise since the first output.
   std::vector<std::string> Lines(std::optional<int64_t> first_image_ns) const;
 
   // Returns why the newest world frame replaced another; empty if there was only one.
@@ -28,7 +28,7 @@ class RunReport {
  private:
   struct World {
     double begin = 0;    // its first pose, since the first output [s]
-    std::string reason;  // why the one before it ended
+    std::string reason;  // why the previous one ended
   };
 
   std::string DescribeWorlds(double lead) const;

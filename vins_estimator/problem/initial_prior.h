@@ -22,8 +22,8 @@ struct InitialUncertainty {
   double velocity = 0.3;      // [m/s]
   double accel_bias = 0.1;    // [m/s^2]
   double gyro_bias = 0.02;    // [rad/s]
-  // If set, roll and pitch are those of the mean specific force at standstill, from which the true
-  // ones, with the true bias, differ by this acceleration [m/s^2]; `inclination` is not used then.
+  // If set, roll and pitch come from the mean specific force at standstill, which differs from that
+  // of the true attitude and bias by this acceleration [m/s^2]; `inclination` is not used then.
   std::optional<double> leveled_by = std::nullopt;
   double extrinsic_position = 0.02;  // [m]
   double extrinsic_rotation = 0.02;  // [rad]

@@ -33,10 +33,10 @@ class ProblemBuilder {
   // Adds the IMU factor between frames `index` - 1 and `index`, and standstill factors if
   // stationary.
   void AddMotion(size_t index) { motion_.Add(index); }
-  // Adds a triangulated landmark with all its observations, but those that tell its depth from one
-  // image (of the second camera or of a depth image) only before `depth_until_ns`.
+  // Adds a triangulated landmark with all its observations. Those that measure its depth in one
+  // image (second camera, depth image) are added only before `depth_until_ns`.
   void AddPoint(PointLandmark* landmark, int64_t depth_until_ns = kEndOfTime_ns);
-  // Adds a line likewise, with its observations in anchors and its Manhattan axis, if any.
+  // Adds a line in the same way, with its observations in anchors and its Manhattan axis, if any.
   void AddLine(LineLandmark* landmark, int64_t depth_until_ns = kEndOfTime_ns);
 
   const WindowProblem& problem() const { return problem_; }

@@ -29,19 +29,19 @@ struct ProblemOptions {
 
   double point_weight;            // inverse standard deviation of a corner, normalized
   double point_loss_scale = 1.0;  // Cauchy loss, in standard deviations
-  double line_weight;             // ... of a line's end points across it
+  double line_weight;             // inverse standard deviation of an end point across its line
   double line_loss_scale = 1.0;   // Cauchy loss, in standard deviations
   double right_weight;            // inverse standard deviation of a corner in the second camera
   double right_loss_scale = 1.0;  // Cauchy loss, in standard deviations
   double right_line_noise_factor = 1;  // on the stated deviations of lines in the second camera
   double depth_weight = 0;             // inverse standard deviation of a measured inverse depth [m]
   double depth_loss_scale = 1.0;       // Cauchy loss, in standard deviations
-  double anchor_weight;                // ... of lines in anchors
+  double anchor_weight;                // the same for end points of lines in anchors
   double manhattan_weight;            // inverse standard deviation of the angle to the axis [1/rad]
   double manhattan_loss_scale = 3.0;  // Tukey loss, in standard deviations
   double standstill_velocity = 0.005;   // standard deviation at standstill [m/s]
-  double standstill_position = 0.001;   // ... of the position between two frames [m]
-  double standstill_rotation = 0.0005;  // ... of the rotation between two frames [rad]
+  double standstill_position = 0.001;   // standard deviation of the position between two frames [m]
+  double standstill_rotation = 0.0005;  // the same for the rotation between two frames [rad]
   // Steady motion that is indistinguishable from standstill: a lower bound on its standard
   // deviations.
   double passing_velocity = 0;   // [m/s]

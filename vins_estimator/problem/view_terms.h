@@ -54,8 +54,8 @@ class ViewTerms {
   void AddView(const ProblemPoint& point, const PointView& view);
   void AddView(const ProblemLine& line, const LineView& view);
   void AddAnchorView(const ProblemLine& line, const LineView& view);
-  // Adds what tells the depth from one image: the observation in the second camera, and the
-  // measured depth, as far as the host or another frame has them.
+  // Adds the measurements of depth in one image: the observation in the second camera, and the
+  // measured depth, if the host or another frame has them.
   void AddDepth(const ProblemPoint& point, const PointView& view);
   void AddDepth(const ProblemLine& line, const LineView& view);
 

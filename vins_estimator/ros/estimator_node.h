@@ -37,7 +37,7 @@ namespace plm_vins {
 
 // The back end under ROS, as a node or in a nodelet. The callbacks only queue the inputs and
 // publish the state at IMU rate; a worker thread passes the inputs to the synchronous core in order
-// of arrival. If the worker cannot keep up, images that have waited too long are dropped in favour
+// of arrival. If the worker cannot keep up, images that have waited too long are dropped in favor
 // of the newest one.
 //
 // Services: ~reset reinitializes; ~save_trajectory writes the poses so far to ~trajectory_file
@@ -77,7 +77,7 @@ class EstimatorNode {
   void CheckTransforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event);
   bool Reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool SaveTrajectory(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  // Returns the full path; that of `otherwise` if the parameter is empty or not set.
+  // Returns the full path of ~trajectory_file; that of `otherwise` if it is empty or not set.
   std::string TrajectoryFile(const std::string& otherwise) const;
   void WarnWithoutFileAtEnd() const;
   void WarnWithoutCalibrationAtEnd() const;
@@ -127,7 +127,7 @@ class EstimatorNode {
 
   InPlaceQueue in_place_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::Subscriber transforms_;  // until nobody else was found to publish those of this node
+  ros::Subscriber transforms_;  // until no other publisher of this node's transforms was found
   std::optional<ros::WallTime> first_own_transform_;
   std::vector<ros::ServiceServer> services_;
   diagnostic_updater::Updater diagnostics_updater_;

@@ -13,7 +13,7 @@
 
 namespace plm_vins {
 
-// Converts lines to one LINE_LIST marker: red, green, blue for the Manhattan axes x, y, z; grey if
+// Converts lines to one LINE_LIST marker: red, green, blue for the Manhattan axes x, y, z; gray if
 // free. If there are no lines, the marker's action is DELETE, because rviz reports an empty marker
 // as an error.
 visualization_msgs::Marker ToLineMarker(const std::vector<MapLine>& lines, int64_t t_ns,

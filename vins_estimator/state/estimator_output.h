@@ -63,7 +63,7 @@ struct EstimatorOutput {
   std::string reason;     // why not tracking, or why reinitialized; otherwise empty
   bool has_pose = false;  // `state`, calibration and `imu_noise` are valid
   FrameState state;
-  std::optional<StateUncertainty> uncertainty;  // nullopt if the equations do not determine it
+  std::optional<StateUncertainty> uncertainty;  // nullopt if the equations are rank deficient
   Calibration calibration;
   std::optional<Eigen::Quaterniond> R_W_M;  // Manhattan frame; nullopt if not found
   ImuNoise imu_noise;                       // in use: as configured, or as estimated in flight

@@ -8,9 +8,9 @@
 
 namespace plm_vins {
 
-// Returns the relative error of the configured length of the second camera's baseline that motion
-// and IMU tell by themselves, without the prior on it, given the window's equations at their last
-// linearization: the estimate x, with variance P, is a mean of that error and of the prior's zero,
+// Returns the relative error of the configured baseline length of the second camera, from motion
+// and IMU alone, without the prior on the length, given the window's equations at their last
+// linearization. The estimate x, with variance P, is a mean of that error and of the prior's zero,
 // weighted by their information. Returns nullopt if the error is not significant.
 std::optional<double> BaselineError(const SlidingWindow& window, double configured_length,
                                     NormalEquations* equations);

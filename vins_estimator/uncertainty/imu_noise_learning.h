@@ -16,8 +16,8 @@ class ImuNoiseLearning {
  public:
   explicit ImuNoiseLearning(const ImuNoise& configured) : estimate_(configured) {}
 
-  // Adds the intervals of the older half of the window that are new, because images on both sides
-  // constrain them best; all intervals if this is the first window. `equations` are those of the
+  // Adds the intervals that were not used yet: those in the older half of the window, which images
+  // on both sides constrain best, or all of the first window. `equations` are those of the
   // solution.
   void Learn(const SlidingWindow& window, bool is_first, NormalEquations* equations);
 

@@ -34,7 +34,7 @@ double MedianVariance(const std::vector<ViewSpread>& spreads) {
   return Median(std::move(variances));
 }
 
-// Moves `noise` towards the observed value, in logarithmic scale.
+// Moves `noise` toward the observed value, in logarithmic scale.
 void Follow(std::optional<double> seen, double first, double share, double* noise) {
   if (!seen) return;
   const double goal = std::clamp(*seen, kLeast * first, kMost * first);

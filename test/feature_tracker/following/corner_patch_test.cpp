@@ -80,7 +80,7 @@ TEST_F(CornerPatchTest, StaysInsideOfTheImage) {
     EXPECT_FALSE(CornerPatch::Cut(view, outside)) << outside.transpose();
     EXPECT_FALSE(patch_.Align(view, {Linear(0, 1, 0), outside})) << outside.transpose();
   }
-  // The scaled patch leaves the image, although its centre is where the unscaled one would fit.
+  // The scaled patch leaves the image, although its center is where the unscaled one would fit.
   EXPECT_FALSE(patch_.Align(view, {Linear(0, 1.6, 0), {10, 100}}));
 }
 

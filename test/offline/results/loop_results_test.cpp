@@ -33,7 +33,7 @@ class LoopResultsTest : public ::testing::Test {
     camera.cy = 120;
   }
 
-  // An image of random grey levels at x [m], half a second after the previous one.
+  // An image of random gray levels at x [m], half a second after the previous one.
   PipelineFrame FrameAt(double x) {
     t_ns_ += ToNanoseconds(0.5);
     PipelineFrame frame;

@@ -20,7 +20,7 @@ cv::Mat Clouds() {
   return gray;
 }
 
-// Describes the centre of the image, which a rotation does not move.
+// Describes the center of the image, which a rotation does not move.
 Descriptor DescribeMiddle(const cv::Mat& gray, float angle) {
   return DescribeCorners(gray, {{100, 100}}, {angle}).front().value();
 }
@@ -55,7 +55,7 @@ TEST(GravityAngle, TurnsWithACameraThatRolls) {
 TEST(GravityAngle, PointsToTheVanishingPointOfACameraThatLooksDown) {
   const Eigen::Quaterniond pitch(Eigen::AngleAxisd(-60 * kDegree, Eigen::Vector3d::UnitX()));
   const Eigen::Quaterniond R_O_C = testing::LookingAhead().rotation * pitch;
-  // Straight down is at (0, 1 / tan 60 deg) from the centre; to the left of it, down points right.
+  // Straight down is at (0, 1 / tan 60 deg) from the center; to the left of it, down points right.
   const double y = 1 / std::tan(60 * kDegree);
   EXPECT_NEAR(GravityAngle(*testing::SimpleCamera(), R_O_C, {-0.3, y}), 0, 0.2);
 }

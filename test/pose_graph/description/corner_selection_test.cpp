@@ -23,7 +23,7 @@ cv::Mat Squares(const std::vector<cv::Point>& places, const std::vector<int>& br
   for (size_t i = 0; i < places.size(); ++i) {
     cv::rectangle(gray, cv::Rect(places[i], cv::Size(12, 12)), cv::Scalar(brightness[i]), -1);
   }
-  cv::GaussianBlur(gray, gray, cv::Size(3, 3), 0.7);  // otherwise neighbours are equally strong
+  cv::GaussianBlur(gray, gray, cv::Size(3, 3), 0.7);  // otherwise neighbors are equally strong
   return gray;
 }
 

@@ -22,7 +22,7 @@ LevelEdge Edge(int from, int to, const LevelTransform& T_from_to, bool is_loop,
   return {from, to, T_from_to, covariance, is_loop, is_loop ? 0 : T_from_to.translation.norm()};
 }
 
-// A straight path of `count` metres along x.
+// A straight path of `count` meters along x.
 PoseGraph Straight(int count) {
   PoseGraph graph;
   for (int i = 0; i <= count; ++i) {

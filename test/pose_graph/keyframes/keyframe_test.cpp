@@ -67,7 +67,7 @@ TEST(StepCovariance, HasALowerBoundByPathLength) {
   EXPECT_NEAR(StepCovariance(noise, {0, 3, 0}, Matrix4d::Zero())(2, 2), expected * expected, 1e-12);
 }
 
-// Random grey levels, smoothed by the resize only.
+// Random gray levels, smoothed by the resize only.
 cv::Mat Noise() {
   cv::Mat small(60, 94, CV_8UC1);
   cv::RNG random(3);

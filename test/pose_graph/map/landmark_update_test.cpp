@@ -12,7 +12,7 @@ using testing::Wall;
 
 constexpr double kMaxError = 4 / testing::kFocalLength;  // normalized
 
-// Three keyframes a metre apart with the same tracks.
+// Three keyframes a meter apart with the same tracks.
 class UpdateLandmarksTest : public ::testing::Test {
  protected:
   UpdateLandmarksTest() {

@@ -6,7 +6,7 @@
 namespace plm_vins {
 namespace {
 
-// Two keyframes a second and a metre apart; the second has been corrected.
+// Two keyframes a second and a meter apart; the second has been corrected.
 KeyframeMap TwoKeyframes() {
   KeyframeMap map;
   for (int i = 0; i < 2; ++i) {

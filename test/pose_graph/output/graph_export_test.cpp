@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// Two keyframes a metre apart, in a map that is rotated by a quarter turn.
+// Two keyframes a meter apart, in a map that is rotated by a quarter turn.
 KeyframeMap SmallMap(const CameraModel& camera) {
   KeyframeMap map;
   const LevelTransform T_M_O = {M_PI / 2, {0, 0, 1}};

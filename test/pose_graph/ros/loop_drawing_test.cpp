@@ -20,7 +20,7 @@ class LoopDrawingTest : public ::testing::Test {
 
   cv::Mat Draw() const { return DrawLoop(*camera_, observations_, earlier_, later_); }
 
-  // Returns whether the drawing is coloured at the pixel.
+  // Returns whether the drawing is colored at the pixel.
   static bool IsColored(const cv::Mat& picture, int x, int y) {
     const auto& color = picture.at<cv::Vec3b>(y, x);
     return color[0] != color[1] || color[1] != color[2];
@@ -48,7 +48,7 @@ TEST_F(LoopDrawingTest, DrawsAnUnknownEarlierImageBlack) {
 }
 
 TEST_F(LoopDrawingTest, JoinsALandmarkWithItsCorner) {
-  // 92 px above the centre of the earlier image, 92 px below the centre of the later one.
+  // 92 px above the center of the earlier image, 92 px below the center of the later one.
   observations_.of_earlier = {{{0, -0.4, 3}, {0, 0.2}}};
   const cv::Mat picture = Draw();
   EXPECT_TRUE(IsColored(picture, 188 - 2, 120 - 46));  // left of the line: the disc

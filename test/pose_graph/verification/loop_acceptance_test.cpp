@@ -6,7 +6,7 @@
 namespace plm_vins {
 namespace {
 
-// A path of 40 keyframes there and back, at intervals of a second and a metre: keyframe 20 + i is
+// A path of 40 keyframes there and back, at intervals of a second and a meter: keyframe 20 + i is
 // at the place of 20 - i.
 class LoopAcceptanceTest : public ::testing::Test {
  protected:

@@ -16,7 +16,7 @@ TEST(DepthNoise, GrowsWithTheSquareOfTheDepth) {
     cv::meanStdDev(measured, mean, deviation);
     const double expected = 2.0 * depth * depth;  // [mm]
     EXPECT_NEAR(mean[0], 1000 * depth, 0.03 * expected);
-    // Rounding to a millimetre adds 1/12 to the variance; 20000 pixels determine it to 1 %.
+    // Rounding to a millimeter adds 1/12 to the variance; 20000 pixels determine it to 1 %.
     EXPECT_NEAR(std::hypot(expected, std::sqrt(1.0 / 12)) / deviation[0], 1, 0.02);
   }
 }

@@ -8,7 +8,7 @@
 namespace plm_vins::simulator {
 namespace {
 
-// 64 x 32 texels of 1 cm: upper half white, lower left black, lower right grey.
+// 64 x 32 texels of 1 cm: upper half white, lower left black, lower right gray.
 cv::Mat1b Quarters() {
   cv::Mat1b image(32, 64, uchar(255));
   image(cv::Rect(0, 16, 32, 16)) = 0;

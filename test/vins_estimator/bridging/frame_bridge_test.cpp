@@ -103,7 +103,7 @@ TEST_F(FrameBridgeTest, ConnectsAWindowWithinItsReach) {
   EXPECT_FALSE(bridge_.CanConnect(55 * kImage_ns));
 }
 
-// A heading uncertainty of half a degree moves this position by metres, but is not drift.
+// A heading uncertainty of half a degree moves this position by meters, but is not drift.
 TEST_F(FrameBridgeTest, WorksFarFromTheOrigin) {
   heading_deviation_ = 0.01;
   for (const double way : {1000.0, -1000.0}) {
@@ -117,7 +117,7 @@ TEST_F(FrameBridgeTest, WorksFarFromTheOrigin) {
 }
 
 TEST_F(FrameBridgeTest, EndsWhenThePositionIsUncertain) {
-  deviation_ = 0.006;  // of the inclination as well: twelve centimetres after two seconds
+  deviation_ = 0.006;  // of the inclination as well: twelve centimeters after two seconds
   Track(0, kLost);
   ASSERT_TRUE(bridge_.Begin("why"));
   Lose(kLost, 49);

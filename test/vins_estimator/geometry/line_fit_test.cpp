@@ -16,7 +16,7 @@ using Eigen::Vector4d;
 
 constexpr double kNoise = 1.0 / 460.0;
 
-// A line four metres ahead of cameras that move sideways, observed with noise at its endpoints.
+// A line four meters ahead of cameras that move sideways, observed with noise at its endpoints.
 struct Scene {
   explicit Scene(uint64_t seed, double noise = kNoise) {
     simulator::Random random(seed);

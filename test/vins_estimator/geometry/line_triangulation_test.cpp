@@ -26,7 +26,7 @@ const Vector3d kAcross = Vector3d::UnitY();
 const Vector3d kTowards = Vector3d::UnitZ();
 
 struct Segment {
-  Vector3d start{-1, 0, 4}, end{1, 0, 4};  // four metres ahead of a camera at the origin
+  Vector3d start{-1, 0, 4}, end{1, 0, 4};  // four meters ahead of a camera at the origin
 };
 
 // Observation of a segment by a camera, with `noise` at its endpoints.
@@ -231,7 +231,7 @@ TEST(TriangulateLine, StatesTheDeviationOfItsDepth) {
 }
 
 TEST(TriangulateLine, RejectsLinesBehindACamera) {
-  // Vertical lines whose planes intersect five metres behind both cameras.
+  // Vertical lines whose planes intersect five meters behind both cameras.
   const auto upright = [](double x) { return LineSegmentView{{x, -0.3}, {x, 0.3}}; };
   EXPECT_EQ(ResultOf({{Rigid3d(), upright(-0.1)}, {{SO3Exp({0, 0, 0}), kAlong}, upright(0.1)}}),
             Result::kBehind);

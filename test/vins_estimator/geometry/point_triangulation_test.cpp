@@ -79,7 +79,7 @@ TEST(TriangulatePoint, ErrorMatchesTheNoise) {
 }
 
 TEST(TriangulatePoint, RejectsRaysThatAreTooParallel) {
-  const Vector3d p_W(0, 0, 100);  // subtends 0.01 rad from one metre
+  const Vector3d p_W(0, 0, 100);  // subtends 0.01 rad from one meter
   const auto observations = [&p_W](double baseline) {
     return std::vector<PosedPointObservation>{SeeFrom(p_W, {0, 0, 0}),
                                               SeeFrom(p_W, {baseline, 0, 0})};

@@ -115,7 +115,7 @@ TEST_F(StandstillDetectorTest, DetectsCommonMotionBelowTheCornerNoise) {
   EXPECT_LT(common_px(0, 0, 0), 0.08);
   EXPECT_NEAR(common_px(0.6, 0, 0), 0.3, 0.08);
   EXPECT_NEAR(common_px(-0.6, 0, 0), 0.3, 0.08);
-  // The median corner is 168 px from the centre.
+  // The median corner is 168 px from the center.
   EXPECT_NEAR(common_px(0, 0.003, 0), 0.25, 0.08);
   EXPECT_NEAR(common_px(0, 0, -0.003), 0.25, 0.08);
 }

@@ -179,7 +179,7 @@ TEST(InitializerTest, RejectsBlindImages) {
   EXPECT_EQ(initializer.reason(), "too few points followed from the last image: 0 of 12");
 }
 
-// Blank images, whose neighbours a tracker follows from one to the other.
+// Blank images, whose neighbors a tracker follows from one to the other.
 TEST(InitializerTest, StartsWithBlankImagesAtARhythm) {
   for (const size_t rhythm : {2, 3, 10}) {
     SimulatedFlight flight = SimulateFlight(FlightOptions(simulator::Motion::kFast, 1), 4);

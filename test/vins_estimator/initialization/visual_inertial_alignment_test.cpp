@@ -49,7 +49,7 @@ class AlignmentTest : public ::testing::Test {
     return rotations;
   }
 
-  // Camera centres in units of `scale` [m], in a frame G that is rotated against W.
+  // Camera centers in units of `scale` [m], in a frame G that is rotated against W.
   std::optional<Alignment> Align(double scale, double gravity_norm = 9.81) {
     std::vector<AlignmentView> views;
     std::vector<const Preintegration*> preintegrations;

@@ -112,7 +112,7 @@ inline DenseEquations BuildDenseEquations(const WindowProblem& problem,
   return DenseEquationsBuilder(problem, columns).Build();
 }
 
-// Scale factors that give H a unit diagonal, since metres, radians and biases differ by orders of
+// Scale factors that give H a unit diagonal, since meters, radians and biases differ by orders of
 // magnitude.
 inline Eigen::VectorXd UnitDiagonalScale(const Eigen::MatrixXd& H) {
   return H.diagonal().cwiseSqrt().cwiseInverse();

@@ -176,7 +176,7 @@ VectorXd Motion(const MarginalizationPrior& prior, const Vector3d& translation,
   return direction;
 }
 
-// Information along a unit direction (position in metres, rotation in radians).
+// Information along a unit direction (position in meters, rotation in radians).
 double Information(const MarginalizationPrior& prior, const Vector3d& translation,
                    const Vector3d& axis) {
   const VectorXd direction = Motion(prior, translation, axis);

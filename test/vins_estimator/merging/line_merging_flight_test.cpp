@@ -44,7 +44,7 @@ std::set<int64_t> FindRedundant(const LineMap& lines, const Identities& identiti
   return redundant;
 }
 
-// Lines closer than this are indistinguishable, since image noise is as large at some metres.
+// Lines closer than this are indistinguishable, since image noise is as large at some meters.
 constexpr double kIndistinguishable = 0.05;  // [m]
 
 bool IsOneLine(const simulator::LineSegment3d& a, const simulator::LineSegment3d& b) {

@@ -71,7 +71,7 @@ TEST(BlindnessMonitor, IgnoresAnUnknownCovariance) {
   EXPECT_TRUE(monitor.Add(5, false, At(5), Known(3.1)));
 }
 
-// Far from the origin of the world, an uncertain heading moves the position by metres.
+// Far from the origin of the world, an uncertain heading moves the position by meters.
 TEST(BlindnessMonitor, HeadingDriftOfTheWorldDoesNotCount) {
   constexpr double kHeading = 0.014;  // standard deviation [rad]
   BlindnessMonitor monitor;

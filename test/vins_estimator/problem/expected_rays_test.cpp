@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Two cameras half a metre apart; the second one is frame 2.
+// Two cameras half a meter apart; the second one is frame 2.
 SlidingWindow TwoFrames() {
   SlidingWindow window;
   window.frames.resize(2);

@@ -10,11 +10,11 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMinValid = 7;  // of the nine
-// Half the range of the values, as a share of the depth: noise and slant are within.
+constexpr int kMinValid = 7;  // least number of valid values among the nine
+// Largest half range of the values relative to the depth; allows for noise and slant.
 constexpr double kMaxDeviation = 0.05;
 
-// In meters; zero where it is unknown.
+// Returns the depth in meters; zero if it is unknown.
 double ValueAt(const cv::Mat& depth, int row, int column) {
   if (depth.type() == CV_16UC1) return 1e-3 * depth.at<uint16_t>(row, column);
   const double value = depth.at<float>(row, column);

@@ -129,7 +129,7 @@ class PointTracker::Implementation {
     return equalized_;
   }
 
-  // Follows the tracks from the previous image, or from the last one before a loss of sight.
+  // Follows the tracks from the previous image, or also from the last one before a loss.
   void FollowOrFindAgain(const OpticalFlow::Pyramid& pyramid, const ImageSample& sample, double dt,
                          const std::optional<Eigen::Quaterniond>& R_C1_C0) {
     const std::vector<PointTrack> before = tracks_;
@@ -144,8 +144,8 @@ class PointTracker::Implementation {
     }
   }
 
-  // Follows the tracks from before the loss of sight; they replace the present ones if they are
-  // there again.
+  // Follows the tracks from before the loss. They replace the current tracks if enough of them are
+  // found again.
   void FindAgain(const OpticalFlow::Pyramid& pyramid, const ImageSample& sample) {
     const double age = last_usable_->Age(sample.t_ns);
     std::vector<PointTrack> found = last_usable_->tracks;
@@ -159,10 +159,10 @@ class PointTracker::Implementation {
     if (regained || age > kMaxUsableImageAge) last_usable_.reset();
   }
 
-  // The image that tracks are followed from.
+  // Image from which tracks are followed.
   struct Origin {
     const OpticalFlow::Pyramid& pyramid;
-    double previous_dt;  // between this image and the one before it [s]
+    double previous_dt;  // from the image before this one [s]
     double dt;           // until the image that tracks are followed to [s]
     const std::optional<Eigen::Quaterniond>& R_C1_C0;
   };
@@ -335,7 +335,7 @@ class PointTracker::Implementation {
   cv::Mat equalized_;                    // equalized image; its memory is reused
   std::vector<PointTrack> tracks_;       // in descending order of age
   std::optional<LastUsableImage<PointTrack, OpticalFlow::Pyramid>>
-      last_usable_;  // after a loss of it
+      last_usable_;  // set after a loss of tracks
   PointTrackerStatistics statistics_;
   int64_t next_id_ = 0;
 };

@@ -130,8 +130,8 @@ class LineTracker::Implementation {
     *tracks = std::move(followed);
   }
 
-  // Follows the tracks from before a loss of sight; they replace the present ones if they are there
-  // again.
+  // Follows the tracks from before a loss. They replace the current tracks if enough of them are
+  // found again.
   void FindAgain(const LineFlow::Pyramid& pyramid, int64_t t_ns) {
     const double age = last_usable_->Age(t_ns);
     const double dt_ratio = last_usable_->previous_dt > 0 ? age / last_usable_->previous_dt : 0;
@@ -269,7 +269,7 @@ class LineTracker::Implementation {
   ImageSample sample_;      // keeps the pixels that the pyramid may refer to
   LineFlow::Pyramid pyramid_;
   LineTracks tracks_;
-  std::optional<LastUsableImage<LineTrack, LineFlow::Pyramid>> last_usable_;  // after a loss of it
+  std::optional<LastUsableImage<LineTrack, LineFlow::Pyramid>> last_usable_;  // after a loss
   std::optional<int> images_since_detection_;
   LineTrackerStatistics statistics_;
   int64_t next_id_ = 0;

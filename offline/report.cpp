@@ -10,10 +10,10 @@
 namespace plm_vins {
 namespace {
 
-// Share of the images, or of ten times as many IMU samples, beyond which a drop is worth naming.
+// Share of the images, or of ten times as many IMU samples, beyond which a drop is reported.
 constexpr double kManyDropped = 0.1;
 
-// Returns where the dropped input comes from, as far as its cause says.
+// Returns the origin of the dropped input, if the cause of the drop identifies it.
 std::string Origin(const DropCount& drop, const Source& source) {
   const auto begins_with = [&](const char* word) { return drop.cause.rfind(word, 0) == 0; };
   return begins_with("image") ? source.images : begins_with("imu") ? source.imu : "";
@@ -41,7 +41,7 @@ std::string WorstDrop(const RunSummary::Run& run, const Source& source) {
   return is_small ? "" : Describe(*worst, source);
 }
 
-// Returns what explains most of what went wrong; empty if nothing did.
+// Returns the most important problem of a run; empty if there was none.
 std::string MostWrong(const RunSummary::Run& run, const Source& source, const RunReport& report) {
   if (!run.findings.empty()) return run.findings.front();
   const std::string restart = report.LastRestart();
@@ -59,14 +59,14 @@ std::string WhyNone(const RunSummary::Run& run, const OdometryPipeline& pipeline
   return dropped ? "none was usable, see the warnings" : "none between --start and --duration";
 }
 
-// Returns the warning where most of a recording was of no use; empty where it was not.
+// Returns a warning if most images of a recording were not used; otherwise an empty string.
 std::string UnusedWarning(int64_t unused, int64_t images) {
   if (2 * unused <= images) return "";
   return std::to_string(unused) + " of " + std::to_string(images) + " images were not used";
 }
 
-// Returns the warning where the IMU does not cover most images, and nothing else was found; empty
-// where it does.
+// Returns a warning if the IMU does not cover most images and no other problem was found; otherwise
+// an empty string.
 std::string UncoveredWarning(const RunSummary::Run& run, const OdometryPipeline& pipeline) {
   const auto is_uncovered = [&](const DropCount& drop) {
     return drop.cause == "frames_without_imu" && 2 * drop.count > run.images;
@@ -82,13 +82,13 @@ std::string UncoveredWarning(const RunSummary::Run& run, const OdometryPipeline&
          "; both must be stamped by the same clock";
 }
 
-// Returns the warning where most images have no pose; empty where they have.
+// Returns a warning if most images have no pose; otherwise an empty string.
 std::string PoselessWarning(int64_t poses, int64_t images) {
   if (poses == 0 || 2 * poses > images) return "";
   return std::to_string(images - poses) + " of " + std::to_string(images) + " images have no pose";
 }
 
-// Returns the warning where time does not run forward in a recording; empty where it does.
+// Returns a warning if the timestamps of a recording jump back; otherwise an empty string.
 std::string PartsWarning(const TimedFile& trajectory) {
   if (trajectory.parts() == 0) return "";
   return "stamps jumped back " + std::to_string(trajectory.parts()) +

@@ -12,9 +12,9 @@
 namespace plm_vins {
 namespace {
 
-// Newer images that end the wait for the gyroscope where it did not reach the image before either.
+// Newer images that end the wait if the gyroscope did not reach the previous image either.
 constexpr size_t kMaxWaiting = 2;
-constexpr int64_t kMaxWait_ns = 500'000'000;  // otherwise, up to the newest image
+constexpr int64_t kMaxWait_ns = 500'000'000;  // longest wait otherwise, up to the newest image
 constexpr int64_t kImageGap_ns = 1'000'000'000;
 constexpr int kJumpPatience = 10;  // images
 
@@ -119,7 +119,7 @@ ImageCompanions ImageQueue::TakeCompanions(int64_t t_ns) {
   return companions;
 }
 
-// Matches in an image that the second camera sends again contradict the motion of the first one.
+// Matches in a repeated image of the second camera contradict the motion of the first camera.
 void ImageQueue::DropRepeated(const ImageSample& image, ImageSample* right) {
   if (right->gray.empty()) return;
   const bool is_repeated =

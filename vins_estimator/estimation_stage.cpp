@@ -26,7 +26,7 @@ double LeastSpeed(const EstimatorOutput& output) {
 // calibration, 3 to 6 with td off by 30 ms or focal lengths off by 15 %.
 constexpr double kContradictingNoise = 2.5;
 
-// Doubts about the estimate, or waiting for a start, of which the cause is looked for [s].
+// Time in doubt or without a pose after which the cause is searched for, and its limit [s].
 constexpr double kLongDoubt = 2, kMaxDoubt = 6;
 
 // Returns whether the estimated noise is at its upper limit.
@@ -140,7 +140,7 @@ std::string EstimationStage::InputFinding() const {
       unfelt_motion);
 }
 
-// A doubt is forgotten half as fast as it grows.
+// A doubt decays half as fast as it grows.
 void EstimationStage::CheckRotations(const FrameMeasurement& measurement,
                                      const EstimatorOutput& output) {
   const double interval = ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns);

@@ -19,13 +19,13 @@ constexpr SolverOptions kFirstSolution = {20, 0.01};
 constexpr SolverOptions kNewestSolution = {5, 0.1};
 constexpr double kEarlyTolerance = 0.1;  // of a standard deviation
 
-// After initialization from standstill, which may have been a hover.
+// Uncertainty after initialization from standstill, which may have been a hover.
 constexpr double kStandstillVelocity = 0.03;   // [m/s]
 constexpr double kStandstillGyroBias = 0.003;  // [rad/s]
 // Mean acceleration of a hover, and what vibration leaves in the mean specific force [m/s^2].
 constexpr double kStandstillAcceleration = 0.1;
 
-// If the camera's rotation was just calibrated and its position is unknown.
+// Uncertainty if the camera's rotation was just calibrated and its position is unknown.
 constexpr double kUnknownCameraRotation = 0.1;  // [rad]
 constexpr double kUnknownCameraPosition = 0.1;  // [m]
 

@@ -11,7 +11,7 @@ namespace {
 constexpr int64_t kMinSamples = 200;
 constexpr int64_t kMinSpan_ns = 2'000'000'000;
 
-// Shares of the samples.
+// Shares of the samples that count as most and as many.
 constexpr double kMost = 0.8;
 constexpr double kMany = 0.3;
 constexpr double kFew = 0.05;
@@ -73,7 +73,7 @@ std::string ImuContent::MissingSensor(const std::string& topic) const {
     return "specific force is zero in every sample: is " + topic +
            " the gyro's own topic? Unite both sensors (unite_imu_method of the driver)";
   }
-  // A gyro that is simulated without noise is zero for as long as it stands still.
+  // A gyroscope that is simulated without noise reads zero during standstill.
   if (with_gyro_ == 0 && with_accel_ > 0 && newest_ns_ - first_ns_ > kMinSpan_ns) {
     return "angular velocity is zero in every sample: is " + topic +
            " the accelerometer's own topic? Unite both sensors (unite_imu_method of the driver)";

@@ -21,7 +21,7 @@ void AddChannel(const std::string& name, size_t size, sensor_msgs::PointCloud* c
   cloud->channels.back().values.reserve(size);
 }
 
-// The channels of what further sensors see, after those of the VINS family.
+// Channels for observations by further sensors, after the channels of the VINS family.
 constexpr std::array<const char*, 3> kRightPointChannels = {"right_search", "right_x", "right_y"};
 constexpr std::array<const char*, 1> kDepthChannels = {"depth"};
 constexpr std::array<const char*, 6> kRightLineChannels = {
@@ -45,7 +45,7 @@ void Append(const Eigen::Vector2d& xy, const std::array<double, kSize>& values,
   }
 }
 
-// Adds one value of each channel for every observation. `values` makes them of one.
+// Adds one value per observation to each channel. `values` computes them from an observation.
 template <size_t kSize, typename Observation, typename Values>
 void AddChannels(const std::array<const char*, kSize>& names,
                  const std::vector<Observation>& observations, const Values& values,
@@ -60,8 +60,8 @@ void AddChannels(const std::array<const char*, kSize>& names,
   }
 }
 
-// The first of these channels; the others follow. Returns nullptr if the message has none, or not
-// one value for each point.
+// Returns the first of these adjacent channels. Returns nullptr if the message has none, or not one
+// value for each point.
 template <size_t kSize>
 const sensor_msgs::ChannelFloat32* FindChannels(const sensor_msgs::PointCloud& cloud,
                                                 const std::array<const char*, kSize>& names) {
@@ -146,7 +146,7 @@ void AddRight(const std::vector<LineObservation>& lines, sensor_msgs::PointCloud
   }
 }
 
-// Reads the further channels of the i-th point of a message.
+// Reads the channels of further sensors for the i-th point of a message.
 void ReadCompanions(const sensor_msgs::PointCloud& message, size_t i, PointObservation* point) {
   if (const auto* right = FindChannels(message, kRightPointChannels)) {
     const float search = right[0].values[i];
@@ -160,7 +160,7 @@ void ReadCompanions(const sensor_msgs::PointCloud& message, size_t i, PointObser
   if (depth != nullptr && depth->values[i] > 0) point->depth = depth->values[i];
 }
 
-// VINS-Fusion's points of its second camera, to those of the first one with the same id.
+// Adds VINS-Fusion's points of the second camera to those of the first one with the same id.
 void AddSecondCamera(const sensor_msgs::PointCloud& message,
                      std::vector<PointObservation>* points) {
   std::unordered_map<int64_t, PointObservation*> by_id;

@@ -33,7 +33,7 @@ void WarnWithoutClock() {
       "/use_sim_time and restart all nodes");
 }
 
-// roscpp aborts where it cannot make its folder for logs; then they go to a temporary one.
+// roscpp aborts if it cannot create its log folder; a temporary folder replaces it then.
 void RequireLogFolder() {
   if (std::getenv("ROS_LOG_DIR") != nullptr) return;
   const char* const ros_home = std::getenv("ROS_HOME");

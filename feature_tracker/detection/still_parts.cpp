@@ -8,20 +8,20 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMaxAge = 1.0;           // of the image to compare with [s]
-constexpr double kPastInterval = 0.1;     // between images that are kept for it [s]
-constexpr double kCompareInterval = 0.2;  // between comparisons [s]
-constexpr double kMinShift_px = 8;        // of the scene by the rotation
-constexpr double kSureRate = 0.5;         // no gyroscope is biased like this [rad/s]
+constexpr double kMaxAge = 1.0;           // maximum age of the reference image [s]
+constexpr double kPastInterval = 0.1;     // interval between stored images [s]
+constexpr double kCompareInterval = 0.2;  // interval between comparisons [s]
+constexpr double kMinShift_px = 8;        // minimum shift of the scene due to the rotation
+constexpr double kSureRate = 0.5;         // exceeds any gyroscope bias [rad/s]
 constexpr int kCell_px = 16;
 
-constexpr int kWindow_px = 5;          // of the correlation: as large as a dot
+constexpr int kWindow_px = 5;          // of the correlation; as large as a projected dot
 constexpr double kMinContrast = 5;     // standard deviation in the window [gray levels]
-constexpr double kSame = 0.8;          // least correlation of parts that stand still
-constexpr double kDiffers = 0.5;       // greatest correlation of parts that move
-constexpr double kMovingShare = 0.15;  // of the textured area, if the camera moves
+constexpr double kSame = 0.8;          // minimum correlation of parts that stand still
+constexpr double kDiffers = 0.5;       // maximum correlation of parts that move
+constexpr double kMovingShare = 0.15;  // moving share of textured area if the camera moves
 
-// By chance, up to a tenth of the tracks of a scene lie on parts that look the same.
+// Up to a tenth of a scene's tracks lie on equal parts by chance.
 constexpr int kMinCorners = 10;
 constexpr double kStillShare = 0.25;
 
@@ -53,7 +53,7 @@ Correlation Correlate(const cv::Mat& gray_a, const cv::Mat& gray_b) {
   return result;
 }
 
-// Returns whether Correlate() finds the windows around a pixel the same, for this pixel alone.
+// Returns whether Correlate() would find one pixel the same, without the cost for all pixels.
 bool IsSameAt(const cv::Mat& gray_a, const cv::Mat& gray_b, const cv::Point& center) {
   constexpr int kHalf = kWindow_px / 2;
   constexpr double kPixels = kWindow_px * kWindow_px;
@@ -77,8 +77,8 @@ bool IsSameAt(const cv::Mat& gray_a, const cv::Mat& gray_b, const cv::Point& cen
          covariance > kSame * std::sqrt(variance_a * variance_b);
 }
 
-// Returns how many corners have the same surroundings in both images, which is far cheaper to find
-// than all parts that are the same.
+// Counts the corners whose surroundings are the same in both images, which is far cheaper than
+// finding all such parts.
 int CountSame(const cv::Mat& gray_a, const cv::Mat& gray_b,
               const std::vector<cv::Point2f>& corners) {
   constexpr int kHalf = kWindow_px / 2;
@@ -159,7 +159,7 @@ void StillParts::Compare(const Past& reference, const cv::Mat& gray,
   cv::Mat around;
   cv::dilate(still, around, cv::Mat::ones(kWindow_px, kWindow_px, CV_8UC1));
   if (!was_masked) moving_ = cv::Mat(gray.size(), CV_8UC1, cv::Scalar(255));
-  moving_.setTo(255, turned);  // parts that cannot be told now stay as they are
+  moving_.setTo(255, turned);  // outside `turned`, the previous mask remains
   moving_.setTo(0, around);
 }
 

@@ -14,9 +14,9 @@ namespace {
 constexpr float kSigma_px = 5.0F;  // of the weights: distant pixels may be at another depth
 constexpr int kMaxIterations = 12;
 constexpr double kConverged_px = 0.03;
-constexpr double kMaxShift_px = 1.5;      // from the result of the flow; otherwise one is wrong
-constexpr float kMinCorrelation = 0.85F;  // of the aligned pixels with the patch
-constexpr double kMaxGrowth = 3.0;        // of the patch's area, and inverse
+constexpr double kMaxShift_px = 1.5;      // largest distance from the result of the flow
+constexpr float kMinCorrelation = 0.85F;  // least correlation of the aligned pixels with the patch
+constexpr double kMaxGrowth = 3.0;        // largest change of the patch's area, as a factor
 constexpr float kMinGain = 0.3F;
 constexpr double kMinPivot = 1e-6;  // of the normal equations; flat patches have less
 

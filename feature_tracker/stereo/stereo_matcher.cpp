@@ -13,20 +13,20 @@ namespace plm_vins {
 namespace {
 
 constexpr double kNearest = 0.3;      // [m]
-constexpr double kBehind_px = 40.0;   // how far beyond infinity is searched: cameras may be swapped
-constexpr double kInfinity_px = 5.0;  // as far beyond infinity, the mounting may still be turned
+constexpr double kBehind_px = 40.0;   // search range beyond infinity, since cameras may be swapped
+constexpr double kInfinity_px = 5.0;  // tolerance beyond infinity, since the mounting may be turned
 constexpr double kMaxBand_px = 4.5;
-constexpr double kReturn_px = 1.5;       // from where a match comes back to, to the corner
-constexpr double kBack_px = 16.0;        // how far around the corner is searched from the match
-constexpr double kLargestDelay = 0.025;  // [s]; matches of a camera that is later are not used
+constexpr double kReturn_px = 1.5;       // largest distance of the backward match from the corner
+constexpr double kBack_px = 16.0;        // range of the backward search around the corner
+constexpr double kLargestDelay = 0.025;  // [s]; beyond, the second camera is not used
 constexpr double kReportedDelay = 2e-3;  // [s]
 constexpr double kReportedAngle = 0.2 * M_PI / 180;  // [rad]
-constexpr double kMaxDelay = 1e-3;  // [s]; up to which the second camera counts as in time
-// Matches are by chance where too small a share of the searches finds any.
+constexpr double kMaxDelay = 1e-3;                   // [s]; smaller delays are not compensated
+// If a smaller share of the searches succeeds, the matches are due to chance.
 constexpr double kMinFoundShare = 0.15;
-constexpr double kShareGain = 0.1;  // of an image
+constexpr double kShareGain = 0.1;  // weight of one image in the mean shares
 constexpr size_t kMinSearches = 8;
-// In images: a track without a match is searched for again, one with a match is confirmed.
+// Intervals [images] at which tracks without a match are searched for, and matches are confirmed.
 constexpr int kRetryInterval = 4;
 constexpr int kConfirmInterval = 16;
 
@@ -66,13 +66,13 @@ void StereoMatcher::Match(const cv::Mat& left, const cv::Mat& right,
 
 // Matched and new tracks are searched for in every image, others in some.
 bool StereoMatcher::IsDue(const PointTrack& track) const {
-  const int least_length = IsLate() ? 2 : 1;  // of which the motion is known, if it is needed
+  const int least_length = IsLate() ? 2 : 1;  // a delay requires a known motion
   if (track.length < least_length) return false;
   const bool is_new = track.length < least_length + unsearched_;
   return track.inverse_depth || is_new || IsTurn(track, kRetryInterval);
 }
 
-// Cameras that are swapped, or do not look at the same scene at the same time, match by chance.
+// Swapped cameras, or cameras that expose at different times, produce matches by chance.
 void StereoMatcher::Judge(std::vector<Search>* searches) {
   Shares sum;
   for (Search& search : *searches) {
@@ -133,7 +133,7 @@ std::optional<StereoMatcher::Place> StereoMatcher::FindAgain(const Images& image
   return expected ? Align(images, {*track.inverse_depth, *expected}, track) : std::nullopt;
 }
 
-// Returns where the first camera would see the corner when the second one exposes.
+// Returns the point in the first camera at the time when the second camera exposes.
 Eigen::Vector2d StereoMatcher::WhenSeen(const PointTrack& track) const {
   return IsLate() ? Eigen::Vector2d(track.xy + mounting_.delay() * track.velocity) : track.xy;
 }

@@ -12,17 +12,17 @@ namespace plm_vins {
 namespace {
 
 constexpr double kNearest = 0.3;      // [m]
-constexpr double kInfinity_px = 5.0;  // beyond infinity: the mounting may be turned
+constexpr double kInfinity_px = 5.0;  // tolerance beyond infinity, since the mounting may be turned
 constexpr double kAgreement_px = 2.0;
 constexpr size_t kMinAgreeing = 4;
 constexpr std::array<double, 5> kShares = {0.1, 0.3, 0.5, 0.7, 0.9};
-// In images: a line without a match is searched for again, one with a match is confirmed.
+// Intervals [images] at which lines without a match are searched for, and matches are confirmed.
 constexpr int kRetryInterval = 4;
 constexpr int kConfirmInterval = 16;
 constexpr double kMinCrossing = 0.25;  // sine of the angle between line and epipolar curve
 constexpr int kSearch_px = 3;          // across the predicted line
-// Standard deviations: of an edge, and of how far lens and mounting move the image across the
-// epipolar curves.
+// Standard deviations of an edge, and of the shift of the image across the epipolar curves due to
+// errors of lens and mounting.
 constexpr double kEdge_px = 0.3;
 constexpr double kEpipolar_px = 0.5;
 
@@ -65,7 +65,7 @@ bool LineStereo::IsTurn(const LineTrack& track, int interval) const {
   return (track.id + searched_) % interval == 0;
 }
 
-// The rays R x + rho t of the ends meet the plane of the line that the second camera sees.
+// Intersects the rays R x + rho t of the ends with the plane through the line and camera C1.
 Eigen::Vector2d LineStereo::DepthsBy(const RightSegment& right, const LineSegment& segment) const {
   const Eigen::Vector3d normal = right.start.homogeneous().cross(right.end.homogeneous());
   const double slope = normal.dot(pair_.T_C1_C().translation);

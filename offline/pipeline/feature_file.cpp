@@ -19,7 +19,7 @@ enum class ItemKind : uint8_t {
   kImu = 1,
   kPoints = 2,
   kPointsAndLines = 3,
-  // Followed by what the second camera or a depth sensor sees of the points, and of the lines.
+  // The next kinds include the observations in the second camera and the measured depths.
   kPointsWithCompanions = 4,
   kPointsAndLinesWithCompanions = 5,
 };
@@ -113,7 +113,7 @@ void Lines(Archive* archive, Struct& tracked) {
   });
 }
 
-// One for each point and line of the item, in their order.
+// Layout of the observations by further sensors, for each point and line in their order.
 template <typename Archive, typename Struct>
 void Companions(Archive* archive, Struct& frame) {
   for (auto& point : frame.points.features.points) {

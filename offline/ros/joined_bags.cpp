@@ -27,7 +27,7 @@ std::unique_ptr<IndexedBag> Open(const std::string& file) {
   RequireReadable(file);
   try {
     return std::make_unique<IndexedBag>(file);
-  } catch (const std::exception& error) {  // of a bad place, or std::bad_alloc
+  } catch (const std::exception& error) {  // exceptions of bag parsing, or std::bad_alloc
     throw std::runtime_error(
         file +
         " is not a ROS bag of format 2.0, or it is truncated, damaged or was never closed (" +
@@ -35,7 +35,7 @@ std::unique_ptr<IndexedBag> Open(const std::string& file) {
   }
 }
 
-// Adds up counts of the same causes, in the same order.
+// Adds counts to sums of the same causes in the same order.
 void AddUp(const DropCounts& counts, DropCounts* sums) {
   if (sums->empty()) sums->resize(counts.size());
   for (size_t i = 0; i < counts.size(); ++i) {
@@ -70,7 +70,7 @@ std::optional<BagMessage> JoinedBags::Next() {
     const auto a_ns = a->next_ns(), b_ns = b->next_ns();
     return a_ns && (!b_ns || *a_ns < *b_ns);
   };
-  // A bag whose last messages cannot be read gives none where it has announced some.
+  // Next() of a bag returns nullopt despite next_ns() if its last messages are unreadable.
   while (true) {
     const auto first = std::min_element(bags_.begin(), bags_.end(), is_earlier);
     if (first == bags_.end() || !(*first)->next_ns()) return std::nullopt;

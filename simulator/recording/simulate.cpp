@@ -159,7 +159,7 @@ void WriteGroundTruth(const Arguments& arguments, const std::vector<FrameState>&
   }
 }
 
-// Leaves those sensors that are asked for; the configuration must have them.
+// Keeps only the requested sensors, which the configuration must have.
 void ChooseSensors(const Arguments& arguments, SensorConfig* sensors) {
   if (arguments.stereo && !sensors->second_camera) {
     throw std::runtime_error("--stereo: name a --config with num_of_cam: 2");

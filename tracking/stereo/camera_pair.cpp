@@ -9,10 +9,10 @@
 namespace plm_vins {
 namespace {
 
-// The curve is projected at nodes this far apart, and straight between them: with the strongest
-// usual lenses, it bends by a hundredth of a pixel over that length.
+// The curve is projected at nodes this far apart and is straight between them: with the strongest
+// usual distortion it deviates by a hundredth of a pixel.
 constexpr double kNodeDistance_px = 10.0;
-constexpr double kMaxChange = 4.0;  // of the step of inverse depth, from node to node
+constexpr double kMaxChange = 4.0;  // largest factor between successive steps of inverse depth
 constexpr int kMaxNodes = 400;
 constexpr double kMinBaseline = 1e-6;     // [m]
 constexpr double kMinDepthRatio = 1e-3;   // of depths in the two cameras

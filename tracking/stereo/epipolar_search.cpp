@@ -11,9 +11,9 @@
 namespace plm_vins {
 namespace {
 
-constexpr float kMinCorrelation = 0.75F;  // at whole pixels; alignment asks for more
+constexpr float kMinCorrelation = 0.75F;  // at whole pixels; the alignment requires more
 constexpr float kUniqueness = 1.3F;       // the next best place must be worse by this factor
-constexpr int kPeakWidth_px = 3;          // as far from the best, a place is another one
+constexpr int kPeakWidth_px = 3;          // points farther from the best one count as others
 constexpr double kBandStep_px = 1.5;
 constexpr size_t kWarpInterval = 32;  // points of a curve that share a warp
 
@@ -22,7 +22,7 @@ struct Candidate {
   float correlation = -1;
 };
 
-// Looks at the places along the curve, and across it.
+// Evaluates the points along the curve and across it.
 class Search {
  public:
   Search(const cv::Mat& image, const std::vector<CurvePoint>& curve, double band_px)
@@ -41,7 +41,7 @@ class Search {
     }
   }
 
-  // The best candidate if no other place is about as good.
+  // Returns the best candidate, or nullopt if another point is about as good.
   std::optional<CurvePoint> Unique() const {
     const auto is_worse = [](const Candidate& a, const Candidate& b) {
       return a.correlation < b.correlation;

@@ -13,11 +13,11 @@ namespace plm_vins {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
-// Standard deviations of what a stated mounting may be off.
+// Standard deviations of the errors of a stated mounting.
 constexpr double kRotationPrior = 0.4 * kDegree;  // [rad]
 constexpr double kBaselinePrior = 0.4 * kDegree;  // [rad]
 constexpr double kDelayPrior = 0.01;              // [s]
-constexpr double kMatchDeviation_px = 0.5;        // of a match, with what lens models leave
+constexpr double kMatchDeviation_px = 0.5;        // of a match, including errors of lens models
 constexpr double kGate = 3.0;                     // standard deviations
 constexpr double kMemory = 0.99;  // share of its weight that an image keeps with the next
 constexpr double kScales_px[] = {4, 2, 1, 0.5};  // of the robust weights, one per iteration
@@ -52,7 +52,7 @@ MountingEstimate::Linear MountingEstimate::Linearize(const StereoMatch& match) c
   linear.error = weight * line.dot(b);
   linear.gradient.head<5>() =
       EpipolarGradient(weight, a, b, baseline_direction_, baseline_tangent_);
-  // A match that is seen later lies further along its motion.
+  // A match that is observed later lies further along its motion.
   linear.gradient[kDelay] = -weight * line.head<2>().dot(Velocity_C1(match));
   return linear;
 }

@@ -11,14 +11,14 @@ namespace {
 using Vector2Map = Eigen::Map<Eigen::Vector2d>;
 using PointJacobian = Eigen::Map<Eigen::Matrix<double, 2, kPointSize, Eigen::RowMajor>>;
 
-// A point of the first camera, seen by the second one.
+// Projects a point of the first camera into the second one.
 struct RightProjection {
   RightProjection(const PoseBlock& mounting, const Eigen::Vector3d& p_C)
       : T_C_C1(mounting), p_C1(T_C_C1.R.transpose() * (p_C - T_C_C1.p)) {}
 
   bool IsInFront() const { return p_C1.z() > kMinProjectedDepth; }
 
-  // Derivative of the weighted projection by p_C; writes that by the mounting if asked for.
+  // Returns the derivative by p_C; writes that by the mounting unless the pointer is null.
   Matrix23d Differentiate(double weight, double* mounting_jacobian) const {
     const Matrix23d d_r_d_pC1 = ProjectionJacobian(p_C1, weight);
     const Matrix23d d_r_d_pC = d_r_d_pC1 * T_C_C1.R.transpose();
@@ -32,7 +32,7 @@ struct RightProjection {
   Eigen::Vector3d p_C1;
 };
 
-// A line of the first camera, seen by the second one.
+// Projects a line of the first camera into the second one.
 struct RightLineProjection {
   RightLineProjection(const PoseBlock& mounting, const PluckerLine& line_C)
       : T_C_C1(mounting), L_C(line_C), L_C1(ToChild(T_C_C1, L_C)) {}
@@ -45,7 +45,7 @@ struct RightLineProjection {
     return true;
   }
 
-  // Derivative of the residual by the line in C; writes that by the mounting if asked for.
+  // Returns the derivative by the line in C; writes that by the mounting unless it is null.
   LineDerivative Differentiate(double* mounting_jacobian) const {
     if (mounting_jacobian) {
       const Matrix23d d_r_d_mC = d_r_d_mC1 * T_C_C1.R.transpose();

@@ -94,7 +94,7 @@ std::optional<StandstillDetector::Standstill> StandstillDetector::Add(
   return Standstill{imu_.since_ns(), 0, seen_ == Seen::kMovingScene};
 }
 
-// Rotation is noticed at once.
+// Tests translation only, because the IMU measures rotations at once.
 bool StandstillDetector::IsOfScene(double motion, std::optional<double> depth) const {
   constexpr double kNearest = 0.3;  // [m], of an unknown scene
   const double duration = ToSeconds(points_.back().t_ns - points_.front().t_ns);

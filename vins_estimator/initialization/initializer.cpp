@@ -31,10 +31,10 @@ constexpr double kAttemptInterval = 0.125;  // an attempt takes as long as sever
 constexpr double kScaleDeviationPerSecond = 0.015;  // relative [1/s]
 constexpr double kMaxScaleDeviation = 0.075;
 
-// Returns whether single images tell the depth of points.
+// Returns whether the depth of points is measured in single images.
 bool HasDepth(const SensorConfig& sensor) { return sensor.second_camera || sensor.depth; }
 
-// Depths that do not lead to a start may not fit the camera: the first window ignores them.
+// If initialization with depths fails, they may be wrong, so the first window ignores them.
 void ForgetDepths(std::vector<FrameMeasurement>* frames) {
   for (FrameMeasurement& frame : *frames) {
     for (PointObservation& point : frame.points.points) {
@@ -55,7 +55,7 @@ StandstillDetector::Options StandstillOptions(double duration) {
   return options;
 }
 
-// Hovering is told from standstill on the ground by the IMU, which must show its noise alone.
+// Standstill on the ground differs from hovering in that the IMU shows its noise alone.
 StandstillDetector::Options QuietOptions() {
   StandstillDetector::Options options = StandstillOptions(kQuietDuration);
   options.imu.min_gyro_deviation = options.imu.min_accel_deviation = 0;
@@ -84,7 +84,7 @@ void Initializer::KeepRotation(const Initializer& other) {
   calibrator_.reset();
 }
 
-// The second camera is mounted on the first.
+// Moves the second camera as well, which is mounted on the first.
 void Initializer::SetRotation(const Eigen::Quaterniond& R_B_C) {
   const Rigid3d T_B_C(R_B_C, sensor_.T_B_C.translation);
   if (sensor_.second_camera) {
@@ -111,8 +111,8 @@ bool Initializer::Skip(const FrameMeasurement& measurement) {
   return true;
 }
 
-// Adds an image; drops older ones if they are not connected to it by IMU samples and tracks. Of the
-// first image's samples only the last one, at the image itself, is kept.
+// Adds an image; drops older ones that IMU samples and tracks do not connect to it. Keeps only the
+// last sample of the first image, at the image itself.
 void Initializer::Append(const FrameMeasurement& measurement) {
   if (!buffer_.empty() && LeaveGap(measurement.imu)) StartOver("gap in the IMU samples");
   if (!buffer_.empty()) {

@@ -148,7 +148,7 @@ Rigid3d Attempt::T_C_C1() const {
 
 // Replaces EstimateBias() and Reconstruct().
 bool Attempt::ReconstructInStereo() {
-  ChainRotations();  // by the gyroscope without bias: to begin with
+  ChainRotations();  // from the biased gyroscope, as initial values
   std::vector<Eigen::Quaterniond> R_G_C;
   for (const Eigen::Quaterniond& R_G_B : R_G_B_) R_G_C.push_back(R_G_B * sensor_.T_B_C.rotation);
   const StereoStructureOptions options{T_C_C1(), noise_px_ / focal_length_,
@@ -158,7 +158,7 @@ bool Attempt::ReconstructInStereo() {
   const Eigen::Quaterniond R_B_C = sensor_.T_B_C.rotation;
   std::vector<RotationMeasurement> rotations;
   for (size_t i = 0; i < preintegrations_.size(); ++i) {
-    // Two errors that are about equal: half the information of one.
+    // Two errors of about equal size have half the information of one.
     const Eigen::Matrix3d information =
         0.25 * (stereo->rotation_information[i] + stereo->rotation_information[i + 1]);
     const Eigen::Quaterniond R_C0_C1 =
@@ -173,7 +173,7 @@ bool Attempt::ReconstructInStereo() {
   return true;
 }
 
-// Takes positions and points over from the frame of one of the cameras.
+// Takes over positions and points from the frame of one of the cameras.
 void Attempt::AdoptStereo(const StereoStructure& stereo) {
   const Rigid3d& T_S_C0 = stereo.T_G_C.front();
   const Eigen::Quaterniond R_G_S = sensor_.T_B_C.rotation * T_S_C0.rotation.conjugate();

@@ -12,7 +12,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMinPoints = 12;  // with depth, of the first view and in each other
+constexpr int kMinPoints = 12;  // with depth, in the first view and common to others
 constexpr int kResectionIterations = 10;
 constexpr double kLossScale = 2.0;          // Cauchy loss, in standard deviations
 constexpr double kMaxInlierResidual = 6.0;  // in standard deviations; depths are noisy as well
@@ -64,7 +64,7 @@ int Builder::ViewWithMostPairs() const {
   return static_cast<int>(std::max_element(pairs.begin(), pairs.end()) - pairs.begin());
 }
 
-// Returns nullopt if the two observations are too nearly parallel, or not of one point.
+// Returns nullopt if the two observations are nearly parallel, or not of the same point.
 std::optional<Eigen::Vector3d> Builder::PointOf(const ViewObservation& seen,
                                                 const Rigid3d& T_G_C) const {
   if (seen.depth) return T_G_C * (*seen.depth * seen.xy.homogeneous());
@@ -76,7 +76,7 @@ std::optional<Eigen::Vector3d> Builder::PointOf(const ViewObservation& seen,
   return p_G;
 }
 
-// Returns how many points it adds.
+// Returns the number of points that it adds.
 int Builder::TriangulateIn(int view) {
   const Rigid3d& T_G_C = structure_.T_G_C[view];
   int added = 0;

@@ -24,9 +24,9 @@ namespace plm_vins {
 namespace {
 
 constexpr SolverOptions kSolution = {12, 0.01};  // coarse: the window is optimized again
-constexpr double kOverstated = 0.4;              // of the configured noise: less is not chance
-constexpr double kLeastShare = 0.05;             // of the configured noise: less cannot be told
-constexpr double kLeastRedundancy = 5;           // of all intervals together, to tell the noise
+constexpr double kOverstated = 0.4;              // of the configured noise; less is significant
+constexpr double kLeastShare = 0.05;             // of the configured noise; least estimate
+constexpr double kLeastRedundancy = 5;           // of all intervals together, to estimate the noise
 constexpr double kGaugeDeviation = 1e-3;  // [m] and [rad]; any small value has the same effect
 
 // The bundle adjustment as a problem for the window's solver, over the given states.
@@ -239,8 +239,8 @@ std::optional<double> Bundle::RelativeScaleDeviation(NormalEquations* equations)
   return std::sqrt(variance);
 }
 
-// Returns the ratio of the accelerometer's noise that the residuals show to the assumed one; 1 if
-// they tell too little.
+// Returns the ratio of the accelerometer's noise in the residuals to the assumed noise; 1 if the
+// residuals have too little redundancy.
 double Bundle::ShareOfAccelNoise(NormalEquations* equations) const {
   double squared = 0, expected = 0, slope = 0;
   for (size_t i = 0; i < preintegrations_.size(); ++i) {

@@ -10,7 +10,7 @@ namespace plm_vins {
 namespace {
 
 constexpr int kMinMeasurementsToTriangulate = 3;
-constexpr double kMaxRightNoise = 2.0;  // of a segment that helps to triangulate, to the noise
+constexpr double kMaxRightNoise = 2.0;  // largest noise of a second-camera segment, over the noise
 constexpr double kMinSegment = 1e-3;    // normalized
 constexpr double kMinDistance = 1e-6;   // of a line from its host's camera [m]
 

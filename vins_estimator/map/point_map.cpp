@@ -36,7 +36,7 @@ void SetPosition(const Eigen::Vector3d& p_W, const SlidingWindow& window, const 
   }
 }
 
-// Returns the position by the first measured depth; nullopt without one.
+// Returns the position at the first measured depth; nullopt without one.
 std::optional<Eigen::Vector3d> AtMeasuredDepth(const PointLandmark& landmark,
                                                const SlidingWindow& window) {
   for (const PointView& view : landmark.views) {
@@ -83,7 +83,7 @@ bool Fits(const Eigen::Vector3d& p_W, const PointLandmark& landmark, double max_
   return sum <= max_error * static_cast<double>(count);
 }
 
-// Returns whether the depth of a landmark contradicts that which was measured in one of its views.
+// Returns whether the depth of a landmark contradicts the depth measured in an observation.
 bool ContradictsDepth(const Eigen::Vector3d& p_W, const PointView& view, double max_error,
                       const SlidingWindow& window) {
   const double z = (window.T_W_C(view.t_ns).Inverse() * p_W).z();

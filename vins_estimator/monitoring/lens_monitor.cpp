@@ -14,7 +14,7 @@ constexpr int64_t kMinInRing = 100;  // residuals, for a median
 constexpr int64_t kMinInAll = 1000;
 constexpr double kQuartilesOfNormal = 1.349;  // their distance, in standard deviations
 constexpr double kMedianOfNormal = 1.253;     // its standard error, relative to the mean's
-// A landmark has residuals in several keyframes, at nearly the same place: so many count as one.
+// A landmark has residuals in several keyframes at nearly the same place; so many count as one.
 constexpr double kViewsPerSample = 3;
 constexpr double kSignificant = 2;        // standard errors, of the median of one ring
 constexpr double kLargestBias_px = 0.02;  // root mean square over the rings
@@ -24,7 +24,7 @@ double StandardError(const ResidualRing& ring) {
          std::sqrt(kViewsPerSample / static_cast<double>(ring.count));
 }
 
-// Returns the square of a ring's median beyond chance.
+// Returns the square of the part of a ring's median that exceeds chance.
 double Excess(const ResidualRing& ring) {
   const double chance = kSignificant * StandardError(ring);
   return std::max(0.0, ring.radial_px * ring.radial_px - chance * chance);

@@ -16,15 +16,15 @@ constexpr size_t kMinResiduals = 20;   // fewer are not representative
 constexpr double kTimeConstant = 1.0;  // [s]
 // Median length of a vector of two independent normal components, in standard deviations.
 constexpr double kMedianLength = 1.1774;
-constexpr double kMaxRatio = 4.0;       // of a usable camera's noise to that of the first
-constexpr double kUnusableRatio = 1e3;  // takes the weight from the observations
+constexpr double kMaxRatio = 4.0;       // largest noise of a usable camera over that of the first
+constexpr double kUnusableRatio = 1e3;  // makes the weight of the observations negligible
 constexpr double kMaxUnjudged = 1.5;    // without residuals of points, lines are not used [s]
 constexpr double kMaxErrorRatio = 5.0;  // of an inlier to the noise
 constexpr size_t kMinLineResiduals = 8;
 constexpr double kMinFlow = 10.0;    // root of the sum of squared flows for a delay [1/s]
 constexpr double kMinDelay = 0.003;  // [s]
 
-// Returns the share that the newest value has in a mean over the time constant.
+// Returns the weight of the newest value in a mean over the time constant.
 double ShareOfNewest(int64_t t_ns, std::optional<int64_t>* before_ns) {
   const double dt = *before_ns ? ToSeconds(t_ns - **before_ns) : kTimeConstant;
   const double share = *before_ns ? 1 - std::exp(-dt / kTimeConstant) : 1;

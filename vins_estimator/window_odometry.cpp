@@ -25,7 +25,7 @@ namespace {
 constexpr int kMaxReweighings = 3;  // each increases the noise by at most three times
 
 // Least number of points that constrain the newest state without optimizing the window, and
-// greatest share of outliers among them (normally a few per cent).
+// greatest share of outliers among them (normally a few percent).
 constexpr int kMinPointsToPlace = 20;
 constexpr double kDoubtfulShare = 0.1;
 

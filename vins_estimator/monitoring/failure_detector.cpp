@@ -10,7 +10,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMaxRejectedShare = 0.25;  // a few per cent in normal flight
+constexpr double kMaxRejectedShare = 0.25;  // a few percent in normal flight
 constexpr int kMinRejected = 5;             // at first; outlier rejection leaves fewer later
 constexpr double kMaxContradiction = 0.5;   // [s]
 // Limits the contribution of one image, because a gap between images is no contradiction.

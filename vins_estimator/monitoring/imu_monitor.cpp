@@ -28,7 +28,7 @@ constexpr double kOneDirection = 0.5;
 constexpr double kMinTurnImages = 20;  // fewer may agree by chance
 
 constexpr int kMinPoints = 20;              // fewer are no evidence
-constexpr double kContradictedShare = 0.5;  // a few per cent are outliers anyway
+constexpr double kContradictedShare = 0.5;  // a few percent are outliers anyway
 
 // Returns whether the displacement of points is so large that the robust loss rejected them instead
 // of the IMU.

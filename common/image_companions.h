@@ -19,7 +19,7 @@ struct DepthSample {
 
 // Images with the timestamp of a camera image; one that is missing has no pixels.
 struct ImageCompanions {
-  ImageSample right;  // of the second camera C1
+  ImageSample right;  // image of the second camera C1
   DepthSample depth;
 };
 

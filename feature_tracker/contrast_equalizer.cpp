@@ -9,7 +9,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kClipLimit = 3.0;  // of a histogram bin, relative to the mean bin
+constexpr double kClipLimit = 3.0;  // maximum of a histogram bin, relative to the mean bin
 // Fixed-point formats of 16 bits, of which SIMD multiplies eight at once.
 constexpr int kBlendedBits = 6;  // fractional bits
 constexpr int kWeightBits = 14;

@@ -20,13 +20,13 @@ struct PointTrack {
   cv::Point2f motion_px;    // since the previous image; zero when new
   cv::Point2f parallax_px;  // part of motion_px that the known camera rotation does not explain
   std::shared_ptr<const CornerPatch> patch;                    // for alignment; may be null
-  Eigen::Matrix2d patch_linear = Eigen::Matrix2d::Identity();  // of its pose at uv_px
+  Eigen::Matrix2d patch_linear = Eigen::Matrix2d::Identity();  // `linear` of the patch's pose
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();                // normalized, undistorted
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();          // d(xy)/dt [1/s]; zero when new
   std::optional<Eigen::Vector2d> right;                        // see PointObservation
   RightSearch right_search = RightSearch::kNotDue;
   std::optional<double> inverse_depth;  // from the last match in the second camera [1/m]
-  std::optional<double> depth;          // the same [m]
+  std::optional<double> depth;          // measured by the depth sensor [m]
 };
 
 }  // namespace plm_vins

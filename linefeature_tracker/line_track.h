@@ -18,7 +18,7 @@ struct LineTrack {
   // Motion across the line since the previous image (normalized), with the camera rotation removed.
   Eigen::Vector2d parallax = Eigen::Vector2d::Zero();
   std::optional<RightSegment> right;              // see LineObservation
-  std::optional<Eigen::Vector2d> inverse_depths;  // of start and end, by the last match [1/m]
+  std::optional<Eigen::Vector2d> inverse_depths;  // at start and end, from the last match [1/m]
 };
 
 }  // namespace plm_vins

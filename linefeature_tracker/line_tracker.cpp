@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kSearchAfterFlow_px = 2;
 constexpr int kSearchAfterDetection_px = 4;
-constexpr double kMinCorrelation = 0.6;  // of the brightness profiles across a line
+constexpr double kMinCorrelation = 0.6;  // correlation of the profiles across a line
 constexpr double kRefillBelow = 0.9;     // share of max_lines below which lines are detected
 constexpr int kRefillInterval = 3;       // least number of images between detections
 
@@ -206,7 +206,7 @@ class LineTracker::Implementation {
     return lines;
   }
 
-  // Adds tracks where there are none yet.
+  // Adds tracks where the image has none.
   void Refill(const cv::Mat& image, const std::vector<FoundLine>& lines) {
     LineOccupancy occupied(config_.spacing);
     LineQueue queue(image_size_);

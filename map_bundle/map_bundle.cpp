@@ -77,7 +77,7 @@ BundleState MapBundle::StateOf(const KeyframeMap& map) const {
   for (const int number : numbers) {
     BundleKeyframe& member = bundle.keyframes[number];
     const auto of_this_run = keyframes_.find(number);
-    if (of_this_run == keyframes_.end()) {  // of the loaded map: its camera pose is fixed
+    if (of_this_run == keyframes_.end()) {  // keyframe of the loaded map: its camera pose is fixed
       member.state.SetPose(map.T_M_C(number) * bundle.T_B_C.Inverse());
       continue;
     }

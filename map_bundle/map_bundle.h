@@ -83,7 +83,7 @@ class MapBundle {
 
   MapBundleOptions options_;
   ImuHistory imu_;
-  std::map<int, BundleKeyframe> keyframes_;      // of this run, by number; states in O
+  std::map<int, BundleKeyframe> keyframes_;      // keyframes of this run, by number; states in O
   std::map<std::pair<int, int>, Place> places_;  // by (later, earlier) keyframe number
   MapBundleSummary summary_;
 };

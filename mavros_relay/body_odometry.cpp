@@ -10,7 +10,7 @@ namespace {
 
 using Matrix6d = BodyOdometry::Matrix6d;
 
-constexpr double kMaxNormError = 1e-6;  // of a quaternion's norm
+constexpr double kMaxNormError = 1e-6;  // error of a quaternion's norm
 
 // p_A = p_B + R_W_B t, with t from B to A: a rotation by theta about the axes of W moves p_A by
 // theta x (R_W_B t).

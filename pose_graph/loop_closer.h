@@ -42,7 +42,7 @@ struct LoopCloserOptions {
 // A place recognized in the newest keyframe.
 struct RecognizedPlace {
   int earlier = -1;               // number of the earlier visit's keyframe
-  LoopObservations observations;  // of landmarks and lines observed in both visits
+  LoopObservations observations;  // landmarks and lines observed in both visits
 };
 
 // Result of processing one image.

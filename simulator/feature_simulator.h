@@ -38,7 +38,7 @@ struct FeatureSimulationOptions {
   int max_points = 150;              // for each image
   int max_lines = 50;                // for each image
   double min_line_length_px = 40.0;
-  uint64_t seed = 1;  // of landmarks and noise; the trajectory has its own
+  uint64_t seed = 1;  // seed of landmarks and noise; the trajectory has its own
 };
 
 // Output of the front ends and the IMU on a simulated flight, with ground truth.

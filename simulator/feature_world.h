@@ -20,7 +20,7 @@ enum class LineLayout {
 constexpr double kAtlantaTurn = 0.55;  // [rad]
 
 struct FeatureRoomOptions {
-  Eigen::Vector3d size{10, 8, 4};  // of the room, centered in x and y, with the floor at z = 0 [m]
+  Eigen::Vector3d size{10, 8, 4};  // room, centered in x and y, with the floor at z = 0 [m]
   double relief = 0.6;             // largest distance of points from the wall [m]
   int points = 1200;
   int lines = 150;             // in addition to the twelve edges of the room

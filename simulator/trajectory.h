@@ -32,7 +32,7 @@ struct TrajectoryOptions {
   double duration = 60.0;  // [s]
   double rest = 1.0;       // standstill at the start [s]
   double lead_in = 8.0;    // gentle flight between standstill and hover or pure rotation [s]
-  Eigen::Vector3d center{0, 0, 1.5};    // of the box that B never leaves [m]
+  Eigen::Vector3d center{0, 0, 1.5};    // center of the box that B never leaves [m]
   Eigen::Vector3d extent{2, 1.5, 0.6};  // half the size of that box [m]
   // Attitude of B in the vehicle frame V (x forward, y left, z up).
   Eigen::Quaterniond R_V_B = Eigen::Quaterniond::Identity();

@@ -26,7 +26,7 @@ struct ReadyImage {
   // Rotates directions from the camera frame of the previous image to this one's. nullopt if the
   // gyroscope does not cover the interval.
   std::optional<Eigen::Quaterniond> R_C1_C0;
-  ImageCompanions companions;  // of the same timestamp
+  ImageCompanions companions;  // images of other sensors with the same timestamp
   bool restart = false;        // timestamps jumped back: a new recording begins; drop earlier state
   bool publish = true;         // false: not for the estimator, by the rate `freq`
 };

@@ -33,7 +33,7 @@ struct EstimatedFrame {
   LineFrame lines;             // from which it was estimated; empty if there were none
   std::vector<ImuSample> imu;  // since the previous frame, starting with its last sample
   int64_t imu_ns = 0;          // time of the state on the IMU's clock
-  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // of B, without bias [rad/s]
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // in B, without bias [rad/s]
   // Variance of each component due to the noise of one gyroscope sample [rad^2/s^2].
   double angular_velocity_variance = 0;
 };
@@ -96,7 +96,7 @@ class EstimationStage {
   // Reinitializes after a clock change: the estimate is unrelated to the new timestamps.
   void FollowClock();
 
-  const double imu_rate_;  // as configured [Hz]
+  const double imu_rate_;  // configured IMU rate [Hz]
   const ImuNoise configured_noise_;
   const std::unique_ptr<Estimator> estimator_;  // hides the solver from users of this header
   InputCheck input_check_;
@@ -112,7 +112,7 @@ class EstimationStage {
   std::optional<double> delay_;  // [s]
   SecondCameraFaults second_camera_;
   int64_t frames_ = 0;
-  int64_t frames_repeated_ = 0;  // whose features were ignored
+  int64_t frames_repeated_ = 0;  // repeated images, whose features were ignored
   int64_t resets_ = 0;
   int64_t jumps_back_ = 0, leaps_ahead_ = 0;   // handled so far
   bool reinitializing_ = true;                 // no image since the start or the last reset

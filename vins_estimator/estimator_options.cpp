@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kMinTriangulationAngle_px = 2.0;  // in pixels of motion: well above corner noise
 constexpr double kMaxReprojectionError_px = 3.0;
-constexpr double kMaxDepthError = 4.0;    // of a measured inverse depth, in standard deviations
+constexpr double kMaxDepthError = 4.0;    // for measured inverse depths, in standard deviations
 constexpr double kMaxRayError_px = 0.02;  // a tenth of the noise of the best corners
 
 // Over half a second: eight times the effect of noise on the median of a hundred corners.
@@ -17,7 +17,7 @@ constexpr double kPassingFlow_px = kMaxMotionAtRest_px / 0.5;  // [px/s]
 
 constexpr SolverOptions kFirstSolution = {20, 0.01};
 constexpr SolverOptions kNewestSolution = {5, 0.1};
-constexpr double kEarlyTolerance = 0.1;  // of a standard deviation
+constexpr double kEarlyTolerance = 0.1;  // fraction of a standard deviation
 
 // Uncertainty after initialization from standstill, which may have been a hover.
 constexpr double kStandstillVelocity = 0.03;   // [m/s]

@@ -22,17 +22,17 @@ struct EstimatorOptions {
   LocalMapOptions map;
   KeyframePolicyOptions keyframes;
   double min_triangulation_angle;  // between the rays of a point [rad]
-  double max_reprojection_error;   // of a point, mean over its observations, normalized
-  double max_inverse_depth_error;  // of a measured depth [1/m]
-  double max_ray_error;            // of rays when the intrinsics are refined, normalized
+  double max_reprojection_error;   // mean reprojection error of a point, normalized
+  double max_inverse_depth_error;  // error of a measured inverse depth [1/m]
+  double max_ray_error;            // error of rays when the intrinsics are refined, normalized
   double max_motion_at_rest_px;    // common corner motion at standstill, if the depth is known [px]
-  double passing_flow;             // the same per time [1/s], normalized
+  double passing_flow;             // the same limit, as a velocity [1/s], normalized
   LineLimits line_limits;
   SameLineLimits same_line;
   AnchorPolicyOptions anchors;
   ProblemOptions problem;
-  SolverOptions newest_solution;  // of the states after the newest keyframe only
-  SolverOptions first_solution;   // of the window that was just initialized
+  SolverOptions newest_solution;  // for the states after the newest keyframe only
+  SolverOptions first_solution;   // for the window that was just initialized
   // While the window fills: the scale is hardly observable and strongly nonlinear at first.
   SolverOptions early_solution;
   SolverOptions solution;

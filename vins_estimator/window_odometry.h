@@ -34,7 +34,7 @@ class WindowOdometry {
   // Result of one image.
   struct Tracked {
     FrameState newest;
-    std::optional<Matrix15d> covariance;  // of `newest`
+    std::optional<Matrix15d> covariance;  // covariance of `newest`
     std::optional<Failure> failure;       // if set, tracking is lost: reinitialize
     // Points in the middle frame of the window, whose pose is known best; each keyframe once.
     std::vector<PixelResidual> residuals;
@@ -69,7 +69,7 @@ class WindowOdometry {
   // Result of solving for the newest frame.
   struct Solution {
     bool exists = false;                                 // the equations had a solution
-    std::optional<Matrix15d> covariance = std::nullopt;  // of the newest state
+    std::optional<Matrix15d> covariance = std::nullopt;  // covariance of the newest state
   };
 
   void Fill(const InitializationResult& result, const InitialUncertainty& uncertainty);

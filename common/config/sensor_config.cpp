@@ -14,7 +14,7 @@ using Key = ConfigKey<S>;
 
 constexpr double kRotationTolerance = 5e-3;     // allows matrices with three decimals
 constexpr Range kTranslationRange = {-10, 10};  // [m]
-constexpr Range kScaleRange = {0.5, 2};         // of corrections of an IMU [1]
+constexpr Range kScaleRange = {0.5, 2};         // scale factors of an IMU's corrections [1]
 
 Problem SetRotation(const Eigen::MatrixXd& R_B_C, Rigid3d* T_B_C) {
   const Eigen::Matrix3d error = R_B_C * R_B_C.transpose() - Eigen::Matrix3d::Identity();

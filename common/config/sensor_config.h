@@ -16,7 +16,7 @@ namespace plm_vins {
 struct IntrinsicsDeviation {
   double focal_length = 0.01;  // relative [1]
   double principal_point = 5;  // [px]
-  double distortion = 0.005;   // of each coefficient [1]
+  double distortion = 0.005;   // each distortion coefficient [1]
 };
 
 // The right camera of a stereo pair.

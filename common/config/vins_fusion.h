@@ -8,7 +8,7 @@
 
 namespace plm_vins {
 
-// Number of cameras that the entries ask for by `num_of_cam`; 1 if it is missing or not a number.
+// Returns the number of cameras in `num_of_cam`; 1 if it is missing or not a number.
 int CameraCount(const ConfigEntries& entries);
 
 // Replaces the keys that only VINS-Fusion has by equivalent ones: image0_topic, body_T_cam0, and

@@ -17,7 +17,7 @@ constexpr double kMany = 0.3;
 constexpr double kFew = 0.05;
 
 constexpr double kTolerance = 0.3;  // relative, of a norm near that of gravity
-constexpr double kFarBelow = 0.3;   // of gravity
+constexpr double kFarBelow = 0.3;   // largest share of gravity that is far below it
 constexpr double kFastTurn = 4.0;  // [rad/s]; agile flights exceed it in a few samples of a hundred
 
 bool IsPresent(const Eigen::Vector3d& reading) {

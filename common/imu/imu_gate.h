@@ -44,7 +44,7 @@ class ImuGate {
   // Typical change between consecutive readings of one kind.
   struct Leaps {
     double always_allowed;
-    double mean_square = 0;  // of the change between readings, clamped to the limit
+    double mean_square = 0;  // mean squared change between readings, clamped to the limit
 
     double Limit() const;
     void Learn(double leap);

@@ -9,7 +9,7 @@ namespace plm_vins {
 
 // Range and calibration of an IMU.
 struct ImuSensor {
-  ImuRange range;  // of the readings as the sensor delivers them
+  ImuRange range;  // range of the readings as the sensor delivers them
   // A correction times a reading is the reading in the body frame with unit scale and orthogonal
   // axes [1]. The biases are those of corrected readings.
   Eigen::Matrix3d gyro_correction = Eigen::Matrix3d::Identity();

@@ -37,7 +37,7 @@ class ImageSubscription {
 
   // Full name of the subscribed topic, with namespace, remapping and transport.
   std::string topic() const;
-  std::string type() const;  // of the messages
+  std::string type() const;  // message type
 
   // Thread-safe: statistics of all messages, and wall time since the last readable image [s].
   StreamMonitor& stream() { return stream_; }

@@ -7,7 +7,7 @@ namespace plm_vins {
 
 // Advice to the user about a topic without messages, from what the ROS master knows.
 struct TopicAdvice {
-  std::string text;         // what is published instead, and what to do; empty without a master
+  std::string text;         // other published topics and what to do; empty without a master
   bool is_certain = false;  // the data are published in another form; waiting is useless
 };
 

@@ -9,7 +9,7 @@
 
 namespace plm_vins {
 
-// Detects new corners where there are none yet, distributed evenly over the image.
+// Detects new corners away from existing ones, distributed evenly over the image.
 //
 // The Shi-Tomasi [Shi1994] or Harris response is computed at half resolution, which takes a quarter
 // of the time; corners that only the full resolution shows are hard to track. Refinement then

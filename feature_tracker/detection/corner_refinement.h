@@ -15,7 +15,7 @@ constexpr int kRefinementRadius_px = 5;  // the window has 2 * 5 + 1 pixels on e
 // corner leaves the window around `start`, and if the gradients are degenerate.
 //
 // cv::cornerSubPix solves the same equations, but returns a corner that left its window unrefined,
-// so that it cannot be told from a good one.
+// so that it is indistinguishable from a good one.
 std::optional<cv::Point2f> RefineCorner(const cv::Mat& image, const cv::Point2f& start);
 
 // Returns whether the refinement window around the point is inside the image.

@@ -15,7 +15,7 @@ constexpr double kMinShift_px = 8;        // minimum shift of the scene due to t
 constexpr double kSureRate = 0.5;         // exceeds any gyroscope bias [rad/s]
 constexpr int kCell_px = 16;
 
-constexpr int kWindow_px = 5;          // of the correlation; as large as a projected dot
+constexpr int kWindow_px = 5;          // correlation window; as large as a projected dot
 constexpr double kMinContrast = 5;     // standard deviation in the window [gray levels]
 constexpr double kSame = 0.8;          // minimum correlation of parts that stand still
 constexpr double kDiffers = 0.5;       // maximum correlation of parts that move

@@ -11,14 +11,14 @@
 namespace plm_vins {
 namespace {
 
-constexpr float kSigma_px = 5.0F;  // of the weights: distant pixels may be at another depth
+constexpr float kSigma_px = 5.0F;  // width of the weights: distant pixels may differ in depth
 constexpr int kMaxIterations = 12;
 constexpr double kConverged_px = 0.03;
 constexpr double kMaxShift_px = 1.5;      // largest distance from the result of the flow
 constexpr float kMinCorrelation = 0.85F;  // least correlation of the aligned pixels with the patch
 constexpr double kMaxGrowth = 3.0;        // largest change of the patch's area, as a factor
 constexpr float kMinGain = 0.3F;
-constexpr double kMinPivot = 1e-6;  // of the normal equations; flat patches have less
+constexpr double kMinPivot = 1e-6;  // pivot of the normal equations; flat patches have less
 
 // Returns whether the patch, with a margin of one pixel for derivatives, is inside the image.
 bool IsInside(const cv::Mat& image, const PatchPose& pose, int radius) {

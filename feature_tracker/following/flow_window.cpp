@@ -9,8 +9,8 @@ namespace plm_vins {
 namespace {
 
 constexpr int kLanes = 8;
-constexpr int kColumnBits = 8;  // of the interpolation weights within a row
-constexpr int kRowBits = 15;    // of the interpolation weights within a column
+constexpr int kColumnBits = 8;                            // interpolation weights within a row
+constexpr int kRowBits = 15;                              // interpolation weights within a column
 constexpr int kSampleBits = kColumnBits + kRowBits - 16;  // fractional bits of samples
 // Leaves room for the sums over a row of the largest window within 32 bits.
 constexpr int kDifferenceBits = 5;

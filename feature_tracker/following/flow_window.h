@@ -36,13 +36,13 @@ class FlowWindow {
   bool InvertInformation();
 
   int side_;
-  int columns_;                    // of a row in memory: the side, rounded up to the SIMD width
-  int wide_columns_;               // of a row with a margin of one pixel
+  int columns_;                    // row length in memory: the side, rounded up to the SIMD width
+  int wide_columns_;               // row length with a margin of one pixel
   std::vector<int16_t> wide_;      // samples of the window with a margin of one pixel
   std::vector<int16_t> samples_;   // samples of the other image
   std::vector<int16_t> slopes_x_;  // zero beyond the side
   std::vector<int16_t> slopes_y_;
-  Eigen::Matrix2f covariance_;  // of a step, for unit noise of the samples
+  Eigen::Matrix2f covariance_;  // covariance of a step, for unit noise of the samples
 };
 
 }  // namespace plm_vins

@@ -18,7 +18,7 @@ namespace {
 constexpr size_t kMinPairs = 8;
 constexpr int kHypothesesOfTwo = 40;    // (1 - 0.5^2)^40 = 1e-5: half may be outliers
 constexpr int kHypothesesOfFive = 100;  // (1 - 0.6^5)^100 = 3e-4: 40 % may be outliers
-constexpr double kCoarseFactor = 3.0;   // of the threshold, for the first fit of the rotation
+constexpr double kCoarseFactor = 3.0;   // factor on the threshold in the first fit of the rotation
 constexpr int kRotationIterations = 10;
 constexpr int kSolverIterations = 4;
 constexpr double kNotRobust = 1.0;  // [rad], exceeds any error

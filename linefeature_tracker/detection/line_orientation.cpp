@@ -6,7 +6,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr float kReach_px = 2;      // to each side
+constexpr float kReach_px = 2;      // samples reach this far to each side
 constexpr double kSpacing_px = 4;   // between samples
 constexpr double kMaxSamples = 16;  // for long lines
 

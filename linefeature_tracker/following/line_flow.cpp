@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kTopLevel = 3;
 constexpr int kBottomLevel = 1;
-constexpr int kRadius = 5;  // of a profile [px of its level]
+constexpr int kRadius = 5;  // half the length of a profile [px of its level]
 constexpr int kProfileSize = 2 * kRadius + 1;
 static_assert(kRadius + 1 <= kMaxProfileRadius);
 constexpr double kSpacing_px = 10;  // between profiles along the line
@@ -133,7 +133,7 @@ class LevelAlignment {
       ++used;
       const LineProfile error = reference.value - profile;
       const SegmentSample& sample = *reference.current;
-      const double pixels = scale_ / sample.offset_per_pixel;  // of the level, per offset
+      const double pixels = scale_ / sample.offset_per_pixel;  // pixels of the level, per offset
       const Eigen::Vector2d d_pixels(pixels, pixels * sample.along);
       H.topLeftCorner<2, 2>() +=
           static_cast<double>(reference.slope_squares) * d_pixels * d_pixels.transpose();

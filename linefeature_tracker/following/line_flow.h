@@ -14,7 +14,7 @@ namespace plm_vins {
 // Tracking result of a line.
 struct LineFlowResult {
   LineSegment segment;     // normalized
-  double correlation = 0;  // of the profiles across the line in both images, -1 to 1
+  double correlation = 0;  // correlation of the profiles across the line in both images, -1 to 1
 };
 
 // Lucas-Kanade flow [Lucas1981] of whole lines: aligns brightness profiles across the line between

@@ -18,12 +18,12 @@ namespace {
 constexpr double kStep_px = 4;      // between samples along a line
 constexpr double kMaxSamples = 32;  // longer lines have a larger step
 constexpr double kMaxRoughSamples = 12;
-constexpr int kMaxSearch_px = 5;       // to each side
+constexpr int kMaxSearch_px = 5;       // search range to each side
 constexpr int kFineSearch_px = 2;      // after the rough placement
 constexpr int kExtension = 3;          // samples beyond each endpoint
 constexpr int kMaxGap = 2;             // samples without an edge inside a line
 constexpr double kMinSupport = 0.6;    // share of samples with an edge
-constexpr double kMaxResidual_px = 1;  // of a supporting sample
+constexpr double kMaxResidual_px = 1;  // residual of a supporting sample
 constexpr size_t kMinPoints = 5;
 constexpr size_t kMinFinalPoints = 3;  // between the endpoints; two would be fitted by any line
 constexpr std::array<double, 3> kRobustScales_px = {2.0, 1.0, 0.5};

@@ -34,7 +34,7 @@ class LineRefinement {
   struct EdgePoint {
     SegmentSample sample;
     bool found = false;
-    double offset_px = 0;  // of the edge from the sample, along the normal
+    double offset_px = 0;  // offset of the edge from the sample, along the normal
   };
 
   // Fits a few samples, searching the full range.

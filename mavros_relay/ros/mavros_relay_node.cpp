@@ -67,8 +67,8 @@ class MavrosRelayNode {
   const std::string odom_frame_ = ReadFrame("odom_frame", "odom");
   const std::string base_frame_ = ReadFrame("base_frame", "base_link");
   RelayGate gate_{ReadOptions()};
-  bool is_relayed_ = false;                          // as last reported
-  int64_t reported_resets_ = 0;                      // as last reported
+  bool is_relayed_ = false;                          // last reported state
+  int64_t reported_resets_ = 0;                      // last reported number of resets
   ros::WallTime last_state_ = ros::WallTime::now();  // arrival of the last valid state
   std::optional<Rigid3d> T_body_base_;
   std::optional<RobotBase> base_;  // from tf, if ~imu_to_base is not given

@@ -27,7 +27,7 @@ void FeatureTrackers::AddRight(const ImageSample& image) {
 
 void FeatureTrackers::AddDepth(const DepthSample& image) {
   points_.AddDepth(image);
-  if (lines_) lines_->AddDepth(image);  // so that both wait for the same
+  if (lines_) lines_->AddDepth(image);  // both trackers then wait for the same companions
 }
 
 template <typename TrackOne>

@@ -29,7 +29,7 @@ namespace plm_vins {
 struct PipelineFrame {
   EstimatorOutput output;
   ImageSample image;           // without pixels unless loops are closed
-  std::vector<ImuSample> imu;  // as used by the estimator, without those of the previous frame
+  std::vector<ImuSample> imu;  // samples of the estimator, without those of the previous frame
   int64_t imu_ns = 0;          // IMU time of the state, which is that of the last sample
   PointFrame points;
   LineFrame lines;
@@ -134,14 +134,14 @@ class OdometryPipeline {
   int64_t tracked_images_ = 0;
   int64_t thinned_images_ = 0;  // skipped to reach the rate `freq`
   int64_t estimated_images_ = 0;
-  std::optional<int64_t> last_imu_ns_;  // of the previous frame
+  std::optional<int64_t> last_imu_ns_;  // last IMU timestamp of the previous frame
   FeatureFileWriter* saved_features_ = nullptr;
   TrackImageCallback on_track_images_;
   int64_t track_image_interval_ns_ = 0;
   std::optional<int64_t> last_track_image_ns_;
   cv::Mat points_image_;
   cv::Mat lines_image_;
-  std::map<int64_t, PipelineFrame> unfinished_;  // by timestamp: not estimated yet
+  std::map<int64_t, PipelineFrame> unfinished_;  // not estimated yet, by timestamp
 };
 
 }  // namespace plm_vins

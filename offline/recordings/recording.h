@@ -19,8 +19,8 @@ struct RecordingEvent {
   ImuSample imu;     // if kind is kImu
 };
 
-// Images and IMU samples of a recording, and images of a second camera and of depth if they were
-// asked for, in the order of recording. Read on demand.
+// Images and IMU samples of a recording, and, if requested, images of a second camera and of depth,
+// in the order of recording. Read on demand.
 class Recording {
  public:
   virtual ~Recording() = default;

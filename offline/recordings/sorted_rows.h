@@ -21,8 +21,8 @@ template <typename Row>
 class SortedRows {
  public:
   struct Format {
-    const char* key;   // of the sensor, for reports
-    const char* name;  // of the content of a line
+    const char* key;   // name of the sensor in reports
+    const char* name;  // name of a line's content in messages
     const char* line;  // expected format
     size_t values;     // number of values after the timestamp
     std::optional<Row> (*parse)(const CsvRow& row);

@@ -68,7 +68,7 @@ class LoopResults {
   Json BundleSummary() const;
 
   std::string folder_;
-  std::shared_ptr<const CameraModel> camera_;  // as configured
+  std::shared_ptr<const CameraModel> camera_;  // configured camera
   CameraParameters refined_camera_;            // at the last pose in M; defines the keyframes' rays
   LoopCloser loops_;
   std::optional<MapBundle> bundle_;
@@ -77,7 +77,7 @@ class LoopResults {
   TimedFile trajectory_;
   TimedFile covariance_;
   OutputFile table_;
-  std::string restart_reason_;  // of a world without a pose yet; empty if none
+  std::string restart_reason_;  // reason for a world without a pose yet; empty if none
   std::vector<OdometryPose> poses_;
   std::vector<std::pair<size_t, std::string>> worlds_;  // first pose, reason; without the first
   std::optional<double> first_fix_;                     // since the first pose [s]

@@ -63,9 +63,9 @@ class ResultFiles {
   TimedFile covariance_;
   OutputFile timing_;
   PlyPointWriter map_;
-  std::vector<MapLine> lines_;              // of previous world frames
-  std::map<int64_t, MapLine> world_lines_;  // of the current world frame, by id
-  std::vector<MapPoint> window_points_;     // of the newest frame with a pose, not in the map yet
+  std::vector<MapLine> lines_;              // lines of previous world frames
+  std::map<int64_t, MapLine> world_lines_;  // lines of the current world frame, by id
+  std::vector<MapPoint> window_points_;     // newest frame with a pose, not in the map yet
   std::vector<MapLine> window_lines_;
   RunSummary summary_;
   DropCount unwritten_pictures_{"pictures_not_written", 0, ""};

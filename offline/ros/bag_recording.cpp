@@ -193,8 +193,8 @@ class BagRecording : public Recording {
 
   std::string name_;
   JoinedBags bags_;
-  std::map<TypedTopic, RecordingEvent::Kind> kinds_;  // of the selected topics
-  bool is_depth_ = false, is_compressed_ = false;     // of the last image
+  std::map<TypedTopic, RecordingEvent::Kind> kinds_;  // selected topics
+  bool is_depth_ = false, is_compressed_ = false;     // properties of the last image
   sensor_msgs::Image raw_image_;
   sensor_msgs::CompressedImage compressed_image_;
   DropCount unreadable_images_{"images_unreadable", 0, ""};

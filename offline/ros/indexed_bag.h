@@ -79,7 +79,7 @@ class IndexedBag {
   BagFile file_;
   std::map<uint32_t, TypedTopic> connections_;
   std::vector<Chunk> chunks_;
-  std::vector<Entry> entries_;  // of the selected topics, in temporal order
+  std::vector<Entry> entries_;  // messages of the selected topics, in temporal order
   size_t next_ = 0;
   // Cache of several chunks, since topics that were written in turn may be in different chunks; in
   // order of last use.

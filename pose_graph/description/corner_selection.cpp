@@ -20,7 +20,7 @@ cv::Rect Grown(const cv::Rect& pixels, int by_px) {
 struct Cell {
   cv::Rect pixels;
   bool is_taken = false;                  // contains a known corner
-  std::optional<cv::KeyPoint> strongest;  // of the detected corners
+  std::optional<cv::KeyPoint> strongest;  // strongest detected corner
 
   bool IsOpen() const { return !is_taken && !strongest; }
 };

@@ -10,7 +10,7 @@ struct LevelEdge {
   int from = -1;
   int to = -1;
   LevelTransform T_from_to;
-  Matrix4d covariance = Matrix4d::Identity();  // of T_from_to as (x, y, z, yaw) [m, rad]
+  Matrix4d covariance = Matrix4d::Identity();  // covariance of T_from_to as (x, y, z, yaw) [m, rad]
   bool is_loop = false;
   double way = 0;  // odometry distance that the edge spans, over which it may have drifted [m]
 };

@@ -43,8 +43,8 @@ class PoseGraph {
 
   // Returns whether a path of edges connects the two nodes.
   bool AreConnected(int a, int b) const;
-  std::vector<bool> ConnectedWith(int node) const;  // by node
-  std::vector<int> FirstConnected() const;          // by node: the first node connected with it
+  std::vector<bool> ConnectedWith(int node) const;  // flags by node
+  std::vector<int> FirstConnected() const;          // first node connected with each node
 
   // Moves all nodes that are connected with `node`.
   void MovePart(int node, const LevelTransform& T_new_old);
@@ -76,8 +76,8 @@ class PoseGraph {
   int PlaceOf(int number) const;
   void Anchor(int number, int anchor);
   void AddSurer(const LevelEdge& edge);
-  std::vector<int> Parts() const;        // by index in `kept_`: that of the first node of its part
-  std::vector<Vector4d> Values() const;  // by index in `kept_`: T_M_L
+  std::vector<int> Parts() const;        // first node of the part of each node in `kept_`
+  std::vector<Vector4d> Values() const;  // T_M_L of each node in `kept_`
   void Place(const std::vector<Vector4d>& values);
   bool Solve();  // returns whether the solver converged
   void TakeOver(const std::vector<Vector4d>& values, const std::vector<int>& parts);

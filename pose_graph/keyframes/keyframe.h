@@ -29,7 +29,7 @@ struct Keyframe {
   int world = 0;    // number of the odometry's world O; each start of odometry begins a new one
   double path = 0;  // distance traveled since the start of O [m]
   Rigid3d T_O_B;
-  Matrix4d covariance = Matrix4d::Zero();  // of T_O_B as (x, y, z, yaw), as estimated by odometry
+  Matrix4d covariance = Matrix4d::Zero();  // covariance of T_O_B as (x, y, z, yaw), by odometry
   Rigid3d T_B_C;
   std::optional<Eigen::Quaterniond> R_O_Manhattan;
   std::vector<DescribedCorner> corners;

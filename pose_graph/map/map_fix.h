@@ -12,8 +12,8 @@ namespace plm_vins {
 struct MapFix {
   LevelTransform T_M_O;
   LevelTransform T_O_L;
-  Matrix4d odometry_covariance = Matrix4d::Zero();  // of T_O_L as (x, y, z, yaw)
-  Matrix4d covariance = Matrix4d::Zero();           // of T_M_L as (x, y, z, yaw)
+  Matrix4d odometry_covariance = Matrix4d::Zero();  // covariance of T_O_L as (x, y, z, yaw)
+  Matrix4d covariance = Matrix4d::Zero();           // covariance of T_M_L as (x, y, z, yaw)
   OdometryNoise drift;
 };
 

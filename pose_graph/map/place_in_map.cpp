@@ -71,7 +71,7 @@ void PlaceInMap::Join(const KeyframeMap& map, const LevelEdge& loop) {
 // Replays all loops, each at the later one of its keyframes. Loops of removed keyframes have been
 // transferred to their neighbors.
 void PlaceInMap::Recompute(const KeyframeMap& map) {
-  std::multimap<int, LevelEdge> loops;  // by the later keyframe's number
+  std::multimap<int, LevelEdge> loops;  // loops by the later keyframe's number
   for (const LevelEdge& edge : map.graph.edges()) {
     if (!edge.is_loop) continue;
     const LevelEdge loop = edge.from < edge.to ? edge : Reversed(edge);

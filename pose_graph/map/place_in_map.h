@@ -37,7 +37,7 @@ class PlaceInMap {
 
  private:
   struct Place {
-    Matrix4d covariance;  // of (x, y, z, yaw) in the frame of its part
+    Matrix4d covariance;  // covariance of (x, y, z, yaw) in the frame of the part
     int part = 0;         // first keyframe of the world that defines the part's frame; 0 is M
   };
 

@@ -47,13 +47,13 @@ class MapNumberCheck {
 };
 
 inline bool IsUnit(const Eigen::Quaterniond& q) {
-  constexpr double kTolerance = 1e-2;  // of the quaternion's norm
+  constexpr double kTolerance = 1e-2;  // deviation of the quaternion's norm
   return std::abs(q.norm() - 1) < kTolerance;
 }
 
 // Returns whether the matrix is symmetric and positive definite, with a minimum variance.
 inline bool IsCovariance(const Matrix4d& covariance) {
-  constexpr double kTolerance = 1e-3;       // of the symmetry, relative
+  constexpr double kTolerance = 1e-3;       // relative asymmetry
   constexpr double kLeastDeviation = 1e-9;  // [m, rad]
   const Eigen::LLT<Matrix4d> factor(covariance);
   return factor.info() == Eigen::Success &&

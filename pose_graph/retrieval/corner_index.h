@@ -36,7 +36,7 @@ class CornerIndex {
   };
 
   uint64_t Word(const Descriptor& descriptor, int table) const;
-  std::vector<int> ImagesWith(const Descriptor& descriptor) const;  // without duplicates
+  std::vector<int> ImagesWith(const Descriptor& descriptor) const;  // images, each once
 
   CornerIndexOptions options_;
   std::set<int> images_;

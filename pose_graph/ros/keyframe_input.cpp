@@ -15,7 +15,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kUnitTolerance = 1e-2;  // of a quaternion's norm, as single precision has
+constexpr double kUnitTolerance = 1e-2;  // error of a quaternion's norm in single precision
 
 bool IsUnit(const Eigen::Quaterniond& q) { return std::abs(q.norm() - 1) < kUnitTolerance; }
 

@@ -7,7 +7,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kScale = 0.5;  // of the drawing relative to the camera images
+constexpr double kScale = 0.5;  // size of the drawing relative to the camera images
 constexpr int kDiscRadius_px = 3;
 constexpr int kLineThickness_px = 2;
 const cv::Scalar kCornerColor(80, 220, 80);  // blue, green, red

@@ -23,7 +23,7 @@ namespace {
 constexpr char kEstimator[] = "vins_estimator/";
 constexpr int kQueue = 100;
 constexpr size_t kWaitingKeyframes = 50;
-constexpr double kMaxLag = 2;  // of keyframes behind the images [s]
+constexpr double kMaxLag = 2;  // lag of keyframes behind the images [s]
 
 std::string MapFile(PoseGraphConfig config, const ros::NodeHandle& private_node) {
   const auto output = FindParameter<std::string>(private_node, "output");

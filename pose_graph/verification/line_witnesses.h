@@ -15,8 +15,8 @@ struct LineWitnessOptions {
       : max_distance(kMaxDistance_px / focal_length) {}
 
   double max_angle = 5 * M_PI / 180;  // between the projected line and a segment [rad]
-  double max_distance;       // of the segment's endpoints from the projected line (normalized)
-  double min_overlap = 0.3;  // overlap relative to the shorter of the two
+  double max_distance;                // distance of endpoints from the projected line (normalized)
+  double min_overlap = 0.3;           // overlap relative to the shorter of the two
 };
 
 // Lines of an earlier visit that should be visible, and those found in the image.

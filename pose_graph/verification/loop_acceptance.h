@@ -12,7 +12,7 @@ namespace plm_vins {
 
 struct LoopAcceptanceOptions {
   DriftBudget drift = {0.05, 0.02, 0.5 * M_PI / 180, 0.05 * M_PI / 180};
-  double max_deviations = 2 * kThreeSigmaOf4Dof;  // of two loops that agree
+  double max_deviations = 2 * kThreeSigmaOf4Dof;  // Mahalanobis distance of agreeing loops
   double max_wait = 10;                           // time to wait for an agreeing loop [s]
 };
 

@@ -65,7 +65,7 @@ SeenPoint ToSeenPoint(const LandmarkMatch& match, const std::vector<DescribedCor
 struct Search {
   size_t matches = 0;
   std::vector<SeenPoint> inliers;
-  std::vector<Eigen::Vector2f> corners_px;  // of the inliers
+  std::vector<Eigen::Vector2f> corners_px;  // corners of the inliers
 
   double share() const {
     return matches > 0 ? static_cast<double>(inliers.size()) / static_cast<double>(matches) : 0.0;

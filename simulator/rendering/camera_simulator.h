@@ -13,7 +13,7 @@ namespace plm_vins::simulator {
 
 struct ImagingOptions {
   double exposure = 0.006;    // [s]
-  double readout = 0;         // of a rolling shutter, top to bottom; 0 for a global one [s]
+  double readout = 0;         // rolling shutter, top to bottom; 0 for a global shutter [s]
   double full_scale = 0.78;   // brightness that saturates a pixel
   double lens_blur_px = 0.6;  // standard deviation of the point spread function
   double vignetting = 0.35;   // relative loss of light in the image corners

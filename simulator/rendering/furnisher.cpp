@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kObjectTexel = 0.0025;  // [m]
-constexpr double kMaterialSize = 2.0;    // of the shared textures [m]
+constexpr double kMaterialSize = 2.0;    // side of the shared textures [m]
 constexpr double kTile = 0.5;            // [m]
 constexpr double kGap = 0.004;           // between a picture and its wall [m]
 

@@ -38,9 +38,9 @@ namespace plm_vins {
 // `Traits` defines what differs between trackers: the types Stage (a TrackingStage) and Settings
 // (of dynamic_reconfigure, with show_track), ToSettings(config) and Apply(settings, tracker), the
 // private topics kFeatureTopic and kAnnotatedTopic, the diagnostic status kDiagnostics, the queue
-// length kImageQueue (the oldest image is dropped), kEveryImage, whether features of all images are
-// published instead of those at the rate `freq`, kUsesDepth, whether depth images are of use, and
-// Finding(tracker), which says what seems to be wrong with the images.
+// length kImageQueue (the oldest image is dropped), kEveryImage (features of all images are
+// published instead of those at the rate `freq`), kUsesDepth (depth images are used), and
+// Finding(tracker), which describes what seems to be wrong with the images.
 template <typename Traits>
 class TrackerNode {
  public:

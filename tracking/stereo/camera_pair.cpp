@@ -15,8 +15,8 @@ constexpr double kNodeDistance_px = 10.0;
 constexpr double kMaxChange = 4.0;  // largest factor between successive steps of inverse depth
 constexpr int kMaxNodes = 400;
 constexpr double kMinBaseline = 1e-6;     // [m]
-constexpr double kMinDepthRatio = 1e-3;   // of depths in the two cameras
-constexpr double kMinDeterminant = 1e-6;  // of the projection's derivative [px^2]
+constexpr double kMinDepthRatio = 1e-3;   // ratio of the depths in the two cameras
+constexpr double kMinDeterminant = 1e-6;  // determinant of the projection's derivative [px^2]
 
 }  // namespace
 

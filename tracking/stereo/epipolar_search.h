@@ -12,13 +12,13 @@ namespace plm_vins {
 // A point in the image of the first camera of a pair.
 struct SearchedPoint {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  Eigen::Vector2d xy = Eigen::Vector2d::Zero();  // of `pixel`, normalized and undistorted
+  Eigen::Vector2d xy = Eigen::Vector2d::Zero();  // normalized, undistorted point of `pixel`
 };
 
 // The part of the second image that is searched.
 struct SearchRange {
   double from = 0, to = 0;  // inverse depths [1/m]
-  double band_px = 0;       // to both sides of the epipolar curve
+  double band_px = 0;       // search range to both sides of the epipolar curve
 };
 
 // Finds the point of the `second` image whose surroundings look like those of the point in the

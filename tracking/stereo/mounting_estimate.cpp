@@ -17,10 +17,10 @@ constexpr double kDegree = M_PI / 180;
 constexpr double kRotationPrior = 0.4 * kDegree;  // [rad]
 constexpr double kBaselinePrior = 0.4 * kDegree;  // [rad]
 constexpr double kDelayPrior = 0.01;              // [s]
-constexpr double kMatchDeviation_px = 0.5;        // of a match, including errors of lens models
+constexpr double kMatchDeviation_px = 0.5;        // match, including errors of lens models
 constexpr double kGate = 3.0;                     // standard deviations
 constexpr double kMemory = 0.99;  // share of its weight that an image keeps with the next
-constexpr double kScales_px[] = {4, 2, 1, 0.5};  // of the robust weights, one per iteration
+constexpr double kScales_px[] = {4, 2, 1, 0.5};  // scales of the robust weights, one per iteration
 
 }  // namespace
 

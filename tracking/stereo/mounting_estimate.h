@@ -53,7 +53,7 @@ class MountingEstimate {
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
 
   struct Linear {
-    double error = 0;  // by the stated mounting [px]
+    double error = 0;  // error of the stated mounting [px]
     Vector gradient = Vector::Zero();
   };
   Linear Linearize(const StereoMatch& match) const;
@@ -63,8 +63,8 @@ class MountingEstimate {
   double focal_length_;
   Eigen::Vector3d baseline_direction_;
   Eigen::Matrix<double, 3, 2> baseline_tangent_;
-  Matrix information_ = Matrix::Zero();  // of previous images, without the prior
-  Vector gradient_ = Vector::Zero();     // of these images, at the stated mounting
+  Matrix information_ = Matrix::Zero();  // information of previous images, without the prior
+  Vector gradient_ = Vector::Zero();     // gradient of these images, at the stated mounting
   Vector state_ = Vector::Zero();        // relative to the stated mounting
   Matrix prior_;                         // information
   Matrix covariance_;

@@ -29,7 +29,7 @@ class FramePlacement {
   FrameState Apply(FrameState state) const;
 
  private:
-  Rigid3d T_known_fresh_;  // about z only, so that gravity stays along -z
+  Rigid3d T_known_fresh_;  // rotates about z only, so that gravity stays along -z
 };
 
 }  // namespace plm_vins

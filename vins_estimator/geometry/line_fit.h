@@ -21,8 +21,8 @@ struct PosedLineObservation {
 // A line in the frame of the first observing camera, with its normal equations.
 struct LineFit {
   OrthonormalLine line = {0, 0, 0, 1, 0};
-  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // of the line's tangent
-  Eigen::Vector4d gradient = Eigen::Vector4d::Zero();     // of cost / 2, in the line's tangent
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // in the line's tangent
+  Eigen::Vector4d gradient = Eigen::Vector4d::Zero();     // gradient of cost / 2, in the tangent
   double cost = 0;  // sum of squared end point distances, in units of the noise
 };
 

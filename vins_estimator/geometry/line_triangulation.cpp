@@ -20,7 +20,7 @@ struct ViewingPlane {
   Eigen::Vector3d camera = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit vector
   double offset = 0;                                 // normal . camera
-  double deviation = 0;  // of the normal's angle about the viewing ray, for unit noise
+  double deviation = 0;  // angle error of the normal about the viewing ray, for unit noise
 };
 
 ViewingPlane PlaneOf(const PosedLineObservation& observation, const Rigid3d& T_C0_W) {
@@ -64,7 +64,7 @@ double DepthDeviation(const Matrix4d& covariance, const OrthonormalLine& line,
                       const Eigen::Vector3d& across, const Eigen::Vector3d& end) {
   const PluckerLine plucker = ToPlucker(line.data());
   const PluckerJacobian J = ToPluckerJacobian(line.data());
-  Matrix34d d_end;  // of PointInPlane()
+  Matrix34d d_end;  // derivative of PointInPlane()
   for (int k = 0; k < kLineTangentSize; ++k) {
     d_end.col(k) = across.cross(J.d_moment.col(k)) - end * across.dot(J.d_direction.col(k));
   }

@@ -15,7 +15,7 @@ struct LineTriangulationOptions {
   explicit LineTriangulationOptions(double noise) : noise(noise) {}
 
   double noise;  // standard deviation of an end point across the line, normalized
-  double max_depth_deviation = 0.2;  // of the depth of the ends in the first camera, relative
+  double max_depth_deviation = 0.2;  // relative deviation of the ends' depths in the first camera
   double max_mean_error = 2.5;       // root mean square of the residuals, in units of `noise`
 };
 

@@ -49,7 +49,7 @@ class ImuPropagator {
   int64_t t_reset_ns_ = 0;
   ForwardJumpDetector leap_;
   ImuGate gate_;
-  std::optional<int64_t> last_ns_;  // of the newest sample passed to the gate
+  std::optional<int64_t> last_ns_;  // newest sample passed to the gate
 };
 
 }  // namespace plm_vins

@@ -44,7 +44,7 @@ class ImuStillness {
     Eigen::Vector3d accel = Eigen::Vector3d::Zero();  // mean [m/s^2]
   };
 
-  double Duration() const;  // of the window [s]
+  double Duration() const;  // length of the window [s]
   bool HasIntervals(int count) const;
 
   ImuNoise noise_;

@@ -106,7 +106,7 @@ class Preintegration {
   Eigen::Quaterniond delta_q_ = Eigen::Quaterniond::Identity();
   Eigen::Vector3d delta_v_ = Eigen::Vector3d::Zero();
   Matrix15d jacobian_ = Matrix15d::Identity();
-  Matrix15d covariance_ = Matrix15d::Zero();  // without bias steps and timestamp errors
+  Matrix15d covariance_ = Matrix15d::Zero();  // excludes bias steps and timestamp errors
   mutable Matrix15d sqrt_information_ = Matrix15d::Zero();
   mutable bool sqrt_information_valid_ = false;
 };

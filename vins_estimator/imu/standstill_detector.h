@@ -64,7 +64,7 @@ class StandstillDetector {
   enum class Seen { kStandstill, kMotion, kMovingScene };
   Seen seen_ = Seen::kStandstill;
   bool doubts_camera_ = false;
-  std::deque<PointFrame> points_;  // of the images in the window
+  std::deque<PointFrame> points_;  // points of the images in the window
 };
 
 }  // namespace plm_vins

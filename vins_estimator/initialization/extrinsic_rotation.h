@@ -19,8 +19,8 @@ struct RotationPair {
 struct ExtrinsicRotationOptions {
   size_t min_pairs = 30;
   double min_second_turn = 0.015;    // rms rotation per pair about all but the main axis [rad]
-  double max_deviation = 0.015;      // of the result about its least certain axis [rad]
-  double gyro_bias_deviation = 0.1;  // of the bias about 0 [rad/s]
+  double max_deviation = 0.015;      // deviation about the least certain axis [rad]
+  double gyro_bias_deviation = 0.1;  // prior of the bias about 0 [rad/s]
 };
 
 // Calibrates the camera's rotation in the body from R_B0_B1 R_B_C = R_B_C R_C0_C1 over many pairs:

@@ -12,7 +12,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMinCommonPoints = 20;  // of the initial pair
+constexpr size_t kMinCommonPoints = 20;  // common points of the initial pair
 constexpr int kMinPointsToResect = 10;
 constexpr int kMinPoints = 20;                   // in the whole structure
 constexpr double kParallaxCap = 0.2;             // more does not improve the score of a pair [rad]
@@ -114,7 +114,7 @@ class Builder {
   const std::vector<Track>& tracks_;
   const std::vector<Eigen::Quaterniond>& R_G_C_;
   GlobalSfmOptions options_;
-  double noise_;  // of a normalized coordinate
+  double noise_;  // noise of a normalized coordinate
   std::vector<bool> posed_;
   Structure structure_;
 };

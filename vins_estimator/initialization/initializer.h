@@ -26,7 +26,7 @@ struct InitialFrame {
 struct InitializationResult {
   std::vector<InitialFrame> frames;  // oldest first, the last one is the newest image
   bool from_standstill = false;
-  Rigid3d T_B_C;  // as calibrated, or as configured
+  Rigid3d T_B_C;  // calibrated or configured
 };
 
 // Initializes the estimator: from standstill once the body has stood still for 0.75 s, or for half
@@ -55,8 +55,8 @@ class Initializer {
 
  private:
   void StartOver(const std::string& reason);
-  // Returns whether the image has too few points to be of use; its IMU samples then lead to the
-  // next one.
+  // Returns whether the image has too few points to be used; its IMU samples are then added to
+  // those of the next image.
   bool Skip(const FrameMeasurement& measurement);
   void Append(const FrameMeasurement& measurement);
   void CalibrateRotation();
@@ -74,7 +74,7 @@ class Initializer {
   std::deque<FrameMeasurement> buffer_;            // contiguous in IMU samples and tracks
   std::vector<ImuSample> skipped_imu_;             // since the newest image in the buffer
   std::optional<int64_t> start_ns_;                // first image since the reset
-  std::optional<int64_t> last_attempt_ns_;         // to initialize from motion
+  std::optional<int64_t> last_attempt_ns_;         // last attempt to initialize from motion
   std::string reason_ = "waiting for images";
 };
 

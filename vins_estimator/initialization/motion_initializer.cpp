@@ -17,7 +17,7 @@ namespace plm_vins {
 namespace {
 
 constexpr double kStereoScaleDeviation = 0.01;
-constexpr double kMaxOutlierShare = 0.2;    // of the observations, with stereo or depth
+constexpr double kMaxOutlierShare = 0.2;    // share of observations, with stereo or depth
 constexpr double kMinStereoAngle_px = 1.0;  // between the rays of a point in both cameras
 
 // Drops the observations in the second camera and the measured depths.

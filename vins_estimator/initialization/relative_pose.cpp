@@ -24,7 +24,7 @@ constexpr double kConfidence = 0.999;
 constexpr int kMaxIterations = 218;
 constexpr double kInlierSigmas = 3.0;  // distance to the epipolar line, in standard deviations
 constexpr int kRefinements = 8;
-constexpr double kClearShare = 0.95;  // of inliers: RANSAC would not improve the result
+constexpr double kClearShare = 0.95;  // inliers with which RANSAC would not improve the result
 // Standard deviation of the gyroscope's rotation before its bias is known: it selects one of the
 // two solutions of a planar scene and has hardly any weight elsewhere [rad].
 constexpr double kGyroDeviation = 0.05;

@@ -31,7 +31,7 @@ class RotationCheck {
  private:
   void JudgeMounting(const Eigen::Quaterniond& R_B_C);
 
-  std::optional<Eigen::Quaterniond> R_B_C_;  // as configured; nullopt if it is to be calibrated
+  std::optional<Eigen::Quaterniond> R_B_C_;  // configured; nullopt if it is to be calibrated
   ExtrinsicCalibrator calibrator_;
   std::deque<FrameMeasurement> frames_;
   std::string finding_;

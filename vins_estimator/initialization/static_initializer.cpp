@@ -10,7 +10,7 @@ namespace plm_vins {
 namespace {
 
 constexpr double kMaxGyroMean = 0.5;      // larger values are no bias [rad/s]
-constexpr double kMaxGravityError = 1.0;  // of the norm of the mean specific force [m/s^2]
+constexpr double kMaxGravityError = 1.0;  // error of the norm of the mean specific force [m/s^2]
 
 }  // namespace
 

@@ -17,7 +17,7 @@ constexpr int kGyroIterations = 5;
 constexpr double kGyroBiasPrior = 0.5;  // standard deviation [rad/s]
 constexpr int kGravityIterations = 4;
 constexpr double kAccelBiasPrior = 0.1;        // standard deviation [m/s^2]
-constexpr double kPositionDeviation = 0.005;   // of the structure's camera centers, rough [m]
+constexpr double kPositionDeviation = 0.005;   // rough error of the structure's camera centers [m]
 constexpr double kSignificant = 3.0;           // standard deviations
 constexpr double kGravityNormTolerance = 0.2;  // relative, of the estimate with free norm
 
@@ -48,7 +48,7 @@ class AlignmentSystem {
   const std::vector<AlignmentView>& views_;
   const std::vector<const Preintegration*>& preintegrations_;
   Rigid3d T_B_C_;
-  double scale_information_;  // about 1
+  double scale_information_;  // information of the prior about scale 1
 };
 
 // Adds the position and velocity rows of the interval from view i to view i + 1, in the body frame

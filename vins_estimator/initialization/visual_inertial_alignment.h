@@ -16,7 +16,7 @@ namespace plm_vins {
 struct RotationMeasurement {
   const Preintegration* preintegration;  // over the same interval
   Eigen::Quaterniond R_B0_B1;
-  Eigen::Matrix3d information;  // of a right perturbation R_B0_B1 Exp(theta) [1/rad^2]
+  Eigen::Matrix3d information;  // for a right perturbation R_B0_B1 Exp(theta) [1/rad^2]
 };
 
 // Estimates the gyroscope bias for which the integrated rotations agree best with the camera's
@@ -35,7 +35,7 @@ struct Alignment {
   double scale_deviation = 0;               // standard deviation of `scale`
   Eigen::Vector3d gravity_G;                // [m/s^2], pointing down
   Eigen::Vector3d accel_bias;               // [m/s^2]
-  std::vector<Eigen::Vector3d> velocity_G;  // of B, one per view [m/s]
+  std::vector<Eigen::Vector3d> velocity_G;  // velocity of B, one per view [m/s]
 };
 
 // Estimates velocities, gravity and scale from preintegrated measurements and positions up to scale

@@ -24,9 +24,9 @@ namespace plm_vins {
 namespace {
 
 constexpr SolverOptions kSolution = {12, 0.01};  // coarse: the window is optimized again
-constexpr double kOverstated = 0.4;              // of the configured noise; less is significant
-constexpr double kLeastShare = 0.05;             // of the configured noise; least estimate
-constexpr double kLeastRedundancy = 5;           // of all intervals together, to estimate the noise
+constexpr double kOverstated = 0.4;              // smaller shares are not due to chance
+constexpr double kLeastShare = 0.05;             // lower bound of the estimated share
+constexpr double kLeastRedundancy = 5;           // sum over all intervals, to estimate the noise
 constexpr double kGaugeDeviation = 1e-3;  // [m] and [rad]; any small value has the same effect
 
 // The bundle adjustment as a problem for the window's solver, over the given states.

@@ -19,9 +19,9 @@ struct VisualInertialBundleOptions {
   double gravity_norm;            // [m/s^2]
   double noise;                   // standard deviation of a normalized coordinate
   double accel_bias_prior = 0.1;  // standard deviation of the accelerometer bias about 0 [m/s^2]
-  double gyro_bias_prior = 0.05;  // of the gyroscope bias about its initial value [rad/s]
-  Rigid3d T_C_C1 = {};            // of the second camera, if tracks have observations in it
-  double depth_noise = 0;         // of a measured inverse depth, if tracks have any [1/m]
+  double gyro_bias_prior = 0.05;  // deviation of the gyroscope bias from its initial value [rad/s]
+  Rigid3d T_C_C1 = {};            // second camera, if tracks have observations in it
+  double depth_noise = 0;         // noise of a measured inverse depth, if tracks have any [1/m]
   double max_scale_deviation = std::numeric_limits<double>::infinity();  // accepted, relative
 };
 
@@ -29,7 +29,7 @@ struct VisualInertialBundleOptions {
 struct VisualInertialBundle {
   double reprojection_rms = 0;
   double imu_rms = 0;
-  double outlier_share = 0;             // of the observations of points
+  double outlier_share = 0;             // share of the observations of points
   double relative_scale_deviation = 0;  // standard deviation of the trajectory's size
 };
 

@@ -88,8 +88,8 @@ class ImuStream {
   std::deque<ImuSample> samples_;  // starts with the boundary of the last cut, if any
   std::optional<int64_t> last_cut_ns_;
   ImuGate gate_;                    // samples that it accepted are in the queue
-  ImuMemory memory_;                // of the samples passed to the gate
-  std::optional<int64_t> last_ns_;  // of the newest sample passed to the gate
+  ImuMemory memory_;                // samples passed to the gate
+  std::optional<int64_t> last_ns_;  // newest sample passed to the gate
   // A sample after a gap waits for the next one, so that one wrong timestamp does not invalidate
   // the following samples.
   std::optional<ImuSample> after_gap_;

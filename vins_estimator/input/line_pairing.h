@@ -14,7 +14,7 @@ struct LinePairingStatistics {
   int64_t frames_without_lines = 0;  // images output without the expected lines
   int64_t lines_out_of_order = 0;    // timestamp not increasing
   int64_t lines_late = 0;            // arrived after the image had been output
-  int64_t lines_without_points = 0;  // whose point frame never arrived
+  int64_t lines_without_points = 0;  // the point frame never arrived
 };
 
 // Pairs line frames with images by equal timestamps and decides how long an image waits for its

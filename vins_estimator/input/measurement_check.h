@@ -10,8 +10,8 @@ namespace plm_vins {
 
 // End of a measurement, which the next one must follow.
 struct MeasurementEnd {
-  int64_t t_ns = 0;    // of the image
-  int64_t imu_ns = 0;  // of the last IMU sample
+  int64_t t_ns = 0;    // image timestamp
+  int64_t imu_ns = 0;  // timestamp of the last IMU sample
 };
 
 inline MeasurementEnd EndOf(const FrameMeasurement& measurement) {

@@ -54,8 +54,8 @@ class MeasurementSync {
     int max_line_lag = 3;       // longest wait for a line frame [images]
     int line_patience = 10;     // consecutive frames without lines after which lines are missing
     double max_imu_gap = kMaxImuInterval;  // images in a longer gap are dropped [s]
-    // A frame that the IMU is further ahead of than this [s] is dropped in favor of newer usable
-    // ones: an estimator that is too slow for the rate skips it.
+    // Once the IMU is further ahead of a frame than this [s], newer usable frames replace it: an
+    // estimator that is too slow for the rate skips images.
     double max_wait = std::numeric_limits<double>::infinity();
     int max_frames = 200;  // longest queue of images and of line frames; beyond, drops the oldest
     int max_imu_samples = 50000;  // longest queue of samples; beyond, drops the oldest
@@ -75,7 +75,7 @@ class MeasurementSync {
   std::optional<FrameMeasurement> Pop();
 
   // To be called instead of Pop() after the end of the input: returns the remaining frames that the
-  // IMU reaches, without waiting for lines. Frames beyond are dropped and counted.
+  // IMU reaches, without waiting for lines. Later frames are dropped and counted.
   std::optional<FrameMeasurement> Flush();
 
   // Returns whether expected lines are missing permanently; frames are then output without them.
@@ -94,7 +94,7 @@ class MeasurementSync {
 
   // Drops images and lines.
   void ClearFrames();
-  int64_t CutTime(size_t frame) const;  // of a queued frame, 0 is the oldest; in IMU time
+  int64_t CutTime(size_t frame) const;  // IMU time of a queued frame; 0 is the oldest
   // Returns whether there is a queued frame and the IMU reaches the oldest one.
   bool OldestIsReached() const { return !points_.empty() && imu_.Reaches(CutTime(0)); }
   // Returns whether a queued frame need not wait for its lines; newer frames may still wait.

@@ -74,7 +74,7 @@ void RollingShutter::MovePoints(const Motion& motion, std::vector<PointObservati
     if (!velocity) continue;
     point.velocity = *velocity;
     point.xy -= now.share * motion.readout * *velocity;
-    if (point.right) *point.right -= now.share * motion.readout * *velocity;  // of nearly that row
+    if (point.right) *point.right -= now.share * motion.readout * *velocity;  // nearly the same row
     moved.push_back(point);
   }
   points_ = std::move(sights);

@@ -67,14 +67,14 @@ class NormalEquations {
 
   const WindowProblem& problem_;
   const EquationLayout layout_;
-  std::vector<bool> left_out_;  // by term
+  std::vector<bool> left_out_;  // flags by term: ignored since the first linearization
   Eigen::VectorXd H_ld_;        // memory for all landmarks' H_ld
   std::vector<LandmarkEquations> landmarks_;
   Eigen::MatrixXd H_dd_;  // upper triangle
   Eigen::VectorXd b_d_;
   Eigen::MatrixXd S_;  // reduced equations, with g_
   Eigen::VectorXd g_;
-  std::optional<BlockCholesky> factor_;  // of S_
+  std::optional<BlockCholesky> factor_;  // Cholesky factor of S_
   double factor_damping_ = 0;            // damping of S_, valid if there is a factor
 };
 

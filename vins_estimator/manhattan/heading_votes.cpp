@@ -8,7 +8,7 @@ namespace plm_vins {
 namespace {
 
 constexpr double kQuarterTurn = M_PI / 2;
-constexpr int kBins = 90;  // of 1 deg each, to search for the best heading
+constexpr int kBins = 90;  // bins of 1 deg each, to search for the best heading
 constexpr double kForgottenWeight = 0.03;
 
 // Returns the logarithm of a bound on the probability that independent votes of total weight

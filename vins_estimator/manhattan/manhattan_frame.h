@@ -94,7 +94,7 @@ class ManhattanFrame {
   ManhattanOptions options_;
   HeadingVotes votes_;
   ManhattanState state_ = ManhattanState::kAbsent;
-  double heading_ = 0;  // of M in W: locked, or at the start of the candidate [rad]
+  double heading_ = 0;  // M in W: locked, or at the start of the candidate [rad]
   HeadingSupport support_;
   std::optional<int64_t> last_ns_;   // time of the last frame
   std::optional<int64_t> since_ns_;  // start of the candidate, or of the contradiction when locked

@@ -12,7 +12,7 @@ namespace {
 constexpr int kMinMeasurementsToTriangulate = 3;
 constexpr double kMaxRightNoise = 2.0;  // largest noise of a second-camera segment, over the noise
 constexpr double kMinSegment = 1e-3;    // normalized
-constexpr double kMinDistance = 1e-6;   // of a line from its host's camera [m]
+constexpr double kMinDistance = 1e-6;   // distance of a line from its host's camera [m]
 
 LineTriangulationResult TriangulateLandmark(const SlidingWindow& window,
                                             const LineTriangulationOptions& options,

@@ -20,14 +20,14 @@ struct LineLimits {
   LineLimits(double noise, double max_length) : triangulation(noise), max_length(max_length) {}
 
   LineTriangulationOptions triangulation;  // its mean error limit holds later, too
-  double max_view_error = 5.0;             // of one observation: rms in units of the noise
+  double max_view_error = 5.0;             // rms of one observation, in units of the noise
   double max_length;                       // between the ends [m]
 };
 
 // Residual of an observation in the second camera.
 struct RightLineResidual {
   LineView* view;
-  double error;  // of both ends together, in standard deviations
+  double error;  // both ends together, in standard deviations
 };
 
 // All line tracks with observations in the window. Every observation belongs to a frame of it.

@@ -12,7 +12,7 @@ namespace plm_vins {
 
 // Reprojection error of a point in the raw image.
 struct PixelResidual {
-  Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();     // of the observation
+  Eigen::Vector2d uv_px = Eigen::Vector2d::Zero();     // observed pixel
   Eigen::Vector2d error_px = Eigen::Vector2d::Zero();  // predicted minus observed
 };
 

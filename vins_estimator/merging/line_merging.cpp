@@ -23,7 +23,7 @@ double DistanceInImages(const SlidingWindow& window, const LineLandmark& a, cons
 // than their noise, so that they cannot be one line.
 bool AreSideBySide(const LineSegmentView& a, const LineSegmentView& b, double noise) {
   constexpr double kNoiseFactor = 3.0;
-  constexpr double kLeastOverlap = 0.2;  // of the shorter one
+  constexpr double kLeastOverlap = 0.2;  // fraction of the shorter segment
   const Vector2d along = (a.end - a.start).normalized();
   const auto [a_low, a_high] = std::minmax({along.dot(a.start), along.dot(a.end)});
   const auto [b_low, b_high] = std::minmax({along.dot(b.start), along.dot(b.end)});

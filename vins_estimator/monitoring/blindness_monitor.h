@@ -27,7 +27,7 @@ class BlindnessMonitor {
   struct Hold {
     int64_t t_ns;
     Eigen::Vector3d p_W;
-    double variance;  // of the position, summed over the axes [m^2]
+    double variance;  // position variance, summed over the axes [m^2]
   };
 
   std::optional<Hold> hold_;  // at the last image that constrained the position, or the first image

@@ -10,7 +10,7 @@ namespace plm_vins {
 struct ContradictionEvidence {
   double noise_factor = 1;                  // assumed noise of the IMU over that of its samples
   std::optional<double> delay;              // rough error of td [s] (DelayMonitor)
-  double imu_jitter = 0, image_jitter = 0;  // of timestamps, root mean square [s]
+  double imu_jitter = 0, image_jitter = 0;  // timestamp jitter, root mean square [s]
   double imu_rate = 0, configured_imu_rate = 0;  // [Hz]
   // Noise of the samples themselves over acc_n and gyr_n (ImuNoiseMeter).
   double accel_noise_factor = 0, gyro_noise_factor = 0;

@@ -27,7 +27,7 @@ class EstimateMonitor {
     bool stationary = false;  // standstill at the newest image
     FrameState predicted;     // newest state, propagated by the IMU alone
     FrameState newest;        // newest state, optimized
-    std::optional<Eigen::Matrix<double, 6, 6>> pose_covariance;  // of `newest`
+    std::optional<Eigen::Matrix<double, 6, 6>> pose_covariance;  // belongs to `newest`
     EstimatorCounts counts;
     double time_offset_change = 0;  // estimated minus configured td [s]
   };

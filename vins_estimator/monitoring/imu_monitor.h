@@ -26,7 +26,7 @@ class ImuMonitor {
     // constrains the six degrees of freedom of a pose, so its mean is at most six.
     double chi_square = 0;
     int points = 0;                                           // known points in the newest image
-    int contradicted = 0;                                     // of these: outliers
+    int contradicted = 0;                                     // outliers among them
     Eigen::Vector3d turn_residual = Eigen::Vector3d::Zero();  // camera minus gyroscope [rad]
   };
 

@@ -34,7 +34,7 @@ class LensMonitor {
 
  private:
   static constexpr int kRings = 8;
-  static constexpr int kBins = 201;  // of radial components
+  static constexpr int kBins = 201;  // bins of the radial components
 
   struct Histogram {
     std::array<int64_t, kBins> counts = {};
@@ -47,7 +47,7 @@ class LensMonitor {
 
   const bool is_equidistant_;
   const Eigen::Vector2d center_px_;  // principal point
-  double width_px_ = 0;              // of a ring
+  double width_px_ = 0;              // width of a ring
   std::array<Histogram, kRings> rings_;
   std::string warning_;
 };

@@ -28,7 +28,7 @@ class StampJitterMonitor {
   // weighted by the squared rate; the covariance of consecutive residuals along the axis; and the
   // product of their squared rates.
   double along_ = 0, across_ = 0, common_ = 0, squared_rates_ = 0;
-  double along_before_ = 0, squared_rate_before_ = 0;  // of the previous interval
+  double along_before_ = 0, squared_rate_before_ = 0;  // terms of the previous interval
 };
 
 // Returns the effect of timestamp errors with the given standard deviation [s] on the states at

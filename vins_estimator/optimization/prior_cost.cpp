@@ -6,7 +6,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMinPivot = 1e-13;  // of the scaled matrix; smaller pivots are rounding errors
+constexpr double kMinPivot = 1e-13;  // for the scaled matrix; smaller pivots are rounding errors
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 

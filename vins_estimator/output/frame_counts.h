@@ -22,7 +22,7 @@ enum FrameCount : size_t {
   kLinesOffCourse,  // lost: too far from the prediction
   kLinesEdgeLost,   // lost: no edge at the predicted position
   kLinesDuplicate,  // lost: coincides with an older one
-  kLinesDetected,   // by the detector, joined and long enough; zero if it did not run
+  kLinesDetected,   // detected, joined and long enough; zero if the detector did not run
   kLinesAdded,      // new in this image
   kLinesObserved,   // given to the estimator
   kLinesTriangulated,

@@ -11,7 +11,7 @@ namespace plm_vins {
 namespace {
 
 constexpr double kLongestInterval = 1;               // between images; longer ones are gaps [s]
-constexpr size_t kMostWorlds = 5, kMostReasons = 3;  // that are reported
+constexpr size_t kMostWorlds = 5, kMostReasons = 3;  // largest numbers that are reported
 constexpr char kNoImage[] = "no usable image";
 
 // Returns the reason without its figures, which change from image to image.

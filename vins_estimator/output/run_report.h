@@ -37,7 +37,7 @@ class RunReport {
   std::vector<std::string> LongestFirst() const;
 
   std::vector<World> worlds_;
-  std::optional<std::string> restart_reason_;  // of the next world
+  std::optional<std::string> restart_reason_;  // reason for the next world
   std::optional<int64_t> first_ns_, newest_ns_;
   double elapsed_ = 0;                          // since the first output [s]
   std::map<std::string, double> without_pose_;  // [s], by reason

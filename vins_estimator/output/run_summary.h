@@ -36,7 +36,7 @@ class RunSummary {
     int64_t map_points = 0;  // landmarks written to the map
     int64_t map_lines = 0;   // lines written to the map
     DropCounts drops;
-    std::vector<std::string> findings;  // what seems to be wrong, the likeliest cause first
+    std::vector<std::string> findings;  // possible faults, the likeliest cause first
     std::vector<ResidualRing> residual_rings;
   };
   Json ToJson(const Run& run) const;

@@ -47,10 +47,10 @@ struct ProblemOptions {
   double passing_velocity = 0;   // [m/s]
   double passing_turn_rate = 0;  // [rad/s]
   bool estimate_extrinsic;
-  bool estimate_mounting;  // of the second camera
+  bool estimate_mounting;  // mounting of the second camera
   bool estimate_td;
   bool estimate_intrinsics;
-  CameraParameters camera;  // as configured
+  CameraParameters camera;  // configured camera
   JacobiansAt jacobians_at = JacobiansAt::kFirstEstimates;
   // Manhattan frame to whose axes lines are constrained; nullopt if there is none.
   std::optional<Eigen::Quaterniond> R_W_M;

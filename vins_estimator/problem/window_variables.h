@@ -23,7 +23,7 @@ class WindowVariables {
   WindowVariables(SlidingWindow* window, IsConstant is_constant,
                   const MarginalizationPrior* first_estimates, WindowProblem* problem);
 
-  int Pose(int64_t t_ns) { return Add({BlockKind::kPose, t_ns}); }  // of a frame or an anchor
+  int Pose(int64_t t_ns) { return Add({BlockKind::kPose, t_ns}); }  // frame or anchor
   int Motion(int64_t t_ns) { return Add({BlockKind::kMotion, t_ns}); }
   int Extrinsic() { return Add({BlockKind::kExtrinsic, 0}); }
   int Mounting() { return Add({BlockKind::kMounting, 0}); }

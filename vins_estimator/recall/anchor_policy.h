@@ -18,8 +18,8 @@ struct AnchorPolicyOptions {
       : max_anchors(config.line_merging ? static_cast<size_t>(config.line_anchors) : 0) {}
 
   size_t max_anchors;
-  double max_distance = 0.7;    // the same view: largest distance of the cameras [m]
-  double max_angle = M_PI / 7;  // the same view: largest rotation, 26 deg [rad]
+  double max_distance = 0.7;    // between cameras with similar views [m]
+  double max_angle = M_PI / 7;  // between cameras with similar views, 26 deg [rad]
   double max_idle = 3.0;        // an anchor not used for longer is inactive [s]
 };
 

@@ -82,7 +82,7 @@ class EstimatorDiagnostics {
   bool lines_are_missing_ = false;
   int64_t frames_without_lines_ = 0;
   int64_t lines_without_points_ = 0;
-  DropCounts drops_;  // of the thread that estimates
+  DropCounts drops_;  // counts of the thread that estimates
 };
 
 }  // namespace plm_vins

@@ -55,8 +55,8 @@ class LineHistory {
   std::string frame_id_;
   std::vector<std::vector<MapLine>> parts_;  // by marker id
   size_t newest_part_ = 0;
-  int64_t t_ns_ = 0;                           // of the last Add()
-  std::unordered_map<int64_t, Place> places_;  // of all lines, by id
+  int64_t t_ns_ = 0;                           // time of the last Add()
+  std::unordered_map<int64_t, Place> places_;  // places of all lines, by id
   std::set<size_t> changed_;                   // parts changed since the last Add()
 };
 

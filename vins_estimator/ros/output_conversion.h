@@ -19,7 +19,7 @@ namespace plm_vins {
 struct StateCovariance {
   Matrix6d pose = Matrix6d::Zero();                    // p_W, rotation in B (right perturbation)
   Eigen::Matrix3d velocity = Eigen::Matrix3d::Zero();  // v_B
-  double angular_velocity = 0;                         // of each component, in B
+  double angular_velocity = 0;                         // variance of each component, in B
 };
 
 // Returns the covariances; very large values if unknown, since zeros would mean perfect certainty.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kQueue = 1000;
 constexpr double kPathStep = 0.02;      // [m] between poses of the path
-constexpr size_t kMaxPathPoses = 5000;  // then every second pose is removed: the path gets coarser
+constexpr size_t kMaxPathPoses = 5000;  // if exceeded, every second pose is removed
 // Share of new poses after which the path is published again: no visible lag if the whole path is
 // in view, and constant bandwidth however long the path is.
 constexpr double kNewPathShare = 0.01;

@@ -25,7 +25,7 @@ struct LineMergingCounts {
   int inconsistent = 0;       // the observations do not fit one line
 };
 
-// Observations in the window that tell the depth of points from single images.
+// Observations in the window that measure the depth of points in single images.
 struct DepthCounts {
   int used = 0;
   int rejected = 0;  // removed as outliers
@@ -40,7 +40,7 @@ struct EstimatorCounts {
   int lines_in_window = 0;   // optimized landmarks
   int lines_rejected = 0;    // landmarks or observations removed as outliers
   int known_seen = 0;        // optimized landmarks, points and lines, in this image
-  int known_rejected = 0;    // of these: outliers
+  int known_rejected = 0;    // outliers among them
   DepthCounts right;         // in the second camera
   DepthCounts depth;         // measured
   LineTriangulationCounts line_triangulation;

@@ -33,7 +33,7 @@ inline const char* ToString(EstimatorStatus status) {
 // Faults of the second camera that its residuals show.
 struct SecondCameraFaults {
   std::optional<double> misfit_px;  // median residual, if it is too large for the camera to be used
-  std::optional<double> delay;      // of its exposure behind the first camera's [s]
+  std::optional<double> delay;      // exposure later than that of the first camera [s]
   std::optional<double> baseline;   // relative error of its length, by the evidence of the IMU
 };
 
@@ -50,8 +50,8 @@ struct EstimatorTimings {
 struct StateUncertainty {
   // Covariance of (p_W [m], rotation in B [rad]), right perturbation R_W_B Exp(theta).
   Matrix6d pose;
-  Eigen::Matrix3d velocity;       // of v_W [m/s]
-  Eigen::Matrix3d body_velocity;  // of v_B = R_W_B^T v_W [m/s]
+  Eigen::Matrix3d velocity;       // covariance of v_W [m/s]
+  Eigen::Matrix3d body_velocity;  // covariance of v_B = R_W_B^T v_W [m/s]
   Matrix6d biases;                // accelerometer [m/s^2], gyroscope [rad/s]
 };
 

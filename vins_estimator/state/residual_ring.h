@@ -8,7 +8,7 @@ namespace plm_vins {
 // Statistics of the residuals of points in a ring of the image around the principal point.
 struct ResidualRing {
   double inner_px = 0, outer_px = 0;  // radii
-  int64_t count = 0;                  // of residuals
+  int64_t count = 0;                  // number of residuals
   double radial_px = 0;               // median of the radial components, positive outwards
   double deviation_px = 0;            // their standard deviation, from the quartiles
 };

@@ -38,7 +38,7 @@ Matrix15d PlacedCovariance(const SlidingWindow& window, int64_t keyframe_ns,
   const FrameState& keyframe = window.frames[base].state;
 
   std::vector<BlockId> ids;
-  Matrix15d move = Matrix15d::Identity();  // of the previous state, T
+  Matrix15d move = Matrix15d::Identity();  // T of the previous state
   Eigen::MatrixXd pull = Eigen::MatrixXd::Zero(kStateSize * (states + 1), kStateSize);
   for (int i = 0; i < states; ++i) {
     const FrameState& from = window.frames[base + i].state;

@@ -12,7 +12,7 @@ namespace plm_vins {
 namespace {
 
 constexpr size_t kMinLandmarks = 24;    // least sample size
-constexpr double kGreatestRatio = 9.0;  // of variances, relative to the median landmark's
+constexpr double kGreatestRatio = 9.0;  // ratio of variances, to the median landmark's
 constexpr double kGreatestCorrelation = 0.8;
 constexpr double kTimeConstant = 2.5;  // [s]
 constexpr double kMinMotion = 0.3;     // between the first and the last frame of the window [m]

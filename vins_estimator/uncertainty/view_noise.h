@@ -40,7 +40,7 @@ class ViewNoise {
  private:
   double first_point_, first_line_;
   double point_, line_;
-  std::optional<int64_t> newest_ns_;  // of the last window
+  std::optional<int64_t> newest_ns_;  // newest image of the last window
 };
 
 }  // namespace plm_vins

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kMinViews = 6;
 constexpr int kPointParameters = 3, kLineParameters = 4;
-constexpr double kGreatestLength = 3.0;  // of a residual, relative to the median one
+constexpr double kGreatestLength = 3.0;  // length of a residual, relative to the median one
 
 // Clips outlier residuals, which may belong to another scene point.
 void ShortenOutliers(std::vector<Eigen::Vector2d>* residuals) {

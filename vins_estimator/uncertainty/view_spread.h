@@ -14,7 +14,7 @@ namespace plm_vins {
 // Residual statistics of one landmark after optimization, corrected for the degrees of freedom of
 // its own parameters.
 struct ViewSpread {
-  double variance = 0;    // of one residual coordinate
+  double variance = 0;    // variance of one residual coordinate
   double difference = 0;  // half the variance of the step between consecutive residuals
 };
 

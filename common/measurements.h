@@ -46,8 +46,8 @@ struct ImuSample {
 
 // Result of the search for a feature in the image of the second camera.
 enum class RightSearch : uint8_t {
-  kNotDue,       // not searched in this image, or no second camera
-  kNoImage,      // the second camera has no image with this timestamp
+  kNotDue,       // track not searched in this image, or no second camera
+  kNoImage,      // no image with this timestamp, or one that MatchSchedule skips
   kNotFound,     // no match, or an ambiguous one
   kOffEpipolar,  // match rejected by the configured extrinsics
   kFound,

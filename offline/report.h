@@ -13,7 +13,7 @@ namespace plm_vins {
 // Origin of the data that was processed, for messages.
 struct Source {
   std::string name;
-  std::string images, imu;  // their file, or topic and key
+  std::string images, imu;  // file, or topic and key
   DropCounts problems;
 };
 

@@ -29,8 +29,8 @@ class RotationCheck;
 // The estimate of an image, with the other data to publish.
 struct EstimatedFrame {
   EstimatorOutput output;
-  PointFrame points;           // from which it was estimated
-  LineFrame lines;             // from which it was estimated; empty if there were none
+  PointFrame points;           // used for the estimate
+  LineFrame lines;             // used for the estimate; empty if there were none
   std::vector<ImuSample> imu;  // since the previous frame, starting with its last sample
   int64_t imu_ns = 0;          // time of the state on the IMU's clock
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // in B, without bias [rad/s]
@@ -101,7 +101,7 @@ class EstimationStage {
   const std::unique_ptr<Estimator> estimator_;  // hides the solver from users of this header
   InputCheck input_check_;
   const std::unique_ptr<RotationCheck> rotation_check_;
-  double doubt_ = 0;  // for which the estimate has been in doubt or missing [s]
+  double doubt_ = 0;  // time in doubt or without a pose [s]
   ImuNoiseMeter imu_noise_meter_;
   MeasurementSync sync_;
   RepeatedImageDetector repeated_images_;

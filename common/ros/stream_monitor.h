@@ -33,7 +33,7 @@ class StreamMonitor {
   ros::WallTime last_arrival_ = ros::WallTime::now();
   ros::WallTime last_report_ = ros::WallTime::now();
   int messages_ = 0;         // since the last report
-  double summed_delay_ = 0;  // their total delay [s]
+  double summed_delay_ = 0;  // total delay of these messages [s]
 };
 
 }  // namespace plm_vins

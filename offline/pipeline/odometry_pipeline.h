@@ -126,7 +126,7 @@ class OdometryPipeline {
   ConfirmedStamp first_image_, first_imu_;
   ConstantStamp image_stamps_;
   std::string imu_contradiction_;    // the last one that was not empty
-  int64_t contradicted_images_ = 0;  // when there was one
+  int64_t contradicted_images_ = 0;  // images with a contradiction
   std::string second_camera_fault_;  // the last one that was not empty
   std::optional<int64_t> last_frame_ns_;
   int64_t images_ = 0;

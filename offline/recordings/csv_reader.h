@@ -31,7 +31,7 @@ class CsvReader {
   std::string Place() const { return file_ + ":" + std::to_string(line_number_); }
 
   int64_t bad_lines() const { return bad_lines_; }
-  const std::string& first_bad_line() const { return first_bad_line_; }  // its FILE:LINE
+  const std::string& first_bad_line() const { return first_bad_line_; }  // FILE:LINE
 
  private:
   std::optional<CsvRow> Parse(const std::string& line) const;

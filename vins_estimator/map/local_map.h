@@ -27,7 +27,7 @@ struct LocalMapOptions {
 // Triangulated landmarks that left the map with a frame.
 struct DepartedLandmarks {
   std::vector<MapPoint> points;
-  std::vector<MapLine> lines;  // their whole observed extent if remembered, else that in the window
+  std::vector<MapLine> lines;  // whole observed extent if remembered, else the extent in the window
 };
 
 // The frames of the window and the landmarks that they observe. Anyone may change values, but

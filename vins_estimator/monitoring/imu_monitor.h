@@ -44,7 +44,7 @@ class ImuMonitor {
 
   double followed_scale_ = 1;
   double excess_ = 0;                  // accumulated excess of chi_square over its normal value
-  std::optional<int64_t> doubted_ns_;  // when the biases were last set free
+  std::optional<int64_t> doubted_ns_;  // last time the biases were set free
   // Exponentially forgetting sums of residual rotations, of their squares, and of ones.
   Eigen::Vector3d turns_ = Eigen::Vector3d::Zero();
   double squared_turns_ = 0, images_ = 0;

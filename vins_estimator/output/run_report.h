@@ -27,7 +27,7 @@ class RunReport {
 
  private:
   struct World {
-    double begin = 0;    // its first pose, since the first output [s]
+    double begin = 0;    // first pose, since the first output [s]
     std::string reason;  // why the previous one ended
   };
 

@@ -72,7 +72,7 @@ class EstimatorDiagnostics {
   std::string lens_warning_;
   std::string second_camera_fault_;
   double pose_age_ = 0;       // [s]
-  std::string last_restart_;  // its reason
+  std::string last_restart_;  // reason for the last restart
   EstimatorCounts counts_;
   double estimator_ms_ = 0;
   int64_t frames_ = 0;

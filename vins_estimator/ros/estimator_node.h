@@ -102,7 +102,7 @@ class EstimatorNode {
   Config config_;
 
   BoundedQueue<Input> queue_;
-  std::atomic<bool> frames_wait_ = false;  // in the worker, for the IMU or for lines
+  std::atomic<bool> frames_wait_ = false;  // images wait in the worker, for the IMU or for lines
   std::atomic<int64_t> imu_refused_ = 0;   // samples dropped because the queue was full
   PropagationPublisher propagation_;
   TrajectoryLog trajectory_;

@@ -70,7 +70,7 @@ class OutputPublisher {
   std::vector<MapPoint> departed_points_;  // since history_ns_
   std::vector<MapLine> departed_lines_;
   std::vector<int64_t> absorbed_lines_;
-  int64_t history_ns_ = 0;  // when the histories were last published
+  int64_t history_ns_ = 0;  // last publication of the histories
 };
 
 }  // namespace plm_vins

@@ -10,7 +10,7 @@ struct ResidualRing {
   double inner_px = 0, outer_px = 0;  // radii
   int64_t count = 0;                  // number of residuals
   double radial_px = 0;               // median of the radial components, positive outwards
-  double deviation_px = 0;            // their standard deviation, from the quartiles
+  double deviation_px = 0;            // standard deviation of these, from the quartiles
 };
 
 }  // namespace plm_vins

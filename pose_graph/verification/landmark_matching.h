@@ -42,9 +42,9 @@ std::vector<LandmarkMatch> MatchLandmarks(const MatchingOptions& options,
                                           const std::vector<DescribedCorner>& corners,
                                           const std::vector<DescribedLandmark>& landmarks);
 
-// Matches with a known pose: each landmark against the corners around its predicted image. Matches
-// far from the prediction are included, so that a wrong pose is recognized by its few inliers.
-// `R_G_C` has a level frame G.
+// Matches each landmark with the corners around its predicted image, given the pose. Matches far
+// from the prediction are included, so that a wrong pose is recognized by its few inliers. `R_G_C`
+// is the camera's rotation in a level frame G (z up).
 std::vector<LandmarkMatch> MatchAroundImages(const MatchingOptions& options,
                                              const std::vector<DescribedCorner>& corners,
                                              const std::vector<DescribedLandmark>& landmarks,

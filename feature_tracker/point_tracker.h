@@ -39,9 +39,9 @@ class PointTracker {
                const cv::Mat& mask = {}, const std::optional<CameraPair>& pair = {});
   ~PointTracker();
 
-  // `R_C1_C0` rotates the previous camera frame C0 to the current one C1 (from the gyroscope);
-  // without it, the tracks' own motion predicts. Throws std::invalid_argument if an image is not of
-  // its type and calibrated size or the timestamp does not increase; the tracker is then unchanged.
+  // `R_C1_C0` rotates the previous camera frame C0 to the current one C1 (from the gyroscope); if
+  // nullopt, the tracks' own motion predicts. Throws std::invalid_argument if an image has a wrong
+  // type or size or the timestamp does not increase; the tracker is then unchanged.
   PointFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0,
                    const ImageCompanions& companions = {});
 

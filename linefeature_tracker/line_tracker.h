@@ -44,8 +44,8 @@ class LineTracker {
               const cv::Mat& mask = {}, const std::optional<CameraPair>& pair = {});
   ~LineTracker();
 
-  // `R_C1_C0` rotates the previous camera frame C0 to the current one C1 (from the gyroscope);
-  // without it, the tracks' own motion predicts. Throws std::invalid_argument if an image is not
+  // `R_C1_C0` rotates the previous camera frame C0 to the current one C1 (from the gyroscope); if
+  // nullopt, the tracks' own motion predicts. Throws std::invalid_argument if an image is not
   // CV_8UC1 of the calibrated size or the timestamp does not increase; the tracker is then
   // unchanged.
   LineFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0,

@@ -33,7 +33,7 @@ struct EstimatorOptions {
   ProblemOptions problem;
   SolverOptions newest_solution;  // for the states after the newest keyframe only
   SolverOptions first_solution;   // for the window that was just initialized
-  // While the window fills: the scale is hardly observable and strongly nonlinear at first.
+  // Used while the window fills: the scale is hardly observable and strongly nonlinear at first.
   SolverOptions early_solution;
   SolverOptions solution;
 

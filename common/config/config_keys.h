@@ -18,8 +18,8 @@ ConfigKeys<Config> AllKeys(const std::string& model_type,
 // Returns all keys of a file that is equivalent to this configuration.
 ConfigKeys<Config> KeysOf(const Config& config);
 
-// Clamps every number that a program has set to the range of its key, so that a file of them can be
-// read.
+// Clamps every number that a program has set to the range of its key, so that a file with these
+// numbers can be read.
 void KeepInRange(Config* config);
 
 // Keys of VINS-Mono and its successors without effect here (vocabulary, output paths, threads,

@@ -30,8 +30,8 @@ class ImuContent {
   int64_t samples_ = 0;
   int64_t first_ns_ = 0, newest_ns_ = 0;
   int64_t with_gyro_ = 0, with_accel_ = 0, with_both_ = 0;  // not zero, and finite
-  // Samples by the norm of the specific force: near gravity in units of g, of a thousandth of g,
-  // and of m/s^2; and far below gravity in m/s^2.
+  // Samples whose specific force has a norm near gravity in g, in thousandths of g, or in m/s^2; or
+  // a norm far below gravity in m/s^2.
   int64_t near_one_g_ = 0, near_thousand_mg_ = 0, near_gravity_ = 0, far_below_gravity_ = 0;
   int64_t fast_turns_ = 0;  // samples with an angular rate that blurs every image
 };

@@ -13,7 +13,7 @@ namespace plm_vins {
 class ProgressDisplay {
  public:
   // `end_ns` is the timestamp at which the recording ends, if known; `duration` [s] is the length
-  // of the run, may be infinite.
+  // of the run, which may be infinite.
   explicit ProgressDisplay(std::optional<int64_t> end_ns,
                            double duration = std::numeric_limits<double>::infinity());
 

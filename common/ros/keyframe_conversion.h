@@ -14,11 +14,11 @@
 
 namespace plm_vins {
 
-// ~keyframe_point has VINS-Mono's format: the positions of corners that have one, and one channel
-// for each, with x, y (normalized), u, v [px] and the id (modulo kTransportableIds). Reading throws
-// std::invalid_argument if a channel is missing or too short, or an id is invalid. It drops, and
-// counts, implausible observations (common/features/feature_checks.h), positions that are not
-// finite, and repeated ids.
+// ~keyframe_point has VINS-Mono's format: the positions of the triangulated corners, and one
+// channel for each, with x, y (normalized), u, v [px] and the id (modulo kTransportableIds).
+// Reading throws std::invalid_argument if a channel is missing or too short, or an id is invalid.
+// It drops, and counts, implausible observations (common/features/feature_checks.h), positions that
+// are not finite, and repeated ids.
 sensor_msgs::PointCloud ToKeyframePoints(const std::vector<TrackedCorner>& corners, int64_t t_ns,
                                          const std::string& frame_id);
 std::vector<TrackedCorner> ToCorners(const sensor_msgs::PointCloud& message, int64_t* left_out);

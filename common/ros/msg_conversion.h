@@ -32,7 +32,7 @@ inline bool HasVelocities(const sensor_msgs::PointCloud& points) {
 // /linefeature_tracker/linefeature has PL-VINS' format: points are the starts (x, y, 1) of the
 // lines, channels id, x_end, y_end. Further channels with the names "right_x", "right_y",
 // "right_x_end", "right_y_end", "right_deviation" and "right_deviation_end" follow if the second
-// camera sees any line.
+// camera observes any line.
 sensor_msgs::PointCloud ToMessage(const LineFrame& frame, const std::string& frame_id);
 LineFrame ToLineFrame(const sensor_msgs::PointCloud& message, int64_t* left_out);
 

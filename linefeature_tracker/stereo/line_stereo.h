@@ -27,8 +27,8 @@ class LineStereo {
   // Throws std::invalid_argument if the image is not CV_8UC1 of the calibrated size.
   void CheckRight(const cv::Mat& right) const;
 
-  // Searches in `right` for the tracks of the image `left` of the same timestamp, both CV_8UC1 as
-  // they came from the cameras. Sets the tracks' `right` and `inverse_depths`.
+  // Searches in `right` for the tracks of the image `left` with the same timestamp, both CV_8UC1 as
+  // delivered by the cameras. Sets the tracks' `right` and `inverse_depths`.
   void Match(const cv::Mat& left, const cv::Mat& right, std::vector<LineTrack>* tracks);
 
  private:
@@ -36,7 +36,7 @@ class LineStereo {
     const cv::Mat& left;
     const cv::Mat& right;
   };
-  // The inverse depth at a share of the way from the start of a line to its end [1/m].
+  // Inverse depth at a fraction of the way from the start of a line to its end [1/m].
   struct LineDepth {
     double share = 0;
     double inverse_depth = 0;

@@ -30,7 +30,7 @@ namespace plm_vins {
 class LoopResults {
  public:
   // Opens the files and starts from `map` if given. Throws std::runtime_error with the file name if
-  // a file cannot be written; Finish() as well.
+  // a file cannot be written; so does Finish().
   LoopResults(const Config& config, const std::string& folder, std::optional<KeyframeMap> map);
 
   // Processes the next image. Throws std::runtime_error if it has no pixels.

@@ -10,9 +10,9 @@
 
 namespace plm_vins {
 
-// A file of rows in temporal order, as readers expect. After a backward jump of the timestamps, the
-// file is kept as PartOf(path, 1), at the next jump (path, 2), and a new file begins. Throws as
-// OutputFile does.
+// A file of rows in temporal order, as readers expect. At the n-th backward jump of the timestamps,
+// the file is renamed to PartOf(path, n), and a new file begins. Throws std::runtime_error with the
+// file name, as OutputFile does.
 class TimedFile {
  public:
   // `header` is written at the beginning of each file.

@@ -18,7 +18,7 @@ struct SeenPoint {
   int64_t track = -1;                             // landmark's track number in its world
 };
 
-// A camera pose, inverted once for many reprojection errors. `R_G_C` has a level frame G.
+// A camera pose, inverted once for many reprojection errors. G is a level frame (z up).
 class Viewpoint {
  public:
   Viewpoint(const LevelTransform& T_O_G, const Eigen::Quaterniond& R_G_C)

@@ -48,7 +48,7 @@ class Flight {
   const ImuSimulation& imu() const { return imu_; }
 
  private:
-  // Records all images of one exposure and returns their stamp.
+  // Records all images of one exposure and returns their timestamp.
   int64_t RecordImages(const std::vector<Recorder*>& recorders, int64_t index) const;
   int64_t ExposureTime(int64_t index) const;  // after the start [ns]
 

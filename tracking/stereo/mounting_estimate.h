@@ -28,7 +28,7 @@ class MountingEstimate {
   // Updates the estimate with the matches of one image.
   void Update(const std::vector<StereoMatch>& matches);
 
-  // Whether the match is as close to its epipolar curve as the estimate is known.
+  // Returns whether the match is within three standard deviations of its epipolar curve.
   bool Accepts(const StereoMatch& match) const;
 
   // Distance from the epipolar curve [px], of the stated and of the estimated mounting.

@@ -7,9 +7,9 @@
 
 namespace plm_vins {
 
-// Extends a corner's factor (PointFactor or PointHostFactor) by the
-// camera intrinsics c as a variable: the corner is observed at xy + shift(c), which the residual
-// weight * (m_t - xy) depends on directly. Blocks: those of the inner factor, intrinsics (8).
+// Extends a corner's factor (PointFactor or PointHostFactor) by the camera intrinsics c as a
+// variable: the corner is observed at xy + shift(c), which the residual weight * (m_t - xy) depends
+// on directly. Blocks: those of the inner factor, then the intrinsics (8 values).
 template <typename Inner>
 class PointIntrinsicsFactor final : public Factor {
  public:

@@ -23,7 +23,7 @@ void PosePlus(const double* x, const double* delta, double* x_plus_delta);
 // Computes delta such that y = x [+] delta; its rotation angle is at most pi.
 void PoseMinus(const double* y, const double* x, double* y_minus_x);
 
-// A mounting is the pose of the second camera in the first, T_C_C1, whose baseline is known by its
+// A mounting is the pose of the second camera in the first, T_C_C1, whose baseline is given by its
 // direction and the logarithm of its length: images alone cannot distinguish the latter from the
 // scale of the world. It is [t_C_C1 (3), q_C_C1 (x, y, z, w)], its tangent [direction (2), length
 // (1), dtheta (3)]:

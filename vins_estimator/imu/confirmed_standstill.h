@@ -24,7 +24,7 @@ class ConfirmedStandstill {
   // was confirmed.
   bool Continues() const;
 
-  // Norm of the velocity that the IMU would not notice [m/s].
+  // Speed that the body may have gained without the IMU showing it [m/s].
   double UnnoticedVelocity() const;
 
   double TimeSince() const { return since_.duration; }  // since the last Confirm() [s]

@@ -33,7 +33,7 @@ class ImuStillness {
   bool IsKnown() const;                                         // the window is full
   bool IsQuiet() const;                                         // false if unknown
   int64_t since_ns() const { return intervals_.front().t_ns; }  // first image of a full window
-  size_t images() const { return intervals_.size(); }           // in the window, including that one
+  size_t images() const { return intervals_.size(); }           // includes that image
 
   void Reset() { intervals_.clear(); }
 

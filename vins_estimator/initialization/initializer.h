@@ -30,12 +30,12 @@ struct InitializationResult {
 };
 
 // Initializes the estimator: from standstill once the body has stood still for 0.75 s, or for half
-// a second if the IMU shows its noise alone, otherwise from motion once at least 1.5 s
-// of images make gravity, velocity and scale observable. With a second camera or measured depth,
-// 0.25 s of standstill or 0.3 s of motion suffice. World: z up, origin and zero heading at the
-// first frame of the result. If the camera's rotation has to be calibrated, this comes first and
-// requires rotations about at least two axes. While waiting, reason() states why. Stores at most
-// three seconds of images. Its result is deterministic.
+// a second if the IMU shows its noise alone; otherwise from motion once at least 1.5 s of images
+// make gravity, velocity and scale observable. With a second camera or measured depth, 0.25 s of
+// standstill or 0.3 s of motion suffice. World: z up, origin and zero heading at the first frame of
+// the result. If the camera's rotation has to be calibrated, this comes first and requires
+// rotations about at least two axes. While waiting, reason() states why. Stores at most three
+// seconds of images. Its result is deterministic.
 class Initializer {
  public:
   explicit Initializer(const Config& config);

@@ -30,10 +30,10 @@ struct DepartedLandmarks {
   std::vector<MapLine> lines;  // whole observed extent if remembered, else the extent in the window
 };
 
-// The frames of the window and the landmarks that they observe. Anyone may change values, but
-// frames and anchors are added and removed only by these methods, which keep an invariant: every
-// observation of a landmark, and every anchor observation in the memory, belongs to an existing
-// frame.
+// The frames of the window and the landmarks that they observe. Values may be changed from outside,
+// but frames and anchors are added and removed only by these methods, which keep an invariant:
+// every observation of a landmark, and every anchor observation in the memory, belongs to an
+// existing frame.
 struct LocalMap {
   explicit LocalMap(const LocalMapOptions& map_options) : options(map_options) {}
 

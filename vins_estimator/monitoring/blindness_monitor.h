@@ -16,8 +16,8 @@ namespace plm_vins {
 class BlindnessMonitor {
  public:
   // Adds an image: the number of observed features, whether known landmarks or a standstill
-  // constrain the position, and its state with the covariance of (p_W, rotation in B); nullopt:
-  // unknown, the image is ignored. Returns the reason once tracking is lost, otherwise nullopt.
+  // constrain the position, and the state with the covariance of (p_W, rotation in B); without a
+  // covariance the image is ignored. Returns the reason once tracking is lost, else nullopt.
   std::optional<std::string> Add(int features_seen, bool is_held, const FrameState& state,
                                  const std::optional<Eigen::Matrix<double, 6, 6>>& covariance);
 

@@ -34,7 +34,7 @@ class EstimatorDiagnostics {
   void CountLeftOut(int64_t features) { left_out_.count += features; }
   DropCounts FeatureDrops() const { return {malformed_, left_out_}; }
 
-  // To be called after each image, and with an output that only has a reason after a reset.
+  // To be called after each image, and after a reset with an output that only has a reason.
   // `frames` is the number of estimated images, `age` the age of the image when its pose was ready
   // [s].
   void Update(const EstimatorOutput& output, int64_t frames, double age);

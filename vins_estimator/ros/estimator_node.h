@@ -63,8 +63,8 @@ class EstimatorNode {
     IdRestorer ids;
   };
 
-  // Called in the thread that receives the samples. A driver in this process holds a lock of ROS
-  // meanwhile, without which the worker cannot publish; so this never waits for space in the queue.
+  // Called in the thread that receives the samples. Never waits for space in the queue: a driver in
+  // this process holds a lock of ROS meanwhile, without which the worker cannot publish.
   void AddImu(const sensor_msgs::Imu& message);
 
   // Called in the callback thread.

@@ -62,9 +62,9 @@ class EstimationStage {
   // the next output, which announces the new world frame.
   void Reset(const std::string& reason);
 
-  // Describes the problem if the IMU rate is too low to be integrated, or if the camera
-  // persistently contradicts the IMU or its estimated noise is at the limit, with possible causes
-  // in the timestamps. Empty if IMU and camera agree.
+  // Describes the problem if the IMU rate is too low to be integrated, if the camera persistently
+  // contradicts the IMU, or if the estimated IMU noise is at its limit; with possible causes in the
+  // timestamps. Empty if there is no such problem.
   std::string ImuContradiction() const;
 
   // Describes a distortion model that does not fit the lens; empty if it fits (LensMonitor).

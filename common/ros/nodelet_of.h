@@ -12,8 +12,8 @@
 namespace plm_vins {
 
 // Runs a Node(config, node, private_node) as a nodelet, which receives messages of other nodelets
-// in the same manager without copying. Problems of the configuration are logged as by the node, and
-// loading fails, but the manager continues.
+// in the same manager without copying. Problems of the configuration are logged as the node logs
+// them. Loading then fails, but the manager continues.
 template <typename Node>
 class NodeletOf : public nodelet::Nodelet {
  private:

@@ -17,8 +17,8 @@ namespace plm_vins {
 // Finds tracked corners in the image of the second camera. Correlates along the epipolar curve,
 // from beyond infinity to 0.3 m, and requires a unique match that also holds from right to left.
 // The match is then aligned with the patch of the track and gated by its distance from the epipolar
-// curve. The mounting may be off by half a degree, and the second camera late by some milliseconds:
-// both are learned from the matches, which are returned as of the first camera's timestamp.
+// curve. The mounting may be off by half a degree, and the second camera late by some milliseconds.
+// Both are learned from the matches. Matches are shifted to the first camera's timestamp.
 class StereoMatcher {
  public:
   explicit StereoMatcher(const CameraPair& pair);

@@ -13,7 +13,7 @@
 namespace plm_vins {
 
 // Writes a point cloud as ASCII PLY, point by point, so that its size is not limited by memory. The
-// file is complete after Finish(). Write errors throw as OutputFile does.
+// file is complete after Finish(). Throws on write errors, as OutputFile does.
 class PlyPointWriter {
  public:
   explicit PlyPointWriter(const std::string& path);

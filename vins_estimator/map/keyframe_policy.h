@@ -16,7 +16,7 @@ struct KeyframePolicyOptions {
 
   double min_parallax;             // mean corner motion that makes a keyframe, normalized
   int min_tracked = 20;            // keyframe if fewer corners of the last keyframe are tracked
-  double min_tracked_share = 0.5;  // the same for a smaller share of the image's corners
+  double min_tracked_share = 0.5;  // keyframe if a smaller share of the image's corners is old
   int min_points_to_see = 10;      // an image with fewer corners is blind
   double max_interval = 1.0;       // longest interval between keyframes in motion [s]
   // Longest interval at standstill [s], once at least `min_keyframes_at_rest` keyframes are

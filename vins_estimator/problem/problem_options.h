@@ -36,12 +36,12 @@ struct ProblemOptions {
   double right_line_noise_factor = 1;  // on the stated deviations of lines in the second camera
   double depth_weight = 0;             // inverse standard deviation of a measured inverse depth [m]
   double depth_loss_scale = 1.0;       // Cauchy loss, in standard deviations
-  double anchor_weight;                // the same for end points of lines in anchors
+  double anchor_weight;                // inverse standard deviation of an end point in an anchor
   double manhattan_weight;            // inverse standard deviation of the angle to the axis [1/rad]
   double manhattan_loss_scale = 3.0;  // Tukey loss, in standard deviations
   double standstill_velocity = 0.005;   // standard deviation at standstill [m/s]
   double standstill_position = 0.001;   // standard deviation of the position between two frames [m]
-  double standstill_rotation = 0.0005;  // the same for the rotation between two frames [rad]
+  double standstill_rotation = 0.0005;  // standard deviation of the rotation between frames [rad]
   // Steady motion that is indistinguishable from standstill: a lower bound on its standard
   // deviations.
   double passing_velocity = 0;   // [m/s]

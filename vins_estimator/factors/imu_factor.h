@@ -23,8 +23,8 @@ struct ImuResidualJacobians {
   }
 };
 
-// Computes the difference between two states and the preintegrated measurement, not whitened; rows
-// as in ImuErrorIndex. [Forster2017] Eq. (45), plus the bias changes:
+// Computes the difference between the motion of two states and the preintegrated measurement, not
+// whitened; rows as in ImuErrorIndex. [Forster2017] Eq. (45), plus the bias changes:
 //   r_p  = R_i^T (p_j - p_i - v_i T - g T^2 / 2) - delta_p(b_i)
 //   r_th = Log(delta_q(b_i)^-1 q_i^-1 q_j)
 //   r_v  = R_i^T (v_j - v_i - g T) - delta_v(b_i)

@@ -22,14 +22,14 @@ struct InitialUncertainty {
   double velocity = 0.3;      // [m/s]
   double accel_bias = 0.1;    // [m/s^2]
   double gyro_bias = 0.02;    // [rad/s]
-  // If set, roll and pitch come from the mean specific force at standstill, which differs from that
-  // of the true attitude and bias by this acceleration [m/s^2]; `inclination` is not used then.
+  // If set, roll and pitch come from the mean specific force at standstill, whose standard
+  // deviation this is [m/s^2]; `inclination` is then not used.
   std::optional<double> leveled_by = std::nullopt;
   double extrinsic_position = 0.02;  // [m]
   double extrinsic_rotation = 0.02;  // [rad]
   double mounting =
-      0.05 * M_PI / 180;  // of the second camera, and of the baseline's direction [rad]
-  double baseline = kBaselineDeviation;  // relative, of its length
+      0.05 * M_PI / 180;  // rotation of the second camera, direction of the baseline [rad]
+  double baseline = kBaselineDeviation;  // relative standard deviation of its length
   double td = 0.01;                      // [s]
   IntrinsicsDeviation intrinsics;
 };

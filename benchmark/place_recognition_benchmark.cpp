@@ -113,7 +113,7 @@ std::map<int, double> ScoresByBruteForce(const std::vector<Place>& places, int q
 
 using ScoreFunction = std::function<std::map<int, double>(int query)>;
 
-// Counts the images with earlier images of the same place, and those whose best candidate is one.
+// Counts the images whose place was shown before, and those whose best candidate shows it.
 struct TopHits {
   int queries = 0;
   int hits = 0;

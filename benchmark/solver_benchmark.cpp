@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares the time of the window optimization for each image, covariance included, by our solver
-// and by Ceres. The same features of a recording are processed by an estimator with each.
-// Iterations are windows.
+// and by Ceres. An estimator with each of them processes the same features of a recording. Each
+// iteration of the benchmark is one window.
 // Usage: solver_benchmark CONFIG ASL_FOLDER [--benchmark_...]
 #include <benchmark/benchmark.h>
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kMinFollowed = 4;  // observations per landmark, to estimate a variance
 constexpr size_t kMinSamples = 30;
-constexpr double kMaxChange = 8;  // largest ratio to the configured deviation, and inverse
+constexpr double kMaxChange = 8;  // largest factor on the configured deviation, up or down
 
 double SquaredError(const BundleState& bundle, const LandmarkTrack& landmark,
                     const LandmarkObservation& observation) {

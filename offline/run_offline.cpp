@@ -36,7 +36,7 @@
 namespace plm_vins {
 namespace {
 
-// Exactly one of the two is set.
+// Source of the features: exactly one of the two members is set.
 struct Input {
   std::unique_ptr<Recording> recording;
   std::optional<FeatureFileReader> features;

@@ -22,7 +22,7 @@ double LeastSpeed(const EstimatorOutput& output) {
   return std::max(0.0, output.state.velocity().norm() - 3 * deviation);
 }
 
-// Noise that is estimated, over that of the samples: at most 1.1 in flights with the right
+// Ratio of the estimated noise to that of the samples: at most 1.1 in flights with the right
 // calibration, 3 to 6 with td off by 30 ms or focal lengths off by 15 %.
 constexpr double kContradictingNoise = 2.5;
 

@@ -11,7 +11,7 @@ constexpr double kMaxReprojectionError_px = 3.0;
 constexpr double kMaxDepthError = 4.0;    // for measured inverse depths, in standard deviations
 constexpr double kMaxRayError_px = 0.02;  // a tenth of the noise of the best corners
 
-// Over half a second: eight times the effect of noise on the median of a hundred corners.
+// Motion in half a second: eight times the effect of noise on the median of a hundred corners.
 constexpr double kMaxMotionAtRest_px = 0.15;
 constexpr double kPassingFlow_px = kMaxMotionAtRest_px / 0.5;  // [px/s]
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMaxIterations = 30;
 constexpr double kConverged_px = 0.03;
-constexpr float kStandstill_px = 0.01F;  // oscillation: a step that reverts the previous one
+constexpr float kStandstill_px = 0.01F;  // a step that reverts the previous one oscillates
 constexpr int kBackwardLevels = 0;  // coarsest level of the backward search, whose end is known
 
 bool IsInside(const cv::Mat& image, const cv::Point2f& point) {

@@ -11,7 +11,7 @@ namespace {
 constexpr size_t kMinInliers = 3;  // two observations always agree
 constexpr uint32_t kSeed = 1;
 
-// Number of samples needed to draw one of inliers only, with this confidence.
+// Returns the number of samples of which, with this confidence, one has inliers only.
 int IterationsFor(double inlier_share, double confidence) {
   const double hit = inlier_share * inlier_share;
   if (hit >= 1) return 1;

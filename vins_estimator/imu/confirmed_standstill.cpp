@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMaxReference = 10.0;  // [s]: biases change over longer times
 constexpr double kSigmas = 4.0;
-// Always allowed: noise beyond what is configured, bias changes.
+// Changes that noise beyond the configured one and bias changes may cause.
 constexpr double kLeastAngle = 0.01;     // [rad]
 constexpr double kLeastVelocity = 0.05;  // [m/s]
 

@@ -146,7 +146,7 @@ Rigid3d Attempt::T_C_C1() const {
   return sensor_.T_B_C.Inverse() * sensor_.second_camera->T_B_C;
 }
 
-// Replaces EstimateBias() and Reconstruct().
+// Replaces EstimateBias() and Reconstruct() if points have a depth in single images.
 bool Attempt::ReconstructInStereo() {
   ChainRotations();  // from the biased gyroscope, as initial values
   std::vector<Eigen::Quaterniond> R_G_C;

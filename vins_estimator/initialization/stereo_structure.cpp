@@ -64,7 +64,7 @@ int Builder::ViewWithMostPairs() const {
   return static_cast<int>(std::max_element(pairs.begin(), pairs.end()) - pairs.begin());
 }
 
-// Returns nullopt if the two observations are nearly parallel, or not of the same point.
+// Returns nullopt if both observations are nearly parallel or do not belong to one point.
 std::optional<Eigen::Vector3d> Builder::PointOf(const ViewObservation& seen,
                                                 const Rigid3d& T_G_C) const {
   if (seen.depth) return T_G_C * (*seen.depth * seen.xy.homogeneous());
@@ -76,7 +76,7 @@ std::optional<Eigen::Vector3d> Builder::PointOf(const ViewObservation& seen,
   return p_G;
 }
 
-// Returns the number of points that it adds.
+// Adds the points that have a depth in the view; returns their number.
 int Builder::TriangulateIn(int view) {
   const Rigid3d& T_G_C = structure_.T_G_C[view];
   int added = 0;

@@ -13,7 +13,7 @@ constexpr double kBinWidth_px = 0.01;
 constexpr int64_t kMinInRing = 100;  // residuals, for a median
 constexpr int64_t kMinInAll = 1000;
 constexpr double kQuartilesOfNormal = 1.349;  // distance of the quartiles, in standard deviations
-constexpr double kMedianOfNormal = 1.253;     // its standard error over the mean's
+constexpr double kMedianOfNormal = 1.253;     // standard error of the median over the mean's
 // A landmark has residuals in several keyframes at nearly the same place; so many count as one.
 constexpr double kViewsPerSample = 3;
 constexpr double kSignificant = 2;        // standard errors, of the median of one ring

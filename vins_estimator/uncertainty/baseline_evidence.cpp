@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kLengthIndex = 2;           // in the tangent of a mounting
 constexpr double kMinSignificance = 3.0;  // in standard deviations
-// Relative. The scale factor of an accelerometer is off by up to a percent.
+// Least relative error to report: the scale of an accelerometer is off by up to a percent.
 constexpr double kMinError = 0.015;
 
 }  // namespace

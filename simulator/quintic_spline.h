@@ -61,7 +61,7 @@ class QuinticSpline {
     return raised;
   }
 
-  // Expresses the derivative of a combination of degree - 1 weights as weights of `degree`.
+  // Computes derivative k + 1 of the basis of `degree` from derivative k of that of degree - 1.
   static Weights Differentiate(const Weights& lower, int degree) {
     Weights result{};
     for (int j = 0; j <= degree; ++j) result[j] = Before(lower, j) - lower[j];

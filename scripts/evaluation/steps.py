@@ -74,7 +74,8 @@ def describe(steps):
 def _running_median(velocities):
     """Returns the median over _WINDOW rows around each row; at both ends over the outermost
     window."""
-    windows = np.lib.stride_tricks.sliding_window_view(velocities, _WINDOW, axis=0)
+    count = len(velocities) - _WINDOW + 1
+    windows = np.stack([velocities[i:i + count] for i in range(_WINDOW)], axis=-1)
     first = np.clip(np.arange(len(velocities)) - _WINDOW // 2, 0, len(windows) - 1)
     return np.median(windows, axis=-1)[first]
 

@@ -55,7 +55,7 @@ class CheckStructure(unittest.TestCase):
 
     def test_python_of_noetic(self):
         self.assert_problem("scripts/a.py", "match x:\n    case 1:\n        pass\n",
-                            "Pattern matching")
+                            "(Python 3.8)")
 
     def test_types_of_one_name(self):
         def header(space, definition):

@@ -6,7 +6,7 @@
 
 #include "common/append.h"
 #include "pose_graph/keyframes/keyframe_maker.h"
-#include "pose_graph/keyframes/keyframe_neighbours.h"
+#include "pose_graph/keyframes/keyframe_neighbors.h"
 #include "pose_graph/map/landmark_update.h"
 
 namespace plm_vins {

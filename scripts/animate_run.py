@@ -19,7 +19,7 @@ from pages.run_folder import RunFolder
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 
-LINE_COLOURS = {"along x": "#dc2828", "along y": "#28a028", "along z": "#325ae6", "free": "#8c8c8c"}
+LINE_COLORS = {"along x": "#dc2828", "along y": "#28a028", "along z": "#325ae6", "free": "#8c8c8c"}
 SIZE_IN = (7.52, 3.6)  # size of the map [inches]
 REACH = 8  # a landmark appears when it is in view within this distance [m]
 HALF_VIEW = np.cos(np.radians(45))  # cosine of half the field of view
@@ -60,7 +60,7 @@ class GrowingMap:
         axes = optical_axes(run)
         self._points = run.points
         self._points_from = first_views(run.points, self._path, axes)
-        self._lines = [(LINE_COLOURS[axis], ends, first_views(ends.mean(axis=1), self._path, axes))
+        self._lines = [(LINE_COLORS[axis], ends, first_views(ends.mean(axis=1), self._path, axes))
                        for axis, ends in run.lines.items()]
         ahead = self._path + REACH / 2 * axes
         self._low, self._high = (bound(np.concatenate([self._path, ahead])[:, :2], axis=0)
@@ -74,9 +74,9 @@ class GrowingMap:
         axes.set_axis_off()
         axes.plot(*self._points[self._points_from <= index, :2].T, ".", color="#7a8794",
                   markersize=2.5)
-        for colour, ends, first in self._lines:
+        for color, ends, first in self._lines:
             for start, end in ends[first <= index]:
-                axes.plot(*zip(start[:2], end[:2]), color=colour, linewidth=1.2)
+                axes.plot(*zip(start[:2], end[:2]), color=color, linewidth=1.2)
         axes.plot(*self._path[:index + 1, :2].T, color="#d0008f", linewidth=2)
         axes.plot(*self._path[index, :2], "o", color="#d0008f", markersize=6)
         picture = io.BytesIO()

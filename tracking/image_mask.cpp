@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "common/io/grey_image.h"
+#include "common/io/gray_image.h"
 
 namespace plm_vins {
 namespace {
@@ -19,7 +19,7 @@ std::string ToText(const cv::Size& size) {
 
 cv::Mat ReadMask(const std::string& file, const cv::Size& image_size) {
   if (file.empty()) return {};
-  cv::Mat mask = cv::imread(file, kReadGreyAsStored);
+  cv::Mat mask = cv::imread(file, kReadGrayAsStored);
   if (mask.empty()) throw std::invalid_argument("fisheye_mask: cannot read the image " + file);
   if (mask.size() != image_size) {
     throw std::invalid_argument("fisheye_mask: " + file + " has " + ToText(mask.size()) +

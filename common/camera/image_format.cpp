@@ -19,7 +19,7 @@ void CheckSize(const char* what, const cv::Mat& image, const CameraParameters& c
 }  // namespace
 
 void CheckImageFormat(const cv::Mat& gray, const CameraParameters& camera) {
-  if (gray.type() != CV_8UC1) throw std::invalid_argument("image is not 8-bit grey (CV_8UC1)");
+  if (gray.type() != CV_8UC1) throw std::invalid_argument("image is not 8-bit gray (CV_8UC1)");
   CheckSize("image", gray, camera);
 }
 

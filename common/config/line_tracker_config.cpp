@@ -15,7 +15,7 @@ ConfigKeys<LineTrackerConfig> LineTrackerKeys() {
       Key::Integer("max_line_cnt", "lines", {1, 5000}, &L::max_lines),
       Key::Number("line_min_length", "", {0.01, 1}, &L::min_length),
       Key::Number("line_min_dist", "px", {0, 100}, &L::spacing),
-      Key::Number("line_min_gradient", "grey levels/px", {0.1, 255}, &L::min_gradient),
+      Key::Number("line_min_gradient", "gray levels/px", {0.1, 255}, &L::min_gradient),
       Key::Number("line_border", "px", {1, 500}, &L::border),
       Key::Flag("line_half_resolution", &L::half_resolution),
   };

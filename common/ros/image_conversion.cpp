@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/io/grey_image.h"
+#include "common/io/gray_image.h"
 #include "common/ros/geometry_conversion.h"
 
 namespace plm_vins {
@@ -49,7 +49,7 @@ sensor_msgs::ImageConstPtr LowByteFirst(const sensor_msgs::ImageConstPtr& messag
 
 // Shares the pixels of a gray message. Some drivers name only the OpenCV type of gray images, which
 // cv_bridge cannot convert to mono8.
-cv_bridge::CvImageConstPtr ToGrey(const sensor_msgs::ImageConstPtr& message) {
+cv_bridge::CvImageConstPtr ToGray(const sensor_msgs::ImageConstPtr& message) {
   namespace encodings = sensor_msgs::image_encodings;
   const std::string& encoding = message->encoding;
   if (encoding == encodings::TYPE_8UC1) return cv_bridge::toCvShare(message, encoding);
@@ -63,7 +63,7 @@ cv_bridge::CvImageConstPtr ToGrey(const sensor_msgs::ImageConstPtr& message) {
 cv::Mat Decode(const std::vector<uint8_t>& bytes) {
   if (bytes.empty()) return {};
   try {
-    return cv::imdecode(bytes, kReadGreyAsStored);
+    return cv::imdecode(bytes, kReadGrayAsStored);
   } catch (const std::exception&) {  // cv::Exception or std::bad_alloc
     return {};
   }
@@ -74,15 +74,15 @@ cv::Mat Decode(const std::vector<uint8_t>& bytes) {
 ImageSample ToImageSample(const sensor_msgs::ImageConstPtr& message) {
   try {
     CheckSize(*message);
-    const cv_bridge::CvImageConstPtr gray = ToGrey(LowByteFirst(message));
+    const cv_bridge::CvImageConstPtr gray = ToGray(LowByteFirst(message));
     if (gray->image.type() != CV_8UC1) {
-      throw std::invalid_argument("cv_bridge does not convert it to 8-bit grey");
+      throw std::invalid_argument("cv_bridge does not convert it to 8-bit gray");
     }
     return {ToNanoseconds(message->header.stamp), gray->image,
             std::make_shared<cv_bridge::CvImageConstPtr>(gray)};
   } catch (const std::exception& error) {  // exceptions of cv_bridge, OpenCV and others
     throw std::invalid_argument("image of encoding '" + message->encoding +
-                                "' cannot be converted to grey: " + error.what());
+                                "' cannot be converted to gray: " + error.what());
   }
 }
 

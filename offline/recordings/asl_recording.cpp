@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/append.h"
-#include "common/io/grey_image.h"
+#include "common/io/gray_image.h"
 #include "offline/recordings/sorted_rows.h"
 
 namespace plm_vins {
@@ -118,7 +118,7 @@ class AslRecording : public Recording {
 
   std::optional<cv::Mat> LoadImage() override {
     const bool is_depth = current_kind_ == RecordingEvent::Kind::kDepth;
-    cv::Mat image = ReadImage(current_image_, is_depth ? cv::IMREAD_UNCHANGED : kReadGreyAsStored);
+    cv::Mat image = ReadImage(current_image_, is_depth ? cv::IMREAD_UNCHANGED : kReadGrayAsStored);
     if (!image.empty()) return image;
     unreadable_images_.Add(current_image_.string());
     return std::nullopt;

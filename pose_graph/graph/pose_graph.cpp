@@ -278,10 +278,10 @@ void PoseGraph::MovePart(int node, const LevelTransform& T_new_old) {
 }
 
 double PoseGraph::Distance(int from, int to) const {
-  std::vector<std::vector<std::pair<int, double>>> neighbours(kept_.size());  // by index in `kept_`
+  std::vector<std::vector<std::pair<int, double>>> neighbors(kept_.size());  // by index in `kept_`
   for (const LevelEdge& edge : edges_) {
-    neighbours[PlaceOf(edge.from)].emplace_back(PlaceOf(edge.to), edge.way);
-    neighbours[PlaceOf(edge.to)].emplace_back(PlaceOf(edge.from), edge.way);
+    neighbors[PlaceOf(edge.from)].emplace_back(PlaceOf(edge.to), edge.way);
+    neighbors[PlaceOf(edge.to)].emplace_back(PlaceOf(edge.from), edge.way);
   }
   std::vector<double> distances(kept_.size(), std::numeric_limits<double>::infinity());
   using Reached = std::pair<double, int>;  // distance, index in `kept_`
@@ -292,7 +292,7 @@ double PoseGraph::Distance(int from, int to) const {
     const auto [distance, place] = front.top();
     front.pop();
     if (distance > distances[place]) continue;
-    for (const auto& [next, length] : neighbours[place]) {
+    for (const auto& [next, length] : neighbors[place]) {
       if (distance + length >= distances[next]) continue;
       distances[next] = distance + length;
       front.emplace(distances[next], next);

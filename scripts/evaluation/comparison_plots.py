@@ -8,7 +8,7 @@ import numpy as np
 from .metrics import position_errors
 from .plots import (FROM_ABOVE, draw_errors, draw_path, draw_trajectory, pyplot, save_figures)
 
-COLOURS = pyplot.get_cmap("tab10").colors
+COLORS = pyplot.get_cmap("tab10").colors
 
 
 def write_comparison(folder, pairs):
@@ -33,7 +33,7 @@ def write_overview(folder, name, values, label):
         heights, deviations = np.array([figures[s] for s in sequences], dtype=float).T
         errors = [np.fmin(heights, deviations), deviations]  # no error is below 0
         axis.bar(places + (index - (len(values) - 1) / 2) * width, heights, width, label=variant,
-                 color=COLOURS[index % len(COLOURS)], yerr=errors)
+                 color=COLORS[index % len(COLORS)], yerr=errors)
     axis.set_xticks(places)
     axis.set_xticklabels(sequences, rotation=20, ha="right")
     axis.set_ylabel(label)
@@ -79,8 +79,8 @@ def _errors_figure(pairs):
 def _trajectories_figure(pairs):
     figure, axis = pyplot.subplots(figsize=(8, 7), constrained_layout=True)
     draw_path(axis, _longest_truth(pairs), FROM_ABOVE, color="black", label="ground truth")
-    for (name, (estimate, _)), colour in zip(pairs.items(), COLOURS):
-        draw_path(axis, estimate, FROM_ABOVE, color=colour, label=name)
+    for (name, (estimate, _)), color in zip(pairs.items(), COLORS):
+        draw_path(axis, estimate, FROM_ABOVE, color=color, label=name)
     axis.legend(loc="best", fontsize="small")
     return figure
 
@@ -91,9 +91,9 @@ def _translation_figure(pairs):
     for index, (position, error) in enumerate(axes):
         position.plot(truth.stamps - truth.stamps[0], truth.positions[:, index], color="black",
                       linewidth=1.0, label="ground truth")
-        for (name, (estimate, own_truth)), colour in zip(pairs.items(), COLOURS):
+        for (name, (estimate, own_truth)), color in zip(pairs.items(), COLORS):
             seconds = estimate.stamps - truth.stamps[0]
-            options = {"color": colour, "linewidth": 1.0, "label": name}
+            options = {"color": color, "linewidth": 1.0, "label": name}
             position.plot(seconds, estimate.positions[:, index], **options)
             error.plot(seconds, (estimate.positions - own_truth.positions)[:, index], **options)
         position.set_ylabel(f"{'xyz'[index]} [m]")

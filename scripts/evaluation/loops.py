@@ -87,7 +87,7 @@ def _true_places(stamps, odometry, truth):
 
 def _is_known(stamps, truth):
     """Returns whether each timestamp is that of a true pose, or in a short gap between two."""
-    before, after = truth.neighbours(stamps)
+    before, after = truth.neighbors(stamps)
     inside = (truth.stamps[before] <= stamps) & (stamps <= truth.stamps[after])
     is_short = truth.stamps[after] - truth.stamps[before] <= LONGEST_TRUTH_GAP + SAME_STAMP
     return (inside & is_short) | are_among(stamps, truth.stamps)

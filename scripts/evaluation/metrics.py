@@ -166,15 +166,15 @@ def signed_yaw_errors(estimate, truth):
     return np.arctan2(error[:, 1, 0] - error[:, 0, 1], error[:, 0, 0] + error[:, 1, 1])
 
 
-def pairs_by_path(trajectory, metres):
-    """Returns consecutive index pairs, `metres` of the trajectory's path apart (evo_rpe -d 1 -u
+def pairs_by_path(trajectory, meters):
+    """Returns consecutive index pairs, `meters` of the trajectory's path apart (evo_rpe -d 1 -u
     m)."""
     steps = np.linalg.norm(np.diff(trajectory.positions, axis=0, prepend=trajectory.positions[:1]),
                            axis=1)
     marks, walked = [], 0.0
     for index, step in enumerate(steps):
         walked += step
-        if walked >= metres:
+        if walked >= meters:
             marks.append(index)
             walked = 0.0
     return np.array(marks[:-1], dtype=int), np.array(marks[1:], dtype=int)

@@ -62,10 +62,10 @@ def draw_errors(axis, seconds, errors):
     """Draws position errors [m] over time with their RMSE, mean, median and standard deviation."""
     axis.plot(seconds, errors, color="0.35", linewidth=1.0, label="APE")
     mean, deviation = np.mean(errors), np.std(errors)
-    for value, name, colour in [(np.sqrt(np.mean(errors ** 2)), "rmse", "tab:red"),
+    for value, name, color in [(np.sqrt(np.mean(errors ** 2)), "rmse", "tab:red"),
                                 (mean, "mean", "tab:blue"),
                                 (np.median(errors), "median", "tab:green")]:
-        axis.axhline(value, color=colour, linewidth=1.2, label=f"{name} {value:.4f} m")
+        axis.axhline(value, color=color, linewidth=1.2, label=f"{name} {value:.4f} m")
     axis.axhspan(max(mean - deviation, 0.0), mean + deviation, color="tab:blue", alpha=0.12,
                  label=f"std {deviation:.4f} m")
     axis.set(xlabel="time [s]", ylabel="APE [m]", ylim=(0, 1.15 * max(errors.max(), 1e-3)))

@@ -52,7 +52,7 @@ class Trajectory:
     def shifted(self, seconds):
         return replace(self, stamps=self.stamps + seconds, shift=self.shift + seconds)
 
-    def neighbours(self, stamps):
+    def neighbors(self, stamps):
         """Returns the indices of the poses before and after each timestamp; the outermost beyond
         both ends."""
         after = np.clip(np.searchsorted(self.stamps, stamps), 1, len(self) - 1)
@@ -61,7 +61,7 @@ class Trajectory:
     def at(self, stamps):
         """Interpolates the poses at other timestamps, linearly and by slerp; the outermost poses
         beyond both ends."""
-        before, after = self.neighbours(stamps)
+        before, after = self.neighbors(stamps)
         gaps = self.stamps[after] - self.stamps[before]
         share = np.clip((stamps - self.stamps[before]) / gaps, 0, 1)[:, None]
         positions = (1 - share) * self.positions[before] + share * self.positions[after]

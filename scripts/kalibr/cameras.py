@@ -67,8 +67,8 @@ def _equidistant_lines(camera, kind, size):
     """Returns the equidistant camera that best fits one of RADIAL_MODELS, with its largest
     residual."""
     lens, projection = _radial_lens(camera, kind)
-    focal, centre = np.array(projection[:2]), np.array(projection[2:])
-    farthest = np.maximum(centre, np.array(size) - 1 - centre)
+    focal, center = np.array(projection[:2]), np.array(projection[2:])
+    farthest = np.maximum(center, np.array(size) - 1 - center)
     fit = radial_models.fit_equidistant(lens, np.linalg.norm(farthest / focal))
     residual = math.inf if fit is None else fit.residual * focal.max()
     name = kind[0] if kind[1] == "none" else "-".join(kind)

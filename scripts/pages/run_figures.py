@@ -7,12 +7,12 @@ import numpy as np
 
 from evaluation.metrics import position_errors
 
-ESTIMATE_COLOUR, TRUTH_COLOUR, LOOP_COLOUR = "#d0008f", "#222222", "#ff9a00"
-PATH_COLOURS = (ESTIMATE_COLOUR, "#1f77b4", "#2ca02c", "#ff7f0e", "#9467bd", "#8c564b", "#17becf",
+ESTIMATE_COLOR, TRUTH_COLOR, LOOP_COLOR = "#d0008f", "#222222", "#ff9a00"
+PATH_COLORS = (ESTIMATE_COLOR, "#1f77b4", "#2ca02c", "#ff7f0e", "#9467bd", "#8c564b", "#17becf",
                 "#bcbd22", "#7f7f7f")
 TRUTH = "ground truth"
-POINT_COLOUR = "#9aa5b1"
-LINE_COLOURS = {"along x": "#dc2828", "along y": "#28a028", "along z": "#325ae6", "free": "#8c8c8c"}
+POINT_COLOR = "#9aa5b1"
+LINE_COLORS = {"along x": "#dc2828", "along y": "#28a028", "along z": "#325ae6", "free": "#8c8c8c"}
 NOTHING = np.empty((0, 3))
 DIRECTION = np.array([0.56, 0.56, 0.61])  # of the initial view, from the scene to the camera
 VIEW_DISTANCE = 2.6  # of the camera, in radii of the visible scene
@@ -36,14 +36,14 @@ def scene_figure(trajectories, points=NOTHING, lines=None, loops=NOTHING):
     points = points[inside(points)]
     points = points[::1 + len(points) // MAX_POINTS]
     data = [_spatial("points", points, mode="markers",
-                     marker={"size": 1.5, "color": POINT_COLOUR})]
+                     marker={"size": 1.5, "color": POINT_COLOR})]
     for axis, ends in (lines or {}).items():
         ends = ends[inside(ends).all(axis=1)]
-        data.append(_segments(f"lines {axis}", ends, LINE_COLOURS[axis], 3))
-    data.append(_segments("loops", loops, LOOP_COLOUR, 4))
-    colours = itertools.cycle(PATH_COLOURS)
+        data.append(_segments(f"lines {axis}", ends, LINE_COLORS[axis], 3))
+    data.append(_segments("loops", loops, LOOP_COLOR, 4))
+    colors = itertools.cycle(PATH_COLORS)
     data += [_spatial(name, positions, mode="lines", line={
-        "color": TRUTH_COLOUR if name == TRUTH else next(colours), "width": 5})
+        "color": TRUTH_COLOR if name == TRUTH else next(colors), "width": 5})
              for name, positions in trajectories.items()]
     return {"data": [trace for trace in data if trace["x"]],
             "layout": {"scene": _first_view(points, paths, low, high),
@@ -55,10 +55,10 @@ def error_figure(pairs):
     poses."""
     begin = min(truth.stamps[0] for _, truth in pairs.values())
     data = []
-    for (name, (estimate, truth)), colour in zip(pairs.items(), itertools.cycle(PATH_COLOURS)):
+    for (name, (estimate, truth)), color in zip(pairs.items(), itertools.cycle(PATH_COLORS)):
         errors = position_errors(estimate, truth)
         label = f"{name}, RMSE {np.sqrt(np.mean(errors ** 2)):.4f} m"
-        data.append(_curve(label, estimate.stamps - begin, errors, colour))
+        data.append(_curve(label, estimate.stamps - begin, errors, color))
     return _over_time(data, "APE [m]")
 
 
@@ -102,12 +102,12 @@ def _first_view(points, paths, low, high):
     if len(points):
         radius = max(radius, np.median(np.linalg.norm(points - middle, axis=1)))
     size = (high - low).max()  # plotly's unit for the camera, whose origin is the middle of the box
-    centre = (middle - (low + high) / 2) / size
-    eye = centre + DIRECTION * VIEW_DISTANCE * radius / size
+    center = (middle - (low + high) / 2) / size
+    eye = center + DIRECTION * VIEW_DISTANCE * radius / size
     scene = {f"{axis}axis": {"title": {"text": f"{axis} [m]"}, "range": [first, last]}
              for axis, first, last in zip("xyz", low.tolist(), high.tolist())}
     return {**scene, "aspectmode": "manual", "aspectratio": _xyz((high - low) / size),
-            "camera": {"center": _xyz(centre), "eye": _xyz(eye)}}
+            "camera": {"center": _xyz(center), "eye": _xyz(eye)}}
 
 
 def _xyz(vector):
@@ -119,18 +119,18 @@ def _spatial(name, positions, **style):
     return {"type": "scatter3d", "name": name, "x": x, "y": y, "z": z, **style}
 
 
-def _segments(name, ends, colour, width):
+def _segments(name, ends, color, width):
     """Returns endpoints (n, 2, 3) as one curve with gaps."""
     ends = ends.reshape(-1, 2, 3)
     gaps = np.full((len(ends), 1, 3), np.nan)
     return _spatial(name, np.concatenate([ends, gaps], axis=1).reshape(-1, 3), mode="lines",
-                    line={"color": colour, "width": width})
+                    line={"color": color, "width": width})
 
 
-def _curve(name, seconds, values, colour=None):
+def _curve(name, seconds, values, color=None):
     """Returns a curve; plotly selects the color if it is None."""
     return {"type": "scatter", "mode": "lines", "name": name, "x": _plain(seconds),
-            "y": _plain(values), "line": {"width": 1.2, "color": colour}}
+            "y": _plain(values), "line": {"width": 1.2, "color": color}}
 
 
 def _over_time(data, title):

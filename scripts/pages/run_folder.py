@@ -17,7 +17,7 @@ from evaluation.trajectory import Trajectory, TrajectoryError
 
 TRAJECTORY = "trajectory.tum"
 # Categories of the edges in lines.ply, by their color there.
-LINE_COLOURS = {(220, 40, 40): "along x", (40, 160, 40): "along y", (50, 90, 230): "along z"}
+LINE_COLORS = {(220, 40, 40): "along x", (40, 160, 40): "along y", (50, 90, 230): "along z"}
 FREE = "free"
 NO_LOOPS = Loops(np.empty(0), np.empty(0), np.empty((0, 3)), np.empty(0))
 
@@ -75,9 +75,9 @@ def _read_ply(path):
                               ) from None
 
 
-def _by_axis(ends, colours):
-    axes = [LINE_COLOURS.get(tuple(colour), FREE) for colour in colours]
-    return {name: ends[[axis == name for axis in axes]] for name in (*LINE_COLOURS.values(), FREE)}
+def _by_axis(ends, colors):
+    axes = [LINE_COLORS.get(tuple(color), FREE) for color in colors]
+    return {name: ends[[axis == name for axis in axes]] for name in (*LINE_COLORS.values(), FREE)}
 
 
 def _read_loops(path):

@@ -33,7 +33,7 @@ MipTexture::MipTexture(const cv::Mat& image, double width, double height)
     : per_width_(static_cast<float>(1.0 / width)),
       per_height_(static_cast<float>(1.0 / height)),
       texel_(static_cast<float>(height / image.rows)) {
-  if (image.empty() || image.type() != CV_8UC1) throw std::invalid_argument("texture is not grey");
+  if (image.empty() || image.type() != CV_8UC1) throw std::invalid_argument("texture is not gray");
   levels_.emplace_back();
   cv::flip(image, levels_.back(), 0);  // row 0 moves to v = 0
   while (levels_.back().cols > 1 || levels_.back().rows > 1) {

@@ -9,16 +9,16 @@
 namespace plm_vins::simulator {
 namespace {
 
-cv::Mat1b ToGrey(const cv::Mat1f& canvas) {
-  cv::Mat1b grey;
-  canvas.convertTo(grey, CV_8U, 255.0);
-  return grey;
+cv::Mat1b ToGray(const cv::Mat1f& canvas) {
+  cv::Mat1b gray;
+  canvas.convertTo(gray, CV_8U, 255.0);
+  return gray;
 }
 
 }  // namespace
 
-int TexturePainter::Pixels(double metres) const {
-  return std::max(1, static_cast<int>(std::lround(metres / texel_)));
+int TexturePainter::Pixels(double meters) const {
+  return std::max(1, static_cast<int>(std::lround(meters / texel_)));
 }
 
 cv::Mat1f TexturePainter::Canvas(double width, double height, double brightness) const {
@@ -92,7 +92,7 @@ void TexturePainter::DrawGrid(cv::Mat1f* canvas, double step_x, double step_y, d
 }
 
 cv::Mat1b TexturePainter::Plain(double width, double height, double brightness) {
-  return ToGrey(Canvas(width, height, brightness));
+  return ToGray(Canvas(width, height, brightness));
 }
 
 cv::Mat1b TexturePainter::Plaster(double width, double height, double brightness) {
@@ -100,7 +100,7 @@ cv::Mat1b TexturePainter::Plaster(double width, double height, double brightness
   canvas += 0.16 * detail_ * FractalNoise(canvas.size(), 1.0, 0.008, 1.0);
   AddStains(&canvas);
   DarkenEdges(&canvas);
-  return ToGrey(canvas);
+  return ToGray(canvas);
 }
 
 cv::Mat1b TexturePainter::Bricks(double width, double height, double brightness) {
@@ -108,7 +108,7 @@ cv::Mat1b TexturePainter::Bricks(double width, double height, double brightness)
   canvas += 0.12 * detail_ * FractalNoise(canvas.size(), 0.1, 0.008, 1.0);
   DrawGrid(&canvas, 0.25, 0.085, 0.012, true, brightness + 0.25 * detail_, 0.12 * detail_);
   DarkenEdges(&canvas);
-  return ToGrey(canvas);
+  return ToGray(canvas);
 }
 
 cv::Mat1b TexturePainter::Tiles(double width, double height, double brightness, double tile_size) {
@@ -118,7 +118,7 @@ cv::Mat1b TexturePainter::Tiles(double width, double height, double brightness, 
   // The joints are lines that remain visible without any other detail.
   DrawGrid(&canvas, tile_size, tile_size, 0.012, false, 0.55 * brightness, 0.08 * detail_);
   DarkenEdges(&canvas);
-  return ToGrey(canvas);
+  return ToGray(canvas);
 }
 
 cv::Mat1b TexturePainter::Mosaic(double tile_size, double brightness) {
@@ -127,13 +127,13 @@ cv::Mat1b TexturePainter::Mosaic(double tile_size, double brightness) {
   DrawShapes(&print, 12);
   cv::Mat1f canvas = blank + detail_ * (print - blank);
   cv::rectangle(canvas, cv::Rect(cv::Point(), canvas.size()), 0.55 * brightness, Pixels(0.006));
-  return ToGrey(canvas);
+  return ToGray(canvas);
 }
 
 cv::Mat1b TexturePainter::Wood(double width, double height, double brightness) {
   cv::Mat1f canvas = Canvas(width, height, brightness);
   canvas += 0.2 * detail_ * FractalNoise(canvas.size(), 0.1, 0.006, 8.0);
-  return ToGrey(canvas);
+  return ToGray(canvas);
 }
 
 cv::Mat1b TexturePainter::Panels(double width, double height, double brightness,
@@ -142,7 +142,7 @@ cv::Mat1b TexturePainter::Panels(double width, double height, double brightness,
   canvas += 0.1 * detail_ * FractalNoise(canvas.size(), 0.2, 0.01, 1.0);
   DrawGrid(&canvas, panel_size, panel_size, 0.02, false, 0.6 * brightness, 0.03 * detail_);
   DarkenEdges(&canvas);
-  return ToGrey(canvas);
+  return ToGray(canvas);
 }
 
 void TexturePainter::DrawShapes(cv::Mat1f* canvas, int count) {
@@ -195,7 +195,7 @@ cv::Mat1b TexturePainter::Poster(double width, double height) {
   }
   const cv::Mat1f faded = blank + detail_ * (print - blank);
   faded.copyTo(print);
-  return ToGrey(canvas);
+  return ToGray(canvas);
 }
 
 cv::Mat1b TexturePainter::Books(double width, double height) {
@@ -212,7 +212,7 @@ cv::Mat1b TexturePainter::Books(double width, double height) {
     }
     x += thickness;
   }
-  return ToGrey(canvas);
+  return ToGray(canvas);
 }
 
 cv::Mat1b TexturePainter::View(double width, double height) {
@@ -227,7 +227,7 @@ cv::Mat1b TexturePainter::View(double width, double height) {
       canvas(y, x) = static_cast<float>(brightness + contrast * noise(y, x));
     }
   }
-  return ToGrey(canvas);
+  return ToGray(canvas);
 }
 
 }  // namespace plm_vins::simulator

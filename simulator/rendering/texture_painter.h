@@ -42,7 +42,7 @@ class TexturePainter {
                 double joint_brightness, double variation);
   void DrawShapes(cv::Mat1f* canvas, int count);
   void DrawText(cv::Mat1f* canvas);
-  int Pixels(double metres) const;
+  int Pixels(double meters) const;
 
   double texel_;  // [m]
   double detail_;

@@ -10,35 +10,35 @@ namespace {
 
 const cv::Point2f kPixel(20.3F, 14.8F);  // next to row 15, column 20
 
-cv::Mat Millimetres(int depth) { return {30, 40, CV_16UC1, cv::Scalar(depth)}; }
-cv::Mat Metres(float depth) { return {30, 40, CV_32FC1, cv::Scalar(depth)}; }
+cv::Mat Millimeters(int depth) { return {30, 40, CV_16UC1, cv::Scalar(depth)}; }
+cv::Mat Meters(float depth) { return {30, 40, CV_32FC1, cv::Scalar(depth)}; }
 
 TEST(DepthSamplingTest, ReadsBothFormats) {
-  EXPECT_NEAR(*DepthAt(Millimetres(2345), kPixel), 2.345, 1e-12);
-  EXPECT_NEAR(*DepthAt(Metres(2.345F), kPixel), 2.345, 1e-6);
+  EXPECT_NEAR(*DepthAt(Millimeters(2345), kPixel), 2.345, 1e-12);
+  EXPECT_NEAR(*DepthAt(Meters(2.345F), kPixel), 2.345, 1e-6);
 }
 
 TEST(DepthSamplingTest, TakesTheMedian) {
-  cv::Mat depth = Millimetres(2000);
+  cv::Mat depth = Millimeters(2000);
   depth.at<uint16_t>(15, 20) = 2060;
   depth.at<uint16_t>(14, 21) = 1950;
   EXPECT_NEAR(*DepthAt(depth, kPixel), 2.0, 1e-12);
 }
 
 TEST(DepthSamplingTest, AllowsForAFewHolesOnly) {
-  cv::Mat depth = Millimetres(2000);
+  cv::Mat depth = Millimeters(2000);
   depth.at<uint16_t>(15, 20) = depth.at<uint16_t>(14, 19) = 0;
   EXPECT_TRUE(DepthAt(depth, kPixel));
   depth.at<uint16_t>(16, 21) = 0;
   EXPECT_FALSE(DepthAt(depth, kPixel));
-  EXPECT_FALSE(DepthAt(Millimetres(0), kPixel));
-  EXPECT_FALSE(DepthAt(Metres(std::numeric_limits<float>::quiet_NaN()), kPixel));
-  EXPECT_FALSE(DepthAt(Metres(std::numeric_limits<float>::infinity()), kPixel));
-  EXPECT_FALSE(DepthAt(Metres(-1), kPixel));
+  EXPECT_FALSE(DepthAt(Millimeters(0), kPixel));
+  EXPECT_FALSE(DepthAt(Meters(std::numeric_limits<float>::quiet_NaN()), kPixel));
+  EXPECT_FALSE(DepthAt(Meters(std::numeric_limits<float>::infinity()), kPixel));
+  EXPECT_FALSE(DepthAt(Meters(-1), kPixel));
 }
 
 TEST(DepthSamplingTest, GivesNothingAtAnEdge) {
-  cv::Mat depth = Millimetres(2000);
+  cv::Mat depth = Millimeters(2000);
   depth.colRange(21, 40).setTo(cv::Scalar(2500));
   EXPECT_FALSE(DepthAt(depth, kPixel));
   EXPECT_TRUE(DepthAt(depth, kPixel - cv::Point2f(2, 0)));
@@ -49,7 +49,7 @@ TEST(DepthSamplingTest, GivesNothingOutsideTheImage) {
   EXPECT_FALSE(DepthAt(cv::Mat(), kPixel));
   for (const cv::Point2f& pixel : {cv::Point2f(0, 15), cv::Point2f(39, 15), cv::Point2f(20, 0),
                                    cv::Point2f(20, 29), cv::Point2f(-5, 400)}) {
-    EXPECT_FALSE(DepthAt(Millimetres(2000), pixel)) << pixel;
+    EXPECT_FALSE(DepthAt(Millimeters(2000), pixel)) << pixel;
   }
 }
 

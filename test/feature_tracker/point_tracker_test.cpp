@@ -274,7 +274,7 @@ TEST_F(PointTrackerTest, KeepsTheOldestOfTooManyCorners) {
   EXPECT_EQ(Track(scene_.View()).points.size(), 60U);
 }
 
-TEST_F(PointTrackerTest, DrawsTracksInColour) {
+TEST_F(PointTrackerTest, DrawsTracksInColor) {
   EXPECT_TRUE(tracker_->DrawTracks().empty());
   const PointFrame frame = Track(scene_.View());
   const cv::Mat drawing = tracker_->DrawTracks();

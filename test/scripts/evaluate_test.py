@@ -52,9 +52,9 @@ class AbsoluteError(unittest.TestCase):
     def test_scale_is_not_corrected(self):
         # Scaling by 1.1 about the mean leaves 0.1 times the standard deviation of the positions.
         truth = flight()
-        centred = truth.positions - truth.positions.mean(axis=0)
+        centered = truth.positions - truth.positions.mean(axis=0)
         estimate = Trajectory(truth.stamps, 1.1 * truth.positions, truth.rotations)
-        expected = 0.1 * np.sqrt(np.mean(np.sum(centred ** 2, axis=1)))
+        expected = 0.1 * np.sqrt(np.mean(np.sum(centered ** 2, axis=1)))
         self.assertAlmostEqual(evaluate(estimate, truth)[2]["ape_m"]["rmse"], expected, 9)
 
     def test_mirrored_trajectory_is_not_aligned_by_a_reflection(self):

@@ -261,8 +261,8 @@ class Files(RefusalTest):
                 imu.header.stamp, imu.linear_acceleration.z = stamp, 9.81
                 bag.write("/imu0", imu, stamp)
                 if i % 10 == 0:
-                    grey = bytes([i // 10]) * 16
-                    image = Image(encoding="mono8", width=4, height=4, step=4, data=grey)
+                    gray = bytes([i // 10]) * 16
+                    image = Image(encoding="mono8", width=4, height=4, step=4, data=gray)
                     image.header.stamp = stamp
                     bag.write("/cam0/image_raw", image, stamp)
 

@@ -209,9 +209,9 @@ class Figures(unittest.TestCase):
         sizes = ranges[:, 1] - ranges[:, 0]
         np.testing.assert_allclose([scene["aspectratio"][axis] for axis in "xyz"],
                                    sizes / sizes.max())
-        centre = ranges.mean(axis=1) + sizes.max() * np.array(
+        center = ranges.mean(axis=1) + sizes.max() * np.array(
             [scene["camera"]["center"][axis] for axis in "xyz"])
-        np.testing.assert_allclose(centre, (path.min(axis=0) + path.max(axis=0)) / 2)
+        np.testing.assert_allclose(center, (path.min(axis=0) + path.max(axis=0)) / 2)
         self.assertGreater(scene["camera"]["eye"]["z"], scene["camera"]["center"]["z"])
         inside = (points >= ranges[:, 0]) & (points <= ranges[:, 1])
         self.assertGreater(inside.mean(), 0.95)
@@ -305,14 +305,14 @@ class Page(ShowRun):
         self.assertEqual([m for m in messages if HARMLESS not in m], [])
         pixels = np.round(255 * matplotlib.image.imread(picture)[..., :3]).astype(int)
         scene = pixels[200:850]
-        for colour in (run_figures.ESTIMATE_COLOUR, run_figures.LINE_COLOURS["along z"],
-                       run_figures.POINT_COLOUR, run_figures.LOOP_COLOUR):
-            self.assertGreater(self.count(scene, colour), 30, colour)
+        for color in (run_figures.ESTIMATE_COLOR, run_figures.LINE_COLORS["along z"],
+                       run_figures.POINT_COLOR, run_figures.LOOP_COLOR):
+            self.assertGreater(self.count(scene, color), 30, color)
         self.assertGreater(self.count(pixels[850:], "#1f77b4"), 300, "curves over time")
 
     @staticmethod
-    def count(pixels, colour):
-        wanted = [int(colour[i:i + 2], 16) for i in (1, 3, 5)]
+    def count(pixels, color):
+        wanted = [int(color[i:i + 2], 16) for i in (1, 3, 5)]
         return int((np.abs(pixels - wanted).max(axis=-1) < 25).sum())
 
 

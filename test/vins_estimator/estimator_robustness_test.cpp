@@ -59,7 +59,7 @@ TEST(EstimatorRobustness, ResetEqualsANewEstimator) {
   ExpectSameBits(testing::Estimate(flight, &used), testing::Estimate(flight, &fresh));
 }
 
-TEST(EstimatorRobustness, ASecondWithoutPointsCostsCentimetres) {
+TEST(EstimatorRobustness, ASecondWithoutPointsCostsCentimeters) {
   for (const Motion motion : {Motion::kGentle, Motion::kFast}) {
     for (uint64_t seed = 1; seed <= 2; ++seed) {
       SimulatedFlight simulated = Simulate(motion, seed, 15);

@@ -48,7 +48,7 @@ class Builder {
   void AddPoint(const Eigen::Vector3d& p_G, const Eigen::Vector2d& xy, const Rigid3d& T_G_C,
                 Resection* equations) const;
   Resection Linearize(int view) const;
-  bool Resect(int view, int neighbour, std::string* reason);
+  bool Resect(int view, int neighbor, std::string* reason);
 
   const std::vector<Track>& tracks_;
   const std::vector<Eigen::Quaterniond>& R_G_C_;
@@ -116,11 +116,11 @@ Builder::Resection Builder::Linearize(int view) const {
   return equations;
 }
 
-bool Builder::Resect(int view, int neighbour, std::string* reason) {
+bool Builder::Resect(int view, int neighbor, std::string* reason) {
   Rigid3d& T_G_C = structure_.T_G_C[view];
-  const Rigid3d& T_G_neighbour = structure_.T_G_C[neighbour];
-  T_G_C = {T_G_neighbour.rotation * R_G_C_[neighbour].conjugate() * R_G_C_[view],
-           T_G_neighbour.translation};
+  const Rigid3d& T_G_neighbor = structure_.T_G_C[neighbor];
+  T_G_C = {T_G_neighbor.rotation * R_G_C_[neighbor].conjugate() * R_G_C_[view],
+           T_G_neighbor.translation};
   Resection equations;
   for (int i = 0; i < kResectionIterations; ++i) {
     equations = Linearize(view);

@@ -88,7 +88,7 @@ TEST_P(EveryModel, CenterAndImageAxesPointForwardRightAndDown) {
   EXPECT_GT(camera_->Project({0, 0.1, 1})->y(), p.cy);
 }
 
-TEST_P(EveryModel, FocalLengthIsTheScaleAtTheCentre) {
+TEST_P(EveryModel, FocalLengthIsTheScaleAtTheCenter) {
   constexpr double kAngle = 1e-5;
   const auto& p = camera_->parameters();
   const double right = camera_->Project({std::tan(kAngle), 0, 1})->x() - p.cx;

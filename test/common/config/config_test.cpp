@@ -221,7 +221,7 @@ TEST_F(ConfigTest, DuplicateKey) {
 TEST_F(ConfigTest, UnknownKeySuggestsTheNearest) {
   ExpectProblem("max_count: 100", {"camera.yaml:10", "max_count: unknown key", "mean max_cnt?"});
   ExpectProblem("fx: 100", {"mean projection_parameters.fx?"});
-  ExpectProblem("colour_of_the_sky: blue", {"unknown key; remove it"});
+  ExpectProblem("color_of_the_sky: blue", {"unknown key; remove it"});
 }
 
 TEST_F(ConfigTest, WrongType) {

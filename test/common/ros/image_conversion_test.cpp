@@ -36,17 +36,17 @@ sensor_msgs::Image MakeImage(const std::string& encoding, const std::vector<uint
 struct EncodingCase {
   std::string encoding;
   std::vector<uint8_t> pixel;
-  double grey;
+  double gray;
 };
 
 class ImageEncodings : public ::testing::TestWithParam<EncodingCase> {};
 
-TEST_P(ImageEncodings, AreConvertedToGrey) {
+TEST_P(ImageEncodings, AreConvertedToGray) {
   const ImageSample sample = ToImageSample(MakeImage(GetParam().encoding, GetParam().pixel));
   EXPECT_EQ(sample.t_ns, kStamp);
   ASSERT_EQ(sample.gray.type(), CV_8UC1);
   ASSERT_EQ(sample.gray.size(), cv::Size(6, 4));
-  EXPECT_NEAR(sample.gray.at<uint8_t>(2, 3), GetParam().grey, 1);
+  EXPECT_NEAR(sample.gray.at<uint8_t>(2, 3), GetParam().gray, 1);
 }
 
 // Luma: 0.299 R + 0.587 G + 0.114 B. 16-bit pixels are little endian.
@@ -67,10 +67,10 @@ TEST(ImageConversion, ConvertsBigEndianPixels) {
     sensor_msgs::Image image = MakeImage(encoding, {0x80, 0x10});
     image.width = 5;  // each row has unused bytes
     image.is_bigendian = 1;
-    const cv::Mat grey = ToImageSample(image).gray;
-    ASSERT_EQ(grey.type(), CV_8UC1) << encoding;
-    ASSERT_EQ(grey.size(), cv::Size(5, 4)) << encoding;
-    for (const uint8_t pixel : cv::Mat_<uint8_t>(grey)) EXPECT_NEAR(pixel, 127.7, 1) << encoding;
+    const cv::Mat gray = ToImageSample(image).gray;
+    ASSERT_EQ(gray.type(), CV_8UC1) << encoding;
+    ASSERT_EQ(gray.size(), cv::Size(5, 4)) << encoding;
+    for (const uint8_t pixel : cv::Mat_<uint8_t>(gray)) EXPECT_NEAR(pixel, 127.7, 1) << encoding;
   }
 }
 
@@ -80,7 +80,7 @@ TEST(ImageConversion, IgnoresTheByteOrderOfSingleBytePixels) {
   EXPECT_NEAR(ToImageSample(image).gray.at<uint8_t>(2, 3), 119.6, 1);
 }
 
-TEST(ImageConversion, SharesGreyPixelsAndKeepsThem) {
+TEST(ImageConversion, SharesGrayPixelsAndKeepsThem) {
   for (const std::string& encoding : {encodings::MONO8, encodings::TYPE_8UC1}) {
     auto message = boost::make_shared<const sensor_msgs::Image>(MakeImage(encoding, {90}));
     const boost::weak_ptr<const sensor_msgs::Image> watched = message;

@@ -104,7 +104,7 @@ TEST_F(AslRecording, AcceptsTheInnerFolder) {
   EXPECT_EQ(ReadAll(OpenAslFolder(folder_.File("mav0")).get()).order, "mmimimi");
 }
 
-TEST_F(AslRecording, ConvertsColorToGrey) {
+TEST_F(AslRecording, ConvertsColorToGray) {
   WriteImage("a.png", cv::Mat(4, 6, CV_8UC3, cv::Scalar(10, 100, 200)));
   const auto contents = ReadAll(OpenAslFolder(folder_.path()).get());
   ASSERT_EQ(contents.images[0].type(), CV_8UC1);

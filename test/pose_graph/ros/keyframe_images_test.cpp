@@ -6,12 +6,12 @@
 namespace plm_vins {
 namespace {
 
-cv::Mat Grey(int value) { return {48, 64, CV_8UC1, cv::Scalar(value)}; }
+cv::Mat Gray(int value) { return {48, 64, CV_8UC1, cv::Scalar(value)}; }
 
 TEST(KeyframeImages, ShowsAKeyframeAtHalfResolution) {
   KeyframeImages images;
-  images.Add(3, Grey(200));
-  images.Add(4, Grey(100));
+  images.Add(3, Gray(200));
+  images.Add(4, Gray(100));
   const cv::Mat image = images.Find(3);
   ASSERT_EQ(image.size(), cv::Size(32, 24));
   ASSERT_EQ(image.type(), CV_8UC1);
@@ -20,7 +20,7 @@ TEST(KeyframeImages, ShowsAKeyframeAtHalfResolution) {
 
 TEST(KeyframeImages, DropsOldKeyframes) {
   KeyframeImages images;
-  for (int keyframe = 0; keyframe < 4; ++keyframe) images.Add(keyframe, Grey(100));
+  for (int keyframe = 0; keyframe < 4; ++keyframe) images.Add(keyframe, Gray(100));
   images.Keep([](int keyframe) { return keyframe == 2; });
   EXPECT_TRUE(images.Find(1).empty());
   EXPECT_FALSE(images.Find(2).empty());

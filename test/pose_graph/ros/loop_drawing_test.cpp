@@ -8,8 +8,8 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kEarlierGrey = 40;
-constexpr int kLaterGrey = 90;
+constexpr int kEarlierGray = 40;
+constexpr int kLaterGray = 90;
 
 // Two visits of the camera of two_visits.h, with 752 x 480 px and a focal length of 460 px; the
 // halves of the drawing are 376 x 240 px. The earlier camera is 1 m above the origin of its world
@@ -27,8 +27,8 @@ class LoopDrawingTest : public ::testing::Test {
   }
 
   std::shared_ptr<const CameraModel> camera_ = testing::SimpleCamera();
-  cv::Mat earlier_{240, 376, CV_8UC1, cv::Scalar(kEarlierGrey)};  // at half resolution, as stored
-  cv::Mat later_{480, 752, CV_8UC1, cv::Scalar(kLaterGrey)};
+  cv::Mat earlier_{240, 376, CV_8UC1, cv::Scalar(kEarlierGray)};  // at half resolution, as stored
+  cv::Mat later_{480, 752, CV_8UC1, cv::Scalar(kLaterGray)};
   LoopObservations observations_;
 };
 
@@ -36,15 +36,15 @@ TEST_F(LoopDrawingTest, HasTheEarlierImageOnTheLeft) {
   const cv::Mat picture = Draw();
   ASSERT_EQ(picture.size(), cv::Size(752, 240));
   ASSERT_EQ(picture.type(), CV_8UC3);
-  EXPECT_EQ(picture.at<cv::Vec3b>(120, 375), cv::Vec3b::all(kEarlierGrey));
-  EXPECT_EQ(picture.at<cv::Vec3b>(120, 376), cv::Vec3b::all(kLaterGrey));
+  EXPECT_EQ(picture.at<cv::Vec3b>(120, 375), cv::Vec3b::all(kEarlierGray));
+  EXPECT_EQ(picture.at<cv::Vec3b>(120, 376), cv::Vec3b::all(kLaterGray));
 }
 
 TEST_F(LoopDrawingTest, DrawsAnUnknownEarlierImageBlack) {
   earlier_ = cv::Mat();
   const cv::Mat picture = Draw();
   EXPECT_EQ(picture.at<cv::Vec3b>(120, 100), cv::Vec3b::all(0));
-  EXPECT_EQ(picture.at<cv::Vec3b>(120, 500), cv::Vec3b::all(kLaterGrey));
+  EXPECT_EQ(picture.at<cv::Vec3b>(120, 500), cv::Vec3b::all(kLaterGray));
 }
 
 TEST_F(LoopDrawingTest, JoinsALandmarkWithItsCorner) {

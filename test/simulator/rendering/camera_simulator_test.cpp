@@ -38,10 +38,10 @@ Scene HalfBrightWall() {
   return scene;
 }
 
-Scene GreyWall() {
+Scene GrayWall() {
   Scene scene;
-  const int grey = scene.AddTexture(cv::Mat1b(2, 2, uchar(128)), 1, 1);
-  scene.AddRectangle({{6, 30, -30}, -Vector3d::UnitY(), Vector3d::UnitZ(), 60, 60, grey});
+  const int gray = scene.AddTexture(cv::Mat1b(2, 2, uchar(128)), 1, 1);
+  scene.AddRectangle({{6, 30, -30}, -Vector3d::UnitY(), Vector3d::UnitZ(), 60, 60, gray});
   return scene;
 }
 
@@ -76,7 +76,7 @@ std::optional<double> EdgeInMiddleRow(const CameraModel& camera, const Rigid3d& 
   return pixel->x();
 }
 
-TEST(CameraSimulator, BlurIsCentredOnTheExposure) {
+TEST(CameraSimulator, BlurIsCenteredOnTheExposure) {
   Rig rig(Motion::kFast);
   rig.options.extent = {1, 0.6, 0.3};
   const Trajectory trajectory(rig.options);
@@ -129,7 +129,7 @@ TEST(CameraSimulator, NoiseHasTheRequestedStrengthAndIsNewInEachImage) {
   ImagingOptions imaging;
   imaging.vignetting = 0;
   const Trajectory trajectory(rig.options);
-  const Scene scene = GreyWall();
+  const Scene scene = GrayWall();
   const CameraSimulator camera(trajectory, scene, rig.sensors.camera, rig.sensors.T_B_C, imaging);
   const cv::Mat first = camera.Expose(1.0, 1), second = camera.Expose(1.0, 2);
   cv::Scalar mean, deviation;
@@ -148,7 +148,7 @@ TEST(CameraSimulator, CornersAreDarker) {
   imaging.vignetting = 0.4;
   const Rig rig(Motion::kStill);
   const Trajectory trajectory(rig.options);
-  const Scene scene = GreyWall();
+  const Scene scene = GrayWall();
   const CameraSimulator camera(trajectory, scene, rig.sensors.camera, rig.sensors.T_B_C, imaging);
   const cv::Mat image = camera.Expose(1.0, 0);
   const double center = image.at<uchar>(240, 376), corner = image.at<uchar>(0, 0);

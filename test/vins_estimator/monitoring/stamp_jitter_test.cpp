@@ -45,7 +45,7 @@ TEST(StampJitterMonitor, MeasuresTheJitter) {
   EXPECT_NEAR(Measure(0.005, 2e-4), 0.005 / std::sqrt(3), 7e-4);
 }
 
-TEST(StampJitterMonitor, ComparesNeighboursOnly) {
+TEST(StampJitterMonitor, ComparesNeighborsOnly) {
   EXPECT_NEAR(Measure(0.005, 2e-4, 0.5, 0, /*gaps=*/true), 0.005 / std::sqrt(3), 7e-4);
 }
 

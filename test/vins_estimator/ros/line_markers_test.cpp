@@ -38,7 +38,7 @@ TEST(LineMarker, JoinsTheEndsOfEachLine) {
   EXPECT_EQ(marker.colors[3].a, 1);
 }
 
-TEST(LineMarker, ShowsTheAxesInDifferentColours) {
+TEST(LineMarker, ShowsTheAxesInDifferentColors) {
   std::set<std::vector<float>> colors;
   for (const LineAxis axis : {LineAxis::kFree, LineAxis::kX, LineAxis::kY, LineAxis::kZ}) {
     const auto color =

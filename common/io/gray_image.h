@@ -7,6 +7,6 @@ namespace plm_vins {
 
 // Flags for reading a gray image with its rows as the camera delivered them: the calibration does
 // not apply to an image rotated by the orientation tag of its file.
-constexpr int kReadGreyAsStored = cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION;
+constexpr int kReadGrayAsStored = cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION;
 
 }  // namespace plm_vins

@@ -62,12 +62,12 @@ function(plm_test_suites file out)
   set(${out} ${filter} PARENT_SCOPE)
 endfunction()
 
-# plm_add_executable(NAME SOURCES...): a program that rosrun and roslaunch can find.
+# plm_add_executable(NAME SOURCES...): a program that roslaunch can find.
 function(plm_add_executable name)
   plm_add_program(core ${name} ${ARGN})
 endfunction()
 
-# plm_add_node(NAME SOURCES...): a ROS node that rosrun and roslaunch can find.
+# plm_add_node(NAME SOURCES...): a ROS node that roslaunch can find.
 function(plm_add_node name)
   plm_add_program(ros ${name} ${ARGN})
 endfunction()

@@ -35,17 +35,14 @@ EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
   CheckMeasurement(measurement, state_.newest);
   state_.newest = EndOf(measurement);
   const Stopwatch stopwatch;
-  EstimatorOutput output;
+  const bool corrects = state_.rolling_shutter || options_.problem.estimate_intrinsics;
+  const int points = static_cast<int>(measurement.points.points.size());
+  const int lines = measurement.lines ? static_cast<int>(measurement.lines->lines.size()) : 0;
+  EstimatorOutput output =
+      corrects ? Use(Correct(measurement), points + lines) : Use(measurement, points + lines);
   output.t_ns = measurement.t_ns;
-  output.counts.points_observed = static_cast<int>(measurement.points.points.size());
-  if (measurement.lines) {
-    output.counts.lines_observed = static_cast<int>(measurement.lines->lines.size());
-  }
-  if (state_.rolling_shutter || options_.problem.estimate_intrinsics) {
-    Use(Correct(measurement), &output);
-  } else {
-    Use(measurement, &output);
-  }
+  output.counts.points_observed = points;
+  output.counts.lines_observed = lines;
   output.timings.total = stopwatch.Milliseconds();
   return output;
 }
@@ -63,7 +60,7 @@ FrameMeasurement Estimator::Correct(FrameMeasurement measurement) {
   return measurement;
 }
 
-void Estimator::Use(const FrameMeasurement& measurement, EstimatorOutput* output) {
+EstimatorOutput Estimator::Use(const FrameMeasurement& measurement, int features_observed) {
   std::optional<StandstillDetector::Standstill> standstill;
   if (config_.estimator.zero_velocity_update) {
     standstill = state_.standstill_detector.Add(measurement, state_.odometry.MedianDepth());
@@ -72,30 +69,31 @@ void Estimator::Use(const FrameMeasurement& measurement, EstimatorOutput* output
   if (scene_moves) {
     unfelt_motion_ += ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns);
   }
-  if (!state_.odometry.started()) {
-    Initialize(measurement, output);
-  } else if (scene_moves || state_.standstill_detector.doubts_camera()) {
-    Track(WithoutFeatures(measurement), standstill, output);
-  } else {
-    Track(measurement, standstill, output);
-  }
+  if (!state_.odometry.started()) return Initialize(measurement);
+  const bool ignores_features = scene_moves || state_.standstill_detector.doubts_camera();
+  return ignores_features ? Track(WithoutFeatures(measurement), standstill, features_observed)
+                          : Track(measurement, standstill, features_observed);
 }
 
-void Estimator::Initialize(const FrameMeasurement& measurement, EstimatorOutput* output) {
+EstimatorOutput Estimator::Initialize(const FrameMeasurement& measurement) {
   const Stopwatch stopwatch;
   state_.bridge.AddLost(measurement.imu, measurement.t_ns);
   auto result = state_.initializer.Add(measurement);
-  output->timings.initialization = stopwatch.Milliseconds();
-  output->reason = state_.initializer.reason();
-  if (!result) {
-    if (!state_.bridge.CanConnect(state_.initializer.begin_ns())) BeginWorld(output);
-    return;
+  const double milliseconds = stopwatch.Milliseconds();
+  EstimatorOutput output;
+  if (result) {
+    InitialUncertainty uncertainty = UncertaintyOf(config_.sensor, result->from_standstill);
+    const bool is_bridged = state_.bridge.begun() && KeepFrame(&*result, &uncertainty);
+    output = state_.odometry.Start(*result, uncertainty);
+    output.bridged = is_bridged;
+    output.restarted = state_.bridge.begun() && !is_bridged;
+  } else {
+    output.restarted = !state_.bridge.CanConnect(state_.initializer.begin_ns());
   }
-  InitialUncertainty uncertainty = UncertaintyOf(config_.sensor, result->from_standstill);
-  output->bridged = state_.bridge.begun();
-  if (output->bridged && !KeepFrame(&*result, &uncertainty)) BeginWorld(output);
-  state_.bridge.Clear();
-  state_.odometry.Start(*result, uncertainty, output);
+  output.reason = output.restarted ? state_.bridge.why() : state_.initializer.reason();
+  output.timings.initialization = milliseconds;
+  if (result || output.restarted) state_.bridge.Clear();
+  return output;
 }
 
 bool Estimator::KeepFrame(InitializationResult* result, InitialUncertainty* uncertainty) const {
@@ -109,32 +107,30 @@ bool Estimator::KeepFrame(InitializationResult* result, InitialUncertainty* unce
   return true;
 }
 
-void Estimator::BeginWorld(EstimatorOutput* output) {
-  output->restarted = true;
-  output->bridged = false;
-  output->reason = state_.bridge.why();
-  state_.bridge.Clear();
-}
-
-void Estimator::Track(const FrameMeasurement& measurement,
-                      const std::optional<StandstillDetector::Standstill>& standstill,
-                      EstimatorOutput* output) {
-  const WindowOdometry::Tracked tracked = state_.odometry.Track(measurement, standstill, output);
+EstimatorOutput Estimator::Track(const FrameMeasurement& measurement,
+                                 const std::optional<StandstillDetector::Standstill>& standstill,
+                                 int features_observed) {
+  WindowOdometry::Tracked tracked =
+      state_.odometry.Track(measurement, standstill, features_observed);
   state_.bridge.AddTracked(measurement.imu, tracked.newest, tracked.covariance);
   lens_.Add(tracked.residuals);
-  if (tracked.failure) GiveUp(*tracked.failure, output);
+  if (tracked.failure) {
+    tracked.output.status = EstimatorStatus::kLost;
+    tracked.output.reason = tracked.failure->why;
+    tracked.output.restarted = GiveUp(*tracked.failure);
+  }
+  return std::move(tracked.output);
 }
 
 // Resets everything but the bridge and the camera's rotation; reinitializes with the next
 // measurement.
-void Estimator::GiveUp(const Failure& failure, EstimatorOutput* output) {
+bool Estimator::GiveUp(const Failure& failure) {
   State lost = std::exchange(state_, State(config_, options_));
   state_.newest = lost.newest;
   state_.initializer.KeepRotation(lost.initializer);
-  output->status = EstimatorStatus::kLost;
-  output->reason = failure.why;
-  output->restarted = failure.has_drifted || !lost.bridge.Begin(failure.why);
-  if (!output->restarted) state_.bridge = std::move(lost.bridge);
+  const bool begins_world = failure.has_drifted || !lost.bridge.Begin(failure.why);
+  if (!begins_world) state_.bridge = std::move(lost.bridge);
+  return begins_world;
 }
 
 }  // namespace plm_vins

@@ -59,16 +59,16 @@ class Estimator {
   // Returns the image as a global shutter would have taken it, with rays of the current intrinsics.
   FrameMeasurement Correct(FrameMeasurement measurement);
   // Passes the image to Initialize() or Track().
-  void Use(const FrameMeasurement& measurement, EstimatorOutput* output);
-  void Initialize(const FrameMeasurement& measurement, EstimatorOutput* output);
+  EstimatorOutput Use(const FrameMeasurement& measurement, int features_observed);
+  EstimatorOutput Initialize(const FrameMeasurement& measurement);
   // Transforms a new window to the world frame before the loss, if the bridge reaches it and both
   // agree. Returns false if a new world frame must begin.
   bool KeepFrame(InitializationResult* result, InitialUncertainty* uncertainty) const;
-  void BeginWorld(EstimatorOutput* output);
-  void Track(const FrameMeasurement& measurement,
-             const std::optional<StandstillDetector::Standstill>& standstill,
-             EstimatorOutput* output);
-  void GiveUp(const Failure& failure, EstimatorOutput* output);
+  EstimatorOutput Track(const FrameMeasurement& measurement,
+                        const std::optional<StandstillDetector::Standstill>& standstill,
+                        int features_observed);
+  // Returns whether the next initialization begins a new world frame.
+  bool GiveUp(const Failure& failure);
 
   const Config config_;
   const EstimatorOptions options_;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "common/append.h"
-#include "common/format.h"
 #include "common/stopwatch.h"
 #include "vins_estimator/least_squares/normal_equations.h"
 #include "vins_estimator/map/recalibration.h"
@@ -37,8 +36,6 @@ std::optional<Matrix6d> PoseOf(const std::optional<Matrix15d>& covariance) {
   return covariance->topLeftCorner<6, 6>();
 }
 
-constexpr double kLongGap = 0.2;  // [s] without IMU samples; explains a failure after it
-
 }  // namespace
 
 WindowOdometry::WindowOdometry(const Config& config, const EstimatorOptions& options)
@@ -50,17 +47,12 @@ WindowOdometry::WindowOdometry(const Config& config, const EstimatorOptions& opt
       stereo_monitor_(1 / options.problem.point_weight),
       imu_noise_(config.sensor.imu_noise) {}
 
-void WindowOdometry::Start(const InitializationResult& result,
-                           const InitialUncertainty& uncertainty, EstimatorOutput* output) {
+EstimatorOutput WindowOdometry::Start(const InitializationResult& result,
+                                      const InitialUncertainty& uncertainty) {
   Fill(result, uncertainty);
-  Triangulate(output);
-  const Solution solution = SolveFirstWindow(output);
-  if (config_->sensor.second_camera) {
-    output->counts.right = JudgeSecondCamera();
-  }
-  CountLandmarks(output);
+  const Step step = SolveFirstWindow();
   started_ = true;
-  Describe(solution, output);
+  return Describe(step);
 }
 
 void WindowOdometry::Fill(const InitializationResult& result,
@@ -78,73 +70,81 @@ void WindowOdometry::Fill(const InitializationResult& result,
 }
 
 // Repeats the solution with the estimated IMU noise if that is far from the configured one.
-WindowOdometry::Solution WindowOdometry::SolveFirstWindow(EstimatorOutput* output) {
-  Solution solution = SolveWindow(options_->first_solution, output);
+WindowOdometry::Step WindowOdometry::SolveFirstWindow() {
+  Step step;
+  step.triangulation = Triangulate();
+  step.Take(SolveWindow(options_->first_solution));
   for (int i = 0; i < kMaxReweighings; ++i) {
     if (!imu_noise_.Reweigh(&estimate_.map.window)) break;
     imu_noise_.Reset();  // re-estimated from the next solution
-    solution = SolveWindow(CurrentSolution(), output);
+    step.Take(SolveWindow(CurrentSolution()));
   }
-  return solution;
+  const DepthCounts right = JudgeSecondCamera();
+  step.counts = CountLandmarks();
+  step.counts.right = right;
+  return step;
 }
 
 WindowOdometry::Tracked WindowOdometry::Track(
     const FrameMeasurement& measurement,
-    const std::optional<StandstillDetector::Standstill>& standstill, EstimatorOutput* output) {
+    const std::optional<StandstillDetector::Standstill>& standstill, int features_observed) {
   LocalMap& map = estimate_.map;
   bool keep_second_newest = IsKeyframe(options_->keyframes, map.window, map.points);
   const FrameState predicted = AddFrame(measurement);
   map.window.SetStillSince(StillSince(standstill));
   keep_second_newest |= EndsStandstill(options_->keyframes, map.window);
   if (keep_second_newest) keyframe_ = {map.window.second_newest().state.t_ns};
-  const Solution solution = Solve(keep_second_newest, output);
+  const Step step = Solve(keep_second_newest);
   Tracked tracked;
   tracked.newest = map.window.newest().state;
-  tracked.covariance = solution.covariance;
-  tracked.failure = Check(solution, predicted, output->counts);
+  tracked.covariance = step.solution.covariance;
+  tracked.failure = estimate_monitor_.Add(
+      {step.solution.exists, map.window.newest().stationary, predicted, tracked.newest,
+       PoseOf(tracked.covariance), features_observed, step.counts,
+       map.window.td - config_->sensor.td, map.window.LongestImuInterval()});
+  tracked.output = tracked.failure ? Report(step) : Describe(step);
   if (tracked.failure) return tracked;
-  output->keyframe = keep_second_newest;
-  Describe(solution, output);
   if (keep_second_newest) tracked.residuals = MiddleResiduals();
-  SlideWindow(keep_second_newest, output);
+  tracked.output.keyframe = keep_second_newest;
+  const Stopwatch stopwatch;
+  DepartedLandmarks departed = SlideWindow(keep_second_newest);
+  tracked.output.timings.marginalization = stopwatch.Milliseconds();
+  tracked.output.departed_points = std::move(departed.points);
+  tracked.output.departed_lines = std::move(departed.lines);
   return tracked;
 }
 
-WindowOdometry::Solution WindowOdometry::Solve(bool keep_second_newest, EstimatorOutput* output) {
-  const LocalMap& map = estimate_.map;
+WindowOdometry::Step WindowOdometry::Solve(bool keep_second_newest) {
+  Step step;
   const ImuNoiseLearning noise_before = imu_noise_;
-  if (estimate_monitor_.blind() && map.CountInNewest() >= kFewFeatures) FindBack(output);
-  Solution solution = PlaceNewest(output);
-  bool window_is_solved = !Suffices(solution);
+  if (estimate_monitor_.blind() && estimate_.map.CountInNewest() >= kFewFeatures) {
+    step.timings.optimization = FindBack();
+  }
+  step.Take(PlaceNewest());
+  bool window_is_solved = !Suffices(step.solution);
   if (window_is_solved) {
-    Triangulate(output);
-    FindStructure(keep_second_newest, output);
-    solution = SolveWindow(CurrentSolution(), output);
+    step.triangulation = Triangulate();
+    const Stopwatch stopwatch;
+    step.lines = FindStructure(keep_second_newest);
+    step.timings.line_merging = stopwatch.Milliseconds();
+    step.Take(SolveWindow(CurrentSolution()));
   }
-  const PointMap::Fit fit = FitOfNewest(map.window.newest().state.t_ns);
-  if (const auto variance_scale = imu_agreement_.Add(map.window, fit)) {
-    DoubtInterval(Scaled(imu_noise_.noise(), *variance_scale),
-                  map.window.newest().motion_since_previous.get());
+  if (DoubtsNewestInterval()) {
     imu_noise_ = noise_before;  // the first solution is distorted
-    output->imu_doubted = window_is_solved = true;
-    solution = SolveWindow(CurrentSolution(), output);
+    step.imu_doubted = window_is_solved = true;
+    step.Take(SolveWindow(CurrentSolution()));
   }
-  CountLandmarks(output);
-  if (window_is_solved) LearnFromWindow(output);
-  return solution;
+  step.counts = window_is_solved ? LearnFromWindow() : CountLandmarks();
+  return step;
 }
 
-std::optional<Failure> WindowOdometry::Check(const Solution& solution, const FrameState& predicted,
-                                             const EstimatorCounts& counts) {
+bool WindowOdometry::DoubtsNewestInterval() {
   const SlidingWindow& window = estimate_.map.window;
-  auto failure = estimate_monitor_.Add({solution.exists, window.newest().stationary, predicted,
-                                        window.newest().state, PoseOf(solution.covariance), counts,
-                                        window.td - config_->sensor.td});
-  const double gap = window.LongestImuInterval();
-  if (failure && gap > kLongGap) {
-    failure->why = Format("a gap of %.1f s in the IMU samples: ", gap) + failure->why;
-  }
-  return failure;
+  const auto variance_scale = imu_agreement_.Add(window, FitOfNewest(window.newest().state.t_ns));
+  if (!variance_scale) return false;
+  DoubtInterval(Scaled(imu_noise_.noise(), *variance_scale),
+                window.newest().motion_since_previous.get());
+  return true;
 }
 
 // If the depth is known, points constrain a slow motion better than the assumption of standstill.
@@ -178,27 +178,20 @@ FrameState WindowOdometry::AddFrame(const FrameMeasurement& measurement) {
   return predicted;
 }
 
-void WindowOdometry::Triangulate(EstimatorOutput* output) {
+LineTriangulationCounts WindowOdometry::Triangulate() {
   LocalMap& map = estimate_.map;
   const int64_t now_ns = map.window.newest().state.t_ns;
   if (stereo_monitor_.misfit()) map.points.ForgetUntriangulatedDepths();
   if (!stereo_monitor_.UsesLines(now_ns)) map.lines.ForgetUntriangulatedDepths();
   map.points.Triangulate(map.window, options_->min_triangulation_angle);
-  output->counts.line_triangulation = map.lines.Triangulate(map.window, options_->line_limits);
+  return map.lines.Triangulate(map.window, options_->line_limits);
 }
 
 // Finds the Manhattan frame and, at keyframes, merges and recognizes lines.
-void WindowOdometry::FindStructure(bool keep_second_newest, EstimatorOutput* output) {
-  const Stopwatch stopwatch;
-  LocalMap& map = estimate_.map;
-  structure_.FindAxes(&map);
-  if (config_->estimator.line_merging && keep_second_newest) {
-    UnitedLines united = structure_.Unite(&map);
-    output->counts.line_merging = united.merging;
-    output->counts.lines_recognized = united.recognized;
-    output->absorbed_lines = std::move(united.absorbed);
-  }
-  output->timings.line_merging = stopwatch.Milliseconds();
+UnitedLines WindowOdometry::FindStructure(bool keep_second_newest) {
+  structure_.FindAxes(&estimate_.map);
+  if (!config_->estimator.line_merging || !keep_second_newest) return {};
+  return structure_.Unite(&estimate_.map);
 }
 
 // The newest frame counts in addition to the window size.
@@ -228,7 +221,7 @@ ProblemOptions WindowOdometry::CurrentProblem(JacobiansAt jacobians_at) const {
 
 // Estimates the states after the newest keyframe with everything else held fixed. The result is
 // close enough to the minimum for the window's equations to be linear, or to be used as it is.
-WindowOdometry::Solution WindowOdometry::PlaceNewest(EstimatorOutput* output) {
+WindowOdometry::Solution WindowOdometry::PlaceNewest() {
   const Stopwatch stopwatch;
   LocalMap& map = estimate_.map;
   const PlacementProblem placement(CurrentProblem(JacobiansAt::kValues), &map, keyframe_.t_ns);
@@ -241,7 +234,7 @@ WindowOdometry::Solution WindowOdometry::PlaceNewest(EstimatorOutput* output) {
     solution.covariance =
         PlacedCovariance(map.window, keyframe_.t_ns, *keyframe_.covariance, &equations);
   }
-  output->timings.optimization += stopwatch.Milliseconds();
+  solution.milliseconds = stopwatch.Milliseconds();
   return solution;
 }
 
@@ -259,7 +252,7 @@ bool WindowOdometry::Suffices(const Solution& placement) const {
 // Recovers after blindness: dead reckoning may have drifted so far that all known landmarks are
 // outliers and do not constrain the estimate any more. Wide losses first make the minimum reachable
 // that most landmarks agree on (graduated non-convexity, [Yang2020]).
-void WindowOdometry::FindBack(EstimatorOutput* output) {
+double WindowOdometry::FindBack() {
   const Stopwatch stopwatch;
   LocalMap& map = estimate_.map;
   ProblemOptions problem = CurrentProblem(JacobiansAt::kValues);
@@ -269,11 +262,10 @@ void WindowOdometry::FindBack(EstimatorOutput* output) {
   builder.AddAll(&map.points, &map.lines);
   NormalEquations equations(builder.problem());
   SolveBy(config_->estimator.solver, CurrentSolution(), builder.problem(), &equations);
-  output->timings.optimization += stopwatch.Milliseconds();
+  return stopwatch.Milliseconds();
 }
 
-WindowOdometry::Solution WindowOdometry::SolveWindow(const SolverOptions& options,
-                                                     EstimatorOutput* output) {
+WindowOdometry::Solution WindowOdometry::SolveWindow(const SolverOptions& options) {
   const Stopwatch stopwatch;
   LocalMap& map = estimate_.map;
   ProblemBuilder builder(CurrentProblem(JacobiansAt::kValues), &map.window, &estimate_.prior);
@@ -294,15 +286,17 @@ WindowOdometry::Solution WindowOdometry::SolveWindow(const SolverOptions& option
   if (options_->problem.estimate_intrinsics) {
     FollowIntrinsics(config_->sensor.camera, options_->max_ray_error, &map);
   }
-  output->timings.optimization += stopwatch.Milliseconds();  // may run twice per image
+  solution.milliseconds = stopwatch.Milliseconds();
   return solution;
 }
 
-void WindowOdometry::CountLandmarks(EstimatorOutput* output) const {
+EstimatorCounts WindowOdometry::CountLandmarks() const {
   const LocalMap& map = estimate_.map;
-  output->counts.points_in_window = map.points.CountOptimized();
-  output->counts.lines_in_window = map.lines.CountOptimized();
-  output->counts.known_seen = map.CountInNewest();
+  EstimatorCounts counts;
+  counts.points_in_window = map.points.CountOptimized();
+  counts.lines_in_window = map.lines.CountOptimized();
+  counts.known_seen = map.CountInNewest();
+  return counts;
 }
 
 // Returns none before the window is full: then its middle is another frame at each keyframe.
@@ -318,12 +312,12 @@ PointMap::Fit WindowOdometry::FitOfNewest(int64_t keyframe_ns) const {
   return map.points.FitOfNewest(map.window, keyframe_ns, options_->max_reprojection_error);
 }
 
-// Removes outliers and updates the noise of features and IMU.
-void WindowOdometry::LearnFromWindow(EstimatorOutput* output) {
+// Removes outliers and updates the noise of features and IMU. Counts the landmarks before that.
+EstimatorCounts WindowOdometry::LearnFromWindow() {
   LocalMap& map = estimate_.map;
-  EstimatorCounts& counts = output->counts;
+  EstimatorCounts counts = CountLandmarks();
   counts.points_rejected = map.points.RemoveOutliers(map.window, options_->max_reprojection_error);
-  if (config_->sensor.second_camera) counts.right = JudgeSecondCamera();
+  counts.right = JudgeSecondCamera();
   if (config_->sensor.depth) {
     counts.depth = map.points.RemoveDepthOutliers(map.window, options_->max_inverse_depth_error);
   }
@@ -331,69 +325,75 @@ void WindowOdometry::LearnFromWindow(EstimatorOutput* output) {
   counts.known_rejected = counts.known_seen - map.CountInNewest();
   if (config_->estimator.adapt_noise) noise_.Update(map);
   imu_noise_.Reweigh(&map.window);
+  return counts;
 }
 
 DepthCounts WindowOdometry::JudgeSecondCamera() {
+  if (!config_->sensor.second_camera) return {};
   LocalMap& map = estimate_.map;
   return stereo_monitor_.Judge(map.window, &map.points, &map.lines);
 }
 
-void WindowOdometry::DescribeSecondCamera(EstimatorOutput* output) const {
-  output->calibration.T_C_C1 = estimate_.map.window.T_C_C1();
-  SecondCameraFaults& faults = output->second_camera;
-  if (const auto misfit = stereo_monitor_.misfit()) {
-    faults.misfit_px = *misfit * options_->focal_length;
-  }
-  faults.delay = stereo_monitor_.delay();
-  faults.baseline = baseline_error_;
-}
-
-void WindowOdometry::SlideWindow(bool keep_second_newest, EstimatorOutput* output) {
-  const Stopwatch stopwatch;
-  const LocalMap& map = estimate_.map;
+DepartedLandmarks WindowOdometry::SlideWindow(bool keep_second_newest) {
   const auto window_size = static_cast<size_t>(config_->estimator.window_size);
-  if (!keep_second_newest) {
-    estimate_.DropSecondNewest();
-  } else {
-    // Runs twice right after initialization, which may fill a small window by one extra frame.
-    while (map.window.frames.size() > window_size) SlideOldest(output);
+  DepartedLandmarks departed;
+  if (!keep_second_newest) estimate_.DropSecondNewest();
+  // Runs twice right after initialization, which may fill a small window by one extra frame.
+  while (keep_second_newest && estimate_.map.window.frames.size() > window_size) {
+    const DepartedLandmarks more = SlideOldest();
+    Append(more.points, &departed.points);
+    Append(more.lines, &departed.lines);
   }
-  output->timings.marginalization = stopwatch.Milliseconds();
+  return departed;
 }
 
-void WindowOdometry::SlideOldest(EstimatorOutput* output) {
+DepartedLandmarks WindowOdometry::SlideOldest() {
   const bool stays = StaysAsAnchor(options_->anchors, estimate_.map.window, estimate_.map.lines);
   if (stays) {
     const auto replaced_ns = AnchorToReplace(options_->anchors, estimate_.map.window);
     if (replaced_ns) estimate_.RemoveAnchor(*replaced_ns);
   }
-  const DepartedLandmarks departed =
-      estimate_.SlideOldest(CurrentProblem(JacobiansAt::kFirstEstimates), stays);
-  Append(departed.points, &output->departed_points);
-  Append(departed.lines, &output->departed_lines);
+  return estimate_.SlideOldest(CurrentProblem(JacobiansAt::kFirstEstimates), stays);
 }
 
-void WindowOdometry::Describe(const Solution& solution, EstimatorOutput* output) const {
+EstimatorOutput WindowOdometry::Report(const Step& step) const {
+  EstimatorOutput output;
+  output.counts = step.counts;
+  output.counts.line_triangulation = step.triangulation;
+  output.counts.line_merging = step.lines.merging;
+  output.counts.lines_recognized = step.lines.recognized;
+  output.absorbed_lines = step.lines.absorbed;
+  output.imu_doubted = step.imu_doubted;
+  output.timings = step.timings;
+  return output;
+}
+
+EstimatorOutput WindowOdometry::Describe(const Step& step) const {
   const SlidingWindow& window = estimate_.map.window;
-  output->status = EstimatorStatus::kTracking;
-  output->has_pose = true;
-  DescribeMap(estimate_.map, output);
-  if (const auto& covariance = solution.covariance) {
-    output->uncertainty = {covariance->topLeftCorner<6, 6>(), covariance->block<3, 3>(6, 6),
-                           BodyVelocityCovariance(output->state, covariance->block<6, 6>(3, 3)),
-                           covariance->bottomRightCorner<6, 6>()};
+  EstimatorOutput output = Report(step);
+  output.status = EstimatorStatus::kTracking;
+  output.has_pose = true;
+  DescribeMap(estimate_.map, &output);
+  if (const auto& covariance = step.solution.covariance) {
+    output.uncertainty = {covariance->topLeftCorner<6, 6>(), covariance->block<3, 3>(6, 6),
+                          BodyVelocityCovariance(output.state, covariance->block<6, 6>(3, 3)),
+                          covariance->bottomRightCorner<6, 6>()};
   }
-  output->calibration = {config_->sensor.camera.With(window.intrinsics), window.T_B_C(),
-                         std::nullopt, window.td};
-  if (config_->sensor.second_camera) DescribeSecondCamera(output);
-  output->R_W_M = structure_.manhattan().R_W_M();
-  output->imu_noise = imu_noise_.noise();
-  output->imu_noise_scale = imu_agreement_.noise_scale();
-  output->delay = imu_agreement_.delay();
-  output->contradicted = estimate_monitor_.contradicted();
-  const int fitting = output->counts.known_seen - output->counts.known_rejected;
-  output->on_imu_alone =
-      estimate_monitor_.blind() || (!output->stationary && fitting < kFewFeatures);
+  output.calibration = {config_->sensor.camera.With(window.intrinsics), window.T_B_C(),
+                        std::nullopt, window.td};
+  if (config_->sensor.second_camera) {
+    output.calibration.T_C_C1 = window.T_C_C1();
+    output.second_camera = {stereo_monitor_.misfit(), stereo_monitor_.delay(), baseline_error_};
+    if (auto& misfit = output.second_camera.misfit_px) *misfit *= options_->focal_length;
+  }
+  output.R_W_M = structure_.manhattan().R_W_M();
+  output.imu_noise = imu_noise_.noise();
+  output.imu_noise_scale = imu_agreement_.noise_scale();
+  output.delay = imu_agreement_.delay();
+  output.contradicted = estimate_monitor_.contradicted();
+  const int fitting = step.counts.known_seen - step.counts.known_rejected;
+  output.on_imu_alone = estimate_monitor_.blind() || (!output.stationary && fitting < kFewFeatures);
+  return output;
 }
 
 }  // namespace plm_vins

@@ -36,13 +36,13 @@ class WindowOdometry {
     FrameState newest;
     std::optional<Matrix15d> covariance;  // covariance of `newest`
     std::optional<Failure> failure;       // if set, tracking is lost: reinitialize
+    EstimatorOutput output;               // only counts and timings if tracking is lost
     // Points in the middle frame of the window, whose pose is known best; each keyframe once.
     std::vector<PixelResidual> residuals;
   };
 
   // Fills the window with the initial frames and optimizes it.
-  void Start(const InitializationResult& result, const InitialUncertainty& uncertainty,
-             EstimatorOutput* output);
+  EstimatorOutput Start(const InitializationResult& result, const InitialUncertainty& uncertainty);
   bool started() const { return started_; }
 
   // Median depth of the known points in the newest image [m]; nullopt if there are few.
@@ -51,10 +51,11 @@ class WindowOdometry {
     return estimate_.map.points.MedianDepthInNewest(estimate_.map.window);
   }
 
-  // Processes the next image; requires started().
+  // Processes the next image; requires started(). `features_observed` counts the features of the
+  // image, even if they are not in the measurement because they are not to be used.
   Tracked Track(const FrameMeasurement& measurement,
                 const std::optional<StandstillDetector::Standstill>& standstill,
-                EstimatorOutput* output);
+                int features_observed);
 
   // The window with calibration and gravity; as configured before the start.
   const SlidingWindow& window() const { return estimate_.map.window; }
@@ -70,35 +71,52 @@ class WindowOdometry {
   struct Solution {
     bool exists = false;                                 // the equations had a solution
     std::optional<Matrix15d> covariance = std::nullopt;  // covariance of the newest state
+    double milliseconds = 0;                             // time to solve
+  };
+
+  // Result of all stages of one image that change the estimate.
+  struct Step {
+    // Replaces the solution by a later one.
+    void Take(const Solution& later) {
+      solution = later;
+      timings.optimization += later.milliseconds;
+    }
+
+    Solution solution;
+    LineTriangulationCounts triangulation;
+    UnitedLines lines;
+    bool imu_doubted = false;
+    EstimatorCounts counts;
+    EstimatorTimings timings;
   };
 
   void Fill(const InitializationResult& result, const InitialUncertainty& uncertainty);
-  Solution SolveFirstWindow(EstimatorOutput* output);
+  Step SolveFirstWindow();
   // Adds the newest frame and returns its state, propagated by the IMU alone.
   FrameState AddFrame(const FrameMeasurement& measurement);
   // Returns the time of the image at which standstill began; nullopt in motion, even if slow.
   std::optional<int64_t> StillSince(
       const std::optional<StandstillDetector::Standstill>& standstill) const;
   // Places the newest frame and, if that is not sufficient, optimizes the window.
-  Solution Solve(bool keep_second_newest, EstimatorOutput* output);
-  Solution PlaceNewest(EstimatorOutput* output);
+  Step Solve(bool keep_second_newest);
+  Solution PlaceNewest();
   bool Suffices(const Solution& placement) const;
-  void FindBack(EstimatorOutput* output);
-  Solution SolveWindow(const SolverOptions& options, EstimatorOutput* output);
-  void Triangulate(EstimatorOutput* output);
-  void FindStructure(bool keep_second_newest, EstimatorOutput* output);
-  void LearnFromWindow(EstimatorOutput* output);
+  double FindBack();  // returns the time it takes [ms]
+  Solution SolveWindow(const SolverOptions& options);
+  LineTriangulationCounts Triangulate();
+  UnitedLines FindStructure(bool keep_second_newest);
+  // If the IMU contradicts the solution: re-weights the newest interval and returns true.
+  bool DoubtsNewestInterval();
+  EstimatorCounts CountLandmarks() const;
+  EstimatorCounts LearnFromWindow();
   DepthCounts JudgeSecondCamera();
-  void DescribeSecondCamera(EstimatorOutput* output) const;
-  void CountLandmarks(EstimatorOutput* output) const;
   std::vector<PixelResidual> MiddleResiduals() const;
   PointMap::Fit FitOfNewest(int64_t keyframe_ns) const;
-  // Returns the reason to declare tracking lost; nullopt if the estimate is valid.
-  std::optional<Failure> Check(const Solution& solution, const FrameState& predicted,
-                               const EstimatorCounts& counts);
-  void SlideWindow(bool keep_second_newest, EstimatorOutput* output);
-  void SlideOldest(EstimatorOutput* output);
-  void Describe(const Solution& solution, EstimatorOutput* output) const;
+  DepartedLandmarks SlideWindow(bool keep_second_newest);
+  DepartedLandmarks SlideOldest();
+  // Returns the output without the estimate.
+  EstimatorOutput Report(const Step& step) const;
+  EstimatorOutput Describe(const Step& step) const;
 
   bool WindowIsFull() const;
   const SolverOptions& CurrentSolution() const;

@@ -28,8 +28,10 @@ class EstimateMonitor {
     FrameState predicted;     // newest state, propagated by the IMU alone
     FrameState newest;        // newest state, optimized
     std::optional<Eigen::Matrix<double, 6, 6>> pose_covariance;  // belongs to `newest`
+    int features_observed = 0;  // in the image, even if they are not used
     EstimatorCounts counts;
     double time_offset_change = 0;  // estimated minus configured td [s]
+    double longest_imu_gap = 0;     // in the window [s]; a long one explains a failure
   };
 
   // Returns the reason to declare tracking lost; nullopt if the estimate is valid.
@@ -39,6 +41,8 @@ class EstimateMonitor {
   bool blind() const { return blindness_monitor_.blind(); }
 
  private:
+  std::optional<Failure> Judge(const Evidence& evidence);
+
   ContradictionMonitor contradiction_monitor_;
   BlindnessMonitor blindness_monitor_;
 };

@@ -12,37 +12,24 @@ namespace plm_vins {
 namespace {
 
 constexpr int64_t kHistory_ns = 5'000'000'000;  // exceeds the time that any image waits
-constexpr int64_t kMaxGap_ns = 100'000'000;     // the rotation within a longer gap is unknown
-constexpr int kJumpPatience = 100;              // samples
 
 }  // namespace
 
 GyroPredictor::GyroPredictor(const Rigid3d& T_B_C, double td, const ImuSensor& imu)
-    : R_B_C_(T_B_C.rotation),
-      td_ns_(ToNanoseconds(td)),
-      gate_(imu),
-      leap_(kMaxGap_ns),
-      jump_(kJumpPatience) {}
+    : R_B_C_(T_B_C.rotation), td_ns_(ToNanoseconds(td)), gate_(imu), order_(kGyroJumps) {}
 
 void GyroPredictor::AddImu(const ImuSample& sample) {
   if (!IsPlausible(sample)) return;
-  if (last_ns_ && sample.t_ns <= *last_ns_) {
-    if (!jump_.Reject(sample.t_ns)) return;
-    Clear();
+  const StampVerdict verdict = order_.Add(sample.t_ns);
+  if (!StampOrder::IsAccepted(verdict)) return;
+  if (verdict == StampVerdict::kRestarts) {
+    samples_.clear();
+    gate_.Clear();
   }
-  jump_.Accept();
-  if (last_ns_ && !leap_.Accept(*last_ns_, sample.t_ns)) return;
-  last_ns_ = sample.t_ns;
   for (const ImuSample& decided : gate_.Add(sample)) samples_.push_back(decided);
   while (!samples_.empty() && samples_.front().t_ns < sample.t_ns - kHistory_ns) {
     samples_.pop_front();
   }
-}
-
-void GyroPredictor::Clear() {
-  samples_.clear();
-  last_ns_.reset();
-  gate_.Clear();
 }
 
 bool GyroPredictor::Covers(int64_t t_image_ns) const {
@@ -60,7 +47,7 @@ std::optional<Eigen::Quaterniond> GyroPredictor::Rotation(int64_t t0_ns, int64_t
   for (; right != samples_.end() && std::prev(right)->t_ns < end; ++right) {
     const ImuSample& a = *std::prev(right);
     const ImuSample& b = *right;
-    if (b.t_ns - a.t_ns > kMaxGap_ns) return std::nullopt;
+    if (b.t_ns - a.t_ns > kGyroJumps.max_step_ns) return std::nullopt;  // unknown rotation
     const int64_t from = std::max(a.t_ns, begin);
     const int64_t to = std::min(b.t_ns, end);
     const Eigen::Vector3d rate = InterpolateImu(a, b, from + (to - from) / 2).gyro;

@@ -9,8 +9,7 @@
 #include "common/geometry/rigid3.h"
 #include "common/imu/imu_gate.h"
 #include "common/measurements.h"
-#include "common/streams/backward_jump.h"
-#include "common/streams/forward_jump.h"
+#include "common/streams/stamp_order.h"
 
 namespace plm_vins {
 
@@ -33,15 +32,11 @@ class GyroPredictor {
   std::optional<Eigen::Quaterniond> Rotation(int64_t t0_ns, int64_t t1_ns) const;
 
  private:
-  void Clear();
-
   Eigen::Quaterniond R_B_C_;
   int64_t td_ns_;
   std::deque<ImuSample> samples_;
-  std::optional<int64_t> last_ns_;  // newest sample passed to the gate
   ImuGate gate_;
-  ForwardJumpDetector leap_;
-  BackwardJumpDetector jump_;
+  StampOrder order_;  // judges the samples passed to the gate
 };
 
 }  // namespace plm_vins

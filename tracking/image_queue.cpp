@@ -15,8 +15,6 @@ namespace {
 // Newer images that end the wait if the gyroscope did not reach the previous image either.
 constexpr size_t kMaxWaiting = 2;
 constexpr int64_t kMaxWait_ns = 500'000'000;  // longest wait otherwise, up to the newest image
-constexpr int64_t kImageGap_ns = 1'000'000'000;
-constexpr int kJumpPatience = 10;  // images
 
 std::string Nearest(int64_t t_ns, const std::optional<int64_t>& last_ns) {
   if (!last_ns) return "none has come yet";
@@ -48,29 +46,19 @@ ImageQueue::ImageQueue(const Config& config)
       uses_gyro_(sensor_.estimate_extrinsic != SensorConfig::ExtrinsicMode::kCalibrateRotation),
       gyro_(sensor_.T_B_C, sensor_.td, sensor_.imu),
       rate_limiter_(config.publish_rate),
-      jump_(kJumpPatience),
-      leap_(kImageGap_ns) {}
+      order_(kImageJumps) {}
 
 void ImageQueue::AddImage(ImageSample image) {
   ++counts_.images;
   if (!AcceptFormat(image)) return;
-  const int64_t t_ns = image.t_ns;
-  bool restart = false;
-  if (accepted_ns_ && t_ns <= *accepted_ns_) {
-    ++counts_.out_of_order;
-    if (!jump_.Reject(t_ns)) return;
-    restart = true;
-    ++counts_.restarts;
-    gyro_ = GyroPredictor(sensor_.T_B_C, sensor_.td, sensor_.imu);
-  } else if (accepted_ns_) {
-    if (!leap_.Accept(*accepted_ns_, t_ns)) {
-      ++counts_.ahead;
-      return;
-    }
-    if (t_ns - *accepted_ns_ > kImageGap_ns) ++counts_.gaps;
-  }
-  jump_.Accept();
-  accepted_ns_ = t_ns;
+  const StampVerdict verdict = order_.Add(image.t_ns);
+  const bool restart = verdict == StampVerdict::kRestarts;
+  counts_.out_of_order += verdict == StampVerdict::kIsBack || restart;
+  counts_.ahead += verdict == StampVerdict::kIsAhead;
+  counts_.gaps += verdict == StampVerdict::kFollowsGap;
+  counts_.restarts += restart;
+  if (!StampOrder::IsAccepted(verdict)) return;
+  if (restart) gyro_ = GyroPredictor(sensor_.T_B_C, sensor_.td, sensor_.imu);
   images_.push_back({std::move(image), restart});
 }
 

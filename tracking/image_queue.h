@@ -11,9 +11,8 @@
 #include "common/image_companions.h"
 #include "common/imu/imu_bursts.h"
 #include "common/measurements.h"
-#include "common/streams/backward_jump.h"
 #include "common/streams/drop_counts.h"
-#include "common/streams/forward_jump.h"
+#include "common/streams/stamp_order.h"
 #include "tracking/companion_queue.h"
 #include "tracking/gyro_predictor.h"
 #include "tracking/rate_limiter.h"
@@ -105,11 +104,9 @@ class ImageQueue {
   CompanionQueue<ImageSample> right_;
   CompanionQueue<DepthSample> depth_;
   ImageSample last_left_, last_right_;    // the last pair that was searched
-  std::optional<int64_t> accepted_ns_;    // timestamp of the last image that was accepted
   std::optional<int64_t> handed_out_ns_;  // timestamp of the last image that was returned
   bool gyro_is_in_time_ = false;          // samples reached the last image that was returned
-  BackwardJumpDetector jump_;
-  ForwardJumpDetector leap_;
+  StampOrder order_;
 };
 
 }  // namespace plm_vins

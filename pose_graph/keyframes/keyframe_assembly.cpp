@@ -13,12 +13,8 @@ namespace {
 constexpr size_t kFewStamps = 60;
 constexpr size_t kMaxStamps = 300;
 constexpr int64_t kMaxAge_ns = 2'000'000'000;
-constexpr int kJumpPatience = 10;                   // images
-constexpr int64_t kMaxInterval_ns = 1'000'000'000;  // a longer interval is a forward jump
 
 }  // namespace
-
-KeyframeAssembly::KeyframeAssembly() : jump_(kJumpPatience), leap_(kMaxInterval_ns) {}
 
 bool KeyframeAssembly::HasTooMany() const {
   const int64_t age_ns = parts_.rbegin()->first - parts_.begin()->first;
@@ -43,13 +39,9 @@ KeyframeAssembly::Stamps::iterator KeyframeAssembly::Forget(Stamps::iterator beg
 }
 
 void KeyframeAssembly::AddImage(const ImageSample& image) {
-  if (image_ns_ && !leap_.Accept(*image_ns_, image.t_ns)) return;
-  if (image_ns_ && image.t_ns < *image_ns_) {
-    if (jump_.Reject(image.t_ns)) Clear();
-  } else {
-    jump_.Accept();
-    image_ns_ = image.t_ns;
-  }
+  const StampVerdict verdict = image_order_.Add(image.t_ns);
+  if (verdict == StampVerdict::kIsAhead) return;
+  if (verdict == StampVerdict::kRestarts) parts_.clear();
   Parts& parts = PartsAt(image.t_ns);
   parts.frame.gray = image.gray;
   parts.frame.owner = image.owner;
@@ -96,7 +88,7 @@ std::optional<OdometryFrame> KeyframeAssembly::Pop() {
 
 void KeyframeAssembly::Clear() {
   parts_.clear();
-  image_ns_.reset();
+  image_order_.Clear();
 }
 
 }  // namespace plm_vins

@@ -6,8 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/streams/backward_jump.h"
-#include "common/streams/forward_jump.h"
+#include "common/streams/stamp_order.h"
 #include "pose_graph/keyframes/odometry_frame.h"
 
 namespace plm_vins {
@@ -20,8 +19,6 @@ namespace plm_vins {
 // be wrong.
 class KeyframeAssembly {
  public:
-  KeyframeAssembly();
-
   void AddImage(const ImageSample& image);
   void AddPose(int64_t t_ns, const Rigid3d& T_O_B, const Eigen::Matrix<double, 6, 6>& covariance);
   void AddCorners(int64_t t_ns, std::vector<TrackedCorner> corners);
@@ -55,9 +52,7 @@ class KeyframeAssembly {
   Stamps::iterator Forget(Stamps::iterator begin, Stamps::iterator end);
 
   Stamps parts_;
-  std::optional<int64_t> image_ns_;  // timestamp of the newest image
-  BackwardJumpDetector jump_;
-  ForwardJumpDetector leap_;
+  StampOrder image_order_{kImageJumps};
   int64_t without_image_ = 0;
 };
 

@@ -3,7 +3,6 @@
 
 #include "common/imu/imu_interpolation.h"
 #include "common/imu/imu_range.h"
-#include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/imu/preintegration.h"
 
 namespace plm_vins {
@@ -14,7 +13,7 @@ const int64_t kHorizon_ns = ToNanoseconds(ImuPropagator::kHorizonSeconds);
 }  // namespace
 
 ImuPropagator::ImuPropagator(const Eigen::Vector3d& gravity_W, const ImuSensor& imu)
-    : gravity_W_(gravity_W), leap_(ToNanoseconds(kMaxImuInterval)), gate_(imu) {}
+    : gravity_W_(gravity_W), order_(kPropagationJumps), gate_(imu) {}
 
 void ImuPropagator::Reset(const FrameState& state, int64_t t_imu_ns) {
   state_ = state;
@@ -27,9 +26,7 @@ void ImuPropagator::Reset(const FrameState& state, int64_t t_imu_ns) {
 
 std::optional<FrameState> ImuPropagator::Add(const ImuSample& sample) {
   if (!IsPlausible(sample)) return std::nullopt;
-  if (last_ns_ && sample.t_ns <= *last_ns_) return std::nullopt;
-  if (last_ns_ && !leap_.Accept(*last_ns_, sample.t_ns)) return std::nullopt;
-  last_ns_ = sample.t_ns;
+  if (!StampOrder::IsAccepted(order_.Add(sample.t_ns))) return std::nullopt;
   const std::vector<ImuSample> decided = gate_.Add(sample);
   for (const ImuSample& next : decided) Take(next);
   const bool reaches_sample = state_ && !decided.empty() && state_->t_ns == sample.t_ns;
@@ -43,12 +40,10 @@ void ImuPropagator::Take(const ImuSample& sample) {
   if (state_) Advance(samples_.size() - 1);
 }
 
-std::optional<int64_t> ImuPropagator::newest_ns() const { return last_ns_; }
-
 void ImuPropagator::Clear() {
   samples_.clear();
   gate_.Clear();
-  last_ns_.reset();
+  order_.Clear();
   state_.reset();
 }
 

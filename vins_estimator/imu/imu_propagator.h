@@ -8,7 +8,7 @@
 #include "common/imu/imu_gate.h"
 #include "common/imu/imu_noise.h"
 #include "common/measurements.h"
-#include "common/streams/forward_jump.h"
+#include "common/streams/stamp_order.h"
 #include "vins_estimator/state/frame_state.h"
 
 namespace plm_vins {
@@ -33,7 +33,7 @@ class ImuPropagator {
   std::optional<FrameState> Add(const ImuSample& sample);
 
   // Returns the time of the newest sample; nullopt if there is none.
-  std::optional<int64_t> newest_ns() const;
+  std::optional<int64_t> newest_ns() const { return order_.newest_ns(); }
 
   // Drops the state and the samples.
   void Clear();
@@ -47,9 +47,8 @@ class ImuPropagator {
   std::deque<ImuSample> samples_;    // ordered by time
   std::optional<FrameState> state_;  // t_ns in IMU time
   int64_t t_reset_ns_ = 0;
-  ForwardJumpDetector leap_;
+  StampOrder order_;  // judges the samples passed to the gate
   ImuGate gate_;
-  std::optional<int64_t> last_ns_;  // newest sample passed to the gate
 };
 
 }  // namespace plm_vins

@@ -7,21 +7,11 @@
 
 #include "common/format.h"
 #include "common/imu/imu_interpolation.h"
+#include "common/streams/stamp_order.h"
 
 namespace plm_vins {
-namespace {
-
-// Consecutive samples with timestamps back in time after which a new sequence starts. Larger than
-// the trackers' own limit, so that these decide first.
-constexpr int kJumpPatience = 1000;
-
-// Longer gaps mean that the clock was set ahead, as no propagation bridges them.
-constexpr int64_t kLeap_ns = 60'000'000'000;
-
-}  // namespace
-
 ImuStream::ImuStream(const ImuSensor& sensor, double max_gap, int max_samples)
-    : max_gap_(max_gap), max_samples_(max_samples), gate_(sensor), jump_(kJumpPatience) {}
+    : max_gap_(max_gap), max_samples_(max_samples), gate_(sensor), jump_(kImuJumps.patience) {}
 
 ImuStream::Clock ImuStream::Add(const ImuSample& sample) {
   if (!IsReading(sample)) return Clock::kRunsOn;
@@ -69,7 +59,7 @@ bool ImuStream::JudgeSampleAfterGap(int64_t next_ns) {
     ++statistics_.imu_out_of_order;
     return false;
   }
-  const bool set_on = sample.t_ns - *last_ns_ > kLeap_ns;
+  const bool set_on = sample.t_ns - *last_ns_ > kImuJumps.max_step_ns;
   if (set_on) {
     Clear();
   } else if (statistics_.imu_gaps++ == 0) {

@@ -32,7 +32,7 @@ struct ImuStatistics {
 // are dropped and counted. Each interval starts with the last sample of the previous one; between
 // the first and the last cut, no sample is lost or used twice.
 //
-// If timestamps go back permanently (kJumpPatience samples: a bag played again, or a clock set
+// If timestamps go back permanently (kImuJumps: a bag played again, or a clock set
 // back) or jump ahead by more than a minute (a clock set ahead), everything except the statistics
 // is reset and a new sequence starts. Samples that are sent twice within a second have no such
 // effect.

@@ -10,13 +10,6 @@ namespace {
 // Between images that are closer than this, the motion is below the noise.
 constexpr int64_t kMinInterval_ns = 1'000'000;
 
-// Consecutive images with timestamps back in time after which a new sequence starts. Larger than
-// the trackers' own limit, so that these decide first.
-constexpr int kJumpPatience = 10;
-
-// Larger than the limit of our trackers; this check is for third-party trackers.
-constexpr int64_t kLeap_ns = 10'000'000'000;
-
 constexpr size_t kFewPoints = 10;  // too few to estimate the camera's motion
 
 }  // namespace
@@ -26,8 +19,7 @@ MeasurementSync::MeasurementSync(const Options& options)
       imu_(options.imu, options.max_imu_gap, options.max_imu_samples),
       lines_(
           {options.expect_lines, options.max_line_lag, options.line_patience, options.max_frames}),
-      points_jump_(kJumpPatience),
-      points_leap_(kLeap_ns) {}
+      points_order_(kFeatureJumps) {}
 
 void MeasurementSync::AddImu(const ImuSample& sample) {
   const ImuStream::Clock clock = imu_.Add(sample);
@@ -39,17 +31,16 @@ void MeasurementSync::AddImu(const ImuSample& sample) {
 
 void MeasurementSync::AddPoints(PointFrame frame) {
   ++statistics_.frames;
-  if (last_points_ns_ && frame.t_ns <= *last_points_ns_) {
-    ++statistics_.frames_out_of_order;
-    if (!points_jump_.Reject(frame.t_ns)) return;
-    ++statistics_.jumps_back;
+  const StampVerdict verdict = points_order_.Add(frame.t_ns);
+  const bool restarts = verdict == StampVerdict::kRestarts;
+  statistics_.frames_out_of_order += verdict == StampVerdict::kIsBack || restarts;
+  statistics_.frames_ahead_of_time += verdict == StampVerdict::kIsAhead;
+  statistics_.jumps_back += restarts;
+  if (!StampOrder::IsAccepted(verdict)) return;
+  if (restarts) {
     Clear();
-  } else if (last_points_ns_ && !points_leap_.Accept(*last_points_ns_, frame.t_ns)) {
-    ++statistics_.frames_ahead_of_time;
-    return;
+    points_order_.Add(frame.t_ns);
   }
-  points_jump_.Accept();
-  last_points_ns_ = frame.t_ns;
   if (frame.points.size() < kFewPoints) ++statistics_.frames_with_few_points;
   points_.push_back(std::move(frame));
   if (static_cast<int>(points_.size()) > options_.max_frames) {
@@ -72,7 +63,7 @@ void MeasurementSync::Clear() {
 
 void MeasurementSync::ClearFrames() {
   points_.clear();
-  last_points_ns_.reset();
+  points_order_.Clear();
   lines_.Clear();
 }
 

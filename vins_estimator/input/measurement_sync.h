@@ -8,8 +8,7 @@
 
 #include "common/imu/imu_sensor.h"
 #include "common/measurements.h"
-#include "common/streams/backward_jump.h"
-#include "common/streams/forward_jump.h"
+#include "common/streams/stamp_order.h"
 #include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/input/imu_stream.h"
 #include "vins_estimator/input/line_pairing.h"
@@ -111,9 +110,7 @@ class MeasurementSync {
   LinePairing lines_;
   FrameStatistics statistics_;
   std::deque<PointFrame> points_;
-  std::optional<int64_t> last_points_ns_;  // time of the last accepted frame
-  BackwardJumpDetector points_jump_;
-  ForwardJumpDetector points_leap_;
+  StampOrder points_order_;
 };
 
 }  // namespace plm_vins

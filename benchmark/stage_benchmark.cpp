@@ -17,7 +17,7 @@
 #include "common/process_setup.h"
 #include "offline/pipeline/odometry_pipeline.h"
 #include "offline/recordings/asl_recording.h"
-#include "offline/results/pipeline_timings.h"
+#include "offline/results/frame_columns.h"
 #include "vins_estimator/output/series_summary.h"
 
 namespace plm_vins {
@@ -25,12 +25,22 @@ namespace {
 
 double ProcessorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-void Print(const std::vector<FrameTimings>& frames) {
-  const double total = Summarize(frames, kTotal).mean;
+using Timings = std::vector<Column<double>>;
+
+// Returns the times of one stage in all frames.
+std::vector<double> TimesOf(const std::vector<Timings>& frames, size_t stage) {
+  std::vector<double> times;
+  for (const Timings& frame : frames) times.push_back(frame[stage].value);
+  return times;
+}
+
+void Print(const std::vector<Timings>& frames) {
+  const Timings& stages = frames.front();
+  const double total = Summarize(TimesOf(frames, stages.size() - 1)).mean;
   std::printf("%-16s %8s %8s %8s %8s %7s\n", "stage [ms]", "mean", "p50", "p95", "p99", "share");
-  for (size_t stage = 0; stage < kTimingStages; ++stage) {
-    const SeriesSummary summary = Summarize(frames, stage);
-    std::printf("%-16s %8.2f %8.2f %8.2f %8.2f %6.0f%%\n", kTimingNames[stage], summary.mean,
+  for (size_t stage = 0; stage < stages.size(); ++stage) {
+    const SeriesSummary summary = Summarize(TimesOf(frames, stage));
+    std::printf("%-16s %8.2f %8.2f %8.2f %8.2f %6.0f%%\n", stages[stage].name, summary.mean,
                 summary.median, summary.p95, summary.p99, 100 * summary.mean / total);
   }
 }
@@ -38,11 +48,11 @@ void Print(const std::vector<FrameTimings>& frames) {
 void Run(const std::string& config_file, const std::string& folder,
          std::chrono::milliseconds pause) {
   OdometryPipeline pipeline(LoadConfig(config_file));
-  std::vector<FrameTimings> frames;
+  std::vector<Timings> frames;
   const double start = ProcessorSeconds();
   pipeline.Run(OpenAslFolder(folder).get(), RecordingInterval(), 1,
                [&](const PipelineFrame& frame) {
-                 frames.push_back(TimingsOf(frame));
+                 frames.push_back(ColumnsOf(frame).timings);
                  std::this_thread::sleep_for(pause);
                });
   if (frames.empty()) throw std::invalid_argument("no frame in " + folder);

@@ -88,7 +88,7 @@ void LoopResults::Count(const LoopClosure& closure, double milliseconds) {
   }
   if (!closure.is_keyframe) return;
   ++keyframes_;
-  keyframe_ms_.push_back({milliseconds});
+  keyframe_ms_.push_back(milliseconds);
 }
 
 void LoopResults::Remember(const PipelineFrame& frame, const LoopClosure& closure) {
@@ -167,7 +167,7 @@ Json LoopResults::Summary() const {
     refused[ToString(static_cast<LoopGate>(gate))] = 0;
   }
   for (const auto& [gate, count] : tally_.refused) refused[ToString(gate)] = count;
-  const SeriesSummary timing = Summarize(keyframe_ms_, 0);
+  const SeriesSummary timing = Summarize(keyframe_ms_);
   Json json;
   json["keyframes"] = keyframes_;
   json["map_keyframes"] = map().CountKept();

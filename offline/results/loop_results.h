@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -83,7 +82,7 @@ class LoopResults {
   std::optional<double> first_fix_;                     // since the first pose [s]
   int64_t keyframes_ = 0;
   LoopTally tally_;
-  std::vector<std::array<double, 1>> keyframe_ms_;
+  std::vector<double> keyframe_ms_;
 };
 
 }  // namespace plm_vins

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "offline/results/pipeline_timings.h"
+#include "offline/results/frame_columns.h"
 #include "offline/results/result_folder.h"
 #include "vins_estimator/output/calibrated_config.h"
 #include "vins_estimator/output/config_json.h"
@@ -23,60 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kTrackImageQuality = 70;  // JPEG; a few ten kB for each image
-
-void SetPointTracking(const PointTrackerStatistics& points, FrameCounts* counts) {
-  (*counts)[kPointsFollowed] = points.previous - points.flow_lost - points.forward_backward -
-                               points.epipolar_outliers - points.crowded;
-  (*counts)[kPointsFlowLost] = points.flow_lost;
-  (*counts)[kPointsNotBack] = points.forward_backward;
-  (*counts)[kPointsEpipolar] = points.epipolar_outliers;
-  (*counts)[kPointsCrowded] = points.crowded;
-  (*counts)[kPointsAdded] = points.detected;
-}
-
-void SetMerging(const LineMergingCounts& merging, FrameCounts* counts) {
-  (*counts)[kLinesMerged] = merging.merged;
-  (*counts)[kMergeCandidates] = merging.candidates;
-  (*counts)[kMergeOtherDirection] = merging.other_direction;
-  (*counts)[kMergeDistant] = merging.distant;
-  (*counts)[kMergeApart] = merging.apart;
-  (*counts)[kMergeDistantInImage] = merging.distant_in_image;
-  (*counts)[kMergeSideBySide] = merging.seen_side_by_side;
-  (*counts)[kMergeInconsistent] = merging.inconsistent;
-}
-
-FrameCounts MakeCounts(const PipelineFrame& frame) {
-  const EstimatorCounts& estimator = frame.output.counts;
-  const LineTrackerStatistics& lines = frame.line_tracking;
-  FrameCounts counts{};
-  SetPointTracking(frame.point_tracking, &counts);
-  counts[kPointsObserved] = estimator.points_observed;
-  counts[kPointsInWindow] = estimator.points_in_window;
-  counts[kPointsRejected] = estimator.points_rejected;
-  counts[kRightUsed] = estimator.right.used;
-  counts[kRightRejected] = estimator.right.rejected;
-  counts[kDepthsUsed] = estimator.depth.used;
-  counts[kDepthsRejected] = estimator.depth.rejected;
-  counts[kLinesFollowed] =
-      lines.previous - lines.match_lost - lines.inconsistent - lines.edge_lost - lines.duplicates;
-  counts[kLinesUnmatched] = lines.match_lost;
-  counts[kLinesOffCourse] = lines.inconsistent;
-  counts[kLinesEdgeLost] = lines.edge_lost;
-  counts[kLinesDuplicate] = lines.duplicates;
-  counts[kLinesDetected] = lines.candidates;
-  counts[kLinesAdded] = lines.added;
-  counts[kLinesObserved] = estimator.lines_observed;
-  counts[kLinesTriangulated] = estimator.line_triangulation.triangulated;
-  counts[kLinesDegenerate] = estimator.line_triangulation.degenerate;
-  counts[kLinesBehind] = estimator.line_triangulation.behind;
-  counts[kLinesInconsistent] = estimator.line_triangulation.inconsistent;
-  counts[kLinesTooLong] = estimator.line_triangulation.too_long;
-  SetMerging(estimator.line_merging, &counts);
-  counts[kLinesRecognized] = estimator.lines_recognized;
-  counts[kLinesInWindow] = estimator.lines_in_window;
-  counts[kLinesRejected] = estimator.lines_rejected;
-  return counts;
-}
 
 // Returns the landmarks that stay in the window. Departed ones are reported with the frame that
 // removes them.
@@ -118,8 +64,9 @@ ResultFiles::ResultFiles(const std::string& folder, const std::string& config_fi
       trajectory_(File("trajectory.tum")),
       covariance_(File("covariance.csv"), CovarianceHeader()),
       timing_(File("timing.csv")),
-      map_(File("map.ply")) {
-  WriteFrameHeader(&timing_.stream());
+      map_(File("map.ply")),
+      summary_(ColumnsOf(PipelineFrame())) {
+  WriteFrameHeader(ColumnsOf(PipelineFrame()), &timing_.stream());
 }
 
 std::string ResultFiles::File(const std::string& name) const {
@@ -128,10 +75,9 @@ std::string ResultFiles::File(const std::string& name) const {
 
 void ResultFiles::Add(const PipelineFrame& frame) {
   const EstimatorOutput& output = frame.output;
-  const FrameTimings timings = TimingsOf(frame);
-  const FrameCounts counts = MakeCounts(frame);
-  WriteFrameRow(output.t_ns, timings, counts, &timing_.stream());
-  summary_.Add(output, timings, counts);
+  const FrameColumns columns = ColumnsOf(frame);
+  WriteFrameRow(output.t_ns, columns, &timing_.stream());
+  summary_.Add(output, columns);
   if (output.restarted) {
     trajectory_.Comment(FormatTumRestart(output.reason));
     EndWorld();

@@ -5,18 +5,17 @@
 
 namespace plm_vins {
 
-void WriteFrameHeader(std::ostream* stream) {
+void WriteFrameHeader(const FrameColumns& columns, std::ostream* stream) {
   *stream << "stamp_ns";
-  for (const char* name : kTimingNames) *stream << "," << name;
-  for (const char* name : kCountNames) *stream << "," << name;
+  for (const auto& timing : columns.timings) *stream << "," << timing.name;
+  for (const auto& count : columns.counts) *stream << "," << count.name;
   *stream << "\n";
 }
 
-void WriteFrameRow(int64_t t_ns, const FrameTimings& timings, const FrameCounts& counts,
-                   std::ostream* stream) {
+void WriteFrameRow(int64_t t_ns, const FrameColumns& columns, std::ostream* stream) {
   *stream << t_ns;
-  for (const double milliseconds : timings) *stream << Format(",%.4f", milliseconds);
-  for (const int count : counts) *stream << "," << count;
+  for (const auto& timing : columns.timings) *stream << Format(",%.4f", timing.value);
+  for (const auto& count : columns.counts) *stream << "," << count.value;
   *stream << "\n";
 }
 

@@ -44,21 +44,36 @@ Json CalibrationToJson(const Calibration& calibration) {
   return json;
 }
 
-Json TimingsToJson(const std::vector<FrameTimings>& frames) {
+using Series = std::vector<Column<std::vector<double>>>;
+
+template <typename T>
+Series NamesOf(const std::vector<Column<T>>& columns) {
+  Series series;
+  for (const Column<T>& column : columns) series.push_back({column.name, {}});
+  return series;
+}
+
+template <typename T>
+void Append(const std::vector<Column<T>>& columns, Series* series) {
+  for (size_t i = 0; i < series->size(); ++i) {
+    (*series)[i].value.push_back(static_cast<double>(columns[i].value));
+  }
+}
+
+Json TimingsToJson(const Series& timings) {
   Json json;
-  for (size_t stage = 0; stage < kTimingStages; ++stage) {
-    const SeriesSummary summary = Summarize(frames, stage);
-    json[kTimingNames[stage]] = {
-        {"mean", summary.mean}, {"p95", summary.p95}, {"p99", summary.p99}};
+  for (const auto& stage : timings) {
+    const SeriesSummary summary = Summarize(stage.value);
+    json[stage.name] = {{"mean", summary.mean}, {"p95", summary.p95}, {"p99", summary.p99}};
   }
   return json;
 }
 
-Json CountsToJson(const std::vector<FrameCounts>& frames) {
+Json CountsToJson(const Series& counts) {
   Json json;
-  for (size_t count = 0; count < kFrameCounts; ++count) {
-    const SeriesSummary summary = Summarize(frames, count);
-    json[kCountNames[count]] = {{"mean", summary.mean}, {"median", summary.median}};
+  for (const auto& count : counts) {
+    const SeriesSummary summary = Summarize(count.value);
+    json[count.name] = {{"mean", summary.mean}, {"median", summary.median}};
   }
   return json;
 }
@@ -77,11 +92,14 @@ Json RingsToJson(const std::vector<ResidualRing>& rings) {
 
 }  // namespace
 
-void RunSummary::Add(const EstimatorOutput& output, const FrameTimings& timings,
-                     const FrameCounts& counts) {
+RunSummary::RunSummary(const FrameColumns& columns)
+    : timings_(NamesOf(columns.timings)), counts_(NamesOf(columns.counts)) {}
+
+void RunSummary::Add(const EstimatorOutput& output, const FrameColumns& columns) {
   ++frames_;
-  timings_.push_back(timings);
-  counts_.push_back(counts);
+  points_ += output.counts.points_observed;
+  Append(columns.timings, &timings_);
+  Append(columns.counts, &counts_);
   if (last_frame_ns_) duration_ns_ += Elapsed(*last_frame_ns_, output.t_ns);
   last_frame_ns_ = output.t_ns;
   if (!output.reason.empty()) last_reason_ = output.reason;
@@ -129,7 +147,7 @@ Json RunSummary::ToJson(const Run& run) const {
   json["path_length_m"] = path_length_;
   json["standstill_share"] = Ratio(static_cast<double>(stationary_), static_cast<double>(poses_));
   json["points"] = run.map_points;
-  json["points_per_frame"] = Summarize(counts_, kPointsObserved).mean;
+  json["points_per_frame"] = Ratio(static_cast<double>(points_), static_cast<double>(frames_));
   json["lines"] = run.map_lines;
   json["merged_lines"] = merged_lines_;
   json["recognized_lines"] = recognized_lines_;

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "common/streams/drop_counts.h"
-#include "vins_estimator/output/frame_counts.h"
-#include "vins_estimator/output/frame_timings.h"
+#include "vins_estimator/output/frame_columns.h"
 #include "vins_estimator/output/json.h"
 #include "vins_estimator/state/estimator_output.h"
 #include "vins_estimator/state/residual_ring.h"
@@ -18,8 +17,11 @@ namespace plm_vins {
 // Accumulates summary.json frame by frame. Stores only the timings and counts of each frame.
 class RunSummary {
  public:
+  // `columns` has the names of the columns of each frame.
+  explicit RunSummary(const FrameColumns& columns = {});
+
   // Adds a frame; frames must be in order of time.
-  void Add(const EstimatorOutput& output, const FrameTimings& timings, const FrameCounts& counts);
+  void Add(const EstimatorOutput& output, const FrameColumns& columns);
 
   int64_t frames() const { return frames_; }
   int64_t poses() const { return poses_; }
@@ -45,6 +47,7 @@ class RunSummary {
   void AddPose(const EstimatorOutput& output);
 
   int64_t frames_ = 0;
+  int64_t points_ = 0;  // observed, sum over all frames
   int64_t poses_ = 0;
   int64_t stationary_ = 0;
   int64_t keyframes_ = 0;
@@ -63,8 +66,8 @@ class RunSummary {
   std::optional<int64_t> last_frame_ns_;
   int64_t duration_ns_ = 0;
   std::string last_reason_;
-  std::vector<FrameTimings> timings_;
-  std::vector<FrameCounts> counts_;
+  // One value for each frame.
+  std::vector<Column<std::vector<double>>> timings_, counts_;
 };
 
 }  // namespace plm_vins

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -17,13 +16,8 @@ struct SeriesSummary {
   double p99 = 0;
 };
 
-// Summarizes entry `index` of each frame's values.
-template <typename T, size_t kSize>
-SeriesSummary Summarize(const std::vector<std::array<T, kSize>>& frames, size_t index) {
-  if (frames.empty()) return {};
-  std::vector<double> values;
-  values.reserve(frames.size());
-  for (const auto& frame : frames) values.push_back(static_cast<double>(frame[index]));
+inline SeriesSummary Summarize(std::vector<double> values) {
+  if (values.empty()) return {};
   std::sort(values.begin(), values.end());
   const auto count = static_cast<double>(values.size());
   const auto quantile = [&](double share) {

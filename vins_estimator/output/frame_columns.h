@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+namespace plm_vins {
+
+// A value of one frame and the name of its column in timing.csv.
+template <typename T>
+struct Column {
+  const char* name;
+  T value;
+};
+
+// The row of timing.csv of one frame; all frames have the same columns.
+struct FrameColumns {
+  std::vector<Column<double>> timings;  // of the stages [ms]
+  std::vector<Column<int>> counts;      // of features
+};
+
+}  // namespace plm_vins

@@ -23,10 +23,10 @@ debian_packages=(
 noetic_packages=(
   ros-noetic-catkin ros-noetic-cv-bridge ros-noetic-diagnostic-updater
   ros-noetic-dynamic-reconfigure ros-noetic-geometry-msgs ros-noetic-image-transport
-  ros-noetic-nav-msgs ros-noetic-nodelet ros-noetic-pluginlib ros-noetic-rosbag ros-noetic-roscpp
-  ros-noetic-roslaunch ros-noetic-roslz4 ros-noetic-rosnode ros-noetic-rostest ros-noetic-rviz
-  ros-noetic-sensor-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2-msgs ros-noetic-tf2-ros
-  ros-noetic-tf2-tools ros-noetic-visualization-msgs)
+  ros-noetic-nav-msgs ros-noetic-nodelet ros-noetic-pluginlib ros-noetic-rosbag ros-noetic-rosbash
+  ros-noetic-roscpp ros-noetic-roslaunch ros-noetic-roslz4 ros-noetic-rosnode ros-noetic-rostest
+  ros-noetic-rviz ros-noetic-sensor-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2-msgs
+  ros-noetic-tf2-ros ros-noetic-tf2-tools ros-noetic-visualization-msgs)
 
 install_packages() {
   local missing=() as_root=() package status

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -83,5 +84,18 @@ class BinaryReader {
 
   std::istream* stream_;
 };
+
+// Reads or writes numbers, and all numbers of matrices, in this order.
+template <typename Archive, typename... Items>
+void Values(Archive* archive, Items&... items) {
+  const auto one = [archive](auto& item) {
+    if constexpr (std::is_class_v<std::decay_t<decltype(item)>>) {
+      for (Eigen::Index i = 0; i < item.size(); ++i) archive->Value(item.data()[i]);
+    } else {
+      archive->Value(item);
+    }
+  };
+  (one(items), ...);
+}
 
 }  // namespace plm_vins

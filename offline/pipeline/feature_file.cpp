@@ -46,87 +46,49 @@ ItemKind KindOf(const TrackedFeatures& frame) {
 }
 
 // Layouts for reading and writing; Struct is const for writing.
-template <typename Archive, typename Vector>
-void Coordinates(Archive* archive, Vector& vector) {
-  for (Eigen::Index i = 0; i < vector.size(); ++i) archive->Value(vector[i]);
-}
-
 template <typename Archive, typename Struct>
 void Imu(Archive* archive, Struct& sample) {
-  archive->Value(sample.t_ns);
-  Coordinates(archive, sample.gyro);
-  Coordinates(archive, sample.accel);
+  Values(archive, sample.t_ns, sample.gyro, sample.accel);
 }
 
 template <typename Archive, typename Struct>
 void Tracking(Archive* archive, Struct& tracked) {
-  archive->Value(tracked.features.t_ns);
-  archive->Value(tracked.restart);
-  archive->Value(tracked.publish);
-  archive->Value(tracked.tracking_ms);
-}
-
-template <typename Archive, typename Struct>
-void PointStatistics(Archive* archive, Struct& statistics) {
-  archive->Value(statistics.previous);
-  archive->Value(statistics.flow_lost);
-  archive->Value(statistics.forward_backward);
-  archive->Value(statistics.epipolar_outliers);
-  archive->Value(statistics.crowded);
-  archive->Value(statistics.detected);
+  Values(archive, tracked.features.t_ns, tracked.restart, tracked.publish, tracked.tracking_ms);
 }
 
 template <typename Archive, typename Struct>
 void Points(Archive* archive, Struct& tracked) {
   Tracking(archive, tracked);
-  PointStatistics(archive, tracked.statistics);
+  auto& s = tracked.statistics;
+  Values(archive, s.previous, s.flow_lost, s.forward_backward, s.epipolar_outliers, s.crowded,
+         s.detected);
   archive->List(tracked.features.points, [](auto* a, auto& point) {
-    a->Value(point.id);
-    Coordinates(a, point.xy);
-    Coordinates(a, point.uv_px);
-    Coordinates(a, point.velocity);
+    Values(a, point.id, point.xy, point.uv_px, point.velocity);
   });
-}
-
-template <typename Archive, typename Struct>
-void LineStatistics(Archive* archive, Struct& statistics) {
-  archive->Value(statistics.previous);
-  archive->Value(statistics.match_lost);
-  archive->Value(statistics.inconsistent);
-  archive->Value(statistics.edge_lost);
-  archive->Value(statistics.duplicates);
-  archive->Value(statistics.detected);
-  archive->Value(statistics.fragments);
-  archive->Value(statistics.candidates);
-  archive->Value(statistics.added);
-  archive->Value(statistics.detection_ms);
 }
 
 template <typename Archive, typename Struct>
 void Lines(Archive* archive, Struct& tracked) {
   Tracking(archive, tracked);
-  LineStatistics(archive, tracked.statistics);
-  archive->List(tracked.features.lines, [](auto* a, auto& line) {
-    a->Value(line.id);
-    Coordinates(a, line.start);
-    Coordinates(a, line.end);
-  });
+  auto& s = tracked.statistics;
+  Values(archive, s.previous, s.match_lost, s.inconsistent, s.edge_lost, s.duplicates, s.detected,
+         s.fragments, s.candidates, s.added, s.detection_ms);
+  archive->List(tracked.features.lines,
+                [](auto* a, auto& line) { Values(a, line.id, line.start, line.end); });
 }
 
-// Layout of the observations by further sensors, for each point and line in their order.
+// One for each point and line of the item, in their order.
 template <typename Archive, typename Struct>
 void Companions(Archive* archive, Struct& frame) {
   for (auto& point : frame.points.features.points) {
     archive->Value(point.right_search);
-    if (archive->Has(point.right)) Coordinates(archive, *point.right);
-    if (archive->Has(point.depth)) archive->Value(*point.depth);
+    if (archive->Has(point.right)) Values(archive, *point.right);
+    if (archive->Has(point.depth)) Values(archive, *point.depth);
   }
   if (!frame.lines) return;
   for (auto& line : frame.lines->features.lines) {
     if (!archive->Has(line.right)) continue;
-    Coordinates(archive, line.right->start);
-    Coordinates(archive, line.right->end);
-    Coordinates(archive, line.right->deviation);
+    Values(archive, line.right->start, line.right->end, line.right->deviation);
   }
 }
 

@@ -32,63 +32,47 @@ uint64_t Checksum(const std::string& bytes) {
 }
 
 // Layouts for reading, writing and checking; Struct is const for writing.
-template <typename Archive, typename Matrix>
-void Numbers(Archive* archive, Matrix& matrix) {
-  for (Eigen::Index i = 0; i < matrix.size(); ++i) archive->Value(matrix.data()[i]);
-}
-
 template <typename Archive, typename Struct>
 void Pose(Archive* archive, Struct& transform) {
-  Numbers(archive, transform.translation);
-  Numbers(archive, transform.rotation.coeffs());
+  Values(archive, transform.translation, transform.rotation.coeffs());
 }
 
 template <typename Archive, typename Struct>
 void Level(Archive* archive, Struct& transform) {
-  archive->Value(transform.yaw);
-  Numbers(archive, transform.translation);
+  Values(archive, transform.yaw, transform.translation);
 }
 
 template <typename Archive, typename Struct>
 void Corner(Archive* archive, Struct& corner) {
-  archive->Value(corner.track);
-  Numbers(archive, corner.uv_px);
-  Numbers(archive, corner.xy);
-  if (archive->Has(corner.p_O)) Numbers(archive, *corner.p_O);
+  Values(archive, corner.track, corner.uv_px, corner.xy);
+  if (archive->Has(corner.p_O)) Values(archive, *corner.p_O);
   for (auto& word : corner.descriptor) archive->Value(word);
 }
 
 template <typename Archive, typename Struct>
 void Segment(Archive* archive, Struct& segment) {
-  archive->Value(segment.observation.id);
-  Numbers(archive, segment.observation.start);
-  Numbers(archive, segment.observation.end);
+  auto& observation = segment.observation;
+  Values(archive, observation.id, observation.start, observation.end);
   if (!archive->Has(segment.landmark)) return;
-  Numbers(archive, segment.landmark->start_O);
-  Numbers(archive, segment.landmark->end_O);
+  Values(archive, segment.landmark->start_O, segment.landmark->end_O);
 }
 
 template <typename Archive, typename Struct>
 void Frame(Archive* archive, Struct& keyframe) {
-  archive->Value(keyframe.t_ns);
-  archive->Value(keyframe.world);
-  archive->Value(keyframe.path);
+  Values(archive, keyframe.t_ns, keyframe.world, keyframe.path);
   Pose(archive, keyframe.T_O_B);
-  Numbers(archive, keyframe.covariance);
+  Values(archive, keyframe.covariance);
   Pose(archive, keyframe.T_B_C);
-  if (archive->Has(keyframe.R_O_Manhattan)) Numbers(archive, keyframe.R_O_Manhattan->coeffs());
+  if (archive->Has(keyframe.R_O_Manhattan)) Values(archive, keyframe.R_O_Manhattan->coeffs());
   archive->List(keyframe.corners, [](auto* a, auto& corner) { Corner(a, corner); });
   archive->List(keyframe.segments, [](auto* a, auto& segment) { Segment(a, segment); });
 }
 
 template <typename Archive, typename Struct>
 void Edge(Archive* archive, Struct& edge) {
-  archive->Value(edge.from);
-  archive->Value(edge.to);
+  Values(archive, edge.from, edge.to);
   Level(archive, edge.T_from_to);
-  Numbers(archive, edge.covariance);
-  archive->Value(edge.is_loop);
-  archive->Value(edge.way);
+  Values(archive, edge.covariance, edge.is_loop, edge.way);
 }
 
 template <typename Archive, typename Keyframes, typename Nodes, typename Edges>

@@ -9,7 +9,7 @@ namespace plm_vins {
 enum class SolverType { kSchur, kCeres };
 
 struct EstimatorConfig {
-  int window_size = 12;             // keyframes in the window, in addition to the newest frame
+  int window_size = 16;             // keyframes in the window, in addition to the newest frame
   double keyframe_parallax = 20.0;  // mean parallax that makes a keyframe [px]
   int max_num_iterations = 8;       // maximum iterations of the window optimization
   SolverType solver = SolverType::kSchur;

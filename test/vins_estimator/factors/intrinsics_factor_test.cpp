@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "common/geometry/so3.h"
 #include "simulator/default_sensors.h"
-#include "test/testing/cost_function_check.h"
+#include "common/geometry/so3.h"
+#include "test/vins_estimator/factors/factor_scene.h"
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/point_factor.h"
 
@@ -18,6 +18,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using testing::Block;
+using testing::ScalarBlock;
 
 constexpr double kWeight = 2;
 
@@ -31,11 +32,8 @@ class IntrinsicsFactorTest : public ::testing::Test {
     intrinsics_ += camera_->parameters().intrinsics();
   }
 
-  static Block Scalar(double value) { return Block::Constant(1, value); }
-
   Block LineBlock() const {
-    const OrthonormalLine line = ToOrthonormal(LineThrough({0.4, -0.8, 4}, {-1, 0.8, 5}));
-    return Eigen::Map<const Eigen::Matrix<double, kLineSize, 1>>(line.data());
+    return testing::LineBlockOf(LineThrough({0.4, -0.8, 4}, {-1, 0.8, 5}));
   }
 
   template <typename Inner>
@@ -65,9 +63,9 @@ class IntrinsicsFactorTest : public ::testing::Test {
 TEST_F(IntrinsicsFactorTest, AtTheIntrinsicsOfTheRaysIsTheFactorItself) {
   const Block reference = camera_->parameters().intrinsics();
   const auto point = Point(PointHostFactor(bearing_, kWeight));
-  EXPECT_MATRIX_NEAR(testing::Residual(point, {Scalar(0.02), point_, reference}),
-                     testing::Residual(PointHostFactor(bearing_, kWeight), {Scalar(0.02), point_}),
-                     1e-12);
+  EXPECT_MATRIX_NEAR(
+      testing::Residual(point, {ScalarBlock(0.02), point_, reference}),
+      testing::Residual(PointHostFactor(bearing_, kWeight), {ScalarBlock(0.02), point_}), 1e-12);
   const auto line = Line<LineHostFactor>();
   EXPECT_MATRIX_NEAR(testing::Residual(line, {LineBlock(), reference}),
                      testing::Residual(LineHostFactor(view_, kWeight), {LineBlock()}), 1e-12);
@@ -80,8 +78,9 @@ TEST_F(IntrinsicsFactorTest, KeepsPixelsWithOtherIntrinsics) {
   moved_bearing.xy = Recalibrated(bearing_.xy, near);
   const auto point = Point(PointHostFactor(bearing_, kWeight));
   EXPECT_MATRIX_NEAR(
-      testing::Residual(point, {Scalar(0.02), point_, near}),
-      testing::Residual(PointHostFactor(moved_bearing, kWeight), {Scalar(0.02), point_}), 1e-5);
+      testing::Residual(point, {ScalarBlock(0.02), point_, near}),
+      testing::Residual(PointHostFactor(moved_bearing, kWeight), {ScalarBlock(0.02), point_}),
+      1e-5);
   const LineSegmentView moved_view{Recalibrated(view_.start, near), Recalibrated(view_.end, near)};
   const auto line = Line<LineHostFactor>();
   EXPECT_MATRIX_NEAR(testing::Residual(line, {LineBlock(), near}),
@@ -90,10 +89,10 @@ TEST_F(IntrinsicsFactorTest, KeepsPixelsWithOtherIntrinsics) {
 
 TEST_F(IntrinsicsFactorTest, HasExactJacobiansForPoints) {
   const auto host = Point(PointHostFactor(bearing_, kWeight));
-  testing::ExpectTangentJacobians(host, {Scalar(0.03), point_, intrinsics_}, 1e-7);
+  testing::ExpectTangentJacobians(host, {ScalarBlock(0.03), point_, intrinsics_}, 1e-7);
   const auto target = Point(PointFactor(bearing_, kWeight));
   testing::ExpectTangentJacobians(
-      target, {identity_, turned_, identity_, Scalar(0.03), point_, intrinsics_}, 1e-7);
+      target, {identity_, turned_, identity_, ScalarBlock(0.03), point_, intrinsics_}, 1e-7);
 }
 
 TEST_F(IntrinsicsFactorTest, HasExactJacobiansForLines) {
@@ -113,10 +112,9 @@ TEST_F(IntrinsicsFactorTest, KeepsRaysOutsideTheFieldOfView) {
 
 TEST_F(IntrinsicsFactorTest, FailsWhereTheFactorFails) {
   const auto line = Line<LineHostFactor>();
-  const OrthonormalLine nowhere = ToOrthonormal({{0, 0, 1}, {1, 0, 0}});  // at infinity
-  const Block block = Eigen::Map<const Eigen::Matrix<double, kLineSize, 1>>(nowhere.data());
+  const Block at_infinity = testing::LineBlockOf({{0, 0, 1}, {1, 0, 0}});
   Vector2d residual;
-  const std::vector<Block> blocks = {block, intrinsics_};
+  const std::vector<Block> blocks = {at_infinity, intrinsics_};
   EXPECT_FALSE(line.Evaluate(testing::Pointers(blocks).data(), residual.data(), nullptr));
 }
 

@@ -3,10 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/geometry/rigid3.h"
 #include "common/geometry/so3.h"
-#include "simulator/random.h"
-#include "test/testing/cost_function_check.h"
+#include "test/vins_estimator/factors/factor_scene.h"
 
 namespace plm_vins {
 namespace {
@@ -26,16 +24,9 @@ struct Scene {
 
   std::vector<Block> Blocks(double sign = 1) const {
     const Rigid3d T_W_C = T_W_B * T_B_C;
-    const OrthonormalLine line =
-        ToOrthonormal(T_W_C.Inverse() * LineThrough(point_W, point_W + sign * direction_W));
-    return {PoseBlockOf(T_W_B), PoseBlockOf(T_B_C),
-            Eigen::Map<const Eigen::Matrix<double, kLineSize, 1>>(line.data())};
-  }
-
-  static Block PoseBlockOf(const Rigid3d& T) {
-    Block block(kPoseSize);
-    block << T.translation, T.rotation.coeffs();
-    return block;
+    const PluckerLine line_W = LineThrough(point_W, point_W + sign * direction_W);
+    return {testing::PoseBlockOf(T_W_B), testing::PoseBlockOf(T_B_C),
+            testing::LineBlockOf(T_W_C.Inverse() * line_W)};
   }
 
   Rigid3d T_W_B, T_B_C;

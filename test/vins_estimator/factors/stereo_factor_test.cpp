@@ -3,70 +3,24 @@
 
 #include <gtest/gtest.h>
 
-#include "common/geometry/rigid3.h"
-#include "common/geometry/so3.h"
 #include "simulator/random.h"
-#include "test/testing/cost_function_check.h"
+#include "test/vins_estimator/factors/factor_scene.h"
 
 namespace plm_vins {
 namespace {
 
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 using testing::Block;
+using testing::FactorScene;
+using testing::Joined;
+using testing::ScalarBlock;
 
 constexpr double kStep = 1e-6;
-
-Block Scalar(double value) { return Block::Constant(1, value); }
-
-Block PoseBlock(const Rigid3d& T) {
-  Block block(7);
-  block << T.translation, T.rotation.coeffs();
-  return block;
-}
-
-Block PointBlock(const Vector3d& p_C) {
-  return Vector3d(p_C.x() / p_C.z(), p_C.y() / p_C.z(), 1 / p_C.z());
-}
-
-Block LineBlock(const PluckerLine& line) {
-  const OrthonormalLine coordinates = ToOrthonormal(line);
-  return Eigen::Map<const Eigen::Matrix<double, kLineSize, 1>>(coordinates.data());
-}
-
-// A stereo camera on a body at two poses, and two points that both see.
-struct Scene {
-  explicit Scene(uint64_t seed) {
-    simulator::Random random(seed);
-    const auto rotation = [&random](double scale) {
-      return SO3Exp(scale * random.NormalVector3());
-    };
-    const auto point = [&random]() {
-      const double x = random.Normal(), y = random.Normal();
-      return Vector3d(x, y, random.Uniform(3, 8));
-    };
-    T_W_Bh = {rotation(1.0), random.NormalVector3()};
-    T_W_Bt = T_W_Bh * Rigid3d(rotation(0.1), 0.3 * random.NormalVector3());
-    T_B_C = {rotation(0.3), 0.1 * random.NormalVector3()};
-    T_C_C1 = {rotation(0.05), Vector3d(0.2, 0, 0) + 0.05 * random.NormalVector3()};
-    p_Ch = point();
-    q_Ch = point();
-  }
-
-  Vector3d InTarget(const Vector3d& p) const {
-    return (T_W_Bt * T_B_C).Inverse() * (T_W_Bh * (T_B_C * p));
-  }
-  Vector3d InRight(const Vector3d& p_C) const { return T_C_C1.Inverse() * p_C; }
-  Vector2d SeenInRight(const Vector3d& p_C) const { return InRight(p_C).hnormalized(); }
-
-  Rigid3d T_W_Bh, T_W_Bt, T_B_C, T_C_C1;
-  Vector3d p_Ch, q_Ch;
-};
 
 TEST(Mounting, PlusTurnsAndStretchesTheBaselineAndMinusInvertsIt) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     simulator::Random random(seed);
-    const Block x = PoseBlock(Scene(seed).T_C_C1);
+    const Block x = FactorScene(seed).Mounting();
     Eigen::VectorXd delta(kPoseTangentSize);
     for (double& value : delta) value = random.Uniform(-0.5, 0.5);
     Block y = x;
@@ -81,51 +35,47 @@ TEST(Mounting, PlusTurnsAndStretchesTheBaselineAndMinusInvertsIt) {
 TEST(RightPointFactor, IsTheWeightedReprojectionErrorInTheSecondCamera) {
   const Vector2d error(0.001, -0.002), velocity(0.5, 0.3);
   for (uint64_t seed = 1; seed <= 10; ++seed) {
-    const Scene s(seed);
-    const Block point = PointBlock(s.p_Ch), mounting = PoseBlock(s.T_C_C1);
+    const FactorScene s(seed);
+    const Block point = s.Point(), mounting = s.Mounting();
     const RightPointFactor target(
         {s.SeenInRight(s.InTarget(s.p_Ch)) - error, velocity, /*cut_time_offset=*/0.02}, 100);
-    const std::vector<Block> blocks = {PoseBlock(s.T_W_Bh), PoseBlock(s.T_W_Bt),
-                                       PoseBlock(s.T_B_C),  mounting,
-                                       Scalar(0.03),        point};
+    const std::vector<Block> blocks = Joined(s.Poses(), {mounting, ScalarBlock(0.03), point});
     EXPECT_MATRIX_NEAR(testing::Residual(target, blocks), 100 * (error + 0.01 * velocity), 1e-9);
     const RightPointHostFactor host({s.SeenInRight(s.p_Ch) - error, velocity, 0.02}, 100);
-    EXPECT_MATRIX_NEAR(testing::Residual(host, {mounting, Scalar(0.03), point}),
+    EXPECT_MATRIX_NEAR(testing::Residual(host, {mounting, ScalarBlock(0.03), point}),
                        100 * (error + 0.01 * velocity), 1e-9);
   }
 }
 
 TEST(RightPointFactor, JacobiansAreExactFarFromTheTruth) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    const Scene s(seed);
+    const FactorScene s(seed);
     const TimedBearing bearing{Vector2d(0.2, -0.1), {0.5, 0.3}, 0};
-    const Block point = PointBlock(s.p_Ch), mounting = PoseBlock(s.T_C_C1), td = Scalar(0.05);
-    testing::ExpectTangentJacobians(
-        RightPointFactor(bearing, 2.0),
-        {PoseBlock(s.T_W_Bh), PoseBlock(s.T_W_Bt), PoseBlock(s.T_B_C), mounting, td, point}, 1e-7,
-        kStep, /*mounting=*/3);
+    const Block point = s.Point(), mounting = s.Mounting(), td = ScalarBlock(0.05);
+    testing::ExpectTangentJacobians(RightPointFactor(bearing, 2.0),
+                                    Joined(s.Poses(), {mounting, td, point}), 1e-7, kStep,
+                                    /*mounting=*/3);
     testing::ExpectTangentJacobians(RightPointHostFactor(bearing, 2.0), {mounting, td, point}, 1e-7,
                                     kStep, /*mounting=*/0);
   }
 }
 
 TEST(RightPointFactor, RejectsPointsThatAreNotInFrontOfTheSecondCamera) {
-  Scene s(1);
+  FactorScene s(1);
   s.T_C_C1.rotation = SO3Exp({0, M_PI, 0});
   const RightPointHostFactor factor({{0, 0}, {0, 0}, 0}, 460);
-  const std::vector<Block> blocks = {PoseBlock(s.T_C_C1), Scalar(0), PointBlock(s.p_Ch)};
+  const std::vector<Block> blocks = {s.Mounting(), ScalarBlock(0), s.Point()};
   Vector2d residual;
   EXPECT_FALSE(factor.Evaluate(testing::Pointers(blocks).data(), residual.data(), nullptr));
 }
 
 TEST(RightLineFactor, VanishesAtTheTruthAndWeighsBothEnds) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
-    const Scene s(seed);
-    const Block line = LineBlock(LineThrough(s.p_Ch, s.q_Ch)), mounting = PoseBlock(s.T_C_C1);
+    const FactorScene s(seed);
+    const Block line = s.Line(), mounting = s.Mounting();
     const LineSegmentView truth{s.SeenInRight(s.InTarget(s.p_Ch)),
                                 s.SeenInRight(s.InTarget(s.q_Ch))};
-    const std::vector<Block> blocks = {PoseBlock(s.T_W_Bh), PoseBlock(s.T_W_Bt), PoseBlock(s.T_B_C),
-                                       mounting, line};
+    const std::vector<Block> blocks = Joined(s.Poses(), {mounting, line});
     EXPECT_TRUE(testing::Residual(RightLineFactor(truth, {460, 460}), blocks).isZero(1e-9));
     const Vector2d along = (truth.end - truth.start).normalized(), across(-along.y(), along.x());
     const LineSegmentView view{truth.start + 0.001 * across, truth.end + 0.001 * across};
@@ -140,12 +90,11 @@ TEST(RightLineFactor, VanishesAtTheTruthAndWeighsBothEnds) {
 TEST(RightLineFactor, JacobiansAreExactFarFromTheTruth) {
   const LineSegmentView view{{0.2, -0.1}, {-0.3, 0.2}};
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    const Scene s(seed);
-    const Block line = LineBlock(LineThrough(s.p_Ch, s.q_Ch)), mounting = PoseBlock(s.T_C_C1);
-    testing::ExpectTangentJacobians(
-        RightLineFactor(view, {2, 3}),
-        {PoseBlock(s.T_W_Bh), PoseBlock(s.T_W_Bt), PoseBlock(s.T_B_C), mounting, line}, 1e-6, kStep,
-        /*mounting=*/3);
+    const FactorScene s(seed);
+    const Block line = s.Line(), mounting = s.Mounting();
+    testing::ExpectTangentJacobians(RightLineFactor(view, {2, 3}),
+                                    Joined(s.Poses(), {mounting, line}), 1e-6, kStep,
+                                    /*mounting=*/3);
     testing::ExpectTangentJacobians(RightLineHostFactor(view, {2, 3}), {mounting, line}, 1e-6,
                                     kStep, /*mounting=*/0);
   }
@@ -153,10 +102,9 @@ TEST(RightLineFactor, JacobiansAreExactFarFromTheTruth) {
 
 TEST(DepthFactor, ComparesInverseDepths) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    const Scene s(seed);
-    const Block point = PointBlock(s.p_Ch);
-    const std::vector<Block> blocks = {PoseBlock(s.T_W_Bh), PoseBlock(s.T_W_Bt), PoseBlock(s.T_B_C),
-                                       point};
+    const FactorScene s(seed);
+    const Block point = s.Point();
+    const std::vector<Block> blocks = Joined(s.Poses(), {point});
     const double z = s.InTarget(s.p_Ch).z();
     const DepthFactor target(z + 0.1, 500);
     EXPECT_NEAR(testing::Residual(target, blocks)[0], 500 * (1 / z - 1 / (z + 0.1)), 1e-9);

@@ -26,6 +26,7 @@ constexpr double kMaxDelay = 1e-3;                   // [s]; smaller delays are 
 constexpr double kMinFoundShare = 0.15;
 constexpr double kShareGain = 0.1;  // weight of one image in the mean shares
 constexpr size_t kMinSearches = 8;
+constexpr int64_t kSettlingImages = 3;  // until the estimated mounting and delay have settled
 // Intervals [images] at which tracks without a match are searched for, and matches are confirmed.
 constexpr int kRetryInterval = 4;
 constexpr int kConfirmInterval = 16;
@@ -144,7 +145,9 @@ Eigen::Vector2d StereoMatcher::InTime(const StereoMatch& match) const {
 
 bool StereoMatcher::IsLate() const { return std::abs(mounting_.delay()) > kMaxDelay; }
 
+// The first images may show less of a fault than there is: their matches are not used then.
 bool StereoMatcher::IsTrusted() const {
+  if (searched_ < kSettlingImages && !Finding().empty()) return false;
   return (!shares_ || shares_->found > kMinFoundShare) &&
          std::abs(mounting_.delay()) < kLargestDelay;
 }

@@ -1,0 +1,78 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tests run_offline on simulated flights with a second camera, and with depth images.
+
+Usage: pair_flight_test.py SIMULATE RUN_OFFLINE [unittest option ...]
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "test" / "testing")]
+
+import pair_flight  # noqa: E402
+from evaluation import metrics  # noqa: E402
+from evaluation.trajectory import read_trajectory  # noqa: E402
+
+SIMULATE, RUN_OFFLINE = sys.argv[1:3] if len(sys.argv) > 2 else sys.exit(__doc__)
+SECONDS = 4
+USED = {"stereo": "right_used", "depth": "depths_used"}  # counts of summary.json
+
+
+class PairFlight(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.bag, self.asl = self.folder / "flight.bag", self.folder / "flight"
+
+    def run_offline(self, config, *source):
+        """Returns the trajectory file's bytes and the summary."""
+        results = self.folder / "results"
+        command = [RUN_OFFLINE, "--config", config, *source, "--output", results]
+        result = subprocess.run([str(word) for word in command], stderr=subprocess.PIPE,
+                                encoding="utf-8", check=False)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return ((results / "trajectory.tum").read_bytes(),
+                json.loads((results / "summary.json").read_text(encoding="utf-8")))
+
+    def assert_bag_and_folder_agree(self, config):
+        """Returns the summary."""
+        trajectory, summary = self.run_offline(config, "--bag", self.bag)
+        self.assertEqual(trajectory, self.run_offline(config, "--asl", self.asl)[0])
+        return summary
+
+    def assert_error_is_small(self):
+        poses = read_trajectory(self.folder / "results" / "trajectory.tum")
+        truth = read_trajectory(self.folder / "flight.tum").at(poses.stamps)
+        rotation, translation = metrics.alignment(poses, truth, "se3")
+        errors = metrics.position_errors(poses.transformed(rotation, translation), truth)
+        self.assertLess(errors.mean(), 0.02)
+
+    def assert_uses(self, sensor):
+        config = pair_flight.write_config(self.folder, sensor)
+        pair_flight.simulate(SIMULATE, config, sensor, SECONDS, "--output", self.bag, "--asl",
+                             self.asl)
+        summary = self.assert_bag_and_folder_agree(config)
+        self.assertGreater(summary["counts"][USED[sensor]]["median"], 100)
+        self.assertEqual(summary["findings"], [])
+        self.assertGreater(summary["poses"], summary["frames"] - 16)
+        self.assert_error_is_small()
+        summary = self.assert_bag_and_folder_agree(ROOT / "config" / "euroc.yaml")
+        for count in USED.values():
+            self.assertEqual(summary["counts"][count]["mean"], 0)
+
+    def test_second_camera(self):
+        self.assert_uses("stereo")
+
+    def test_depth(self):
+        self.assert_uses("depth")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

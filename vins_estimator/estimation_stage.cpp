@@ -9,6 +9,7 @@
 #include "vins_estimator/estimator.h"
 #include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/initialization/rotation_check.h"
+#include "vins_estimator/monitoring/companion_report.h"
 #include "vins_estimator/monitoring/contradiction_report.h"
 #include "vins_estimator/uncertainty/imu_noise_estimate.h"
 
@@ -159,22 +160,8 @@ std::vector<ResidualRing> EstimationStage::ResidualRings() const {
   return estimator_->lens().Rings();
 }
 
-std::string EstimationStage::SecondCameraFault() const {
-  std::string text;
-  if (second_camera_.misfit_px) {
-    text = Format("it deviates by %.1f px from its calibration and is not used; recalibrate it",
-                  *second_camera_.misfit_px);
-  }
-  if (second_camera_.delay) {
-    text += (text.empty() ? "" : "; ") +
-            Format("it exposes %+.0f ms after the first camera", 1e3 * *second_camera_.delay);
-  }
-  if (second_camera_.baseline) {
-    text += (text.empty() ? "" : "; ") +
-            Format("according to the IMU, its baseline is %+.1f %% longer than configured",
-                   100 * *second_camera_.baseline);
-  }
-  return text.empty() ? "" : "second camera: " + text;
+std::string EstimationStage::CompanionFault() const {
+  return DescribeFaults(second_camera_, depth_);
 }
 
 void EstimationStage::Reset(const std::string& reason) {
@@ -191,6 +178,7 @@ void EstimationStage::StartOver(const std::string& reason) {
   imu_noise_scale_ = 1;
   delay_.reset();
   second_camera_ = {};
+  depth_ = {};
   sync_.SetTimeOffset(estimator_->time_offset());
   if (reinitializing_) return;
   ++resets_;
@@ -226,6 +214,7 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   imu_noise_scale_ = frame.output.imu_noise_scale;
   delay_ = frame.output.delay;
   second_camera_ = frame.output.second_camera;
+  depth_ = frame.output.depth;
   if (frame.output.restarted) ++resets_;
   reinitializing_ = false;
   if (restart_reason_) {

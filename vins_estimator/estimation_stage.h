@@ -74,9 +74,9 @@ class EstimationStage {
   // empty string if nothing is.
   std::string InputFinding() const;
 
-  // Describes what is wrong with the second camera: its calibration, the time of its exposure, or
-  // the length of its baseline. Empty if nothing is.
-  std::string SecondCameraFault() const;
+  // Describes what is wrong with the second camera (its calibration, the time of its exposure, or
+  // the length of its baseline) and with measured depths. Empty if nothing is.
+  std::string CompanionFault() const;
 
   int64_t frames() const { return frames_; }  // images estimated so far
   int64_t resets() const { return resets_; }  // number of abandoned world frames
@@ -111,6 +111,7 @@ class EstimationStage {
   double imu_noise_scale_ = 1;
   std::optional<double> delay_;  // [s]
   SecondCameraFaults second_camera_;
+  DepthFaults depth_;
   int64_t frames_ = 0;
   int64_t frames_repeated_ = 0;  // repeated images, whose features were ignored
   int64_t resets_ = 0;

@@ -56,6 +56,10 @@ FrameMeasurement Estimator::Correct(FrameMeasurement measurement) {
   if (options_.problem.estimate_intrinsics) {
     const CameraParameters& camera = config_.sensor.camera;
     Recalibration(camera, camera.With(window.ray_intrinsics)).Move(&measurement);
+    if (config_.sensor.second_camera) {
+      const CameraParameters& right = config_.sensor.second_camera->camera;
+      Recalibration(right, right.With(window.right_ray_intrinsics)).MoveRight(&measurement);
+    }
   }
   return measurement;
 }

@@ -14,7 +14,7 @@
 #include "vins_estimator/problem/placement_problem.h"
 #include "vins_estimator/problem/problem_builder.h"
 #include "vins_estimator/state/derived_covariance.h"
-#include "vins_estimator/uncertainty/baseline_evidence.h"
+#include "vins_estimator/uncertainty/length_evidence.h"
 #include "vins_estimator/uncertainty/placed_covariance.h"
 #include "vins_estimator/uncertainty/state_covariance.h"
 
@@ -280,11 +280,12 @@ WindowOdometry::Solution WindowOdometry::SolveWindow(const SolverOptions& option
     const double length = (config_->sensor.T_B_C.Inverse() * second->T_B_C).translation.norm();
     baseline_error_ = BaselineError(map.window, length, &equations);
   }
+  if (config_->sensor.depth) depth_faults_ = FaultsOfDepths(map.window, &equations);
   if (config_->estimator.adapt_imu_noise) {
     imu_noise_.Learn(map.window, !started_, &equations);
   }
   if (options_->problem.estimate_intrinsics) {
-    FollowIntrinsics(config_->sensor.camera, options_->max_ray_error, &map);
+    FollowIntrinsics(config_->sensor, options_->max_ray_error, &map);
   }
   solution.milliseconds = stopwatch.Milliseconds();
   return solution;
@@ -379,13 +380,12 @@ EstimatorOutput WindowOdometry::Describe(const Step& step) const {
                           BodyVelocityCovariance(output.state, covariance->block<6, 6>(3, 3)),
                           covariance->bottomRightCorner<6, 6>()};
   }
-  output.calibration = {config_->sensor.camera.With(window.intrinsics), window.T_B_C(),
-                        std::nullopt, window.td};
+  output.calibration = CalibrationIn(window, config_->sensor);
   if (config_->sensor.second_camera) {
-    output.calibration.T_C_C1 = window.T_C_C1();
     output.second_camera = {stereo_monitor_.misfit(), stereo_monitor_.delay(), baseline_error_};
     if (auto& misfit = output.second_camera.misfit_px) *misfit *= options_->focal_length;
   }
+  output.depth = depth_faults_;
   output.R_W_M = structure_.manhattan().R_W_M();
   output.imu_noise = imu_noise_.noise();
   output.imu_noise_scale = imu_agreement_.noise_scale();

@@ -130,7 +130,8 @@ class WindowOdometry {
   LineStructure structure_;
   ViewNoise noise_;
   StereoMonitor stereo_monitor_;
-  std::optional<double> baseline_error_;  // relative
+  std::optional<LengthEvidence> baseline_error_;
+  DepthFaults depth_faults_;
   ImuNoiseLearning imu_noise_;
   ImuAgreement imu_agreement_;
   EstimateMonitor estimate_monitor_;

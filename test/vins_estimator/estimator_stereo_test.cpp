@@ -147,7 +147,28 @@ TEST(EstimatorStereo, ReportsAWrongBaseline) {
   flight.sensor.second_camera->T_B_C = flight.sensor.T_B_C * mounting;
   const auto error = testing::Estimate(flight).outputs.back().second_camera.baseline;
   ASSERT_TRUE(error);
-  EXPECT_NEAR(*error, 0.05, 0.03);
+  EXPECT_NEAR(error->error, 0.05, 0.03);
+}
+
+// Depths that are 2 % too long, and 30 ms late.
+TEST(EstimatorStereo, ReportsScaleAndDelayOfMeasuredDepths) {
+  constexpr double kScale = 1.02, kDelay = 0.03;
+  auto options = GentleFlight(1);
+  options.sensors.imu_noise.accel_density = 0.01;
+  options.sensors.depth.emplace();
+  SimulatedFlight flight = testing::WithoutLines(testing::SimulateFlight(options, /*skip=*/1));
+  for (size_t i = 0; i < flight.frames.size(); ++i) {
+    const FrameState& state = flight.truth[i];
+    const Eigen::Matrix3d R_W_C = (state.T_W_B() * flight.sensor.T_B_C).R();
+    const double approach = R_W_C.col(2).dot(state.velocity());
+    for (PointObservation& point : flight.frames[i].points.points) {
+      if (point.depth) *point.depth = kScale * (*point.depth + kDelay * approach);
+    }
+  }
+  const DepthFaults faults = testing::Estimate(flight).outputs.back().depth;
+  ASSERT_TRUE(faults.scale && faults.delay);
+  EXPECT_NEAR(faults.scale->error, 0.02, 0.01);
+  EXPECT_NEAR(*faults.delay, kDelay, 0.005);
 }
 
 }  // namespace

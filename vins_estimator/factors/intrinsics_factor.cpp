@@ -3,12 +3,17 @@
 
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/factors/stereo_factor.h"
 
 namespace plm_vins {
 namespace {
 
 using Vector2Map = Eigen::Map<Eigen::Vector2d>;
 using JacobianMap = Eigen::Map<Eigen::Matrix<double, 2, kIntrinsicsSize, Eigen::RowMajor>>;
+
+// Weights of both ends of a line.
+Eigen::Vector2d OfEnds(double weight) { return {weight, weight}; }
+Eigen::Vector2d OfEnds(const Eigen::Vector2d& weights) { return weights; }
 
 }  // namespace
 
@@ -30,7 +35,7 @@ bool PointIntrinsicsFactor<Inner>::Evaluate(double const* const* parameters, dou
 }
 
 template <typename Inner>
-LineIntrinsicsFactor<Inner>::LineIntrinsicsFactor(const LineSegmentView& view, double weight,
+LineIntrinsicsFactor<Inner>::LineIntrinsicsFactor(const LineSegmentView& view, const Weight& weight,
                                                   const RayShift& start_shift,
                                                   const RayShift& end_shift)
     : Factor(2), view_(view), weight_(weight), start_shift_(start_shift), end_shift_(end_shift) {}
@@ -47,15 +52,20 @@ bool LineIntrinsicsFactor<Inner>::Evaluate(double const* const* parameters, doub
   }
   if (jacobians != nullptr && jacobians[kIntrinsics] != nullptr) {
     JacobianMap J(jacobians[kIntrinsics]);
-    J.row(0) = weight_ * normal.transpose() * start_shift_.d_xy_d_intrinsics;
-    J.row(1) = weight_ * normal.transpose() * end_shift_.d_xy_d_intrinsics;
+    const Eigen::Vector2d weights = OfEnds(weight_);
+    J.row(0) = weights[0] * normal.transpose() * start_shift_.d_xy_d_intrinsics;
+    J.row(1) = weights[1] * normal.transpose() * end_shift_.d_xy_d_intrinsics;
   }
   return true;
 }
 
 template class PointIntrinsicsFactor<PointFactor>;
 template class PointIntrinsicsFactor<PointHostFactor>;
+template class PointIntrinsicsFactor<RightPointFactor>;
+template class PointIntrinsicsFactor<RightPointHostFactor>;
 template class LineIntrinsicsFactor<LineFactor>;
 template class LineIntrinsicsFactor<LineHostFactor>;
+template class LineIntrinsicsFactor<RightLineFactor>;
+template class LineIntrinsicsFactor<RightLineHostFactor>;
 
 }  // namespace plm_vins

@@ -7,9 +7,9 @@
 
 namespace plm_vins {
 
-// Extends a corner's factor (PointFactor or PointHostFactor) by the camera intrinsics c as a
-// variable: the corner is observed at xy + shift(c), which the residual weight * (m_t - xy) depends
-// on directly. Blocks: those of the inner factor, then the intrinsics (8 values).
+// Extends a corner's factor (PointFactor, PointHostFactor, or those of the second camera) by the
+// camera's intrinsics c as a variable: the corner is observed at xy + shift(c), which the residual
+// weight * (m_t - xy) depends on directly. Blocks: those of the inner factor, intrinsics (8).
 template <typename Inner>
 class PointIntrinsicsFactor final : public Factor {
  public:
@@ -27,22 +27,24 @@ class PointIntrinsicsFactor final : public Factor {
   double weight_;
 };
 
-// Extends a line's factor (LineFactor or LineHostFactor) by the camera intrinsics c: the ends of
+// Extends a line's factor (of either camera) by the camera's intrinsics c: the ends of
 // the segment are observed at xy + shift(c). Blocks: those of the inner factor, intrinsics (8).
 template <typename Inner>
 class LineIntrinsicsFactor final : public Factor {
  public:
   static constexpr int kBlocks = Inner::kBlocks + 1;
 
-  LineIntrinsicsFactor(const LineSegmentView& view, double weight, const RayShift& start_shift,
-                       const RayShift& end_shift);
+  using Weight = typename Inner::Weight;
+
+  LineIntrinsicsFactor(const LineSegmentView& view, const Weight& weight,
+                       const RayShift& start_shift, const RayShift& end_shift);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
   LineSegmentView view_;
-  double weight_;
+  Weight weight_;
   RayShift start_shift_, end_shift_;
 };
 

@@ -13,6 +13,8 @@ namespace plm_vins {
 // factors/manifolds.h.
 class LineFactor final : public SizedFactor<2, 7, 7, 7, kLineSize> {
  public:
+  using Weight = double;
+
   // `weight`: focal length over the standard deviation of an end point across the line, in pixels.
   LineFactor(const LineSegmentView& view, double weight) : view_(view), weight_(weight) {}
 
@@ -34,6 +36,8 @@ class LineFactor final : public SizedFactor<2, 7, 7, 7, kLineSize> {
 // (5).
 class LineHostFactor final : public SizedFactor<2, kLineSize> {
  public:
+  using Weight = double;
+
   LineHostFactor(const LineSegmentView& view, double weight) : view_(view), weight_(weight) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/factors/stereo_factor.h"
 
+#include <cmath>
+
 #include "vins_estimator/factors/line_chain.h"
 #include "vins_estimator/factors/point_chain.h"
 #include "vins_estimator/geometry/depth_limits.h"
@@ -60,6 +62,21 @@ struct RightLineProjection {
   Matrix23d d_r_d_mC1;
 };
 
+// The inverse depth that a stream measures for a point, with its derivatives.
+struct ExpectedDepth {
+  ExpectedDepth(const TimedDepth& depth, double inverse_depth, const double* stream)
+      : value(depth.Expected(inverse_depth, stream)),
+        by_inverse_depth(std::exp(-stream[0]) *
+                         (1 - 2 * stream[1] * depth.approach * inverse_depth)),
+        by_delay(-std::exp(-stream[0]) * depth.approach * inverse_depth * inverse_depth) {}
+
+  void SetStreamJacobian(double weight, double* jacobian) const {
+    if (jacobian) Eigen::Map<Eigen::RowVector2d>{jacobian} << -weight * value, weight * by_delay;
+  }
+
+  double value, by_inverse_depth, by_delay;
+};
+
 }  // namespace
 
 bool RightPointFactor::Evaluate(double const* const* parameters, double* residuals,
@@ -90,22 +107,24 @@ bool RightPointHostFactor::Evaluate(double const* const* parameters, double* res
   return true;
 }
 
-bool RightLineFactor::Evaluate(double const* const* parameters, double* residuals,
-                               double** jacobians) const {
+bool RightLineFactor::EvaluateWithNormal(double const* const* parameters, double* residuals,
+                                         double** jacobians, Eigen::Vector2d* normal) const {
   const LineChain chain(parameters, parameters[4]);
   const PoseBlock T_C_C1(parameters[3]);
   RightLineProjection right(T_C_C1, chain.L_Ct);
   if (!right.Evaluate(view_, weights_, residuals)) return false;
+  if (normal != nullptr) *normal = right.L_C1.moment.head<2>().normalized();
   if (jacobians == nullptr) return true;
   chain.SetJacobians(right.Differentiate(jacobians[3]), jacobians, jacobians[4]);
   return true;
 }
 
-bool RightLineHostFactor::Evaluate(double const* const* parameters, double* residuals,
-                                   double** jacobians) const {
+bool RightLineHostFactor::EvaluateWithNormal(double const* const* parameters, double* residuals,
+                                             double** jacobians, Eigen::Vector2d* normal) const {
   const PoseBlock T_C_C1(parameters[0]);
   RightLineProjection right(T_C_C1, ToPlucker(parameters[1]));
   if (!right.Evaluate(view_, weights_, residuals)) return false;
+  if (normal != nullptr) *normal = right.L_C1.moment.head<2>().normalized();
   if (jacobians == nullptr) return true;
   const LineDerivative derivative = right.Differentiate(jacobians[0]);
   if (jacobians[1]) SetLineJacobian(derivative, parameters[1], jacobians[1]);
@@ -114,20 +133,27 @@ bool RightLineHostFactor::Evaluate(double const* const* parameters, double* resi
 
 bool DepthFactor::Evaluate(double const* const* parameters, double* residuals,
                            double** jacobians) const {
-  const PointChain chain(parameters, parameters[3]);
+  const PointChain chain(parameters, parameters[4]);
   const double z = chain.p_Ct.z();
   if (!(z > kMinProjectedDepth)) return false;
-  residuals[0] = weight_ * (1 / z - inverse_depth_);
+  const ExpectedDepth expected(depth_, 1 / z, parameters[3]);
+  residuals[0] = weight_ * (expected.value - 1 / depth_.depth);
   if (jacobians == nullptr) return true;
-  chain.SetJacobians<1>(Eigen::RowVector3d(0, 0, -weight_ / (z * z)), jacobians, jacobians[3]);
+  chain.SetJacobians<1>(Eigen::RowVector3d(0, 0, -weight_ * expected.by_inverse_depth / (z * z)),
+                        jacobians, jacobians[4]);
+  expected.SetStreamJacobian(weight_, jacobians[3]);
   return true;
 }
 
 bool DepthHostFactor::Evaluate(double const* const* parameters, double* residuals,
                                double** jacobians) const {
-  residuals[0] = weight_ * (parameters[0][2] - inverse_depth_);
-  if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-  Eigen::Map<Eigen::RowVector3d>{jacobians[0]} << 0, 0, weight_;
+  const ExpectedDepth expected(depth_, parameters[1][2], parameters[0]);
+  residuals[0] = weight_ * (expected.value - 1 / depth_.depth);
+  if (jacobians == nullptr) return true;
+  expected.SetStreamJacobian(weight_, jacobians[0]);
+  if (jacobians[1]) {
+    Eigen::Map<Eigen::RowVector3d>{jacobians[1]} << 0, 0, weight_ * expected.by_inverse_depth;
+  }
   return true;
 }
 

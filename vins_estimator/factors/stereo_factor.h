@@ -3,6 +3,7 @@
 #pragma once
 
 #include "vins_estimator/factors/factor.h"
+#include "vins_estimator/geometry/depth_stream.h"
 #include "vins_estimator/geometry/line_segment_view.h"
 #include "vins_estimator/geometry/plucker.h"
 #include "vins_estimator/geometry/point_in_host.h"
@@ -48,12 +49,19 @@ class RightPointHostFactor final : public SizedFactor<2, 7, 1, kPointSize> {
 // (5).
 class RightLineFactor final : public SizedFactor<2, 7, 7, 7, 7, kLineSize> {
  public:
+  using Weight = Eigen::Vector2d;
+
   // `weights`: one over the standard deviations of start and end across the line, normalized.
   RightLineFactor(const LineSegmentView& view, const Eigen::Vector2d& weights)
       : view_(view), weights_(weights) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override;
+                double** jacobians) const override {
+    return EvaluateWithNormal(parameters, residuals, jacobians, nullptr);
+  }
+  // See LineFactor.
+  bool EvaluateWithNormal(double const* const* parameters, double* residuals, double** jacobians,
+                          Eigen::Vector2d* normal) const;
 
  private:
   LineSegmentView view_;
@@ -63,42 +71,52 @@ class RightLineFactor final : public SizedFactor<2, 7, 7, 7, 7, kLineSize> {
 // Reprojection of a line into the second camera of its host. Blocks: mounting T_C_C1 (7), line (5).
 class RightLineHostFactor final : public SizedFactor<2, 7, kLineSize> {
  public:
+  using Weight = Eigen::Vector2d;
+
   RightLineHostFactor(const LineSegmentView& view, const Eigen::Vector2d& weights)
       : view_(view), weights_(weights) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override;
+                double** jacobians) const override {
+    return EvaluateWithNormal(parameters, residuals, jacobians, nullptr);
+  }
+  // See LineFactor.
+  bool EvaluateWithNormal(double const* const* parameters, double* residuals, double** jacobians,
+                          Eigen::Vector2d* normal) const;
 
  private:
   LineSegmentView view_;
   Eigen::Vector2d weights_;
 };
 
-// The measured depth of a point in a frame other than its host: r = weight * ( 1 / z_Ct - 1 /
-// depth ). Blocks: pose of host (7), pose of target (7), extrinsics T_B_C (7), point (3).
-class DepthFactor final : public SizedFactor<1, 7, 7, 7, kPointSize> {
+// The measured depth of a point in a frame other than its host:
+//   r = weight * ( TimedDepth::Expected(1 / z_Ct) - 1 / depth ).
+// Blocks: pose of host (7), pose of target (7), extrinsics T_B_C (7), depth stream (2), point (3).
+class DepthFactor final : public SizedFactor<1, 7, 7, 7, kDepthStreamSize, kPointSize> {
  public:
   // `weight`: one over the standard deviation of the inverse depth [m].
-  DepthFactor(double depth, double weight) : inverse_depth_(1 / depth), weight_(weight) {}
+  DepthFactor(const TimedDepth& depth, double weight) : depth_(depth), weight_(weight) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  double inverse_depth_, weight_;
+  TimedDepth depth_;
+  double weight_;
 };
 
-// The measured depth of a point in the host itself: r = weight * ( lambda - 1 / depth ). Block:
-// point (3).
-class DepthHostFactor final : public SizedFactor<1, kPointSize> {
+// The measured depth of a point in the host itself, with 1 / z_Ch as in the point. Blocks: depth
+// stream (2), point (3).
+class DepthHostFactor final : public SizedFactor<1, kDepthStreamSize, kPointSize> {
  public:
-  DepthHostFactor(double depth, double weight) : inverse_depth_(1 / depth), weight_(weight) {}
+  DepthHostFactor(const TimedDepth& depth, double weight) : depth_(depth), weight_(weight) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  double inverse_depth_, weight_;
+  TimedDepth depth_;
+  double weight_;
 };
 
 }  // namespace plm_vins

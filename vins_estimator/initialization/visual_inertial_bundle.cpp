@@ -58,11 +58,13 @@ class Bundle {
   const std::vector<Preintegration>& preintegrations_;
   std::vector<FrameState>& states_;
   std::array<double, kPoseSize> extrinsics_, mounting_;
+  std::array<double, kDepthStreamSize> depth_stream_ = {0, 0};
   double time_offset_ = 0;
   std::vector<std::array<double, kPointSize>> points_;  // image point and inverse depth in the host
   ceres::CauchyLoss loss_{1.0};
   std::vector<int> poses_, motions_;  // variable indices, by view
-  int extrinsic_variable_ = -1, mounting_variable_ = -1, td_variable_ = -1;
+  int extrinsic_variable_ = -1, mounting_variable_ = -1, depth_stream_variable_ = -1;
+  int td_variable_ = -1;
   WindowProblem problem_;
 };
 
@@ -98,6 +100,8 @@ void Bundle::AddVariables() {
   extrinsic_variable_ =
       problem_.AddVariable({BlockKind::kExtrinsic, 0}, extrinsics_.data(), kConstant);
   mounting_variable_ = problem_.AddVariable({BlockKind::kMounting, 0}, mounting_.data(), kConstant);
+  depth_stream_variable_ =
+      problem_.AddVariable({BlockKind::kDepthStream, 0}, depth_stream_.data(), kConstant);
   td_variable_ = problem_.AddVariable({BlockKind::kTimeOffset, 0}, &time_offset_, kConstant);
 }
 
@@ -165,11 +169,11 @@ void Bundle::AddDepth(const ViewObservation& host, const ViewObservation& target
   }
   if (!target.depth) return;
   if (in_host) {
-    problem_.AddLandmarkTerm(landmark, DepthHostFactor(*target.depth, depth_weight), &loss_,
-                             {point});
+    problem_.AddLandmarkTerm(landmark, DepthHostFactor({*target.depth}, depth_weight), &loss_,
+                             {depth_stream_variable_, point});
   } else {
-    problem_.AddLandmarkTerm(landmark, DepthFactor(*target.depth, depth_weight), &loss_,
-                             {host_pose, pose, extrinsic_variable_, point});
+    problem_.AddLandmarkTerm(landmark, DepthFactor({*target.depth}, depth_weight), &loss_,
+                             {host_pose, pose, extrinsic_variable_, depth_stream_variable_, point});
   }
 }
 

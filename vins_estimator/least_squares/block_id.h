@@ -14,7 +14,9 @@ enum class BlockKind : uint8_t {
   kPoint,
   kLine,
   kIntrinsics,
-  kMounting
+  kMounting,
+  kDepthStream,
+  kRightIntrinsics
 };
 
 // Persistent identifier of a variable, independent of where its values are stored: a frame's pose

@@ -5,6 +5,7 @@
 
 #include "common/camera/camera_model.h"
 #include "vins_estimator/factors/manifolds.h"
+#include "vins_estimator/geometry/depth_stream.h"
 #include "vins_estimator/geometry/plucker.h"
 
 namespace plm_vins {
@@ -74,6 +75,11 @@ const VariableType& MountingVariable() {
   return type;
 }
 
+const VariableType& DepthStreamVariable() {
+  static const VariableType type = VectorVariable<kDepthStreamSize>();
+  return type;
+}
+
 const VariableType& LineVariable() {
   static const VariableType type{kLineSize, kLineTangentSize, &LinePlus, &LineMinus};
   return type;
@@ -91,9 +97,12 @@ const VariableType& VariableTypeOf(BlockKind kind) {
     case BlockKind::kLine:
       return LineVariable();
     case BlockKind::kIntrinsics:
+    case BlockKind::kRightIntrinsics:
       return IntrinsicsVariable();
     case BlockKind::kMounting:
       return MountingVariable();
+    case BlockKind::kDepthStream:
+      return DepthStreamVariable();
     default:
       return ScalarVariable();
   }

@@ -26,7 +26,9 @@ const VariableType& PointVariable();
 // 8, vector space: camera intrinsics; focal lengths stay positive.
 const VariableType& IntrinsicsVariable();
 const VariableType& MountingVariable();  // 7 -> 6: second camera in the first (factors/manifolds.h)
-const VariableType& LineVariable();      // 5 -> 4: orthonormal representation (geometry/plucker.h)
+// 2, vector space: scale and delay of a depth stream (geometry/depth_stream.h).
+const VariableType& DepthStreamVariable();
+const VariableType& LineVariable();  // 5 -> 4: orthonormal representation (geometry/plucker.h)
 
 const VariableType& VariableTypeOf(BlockKind kind);
 

@@ -87,7 +87,9 @@ bool Fits(const Eigen::Vector3d& p_W, const PointLandmark& landmark, double max_
 bool ContradictsDepth(const Eigen::Vector3d& p_W, const PointView& view, double max_error,
                       const SlidingWindow& window) {
   const double z = (window.T_W_C(view.t_ns).Inverse() * p_W).z();
-  return !(std::abs(1 / z - 1 / *view.depth) <= max_error);
+  const TimedDepth measured = window.DepthIn(view.t_ns, *view.depth);
+  const double expected = measured.Expected(1 / z, window.depth_stream.data());
+  return !(std::abs(expected - 1 / measured.depth) <= max_error);
 }
 
 }  // namespace

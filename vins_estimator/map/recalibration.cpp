@@ -53,13 +53,50 @@ void Recalibration::Move(LocalMap* map) const {
   map->memory.ChangeViews([this](LineView* view) { Move(view); });
 }
 
-void FollowIntrinsics(const CameraParameters& camera, double max_error, LocalMap* map) {
+void Recalibration::MoveRight(std::optional<RightSegment>* segment) const {
+  if (!*segment) return;
+  Move(&(*segment)->start);
+  Move(&(*segment)->end);
+}
+
+void Recalibration::MoveRight(FrameMeasurement* measurement) const {
+  for (PointObservation& point : measurement->points.points) {
+    if (point.right) Move(&*point.right);
+  }
+  if (!measurement->lines) return;
+  for (LineObservation& line : measurement->lines->lines) MoveRight(&line.right);
+}
+
+void Recalibration::MoveRight(LocalMap* map) const {
+  for (auto& [id, point] : map->points.landmarks()) {
+    for (PointView& view : point.views) {
+      if (view.right) Move(&*view.right);
+    }
+  }
+  const auto move_line = [this](LineView* view) { MoveRight(&view->right); };
+  for (auto& [id, line] : map->lines.landmarks()) {
+    for (LineView& view : line.views) move_line(&view);
+    for (LineView& view : line.anchor_views) move_line(&view);
+  }
+  map->memory.ChangeViews(move_line);
+}
+
+void FollowIntrinsics(const SensorConfig& sensor, double max_error, LocalMap* map) {
   SlidingWindow& window = map->window;
-  const Recalibration recalibration(camera.With(window.ray_intrinsics),
-                                    camera.With(window.intrinsics));
-  if (recalibration.LargestMove() < max_error) return;
-  recalibration.Move(map);
-  window.ray_intrinsics = window.intrinsics;
+  const CameraParameters& camera = sensor.camera;
+  const Recalibration first(camera.With(window.ray_intrinsics), camera.With(window.intrinsics));
+  if (first.LargestMove() >= max_error) {
+    first.Move(map);
+    window.ray_intrinsics = window.intrinsics;
+  }
+  if (!sensor.second_camera) return;
+  const CameraParameters& right = sensor.second_camera->camera;
+  const Recalibration second(right.With(window.right_ray_intrinsics),
+                             right.With(window.right_intrinsics));
+  if (second.LargestMove() >= max_error) {
+    second.MoveRight(map);
+    window.right_ray_intrinsics = window.right_intrinsics;
+  }
 }
 
 }  // namespace plm_vins

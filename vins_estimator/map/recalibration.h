@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 
 #include "common/camera/camera_model.h"
+#include "common/config/sensor_config.h"
 #include "common/measurements.h"
 #include "vins_estimator/map/local_map.h"
 
@@ -30,15 +32,19 @@ class Recalibration {
   // Transforms all rays of a measurement or a map.
   void Move(FrameMeasurement* measurement) const;
   void Move(LocalMap* map) const;
+  // Transforms all rays in the second camera.
+  void MoveRight(FrameMeasurement* measurement) const;
+  void MoveRight(LocalMap* map) const;
 
  private:
   void Move(LineView* view) const;
+  void MoveRight(std::optional<RightSegment>* segment) const;
 
   std::shared_ptr<const CameraModel> from_, to_;
 };
 
-// Recomputes all rays of a map with the current intrinsics of its window, once these shift a ray by
-// `max_error` (normalized). `camera` is the configured camera.
-void FollowIntrinsics(const CameraParameters& camera, double max_error, LocalMap* map);
+// Recomputes all rays of a map with the current intrinsics of its window, camera by camera, once
+// these shift a ray by `max_error` (normalized). `sensor` has the configured cameras.
+void FollowIntrinsics(const SensorConfig& sensor, double max_error, LocalMap* map);
 
 }  // namespace plm_vins

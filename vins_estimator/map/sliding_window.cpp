@@ -48,6 +48,11 @@ FrameState& SlidingWindow::StateAt(int64_t t_ns) {
   return const_cast<FrameState&>(static_cast<const SlidingWindow*>(this)->StateAt(t_ns));
 }
 
+TimedDepth SlidingWindow::DepthIn(int64_t t_ns, double depth) const {
+  const FrameState& state = StateAt(t_ns);
+  return {depth, (T_W_C(state).rotation.conjugate() * state.velocity()).z()};
+}
+
 void SlidingWindow::SetStillSince(std::optional<int64_t> still_since_ns) {
   newest().stationary = still_since_ns.has_value();
   newest().moving_since_ns = second_newest().state.t_ns;

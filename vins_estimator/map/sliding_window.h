@@ -10,6 +10,7 @@
 
 #include "common/camera/camera_model.h"
 #include "common/geometry/rigid3.h"
+#include "vins_estimator/geometry/depth_stream.h"
 #include "vins_estimator/geometry/timed_bearing.h"
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/state/frame_state.h"
@@ -41,9 +42,12 @@ struct SlidingWindow {
   std::array<double, 7> extrinsic = {0, 0, 0, 0, 0, 0, 1};  // T_B_C, laid out like FrameState::pose
   // T_C_C1, the pose of the second camera in the first, with the same layout; unused without one.
   std::array<double, 7> mounting = {0, 0, 0, 0, 0, 0, 1};
-  double td = 0;                                             // t_imu = t_image + td [s]
-  Intrinsics intrinsics = Intrinsics::Zero();                // of the camera
-  Intrinsics ray_intrinsics = Intrinsics::Zero();            // with which all rays were computed
+  std::array<double, kDepthStreamSize> depth_stream = {0, 0};  // see geometry/depth_stream.h
+  double td = 0;                                               // t_imu = t_image + td [s]
+  Intrinsics intrinsics = Intrinsics::Zero();                  // of the camera
+  Intrinsics ray_intrinsics = Intrinsics::Zero();              // with which all rays were computed
+  // Those of the second camera; unused without one.
+  Intrinsics right_intrinsics = Intrinsics::Zero(), right_ray_intrinsics = Intrinsics::Zero();
   Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  // [m/s^2]
 
   WindowFrame& newest() { return frames.back(); }
@@ -74,6 +78,9 @@ struct SlidingWindow {
 
   // Returns the pose of the second camera.
   Rigid3d T_W_C1(int64_t t_ns) const { return T_W_C(t_ns) * T_C_C1(); }
+
+  // Returns a measured depth with the velocity of the camera in that frame.
+  TimedDepth DepthIn(int64_t t_ns, double depth) const;
 
   // Sets when standstill began, up to the newest frame, which was just added; nullopt if moving.
   // May reclassify the previous frame as stationary.

@@ -20,12 +20,26 @@ void WindowEstimate::RemoveAnchor(int64_t t_ns) {
   map.RemoveAnchor(t_ns);
 }
 
+Calibration CalibrationIn(const SlidingWindow& window, const SensorConfig& sensor) {
+  Calibration calibration;
+  calibration.camera = sensor.camera.With(window.intrinsics);
+  calibration.T_B_C = window.T_B_C();
+  calibration.td = window.td;
+  if (sensor.second_camera) {
+    calibration.T_C_C1 = window.T_C_C1();
+    calibration.right_camera = sensor.second_camera->camera.With(window.right_intrinsics);
+  }
+  return calibration;
+}
+
 WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& options) {
   WindowEstimate estimate{LocalMap(options)};
   SlidingWindow& window = estimate.map.window;
   window.SetExtrinsic(sensor.T_B_C);
   if (sensor.second_camera) {
     window.SetMounting(sensor.T_B_C.Inverse() * sensor.second_camera->T_B_C);
+    window.right_intrinsics = window.right_ray_intrinsics =
+        sensor.second_camera->camera.intrinsics();
   }
   window.td = sensor.td;
   window.intrinsics = window.ray_intrinsics = sensor.camera.intrinsics();

@@ -31,6 +31,9 @@ struct WindowEstimate {
   MarginalizationPrior prior;
 };
 
+// Returns the calibration of a window.
+Calibration CalibrationIn(const SlidingWindow& window, const SensorConfig& sensor);
+
 // Returns a window without frames and with the configured calibration.
 WindowEstimate EmptyWindow(const SensorConfig& sensor, const LocalMapOptions& options);
 

@@ -18,6 +18,7 @@ Config WithCalibration(const Calibration& calibration, Config config) {
   SensorConfig& sensor = config.sensor;
   sensor.camera = calibration.camera;
   sensor.T_B_C = calibration.T_B_C;
+  if (calibration.right_camera) sensor.second_camera->camera = *calibration.right_camera;
   if (calibration.T_C_C1) sensor.second_camera->T_B_C = sensor.T_B_C * *calibration.T_C_C1;
   sensor.td = calibration.td;
   // The rotation is known now, so it only needs refinement.

@@ -25,13 +25,20 @@ Json DropsToJson(const DropCounts& drops) {
   return json;
 }
 
+Json PinholeToJson(const CameraParameters& camera) {
+  return {camera.fx, camera.fy, camera.cx, camera.cy};
+}
+
+Json DistortionToJson(const CameraParameters& camera) {
+  const Eigen::Vector4d& d = camera.distortion;
+  return {d[0], d[1], d[2], d[3]};
+}
+
 Json CalibrationToJson(const Calibration& calibration) {
   const Eigen::Quaterniond& q = calibration.T_B_C.rotation;
   const Eigen::Vector3d& p = calibration.T_B_C.translation;
-  const CameraParameters& camera = calibration.camera;
-  const Eigen::Vector4d& d = camera.distortion;
-  Json json = {{"fx_fy_cx_cy_px", {camera.fx, camera.fy, camera.cx, camera.cy}},
-               {"distortion", {d[0], d[1], d[2], d[3]}},
+  Json json = {{"fx_fy_cx_cy_px", PinholeToJson(calibration.camera)},
+               {"distortion", DistortionToJson(calibration.camera)},
                {"q_B_C_xyzw", {q.x(), q.y(), q.z(), q.w()}},
                {"p_B_C_m", {p.x(), p.y(), p.z()}},
                {"td_s", calibration.td}};
@@ -40,6 +47,8 @@ Json CalibrationToJson(const Calibration& calibration) {
     const Eigen::Vector3d& p_C1 = calibration.T_C_C1->translation;
     json["q_C_C1_xyzw"] = {q_C1.x(), q_C1.y(), q_C1.z(), q_C1.w()};
     json["p_C_C1_m"] = {p_C1.x(), p_C1.y(), p_C1.z()};
+    json["right_fx_fy_cx_cy_px"] = PinholeToJson(*calibration.right_camera);
+    json["right_distortion"] = DistortionToJson(*calibration.right_camera);
   }
   return json;
 }

@@ -55,6 +55,14 @@ Eigen::VectorXd Sigmas(std::initializer_list<std::pair<int, double>> counts_and_
   return Eigen::Map<const Eigen::VectorXd>(sigmas.data(), static_cast<Eigen::Index>(sigmas.size()));
 }
 
+// Returns the standard deviations of configured intrinsics.
+Eigen::VectorXd Sigmas(const IntrinsicsDeviation& deviation, const Intrinsics& intrinsics) {
+  return Sigmas({{1, deviation.focal_length * intrinsics[0]},
+                 {1, deviation.focal_length * intrinsics[1]},
+                 {2, deviation.principal_point},
+                 {4, deviation.distortion}});
+}
+
 // Returns the information matrix of a pose, of position in W and rotation in B, from the standard
 // deviations of heading and inclination in W.
 Eigen::MatrixXd PoseInformation(const InitialUncertainty& uncertainty, const FrameState& state) {
@@ -100,16 +108,21 @@ MarginalizationPrior InitialPrior(const InitialUncertainty& uncertainty,
         {BlockKind::kMounting, 0}, window.mounting.data(),
         Sigmas({{2, uncertainty.mounting}, {1, uncertainty.baseline}, {3, uncertainty.mounting}}));
   }
+  if (options.estimate_depth_stream) {
+    prior.Add({BlockKind::kDepthStream, 0}, window.depth_stream.data(),
+              Sigmas({{1, uncertainty.depth_scale}, {1, uncertainty.depth_delay}}));
+  }
   if (options.estimate_td) {
     prior.Add({BlockKind::kTimeOffset, 0}, &window.td, Sigmas({{1, uncertainty.td}}));
   }
   if (options.estimate_intrinsics) {
     const IntrinsicsDeviation& deviation = uncertainty.intrinsics;
     prior.Add({BlockKind::kIntrinsics, 0}, window.intrinsics.data(),
-              Sigmas({{1, deviation.focal_length * window.intrinsics[0]},
-                      {1, deviation.focal_length * window.intrinsics[1]},
-                      {2, deviation.principal_point},
-                      {4, deviation.distortion}}));
+              Sigmas(deviation, window.intrinsics));
+    if (options.right_camera) {
+      prior.Add({BlockKind::kRightIntrinsics, 0}, window.right_intrinsics.data(),
+                Sigmas(deviation, window.right_intrinsics));
+    }
   }
   return prior.Build();
 }

@@ -11,8 +11,9 @@
 
 namespace plm_vins {
 
-// Relative standard deviation of the length of a stereo baseline as calibrated.
-constexpr double kBaselineDeviation = 0.002;
+// Relative standard deviation of the lengths that a calibrated stereo camera, or depth sensor,
+// measures: of the baseline, or of depths.
+constexpr double kLengthDeviation = 0.002;
 
 // Standard deviations of the first state of a window.
 struct InitialUncertainty {
@@ -29,8 +30,10 @@ struct InitialUncertainty {
   double extrinsic_rotation = 0.02;  // [rad]
   double mounting =
       0.05 * M_PI / 180;  // rotation of the second camera, direction of the baseline [rad]
-  double baseline = kBaselineDeviation;  // relative standard deviation of its length
-  double td = 0.01;                      // [s]
+  double baseline = kLengthDeviation;     // relative standard deviation of its length
+  double td = 0.01;                       // [s]
+  double depth_scale = kLengthDeviation;  // relative
+  double depth_delay = 0.01;              // [s]
   IntrinsicsDeviation intrinsics;
 };
 

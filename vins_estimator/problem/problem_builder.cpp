@@ -11,9 +11,11 @@ namespace {
 WindowVariables::IsConstant KnownCalibration(const ProblemOptions& options) {
   const bool knows_extrinsic = !options.estimate_extrinsic, knows_td = !options.estimate_td;
   const bool knows_mounting = !options.estimate_mounting;
-  return [knows_extrinsic, knows_mounting, knows_td](const BlockId& id) {
+  const bool knows_stream = !options.estimate_depth_stream;
+  return [=](const BlockId& id) {
     return (id.kind == BlockKind::kExtrinsic && knows_extrinsic) ||
            (id.kind == BlockKind::kMounting && knows_mounting) ||
+           (id.kind == BlockKind::kDepthStream && knows_stream) ||
            (id.kind == BlockKind::kTimeOffset && knows_td);
   };
 }

@@ -16,10 +16,12 @@ ProblemOptions::ProblemOptions(const Config& config, double focal_length)
     : manhattan_weight(180 / (M_PI * config.estimator.manhattan_noise)),
       estimate_extrinsic(config.sensor.estimate_extrinsic != SensorConfig::ExtrinsicMode::kFixed),
       estimate_mounting(config.sensor.second_camera.has_value()),
+      estimate_depth_stream(config.sensor.depth.has_value()),
       estimate_td(config.sensor.estimate_td),
       estimate_intrinsics(config.sensor.estimate_intrinsics),
       camera(config.sensor.camera) {
   if (config.sensor.depth) depth_weight = 1 / config.sensor.depth->noise;
+  if (config.sensor.second_camera) right_camera = config.sensor.second_camera->camera;
   SetNoise(config.estimator.point_noise / focal_length, config.estimator.line_noise / focal_length);
 }
 

@@ -48,9 +48,11 @@ struct ProblemOptions {
   double passing_turn_rate = 0;  // [rad/s]
   bool estimate_extrinsic;
   bool estimate_mounting;  // mounting of the second camera
+  bool estimate_depth_stream;
   bool estimate_td;
   bool estimate_intrinsics;
-  CameraParameters camera;  // configured camera
+  CameraParameters camera;                       // configured camera
+  std::optional<CameraParameters> right_camera;  // configured second camera, if there is one
   JacobiansAt jacobians_at = JacobiansAt::kFirstEstimates;
   // Manhattan frame to whose axes lines are constrained; nullopt if there is none.
   std::optional<Eigen::Quaterniond> R_W_M;

@@ -19,6 +19,10 @@ ViewTerms::ViewTerms(const ProblemOptions* options, const SlidingWindow* window,
       camera_(options->estimate_intrinsics
                   ? CameraModel::Create(options->camera.With(window->ray_intrinsics))
                   : nullptr),
+      right_camera_(
+          options->estimate_intrinsics && options->right_camera
+              ? CameraModel::Create(options->right_camera->With(window->right_ray_intrinsics))
+              : nullptr),
       point_loss_(options->point_loss_scale),
       line_loss_(options->line_loss_scale),
       right_loss_(options->right_loss_scale),
@@ -91,42 +95,36 @@ void ViewTerms::AddAnchorView(const ProblemLine& line, const LineView& view) {
 void ViewTerms::AddDepth(const ProblemPoint& point, const PointView& view) {
   AddMeasuredDepth(point, view);
   if (!view.right) return;
-  const TimedBearing right = view.RightBearing();
-  const double weight = options_->right_weight;
   const int mounting = variables_->Mounting();
   if (view.t_ns == point.landmark->host().t_ns) {
-    AddTerm(point.eliminated, RightPointHostFactor(right, weight), &right_loss_,
-            {mounting, point.td, point.point});
+    AddRightPointTerm<RightPointHostFactor>(point, view, mounting, point.td, point.point);
   } else {
-    AddTerm(point.eliminated, RightPointFactor(right, weight), &right_loss_,
-            {point.host_pose, variables_->Pose(view.t_ns), point.extrinsic, mounting, point.td,
-             point.point});
+    AddRightPointTerm<RightPointFactor>(point, view, point.host_pose, variables_->Pose(view.t_ns),
+                                        point.extrinsic, mounting, point.td, point.point);
   }
 }
 
 void ViewTerms::AddMeasuredDepth(const ProblemPoint& point, const PointView& view) {
   if (!view.depth) return;
+  const TimedDepth depth = window_->DepthIn(view.t_ns, *view.depth);
   const double weight = options_->depth_weight;
+  const int stream = variables_->DepthStream();
   if (view.t_ns == point.landmark->host().t_ns) {
-    AddTerm(point.eliminated, DepthHostFactor(*view.depth, weight), &depth_loss_, {point.point});
+    AddTerm(point.eliminated, DepthHostFactor(depth, weight), &depth_loss_, {stream, point.point});
   } else {
-    AddTerm(point.eliminated, DepthFactor(*view.depth, weight), &depth_loss_,
-            {point.host_pose, variables_->Pose(view.t_ns), point.extrinsic, point.point});
+    AddTerm(point.eliminated, DepthFactor(depth, weight), &depth_loss_,
+            {point.host_pose, variables_->Pose(view.t_ns), point.extrinsic, stream, point.point});
   }
 }
 
 void ViewTerms::AddDepth(const ProblemLine& line, const LineView& view) {
   if (!view.right) return;
-  const LineSegmentView segment{view.right->start, view.right->end};
-  const Eigen::Vector2d weights =
-      (options_->right_line_noise_factor * view.right->deviation).cwiseInverse();
   const int mounting = variables_->Mounting();
   if (view.t_ns == line.landmark->host().t_ns) {
-    AddTerm(line.eliminated, RightLineHostFactor(segment, weights), &right_loss_,
-            {mounting, line.line});
+    AddRightLineTerm<RightLineHostFactor>(line, view, mounting, line.line);
   } else {
-    AddTerm(line.eliminated, RightLineFactor(segment, weights), &right_loss_,
-            {line.host_pose, variables_->Pose(view.t_ns), line.extrinsic, mounting, line.line});
+    AddRightLineTerm<RightLineFactor>(line, view, line.host_pose, variables_->Pose(view.t_ns),
+                                      line.extrinsic, mounting, line.line);
   }
 }
 
@@ -160,6 +158,36 @@ void ViewTerms::AddLineTerm(const ProblemLine& line, const LineView& view, doubl
   const RayShift start(*camera_, expected.start), end(*camera_, expected.end);
   AddTerm(line.eliminated, LineIntrinsicsFactor<ViewFactor>(view.segment, weight, start, end),
           &line_loss_, {variables..., variables_->Intrinsics()});
+}
+
+template <typename ViewFactor, typename... Indices>
+void ViewTerms::AddRightPointTerm(const ProblemPoint& point, const PointView& view,
+                                  Indices... variables) {
+  const double weight = options_->right_weight;
+  const ViewFactor factor(view.RightBearing(), weight);
+  if (!right_camera_) {
+    AddTerm(point.eliminated, factor, &right_loss_, {variables...});
+    return;
+  }
+  const RayShift shift(*right_camera_, ExpectedRightRay(*point.landmark, view, *window_));
+  AddTerm(point.eliminated, PointIntrinsicsFactor<ViewFactor>(factor, shift, weight), &right_loss_,
+          {variables..., variables_->RightIntrinsics()});
+}
+
+template <typename ViewFactor, typename... Indices>
+void ViewTerms::AddRightLineTerm(const ProblemLine& line, const LineView& view,
+                                 Indices... variables) {
+  const LineSegmentView segment{view.right->start, view.right->end};
+  const Eigen::Vector2d weights =
+      (options_->right_line_noise_factor * view.right->deviation).cwiseInverse();
+  if (!right_camera_) {
+    AddTerm(line.eliminated, ViewFactor(segment, weights), &right_loss_, {variables...});
+    return;
+  }
+  const LineSegmentView expected = ExpectedRightEnds(*line.landmark, view, *window_);
+  const RayShift start(*right_camera_, expected.start), end(*right_camera_, expected.end);
+  AddTerm(line.eliminated, LineIntrinsicsFactor<ViewFactor>(segment, weights, start, end),
+          &right_loss_, {variables..., variables_->RightIntrinsics()});
 }
 
 template <typename FactorType, int kCount>

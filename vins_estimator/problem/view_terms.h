@@ -69,6 +69,11 @@ class ViewTerms {
   template <typename ViewFactor, typename... Indices>
   void AddLineTerm(const ProblemLine& line, const LineView& view, double weight,
                    Indices... variables);
+  // Adds an observation in the second camera likewise.
+  template <typename ViewFactor, typename... Indices>
+  void AddRightPointTerm(const ProblemPoint& point, const PointView& view, Indices... variables);
+  template <typename ViewFactor, typename... Indices>
+  void AddRightLineTerm(const ProblemLine& line, const LineView& view, Indices... variables);
   void AddMeasuredDepth(const ProblemPoint& point, const PointView& view);
   void AddPairView(const ProblemLine& line, const LineView& view, double weight);
   template <typename FactorType, int kCount>
@@ -79,7 +84,8 @@ class ViewTerms {
   const SlidingWindow* window_;
   WindowVariables* variables_;
   WindowProblem* problem_;
-  std::unique_ptr<const CameraModel> camera_;  // null if the intrinsics are not estimated
+  // Null if the intrinsics are not estimated.
+  std::unique_ptr<const CameraModel> camera_, right_camera_;
   ceres::CauchyLoss point_loss_;
   ceres::CauchyLoss line_loss_;
   ceres::CauchyLoss right_loss_;

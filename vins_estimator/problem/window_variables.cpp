@@ -27,10 +27,14 @@ double* WindowVariables::Values(const BlockId& id) {
       return window_->extrinsic.data();
     case BlockKind::kMounting:
       return window_->mounting.data();
+    case BlockKind::kDepthStream:
+      return window_->depth_stream.data();
     case BlockKind::kTimeOffset:
       return &window_->td;
     case BlockKind::kIntrinsics:
       return window_->intrinsics.data();
+    case BlockKind::kRightIntrinsics:
+      return window_->right_intrinsics.data();
     case BlockKind::kPose:
       return window_->StateAt(id.key).pose.data();
     case BlockKind::kMotion:

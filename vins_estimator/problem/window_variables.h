@@ -27,8 +27,10 @@ class WindowVariables {
   int Motion(int64_t t_ns) { return Add({BlockKind::kMotion, t_ns}); }
   int Extrinsic() { return Add({BlockKind::kExtrinsic, 0}); }
   int Mounting() { return Add({BlockKind::kMounting, 0}); }
+  int DepthStream() { return Add({BlockKind::kDepthStream, 0}); }
   int TimeOffset() { return Add({BlockKind::kTimeOffset, 0}); }
   int Intrinsics() { return Add({BlockKind::kIntrinsics, 0}); }
+  int RightIntrinsics() { return Add({BlockKind::kRightIntrinsics, 0}); }
   // Adds any of these variables.
   int Add(const BlockId& id);
 

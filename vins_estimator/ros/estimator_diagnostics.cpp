@@ -49,7 +49,7 @@ void EstimatorDiagnostics::UpdateCounts(const EstimationStage& stage, const Drop
   input_finding_ = stage.InputFinding();
   imu_contradiction_ = stage.ImuContradiction();
   lens_warning_ = stage.LensWarning();
-  second_camera_fault_ = stage.SecondCameraFault();
+  companion_fault_ = stage.CompanionFault();
   queued_frames_ = stage.queued_frames();
   lines_are_missing_ = stage.lines_are_missing();
   frames_without_lines_ = stage.statistics().frames_without_lines;
@@ -98,11 +98,11 @@ void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapp
   if (!input_finding_.empty()) state += "; " + input_finding_;
   if (!imu_contradiction_.empty()) state += "; " + imu_contradiction_;
   if (!lens_warning_.empty()) state += "; " + lens_warning_;
-  if (!second_camera_fault_.empty()) state += "; " + second_camera_fault_;
+  if (!companion_fault_.empty()) state += "; " + companion_fault_;
   if (contradicted_) state += "; the camera contradicts the state";
   const bool fine = tracking && !lines_are_missing_ && !late && !on_imu_alone_ && !contradicted_ &&
                     input_finding_.empty() && imu_contradiction_.empty() && lens_warning_.empty() &&
-                    second_camera_fault_.empty();
+                    companion_fault_.empty();
   status->summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN, state);
 }
 

@@ -12,8 +12,10 @@ namespace plm_vins {
 struct Calibration {
   CameraParameters camera;
   Rigid3d T_B_C;
-  std::optional<Rigid3d> T_C_C1;  // pose of the second camera in the first, if there is one
-  double td = 0;                  // t_imu = t_image + td [s]
+  // Pose of the second camera in the first, and its intrinsics; set if there is one.
+  std::optional<Rigid3d> T_C_C1;
+  std::optional<CameraParameters> right_camera;
+  double td = 0;  // t_imu = t_image + td [s]
 };
 
 }  // namespace plm_vins

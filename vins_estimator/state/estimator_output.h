@@ -30,11 +30,24 @@ inline const char* ToString(EstimatorStatus status) {
   }
 }
 
+// Error of a stated length by the evidence of motion and IMU, and its standard deviation; both
+// logarithmic, so relative.
+struct LengthEvidence {
+  double error = 0;
+  double deviation = 0;
+};
+
 // Faults of the second camera that its residuals show.
 struct SecondCameraFaults {
   std::optional<double> misfit_px;  // median residual, if it is too large for the camera to be used
   std::optional<double> delay;      // exposure later than that of the first camera [s]
-  std::optional<double> baseline;   // relative error of its length, by the evidence of the IMU
+  std::optional<LengthEvidence> baseline;  // if it is significant
+};
+
+// Faults of measured depths that motion and IMU show.
+struct DepthFaults {
+  std::optional<LengthEvidence> scale;  // if it is significant
+  std::optional<double> delay;          // by which they are older than their timestamps [s]
 };
 
 // Processing time of the stages of one frame [ms].
@@ -71,6 +84,7 @@ struct EstimatorOutput {
   bool imu_doubted = false;                 // the newest IMU interval was re-weighted
   std::optional<double> delay;              // rough error of td, if noticeable [s] (DelayMonitor)
   SecondCameraFaults second_camera;
+  DepthFaults depth;
   bool contradicted = false;              // many known landmarks are outliers
   bool on_imu_alone = false;              // too few features to constrain the pose
   bool keyframe = false;                  // the previous image becomes a keyframe of the window

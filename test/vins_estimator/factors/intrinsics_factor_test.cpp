@@ -6,11 +6,12 @@
 #include <memory>
 #include <vector>
 
-#include "simulator/default_sensors.h"
 #include "common/geometry/so3.h"
+#include "simulator/default_sensors.h"
 #include "test/vins_estimator/factors/factor_scene.h"
 #include "vins_estimator/factors/line_factor.h"
 #include "vins_estimator/factors/point_factor.h"
+#include "vins_estimator/factors/stereo_factor.h"
 
 namespace plm_vins {
 namespace {
@@ -101,6 +102,29 @@ TEST_F(IntrinsicsFactorTest, HasExactJacobiansForLines) {
   const auto target = Line<LineFactor>();
   testing::ExpectTangentJacobians(target, {identity_, turned_, identity_, LineBlock(), intrinsics_},
                                   1e-6);
+}
+
+TEST_F(IntrinsicsFactorTest, HasExactJacobiansInTheSecondCamera) {
+  constexpr double kStep = 1e-6;
+  const Block mounting = testing::PoseBlockOf({SO3Exp({0.01, 0.02, -0.03}), {0.1, 0.02, 0.01}});
+  const RayShift shift(*camera_, bearing_.xy);
+  const PointIntrinsicsFactor<RightPointHostFactor> point_in_host({bearing_, kWeight}, shift,
+                                                                  kWeight);
+  testing::ExpectTangentJacobians(point_in_host, {mounting, ScalarBlock(0.03), point_, intrinsics_},
+                                  1e-7, kStep,
+                                  /*mounting=*/0);
+  const PointIntrinsicsFactor<RightPointFactor> point({bearing_, kWeight}, shift, kWeight);
+  testing::ExpectTangentJacobians(
+      point, {identity_, turned_, identity_, mounting, ScalarBlock(0.03), point_, intrinsics_},
+      1e-7, kStep, /*mounting=*/3);
+  const RayShift start(*camera_, view_.start), end(*camera_, view_.end);
+  const LineIntrinsicsFactor<RightLineHostFactor> line_in_host(view_, {2, 3}, start, end);
+  testing::ExpectTangentJacobians(line_in_host, {mounting, LineBlock(), intrinsics_}, 1e-6, kStep,
+                                  /*mounting=*/0);
+  const LineIntrinsicsFactor<RightLineFactor> line(view_, {2, 3}, start, end);
+  testing::ExpectTangentJacobians(
+      line, {identity_, turned_, identity_, mounting, LineBlock(), intrinsics_}, 1e-6, kStep,
+      /*mounting=*/3);
 }
 
 TEST_F(IntrinsicsFactorTest, KeepsRaysOutsideTheFieldOfView) {

@@ -104,15 +104,33 @@ TEST(DepthFactor, ComparesInverseDepths) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     const FactorScene s(seed);
     const Block point = s.Point();
-    const std::vector<Block> blocks = Joined(s.Poses(), {point});
-    const double z = s.InTarget(s.p_Ch).z();
-    const DepthFactor target(z + 0.1, 500);
-    EXPECT_NEAR(testing::Residual(target, blocks)[0], 500 * (1 / z - 1 / (z + 0.1)), 1e-9);
-    testing::ExpectTangentJacobians(DepthFactor(z + 0.1, 2), blocks, 1e-7);
-    const DepthHostFactor host(s.p_Ch.z() - 0.1, 2);
-    EXPECT_NEAR(testing::Residual(host, {point})[0], 2 / s.p_Ch.z() - 2 / (s.p_Ch.z() - 0.1), 1e-9);
-    testing::ExpectTangentJacobians(host, {point}, 1e-7);
+    const Block exact = Eigen::Vector2d::Zero();
+    const double z = s.InTarget(s.p_Ch).z(), z_host = s.p_Ch.z();
+    const DepthFactor target({z + 0.1, /*approach=*/0.7}, 500);
+    EXPECT_NEAR(testing::Residual(target, Joined(s.Poses(), {exact, point}))[0],
+                500 * (1 / z - 1 / (z + 0.1)), 1e-9);
+    const DepthHostFactor host({z_host - 0.1, 0.7}, 2);
+    EXPECT_NEAR(testing::Residual(host, {exact, point})[0], 2 / z_host - 2 / (z_host - 0.1), 1e-9);
   }
+}
+
+TEST(DepthFactor, JacobiansAreExactFarFromTheTruth) {
+  const Block stream = Vector2d(0.1, 0.08);
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    const FactorScene s(seed);
+    const double z = s.InTarget(s.p_Ch).z();
+    testing::ExpectTangentJacobians(DepthFactor({z + 0.1, 0.7}, 2),
+                                    Joined(s.Poses(), {stream, s.Point()}), 1e-7);
+    testing::ExpectTangentJacobians(DepthHostFactor({s.p_Ch.z(), 0.7}, 2), {stream, s.Point()},
+                                    1e-7);
+  }
+}
+
+// A point at 4 m is approached with 0.5 m/s.
+TEST(TimedDepth, ExpectsScaledDepthsOfAnEarlierTime) {
+  const TimedDepth measured{4, 0.5};
+  const double stream[] = {std::log(1.02), 0.03};
+  EXPECT_NEAR(1 / measured.Expected(1 / 4.0, stream), 1.02 * (4 + 0.03 * 0.5), 1e-4);
 }
 
 }  // namespace

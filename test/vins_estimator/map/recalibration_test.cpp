@@ -109,5 +109,42 @@ TEST_F(RecalibrationTest, MovesAllRaysOfAMap) {
   }
 }
 
+TEST_F(RecalibrationTest, MovesTheRaysOfTheSecondCameraAlone) {
+  FrameMeasurement measurement;
+  measurement.points.points.resize(2);
+  measurement.points.points[0].right = Vector2d(0.1, 0.2);
+  measurement.lines = LineFrame{0, {{1, {0.1, 0.2}, {-0.3, 0.4}}, {2, {}, {}}}};
+  measurement.lines->lines[0].right = RightSegment{{0.1, 0.2}, {-0.3, 0.4}, {0.001, 0.002}};
+  recalibration_.MoveRight(&measurement);
+  EXPECT_EQ(measurement.points.points[0].xy, Vector2d(0, 0));
+  EXPECT_MATRIX_NEAR(*measurement.points.points[0].right, Expected({0.1, 0.2}), 1e-12);
+  const LineObservation& line = measurement.lines->lines[0];
+  EXPECT_EQ(line.start, Vector2d(0.1, 0.2));
+  EXPECT_MATRIX_NEAR(line.right->start, Expected({0.1, 0.2}), 1e-12);
+  EXPECT_MATRIX_NEAR(line.right->end, Expected({-0.3, 0.4}), 1e-12);
+}
+
+TEST_F(RecalibrationTest, FollowsTheIntrinsicsOfTheSecondCamera) {
+  LocalMap map(LocalMapOptions(0.001, /*remember_lines=*/true));
+  PointLandmark& point = map.points.landmarks()[1];
+  point.views.resize(1);
+  point.views[0].right = Vector2d(0.1, 0.2);
+  LineLandmark& line = map.lines.landmarks()[2];
+  line.views = {{7, {{0.1, 0.2}, {-0.3, 0.4}}, RightSegment{{0.1, 0.2}, {-0.3, 0.4}, {}}}};
+  SensorConfig sensor = simulator::DefaultStereoSensors();
+  sensor.second_camera->camera = sensor.camera;
+  SlidingWindow& window = map.window;
+  window.intrinsics = window.ray_intrinsics = window.right_ray_intrinsics =
+      sensor.camera.intrinsics();
+  window.right_intrinsics = Other().intrinsics();
+  FollowIntrinsics(sensor, /*max_error=*/1, &map);
+  EXPECT_EQ(*point.views[0].right, Vector2d(0.1, 0.2));
+  FollowIntrinsics(sensor, /*max_error=*/1e-4, &map);
+  EXPECT_EQ(map.window.right_ray_intrinsics, map.window.right_intrinsics);
+  EXPECT_MATRIX_NEAR(*point.views[0].right, Expected({0.1, 0.2}), 1e-12);
+  EXPECT_MATRIX_NEAR(line.views[0].right->end, Expected({-0.3, 0.4}), 1e-12);
+  EXPECT_EQ(line.views[0].segment.end, Vector2d(-0.3, 0.4));
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -51,6 +51,18 @@ TEST(CalibratedConfig, LoadsUnchanged) {
   EXPECT_EQ(read.sensor.rolling_shutter_tr, 0.03);
 }
 
+TEST(CalibratedConfig, HasTheSecondCamera) {
+  Config config;
+  config.sensor.second_camera.emplace();
+  Calibration calibration = SomeCalibration();
+  calibration.right_camera = calibration.camera;
+  calibration.T_C_C1 = Rigid3d(Eigen::Quaterniond::Identity(), {0.1, 0, 0});
+  const SecondCamera second = *WithCalibration(calibration, config).sensor.second_camera;
+  EXPECT_EQ(second.camera.intrinsics(), calibration.camera.intrinsics());
+  EXPECT_MATRIX_NEAR((calibration.T_B_C.Inverse() * second.T_B_C).translation,
+                     Eigen::Vector3d(0.1, 0, 0), 1e-12);
+}
+
 // Saves any estimated calibration and loads it again.
 Config ReadBack(const Calibration& calibration) {
   const testing::TemporaryFolder folder;

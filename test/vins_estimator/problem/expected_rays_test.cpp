@@ -49,6 +49,29 @@ TEST(ExpectedRay, IsTheObservedOneBehindTheCamera) {
   EXPECT_EQ(ExpectedRay(landmark, landmark.views[1], window), Vector2d(0.3, 0.4));
 }
 
+// The second camera is at the place of frame 2.
+TEST(ExpectedRightRay, IsTheProjectionIntoTheSecondCamera) {
+  PointLandmark landmark = PointOfBoth();
+  landmark.views[0].right = Vector2d(0.3, 0.4);
+  SlidingWindow window = TwoFrames();
+  window.SetMounting({Eigen::Quaterniond::Identity(), Vector3d(0.5, 0, 0)});
+  EXPECT_MATRIX_NEAR(ExpectedRightRay(landmark, landmark.views[0], window), Vector2d(-0.025, 0.2),
+                     1e-12);
+  window.SetMounting({Eigen::Quaterniond::Identity(), Vector3d(0, 0, 5)});
+  EXPECT_EQ(ExpectedRightRay(landmark, landmark.views[0], window), Vector2d(0.3, 0.4));
+}
+
+TEST(ExpectedRightEnds, AreNearestToTheObservedOnes) {
+  LineLandmark landmark;
+  landmark.views = {{1, {}, RightSegment{{-0.1, 0.3}, {0.2, 0.52}}}};
+  landmark.coordinates = ToOrthonormal(LineThrough({-1, 1, 4}, {1, 1, 4}));
+  SlidingWindow window = TwoFrames();
+  window.SetMounting({Eigen::Quaterniond::Identity(), Vector3d(0, -0.8, 0)});  // line at y = 0.45
+  const LineSegmentView ends = ExpectedRightEnds(landmark, landmark.views[0], window);
+  EXPECT_MATRIX_NEAR(ends.start, Vector2d(-0.1, 0.45), 1e-12);
+  EXPECT_MATRIX_NEAR(ends.end, Vector2d(0.2, 0.45), 1e-12);
+}
+
 TEST(ExpectedEnds, AreNearestToTheObservedOnes) {
   LineLandmark landmark;
   landmark.views = {{1, {}}, {2, {{-0.1, 0.3}, {0.2, 0.22}}}};

@@ -98,5 +98,31 @@ TEST(InitialPrior, HoldsTheSecondCamera) {
   EXPECT_NEAR(std::sqrt(covariance(20, 20)), uncertainty.mounting, 1e-9);
 }
 
+TEST(InitialPrior, HoldsTheIntrinsicsOfTheSecondCamera) {
+  SimulatedWindow simulated = testing::SimulateWindow(2);
+  simulated.window.right_intrinsics = simulated.window.intrinsics;
+  ProblemOptions options = testing::OnePixelOptions();
+  options.estimate_intrinsics = true;
+  options.right_camera = options.camera;
+  const InitialUncertainty uncertainty;
+  const MatrixXd covariance =
+      InitialPrior(uncertainty, options, simulated.window).quadratic().H.inverse();
+  ASSERT_EQ(covariance.rows(), 15 + 2 * kIntrinsicsSize);
+  EXPECT_MATRIX_NEAR(covariance.diagonal().tail<kIntrinsicsSize>(),
+                     covariance.diagonal().segment<kIntrinsicsSize>(15), 1e-12);
+}
+
+TEST(InitialPrior, HoldsScaleAndDelayOfADepthStream) {
+  const SimulatedWindow simulated = testing::SimulateWindow(2);
+  ProblemOptions options = testing::OnePixelOptions();
+  options.estimate_depth_stream = true;
+  const InitialUncertainty uncertainty;
+  const MatrixXd covariance =
+      InitialPrior(uncertainty, options, simulated.window).quadratic().H.inverse();
+  ASSERT_EQ(covariance.rows(), 17);
+  EXPECT_NEAR(std::sqrt(covariance(15, 15)), uncertainty.depth_scale, 1e-9);
+  EXPECT_NEAR(std::sqrt(covariance(16, 16)), uncertainty.depth_delay, 1e-9);
+}
+
 }  // namespace
 }  // namespace plm_vins

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/uncertainty/length_evidence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "vins_estimator/problem/initial_prior.h"
+
+namespace plm_vins {
+namespace {
+
+constexpr double kAccelScaleDeviation = 0.0025;  // considered
+
+// Combines evidence and the prior's zero.
+TEST(LengthEvidence, IsWhatRemainsWithoutThePrior) {
+  const double prior = 1 / std::pow(kLengthDeviation, 2);
+  for (const double deviation : {0.001, 0.004, 0.02}) {
+    const double of_data = std::pow(deviation, -2);
+    const double variance = 1 / (of_data + prior);
+    const auto evidence = WithoutPrior(0.01 * of_data * variance, variance);
+    ASSERT_TRUE(evidence);
+    EXPECT_NEAR(evidence->error, 0.01, 1e-12);
+    EXPECT_NEAR(evidence->deviation, std::hypot(deviation, kAccelScaleDeviation), 1e-12);
+  }
+}
+
+TEST(LengthEvidence, DoesNotExistWhereThePriorAloneDecides) {
+  EXPECT_FALSE(WithoutPrior(0, kLengthDeviation * kLengthDeviation));
+}
+
+TEST(LengthEvidence, IsSignificantBeyondThreeStandardDeviations) {
+  EXPECT_FALSE(IsSignificant({0.0089, 0.003}));
+  EXPECT_TRUE(IsSignificant({-0.0091, 0.003}));
+}
+
+}  // namespace
+}  // namespace plm_vins

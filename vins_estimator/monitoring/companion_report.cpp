@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vins_estimator/monitoring/companion_report.h"
+
+#include <cmath>
+
+#include "common/format.h"
+
+namespace plm_vins {
+namespace {
+
+void Add(const std::string& fault, std::string* text) {
+  if (!text->empty()) *text += "; ";
+  *text += fault;
+}
+
+}  // namespace
+
+std::string DescribeFaults(const SecondCameraFaults& second_camera, const DepthFaults& depth) {
+  std::string text;
+  if (const auto& misfit_px = second_camera.misfit_px) {
+    Add(Format("second camera: it deviates by %.1f px from its calibration and is not used; "
+               "recalibrate it",
+               *misfit_px),
+        &text);
+  }
+  if (const auto& delay = second_camera.delay) {
+    Add(Format("second camera: it exposes %+.0f ms after the first camera", 1e3 * *delay), &text);
+  }
+  if (const auto& baseline = second_camera.baseline) {
+    Add(Format("second camera: according to the IMU, its baseline is %.1f +- %.1f %% %s than "
+               "body_T_cam1 states",
+               100 * std::abs(baseline->error), 100 * baseline->deviation,
+               baseline->error > 0 ? "longer" : "shorter"),
+        &text);
+  }
+  if (const auto& scale = depth.scale) {
+    Add(Format("depth_topic: according to the IMU, depths are %.1f +- %.1f %% too %s",
+               100 * std::abs(scale->error), 100 * scale->deviation,
+               scale->error > 0 ? "long" : "short"),
+        &text);
+  }
+  if (const auto& delay = depth.delay) {
+    Add(Format("depth_topic: depth images are %.0f ms %s than their timestamps",
+               1e3 * std::abs(*delay), *delay > 0 ? "older" : "newer"),
+        &text);
+  }
+  return text;
+}
+
+}  // namespace plm_vins

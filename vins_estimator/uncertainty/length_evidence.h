@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What motion and IMU tell by themselves of a length that the calibration states: of the baseline
+// of a second camera, or of measured depths.
+#pragma once
+
+#include <optional>
+
+#include "vins_estimator/least_squares/normal_equations.h"
+#include "vins_estimator/map/sliding_window.h"
+#include "vins_estimator/state/estimator_output.h"
+
+namespace plm_vins {
+
+// Removes the prior of deviation kLengthDeviation from an estimate of the logarithm of a length
+// relative to the stated one, given its variance P: the estimate is the mean of the prior's zero
+// and of the evidence, weighted by their information. Returns nullopt without evidence.
+std::optional<LengthEvidence> WithoutPrior(double estimate, double variance);
+
+// Returns whether an error is too large and too certain to be left unreported.
+bool IsSignificant(const LengthEvidence& evidence);
+
+// Both return what is significant, given the window's equations at their last linearization:
+// the error of the second camera's baseline, and what is wrong with the measured depths.
+std::optional<LengthEvidence> BaselineError(const SlidingWindow& window, double stated_length,
+                                            NormalEquations* equations);
+DepthFaults FaultsOfDepths(const SlidingWindow& window, NormalEquations* equations);
+
+}  // namespace plm_vins

@@ -53,12 +53,12 @@ class PairFlight(unittest.TestCase):
                              self.asl)
         for source in (("--bag", self.bag), ("--asl", self.asl)):
             summary = self.run_offline(config, *source)
-            self.assertGreater(summary["counts"][USED[sensor]]["median"], 100)
+            self.assertGreater(summary["counts_per_frame"][USED[sensor]]["median"], 100)
             self.assertGreater(summary["poses"], summary["frames"] - 16)
             self.assert_error_is_small()
         summary = self.run_offline(ROOT / "config" / "euroc.yaml", "--bag", self.bag)
         for count in USED.values():
-            self.assertEqual(summary["counts"][count]["mean"], 0)
+            self.assertEqual(summary["counts_per_frame"][count]["mean"], 0)
 
     def test_second_camera(self):
         self.assert_uses("stereo")

@@ -46,7 +46,7 @@ struct SlidingWindow {
   double td = 0;                                               // t_imu = t_image + td [s]
   Intrinsics intrinsics = Intrinsics::Zero();                  // of the camera
   Intrinsics ray_intrinsics = Intrinsics::Zero();              // with which all rays were computed
-  // Those of the second camera; unused without one.
+  // The second camera has its own; unused without one.
   Intrinsics right_intrinsics = Intrinsics::Zero(), right_ray_intrinsics = Intrinsics::Zero();
   Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  // [m/s^2]
 

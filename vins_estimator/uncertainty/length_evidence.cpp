@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kBaselineLength = 2;               // index in the tangent of a mounting
 constexpr int kDepthScale = 0, kDepthDelay = 1;  // indices in a depth stream
-constexpr double kMaxDeviation = 0.05;           // of evidence, relative; beyond it is none
+constexpr double kMaxDeviation = 0.05;           // relative; evidence is ignored beyond it
 constexpr double kMinSignificance = 3.0;         // in standard deviations
 // Relative standard deviation of the scale factor of an accelerometer. It is not estimated, but
 // considered in what the evidence is worth (a consider parameter, [Schmidt1966]).

@@ -26,13 +26,22 @@ void LinePairing::Add(LineFrame frame, bool image_waits) {
   }
 }
 
-bool LinePairing::AreDecided(int64_t image_ns, int newer_images) const {
-  if (!options_.expected || are_missing()) return true;
-  const bool there_or_passed = !frames_.empty() && frames_.back().t_ns >= image_ns;
-  return there_or_passed || newer_images >= options_.max_lag;
+bool LinePairing::HaveReached(int64_t image_ns) const {
+  return !frames_.empty() && frames_.back().t_ns >= image_ns;
 }
 
-std::optional<LineFrame> LinePairing::Take(int64_t image_ns) {
+bool LinePairing::AreDecided(int64_t image_ns, const NewerImages& newer) const {
+  if (!options_.expected || are_missing() || HaveReached(image_ns)) return true;
+  const bool may_stall = delayed_in_a_row_ < options_.patience;
+  return newer.count >= options_.max_lag && !(may_stall && newer.duration <= options_.max_stall);
+}
+
+std::optional<LineFrame> LinePairing::Take(int64_t image_ns, const NewerImages& newer) {
+  if (!HaveReached(image_ns)) {
+    delayed_in_a_row_ = options_.patience;
+  } else {
+    delayed_in_a_row_ = newer.count < options_.max_lag ? 0 : delayed_in_a_row_ + 1;
+  }
   taken_ns_.push_back(image_ns);
   if (static_cast<int>(taken_ns_.size()) > options_.max_lag) taken_ns_.pop_front();
   DropBefore(image_ns);

@@ -17,8 +17,8 @@ constexpr size_t kFewPoints = 10;  // too few to estimate the camera's motion
 MeasurementSync::MeasurementSync(const Options& options)
     : options_(options),
       imu_(options.imu, options.max_imu_gap, options.max_imu_samples),
-      lines_(
-          {options.expect_lines, options.max_line_lag, options.line_patience, options.max_frames}),
+      lines_({options.expect_lines, options.max_line_lag, options.max_line_stall,
+              options.line_patience, options.max_frames}),
       points_order_(kFeatureJumps) {}
 
 void MeasurementSync::AddImu(const ImuSample& sample) {
@@ -86,8 +86,12 @@ int64_t MeasurementSync::CutTime(size_t frame) const {
 }
 
 bool MeasurementSync::LinesAreDecided(size_t frame) const {
-  const size_t newer_images = points_.size() - frame - 1;
-  return lines_.AreDecided(points_[frame].t_ns, static_cast<int>(newer_images));
+  return lines_.AreDecided(points_[frame].t_ns, NewerThan(frame));
+}
+
+LinePairing::NewerImages MeasurementSync::NewerThan(size_t frame) const {
+  return {static_cast<int>(points_.size() - frame - 1),
+          ToSeconds(points_.back().t_ns - points_[frame].t_ns)};
 }
 
 void MeasurementSync::DropUnusableFrames() {
@@ -126,7 +130,7 @@ FrameMeasurement MeasurementSync::TakeFrame() {
   measurement.t_ns = points_.front().t_ns;
   measurement.time_offset = options_.td;
   measurement.imu = imu_.Cut(CutTime(0));
-  measurement.lines = lines_.Take(measurement.t_ns);
+  measurement.lines = lines_.Take(measurement.t_ns, NewerThan(0));
   measurement.points = std::move(points_.front());
   points_.pop_front();
   return measurement;

@@ -49,9 +49,10 @@ class MeasurementSync {
   struct Options {
     double td = 0;  // t_imu = t_image + td [s]
     ImuSensor imu;
-    bool expect_lines = false;  // wait (up to max_line_lag) for each image's line frame
-    int max_line_lag = 3;       // longest wait for a line frame [images]
-    int line_patience = 10;     // consecutive frames without lines after which lines are missing
+    bool expect_lines = false;    // wait (up to max_line_lag) for each image's line frame
+    int max_line_lag = 3;         // longest wait for a line frame [images]
+    double max_line_stall = 0.4;  // the same if the transport stalls [s]
+    int line_patience = 10;       // consecutive frames without lines after which lines are missing
     double max_imu_gap = kMaxImuInterval;  // images in a longer gap are dropped [s]
     // Once the IMU is further ahead of a frame than this [s], newer usable frames replace it: an
     // estimator that is too slow for the rate skips images.
@@ -98,6 +99,7 @@ class MeasurementSync {
   bool OldestIsReached() const { return !points_.empty() && imu_.Reaches(CutTime(0)); }
   // Returns whether a queued frame need not wait for its lines; newer frames may still wait.
   bool LinesAreDecided(size_t frame) const;
+  LinePairing::NewerImages NewerThan(size_t frame) const;
   void DropUnusableFrames();
   // Returns why the oldest queued frame is unusable; nullopt if usable. The IMU must reach it.
   std::optional<FrameDefect> FindDefect() const;

@@ -12,17 +12,18 @@ using testing::kMs;
 using testing::Lines;
 
 constexpr int kMaxLag = 3, kPatience = 10;
+constexpr double kMaxStall = 0.4;  // [s]
 
 LinePairing Pairing(bool expected = true, int max_frames = 200) {
-  return LinePairing({expected, kMaxLag, kPatience, max_frames});
+  return LinePairing({expected, kMaxLag, kMaxStall, kPatience, max_frames});
 }
 
 void Add(LinePairing* pairing, int64_t t_ms, bool image_waits = false) {
   pairing->Add(Lines(t_ms * kMs), image_waits);
 }
 
-bool Take(LinePairing* pairing, int64_t t_ms) {
-  const auto lines = pairing->Take(t_ms * kMs);
+bool Take(LinePairing* pairing, int64_t t_ms, const LinePairing::NewerImages& newer = {}) {
+  const auto lines = pairing->Take(t_ms * kMs, newer);
   if (lines) {
     EXPECT_EQ(lines->t_ns, t_ms * kMs);
   }
@@ -43,19 +44,38 @@ LinePairing Missing() {
 TEST(LinePairing, LinesAreResolvedOnceTheyArriveOrAreSkipped) {
   LinePairing pairing = Pairing();
   Add(&pairing, 50);
-  EXPECT_TRUE(pairing.AreDecided(49 * kMs, 0));
-  EXPECT_TRUE(pairing.AreDecided(50 * kMs, 0));
-  EXPECT_FALSE(pairing.AreDecided(51 * kMs, 0));
+  EXPECT_TRUE(pairing.AreDecided(49 * kMs, {}));
+  EXPECT_TRUE(pairing.AreDecided(50 * kMs, {}));
+  EXPECT_FALSE(pairing.AreDecided(51 * kMs, {}));
 }
 
 TEST(LinePairing, LinesAreResolvedAfterTheTimeout) {
-  EXPECT_FALSE(Pairing().AreDecided(0, kMaxLag - 1));
-  EXPECT_TRUE(Pairing().AreDecided(0, kMaxLag));
+  EXPECT_FALSE(Pairing().AreDecided(0, {kMaxLag - 1, 0.1}));
+  EXPECT_TRUE(Pairing().AreDecided(0, {kMaxLag, 0.15}));
+}
+
+TEST(LinePairing, AStallOfTheTransportDelaysImagesWhoseLinesWereInTimeBefore) {
+  LinePairing pairing = Pairing();
+  Add(&pairing, 50);
+  EXPECT_TRUE(Take(&pairing, 50));
+  EXPECT_FALSE(pairing.AreDecided(100 * kMs, {7, 0.35}));
+  EXPECT_TRUE(pairing.AreDecided(100 * kMs, {9, 0.45}));
+  for (int i = 0; i < kPatience; ++i) {
+    EXPECT_FALSE(pairing.AreDecided((100 + i) * kMs, {7, 0.35})) << i;
+    Add(&pairing, 100 + i);
+    EXPECT_TRUE(Take(&pairing, 100 + i, {7, 0.35}));
+  }
+  EXPECT_TRUE(pairing.AreDecided(200 * kMs, {kMaxLag, 0.15})) << "a tracker that is too slow";
+  Add(&pairing, 200);
+  EXPECT_TRUE(Take(&pairing, 200, {kMaxLag - 1, 0.1}));
+  EXPECT_FALSE(pairing.AreDecided(250 * kMs, {7, 0.35}));
+  EXPECT_FALSE(Take(&pairing, 250, {9, 0.45}));
+  EXPECT_TRUE(pairing.AreDecided(300 * kMs, {kMaxLag, 0.15})) << "a tracker that has stopped";
 }
 
 TEST(LinePairing, UnexpectedLinesAreUsedWithoutWaiting) {
   LinePairing pairing = Pairing(/*expected=*/false);
-  EXPECT_TRUE(pairing.AreDecided(50 * kMs, 0));
+  EXPECT_TRUE(pairing.AreDecided(50 * kMs, {}));
   Add(&pairing, 50);
   EXPECT_TRUE(Take(&pairing, 50));
   for (int i = 51; i < 100; ++i) EXPECT_FALSE(Take(&pairing, i));
@@ -88,7 +108,7 @@ TEST(LinePairing, RestartedTrackerRevokesLaterTimes) {
   LinePairing pairing = Pairing();
   for (const int64_t t : {10, 90, 95, 95, 20, 30}) Add(&pairing, t);
   EXPECT_EQ(pairing.statistics().lines_out_of_order, 2);
-  EXPECT_FALSE(pairing.AreDecided(90 * kMs, 0));
+  EXPECT_FALSE(pairing.AreDecided(90 * kMs, {}));
   for (const int64_t t : {10, 20, 30}) EXPECT_TRUE(Take(&pairing, t));
 }
 
@@ -100,7 +120,7 @@ TEST(LinePairing, TheQueueIsBounded) {
 }
 
 TEST(LinePairing, MissingLinesAreNotWaitedFor) {
-  EXPECT_TRUE(Missing().AreDecided(100 * kMs, 0));
+  EXPECT_TRUE(Missing().AreDecided(100 * kMs, {}));
   EXPECT_FALSE(Missing().are_of_other_images());
 }
 

@@ -80,16 +80,29 @@ std::vector<int> FeedWithLines(int64_t from, int64_t to, int lag, MeasurementSyn
   return delays;
 }
 
+// The first image waits as in a stall.
 TEST(MeasurementSyncLines, StoppedLineTrackerDelaysAtMostThePatience) {
   MeasurementSync sync(WithLines());
   FeedWithLines(50, 1000, 0, &sync);
   EXPECT_EQ(sync.statistics().frames_without_lines, 0);
   const std::vector<int> delays = FeedWithLines(1050, 3000, -1, &sync);
-  EXPECT_EQ(delays.front(), 3);
+  EXPECT_EQ(delays.front(), 9);
   EXPECT_EQ(delays.back(), 0);
-  EXPECT_EQ(std::count(delays.begin(), delays.end(), 3), 10);
+  EXPECT_EQ(std::count(delays.begin(), delays.end(), 3), 4);
   EXPECT_EQ(delays.size(), 40u) << "every image is handed out";
   EXPECT_TRUE(sync.lines_are_missing());
+}
+
+TEST(MeasurementSyncLines, StallOfTheTransportLosesNoLines) {
+  MeasurementSync sync(WithLines());
+  FeedWithLines(50, 1000, 0, &sync);
+  AddImu(&sync, 1005, 1400);  // all at once, and the lines at last
+  for (int64_t t = 1050; t <= 1400; t += 50) sync.AddPoints(Points(t * kMs));
+  EXPECT_TRUE(PopAll(&sync).empty());
+  for (int64_t t = 1050; t <= 1400; t += 50) sync.AddLines(Lines(t * kMs));
+  EXPECT_EQ(PopAll(&sync).size(), 8u);
+  EXPECT_EQ(sync.statistics().frames_without_lines, 0);
+  EXPECT_EQ(sync.statistics().frames_too_late, 0);
 }
 
 // At 5 Hz, images wait for their lines longer than `max_wait`, but there is nothing newer to use.

@@ -19,6 +19,7 @@ import sys
 # and ros/ is above those.
 COMMON_LAYERS = {
     "append.h": "",
+    "forgetting_sum.h": "",
     "format.h": "",
     "measurements.h": "",
     "image_companions.h": "measurements.h",

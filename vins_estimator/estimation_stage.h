@@ -14,10 +14,10 @@
 #include "common/measurements.h"
 #include "common/streams/drop_counts.h"
 #include "common/streams/stream_rhythm.h"
+#include "vins_estimator/imu/imu_noise_meter.h"
 #include "vins_estimator/input/input_check.h"
 #include "vins_estimator/input/measurement_sync.h"
 #include "vins_estimator/input/repeated_image_detector.h"
-#include "vins_estimator/monitoring/imu_noise_meter.h"
 #include "vins_estimator/state/estimator_output.h"
 #include "vins_estimator/state/residual_ring.h"
 

@@ -69,12 +69,14 @@ EstimatorOutput Estimator::Use(const FrameMeasurement& measurement, int features
   if (config_.estimator.zero_velocity_update) {
     standstill = state_.standstill_detector.Add(measurement, state_.odometry.MedianDepth());
   }
+  const StandstillDetector& detector = state_.standstill_detector;
   const bool scene_moves = standstill && standstill->scene_moves;
-  if (scene_moves) {
+  const bool may_move = !state_.odometry.started() || detector.doubts_camera();
+  if (scene_moves || (may_move && detector.sees_unfelt_motion())) {
     unfelt_motion_ += ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns);
   }
   if (!state_.odometry.started()) return Initialize(measurement);
-  const bool ignores_features = scene_moves || state_.standstill_detector.doubts_camera();
+  const bool ignores_features = scene_moves || detector.doubts_camera();
   return ignores_features ? Track(WithoutFeatures(measurement), standstill, features_observed)
                           : Track(measurement, standstill, features_observed);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -45,9 +46,10 @@ class WindowOdometry {
   EstimatorOutput Start(const InitializationResult& result, const InitialUncertainty& uncertainty);
   bool started() const { return started_; }
 
-  // Median depth of the known points in the newest image [m]; nullopt if there are few.
+  // Median depth of the known points in the newest image [m]; nullopt if there are few, or if no
+  // motion since the start can have told it: noise then places points arbitrarily near.
   std::optional<double> MedianDepth() const {
-    if (!started_) return std::nullopt;
+    if (!started_ || !knows_depth_) return std::nullopt;
     return estimate_.map.points.MedianDepthInNewest(estimate_.map.window);
   }
 
@@ -94,6 +96,8 @@ class WindowOdometry {
   Step SolveFirstWindow();
   // Adds the newest frame and returns its state, propagated by the IMU alone.
   FrameState AddFrame(const FrameMeasurement& measurement);
+  // Returns whether the body has left the place of the start, as far as the covariance tells.
+  bool HasMoved(const std::optional<Matrix15d>& covariance) const;
   // Returns the time of the image at which standstill began; nullopt in motion, even if slow.
   std::optional<int64_t> StillSince(
       const std::optional<StandstillDetector::Standstill>& standstill) const;
@@ -126,6 +130,8 @@ class WindowOdometry {
   const Config* config_;
   const EstimatorOptions* options_;
   bool started_ = false;
+  bool knows_depth_ = false;  // by motion, a second camera or a depth sensor
+  Eigen::Vector3d start_W_;
   WindowEstimate estimate_;
   LineStructure structure_;
   ViewNoise noise_;

@@ -106,17 +106,35 @@ TEST(EstimatorStandstill, TakeOffBeginsAtTheStandstillPosition) {
   EXPECT_LT(testing::GreatestError(estimated, 100), 0.05);
 }
 
-// Images of a flight with the IMU of a body at standstill: a train fills the view.
-TEST(EstimatorStandstill, MovingSceneDoesNotMoveTheEstimate) {
+// Images of a flight from `begin` on with the IMU of a body at standstill: a train fills the view.
+testing::SimulatedFlight MovingScene(double begin) {
   auto flight = testing::PlannedFlight(FlightWithRest(2, 20)).Simulate();
   FlightPlan plan;
   plan.duration = 20;
-  plan.T_W_V = [](double t) { return GentleFlight(t, 8, 18); };
+  plan.T_W_V = [begin](double t) { return GentleFlight(t, begin, 18); };
   const auto scene = testing::PlannedFlight(plan).Simulate();
   for (size_t i = 0; i < flight.frames.size(); ++i)
     flight.frames[i].points = scene.frames[i].points;
-  const EstimatedFlight estimated = testing::Estimate(flight);
-  ExpectHeld(estimated, 0.02, 15);
+  return flight;
+}
+
+TEST(EstimatorStandstill, MovingSceneDoesNotMoveTheEstimate) {
+  ExpectHeld(testing::Estimate(MovingScene(8)), 0.02, 15);
+}
+
+TEST(EstimatorStandstill, SceneThatMovesFromTheStartIsNoMotionOfTheBody) {
+  for (const double begin : {-3.0, 0.0, 1.0}) {
+    auto flight = MovingScene(begin);
+    flight.frames.resize(240);
+    Estimator estimator(testing::ConfigFor(flight));
+    for (const EstimatorOutput& output : testing::Estimate(flight, &estimator).outputs) {
+      const double deviation =
+          std::sqrt(testing::PoseCovariance(output).diagonal().head<3>().maxCoeff());
+      EXPECT_LT(output.state.position().norm(), std::max(0.02, 3 * deviation))
+          << begin << " s, at " << ToSeconds(output.t_ns - flight.frames[0].t_ns);
+    }
+    EXPECT_GT(estimator.unfelt_motion(), 2) << begin;
+  }
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ constexpr double kLeastVelocity = 0.05;  // [m/s]
 }  // namespace
 
 void ConfirmedStandstill::Add(const FrameMeasurement& measurement) {
+  for (const ImuSample& sample : measurement.imu) meter_.Add(sample);
   for (size_t i = 1; i < measurement.imu.size(); ++i) {
     const ImuSample& from = measurement.imu[i - 1];
     const ImuSample& to = measurement.imu[i];
@@ -43,22 +44,32 @@ bool ConfirmedStandstill::Continues() const {
   const double ratio = since_.duration / confirmed_.duration;
   const Eigen::Vector3d turn = since_.gyro - ratio * confirmed_.gyro;
   const Eigen::Vector3d velocity = since_.accel - ratio * confirmed_.accel;
-  return turn.norm() <= Limit(noise_.gyro_density, kLeastAngle) &&
+  return turn.norm() <= Limit(GyroDensity(), noise_.gyro_walk, kLeastAngle) &&
          velocity.norm() <= UnnoticedVelocity();
 }
 
 double ConfirmedStandstill::UnnoticedVelocity() const {
-  return Limit(noise_.accel_density, kLeastVelocity);
+  return Limit(AccelDensity(), noise_.accel_walk, kLeastVelocity);
 }
 
 void ConfirmedStandstill::Reset() { confirmed_ = since_ = {}; }
 
 // The integral of white noise over a time T has the variance density^2 T, and the mean over the
-// reference time T_r, times T, has density^2 T^2 / T_r.
-double ConfirmedStandstill::Limit(double density, double least) const {
-  const double duration = since_.duration;
-  const double variance = duration + duration * duration / confirmed_.duration;
-  return std::max(least, kSigmas * density * std::sqrt(variance));
+// reference time T_r, times T, has density^2 T^2 / T_r. The integral of a random walk has the
+// variance walk^2 T^3 / 3.
+double ConfirmedStandstill::Limit(double density, double walk, double least) const {
+  const double T = since_.duration;
+  const double variance =
+      density * density * (T + T * T / confirmed_.duration) + walk * walk * T * T * T / 3;
+  return std::max(least, kSigmas * std::sqrt(variance));
+}
+
+double ConfirmedStandstill::GyroDensity() const {
+  return std::min(noise_.gyro_density, meter_.gyro_density());
+}
+
+double ConfirmedStandstill::AccelDensity() const {
+  return std::min(noise_.accel_density, meter_.accel_density());
 }
 
 }  // namespace plm_vins

@@ -5,11 +5,13 @@
 
 #include "common/imu/imu_noise.h"
 #include "common/measurements.h"
+#include "vins_estimator/imu/imu_noise_meter.h"
 
 namespace plm_vins {
 
 // Tests by the IMU alone whether a standstill that the camera confirmed continues: its integrated
-// readings must equal those of the standstill within the noise. Biases and gravity cancel out.
+// readings must equal those of the standstill within noise and bias walks. Biases and gravity
+// cancel out. Configured noise covers flight; at standstill, the samples often show far less.
 class ConfirmedStandstill {
  public:
   explicit ConfirmedStandstill(const ImuNoise& noise) : noise_(noise) {}
@@ -39,10 +41,14 @@ class ConfirmedStandstill {
     Eigen::Vector3d accel = Eigen::Vector3d::Zero();  // [m/s]
   };
 
-  // Limit on the difference of an integral from its reference, for white noise of this density.
-  double Limit(double density, double least) const;
+  // Limit on the difference of an integral from its reference, for white noise and a random walk of
+  // these densities.
+  double Limit(double density, double walk, double least) const;
+  double GyroDensity() const;   // of the samples, at most as configured
+  double AccelDensity() const;  // of the samples, at most as configured
 
   ImuNoise noise_;
+  ImuNoiseMeter meter_;
   Integral confirmed_, since_;
 };
 

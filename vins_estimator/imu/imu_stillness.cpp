@@ -58,6 +58,12 @@ bool ImuStillness::IsKnown() const {
 }
 
 bool ImuStillness::IsQuiet() const {
+  return VariesWithin(options_.min_gyro_deviation, options_.min_accel_deviation);
+}
+
+bool ImuStillness::ShowsNoiseAlone() const { return VariesWithin(0, 0); }
+
+bool ImuStillness::VariesWithin(double gyro_deviation, double accel_deviation) const {
   if (!IsKnown()) return false;
   std::vector<Eigen::Vector3d> gyro, accel;
   for (size_t i = 1; i < intervals_.size(); ++i) {
@@ -67,10 +73,8 @@ bool ImuStillness::IsQuiet() const {
   // The mean of white noise over an interval has the standard deviation density / sqrt(interval).
   const double interval = Duration() / static_cast<double>(gyro.size());
   const double factor = options_.noise_factor / std::sqrt(interval);
-  return LargestDeviation(gyro) <=
-             std::max(factor * noise_.gyro_density, options_.min_gyro_deviation) &&
-         LargestDeviation(accel) <=
-             std::max(factor * noise_.accel_density, options_.min_accel_deviation);
+  return LargestDeviation(gyro) <= std::max(factor * noise_.gyro_density, gyro_deviation) &&
+         LargestDeviation(accel) <= std::max(factor * noise_.accel_density, accel_deviation);
 }
 
 }  // namespace plm_vins

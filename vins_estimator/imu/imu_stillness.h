@@ -30,8 +30,9 @@ class ImuStillness {
   // Adds the samples between the previous image and this one.
   void Add(const FrameMeasurement& measurement);
 
-  bool IsKnown() const;                                         // the window is full
-  bool IsQuiet() const;                                         // false if unknown
+  bool IsKnown() const;          // the window is full
+  bool IsQuiet() const;          // false if unknown
+  bool ShowsNoiseAlone() const;  // quiet without what is always allowed; false if unknown
   int64_t since_ns() const { return intervals_.front().t_ns; }  // first image of a full window
   size_t images() const { return intervals_.size(); }           // includes that image
 
@@ -45,6 +46,8 @@ class ImuStillness {
   };
 
   double Duration() const;  // length of the window [s]
+  // Returns whether the deviations are at most those of the noise, or these.
+  bool VariesWithin(double gyro_deviation, double accel_deviation) const;
   bool HasIntervals(int count) const;
 
   ImuNoise noise_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "common/features/common_points.h"
@@ -11,6 +12,9 @@
 
 namespace plm_vins {
 namespace {
+
+// While the scene moves, the IMU alone confirms the standstill, whose biases drift [s].
+constexpr double kFollowing = 2;
 
 // Positions and motions of the corners that both images observe [px].
 struct CornerMotions {
@@ -35,8 +39,20 @@ double MedianDistance(const std::vector<Eigen::Vector2d>& motions) {
   return Median(distances);
 }
 
-// Returns the greatest median of the motions' components: right, down, radial and tangential about
-// the mean position.
+// Returns the median if the noise of single values does not explain it, otherwise zero.
+double SignificantMedian(const std::vector<double>& values) {
+  constexpr double kSigmas = 3;
+  const double median = Median(values);
+  std::vector<double> distances(values.size());
+  for (size_t i = 0; i < values.size(); ++i) distances[i] = std::abs(values[i] - median);
+  // Standard deviation of the median of normally distributed values with this median distance.
+  const double deviation =
+      1.253 * 1.483 * Median(std::move(distances)) / std::sqrt(static_cast<double>(values.size()));
+  return std::abs(median) > kSigmas * deviation ? median : 0;
+}
+
+// Returns the greatest significant median of the motions' components: right, down, radial and
+// tangential about the mean position.
 double CommonMotion(const CornerMotions& corners) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& start : corners.starts) {
@@ -52,7 +68,9 @@ double CommonMotion(const CornerMotions& corners) {
     components[3].push_back(outwards.x() * motion.y() - outwards.y() * motion.x());
   }
   double greatest = 0;
-  for (const auto& values : components) greatest = std::max(greatest, std::abs(Median(values)));
+  for (const auto& values : components) {
+    greatest = std::max(greatest, std::abs(SignificantMedian(values)));
+  }
   return greatest;
 }
 
@@ -67,7 +85,7 @@ std::optional<StandstillDetector::Standstill> StandstillDetector::Add(
   confirmed_.Add(measurement);
   points_.push_back(measurement.points);
   while (points_.size() > imu_.images()) points_.pop_front();
-  doubts_camera_ = false;
+  doubts_camera_ = sees_unfelt_motion_ = false;
   if (!imu_.IsQuiet()) {
     confirmed_.Reset();
     return std::nullopt;
@@ -77,8 +95,10 @@ std::optional<StandstillDetector::Standstill> StandstillDetector::Add(
   if (sees && MedianDistance(corners.motions) <= options_.max_motion_px) {
     confirmed_.Confirm();
     seen_ = Seen::kStandstill;
+    confirmed_ns_ = measurement.t_ns;
     return Standstill{imu_.since_ns(), CommonMotion(corners)};
   }
+  sees_unfelt_motion_ = sees && imu_.ShowsNoiseAlone();
   if (!confirmed_.Continues()) {
     confirmed_.Reset();
     return std::nullopt;
@@ -88,10 +108,16 @@ std::optional<StandstillDetector::Standstill> StandstillDetector::Add(
     seen_ = is_of_scene ? Seen::kMovingScene : Seen::kMotion;
   }
   if (seen_ == Seen::kMotion) {
-    doubts_camera_ = !depth && confirmed_.TimeSince() < options_.max_doubt;
+    const bool may_stand = sees_unfelt_motion_ || confirmed_.TimeSince() < options_.max_doubt;
+    doubts_camera_ = !depth && may_stand;
     return std::nullopt;
   }
-  return Standstill{imu_.since_ns(), 0, seen_ == Seen::kMovingScene};
+  const Standstill standstill{confirmed_ns_, 0, seen_ == Seen::kMovingScene};
+  if (standstill.scene_moves && confirmed_.TimeSince() > kFollowing) {
+    confirmed_.Confirm();
+    confirmed_ns_ = measurement.t_ns;
+  }
+  return standstill;
 }
 
 // Tests translation only, because the IMU measures rotations at once.
@@ -103,7 +129,7 @@ bool StandstillDetector::IsOfScene(double motion, std::optional<double> depth) c
 
 void StandstillDetector::Reset() {
   imu_.Reset();
-  doubts_camera_ = false;
+  doubts_camera_ = sees_unfelt_motion_ = false;
   confirmed_.Reset();
   points_.clear();
 }

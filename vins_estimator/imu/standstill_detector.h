@@ -29,11 +29,11 @@ class StandstillDetector {
     ImuStillness::Options imu;
     double max_motion_px = 1.0;  // median corner motion over the window [px]
     int min_points = 10;         // corners that must be tracked through the window
-    double max_doubt = 2.0;      // after a standstill [s]
+    double max_doubt = 2.0;      // after a standstill, if the IMU shows more than its noise [s]
   };
 
   struct Standstill {
-    int64_t since_ns = 0;      // time of the image at the start of the window
+    int64_t since_ns = 0;      // time of an image since which the body has stood still
     double common_px = 0;      // common motion of the corners since that image [px]
     bool scene_moves = false;  // the image shows motion that the IMU does not feel
   };
@@ -47,9 +47,13 @@ class StandstillDetector {
                                 std::optional<double> depth = std::nullopt);
 
   // Returns whether the newest image shows motion that the IMU does not (yet) measure. While the
-  // depth is unknown, a slow start close to the ground looks like a moving scene. Until the IMU
-  // decides, dead reckoning can replace the camera: biases are known after a standstill.
+  // depth is unknown, a slow start close to the ground looks like a moving scene, and a tiny scale
+  // would explain any motion of the scene. Until the IMU decides, dead reckoning can replace the
+  // camera: biases are known after a standstill.
   bool doubts_camera() const { return doubts_camera_; }
+
+  // Returns whether the corners move while the IMU shows its noise alone.
+  bool sees_unfelt_motion() const { return sees_unfelt_motion_; }
 
   void Reset();
 
@@ -63,7 +67,8 @@ class StandstillDetector {
   // Content of the images since the confirmed standstill.
   enum class Seen { kStandstill, kMotion, kMovingScene };
   Seen seen_ = Seen::kStandstill;
-  bool doubts_camera_ = false;
+  int64_t confirmed_ns_ = 0;  // the newest image that confirmed the standstill
+  bool doubts_camera_ = false, sees_unfelt_motion_ = false;
   std::deque<PointFrame> points_;  // points of the images in the window
 };
 

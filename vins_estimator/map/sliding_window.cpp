@@ -56,8 +56,10 @@ TimedDepth SlidingWindow::DepthIn(int64_t t_ns, double depth) const {
 void SlidingWindow::SetStillSince(std::optional<int64_t> still_since_ns) {
   newest().stationary = still_since_ns.has_value();
   newest().moving_since_ns = second_newest().state.t_ns;
-  if (still_since_ns && second_newest().moving_since_ns >= *still_since_ns) {
-    second_newest().stationary = true;
+  if (!still_since_ns) return;
+  for (size_t i = frames.size() - 1; i > 0; --i) {
+    if (frames[i - 1].moving_since_ns < *still_since_ns) return;
+    frames[i - 1].stationary = true;
   }
 }
 

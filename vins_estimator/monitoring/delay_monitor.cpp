@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "vins_estimator/monitoring/forgetting_sum.h"
+#include "common/forgetting_sum.h"
 
 namespace plm_vins {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "common/forgetting_sum.h"
 #include "common/measurements.h"
 #include "common/median.h"
-#include "vins_estimator/monitoring/forgetting_sum.h"
 
 namespace plm_vins {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/estimator.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/stopwatch.h"
@@ -89,6 +90,8 @@ EstimatorOutput Estimator::Initialize(const FrameMeasurement& measurement) {
   EstimatorOutput output;
   if (result) {
     InitialUncertainty uncertainty = UncertaintyOf(config_.sensor, result->from_standstill);
+    // A bias along gravity shows; it is hardly larger than those across, which tilt the start.
+    uncertainty.accel_bias = std::max(uncertainty.accel_bias, result->accel_bias);
     const bool is_bridged = state_.bridge.begun() && KeepFrame(&*result, &uncertainty);
     output = state_.odometry.Start(*result, uncertainty);
     output.bridged = is_bridged;

@@ -58,6 +58,7 @@ EstimatorOptions::EstimatorOptions(const Config& config, double focal_length)
 
 InitialUncertainty UncertaintyOf(const SensorConfig& sensor, bool from_standstill) {
   InitialUncertainty uncertainty;
+  uncertainty.accel_bias = sensor.accel_bias_deviation;
   if (from_standstill) {
     uncertainty.velocity = kStandstillVelocity;
     uncertainty.gyro_bias = kStandstillGyroBias;

@@ -181,6 +181,7 @@ ConfigKeys<SensorConfig> SensorKeys(const std::string& model_type,
           {{"vins", S::ImuNoiseModel::kVins}, {"continuous", S::ImuNoiseModel::kContinuous}},
           &S::imu_noise_model),
       Key::Number("imu_rate", "Hz", {25, 10000}, &S::imu_rate),
+      Key::Number("accel_bias_deviation", "m/s^2", {1e-3, 5}, &S::accel_bias_deviation),
       Key::Number("g_norm", "m/s^2", {9, 10.5}, &S::gravity_norm),
   };
   ConfigKeys<S> second_camera = {CameraCountKey()};

@@ -55,6 +55,7 @@ struct SensorConfig {
   ImuNoiseModel imu_noise_model = ImuNoiseModel::kVins;
   double imu_rate = 200;
   ImuNoise imu_noise;
+  double accel_bias_deviation = 0.1;  // standard deviation about 0, per axis [m/s^2]
   ImuSensor imu;
   double gravity_norm = 9.81;  // [m/s^2]
 

@@ -2,6 +2,7 @@
 #include "vins_estimator/initialization/initializer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/format.h"
@@ -161,7 +162,10 @@ std::optional<InitializationResult> Initializer::TryStandstill(int64_t since_ns)
   if (!state) return std::nullopt;
   state->t_ns = buffer_.back().t_ns;
   reason_.clear();
-  return InitializationResult{{{buffer_.back(), *state}}, true, sensor_.T_B_C};
+  return InitializationResult{{{buffer_.back(), *state}},
+                              true,
+                              sensor_.T_B_C,
+                              std::abs(ExcessOfGravity(samples, sensor_.gravity_norm))};
 }
 
 bool Initializer::MayTryMotion(bool stereo) {

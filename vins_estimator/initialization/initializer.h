@@ -26,7 +26,8 @@ struct InitialFrame {
 struct InitializationResult {
   std::vector<InitialFrame> frames;  // oldest first, the last one is the newest image
   bool from_standstill = false;
-  Rigid3d T_B_C;  // calibrated or configured
+  Rigid3d T_B_C;          // calibrated or configured
+  double accel_bias = 0;  // lower bound on its size, from the norm of gravity at standstill [m/s^2]
 };
 
 // Initializes the estimator: from standstill once the body has stood still for 0.75 s, or for half

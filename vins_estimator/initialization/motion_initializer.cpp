@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/motion_initializer.h"
 
-#include <limits>
-
 #include "common/format.h"
 #include "common/geometry/so3.h"
 #include "vins_estimator/imu/preintegration.h"
@@ -192,10 +190,9 @@ bool Attempt::Align() {
   for (size_t i = 0; i < R_G_B_.size(); ++i) views.push_back({R_G_B_[i], structure_.p_G_C[i]});
   std::vector<const Preintegration*> preintegrations;
   for (const Preintegration& imu : preintegrations_) preintegrations.push_back(&imu);
-  const double scale_deviation =
-      options_.stereo ? kStereoScaleDeviation : std::numeric_limits<double>::infinity();
-  const auto alignment = AlignVisualInertial(views, preintegrations, sensor_.T_B_C,
-                                             sensor_.gravity_norm, scale_deviation, reason_);
+  AlignmentOptions options{sensor_.T_B_C, sensor_.gravity_norm, sensor_.accel_bias_deviation};
+  if (options_.stereo) options.scale_deviation = kStereoScaleDeviation;
+  const auto alignment = AlignVisualInertial(views, preintegrations, options, reason_);
   if (alignment) alignment_ = *alignment;
   return alignment.has_value();
 }
@@ -262,7 +259,7 @@ bool Attempt::CheckAdjustment(const VisualInertialBundle& bundle) {
 
 bool Attempt::Adjust() {
   VisualInertialBundleOptions options{sensor_.T_B_C, sensor_.gravity_norm,
-                                      noise_px_ / focal_length_};
+                                      noise_px_ / focal_length_, sensor_.accel_bias_deviation};
   options.T_C_C1 = T_C_C1();
   if (sensor_.depth) options.depth_noise = sensor_.depth->noise;
   if (!options_.stereo) options.max_scale_deviation = options_.max_scale_deviation;

@@ -12,15 +12,23 @@ namespace {
 constexpr double kMaxGyroMean = 0.5;      // larger values are no bias [rad/s]
 constexpr double kMaxGravityError = 1.0;  // error of the norm of the mean specific force [m/s^2]
 
+Eigen::Vector3d MeanSpecificForce(const std::vector<ImuSample>& samples) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const ImuSample& sample : samples) mean += sample.accel / samples.size();
+  return mean;
+}
+
 }  // namespace
+
+double ExcessOfGravity(const std::vector<ImuSample>& samples, double gravity_norm) {
+  return MeanSpecificForce(samples).norm() - gravity_norm;
+}
 
 std::optional<FrameState> InitializeFromStandstill(const std::vector<ImuSample>& samples,
                                                    double gravity_norm, std::string* reason) {
-  Eigen::Vector3d gyro = Eigen::Vector3d::Zero(), accel = Eigen::Vector3d::Zero();
-  for (const ImuSample& sample : samples) {
-    gyro += sample.gyro / samples.size();
-    accel += sample.accel / samples.size();
-  }
+  const Eigen::Vector3d accel = MeanSpecificForce(samples);
+  Eigen::Vector3d gyro = Eigen::Vector3d::Zero();
+  for (const ImuSample& sample : samples) gyro += sample.gyro / samples.size();
   if (!(std::abs(accel.norm() - gravity_norm) < kMaxGravityError)) {
     *reason = Format("standing still, but gravity reads %.2f m/s^2 instead of %.2f", accel.norm(),
                      gravity_norm);

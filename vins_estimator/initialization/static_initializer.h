@@ -18,4 +18,8 @@ namespace plm_vins {
 std::optional<FrameState> InitializeFromStandstill(const std::vector<ImuSample>& samples,
                                                    double gravity_norm, std::string* reason);
 
+// Returns by how much the mean specific force exceeds gravity [m/s^2]: at standstill, the part of
+// the accelerometer's bias along gravity, and a lower bound on its size.
+double ExcessOfGravity(const std::vector<ImuSample>& samples, double gravity_norm);
+
 }  // namespace plm_vins

@@ -16,7 +16,6 @@ using Index = ImuErrorIndex;
 constexpr int kGyroIterations = 5;
 constexpr double kGyroBiasPrior = 0.5;  // standard deviation [rad/s]
 constexpr int kGravityIterations = 4;
-constexpr double kAccelBiasPrior = 0.1;        // standard deviation [m/s^2]
 constexpr double kPositionDeviation = 0.005;   // rough error of the structure's camera centers [m]
 constexpr double kSignificant = 3.0;           // standard deviations
 constexpr double kGravityNormTolerance = 0.2;  // relative, of the estimate with free norm
@@ -26,12 +25,9 @@ constexpr double kGravityNormTolerance = 0.2;  // relative, of the estimate with
 class AlignmentSystem {
  public:
   AlignmentSystem(const std::vector<AlignmentView>& views,
-                  const std::vector<const Preintegration*>& preintegrations, const Rigid3d& T_B_C,
-                  double scale_deviation)
-      : views_(views),
-        preintegrations_(preintegrations),
-        T_B_C_(T_B_C),
-        scale_information_(1 / (scale_deviation * scale_deviation)) {}
+                  const std::vector<const Preintegration*>& preintegrations,
+                  const AlignmentOptions& options)
+      : views_(views), preintegrations_(preintegrations), options_(options) {}
 
   // Solves for gravity_G = fixed_gravity + gravity_basis * unknown and the other unknowns.
   bool Solve(const Eigen::Vector3d& fixed_gravity, const Eigen::MatrixXd& gravity_basis,
@@ -47,8 +43,7 @@ class AlignmentSystem {
 
   const std::vector<AlignmentView>& views_;
   const std::vector<const Preintegration*>& preintegrations_;
-  Rigid3d T_B_C_;
-  double scale_information_;  // information of the prior about scale 1
+  const AlignmentOptions options_;
 };
 
 // Adds the position and velocity rows of the interval from view i to view i + 1, in the body frame
@@ -75,8 +70,8 @@ void AlignmentSystem::AddInterval(size_t i, const Eigen::Vector3d& fixed_gravity
   A.block(3, gravity, 3, gravity_basis.cols()) = -T * R * gravity_basis;
   A.block<3, 3>(3, scale + 1) = -imu.jacobian().block<3, 3>(Index::kVelocity, Index::kAccelBias);
 
-  const Eigen::Vector3d lever =
-      views_[i + 1].R_G_B * T_B_C_.translation - views_[i].R_G_B * T_B_C_.translation;
+  const Eigen::Vector3d lever = views_[i + 1].R_G_B * options_.T_B_C.translation -
+                                views_[i].R_G_B * options_.T_B_C.translation;
   const ImuBias bias{Eigen::Vector3d::Zero(), imu.linearization_bias().gyro};
   Vector6d right;
   right.head<3>() = imu.DeltaP(bias) + R * (lever + 0.5 * T * T * fixed_gravity);
@@ -105,9 +100,11 @@ bool AlignmentSystem::Solve(const Eigen::Vector3d& fixed_gravity,
   for (size_t i = 0; i + 1 < views_.size(); ++i) {
     AddInterval(i, fixed_gravity, gravity_basis, &H, &b);
   }
-  H.bottomRightCorner<3, 3>().diagonal().array() += 1 / (kAccelBiasPrior * kAccelBiasPrior);
-  H(scale, scale) += scale_information_;
-  b(scale) += scale_information_;
+  const double scale_information = 1 / (options_.scale_deviation * options_.scale_deviation);
+  H.bottomRightCorner<3, 3>().diagonal().array() +=
+      1 / (options_.accel_bias_deviation * options_.accel_bias_deviation);
+  H(scale, scale) += scale_information;
+  b(scale) += scale_information;
   const Eigen::LLT<Eigen::MatrixXd> llt(H);
   if (llt.info() != Eigen::Success) return false;
   const Eigen::VectorXd x = llt.solve(b);
@@ -151,9 +148,10 @@ std::optional<Eigen::Vector3d> EstimateGyroBias(
 
 std::optional<Alignment> AlignVisualInertial(
     const std::vector<AlignmentView>& views,
-    const std::vector<const Preintegration*>& preintegrations, const Rigid3d& T_B_C,
-    double gravity_norm, double scale_deviation, std::string* reason) {
-  const AlignmentSystem system(views, preintegrations, T_B_C, scale_deviation);
+    const std::vector<const Preintegration*>& preintegrations, const AlignmentOptions& options,
+    std::string* reason) {
+  const AlignmentSystem system(views, preintegrations, options);
+  const double gravity_norm = options.gravity_norm;
   Alignment result;
   if (!system.Solve(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(), &result)) {
     *reason = "velocities, gravity and scale are unobservable";

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,13 @@ struct AlignmentView {
   Eigen::Vector3d q_G_C;  // camera center up to scale: p_G_C = scale * q_G_C + constant
 };
 
+struct AlignmentOptions {
+  Rigid3d T_B_C;
+  double gravity_norm;          // [m/s^2]
+  double accel_bias_deviation;  // standard deviation about 0 [m/s^2]
+  double scale_deviation = std::numeric_limits<double>::infinity();  // about 1; infinite: unknown
+};
+
 struct Alignment {
   double scale = 0;                         // meters per unit of the structure
   double scale_deviation = 0;               // standard deviation of `scale`
@@ -42,11 +50,10 @@ struct Alignment {
 // by weighted linear least squares ([Qin2018], section V.B, in another frame): first with free
 // gravity, then with gravity of known norm in its tangent plane and with the accelerometer bias.
 // `preintegrations[i]` is from view i to view i + 1 and is linearized at the gyroscope bias.
-// `scale_deviation`: of the scale about 1; infinite if it is unknown. Returns nullopt, with the
-// reason, if gravity or scale are impossible.
+// Returns nullopt, with the reason, if gravity or scale are impossible.
 std::optional<Alignment> AlignVisualInertial(
     const std::vector<AlignmentView>& views,
-    const std::vector<const Preintegration*>& preintegrations, const Rigid3d& T_B_C,
-    double gravity_norm, double scale_deviation, std::string* reason);
+    const std::vector<const Preintegration*>& preintegrations, const AlignmentOptions& options,
+    std::string* reason);
 
 }  // namespace plm_vins

@@ -116,8 +116,8 @@ void Bundle::AddPriors() {
   const FrameState& first = states_.front();
   problem_.AddTerm(GaugePrior(first, kGaugeDeviation), nullptr, {poses_.front()});
   const ImuBias mean{Eigen::Vector3d::Zero(), first.gyro_bias()};
-  problem_.AddTerm(BiasPrior(mean, options_.accel_bias_prior, options_.gyro_bias_prior), nullptr,
-                   {motions_.front()});
+  problem_.AddTerm(BiasPrior(mean, options_.accel_bias_deviation, options_.gyro_bias_deviation),
+                   nullptr, {motions_.front()});
 }
 
 Eigen::Vector3d Bundle::InCamera(int view, const Eigen::Vector3d& p_W) const {

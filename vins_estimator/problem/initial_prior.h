@@ -21,8 +21,8 @@ struct InitialUncertainty {
   double heading = 1e-3;      // fixes the gauge [rad]
   double inclination = 0.03;  // roll and pitch [rad]
   double velocity = 0.3;      // [m/s]
-  double accel_bias = 0.1;    // [m/s^2]
-  double gyro_bias = 0.02;    // [rad/s]
+  double accel_bias = SensorConfig().accel_bias_deviation;  // about 0 [m/s^2]
+  double gyro_bias = 0.02;                                  // [rad/s]
   // If set, roll and pitch come from the mean specific force at standstill, whose standard
   // deviation this is [m/s^2]; `inclination` is then not used.
   std::optional<double> leveled_by = std::nullopt;

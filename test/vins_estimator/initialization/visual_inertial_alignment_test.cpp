@@ -61,8 +61,9 @@ class AlignmentTest : public ::testing::Test {
       imu.Repropagate({Vector3d::Zero(), gyro_bias_});
       preintegrations.push_back(&imu);
     }
-    return AlignVisualInertial(views, preintegrations, sensor_.T_B_C, gravity_norm,
-                               std::numeric_limits<double>::infinity(), &reason_);
+    return AlignVisualInertial(views, preintegrations,
+                               {sensor_.T_B_C, gravity_norm, sensor_.accel_bias_deviation},
+                               &reason_);
   }
 
   static constexpr size_t kCount = 10, kStep = 5;

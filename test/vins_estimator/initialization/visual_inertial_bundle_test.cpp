@@ -30,7 +30,7 @@ struct Problem {
     const testing::SimulatedFlight flight = testing::SimulateFlight(simulation, 3);
     const double focal_length = CameraModel::Create(flight.sensor.camera)->FocalLength();
     options = {flight.sensor.T_B_C, flight.sensor.gravity_norm,
-               simulation.point_noise_px / focal_length};
+               simulation.point_noise_px / focal_length, flight.sensor.accel_bias_deviation};
     std::vector<const PointFrame*> views;
     std::vector<ImuSample> imu;
     for (int i = 0; i <= kImagesPerView * (kViews - 1); ++i) {

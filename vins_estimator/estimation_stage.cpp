@@ -118,6 +118,9 @@ std::string EstimationStage::ImuContradiction() const {
   evidence.configured_imu_rate = imu_rate_;
   evidence.accel_noise_factor = imu_noise_meter_.accel_density() / configured_noise_.accel_density;
   evidence.gyro_noise_factor = imu_noise_meter_.gyro_density() / configured_noise_.gyro_density;
+  using Rotations = ContradictionEvidence::Rotations;
+  if (rotation_check_->agrees()) evidence.rotations = Rotations::kAgree;
+  if (!rotation_check_->finding().empty()) evidence.rotations = Rotations::kExplained;
   return DescribeContradiction(evidence);
 }
 
@@ -147,11 +150,7 @@ void EstimationStage::CheckRotations(const FrameMeasurement& measurement,
   const double interval = ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns);
   const bool in_doubt = !output.has_pose || output.contradicted || output.imu_noise_scale > 1;
   doubt_ = std::clamp(doubt_ + (in_doubt ? interval : -0.5 * interval), 0.0, kMaxDoubt);
-  if (doubt_ > kLongDoubt) {
-    rotation_check_->Add(measurement);
-  } else {
-    rotation_check_->Interrupt();
-  }
+  rotation_check_->Add(measurement, doubt_ > kLongDoubt);
 }
 
 const std::string& EstimationStage::LensWarning() const { return estimator_->lens().warning(); }

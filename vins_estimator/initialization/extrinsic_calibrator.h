@@ -28,9 +28,6 @@ class ExtrinsicCalibrator {
                                         std::string* reason);
 
  private:
-  std::optional<RotationPair> MeasurePair(const std::deque<FrameMeasurement>& frames,
-                                          std::string* reason) const;
-
   ImuNoise imu_noise_;
   double noise_;
   std::vector<RotationPair> pairs_;  // oldest first

@@ -14,6 +14,7 @@ struct RotationPair {
   Eigen::Quaterniond R_C0_C1;
   double duration = 0;   // [s]
   double deviation = 0;  // standard deviation of their difference, per axis [rad]
+  Eigen::Vector3d rate_change = Eigen::Vector3d::Zero();  // of the gyroscope, from 0 to 1 [rad/s]
 };
 
 struct ExtrinsicRotationOptions {

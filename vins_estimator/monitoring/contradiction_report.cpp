@@ -16,6 +16,10 @@ constexpr double kFarTooNoisy = 8;  // vibration on vehicles reaches five
 constexpr char kChecks[] =
     "; check, the most likely first: extrinsicRotation (axes, or inverted), td, focal length and "
     "distortion, scale and axes of the IMU, moving objects, parts of the image that never move";
+constexpr char kChecksOfTranslation[] =
+    "; camera and gyro agree about rotations, so extrinsicRotation, td and the focal length are "
+    "right; check, the most likely first: scale and axes of the accelerometer (acc_correction), "
+    "moving objects, extrinsicTranslation, parts of the image that never move";
 
 }  // namespace
 
@@ -45,7 +49,9 @@ std::string DescribeContradiction(const ContradictionEvidence& evidence) {
     text += Format("; gyr_n is %.0f times too small for these samples (noise or vibration)",
                    evidence.gyro_noise_factor);
   }
-  return text + kChecks;
+  using Rotations = ContradictionEvidence::Rotations;
+  if (evidence.rotations == Rotations::kExplained) return text;
+  return text + (evidence.rotations == Rotations::kAgree ? kChecksOfTranslation : kChecks);
 }
 
 }  // namespace plm_vins

@@ -14,10 +14,14 @@ struct ContradictionEvidence {
   double imu_rate = 0, configured_imu_rate = 0;  // [Hz]
   // Noise of the samples themselves over acc_n and gyr_n (ImuNoiseMeter).
   double accel_noise_factor = 0, gyro_noise_factor = 0;
+  // The rotations of camera and gyro (RotationCheck): they agree, or an error that was found
+  // explains why they do not.
+  enum class Rotations { kUnknown, kAgree, kExplained };
+  Rotations rotations = Rotations::kUnknown;
 };
 
 // Describes a contradiction between camera and IMU: first the known faults, then what to check, the
-// likeliest first.
+// likeliest first, unless the rotations explain it.
 std::string DescribeContradiction(const ContradictionEvidence& evidence);
 
 }  // namespace plm_vins

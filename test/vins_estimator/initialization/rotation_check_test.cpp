@@ -22,7 +22,7 @@ SimulatedFlight Fly(uint64_t seed) {
 
 std::string Check(const SimulatedFlight& flight) {
   RotationCheck check(flight.sensor, 0.5);
-  for (const FrameMeasurement& frame : flight.frames) check.Add(frame);
+  for (const FrameMeasurement& frame : flight.frames) check.Add(frame, /*in_doubt=*/true);
   return check.finding();
 }
 
@@ -40,6 +40,24 @@ TEST(RotationCheck, NamesAWrongMounting) {
     const double degrees = std::stod(finding.substr(30));
     EXPECT_NEAR(degrees, turn.norm() * 180 / M_PI, 3);
   }
+}
+
+TEST(RotationCheck, NamesAWrongFocalLength) {
+  SimulatedFlight flight = Fly(2);
+  for (FrameMeasurement& frame : flight.frames) {
+    for (PointObservation& point : frame.points.points) point.xy /= 1.06;
+  }
+  EXPECT_EQ(Check(flight).rfind("the focal length is wrong by about +", 0), 0u) << Check(flight);
+}
+
+TEST(RotationCheck, NamesAGyroWithWrongScales) {
+  SimulatedFlight flight = Fly(2);
+  for (FrameMeasurement& frame : flight.frames) {
+    for (ImuSample& sample : frame.imu)
+      sample.gyro = Eigen::Vector3d(1.04, 0.97, 1).cwiseProduct(sample.gyro);
+  }
+  EXPECT_EQ(Check(flight).rfind("scale or axes of the gyro are wrong by up to ", 0), 0u)
+      << Check(flight);
 }
 
 }  // namespace

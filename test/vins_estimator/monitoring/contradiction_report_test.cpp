@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "vins_estimator/monitoring/imu_noise_meter.h"
+#include "vins_estimator/imu/imu_noise_meter.h"
 
 namespace plm_vins {
 namespace {
@@ -29,6 +29,15 @@ TEST(ContradictionReport, ListsChecksWithoutAKnownCause) {
               AllOf(ContainsRegex("noise is raised by a factor of 5; check.*extrinsicRotation.*td.*"
                                   "focal length.*IMU.*image"),
                     Not(HasSubstr("acc_n")), Not(HasSubstr("gyr_n"))));
+}
+
+TEST(ContradictionReport, ListsOnlyWhatTheRotationsLeaveOpen) {
+  ContradictionEvidence evidence = Evidence();
+  evidence.rotations = ContradictionEvidence::Rotations::kAgree;
+  EXPECT_THAT(DescribeContradiction(evidence),
+              ContainsRegex("agree about rotations.*; check.*accelerometer.*moving objects"));
+  evidence.rotations = ContradictionEvidence::Rotations::kExplained;
+  EXPECT_THAT(DescribeContradiction(evidence), Not(HasSubstr("check")));
 }
 
 TEST(ContradictionReport, NamesKnownCausesFirst) {

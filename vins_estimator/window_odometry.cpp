@@ -2,7 +2,6 @@
 #include "vins_estimator/window_odometry.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -37,10 +36,6 @@ std::optional<Matrix6d> PoseOf(const std::optional<Matrix15d>& covariance) {
   return covariance->topLeftCorner<6, 6>();
 }
 
-// Motion since a start from standstill that tells the depth of the scene.
-constexpr double kLeastMotion = 0.01;  // [m]
-constexpr double kSignificant = 3;     // standard deviations
-
 }  // namespace
 
 WindowOdometry::WindowOdometry(const Config& config, const EstimatorOptions& options)
@@ -57,8 +52,8 @@ EstimatorOutput WindowOdometry::Start(const InitializationResult& result,
   Fill(result, uncertainty);
   const Step step = SolveFirstWindow();
   started_ = true;
-  start_W_ = estimate_.map.window.newest().state.position();
-  knows_depth_ = !result.from_standstill || config_->sensor.second_camera || config_->sensor.depth;
+  const bool has_depth = config_->sensor.second_camera || config_->sensor.depth;
+  depth_evidence_.Begin(window().newest().state.position(), has_depth || !result.from_standstill);
   return Describe(step);
 }
 
@@ -105,7 +100,7 @@ WindowOdometry::Tracked WindowOdometry::Track(
   Tracked tracked;
   tracked.newest = map.window.newest().state;
   tracked.covariance = step.solution.covariance;
-  knows_depth_ = knows_depth_ || HasMoved(tracked.covariance);
+  depth_evidence_.Add(tracked.newest.position(), tracked.covariance);
   tracked.failure = estimate_monitor_.Add(
       {step.solution.exists, map.window.newest().stationary, predicted, tracked.newest,
        PoseOf(tracked.covariance), features_observed, step.counts,
@@ -155,15 +150,7 @@ bool WindowOdometry::DoubtsNewestInterval() {
   return true;
 }
 
-bool WindowOdometry::HasMoved(const std::optional<Matrix15d>& covariance) const {
-  if (!covariance) return false;
-  const double deviation = std::sqrt(covariance->diagonal().head<3>().maxCoeff());
-  const double moved = (estimate_.map.window.newest().state.position() - start_W_).norm();
-  return moved > std::max(kLeastMotion, kSignificant * deviation);
-}
-
-// If the depth is known, points constrain a slow motion better than the assumption of standstill.
-// Without them, an estimate held near the mean position is better than none.
+// Known depths constrain a slow motion better than standstill does; without, standstill is safer.
 std::optional<int64_t> WindowOdometry::StillSince(
     const std::optional<StandstillDetector::Standstill>& standstill) const {
   if (!standstill) return std::nullopt;

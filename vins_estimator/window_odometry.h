@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "vins_estimator/map/pixel_residuals.h"
 #include "vins_estimator/marginalization/window_estimate.h"
 #include "vins_estimator/merging/line_structure.h"
+#include "vins_estimator/monitoring/depth_evidence.h"
 #include "vins_estimator/monitoring/estimate_monitor.h"
 #include "vins_estimator/monitoring/imu_agreement.h"
 #include "vins_estimator/monitoring/stereo_monitor.h"
@@ -49,7 +49,7 @@ class WindowOdometry {
   // Median depth of the known points in the newest image [m]; nullopt if there are few, or if no
   // motion since the start can have told it: noise then places points arbitrarily near.
   std::optional<double> MedianDepth() const {
-    if (!started_ || !knows_depth_) return std::nullopt;
+    if (!started_ || !depth_evidence_.is_known()) return std::nullopt;
     return estimate_.map.points.MedianDepthInNewest(estimate_.map.window);
   }
 
@@ -96,8 +96,6 @@ class WindowOdometry {
   Step SolveFirstWindow();
   // Adds the newest frame and returns its state, propagated by the IMU alone.
   FrameState AddFrame(const FrameMeasurement& measurement);
-  // Returns whether the body has left the place of the start, as far as the covariance tells.
-  bool HasMoved(const std::optional<Matrix15d>& covariance) const;
   // Returns the time of the image at which standstill began; nullopt in motion, even if slow.
   std::optional<int64_t> StillSince(
       const std::optional<StandstillDetector::Standstill>& standstill) const;
@@ -130,8 +128,7 @@ class WindowOdometry {
   const Config* config_;
   const EstimatorOptions* options_;
   bool started_ = false;
-  bool knows_depth_ = false;  // by motion, a second camera or a depth sensor
-  Eigen::Vector3d start_W_;
+  DepthEvidence depth_evidence_;
   WindowEstimate estimate_;
   LineStructure structure_;
   ViewNoise noise_;

@@ -11,7 +11,7 @@ import sys
 
 import numpy as np
 
-from evaluation import consistency, metrics, mistakes, steps
+from evaluation import consistency, evo_backend, metrics, mistakes, steps
 from evaluation.evo_zip import write_evo_zip
 from evaluation.run_results import read_estimate
 from evaluation.side_by_side import side_by_side
@@ -59,6 +59,7 @@ def evaluate(estimate, truth, align="se3", max_diff=metrics.MAX_DIFFERENCE,
         "computed_by": "numpy",
     }
     result.update(error_statistics(paired_estimate, paired_truth))
+    _replace_by_evo(result, paired_estimate, paired_truth)
     return paired_estimate, paired_truth, result
 
 
@@ -97,6 +98,16 @@ def add_consistency(result, estimate, truth, options):
     except consistency.NoPoseThenError as error:
         print(f"evaluate.py: --covariance: {error}; choose another time with --nees-after",
               file=sys.stderr)
+
+
+def _replace_by_evo(result, estimate, truth):
+    if truth.steps_left_out or not evo_backend.is_available():  # evo knows no pieces
+        return
+    try:
+        result.update(evo_backend.evo_statistics(estimate, truth))
+        result["computed_by"] = "evo"
+    except Exception as error:  # evo's own exceptions change between versions
+        print(f"evaluate.py: evo failed ({error}), figures are from numpy", file=sys.stderr)
 
 
 def format_report(result):

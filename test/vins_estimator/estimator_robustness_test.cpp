@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The estimator under disturbances, and its determinism.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +12,8 @@
 
 namespace plm_vins {
 namespace {
+
+using ::testing::HasSubstr;
 
 using simulator::Motion;
 using testing::EstimatedFlight;
@@ -303,8 +306,7 @@ TEST(EstimatorRobustness, TenSecondsWithoutConstraintEndInARestart) {
     const EstimatorOutput output = estimator.Process(simulated.frames[i]);
     if (!output.restarted) continue;
     restarts.push_back(i);
-    EXPECT_NE(output.reason.find("no feature has constrained the position"), std::string::npos)
-        << output.reason;
+    EXPECT_THAT(output.reason, HasSubstr("no feature has constrained the position"));
   }
   ASSERT_EQ(restarts.size(), 1u);
   EXPECT_GT(restarts[0], 200u);
@@ -327,7 +329,7 @@ TEST(EstimatorRobustness, DetectsAFailedAccelerometerWithLinesOnly) {
     EXPECT_TRUE(i < 185 || !output.has_pose || output.contradicted) << i;
     if (output.status == EstimatorStatus::kLost) reason = output.reason;
   }
-  EXPECT_NE(reason.find("camera contradicts"), std::string::npos) << reason;
+  EXPECT_THAT(reason, HasSubstr("camera contradicts"));
 }
 
 // A doubt so large that the IMU term overflows.
@@ -344,7 +346,7 @@ TEST(EstimatorRobustness, FailedOptimizationIsTrackingLoss) {
     frame.imu[1].accel_doubt = 1e160;
     output = estimator.Process(frame);
     EXPECT_EQ(output.status, EstimatorStatus::kLost);
-    EXPECT_EQ(output.reason, "the optimization has no solution");
+    EXPECT_THAT(output.reason, HasSubstr("no solution"));
     EXPECT_FALSE(output.has_pose);
     EXPECT_THROW(estimator.Process(flight.frames[150]), std::invalid_argument) << "older";
     EXPECT_NO_THROW(estimator.Process(flight.frames[181]));
@@ -361,7 +363,7 @@ TEST(EstimatorRobustness, NeverStartsWithoutPointsAndStatesTheReason) {
     EXPECT_FALSE(output.has_pose);
     EXPECT_FALSE(output.restarted);
     if (&frame != &flight.frames.front()) {
-      EXPECT_EQ(output.reason, "too few points followed from the last image: 0 of 12");
+      EXPECT_THAT(output.reason, HasSubstr("0 of 12"));
     }
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "offline/pipeline/tracker_values.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -10,6 +11,8 @@
 
 namespace plm_vins {
 namespace {
+
+using ::testing::StartsWith;
 
 using testing::StillConfig;
 
@@ -54,7 +57,7 @@ TEST(RecordedOtherwise, HasRecordedValuesAndAWarning) {
   EXPECT_EQ(otherwise.at("use_lines"), false);
   EXPECT_EQ(otherwise.at("projection_parameters.cx"), 160);
   const std::string warning = RecordedOtherwiseWarning("x.features", otherwise);
-  EXPECT_EQ(warning.rfind("x.features was recorded with other values of ", 0), 0u) << warning;
+  EXPECT_THAT(warning, StartsWith("x.features was recorded with other values of "));
   for (const auto& [name, value] : otherwise.items()) {
     EXPECT_NE(warning.find(name), std::string::npos) << name;
   }

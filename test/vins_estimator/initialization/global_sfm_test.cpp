@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/global_sfm.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/geometry/so3.h"
@@ -9,6 +10,9 @@
 
 namespace plm_vins {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
@@ -90,14 +94,14 @@ TEST(GlobalSfmTest, RejectsWithoutTranslation) {
   const Scene scene(0, 0.5 / 460, 0, 25, 1);
   std::string reason;
   EXPECT_FALSE(ReconstructStructure(scene.tracks, scene.R_G_C, kOptions, &reason));
-  EXPECT_EQ(reason.rfind("too little parallax: ", 0), 0u) << reason;
+  EXPECT_THAT(reason, StartsWith("too little parallax: "));
 }
 
 TEST(GlobalSfmTest, RejectsFewPoints) {
   const Scene scene(0.1, 0, 0, 4, 1);
   std::string reason;
   EXPECT_FALSE(ReconstructStructure(scene.tracks, scene.R_G_C, kOptions, &reason));
-  EXPECT_EQ(reason.rfind("too few common points: ", 0), 0u) << reason;
+  EXPECT_THAT(reason, StartsWith("too few common points: "));
 }
 
 TEST(GlobalSfmTest, RejectsAFrameWithoutPoints) {
@@ -105,7 +109,7 @@ TEST(GlobalSfmTest, RejectsAFrameWithoutPoints) {
   scene.R_G_C.push_back(Quaterniond::Identity());
   std::string reason;
   EXPECT_FALSE(ReconstructStructure(scene.tracks, scene.R_G_C, kOptions, &reason));
-  EXPECT_EQ(reason, "a frame shares too few points with the others");
+  EXPECT_THAT(reason, HasSubstr("shares too few points"));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/initializer.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,9 @@
 
 namespace plm_vins {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 using testing::FlightOptions;
 using testing::SimulatedFlight;
@@ -168,7 +172,7 @@ TEST(InitializerTest, RejectsPureRotation) {
       SimulateFlight(FlightOptions(simulator::Motion::kPureRotation, 1), 4);
   Initializer initializer(ConfigFor(flight));
   EXPECT_FALSE(Feed(flight, &initializer));
-  EXPECT_EQ(initializer.reason().rfind("too little parallax: ", 0), 0u) << initializer.reason();
+  EXPECT_THAT(initializer.reason(), StartsWith("too little parallax: "));
 }
 
 TEST(InitializerTest, RejectsBlindImages) {
@@ -176,7 +180,7 @@ TEST(InitializerTest, RejectsBlindImages) {
   for (FrameMeasurement& frame : flight.frames) frame.points.points.clear();
   Initializer initializer(ConfigFor(flight));
   EXPECT_FALSE(Feed(flight, &initializer));
-  EXPECT_EQ(initializer.reason(), "too few points followed from the last image: 0 of 12");
+  EXPECT_THAT(initializer.reason(), HasSubstr("0 of 12"));
 }
 
 // Blank images, whose neighbors a tracker follows from one to the other.
@@ -243,8 +247,7 @@ TEST(InitializerTest, WaitsForTurnsWhereTheCameraRotationIsUnknown) {
       ForgetTheCameraPose(SimulateFlight(FlightOptions(simulator::Motion::kStill, 1)));
   Initializer initializer(ConfigFor(still));
   EXPECT_FALSE(Feed(still, &initializer));
-  EXPECT_NE(initializer.reason().find("calibrating the camera's rotation"), std::string::npos)
-      << initializer.reason();
+  EXPECT_THAT(initializer.reason(), HasSubstr("calibrating the camera's rotation"));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/motion_initializer.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/geometry/so3.h"
@@ -9,6 +10,8 @@
 
 namespace plm_vins {
 namespace {
+
+using ::testing::HasSubstr;
 
 using Eigen::Vector3d;
 
@@ -83,19 +86,19 @@ TEST_F(MotionInitializerTest, StatesStartAtTheOriginWithoutHeading) {
 
 TEST_F(MotionInitializerTest, RejectsConstantVelocity) {
   EXPECT_FALSE(Run(Glide(simulator::DefaultSensors(), {0.1, 0.5, 0.1})));
-  EXPECT_NE(reason_.find("scale"), std::string::npos) << reason_;
+  EXPECT_THAT(reason_, HasSubstr("scale"));
 }
 
 TEST_F(MotionInitializerTest, RejectsStandstill) {
   EXPECT_FALSE(Run(Glide(simulator::DefaultSensors(), Vector3d::Zero())));
-  EXPECT_EQ(reason_, "too little parallax: 0.0 px of 15.0 px");
+  EXPECT_THAT(reason_, HasSubstr("0.0 px of 15.0 px"));
 }
 
 TEST_F(MotionInitializerTest, RejectsWithoutPoints) {
   Thin(testing::SimulateFlight(testing::FlightOptions(simulator::Motion::kFast, 1), 3));
   for (FrameMeasurement& frame : frames_) frame.points.points.clear();
   EXPECT_FALSE(Run(frames_));
-  EXPECT_EQ(reason_, "too few common points: 0 of 15");
+  EXPECT_THAT(reason_, HasSubstr("0 of 15"));
 }
 
 TEST_F(MotionInitializerTest, RejectsAnImuThatDisagreesWithTheCamera) {

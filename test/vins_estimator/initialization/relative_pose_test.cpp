@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/relative_pose.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/geometry/so3.h"
@@ -9,6 +10,8 @@
 
 namespace plm_vins {
 namespace {
+
+using ::testing::HasSubstr;
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
@@ -109,9 +112,9 @@ TEST(RelativePoseTest, GyroResolvesThePlanarAmbiguity) {
 TEST(RelativePoseTest, RejectsFewOrUnrelatedPointsWithReason) {
   std::string reason;
   EXPECT_FALSE(EstimateRelativePose(kViews.Observe(14, 0, 0, 1), kGyro, kNoise, &reason));
-  EXPECT_EQ(reason, "too few common points: 14 of 15");
+  EXPECT_THAT(reason, HasSubstr("14 of 15"));
   EXPECT_FALSE(EstimateRelativePose(kViews.Observe(100, 0.2, 1.0, 1), kGyro, kNoise, &reason));
-  EXPECT_NE(reason.find("inliers"), std::string::npos) << reason;
+  EXPECT_THAT(reason, HasSubstr("inliers"));
 }
 
 TEST(RelativePoseTest, ParallaxIgnoresRotation) {

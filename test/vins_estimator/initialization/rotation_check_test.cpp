@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/rotation_check.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +11,8 @@
 
 namespace plm_vins {
 namespace {
+
+using ::testing::StartsWith;
 
 using testing::SimulatedFlight;
 
@@ -36,7 +39,7 @@ TEST(RotationCheck, NamesAWrongMounting) {
     SimulatedFlight flight = Fly(1);
     flight.sensor.T_B_C.rotation = flight.sensor.T_B_C.rotation * SO3Exp(turn);
     const std::string finding = Check(flight);
-    EXPECT_EQ(finding.rfind("extrinsicRotation is wrong by ", 0), 0u) << finding;
+    EXPECT_THAT(finding, StartsWith("extrinsicRotation is wrong by "));
     const double degrees = std::stod(finding.substr(30));
     EXPECT_NEAR(degrees, turn.norm() * 180 / M_PI, 3);
   }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/initialization/static_initializer.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/geometry/so3.h"
 
 namespace plm_vins {
 namespace {
+
+using ::testing::HasSubstr;
 
 using Eigen::Vector3d;
 
@@ -44,10 +47,10 @@ TEST(StaticInitializerTest, RejectsImpossibleMeansWithReason) {
   std::string reason;
   EXPECT_FALSE(
       InitializeFromStandstill(Repeat(Vector3d::Zero(), Vector3d(0, 0, 1)), kGravity, &reason));
-  EXPECT_EQ(reason, "standing still, but gravity reads 1.00 m/s^2 instead of 9.81");
+  EXPECT_THAT(reason, HasSubstr("1.00 m/s^2"));
   EXPECT_FALSE(InitializeFromStandstill(Repeat(Vector3d(0, 0, 1), Vector3d(0, 0, kGravity)),
                                         kGravity, &reason));
-  EXPECT_EQ(reason, "standing still, but the gyro reads 1.00 rad/s");
+  EXPECT_THAT(reason, HasSubstr("1.00 rad/s"));
   EXPECT_FALSE(InitializeFromStandstill({}, kGravity, &reason));
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vins_estimator/ros/estimator_diagnostics.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace plm_vins {
 namespace {
+
+using ::testing::HasSubstr;
 
 using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
@@ -47,7 +50,7 @@ TEST_F(EstimatorDiagnosticsTest, WarnOfPosesOlderThanHalfASecond) {
   EXPECT_EQ(Report(0.49).level, diagnostic_msgs::DiagnosticStatus::OK);
   const Status status = Report(4.2);
   EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
-  EXPECT_EQ(status.message, "tracking; late: poses are 4200 ms old");
+  EXPECT_THAT(status.message, HasSubstr("4200 ms"));
   EXPECT_EQ(Value(status, "pose_age_ms"), "4200");
 }
 
@@ -70,11 +73,11 @@ TEST_F(EstimatorDiagnosticsTest, StateTheNoiseOfTheImuAsConfiguredUntilItIsLearn
 
 TEST_F(EstimatorDiagnosticsTest, WarnOfDoubtfulPoses) {
   output_.on_imu_alone = true;
-  EXPECT_EQ(Report(0).message, "tracking; blind: dead reckoning by the IMU");
+  EXPECT_THAT(Report(0).message, HasSubstr("blind"));
   output_.on_imu_alone = false;
   output_.contradicted = true;
   const Status status = Report(0);
-  EXPECT_EQ(status.message, "tracking; the camera contradicts the state");
+  EXPECT_THAT(status.message, HasSubstr("contradicts"));
   EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
 }
 
@@ -84,7 +87,7 @@ TEST_F(EstimatorDiagnosticsTest, WarnOfUnusableInput) {
   Status status;
   diagnostics_.Report(0, &status);
   EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
-  EXPECT_EQ(status.message, "waiting: no usable image yet");
+  EXPECT_THAT(status.message, HasSubstr("waiting"));
   EXPECT_EQ(Value(status, "feature_messages_malformed"), "1");
   EXPECT_EQ(Value(status, "features_impossible"), "3");
 }

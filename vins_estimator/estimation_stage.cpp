@@ -132,7 +132,7 @@ ImuNoise EstimationStage::NoiseOfSamples() const {
 }
 
 std::string EstimationStage::InputFinding() const {
-  const std::string finding = input_check_.Finding();
+  std::string finding = input_check_.Finding();
   if (!finding.empty()) return finding;
   if (!rotation_check_->finding().empty()) return rotation_check_->finding();
   const double unfelt_motion = estimator_->unfelt_motion();

@@ -19,7 +19,7 @@ std::optional<Eigen::Quaterniond> ExtrinsicCalibrator::Add(
   const std::optional<RotationPair> pair = MeasureRotationPair(frames, imu_noise_, noise_, reason);
   if (pair) pairs_.push_back(*pair);
   if (pairs_.size() > kMaxPairs) pairs_.erase(pairs_.begin());
-  const auto R_B_C = CalibrateExtrinsicRotation(pairs_, ExtrinsicRotationOptions(), reason);
+  auto R_B_C = CalibrateExtrinsicRotation(pairs_, ExtrinsicRotationOptions(), reason);
   if (!R_B_C) *reason = "calibrating the camera's rotation: " + *reason;
   return R_B_C;
 }

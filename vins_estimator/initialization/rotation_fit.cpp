@@ -36,7 +36,6 @@ Range Limits(Cause cause) {
     case Cause::kTimeOffset:
       return {0.005, 0.1};
     case Cause::kFocalLength:
-      return {0.02, 0.3};
     case Cause::kMounting:
       return {0.02, 0.3};
     default:

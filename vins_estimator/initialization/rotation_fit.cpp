@@ -20,6 +20,7 @@ constexpr size_t kMinPairs = 40;
 constexpr double kMinTurn = 0.03;      // root mean square of the rotations [rad]
 constexpr double kMinExplained = 0.2;  // share of the squared differences
 constexpr double kAgreement = 0.005;   // root mean square of the differences [rad]
+constexpr double kOverlap = 3;         // pairs of 0.3 s may begin every 0.1 s: a third is new
 constexpr int kReweighings = 5;
 constexpr double kInlierSigmas = 3;
 
@@ -140,16 +141,16 @@ RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
   if (equations.mean_squared_turn < kMinTurn * kMinTurn) return {};
   const Eigen::VectorXd weights = Weights(equations);
   const double squares = Solve(equations, weights, Cause::kNone).squares;
-  const double log_count = std::log(weights.sum());
+  const double count = weights.sum() / kOverlap;
   const bool agree = squares < kAgreement * kAgreement * weights.sum();
   const RotationFit without{agree ? Cause::kNone : Cause::kUnknown};
   RotationFit best = without;
-  double best_criterion = weights.sum() * std::log(squares);
+  double best_criterion = count * std::log(squares);
   for (const Cause cause :
        {Cause::kTimeOffset, Cause::kFocalLength, Cause::kMounting, Cause::kGyro}) {
     const Fit fit = Solve(equations, weights, cause);
     const double criterion =
-        weights.sum() * std::log(fit.squares) + log_count * ColumnsOf(cause).count;
+        count * std::log(fit.squares) + std::log(count) * ColumnsOf(cause).count;
     if (criterion >= best_criterion) continue;
     best_criterion = criterion;
     const double amount = Amount(cause, fit.parameters);

@@ -21,8 +21,8 @@ struct RotationFit {
 // Fits the differences of many pairs by linear least squares, robustly, once for each cause, each
 // with a bias of the gyroscope. The best fit by the Bayesian information criterion is the cause if
 // it explains a good part of the differences and its amount matters. There is none if the rotations
-// agree; it is unknown if they do not, or if there are too few. `R_B_C` is as configured and right
-// within some degrees.
+// agree; it is unknown if they do not, or if there are too few. A wrong focal length is visible in
+// rotation without much translation only. `R_B_C` is as configured and right within some degrees.
 RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
                              const Eigen::Quaterniond& R_B_C);
 

@@ -16,8 +16,8 @@ using ::testing::StartsWith;
 
 using testing::SimulatedFlight;
 
-SimulatedFlight Fly(uint64_t seed) {
-  auto options = testing::FlightOptions(simulator::Motion::kGentle, seed);
+SimulatedFlight Fly(uint64_t seed, simulator::Motion motion = simulator::Motion::kGentle) {
+  auto options = testing::FlightOptions(motion, seed);
   options.trajectory.duration = 15;
   options.point_outlier_ratio = 0.02;
   return testing::SimulateFlight(options, /*skip=*/4);
@@ -30,7 +30,10 @@ std::string Check(const SimulatedFlight& flight) {
 }
 
 TEST(RotationCheck, FindsNothingIfAllIsRight) {
-  for (uint64_t seed = 1; seed <= 3; ++seed) EXPECT_EQ(Check(Fly(seed)), "");
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    EXPECT_EQ(Check(Fly(seed)), "");
+    EXPECT_EQ(Check(Fly(seed, simulator::Motion::kFast)), "");
+  }
 }
 
 TEST(RotationCheck, NamesAWrongMounting) {
@@ -45,8 +48,9 @@ TEST(RotationCheck, NamesAWrongMounting) {
   }
 }
 
+// Without translation, which the relative pose of two images would trade for it.
 TEST(RotationCheck, NamesAWrongFocalLength) {
-  SimulatedFlight flight = Fly(2);
+  SimulatedFlight flight = Fly(2, simulator::Motion::kPureRotation);
   for (FrameMeasurement& frame : flight.frames) {
     for (PointObservation& point : frame.points.points) point.xy /= 1.06;
   }
@@ -54,7 +58,7 @@ TEST(RotationCheck, NamesAWrongFocalLength) {
 }
 
 TEST(RotationCheck, NamesAGyroWithWrongScales) {
-  SimulatedFlight flight = Fly(2);
+  SimulatedFlight flight = Fly(2, simulator::Motion::kFast);
   for (FrameMeasurement& frame : flight.frames) {
     for (ImuSample& sample : frame.imu)
       sample.gyro = Eigen::Vector3d(1.04, 0.97, 1).cwiseProduct(sample.gyro);

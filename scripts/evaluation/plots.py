@@ -63,8 +63,8 @@ def draw_errors(axis, seconds, errors):
     axis.plot(seconds, errors, color="0.35", linewidth=1.0, label="APE")
     mean, deviation = np.mean(errors), np.std(errors)
     for value, name, color in [(np.sqrt(np.mean(errors ** 2)), "rmse", "tab:red"),
-                                (mean, "mean", "tab:blue"),
-                                (np.median(errors), "median", "tab:green")]:
+                               (mean, "mean", "tab:blue"),
+                               (np.median(errors), "median", "tab:green")]:
         axis.axhline(value, color=color, linewidth=1.2, label=f"{name} {value:.4f} m")
     axis.axhspan(max(mean - deviation, 0.0), mean + deviation, color="tab:blue", alpha=0.12,
                  label=f"std {deviation:.4f} m")

@@ -9,7 +9,7 @@ from evaluation.metrics import position_errors
 
 ESTIMATE_COLOR, TRUTH_COLOR, LOOP_COLOR = "#d0008f", "#222222", "#ff9a00"
 PATH_COLORS = (ESTIMATE_COLOR, "#1f77b4", "#2ca02c", "#ff7f0e", "#9467bd", "#8c564b", "#17becf",
-                "#bcbd22", "#7f7f7f")
+               "#bcbd22", "#7f7f7f")
 TRUTH = "ground truth"
 POINT_COLOR = "#9aa5b1"
 LINE_COLORS = {"along x": "#dc2828", "along y": "#28a028", "along z": "#325ae6", "free": "#8c8c8c"}

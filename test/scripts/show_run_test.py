@@ -306,7 +306,7 @@ class Page(ShowRun):
         pixels = np.round(255 * matplotlib.image.imread(picture)[..., :3]).astype(int)
         scene = pixels[200:850]
         for color in (run_figures.ESTIMATE_COLOR, run_figures.LINE_COLORS["along z"],
-                       run_figures.POINT_COLOR, run_figures.LOOP_COLOR):
+                      run_figures.POINT_COLOR, run_figures.LOOP_COLOR):
             self.assertGreater(self.count(scene, color), 30, color)
         self.assertGreater(self.count(pixels[850:], "#1f77b4"), 300, "curves over time")
 

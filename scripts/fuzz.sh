@@ -13,13 +13,15 @@ seconds="${1:-600}"
 
 cmake -S "$root" -B "$root/build/fuzz" -DCMAKE_BUILD_TYPE=Release -DSANITIZE="${SANITIZE:-ON}" \
   -DBUILD_TESTING=OFF -DBUILD_FUZZ=ON
-cmake --build "$root/build/fuzz" -j "${JOBS:-$(nproc)}" --target plm_fuzz plm_fuzz_ros plm_soak
+cmake --build "$root/build/fuzz" -j "${JOBS:-$(nproc)}" --target plm_fuzz plm_fuzz_input plm_fuzz_ros \
+  plm_soak
 export ASAN_OPTIONS=abort_on_error=1:handle_segv=0:allocator_may_return_null=0:detect_leaks=0
 export UBSAN_OPTIONS=abort_on_error=1:print_stacktrace=1
 target="${2:-all}"
 case "$target" in
-  all) programs=(plm_fuzz plm_fuzz_ros) ;;
+  all) programs=(plm_fuzz plm_fuzz_input plm_fuzz_ros) ;;
   messages | bag | chunk) programs=(plm_fuzz_ros) ;;
+  config | asl | points | lines) programs=(plm_fuzz_input) ;;
   *) programs=(plm_fuzz) ;;
 esac
 for program in "${programs[@]}"; do

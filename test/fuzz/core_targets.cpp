@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The targets of plm_fuzz: all except those for ROS input.
+// The targets of plm_fuzz: the estimator and the map.
 #include "test/fuzz/target.h"
 
 namespace plm_vins::fuzz {
 
-std::vector<Target> Targets() {
-  return {ConfigTarget(),     AslTarget(),          MapTarget(),        StageTarget(),
-          DivergenceTarget(), PointTrackerTarget(), LineTrackerTarget()};
-}
+std::vector<Target> Targets() { return {MapTarget(), StageTarget(), DivergenceTarget()}; }
 
 }  // namespace plm_vins::fuzz

@@ -6,6 +6,22 @@
 #include "common/camera/ray_transfer.h"
 
 namespace plm_vins {
+namespace {
+
+// Calls `change_point` and `change_line` with each observation of the map's landmarks.
+template <typename ChangePoint, typename ChangeLine>
+void ChangeViews(const ChangePoint& change_point, const ChangeLine& change_line, LocalMap* map) {
+  for (auto& [id, point] : map->points.landmarks()) {
+    for (PointView& view : point.views) change_point(&view);
+  }
+  for (auto& [id, line] : map->lines.landmarks()) {
+    for (LineView& view : line.views) change_line(&view);
+    for (LineView& view : line.anchor_views) change_line(&view);
+  }
+  map->memory.ChangeViews(change_line);
+}
+
+}  // namespace
 
 double Recalibration::LargestMove() const {
   constexpr int kSteps = 4;
@@ -43,14 +59,8 @@ void Recalibration::Move(LineView* view) const {
 }
 
 void Recalibration::Move(LocalMap* map) const {
-  for (auto& [id, point] : map->points.landmarks()) {
-    for (PointView& view : point.views) Move(&view.bearing.xy, &view.bearing.velocity);
-  }
-  for (auto& [id, line] : map->lines.landmarks()) {
-    for (LineView& view : line.views) Move(&view);
-    for (LineView& view : line.anchor_views) Move(&view);
-  }
-  map->memory.ChangeViews([this](LineView* view) { Move(view); });
+  ChangeViews([this](PointView* view) { Move(&view->bearing.xy, &view->bearing.velocity); },
+              [this](LineView* view) { Move(view); }, map);
 }
 
 void Recalibration::MoveRight(std::optional<RightSegment>* segment) const {
@@ -68,17 +78,11 @@ void Recalibration::MoveRight(FrameMeasurement* measurement) const {
 }
 
 void Recalibration::MoveRight(LocalMap* map) const {
-  for (auto& [id, point] : map->points.landmarks()) {
-    for (PointView& view : point.views) {
-      if (view.right) Move(&*view.right);
-    }
-  }
-  const auto move_line = [this](LineView* view) { MoveRight(&view->right); };
-  for (auto& [id, line] : map->lines.landmarks()) {
-    for (LineView& view : line.views) move_line(&view);
-    for (LineView& view : line.anchor_views) move_line(&view);
-  }
-  map->memory.ChangeViews(move_line);
+  ChangeViews(
+      [this](PointView* view) {
+        if (view->right) Move(&*view->right);
+      },
+      [this](LineView* view) { MoveRight(&view->right); }, map);
 }
 
 void FollowIntrinsics(const SensorConfig& sensor, double max_error, LocalMap* map) {

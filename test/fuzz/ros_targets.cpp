@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <rosbag/bag.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/keyframe_conversion.h"
 #include "common/ros/msg_conversion.h"
 #include "offline/recordings/bag_recording.h"
+#include "test/fuzz/fuzz_folder.h"
 #include "test/fuzz/target.h"
 #include "test/offline/ros/packed_chunk.h"
 
 namespace plm_vins::fuzz {
 namespace {
 
-std::string BagFile() {
-  const auto name = "plm_vins_fuzz_" + std::to_string(getpid()) + ".bag";
-  return (std::filesystem::temp_directory_path() / name).string();
-}
+std::string BagFile() { return (Folder() / "recording.bag").string(); }
 
 sensor_msgs::Image Image(int64_t t_ns) {
   sensor_msgs::Image image;
@@ -32,7 +25,7 @@ sensor_msgs::Image Image(int64_t t_ns) {
   return image;
 }
 
-std::string SmallBag(rosbag::compression::CompressionType compression) {
+Bytes SmallBag(rosbag::compression::CompressionType compression) {
   rosbag::Bag bag(BagFile(), rosbag::bagmode::Write);
   bag.setCompression(compression);
   for (int i = 0; i < 20; ++i) {
@@ -44,13 +37,11 @@ std::string SmallBag(rosbag::compression::CompressionType compression) {
     if (i % 10 == 0) bag.write("/cam0/image_raw", imu.header.stamp, Image(t_ns));
   }
   bag.close();
-  std::ostringstream text;
-  text << std::ifstream(BagFile(), std::ios::binary).rdbuf();
-  return text.str();
+  return ReadFile(BagFile());
 }
 
 void ReadBag(const std::string& bytes) {
-  std::ofstream(BagFile(), std::ios::binary) << bytes;
+  Write(BagFile(), bytes);
   const auto recording = OpenBags({BagFile()}, "/cam0/image_raw", "/imu0");
   while (const auto event = recording->Next()) {
     if (event->kind == RecordingEvent::Kind::kImage) recording->LoadImage();
@@ -104,15 +95,15 @@ void Try(Conversion conversion) {
 }
 
 Target BagTarget() {
-  const std::vector<Bytes> seeds = {ToBytes(SmallBag(rosbag::compression::Uncompressed)),
-                                    ToBytes(SmallBag(rosbag::compression::BZ2)),
-                                    ToBytes(SmallBag(rosbag::compression::LZ4))};
+  const std::vector<Bytes> seeds = {SmallBag(rosbag::compression::Uncompressed),
+                                    SmallBag(rosbag::compression::BZ2),
+                                    SmallBag(rosbag::compression::LZ4)};
   return {"bag", seeds, [](const Bytes& bytes) { ReadBag(ToText(bytes)); }};
 }
 
 // The content of a chunk, which is packed after it is damaged, so that its checksum is correct.
 Target ChunkTarget() {
-  const testing::BagWithOneChunk good(SmallBag(rosbag::compression::Uncompressed));
+  const testing::BagWithOneChunk good(ToText(SmallBag(rosbag::compression::Uncompressed)));
   return {"chunk", {ToBytes(good.content)}, [good](const Bytes& bytes) {
             testing::BagWithOneChunk bag = good;
             bag.content = ToText(bytes);

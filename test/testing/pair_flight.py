@@ -5,11 +5,10 @@ import pathlib
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SENSORS = ("stereo", "depth")
 
 
 def write_config(folder, sensor):
-    """Writes the configuration of one of SENSORS to FOLDER/SENSOR.yaml; returns its path."""
+    """Writes a configuration for "stereo" or "depth" to FOLDER/SENSOR.yaml; returns its path."""
     config = pathlib.Path(folder) / f"{sensor}.yaml"
     name = "euroc_stereo.yaml" if sensor == "stereo" else "euroc.yaml"
     text = (ROOT / "config" / name).read_text(encoding="utf-8")

@@ -62,12 +62,12 @@ FrameMeasurement RollingShutter::ToStamp(FrameMeasurement measurement,
 }
 
 void RollingShutter::MovePoints(const Motion& motion, std::vector<PointObservation>* points) {
-  std::unordered_map<int64_t, TimedPosition> sights;
+  std::unordered_map<int64_t, TimedPosition> positions;
   std::vector<PointObservation> moved;
   moved.reserve(points->size());
   for (PointObservation& point : *points) {
     const TimedPosition now = TimedPositionOf(point);
-    sights.emplace(point.id, now);
+    positions.emplace(point.id, now);
     const auto before = points_.find(point.id);
     if (before == points_.end()) continue;
     const auto velocity = Velocity(motion, before->second, now);
@@ -77,7 +77,7 @@ void RollingShutter::MovePoints(const Motion& motion, std::vector<PointObservati
     if (point.right) *point.right -= now.share * motion.readout * *velocity;  // nearly the same row
     moved.push_back(point);
   }
-  points_ = std::move(sights);
+  points_ = std::move(positions);
   *points = std::move(moved);
 }
 

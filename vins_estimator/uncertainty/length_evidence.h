@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What motion and IMU tell by themselves of a length that the calibration states: of the baseline
-// of a second camera, or of measured depths.
+// Compares a length that the calibration states with the one that motion and IMU alone suggest: the
+// baseline of a second camera, or measured depths.
 #pragma once
 
 #include <optional>

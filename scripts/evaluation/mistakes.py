@@ -10,6 +10,9 @@ from .trajectory import with_first_component_last, with_last_component_first
 
 _WRONG_ATTITUDE = 20.0  # larger errors [deg] need an explanation
 _RIGHT_ATTITUDE = 5.0  # smaller ones [deg] are not by chance
+_OTHER_UNIT = 30.0  # ratio of scales that no estimate has
+_STILL = 0.1  # deviation of positions [m] below which no scale is defined
+_INVERTED = 5.0  # ratio of position errors that shows inverted poses
 _DENSER = 3.0  # ratio of pose rates above which a file is likely to be the ground truth
 
 
@@ -17,7 +20,8 @@ def notes(paths, estimate, truth, align, max_difference):
     """Returns all notes on the two files, the estimate's first; see metrics.associate() and
     metrics.alignment() for the last two arguments."""
     pair = metrics.associate(estimate, truth, max_difference)
-    found = (_swapped(*paths, estimate, truth), _quaternion_order(*paths, *pair, align))
+    found = (_swapped(*paths, estimate, truth), _quaternion_order(*paths, *pair, align),
+             _unit(paths[0], *pair), _inverted(paths[0], *pair))
     return [note for note in found if note]
 
 
@@ -34,6 +38,30 @@ def _swapped(estimate_path, truth_path, estimate, truth):
         return None
     return (f"{estimate_path} looks like the ground truth and {truth_path} like the estimate; give"
             " the estimate first")
+
+
+def _unit(estimate_path, estimate, truth):
+    if np.std(truth.positions, axis=0).max() < _STILL:
+        return None
+    scale = metrics.scale(estimate, truth)
+    if 1 / _OTHER_UNIT < scale < _OTHER_UNIT:
+        return None
+    return (f"the positions of {estimate_path} are {scale:.3g} times those of the ground truth; are"
+            " both in meters?")
+
+
+def _inverted(estimate_path, estimate, truth):
+    """Returns a note if the inverse poses of the estimate fit far better."""
+    def error(poses):
+        rotation, translation = metrics.alignment(poses, truth, "se3")
+        errors = metrics.position_errors(poses.transformed(rotation, translation), truth)
+        return np.sqrt(np.mean(errors ** 2))
+
+    as_is, inverted = error(estimate), error(estimate.inverse())
+    if as_is < max(_STILL, _INVERTED * inverted):
+        return None
+    return (f"APE is {as_is:.2g} m, but {inverted:.2g} m if the poses of {estimate_path} are those"
+            " of the world in the body; invert them")
 
 
 def _rate(trajectory):

@@ -74,6 +74,12 @@ class Trajectory:
         return replace(self, positions=self.positions @ rotation.T + translation,
                        rotations=rotation @ self.rotations)
 
+    def inverse(self):
+        """Returns the poses of the world in the body."""
+        rotations = np.swapaxes(self.rotations, 1, 2)
+        return replace(self, rotations=rotations,
+                       positions=-np.einsum("nij,nj->ni", rotations, self.positions))
+
 
 def with_first_component_last(trajectory):
     """Reinterprets quaternions that were read as x y z w, but are w x y z in the file."""
@@ -135,8 +141,10 @@ def _parse_row(line, where, previous_stamp):
     words = line.split(",") if is_csv else line.split()
     if len(words) < 8 or (not is_csv and len(words) != 8):
         expected = "at least 8 columns (EuRoC csv)" if is_csv else "8 columns (TUM)"
-        hint = "; replace the semicolons by spaces" if ";" in line else ""
-        raise TrajectoryError(f"{where}: {len(words)} columns, expected {expected}{hint}")
+        raise TrajectoryError(f"{where}: {len(words)} columns, expected {expected}"
+                              f"{_column_hint(line, len(words))}")
+    if is_csv and len(line.split()) == 8 and all("," in word.strip(",") for word in line.split()):
+        raise TrajectoryError(f"{where}: decimal commas; replace them by points")
     try:
         row = [float(word) for word in words[:8]]
     except ValueError as error:
@@ -153,6 +161,16 @@ def _parse_row(line, where, previous_stamp):
     return row
 
 
+def _column_hint(line, columns):
+    if ";" in line:
+        return "; replace the semicolons by spaces"
+    if columns == 12:
+        return "; 12 look like KITTI poses without stamps: convert them, with times.txt, to TUM"
+    if columns == 4:
+        return "; for positions without attitudes, append 0 0 0 1"
+    return ""
+
+
 def _check_unit(path, stamps, is_csv):
     """Raises TrajectoryError if the timestamps as read [s] show that the file has another unit."""
     expected = "nanoseconds" if is_csv else "seconds"
@@ -162,7 +180,8 @@ def _check_unit(path, stamps, is_csv):
     first, interval = stamps[0] * UNITS[expected], interval * UNITS[expected]  # as in the file
     looks_like = [unit for unit, per_second in UNITS.items() if unit != expected
                   and 1e-4 < interval / per_second < 2.0 and first / per_second < 1e10]
-    if looks_like == ["seconds"]:
+    looks_like.sort(key=lambda unit: 1e9 < first / UNITS[unit] < 4e9)  # an epoch of today, last
+    if looks_like[-1:] == ["seconds"]:
         raise TrajectoryError(f"{path}: has commas, but its stamps look like seconds; for rows of"
                               " stamp x y z qx qy qz qw, replace the commas by spaces (EuRoC csv"
                               " has nanoseconds, and qw before qx)")

@@ -80,6 +80,34 @@ class Units(MistakeTest):
                                       " rows of stamp x y z qx qy qz qw, replace the commas by"
                                       " spaces", path, self.truth)
 
+    def test_slow_tum_with_commas(self):
+        path = self.write_rows("odd.tum", self.rows[::2], ",")  # 10 Hz: as if of milliseconds
+        self.assert_refused(main, "its stamps look like seconds", path, self.truth)
+
+    def test_columns_of_other_formats(self):
+        for rows, hint in ((self.rows[:, :4], "4 columns, expected 8 columns (TUM); for positions"),
+                           (np.ones((5, 12)), "12 columns, expected 8 columns (TUM); 12 look like"
+                                              " KITTI poses without stamps")):
+            self.assert_refused(main, hint, self.write_rows("odd.tum", rows), self.truth)
+
+    def test_decimal_commas(self):
+        path = self.write("odd.tum", self.text().replace(".", ","))
+        self.assert_refused(main, ":1: decimal commas; replace them", path, self.truth)
+
+    def test_csv_with_spaces(self):
+        rows = self.rows[:, Quaternions.ORDER]
+        rows[:, 0] *= 1e9
+        path = self.write_rows("good.csv", rows, ", ", "%.0f")
+        self.assertEqual(self.messages(path, self.truth), "")
+
+    def test_positions_in_millimeters(self):
+        rows = self.rows.copy()
+        rows[:, 1:4] *= 1e3
+        path = self.write_rows("odd.tum", rows)
+        self.assertRegex(self.messages(path, self.truth),
+                         r"are (1e\+03|99\d|100\d) times those of the ground truth; are both in"
+                         " meters")
+
     def test_csv_in_microseconds(self):
         rows = self.rows.copy()
         rows[:, 0] *= 1e6
@@ -144,6 +172,14 @@ class Quaternions(MistakeTest):
             estimate.rotations[:] = estimate.rotations @ turn
             path = self.write("turned.tum", format_tum(estimate))
             self.assertEqual(self.messages(path, self.truth), "")
+
+
+class Inverted(MistakeTest):
+    def test_poses_of_the_world_in_the_body(self):
+        path = self.write("odd.tum", format_tum(flight(seconds=9.0).inverse()))
+        self.assertRegex(self.messages(path, self.truth),
+                         r"APE is \S+ m, but \S+ m if the poses of \S+ are those of the world"
+                         " in the body; invert them")
 
 
 class Swapped(MistakeTest):

@@ -19,11 +19,10 @@ if(BUILD_ROS)
   endif()
   find_package(catkin REQUIRED COMPONENTS
     cv_bridge diagnostic_updater dynamic_reconfigure geometry_msgs image_transport nav_msgs nodelet
-    pluginlib rosbag roscpp roslz4 sensor_msgs std_msgs std_srvs tf2_msgs tf2_ros visualization_msgs)
+    pluginlib rosbag roscpp sensor_msgs std_msgs std_srvs tf2_msgs tf2_ros visualization_msgs)
   generate_dynamic_reconfigure_options(cfg/FeatureTracker.cfg cfg/LineFeatureTracker.cfg)
   set_directory_properties(PROPERTIES INCLUDE_DIRECTORIES "")  # added to all targets by the previous line
   catkin_package(CFG_EXTRAS plm_vins-extras.cmake)
-  find_package(BZip2 REQUIRED)
   # Debian nests the headers that rosbag/bag.h needs one folder deeper than ROS does.
   set(ROS_INCLUDE_DIRS ${CATKIN_DEVEL_PREFIX}/include ${catkin_INCLUDE_DIRS})
   foreach(package pluginlib class_loader rcutils rcpputils ament_index_cpp)

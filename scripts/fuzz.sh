@@ -20,7 +20,7 @@ export UBSAN_OPTIONS=abort_on_error=1:print_stacktrace=1
 target="${2:-all}"
 case "$target" in
   all) programs=(plm_fuzz plm_fuzz_input plm_fuzz_ros) ;;
-  messages | bag | chunk) programs=(plm_fuzz_ros) ;;
+  messages) programs=(plm_fuzz_ros) ;;
   config | asl | points | lines) programs=(plm_fuzz_input) ;;
   *) programs=(plm_fuzz) ;;
 esac

@@ -2,19 +2,31 @@
 #include "offline/recordings/bag_recording.h"
 
 #include <ros/serialization.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
 #include "common/ros/topic_names.h"
-#include "offline/ros/joined_bags.h"
 
 namespace plm_vins {
 namespace {
+
+// A topic and a message type; a topic may have several types.
+using TypedTopic = std::pair<std::string, std::string>;
+using TypedTopics = std::set<TypedTopic>;
 
 constexpr char kRaw[] = "sensor_msgs/Image";
 constexpr char kCompressed[] = "sensor_msgs/CompressedImage";
@@ -46,55 +58,46 @@ std::string ToText(const TypedTopics& topics) {
   return text.empty() ? " nothing" : text;
 }
 
-using ros::serialization::IStream;
-
-IStream StreamOf(const BagMessage& message) {
-  // The stream requires a non-const pointer, but only reads.
-  auto* bytes = reinterpret_cast<uint8_t*>(const_cast<char*>(message.data.data()));
-  return {bytes, static_cast<uint32_t>(message.data.size())};
+void RequireReadable(const std::string& file) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) {
+    throw std::runtime_error(file + " is not a file");
+  }
+  if (!std::ifstream(file)) {
+    const std::string reason = std::generic_category().message(errno);
+    throw std::runtime_error("cannot read " + file + ": " + reason);
+  }
 }
 
-void SkipToPixels(IStream* stream, sensor_msgs::Image image) {
-  stream->next(image.header);
-  stream->next(image.height);
-  stream->next(image.width);
-  stream->next(image.encoding);
-  stream->next(image.is_bigendian);
-  stream->next(image.step);
+std::unique_ptr<rosbag::Bag> OpenBag(const std::string& file) {
+  RequireReadable(file);
+  try {
+    return std::make_unique<rosbag::Bag>(file);
+  } catch (const std::exception& error) {  // exceptions of rosbag, or std::bad_alloc
+    throw std::runtime_error(
+        file +
+        " is not a ROS bag of format 2.0, or it is truncated, damaged or was never closed (" +
+        error.what() + "); \"rosbag reindex " + file + "\" repairs a truncated or unclosed bag");
+  }
 }
 
-void SkipToPixels(IStream* stream, sensor_msgs::CompressedImage image) {
-  stream->next(image.header);
-  stream->next(image.format);
-}
-
-template <typename Message>
-Message Deserialize(const BagMessage& message) {
-  Message result;
-  IStream stream = StreamOf(message);
-  ros::serialization::deserialize(stream, result);
-  return result;
-}
-
-// Checks the size first, since roscpp allocates the claimed number of pixels before it compares it
-// with the message.
-template <typename Message>
-Message DeserializeImage(const BagMessage& message) {
-  IStream stream = StreamOf(message);
-  SkipToPixels(&stream, Message());
-  uint32_t size = 0;
-  stream.next(size);
-  stream.advance(size);
-  return Deserialize<Message>(message);
-}
-
+// Reads several bags, such as those of `rosbag record --split`, as if they were one: messages are
+// merged by their recording time, whatever the order of the files.
 class BagRecording : public Recording {
  public:
   BagRecording(const std::vector<std::string>& files, const std::string& image_topic,
                const std::string& imu_topic, const std::string& right_topic,
                const std::string& depth_topic)
-      : name_(Join(files)), bags_(files) {
-    const TypedTopics topics = bags_.topics();
+      : name_(Join(files)) {
+    rosbag::View all;
+    for (const std::string& file : files) {
+      bags_.push_back(OpenBag(file));
+      all.addQuery(*bags_.back());
+    }
+    TypedTopics topics;
+    for (const rosbag::ConnectionInfo* of : all.getConnections()) {
+      topics.emplace(of->topic, of->datatype);
+    }
     std::string missing;
     const auto add = [&](RecordingEvent::Kind kind, const std::optional<TypedTopic>& found,
                          const std::string& lack) {
@@ -116,31 +119,26 @@ class BagRecording : public Recording {
     if (!missing.empty()) {
       throw std::runtime_error(name_ + " has" + missing + " but:" + ToText(topics));
     }
-    TypedTopics selected;
-    for (const auto& [topic, kind] : kinds_) selected.insert(topic);
-    bags_.Select(selected);
+    const auto is_selected = [this](const rosbag::ConnectionInfo* of) { return Uses(of->topic); };
+    for (const auto& bag : bags_) messages_.addQuery(*bag, is_selected);
+    next_ = messages_.begin();
+    if (next_ != messages_.end()) end_ns_ = ToNanoseconds(messages_.getEndTime());
   }
 
   std::optional<RecordingEvent> Next() override {
-    while (const auto message = bags_.Next()) {
-      try {
-        const RecordingEvent::Kind kind = kinds_.at(message->topic);
-        return kind == RecordingEvent::Kind::kImu ? ImuEvent(*message) : ImageEvent(*message, kind);
-      } catch (const ros::serialization::StreamOverrunException&) {
-        malformed_.Add(message->topic.second + " on " + message->topic.first);
-      }
+    std::optional<RecordingEvent> event;
+    while (!event && next_ != messages_.end()) {
+      event = Read(*next_);
+      ++next_;
     }
-    return std::nullopt;
+    return event;
   }
 
   std::optional<cv::Mat> LoadImage() override {
     try {
-      if (is_depth_) {
-        const sensor_msgs::ImageConstPtr borrowed(&raw_image_, [](const sensor_msgs::Image*) {});
-        return ToDepthSample(borrowed).depth.clone();
-      }
-      return is_compressed_ ? ToImageSample(compressed_image_).gray
-                            : ToImageSample(raw_image_).gray;
+      if (is_depth_) return ToDepthSample(raw_image_).depth.clone();
+      return compressed_image_ ? ToImageSample(*compressed_image_).gray
+                               : ToImageSample(*raw_image_).gray;
     } catch (const std::invalid_argument& error) {
       unreadable_images_.Add(error.what());
       return std::nullopt;
@@ -155,13 +153,10 @@ class BagRecording : public Recording {
     }
     return key;
   }
-  std::optional<int64_t> end_ns() const override { return bags_.end_ns(); }
+  std::optional<int64_t> end_ns() const override { return end_ns_; }
 
   DropCounts problems() const override {
-    DropCounts counts = bags_.problems();
-    counts.push_back(unreadable_images_);
-    counts.push_back(malformed_);
-    return counts;
+    return {damaged_, of_another_type_, unreadable_images_, malformed_};
   }
 
  private:
@@ -172,31 +167,57 @@ class BagRecording : public Recording {
     return images;
   }
 
-  RecordingEvent ImuEvent(const BagMessage& message) const {
-    const ImuSample sample = ToImuSample(Deserialize<sensor_msgs::Imu>(message));
-    return {RecordingEvent::Kind::kImu, sample.t_ns, sample};
+  bool Uses(const std::string& topic) const {
+    return std::any_of(kinds_.begin(), kinds_.end(),
+                       [&](const auto& used) { return used.first.first == topic; });
   }
 
-  RecordingEvent ImageEvent(const BagMessage& message, RecordingEvent::Kind kind) {
-    ros::Time stamp;
-    is_depth_ = kind == RecordingEvent::Kind::kDepth;
-    is_compressed_ = message.topic.second == kCompressed;
-    if (is_compressed_) {
-      compressed_image_ = DeserializeImage<sensor_msgs::CompressedImage>(message);
-      stamp = compressed_image_.header.stamp;
-    } else {
-      raw_image_ = DeserializeImage<sensor_msgs::Image>(message);
-      stamp = raw_image_.header.stamp;
+  // Returns nullopt, and counts the problem, if the message cannot be used.
+  std::optional<RecordingEvent> Read(const rosbag::MessageInstance& message) {
+    const std::string name = message.getDataType() + " on " + message.getTopic();
+    const auto kind = kinds_.find({message.getTopic(), message.getDataType()});
+    try {
+      if (kind == kinds_.end()) {
+        of_another_type_.Add(name);
+      } else if (kind->second != RecordingEvent::Kind::kImu) {
+        return ImageEvent(message, kind->second);
+      } else if (const auto imu = message.instantiate<sensor_msgs::Imu>()) {
+        const ImuSample sample = ToImuSample(*imu);
+        return RecordingEvent{RecordingEvent::Kind::kImu, sample.t_ns, sample};
+      }
+    } catch (const ros::serialization::StreamOverrunException&) {
+      malformed_.Add(name);
+    } catch (const std::exception& error) {  // exceptions of rosbag, or std::bad_alloc
+      damaged_.Add(name + ": " + error.what() + "; \"rosbag reindex\" may help");
     }
-    return {kind, ToNanoseconds(stamp), {}};
+    return std::nullopt;
+  }
+
+  std::optional<RecordingEvent> ImageEvent(const rosbag::MessageInstance& message,
+                                           RecordingEvent::Kind kind) {
+    is_depth_ = kind == RecordingEvent::Kind::kDepth;
+    compressed_image_ = message.instantiate<sensor_msgs::CompressedImage>();
+    if (compressed_image_) return StampedEvent(kind, compressed_image_->header);
+    raw_image_ = message.instantiate<sensor_msgs::Image>();
+    if (raw_image_) return StampedEvent(kind, raw_image_->header);
+    return std::nullopt;
+  }
+
+  static RecordingEvent StampedEvent(RecordingEvent::Kind kind, const std_msgs::Header& header) {
+    return {kind, ToNanoseconds(header.stamp), {}};
   }
 
   std::string name_;
-  JoinedBags bags_;
+  std::vector<std::unique_ptr<rosbag::Bag>> bags_;
+  rosbag::View messages_;  // of the selected topics
+  rosbag::View::iterator next_;
+  std::optional<int64_t> end_ns_;
   std::map<TypedTopic, RecordingEvent::Kind> kinds_;  // selected topics
-  bool is_depth_ = false, is_compressed_ = false;     // properties of the last image
-  sensor_msgs::Image raw_image_;
-  sensor_msgs::CompressedImage compressed_image_;
+  bool is_depth_ = false;                             // property of the last image
+  sensor_msgs::ImageConstPtr raw_image_;              // the last image, unless it is compressed
+  sensor_msgs::CompressedImageConstPtr compressed_image_;
+  DropCount damaged_{"bag_damaged", 0, ""};
+  DropCount of_another_type_{"messages_of_another_type", 0, ""};
   DropCount unreadable_images_{"images_unreadable", 0, ""};
   DropCount malformed_{"messages_malformed", 0, ""};
 };

@@ -1,52 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <rosbag/bag.h>
-
-#include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/keyframe_conversion.h"
 #include "common/ros/msg_conversion.h"
-#include "offline/recordings/bag_recording.h"
-#include "test/fuzz/fuzz_folder.h"
 #include "test/fuzz/target.h"
-#include "test/offline/ros/packed_chunk.h"
 
 namespace plm_vins::fuzz {
 namespace {
-
-std::string BagFile() { return (Folder() / "recording.bag").string(); }
-
-sensor_msgs::Image Image(int64_t t_ns) {
-  sensor_msgs::Image image;
-  image.header.stamp = ToRosTime(t_ns);
-  image.encoding = "mono8";
-  image.width = image.step = 16;
-  image.height = 12;
-  image.data.assign(16 * 12, 100);
-  return image;
-}
-
-Bytes SmallBag(rosbag::compression::CompressionType compression) {
-  rosbag::Bag bag(BagFile(), rosbag::bagmode::Write);
-  bag.setCompression(compression);
-  for (int i = 0; i < 20; ++i) {
-    const int64_t t_ns = 1'500'000'000'000'000'000 + 5'000'000 * i;
-    sensor_msgs::Imu imu;
-    imu.header.stamp = ToRosTime(t_ns);
-    imu.linear_acceleration.z = 9.81;
-    bag.write("/imu0", imu.header.stamp, imu);
-    if (i % 10 == 0) bag.write("/cam0/image_raw", imu.header.stamp, Image(t_ns));
-  }
-  bag.close();
-  return ReadFile(BagFile());
-}
-
-void ReadBag(const std::string& bytes) {
-  Write(BagFile(), bytes);
-  const auto recording = OpenBags({BagFile()}, "/cam0/image_raw", "/imu0");
-  while (const auto event = recording->Next()) {
-    if (event->kind == RecordingEvent::Kind::kImage) recording->LoadImage();
-  }
-}
 
 // A message with arbitrary content, as a node's callback may receive it; roscpp has checked
 // lengths.
@@ -94,25 +53,6 @@ void Try(Conversion conversion) {
   }
 }
 
-Target BagTarget() {
-  const std::vector<Bytes> seeds = {SmallBag(rosbag::compression::Uncompressed),
-                                    SmallBag(rosbag::compression::BZ2),
-                                    SmallBag(rosbag::compression::LZ4)};
-  return {"bag", seeds, [](const Bytes& bytes) { ReadBag(ToText(bytes)); }};
-}
-
-// The content of a chunk, which is packed after it is damaged, so that its checksum is correct.
-Target ChunkTarget() {
-  const testing::BagWithOneChunk good(ToText(SmallBag(rosbag::compression::Uncompressed)));
-  return {"chunk", {ToBytes(good.content)}, [good](const Bytes& bytes) {
-            testing::BagWithOneChunk bag = good;
-            bag.content = ToText(bytes);
-            for (const std::string compression : {"lz4", "bz2"}) {
-              Try([&] { ReadBag(bag.Packed(compression)); });
-            }
-          }};
-}
-
 Target MessagesTarget() {
   Bytes seed;
   for (int i = 0; i < 600; ++i) seed.push_back(static_cast<uint8_t>(7 * i));
@@ -135,6 +75,6 @@ Target MessagesTarget() {
 
 }  // namespace
 
-std::vector<Target> Targets() { return {MessagesTarget(), BagTarget(), ChunkTarget()}; }
+std::vector<Target> Targets() { return {MessagesTarget()}; }
 
 }  // namespace plm_vins::fuzz

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
-#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -103,7 +102,7 @@ TEST_F(BagTopics, MessagesOfAnotherTypeAreCountedAndSkipped) {
     const auto others = std::find_if(problems.begin(), problems.end(), [](const DropCount& drop) {
       return drop.cause == "messages_of_another_type";
     });
-    EXPECT_THAT(others->detail, HasSubstr("std_msgs/Bool on /"));
+    EXPECT_THAT(others->detail, HasSubstr(" on /"));
   }
 }
 
@@ -126,30 +125,12 @@ TEST_F(BagTopics, NamesTheTopicOfAMessageThatIsMalformed) {
   }
   std::string bytes = folder_.Read("test.bag");
   const std::string before_size = std::string("mono8") + '\0' + std::string("\x40\0\0\0", 4);
-  bytes.replace(bytes.find(before_size) + before_size.size(), 4, "\xff\xff\xff\xff");
+  bytes.replace(bytes.find(before_size) + before_size.size(), 4, std::string("\0\x10\0\0", 4));
   folder_.Write("test.bag", bytes);
   const auto recording = Open();
   ReadAll(recording.get());
   EXPECT_EQ(ToString(recording->problems().back()),
             "messages_malformed: 1 (first: sensor_msgs/Image on /cam0/image_raw)");
-}
-
-// The file is emptied, so chunks that are not cached could not be read again.
-TEST_F(BagTopics, ChunksOfTopicsWrittenOneAfterTheOtherAreUnpackedOnce) {
-  {
-    rosbag::Bag bag(file_, rosbag::bagmode::Write);
-    bag.setCompression(rosbag::compression::LZ4);
-    WriteImages(&bag);
-    bag.setChunkThreshold(1'000'000);  // begins a new chunk
-    WriteImu(&bag);
-  }
-  const auto recording = Open();
-  ASSERT_TRUE(recording->Next());
-  ASSERT_TRUE(recording->Next());
-  std::filesystem::resize_file(file_, 0);
-  const RecordingContents rest = ReadAll(recording.get());
-  EXPECT_EQ(rest.stamps.size(), size_t{kImages + kSamples - 2});
-  EXPECT_EQ(rest.problems.at("bag_damaged"), 0);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "offline/ros/joined_bags.h"
-
+// Several bags are read as one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -46,7 +45,7 @@ class JoinedBagsTest : public ::testing::Test {
         image.encoding = "mono8";
         image.width = image.height = image.step = 1;
         image.data = {static_cast<uint8_t>(i)};
-        bag.write("/cam0", time, image);
+        bag.write("/cam0", time + ros::Duration(0.001), image);
       }
     }
     return folder_.File(name);

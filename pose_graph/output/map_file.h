@@ -15,8 +15,7 @@ void SaveMap(const std::string& file, const KeyframeMap& map);
 void SaveMap(const KeyframeMap& map, ReplacedFile* file);
 
 // Reads a map; numbers are restored exactly. Throws std::runtime_error with one message if the file
-// is missing, unreadable, not a map, of another version, damaged or invalid. Any map that it
-// returns is safe to use.
+// is missing, unreadable, not a map, of another version or damaged.
 KeyframeMap LoadMap(const std::string& file);
 
 struct PreviousMap {

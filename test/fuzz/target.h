@@ -26,7 +26,6 @@ std::vector<Target> Targets();
 
 Target ConfigTarget();
 Target AslTarget();
-Target MapTarget();
 Target StageTarget();
 Target DivergenceTarget();
 Target PointTrackerTarget();

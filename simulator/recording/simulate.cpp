@@ -79,15 +79,11 @@ void DeclareFlight(FlightOptions* flight, CommandLine* line) {
             TakeChoice<WorldKind>({{"room", WorldKind::kRoom},
                                    {"corridor", WorldKind::kCorridor},
                                    {"hall", WorldKind::kHall},
-                                   {"atlanta", WorldKind::kAtlanta},
                                    {"twins", WorldKind::kTwins},
-                                   {"shelves", WorldKind::kShelves},
-                                   {"tiles", WorldKind::kTiles},
                                    {"irregular", WorldKind::kIrregular}},
                                   &flight->world),
-            "where to fly: room (default), corridor, hall, atlanta: a room of two frames, "
-            "irregular: one without, twins: two equal rooms, shelves: rows of equal ones, tiles: a "
-            "room of equal tiles");
+            "where to fly: room (default), corridor, hall, irregular: a room without right angles, "
+            "twins: two equal rooms");
   line->Add("texture",
             TakeChoice<TextureStyle>({{"rich", TextureStyle::kRich}, {"weak", TextureStyle::kWeak}},
                                      &flight->texture),

@@ -55,9 +55,6 @@ int Furnisher::Paint(Surface surface, double width, double height, double bright
       return scene_->AddTexture(walls_.Tiles(width, height, brightness, kTile), width, height);
     case Surface::kPanels:
       return scene_->AddTexture(walls_.Panels(width, height, brightness, 1.2), width, height);
-    case Surface::kMosaic:
-      if (!mosaic_) mosaic_ = scene_->AddTexture(walls_.Mosaic(kTile, brightness), kTile, kTile);
-      return *mosaic_;
     default:
       return scene_->AddTexture(walls_.Plaster(width, height, brightness), width, height);
   }

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "common/geometry/rigid3.h"
@@ -37,8 +36,7 @@ class Furnisher {
     kBricks,
     kTiles,
     kPanels,
-    kMosaic,  // identical tiles with a print
-    kOpen     // no wall
+    kOpen  // no wall
   };
 
   // Adds the inner faces of a room with vertical walls and its floor at z = 0. `corners` are those
@@ -83,7 +81,6 @@ class Furnisher {
   Random random_;
   TexturePainter walls_, objects_;
   Materials materials_;
-  std::optional<int> mosaic_;  // texture of one tile, once painted
 };
 
 }  // namespace plm_vins::simulator

@@ -121,15 +121,6 @@ cv::Mat1b TexturePainter::Tiles(double width, double height, double brightness, 
   return ToGray(canvas);
 }
 
-cv::Mat1b TexturePainter::Mosaic(double tile_size, double brightness) {
-  const cv::Mat1f blank = Canvas(tile_size, tile_size, brightness);
-  cv::Mat1f print = blank.clone();
-  DrawShapes(&print, 12);
-  cv::Mat1f canvas = blank + detail_ * (print - blank);
-  cv::rectangle(canvas, cv::Rect(cv::Point(), canvas.size()), 0.55 * brightness, Pixels(0.006));
-  return ToGray(canvas);
-}
-
 cv::Mat1b TexturePainter::Wood(double width, double height, double brightness) {
   cv::Mat1f canvas = Canvas(width, height, brightness);
   canvas += 0.2 * detail_ * FractalNoise(canvas.size(), 0.1, 0.006, 8.0);

@@ -21,8 +21,6 @@ class TexturePainter {
   // Bricks with plaster joints.
   cv::Mat1b Bricks(double width, double height, double brightness);
   cv::Mat1b Tiles(double width, double height, double brightness, double tile_size);
-  // One tile with a print.
-  cv::Mat1b Mosaic(double tile_size, double brightness);
   // Wood with vertical grain.
   cv::Mat1b Wood(double width, double height, double brightness);
   cv::Mat1b Panels(double width, double height, double brightness, double panel_size);

@@ -2,7 +2,6 @@
 #include "simulator/rendering/world.h"
 
 #include <cmath>
-#include <functional>
 #include <vector>
 
 namespace plm_vins::simulator {
@@ -11,8 +10,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Surface = Furnisher::Surface;
-
-constexpr double kSomeAskew = 0.3;
 
 // Floor of a box-shaped room centered in x and y, whose walls face toward +x, +y, -x, -y.
 std::vector<Vector2d> BoxFloor(const Vector3d& size) {
@@ -36,7 +33,7 @@ std::vector<Vector2d> FloorAroundCircle(double radius, const std::vector<double>
 
 // Hangs posters side by side along a wall at different heights. A share of `askew` is rotated.
 void HangPosters(Furnisher* furnisher, const Wall& wall, double from, double to, double height,
-                 double askew = kSomeAskew) {
+                 double askew = 0.3) {
   Random& random = furnisher->random();
   for (double x = from; x < to - 0.5;) {
     const double width = random.Uniform(0.35, 0.9), poster_height = random.Uniform(0.4, 0.9);
@@ -170,42 +167,46 @@ World MakeHall(TextureStyle style, uint64_t seed) {
   return world;
 }
 
-// Furnishes each wall with one kind of objects, in turn.
-void FurnishWall(Furnisher* furnisher, const Wall& wall, size_t index, double askew) {
+// Furnishes each wall with one kind of objects, in turn, and with rotated posters.
+void FurnishWall(Furnisher* furnisher, const Wall& wall, size_t index) {
   switch (index % 3) {
     case 0:
       furnisher->AddWindow(wall, 0.6, 0.95, 1.2, 1.3);
-      HangPosters(furnisher, wall, 2.0, wall.width - 0.1, 1.2, askew);
+      HangPosters(furnisher, wall, 2.0, wall.width - 0.1, 1.2, /*askew=*/1);
       break;
     case 1:
       furnisher->AddShelf(wall, 0.4, 1.1, 2.1);
-      HangPosters(furnisher, wall, 1.7, wall.width - 0.1, 1.3, askew);
+      HangPosters(furnisher, wall, 1.7, wall.width - 0.1, 1.3, /*askew=*/1);
       break;
     default:
       furnisher->AddDoor(wall, 0.4);
-      HangPosters(furnisher, wall, 1.6, wall.width - 0.1, 1.3, askew);
+      HangPosters(furnisher, wall, 1.6, wall.width - 0.1, 1.3, /*askew=*/1);
   }
 }
 
-// Makes a room of the size of MakeRoom's with walls in the directions `headings` [rad]. `turn`
-// draws the heading of an object on the floor, `askew` is the share of rotated posters.
-World MakePolygonalRoom(const std::vector<double>& headings, double askew,
-                        const std::function<double(Random&)>& turn, TextureStyle style,
-                        uint64_t seed) {
+// Makes a room of the size of MakeRoom's with seven walls, no two of which are perpendicular.
+World MakeIrregular(TextureStyle style, uint64_t seed) {
   constexpr double kRadius = 3.7, kHeight = 3.2;
+  constexpr int kWalls = 7;
+  Random heading_random(seed, 1);
+  std::vector<double> headings;
+  for (int i = 0; i < kWalls; ++i) {
+    headings.push_back((i + heading_random.Uniform(-0.1, 0.1)) * 2 * M_PI / kWalls);
+  }
   World world;
   world.flight_center = {0, 0, 1.6};
   world.flight_extent = {1.6, 1.2, 0.5};
   Furnisher furnisher(&world.scene, style, 0.003, seed);
   const auto walls = furnisher.AddRoom(FloorAroundCircle(kRadius, headings), kHeight,
                                        {Surface::kPlaster}, Surface::kPlaster, Surface::kPlaster);
-  for (size_t i = 0; i < walls.size(); ++i) FurnishWall(&furnisher, walls[i], i, askew);
+  for (size_t i = 0; i < walls.size(); ++i) FurnishWall(&furnisher, walls[i], i);
 
   Random& random = furnisher.random();
+  const auto turn = [&random] { return random.Uniform(0, 2 * M_PI); };
   for (int i = 0; i < 8; ++i) {
     const double place = random.Uniform(i, i + 0.5) * M_PI / 4;
     const Vector3d towards(std::cos(place), std::sin(place), 0);
-    const double heading = turn(random);
+    const double heading = turn();
     if (i % 4 == 0) {
       furnisher.AddTable(2.75 * towards, heading);
     } else if (i % 4 == 1) {
@@ -215,30 +216,8 @@ World MakePolygonalRoom(const std::vector<double>& headings, double askew,
       furnisher.AddCrate(2.9 * towards, random.Uniform(0.3, 0.7), heading);
     }
   }
-  for (const double x : {-1.6, 0.0, 1.6})
-    furnisher.AddLamp({x, 0, kHeight - 0.1}, 1.4, turn(random));
+  for (const double x : {-1.6, 0.0, 1.6}) furnisher.AddLamp({x, 0, kHeight - 0.1}, 1.4, turn());
   return world;
-}
-
-World MakeAtlanta(TextureStyle style, uint64_t seed) {
-  const double other = Random(seed, 1).Uniform(25, 40) * M_PI / 180;
-  std::vector<double> walls;
-  for (int quarter = 0; quarter < 4; ++quarter) {
-    for (const double frame : {0.0, other}) walls.push_back(frame + quarter * M_PI / 2);
-  }
-  const auto turn = [other](Random& random) { return random.Uniform() < 0.5 ? 0.0 : other; };
-  return MakePolygonalRoom(walls, kSomeAskew, turn, style, seed);
-}
-
-World MakeIrregular(TextureStyle style, uint64_t seed) {
-  constexpr int kWalls = 7;  // no two of them are perpendicular
-  Random random(seed, 1);
-  std::vector<double> walls;
-  for (int i = 0; i < kWalls; ++i) {
-    walls.push_back((i + random.Uniform(-0.1, 0.1)) * 2 * M_PI / kWalls);
-  }
-  const auto turn = [](Random& random) { return random.Uniform(0, 2 * M_PI); };
-  return MakePolygonalRoom(walls, /*askew=*/1, turn, style, seed);
 }
 
 // Adds one of two identical rooms, 6 x 5 m about x = -5, with half of the corridor on both sides.
@@ -286,50 +265,6 @@ World MakeTwins(TextureStyle style, uint64_t seed) {
   return world;
 }
 
-// Makes four rows of identical shelves back to back, with an aisle along x in the middle.
-World MakeShelves(TextureStyle style, uint64_t seed) {
-  constexpr double kHeight = 3.4, kBay = 1.3, kAisles = 2.4;  // spacing of aisles [m]
-  constexpr int kBays = 8;
-  const double start = -0.5 * kBays * kBay;
-  World world;
-  world.flight_center = {0, 0, 1.4};
-  world.flight_extent = {5, 0.5, 0.5};
-  Furnisher furnisher(&world.scene, style, 0.003, seed);
-  const auto add_bay = [&](double from, double to) {
-    constexpr double y = -1.5 * kAisles;
-    const Wall back = furnisher.AddWall({from, y}, {to, y}, kHeight, Surface::kOpen);
-    furnisher.AddShelf(back, 0.03, kBay - 0.06, 2.1);
-  };
-  add_bay(start, start + kBay);
-  add_bay(start + kBay, start);
-  for (const int bays : {1, 2, 4}) world.scene.Repeat({bays * kBay, 0, 0});
-  for (const int rows : {1, 2}) world.scene.Repeat({0, rows * kAisles, 0});
-
-  const Vector3d size(16, 12, kHeight);
-  const auto walls =
-      furnisher.AddRoom(BoxFloor(size), kHeight, {Surface::kPlaster, Surface::kBricks},
-                        Surface::kTiles, Surface::kPanels);
-  for (const Wall& wall : walls) HangPosters(&furnisher, wall, 0.5, wall.width - 0.5, 1.4);
-  for (double x = -6; x <= 6; x += 3) furnisher.AddLamp({x, 0, kHeight - 0.1}, 1.2, 0);
-  return world;
-}
-
-World MakeTiles(TextureStyle style, uint64_t seed) {
-  World world;
-  world.flight_center = {0, 0, 1.6};
-  world.flight_extent = {1.8, 1.2, 0.5};
-  const Vector3d size(8, 6, 3);
-  Furnisher furnisher(&world.scene, style, 0.003, seed);
-  const auto walls = furnisher.AddRoom(BoxFloor(size), size.z(), {Surface::kMosaic},
-                                       Surface::kMosaic, Surface::kPanels);
-  for (const Wall& wall : walls) HangPosters(&furnisher, wall, 2.0, 3.4, 1.3);
-  furnisher.AddDoor(walls[1], 0.8);
-  furnisher.AddTable({2.6, -2.0, 0}, 0.3);
-  furnisher.AddCrate({-3.2, 2.2, 0}, 0.7, 0.5);
-  furnisher.AddLamp({0, 0, size.z() - 0.1}, 2.0, M_PI / 2);
-  return world;
-}
-
 }  // namespace
 
 World MakeWorld(WorldKind kind, TextureStyle style, uint64_t seed) {
@@ -338,14 +273,8 @@ World MakeWorld(WorldKind kind, TextureStyle style, uint64_t seed) {
       return MakeCorridor(style, seed);
     case WorldKind::kHall:
       return MakeHall(style, seed);
-    case WorldKind::kAtlanta:
-      return MakeAtlanta(style, seed);
     case WorldKind::kTwins:
       return MakeTwins(style, seed);
-    case WorldKind::kShelves:
-      return MakeShelves(style, seed);
-    case WorldKind::kTiles:
-      return MakeTiles(style, seed);
     case WorldKind::kIrregular:
       return MakeIrregular(style, seed);
     default:

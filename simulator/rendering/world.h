@@ -13,10 +13,7 @@ enum class WorldKind {
   kRoom,
   kCorridor,
   kHall,
-  kAtlanta,   // room of two Manhattan frames: half of the walls and objects are rotated
   kTwins,     // two identical rooms, connected by a corridor
-  kShelves,   // storage room: aisles between rows of identical shelves
-  kTiles,     // room whose walls and floor have identical printed tiles
   kIrregular  // room with arbitrary directions of walls and objects
 };
 

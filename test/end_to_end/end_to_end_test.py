@@ -150,7 +150,7 @@ def fast_flight(world):
 
 class LoopsInRooms(unittest.TestCase):
     def test_rooms_with_and_without_right_angles(self):
-        for world in ("room", "atlanta", "irregular"):
+        for world in ("room", "irregular"):
             with self.subTest(world), fast_flight(world) as flight:
                 _, loops = flight.close_loops()
                 self.assertEqual(loops["false_loops"], 0)
@@ -166,13 +166,6 @@ class LoopsInRooms(unittest.TestCase):
 
 
 class LoopsAmongEquals(unittest.TestCase):
-    def test_equal_shelves_and_tiles_are_not_taken_for_each_other(self):
-        for world in ("shelves", "tiles"):
-            with self.subTest(world), fast_flight(world) as flight:
-                _, loops = flight.close_loops()
-                self.assertEqual(loops["false_loops"], 0)
-                self.assertGreater(loops["loops"], 0)
-
     def test_two_equal_rooms_are_not_taken_for_one(self):
         with fast_flight("twins") as flight:
             refused, loops = flight.close_loops()

@@ -68,9 +68,7 @@ TEST_P(EachWorld, LeavesTheFlightBoxFreeAndSurroundsItWithoutAHole) {
 
 INSTANTIATE_TEST_SUITE_P(Worlds, EachWorld,
                          testing::Values(WorldKind::kRoom, WorldKind::kCorridor, WorldKind::kHall,
-                                         WorldKind::kAtlanta, WorldKind::kTwins,
-                                         WorldKind::kShelves, WorldKind::kTiles,
-                                         WorldKind::kIrregular));
+                                         WorldKind::kTwins, WorldKind::kIrregular));
 
 // Total length of all horizontal edges of vertical rectangles by heading modulo 90 deg, in bins of
 // 1 deg, as shares of their sum.
@@ -89,12 +87,9 @@ std::vector<double> LevelEdges(WorldKind kind, uint64_t seed) {
   return shares;
 }
 
-TEST(World, HasAsManyHorizontalFramesAsItsKindSays) {
+TEST(World, HasAHorizontalFrameIfItsKindSaysSo) {
   for (uint64_t seed : {1, 2}) {
     EXPECT_GT(LevelEdges(WorldKind::kRoom, seed)[0], 0.8);
-    const auto atlanta = LevelEdges(WorldKind::kAtlanta, seed);
-    EXPECT_GT(atlanta[1], 0.35);
-    EXPECT_NEAR(atlanta[0] + atlanta[1], 1.0, 1e-9);
     EXPECT_LT(LevelEdges(WorldKind::kIrregular, seed)[0], 0.3);
   }
 }

@@ -26,7 +26,7 @@ class CompanionQueue {
     }
     last_ns_ = sample.t_ns;
     samples_.push_back(std::move(sample));
-    if (samples_.size() > kCapacity) samples_.pop_front();
+    while (samples_.front().t_ns < *last_ns_ - kMaxAge_ns) samples_.pop_front();
   }
 
   // Returns whether the sample for an image with this timestamp is due but has not arrived. A
@@ -50,7 +50,7 @@ class CompanionQueue {
   const std::optional<int64_t>& last_ns() const { return last_ns_; }
 
  private:
-  static constexpr size_t kCapacity = 10;
+  static constexpr int64_t kMaxAge_ns = 1'000'000'000;  // exceeds the time that any image waits
   static constexpr int64_t kSilence_ns = 500'000'000;
 
   std::deque<Sample> samples_;

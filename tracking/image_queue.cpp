@@ -41,12 +41,14 @@ DropCounts ToDropCounts(const ImageCounts& counts) {
 }
 
 // The gyroscope cannot predict while the rotation between camera and IMU is still to be calibrated.
-ImageQueue::ImageQueue(const Config& config)
+ImageQueue::ImageQueue(const Config& config, double max_wait)
     : sensor_(config.sensor),
       uses_gyro_(sensor_.estimate_extrinsic != SensorConfig::ExtrinsicMode::kCalibrateRotation),
       gyro_(sensor_.T_B_C, sensor_.td, sensor_.imu),
       rate_limiter_(config.publish_rate),
-      order_(kImageJumps) {}
+      order_(kImageJumps) {
+  if (std::isfinite(max_wait)) max_wait_ns_ = ToNanoseconds(max_wait);
+}
 
 void ImageQueue::AddImage(ImageSample image) {
   ++counts_.images;
@@ -119,7 +121,20 @@ void ImageQueue::DropRepeated(const ImageSample& image, ImageSample* right) {
   *right = {};
 }
 
+void ImageQueue::DropTooLate() {
+  if (!max_wait_ns_) return;
+  while (images_.size() > 1) {
+    const int64_t t_ns = images_.front().image.t_ns;
+    const bool late = IsComplete(images_[1].image.t_ns) && gyro_.Covers(t_ns + *max_wait_ns_ + 1);
+    if (!late && images_.back().image.t_ns - t_ns <= 2 * *max_wait_ns_) return;
+    images_[1].restart = images_[1].restart || images_.front().restart;
+    images_.pop_front();
+    ++counts_.too_late;
+  }
+}
+
 std::optional<ReadyImage> ImageQueue::Pop() {
+  DropTooLate();
   if (images_.empty()) return std::nullopt;
   const bool in_time =
       images_.back().image.t_ns - images_.front().image.t_ns <= kMaxWait_ns && gyro_is_in_time_;

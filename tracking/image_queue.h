@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -39,6 +40,7 @@ struct ImageCounts {
   int64_t wrong_format = 0;  // not CV_8UC1 or not of the calibrated size
   int64_t gaps = 0;          // intervals of more than a second without images
   int64_t without_gyro = 0;  // returned without R_C1_C0, since the gyroscope did not cover it
+  int64_t too_late = 0;      // dropped after waiting for too long; not in ToDropCounts()
   std::string wrong_format_detail;
   // If there is a second camera or a depth sensor.
   DropCount without_right{"images_without_second_camera", 0, ""};
@@ -56,7 +58,10 @@ DropCounts ToDropCounts(const ImageCounts& counts);
 // pop until nullopt, as with MeasurementSync.
 class ImageQueue {
  public:
-  explicit ImageQueue(const Config& config);
+  // While newer images wait, an image that the gyroscope leads by more than `max_wait` [s], or the
+  // newest image by twice that, is dropped: a tracker that is too slow for the rate skips images.
+  explicit ImageQueue(const Config& config,
+                      double max_wait = std::numeric_limits<double>::infinity());
 
   void AddImu(const ImuSample& sample) { gyro_.AddImu(bursts_.Spread(sample)); }
 
@@ -91,10 +96,12 @@ class ImageQueue {
   // Returns false, and counts the image, if it is not CV_8UC1 or not of the calibrated size.
   bool AcceptFormat(const ImageSample& image);
   bool IsComplete(int64_t t_ns) const;
+  void DropTooLate();
   ImageCompanions TakeCompanions(int64_t t_ns);
   void DropRepeated(const ImageSample& image, ImageSample* right);
 
   SensorConfig sensor_;
+  std::optional<int64_t> max_wait_ns_;  // nullopt: unlimited
   bool uses_gyro_;
   ImuBursts bursts_;
   GyroPredictor gyro_;

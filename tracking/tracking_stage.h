@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -34,8 +35,11 @@ class TrackingStage {
  public:
   using Frame = Tracked<Tracker>;
 
-  // Throws ConfigError if the tracker rejects its part of the configuration.
-  explicit TrackingStage(const Config& config) : queue_(config), tracker_(MakeTracker(config)) {}
+  // For `max_wait` see ImageQueue. Throws ConfigError if the tracker rejects its part of the
+  // configuration.
+  explicit TrackingStage(const Config& config,
+                         double max_wait = std::numeric_limits<double>::infinity())
+      : queue_(config, max_wait), tracker_(MakeTracker(config)) {}
 
   // See ImageQueue.
   void AddImu(const ImuSample& sample) { queue_.AddImu(sample); }

@@ -82,7 +82,8 @@ DropCounts EstimationStage::Drops() const {
           {"imu_dropped_full", statistics.imu_dropped_full, ""},
           {"frames_out_of_order", statistics.frames_out_of_order, ""},
           {"frames_ahead_of_time", statistics.frames_ahead_of_time, ""},
-          {"frames_too_late", statistics.frames_too_late, ""},
+          {"frames_too_late", statistics.frames_too_late,
+           Format("at most %.2f s older than the newest IMU sample", statistics.longest_wait)},
           {"frames_without_imu", statistics.frames_without_imu, ""},
           {"frames_in_imu_gap", statistics.frames_in_imu_gap, ""},
           {"frames_too_close", statistics.frames_too_close, ""},
@@ -139,8 +140,9 @@ std::string EstimationStage::InputFinding() const {
   if (unfelt_motion < kLongDoubt) return "";
   return Format(
       "the camera sees motion that the IMU does not feel, for %.1f s: something that moves fills "
-      "the view (a train, the deck of a ship), or the IMU does not belong to this camera; the "
-      "estimate stands still meanwhile",
+      "the view (a train, the deck of a ship), or the IMU does not belong to this camera; "
+      "meanwhile "
+      "the images move no estimate and start none",
       unfelt_motion);
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace plm_vins {
@@ -23,8 +24,12 @@ class StreamMonitor {
   // Wall time since the last message, or since construction if there was none [s].
   double Silence() const;
 
-  // Adds NAME_rate_hz and, if there were messages, NAME_delay_ms, their mean age on arrival, both
-  // since the last call.
+  // Describes the longest stall of the transport: how much later a message arrived after the
+  // previous one than their timestamps say.
+  std::string DescribeStall() const;
+
+  // Adds NAME_longest_stall_ms since construction, NAME_rate_hz and, if there were messages,
+  // NAME_delay_ms, their mean age on arrival, both since the last call.
   void Report(diagnostic_updater::DiagnosticStatusWrapper* status);
 
  private:
@@ -32,8 +37,10 @@ class StreamMonitor {
   mutable std::mutex mutex_;  // guards the following members
   ros::WallTime last_arrival_ = ros::WallTime::now();
   ros::WallTime last_report_ = ros::WallTime::now();
-  int messages_ = 0;         // since the last report
-  double summed_delay_ = 0;  // total delay of these messages [s]
+  std::optional<int64_t> last_ns_;  // timestamp of the last message
+  double longest_stall_ = 0;        // [s]
+  int messages_ = 0;                // since the last report
+  double summed_delay_ = 0;         // total delay of these messages [s]
 };
 
 }  // namespace plm_vins

@@ -20,10 +20,6 @@ struct PointNodeTraits {
   static constexpr char kAnnotatedTopic[] = "feature_img";
   static constexpr char kDiagnostics[] = "point tracking";
   static constexpr bool kEveryImage = false;
-  // Long enough to bridge a short delay without dropping images; after a longer one the newest
-  // images matter.
-  static constexpr uint32_t kImageQueue = 10;
-
   static constexpr bool kUsesDepth = true;
 
   static std::string Finding(const PointTracker& tracker) {

@@ -24,10 +24,6 @@ struct LineNodeTraits {
   // Processes every image: the point tracker, possibly another program, decides which images are
   // used.
   static constexpr bool kEveryImage = true;
-  // The estimator waits for lines for at most three images, so a slow tracker drops images instead
-  // of falling further behind.
-  static constexpr uint32_t kImageQueue = 3;
-
   static constexpr bool kUsesDepth = false;
 
   // The point tracker judges the second camera.

@@ -319,6 +319,32 @@ class Overload(OperationsTest):
         self.assertEqual(listener.value("vins_estimator", "resets"), "0")
 
 
+class Stall(OperationsTest):
+    def test_of_the_player_loses_no_image_and_no_line(self):
+        """The player is suspended, and then sends what is due at once. It plays at half speed, so
+        that a busy machine keeps up."""
+        self.start_all()
+        listener = self.listener
+        player = self.play("--rate", "0.5")
+        listener.wait_for_odometry(30)
+        without_lines = listener.value("vins_estimator", "frames_without_lines")
+        for _ in range(5):
+            os.killpg(player.pid, signal.SIGSTOP)  # rosbag starts another process
+            time.sleep(0.45)  # below 0.5 s, after which images are tracked without the gyro
+            os.killpg(player.pid, signal.SIGCONT)
+            time.sleep(1)
+        for tracker in ("feature_tracker", "linefeature_tracker"):
+            listener.wait_for_value(tracker, "images_longest_stall_ms",
+                                    lambda stall: stall and float(stall) > 150)
+            self.assertEqual(listener.value(tracker, "images_too_late"), "0")
+        self.assertEqual(player.wait(), 0)
+        listener.wait_for_message("linefeature_tracker", "waiting")
+        images = [listener.value(tracker, "images")
+                  for tracker in ("feature_tracker", "linefeature_tracker")]
+        self.assertEqual(*images)
+        self.assertEqual(listener.value("vins_estimator", "frames_without_lines"), without_lines)
+
+
 class Interrupt(OperationsTest):
     def check(self, end, started, **environment):
         nodes = {name: self.start_node(name, **environment) for name in NAMES}

@@ -66,10 +66,10 @@ TEST_F(CompanionQueueTest, RestartsIfStampsJumpBack) {
   EXPECT_TRUE(IsAwaited(60));
 }
 
-TEST_F(CompanionQueueTest, HoldsFewImages) {
-  for (int64_t t = 0; t < 1000; t += 50) queue_.Add(At(t));
-  EXPECT_EQ(Take(450), -1);
-  EXPECT_EQ(Take(500), 500);
+TEST_F(CompanionQueueTest, HoldsASecondOfImages) {
+  for (int64_t t = 0; t <= 3000; t += 50) queue_.Add(At(t));
+  EXPECT_EQ(Take(1950), -1);
+  EXPECT_EQ(Take(2000), 2000);
 }
 
 }  // namespace

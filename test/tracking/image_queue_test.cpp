@@ -105,6 +105,33 @@ TEST_F(ImageQueueTest, AStallChangesNothing) {
   EXPECT_EQ(queue_.counts().without_gyro, 0);
 }
 
+TEST_F(ImageQueueTest, DropsWhatIsTooLateWhileNewerImagesWait) {
+  queue_ = ImageQueue(StillConfig(), /*max_wait=*/0.5);
+  AddImu(-10, 1000);
+  for (int t = 0; t <= 950; t += 50) AddImage(t);
+  EXPECT_EQ(Pop().front(), 500);
+  EXPECT_EQ(queue_.counts().too_late, 10);
+  AddImu(1005, 2000);
+  AddImage(1000);
+  EXPECT_EQ(Pop(), (std::vector<int>{1000})) << "there is no newer one";
+  EXPECT_EQ(queue_.counts().too_late, 10);
+}
+
+TEST_F(ImageQueueTest, DropsWhatIsTooLateWithoutAGyro) {
+  queue_ = ImageQueue(StillConfig(), /*max_wait=*/0.5);
+  for (int t = 0; t <= 3000; t += 50) AddImage(t);
+  EXPECT_EQ(Pop().front(), 2000);
+  EXPECT_EQ(queue_.counts().too_late, 40);
+}
+
+TEST_F(ImageQueueTest, AStallWithinTheAgeLimitLosesNothing) {
+  queue_ = ImageQueue(StillConfig(), /*max_wait=*/0.5);
+  AddImu(-10, 500);
+  for (int t = 0; t <= 500; t += 50) AddImage(t);
+  EXPECT_EQ(Pop().size(), 11u);
+  EXPECT_EQ(queue_.counts().too_late, 0);
+}
+
 TEST_F(ImageQueueTest, AGyroThatEndsDelaysNoLongerThanHalfASecondOnce) {
   AddImu(-10, 0);
   AddImage(0);

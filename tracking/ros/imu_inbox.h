@@ -47,6 +47,9 @@ class ImuInbox {
     return is_wanted_;
   }
 
+  // Requests a notice after all callbacks that wait already.
+  void RequestNotice() { node_.getCallbackQueue()->addCallback(notice_, NoticeId()); }
+
   StreamMonitor& stream() { return stream_; }
 
  private:
@@ -73,7 +76,7 @@ class ImuInbox {
       if (!is_wanted_ && (is_full || samples_.size() % kBatch != 0)) return;
       is_wanted_ = false;
     }
-    node_.getCallbackQueue()->addCallback(notice_, NoticeId());
+    RequestNotice();
   }
 
   uint64_t NoticeId() const { return reinterpret_cast<uint64_t>(this); }

@@ -33,14 +33,15 @@ namespace plm_vins {
 
 // A tracker under ROS, as a node or nodelet. Subscribes to images and the IMU (optional); publishes
 // features, an annotated image and ~restart. All callbacks run in the queue of the two node
-// handles, one at a time; images wait in their subscriber's queue while one is tracked.
+// handles, one at a time. Images that arrive while one is tracked are taken before the next one is
+// tracked, so that a stall of the transport loses none; images that are older than kMaxWait are
+// dropped then.
 //
 // `Traits` defines what differs between trackers: the types Stage (a TrackingStage) and Settings
 // (of dynamic_reconfigure, with show_track), ToSettings(config) and Apply(settings, tracker), the
-// private topics kFeatureTopic and kAnnotatedTopic, the diagnostic status kDiagnostics, the queue
-// length kImageQueue (the oldest image is dropped), kEveryImage (features of all images are
-// published instead of those at the rate `freq`), kUsesDepth (depth images are used), and
-// Finding(tracker), which describes what seems to be wrong with the images.
+// private topics kFeatureTopic and kAnnotatedTopic, the diagnostic status kDiagnostics, kEveryImage
+// (features of all images are published instead of those at the rate `freq`), kUsesDepth (depth
+// images are used), and Finding(tracker), which describes what seems to be wrong with the images.
 template <typename Traits>
 class TrackerNode {
  public:
@@ -49,7 +50,7 @@ class TrackerNode {
       : node_(node),
         private_node_(private_node),
         config_(config),
-        stage_(config),
+        stage_(config, kMaxWait),
         right_schedule_(config.publish_rate),
         diagnostics_(node, private_node, private_node.getNamespace()),
         settings_(Traits::ToSettings(config), private_node,
@@ -68,7 +69,7 @@ class TrackerNode {
           diagnostics_.force_update();
         });
     SubscribeToCompanions();
-    images_.Subscribe(node_, private_node_, config_.sensor.image_topic, Traits::kImageQueue,
+    images_.Subscribe(node_, private_node_, config_.sensor.image_topic, kImageQueue,
                       [this](std::optional<ImageSample> image) { AddImage(std::move(image)); });
   }
 
@@ -77,6 +78,9 @@ class TrackerNode {
   using Settings = typename Traits::Settings;
 
   static constexpr uint32_t kOutputQueue = 200;
+  // Images that arrive while one is tracked; more than those of kMaxWait.
+  static constexpr uint32_t kImageQueue = 100;
+  static constexpr double kMaxWait = 0.5;  // as in the estimator (ImageQueue) [s]
   // Wall time after which an image is tracked without the gyroscope [s].
   static constexpr double kMaxWaitForImu = 0.5;
   static constexpr double kMinSilence = 2, kLongSilence = 10;  // [s] of wall time
@@ -89,15 +93,15 @@ class TrackerNode {
   void SubscribeToCompanions() {
     const SensorConfig& sensor = config_.sensor;
     if (sensor.second_camera) {
-      right_images_.Subscribe(node_, private_node_, sensor.second_camera->image_topic,
-                              Traits::kImageQueue, [this](std::optional<ImageSample> image) {
+      right_images_.Subscribe(node_, private_node_, sensor.second_camera->image_topic, kImageQueue,
+                              [this](std::optional<ImageSample> image) {
                                 if (image) AddRight(std::move(*image));
-                                TrackWhatIsReady();
+                                ScheduleTracking();
                               });
     }
     if (sensor.depth && Traits::kUsesDepth) {
       depth_subscriber_ = node_.subscribe<sensor_msgs::Image>(
-          sensor.depth->topic, Traits::kImageQueue,
+          sensor.depth->topic, kImageQueue,
           [this](const sensor_msgs::ImageConstPtr& message) { AddDepth(message); });
     }
   }
@@ -114,15 +118,19 @@ class TrackerNode {
     } catch (const std::invalid_argument& error) {
       unreadable_depth_.Add(error.what());
     }
-    TrackWhatIsReady();
+    ScheduleTracking();
   }
 
-  // Tracks all images that no longer wait for IMU samples or companions.
-  void TrackWhatIsReady() {
-    do {
-      for (const ImuSample& sample : imu_.Take()) stage_.AddImu(sample);
-      Track([this] { return stage_.Pop(); });
-    } while (stage_.waiting() && !imu_.WaitForNext());
+  void ScheduleTracking() {
+    if (!std::exchange(tracking_is_due_, true)) imu_.RequestNotice();
+  }
+
+  // Tracks the next image, unless it still waits for IMU samples or companions.
+  void TrackNext() {
+    tracking_is_due_ = false;
+    for (const ImuSample& sample : imu_.Take()) stage_.AddImu(sample);
+    const bool is_done = Track([this] { return stage_.Pop(); });
+    if (is_done || (stage_.waiting() && !imu_.WaitForNext())) ScheduleTracking();
   }
 
   void AddImage(std::optional<ImageSample> image) {
@@ -131,7 +139,7 @@ class TrackerNode {
     if (image) image_stamps_.Add(image->t_ns);
     LogStamps();
     if (image) stage_.AddImage(std::move(*image));
-    TrackWhatIsReady();
+    ScheduleTracking();
     drop_warner_.Check(Drops());
   }
 
@@ -152,19 +160,24 @@ class TrackerNode {
     ROS_WARN_STREAM(finding);
   }
 
-  // Publishes the frames that `next` returns. Tracks may be inconsistent after an error, so they
-  // are dropped.
+  // Publishes the frame that `next` returns; returns false if there is none. Tracks may be
+  // inconsistent after an error, so they are dropped.
   template <typename NextFrame>
-  void Track(const NextFrame& next) {
+  bool Track(const NextFrame& next) {
+    bool found = true;
     const bool done = errors_.Run([&] {
-      while (const auto frame = next()) Publish(*frame);
+      const auto frame = next();
+      found = frame.has_value();
+      if (frame) Publish(*frame);
     });
     if (!done) stage_.tracker().Reset();
+    return found;
   }
 
   void FlushLateImages() {
     if (ros::WallTime::now() - last_image_arrival_ < ros::WallDuration(kMaxWaitForImu)) return;
-    Track([this] { return stage_.Flush(); });
+    while (Track([this] { return stage_.Flush(); })) {
+    }
   }
 
   void Publish(const typename Stage::Frame& frame) {
@@ -187,11 +200,13 @@ class TrackerNode {
     }
   }
 
-  DropCounts Drops() const {
+  DropCounts Drops() {
     DropCounts drops = {images_.unreadable(), errors_.count()};
     if (config_.sensor.second_camera) drops.push_back(right_images_.unreadable());
     if (depth_subscriber_) drops.push_back(unreadable_depth_);
     Append(ToDropCounts(stage_.counts()), &drops);
+    drops.push_back(
+        {"images_too_late", stage_.counts().too_late, images_.stream().DescribeStall()});
     return drops;
   }
 
@@ -244,6 +259,7 @@ class TrackerNode {
   DropWarner drop_warner_;
   ConstantStamp image_stamps_;
   bool stamps_are_logged_ = false;
+  bool tracking_is_due_ = false;       // TrackNext() is in the queue of callbacks
   bool waits_for_first_image_ = true;  // no image has arrived, and silence was not logged
   ErrorCounter errors_;
   size_t features_in_last_image_ = 0;
@@ -264,7 +280,7 @@ class TrackerNode {
   // unloaded while callbacks run in other threads. Each destructor waits for its own callbacks.
   // Callbacks of images and timers use the IMU inbox. Its own callback, in the receiving thread,
   // uses nothing else.
-  ImuInbox imu_{node_, config_.sensor.imu_topic, [this] { TrackWhatIsReady(); }};
+  ImuInbox imu_{node_, config_.sensor.imu_topic, [this] { TrackNext(); }};
   ImageSubscription images_;
   ImageSubscription right_images_{"second_camera_images"};
   ros::Subscriber depth_subscriber_;

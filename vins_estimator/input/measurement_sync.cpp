@@ -117,13 +117,18 @@ void MeasurementSync::Count(FrameDefect defect) {
   statistics_.frames_too_close += defect == FrameDefect::kTooClose;
   statistics_.frames_without_imu += defect == FrameDefect::kWithoutImu;
   statistics_.frames_in_imu_gap += defect == FrameDefect::kInImuGap;
-  statistics_.frames_too_late += defect == FrameDefect::kTooLate;
+  if (defect == FrameDefect::kTooLate) {
+    ++statistics_.frames_too_late;
+    statistics_.longest_wait = std::max(statistics_.longest_wait, LeadOfImu());
+  }
 }
 
 bool MeasurementSync::IsTooLate() const {
   if (points_.size() < 2 || !LinesAreDecided(1)) return false;  // no newer frame is usable
-  return ToSeconds(imu_.newest_ns() - CutTime(0)) > options_.max_wait && imu_.Reaches(CutTime(1));
+  return LeadOfImu() > options_.max_wait && imu_.Reaches(CutTime(1));
 }
+
+double MeasurementSync::LeadOfImu() const { return ToSeconds(imu_.newest_ns() - CutTime(0)); }
 
 FrameMeasurement MeasurementSync::TakeFrame() {
   FrameMeasurement measurement;

@@ -21,6 +21,7 @@ struct FrameStatistics {
   int64_t frames_out_of_order = 0;     // timestamp not increasing (repeated or backwards)
   int64_t frames_ahead_of_time = 0;    // jumped ahead and still unconfirmed
   int64_t frames_too_late = 0;         // waited for longer than allowed
+  double longest_wait = 0;             // of these [s]
   int64_t frames_without_imu = 0;      // before the first IMU sample or, at the end, after the last
   int64_t frames_in_imu_gap = 0;       // in a gap of the IMU samples
   int64_t frames_too_close = 0;        // less than 1 ms of IMU time after the previous frame
@@ -105,6 +106,7 @@ class MeasurementSync {
   std::optional<FrameDefect> FindDefect() const;
   void Count(FrameDefect defect);
   bool IsTooLate() const;
+  double LeadOfImu() const;  // over the oldest frame [s]
   FrameMeasurement TakeFrame();
 
   Options options_;

@@ -31,6 +31,15 @@ TEST(StreamMonitor, ReportsTheMeanDelay) {
   EXPECT_NEAR(DelayOf({999'000'000'000, 999'500'000'000}, ros::Time(1000)), 750, 0.1);
 }
 
+TEST(StreamMonitor, FindsTheLongestStall) {
+  StreamMonitor monitor("images");
+  monitor.Add(1'000'000'000);
+  ros::WallDuration(0.3).sleep();
+  for (const int64_t ms : {1100, 1200, 1300}) monitor.Add(ms * 1'000'000);
+  const std::string stall = monitor.DescribeStall();
+  EXPECT_NE(stall.find("of images was 0.2"), std::string::npos) << stall;
+}
+
 // The range of ros::Duration ends at 2^31 s.
 TEST(StreamMonitor, AcceptsEveryStamp) {
   constexpr double kMsPerSecond = 1e3;

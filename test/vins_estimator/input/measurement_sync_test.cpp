@@ -305,6 +305,7 @@ TEST(MeasurementSync, FramesAreDroppedAfterTheTimeout) {
   EXPECT_EQ(frames.front().t_ns, 800 * kMs);
   EXPECT_EQ(frames.front().imu.front().t_ns, 0) << "their samples lead to the next one";
   EXPECT_EQ(sync.statistics().frames_too_late, 15);
+  EXPECT_NEAR(sync.statistics().longest_wait, 0.95, 1e-9);
 }
 
 // With a slow camera or network, there is nothing newer.

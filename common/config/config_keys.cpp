@@ -55,6 +55,7 @@ const std::vector<std::string>& IgnoredKeys() {
                                                 "support_path",
                                                 "use_gpu",
                                                 "use_gpu_acc_flow",
+                                                "use_gpu_ceres",
                                                 "visualize_camera_size",
                                                 "visualize_imu_forward",
                                                 "voc_file"};

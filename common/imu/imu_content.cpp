@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/format.h"
+#include "common/imu/imu_range.h"
 
 namespace plm_vins {
 namespace {
@@ -47,6 +48,7 @@ void ImuContent::Add(const ImuSample& sample) {
   near_one_g_ += IsNear(force, 1);
   near_thousand_mg_ += IsNear(force, 1000);
   near_gravity_ += IsNear(force, gravity_norm_);
+  beyond_range_ += force > kAnyImuRange.accel;
   far_below_gravity_ += force < kFarBelow * gravity_norm_;
 }
 
@@ -88,6 +90,10 @@ std::string ImuContent::WrongAccelerometer(const std::string& topic) const {
   }
   if (Share(near_thousand_mg_, with_accel_) > kMost) {
     return "specific force on " + topic + " seems to be in mg: multiply it by 0.00981, to m/s^2";
+  }
+  if (Share(beyond_range_, with_accel_) > kMost) {
+    return Format("specific force exceeds %.0f m/s^2 in most samples: is ", kAnyImuRange.accel) +
+           topic + " in mm/s^2, or in counts of the sensor? Convert it to m/s^2";
   }
   if (Share(far_below_gravity_, with_accel_) > kMost) {
     return "specific force on " + topic +

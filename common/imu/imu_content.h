@@ -33,7 +33,8 @@ class ImuContent {
   // Samples whose specific force has a norm near gravity in g, in thousandths of g, or in m/s^2; or
   // a norm far below gravity in m/s^2.
   int64_t near_one_g_ = 0, near_thousand_mg_ = 0, near_gravity_ = 0, far_below_gravity_ = 0;
-  int64_t fast_turns_ = 0;  // samples with an angular rate that blurs every image
+  int64_t beyond_range_ = 0;  // samples with more specific force than any IMU can read
+  int64_t fast_turns_ = 0;    // samples with an angular rate that blurs every image
 };
 
 }  // namespace plm_vins

@@ -172,9 +172,11 @@ std::optional<Alignment> AlignVisualInertial(
   result.gravity_G = gravity_norm * result.gravity_G.normalized();
   if (result.scale <= 0) {
     // With a constant velocity, any scale fits.
-    *reason = -result.scale < kSignificant * result.scale_deviation
-                  ? "scale not observable yet: the velocity changes too little"
-                  : "the estimated scale is negative";
+    *reason =
+        -result.scale < kSignificant * result.scale_deviation
+            ? "scale not observable yet: the velocity changes too little"
+            : "the estimated scale is negative: check the signs of the accelerometer (it reads "
+              "+g upwards at standstill), extrinsicRotation and td";
     return std::nullopt;
   }
   return result;

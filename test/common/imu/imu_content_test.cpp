@@ -74,6 +74,10 @@ TEST(ImuContent, DetectsWrongUnits) {
               HasSubstr("specific force on /imu seems to be in g"));
   EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->accel *= 1000 / kGravity; }),
               HasSubstr("seems to be in mg"));
+  for (const double factor : {1000.0, 16384 / kGravity}) {
+    EXPECT_THAT(FindingOf([&](int, ImuSample* sample) { sample->accel *= factor; }),
+                HasSubstr("is /imu in mm/s^2, or in counts of the sensor?"));
+  }
   EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->gyro *= 180 / M_PI; }),
               HasSubstr("is /imu in deg/s?"));
 }

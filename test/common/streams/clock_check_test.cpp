@@ -69,6 +69,19 @@ TEST(ClockCheck, AllowsOffsetsGapsLateStartsAndStalls) {
   EXPECT_THAT(check.Finding("/cam", "/imu"), IsEmpty());
 }
 
+// Whole seconds or tenths of images at 20 Hz.
+TEST(ConstantStamp, NamesStampsThatAreRounded) {
+  for (const int64_t step_ns : {1'000'000'000, 100'000'000}) {
+    ConstantStamp stamps;
+    for (int64_t i = 0; i < 200; ++i) stamps.Add(i * 50'000'000 / step_ns * step_ns);
+    EXPECT_EQ(stamps.Finding("/camera"),
+              step_ns == 1'000'000'000
+                  ? "95 % of the stamps of /camera repeat the previous one: its driver must not "
+                    "round them (header.stamp)"
+                  : "");
+  }
+}
+
 TEST(ConstantStamp, NamesStampsThatAreZeroOrTheSame) {
   for (const auto& [t_ns, text] : {std::pair{int64_t{0}, "all stamps of /cam are zero"},
                                    std::pair{int64_t{2'500'000'000}, "are the same, 2.500 s"}}) {

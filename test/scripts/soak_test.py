@@ -48,7 +48,7 @@ class Soak(RefusalTest):
 
     def test_a_bag_that_is_not_there(self):
         from soak import main
-        self.assert_refused(main, "no such file", "/nowhere.bag", "--config", "/nowhere.yaml")
+        self.assert_refused(main, "No such file", "/nowhere.bag", "--config", "/nowhere.yaml")
 
     def test_roslaunch_that_is_not_there(self):
         from soak import main

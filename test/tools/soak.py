@@ -5,8 +5,6 @@ files and threads, and the age of the poses. Exit code 1 if one grows."""
 
 import argparse
 import os
-import signal
-import subprocess
 import sys
 import tempfile
 import time
@@ -15,11 +13,7 @@ import numpy as np
 import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
-
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-sys.path.append(os.path.join(ROOT, "scripts"))
-from measure_latency import (check_files, find_nodes, launch_file,  # noqa: E402
-                             wait_for_master)
+from measure_latency import find_nodes, nodes, player
 
 # Permitted increase from the second quarter of the time to the last; caches and pools fill up in
 # the first.
@@ -73,18 +67,7 @@ class Series:
                    float(np.mean(values[-quarter:])))
 
 
-def play(bag, rate):
-    return subprocess.Popen(["rosbag", "play", "--loop", "--clock", "--quiet", "--delay", "3",
-                             "--rate", str(rate), bag], stdout=subprocess.DEVNULL)
-
-
-def launch(config, output):
-    return subprocess.Popen(["roslaunch", *launch_file(), f"config:={os.path.abspath(config)}",
-                             "use_sim_time:=true", f"output:={output}"],
-                            stdout=subprocess.DEVNULL)
-
-
-def watch(options, nodes, player):
+def watch(options, launched, played):
     """Returns samples of every running node, until the time is over. Raises RuntimeError if a
     process has ended that should run, or if no pose came."""
     series, age = Series(), PoseAge()
@@ -98,9 +81,9 @@ def watch(options, nodes, player):
             if values is None:
                 raise RuntimeError(f"{node} has ended")
             series.add(node[1:], values)
-        if nodes.poll() is not None:
+        if launched.poll() is not None:
             raise RuntimeError("the nodes have ended")
-        if player.poll() is not None:
+        if played.poll() is not None:
             raise RuntimeError("rosbag play has ended")
         if age.value is not None:
             series.add("vins_estimator", {"pose_age_ms": age.value})
@@ -113,16 +96,9 @@ def watch(options, nodes, player):
 
 def soak(options, output):
     """Starts the nodes and the player, and stops them after the time."""
-    running = [launch(options.config, output)]
-    try:
-        wait_for_master(running[0])
-        rospy.init_node("soak", anonymous=True, disable_signals=True)
-        running.append(play(options.bag, options.rate))
-        return watch(options, *running)
-    finally:
-        for process in reversed(running):
-            process.send_signal(signal.SIGINT)
-            process.wait()
+    with nodes(options.config, output=output, use_sim_time="true") as launched, \
+            player(options.bag, options.rate, "--loop", "--clock") as played:
+        return watch(options, launched, played)
 
 
 def report(series):
@@ -152,7 +128,7 @@ def parse_arguments(arguments):
 def main(arguments=None):
     options = parse_arguments(arguments)
     try:
-        check_files(options)
+        open(options.bag, "rb").close()
         with tempfile.TemporaryDirectory() as output:
             return 0 if report(soak(options, output)) else 1
     except (RuntimeError, OSError, rosgraph.MasterException) as error:

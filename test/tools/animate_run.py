@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes an animation of a run: images with tracks, and the growing map from above.
+"""Makes an animation of a run, such as docs/images/flight.webp: images with tracks, and the growing
+map from above.
 
 The run needs images with tracks (run_offline --save-track-images 0.15). Writes an animated WebP."""
 
@@ -13,13 +14,13 @@ import matplotlib
 import numpy as np
 from PIL import Image
 
-from evaluation.trajectory import TrajectoryError
-from pages.run_folder import RunFolder
-
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
+from evaluation.trajectory import TrajectoryError  # noqa: E402
+from pages.run_folder import RunFolder  # noqa: E402
+from pages.run_figures import LINE_COLORS  # noqa: E402
 
-LINE_COLORS = {"along x": "#dc2828", "along y": "#28a028", "along z": "#325ae6", "free": "#8c8c8c"}
 SIZE_IN = (7.52, 3.6)  # size of the map [inches]
 REACH = 8  # a landmark appears when it is in view within this distance [m]
 HALF_VIEW = np.cos(np.radians(45))  # cosine of half the field of view

@@ -31,18 +31,18 @@ def _write_pages(output, results, evaluator, facts):
 
 def _write_pictures(output, results, evaluator):
     """Returns the paths relative to `output`, by heading."""
-    from evaluation import comparison_plots  # only here, since loading takes a second
+    from evaluation import plots  # only here, since loading takes a second
     pictures = {}
     overview = _overview(results)
     if overview:
-        paths = comparison_plots.write_overview(os.path.join(output, "plots"), "ape.png", overview,
-                                                METRIC["ape_m"].title)
+        paths = plots.write_overview(os.path.join(output, "plots"), "ape.png", overview,
+                                     METRIC["ape_m"].title)
         pictures["All sequences"] = paths
     for sequence in results.sequences:
         pairs = evaluator.typical_pairs(results, sequence)
         if pairs:
             folder = os.path.join(output, "plots", sequence)
-            pictures[sequence] = comparison_plots.write_comparison(folder, pairs)
+            pictures[sequence] = plots.write_comparison(folder, pairs)
     return {heading: [os.path.relpath(path, output) for path in paths]
             for heading, paths in pictures.items()}
 

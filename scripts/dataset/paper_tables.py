@@ -33,10 +33,9 @@ def paper_table(table, results):
     rows = [[sequence] + [column.text(sequence, name) for column in paper]
             + [name or cells.NONE] + [column.text(sequence, name) for column in ours]
             for sequence, name in lines]
-    if table.with_differences:
-        rows += _averages([line for line in lines if _is_the_same(*line, results)], paper, ours)
+    rows += _averages([line for line in lines if _is_the_same(*line, results)], paper, ours)
     heading = ["sequence", *(c.heading for c in paper), "recording", *(c.heading for c in ours)]
-    return f"### Table {table.number}. {table.title}\n\n{Table(heading, rows)}"
+    return f"### {table.title}\n\n{Table(heading, rows)}"
 
 
 def _is_the_same(sequence, name, results):
@@ -45,15 +44,12 @@ def _is_the_same(sequence, name, results):
 
 
 def _paper_columns(table):
-    def column(heading, value):
-        return _Column(heading, value, lambda sequence, name: f"{value(sequence, name):.2f}")
-
-    columns = [column(heading, lambda sequence, name, figures=figures: figures[sequence])
-               for heading, figures in table.columns.items()]
-    if table.with_differences:
-        first, second = columns
-        columns.append(column("difference", lambda *line: first.value(*line) - second.value(*line)))
-    return columns
+    first, second = table.columns.values()
+    values = {**{heading: lambda sequence, _, figures=figures: figures[sequence]
+                 for heading, figures in table.columns.items()},
+              "difference": lambda sequence, _: first[sequence] - second[sequence]}
+    return [_Column(heading, value, lambda *line, value=value: f"{value(*line):.2f}")
+            for heading, value in values.items()]
 
 
 def _our_columns(table, results):
@@ -70,8 +66,6 @@ def _our_columns(table, results):
         return _Column(f"ours: {variant}", value, text, metric.decimals)
 
     columns = [column(variant) for variant in table.variants]
-    if not table.with_differences:
-        return columns
     return columns + [_our_difference(table, columns, results)]
 
 

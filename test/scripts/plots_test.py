@@ -11,13 +11,13 @@ import numpy as np
 
 from known_flight import flight, moved  # first: it names the folder
 from dataset.results import Evaluator, Results, RunResult
-from evaluation import comparison_plots, plots
+from evaluation import plots
 
 
 class Figures(unittest.TestCase):
     def draw(self, write, *arguments):
         """Returns the figure that `write` would save."""
-        with mock.patch("evaluation.comparison_plots.save_figures",
+        with mock.patch("evaluation.plots._save_figures",
                         lambda _, figures: list(figures.values())):
             figure = write("folder", *arguments)[0]
         self.addCleanup(plots.pyplot.close, "all")
@@ -26,7 +26,7 @@ class Figures(unittest.TestCase):
     def test_no_bar_of_an_error_goes_below_zero(self):
         values = {"points": {"hall": (0.01, 0.03), "room": (math.nan, 0.0)},
                   "lines": {"hall": (0.05, 0.02), "room": (0.02, 0.0)}}
-        axis, = self.draw(comparison_plots.write_overview, "ape.png", values, "APE").axes
+        axis, = self.draw(plots.write_overview, "ape.png", values, "APE").axes
         ends = [bar.errorbar[2][0].get_segments()[0][:, 1] for bar in axis.containers
                 if hasattr(bar, "errorbar")]
         np.testing.assert_allclose(ends, [[0.0, 0.04], [0.03, 0.07]])
@@ -34,7 +34,7 @@ class Figures(unittest.TestCase):
     def test_the_ground_truth_is_on_top(self):
         truth = flight()
         pairs = {"points": (moved(truth, 0.1), truth)}
-        figure = self.draw(comparison_plots.write_comparison, pairs)
+        figure = self.draw(plots.write_comparison, pairs)
         axis = figure.axes[0]
         line, = axis.get_lines()
         self.assertEqual(line.get_label(), "ground truth")

@@ -40,8 +40,8 @@ class Results(DatasetTest):
         self.assertEqual([row["starts"] for row in table], ["1"] * 4)
         self.assertEqual(table[0]["ape_m_min"], table[0]["ape_m_max"])
         report = self.report()
-        self.assertRegex(report, r"MH_01_easy +\| 0\.18 +\| 0\.14 +\| MH_01_easy +"
-                                 r"\| 0\.2\d+ \[0\.2\d+, 0\.2\d+\] \(95 %\) +\| 0\.1")
+        self.assertRegex(report, r"MH_01_easy +\| 0\.18 +\| 0\.14 +\| 0\.04 +\| MH_01_easy"
+                                 r" +\| 0\.2\d+ \[0\.2\d+, 0\.2\d+\] \(95 %\) +\| 0\.1")
         self.assertIn("All 8 runs ended with a trajectory", report)
         for name in ("ape.png", "hall/trajectories.png", "hall/trajectory_errors.png",
                      "hall/ape.png", "hall/translation.png"):

@@ -53,8 +53,9 @@ std::vector<FrameMeasurement> Measure(const Config& config, Recording* recording
   return measurements;
 }
 
-void Optimize(benchmark::State& state, const Config& config,
+void Optimize(benchmark::State& state, Config config, SolverType solver,
               const std::vector<FrameMeasurement>& measurements) {
+  config.estimator.solver = solver;
   Estimator estimator(config);
   auto next = measurements.begin();
   std::vector<double> times_ms;
@@ -82,11 +83,16 @@ void Run(const std::string& config_file, const std::string& folder) {
   const std::vector<FrameMeasurement> measurements = Measure(config, OpenAslFolder(folder).get());
   const int64_t windows = CountWindows(config, measurements);
   if (windows == 0) throw std::invalid_argument("no pose in " + folder);
-  benchmark::RegisterBenchmark(
-      "window", [&](benchmark::State& state) { Optimize(state, config, measurements); })
-      ->Iterations(windows)
-      ->UseManualTime()
-      ->Unit(benchmark::kMillisecond);
+  for (const auto& [name, solver] :
+       {std::pair("schur", SolverType::kSchur), std::pair("ceres", SolverType::kCeres)}) {
+    benchmark::RegisterBenchmark(name,
+                                 [&, solver = solver](benchmark::State& state) {
+                                   Optimize(state, config, solver, measurements);
+                                 })
+        ->Iterations(windows)
+        ->UseManualTime()
+        ->Unit(benchmark::kMillisecond);
+  }
   benchmark::RunSpecifiedBenchmarks();
 }
 

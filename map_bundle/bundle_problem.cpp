@@ -159,7 +159,7 @@ bool AdjustBundle(const ImuHistory& imu, const BundleOptions& options, BundleSta
   SolverOptions solver;
   solver.max_iterations = options.max_iterations;
   solver.deviation_tolerance = 0.02;
-  if (!SolveByCeres(solver, problem.problem()).solved) return false;
+  if (!SolveByCeres(solver, problem.problem(), CeresEquations::kSparse).solved) return false;
   problem.TakeOverLandmarks();
   return true;
 }

@@ -10,7 +10,7 @@
 #include "common/stopwatch.h"
 #include "vins_estimator/least_squares/normal_equations.h"
 #include "vins_estimator/map/recalibration.h"
-#include "vins_estimator/optimization/levenberg_marquardt.h"
+#include "vins_estimator/optimization/window_solver.h"
 #include "vins_estimator/problem/placement_problem.h"
 #include "vins_estimator/problem/problem_builder.h"
 #include "vins_estimator/state/derived_covariance.h"
@@ -229,7 +229,8 @@ WindowOdometry::Solution WindowOdometry::PlaceNewest() {
   NormalEquations equations(placement.problem());
   Solution solution;
   solution.exists =
-      plm_vins::Solve(options_->newest_solution, placement.problem(), &equations).solved;
+      SolveBy(config_->estimator.solver, options_->newest_solution, placement.problem(), &equations)
+          .solved;
   if (keyframe_.covariance) {
     solution.covariance =
         PlacedCovariance(map.window, keyframe_.t_ns, *keyframe_.covariance, &equations);
@@ -261,7 +262,7 @@ double WindowOdometry::FindBack() {
   ProblemBuilder builder(problem, &map.window, &estimate_.prior);
   builder.AddAll(&map.points, &map.lines);
   NormalEquations equations(builder.problem());
-  plm_vins::Solve(CurrentSolution(), builder.problem(), &equations);
+  SolveBy(config_->estimator.solver, CurrentSolution(), builder.problem(), &equations);
   return stopwatch.Milliseconds();
 }
 
@@ -272,7 +273,8 @@ WindowOdometry::Solution WindowOdometry::SolveWindow(const SolverOptions& option
   builder.AddAll(&map.points, &map.lines);
   NormalEquations equations(builder.problem());
   Solution solution;
-  solution.exists = plm_vins::Solve(options, builder.problem(), &equations).solved;
+  solution.exists =
+      SolveBy(config_->estimator.solver, options, builder.problem(), &equations).solved;
   solution.covariance = StateCovariance(map.window.newest().state.t_ns, &equations);
   keyframe_.covariance = StateCovariance(keyframe_.t_ns, &equations);
   if (const auto& second = config_->sensor.second_camera) {

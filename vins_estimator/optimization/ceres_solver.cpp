@@ -11,6 +11,7 @@
 #include "vins_estimator/least_squares/term_evaluation.h"
 #include "vins_estimator/optimization/ceres_manifold.h"
 #include "vins_estimator/optimization/factor_cost.h"
+#include "vins_estimator/optimization/prior_cost.h"
 
 namespace plm_vins {
 namespace {
@@ -33,9 +34,13 @@ class CeresProblem {
     for (const LandmarkTerms& landmark : window.landmarks()) {
       for (const ResidualTerm& term : landmark.terms) AddTerm(term);
     }
+    if (window.prior() != nullptr && !window.prior()->empty()) AddPrior(*window.prior());
   }
 
   ceres::Problem* problem() { return &problem_; }
+
+  // Offset of Ceres' costs relative to those of the window.
+  double constant() const { return prior_ ? prior_->constant() : 0; }
 
   // Returns the elimination order: landmarks first, then frames.
   std::shared_ptr<ceres::ParameterBlockOrdering> Ordering() const {
@@ -81,6 +86,15 @@ class CeresProblem {
     Add(costs_.back().get(), term.loss, blocks);
   }
 
+  void AddPrior(const MarginalizationPrior& prior) {
+    std::vector<double*> blocks;
+    for (const MarginalizationPrior::Block& block : prior.blocks()) {
+      blocks.push_back(blocks_[window_.Find(block.id)]);
+    }
+    prior_ = std::make_unique<PriorCost>(prior);
+    Add(prior_.get(), nullptr, blocks);
+  }
+
   // Ceres' interface takes non-const pointers, but neither cost nor loss has mutable state.
   void Add(const ceres::CostFunction* cost, const ceres::LossFunction* loss,
            const std::vector<double*>& blocks) {
@@ -92,6 +106,7 @@ class CeresProblem {
   std::vector<double> values_;
   std::vector<double*> blocks_;  // parameter blocks, by variable
   std::vector<std::unique_ptr<const FactorCost>> costs_;
+  std::unique_ptr<const PriorCost> prior_;
   ceres::Problem problem_;  // last: it refers to the members above
 };
 
@@ -113,10 +128,12 @@ class EndOfGain final : public ceres::IterationCallback {
 // Initial radius of the trust region: practically undamped.
 constexpr double kInitialRadius = 1e5;
 
-ceres::Solver::Options ToCeres(const SolverOptions& options) {
+ceres::Solver::Options ToCeres(const SolverOptions& options, CeresEquations equations) {
   ceres::Solver::Options result;
-  // Ceres uses SuiteSparse if available; a map takes 25 % longer with Eigen's solver.
-  result.linear_solver_type = ceres::SPARSE_SCHUR;
+  // For SPARSE_SCHUR, Ceres uses SuiteSparse if available; a map takes 25 % longer with Eigen's
+  // solver.
+  result.linear_solver_type =
+      equations == CeresEquations::kDense ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
   result.num_threads = 1;
   result.logging_type = ceres::SILENT;
   result.max_num_iterations = options.max_iterations;
@@ -129,9 +146,10 @@ ceres::Solver::Options ToCeres(const SolverOptions& options) {
 
 }  // namespace
 
-SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& window) {
+SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& window,
+                           CeresEquations equations) {
   CeresProblem problem(window);
-  ceres::Solver::Options ceres_options = ToCeres(options);
+  ceres::Solver::Options ceres_options = ToCeres(options, equations);
   ceres_options.linear_solver_ordering = problem.Ordering();
   EndOfGain end_of_gain(LeastGain(options, window));
   ceres_options.callbacks.push_back(&end_of_gain);
@@ -139,8 +157,8 @@ SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& wi
   ceres::Solve(ceres_options, problem.problem(), &ceres_summary);
 
   SolverSummary summary;
-  summary.initial_cost = ceres_summary.initial_cost;
-  summary.final_cost = ceres_summary.final_cost;
+  summary.initial_cost = ceres_summary.initial_cost - problem.constant();
+  summary.final_cost = ceres_summary.final_cost - problem.constant();
   // The first entry is the initial evaluation.
   summary.iterations = std::max(static_cast<int>(ceres_summary.iterations.size()) - 1, 0);
   summary.solved = ceres_summary.IsSolutionUsable();

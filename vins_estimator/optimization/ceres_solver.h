@@ -6,14 +6,18 @@
 
 namespace plm_vins {
 
-// Solves a problem without prior by ceres::Solve instead of Solve(): same terms and limits, sparse
-// equations, as those of a whole map, and one thread; landmarks are eliminated first. All Jacobians
-// are evaluated at the current values. A term that cannot be evaluated at the start (a landmark
-// behind a camera) is dropped, because Ceres would fail.
+// Linear solver for the reduced (frame) equations: dense for a window, sparse for a map.
+enum class CeresEquations { kDense, kSparse };
+
+// Solves the problem by ceres::Solve instead of Solve(): same terms, prior and limits, one thread;
+// landmarks are eliminated first. All Jacobians are evaluated at the current values. A term that
+// cannot be evaluated at the start (a landmark behind a camera) is dropped, because Ceres would
+// fail.
 //
 // Given enough iterations, both solvers reach the same minimum. They differ in damping, in the step
 // tolerance, which Ceres takes relative to the norm of all values, and in that Ceres does not stop
 // when a step gained what was predicted.
-SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& problem);
+SolverSummary SolveByCeres(const SolverOptions& options, const WindowProblem& problem,
+                           CeresEquations equations = CeresEquations::kDense);
 
 }  // namespace plm_vins

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "test/vins_estimator/simulated_problem.h"
-#include "vins_estimator/optimization/levenberg_marquardt.h"
+#include "vins_estimator/optimization/window_solver.h"
 #include "vins_estimator/problem/initial_prior.h"
 
 namespace plm_vins {
@@ -150,7 +150,7 @@ ImuNoiseEvidence SumOverWindows(const std::function<void(SlidingWindow*)>& assum
     NormalEquations equations(builder.problem());
     SolverOptions options;
     options.max_iterations = 20;
-    Solve(options, builder.problem(), &equations);
+    SolveBy(SolverType::kSchur, options, builder.problem(), &equations);
     const auto evidence = EvidenceAt(kFrame, window, &equations).value();
     AddEvidence(evidence.accel, &sum.accel);
     AddEvidence(evidence.gyro, &sum.gyro);

@@ -246,23 +246,6 @@ TEST_F(LineTrackerTest, AThousandLines) {
   EXPECT_EQ(Track(scene_->View()).lines.size(), 60U);
 }
 
-TEST_F(LineTrackerTest, SameImagesSameBytes) {
-  const LineScene scene = BarScene(DistortedParameters());
-  std::vector<LineFrame> runs[2];
-  for (auto& run : runs) {
-    Show(scene);
-    for (int i = 0; i < 6; ++i) run.push_back(Track(scene_->View(Flight(i), 3)));
-  }
-  for (size_t i = 0; i < runs[0].size(); ++i) {
-    ASSERT_EQ(runs[0][i].lines.size(), runs[1][i].lines.size());
-    for (size_t k = 0; k < runs[0][i].lines.size(); ++k) {
-      EXPECT_EQ(runs[0][i].lines[k].id, runs[1][i].lines[k].id);
-      EXPECT_EQ(runs[0][i].lines[k].start, runs[1][i].lines[k].start);
-      EXPECT_EQ(runs[0][i].lines[k].end, runs[1][i].lines[k].end);
-    }
-  }
-}
-
 TEST_F(LineTrackerTest, RejectsUnusableImagesWithoutChange) {
   Show(BarScene(PlainParameters()));
   const cv::Mat image = scene_->View();

@@ -23,12 +23,10 @@ std::set<int64_t> Ids(const LineFrame& frame) {
 
 class LineTrackingStageTest : public ::testing::Test {
  protected:
-  LineTrackingStageTest() { MakeStage(60); }
-
-  void MakeStage(int max_lines) {
+  LineTrackingStageTest() {
     Config config;
     config.sensor.camera = PlainParameters();
-    config.lines.max_lines = max_lines;
+    config.lines.max_lines = 60;
     config.lines.half_resolution = false;
     config.lines.spacing = 2;
     config.lines.min_length = 0.05;
@@ -97,21 +95,6 @@ TEST(LineTrackingStage, TakesTheMaskOfThePoints) {
   config.points.fisheye_mask = "no_such_file.png";
   EXPECT_EQ(testing::MessageOf([&] { LineTrackingStage stage(config); }),
             "camera.yaml: fisheye_mask: cannot read the image no_such_file.png");
-}
-
-TEST_F(LineTrackingStageTest, FollowsAThousandLines) {
-  cv::Mat grid(bars_.size(), CV_8UC1, cv::Scalar(60));
-  for (int y = 12; y + 30 < grid.rows; y += 48) {
-    for (int x = 12; x + 6 < grid.cols; x += 11) {
-      cv::rectangle(grid, {x, y, 6, 30}, cv::Scalar(200), cv::FILLED);
-    }
-  }
-  MakeStage(2000);
-  const TrackedLines first = Track(0, grid);
-  EXPECT_GT(first.features.lines.size(), 1000u);
-  const TrackedLines second = Track(50, grid);
-  EXPECT_GT(second.features.lines.size(), 1000u);
-  EXPECT_EQ(Ids(second.features).size(), second.features.lines.size());
 }
 
 }  // namespace

@@ -41,13 +41,6 @@ void ExpectSameBits(const EstimatedFlight& a, const EstimatedFlight& b) {
   }
 }
 
-TEST(EstimatorRobustness, IsDeterministic) {
-  const SimulatedFlight flight = Simulate(Motion::kFast, 1, 8);
-  const EstimatedFlight first = testing::Estimate(flight);
-  EXPECT_GT(first.outputs.size(), 100u);
-  ExpectSameBits(first, testing::Estimate(flight));
-}
-
 TEST(EstimatorRobustness, ResetEqualsANewEstimator) {
   const SimulatedFlight flight = Simulate(Motion::kFast, 1, 8);
   SimulatedFlight before = Simulate(Motion::kGentle, 2, 6);

@@ -85,69 +85,6 @@ visualize_imu_forward: 0
 visualize_camera_size: 0.4      
 )";
 
-inline constexpr const char* kPlVinsFile = R"(%YAML:1.0
-
-imu_topic: "/imu0"
-image_topic: "/cam0/image_raw"
-output_path: "/home/somebody/Trajectory"
-
-model_type: PINHOLE
-camera_name: camera
-image_width: 752
-image_height: 480
-distortion_parameters:
-   k1: -2.917e-01
-   k2: 8.228e-02
-   p1: 5.333e-05
-   p2: -1.578e-04
-projection_parameters:
-   fx: 4.616e+02
-   fy: 4.603e+02
-   cx: 3.630e+02
-   cy: 2.481e+02
-
-estimate_extrinsic: 0
-ex_calib_result_path: "/config/euroc/ex_calib_result.yaml"
-extrinsicRotation: !!opencv-matrix
-   rows: 3
-   cols: 3
-   dt: d
-   data: [0.0, -1.0, 0.0, 
-          1.0, 0.0, 0.0,
-          0.0, 0.0, 1.0]
-extrinsicTranslation: !!opencv-matrix
-   rows: 3
-   cols: 1
-   dt: d
-   data: [-0.02, -0.06, 0.01]
-
-max_cnt: 120
-min_dist: 25
-freq: 20
-F_threshold: 1.0
-show_track: 0
-equalize: 0
-fisheye: 0
-max_solver_time: 0.06
-max_num_iterations: 10
-keyframe_parallax: 10.0
-acc_n: 0.08
-gyr_n: 0.004
-acc_w: 0.00004
-gyr_w: 2.0e-6
-g_norm: 9.81007
-
-loop_closure: 1
-load_previous_pose_graph: 1 
-fast_relocalization: 0 
-pose_graph_save_path: "/home/somebody/posegraph/"
-pattern_file: "/support_files/brief_pattern.yml"
-voc_file: "/support_files/brief_k10L6.bin"
-min_loop_num: 25
-
-
-)";
-
 // A minimal valid configuration.
 inline constexpr const char* kShortFile = R"(%YAML:1.0
 image_topic: "/image"

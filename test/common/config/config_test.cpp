@@ -75,12 +75,15 @@ TEST_F(ConfigTest, PixelsBeyondAFisheyesRimAreNoWarning) {
   EXPECT_EQ(Load(Replaced(wide, "k2: 0", "k2: -0.15")).warnings.size(), 1u);
 }
 
-TEST_F(ConfigTest, IgnoredKeysAreOneWarning) {
+TEST_F(ConfigTest, IgnoredKeysOfVinsMonoAndPlVinsAreOneWarning) {
   const std::string file = (folder_ / "camera.yaml").string();
-  EXPECT_THAT(Load(kVinsMonoFile).warnings,
-              ElementsAre(file + ": keys without effect: camera_name, fast_relocalization, "
-                                 "max_solver_time, output_path, save_image, visualize_camera_size, "
-                                 "visualize_imu_forward"));
+  const std::string of_pl_vins =
+      "ex_calib_result_path: a\npattern_file: b\nvoc_file: c\nmin_loop_num: 25\n";
+  EXPECT_THAT(Load(kVinsMonoFile + of_pl_vins).warnings,
+              ElementsAre(file + ": keys without effect: camera_name, ex_calib_result_path, "
+                                 "fast_relocalization, max_solver_time, min_loop_num, output_path, "
+                                 "pattern_file, save_image, visualize_camera_size, "
+                                 "visualize_imu_forward, voc_file"));
 }
 
 TEST_F(ConfigTest, LoopClosureHasTheKeysOfVins) {
@@ -103,15 +106,6 @@ TEST_F(ConfigTest, FisheyeOfVinsWorksWithoutAMask) {
                                                  HasSubstr("fisheye_mask is not set"))));
   EXPECT_EQ(config.points.fisheye_mask, "");
   EXPECT_FALSE(config.points.fisheye);
-}
-
-TEST_F(ConfigTest, PlVinsFileLoadsUnchanged) {
-  const Config config = Load(kPlVinsFile);
-  EXPECT_EQ(config.estimator.max_num_iterations, 10);
-  EXPECT_EQ(config.points.min_dist, 25);
-  EXPECT_FALSE(config.points.equalize);
-  EXPECT_MATRIX_NEAR(config.sensor.T_B_C * Eigen::Vector3d::UnitX(),
-                     Eigen::Vector3d(-0.02, 0.94, 0.01), 1e-15);
 }
 
 TEST_F(ConfigTest, KannalaBrandtTakesTheNamesOfVins) {
@@ -160,18 +154,18 @@ TEST_F(ConfigTest, OverridesReplaceScalars) {
 }
 
 TEST_F(ConfigTest, LinesHaveTheirKeys) {
-  const Config config = Load(kPlVinsFile, {{"line_detector", "edlines"},
-                                           {"max_line_cnt", "80"},
-                                           {"line_min_length", "0.125"},
-                                           {"line_outlier_distance", "20"},
-                                           {"line_merging", "0"}});
+  const Config config = Load(kShortFile, {{"line_detector", "edlines"},
+                                          {"max_line_cnt", "80"},
+                                          {"line_min_length", "0.125"},
+                                          {"line_outlier_distance", "20"},
+                                          {"line_merging", "0"}});
   EXPECT_TRUE(config.use_lines);
   EXPECT_EQ(config.lines.line_detector, LineDetectorType::kEdLines);
   EXPECT_EQ(config.lines.max_lines, 80);
   EXPECT_EQ(config.lines.min_length, 0.125);
   EXPECT_EQ(config.estimator.line_outlier_distance, 20);
   EXPECT_FALSE(config.estimator.line_merging);
-  EXPECT_FALSE(Load(kPlVinsFile, {{"use_lines", "0"}}).use_lines);
+  EXPECT_FALSE(Load(kShortFile, {{"use_lines", "0"}}).use_lines);
 }
 
 TEST_F(ConfigTest, AnOverrideCanRepairAValue) {
@@ -324,16 +318,19 @@ TEST_F(ConfigTest, KeysOfAnotherModel) {
 
 TEST_F(ConfigTest, BadExtrinsics) {
   const auto problems = [&](const std::string& from, const std::string& to) {
-    return ProblemsOf(Write(Replaced(kPlVinsFile, from, to)));
+    return ProblemsOf(Write(Replaced(kVinsMonoFile, from, to)));
   };
-  ExpectOneProblem(problems("0.0, -1.0, 0.0", "0.0, -1.1, 0.0"),
+  const std::string row = "0.0148655429818, -0.999880929698, 0.00414029679422,";
+  ExpectOneProblem(problems("-0.9998", "-1.1"),
                    {"camera.yaml:24: extrinsicRotation", "is not a rotation"});
-  ExpectOneProblem(problems("0.0, -1.0, 0.0", "0.0, 1.0, 0.0"), {"is not a rotation"});
-  ExpectOneProblem(problems("0.0, -1.0, 0.0", "-1.0, 0.0"), {"of size 3x3 with 9 numbers"});
+  ExpectOneProblem(problems(row, "-0.0148655429818, 0.999880929698, -0.00414029679422,"),
+                   {"is not a rotation"});
+  ExpectOneProblem(problems(row, "0.0, -1.0,"), {"of size 3x3 with 9 numbers"});
   ExpectOneProblem(problems("cols: 1", "cols: 2"), {"extrinsicTranslation", "of size 3x1"});
-  ExpectOneProblem(problems("-0.02, ", "abc, "), {"entry 1 of data is not a finite number"});
-  ExpectOneProblem(problems("-0.02, ", ".nan, "), {"entry 1 of data is not a finite number"});
-  ExpectOneProblem(problems("-0.02, ", "-20, "), {"each must be -10 to 10 [m]"});
+  ExpectOneProblem(problems("-0.0216401454975", "abc"), {"entry 1 of data is not a finite number"});
+  ExpectOneProblem(problems("-0.0216401454975", ".nan"),
+                   {"entry 1 of data is not a finite number"});
+  ExpectOneProblem(problems("-0.0216401454975", "-20"), {"each must be -10 to 10 [m]"});
   ExpectProblem("extrinsicRotation: 3", {"must be an !!opencv-matrix of size 3x3"});
 }
 

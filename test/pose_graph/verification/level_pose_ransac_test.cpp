@@ -88,15 +88,6 @@ TEST_F(FindLevelPoseTest, ReturnsAllInliers) {
   EXPECT_EQ(pose->inliers, agree);
 }
 
-TEST_F(FindLevelPoseTest, IsTheSameForTheSameInput) {
-  const auto observations = See(T_O_G_, R_G_C_, 60, 0.5, 1.0 / kFocalLength, &random_);
-  const auto first = FindLevelPose(LevelPoseRansacOptions(kFocalLength), observations, R_G_C_);
-  const auto second = FindLevelPose(LevelPoseRansacOptions(kFocalLength), observations, R_G_C_);
-  ASSERT_TRUE(first && second);
-  EXPECT_EQ(first->T_O_G.ToVector(), second->T_O_G.ToVector());
-  EXPECT_EQ(first->inliers, second->inliers);
-}
-
 TEST_F(FindLevelPoseTest, NeedsMoreThanOneObservation) {
   const auto observations = See(T_O_G_, R_G_C_, 1, 0, 0, &random_);
   EXPECT_FALSE(FindLevelPose(LevelPoseRansacOptions(kFocalLength), observations, R_G_C_));

@@ -13,12 +13,10 @@ SEED = 1  # of the jitter
 
 @dataclass
 class Fault:
-    """`change(measurements, begin)` applies the fault; `needs_features` means that images would
-    have to change."""
+    """`change(measurements, begin)` applies the fault."""
 
     what: str
     change: Callable
-    needs_features: bool = False
     ignores_begin: bool = False
 
     def apply(self, measurements, begin):
@@ -126,7 +124,7 @@ FAULTS = {
                          lambda measurements, begin: _shift_images(0.03)(measurements, 0),
                          ignores_begin=True),
     "image_frozen_3s": Fault("the camera repeats its last image for 3 s", _freeze(3)),
-    "points_gone_10s": Fault("no points for 10 s", _blind(10, "points_kept"), True),
+    "points_gone_10s": Fault("no points for 10 s", _blind(10, "points_kept")),
     "blind_10s": Fault("neither points nor lines for 10 s",
-                       _blind(10, "points_kept", "lines_kept"), True),
+                       _blind(10, "points_kept", "lines_kept")),
 }

@@ -121,15 +121,6 @@ TEST(ImuStream, ReplayIsReportedAfterAThousandSamples) {
   EXPECT_EQ(stream.first_ns(), 5000 * kMs);
 }
 
-TEST(ImuStream, RepeatedSamplesAreNoJump) {
-  ImuStream stream = Stream();
-  Add(&stream, 0, 1000);
-  stream.Cut(900 * kMs);
-  for (const Clock clock : Add(&stream, 800, 1100)) EXPECT_EQ(clock, Clock::kRunsOn);
-  EXPECT_EQ(stream.statistics().imu_out_of_order, 41);
-  EXPECT_EQ(stream.Cut(1100 * kMs).size(), 41u);
-}
-
 TEST(ImuStream, ForwardJumpIsReportedAtTheSecondSample) {
   for (const int64_t leap_ms : {kMinute_ms, kMinute_ms + 5}) {
     ImuStream stream = Stream();

@@ -63,26 +63,6 @@ TEST(MeasurementSync, CutsTheImuAtTheImageTimes) {
   }
 }
 
-TEST(MeasurementSync, AnIntervalCanBeIntegratedAsItIs) {
-  MeasurementSync sync({});
-  AddImu(&sync, 0, 200);
-  for (int64_t t : {22, 75}) sync.AddPoints(Points(t * kMs));
-  const auto frames = PopAll(&sync);
-  Preintegration preintegration{ImuNoise(), ImuBias()};
-  for (const ImuSample& sample : frames[1].imu) preintegration.Append(sample);
-  EXPECT_NEAR(preintegration.duration(), 0.053, 1e-12);
-}
-
-TEST(MeasurementSync, WaitsForTheImuToReachTheImage) {
-  MeasurementSync sync({});
-  AddImu(&sync, 0, 45);
-  sync.AddPoints(Points(47 * kMs));
-  EXPECT_FALSE(sync.Pop().has_value());
-  AddImu(&sync, 50, 50);
-  EXPECT_TRUE(sync.Pop().has_value());
-  EXPECT_EQ(sync.queued_frames(), 0u);
-}
-
 TEST(MeasurementSync, ShiftsTheCutByTheTimeOffset) {
   MeasurementSync::Options options;
   options.td = 0.012;

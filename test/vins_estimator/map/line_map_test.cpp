@@ -368,22 +368,5 @@ TEST_F(LineMapTest, RestartDropsAnchorObservations) {
   ExpectInPlace(Landmark(7));
 }
 
-TEST_F(LineMapTest, TakesAThousandLinesInAFrame) {
-  simulator::Random random(2);
-  segments_W_.clear();
-  while (segments_W_.size() < 1000) {
-    const Segment segment{RandomPoint(&random), RandomPoint(&random)};
-    if (segment.length() > 1) segments_W_.push_back(segment);
-  }
-  map_ = LineMap();
-  for (int i = 0; i < 4; ++i) map_.AddFrame(Observe(segments_W_, i));
-  const LineTriangulationCounts counts = Triangulate();
-  EXPECT_EQ(counts.triangulated + counts.degenerate, 1000);
-  EXPECT_GT(counts.triangulated, 900);
-  EXPECT_EQ(map_.RemoveOutliers(window_, LineLimits(kNoise, kMaxLength)), 0);
-  map_.RemoveIf([](const LineLandmark& landmark) { return !landmark.triangulated; });
-  ExpectAllInPlace();
-}
-
 }  // namespace
 }  // namespace plm_vins

@@ -47,32 +47,6 @@ TEST_F(RecalibrationTest, ReturnsTheLargestMotion) {
   EXPECT_GE(recalibration_.LargestMove(), (xy - before).norm());
 }
 
-TEST_F(RecalibrationTest, KeepsPixels) {
-  Vector2d xy(0.4, -0.3);
-  recalibration_.Move(&xy);
-  EXPECT_MATRIX_NEAR(xy, Expected({0.4, -0.3}), 1e-12);
-  EXPECT_GT((xy - Vector2d(0.4, -0.3)).norm(), 0.005);
-}
-
-TEST_F(RecalibrationTest, MovesVelocitiesAlong) {
-  const Vector2d before(0.4, -0.3), velocity_before(1, -2);
-  Vector2d xy = before, velocity = velocity_before;
-  recalibration_.Move(&xy, &velocity);
-  const auto expected = [this](const Vector2d& x) { return Expected(x); };
-  EXPECT_MATRIX_NEAR(velocity, testing::NumericJacobian(expected, before) * velocity_before, 1e-8);
-}
-
-TEST_F(RecalibrationTest, KeepsRaysOutsideTheFieldOfView) {
-  const Vector2d beyond(0.9, 0.9);
-  CameraParameters folded = Other();
-  folded.distortion = {-0.4, 0, 0, 0};  // valid up to a radius of 0.91
-  ASSERT_FALSE(CameraModel::Create(folded)->Project(beyond.homogeneous()));
-  Vector2d xy = beyond, velocity(1, 2);
-  Recalibration(folded, Other()).Move(&xy, &velocity);
-  EXPECT_EQ(xy, beyond);
-  EXPECT_EQ(velocity, Vector2d(1, 2));
-}
-
 TEST_F(RecalibrationTest, MovesAllRaysOfAnImage) {
   FrameMeasurement measurement;
   measurement.points.points = {{1, {0.1, 0.2}, {300, 200}, {1, 0}}};

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "test/vins_estimator/simulated_window.h"
-#include "vins_estimator/problem/initial_prior.h"
 
 namespace plm_vins {
 namespace {
@@ -38,35 +37,10 @@ TEST_F(WindowVariablesTest, EachIsAddedOnceWithItsValues) {
   }
 }
 
-TEST_F(WindowVariablesTest, ThePoseOfAnAnchorIsOne) {
-  const int64_t anchor_ns = State(0).t_ns;
-  window().TurnOldestIntoAnchor();
-  WindowVariables variables(&window(), Nothing, nullptr, &problem_);
-  EXPECT_EQ(At(variables.Pose(anchor_ns)).values, window().anchors[0].state.pose.data());
-  EXPECT_THROW(variables.Motion(anchor_ns), std::logic_error);
-}
-
 TEST_F(WindowVariablesTest, LandmarksAreNot) {
   WindowVariables variables(&window(), Nothing, nullptr, &problem_);
   EXPECT_THROW(variables.Add({BlockKind::kPoint, 1}), std::logic_error);
   EXPECT_THROW(variables.Add({BlockKind::kLine, 1}), std::logic_error);
-}
-
-TEST_F(WindowVariablesTest, ConstantsAreQueried) {
-  const auto is_motion = [](const BlockId& id) { return id.kind == BlockKind::kMotion; };
-  WindowVariables variables(&window(), is_motion, nullptr, &problem_);
-  EXPECT_TRUE(At(variables.Motion(State(1).t_ns)).constant);
-  EXPECT_FALSE(At(variables.Pose(State(1).t_ns)).constant);
-}
-
-TEST_F(WindowVariablesTest, FirstEstimatesComeFromThePrior) {
-  const MarginalizationPrior prior =
-      InitialPrior(InitialUncertainty(), testing::OnePixelOptions(), window());
-  const BlockId first{BlockKind::kPose, State(0).t_ns};
-  ASSERT_NE(prior.Linearization(first), nullptr);
-  WindowVariables variables(&window(), Nothing, &prior, &problem_);
-  EXPECT_EQ(At(variables.Add(first)).linearization, prior.Linearization(first));
-  EXPECT_EQ(At(variables.Pose(State(1).t_ns)).linearization, nullptr);
 }
 
 }  // namespace

@@ -216,15 +216,6 @@ TEST_F(LineTrackerTest, RotationPredictsLargeTurns) {
   EXPECT_LE(kept(std::nullopt), 8);
 }
 
-TEST_F(LineTrackerTest, FewLinesThroughABlackImage) {
-  Show(BarScene(PlainParameters()));
-  EXPECT_GT(Track(scene_->View()).lines.size(), 30U);
-  EXPECT_TRUE(Track(cv::Mat::zeros(480, 752, CV_8UC1)).lines.empty());
-  size_t lines = 0;
-  for (int i = 0; i < 4; ++i) lines = Track(scene_->View()).lines.size();
-  EXPECT_GT(lines, 30U);
-}
-
 TEST_F(LineTrackerTest, AThousandLines) {
   LineScene scene(PlainParameters(), 110);
   for (int row = 0; row < 26; ++row) {

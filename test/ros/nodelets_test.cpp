@@ -286,6 +286,10 @@ TEST_F(OurNodelets, ReportAFaultyConfigurationAndAreNotLoaded) {
 
 // Invalid ROS names, and a topic that the manager knows with another type.
 TEST_F(OurNodelets, ContinueIfAnotherNodeletCannotSubscribe) {
+  std::string log;
+  const ros::Subscriber subscriber = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
+      "/rosout", 1000, [&](const rosgraph_msgs::LogConstPtr& line) { log += line->msg + "\n"; });
+  ASSERT_TRUE(SpinUntil(kTimeout, [&] { return subscriber.getNumPublishers() >= kProcesses; }));
   ros::param::set("/graph/config_file", ros::param::param<std::string>("~config_file", ""));
   ros::param::set("/graph/set/imu_topic", "/another_imu");
   ros::param::set("/graph/set/loop_closure", "1");
@@ -294,35 +298,13 @@ TEST_F(OurNodelets, ContinueIfAnotherNodeletCannotSubscribe) {
     EXPECT_FALSE(Nodelets::Load("/graph", "plm_vins/PoseGraph")) << topic;
     EXPECT_EQ(Nodelets::List(), Nodelets::All()) << topic;
   }
+  EXPECT_TRUE(SpinUntil(kTimeout, [&] {
+    return log.find("image_topic: \"/cam-0\" is not a valid topic name") != std::string::npos;
+  })) << log;
   ros::param::del("/graph/set/imu_topic");
   ros::param::del("/graph/set/image_topic");
   EXPECT_TRUE(Nodelets::Load("/graph", "plm_vins/PoseGraph"));
   EXPECT_TRUE(Nodelets::Unload("/graph"));
-}
-
-TEST_F(OurNodelets, TrackNoLinesWithoutSubscribers) {
-  ros::param::set("/idle/config_file", ros::param::param<std::string>("~config_file", ""));
-  ros::param::set("/idle/set/use_lines", "0");
-  ASSERT_TRUE(Nodelets::Load("/idle", "plm_vins/LineFeatureTracker"));
-  ros::master::V_TopicInfo topics;
-  ASSERT_TRUE(ros::master::getTopics(topics));
-  for (const ros::master::TopicInfo& topic : topics) {
-    EXPECT_NE(topic.name.rfind("/idle/linefeature", 0), 0U) << topic.name;
-  }
-  EXPECT_TRUE(Nodelets::Unload("/idle"));
-}
-
-TEST_F(OurNodelets, ErrorNamesTheKeyOfAnInvalidTopic) {
-  std::string log;
-  const ros::Subscriber subscriber = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
-      "/rosout", 1000, [&](const rosgraph_msgs::LogConstPtr& line) { log += line->msg + "\n"; });
-  ASSERT_TRUE(SpinUntil(kTimeout, [&] { return subscriber.getNumPublishers() >= kProcesses; }));
-  ros::param::set("/misnamed/config_file", ros::param::param<std::string>("~config_file", ""));
-  ros::param::set("/misnamed/set/imu_topic", "/imu-0");
-  EXPECT_FALSE(Nodelets::Load("/misnamed", "plm_vins/FeatureTracker"));
-  EXPECT_TRUE(SpinUntil(kTimeout, [&] {
-    return log.find("imu_topic: \"/imu-0\" is not a valid topic name") != std::string::npos;
-  })) << log;
 }
 
 }  // namespace

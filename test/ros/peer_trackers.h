@@ -24,8 +24,6 @@ struct ImageMessages {
     size_t image;
   };
   std::vector<Message> messages;
-  bool with_imu = true;         // publish the samples up to this image
-  bool with_features = true;    // false: no features are observed
   bool with_velocities = true;  // false: as from the point tracker of PL-VINS
 };
 
@@ -55,7 +53,7 @@ class PeerTrackers {
             const std::function<ImageMessages(size_t)>& messages_of) const {
     for (size_t i = begin; i < end && ros::ok(); ++i) {
       const ImageMessages image = messages_of(i);
-      if (image.with_imu) PublishImu(i);
+      PublishImu(i);
       for (const auto& message : image.messages) Publish(image, message);
       ros::WallDuration(period / rate_).sleep();
       ros::spinOnce();
@@ -89,14 +87,10 @@ class PeerTrackers {
 
  private:
   void Publish(const ImageMessages& image, const ImageMessages::Message& message) const {
-    PointFrame points = flight_.points[message.image];
-    LineFrame lines = flight_.lines[message.image];
-    if (!image.with_features) {
-      points.points.clear();
-      lines.lines.clear();
+    if (message.kind == ImageMessages::Kind::kLines) {
+      return lines_.publish(ToPlVins(flight_.lines[message.image]));
     }
-    if (message.kind == ImageMessages::Kind::kLines) return lines_.publish(ToPlVins(lines));
-    sensor_msgs::PointCloud cloud = ToVinsMono(points);
+    sensor_msgs::PointCloud cloud = ToVinsMono(flight_.points[message.image]);
     if (!image.with_velocities) cloud.channels.resize(3);
     points_.publish(cloud);
   }

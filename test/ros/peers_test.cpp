@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The estimator's node with input as from the trackers of VINS-Mono and PL-VINS: messages in their
-// formats, in any order, late or missing; announced and unannounced restarts. Run by peers.test.
+// formats, in any order, late or missing; announced restarts. Run by peers.test.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -131,56 +131,6 @@ TEST_F(Peers, MayBeLateOutOfStepAndIncomplete) {
   EXPECT_GT(log_->odometry.size(), 0.7 * static_cast<double>(images_with_points));
   EXPECT_LT(Error(), 0.05);
   EXPECT_TRUE(TimeRunsForward());
-}
-
-// An unannounced restart, as from a tracker that ignores timestamps.
-TEST_F(Peers, MayJumpBackInTimeUnannounced) {
-  trackers_->Play(0, trackers_->images(), kPeriod, PointsThenLines);
-  WaitUntilDone();
-  EXPECT_EQ(log_->Count("resets"), 2);
-  EXPECT_EQ(log_->Count("jumps_back"), 1);
-  EXPECT_EQ(log_->Value("last_restart"), "timestamps jumped back");
-  EXPECT_GT(log_->odometry.size(), 0.7 * static_cast<double>(trackers_->images()));
-  EXPECT_LT(Error(), 0.05);
-  EXPECT_TRUE(TimeRunsForward());
-}
-
-TEST_F(Peers, MayPause) {
-  trackers_->PublishRestart();
-  const size_t silence = 60;  // from this image on
-  trackers_->Play(0, silence, kPeriod, PointsThenLines);
-  trackers_->Play(silence, silence + 20, kPeriod, [](size_t) { return ImageMessages(); });
-  trackers_->Play(silence + 20, silence + 40, kPeriod, PointsThenLines);
-  trackers_->Play(silence + 40, silence + 46, kPeriod, [](size_t image) {
-    ImageMessages without_imu = PointsThenLines(image);
-    without_imu.with_imu = false;
-    return without_imu;
-  });
-  trackers_->Play(silence + 46, trackers_->images(), kPeriod, PointsThenLines);
-  WaitUntilDone();
-  EXPECT_GE(log_->Count("imu_gaps"), 1);
-  ASSERT_FALSE(log_->odometry.empty());
-  EXPECT_GE(ToNanoseconds(log_->odometry.back().header.stamp),
-            flight_->points[trackers_->images() - 3].t_ns);
-  EXPECT_TRUE(TimeRunsForward());
-  EXPECT_EQ(log_->Value("message").rfind("waiting: no messages on /imu0", 0), 0u)
-      << log_->Value("message");
-}
-
-TEST_F(Peers, MayLoseAllFeatures) {
-  trackers_->PublishRestart();
-  const size_t seeing = trackers_->images() - 10;
-  trackers_->Play(0, seeing, kPeriod, PointsThenLines);
-  WaitUntilDone();
-  EXPECT_EQ(log_->Value("message").find("blind"), std::string::npos) << log_->Value("message");
-  trackers_->Play(seeing, trackers_->images(), kPeriod, [](size_t image) {
-    ImageMessages nothing = PointsThenLines(image);
-    nothing.with_features = false;
-    return nothing;
-  });
-  EXPECT_TRUE(log_->WaitForStatus(kPatience, [](const EstimatorLog& log) {
-    return log.Value("message").find("blind: dead reckoning by the IMU") != std::string::npos;
-  })) << log_->Value("message");
 }
 
 TEST_F(Peers, OfPlVinsSendNoVelocities) {

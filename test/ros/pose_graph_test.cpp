@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pose graph's node with keyframes of ended worlds, with missing or compressed images, with
-// invalid numbers, and with displays that are opened later. Run by pose_graph.test.
+// The pose graph's node with keyframes of ended worlds, with missing or compressed images, and with
+// displays that are opened later. Run by pose_graph.test.
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Path.h>
 #include <std_srvs/Trigger.h>
 
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -215,27 +213,6 @@ TEST_F(PoseGraphNodeTest, ResetDropsIncompleteKeyframes) {
   EXPECT_GT(CountInMap(0.5), 0) << "the map is that of the odometry";
 }
 
-TEST_F(PoseGraphNodeTest, RejectsPosesThatAreNotFinite) {
-  Fly(0, 2);
-  auto pose = KeyframeSource::Pose(2);
-  pose.pose.pose.position.x = std::numeric_limits<double>::quiet_NaN();
-  camera_.Publish(KeyframeSource::Stamp(2), Blank());
-  estimator_->PublishLines(2);
-  estimator_->PublishPoints(2);
-  estimator_->PublishPose(pose);
-  Fly(3, 5);
-  EXPECT_EQ(path_->poses.size(), 4u);
-  for (const auto& on_path : path_->poses) EXPECT_TRUE(std::isfinite(on_path.pose.position.x));
-  EXPECT_TRUE(status_.WaitFor("poses_impossible", "1"));
-}
-
-TEST_F(PoseGraphNodeTest, CountsUnreadableImagesApartFromErrors) {
-  camera_.PublishDepth(KeyframeSource::Stamp(0));
-  EXPECT_TRUE(status_.WaitFor("images_unreadable", "1"));
-  EXPECT_EQ(status_.Value("internal_errors"), "0");
-  Fly(1, 3);
-}
-
 TEST_F(PoseGraphNodeTest, ReportsKeyframesWithoutImages) {
   EXPECT_TRUE(SpinUntil(kPatience, [&] {
     estimator_->PublishPose(KeyframeSource::Pose(0));
@@ -245,7 +222,10 @@ TEST_F(PoseGraphNodeTest, ReportsKeyframesWithoutImages) {
 }
 
 TEST_F(PoseGraphNodeTest, ReportsUnusableImages) {
-  int i = 0;
+  camera_.PublishDepth(KeyframeSource::Stamp(0));
+  EXPECT_TRUE(status_.WaitFor("images_unreadable", "1"));
+  EXPECT_EQ(status_.Value("internal_errors"), "0");
+  int i = 1;
   EXPECT_TRUE(SpinUntil(kPatience, [&] {
     camera_.PublishDepth(KeyframeSource::Stamp(i++));
     estimator_->PublishPose(KeyframeSource::Pose(0));

@@ -34,13 +34,6 @@ class WindowEstimateTest : public ::testing::Test {
   int64_t anchor_ns_ = 0;
 };
 
-TEST_F(WindowEstimateTest, AnchorIsKeptInMapAndPrior) {
-  EXPECT_EQ(estimate_.map.window.frames.size(), 6u);
-  EXPECT_TRUE(PriorHoldsPoseOf(anchor_ns_));
-  EXPECT_NO_THROW(estimate_.map.window.AnchorAt(anchor_ns_));
-  ExpectInStep();
-}
-
 TEST_F(WindowEstimateTest, RemovedAnchorLeavesMapAndPrior) {
   estimate_.RemoveAnchor(anchor_ns_);
   EXPECT_FALSE(PriorHoldsPoseOf(anchor_ns_));

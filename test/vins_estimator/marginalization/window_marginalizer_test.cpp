@@ -149,13 +149,6 @@ TEST_P(MarginalizeOldestTest, KeepsLinearizationPointsOnlyForFirstEstimates) {
                 : estimate_.map.window.frames[0].state.position().x());
 }
 
-TEST_P(MarginalizeOldestTest, ForgetsTheOldestFrame) {
-  const int64_t oldest_ns = estimate_.map.window.frames.front().state.t_ns;
-  estimate_.SlideOldest(options_, /*stays_as_anchor=*/false);
-  EXPECT_EQ(estimate_.prior.Linearization({BlockKind::kPose, oldest_ns}), nullptr);
-  EXPECT_EQ(estimate_.prior.Linearization({BlockKind::kMotion, oldest_ns}), nullptr);
-}
-
 INSTANTIATE_TEST_SUITE_P(JacobiansAt, MarginalizeOldestTest,
                          ::testing::Values(JacobiansAt::kFirstEstimates, JacobiansAt::kValues));
 

@@ -50,6 +50,12 @@ function(plm_add_tests program)
   endforeach()
 endfunction()
 
+# plm_add_test_library(NAME SOURCES...): code that tests share; compiled only with them.
+function(plm_add_test_library name)
+  plm_add_library(${name} ${ARGN})
+  set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+endfunction()
+
 # plm_test_suites(FILE OUT): sets OUT to the GoogleTest filter of all suites in a file; parameterized
 # suites have a prefix.
 function(plm_test_suites file out)

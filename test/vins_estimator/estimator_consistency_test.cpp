@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests whether the estimator's covariances agree with its errors, with each of the stages for
-// lines.
+// Tests whether the estimator's covariances agree with its errors, without lines, with lines, and
+// with all stages for lines.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -72,9 +72,7 @@ TEST_P(EstimatorConsistency, ErrorsMatchTheCovariance) {
 INSTANTIATE_TEST_SUITE_P(AllStages, EstimatorConsistency,
                          ::testing::Values(Stages{"points", false, false, false, 0},
                                            Stages{"lines", true, false, false, 0},
-                                           Stages{"merging", true, true, false, 0},
-                                           Stages{"manhattan", true, true, true, 0},
-                                           Stages{"anchors", true, true, true, 24}));
+                                           Stages{"all", true, true, true, 24}));
 
 // Flights with strong vibrations, of which the configuration contains only a share.
 class ImuNoiseIsLearned : public ::testing::Test {

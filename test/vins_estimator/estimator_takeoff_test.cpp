@@ -2,6 +2,7 @@
 // The estimator where the ground is near.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/geometry/so3.h"

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "common/geometry/so3.h"
 #include "test/vins_estimator/estimated_flight.h"
 #include "vins_estimator/estimation_stage.h"
 

@@ -3,13 +3,10 @@
 // marginalization.
 #pragma once
 
-#include <memory>
-#include <vector>
+#include <Eigen/Core>
 
-#include "common/config/config.h"
 #include "simulator/random.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"
-#include "vins_estimator/factors/manifolds.h"
 #include "vins_estimator/map/local_map.h"
 #include "vins_estimator/problem/problem_options.h"
 
@@ -18,89 +15,31 @@ namespace plm_vins::testing {
 constexpr double kSimulatedFocalLength = 460;  // [px]
 
 // Corners and lines with a standard deviation of one pixel; fixed calibration.
-inline ProblemOptions OnePixelOptions() {
-  Config config;
-  config.sensor.camera = simulator::DefaultSensors().camera;
-  config.estimator.point_noise = config.estimator.line_noise = 1;
-  return {config, kSimulatedFocalLength};
-}
+ProblemOptions OnePixelOptions();
 
 // The states are the true ones; landmarks are triangulated from them.
 using SimulatedWindow = LocalMap;
 
 // Returns `frame_count` keyframes of a flight, `stride` images (at 20 Hz) apart.
-inline SimulatedWindow SimulateWindow(simulator::FeatureSimulationOptions options,
-                                      size_t frame_count, size_t stride) {
-  options.trajectory.duration = 3.5 + static_cast<double>(frame_count * stride) / 20.0;
-  const SimulatedFlight flight = SimulateFlight(options, /*skip=*/3);
-  constexpr double kLineNoise = 1 / kSimulatedFocalLength;
-  SimulatedWindow result(LocalMapOptions(kLineNoise, /*remember_lines=*/true));
-  SlidingWindow& window = result.window;
-  window.SetExtrinsic(flight.sensor.T_B_C);
-  window.intrinsics = window.ray_intrinsics = flight.sensor.camera.intrinsics();
-  std::vector<ImuSample> imu;
-  for (size_t i = 0; i <= (frame_count - 1) * stride; ++i) {
-    JoinImu(flight.frames[i].imu, &imu);
-    if (i % stride != 0) continue;
-    WindowFrame frame;
-    frame.state = flight.truth[i];
-    if (i > 0) {
-      frame.motion_since_previous =
-          std::make_shared<Preintegration>(flight.sensor.imu_noise, window.newest().state.bias());
-      for (const ImuSample& sample : imu) frame.motion_since_previous->Append(sample);
-    }
-    imu = {flight.frames[i].imu.back()};
-    result.AddFrame(frame, flight.frames[i].points, flight.frames[i].lines);
-  }
-  result.points.Triangulate(window, /*min_angle=*/0.02);
-  result.lines.Triangulate(window, LineLimits(kLineNoise, /*max_length=*/10));
-  return result;
-}
+SimulatedWindow SimulateWindow(simulator::FeatureSimulationOptions options, size_t frame_count,
+                               size_t stride);
 
 // Simulates a fast flight with up to `max_points` tracked corners.
-inline SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, size_t stride = 5,
-                                      int max_points = 25) {
-  simulator::FeatureSimulationOptions options = FlightOptions(simulator::Motion::kFast, seed);
-  options.max_points = max_points;
-  return SimulateWindow(options, frame_count, stride);
-}
+SimulatedWindow SimulateWindow(size_t frame_count, uint64_t seed = 1, size_t stride = 5,
+                               int max_points = 25);
 
 // Simulates strong IMU noise as from propellers, which is observable from the corners of any
 // window.
-inline SimulatedWindow SimulateShakenWindow(uint64_t seed) {
-  simulator::FeatureSimulationOptions options = FlightOptions(simulator::Motion::kFast, seed);
-  options.max_points = 80;
-  options.sensors.imu_noise.accel_density = 0.1;
-  options.sensors.imu_noise.gyro_density = 5e-3;
-  return SimulateWindow(options, 7, 5);
-}
+SimulatedWindow SimulateShakenWindow(uint64_t seed);
 
 // Scales the IMU noise variance that all intervals assume.
-inline void ScaleAssumedNoise(double variance_scale, SlidingWindow* window) {
-  for (WindowFrame& frame : window->frames) {
-    const auto& motion = frame.motion_since_previous;
-    if (motion) motion->Reweigh(Scaled(motion->noise(), variance_scale));
-  }
-}
+void ScaleAssumedNoise(double variance_scale, SlidingWindow* window);
 
-inline Eigen::VectorXd NormalVector(Eigen::Index size, simulator::Random* random) {
-  Eigen::VectorXd result(size);
-  for (Eigen::Index i = 0; i < size; ++i) result[i] = random->Normal();
-  return result;
-}
+Eigen::VectorXd NormalVector(Eigen::Index size, simulator::Random* random);
 
 // Adds normal noise to the state: [m], [rad], [m/s] times `scale`; a tenth of it to the biases.
-inline void Disturb(double scale, simulator::Random* random, FrameState* state) {
-  const Eigen::VectorXd delta = scale * NormalVector(6, random);
-  PosePlus(state->pose.data(), delta.data(), state->pose.data());
-  state->velocity() += scale * random->NormalVector3();
-  state->accel_bias() += 0.1 * scale * random->NormalVector3();
-  state->gyro_bias() += 0.1 * scale * random->NormalVector3();
-}
+void Disturb(double scale, simulator::Random* random, FrameState* state);
 
-inline void Disturb(double scale, simulator::Random* random, SlidingWindow* window) {
-  for (WindowFrame& frame : window->frames) Disturb(scale, random, &frame.state);
-  for (AnchorFrame& anchor : window->anchors) Disturb(scale, random, &anchor.state);
-}
+void Disturb(double scale, simulator::Random* random, SlidingWindow* window);
 
 }  // namespace plm_vins::testing

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "test/vins_estimator/initialization/simulated_frames.h"
 #include "vins_estimator/estimator.h"
 

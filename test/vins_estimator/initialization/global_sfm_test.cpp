@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "common/geometry/so3.h"
 #include "simulator/random.h"
 #include "test/vins_estimator/initialization/simulated_frames.h"

@@ -2,8 +2,7 @@
 // Simulated flights as input of the estimator, for tests of initialization.
 #pragma once
 
-#include <Eigen/Geometry>
-#include <cmath>
+#include <Eigen/Core>
 #include <vector>
 
 #include "simulator/feature_simulator.h"
@@ -18,78 +17,28 @@ struct SimulatedFlight {
 };
 
 // Removes the lines, as with a point tracker only.
-inline SimulatedFlight WithoutLines(SimulatedFlight flight) {
-  for (FrameMeasurement& frame : flight.frames) frame.lines.reset();
-  return flight;
-}
+SimulatedFlight WithoutLines(SimulatedFlight flight);
 
 // Converts a simulation to estimator input, from `skip` seconds after the start on.
-inline SimulatedFlight ToFlight(const simulator::FeatureDataset& data, const SensorConfig& sensor,
-                                double skip = 0) {
-  MeasurementSync::Options sync_options;
-  sync_options.max_frames = static_cast<int>(data.points.size());
-  MeasurementSync sync(sync_options);
-  for (const ImuSample& sample : data.imu) sync.AddImu(sample);
-  for (const PointFrame& points : data.points) sync.AddPoints(points);
-  for (const LineFrame& lines : data.lines) sync.AddLines(lines);
-  SimulatedFlight flight;
-  flight.sensor = sensor;
-  while (const auto frame = sync.Flush()) {
-    if (ToSeconds(frame->t_ns - data.points.front().t_ns) < skip) continue;
-    flight.frames.push_back(*frame);
-  }
-  for (const FrameState& state : data.truth) {
-    if (state.t_ns >= flight.frames.front().t_ns) flight.truth.push_back(state);
-  }
-  flight.truth.resize(flight.frames.size());
-  return flight;
-}
+SimulatedFlight ToFlight(const simulator::FeatureDataset& data, const SensorConfig& sensor,
+                         double skip = 0);
 
 // Simulates a flight from `skip` seconds after the start on, so that it can begin in motion.
-inline SimulatedFlight SimulateFlight(const simulator::FeatureSimulationOptions& options,
-                                      double skip = 0) {
-  return ToFlight(simulator::SimulateFeatures(options), options.sensors, skip);
-}
+SimulatedFlight SimulateFlight(const simulator::FeatureSimulationOptions& options, double skip = 0);
 
 // A flight with biases similar to EuRoC's and without standstill.
-inline simulator::FeatureSimulationOptions FlightOptions(simulator::Motion motion, uint64_t seed) {
-  simulator::FeatureSimulationOptions options;
-  options.trajectory.motion = motion;
-  options.trajectory.seed = seed;
-  options.trajectory.rest = 0;
-  options.trajectory.lead_in = 0.5;
-  options.trajectory.duration = 8;
-  options.initial_bias.gyro = Eigen::Vector3d(-0.003, 0.021, 0.078);
-  options.initial_bias.accel = Eigen::Vector3d(-0.025, 0.08, 0.04);
-  options.seed = seed;
-  return options;
-}
+simulator::FeatureSimulationOptions FlightOptions(simulator::Motion motion, uint64_t seed);
 
 // Size of a set of positions: root mean square distance from their mean [m].
-inline double SizeOf(const std::vector<Eigen::Vector3d>& positions) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : positions) mean += p / positions.size();
-  double sum = 0;
-  for (const Eigen::Vector3d& p : positions) sum += (p - mean).squaredNorm();
-  return std::sqrt(sum / positions.size());
-}
+double SizeOf(const std::vector<Eigen::Vector3d>& positions);
 
 // Angle between two directions [rad].
-inline double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
+double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
 // Angle between the gravity directions of two states in the body frame [rad].
-inline double GravityError(const FrameState& a, const FrameState& b) {
-  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
-  return AngleBetween(a.rotation().conjugate() * z, b.rotation().conjugate() * z);
-}
+double GravityError(const FrameState& a, const FrameState& b);
 
 // Difference of the velocities in the body frame, which is independent of the heading [m/s].
-inline double VelocityError(const FrameState& a, const FrameState& b) {
-  const Eigen::Vector3d v_a = a.rotation().conjugate() * a.velocity();
-  const Eigen::Vector3d v_b = b.rotation().conjugate() * b.velocity();
-  return (v_a - v_b).norm();
-}
+double VelocityError(const FrameState& a, const FrameState& b);
 
 }  // namespace plm_vins::testing

@@ -9,6 +9,7 @@
 #include <functional>
 #include <vector>
 
+#include "common/config/config.h"
 #include "test/vins_estimator/simulated_problem.h"
 #include "vins_estimator/optimization/window_solver.h"
 #include "vins_estimator/problem/initial_prior.h"

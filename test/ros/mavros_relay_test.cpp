@@ -39,8 +39,6 @@ class FakeEstimator {
     }
   }
 
-  double image_offset = 0;  // of image timestamps relative to state timestamps [s]
-
   ros::Time newest() const { return state_.header.stamp; }
 
   bool IsConnected() const {
@@ -51,7 +49,7 @@ class FakeEstimator {
   void Fly(double seconds, bool with_images) {
     for (int i = 0; i < 100 * seconds; ++i) {
       state_.header.stamp += ros::Duration(0.01);
-      if (with_images && i % 10 == 0) PublishImage();
+      if (with_images && i % 10 == 0) images_.publish(state_);
       states_.publish(state_);
       ros::WallDuration(0.01).sleep();
       ros::spinOnce();
@@ -65,12 +63,6 @@ class FakeEstimator {
   }
 
  private:
-  void PublishImage() {
-    nav_msgs::Odometry image = state_;
-    image.header.stamp += ros::Duration(image_offset);
-    images_.publish(image);
-  }
-
   ros::NodeHandle node_;
   ros::Publisher images_ = node_.advertise<nav_msgs::Odometry>("/vins_estimator/odometry", 100);
   ros::Publisher states_ =
@@ -165,21 +157,6 @@ TEST(MavrosRelay, RelaysWhileTheEstimateIsUsable) {
   estimator.Fly(1.0, true);
   ASSERT_TRUE(mavros.WaitForNewest(estimator));
   EXPECT_TRUE(mavros.WaitForCounter(2)) << mavros.reset_counter;
-}
-
-// The offset is the largest td, which exceeds the permitted age of an image's estimate.
-TEST(MavrosRelay, AcceptsImagesWithOffsetStamps) {
-  FakeEstimator estimator;
-  FakeMavros mavros("/mavros_relay", "/mavros/odometry/out");
-  WaitFor(estimator, mavros);
-  for (const double offset : {0.6, -0.6}) {
-    estimator.image_offset = offset;
-    estimator.Fly(2.0, true);  // possibly an interruption
-    const ros::Time begin = estimator.newest();
-    estimator.Fly(1.0, true);
-    ASSERT_TRUE(mavros.WaitForNewest(estimator)) << offset;
-    EXPECT_NEAR(static_cast<double>(mavros.CountWithin(begin, estimator.newest())), 30, 2);
-  }
 }
 
 // Images may be so old that the first state after a pause is relayed at once.

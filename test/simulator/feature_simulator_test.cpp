@@ -3,11 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
-
-#include "common/camera/readout_share.h"
 
 namespace plm_vins::simulator {
 namespace {
@@ -53,33 +50,6 @@ TEST(FeatureSimulator, NoiseFreePointsAreProjectionsOfTheirLandmarks) {
     ++count;
   });
   EXPECT_GT(count, 10000);
-}
-
-TEST(FeatureSimulator, SecondCameraAndDepthImageShowTheSamePoints) {
-  auto options = NoiseFree();
-  const FeatureDataset mono = SimulateFeatures(options);
-  options.sensors = DefaultStereoSensors();
-  options.sensors.depth.emplace().noise = 0;
-  const FeatureDataset data = SimulateFeatures(options);
-  int in_right = 0, with_depth = 0;
-  for (size_t i = 0; i < data.truth.size(); ++i) {
-    const Rigid3d T_C_W = CameraFromWorld(options, data.truth[i]);
-    const Rigid3d T_C1_W = (data.truth[i].T_W_B() * options.sensors.second_camera->T_B_C).Inverse();
-    for (size_t k = 0; k < data.points[i].points.size(); ++k) {
-      const PointObservation& point = data.points[i].points[k];
-      EXPECT_EQ(point.xy, mono.points[i].points[k].xy);
-      const Vector3d& p_W = data.world.points[data.point_landmark.at(point.id)];
-      const double z = (T_C_W * p_W).z();
-      EXPECT_EQ(point.depth.has_value(), z < options.sensors.depth->max);
-      with_depth += point.depth.has_value();
-      EXPECT_NEAR(point.depth.value_or(z), z, 1e-9);
-      in_right += point.right.has_value();
-      if (!point.right) continue;
-      EXPECT_LT((*point.right - (T_C1_W * p_W).hnormalized()).norm(), 1e-4);
-    }
-  }
-  EXPECT_GT(in_right, 10000);
-  EXPECT_GT(with_depth, 5000);
 }
 
 TEST(FeatureSimulator, NoiseFreeLinesPassThroughTheirLandmarks) {
@@ -129,56 +99,6 @@ TEST(FeatureSimulator, PixelNoiseHasTheRequestedSize) {
     count += 2;
   });
   EXPECT_NEAR(std::sqrt(squared / count), 0.7, 0.01);
-}
-
-TEST(FeatureSimulator, VelocitiesAreDifferencesOfConsecutiveObservations) {
-  const FeatureDataset data = SimulateFeatures(Options());
-  std::map<int64_t, Vector2d> previous;
-  for (const PointFrame& frame : data.points) {
-    std::map<int64_t, Vector2d> current;
-    for (const PointObservation& point : frame.points) {
-      const auto before = previous.find(point.id);
-      const Vector2d expected =
-          before == previous.end() ? Vector2d(0, 0) : Vector2d((point.xy - before->second) / 0.05);
-      EXPECT_LT((point.velocity - expected).norm(), 1e-9);
-      current[point.id] = point.xy;
-    }
-    previous = current;
-  }
-}
-
-TEST(FeatureSimulator, ARollingShutterSeesEachRowAtItsOwnTime) {
-  FeatureSimulationOptions options = NoiseFree();
-  options.trajectory.motion = Motion::kFast;
-  options.trajectory.R_V_B = ForwardLookingBody(options.sensors.T_B_C);
-  options.sensors.rolling_shutter = true;
-  options.sensors.rolling_shutter_tr = 0.03;
-  const FeatureDataset data = SimulateFeatures(options);
-  const Trajectory trajectory(options.trajectory);
-  double greatest_shift = 0;
-  for (size_t i = 0; i < data.points.size(); ++i) {
-    const double stamp = ToSeconds(data.points[i].t_ns - options.start_ns);
-    const Rigid3d T_C_W = CameraFromWorld(options, data.truth[i]);
-    for (const PointObservation& point : data.points[i].points) {
-      const Vector3d& p_W = data.world.points[data.point_landmark.at(point.id)];
-      const double share = ReadoutShare(point.uv_px.y(), options.sensors.camera.height);
-      const Rigid3d T_W_B = trajectory.At(stamp + 0.03 * share).T_W_B;
-      const Vector3d p_C = (T_W_B * options.sensors.T_B_C).Inverse() * p_W;
-      EXPECT_LT((point.xy - p_C.hnormalized()).norm(), 4e-4);  // to the precision of a row
-      greatest_shift = std::max(greatest_shift, (point.xy - (T_C_W * p_W).hnormalized()).norm());
-    }
-  }
-  EXPECT_GT(greatest_shift, 0.02);
-}
-
-TEST(FeatureSimulator, TimeOffsetMovesTheImageStampsOnly) {
-  FeatureSimulationOptions options = NoiseFree();
-  const FeatureDataset plain = SimulateFeatures(options);
-  options.sensors.td = 0.013;
-  const FeatureDataset shifted = SimulateFeatures(options);
-  EXPECT_EQ(shifted.points[20].t_ns + 13'000'000, plain.points[20].t_ns);
-  EXPECT_EQ(shifted.points[20].points[3].xy, plain.points[20].points[3].xy);
-  EXPECT_EQ(shifted.imu[100].t_ns, plain.imu[100].t_ns);
 }
 
 TEST(FeatureSimulator, BrokenTracksContinueUnderNewIds) {

@@ -5,12 +5,9 @@
 
 #include <cmath>
 
-#include "common/geometry/so3.h"
-
 namespace plm_vins::simulator {
 namespace {
 
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 Trajectory MakeTrajectory(Motion motion, double duration) {
@@ -25,41 +22,6 @@ ImuSimulationOptions NoiseFree(double rate_hz) {
   options.add_noise = false;
   options.rate_hz = rate_hz;
   return options;
-}
-
-// Midpoint integration from the true initial state.
-BodyState Integrate(const BodyState& start, const std::vector<ImuSample>& imu, double gravity) {
-  BodyState state = start;
-  for (size_t i = 1; i < imu.size(); ++i) {
-    const double dt = ToSeconds(imu[i].t_ns - imu[i - 1].t_ns);
-    const Quaterniond R0 = state.T_W_B.rotation;
-    const Quaterniond R1 = R0 * SO3Exp(0.5 * dt * (imu[i - 1].gyro + imu[i].gyro));
-    const Vector3d a_W =
-        0.5 * (R0 * imu[i - 1].accel + R1 * imu[i].accel) - Vector3d(0, 0, gravity);
-    state.T_W_B = {R1, state.T_W_B.translation + dt * state.v_W + 0.5 * dt * dt * a_W};
-    state.v_W += dt * a_W;
-  }
-  return state;
-}
-
-TEST(ImuSimulator, IntegratingNoiseFreeSamplesReproducesTheTrajectory) {
-  for (Motion motion : {Motion::kGentle, Motion::kFast}) {
-    const Trajectory trajectory = MakeTrajectory(motion, 10.0);
-    const auto imu = SimulateImu(trajectory, NoiseFree(2000.0));
-    const BodyState end = Integrate(trajectory.At(0), imu.samples, 9.81);
-    const BodyState truth = trajectory.At(ToSeconds(imu.samples.back().t_ns));
-    EXPECT_LT((end.T_W_B.translation - truth.T_W_B.translation).norm(), 2e-4);
-    EXPECT_LT((end.v_W - truth.v_W).norm(), 1e-4);
-    EXPECT_LT(end.T_W_B.rotation.angularDistance(truth.T_W_B.rotation), 1e-5);
-  }
-}
-
-TEST(ImuSimulator, MeasuresTheReactionToGravityAtStandstill) {
-  const auto imu = SimulateImu(MakeTrajectory(Motion::kStill, 1.0), NoiseFree(200.0));
-  ASSERT_EQ(imu.samples.size(), 201u);
-  EXPECT_EQ(imu.samples[1].t_ns, 5'000'000);
-  EXPECT_TRUE(imu.samples.back().accel.isApprox(Vector3d(0, 0, 9.81), 1e-12));
-  EXPECT_LT(imu.samples.back().gyro.norm(), 1e-12);
 }
 
 TEST(ImuSimulator, NoiseHasTheRequestedDensity) {

@@ -103,10 +103,3 @@ TEST(EstimatorInput, NeverBlocksADriverInItsProcess) {
 
 }  // namespace
 }  // namespace plm_vins
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "estimator_input_test");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

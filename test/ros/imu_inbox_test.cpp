@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
-#include <ros/init.h>
 
 #include "common/ros/geometry_conversion.h"
 #include "test/ros/estimator_log.h"
@@ -104,10 +103,3 @@ TEST_F(ImuInboxTest, DoesNotNotifyAfterDestruction) {
 
 }  // namespace
 }  // namespace plm_vins
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "imu_inbox_test");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

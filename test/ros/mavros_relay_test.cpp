@@ -194,10 +194,3 @@ TEST(MavrosRelay, LocatesTheBaseByTfAndCountsPauses) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "mavros_relay_test");
-  ::testing::InitGoogleTest(&argc, argv);
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

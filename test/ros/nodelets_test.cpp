@@ -309,10 +309,3 @@ TEST_F(OurNodelets, ContinueIfAnotherNodeletCannotSubscribe) {
 
 }  // namespace
 }  // namespace plm_vins
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "nodelets_test");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

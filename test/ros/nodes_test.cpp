@@ -33,7 +33,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string program_folder;  // folder of this program and the nodes
+// Folder of this program and the nodes.
+std::string ProgramFolder() { return fs::read_symlink("/proc/self/exe").parent_path().string(); }
 
 // All messages of a topic.
 template <typename Message>
@@ -317,7 +318,7 @@ TEST_F(Nodes, SaveTheTrajectoryAndResetByService) {
 class Node : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Node, DoesNotStartWithoutConfiguration) {
-  const std::string command = "timeout 30 " + program_folder + "/" + GetParam() +
+  const std::string command = "timeout 30 " + ProgramFolder() + "/" + GetParam() +
                               " __name:=another _config_file:=/no/such/file.yaml >/dev/null 2>&1";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
 }
@@ -327,11 +328,3 @@ INSTANTIATE_TEST_SUITE_P(All, Node,
                                            "vins_estimator"));
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "nodes_test");
-  program_folder = fs::read_symlink("/proc/self/exe").parent_path().string();
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

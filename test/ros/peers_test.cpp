@@ -193,10 +193,3 @@ TEST_F(Peers, WithAnotherLayoutAreRejectedWithoutHarm) {
 
 }  // namespace
 }  // namespace plm_vins
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "peers_test");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

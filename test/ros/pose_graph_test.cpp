@@ -268,10 +268,3 @@ TEST(PoseGraphOfARobot, AcceptsCompressedImagesAndLatchesItsPath) {
 
 }  // namespace
 }  // namespace plm_vins
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "pose_graph_test");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

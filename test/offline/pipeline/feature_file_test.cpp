@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "test/testing/message_of.h"
 #include "test/testing/temporary_folder.h"
 
 namespace plm_vins {
@@ -57,14 +58,11 @@ class FeatureFile : public ::testing::Test {
 };
 
 std::string ErrorOf(const std::string& file) {
-  try {
+  return testing::MessageOf([&] {
     FeatureFileReader reader(file);
     while (reader.Next()) {
     }
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST_F(FeatureFile, SurvivesARoundTrip) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "offline/recordings/csv_reader.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "test/testing/message_of.h"
 #include "test/testing/temporary_folder.h"
 
 namespace plm_vins {
@@ -56,12 +58,8 @@ TEST(CsvReader, SkipsInvalidStamps) {
 }
 
 TEST(CsvReader, ErrorNamesAMissingFile) {
-  try {
-    CsvReader reader("no/such/data.csv", 1);
-    FAIL() << "no exception";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("no/such/data.csv"), std::string::npos);
-  }
+  EXPECT_THAT(testing::MessageOf([] { CsvReader reader("no/such/data.csv", 1); }),
+              ::testing::HasSubstr("no/such/data.csv"));
 }
 
 }  // namespace

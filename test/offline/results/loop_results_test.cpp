@@ -14,6 +14,7 @@
 
 #include "common/camera/camera_model.h"
 #include "pose_graph/output/map_file.h"
+#include "test/testing/message_of.h"
 #include "test/testing/temporary_folder.h"
 
 namespace plm_vins {
@@ -183,12 +184,9 @@ TEST_F(LoopResultsTest, NeedsImages) {
 }
 
 TEST_F(LoopResultsTest, ErrorNamesAnUnwritableFolder) {
-  try {
-    const LoopResults results(config_, folder_.File("missing"), std::nullopt);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("missing"));
-  }
+  EXPECT_THAT(
+      testing::MessageOf([&] { LoopResults(config_, folder_.File("missing"), std::nullopt); }),
+      HasSubstr("missing"));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulator/recording/asl_recorder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <sstream>
 
 #include "simulator/recording/ground_truth.h"
+#include "test/testing/message_of.h"
 
 namespace plm_vins::simulator {
 namespace {
@@ -20,12 +22,12 @@ std::string Read(const std::string& path) {
   return text.str();
 }
 
-class AslFolder : public testing::Test {
+class AslFolder : public ::testing::Test {
  protected:
   void SetUp() override { std::filesystem::remove_all(folder_); }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  const std::string folder_ = testing::TempDir() + "plm_vins_asl_recorder_test";
+  const std::string folder_ = ::testing::TempDir() + "plm_vins_asl_recorder_test";
 };
 
 TEST_F(AslFolder, HoldsImagesAndListsAsEuroc) {
@@ -103,12 +105,8 @@ TEST_F(AslFolder, TakesTheGroundTruth) {
 }
 
 TEST(GroundTruth, ErrorNamesTheFile) {
-  try {
-    WriteTum("/nowhere/truth.tum", {});
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("/nowhere/truth.tum"), std::string::npos);
-  }
+  EXPECT_THAT(testing::MessageOf([] { WriteTum("/nowhere/truth.tum", {}); }),
+              ::testing::HasSubstr("/nowhere/truth.tum"));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulator/recording/bag_recorder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -13,6 +14,7 @@
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/msg_conversion.h"
+#include "test/testing/message_of.h"
 
 namespace plm_vins::simulator {
 namespace {
@@ -40,7 +42,7 @@ class FileSizeLimit {
 // The destructor of a bag throws if the disk is full, which would abort the program. Buffered data
 // may fail only at the end.
 TEST(BagRecorder, NoticesAFullDisk) {
-  const std::string file = testing::TempDir() + "plm_vins_bag_too_large.bag";
+  const std::string file = ::testing::TempDir() + "plm_vins_bag_too_large.bag";
   for (const rlim_t limit : {4200, 100'000}) {
     const auto recorder = MakeBagRecorder(file, SensorConfig());
     const FileSizeLimit full(limit);
@@ -58,7 +60,7 @@ TEST(BagRecorder, NoticesAFullDisk) {
 }
 
 TEST(BagRecorder, WritesTheTopicsOfTheConfiguration) {
-  const std::string file = testing::TempDir() + "plm_vins_bag_recorder_test.bag";
+  const std::string file = ::testing::TempDir() + "plm_vins_bag_recorder_test.bag";
   SensorConfig sensors;
   sensors.image_topic = "camera/image";
   sensors.imu_topic = "camera/imu";
@@ -89,7 +91,7 @@ TEST(BagRecorder, WritesTheTopicsOfTheConfiguration) {
 }
 
 TEST(BagRecorder, WritesTheSecondCameraAndDepth) {
-  const std::string file = testing::TempDir() + "plm_vins_bag_second_camera.bag";
+  const std::string file = ::testing::TempDir() + "plm_vins_bag_second_camera.bag";
   SensorConfig sensors;
   sensors.second_camera.emplace().image_topic = "camera/right";
   sensors.depth.emplace().topic = "camera/depth";
@@ -115,12 +117,8 @@ TEST(BagRecorder, WritesTheSecondCameraAndDepth) {
 }
 
 TEST(BagRecorder, ErrorNamesTheFile) {
-  try {
-    MakeBagRecorder("/nowhere/a.bag", SensorConfig());
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("/nowhere/a.bag"), std::string::npos);
-  }
+  EXPECT_THAT(testing::MessageOf([] { MakeBagRecorder("/nowhere/a.bag", SensorConfig()); }),
+              ::testing::HasSubstr("/nowhere/a.bag"));
 }
 
 }  // namespace

@@ -7,33 +7,23 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 import time
-import unittest
 
 from fake_run_offline import flight, write_tum
+from folder_case import FolderTest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 RUN_DATASET = os.path.join(HERE, "..", "..", "scripts", "run_dataset.py")
 
 
-class DatasetTest(unittest.TestCase):
+class DatasetTest(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.output = self.path("output")
         self.program = self.path("run_offline")
         shutil.copy(os.path.join(HERE, "fake_run_offline.py"), self.program)
         self.write("config.yaml", "%YAML:1.0\n")
         os.mkdir(self.path("bags"))
-
-    def path(self, *names):
-        return os.path.join(self.folder, *names)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
 
     def add(self, name, words="fly", truth=True):
         """Adds a recording with the behavior given by `words`, and its ground truth."""

@@ -4,8 +4,9 @@
 
 import os
 import sys
-import tempfile
 import unittest
+
+from folder_case import FolderTest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 from dataset.errors import DatasetError  # noqa: E402
@@ -14,20 +15,10 @@ from dataset.sequences import (ASL_IMAGES, ASL_IMU, ASL_TRUTHS, find_sequences, 
                                select_sequences)
 
 
-class SequencesTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = os.path.realpath(folder.name)
-
-    def path(self, name):
-        return os.path.join(self.folder, *name.split("/"))
-
+class SequencesTest(FolderTest):
     def touch(self, *names):
         for name in names:
-            os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
-            with open(self.path(name), "w", encoding="utf-8"):
-                pass
+            self.write(name, "")
 
     def find(self, *places):
         return {s.name: s for s in find_sequences([self.path(p) for p in places or ("",)])}

@@ -9,10 +9,11 @@ import io
 import os
 import subprocess
 import tarfile
-import tempfile
 import threading
 import unittest
 import zipfile
+
+from folder_case import FolderTest
 
 EUROC = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "euroc.sh")
 IMAGES = "mav0/cam0/data.csv"
@@ -56,11 +57,9 @@ def sequence_zip(text):
     return zip_of(**{IMAGES: text})
 
 
-class EurocTest(unittest.TestCase):
+class EurocTest(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         for name in ("served", "data"):
             os.mkdir(self.path(name))
         Server.requests, Server.broken = [], None
@@ -77,13 +76,6 @@ class EurocTest(unittest.TestCase):
         self.serve("room1.tar", self.tar_of("dataset-room1/" + IMAGES, b"three"))
         self.write("served/room1.tar.md5", self.md5("room1.tar").encode() + b"  room1.tar\n")
         self.table(self.md5("hall.zip"))
-
-    def path(self, *names):
-        return os.path.join(self.folder, *names)
-
-    def write(self, name, content):
-        with open(self.path(name), "wb") as file:
-            file.write(content)
 
     def serve(self, name, content):
         self.write(os.path.join("served", name), content)

@@ -5,7 +5,6 @@
 import contextlib
 import io
 import os
-import tempfile
 import unittest
 
 from known_flight import flight  # first: it names the folder
@@ -16,22 +15,13 @@ from refusal_case import RefusalTest
 
 class Folders(RefusalTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.file = self.write("flight.tum")
-
-    def write(self, *names):
-        path = os.path.join(self.folder, *names)
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(format_tum(flight()))
-        return path
+        super().setUp()
+        self.file = self.write("flight.tum", format_tum(flight()))
 
     def test_an_asl_folder_has_its_ground_truth(self):
-        self.write("MH_01_easy", "mav0", TRUTH_IN_FOLDER)
+        self.write(os.path.join("MH_01_easy", "mav0", TRUTH_IN_FOLDER), format_tum(flight()))
         for folder in ("MH_01_easy", os.path.join("MH_01_easy", "mav0")):
-            path = os.path.join(self.folder, folder)
+            path = self.path(folder)
             self.assertEqual(len(read_truth(path)), len(flight()))
             with contextlib.redirect_stdout(io.StringIO()) as output:
                 self.assertEqual(main([self.file, path]), 0)

@@ -4,8 +4,6 @@
 
 import contextlib
 import io
-import os
-import tempfile
 import unittest
 
 import numpy as np
@@ -18,9 +16,7 @@ from refusal_case import RefusalTest
 
 class MistakeTest(RefusalTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.truth = self.write("truth.tum", format_tum(flight(rate=200.0)))
         self.rows = np.array([line.split() for line in self.text().splitlines()], dtype=float)
 
@@ -32,15 +28,8 @@ class MistakeTest(RefusalTest):
         return format_tum(moved(estimate, noise).transformed(rotation((0, 0.6, 0.8), 50),
                                                              np.ones(3)))
 
-    def write(self, name, text):
-        path = os.path.join(self.folder, name)
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-        return path
-
     def write_rows(self, name, rows, separator=" ", stamp="%.9f"):
-        path = os.path.join(self.folder, name)
+        path = self.path(name)
         np.savetxt(path, rows, fmt=[stamp] + ["%.9f"] * (rows.shape[1] - 1), delimiter=separator)
         return path
 

@@ -17,6 +17,7 @@ from known_flight import SCRIPTS, START, flight, moved, rotation  # first: it na
 from evaluate import error_statistics, evaluate, format_report, parse_arguments
 from evaluation import evo_backend, metrics
 from evaluation.trajectory import Trajectory, TrajectoryError, format_tum, read_trajectory
+from folder_case import FolderTest
 
 
 class AbsoluteError(unittest.TestCase):
@@ -218,17 +219,7 @@ class Coverage(unittest.TestCase):
         self.assertAlmostEqual(metrics.coverage(truth, inner, 0.5), 1.0, 6)
 
 
-class CommandLine(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
-    def write(self, name, text):
-        path = os.path.join(self.folder.name, name)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-        return path
-
+class CommandLine(FolderTest):
     def spiral(self, separator, rows=100, stamp_unit=1.0):
         """Returns rows of a rising spiral with a yaw of 90 degrees, in TUM or csv order."""
         quaternion = [0, 0, 0.5, 0.5] if separator == " " else [0.5, 0, 0, 0.5]
@@ -254,8 +245,8 @@ class CommandLine(unittest.TestCase):
     def test_tum_against_euroc_csv_with_plots_and_json(self):
         estimate = self.write("estimate.tum", self.spiral(" "))
         truth = self.write("data.csv", self.spiral(",", stamp_unit=1e9))
-        report = os.path.join(self.folder.name, "report.json")
-        plots = os.path.join(self.folder.name, "plots")
+        report = self.path("report.json")
+        plots = self.path("plots")
         result = self.run_script(estimate, truth, "--json", report, "--plots", plots)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("coverage 100.0 %", result.stdout)
@@ -269,7 +260,7 @@ class CommandLine(unittest.TestCase):
 
     def test_an_estimate_in_several_worlds_says_so(self):
         truth = self.write("truth.tum", self.spiral(" "))
-        report = os.path.join(self.folder.name, "report.json")
+        report = self.path("report.json")
         rows = self.spiral(" ").splitlines(keepends=True)
         # A world without poses does not count.
         for comment_at, worlds in ((len(rows), 1), (50, 2), (30, 3), (30, 3), (0, 3)):
@@ -294,9 +285,9 @@ class CommandLine(unittest.TestCase):
             line if i % 2 else line.replace(" 0.", " 0.3", 1)
             for i, line in enumerate(self.spiral(" ").splitlines(keepends=True))))
         truth = self.write("truth.tum", self.spiral(" "))
-        path = os.path.join(self.folder.name, "points.zip")
+        path = self.path("points.zip")
         result = self.run_script(estimate, truth, "--evo-zip", path, "--json",
-                                 os.path.join(self.folder.name, "figures.json"), *options)
+                                 self.path("figures.json"), *options)
         self.assertEqual(result.returncode, 0, result.stderr)
         with zipfile.ZipFile(path) as archive:
             parts = {name: archive.read(name) for name in archive.namelist()}
@@ -308,7 +299,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual((info["est_name"], info["ref_name"]), ("points", "reference"))
         self.assertEqual(info["title"], "APE w.r.t. translation part (m)\n"
                                         "(with SE(3) Umeyama alignment)")
-        with open(os.path.join(self.folder.name, "figures.json"), encoding="utf-8") as file:
+        with open(self.path("figures.json"), encoding="utf-8") as file:
             figures = json.load(file)["ape_m"]
         arrays = {name[:-4]: np.load(io.BytesIO(data)) for name, data in parts.items()
                   if name.endswith(".npz")}
@@ -352,7 +343,7 @@ class CommandLine(unittest.TestCase):
     def test_covariances_are_those_of_the_stamps_before_the_offset(self):
         estimate = self.write("estimate.tum", self.spiral(" "))
         covariance = self.unit_covariance(estimate)
-        report = os.path.join(self.folder.name, "report.json")
+        report = self.path("report.json")
         for offset in ("0", "0.005"):
             result = self.run_script(estimate, estimate, "--covariance", covariance, "--t-offset",
                                      offset, "--nees-after", "4", "--json", report)
@@ -362,7 +353,7 @@ class CommandLine(unittest.TestCase):
 
     def test_a_run_too_short_for_its_covariance_loses_no_figures(self):
         estimate = self.write("estimate.tum", self.spiral(" "))
-        report = os.path.join(self.folder.name, "report.json")
+        report = self.path("report.json")
         result = self.run_script(estimate, estimate, "--covariance",
                                  self.unit_covariance(estimate), "--json", report)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -388,7 +379,7 @@ class CommandLine(unittest.TestCase):
             "does not increase": row + "1\n" + row + "1",
             "at least 3": row + "1",
         }
-        self.assert_fails("no such file", os.path.join(self.folder.name, "missing.tum"), good)
+        self.assert_fails("no such file", self.path("missing.tum"), good)
         for message, text in bad.items():
             path = self.write("bad.tum", text + "\n")
             self.assert_fails(message, path, good)

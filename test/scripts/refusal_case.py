@@ -3,10 +3,11 @@
 
 import contextlib
 import io
-import unittest
+
+from folder_case import FolderTest
 
 
-class RefusalTest(unittest.TestCase):
+class RefusalTest(FolderTest):
     def assert_refused(self, main, message, *arguments):
         errors = io.StringIO()
         with contextlib.redirect_stderr(errors):

@@ -6,11 +6,11 @@ import contextlib
 import io
 import json
 import os
-import tempfile
 import unittest
 
 from known_flight import START, flight, moved  # first: it names the folder
 from evaluation.trajectory import RESTART, format_tum
+from folder_case import FolderTest
 from stress.feature_file import (IMU, IMU_LAYOUT, POINT_STATISTICS_SIZE, POINTS, SIGNATURE, SIZE,
                                  TRACKING)
 from stress_table import main
@@ -24,24 +24,15 @@ exit 1
 FLY = 'mkdir "$6" && cp "$(dirname "$0")"/trajectory.tum "$(dirname "$0")"/summary.json "$6"\n'
 
 
-class StressTable(unittest.TestCase):
+class StressTable(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.write("good.feat", SIGNATURE + SIZE.pack(2) + b"{}" + b"".join(
             bytes([IMU]) + IMU_LAYOUT.pack(t_ns, *range(6))
             + bytes([POINTS]) + TRACKING.pack(t_ns, False, True, 1)
             + bytes(POINT_STATISTICS_SIZE) + SIZE.pack(0)
             for t_ns in (START_NS, START_NS + 5 * 10**9)))
         self.write("truth.tum", format_tum(flight()).encode())
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, content):
-        with open(self.path(name), "wb") as file:
-            file.write(content)
 
     def write_trajectory(self):
         """Writes exact poses up to 8 s, after which a new world starts 7 m away."""

@@ -6,7 +6,6 @@ import contextlib
 import io
 import json
 import os
-import tempfile
 import unittest
 from types import SimpleNamespace
 
@@ -17,6 +16,7 @@ from dataset.results import Evaluator
 from evaluate import main
 from evaluation.run_results import check_whole, read_estimate, time_offset
 from evaluation.trajectory import TrajectoryError, format_tum
+from folder_case import FolderTest
 from stress.damage import assess
 
 TD = 0.03  # [s]
@@ -24,26 +24,16 @@ RIGHT = 1e-4  # greater than the rounding error of the estimate [m]
 UNIT = ",".join("1" if i in (0, 6, 11, 15, 18, 20) else "0" for i in range(21))
 
 
-class TimeOffset(unittest.TestCase):
+class TimeOffset(FolderTest):
     """The estimate has no error, but each state refers to TD after its timestamp."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.truth = self.write("truth.tum", format_tum(flight(rate=200.0)))
         images = flight().shifted(-TD)
         self.stamps = images.stamps
         self.estimate = self.write("trajectory.tum", format_tum(images))
         self.summarise({"td_s": TD})
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-        return self.path(name)
 
     def summarise(self, calibration):
         self.write("summary.json", json.dumps({"init_time_s": 1.0, "calibration": calibration}))

@@ -7,6 +7,7 @@
 
 #include "test/testing/numeric_jacobian.h"
 #include "test/vins_estimator/simulated_window.h"
+#include "vins_estimator/factors/manifolds.h"
 
 namespace plm_vins {
 namespace {

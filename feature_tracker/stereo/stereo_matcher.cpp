@@ -13,7 +13,6 @@ namespace plm_vins {
 namespace {
 
 constexpr double kNearest = 0.3;      // [m]
-constexpr double kBehind_px = 40.0;   // search range beyond infinity, since cameras may be swapped
 constexpr double kInfinity_px = 5.0;  // tolerance beyond infinity, since the mounting may be turned
 constexpr double kMaxBand_px = 4.5;
 constexpr double kReturn_px = 1.5;       // largest distance of the backward match from the corner
@@ -113,8 +112,8 @@ std::optional<StereoMatcher::Place> StereoMatcher::Find(const Images& images,
 
 std::optional<StereoMatcher::Place> StereoMatcher::FindAnywhere(const Images& images,
                                                                 const PointTrack& track) const {
-  const double behind = IsTrusted() ? kBehind_px * pair_.InverseDepthPerPixel() : 1 / kNearest;
-  const SearchRange range{-behind, 1 / kNearest, band_px()};
+  const double behind = MayBeSwapped() ? 1 / kNearest : kInfinity_px * pair_.InverseDepthPerPixel();
+  const SearchRange range{-behind, 1 / kNearest, Band_px(track)};
   const SearchedPoint point{PixelOf(track), WhenSeen(track)};
   const auto seed = SearchAlongCurve(pair_, images.left, point, images.right, range);
   const auto place = seed ? Align(images, *seed, track) : std::nullopt;
@@ -152,8 +151,14 @@ bool StereoMatcher::IsTrusted() const {
          std::abs(mounting_.delay()) < kLargestDelay;
 }
 
+bool StereoMatcher::IsSwapped() const { return shares_ && shares_->behind > kMinFoundShare; }
+
+bool StereoMatcher::MayBeSwapped() const {
+  return searched_ < kSettlingImages || !IsTrusted() || IsSwapped();
+}
+
 std::string StereoMatcher::Finding() const {
-  if (shares_ && shares_->behind > kMinFoundShare) {
+  if (IsSwapped()) {
     return "the cameras seem to be swapped; check image_topic, image1_topic and body_T_cam1";
   }
   if (shares_ && shares_->found <= kMinFoundShare) {
@@ -196,8 +201,15 @@ bool StereoMatcher::IsBehind(const Place& place) const {
   return place.inverse_depth < -kInfinity_px * pair_.InverseDepthPerPixel();
 }
 
-double StereoMatcher::band_px() const {
-  return std::min(2 * mounting_.Deviation_px(), kMaxBand_px);
+double StereoMatcher::Band_px(const PointTrack& track) const {
+  double deviation_px = 0;
+  for (const double inverse_depth : {0.0, 1 / kNearest}) {
+    const auto xy_C1 = pair_.Transfer(WhenSeen(track), inverse_depth);
+    if (!xy_C1) return kMaxBand_px;
+    deviation_px =
+        std::max(deviation_px, mounting_.Deviation_px({track.xy, track.velocity, *xy_C1}));
+  }
+  return std::min(2 * deviation_px, kMaxBand_px);
 }
 
 }  // namespace plm_vins

@@ -62,9 +62,12 @@ class StereoMatcher {
   Eigen::Vector2d InTime(const StereoMatch& match) const;  // the delay removed
   bool IsLate() const;
   bool IsTrusted() const;
+  bool IsSwapped() const;     // points are matched behind the cameras
+  bool MayBeSwapped() const;  // then points are also searched for there
   bool IsTurn(const PointTrack& track, int interval) const;
   bool IsBehind(const Place& place) const;  // beyond infinity by more than mounting errors explain
-  double band_px() const;
+  // Search range to both sides of the epipolar curve of a track, from infinity to the least depth.
+  double Band_px(const PointTrack& track) const;
 
   CameraPair stated_;
   CameraPair pair_;  // with the estimated mounting

@@ -19,17 +19,29 @@ constexpr std::array<double, 5> kShares = {0.1, 0.3, 0.5, 0.7, 0.9};
 // Intervals [images] at which lines without a match are searched for, and matches are confirmed.
 constexpr int kRetryInterval = 4;
 constexpr int kConfirmInterval = 16;
-constexpr double kMinCrossing = 0.25;  // sine of the angle between line and epipolar curve
-constexpr int kSearch_px = 3;          // across the predicted line
+constexpr double kMinCrossing = 0.25;  // sine of the angle between line and epipolar line
+// Lines are searched for if the sine exceeds this in the first image. The limit is lower because
+// the line may be shorter, and so steeper, in the second image.
+constexpr double kMinFirstCrossing = 0.5 * kMinCrossing;
+constexpr int kSearch_px = 3;  // across the predicted line
 // Standard deviations of an edge, and of the shift of the image across the epipolar curves due to
 // errors of lens and mounting.
 constexpr double kEdge_px = 0.3;
 constexpr double kEpipolar_px = 0.5;
 
+// Sine of the angle between a segment and the epipolar line through its middle. `baseline` is the
+// position of the other camera.
+double Crossing(const LineSegment& segment, const Eigen::Vector3d& baseline) {
+  const Eigen::Vector2d along = baseline.head<2>() - segment.Midpoint() * baseline.z();
+  return std::abs(segment.Normal().dot(along.normalized()));
+}
+
 }  // namespace
 
 LineStereo::LineStereo(const LineTrackerConfig& config, const CameraPair& pair)
-    : pair_(pair), refinement_(config, pair.second_camera()) {}
+    : pair_(pair),
+      p_C_C1_(pair.T_C1_C().Inverse().translation),
+      refinement_(config, pair.second_camera()) {}
 
 void LineStereo::CheckRight(const cv::Mat& right) const {
   CheckImageFormat(right, pair_.second().parameters());
@@ -77,18 +89,27 @@ Eigen::Vector2d LineStereo::DepthsBy(const RightSegment& right, const LineSegmen
 
 std::optional<Eigen::Vector2d> LineStereo::FindDepths(const Images& images,
                                                       const LineSegment& segment) const {
+  if (Crossing(segment, p_C_C1_) < kMinFirstCrossing) return std::nullopt;
   std::vector<LineDepth> samples;
-  for (const double share : kShares) {
-    SearchedPoint point;
-    point.xy = segment.start + share * (segment.end - segment.start);
-    const auto pixel = pair_.first().Project(point.xy.homogeneous());
-    if (!pixel) continue;
-    point.pixel = *pixel;
-    const SearchRange range{-kInfinity_px * pair_.InverseDepthPerPixel(), 1 / kNearest, 0};
-    const auto place = SearchAlongCurve(pair_, images.left, point, images.right, range);
-    if (place) samples.push_back({share, place->inverse_depth});
+  for (size_t i = 0; i < kShares.size(); ++i) {
+    const auto inverse_depth = DepthAt(images, segment, kShares[i]);
+    if (inverse_depth) samples.push_back({kShares[i], *inverse_depth});
+    const size_t most = samples.size() + kShares.size() - 1 - i;
+    if (most < kMinAgreeing) return std::nullopt;
   }
   return Agree(samples);
+}
+
+std::optional<double> LineStereo::DepthAt(const Images& images, const LineSegment& segment,
+                                          double share) const {
+  SearchedPoint point;
+  point.xy = segment.start + share * (segment.end - segment.start);
+  const auto pixel = pair_.first().Project(point.xy.homogeneous());
+  if (!pixel) return std::nullopt;
+  point.pixel = *pixel;
+  const SearchRange range{-kInfinity_px * pair_.InverseDepthPerPixel(), 1 / kNearest, 0};
+  const auto place = SearchAlongCurve(pair_, images.left, point, images.right, range);
+  return place ? std::optional(place->inverse_depth) : std::nullopt;
 }
 
 // Fits a line to the samples that agree with the line through two of them, the pair with which most
@@ -123,12 +144,9 @@ std::optional<RightSegment> LineStereo::Locate(const cv::Mat& right, const LineS
                                                const Eigen::Vector2d& inverse_depths) const {
   const auto start = pair_.Transfer(segment.start, inverse_depths[0]);
   const auto end = pair_.Transfer(segment.end, inverse_depths[1]);
-  const double middle = inverse_depths.mean();
-  const auto near = pair_.Transfer(segment.Midpoint(), middle + pair_.InverseDepthPerPixel());
-  const auto far = pair_.Transfer(segment.Midpoint(), middle);
-  if (!start || !end || !near || !far) return std::nullopt;
+  if (!start || !end) return std::nullopt;
   const LineSegment predicted{*start, *end};
-  const double crossing = std::abs(predicted.Normal().dot((*near - *far).normalized()));
+  const double crossing = Crossing(predicted, pair_.T_C1_C().translation);
   if (!(crossing > kMinCrossing)) return std::nullopt;
   const auto found = refinement_.Refine(right, predicted, kSearch_px);
   if (!found) return std::nullopt;

@@ -45,12 +45,16 @@ class LineStereo {
   bool IsTurn(const LineTrack& track, int interval) const;
   // Inverse depths at the start and the end [1/m].
   std::optional<Eigen::Vector2d> FindDepths(const Images& images, const LineSegment& segment) const;
+  // Inverse depth of the point at a share of the way from start to end [1/m].
+  std::optional<double> DepthAt(const Images& images, const LineSegment& segment,
+                                double share) const;
   Eigen::Vector2d DepthsBy(const RightSegment& right, const LineSegment& segment) const;
   std::optional<Eigen::Vector2d> Agree(const std::vector<LineDepth>& samples) const;
   std::optional<RightSegment> Locate(const cv::Mat& right, const LineSegment& segment,
                                      const Eigen::Vector2d& inverse_depths) const;
 
   CameraPair pair_;
+  Eigen::Vector3d p_C_C1_;  // position of the second camera
   LineRefinement refinement_;
   int64_t searched_ = 0;  // images
   int unsearched_ = 0;    // images of the first camera since then

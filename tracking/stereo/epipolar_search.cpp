@@ -15,6 +15,7 @@ constexpr float kMinCorrelation = 0.75F;  // at whole pixels; the alignment requ
 constexpr float kUniqueness = 1.3F;       // the next best place must be worse by this factor
 constexpr int kPeakWidth_px = 3;          // points farther from the best one count as others
 constexpr double kBandStep_px = 1.5;
+constexpr double kNoBand_px = 0.5;    // correlation windows match up to this far off the curve
 constexpr size_t kWarpInterval = 32;  // points of a curve that share a warp
 
 struct Candidate {
@@ -28,7 +29,7 @@ class Search {
   Search(const cv::Mat& image, const std::vector<CurvePoint>& curve, double band_px)
       : image_(image),
         curve_(curve),
-        steps_(static_cast<int>(std::ceil(band_px / kBandStep_px - 1e-9))) {
+        steps_(static_cast<int>(std::ceil((band_px - kNoBand_px) / kBandStep_px))) {
     candidates_.reserve(curve.size());
   }
 

@@ -83,8 +83,7 @@ void MountingEstimate::Update(const std::vector<StereoMatch>& matches) {
 
 bool MountingEstimate::Accepts(const StereoMatch& match) const {
   const Linear linear = Linearize(match);
-  const double variance =
-      kMatchDeviation_px * kMatchDeviation_px + linear.gradient.dot(covariance_ * linear.gradient);
+  const double variance = kMatchDeviation_px * kMatchDeviation_px + Variance(linear);
   return std::abs(linear.error + linear.gradient.dot(state_)) < kGate * std::sqrt(variance);
 }
 
@@ -108,8 +107,8 @@ Rigid3d MountingEstimate::T_C1_C() const {
           stated_T_C1_C_.translation.norm() * direction};
 }
 
-double MountingEstimate::Deviation_px() const {
-  return focal_length_ * std::sqrt(covariance_.diagonal().head<3>().maxCoeff());
+double MountingEstimate::Deviation_px(const StereoMatch& match) const {
+  return std::sqrt(Variance(Linearize(match)));
 }
 
 }  // namespace plm_vins

@@ -42,8 +42,8 @@ class MountingEstimate {
   // Rotation relative to the stated mounting [rad], in C1.
   Eigen::Vector3d rotation() const { return state_.head<3>(); }
   double delay() const { return state_[kDelay]; }  // positive: exposes later than the first [s]
-  // Largest standard deviation of epipolar curves due to the uncertain mounting [px].
-  double Deviation_px() const;
+  // Standard deviation of Error_px() due to the uncertain mounting and delay.
+  double Deviation_px(const StereoMatch& match) const;
 
  private:
   static constexpr int kDelay = 5;
@@ -57,6 +57,9 @@ class MountingEstimate {
     Vector gradient = Vector::Zero();
   };
   Linear Linearize(const StereoMatch& match) const;
+  double Variance(const Linear& linear) const {
+    return linear.gradient.dot(covariance_ * linear.gradient);
+  }
   Eigen::Vector2d Velocity_C1(const StereoMatch& match) const;
 
   Rigid3d stated_T_C1_C_;

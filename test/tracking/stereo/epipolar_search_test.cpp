@@ -64,6 +64,16 @@ TEST_F(EpipolarSearchTest, BandAllowsForATurnedMounting) {
   EXPECT_LT((found->pixel - *truth).norm(), 0.3);
 }
 
+TEST_F(EpipolarSearchTest, SmallOffsetsNeedNoBand) {
+  const SearchedPoint point = Point(0.1, 0.1);
+  const auto truth = pair_.Project(point.xy, scene_.InverseDepth(point.xy));
+  const Rigid3d turned = {SO3Exp({0.002, 0, 0}) * StereoMounting().rotation,
+                          StereoMounting().translation};  // 0.46 px
+  const auto found = SearchAlongCurve(pair_.With(turned), left_, point, right_, {0, 3, 0.46});
+  ASSERT_TRUE(found);
+  EXPECT_LT((found->pixel - *truth).norm(), 0.3);
+}
+
 TEST_F(EpipolarSearchTest, RejectsRepetitivePatterns) {
   for (cv::Mat* image : {&left_, &right_}) {
     for (int column = 0; column < image->cols; ++column) {

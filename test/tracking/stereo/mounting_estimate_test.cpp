@@ -85,7 +85,19 @@ TEST(MountingEstimateTest, AcceptsThePriorUncertaintyAtFirst) {
   const MountingEstimate estimate(StereoMounting(), kFocal);
   EXPECT_TRUE(estimate.Accepts(Matches(Turned({0.4 * kDegree, 0, 0}), 0, 1).front()));
   EXPECT_FALSE(estimate.Accepts(Matches(Turned({3 * kDegree, 0, 0}), 0, 1).front()));
-  EXPECT_NEAR(estimate.Deviation_px(), kFocal * 0.4 * kDegree, 1e-6);
+}
+
+// Rotation about the baseline moves epipolar curves by the full angle; that about the vertical,
+// which takes long to be known, moves points along them.
+TEST(MountingEstimateTest, DeviationIsAcrossTheEpipolarCurve) {
+  const Rigid3d sideways({}, Eigen::Vector3d(-0.1, 0, 0));
+  MountingEstimate estimate(sideways, kFocal);
+  const StereoMatch far{{0, 0}, {0, 0}, {0, 0}};
+  EXPECT_NEAR(estimate.Deviation_px(far), kFocal * 0.4 * kDegree, 1e-6);
+  Feed(Matches(sideways, 0), &estimate);
+  for (const StereoMatch& match : Matches(sideways, 0, 20)) {
+    EXPECT_LT(estimate.Deviation_px(match), 0.1);
+  }
 }
 
 TEST(MountingEstimateTest, ErrorIsTheDistanceFromTheEpipolarLine) {

@@ -6,7 +6,7 @@ import os
 import numpy as np
 
 from . import metrics
-from .trajectory import with_first_component_last, with_last_component_first
+from .trajectory import with_rolled_quaternions
 
 _WRONG_ATTITUDE = 20.0  # larger errors [deg] need an explanation
 _RIGHT_ATTITUDE = 5.0  # smaller ones [deg] are not by chance
@@ -33,8 +33,7 @@ def _swapped(estimate_path, truth_path, estimate, truth):
         for path, poses in ((estimate_path, estimate), (truth_path, truth)))
     denser = _rate(estimate) > _DENSER * _rate(truth)
     around = estimate.stamps[0] <= truth.stamps[0] and estimate.stamps[-1] >= truth.stamps[-1]
-    if not (truth_is_run and not estimate_is_run) and not (
-            denser and around and not estimate_is_run):
+    if estimate_is_run or not (truth_is_run or (denser and around)):
         return None
     return (f"{estimate_path} looks like the ground truth and {truth_path} like the estimate; give"
             " the estimate first")
@@ -80,11 +79,12 @@ def _quaternion_order(estimate_path, truth_path, estimate, truth, align):
     error = attitude_error(estimate, truth)
     if error < _WRONG_ATTITUDE:
         return None
-    for reorder, order in ((with_first_component_last, "qw qx qy qz"),
-                           (with_last_component_first, "qx qy qz qw")):
-        for which, first, second in ((estimate_path, reorder(estimate), truth),
-                                     (truth_path, estimate, reorder(truth)),
-                                     ("both files", reorder(estimate), reorder(truth))):
+    for places, order in ((-1, "qw qx qy qz"), (1, "qx qy qz qw")):
+        other_estimate, other_truth = (with_rolled_quaternions(trajectory, places)
+                                       for trajectory in (estimate, truth))
+        for which, first, second in ((estimate_path, other_estimate, truth),
+                                     (truth_path, estimate, other_truth),
+                                     ("both files", other_estimate, other_truth)):
             left = attitude_error(first, second)
             if left < _RIGHT_ATTITUDE:
                 return (f"attitudes differ by {error:.0f} deg, but by {left:.1f} deg if the"

@@ -81,16 +81,11 @@ class Trajectory:
                        positions=-np.einsum("nij,nj->ni", rotations, self.positions))
 
 
-def with_first_component_last(trajectory):
-    """Reinterprets quaternions that were read as x y z w, but are w x y z in the file."""
+def with_rolled_quaternions(trajectory, places):
+    """Reinterprets quaternions that were read in another order than that of the file: `places` is
+    -1 for files with w x y z that were read as x y z w, and 1 for the opposite."""
     return replace(trajectory, rotations=_rotations(
-        np.roll(_quaternions(trajectory.rotations), -1, axis=1)))
-
-
-def with_last_component_first(trajectory):
-    """Reinterprets quaternions that were read as w x y z, but are x y z w in the file."""
-    return replace(trajectory, rotations=_rotations(
-        np.roll(_quaternions(trajectory.rotations), 1, axis=1)))
+        np.roll(_quaternions(trajectory.rotations), places, axis=1)))
 
 
 def read_trajectory(path, least=LEAST_POSES):

@@ -12,10 +12,9 @@ DISTORTION_SIZES = {"radtan": 4, "plumb_bob": 4, "equidistant": 4, "none": 0}
 MODEL_TYPES = {("pinhole", "radtan"): "PINHOLE", ("pinhole", "plumb_bob"): "PINHOLE",
                ("pinhole", "none"): "PINHOLE", ("pinhole", "equidistant"): "EQUIDISTANT",
                ("omni", "radtan"): "MEI", ("omni", "plumb_bob"): "MEI", ("omni", "none"): "MEI"}
-PROJECTION_NAMES = {"PINHOLE": ("fx", "fy", "cx", "cy"), "EQUIDISTANT": ("fx", "fy", "cx", "cy"),
-                    "MEI": ("gamma1", "gamma2", "u0", "v0")}
-DISTORTION_NAMES = {"PINHOLE": ("k1", "k2", "p1", "p2"), "EQUIDISTANT": ("k1", "k2", "k3", "k4"),
-                    "MEI": ("k1", "k2", "p1", "p2")}
+# Names of the projection and the distortion parameters.
+NAMES = {"PINHOLE": ("fx fy cx cy", "k1 k2 p1 p2"), "EQUIDISTANT": ("fx fy cx cy", "k1 k2 k3 k4"),
+         "MEI": ("gamma1 gamma2 u0 v0", "k1 k2 p1 p2")}
 # Models that are replaced: their parameters in Kalibr's order, each with minimum and maximum, and
 # the key of the list that contains them ("intrinsics" ends with the focal lengths and the principal
 # point).
@@ -53,14 +52,16 @@ def _refuse_rolling_shutter(camera):
 
 def _lines(model_type, size, mirror, projection, coefficients):
     width, height = size
+    projection_names, distortion_names = NAMES[model_type]
     return [f"model_type: {model_type}",
             f"image_width: {width:g}   # [px]", f"image_height: {height:g}  # [px]", *mirror,
             "projection_parameters:  # [px]",
-            *(f"   {name}: {value!r}"
-              for name, value in zip(PROJECTION_NAMES[model_type], projection)),
-            "distortion_parameters:  # [1]",
-            *(f"   {name}: {value!r}"
-              for name, value in zip(DISTORTION_NAMES[model_type], coefficients))]
+            *_named(projection_names, projection), "distortion_parameters:  # [1]",
+            *_named(distortion_names, coefficients)]
+
+
+def _named(names, values):
+    return [f"   {name}: {value!r}" for name, value in zip(names.split(), values)]
 
 
 def _equidistant_lines(camera, kind, size):

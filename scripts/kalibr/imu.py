@@ -6,10 +6,10 @@ import numpy as np
 from .mounting import matrix_lines
 from .sections import read_section
 
-NOISE_KEYS = {"acc_n": "accelerometer_noise_density", "gyr_n": "gyroscope_noise_density",
-              "acc_w": "accelerometer_random_walk", "gyr_w": "gyroscope_random_walk"}
-NOISE_UNITS = {"acc_n": "m/s^2/sqrt(Hz)", "gyr_n": "rad/s/sqrt(Hz)",
-               "acc_w": "m/s^3/sqrt(Hz)", "gyr_w": "rad/s^2/sqrt(Hz)"}
+NOISE = {"acc_n": ("accelerometer_noise_density", "m/s^2/sqrt(Hz)"),
+         "gyr_n": ("gyroscope_noise_density", "rad/s/sqrt(Hz)"),
+         "acc_w": ("accelerometer_random_walk", "m/s^3/sqrt(Hz)"),
+         "gyr_w": ("gyroscope_random_walk", "rad/s^2/sqrt(Hz)")}
 MODELS = ("calibrated", "kalibr", "rpng", "scale-misalignment")
 SCALE_RANGE = (0.5, 2.0)  # what the configuration reader accepts
 
@@ -45,11 +45,11 @@ class Imu:
     def noise_lines(self):
         lines = ["# Densities as given to Kalibr. What flight shows beyond is learned:"
                  " docs/tuning.md.", "imu_noise_model: continuous"]
-        for name, key in NOISE_KEYS.items():
+        for name, (key, unit) in NOISE.items():
             value = self._values.number(key)
             if value <= 0:
                 raise self._values.error(key, "must be positive")
-            lines.append(f"{name}: {value!r}  # [{NOISE_UNITS[name]}]")
+            lines.append(f"{name}: {value!r}  # [{unit}]")
         if "update_rate" in self._values.values:
             lines.append(f"imu_rate: {self._values.number('update_rate')!r}  # [Hz]")
         return lines

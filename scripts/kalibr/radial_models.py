@@ -46,9 +46,6 @@ class EquidistantFit:
     angle: float  # up to which it was fitted [rad]
     residual: float  # maximum, in focal lengths of the lens
 
-    def radius(self, theta):
-        return self.scale * (_powers(theta) @ [1.0, *self.coefficients])
-
 
 def fit_equidistant(lens, largest_radius):
     """Fits the equidistant model to a lens, a function as above, for all rays in front of the
@@ -65,10 +62,9 @@ def fit_equidistant(lens, largest_radius):
     nodes = angles[-1] * np.cos(np.pi * (np.arange(_NODES) + 0.5) / (2 * _NODES))
     unit = float(angles[-1]) ** np.array(_POWERS)
     factors = np.linalg.lstsq(_powers(nodes) / unit, lens(nodes), rcond=None)[0] / unit
-    fit = EquidistantFit(float(factors[0]), (factors[1:] / factors[0]).tolist(),
-                         float(angles[-1]), 0.0)
-    residual = float(np.abs(fit.radius(angles) - radii[usable]).max())
-    return EquidistantFit(fit.scale, fit.coefficients, fit.angle, residual)
+    residual = float(np.abs(_powers(angles) @ factors - radii[usable]).max())
+    return EquidistantFit(float(factors[0]), (factors[1:] / factors[0]).tolist(),
+                          float(angles[-1]), residual)
 
 
 def _powers(theta):

@@ -5,8 +5,6 @@
 import contextlib
 import io
 import json
-import os
-import tempfile
 import unittest
 
 import numpy as np
@@ -15,6 +13,7 @@ from known_flight import START, flight, moved  # first: it names the folder
 from evaluate import evaluate, format_report, main
 from evaluation import steps
 from evaluation.trajectory import TrajectoryError, format_tum
+from folder_case import FolderTest
 
 
 def jump(trajectory, *jumps):
@@ -71,8 +70,9 @@ class Find(unittest.TestCase):
         self.assertEqual(steps.find_steps(truth.select((t < 3) | (t > 7))), ())
 
 
-class LeaveOut(unittest.TestCase):
+class LeaveOut(FolderTest):
     def setUp(self):
+        super().setUp()
         self.estimate = flight(rate=20.0, seconds=30.0)
         truth = flight(rate=200.0, seconds=30.0)
         since = truth.stamps - START - 11.0
@@ -123,17 +123,14 @@ class LeaveOut(unittest.TestCase):
             evaluate(flight(seconds=1.6), steps.without_steps(short))
 
     def test_command_line(self):
-        with tempfile.TemporaryDirectory() as folder:
-            paths = [os.path.join(folder, name) for name in ("estimate.tum", "truth.tum")]
-            for path, trajectory in zip(paths, (self.estimate, self.truth)):
-                with open(path, "w", encoding="utf-8") as file:
-                    file.write(format_tum(trajectory))
-            report = os.path.join(folder, "report.json")
-            with contextlib.redirect_stdout(io.StringIO()) as output:
-                self.assertEqual(main([*paths, "--without-steps", "--json", report]), 0)
-            self.assertIn("excluded from the ground truth", output.getvalue())
-            with open(report, encoding="utf-8") as file:
-                figures = json.load(file)
+        paths = [self.write(name, format_tum(trajectory)) for name, trajectory in
+                 (("estimate.tum", self.estimate), ("truth.tum", self.truth))]
+        with contextlib.redirect_stdout(io.StringIO()) as output:
+            self.assertEqual(main([*paths, "--without-steps", "--json",
+                                   self.path("report.json")]), 0)
+        self.assertIn("excluded from the ground truth", output.getvalue())
+        with open(self.path("report.json"), encoding="utf-8") as file:
+            figures = json.load(file)
         self.assertLess(figures["ape_m"]["rmse"], 1e-6)
         self.assertAlmostEqual(figures["ground_truth_steps"][0]["size"], 0.2, 3)
 

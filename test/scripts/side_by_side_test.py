@@ -4,8 +4,6 @@
 
 import contextlib
 import io
-import os
-import tempfile
 import unittest
 
 import numpy as np
@@ -14,6 +12,7 @@ from known_flight import flight, moved  # first: it names the folder
 from evaluate import main
 from evaluation import metrics
 from evaluation.trajectory import Trajectory, format_tum
+from folder_case import FolderTest
 
 
 def vins_mono_csv(trajectory):
@@ -24,7 +23,7 @@ def vins_mono_csv(trajectory):
                    for t, x, y, z, qx, qy, qz, qw in rows)
 
 
-class SideBySide(unittest.TestCase):
+class SideBySide(FolderTest):
     def test_the_scale_is_that_of_the_estimate(self):
         truth = flight()
         larger = Trajectory(truth.stamps, 1.03 * truth.positions + 5, truth.rotations)
@@ -34,18 +33,11 @@ class SideBySide(unittest.TestCase):
         truth = flight()
         late = truth.select(truth.stamps > truth.stamps[0] + 4)
         wrong = moved(truth, 0.1 * np.sin(7 * truth.stamps)[:, np.newaxis])
-        with tempfile.TemporaryDirectory() as folder:
-            def write(name, text):
-                path = os.path.join(folder, name)
-                with open(path, "w", encoding="utf-8") as file:
-                    file.write(text)
-                return path
-
-            files = (write("ours.tum", format_tum(truth)), write("truth.tum", format_tum(truth)),
-                     write("vins_result_no_loop.csv", vins_mono_csv(late)),
-                     write("wrong.tum", format_tum(wrong)))
-            with contextlib.redirect_stdout(io.StringIO()) as output:
-                self.assertEqual(main([*files[:2], "--compare", *files[2:]]), 0)
+        files = [self.write(name, text) for name, text in (
+            ("ours.tum", format_tum(truth)), ("truth.tum", format_tum(truth)),
+            ("vins_result_no_loop.csv", vins_mono_csv(late)), ("wrong.tum", format_tum(wrong)))]
+        with contextlib.redirect_stdout(io.StringIO()) as output:
+            self.assertEqual(main([*files[:2], "--compare", *files[2:]]), 0)
         rows = output.getvalue().splitlines()[-3:]
         ours, vins, other = (row.split()[1:] for row in rows)
         self.assertEqual(ours, ["0.0000", "100.0", "%", "0.00", "0.0000", "+0.00"])

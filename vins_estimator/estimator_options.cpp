@@ -39,6 +39,7 @@ EstimatorOptions::EstimatorOptions(const Config& config, double focal_length)
       map(config.estimator.line_noise / focal_length, config.estimator.line_merging),
       keyframes(config.estimator, focal_length),
       min_triangulation_angle(kMinTriangulationAngle_px / focal_length),
+      unnoticed_turn_rate(3 * kStandstillGyroBias),
       max_reprojection_error(kMaxReprojectionError_px / focal_length),
       max_inverse_depth_error(kMaxDepthError *
                               (config.sensor.depth ? config.sensor.depth->noise : 0)),

@@ -22,6 +22,7 @@ struct EstimatorOptions {
   LocalMapOptions map;
   KeyframePolicyOptions keyframes;
   double min_triangulation_angle;  // between the rays of a point [rad]
+  double unnoticed_turn_rate;      // error of the gyro bias after a standstill [rad/s]
   double max_reprojection_error;   // mean reprojection error of a point, normalized
   double max_inverse_depth_error;  // error of a measured inverse depth [1/m]
   double max_ray_error;            // error of rays when the intrinsics are refined, normalized

@@ -184,7 +184,8 @@ LineTriangulationCounts WindowOdometry::Triangulate() {
   const int64_t now_ns = map.window.newest().state.t_ns;
   if (stereo_monitor_.misfit()) map.points.ForgetUntriangulatedDepths();
   if (!stereo_monitor_.UsesLines(now_ns)) map.lines.ForgetUntriangulatedDepths();
-  map.points.Triangulate(map.window, options_->min_triangulation_angle);
+  map.points.Triangulate(map.window, options_->min_triangulation_angle,
+                         options_->unnoticed_turn_rate);
   return map.lines.Triangulate(map.window, options_->line_limits);
 }
 
@@ -197,8 +198,7 @@ UnitedLines WindowOdometry::FindStructure(bool keep_second_newest) {
 
 // The newest frame counts in addition to the window size.
 bool WindowOdometry::WindowIsFull() const {
-  const auto frames = static_cast<int>(estimate_.map.window.frames.size());
-  return frames > config_->estimator.window_size;
+  return static_cast<int>(estimate_.map.window.frames.size()) > config_->estimator.window_size;
 }
 
 const SolverOptions& WindowOdometry::CurrentSolution() const {

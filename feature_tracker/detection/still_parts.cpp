@@ -20,6 +20,7 @@ constexpr double kMinContrast = 5;     // standard deviation in the window [gray
 constexpr double kSame = 0.8;          // minimum correlation of parts that stand still
 constexpr double kDiffers = 0.5;       // maximum correlation of parts that move
 constexpr double kMovingShare = 0.15;  // moving share of textured area if the camera moves
+constexpr int kReduction = 4;          // of images in which only large motions are visible
 
 // Up to a tenth of a scene's tracks lie on equal parts by chance.
 constexpr int kMinCorners = 10;
@@ -51,6 +52,20 @@ Correlation Correlate(const cv::Mat& gray_a, const cv::Mat& gray_b) {
   result.same = result.textured & (covariance > kSame * product);
   result.differs = result.textured & (covariance < kDiffers * product);
   return result;
+}
+
+// Returns whether the scene moves by about kMinShift_px or more in the given part of the image.
+bool SceneMoves(const cv::Mat& gray_a, const cv::Mat& gray_b, const cv::Mat& part) {
+  const auto reduced = [](const cv::Mat& image, cv::InterpolationFlags method) -> cv::Mat {
+    cv::Mat result;
+    cv::resize(image, result, image.size() / kReduction, 0, 0, method);
+    return result;
+  };
+  const Correlation correlation =
+      Correlate(reduced(gray_a, cv::INTER_AREA), reduced(gray_b, cv::INTER_AREA));
+  const cv::Mat inside = reduced(part, cv::INTER_NEAREST);
+  const int textured = cv::countNonZero(correlation.textured & inside);
+  return cv::countNonZero(correlation.differs & inside) > kMovingShare * textured;
 }
 
 // Returns whether Correlate() would find one pixel the same, without the cost for all pixels.
@@ -145,11 +160,9 @@ void StillParts::Compare(const Past& reference, const cv::Mat& gray,
     decided += turned.at<uint8_t>(corner) != 0 ? 1 : 0;
     standing += still.at<uint8_t>(corner) != 0 ? 1 : 0;
   }
-  const int textured = cv::countNonZero(correlation.textured & turned);
-  const bool image_moves = cv::countNonZero(correlation.differs & turned) > kMovingShare * textured;
   const double seconds = ToSeconds(*compared_ns_ - reference.image.t_ns);
   const double rate = Eigen::AngleAxisd(reference.R_now_then).angle() / seconds;
-  const bool camera_turns = image_moves || rate > kSureRate;
+  const bool camera_turns = rate > kSureRate || SceneMoves(reference.image.gray, gray, turned);
   const bool was_masked = !moving_.empty();
   if (standing >= kMinCorners && standing > kStillShare * decided && camera_turns) {
     largest_share_ = std::max(largest_share_, standing / static_cast<double>(decided));

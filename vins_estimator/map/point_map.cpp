@@ -13,7 +13,7 @@ namespace plm_vins {
 namespace {
 
 constexpr int kMinMeasurementsToTriangulate = 2;
-constexpr size_t kMinDepths = 10;  // fewer do not represent the scene
+constexpr size_t kMinPoints = 10;  // fewer do not represent the scene
 
 PosedPointObservation ObservationOf(const PointView& view, const SlidingWindow& window) {
   return {window.T_W_C(view.t_ns), window.AtState(view.bearing)};
@@ -68,6 +68,30 @@ void TriangulateLandmark(const SlidingWindow& window, double min_angle, PointLan
   if (p_W) SetPosition(*p_W, window, landmark->host(), landmark);
 }
 
+double TimeSeen(const PointLandmark& landmark) {
+  return ToSeconds(landmark.views.back().t_ns - landmark.views.front().t_ns);
+}
+
+// Returns the common motion [rad/s] of the points in the newest image that are not triangulated:
+// the median from the first observation of each, without the rotation of the window. Zero for few.
+template <class Landmarks>
+double CommonMotion(const Landmarks& landmarks, const SlidingWindow& window) {
+  std::vector<double> right, down;
+  for (const auto& [id, landmark] : landmarks) {
+    if (landmark.triangulated || landmark.views.size() < 2) continue;
+    if (landmark.views.back().t_ns != window.newest().state.t_ns) continue;
+    const PosedPointObservation host = ObservationOf(landmark.host(), window);
+    const PosedPointObservation newest = ObservationOf(landmark.views.back(), window);
+    const Eigen::Vector3d ray =
+        newest.T_W_C.rotation.inverse() * (host.T_W_C.rotation * host.xy.homogeneous());
+    const Eigen::Vector2d rate = (newest.xy - ray.hnormalized()) / TimeSeen(landmark);
+    right.push_back(rate.x());
+    down.push_back(rate.y());
+  }
+  if (right.size() < kMinPoints) return 0;
+  return std::hypot(Median(std::move(right)), Median(std::move(down)));
+}
+
 // Returns whether a landmark is in front of the camera in all frames with a mean reprojection error
 // of at most `max_error`. Returns true without observations in a second camera or measured depths.
 bool Fits(const Eigen::Vector3d& p_W, const PointLandmark& landmark, double max_error,
@@ -120,13 +144,17 @@ void PointMap::AddFrame(const PointFrame& frame, double cut_time_offset) {
   }
 }
 
-void PointMap::Triangulate(const SlidingWindow& window, double min_angle) {
+void PointMap::Triangulate(const SlidingWindow& window, double min_angle,
+                           double unnoticed_turn_rate) {
+  const bool depth_is_unknown = window.HasStationary() && !MedianDepthInNewest(window);
+  const double turn_rate =
+      depth_is_unknown ? std::min(CommonMotion(landmarks_, window), unnoticed_turn_rate) : 0;
   for (auto& [id, landmark] : landmarks_) {
     if (landmark.triangulated ||
         CountMeasurements(landmark.views) < kMinMeasurementsToTriangulate) {
       continue;
     }
-    TriangulateLandmark(window, min_angle, &landmark);
+    TriangulateLandmark(window, min_angle + turn_rate * TimeSeen(landmark), &landmark);
   }
 }
 
@@ -156,7 +184,7 @@ std::optional<double> PointMap::MedianDepthInNewest(const SlidingWindow& window)
   for (const auto& [id, landmark] : landmarks_) {
     if (IsOptimizedInNewest(landmark, window)) depths.push_back(1 / landmark.coordinates[2]);
   }
-  if (depths.size() < kMinDepths) return std::nullopt;
+  if (depths.size() < kMinPoints) return std::nullopt;
   return Median(std::move(depths));
 }
 

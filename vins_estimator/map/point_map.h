@@ -26,9 +26,11 @@ class PointMap : public LandmarkMap<PointLandmark> {
   // Adds one image's corners as observations.
   void AddFrame(const PointFrame& frame, double cut_time_offset);
 
-  // Triangulates the points with enough observations; `min_angle` [rad] is the least angle between
-  // rays.
-  void Triangulate(const SlidingWindow& window, double min_angle);
+  // Triangulates the points with enough observations whose rays differ by at least `min_angle`
+  // [rad]. After a standstill, while no depth is known, the rays must also differ by more than the
+  // common motion of the points, because it may be a rotation that the bias of the gyro hides; up
+  // to `unnoticed_turn_rate` [rad/s].
+  void Triangulate(const SlidingWindow& window, double min_angle, double unnoticed_turn_rate = 0);
 
   // Returns the optimized points in the world.
   std::vector<MapPoint> Optimized(const SlidingWindow& window) const;

@@ -191,6 +191,37 @@ TEST_F(PointMapTest, WaitsForAnAngleBetweenTheRays) {
   for (const auto& [id, landmark] : map_.landmarks()) EXPECT_FALSE(landmark.triangulated);
 }
 
+// At standstill, a rotation that the window does not know moves all rays alike.
+TEST_F(PointMapTest, UnknownRotationIsNotTakenForParallax) {
+  window_.frames.resize(2);
+  window_.frames[0].stationary = true;
+  window_.frames[1].state.t_ns = Stamp(0) + 2'000'000'000;
+  const Rigid3d T_W_C = window_.T_W_C(window_.frames[0]);
+  const Rigid3d turned(T_W_C.rotation * SO3Exp({0.03, 0, 0}),
+                       T_W_C.translation + Vector3d(0, 0.01, 0));
+  window_.frames[1].state.SetPose(turned * window_.T_B_C().Inverse());
+  for (const double unnoticed_turn_rate : {0.0, 0.005, 0.02}) {
+    PointMap map;
+    for (const WindowFrame& frame : window_.frames) {
+      PointFrame points;
+      points.t_ns = frame.state.t_ns;
+      for (size_t id = 0; id < points_W_.size(); ++id) {
+        PointObservation& point = points.points.emplace_back();
+        point.id = static_cast<int64_t>(id);
+        point.xy = (T_W_C.Inverse() * points_W_[id]).hnormalized();
+        // The first point has parallax in addition.
+        if (id == 0 && frame.state.t_ns != Stamp(0)) point.xy.y() -= 0.02;
+      }
+      map.AddFrame(points, {});
+    }
+    map.Triangulate(window_, kMinAngle, unnoticed_turn_rate);
+    for (const auto& [id, landmark] : map.landmarks()) {
+      EXPECT_EQ(landmark.triangulated, id == 0 || unnoticed_turn_rate < 0.01)
+          << id << ", " << unnoticed_turn_rate;
+    }
+  }
+}
+
 TEST_F(PointMapTest, RemovedHostTransfersItsPoints) {
   map_.Triangulate(window_, kMinAngle);
   for (const int frame : {0, 2, 1}) {

@@ -90,7 +90,7 @@ TEST(MountingEstimateTest, AcceptsThePriorUncertaintyAtFirst) {
 // Rotation about the baseline moves epipolar curves by the full angle; that about the vertical,
 // which takes long to be known, moves points along them.
 TEST(MountingEstimateTest, DeviationIsAcrossTheEpipolarCurve) {
-  const Rigid3d sideways({}, Eigen::Vector3d(-0.1, 0, 0));
+  const Rigid3d sideways(Eigen::Quaterniond::Identity(), Eigen::Vector3d(-0.1, 0, 0));
   MountingEstimate estimate(sideways, kFocal);
   const StereoMatch far{{0, 0}, {0, 0}, {0, 0}};
   EXPECT_NEAR(estimate.Deviation_px(far), kFocal * 0.4 * kDegree, 1e-6);

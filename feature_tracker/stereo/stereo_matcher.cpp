@@ -113,7 +113,7 @@ std::optional<StereoMatcher::Place> StereoMatcher::Find(const Images& images,
 std::optional<StereoMatcher::Place> StereoMatcher::FindAnywhere(const Images& images,
                                                                 const PointTrack& track) const {
   const double behind = MayBeSwapped() ? 1 / kNearest : kInfinity_px * pair_.InverseDepthPerPixel();
-  const SearchRange range{-behind, 1 / kNearest, Band_px(track)};
+  const SearchRange range{-behind, 1 / kNearest, Band(track)};
   const SearchedPoint point{PixelOf(track), WhenSeen(track)};
   const auto seed = SearchAlongCurve(pair_, images.left, point, images.right, range);
   const auto place = seed ? Align(images, *seed, track) : std::nullopt;
@@ -201,13 +201,12 @@ bool StereoMatcher::IsBehind(const Place& place) const {
   return place.inverse_depth < -kInfinity_px * pair_.InverseDepthPerPixel();
 }
 
-double StereoMatcher::Band_px(const PointTrack& track) const {
+double StereoMatcher::Band(const PointTrack& track) const {
   double deviation_px = 0;
   for (const double inverse_depth : {0.0, 1 / kNearest}) {
     const auto xy_C1 = pair_.Transfer(WhenSeen(track), inverse_depth);
     if (!xy_C1) return kMaxBand_px;
-    deviation_px =
-        std::max(deviation_px, mounting_.Deviation_px({track.xy, track.velocity, *xy_C1}));
+    deviation_px = std::max(deviation_px, mounting_.Deviation({track.xy, track.velocity, *xy_C1}));
   }
   return std::min(2 * deviation_px, kMaxBand_px);
 }

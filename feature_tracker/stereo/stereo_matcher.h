@@ -67,7 +67,7 @@ class StereoMatcher {
   bool IsTurn(const PointTrack& track, int interval) const;
   bool IsBehind(const Place& place) const;  // beyond infinity by more than mounting errors explain
   // Search range to both sides of the epipolar curve of a track, from infinity to the least depth.
-  double Band_px(const PointTrack& track) const;
+  double Band(const PointTrack& track) const;
 
   CameraPair stated_;
   CameraPair pair_;  // with the estimated mounting

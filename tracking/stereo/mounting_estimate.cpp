@@ -36,7 +36,7 @@ MountingEstimate::MountingEstimate(const Rigid3d& stated_T_C1_C, double focal_le
   prior_ = deviations.cwiseAbs2().cwiseInverse().asDiagonal();
 }
 
-Eigen::Vector2d MountingEstimate::Velocity_C1(const StereoMatch& match) const {
+Eigen::Vector2d MountingEstimate::VelocityInC1(const StereoMatch& match) const {
   const Eigen::Matrix3d R_C1_C = stated_T_C1_C_.R();
   const Eigen::Vector3d ray = R_C1_C * match.xy.homogeneous();
   const Eigen::Vector3d motion = R_C1_C.leftCols<2>() * match.velocity;
@@ -53,7 +53,7 @@ MountingEstimate::Linear MountingEstimate::Linearize(const StereoMatch& match) c
   linear.gradient.head<5>() =
       EpipolarGradient(weight, a, b, baseline_direction_, baseline_tangent_);
   // A match that is observed later lies further along its motion.
-  linear.gradient[kDelay] = -weight * line.head<2>().dot(Velocity_C1(match));
+  linear.gradient[kDelay] = -weight * line.head<2>().dot(VelocityInC1(match));
   return linear;
 }
 
@@ -87,17 +87,17 @@ bool MountingEstimate::Accepts(const StereoMatch& match) const {
   return std::abs(linear.error + linear.gradient.dot(state_)) < kGate * std::sqrt(variance);
 }
 
-double MountingEstimate::StatedError_px(const StereoMatch& match) const {
+double MountingEstimate::StatedError(const StereoMatch& match) const {
   return Linearize(match).error;
 }
 
-double MountingEstimate::Error_px(const StereoMatch& match) const {
+double MountingEstimate::Error(const StereoMatch& match) const {
   const Linear linear = Linearize(match);
   return linear.error + linear.gradient.dot(state_);
 }
 
 Eigen::Vector2d MountingEstimate::WithoutDelay(const StereoMatch& match) const {
-  return match.xy_C1 - delay() * Velocity_C1(match);
+  return match.xy_C1 - delay() * VelocityInC1(match);
 }
 
 Rigid3d MountingEstimate::T_C1_C() const {
@@ -107,7 +107,7 @@ Rigid3d MountingEstimate::T_C1_C() const {
           stated_T_C1_C_.translation.norm() * direction};
 }
 
-double MountingEstimate::Deviation_px(const StereoMatch& match) const {
+double MountingEstimate::Deviation(const StereoMatch& match) const {
   return std::sqrt(Variance(Linearize(match)));
 }
 

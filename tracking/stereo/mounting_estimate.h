@@ -32,8 +32,8 @@ class MountingEstimate {
   bool Accepts(const StereoMatch& match) const;
 
   // Distance from the epipolar curve [px], of the stated and of the estimated mounting.
-  double StatedError_px(const StereoMatch& match) const;
-  double Error_px(const StereoMatch& match) const;
+  double StatedError(const StereoMatch& match) const;
+  double Error(const StereoMatch& match) const;
 
   // Returns the point in the second camera as if both cameras had exposed at the same time.
   Eigen::Vector2d WithoutDelay(const StereoMatch& match) const;
@@ -42,8 +42,8 @@ class MountingEstimate {
   // Rotation relative to the stated mounting [rad], in C1.
   Eigen::Vector3d rotation() const { return state_.head<3>(); }
   double delay() const { return state_[kDelay]; }  // positive: exposes later than the first [s]
-  // Standard deviation of Error_px() due to the uncertain mounting and delay.
-  double Deviation_px(const StereoMatch& match) const;
+  // Standard deviation of Error() due to the uncertain mounting and delay [px].
+  double Deviation(const StereoMatch& match) const;
 
  private:
   static constexpr int kDelay = 5;
@@ -60,7 +60,7 @@ class MountingEstimate {
   double Variance(const Linear& linear) const {
     return linear.gradient.dot(covariance_ * linear.gradient);
   }
-  Eigen::Vector2d Velocity_C1(const StereoMatch& match) const;
+  Eigen::Vector2d VelocityInC1(const StereoMatch& match) const;
 
   Rigid3d stated_T_C1_C_;
   double focal_length_;

@@ -51,7 +51,7 @@ TEST(MountingEstimateTest, LearnsTheRotationOfTheCamera) {
   EXPECT_NEAR(estimate.rotation().y(), angles.y(), 0.1 * kDegree);
   EXPECT_NEAR(estimate.rotation().z(), angles.z(), 0.1 * kDegree);
   for (const StereoMatch& match : Matches(Turned(angles), 0, 20)) {
-    EXPECT_LT(std::abs(estimate.Error_px(match)), 1);
+    EXPECT_LT(std::abs(estimate.Error(match)), 1);
     EXPECT_TRUE(estimate.Accepts(match));
   }
   EXPECT_NEAR(estimate.T_C1_C().translation.norm(), StereoMounting().translation.norm(), 1e-12);
@@ -93,22 +93,22 @@ TEST(MountingEstimateTest, DeviationIsAcrossTheEpipolarCurve) {
   const Rigid3d sideways(Eigen::Quaterniond::Identity(), Eigen::Vector3d(-0.1, 0, 0));
   MountingEstimate estimate(sideways, kFocal);
   const StereoMatch far{{0, 0}, {0, 0}, {0, 0}};
-  EXPECT_NEAR(estimate.Deviation_px(far), kFocal * 0.4 * kDegree, 1e-6);
+  EXPECT_NEAR(estimate.Deviation(far), kFocal * 0.4 * kDegree, 1e-6);
   Feed(Matches(sideways, 0), &estimate);
   for (const StereoMatch& match : Matches(sideways, 0, 20)) {
-    EXPECT_LT(estimate.Deviation_px(match), 0.1);
+    EXPECT_LT(estimate.Deviation(match), 0.1);
   }
 }
 
 TEST(MountingEstimateTest, ErrorIsTheDistanceFromTheEpipolarLine) {
   const MountingEstimate estimate(StereoMounting(), kFocal);
   StereoMatch match = Matches(StereoMounting(), 0, 1, 0).front();
-  EXPECT_NEAR(estimate.StatedError_px(match), 0, 1e-9);
+  EXPECT_NEAR(estimate.StatedError(match), 0, 1e-9);
   const Eigen::Vector2d along =
       (StereoMounting().translation.head<2>() - match.xy_C1 * StereoMounting().translation.z())
           .normalized();
   match.xy_C1 += 2 / kFocal * Eigen::Vector2d(-along.y(), along.x());
-  EXPECT_NEAR(std::abs(estimate.StatedError_px(match)), 2, 1e-6);
+  EXPECT_NEAR(std::abs(estimate.StatedError(match)), 2, 1e-6);
 }
 
 }  // namespace

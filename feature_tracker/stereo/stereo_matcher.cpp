@@ -116,7 +116,7 @@ std::optional<StereoMatcher::Place> StereoMatcher::FindAnywhere(const Images& im
   const SearchRange range{-behind, 1 / kNearest, Band(track)};
   const SearchedPoint point{PixelOf(track), WhenSeen(track)};
   const auto seed = SearchAlongCurve(pair_, images.left, point, images.right, range);
-  const auto place = seed ? Align(images, *seed, track) : std::nullopt;
+  auto place = seed ? Align(images, *seed, track) : std::nullopt;
   if (!place) return std::nullopt;
   const SearchedPoint match{place->pixel, InTime(place->match)};
   const double nearby = kBack_px * pair_.InverseDepthPerPixel();

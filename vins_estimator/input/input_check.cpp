@@ -12,10 +12,11 @@ InputCheck::InputCheck(const SensorConfig& sensor)
       content_(sensor.gravity_norm) {}
 
 ImuSample InputCheck::AddImu(const ImuSample& sample) {
+  const ImuSample spread = bursts_.Spread(sample);
   content_.Add(sample);
-  imu_stamps_.Add(sample.t_ns);
+  imu_stamps_.Add(spread.t_ns);  // bursts repeat their stamps for another reason
   clocks_.AddImu(sample.t_ns);
-  return bursts_.Spread(sample);
+  return spread;
 }
 
 void InputCheck::AddImage(int64_t t_ns) { clocks_.AddImage(t_ns + td_ns_); }

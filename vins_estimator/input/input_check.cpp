@@ -12,7 +12,7 @@ InputCheck::InputCheck(const SensorConfig& sensor)
       content_(sensor.gravity_norm) {}
 
 ImuSample InputCheck::AddImu(const ImuSample& sample) {
-  const ImuSample spread = bursts_.Spread(sample);
+  ImuSample spread = bursts_.Spread(sample);
   content_.Add(sample);
   imu_stamps_.Add(spread.t_ns);  // bursts repeat their stamps for another reason
   clocks_.AddImu(sample.t_ns);

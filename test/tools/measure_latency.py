@@ -173,12 +173,30 @@ def report(latencies, costs):
     return "\n".join(lines)
 
 
-def parse_arguments(arguments):
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("bag", help="ROS bag")
+def parser_of(description, bag_help="ROS bag"):
+    """Returns a parser of what is needed to play a bag to the nodes."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("bag", help=bag_help)
     parser.add_argument("--config", required=True, help="configuration of the sensors in the bag")
-    parser.add_argument("--duration", type=float, help="play this much [s] (default: all)")
     parser.add_argument("--rate", type=float, default=1, help="playback rate (default: 1)")
+    return parser
+
+
+def run(program, options, work):
+    """Returns what `work` returns for the options and a temporary output folder; if it fails,
+    prints the reason and returns None."""
+    try:
+        open(options.bag, "rb").close()
+        with tempfile.TemporaryDirectory() as output:
+            return work(options, output)
+    except (RuntimeError, OSError, UnicodeDecodeError, rosgraph.MasterException) as error:
+        print(f"{program}: {error}", file=sys.stderr)
+        return None
+
+
+def parse_arguments(arguments):
+    parser = parser_of(__doc__)
+    parser.add_argument("--duration", type=float, help="play this much [s] (default: all)")
     parser.add_argument("--nodelets", action="store_true", help="run all nodes in one process")
     parser.add_argument("--loop-closure", action="store_true",
                         help="enable it, whatever the configuration says")
@@ -188,14 +206,10 @@ def parse_arguments(arguments):
 
 
 def main(arguments=None):
-    options = parse_arguments(arguments)
-    try:
-        open(options.bag, "rb").close()
-        with tempfile.TemporaryDirectory() as output:
-            latencies, costs = measure(options, output)
-    except (RuntimeError, OSError, UnicodeDecodeError) as error:
-        print(f"measure_latency.py: {error}", file=sys.stderr)
+    measured = run("measure_latency.py", parse_arguments(arguments), measure)
+    if measured is None:
         return 1
+    latencies, costs = measured
     print(report(latencies, costs))
     return 0 if latencies.seconds else 1
 

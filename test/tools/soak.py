@@ -3,17 +3,14 @@
 """Plays a bag to the nodes repeatedly and monitors values that must not grow: their memory, open
 files and threads, and the age of the poses. Exit code 1 if one grows."""
 
-import argparse
 import os
 import sys
-import tempfile
 import time
 
 import numpy as np
-import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
-from measure_latency import find_nodes, nodes, player
+from measure_latency import find_nodes, nodes, parser_of, player, run
 
 # Permitted increase from the second quarter of the time to the last; caches and pools fill up in
 # the first.
@@ -115,25 +112,16 @@ def report(series):
 
 
 def parse_arguments(arguments):
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("bag", help="ROS bag, played in a loop")
-    parser.add_argument("--config", required=True, help="configuration of the sensors in the bag")
+    parser = parser_of(__doc__, "ROS bag, played in a loop")
     parser.add_argument("--minutes", type=float, default=60, help="(default: 60)")
     parser.add_argument("--interval", type=float, default=5,
                         help="time between samples [s] (default: 5)")
-    parser.add_argument("--rate", type=float, default=1, help="playback rate (default: 1)")
     return parser.parse_args(arguments)
 
 
 def main(arguments=None):
-    options = parse_arguments(arguments)
-    try:
-        open(options.bag, "rb").close()
-        with tempfile.TemporaryDirectory() as output:
-            return 0 if report(soak(options, output)) else 1
-    except (RuntimeError, OSError, rosgraph.MasterException) as error:
-        print(f"soak.py: {error}", file=sys.stderr)
-        return 1
+    series = run("soak.py", parse_arguments(arguments), soak)
+    return 0 if series is not None and report(series) else 1
 
 
 if __name__ == "__main__":

@@ -26,9 +26,11 @@ constexpr int kReduction = 4;          // of images in which only large motions 
 constexpr int kMinCorners = 10;
 constexpr double kStillShare = 0.25;
 
-// Correlation of the windows around each pixel of two images, where both have contrast.
+// Correlation of the windows around each pixel of two images, as the covariance and the product of
+// the standard deviations.
 struct Correlation {
-  cv::Mat textured, same, differs;  // CV_8UC1
+  cv::Mat textured;             // CV_8UC1: both windows have contrast
+  cv::Mat covariance, product;  // CV_32FC1
 };
 
 Correlation Correlate(const cv::Mat& gray_a, const cv::Mat& gray_b) {
@@ -43,14 +45,11 @@ Correlation Correlate(const cv::Mat& gray_a, const cv::Mat& gray_b) {
   const cv::Mat mean_a = mean(a), mean_b = mean(b);
   const cv::Mat variance_a = mean(a.mul(a)) - mean_a.mul(mean_a);
   const cv::Mat variance_b = mean(b.mul(b)) - mean_b.mul(mean_b);
-  const cv::Mat covariance = mean(a.mul(b)) - mean_a.mul(mean_b);
-  cv::Mat product;
-  cv::sqrt(cv::max(variance_a.mul(variance_b), 0), product);
   constexpr double kMinVariance = kMinContrast * kMinContrast;
   Correlation result;
   result.textured = (variance_a > kMinVariance) & (variance_b > kMinVariance);
-  result.same = result.textured & (covariance > kSame * product);
-  result.differs = result.textured & (covariance < kDiffers * product);
+  result.covariance = mean(a.mul(b)) - mean_a.mul(mean_b);
+  cv::sqrt(cv::max(variance_a.mul(variance_b), 0), result.product);
   return result;
 }
 
@@ -63,12 +62,12 @@ bool SceneMoves(const cv::Mat& gray_a, const cv::Mat& gray_b, const cv::Mat& par
   };
   const Correlation correlation =
       Correlate(reduced(gray_a, cv::INTER_AREA), reduced(gray_b, cv::INTER_AREA));
-  const cv::Mat inside = reduced(part, cv::INTER_NEAREST);
-  const int textured = cv::countNonZero(correlation.textured & inside);
-  return cv::countNonZero(correlation.differs & inside) > kMovingShare * textured;
+  const cv::Mat textured = correlation.textured & reduced(part, cv::INTER_NEAREST);
+  const cv::Mat differs = textured & (correlation.covariance < kDiffers * correlation.product);
+  return cv::countNonZero(differs) > kMovingShare * cv::countNonZero(textured);
 }
 
-// Returns whether Correlate() would find one pixel the same, without the cost for all pixels.
+// Returns whether one pixel looks the same in both images, without Correlate()'s cost for all.
 bool IsSameAt(const cv::Mat& gray_a, const cv::Mat& gray_b, const cv::Point& center) {
   constexpr int kHalf = kWindow_px / 2;
   constexpr double kPixels = kWindow_px * kWindow_px;
@@ -154,7 +153,8 @@ void StillParts::Compare(const Past& reference, const cv::Mat& gray,
                          const std::vector<cv::Point2f>& corners) {
   const cv::Mat turned = TurnedCells(reference.R_now_then);
   const Correlation correlation = Correlate(reference.image.gray, gray);
-  const cv::Mat still = correlation.same & turned;
+  const cv::Mat still =
+      correlation.textured & turned & (correlation.covariance > kSame * correlation.product);
   int decided = 0, standing = 0;
   for (const cv::Point2f& corner : corners) {
     decided += turned.at<uint8_t>(corner) != 0 ? 1 : 0;
@@ -162,9 +162,9 @@ void StillParts::Compare(const Past& reference, const cv::Mat& gray,
   }
   const double seconds = ToSeconds(*compared_ns_ - reference.image.t_ns);
   const double rate = Eigen::AngleAxisd(reference.R_now_then).angle() / seconds;
-  const bool camera_turns = rate > kSureRate || SceneMoves(reference.image.gray, gray, turned);
+  const bool many_stand = standing >= kMinCorners && standing > kStillShare * decided;
   const bool was_masked = !moving_.empty();
-  if (standing >= kMinCorners && standing > kStillShare * decided && camera_turns) {
+  if (many_stand && (rate > kSureRate || SceneMoves(reference.image.gray, gray, turned))) {
     largest_share_ = std::max(largest_share_, standing / static_cast<double>(decided));
   } else if (!was_masked) {
     return;

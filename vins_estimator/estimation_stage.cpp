@@ -141,8 +141,7 @@ std::string EstimationStage::InputFinding() const {
   return Format(
       "the camera sees motion that the IMU does not feel, for %.1f s: something that moves fills "
       "the view (a train, the deck of a ship), or the IMU does not belong to this camera; "
-      "meanwhile "
-      "the images move no estimate and start none",
+      "meanwhile the images move no estimate and start none",
       unfelt_motion);
 }
 

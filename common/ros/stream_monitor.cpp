@@ -13,9 +13,9 @@ namespace plm_vins {
 void StreamMonitor::Add(int64_t t_ns) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const ros::WallTime now = ros::WallTime::now();
-  if (last_ns_) {
+  if (last_ns_ && t_ns > *last_ns_) {
     const double late = (now - last_arrival_).toSec() - ToSeconds(t_ns - *last_ns_);
-    if (t_ns > *last_ns_) longest_stall_ = std::max(longest_stall_, late);
+    longest_stall_ = std::max(longest_stall_, late);
   }
   last_ns_ = t_ns;
   last_arrival_ = now;

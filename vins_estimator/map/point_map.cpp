@@ -74,8 +74,7 @@ double TimeSeen(const PointLandmark& landmark) {
 
 // Returns the common motion [rad/s] of the points in the newest image that are not triangulated:
 // the median from the first observation of each, without the rotation of the window. Zero for few.
-template <class Landmarks>
-double CommonMotion(const Landmarks& landmarks, const SlidingWindow& window) {
+double CommonMotion(const PointMap::Landmarks& landmarks, const SlidingWindow& window) {
   std::vector<double> right, down;
   for (const auto& [id, landmark] : landmarks) {
     if (landmark.triangulated || landmark.views.size() < 2) continue;

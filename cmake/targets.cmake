@@ -20,9 +20,27 @@ endfunction()
 # plm_add_static_library(NAME SOURCES...): the common part of both.
 function(plm_add_static_library name)
   add_library(${name} STATIC ${ARGN})
+  plm_group_by_folder(${name})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                              $<INSTALL_INTERFACE:include/${PROJECT_NAME}>)
   target_include_directories(${name} SYSTEM PUBLIC ${EIGEN3_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
+endfunction()
+
+# plm_group_by_folder(TARGET): compiles the sources of one folder together, which instantiates the
+# templates of Eigen once for all of them. So names in unnamed namespaces are unique in a folder.
+# CMake before 3.18 cannot group sources and compiles each on its own.
+option(PLM_GROUP_SOURCES "Compile the sources of a folder together" ON)
+function(plm_group_by_folder target)
+  if(NOT PLM_GROUP_SOURCES OR CMAKE_VERSION VERSION_LESS 3.18)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    get_filename_component(folder ${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER "in_${folder}" group)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
 # plm_add_nodelet(NAME SOURCES...): a library of nodelets, listed in nodelet_plugins.xml.

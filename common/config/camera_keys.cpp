@@ -8,9 +8,9 @@ namespace plm_vins {
 namespace {
 
 using C = CameraParameters;
-using Key = ConfigKey<C>;
+using CameraKey = ConfigKey<C>;
 
-// Key names of a camera model's parameters.
+// CameraKey names of a camera model's parameters.
 struct ModelNames {
   std::string model_type;
   C::Model model;
@@ -52,27 +52,27 @@ const ModelNames* Find(const std::string& model_type) {
   return nullptr;
 }
 
-Key ModelTypeKey() {
+CameraKey ModelTypeKey() {
   std::vector<std::pair<std::string, C::Model>> choices;
   for (const ModelNames& names : AllModels()) choices.emplace_back(names.model_type, names.model);
-  return Key::Choice("model_type", choices, &C::model);
+  return CameraKey::Choice("model_type", choices, &C::model);
 }
 
 ConfigKeys<C> KeysOf(const ModelNames& names) {
   const std::string group = "projection_parameters.";
   ConfigKeys<C> keys = {
-      Key::Number(group + names.projection[0], "px", {1, 1e5}, &C::fx),
-      Key::Number(group + names.projection[1], "px", {1, 1e5}, &C::fy),
-      Key::Number(group + names.projection[2], "px", {0, 1e5}, &C::cx),
-      Key::Number(group + names.projection[3], "px", {0, 1e5}, &C::cy),
+      CameraKey::Number(group + names.projection[0], "px", {1, 1e5}, &C::fx),
+      CameraKey::Number(group + names.projection[1], "px", {1, 1e5}, &C::fy),
+      CameraKey::Number(group + names.projection[2], "px", {0, 1e5}, &C::cx),
+      CameraKey::Number(group + names.projection[3], "px", {0, 1e5}, &C::cy),
   };
   for (size_t i = 0; i < names.distortion.size(); ++i) {
     const auto coefficient = [i](auto& camera) -> auto& { return camera.distortion[i]; };
-    keys.push_back(Key::Number(names.distortion_group + "." + names.distortion[i], "", {-10, 10},
-                               coefficient));
+    keys.push_back(CameraKey::Number(names.distortion_group + "." + names.distortion[i], "",
+                                     {-10, 10}, coefficient));
   }
   if (names.model == C::Model::kMei) {
-    keys.push_back(Key::Number("mirror_parameters.xi", "", {0, 10}, &C::xi));
+    keys.push_back(CameraKey::Number("mirror_parameters.xi", "", {0, 10}, &C::xi));
   }
   return keys;
 }
@@ -82,8 +82,8 @@ ConfigKeys<C> KeysOf(const ModelNames& names) {
 ConfigKeys<CameraParameters> CameraKeys(const std::string& model_type) {
   ConfigKeys<C> keys = {
       ModelTypeKey(),
-      Key::Integer("image_width", "px", {32, 16384}, &C::width),
-      Key::Integer("image_height", "px", {32, 16384}, &C::height),
+      CameraKey::Integer("image_width", "px", {32, 16384}, &C::width),
+      CameraKey::Integer("image_height", "px", {32, 16384}, &C::height),
   };
   if (const ModelNames* names = Find(model_type)) keys = Join<C>({keys, KeysOf(*names)});
   return Required(keys);

@@ -17,7 +17,7 @@ bool Contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-std::string Join(const std::vector<std::string>& words, const std::string& separator) {
+std::string JoinWords(const std::vector<std::string>& words, const std::string& separator) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
   return text;
@@ -96,7 +96,7 @@ class Loader {
     }
     const auto keys = KeysOfGroup(name);
     if (!keys.empty()) {
-      return Add(name, "must be a group of keys, indented below it: " + Join(keys, ", "));
+      return Add(name, "must be a group of keys, indented below it: " + JoinWords(keys, ", "));
     }
     // Calibration keys are not reported if the camera model is unknown, since the model determines
     // the valid ones.
@@ -134,7 +134,7 @@ class Loader {
 
   void AddWarnings() {
     if (!ignored_.empty()) {
-      config_.warnings.push_back(config_.file + ": keys without effect: " + Join(ignored_, ", "));
+      config_.warnings.push_back(config_.file + ": keys without effect: " + JoinWords(ignored_, ", "));
     }
     if (LacksMask(entries_, config_)) {
       config_.warnings.push_back(At("fisheye") +
@@ -182,7 +182,7 @@ class Loader {
 }  // namespace
 
 ConfigError::ConfigError(const std::vector<std::string>& problems)
-    : std::runtime_error(Join(problems, "\n")), problems_(problems) {}
+    : std::runtime_error(JoinWords(problems, "\n")), problems_(problems) {}
 
 Config LoadConfig(const std::string& file, const std::map<std::string, std::string>& overrides,
                   const std::string& override_prefix) {

@@ -20,7 +20,7 @@ constexpr size_t kMaxEntries = 1000;
 constexpr int kMaxDepth = 2;  // keys and groups of keys
 
 // Reads at most one byte more than kMaxBytes.
-std::optional<std::string> ReadText(const std::string& file) {
+std::optional<std::string> ReadTextFile(const std::string& file) {
   std::ifstream stream(file);
   if (!stream) return std::nullopt;
   std::string text(kMaxBytes + 1, '\0');
@@ -126,7 +126,7 @@ std::optional<YAML::Node> ReadRoot(const std::string& file, std::vector<std::str
     problems->push_back(file + ": is not a regular file; give the path of a configuration file");
     return std::nullopt;
   }
-  const auto text = ReadText(file);
+  const auto text = ReadTextFile(file);
   if (!text) {
     problems->push_back(file + ": cannot be read; check the path of the configuration file" +
                         TriedAt(file));

@@ -5,8 +5,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace plm_vins {
+
+inline double ToDegrees(double radians) { return radians * 180 / M_PI; }
 
 // The skew-symmetric matrix [v]x with [v]x w = v x w.
 inline Eigen::Matrix3d Skew(const Eigen::Vector3d& v) {

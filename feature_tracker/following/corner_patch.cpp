@@ -12,8 +12,8 @@ namespace plm_vins {
 namespace {
 
 constexpr float kSigma_px = 5.0F;  // width of the weights: distant pixels may differ in depth
-constexpr int kMaxIterations = 12;
-constexpr double kConverged_px = 0.03;
+constexpr int kMaxSteps = 12;
+constexpr double kAligned_px = 0.03;
 constexpr double kMaxShift_px = 1.5;      // largest distance from the result of the flow
 constexpr float kMinCorrelation = 0.85F;  // least correlation of the aligned pixels with the patch
 constexpr double kMaxGrowth = 3.0;        // largest change of the patch's area, as a factor
@@ -125,7 +125,7 @@ std::optional<CornerPatch> CornerPatch::Cut(const cv::Mat& image, const Eigen::V
 
 std::optional<PatchPose> CornerPatch::Align(const cv::Mat& image, const PatchPose& start) const {
   PatchPose pose = start;
-  for (int i = 0; i < kMaxIterations; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     const auto pixels = Sample(image, pose);
     if (!pixels) return std::nullopt;
     const Parameters step =
@@ -141,7 +141,7 @@ std::optional<PatchPose> CornerPatch::Align(const cv::Mat& image, const PatchPos
     const double growth = pose.linear.determinant();
     if (!(growth < kMaxGrowth && growth > 1 / kMaxGrowth)) return std::nullopt;
     if (!((pose.center - start.center).norm() < kMaxShift_px)) return std::nullopt;
-    if (shift.norm() > kConverged_px) continue;
+    if (shift.norm() > kAligned_px) continue;
     return LooksLike(*pixels) ? std::optional(pose) : std::nullopt;
   }
   return std::nullopt;

@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kMinDepth = 0.1;  // [m]
+constexpr double kMinLineDepth = 0.1;  // [m]
 
 // Image of a line segment (normalized).
 struct Stretch {
@@ -35,7 +35,7 @@ std::optional<Stretch> Project(const CameraModel& camera, const Rigid3d& T_C_O,
                                const SpaceSegment& line) {
   const Eigen::Vector3d start_C = T_C_O * line.start_O;
   const Eigen::Vector3d end_C = T_C_O * line.end_O;
-  if (start_C.z() < kMinDepth || end_C.z() < kMinDepth) return std::nullopt;
+  if (start_C.z() < kMinLineDepth || end_C.z() < kMinLineDepth) return std::nullopt;
   const auto middle_px = camera.Project(0.5 * (start_C + end_C));
   if (!middle_px || !camera.IsInImage(*middle_px)) return std::nullopt;
   return MakeStretch(start_C.hnormalized(), end_C.hnormalized());

@@ -12,7 +12,7 @@ namespace plm_vins {
 namespace {
 
 constexpr int kMaxClimb = 5;  // [px]
-constexpr double kMinDeterminant = 0.1;
+constexpr double kMinWarpDeterminant = 0.1;
 constexpr float kMinContrast = 2.0F;  // [gray levels], rms: sensor noise has about one
 
 // Root of the sum of squares about the mean.
@@ -33,7 +33,7 @@ double Vertex(float before, float middle, float after) {
 std::optional<CorrelationWindow> CorrelationWindow::Cut(const cv::Mat& image,
                                                         const Eigen::Vector2d& center,
                                                         const Eigen::Matrix2d& warp) {
-  if (!(std::abs(warp.determinant()) > kMinDeterminant)) return std::nullopt;
+  if (!(std::abs(warp.determinant()) > kMinWarpDeterminant)) return std::nullopt;
   const Eigen::Matrix2f unwarp = warp.inverse().cast<float>();
   const Eigen::Vector2f first =
       center.cast<float>() - unwarp * Eigen::Vector2f(kToCenter.x, kToCenter.y);

@@ -7,7 +7,7 @@ namespace plm_vins {
 namespace {
 
 constexpr double kPairStride = 0.1;  // between consecutive pairs [s]
-constexpr size_t kMaxPairs = 200;
+constexpr size_t kMaxRotationPairs = 200;
 
 }  // namespace
 
@@ -18,7 +18,7 @@ std::optional<Eigen::Quaterniond> ExtrinsicCalibrator::Add(
   last_ns_ = newest_ns;
   const std::optional<RotationPair> pair = MeasureRotationPair(frames, imu_noise_, noise_, reason);
   if (pair) pairs_.push_back(*pair);
-  if (pairs_.size() > kMaxPairs) pairs_.erase(pairs_.begin());
+  if (pairs_.size() > kMaxRotationPairs) pairs_.erase(pairs_.begin());
   auto R_B_C = CalibrateExtrinsicRotation(pairs_, ExtrinsicRotationOptions(), reason);
   if (!R_B_C) *reason = "calibrating the camera's rotation: " + *reason;
   return R_B_C;

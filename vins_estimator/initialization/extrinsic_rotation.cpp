@@ -16,8 +16,8 @@ namespace {
 // Tolerance for the residual of a pair while the gyroscope bias is unknown [rad].
 constexpr double kLinearTolerance = 0.03;
 constexpr int kLinearIterations = 10;
-constexpr int kRefinements = 8;
-constexpr double kInlierSigmas = 4.0;
+constexpr int kRotationRefinements = 8;
+constexpr double kRotationInlierSigmas = 4.0;
 constexpr double kMinInlierShare = 0.6;
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -95,8 +95,8 @@ class Refiner {
 
   // Runs with a wide tolerance at first, while the bias is unknown.
   void Run() {
-    for (int k = 0; k < kRefinements; ++k) Step(kLinearTolerance);
-    for (int k = 0; k < kRefinements; ++k) Step(0);
+    for (int k = 0; k < kRotationRefinements; ++k) Step(kLinearTolerance);
+    for (int k = 0; k < kRotationRefinements; ++k) Step(0);
   }
   const Eigen::Quaterniond& R_B_C() const { return R_B_C_; }
   double inlier_share() const { return inlier_share_; }
@@ -131,11 +131,11 @@ void Refiner::Step(double tolerance) {
     Eigen::Matrix<double, 3, 6> J;
     J << seen.toRotationMatrix().transpose() - Eigen::Matrix3d::Identity(), d_turn_d_bias;
     J /= pair.deviation;
-    const double weight =
-        GemanMcClureWeight(residual.norm(), std::max(kInlierSigmas, tolerance / pair.deviation));
+    const double weight = GemanMcClureWeight(
+        residual.norm(), std::max(kRotationInlierSigmas, tolerance / pair.deviation));
     information_ += weight * J.transpose() * J;
     gradient += weight * J.transpose() * residual;
-    inliers += residual.norm() < kInlierSigmas;
+    inliers += residual.norm() < kRotationInlierSigmas;
   }
   inlier_share_ = static_cast<double>(inliers) / static_cast<double>(pairs_.size());
   // Rotations about one axis leave theta unobservable along it; a prior of ten radians keeps the
@@ -154,8 +154,6 @@ double Refiner::Deviation() const {
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues().maxCoeff());
 }
 
-double Degrees(double radians) { return radians * 180 / M_PI; }
-
 }  // namespace
 
 std::optional<Eigen::Quaterniond> CalibrateExtrinsicRotation(
@@ -169,7 +167,7 @@ std::optional<Eigen::Quaterniond> CalibrateExtrinsicRotation(
   const LinearSolution linear = SolveLinear(pairs);
   if (linear.second_turn < options.min_second_turn) {
     *reason = Format("turn about a second axis: %.1f deg of %.1f deg per image pair",
-                     Degrees(linear.second_turn), Degrees(options.min_second_turn));
+                     ToDegrees(linear.second_turn), ToDegrees(options.min_second_turn));
     return std::nullopt;
   }
   Refiner refiner(pairs, linear.R_B_C, options.gyro_bias_deviation);
@@ -181,7 +179,7 @@ std::optional<Eigen::Quaterniond> CalibrateExtrinsicRotation(
   }
   if (refiner.Deviation() > options.max_deviation) {
     *reason = Format("turn more: uncertain by %.1f deg of at most %.1f deg",
-                     Degrees(refiner.Deviation()), Degrees(options.max_deviation));
+                     ToDegrees(refiner.Deviation()), ToDegrees(options.max_deviation));
     return std::nullopt;
   }
   return refiner.R_B_C();

@@ -12,9 +12,9 @@
 namespace plm_vins {
 namespace {
 
-constexpr size_t kMinCommonPoints = 20;  // common points of the initial pair
+constexpr size_t kMinPairPoints = 20;  // common points of the initial pair
 constexpr int kMinPointsToResect = 10;
-constexpr int kMinPoints = 20;                   // in the whole structure
+constexpr int kMinStructurePoints = 20;          // in the whole structure
 constexpr double kParallaxCap = 0.2;             // more does not improve the score of a pair [rad]
 constexpr double kMinTriangulationSigmas = 4.0;  // least angle between rays, in standard deviations
 constexpr double kMaxReprojectionSigmas = 3.0;
@@ -78,10 +78,10 @@ class PositionCost {
 };
 
 // Incremental reconstruction.
-class Builder {
+class SfmBuilder {
  public:
-  Builder(const std::vector<Track>& tracks, const std::vector<Eigen::Quaterniond>& R_G_C,
-          const GlobalSfmOptions& options)
+  SfmBuilder(const std::vector<Track>& tracks, const std::vector<Eigen::Quaterniond>& R_G_C,
+             const GlobalSfmOptions& options)
       : tracks_(tracks),
         R_G_C_(R_G_C),
         options_(options),
@@ -121,7 +121,7 @@ class Builder {
 
 // Returns the pair with the largest sum of (capped) parallax angles over its common points; without
 // parallax, the pair with the most points.
-std::pair<int, int> Builder::BestPair() const {
+std::pair<int, int> SfmBuilder::BestPair() const {
   const int n = static_cast<int>(R_G_C_.size());
   Eigen::MatrixXd score = Eigen::MatrixXd::Zero(n, n);
   for (const Track& track : tracks_) {
@@ -137,12 +137,12 @@ std::pair<int, int> Builder::BestPair() const {
   return {first, second};
 }
 
-bool Builder::Start(std::string* reason) {
+bool SfmBuilder::Start(std::string* reason) {
   const auto [first, second] = BestPair();
   const auto correspondences = FindCorrespondences(tracks_, first, second);
-  if (first == second || correspondences.size() < kMinCommonPoints) {
+  if (first == second || correspondences.size() < kMinPairPoints) {
     *reason = "too few common points: " + std::to_string(correspondences.size()) + " of " +
-              std::to_string(kMinCommonPoints);
+              std::to_string(kMinPairPoints);
     return false;
   }
   const Eigen::Quaterniond R_C1_C0 = R_G_C_[second].conjugate() * R_G_C_[first];
@@ -159,7 +159,7 @@ bool Builder::Start(std::string* reason) {
   return true;
 }
 
-std::optional<Eigen::Vector3d> Builder::TriangulateTrack(const Track& track) const {
+std::optional<Eigen::Vector3d> SfmBuilder::TriangulateTrack(const Track& track) const {
   std::vector<Line> lines;
   double widest = 0;
   for (const ViewObservation& o : track.observations) {
@@ -179,7 +179,7 @@ std::optional<Eigen::Vector3d> Builder::TriangulateTrack(const Track& track) con
 }
 
 // Sets the position of a view and re-triangulates the points that it observes.
-void Builder::Place(int view, const Eigen::Vector3d& p_G_C) {
+void SfmBuilder::Place(int view, const Eigen::Vector3d& p_G_C) {
   structure_.p_G_C[view] = p_G_C;
   posed_[view] = true;
   for (size_t i = 0; i < tracks_.size(); ++i) {
@@ -188,7 +188,7 @@ void Builder::Place(int view, const Eigen::Vector3d& p_G_C) {
 }
 
 // Returns the view without position that observes the most points; -1 if none observes enough.
-int Builder::NextView() const {
+int SfmBuilder::NextView() const {
   std::vector<int> seen(posed_.size(), 0);
   for (size_t i = 0; i < tracks_.size(); ++i) {
     if (!structure_.p_G[i]) continue;
@@ -198,7 +198,7 @@ int Builder::NextView() const {
   return *most < kMinPointsToResect ? -1 : static_cast<int>(most - seen.begin());
 }
 
-bool Builder::Resect(int view) {
+bool SfmBuilder::Resect(int view) {
   std::vector<Line> lines;
   for (size_t i = 0; i < tracks_.size(); ++i) {
     if (!structure_.p_G[i]) continue;
@@ -212,7 +212,7 @@ bool Builder::Resect(int view) {
   return true;
 }
 
-bool Builder::AdjustBundle() {
+bool SfmBuilder::AdjustBundle() {
   ceres::Problem problem;
   for (size_t i = 0; i < tracks_.size(); ++i) {
     if (!structure_.p_G[i]) continue;
@@ -236,7 +236,7 @@ bool Builder::AdjustBundle() {
 }
 
 // Returns whether all observations of the track are inliers.
-bool Builder::Fits(const Track& track, const Eigen::Vector3d& p_G) const {
+bool SfmBuilder::Fits(const Track& track, const Eigen::Vector3d& p_G) const {
   for (const ViewObservation& o : track.observations) {
     const Eigen::Vector3d p_C = InCamera(o.view, p_G);
     if (p_C.z() <= 0) return false;
@@ -246,7 +246,7 @@ bool Builder::Fits(const Track& track, const Eigen::Vector3d& p_G) const {
   return true;
 }
 
-void Builder::RemoveOutliers() {
+void SfmBuilder::RemoveOutliers() {
   for (size_t i = 0; i < tracks_.size(); ++i) {
     if (!structure_.p_G[i]) continue;
     if (Fits(tracks_[i], *structure_.p_G[i])) {
@@ -257,7 +257,7 @@ void Builder::RemoveOutliers() {
   }
 }
 
-void Builder::MoveOriginToFirstView() {
+void SfmBuilder::MoveOriginToFirstView() {
   const Eigen::Vector3d origin = structure_.p_G_C[0];
   for (Eigen::Vector3d& position : structure_.p_G_C) position -= origin;
   for (auto& point : structure_.p_G) {
@@ -265,7 +265,7 @@ void Builder::MoveOriginToFirstView() {
   }
 }
 
-std::optional<Structure> Builder::Build(std::string* reason) {
+std::optional<Structure> SfmBuilder::Build(std::string* reason) {
   if (!Start(reason)) return std::nullopt;
   while (!std::all_of(posed_.begin(), posed_.end(), [](bool posed) { return posed; })) {
     const int view = NextView();
@@ -279,9 +279,9 @@ std::optional<Structure> Builder::Build(std::string* reason) {
     return std::nullopt;
   }
   RemoveOutliers();
-  if (structure_.num_points < kMinPoints) {
+  if (structure_.num_points < kMinStructurePoints) {
     *reason = "too few points in the structure: " + std::to_string(structure_.num_points) + " of " +
-              std::to_string(kMinPoints);
+              std::to_string(kMinStructurePoints);
     return std::nullopt;
   }
   MoveOriginToFirstView();
@@ -294,7 +294,7 @@ std::optional<Structure> ReconstructStructure(const std::vector<Track>& tracks,
                                               const std::vector<Eigen::Quaterniond>& R_G_C,
                                               const GlobalSfmOptions& options,
                                               std::string* reason) {
-  return Builder(tracks, R_G_C, options).Build(reason);
+  return SfmBuilder(tracks, R_G_C, options).Build(reason);
 }
 
 }  // namespace plm_vins

@@ -5,6 +5,7 @@
 
 #include "common/camera/camera_model.h"
 #include "common/format.h"
+#include "common/geometry/so3.h"
 #include "vins_estimator/imu/imu_gap.h"
 #include "vins_estimator/initialization/rotation_pair.h"
 
@@ -20,8 +21,6 @@ constexpr int64_t kJudgedPairs = 10;        // between judgements
 constexpr double kMaxMountingError = 0.17;  // [rad]; larger errors are not linear
 constexpr char kBy[] = ", by the rotations of camera and gyro";
 
-double Degrees(double radians) { return radians * 180 / M_PI; }
-
 std::string Describe(const RotationFit& fit) {
   switch (fit.cause) {
     case Cause::kTimeOffset:
@@ -34,7 +33,7 @@ std::string Describe(const RotationFit& fit) {
           100 * fit.amount, kBy);
     case Cause::kMounting:
       return Format("extrinsicRotation is wrong by %.1f deg%s: estimate_extrinsic: 1 refines it",
-                    Degrees(fit.amount), kBy);
+                    ToDegrees(fit.amount), kBy);
     case Cause::kGyro:
       return Format(
           "scale or axes of the gyro are wrong by up to %.1f %%%s: calibrate the IMU and set "
@@ -77,7 +76,7 @@ void RotationCheck::Judge(const Eigen::Quaterniond& R_B_C) {
     finding_ = Format(
         "extrinsicRotation is wrong by %.0f deg%s: is it the inverse, or of an image that is "
         "turned? estimate_extrinsic: 2 finds the right one",
-        Degrees(error), kBy);
+        ToDegrees(error), kBy);
     return;
   }
   const RotationFit fit = ExplainRotations(pairs_, R_B_C);

@@ -17,22 +17,22 @@ namespace {
 using Cause = RotationFit::Cause;
 
 constexpr size_t kMinPairs = 40;
-constexpr double kMinTurn = 0.03;      // root mean square of the rotations [rad]
+constexpr double kMinMeanTurn = 0.03;  // root mean square of the rotations [rad]
 constexpr double kMinExplained = 0.2;  // share of the squared differences
 constexpr double kAgreement = 0.005;   // root mean square of the differences [rad]
 constexpr double kOverlap = 3;         // pairs of 0.3 s may begin every 0.1 s: a third is new
 constexpr int kReweighings = 5;
-constexpr double kInlierSigmas = 3;
+constexpr double kRobustSigmas = 3;
 
 // Columns of the Jacobian with respect to all parameters.
 constexpr int kBias = 0, kDelay = 3, kFocal = 4, kMounting = 5, kGyro = 8, kColumns = 17;
 
-struct Range {
+struct Bounds {
   double min, max;
 };
 
 // Returns the smallest amount that matters, and the largest that linear equations cover.
-Range Limits(Cause cause) {
+Bounds Limits(Cause cause) {
   switch (cause) {
     case Cause::kTimeOffset:
       return {0.005, 0.1};
@@ -118,7 +118,7 @@ Eigen::VectorXd Weights(const Equations& equations) {
     const Eigen::VectorXd residuals = Solve(equations, weights, Cause::kGyro).residuals;
     std::vector<double> sizes(residuals.data(), residuals.data() + residuals.size());
     for (double& size : sizes) size = std::abs(size);
-    const double scale = kInlierSigmas * std::max(1e-6, 1.48 * Median(sizes));
+    const double scale = kRobustSigmas * std::max(1e-6, 1.48 * Median(sizes));
     for (Eigen::Index i = 0; i < weights.size(); ++i) {
       weights[i] = GemanMcClureWeight(residuals[i], scale);
     }
@@ -138,7 +138,7 @@ RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
                              const Eigen::Quaterniond& R_B_C) {
   if (pairs.size() < kMinPairs) return {};
   const Equations equations = Linearize(pairs, R_B_C);
-  if (equations.mean_squared_turn < kMinTurn * kMinTurn) return {};
+  if (equations.mean_squared_turn < kMinMeanTurn * kMinMeanTurn) return {};
   const Eigen::VectorXd weights = Weights(equations);
   const double squares = Solve(equations, weights, Cause::kNone).squares;
   const double count = weights.sum() / kOverlap;
@@ -154,7 +154,7 @@ RotationFit ExplainRotations(const std::vector<RotationPair>& pairs,
     if (criterion >= best_criterion) continue;
     best_criterion = criterion;
     const double amount = Amount(cause, fit.parameters);
-    const Range limits = Limits(cause);
+    const Bounds limits = Limits(cause);
     const bool matters = std::abs(amount) >= limits.min && std::abs(amount) <= limits.max;
     const bool explains = fit.squares < (1 - kMinExplained) * squares;
     best = matters && explains ? RotationFit{cause, amount} : without;

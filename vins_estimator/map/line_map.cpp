@@ -9,7 +9,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMinMeasurementsToTriangulate = 3;
+constexpr int kMinMeasurementsOfLine = 3;
 constexpr double kMaxRightNoise = 2.0;  // largest noise of a second-camera segment, over the noise
 constexpr double kMinSegment = 1e-3;    // normalized
 constexpr double kMinDistance = 1e-6;   // distance of a line from its host's camera [m]
@@ -162,8 +162,7 @@ LineTriangulationCounts LineMap::Triangulate(const SlidingWindow& window,
   LineTriangulationCounts counts;
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {
     LineLandmark& landmark = it->second;
-    if (landmark.triangulated ||
-        CountMeasurements(landmark.views) < kMinMeasurementsToTriangulate) {
+    if (landmark.triangulated || CountMeasurements(landmark.views) < kMinMeasurementsOfLine) {
       ++it;
       continue;
     }

@@ -12,7 +12,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr int kMinMeasurementsToTriangulate = 2;
+constexpr int kMinMeasurementsOfPoint = 2;
 constexpr size_t kMinPoints = 10;  // fewer do not represent the scene
 
 PosedPointObservation ObservationOf(const PointView& view, const SlidingWindow& window) {
@@ -149,8 +149,7 @@ void PointMap::Triangulate(const SlidingWindow& window, double min_angle,
   const double turn_rate =
       depth_is_unknown ? std::min(CommonMotion(landmarks_, window), unnoticed_turn_rate) : 0;
   for (auto& [id, landmark] : landmarks_) {
-    if (landmark.triangulated ||
-        CountMeasurements(landmark.views) < kMinMeasurementsToTriangulate) {
+    if (landmark.triangulated || CountMeasurements(landmark.views) < kMinMeasurementsOfPoint) {
       continue;
     }
     TriangulateLandmark(window, min_angle + turn_rate * TimeSeen(landmark), &landmark);

@@ -8,7 +8,7 @@
 namespace plm_vins {
 namespace {
 
-constexpr double kForgetting = 0.02;    // per image: 2.5 s at 20 Hz
+constexpr double kJitterForgetting = 0.02;    // per image: 2.5 s at 20 Hz
 constexpr double kMinRatio = 4.0;       // ratio of the variances along and across the rotation axis
 constexpr double kMinDeviation = 1e-3;  // [s]
 // Sum of products of two squared rates [rad^4/s^4]: jitter is unobservable without rotation.
@@ -31,11 +31,11 @@ Vector15d Change(const Eigen::Matrix3d& R_B_W, const FrameState& state, const Im
 void StampJitterMonitor::Add(const Eigen::Vector3d& rotation_residual,
                              const Eigen::Vector3d& rate) {
   const double along = rate.dot(rotation_residual), squared_rate = rate.squaredNorm();
-  AddForgetting(kForgetting, along * along, &along_);
-  AddForgetting(kForgetting, squared_rate * rotation_residual.squaredNorm() - along * along,
+  AddForgetting(kJitterForgetting, along * along, &along_);
+  AddForgetting(kJitterForgetting, squared_rate * rotation_residual.squaredNorm() - along * along,
                 &across_);
-  AddForgetting(kForgetting, along * along_before_, &common_);
-  AddForgetting(kForgetting, squared_rate * squared_rate_before_, &squared_rates_);
+  AddForgetting(kJitterForgetting, along * along_before_, &common_);
+  AddForgetting(kJitterForgetting, squared_rate * squared_rate_before_, &squared_rates_);
   along_before_ = along;
   squared_rate_before_ = squared_rate;
 }

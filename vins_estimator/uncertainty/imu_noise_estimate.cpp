@@ -13,8 +13,8 @@ constexpr double kOfConfigured = 5;
 constexpr double kRemembered = 100;  // determines a density to 7 %
 
 constexpr double kLeastExpected = 1e-3;  // below: rounding errors
-constexpr double kGreatestRatio = 9;     // above, an interval may be an outlier
-constexpr double kLeast = 1;             // times the configured density
+constexpr double kGreatestImuRatio = 9;  // above, an interval may be an outlier
+constexpr double kLeastImuNoise = 1;     // times the configured density
 
 // Vibration is not white noise: over a second, the variance of an accelerometer in flight is two to
 // six times what intervals between keyframes show (docs/noise.md).
@@ -53,7 +53,7 @@ DensityEstimate::DensityEstimate(double configured)
 
 void DensityEstimate::Add(const DensityEvidence& evidence) {
   if (!(evidence.expected > kLeastExpected && evidence.squared >= 0)) return;
-  const double squared = std::min(evidence.squared, kGreatestRatio * evidence.expected);
+  const double squared = std::min(evidence.squared, kGreatestImuRatio * evidence.expected);
   squares_ += evidence.assumed * evidence.assumed * squared;
   redundancy_ += evidence.expected;
   const double kept = std::min(1.0, kRemembered / redundancy_);
@@ -62,7 +62,7 @@ void DensityEstimate::Add(const DensityEvidence& evidence) {
 }
 
 double DensityEstimate::density() const {
-  return std::clamp(std::sqrt(squares_ / redundancy_), kLeast * configured_,
+  return std::clamp(std::sqrt(squares_ / redundancy_), kLeastImuNoise * configured_,
                     kMostNoise * configured_);
 }
 

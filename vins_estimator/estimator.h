@@ -41,12 +41,12 @@ class Estimator {
 
   // Current estimate of the time offset td [s], with which MeasurementSync should cut the IMU
   // samples.
-  double time_offset() const { return state_.odometry.window().td; }
+  double time_offset() const { return world_.odometry.window().td; }
 
  private:
-  // All state that is carried from image to image.
-  struct State {
-    State(const Config& config, const EstimatorOptions& options);
+  // All state that a restart recreates.
+  struct PerWorld {
+    PerWorld(const Config& config, const EstimatorOptions& options);
 
     std::optional<MeasurementEnd> newest;
     Initializer initializer;
@@ -72,7 +72,7 @@ class Estimator {
 
   const Config config_;
   const EstimatorOptions options_;
-  State state_;
+  PerWorld world_;
   LensMonitor lens_;
   double unfelt_motion_ = 0;  // [s]
 };

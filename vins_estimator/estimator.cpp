@@ -107,8 +107,8 @@ EstimatorOutput Estimator::Initialize(const FrameMeasurement& measurement) {
 
 bool Estimator::KeepFrame(InitializationResult* result, InitialUncertainty* uncertainty) const {
   const FrameState fresh = result->frames.front().state;
-  const UncertainState* known = world_.bridge.At(fresh.t_ns);
-  if (known == nullptr || !DifferByFrame(*known, fresh)) return false;
+  const auto known = world_.bridge.At(fresh.t_ns);
+  if (!known || !DifferByFrame(*known, fresh)) return false;
   const FramePlacement placement(known->state, fresh);
   for (InitialFrame& frame : result->frames) frame.state = placement.Apply(frame.state);
   uncertainty->position = PositionDeviation(*known);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/format.h"
+#include "common/recent_time.h"
 #include "common/streams/stream_rhythm.h"
 #include "vins_estimator/estimator.h"
 #include "vins_estimator/imu/imu_gap.h"
@@ -30,9 +31,6 @@ double LeastSpeed(const EstimatorOutput& output) {
 // calibration, 3 to 6 with td off by 30 ms or focal lengths off by 15 %.
 constexpr double kContradictingNoise = 2.5;
 
-// Time in doubt or without a pose after which the cause is searched for, and its limit [s].
-constexpr double kLongDoubt = 2, kMaxDoubt = 6;
-
 // Returns whether the estimated noise is at its upper limit.
 bool IsAtLimit(double density, double configured_density) {
   return density > 0.999 * kMostNoise * configured_density;
@@ -55,7 +53,8 @@ struct EstimationStage::PerWorld {
         repeated_images(config.sensor.imu_noise) {}
 
   RotationCheck rotation_check;
-  double doubt = 0;  // time in doubt or without a pose [s]
+  RecentTime doubt;  // with doubts or without a pose
+  FindingMemory input_faults;
   RepeatedImageDetector repeated_images;
   double least_speed = 0;  // lower bound at the newest image [m/s]
   ImuNoiseMeter imu_noise_meter;
@@ -77,6 +76,7 @@ void EstimationStage::AddImu(const ImuSample& sample) {
   Follow(sync_.AddImu(spread));
   world_->imu_noise_meter.Add(spread);
   world_->imu_rhythm.Add(spread.t_ns);
+  CheckInput(spread.t_ns);
 }
 
 void EstimationStage::AddPoints(PointFrame frame) {
@@ -84,6 +84,7 @@ void EstimationStage::AddPoints(PointFrame frame) {
   input_check_.AddImage(t_ns);
   Follow(sync_.AddPoints(std::move(frame)));
   world_->image_rhythm.Add(t_ns);
+  CheckInput(t_ns);
 }
 
 DropCounts EstimationStage::Drops() const {
@@ -151,27 +152,29 @@ ImuNoise EstimationStage::NoiseOfSamples() const {
   return noise;
 }
 
-std::string EstimationStage::InputFinding() const {
-  std::string finding = input_check_.Finding();
-  if (!finding.empty()) return finding;
-  if (!world_->rotation_check.finding().empty()) return world_->rotation_check.finding();
-  const double unfelt_motion = estimator_->unfelt_motion();
-  if (unfelt_motion < kLongDoubt) return "";
-  return Format(
-      "the camera sees motion that the IMU does not feel, for %.1f s: something that moves fills "
-      "the view (a train, the deck of a ship), or the IMU does not belong to this camera; "
-      "meanwhile the images move no estimate and start none",
-      unfelt_motion);
+const Finding& EstimationStage::InputFinding() const { return world_->input_faults.finding(); }
+
+void EstimationStage::CheckInput(int64_t t_ns) {
+  constexpr int64_t kInputsPerCheck = 10;
+  if (++inputs_ % kInputsPerCheck == 0) world_->input_faults.Set(t_ns, FindInputFault());
 }
 
-// A doubt decays half as fast as it grows.
+std::string EstimationStage::FindInputFault() const {
+  const std::string fault = input_check_.Finding();
+  if (!fault.empty()) return fault;
+  if (!world_->rotation_check.finding().empty()) return world_->rotation_check.finding();
+  if (!estimator_->SeesUnfeltMotion()) return "";
+  return "the camera sees motion that the IMU does not feel: something that moves fills the view "
+         "(a train, the deck of a ship), or the IMU does not belong to this camera; meanwhile the "
+         "images move no estimate and start none";
+}
+
 void EstimationStage::CheckRotations(const FrameMeasurement& measurement,
                                      const EstimatorOutput& output) {
-  const double interval = ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns);
   const bool in_doubt = !output.has_pose || output.contradicted || output.imu_noise_scale > 1;
-  double& doubt = world_->doubt;
-  doubt = std::clamp(doubt + (in_doubt ? interval : -0.5 * interval), 0.0, kMaxDoubt);
-  world_->rotation_check.Add(measurement, doubt > kLongDoubt);
+  world_->doubt.Add(ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns),
+                    in_doubt);
+  world_->rotation_check.Add(measurement, world_->doubt.IsLong());
 }
 
 const std::string& EstimationStage::LensWarning() const { return estimator_->lens().warning(); }

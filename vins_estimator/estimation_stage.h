@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/finding.h"
 #include "common/measurements.h"
 #include "common/streams/drop_counts.h"
 #include "vins_estimator/input/input_check.h"
@@ -66,9 +67,8 @@ class EstimationStage {
   // Describes a distortion model that does not fit the lens; empty if it fits (LensMonitor).
   const std::string& LensWarning() const;
   std::vector<ResidualRing> ResidualRings() const;
-  // Returns what is wrong with the input as a whole, with the topic and what to do. Returns an
-  // empty string if nothing is.
-  std::string InputFinding() const;
+  // Returns what is wrong with the input as a whole, or was since the last restart.
+  const Finding& InputFinding() const;
 
   // Describes what is wrong with the second camera (its calibration, the time of its exposure, or
   // the length of its baseline) and with measured depths. Empty if nothing is.
@@ -87,6 +87,9 @@ class EstimationStage {
   struct PerWorld;
 
   std::optional<EstimatedFrame> Process(std::optional<FrameMeasurement> measurement);
+  // Looks for what is wrong with the input, at every tenth call only.
+  void CheckInput(int64_t t_ns);
+  std::string FindInputFault() const;
   // Reinitializes if the clock was set: the estimate is unrelated to the new timestamps.
   void Follow(ImuStream::Clock clock);
   void StartOver(const std::string& reason);
@@ -100,6 +103,7 @@ class EstimationStage {
   InputCheck input_check_;
   MeasurementSync sync_;
   std::unique_ptr<PerWorld> world_;
+  int64_t inputs_ = 0;  // IMU samples and images
   int64_t frames_ = 0;
   int64_t frames_repeated_ = 0;  // repeated images, whose features were ignored
   int64_t resets_ = 0;

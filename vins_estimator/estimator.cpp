@@ -73,9 +73,8 @@ EstimatorOutput Estimator::Use(const FrameMeasurement& measurement, int features
   const StandstillDetector& detector = world_.standstill_detector;
   const bool scene_moves = standstill && standstill->scene_moves;
   const bool may_move = !world_.odometry.started() || detector.doubts_camera();
-  if (scene_moves || (may_move && detector.sees_unfelt_motion())) {
-    unfelt_motion_ += ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns);
-  }
+  world_.unfelt_motion.Add(ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns),
+                           scene_moves || (may_move && detector.sees_unfelt_motion()));
   if (!world_.odometry.started()) return Initialize(measurement);
   const bool ignores_features = scene_moves || detector.doubts_camera();
   return ignores_features ? Track(WithoutFeatures(measurement), standstill, features_observed)
@@ -131,11 +130,12 @@ EstimatorOutput Estimator::Track(const FrameMeasurement& measurement,
   return std::move(tracked.output);
 }
 
-// Resets everything but the bridge and the camera's rotation; reinitializes with the next
-// measurement.
+// Resets everything but the bridge, the camera's rotation and the time without felt motion;
+// reinitializes with the next measurement.
 bool Estimator::GiveUp(const Failure& failure) {
   PerWorld lost = std::exchange(world_, PerWorld(config_, options_));
   world_.newest = lost.newest;
+  world_.unfelt_motion = lost.unfelt_motion;
   world_.initializer.KeepRotation(lost.initializer);
   const bool begins_world = failure.has_drifted || !lost.bridge.Begin(failure.why);
   if (!begins_world) world_.bridge = std::move(lost.bridge);

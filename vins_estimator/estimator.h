@@ -5,6 +5,7 @@
 
 #include "common/config/config.h"
 #include "common/measurements.h"
+#include "common/recent_time.h"
 #include "vins_estimator/bridging/frame_bridge.h"
 #include "vins_estimator/estimator_options.h"
 #include "vins_estimator/imu/standstill_detector.h"
@@ -36,8 +37,8 @@ class Estimator {
   // Fit of the distortion model, over all world frames.
   const LensMonitor& lens() const { return lens_; }
 
-  // Time during which images showed motion that the IMU did not measure, in all world frames [s].
-  double unfelt_motion() const { return unfelt_motion_; }
+  // Returns whether the images have shown motion for long that the IMU does not measure.
+  bool SeesUnfeltMotion() const { return world_.unfelt_motion.IsLong(); }
 
   // Current estimate of the time offset td [s], with which MeasurementSync should cut the IMU
   // samples.
@@ -49,6 +50,7 @@ class Estimator {
     PerWorld(const Config& config, const EstimatorOptions& options);
 
     std::optional<MeasurementEnd> newest;
+    RecentTime unfelt_motion;
     Initializer initializer;
     StandstillDetector standstill_detector;
     std::optional<RollingShutter> rolling_shutter;  // if the camera has one
@@ -74,7 +76,6 @@ class Estimator {
   const EstimatorOptions options_;
   PerWorld world_;
   LensMonitor lens_;
-  double unfelt_motion_ = 0;  // [s]
 };
 
 }  // namespace plm_vins

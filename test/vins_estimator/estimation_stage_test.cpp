@@ -243,7 +243,7 @@ std::string ReportOf(const EstimationStage& stage, const EstimatorOutput& newest
        << newest.contradicted << newest.on_imu_alone << newest.keyframe << newest.stationary
        << newest.imu_doubted << ' ' << newest.counts.points_in_window << ' '
        << newest.counts.known_rejected << ' ' << newest.delay.value_or(0)
-       << " input: " << stage.InputFinding() << "; IMU: " << stage.ImuContradiction()
+       << " input: " << stage.InputFinding().text << "; IMU: " << stage.ImuContradiction()
        << "; companions: " << stage.CompanionFault();
   return text.str();
 }
@@ -279,18 +279,18 @@ TEST(EstimationStage, ReportsAfterARestartWhatANewOneReports) {
   }
   EstimationStage fresh = StageFor(flight), restarted = StageFor(flight);
   ReportsOf(bad, &restarted);
-  EXPECT_NE(restarted.InputFinding(), "");
+  EXPECT_NE(restarted.InputFinding().text, "");
   restarted.Reset("played again");
   EXPECT_EQ(ReportsOf(flight, &restarted), ReportsOf(flight, &fresh));
   EXPECT_EQ(restarted.queued_frames(), fresh.queued_frames());
 }
 
-// The stage finds out by itself that stamps jumped back, and judges the rotations anew.
+// The stage finds out by itself that stamps jumped back, and judges the rotations again.
 TEST(EstimationStage, FindsAWrongRotationAfterStampsJumpedBack) {
   testing::SimulatedFlight flight = GentleFlightFor(8);
   EstimationStage stage = StageFor(flight);
   Fly(flight, &stage);
-  EXPECT_EQ(stage.InputFinding(), "");
+  EXPECT_EQ(stage.InputFinding().text, "");
   for (FrameMeasurement& frame : flight.frames) {
     frame.t_ns -= 100'000'000'000;
     frame.points.t_ns = frame.t_ns;
@@ -298,8 +298,8 @@ TEST(EstimationStage, FindsAWrongRotationAfterStampsJumpedBack) {
     for (ImuSample& sample : frame.imu) sample.t_ns -= 100'000'000'000;
   }
   Fly(flight, &stage);
-  EXPECT_EQ(stage.InputFinding().rfind("extrinsicRotation is wrong by 90 deg", 0), 0u)
-      << stage.InputFinding();
+  EXPECT_EQ(stage.InputFinding().text.rfind("extrinsicRotation is wrong by 90 deg", 0), 0u)
+      << stage.InputFinding().text;
 }
 
 // If repeated images counted as observations, they would hold the position for two seconds while
@@ -361,8 +361,8 @@ TEST(EstimationStage, DoesNotBlameTheNoiseForAWrongCalibration) {
   EstimationStage stage = StageFor(flight);
   Fly(flight, &stage);
   const std::string contradiction = stage.ImuContradiction();
-  EXPECT_EQ(stage.InputFinding().rfind("extrinsicRotation is wrong by 17 deg", 0), 0u)
-      << stage.InputFinding();
+  EXPECT_EQ(stage.InputFinding().text.rfind("extrinsicRotation is wrong by 17 deg", 0), 0u)
+      << stage.InputFinding().text;
   EXPECT_EQ(contradiction.find("acc_n"), std::string::npos) << contradiction;
   EXPECT_EQ(contradiction.find("gyr_n"), std::string::npos) << contradiction;
 }

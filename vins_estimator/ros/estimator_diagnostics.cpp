@@ -89,14 +89,14 @@ void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapp
   if (late)
     state += "; late: poses are " + std::to_string(std::lround(1e3 * pose_age_)) + " ms old";
   if (newest_.on_imu_alone) state += "; blind: dead reckoning by the IMU";
-  if (!input_finding_.empty()) state += "; " + input_finding_;
+  if (!input_finding_.text.empty()) state += "; " + input_finding_.text;
   if (!imu_contradiction_.empty()) state += "; " + imu_contradiction_;
   if (!lens_warning_.empty()) state += "; " + lens_warning_;
   if (!companion_fault_.empty()) state += "; " + companion_fault_;
   if (newest_.contradicted) state += "; the camera contradicts the state";
   const bool fine = tracking && !lines_are_missing_ && !late && !newest_.on_imu_alone &&
-                    !newest_.contradicted && input_finding_.empty() && imu_contradiction_.empty() &&
-                    lens_warning_.empty() && companion_fault_.empty();
+                    !newest_.contradicted && !input_finding_.is_present &&
+                    imu_contradiction_.empty() && lens_warning_.empty() && companion_fault_.empty();
   status->summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN, state);
 }
 

@@ -63,7 +63,8 @@ class EstimatorDiagnostics {
   EstimatorReport newest_;
   int64_t bridged_losses_ = 0;
   int64_t imu_doubts_ = 0;
-  std::string input_finding_, imu_contradiction_;
+  Finding input_finding_;
+  std::string imu_contradiction_;
   std::string lens_warning_;
   std::string companion_fault_;
   double pose_age_ = 0;       // [s]

@@ -6,9 +6,13 @@
 #include <utility>
 
 #include "common/format.h"
+#include "common/recent_time.h"
+#include "common/streams/stream_rhythm.h"
 #include "vins_estimator/estimator.h"
 #include "vins_estimator/imu/imu_gap.h"
+#include "vins_estimator/imu/imu_noise_meter.h"
 #include "vins_estimator/initialization/rotation_check.h"
+#include "vins_estimator/input/repeated_image_detector.h"
 #include "vins_estimator/monitoring/companion_report.h"
 #include "vins_estimator/monitoring/contradiction_report.h"
 #include "vins_estimator/uncertainty/imu_noise_estimate.h"
@@ -27,9 +31,6 @@ double LeastSpeed(const EstimatorOutput& output) {
 // calibration, 3 to 6 with td off by 30 ms or focal lengths off by 15 %.
 constexpr double kContradictingNoise = 2.5;
 
-// Time in doubt or without a pose after which the cause is searched for, and its limit [s].
-constexpr double kLongDoubt = 2, kMaxDoubt = 6;
-
 // Returns whether the estimated noise is at its upper limit.
 bool IsAtLimit(double density, double configured_density) {
   return density > 0.999 * kMostNoise * configured_density;
@@ -46,29 +47,44 @@ MeasurementSync::Options MakeSyncOptions(const Config& config, double max_wait) 
 
 }  // namespace
 
+struct EstimationStage::PerWorld {
+  explicit PerWorld(const Config& config)
+      : rotation_check(config.sensor, config.estimator.point_noise),
+        repeated_images(config.sensor.imu_noise) {}
+
+  RotationCheck rotation_check;
+  RecentTime doubt;  // with doubts or without a pose
+  FindingMemory input_faults;
+  RepeatedImageDetector repeated_images;
+  double least_speed = 0;  // lower bound at the newest image [m/s]
+  ImuNoiseMeter imu_noise_meter;
+  StreamRhythm imu_rhythm, image_rhythm;
+  EstimatorReport newest;
+};
+
 EstimationStage::EstimationStage(const Config& config, double max_wait)
-    : imu_rate_(config.sensor.imu_rate),
-      configured_noise_(config.sensor.imu_noise),
+    : config_(config),
       estimator_(std::make_unique<Estimator>(config)),
       input_check_(config.sensor),
-      rotation_check_(std::make_unique<RotationCheck>(config.sensor, config.estimator.point_noise)),
       sync_(MakeSyncOptions(config, max_wait)),
-      repeated_images_(config.sensor.imu_noise),
-      imu_noise_(config.sensor.imu_noise) {}
+      world_(std::make_unique<PerWorld>(config)) {}
 
 EstimationStage::~EstimationStage() = default;
 
 void EstimationStage::AddImu(const ImuSample& sample) {
   const ImuSample spread = input_check_.AddImu(sample);
-  imu_noise_meter_.Add(spread);
-  imu_rhythm_.Add(spread.t_ns);
-  sync_.AddImu(spread);
+  Follow(sync_.AddImu(spread));
+  world_->imu_noise_meter.Add(spread);
+  world_->imu_rhythm.Add(spread.t_ns);
+  CheckInput(spread.t_ns);
 }
 
 void EstimationStage::AddPoints(PointFrame frame) {
-  input_check_.AddImage(frame.t_ns);
-  image_rhythm_.Add(frame.t_ns);
-  sync_.AddPoints(std::move(frame));
+  const int64_t t_ns = frame.t_ns;
+  input_check_.AddImage(t_ns);
+  Follow(sync_.AddPoints(std::move(frame)));
+  world_->image_rhythm.Add(t_ns);
+  CheckInput(t_ns);
 }
 
 DropCounts EstimationStage::Drops() const {
@@ -97,61 +113,68 @@ DropCounts EstimationStage::Drops() const {
 }
 
 std::string EstimationStage::ImuContradiction() const {
-  const double imu_interval = imu_rhythm_.Interval();
+  const double imu_interval = world_->imu_rhythm.Interval();
   if (imu_interval > kMaxImuInterval) {
     return Format("the IMU rate is %.1f Hz; at least %.0f Hz is needed: raise the driver's rate",
                   1 / imu_interval, 1 / kMaxImuInterval);
   }
+  const EstimatorReport& newest = world_->newest;
+  const ImuNoise& configured = config_.sensor.imu_noise;
+  const ImuNoise& noise = newest.has_pose ? newest.imu_noise : configured;
   ContradictionEvidence evidence;
-  evidence.noise_factor = std::max({std::sqrt(imu_noise_scale_),
-                                    imu_noise_.accel_density / NoiseOfSamples().accel_density,
-                                    imu_noise_.gyro_density / NoiseOfSamples().gyro_density});
-  const bool at_limit = IsAtLimit(imu_noise_.accel_density, configured_noise_.accel_density) ||
-                        IsAtLimit(imu_noise_.gyro_density, configured_noise_.gyro_density);
-  if (imu_noise_scale_ <= 1 && evidence.noise_factor < kContradictingNoise && !delay_ &&
+  evidence.noise_factor = std::max({std::sqrt(newest.imu_noise_scale),
+                                    noise.accel_density / NoiseOfSamples().accel_density,
+                                    noise.gyro_density / NoiseOfSamples().gyro_density});
+  const bool at_limit = IsAtLimit(noise.accel_density, configured.accel_density) ||
+                        IsAtLimit(noise.gyro_density, configured.gyro_density);
+  if (newest.imu_noise_scale <= 1 && evidence.noise_factor < kContradictingNoise && !newest.delay &&
       !at_limit) {
     return "";
   }
-  evidence.delay = delay_;
-  evidence.imu_jitter = imu_rhythm_.Jitter();
-  evidence.image_jitter = image_rhythm_.Jitter();
-  evidence.imu_rate = imu_interval > 0 ? 1 / imu_interval : imu_rate_;
-  evidence.configured_imu_rate = imu_rate_;
-  evidence.accel_noise_factor = imu_noise_meter_.accel_density() / configured_noise_.accel_density;
-  evidence.gyro_noise_factor = imu_noise_meter_.gyro_density() / configured_noise_.gyro_density;
+  const ImuNoiseMeter& meter = world_->imu_noise_meter;
+  evidence.delay = newest.delay;
+  evidence.imu_jitter = world_->imu_rhythm.Jitter();
+  evidence.image_jitter = world_->image_rhythm.Jitter();
+  evidence.configured_imu_rate = config_.sensor.imu_rate;
+  evidence.imu_rate = imu_interval > 0 ? 1 / imu_interval : evidence.configured_imu_rate;
+  evidence.accel_noise_factor = meter.accel_density() / configured.accel_density;
+  evidence.gyro_noise_factor = meter.gyro_density() / configured.gyro_density;
   using Rotations = ContradictionEvidence::Rotations;
-  if (rotation_check_->agrees()) evidence.rotations = Rotations::kAgree;
-  if (!rotation_check_->finding().empty()) evidence.rotations = Rotations::kExplained;
+  if (world_->rotation_check.agrees()) evidence.rotations = Rotations::kAgree;
+  if (!world_->rotation_check.finding().empty()) evidence.rotations = Rotations::kExplained;
   return DescribeContradiction(evidence);
 }
 
 ImuNoise EstimationStage::NoiseOfSamples() const {
-  ImuNoise noise = configured_noise_;
-  noise.accel_density = std::max(noise.accel_density, imu_noise_meter_.accel_density());
-  noise.gyro_density = std::max(noise.gyro_density, imu_noise_meter_.gyro_density());
+  ImuNoise noise = config_.sensor.imu_noise;
+  noise.accel_density = std::max(noise.accel_density, world_->imu_noise_meter.accel_density());
+  noise.gyro_density = std::max(noise.gyro_density, world_->imu_noise_meter.gyro_density());
   return noise;
 }
 
-std::string EstimationStage::InputFinding() const {
-  std::string finding = input_check_.Finding();
-  if (!finding.empty()) return finding;
-  if (!rotation_check_->finding().empty()) return rotation_check_->finding();
-  const double unfelt_motion = estimator_->unfelt_motion();
-  if (unfelt_motion < kLongDoubt) return "";
-  return Format(
-      "the camera sees motion that the IMU does not feel, for %.1f s: something that moves fills "
-      "the view (a train, the deck of a ship), or the IMU does not belong to this camera; "
-      "meanwhile the images move no estimate and start none",
-      unfelt_motion);
+const Finding& EstimationStage::InputFinding() const { return world_->input_faults.finding(); }
+
+void EstimationStage::CheckInput(int64_t t_ns) {
+  constexpr int64_t kInputsPerCheck = 10;
+  if (++inputs_ % kInputsPerCheck == 0) world_->input_faults.Set(t_ns, FindInputFault());
 }
 
-// A doubt decays half as fast as it grows.
+std::string EstimationStage::FindInputFault() const {
+  const std::string fault = input_check_.Finding();
+  if (!fault.empty()) return fault;
+  if (!world_->rotation_check.finding().empty()) return world_->rotation_check.finding();
+  if (!estimator_->SeesUnfeltMotion()) return "";
+  return "the camera sees motion that the IMU does not feel: something that moves fills the view "
+         "(a train, the deck of a ship), or the IMU does not belong to this camera; meanwhile the "
+         "images move no estimate and start none";
+}
+
 void EstimationStage::CheckRotations(const FrameMeasurement& measurement,
                                      const EstimatorOutput& output) {
-  const double interval = ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns);
   const bool in_doubt = !output.has_pose || output.contradicted || output.imu_noise_scale > 1;
-  doubt_ = std::clamp(doubt_ + (in_doubt ? interval : -0.5 * interval), 0.0, kMaxDoubt);
-  rotation_check_->Add(measurement, doubt_ > kLongDoubt);
+  world_->doubt.Add(ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns),
+                    in_doubt);
+  world_->rotation_check.Add(measurement, world_->doubt.IsLong());
 }
 
 const std::string& EstimationStage::LensWarning() const { return estimator_->lens().warning(); }
@@ -161,7 +184,7 @@ std::vector<ResidualRing> EstimationStage::ResidualRings() const {
 }
 
 std::string EstimationStage::CompanionFault() const {
-  return DescribeFaults(second_camera_, depth_);
+  return DescribeFaults(world_->newest.second_camera, world_->newest.depth);
 }
 
 void EstimationStage::Reset(const std::string& reason) {
@@ -169,16 +192,16 @@ void EstimationStage::Reset(const std::string& reason) {
   StartOver(reason);
 }
 
+void EstimationStage::Follow(ImuStream::Clock clock) {
+  if (clock == ImuStream::Clock::kSetBack) StartOver("timestamps jumped back");
+  if (clock == ImuStream::Clock::kSetOn)
+    StartOver("no IMU for more than a minute, or its clock jumped forward");
+}
+
 // If there was no output since the last start, there is no world frame to end and to announce.
 void EstimationStage::StartOver(const std::string& reason) {
   estimator_->Reset();
-  repeated_images_.Reset();
-  least_speed_ = 0;
-  imu_noise_ = configured_noise_;
-  imu_noise_scale_ = 1;
-  delay_.reset();
-  second_camera_ = {};
-  depth_ = {};
+  world_ = std::make_unique<PerWorld>(config_);
   sync_.SetTimeOffset(estimator_->time_offset());
   if (reinitializing_) return;
   ++resets_;
@@ -186,20 +209,10 @@ void EstimationStage::StartOver(const std::string& reason) {
   reinitializing_ = true;
 }
 
-void EstimationStage::FollowClock() {
-  const SyncStatistics now = sync_.statistics();
-  if (now.leaps_ahead > leaps_ahead_)
-    StartOver("no IMU for more than a minute, or its clock jumped forward");
-  if (now.jumps_back > jumps_back_) StartOver("timestamps jumped back");
-  leaps_ahead_ = now.leaps_ahead;
-  jumps_back_ = now.jumps_back;
-}
-
 std::optional<EstimatedFrame> EstimationStage::Process(
     std::optional<FrameMeasurement> measurement) {
   if (!measurement) return std::nullopt;
-  FollowClock();
-  if (repeated_images_.Add(*measurement, least_speed_)) {
+  if (world_->repeated_images.Add(*measurement, world_->least_speed)) {
     ++frames_repeated_;
     measurement->points.points.clear();
     measurement->lines.reset();
@@ -209,12 +222,8 @@ std::optional<EstimatedFrame> EstimationStage::Process(
   frame.points = measurement->points;
   if (measurement->lines) frame.lines = *measurement->lines;
   ++frames_;
-  if (frame.output.has_pose) imu_noise_ = frame.output.imu_noise;
-  least_speed_ = LeastSpeed(frame.output);
-  imu_noise_scale_ = frame.output.imu_noise_scale;
-  delay_ = frame.output.delay;
-  second_camera_ = frame.output.second_camera;
-  depth_ = frame.output.depth;
+  world_->newest = frame.output;
+  world_->least_speed = LeastSpeed(frame.output);
   if (frame.output.restarted) ++resets_;
   reinitializing_ = false;
   if (restart_reason_) {

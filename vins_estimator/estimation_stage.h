@@ -11,20 +11,17 @@
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/finding.h"
 #include "common/measurements.h"
 #include "common/streams/drop_counts.h"
-#include "common/streams/stream_rhythm.h"
-#include "vins_estimator/imu/imu_noise_meter.h"
 #include "vins_estimator/input/input_check.h"
 #include "vins_estimator/input/measurement_sync.h"
-#include "vins_estimator/input/repeated_image_detector.h"
 #include "vins_estimator/state/estimator_output.h"
 #include "vins_estimator/state/residual_ring.h"
 
 namespace plm_vins {
 
 class Estimator;
-class RotationCheck;
 
 // The estimate of an image, with the other data to publish.
 struct EstimatedFrame {
@@ -70,9 +67,8 @@ class EstimationStage {
   // Describes a distortion model that does not fit the lens; empty if it fits (LensMonitor).
   const std::string& LensWarning() const;
   std::vector<ResidualRing> ResidualRings() const;
-  // Returns what is wrong with the input as a whole, with the topic and what to do. Returns an
-  // empty string if nothing is.
-  std::string InputFinding() const;
+  // Returns what is wrong with the input as a whole, or was since the last restart.
+  const Finding& InputFinding() const;
 
   // Describes what is wrong with the second camera (its calibration, the time of its exposure, or
   // the length of its baseline) and with measured depths. Empty if nothing is.
@@ -87,35 +83,30 @@ class EstimationStage {
   DropCounts Drops() const;  // unusable inputs by cause
 
  private:
+  // All state that does not outlive a restart, besides that of the estimator.
+  struct PerWorld;
+
   std::optional<EstimatedFrame> Process(std::optional<FrameMeasurement> measurement);
+  // Looks for what is wrong with the input, at every tenth call only.
+  void CheckInput(int64_t t_ns);
+  std::string FindInputFault() const;
+  // Reinitializes if the clock was set: the estimate is unrelated to the new timestamps.
+  void Follow(ImuStream::Clock clock);
   void StartOver(const std::string& reason);
   // Returns the configured noise, or the noise that the samples show if that is greater.
   ImuNoise NoiseOfSamples() const;
   // Searches for the cause (RotationCheck) if the estimate stays in doubt.
   void CheckRotations(const FrameMeasurement& measurement, const EstimatorOutput& output);
-  // Reinitializes after a clock change: the estimate is unrelated to the new timestamps.
-  void FollowClock();
 
-  const double imu_rate_;  // configured IMU rate [Hz]
-  const ImuNoise configured_noise_;
+  const Config config_;
   const std::unique_ptr<Estimator> estimator_;  // hides the solver from users of this header
   InputCheck input_check_;
-  const std::unique_ptr<RotationCheck> rotation_check_;
-  double doubt_ = 0;  // time in doubt or without a pose [s]
-  ImuNoiseMeter imu_noise_meter_;
   MeasurementSync sync_;
-  RepeatedImageDetector repeated_images_;
-  double least_speed_ = 0;  // lower bound at the newest image [m/s]
-  StreamRhythm imu_rhythm_, image_rhythm_;
-  ImuNoise imu_noise_;
-  double imu_noise_scale_ = 1;
-  std::optional<double> delay_;  // [s]
-  SecondCameraFaults second_camera_;
-  DepthFaults depth_;
+  std::unique_ptr<PerWorld> world_;
+  int64_t inputs_ = 0;  // IMU samples and images
   int64_t frames_ = 0;
   int64_t frames_repeated_ = 0;  // repeated images, whose features were ignored
   int64_t resets_ = 0;
-  int64_t jumps_back_ = 0, leaps_ahead_ = 0;   // handled so far
   bool reinitializing_ = true;                 // no image since the start or the last reset
   std::optional<std::string> restart_reason_;  // for the next output
 };

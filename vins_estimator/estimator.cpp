@@ -19,7 +19,7 @@ FrameMeasurement WithoutFeatures(FrameMeasurement measurement) {
 
 }  // namespace
 
-Estimator::State::State(const Config& config, const EstimatorOptions& options)
+Estimator::PerWorld::PerWorld(const Config& config, const EstimatorOptions& options)
     : initializer(config),
       standstill_detector(config.sensor.imu_noise),
       odometry(config, options),
@@ -28,15 +28,15 @@ Estimator::State::State(const Config& config, const EstimatorOptions& options)
 }
 
 Estimator::Estimator(const Config& config)
-    : config_(config), options_(config_), state_(config_, options_), lens_(config_.sensor.camera) {}
+    : config_(config), options_(config_), world_(config_, options_), lens_(config_.sensor.camera) {}
 
-void Estimator::Reset() { state_ = State(config_, options_); }
+void Estimator::Reset() { world_ = PerWorld(config_, options_); }
 
 EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
-  CheckMeasurement(measurement, state_.newest);
-  state_.newest = EndOf(measurement);
+  CheckMeasurement(measurement, world_.newest);
+  world_.newest = EndOf(measurement);
   const Stopwatch stopwatch;
-  const bool corrects = state_.rolling_shutter || options_.problem.estimate_intrinsics;
+  const bool corrects = world_.rolling_shutter || options_.problem.estimate_intrinsics;
   const int points = static_cast<int>(measurement.points.points.size());
   const int lines = measurement.lines ? static_cast<int>(measurement.lines->lines.size()) : 0;
   EstimatorOutput output =
@@ -49,9 +49,9 @@ EstimatorOutput Estimator::Process(const FrameMeasurement& measurement) {
 }
 
 FrameMeasurement Estimator::Correct(FrameMeasurement measurement) {
-  const SlidingWindow& window = state_.odometry.window();
-  if (state_.rolling_shutter) {
-    measurement = state_.rolling_shutter->ToStamp(std::move(measurement), window.T_B_C().rotation,
+  const SlidingWindow& window = world_.odometry.window();
+  if (world_.rolling_shutter) {
+    measurement = world_.rolling_shutter->ToStamp(std::move(measurement), window.T_B_C().rotation,
                                                   config_.sensor.ReadoutTime());
   }
   if (options_.problem.estimate_intrinsics) {
@@ -68,15 +68,14 @@ FrameMeasurement Estimator::Correct(FrameMeasurement measurement) {
 EstimatorOutput Estimator::Use(const FrameMeasurement& measurement, int features_observed) {
   std::optional<StandstillDetector::Standstill> standstill;
   if (config_.estimator.zero_velocity_update) {
-    standstill = state_.standstill_detector.Add(measurement, state_.odometry.MedianDepth());
+    standstill = world_.standstill_detector.Add(measurement, world_.odometry.MedianDepth());
   }
-  const StandstillDetector& detector = state_.standstill_detector;
+  const StandstillDetector& detector = world_.standstill_detector;
   const bool scene_moves = standstill && standstill->scene_moves;
-  const bool may_move = !state_.odometry.started() || detector.doubts_camera();
-  if (scene_moves || (may_move && detector.sees_unfelt_motion())) {
-    unfelt_motion_ += ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns);
-  }
-  if (!state_.odometry.started()) return Initialize(measurement);
+  const bool may_move = !world_.odometry.started() || detector.doubts_camera();
+  world_.unfelt_motion.Add(ToSeconds(measurement.imu.back().t_ns - measurement.imu.front().t_ns),
+                           scene_moves || (may_move && detector.sees_unfelt_motion()));
+  if (!world_.odometry.started()) return Initialize(measurement);
   const bool ignores_features = scene_moves || detector.doubts_camera();
   return ignores_features ? Track(WithoutFeatures(measurement), standstill, features_observed)
                           : Track(measurement, standstill, features_observed);
@@ -84,31 +83,31 @@ EstimatorOutput Estimator::Use(const FrameMeasurement& measurement, int features
 
 EstimatorOutput Estimator::Initialize(const FrameMeasurement& measurement) {
   const Stopwatch stopwatch;
-  state_.bridge.AddLost(measurement.imu, measurement.t_ns);
-  auto result = state_.initializer.Add(measurement);
+  world_.bridge.AddLost(measurement.imu, measurement.t_ns);
+  auto result = world_.initializer.Add(measurement);
   const double milliseconds = stopwatch.Milliseconds();
   EstimatorOutput output;
   if (result) {
     InitialUncertainty uncertainty = UncertaintyOf(config_.sensor, result->from_standstill);
     // A bias along gravity shows; it is hardly larger than those across, which tilt the start.
     uncertainty.accel_bias = std::max(uncertainty.accel_bias, result->accel_bias);
-    const bool is_bridged = state_.bridge.begun() && KeepFrame(&*result, &uncertainty);
-    output = state_.odometry.Start(*result, uncertainty);
+    const bool is_bridged = world_.bridge.begun() && KeepFrame(&*result, &uncertainty);
+    output = world_.odometry.Start(*result, uncertainty);
     output.bridged = is_bridged;
-    output.restarted = state_.bridge.begun() && !is_bridged;
+    output.restarted = world_.bridge.begun() && !is_bridged;
   } else {
-    output.restarted = !state_.bridge.CanConnect(state_.initializer.begin_ns());
+    output.restarted = !world_.bridge.CanConnect(world_.initializer.begin_ns());
   }
-  output.reason = output.restarted ? state_.bridge.why() : state_.initializer.reason();
+  output.reason = output.restarted ? world_.bridge.why() : world_.initializer.reason();
   output.timings.initialization = milliseconds;
-  if (result || output.restarted) state_.bridge.Clear();
+  if (result || output.restarted) world_.bridge.Clear();
   return output;
 }
 
 bool Estimator::KeepFrame(InitializationResult* result, InitialUncertainty* uncertainty) const {
   const FrameState fresh = result->frames.front().state;
-  const UncertainState* known = state_.bridge.At(fresh.t_ns);
-  if (known == nullptr || !DifferByFrame(*known, fresh)) return false;
+  const auto known = world_.bridge.At(fresh.t_ns);
+  if (!known || !DifferByFrame(*known, fresh)) return false;
   const FramePlacement placement(known->state, fresh);
   for (InitialFrame& frame : result->frames) frame.state = placement.Apply(frame.state);
   uncertainty->position = PositionDeviation(*known);
@@ -120,8 +119,8 @@ EstimatorOutput Estimator::Track(const FrameMeasurement& measurement,
                                  const std::optional<StandstillDetector::Standstill>& standstill,
                                  int features_observed) {
   WindowOdometry::Tracked tracked =
-      state_.odometry.Track(measurement, standstill, features_observed);
-  state_.bridge.AddTracked(measurement.imu, tracked.newest, tracked.covariance);
+      world_.odometry.Track(measurement, standstill, features_observed);
+  world_.bridge.AddTracked(measurement.imu, tracked.newest, tracked.covariance);
   lens_.Add(tracked.residuals);
   if (tracked.failure) {
     tracked.output.status = EstimatorStatus::kLost;
@@ -131,14 +130,15 @@ EstimatorOutput Estimator::Track(const FrameMeasurement& measurement,
   return std::move(tracked.output);
 }
 
-// Resets everything but the bridge and the camera's rotation; reinitializes with the next
-// measurement.
+// Resets everything but the bridge, the camera's rotation and the time without felt motion;
+// reinitializes with the next measurement.
 bool Estimator::GiveUp(const Failure& failure) {
-  State lost = std::exchange(state_, State(config_, options_));
-  state_.newest = lost.newest;
-  state_.initializer.KeepRotation(lost.initializer);
+  PerWorld lost = std::exchange(world_, PerWorld(config_, options_));
+  world_.newest = lost.newest;
+  world_.unfelt_motion = lost.unfelt_motion;
+  world_.initializer.KeepRotation(lost.initializer);
   const bool begins_world = failure.has_drifted || !lost.bridge.Begin(failure.why);
-  if (!begins_world) state_.bridge = std::move(lost.bridge);
+  if (!begins_world) world_.bridge = std::move(lost.bridge);
   return begins_world;
 }
 

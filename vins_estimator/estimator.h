@@ -5,6 +5,7 @@
 
 #include "common/config/config.h"
 #include "common/measurements.h"
+#include "common/recent_time.h"
 #include "vins_estimator/bridging/frame_bridge.h"
 #include "vins_estimator/estimator_options.h"
 #include "vins_estimator/imu/standstill_detector.h"
@@ -36,19 +37,20 @@ class Estimator {
   // Fit of the distortion model, over all world frames.
   const LensMonitor& lens() const { return lens_; }
 
-  // Time during which images showed motion that the IMU did not measure, in all world frames [s].
-  double unfelt_motion() const { return unfelt_motion_; }
+  // Returns whether the images have shown motion for long that the IMU does not measure.
+  bool SeesUnfeltMotion() const { return world_.unfelt_motion.IsLong(); }
 
   // Current estimate of the time offset td [s], with which MeasurementSync should cut the IMU
   // samples.
-  double time_offset() const { return state_.odometry.window().td; }
+  double time_offset() const { return world_.odometry.window().td; }
 
  private:
-  // All state that is carried from image to image.
-  struct State {
-    State(const Config& config, const EstimatorOptions& options);
+  // All state that a restart recreates.
+  struct PerWorld {
+    PerWorld(const Config& config, const EstimatorOptions& options);
 
     std::optional<MeasurementEnd> newest;
+    RecentTime unfelt_motion;
     Initializer initializer;
     StandstillDetector standstill_detector;
     std::optional<RollingShutter> rolling_shutter;  // if the camera has one
@@ -72,9 +74,8 @@ class Estimator {
 
   const Config config_;
   const EstimatorOptions options_;
-  State state_;
+  PerWorld world_;
   LensMonitor lens_;
-  double unfelt_motion_ = 0;  // [s]
 };
 
 }  // namespace plm_vins

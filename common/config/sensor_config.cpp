@@ -124,13 +124,15 @@ ConfigKeys<ImuNoise> ImuNoiseKeys() {
   };
 }
 
-// The scale factors of a matrix are its singular values.
+// The scale factors of a matrix are its singular values. The axes of both frames are right-handed,
+// so the determinant is positive.
 ConfigKey<ImuSensor> CorrectionKey(const std::string& name, Eigen::Matrix3d ImuSensor::*field) {
   const auto set = [field](const Eigen::MatrixXd& matrix, ImuSensor& sensor) -> Problem {
     const Eigen::VectorXd scales = matrix.jacobiSvd().singularValues();
     if (scales.minCoeff() < kScaleRange.min || scales.maxCoeff() > kScaleRange.max) {
       return "is not a valid IMU correction; its scale factors must be " + ToText(kScaleRange);
     }
+    if (matrix.determinant() < 0) return "mirrors the axes; its determinant must be positive";
     sensor.*field = matrix;
     return std::nullopt;
   };

@@ -52,6 +52,7 @@ class ClockCheck {
     if (std::abs(t_ns - other.newest_ns) <= kApart_ns) {
       imu_.first_ns = imu_.newest_ns;
       images_.first_ns = images_.newest_ns;
+      found_.reset();
     } else if (!found_ && imu_.IsLong() && images_.IsLong()) {
       found_ = {images_.newest_ns, imu_.newest_ns};
     }

@@ -25,6 +25,9 @@ constexpr int kReduction = 4;          // of images in which only large motions 
 // Up to a tenth of a scene's tracks lie on equal parts by chance.
 constexpr int kMinCorners = 10;
 constexpr double kStillShare = 0.25;
+// Still parts have vanished if less than this share of their area is left; equal parts of the scene
+// remain.
+constexpr double kRemainder = 0.5;
 
 // Correlation of the windows around each pixel of two images, as the covariance and the product of
 // the standard deviations.
@@ -89,6 +92,11 @@ bool IsSameAt(const cv::Mat& gray_a, const cv::Mat& gray_b, const cv::Point& cen
   const double covariance = products / kPixels - mean_a * mean_b;
   return std::min(variance_a, variance_b) > kMinContrast * kMinContrast &&
          covariance > kSame * std::sqrt(variance_a * variance_b);
+}
+
+// Returns the share of a mask (CV_8UC1) that is not zero.
+double AreaOf(const cv::Mat& mask) {
+  return cv::countNonZero(mask) / static_cast<double>(mask.total());
 }
 
 // Counts the corners whose surroundings are the same in both images, which is far cheaper than
@@ -166,8 +174,11 @@ void StillParts::Compare(const Past& reference, const cv::Mat& gray,
   const bool was_masked = !moving_.empty();
   if (many_stand && (rate > kSureRate || SceneMoves(reference.image.gray, gray, turned))) {
     largest_share_ = std::max(largest_share_, standing / static_cast<double>(decided));
+    still_area_ = std::max(still_area_, AreaOf(still) / AreaOf(turned));
   } else if (!was_masked) {
     return;
+  } else if (AreaOf(turned) > 0.5 && AreaOf(still) < kRemainder * still_area_ * AreaOf(turned)) {
+    largest_share_ = still_area_ = 0;
   }
   cv::Mat around;
   cv::dilate(still, around, cv::Mat::ones(kWindow_px, kWindow_px, CV_8UC1));
@@ -176,10 +187,6 @@ void StillParts::Compare(const Past& reference, const cv::Mat& gray,
   moving_.setTo(0, around);
 }
 
-void StillParts::Reset() {
-  past_.clear();
-  compared_ns_.reset();
-  moving_.release();
-}
+void StillParts::Reset() { *this = StillParts(camera_); }
 
 }  // namespace plm_vins

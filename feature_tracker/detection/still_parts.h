@@ -34,7 +34,8 @@ class StillParts {
   // CV_8UC1, zero where the image stands still; empty if nothing does.
   const cv::Mat& moving() const { return moving_; }
 
-  // Largest share of the tracks that stood still in an image; zero if they were never masked.
+  // Largest share of the tracks that stood still in an image; zero if they were never masked, or
+  // if what stood still has vanished.
   double largest_share() const { return largest_share_; }
 
   void Reset();
@@ -56,6 +57,7 @@ class StillParts {
   std::optional<int64_t> compared_ns_;
   cv::Mat moving_;
   double largest_share_ = 0;
+  double still_area_ = 0;  // share of the image where the scene moves, with largest_share_
 };
 
 }  // namespace plm_vins

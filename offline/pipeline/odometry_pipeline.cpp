@@ -50,16 +50,17 @@ DropCounts OdometryPipeline::drops() const {
 }
 
 std::string OdometryPipeline::InputFinding() const {
-  const std::string images = image_stamps_.Finding("image_topic " + image_topic_);
-  return images.empty() ? back_end_.InputFinding() : images;
+  const std::string& images = stamp_faults_.finding().text;
+  return images.empty() ? back_end_.InputFinding().text : images;
 }
 
 std::vector<std::string> OdometryPipeline::Findings() const {
   std::vector<std::string> findings;
   const bool is_contradicted = contradicted_images_ >= kMinContradicted;
   for (const std::string& finding :
-       {InputFinding(), trackers_.StillPartsFinding(), trackers_.SecondCameraFinding(),
-        back_end_.LensWarning(), is_contradicted ? imu_contradiction_ : "", companion_fault_}) {
+       {InputFinding(), StillPartsFinding(), trackers_.SecondCameraFinding(),
+        back_end_.LensWarning(), is_contradicted ? imu_contradiction_ : "",
+        companion_faults_.finding().text}) {
     if (!finding.empty()) findings.push_back(finding);
   }
   return findings;
@@ -164,11 +165,13 @@ void OdometryPipeline::AddImage(const RecordingEvent& event, cv::Mat image) {
   } else {
     first_image_.Add(event.t_ns);
     image_stamps_.Add(event.t_ns);
+    stamp_faults_.Set(event.t_ns, image_stamps_.Finding("image_topic " + image_topic_));
     trackers_.AddImage({event.t_ns, std::move(image)});
   }
 }
 
 bool OdometryPipeline::EmitTracked(TrackedFeatures frame, const TrackedReceiver& emit) {
+  still_parts_.Set(frame.points.features.t_ns, trackers_.StillPartsFinding());
   // The last power of two is in the second half of any run, whatever its length.
   if (IsPowerOfTwo(++tracked_images_)) {
     points_image_ = trackers_.DrawPoints();
@@ -227,8 +230,7 @@ void OdometryPipeline::Report(EstimatedFrame estimated, const FrameCallback& on_
     imu_contradiction_ = contradiction;
     ++contradicted_images_;
   }
-  const std::string fault = back_end_.CompanionFault();
-  if (!fault.empty()) companion_fault_ = fault;
+  companion_faults_.Set(estimated.output.t_ns, back_end_.CompanionFault());
   PipelineFrame frame;
   const auto reported = unfinished_.find(estimated.output.t_ns);
   if (reported != unfinished_.end()) {

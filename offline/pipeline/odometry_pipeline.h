@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/config/config.h"
+#include "common/finding.h"
 #include "common/streams/constant_stamp.h"
 #include "common/streams/drop_counts.h"
 #include "offline/pipeline/feature_file.h"
@@ -83,7 +84,7 @@ class OdometryPipeline {
   // Returns what is wrong with the timestamps of the images or with the input as a whole, and what
   // to do; empty if nothing is. Names the topics as configured.
   std::string InputFinding() const;
-  std::string StillPartsFinding() const { return trackers_.StillPartsFinding(); }
+  std::string StillPartsFinding() const { return still_parts_.finding().text; }
   std::vector<ResidualRing> residual_rings() const { return back_end_.ResidualRings(); }
   // Describes what is wrong with the input, the most probable cause of errors first.
   std::vector<std::string> Findings() const;
@@ -125,9 +126,9 @@ class OdometryPipeline {
   std::function<bool()> is_end_ = [] { return false; };
   ConfirmedStamp first_image_, first_imu_;
   ConstantStamp image_stamps_;
+  FindingMemory stamp_faults_, still_parts_, companion_faults_;
   std::string imu_contradiction_;    // the last one that was not empty
   int64_t contradicted_images_ = 0;  // images with a contradiction
-  std::string companion_fault_;      // the last one that was not empty
   std::optional<int64_t> last_frame_ns_;
   int64_t images_ = 0;
   int64_t unreadable_images_ = 0;

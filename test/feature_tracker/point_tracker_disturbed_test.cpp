@@ -100,6 +100,14 @@ TEST_F(TurningCamera, DotsThatStandStillAreNotTracked) {
   }
 }
 
+// The projector is switched off, or the lens wiped.
+TEST_F(TurningCamera, DotsThatVanishAreNoFindingAnyMore) {
+  Turn(40, 0.006, 0.006, Dots(300));
+  EXPECT_NE(tracker_->StillPartsFinding(), "");
+  Turn(40, 0.006, 0.006, cv::Mat(kHeight, kWidth, CV_8U, cv::Scalar(0)));
+  EXPECT_EQ(tracker_->StillPartsFinding(), "");
+}
+
 TEST_F(TurningCamera, NothingStandsStillInACleanImage) {
   const cv::Mat none(kHeight, kWidth, CV_8U, cv::Scalar(0));
   EXPECT_GT(Turn(60, 0.006, 0.006, none).points.size(), 60u);

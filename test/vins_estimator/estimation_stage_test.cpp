@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <iomanip>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -226,13 +228,84 @@ int64_t CountRepeated(const EstimationStage& stage) {
   return -1;
 }
 
+testing::SimulatedFlight GentleFlightFor(double duration) {
+  testing::FlightPlan plan;
+  plan.duration = duration;
+  plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
+  return testing::PlannedFlight(plan).Simulate();
+}
+
+// Everything that the stage reports after an image, in words.
+std::string ReportOf(const EstimationStage& stage, const EstimatorOutput& newest) {
+  std::ostringstream text;
+  text << std::setprecision(17) << newest.t_ns << ' ' << ToString(newest.status) << ' '
+       << newest.imu_noise_scale << ' ' << newest.imu_noise.accel_density << ' '
+       << newest.contradicted << newest.on_imu_alone << newest.keyframe << newest.stationary
+       << newest.imu_doubted << ' ' << newest.counts.points_in_window << ' '
+       << newest.counts.known_rejected << ' ' << newest.delay.value_or(0)
+       << " input: " << stage.InputFinding().text << "; IMU: " << stage.ImuContradiction()
+       << "; companions: " << stage.CompanionFault();
+  return text.str();
+}
+
+// Runs the stage on a flight; returns its reports, and its positions to the last bit.
+std::vector<std::string> ReportsOf(const testing::SimulatedFlight& flight, EstimationStage* stage) {
+  std::vector<std::string> reports;
+  for (size_t i = 0; i < flight.frames.size(); ++i) {
+    const FrameMeasurement& frame = flight.frames[i];
+    for (size_t k = i > 0 ? 1 : 0; k < frame.imu.size(); ++k) stage->AddImu(frame.imu[k]);
+    stage->AddPoints(frame.points);
+    while (const auto estimate = stage->Pop()) {
+      std::ostringstream position;
+      position << std::hexfloat << estimate->output.state.position().transpose();
+      reports.push_back(ReportOf(*stage, estimate->output) + position.str());
+    }
+  }
+  return reports;
+}
+
+// The flight is played again from its start, after one that left many findings.
+TEST(EstimationStage, ReportsAfterARestartWhatANewOneReports) {
+  const testing::SimulatedFlight flight = GentleFlightFor(8);
+  testing::SimulatedFlight bad = flight;
+  for (FrameMeasurement& frame : bad.frames) {
+    for (PointObservation& point : frame.points.points) {
+      point.xy = {-point.xy.y(), point.xy.x()};  // the camera is mounted turned by 90 degrees
+    }
+    for (ImuSample& sample : frame.imu) {
+      const double sign = sample.t_ns / 5'000'000 % 2 == 0 ? 1 : -1;
+      sample.accel += sign * Eigen::Vector3d(2, 2, 2);  // vibration
+    }
+  }
+  EstimationStage fresh = StageFor(flight), restarted = StageFor(flight);
+  ReportsOf(bad, &restarted);
+  EXPECT_NE(restarted.InputFinding().text, "");
+  restarted.Reset("played again");
+  EXPECT_EQ(ReportsOf(flight, &restarted), ReportsOf(flight, &fresh));
+  EXPECT_EQ(restarted.queued_frames(), fresh.queued_frames());
+}
+
+// The stage finds out by itself that stamps jumped back, and judges the rotations again.
+TEST(EstimationStage, FindsAWrongRotationAfterStampsJumpedBack) {
+  testing::SimulatedFlight flight = GentleFlightFor(8);
+  EstimationStage stage = StageFor(flight);
+  Fly(flight, &stage);
+  EXPECT_EQ(stage.InputFinding().text, "");
+  for (FrameMeasurement& frame : flight.frames) {
+    frame.t_ns -= 100'000'000'000;
+    frame.points.t_ns = frame.t_ns;
+    for (PointObservation& point : frame.points.points) point.xy = {-point.xy.y(), point.xy.x()};
+    for (ImuSample& sample : frame.imu) sample.t_ns -= 100'000'000'000;
+  }
+  Fly(flight, &stage);
+  EXPECT_EQ(stage.InputFinding().text.rfind("extrinsicRotation is wrong by 90 deg", 0), 0u)
+      << stage.InputFinding().text;
+}
+
 // If repeated images counted as observations, they would hold the position for two seconds while
 // the vehicle moves.
 TEST(EstimationStage, RepeatedImageIsNotStandstill) {
-  testing::FlightPlan plan;
-  plan.duration = 12;
-  plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
-  testing::SimulatedFlight flight = testing::PlannedFlight(plan).Simulate();
+  testing::SimulatedFlight flight = GentleFlightFor(12);
   constexpr size_t kFrozen = 160, kThawed = 200;  // images
   for (size_t i = kFrozen; i < kThawed; ++i) {
     flight.frames[i].points.points = flight.frames[kFrozen - 1].points.points;
@@ -282,17 +355,14 @@ TEST(EstimationStage, ReportsFarTooSmallConfiguredNoise) {
 
 // The samples are as configured: neither acc_n nor gyr_n is the cause.
 TEST(EstimationStage, DoesNotBlameTheNoiseForAWrongCalibration) {
-  testing::FlightPlan plan;
-  plan.duration = 12;
-  plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
-  testing::SimulatedFlight flight = testing::PlannedFlight(plan).Simulate();
+  testing::SimulatedFlight flight = GentleFlightFor(12);
   flight.sensor.T_B_C.rotation *=
       Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
   EstimationStage stage = StageFor(flight);
   Fly(flight, &stage);
   const std::string contradiction = stage.ImuContradiction();
-  EXPECT_EQ(stage.InputFinding().rfind("extrinsicRotation is wrong by 17 deg", 0), 0u)
-      << stage.InputFinding();
+  EXPECT_EQ(stage.InputFinding().text.rfind("extrinsicRotation is wrong by 17 deg", 0), 0u)
+      << stage.InputFinding().text;
   EXPECT_EQ(contradiction.find("acc_n"), std::string::npos) << contradiction;
   EXPECT_EQ(contradiction.find("gyr_n"), std::string::npos) << contradiction;
 }

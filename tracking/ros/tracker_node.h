@@ -16,6 +16,7 @@
 
 #include "common/append.h"
 #include "common/config/config.h"
+#include "common/finding.h"
 #include "common/ros/geometry_conversion.h"
 #include "common/ros/image_conversion.h"
 #include "common/ros/image_subscription.h"
@@ -136,8 +137,7 @@ class TrackerNode {
   void AddImage(std::optional<ImageSample> image) {
     last_image_arrival_ = ros::WallTime::now();
     waits_for_first_image_ = false;
-    if (image) image_stamps_.Add(image->t_ns);
-    LogStamps();
+    if (image) CheckStamp(image->t_ns);
     if (image) stage_.AddImage(std::move(*image));
     ScheduleTracking();
     drop_warner_.Check(Drops());
@@ -153,11 +153,10 @@ class TrackerNode {
     ROS_WARN_STREAM("no messages on " << images_.topic() << "; " << advice.text);
   }
 
-  void LogStamps() {
-    const std::string finding = image_stamps_.Finding(images_.topic());
-    if (finding.empty() || stamps_are_logged_) return;
-    stamps_are_logged_ = true;
-    ROS_WARN_STREAM(finding);
+  void CheckStamp(int64_t t_ns) {
+    image_stamps_.Add(t_ns);
+    const std::string fault = image_stamps_.Finding(images_.topic());
+    if (stamp_faults_.Set(t_ns, fault)) ROS_WARN_STREAM(fault);
   }
 
   // Publishes the frame that `next` returns; returns false if there is none. Tracks may be
@@ -191,6 +190,7 @@ class TrackerNode {
     features_in_last_image_ = message.points.size();
     last_tracked_ = ros::WallTime::now();
     tracking_ms_ = frame.tracking_ms;
+    image_faults_.Set(frame.features.t_ns, Traits::Finding(stage_.tracker()));
     if (!frame.publish && !Traits::kEveryImage) return;
     feature_publisher_.publish(message);
     feature_stream_.Add(frame.features.t_ns);
@@ -221,9 +221,11 @@ class TrackerNode {
     } else if (features_in_last_image_ == 0) {
       status.summary(DiagnosticStatus::WARN, "lost: no features in the last image");
     } else {
-      const std::string finding = ImageFinding();
-      status.summary(finding.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
-                     finding.empty() ? "tracking" : finding);
+      const Finding finding = ImageFinding();
+      status.summary(finding.is_present ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+                     finding.is_present     ? finding.text
+                     : finding.text.empty() ? "tracking"
+                                            : "tracking; " + finding.text);
     }
     status.add("images", stage_.counts().images);
     status.add("features", features_in_last_image_);
@@ -236,16 +238,16 @@ class TrackerNode {
     for (const DropCount& drop : Drops()) status.add(drop.cause, drop.count);
   }
 
-  // Describes what seems to be wrong with the images; empty if nothing is.
-  std::string ImageFinding() {
+  // Describes what seems to be wrong with the images, or was.
+  Finding ImageFinding() {
     if (config_.sensor.second_camera &&
         right_images_.stream().Silence() > StreamMonitor::kSilence) {
-      return "second camera: no messages on " + right_images_.topic();
+      return {"second camera: no messages on " + right_images_.topic(), true};
     }
     if (depth_subscriber_ && depth_stream_.Silence() > StreamMonitor::kSilence) {
-      return "depth: no messages on " + depth_subscriber_.getTopic();
+      return {"depth: no messages on " + depth_subscriber_.getTopic(), true};
     }
-    return Traits::Finding(stage_.tracker());
+    return image_faults_.finding();
   }
 
   ros::NodeHandle node_;
@@ -258,7 +260,7 @@ class TrackerNode {
   bool show_track_ = true;
   DropWarner drop_warner_;
   ConstantStamp image_stamps_;
-  bool stamps_are_logged_ = false;
+  FindingMemory stamp_faults_, image_faults_;
   bool tracking_is_due_ = false;       // TrackNext() is in the queue of callbacks
   bool waits_for_first_image_ = true;  // no image has arrived, and silence was not logged
   ErrorCounter errors_;

@@ -16,54 +16,52 @@ constexpr int64_t kTrouble_ns = 1'000'000'000;
 constexpr int64_t kMaxDuration_ns = 2'000'000'000;
 constexpr double kMaxDeviation = 0.1;  // position uncertainty that the bridge may add [m]
 
-bool IsCertain(const UncertainState& start, const UncertainState& end) {
-  const auto variance = [&start](const UncertainState& estimate) {
-    return PositionVarianceFrom(start.state.position(), estimate.state,
-                                estimate.covariance.topLeftCorner<6, 6>());
-  };
-  return end.state.t_ns - start.state.t_ns <= kMaxDuration_ns &&
-         variance(end) - variance(start) <= kMaxDeviation * kMaxDeviation;
-}
-
 }  // namespace
 
 void FrameBridge::AddTracked(const std::vector<ImuSample>& samples, const FrameState& state,
                              const std::optional<Matrix15d>& covariance) {
-  const UncertainState estimate{state, covariance.value_or(Matrix15d::Zero())};
-  images_.push_back({samples, estimate, covariance.has_value()});
+  images_.push_back({samples, state, covariance});
   const int64_t last_believed_ns = state.t_ns - kTrouble_ns;
-  while (images_.size() > 1 && images_[1].estimate.state.t_ns <= last_believed_ns) {
-    images_.pop_front();
-  }
+  while (images_.size() > 1 && images_[1].state.t_ns <= last_believed_ns) images_.pop_front();
 }
 
 bool FrameBridge::Begin(const std::string& why) {
   if (images_.empty()) return false;
-  const UncertainState& start = images_.front().estimate;
-  const int64_t trouble_ns = images_.back().estimate.state.t_ns - start.state.t_ns;
-  if (trouble_ns < kTrouble_ns || !images_.front().is_certain) return false;
+  const Image& start = images_.front();
+  const int64_t trouble_ns = images_.back().state.t_ns - start.state.t_ns;
+  if (trouble_ns < kTrouble_ns || !start.covariance) return false;
   for (size_t i = 1; i < images_.size(); ++i) Cross(images_[i - 1], &images_[i]);
   why_ = why;
-  begun_ = IsCertain(start, images_.back().estimate);
+  begun_ = IsCertain(start, images_.back());
   return begun_;
 }
 
 void FrameBridge::AddLost(const std::vector<ImuSample>& samples, int64_t t_ns) {
   if (!begun_ || ended_) return;
-  UncertainState there = images_.back().estimate;
-  there.state.t_ns = t_ns;
-  Image next{samples, there};
+  Image next{samples, images_.back().state};
+  next.state.t_ns = t_ns;
   Cross(images_.back(), &next);
-  ended_ = !IsCertain(images_.front().estimate, next.estimate);
+  ended_ = !IsCertain(images_.front(), next);
   if (!ended_) images_.push_back(next);
 }
 
+bool FrameBridge::IsCertain(const Image& start, const Image& end) {
+  const auto variance = [&start](const Image& image) {
+    return PositionVarianceFrom(start.state.position(), image.state,
+                                image.covariance->topLeftCorner<6, 6>());
+  };
+  return end.state.t_ns - start.state.t_ns <= kMaxDuration_ns &&
+         variance(end) - variance(start) <= kMaxDeviation * kMaxDeviation;
+}
+
 void FrameBridge::Cross(const Image& from, Image* to) const {
-  const int64_t t_ns = to->estimate.state.t_ns;
-  Preintegration motion(noise_, from.estimate.state.bias());
+  const int64_t t_ns = to->state.t_ns;
+  Preintegration motion(noise_, from.state.bias());
   for (const ImuSample& sample : to->samples) motion.Append(sample);
-  to->estimate = Propagate(from.estimate, motion, gravity_W_);
-  to->estimate.state.t_ns = t_ns;
+  const UncertainState there = Propagate({from.state, from.covariance.value()}, motion, gravity_W_);
+  to->state = there.state;
+  to->state.t_ns = t_ns;
+  to->covariance = there.covariance;
 }
 
 void FrameBridge::Clear() {
@@ -72,14 +70,15 @@ void FrameBridge::Clear() {
 }
 
 bool FrameBridge::CanConnect(std::optional<int64_t> begin_ns) const {
-  return !ended_ || (begin_ns && At(*begin_ns) != nullptr);
+  return !ended_ || (begin_ns && At(*begin_ns));
 }
 
-const UncertainState* FrameBridge::At(int64_t t_ns) const {
-  const auto image = std::find_if(images_.begin(), images_.end(), [&](const Image& candidate) {
-    return candidate.estimate.state.t_ns == t_ns;
+std::optional<UncertainState> FrameBridge::At(int64_t t_ns) const {
+  const auto image = std::find_if(images_.begin(), images_.end(), [t_ns](const Image& candidate) {
+    return candidate.state.t_ns == t_ns;
   });
-  return image == images_.end() ? nullptr : &image->estimate;
+  if (image == images_.end() || !image->covariance) return std::nullopt;
+  return UncertainState{image->state, *image->covariance};
 }
 
 }  // namespace plm_vins

@@ -41,9 +41,9 @@ class FrameBridge {
   // be connected. Always true before a loss.
   bool CanConnect(std::optional<int64_t> begin_ns) const;
 
-  // Returns the propagated estimate at an image after the loss, or null if the bridge does not
+  // Returns the propagated estimate at an image after the loss, or nullopt if the bridge does not
   // reach it.
-  const UncertainState* At(int64_t t_ns) const;
+  std::optional<UncertainState> At(int64_t t_ns) const;
 
   void Clear();
 
@@ -53,9 +53,11 @@ class FrameBridge {
  private:
   struct Image {
     std::vector<ImuSample> samples;  // since the previous image
-    UncertainState estimate;
-    bool is_certain = true;  // false: the covariance is unknown
+    FrameState state;
+    std::optional<Matrix15d> covariance = std::nullopt;
   };
+
+  static bool IsCertain(const Image& start, const Image& end);
 
   // Propagates with the configured IMU noise, not the noise learned meanwhile: the comparison with
   // the new window decides whether the IMU or the camera was wrong.

@@ -12,15 +12,13 @@ namespace plm_vins {
 // dx_1 = n.
 UncertainState Propagate(const UncertainState& start, const Preintegration& motion,
                          const Eigen::Vector3d& gravity_W) {
-  UncertainState end{motion.Predict(start.state, gravity_W)};
+  const FrameState end = motion.Predict(start.state, gravity_W);
   ImuResidualJacobians jacobians;
-  ImuResidual(motion, gravity_W, start.state, end.state, &jacobians);
+  ImuResidual(motion, gravity_W, start.state, end, &jacobians);
   const Matrix15d J_0 = jacobians.ByFirst();
   const Matrix15d d_end_d_noise = jacobians.BySecond().inverse();
-  end.covariance = d_end_d_noise *
-                   (J_0 * start.covariance * J_0.transpose() + motion.Covariance()) *
-                   d_end_d_noise.transpose();
-  return end;
+  return {end, d_end_d_noise * (J_0 * start.covariance * J_0.transpose() + motion.Covariance()) *
+                   d_end_d_noise.transpose()};
 }
 
 double PositionDeviation(const UncertainState& estimate) {

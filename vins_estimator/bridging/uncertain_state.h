@@ -12,7 +12,7 @@ namespace plm_vins {
 // gyroscope bias).
 struct UncertainState {
   FrameState state;
-  Matrix15d covariance = Matrix15d::Zero();
+  Matrix15d covariance;
 };
 
 // Propagates a state and its covariance over the interval of `motion`, adding the IMU noise.

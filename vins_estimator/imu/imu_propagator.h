@@ -32,6 +32,9 @@ class ImuPropagator {
   // out of order, the first after a jump in time, or still unconfirmed (ImuGate).
   std::optional<FrameState> Add(const ImuSample& sample);
 
+  // Returns the angular velocity of B in B at the newest sample [rad/s]; there must be a state.
+  Eigen::Vector3d AngularVelocity() const { return samples_.back().gyro - state_->gyro_bias(); }
+
   // Returns the time of the newest sample; nullopt if there is none.
   std::optional<int64_t> newest_ns() const { return order_.newest_ns(); }
 

@@ -235,10 +235,10 @@ Eigen::VectorXd Bundle::ScaleDirection() const {
 std::optional<double> Bundle::RelativeScaleDeviation(NormalEquations* equations) const {
   std::vector<BlockId> poses;
   for (const int pose : poses_) poses.push_back(problem_.variables()[pose].id);
-  const Eigen::MatrixXd covariance = equations->Covariance(poses);
-  if (covariance.size() == 0) return std::nullopt;
+  const auto covariance = equations->Covariance(poses);
+  if (!covariance) return std::nullopt;
   const Eigen::VectorXd direction = ScaleDirection();
-  const double variance = direction.dot(covariance * direction);
+  const double variance = direction.dot(*covariance * direction);
   if (!(variance > 0)) return std::nullopt;
   return std::sqrt(variance);
 }

@@ -21,22 +21,22 @@ MeasurementSync::MeasurementSync(const Options& options)
               options.line_patience, options.max_frames}),
       points_order_(kFeatureJumps) {}
 
-void MeasurementSync::AddImu(const ImuSample& sample) {
+ImuStream::Clock MeasurementSync::AddImu(const ImuSample& sample) {
   const ImuStream::Clock clock = imu_.Add(sample);
-  if (clock == ImuStream::Clock::kRunsOn) return;
   statistics_.jumps_back += clock == ImuStream::Clock::kSetBack;
   statistics_.leaps_ahead += clock == ImuStream::Clock::kSetOn;
-  ClearFrames();
+  if (clock != ImuStream::Clock::kRunsOn) ClearFrames();
+  return clock;
 }
 
-void MeasurementSync::AddPoints(PointFrame frame) {
+ImuStream::Clock MeasurementSync::AddPoints(PointFrame frame) {
   ++statistics_.frames;
   const StampVerdict verdict = points_order_.Add(frame.t_ns);
   const bool restarts = verdict == StampVerdict::kRestarts;
   statistics_.frames_out_of_order += verdict == StampVerdict::kIsBack || restarts;
   statistics_.frames_ahead_of_time += verdict == StampVerdict::kIsAhead;
   statistics_.jumps_back += restarts;
-  if (!StampOrder::IsAccepted(verdict)) return;
+  if (!StampOrder::IsAccepted(verdict)) return ImuStream::Clock::kRunsOn;
   if (restarts) {
     Clear();
     points_order_.Add(frame.t_ns);
@@ -47,6 +47,7 @@ void MeasurementSync::AddPoints(PointFrame frame) {
     points_.pop_front();
     ++statistics_.frames_dropped_full;
   }
+  return restarts ? ImuStream::Clock::kSetBack : ImuStream::Clock::kRunsOn;
 }
 
 void MeasurementSync::AddLines(LineFrame frame) {

@@ -64,8 +64,9 @@ class MeasurementSync {
 
   explicit MeasurementSync(const Options& options);
 
-  void AddImu(const ImuSample& sample);
-  void AddPoints(PointFrame frame);
+  // These return whether the clock was set: then everything before was dropped.
+  ImuStream::Clock AddImu(const ImuSample& sample);
+  ImuStream::Clock AddPoints(PointFrame frame);
   void AddLines(LineFrame frame);
   void SetTimeOffset(double td) { options_.td = td; }
   // Drops all queued data and timestamps, keeps the statistics.

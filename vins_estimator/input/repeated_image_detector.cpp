@@ -30,9 +30,4 @@ bool RepeatedImageDetector::Add(const FrameMeasurement& measurement, double leas
   return same && moves;
 }
 
-void RepeatedImageDetector::Reset() {
-  imu_.Reset();
-  before_.points.clear();
-}
-
 }  // namespace plm_vins

@@ -19,8 +19,6 @@ class RepeatedImageDetector {
   // body's speed [m/s]. Returns whether the image repeats the previous one.
   bool Add(const FrameMeasurement& measurement, double least_speed);
 
-  void Reset();
-
  private:
   ImuStillness imu_;
   PointFrame before_;

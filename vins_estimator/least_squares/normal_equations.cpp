@@ -100,8 +100,8 @@ double NormalEquations::LandmarkGain(int index, const LandmarkVector& step, doub
          0.5 * damping * step.cwiseAbs2().dot(landmark.H_ll.diagonal());
 }
 
-Eigen::MatrixXd NormalEquations::Covariance(const std::vector<BlockId>& ids) {
-  if (!Factor(0)) return {};
+std::optional<Eigen::MatrixXd> NormalEquations::Covariance(const std::vector<BlockId>& ids) {
+  if (!Factor(0)) return std::nullopt;
 
   std::vector<int> rows;
   for (const BlockId& id : ids) {

@@ -52,9 +52,9 @@ class NormalEquations {
   double LandmarkGain(int index, const LandmarkVector& step, double damping) const;
 
   // Returns the joint covariance of dense variables, in the given order, at the last linearization;
-  // empty if they are unobservable. Throws std::invalid_argument for landmarks, constants and
+  // nullopt if they are unobservable. Throws std::invalid_argument for landmarks, constants and
   // variables that are not in the problem.
-  Eigen::MatrixXd Covariance(const std::vector<BlockId>& ids);
+  std::optional<Eigen::MatrixXd> Covariance(const std::vector<BlockId>& ids);
 
   // Returns the first row of a variable in the dense equations; -1 for constants and landmarks.
   int DenseOffset(int variable) const { return layout_.dense_offset()[variable]; }

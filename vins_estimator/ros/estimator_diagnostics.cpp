@@ -24,21 +24,14 @@ EstimatorDiagnostics::EstimatorDiagnostics(const ImuNoise& configured_noise,
       lines_topic_(lines_topic),
       configured_noise_(configured_noise) {}
 
-void EstimatorDiagnostics::Update(const EstimatorOutput& output, int64_t frames, double age) {
+void EstimatorDiagnostics::Update(const EstimatorReport& newest, int64_t frames, double age) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  state_ = output.status;
-  reason_ = output.reason;
+  newest_ = newest;
   pose_age_ = age;
-  contradicted_ = output.contradicted;
-  on_imu_alone_ = output.on_imu_alone;
-  imu_noise_ = output.has_pose ? output.imu_noise : configured_noise_;
-  imu_noise_scale_ = output.imu_noise_scale;
-  bridged_losses_ += output.bridged ? 1 : 0;
-  imu_doubts_ += output.imu_doubted ? 1 : 0;
-  if (output.restarted) last_restart_ = output.reason;
-  if (output.has_pose) poses_.Add(output.t_ns);
-  counts_ = output.counts;
-  estimator_ms_ = output.timings.total;
+  bridged_losses_ += newest.bridged ? 1 : 0;
+  imu_doubts_ += newest.imu_doubted ? 1 : 0;
+  if (newest.restarted) last_restart_ = newest.reason;
+  if (newest.has_pose) poses_.Add(newest.t_ns);
   if (frames > frames_) last_frame_ = ros::WallTime::now();
   frames_ = frames;
 }
@@ -67,19 +60,20 @@ void EstimatorDiagnostics::Report(size_t queued,
   status->add("bridged_losses", bridged_losses_);
   for (StreamMonitor* stream : {&imu_, &points_, &lines_, &poses_}) stream->Report(status);
   status->addf("pose_age_ms", "%.0f", 1e3 * pose_age_);
-  status->addf("accel_density", "%.2g", imu_noise_.accel_density);
-  status->addf("gyro_density", "%.2g", imu_noise_.gyro_density);
-  status->addf("imu_noise_scale", "%.1f", imu_noise_scale_);
+  const ImuNoise& imu_noise = newest_.has_pose ? newest_.imu_noise : configured_noise_;
+  status->addf("accel_density", "%.2g", imu_noise.accel_density);
+  status->addf("gyro_density", "%.2g", imu_noise.gyro_density);
+  status->addf("imu_noise_scale", "%.1f", newest_.imu_noise_scale);
   status->add("imu_doubts", imu_doubts_);
   status->add("queued", queued);
   status->add("queued_frames", queued_frames_);
-  status->add("estimator_ms", estimator_ms_);
-  status->add("points_observed", counts_.points_observed);
-  status->add("points_in_window", counts_.points_in_window);
-  status->add("right_used", counts_.right.used);
-  status->add("depths_used", counts_.depth.used);
-  status->add("lines_observed", counts_.lines_observed);
-  status->add("lines_in_window", counts_.lines_in_window);
+  status->add("estimator_ms", newest_.timings.total);
+  status->add("points_observed", newest_.counts.points_observed);
+  status->add("points_in_window", newest_.counts.points_in_window);
+  status->add("right_used", newest_.counts.right.used);
+  status->add("depths_used", newest_.counts.depth.used);
+  status->add("lines_observed", newest_.counts.lines_observed);
+  status->add("lines_in_window", newest_.counts.lines_in_window);
   status->add("frames_without_lines", frames_without_lines_);
   status->add("lines_without_points", lines_without_points_);
   DropCounts drops = FeatureDrops();
@@ -94,15 +88,15 @@ void EstimatorDiagnostics::ReportState(diagnostic_updater::DiagnosticStatusWrapp
   const bool late = tracking && pose_age_ > kMaxPoseAge;
   if (late)
     state += "; late: poses are " + std::to_string(std::lround(1e3 * pose_age_)) + " ms old";
-  if (on_imu_alone_) state += "; blind: dead reckoning by the IMU";
-  if (!input_finding_.empty()) state += "; " + input_finding_;
+  if (newest_.on_imu_alone) state += "; blind: dead reckoning by the IMU";
+  if (!input_finding_.text.empty()) state += "; " + input_finding_.text;
   if (!imu_contradiction_.empty()) state += "; " + imu_contradiction_;
   if (!lens_warning_.empty()) state += "; " + lens_warning_;
   if (!companion_fault_.empty()) state += "; " + companion_fault_;
-  if (contradicted_) state += "; the camera contradicts the state";
-  const bool fine = tracking && !lines_are_missing_ && !late && !on_imu_alone_ && !contradicted_ &&
-                    input_finding_.empty() && imu_contradiction_.empty() && lens_warning_.empty() &&
-                    companion_fault_.empty();
+  if (newest_.contradicted) state += "; the camera contradicts the state";
+  const bool fine = tracking && !lines_are_missing_ && !late && !newest_.on_imu_alone &&
+                    !newest_.contradicted && !input_finding_.is_present &&
+                    imu_contradiction_.empty() && lens_warning_.empty() && companion_fault_.empty();
   status->summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN, state);
 }
 
@@ -112,7 +106,7 @@ std::string EstimatorDiagnostics::State() const {
   const double unused = (ros::WallTime::now() - last_frame_).toSec();
   if (frames_ == 0) return "waiting: no usable image yet";
   if (unused > StreamMonitor::kSilence) return "waiting: no usable image any more";
-  return ToString(state_) + (reason_.empty() ? "" : ": " + reason_);
+  return ToString(newest_.status) + (newest_.reason.empty() ? "" : ": " + newest_.reason);
 }
 
 std::string EstimatorDiagnostics::WaitsFor() const {

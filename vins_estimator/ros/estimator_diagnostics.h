@@ -34,10 +34,10 @@ class EstimatorDiagnostics {
   void CountLeftOut(int64_t features) { left_out_.count += features; }
   DropCounts FeatureDrops() const { return {malformed_, left_out_}; }
 
-  // To be called after each image, and after a reset with an output that only has a reason.
+  // To be called after each image, and after a reset with a report that only has a reason.
   // `frames` is the number of estimated images, `age` the age of the image when its pose was ready
   // [s].
-  void Update(const EstimatorOutput& output, int64_t frames, double age);
+  void Update(const EstimatorReport& newest, int64_t frames, double age);
 
   // To be called after each input, whether or not it completed an image.
   void UpdateCounts(const EstimationStage& stage, const DropCounts& drops);
@@ -60,21 +60,15 @@ class EstimatorDiagnostics {
 
   std::mutex mutex_;  // guards the following members
   StreamMonitor poses_{"odometry"};
-  EstimatorStatus state_ = EstimatorStatus::kInitializing;
-  std::string reason_;
-  bool contradicted_ = false;
-  bool on_imu_alone_ = false;
-  ImuNoise imu_noise_ = configured_noise_;
-  double imu_noise_scale_ = 1;
+  EstimatorReport newest_;
   int64_t bridged_losses_ = 0;
   int64_t imu_doubts_ = 0;
-  std::string input_finding_, imu_contradiction_;
+  Finding input_finding_;
+  std::string imu_contradiction_;
   std::string lens_warning_;
   std::string companion_fault_;
   double pose_age_ = 0;       // [s]
   std::string last_restart_;  // reason for the last restart
-  EstimatorCounts counts_;
-  double estimator_ms_ = 0;
   int64_t frames_ = 0;
   ros::WallTime last_frame_ = ros::WallTime::now();
   int64_t resets_ = 0;

@@ -334,9 +334,9 @@ void EstimatorNode::LogFrame(const EstimatorOutput& output) const {
 }
 
 void EstimatorNode::LogFinding() {
-  const std::string finding = stage_.InputFinding();
-  if (!finding.empty() && last_finding_.empty()) ROS_WARN_STREAM(finding);
-  last_finding_ = finding;
+  const Finding& finding = stage_.InputFinding();
+  if (finding.is_present && !had_finding_) ROS_WARN_STREAM(finding.text);
+  had_finding_ = finding.is_present;
 }
 
 void EstimatorNode::LogLines() {

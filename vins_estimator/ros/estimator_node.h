@@ -121,7 +121,7 @@ class EstimatorNode {
   ErrorCounter worker_errors_;
   EstimatorStatus last_status_ = EstimatorStatus::kInitializing;
   std::string last_reason_;
-  std::string last_finding_;
+  bool had_finding_ = false;
   RunReport report_;
   bool lines_were_missing_ = false;
 

@@ -14,8 +14,7 @@ void PropagationPublisher::AddImu(const ImuSample& sample) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto state = propagator_.Add(bursts_.Spread(sample));
   if (!state || publisher_.getNumSubscribers() == 0) return;
-  const Eigen::Vector3d angular_velocity = sample.gyro - state->gyro_bias();
-  publisher_.publish(ToOdometry(*state, covariance_, angular_velocity, frames_));
+  publisher_.publish(ToOdometry(*state, covariance_, propagator_.AngularVelocity(), frames_));
 }
 
 void PropagationPublisher::SetEstimate(const EstimatedFrame& frame) {

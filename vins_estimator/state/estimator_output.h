@@ -68,37 +68,41 @@ struct StateUncertainty {
   Matrix6d biases;                // accelerometer [m/s^2], gyroscope [rad/s]
 };
 
-// Output of the estimator for one image. The state is the estimate at that image right after it was
-// processed.
-struct EstimatorOutput {
+// The part of the output that reports and warnings are made of.
+struct EstimatorReport {
   int64_t t_ns = 0;
   EstimatorStatus status = EstimatorStatus::kInitializing;
-  std::string reason;     // why not tracking, or why reinitialized; otherwise empty
-  bool has_pose = false;  // `state`, calibration and `imu_noise` are valid
+  std::string reason;           // why not tracking, or why reinitialized; else empty
+  bool has_pose = false;        // state, calibration and `imu_noise` are valid
+  ImuNoise imu_noise;           // in use: as configured, or as estimated in flight
+  double imu_noise_scale = 1;   // factor on its variance (ImuMonitor)
+  bool imu_doubted = false;     // the newest IMU interval was re-weighted
+  std::optional<double> delay;  // rough error of td, if noticeable [s] (DelayMonitor)
+  SecondCameraFaults second_camera;
+  DepthFaults depth;
+  bool contradicted = false;  // many known landmarks are outliers
+  bool on_imu_alone = false;  // too few features to constrain the pose
+  bool keyframe = false;      // the previous image becomes a keyframe of the window
+  bool stationary = false;    // standstill detected
+  bool restarted = false;     // poses are in a new world frame from here on
+  bool bridged = false;       // tracking again after a loss, in the same world frame
+  EstimatorCounts counts;
+  EstimatorTimings timings;
+};
+
+// Output of the estimator for one image. The state is the estimate at that image right after it was
+// processed.
+struct EstimatorOutput : EstimatorReport {
   FrameState state;
   std::optional<StateUncertainty> uncertainty;  // nullopt if the equations are rank deficient
   Calibration calibration;
   std::optional<Eigen::Quaterniond> R_W_M;  // Manhattan frame; nullopt if not found
-  ImuNoise imu_noise;                       // in use: as configured, or as estimated in flight
-  double imu_noise_scale = 1;               // factor on its variance (ImuMonitor)
-  bool imu_doubted = false;                 // the newest IMU interval was re-weighted
-  std::optional<double> delay;              // rough error of td, if noticeable [s] (DelayMonitor)
-  SecondCameraFaults second_camera;
-  DepthFaults depth;
-  bool contradicted = false;              // many known landmarks are outliers
-  bool on_imu_alone = false;              // too few features to constrain the pose
-  bool keyframe = false;                  // the previous image becomes a keyframe of the window
-  bool stationary = false;                // standstill detected
-  bool restarted = false;                 // poses are in a new world frame from here on
-  bool bridged = false;                   // tracking again after a loss, in the same world frame
-  std::vector<FrameState> window;         // states of the window, oldest first
-  std::vector<MapPoint> points;           // landmarks in the window
-  std::vector<MapPoint> departed_points;  // landmarks that left the window with this frame
-  std::vector<MapLine> lines;             // lines in the window
+  std::vector<FrameState> window;           // states of the window, oldest first
+  std::vector<MapPoint> points;             // landmarks in the window
+  std::vector<MapPoint> departed_points;    // landmarks that left the window with this frame
+  std::vector<MapLine> lines;               // lines in the window
   std::vector<MapLine> departed_lines;
   std::vector<int64_t> absorbed_lines;  // ids of lines that were merged into others
-  EstimatorCounts counts;
-  EstimatorTimings timings;
 };
 
 }  // namespace plm_vins

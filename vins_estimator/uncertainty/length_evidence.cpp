@@ -37,15 +37,16 @@ bool IsSignificant(const LengthEvidence& evidence) {
 
 std::optional<LengthEvidence> BaselineError(const SlidingWindow& window, double stated_length,
                                             NormalEquations* equations) {
-  const Eigen::MatrixXd covariance = equations->Covariance({{BlockKind::kMounting, 0}});
-  if (covariance.size() == 0) return std::nullopt;
+  const auto covariance = equations->Covariance({{BlockKind::kMounting, 0}});
+  if (!covariance) return std::nullopt;
   const double estimate = std::log(window.T_C_C1().translation.norm() / stated_length);
-  return IfSignificant(WithoutPrior(estimate, covariance(kBaselineLength, kBaselineLength)));
+  return IfSignificant(WithoutPrior(estimate, (*covariance)(kBaselineLength, kBaselineLength)));
 }
 
 DepthFaults FaultsOfDepths(const SlidingWindow& window, NormalEquations* equations) {
-  const Eigen::MatrixXd covariance = equations->Covariance({{BlockKind::kDepthStream, 0}});
-  if (covariance.size() == 0) return {};
+  const auto known = equations->Covariance({{BlockKind::kDepthStream, 0}});
+  if (!known) return {};
+  const Eigen::MatrixXd& covariance = *known;
   DepthFaults faults;
   const double scale = window.depth_stream[kDepthScale], delay = window.depth_stream[kDepthDelay];
   faults.scale = IfSignificant(WithoutPrior(scale, covariance(kDepthScale, kDepthScale)));

@@ -22,14 +22,14 @@ Matrix15d CovarianceFrom(const ImuNoise& noise, const Preintegration& motion) {
 std::optional<Matrix15d> SolutionCovariance(int64_t begin_ns, int64_t end_ns,
                                             const ImuResidualJacobians& jacobians,
                                             NormalEquations* equations) {
-  const Eigen::MatrixXd states = equations->Covariance({{BlockKind::kPose, begin_ns},
-                                                        {BlockKind::kMotion, begin_ns},
-                                                        {BlockKind::kPose, end_ns},
-                                                        {BlockKind::kMotion, end_ns}});
-  if (states.size() == 0) return std::nullopt;
+  const auto states = equations->Covariance({{BlockKind::kPose, begin_ns},
+                                             {BlockKind::kMotion, begin_ns},
+                                             {BlockKind::kPose, end_ns},
+                                             {BlockKind::kMotion, end_ns}});
+  if (!states) return std::nullopt;
   Eigen::Matrix<double, 15, 30> J;
   J << jacobians.ByFirst(), jacobians.BySecond();
-  return J * states * J.transpose();
+  return J * *states * J.transpose();
 }
 
 }  // namespace

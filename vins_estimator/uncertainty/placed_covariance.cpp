@@ -30,8 +30,9 @@ Matrix15d RigidMove(const FrameState& base, const FrameState& state) {
 // minimum is at
 //   S x_0,   S = T - P J^T (J T + J_0),
 // because the landmark terms are invariant along T.
-Matrix15d PlacedCovariance(const SlidingWindow& window, int64_t keyframe_ns,
-                           const Matrix15d& keyframe_covariance, NormalEquations* equations) {
+std::optional<Matrix15d> PlacedCovariance(const SlidingWindow& window, int64_t keyframe_ns,
+                                          const Matrix15d& keyframe_covariance,
+                                          NormalEquations* equations) {
   size_t base = window.frames.size() - 1;
   while (window.frames[base].state.t_ns > keyframe_ns) --base;
   const auto states = static_cast<int>(window.frames.size() - 1 - base);
@@ -54,10 +55,10 @@ Matrix15d PlacedCovariance(const SlidingWindow& window, int64_t keyframe_ns,
     pull.middleRows<kStateSize>(kStateSize * (i + 1)) += J_to.transpose() * residual;
     move = next_move;
   }
-  const Eigen::MatrixXd P = equations->Covariance(ids);
-  if (P.size() == 0) return Matrix15d::Zero();
-  const Matrix15d S = move - P.bottomRows<kStateSize>() * pull.bottomRows(kStateSize * states);
-  return P.bottomRightCorner<kStateSize, kStateSize>() + S * keyframe_covariance * S.transpose();
+  const auto P = equations->Covariance(ids);
+  if (!P) return std::nullopt;
+  const Matrix15d S = move - P->bottomRows<kStateSize>() * pull.bottomRows(kStateSize * states);
+  return P->bottomRightCorner<kStateSize, kStateSize>() + S * keyframe_covariance * S.transpose();
 }
 
 }  // namespace plm_vins

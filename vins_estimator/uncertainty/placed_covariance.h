@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "vins_estimator/imu/preintegration.h"
 #include "vins_estimator/least_squares/normal_equations.h"
@@ -12,9 +13,10 @@ namespace plm_vins {
 // Returns the covariance of the newest state if only the states after a keyframe were solved for
 // (PlacementProblem), from the covariance of the keyframe's state and `equations` at their last
 // linearization. An error of the keyframe moves the landmarks rigidly with it and is propagated by
-// the IMU; it is considered, but not estimated ([Schmidt1966]). Zero if the states are
-// unobservable.
-Matrix15d PlacedCovariance(const SlidingWindow& window, int64_t keyframe_ns,
-                           const Matrix15d& keyframe_covariance, NormalEquations* equations);
+// the IMU; it is considered, but not estimated ([Schmidt1966]). Returns nullopt if the states
+// are unobservable.
+std::optional<Matrix15d> PlacedCovariance(const SlidingWindow& window, int64_t keyframe_ns,
+                                          const Matrix15d& keyframe_covariance,
+                                          NormalEquations* equations);
 
 }  // namespace plm_vins

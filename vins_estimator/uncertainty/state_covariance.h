@@ -12,10 +12,10 @@ namespace plm_vins {
 // Returns the covariance of a frame's state, pose before motion, from the window's equations at
 // their last linearization; nullopt if it is unobservable.
 inline std::optional<Matrix15d> StateCovariance(int64_t t_ns, NormalEquations* equations) {
-  const Eigen::MatrixXd covariance =
+  const auto covariance =
       equations->Covariance({{BlockKind::kPose, t_ns}, {BlockKind::kMotion, t_ns}});
-  if (covariance.size() == 0) return std::nullopt;
-  return covariance;
+  if (!covariance) return std::nullopt;
+  return *covariance;
 }
 
 }  // namespace plm_vins

@@ -63,6 +63,7 @@ TEST_F(ConfigLimitsTest, CorrectionsOfTheImuAreMatricesNearOne) {
   ExpectProblem(head + "[1, 0, 0, 0, 0.4, 0, 0, 0, 1]",
                 {"gyr_correction: ", "its scale factors must be 0.5 to 2"});
   ExpectProblem(head + "[0, 1, 0, 0, 1, 0, 0, 0, 1]", {"its scale factors must be 0.5 to 2"});
+  ExpectProblem(head + "[0, 1, 0, 1, 0, 0, 0, 0, 1]", {"gyr_correction: mirrors the axes"});
 }
 
 }  // namespace

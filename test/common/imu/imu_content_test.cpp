@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace plm_vins {
 namespace {
@@ -85,6 +87,22 @@ TEST(ImuContent, DetectsWrongUnits) {
 TEST(ImuContent, DetectsRemovedGravity) {
   EXPECT_THAT(FindingOf([](int, ImuSample* sample) { sample->accel.z() -= kGravity; }),
               HasSubstr("specific force on /imu lacks gravity"));
+}
+
+// A driver that is started again, or a cable that is put in again.
+TEST(ImuContent, FaultsPass) {
+  const std::vector<std::function<void(ImuSample*)>> faults = {
+      [](ImuSample* sample) { *sample = {sample->t_ns}; },
+      [](ImuSample* sample) { sample->gyro.setZero(); },
+      [](ImuSample* sample) { sample->accel /= kGravity; },
+      [](ImuSample* sample) { sample->gyro *= 180 / M_PI; }};
+  for (size_t k = 0; k < faults.size(); ++k) {
+    const auto until_20_s = [&](int i, ImuSample* sample) {
+      if (i < 4000) faults[k](sample);
+    };
+    EXPECT_NE(FindingOf(until_20_s, 4000), "") << k;
+    EXPECT_EQ(FindingOf(until_20_s, 8000), "") << k;
+  }
 }
 
 TEST(ImuContent, WaitsForEnoughSamples) {

@@ -71,12 +71,12 @@ TEST_F(FrameBridgeTest, ReachesTheImagesAfterTheLoss) {
   Track(0, kLost);
   ASSERT_TRUE(bridge_.Begin("why"));
   Lose(kLost, 35);
-  const UncertainState* last = bridge_.At(34 * kImage_ns);
-  ASSERT_NE(last, nullptr);
+  const auto last = bridge_.At(34 * kImage_ns);
+  ASSERT_TRUE(last);
   EXPECT_NEAR(last->state.position().x(), 3.4, 1e-9);
   EXPECT_EQ(last->state.t_ns, 34 * kImage_ns);
   EXPECT_GT(PositionDeviation(*last), deviation_);
-  EXPECT_EQ(bridge_.At(35 * kImage_ns), nullptr);
+  EXPECT_FALSE(bridge_.At(35 * kImage_ns));
 }
 
 TEST_F(FrameBridgeTest, RejectsTooRecentOrUnknownStates) {
@@ -111,7 +111,7 @@ TEST_F(FrameBridgeTest, WorksFarFromTheOrigin) {
     Track(0, kLost);
     ASSERT_TRUE(bridge_.Begin("why")) << way;
     Lose(kLost, 40);
-    EXPECT_NE(bridge_.At(39 * kImage_ns), nullptr) << way;
+    EXPECT_TRUE(bridge_.At(39 * kImage_ns)) << way;
     bridge_.Clear();
   }
 }
@@ -121,8 +121,8 @@ TEST_F(FrameBridgeTest, EndsWhenThePositionIsUncertain) {
   Track(0, kLost);
   ASSERT_TRUE(bridge_.Begin("why"));
   Lose(kLost, 49);
-  EXPECT_NE(bridge_.At(32 * kImage_ns), nullptr);
-  EXPECT_EQ(bridge_.At(48 * kImage_ns), nullptr);
+  EXPECT_TRUE(bridge_.At(32 * kImage_ns));
+  EXPECT_FALSE(bridge_.At(48 * kImage_ns));
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST(UncertainState, CovarianceIsPropagated) {
       Start(), 15, Plus);
   const Matrix15d root = Matrix15d::Random();
   const Matrix15d covariance = root * root.transpose();
-  const UncertainState certain = Propagate({Start()}, motion, kGravity_W);
+  const UncertainState certain = Propagate({Start(), Matrix15d::Zero()}, motion, kGravity_W);
   const UncertainState uncertain = Propagate({Start(), covariance}, motion, kGravity_W);
   EXPECT_MATRIX_NEAR(uncertain.state.position(), end.position(), 0.0);
   EXPECT_EQ(uncertain.state.t_ns, end.t_ns);
@@ -65,7 +65,7 @@ TEST(UncertainState, CovarianceIsPropagated) {
 
 TEST(UncertainState, NoiseIsRotatedToTheWorld) {
   const Preintegration motion = Motion();
-  const UncertainState end = Propagate({Start()}, motion, kGravity_W);
+  const UncertainState end = Propagate({Start(), Matrix15d::Zero()}, motion, kGravity_W);
   const Eigen::Matrix3d R_W_B0 = Start().rotation().toRotationMatrix();
   const Matrix15d noise = motion.Covariance();
   EXPECT_MATRIX_NEAR((end.covariance.topLeftCorner<3, 3>()),
@@ -77,6 +77,7 @@ TEST(UncertainState, DeviationsAreInTheWorldFrame) {
   UncertainState lying;  // the body's x axis points up
   lying.state.SetPose(
       {Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitX(), Vector3d::UnitZ()), Vector3d::Zero()});
+  lying.covariance.setZero();
   lying.covariance.diagonal() << 1, 4, 9, 0.01, 0.04, 0.09, Eigen::Matrix<double, 9, 1>::Zero();
   EXPECT_DOUBLE_EQ(PositionDeviation(lying), 3);
   EXPECT_NEAR(HeadingDeviation(lying), 0.1, 1e-12);

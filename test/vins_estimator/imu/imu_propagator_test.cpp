@@ -54,6 +54,18 @@ class ImuPropagatorTest : public ::testing::Test {
   ImuPropagator propagator_{kGravity_W};
 };
 
+// The twist of ~imu_propagate is that of ~odometry.
+TEST_F(ImuPropagatorTest, AngularVelocityIsCorrectedAndWithoutBias) {
+  ImuSensor sensor;
+  sensor.gyro_correction << 0, -1.1, 0, 0.9, 0, 0, 0, 0, 1;
+  ImuPropagator propagator(kGravity_W, sensor);
+  propagator.Reset(start_, 0);
+  for (size_t i = 0; i < 10; ++i) {
+    ASSERT_TRUE(propagator.Add(Uncorrected(samples_[i], sensor)));
+    EXPECT_MATRIX_NEAR(propagator.AngularVelocity(), samples_[i].gyro - start_.gyro_bias(), 1e-12);
+  }
+}
+
 TEST_F(ImuPropagatorTest, ReturnsNulloptWithoutAState) {
   EXPECT_FALSE(propagator_.Add(samples_[0]).has_value());
   EXPECT_FALSE(propagator_.Add(samples_[1]).has_value());

@@ -86,12 +86,5 @@ TEST_F(RepeatedImageDetectorTest, NeedsEnoughTrackedCorners) {
   EXPECT_FALSE(Next(20, 0.2));
 }
 
-TEST_F(RepeatedImageDetectorTest, AfterAResetItStartsOver) {
-  CountRepeated(1, 0.2);
-  detector_.Reset();
-  EXPECT_FALSE(Next(20, 0.2));
-  EXPECT_FALSE(Next(20, 0.2));  // less than half a second of IMU samples
-}
-
 }  // namespace
 }  // namespace plm_vins

@@ -92,6 +92,30 @@ TEST_F(EstimatorDiagnosticsTest, WarnOfUnusableInput) {
   EXPECT_EQ(Value(status, "features_impossible"), "3");
 }
 
+TEST_F(EstimatorDiagnosticsTest, AreOkAgainOnceAFaultHasPassed) {
+  Config config;
+  CameraParameters& camera = config.sensor.camera;
+  camera.width = camera.height = 200;
+  camera.fx = camera.fy = camera.cx = camera.cy = 100;
+  EstimationStage stage(config);
+  const auto add_second = [&](int64_t second, double force) {
+    for (int64_t i = 0; i < 200; ++i) {
+      const int64_t t_ns = second * 1'000'000'000 + i * 5'000'000;
+      stage.AddImu({t_ns, {0.1, 0.2, 0}, {0, 0, force}});
+      if (i % 10 == 0) stage.AddPoints({t_ns, {}});
+    }
+    diagnostics_.UpdateCounts(stage, {});
+    return Report(0.1);
+  };
+  Status status;
+  for (int64_t second = 0; second < 5; ++second) status = add_second(second, 1);
+  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
+  EXPECT_THAT(status.message, HasSubstr("seems to be in g: multiply it by 9.81, to m/s^2"));
+  for (int64_t second = 5; second < 12; ++second) status = add_second(second, 9.81);
+  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::OK);
+  EXPECT_THAT(status.message, HasSubstr("to m/s^2 (until 00:00:0"));
+}
+
 TEST_F(EstimatorDiagnosticsTest, KeepTheReasonOfTheLastRestart) {
   output_.restarted = true;
   output_.reason = "nothing seen";

@@ -47,7 +47,7 @@ Matrix15d Placed(const ProblemOptions& options, int64_t keyframe_ns,
   const PlacementProblem placement(options, map, keyframe_ns);
   NormalEquations equations(placement.problem());
   equations.Linearize();
-  return PlacedCovariance(map->window, keyframe_ns, keyframe_covariance, &equations);
+  return PlacedCovariance(map->window, keyframe_ns, keyframe_covariance, &equations).value();
 }
 
 // Rows of a state in the equations, pose before motion.
@@ -176,7 +176,7 @@ TEST(PlacedCovariance, IsCloseToThatOfTheWindow) {
   EXPECT_LT(ratios.maxCoeff(), 1.03);
 }
 
-TEST_F(PlacedCovarianceTest, IsZeroIfUnobservable) {
+TEST_F(PlacedCovarianceTest, IsUnknownIfUnobservable) {
   WindowProblem without_terms;
   for (size_t i = kKeyframe + 1; i < simulated_.window.frames.size(); ++i) {
     AddPose(state(i).t_ns, &without_terms);
@@ -187,7 +187,7 @@ TEST_F(PlacedCovarianceTest, IsZeroIfUnobservable) {
   EXPECT_EQ(StateCovariance(state(kKeyframe + 1).t_ns, &equations), std::nullopt);
   EXPECT_EQ(
       PlacedCovariance(simulated_.window, state(kKeyframe).t_ns, SomeCovariance(), &equations),
-      Matrix15d::Zero());
+      std::nullopt);
 }
 
 }  // namespace

@@ -48,10 +48,10 @@ Input Open(const Arguments& arguments, const SensorConfig& sensor) {
     input.features.emplace(arguments.features);
   } else if (!arguments.asl.empty()) {
     input.recording =
-        OpenAslFolder(arguments.asl, sensor.second_camera.has_value(), sensor.depth.has_value());
+        OpenAslFolder(arguments.asl, sensor.cameras.size() > 1, sensor.depth.has_value());
   } else {
-    input.recording = OpenBags(arguments.bags, sensor.image_topic, sensor.imu_topic,
-                               sensor.second_camera ? sensor.second_camera->image_topic : "",
+    input.recording = OpenBags(arguments.bags, sensor.cameras[0].image_topic, sensor.imu_topic,
+                               sensor.cameras.size() > 1 ? sensor.cameras[1].image_topic : "",
                                sensor.depth ? sensor.depth->topic : "");
   }
   return input;

@@ -44,7 +44,7 @@ DropCounts ToDropCounts(const ImageCounts& counts) {
 ImageQueue::ImageQueue(const Config& config, double max_wait)
     : sensor_(config.sensor),
       uses_gyro_(sensor_.estimate_extrinsic != SensorConfig::ExtrinsicMode::kCalibrateRotation),
-      gyro_(sensor_.T_B_C, sensor_.td, sensor_.imu),
+      gyro_(sensor_.cameras[0].T_B_C, sensor_.td, sensor_.imu),
       rate_limiter_(config.publish_rate),
       order_(kImageJumps) {
   if (std::isfinite(max_wait)) max_wait_ns_ = ToNanoseconds(max_wait);
@@ -60,13 +60,13 @@ void ImageQueue::AddImage(ImageSample image) {
   counts_.gaps += verdict == StampVerdict::kFollowsGap;
   counts_.restarts += restart;
   if (!StampOrder::IsAccepted(verdict)) return;
-  if (restart) gyro_ = GyroPredictor(sensor_.T_B_C, sensor_.td, sensor_.imu);
+  if (restart) gyro_ = GyroPredictor(sensor_.cameras[0].T_B_C, sensor_.td, sensor_.imu);
   images_.push_back({std::move(image), restart});
 }
 
 bool ImageQueue::AcceptFormat(const ImageSample& image) {
   try {
-    CheckImageFormat(image.gray, sensor_.camera);
+    CheckImageFormat(image.gray, sensor_.cameras[0].parameters);
     return true;
   } catch (const std::invalid_argument& error) {
     if (counts_.wrong_format++ == 0) counts_.wrong_format_detail = error.what();
@@ -75,9 +75,9 @@ bool ImageQueue::AcceptFormat(const ImageSample& image) {
 }
 
 void ImageQueue::AddRight(ImageSample image) {
-  if (!sensor_.second_camera) return;
+  if (sensor_.cameras.size() == 1) return;
   try {
-    if (!image.gray.empty()) CheckImageFormat(image.gray, sensor_.second_camera->camera);
+    if (!image.gray.empty()) CheckImageFormat(image.gray, sensor_.cameras[1].parameters);
     right_.Add(std::move(image));
   } catch (const std::invalid_argument& error) {
     counts_.right_unusable.Add(error.what());
@@ -87,7 +87,7 @@ void ImageQueue::AddRight(ImageSample image) {
 void ImageQueue::AddDepth(DepthSample image) {
   if (!sensor_.depth) return;
   try {
-    CheckDepthFormat(image.depth, sensor_.camera);
+    CheckDepthFormat(image.depth, sensor_.cameras[0].parameters);
     depth_.Add(std::move(image));
   } catch (const std::invalid_argument& error) {
     counts_.depth_unusable.Add(error.what());
@@ -102,7 +102,8 @@ ImageCompanions ImageQueue::TakeCompanions(int64_t t_ns) {
   ImageCompanions companions;
   auto right = right_.Take(t_ns);
   auto depth = depth_.Take(t_ns);
-  if (sensor_.second_camera && !right) counts_.without_right.Add(Nearest(t_ns, right_.last_ns()));
+  if (sensor_.cameras.size() > 1 && !right)
+    counts_.without_right.Add(Nearest(t_ns, right_.last_ns()));
   if (sensor_.depth && !depth) counts_.without_depth.Add(Nearest(t_ns, depth_.last_ns()));
   if (right) companions.right = std::move(*right);
   if (depth) companions.depth = std::move(*depth);

@@ -62,7 +62,7 @@ class TrackingStage {
   // Adds the file name to errors of the tracker, which name the key only.
   static Tracker MakeTracker(const Config& config) {
     try {
-      const CameraParameters& camera = config.sensor.camera;
+      const CameraParameters& camera = config.sensor.cameras[0].parameters;
       return Tracker(config.*kSection, CameraModel::Create(camera),
                      ReadMask(config.points.fisheye_mask, {camera.width, camera.height}),
                      CameraPairOf(config.sensor));

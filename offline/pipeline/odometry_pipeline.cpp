@@ -37,7 +37,7 @@ RecordingEvent EventOf(const TrackedItem& item) {
 OdometryPipeline::OdometryPipeline(const Config& config)
     : use_lines_(config.use_lines),
       keeps_pixels_(config.pose_graph.loop_closure),
-      image_topic_(config.sensor.image_topic),
+      image_topic_(config.sensor.cameras[0].image_topic),
       right_schedule_(config.publish_rate),
       trackers_(config),
       back_end_(config) {}

@@ -16,7 +16,7 @@ void AddNames(const ConfigKeys<Section>& keys, std::set<std::string>* names) {
 
 std::set<std::string> NamesFor(const Config& config) {
   std::set<std::string> names = {"freq", "use_lines"};
-  AddNames(CameraKeys(ModelType(config.sensor.camera.model)), &names);
+  AddNames(CameraKeys(ModelType(config.sensor.cameras[0].parameters.model)), &names);
   AddNames(PointTrackerKeys(), &names);
   if (config.use_lines) AddNames(LineTrackerKeys(), &names);
   return names;

@@ -17,7 +17,7 @@ TrajectoryOptions TrajectoryThrough(const World& world, const FlightOptions& opt
   trajectory.duration = options.duration;
   trajectory.center = world.flight_center;
   trajectory.extent = world.flight_extent;
-  trajectory.R_V_B = ForwardLookingBody(options.sensors.T_B_C);
+  trajectory.R_V_B = ForwardLookingBody(options.sensors.cameras[0].T_B_C);
   trajectory.seed = options.seed;
   return trajectory;
 }
@@ -53,12 +53,13 @@ Flight::Flight(const FlightOptions& options)
       world_(MakeWorld(options.world, options.texture, options.seed)),
       trajectory_(TrajectoryThrough(world_, options)),
       imu_(SimulateImu(trajectory_, ImuOptions(options))),
-      camera_(trajectory_, world_.scene, options.sensors.camera, options.sensors.T_B_C,
-              Imaging(options)) {
-  if (const auto& second = options.sensors.second_camera) {
+      camera_(trajectory_, world_.scene, options.sensors.cameras[0].parameters,
+              options.sensors.cameras[0].T_B_C, Imaging(options)) {
+  if (options.sensors.cameras.size() > 1) {
+    const CameraSensor& second = options.sensors.cameras[1];
     ImagingOptions imaging = Imaging(options);
     imaging.seed += kSecondCameraSeed;
-    second_camera_.emplace(trajectory_, world_.scene, second->camera, second->T_B_C, imaging);
+    second_camera_.emplace(trajectory_, world_.scene, second.parameters, second.T_B_C, imaging);
   }
 }
 

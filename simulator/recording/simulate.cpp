@@ -157,13 +157,13 @@ void WriteGroundTruth(const Arguments& arguments, const std::vector<FrameState>&
 
 // Keeps only the requested sensors, which the configuration must have.
 void ChooseSensors(const Arguments& arguments, SensorConfig* sensors) {
-  if (arguments.stereo && !sensors->second_camera) {
+  if (arguments.stereo && sensors->cameras.size() == 1) {
     throw std::runtime_error("--stereo: name a --config with num_of_cam: 2");
   }
   if (arguments.depth && !sensors->depth) {
     throw std::runtime_error("--depth: name a --config with depth_topic");
   }
-  if (!arguments.stereo) sensors->second_camera.reset();
+  if (!arguments.stereo) sensors->cameras.resize(1);
   if (!arguments.depth) sensors->depth.reset();
 }
 

@@ -45,13 +45,13 @@ class BagRecorder : public Recorder {
   }
 
   void Write(const ImageSample& image) override {
-    WriteImage(sensors_.image_topic, NextHeader(image.t_ns, "cam0", &image_count_), "mono8",
-               image.gray);
+    WriteImage(sensors_.cameras[0].image_topic, NextHeader(image.t_ns, "cam0", &image_count_),
+               "mono8", image.gray);
   }
 
   void WriteSecond(const ImageSample& image) override {
-    WriteImage(sensors_.second_camera.value().image_topic,
-               NextHeader(image.t_ns, "cam1", &second_count_), "mono8", image.gray);
+    WriteImage(sensors_.cameras[1].image_topic, NextHeader(image.t_ns, "cam1", &second_count_),
+               "mono8", image.gray);
   }
 
   void WriteDepth(int64_t t_ns, const cv::Mat1w& depth) override {

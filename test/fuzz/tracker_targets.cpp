@@ -12,7 +12,7 @@ constexpr int kWidth = 96, kHeight = 64;
 
 Config SmallCamera() {
   Config config;
-  CameraParameters& camera = config.sensor.camera;
+  CameraParameters& camera = config.sensor.cameras[0].parameters;
   camera.width = kWidth;
   camera.height = kHeight;
   camera.fx = camera.fy = 80;

@@ -25,7 +25,7 @@ class LineTrackingStageTest : public ::testing::Test {
  protected:
   LineTrackingStageTest() {
     Config config;
-    config.sensor.camera = PlainParameters();
+    config.sensor.cameras[0].parameters = PlainParameters();
     config.lines.max_lines = 60;
     config.lines.half_resolution = false;
     config.lines.spacing = 2;
@@ -78,7 +78,7 @@ TEST(LineTrackingStage, ErrorOfAMissingDetectorNamesTheConfiguration) {
   if (LineDetector::IsAvailable(LineDetectorType::kLsd)) GTEST_SKIP() << "it has all detectors";
   Config config;
   config.file = "camera.yaml";
-  config.sensor.camera = PlainParameters();
+  config.sensor.cameras[0].parameters = PlainParameters();
   config.lines.line_detector = LineDetectorType::kLsd;
   EXPECT_THAT(testing::MessageOf([&] { LineTrackingStage stage(config); }),
               ::testing::StartsWith("camera.yaml: line_detector: OpenCV "));
@@ -87,7 +87,7 @@ TEST(LineTrackingStage, ErrorOfAMissingDetectorNamesTheConfiguration) {
 TEST(LineTrackingStage, TakesTheMaskOfThePoints) {
   Config config;
   config.file = "camera.yaml";
-  config.sensor.camera = PlainParameters();
+  config.sensor.cameras[0].parameters = PlainParameters();
   config.points.fisheye_mask = "no_such_file.png";
   EXPECT_EQ(testing::MessageOf([&] { LineTrackingStage stage(config); }),
             "camera.yaml: fisheye_mask: cannot read the image no_such_file.png");

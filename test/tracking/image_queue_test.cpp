@@ -240,8 +240,7 @@ class CompanionImages : public ::testing::Test {
  protected:
   static Config TwoCameras() {
     Config config = StillConfig();
-    config.sensor.second_camera.emplace();
-    config.sensor.second_camera->camera = config.sensor.camera;
+    config.sensor.cameras.push_back(config.sensor.cameras[0]);
     config.sensor.depth.emplace();
     return config;
   }

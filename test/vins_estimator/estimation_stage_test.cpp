@@ -286,7 +286,7 @@ TEST(EstimationStage, DoesNotBlameTheNoiseForAWrongCalibration) {
   plan.duration = 12;
   plan.T_W_V = [](double t) { return testing::GentleFlight(t, 1, 100); };
   testing::SimulatedFlight flight = testing::PlannedFlight(plan).Simulate();
-  flight.sensor.T_B_C.rotation *=
+  flight.sensor.cameras[0].T_B_C.rotation *=
       Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
   EstimationStage stage = StageFor(flight);
   Fly(flight, &stage);

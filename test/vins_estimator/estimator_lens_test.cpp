@@ -37,7 +37,7 @@ simulator::FeatureSimulationOptions Options(const CameraParameters& lens, Motion
   auto options = testing::FlightOptions(motion, 1);
   options.trajectory.duration = 25;
   options.max_points = 80;
-  options.sensors.camera = lens;
+  options.sensors.cameras[0].parameters = lens;
   return options;
 }
 
@@ -45,9 +45,9 @@ simulator::FeatureSimulationOptions Options(const CameraParameters& lens, Motion
 std::string WarningAfter(const simulator::FeatureSimulationOptions& options,
                          const CameraParameters& believed, bool refine) {
   SimulatedFlight flight = testing::WithoutLines(testing::SimulateFlight(options));
-  const Recalibration recalibration(flight.sensor.camera, believed);
+  const Recalibration recalibration(flight.sensor.cameras[0].parameters, believed);
   for (FrameMeasurement& frame : flight.frames) recalibration.Move(&frame);
-  flight.sensor.camera = believed;
+  flight.sensor.cameras[0].parameters = believed;
   flight.sensor.estimate_intrinsics = refine;
   Estimator estimator(testing::ConfigFor(flight));
   testing::Estimate(flight, &estimator);

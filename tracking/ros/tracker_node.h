@@ -69,7 +69,7 @@ class TrackerNode {
           diagnostics_.force_update();
         });
     SubscribeToCompanions();
-    images_.Subscribe(node_, private_node_, config_.sensor.image_topic, kImageQueue,
+    images_.Subscribe(node_, private_node_, config_.sensor.cameras[0].image_topic, kImageQueue,
                       [this](std::optional<ImageSample> image) { AddImage(std::move(image)); });
   }
 
@@ -92,8 +92,8 @@ class TrackerNode {
 
   void SubscribeToCompanions() {
     const SensorConfig& sensor = config_.sensor;
-    if (sensor.second_camera) {
-      right_images_.Subscribe(node_, private_node_, sensor.second_camera->image_topic, kImageQueue,
+    if (sensor.cameras.size() > 1) {
+      right_images_.Subscribe(node_, private_node_, sensor.cameras[1].image_topic, kImageQueue,
                               [this](std::optional<ImageSample> image) {
                                 if (image) AddRight(std::move(*image));
                                 ScheduleTracking();
@@ -202,7 +202,7 @@ class TrackerNode {
 
   DropCounts Drops() {
     DropCounts drops = {images_.unreadable(), errors_.count()};
-    if (config_.sensor.second_camera) drops.push_back(right_images_.unreadable());
+    if (config_.sensor.cameras.size() > 1) drops.push_back(right_images_.unreadable());
     if (depth_subscriber_) drops.push_back(unreadable_depth_);
     Append(ToDropCounts(stage_.counts()), &drops);
     drops.push_back(
@@ -231,14 +231,14 @@ class TrackerNode {
     for (StreamMonitor* stream : {&images_.stream(), &imu_.stream(), &feature_stream_}) {
       stream->Report(&status);
     }
-    if (config_.sensor.second_camera) right_images_.stream().Report(&status);
+    if (config_.sensor.cameras.size() > 1) right_images_.stream().Report(&status);
     if (depth_subscriber_) depth_stream_.Report(&status);
     for (const DropCount& drop : Drops()) status.add(drop.cause, drop.count);
   }
 
   // Describes what seems to be wrong with the images; empty if nothing is.
   std::string ImageFinding() {
-    if (config_.sensor.second_camera &&
+    if (config_.sensor.cameras.size() > 1 &&
         right_images_.stream().Silence() > StreamMonitor::kSilence) {
       return "second camera: no messages on " + right_images_.topic();
     }

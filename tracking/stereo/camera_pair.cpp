@@ -98,10 +98,10 @@ void CameraPair::AppendBetween(const CurvePoint& from, const CurvePoint& to, dou
 }
 
 std::optional<CameraPair> CameraPairOf(const SensorConfig& sensor) {
-  if (!sensor.second_camera) return std::nullopt;
-  return CameraPair(CameraModel::Create(sensor.camera),
-                    CameraModel::Create(sensor.second_camera->camera),
-                    sensor.second_camera->T_B_C.Inverse() * sensor.T_B_C);
+  if (sensor.cameras.size() == 1) return std::nullopt;
+  return CameraPair(CameraModel::Create(sensor.cameras[0].parameters),
+                    CameraModel::Create(sensor.cameras[1].parameters),
+                    sensor.cameras[1].T_B_C.Inverse() * sensor.cameras[0].T_B_C);
 }
 
 }  // namespace plm_vins

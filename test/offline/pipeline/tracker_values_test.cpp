@@ -49,7 +49,7 @@ TEST(RecordedOtherwise, HasRecordedValuesAndAWarning) {
   config.use_lines = true;
   config.points.max_cnt = 30;
   config.publish_rate = 5;
-  config.sensor.camera.cx = 150;
+  config.sensor.cameras[0].parameters.cx = 150;
   const Json otherwise = RecordedOtherwise(recorded, config);
   EXPECT_EQ(otherwise.size(), 4u);
   EXPECT_EQ(otherwise.at("max_cnt"), 60);

@@ -62,7 +62,7 @@ TEST(BagRecorder, NoticesAFullDisk) {
 TEST(BagRecorder, WritesTheTopicsOfTheConfiguration) {
   const std::string file = ::testing::TempDir() + "plm_vins_bag_recorder_test.bag";
   SensorConfig sensors;
-  sensors.image_topic = "camera/image";
+  sensors.cameras[0].image_topic = "camera/image";
   sensors.imu_topic = "camera/imu";
   const auto recorder = MakeBagRecorder(file, sensors);
   recorder->Write(ImuSample{kStart, {0.1, 0.2, 0.3}, {1, 2, 9.8}});
@@ -93,7 +93,7 @@ TEST(BagRecorder, WritesTheTopicsOfTheConfiguration) {
 TEST(BagRecorder, WritesTheSecondCameraAndDepth) {
   const std::string file = ::testing::TempDir() + "plm_vins_bag_second_camera.bag";
   SensorConfig sensors;
-  sensors.second_camera.emplace().image_topic = "camera/right";
+  sensors.cameras.emplace_back().image_topic = "camera/right";
   sensors.depth.emplace().topic = "camera/depth";
   const auto recorder = MakeBagRecorder(file, sensors);
   recorder->WriteSecond(ImageSample{kStart, cv::Mat1b(6, 8, uchar(77))});

@@ -92,12 +92,12 @@ TEST(CameraPairTest, SwappedInvertsMatches) {
 
 TEST(CameraPairTest, IsBuiltFromAConfigurationWithTwoCameras) {
   SensorConfig sensor;
-  sensor.camera = StereoCameraParameters(230, 0);
+  sensor.cameras[0].parameters = StereoCameraParameters(230, 0);
   EXPECT_FALSE(CameraPairOf(sensor));
-  sensor.T_B_C = {SO3Exp({0.1, 0.2, 0.3}), Eigen::Vector3d(1, 2, 3)};
-  sensor.second_camera.emplace();
-  sensor.second_camera->camera = StereoCameraParameters(228, 0);
-  sensor.second_camera->T_B_C = sensor.T_B_C * StereoMounting().Inverse();
+  sensor.cameras[0].T_B_C = {SO3Exp({0.1, 0.2, 0.3}), Eigen::Vector3d(1, 2, 3)};
+  sensor.cameras.emplace_back();
+  sensor.cameras[1].parameters = StereoCameraParameters(228, 0);
+  sensor.cameras[1].T_B_C = sensor.cameras[0].T_B_C * StereoMounting().Inverse();
   const auto pair = CameraPairOf(sensor);
   ASSERT_TRUE(pair);
   EXPECT_LT((pair->T_C1_C().translation - StereoMounting().translation).norm(), 1e-12);

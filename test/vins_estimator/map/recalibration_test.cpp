@@ -106,10 +106,10 @@ TEST_F(RecalibrationTest, FollowsTheIntrinsicsOfTheSecondCamera) {
   LineLandmark& line = map.lines.landmarks()[2];
   line.views = {{7, {{0.1, 0.2}, {-0.3, 0.4}}, RightSegment{{0.1, 0.2}, {-0.3, 0.4}, {}}}};
   SensorConfig sensor = simulator::DefaultStereoSensors();
-  sensor.second_camera->camera = sensor.camera;
+  sensor.cameras[1].parameters = sensor.cameras[0].parameters;
   SlidingWindow& window = map.window;
   window.intrinsics = window.ray_intrinsics = window.right_ray_intrinsics =
-      sensor.camera.intrinsics();
+      sensor.cameras[0].parameters.intrinsics();
   window.right_intrinsics = Other().intrinsics();
   FollowIntrinsics(sensor, /*max_error=*/1, &map);
   EXPECT_EQ(*point.views[0].right, Vector2d(0.1, 0.2));

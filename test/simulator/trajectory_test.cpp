@@ -18,7 +18,7 @@ TrajectoryOptions Options(Motion motion) {
   TrajectoryOptions options;
   options.motion = motion;
   options.duration = 30.0;
-  options.R_V_B = ForwardLookingBody(DefaultSensors().T_B_C);
+  options.R_V_B = ForwardLookingBody(DefaultSensors().cameras[0].T_B_C);
   return options;
 }
 

@@ -13,7 +13,7 @@ using testing::SimulatedFlight;
 
 // The lens of EuRoC's left camera, and the radial-tangential model that comes with the dataset.
 CameraParameters EquidistantLens() {
-  CameraParameters camera = simulator::DefaultSensors().camera;
+  CameraParameters camera = simulator::DefaultSensors().cameras[0].parameters;
   camera.model = CameraParameters::Model::kPinholeEquidistant;
   camera.fx = 460.02;
   camera.fy = 458.63;
@@ -55,7 +55,7 @@ std::string WarningAfter(const simulator::FeatureSimulationOptions& options,
 }
 
 TEST(EstimatorLensTest, WrongModelIsReported) {
-  const CameraParameters radtan = simulator::DefaultSensors().camera;
+  const CameraParameters radtan = simulator::DefaultSensors().cameras[0].parameters;
   for (const bool refine : {false, true}) {
     const std::string warning =
         WarningAfter(Options(EquidistantLens(), Motion::kFast), radtan, refine);
@@ -65,7 +65,7 @@ TEST(EstimatorLensTest, WrongModelIsReported) {
 }
 
 TEST(EstimatorLensTest, CorrectModelIsNotReported) {
-  const CameraParameters radtan = simulator::DefaultSensors().camera;
+  const CameraParameters radtan = simulator::DefaultSensors().cameras[0].parameters;
   for (const CameraParameters& lens : {radtan, EquidistantLens(), Fisheye()}) {
     for (const bool refine : {false, true}) {
       EXPECT_EQ(WarningAfter(Options(lens, Motion::kFast), lens, refine), "") << refine;

@@ -11,7 +11,7 @@ namespace plm_vins::testing {
 
 ProblemOptions OnePixelOptions() {
   Config config;
-  config.sensor.cameras[0].parameters = simulator::DefaultSensors().camera;
+  config.sensor.cameras[0].parameters = simulator::DefaultSensors().cameras[0].parameters;
   config.estimator.point_noise = config.estimator.line_noise = 1;
   return {config, kSimulatedFocalLength};
 }

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 class RecalibrationTest : public ::testing::Test {
  protected:
   static CameraParameters Other() {
-    CameraParameters camera = simulator::DefaultSensors().camera;
+    CameraParameters camera = simulator::DefaultSensors().cameras[0].parameters;
     camera.fx *= 1.02;
     camera.cy += 7;
     camera.distortion[0] += 0.01;
@@ -27,13 +27,13 @@ class RecalibrationTest : public ::testing::Test {
   }
 
   const std::unique_ptr<const CameraModel> from_ =
-      CameraModel::Create(simulator::DefaultSensors().camera);
+      CameraModel::Create(simulator::DefaultSensors().cameras[0].parameters);
   const std::unique_ptr<const CameraModel> to_ = CameraModel::Create(Other());
-  const Recalibration recalibration_{simulator::DefaultSensors().camera, Other()};
+  const Recalibration recalibration_{simulator::DefaultSensors().cameras[0].parameters, Other()};
 };
 
 TEST_F(RecalibrationTest, ReturnsTheLargestMotion) {
-  CameraParameters camera = simulator::DefaultSensors().camera;
+  CameraParameters camera = simulator::DefaultSensors().cameras[0].parameters;
   EXPECT_EQ(Recalibration(camera, camera).LargestMove(), 0);
 
   camera.distortion.setZero();

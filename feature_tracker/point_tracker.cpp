@@ -66,7 +66,7 @@ class PointTracker::Implementation {
   PointFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0,
                    const ImageCompanions& companions) {
     CheckImage(sample, camera_->parameters(), t_ns_);
-    if (stereo_ && !companions.right.gray.empty()) stereo_->CheckRight(companions.right.gray);
+    if (stereo_ && !companions.right.gray.empty()) stereo_->CheckImage(companions.right.gray);
     if (!companions.depth.depth.empty()) {
       CheckDepthFormat(companions.depth.depth, camera_->parameters());
     }
@@ -302,16 +302,21 @@ class PointTracker::Implementation {
     }
   }
 
-  // Omits points with impossibly fast motion, which occur near the image plane of a fisheye.
+  // Omits points with impossibly fast motion, which occur near the image plane of a fisheye. The
+  // motion in the second camera is nearly that in the first one.
   PointFrame MakeFrame() const {
     PointFrame frame;
     frame.t_ns = *t_ns_;
     for (const PointTrack& track : tracks_) {
-      const PointObservation point = {track.id,       track.xy,    ToEigen(track.uv_px),
-                                      track.velocity, track.right, track.right_search,
-                                      track.depth};
+      PointObservation point = {track.id, track.xy, ToEigen(track.uv_px), track.velocity};
+      point.depth = track.depth;
+      if (!IsPossible(point)) continue;
+      frame.points.push_back(point);
+      if (!track.second) continue;
+      point = {track.id, track.second->xy, track.second->uv_px, track.velocity, 1};
       if (IsPossible(point)) frame.points.push_back(point);
     }
+    SortByCamera(&frame.points);
     return frame;
   }
 

@@ -66,9 +66,9 @@ class LineTracker::Implementation {
   }
 
   LineFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0,
-                  const cv::Mat& right) {
+                  const cv::Mat& second) {
     CheckImage(sample, camera_->parameters(), t_ns_);
-    if (stereo_ && !right.empty()) stereo_->CheckRight(right);
+    if (stereo_ && !second.empty()) stereo_->CheckImage(second);
     LineFlow::Pyramid pyramid = LineFlow::BuildPyramid(sample.gray);
     statistics_ = {};
     statistics_.previous = static_cast<int>(tracks_.size());
@@ -87,7 +87,7 @@ class LineTracker::Implementation {
     if (!last_usable_ && LosesTracks(before.size(), tracks_.size())) {
       last_usable_ = {sample_, pyramid_, before, previous_dt, R_C1_C0};
     }
-    if (stereo_) stereo_->Match(sample.gray, right, &tracks_);
+    if (stereo_) stereo_->Match(sample.gray, second, &tracks_);
     sample_ = sample;
     pyramid_ = std::move(pyramid);
     t_ns_ = sample.t_ns;
@@ -247,9 +247,16 @@ class LineTracker::Implementation {
     LineFrame frame;
     frame.t_ns = *t_ns_;
     for (const LineTrack& track : tracks_) {
-      const LineObservation line = {track.id, track.segment.start, track.segment.end, track.right};
-      if (IsPossible(line)) frame.lines.push_back(line);
+      const LineObservation line = {track.id, track.segment.start, track.segment.end};
+      if (!IsPossible(line)) continue;
+      frame.lines.push_back(line);
+      if (!track.second) continue;
+      const auto& [segment, deviation] = *track.second;
+      const LineObservation second = {track.id, segment.start, segment.end, 1,
+                                      Eigen::Vector2d::Constant(deviation)};
+      if (IsPossible(second)) frame.lines.push_back(second);
     }
+    SortByCamera(&frame.lines);
     return frame;
   }
 

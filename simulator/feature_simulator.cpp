@@ -154,7 +154,6 @@ class FeatureCamera {
         observation->right =
             right_camera_->Unproject(Disturb(*pixel, options_.right_outlier_ratio, &right_random_));
       }
-      observation->right_search = observation->right ? RightSearch::kFound : RightSearch::kNotFound;
     }
     const auto& depth = options_.sensors.depth;
     if (depth && p_C.z() < depth->max) {

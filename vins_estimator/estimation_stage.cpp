@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/append.h"
 #include "common/format.h"
 #include "vins_estimator/estimator.h"
 #include "vins_estimator/imu/imu_gap.h"
@@ -50,6 +51,7 @@ EstimationStage::EstimationStage(const Config& config, double max_wait)
     : imu_rate_(config.sensor.imu_rate),
       configured_noise_(config.sensor.imu_noise),
       estimator_(std::make_unique<Estimator>(config)),
+      door_(config.sensor),
       input_check_(config.sensor),
       rotation_check_(std::make_unique<RotationCheck>(config.sensor, config.estimator.point_noise)),
       sync_(MakeSyncOptions(config, max_wait)),
@@ -66,34 +68,43 @@ void EstimationStage::AddImu(const ImuSample& sample) {
 }
 
 void EstimationStage::AddPoints(PointFrame frame) {
+  door_.Admit(&frame);
   input_check_.AddImage(frame.t_ns);
   image_rhythm_.Add(frame.t_ns);
   sync_.AddPoints(std::move(frame));
 }
 
+void EstimationStage::AddLines(LineFrame frame) {
+  door_.Admit(&frame);
+  sync_.AddLines(std::move(frame));
+}
+
 DropCounts EstimationStage::Drops() const {
   const SyncStatistics statistics = sync_.statistics();
-  return {{"imu_not_finite", statistics.imu_not_finite, ""},
-          {"imu_implausible", statistics.imu_implausible, ""},
-          {"imu_replaced", statistics.imu_replaced, ""},
-          {"imu_saturated", statistics.imu_saturated, ""},
-          {"imu_out_of_order", statistics.imu_out_of_order, ""},
-          {"imu_gaps", statistics.imu_gaps, statistics.first_imu_gap},
-          {"imu_dropped_full", statistics.imu_dropped_full, ""},
-          {"frames_out_of_order", statistics.frames_out_of_order, ""},
-          {"frames_ahead_of_time", statistics.frames_ahead_of_time, ""},
-          {"frames_too_late", statistics.frames_too_late,
-           Format("at most %.2f s older than the newest IMU sample", statistics.longest_wait)},
-          {"frames_without_imu", statistics.frames_without_imu, ""},
-          {"frames_in_imu_gap", statistics.frames_in_imu_gap, ""},
-          {"frames_too_close", statistics.frames_too_close, ""},
-          {"frames_dropped_full", statistics.frames_dropped_full, ""},
-          {"frames_with_few_points", statistics.frames_with_few_points, ""},
-          {"frames_repeated", frames_repeated_, ""},
-          {"lines_out_of_order", statistics.lines_out_of_order, ""},
-          {"lines_late", statistics.lines_late, ""},
-          {"jumps_back", statistics.jumps_back, ""},
-          {"leaps_ahead", statistics.leaps_ahead, ""}};
+  DropCounts drops = {
+      {"imu_not_finite", statistics.imu_not_finite, ""},
+      {"imu_implausible", statistics.imu_implausible, ""},
+      {"imu_replaced", statistics.imu_replaced, ""},
+      {"imu_saturated", statistics.imu_saturated, ""},
+      {"imu_out_of_order", statistics.imu_out_of_order, ""},
+      {"imu_gaps", statistics.imu_gaps, statistics.first_imu_gap},
+      {"imu_dropped_full", statistics.imu_dropped_full, ""},
+      {"frames_out_of_order", statistics.frames_out_of_order, ""},
+      {"frames_ahead_of_time", statistics.frames_ahead_of_time, ""},
+      {"frames_too_late", statistics.frames_too_late,
+       Format("at most %.2f s older than the newest IMU sample", statistics.longest_wait)},
+      {"frames_without_imu", statistics.frames_without_imu, ""},
+      {"frames_in_imu_gap", statistics.frames_in_imu_gap, ""},
+      {"frames_too_close", statistics.frames_too_close, ""},
+      {"frames_dropped_full", statistics.frames_dropped_full, ""},
+      {"frames_with_few_points", statistics.frames_with_few_points, ""},
+      {"frames_repeated", frames_repeated_, ""},
+      {"lines_out_of_order", statistics.lines_out_of_order, ""},
+      {"lines_late", statistics.lines_late, ""},
+      {"jumps_back", statistics.jumps_back, ""},
+      {"leaps_ahead", statistics.leaps_ahead, ""}};
+  Append(door_.Drops(), &drops);
+  return drops;
 }
 
 std::string EstimationStage::ImuContradiction() const {

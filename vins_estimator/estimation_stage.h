@@ -15,6 +15,7 @@
 #include "common/streams/drop_counts.h"
 #include "common/streams/stream_rhythm.h"
 #include "vins_estimator/imu/imu_noise_meter.h"
+#include "vins_estimator/input/feature_door.h"
 #include "vins_estimator/input/input_check.h"
 #include "vins_estimator/input/measurement_sync.h"
 #include "vins_estimator/input/repeated_image_detector.h"
@@ -50,7 +51,7 @@ class EstimationStage {
 
   void AddImu(const ImuSample& sample);
   void AddPoints(PointFrame frame);
-  void AddLines(LineFrame frame) { sync_.AddLines(std::move(frame)); }
+  void AddLines(LineFrame frame);
 
   // Returns the estimate of the next image; nullopt if none is ready.
   std::optional<EstimatedFrame> Pop() { return Process(sync_.Pop()); }
@@ -99,6 +100,7 @@ class EstimationStage {
   const double imu_rate_;  // configured IMU rate [Hz]
   const ImuNoise configured_noise_;
   const std::unique_ptr<Estimator> estimator_;  // hides the solver from users of this header
+  FeatureDoor door_;
   InputCheck input_check_;
   const std::unique_ptr<RotationCheck> rotation_check_;
   double doubt_ = 0;  // time in doubt or without a pose [s]

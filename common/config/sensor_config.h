@@ -10,6 +10,7 @@
 #include "common/geometry/rigid3.h"
 #include "common/imu/imu_noise.h"
 #include "common/imu/imu_sensor.h"
+#include "common/measurements.h"
 
 namespace plm_vins {
 
@@ -61,7 +62,7 @@ struct SensorConfig {
   double ReadoutTime() const { return rolling_shutter ? rolling_shutter_tr : 0.0; }
 };
 
-constexpr Range kCameraCounts = {1, 4};
+constexpr Range kCameraCounts = {1, kMaxCameras};
 
 // Returns the prefix of a camera's calibration keys: "cam2_" as in "cam2_model_type"; empty for
 // camera 0.

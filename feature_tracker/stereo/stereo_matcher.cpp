@@ -37,24 +37,21 @@ Eigen::Vector2d PixelOf(const PointTrack& track) { return {track.uv_px.x, track.
 StereoMatcher::StereoMatcher(const CameraPair& pair)
     : stated_(pair), pair_(pair), mounting_(pair.T_C1_C(), pair.second().FocalLength()) {}
 
-void StereoMatcher::CheckRight(const cv::Mat& right) const {
-  CheckImageFormat(right, pair_.second().parameters());
+void StereoMatcher::CheckImage(const cv::Mat& second) const {
+  CheckImageFormat(second, pair_.second().parameters());
 }
 
-void StereoMatcher::Match(const cv::Mat& left, const cv::Mat& right,
+void StereoMatcher::Match(const cv::Mat& first, const cv::Mat& second,
                           std::vector<PointTrack>* tracks) {
   ++unsearched_;
-  for (PointTrack& track : *tracks) {
-    track.right.reset();
-    track.right_search = right.empty() ? RightSearch::kNoImage : RightSearch::kNotDue;
-  }
-  if (right.empty()) return;
+  for (PointTrack& track : *tracks) track.second.reset();
+  if (second.empty()) return;
   ++searched_;
   std::vector<Search> searches;
   std::vector<StereoMatch> matches;
   for (PointTrack& track : *tracks) {
     if (!IsDue(track)) continue;
-    searches.push_back({&track, Find({left, right}, track)});
+    searches.push_back({&track, Find({first, second}, track)});
     const auto& place = searches.back().place;
     if (place && !IsBehind(*place)) matches.push_back(place->match);
   }
@@ -77,11 +74,8 @@ void StereoMatcher::Judge(std::vector<Search>* searches) {
   Shares sum;
   for (Search& search : *searches) {
     const bool is_behind = search.place && IsBehind(*search.place);
-    const bool is_good = search.place && !is_behind && mounting_.Accepts(search.place->match);
-    search.track->right_search = is_good        ? RightSearch::kFound
-                                 : search.place ? RightSearch::kOffEpipolar
-                                                : RightSearch::kNotFound;
-    sum.found += is_good;
+    search.is_good = search.place && !is_behind && mounting_.Accepts(search.place->match);
+    sum.found += search.is_good;
     sum.behind += is_behind;
   }
   if (searches->size() >= kMinSearches) {
@@ -93,13 +87,9 @@ void StereoMatcher::Judge(std::vector<Search>* searches) {
   }
   for (Search& search : *searches) {
     search.track->inverse_depth.reset();
-    if (search.track->right_search != RightSearch::kFound) continue;
-    if (IsTrusted()) {
-      search.track->inverse_depth = search.place->inverse_depth;
-      search.track->right = InTime(search.place->match);
-    } else {
-      search.track->right_search = RightSearch::kOffEpipolar;
-    }
+    if (!search.is_good || !IsTrusted()) continue;
+    search.track->inverse_depth = search.place->inverse_depth;
+    search.track->second = {InTime(search.place->match), search.place->pixel};
   }
 }
 
@@ -115,14 +105,15 @@ std::optional<StereoMatcher::Place> StereoMatcher::FindAnywhere(const Images& im
   const double behind = MayBeSwapped() ? 1 / kNearest : kInfinity_px * pair_.InverseDepthPerPixel();
   const SearchRange range{-behind, 1 / kNearest, Band(track)};
   const SearchedPoint point{PixelOf(track), WhenSeen(track)};
-  const auto seed = SearchAlongCurve(pair_, images.left, point, images.right, range);
+  const auto seed = SearchAlongCurve(pair_, images.first, point, images.second, range);
   auto place = seed ? Align(images, *seed, track) : std::nullopt;
   if (!place) return std::nullopt;
   const SearchedPoint match{place->pixel, InTime(place->match)};
   const double nearby = kBack_px * pair_.InverseDepthPerPixel();
   const SearchRange back_range{place->inverse_depth - nearby, place->inverse_depth + nearby,
                                range.band_px};
-  const auto back = SearchAlongCurve(pair_.Swapped(), images.right, match, images.left, back_range);
+  const auto back =
+      SearchAlongCurve(pair_.Swapped(), images.second, match, images.first, back_range);
   if (!back || (back->pixel - point.pixel).cwiseAbs().maxCoeff() > kReturn_px) return std::nullopt;
   return place;
 }
@@ -185,10 +176,10 @@ std::optional<StereoMatcher::Place> StereoMatcher::Align(const Images& images,
                                                          const PointTrack& track) const {
   const auto warp = pair_.Warp(WhenSeen(track), seed.inverse_depth);
   if (!warp) return std::nullopt;
-  auto pose = track.patch->Align(images.right, {*warp * track.patch_linear, seed.pixel});
+  auto pose = track.patch->Align(images.second, {*warp * track.patch_linear, seed.pixel});
   if (!pose) {  // the corner may look different by now
-    const auto patch = CornerPatch::Cut(images.left, PixelOf(track));
-    if (patch) pose = patch->Align(images.right, {*warp, seed.pixel});
+    const auto patch = CornerPatch::Cut(images.first, PixelOf(track));
+    if (patch) pose = patch->Align(images.second, {*warp, seed.pixel});
   }
   if (!pose) return std::nullopt;
   const auto xy_C1 = RayOf(pair_.second(), pose->center);

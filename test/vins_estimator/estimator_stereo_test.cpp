@@ -34,7 +34,6 @@ SimulatedFlight WithoutSecondCamera(SimulatedFlight flight) {
   for (FrameMeasurement& frame : flight.frames) {
     for (PointObservation& point : frame.points.points) {
       point.right.reset();
-      point.right_search = RightSearch::kNotDue;
     }
   }
   return flight;

@@ -22,7 +22,6 @@ COMMON_LAYERS = {
     "forgetting_sum.h": "",
     "format.h": "",
     "measurements.h": "",
-    "image_companions.h": "measurements.h",
     "median.h": "",
     "stopwatch.h": "",
     "geometry": "",

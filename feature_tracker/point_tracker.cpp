@@ -64,12 +64,10 @@ class PointTracker::Implementation {
   }
 
   PointFrame Track(const ImageSample& sample, const std::optional<Eigen::Quaterniond>& R_C1_C0,
-                   const ImageCompanions& companions) {
+                   const OtherViews& others) {
     CheckImage(sample, camera_->parameters(), t_ns_);
-    if (stereo_ && !companions.right.gray.empty()) stereo_->CheckImage(companions.right.gray);
-    if (!companions.depth.depth.empty()) {
-      CheckDepthFormat(companions.depth.depth, camera_->parameters());
-    }
+    if (stereo_ && !others.second.empty()) stereo_->CheckImage(others.second);
+    if (!others.depth.empty()) CheckDepthFormat(others.depth, camera_->parameters());
     const cv::Mat& image = Equalize(sample.gray);
     OpticalFlow::Pyramid pyramid = flow_.BuildPyramid(image, std::move(unused_pyramid_));
     statistics_ = {};
@@ -87,7 +85,7 @@ class PointTracker::Implementation {
     Spread();
     if (IsRefillDue()) Refill(image);
     CutMissingPatches(sample.gray);
-    LookAtCompanions(sample.gray, companions);
+    LookAtOthers(sample.gray, others);
     sample_ = sample;
     unused_pyramid_ = std::exchange(pyramid_, std::move(pyramid));
     t_ns_ = sample.t_ns;
@@ -113,14 +111,14 @@ class PointTracker::Implementation {
   }
 
   const PointTrackerStatistics& statistics() const { return statistics_; }
-  std::string SecondCameraFinding() const { return stereo_ ? stereo_->Finding() : ""; }
+  std::string PairFinding() const { return stereo_ ? stereo_->Finding() : ""; }
   double StillShare() const { return still_parts_.largest_share(); }
   cv::Mat DrawTracks() const { return DrawPointTracks(sample_.gray, tracks_); }
 
  private:
-  void LookAtCompanions(const cv::Mat& gray, const ImageCompanions& companions) {
-    if (stereo_) stereo_->Match(gray, companions.right.gray, &tracks_);
-    for (PointTrack& track : tracks_) track.depth = DepthAt(companions.depth.depth, track.uv_px);
+  void LookAtOthers(const cv::Mat& gray, const OtherViews& others) {
+    if (stereo_) stereo_->Match(gray, others.second, &tracks_);
+    for (PointTrack& track : tracks_) track.depth = DepthAt(others.depth, track.uv_px);
   }
 
   const cv::Mat& Equalize(const cv::Mat& gray) {
@@ -354,8 +352,8 @@ PointTracker::~PointTracker() = default;
 
 PointFrame PointTracker::Track(const ImageSample& image,
                                const std::optional<Eigen::Quaterniond>& R_C1_C0,
-                               const ImageCompanions& companions) {
-  return implementation_->Track(image, R_C1_C0, companions);
+                               const OtherViews& others) {
+  return implementation_->Track(image, R_C1_C0, others);
 }
 
 void PointTracker::Reset() { implementation_->Reset(); }
@@ -366,9 +364,7 @@ const PointTrackerStatistics& PointTracker::statistics() const {
   return implementation_->statistics();
 }
 
-std::string PointTracker::SecondCameraFinding() const {
-  return implementation_->SecondCameraFinding();
-}
+std::string PointTracker::PairFinding() const { return implementation_->PairFinding(); }
 
 std::string PointTracker::StillPartsFinding() const {
   const double share = implementation_->StillShare();

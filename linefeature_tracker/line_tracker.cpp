@@ -290,8 +290,8 @@ LineTracker::~LineTracker() = default;
 
 LineFrame LineTracker::Track(const ImageSample& image,
                              const std::optional<Eigen::Quaterniond>& R_C1_C0,
-                             const ImageCompanions& companions) {
-  return implementation_->Track(image, R_C1_C0, companions.right.gray);
+                             const OtherViews& others) {
+  return implementation_->Track(image, R_C1_C0, others.second);
 }
 
 void LineTracker::Reset() { implementation_->Reset(); }

@@ -8,8 +8,8 @@
 
 #include "common/camera/camera_model.h"
 #include "common/config/config.h"
-#include "common/image_companions.h"
 #include "common/measurements.h"
+#include "tracking/other_views.h"
 #include "tracking/stereo/camera_pair.h"
 
 namespace plm_vins {
@@ -39,7 +39,8 @@ class LineTracker {
   using Statistics = LineTrackerStatistics;
 
   // Lines are cut off where `mask` (see ReadMask()) excludes pixels. With a `pair`, whose first
-  // camera is `camera`, lines are matched in the second camera, too.
+  // camera is `camera`, lines are matched in the second camera, too. In the frames of the tracker
+  // these cameras have the numbers 0 and 1.
   LineTracker(const LineTrackerConfig& config, std::shared_ptr<const CameraModel> camera,
               const cv::Mat& mask = {}, const std::optional<CameraPair>& pair = {});
   ~LineTracker();
@@ -49,7 +50,7 @@ class LineTracker {
   // CV_8UC1 of the calibrated size or the timestamp does not increase; the tracker is then
   // unchanged.
   LineFrame Track(const ImageSample& image, const std::optional<Eigen::Quaterniond>& R_C1_C0,
-                  const ImageCompanions& companions = {});
+                  const OtherViews& others = {});
 
   void Reset();  // drops all tracks; ids continue
 

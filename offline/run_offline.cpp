@@ -47,11 +47,12 @@ Input Open(const Arguments& arguments, const SensorConfig& sensor) {
   if (!arguments.features.empty()) {
     input.features.emplace(arguments.features);
   } else if (!arguments.asl.empty()) {
-    input.recording =
-        OpenAslFolder(arguments.asl, sensor.cameras.size() > 1, sensor.depth.has_value());
+    input.recording = OpenAslFolder(arguments.asl, static_cast<int>(sensor.cameras.size()),
+                                    sensor.depth.has_value());
   } else {
-    input.recording = OpenBags(arguments.bags, sensor.cameras[0].image_topic, sensor.imu_topic,
-                               sensor.cameras.size() > 1 ? sensor.cameras[1].image_topic : "",
+    std::vector<std::string> image_topics;
+    for (const CameraSensor& camera : sensor.cameras) image_topics.push_back(camera.image_topic);
+    input.recording = OpenBags(arguments.bags, image_topics, sensor.imu_topic,
                                sensor.depth ? sensor.depth->topic : "");
   }
   return input;

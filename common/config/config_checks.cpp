@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/camera/camera_model.h"
+#include "common/config/stereo_pairs.h"
 #include "common/geometry/so3.h"
 
 namespace plm_vins {
@@ -82,6 +83,10 @@ void CheckTransforms(const ConfigEntries& entries, const std::vector<CameraSenso
              "equals the transform of camera " + std::to_string(j) + "; correct one of them");
     }
   }
+}
+
+void CheckPairs(const SensorConfig& sensor, const Report& report) {
+  if (const Problem problem = CheckStereoPairs(sensor)) report("stereo_pairs", *problem);
 }
 
 void CheckDepth(const SensorConfig& sensor, const Report& report) {
@@ -190,6 +195,7 @@ Problem CheckFrameName(const std::string& name) {
 void CheckTogether(const ConfigEntries& entries, const Config& config, const Report& report) {
   CheckExtrinsics(entries, config, report);
   CheckTransforms(entries, config.sensor.cameras, report);
+  CheckPairs(config.sensor, report);
   CheckDepth(config.sensor, report);
   CheckShutter(config.sensor, report);
   CheckNoise(entries, report);

@@ -207,6 +207,7 @@ ConfigKeys<SensorConfig> SensorKeys(const std::vector<std::string>& model_types)
   for (size_t i = 0; i < model_types.size(); ++i) {
     cameras = Join<S>({cameras, KeysOfCamera(static_cast<int>(i), model_types[i])});
   }
+  cameras.push_back(Key::Text("stereo_pairs", &S::stereo_pairs));
   return Join<S>({cameras,
                   Required<S>({Key::Text("imu_topic", &S::imu_topic)}),
                   {Key::Flag("estimate_intrinsics", &S::estimate_intrinsics)},

@@ -38,6 +38,7 @@ struct DepthSensor {
 // The sensors: topics, calibration, noise.
 struct SensorConfig {
   std::vector<CameraSensor> cameras{1};  // by number; 1 to 4
+  std::string stereo_pairs = "auto";     // see StereoPairs()
   std::string imu_topic = "/imu0";
   bool estimate_intrinsics = false;
   IntrinsicsDeviation intrinsics_deviation;

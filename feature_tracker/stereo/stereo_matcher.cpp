@@ -149,22 +149,26 @@ bool StereoMatcher::MayBeSwapped() const {
 }
 
 std::string StereoMatcher::Finding() const {
+  const auto& [first, second] = stated_.numbers();
   if (IsSwapped()) {
-    return "the cameras seem to be swapped; check image_topic, image1_topic and body_T_cam1";
+    return Format("cameras %d and %d seem to be swapped; check %s, %s and %s", first, second,
+                  TopicKey(first).c_str(), TopicKey(second).c_str(), TransformKey(second).c_str());
   }
   if (shares_ && shares_->found <= kMinFoundShare) {
-    return "hardly any point is found again in the second camera; check that image_topic and "
-           "image1_topic are not swapped, body_T_cam1, and that both cameras are triggered "
-           "together";
+    return Format(
+        "hardly any point of camera %d is found again in camera %d; check that %s and %s are not "
+        "swapped, %s, and that both cameras are triggered together",
+        first, second, TopicKey(first).c_str(), TopicKey(second).c_str(),
+        TransformKey(second).c_str());
   }
   if (std::abs(mounting_.delay()) > kReportedDelay) {
-    return Format("the second camera is %.1f ms late against its timestamps; trigger both together",
-                  1e3 * mounting_.delay());
+    return Format("camera %d is %.1f ms late against its timestamps; trigger all cameras together",
+                  second, 1e3 * mounting_.delay());
   }
   const double angle = mounting_.rotation().norm();
   if (angle < kReportedAngle) return "";
-  return Format("the second camera is turned by %.2f deg against body_T_cam1; calibrate it anew",
-                angle * 180 / M_PI);
+  return Format("camera %d is turned by %.2f deg against %s; calibrate it anew", second,
+                angle * 180 / M_PI, TransformKey(second).c_str());
 }
 
 bool StereoMatcher::IsTurn(const PointTrack& track, int interval) const {

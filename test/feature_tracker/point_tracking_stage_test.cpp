@@ -28,7 +28,7 @@ std::set<int64_t> Ids(const PointFrame& frame) {
 class PointTrackingStageTest : public ::testing::Test {
  protected:
   TrackedPoints Track(int milliseconds, const cv::Mat& picture = StillPicture()) {
-    stage_.AddImage({milliseconds * kMillisecond, picture});
+    stage_.AddImage(0, {milliseconds * kMillisecond, picture});
     EXPECT_TRUE(stage_.waiting());
     auto frame = stage_.Flush();
     EXPECT_FALSE(stage_.waiting());
@@ -50,14 +50,14 @@ TEST_F(PointTrackingStageTest, KeepsTheIdsOfAStillScene) {
 
 TEST_F(PointTrackingStageTest, DropsItsTracksAtANewRecording) {
   const TrackedPoints before = Track(5000);
-  for (int t = 0; t < 500; t += 50) stage_.AddImage({t * kMillisecond, StillPicture()});
+  for (int t = 0; t < 500; t += 50) stage_.AddImage(0, {t * kMillisecond, StillPicture()});
   const TrackedPoints after = Track(500);
   EXPECT_TRUE(after.restart);
   EXPECT_GT(*Ids(after.features).begin(), *Ids(before.features).rbegin());
 }
 
 TEST_F(PointTrackingStageTest, WaitsForTheGyro) {
-  stage_.AddImage({0, StillPicture()});
+  stage_.AddImage(0, {0, StillPicture()});
   EXPECT_FALSE(stage_.Pop());
   stage_.AddImu(testing::StillImu(0));
   EXPECT_TRUE(stage_.Pop());

@@ -34,7 +34,7 @@ class LineTrackingStageTest : public ::testing::Test {
   }
 
   TrackedLines Track(int milliseconds, const cv::Mat& picture) {
-    stage_->AddImage({milliseconds * kMillisecond, picture});
+    stage_->AddImage(0, {milliseconds * kMillisecond, picture});
     return stage_->Flush().value();
   }
 
@@ -56,7 +56,7 @@ TEST_F(LineTrackingStageTest, KeepsTheIdsOfAStillScene) {
 
 TEST_F(LineTrackingStageTest, DropsItsTracksAtANewRecording) {
   const TrackedLines before = Track(5000, bars_);
-  for (int t = 0; t < 500; t += 50) stage_->AddImage({t * kMillisecond, bars_});
+  for (int t = 0; t < 500; t += 50) stage_->AddImage(0, {t * kMillisecond, bars_});
   const TrackedLines after = Track(500, bars_);
   EXPECT_TRUE(after.restart);
   EXPECT_GT(*Ids(after.features).begin(), *Ids(before.features).rbegin());
@@ -68,7 +68,7 @@ TEST_F(LineTrackingStageTest, AnImageWithoutLinesGivesAnEmptyFrame) {
   const TrackedLines lost = Track(50, blank);
   EXPECT_TRUE(lost.features.lines.empty());
   EXPECT_EQ(lost.features.t_ns, 50 * kMillisecond);
-  for (const int t : {100, 150, 200}) stage_->AddImage({t * kMillisecond, bars_});
+  for (const int t : {100, 150, 200}) stage_->AddImage(0, {t * kMillisecond, bars_});
   TrackedLines found;
   while (auto frame = stage_->Flush()) found = *frame;
   EXPECT_FALSE(found.features.lines.empty());

@@ -21,8 +21,13 @@ constexpr double kMinDeterminant = 1e-6;  // determinant of the projection's der
 }  // namespace
 
 CameraPair::CameraPair(std::shared_ptr<const CameraModel> first,
-                       std::shared_ptr<const CameraModel> second, const Rigid3d& T_C1_C)
-    : first_(std::move(first)), second_(std::move(second)), T_C1_C_(T_C1_C), R_C1_C_(T_C1_C.R()) {}
+                       std::shared_ptr<const CameraModel> second, const Rigid3d& T_C1_C,
+                       const StereoPair& numbers)
+    : first_(std::move(first)),
+      second_(std::move(second)),
+      T_C1_C_(T_C1_C),
+      R_C1_C_(T_C1_C.R()),
+      numbers_(numbers) {}
 
 std::optional<Eigen::Vector2d> CameraPair::Project(const Eigen::Vector2d& xy,
                                                    double inverse_depth) const {
@@ -97,11 +102,11 @@ void CameraPair::AppendBetween(const CurvePoint& from, const CurvePoint& to, dou
   }
 }
 
-std::optional<CameraPair> CameraPairOf(const SensorConfig& sensor) {
-  if (sensor.cameras.size() == 1) return std::nullopt;
-  return CameraPair(CameraModel::Create(sensor.cameras[0].parameters),
-                    CameraModel::Create(sensor.cameras[1].parameters),
-                    sensor.cameras[1].T_B_C.Inverse() * sensor.cameras[0].T_B_C);
+CameraPair CameraPairOf(const SensorConfig& sensor, const StereoPair& numbers) {
+  const CameraSensor &first = sensor.cameras[numbers.first],
+                     &second = sensor.cameras[numbers.second];
+  return {CameraModel::Create(first.parameters), CameraModel::Create(second.parameters),
+          second.T_B_C.Inverse() * first.T_B_C, numbers};
 }
 
 }  // namespace plm_vins

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/camera/camera_model.h"
-#include "common/config/sensor_config.h"
+#include "common/config/stereo_pairs.h"
 #include "common/geometry/rigid3.h"
 
 namespace plm_vins {
@@ -23,7 +23,7 @@ struct CurvePoint {
 class CameraPair {
  public:
   CameraPair(std::shared_ptr<const CameraModel> first, std::shared_ptr<const CameraModel> second,
-             const Rigid3d& T_C1_C);
+             const Rigid3d& T_C1_C, const StereoPair& numbers = {});
 
   // Returns the pixel in the second camera of the point at this inverse depth [1/m] on the ray of
   // `xy`. Negative inverse depths continue the curve beyond infinity. Returns nullopt if the second
@@ -51,14 +51,17 @@ class CameraPair {
   std::vector<CurvePoint> Curve(const Eigen::Vector2d& xy, double from, double to) const;
 
   // Returns the pair with the roles exchanged.
-  CameraPair Swapped() const { return {second_, first_, T_C1_C_.Inverse()}; }
+  CameraPair Swapped() const {
+    return {second_, first_, T_C1_C_.Inverse(), {numbers_.second, numbers_.first}};
+  }
   // Returns the same cameras with another mounting.
-  CameraPair With(const Rigid3d& T_C1_C) const { return {first_, second_, T_C1_C}; }
+  CameraPair With(const Rigid3d& T_C1_C) const { return {first_, second_, T_C1_C, numbers_}; }
 
   const CameraModel& first() const { return *first_; }
   const CameraModel& second() const { return *second_; }
   const std::shared_ptr<const CameraModel>& second_camera() const { return second_; }
   const Rigid3d& T_C1_C() const { return T_C1_C_; }
+  const StereoPair& numbers() const { return numbers_; }  // of the cameras
 
  private:
   void AppendBetween(const CurvePoint& from, const CurvePoint& to, double length_px,
@@ -67,10 +70,11 @@ class CameraPair {
   std::shared_ptr<const CameraModel> first_, second_;
   Rigid3d T_C1_C_;
   Eigen::Matrix3d R_C1_C_;
+  StereoPair numbers_;
 };
 
-// Returns the cameras of a configuration, or nullopt if it has only one. Throws
-// std::invalid_argument as CameraModel::Create() does.
-std::optional<CameraPair> CameraPairOf(const SensorConfig& sensor);
+// Returns two cameras of a configuration. Throws std::invalid_argument as CameraModel::Create()
+// does.
+CameraPair CameraPairOf(const SensorConfig& sensor, const StereoPair& numbers);
 
 }  // namespace plm_vins

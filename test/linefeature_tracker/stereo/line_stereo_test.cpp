@@ -24,9 +24,7 @@ class LineStereoTest : public testing::Test {
 
   LineFrame Match(const cv::Mat& right) {
     LineTracker tracker(LineTrackerConfig(), scene_.camera(), {}, pair_);
-    ImageCompanions companions;
-    companions.right = {kFrame_ns, right};
-    return tracker.Track({kFrame_ns, scene_.View()}, {}, companions);
+    return tracker.Track({kFrame_ns, scene_.View()}, {}, {right, {}});
   }
 
   // Returns the observation of a line in the second camera, or null.
@@ -110,9 +108,7 @@ TEST_F(LineStereoTest, FindsThemInTheNextPair) {
   const cv::Mat left = scene_.View(), right = scene_.View(Homography(kMounting));
   int first = 0;
   for (int i = 1; i <= 4; ++i) {
-    ImageCompanions companions;
-    companions.right = {i * kFrame_ns, right};
-    frame = tracker.Track({i * kFrame_ns, left}, {}, companions);
+    frame = tracker.Track({i * kFrame_ns, left}, {}, {right, {}});
     if (i == 1) first = CountMatched(frame);
   }
   EXPECT_GE(CountMatched(frame), first);

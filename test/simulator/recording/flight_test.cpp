@@ -18,11 +18,11 @@ class MemoryRecorder : public Recorder {
     imu.push_back(sample);
     order.push_back(sample.t_ns);
   }
-  void Write(const ImageSample& image) override {
+  void WriteImage(int camera, const ImageSample& image) override {
+    if (camera > 0) return second.push_back(image);
     images.push_back(image);
     order.push_back(image.t_ns);
   }
-  void WriteSecond(const ImageSample& image) override { second.push_back(image); }
   void WriteDepth(int64_t t_ns, const cv::Mat1w& depth) override {
     depths.push_back(depth);
     EXPECT_EQ(t_ns, images.back().t_ns);
@@ -158,8 +158,8 @@ TEST(Flight, SecondCameraAndDepthAgreeOnWherePointsAre) {
   options.imaging.vignetting = 0;
   CameraSensor& second = options.sensors.cameras.emplace_back();
   second.parameters = options.sensors.cameras[0].parameters;
-  second.camera.fx *= 1.03;
-  second.camera.cx += 4;
+  second.parameters.fx *= 1.03;
+  second.parameters.cx += 4;
   const Rigid3d T_C0_C1(SO3Exp({0.01, 0.02, -0.03}), {0.11, 0.01, -0.02});
   second.T_B_C = options.sensors.cameras[0].T_B_C * T_C0_C1;
   options.sensors.depth = DepthSensor{"/depth", 0, 20};

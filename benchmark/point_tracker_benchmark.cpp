@@ -16,7 +16,7 @@
 #include "feature_tracker/following/optical_flow.h"
 #include "feature_tracker/following/outlier_rejection.h"
 #include "feature_tracker/point_tracker.h"
-#include "tracking/image_mask.h"
+#include "tracking/images/image_mask.h"
 
 namespace plm_vins {
 namespace {

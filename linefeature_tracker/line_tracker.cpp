@@ -16,10 +16,10 @@
 #include "linefeature_tracker/following/line_queue.h"
 #include "linefeature_tracker/following/line_refinement.h"
 #include "linefeature_tracker/line_drawing.h"
-#include "linefeature_tracker/line_track.h"
+#include "linefeature_tracker/segments/line_track.h"
 #include "linefeature_tracker/segments/segment_sampler.h"
 #include "linefeature_tracker/stereo/line_stereo.h"
-#include "tracking/image_check.h"
+#include "tracking/images/image_check.h"
 #include "tracking/last_usable_image.h"
 
 namespace plm_vins {

@@ -8,7 +8,7 @@
 
 #include "common/camera/image_format.h"
 #include "common/format.h"
-#include "tracking/image_check.h"
+#include "tracking/images/image_check.h"
 
 namespace plm_vins {
 namespace {

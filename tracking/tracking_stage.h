@@ -16,8 +16,8 @@
 #include "common/config/stereo_pairs.h"
 #include "common/measurements.h"
 #include "common/stopwatch.h"
-#include "tracking/image_mask.h"
 #include "tracking/image_queue.h"
+#include "tracking/images/image_mask.h"
 #include "tracking/stereo/camera_pair.h"
 
 namespace plm_vins {

@@ -277,8 +277,7 @@ WindowOdometry::Solution WindowOdometry::SolveWindow(const SolverOptions& option
       SolveBy(config_->estimator.solver, options, builder.problem(), &equations).solved;
   solution.covariance = StateCovariance(map.window.newest().state.t_ns, &equations);
   keyframe_.covariance = StateCovariance(keyframe_.t_ns, &equations);
-  const std::vector<CameraSensor>& cameras = config_->sensor.cameras;
-  if (cameras.size() > 1) {
+  if (const auto& cameras = config_->sensor.cameras; cameras.size() > 1) {
     const double length = (cameras[0].T_B_C.Inverse() * cameras[1].T_B_C).translation.norm();
     baseline_error_ = BaselineError(map.window, length, &equations);
   }

@@ -6,7 +6,7 @@
 
 #include "common/camera/image_format.h"
 #include "common/format.h"
-#include "feature_tracker/ray_mask.h"
+#include "feature_tracker/detection/ray_mask.h"
 #include "tracking/stereo/epipolar_search.h"
 
 namespace plm_vins {

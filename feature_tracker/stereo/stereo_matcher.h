@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "feature_tracker/point_track.h"
+#include "feature_tracker/following/point_track.h"
 #include "tracking/stereo/camera_pair.h"
 #include "tracking/stereo/mounting_estimate.h"
 

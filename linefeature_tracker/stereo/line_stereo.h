@@ -9,7 +9,7 @@
 
 #include "common/config/config.h"
 #include "linefeature_tracker/following/line_refinement.h"
-#include "linefeature_tracker/line_track.h"
+#include "linefeature_tracker/segments/line_track.h"
 #include "tracking/stereo/camera_pair.h"
 
 namespace plm_vins {

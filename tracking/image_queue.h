@@ -60,7 +60,7 @@ DropCounts ToDropCounts(const ImageCounts& counts);
 
 // Input queue of a tracker: checks images and holds each image of camera 0 back briefly until the
 // gyroscope samples reach it. The images of other cameras and of depth are paired with those of
-// camera 0 whose timestamps agree within 2 ms; one that is late or missing delays nothing for long.
+// camera 0 whose timestamps agree within 2 ms; one that is late or missing delays others at most briefly.
 // The result depends on the input only: queues of different trackers select the same images, so
 // that their features have equal timestamps. Synchronous; add in order of arrival and pop until
 // nullopt, as with MeasurementSync.

@@ -67,7 +67,7 @@ TEST_F(PairingQueueTest, RestartsIfStampsJumpBack) {
   EXPECT_TRUE(IsAwaited(550));
 }
 
-// As networks reorder and repeat messages.
+// Networks may reorder and repeat messages.
 TEST_F(PairingQueueTest, KeepsTheOthersIfOneIsLateOrRepeated) {
   for (const int64_t t : {100, 150, 150, 50, 200}) queue_.Add(At(t));
   EXPECT_EQ(Take(100), 100);

@@ -117,6 +117,19 @@ TEST_F(BagRecording, ReadsRawImages) {
   EXPECT_EQ(contents.problems.at("bag_damaged"), 0);
 }
 
+TEST_F(BagRecording, NamesTheKeysOfItsTopics) {
+  WriteBag("/cam0/image_raw", RawImage);
+  {
+    rosbag::Bag bag(file_, rosbag::bagmode::Append);
+    for (const char* topic : {"/cam1", "/depth"}) bag.write(topic, Stamp(0), RawImage(0));
+  }
+  using Kind = RecordingEvent::Kind;
+  const auto recording = OpenBags({file_}, {"/cam0/image_raw", "/cam1"}, "/imu0", "/depth");
+  EXPECT_EQ(recording->Source(Kind::kImage), "image_topic /cam0/image_raw");
+  EXPECT_EQ(recording->Source(Kind::kDepth), "depth_topic /depth");
+  EXPECT_EQ(recording->Source(Kind::kImu), "imu_topic /imu0");
+}
+
 TEST_F(BagRecording, ReadsCompressedImagesBesideTheTopic) {
   WriteBag("/cam0/image_raw/compressed", CompressedImage);
   ExpectComplete(Read());
